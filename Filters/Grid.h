@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Geometry of a regular grid in world space: what vtkImageData holds, as a small value.
+#ifndef BrainShift_Grid_h
+#define BrainShift_Grid_h
+
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+
+namespace brainshift
+{
+struct Grid
+{
+  glm::ivec3 dimensions{ 0 }; // points a side
+  glm::dvec3 origin{ 0.0 };   // mm, world position of point (0,0,0)
+  glm::dvec3 spacing{ 1.0 };  // mm between neighbours along the grid's own axes, above 0
+  glm::dmat3 direction{ 1.0 }; // columns: the grid's axes in world space; a rotation
+
+  std::size_t count() const
+  {
+    return static_cast<std::size_t>(this->dimensions.x) * this->dimensions.y * this->dimensions.z;
+  }
+
+  std::size_t offset(int i, int j, int k) const
+  {
+    return (static_cast<std::size_t>(k) * this->dimensions.y + j) * this->dimensions.x + i;
+  }
+
+  // Positions: mm (world axes) from, or to, grid coordinates (points from the first one).
+  glm::dvec3 worldFromGrid(const glm::dvec3& position) const
+  {
+    return this->origin + this->direction * (this->spacing * position);
+  }
+  glm::dvec3 gridFromWorld(const glm::dvec3& world) const
+  {
+    return glm::transpose(this->direction) * (world - this->origin) / this->spacing;
+  }
+
+  // Displacements: the same without the origin.
+  glm::dvec3 worldVectorFromGrid(const glm::dvec3& vector) const
+  {
+    return this->direction * (this->spacing * vector);
+  }
+  glm::dvec3 gridVectorFromWorld(const glm::dvec3& vector) const
+  {
+    return glm::transpose(this->direction) * vector / this->spacing;
+  }
+
+  bool operator==(const Grid& other) const
+  {
+    return this->dimensions == other.dimensions && this->origin == other.origin &&
+      this->spacing == other.spacing && this->direction == other.direction;
+  }
+  bool operator!=(const Grid& other) const { return !(*this == other); }
+};
+
+// The grid with other numbers of points over the same box. A side of one point stays one cell long.
+inline Grid withDimensions(const Grid& grid, const glm::ivec3& dimensions)
+{
+  Grid result = grid;
+  result.dimensions = dimensions;
+  const glm::dvec3 extent = grid.spacing * glm::dvec3(glm::max(grid.dimensions - 1, glm::ivec3(1)));
+  result.spacing = extent / glm::dvec3(glm::max(dimensions - 1, glm::ivec3(1)));
+  return result;
+}
+}
+
+#endif

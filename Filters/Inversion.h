@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// C++ view of Shaders/inversion.glsl: the solver of the backward map, from the very source the GPU
+// compiles.
+#ifndef BrainShift_Inversion_h
+#define BrainShift_Inversion_h
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+
+namespace brainshift
+{
+// `Forward` provides vec3 displacement(vec3 rest) and mat3 jacobian(vec3 rest), lattice coordinates.
+template <typename Forward>
+struct Inversion
+{
+  using vec3 = glm::vec3;
+  using mat3 = glm::mat3;
+
+  const Forward& forward;
+
+  vec3 forwardDisplacement(const vec3& rest) { return this->forward.displacement(rest); }
+  mat3 forwardJacobian(const vec3& rest) { return this->forward.jacobian(rest); }
+  static float min(float a, float b) { return glm::min(a, b); }
+  static float dot(const vec3& a, const vec3& b) { return glm::dot(a, b); }
+  static float determinant(const mat3& matrix) { return glm::determinant(matrix); }
+  static mat3 inverse(const mat3& matrix) { return glm::inverse(matrix); }
+
+#define SHARED
+#include "inversion.glsl"
+#undef SHARED
+};
+}
+
+#endif

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Lattice.h"
+
+#include "Kernels.h"
+
+#include "vtkSMPThreadLocal.h"
+#include "vtkSMPTools.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace brainshift
+{
+namespace
+{
+// The four control points around a position along one axis and their weights.
+struct Taps
+{
+  int index[4];
+  glm::vec4 weight;
+  glm::vec4 slope;
+};
+
+Taps tapsAt(int kernel, int points, double position)
+{
+  const double inside = std::clamp(position, 0.0, points - 1.0);
+  const int cell = std::min(static_cast<int>(inside), points - 2);
+  const float t = static_cast<float>(inside - cell);
+  Taps taps;
+  for (int tap = 0; tap < 4; ++tap)
+  {
+    taps.index[tap] = std::clamp(cell - 1 + tap, 0, points - 1);
+  }
+  taps.weight = kernelWeights(kernel, t);
+  taps.slope = position == inside ? kernelSlopes(kernel, t) : glm::vec4(0.0f);
+  return taps;
+}
+
+// Sum over the 64 taps with the given weights along each axis.
+glm::vec3 weightedSum(const glm::ivec3& dimensions, const glm::vec3* values, const Taps taps[3],
+  const glm::vec4& alongX, const glm::vec4& alongY, const glm::vec4& alongZ)
+{
+  glm::vec3 sum(0.0f);
+  for (int k = 0; k < 4; ++k)
+  {
+    glm::vec3 plane(0.0f);
+    for (int j = 0; j < 4; ++j)
+    {
+      const glm::vec3* row = values +
+        (static_cast<std::size_t>(taps[2].index[k]) * dimensions.y + taps[1].index[j]) *
+          dimensions.x;
+      plane += alongY[j] *
+        (alongX[0] * row[taps[0].index[0]] + alongX[1] * row[taps[0].index[1]] +
+          alongX[2] * row[taps[0].index[2]] + alongX[3] * row[taps[0].index[3]]);
+    }
+    sum += alongZ[k] * plane;
+  }
+  return sum;
+}
+
+// Value at `distance` control points from the point whose basis function it is.
+double basisFunction(int kernel, double distance)
+{
+  const double away = std::abs(distance);
+  if (away >= 2.0)
+  {
+    return 0.0;
+  }
+  const int cell = static_cast<int>(away);
+  // At t in the cell right of the point, the point is the second of the four taps; one cell
+  // further it is the first.
+  return kernelWeights(kernel, static_cast<float>(away - cell))[1 - cell];
+}
+
+void applyMove(Lattice& lattice, const Stroke& stroke)
+{
+  const Grid& grid = lattice.grid;
+  glm::dvec3 madeAt = stroke.axis;
+  if (glm::any(glm::lessThanEqual(madeAt, glm::dvec3(0.0))))
+  {
+    madeAt = stroke.major > 0.0 ? glm::dvec3(stroke.major) : grid.spacing;
+  }
+  const glm::dvec3 ratio = glm::max(madeAt / grid.spacing, glm::dvec3(1.0));
+  const glm::dvec3 last = glm::dvec3(grid.dimensions - 1) / ratio;
+  // The control point, in the coordinates of the lattice the stroke was made at.
+  const glm::dvec3 point =
+    glm::clamp(glm::round(grid.gridFromWorld(stroke.anchor) / ratio), glm::dvec3(0.0), last);
+  const glm::ivec3 low = glm::max(glm::ivec3(glm::ceil((point - 2.0) * ratio)), glm::ivec3(0));
+  const glm::ivec3 high =
+    glm::min(glm::ivec3(glm::floor((point + 2.0) * ratio)), grid.dimensions - 1);
+  const auto weightAlong = [&](int axis, int index) {
+    const double distance = index / ratio[axis] - point[axis];
+    // On the lattice it was made at the stroke moves one control point, whatever the kernel.
+    return ratio[axis] == 1.0 ? double(std::abs(distance) < 0.5)
+                              : basisFunction(lattice.kernel, distance);
+  };
+  for (int k = low.z; k <= high.z; ++k)
+  {
+    for (int j = low.y; j <= high.y; ++j)
+    {
+      for (int i = low.x; i <= high.x; ++i)
+      {
+        const double weight = weightAlong(0, i) * weightAlong(1, j) * weightAlong(2, k);
+        lattice.displacements[grid.offset(i, j, k)] += glm::vec3(weight * stroke.vector);
+      }
+    }
+  }
+}
+
+void applyAround(Lattice& lattice, const Stroke& stroke)
+{
+  const Grid& grid = lattice.grid;
+  const double reach = std::max(stroke.major, stroke.minor);
+  vtkSMPTools::For(0, grid.dimensions.z, [&](vtkIdType first, vtkIdType last) {
+    for (int k = static_cast<int>(first); k < last; ++k)
+    {
+      for (int j = 0; j < grid.dimensions.y; ++j)
+      {
+        glm::vec3* displacement = &lattice.displacements[grid.offset(0, j, k)];
+        for (int i = 0; i < grid.dimensions.x; ++i, ++displacement)
+        {
+          const glm::dvec3 deformed =
+            grid.worldFromGrid(glm::dvec3(i, j, k)) + glm::dvec3(*displacement);
+          const glm::dvec3 fromAnchor = deformed - stroke.anchor;
+          if (glm::dot(fromAnchor, fromAnchor) < reach * reach)
+          {
+            const double weight = falloff(normalisedDistance(stroke, deformed), stroke.sigma);
+            *displacement += glm::vec3(weight * stroke.vector);
+          }
+        }
+      }
+    }
+  });
+}
+
+bool allTapsZero(const Lattice& lattice, const glm::ivec3& cell)
+{
+  const glm::ivec3 low = glm::max(cell - 1, glm::ivec3(0));
+  const glm::ivec3 high = glm::min(cell + 2, lattice.grid.dimensions - 1);
+  for (int k = low.z; k <= high.z; ++k)
+  {
+    for (int j = low.y; j <= high.y; ++j)
+    {
+      for (int i = low.x; i <= high.x; ++i)
+      {
+        if (lattice.displacements[lattice.grid.offset(i, j, k)] != glm::vec3(0.0f))
+        {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
+// Smallest determinant on the corners, edges' middles, faces' middles and middle of a cell.
+double minimumJacobianInCell(
+  const Lattice& lattice, const std::vector<glm::vec3>& inCells, const glm::ivec3& cell)
+{
+  double smallest = std::numeric_limits<double>::max();
+  for (int sample = 0; sample < 27; ++sample)
+  {
+    const glm::dvec3 within = glm::dvec3(sample % 3, sample / 3 % 3, sample / 9) * 0.5;
+    const glm::mat3 jacobian = glm::mat3(1.0f) +
+      cubicGradient(lattice.grid.dimensions, lattice.kernel, inCells.data(),
+        glm::dvec3(cell) + within);
+    smallest = std::min(smallest, static_cast<double>(glm::determinant(jacobian)));
+  }
+  return smallest;
+}
+}
+
+Lattice makeLattice(const Grid& grid, int kernel)
+{
+  Lattice lattice;
+  lattice.grid = grid;
+  lattice.kernel = kernel;
+  lattice.displacements.assign(grid.count(), glm::vec3(0.0f));
+  return lattice;
+}
+
+void applyStroke(Lattice& lattice, const Stroke& stroke)
+{
+  if (!stroke.enabled)
+  {
+    return;
+  }
+  if (stroke.tool == Tool::Move)
+  {
+    applyMove(lattice, stroke);
+  }
+  else
+  {
+    applyAround(lattice, stroke);
+  }
+}
+
+std::vector<glm::vec3> displacementsInCells(const Lattice& lattice)
+{
+  std::vector<glm::vec3> inCells(lattice.displacements.size());
+  std::transform(lattice.displacements.begin(), lattice.displacements.end(), inCells.begin(),
+    [&](const glm::vec3& displacement) {
+      return glm::vec3(lattice.grid.gridVectorFromWorld(glm::dvec3(displacement)));
+    });
+  return inCells;
+}
+
+glm::vec3 cubicDisplacement(const glm::ivec3& dimensions, int kernel,
+  const glm::vec3* displacements, const glm::dvec3& position)
+{
+  const Taps taps[3] = { tapsAt(kernel, dimensions.x, position.x),
+    tapsAt(kernel, dimensions.y, position.y), tapsAt(kernel, dimensions.z, position.z) };
+  return weightedSum(
+    dimensions, displacements, taps, taps[0].weight, taps[1].weight, taps[2].weight);
+}
+
+glm::mat3 cubicGradient(const glm::ivec3& dimensions, int kernel, const glm::vec3* displacements,
+  const glm::dvec3& position)
+{
+  const Taps taps[3] = { tapsAt(kernel, dimensions.x, position.x),
+    tapsAt(kernel, dimensions.y, position.y), tapsAt(kernel, dimensions.z, position.z) };
+  return glm::mat3(
+    weightedSum(dimensions, displacements, taps, taps[0].slope, taps[1].weight, taps[2].weight),
+    weightedSum(dimensions, displacements, taps, taps[0].weight, taps[1].slope, taps[2].weight),
+    weightedSum(dimensions, displacements, taps, taps[0].weight, taps[1].weight, taps[2].slope));
+}
+
+double maximumDisplacement(const Lattice& lattice)
+{
+  float largest = 0.0f;
+  for (const glm::vec3& displacement : lattice.displacements)
+  {
+    largest = std::max(largest, glm::dot(displacement, displacement));
+  }
+  return std::sqrt(static_cast<double>(largest));
+}
+
+double minimumJacobian(const Lattice& lattice)
+{
+  const std::vector<glm::vec3> inCells = displacementsInCells(lattice);
+  const glm::ivec3 cells = lattice.grid.dimensions - 1;
+  vtkSMPThreadLocal<double> smallestOfThread(1.0); // an unmoved cell has determinant 1
+  vtkSMPTools::For(0, cells.z, [&](vtkIdType first, vtkIdType last) {
+    double& smallest = smallestOfThread.Local();
+    glm::ivec3 cell;
+    for (cell.z = static_cast<int>(first); cell.z < last; ++cell.z)
+    {
+      for (cell.y = 0; cell.y < cells.y; ++cell.y)
+      {
+        for (cell.x = 0; cell.x < cells.x; ++cell.x)
+        {
+          if (!allTapsZero(lattice, cell))
+          {
+            smallest = std::min(smallest, minimumJacobianInCell(lattice, inCells, cell));
+          }
+        }
+      }
+    }
+  });
+  return *std::min_element(smallestOfThread.begin(), smallestOfThread.end());
+}
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "PointMap.h"
+
+#include "Inversion.h"
+
+#include <glm/matrix.hpp>
+
+namespace brainshift
+{
+namespace
+{
+// The forward map around one reference point, so that the solver's single precision is spent on
+// the distance from it and not on the position.
+struct CubicForward
+{
+  const Grid& grid;
+  int kernel;
+  const glm::vec3* inCells;
+  glm::dvec3 reference; // lattice coordinates
+
+  glm::vec3 displacement(const glm::vec3& rest) const
+  {
+    return cubicDisplacement(
+      this->grid.dimensions, this->kernel, this->inCells, this->reference + glm::dvec3(rest));
+  }
+  glm::mat3 jacobian(const glm::vec3& rest) const
+  {
+    return glm::mat3(1.0f) +
+      cubicGradient(
+        this->grid.dimensions, this->kernel, this->inCells, this->reference + glm::dvec3(rest));
+  }
+};
+}
+
+PointMap::PointMap(const Lattice& lattice, Inverse inverse)
+  : LatticeGrid(lattice.grid)
+  , Kernel(lattice.kernel)
+  , Backward(inverse)
+  , InCells(displacementsInCells(lattice))
+{
+}
+
+glm::dvec3 PointMap::deformedFromRest(const glm::dvec3& rest) const
+{
+  const glm::dvec3 position = this->LatticeGrid.gridFromWorld(rest);
+  const glm::vec3 displacement = cubicDisplacement(
+    this->LatticeGrid.dimensions, this->Kernel, this->InCells.data(), position);
+  return rest + this->LatticeGrid.worldVectorFromGrid(glm::dvec3(displacement));
+}
+
+glm::dvec3 PointMap::restFromDeformed(const glm::dvec3& deformed) const
+{
+  const glm::dvec3 position = this->LatticeGrid.gridFromWorld(deformed);
+  const CubicForward forward{ this->LatticeGrid, this->Kernel, this->InCells.data(), position };
+  const glm::vec3 offset = this->Backward == Inverse::Negated
+    ? -forward.displacement(glm::vec3(0.0f))
+    : Inversion<CubicForward>{ forward }.restFromDeformed(glm::vec3(0.0f));
+  return deformed + this->LatticeGrid.worldVectorFromGrid(glm::dvec3(offset));
+}
+
+glm::dmat3 PointMap::jacobian(const glm::dvec3& rest) const
+{
+  const glm::dmat3 gradient(cubicGradient(this->LatticeGrid.dimensions, this->Kernel,
+    this->InCells.data(), this->LatticeGrid.gridFromWorld(rest)));
+  const glm::dmat3& direction = this->LatticeGrid.direction;
+  const glm::dvec3& spacing = this->LatticeGrid.spacing;
+  const glm::dmat3 scale(glm::dvec3(spacing.x, 0, 0), glm::dvec3(0, spacing.y, 0),
+    glm::dvec3(0, 0, spacing.z));
+  const glm::dmat3 worldFromGrid = direction * scale;
+  return glm::dmat3(1.0) + worldFromGrid * gradient * glm::inverse(worldFromGrid);
+}
+}

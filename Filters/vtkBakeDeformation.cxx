@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkBakeDeformation.h"
+
+#include "DeformableVolume.h"
+#include "Resample.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <glm/common.hpp>
+
+#include <string>
+
+using namespace brainshift;
+
+vtkStandardNewMacro(vtkBakeDeformation);
+
+namespace
+{
+// Lattice coordinates of the values of an array: on the volume's points, or in its cells' middles.
+ResampleGeometry geometryOf(const Grid& volume, const Grid& lattice, const int extent[6],
+  const int inputExtent[6], bool cells)
+{
+  ResampleGeometry geometry;
+  geometry.dimensions = cells ? volume.dimensions - 1 : volume.dimensions;
+  const glm::dvec3 middle(cells ? 0.5 : 0.0);
+  geometry.latticeFromIndex = volume.spacing / lattice.spacing;
+  geometry.latticeOfFirst = lattice.gridFromWorld(volume.worldFromGrid(middle));
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    geometry.first[axis] = extent[2 * axis] - inputExtent[2 * axis];
+    geometry.last[axis] = extent[2 * axis + 1] - inputExtent[2 * axis] - (cells ? 1 : 0);
+  }
+  return geometry;
+}
+
+// Resamples every numeric array of `from` into `to`.
+void bakeArrays(vtkDataSetAttributes* from, vtkDataSetAttributes* to,
+  const ResampleGeometry& geometry, const NodeField& offsets, Reading reading,
+  const std::function<bool(double)>& proceed)
+{
+  to->Initialize();
+  const glm::ivec3 size = glm::max(geometry.last - geometry.first + 1, glm::ivec3(0));
+  for (int i = 0; i < from->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* source = from->GetArray(i);
+    if (!source)
+    {
+      continue; // names of something: nothing to interpolate
+    }
+    auto target = vtkSmartPointer<vtkDataArray>::Take(source->NewInstance());
+    target->SetName(source->GetName());
+    target->SetNumberOfComponents(source->GetNumberOfComponents());
+    target->SetNumberOfTuples(static_cast<vtkIdType>(size.x) * size.y * size.z);
+    resample(source, target, geometry, offsets, reading, proceed);
+    to->AddArray(target);
+  }
+  if (from->GetScalars())
+  {
+    to->SetActiveScalars(from->GetScalars()->GetName());
+  }
+}
+}
+
+int vtkBakeDeformation::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
+{
+  // Tissue may come from anywhere.
+  vtkInformation* info = inputs[0]->GetInformationObject(0);
+  int whole[6];
+  info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
+  info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), whole, 6);
+  return 1;
+}
+
+int vtkBakeDeformation::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkImageData* input = vtkImageData::GetData(inputs[0]);
+  vtkImageData* output = vtkImageData::GetData(outputs);
+  Deformation deformation;
+  std::string problem = "The input carries no deformation; insert Free-Form Deformation before it";
+  if (!carriesDeformation(input) || !readDeformation(input, deformation, problem))
+  {
+    vtkErrorMacro(<< problem << ".");
+    return 0;
+  }
+  const Lattice lattice = effectiveLattice(deformation);
+  const NodeField offsets = offsetField(lattice, deformation.samples, deformation.inverse);
+
+  int extent[6];
+  outputs->GetInformationObject(0)->Get(
+    vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent);
+  int inputExtent[6];
+  input->GetExtent(inputExtent);
+  output->CopyStructure(input);
+  output->SetExtent(extent);
+  const auto proceed = [this](double share) {
+    this->UpdateProgress(share);
+    return !this->CheckAbort();
+  };
+  const auto reading = static_cast<Reading>(this->Interpolation);
+  const Grid volume = gridOf(input);
+  bakeArrays(input->GetPointData(), output->GetPointData(),
+    geometryOf(volume, lattice.grid, extent, inputExtent, false), offsets, reading, proceed);
+  bakeArrays(input->GetCellData(), output->GetCellData(),
+    geometryOf(volume, lattice.grid, extent, inputExtent, true), offsets, reading, proceed);
+  return 1;
+}
+
+void vtkBakeDeformation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Interpolation: " << this->Interpolation << "\n";
+}

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkFreeFormDeformation.h"
+
+#include "DeformableVolume.h"
+#include "OffsetField.h"
+#include "Replay.h"
+
+#include "vtkDataArray.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace brainshift;
+
+struct vtkFreeFormDeformation::State
+{
+  std::vector<double> StrokeNumbers;
+  Replay StrokeReplay;
+  Deformation LastGood;
+  bool HasLastGood = false;
+  double MinimumJacobian = 1.0;
+  bool MinimumJacobianKnown = false;
+};
+
+namespace
+{
+// The grid of the whole volume, of which `image` may be one rank's piece.
+Grid wholeGrid(vtkImageData* image, vtkInformation* info)
+{
+  int whole[6];
+  info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
+  int extent[6];
+  image->GetExtent(extent);
+  Grid grid = gridOf(image);
+  const glm::dvec3 toWholeStart(whole[0] - extent[0], whole[2] - extent[2], whole[4] - extent[4]);
+  grid.origin = grid.worldFromGrid(toWholeStart);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    grid.dimensions[axis] = whole[2 * axis + 1] - whole[2 * axis] + 1;
+  }
+  return grid;
+}
+
+std::string triple(const glm::ivec3& numbers)
+{
+  return std::to_string(numbers.x) + " x " + std::to_string(numbers.y) + " x " +
+    std::to_string(numbers.z);
+}
+
+// What keeps this volume from being deformed; empty if nothing does.
+std::string problemOf(const Grid& volume)
+{
+  if (glm::any(glm::lessThan(volume.dimensions, glm::ivec3(2))))
+  {
+    return "The volume has " + triple(volume.dimensions) +
+      " points; it must have at least 2 along each axis";
+  }
+  if (glm::any(glm::lessThanEqual(volume.spacing, glm::dvec3(0.0))))
+  {
+    return "The volume's spacing is " + std::to_string(volume.spacing.x) + " " +
+      std::to_string(volume.spacing.y) + " " + std::to_string(volume.spacing.z) +
+      " mm; it must be above 0";
+  }
+  return {};
+}
+
+// Adds a displacement field on any grid to a lattice, read trilinearly at the control points.
+void addField(Lattice& lattice, vtkImageData* image, vtkDataArray* field)
+{
+  const Grid from = gridOf(image);
+  const auto value = [&](const glm::ivec3& at) {
+    double tuple[3];
+    field->GetTuple(static_cast<vtkIdType>(from.offset(at.x, at.y, at.z)), tuple);
+    return glm::dvec3(tuple[0], tuple[1], tuple[2]);
+  };
+  std::size_t point = 0;
+  glm::ivec3 index;
+  for (index.z = 0; index.z < lattice.grid.dimensions.z; ++index.z)
+  {
+    for (index.y = 0; index.y < lattice.grid.dimensions.y; ++index.y)
+    {
+      for (index.x = 0; index.x < lattice.grid.dimensions.x; ++index.x, ++point)
+      {
+        const glm::dvec3 last(from.dimensions - 1);
+        const glm::dvec3 position = glm::clamp(
+          from.gridFromWorld(lattice.grid.worldFromGrid(glm::dvec3(index))), glm::dvec3(0.0), last);
+        const glm::ivec3 low(position);
+        const glm::dvec3 within = position - glm::dvec3(low);
+        glm::dvec3 sum(0.0);
+        for (int corner = 0; corner < 8; ++corner)
+        {
+          const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+          const glm::dvec3 weight = glm::mix(1.0 - within, within, glm::dvec3(side));
+          sum += weight.x * weight.y * weight.z *
+            value(glm::min(low + side, from.dimensions - 1));
+        }
+        lattice.displacements[point] += glm::vec3(sum);
+      }
+    }
+  }
+}
+
+// Adds the optional base lattice. Returns what is wrong with it; empty if nothing is.
+std::string addBase(Lattice& lattice, vtkImageData* base)
+{
+  if (!base || base->GetNumberOfPoints() == 0)
+  {
+    return {};
+  }
+  vtkDataArray* field = base->GetPointData()->GetVectors();
+  for (int i = 0; !field && i < base->GetPointData()->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* candidate = base->GetPointData()->GetArray(i);
+    field = candidate && candidate->GetNumberOfComponents() == 3 ? candidate : nullptr;
+  }
+  if (!field || field->GetNumberOfComponents() != 3)
+  {
+    return "The base lattice has no point array of 3 components (mm)";
+  }
+  addField(lattice, base, field);
+  const auto finite = [](const glm::vec3& d) {
+    return std::isfinite(d.x) && std::isfinite(d.y) && std::isfinite(d.z);
+  };
+  const bool allFinite =
+    std::all_of(lattice.displacements.begin(), lattice.displacements.end(), finite);
+  return allFinite
+    ? std::string()
+    : std::string("The base lattice's array ") + field->GetName() + " holds a number that is not finite";
+}
+}
+
+vtkStandardNewMacro(vtkFreeFormDeformation);
+
+vtkFreeFormDeformation::vtkFreeFormDeformation()
+  : Internal(std::make_unique<State>())
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+vtkFreeFormDeformation::~vtkFreeFormDeformation() = default;
+
+void vtkFreeFormDeformation::AddStrokeNumber(double number)
+{
+  this->Internal->StrokeNumbers.push_back(number);
+  this->Modified();
+}
+
+void vtkFreeFormDeformation::ClearStrokes()
+{
+  this->Internal->StrokeNumbers.clear();
+  this->Modified();
+}
+
+void vtkFreeFormDeformation::SetLatticeConnection(vtkAlgorithmOutput* lattice)
+{
+  this->SetInputConnection(1, lattice);
+}
+
+int vtkFreeFormDeformation::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+int vtkFreeFormDeformation::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  // The base lattice is read everywhere, whichever piece of the volume is asked for.
+  if (vtkInformation* base = inputs[1]->GetInformationObject(0))
+  {
+    int whole[6];
+    base->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
+    base->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), whole, 6);
+  }
+  return this->Superclass::RequestUpdateExtent(request, inputs, outputs);
+}
+
+int vtkFreeFormDeformation::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkImageData* volume = vtkImageData::GetData(inputs[0]);
+  vtkImageData* output = vtkImageData::GetData(outputs);
+  output->ShallowCopy(volume);
+  const Grid volumeGrid = wholeGrid(volume, inputs[0]->GetInformationObject(0));
+  std::string problem = problemOf(volumeGrid);
+  if (!problem.empty())
+  {
+    vtkErrorMacro(<< problem << ".");
+    return 0;
+  }
+  problem = this->Bend(volumeGrid, vtkImageData::GetData(inputs[1]));
+  if (!problem.empty())
+  {
+    vtkErrorMacro(<< problem << ". The deformation stays as it was.");
+  }
+  State& state = *this->Internal;
+  attach(output, state.LastGood);
+  return 1;
+}
+
+std::string vtkFreeFormDeformation::Bend(const Grid& volumeGrid, vtkImageData* base)
+{
+  State& state = *this->Internal;
+  const glm::ivec3 sides(
+    this->LatticeDimensions[0], this->LatticeDimensions[1], this->LatticeDimensions[2]);
+  if (!state.HasLastGood)
+  {
+    const glm::ivec3 plain = glm::clamp(sides, SmallestLatticeSide, LargestLatticeSide);
+    state.LastGood.lattice = makeLattice(withDimensions(volumeGrid, plain), 0);
+    state.HasLastGood = true;
+  }
+  if (glm::any(glm::lessThan(sides, glm::ivec3(SmallestLatticeSide))) ||
+    glm::any(glm::greaterThan(sides, glm::ivec3(LargestLatticeSide))))
+  {
+    return "LatticeDimensions is " + triple(sides) + "; each side must have from " +
+      std::to_string(SmallestLatticeSide) + " to " + std::to_string(LargestLatticeSide) + " points";
+  }
+  if (this->Samples < SmallestSamples || this->Samples > LargestSamples)
+  {
+    return "Samples is " + std::to_string(this->Samples) + "; it must be from " +
+      std::to_string(SmallestSamples) + " to " + std::to_string(LargestSamples);
+  }
+  std::string problem;
+  const std::vector<Stroke> strokes = strokesFromNumbers(state.StrokeNumbers, problem);
+  Lattice start = makeLattice(withDimensions(volumeGrid, sides), this->Kernel != 0);
+  if (problem.empty())
+  {
+    problem = addBase(start, base);
+  }
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  state.LastGood.lattice = state.StrokeReplay.run(start, strokes);
+  state.LastGood.samples = this->Samples;
+  state.LastGood.inverse = this->Inverse ? brainshift::Inverse::Negated : brainshift::Inverse::Exact;
+  state.LastGood.strength = this->Strength;
+  state.MinimumJacobianKnown = false;
+  return {};
+}
+
+double vtkFreeFormDeformation::GetMaximumDisplacement()
+{
+  const State& state = *this->Internal;
+  return state.LastGood.strength * maximumDisplacement(state.LastGood.lattice);
+}
+
+double vtkFreeFormDeformation::GetMinimumJacobian()
+{
+  State& state = *this->Internal;
+  if (!state.MinimumJacobianKnown && state.HasLastGood)
+  {
+    state.MinimumJacobian = minimumJacobian(effectiveLattice(state.LastGood));
+    state.MinimumJacobianKnown = true;
+  }
+  return state.MinimumJacobian;
+}
+
+int vtkFreeFormDeformation::GetAppliedStrokes() const
+{
+  return this->Internal->StrokeReplay.applied();
+}
+
+void vtkFreeFormDeformation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "LatticeDimensions: " << this->LatticeDimensions[0] << " "
+     << this->LatticeDimensions[1] << " " << this->LatticeDimensions[2] << "\n"
+     << indent << "Samples: " << this->Samples << "\n"
+     << indent << "Kernel: " << (this->Kernel ? "B-Spline" : "Catmull-Rom") << "\n"
+     << indent << "Inverse: " << (this->Inverse ? "Negated" : "Exact") << "\n"
+     << indent << "Strength: " << this->Strength << "\n"
+     << indent << "Strokes: " << this->Internal->StrokeNumbers.size() / NumbersPerStroke << "\n";
+}

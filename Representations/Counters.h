@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the renderer did, since it was made: proof that only what changed is done again.
+#ifndef BrainShift_Counters_h
+#define BrainShift_Counters_h
+
+#include <cstdint>
+
+namespace brainshift
+{
+struct Counters
+{
+  std::int64_t frames = 0;           // images ray cast
+  std::int64_t volumeUploads = 0;    // scalars sent to the GPU
+  std::int64_t latticeUploads = 0;   // control points sent to the GPU
+  std::int64_t transferUploads = 0;  // colour and opacity maps sent to the GPU
+  std::int64_t bytesUploaded = 0;    // all of them together
+  std::int64_t texelsRefined = 0;    // nodes of the offset field computed
+  std::int64_t programsCompiled = 0; // shader programs compiled and linked
+};
+}
+
+#endif

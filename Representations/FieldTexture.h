@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The offset field on the GPU: uploads the control points, refines them, inverts the map.
+#ifndef BrainShift_FieldTexture_h
+#define BrainShift_FieldTexture_h
+
+#include "Counters.h"
+#include "OffsetField.h"
+#include "Program.h"
+
+#include "vtkSmartPointer.h"
+
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+class vtkOpenGLRenderWindow;
+class vtkTextureObject;
+class vtkWindow;
+
+namespace brainshift
+{
+struct FieldRequest
+{
+  glm::ivec3 dimensions{ 0 };      // control points a side
+  int kernel = 0;
+  int samples = 4;
+  Inverse inverse = Inverse::Exact;
+  std::vector<glm::vec3> inCells;  // displacements, lattice cells
+  FieldNodes nodes;                // where offsets are wanted, see backwardNodes
+  glm::vec3 offsetScale{ 1.0f };   // wanted unit of the offsets for one lattice cell
+};
+
+class VTKBRAINSHIFTREPRESENTATIONS_EXPORT FieldTexture
+{
+public:
+  FieldTexture();
+  ~FieldTexture();
+
+  // Uploads and computes. False if a shader does not compile or a texture cannot be made.
+  bool update(vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters);
+
+  // Offsets (restFromDeformed minus identity): RGBA32F, one texel a node, trilinear, clamped.
+  vtkTextureObject* offsets() const { return this->Offsets; }
+
+  // Displacements (deformedFromRest minus identity) on the forward nodes, lattice cells.
+  vtkTextureObject* displacements() const { return this->Refined[2]; }
+
+  void releaseGraphicsResources(vtkWindow* window);
+
+private:
+  bool refine(vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters);
+  bool invert(vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters);
+
+  vtkSmartPointer<vtkTextureObject> ControlPoints;
+  vtkSmartPointer<vtkTextureObject> Refined[3]; // along x; x and y; x, y and z
+  vtkSmartPointer<vtkTextureObject> Offsets;
+  Program RefineProgram;
+  Program InvertProgram;
+};
+}
+
+#endif

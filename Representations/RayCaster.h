@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Casts the rays into an image of its own and lays that image over the scene.
+#ifndef BrainShift_RayCaster_h
+#define BrainShift_RayCaster_h
+
+#include "Counters.h"
+#include "Program.h"
+
+#include "vtkSmartPointer.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+class vtkOpenGLRenderWindow;
+class vtkRenderer;
+class vtkTextureObject;
+class vtkVolumeProperty;
+class vtkWindow;
+
+namespace brainshift
+{
+struct RayCastLights
+{
+  bool headlight = true;
+  std::vector<float> position; // 4 each: world; w 0: direction towards the light
+  std::vector<float> color;    // 3 each, times intensity
+  std::vector<float> specular; // 3 each
+};
+
+// Everything one image depends on. Texture coordinates are the scalar texture's.
+struct RayCastScene
+{
+  glm::ivec2 size{ 0 };               // pixels
+  glm::dmat4 clipFromWorld{ 1.0 };
+  glm::dmat4 worldFromTexture{ 1.0 };
+  glm::dvec3 spaceLow{ 0.0 };         // part of the deformed frame tissue can reach
+  glm::dvec3 spaceHigh{ 1.0 };
+  glm::dvec3 volumeLow{ 0.0 };        // the volume's box in the rest frame
+  glm::dvec3 volumeHigh{ 1.0 };
+  glm::dvec3 voxel{ 1.0 };            // one voxel, texture coordinates
+  glm::dvec3 fieldFromTexture{ 1.0 }; // offset field's texture coordinates: scale and shift
+  glm::dvec3 fieldFromTextureShift{ 0.0 };
+  glm::dvec3 fieldTexel{ 1.0 };       // one node, in the offset field's texture coordinates
+  double stepMm = 1.0;
+  glm::dvec2 transferFromScalar{ 1.0, 0.0 }; // stored scalar to transfer coordinate
+  glm::dvec4 material{ 0.0, 1.0, 0.0, 1.0 }; // ambient, diffuse, specular, specular power
+  RayCastLights lights;
+  bool shaded = false;
+
+  vtkTextureObject* scalars = nullptr;
+  vtkTextureObject* offsets = nullptr; // null: the volume carries no deformation
+  vtkTextureObject* transfer = nullptr;
+  vtkTextureObject* sceneDepth = nullptr;
+};
+
+RayCastLights lightsOf(vtkRenderer* renderer);
+
+class RayCaster
+{
+public:
+  RayCaster();
+  ~RayCaster();
+
+  // Draws the image. False if a shader does not compile or the image cannot be made.
+  bool cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters);
+
+  // Blends the image over a rectangle (pixels) of the framebuffer that is bound.
+  bool composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origin, const glm::ivec2& size,
+    Counters& counters);
+
+  void releaseGraphicsResources(vtkWindow* window);
+
+private:
+  bool prepareImage(vtkOpenGLRenderWindow* window, const glm::ivec2& size);
+  void setUniforms(Program& program, const RayCastScene& scene);
+
+  vtkSmartPointer<vtkTextureObject> Image;
+  Program CastPrograms[2][2]; // [deformed][shaded]
+  Program CompositeProgram;
+};
+}
+
+#endif

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ShaderSource.h"
+
+#include "shader_composite_frag.h"
+#include "shader_field.h"
+#include "shader_fullscreen_vert.h"
+#include "shader_inversion.h"
+#include "shader_invert_frag.h"
+#include "shader_kernels.h"
+#include "shader_light.h"
+#include "shader_nodes.h"
+#include "shader_raycast_frag.h"
+#include "shader_rays.h"
+#include "shader_refine_frag.h"
+#include "shader_tissue.h"
+#include "shader_volume_pass.h"
+#include "shader_volume_pass_geom.h"
+#include "shader_volume_pass_vert.h"
+
+#include <initializer_list>
+
+namespace brainshift
+{
+namespace
+{
+// VTK replaces this by the version line and, in fragment shaders, declares the outputs.
+constexpr const char* Head = "//VTK::System::Dec\n";
+constexpr const char* Outputs = "//VTK::Output::Dec\n";
+// Marks functions that C++ shares; nothing in GLSL.
+constexpr const char* Shared = "#define SHARED\n";
+
+std::string assemble(std::initializer_list<std::string> parts)
+{
+  std::string source = Head;
+  for (const std::string& part : parts)
+  {
+    source += part;
+  }
+  return source;
+}
+
+// A program for runVolumePass whose fragment stage ends with `body`.
+ShaderSource volumePassSource(const std::string& body)
+{
+  return { assemble({ shader_volume_pass_vert }), assemble({ shader_volume_pass_geom }),
+    assemble({ Outputs, Shared, shader_volume_pass, body }) };
+}
+}
+
+ShaderSource refineSource()
+{
+  return volumePassSource(std::string(shader_kernels) + shader_refine_frag);
+}
+
+ShaderSource invertSource()
+{
+  return volumePassSource(std::string(shader_nodes) + shader_inversion + shader_invert_frag);
+}
+
+ShaderSource rayCastSource(const RayCastVariant& variant)
+{
+  std::string defines = "#define MAX_LIGHTS " + std::to_string(MaxLights) + "\n";
+  defines += variant.deformed ? "#define DEFORMED\n" : "";
+  defines += variant.shaded ? "#define SHADED\n" : "";
+  return { assemble({ shader_fullscreen_vert }), "",
+    assemble({ Outputs, defines, shader_rays, shader_field, shader_tissue, shader_light,
+      shader_raycast_frag }) };
+}
+
+ShaderSource compositeSource()
+{
+  return { assemble({ shader_fullscreen_vert }), "", assemble({ Outputs, shader_composite_frag }) };
+}
+
+std::vector<std::pair<std::string, ShaderSource>> allSources()
+{
+  std::vector<std::pair<std::string, ShaderSource>> sources{ { "refine", refineSource() },
+    { "invert", invertSource() }, { "composite", compositeSource() } };
+  for (const bool deformed : { false, true })
+  {
+    for (const bool shaded : { false, true })
+    {
+      const std::string name = std::string("raycast") + (deformed ? "_deformed" : "_rest") +
+        (shaded ? "_shaded" : "_plain");
+      sources.emplace_back(name, rayCastSource({ deformed, shaded }));
+    }
+  }
+  return sources;
+}
+}

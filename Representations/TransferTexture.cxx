@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TransferTexture.h"
+
+#include "OpenGL.h"
+
+#include "vtkColorTransferFunction.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkPiecewiseFunction.h"
+#include "vtkTextureObject.h"
+#include "vtkVolumeProperty.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace brainshift
+{
+namespace
+{
+constexpr int Entries = 4096; // as many as a 12-bit CT has values
+
+// Opacity of one step from the opacity of one unit distance.
+float opacityOfStep(float opacity, double unitsInStep)
+{
+  const double transparency = 1.0 - std::clamp(static_cast<double>(opacity), 0.0, 1.0);
+  return static_cast<float>(1.0 - std::pow(transparency, unitsInStep));
+}
+}
+
+TransferTexture::TransferTexture() = default;
+TransferTexture::~TransferTexture() = default;
+
+double TransferTexture::scale() const
+{
+  return (Entries - 1.0) / Entries / (this->Range[1] - this->Range[0]);
+}
+
+double TransferTexture::shift() const
+{
+  return 0.5 / Entries - this->Range[0] * this->scale();
+}
+
+void TransferTexture::update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* property,
+  double stepMm, Counters& counters)
+{
+  vtkColorTransferFunction* color = property->GetRGBTransferFunction();
+  vtkPiecewiseFunction* opacity = property->GetScalarOpacity();
+  const unsigned long long time = std::max(color->GetMTime(), opacity->GetMTime());
+  const double unitMm = property->GetScalarOpacityUnitDistance();
+  if (this->Texture && this->UploadedTime == time && this->StepMm == stepMm &&
+    this->UnitMm == unitMm)
+  {
+    return;
+  }
+  const double* colorRange = color->GetRange();
+  const double* opacityRange = opacity->GetRange();
+  this->Range[0] = std::min(colorRange[0], opacityRange[0]);
+  this->Range[1] = std::max(colorRange[1], opacityRange[1]);
+  if (!(this->Range[1] > this->Range[0]))
+  {
+    this->Range[1] = this->Range[0] + 1.0;
+  }
+  std::vector<float> colors(3 * Entries);
+  std::vector<float> opacities(Entries);
+  color->GetTable(this->Range[0], this->Range[1], Entries, colors.data());
+  opacity->GetTable(this->Range[0], this->Range[1], Entries, opacities.data());
+  std::vector<float> texels(4 * Entries);
+  for (int i = 0; i < Entries; ++i)
+  {
+    std::copy_n(&colors[3 * i], 3, &texels[4 * i]);
+    texels[4 * i + 3] = opacityOfStep(opacities[i], stepMm / unitMm);
+  }
+  this->Texture = vtkSmartPointer<vtkTextureObject>::New();
+  this->Texture->SetContext(window);
+  this->Texture->SetMinificationFilter(vtkTextureObject::Linear);
+  this->Texture->SetMagnificationFilter(vtkTextureObject::Linear);
+  this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
+  this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
+  this->Texture->Create2DFromRaw(Entries, 1, 4, VTK_FLOAT, texels.data());
+  counters.transferUploads += 1;
+  counters.bytesUploaded += static_cast<std::int64_t>(texels.size() * sizeof(float));
+  this->UploadedTime = time;
+  this->StepMm = stepMm;
+  this->UnitMm = unitMm;
+}
+
+void TransferTexture::releaseGraphicsResources(vtkWindow* window)
+{
+  if (this->Texture)
+  {
+    this->Texture->ReleaseGraphicsResources(window);
+  }
+  this->Texture = nullptr;
+}
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// ParaView's colour map and opacity curve as one texture, opacity corrected for the step.
+#ifndef BrainShift_TransferTexture_h
+#define BrainShift_TransferTexture_h
+
+#include "Counters.h"
+
+#include "vtkSmartPointer.h"
+
+class vtkOpenGLRenderWindow;
+class vtkTextureObject;
+class vtkVolumeProperty;
+class vtkWindow;
+
+namespace brainshift
+{
+class TransferTexture
+{
+public:
+  TransferTexture();
+  ~TransferTexture();
+
+  // Uploads the maps if they, the unit distance or the step changed.
+  void update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* property, double stepMm,
+    Counters& counters);
+
+  // Texture coordinate from scalar: scalar * scale + shift. Beyond the ends the end colours hold.
+  double scale() const;
+  double shift() const;
+
+  vtkTextureObject* texture() const { return this->Texture; }
+  void releaseGraphicsResources(vtkWindow* window);
+
+private:
+  vtkSmartPointer<vtkTextureObject> Texture;
+  unsigned long long UploadedTime = 0;
+  double StepMm = 0.0;
+  double UnitMm = 0.0;
+  double Range[2] = { 0.0, 1.0 }; // scalars of the first and the last texel
+};
+}
+
+#endif

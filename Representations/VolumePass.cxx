@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VolumePass.h"
+
+#include "OpenGL.h"
+#include "Program.h"
+
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
+#include "vtkTextureObject.h"
+
+namespace brainshift
+{
+void runVolumePass(vtkOpenGLRenderWindow* window, int programHandle, vtkTextureObject* target,
+  const glm::ivec3& first, const glm::ivec3& count)
+{
+  vtkOpenGLState* state = window->GetState();
+  vtkOpenGLState::ScopedglViewport viewport(state);
+  vtkOpenGLState::ScopedglScissor scissor(state);
+  vtkOpenGLState::ScopedglColorMask colorMask(state);
+  vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
+  vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
+  vtkOpenGLState::ScopedglEnableDisable cull(state, GL_CULL_FACE);
+  FramebufferScope framebuffer(state);
+  glFramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, target->GetHandle(), 0);
+  framebuffer.drawColors(1);
+
+  state->vtkglDisable(GL_BLEND);
+  state->vtkglDisable(GL_DEPTH_TEST);
+  state->vtkglDisable(GL_CULL_FACE);
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  state->vtkglViewport(first.x, first.y, count.x, count.y);
+  state->vtkglScissor(first.x, first.y, count.x, count.y);
+  glUniform1i(glGetUniformLocation(programHandle, "firstLayer"), first.z);
+  drawTriangles(count.z);
+}
+}

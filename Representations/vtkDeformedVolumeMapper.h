@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkDeformedVolumeMapper
+ * @brief   ray casts a volume through the lattice it carries
+ *
+ * Draws a vtkImageData with the deformation that Free-Form Deformation attached to it (see
+ * Filters/DeformableVolume.h), never resampling a voxel; a volume without a lattice is drawn as it
+ * is. Colours, opacity, light and position come from the vtkVolume, as for any volume mapper.
+ *
+ * Where the GPU cannot draw it, the reason is reported once and VTK's own mapper draws the volume
+ * undeformed.
+ *
+ * Method: van der Steen et al., SPIE 7169 (2009), section 2; ARCHITECTURE.md says what differs.
+ */
+#ifndef vtkDeformedVolumeMapper_h
+#define vtkDeformedVolumeMapper_h
+
+#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
+#include "vtkVolumeMapper.h"
+
+#include <memory> // for the private part
+#include <string> // for messages
+
+class vtkImageData;
+class vtkOpenGLRenderWindow;
+struct ValueLayout;
+namespace brainshift
+{
+struct Counters;
+struct Grid;
+struct RayCastScene;
+}
+
+class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkDeformedVolumeMapper : public vtkVolumeMapper
+{
+public:
+  static vtkDeformedVolumeMapper* New();
+  vtkTypeMacro(vtkDeformedVolumeMapper, vtkVolumeMapper);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** Step along the ray, mm. 0 (default): half the smallest voxel side. */
+  vtkSetClampMacro(SampleDistance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(SampleDistance, double);
+  ///@}
+
+  void Render(vtkRenderer* renderer, vtkVolume* volume) override;
+  void ReleaseGraphicsResources(vtkWindow* window) override;
+
+  ///@{
+  /** Box that the deformed volume can reach, mm. */
+  using vtkVolumeMapper::GetBounds;
+  double* GetBounds() VTK_SIZEHINT(6) override;
+  ///@}
+
+  /** What was done since the mapper was made. */
+  const brainshift::Counters& GetCounters() const;
+
+protected:
+  vtkDeformedVolumeMapper();
+  ~vtkDeformedVolumeMapper() override;
+
+private:
+  vtkDeformedVolumeMapper(const vtkDeformedVolumeMapper&) = delete;
+  void operator=(const vtkDeformedVolumeMapper&) = delete;
+
+  // Draws deformed. False, with one sentence in `problem`, if this GPU cannot.
+  bool Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem);
+  void DrawUndeformed(vtkRenderer* renderer, vtkVolume* volume, const std::string& problem);
+
+  void UpdateDeformation(vtkImageData* image);
+  bool PrepareField(vtkOpenGLRenderWindow* window, const brainshift::Grid& grid,
+    const ValueLayout& layout, brainshift::RayCastScene& scene);
+  void DescribeScene(vtkRenderer* renderer, vtkVolume* volume, const brainshift::Grid& grid,
+    const ValueLayout& layout, brainshift::RayCastScene& scene);
+
+  double SampleDistance = 0.0;
+
+  struct State; // textures, programs and what they were made from
+  std::unique_ptr<State> Internal;
+};
+
+#endif

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDeformedVolumeRepresentation.h"
+
+#include "Counters.h"
+#include "vtkDeformedVolumeMapper.h"
+
+#include "vtkObjectFactory.h"
+
+#include <sstream>
+
+vtkStandardNewMacro(vtkDeformedVolumeRepresentation);
+
+vtkDeformedVolumeRepresentation::vtkDeformedVolumeRepresentation()
+{
+  this->VolumeMapper.TakeReference(vtkDeformedVolumeMapper::New());
+}
+
+vtkDeformedVolumeMapper* vtkDeformedVolumeRepresentation::Mapper() const
+{
+  return vtkDeformedVolumeMapper::SafeDownCast(this->VolumeMapper);
+}
+
+void vtkDeformedVolumeRepresentation::SetSampleDistance(double distance)
+{
+  this->Mapper()->SetSampleDistance(distance);
+}
+
+const char* vtkDeformedVolumeRepresentation::GetCounters()
+{
+  const brainshift::Counters& count = this->Mapper()->GetCounters();
+  std::ostringstream text;
+  text << "frames " << count.frames << "\nvolumeUploads " << count.volumeUploads
+       << "\nlatticeUploads " << count.latticeUploads << "\ntransferUploads "
+       << count.transferUploads << "\nbytesUploaded " << count.bytesUploaded
+       << "\ntexelsRefined " << count.texelsRefined << "\nprogramsCompiled "
+       << count.programsCompiled;
+  this->CountersText = text.str();
+  return this->CountersText.c_str();
+}
+
+int vtkDeformedVolumeRepresentation::RequestData(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const int result = this->Superclass::RequestData(request, inputs, outputs);
+  // Tissue may lie outside the volume's own box: the camera must not cut it.
+  if (this->VolumeMapper->GetNumberOfInputConnections(0) > 0)
+  {
+    this->VolumeMapper->GetBounds(this->DataBounds);
+  }
+  return result;
+}
+
+void vtkDeformedVolumeRepresentation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  this->VolumeMapper->PrintSelf(os, indent.GetNextIndent());
+}

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkDeformedVolumeRepresentation
+ * @brief   "Deformed Volume": ParaView's "Volume" with our ray caster
+ *
+ * Everything "Volume" does with data delivery, colour maps, opacity and transforms is inherited;
+ * only the mapper differs, and the bounds told to the view are those of the deformed volume.
+ */
+#ifndef vtkDeformedVolumeRepresentation_h
+#define vtkDeformedVolumeRepresentation_h
+
+#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
+#include "vtkImageVolumeRepresentation.h"
+
+#include <string> // for the counters' text
+
+class vtkDeformedVolumeMapper;
+
+class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkDeformedVolumeRepresentation
+  : public vtkImageVolumeRepresentation
+{
+public:
+  static vtkDeformedVolumeRepresentation* New();
+  vtkTypeMacro(vtkDeformedVolumeRepresentation, vtkImageVolumeRepresentation);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** Step along the ray, mm. 0 (default): half the smallest voxel side. */
+  void SetSampleDistance(double distance);
+
+  /** What the renderer did since it was made (Counters.h): lines of a name, a space, a number. */
+  const char* GetCounters();
+
+protected:
+  vtkDeformedVolumeRepresentation();
+  ~vtkDeformedVolumeRepresentation() override = default;
+
+  int RequestData(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkDeformedVolumeRepresentation(const vtkDeformedVolumeRepresentation&) = delete;
+  void operator=(const vtkDeformedVolumeRepresentation&) = delete;
+
+  vtkDeformedVolumeMapper* Mapper() const;
+
+  std::string CountersText;
+};
+
+#endif

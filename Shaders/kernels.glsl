@@ -1,0 +1,34 @@
+// Cubic kernels of the lattice. One source: GLSL compiles this file, and C++ does through GLM
+// (Filters/Kernels.h), so both give the same numbers. Keep to what both languages accept.
+
+const int KernelCatmullRom = 0; // interpolates the control points; the default (paper, section 2)
+const int KernelBSpline = 1;    // uniform cubic B-spline: approximates them, second derivative continuous
+
+// Weights of the four control points around a position, in lattice order: the position lies at
+// `t` (0 to 1) between the second and the third. They sum to 1.
+SHARED vec4 kernelWeights(int kernel, float t)
+{
+  float s = 1.0f - t;
+  if (kernel == KernelBSpline)
+  {
+    return vec4(s * s * s, 4.0f + t * t * (3.0f * t - 6.0f), 4.0f + s * s * (3.0f * s - 6.0f),
+             t * t * t) *
+      (1.0f / 6.0f);
+  }
+  return vec4(-t * s * s, 2.0f + t * t * (3.0f * t - 5.0f), 2.0f + s * s * (3.0f * s - 5.0f),
+           -s * t * t) *
+    0.5f;
+}
+
+// Derivatives of kernelWeights with respect to `t`. They sum to 0.
+SHARED vec4 kernelSlopes(int kernel, float t)
+{
+  float s = 1.0f - t;
+  if (kernel == KernelBSpline)
+  {
+    return vec4(-s * s, t * (3.0f * t - 4.0f), -s * (3.0f * s - 4.0f), t * t) * 0.5f;
+  }
+  return vec4(-s * (s - 2.0f * t), t * (9.0f * t - 10.0f), -s * (9.0f * s - 10.0f),
+           -t * (2.0f * s - t)) *
+    0.5f;
+}

@@ -1,0 +1,56 @@
+// Draws the deformed volume: the paper's ray caster (section 2). A ray runs straight through the
+// deformed frame; every sample looks its tissue up at the rest position it came from.
+
+in vec2 ndc;
+
+uniform vec3 spaceLow;  // the part of the deformed frame that tissue can reach, texture coordinates
+uniform vec3 spaceHigh;
+uniform float stepMm;
+uniform mat3 worldFromGradient; // world axes from a gradient for texture units (inverse transpose)
+uniform vec3 worldOfTextureZero; // mm
+
+const float OpaqueEnough = 254.0 / 255.0; // what is behind would change less than one 8-bit level
+
+vec3 shade(vec3 color, vec3 deformed, vec3 rest, vec3 towardsEye)
+{
+#ifdef SHADED
+  vec3 gradient = worldFromGradient * deformedGradientFromRest(deformed, gradientAt(rest));
+  float steepness = length(gradient);
+  vec3 normal = steepness > 0.0 ? gradient / steepness : vec3(0.0);
+  return lit(color, normal, towardsEye, worldFromTexture * deformed + worldOfTextureZero);
+#else
+  return color;
+#endif
+}
+
+void main()
+{
+  Ray ray = rayOfPixel(ndc);
+  vec2 span = boxSpan(ray, spaceLow, spaceHigh);
+  span.y = min(span.y, sceneDistance(ray, 0.5 * ndc + 0.5));
+  int samples = int(ceil((span.y - span.x) / stepMm));
+  vec3 first = ray.start + span.x * ray.direction;
+  vec3 stride = stepMm * ray.direction;
+  vec3 towardsEye = -normalize(worldFromTexture * ray.direction);
+
+  vec4 picture = vec4(0.0); // colour times opacity, opacity
+  for (int i = 0; i < samples; ++i)
+  {
+    vec3 deformed = first + float(i) * stride;
+    vec3 rest = restFromDeformed(deformed);
+    if (insideVolume(rest))
+    {
+      vec4 tissue = tissueOf(scalarAt(rest));
+      if (tissue.a > 0.0)
+      {
+        vec3 color = shade(tissue.rgb, deformed, rest, towardsEye);
+        picture += (1.0 - picture.a) * vec4(color * tissue.a, tissue.a);
+        if (picture.a > OpaqueEnough)
+        {
+          break;
+        }
+      }
+    }
+  }
+  gl_FragData[0] = picture;
+}

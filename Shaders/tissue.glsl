@@ -1,0 +1,36 @@
+// What is at a rest position: scalar, colour and opacity, gradient. Texture coordinates.
+
+uniform sampler3D scalars;       // red: the scalar, as stored
+uniform sampler2D transfer;      // colour, and opacity for one step, over the scalar range
+uniform vec2 transferFromScalar; // scale and shift: stored scalar to texture coordinate
+uniform vec3 volumeLow;          // the volume's box, texture coordinates
+uniform vec3 volumeHigh;
+uniform vec3 voxel;              // one voxel, texture coordinates
+
+bool insideVolume(vec3 rest)
+{
+  return all(greaterThanEqual(rest, volumeLow)) && all(lessThanEqual(rest, volumeHigh));
+}
+
+float scalarAt(vec3 rest)
+{
+  return textureLod(scalars, rest, 0.0).r;
+}
+
+// Colour and opacity; nothing where the scalar is not a number.
+vec4 tissueOf(float scalar)
+{
+  vec4 tissue =
+    textureLod(transfer, vec2(scalar * transferFromScalar.x + transferFromScalar.y, 0.5), 0.0);
+  return isnan(scalar) ? vec4(0.0) : tissue;
+}
+
+// Central differences over one voxel to either side, scalar for each texture unit.
+vec3 gradientAt(vec3 rest)
+{
+  vec3 low = vec3(scalarAt(rest - vec3(voxel.x, 0.0, 0.0)),
+    scalarAt(rest - vec3(0.0, voxel.y, 0.0)), scalarAt(rest - vec3(0.0, 0.0, voxel.z)));
+  vec3 high = vec3(scalarAt(rest + vec3(voxel.x, 0.0, 0.0)),
+    scalarAt(rest + vec3(0.0, voxel.y, 0.0)), scalarAt(rest + vec3(0.0, 0.0, voxel.z)));
+  return (high - low) / (2.0 * voxel);
+}

@@ -1,0 +1,42 @@
+# Messages, timed steps with logs, and the lock. Sourced by ./brainshift.
+# shellcheck shell=bash
+
+export HOME=~ # ~ is known where HOME is not, as in some build servers
+cache=${XDG_CACHE_HOME:-$HOME/.cache}/brainshift
+
+# Messages go to stderr, so that the output of `shell -- COMMAND` stays clean.
+say() { printf 'brainshift: %s\n' "$*" >&2; }
+
+# fail STATUS SENTENCE
+fail() {
+  say "$2"
+  exit "$1"
+}
+
+# step LOG_NAME MESSAGE COMMAND…: one line to read; the command's own output goes to a log file.
+step() {
+  local log=$cache/log/$1.log message=$2 start=$SECONDS status=0
+  shift 2
+  mkdir -p "$cache/log"
+  printf 'brainshift: %s ... ' "$message" >&2
+  ("$@") >"$log" 2>&1 </dev/null || status=$?
+  if ((status != 0)); then
+    echo failed >&2
+    tail -n 40 "$log" >&2
+    fail 1 "$message failed; above is the end of its log, $log"
+  fi
+  echo "$((SECONDS - start)) s" >&2
+}
+
+# One launch at a time sets up and builds. Children inherit the lock: where a launch was killed,
+# the next one waits for what it left running.
+lock() {
+  mkdir -p "$cache" || fail 1 "Cannot write to the cache folder $cache"
+  exec 9>"$cache/lock"
+  if ! flock --nonblock 9; then
+    say "waiting for another brainshift, which sets up or builds"
+    flock 9
+  fi
+}
+
+unlock() { exec 9>&-; }
