@@ -42,7 +42,7 @@ struct FieldNodes
 };
 
 // A vector field, trilinear between nodes; outside the nodes the value of the nearest holds.
-struct NodeField
+struct VTKBRAINSHIFTFILTERS_EXPORT NodeField
 {
   FieldNodes nodes;
   std::vector<glm::vec3> values; // lattice cells, x fastest
