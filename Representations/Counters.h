@@ -15,6 +15,7 @@ struct Counters
   std::int64_t transferUploads = 0;  // colour and opacity maps sent to the GPU
   std::int64_t bytesUploaded = 0;    // all of them together
   std::int64_t texelsRefined = 0;    // nodes of the offset field computed
+  std::int64_t presenceUpdates = 0;  // times the deformed presence map was computed
   std::int64_t programsCompiled = 0; // shader programs compiled and linked
 };
 }

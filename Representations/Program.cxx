@@ -60,6 +60,12 @@ void Program::set(const char* name, const glm::mat3& value)
   this->Compiled->SetUniformMatrix3x3(name, glm::value_ptr(columns));
 }
 
+void Program::set(const char* name, const glm::mat4& value)
+{
+  glm::mat4 columns = value;
+  this->Compiled->SetUniformMatrix4x4(name, glm::value_ptr(columns));
+}
+
 void Program::set(const char* name, vtkTextureObject* texture)
 {
   texture->Activate();

@@ -7,6 +7,7 @@
 #include "ShaderSource.h"
 
 #include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -30,6 +31,7 @@ public:
   void set(const char* name, const glm::vec3& value);
   void set(const char* name, const glm::ivec3& value);
   void set(const char* name, const glm::mat3& value);
+  void set(const char* name, const glm::mat4& value);
 
   // Binds the texture to a unit of its own for as long as it stays active.
   void set(const char* name, vtkTextureObject* texture);

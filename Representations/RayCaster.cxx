@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RayCaster.h"
 
+#include "DeformedPresence.h"
 #include "OpenGL.h"
 
 #include "vtkLight.h"
@@ -60,10 +61,25 @@ void setRayUniforms(Program& program, const RayCastScene& scene)
   program.set("farUp", glm::vec3(far.up));
   program.set("clipW", glm::vec2(near.w, far.w));
   program.set("worldFromTexture", glm::mat3(glm::dmat3(scene.worldFromTexture)));
+}
+
+void setSpaceUniforms(Program& program, const RayCastScene& scene)
+{
   program.set("spaceLow", glm::vec3(scene.spaceLow));
   program.set("spaceHigh", glm::vec3(scene.spaceHigh));
   program.set("stepMm", static_cast<float>(scene.stepMm));
+  program.set("worldOfTextureZero", glm::vec3(scene.worldFromTexture[3]));
   program.set("sceneDepth", scene.sceneDepth);
+}
+
+void setSkippingUniforms(Program& program, const RayCastScene& scene, vtkTextureObject* spans)
+{
+  program.set("skipping", scene.skipping ? 1 : 0);
+  program.set("spans", spans);
+  program.set("presence", scene.presence->map());
+  program.set("brickFromTexture", glm::vec3(1.0 / scene.textureFromBrick));
+  program.set("brickOfTextureZero",
+    glm::vec3(-scene.textureOfBrickZero / scene.textureFromBrick - scene.firstBrick));
 }
 
 void setTissueUniforms(Program& program, const RayCastScene& scene)
@@ -85,10 +101,16 @@ void setFieldUniforms(Program& program, const RayCastScene& scene)
 void setLightUniforms(Program& program, const RayCastScene& scene)
 {
   const glm::dmat3 worldFromTexture(scene.worldFromTexture);
-  program.set("voxel", glm::vec3(scene.voxel));
+  if (scene.normals)
+  {
+    program.set("normals", scene.normals);
+  }
+  else
+  {
+    program.set("voxel", glm::vec3(scene.voxel));
+  }
   program.set(
     "worldFromGradient", glm::mat3(glm::transpose(glm::inverse(worldFromTexture))));
-  program.set("worldOfTextureZero", glm::vec3(scene.worldFromTexture[3]));
   const RayCastLights& lights = scene.lights;
   const int count = static_cast<int>(lights.position.size() / 4);
   program.set("lightCount", count);
@@ -148,25 +170,109 @@ RayCastLights lightsOf(vtkRenderer* renderer)
 RayCaster::RayCaster() = default;
 RayCaster::~RayCaster() = default;
 
-bool RayCaster::prepareImage(vtkOpenGLRenderWindow* window, const glm::ivec2& size)
+namespace
+{
+vtkSmartPointer<vtkTextureObject> makeImage(
+  vtkOpenGLRenderWindow* window, const glm::ivec2& size, unsigned int format, int filter)
+{
+  auto image = vtkSmartPointer<vtkTextureObject>::New();
+  image->SetContext(window);
+  image->SetInternalFormat(format);
+  image->SetMinificationFilter(filter);
+  image->SetMagnificationFilter(filter);
+  image->SetWrapS(vtkTextureObject::ClampToEdge);
+  image->SetWrapT(vtkTextureObject::ClampToEdge);
+  return image->Allocate2D(size.x, size.y, 4, VTK_FLOAT) ? image : nullptr;
+}
+
+// Drawing into images of our own: no blending, no tests, all of the image; restored at the end.
+class ImageScope
+{
+public:
+  ImageScope(vtkOpenGLState* state, const glm::ivec2& size)
+    : Viewport(state)
+    , ColorMask(state)
+    , Blending(state)
+    , Scissor(state, GL_SCISSOR_TEST)
+    , Blend(state, GL_BLEND)
+    , DepthTest(state, GL_DEPTH_TEST)
+    , Cull(state, GL_CULL_FACE)
+    , Framebuffer(state)
+  {
+    for (const unsigned int capability :
+      { GL_SCISSOR_TEST, GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE })
+    {
+      state->vtkglDisable(capability);
+    }
+    state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    state->vtkglViewport(0, 0, size.x, size.y);
+  }
+
+  void attach(unsigned int index, vtkTextureObject* image)
+  {
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + index, GL_TEXTURE_2D,
+      image->GetHandle(), 0);
+    this->Framebuffer.drawColors(index + 1);
+  }
+
+private:
+  vtkOpenGLState::ScopedglViewport Viewport;
+  vtkOpenGLState::ScopedglColorMask ColorMask;
+  vtkOpenGLState::ScopedglBlendFuncSeparate Blending;
+  vtkOpenGLState::ScopedglEnableDisable Scissor;
+  vtkOpenGLState::ScopedglEnableDisable Blend;
+  vtkOpenGLState::ScopedglEnableDisable DepthTest;
+  vtkOpenGLState::ScopedglEnableDisable Cull;
+  FramebufferScope Framebuffer;
+};
+}
+
+bool RayCaster::prepareImages(vtkOpenGLRenderWindow* window, const glm::ivec2& size)
 {
   if (this->Image && this->Image->GetWidth() == static_cast<unsigned int>(size.x) &&
     this->Image->GetHeight() == static_cast<unsigned int>(size.y))
   {
     return true;
   }
-  this->Image = vtkSmartPointer<vtkTextureObject>::New();
-  this->Image->SetContext(window);
-  this->Image->SetMinificationFilter(vtkTextureObject::Linear);
-  this->Image->SetMagnificationFilter(vtkTextureObject::Linear);
-  this->Image->SetWrapS(vtkTextureObject::ClampToEdge);
-  this->Image->SetWrapT(vtkTextureObject::ClampToEdge);
-  return this->Image->Allocate2D(size.x, size.y, 4, VTK_FLOAT);
+  this->Image = makeImage(window, size, GL_RGBA16F, vtkTextureObject::Linear);
+  this->Hits = makeImage(window, size, GL_RGBA32F, vtkTextureObject::Nearest);
+  this->Spans = makeImage(window, size, GL_RG32F, vtkTextureObject::Nearest);
+  return this->Image && this->Hits && this->Spans;
+}
+
+// Rasterises the occupied bricks' faces: first and last t of every pixel.
+bool RayCaster::findSpans(
+  vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters)
+{
+  if (!this->SpansProgram.use(window, proxySource(), counters))
+  {
+    return false;
+  }
+  setRayUniforms(this->SpansProgram, scene);
+  const glm::mat4 clipFromTexture(scene.clipFromWorld * scene.worldFromTexture);
+  this->SpansProgram.set("clipFromTexture", clipFromTexture);
+  this->SpansProgram.set("textureFromBrick", glm::vec3(scene.textureFromBrick));
+  this->SpansProgram.set("textureOfBrickZero", glm::vec3(scene.textureOfBrickZero));
+  this->SpansProgram.set("pixelSize", 2.0f / glm::vec2(scene.size));
+  vtkOpenGLState* state = window->GetState();
+  ImageScope images(state, scene.size);
+  images.attach(0, this->Spans);
+  const float nothing[4] = { 1e30f, 1e30f, 1e30f, 1e30f };
+  glClearBufferfv(GL_COLOR, 0, nothing);
+  state->vtkglEnable(GL_BLEND);
+  glBlendEquation(GL_MIN);
+  glEnable(GL_DEPTH_CLAMP); // faces beyond the clipping planes bound the ray too
+  scene.presence->drawFaces(this->SpansProgram.get()->GetHandle());
+  glDisable(GL_DEPTH_CLAMP);
+  glBlendEquation(GL_FUNC_ADD);
+  return true;
 }
 
 void RayCaster::setUniforms(Program& program, const RayCastScene& scene)
 {
   setRayUniforms(program, scene);
+  setSpaceUniforms(program, scene);
+  setSkippingUniforms(program, scene, this->Spans);
   setTissueUniforms(program, scene);
   if (scene.offsets)
   {
@@ -182,35 +288,27 @@ void RayCaster::setUniforms(Program& program, const RayCastScene& scene)
 bool RayCaster::cast(
   vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters)
 {
-  const bool deformed = scene.offsets != nullptr;
-  Program& program = this->CastPrograms[deformed][scene.shaded];
-  if (!this->prepareImage(window, scene.size) ||
-    !program.use(window, rayCastSource({ deformed, scene.shaded }), counters))
+  RayCastVariant variant;
+  variant.deformed = scene.offsets != nullptr;
+  variant.light = !scene.shaded ? RayCastVariant::Unshaded
+    : scene.normals            ? RayCastVariant::GradientTexture
+                               : RayCastVariant::GradientsOnTheFly;
+  Program& program = this->CastPrograms[variant.deformed][variant.light];
+  if (!this->prepareImages(window, scene.size) ||
+    (scene.skipping && !this->findSpans(window, scene, counters)) ||
+    !program.use(window, rayCastSource(variant), counters))
   {
     return false;
   }
   this->setUniforms(program, scene);
-
-  vtkOpenGLState* state = window->GetState();
-  vtkOpenGLState::ScopedglViewport viewport(state);
-  vtkOpenGLState::ScopedglColorMask colorMask(state);
-  vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
-  vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
-  vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
-  vtkOpenGLState::ScopedglEnableDisable cull(state, GL_CULL_FACE);
-  FramebufferScope framebuffer(state);
-  glFramebufferTexture2D(
-    GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, this->Image->GetHandle(), 0);
-  framebuffer.drawColors(1);
-  state->vtkglDisable(GL_SCISSOR_TEST);
-  state->vtkglDisable(GL_BLEND);
-  state->vtkglDisable(GL_DEPTH_TEST);
-  state->vtkglDisable(GL_CULL_FACE);
-  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  state->vtkglViewport(0, 0, scene.size.x, scene.size.y);
-  drawTriangles(1);
-  for (vtkTextureObject* texture :
-    { scene.scalars, scene.offsets, scene.transfer, scene.sceneDepth })
+  {
+    ImageScope images(window->GetState(), scene.size);
+    images.attach(0, this->Image);
+    images.attach(1, this->Hits);
+    drawTriangles(1);
+  }
+  for (vtkTextureObject* texture : { scene.scalars, scene.offsets, scene.normals, scene.transfer,
+         scene.sceneDepth, scene.presence->map(), this->Spans.Get() })
   {
     if (texture)
     {
@@ -219,6 +317,25 @@ bool RayCaster::cast(
   }
   counters.frames += 1;
   return true;
+}
+
+bool RayCaster::hitAt(vtkOpenGLRenderWindow* window, const glm::ivec2& pixel, glm::dvec4& hit)
+{
+  if (!this->Hits || pixel.x < 0 || pixel.y < 0 ||
+    pixel.x >= static_cast<int>(this->Hits->GetWidth()) ||
+    pixel.y >= static_cast<int>(this->Hits->GetHeight()))
+  {
+    return false;
+  }
+  vtkOpenGLState* state = window->GetState();
+  FramebufferScope framebuffer(state);
+  glFramebufferTexture2D(
+    GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, this->Hits->GetHandle(), 0);
+  state->vtkglReadBuffer(GL_COLOR_ATTACHMENT0);
+  float values[4] = { 0.0f, 0.0f, 0.0f, -1.0f };
+  glReadPixels(pixel.x, pixel.y, 1, 1, GL_RGBA, GL_FLOAT, values);
+  hit = glm::dvec4(values[0], values[1], values[2], values[3]);
+  return values[3] >= 0.0f;
 }
 
 bool RayCaster::composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origin,
@@ -247,16 +364,22 @@ bool RayCaster::composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origi
 
 void RayCaster::releaseGraphicsResources(vtkWindow* window)
 {
-  if (this->Image)
+  for (auto* image : { &this->Image, &this->Hits, &this->Spans })
   {
-    this->Image->ReleaseGraphicsResources(window);
+    if (*image)
+    {
+      (*image)->ReleaseGraphicsResources(window);
+    }
+    *image = nullptr;
   }
-  this->Image = nullptr;
+  this->SpansProgram.forget();
   this->CompositeProgram.forget();
   for (auto& programs : this->CastPrograms)
   {
-    programs[0].forget();
-    programs[1].forget();
+    for (Program& program : programs)
+    {
+      program.forget();
+    }
   }
 }
 }

@@ -23,6 +23,8 @@ class vtkWindow;
 
 namespace brainshift
 {
+class DeformedPresence;
+
 struct RayCastLights
 {
   bool headlight = true;
@@ -42,18 +44,24 @@ struct RayCastScene
   glm::dvec3 volumeLow{ 0.0 };        // the volume's box in the rest frame
   glm::dvec3 volumeHigh{ 1.0 };
   glm::dvec3 voxel{ 1.0 };            // one voxel, texture coordinates
+  glm::dvec3 textureFromBrick{ 1.0 }; // presence map: scale and shift
+  glm::dvec3 textureOfBrickZero{ 0.0 };
+  glm::dvec3 firstBrick{ 0.0 };       // of the presence map
   glm::dvec3 fieldFromTexture{ 1.0 }; // offset field's texture coordinates: scale and shift
   glm::dvec3 fieldFromTextureShift{ 0.0 };
-  glm::dvec3 fieldTexel{ 1.0 };       // one node, in the offset field's texture coordinates
+  glm::dvec3 fieldTexel{ 1.0 };       // step for derivatives, the offset field's coordinates
   double stepMm = 1.0;
   glm::dvec2 transferFromScalar{ 1.0, 0.0 }; // stored scalar to transfer coordinate
   glm::dvec4 material{ 0.0, 1.0, 0.0, 1.0 }; // ambient, diffuse, specular, specular power
   RayCastLights lights;
   bool shaded = false;
+  bool skipping = true;
 
   vtkTextureObject* scalars = nullptr;
   vtkTextureObject* offsets = nullptr; // null: the volume carries no deformation
+  vtkTextureObject* normals = nullptr; // null: gradients on the fly
   vtkTextureObject* transfer = nullptr;
+  DeformedPresence* presence = nullptr;
   vtkTextureObject* sceneDepth = nullptr;
 };
 
@@ -72,14 +80,22 @@ public:
   bool composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origin, const glm::ivec2& size,
     Counters& counters);
 
+  // What the image shows at a pixel, from the lower left: first hit (mm, world) and its distance
+  // from the near plane (mm). False where no surface was hit or nothing was cast yet.
+  bool hitAt(vtkOpenGLRenderWindow* window, const glm::ivec2& pixel, glm::dvec4& hit);
+
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
-  bool prepareImage(vtkOpenGLRenderWindow* window, const glm::ivec2& size);
+  bool prepareImages(vtkOpenGLRenderWindow* window, const glm::ivec2& size);
+  bool findSpans(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters);
   void setUniforms(Program& program, const RayCastScene& scene);
 
-  vtkSmartPointer<vtkTextureObject> Image;
-  Program CastPrograms[2][2]; // [deformed][shaded]
+  vtkSmartPointer<vtkTextureObject> Image; // colour times opacity, opacity
+  vtkSmartPointer<vtkTextureObject> Hits;  // first hit, mm; distance from the near plane, mm
+  vtkSmartPointer<vtkTextureObject> Spans; // least t, minus greatest t in occupied bricks
+  Program CastPrograms[2][RayCastVariant::LightCount]; // [deformed][light]
+  Program SpansProgram;
   Program CompositeProgram;
 };
 }

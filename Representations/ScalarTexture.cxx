@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace brainshift
@@ -110,7 +111,8 @@ bool ScalarTexture::upload(vtkOpenGLRenderWindow* window, vtkDataArray* scalars,
   this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
   this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
   this->Texture->SetWrapR(vtkTextureObject::ClampToEdge);
-  const auto create = [&](auto stored, int type) {
+  const auto create = [&](auto stored, int type, float shaderFromStored) {
+    this->keepRanges(brickRanges(stored.data(), dimensions), shaderFromStored);
     counters.volumeUploads += 1;
     counters.bytesUploaded += static_cast<std::int64_t>(stored.size() * sizeof(stored[0]));
     return this->Texture->Create3DFromRaw(
@@ -123,7 +125,7 @@ bool ScalarTexture::upload(vtkOpenGLRenderWindow* window, vtkDataArray* scalars,
     this->Texture->SetInternalFormat(GL_R32F);
     return create(convertAll<float>(scalars, component,
                     [](double value) { return static_cast<float>(value); }),
-      VTK_FLOAT);
+      VTK_FLOAT, 1.0f);
   }
   // Whole numbers: stored from the type's lowest value up; eight bits spread over sixteen.
   const double lowest = scalars->GetDataTypeMin();
@@ -135,7 +137,21 @@ bool ScalarTexture::upload(vtkOpenGLRenderWindow* window, vtkDataArray* scalars,
                   [=](double value) {
                     return static_cast<std::uint16_t>((value - lowest) * spread);
                   }),
-    VTK_UNSIGNED_SHORT);
+    VTK_UNSIGNED_SHORT, 1.0f / 65535.0f);
+}
+
+void ScalarTexture::keepRanges(const BrickRanges& ranges, float shaderFromStored)
+{
+  this->Ranges = ranges;
+  float least = std::numeric_limits<float>::infinity();
+  float greatest = -least;
+  for (glm::vec2& range : this->Ranges.ranges)
+  {
+    range *= shaderFromStored;
+    least = std::min(least, range.x);
+    greatest = std::max(greatest, range.y);
+  }
+  this->Range = greatest > least && std::isfinite(greatest - least) ? greatest - least : 0.0f;
 }
 
 void ScalarTexture::releaseGraphicsResources(vtkWindow* window)

@@ -4,6 +4,7 @@
 #define BrainShift_ScalarTexture_h
 
 #include "Counters.h"
+#include "RestPresence.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
@@ -30,6 +31,11 @@ public:
   bool update(vtkOpenGLRenderWindow* window, vtkDataArray* scalars, const glm::ivec3& dimensions,
     int component, Counters& counters, std::string& error);
 
+  // Ranges of the stored values, as the shader reads them, in bricks of the volume.
+  const BrickRanges& ranges() const { return this->Ranges; }
+  // Greatest minus least stored value.
+  float range() const { return this->Range; }
+
   // scalar = stored * scale + shift
   double scale() const { return this->Scale; }
   double shift() const { return this->Shift; }
@@ -40,11 +46,14 @@ public:
 private:
   bool upload(vtkOpenGLRenderWindow* window, vtkDataArray* scalars, const glm::ivec3& dimensions,
     int component, Counters& counters);
+  void keepRanges(const BrickRanges& ranges, float shaderFromStored);
 
   vtkSmartPointer<vtkTextureObject> Texture;
   vtkWeakPointer<vtkDataArray> Uploaded;
   unsigned long long UploadedTime = 0;
   int UploadedComponent = 0;
+  BrickRanges Ranges;
+  float Range = 0.0f;
   double Scale = 1.0;
   double Shift = 0.0;
 };

@@ -4,14 +4,20 @@
 #include "shader_composite_frag.h"
 #include "shader_field.h"
 #include "shader_fullscreen_vert.h"
+#include "shader_gradient.h"
 #include "shader_inversion.h"
 #include "shader_invert_frag.h"
 #include "shader_kernels.h"
 #include "shader_light.h"
 #include "shader_nodes.h"
+#include "shader_normals_frag.h"
+#include "shader_presence_frag.h"
+#include "shader_proxy_frag.h"
+#include "shader_proxy_vert.h"
 #include "shader_raycast_frag.h"
 #include "shader_rays.h"
 #include "shader_refine_frag.h"
+#include "shader_skipping.h"
 #include "shader_tissue.h"
 #include "shader_volume_pass.h"
 #include "shader_volume_pass_geom.h"
@@ -57,14 +63,32 @@ ShaderSource invertSource()
   return volumePassSource(std::string(shader_nodes) + shader_inversion + shader_invert_frag);
 }
 
+ShaderSource normalsSource()
+{
+  return volumePassSource(std::string(shader_gradient) + shader_normals_frag);
+}
+
+ShaderSource presenceSource(bool deformed)
+{
+  return volumePassSource(
+    std::string(deformed ? "#define DEFORMED\n" : "") + shader_presence_frag);
+}
+
+ShaderSource proxySource()
+{
+  return { assemble({ shader_proxy_vert }), "",
+    assemble({ Outputs, shader_rays, shader_proxy_frag }) };
+}
+
 ShaderSource rayCastSource(const RayCastVariant& variant)
 {
   std::string defines = "#define MAX_LIGHTS " + std::to_string(MaxLights) + "\n";
   defines += variant.deformed ? "#define DEFORMED\n" : "";
-  defines += variant.shaded ? "#define SHADED\n" : "";
+  defines += variant.light != RayCastVariant::Unshaded ? "#define SHADED\n" : "";
+  defines += variant.light == RayCastVariant::GradientTexture ? "#define NORMAL_TEXTURE\n" : "";
   return { assemble({ shader_fullscreen_vert }), "",
-    assemble({ Outputs, defines, shader_rays, shader_field, shader_tissue, shader_light,
-      shader_raycast_frag }) };
+    assemble({ Outputs, defines, shader_rays, shader_skipping, shader_field, shader_gradient,
+      shader_tissue, shader_light, shader_raycast_frag }) };
 }
 
 ShaderSource compositeSource()
@@ -75,14 +99,17 @@ ShaderSource compositeSource()
 std::vector<std::pair<std::string, ShaderSource>> allSources()
 {
   std::vector<std::pair<std::string, ShaderSource>> sources{ { "refine", refineSource() },
-    { "invert", invertSource() }, { "composite", compositeSource() } };
+    { "invert", invertSource() }, { "normals", normalsSource() },
+    { "presence_rest", presenceSource(false) }, { "presence_deformed", presenceSource(true) },
+    { "proxy", proxySource() }, { "composite", compositeSource() } };
+  const char* lights[] = { "_unshaded", "_gradients", "_gradient_texture" };
   for (const bool deformed : { false, true })
   {
-    for (const bool shaded : { false, true })
+    for (int light = 0; light < RayCastVariant::LightCount; ++light)
     {
-      const std::string name = std::string("raycast") + (deformed ? "_deformed" : "_rest") +
-        (shaded ? "_shaded" : "_plain");
-      sources.emplace_back(name, rayCastSource({ deformed, shaded }));
+      sources.emplace_back(std::string("raycast") + (deformed ? "_deformed" : "_rest") +
+          lights[light],
+        rayCastSource({ deformed, static_cast<RayCastVariant::Light>(light) }));
     }
   }
   return sources;

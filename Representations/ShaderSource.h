@@ -24,18 +24,22 @@ constexpr int MaxLights = 8;
 struct RayCastVariant
 {
   bool deformed = false; // the volume carries a lattice
-  bool shaded = false;
-
-  bool operator==(const RayCastVariant& other) const
+  enum Light
   {
-    return this->deformed == other.deformed && this->shaded == other.shaded;
-  }
+    Unshaded = 0,
+    GradientsOnTheFly = 1,
+    GradientTexture = 2,
+    LightCount = 3,
+  } light = Unshaded;
 };
 
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource refineSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource invertSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource rayCastSource(const RayCastVariant& variant);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource compositeSource();
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource normalsSource();
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource presenceSource(bool deformed);
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource proxySource();
 
 // Every program the product can draw with, by name: for an offline compiler.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<std::pair<std::string, ShaderSource>>

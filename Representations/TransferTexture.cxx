@@ -41,7 +41,7 @@ double TransferTexture::shift() const
   return 0.5 / Entries - this->Range[0] * this->scale();
 }
 
-void TransferTexture::update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* property,
+bool TransferTexture::update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* property,
   double stepMm, Counters& counters)
 {
   vtkColorTransferFunction* color = property->GetRGBTransferFunction();
@@ -51,7 +51,7 @@ void TransferTexture::update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* p
   if (this->Texture && this->UploadedTime == time && this->StepMm == stepMm &&
     this->UnitMm == unitMm)
   {
-    return;
+    return false;
   }
   const double* colorRange = color->GetRange();
   const double* opacityRange = opacity->GetRange();
@@ -66,10 +66,12 @@ void TransferTexture::update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* p
   color->GetTable(this->Range[0], this->Range[1], Entries, colors.data());
   opacity->GetTable(this->Range[0], this->Range[1], Entries, opacities.data());
   std::vector<float> texels(4 * Entries);
+  this->VisibleBefore.assign(Entries + 1, 0);
   for (int i = 0; i < Entries; ++i)
   {
     std::copy_n(&colors[3 * i], 3, &texels[4 * i]);
     texels[4 * i + 3] = opacityOfStep(opacities[i], stepMm / unitMm);
+    this->VisibleBefore[i + 1] = this->VisibleBefore[i] + (texels[4 * i + 3] > 0.0f ? 1 : 0);
   }
   this->Texture = vtkSmartPointer<vtkTextureObject>::New();
   this->Texture->SetContext(window);
@@ -83,6 +85,19 @@ void TransferTexture::update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* p
   this->UploadedTime = time;
   this->StepMm = stepMm;
   this->UnitMm = unitMm;
+  return true;
+}
+
+bool TransferTexture::visible(double least, double greatest) const
+{
+  // The entries the texture's filter may blend, and one more to either side for rounding.
+  const auto entry = [this](double scalar) {
+    return (scalar * this->scale() + this->shift()) * Entries - 0.5;
+  };
+  const double last = Entries - 1.0;
+  const int from = static_cast<int>(std::clamp(std::floor(entry(least)) - 1.0, 0.0, last));
+  const int to = static_cast<int>(std::clamp(std::ceil(entry(greatest)) + 1.0, 0.0, last));
+  return this->VisibleBefore[to + 1] > this->VisibleBefore[from];
 }
 
 void TransferTexture::releaseGraphicsResources(vtkWindow* window)

@@ -7,6 +7,8 @@
 
 #include "vtkSmartPointer.h"
 
+#include <vector>
+
 class vtkOpenGLRenderWindow;
 class vtkTextureObject;
 class vtkVolumeProperty;
@@ -21,12 +23,16 @@ public:
   ~TransferTexture();
 
   // Uploads the maps if they, the unit distance or the step changed.
-  void update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* property, double stepMm,
+  // True if they were uploaded.
+  bool update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* property, double stepMm,
     Counters& counters);
 
   // Texture coordinate from scalar: scalar * scale + shift. Beyond the ends the end colours hold.
   double scale() const;
   double shift() const;
+
+  // Whether a scalar between two values can have an opacity above 0, as the shader reads the map.
+  bool visible(double least, double greatest) const;
 
   vtkTextureObject* texture() const { return this->Texture; }
   void releaseGraphicsResources(vtkWindow* window);
@@ -36,6 +42,7 @@ private:
   unsigned long long UploadedTime = 0;
   double StepMm = 0.0;
   double UnitMm = 0.0;
+  std::vector<int> VisibleBefore; // visible entries with lower indices; one more than entries
   double Range[2] = { 0.0, 1.0 }; // scalars of the first and the last texel
 };
 }

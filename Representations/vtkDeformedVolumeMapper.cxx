@@ -2,22 +2,20 @@
 #include "vtkDeformedVolumeMapper.h"
 
 #include "DeformableVolume.h"
+#include "DeformedPresence.h"
 #include "FieldTexture.h"
+#include "NormalTexture.h"
 #include "RayCaster.h"
 #include "ScalarTexture.h"
 #include "SceneDepth.h"
+#include "SceneGeometry.h"
 #include "TransferTexture.h"
 
-#include "vtkAlgorithm.h"
-#include "vtkCamera.h"
 #include "vtkColorTransferFunction.h"
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
-#include "vtkMatrix3x3.h"
-#include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkOpenGLCamera.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkSmartVolumeMapper.h"
@@ -34,21 +32,15 @@
 
 using namespace brainshift;
 
-// How the values of the drawn array lie: on points, or in cells, in the image's grid coordinates.
-struct ValueLayout
-{
-  glm::ivec3 dimensions{ 0 };
-  glm::dvec3 textureFromGrid{ 1.0 }; // texture = grid * textureFromGrid + textureOfFirst
-  glm::dvec3 textureOfFirst{ 0.0 };
-  glm::dvec3 low{ 0.0 }; // the volume's box, texture coordinates
-  glm::dvec3 high{ 1.0 };
-};
-
 struct vtkDeformedVolumeMapper::State
 {
   ScalarTexture Scalars;
   TransferTexture Transfer;
   FieldTexture Field;
+  brainshift::NormalTexture Normals;
+  DeformedPresence Presence;
+  PresenceRequest Bricks;       // what Presence shows
+  bool PresenceCurrent = false;
   SceneDepth Depth;
   RayCaster Caster;
   Counters Count;
@@ -66,58 +58,6 @@ struct vtkDeformedVolumeMapper::State
 
 namespace
 {
-ValueLayout layoutOf(const glm::ivec3& points, bool cells)
-{
-  ValueLayout layout;
-  layout.dimensions = cells ? glm::max(points - 1, glm::ivec3(1)) : points;
-  const glm::dvec3 values(layout.dimensions);
-  layout.textureFromGrid = 1.0 / values;
-  layout.textureOfFirst = cells ? glm::dvec3(0.0) : 0.5 / values;
-  layout.low = layout.textureOfFirst;
-  layout.high = glm::dvec3(points - 1) * layout.textureFromGrid + layout.textureOfFirst;
-  return layout;
-}
-
-glm::dmat4 worldFromTexture(const Grid& grid, const ValueLayout& layout, vtkMatrix4x4* actor)
-{
-  glm::dmat4 worldFromVolume;
-  for (int row = 0; row < 4; ++row)
-  {
-    for (int column = 0; column < 4; ++column)
-    {
-      worldFromVolume[column][row] = actor->GetElement(row, column);
-    }
-  }
-  glm::dmat4 volumeFromTexture(1.0);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    volumeFromTexture[axis] = glm::dvec4(
-      grid.direction[axis] * (grid.spacing[axis] / layout.textureFromGrid[axis]), 0.0);
-  }
-  const glm::dvec3 gridOfTextureZero = -layout.textureOfFirst / layout.textureFromGrid;
-  volumeFromTexture[3] = glm::dvec4(grid.worldFromGrid(gridOfTextureZero), 1.0);
-  return worldFromVolume * volumeFromTexture;
-}
-
-glm::dmat4 clipFromWorld(vtkRenderer* renderer)
-{
-  glm::dmat4 matrix(1.0);
-  vtkMatrix4x4* worldToView = nullptr;
-  vtkMatrix3x3* normals = nullptr;
-  vtkMatrix4x4* viewToClip = nullptr;
-  vtkMatrix4x4* worldToClip = nullptr;
-  auto camera = vtkOpenGLCamera::SafeDownCast(renderer->GetActiveCamera());
-  camera->GetKeyMatrices(renderer, worldToView, normals, viewToClip, worldToClip);
-  for (int column = 0; column < 4; ++column)
-  {
-    for (int row = 0; row < 4; ++row)
-    {
-      matrix[column][row] = worldToClip->GetElement(column, row); // VTK keeps it transposed
-    }
-  }
-  return matrix;
-}
-
 // Which number of a tuple the colour map shows; -1: the vector's length.
 int shownComponent(vtkVolumeProperty* property, vtkDataArray* scalars)
 {
@@ -235,101 +175,154 @@ bool vtkDeformedVolumeMapper::Draw(
   {
     return true; // nothing to draw yet
   }
-  vtkVolumeProperty* property = volume->GetProperty();
+  this->UpdateDeformation(image);
+  RayCastScene scene;
+  if (!this->PrepareTissue(window, volume->GetProperty(), scalars, grid, layout, scene, problem) ||
+    !this->PrepareSpace(window, grid, layout, scene, problem))
+  {
+    return false;
+  }
+  this->DescribeView(renderer, volume, grid, layout, scene);
+  if (!state.Caster.cast(window, scene, state.Count))
+  {
+    problem = "The ray caster's shader does not compile or its images cannot be made on this GPU";
+    return false;
+  }
+  glm::ivec2 origin;
+  glm::ivec2 size;
+  renderer->GetTiledSizeAndOrigin(&size.x, &size.y, &origin.x, &origin.y);
+  return state.Caster.composite(window, origin, size, state.Count);
+}
+
+// Scalars, gradients, colour and opacity.
+bool vtkDeformedVolumeMapper::PrepareTissue(vtkOpenGLRenderWindow* window,
+  vtkVolumeProperty* property, vtkDataArray* scalars, const Grid& grid, const ValueLayout& layout,
+  RayCastScene& scene, std::string& problem)
+{
+  State& state = *this->Internal;
+  const auto uploads = state.Count.volumeUploads;
   if (!state.Scalars.update(window, scalars, layout.dimensions,
         shownComponent(property, scalars), state.Count, problem))
   {
     return false;
   }
-  this->UpdateDeformation(image);
-
-  RayCastScene scene;
-  if (state.Deformed && !this->PrepareField(window, grid, layout, scene))
-  {
-    problem = "The deformation's shaders do not compile or its 3D float textures cannot be made "
-              "on this GPU";
-    return false;
-  }
-  this->DescribeScene(renderer, volume, grid, layout, scene);
-  if (!state.Caster.cast(window, scene, state.Count))
-  {
-    problem = "The ray caster's shader does not compile on this GPU";
-    return false;
-  }
-  int size[2];
-  int origin[2];
-  renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &origin[0], &origin[1]);
-  return state.Caster.composite(
-    window, { origin[0], origin[1] }, { size[0], size[1] }, state.Count);
-}
-
-bool vtkDeformedVolumeMapper::PrepareField(vtkOpenGLRenderWindow* window, const Grid& grid,
-  const ValueLayout& layout, RayCastScene& scene)
-{
-  State& state = *this->Internal;
-  const Grid& lattice = state.Source.lattice.grid;
-  // Lattice, volume and texture share their axes: every mapping is a scale and a shift.
-  const glm::dvec3 gridFromLattice = lattice.spacing / grid.spacing;
-  const glm::dvec3 textureFromLattice = gridFromLattice * layout.textureFromGrid;
-  const glm::vec3 offsetScale(textureFromLattice);
-  if (!state.FieldCurrent || offsetScale != state.Request.offsetScale)
-  {
-    state.Request.offsetScale = offsetScale;
-    if (!state.Field.update(window, state.Request, state.Count))
-    {
-      return false;
-    }
-    state.FieldCurrent = true;
-  }
-  const FieldNodes& nodes = state.Request.nodes;
-  const glm::dvec3 count(nodes.count);
-  const glm::dvec3 textureOfLatticeZero =
-    grid.gridFromWorld(lattice.origin) * layout.textureFromGrid + layout.textureOfFirst;
-  const glm::dvec3 first(nodes.first);
-  scene.fieldFromTexture = static_cast<double>(nodes.perCell) / textureFromLattice / count;
-  scene.fieldFromTextureShift =
-    (0.5 - first * static_cast<double>(nodes.perCell)) / count -
-    textureOfLatticeZero * scene.fieldFromTexture;
-  scene.fieldTexel = 1.0 / count;
-  scene.spaceLow = textureOfLatticeZero + first * textureFromLattice;
-  scene.spaceHigh =
-    scene.spaceLow + (count - 1.0) / static_cast<double>(nodes.perCell) * textureFromLattice;
-  scene.offsets = state.Field.offsets();
-  return true;
-}
-
-void vtkDeformedVolumeMapper::DescribeScene(vtkRenderer* renderer, vtkVolume* volume,
-  const Grid& grid, const ValueLayout& layout, RayCastScene& scene)
-{
-  State& state = *this->Internal;
-  auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
-  vtkVolumeProperty* property = volume->GetProperty();
   const double smallestSide = std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
   scene.stepMm = this->SampleDistance > 0.0 ? this->SampleDistance : 0.5 * smallestSide;
-  state.Transfer.update(window, property, scene.stepMm, state.Count);
-
-  glm::ivec2 origin;
-  renderer->GetTiledSizeAndOrigin(&scene.size.x, &scene.size.y, &origin.x, &origin.y);
-  state.Depth.capture(window, origin, scene.size);
-  scene.sceneDepth = state.Depth.texture();
+  const bool newColours = state.Transfer.update(window, property, scene.stepMm, state.Count);
+  if (newColours || uploads != state.Count.volumeUploads)
+  {
+    this->UpdateVisibility(window);
+  }
+  scene.shaded = property->GetShade() != 0;
+  scene.voxel = layout.textureFromGrid;
+  if (scene.shaded && this->NormalTexture != OnTheFly)
+  {
+    if (!state.Normals.update(window, state.Scalars.texture(), layout.dimensions,
+          this->NormalTexture == HalfResolution, state.Scalars.range(), state.Count))
+    {
+      problem = "The gradients' shader does not compile or their texture cannot be made on this GPU";
+      return false;
+    }
+    scene.normals = state.Normals.texture();
+  }
   scene.scalars = state.Scalars.texture();
   scene.transfer = state.Transfer.texture();
   scene.transferFromScalar = glm::dvec2(state.Scalars.scale() * state.Transfer.scale(),
     state.Scalars.shift() * state.Transfer.scale() + state.Transfer.shift());
-  scene.clipFromWorld = clipFromWorld(renderer);
-  scene.worldFromTexture = worldFromTexture(grid, layout, volume->GetMatrix());
-  scene.volumeLow = layout.low;
-  scene.volumeHigh = layout.high;
-  if (!scene.offsets)
-  {
-    scene.spaceLow = layout.low;
-    scene.spaceHigh = layout.high;
-  }
-  scene.voxel = layout.textureFromGrid;
-  scene.shaded = property->GetShade() != 0;
   scene.material = glm::dvec4(property->GetAmbient(), property->GetDiffuse(),
     property->GetSpecular(), property->GetSpecularPower());
+  scene.volumeLow = layout.low;
+  scene.volumeHigh = layout.high;
+  return true;
+}
+
+// The rest volume's visibility, after a change of scalars, colour map or opacity.
+void vtkDeformedVolumeMapper::UpdateVisibility(vtkOpenGLRenderWindow* window)
+{
+  State& state = *this->Internal;
+  const BrickRanges& ranges = state.Scalars.ranges();
+  const auto visible = [&](const glm::vec2& stored) {
+    return state.Transfer.visible(stored.x * state.Scalars.scale() + state.Scalars.shift(),
+      stored.y * state.Scalars.scale() + state.Scalars.shift());
+  };
+  std::vector<float> summed = summedVisibility(ranges, visible);
+  state.Presence.setVisibility(window, ranges.count, summed, state.Count);
+  state.PresenceCurrent = false;
+}
+
+// The offset field and the bricks of the deformed frame.
+bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, const Grid& grid,
+  const ValueLayout& layout, RayCastScene& scene, std::string& problem)
+{
+  State& state = *this->Internal;
+  scene.spaceLow = layout.low;
+  scene.spaceHigh = layout.high;
+  if (state.Deformed)
+  {
+    const Grid& lattice = state.Source.lattice.grid;
+    const glm::vec3 offsetScale(textureFromLattice(grid, layout, lattice));
+    if (!state.FieldCurrent || offsetScale != state.Request.offsetScale)
+    {
+      state.Request.offsetScale = offsetScale;
+      if (!state.Field.update(window, state.Request, state.Count))
+      {
+        problem = "The deformation's shaders do not compile or its 3D float textures cannot be "
+                  "made on this GPU";
+        return false;
+      }
+      state.FieldCurrent = true;
+      state.PresenceCurrent = false;
+    }
+    scene.offsets = state.Field.offsets();
+    placeField(grid, layout, lattice, state.Request.nodes, scene);
+  }
+  placeBricks(layout, scene, state.Bricks);
+  if (!state.PresenceCurrent)
+  {
+    if (!state.Presence.update(window, state.Bricks, state.Count))
+    {
+      problem = "The presence map's shader does not compile or its texture cannot be made on this "
+                "GPU";
+      return false;
+    }
+    state.PresenceCurrent = true;
+  }
+  scene.presence = &state.Presence;
+  scene.skipping = this->EmptySpaceSkipping;
+  return true;
+}
+
+// Camera, light and what is drawn already.
+void vtkDeformedVolumeMapper::DescribeView(vtkRenderer* renderer, vtkVolume* volume,
+  const Grid& grid, const ValueLayout& layout, RayCastScene& scene)
+{
+  State& state = *this->Internal;
+  auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  glm::ivec2 origin;
+  renderer->GetTiledSizeAndOrigin(&scene.size.x, &scene.size.y, &origin.x, &origin.y);
+  state.Depth.capture(window, origin, scene.size);
+  scene.sceneDepth = state.Depth.texture();
+  scene.clipFromWorld = clipFromWorld(renderer);
+  scene.worldFromTexture = worldFromTexture(grid, layout, volume->GetMatrix());
   scene.lights = lightsOf(renderer);
+}
+
+bool vtkDeformedVolumeMapper::Pick(vtkRenderer* renderer, int x, int y, double position[3])
+{
+  State& state = *this->Internal;
+  auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  if (!window)
+  {
+    return false;
+  }
+  window->MakeCurrent();
+  glm::dvec4 hit;
+  if (!state.Caster.hitAt(window, { x, y }, hit))
+  {
+    return false;
+  }
+  std::copy_n(&hit[0], 3, position);
+  return true;
 }
 
 void vtkDeformedVolumeMapper::DrawUndeformed(
@@ -352,6 +345,9 @@ void vtkDeformedVolumeMapper::ReleaseGraphicsResources(vtkWindow* window)
   State& state = *this->Internal;
   state.Scalars.releaseGraphicsResources(window);
   state.Transfer.releaseGraphicsResources(window);
+  state.Normals.releaseGraphicsResources(window);
+  state.Presence.releaseGraphicsResources(window);
+  state.PresenceCurrent = false;
   state.Field.releaseGraphicsResources(window);
   state.Depth.releaseGraphicsResources(window);
   state.Caster.releaseGraphicsResources(window);
@@ -368,5 +364,7 @@ const Counters& vtkDeformedVolumeMapper::GetCounters() const
 void vtkDeformedVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "SampleDistance: " << this->SampleDistance << "\n";
+  os << indent << "SampleDistance: " << this->SampleDistance << "\n"
+     << indent << "EmptySpaceSkipping: " << this->EmptySpaceSkipping << "\n"
+     << indent << "NormalTexture: " << this->NormalTexture << "\n";
 }

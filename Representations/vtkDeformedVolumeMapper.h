@@ -21,14 +21,16 @@
 #include <memory> // for the private part
 #include <string> // for messages
 
+class vtkDataArray;
 class vtkImageData;
 class vtkOpenGLRenderWindow;
-struct ValueLayout;
+class vtkVolumeProperty;
 namespace brainshift
 {
 struct Counters;
 struct Grid;
 struct RayCastScene;
+struct ValueLayout;
 }
 
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkDeformedVolumeMapper : public vtkVolumeMapper
@@ -43,6 +45,32 @@ public:
   vtkSetClampMacro(SampleDistance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(SampleDistance, double);
   ///@}
+
+  ///@{
+  /** Leap over what cannot be seen. The picture is the same bit for bit. Default true. */
+  vtkSetMacro(EmptySpaceSkipping, bool);
+  vtkGetMacro(EmptySpaceSkipping, bool);
+  ///@}
+
+  enum NormalTextureType
+  {
+    HalfResolution = 0, // the paper's choice
+    FullResolution = 1,
+    OnTheFly = 2, // no texture: six more reads for each lit sample
+  };
+
+  ///@{
+  /** Where the gradients that light needs come from. Default half resolution. */
+  vtkSetClampMacro(NormalTexture, int, HalfResolution, OnTheFly);
+  vtkGetMacro(NormalTexture, int);
+  ///@}
+
+  /**
+   * Tissue position (mm, world, deformed frame) that the last picture shows at a pixel counted from
+   * the renderer's lower left corner, without drawing again: where the opacity along the ray reaches
+   * one half. False where it does not.
+   */
+  bool Pick(vtkRenderer* renderer, int x, int y, double position[3]);
 
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
@@ -69,12 +97,18 @@ private:
   void DrawUndeformed(vtkRenderer* renderer, vtkVolume* volume, const std::string& problem);
 
   void UpdateDeformation(vtkImageData* image);
-  bool PrepareField(vtkOpenGLRenderWindow* window, const brainshift::Grid& grid,
-    const ValueLayout& layout, brainshift::RayCastScene& scene);
-  void DescribeScene(vtkRenderer* renderer, vtkVolume* volume, const brainshift::Grid& grid,
-    const ValueLayout& layout, brainshift::RayCastScene& scene);
+  bool PrepareTissue(vtkOpenGLRenderWindow* window, vtkVolumeProperty* property,
+    vtkDataArray* scalars, const brainshift::Grid& grid, const brainshift::ValueLayout& layout,
+    brainshift::RayCastScene& scene, std::string& problem);
+  void UpdateVisibility(vtkOpenGLRenderWindow* window);
+  bool PrepareSpace(vtkOpenGLRenderWindow* window, const brainshift::Grid& grid,
+    const brainshift::ValueLayout& layout, brainshift::RayCastScene& scene, std::string& problem);
+  void DescribeView(vtkRenderer* renderer, vtkVolume* volume, const brainshift::Grid& grid,
+    const brainshift::ValueLayout& layout, brainshift::RayCastScene& scene);
 
   double SampleDistance = 0.0;
+  bool EmptySpaceSkipping = true;
+  int NormalTexture = HalfResolution;
 
   struct State; // textures, programs and what they were made from
   std::unique_ptr<State> Internal;

@@ -25,6 +25,16 @@ void vtkDeformedVolumeRepresentation::SetSampleDistance(double distance)
   this->Mapper()->SetSampleDistance(distance);
 }
 
+void vtkDeformedVolumeRepresentation::SetEmptySpaceSkipping(bool skipping)
+{
+  this->Mapper()->SetEmptySpaceSkipping(skipping);
+}
+
+void vtkDeformedVolumeRepresentation::SetNormalTexture(int normals)
+{
+  this->Mapper()->SetNormalTexture(normals);
+}
+
 const char* vtkDeformedVolumeRepresentation::GetCounters()
 {
   const brainshift::Counters& count = this->Mapper()->GetCounters();
@@ -32,7 +42,8 @@ const char* vtkDeformedVolumeRepresentation::GetCounters()
   text << "frames " << count.frames << "\nvolumeUploads " << count.volumeUploads
        << "\nlatticeUploads " << count.latticeUploads << "\ntransferUploads "
        << count.transferUploads << "\nbytesUploaded " << count.bytesUploaded
-       << "\ntexelsRefined " << count.texelsRefined << "\nprogramsCompiled "
+       << "\ntexelsRefined " << count.texelsRefined << "\npresenceUpdates " << count.presenceUpdates
+       << "\nprogramsCompiled "
        << count.programsCompiled;
   this->CountersText = text.str();
   return this->CountersText.c_str();

@@ -27,6 +27,12 @@ public:
   /** Step along the ray, mm. 0 (default): half the smallest voxel side. */
   void SetSampleDistance(double distance);
 
+  /** Leap over what cannot be seen: the same picture, sooner. Default true. */
+  void SetEmptySpaceSkipping(bool skipping);
+
+  /** Gradients for light: 0 half resolution (default), 1 full resolution, 2 on the fly. */
+  void SetNormalTexture(int normals);
+
   /** What the renderer did since it was made (Counters.h): lines of a name, a space, a number. */
   const char* GetCounters();
 

@@ -4,7 +4,7 @@
 uniform sampler3D offsets;          // restFromDeformed minus identity, the volume's texture units
 uniform vec3 fieldFromTexture;      // the offset field's texture coordinates: scale ...
 uniform vec3 fieldFromTextureShift; // ... and shift
-uniform vec3 fieldTexel;            // one texel of the offset field, in its coordinates
+uniform vec3 fieldTexel;            // step for derivatives: half a node, in its coordinates
 
 vec3 offsetAt(vec3 fieldPosition)
 {
@@ -17,18 +17,18 @@ vec3 restFromDeformed(vec3 deformed)
 }
 
 // Turns a gradient found in the rest frame into the deformed frame: times the transposed Jacobian
-// of restFromDeformed, else light would not follow the bent surface.
+// of restFromDeformed, else light would not follow the bent surface. The four corners of a
+// tetrahedron give all derivatives, symmetric about the position.
 vec3 deformedGradientFromRest(vec3 deformed, vec3 gradient)
 {
   vec3 middle = deformed * fieldFromTexture + fieldFromTextureShift;
-  vec3 alongX = offsetAt(middle + vec3(fieldTexel.x, 0.0, 0.0)) -
-    offsetAt(middle - vec3(fieldTexel.x, 0.0, 0.0));
-  vec3 alongY = offsetAt(middle + vec3(0.0, fieldTexel.y, 0.0)) -
-    offsetAt(middle - vec3(0.0, fieldTexel.y, 0.0));
-  vec3 alongZ = offsetAt(middle + vec3(0.0, 0.0, fieldTexel.z)) -
-    offsetAt(middle - vec3(0.0, 0.0, fieldTexel.z));
-  vec3 slope = vec3(dot(alongX, gradient), dot(alongY, gradient), dot(alongZ, gradient));
-  return gradient + slope * fieldFromTexture / (2.0 * fieldTexel);
+  vec3 a = offsetAt(middle + vec3(fieldTexel.x, -fieldTexel.y, -fieldTexel.z));
+  vec3 b = offsetAt(middle + vec3(-fieldTexel.x, -fieldTexel.y, fieldTexel.z));
+  vec3 c = offsetAt(middle + vec3(-fieldTexel.x, fieldTexel.y, -fieldTexel.z));
+  vec3 d = offsetAt(middle + fieldTexel);
+  vec3 slope = vec3(dot(a - b - c + d, gradient), dot(c + d - a - b, gradient),
+    dot(b + d - a - c, gradient));
+  return gradient + slope * fieldFromTexture / (4.0 * fieldTexel);
 }
 #else
 vec3 restFromDeformed(vec3 deformed)

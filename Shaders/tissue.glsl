@@ -5,7 +5,6 @@ uniform sampler2D transfer;      // colour, and opacity for one step, over the s
 uniform vec2 transferFromScalar; // scale and shift: stored scalar to texture coordinate
 uniform vec3 volumeLow;          // the volume's box, texture coordinates
 uniform vec3 volumeHigh;
-uniform vec3 voxel;              // one voxel, texture coordinates
 
 bool insideVolume(vec3 rest)
 {
@@ -25,12 +24,20 @@ vec4 tissueOf(float scalar)
   return isnan(scalar) ? vec4(0.0) : tissue;
 }
 
-// Central differences over one voxel to either side, scalar for each texture unit.
+#ifdef SHADED
+#ifdef NORMAL_TEXTURE
+uniform sampler3D normals; // gradients found beforehand, see normals.frag.glsl
+
 vec3 gradientAt(vec3 rest)
 {
-  vec3 low = vec3(scalarAt(rest - vec3(voxel.x, 0.0, 0.0)),
-    scalarAt(rest - vec3(0.0, voxel.y, 0.0)), scalarAt(rest - vec3(0.0, 0.0, voxel.z)));
-  vec3 high = vec3(scalarAt(rest + vec3(voxel.x, 0.0, 0.0)),
-    scalarAt(rest + vec3(0.0, voxel.y, 0.0)), scalarAt(rest + vec3(0.0, 0.0, voxel.z)));
-  return (high - low) / (2.0 * voxel);
+  return textureLod(normals, rest, 0.0).xyz;
 }
+#else
+uniform vec3 voxel; // one voxel, texture coordinates
+
+vec3 gradientAt(vec3 rest)
+{
+  return centralDifferences(scalars, rest, voxel);
+}
+#endif
+#endif

@@ -103,7 +103,7 @@ unlinked_python_modules() {
 link_python_modules() {
   local module
   for module in "$@"; do
-    ln -s "${module##*/}" "${module%%.cpython-3*}.so" || return
+    ln -sf "${module##*/}" "${module%%.cpython-3*}.so" || return
   done
 }
 

@@ -54,7 +54,7 @@ bootstrap() {
   discard_partial "$partial" &&
     "${shield[@]}" debootstrap --variant=minbase "${include[@]}" "$2" "$partial" "$3" "$script" &&
     write_apt_settings "$partial" "$2" &&
-    echo force-unsafe-io >"$partial/etc/dpkg/dpkg.cfg.d/unsafe-io" && # no fsync: a broken one is made anew
+    echo force-unsafe-io >"$partial/etc/dpkg/dpkg.cfg.d/unsafe-io" && # no fsync: it can be made anew
     printf '#!/bin/sh\nexit 101\n' >"$partial/usr/sbin/policy-rc.d" && # packages start no services
     chmod +x "$partial/usr/sbin/policy-rc.d" &&
     mv "$partial" "$1"

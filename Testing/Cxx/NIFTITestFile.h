@@ -19,19 +19,19 @@
 namespace brainshift::testing
 {
 template <typename T>
-constexpr int NIFTIType = 0;
+inline constexpr int NIFTIType = 0;
 template <>
-constexpr int NIFTIType<std::uint8_t> = 2;
+inline constexpr int NIFTIType<std::uint8_t> = 2;
 template <>
-constexpr int NIFTIType<std::int16_t> = 4;
+inline constexpr int NIFTIType<std::int16_t> = 4;
 template <>
-constexpr int NIFTIType<std::int32_t> = 8;
+inline constexpr int NIFTIType<std::int32_t> = 8;
 template <>
-constexpr int NIFTIType<float> = 16;
+inline constexpr int NIFTIType<float> = 16;
 template <>
-constexpr int NIFTIType<double> = 64;
+inline constexpr int NIFTIType<double> = 64;
 template <>
-constexpr int NIFTIType<std::uint16_t> = 512;
+inline constexpr int NIFTIType<std::uint16_t> = 512;
 
 // What a test may choose of a NIfTI-1 header, and voxels that number themselves 1, 2, 3, ...
 struct NIFTITestFile

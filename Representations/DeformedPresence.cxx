@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DeformedPresence.h"
+
+#include "OpenGL.h"
+#include "VolumePass.h"
+
+#include "vtkOpenGLBufferObject.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkShaderProgram.h"
+#include "vtkTextureObject.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace brainshift
+{
+namespace
+{
+// A corner of a brick, in bricks; four shorts, because two-byte triples are misaligned.
+struct Corner
+{
+  std::int16_t x, y, z, unused;
+};
+
+void setNearest(vtkTextureObject* texture)
+{
+  texture->SetMinificationFilter(vtkTextureObject::Nearest);
+  texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+  texture->SetWrapS(vtkTextureObject::ClampToEdge);
+  texture->SetWrapT(vtkTextureObject::ClampToEdge);
+  texture->SetWrapR(vtkTextureObject::ClampToEdge);
+}
+
+// Appends the two triangles of the face of `brick` across `axis`, on its lower or upper side.
+void appendFace(std::vector<Corner>& corners, const glm::ivec3& brick, int axis, int side)
+{
+  glm::ivec3 along(0);
+  glm::ivec3 across(0);
+  along[(axis + 1) % 3] = 1;
+  across[(axis + 2) % 3] = 1;
+  glm::ivec3 base = brick;
+  base[axis] += side;
+  for (const glm::ivec3& corner : { base, base + along, base + along + across, base,
+         base + along + across, base + across })
+  {
+    corners.push_back({ static_cast<std::int16_t>(corner.x), static_cast<std::int16_t>(corner.y),
+      static_cast<std::int16_t>(corner.z), 0 });
+  }
+}
+}
+
+DeformedPresence::DeformedPresence() = default;
+DeformedPresence::~DeformedPresence() = default;
+
+bool DeformedPresence::setVisibility(vtkOpenGLRenderWindow* window, const glm::ivec3& restBricks,
+  std::vector<float>& summed, Counters& counters)
+{
+  this->Summed = vtkSmartPointer<vtkTextureObject>::New();
+  this->Summed->SetContext(window);
+  setNearest(this->Summed);
+  counters.bytesUploaded += static_cast<std::int64_t>(summed.size() * sizeof(float));
+  return this->Summed->Create3DFromRaw(
+    restBricks.x + 1, restBricks.y + 1, restBricks.z + 1, 1, VTK_FLOAT, summed.data());
+}
+
+bool DeformedPresence::compute(
+  vtkOpenGLRenderWindow* window, const PresenceRequest& request, Counters& counters)
+{
+  const glm::uvec3 count(request.count);
+  if (!this->Map || this->Map->GetWidth() != count.x || this->Map->GetHeight() != count.y ||
+    this->Map->GetDepth() != count.z)
+  {
+    this->Map = vtkSmartPointer<vtkTextureObject>::New();
+    this->Map->SetContext(window);
+    setNearest(this->Map);
+    if (!this->Map->Allocate3D(count.x, count.y, count.z, 1, VTK_UNSIGNED_CHAR))
+    {
+      return false;
+    }
+  }
+  const bool deformed = request.offsets != nullptr;
+  Program& program = this->MapPrograms[deformed];
+  if (!program.use(window, presenceSource(deformed), counters))
+  {
+    return false;
+  }
+  program.set("summed", this->Summed.Get());
+  program.set("restBricks", request.restBricks);
+  program.set("brickSide", static_cast<float>(BrickSide));
+  program.set("firstBrick", request.first);
+  program.set("lowestVoxel", request.lowestVoxel);
+  program.set("highestVoxel", request.highestVoxel);
+  if (deformed)
+  {
+    program.set("offsets", request.offsets);
+    program.set("offsetCount",
+      glm::ivec3(request.offsets->GetWidth(), request.offsets->GetHeight(),
+        request.offsets->GetDepth()));
+    program.set("voxelsFromOffset", request.voxelsFromOffset);
+    program.set("nodesFromVoxel", request.nodesFromVoxel);
+    program.set("nodesFromVoxelShift", request.nodesFromVoxelShift);
+  }
+  runVolumePass(window, program.get()->GetHandle(), this->Map, glm::ivec3(0), request.count);
+  this->Summed->Deactivate();
+  if (deformed)
+  {
+    request.offsets->Deactivate();
+  }
+  return true;
+}
+
+bool DeformedPresence::update(
+  vtkOpenGLRenderWindow* window, const PresenceRequest& request, Counters& counters)
+{
+  if (!this->compute(window, request, counters))
+  {
+    return false;
+  }
+  // One byte a brick comes back, once an edit and never for a camera move: making the faces on the
+  // GPU would cost its geometry stage every frame.
+  std::vector<std::uint8_t> occupied(
+    static_cast<std::size_t>(request.count.x) * request.count.y * request.count.z);
+  this->Map->Activate();
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glGetTexImage(GL_TEXTURE_3D, 0, GL_RED, GL_UNSIGNED_BYTE, occupied.data());
+  this->Map->Deactivate();
+  this->makeFaces(request, occupied);
+  counters.presenceUpdates += 1;
+  return true;
+}
+
+void DeformedPresence::makeFaces(
+  const PresenceRequest& request, const std::vector<std::uint8_t>& occupied)
+{
+  const glm::ivec3& count = request.count;
+  const std::ptrdiff_t stride[3] = { 1, count.x,
+    static_cast<std::ptrdiff_t>(count.x) * count.y };
+  std::vector<Corner> corners;
+  this->Occupied = 0;
+  std::size_t at = 0;
+  glm::ivec3 brick;
+  for (brick.z = 0; brick.z < count.z; ++brick.z)
+  {
+    for (brick.y = 0; brick.y < count.y; ++brick.y)
+    {
+      for (brick.x = 0; brick.x < count.x; ++brick.x, ++at)
+      {
+        if (!occupied[at])
+        {
+          continue;
+        }
+        this->Occupied += 1;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          if (brick[axis] == 0 || !occupied[at - stride[axis]])
+          {
+            appendFace(corners, request.first + brick, axis, 0);
+          }
+          if (brick[axis] == count[axis] - 1 || !occupied[at + stride[axis]])
+          {
+            appendFace(corners, request.first + brick, axis, 1);
+          }
+        }
+      }
+    }
+  }
+  this->Faces = static_cast<int>(corners.size() / 6);
+  if (!this->Corners)
+  {
+    this->Corners = vtkSmartPointer<vtkOpenGLBufferObject>::New();
+  }
+  if (!corners.empty())
+  {
+    this->Corners->Upload(
+      corners.data(), corners.size(), vtkOpenGLBufferObject::ArrayBuffer);
+  }
+}
+
+void DeformedPresence::drawFaces(int programHandle)
+{
+  if (this->Faces == 0)
+  {
+    return;
+  }
+  GLuint vertexArray = 0;
+  glGenVertexArrays(1, &vertexArray);
+  glBindVertexArray(vertexArray);
+  this->Corners->Bind();
+  const GLint corner = glGetAttribLocation(programHandle, "corner");
+  glEnableVertexAttribArray(corner);
+  glVertexAttribPointer(corner, 3, GL_SHORT, GL_FALSE, sizeof(Corner), nullptr);
+  glDrawArrays(GL_TRIANGLES, 0, 6 * this->Faces);
+  this->Corners->Release();
+  glBindVertexArray(0);
+  glDeleteVertexArrays(1, &vertexArray);
+}
+
+void DeformedPresence::releaseGraphicsResources(vtkWindow* window)
+{
+  for (vtkTextureObject* texture : { this->Summed.Get(), this->Map.Get() })
+  {
+    if (texture)
+    {
+      texture->ReleaseGraphicsResources(window);
+    }
+  }
+  if (this->Corners)
+  {
+    this->Corners->ReleaseGraphicsResources();
+  }
+  this->Summed = nullptr;
+  this->Map = nullptr;
+  this->Corners = nullptr;
+  this->MapPrograms[0].forget();
+  this->MapPrograms[1].forget();
+}
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The presence map in the deformed frame, and the faces of its occupied bricks.
+#ifndef BrainShift_DeformedPresence_h
+#define BrainShift_DeformedPresence_h
+
+#include "Counters.h"
+#include "Program.h"
+#include "RestPresence.h"
+
+#include "vtkSmartPointer.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+class vtkOpenGLBufferObject;
+class vtkOpenGLRenderWindow;
+class vtkTextureObject;
+class vtkWindow;
+
+namespace brainshift
+{
+struct PresenceRequest
+{
+  glm::ivec3 restBricks{ 0 };
+  glm::ivec3 first{ 0 };               // first brick of the deformed frame
+  glm::ivec3 count{ 0 };               // bricks a side
+  glm::vec3 lowestVoxel{ 0.0f };       // the volume's box, voxels
+  glm::vec3 highestVoxel{ 0.0f };
+  vtkTextureObject* offsets = nullptr; // null: nothing is deformed
+  glm::vec3 voxelsFromOffset{ 1.0f };
+  glm::vec3 nodesFromVoxel{ 1.0f };
+  glm::vec3 nodesFromVoxelShift{ 0.0f };
+};
+
+class DeformedPresence
+{
+public:
+  DeformedPresence();
+  ~DeformedPresence();
+
+  // Uploads summedVisibility of the rest volume; anew after a change of the colour map.
+  bool setVisibility(vtkOpenGLRenderWindow* window, const glm::ivec3& restBricks,
+    std::vector<float>& summed, Counters& counters);
+
+  // Finds the occupied bricks and makes their faces.
+  bool update(vtkOpenGLRenderWindow* window, const PresenceRequest& request, Counters& counters);
+
+  // 1 for occupied bricks, 0 for others.
+  vtkTextureObject* map() const { return this->Map; }
+
+  // Draws the faces with a program in use whose attribute `corner` takes brick corners.
+  void drawFaces(int programHandle);
+
+  int faces() const { return this->Faces; }
+  int occupied() const { return this->Occupied; }
+
+  void releaseGraphicsResources(vtkWindow* window);
+
+private:
+  bool compute(vtkOpenGLRenderWindow* window, const PresenceRequest& request, Counters& counters);
+  void makeFaces(const PresenceRequest& request, const std::vector<std::uint8_t>& occupied);
+
+  vtkSmartPointer<vtkTextureObject> Summed;
+  vtkSmartPointer<vtkTextureObject> Map;
+  vtkSmartPointer<vtkOpenGLBufferObject> Corners;
+  Program MapPrograms[2]; // [deformed]
+  int Faces = 0;
+  int Occupied = 0;
+};
+}
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "NormalTexture.h"
+
+#include "OpenGL.h"
+#include "VolumePass.h"
+
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkShaderProgram.h"
+#include "vtkTextureObject.h"
+
+namespace brainshift
+{
+NormalTexture::NormalTexture() = default;
+NormalTexture::~NormalTexture() = default;
+
+bool NormalTexture::update(vtkOpenGLRenderWindow* window, vtkTextureObject* scalars,
+  const glm::ivec3& dimensions, bool half, float range, Counters& counters)
+{
+  if (this->Texture && this->Source == scalars && this->Half == half)
+  {
+    return true;
+  }
+  const glm::ivec3 size = half ? (dimensions + 1) / 2 : dimensions;
+  this->Texture = vtkSmartPointer<vtkTextureObject>::New();
+  this->Texture->SetContext(window);
+  this->Texture->SetInternalFormat(GL_RGBA16F);
+  this->Texture->SetMinificationFilter(vtkTextureObject::Linear);
+  this->Texture->SetMagnificationFilter(vtkTextureObject::Linear);
+  this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
+  this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
+  this->Texture->SetWrapR(vtkTextureObject::ClampToEdge);
+  if (!this->Texture->Allocate3D(size.x, size.y, size.z, 4, VTK_FLOAT) ||
+    !this->NormalsProgram.use(window, normalsSource(), counters))
+  {
+    this->Texture = nullptr;
+    return false;
+  }
+  const glm::vec3 voxel = 1.0f / glm::vec3(dimensions);
+  this->NormalsProgram.set("scalars", scalars);
+  this->NormalsProgram.set("texel", 1.0f / glm::vec3(size));
+  this->NormalsProgram.set("voxel", voxel);
+  // Differences of the whole range over one voxel come out as 1 along the longest side.
+  const float longest = static_cast<float>(glm::max(dimensions.x, glm::max(dimensions.y, dimensions.z)));
+  this->NormalsProgram.set("gradientScale", 1.0f / (range > 0.0f ? range * longest : longest));
+  runVolumePass(
+    window, this->NormalsProgram.get()->GetHandle(), this->Texture, glm::ivec3(0), size);
+  scalars->Deactivate();
+  this->Source = scalars;
+  this->Half = half;
+  return true;
+}
+
+void NormalTexture::releaseGraphicsResources(vtkWindow* window)
+{
+  if (this->Texture)
+  {
+    this->Texture->ReleaseGraphicsResources(window);
+  }
+  this->Texture = nullptr;
+  this->Source = nullptr;
+  this->NormalsProgram.forget();
+}
+}

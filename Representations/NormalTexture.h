@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Gradients for light, found once on the GPU when the volume is loaded (paper, section 2).
+#ifndef BrainShift_NormalTexture_h
+#define BrainShift_NormalTexture_h
+
+#include "Counters.h"
+#include "Program.h"
+
+#include "vtkSmartPointer.h"
+#include "vtkWeakPointer.h"
+
+#include <glm/vec3.hpp>
+
+class vtkOpenGLRenderWindow;
+class vtkTextureObject;
+class vtkWindow;
+
+namespace brainshift
+{
+class NormalTexture
+{
+public:
+  NormalTexture();
+  ~NormalTexture();
+
+  // Computes the gradients of `scalars` (voxels a side given) at full or half resolution, unless
+  // they are there already. `range`: greatest minus least stored value.
+  bool update(vtkOpenGLRenderWindow* window, vtkTextureObject* scalars,
+    const glm::ivec3& dimensions, bool half, float range, Counters& counters);
+
+  vtkTextureObject* texture() const { return this->Texture; }
+  void releaseGraphicsResources(vtkWindow* window);
+
+private:
+  vtkSmartPointer<vtkTextureObject> Texture;
+  vtkWeakPointer<vtkTextureObject> Source; // the scalars it was made from
+  bool Half = false;
+  Program NormalsProgram;
+};
+}
+
+#endif

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SceneGeometry.h"
+
+#include "DeformedPresence.h"
+#include "RayCaster.h"
+
+#include "vtkCamera.h"
+#include "vtkMatrix3x3.h"
+#include "vtkMatrix4x4.h"
+#include "vtkOpenGLCamera.h"
+#include "vtkRenderer.h"
+#include "vtkTextureObject.h"
+
+#include <glm/common.hpp>
+
+namespace brainshift
+{
+ValueLayout layoutOf(const glm::ivec3& points, bool cells)
+{
+  ValueLayout layout;
+  layout.dimensions = cells ? glm::max(points - 1, glm::ivec3(1)) : points;
+  const glm::dvec3 values(layout.dimensions);
+  layout.textureFromGrid = 1.0 / values;
+  layout.textureOfGridZero = cells ? glm::dvec3(0.0) : 0.5 / values;
+  layout.low = layout.textureOfGridZero;
+  layout.high = glm::dvec3(points - 1) * layout.textureFromGrid + layout.textureOfGridZero;
+  return layout;
+}
+
+glm::dmat4 worldFromTexture(const Grid& grid, const ValueLayout& layout, vtkMatrix4x4* actor)
+{
+  glm::dmat4 worldFromVolume;
+  for (int row = 0; row < 4; ++row)
+  {
+    for (int column = 0; column < 4; ++column)
+    {
+      worldFromVolume[column][row] = actor->GetElement(row, column);
+    }
+  }
+  glm::dmat4 volumeFromTexture(1.0);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    volumeFromTexture[axis] = glm::dvec4(
+      grid.direction[axis] * (grid.spacing[axis] / layout.textureFromGrid[axis]), 0.0);
+  }
+  const glm::dvec3 gridOfTextureZero = -layout.textureOfGridZero / layout.textureFromGrid;
+  volumeFromTexture[3] = glm::dvec4(grid.worldFromGrid(gridOfTextureZero), 1.0);
+  return worldFromVolume * volumeFromTexture;
+}
+
+glm::dmat4 clipFromWorld(vtkRenderer* renderer)
+{
+  glm::dmat4 matrix(1.0);
+  vtkMatrix4x4* worldToView = nullptr;
+  vtkMatrix3x3* normals = nullptr;
+  vtkMatrix4x4* viewToClip = nullptr;
+  vtkMatrix4x4* worldToClip = nullptr;
+  auto camera = vtkOpenGLCamera::SafeDownCast(renderer->GetActiveCamera());
+  camera->GetKeyMatrices(renderer, worldToView, normals, viewToClip, worldToClip);
+  for (int column = 0; column < 4; ++column)
+  {
+    for (int row = 0; row < 4; ++row)
+    {
+      matrix[column][row] = worldToClip->GetElement(column, row); // VTK keeps it transposed
+    }
+  }
+  return matrix;
+}
+
+glm::dvec3 textureFromLattice(const Grid& grid, const ValueLayout& layout, const Grid& lattice)
+{
+  return lattice.spacing / grid.spacing * layout.textureFromGrid;
+}
+
+void placeField(const Grid& grid, const ValueLayout& layout, const Grid& lattice,
+  const FieldNodes& nodes, RayCastScene& scene)
+{
+  const glm::dvec3 texturePerCell = textureFromLattice(grid, layout, lattice);
+  const glm::dvec3 textureOfLatticeZero =
+    grid.gridFromWorld(lattice.origin) * layout.textureFromGrid + layout.textureOfGridZero;
+  const glm::dvec3 count(nodes.count);
+  const glm::dvec3 first(nodes.first);
+  const double perCell = nodes.perCell;
+  scene.fieldFromTexture = perCell / texturePerCell / count;
+  scene.fieldFromTextureShift =
+    (0.5 - first * perCell) / count - textureOfLatticeZero * scene.fieldFromTexture;
+  scene.fieldTexel = 0.5 / count;
+  scene.spaceLow = textureOfLatticeZero + first * texturePerCell;
+  scene.spaceHigh = scene.spaceLow + (count - 1.0) / perCell * texturePerCell;
+}
+
+void placeBricks(const ValueLayout& layout, RayCastScene& scene, PresenceRequest& request)
+{
+  // Bricks count voxels from the middle of the first one.
+  const glm::dvec3 values(layout.dimensions);
+  const double side = BrickSide;
+  const auto voxelFromTexture = [&](const glm::dvec3& texture) { return texture * values - 0.5; };
+  const glm::ivec3 first(glm::floor(voxelFromTexture(scene.spaceLow) / side));
+  const glm::ivec3 end(glm::floor(voxelFromTexture(scene.spaceHigh) / side) + 1.0);
+  scene.textureFromBrick = side / values;
+  scene.textureOfBrickZero = 0.5 / values;
+  scene.firstBrick = glm::dvec3(first);
+
+  request.restBricks = (layout.dimensions + BrickSide - 1) / BrickSide;
+  request.first = first;
+  request.count = end - first;
+  request.lowestVoxel = glm::vec3(voxelFromTexture(layout.low));
+  request.highestVoxel = glm::vec3(voxelFromTexture(layout.high));
+  request.offsets = scene.offsets;
+  if (request.offsets)
+  {
+    const glm::dvec3 count(request.offsets->GetWidth(), request.offsets->GetHeight(),
+      request.offsets->GetDepth());
+    request.voxelsFromOffset = glm::vec3(values);
+    request.nodesFromVoxel = glm::vec3(scene.fieldFromTexture * count / values);
+    request.nodesFromVoxelShift = glm::vec3(
+      (0.5 / values * scene.fieldFromTexture + scene.fieldFromTextureShift) * count - 0.5);
+  }
+}
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How world, volume, lattice, bricks and textures lie to each other. Volume, lattice, offset field
+// and bricks share their axes, so every mapping between them is a scale and a shift.
+#ifndef BrainShift_SceneGeometry_h
+#define BrainShift_SceneGeometry_h
+
+#include "Grid.h"
+#include "OffsetField.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+class vtkMatrix4x4;
+class vtkRenderer;
+
+namespace brainshift
+{
+struct PresenceRequest;
+struct RayCastScene;
+
+// How the values of the drawn array lie: on the image's points, or in its cells.
+struct ValueLayout
+{
+  glm::ivec3 dimensions{ 0 };        // values a side
+  glm::dvec3 textureFromGrid{ 1.0 }; // texture = grid * textureFromGrid + textureOfGridZero
+  glm::dvec3 textureOfGridZero{ 0.0 };
+  glm::dvec3 low{ 0.0 }; // the volume's box, texture coordinates
+  glm::dvec3 high{ 1.0 };
+};
+
+ValueLayout layoutOf(const glm::ivec3& points, bool cells);
+
+glm::dmat4 worldFromTexture(const Grid& grid, const ValueLayout& layout, vtkMatrix4x4* actor);
+glm::dmat4 clipFromWorld(vtkRenderer* renderer);
+
+// Texture units for one lattice cell: the unit the offset field is wanted in.
+glm::dvec3 textureFromLattice(const Grid& grid, const ValueLayout& layout, const Grid& lattice);
+
+// Fills in how the offset field lies to the texture, and the space tissue can reach.
+void placeField(const Grid& grid, const ValueLayout& layout, const Grid& lattice,
+  const FieldNodes& nodes, RayCastScene& scene);
+
+// Fills in how the deformed frame's bricks lie to the texture, in both.
+void placeBricks(const ValueLayout& layout, RayCastScene& scene, PresenceRequest& request);
+}
+
+#endif

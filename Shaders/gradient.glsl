@@ -1,0 +1,13 @@
+// The scalar's gradient, for each texture unit: central differences over one voxel to either side.
+
+vec3 centralDifferences(sampler3D field, vec3 position, vec3 voxel)
+{
+  vec3 alongX = vec3(voxel.x, 0.0, 0.0);
+  vec3 alongY = vec3(0.0, voxel.y, 0.0);
+  vec3 alongZ = vec3(0.0, 0.0, voxel.z);
+  vec3 low = vec3(textureLod(field, position - alongX, 0.0).r,
+    textureLod(field, position - alongY, 0.0).r, textureLod(field, position - alongZ, 0.0).r);
+  vec3 high = vec3(textureLod(field, position + alongX, 0.0).r,
+    textureLod(field, position + alongY, 0.0).r, textureLod(field, position + alongZ, 0.0).r);
+  return (high - low) / (2.0 * voxel);
+}
