@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BrainShiftBehavior.h"
+
+#include <pqActiveObjects.h>
+#include <pqApplicationCore.h>
+#include <pqDataRepresentation.h>
+#include <pqPipelineSource.h>
+#include <pqServerManagerModel.h>
+
+#include <vtkDataObject.h>
+#include <vtkEventQtSlotConnect.h>
+#include <vtkNew.h>
+#include <vtkSMArrayListDomain.h>
+#include <vtkSMPVRepresentationProxy.h>
+#include <vtkSMProperty.h>
+#include <vtkSMPropertyHelper.h>
+
+#include <QVariant>
+
+#include <cstring>
+
+namespace
+{
+constexpr const char* Prepared = "BrainShiftPrepared"; // Qt property of a representation
+
+bool showsDeformedVolume(vtkSMProxy* representation)
+{
+  const char* shown = vtkSMPropertyHelper(representation, "Representation").GetAsString();
+  return shown && std::strcmp(shown, "Deformed Volume") == 0;
+}
+
+// The first point array, else the first of all.
+void colorByFirstArray(vtkSMPVRepresentationProxy* representation)
+{
+  vtkSMProperty* property = representation->GetProperty("ColorArrayName");
+  auto arrays = property ? property->FindDomain<vtkSMArrayListDomain>() : nullptr;
+  if (!arrays || arrays->GetNumberOfStrings() == 0)
+  {
+    return;
+  }
+  unsigned int chosen = 0;
+  for (unsigned int i = arrays->GetNumberOfStrings(); i-- > 0;)
+  {
+    chosen = arrays->GetFieldAssociation(i) == vtkDataObject::POINT ? i : chosen;
+  }
+  if (representation->SetScalarColoring(
+        arrays->GetString(chosen), arrays->GetFieldAssociation(chosen)))
+  {
+    representation->RescaleTransferFunctionToDataRange(true);
+  }
+}
+
+void prepare(pqRepresentation* shown)
+{
+  auto representation = vtkSMPVRepresentationProxy::SafeDownCast(shown->getProxy());
+  if (!representation || !showsDeformedVolume(representation) ||
+    shown->property(Prepared).toBool())
+  {
+    return;
+  }
+  shown->setProperty(Prepared, true);
+  if (pqApplicationCore::instance()->isLoadingState())
+  {
+    return; // a state says itself how it looks
+  }
+  vtkSMPropertyHelper(representation, "Shade", /*quiet*/ true).Set(1);
+  if (!representation->GetUsingScalarColoring())
+  {
+    colorByFirstArray(representation);
+  }
+  representation->UpdateVTKObjects();
+}
+}
+
+BrainShiftBehavior::BrainShiftBehavior(QObject* parent)
+  : QObject(parent)
+{
+}
+
+void BrainShiftBehavior::onStartup()
+{
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  QObject::connect(model, &pqServerManagerModel::representationAdded, this,
+    &BrainShiftBehavior::watchRepresentation);
+  QObject::connect(
+    model, &pqServerManagerModel::sourceAdded, this, &BrainShiftBehavior::watchSource);
+}
+
+void BrainShiftBehavior::onShutdown()
+{
+  QObject::disconnect(
+    pqApplicationCore::instance()->getServerManagerModel(), nullptr, this, nullptr);
+}
+
+void BrainShiftBehavior::watchRepresentation(pqRepresentation* representation)
+{
+  auto shown = qobject_cast<pqDataRepresentation*>(representation);
+  if (!shown || !shown->getProxy()->GetProperty("Representation"))
+  {
+    return;
+  }
+  QObject::connect(
+    shown, &pqDataRepresentation::representationTypeModified, this, [shown] { prepare(shown); });
+  prepare(shown);
+}
+
+void BrainShiftBehavior::watchSource(pqPipelineSource* source)
+{
+  vtkSMProxy* proxy = source->getProxy();
+  if (std::strcmp(proxy->GetXMLName(), "FreeFormDeformation") != 0)
+  {
+    return;
+  }
+  QObject::connect(source, qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
+    [](pqPipelineSource* updated) {
+    if (updated == pqActiveObjects::instance().activeSource()) // else the panel does not show it
+    {
+      updated->getProxy()->UpdatePropertyInformation();
+    }
+  });
+}

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What BrainShift does in ParaView's window on its own accord. It sets properties that are there,
+// and computes nothing.
+#ifndef BrainShift_BrainShiftBehavior_h
+#define BrainShift_BrainShiftBehavior_h
+
+#include <QObject>
+
+class pqPipelineSource;
+class pqRepresentation;
+class vtkSMProxy;
+
+class BrainShiftBehavior : public QObject
+{
+  Q_OBJECT
+
+public:
+  BrainShiftBehavior(QObject* parent = nullptr);
+
+  void onStartup();
+  void onShutdown();
+
+private:
+  // Makes a representation drawable when it first becomes Deformed Volume: it colours by an array,
+  // as ParaView takes care of for Volume only, and shades.
+  void watchRepresentation(pqRepresentation* representation);
+
+  // Keeps the numbers that Free-Form Deformation reports in the panel up to date.
+  void watchSource(pqPipelineSource* source);
+};
+
+#endif
