@@ -89,10 +89,33 @@ vtkDataArray* fieldArray(vtkImageData* image, const char* name, int components, 
 TEST_F(FreeFormDeformation, TouchesNoVoxel)
 {
   this->bend();
+  vtkDataArray* passed = this->output()->GetPointData()->GetScalars();
   EXPECT_EQ(
-    this->output()->GetPointData()->GetScalars(), this->Volume->GetPointData()->GetScalars());
+    passed->GetVoidPointer(0), this->Volume->GetPointData()->GetScalars()->GetVoidPointer(0));
+  EXPECT_STREQ(passed->GetName(), this->Volume->GetPointData()->GetScalars()->GetName());
   EXPECT_EQ(gridOf(this->output()), gridOf(this->Volume));
   EXPECT_FALSE(carriesDeformation(this->Volume)) << "the input is not its to change";
+}
+
+TEST_F(FreeFormDeformation, PassesTheSameArrayOnUntilItChanges)
+{
+  this->bend();
+  vtkDataArray* passed = this->output()->GetPointData()->GetScalars();
+  const auto time = passed->GetMTime();
+  this->Filter->SetStrength(0.5);
+  this->Filter->Update();
+  EXPECT_EQ(this->output()->GetPointData()->GetScalars(), passed);
+  EXPECT_EQ(passed->GetMTime(), time) << "drawing would upload the volume anew";
+  vtkDataArray* source = this->Volume->GetPointData()->GetScalars();
+  double range[2];
+  passed->GetRange(range);
+  EXPECT_EQ(range[1], source->GetRange()[1]);
+  source->SetComponent(0, 0, 200.0);
+  source->Modified();
+  this->Volume->Modified();
+  this->Filter->Update();
+  this->output()->GetPointData()->GetRange(source->GetName(), range);
+  EXPECT_EQ(range[1], 200.0) << "the range must follow the voxels";
 }
 
 TEST_F(FreeFormDeformation, AttachesTheContract)

@@ -103,6 +103,15 @@ TEST(Refine, GivesTheCubicDisplacementAtItsNodes)
   }
 }
 
+glm::mat3 jacobianOf(const NodeField& field, const glm::vec3& lattice)
+{
+  glm::vec3 displacement;
+  glm::mat3 jacobian;
+  field.map(lattice, displacement, jacobian);
+  EXPECT_LT(glm::distance(displacement, field.displacement(lattice)), 1e-5f);
+  return jacobian;
+}
+
 TEST(NodeField, IsTrilinearBetweenItsNodes)
 {
   NodeField field;
@@ -117,8 +126,8 @@ TEST(NodeField, IsTrilinearBetweenItsNodes)
   EXPECT_EQ(field.displacement({ -0.5f, 2.5f, 0.5f }), glm::vec3(1, 10, 100));
   EXPECT_EQ(field.displacement({ -0.25f, 2.125f, 0.25f }), glm::vec3(1.5, 2.5, 50));
   EXPECT_EQ(field.displacement({ 9.0f, -9.0f, 0.25f }), glm::vec3(2, 0, 50)) << "nearest outside";
-  EXPECT_EQ(field.jacobian({ -0.25f, 2.125f, 0.25f }), glm::mat3(3, 0, 0, 0, 21, 0, 0, 0, 201));
-  EXPECT_EQ(field.jacobian({ 9.0f, 2.125f, 0.25f }), glm::mat3(1, 0, 0, 0, 21, 0, 0, 0, 201));
+  EXPECT_EQ(jacobianOf(field, { -0.25f, 2.125f, 0.25f }), glm::mat3(3, 0, 0, 0, 21, 0, 0, 0, 201));
+  EXPECT_EQ(jacobianOf(field, { 9.0f, 2.125f, 0.25f }), glm::mat3(1, 0, 0, 0, 21, 0, 0, 0, 201));
 }
 
 TEST(NodeField, KnowsItsDerivatives)
@@ -134,7 +143,7 @@ TEST(NodeField, KnowsItsDerivatives)
       glm::floor(random.between(glm::dvec3(0.0), glm::dvec3(field.nodes.count) - 1.0));
     const glm::vec3 position =
       field.nodes.latticeFromNode(node + random.between(glm::dvec3(0.1), glm::dvec3(0.9)));
-    const glm::mat3 jacobian = field.jacobian(position);
+    const glm::mat3 jacobian = jacobianOf(field, position);
     for (int axis = 0; axis < 3; ++axis)
     {
       glm::vec3 step(0.0f);

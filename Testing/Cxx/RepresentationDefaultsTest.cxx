@@ -12,6 +12,8 @@ using namespace brainshift::testing;
 TEST(Defaults, OfDeformedVolumeLiveInTheMapper)
 {
   vtkNew<vtkDeformedVolumeMapper> mapper;
-  const Defaults expected{ { "SampleDistance", { mapper->GetSampleDistance() } } };
+  const Defaults expected{ { "SampleDistance", { mapper->GetSampleDistance() } },
+    { "EmptySpaceSkipping", { double(mapper->GetEmptySpaceSkipping()) } },
+    { "VolumeNormalTexture", { double(mapper->GetNormalTexture()) } } };
   EXPECT_EQ(defaultsIn("Representations/DeformedVolume.xml"), expected);
 }

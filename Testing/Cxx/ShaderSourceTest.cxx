@@ -25,7 +25,7 @@ TEST(ShaderSource, CompilesInEveryVariant)
       source.vertex.c_str(), source.fragment.c_str(), source.geometry.c_str());
     EXPECT_TRUE(program && program->GetCompiled()) << name;
   }
-  for (const char* name : { "refine", "invert", "composite", "raycast_deformed_shaded" })
+  for (const char* name : { "refine", "invert", "composite", "raycast_deformed_gradient_texture", "presence_deformed", "proxy", "normals" })
   {
     EXPECT_TRUE(names.count(name)) << name;
   }
@@ -33,8 +33,8 @@ TEST(ShaderSource, CompilesInEveryVariant)
 
 TEST(ShaderSource, HoldsOnlyWhatAVariantNeeds)
 {
-  const std::string plain = rayCastSource({ false, false }).fragment;
-  const std::string deformed = rayCastSource({ true, false }).fragment;
+  const std::string plain = rayCastSource({ false, RayCastVariant::Unshaded }).fragment;
+  const std::string deformed = rayCastSource({ true, RayCastVariant::Unshaded }).fragment;
   EXPECT_EQ(plain.find("#define DEFORMED"), std::string::npos);
   EXPECT_NE(deformed.find("#define DEFORMED"), std::string::npos);
   EXPECT_EQ(deformed.find("#define SHADED"), std::string::npos);
