@@ -104,6 +104,7 @@ bool DeformedPresence::compute(vtkOpenGLRenderWindow* window, const PresenceRequ
   program.set("summed", this->Summed.Get());
   program.set("restBricks", request.restBricks);
   program.set("brickSide", static_cast<float>(BrickSide));
+  program.set("restBrickSide", static_cast<float>(RestBrickSide));
   program.set("firstBrick", request.first);
   program.set("lowestVoxel", request.lowestVoxel);
   program.set("highestVoxel", request.highestVoxel);

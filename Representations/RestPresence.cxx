@@ -14,51 +14,67 @@ namespace brainshift
 {
 namespace
 {
-template <typename T>
-glm::vec2 rangeOf(const T* values, const glm::ivec3& dimensions, const glm::ivec3& brick)
+const glm::vec2 NoRange(
+  std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity());
+
+glm::vec2 asRange(const glm::vec2& range)
 {
-  const glm::ivec3 first = brick * BrickSide;
-  const glm::ivec3 last = glm::min(first + BrickSide, dimensions - 1);
-  float least = std::numeric_limits<float>::infinity();
-  float greatest = -least;
-  for (int k = first.z; k <= last.z; ++k)
-  {
-    for (int j = first.y; j <= last.y; ++j)
+  return range;
+}
+
+glm::vec2 asRange(float value)
+{
+  return value == value ? glm::vec2(value) : NoRange; // NaN: none
+}
+
+glm::vec2 asRange(std::uint16_t value)
+{
+  return glm::vec2(static_cast<float>(value));
+}
+
+// Ranges of bricks along one axis: `from` has `length` rows of `stride` consecutive values in each
+// of `blocks` blocks, the result one row for each brick.
+template <typename T>
+std::vector<glm::vec2> rangesAlong(
+  const T* from, int length, std::size_t stride, std::size_t blocks, int bricks)
+{
+  std::vector<glm::vec2> to(blocks * bricks * stride);
+  vtkSMPTools::For(0, static_cast<vtkIdType>(blocks * bricks), [&](vtkIdType begin, vtkIdType end) {
+    for (vtkIdType row = begin; row < end; ++row)
     {
-      const T* row = values + (static_cast<std::size_t>(k) * dimensions.y + j) * dimensions.x;
-      for (int i = first.x; i <= last.x; ++i)
+      const std::size_t block = row / bricks;
+      const int brick = static_cast<int>(row % bricks);
+      const int first = std::max(brick * RestBrickSide - RestOverlap, 0);
+      const int last = std::min((brick + 1) * RestBrickSide + RestOverlap, length - 1);
+      glm::vec2* out = &to[row * stride];
+      std::fill_n(out, stride, NoRange);
+      for (int voxel = first; voxel <= last; ++voxel)
       {
-        const float value = static_cast<float>(row[i]);
-        least = value < least ? value : least; // false for NaN
-        greatest = value > greatest ? value : greatest;
+        const T* in = from + (block * length + voxel) * stride;
+        for (std::size_t s = 0; s < stride; ++s)
+        {
+          const glm::vec2 range = asRange(in[s]);
+          out[s].x = std::min(out[s].x, range.x);
+          out[s].y = std::max(out[s].y, range.y);
+        }
       }
     }
-  }
-  return { least, greatest };
+  });
+  return to;
 }
 
 template <typename T>
 BrickRanges rangesOf(const T* values, const glm::ivec3& dimensions)
 {
   BrickRanges bricks;
-  bricks.count = (dimensions + BrickSide - 1) / BrickSide;
-  const glm::ivec3 count = bricks.count;
-  bricks.ranges.resize(static_cast<std::size_t>(count.x) * count.y * count.z);
-  vtkSMPTools::For(0, count.z, [&](vtkIdType begin, vtkIdType end) {
-    glm::ivec3 brick;
-    for (brick.z = static_cast<int>(begin); brick.z < end; ++brick.z)
-    {
-      for (brick.y = 0; brick.y < count.y; ++brick.y)
-      {
-        for (brick.x = 0; brick.x < count.x; ++brick.x)
-        {
-          const std::size_t index =
-            (static_cast<std::size_t>(brick.z) * count.y + brick.y) * count.x + brick.x;
-          bricks.ranges[index] = rangeOf(values, dimensions, brick);
-        }
-      }
-    }
-  });
+  bricks.count = (dimensions + RestBrickSide - 1) / RestBrickSide;
+  const glm::ivec3& count = bricks.count;
+  const std::size_t width = dimensions.x;
+  // z first: its rows are the longest, and it shrinks what follows.
+  const auto alongZ = rangesAlong(values, dimensions.z, width * dimensions.y, 1, count.z);
+  const auto alongYZ = rangesAlong(alongZ.data(), dimensions.y, width, count.z, count.y);
+  bricks.ranges = rangesAlong(
+    alongYZ.data(), dimensions.x, 1, static_cast<std::size_t>(count.y) * count.z, count.x);
   return bricks;
 }
 }

@@ -101,7 +101,7 @@ void placeBricks(const ValueLayout& layout, RayCastScene& scene, PresenceRequest
   scene.textureOfBrickZero = 0.5 / values;
   scene.firstBrick = glm::dvec3(first);
 
-  request.restBricks = (layout.dimensions + BrickSide - 1) / BrickSide;
+  request.restBricks = (layout.dimensions + RestBrickSide - 1) / RestBrickSide;
   request.first = first;
   request.count = end - first;
   request.lowestVoxel = glm::vec3(voxelFromTexture(layout.low));

@@ -18,7 +18,8 @@ namespace brainshift
 {
 namespace
 {
-constexpr int Entries = 4096; // as many as a 12-bit CT has values
+// As many as a 12-bit CT has values; so many that none need blending, which would cost four reads.
+constexpr int Entries = 4096;
 
 // Opacity of one step from the opacity of one unit distance.
 float opacityOfStep(float opacity, double unitsInStep)
@@ -75,8 +76,8 @@ bool TransferTexture::update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* p
   }
   this->Texture = vtkSmartPointer<vtkTextureObject>::New();
   this->Texture->SetContext(window);
-  this->Texture->SetMinificationFilter(vtkTextureObject::Linear);
-  this->Texture->SetMagnificationFilter(vtkTextureObject::Linear);
+  this->Texture->SetMinificationFilter(vtkTextureObject::Nearest);
+  this->Texture->SetMagnificationFilter(vtkTextureObject::Nearest);
   this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
   this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
   this->Texture->Create2DFromRaw(Entries, 1, 4, VTK_FLOAT, texels.data());
@@ -90,7 +91,7 @@ bool TransferTexture::update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* p
 
 bool TransferTexture::visible(double least, double greatest) const
 {
-  // The entries the texture's filter may blend, and one more to either side for rounding.
+  // The entries the texture may answer with, and one more to either side for rounding.
   const auto entry = [this](double scalar) {
     return (scalar * this->scale() + this->shift()) * Entries - 0.5;
   };

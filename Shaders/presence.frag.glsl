@@ -5,15 +5,11 @@
 
 uniform sampler3D summed;        // visible bricks with lower indices; one more a side than bricks
 uniform ivec3 restBricks;        // bricks a side of the rest volume
-uniform float brickSide;         // voxels
+uniform float brickSide;         // voxels, deformed frame
+uniform float restBrickSide;     // voxels, rest volume
 uniform ivec3 firstBrick;        // the target's first brick; below 0 beyond the volume
 uniform vec3 lowestVoxel;        // the volume's box, voxels
 uniform vec3 highestVoxel;
-
-// Bricks reach this far into their neighbours: then a visible sample lies at least so deep inside
-// what is drawn, and rounding in the rasteriser cannot lose it.
-const float Overlap = 0.5;       // voxels
-const float RoundingMargin = 0.01; // voxels, for single precision in texture coordinates
 
 #ifdef DEFORMED
 uniform sampler3D offsets;       // the volume's texture coordinates
@@ -68,19 +64,20 @@ float visibleBricks(ivec3 low, ivec3 high)
 
 void main()
 {
-  vec3 low = vec3(firstBrick + targetTexel()) * brickSide - Overlap;
-  vec3 high = low + brickSide + 2.0 * Overlap;
+  vec3 low = vec3(firstBrick + targetTexel()) * brickSide;
+  vec3 high = low + brickSide;
 #ifdef DEFORMED
   widenByOffsets(low, high);
 #endif
-  low = max(low - RoundingMargin, lowestVoxel);
-  high = min(high + RoundingMargin, highestVoxel);
+  low = max(low, lowestVoxel);
+  high = min(high, highestVoxel);
   bool present = false;
-  if (all(lessThanEqual(low, high)))
+  if (all(lessThanEqual(low, high + 1.0))) // one voxel for rounding
   {
     ivec3 lastBrick = restBricks - 1;
-    ivec3 from = clamp(ivec3(floor(low / brickSide)), ivec3(0), lastBrick);
-    ivec3 to = clamp(ivec3(floor(high / brickSide)), ivec3(0), lastBrick);
+    // Rest bricks overlap, so the one that begins where the box ends is not needed.
+    ivec3 from = clamp(ivec3(floor(low / restBrickSide)), ivec3(0), lastBrick);
+    ivec3 to = clamp(ivec3(ceil(high / restBrickSide)) - 1, from, lastBrick);
     present = visibleBricks(from, to) > 0.5;
   }
   gl_FragData[0] = vec4(present ? 1.0 : 0.0);

@@ -21,7 +21,12 @@ vec3 worldFromDeformed(vec3 deformed)
 vec3 shade(vec3 color, vec3 deformed, vec3 rest, vec3 towardsEye)
 {
 #ifdef SHADED
-  vec3 gradient = worldFromGradient * deformedGradientFromRest(deformed, gradientAt(rest));
+  vec3 gradient = gradientAt(rest);
+  if (rest != deformed) // where nothing moves there is nothing to turn
+  {
+    gradient = deformedGradientFromRest(deformed, gradient);
+  }
+  gradient = worldFromGradient * gradient;
   float steepness = length(gradient);
   vec3 normal = steepness > 0.0 ? gradient / steepness : vec3(0.0);
   return lit(color, normal, towardsEye, worldFromDeformed(deformed));
