@@ -101,7 +101,7 @@ inline Lattice randomLatticeWithoutFolds(const Grid& grid, int kernel, unsigned 
   {
     for (glm::vec3& displacement : lattice.displacements)
     {
-      displacement *= 0.95f;
+      displacement *= 0.9f;
     }
   }
   return lattice;

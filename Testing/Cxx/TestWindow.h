@@ -8,6 +8,10 @@
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 
+#include <gtest/gtest.h>
+
+#include <memory>
+
 namespace brainshift::testing
 {
 class TestWindow
@@ -28,6 +32,20 @@ private:
   vtkNew<vtkRenderWindow> Window;
   vtkNew<vtkRenderer> Renderer;
 };
+
+// Keeps the display open while tests open and close windows of their own: Xvfb starts anew when its
+// last client leaves, and refuses the next one meanwhile.
+class OpenDisplay : public ::testing::Environment
+{
+public:
+  void SetUp() override { this->Window = std::make_unique<TestWindow>(); }
+  void TearDown() override { this->Window.reset(); }
+
+private:
+  std::unique_ptr<TestWindow> Window;
+};
+
+inline ::testing::Environment* const Display = ::testing::AddGlobalTestEnvironment(new OpenDisplay);
 }
 
 #endif
