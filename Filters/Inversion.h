@@ -12,7 +12,8 @@
 
 namespace brainshift
 {
-// `Forward` provides vec3 displacement(vec3 rest) and mat3 jacobian(vec3 rest), lattice coordinates.
+// `Forward` provides void map(vec3 rest, vec3& displacement, mat3& jacobian) and
+// bool staysAt(vec3 rest), in lattice coordinates.
 template <typename Forward>
 struct Inversion
 {
@@ -21,15 +22,20 @@ struct Inversion
 
   const Forward& forward;
 
-  vec3 forwardDisplacement(const vec3& rest) { return this->forward.displacement(rest); }
-  mat3 forwardJacobian(const vec3& rest) { return this->forward.jacobian(rest); }
+  void forwardMap(const vec3& rest, vec3& displacement, mat3& jacobian)
+  {
+    this->forward.map(rest, displacement, jacobian);
+  }
+  bool staysAt(const vec3& rest) { return this->forward.staysAt(rest); }
   static float min(float a, float b) { return glm::min(a, b); }
   static float dot(const vec3& a, const vec3& b) { return glm::dot(a, b); }
   static float determinant(const mat3& matrix) { return glm::determinant(matrix); }
   static mat3 inverse(const mat3& matrix) { return glm::inverse(matrix); }
 
 #define SHARED
+#define OUT(type) type&
 #include "inversion.glsl"
+#undef OUT
 #undef SHARED
 };
 }

@@ -1,22 +1,44 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// C++ view of Shaders/kernels.glsl: the cubic kernels, from the very source the GPU compiles.
+// Cubic kernels of the lattice. The GPU gets their values as uniforms, so both sides use the same
+// numbers.
 #ifndef BrainShift_Kernels_h
 #define BrainShift_Kernels_h
 
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 namespace brainshift
 {
-using glm::mat3;
-using glm::vec3;
-using glm::vec4;
+constexpr int KernelCatmullRom = 0; // interpolates the control points; the default (paper, section 2)
+constexpr int KernelBSpline = 1;    // uniform cubic B-spline: approximates them, second derivative continuous
 
-#define SHARED inline
-#include "kernels.glsl"
-#undef SHARED
+// Weights of the four control points around a position, in lattice order: the position lies at
+// `t` (0 to 1) between the second and the third. They sum to 1.
+inline glm::vec4 kernelWeights(int kernel, float t)
+{
+  float s = 1.0f - t;
+  if (kernel == KernelBSpline)
+  {
+    return glm::vec4(s * s * s, 4.0f + t * t * (3.0f * t - 6.0f), 4.0f + s * s * (3.0f * s - 6.0f),
+             t * t * t) *
+      (1.0f / 6.0f);
+  }
+  return glm::vec4(-t * s * s, 2.0f + t * t * (3.0f * t - 5.0f), 2.0f + s * s * (3.0f * s - 5.0f),
+           -s * t * t) *
+    0.5f;
+}
+
+// Derivatives of kernelWeights with respect to `t`. They sum to 0.
+inline glm::vec4 kernelSlopes(int kernel, float t)
+{
+  float s = 1.0f - t;
+  if (kernel == KernelBSpline)
+  {
+    return glm::vec4(-s * s, t * (3.0f * t - 4.0f), -s * (3.0f * s - 4.0f), t * t) * 0.5f;
+  }
+  return glm::vec4(-s * (s - 2.0f * t), t * (9.0f * t - 10.0f), -s * (9.0f * s - 10.0f),
+           -t * (2.0f * s - t)) *
+    0.5f;
+}
 }
 
 #endif

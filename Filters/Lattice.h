@@ -20,7 +20,7 @@ constexpr int LargestLatticeSide = 257; // 51 million numbers, 200 MB: more is a
 struct Lattice
 {
   Grid grid;      // control points over the volume's box, rest frame
-  int kernel = 0; // KernelCatmullRom or KernelBSpline, see Shaders/kernels.glsl
+  int kernel = 0; // KernelCatmullRom or KernelBSpline, see Kernels.h
   // float32 x 3 (mm, world axes), one for each control point, x fastest. Zero means stays.
   std::vector<glm::vec3> displacements;
 };

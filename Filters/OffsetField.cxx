@@ -16,11 +16,6 @@ namespace brainshift
 {
 namespace
 {
-// Catmull-Rom weights are partly negative: their absolute values sum to at most 1.25 along an
-// axis, 1.25^3 in space. A field value lies within the range of its 64 control points, widened by
-// that factor about the middle. B-spline weights are positive, so the bound holds for them too.
-constexpr float KernelOvershoot = 1.25f * 1.25f * 1.25f;
-
 std::size_t nodeOffset(const glm::ivec3& count, int i, int j, int k)
 {
   return (static_cast<std::size_t>(k) * count.y + j) * count.x + i;
@@ -156,7 +151,8 @@ glm::vec3 NodeField::displacement(const glm::vec3& lattice) const
   return glm::mix(face[0], face[1], cell.within.z);
 }
 
-glm::mat3 NodeField::jacobian(const glm::vec3& lattice) const
+void NodeField::map(
+  const glm::vec3& lattice, glm::vec3& displacement, glm::mat3& jacobian) const
 {
   const NodeCell cell(this->nodes, lattice);
   glm::vec3 c[8];
@@ -165,6 +161,8 @@ glm::mat3 NodeField::jacobian(const glm::vec3& lattice) const
     c[index] = cell.corner(*this, index);
   }
   const glm::vec3& w = cell.within;
+  displacement = glm::mix(glm::mix(glm::mix(c[0], c[1], w.x), glm::mix(c[2], c[3], w.x), w.y),
+    glm::mix(glm::mix(c[4], c[5], w.x), glm::mix(c[6], c[7], w.x), w.y), w.z);
   const glm::vec3 alongX = glm::mix(
     glm::mix(c[1] - c[0], c[3] - c[2], w.y), glm::mix(c[5] - c[4], c[7] - c[6], w.y), w.z);
   const glm::vec3 alongY = glm::mix(
@@ -172,7 +170,7 @@ glm::mat3 NodeField::jacobian(const glm::vec3& lattice) const
   const glm::vec3 alongZ = glm::mix(
     glm::mix(c[4] - c[0], c[5] - c[1], w.x), glm::mix(c[6] - c[2], c[7] - c[3], w.x), w.y);
   const glm::vec3 scale = cell.inside * static_cast<float>(this->nodes.perCell);
-  return glm::mat3(1.0f) + glm::mat3(alongX * scale.x, alongY * scale.y, alongZ * scale.z);
+  jacobian = glm::mat3(1.0f) + glm::mat3(alongX * scale.x, alongY * scale.y, alongZ * scale.z);
 }
 
 FieldNodes forwardNodes(const Grid& lattice, int samples)
@@ -226,7 +224,7 @@ NodeField invert(const NodeField& forward, const FieldNodes& nodes, Inverse inve
           const glm::vec3 deformed = nodes.latticeFromNode(glm::vec3(i, j, k));
           field.values[nodeOffset(nodes.count, i, j, k)] = inverse == Inverse::Negated
             ? -forward.displacement(deformed)
-            : inversion.restFromDeformed(deformed) - deformed;
+            : inversion.inverseOffset(deformed);
         }
       }
     }

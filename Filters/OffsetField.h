@@ -17,6 +17,11 @@ namespace brainshift
 constexpr int SmallestSamples = 0;
 constexpr int LargestSamples = 16;
 
+// Catmull-Rom weights are partly negative: their absolute values sum to at most 1.25 along an
+// axis, 1.25^3 in space. A field value lies within the range of its 64 control points, widened by
+// that factor about the middle. B-spline weights are positive, so the bound holds for them too.
+constexpr float KernelOvershoot = 1.25f * 1.25f * 1.25f;
+
 // Where the nodes of a refined field lie, in lattice coordinates: node i of an axis lies at
 // first[axis] + i / perCell cells from the first control point.
 struct FieldNodes
@@ -37,13 +42,15 @@ struct FieldNodes
 };
 
 // A vector field, trilinear between nodes; outside the nodes the value of the nearest holds.
-struct NodeField
+struct VTKBRAINSHIFTFILTERS_EXPORT NodeField
 {
   FieldNodes nodes;
   std::vector<glm::vec3> values; // lattice cells, x fastest
 
   glm::vec3 displacement(const glm::vec3& lattice) const; // at a lattice coordinate
-  glm::mat3 jacobian(const glm::vec3& lattice) const;     // of position + displacement
+  // The same with the derivatives of position + displacement.
+  void map(const glm::vec3& lattice, glm::vec3& displacement, glm::mat3& jacobian) const;
+  bool staysAt(const glm::vec3& lattice) const { return displacement(lattice) == glm::vec3(0.0f); }
 };
 
 // Nodes over the lattice itself: (points - 1) * (samples + 1) + 1 a side; 91 by default.

@@ -18,16 +18,18 @@ struct CubicForward
   const glm::vec3* inCells;
   glm::dvec3 reference; // lattice coordinates
 
-  glm::vec3 displacement(const glm::vec3& rest) const
+  void map(const glm::vec3& rest, glm::vec3& displacement, glm::mat3& jacobian) const
   {
-    return cubicDisplacement(
-      this->grid.dimensions, this->kernel, this->inCells, this->reference + glm::dvec3(rest));
+    const glm::dvec3 position = this->reference + glm::dvec3(rest);
+    displacement =
+      cubicDisplacement(this->grid.dimensions, this->kernel, this->inCells, position);
+    jacobian = glm::mat3(1.0f) +
+      cubicGradient(this->grid.dimensions, this->kernel, this->inCells, position);
   }
-  glm::mat3 jacobian(const glm::vec3& rest) const
+  bool staysAt(const glm::vec3& rest) const
   {
-    return glm::mat3(1.0f) +
-      cubicGradient(
-        this->grid.dimensions, this->kernel, this->inCells, this->reference + glm::dvec3(rest));
+    return cubicDisplacement(this->grid.dimensions, this->kernel, this->inCells,
+             this->reference + glm::dvec3(rest)) == glm::vec3(0.0f);
   }
 };
 }
@@ -53,8 +55,9 @@ glm::dvec3 PointMap::restFromDeformed(const glm::dvec3& deformed) const
   const glm::dvec3 position = this->LatticeGrid.gridFromWorld(deformed);
   const CubicForward forward{ this->LatticeGrid, this->Kernel, this->InCells.data(), position };
   const glm::vec3 offset = this->Backward == Inverse::Negated
-    ? -forward.displacement(glm::vec3(0.0f))
-    : Inversion<CubicForward>{ forward }.restFromDeformed(glm::vec3(0.0f));
+    ? -cubicDisplacement(
+        this->LatticeGrid.dimensions, this->Kernel, this->InCells.data(), position)
+    : Inversion<CubicForward>{ forward }.inverseOffset(glm::vec3(0.0f));
   return deformed + this->LatticeGrid.worldVectorFromGrid(glm::dvec3(offset));
 }
 

@@ -34,7 +34,7 @@ struct Stroke
   double sigma = 0.5;       // width of the Gaussian, as a share of the radius. Move: unused
   bool enabled = true;
 
-  bool operator==(const Stroke& other) const;
+  VTKBRAINSHIFTFILTERS_EXPORT bool operator==(const Stroke& other) const;
   bool operator!=(const Stroke& other) const { return !(*this == other); }
 };
 

@@ -4,7 +4,9 @@
 #include "DeformableVolume.h"
 #include "OffsetField.h"
 #include "Replay.h"
+#include "SharedArray.h"
 
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -27,6 +29,8 @@ struct vtkFreeFormDeformation::State
 {
   std::vector<double> StrokeNumbers;
   Replay StrokeReplay;
+  SharedArrays PointArrays;
+  SharedArrays CellArrays;
   Deformation LastGood;
   bool HasLastGood = false;
   double MinimumJacobian = 1.0;
@@ -209,6 +213,8 @@ int vtkFreeFormDeformation::RequestData(
     vtkErrorMacro(<< problem << ". The deformation stays as it was.");
   }
   State& state = *this->Internal;
+  state.PointArrays.share(output->GetPointData());
+  state.CellArrays.share(output->GetCellData());
   attach(output, state.LastGood);
   return 1;
 }

@@ -9,6 +9,8 @@
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
 
+#include <glm/common.hpp>
+
 #include <cstddef>
 #include <cstdint>
 
@@ -29,6 +31,32 @@ void setNearest(vtkTextureObject* texture)
   texture->SetWrapS(vtkTextureObject::ClampToEdge);
   texture->SetWrapT(vtkTextureObject::ClampToEdge);
   texture->SetWrapR(vtkTextureObject::ClampToEdge);
+}
+
+// Bricks whose offsets depend on a box of nodes.
+IndexBox bricksOfNodes(const PresenceRequest& request, const IndexBox& nodes)
+{
+  if (nodes.empty())
+  {
+    return {};
+  }
+  const auto brickOfNode = [&](const glm::ivec3& node) {
+    const glm::vec3 voxel =
+      (glm::vec3(node) - request.nodesFromVoxelShift) / request.nodesFromVoxel;
+    return glm::ivec3(glm::floor(voxel / static_cast<float>(BrickSide))) - request.first;
+  };
+  // A brick also asks the nodes just beyond its overlap into its neighbours; nodes at the field's
+  // end stand for all that lies beyond.
+  IndexBox box{ glm::max(brickOfNode(nodes.first - 1) - 1, glm::ivec3(0)),
+    glm::min(brickOfNode(nodes.last + 1) + 1, request.count - 1) };
+  const glm::ivec3 lastNode(request.offsets->GetWidth() - 1, request.offsets->GetHeight() - 1,
+    request.offsets->GetDepth() - 1);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    box.first[axis] = nodes.first[axis] <= 0 ? 0 : box.first[axis];
+    box.last[axis] = nodes.last[axis] >= lastNode[axis] ? request.count[axis] - 1 : box.last[axis];
+  }
+  return box;
 }
 
 // Appends the two triangles of the face of `brick` across `axis`, on its lower or upper side.
@@ -58,26 +86,15 @@ bool DeformedPresence::setVisibility(vtkOpenGLRenderWindow* window, const glm::i
   this->Summed = vtkSmartPointer<vtkTextureObject>::New();
   this->Summed->SetContext(window);
   setNearest(this->Summed);
+  this->VisibilityNew = true;
   counters.bytesUploaded += static_cast<std::int64_t>(summed.size() * sizeof(float));
   return this->Summed->Create3DFromRaw(
     restBricks.x + 1, restBricks.y + 1, restBricks.z + 1, 1, VTK_FLOAT, summed.data());
 }
 
-bool DeformedPresence::compute(
-  vtkOpenGLRenderWindow* window, const PresenceRequest& request, Counters& counters)
+bool DeformedPresence::compute(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
+  const IndexBox& box, Counters& counters)
 {
-  const glm::uvec3 count(request.count);
-  if (!this->Map || this->Map->GetWidth() != count.x || this->Map->GetHeight() != count.y ||
-    this->Map->GetDepth() != count.z)
-  {
-    this->Map = vtkSmartPointer<vtkTextureObject>::New();
-    this->Map->SetContext(window);
-    setNearest(this->Map);
-    if (!this->Map->Allocate3D(count.x, count.y, count.z, 1, VTK_UNSIGNED_CHAR))
-    {
-      return false;
-    }
-  }
   const bool deformed = request.offsets != nullptr;
   Program& program = this->MapPrograms[deformed];
   if (!program.use(window, presenceSource(deformed), counters))
@@ -100,7 +117,7 @@ bool DeformedPresence::compute(
     program.set("nodesFromVoxel", request.nodesFromVoxel);
     program.set("nodesFromVoxelShift", request.nodesFromVoxelShift);
   }
-  runVolumePass(window, program.get()->GetHandle(), this->Map, glm::ivec3(0), request.count);
+  runVolumePass(window, program.get()->GetHandle(), this->Map, box.first, box.size());
   this->Summed->Deactivate();
   if (deformed)
   {
@@ -109,13 +126,33 @@ bool DeformedPresence::compute(
   return true;
 }
 
-bool DeformedPresence::update(
-  vtkOpenGLRenderWindow* window, const PresenceRequest& request, Counters& counters)
+bool DeformedPresence::update(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
+  const IndexBox& changed, Counters& counters)
 {
-  if (!this->compute(window, request, counters))
+  const glm::uvec3 count(request.count);
+  IndexBox box{ glm::ivec3(0), request.count - 1 };
+  if (!this->Map || this->Map->GetWidth() != count.x || this->Map->GetHeight() != count.y ||
+    this->Map->GetDepth() != count.z)
+  {
+    this->Map = vtkSmartPointer<vtkTextureObject>::New();
+    this->Map->SetContext(window);
+    setNearest(this->Map);
+    if (!this->Map->Allocate3D(count.x, count.y, count.z, 1, VTK_UNSIGNED_CHAR))
+    {
+      this->Map = nullptr;
+      return false;
+    }
+  }
+  else if (!this->VisibilityNew && this->MapFirst == request.first && request.offsets)
+  {
+    box = bricksOfNodes(request, changed);
+  }
+  if (!box.empty() && !this->compute(window, request, box, counters))
   {
     return false;
   }
+  this->MapFirst = request.first;
+  this->VisibilityNew = false;
   // One byte a brick comes back, once an edit and never for a camera move: making the faces on the
   // GPU would cost its geometry stage every frame.
   std::vector<std::uint8_t> occupied(

@@ -4,6 +4,7 @@
 #define BrainShift_DeformedPresence_h
 
 #include "Counters.h"
+#include "FieldChange.h"
 #include "Program.h"
 #include "RestPresence.h"
 
@@ -44,8 +45,10 @@ public:
   bool setVisibility(vtkOpenGLRenderWindow* window, const glm::ivec3& restBricks,
     std::vector<float>& summed, Counters& counters);
 
-  // Finds the occupied bricks and makes their faces.
-  bool update(vtkOpenGLRenderWindow* window, const PresenceRequest& request, Counters& counters);
+  // Finds the occupied bricks and makes their faces. `changed`: the nodes whose offsets differ from
+  // the last update; all bricks are done after a change of visibility or size.
+  bool update(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
+    const IndexBox& changed, Counters& counters);
 
   // 1 for occupied bricks, 0 for others.
   vtkTextureObject* map() const { return this->Map; }
@@ -59,13 +62,16 @@ public:
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
-  bool compute(vtkOpenGLRenderWindow* window, const PresenceRequest& request, Counters& counters);
+  bool compute(vtkOpenGLRenderWindow* window, const PresenceRequest& request, const IndexBox& box,
+    Counters& counters);
   void makeFaces(const PresenceRequest& request, const std::vector<std::uint8_t>& occupied);
 
   vtkSmartPointer<vtkTextureObject> Summed;
   vtkSmartPointer<vtkTextureObject> Map;
   vtkSmartPointer<vtkOpenGLBufferObject> Corners;
-  Program MapPrograms[2]; // [deformed]
+  glm::ivec3 MapFirst{ 0 };     // first brick of Map
+  bool VisibilityNew = true;    // since the last update
+  Program MapPrograms[2];       // [deformed]
   int Faces = 0;
   int Occupied = 0;
 };

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FieldTexture.h"
 
+#include "Kernels.h"
 #include "VolumePass.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
+
+#include <glm/gtc/type_ptr.hpp>
 
 #include <cstdint>
 
@@ -34,6 +37,14 @@ bool allocate(vtkOpenGLRenderWindow* window, vtkSmartPointer<vtkTextureObject>& 
   return texture->Allocate3D(count.x, count.y, count.z, 4, VTK_FLOAT);
 }
 
+// Whether the fields of two requests have the same nodes and the same unit, so that unchanged
+// control points leave them as they are.
+bool samePlaces(const FieldRequest& a, const FieldRequest& b)
+{
+  return a.dimensions == b.dimensions && a.kernel == b.kernel && a.samples == b.samples &&
+    a.inverse == b.inverse && a.nodes == b.nodes && a.offsetScale == b.offsetScale;
+}
+
 std::int64_t texels(const glm::ivec3& count)
 {
   return static_cast<std::int64_t>(count.x) * count.y * count.z;
@@ -46,40 +57,76 @@ FieldTexture::~FieldTexture() = default;
 bool FieldTexture::update(
   vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters)
 {
-  this->ControlPoints = vtkSmartPointer<vtkTextureObject>::New();
-  this->ControlPoints->SetContext(window);
-  const glm::ivec3& points = request.dimensions;
-  if (!this->ControlPoints->Create3DFromRaw(points.x, points.y, points.z, 3, VTK_FLOAT,
-        const_cast<glm::vec3*>(request.inCells.data())))
+  IndexBox points{ glm::ivec3(0), request.dimensions - 1 };
+  this->Changed = { glm::ivec3(0), request.nodes.count - 1 };
+  if (this->HasCurrent && samePlaces(this->Current, request))
+  {
+    points = changedPoints(request.dimensions, this->Current.inCells, request.inCells);
+    this->Changed = changedBackwardNodes(
+      points, request.dimensions, this->Current.inCells, request.inCells, request.nodes);
+  }
+  this->HasCurrent = false; // not before all of it succeeded
+  if (!points.empty() &&
+    (!this->upload(window, request, counters) ||
+      !this->refine(window, request, points, counters) ||
+      !this->invert(window, request, counters)))
   {
     return false;
   }
-  counters.latticeUploads += 1;
-  counters.bytesUploaded += static_cast<std::int64_t>(request.inCells.size() * sizeof(glm::vec3));
-  return this->refine(window, request, counters) && this->invert(window, request, counters);
+  this->Current = request;
+  this->HasCurrent = true;
+  return true;
 }
 
-bool FieldTexture::refine(
+bool FieldTexture::upload(
   vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters)
 {
-  const int perCell = request.samples + 1;
+  this->ControlPoints = vtkSmartPointer<vtkTextureObject>::New();
+  this->ControlPoints->SetContext(window);
+  const glm::ivec3& points = request.dimensions;
+  counters.latticeUploads += 1;
+  counters.bytesUploaded += static_cast<std::int64_t>(request.inCells.size() * sizeof(glm::vec3));
+  return this->ControlPoints->Create3DFromRaw(points.x, points.y, points.z, 3, VTK_FLOAT,
+    const_cast<glm::vec3*>(request.inCells.data()));
+}
+
+bool FieldTexture::refine(vtkOpenGLRenderWindow* window, const FieldRequest& request,
+  const IndexBox& points, Counters& counters)
+{
+  FieldNodes forward;
+  forward.perCell = request.samples + 1;
+  forward.count = (request.dimensions - 1) * forward.perCell + 1;
+  const IndexBox nodes = changedForwardNodes(points, forward);
+  std::vector<glm::vec4> weights(forward.perCell);
+  for (int node = 0; node < forward.perCell; ++node)
+  {
+    weights[node] =
+      kernelWeights(request.kernel, static_cast<float>(node) / static_cast<float>(forward.perCell));
+  }
   glm::ivec3 count = request.dimensions;
+  IndexBox box{ glm::ivec3(0), request.dimensions - 1 }; // of control points; of nodes, axis by axis
   vtkTextureObject* coarse = this->ControlPoints;
   for (int axis = 0; axis < 3; ++axis)
   {
-    count[axis] = (request.dimensions[axis] - 1) * perCell + 1;
-    if (!allocate(window, this->Refined[axis], count, vtkTextureObject::Nearest) ||
+    count[axis] = forward.count[axis];
+    box.first[axis] = nodes.first[axis];
+    box.last[axis] = nodes.last[axis];
+    if (!allocate(window, this->Refined[axis], count,
+          axis == 2 ? vtkTextureObject::Linear : vtkTextureObject::Nearest) ||
       !this->RefineProgram.use(window, refineSource(), counters))
     {
       return false;
     }
+    glm::ivec3 unit(0);
+    unit[axis] = 1;
     this->RefineProgram.set("coarse", coarse);
-    this->RefineProgram.set("axis", axis);
+    this->RefineProgram.set("axis", unit);
     this->RefineProgram.set("points", request.dimensions[axis]);
-    this->RefineProgram.set("perCell", perCell);
-    this->RefineProgram.set("kernel", request.kernel);
-    runVolumePass(window, this->RefineProgram.get()->GetHandle(), this->Refined[axis],
-      glm::ivec3(0), count);
+    this->RefineProgram.set("perCell", forward.perCell);
+    this->RefineProgram.get()->SetUniform4fv(
+      "weights", forward.perCell, glm::value_ptr(weights[0]));
+    runVolumePass(window, this->RefineProgram.get()->GetHandle(), this->Refined[axis], box.first,
+      box.size());
     coarse->Deactivate();
     coarse = this->Refined[axis];
   }
@@ -95,16 +142,16 @@ bool FieldTexture::invert(
     return false;
   }
   const int perCell = request.nodes.perCell;
-  this->InvertProgram.set("refined", this->Refined[2]);
+  this->InvertProgram.set("refined", this->Refined[2].Get());
   this->InvertProgram.set("refinedCount", (request.dimensions - 1) * perCell + 1);
   this->InvertProgram.set("perCell", perCell);
   this->InvertProgram.set("firstCell", request.nodes.first);
   this->InvertProgram.set("offsetScale", request.offsetScale);
   this->InvertProgram.set("negated", request.inverse == Inverse::Negated ? 1 : 0);
-  runVolumePass(window, this->InvertProgram.get()->GetHandle(), this->Offsets, glm::ivec3(0),
-    request.nodes.count);
+  runVolumePass(window, this->InvertProgram.get()->GetHandle(), this->Offsets,
+    this->Changed.first, this->Changed.size());
   this->Refined[2]->Deactivate();
-  counters.texelsRefined += texels(request.nodes.count);
+  counters.texelsRefined += texels(this->Changed.size());
   return true;
 }
 
@@ -124,6 +171,7 @@ void FieldTexture::releaseGraphicsResources(vtkWindow* window)
   {
     texture = nullptr;
   }
+  this->HasCurrent = false;
   this->RefineProgram.forget();
   this->InvertProgram.forget();
 }

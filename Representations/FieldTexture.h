@@ -4,6 +4,7 @@
 #define BrainShift_FieldTexture_h
 
 #include "Counters.h"
+#include "FieldChange.h"
 #include "OffsetField.h"
 #include "Program.h"
 
@@ -36,7 +37,8 @@ public:
   FieldTexture();
   ~FieldTexture();
 
-  // Uploads and computes. False if a shader does not compile or a texture cannot be made.
+  // Uploads the control points and computes what they changed since the last call. False if a
+  // shader does not compile or a texture cannot be made.
   bool update(vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters);
 
   // Offsets (restFromDeformed minus identity): RGBA32F, one texel a node, trilinear, clamped.
@@ -45,15 +47,23 @@ public:
   // Displacements (deformedFromRest minus identity) on the forward nodes, lattice cells.
   vtkTextureObject* displacements() const { return this->Refined[2]; }
 
+  // Offsets computed by the last update.
+  const IndexBox& changed() const { return this->Changed; }
+
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
-  bool refine(vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters);
+  bool upload(vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters);
+  bool refine(vtkOpenGLRenderWindow* window, const FieldRequest& request, const IndexBox& points,
+    Counters& counters);
   bool invert(vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters);
 
   vtkSmartPointer<vtkTextureObject> ControlPoints;
   vtkSmartPointer<vtkTextureObject> Refined[3]; // along x; x and y; x, y and z
   vtkSmartPointer<vtkTextureObject> Offsets;
+  FieldRequest Current; // what the textures show
+  bool HasCurrent = false;
+  IndexBox Changed;
   Program RefineProgram;
   Program InvertProgram;
 };

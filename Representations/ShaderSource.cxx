@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ShaderSource.h"
 
+#include "OffsetField.h"
+
 #include "shader_composite_frag.h"
 #include "shader_field.h"
 #include "shader_fullscreen_vert.h"
 #include "shader_gradient.h"
 #include "shader_inversion.h"
 #include "shader_invert_frag.h"
-#include "shader_kernels.h"
 #include "shader_light.h"
 #include "shader_nodes.h"
 #include "shader_normals_frag.h"
@@ -33,7 +34,7 @@ namespace
 constexpr const char* Head = "//VTK::System::Dec\n";
 constexpr const char* Outputs = "//VTK::Output::Dec\n";
 // Marks functions that C++ shares; nothing in GLSL.
-constexpr const char* Shared = "#define SHARED\n";
+constexpr const char* Shared = "#define SHARED\n#define OUT(type) out type\n";
 
 std::string assemble(std::initializer_list<std::string> parts)
 {
@@ -55,7 +56,8 @@ ShaderSource volumePassSource(const std::string& body)
 
 ShaderSource refineSource()
 {
-  return volumePassSource(std::string(shader_kernels) + shader_refine_frag);
+  return volumePassSource("#define MAX_PER_CELL " + std::to_string(LargestSamples + 1) + "\n" +
+    std::string(shader_refine_frag));
 }
 
 ShaderSource invertSource()

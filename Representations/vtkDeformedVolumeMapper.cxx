@@ -279,7 +279,8 @@ bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, const 
   placeBricks(layout, scene, state.Bricks);
   if (!state.PresenceCurrent)
   {
-    if (!state.Presence.update(window, state.Bricks, state.Count))
+    const IndexBox changed = state.Deformed ? state.Field.changed() : IndexBox();
+    if (!state.Presence.update(window, state.Bricks, changed, state.Count))
     {
       problem = "The presence map's shader does not compile or its texture cannot be made on this "
                 "GPU";

@@ -1,8 +1,10 @@
 // Inverts the forward map at one point: which rest position is seen at a deformed position.
 // One source for GLSL and C++ (Filters/Inversion.h). The includer provides, in lattice coordinates
 // (cells from the first control point):
-//   vec3 forwardDisplacement(vec3 rest)   deformed - rest
-//   mat3 forwardJacobian(vec3 rest)       its columns are the derivatives of the deformed position
+//   void forwardMap(vec3 rest, OUT(vec3) displacement, OUT(mat3) jacobian)
+//     displacement: deformed - rest; jacobian: its columns are the derivatives of the deformed
+//     position
+//   bool staysAt(vec3 rest)   no displacement there; may say false when unsure
 // Newton's steps, halved while they do not bring the point closer: the plain fixed-point iteration
 // diverges where tissue is stretched more than twofold although nothing folds there.
 
@@ -19,15 +21,18 @@ SHARED vec3 inversionStep(mat3 jacobian, vec3 miss)
   return inverse(jacobian) * miss;
 }
 
-SHARED vec3 restFromDeformed(vec3 deformed)
+// restFromDeformed minus identity at a deformed position.
+SHARED vec3 inverseOffset(vec3 deformed)
 {
-  vec3 displacement = forwardDisplacement(deformed);
-  if (displacement == vec3(0.0f))
+  if (staysAt(deformed))
   {
-    return deformed; // most of space: nothing moves here
+    return vec3(0.0f); // most of space
   }
-  vec3 rest = deformed - displacement;
-  vec3 miss = rest + forwardDisplacement(rest) - deformed;
+  vec3 displacement;
+  mat3 jacobian;
+  forwardMap(deformed, displacement, jacobian);
+  vec3 offset = vec3(0.0f);
+  vec3 miss = displacement; // where the tissue at deformed + offset goes, seen from deformed
   float share = 1.0f;
   for (int i = 0; i < InversionSteps; ++i)
   {
@@ -36,12 +41,16 @@ SHARED vec3 restFromDeformed(vec3 deformed)
     {
       break;
     }
-    vec3 trial = rest - share * inversionStep(forwardJacobian(rest), miss);
-    vec3 trialMiss = trial + forwardDisplacement(trial) - deformed;
+    vec3 trial = offset - share * inversionStep(jacobian, miss);
+    vec3 trialDisplacement;
+    mat3 trialJacobian;
+    forwardMap(deformed + trial, trialDisplacement, trialJacobian);
+    vec3 trialMiss = trial + trialDisplacement;
     if (dot(trialMiss, trialMiss) < missSquared)
     {
-      rest = trial;
+      offset = trial;
       miss = trialMiss;
+      jacobian = trialJacobian;
       share = min(1.0f, 2.0f * share);
     }
     else
@@ -49,5 +58,5 @@ SHARED vec3 restFromDeformed(vec3 deformed)
       share *= 0.5f;
     }
   }
-  return rest;
+  return offset;
 }

@@ -7,7 +7,16 @@ uniform int negated;      // 1: the paper's form, minus the displacement at the 
 void main()
 {
   vec3 deformed = vec3(firstCell) + vec3(targetTexel()) / float(perCell);
-  vec3 offset = negated == 1 ? -forwardDisplacement(deformed)
-                             : restFromDeformed(deformed) - deformed;
+  vec3 offset;
+  if (negated == 1)
+  {
+    mat3 unused;
+    forwardMap(deformed, offset, unused);
+    offset = -offset;
+  }
+  else
+  {
+    offset = inverseOffset(deformed);
+  }
   gl_FragData[0] = vec4(offset * offsetScale, 0.0);
 }

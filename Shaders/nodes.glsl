@@ -33,18 +33,7 @@ vec3 corner(NodeCell cell, int x, int y, int z)
   return texelFetch(refined, texel, 0).xyz;
 }
 
-vec3 forwardDisplacement(vec3 rest)
-{
-  NodeCell cell = nodeCell(rest);
-  vec3 w = cell.within;
-  vec3 low = mix(mix(corner(cell, 0, 0, 0), corner(cell, 1, 0, 0), w.x),
-    mix(corner(cell, 0, 1, 0), corner(cell, 1, 1, 0), w.x), w.y);
-  vec3 high = mix(mix(corner(cell, 0, 0, 1), corner(cell, 1, 0, 1), w.x),
-    mix(corner(cell, 0, 1, 1), corner(cell, 1, 1, 1), w.x), w.y);
-  return mix(low, high, w.z);
-}
-
-mat3 forwardJacobian(vec3 rest)
+void forwardMap(vec3 rest, out vec3 displacement, out mat3 jacobian)
 {
   NodeCell cell = nodeCell(rest);
   vec3 w = cell.within;
@@ -53,6 +42,8 @@ mat3 forwardJacobian(vec3 rest)
   {
     c[i] = corner(cell, i & 1, (i >> 1) & 1, i >> 2);
   }
+  displacement = mix(mix(mix(c[0], c[1], w.x), mix(c[2], c[3], w.x), w.y),
+    mix(mix(c[4], c[5], w.x), mix(c[6], c[7], w.x), w.y), w.z);
   vec3 alongX = mix(
     mix(c[1] - c[0], c[3] - c[2], w.y), mix(c[5] - c[4], c[7] - c[6], w.y), w.z);
   vec3 alongY = mix(
@@ -60,5 +51,12 @@ mat3 forwardJacobian(vec3 rest)
   vec3 alongZ = mix(
     mix(c[4] - c[0], c[5] - c[1], w.x), mix(c[6] - c[2], c[7] - c[3], w.x), w.y);
   vec3 scale = cell.inside * float(perCell);
-  return mat3(1.0) + mat3(alongX * scale.x, alongY * scale.y, alongZ * scale.z);
+  jacobian = mat3(1.0) + mat3(alongX * scale.x, alongY * scale.y, alongZ * scale.z);
+}
+
+// One filtered fetch: exact where all eight nodes are zero, which is all it is asked for.
+bool staysAt(vec3 rest)
+{
+  vec3 position = (rest * float(perCell) + 0.5) / vec3(refinedCount);
+  return textureLod(refined, position, 0.0).xyz == vec3(0.0);
 }

@@ -2,21 +2,21 @@
 // Three runs, one an axis, give the tensor product with 12 fetches a node instead of 64.
 
 uniform sampler3D coarse; // displacements, lattice cells; refined already along lower axes
-uniform int axis;         // 0, 1 or 2
+uniform ivec3 axis;       // unit vector
 uniform int points;       // control points along the axis
 uniform int perCell;      // nodes for each lattice cell
-uniform int kernel;
+uniform vec4 weights[MAX_PER_CELL]; // of the four control points at each node of a cell, from C++
 
 void main()
 {
   ivec3 texel = targetTexel();
-  int cell = texel[axis] / perCell;
-  vec4 weights = kernelWeights(kernel, float(texel[axis] - cell * perCell) / float(perCell));
-  vec3 sum = vec3(0.0);
-  for (int tap = 0; tap < 4; ++tap)
-  {
-    texel[axis] = clamp(cell - 1 + tap, 0, points - 1);
-    sum += weights[tap] * texelFetch(coarse, texel, 0).xyz;
-  }
+  ivec3 across = texel * (1 - axis);
+  int node = texel.x * axis.x + texel.y * axis.y + texel.z * axis.z;
+  int cell = node / perCell;
+  vec4 weight = weights[node - cell * perCell];
+  vec3 sum = weight.x * texelFetch(coarse, across + axis * max(cell - 1, 0), 0).xyz +
+    weight.y * texelFetch(coarse, across + axis * cell, 0).xyz +
+    weight.z * texelFetch(coarse, across + axis * min(cell + 1, points - 1), 0).xyz +
+    weight.w * texelFetch(coarse, across + axis * min(cell + 2, points - 1), 0).xyz;
   gl_FragData[0] = vec4(sum, 0.0);
 }

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FieldChange.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace brainshift
+{
+namespace
+{
+constexpr int KernelReach = 2; // cells to either side of a control point that depend on it
+
+std::size_t pointOffset(const glm::ivec3& dimensions, const glm::ivec3& index)
+{
+  return (static_cast<std::size_t>(index.z) * dimensions.y + index.y) * dimensions.x + index.x;
+}
+
+// Least and greatest displacement the kernel can make of the control points in a box.
+struct DisplacementRange
+{
+  glm::vec3 least{ 0.0f };
+  glm::vec3 greatest{ 0.0f };
+
+  void add(const std::vector<glm::vec3>& inCells, const glm::ivec3& dimensions, const IndexBox& box)
+  {
+    glm::ivec3 index;
+    for (index.z = box.first.z; index.z <= box.last.z; ++index.z)
+    {
+      for (index.y = box.first.y; index.y <= box.last.y; ++index.y)
+      {
+        for (index.x = box.first.x; index.x <= box.last.x; ++index.x)
+        {
+          const glm::vec3& displacement = inCells[pointOffset(dimensions, index)];
+          this->least = glm::min(this->least, displacement);
+          this->greatest = glm::max(this->greatest, displacement);
+        }
+      }
+    }
+  }
+
+  void allowOvershoot()
+  {
+    const glm::vec3 middle = 0.5f * (this->least + this->greatest);
+    const glm::vec3 half = 0.5f * KernelOvershoot * (this->greatest - this->least);
+    this->least = middle - half;
+    this->greatest = middle + half;
+  }
+};
+}
+
+IndexBox changedPoints(const glm::ivec3& dimensions, const std::vector<glm::vec3>& before,
+  const std::vector<glm::vec3>& after)
+{
+  IndexBox box{ dimensions, glm::ivec3(-1) };
+  std::size_t point = 0;
+  glm::ivec3 index;
+  for (index.z = 0; index.z < dimensions.z; ++index.z)
+  {
+    for (index.y = 0; index.y < dimensions.y; ++index.y)
+    {
+      for (index.x = 0; index.x < dimensions.x; ++index.x, ++point)
+      {
+        if (before[point] != after[point])
+        {
+          box.first = glm::min(box.first, index);
+          box.last = glm::max(box.last, index);
+        }
+      }
+    }
+  }
+  return box;
+}
+
+IndexBox changedForwardNodes(const IndexBox& points, const FieldNodes& forward)
+{
+  if (points.empty())
+  {
+    return {};
+  }
+  return { glm::max((points.first - KernelReach) * forward.perCell, glm::ivec3(0)),
+    glm::min((points.last + KernelReach) * forward.perCell, forward.count - 1) };
+}
+
+IndexBox changedBackwardNodes(const IndexBox& points, const glm::ivec3& dimensions,
+  const std::vector<glm::vec3>& before, const std::vector<glm::vec3>& after,
+  const FieldNodes& backward)
+{
+  if (points.empty())
+  {
+    return {};
+  }
+  const glm::ivec3 lowCell = points.first - KernelReach;
+  const glm::ivec3 highCell = points.last + KernelReach;
+  const IndexBox taps{ glm::max(lowCell - KernelReach, glm::ivec3(0)),
+    glm::min(highCell + KernelReach, dimensions - 1) };
+  DisplacementRange range;
+  range.add(before, dimensions, taps);
+  range.add(after, dimensions, taps);
+  range.allowOvershoot();
+  const glm::vec3 margin(1.0f); // cells
+  const glm::vec3 low = glm::vec3(lowCell) + range.least - margin;
+  const glm::vec3 high = glm::vec3(highCell) + range.greatest + margin;
+  const glm::vec3 first(backward.first);
+  const float perCell = static_cast<float>(backward.perCell);
+  IndexBox box{ glm::max(glm::ivec3(glm::floor((low - first) * perCell)), glm::ivec3(0)),
+    glm::min(glm::ivec3(glm::ceil((high - first) * perCell)), backward.count - 1) };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    // Outside the lattice its border holds, so a change there reaches on to the end.
+    box.first[axis] = lowCell[axis] <= 0 ? 0 : box.first[axis];
+    box.last[axis] =
+      highCell[axis] >= dimensions[axis] - 1 ? backward.count[axis] - 1 : box.last[axis];
+  }
+  return box;
+}
+}

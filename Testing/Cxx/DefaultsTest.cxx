@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Proves that a default in the XML is the class's own: it is written twice but lives once.
+#include "TestDefaults.h"
+#include "vtkBakeDeformation.h"
+#include "vtkFreeFormDeformation.h"
+
+#include <vtkNew.h>
+
+#include <gtest/gtest.h>
+
+using namespace brainshift::testing;
+
+TEST(Defaults, OfFreeFormDeformationLiveInTheClass)
+{
+  vtkNew<vtkFreeFormDeformation> filter;
+  const int* sides = filter->GetLatticeDimensions();
+  const Defaults expected{
+    { "Inverse", { double(filter->GetInverse()) } },
+    { "Kernel", { double(filter->GetKernel()) } },
+    { "LatticeDimensions", { double(sides[0]), double(sides[1]), double(sides[2]) } },
+    { "Samples", { double(filter->GetSamples()) } },
+    { "Strength", { filter->GetStrength() } },
+  };
+  EXPECT_EQ(defaultsIn("Filters/FreeFormDeformation.xml"), expected);
+}
+
+TEST(Defaults, OfBakeDeformationLiveInTheClass)
+{
+  vtkNew<vtkBakeDeformation> filter;
+  const Defaults expected{ { "Interpolation", { double(filter->GetInterpolation()) } } };
+  EXPECT_EQ(defaultsIn("Filters/BakeDeformation.xml"), expected);
+}
