@@ -24,7 +24,7 @@ STRENGTHS = (0.0, 0.25, 0.5, 0.75, 1.0)
 
 # Left frontal and parietal cortex, RAS mm, on the surface.
 SCALP_ANCHOR = (-366.0, 40.0, 520.0)
-CORTEX_ANCHOR = (-350.0, 25.0, 509.0)
+CORTEX_ANCHOR = (-340.0, 30.0, 515.0)
 PUSH_MM = -10.0  # towards the centre, as a brain sinks after the skull is opened
 
 # Scalar, red, green, blue; and scalar, opacity.
@@ -112,11 +112,11 @@ def build(head_view, brain_view):
     look_like_tissue("Intensity", SKIN_COLORS, SKIN_OPACITIES)
     look_like_tissue("Brain", CORTEX_COLORS, CORTEX_OPACITIES)
     bent_head = bend("Bent head", head, SCALP_ANCHOR, 40.0)
-    bent_brain = bend("Bent brain", brain, CORTEX_ANCHOR, 50.0)
+    bent_brain = bend("Bent brain", brain, CORTEX_ANCHOR, 40.0)
     show(bent_head, "Intensity", head_view)
     show(bent_brain, "Brain", brain_view)
     frame(head_view, (-309, 28, 476), (-550, 350, 250), 19)
-    frame(brain_view, (-310, 24, 474), (-120, 500, 150), 16)
+    frame(brain_view, (-310, 24, 474), (-120, 500, 100), 16)
     return bent_head, bent_brain
 
 
@@ -147,7 +147,9 @@ def play():
         for key_frame, strength in zip(track.KeyFrames, (0.0, 1.0)):
             key_frame.KeyValues = [strength]
     for view in (head_view, brain_view):
-        view.CameraViewAngle = 24  # half a window is taller than wide
+        width, height = view.ViewSize
+        if height > width:  # half a window often is
+            view.CameraViewAngle *= height / width
     scene.Play()
 
 

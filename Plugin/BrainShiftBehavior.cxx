@@ -21,7 +21,7 @@
 
 namespace
 {
-constexpr const char* Prepared = "BrainShiftPrepared"; // Qt property of a representation
+constexpr const char* Shaded = "BrainShiftShaded"; // Qt property of a representation
 
 bool showsDeformedVolume(vtkSMProxy* representation)
 {
@@ -50,23 +50,23 @@ void colorByFirstArray(vtkSMPVRepresentationProxy* representation)
   }
 }
 
+// A state being loaded says itself how it looks.
 void prepare(pqRepresentation* shown)
 {
   auto representation = vtkSMPVRepresentationProxy::SafeDownCast(shown->getProxy());
   if (!representation || !showsDeformedVolume(representation) ||
-    shown->property(Prepared).toBool())
+    pqApplicationCore::instance()->isLoadingState())
   {
     return;
   }
-  shown->setProperty(Prepared, true);
-  if (pqApplicationCore::instance()->isLoadingState())
-  {
-    return; // a state says itself how it looks
-  }
-  vtkSMPropertyHelper(representation, "Shade", /*quiet*/ true).Set(1);
   if (!representation->GetUsingScalarColoring())
   {
     colorByFirstArray(representation);
+  }
+  if (!shown->property(Shaded).toBool()) // once: who then turns it off means it
+  {
+    shown->setProperty(Shaded, true);
+    vtkSMPropertyHelper(representation, "Shade", /*quiet*/ true).Set(1);
   }
   representation->UpdateVTKObjects();
 }

@@ -21,8 +21,8 @@ public:
   void onShutdown();
 
 private:
-  // Makes a representation drawable when it first becomes Deformed Volume: it colours by an array,
-  // as ParaView takes care of for Volume only, and shades.
+  // Makes a representation that becomes Deformed Volume drawable: it colours by an array, as
+  // ParaView takes care of for Volume only, and, the first time, shades.
   void watchRepresentation(pqRepresentation* representation);
 
   // Keeps the numbers that Free-Form Deformation reports in the panel up to date.
