@@ -22,7 +22,7 @@ else:
 BACKGROUND = (0.11, 0.12, 0.13)
 STRENGTHS = (0.0, 0.25, 0.5, 0.75, 1.0)
 
-# Left frontal and parietal cortex, RAS mm, on the surface.
+# On the surface, left of the midline, RAS mm.
 SCALP_ANCHOR = (-366.0, 40.0, 520.0)
 CORTEX_ANCHOR = (-340.0, 30.0, 515.0)
 PUSH_MM = -10.0  # towards the centre, as a brain sinks after the skull is opened

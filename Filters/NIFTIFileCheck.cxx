@@ -46,7 +46,7 @@ struct RawHeader
     return value;
   }
 
-  bool hasMagic(int offset, char digit) const
+  bool hasMagic(int offset, unsigned char digit) const
   {
     const unsigned char* magic = this->bytes.data() + offset;
     return magic[0] == 'n' && (magic[1] == '+' || magic[1] == 'i') && magic[2] == digit &&

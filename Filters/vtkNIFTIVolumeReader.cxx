@@ -90,6 +90,7 @@ std::vector<double> timesOf(vtkNIFTIImageHeader* header)
   const double step = std::isfinite(spacing) && spacing > 0.0 ? spacing : 1.0;
   const double start = std::isfinite(header->GetTOffset()) ? header->GetTOffset() : 0.0;
   std::vector<double> times;
+  times.reserve(count > 0 ? count : 0);
   for (vtkTypeInt64 i = 0; i < count; ++i)
   {
     times.push_back(seconds * (start + static_cast<double>(i) * step));

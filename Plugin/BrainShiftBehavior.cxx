@@ -112,10 +112,11 @@ void BrainShiftBehavior::watchSource(pqPipelineSource* source)
     return;
   }
   QObject::connect(source, qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
-    [](pqPipelineSource* updated) {
-    if (updated == pqActiveObjects::instance().activeSource()) // else the panel does not show it
+    [](pqPipelineSource* updated)
     {
-      updated->getProxy()->UpdatePropertyInformation();
-    }
-  });
+      if (updated == pqActiveObjects::instance().activeSource()) // else the panel does not show it
+      {
+        updated->getProxy()->UpdatePropertyInformation();
+      }
+    });
 }

@@ -218,7 +218,8 @@ TEST(Bake, ResamplesCellsAndEveryComponent)
   vectors->SetNumberOfTuples(volume->GetNumberOfPoints());
   for (vtkIdType i = 0; i < volume->GetNumberOfPoints(); ++i)
   {
-    vectors->SetTuple3(i, i % 17, i / 17 % 17, i / 289);
+    const vtkIdType layer = i / 289;
+    vectors->SetTuple3(i, i % 17, i / 17 % 17, layer);
   }
   volume->GetPointData()->AddArray(vectors);
   Pipeline pipeline(volume);

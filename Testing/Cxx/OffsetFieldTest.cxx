@@ -120,7 +120,8 @@ TEST(NodeField, IsTrilinearBetweenItsNodes)
   field.nodes.perCell = 2;
   for (int i = 0; i < 12; ++i)
   {
-    field.values.emplace_back(float(i % 3), float(10 * (i / 3 % 2)), float(100 * (i / 6)));
+    const int layer = i / 6;
+    field.values.emplace_back(float(i % 3), float(10 * (i / 3 % 2)), float(100 * layer));
   }
   EXPECT_EQ(field.displacement({ -1.0f, 2.0f, 0.0f }), glm::vec3(0, 0, 0));
   EXPECT_EQ(field.displacement({ -0.5f, 2.5f, 0.5f }), glm::vec3(1, 10, 100));
