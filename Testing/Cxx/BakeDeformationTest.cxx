@@ -236,6 +236,23 @@ TEST(Bake, ResamplesCellsAndEveryComponent)
   EXPECT_EQ(glm::dvec3(three[0], three[1], three[2]), glm::dvec3(5, 8, 7));
 }
 
+TEST(Bake, ReadsCellsAtTheirMiddles)
+{
+  // Each cell holds the x of its middle; tissue is stretched by 1.25 about x = 8.
+  auto volume = volumeOn(VolumeGrid, VTK_FLOAT, someValue);
+  volume->GetCellData()->AddArray(arrayOf(
+    VTK_DOUBLE, "Middle", volume->GetNumberOfCells(), [](vtkIdType i) { return 0.5 + i % 16; }));
+  Pipeline pipeline(volume);
+  auto stretch = fieldOn(withDimensions(VolumeGrid, glm::ivec3(2)),
+    [](const glm::dvec3& rest) { return glm::dvec3(0.25 * (rest.x - 8.0), 0.0, 0.0); });
+  pipeline.Deform->SetInputDataObject(1, stretch);
+  vtkDataArray* baked =
+    pipeline.baked(vtkBakeDeformation::Linear)->GetCellData()->GetArray("Middle");
+  const vtkIdType row = (8 * 16 + 8) * 16;
+  EXPECT_NEAR(baked->GetTuple1(row + 10), 8.0 + 2.5 / 1.25, 1e-4);
+  EXPECT_NEAR(baked->GetTuple1(row + 6), 8.0 - 1.5 / 1.25, 1e-4);
+}
+
 TEST(Bake, ShowsNotANumberWhereItWas)
 {
   auto volume = volumeOn(VolumeGrid, VTK_FLOAT, [](vtkIdType i) { return i == 2456 ? NAN : 5.0; });

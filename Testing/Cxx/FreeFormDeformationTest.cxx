@@ -180,6 +180,7 @@ TEST_F(FreeFormDeformation, ScalesWithStrength)
 {
   this->bend();
   const double whole = this->Filter->GetMaximumDisplacement();
+  EXPECT_LT(this->Filter->GetMinimumJacobian(), 0.95);
   this->Filter->SetStrength(0.25);
   const Deformation quarter = deformationOf(this->output());
   EXPECT_EQ(quarter.lattice.displacements, this->LastGood.lattice.displacements);

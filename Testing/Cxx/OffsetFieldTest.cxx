@@ -247,14 +247,18 @@ TEST(BackwardNodes, ReachWhereverTissueGoes)
         nodes.latticeFromNode(glm::vec3(nodes.count - 1)) + 1e-4f); // rounding of the position
       const PointMap map(lattice);
       Random random(seed);
-      for (int i = 0; i < 2000; ++i)
+      for (int i = 0; i < 4000; ++i)
       {
         glm::dvec3 rest = random.between(glm::dvec3(0.0), glm::dvec3(dimensions - 1));
-        const int axis = i % 3; // on a face; every eighth point in a corner
-        rest[axis] = i % 2 ? dimensions[axis] - 1 : 0;
-        rest = i % 8 == 0
-          ? glm::round(rest / glm::dvec3(dimensions - 1)) * glm::dvec3(dimensions - 1)
-          : rest;
+        const int axis = i % 3;
+        if (i % 4 < 2) // on a face
+        {
+          rest[axis] = i % 4 ? dimensions[axis] - 1 : 0;
+        }
+        else if (i % 4 == 2) // in a corner
+        {
+          rest = glm::round(rest / glm::dvec3(dimensions - 1)) * glm::dvec3(dimensions - 1);
+        }
         const glm::dvec3 goes =
           lattice.grid.gridFromWorld(map.deformedFromRest(lattice.grid.worldFromGrid(rest)));
         EXPECT_TRUE(glm::all(glm::greaterThanEqual(goes, low - 1e-4)) &&

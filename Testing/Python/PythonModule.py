@@ -3,8 +3,8 @@
 # arguments, and that the renderer does again only what changed.
 import math
 
-from brainshift_testing import (ball, load_plugin, look, picture, run_tests, show_volume, view_along,
-                                volume)
+from brainshift_testing import (ball, load_plugin, look, picture, run_tests, show_volume,
+                                view_along, volume)
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
