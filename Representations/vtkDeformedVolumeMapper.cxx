@@ -271,7 +271,7 @@ bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, const 
         return false;
       }
       state.FieldCurrent = true;
-      state.PresenceCurrent = false;
+      state.PresenceCurrent = state.PresenceCurrent && state.Field.changed().empty();
     }
     scene.offsets = state.Field.offsets();
     placeField(grid, layout, lattice, state.Request.nodes, scene);

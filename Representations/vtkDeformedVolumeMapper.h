@@ -54,13 +54,13 @@ public:
 
   enum NormalTextureType
   {
-    HalfResolution = 0, // the paper's choice
+    HalfResolution = 0, // the paper's choice: an eighth of the memory, softer light
     FullResolution = 1,
     OnTheFly = 2, // no texture: six more reads for each lit sample
   };
 
   ///@{
-  /** Where the gradients that light needs come from. Default half resolution. */
+  /** Where the gradients that light needs come from. Default full resolution. */
   vtkSetClampMacro(NormalTexture, int, HalfResolution, OnTheFly);
   vtkGetMacro(NormalTexture, int);
   ///@}
@@ -108,7 +108,7 @@ private:
 
   double SampleDistance = 0.0;
   bool EmptySpaceSkipping = true;
-  int NormalTexture = HalfResolution;
+  int NormalTexture = FullResolution;
 
   struct State; // textures, programs and what they were made from
   std::unique_ptr<State> Internal;

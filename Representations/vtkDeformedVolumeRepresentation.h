@@ -30,7 +30,7 @@ public:
   /** Leap over what cannot be seen: the same picture, sooner. Default true. */
   void SetEmptySpaceSkipping(bool skipping);
 
-  /** Gradients for light: 0 half resolution (default), 1 full resolution, 2 on the fly. */
+  /** Gradients for light: 0 half resolution, 1 full resolution (default), 2 on the fly. */
   void SetNormalTexture(int normals);
 
   /** What the renderer did since it was made (Counters.h): lines of a name, a space, a number. */
