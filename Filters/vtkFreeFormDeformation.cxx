@@ -241,6 +241,10 @@ std::string vtkFreeFormDeformation::Bend(const Grid& volumeGrid, vtkImageData* b
     return "Samples is " + std::to_string(this->Samples) + "; it must be from " +
       std::to_string(SmallestSamples) + " to " + std::to_string(LargestSamples);
   }
+  if (std::isnan(this->Strength))
+  {
+    return "Strength is not a number; it must be from 0 to 1";
+  }
   std::string problem;
   const std::vector<Stroke> strokes = strokesFromNumbers(state.StrokeNumbers, problem);
   Lattice start = makeLattice(withDimensions(volumeGrid, sides), this->Kernel != 0);

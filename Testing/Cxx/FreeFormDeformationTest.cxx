@@ -53,6 +53,7 @@ protected:
     EXPECT_EQ(kept.lattice.displacements, this->LastGood.lattice.displacements);
     EXPECT_EQ(kept.lattice.grid, this->LastGood.lattice.grid);
     EXPECT_EQ(kept.samples, this->LastGood.samples);
+    EXPECT_EQ(kept.strength, this->LastGood.strength);
     this->Heard.take();
   }
 
@@ -236,6 +237,14 @@ TEST_F(FreeFormDeformation, RefusesBadLattices)
     this->output();
     this->expectKeepsDeformation({ "Samples is " + std::to_string(samples), "0 to 16" });
   }
+}
+
+TEST_F(FreeFormDeformation, RefusesAStrengthThatIsNoNumber)
+{
+  this->bend();
+  this->Filter->SetStrength(std::numeric_limits<double>::quiet_NaN());
+  this->output();
+  this->expectKeepsDeformation({ "Strength is not a number", "0 to 1" });
 }
 
 TEST_F(FreeFormDeformation, AddsStrokesToABaseOnItsOwnGrid)

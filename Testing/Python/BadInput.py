@@ -52,6 +52,10 @@ def test_bad_lattices_keep_the_picture():
     expect_kept("LatticeDimensions", [2000, 2000, 2000], "2000 x 2000 x 2000", "4 to 257")
 
 
+def test_a_strength_that_is_no_number_keeps_the_picture():
+    expect_kept("Strength", math.nan, "Strength is not a number", "0 to 1")
+
+
 def test_a_bad_base_lattice_keeps_the_picture():
     filter, view = drawn(ball())
     before = picture(view)
