@@ -98,6 +98,7 @@ def test_a_stroke_uploads_the_lattice_only():
     assert done.pop("latticeUploads") == 1, done
     assert done.pop("bytesUploaded") == 19 ** 3 * 3 * 4, done
     assert done.pop("texelsRefined") > 0, done
+    assert done.pop("presenceUpdates") == 1, done
     assert done == {}, done
 
 
@@ -108,6 +109,7 @@ def test_an_opacity_edit_uploads_the_map_only():
     done = drawn.did()
     assert done.pop("transferUploads") == 1, done
     assert done.pop("bytesUploaded") > 0, done
+    assert done.pop("presenceUpdates") == 1, done
     assert done == {}, done
 
 
