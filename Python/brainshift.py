@@ -76,6 +76,27 @@ def stamp(anchor, toward, amount, major=40.0, minor=25.0, sigma=0.5):
         _positive("major", major), _positive("minor", minor), _positive("sigma", sigma, ""), 1)
 
 
+def pick(representation, view, x, y):
+    """Position (mm, world, deformed frame) of the tissue that `view` shows at a pixel, or None.
+
+    `x`, `y`: pixels from the view's lower left corner, in the picture drawn last; nothing is drawn.
+    Tissue is where the opacity along the ray reaches one half. `representation` is shown in `view`
+    as Deformed Volume.
+    """
+    if representation not in view.Representations:
+        raise ValueError("the representation is not shown in this view")
+    proxy = representation.SMProxy
+    pixel = proxy.GetProperty("PickedPixel")
+    pixel.SetElements2(-1, -1)  # so that asking for the same pixel again asks again
+    proxy.UpdateVTKObjects()
+    pixel.SetElements2(int(x), int(y))
+    proxy.UpdateVTKObjects()
+    tissue = proxy.GetProperty("PickedTissue")
+    proxy.UpdatePropertyInformation(tissue)
+    *position, found = (tissue.GetElement(i) for i in range(4))
+    return tuple(position) if found else None
+
+
 def counters(representation):
     """What the Deformed Volume renderer of a representation did since it was made, as a dict:
     frames, volumeUploads, latticeUploads, transferUploads, bytesUploaded, texelsRefined,

@@ -332,9 +332,11 @@ void vtkDeformedVolumeMapper::DrawUndeformed(
   State& state = *this->Internal;
   if (state.Reported != problem)
   {
-    vtkErrorMacro(<< problem << ". VTK's own mapper draws the volume undeformed.");
+    vtkErrorMacro(<< problem << ". VTK's software mapper draws the volume undeformed.");
     state.Reported = problem;
   }
+  // In software: what stopped us would stop VTK's GPU mapper too, some of it by an abort.
+  state.Fallback->SetRequestedRenderModeToRayCast();
   state.Fallback->SetInputConnection(this->GetInputConnection(0, 0));
   state.Fallback->SetScalarMode(this->ScalarMode);
   state.Fallback->SelectScalarArray(this->ArrayName);

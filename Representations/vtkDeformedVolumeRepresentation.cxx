@@ -5,7 +5,10 @@
 #include "vtkDeformedVolumeMapper.h"
 
 #include "vtkObjectFactory.h"
+#include "vtkPVRenderView.h"
+#include "vtkRenderer.h"
 
+#include <algorithm>
 #include <sstream>
 
 vtkStandardNewMacro(vtkDeformedVolumeRepresentation);
@@ -33,6 +36,24 @@ void vtkDeformedVolumeRepresentation::SetEmptySpaceSkipping(bool skipping)
 void vtkDeformedVolumeRepresentation::SetNormalTexture(int normals)
 {
   this->Mapper()->SetNormalTexture(normals);
+}
+
+bool vtkDeformedVolumeRepresentation::AddToView(vtkView* view)
+{
+  if (auto renderView = vtkPVRenderView::SafeDownCast(view))
+  {
+    this->Renderer = renderView->GetRenderer();
+  }
+  return this->Superclass::AddToView(view);
+}
+
+void vtkDeformedVolumeRepresentation::SetPickedPixel(int x, int y)
+{
+  std::fill_n(this->PickedTissue, 4, 0.0);
+  if (this->Renderer && this->Mapper()->Pick(this->Renderer, x, y, this->PickedTissue))
+  {
+    this->PickedTissue[3] = 1.0;
+  }
 }
 
 const char* vtkDeformedVolumeRepresentation::GetCounters()

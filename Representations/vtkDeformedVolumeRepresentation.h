@@ -11,10 +11,12 @@
 
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 #include "vtkImageVolumeRepresentation.h"
+#include "vtkWeakPointer.h" // for the renderer
 
 #include <string> // for the counters' text
 
 class vtkDeformedVolumeMapper;
+class vtkRenderer;
 
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkDeformedVolumeRepresentation
   : public vtkImageVolumeRepresentation
@@ -33,12 +35,24 @@ public:
   /** Gradients for light: 0 half resolution, 1 full resolution (default), 2 on the fly. */
   void SetNormalTexture(int normals);
 
+  ///@{
+  /**
+   * Asks which tissue the last picture shows at a pixel, counted from the view's lower left corner;
+   * GetPickedTissue then gives its position (mm, world, deformed frame) and 1, or zeros where no
+   * surface was hit. Nothing is drawn.
+   */
+  void SetPickedPixel(int x, int y);
+  vtkGetVector4Macro(PickedTissue, double);
+  ///@}
+
   /** What the renderer did since it was made (Counters.h): lines of a name, a space, a number. */
   const char* GetCounters();
 
 protected:
   vtkDeformedVolumeRepresentation();
   ~vtkDeformedVolumeRepresentation() override = default;
+
+  bool AddToView(vtkView* view) override;
 
   int RequestData(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
@@ -50,6 +64,8 @@ private:
   vtkDeformedVolumeMapper* Mapper() const;
 
   std::string CountersText;
+  double PickedTissue[4] = { 0.0, 0.0, 0.0, 0.0 };
+  vtkWeakPointer<vtkRenderer> Renderer; // of the view this representation is shown in
 };
 
 #endif

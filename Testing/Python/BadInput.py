@@ -4,7 +4,7 @@
 import math
 
 import numpy
-from brainshift_testing import (assert_says, ball, load_plugin, messages, picture, run_tests,
+from brainshift_testing import (assert_says, ball, load_plugin, look, messages, picture, run_tests,
                                 show_volume, view_along, volume)
 
 load_plugin()
@@ -85,6 +85,16 @@ def test_only_not_a_number_draws_nothing():
     for wrong in (math.nan, math.inf):
         _, view = drawn(numpy.full((9, 9, 9), wrong, numpy.float32))
         assert not picture(view).any()
+
+
+def test_a_volume_larger_than_the_gpu_takes_is_drawn_undeformed():
+    # No GPU of today takes 20000 voxels along an axis of a 3D texture.
+    with messages() as said:
+        _, view = drawn(numpy.full((6, 6, 20000), 100.0, numpy.float32), strokes=())
+        look(view, (0, 0, -1), (16.0, 2.5, 2.5), 100.0)
+        shown = picture(view)
+    assert_says(said.text, "20000 voxels", "at most", "undeformed")
+    assert shown.any()
 
 
 def test_volumes_without_volume_are_named():
