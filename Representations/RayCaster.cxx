@@ -96,6 +96,8 @@ void setFieldUniforms(Program& program, const RayCastScene& scene)
   program.set("offsets", scene.offsets);
   program.set("fieldFromTexture", glm::vec3(scene.fieldFromTexture));
   program.set("fieldFromTextureShift", glm::vec3(scene.fieldFromTextureShift));
+  program.set("movedLow", glm::vec3(scene.movedLow));
+  program.set("movedHigh", glm::vec3(scene.movedHigh));
 }
 
 void setLightUniforms(Program& program, const RayCastScene& scene)

@@ -41,6 +41,8 @@ struct RayCastScene
   glm::dmat4 worldFromTexture{ 1.0 };
   glm::dvec3 spaceLow{ 0.0 };         // part of the deformed frame tissue can reach
   glm::dvec3 spaceHigh{ 1.0 };
+  glm::dvec3 movedLow{ 1.0 };         // part of the deformed frame where tissue may have moved;
+  glm::dvec3 movedHigh{ 0.0 };        // high below low: none has
   glm::dvec3 volumeLow{ 0.0 };        // the volume's box in the rest frame
   glm::dvec3 volumeHigh{ 1.0 };
   glm::dvec3 voxel{ 1.0 };            // one voxel, texture coordinates

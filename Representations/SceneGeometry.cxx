@@ -12,6 +12,7 @@
 #include "vtkTextureObject.h"
 
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace brainshift
 {
@@ -73,7 +74,7 @@ glm::dvec3 textureFromLattice(const Grid& grid, const ValueLayout& layout, const
 }
 
 void placeField(const Grid& grid, const ValueLayout& layout, const Grid& lattice,
-  const FieldNodes& nodes, RayCastScene& scene)
+  const FieldNodes& nodes, const IndexBox& moved, RayCastScene& scene)
 {
   const glm::dvec3 texturePerCell = textureFromLattice(grid, layout, lattice);
   const glm::dvec3 textureOfLatticeZero =
@@ -87,6 +88,15 @@ void placeField(const Grid& grid, const ValueLayout& layout, const Grid& lattice
   scene.fieldTexel = 0.5 / count;
   scene.spaceLow = textureOfLatticeZero + first * texturePerCell;
   scene.spaceHigh = scene.spaceLow + (count - 1.0) / perCell * texturePerCell;
+  if (!moved.empty())
+  {
+    // The filter blends one node further; beyond the field's ends its border holds.
+    const glm::dvec3 low = scene.spaceLow + glm::dvec3(moved.first - 1) / perCell * texturePerCell;
+    const glm::dvec3 high = scene.spaceLow + glm::dvec3(moved.last + 1) / perCell * texturePerCell;
+    const glm::dvec3 far(1e6);
+    scene.movedLow = glm::mix(low, -far, glm::equal(moved.first, glm::ivec3(0)));
+    scene.movedHigh = glm::mix(high, far, glm::equal(moved.last, nodes.count - 1));
+  }
 }
 
 void placeBricks(const ValueLayout& layout, RayCastScene& scene, PresenceRequest& request)

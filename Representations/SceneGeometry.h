@@ -4,6 +4,7 @@
 #ifndef BrainShift_SceneGeometry_h
 #define BrainShift_SceneGeometry_h
 
+#include "FieldChange.h"
 #include "Grid.h"
 #include "OffsetField.h"
 
@@ -36,9 +37,10 @@ glm::dmat4 clipFromWorld(vtkRenderer* renderer);
 // Texture units for one lattice cell: the unit the offset field is wanted in.
 glm::dvec3 textureFromLattice(const Grid& grid, const ValueLayout& layout, const Grid& lattice);
 
-// Fills in how the offset field lies to the texture, and the space tissue can reach.
+// Fills in how the offset field lies to the texture, the space tissue can reach, and the part of it
+// where tissue may have moved: the box of nodes `moved`.
 void placeField(const Grid& grid, const ValueLayout& layout, const Grid& lattice,
-  const FieldNodes& nodes, RayCastScene& scene);
+  const FieldNodes& nodes, const IndexBox& moved, RayCastScene& scene);
 
 // Fills in how the deformed frame's bricks lie to the texture, in both.
 void placeBricks(const ValueLayout& layout, RayCastScene& scene, PresenceRequest& request);

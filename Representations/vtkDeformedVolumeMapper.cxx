@@ -49,6 +49,7 @@ struct vtkDeformedVolumeMapper::State
   bool Deformed = false;
   Deformation Source;
   FieldRequest Request;
+  IndexBox Moved; // nodes of the offset field that can differ from zero
   unsigned long long DeformationTime = 0;
   bool FieldCurrent = false; // the GPU's field shows Request
 
@@ -108,6 +109,8 @@ void vtkDeformedVolumeMapper::UpdateDeformation(vtkImageData* image)
   state.Request.inverse = state.Source.inverse;
   state.Request.inCells = displacementsInCells(lattice);
   state.Request.nodes = backwardNodes(lattice.grid, state.Request.inCells, state.Source.samples);
+  state.Moved =
+    movedBackwardNodes(lattice.grid.dimensions, state.Request.inCells, state.Request.nodes);
 }
 
 double* vtkDeformedVolumeMapper::GetBounds()
@@ -274,7 +277,7 @@ bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, const 
       state.PresenceCurrent = state.PresenceCurrent && state.Field.changed().empty();
     }
     scene.offsets = state.Field.offsets();
-    placeField(grid, layout, lattice, state.Request.nodes, scene);
+    placeField(grid, layout, lattice, state.Request.nodes, state.Moved, scene);
   }
   placeBricks(layout, scene, state.Bricks);
   if (!state.PresenceCurrent)

@@ -6,9 +6,22 @@ uniform vec3 fieldFromTexture;      // the offset field's texture coordinates: s
 uniform vec3 fieldFromTextureShift; // ... and shift
 uniform vec3 fieldTexel;            // step for derivatives: half a node, in its coordinates
 
+uniform vec3 movedLow;              // where tissue may have moved, the volume's texture coordinates
+uniform vec3 movedHigh;
+
 vec3 offsetAt(vec3 fieldPosition)
 {
   return textureLod(offsets, fieldPosition, 0.0).xyz;
+}
+
+// Samples, numbered from t = span.x, where tissue may have moved: first, and one past the last.
+// Elsewhere the offset is zero and need not be fetched.
+ivec2 movedSamples(Ray ray, vec2 span, float stepMm)
+{
+  vec2 moved = boxSpan(ray, movedLow, movedHigh);
+  return moved.y < moved.x ? ivec2(0)
+                           : ivec2(floor((moved.x - span.x) / stepMm) - 1.0,
+                               ceil((moved.y - span.x) / stepMm) + 2.0);
 }
 
 vec3 restFromDeformed(vec3 deformed)
@@ -31,6 +44,11 @@ vec3 deformedGradientFromRest(vec3 deformed, vec3 gradient)
   return gradient + slope * fieldFromTexture / (4.0 * fieldTexel);
 }
 #else
+ivec2 movedSamples(Ray ray, vec2 span, float stepMm)
+{
+  return ivec2(0);
+}
+
 vec3 restFromDeformed(vec3 deformed)
 {
   return deformed;

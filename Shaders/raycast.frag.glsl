@@ -42,6 +42,7 @@ void main()
   span.y = min(span.y, sceneDistance(ray, 0.5 * ndc + 0.5));
   // Samples are numbered from the box's edge, whether empty space is skipped or not.
   ivec2 samples = presentSamples(ray, span, stepMm);
+  ivec2 moved = movedSamples(ray, span, stepMm);
   vec3 first = ray.start + span.x * ray.direction;
   vec3 stride = stepMm * ray.direction;
   vec3 towardsEye = -normalize(worldFromTexture * ray.direction);
@@ -51,7 +52,11 @@ void main()
   for (int i = samples.x; i < samples.y; ++i)
   {
     vec3 deformed = first + float(i) * stride;
-    vec3 rest = restFromDeformed(deformed);
+    vec3 rest = deformed;
+    if (i >= moved.x && i < moved.y)
+    {
+      rest = restFromDeformed(deformed);
+    }
     if (insideVolume(rest))
     {
       vec4 tissue = tissueOf(scalarAt(rest));
