@@ -100,7 +100,7 @@ def pick(representation, view, x, y):
 def counters(representation):
     """What the Deformed Volume renderer of a representation did since it was made, as a dict:
     frames, volumeUploads, latticeUploads, transferUploads, bytesUploaded, texelsRefined,
-    programsCompiled."""
+    presenceUpdates, imageScale (screen pixels a side for one drawn), programsCompiled."""
     representation.SMProxy.UpdatePropertyInformation()
     lines = representation.SMProxy.GetProperty("Counters").GetElement(0).splitlines()
     return {name: int(number) for name, number in (line.split() for line in lines)}

@@ -16,6 +16,7 @@ struct Counters
   std::int64_t bytesUploaded = 0;    // all of them together
   std::int64_t texelsRefined = 0;    // nodes of the offset field computed
   std::int64_t presenceUpdates = 0;  // times the deformed presence map was computed
+  std::int64_t imageScale = 1;       // screen pixels a side for one pixel of the last image
   std::int64_t programsCompiled = 0; // shader programs compiled and linked
 };
 }

@@ -28,6 +28,7 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 using namespace brainshift;
@@ -55,10 +56,18 @@ struct vtkDeformedVolumeMapper::State
 
   vtkNew<vtkSmartVolumeMapper> Fallback;
   std::string Reported; // the last trouble told
+
+  double SecondsPerPixel = 0.0; // of the last image; 0: none yet
 };
 
 namespace
 {
+// A window that wants this many frames a second is being moved; still pictures ask for far fewer.
+constexpr double InteractiveRate = 1.0;
+// ParaView asks for 5 a second while the camera moves. Below 15 a hand sees steps.
+constexpr double SmoothRate = 15.0;
+constexpr int LargestImageScale = 4;
+
 // Which number of a tuple the colour map shows; -1: the vector's length.
 int shownComponent(vtkVolumeProperty* property, vtkDataArray* scalars)
 {
@@ -186,15 +195,37 @@ bool vtkDeformedVolumeMapper::Draw(
     return false;
   }
   this->DescribeView(renderer, volume, grid, layout, scene);
+  glm::ivec2 origin;
+  glm::ivec2 size;
+  renderer->GetTiledSizeAndOrigin(&size.x, &size.y, &origin.x, &origin.y);
+  state.Count.imageScale = this->ImageScale(window, size);
+  scene.size = glm::max(size / static_cast<int>(state.Count.imageScale), glm::ivec2(1));
+  vtkNew<vtkTimerLog> timer;
+  timer->StartTimer();
   if (!state.Caster.cast(window, scene, state.Count))
   {
     problem = "The ray caster's shader does not compile or its images cannot be made on this GPU";
     return false;
   }
-  glm::ivec2 origin;
-  glm::ivec2 size;
-  renderer->GetTiledSizeAndOrigin(&size.x, &size.y, &origin.x, &origin.y);
+  window->WaitForCompletion(); // else the time is that of the commands, not of the image
+  timer->StopTimer();
+  state.SecondsPerPixel = timer->GetElapsedTime() / (static_cast<double>(scene.size.x) * scene.size.y);
   return state.Caster.composite(window, origin, size, state.Count);
+}
+
+// Screen pixels a side for one pixel of the image to come.
+int vtkDeformedVolumeMapper::ImageScale(
+  vtkOpenGLRenderWindow* window, const glm::ivec2& size) const
+{
+  const double rate = window->GetDesiredUpdateRate();
+  if (!this->AdaptiveQuality || rate < InteractiveRate)
+  {
+    return 1;
+  }
+  const double fullTime = this->Internal->SecondsPerPixel * size.x * size.y;
+  const double allowed = 1.0 / std::max(rate, SmoothRate);
+  const int scale = static_cast<int>(std::ceil(std::sqrt(fullTime / allowed)));
+  return std::clamp(scale, 1, LargestImageScale);
 }
 
 // Scalars, gradients, colour and opacity.
@@ -303,8 +334,9 @@ void vtkDeformedVolumeMapper::DescribeView(vtkRenderer* renderer, vtkVolume* vol
   State& state = *this->Internal;
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   glm::ivec2 origin;
-  renderer->GetTiledSizeAndOrigin(&scene.size.x, &scene.size.y, &origin.x, &origin.y);
-  state.Depth.capture(window, origin, scene.size);
+  glm::ivec2 size;
+  renderer->GetTiledSizeAndOrigin(&size.x, &size.y, &origin.x, &origin.y);
+  state.Depth.capture(window, origin, size);
   scene.sceneDepth = state.Depth.texture();
   scene.clipFromWorld = clipFromWorld(renderer);
   scene.worldFromTexture = worldFromTexture(grid, layout, volume->GetMatrix());
@@ -321,7 +353,8 @@ bool vtkDeformedVolumeMapper::Pick(vtkRenderer* renderer, int x, int y, double p
   }
   window->MakeCurrent();
   glm::dvec4 hit;
-  if (!state.Caster.hitAt(window, { x, y }, hit))
+  const int scale = static_cast<int>(state.Count.imageScale);
+  if (x < 0 || y < 0 || !state.Caster.hitAt(window, { x / scale, y / scale }, hit))
   {
     return false;
   }
@@ -372,5 +405,6 @@ void vtkDeformedVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "SampleDistance: " << this->SampleDistance << "\n"
      << indent << "EmptySpaceSkipping: " << this->EmptySpaceSkipping << "\n"
+     << indent << "AdaptiveQuality: " << this->AdaptiveQuality << "\n"
      << indent << "NormalTexture: " << this->NormalTexture << "\n";
 }

@@ -18,6 +18,8 @@
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 #include "vtkVolumeMapper.h"
 
+#include <glm/vec2.hpp> // for sizes in pixels
+
 #include <memory> // for the private part
 #include <string> // for messages
 
@@ -65,6 +67,15 @@ public:
   vtkGetMacro(NormalTexture, int);
   ///@}
 
+  ///@{
+  /**
+   * Draw fewer pixels while the window asks for interactive rates, as many as hold the rate; the
+   * still picture has them all. Default true.
+   */
+  vtkSetMacro(AdaptiveQuality, bool);
+  vtkGetMacro(AdaptiveQuality, bool);
+  ///@}
+
   /**
    * Tissue position (mm, world, deformed frame) that the last picture shows at a pixel counted from
    * the renderer's lower left corner, without drawing again: where the opacity along the ray reaches
@@ -96,6 +107,7 @@ private:
   bool Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem);
   void DrawUndeformed(vtkRenderer* renderer, vtkVolume* volume, const std::string& problem);
 
+  int ImageScale(vtkOpenGLRenderWindow* window, const glm::ivec2& size) const;
   void UpdateDeformation(vtkImageData* image);
   bool PrepareTissue(vtkOpenGLRenderWindow* window, vtkVolumeProperty* property,
     vtkDataArray* scalars, const brainshift::Grid& grid, const brainshift::ValueLayout& layout,
@@ -109,6 +121,7 @@ private:
   double SampleDistance = 0.0;
   bool EmptySpaceSkipping = true;
   int NormalTexture = FullResolution;
+  bool AdaptiveQuality = true;
 
   struct State; // textures, programs and what they were made from
   std::unique_ptr<State> Internal;

@@ -38,6 +38,11 @@ void vtkDeformedVolumeRepresentation::SetNormalTexture(int normals)
   this->Mapper()->SetNormalTexture(normals);
 }
 
+void vtkDeformedVolumeRepresentation::SetAdaptiveQuality(bool adaptive)
+{
+  this->Mapper()->SetAdaptiveQuality(adaptive);
+}
+
 bool vtkDeformedVolumeRepresentation::AddToView(vtkView* view)
 {
   if (auto renderView = vtkPVRenderView::SafeDownCast(view))
@@ -63,7 +68,7 @@ const char* vtkDeformedVolumeRepresentation::GetCounters()
   text << "frames " << count.frames << "\nvolumeUploads " << count.volumeUploads
        << "\nlatticeUploads " << count.latticeUploads << "\ntransferUploads "
        << count.transferUploads << "\nbytesUploaded " << count.bytesUploaded
-       << "\ntexelsRefined " << count.texelsRefined << "\npresenceUpdates " << count.presenceUpdates
+       << "\ntexelsRefined " << count.texelsRefined << "\npresenceUpdates " << count.presenceUpdates << "\nimageScale " << count.imageScale
        << "\nprogramsCompiled "
        << count.programsCompiled;
   this->CountersText = text.str();

@@ -35,6 +35,9 @@ public:
   /** Gradients for light: 0 half resolution, 1 full resolution (default), 2 on the fly. */
   void SetNormalTexture(int normals);
 
+  /** Draw fewer pixels while moving, to hold the rate. Default true. */
+  void SetAdaptiveQuality(bool adaptive);
+
   ///@{
   /**
    * Asks which tissue the last picture shows at a pixel, counted from the view's lower left corner;
