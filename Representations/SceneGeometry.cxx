@@ -99,6 +99,19 @@ void placeField(const Grid& grid, const ValueLayout& layout, const Grid& lattice
   }
 }
 
+void cropSpace(
+  const Grid& grid, const ValueLayout& layout, const double planes[6], RayCastScene& scene)
+{
+  const glm::dvec3 low(planes[0], planes[2], planes[4]);
+  const glm::dvec3 high(planes[1], planes[3], planes[5]);
+  const auto textureFromPlane = [&](const glm::dvec3& plane) {
+    return (plane - grid.origin) / grid.spacing * layout.textureFromGrid +
+      layout.textureOfGridZero;
+  };
+  scene.spaceLow = glm::max(scene.spaceLow, textureFromPlane(low));
+  scene.spaceHigh = glm::min(scene.spaceHigh, textureFromPlane(high));
+}
+
 void placeBricks(const ValueLayout& layout, RayCastScene& scene, PresenceRequest& request)
 {
   // Bricks count voxels from the middle of the first one.

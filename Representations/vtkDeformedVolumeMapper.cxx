@@ -322,6 +322,10 @@ bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, const 
     }
     state.PresenceCurrent = true;
   }
+  if (this->Cropping && this->CroppingRegionFlags == VTK_CROP_SUBVOLUME)
+  {
+    cropSpace(grid, layout, this->CroppingRegionPlanes, scene);
+  }
   scene.presence = &state.Presence;
   scene.skipping = this->EmptySpaceSkipping;
   return true;

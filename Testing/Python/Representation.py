@@ -111,6 +111,21 @@ def test_light_follows_the_bent_surface():
     assert mean_difference(undeformed, expected) > 0.02
 
 
+def test_crops_as_the_stock_volume_does():
+    source = volume(ball())
+    images = []
+    for kind, cropped in (("Volume", 1), ("Deformed Volume", 1), ("Deformed Volume", 0)):
+        view = view_along((-0.5, 0.3, -1), MIDDLE, 100.0)
+        display = show_volume(source, view, kind, BALL_COLORS, BALL_OPACITIES)
+        display.UseCropping = cropped
+        display.CroppingScale = [0.5, 1.0, 0.6]
+        images.append(picture(view))
+        Delete(view)
+    stock, ours, whole = images
+    assert mean_difference(ours, stock) < LARGEST_DIFFERENCE
+    assert mean_difference(whole, stock) > 2 * LARGEST_DIFFERENCE
+
+
 def ball_view(opacities=BALL_OPACITIES, strokes=()):
     """A green ball seen along -z, a red sphere, and the view."""
     filter = FreeFormDeformation(Input=volume(ball()), Strokes=list(strokes))
