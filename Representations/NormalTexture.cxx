@@ -14,39 +14,40 @@ NormalTexture::NormalTexture() = default;
 NormalTexture::~NormalTexture() = default;
 
 bool NormalTexture::update(vtkOpenGLRenderWindow* window, vtkTextureObject* scalars,
-  const glm::ivec3& dimensions, bool half, float range, Counters& counters)
+  const glm::ivec3& dimensions, Form form, float range, Counters& counters)
 {
-  if (this->Texture && this->Source == scalars && this->Half == half)
+  if (this->Texture && this->Source == scalars && this->Shown == form)
   {
     return true;
   }
-  const glm::ivec3 size = half ? (dimensions + 1) / 2 : dimensions;
+  const glm::ivec3 size = form == Half ? (dimensions + 1) / 2 : dimensions;
   this->Texture = vtkSmartPointer<vtkTextureObject>::New();
   this->Texture->SetContext(window);
-  this->Texture->SetInternalFormat(GL_RGBA16F);
+  this->Texture->SetInternalFormat(form == Packed ? GL_RGBA16 : GL_RGBA16F);
   this->Texture->SetMinificationFilter(vtkTextureObject::Linear);
   this->Texture->SetMagnificationFilter(vtkTextureObject::Linear);
   this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
   this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
   this->Texture->SetWrapR(vtkTextureObject::ClampToEdge);
+  Program& program = this->NormalsPrograms[form == Packed];
   if (!this->Texture->Allocate3D(size.x, size.y, size.z, 4, VTK_FLOAT) ||
-    !this->NormalsProgram.use(window, normalsSource(), counters))
+    !program.use(window, normalsSource(form == Packed), counters))
   {
     this->Texture = nullptr;
     return false;
   }
   const glm::vec3 voxel = 1.0f / glm::vec3(dimensions);
-  this->NormalsProgram.set("scalars", scalars);
-  this->NormalsProgram.set("texel", 1.0f / glm::vec3(size));
-  this->NormalsProgram.set("voxel", voxel);
+  program.set("scalars", scalars);
+  program.set("texel", 1.0f / glm::vec3(size));
+  program.set("voxel", voxel);
   // Differences of the whole range over one voxel come out as 1 along the longest side.
   const float longest = static_cast<float>(glm::max(dimensions.x, glm::max(dimensions.y, dimensions.z)));
-  this->NormalsProgram.set("gradientScale", 1.0f / (range > 0.0f ? range * longest : longest));
+  program.set("gradientScale", 1.0f / (range > 0.0f ? range * longest : longest));
   runVolumePass(
-    window, this->NormalsProgram.get()->GetHandle(), this->Texture, glm::ivec3(0), size);
+    window, program.get()->GetHandle(), this->Texture, glm::ivec3(0), size);
   scalars->Deactivate();
   this->Source = scalars;
-  this->Half = half;
+  this->Shown = form;
   return true;
 }
 
@@ -58,6 +59,7 @@ void NormalTexture::releaseGraphicsResources(vtkWindow* window)
   }
   this->Texture = nullptr;
   this->Source = nullptr;
-  this->NormalsProgram.forget();
+  this->NormalsPrograms[0].forget();
+  this->NormalsPrograms[1].forget();
 }
 }

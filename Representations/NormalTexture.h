@@ -23,10 +23,19 @@ public:
   NormalTexture();
   ~NormalTexture();
 
-  // Computes the gradients of `scalars` (voxels a side given) at full or half resolution, unless
-  // they are there already. `range`: greatest minus least stored value.
+  enum Form
+  {
+    Half,   // half resolution, 16-bit floats
+    Full,   // full resolution, 16-bit floats
+    Packed, // full resolution, 16-bit whole numbers, with the scalar (which must lie in 0 to 1)
+  };
+
+  // Computes the gradients of `scalars` (voxels a side given), unless they are there already.
+  // `range`: greatest minus least stored value.
   bool update(vtkOpenGLRenderWindow* window, vtkTextureObject* scalars,
-    const glm::ivec3& dimensions, bool half, float range, Counters& counters);
+    const glm::ivec3& dimensions, Form form, float range, Counters& counters);
+
+  bool packed() const { return this->Shown == Packed; }
 
   vtkTextureObject* texture() const { return this->Texture; }
   void releaseGraphicsResources(vtkWindow* window);
@@ -34,8 +43,8 @@ public:
 private:
   vtkSmartPointer<vtkTextureObject> Texture;
   vtkWeakPointer<vtkTextureObject> Source; // the scalars it was made from
-  bool Half = false;
-  Program NormalsProgram;
+  Form Shown = Half;
+  Program NormalsPrograms[2]; // [packed]
 };
 }
 

@@ -84,7 +84,14 @@ void setSkippingUniforms(Program& program, const RayCastScene& scene, vtkTexture
 
 void setTissueUniforms(Program& program, const RayCastScene& scene)
 {
-  program.set("scalars", scene.scalars);
+  if (scene.normals && scene.packedNormals)
+  {
+    program.set("packedTissue", scene.normals);
+  }
+  else
+  {
+    program.set("scalars", scene.scalars);
+  }
   program.set("transfer", scene.transfer);
   program.set("transferFromScalar", glm::vec2(scene.transferFromScalar));
   program.set("volumeLow", glm::vec3(scene.volumeLow));
@@ -103,13 +110,13 @@ void setFieldUniforms(Program& program, const RayCastScene& scene)
 void setLightUniforms(Program& program, const RayCastScene& scene)
 {
   const glm::dmat3 worldFromTexture(scene.worldFromTexture);
-  if (scene.normals)
-  {
-    program.set("normals", scene.normals);
-  }
-  else
+  if (!scene.normals)
   {
     program.set("voxel", glm::vec3(scene.voxel));
+  }
+  else if (!scene.packedNormals)
+  {
+    program.set("normals", scene.normals);
   }
   program.set(
     "worldFromGradient", glm::mat3(glm::transpose(glm::inverse(worldFromTexture))));
@@ -293,8 +300,9 @@ bool RayCaster::cast(
   RayCastVariant variant;
   variant.deformed = scene.offsets != nullptr;
   variant.light = !scene.shaded ? RayCastVariant::Unshaded
-    : scene.normals            ? RayCastVariant::GradientTexture
-                               : RayCastVariant::GradientsOnTheFly;
+    : !scene.normals           ? RayCastVariant::GradientsOnTheFly
+    : scene.packedNormals      ? RayCastVariant::PackedGradients
+                               : RayCastVariant::GradientTexture;
   Program& program = this->CastPrograms[variant.deformed][variant.light];
   if (!this->prepareImages(window, scene.size) ||
     (scene.skipping && !this->findSpans(window, scene, counters)) ||

@@ -62,6 +62,7 @@ struct RayCastScene
   vtkTextureObject* scalars = nullptr;
   vtkTextureObject* offsets = nullptr; // null: the volume carries no deformation
   vtkTextureObject* normals = nullptr; // null: gradients on the fly
+  bool packedNormals = false;          // normals hold the scalars too
   vtkTextureObject* transfer = nullptr;
   DeformedPresence* presence = nullptr;
   vtkTextureObject* sceneDepth = nullptr;

@@ -118,7 +118,8 @@ bool ScalarTexture::upload(vtkOpenGLRenderWindow* window, vtkDataArray* scalars,
     return this->Texture->Create3DFromRaw(
       dimensions.x, dimensions.y, dimensions.z, 1, type, stored.data());
   };
-  if (!fitsSixteenBits(scalars, component))
+  this->SixteenBits = fitsSixteenBits(scalars, component);
+  if (!this->SixteenBits)
   {
     this->Scale = 1.0;
     this->Shift = 0.0;

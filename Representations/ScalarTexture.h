@@ -36,6 +36,9 @@ public:
   // Greatest minus least stored value.
   float range() const { return this->Range; }
 
+  // Stored values lie in 0 to 1, in steps of 16 bits.
+  bool sixteenBits() const { return this->SixteenBits; }
+
   // scalar = stored * scale + shift
   double scale() const { return this->Scale; }
   double shift() const { return this->Shift; }
@@ -54,6 +57,7 @@ private:
   int UploadedComponent = 0;
   BrickRanges Ranges;
   float Range = 0.0f;
+  bool SixteenBits = false;
   double Scale = 1.0;
   double Shift = 0.0;
 };

@@ -65,9 +65,10 @@ ShaderSource invertSource()
   return volumePassSource(std::string(shader_nodes) + shader_inversion + shader_invert_frag);
 }
 
-ShaderSource normalsSource()
+ShaderSource normalsSource(bool packed)
 {
-  return volumePassSource(std::string(shader_gradient) + shader_normals_frag);
+  return volumePassSource(
+    std::string(packed ? "#define PACKED_GRADIENTS\n" : "") + shader_gradient + shader_normals_frag);
 }
 
 ShaderSource presenceSource(bool deformed)
@@ -87,7 +88,8 @@ ShaderSource rayCastSource(const RayCastVariant& variant)
   std::string defines = "#define MAX_LIGHTS " + std::to_string(MaxLights) + "\n";
   defines += variant.deformed ? "#define DEFORMED\n" : "";
   defines += variant.light != RayCastVariant::Unshaded ? "#define SHADED\n" : "";
-  defines += variant.light == RayCastVariant::GradientTexture ? "#define NORMAL_TEXTURE\n" : "";
+  defines += variant.light == RayCastVariant::GradientTexture ? "#define GRADIENT_TEXTURE\n" : "";
+  defines += variant.light == RayCastVariant::PackedGradients ? "#define PACKED_GRADIENTS\n" : "";
   return { assemble({ shader_fullscreen_vert }), "",
     assemble({ Outputs, defines, shader_rays, shader_skipping, shader_field, shader_gradient,
       shader_tissue, shader_light, shader_raycast_frag }) };
@@ -101,10 +103,11 @@ ShaderSource compositeSource()
 std::vector<std::pair<std::string, ShaderSource>> allSources()
 {
   std::vector<std::pair<std::string, ShaderSource>> sources{ { "refine", refineSource() },
-    { "invert", invertSource() }, { "normals", normalsSource() },
+    { "invert", invertSource() }, { "normals", normalsSource(false) },
+    { "normals_packed", normalsSource(true) },
     { "presence_rest", presenceSource(false) }, { "presence_deformed", presenceSource(true) },
     { "proxy", proxySource() }, { "composite", compositeSource() } };
-  const char* lights[] = { "_unshaded", "_gradients", "_gradient_texture" };
+  const char* lights[] = { "_unshaded", "_gradients", "_gradient_texture", "_packed_gradients" };
   for (const bool deformed : { false, true })
   {
     for (int light = 0; light < RayCastVariant::LightCount; ++light)

@@ -251,13 +251,18 @@ bool vtkDeformedVolumeMapper::PrepareTissue(vtkOpenGLRenderWindow* window,
   scene.voxel = layout.textureFromGrid;
   if (scene.shaded && this->NormalTexture != OnTheFly)
   {
-    if (!state.Normals.update(window, state.Scalars.texture(), layout.dimensions,
-          this->NormalTexture == HalfResolution, state.Scalars.range(), state.Count))
+    using Gradients = brainshift::NormalTexture;
+    const Gradients::Form form = this->NormalTexture == HalfResolution ? Gradients::Half
+      : state.Scalars.sixteenBits()                                    ? Gradients::Packed
+                                                                       : Gradients::Full;
+    if (!state.Normals.update(window, state.Scalars.texture(), layout.dimensions, form,
+          state.Scalars.range(), state.Count))
     {
       problem = "The gradients' shader does not compile or their texture cannot be made on this GPU";
       return false;
     }
     scene.normals = state.Normals.texture();
+    scene.packedNormals = state.Normals.packed();
   }
   scene.scalars = state.Scalars.texture();
   scene.transfer = state.Transfer.texture();

@@ -1,3 +1,6 @@
+// A gradient of zero as a packed texture holds it: whole numbers of 16 bits, so that it is exact.
+const float PackedZero = 32768.0 / 65535.0;
+
 // The scalar's gradient, for each texture unit: central differences over one voxel to either side.
 
 vec3 centralDifferences(sampler3D field, vec3 position, vec3 voxel)

@@ -1,5 +1,7 @@
 // Gradients for light, found once when the volume is loaded (paper, section 2: half resolution,
 // 16-bit floats). Not of unit length: long ones count more where the filter blends neighbours.
+// Packed: 16-bit whole numbers, from -0.5 to 0.5 about PackedZero, and the scalar in alpha, so that
+// a sample needs one read instead of two.
 
 uniform sampler3D scalars;
 uniform vec3 texel;          // one texel of the target, texture coordinates
@@ -11,5 +13,10 @@ void main()
   vec3 middle = (vec3(targetTexel()) + 0.5) * texel;
   vec3 gradient = centralDifferences(scalars, middle, voxel) * gradientScale;
   bool unknown = any(isnan(gradient)) || any(isinf(gradient));
-  gl_FragData[0] = vec4(unknown ? vec3(0.0) : gradient, 0.0);
+  gradient = unknown ? vec3(0.0) : gradient;
+#ifdef PACKED_GRADIENTS
+  gl_FragData[0] = vec4(0.5 * gradient + PackedZero, textureLod(scalars, middle, 0.0).r);
+#else
+  gl_FragData[0] = vec4(gradient, 0.0);
+#endif
 }

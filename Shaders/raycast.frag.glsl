@@ -18,10 +18,10 @@ vec3 worldFromDeformed(vec3 deformed)
   return worldFromTexture * deformed + worldOfTextureZero;
 }
 
-vec3 shade(vec3 color, vec3 deformed, vec3 rest, vec3 towardsEye)
+vec3 shade(vec3 color, vec4 probe, vec3 deformed, vec3 rest, vec3 towardsEye)
 {
 #ifdef SHADED
-  vec3 gradient = gradientAt(rest);
+  vec3 gradient = gradientOf(probe, rest);
   if (rest != deformed) // where nothing moves there is nothing to turn
   {
     gradient = deformedGradientFromRest(deformed, gradient);
@@ -59,10 +59,11 @@ void main()
     }
     if (insideVolume(rest))
     {
-      vec4 tissue = tissueOf(scalarAt(rest));
+      vec4 probe = probeAt(rest);
+      vec4 tissue = tissueOf(probe.a);
       if (tissue.a > 0.0)
       {
-        vec3 color = shade(tissue.rgb, deformed, rest, towardsEye);
+        vec3 color = shade(tissue.rgb, probe, deformed, rest, towardsEye);
         picture += (1.0 - picture.a) * vec4(color * tissue.a, tissue.a);
         hit = hit < 0.0 && picture.a >= HitOpacity ? float(i) : hit;
         if (picture.a > OpaqueEnough)
