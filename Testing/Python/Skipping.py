@@ -30,6 +30,7 @@ def scattered(side=SIDE, seed=1):
     random = numpy.random.default_rng(seed)
     voxels = numpy.zeros((side,) * 3, numpy.float32)
     for extent, count in ((1, 40), (2, 20), (4, 6)):
+        count = count * side ** 3 // SIDE ** 3
         for corner in random.integers(1, side - extent - 1, (count, 3)):
             voxels[tuple(slice(low, low + extent) for low in corner)] = 1.0
     return voxels
@@ -96,7 +97,7 @@ def test_views():
         for projection, named in (("perspective", {}), ("parallel", {"half_height": 16.0})):
             view = new_view(**named)
             display = show_volume(filter, view, "Deformed Volume", *curves(name))
-            for direction in ((0, 0, -1), (1, 0, 0), (0, 1, 0.0001), (0.3, -0.9, 0.4)):
+            for direction in ((0, 0, -1), (1, 0, 0), (0.3, -0.9, 0.4)):
                 look(view, direction, MIDDLE, 70.0, up=(0.1, 0.2, 1))
                 assert_same(view, display, f"{name}, {projection}, along {direction}")
             Delete(view)
@@ -110,7 +111,7 @@ def test_camera_inside():
         view = new_view()
         for name in ("translucent", "band"):
             display = show_volume(filter, view, "Deformed Volume", *curves(name))
-            for focus, distance in ((MIDDLE, 0.5), (MIDDLE, 3.0), (within, 0.2), (within, 7.0)):
+            for focus, distance in ((MIDDLE, 0.5), (within, 0.2), (within, 7.0)):
                 look(view, OBLIQUE, focus, distance)
                 assert_same(view, display, f"{name}, {distance} mm from {focus}", 0.005)
         Delete(view)
@@ -161,23 +162,26 @@ def test_a_surface_inside():
 
 
 def test_strokes_one_by_one():
-    source = volume(scattered())
+    side = 49  # so large that a stroke reaches a part of it
+    focus = ((side - 1) / 2,) * 3
+    source = volume(scattered(side))
     random = numpy.random.default_rng(5)
+    colours = curves("translucent")
     filter = FreeFormDeformation(Input=source, Samples=2)
-    view = new_view()
-    display = show_volume(filter, view, "Deformed Volume", *curves("translucent"), shade=True)
+    view = new_view(focus=focus, half_height=30.0)
+    display = show_volume(filter, view, "Deformed Volume", *colours, shade=True)
     picture(view)
     strokes = ()
-    for number in range(6):
-        anchor = random.uniform(3, SIDE - 4, 3)
-        vector = random.uniform(-5, 5, 3)
+    for number in range(1, 7):
+        anchor = random.uniform(14, side - 15, 3)
+        vector = random.uniform(-7, 7, 3)
         strokes += brainshift.soft(anchor, vector, random.uniform(4, 9))
         filter.Strokes = strokes
-        assert_same(view, display, f"{number + 1} strokes")
+        assert_same(view, display, f"{number} strokes", 0.005)
         # Of these pictures a part was redone; all of it in a pipeline of its own.
-        apart = view_along(OBLIQUE, MIDDLE, 70.0, size=SIZE)
+        apart = new_view(focus=focus, half_height=30.0)
         fresh = FreeFormDeformation(Input=source, Samples=2, Strokes=strokes)
-        show_volume(fresh, apart, "Deformed Volume", *curves("translucent"), shade=True)
+        show_volume(fresh, apart, "Deformed Volume", *colours, shade=True)
         differing = int((picture(apart) != picture(view)).any(axis=2).sum())
         assert differing == 0, (number, differing)
         Delete(apart)
