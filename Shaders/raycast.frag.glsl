@@ -48,7 +48,7 @@ void main()
   vec3 towardsEye = -normalize(worldFromTexture * ray.direction);
 
   vec4 picture = vec4(0.0); // colour times opacity, opacity
-  float hit = -1.0;         // number of the sample that reached HitOpacity
+  float hit = -1.0;         // where HitOpacity was reached: half a step before the sample past it
   for (int i = samples.x; i < samples.y; ++i)
   {
     vec3 deformed = first + float(i) * stride;
@@ -65,7 +65,7 @@ void main()
       {
         vec3 color = shade(tissue.rgb, probe, deformed, rest, towardsEye);
         picture += (1.0 - picture.a) * vec4(color * tissue.a, tissue.a);
-        hit = hit < 0.0 && picture.a >= HitOpacity ? float(i) : hit;
+        hit = hit < 0.0 && picture.a >= HitOpacity ? max(float(i) - 0.5, 0.0) : hit;
         if (picture.a > OpaqueEnough)
         {
           break;

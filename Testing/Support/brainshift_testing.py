@@ -39,15 +39,19 @@ def run_tests(namespace):
 # Volumes ------------------------------------------------------------------------------------------
 
 
-def volume(voxels, origin=(0.0, 0.0, 0.0), spacing=(1.0, 1.0, 1.0)):
-    """A source of an image with point scalars "Intensity" from an array indexed [z, y, x]."""
+def volume(voxels, origin=(0.0, 0.0, 0.0), spacing=(1.0, 1.0, 1.0), direction=None, cells=False):
+    """A source of an image with scalars "Intensity" from an array indexed [z, y, x], or [z, y, x,
+    component], on its points or in its cells. `direction`: 9 numbers, row by row."""
     image = vtkImageData()
-    image.SetDimensions(*reversed(voxels.shape))
+    image.SetDimensions(*(side + int(cells) for side in reversed(voxels.shape[:3])))
     image.SetOrigin(*origin)
     image.SetSpacing(*spacing)
-    scalars = numpy_to_vtk(numpy.ascontiguousarray(voxels).ravel(), deep=True)
+    if direction is not None:
+        image.SetDirectionMatrix(*direction)
+    flat = numpy.ascontiguousarray(voxels).reshape((-1,) + voxels.shape[3:])
+    scalars = numpy_to_vtk(flat, deep=True)
     scalars.SetName("Intensity")
-    image.GetPointData().SetScalars(scalars)
+    (image.GetCellData() if cells else image.GetPointData()).SetScalars(scalars)
     source = simple.TrivialProducer()
     source.GetClientSideObject().SetOutput(image)
     source.UpdatePipeline()
@@ -121,12 +125,12 @@ def use_headlight(view):
 
 
 def show_volume(source, view, kind, colors, opacities, array="Intensity", shade=False,
-                unit=1.0):
+                unit=1.0, association="POINTS"):
     """Shows a volume with a colour map (scalar, r, g, b, ...) and an opacity curve (scalar,
     opacity, 0.5, 0, ...) of its own; opacities hold for `unit` mm."""
     display = simple.Show(source, view, "UniformGridRepresentation")
     display.SetRepresentationType(kind)
-    simple.ColorBy(display, ("POINTS", array), separate=True)
+    simple.ColorBy(display, (association, array), separate=True)
     display.SetScalarBarVisibility(view, False)
     color = simple.GetColorTransferFunction(array, display, separate=True)
     color.ColorSpace = "RGB"

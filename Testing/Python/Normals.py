@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves that light falls on the bent surface as it would on the baked volume's: normals drawn and
+# normals of the baked volume differ by less than 3 degrees on the mean. A red, a green and a blue
+# light along the three axes show all of a normal in one picture: the pixel is (|x|, |y|, |z|).
+import numpy
+from brainshift_testing import (ball, load_plugin, picture, run_tests, show_volume, view_along,
+                                volume, voxels)
+from vtkmodules.vtkRenderingCore import vtkLight
+
+load_plugin()
+import brainshift  # noqa: E402 after the plugin
+from paraview.simple import BakeDeformation, Delete, FreeFormDeformation  # noqa: E402
+
+SIZE = 140           # edge of the picture, pixels
+PIXELS_APART = 3     # of those whose normals are compared
+LARGEST_ANGLE = 3.0  # mean, degrees
+SIDE = 49
+MIDDLE = (24.0, 24.0, 24.0)
+COLORS = [0, 1, 1, 1, 100, 1, 1, 1]
+SURFACE = [0, 0, 0.5, 0, 49.9, 0, 0.5, 0, 50, 1, 0.5, 0, 100, 1, 0.5, 0]
+
+
+def bent(source):
+    return FreeFormDeformation(Input=source, Strokes=(
+        brainshift.stamp((24, 24, 40), MIDDLE, -9.0, major=26.0, minor=20.0)
+        + brainshift.stamp((10, 24, 26), MIDDLE, 9.0, major=24.0, minor=20.0)))
+
+
+def light_along_axes(view):
+    view.UseLight = 0
+    view.SMProxy.StillRender()
+    renderer = view.GetClientSideObject().GetRenderer()
+    renderer.GetLights().RemoveAllItems()
+    for axis in numpy.eye(3):
+        light = vtkLight()
+        light.SetLightTypeToSceneLight()
+        light.SetPosition(*axis)
+        light.SetFocalPoint(0, 0, 0)
+        light.SetDiffuseColor(*axis)
+        renderer.AddLight(light)
+
+
+def sampled(values, positions):
+    """Values [z, y, x, ...] at positions (x, y, z) in voxels, linear between voxels."""
+    low = numpy.floor(positions).astype(int)
+    within = positions - low
+    result = 0.0
+    for corner in numpy.ndindex(2, 2, 2):
+        weight = numpy.prod(numpy.where(corner, within, 1.0 - within), axis=1)
+        x, y, z = (low + corner).T
+        result = result + weight[:, None] * values[z, y, x]
+    return result
+
+
+def gradient(intensity):
+    """Gradient (x, y, z) of voxels [z, y, x]."""
+    return numpy.stack(numpy.gradient(intensity.astype(float))[::-1], axis=-1)
+
+
+def mean_angle(left, right):
+    """Mean angle (degrees) between directions known up to the signs of their components."""
+    left, right = (numpy.abs(v) / numpy.linalg.norm(v, axis=1)[:, None] for v in (left, right))
+    return float(numpy.degrees(numpy.arccos((left * right).sum(axis=1).clip(-1, 1))).mean())
+
+
+class Surface:
+    """What one view shows of the bent blob: positions (voxels) and normals drawn there."""
+
+    def __init__(self, filter, direction, normals):
+        view = view_along(direction, MIDDLE, 110.0, size=SIZE)
+        display = show_volume(filter, view, "Deformed Volume", COLORS, SURFACE, shade=True)
+        display.VolumeNormalTexture = normals
+        display.SampleDistance = 0.1  # mm: the sample drawn is where the pick says
+        display.Ambient, display.Diffuse, display.Specular = 0.0, 1.0, 0.0
+        light_along_axes(view)
+        image = picture(view)
+        found = []
+        for row in range(0, SIZE, PIXELS_APART):
+            for column in range(0, SIZE, PIXELS_APART):
+                position = brainshift.pick(display, view, column, row)
+                if position is not None:
+                    found.append(numpy.concatenate([position, image[row, column]]))
+        Delete(view)
+        self.positions, self.normals = numpy.hsplit(numpy.array(found), [3])
+
+
+def test_drawn_normals_are_those_of_the_baked_surface():
+    blob = ball(side=SIDE, radius=13.0, edge=18.0)
+    filter = bent(volume(blob))
+    baked = gradient(voxels(BakeDeformation(Input=filter, Interpolation="Cubic")))
+    z, y, x = numpy.mgrid[0:SIDE, 0:SIDE, 0:SIDE].astype(numpy.float32)
+    # Where each voxel of the deformed frame comes from.
+    rest = [voxels(BakeDeformation(Input=bent(volume(axis)))) for axis in (x, y, z)]
+    rest = numpy.stack(rest, axis=-1)
+    for direction in ((-0.6, 0.2, -1.0), (1.0, -0.4, -0.3)):
+        for normals in ("Half resolution", "Full resolution", "On the fly"):
+            shown = Surface(filter, direction, normals)
+            expected = sampled(baked, shown.positions)
+            unturned = sampled(gradient(blob), sampled(rest, shown.positions))
+            angle = mean_angle(shown.normals, expected)
+            without = mean_angle(unturned, expected)
+            print(f"  {normals} along {direction}: {angle:.2f} degrees, without the turn "
+                  f"{without:.2f}; {len(expected)} points", flush=True)
+            assert len(expected) > 200
+            assert angle < LARGEST_ANGLE, (normals, angle)
+            assert without > 2 * LARGEST_ANGLE, ("the bend is too weak to tell", without)
+
+
+run_tests(globals())

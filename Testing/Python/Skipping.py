@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves that empty-space skipping never changes the picture: bit for bit the same with it and
+# without, for lattices that fold too, and after strokes of which only a part was redone.
+import itertools
+
+import numpy
+from brainshift_testing import (load_plugin, look, object_pixels, output, picture, run_tests,
+                                show_volume, view_along, volume)
+
+load_plugin()
+import brainshift  # noqa: E402 after the plugin
+from paraview.simple import Delete, FreeFormDeformation, Show, Sphere  # noqa: E402
+
+SIZE = 100  # edge of a picture, pixels
+SIDE = 21   # voxels
+MIDDLE = ((SIDE - 1) / 2,) * 3
+OBLIQUE = (-0.5, -0.3, -0.8)
+# Opacity of 1 mm over the share of the scalar range. The band meets no voxel of `scattered`: it is
+# passed between neighbours only.
+OPACITIES = {
+    "opaque": ((0.0, 0.0), (0.4, 0.0), (0.5, 1.0), (1.0, 1.0)),
+    "translucent": ((0.0, 0.0), (0.2, 0.0), (0.3, 0.1), (1.0, 0.3)),
+    "band": ((0.0, 0.0), (0.45, 0.0), (0.5, 0.9), (0.55, 0.0), (1.0, 0.0)),
+}
+ROTATION = (0.8, -0.48, 0.36, 0.6, 0.64, -0.48, 0.0, 0.6, 0.8)
+
+
+def scattered(side=SIDE, seed=1):
+    """Single voxels of 1 and small blocks in empty space: much to skip, and much to miss."""
+    random = numpy.random.default_rng(seed)
+    voxels = numpy.zeros((side,) * 3, numpy.float32)
+    for extent, count in ((1, 40), (2, 20), (4, 6)):
+        count = count * side ** 3 // SIDE ** 3
+        for corner in random.integers(1, side - extent - 1, (count, 3)):
+            voxels[tuple(slice(low, low + extent) for low in corner)] = 1.0
+    return voxels
+
+
+def random_lattice(amplitude, side=7, seed=2):
+    """A source of displacements up to `amplitude` mm, of no pattern: neighbours fold over."""
+    random = numpy.random.default_rng(seed)
+    displacements = random.uniform(-amplitude, amplitude, (side, side, side, 3))
+    step = (SIDE - 1) / (side - 1)
+    return volume(displacements.astype(numpy.float32), spacing=(step,) * 3)
+
+
+def curves(name, low=0.0, high=1.0):
+    """Colour map and opacity curve over a scalar range."""
+    at = [low + share * (high - low) for share in (0.0, 0.5, 1.0)]
+    colors = [at[0], 1, 0.2, 0, at[1], 0.2, 1, 0.2, at[2], 0, 0.4, 1]
+    opacities = []
+    for share, opacity in OPACITIES[name]:
+        opacities += [low + share * (high - low), opacity, 0.5, 0]
+    return colors, opacities
+
+
+def bent(source, amplitude, **lattice):
+    return FreeFormDeformation(Input=source, Lattice=random_lattice(amplitude, **lattice),
+                               LatticeDimensions=[7, 7, 7], Samples=2)
+
+
+def new_view(direction=OBLIQUE, distance=70.0, focus=MIDDLE, **named):
+    return view_along(direction, focus, distance, size=SIZE, **named)
+
+
+def assert_same(view, display, what, least_share=0.01):
+    """Pictures with skipping and without, and the positions of what they show, are the same."""
+    images, positions = [], []
+    for skipping in (0, 1):
+        display.EmptySpaceSkipping = skipping
+        images.append(picture(view))
+        pixels = itertools.product(range(5, SIZE, 18), repeat=2)
+        positions.append([brainshift.pick(display, view, x, y) for x, y in pixels])
+    share = object_pixels(images[0]).mean()
+    differing = int((images[0] != images[1]).any(axis=2).sum())
+    print(f"  {what}: {differing} differ, object on {100 * share:.0f} %", flush=True)
+    assert share >= least_share, (what, share)
+    assert differing == 0, (what, differing)
+    assert positions[0] == positions[1], what
+
+
+def test_random_lattices_and_opacities():
+    source = volume(scattered())
+    for amplitude in (0.0, 20.0, 40.0):
+        filter = bent(source, amplitude)
+        view = new_view()
+        for name in OPACITIES:
+            display = show_volume(filter, view, "Deformed Volume", *curves(name), shade=True)
+            assert_same(view, display, f"{amplitude:.0f} voxels, {name}")
+        Delete(view)
+        Delete(filter)
+
+
+def test_views():
+    filter = bent(volume(scattered()), 6.0)
+    for name in ("translucent", "band"):
+        for projection, named in (("perspective", {}), ("parallel", {"half_height": 16.0})):
+            view = new_view(**named)
+            display = show_volume(filter, view, "Deformed Volume", *curves(name))
+            for direction in ((0, 0, -1), (1, 0, 0), (0.3, -0.9, 0.4)):
+                look(view, direction, MIDDLE, 70.0, up=(0.1, 0.2, 1))
+                assert_same(view, display, f"{name}, {projection}, along {direction}")
+            Delete(view)
+
+
+def test_camera_inside():
+    voxels = scattered()
+    within = [float(index) for index in numpy.argwhere(voxels[1:-1, 1:-1, 1:-1])[100][::-1] + 1]
+    source = volume(voxels)
+    for filter in (bent(source, 2.0), bent(source, 20.0)):
+        view = new_view()
+        for name in ("translucent", "band"):
+            display = show_volume(filter, view, "Deformed Volume", *curves(name))
+            for focus, distance in ((MIDDLE, 0.5), (within, 0.2), (within, 7.0)):
+                look(view, OBLIQUE, focus, distance)
+                assert_same(view, display, f"{name}, {distance} mm from {focus}", 0.005)
+        Delete(view)
+
+
+def test_scalar_types():
+    for kind in ("int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64",
+                 "float32", "float64"):
+        high = 100 if kind.endswith("int8") else 3000
+        low = 0 if kind.startswith("u") else -high
+        voxels = (low + scattered() * (high - low)).astype(kind)
+        if kind.startswith("float"):
+            voxels[3:6, 4:9, 5:15] = numpy.nan
+            voxels[8, 8, 8] = numpy.inf
+        cells = kind in ("uint8", "int32", "float64")
+        filter = bent(volume(voxels, cells=cells), 6.0)
+        view = new_view()
+        display = show_volume(filter, view, "Deformed Volume", *curves("band", low, high),
+                              association="CELLS" if cells else "POINTS")
+        assert_same(view, display, f"{kind} {'in cells' if cells else 'on points'}")
+        Delete(view)
+
+
+def test_direction_matrix_and_odd_geometry():
+    voxels = scattered()[:, :13, :18]
+    source = volume(voxels, (3, -20, 5), (1.3, 0.7, 2.1), ROTATION)
+    bounds = numpy.reshape(source.GetDataInformation().GetBounds(), (3, 2))
+    middle = bounds.mean(axis=1)
+    strokes = brainshift.soft(middle, (9, -5, 4), 25.0) + brainshift.soft(
+        middle + (4, 6, -7), (-8, 7, 9), 18.0)
+    filter = FreeFormDeformation(Input=source, Strokes=strokes)
+    assert output(filter).GetDirectionMatrix().GetElement(0, 1) == -0.48
+    for name in OPACITIES:
+        view = new_view(focus=middle, distance=90.0)
+        display = show_volume(filter, view, "Deformed Volume", *curves(name), shade=True)
+        assert_same(view, display, name)
+        Delete(view)
+
+
+def test_a_surface_inside():
+    filter = bent(volume(scattered()), 6.0)
+    view = new_view()
+    sphere = Show(Sphere(Center=(12, 9, 11), Radius=6.0), view)
+    sphere.DiffuseColor = [1.0, 0.0, 0.0]
+    for name in OPACITIES:
+        display = show_volume(filter, view, "Deformed Volume", *curves(name))
+        assert_same(view, display, name)
+
+
+def test_strokes_one_by_one():
+    side = 49  # so large that a stroke reaches a part of it
+    focus = ((side - 1) / 2,) * 3
+    source = volume(scattered(side))
+    random = numpy.random.default_rng(5)
+    colours = curves("translucent")
+    filter = FreeFormDeformation(Input=source, Samples=2)
+    view = new_view(focus=focus, half_height=30.0)
+    display = show_volume(filter, view, "Deformed Volume", *colours, shade=True)
+    picture(view)
+    strokes = ()
+    for number in range(1, 7):
+        anchor = random.uniform(14, side - 15, 3)
+        vector = random.uniform(-7, 7, 3)
+        strokes += brainshift.soft(anchor, vector, random.uniform(4, 9))
+        filter.Strokes = strokes
+        assert_same(view, display, f"{number} strokes", 0.005)
+        # Of these pictures a part was redone; all of it in a pipeline of its own.
+        apart = new_view(focus=focus, half_height=30.0)
+        fresh = FreeFormDeformation(Input=source, Samples=2, Strokes=strokes)
+        show_volume(fresh, apart, "Deformed Volume", *colours, shade=True)
+        differing = int((picture(apart) != picture(view)).any(axis=2).sum())
+        assert differing == 0, (number, differing)
+        Delete(apart)
+        Delete(fresh)
+
+
+run_tests(globals())
