@@ -59,9 +59,9 @@ std::vector<double> readNumbers(
   vtkFieldData* fields, const char* name, std::size_t count, std::string& error)
 {
   vtkDataArray* array = fields->GetArray(name);
-  const std::size_t found =
-    array ? static_cast<std::size_t>(array->GetNumberOfTuples()) * array->GetNumberOfComponents()
-          : 0;
+  const std::size_t found = array
+    ? static_cast<std::size_t>(array->GetNumberOfTuples()) * array->GetNumberOfComponents()
+    : 0;
   if (found != count)
   {
     error = std::string("Field array ") + name + " holds " + std::to_string(found) +
@@ -72,8 +72,8 @@ std::vector<double> readNumbers(
   const int components = array->GetNumberOfComponents();
   for (std::size_t i = 0; i < count; ++i)
   {
-    numbers[i] = array->GetComponent(
-      static_cast<vtkIdType>(i / components), static_cast<int>(i % components));
+    numbers[i] =
+      array->GetComponent(static_cast<vtkIdType>(i / components), static_cast<int>(i % components));
   }
   if (!std::all_of(numbers.begin(), numbers.end(), [](double n) { return std::isfinite(n); }))
   {
@@ -84,8 +84,8 @@ std::vector<double> readNumbers(
 }
 
 // A whole number within its limits, or false with `error` set.
-bool readInteger(vtkFieldData* fields, const char* name, int low, int high, int& value,
-  std::string& error)
+bool readInteger(
+  vtkFieldData* fields, const char* name, int low, int high, int& value, std::string& error)
 {
   const std::vector<double> numbers = readNumbers(fields, name, 1, error);
   if (numbers.empty())

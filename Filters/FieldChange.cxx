@@ -114,8 +114,8 @@ IndexBox changedBackwardNodes(const IndexBox& points, const glm::ivec3& dimensio
   return box;
 }
 
-IndexBox movedBackwardNodes(const glm::ivec3& dimensions, const std::vector<glm::vec3>& inCells,
-  const FieldNodes& backward)
+IndexBox movedBackwardNodes(
+  const glm::ivec3& dimensions, const std::vector<glm::vec3>& inCells, const FieldNodes& backward)
 {
   const std::vector<glm::vec3> still(inCells.size(), glm::vec3(0.0f));
   const IndexBox points = changedPoints(dimensions, still, inCells);

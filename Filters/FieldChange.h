@@ -41,8 +41,8 @@ VTKBRAINSHIFTFILTERS_EXPORT IndexBox changedBackwardNodes(const IndexBox& points
   const std::vector<glm::vec3>& after, const FieldNodes& backward);
 
 // Nodes of the offset field that can differ from zero: elsewhere tissue stays.
-VTKBRAINSHIFTFILTERS_EXPORT IndexBox movedBackwardNodes(const glm::ivec3& dimensions,
-  const std::vector<glm::vec3>& inCells, const FieldNodes& backward);
+VTKBRAINSHIFTFILTERS_EXPORT IndexBox movedBackwardNodes(
+  const glm::ivec3& dimensions, const std::vector<glm::vec3>& inCells, const FieldNodes& backward);
 }
 
 #endif

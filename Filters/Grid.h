@@ -13,9 +13,9 @@ namespace brainshift
 {
 struct Grid
 {
-  glm::ivec3 dimensions{ 0 }; // points a side
-  glm::dvec3 origin{ 0.0 };   // mm, world position of point (0,0,0)
-  glm::dvec3 spacing{ 1.0 };  // mm between neighbours along the grid's own axes, above 0
+  glm::ivec3 dimensions{ 0 };  // points a side
+  glm::dvec3 origin{ 0.0 };    // mm, world position of point (0,0,0)
+  glm::dvec3 spacing{ 1.0 };   // mm between neighbours along the grid's own axes, above 0
   glm::dmat3 direction{ 1.0 }; // columns: the grid's axes in world space; a rotation
 
   std::size_t count() const

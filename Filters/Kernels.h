@@ -8,8 +8,10 @@
 
 namespace brainshift
 {
-constexpr int KernelCatmullRom = 0; // interpolates the control points; the default (paper, section 2)
-constexpr int KernelBSpline = 1;    // uniform cubic B-spline: approximates them, second derivative continuous
+// Interpolates the control points; the default (paper, section 2).
+constexpr int KernelCatmullRom = 0;
+// Uniform cubic B-spline: comes near them only, but has continuous second derivatives.
+constexpr int KernelBSpline = 1;
 
 // Weights of the four control points around a position, in lattice order: the position lies at
 // `t` (0 to 1) between the second and the third. They sum to 1.

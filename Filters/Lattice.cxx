@@ -167,8 +167,8 @@ double minimumJacobianInCell(
   {
     const glm::dvec3 within = glm::dvec3(sample % 3, sample / 3 % 3, sample / 9) * 0.5;
     const glm::mat3 jacobian = glm::mat3(1.0f) +
-      cubicGradient(lattice.grid.dimensions, lattice.kernel, inCells.data(),
-        glm::dvec3(cell) + within);
+      cubicGradient(
+        lattice.grid.dimensions, lattice.kernel, inCells.data(), glm::dvec3(cell) + within);
     smallest = std::min(smallest, static_cast<double>(glm::determinant(jacobian)));
   }
   return smallest;

@@ -14,7 +14,7 @@
 
 namespace brainshift
 {
-constexpr int SmallestLatticeSide = 4; // a cubic kernel spans four control points
+constexpr int SmallestLatticeSide = 4;  // a cubic kernel spans four control points
 constexpr int LargestLatticeSide = 257; // 51 million numbers, 200 MB: more is a dense field
 
 struct Lattice

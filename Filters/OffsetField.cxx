@@ -33,8 +33,7 @@ struct NodeCell
   {
     const glm::vec3 anywhere =
       (lattice - glm::vec3(nodes.first)) * static_cast<float>(nodes.perCell);
-    const glm::vec3 node =
-      glm::clamp(anywhere, glm::vec3(0.0f), glm::vec3(nodes.count - 1));
+    const glm::vec3 node = glm::clamp(anywhere, glm::vec3(0.0f), glm::vec3(nodes.count - 1));
     this->inside = glm::vec3(glm::equal(anywhere, node));
     this->low = glm::min(glm::ivec3(node), glm::max(nodes.count - 2, glm::ivec3(0)));
     this->high = glm::min(this->low + 1, nodes.count - 1);
@@ -151,8 +150,7 @@ glm::vec3 NodeField::displacement(const glm::vec3& lattice) const
   return glm::mix(face[0], face[1], cell.within.z);
 }
 
-void NodeField::map(
-  const glm::vec3& lattice, glm::vec3& displacement, glm::mat3& jacobian) const
+void NodeField::map(const glm::vec3& lattice, glm::vec3& displacement, glm::mat3& jacobian) const
 {
   const NodeCell cell(this->nodes, lattice);
   glm::vec3 c[8];
@@ -163,12 +161,12 @@ void NodeField::map(
   const glm::vec3& w = cell.within;
   displacement = glm::mix(glm::mix(glm::mix(c[0], c[1], w.x), glm::mix(c[2], c[3], w.x), w.y),
     glm::mix(glm::mix(c[4], c[5], w.x), glm::mix(c[6], c[7], w.x), w.y), w.z);
-  const glm::vec3 alongX = glm::mix(
-    glm::mix(c[1] - c[0], c[3] - c[2], w.y), glm::mix(c[5] - c[4], c[7] - c[6], w.y), w.z);
-  const glm::vec3 alongY = glm::mix(
-    glm::mix(c[2] - c[0], c[3] - c[1], w.x), glm::mix(c[6] - c[4], c[7] - c[5], w.x), w.z);
-  const glm::vec3 alongZ = glm::mix(
-    glm::mix(c[4] - c[0], c[5] - c[1], w.x), glm::mix(c[6] - c[2], c[7] - c[3], w.x), w.y);
+  const glm::vec3 alongX =
+    glm::mix(glm::mix(c[1] - c[0], c[3] - c[2], w.y), glm::mix(c[5] - c[4], c[7] - c[6], w.y), w.z);
+  const glm::vec3 alongY =
+    glm::mix(glm::mix(c[2] - c[0], c[3] - c[1], w.x), glm::mix(c[6] - c[4], c[7] - c[5], w.x), w.z);
+  const glm::vec3 alongZ =
+    glm::mix(glm::mix(c[4] - c[0], c[5] - c[1], w.x), glm::mix(c[6] - c[2], c[7] - c[3], w.x), w.y);
   const glm::vec3 scale = cell.inside * static_cast<float>(this->nodes.perCell);
   jacobian = glm::mat3(1.0f) + glm::mat3(alongX * scale.x, alongY * scale.y, alongZ * scale.z);
 }
@@ -203,8 +201,8 @@ NodeField refine(const Grid& grid, int kernel, const std::vector<glm::vec3>& inC
   const std::size_t rowsYZ = static_cast<std::size_t>(points.y) * points.z;
   std::vector<glm::vec3> alongX = refineAxis(inCells, points.x, 1, rowsYZ, kernel, perCell);
   std::vector<glm::vec3> alongXY = refineAxis(alongX, points.y, count.x, points.z, kernel, perCell);
-  field.values = refineAxis(
-    alongXY, points.z, static_cast<std::size_t>(count.x) * count.y, 1, kernel, perCell);
+  field.values =
+    refineAxis(alongXY, points.z, static_cast<std::size_t>(count.x) * count.y, 1, kernel, perCell);
   return field;
 }
 

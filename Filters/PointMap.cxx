@@ -21,10 +21,9 @@ struct CubicForward
   void map(const glm::vec3& rest, glm::vec3& displacement, glm::mat3& jacobian) const
   {
     const glm::dvec3 position = this->reference + glm::dvec3(rest);
-    displacement =
-      cubicDisplacement(this->grid.dimensions, this->kernel, this->inCells, position);
-    jacobian = glm::mat3(1.0f) +
-      cubicGradient(this->grid.dimensions, this->kernel, this->inCells, position);
+    displacement = cubicDisplacement(this->grid.dimensions, this->kernel, this->inCells, position);
+    jacobian =
+      glm::mat3(1.0f) + cubicGradient(this->grid.dimensions, this->kernel, this->inCells, position);
   }
   bool staysAt(const glm::vec3& rest) const
   {
@@ -45,8 +44,8 @@ PointMap::PointMap(const Lattice& lattice, Inverse inverse)
 glm::dvec3 PointMap::deformedFromRest(const glm::dvec3& rest) const
 {
   const glm::dvec3 position = this->LatticeGrid.gridFromWorld(rest);
-  const glm::vec3 displacement = cubicDisplacement(
-    this->LatticeGrid.dimensions, this->Kernel, this->InCells.data(), position);
+  const glm::vec3 displacement =
+    cubicDisplacement(this->LatticeGrid.dimensions, this->Kernel, this->InCells.data(), position);
   return rest + this->LatticeGrid.worldVectorFromGrid(glm::dvec3(displacement));
 }
 
@@ -55,8 +54,7 @@ glm::dvec3 PointMap::restFromDeformed(const glm::dvec3& deformed) const
   const glm::dvec3 position = this->LatticeGrid.gridFromWorld(deformed);
   const CubicForward forward{ this->LatticeGrid, this->Kernel, this->InCells.data(), position };
   const glm::vec3 offset = this->Backward == Inverse::Negated
-    ? -cubicDisplacement(
-        this->LatticeGrid.dimensions, this->Kernel, this->InCells.data(), position)
+    ? -cubicDisplacement(this->LatticeGrid.dimensions, this->Kernel, this->InCells.data(), position)
     : Inversion<CubicForward>{ forward }.inverseOffset(glm::vec3(0.0f));
   return deformed + this->LatticeGrid.worldVectorFromGrid(glm::dvec3(offset));
 }
@@ -67,8 +65,8 @@ glm::dmat3 PointMap::jacobian(const glm::dvec3& rest) const
     this->InCells.data(), this->LatticeGrid.gridFromWorld(rest)));
   const glm::dmat3& direction = this->LatticeGrid.direction;
   const glm::dvec3& spacing = this->LatticeGrid.spacing;
-  const glm::dmat3 scale(glm::dvec3(spacing.x, 0, 0), glm::dvec3(0, spacing.y, 0),
-    glm::dvec3(0, 0, spacing.z));
+  const glm::dmat3 scale(
+    glm::dvec3(spacing.x, 0, 0), glm::dvec3(0, spacing.y, 0), glm::dvec3(0, 0, spacing.z));
   const glm::dmat3 worldFromGrid = direction * scale;
   return glm::dmat3(1.0) + worldFromGrid * gradient * glm::inverse(worldFromGrid);
 }

@@ -76,8 +76,7 @@ public:
 
   void linear(const glm::vec3& position, T* out) const
   {
-    const glm::vec3 inside =
-      glm::clamp(position, glm::vec3(0.0f), glm::vec3(this->Dimensions - 1));
+    const glm::vec3 inside = glm::clamp(position, glm::vec3(0.0f), glm::vec3(this->Dimensions - 1));
     const glm::ivec3 low = glm::min(glm::ivec3(inside), glm::max(this->Dimensions - 2, 0));
     const glm::vec3 w = inside - glm::vec3(low);
     const glm::ivec3 next = glm::min(this->Dimensions - 1 - low, glm::ivec3(1));
@@ -94,8 +93,7 @@ public:
 
   void cubic(const glm::vec3& position, T* out) const
   {
-    const glm::vec3 inside =
-      glm::clamp(position, glm::vec3(0.0f), glm::vec3(this->Dimensions - 1));
+    const glm::vec3 inside = glm::clamp(position, glm::vec3(0.0f), glm::vec3(this->Dimensions - 1));
     const glm::ivec3 low(inside);
     const glm::vec3 w = inside - glm::vec3(low);
     const glm::vec4 weight[3] = { kernelWeights(KernelCatmullRom, w.x),
@@ -106,8 +104,7 @@ public:
       for (int tap = 0; tap < 64; ++tap)
       {
         const glm::ivec3 step(tap & 3, tap >> 2 & 3, tap >> 4);
-        const glm::ivec3 index =
-          glm::clamp(low + step - 1, glm::ivec3(0), this->Dimensions - 1);
+        const glm::ivec3 index = glm::clamp(low + step - 1, glm::ivec3(0), this->Dimensions - 1);
         sum += static_cast<double>(weight[0][step.x] * weight[1][step.y] * weight[2][step.z]) *
           static_cast<double>(this->at(index)[c]);
       }
@@ -141,10 +138,10 @@ public:
   {
     const FieldNodes& nodes = field.nodes;
     const glm::vec2 last(nodes.count.y - 1, nodes.count.z - 1);
-    const glm::vec2 node = glm::clamp((glm::vec2(latticeY, latticeZ) -
-                                        glm::vec2(nodes.first.y, nodes.first.z)) *
-        static_cast<float>(nodes.perCell),
-      glm::vec2(0.0f), last);
+    const glm::vec2 node =
+      glm::clamp((glm::vec2(latticeY, latticeZ) - glm::vec2(nodes.first.y, nodes.first.z)) *
+          static_cast<float>(nodes.perCell),
+        glm::vec2(0.0f), last);
     const glm::ivec2 low(node);
     const glm::ivec2 high = glm::min(low + 1, glm::ivec2(last));
     const glm::vec2 w = node - glm::vec2(low);
@@ -157,8 +154,8 @@ public:
     bool moved = false;
     for (int x = 0; x < nodes.count.x; ++x)
     {
-      this->Nodes[x] = glm::mix(
-        glm::mix(rows[0][x], rows[1][x], w.x), glm::mix(rows[2][x], rows[3][x], w.x), w.y);
+      this->Nodes[x] =
+        glm::mix(glm::mix(rows[0][x], rows[1][x], w.x), glm::mix(rows[2][x], rows[3][x], w.x), w.y);
       moved = moved || this->Nodes[x] != glm::vec3(0.0f);
     }
     return moved;
@@ -253,8 +250,8 @@ void resampleTyped(vtkDataArray* source, vtkDataArray* target, const ResampleGeo
       OffsetRow& offsetRow = rowOfThread.Local();
       for (vtkIdType row = begin; row < end; ++row)
       {
-        const glm::ivec3 index =
-          geometry.first + glm::ivec3(0, static_cast<int>(row % size.y), static_cast<int>(row / size.y));
+        const glm::ivec3 index = geometry.first +
+          glm::ivec3(0, static_cast<int>(row % size.y), static_cast<int>(row / size.y));
         resampleRow(voxels, components, outside, geometry, offsets, reading, offsetRow, index,
           out + static_cast<std::size_t>(row) * size.x * components);
       }
@@ -268,8 +265,7 @@ void resample(vtkDataArray* source, vtkDataArray* target, const ResampleGeometry
 {
   switch (source->GetDataType())
   {
-    vtkTemplateMacro(
-      resampleTyped<VTK_TT>(source, target, geometry, offsets, reading, proceed));
+    vtkTemplateMacro(resampleTyped<VTK_TT>(source, target, geometry, offsets, reading, proceed));
   }
 }
 }

@@ -78,9 +78,9 @@ std::string problemOf(const double* numbers)
 
 bool Stroke::operator==(const Stroke& other) const
 {
-  return this->tool == other.tool && this->anchor == other.anchor &&
-    this->vector == other.vector && this->axis == other.axis && this->major == other.major &&
-    this->minor == other.minor && this->sigma == other.sigma && this->enabled == other.enabled;
+  return this->tool == other.tool && this->anchor == other.anchor && this->vector == other.vector &&
+    this->axis == other.axis && this->major == other.major && this->minor == other.minor &&
+    this->sigma == other.sigma && this->enabled == other.enabled;
 }
 
 std::vector<Stroke> strokesFromNumbers(const std::vector<double>& numbers, std::string& error)
@@ -118,8 +118,8 @@ std::vector<double> numbersFromStrokes(const std::vector<Stroke>& strokes)
     {
       numbers.insert(numbers.end(), { vector.x, vector.y, vector.z });
     }
-    numbers.insert(numbers.end(),
-      { stroke.major, stroke.minor, stroke.sigma, stroke.enabled ? 1.0 : 0.0 });
+    numbers.insert(
+      numbers.end(), { stroke.major, stroke.minor, stroke.sigma, stroke.enabled ? 1.0 : 0.0 });
   }
   return numbers;
 }
@@ -145,7 +145,7 @@ double normalisedDistance(const Stroke& stroke, const glm::dvec3& position)
   }
   const double along = glm::dot(fromAnchor, glm::normalize(stroke.axis));
   const double acrossSquared = std::max(0.0, glm::dot(fromAnchor, fromAnchor) - along * along);
-  return std::sqrt(along * along / (stroke.major * stroke.major) +
-    acrossSquared / (stroke.minor * stroke.minor));
+  return std::sqrt(
+    along * along / (stroke.major * stroke.major) + acrossSquared / (stroke.minor * stroke.minor));
 }
 }

@@ -97,8 +97,7 @@ int vtkBakeDeformation::RequestData(
   const NodeField offsets = offsetField(lattice, deformation.samples, deformation.inverse);
 
   int extent[6];
-  outputs->GetInformationObject(0)->Get(
-    vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent);
+  outputs->GetInformationObject(0)->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent);
   int inputExtent[6];
   input->GetExtent(inputExtent);
   output->CopyStructure(input);

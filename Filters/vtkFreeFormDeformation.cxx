@@ -106,8 +106,7 @@ void addField(Lattice& lattice, vtkImageData* image, vtkDataArray* field)
         {
           const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
           const glm::dvec3 weight = glm::mix(1.0 - within, within, glm::dvec3(side));
-          sum += weight.x * weight.y * weight.z *
-            value(glm::min(low + side, from.dimensions - 1));
+          sum += weight.x * weight.y * weight.z * value(glm::min(low + side, from.dimensions - 1));
         }
         lattice.displacements[point] += glm::vec3(sum);
       }
@@ -138,9 +137,9 @@ std::string addBase(Lattice& lattice, vtkImageData* base)
   };
   const bool allFinite =
     std::all_of(lattice.displacements.begin(), lattice.displacements.end(), finite);
-  return allFinite
-    ? std::string()
-    : std::string("The base lattice's array ") + field->GetName() + " holds a number that is not finite";
+  return allFinite ? std::string()
+                   : std::string("The base lattice's array ") + field->GetName() +
+      " holds a number that is not finite";
 }
 }
 
@@ -258,7 +257,8 @@ std::string vtkFreeFormDeformation::Bend(const Grid& volumeGrid, vtkImageData* b
   }
   state.LastGood.lattice = state.StrokeReplay.run(start, strokes);
   state.LastGood.samples = this->Samples;
-  state.LastGood.inverse = this->Inverse ? brainshift::Inverse::Negated : brainshift::Inverse::Exact;
+  state.LastGood.inverse =
+    this->Inverse ? brainshift::Inverse::Negated : brainshift::Inverse::Exact;
   state.LastGood.strength = this->Strength;
   state.MinimumJacobianKnown = false;
   return {};

@@ -131,25 +131,23 @@ void moveVoxels(vtkImageData* stored, vtkImageData* shown, const brainshift::NIF
   int extent[6];
   shown->GetExtent(extent);
   const int components = shown->GetNumberOfScalarComponents();
-  vtkSMPTools::For(extent[4], extent[5] + 1,
-    [&](int zBegin, int zEnd)
+  vtkSMPTools::For(extent[4], extent[5] + 1, [&](int zBegin, int zEnd) {
+    for (int z = zBegin; z < zEnd; ++z)
     {
-      for (int z = zBegin; z < zEnd; ++z)
+      for (int y = extent[2]; y <= extent[3]; ++y)
       {
-        for (int y = extent[2]; y <= extent[3]; ++y)
+        auto* to = static_cast<ShownType*>(shown->GetScalarPointer(extent[0], y, z));
+        const StoredType* from = first + extent[0] * step[0] + y * step[1] + z * step[2];
+        for (int x = extent[0]; x <= extent[1]; ++x, from += step[0])
         {
-          auto* to = static_cast<ShownType*>(shown->GetScalarPointer(extent[0], y, z));
-          const StoredType* from = first + extent[0] * step[0] + y * step[1] + z * step[2];
-          for (int x = extent[0]; x <= extent[1]; ++x, from += step[0])
+          for (int component = 0; component < components; ++component)
           {
-            for (int component = 0; component < components; ++component)
-            {
-              *to++ = convert(from[component]);
-            }
+            *to++ = convert(from[component]);
           }
         }
       }
-    });
+    }
+  });
 }
 
 template <typename T>
@@ -161,11 +159,9 @@ void moveVoxelsOf(vtkImageData* stored, vtkImageData* shown, const brainshift::N
     moveVoxels<T, T>(stored, shown, geometry, firstComponent, [](T value) { return value; });
     return;
   }
-  moveVoxels<T, float>(stored, shown, geometry, firstComponent,
-    [&rescaling](T value)
-    {
-      return static_cast<float>(rescaling.slope * static_cast<double>(value) + rescaling.intercept);
-    });
+  moveVoxels<T, float>(stored, shown, geometry, firstComponent, [&rescaling](T value) {
+    return static_cast<float>(rescaling.slope * static_cast<double>(value) + rescaling.intercept);
+  });
 }
 
 // Keeps the first error of an object that is not to speak to the user itself, without the name of

@@ -112,8 +112,7 @@ void BrainShiftBehavior::watchSource(pqPipelineSource* source)
     return;
   }
   QObject::connect(source, qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
-    [](pqPipelineSource* updated)
-    {
+    [](pqPipelineSource* updated) {
       if (updated == pqActiveObjects::instance().activeSource()) // else the panel does not show it
       {
         updated->getProxy()->UpdatePropertyInformation();

@@ -68,8 +68,8 @@ void appendFace(std::vector<Corner>& corners, const glm::ivec3& brick, int axis,
   across[(axis + 2) % 3] = 1;
   glm::ivec3 base = brick;
   base[axis] += side;
-  for (const glm::ivec3& corner : { base, base + along, base + along + across, base,
-         base + along + across, base + across })
+  for (const glm::ivec3& corner :
+    { base, base + along, base + along + across, base, base + along + across, base + across })
   {
     corners.push_back({ static_cast<std::int16_t>(corner.x), static_cast<std::int16_t>(corner.y),
       static_cast<std::int16_t>(corner.z), 0 });
@@ -112,8 +112,8 @@ bool DeformedPresence::compute(vtkOpenGLRenderWindow* window, const PresenceRequ
   {
     program.set("offsets", request.offsets);
     program.set("offsetCount",
-      glm::ivec3(request.offsets->GetWidth(), request.offsets->GetHeight(),
-        request.offsets->GetDepth()));
+      glm::ivec3(
+        request.offsets->GetWidth(), request.offsets->GetHeight(), request.offsets->GetDepth()));
     program.set("voxelsFromOffset", request.voxelsFromOffset);
     program.set("nodesFromVoxel", request.nodesFromVoxel);
     program.set("nodesFromVoxelShift", request.nodesFromVoxelShift);
@@ -171,8 +171,7 @@ void DeformedPresence::makeFaces(
   const PresenceRequest& request, const std::vector<std::uint8_t>& occupied)
 {
   const glm::ivec3& count = request.count;
-  const std::ptrdiff_t stride[3] = { 1, count.x,
-    static_cast<std::ptrdiff_t>(count.x) * count.y };
+  const std::ptrdiff_t stride[3] = { 1, count.x, static_cast<std::ptrdiff_t>(count.x) * count.y };
   std::vector<Corner> corners;
   this->Occupied = 0;
   std::size_t at = 0;
@@ -209,8 +208,7 @@ void DeformedPresence::makeFaces(
   }
   if (!corners.empty())
   {
-    this->Corners->Upload(
-      corners.data(), corners.size(), vtkOpenGLBufferObject::ArrayBuffer);
+    this->Corners->Upload(corners.data(), corners.size(), vtkOpenGLBufferObject::ArrayBuffer);
   }
 }
 

@@ -25,9 +25,9 @@ namespace brainshift
 struct PresenceRequest
 {
   glm::ivec3 restBricks{ 0 };
-  glm::ivec3 first{ 0 };               // first brick of the deformed frame
-  glm::ivec3 count{ 0 };               // bricks a side
-  glm::vec3 lowestVoxel{ 0.0f };       // the volume's box, voxels
+  glm::ivec3 first{ 0 };         // first brick of the deformed frame
+  glm::ivec3 count{ 0 };         // bricks a side
+  glm::vec3 lowestVoxel{ 0.0f }; // the volume's box, voxels
   glm::vec3 highestVoxel{ 0.0f };
   vtkTextureObject* offsets = nullptr; // null: nothing is deformed
   glm::vec3 voxelsFromOffset{ 1.0f };
@@ -69,9 +69,9 @@ private:
   vtkSmartPointer<vtkTextureObject> Summed;
   vtkSmartPointer<vtkTextureObject> Map;
   vtkSmartPointer<vtkOpenGLBufferObject> Corners;
-  glm::ivec3 MapFirst{ 0 };     // first brick of Map
-  bool VisibilityNew = true;    // since the last update
-  Program MapPrograms[2];       // [deformed]
+  glm::ivec3 MapFirst{ 0 };  // first brick of Map
+  bool VisibilityNew = true; // since the last update
+  Program MapPrograms[2];    // [deformed]
   int Faces = 0;
   int Occupied = 0;
 };

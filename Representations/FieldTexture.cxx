@@ -67,8 +67,7 @@ bool FieldTexture::update(
   }
   this->HasCurrent = false; // not before all of it succeeded
   if (!points.empty() &&
-    (!this->upload(window, request, counters) ||
-      !this->refine(window, request, points, counters) ||
+    (!this->upload(window, request, counters) || !this->refine(window, request, points, counters) ||
       !this->invert(window, request, counters)))
   {
     return false;
@@ -86,8 +85,8 @@ bool FieldTexture::upload(
   const glm::ivec3& points = request.dimensions;
   counters.latticeUploads += 1;
   counters.bytesUploaded += static_cast<std::int64_t>(request.inCells.size() * sizeof(glm::vec3));
-  return this->ControlPoints->Create3DFromRaw(points.x, points.y, points.z, 3, VTK_FLOAT,
-    const_cast<glm::vec3*>(request.inCells.data()));
+  return this->ControlPoints->Create3DFromRaw(
+    points.x, points.y, points.z, 3, VTK_FLOAT, const_cast<glm::vec3*>(request.inCells.data()));
 }
 
 bool FieldTexture::refine(vtkOpenGLRenderWindow* window, const FieldRequest& request,
@@ -104,7 +103,8 @@ bool FieldTexture::refine(vtkOpenGLRenderWindow* window, const FieldRequest& req
       kernelWeights(request.kernel, static_cast<float>(node) / static_cast<float>(forward.perCell));
   }
   glm::ivec3 count = request.dimensions;
-  IndexBox box{ glm::ivec3(0), request.dimensions - 1 }; // of control points; of nodes, axis by axis
+  IndexBox box{ glm::ivec3(0),
+    request.dimensions - 1 }; // of control points; of nodes, axis by axis
   vtkTextureObject* coarse = this->ControlPoints;
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -125,8 +125,8 @@ bool FieldTexture::refine(vtkOpenGLRenderWindow* window, const FieldRequest& req
     this->RefineProgram.set("perCell", forward.perCell);
     this->RefineProgram.get()->SetUniform4fv(
       "weights", forward.perCell, glm::value_ptr(weights[0]));
-    runVolumePass(window, this->RefineProgram.get()->GetHandle(), this->Refined[axis], box.first,
-      box.size());
+    runVolumePass(
+      window, this->RefineProgram.get()->GetHandle(), this->Refined[axis], box.first, box.size());
     coarse->Deactivate();
     coarse = this->Refined[axis];
   }
@@ -148,8 +148,8 @@ bool FieldTexture::invert(
   this->InvertProgram.set("firstCell", request.nodes.first);
   this->InvertProgram.set("offsetScale", request.offsetScale);
   this->InvertProgram.set("negated", request.inverse == Inverse::Negated ? 1 : 0);
-  runVolumePass(window, this->InvertProgram.get()->GetHandle(), this->Offsets,
-    this->Changed.first, this->Changed.size());
+  runVolumePass(window, this->InvertProgram.get()->GetHandle(), this->Offsets, this->Changed.first,
+    this->Changed.size());
   this->Refined[2]->Deactivate();
   counters.texelsRefined += texels(this->Changed.size());
   return true;

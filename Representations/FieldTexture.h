@@ -22,13 +22,13 @@ namespace brainshift
 {
 struct FieldRequest
 {
-  glm::ivec3 dimensions{ 0 };      // control points a side
+  glm::ivec3 dimensions{ 0 }; // control points a side
   int kernel = 0;
   int samples = 4;
   Inverse inverse = Inverse::Exact;
-  std::vector<glm::vec3> inCells;  // displacements, lattice cells
-  FieldNodes nodes;                // where offsets are wanted, see backwardNodes
-  glm::vec3 offsetScale{ 1.0f };   // wanted unit of the offsets for one lattice cell
+  std::vector<glm::vec3> inCells; // displacements, lattice cells
+  FieldNodes nodes;               // where offsets are wanted, see backwardNodes
+  glm::vec3 offsetScale{ 1.0f };  // wanted unit of the offsets for one lattice cell
 };
 
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT FieldTexture

@@ -41,10 +41,10 @@ bool NormalTexture::update(vtkOpenGLRenderWindow* window, vtkTextureObject* scal
   program.set("texel", 1.0f / glm::vec3(size));
   program.set("voxel", voxel);
   // Differences of the whole range over one voxel come out as 1 along the longest side.
-  const float longest = static_cast<float>(glm::max(dimensions.x, glm::max(dimensions.y, dimensions.z)));
+  const float longest =
+    static_cast<float>(glm::max(dimensions.x, glm::max(dimensions.y, dimensions.z)));
   program.set("gradientScale", 1.0f / (range > 0.0f ? range * longest : longest));
-  runVolumePass(
-    window, program.get()->GetHandle(), this->Texture, glm::ivec3(0), size);
+  runVolumePass(window, program.get()->GetHandle(), this->Texture, glm::ivec3(0), size);
   scalars->Deactivate();
   this->Source = scalars;
   this->Shown = form;

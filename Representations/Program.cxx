@@ -13,8 +13,7 @@
 
 namespace brainshift
 {
-bool Program::use(
-  vtkOpenGLRenderWindow* window, const ShaderSource& source, Counters& counters)
+bool Program::use(vtkOpenGLRenderWindow* window, const ShaderSource& source, Counters& counters)
 {
   vtkOpenGLShaderCache* cache = window->GetShaderCache();
   if (this->Compiled)

@@ -118,8 +118,7 @@ void setLightUniforms(Program& program, const RayCastScene& scene)
   {
     program.set("normals", scene.normals);
   }
-  program.set(
-    "worldFromGradient", glm::mat3(glm::transpose(glm::inverse(worldFromTexture))));
+  program.set("worldFromGradient", glm::mat3(glm::transpose(glm::inverse(worldFromTexture))));
   const RayCastLights& lights = scene.lights;
   const int count = static_cast<int>(lights.position.size() / 4);
   program.set("lightCount", count);
@@ -208,8 +207,7 @@ public:
     , Cull(state, GL_CULL_FACE)
     , Framebuffer(state)
   {
-    for (const unsigned int capability :
-      { GL_SCISSOR_TEST, GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE })
+    for (const unsigned int capability : { GL_SCISSOR_TEST, GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE })
     {
       state->vtkglDisable(capability);
     }
@@ -219,8 +217,8 @@ public:
 
   void attach(unsigned int index, vtkTextureObject* image)
   {
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + index, GL_TEXTURE_2D,
-      image->GetHandle(), 0);
+    glFramebufferTexture2D(
+      GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + index, GL_TEXTURE_2D, image->GetHandle(), 0);
     this->Framebuffer.drawColors(index + 1);
   }
 
@@ -294,15 +292,14 @@ void RayCaster::setUniforms(Program& program, const RayCastScene& scene)
   }
 }
 
-bool RayCaster::cast(
-  vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters)
+bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters)
 {
   RayCastVariant variant;
   variant.deformed = scene.offsets != nullptr;
   variant.light = !scene.shaded ? RayCastVariant::Unshaded
-    : !scene.normals           ? RayCastVariant::GradientsOnTheFly
-    : scene.packedNormals      ? RayCastVariant::PackedGradients
-                               : RayCastVariant::GradientTexture;
+    : !scene.normals            ? RayCastVariant::GradientsOnTheFly
+    : scene.packedNormals       ? RayCastVariant::PackedGradients
+                                : RayCastVariant::GradientTexture;
   Program& program = this->CastPrograms[variant.deformed][variant.light];
   if (!this->prepareImages(window, scene.size) ||
     (scene.skipping && !this->findSpans(window, scene, counters)) ||

@@ -36,14 +36,14 @@ struct RayCastLights
 // Everything one image depends on. Texture coordinates are the scalar texture's.
 struct RayCastScene
 {
-  glm::ivec2 size{ 0 };               // pixels
+  glm::ivec2 size{ 0 }; // pixels
   glm::dmat4 clipFromWorld{ 1.0 };
   glm::dmat4 worldFromTexture{ 1.0 };
-  glm::dvec3 spaceLow{ 0.0 };         // part of the deformed frame tissue can reach
+  glm::dvec3 spaceLow{ 0.0 }; // part of the deformed frame tissue can reach
   glm::dvec3 spaceHigh{ 1.0 };
-  glm::dvec3 movedLow{ 1.0 };         // part of the deformed frame where tissue may have moved;
-  glm::dvec3 movedHigh{ 0.0 };        // high below low: none has
-  glm::dvec3 volumeLow{ 0.0 };        // the volume's box in the rest frame
+  glm::dvec3 movedLow{ 1.0 };  // part of the deformed frame where tissue may have moved;
+  glm::dvec3 movedHigh{ 0.0 }; // high below low: none has
+  glm::dvec3 volumeLow{ 0.0 }; // the volume's box in the rest frame
   glm::dvec3 volumeHigh{ 1.0 };
   glm::dvec3 voxel{ 1.0 };            // one voxel, texture coordinates
   glm::dvec3 textureFromBrick{ 1.0 }; // presence map: scale and shift
@@ -51,7 +51,7 @@ struct RayCastScene
   glm::dvec3 firstBrick{ 0.0 };       // of the presence map
   glm::dvec3 fieldFromTexture{ 1.0 }; // offset field's texture coordinates: scale and shift
   glm::dvec3 fieldFromTextureShift{ 0.0 };
-  glm::dvec3 fieldTexel{ 1.0 };       // step for derivatives, the offset field's coordinates
+  glm::dvec3 fieldTexel{ 1.0 }; // step for derivatives, the offset field's coordinates
   double stepMm = 1.0;
   glm::dvec2 transferFromScalar{ 1.0, 0.0 }; // stored scalar to transfer coordinate
   glm::dvec4 material{ 0.0, 1.0, 0.0, 1.0 }; // ambient, diffuse, specular, specular power

@@ -55,8 +55,7 @@ std::vector<Stored> convertAll(vtkDataArray* scalars, int component, const Conve
   std::vector<Stored> stored(scalars->GetNumberOfTuples());
   switch (scalars->GetDataType())
   {
-    vtkTemplateMacro(
-      (convertTyped<VTK_TT, Stored, Convert>(scalars, component, stored, convert)));
+    vtkTemplateMacro((convertTyped<VTK_TT, Stored, Convert>(scalars, component, stored, convert)));
   }
   return stored;
 }
@@ -124,8 +123,8 @@ bool ScalarTexture::upload(vtkOpenGLRenderWindow* window, vtkDataArray* scalars,
     this->Scale = 1.0;
     this->Shift = 0.0;
     this->Texture->SetInternalFormat(GL_R32F);
-    return create(convertAll<float>(scalars, component,
-                    [](double value) { return static_cast<float>(value); }),
+    return create(
+      convertAll<float>(scalars, component, [](double value) { return static_cast<float>(value); }),
       VTK_FLOAT, 1.0f);
   }
   // Whole numbers: stored from the type's lowest value up; eight bits spread over sixteen.
@@ -134,10 +133,9 @@ bool ScalarTexture::upload(vtkOpenGLRenderWindow* window, vtkDataArray* scalars,
   this->Scale = 65535.0 / spread;
   this->Shift = lowest;
   this->Texture->SetInternalFormat(GL_R16);
-  return create(convertAll<std::uint16_t>(scalars, component,
-                  [=](double value) {
-                    return static_cast<std::uint16_t>((value - lowest) * spread);
-                  }),
+  return create(
+    convertAll<std::uint16_t>(scalars, component,
+      [=](double value) { return static_cast<std::uint16_t>((value - lowest) * spread); }),
     VTK_UNSIGNED_SHORT, 1.0f / 65535.0f);
 }
 

@@ -41,8 +41,8 @@ glm::dmat4 worldFromTexture(const Grid& grid, const ValueLayout& layout, vtkMatr
   glm::dmat4 volumeFromTexture(1.0);
   for (int axis = 0; axis < 3; ++axis)
   {
-    volumeFromTexture[axis] = glm::dvec4(
-      grid.direction[axis] * (grid.spacing[axis] / layout.textureFromGrid[axis]), 0.0);
+    volumeFromTexture[axis] =
+      glm::dvec4(grid.direction[axis] * (grid.spacing[axis] / layout.textureFromGrid[axis]), 0.0);
   }
   const glm::dvec3 gridOfTextureZero = -layout.textureOfGridZero / layout.textureFromGrid;
   volumeFromTexture[3] = glm::dvec4(grid.worldFromGrid(gridOfTextureZero), 1.0);
@@ -105,8 +105,7 @@ void cropSpace(
   const glm::dvec3 low(planes[0], planes[2], planes[4]);
   const glm::dvec3 high(planes[1], planes[3], planes[5]);
   const auto textureFromPlane = [&](const glm::dvec3& plane) {
-    return (plane - grid.origin) / grid.spacing * layout.textureFromGrid +
-      layout.textureOfGridZero;
+    return (plane - grid.origin) / grid.spacing * layout.textureFromGrid + layout.textureOfGridZero;
   };
   scene.spaceLow = glm::max(scene.spaceLow, textureFromPlane(low));
   scene.spaceHigh = glm::min(scene.spaceHigh, textureFromPlane(high));
@@ -132,8 +131,8 @@ void placeBricks(const ValueLayout& layout, RayCastScene& scene, PresenceRequest
   request.offsets = scene.offsets;
   if (request.offsets)
   {
-    const glm::dvec3 count(request.offsets->GetWidth(), request.offsets->GetHeight(),
-      request.offsets->GetDepth());
+    const glm::dvec3 count(
+      request.offsets->GetWidth(), request.offsets->GetHeight(), request.offsets->GetDepth());
     request.voxelsFromOffset = glm::vec3(values);
     request.nodesFromVoxel = glm::vec3(scene.fieldFromTexture * count / values);
     request.nodesFromVoxelShift = glm::vec3(

@@ -67,14 +67,13 @@ ShaderSource invertSource()
 
 ShaderSource normalsSource(bool packed)
 {
-  return volumePassSource(
-    std::string(packed ? "#define PACKED_GRADIENTS\n" : "") + shader_gradient + shader_normals_frag);
+  return volumePassSource(std::string(packed ? "#define PACKED_GRADIENTS\n" : "") +
+    shader_gradient + shader_normals_frag);
 }
 
 ShaderSource presenceSource(bool deformed)
 {
-  return volumePassSource(
-    std::string(deformed ? "#define DEFORMED\n" : "") + shader_presence_frag);
+  return volumePassSource(std::string(deformed ? "#define DEFORMED\n" : "") + shader_presence_frag);
 }
 
 ShaderSource proxySource()
@@ -104,16 +103,16 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
 {
   std::vector<std::pair<std::string, ShaderSource>> sources{ { "refine", refineSource() },
     { "invert", invertSource() }, { "normals", normalsSource(false) },
-    { "normals_packed", normalsSource(true) },
-    { "presence_rest", presenceSource(false) }, { "presence_deformed", presenceSource(true) },
-    { "proxy", proxySource() }, { "composite", compositeSource() } };
+    { "normals_packed", normalsSource(true) }, { "presence_rest", presenceSource(false) },
+    { "presence_deformed", presenceSource(true) }, { "proxy", proxySource() },
+    { "composite", compositeSource() } };
   const char* lights[] = { "_unshaded", "_gradients", "_gradient_texture", "_packed_gradients" };
   for (const bool deformed : { false, true })
   {
     for (int light = 0; light < RayCastVariant::LightCount; ++light)
     {
-      sources.emplace_back(std::string("raycast") + (deformed ? "_deformed" : "_rest") +
-          lights[light],
+      sources.emplace_back(
+        std::string("raycast") + (deformed ? "_deformed" : "_rest") + lights[light],
         rayCastSource({ deformed, static_cast<RayCastVariant::Light>(light) }));
     }
   }

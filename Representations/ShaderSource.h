@@ -43,8 +43,7 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource presenceSource(bool deformed);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource proxySource();
 
 // Every program the product can draw with, by name: for an offline compiler.
-VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<std::pair<std::string, ShaderSource>>
-allSources();
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<std::pair<std::string, ShaderSource>> allSources();
 }
 
 #endif

@@ -42,8 +42,8 @@ double TransferTexture::shift() const
   return 0.5 / Entries - this->Range[0] * this->scale();
 }
 
-bool TransferTexture::update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* property,
-  double stepMm, Counters& counters)
+bool TransferTexture::update(
+  vtkOpenGLRenderWindow* window, vtkVolumeProperty* property, double stepMm, Counters& counters)
 {
   vtkColorTransferFunction* color = property->GetRGBTransferFunction();
   vtkPiecewiseFunction* opacity = property->GetScalarOpacity();

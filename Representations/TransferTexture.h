@@ -24,8 +24,8 @@ public:
 
   // Uploads the maps if they, the unit distance or the step changed.
   // True if they were uploaded.
-  bool update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* property, double stepMm,
-    Counters& counters);
+  bool update(
+    vtkOpenGLRenderWindow* window, vtkVolumeProperty* property, double stepMm, Counters& counters);
 
   // Texture coordinate from scalar: scalar * scale + shift. Beyond the ends the end colours hold.
   double scale() const;

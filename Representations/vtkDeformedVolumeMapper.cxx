@@ -40,7 +40,7 @@ struct vtkDeformedVolumeMapper::State
   FieldTexture Field;
   brainshift::NormalTexture Normals;
   DeformedPresence Presence;
-  PresenceRequest Bricks;       // what Presence shows
+  PresenceRequest Bricks; // what Presence shows
   bool PresenceCurrent = false;
   SceneDepth Depth;
   RayCaster Caster;
@@ -101,8 +101,7 @@ void vtkDeformedVolumeMapper::UpdateDeformation(vtkImageData* image)
   state.DeformationTime = time;
   state.FieldCurrent = false;
   std::string problem;
-  state.Deformed =
-    carriesDeformation(image) && readDeformation(image, state.Source, problem);
+  state.Deformed = carriesDeformation(image) && readDeformation(image, state.Source, problem);
   if (!problem.empty())
   {
     vtkErrorMacro(<< problem << ". The volume is drawn undeformed.");
@@ -165,8 +164,7 @@ void vtkDeformedVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
   this->TimeToDraw = timer->GetElapsedTime();
 }
 
-bool vtkDeformedVolumeMapper::Draw(
-  vtkRenderer* renderer, vtkVolume* volume, std::string& problem)
+bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem)
 {
   State& state = *this->Internal;
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
@@ -182,7 +180,8 @@ bool vtkDeformedVolumeMapper::Draw(
     image, this->ScalarMode, this->ArrayAccessMode, this->ArrayId, this->ArrayName, cells);
   const Grid grid = gridOf(image);
   const ValueLayout layout = layoutOf(grid.dimensions, cells != 0);
-  if (!scalars || static_cast<std::size_t>(scalars->GetNumberOfTuples()) <
+  if (!scalars ||
+    static_cast<std::size_t>(scalars->GetNumberOfTuples()) <
       static_cast<std::size_t>(layout.dimensions.x) * layout.dimensions.y * layout.dimensions.z)
   {
     return true; // nothing to draw yet
@@ -209,13 +208,13 @@ bool vtkDeformedVolumeMapper::Draw(
   }
   window->WaitForCompletion(); // else the time is that of the commands, not of the image
   timer->StopTimer();
-  state.SecondsPerPixel = timer->GetElapsedTime() / (static_cast<double>(scene.size.x) * scene.size.y);
+  state.SecondsPerPixel =
+    timer->GetElapsedTime() / (static_cast<double>(scene.size.x) * scene.size.y);
   return state.Caster.composite(window, origin, size, state.Count);
 }
 
 // Screen pixels a side for one pixel of the image to come.
-int vtkDeformedVolumeMapper::ImageScale(
-  vtkOpenGLRenderWindow* window, const glm::ivec2& size) const
+int vtkDeformedVolumeMapper::ImageScale(vtkOpenGLRenderWindow* window, const glm::ivec2& size) const
 {
   const double rate = window->GetDesiredUpdateRate();
   if (!this->AdaptiveQuality || rate < InteractiveRate)
@@ -235,8 +234,8 @@ bool vtkDeformedVolumeMapper::PrepareTissue(vtkOpenGLRenderWindow* window,
 {
   State& state = *this->Internal;
   const auto uploads = state.Count.volumeUploads;
-  if (!state.Scalars.update(window, scalars, layout.dimensions,
-        shownComponent(property, scalars), state.Count, problem))
+  if (!state.Scalars.update(window, scalars, layout.dimensions, shownComponent(property, scalars),
+        state.Count, problem))
   {
     return false;
   }
@@ -258,7 +257,8 @@ bool vtkDeformedVolumeMapper::PrepareTissue(vtkOpenGLRenderWindow* window,
     if (!state.Normals.update(window, state.Scalars.texture(), layout.dimensions, form,
           state.Scalars.range(), state.Count))
     {
-      problem = "The gradients' shader does not compile or their texture cannot be made on this GPU";
+      problem =
+        "The gradients' shader does not compile or their texture cannot be made on this GPU";
       return false;
     }
     scene.normals = state.Normals.texture();

@@ -67,10 +67,9 @@ const char* vtkDeformedVolumeRepresentation::GetCounters()
   std::ostringstream text;
   text << "frames " << count.frames << "\nvolumeUploads " << count.volumeUploads
        << "\nlatticeUploads " << count.latticeUploads << "\ntransferUploads "
-       << count.transferUploads << "\nbytesUploaded " << count.bytesUploaded
-       << "\ntexelsRefined " << count.texelsRefined << "\npresenceUpdates " << count.presenceUpdates << "\nimageScale " << count.imageScale
-       << "\nprogramsCompiled "
-       << count.programsCompiled;
+       << count.transferUploads << "\nbytesUploaded " << count.bytesUploaded << "\ntexelsRefined "
+       << count.texelsRefined << "\npresenceUpdates " << count.presenceUpdates << "\nimageScale "
+       << count.imageScale << "\nprogramsCompiled " << count.programsCompiled;
   this->CountersText = text.str();
   return this->CountersText.c_str();
 }

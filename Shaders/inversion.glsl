@@ -8,9 +8,9 @@
 // Newton's steps, halved while they do not bring the point closer: the plain fixed-point iteration
 // diverges where tissue is stretched more than twofold although nothing folds there.
 
-const int InversionSteps = 16;             // 3 or 4 are used; strong bends near folding take more
+const int InversionSteps = 16;             // 3 or 4 are used; more near folding
 const float InversionTolerance = 2e-5f;    // lattice cells; 0.0003 mm on the default lattice
-const float SmallestDeterminant = 0.02f;   // below it the step of the fixed-point iteration is taken
+const float SmallestDeterminant = 0.02f;   // below it: the step of the fixed-point iteration
 
 SHARED vec3 inversionStep(mat3 jacobian, vec3 miss)
 {

@@ -12,9 +12,8 @@ const float Nothing = 1e29; // what `spans` holds where no face is
 bool startsInside(vec3 position)
 {
   ivec3 brick = ivec3(floor(position * brickFromTexture + brickOfTextureZero));
-  bool known = all(greaterThanEqual(brick, ivec3(0))) &&
-    all(lessThan(brick, textureSize(presence, 0)));
-  return known && texelFetch(presence, clamp(brick, ivec3(0), textureSize(presence, 0) - 1), 0).r > 0.5;
+  ivec3 nearest = clamp(brick, ivec3(0), textureSize(presence, 0) - 1);
+  return brick == nearest && texelFetch(presence, nearest, 0).r > 0.5;
 }
 
 // First sample and one past the last; samples are numbered from t = span.x.
