@@ -25,12 +25,15 @@ class Times:
     def median(self):
         return statistics.median(self.wall)
 
+    def cpu(self):
+        return statistics.median(self.processor)
+
     def quiet(self):
-        return statistics.median(self.processor) / rendering_threads()
+        return self.cpu() / rendering_threads()
 
     def summary(self):
         return {"median": self.median(), "min": min(self.wall), "max": max(self.wall),
-                "quiet": self.quiet(), "wall": self.wall, "processor": self.processor}
+                "cpu": self.cpu(), "quiet": self.quiet(), "wall": self.wall, "processor": self.processor}
 
 
 def rendering_threads():

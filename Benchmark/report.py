@@ -36,7 +36,7 @@ class Report:
     def group(self, title, case, times):
         """Rows of one comparison; the first is ours, and the others are compared with it."""
         first = next(iter(times.values()))
-        print(f"\n{title:<56}{'ms, median':>11}{'min..max':>18}{'quiet':>9}{'/ first':>9}"
+        print(f"\n{title:<54}{'ms, median':>11}{'min..max':>18}{'CPU':>9}{'quiet':>9}{'/ first':>9}"
               f"{'quiet':>8}")
         rows = {}
         for name, time in times.items():
@@ -45,8 +45,8 @@ class Report:
             row["quietRatio"] = row["quiet"] / max(first.quiet(), 1e-9)
             rows[name] = row
             spread = f"{row['min']:.1f}..{row['max']:.1f}"
-            print(f"  {name:<54}{row['median']:>11.1f}{spread:>18}{row['quiet']:>9.1f}"
-                  f"{row['ratio']:>8.2f}x{row['quietRatio']:>7.2f}x", flush=True)
+            print(f"  {name:<52}{row['median']:>11.1f}{spread:>18}"
+                  f"{row['cpu']:>9.1f}{row['quiet']:>9.1f}{row['ratio']:>8.2f}x{row['quietRatio']:>7.2f}x", flush=True)
         self.results["groups"].append({"title": title, **case, "rows": rows})
 
     def fact(self, text, **values):

@@ -17,6 +17,7 @@ from vtkmodules.vtkRenderingVolumeOpenGL2 import vtkOpenGLGPUVolumeRayCastMapper
 DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Testing", "Data")
 ARRAY = "Intensity"
 STEP = 0.5  # mm along the ray: half a voxel, our default
+SAMPLES = 4 # nodes of the offset field between two control points
 AIR = 20    # of 255: below is air and noise
 
 # Scalar, opacity for 1 mm. Opaque: rays end in the skin. Translucent: two per cent a millimetre
@@ -85,7 +86,7 @@ class Scene:
         self.source = simple.TrivialProducer()
         self.source.GetClientSideObject().SetOutput(self.image)
         self.bent = simple.FreeFormDeformation(Input=self.source, LatticeDimensions=[lattice] * 3,
-                                               Samples=4)
+                                               Samples=SAMPLES)
         self._place_stroke()
         self.edit()
         self.bake = simple.BakeDeformation(Input=self.bent)
