@@ -20,7 +20,8 @@ What makes it fair
 - Sides are run in turn, round by round, so that other work on the machine hits all of them. A
   time ends when OpenGL has finished, not when it was asked.
 - Ours draws the bent volume; stock draws the volume as loaded, or bent by vtkImageReslice with
-  vtkBSplineTransform, or bent by Bake Deformation beforehand.
+  vtkBSplineTransform, or bent by Bake Deformation beforehand. ParaView holds vtkImageReslice to one
+  thread; here it gets as many as llvmpipe, so a user of ParaView waits longer than shown.
 
 "CPU" is the processor time of all threads, "quiet" the same divided by the number of rendering
 threads: about what the clock would show on a quiet machine, where llvmpipe does the work and spreads

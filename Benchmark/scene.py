@@ -5,8 +5,10 @@ import math
 import os
 
 import numpy
+from measure import rendering_threads
 from paraview import simple
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkMultiThreader
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkCommonTransforms import vtkTransform  # noqa: F401 the base class of the next
 from vtkmodules.vtkFiltersHybrid import vtkBSplineTransform
@@ -17,7 +19,7 @@ from vtkmodules.vtkRenderingVolumeOpenGL2 import vtkOpenGLGPUVolumeRayCastMapper
 DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Testing", "Data")
 ARRAY = "Intensity"
 STEP = 0.5  # mm along the ray: half a voxel, our default
-SAMPLES = 4 # nodes of the offset field between two control points
+SAMPLES = 4  # nodes of the offset field between two control points
 AIR = 20    # of 255: below is air and noise
 
 # Scalar, opacity for 1 mm. Opaque: rays end in the skin. Translucent: two per cent a millimetre
@@ -199,7 +201,7 @@ class Scene:
 
     def _make_reslice(self):
         """ParaView's present road. Its coefficients are the lattice's displacements, negated: the
-        work is the same as for any others."""
+        work is the same as for any others. ParaView holds VTK to one thread; here it gets all."""
         bent = self.bent.GetClientSideObject().GetOutputDataObject(0)
         displacements = vtk_to_numpy(bent.GetFieldData().GetArray("FFDDisplacements"))
         grid = vtkImageData()
@@ -212,6 +214,8 @@ class Scene:
         reslice.SetInputData(self.image)
         reslice.SetResliceTransform(transform)
         reslice.SetInterpolationModeToLinear()
+        vtkMultiThreader.SetGlobalMaximumNumberOfThreads(0)
+        reslice.SetNumberOfThreads(rendering_threads())
         return reslice, grid
 
     def edit_coefficients(self):
