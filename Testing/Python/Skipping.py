@@ -25,12 +25,12 @@ OPACITIES = {
 ROTATION = (0.8, -0.48, 0.36, 0.6, 0.64, -0.48, 0.0, 0.6, 0.8)
 
 
-def scattered(side=SIDE, seed=1):
+def scattered(side=SIDE, seed=1, density=1.0):
     """Single voxels of 1 and small blocks in empty space: much to skip, and much to miss."""
     random = numpy.random.default_rng(seed)
     voxels = numpy.zeros((side,) * 3, numpy.float32)
     for extent, count in ((1, 40), (2, 20), (4, 6)):
-        count = count * side ** 3 // SIDE ** 3
+        count = round(density * count * (side / SIDE) ** 3)
         for corner in random.integers(1, side - extent - 1, (count, 3)):
             voxels[tuple(slice(low, low + extent) for low in corner)] = 1.0
     return voxels
@@ -164,7 +164,7 @@ def test_a_surface_inside():
 def test_strokes_one_by_one():
     side = 49  # so large that a stroke reaches a part of it
     focus = ((side - 1) / 2,) * 3
-    source = volume(scattered(side))
+    source = volume(scattered(side, density=0.15))
     random = numpy.random.default_rng(5)
     colours = curves("translucent")
     filter = FreeFormDeformation(Input=source, Samples=2)
