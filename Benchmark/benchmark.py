@@ -185,7 +185,7 @@ def parse():
     parser = argparse.ArgumentParser(prog="brainshift bench",
                                      description="Measures BrainShift beside ParaView's own.")
     parser.add_argument("--quick", action="store_true",
-                        help="the reference case only, 512x512, two rounds: under a minute on a quiet machine")
+                        help="the reference case only, 512x512, two rounds: a minute or two")
     parser.add_argument("--sizes", type=int, nargs="*", metavar="N",
                         help="volumes of N voxels along each side (128 256 512)")
     parser.add_argument("--lattices", type=int, nargs="*", metavar="N",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Times sides against each other: one round runs every side once, so that noise hits all of them."""
+"""Times sides against each other: one round runs every side once, so that noise hits all."""
 
 import dataclasses
 import os
@@ -33,7 +33,8 @@ class Times:
 
     def summary(self):
         return {"median": self.median(), "min": min(self.wall), "max": max(self.wall),
-                "cpu": self.cpu(), "quiet": self.quiet(), "wall": self.wall, "processor": self.processor}
+                "cpu": self.cpu(), "quiet": self.quiet(), "wall": self.wall,
+                "processor": self.processor}
 
 
 def rendering_threads():

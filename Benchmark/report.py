@@ -46,7 +46,8 @@ class Report:
             rows[name] = row
             spread = f"{row['min']:.1f}..{row['max']:.1f}"
             print(f"  {name:<52}{row['median']:>11.1f}{spread:>18}"
-                  f"{row['cpu']:>9.1f}{row['quiet']:>9.1f}{row['ratio']:>8.2f}x{row['quietRatio']:>7.2f}x", flush=True)
+                  f"{row['cpu']:>9.1f}{row['quiet']:>9.1f}"
+                  f"{row['ratio']:>8.2f}x{row['quietRatio']:>7.2f}x", flush=True)
         self.results["groups"].append({"title": title, **case, "rows": rows})
 
     def fact(self, text, **values):

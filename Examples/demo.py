@@ -54,7 +54,8 @@ def load_plugin():
 
 
 def open_volume(name, file):
-    reader = simple.NIFTIVolumeReader(registrationName=name, FileName=os.path.join(DATA, "seg3d-utah", file))
+    reader = simple.NIFTIVolumeReader(
+        registrationName=name, FileName=os.path.join(DATA, "seg3d-utah", file))
     reader.UpdatePipeline()
     return reader
 

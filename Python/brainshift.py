@@ -57,7 +57,7 @@ def soft(anchor, vector, radius, sigma=0.5):
 
 
 def stamp(anchor, toward, amount, major=40.0, minor=25.0, sigma=0.5):
-    """Pull (`amount` above 0, mm) or push (below 0) the tissue around `anchor` (mm, deformed frame).
+    """Pull (`amount` above 0, mm) or push (below 0) tissue around `anchor` (mm, deformed frame).
 
     The stroke acts within an ellipsoid of revolution around the anchor whose long axis points at
     `toward` (mm), the point of interest: `major` mm along it, `minor` mm across. Pull is away from
