@@ -4,7 +4,7 @@
 import itertools
 
 import numpy
-from brainshift_testing import (load_plugin, look, object_pixels, output, picture, run_tests,
+from brainshift_testing import (ball, load_plugin, look, object_pixels, output, picture, run_tests,
                                 show_volume, view_along, volume)
 
 load_plugin()
@@ -188,6 +188,22 @@ def test_strokes_one_by_one():
         assert differing == 0, (number, differing)
         Delete(apart)
         Delete(fresh)
+
+
+def test_a_stroke_that_grows_out_of_its_bricks():
+    # A ball well inside its volume, drawn out step by step without folding: bricks that were empty
+    # before the last step hold tissue after it, and only those in reach of the stroke are redone.
+    focus = (48.0, 48.0, 48.0)
+    filter = FreeFormDeformation(Input=volume(ball(side=97, radius=14.0)))
+    filter.Strokes = brainshift.soft((48, 48, 62), (0, 0, 0.5), 20.0)
+    view = new_view((-1.0, 0.2, -0.1), distance=200.0, focus=focus)
+    display = show_volume(filter, view, "Deformed Volume", [0, 0, 1, 0, 100, 0, 1, 0],
+                          [0, 0, 0.5, 0, 40, 0, 0.5, 0, 60, 1, 0.5, 0, 100, 1, 0.5, 0])
+    picture(view)
+    for amount in (4.0, 7.0, 10.0):
+        filter.Strokes = brainshift.soft((48, 48, 62), (0, 0, amount), 20.0)
+        assert_same(view, display, f"{amount} mm")
+    Delete(view)
 
 
 run_tests(globals())
