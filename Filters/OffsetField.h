@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The fields a picture is drawn with, on the CPU: what the shaders refine.vert/frag.glsl and
+// The fields a picture is drawn with, on the CPU: what the shaders refine.frag.glsl and
 // invert.frag.glsl compute on the GPU, with the same mathematics, for bake, export and tests.
 #ifndef BrainShift_OffsetField_h
 #define BrainShift_OffsetField_h

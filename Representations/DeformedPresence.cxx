@@ -33,6 +33,15 @@ void setNearest(vtkTextureObject* texture)
   texture->SetWrapR(vtkTextureObject::ClampToEdge);
 }
 
+// Whether two requests differ in nothing but the values of the offsets.
+bool samePlaces(const PresenceRequest& a, const PresenceRequest& b)
+{
+  return a.first == b.first && a.count == b.count && a.restBricks == b.restBricks &&
+    a.lowestVoxel == b.lowestVoxel && a.highestVoxel == b.highestVoxel &&
+    (a.offsets == nullptr) == (b.offsets == nullptr) && a.voxelsFromOffset == b.voxelsFromOffset &&
+    a.nodesFromVoxel == b.nodesFromVoxel && a.nodesFromVoxelShift == b.nodesFromVoxelShift;
+}
+
 // Bricks whose offsets depend on a box of nodes.
 IndexBox bricksOfNodes(const PresenceRequest& request, const IndexBox& nodes)
 {
@@ -86,7 +95,7 @@ bool DeformedPresence::setVisibility(vtkOpenGLRenderWindow* window, const glm::i
   this->Summed = vtkSmartPointer<vtkTextureObject>::New();
   this->Summed->SetContext(window);
   setNearest(this->Summed);
-  this->VisibilityNew = true;
+  this->AllNew = true;
   counters.bytesUploaded += static_cast<std::int64_t>(summed.size() * sizeof(float));
   return this->Summed->Create3DFromRaw(
     restBricks.x + 1, restBricks.y + 1, restBricks.z + 1, 1, VTK_FLOAT, summed.data());
@@ -144,16 +153,21 @@ bool DeformedPresence::update(vtkOpenGLRenderWindow* window, const PresenceReque
       return false;
     }
   }
-  else if (!this->VisibilityNew && this->MapFirst == request.first && request.offsets)
+  else if (!this->AllNew && samePlaces(this->Shown, request))
   {
     box = bricksOfNodes(request, changed);
+    if (box.empty())
+    {
+      return true;
+    }
   }
-  if (!box.empty() && !this->compute(window, request, box, counters))
+  this->AllNew = true; // until all of it succeeded
+  if (!this->compute(window, request, box, counters))
   {
     return false;
   }
-  this->MapFirst = request.first;
-  this->VisibilityNew = false;
+  this->Shown = request;
+  this->AllNew = false;
   // One byte a brick comes back, once an edit and never for a camera move: making the faces on the
   // GPU would cost its geometry stage every frame.
   std::vector<std::uint8_t> occupied(

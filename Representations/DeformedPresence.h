@@ -45,8 +45,8 @@ public:
   bool setVisibility(vtkOpenGLRenderWindow* window, const glm::ivec3& restBricks,
     std::vector<float>& summed, Counters& counters);
 
-  // Finds the occupied bricks and makes their faces. `changed`: the nodes whose offsets differ from
-  // the last update; all bricks are done after a change of visibility or size.
+  // Finds the occupied bricks and makes their faces, if anything changed. `changed`: the nodes whose
+  // offsets differ from the last update; all bricks are done after any other change.
   bool update(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
     const IndexBox& changed, Counters& counters);
 
@@ -69,9 +69,9 @@ private:
   vtkSmartPointer<vtkTextureObject> Summed;
   vtkSmartPointer<vtkTextureObject> Map;
   vtkSmartPointer<vtkOpenGLBufferObject> Corners;
-  glm::ivec3 MapFirst{ 0 };  // first brick of Map
-  bool VisibilityNew = true; // since the last update
-  Program MapPrograms[2];    // [deformed]
+  PresenceRequest Shown;  // what Map shows
+  bool AllNew = true;     // nothing of Map can be kept
+  Program MapPrograms[2]; // [deformed]
   int Faces = 0;
   int Occupied = 0;
 };

@@ -171,7 +171,7 @@ RayCastLights lightsOf(vtkRenderer* renderer)
       lights.specular.push_back(static_cast<float>(light->GetSpecularColor()[i] * intensity));
     }
   }
-  lights.headlight = others == 0;
+  lights.headlight = others == 0 && lights.position.size() == 4;
   return lights;
 }
 

@@ -27,7 +27,7 @@ class DeformedPresence;
 
 struct RayCastLights
 {
-  bool headlight = true;
+  bool headlight = false;      // the only light is at the eye
   std::vector<float> position; // 4 each: world; w 0: direction towards the light
   std::vector<float> color;    // 3 each, times intensity
   std::vector<float> specular; // 3 each

@@ -47,10 +47,9 @@ bool TransferTexture::update(
 {
   vtkColorTransferFunction* color = property->GetRGBTransferFunction();
   vtkPiecewiseFunction* opacity = property->GetScalarOpacity();
-  const unsigned long long time = std::max(color->GetMTime(), opacity->GetMTime());
   const double unitMm = property->GetScalarOpacityUnitDistance();
-  if (this->Texture && this->UploadedTime == time && this->StepMm == stepMm &&
-    this->UnitMm == unitMm)
+  if (this->Texture && this->ColorTime == color->GetMTime() &&
+    this->OpacityTime == opacity->GetMTime() && this->StepMm == stepMm && this->UnitMm == unitMm)
   {
     return false;
   }
@@ -83,7 +82,8 @@ bool TransferTexture::update(
   this->Texture->Create2DFromRaw(Entries, 1, 4, VTK_FLOAT, texels.data());
   counters.transferUploads += 1;
   counters.bytesUploaded += static_cast<std::int64_t>(texels.size() * sizeof(float));
-  this->UploadedTime = time;
+  this->ColorTime = color->GetMTime();
+  this->OpacityTime = opacity->GetMTime();
   this->StepMm = stepMm;
   this->UnitMm = unitMm;
   return true;

@@ -39,7 +39,8 @@ public:
 
 private:
   vtkSmartPointer<vtkTextureObject> Texture;
-  unsigned long long UploadedTime = 0;
+  unsigned long long ColorTime = 0; // of the maps as uploaded; VTK's times are unique
+  unsigned long long OpacityTime = 0;
   double StepMm = 0.0;
   double UnitMm = 0.0;
   std::vector<int> VisibleBefore; // visible entries with lower indices; one more than entries

@@ -41,7 +41,6 @@ struct vtkDeformedVolumeMapper::State
   brainshift::NormalTexture Normals;
   DeformedPresence Presence;
   PresenceRequest Bricks; // what Presence shows
-  bool PresenceCurrent = false;
   SceneDepth Depth;
   RayCaster Caster;
   Counters Count;
@@ -206,10 +205,13 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
     problem = "The ray caster's shader does not compile or its images cannot be made on this GPU";
     return false;
   }
-  window->WaitForCompletion(); // else the time is that of the commands, not of the image
-  timer->StopTimer();
-  state.SecondsPerPixel =
-    timer->GetElapsedTime() / (static_cast<double>(scene.size.x) * scene.size.y);
+  if (this->AdaptiveQuality)
+  {
+    window->WaitForCompletion(); // else the time is that of the commands, not of the image
+    timer->StopTimer();
+    state.SecondsPerPixel =
+      timer->GetElapsedTime() / (static_cast<double>(scene.size.x) * scene.size.y);
+  }
   return state.Caster.composite(window, origin, size, state.Count);
 }
 
@@ -286,7 +288,6 @@ void vtkDeformedVolumeMapper::UpdateVisibility(vtkOpenGLRenderWindow* window)
   };
   std::vector<float> summed = summedVisibility(ranges, visible);
   state.Presence.setVisibility(window, ranges.count, summed, state.Count);
-  state.PresenceCurrent = false;
 }
 
 // The offset field and the bricks of the deformed frame.
@@ -296,6 +297,7 @@ bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, const 
   State& state = *this->Internal;
   scene.spaceLow = layout.low;
   scene.spaceHigh = layout.high;
+  IndexBox changed; // nodes of the offset field
   if (state.Deformed)
   {
     const Grid& lattice = state.Source.lattice.grid;
@@ -310,22 +312,17 @@ bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, const 
         return false;
       }
       state.FieldCurrent = true;
-      state.PresenceCurrent = state.PresenceCurrent && state.Field.changed().empty();
+      changed = state.Field.changed();
     }
     scene.offsets = state.Field.offsets();
     placeField(grid, layout, lattice, state.Request.nodes, state.Moved, scene);
   }
   placeBricks(layout, scene, state.Bricks);
-  if (!state.PresenceCurrent)
+  if (!state.Presence.update(window, state.Bricks, changed, state.Count))
   {
-    const IndexBox changed = state.Deformed ? state.Field.changed() : IndexBox();
-    if (!state.Presence.update(window, state.Bricks, changed, state.Count))
-    {
-      problem = "The presence map's shader does not compile or its texture cannot be made on this "
-                "GPU";
-      return false;
-    }
-    state.PresenceCurrent = true;
+    problem =
+      "The presence map's shader does not compile or its texture cannot be made on this GPU";
+    return false;
   }
   if (this->Cropping && this->CroppingRegionFlags == VTK_CROP_SUBVOLUME)
   {
@@ -395,7 +392,6 @@ void vtkDeformedVolumeMapper::ReleaseGraphicsResources(vtkWindow* window)
   state.Transfer.releaseGraphicsResources(window);
   state.Normals.releaseGraphicsResources(window);
   state.Presence.releaseGraphicsResources(window);
-  state.PresenceCurrent = false;
   state.Field.releaseGraphicsResources(window);
   state.Depth.releaseGraphicsResources(window);
   state.Caster.releaseGraphicsResources(window);

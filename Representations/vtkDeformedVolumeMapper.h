@@ -7,7 +7,7 @@
  * Filters/DeformableVolume.h), never resampling a voxel; a volume without a lattice is drawn as it
  * is. Colours, opacity, light and position come from the vtkVolume, as for any volume mapper.
  *
- * Where the GPU cannot draw it, the reason is reported once and VTK's own mapper draws the volume
+ * Where the GPU cannot draw it, the reason is reported once and VTK's software mapper draws the volume
  * undeformed.
  *
  * Method: van der Steen et al., SPIE 7169 (2009), section 2; ARCHITECTURE.md says what differs.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that the cubic kernels, which GLSL and C++ share, are what their names say.
+// Proves that the cubic kernels, whose values the GPU is given, are what their names say.
 #include "Kernels.h"
 
 #include <gtest/gtest.h>

@@ -8,7 +8,8 @@ from brainshift_testing import (ball, load_plugin, look, picture, run_tests, sho
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
-from paraview.simple import FreeFormDeformation, GetOpacityTransferFunction  # noqa: E402
+from paraview.simple import (CreatePiecewiseFunction, FreeFormDeformation,  # noqa: E402
+                             GetOpacityTransferFunction)
 
 MIDDLE = (16.0, 16.0, 16.0)
 COLORS = [0, 0, 0, 0, 100, 1, 1, 1]
@@ -100,6 +101,15 @@ def test_a_stroke_uploads_the_lattice_only():
     assert done.pop("texelsRefined") > 0, done
     assert done.pop("presenceUpdates") == 1, done
     assert done == {}, done
+
+
+def test_another_opacity_map_is_noticed_even_if_it_is_older():
+    drawn = Drawn()
+    older = CreatePiecewiseFunction(Points=[0, 0, 0.5, 0, 30, 0, 0.5, 0, 100, 0.5, 0.5, 0])
+    drawn.display.LookupTable.RGBPoints = [0, 0, 0, 1, 100, 1, 0, 0]  # now the newest of all
+    drawn.did()
+    drawn.display.ScalarOpacityFunction = older
+    assert drawn.did().get("transferUploads") == 1
 
 
 def test_an_opacity_edit_uploads_the_map_only():
