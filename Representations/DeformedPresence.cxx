@@ -115,6 +115,7 @@ bool DeformedPresence::compute(vtkOpenGLRenderWindow* window, const PresenceRequ
   program.set("brickSide", static_cast<float>(BrickSide));
   program.set("restBrickSide", static_cast<float>(RestBrickSide));
   program.set("firstBrick", request.first);
+  program.set("margin", BrickMargin);
   program.set("lowestVoxel", request.lowestVoxel);
   program.set("highestVoxel", request.highestVoxel);
   if (deformed)
@@ -189,6 +190,8 @@ void DeformedPresence::makeFaces(
   std::vector<Corner> corners;
   this->Occupied = 0;
   std::size_t at = 0;
+  glm::ivec3 low = count;
+  glm::ivec3 high(-1);
   glm::ivec3 brick;
   for (brick.z = 0; brick.z < count.z; ++brick.z)
   {
@@ -201,6 +204,8 @@ void DeformedPresence::makeFaces(
           continue;
         }
         this->Occupied += 1;
+        low = glm::min(low, brick);
+        high = glm::max(high, brick);
         for (int axis = 0; axis < 3; ++axis)
         {
           if (brick[axis] == 0 || !occupied[at - stride[axis]])
@@ -215,6 +220,7 @@ void DeformedPresence::makeFaces(
       }
     }
   }
+  this->OccupiedBox = { low, high };
   this->Faces = static_cast<int>(corners.size() / 6);
   if (!this->Corners)
   {

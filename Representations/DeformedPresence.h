@@ -56,6 +56,9 @@ public:
   // Draws the faces with a program in use whose attribute `corner` takes brick corners.
   void drawFaces(int programHandle);
 
+  // Box of the occupied bricks; its indices count from the request's first brick.
+  const IndexBox& occupiedBox() const { return this->OccupiedBox; }
+
   int faces() const { return this->Faces; }
   int occupied() const { return this->Occupied; }
 
@@ -74,6 +77,7 @@ private:
   Program MapPrograms[2]; // [deformed]
   int Faces = 0;
   int Occupied = 0;
+  IndexBox OccupiedBox;
 };
 }
 

@@ -14,24 +14,24 @@ NormalTexture::NormalTexture() = default;
 NormalTexture::~NormalTexture() = default;
 
 bool NormalTexture::update(vtkOpenGLRenderWindow* window, vtkTextureObject* scalars,
-  const glm::ivec3& dimensions, Form form, float range, Counters& counters)
+  const glm::ivec3& dimensions, bool half, float range, Counters& counters)
 {
-  if (this->Texture && this->Source == scalars && this->Shown == form)
+  if (this->Texture && this->Source == scalars && this->Half == half)
   {
     return true;
   }
-  const glm::ivec3 size = form == Half ? (dimensions + 1) / 2 : dimensions;
+  const glm::ivec3 size = half ? (dimensions + 1) / 2 : dimensions;
   this->Texture = vtkSmartPointer<vtkTextureObject>::New();
   this->Texture->SetContext(window);
-  this->Texture->SetInternalFormat(form == Packed ? GL_RGBA16 : GL_RGBA16F);
+  this->Texture->SetInternalFormat(GL_RGB10_A2);
   this->Texture->SetMinificationFilter(vtkTextureObject::Linear);
   this->Texture->SetMagnificationFilter(vtkTextureObject::Linear);
   this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
   this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
   this->Texture->SetWrapR(vtkTextureObject::ClampToEdge);
-  Program& program = this->NormalsPrograms[form == Packed];
+  Program& program = this->NormalsProgram;
   if (!this->Texture->Allocate3D(size.x, size.y, size.z, 4, VTK_FLOAT) ||
-    !program.use(window, normalsSource(form == Packed), counters))
+    !program.use(window, normalsSource(), counters))
   {
     this->Texture = nullptr;
     return false;
@@ -40,14 +40,14 @@ bool NormalTexture::update(vtkOpenGLRenderWindow* window, vtkTextureObject* scal
   program.set("scalars", scalars);
   program.set("texel", 1.0f / glm::vec3(size));
   program.set("voxel", voxel);
-  // Differences of the whole range over one voxel come out as 1 along the longest side.
+  // Half the range over one voxel, the most there is, comes out as 1 along the longest side.
   const float longest =
     static_cast<float>(glm::max(dimensions.x, glm::max(dimensions.y, dimensions.z)));
-  program.set("gradientScale", 1.0f / (range > 0.0f ? range * longest : longest));
+  program.set("gradientScale", 2.0f / (range > 0.0f ? range * longest : longest));
   runVolumePass(window, program.get()->GetHandle(), this->Texture, glm::ivec3(0), size);
   scalars->Deactivate();
   this->Source = scalars;
-  this->Shown = form;
+  this->Half = half;
   return true;
 }
 
@@ -59,7 +59,6 @@ void NormalTexture::releaseGraphicsResources(vtkWindow* window)
   }
   this->Texture = nullptr;
   this->Source = nullptr;
-  this->NormalsPrograms[0].forget();
-  this->NormalsPrograms[1].forget();
+  this->NormalsProgram.forget();
 }
 }

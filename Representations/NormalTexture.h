@@ -23,19 +23,10 @@ public:
   NormalTexture();
   ~NormalTexture();
 
-  enum Form
-  {
-    Half,   // half resolution, 16-bit floats
-    Full,   // full resolution, 16-bit floats
-    Packed, // full resolution, 16-bit whole numbers, with the scalar (which must lie in 0 to 1)
-  };
-
-  // Computes the gradients of `scalars` (voxels a side given), unless they are there already.
-  // `range`: greatest minus least stored value.
+  // Computes the gradients of `scalars` (voxels a side given), unless they are there already: at half
+  // or at full resolution, 10 bits a component. `range`: greatest minus least stored value.
   bool update(vtkOpenGLRenderWindow* window, vtkTextureObject* scalars,
-    const glm::ivec3& dimensions, Form form, float range, Counters& counters);
-
-  bool packed() const { return this->Shown == Packed; }
+    const glm::ivec3& dimensions, bool half, float range, Counters& counters);
 
   vtkTextureObject* texture() const { return this->Texture; }
   void releaseGraphicsResources(vtkWindow* window);
@@ -43,8 +34,8 @@ public:
 private:
   vtkSmartPointer<vtkTextureObject> Texture;
   vtkWeakPointer<vtkTextureObject> Source; // the scalars it was made from
-  Form Shown = Half;
-  Program NormalsPrograms[2]; // [packed]
+  bool Half = false;
+  Program NormalsProgram;
 };
 }
 

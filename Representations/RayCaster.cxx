@@ -15,6 +15,9 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
+#include <glm/vector_relational.hpp>
+
+#include <glm/common.hpp>
 
 #include <algorithm>
 
@@ -47,12 +50,25 @@ FrustumPlane frustumPlane(
   return plane;
 }
 
-void setRayUniforms(Program& program, const RayCastScene& scene)
+struct Frustum
+{
+  FrustumPlane near;
+  FrustumPlane far;
+};
+
+Frustum frustumOf(const RayCastScene& scene)
 {
   const glm::dmat4 clipFromTexture = scene.clipFromWorld * scene.worldFromTexture;
   const glm::dmat4 textureFromClip = glm::inverse(clipFromTexture);
-  const FrustumPlane near = frustumPlane(clipFromTexture, textureFromClip, -1.0);
-  const FrustumPlane far = frustumPlane(clipFromTexture, textureFromClip, 1.0);
+  return { frustumPlane(clipFromTexture, textureFromClip, -1.0),
+    frustumPlane(clipFromTexture, textureFromClip, 1.0) };
+}
+
+void setRayUniforms(Program& program, const RayCastScene& scene)
+{
+  const Frustum frustum = frustumOf(scene);
+  const FrustumPlane& near = frustum.near;
+  const FrustumPlane& far = frustum.far;
   program.set("nearOrigin", glm::vec3(near.origin));
   program.set("nearRight", glm::vec3(near.right));
   program.set("nearUp", glm::vec3(near.up));
@@ -63,6 +79,20 @@ void setRayUniforms(Program& program, const RayCastScene& scene)
   program.set("worldFromTexture", glm::mat3(glm::dmat3(scene.worldFromTexture)));
 }
 
+// Faces of the occupied bricks. All of a plane parallel to the near plane lies at the same share of
+// the way to the far plane, so that a ray's t is that share of its length.
+void setFaceUniforms(Program& program, const RayCastScene& scene)
+{
+  const Frustum frustum = frustumOf(scene);
+  const glm::dvec3 across = glm::cross(frustum.near.right, frustum.near.up);
+  const glm::dvec3 share = across / glm::dot(across, frustum.far.origin - frustum.near.origin);
+  program.set("shareFromTexture", glm::vec3(share));
+  program.set("shareOfTextureZero", static_cast<float>(-glm::dot(share, frustum.near.origin)));
+  program.set("clipFromTexture", glm::mat4(scene.clipFromWorld * scene.worldFromTexture));
+  program.set("textureFromBrick", glm::vec3(scene.textureFromBrick));
+  program.set("textureOfBrickZero", glm::vec3(scene.textureOfBrickZero));
+}
+
 void setSpaceUniforms(Program& program, const RayCastScene& scene)
 {
   program.set("spaceLow", glm::vec3(scene.spaceLow));
@@ -70,13 +100,18 @@ void setSpaceUniforms(Program& program, const RayCastScene& scene)
   program.set("stepMm", static_cast<float>(scene.stepMm));
   program.set("worldOfTextureZero", glm::vec3(scene.worldFromTexture[3]));
   program.set("sceneDepth", scene.sceneDepth);
+  program.set("depthFromShare", scene.depthFromShare);
+  program.set("depthOfShareZero", scene.depthOfShareZero);
 }
 
 void setSkippingUniforms(Program& program, const RayCastScene& scene, vtkTextureObject* spans)
 {
   program.set("skipping", scene.skipping ? 1 : 0);
   program.set("spans", spans);
-  program.set("presence", scene.presence->map());
+  vtkTextureObject* presence = scene.presence->map();
+  program.set("presence", presence);
+  program.set("presenceTexel",
+    1.0f / glm::vec3(presence->GetWidth(), presence->GetHeight(), presence->GetDepth()));
   program.set("brickFromTexture", glm::vec3(1.0 / scene.textureFromBrick));
   program.set("brickOfTextureZero",
     glm::vec3(-scene.textureOfBrickZero / scene.textureFromBrick - scene.firstBrick));
@@ -84,14 +119,7 @@ void setSkippingUniforms(Program& program, const RayCastScene& scene, vtkTexture
 
 void setTissueUniforms(Program& program, const RayCastScene& scene)
 {
-  if (scene.normals && scene.packedNormals)
-  {
-    program.set("packedTissue", scene.normals);
-  }
-  else
-  {
-    program.set("scalars", scene.scalars);
-  }
+  program.set("scalars", scene.scalars);
   program.set("transfer", scene.transfer);
   program.set("transferFromScalar", glm::vec2(scene.transferFromScalar));
   program.set("volumeLow", glm::vec3(scene.volumeLow));
@@ -114,7 +142,7 @@ void setLightUniforms(Program& program, const RayCastScene& scene)
   {
     program.set("voxel", glm::vec3(scene.voxel));
   }
-  else if (!scene.packedNormals)
+  else
   {
     program.set("normals", scene.normals);
   }
@@ -193,12 +221,14 @@ vtkSmartPointer<vtkTextureObject> makeImage(
   return image->Allocate2D(size.x, size.y, 4, VTK_FLOAT) ? image : nullptr;
 }
 
-// Drawing into images of our own: no blending, no tests, all of the image; restored at the end.
+// Drawing into images of our own: no blending, no tests, only the part that shows something; restored
+// at the end.
 class ImageScope
 {
 public:
-  ImageScope(vtkOpenGLState* state, const glm::ivec2& size)
+  ImageScope(vtkOpenGLState* state, const RayCastScene& scene)
     : Viewport(state)
+    , ScissorBox(state)
     , ColorMask(state)
     , Blending(state)
     , Scissor(state, GL_SCISSOR_TEST)
@@ -207,12 +237,15 @@ public:
     , Cull(state, GL_CULL_FACE)
     , Framebuffer(state)
   {
-    for (const unsigned int capability : { GL_SCISSOR_TEST, GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE })
+    for (const unsigned int capability : { GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE })
     {
       state->vtkglDisable(capability);
     }
+    const glm::ivec2 shown = scene.shownHigh - scene.shownLow;
+    state->vtkglEnable(GL_SCISSOR_TEST);
+    state->vtkglScissor(scene.shownLow.x, scene.shownLow.y, shown.x, shown.y);
     state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    state->vtkglViewport(0, 0, size.x, size.y);
+    state->vtkglViewport(0, 0, scene.size.x, scene.size.y);
   }
 
   void attach(unsigned int index, vtkTextureObject* image)
@@ -224,6 +257,7 @@ public:
 
 private:
   vtkOpenGLState::ScopedglViewport Viewport;
+  vtkOpenGLState::ScopedglScissor ScissorBox;
   vtkOpenGLState::ScopedglColorMask ColorMask;
   vtkOpenGLState::ScopedglBlendFuncSeparate Blending;
   vtkOpenGLState::ScopedglEnableDisable Scissor;
@@ -255,14 +289,9 @@ bool RayCaster::findSpans(
   {
     return false;
   }
-  setRayUniforms(this->SpansProgram, scene);
-  const glm::mat4 clipFromTexture(scene.clipFromWorld * scene.worldFromTexture);
-  this->SpansProgram.set("clipFromTexture", clipFromTexture);
-  this->SpansProgram.set("textureFromBrick", glm::vec3(scene.textureFromBrick));
-  this->SpansProgram.set("textureOfBrickZero", glm::vec3(scene.textureOfBrickZero));
-  this->SpansProgram.set("pixelSize", 2.0f / glm::vec2(scene.size));
+  setFaceUniforms(this->SpansProgram, scene);
   vtkOpenGLState* state = window->GetState();
-  ImageScope images(state, scene.size);
+  ImageScope images(state, scene);
   images.attach(0, this->Spans);
   const float nothing[4] = { 1e30f, 1e30f, 1e30f, 1e30f };
   glClearBufferfv(GL_COLOR, 0, nothing);
@@ -298,9 +327,10 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
   variant.deformed = scene.offsets != nullptr;
   variant.light = !scene.shaded ? RayCastVariant::Unshaded
     : !scene.normals            ? RayCastVariant::GradientsOnTheFly
-    : scene.packedNormals       ? RayCastVariant::PackedGradients
                                 : RayCastVariant::GradientTexture;
   Program& program = this->CastPrograms[variant.deformed][variant.light];
+  this->ShownLow = scene.shownLow;
+  this->ShownHigh = scene.shownHigh;
   if (!this->prepareImages(window, scene.size) ||
     (scene.skipping && !this->findSpans(window, scene, counters)) ||
     !program.use(window, rayCastSource(variant), counters))
@@ -309,7 +339,7 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
   }
   this->setUniforms(program, scene);
   {
-    ImageScope images(window->GetState(), scene.size);
+    ImageScope images(window->GetState(), scene);
     images.attach(0, this->Image);
     images.attach(1, this->Hits);
     drawTriangles(1);
@@ -328,9 +358,8 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
 
 bool RayCaster::hitAt(vtkOpenGLRenderWindow* window, const glm::ivec2& pixel, glm::dvec4& hit)
 {
-  if (!this->Hits || pixel.x < 0 || pixel.y < 0 ||
-    pixel.x >= static_cast<int>(this->Hits->GetWidth()) ||
-    pixel.y >= static_cast<int>(this->Hits->GetHeight()))
+  if (!this->Hits || glm::any(glm::lessThan(pixel, this->ShownLow)) ||
+    glm::any(glm::greaterThanEqual(pixel, this->ShownHigh)))
   {
     return false;
   }
@@ -362,8 +391,24 @@ bool RayCaster::composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origi
   state->vtkglBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   state->vtkglDisable(GL_DEPTH_TEST);
   state->vtkglDisable(GL_CULL_FACE);
-  state->vtkglViewport(origin.x, origin.y, size.x, size.y);
+  const glm::dvec2 scale =
+    glm::dvec2(size) / glm::dvec2(this->Image->GetWidth(), this->Image->GetHeight());
+  // Not its empty rim: the filter would blend it with what an earlier picture left beyond.
+  const glm::ivec2 end(this->Image->GetWidth(), this->Image->GetHeight());
+  const glm::ivec2 first =
+    this->ShownLow + glm::ivec2(glm::greaterThan(this->ShownLow, glm::ivec2(0)));
+  const glm::ivec2 last = this->ShownHigh - glm::ivec2(glm::lessThan(this->ShownHigh, end));
+  const glm::ivec2 low(glm::floor(glm::dvec2(first) * scale));
+  const glm::ivec2 shown =
+    glm::max(glm::ivec2(glm::ceil(glm::dvec2(last) * scale)) - low, glm::ivec2(0));
+  state->vtkglViewport(origin.x + low.x, origin.y + low.y, shown.x, shown.y);
+  const int filter =
+    scale == glm::dvec2(1.0) ? vtkTextureObject::Nearest : vtkTextureObject::Linear;
+  this->Image->SetMinificationFilter(filter);
+  this->Image->SetMagnificationFilter(filter);
   this->CompositeProgram.set("image", this->Image.Get());
+  this->CompositeProgram.set("origin", glm::vec2(origin));
+  this->CompositeProgram.set("shareOfPixel", 1.0f / glm::vec2(size));
   drawTriangles(1);
   this->Image->Deactivate();
   return true;

@@ -36,7 +36,9 @@ struct RayCastLights
 // Everything one image depends on. Texture coordinates are the scalar texture's.
 struct RayCastScene
 {
-  glm::ivec2 size{ 0 }; // pixels
+  glm::ivec2 size{ 0 };      // pixels
+  glm::ivec2 shownLow{ 0 };  // the part of the image that can show something: first pixel,
+  glm::ivec2 shownHigh{ 0 }; // and one past the last
   glm::dmat4 clipFromWorld{ 1.0 };
   glm::dmat4 worldFromTexture{ 1.0 };
   glm::dvec3 spaceLow{ 0.0 }; // part of the deformed frame tissue can reach
@@ -62,10 +64,11 @@ struct RayCastScene
   vtkTextureObject* scalars = nullptr;
   vtkTextureObject* offsets = nullptr; // null: the volume carries no deformation
   vtkTextureObject* normals = nullptr; // null: gradients on the fly
-  bool packedNormals = false;          // normals hold the scalars too
   vtkTextureObject* transfer = nullptr;
   DeformedPresence* presence = nullptr;
   vtkTextureObject* sceneDepth = nullptr;
+  glm::vec2 depthFromShare{ 1.0f }; // sceneDepth's coordinates from the share of the image
+  glm::vec2 depthOfShareZero{ 0.0f };
 };
 
 RayCastLights lightsOf(vtkRenderer* renderer);
@@ -94,6 +97,8 @@ private:
   bool findSpans(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters);
   void setUniforms(Program& program, const RayCastScene& scene);
 
+  glm::ivec2 ShownLow{ 0 }; // what of the image was cast last: first pixel, one past the last
+  glm::ivec2 ShownHigh{ 0 };
   vtkSmartPointer<vtkTextureObject> Image; // colour times opacity, opacity
   vtkSmartPointer<vtkTextureObject> Hits;  // first hit, mm; distance from the near plane, mm
   vtkSmartPointer<vtkTextureObject> Spans; // least t, minus greatest t in occupied bricks

@@ -32,6 +32,22 @@ glm::vec2 asRange(std::uint16_t value)
   return glm::vec2(static_cast<float>(value));
 }
 
+// Widens ranges by what interpolation finds BrickMargin beyond voxels `at`, towards voxels `next`.
+template <typename T>
+void widen(glm::vec2* ranges, const T* at, const T* next, std::size_t count)
+{
+  for (std::size_t s = 0; s < count; ++s)
+  {
+    const glm::vec2 a = asRange(at[s]);
+    const glm::vec2 b = asRange(next[s]);
+    if (a.x <= a.y && b.x <= b.y)
+    {
+      ranges[s].x = std::min(ranges[s].x, a.x + BrickMargin * (b.x - a.x));
+      ranges[s].y = std::max(ranges[s].y, a.y + BrickMargin * (b.y - a.y));
+    }
+  }
+}
+
 // Ranges of bricks along one axis: `from` has `length` rows of `stride` consecutive values in each
 // of `blocks` blocks, the result one row for each brick.
 template <typename T>
@@ -44,8 +60,8 @@ std::vector<glm::vec2> rangesAlong(
     {
       const std::size_t block = row / bricks;
       const int brick = static_cast<int>(row % bricks);
-      const int first = std::max(brick * RestBrickSide - RestOverlap, 0);
-      const int last = std::min((brick + 1) * RestBrickSide + RestOverlap, length - 1);
+      const int first = brick * RestBrickSide;
+      const int last = std::min(first + RestBrickSide, length - 1);
       glm::vec2* out = &to[row * stride];
       std::fill_n(out, stride, NoRange);
       for (int voxel = first; voxel <= last; ++voxel)
@@ -58,6 +74,10 @@ std::vector<glm::vec2> rangesAlong(
           out[s].y = std::max(out[s].y, range.y);
         }
       }
+      widen(out, from + (block * length + first) * stride,
+        from + (block * length + std::max(first - 1, 0)) * stride, stride);
+      widen(out, from + (block * length + last) * stride,
+        from + (block * length + std::min(last + 1, length - 1)) * stride, stride);
     }
   });
   return to;

@@ -16,9 +16,9 @@ namespace brainshift
 constexpr int RestBrickSide = 2; // voxels, in the rest volume
 constexpr int BrickSide = 4;     // voxels, in the deformed frame; 8 occupies more, 2 has more faces
 
-// Rest bricks know about this many voxels of their neighbours: then a visible sample near the face
-// of a deformed brick makes the brick beyond the face occupied too. See ARCHITECTURE.md, "Skipping".
-constexpr int RestOverlap = 1;
+// Bricks of both frames look at so many voxels around them, so that a visible sample near a face makes
+// the brick beyond that face occupied too: the rasteriser and brick numbers may round.
+constexpr float BrickMargin = 1.0f / 8.0f;
 
 // The least and the greatest value that interpolation can find within each brick.
 struct BrickRanges
@@ -28,8 +28,7 @@ struct BrickRanges
 };
 
 // `values`: dimensions.x * y * z numbers, x fastest. A range is that of all voxels a trilinear
-// filter reads for positions within the brick and RestOverlap around it. NaN is left out: it is
-// never visible.
+// filter reads for positions within the brick and BrickMargin around it. NaN is left out: it is never visible.
 BrickRanges brickRanges(const float* values, const glm::ivec3& dimensions);
 BrickRanges brickRanges(const std::uint16_t* values, const glm::ivec3& dimensions);
 

@@ -20,14 +20,26 @@ public:
   SceneDepth();
   ~SceneDepth();
 
-  // Copies the depth of a rectangle (pixels) of the framebuffer that is bound for drawing.
-  void capture(vtkOpenGLRenderWindow* window, const glm::ivec2& origin, const glm::ivec2& size);
+  // Makes the depth of the framebuffer that is bound for drawing readable in a viewport (pixels) of it;
+  // of that, only what lies between the pixels `low` and `high`, counted in the viewport, is wanted.
+  void capture(vtkOpenGLRenderWindow* window, const glm::ivec2& origin, const glm::ivec2& size,
+    const glm::ivec2& low, const glm::ivec2& high);
 
-  vtkTextureObject* texture() const { return this->Depth; }
+  vtkTextureObject* texture() const { return this->Shown; }
+  // Texture coordinates from the share of the viewport: scale and shift.
+  const glm::vec2& textureFromShare() const { return this->TextureFromShare; }
+  const glm::vec2& textureOfShareZero() const { return this->TextureOfShareZero; }
+
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
-  vtkSmartPointer<vtkTextureObject> Depth;
+  void copy(vtkOpenGLRenderWindow* window, const glm::ivec2& origin, const glm::ivec2& size,
+    const glm::ivec2& low, const glm::ivec2& high);
+
+  vtkSmartPointer<vtkTextureObject> Shown; // the window's own, or Copy
+  vtkSmartPointer<vtkTextureObject> Copy;
+  glm::vec2 TextureFromShare{ 1.0f };
+  glm::vec2 TextureOfShareZero{ 0.0f };
 };
 }
 

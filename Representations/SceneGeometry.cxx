@@ -111,6 +111,34 @@ void cropSpace(
   scene.spaceHigh = glm::min(scene.spaceHigh, textureFromPlane(high));
 }
 
+void placeShownPixels(const IndexBox& bricks, RayCastScene& scene)
+{
+  scene.shownLow = glm::ivec2(0);
+  scene.shownHigh = bricks.empty() ? glm::ivec2(0) : scene.size;
+  const glm::dmat4 clipFromTexture = scene.clipFromWorld * scene.worldFromTexture;
+  glm::dvec2 low(1e9);
+  glm::dvec2 high(-1e9);
+  for (int corner = 0; corner < 8 && !bricks.empty(); ++corner)
+  {
+    const glm::dvec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+    const glm::dvec3 brick =
+      scene.firstBrick + glm::mix(glm::dvec3(bricks.first), glm::dvec3(bricks.last + 1), side);
+    const glm::dvec4 clip =
+      clipFromTexture * glm::dvec4(brick * scene.textureFromBrick + scene.textureOfBrickZero, 1.0);
+    if (clip.w <= 0.0)
+    {
+      return;
+    }
+    const glm::dvec2 pixel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(scene.size);
+    low = glm::min(low, pixel);
+    high = glm::max(high, pixel);
+  }
+  // Two pixels more to every side: for rounding, and empty ones for a filter to blend with.
+  const glm::dvec2 end(scene.size);
+  scene.shownLow = glm::ivec2(glm::clamp(glm::floor(low) - 2.0, glm::dvec2(0.0), end));
+  scene.shownHigh = glm::ivec2(glm::clamp(glm::ceil(high) + 2.0, glm::dvec2(0.0), end));
+}
+
 void placeBricks(const ValueLayout& layout, RayCastScene& scene, PresenceRequest& request)
 {
   // Bricks count voxels from the middle of the first one.

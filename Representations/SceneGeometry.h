@@ -47,6 +47,10 @@ void placeField(const Grid& grid, const ValueLayout& layout, const Grid& lattice
 void cropSpace(
   const Grid& grid, const ValueLayout& layout, const double planes[6], RayCastScene& scene);
 
+// Finds the pixels of the scene's image that a box of bricks can be seen at; all of them if part of
+// it lies behind the eye. Bricks count from the scene's first one.
+void placeShownPixels(const IndexBox& bricks, RayCastScene& scene);
+
 // Fills in how the deformed frame's bricks lie to the texture, in both.
 void placeBricks(const ValueLayout& layout, RayCastScene& scene, PresenceRequest& request);
 }

@@ -65,10 +65,9 @@ ShaderSource invertSource()
   return volumePassSource(std::string(shader_nodes) + shader_inversion + shader_invert_frag);
 }
 
-ShaderSource normalsSource(bool packed)
+ShaderSource normalsSource()
 {
-  return volumePassSource(std::string(packed ? "#define PACKED_GRADIENTS\n" : "") +
-    shader_gradient + shader_normals_frag);
+  return volumePassSource(std::string(shader_gradient) + shader_normals_frag);
 }
 
 ShaderSource presenceSource(bool deformed)
@@ -78,8 +77,7 @@ ShaderSource presenceSource(bool deformed)
 
 ShaderSource proxySource()
 {
-  return { assemble({ shader_proxy_vert }), "",
-    assemble({ Outputs, shader_rays, shader_proxy_frag }) };
+  return { assemble({ shader_proxy_vert }), "", assemble({ Outputs, shader_proxy_frag }) };
 }
 
 ShaderSource rayCastSource(const RayCastVariant& variant)
@@ -88,7 +86,6 @@ ShaderSource rayCastSource(const RayCastVariant& variant)
   defines += variant.deformed ? "#define DEFORMED\n" : "";
   defines += variant.light != RayCastVariant::Unshaded ? "#define SHADED\n" : "";
   defines += variant.light == RayCastVariant::GradientTexture ? "#define GRADIENT_TEXTURE\n" : "";
-  defines += variant.light == RayCastVariant::PackedGradients ? "#define PACKED_GRADIENTS\n" : "";
   return { assemble({ shader_fullscreen_vert }), "",
     assemble({ Outputs, defines, shader_rays, shader_skipping, shader_field, shader_gradient,
       shader_tissue, shader_light, shader_raycast_frag }) };
@@ -102,11 +99,10 @@ ShaderSource compositeSource()
 std::vector<std::pair<std::string, ShaderSource>> allSources()
 {
   std::vector<std::pair<std::string, ShaderSource>> sources{ { "refine", refineSource() },
-    { "invert", invertSource() }, { "normals", normalsSource(false) },
-    { "normals_packed", normalsSource(true) }, { "presence_rest", presenceSource(false) },
-    { "presence_deformed", presenceSource(true) }, { "proxy", proxySource() },
-    { "composite", compositeSource() } };
-  const char* lights[] = { "_unshaded", "_gradients", "_gradient_texture", "_packed_gradients" };
+    { "invert", invertSource() }, { "normals", normalsSource() },
+    { "presence_rest", presenceSource(false) }, { "presence_deformed", presenceSource(true) },
+    { "proxy", proxySource() }, { "composite", compositeSource() } };
+  const char* lights[] = { "_unshaded", "_gradients", "_gradient_texture" };
   for (const bool deformed : { false, true })
   {
     for (int light = 0; light < RayCastVariant::LightCount; ++light)

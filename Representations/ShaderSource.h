@@ -29,8 +29,7 @@ struct RayCastVariant
     Unshaded = 0,
     GradientsOnTheFly = 1,
     GradientTexture = 2,
-    PackedGradients = 3, // with the scalar, in one texture
-    LightCount = 4,
+    LightCount = 3,
   } light = Unshaded;
 };
 
@@ -38,7 +37,7 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource refineSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource invertSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource rayCastSource(const RayCastVariant& variant);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource compositeSource();
-VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource normalsSource(bool packed);
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource normalsSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource presenceSource(bool deformed);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource proxySource();
 

@@ -192,12 +192,12 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   {
     return false;
   }
-  this->DescribeView(renderer, volume, grid, layout, scene);
   glm::ivec2 origin;
   glm::ivec2 size;
   renderer->GetTiledSizeAndOrigin(&size.x, &size.y, &origin.x, &origin.y);
   state.Count.imageScale = this->ImageScale(window, size);
   scene.size = glm::max(size / static_cast<int>(state.Count.imageScale), glm::ivec2(1));
+  this->DescribeView(renderer, volume, grid, layout, scene);
   vtkNew<vtkTimerLog> timer;
   timer->StartTimer();
   if (!state.Caster.cast(window, scene, state.Count))
@@ -252,19 +252,14 @@ bool vtkDeformedVolumeMapper::PrepareTissue(vtkOpenGLRenderWindow* window,
   scene.voxel = layout.textureFromGrid;
   if (scene.shaded && this->NormalTexture != OnTheFly)
   {
-    using Gradients = brainshift::NormalTexture;
-    const Gradients::Form form = this->NormalTexture == HalfResolution ? Gradients::Half
-      : state.Scalars.sixteenBits()                                    ? Gradients::Packed
-                                                                       : Gradients::Full;
-    if (!state.Normals.update(window, state.Scalars.texture(), layout.dimensions, form,
-          state.Scalars.range(), state.Count))
+    if (!state.Normals.update(window, state.Scalars.texture(), layout.dimensions,
+          this->NormalTexture == HalfResolution, state.Scalars.range(), state.Count))
     {
       problem =
         "The gradients' shader does not compile or their texture cannot be made on this GPU";
       return false;
     }
     scene.normals = state.Normals.texture();
-    scene.packedNormals = state.Normals.packed();
   }
   scene.scalars = state.Scalars.texture();
   scene.transfer = state.Transfer.texture();
@@ -338,15 +333,24 @@ void vtkDeformedVolumeMapper::DescribeView(vtkRenderer* renderer, vtkVolume* vol
   const Grid& grid, const ValueLayout& layout, RayCastScene& scene)
 {
   State& state = *this->Internal;
+  scene.clipFromWorld = clipFromWorld(renderer);
+  scene.worldFromTexture = worldFromTexture(grid, layout, volume->GetMatrix());
+  scene.lights = lightsOf(renderer);
+  scene.shownHigh = scene.size;
+  if (scene.skipping)
+  {
+    placeShownPixels(state.Presence.occupiedBox(), scene);
+  }
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   glm::ivec2 origin;
   glm::ivec2 size;
   renderer->GetTiledSizeAndOrigin(&size.x, &size.y, &origin.x, &origin.y);
-  state.Depth.capture(window, origin, size);
+  const glm::dvec2 windowPixels = glm::dvec2(size) / glm::dvec2(scene.size); // for one of the image
+  state.Depth.capture(window, origin, size, glm::floor(glm::dvec2(scene.shownLow) * windowPixels),
+    glm::ceil(glm::dvec2(scene.shownHigh) * windowPixels));
   scene.sceneDepth = state.Depth.texture();
-  scene.clipFromWorld = clipFromWorld(renderer);
-  scene.worldFromTexture = worldFromTexture(grid, layout, volume->GetMatrix());
-  scene.lights = lightsOf(renderer);
+  scene.depthFromShare = state.Depth.textureFromShare();
+  scene.depthOfShareZero = state.Depth.textureOfShareZero();
 }
 
 bool vtkDeformedVolumeMapper::Pick(vtkRenderer* renderer, int x, int y, double position[3])

@@ -14,6 +14,13 @@ vec3 offsetAt(vec3 fieldPosition)
   return textureLod(offsets, fieldPosition, 0.0).xyz;
 }
 
+// A ray in the field's texture coordinates.
+Track fieldTrack(Track deformed)
+{
+  return Track(deformed.first * fieldFromTexture + fieldFromTextureShift,
+    deformed.stride * fieldFromTexture);
+}
+
 // Samples, numbered from t = span.x, where tissue may have moved: first, and one past the last.
 // Elsewhere the offset is zero and need not be fetched.
 ivec2 movedSamples(Ray ray, vec2 span, float stepMm)
@@ -24,24 +31,16 @@ ivec2 movedSamples(Ray ray, vec2 span, float stepMm)
                                ceil((moved.y - span.x) / stepMm) + 2.0);
 }
 
-vec3 restFromDeformed(vec3 deformed)
+// Derivatives of the offsets, columns along the axes, at a position in the field's texture
+// coordinates; from the four corners of a tetrahedron: symmetric, and each corner serves all three.
+mat3 offsetSlopes(vec3 middle)
 {
-  return deformed + offsetAt(deformed * fieldFromTexture + fieldFromTextureShift);
-}
-
-// Turns a gradient found in the rest frame into the deformed frame: times the transposed Jacobian
-// of restFromDeformed, else light would not follow the bent surface. The four corners of a
-// tetrahedron give all derivatives, symmetric about the position.
-vec3 deformedGradientFromRest(vec3 deformed, vec3 gradient)
-{
-  vec3 middle = deformed * fieldFromTexture + fieldFromTextureShift;
   vec3 a = offsetAt(middle + vec3(fieldTexel.x, -fieldTexel.y, -fieldTexel.z));
   vec3 b = offsetAt(middle + vec3(-fieldTexel.x, -fieldTexel.y, fieldTexel.z));
   vec3 c = offsetAt(middle + vec3(-fieldTexel.x, fieldTexel.y, -fieldTexel.z));
   vec3 d = offsetAt(middle + fieldTexel);
-  vec3 slope = vec3(dot(a - b - c + d, gradient), dot(c + d - a - b, gradient),
-    dot(b + d - a - c, gradient));
-  return gradient + slope * fieldFromTexture / (4.0 * fieldTexel);
+  vec3 scale = fieldFromTexture / (4.0 * fieldTexel);
+  return mat3((a - b - c + d) * scale.x, (c + d - a - b) * scale.y, (b + d - a - c) * scale.z);
 }
 #else
 ivec2 movedSamples(Ray ray, vec2 span, float stepMm)
@@ -49,13 +48,25 @@ ivec2 movedSamples(Ray ray, vec2 span, float stepMm)
   return ivec2(0);
 }
 
-vec3 restFromDeformed(vec3 deformed)
+Track fieldTrack(Track deformed)
 {
   return deformed;
 }
 
-vec3 deformedGradientFromRest(vec3 deformed, vec3 gradient)
+vec3 offsetAt(vec3 fieldPosition)
 {
-  return gradient;
+  return vec3(0.0);
+}
+
+mat3 offsetSlopes(vec3 middle)
+{
+  return mat3(0.0);
 }
 #endif
+
+// Turns a gradient found in the rest frame into the deformed frame: times the transposed Jacobian of
+// restFromDeformed, else light would not follow the bent surface.
+vec3 deformedGradientFromRest(mat3 slopes, vec3 gradient)
+{
+  return gradient + gradient * slopes;
+}

@@ -1,5 +1,5 @@
-// A gradient of zero as a packed texture holds it: whole numbers of 16 bits, so that it is exact.
-const float PackedZero = 32768.0 / 65535.0;
+// A gradient of zero as a texture holds it: whole numbers of ten bits, so that it is exact.
+const float ZeroGradient = 512.0 / 1023.0;
 
 // The scalar's gradient, for each texture unit: central differences over one voxel to either side.
 

@@ -1,12 +1,10 @@
-// Gradients for light, found once when the volume is loaded (paper, section 2: half resolution,
-// 16-bit floats). Not of unit length: long ones count more where the filter blends neighbours.
-// Packed: 16-bit whole numbers, from -0.5 to 0.5 about PackedZero, and the scalar in alpha, so that
-// a sample needs one read instead of two.
+// Gradients for light, found once when the volume is loaded (paper, section 2). Not of unit length:
+// long ones count more where the filter blends neighbours. Ten bits a component.
 
 uniform sampler3D scalars;
 uniform vec3 texel;          // one texel of the target, texture coordinates
 uniform vec3 voxel;          // one voxel, texture coordinates
-uniform float gradientScale; // keeps gradients within what 16 bits hold
+uniform float gradientScale; // longer ones than 1 are cut
 
 void main()
 {
@@ -14,9 +12,6 @@ void main()
   vec3 gradient = centralDifferences(scalars, middle, voxel) * gradientScale;
   bool unknown = any(isnan(gradient)) || any(isinf(gradient));
   gradient = unknown ? vec3(0.0) : gradient;
-#ifdef PACKED_GRADIENTS
-  gl_FragData[0] = vec4(0.5 * gradient + PackedZero, textureLod(scalars, middle, 0.0).r);
-#else
-  gl_FragData[0] = vec4(gradient, 0.0);
-#endif
+  gradient /= max(length(gradient), 1.0); // the direction counts
+  gl_FragData[0] = vec4(511.0 / 1023.0 * gradient + ZeroGradient, 0.0);
 }

@@ -1,14 +1,9 @@
-// First and last t of a ray within occupied bricks, through MIN blending: red keeps the least t,
-// green the least of minus t.
+// First and last share of a ray within occupied bricks, through MIN blending: red keeps the least
+// share, green the least of minus the share.
 
-in vec3 surface;
-
-uniform vec2 pixelSize; // of one pixel, ndc
+in float share; // of the way from the near plane to the far plane
 
 void main()
 {
-  Ray ray = rayOfPixel(gl_FragCoord.xy * pixelSize - 1.0);
-  vec3 along = worldFromTexture * (surface - ray.start);
-  float t = dot(along, normalize(worldFromTexture * ray.direction));
-  gl_FragData[0] = vec4(t, -t, 0.0, 0.0);
+  gl_FragData[0] = vec4(share, -share, 0.0, 0.0);
 }

@@ -5,11 +5,14 @@ in vec3 corner;
 uniform mat4 clipFromTexture;
 uniform vec3 textureFromBrick;
 uniform vec3 textureOfBrickZero;
+uniform vec3 shareFromTexture; // of the way from the near to the far plane
+uniform float shareOfTextureZero;
 
-out vec3 surface; // texture coordinates
+out float share;
 
 void main()
 {
-  surface = corner * textureFromBrick + textureOfBrickZero;
-  gl_Position = clipFromTexture * vec4(surface, 1.0);
+  vec3 position = corner * textureFromBrick + textureOfBrickZero;
+  share = dot(position, shareFromTexture) + shareOfTextureZero;
+  gl_Position = clipFromTexture * vec4(position, 1.0);
 }

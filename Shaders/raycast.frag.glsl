@@ -18,21 +18,17 @@ vec3 worldFromDeformed(vec3 deformed)
   return worldFromTexture * deformed + worldOfTextureZero;
 }
 
-vec3 shade(vec3 color, vec4 probe, vec3 deformed, vec3 rest, vec3 towardsEye)
+// Colour times opacity, and opacity, of a sample. `slopes`: of the offsets near it.
+vec4 shown(vec4 tissue, vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
 {
+  vec3 color = tissue.rgb;
 #ifdef SHADED
-  vec3 gradient = gradientOf(probe, rest);
-  if (rest != deformed) // where nothing moves there is nothing to turn
-  {
-    gradient = deformedGradientFromRest(deformed, gradient);
-  }
-  gradient = worldFromGradient * gradient;
+  vec3 gradient = turn * deformedGradientFromRest(slopes, gradientAt(rest));
   float steepness = length(gradient);
   vec3 normal = steepness > 0.0 ? gradient / steepness : vec3(0.0);
-  return lit(color, normal, towardsEye, worldFromDeformed(deformed));
-#else
-  return color;
+  color = lit(color, normal, towardsEye, worldFromDeformed(deformed));
 #endif
+  return tissue.a > 0.0 ? vec4(color * tissue.a, tissue.a) : vec4(0.0);
 }
 
 void main()
@@ -40,41 +36,65 @@ void main()
   Ray ray = rayOfPixel(ndc);
   vec2 span = boxSpan(ray, spaceLow, spaceHigh);
   span.y = min(span.y, sceneDistance(ray, 0.5 * ndc + 0.5));
-  // Samples are numbered from the box's edge, whether empty space is skipped or not.
+  // Samples are numbered from the box's edge, whether empty space is skipped or not, and taken by
+  // twos: independent reads overlap, and one Jacobian does for both.
   ivec2 samples = presentSamples(ray, span, stepMm);
   ivec2 moved = movedSamples(ray, span, stepMm);
-  vec3 first = ray.start + span.x * ray.direction;
-  vec3 stride = stepMm * ray.direction;
+  Track deformed = Track(ray.start + span.x * ray.direction, stepMm * ray.direction);
+  Track field = fieldTrack(deformed);
+  BrickTrack bricks = brickTrack(deformed);
+  TissueTable table = tissueTable();
+  mat3 turn = worldFromGradient;
   vec3 towardsEye = -normalize(worldFromTexture * ray.direction);
 
   vec4 picture = vec4(0.0); // colour times opacity, opacity
   float hit = -1.0;         // where HitOpacity was reached: half a step before the sample past it
-  for (int i = samples.x; i < samples.y; ++i)
+  int i = samples.x & ~1;
+  int ask = skipping == 0 ? samples.y : i; // from this sample on, whether there is anything
+  while (i < samples.y)
   {
-    vec3 deformed = first + float(i) * stride;
-    vec3 rest = deformed;
-    if (i >= moved.x && i < moved.y)
+    bool present = true;
+    if (i >= ask)
     {
-      rest = restFromDeformed(deformed);
+      ask = sampleBeyond(bricks, i, present) & ~1;
+      present = present || ask <= i;
     }
-    if (insideVolume(rest))
+    if (present)
     {
-      vec4 probe = probeAt(rest);
-      vec4 tissue = tissueOf(probe.a);
-      if (tissue.a > 0.0)
+      vec3 oneDeformed = positionOf(deformed, i);
+      vec3 twoDeformed = positionOf(deformed, i + 1);
+      vec3 oneRest = oneDeformed;
+      vec3 twoRest = twoDeformed;
+      if (i + 1 >= moved.x && i < moved.y)
       {
-        vec3 color = shade(tissue.rgb, probe, deformed, rest, towardsEye);
-        picture += (1.0 - picture.a) * vec4(color * tissue.a, tissue.a);
+        oneRest += offsetAt(positionOf(field, i));
+        twoRest += offsetAt(positionOf(field, i + 1));
+      }
+      vec4 one = tissueAt(table, oneRest);
+      vec4 two = tissueAt(table, twoRest);
+      two.a = i + 1 < samples.y ? two.a : 0.0;
+      if (max(one.a, two.a) > 0.0)
+      {
+        ask = max(ask, i + Trust);
+        mat3 slopes = mat3(0.0);
+        if (oneRest != oneDeformed) // where nothing moves there is nothing to turn
+        {
+          slopes = offsetSlopes(positionOf(field, i) + 0.5 * field.stride);
+        }
+        picture += (1.0 - picture.a) * shown(one, oneDeformed, oneRest, slopes, turn, towardsEye);
         hit = hit < 0.0 && picture.a >= HitOpacity ? max(float(i) - 0.5, 0.0) : hit;
+        picture += picture.a > OpaqueEnough ? vec4(0.0) : (1.0 - picture.a) * shown(two, twoDeformed, twoRest, slopes, turn, towardsEye);
+        hit = hit < 0.0 && picture.a >= HitOpacity ? float(i) + 0.5 : hit;
         if (picture.a > OpaqueEnough)
         {
           break;
         }
       }
     }
+    i = present ? i + 2 : ask;
   }
   gl_FragData[0] = picture;
   gl_FragData[1] = hit < 0.0
     ? vec4(0.0, 0.0, 0.0, -1.0)
-    : vec4(worldFromDeformed(first + hit * stride), span.x + hit * stepMm);
+    : vec4(worldFromDeformed(deformed.first + hit * deformed.stride), span.x + hit * stepMm);
 }

@@ -9,6 +9,8 @@ uniform vec3 farUp;
 uniform vec2 clipW;             // homogeneous w on the near and on the far plane
 uniform mat3 worldFromTexture;  // directions: mm (world axes) for one texture unit
 uniform sampler2D sceneDepth;   // window depth of what is drawn already
+uniform vec2 depthFromShare;    // its texture coordinates from the share of the image: scale, shift
+uniform vec2 depthOfShareZero;
 
 struct Ray
 {
@@ -27,6 +29,18 @@ Ray rayOfPixel(vec2 ndc)
   return ray;
 }
 
+// Samples along a ray, in any coordinates: position of number 0, and step to the next.
+struct Track
+{
+  vec3 first;
+  vec3 stride;
+};
+
+vec3 positionOf(Track track, int number)
+{
+  return track.first + float(number) * track.stride;
+}
+
 // First and last t inside a box; last < first if the ray misses it.
 vec2 boxSpan(Ray ray, vec3 low, vec3 high)
 {
@@ -39,9 +53,9 @@ vec2 boxSpan(Ray ray, vec3 low, vec3 high)
 }
 
 // t of the surface drawn already at this pixel; the far plane if there is none.
-float sceneDistance(Ray ray, vec2 pixelShare)
+float sceneDistance(Ray ray, vec2 share)
 {
-  float depth = textureLod(sceneDepth, pixelShare, 0.0).r;
+  float depth = textureLod(sceneDepth, share * depthFromShare + depthOfShareZero, 0.0).r;
   float nearer = clipW.x * depth;
   return ray.lengthMm * nearer / (nearer + clipW.y * (1.0 - depth));
 }

@@ -1,12 +1,16 @@
-// Which samples of a ray can be visible, from the faces of the occupied bricks (proxy.frag.glsl).
+// Which samples of a ray can be visible: from the faces of the occupied bricks (proxy.frag.glsl)
+// where to start and end, from the bricks themselves where to leap in between.
 
 uniform int skipping;         // 0: all samples, for comparison
-uniform sampler2D spans;      // red: least t on an occupied brick's face; green: minus the greatest
+uniform sampler2D spans;      // red: least share of the ray on an occupied brick's face; green: minus
+                              // the greatest
 uniform sampler3D presence;   // 1 where a brick of the deformed frame may show something
 uniform vec3 brickFromTexture;
 uniform vec3 brickOfTextureZero; // minus the first brick
+uniform vec3 presenceTexel;      // one brick, texture coordinates of `presence`
 
 const float Nothing = 1e29; // what `spans` holds where no face is
+const int Trust = 8;        // so many samples after a visible one are not asked about
 
 // The eye may be inside an occupied brick: its front faces are then behind the eye.
 bool startsInside(vec3 position)
@@ -29,9 +33,38 @@ ivec2 presentSamples(Ray ray, vec2 span, float stepMm)
   {
     return ivec2(0); // the ray meets no occupied brick: even from inside it would leave one
   }
+  found *= ray.lengthMm;
   float nearest = span.x <= 0.0 && startsInside(ray.start) ? 0.0 : found.x;
   // One sample more to either side for rounding.
   ivec2 present = ivec2(int(floor((nearest - span.x) / stepMm)) - 1,
     int(ceil((-found.y - span.x) / stepMm)) + 2);
   return ivec2(max(present.x, all.x), min(present.y, all.y));
+}
+
+// A ray among the bricks, counted in them.
+struct BrickTrack
+{
+  Track at;
+  vec3 samplesPerBrick; // 1 / stride
+};
+
+BrickTrack brickTrack(Track deformed)
+{
+  BrickTrack bricks;
+  bricks.at = Track(deformed.first * brickFromTexture + brickOfTextureZero,
+    deformed.stride * brickFromTexture);
+  vec3 direction = mix(vec3(-1.0), vec3(1.0), greaterThanEqual(bricks.at.stride, vec3(0.0)));
+  bricks.samplesPerBrick = direction / max(abs(bricks.at.stride), vec3(1e-9));
+  return bricks;
+}
+
+// The first sample beyond the brick that sample `i` is in; `present`: whether that brick may show
+// something.
+int sampleBeyond(BrickTrack bricks, int i, out bool present)
+{
+  vec3 position = positionOf(bricks.at, i);
+  present = textureLod(presence, position * presenceTexel, 0.0).r > 0.5;
+  vec3 beyond = floor(position) + step(0.0, bricks.at.stride);
+  vec3 samples = (beyond - bricks.at.first) * bricks.samplesPerBrick;
+  return max(i, int(floor(min(samples.x, min(samples.y, samples.z))))) + 1;
 }

@@ -5,53 +5,53 @@ uniform vec2 transferFromScalar; // scale and shift: stored scalar to texture co
 uniform vec3 volumeLow;          // the volume's box, texture coordinates
 uniform vec3 volumeHigh;
 
-bool insideVolume(vec3 rest)
+// What the loop needs, read once: a software driver reads uniforms anew, and checked, at each use.
+struct TissueTable
 {
-  return all(greaterThanEqual(rest, volumeLow)) && all(lessThanEqual(rest, volumeHigh));
+  vec3 volumeLow;
+  vec3 volumeHigh;
+  vec2 transferFromScalar;
+};
+
+TissueTable tissueTable()
+{
+  return TissueTable(volumeLow, volumeHigh, transferFromScalar);
 }
 
-// Colour and opacity; nothing where the scalar is not a number.
-vec4 tissueOf(float scalar)
+bool insideVolume(TissueTable table, vec3 rest)
 {
-  vec4 tissue =
-    textureLod(transfer, vec2(scalar * transferFromScalar.x + transferFromScalar.y, 0.5), 0.0);
-  return isnan(scalar) ? vec4(0.0) : tissue;
+  return all(greaterThanEqual(rest, table.volumeLow)) && all(lessThanEqual(rest, table.volumeHigh));
 }
 
-// What one sample reads: the scalar in alpha and, where they come packed, the gradient in the rest.
-#ifdef PACKED_GRADIENTS
-uniform sampler3D packedTissue; // see normals.frag.glsl
-
-vec4 probeAt(vec3 rest)
-{
-  return textureLod(packedTissue, rest, 0.0);
-}
-
-vec3 gradientOf(vec4 probe, vec3 rest)
-{
-  return probe.rgb - PackedZero;
-}
-#else
 uniform sampler3D scalars; // red: the scalar, as stored
 
-vec4 probeAt(vec3 rest)
+float scalarAt(vec3 rest)
 {
-  return vec4(0.0, 0.0, 0.0, textureLod(scalars, rest, 0.0).r);
+  return textureLod(scalars, rest, 0.0).r;
 }
 
+// Colour and opacity of one step; nothing outside the volume and where the scalar is not a number.
+vec4 tissueAt(TissueTable table, vec3 rest)
+{
+  float scalar = scalarAt(rest);
+  float entry = scalar * table.transferFromScalar.x + table.transferFromScalar.y;
+  vec4 tissue = textureLod(transfer, vec2(entry, 0.5), 0.0);
+  return insideVolume(table, rest) && !isnan(scalar) ? tissue : vec4(0.0);
+}
+
+// The scalar's gradient, of any length.
 #ifdef GRADIENT_TEXTURE
 uniform sampler3D normals; // see normals.frag.glsl
 
-vec3 gradientOf(vec4 probe, vec3 rest)
+vec3 gradientAt(vec3 rest)
 {
-  return textureLod(normals, rest, 0.0).xyz;
+  return textureLod(normals, rest, 0.0).xyz - ZeroGradient;
 }
 #else
 uniform vec3 voxel; // one voxel, texture coordinates
 
-vec3 gradientOf(vec4 probe, vec3 rest)
+vec3 gradientAt(vec3 rest)
 {
   return centralDifferences(scalars, rest, voxel);
 }
-#endif
 #endif
