@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DeformedPresence.h"
 
+#include "LeapMap.h"
 #include "OpenGL.h"
 #include "VolumePass.h"
 
@@ -167,10 +168,8 @@ bool DeformedPresence::update(vtkOpenGLRenderWindow* window, const PresenceReque
   {
     return false;
   }
-  this->Shown = request;
-  this->AllNew = false;
   // One byte a brick comes back, once an edit and never for a camera move: making the faces on the
-  // GPU would cost its geometry stage every frame.
+  // GPU would cost its geometry stage every frame, and distances many passes.
   std::vector<std::uint8_t> occupied(
     static_cast<std::size_t>(request.count.x) * request.count.y * request.count.z);
   this->Map->Activate();
@@ -178,8 +177,27 @@ bool DeformedPresence::update(vtkOpenGLRenderWindow* window, const PresenceReque
   glGetTexImage(GL_TEXTURE_3D, 0, GL_RED, GL_UNSIGNED_BYTE, occupied.data());
   this->Map->Deactivate();
   this->makeFaces(request, occupied);
+  if (!this->makeLeaps(window, request, occupied))
+  {
+    return false;
+  }
+  counters.bytesUploaded += static_cast<std::int64_t>(occupied.size());
   counters.presenceUpdates += 1;
+  this->Shown = request;
+  this->AllNew = false;
   return true;
+}
+
+bool DeformedPresence::makeLeaps(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
+  const std::vector<std::uint8_t>& occupied)
+{
+  std::vector<std::uint8_t> distances = bricksToOccupied(occupied, request.count);
+  this->Leaps = vtkSmartPointer<vtkTextureObject>::New();
+  this->Leaps->SetContext(window);
+  setNearest(this->Leaps);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  return this->Leaps->Create3DFromRaw(request.count.x, request.count.y, request.count.z, 1,
+    VTK_UNSIGNED_CHAR, distances.data());
 }
 
 void DeformedPresence::makeFaces(
@@ -253,7 +271,7 @@ void DeformedPresence::drawFaces(int programHandle)
 
 void DeformedPresence::releaseGraphicsResources(vtkWindow* window)
 {
-  for (vtkTextureObject* texture : { this->Summed.Get(), this->Map.Get() })
+  for (vtkTextureObject* texture : { this->Summed.Get(), this->Map.Get(), this->Leaps.Get() })
   {
     if (texture)
     {
@@ -266,6 +284,7 @@ void DeformedPresence::releaseGraphicsResources(vtkWindow* window)
   }
   this->Summed = nullptr;
   this->Map = nullptr;
+  this->Leaps = nullptr;
   this->Corners = nullptr;
   this->MapPrograms[0].forget();
   this->MapPrograms[1].forget();

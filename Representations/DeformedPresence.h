@@ -50,8 +50,8 @@ public:
   bool update(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
     const IndexBox& changed, Counters& counters);
 
-  // 1 for occupied bricks, 0 for others.
-  vtkTextureObject* map() const { return this->Map; }
+  // bricksToOccupied (LeapMap.h), as shares of 255.
+  vtkTextureObject* leaps() const { return this->Leaps; }
 
   // Draws the faces with a program in use whose attribute `corner` takes brick corners.
   void drawFaces(int programHandle);
@@ -67,10 +67,13 @@ public:
 private:
   bool compute(vtkOpenGLRenderWindow* window, const PresenceRequest& request, const IndexBox& box,
     Counters& counters);
+  bool makeLeaps(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
+    const std::vector<std::uint8_t>& occupied);
   void makeFaces(const PresenceRequest& request, const std::vector<std::uint8_t>& occupied);
 
   vtkSmartPointer<vtkTextureObject> Summed;
-  vtkSmartPointer<vtkTextureObject> Map;
+  vtkSmartPointer<vtkTextureObject> Map; // 1 for occupied bricks, 0 for others
+  vtkSmartPointer<vtkTextureObject> Leaps;
   vtkSmartPointer<vtkOpenGLBufferObject> Corners;
   PresenceRequest Shown;  // what Map shows
   bool AllNew = true;     // nothing of Map can be kept

@@ -108,10 +108,10 @@ void setSkippingUniforms(Program& program, const RayCastScene& scene, vtkTexture
 {
   program.set("skipping", scene.skipping ? 1 : 0);
   program.set("spans", spans);
-  vtkTextureObject* presence = scene.presence->map();
-  program.set("presence", presence);
-  program.set("presenceTexel",
-    1.0f / glm::vec3(presence->GetWidth(), presence->GetHeight(), presence->GetDepth()));
+  vtkTextureObject* leaps = scene.presence->leaps();
+  program.set("leaps", leaps);
+  program.set(
+    "leapsTexel", 1.0f / glm::vec3(leaps->GetWidth(), leaps->GetHeight(), leaps->GetDepth()));
   program.set("brickFromTexture", glm::vec3(1.0 / scene.textureFromBrick));
   program.set("brickOfTextureZero",
     glm::vec3(-scene.textureOfBrickZero / scene.textureFromBrick - scene.firstBrick));
@@ -345,7 +345,7 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
     drawTriangles(1);
   }
   for (vtkTextureObject* texture : { scene.scalars, scene.offsets, scene.normals, scene.transfer,
-         scene.sceneDepth, scene.presence->map(), this->Spans.Get() })
+         scene.sceneDepth, scene.presence->leaps(), this->Spans.Get() })
   {
     if (texture)
     {

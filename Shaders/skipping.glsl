@@ -1,13 +1,14 @@
 // Which samples of a ray can be visible: from the faces of the occupied bricks (proxy.frag.glsl)
-// where to start and end, from the bricks themselves where to leap in between.
+// where to start and end, from the distance to occupied bricks where to leap in between.
 
 uniform int skipping;         // 0: all samples, for comparison
 uniform sampler2D spans;      // red: least share of the ray on an occupied brick's face; green: minus
                               // the greatest
-uniform sampler3D presence;   // 1 where a brick of the deformed frame may show something
+uniform sampler3D leaps;      // bricks of the deformed frame: 0 where something may be seen, else how
+                              // many bricks away, of 255, the nearest such brick is
 uniform vec3 brickFromTexture;
 uniform vec3 brickOfTextureZero; // minus the first brick
-uniform vec3 presenceTexel;      // one brick, texture coordinates of `presence`
+uniform vec3 leapsTexel;         // one brick, texture coordinates of `leaps`
 
 const float Nothing = 1e29; // what `spans` holds where no face is
 const int Trust = 8;        // so many samples after a visible one are not asked about
@@ -16,8 +17,8 @@ const int Trust = 8;        // so many samples after a visible one are not asked
 bool startsInside(vec3 position)
 {
   ivec3 brick = ivec3(floor(position * brickFromTexture + brickOfTextureZero));
-  ivec3 nearest = clamp(brick, ivec3(0), textureSize(presence, 0) - 1);
-  return brick == nearest && texelFetch(presence, nearest, 0).r > 0.5;
+  ivec3 nearest = clamp(brick, ivec3(0), textureSize(leaps, 0) - 1);
+  return brick == nearest && texelFetch(leaps, nearest, 0).r == 0.0;
 }
 
 // First sample and one past the last; samples are numbered from t = span.x.
@@ -58,13 +59,17 @@ BrickTrack brickTrack(Track deformed)
   return bricks;
 }
 
-// The first sample beyond the brick that sample `i` is in; `present`: whether that brick may show
-// something.
+// Whether something may be seen in the brick that sample `i` is in, and the first sample beyond it; if
+// nothing may, beyond all bricks around it that are as empty.
 int sampleBeyond(BrickTrack bricks, int i, out bool present)
 {
   vec3 position = positionOf(bricks.at, i);
-  present = textureLod(presence, position * presenceTexel, 0.0).r > 0.5;
-  vec3 beyond = floor(position) + step(0.0, bricks.at.stride);
+  float away = floor(textureLod(leaps, position * leapsTexel, 0.0).r * 255.0 + 0.5);
+  present = away == 0.0;
+  // The block of empty bricks: so many to either side, less one.
+  float margin = max(away - 1.0, 0.0);
+  vec3 forward = step(0.0, bricks.at.stride);
+  vec3 beyond = floor(position) + forward + (2.0 * forward - 1.0) * margin;
   vec3 samples = (beyond - bricks.at.first) * bricks.samplesPerBrick;
   return max(i, int(floor(min(samples.x, min(samples.y, samples.z))))) + 1;
 }
