@@ -25,10 +25,15 @@ struct Corner
   std::int16_t x, y, z, unused;
 };
 
+void setFilter(vtkTextureObject* texture, int filter)
+{
+  texture->SetMinificationFilter(filter);
+  texture->SetMagnificationFilter(filter);
+}
+
 void setNearest(vtkTextureObject* texture)
 {
-  texture->SetMinificationFilter(vtkTextureObject::Nearest);
-  texture->SetMagnificationFilter(vtkTextureObject::Nearest);
+  setFilter(texture, vtkTextureObject::Nearest);
   texture->SetWrapS(vtkTextureObject::ClampToEdge);
   texture->SetWrapT(vtkTextureObject::ClampToEdge);
   texture->SetWrapR(vtkTextureObject::ClampToEdge);
@@ -121,6 +126,7 @@ bool DeformedPresence::compute(vtkOpenGLRenderWindow* window, const PresenceRequ
   program.set("highestVoxel", request.highestVoxel);
   if (deformed)
   {
+    setFilter(request.offsets, vtkTextureObject::Nearest);
     program.set("offsets", request.offsets);
     program.set("offsetCount",
       glm::ivec3(
@@ -134,6 +140,7 @@ bool DeformedPresence::compute(vtkOpenGLRenderWindow* window, const PresenceRequ
   if (deformed)
   {
     request.offsets->Deactivate();
+    setFilter(request.offsets, vtkTextureObject::Linear);
   }
   return true;
 }
@@ -196,8 +203,8 @@ bool DeformedPresence::makeLeaps(vtkOpenGLRenderWindow* window, const PresenceRe
   this->Leaps->SetContext(window);
   setNearest(this->Leaps);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  return this->Leaps->Create3DFromRaw(request.count.x, request.count.y, request.count.z, 1,
-    VTK_UNSIGNED_CHAR, distances.data());
+  return this->Leaps->Create3DFromRaw(
+    request.count.x, request.count.y, request.count.z, 1, VTK_UNSIGNED_CHAR, distances.data());
 }
 
 void DeformedPresence::makeFaces(

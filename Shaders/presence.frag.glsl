@@ -14,23 +14,16 @@ uniform vec3 lowestVoxel;        // the volume's box, voxels
 uniform vec3 highestVoxel;
 
 #ifdef DEFORMED
-uniform sampler3D offsets;       // the volume's texture coordinates
+uniform sampler3D offsets;       // the volume's texture coordinates; unfiltered
 uniform ivec3 offsetCount;
 uniform vec3 voxelsFromOffset;   // voxels for one unit of an offset
 uniform vec3 nodesFromVoxel;     // node = voxel * nodesFromVoxel + nodesFromVoxelShift
 uniform vec3 nodesFromVoxelShift;
 
-// Visits a block of nodes one by one. One loop that carries over: nested ones are miscompiled by old
-// software drivers.
-void nextNode(inout ivec3 node, ivec3 first, ivec3 last)
+// One node. A software driver reads a texture whose filter is off in a third of texelFetch's time.
+vec3 offsetOf(ivec3 node)
 {
-  node.x += 1;
-  bool rowDone = node.x > last.x;
-  node.x = rowDone ? first.x : node.x;
-  node.y += rowDone ? 1 : 0;
-  bool layerDone = node.y > last.y;
-  node.y = layerDone ? first.y : node.y;
-  node.z += layerDone ? 1 : 0;
+  return textureLod(offsets, (vec3(node) + 0.5) / vec3(offsetCount), 0.0).xyz;
 }
 
 // Widens a box by the offsets of all nodes that touch it.
@@ -41,11 +34,20 @@ void widenByOffsets(inout vec3 low, inout vec3 high)
   ivec3 last = clamp(ivec3(ceil(high * nodesFromVoxel + nodesFromVoxelShift)), ivec3(0), end);
   vec3 least = vec3(1e30);
   vec3 greatest = vec3(-1e30);
-  for (ivec3 node = first; node.z <= last.z; nextNode(node, first, last))
+  ivec3 node = first;
+  while (node.z <= last.z)
   {
-    vec3 offset = texelFetch(offsets, node, 0).xyz;
+    vec3 offset = offsetOf(node);
     least = min(least, offset);
     greatest = max(greatest, offset);
+    // One loop that carries over: nested ones are miscompiled by old software drivers.
+    node.x += 1;
+    bool rowDone = node.x > last.x;
+    node.x = rowDone ? first.x : node.x;
+    node.y += rowDone ? 1 : 0;
+    bool layerDone = node.y > last.y;
+    node.y = layerDone ? first.y : node.y;
+    node.z += layerDone ? 1 : 0;
   }
   low += least * voxelsFromOffset;
   high += greatest * voxelsFromOffset;
@@ -54,7 +56,7 @@ void widenByOffsets(inout vec3 low, inout vec3 high)
 
 float sumAt(int x, int y, int z)
 {
-  return texelFetch(summed, ivec3(x, y, z), 0).r;
+  return textureLod(summed, (vec3(x, y, z) + 0.5) / vec3(restBricks + 1), 0.0).r;
 }
 
 // Visible bricks from `low` to `high`, both included.

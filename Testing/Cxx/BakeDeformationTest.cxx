@@ -149,8 +149,9 @@ TEST(Bake, FollowsTheWorldOnAnObliqueVolume)
   const Grid grid = obliqueGrid({ 17, 13, 21 });
   const glm::dvec3 slope(0.5, -0.25, 1.0);
   const auto intensity = [&](const glm::dvec3& rest) { return glm::dot(slope, rest); };
-  auto volume = volumeOn(grid, VTK_DOUBLE, [&](vtkIdType i)
-    { return intensity(grid.worldFromGrid(glm::dvec3(i % 17, i / 17 % 13, i / 221))); });
+  auto volume = volumeOn(grid, VTK_DOUBLE, [&](vtkIdType i) {
+    return intensity(grid.worldFromGrid(glm::dvec3(i % 17, i / 17 % 13, i / 221)));
+  });
   const glm::dvec3 shift(3.0, 5.0, -4.0);
   Pipeline pipeline(volume);
   pipeline.translate(shift);

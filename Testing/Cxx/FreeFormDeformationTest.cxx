@@ -272,8 +272,8 @@ TEST_F(FreeFormDeformation, ReadsABaseOnAnyGrid)
   Grid dense = plainGrid({ 60, 60, 60 }, glm::dvec3(8.0));
   dense.origin = this->VolumeGrid.worldFromGrid({ 10, 8, 6 }) - glm::dvec3(236.0);
   const glm::dmat3 gradient(0.01, -0.02, 0.0, 0.03, 0.01, 0.0, 0.02, 0.0, -0.01);
-  const auto displacement = [&](const glm::dvec3& rest)
-  { return gradient * (rest - dense.origin); };
+  const auto displacement = [&](
+                              const glm::dvec3& rest) { return gradient * (rest - dense.origin); };
   this->Filter->SetInputDataObject(1, fieldOn(dense, displacement));
   const Lattice lattice = deformationOf(this->output()).lattice;
   for (int point = 0; point < 19 * 19 * 19; ++point)

@@ -216,8 +216,8 @@ TEST(Lattice, ReproducesLinearDisplacements)
   for (const int kernel : BothKernels)
   {
     const Grid grid = obliqueGrid({ 7, 6, 8 });
-    const auto displacement = [&](const glm::dvec3& rest)
-    { return gradient * (rest - grid.origin); };
+    const auto displacement = [&](
+                                const glm::dvec3& rest) { return gradient * (rest - grid.origin); };
     const PointMap map(latticeOf(grid, kernel, displacement));
     Random random(2);
     for (int i = 0; i < 500; ++i)

@@ -48,8 +48,9 @@ double largestMissAtNodes(const Lattice& lattice, const NodeField& offsets)
 {
   const PointMap map(lattice);
   double largest = 0.0;
-  forEachNode(offsets.nodes, [&](const glm::vec3& deformed, std::size_t)
-    { largest = std::max(largest, missAt(lattice, map, offsets, deformed)); });
+  forEachNode(offsets.nodes, [&](const glm::vec3& deformed, std::size_t) {
+    largest = std::max(largest, missAt(lattice, map, offsets, deformed));
+  });
   return largest;
 }
 
@@ -92,13 +93,11 @@ TEST(Refine, GivesTheCubicDisplacementAtItsNodes)
       const std::vector<glm::vec3> inCells = displacementsInCells(lattice);
       const NodeField field = refine(lattice.grid, kernel, inCells, samples);
       EXPECT_EQ(field.nodes.count, (lattice.grid.dimensions - 1) * (samples + 1) + 1);
-      forEachNode(field.nodes,
-        [&](const glm::vec3& position, std::size_t index)
-        {
-          const glm::vec3 known = cubicDisplacement(
-            lattice.grid.dimensions, kernel, inCells.data(), glm::dvec3(position));
-          EXPECT_LT(glm::distance(field.values[index], known), 1e-5f);
-        });
+      forEachNode(field.nodes, [&](const glm::vec3& position, std::size_t index) {
+        const glm::vec3 known =
+          cubicDisplacement(lattice.grid.dimensions, kernel, inCells.data(), glm::dvec3(position));
+        EXPECT_LT(glm::distance(field.values[index], known), 1e-5f);
+      });
     }
   }
 }
@@ -178,13 +177,11 @@ TEST(OffsetField, UndoesTheRefinedFieldAtItsNodes)
       const NodeField forward = refine(lattice.grid, kernel, inCells, 4);
       const NodeField offsets =
         invert(forward, backwardNodes(lattice.grid, inCells, 4), Inverse::Exact);
-      forEachNode(offsets.nodes,
-        [&](const glm::vec3& deformed, std::size_t index)
-        {
-          const glm::vec3 rest = deformed + offsets.values[index];
-          EXPECT_LT(glm::distance(rest + forward.displacement(rest), deformed), 3e-5f)
-            << "kernel " << kernel << " seed " << seed;
-        });
+      forEachNode(offsets.nodes, [&](const glm::vec3& deformed, std::size_t index) {
+        const glm::vec3 rest = deformed + offsets.values[index];
+        EXPECT_LT(glm::distance(rest + forward.displacement(rest), deformed), 3e-5f)
+          << "kernel " << kernel << " seed " << seed;
+      });
     }
   }
 }
@@ -195,8 +192,9 @@ TEST(OffsetField, NegatedIsMinusTheDisplacement)
   const std::vector<glm::vec3> inCells = displacementsInCells(lattice);
   const NodeField forward = refine(lattice.grid, 0, inCells, 4);
   const NodeField offsets = offsetField(lattice, 4, Inverse::Negated);
-  forEachNode(offsets.nodes, [&](const glm::vec3& deformed, std::size_t index)
-    { EXPECT_EQ(offsets.values[index], -forward.displacement(deformed)); });
+  forEachNode(offsets.nodes, [&](const glm::vec3& deformed, std::size_t index) {
+    EXPECT_EQ(offsets.values[index], -forward.displacement(deformed));
+  });
   EXPECT_NE(offsets.values, offsetField(lattice, 4, Inverse::Exact).values);
 }
 

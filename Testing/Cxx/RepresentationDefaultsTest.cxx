@@ -14,7 +14,7 @@ TEST(Defaults, OfDeformedVolumeLiveInTheMapper)
   vtkNew<vtkDeformedVolumeMapper> mapper;
   const Defaults expected{ { "SampleDistance", { mapper->GetSampleDistance() } },
     { "EmptySpaceSkipping", { double(mapper->GetEmptySpaceSkipping()) } },
-    { "AdaptiveQuality", { double(mapper->GetAdaptiveQuality()) } },
-    { "PickedPixel", { -1, -1 } }, { "VolumeNormalTexture", { double(mapper->GetNormalTexture()) } } };
+    { "AdaptiveQuality", { double(mapper->GetAdaptiveQuality()) } }, { "PickedPixel", { -1, -1 } },
+    { "VolumeNormalTexture", { double(mapper->GetNormalTexture()) } } };
   EXPECT_EQ(defaultsIn("Representations/DeformedVolume.xml"), expected);
 }

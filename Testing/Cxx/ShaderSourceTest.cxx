@@ -25,7 +25,8 @@ TEST(ShaderSource, CompilesInEveryVariant)
       source.vertex.c_str(), source.fragment.c_str(), source.geometry.c_str());
     EXPECT_TRUE(program && program->GetCompiled()) << name;
   }
-  for (const char* name : { "refine", "invert", "composite", "raycast_deformed_gradient_texture", "presence_deformed", "proxy", "normals" })
+  for (const char* name : { "refine", "invert", "composite", "raycast_deformed_gradient_texture",
+         "presence_deformed", "proxy", "normals" })
   {
     EXPECT_TRUE(names.count(name)) << name;
   }
