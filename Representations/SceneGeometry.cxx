@@ -16,6 +16,13 @@
 
 namespace brainshift
 {
+namespace
+{
+// Voxels. The rasteriser rounds to 1/256 of a pixel, so that this leaves half of BrickMargin, and as
+// much again for what is farther from the eye.
+constexpr double LargestPixel = 8.0;
+}
+
 ValueLayout layoutOf(const glm::ivec3& points, bool cells)
 {
   ValueLayout layout;
@@ -133,6 +140,13 @@ void placeShownPixels(const IndexBox& bricks, RayCastScene& scene)
     low = glm::min(low, pixel);
     high = glm::max(high, pixel);
   }
+  // From wherever it is seen, the picture is about as long as the box's middle side or longer.
+  const glm::ivec3 side = bricks.size() * BrickSide;
+  const int longest = glm::max(side.x, glm::max(side.y, side.z));
+  const int shortest = glm::min(side.x, glm::min(side.y, side.z));
+  const int middle = side.x + side.y + side.z - longest - shortest;
+  const double pixels = glm::max(high.x - low.x, high.y - low.y);
+  scene.skipping = scene.skipping && pixels * LargestPixel > middle;
   // Two pixels more to every side: for rounding, and empty ones for a filter to blend with.
   const glm::dvec2 end(scene.size);
   scene.shownLow = glm::ivec2(glm::clamp(glm::floor(low) - 2.0, glm::dvec2(0.0), end));

@@ -48,7 +48,8 @@ void cropSpace(
   const Grid& grid, const ValueLayout& layout, const double planes[6], RayCastScene& scene);
 
 // Finds the pixels of the scene's image that a box of bricks can be seen at; all of them if part of
-// it lies behind the eye. Bricks count from the scene's first one.
+// it lies behind the eye. Bricks count from the scene's first one. Where pixels are so large that the
+// rasteriser's rounding would come near BrickMargin, nothing is skipped: the picture is tiny.
 void placeShownPixels(const IndexBox& bricks, RayCastScene& scene);
 
 // Fills in how the deformed frame's bricks lie to the texture, in both.
