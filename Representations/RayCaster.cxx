@@ -234,17 +234,19 @@ private:
 };
 }
 
-bool RayCaster::prepareImages(vtkOpenGLRenderWindow* window, const glm::ivec2& size)
+bool RayCaster::prepareImages(vtkOpenGLRenderWindow* window, const RayCastScene& scene)
 {
-  if (this->Image && this->Image->GetWidth() == static_cast<unsigned int>(size.x) &&
-    this->Image->GetHeight() == static_cast<unsigned int>(size.y))
-  {
-    return true;
-  }
-  this->Image = makeImage(window, size, GL_RGBA16F, vtkTextureObject::Linear);
-  this->Hits = makeImage(window, size, GL_RGBA32F, vtkTextureObject::Nearest);
-  this->Spans = makeImage(window, size, GL_RG32F, vtkTextureObject::Nearest);
-  return this->Image && this->Hits && this->Spans;
+  const auto prepare = [&](vtkSmartPointer<vtkTextureObject>& image, int format, int filter) {
+    if (!image || image->GetWidth() != static_cast<unsigned int>(scene.size.x) ||
+      image->GetHeight() != static_cast<unsigned int>(scene.size.y))
+    {
+      image = makeImage(window, scene.size, format, filter);
+    }
+    return image != nullptr;
+  };
+  return prepare(this->Image, GL_RGBA16F, vtkTextureObject::Linear) &&
+    prepare(this->Hits[scene.tile], GL_RGBA32F, vtkTextureObject::Nearest) &&
+    prepare(this->Spans, GL_RG32F, vtkTextureObject::Nearest);
 }
 
 // Rasterises the occupied bricks' faces: first and last t of every pixel.
@@ -301,7 +303,7 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
     : scene.packedNormals       ? RayCastVariant::PackedGradients
                                 : RayCastVariant::GradientTexture;
   Program& program = this->CastPrograms[variant.deformed][variant.light];
-  if (!this->prepareImages(window, scene.size) ||
+  if (!this->prepareImages(window, scene) ||
     (scene.skipping && !this->findSpans(window, scene, counters)) ||
     !program.use(window, rayCastSource(variant), counters))
   {
@@ -311,7 +313,7 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
   {
     ImageScope images(window->GetState(), scene.size);
     images.attach(0, this->Image);
-    images.attach(1, this->Hits);
+    images.attach(1, this->Hits[scene.tile]);
     drawTriangles(1);
   }
   for (vtkTextureObject* texture : { scene.scalars, scene.offsets, scene.normals, scene.transfer,
@@ -326,18 +328,18 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
   return true;
 }
 
-bool RayCaster::hitAt(vtkOpenGLRenderWindow* window, const glm::ivec2& pixel, glm::dvec4& hit)
+bool RayCaster::hitAt(vtkOpenGLRenderWindow* window, const glm::dvec2& place, glm::dvec4& hit)
 {
-  if (!this->Hits || pixel.x < 0 || pixel.y < 0 ||
-    pixel.x >= static_cast<int>(this->Hits->GetWidth()) ||
-    pixel.y >= static_cast<int>(this->Hits->GetHeight()))
+  vtkTextureObject* hits = this->Hits[false];
+  if (!hits)
   {
     return false;
   }
+  const glm::ivec2 pixel(place * glm::dvec2(hits->GetWidth(), hits->GetHeight()));
   vtkOpenGLState* state = window->GetState();
   FramebufferScope framebuffer(state);
   glFramebufferTexture2D(
-    GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, this->Hits->GetHandle(), 0);
+    GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, hits->GetHandle(), 0);
   state->vtkglReadBuffer(GL_COLOR_ATTACHMENT0);
   float values[4] = { 0.0f, 0.0f, 0.0f, -1.0f };
   glReadPixels(pixel.x, pixel.y, 1, 1, GL_RGBA, GL_FLOAT, values);
@@ -371,7 +373,7 @@ bool RayCaster::composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origi
 
 void RayCaster::releaseGraphicsResources(vtkWindow* window)
 {
-  for (auto* image : { &this->Image, &this->Hits, &this->Spans })
+  for (auto* image : { &this->Image, &this->Hits[0], &this->Hits[1], &this->Spans })
   {
     if (*image)
     {

@@ -58,6 +58,7 @@ struct RayCastScene
   RayCastLights lights;
   bool shaded = false;
   bool skipping = true;
+  bool tile = false; // the image is a part of a picture larger than the window
 
   vtkTextureObject* scalars = nullptr;
   vtkTextureObject* offsets = nullptr; // null: the volume carries no deformation
@@ -83,19 +84,20 @@ public:
   bool composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origin, const glm::ivec2& size,
     Counters& counters);
 
-  // What the image shows at a pixel, from the lower left: first hit (mm, world) and its distance
-  // from the near plane (mm). False where no surface was hit or nothing was cast yet.
-  bool hitAt(vtkOpenGLRenderWindow* window, const glm::ivec2& pixel, glm::dvec4& hit);
+  // What the last whole image shows at a place counted from its lower left corner to 1: first hit
+  // (mm, world) and its distance from the near plane (mm). False where no surface was hit or nothing
+  // was cast yet.
+  bool hitAt(vtkOpenGLRenderWindow* window, const glm::dvec2& place, glm::dvec4& hit);
 
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
-  bool prepareImages(vtkOpenGLRenderWindow* window, const glm::ivec2& size);
+  bool prepareImages(vtkOpenGLRenderWindow* window, const RayCastScene& scene);
   bool findSpans(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters);
   void setUniforms(Program& program, const RayCastScene& scene);
 
   vtkSmartPointer<vtkTextureObject> Image; // colour times opacity, opacity
-  vtkSmartPointer<vtkTextureObject> Hits;  // first hit, mm; distance from the near plane, mm
+  vtkSmartPointer<vtkTextureObject> Hits[2]; // [tile] first hit, mm; distance from the near plane, mm
   vtkSmartPointer<vtkTextureObject> Spans; // least t, minus greatest t in occupied bricks
   Program CastPrograms[2][RayCastVariant::LightCount]; // [deformed][light]
   Program SpansProgram;

@@ -29,11 +29,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 
 using namespace brainshift;
 
-struct vtkDeformedVolumeMapper::State
+struct vtkDeformedVolumeMapper::Device
 {
   ScalarTexture Scalars;
   TransferTexture Transfer;
@@ -43,6 +44,19 @@ struct vtkDeformedVolumeMapper::State
   PresenceRequest Bricks; // what Presence shows
   SceneDepth Depth;
   RayCaster Caster;
+
+  // The deformation and the unit that Field shows.
+  unsigned long long FieldTime = 0;
+  glm::vec3 OffsetScale{ 0.0f };
+
+  double SecondsPerPixel = 0.0; // of the last image; 0: none yet
+
+  void Release(vtkWindow* window);
+};
+
+struct vtkDeformedVolumeMapper::State
+{
+  std::map<vtkWindow*, Device> Devices; // until the window lets its resources go
   Counters Count;
 
   // The deformation of the input, as read at DeformationTime.
@@ -51,12 +65,9 @@ struct vtkDeformedVolumeMapper::State
   FieldRequest Request;
   IndexBox Moved; // nodes of the offset field that can differ from zero
   unsigned long long DeformationTime = 0;
-  bool FieldCurrent = false; // the GPU's field shows Request
 
   vtkNew<vtkSmartVolumeMapper> Fallback;
   std::string Reported; // the last trouble told
-
-  double SecondsPerPixel = 0.0; // of the last image; 0: none yet
 };
 
 namespace
@@ -76,6 +87,17 @@ int shownComponent(vtkVolumeProperty* property, vtkDataArray* scalars)
   }
   vtkColorTransferFunction* color = property->GetRGBTransferFunction();
   return color->GetVectorMode() == vtkScalarsToColors::COMPONENT ? color->GetVectorComponent() : -1;
+}
+
+// Camera and light.
+void describeView(vtkRenderer* renderer, vtkVolume* volume, const Grid& grid,
+  const ValueLayout& layout, RayCastScene& scene)
+{
+  scene.clipFromWorld = clipFromWorld(renderer);
+  scene.worldFromTexture = worldFromTexture(grid, layout, volume->GetMatrix());
+  scene.lights = lightsOf(renderer);
+  const int* tiles = renderer->GetRenderWindow()->GetTileScale();
+  scene.tile = tiles[0] * tiles[1] > 1;
 }
 }
 
@@ -98,7 +120,6 @@ void vtkDeformedVolumeMapper::UpdateDeformation(vtkImageData* image)
     return;
   }
   state.DeformationTime = time;
-  state.FieldCurrent = false;
   std::string problem;
   state.Deformed = carriesDeformation(image) && readDeformation(image, state.Source, problem);
   if (!problem.empty())
@@ -186,21 +207,25 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
     return true; // nothing to draw yet
   }
   this->UpdateDeformation(image);
+  Device& device = state.Devices[window];
   RayCastScene scene;
-  if (!this->PrepareTissue(window, volume->GetProperty(), scalars, grid, layout, scene, problem) ||
-    !this->PrepareSpace(window, grid, layout, scene, problem))
+  vtkVolumeProperty* property = volume->GetProperty();
+  if (!this->PrepareTissue(window, device, property, scalars, grid, layout, scene, problem) ||
+    !this->PrepareSpace(window, device, grid, layout, scene, problem))
   {
     return false;
   }
-  this->DescribeView(renderer, volume, grid, layout, scene);
   glm::ivec2 origin;
   glm::ivec2 size;
   renderer->GetTiledSizeAndOrigin(&size.x, &size.y, &origin.x, &origin.y);
-  state.Count.imageScale = this->ImageScale(window, size);
+  device.Depth.capture(window, origin, size);
+  scene.sceneDepth = device.Depth.texture();
+  describeView(renderer, volume, grid, layout, scene);
+  state.Count.imageScale = this->ImageScale(window, device, size);
   scene.size = glm::max(size / static_cast<int>(state.Count.imageScale), glm::ivec2(1));
   vtkNew<vtkTimerLog> timer;
   timer->StartTimer();
-  if (!state.Caster.cast(window, scene, state.Count))
+  if (!device.Caster.cast(window, scene, state.Count))
   {
     problem = "The ray caster's shader does not compile or its images cannot be made on this GPU";
     return false;
@@ -209,44 +234,45 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   {
     window->WaitForCompletion(); // else the time is that of the commands, not of the image
     timer->StopTimer();
-    state.SecondsPerPixel =
+    device.SecondsPerPixel =
       timer->GetElapsedTime() / (static_cast<double>(scene.size.x) * scene.size.y);
   }
-  return state.Caster.composite(window, origin, size, state.Count);
+  return device.Caster.composite(window, origin, size, state.Count);
 }
 
 // Screen pixels a side for one pixel of the image to come.
-int vtkDeformedVolumeMapper::ImageScale(vtkOpenGLRenderWindow* window, const glm::ivec2& size) const
+int vtkDeformedVolumeMapper::ImageScale(
+  vtkOpenGLRenderWindow* window, const Device& device, const glm::ivec2& size) const
 {
   const double rate = window->GetDesiredUpdateRate();
   if (!this->AdaptiveQuality || rate < InteractiveRate)
   {
     return 1;
   }
-  const double fullTime = this->Internal->SecondsPerPixel * size.x * size.y;
+  const double fullTime = device.SecondsPerPixel * size.x * size.y;
   const double allowed = 1.0 / std::max(rate, SmoothRate);
   const int scale = static_cast<int>(std::ceil(std::sqrt(fullTime / allowed)));
   return std::clamp(scale, 1, LargestImageScale);
 }
 
 // Scalars, gradients, colour and opacity.
-bool vtkDeformedVolumeMapper::PrepareTissue(vtkOpenGLRenderWindow* window,
+bool vtkDeformedVolumeMapper::PrepareTissue(vtkOpenGLRenderWindow* window, Device& device,
   vtkVolumeProperty* property, vtkDataArray* scalars, const Grid& grid, const ValueLayout& layout,
   RayCastScene& scene, std::string& problem)
 {
   State& state = *this->Internal;
   const auto uploads = state.Count.volumeUploads;
-  if (!state.Scalars.update(window, scalars, layout.dimensions, shownComponent(property, scalars),
+  if (!device.Scalars.update(window, scalars, layout.dimensions, shownComponent(property, scalars),
         state.Count, problem))
   {
     return false;
   }
   const double smallestSide = std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
   scene.stepMm = this->SampleDistance > 0.0 ? this->SampleDistance : 0.5 * smallestSide;
-  const bool newColours = state.Transfer.update(window, property, scene.stepMm, state.Count);
+  const bool newColours = device.Transfer.update(window, property, scene.stepMm, state.Count);
   if (newColours || uploads != state.Count.volumeUploads)
   {
-    this->UpdateVisibility(window);
+    this->UpdateVisibility(window, device);
   }
   scene.shaded = property->GetShade() != 0;
   scene.voxel = layout.textureFromGrid;
@@ -254,22 +280,22 @@ bool vtkDeformedVolumeMapper::PrepareTissue(vtkOpenGLRenderWindow* window,
   {
     using Gradients = brainshift::NormalTexture;
     const Gradients::Form form = this->NormalTexture == HalfResolution ? Gradients::Half
-      : state.Scalars.sixteenBits()                                    ? Gradients::Packed
+      : device.Scalars.sixteenBits()                                    ? Gradients::Packed
                                                                        : Gradients::Full;
-    if (!state.Normals.update(window, state.Scalars.texture(), layout.dimensions, form,
-          state.Scalars.range(), state.Count))
+    if (!device.Normals.update(window, device.Scalars.texture(), layout.dimensions, form,
+          device.Scalars.range(), state.Count))
     {
       problem =
         "The gradients' shader does not compile or their texture cannot be made on this GPU";
       return false;
     }
-    scene.normals = state.Normals.texture();
-    scene.packedNormals = state.Normals.packed();
+    scene.normals = device.Normals.texture();
+    scene.packedNormals = device.Normals.packed();
   }
-  scene.scalars = state.Scalars.texture();
-  scene.transfer = state.Transfer.texture();
-  scene.transferFromScalar = glm::dvec2(state.Scalars.scale() * state.Transfer.scale(),
-    state.Scalars.shift() * state.Transfer.scale() + state.Transfer.shift());
+  scene.scalars = device.Scalars.texture();
+  scene.transfer = device.Transfer.texture();
+  scene.transferFromScalar = glm::dvec2(device.Scalars.scale() * device.Transfer.scale(),
+    device.Scalars.shift() * device.Transfer.scale() + device.Transfer.shift());
   scene.material = glm::dvec4(property->GetAmbient(), property->GetDiffuse(),
     property->GetSpecular(), property->GetSpecularPower());
   scene.volumeLow = layout.low;
@@ -278,20 +304,20 @@ bool vtkDeformedVolumeMapper::PrepareTissue(vtkOpenGLRenderWindow* window,
 }
 
 // The rest volume's visibility, after a change of scalars, colour map or opacity.
-void vtkDeformedVolumeMapper::UpdateVisibility(vtkOpenGLRenderWindow* window)
+void vtkDeformedVolumeMapper::UpdateVisibility(vtkOpenGLRenderWindow* window, Device& device)
 {
   State& state = *this->Internal;
-  const BrickRanges& ranges = state.Scalars.ranges();
+  const BrickRanges& ranges = device.Scalars.ranges();
   const auto visible = [&](const glm::vec2& stored) {
-    return state.Transfer.visible(stored.x * state.Scalars.scale() + state.Scalars.shift(),
-      stored.y * state.Scalars.scale() + state.Scalars.shift());
+    return device.Transfer.visible(stored.x * device.Scalars.scale() + device.Scalars.shift(),
+      stored.y * device.Scalars.scale() + device.Scalars.shift());
   };
   std::vector<float> summed = summedVisibility(ranges, visible);
-  state.Presence.setVisibility(window, ranges.count, summed, state.Count);
+  device.Presence.setVisibility(window, ranges.count, summed, state.Count);
 }
 
 // The offset field and the bricks of the deformed frame.
-bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, const Grid& grid,
+bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, Device& device, const Grid& grid,
   const ValueLayout& layout, RayCastScene& scene, std::string& problem)
 {
   State& state = *this->Internal;
@@ -302,23 +328,24 @@ bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, const 
   {
     const Grid& lattice = state.Source.lattice.grid;
     const glm::vec3 offsetScale(textureFromLattice(grid, layout, lattice));
-    if (!state.FieldCurrent || offsetScale != state.Request.offsetScale)
+    if (device.FieldTime != state.DeformationTime || device.OffsetScale != offsetScale)
     {
       state.Request.offsetScale = offsetScale;
-      if (!state.Field.update(window, state.Request, state.Count))
+      if (!device.Field.update(window, state.Request, state.Count))
       {
         problem = "The deformation's shaders do not compile or its 3D float textures cannot be "
                   "made on this GPU";
         return false;
       }
-      state.FieldCurrent = true;
-      changed = state.Field.changed();
+      device.FieldTime = state.DeformationTime;
+      device.OffsetScale = offsetScale;
+      changed = device.Field.changed();
     }
-    scene.offsets = state.Field.offsets();
+    scene.offsets = device.Field.offsets();
     placeField(grid, layout, lattice, state.Request.nodes, state.Moved, scene);
   }
-  placeBricks(layout, scene, state.Bricks);
-  if (!state.Presence.update(window, state.Bricks, changed, state.Count))
+  placeBricks(layout, scene, device.Bricks);
+  if (!device.Presence.update(window, device.Bricks, changed, state.Count))
   {
     problem =
       "The presence map's shader does not compile or its texture cannot be made on this GPU";
@@ -328,39 +355,24 @@ bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, const 
   {
     cropSpace(grid, layout, this->CroppingRegionPlanes, scene);
   }
-  scene.presence = &state.Presence;
+  scene.presence = &device.Presence;
   scene.skipping = this->EmptySpaceSkipping;
   return true;
 }
 
-// Camera, light and what is drawn already.
-void vtkDeformedVolumeMapper::DescribeView(vtkRenderer* renderer, vtkVolume* volume,
-  const Grid& grid, const ValueLayout& layout, RayCastScene& scene)
-{
-  State& state = *this->Internal;
-  auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
-  glm::ivec2 origin;
-  glm::ivec2 size;
-  renderer->GetTiledSizeAndOrigin(&size.x, &size.y, &origin.x, &origin.y);
-  state.Depth.capture(window, origin, size);
-  scene.sceneDepth = state.Depth.texture();
-  scene.clipFromWorld = clipFromWorld(renderer);
-  scene.worldFromTexture = worldFromTexture(grid, layout, volume->GetMatrix());
-  scene.lights = lightsOf(renderer);
-}
-
 bool vtkDeformedVolumeMapper::Pick(vtkRenderer* renderer, int x, int y, double position[3])
 {
-  State& state = *this->Internal;
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
-  if (!window)
+  const auto found = this->Internal->Devices.find(window);
+  const int* size = renderer->GetSize();
+  if (found == this->Internal->Devices.end() || x < 0 || y < 0 || x >= size[0] || y >= size[1])
   {
     return false;
   }
   window->MakeCurrent();
   glm::dvec4 hit;
-  const int scale = static_cast<int>(state.Count.imageScale);
-  if (x < 0 || y < 0 || !state.Caster.hitAt(window, { x / scale, y / scale }, hit))
+  const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) / glm::dvec2(size[0], size[1]);
+  if (!found->second.Caster.hitAt(window, place, hit))
   {
     return false;
   }
@@ -385,17 +397,26 @@ void vtkDeformedVolumeMapper::DrawUndeformed(
   state.Fallback->Render(renderer, volume);
 }
 
+void vtkDeformedVolumeMapper::Device::Release(vtkWindow* window)
+{
+  this->Scalars.releaseGraphicsResources(window);
+  this->Transfer.releaseGraphicsResources(window);
+  this->Normals.releaseGraphicsResources(window);
+  this->Presence.releaseGraphicsResources(window);
+  this->Field.releaseGraphicsResources(window);
+  this->Depth.releaseGraphicsResources(window);
+  this->Caster.releaseGraphicsResources(window);
+}
+
 void vtkDeformedVolumeMapper::ReleaseGraphicsResources(vtkWindow* window)
 {
   State& state = *this->Internal;
-  state.Scalars.releaseGraphicsResources(window);
-  state.Transfer.releaseGraphicsResources(window);
-  state.Normals.releaseGraphicsResources(window);
-  state.Presence.releaseGraphicsResources(window);
-  state.Field.releaseGraphicsResources(window);
-  state.Depth.releaseGraphicsResources(window);
-  state.Caster.releaseGraphicsResources(window);
-  state.FieldCurrent = false;
+  const auto found = state.Devices.find(window);
+  if (found != state.Devices.end())
+  {
+    found->second.Release(window);
+    state.Devices.erase(found);
+  }
   state.Fallback->ReleaseGraphicsResources(window);
   this->Superclass::ReleaseGraphicsResources(window);
 }

@@ -7,6 +7,9 @@
  * Filters/DeformableVolume.h), never resampling a voxel; a volume without a lattice is drawn as it
  * is. Colours, opacity, light and position come from the vtkVolume, as for any volume mapper.
  *
+ * What lies on the GPU is kept for each window that shows the volume: two of them, drawn in turn,
+ * upload nothing.
+ *
  * Where the GPU cannot draw it, the reason is reported once and VTK's software mapper draws the volume
  * undeformed.
  *
@@ -77,9 +80,9 @@ public:
   ///@}
 
   /**
-   * Tissue position (mm, world, deformed frame) that the last picture shows at a pixel counted from
-   * the renderer's lower left corner, without drawing again: where the opacity along the ray reaches
-   * one half. False where it does not.
+   * Tissue position (mm, world, deformed frame) that the last whole picture in the renderer's window
+   * shows at a pixel counted from the renderer's lower left corner, without drawing again: where the
+   * opacity along the ray reaches one half. False where it does not.
    */
   bool Pick(vtkRenderer* renderer, int x, int y, double position[3]);
 
@@ -103,27 +106,28 @@ private:
   vtkDeformedVolumeMapper(const vtkDeformedVolumeMapper&) = delete;
   void operator=(const vtkDeformedVolumeMapper&) = delete;
 
+  struct Device; // textures and programs of one window
+  struct State;  // what all windows share, and their devices
+
   // Draws deformed. False, with one sentence in `problem`, if this GPU cannot.
   bool Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem);
   void DrawUndeformed(vtkRenderer* renderer, vtkVolume* volume, const std::string& problem);
 
-  int ImageScale(vtkOpenGLRenderWindow* window, const glm::ivec2& size) const;
+  int ImageScale(
+    vtkOpenGLRenderWindow* window, const Device& device, const glm::ivec2& size) const;
   void UpdateDeformation(vtkImageData* image);
-  bool PrepareTissue(vtkOpenGLRenderWindow* window, vtkVolumeProperty* property,
+  bool PrepareTissue(vtkOpenGLRenderWindow* window, Device& device, vtkVolumeProperty* property,
     vtkDataArray* scalars, const brainshift::Grid& grid, const brainshift::ValueLayout& layout,
     brainshift::RayCastScene& scene, std::string& problem);
-  void UpdateVisibility(vtkOpenGLRenderWindow* window);
-  bool PrepareSpace(vtkOpenGLRenderWindow* window, const brainshift::Grid& grid,
+  void UpdateVisibility(vtkOpenGLRenderWindow* window, Device& device);
+  bool PrepareSpace(vtkOpenGLRenderWindow* window, Device& device, const brainshift::Grid& grid,
     const brainshift::ValueLayout& layout, brainshift::RayCastScene& scene, std::string& problem);
-  void DescribeView(vtkRenderer* renderer, vtkVolume* volume, const brainshift::Grid& grid,
-    const brainshift::ValueLayout& layout, brainshift::RayCastScene& scene);
 
   double SampleDistance = 0.0;
   bool EmptySpaceSkipping = true;
   int NormalTexture = FullResolution;
   bool AdaptiveQuality = true;
 
-  struct State; // textures, programs and what they were made from
   std::unique_ptr<State> Internal;
 };
 

@@ -11,12 +11,8 @@
 
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 #include "vtkImageVolumeRepresentation.h"
-#include "vtkWeakPointer.h" // for the renderer
-
-#include <string> // for the counters' text
 
 class vtkDeformedVolumeMapper;
-class vtkRenderer;
 
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkDeformedVolumeRepresentation
   : public vtkImageVolumeRepresentation
@@ -38,24 +34,12 @@ public:
   /** Draw fewer pixels while moving, to hold the rate. Default true. */
   void SetAdaptiveQuality(bool adaptive);
 
-  ///@{
-  /**
-   * Asks which tissue the last picture shows at a pixel, counted from the view's lower left corner;
-   * GetPickedTissue then gives its position (mm, world, deformed frame) and 1, or zeros where no
-   * surface was hit. Nothing is drawn.
-   */
-  void SetPickedPixel(int x, int y);
-  vtkGetVector4Macro(PickedTissue, double);
-  ///@}
-
-  /** What the renderer did since it was made (Counters.h): lines of a name, a space, a number. */
-  const char* GetCounters();
+  /** What draws it in this process. */
+  vtkDeformedVolumeMapper* GetDeformedVolumeMapper() const;
 
 protected:
   vtkDeformedVolumeRepresentation();
   ~vtkDeformedVolumeRepresentation() override = default;
-
-  bool AddToView(vtkView* view) override;
 
   int RequestData(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
@@ -63,12 +47,6 @@ protected:
 private:
   vtkDeformedVolumeRepresentation(const vtkDeformedVolumeRepresentation&) = delete;
   void operator=(const vtkDeformedVolumeRepresentation&) = delete;
-
-  vtkDeformedVolumeMapper* Mapper() const;
-
-  std::string CountersText;
-  double PickedTissue[4] = { 0.0, 0.0, 0.0, 0.0 };
-  vtkWeakPointer<vtkRenderer> Renderer; // of the view this representation is shown in
 };
 
 #endif
