@@ -89,6 +89,9 @@ public:
   // was cast yet.
   bool hitAt(vtkOpenGLRenderWindow* window, const glm::dvec2& place, glm::dvec4& hit);
 
+  // What hitAt reads, texel by texel. Null if nothing was cast yet.
+  vtkTextureObject* hits() const { return this->Hits[false]; }
+
   void releaseGraphicsResources(vtkWindow* window);
 
 private:

@@ -4,6 +4,7 @@
 #include "OffsetField.h"
 
 #include "shader_composite_frag.h"
+#include "shader_cover_frag.h"
 #include "shader_field.h"
 #include "shader_fullscreen_vert.h"
 #include "shader_gradient.h"
@@ -99,13 +100,18 @@ ShaderSource compositeSource()
   return { assemble({ shader_fullscreen_vert }), "", assemble({ Outputs, shader_composite_frag }) };
 }
 
+ShaderSource coverSource()
+{
+  return { assemble({ shader_fullscreen_vert }), "", assemble({ Outputs, shader_cover_frag }) };
+}
+
 std::vector<std::pair<std::string, ShaderSource>> allSources()
 {
   std::vector<std::pair<std::string, ShaderSource>> sources{ { "refine", refineSource() },
     { "invert", invertSource() }, { "normals", normalsSource(false) },
     { "normals_packed", normalsSource(true) }, { "presence_rest", presenceSource(false) },
     { "presence_deformed", presenceSource(true) }, { "proxy", proxySource() },
-    { "composite", compositeSource() } };
+    { "composite", compositeSource() }, { "cover", coverSource() } };
   const char* lights[] = { "_unshaded", "_gradients", "_gradient_texture", "_packed_gradients" };
   for (const bool deformed : { false, true })
   {

@@ -9,6 +9,7 @@
 #include "ScalarTexture.h"
 #include "SceneDepth.h"
 #include "SceneGeometry.h"
+#include "SelectionCover.h"
 #include "TransferTexture.h"
 
 #include "vtkColorTransferFunction.h"
@@ -44,6 +45,7 @@ struct vtkDeformedVolumeMapper::Device
   PresenceRequest Bricks; // what Presence shows
   SceneDepth Depth;
   RayCaster Caster;
+  SelectionCover Cover;
 
   // The deformation and the unit that Field shows.
   unsigned long long FieldTime = 0;
@@ -176,12 +178,32 @@ void vtkDeformedVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
   vtkNew<vtkTimerLog> timer;
   timer->StartTimer();
   std::string problem;
-  if (!this->Draw(renderer, volume, problem))
+  if (renderer->GetSelector())
+  {
+    this->CoverSelection(renderer);
+  }
+  else if (!this->Draw(renderer, volume, problem))
   {
     this->DrawUndeformed(renderer, volume, problem);
   }
   timer->StopTimer();
   this->TimeToDraw = timer->GetElapsedTime();
+}
+
+// What the last picture shows hides what is behind it; the volume itself cannot be selected.
+void vtkDeformedVolumeMapper::CoverSelection(vtkRenderer* renderer)
+{
+  auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  const auto found = this->Internal->Devices.find(window);
+  if (found == this->Internal->Devices.end() || !found->second.Caster.hits())
+  {
+    return;
+  }
+  Device& device = found->second;
+  if (!device.Cover.draw(window, renderer, device.Caster.hits(), this->Internal->Count))
+  {
+    vtkErrorMacro("The selection's shader does not compile. Selections reach through the volume.");
+  }
 }
 
 bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem)
@@ -406,6 +428,7 @@ void vtkDeformedVolumeMapper::Device::Release(vtkWindow* window)
   this->Field.releaseGraphicsResources(window);
   this->Depth.releaseGraphicsResources(window);
   this->Caster.releaseGraphicsResources(window);
+  this->Cover.releaseGraphicsResources();
 }
 
 void vtkDeformedVolumeMapper::ReleaseGraphicsResources(vtkWindow* window)

@@ -111,6 +111,7 @@ private:
 
   // Draws deformed. False, with one sentence in `problem`, if this GPU cannot.
   bool Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem);
+  void CoverSelection(vtkRenderer* renderer);
   void DrawUndeformed(vtkRenderer* renderer, vtkVolume* volume, const std::string& problem);
 
   int ImageScale(

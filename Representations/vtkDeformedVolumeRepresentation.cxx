@@ -2,8 +2,11 @@
 #include "vtkDeformedVolumeRepresentation.h"
 
 #include "vtkDeformedVolumeMapper.h"
+#include "vtkVolumeOrder.h"
 
 #include "vtkObjectFactory.h"
+#include "vtkPVRenderView.h"
+#include "vtkRenderer.h"
 
 vtkStandardNewMacro(vtkDeformedVolumeRepresentation);
 
@@ -12,9 +15,17 @@ vtkDeformedVolumeRepresentation::vtkDeformedVolumeRepresentation()
   this->VolumeMapper.TakeReference(vtkDeformedVolumeMapper::New());
 }
 
+vtkDeformedVolumeRepresentation::~vtkDeformedVolumeRepresentation() = default;
+
 vtkDeformedVolumeMapper* vtkDeformedVolumeRepresentation::GetDeformedVolumeMapper() const
 {
   return vtkDeformedVolumeMapper::SafeDownCast(this->VolumeMapper);
+}
+
+void vtkDeformedVolumeRepresentation::SetVisibility(bool visible)
+{
+  this->Superclass::SetVisibility(visible);
+  this->Order->SetEnabled(visible);
 }
 
 void vtkDeformedVolumeRepresentation::SetSampleDistance(double distance)
@@ -35,6 +46,24 @@ void vtkDeformedVolumeRepresentation::SetNormalTexture(int normals)
 void vtkDeformedVolumeRepresentation::SetAdaptiveQuality(bool adaptive)
 {
   this->GetDeformedVolumeMapper()->SetAdaptiveQuality(adaptive);
+}
+
+bool vtkDeformedVolumeRepresentation::AddToView(vtkView* view)
+{
+  if (auto renderView = vtkPVRenderView::SafeDownCast(view))
+  {
+    renderView->GetRenderer()->AddCuller(this->Order);
+  }
+  return this->Superclass::AddToView(view);
+}
+
+bool vtkDeformedVolumeRepresentation::RemoveFromView(vtkView* view)
+{
+  if (auto renderView = vtkPVRenderView::SafeDownCast(view))
+  {
+    renderView->GetRenderer()->RemoveCuller(this->Order);
+  }
+  return this->Superclass::RemoveFromView(view);
 }
 
 int vtkDeformedVolumeRepresentation::RequestData(

@@ -4,15 +4,18 @@
  * @brief   "Deformed Volume": ParaView's "Volume" with our ray caster
  *
  * Everything "Volume" does with data delivery, colour maps, opacity and transforms is inherited;
- * only the mapper differs, and the bounds told to the view are those of the deformed volume.
+ * only the mapper differs, and the bounds told to the view are those of the deformed volume. A view
+ * that shows it draws all its volumes from back to front.
  */
 #ifndef vtkDeformedVolumeRepresentation_h
 #define vtkDeformedVolumeRepresentation_h
 
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 #include "vtkImageVolumeRepresentation.h"
+#include "vtkNew.h" // for the order
 
 class vtkDeformedVolumeMapper;
+class vtkVolumeOrder;
 
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkDeformedVolumeRepresentation
   : public vtkImageVolumeRepresentation
@@ -21,6 +24,9 @@ public:
   static vtkDeformedVolumeRepresentation* New();
   vtkTypeMacro(vtkDeformedVolumeRepresentation, vtkImageVolumeRepresentation);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** Shown or not: also whether its view sorts its volumes. */
+  void SetVisibility(bool visible) override;
 
   /** Step along the ray, mm. 0 (default): half the smallest voxel side. */
   void SetSampleDistance(double distance);
@@ -39,7 +45,10 @@ public:
 
 protected:
   vtkDeformedVolumeRepresentation();
-  ~vtkDeformedVolumeRepresentation() override = default;
+  ~vtkDeformedVolumeRepresentation() override;
+
+  bool AddToView(vtkView* view) override;
+  bool RemoveFromView(vtkView* view) override;
 
   int RequestData(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
@@ -47,6 +56,8 @@ protected:
 private:
   vtkDeformedVolumeRepresentation(const vtkDeformedVolumeRepresentation&) = delete;
   void operator=(const vtkDeformedVolumeRepresentation&) = delete;
+
+  vtkNew<vtkVolumeOrder> Order;
 };
 
 #endif
