@@ -338,8 +338,7 @@ bool RayCaster::hitAt(vtkOpenGLRenderWindow* window, const glm::dvec2& place, gl
   const glm::ivec2 pixel(place * glm::dvec2(hits->GetWidth(), hits->GetHeight()));
   vtkOpenGLState* state = window->GetState();
   FramebufferScope framebuffer(state);
-  glFramebufferTexture2D(
-    GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, hits->GetHandle(), 0);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, hits->GetHandle(), 0);
   state->vtkglReadBuffer(GL_COLOR_ATTACHMENT0);
   float values[4] = { 0.0f, 0.0f, 0.0f, -1.0f };
   glReadPixels(pixel.x, pixel.y, 1, 1, GL_RGBA, GL_FLOAT, values);

@@ -100,7 +100,8 @@ private:
   void setUniforms(Program& program, const RayCastScene& scene);
 
   vtkSmartPointer<vtkTextureObject> Image; // colour times opacity, opacity
-  vtkSmartPointer<vtkTextureObject> Hits[2]; // [tile] first hit, mm; distance from the near plane, mm
+  vtkSmartPointer<vtkTextureObject>
+    Hits[2];                               // [tile] first hit, mm; distance from the near plane, mm
   vtkSmartPointer<vtkTextureObject> Spans; // least t, minus greatest t in occupied bricks
   Program CastPrograms[2][RayCastVariant::LightCount]; // [deformed][light]
   Program SpansProgram;

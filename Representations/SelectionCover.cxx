@@ -13,8 +13,8 @@
 
 namespace brainshift
 {
-bool SelectionCover::draw(vtkOpenGLRenderWindow* window, vtkRenderer* renderer,
-  vtkTextureObject* hits, Counters& counters)
+bool SelectionCover::draw(
+  vtkOpenGLRenderWindow* window, vtkRenderer* renderer, vtkTextureObject* hits, Counters& counters)
 {
   if (!this->CoverProgram.use(window, coverSource(), counters))
   {

@@ -302,7 +302,7 @@ bool vtkDeformedVolumeMapper::PrepareTissue(vtkOpenGLRenderWindow* window, Devic
   {
     using Gradients = brainshift::NormalTexture;
     const Gradients::Form form = this->NormalTexture == HalfResolution ? Gradients::Half
-      : device.Scalars.sixteenBits()                                    ? Gradients::Packed
+      : device.Scalars.sixteenBits()                                   ? Gradients::Packed
                                                                        : Gradients::Full;
     if (!device.Normals.update(window, device.Scalars.texture(), layout.dimensions, form,
           device.Scalars.range(), state.Count))
@@ -339,8 +339,8 @@ void vtkDeformedVolumeMapper::UpdateVisibility(vtkOpenGLRenderWindow* window, De
 }
 
 // The offset field and the bricks of the deformed frame.
-bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, Device& device, const Grid& grid,
-  const ValueLayout& layout, RayCastScene& scene, std::string& problem)
+bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, Device& device,
+  const Grid& grid, const ValueLayout& layout, RayCastScene& scene, std::string& problem)
 {
   State& state = *this->Internal;
   scene.spaceLow = layout.low;

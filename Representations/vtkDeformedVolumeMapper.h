@@ -114,8 +114,7 @@ private:
   void CoverSelection(vtkRenderer* renderer);
   void DrawUndeformed(vtkRenderer* renderer, vtkVolume* volume, const std::string& problem);
 
-  int ImageScale(
-    vtkOpenGLRenderWindow* window, const Device& device, const glm::ivec2& size) const;
+  int ImageScale(vtkOpenGLRenderWindow* window, const Device& device, const glm::ivec2& size) const;
   void UpdateDeformation(vtkImageData* image);
   bool PrepareTissue(vtkOpenGLRenderWindow* window, Device& device, vtkVolumeProperty* property,
     vtkDataArray* scalars, const brainshift::Grid& grid, const brainshift::ValueLayout& layout,
