@@ -437,7 +437,12 @@ void vtkDeformedVolumeMapper::ReleaseGraphicsResources(vtkWindow* window)
   const auto found = state.Devices.find(window);
   if (found != state.Devices.end())
   {
+    // Closing a view, ParaView leaves another window's context current, where our buffers' numbers
+    // may mean something else.
+    auto context = vtkOpenGLRenderWindow::SafeDownCast(window);
+    context->PushContext();
     found->second.Release(window);
+    context->PopContext();
     state.Devices.erase(found);
   }
   state.Fallback->ReleaseGraphicsResources(window);

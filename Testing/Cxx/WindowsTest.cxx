@@ -118,6 +118,7 @@ public:
 
   void remove(vtkVolume* volume) { this->Renderer->RemoveVolume(volume); }
   void add(vtkVolume* volume) { this->Renderer->AddVolume(volume); }
+  void removeRenderer() { this->RenderWindow->RemoveRenderer(this->Renderer); }
 
 private:
   int Size;
@@ -205,4 +206,19 @@ TEST(Windows, TakeAVolumeOutAndInAgain)
   EXPECT_FALSE(showsSomething(window.draw()));
   window.add(ball.volume());
   EXPECT_TRUE(window.draw() == expected);
+}
+
+TEST(Windows, LetGoOfTheirOwnOnly)
+{
+  // As ParaView closes a view: while another window's context, with the same numbers for its buffers,
+  // is the current one.
+  const Picture expected = alone(2.0, 1);
+  Ball ball(2.0);
+  Window first(ball.volume(), Directions[0], Sizes[0]);
+  Window second(ball.volume(), Directions[1], Sizes[1]);
+  first.draw();
+  EXPECT_TRUE(second.draw() == expected);
+  first.removeRenderer();
+  EXPECT_TRUE(second.draw() == expected);
+  EXPECT_EQ(ball.count().volumeUploads, 2);
 }
