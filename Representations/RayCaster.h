@@ -5,6 +5,7 @@
 
 #include "Counters.h"
 #include "Program.h"
+#include "RayCastOptions.h"
 
 #include "vtkSmartPointer.h"
 
@@ -13,6 +14,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <map>
 #include <vector>
 
 class vtkOpenGLRenderWindow;
@@ -56,6 +58,7 @@ struct RayCastScene
   glm::dvec2 transferFromScalar{ 1.0, 0.0 }; // stored scalar to transfer coordinate
   glm::dvec4 material{ 0.0, 1.0, 0.0, 1.0 }; // ambient, diffuse, specular, specular power
   RayCastLights lights;
+  RayCastOptions options;
   bool shaded = false;
   bool skipping = true;
 
@@ -94,10 +97,10 @@ private:
   bool findSpans(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters);
   void setUniforms(Program& program, const RayCastScene& scene);
 
-  vtkSmartPointer<vtkTextureObject> Image; // colour times opacity, opacity
-  vtkSmartPointer<vtkTextureObject> Hits;  // first hit, mm; distance from the near plane, mm
-  vtkSmartPointer<vtkTextureObject> Spans; // least t, minus greatest t in occupied bricks
-  Program CastPrograms[2][RayCastVariant::LightCount]; // [deformed][light]
+  vtkSmartPointer<vtkTextureObject> Image;        // colour times opacity, opacity
+  vtkSmartPointer<vtkTextureObject> Hits;         // first hit, mm; distance from the near plane, mm
+  vtkSmartPointer<vtkTextureObject> Spans;        // least t, minus greatest t in occupied bricks
+  std::map<RayCastVariant, Program> CastPrograms; // those drawn with so far
   Program SpansProgram;
   Program CompositeProgram;
 };

@@ -4,14 +4,12 @@
 #include "DeformableVolume.h"
 #include "DeformedPresence.h"
 #include "FieldTexture.h"
-#include "NormalTexture.h"
+#include "GpuMemory.h"
 #include "RayCaster.h"
-#include "ScalarTexture.h"
 #include "SceneDepth.h"
 #include "SceneGeometry.h"
-#include "TransferTexture.h"
+#include "Tissue.h"
 
-#include "vtkColorTransferFunction.h"
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
@@ -29,16 +27,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
+#include <vector>
 
 using namespace brainshift;
 
 struct vtkDeformedVolumeMapper::State
 {
-  ScalarTexture Scalars;
-  TransferTexture Transfer;
+  brainshift::Tissue Tissue;
   FieldTexture Field;
-  brainshift::NormalTexture Normals;
   DeformedPresence Presence;
   PresenceRequest Bricks; // what Presence shows
   SceneDepth Depth;
@@ -53,8 +51,10 @@ struct vtkDeformedVolumeMapper::State
   unsigned long long DeformationTime = 0;
   bool FieldCurrent = false; // the GPU's field shows Request
 
+  GpuMemory Memory;
   vtkNew<vtkSmartVolumeMapper> Fallback;
-  std::string Reported; // the last trouble told
+  std::string Reported;       // the last trouble told
+  std::set<std::string> Told; // unsupported choices
 
   double SecondsPerPixel = 0.0; // of the last image; 0: none yet
 };
@@ -66,17 +66,6 @@ constexpr double InteractiveRate = 1.0;
 // ParaView asks for 5 a second while the camera moves. Below 15 a hand sees steps.
 constexpr double SmoothRate = 15.0;
 constexpr int LargestImageScale = 4;
-
-// Which number of a tuple the colour map shows; -1: the vector's length.
-int shownComponent(vtkVolumeProperty* property, vtkDataArray* scalars)
-{
-  if (scalars->GetNumberOfComponents() == 1)
-  {
-    return 0;
-  }
-  vtkColorTransferFunction* color = property->GetRGBTransferFunction();
-  return color->GetVectorMode() == vtkScalarsToColors::COMPONENT ? color->GetVectorComponent() : -1;
-}
 }
 
 vtkStandardNewMacro(vtkDeformedVolumeMapper);
@@ -165,7 +154,6 @@ void vtkDeformedVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
 
 bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem)
 {
-  State& state = *this->Internal;
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   auto image = vtkImageData::SafeDownCast(this->GetDataSetInput());
   if (!window || !image)
@@ -186,13 +174,39 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
     return true; // nothing to draw yet
   }
   this->UpdateDeformation(image);
+  vtkVolumeProperty* property = volume->GetProperty();
+  this->TellUnsupported(property, scalars);
+  const double smallestSide = std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
+  const TissueRequest tissue{ property, scalars, layout,
+    this->SampleDistance > 0.0 ? this->SampleDistance : 0.5 * smallestSide, blendOf(this, property),
+    static_cast<GradientSource>(this->NormalTexture) };
+  takeOutOfMemory(); // what others left behind
+  const bool drawn = this->AskForMemory(renderer, tissue, problem) &&
+    this->DrawTissue(renderer, volume, tissue, grid, problem);
+  if (takeOutOfMemory())
+  {
+    this->Internal->Memory.refuse();
+    return this->AskForMemory(renderer, tissue, problem);
+  }
+  return drawn;
+}
+
+bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, vtkVolume* volume,
+  const TissueRequest& tissue, const Grid& grid, std::string& problem)
+{
+  State& state = *this->Internal;
+  auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  const ValueLayout& layout = tissue.layout;
   RayCastScene scene;
-  if (!this->PrepareTissue(window, volume->GetProperty(), scalars, grid, layout, scene, problem) ||
+  if (!state.Tissue.update(window, tissue, scene, state.Count, problem) ||
     !this->PrepareSpace(window, grid, layout, scene, problem))
   {
     return false;
   }
+  scene.skipping = this->EmptySpaceSkipping && state.Tissue.skippingIsExact(tissue.blend);
   this->DescribeView(renderer, volume, grid, layout, scene);
+  describeOptions(this, tissue.property, tissue.scalars, state.Tissue.stored(),
+    scene.worldFromTexture, scene.options);
   glm::ivec2 origin;
   glm::ivec2 size;
   renderer->GetTiledSizeAndOrigin(&size.x, &size.y, &origin.x, &origin.y);
@@ -229,72 +243,16 @@ int vtkDeformedVolumeMapper::ImageScale(vtkOpenGLRenderWindow* window, const glm
   return std::clamp(scale, 1, LargestImageScale);
 }
 
-// Scalars, gradients, colour and opacity.
-bool vtkDeformedVolumeMapper::PrepareTissue(vtkOpenGLRenderWindow* window,
-  vtkVolumeProperty* property, vtkDataArray* scalars, const Grid& grid, const ValueLayout& layout,
-  RayCastScene& scene, std::string& problem)
-{
-  State& state = *this->Internal;
-  const auto uploads = state.Count.volumeUploads;
-  if (!state.Scalars.update(window, scalars, layout.dimensions, shownComponent(property, scalars),
-        state.Count, problem))
-  {
-    return false;
-  }
-  const double smallestSide = std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
-  scene.stepMm = this->SampleDistance > 0.0 ? this->SampleDistance : 0.5 * smallestSide;
-  const bool newColours = state.Transfer.update(window, property, scene.stepMm, state.Count);
-  if (newColours || uploads != state.Count.volumeUploads)
-  {
-    this->UpdateVisibility(window);
-  }
-  scene.shaded = property->GetShade() != 0;
-  scene.voxel = layout.textureFromGrid;
-  if (scene.shaded && this->NormalTexture != OnTheFly)
-  {
-    using Gradients = brainshift::NormalTexture;
-    const Gradients::Form form = this->NormalTexture == HalfResolution ? Gradients::Half
-      : state.Scalars.sixteenBits()                                    ? Gradients::Packed
-                                                                       : Gradients::Full;
-    if (!state.Normals.update(window, state.Scalars.texture(), layout.dimensions, form,
-          state.Scalars.range(), state.Count))
-    {
-      problem =
-        "The gradients' shader does not compile or their texture cannot be made on this GPU";
-      return false;
-    }
-    scene.normals = state.Normals.texture();
-    scene.packedNormals = state.Normals.packed();
-  }
-  scene.scalars = state.Scalars.texture();
-  scene.transfer = state.Transfer.texture();
-  scene.transferFromScalar = glm::dvec2(state.Scalars.scale() * state.Transfer.scale(),
-    state.Scalars.shift() * state.Transfer.scale() + state.Transfer.shift());
-  scene.material = glm::dvec4(property->GetAmbient(), property->GetDiffuse(),
-    property->GetSpecular(), property->GetSpecularPower());
-  scene.volumeLow = layout.low;
-  scene.volumeHigh = layout.high;
-  return true;
-}
-
-// The rest volume's visibility, after a change of scalars, colour map or opacity.
-void vtkDeformedVolumeMapper::UpdateVisibility(vtkOpenGLRenderWindow* window)
-{
-  State& state = *this->Internal;
-  const BrickRanges& ranges = state.Scalars.ranges();
-  const auto visible = [&](const glm::vec2& stored) {
-    return state.Transfer.visible(stored.x * state.Scalars.scale() + state.Scalars.shift(),
-      stored.y * state.Scalars.scale() + state.Scalars.shift());
-  };
-  std::vector<float> summed = summedVisibility(ranges, visible);
-  state.Presence.setVisibility(window, ranges.count, summed, state.Count);
-}
-
 // The offset field and the bricks of the deformed frame.
 bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, const Grid& grid,
   const ValueLayout& layout, RayCastScene& scene, std::string& problem)
 {
   State& state = *this->Internal;
+  if (state.Tissue.takeVisibilityChange())
+  {
+    std::vector<float> summed = state.Tissue.summedVisibility();
+    state.Presence.setVisibility(window, state.Tissue.restBricks(), summed, state.Count);
+  }
   scene.spaceLow = layout.low;
   scene.spaceHigh = layout.high;
   IndexBox changed; // nodes of the offset field
@@ -324,13 +282,59 @@ bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, const 
       "The presence map's shader does not compile or its texture cannot be made on this GPU";
     return false;
   }
-  if (this->Cropping && this->CroppingRegionFlags == VTK_CROP_SUBVOLUME)
-  {
-    cropSpace(grid, layout, this->CroppingRegionPlanes, scene);
-  }
+  this->DescribeCropping(grid, layout, scene);
   scene.presence = &state.Presence;
-  scene.skipping = this->EmptySpaceSkipping;
   return true;
+}
+
+// The middle region alone narrows the space; others are asked for at each sample.
+void vtkDeformedVolumeMapper::DescribeCropping(
+  const Grid& grid, const ValueLayout& layout, RayCastScene& scene)
+{
+  if (!this->Cropping)
+  {
+    return;
+  }
+  RayCastOptions& options = scene.options;
+  cropBox(grid, layout, this->CroppingRegionPlanes, options.regionLow, options.regionHigh);
+  if (this->CroppingRegionFlags == VTK_CROP_SUBVOLUME)
+  {
+    scene.spaceLow = glm::max(scene.spaceLow, options.regionLow);
+    scene.spaceHigh = glm::min(scene.spaceHigh, options.regionHigh);
+    return;
+  }
+  options.regions = true;
+  options.regionFlags = this->CroppingRegionFlags;
+}
+
+// Before memory is taken: some drivers end the program when there is none.
+bool vtkDeformedVolumeMapper::AskForMemory(
+  vtkRenderer* renderer, const TissueRequest& tissue, std::string& problem)
+{
+  State& state = *this->Internal;
+  auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  DrawnSizes sizes;
+  addTissueSizes(tissue, sizes);
+  glm::ivec2 origin;
+  renderer->GetTiledSizeAndOrigin(&sizes.pixels.x, &sizes.pixels.y, &origin.x, &origin.y);
+  if (state.Deformed)
+  {
+    sizes.forwardNodes = (state.Request.dimensions - 1) * (state.Request.samples + 1) + 1;
+    sizes.backwardNodes = state.Request.nodes.count;
+  }
+  problem = state.Memory.ask(window, memoryNeed(sizes), this->MemoryLimit);
+  return problem.empty();
+}
+
+void vtkDeformedVolumeMapper::TellUnsupported(vtkVolumeProperty* property, vtkDataArray* scalars)
+{
+  for (const std::string& sentence : unsupportedChoices(this, property, scalars))
+  {
+    if (this->Internal->Told.insert(sentence).second)
+    {
+      vtkWarningMacro(<< sentence << ".");
+    }
+  }
 }
 
 // Camera, light and what is drawn already.
@@ -382,15 +386,22 @@ void vtkDeformedVolumeMapper::DrawUndeformed(
   state.Fallback->SetInputConnection(this->GetInputConnection(0, 0));
   state.Fallback->SetScalarMode(this->ScalarMode);
   state.Fallback->SelectScalarArray(this->ArrayName);
+  const bool blends = this->BlendMode == vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND ||
+    this->BlendMode == vtkVolumeMapper::MINIMUM_INTENSITY_BLEND ||
+    this->BlendMode == vtkVolumeMapper::ADDITIVE_BLEND;
+  state.Fallback->SetBlendMode(blends ? this->BlendMode : vtkVolumeMapper::COMPOSITE_BLEND);
+  state.Fallback->SetCropping(this->Cropping);
+  state.Fallback->SetCroppingRegionFlags(this->CroppingRegionFlags);
+  state.Fallback->SetCroppingRegionPlanes(this->CroppingRegionPlanes);
+  state.Fallback->SetClippingPlanes(this->ClippingPlanes);
   state.Fallback->Render(renderer, volume);
 }
 
 void vtkDeformedVolumeMapper::ReleaseGraphicsResources(vtkWindow* window)
 {
   State& state = *this->Internal;
-  state.Scalars.releaseGraphicsResources(window);
-  state.Transfer.releaseGraphicsResources(window);
-  state.Normals.releaseGraphicsResources(window);
+  state.Memory.release();
+  state.Tissue.releaseGraphicsResources(window);
   state.Presence.releaseGraphicsResources(window);
   state.Field.releaseGraphicsResources(window);
   state.Depth.releaseGraphicsResources(window);
@@ -411,5 +422,6 @@ void vtkDeformedVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SampleDistance: " << this->SampleDistance << "\n"
      << indent << "EmptySpaceSkipping: " << this->EmptySpaceSkipping << "\n"
      << indent << "AdaptiveQuality: " << this->AdaptiveQuality << "\n"
+     << indent << "MemoryLimit: " << this->MemoryLimit << "\n"
      << indent << "NormalTexture: " << this->NormalTexture << "\n";
 }

@@ -13,6 +13,7 @@
 #include "vtkImageVolumeRepresentation.h"
 #include "vtkWeakPointer.h" // for the renderer
 
+#include <set>    // for what was told
 #include <string> // for the counters' text
 
 class vtkDeformedVolumeMapper;
@@ -38,6 +39,16 @@ public:
   /** Draw fewer pixels while moving, to hold the rate. Default true. */
   void SetAdaptiveQuality(bool adaptive);
 
+  /** Most memory of the GPU to use, MiB. 0 (default): all that the driver gives. */
+  void SetMemoryLimit(double limit);
+
+  ///@{
+  /** Light effects of ParaView's "Volume" that are not drawn: told once if they are asked for. */
+  void SetGlobalIlluminationReach(float reach);
+  void SetVolumetricScatteringBlending(float blending);
+  void SetRequestedRenderMode(int mode);
+  ///@}
+
   ///@{
   /**
    * Asks which tissue the last picture shows at a pixel, counted from the view's lower left corner;
@@ -57,6 +68,8 @@ protected:
 
   bool AddToView(vtkView* view) override;
 
+  void UpdateMapperParameters() override;
+
   int RequestData(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
@@ -66,6 +79,12 @@ private:
 
   vtkDeformedVolumeMapper* Mapper() const;
 
+  void TellOnce(bool unsupported, const std::string& sentence);
+
+  float GlobalIlluminationReach = 0.0f;
+  float VolumetricScatteringBlending = 0.0f;
+  int RequestedRenderMode = 0;
+  std::set<std::string> Told;
   std::string CountersText;
   double PickedTissue[4] = { 0.0, 0.0, 0.0, 0.0 };
   vtkWeakPointer<vtkRenderer> Renderer; // of the view this representation is shown in

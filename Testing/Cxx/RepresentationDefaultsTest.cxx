@@ -15,6 +15,7 @@ TEST(Defaults, OfDeformedVolumeLiveInTheMapper)
   const Defaults expected{ { "SampleDistance", { mapper->GetSampleDistance() } },
     { "EmptySpaceSkipping", { double(mapper->GetEmptySpaceSkipping()) } },
     { "AdaptiveQuality", { double(mapper->GetAdaptiveQuality()) } },
-    { "PickedPixel", { -1, -1 } }, { "VolumeNormalTexture", { double(mapper->GetNormalTexture()) } } };
+    { "MemoryLimit", { mapper->GetMemoryLimit() } }, { "PickedPixel", { -1, -1 } },
+    { "VolumeNormalTexture", { double(mapper->GetNormalTexture()) } } };
   EXPECT_EQ(defaultsIn("Representations/DeformedVolume.xml"), expected);
 }
