@@ -134,10 +134,11 @@ std::vector<std::string> unsupportedChoices(
     }
   };
   const int components = scalars->GetNumberOfComponents();
-  say(property->GetTransferFunctionMode() == vtkVolumeProperty::TF_2D,
+  const bool twoDimensional = property->GetTransferFunctionMode() == vtkVolumeProperty::TF_2D;
+  say(twoDimensional,
     "Use 2D Transfer Function (UseTransfer2D) is on, which Deformed Volume does not draw: it uses "
     "the colour map and the opacity curve");
-  say(property->HasGradientOpacity(),
+  say(!twoDimensional && property->HasGradientOpacity(),
     "Gradient opacity is on, which Deformed Volume does not draw: it uses the scalar's opacity");
   say(
     !property->GetIndependentComponents() && components != 1 && components != 2 && components != 4,

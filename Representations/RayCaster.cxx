@@ -61,6 +61,7 @@ void setRayUniforms(Program& program, const RayCastScene& scene)
   program.set("farUp", glm::vec3(far.up));
   program.set("clipW", glm::vec2(near.w, far.w));
   program.set("worldFromTexture", glm::mat3(glm::dmat3(scene.worldFromTexture)));
+  program.set("mmFromTexture", glm::vec3(scene.mmFromTexture));
 }
 
 void setSpaceUniforms(Program& program, const RayCastScene& scene)

@@ -41,7 +41,8 @@ struct RayCastScene
   glm::ivec2 size{ 0 }; // pixels
   glm::dmat4 clipFromWorld{ 1.0 };
   glm::dmat4 worldFromTexture{ 1.0 };
-  glm::dvec3 spaceLow{ 0.0 }; // part of the deformed frame tissue can reach
+  glm::dvec3 mmFromTexture{ 1.0 }; // along the volume's axes, before an actor's scale
+  glm::dvec3 spaceLow{ 0.0 };      // part of the deformed frame tissue can reach
   glm::dvec3 spaceHigh{ 1.0 };
   glm::dvec3 movedLow{ 1.0 };  // part of the deformed frame where tissue may have moved;
   glm::dvec3 movedHigh{ 0.0 }; // high below low: none has

@@ -55,8 +55,8 @@ bool Tissue::update(vtkOpenGLRenderWindow* window, const TissueRequest& request,
   {
     return false;
   }
-  const bool newColours =
-    this->Transfer.update(window, request.property, request.stepMm, request.blend, counters);
+  const bool newColours = this->Transfer.update(
+    window, request.property, request.stepMm, request.blend, shown.coloring, counters);
   const std::vector<double> isovalues = isovaluesOf(request.property);
   this->VisibilityChanged = this->VisibilityChanged || newColours ||
     uploads != counters.volumeUploads ||

@@ -51,19 +51,19 @@ double TransferTexture::shift() const
 }
 
 bool TransferTexture::update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* property,
-  double stepMm, Blend blend, Counters& counters)
+  double stepMm, Blend blend, Coloring coloring, Counters& counters)
 {
   vtkColorTransferFunction* color = property->GetRGBTransferFunction();
   vtkPiecewiseFunction* opacity = property->GetScalarOpacity();
   const double unitMm = property->GetScalarOpacityUnitDistance();
   if (this->Texture && this->ColorTime == color->GetMTime() &&
     this->OpacityTime == opacity->GetMTime() && this->StepMm == stepMm && this->UnitMm == unitMm &&
-    this->Blending == blend)
+    this->Blending == blend && this->ColorSource == coloring)
   {
     return false;
   }
-  const double* colorRange = color->GetRange();
   const double* opacityRange = opacity->GetRange();
+  const double* colorRange = coloring == Coloring::Direct ? opacityRange : color->GetRange();
   this->Range[0] = std::min(colorRange[0], opacityRange[0]);
   this->Range[1] = std::max(colorRange[1], opacityRange[1]);
   if (!(this->Range[1] > this->Range[0]))
@@ -96,6 +96,7 @@ bool TransferTexture::update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* p
   this->StepMm = stepMm;
   this->UnitMm = unitMm;
   this->Blending = blend;
+  this->ColorSource = coloring;
   return true;
 }
 

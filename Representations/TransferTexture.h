@@ -23,11 +23,12 @@ public:
   TransferTexture();
   ~TransferTexture();
 
-  // Uploads the maps if they, the unit distance, the step or the blend mode changed. Opacities are
-  // those of a step where samples are blended (composite) or added (additive), else as given.
+  // Uploads the maps if they, the unit distance, the step or a mode changed. Opacities are those of
+  // a step where samples are blended (composite) or added (additive), else as given. Where colours
+  // come from elsewhere (direct), all entries go to the opacity curve.
   // True if they were uploaded.
   bool update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* property, double stepMm,
-    Blend blend, Counters& counters);
+    Blend blend, Coloring coloring, Counters& counters);
 
   // Texture coordinate from scalar: scalar * scale + shift. Beyond the ends the end colours hold.
   double scale() const;
@@ -50,6 +51,7 @@ private:
   double StepMm = 0.0;
   double UnitMm = 0.0;
   Blend Blending = Blend::Composite;
+  Coloring ColorSource = Coloring::Mapped;
   std::vector<int> VisibleBefore; // visible entries with lower indices; one more than entries
   double Range[2] = { 0.0, 1.0 }; // scalars of the first and the last texel
 };

@@ -350,6 +350,7 @@ void vtkDeformedVolumeMapper::DescribeView(vtkRenderer* renderer, vtkVolume* vol
   scene.sceneDepth = state.Depth.texture();
   scene.clipFromWorld = clipFromWorld(renderer);
   scene.worldFromTexture = worldFromTexture(grid, layout, volume->GetMatrix());
+  scene.mmFromTexture = grid.spacing / layout.textureFromGrid;
   scene.lights = lightsOf(renderer);
 }
 

@@ -1,31 +1,32 @@
-// What is cut away of the deformed frame: clipping planes narrow a ray's samples, cropping regions
-// drop samples one by one.
+// What is cut away of the deformed frame: clipping planes narrow a ray's span, cropping regions drop
+// samples one by one.
 
 uniform int clipCount;
 uniform vec4 clipPlanes[MAX_CLIP_PLANES]; // texture coordinates: kept where dot(xyz, p) + w >= 0
 
-// Samples on the kept side of every plane. They keep their numbers, so that skipping stays exact.
-ivec2 clippedSamples(Ray ray, vec2 span, float stepMm, ivec2 samples)
+// First and last t on the kept side of every plane; last < first if there is none. Behind a cut the
+// first sample lies in the middle of its step: numbered from elsewhere, samples would show as rings
+// on the cut face.
+vec2 clippedSpan(Ray ray, vec2 span, float stepMm)
 {
   for (int i = 0; i < clipCount; ++i)
   {
     float height = dot(clipPlanes[i].xyz, ray.start) + clipPlanes[i].w; // at the near plane
     float slope = dot(clipPlanes[i].xyz, ray.direction);                // for each mm
-    float crossing = clamp((-height / slope - span.x) / stepMm, -1e6, 1e6);
-    if (slope > 0.0)
+    if (slope > 0.0 && height < 0.0)
     {
-      samples.x = max(samples.x, int(ceil(crossing)));
+      span.x = max(span.x, 0.5 * stepMm - height / slope);
     }
     else if (slope < 0.0)
     {
-      samples.y = min(samples.y, int(floor(crossing)) + 1);
+      span.y = min(span.y, -height / slope);
     }
     else if (height < 0.0)
     {
-      samples.y = samples.x; // all of the ray lies on the side that goes
+      span.y = -1.0; // all of the ray lies on the side that goes
     }
   }
-  return samples;
+  return span;
 }
 
 bool notClipped(vec3 deformed)

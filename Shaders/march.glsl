@@ -18,9 +18,9 @@ March marchOf(vec2 ndc, int before)
   march.ray = rayOfPixel(ndc);
   march.span = boxSpan(march.ray, spaceLow, spaceHigh);
   march.span.y = min(march.span.y, sceneDistance(march.ray, 0.5 * ndc + 0.5));
-  ivec2 present = presentSamples(march.ray, march.span, stepMm);
-  present.x = max(present.x - before, 0);
-  march.samples = clippedSamples(march.ray, march.span, stepMm, present);
+  march.span = clippedSpan(march.ray, march.span, stepMm);
+  march.samples = presentSamples(march.ray, march.span, stepMm);
+  march.samples.x = max(march.samples.x - before, 0);
   march.moved = movedSamples(march.ray, march.span, stepMm);
   march.first = march.ray.start + march.span.x * march.ray.direction;
   march.stride = stepMm * march.ray.direction;

@@ -41,9 +41,9 @@ void main()
   Ray ray = rayOfPixel(ndc);
   vec2 span = boxSpan(ray, spaceLow, spaceHigh);
   span.y = min(span.y, sceneDistance(ray, 0.5 * ndc + 0.5));
-  // Samples are numbered from the box's edge, whether empty space is skipped or not.
-  ivec2 samples =
-    clippedSamples(ray, span, stepMm, presentSamples(ray, span, stepMm));
+  span = clippedSpan(ray, span, stepMm);
+  // Samples are numbered from the box's edge or a cut, whether empty space is skipped or not.
+  ivec2 samples = presentSamples(ray, span, stepMm);
   ivec2 moved = movedSamples(ray, span, stepMm);
   vec3 first = ray.start + span.x * ray.direction;
   vec3 stride = stepMm * ray.direction;

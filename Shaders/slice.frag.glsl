@@ -11,8 +11,8 @@ void main()
   vec3 deformed = deformedAt(march, number);
   vec3 rest = restAt(march, number);
   vec4 picture = vec4(0.0);
-  // Not numbers of samples but t: a plane along an end of the space is in it.
-  bool reached = t >= march.span.x && t <= march.span.y && notClipped(deformed);
+  vec2 space = boxSpan(march.ray, spaceLow, spaceHigh); // the first sample lies behind a cut
+  bool reached = t >= space.x && t <= march.span.y && notClipped(deformed);
   if (reached && inShownTissue(deformed, rest))
   {
     vec4 probe = probeAt(rest);
