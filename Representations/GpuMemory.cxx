@@ -40,11 +40,11 @@ std::int64_t volumeOf(const glm::ivec3& sides)
   return static_cast<std::int64_t>(sides.x) * sides.y * sides.z;
 }
 
-// One decimal below 10 MiB.
+// One decimal below 100 MiB.
 std::string asMiB(double miB)
 {
   std::ostringstream text;
-  text << (miB < 10.0 ? std::round(10.0 * miB) / 10.0 : std::round(miB));
+  text << (miB < 100.0 ? std::round(10.0 * miB) / 10.0 : std::round(miB));
   return text.str();
 }
 

@@ -49,10 +49,10 @@ constexpr double UnknownMemory = -1.0;
 
 // MiB that can still be allocated, as the driver says (GL_NVX_gpu_memory_info or GL_ATI_meminfo);
 // UnknownMemory where it does not say.
-double freeMemoryMiB(vtkOpenGLRenderWindow* window);
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT double freeMemoryMiB(vtkOpenGLRenderWindow* window);
 
 // Takes back what OpenGL has reported so far. True if it was out of memory.
-bool takeOutOfMemory();
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT bool takeOutOfMemory();
 
 // "40.5 MiB (scalars 4, gradients 16, ...)"
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::string describeNeed(const MemoryNeed& need);
@@ -63,7 +63,7 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::string memoryProblem(
   const MemoryNeed& need, std::int64_t held, double limitMiB, double freeMiB);
 
 // Whether there is memory for what is drawn, as far as one can tell.
-class GpuMemory
+class VTKBRAINSHIFTREPRESENTATIONS_EXPORT GpuMemory
 {
 public:
   // Empty, or one sentence if `need` bytes are not there. `limitMiB` as in memoryProblem.

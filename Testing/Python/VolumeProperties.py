@@ -2,15 +2,15 @@
 # Proves that interpolation, material, unit distance, place and spacing of a bent volume do what they
 # do to the baked one in ParaView's "Volume".
 import numpy
-from brainshift_testing import (load_plugin, mean_difference, picture, run_tests, show_volume,
-                                use_headlight, view_along, volume)
+from brainshift_testing import (load_plugin, mean_difference, run_tests, show_volume, view_along,
+                                volume)
 
 load_plugin()
 from paraview.simple import BakeDeformation, Delete, FreeFormDeformation  # noqa: E402
 from skipping_testing import (MIDDLE as LITTLE_MIDDLE, OBLIQUE, assert_same, bent,  # noqa: E402
                               curves, scattered)
-from stock_testing import (COLORS, MIDDLE, OPACITIES, Bent, assert_alike,  # noqa: E402
-                           assert_like_stock, shown_picture, smooth)
+from stock_testing import (Bent, assert_alike, assert_like_stock,  # noqa: E402
+                           shown_picture, smooth)
 import brainshift  # noqa: E402
 
 PLACES = {
@@ -30,44 +30,23 @@ def properties(**named):
 
 
 def test_nearest_shows_voxels_as_stock_does():
-    random = numpy.random.default_rng(4)
-    source = volume(random.uniform(0, 100, (8, 8, 8)).astype(numpy.float32))
-    opaque = [0, 0, 0.5, 0, 49, 0, 0.5, 0, 51, 1, 0.5, 0, 100, 1, 0.5, 0]
-    images = {}
-    for kind in ("Volume", "Deformed Volume"):
-        for interpolation in ("Nearest", "Linear"):
-            view = view_along((-0.4, 0.2, -1), (3.5, 3.5, 3.5), 30.0, half_height=6.0, size=150)
-            use_headlight(view)
-            display = show_volume(source, view, kind, COLORS, opaque)
-            display.InterpolationType = interpolation
-            images[kind, interpolation] = picture(view)
-            Delete(view)
-    assert_alike("nearest", images["Deformed Volume", "Nearest"], images["Volume", "Nearest"],
-                 images["Volume", "Linear"], limit=0.03)  # edges of voxels, to half a step
-    assert mean_difference(images["Deformed Volume", "Nearest"],
-                           images["Deformed Volume", "Linear"]) > 0.1
+    source = volume(smooth()[::6, ::6, ::6].copy(), spacing=(6.0, 6.0, 6.0))
+    opaque = [0, 0, 0.5, 0, 29, 0, 0.5, 0, 31, 1, 0.5, 0, 100, 1, 0.5, 0]
 
-
-def test_nearest_gradients_are_those_of_the_voxels():
-    # A ramp of large voxels, which light from the eye shows as bright as the same ramp, blended.
-    ramp = numpy.zeros((9, 9, 9), numpy.float32)
-    ramp[:] = 10 * numpy.arange(9)[:, None, None]
-    ramp += 3 * numpy.arange(9)
-    for normals in ("Half resolution", "Full resolution", "On the fly"):
-        seen = {}
-        for interpolation in ("Nearest", "Linear"):
-            view = view_along((0, 0, -1), (4, 4, 4), 30.0, half_height=4.0, size=60)
-            use_headlight(view)
-            display = show_volume(volume(ramp), view, "Deformed Volume",
-                                  [0, 1, 1, 1, 110, 1, 1, 1], [0, 1, 0.5, 0, 110, 1, 0.5, 0],
-                                  shade=True)
-            display.VolumeNormalTexture = normals
-            display.InterpolationType = interpolation
-            seen[interpolation] = picture(view)[30, 20:40, 0]
-            Delete(view)
-        expected = 10 / numpy.hypot(10, 3)
-        assert numpy.allclose(seen["Linear"], expected, atol=0.06), (normals, seen)
-        assert numpy.allclose(seen["Nearest"], expected, atol=0.06), (normals, seen)
+    def shown(kind, interpolation, shade, normals="Full resolution"):
+        return shown_picture(source, kind, properties(
+            InterpolationType=interpolation, SampleDistance=0.5, VolumeNormalTexture=normals),
+            opacities=opaque, shade=shade)
+    assert_alike("nearest", *(shown(kind, interpolation, False) for kind, interpolation in (
+        ("Deformed Volume", "Nearest"), ("Volume", "Nearest"), ("Volume", "Linear"))),
+                 limit=0.01)
+    # Lit, VTK looks for gradients N / (N - 1) voxels away and so finds two in some voxels. Here a
+    # voxel has one, wherever it comes from.
+    lit = shown("Deformed Volume", "Nearest", True)
+    assert_alike("nearest, lit", lit, shown("Volume", "Nearest", True),
+                 shown("Volume", "Linear", True), limit=0.06, control=1.5)
+    on_the_fly = shown("Deformed Volume", "Nearest", True, "On the fly")
+    assert mean_difference(lit, on_the_fly) < 0.001
 
 
 def test_skipping_changes_nothing_with_nearest():
@@ -87,9 +66,9 @@ def test_skipping_changes_nothing_with_nearest():
 def test_each_part_of_the_material():
     blobs = Bent(smooth())
     for name, parts in (("ambient", (0.6, 0.0, 0.0)), ("diffuse", (0.0, 0.7, 0.0)),
-                        ("specular", (0.0, 0.0, 0.8)), ("all", (0.2, 0.5, 0.4))):
+                        ("specular", (0.1, 0.0, 0.8)), ("all", (0.2, 0.5, 0.4))):
         assert_like_stock(name, blobs, properties(
-            Ambient=parts[0], Diffuse=parts[1], Specular=parts[2], SpecularPower=6.0), shade=True,
+            Ambient=parts[0], Diffuse=parts[1], Specular=parts[2], SpecularPower=2.0), shade=True,
             limit=0.008)
 
 
@@ -106,7 +85,7 @@ def test_light_kit():
     def kit(display, view):
         view.UseLight = 1
         view.AdditionalLights = []
-    assert_like_stock("light kit", Bent(smooth()), kit, shade=True, limit=0.008)
+    assert_like_stock("light kit", Bent(smooth()), kit, shade=True, limit=0.012)
 
 
 def test_unit_distances():
