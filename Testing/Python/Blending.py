@@ -155,6 +155,22 @@ def test_skipping_changes_no_mode():
         Delete(dark)
 
 
+def test_what_cannot_be_seen_hides_what_can():
+    # Two slabs with nothing around them, not even numbers between: where the far one, invisible, is
+    # greater, the maximum is invisible. Its bricks are those that skipping would leave out.
+    for mode, near, far in ((MAXIMUM, 0.5, 1.0), (MINIMUM, 0.5, 0.0)):
+        voxels = numpy.full((21, 21, 21), numpy.nan, numpy.float32)
+        voxels[14:] = near
+        voxels[:7, :, :10] = far
+        view = view_along((0, 0, -1), LITTLE_MIDDLE, 70.0, half_height=8.0, size=60)
+        display = show_volume(volume(voxels), view, "Deformed Volume", *curves("band"))
+        display.BlendMode = mode
+        assert_same(view, display, f"{NAMES[mode]} of two slabs")
+        image = picture(view)[30]
+        assert not image[5:20].any() and image[40:55].any(axis=1).all()
+        Delete(view)
+
+
 def test_new_isosurfaces_are_not_skipped():
     # The bricks known are those of the old value, which the new one's surface does not meet.
     view = view_along(OBLIQUE, MIDDLE, 140.0, size=100)
