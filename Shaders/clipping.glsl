@@ -1,5 +1,5 @@
-// What is cut away of the deformed frame: clipping planes narrow a ray's span, cropping regions drop
-// samples one by one.
+// What is cut away of the deformed frame: clipping planes narrow a ray's span, cropping regions
+// drop samples one by one.
 
 uniform int clipCount;
 uniform vec4 clipPlanes[MAX_CLIP_PLANES]; // texture coordinates: kept where dot(xyz, p) + w >= 0

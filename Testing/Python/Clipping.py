@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that clipping planes and cropping regions cut a bent volume where VTK cuts the baked one, and
-# the same bit for bit with empty-space skipping and without.
+# Proves that clipping planes and cropping regions cut a bent volume where VTK cuts the baked one,
+# and the same bit for bit with empty-space skipping and without.
 import numpy
 from brainshift_testing import (assert_says, load_plugin, look, messages, picture, run_tests,
                                 show_volume, view_along, volume)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that interpolation, material, unit distance, place and spacing of a bent volume do what they
-# do to the baked one in ParaView's "Volume".
+# Proves that interpolation, material, unit distance, place and spacing of a bent volume do what
+# they do to the baked one in ParaView's "Volume".
 import numpy
 from brainshift_testing import (load_plugin, mean_difference, run_tests, show_volume, view_along,
                                 volume)

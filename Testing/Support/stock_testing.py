@@ -20,8 +20,8 @@ LARGEST_DIFFERENCE = 0.005  # mean, of full scale, over the object's pixels
 
 
 def smooth(middles=((22, 26, 24, 10.0, 70.0), (32, 18, 28, 6.0, 90.0))):
-    """Gaussian blobs (x, y, z, width, height) in voxels [z, y, x]; no plateau, no edge: nothing that
-    baking or gradients would find differently."""
+    """Gaussian blobs (x, y, z, width, height) in voxels [z, y, x]; no plateau, no edge: nothing
+    that baking or gradients would find differently."""
     z, y, x = numpy.mgrid[0:SIDE, 0:SIDE, 0:SIDE].astype(float)
     values = numpy.zeros((SIDE,) * 3)
     for i, j, k, width, height in middles:
@@ -103,8 +103,8 @@ def assert_alike(what, deformed, baked, unbent, limit=LARGEST_DIFFERENCE, contro
     difference = mean_difference(deformed, baked)
     other = mean_difference(unbent, baked)
     share = object_pixels(baked).mean()
-    print(f"  {what}: differs by {100 * difference:.2f} %, unbent by {100 * other:.2f} %, object on "
-          f"{100 * share:.0f} %", flush=True)
+    print(f"  {what}: differs by {100 * difference:.2f} %, unbent by {100 * other:.2f} %, object "
+          f"on {100 * share:.0f} %", flush=True)
     assert share > 0.03, (what, share)
     assert difference < limit, (what, difference)
     assert other > control * difference, (what, "the unbent volume must be told apart", other)
