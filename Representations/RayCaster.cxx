@@ -61,6 +61,7 @@ void setRayUniforms(Program& program, const RayCastScene& scene)
   program.set("farUp", glm::vec3(far.up));
   program.set("clipW", glm::vec2(near.w, far.w));
   program.set("worldFromTexture", glm::mat3(glm::dmat3(scene.worldFromTexture)));
+  program.set("mmFromTexture", glm::vec3(scene.mmFromTexture));
 }
 
 void setSpaceUniforms(Program& program, const RayCastScene& scene)
@@ -292,6 +293,7 @@ void RayCaster::setUniforms(Program& program, const RayCastScene& scene)
     setLightUniforms(program, scene);
     program.set("fieldTexel", glm::vec3(scene.fieldTexel));
   }
+  setOptionUniforms(program, scene.options);
 }
 
 bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters)
@@ -302,7 +304,10 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
     : !scene.normals            ? RayCastVariant::GradientsOnTheFly
     : scene.packedNormals       ? RayCastVariant::PackedGradients
                                 : RayCastVariant::GradientTexture;
-  Program& program = this->CastPrograms[variant.deformed][variant.light];
+  variant.blend = scene.options.blend;
+  variant.coloring = scene.options.coloring;
+  variant.regions = scene.options.regions;
+  Program& program = this->CastPrograms[variant];
   if (!this->prepareImages(window, scene) ||
     (scene.skipping && !this->findSpans(window, scene, counters)) ||
     !program.use(window, rayCastSource(variant), counters))
@@ -316,8 +321,9 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
     images.attach(1, this->Hits[scene.tile]);
     drawTriangles(1);
   }
-  for (vtkTextureObject* texture : { scene.scalars, scene.offsets, scene.normals, scene.transfer,
-         scene.sceneDepth, scene.presence->map(), this->Spans.Get() })
+  for (vtkTextureObject* texture :
+    { scene.scalars, scene.offsets, scene.normals, scene.transfer, scene.sceneDepth,
+      scene.options.colors, scene.options.colorScalars, scene.presence->map(), this->Spans.Get() })
   {
     if (texture)
     {
@@ -382,12 +388,6 @@ void RayCaster::releaseGraphicsResources(vtkWindow* window)
   }
   this->SpansProgram.forget();
   this->CompositeProgram.forget();
-  for (auto& programs : this->CastPrograms)
-  {
-    for (Program& program : programs)
-    {
-      program.forget();
-    }
-  }
+  this->CastPrograms.clear();
 }
 }

@@ -5,6 +5,7 @@
 
 #include "Counters.h"
 #include "Program.h"
+#include "RayCastOptions.h"
 
 #include "vtkSmartPointer.h"
 
@@ -13,6 +14,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <map>
 #include <vector>
 
 class vtkOpenGLRenderWindow;
@@ -39,7 +41,8 @@ struct RayCastScene
   glm::ivec2 size{ 0 }; // pixels
   glm::dmat4 clipFromWorld{ 1.0 };
   glm::dmat4 worldFromTexture{ 1.0 };
-  glm::dvec3 spaceLow{ 0.0 }; // part of the deformed frame tissue can reach
+  glm::dvec3 mmFromTexture{ 1.0 }; // along the volume's axes, before an actor's scale
+  glm::dvec3 spaceLow{ 0.0 };      // part of the deformed frame tissue can reach
   glm::dvec3 spaceHigh{ 1.0 };
   glm::dvec3 movedLow{ 1.0 };  // part of the deformed frame where tissue may have moved;
   glm::dvec3 movedHigh{ 0.0 }; // high below low: none has
@@ -56,6 +59,7 @@ struct RayCastScene
   glm::dvec2 transferFromScalar{ 1.0, 0.0 }; // stored scalar to transfer coordinate
   glm::dvec4 material{ 0.0, 1.0, 0.0, 1.0 }; // ambient, diffuse, specular, specular power
   RayCastLights lights;
+  RayCastOptions options;
   bool shaded = false;
   bool skipping = true;
   bool tile = false; // the image is a part of a picture larger than the window
@@ -103,7 +107,7 @@ private:
   vtkSmartPointer<vtkTextureObject>
     Hits[2];                               // [tile] first hit, mm; distance from the near plane, mm
   vtkSmartPointer<vtkTextureObject> Spans; // least t, minus greatest t in occupied bricks
-  Program CastPrograms[2][RayCastVariant::LightCount]; // [deformed][light]
+  std::map<RayCastVariant, Program> CastPrograms; // those drawn with so far
   Program SpansProgram;
   Program CompositeProgram;
 };

@@ -70,6 +70,11 @@ bool fitsSixteenBits(vtkDataArray* scalars, int component)
 ScalarTexture::ScalarTexture() = default;
 ScalarTexture::~ScalarTexture() = default;
 
+int ScalarTexture::bytesOf(vtkDataArray* scalars, int component)
+{
+  return fitsSixteenBits(scalars, component) ? 2 : 4;
+}
+
 bool ScalarTexture::update(vtkOpenGLRenderWindow* window, vtkDataArray* scalars,
   const glm::ivec3& dimensions, int component, Counters& counters, std::string& error)
 {

@@ -31,6 +31,9 @@ public:
   bool update(vtkOpenGLRenderWindow* window, vtkDataArray* scalars, const glm::ivec3& dimensions,
     int component, Counters& counters, std::string& error);
 
+  // Bytes that a value takes on the GPU.
+  static int bytesOf(vtkDataArray* scalars, int component);
+
   // Ranges of the stored values, as the shader reads them, in bricks of the volume.
   const BrickRanges& ranges() const { return this->Ranges; }
   // Greatest minus least stored value.

@@ -4,15 +4,13 @@
 #include "DeformableVolume.h"
 #include "DeformedPresence.h"
 #include "FieldTexture.h"
-#include "NormalTexture.h"
+#include "GpuMemory.h"
 #include "RayCaster.h"
-#include "ScalarTexture.h"
 #include "SceneDepth.h"
 #include "SceneGeometry.h"
 #include "SelectionCover.h"
-#include "TransferTexture.h"
+#include "Tissue.h"
 
-#include "vtkColorTransferFunction.h"
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
@@ -31,21 +29,22 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
+#include <vector>
 
 using namespace brainshift;
 
 struct vtkDeformedVolumeMapper::Device
 {
-  ScalarTexture Scalars;
-  TransferTexture Transfer;
+  brainshift::Tissue Tissue;
   FieldTexture Field;
-  brainshift::NormalTexture Normals;
   DeformedPresence Presence;
   PresenceRequest Bricks; // what Presence shows
   SceneDepth Depth;
   RayCaster Caster;
   SelectionCover Cover;
+  GpuMemory Memory;
 
   // The deformation and the unit that Field shows.
   unsigned long long FieldTime = 0;
@@ -69,7 +68,8 @@ struct vtkDeformedVolumeMapper::State
   unsigned long long DeformationTime = 0;
 
   vtkNew<vtkSmartVolumeMapper> Fallback;
-  std::string Reported; // the last trouble told
+  std::string Reported;       // the last trouble told
+  std::set<std::string> Told; // unsupported choices
 };
 
 namespace
@@ -80,23 +80,13 @@ constexpr double InteractiveRate = 1.0;
 constexpr double SmoothRate = 15.0;
 constexpr int LargestImageScale = 4;
 
-// Which number of a tuple the colour map shows; -1: the vector's length.
-int shownComponent(vtkVolumeProperty* property, vtkDataArray* scalars)
-{
-  if (scalars->GetNumberOfComponents() == 1)
-  {
-    return 0;
-  }
-  vtkColorTransferFunction* color = property->GetRGBTransferFunction();
-  return color->GetVectorMode() == vtkScalarsToColors::COMPONENT ? color->GetVectorComponent() : -1;
-}
-
 // Camera and light.
 void describeView(vtkRenderer* renderer, vtkVolume* volume, const Grid& grid,
   const ValueLayout& layout, RayCastScene& scene)
 {
   scene.clipFromWorld = clipFromWorld(renderer);
   scene.worldFromTexture = worldFromTexture(grid, layout, volume->GetMatrix());
+  scene.mmFromTexture = grid.spacing / layout.textureFromGrid;
   scene.lights = lightsOf(renderer);
   const int* tiles = renderer->GetRenderWindow()->GetTileScale();
   scene.tile = tiles[0] * tiles[1] > 1;
@@ -208,7 +198,6 @@ void vtkDeformedVolumeMapper::CoverSelection(vtkRenderer* renderer)
 
 bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem)
 {
-  State& state = *this->Internal;
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   auto image = vtkImageData::SafeDownCast(this->GetDataSetInput());
   if (!window || !image)
@@ -229,20 +218,45 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
     return true; // nothing to draw yet
   }
   this->UpdateDeformation(image);
-  Device& device = state.Devices[window];
-  RayCastScene scene;
   vtkVolumeProperty* property = volume->GetProperty();
-  if (!this->PrepareTissue(window, device, property, scalars, grid, layout, scene, problem) ||
+  this->TellUnsupported(property, scalars);
+  const double smallestSide = std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
+  const TissueRequest tissue{ property, scalars, layout,
+    this->SampleDistance > 0.0 ? this->SampleDistance : 0.5 * smallestSide, blendOf(this, property),
+    static_cast<GradientSource>(this->NormalTexture) };
+  Device& device = this->Internal->Devices[window];
+  takeOutOfMemory(); // what others left behind
+  const bool drawn = this->AskForMemory(renderer, device, tissue, problem) &&
+    this->DrawTissue(renderer, device, volume, tissue, grid, problem);
+  if (takeOutOfMemory())
+  {
+    device.Memory.refuse();
+    return this->AskForMemory(renderer, device, tissue, problem);
+  }
+  return drawn;
+}
+
+bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, vtkVolume* volume,
+  const TissueRequest& tissue, const Grid& grid, std::string& problem)
+{
+  State& state = *this->Internal;
+  auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  const ValueLayout& layout = tissue.layout;
+  RayCastScene scene;
+  if (!device.Tissue.update(window, tissue, scene, state.Count, problem) ||
     !this->PrepareSpace(window, device, grid, layout, scene, problem))
   {
     return false;
   }
+  scene.skipping = this->EmptySpaceSkipping && device.Tissue.skippingIsExact(tissue.blend);
+  describeView(renderer, volume, grid, layout, scene);
+  describeOptions(this, tissue.property, tissue.scalars, device.Tissue.stored(),
+    scene.worldFromTexture, scene.options);
   glm::ivec2 origin;
   glm::ivec2 size;
   renderer->GetTiledSizeAndOrigin(&size.x, &size.y, &origin.x, &origin.y);
   device.Depth.capture(window, origin, size);
   scene.sceneDepth = device.Depth.texture();
-  describeView(renderer, volume, grid, layout, scene);
   state.Count.imageScale = this->ImageScale(window, device, size);
   scene.size = glm::max(size / static_cast<int>(state.Count.imageScale), glm::ivec2(1));
   vtkNew<vtkTimerLog> timer;
@@ -277,72 +291,16 @@ int vtkDeformedVolumeMapper::ImageScale(
   return std::clamp(scale, 1, LargestImageScale);
 }
 
-// Scalars, gradients, colour and opacity.
-bool vtkDeformedVolumeMapper::PrepareTissue(vtkOpenGLRenderWindow* window, Device& device,
-  vtkVolumeProperty* property, vtkDataArray* scalars, const Grid& grid, const ValueLayout& layout,
-  RayCastScene& scene, std::string& problem)
-{
-  State& state = *this->Internal;
-  const auto uploads = state.Count.volumeUploads;
-  if (!device.Scalars.update(window, scalars, layout.dimensions, shownComponent(property, scalars),
-        state.Count, problem))
-  {
-    return false;
-  }
-  const double smallestSide = std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
-  scene.stepMm = this->SampleDistance > 0.0 ? this->SampleDistance : 0.5 * smallestSide;
-  const bool newColours = device.Transfer.update(window, property, scene.stepMm, state.Count);
-  if (newColours || uploads != state.Count.volumeUploads)
-  {
-    this->UpdateVisibility(window, device);
-  }
-  scene.shaded = property->GetShade() != 0;
-  scene.voxel = layout.textureFromGrid;
-  if (scene.shaded && this->NormalTexture != OnTheFly)
-  {
-    using Gradients = brainshift::NormalTexture;
-    const Gradients::Form form = this->NormalTexture == HalfResolution ? Gradients::Half
-      : device.Scalars.sixteenBits()                                   ? Gradients::Packed
-                                                                       : Gradients::Full;
-    if (!device.Normals.update(window, device.Scalars.texture(), layout.dimensions, form,
-          device.Scalars.range(), state.Count))
-    {
-      problem =
-        "The gradients' shader does not compile or their texture cannot be made on this GPU";
-      return false;
-    }
-    scene.normals = device.Normals.texture();
-    scene.packedNormals = device.Normals.packed();
-  }
-  scene.scalars = device.Scalars.texture();
-  scene.transfer = device.Transfer.texture();
-  scene.transferFromScalar = glm::dvec2(device.Scalars.scale() * device.Transfer.scale(),
-    device.Scalars.shift() * device.Transfer.scale() + device.Transfer.shift());
-  scene.material = glm::dvec4(property->GetAmbient(), property->GetDiffuse(),
-    property->GetSpecular(), property->GetSpecularPower());
-  scene.volumeLow = layout.low;
-  scene.volumeHigh = layout.high;
-  return true;
-}
-
-// The rest volume's visibility, after a change of scalars, colour map or opacity.
-void vtkDeformedVolumeMapper::UpdateVisibility(vtkOpenGLRenderWindow* window, Device& device)
-{
-  State& state = *this->Internal;
-  const BrickRanges& ranges = device.Scalars.ranges();
-  const auto visible = [&](const glm::vec2& stored) {
-    return device.Transfer.visible(stored.x * device.Scalars.scale() + device.Scalars.shift(),
-      stored.y * device.Scalars.scale() + device.Scalars.shift());
-  };
-  std::vector<float> summed = summedVisibility(ranges, visible);
-  device.Presence.setVisibility(window, ranges.count, summed, state.Count);
-}
-
 // The offset field and the bricks of the deformed frame.
 bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, Device& device,
   const Grid& grid, const ValueLayout& layout, RayCastScene& scene, std::string& problem)
 {
   State& state = *this->Internal;
+  if (device.Tissue.takeVisibilityChange())
+  {
+    std::vector<float> summed = device.Tissue.summedVisibility();
+    device.Presence.setVisibility(window, device.Tissue.restBricks(), summed, state.Count);
+  }
   scene.spaceLow = layout.low;
   scene.spaceHigh = layout.high;
   IndexBox changed; // nodes of the offset field
@@ -373,13 +331,59 @@ bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, Device
       "The presence map's shader does not compile or its texture cannot be made on this GPU";
     return false;
   }
-  if (this->Cropping && this->CroppingRegionFlags == VTK_CROP_SUBVOLUME)
-  {
-    cropSpace(grid, layout, this->CroppingRegionPlanes, scene);
-  }
+  this->DescribeCropping(grid, layout, scene);
   scene.presence = &device.Presence;
-  scene.skipping = this->EmptySpaceSkipping;
   return true;
+}
+
+// The middle region alone narrows the space; others are asked for at each sample.
+void vtkDeformedVolumeMapper::DescribeCropping(
+  const Grid& grid, const ValueLayout& layout, RayCastScene& scene)
+{
+  if (!this->Cropping)
+  {
+    return;
+  }
+  RayCastOptions& options = scene.options;
+  cropBox(grid, layout, this->CroppingRegionPlanes, options.regionLow, options.regionHigh);
+  if (this->CroppingRegionFlags == VTK_CROP_SUBVOLUME)
+  {
+    scene.spaceLow = glm::max(scene.spaceLow, options.regionLow);
+    scene.spaceHigh = glm::min(scene.spaceHigh, options.regionHigh);
+    return;
+  }
+  options.regions = true;
+  options.regionFlags = this->CroppingRegionFlags;
+}
+
+// Before memory is taken: some drivers end the program when there is none.
+bool vtkDeformedVolumeMapper::AskForMemory(
+  vtkRenderer* renderer, Device& device, const TissueRequest& tissue, std::string& problem)
+{
+  const State& state = *this->Internal;
+  auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  DrawnSizes sizes;
+  addTissueSizes(tissue, sizes);
+  glm::ivec2 origin;
+  renderer->GetTiledSizeAndOrigin(&sizes.pixels.x, &sizes.pixels.y, &origin.x, &origin.y);
+  if (state.Deformed)
+  {
+    sizes.forwardNodes = (state.Request.dimensions - 1) * (state.Request.samples + 1) + 1;
+    sizes.backwardNodes = state.Request.nodes.count;
+  }
+  problem = device.Memory.ask(window, memoryNeed(sizes), this->MemoryLimit);
+  return problem.empty();
+}
+
+void vtkDeformedVolumeMapper::TellUnsupported(vtkVolumeProperty* property, vtkDataArray* scalars)
+{
+  for (const std::string& sentence : unsupportedChoices(this, property, scalars))
+  {
+    if (this->Internal->Told.insert(sentence).second)
+    {
+      vtkWarningMacro(<< sentence << ".");
+    }
+  }
 }
 
 bool vtkDeformedVolumeMapper::Pick(vtkRenderer* renderer, int x, int y, double position[3])
@@ -416,14 +420,20 @@ void vtkDeformedVolumeMapper::DrawUndeformed(
   state.Fallback->SetInputConnection(this->GetInputConnection(0, 0));
   state.Fallback->SetScalarMode(this->ScalarMode);
   state.Fallback->SelectScalarArray(this->ArrayName);
+  const bool blends = this->BlendMode == vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND ||
+    this->BlendMode == vtkVolumeMapper::MINIMUM_INTENSITY_BLEND ||
+    this->BlendMode == vtkVolumeMapper::ADDITIVE_BLEND;
+  state.Fallback->SetBlendMode(blends ? this->BlendMode : vtkVolumeMapper::COMPOSITE_BLEND);
+  state.Fallback->SetCropping(this->Cropping);
+  state.Fallback->SetCroppingRegionFlags(this->CroppingRegionFlags);
+  state.Fallback->SetCroppingRegionPlanes(this->CroppingRegionPlanes);
+  state.Fallback->SetClippingPlanes(this->ClippingPlanes);
   state.Fallback->Render(renderer, volume);
 }
 
 void vtkDeformedVolumeMapper::Device::Release(vtkWindow* window)
 {
-  this->Scalars.releaseGraphicsResources(window);
-  this->Transfer.releaseGraphicsResources(window);
-  this->Normals.releaseGraphicsResources(window);
+  this->Tissue.releaseGraphicsResources(window);
   this->Presence.releaseGraphicsResources(window);
   this->Field.releaseGraphicsResources(window);
   this->Depth.releaseGraphicsResources(window);
@@ -460,5 +470,6 @@ void vtkDeformedVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SampleDistance: " << this->SampleDistance << "\n"
      << indent << "EmptySpaceSkipping: " << this->EmptySpaceSkipping << "\n"
      << indent << "AdaptiveQuality: " << this->AdaptiveQuality << "\n"
+     << indent << "MemoryLimit: " << this->MemoryLimit << "\n"
      << indent << "NormalTexture: " << this->NormalTexture << "\n";
 }

@@ -7,6 +7,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkPVRenderView.h"
 #include "vtkRenderer.h"
+#include "vtkSmartVolumeMapper.h"
 
 vtkStandardNewMacro(vtkDeformedVolumeRepresentation);
 
@@ -46,6 +47,48 @@ void vtkDeformedVolumeRepresentation::SetNormalTexture(int normals)
 void vtkDeformedVolumeRepresentation::SetAdaptiveQuality(bool adaptive)
 {
   this->GetDeformedVolumeMapper()->SetAdaptiveQuality(adaptive);
+}
+
+void vtkDeformedVolumeRepresentation::SetMemoryLimit(double limit)
+{
+  this->GetDeformedVolumeMapper()->SetMemoryLimit(limit);
+}
+
+void vtkDeformedVolumeRepresentation::SetGlobalIlluminationReach(float reach)
+{
+  this->GlobalIlluminationReach = reach;
+}
+
+void vtkDeformedVolumeRepresentation::SetVolumetricScatteringBlending(float blending)
+{
+  this->VolumetricScatteringBlending = blending;
+}
+
+void vtkDeformedVolumeRepresentation::SetRequestedRenderMode(int mode)
+{
+  this->RequestedRenderMode = mode;
+}
+
+void vtkDeformedVolumeRepresentation::TellOnce(bool unsupported, const std::string& sentence)
+{
+  if (unsupported && this->Told.insert(sentence).second)
+  {
+    vtkWarningMacro(<< sentence << ".");
+  }
+}
+
+// Called for a picture, so that only what is shown is told of: ParaView sets the properties that
+// Volume and Deformed Volume share for both.
+void vtkDeformedVolumeRepresentation::UpdateMapperParameters()
+{
+  this->Superclass::UpdateMapperParameters();
+  this->TellOnce(this->GlobalIlluminationReach > 0.0f,
+    "GlobalIlluminationReach is above 0; Deformed Volume draws no shadows");
+  this->TellOnce(this->VolumetricScatteringBlending > 0.0f,
+    "VolumetricScatteringBlending is above 0; Deformed Volume draws no scattered light");
+  this->TellOnce(this->RequestedRenderMode == vtkSmartVolumeMapper::RayCastRenderMode ||
+      this->RequestedRenderMode == vtkSmartVolumeMapper::OSPRayRenderMode,
+    "VolumeRenderingMode asks for software or OSPRay; Deformed Volume draws on the GPU");
 }
 
 bool vtkDeformedVolumeRepresentation::AddToView(vtkView* view)

@@ -14,6 +14,9 @@
 #include "vtkImageVolumeRepresentation.h"
 #include "vtkNew.h" // for the order
 
+#include <set>    // for what was told
+#include <string> // for its sentences
+
 class vtkDeformedVolumeMapper;
 class vtkVolumeOrder;
 
@@ -43,12 +46,24 @@ public:
   /** What draws it in this process. */
   vtkDeformedVolumeMapper* GetDeformedVolumeMapper() const;
 
+  /** Most memory of the GPU to use, MiB. 0 (default): all that the driver gives. */
+  void SetMemoryLimit(double limit);
+
+  ///@{
+  /** Light effects of ParaView's "Volume" that are not drawn: told once if they are asked for. */
+  void SetGlobalIlluminationReach(float reach);
+  void SetVolumetricScatteringBlending(float blending);
+  void SetRequestedRenderMode(int mode);
+  ///@}
+
 protected:
   vtkDeformedVolumeRepresentation();
   ~vtkDeformedVolumeRepresentation() override;
 
   bool AddToView(vtkView* view) override;
   bool RemoveFromView(vtkView* view) override;
+
+  void UpdateMapperParameters() override;
 
   int RequestData(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
@@ -57,7 +72,13 @@ private:
   vtkDeformedVolumeRepresentation(const vtkDeformedVolumeRepresentation&) = delete;
   void operator=(const vtkDeformedVolumeRepresentation&) = delete;
 
+  void TellOnce(bool unsupported, const std::string& sentence);
+
   vtkNew<vtkVolumeOrder> Order;
+  float GlobalIlluminationReach = 0.0f;
+  float VolumetricScatteringBlending = 0.0f;
+  int RequestedRenderMode = 0;
+  std::set<std::string> Told;
 };
 
 #endif

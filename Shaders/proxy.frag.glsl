@@ -8,7 +8,7 @@ uniform vec2 pixelSize; // of one pixel, ndc
 void main()
 {
   Ray ray = rayOfPixel(gl_FragCoord.xy * pixelSize - 1.0);
-  vec3 along = worldFromTexture * (surface - ray.start);
-  float t = dot(along, normalize(worldFromTexture * ray.direction));
+  vec3 along = mmFromTexture * (surface - ray.start);
+  float t = dot(along, normalize(mmFromTexture * ray.direction));
   gl_FragData[0] = vec4(t, -t, 0.0, 0.0);
 }

@@ -35,12 +35,14 @@ vec3 shade(vec3 color, vec4 probe, vec3 deformed, vec3 rest, vec3 towardsEye)
 #endif
 }
 
+#ifdef COMPOSITE
 void main()
 {
   Ray ray = rayOfPixel(ndc);
   vec2 span = boxSpan(ray, spaceLow, spaceHigh);
   span.y = min(span.y, sceneDistance(ray, 0.5 * ndc + 0.5));
-  // Samples are numbered from the box's edge, whether empty space is skipped or not.
+  span = clippedSpan(ray, span, stepMm);
+  // Samples are numbered from the box's edge or a cut, whether empty space is skipped or not.
   ivec2 samples = presentSamples(ray, span, stepMm);
   ivec2 moved = movedSamples(ray, span, stepMm);
   vec3 first = ray.start + span.x * ray.direction;
@@ -57,13 +59,13 @@ void main()
     {
       rest = restFromDeformed(deformed);
     }
-    if (insideVolume(rest))
+    if (insideVolume(rest) && inShownRegion(deformed))
     {
       vec4 probe = probeAt(rest);
       vec4 tissue = tissueOf(probe.a);
       if (tissue.a > 0.0)
       {
-        vec3 color = shade(tissue.rgb, probe, deformed, rest, towardsEye);
+        vec3 color = shade(colorOf(tissue, rest), probe, deformed, rest, towardsEye);
         picture += (1.0 - picture.a) * vec4(color * tissue.a, tissue.a);
         hit = hit < 0.0 && picture.a >= HitOpacity ? max(float(i) - 0.5, 0.0) : hit;
         if (picture.a > OpaqueEnough)
@@ -78,3 +80,4 @@ void main()
     ? vec4(0.0, 0.0, 0.0, -1.0)
     : vec4(worldFromDeformed(first + hit * stride), span.x + hit * stepMm);
 }
+#endif
