@@ -4,6 +4,7 @@
 #define BrainShift_TransferTexture_h
 
 #include "Counters.h"
+#include "RestPresence.h"
 
 #include "vtkSmartPointer.h"
 
@@ -31,8 +32,8 @@ public:
   double scale() const;
   double shift() const;
 
-  // Whether a scalar between two values can have an opacity above 0, as the shader reads the map.
-  bool visible(double least, double greatest) const;
+  // Which values have an opacity above 0, as the shader reads the map; scalar = value * scale + shift.
+  VisibleValues visibleValues(double scale, double shift) const;
 
   vtkTextureObject* texture() const { return this->Texture; }
   void releaseGraphicsResources(vtkWindow* window);

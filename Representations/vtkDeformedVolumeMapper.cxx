@@ -282,11 +282,8 @@ void vtkDeformedVolumeMapper::UpdateVisibility(vtkOpenGLRenderWindow* window)
 {
   State& state = *this->Internal;
   const BrickRanges& ranges = state.Scalars.ranges();
-  const auto visible = [&](const glm::vec2& stored) {
-    return state.Transfer.visible(stored.x * state.Scalars.scale() + state.Scalars.shift(),
-      stored.y * state.Scalars.scale() + state.Scalars.shift());
-  };
-  std::vector<float> summed = summedVisibility(ranges, visible);
+  std::vector<float> summed = summedVisibility(
+    ranges, state.Transfer.visibleValues(state.Scalars.scale(), state.Scalars.shift()));
   state.Presence.setVisibility(window, ranges.count, summed, state.Count);
 }
 
