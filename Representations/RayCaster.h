@@ -87,6 +87,12 @@ public:
   // from the near plane (mm). False where no surface was hit or nothing was cast yet.
   bool hitAt(vtkOpenGLRenderWindow* window, const glm::ivec2& pixel, glm::dvec4& hit);
 
+  // All textures, some of which may be null.
+  std::vector<vtkTextureObject*> textures() const
+  {
+    return { this->Image, this->Hits, this->Spans };
+  }
+
   void releaseGraphicsResources(vtkWindow* window);
 
 private:

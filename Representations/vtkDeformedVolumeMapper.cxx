@@ -9,6 +9,7 @@
 #include "ScalarTexture.h"
 #include "SceneDepth.h"
 #include "SceneGeometry.h"
+#include "TextureMemory.h"
 #include "TransferTexture.h"
 
 #include "vtkColorTransferFunction.h"
@@ -16,6 +17,7 @@
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkOpenGLRenderTimer.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkSmartVolumeMapper.h"
@@ -23,6 +25,7 @@
 #include "vtkTimerLog.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
+#include "vtkWeakPointer.h"
 
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
@@ -44,6 +47,8 @@ struct vtkDeformedVolumeMapper::State
   SceneDepth Depth;
   RayCaster Caster;
   Counters Count;
+  vtkOpenGLRenderTimer FieldTimer;
+  vtkWeakPointer<vtkOpenGLRenderWindow> Window; // whose context holds all of these
 
   // The deformation of the input, as read at DeformationTime.
   bool Deformed = false;
@@ -174,6 +179,7 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
     return false;
   }
   window->MakeCurrent();
+  state.Window = window;
   int cells = 0;
   vtkDataArray* scalars = this->GetScalars(
     image, this->ScalarMode, this->ArrayAccessMode, this->ArrayId, this->ArrayName, cells);
@@ -302,7 +308,10 @@ bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, const 
     if (!state.FieldCurrent || offsetScale != state.Request.offsetScale)
     {
       state.Request.offsetScale = offsetScale;
-      if (!state.Field.update(window, state.Request, state.Count))
+      state.FieldTimer.Start();
+      const bool updated = state.Field.update(window, state.Request, state.Count);
+      state.FieldTimer.Stop();
+      if (!updated)
       {
         problem = "The deformation's shaders do not compile or its 3D float textures cannot be "
                   "made on this GPU";
@@ -392,13 +401,38 @@ void vtkDeformedVolumeMapper::ReleaseGraphicsResources(vtkWindow* window)
   state.Field.releaseGraphicsResources(window);
   state.Depth.releaseGraphicsResources(window);
   state.Caster.releaseGraphicsResources(window);
+  state.FieldTimer.ReleaseGraphicsResources();
   state.FieldCurrent = false;
+  state.Window = nullptr;
   state.Fallback->ReleaseGraphicsResources(window);
   this->Superclass::ReleaseGraphicsResources(window);
 }
 
-const Counters& vtkDeformedVolumeMapper::GetCounters() const
+// Asked for here and not in every frame: the driver's answers may make it wait for the GPU.
+void vtkDeformedVolumeMapper::AskTheGpu()
 {
+  State& state = *this->Internal;
+  if (!state.Window)
+  {
+    return;
+  }
+  state.Window->MakeCurrent();
+  state.Count.gpuScalarBytes = textureBytes(state.Scalars.texture());
+  state.Count.gpuOtherBytes = state.Presence.faceBytes() +
+    textureBytes({ { state.Transfer.texture(), state.Normals.texture(), state.Depth.texture() },
+      state.Field.textures(), state.Presence.textures(), state.Caster.textures() });
+  if (state.FieldTimer.Stopped() && state.FieldTimer.Ready())
+  {
+    constexpr std::int64_t nanosecondsInMicrosecond = 1000;
+    state.Count.gpuFieldMicroseconds =
+      static_cast<std::int64_t>(state.FieldTimer.GetElapsedNanoseconds()) /
+      nanosecondsInMicrosecond;
+  }
+}
+
+const Counters& vtkDeformedVolumeMapper::GetCounters()
+{
+  this->AskTheGpu();
   return this->Internal->Count;
 }
 

@@ -92,8 +92,8 @@ public:
   double* GetBounds() VTK_SIZEHINT(6) override;
   ///@}
 
-  /** What was done since the mapper was made. */
-  const brainshift::Counters& GetCounters() const;
+  /** What was done since the mapper was made, and what it holds on the GPU now. */
+  const brainshift::Counters& GetCounters();
 
 protected:
   vtkDeformedVolumeMapper();
@@ -107,6 +107,7 @@ private:
   bool Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem);
   void DrawUndeformed(vtkRenderer* renderer, vtkVolume* volume, const std::string& problem);
 
+  void AskTheGpu();
   int ImageScale(vtkOpenGLRenderWindow* window, const glm::ivec2& size) const;
   void UpdateDeformation(vtkImageData* image);
   bool PrepareTissue(vtkOpenGLRenderWindow* window, vtkVolumeProperty* property,

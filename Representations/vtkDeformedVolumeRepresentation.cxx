@@ -69,7 +69,9 @@ const char* vtkDeformedVolumeRepresentation::GetCounters()
        << "\nlatticeUploads " << count.latticeUploads << "\ntransferUploads "
        << count.transferUploads << "\nbytesUploaded " << count.bytesUploaded << "\ntexelsRefined "
        << count.texelsRefined << "\npresenceUpdates " << count.presenceUpdates << "\nimageScale "
-       << count.imageScale << "\nprogramsCompiled " << count.programsCompiled;
+       << count.imageScale << "\nprogramsCompiled " << count.programsCompiled << "\ngpuScalarBytes "
+       << count.gpuScalarBytes << "\ngpuOtherBytes " << count.gpuOtherBytes
+       << "\ngpuFieldMicroseconds " << count.gpuFieldMicroseconds;
   this->CountersText = text.str();
   return this->CountersText.c_str();
 }
