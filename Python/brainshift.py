@@ -114,9 +114,22 @@ def pick(representation, view, x, y):
     return tuple(position) if found else None
 
 
+def _numbers(representation):
+    lines = _told(_report(representation), "Counters").GetElement(0).splitlines()
+    return {name: int(number) for name, number in (line.split() for line in lines)}
+
+
 def counters(representation):
     """What the Deformed Volume renderer of a representation did since it was made, as a dict:
     frames, volumeUploads, latticeUploads, transferUploads, bytesUploaded, texelsRefined,
     presenceUpdates, imageScale (screen pixels a side for one drawn), programsCompiled."""
-    lines = _told(_report(representation), "Counters").GetElement(0).splitlines()
-    return {name: int(number) for name, number in (line.split() for line in lines)}
+    numbers = _numbers(representation)
+    return {name: number for name, number in numbers.items() if not name.startswith("gpu")}
+
+
+def gpu(representation):
+    """How things are on the GPU, as a dict: gpuScalarBytes (the volume's scalars), gpuOtherBytes (all
+    other textures and buffers, those as large as the picture included), gpuFieldMicroseconds (its last
+    run from control points to offset field; 0 where the driver does not tell)."""
+    numbers = _numbers(representation)
+    return {name: number for name, number in numbers.items() if name.startswith("gpu")}

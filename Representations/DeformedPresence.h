@@ -59,6 +59,10 @@ public:
   int faces() const { return this->Faces; }
   int occupied() const { return this->Occupied; }
 
+  // All textures, some of which may be null, and the bytes of the faces on the GPU.
+  std::vector<vtkTextureObject*> textures() const { return { this->Summed, this->Map }; }
+  std::int64_t faceBytes() const;
+
   void releaseGraphicsResources(vtkWindow* window);
 
 private:

@@ -96,6 +96,12 @@ public:
   // What hitAt reads, texel by texel. Null if nothing was cast yet.
   vtkTextureObject* hits() const { return this->Hits[false]; }
 
+  // All textures, some of which may be null.
+  std::vector<vtkTextureObject*> textures() const
+  {
+    return { this->Image, this->Hits[false], this->Hits[true], this->Spans };
+  }
+
   void releaseGraphicsResources(vtkWindow* window);
 
 private:

@@ -52,7 +52,13 @@ public:
 private:
   bool upload(vtkOpenGLRenderWindow* window, vtkDataArray* scalars, const glm::ivec3& dimensions,
     int component, Counters& counters);
-  void keepRanges(const BrickRanges& ranges, float shaderFromStored);
+  bool uploadFloats(
+    vtkDataArray* scalars, const glm::ivec3& dimensions, int component, Counters& counters);
+  bool uploadSixteenBits(
+    vtkDataArray* scalars, const glm::ivec3& dimensions, int component, Counters& counters);
+  template <typename Stored>
+  bool create(Stored* stored, int type, float shaderFromStored, const glm::ivec3& dimensions,
+    Counters& counters);
 
   vtkSmartPointer<vtkTextureObject> Texture;
   vtkWeakPointer<vtkDataArray> Uploaded;

@@ -141,22 +141,34 @@ bool Tissue::updateGradients(vtkOpenGLRenderWindow* window, const TissueRequest&
 
 std::vector<float> Tissue::summedVisibility() const
 {
-  // The filter's rounding may find a surface where no voxel reaches its value.
-  const double rounding = 1e-5 * this->Scalars.range() * this->Scalars.scale();
-  const auto visible = [&](const glm::vec2& stored) {
-    const double least = stored.x * this->Scalars.scale() + this->Scalars.shift();
-    const double greatest = stored.y * this->Scalars.scale() + this->Scalars.shift();
-    if (this->VisibleBlend != Blend::Isosurface)
+  const VisibleValues mapped =
+    this->Transfer.visibleValues(this->Scalars.scale(), this->Scalars.shift());
+  if (this->VisibleBlend != Blend::Isosurface)
+  {
+    return brainshift::summedVisibility(this->Scalars.ranges(), mapped);
+  }
+  std::vector<double> surfaces; // visible isovalues, as stored
+  for (const double isovalue : this->VisibleIsovalues)
+  {
+    const double stored = (isovalue - this->Scalars.shift()) / this->Scalars.scale();
+    if (mapped(glm::vec2(stored)))
     {
-      return this->Transfer.visible(least, greatest);
+      surfaces.push_back(stored);
     }
-    return std::any_of(
-      this->VisibleIsovalues.begin(), this->VisibleIsovalues.end(), [&](double value) {
-        return value >= least - rounding && value <= greatest + rounding &&
-          this->Transfer.visible(value, value);
-      });
+  }
+  // The filter's rounding may find a surface where no voxel reaches its value.
+  const double rounding = 1e-5 * this->Scalars.range();
+  const auto visible = [&](const glm::vec2& range) {
+    return std::any_of(surfaces.begin(), surfaces.end(),
+      [&](double stored) { return stored >= range.x - rounding && stored <= range.y + rounding; });
   };
   return brainshift::summedVisibility(this->Scalars.ranges(), visible);
+}
+
+std::vector<vtkTextureObject*> Tissue::otherTextures() const
+{
+  return { this->ColorScalars.texture(), this->Colors.texture(), this->Transfer.texture(),
+    this->Normals.texture() };
 }
 
 bool Tissue::skippingIsExact(Blend blend) const

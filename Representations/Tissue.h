@@ -20,6 +20,7 @@
 
 class vtkDataArray;
 class vtkOpenGLRenderWindow;
+class vtkTextureObject;
 class vtkVolumeProperty;
 class vtkWindow;
 
@@ -60,6 +61,9 @@ public:
 
   // Whether samples that cannot be seen leave a picture as it is: not where they count all the same.
   bool skippingIsExact(Blend blend) const;
+
+  vtkTextureObject* scalars() const { return this->Scalars.texture(); }
+  std::vector<vtkTextureObject*> otherTextures() const; // null: not in use
 
   StoredScalar stored() const { return { this->Scalars.scale(), this->Scalars.shift() }; }
 

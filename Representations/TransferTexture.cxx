@@ -100,16 +100,14 @@ bool TransferTexture::update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* p
   return true;
 }
 
-bool TransferTexture::visible(double least, double greatest) const
+VisibleValues TransferTexture::visibleValues(double scale, double shift) const
 {
-  // The entries the texture may answer with, and one more to either side for rounding.
-  const auto entry = [this](double scalar) {
-    return (scalar * this->scale() + this->shift()) * Entries - 0.5;
-  };
-  const double last = Entries - 1.0;
-  const int from = static_cast<int>(std::clamp(std::floor(entry(least)) - 1.0, 0.0, last));
-  const int to = static_cast<int>(std::clamp(std::ceil(entry(greatest)) + 1.0, 0.0, last));
-  return this->VisibleBefore[to + 1] > this->VisibleBefore[from];
+  VisibleValues visible;
+  visible.entries = Entries;
+  visible.before = this->VisibleBefore;
+  visible.entryFromValue = scale * this->scale() * Entries;
+  visible.entryOfValueZero = (shift * this->scale() + this->shift()) * Entries - 0.5;
+  return visible;
 }
 
 bool TransferTexture::visibleUpwards() const

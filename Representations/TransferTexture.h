@@ -4,6 +4,7 @@
 #define BrainShift_TransferTexture_h
 
 #include "Counters.h"
+#include "RestPresence.h"
 #include "ShaderSource.h"
 
 #include "vtkSmartPointer.h"
@@ -34,8 +35,8 @@ public:
   double scale() const;
   double shift() const;
 
-  // Whether a scalar between two values can have an opacity above 0, as the shader reads the map.
-  bool visible(double least, double greatest) const;
+  // Which values have an opacity above 0, as the shader reads the map; scalar = value * scale + shift.
+  VisibleValues visibleValues(double scale, double shift) const;
 
   // Whether no invisible scalar lies above a visible one; below.
   bool visibleUpwards() const;

@@ -9,12 +9,14 @@
 #include "SceneDepth.h"
 #include "SceneGeometry.h"
 #include "SelectionCover.h"
+#include "TextureMemory.h"
 #include "Tissue.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkOpenGLRenderTimer.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkSmartVolumeMapper.h"
@@ -22,6 +24,7 @@
 #include "vtkTimerLog.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
+#include "vtkWeakPointer.h"
 
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
@@ -45,6 +48,8 @@ struct vtkDeformedVolumeMapper::Device
   RayCaster Caster;
   SelectionCover Cover;
   GpuMemory Memory;
+  vtkOpenGLRenderTimer FieldTimer;
+  vtkWeakPointer<vtkOpenGLRenderWindow> Window; // whose context holds all of these
 
   // The deformation and the unit that Field shows.
   unsigned long long FieldTime = 0;
@@ -225,6 +230,7 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
     this->SampleDistance > 0.0 ? this->SampleDistance : 0.5 * smallestSide, blendOf(this, property),
     static_cast<GradientSource>(this->NormalTexture) };
   Device& device = this->Internal->Devices[window];
+  device.Window = window;
   takeOutOfMemory(); // what others left behind
   const bool drawn = this->AskForMemory(renderer, device, tissue, problem) &&
     this->DrawTissue(renderer, device, volume, tissue, grid, problem);
@@ -311,7 +317,10 @@ bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, Device
     if (device.FieldTime != state.DeformationTime || device.OffsetScale != offsetScale)
     {
       state.Request.offsetScale = offsetScale;
-      if (!device.Field.update(window, state.Request, state.Count))
+      device.FieldTimer.Start();
+      const bool updated = device.Field.update(window, state.Request, state.Count);
+      device.FieldTimer.Stop();
+      if (!updated)
       {
         problem = "The deformation's shaders do not compile or its 3D float textures cannot be "
                   "made on this GPU";
@@ -438,6 +447,7 @@ void vtkDeformedVolumeMapper::Device::Release(vtkWindow* window)
   this->Field.releaseGraphicsResources(window);
   this->Depth.releaseGraphicsResources(window);
   this->Caster.releaseGraphicsResources(window);
+  this->FieldTimer.ReleaseGraphicsResources();
   this->Cover.releaseGraphicsResources();
 }
 
@@ -459,8 +469,36 @@ void vtkDeformedVolumeMapper::ReleaseGraphicsResources(vtkWindow* window)
   this->Superclass::ReleaseGraphicsResources(window);
 }
 
-const Counters& vtkDeformedVolumeMapper::GetCounters() const
+// Asked for here and not in every frame: the driver's answers may make it wait for the GPU.
+void vtkDeformedVolumeMapper::AskTheGpu()
 {
+  Counters& count = this->Internal->Count;
+  count.gpuScalarBytes = 0;
+  count.gpuOtherBytes = 0;
+  for (auto& [key, device] : this->Internal->Devices)
+  {
+    if (!device.Window)
+    {
+      continue;
+    }
+    device.Window->MakeCurrent();
+    count.gpuScalarBytes += textureBytes(device.Tissue.scalars());
+    count.gpuOtherBytes += device.Presence.faceBytes() +
+      textureBytes({ device.Tissue.otherTextures(), { device.Depth.texture() },
+        device.Field.textures(), device.Presence.textures(), device.Caster.textures() });
+    if (device.FieldTimer.Stopped() && device.FieldTimer.Ready())
+    {
+      constexpr std::int64_t nanosecondsInMicrosecond = 1000;
+      count.gpuFieldMicroseconds =
+        static_cast<std::int64_t>(device.FieldTimer.GetElapsedNanoseconds()) /
+        nanosecondsInMicrosecond;
+    }
+  }
+}
+
+const Counters& vtkDeformedVolumeMapper::GetCounters()
+{
+  this->AskTheGpu();
   return this->Internal->Count;
 }
 

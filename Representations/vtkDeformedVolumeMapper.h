@@ -105,8 +105,8 @@ public:
   double* GetBounds() VTK_SIZEHINT(6) override;
   ///@}
 
-  /** What was done since the mapper was made. */
-  const brainshift::Counters& GetCounters() const;
+  /** What was done since the mapper was made, and what it holds on the GPU now. */
+  const brainshift::Counters& GetCounters();
 
 protected:
   vtkDeformedVolumeMapper();
@@ -129,6 +129,7 @@ private:
   void TellUnsupported(vtkVolumeProperty* property, vtkDataArray* scalars);
   bool AskForMemory(vtkRenderer* renderer, Device& device, const brainshift::TissueRequest& tissue,
     std::string& problem);
+  void AskTheGpu();
   int ImageScale(vtkOpenGLRenderWindow* window, const Device& device, const glm::ivec2& size) const;
   void UpdateDeformation(vtkImageData* image);
   bool PrepareSpace(vtkOpenGLRenderWindow* window, Device& device, const brainshift::Grid& grid,

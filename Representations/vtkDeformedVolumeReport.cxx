@@ -64,7 +64,9 @@ const char* vtkDeformedVolumeReport::GetCounters()
        << "\nlatticeUploads " << count.latticeUploads << "\ntransferUploads "
        << count.transferUploads << "\nbytesUploaded " << count.bytesUploaded << "\ntexelsRefined "
        << count.texelsRefined << "\npresenceUpdates " << count.presenceUpdates << "\nimageScale "
-       << count.imageScale << "\nprogramsCompiled " << count.programsCompiled;
+       << count.imageScale << "\nprogramsCompiled " << count.programsCompiled << "\ngpuScalarBytes "
+       << count.gpuScalarBytes << "\ngpuOtherBytes " << count.gpuOtherBytes
+       << "\ngpuFieldMicroseconds " << count.gpuFieldMicroseconds;
   this->Counters = text.str();
   return this->Counters.c_str();
 }

@@ -44,7 +44,7 @@ public:
    */
   double* GetTissue() VTK_SIZEHINT(4);
 
-  /** What the renderer did since it was made (Counters.h): lines of a name, a space, a number. */
+  /** What the renderer did since it was made, and holds on the GPU (Counters.h): lines of a name, a space, a number. */
   const char* GetCounters();
 
 protected:

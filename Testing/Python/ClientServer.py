@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that a server that draws sends the picture of the built-in session, pixel by pixel, and that
-# brainshift.pick and brainshift.counters answer for what the server drew.
+# brainshift.pick, counters and gpu answer for what the server drew.
 import contextlib
 import gc
 import os
@@ -39,7 +39,11 @@ class Shown:
         """The picture, the tissue at some pixels, and the counters."""
         drawn = picture(self.view)
         return (drawn, [brainshift.pick(self.display, self.view, *pixel) for pixel in PIXELS],
-                brainshift.counters(self.display))
+                {**brainshift.counters(self.display), **self.memory()})
+
+    def memory(self):
+        return {name: number for name, number in brainshift.gpu(self.display).items()
+                if name.endswith("Bytes")}
 
     def all_answers(self):
         """First drawn; then after another stroke."""
@@ -103,6 +107,7 @@ def test_the_built_in_session_has_something_to_compare():
     assert moved_tissue != tissue
     assert counts["latticeUploads"] == 1 and moved_counts["latticeUploads"] == 2, moved_counts
     assert counts["volumeUploads"] == moved_counts["volumeUploads"] == 1, moved_counts
+    assert counts["gpuScalarBytes"] > 0 and counts["gpuOtherBytes"] > 0, counts
 
 
 def test_a_server_that_finds_the_plugin_by_itself():
