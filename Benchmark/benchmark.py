@@ -2,10 +2,11 @@
 """Measures BrainShift beside ParaView's own volume rendering, both in one process.
 
     ./brainshift bench [--quick] [--sizes 128 256 512] [--lattices 9 19 37] [--windows 512 1024]
-                       [--repetitions 5]
+                       [--rounds 5] [--seconds 15]
 
-Prints a table and writes bench-output/benchmark.json and a plot. The reference case is the sample
-MRI on 256x256x150 voxels of 1 mm, uint8, a 19x19x19 lattice, 4 samples, one stamp of 20 mm.
+Prints tables, the last one beside the floors and goals of targets.py, and writes
+bench-output/benchmark.json and a plot. The reference case is the sample MRI on 256x256x150 voxels of
+1 mm, uint8, a 19x19x19 lattice, 4 samples, one stamp of 20 mm.
 
 What makes it fair
 - One view, one camera, one window, one headlight: all sides are drawn by the same vtkRenderer.
@@ -13,8 +14,9 @@ What makes it fair
   volume. ParaView's own representation has a property of its own, set alike.
 - One step. ParaView's "Volume" adjusts its sample distance and does not expose it, so "stock" is
   VTK's GPU mapper, which ParaView's representation uses inside, put into the same renderer with
-  automatic adjustment, the lock to the spacing and jitter switched off, at our half-voxel step.
-  "ParaView's Volume" is the representation as a user gets it. Both are measured.
+  automatic adjustment, the lock to the spacing and jitter switched off, at our half-voxel step, and
+  once more at VTK's default step of a voxel. "ParaView's Volume" is the representation as a user
+  gets it.
 - The headlight is the one light under which VTK's mapper turns normals rightly (ARCHITECTURE.md).
 - The pictures are compared, and their mean difference is printed.
 - Sides are run in turn, round by round, so that other work on the machine hits all of them. A
@@ -22,10 +24,12 @@ What makes it fair
 - Ours draws the bent volume; stock draws the volume as loaded, or bent by vtkImageReslice with
   vtkBSplineTransform, or bent by Bake Deformation beforehand. ParaView holds vtkImageReslice to one
   thread; here it gets as many as llvmpipe, so a user of ParaView waits longer than shown.
+- GPU memory is what the driver says it gave each texture. The offset field's time is the GPU's own.
 
 "CPU" is the processor time of all threads, "quiet" the same divided by the number of rendering
 threads: about what the clock would show on a quiet machine, where llvmpipe does the work and spreads
 it evenly. What runs on one thread needs up to all of "CPU". Where a GPU draws both mean nothing.
+Targets are judged by the clock and once more by "quiet", which on a busy machine is the one to read.
 """
 
 import argparse
@@ -35,28 +39,47 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 import numpy  # noqa: E402
-from measure import Side, interleaved  # noqa: E402
+from measure import Side, Times, interleaved  # noqa: E402
 from report import Report, header  # noqa: E402
-from scene import OPACITIES, SAMPLES, Scene, load_plugin, mean_difference  # noqa: E402
+from scene import OPACITIES, Scene, load_plugin, mean_difference  # noqa: E402
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
 
 REFERENCE = (256, 256, 150)
 NORMALS = ("Full resolution", "Half resolution", "On the fly")
+OURS, SAME_STEP = "ours, bent", "stock, same step, as loaded"
+COARSE = "stock, one-voxel step, as loaded"
+FULL, DRAGGING = "ours, full quality", "ours, as while dragging"
+RESLICED = "vtkImageReslice, vtkBSplineTransform, upload, stock"
+BAKE, RESLICE = "Bake Deformation", "vtkImageReslice, vtkBSplineTransform"
+FILTER, ALL_BUT_RAYS = "ours: stroke, lattice (filter alone)", "ours: the same, fields, presence, 32x32"
+AFTER_A_STROKE, ALL_OF_IT = "ours, after a stroke", "ours, all of it"
+
+
+def ratio_of(rows, ours, theirs):
+    """How many times as fast ours is, by the clock and by processor time."""
+    return (rows[theirs]["median"] / rows[ours]["median"],
+            rows[theirs]["quiet"] / rows[ours]["quiet"])
 
 
 class Benchmark:
-    """The comparisons for one scene."""
+    """The comparisons for one scene. `reference`: its measurements are held against the targets."""
 
-    def __init__(self, scene, report, repetitions):
-        self.scene, self.report, self.repetitions = scene, report, repetitions
+    def __init__(self, scene, report, options, reference):
+        self.scene, self.report, self.options = scene, report, options
+        self.reference = reference
         self.about = {"dimensions": scene.dimensions, "voxels": int(numpy.prod(scene.dimensions)),
                       "lattice": scene.lattice}
 
-    def _measure(self, title, window, sides):
-        self.report.group(title, {**self.about, "window": window},
-                          interleaved(sides, self.repetitions))
+    def _measure(self, kind, window, sides):
+        return self.report.group(
+            kind, f"{kind}, {window}x{window}", {**self.about, "window": window},
+            interleaved(sides, self.options.rounds, self.options.seconds))
+
+    def _target(self, key, value, quiet=None, window=None):
+        if self.reference:
+            self.report.target(key, value, quiet, window)
 
     def _shown(self, text, name, **properties):
         """A side that draws one steady frame; properties are those of our representation."""
@@ -70,44 +93,50 @@ class Benchmark:
 
         return Side(text, self.scene.frame, prepare)
 
-    def memory(self):
-        """Computed from the formats of the textures, for the offset field over the lattice alone
-        (tissue that leaves the box adds to it); drivers do not tell."""
-        voxels, points = self.about["voxels"], self.scene.lattice
-        nodes = (points - 1) * (SAMPLES + 1) + 1
-        passes = nodes * points ** 2 + nodes ** 2 * points + 2 * nodes ** 3
-        parts = {"gradients": 8 * voxels, "field": 16 * passes, "visibility": voxels // 2}
-        share = sum(parts.values()) / (4 * voxels)
-        text = ", ".join(f"{name} {size / 2 ** 20:.1f} MiB" for name, size in parts.items())
-        self.report.fact(f"GPU memory beyond the scalars, computed: {text}; {share:.2f} times the "
-                         "volume as float", share=share, **parts)
+    def memory(self, window):
+        self.scene.use("opaque", window)
+        self.scene.frame()
+        gpu = brainshift.gpu(self.scene.ours)
+        share = gpu["gpuOtherBytes"] / (4 * self.about["voxels"])
+        self.report.fact(f"GPU memory: scalars {gpu['gpuScalarBytes'] / 2 ** 20:.1f} MiB, all else "
+                         f"{gpu['gpuOtherBytes'] / 2 ** 20:.1f} MiB, {share:.2f} times the volume as "
+                         "float", **self.about, share=share, scalars=gpu["gpuScalarBytes"],
+                         others=gpu["gpuOtherBytes"])
+        self._target("memory", share)
 
     def frames(self, opacities, window, everything):
         self.scene.use(opacities, window)
-        sides = [self._shown("ours, bent", "ours"),
-                 self._shown("stock, same step, as loaded", "stock")]
+        sides = [self._shown(OURS, "ours"), self._shown(SAME_STEP, "stock")]
+        if self.reference:
+            sides += [self._shown(COARSE, "stock coarse")]
         if everything:
             sides += [self._shown("ParaView's Volume, its own step, as loaded", "own"),
                       self._shown("stock, same step, baked beforehand", "stock baked")]
-        self._measure(f"steady frame, {opacities}, {window}x{window}", window, sides)
+        rows = self._measure(f"steady frame, {opacities}", window, sides)
+        self._target(f"frame {opacities}", *ratio_of(rows, OURS, SAME_STEP), window=window)
+        if self.reference:
+            self._target(f"coarse {opacities}", *ratio_of(rows, OURS, COARSE), window=window)
 
-    def skipping(self, opacities, window):
-        self.scene.use(opacities, window)
-        sides = [self._shown("ours, skipping on", "ours", EmptySpaceSkipping=1),
-                 self._shown("ours, skipping off", "ours", EmptySpaceSkipping=0)]
-        self._measure(f"skipping, {opacities}, {window}x{window}", window, sides)
-        self.scene.ours.EmptySpaceSkipping = 0
-        without = self.scene.picture()
-        self.scene.ours.EmptySpaceSkipping = 1
-        differing = int((self.scene.picture() != without).any(axis=2).sum())
+    def skipping(self, window):
+        differing = 0
+        for opacities in OPACITIES:
+            self.scene.use(opacities, window)
+            sides = [self._shown("ours, skipping on", "ours", EmptySpaceSkipping=1),
+                     self._shown("ours, skipping off", "ours", EmptySpaceSkipping=0)]
+            self._measure(f"skipping, {opacities}", window, sides)
+            self.scene.ours.EmptySpaceSkipping = 0
+            without = self.scene.picture()
+            self.scene.ours.EmptySpaceSkipping = 1
+            differing += int((self.scene.picture() != without).any(axis=2).sum())
         self.report.fact(f"pixels that differ with skipping on and off: {differing}",
                          differing=differing)
+        self._target("skipping", differing)
 
     def normals(self, opacities, window):
         self.scene.use(opacities, window)
         sides = [self._shown(f"ours, normals: {mode.lower()}", "ours", VolumeNormalTexture=mode)
                  for mode in NORMALS]
-        self._measure(f"normals, {opacities}, {window}x{window}", window, sides)
+        self._measure(f"normals, {opacities}", window, sides)
         self.scene.ours.VolumeNormalTexture = NORMALS[0]
 
     def pictures(self, opacities, window):
@@ -132,14 +161,10 @@ class Benchmark:
         """From a changed stroke to the picture; the stock way resamples, uploads and draws."""
         scene = self.scene
         scene.use("opaque", window)
-        counted = {}
 
         def ours():
-            before = brainshift.counters(scene.ours)
             scene.edit()
             scene.frame()
-            after = brainshift.counters(scene.ours)
-            counted.update({name: after[name] - before[name] for name in after})
 
         def dragging():
             scene.edit()
@@ -150,13 +175,31 @@ class Benchmark:
             scene.edit_coefficients()
             scene.frame()
 
-        sides = [Side("ours, full quality", ours, lambda: scene.show("ours")),
-                 Side("ours, as while dragging", dragging, lambda: scene.show("ours")),
-                 Side("vtkImageReslice, vtkBSplineTransform, upload, stock", stock,
-                      lambda: scene.show("stock resliced"))]
-        self._measure(f"edit to picture, opaque, {window}x{window}", window, sides)
+        sides = [Side(FULL, ours, lambda: scene.show("ours")),
+                 Side(DRAGGING, dragging, lambda: scene.show("ours")),
+                 Side(RESLICED, stock, lambda: scene.show("stock resliced"), warm=False)]
+        rows = self._measure("edit to picture, opaque", window, sides)
+        self._count_an_edit(ours, dragging)
+        if window == self.options.windows[0]:
+            self._target("edit", rows[FULL]["median"], rows[FULL]["quiet"], window)
+        if window == self.options.windows[-1]:
+            self._target("edit ratio", *ratio_of(rows, FULL, RESLICED), window=window)
+            self._target("drag", *(1000.0 / max(rows[DRAGGING][time], 1e-9)
+                                   for time in ("median", "quiet")), window=window)
+
+    def _count_an_edit(self, ours, dragging):
+        self.scene.show("ours")
+        before = brainshift.counters(self.scene.ours)
+        ours()
+        after = brainshift.counters(self.scene.ours)
+        dragging()
+        counted = {name: after[name] - before[name] for name in after
+                   if name != "imageScale" and after[name] != before[name]}
+        scale = brainshift.counters(self.scene.ours)["imageScale"]
         self.report.fact("one edit: " + ", ".join(f"{name} {number}"
-                                                  for name, number in counted.items()), **counted)
+                                                  for name, number in counted.items()) +
+                         f"; while dragging {scale} pixels a side for one drawn",
+                         imageScale=scale, **counted)
 
     def resampling(self, window):
         """A picture of 32x32 costs next to nothing to draw: what is left is all but the rays."""
@@ -171,79 +214,116 @@ class Benchmark:
             scene.edit()
             scene.frame()
 
-        sides = [Side("ours: stroke, lattice (filter alone)", edit_and_filter),
-                 Side("ours: the same, fields, presence, 32x32 picture", edit_and_frame,
-                      lambda: scene.show("ours"))]
-        self._measure("edit, all but the rays", window, sides)
-        sides = [Side("Bake Deformation", scene.bake.UpdatePipeline, edit_and_filter),
-                 Side("vtkImageReslice, vtkBSplineTransform", scene.reslice.Update,
-                      scene.edit_coefficients)]
-        self._measure("bake", window, sides)
+        self._measure("edit, all but the rays", window,
+                      [Side(FILTER, edit_and_filter),
+                       Side(ALL_BUT_RAYS, edit_and_frame, lambda: scene.show("ours"))])
+        self._field(window, {AFTER_A_STROKE: scene.edit, ALL_OF_IT: scene.change_everything})
+        scene.bent.Kernel = "Catmull-Rom"
+        rows = self._measure("bake", window,
+                             [Side(BAKE, scene.bake.UpdatePipeline, edit_and_filter),
+                              Side(RESLICE, scene.reslice.Update, scene.edit_coefficients,
+                                   warm=False)])
+        self._target("bake", *ratio_of(rows, BAKE, RESLICE))
+
+    def _field(self, window, changes):
+        """From control points to offset field, by the GPU's clock."""
+        times = {name: Times([], []) for name in changes}
+        for _ in range(self.options.rounds + 1):
+            for name, change in changes.items():
+                change()
+                self.scene.frame()
+                milliseconds = brainshift.gpu(self.scene.ours)["gpuFieldMicroseconds"] / 1000.0
+                times[name].wall.append(milliseconds)
+        for of in times.values():
+            del of.wall[0]  # textures and shaders were made
+        rows = self.report.group("lattice to offset field", "lattice to offset field, GPU alone",
+                                 {**self.about, "window": window}, times)
+        self._target("field", rows[ALL_OF_IT]["median"])
 
 
-def parse():
+def parse(arguments):
     parser = argparse.ArgumentParser(prog="brainshift bench",
                                      description="Measures BrainShift beside ParaView's own.")
     parser.add_argument("--quick", action="store_true",
-                        help="the reference case only, 512x512, two rounds: a minute or two")
+                        help="the reference case only, 512x512, one round: about a minute")
+    parser.add_argument("--reference", type=int, nargs=3, metavar="N", default=REFERENCE,
+                        help="voxels of the reference case (256 256 150)")
     parser.add_argument("--sizes", type=int, nargs="*", metavar="N",
                         help="volumes of N voxels along each side (128 256 512)")
     parser.add_argument("--lattices", type=int, nargs="*", metavar="N",
                         help="control points along each side (9 19 37)")
     parser.add_argument("--windows", type=int, nargs="+", metavar="PIXELS",
                         help="edges of the picture (512 1024)")
-    parser.add_argument("--repetitions", type=int, metavar="N", help="rounds (5)")
-    options = parser.parse_args()
+    parser.add_argument("--rounds", type=int, metavar="N", help="most rounds (5)")
+    parser.add_argument("--seconds", type=float, metavar="S", default=15.0,
+                        help="slow sides of a comparison run once or twice when it took longer (15)")
+    parser.add_argument("--output", metavar="FOLDER", default="bench-output")
+    options = parser.parse_args(arguments)
     quick = options.quick
     for name, usual, few in (("sizes", [128, 256, 512], []), ("lattices", [9, 19, 37], []),
-                             ("windows", [512, 1024], [512]), ("repetitions", 5, 2)):
+                             ("windows", [512, 1024], [512]), ("rounds", 5, 1)):
         if getattr(options, name) is None:
             setattr(options, name, few if quick else usual)
-    if options.repetitions < 1:
-        parser.error(f"--repetitions is {options.repetitions}; it must be at least 1")
-    for name, least in (("sizes", 16), ("lattices", 4), ("windows", 32)):
+    if options.rounds < 1:
+        parser.error(f"--rounds is {options.rounds}; it must be at least 1")
+    for name, least in (("reference", 16), ("sizes", 16), ("lattices", 4), ("windows", 32)):
         for value in getattr(options, name):
             if value < least:
                 parser.error(f"--{name} has {value}; it must be at least {least}")
     return options
 
 
-def reference(benchmark, windows, everything):
-    benchmark.memory()
+def reference(benchmark, windows, quick):
+    benchmark.memory(windows[0])
     for opacities in OPACITIES:
-        benchmark.pictures(opacities, windows[0] if everything else 256)
+        benchmark.pictures(opacities, 256 if quick else windows[0])
     for window in windows:
         for opacities in OPACITIES:
-            benchmark.frames(opacities, window, everything or opacities == "opaque")
+            benchmark.frames(opacities, window, window == windows[0] and not quick)
         benchmark.edits(window)
     benchmark.resampling(windows[0])
-    benchmark.skipping("opaque", windows[0])
-    benchmark.normals("opaque", windows[0])
-    if everything:
-        benchmark.skipping("translucent", windows[0])
-        benchmark.normals("translucent", windows[0])
+    benchmark.skipping(windows[0])
+    if not quick:
+        for opacities in OPACITIES:
+            benchmark.normals(opacities, windows[0])
 
 
-def main():
-    options = parse()
+def another_size(benchmark, window):
+    benchmark.memory(window)
+    for opacities in OPACITIES:
+        benchmark.frames(opacities, window, False)
+    benchmark.edits(window)
+    benchmark.resampling(window)
+
+
+def another_lattice(benchmark, window):
+    benchmark.memory(window)
+    benchmark.frames("opaque", window, False)
+    benchmark.edits(window)
+    benchmark.resampling(window)
+
+
+def main(arguments=None):
+    options = parse(arguments)
+    dimensions = tuple(options.reference)
+    cases = [(dimensions, 19, None)] + [((size,) * 3, 19, another_size) for size in options.sizes]
+    cases += [(dimensions, lattice, another_lattice)
+              for lattice in options.lattices if lattice != 19]
     report = None
-    cases = [(REFERENCE, 19)] + [((size,) * 3, 19) for size in options.sizes] + [
-        (REFERENCE, lattice) for lattice in options.lattices if lattice != 19]
-    for number, (dimensions, lattice) in enumerate(cases):
+    for dimensions, lattice, compare in cases:
         scene = Scene(dimensions, lattice)
         report = report or Report(header(scene.window))
         report.case("{} x {} x {} voxels, lattice {}^3".format(*dimensions, lattice))
-        benchmark = Benchmark(scene, report, options.repetitions)
-        if number == 0:
-            reference(benchmark, options.windows, not options.quick)
+        benchmark = Benchmark(scene, report, options, reference=compare is None)
+        if compare:
+            compare(benchmark, options.windows[0])
         else:
-            benchmark.memory()
-            for opacities in OPACITIES:
-                benchmark.frames(opacities, options.windows[0], False)
-            benchmark.edits(options.windows[0])
-            benchmark.resampling(options.windows[0])
+            reference(benchmark, options.windows, options.quick)
+            report.targets()
         scene.close()
-    report.write("bench-output")
+    if len(cases) > 1:
+        report.targets()
+    report.write(options.output)
 
 
 if __name__ == "__main__":

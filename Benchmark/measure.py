@@ -14,11 +14,15 @@ class Side:
     name: str
     run: Callable[[], None]
     prepare: Optional[Callable[[], None]] = None
+    #: Run once untimed, so that caches and shaders are made. Not worth it where a run takes seconds
+    #: and makes everything anew.
+    warm: bool = True
 
 
 @dataclasses.dataclass
 class Times:
-    """Milliseconds, one number a round: of the clock, and of all this process's threads."""
+    """Milliseconds, one number a round: of the clock, and of all this process's threads (empty where
+    only the GPU's own clock was asked)."""
     wall: list
     processor: list
 
@@ -26,15 +30,15 @@ class Times:
         return statistics.median(self.wall)
 
     def cpu(self):
-        return statistics.median(self.processor)
+        return statistics.median(self.processor) if self.processor else None
 
     def quiet(self):
-        return self.cpu() / rendering_threads()
+        return self.cpu() / rendering_threads() if self.processor else None
 
     def summary(self):
         return {"median": self.median(), "min": min(self.wall), "max": max(self.wall),
-                "cpu": self.cpu(), "quiet": self.quiet(), "wall": self.wall,
-                "processor": self.processor}
+                "rounds": len(self.wall), "cpu": self.cpu(), "quiet": self.quiet(),
+                "wall": self.wall, "processor": self.processor}
 
 
 def rendering_threads():
@@ -52,13 +56,18 @@ def _run(side, times=None):
         times.wall.append(1000.0 * (time.perf_counter() - wall))
 
 
-def interleaved(sides, repetitions):
-    """{name: Times} of sides run in turn: once untimed, so that caches and shaders are made, then
-    `repetitions` times."""
+def interleaved(sides, rounds, seconds):
+    """{name: Times} of sides run in turn, at most `rounds` times. Where that would take longer than
+    `seconds`, slow sides run twice, or once if one round takes longer by itself."""
     times = {side.name: Times([], []) for side in sides}
     for side in sides:
-        _run(side)
-    for _ in range(repetitions):
+        if side.warm:
+            _run(side)
+    begin = time.perf_counter()
+    for number in range(1, rounds + 1):
         for side in sides:
             _run(side, times[side.name])
+        spent = time.perf_counter() - begin
+        if spent > seconds or (number >= 2 and spent * (number + 1) / number > seconds):
+            sides = [side for side in sides if times[side.name].median() < 50.0 * seconds]
     return times

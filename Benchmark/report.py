@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What was measured: a table on screen, JSON and a plot on disk."""
+"""What was measured: tables on screen, JSON and a plot on disk."""
 
 import json
 import os
@@ -7,6 +7,8 @@ import platform
 
 from measure import rendering_threads
 from paraview.simple import GetParaViewSourceVersion
+from plot import plot
+from targets import TARGETS
 
 
 def header(window):
@@ -22,37 +24,68 @@ def header(window):
             "loadBefore": os.getloadavg()[0]}
 
 
+def _number(value, width, digits=1):
+    return f"{'-':>{width}}" if value is None else f"{value:>{width}.{digits}f}"
+
+
+def _ratio(above, below):
+    return above / max(below, 1e-9) if above is not None and below is not None else None
+
+
 class Report:
     """Prints as it goes, since a full run takes long, and keeps everything for the file."""
 
     def __init__(self, about):
-        self.results = {"about": about, "groups": [], "facts": []}
+        self.results = {"about": about, "targets": [], "groups": [], "facts": []}
         for name, value in about.items():
             print(f"{name:>18}  {value}")
 
     def case(self, text):
         print(f"\n== {text} ==", flush=True)
 
-    def group(self, title, case, times):
-        """Rows of one comparison; the first is ours, and the others are compared with it."""
+    def group(self, kind, title, case, times):
+        """Rows of one comparison; the first is ours, and the others are compared with it. `kind`:
+        what is measured, the same at every size."""
         first = next(iter(times.values()))
-        print(f"\n{title:<54}{'ms, median':>11}{'min..max':>18}{'CPU':>9}{'quiet':>9}{'/ first':>9}"
-              f"{'quiet':>8}")
+        print(f"\n{title:<54}{'ms, median':>11}{'min..max':>18}{'rounds':>7}{'CPU':>9}{'quiet':>9}"
+              f"{'/ first':>9}{'quiet':>8}")
         rows = {}
         for name, time in times.items():
             row = time.summary()
-            row["ratio"] = row["median"] / first.median()
-            row["quietRatio"] = row["quiet"] / max(first.quiet(), 1e-9)
+            row["ratio"] = _ratio(row["median"], first.median())
+            row["quietRatio"] = _ratio(row["quiet"], first.quiet())
             rows[name] = row
             spread = f"{row['min']:.1f}..{row['max']:.1f}"
-            print(f"  {name:<52}{row['median']:>11.1f}{spread:>18}"
-                  f"{row['cpu']:>9.1f}{row['quiet']:>9.1f}"
-                  f"{row['ratio']:>8.2f}x{row['quietRatio']:>7.2f}x", flush=True)
-        self.results["groups"].append({"title": title, **case, "rows": rows})
+            print(f"  {name:<52}{row['median']:>11.1f}{spread:>18}{row['rounds']:>7}"
+                  f"{_number(row['cpu'], 9)}{_number(row['quiet'], 9)}"
+                  f"{_number(row['ratio'], 9, 2)}{_number(row['quietRatio'], 8, 2)}", flush=True)
+        self.results["groups"].append({"kind": kind, "title": title, **case, "rows": rows})
+        return rows
 
     def fact(self, text, **values):
         print(f"  {text}", flush=True)
         self.results["facts"].append({"text": text, **values})
+
+    def target(self, key, value, quiet=None, window=None):
+        """What the table of targets shows for one of them; the reference case only."""
+        target = TARGETS[key]
+        quantity = target.quantity + (f", {window}x{window}" if window else "")
+        self.results["targets"].append({
+            "key": key, "quantity": quantity, "against": target.against, "unit": target.unit,
+            "measured": value, "quiet": quiet, "least": target.least, "goal": target.goal,
+            "verdict": target.verdict(value),
+            "quietVerdict": None if quiet is None else target.verdict(quiet)})
+
+    def targets(self):
+        order = list(TARGETS)
+        self.results["targets"].sort(key=lambda row: order.index(row["key"]))
+        print(f"\n{'quantity':<44}{'at least':>10}{'goal':>8}{'measured':>12}  {'holds':<7}"
+              f"{'quiet':>9}  {'holds':<7}against")
+        for row in self.results["targets"]:
+            print(f"{row['quantity']:<44}{row['least']:>10g}{row['goal']:>8g}"
+                  f"{row['measured']:>9.2f}{row['unit']:<3}  {row['verdict']:<7}"
+                  f"{_number(row['quiet'], 9, 2)}  {row['quietVerdict'] or '-':<7}{row['against']}",
+                  flush=True)
 
     def write(self, folder):
         os.makedirs(folder, exist_ok=True)
@@ -60,35 +93,6 @@ class Report:
         with open(file, "w", encoding="utf-8") as output:
             json.dump(self.results, output, indent=1)
         print(f"\n{file}")
-        self._plot(os.path.join(folder, "time-against-size.png"))
-
-    def _plot(self, file):
-        """Median against voxels, one line for each row that was measured at several sizes."""
-        lines = {}
-        for group in self.results["groups"]:
-            if group["lattice"] == 19 and group["window"] == self.results["groups"][0]["window"]:
-                for name, row in group["rows"].items():
-                    key = (group["title"], name)
-                    lines.setdefault(key, []).append((group["voxels"], row["median"]))
-        lines = {key: sorted(points) for key, points in lines.items() if len(points) > 1}
-        if not lines:
-            print("No plot: only one size was measured")
-            return
-        try:
-            import matplotlib
-            matplotlib.use("Agg")
-            from matplotlib import pyplot
-        except ImportError:
-            print("No plot: this Python has no matplotlib (Debian: python3-matplotlib)")
-            return
-        titles = list(dict.fromkeys(title for title, _ in lines))
-        figure, axes = pyplot.subplots(1, len(titles), figsize=(5 * len(titles), 5), squeeze=False)
-        for axis, title in zip(axes[0], titles):
-            for (of, name), points in lines.items():
-                if of == title:
-                    axis.loglog(*zip(*points), marker="o", label=name)
-            axis.set(title=title, xlabel="voxels", ylabel="ms, median")
-            axis.legend(fontsize=7)
-        figure.tight_layout()
-        figure.savefig(file, dpi=100)
-        print(file)
+        picture = os.path.join(folder, "time-against-size.png")
+        print(picture if plot(self.results["groups"], picture)
+              else "No plot: only one size was measured")

@@ -19,6 +19,7 @@ from vtkmodules.vtkRenderingVolumeOpenGL2 import vtkOpenGLGPUVolumeRayCastMapper
 DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Testing", "Data")
 ARRAY = "Intensity"
 STEP = 0.5  # mm along the ray: half a voxel, our default
+COARSE_STEP = 1.0  # a voxel, VTK's default
 SAMPLES = 4  # nodes of the offset field between two control points
 AIR = 20    # of 255: below is air and noise
 
@@ -97,7 +98,8 @@ class Scene:
         self.ours = self._represent(self.bent, "Deformed Volume")
         self.own = self._represent(self.source, "Volume")
         self.view.SMProxy.StillRender()
-        self._make_stock()
+        self._find_volumes()
+        self.reslice, self.coefficients = self._make_reslice()
 
     def close(self):
         for volume in self.added:
@@ -127,6 +129,10 @@ class Scene:
         self.bent.Strokes = brainshift.stamp(self.anchor, tuple(self.centre), amount * scale,
                                              major=MAJOR * scale, minor=MINOR * scale)
 
+    def change_everything(self):
+        """The other kernel: all of the offset field is made anew, on as many nodes."""
+        self.bent.Kernel = "B-Spline" if self.bent.Kernel == "Catmull-Rom" else "Catmull-Rom"
+
     def _make_view(self):
         self.view = simple.CreateView("RenderView")
         self.view.UseColorPaletteForBackground = 0
@@ -134,6 +140,8 @@ class Scene:
         self.view.OrientationAxesVisibility = 0
         self.view.CenterAxesVisibility = 0
         self.view.UseFXAA = 0
+        # Above its limit of 20 MB ParaView shows nothing of a volume that changes while it moves.
+        self.view.LODThreshold = 1e6
         self.view.UseLight = 0
         self.view.CameraViewAngle = VIEW_ANGLE
         radius = numpy.linalg.norm(self.centre)
@@ -162,7 +170,7 @@ class Scene:
         color.RGBPoints = COLORS
         return display
 
-    def _make_stock(self):
+    def _find_volumes(self):
         """A representation has a vtkVolume for each way to draw it; two of them are in use."""
         volumes = self.renderer.GetVolumes()
         volumes = [volumes.GetItemAsObject(i) for i in range(volumes.GetNumberOfItems())]
@@ -173,28 +181,27 @@ class Scene:
                 self.volumes["ours" if ours else "own"] = volume
         assert len(self.volumes) == 2, [volume.GetMapper() for volume in volumes]
         self.property = self.volumes["ours"].GetProperty()
-        self.reslice, self.coefficients = self._make_reslice()
-        for name in ("stock", "stock baked", "stock resliced"):
-            self._add_stock(name)
-        self.mappers["stock"].SetInputData(self.image)
-        baked = vtkImageData()
-        baked.DeepCopy(self.bake.GetClientSideObject().GetOutputDataObject(0))
-        self.mappers["stock baked"].SetInputData(baked)
-        self.mappers["stock resliced"].SetInputConnection(self.reslice.GetOutputPort())
-
-    mappers = property(lambda self: {name: self.volumes[name].GetMapper() for name in self.volumes})
 
     def _add_stock(self, name):
+        """Made when first shown, since each holds the volume once more."""
         mapper = vtkOpenGLGPUVolumeRayCastMapper()
         mapper.SetAutoAdjustSampleDistances(False)
         mapper.SetLockSampleDistanceToInputSpacing(False)
-        mapper.SetSampleDistance(STEP)
+        mapper.SetSampleDistance(COARSE_STEP if name == "stock coarse" else STEP)
         mapper.SetImageSampleDistance(1.0)
         mapper.SetUseJittering(False)
+        if name == "stock resliced":
+            mapper.SetInputConnection(self.reslice.GetOutputPort())
+        elif name == "stock baked":
+            self.bake.UpdatePipeline()
+            baked = vtkImageData()
+            baked.DeepCopy(self.bake.GetClientSideObject().GetOutputDataObject(0))
+            mapper.SetInputData(baked)
+        else:
+            mapper.SetInputData(self.image)
         volume = vtkVolume()
         volume.SetMapper(mapper)
         volume.SetProperty(self.property)
-        volume.VisibilityOff()
         self.renderer.AddVolume(volume)
         self.volumes[name] = volume
         self.added.append(volume)
@@ -239,6 +246,8 @@ class Scene:
         self.view.SMProxy.StillRender()
 
     def show(self, shown):
+        if shown not in self.volumes:
+            self._add_stock(shown)
         for name, volume in self.volumes.items():
             if name in ("ours", "own"):  # ParaView sets the visibility of its own at every frame
                 getattr(self, name).Visibility = int(name == shown)

@@ -2,13 +2,12 @@
 #include "Lattice.h"
 
 #include "Kernels.h"
-
-#include "vtkSMPThreadLocal.h"
-#include "vtkSMPTools.h"
+#include "Parallel.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +17,8 @@ namespace brainshift
 {
 namespace
 {
+constexpr vtkIdType PointsAtLeast = 32768; // for a thread: about 0.2 ms
+
 // The four control points around a position along one axis and their weights.
 struct Taps
 {
@@ -41,27 +42,27 @@ Taps tapsAt(int kernel, int points, double position)
   return taps;
 }
 
-// Sum over the 64 taps with the given weights along each axis.
-glm::vec3 weightedSum(const glm::ivec3& dimensions, const glm::vec3* values, const Taps taps[3],
-  const glm::vec4& alongX, const glm::vec4& alongY, const glm::vec4& alongZ)
+// The four control points of one row around a position.
+struct RowOfTaps
 {
-  glm::vec3 sum(0.0f);
-  for (int k = 0; k < 4; ++k)
+  const glm::vec3* tap[4];
+
+  RowOfTaps(const glm::ivec3& dimensions, const glm::vec3* values, const Taps taps[3], int j, int k)
   {
-    glm::vec3 plane(0.0f);
-    for (int j = 0; j < 4; ++j)
+    const glm::vec3* row = values +
+      (static_cast<std::size_t>(taps[2].index[k]) * dimensions.y + taps[1].index[j]) * dimensions.x;
+    for (int i = 0; i < 4; ++i)
     {
-      const glm::vec3* row = values +
-        (static_cast<std::size_t>(taps[2].index[k]) * dimensions.y + taps[1].index[j]) *
-          dimensions.x;
-      plane += alongY[j] *
-        (alongX[0] * row[taps[0].index[0]] + alongX[1] * row[taps[0].index[1]] +
-          alongX[2] * row[taps[0].index[2]] + alongX[3] * row[taps[0].index[3]]);
+      this->tap[i] = row + taps[0].index[i];
     }
-    sum += alongZ[k] * plane;
   }
-  return sum;
-}
+
+  glm::vec3 sum(const glm::vec4& weight) const
+  {
+    return weight[0] * *this->tap[0] + weight[1] * *this->tap[1] + weight[2] * *this->tap[2] +
+      weight[3] * *this->tap[3];
+  }
+};
 
 // Value at `distance` control points from the point whose basis function it is.
 double basisFunction(int kernel, double distance)
@@ -116,7 +117,8 @@ void applyAround(Lattice& lattice, const Stroke& stroke)
 {
   const Grid& grid = lattice.grid;
   const double reach = std::max(stroke.major, stroke.minor);
-  vtkSMPTools::For(0, grid.dimensions.z, [&](vtkIdType first, vtkIdType last) {
+  const vtkIdType layer = static_cast<vtkIdType>(grid.dimensions.x) * grid.dimensions.y;
+  parallelFor(0, grid.dimensions.z, PointsAtLeast / layer, [&](vtkIdType first, vtkIdType last) {
     for (int k = static_cast<int>(first); k < last; ++k)
     {
       for (int j = 0; j < grid.dimensions.y; ++j)
@@ -158,18 +160,27 @@ bool allTapsZero(const Lattice& lattice, const glm::ivec3& cell)
   return true;
 }
 
-// Smallest determinant on the corners, edges' middles, faces' middles and middle of a cell.
+// Smallest determinant on the corners, edges' middles, faces' middles and middle of a cell. Those
+// it shares with the next cell are left to that one: it is as moved as they are.
 double minimumJacobianInCell(
   const Lattice& lattice, const std::vector<glm::vec3>& inCells, const glm::ivec3& cell)
 {
+  const glm::ivec3 samples =
+    2 + glm::ivec3(glm::equal(cell, lattice.grid.dimensions - 2)); // a side
   double smallest = std::numeric_limits<double>::max();
-  for (int sample = 0; sample < 27; ++sample)
+  glm::ivec3 sample;
+  for (sample.z = 0; sample.z < samples.z; ++sample.z)
   {
-    const glm::dvec3 within = glm::dvec3(sample % 3, sample / 3 % 3, sample / 9) * 0.5;
-    const glm::mat3 jacobian = glm::mat3(1.0f) +
-      cubicGradient(
-        lattice.grid.dimensions, lattice.kernel, inCells.data(), glm::dvec3(cell) + within);
-    smallest = std::min(smallest, static_cast<double>(glm::determinant(jacobian)));
+    for (sample.y = 0; sample.y < samples.y; ++sample.y)
+    {
+      for (sample.x = 0; sample.x < samples.x; ++sample.x)
+      {
+        const glm::mat3 jacobian = glm::mat3(1.0f) +
+          cubicGradient(lattice.grid.dimensions, lattice.kernel, inCells.data(),
+            glm::dvec3(cell) + 0.5 * glm::dvec3(sample));
+        smallest = std::min(smallest, static_cast<double>(glm::determinant(jacobian)));
+      }
+    }
   }
   return smallest;
 }
@@ -215,8 +226,18 @@ glm::vec3 cubicDisplacement(const glm::ivec3& dimensions, int kernel,
 {
   const Taps taps[3] = { tapsAt(kernel, dimensions.x, position.x),
     tapsAt(kernel, dimensions.y, position.y), tapsAt(kernel, dimensions.z, position.z) };
-  return weightedSum(
-    dimensions, displacements, taps, taps[0].weight, taps[1].weight, taps[2].weight);
+  glm::vec3 sum(0.0f);
+  for (int k = 0; k < 4; ++k)
+  {
+    glm::vec3 plane(0.0f);
+    for (int j = 0; j < 4; ++j)
+    {
+      plane +=
+        taps[1].weight[j] * RowOfTaps(dimensions, displacements, taps, j, k).sum(taps[0].weight);
+    }
+    sum += taps[2].weight[k] * plane;
+  }
+  return sum;
 }
 
 glm::mat3 cubicGradient(const glm::ivec3& dimensions, int kernel, const glm::vec3* displacements,
@@ -224,10 +245,23 @@ glm::mat3 cubicGradient(const glm::ivec3& dimensions, int kernel, const glm::vec
 {
   const Taps taps[3] = { tapsAt(kernel, dimensions.x, position.x),
     tapsAt(kernel, dimensions.y, position.y), tapsAt(kernel, dimensions.z, position.z) };
-  return glm::mat3(
-    weightedSum(dimensions, displacements, taps, taps[0].slope, taps[1].weight, taps[2].weight),
-    weightedSum(dimensions, displacements, taps, taps[0].weight, taps[1].slope, taps[2].weight),
-    weightedSum(dimensions, displacements, taps, taps[0].weight, taps[1].weight, taps[2].slope));
+  glm::mat3 gradient(0.0f);
+  for (int k = 0; k < 4; ++k)
+  {
+    glm::mat3 plane(0.0f);
+    for (int j = 0; j < 4; ++j)
+    {
+      const RowOfTaps row(dimensions, displacements, taps, j, k);
+      const glm::vec3 value = row.sum(taps[0].weight);
+      plane[0] += taps[1].weight[j] * row.sum(taps[0].slope);
+      plane[1] += taps[1].slope[j] * value;
+      plane[2] += taps[1].weight[j] * value;
+    }
+    gradient[0] += taps[2].weight[k] * plane[0];
+    gradient[1] += taps[2].weight[k] * plane[1];
+    gradient[2] += taps[2].slope[k] * plane[2];
+  }
+  return gradient;
 }
 
 double maximumDisplacement(const Lattice& lattice)
@@ -244,9 +278,8 @@ double minimumJacobian(const Lattice& lattice)
 {
   const std::vector<glm::vec3> inCells = displacementsInCells(lattice);
   const glm::ivec3 cells = lattice.grid.dimensions - 1;
-  vtkSMPThreadLocal<double> smallestOfThread(1.0); // an unmoved cell has determinant 1
-  vtkSMPTools::For(0, cells.z, [&](vtkIdType first, vtkIdType last) {
-    double& smallest = smallestOfThread.Local();
+  std::vector<double> smallest(cells.z, 1.0); // an unmoved cell has determinant 1
+  parallelFor(0, cells.z, 1, [&](vtkIdType first, vtkIdType last) {
     glm::ivec3 cell;
     for (cell.z = static_cast<int>(first); cell.z < last; ++cell.z)
     {
@@ -256,12 +289,13 @@ double minimumJacobian(const Lattice& lattice)
         {
           if (!allTapsZero(lattice, cell))
           {
-            smallest = std::min(smallest, minimumJacobianInCell(lattice, inCells, cell));
+            smallest[cell.z] =
+              std::min(smallest[cell.z], minimumJacobianInCell(lattice, inCells, cell));
           }
         }
       }
     }
   });
-  return *std::min_element(smallestOfThread.begin(), smallestOfThread.end());
+  return *std::min_element(smallest.begin(), smallest.end());
 }
 }

@@ -3,8 +3,7 @@
 
 #include "Inversion.h"
 #include "Kernels.h"
-
-#include "vtkSMPTools.h"
+#include "Parallel.h"
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
@@ -16,6 +15,8 @@ namespace brainshift
 {
 namespace
 {
+constexpr vtkIdType NodesAtLeast = 65536; // for a thread
+
 std::size_t nodeOffset(const glm::ivec3& count, int i, int j, int k)
 {
   return (static_cast<std::size_t>(k) * count.y + j) * count.x + i;
@@ -66,7 +67,8 @@ std::vector<glm::vec3> refineAxis(const std::vector<glm::vec3>& from, int points
   const std::vector<glm::vec4> weights = weightsInCell(kernel, perCell);
   const int rows = (points - 1) * perCell + 1;
   std::vector<glm::vec3> to(blocks * rows * stride);
-  vtkSMPTools::For(0, static_cast<vtkIdType>(blocks) * rows, [&](vtkIdType first, vtkIdType end) {
+  const vtkIdType grain = NodesAtLeast / static_cast<vtkIdType>(stride);
+  parallelFor(0, static_cast<vtkIdType>(blocks) * rows, grain, [&](vtkIdType first, vtkIdType end) {
     for (vtkIdType outRow = first; outRow < end; ++outRow)
     {
       const std::size_t block = outRow / rows;
@@ -211,7 +213,7 @@ NodeField invert(const NodeField& forward, const FieldNodes& nodes, Inverse inve
   NodeField field;
   field.nodes = nodes;
   field.values.resize(static_cast<std::size_t>(nodes.count.x) * nodes.count.y * nodes.count.z);
-  vtkSMPTools::For(0, nodes.count.z, [&](vtkIdType first, vtkIdType end) {
+  parallelFor(0, nodes.count.z, 1, [&](vtkIdType first, vtkIdType end) {
     Inversion<NodeField> inversion{ forward };
     for (int k = static_cast<int>(first); k < end; ++k)
     {

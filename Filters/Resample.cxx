@@ -2,10 +2,9 @@
 #include "Resample.h"
 
 #include "Kernels.h"
+#include "Parallel.h"
 
 #include "vtkDataArray.h"
-#include "vtkSMPThreadLocal.h"
-#include "vtkSMPTools.h"
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
@@ -30,6 +29,12 @@ T fromReal(double value)
   {
     const double low = static_cast<double>(std::numeric_limits<T>::lowest());
     const double high = static_cast<double>(std::numeric_limits<T>::max());
+    if constexpr (sizeof(T) <= 2)
+    {
+      // Cut to a whole number above the lowest: floor is a call on processors before SSE 4.1.
+      const double aboveLow = std::min(std::max(value - low + 0.5, 0.0), high - low);
+      return static_cast<T>(static_cast<int>(aboveLow) + std::numeric_limits<T>::lowest());
+    }
     const double rounded = std::floor(value + 0.5);
     return rounded <= low ? std::numeric_limits<T>::lowest()
       : rounded >= high   ? std::numeric_limits<T>::max()
@@ -67,6 +72,20 @@ public:
       glm::all(glm::lessThanEqual(position, glm::vec3(this->Dimensions - 1) + BorderTolerance));
   }
 
+  void read(Reading reading, const glm::vec3& position, T* out) const
+  {
+    switch (reading)
+    {
+      case Reading::Nearest:
+        return this->nearest(position, out);
+      case Reading::Linear:
+        return this->linear(position, out);
+      case Reading::Cubic:
+        return this->cubic(position, out);
+    }
+  }
+
+private:
   void nearest(const glm::vec3& position, T* out) const
   {
     const glm::ivec3 index =
@@ -112,7 +131,6 @@ public:
     }
   }
 
-private:
   // Double for types whose values a float cannot hold.
   using Real = typename std::conditional<(sizeof(T) < 4), float, double>::type;
   template <typename A, typename B>
@@ -133,8 +151,7 @@ private:
 class OffsetRow
 {
 public:
-  // False if the offset is zero along the whole row.
-  bool set(const NodeField& field, float latticeY, float latticeZ)
+  void set(const NodeField& field, float latticeY, float latticeZ)
   {
     const FieldNodes& nodes = field.nodes;
     const glm::vec2 last(nodes.count.y - 1, nodes.count.z - 1);
@@ -151,15 +168,27 @@ public:
     const glm::vec3* rows[4] = { row(low.x, low.y), row(high.x, low.y), row(low.x, high.y),
       row(high.x, high.y) };
     this->Nodes.resize(nodes.count.x);
-    bool moved = false;
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    this->MovedFrom = infinity;
+    this->MovedTo = -infinity;
     for (int x = 0; x < nodes.count.x; ++x)
     {
       this->Nodes[x] =
         glm::mix(glm::mix(rows[0][x], rows[1][x], w.x), glm::mix(rows[2][x], rows[3][x], w.x), w.y);
-      moved = moved || this->Nodes[x] != glm::vec3(0.0f);
+      if (this->Nodes[x] != glm::vec3(0.0f))
+      {
+        this->MovedFrom = std::min(this->MovedFrom, x - 1.0f);
+        this->MovedTo = x + 1.0f;
+      }
     }
-    return moved;
+    // Beyond the nodes the last one holds.
+    this->MovedFrom = this->Nodes.front() != glm::vec3(0.0f) ? -infinity : this->MovedFrom;
+    this->MovedTo = this->Nodes.back() != glm::vec3(0.0f) ? infinity : this->MovedTo;
   }
+
+  // Nodes between which offsets may differ from zero; none if from > to.
+  float movedFrom() const { return this->MovedFrom; }
+  float movedTo() const { return this->MovedTo; }
 
   glm::vec3 at(float node) const
   {
@@ -171,6 +200,8 @@ public:
 
 private:
   std::vector<glm::vec3> Nodes;
+  float MovedFrom = 0.0f;
+  float MovedTo = 0.0f;
 };
 
 template <typename T>
@@ -195,36 +226,33 @@ void resampleRow(const Voxels<T>& voxels, int components, const std::vector<T>& 
   const glm::dvec3 lattice =
     glm::dvec3(index) * geometry.latticeFromIndex + geometry.latticeOfFirst;
   const int length = geometry.last.x - geometry.first.x + 1;
-  if (!row.set(offsets, static_cast<float>(lattice.y), static_cast<float>(lattice.z)))
-  {
-    std::copy_n(voxels.at(index), static_cast<std::size_t>(length) * components, out);
-    return;
-  }
+  row.set(offsets, static_cast<float>(lattice.y), static_cast<float>(lattice.z));
   const glm::vec3 indexFromCells(1.0 / geometry.latticeFromIndex);
   const float nodeStep = static_cast<float>(geometry.latticeFromIndex.x * offsets.nodes.perCell);
   const float firstNode =
     static_cast<float>((lattice.x - offsets.nodes.first.x) * offsets.nodes.perCell);
-  for (int i = 0; i < length; ++i, out += components)
+  const auto voxelOf = [&](float node) {
+    return static_cast<int>(
+      glm::clamp((node - firstNode) / nodeStep, 0.0f, static_cast<float>(length)));
+  };
+  const int moved = voxelOf(row.movedFrom());
+  const int still = std::max(std::min(voxelOf(row.movedTo()) + 2, length), moved);
+  out = std::copy_n(voxels.at(index), static_cast<std::ptrdiff_t>(moved) * components, out);
+  for (int i = moved; i < still; ++i, out += components)
   {
     const glm::vec3 position =
       glm::vec3(index.x + i, index.y, index.z) + row.at(firstNode + i * nodeStep) * indexFromCells;
-    if (!voxels.contains(position))
+    if (voxels.contains(position))
     {
-      std::copy(outside.begin(), outside.end(), out);
-    }
-    else if (reading == Reading::Nearest)
-    {
-      voxels.nearest(position, out);
-    }
-    else if (reading == Reading::Linear)
-    {
-      voxels.linear(position, out);
+      voxels.read(reading, position, out);
     }
     else
     {
-      voxels.cubic(position, out);
+      std::copy(outside.begin(), outside.end(), out);
     }
   }
+  std::copy_n(voxels.at(index + glm::ivec3(still, 0, 0)),
+    static_cast<std::ptrdiff_t>(length - still) * components, out);
 }
 
 template <typename T>
@@ -238,16 +266,16 @@ void resampleTyped(vtkDataArray* source, vtkDataArray* target, const ResampleGeo
   const std::vector<T> outside = lowestValues<T>(source);
   const glm::ivec3 size = geometry.last - geometry.first + 1;
   const vtkIdType rows = static_cast<vtkIdType>(size.y) * size.z;
-  const vtkIdType rowsAtOnce = std::max<vtkIdType>(rows / 50, 256); // between two progress reports
-  vtkSMPThreadLocal<OffsetRow> rowOfThread;
+  const vtkIdType rowsAtOnce = std::max<vtkIdType>(rows / 20, 256); // between two progress reports
   for (vtkIdType done = 0; done < rows; done += rowsAtOnce)
   {
     if (!proceed(static_cast<double>(done) / rows))
     {
       return;
     }
-    vtkSMPTools::For(done, std::min(done + rowsAtOnce, rows), [&](vtkIdType begin, vtkIdType end) {
-      OffsetRow& offsetRow = rowOfThread.Local();
+    const vtkIdType next = std::min(done + rowsAtOnce, rows);
+    parallelFor(done, next, 64, [&](vtkIdType begin, vtkIdType end) {
+      OffsetRow offsetRow;
       for (vtkIdType row = begin; row < end; ++row)
       {
         const glm::ivec3 index = geometry.first +

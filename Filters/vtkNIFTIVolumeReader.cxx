@@ -3,6 +3,7 @@
 
 #include "NIFTIFileCheck.h"
 #include "NIFTIGeometry.h"
+#include "Parallel.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkDataArray.h"
@@ -15,7 +16,6 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkSMPTools.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <array>
@@ -131,8 +131,8 @@ void moveVoxels(vtkImageData* stored, vtkImageData* shown, const brainshift::NIF
   int extent[6];
   shown->GetExtent(extent);
   const int components = shown->GetNumberOfScalarComponents();
-  vtkSMPTools::For(extent[4], extent[5] + 1, [&](int zBegin, int zEnd) {
-    for (int z = zBegin; z < zEnd; ++z)
+  brainshift::parallelFor(extent[4], extent[5] + 1, 1, [&](vtkIdType zBegin, vtkIdType zEnd) {
+    for (int z = static_cast<int>(zBegin); z < zEnd; ++z)
     {
       for (int y = extent[2]; y <= extent[3]; ++y)
       {

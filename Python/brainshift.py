@@ -76,6 +76,27 @@ def stamp(anchor, toward, amount, major=40.0, minor=25.0, sigma=0.5):
         _positive("major", major), _positive("minor", minor), _positive("sigma", sigma, ""), 1)
 
 
+def _report(representation, view=None):
+    """The proxy that answers for a representation, in the process that draws it."""
+    shown_as = getattr(representation, "Representation", None)
+    if shown_as != "Deformed Volume":
+        raise ValueError(f"the representation is {shown_as}; it must be Deformed Volume")
+    manager = representation.SMProxy.GetSessionProxyManager()
+    report = manager.NewProxy("misc", "DeformedVolumeReport")
+    report.UnRegister(None)  # Python holds it
+    report.GetProperty("Representation").AddProxy(representation.SMProxy)
+    if view is not None:
+        report.GetProperty("View").AddProxy(view.SMProxy)
+    report.UpdateVTKObjects()
+    return report
+
+
+def _told(report, name):
+    told = report.GetProperty(name)
+    report.UpdatePropertyInformation(told)
+    return told
+
+
 def pick(representation, view, x, y):
     """Position (mm, world, deformed frame) of the tissue that `view` shows at a pixel, or None.
 
@@ -85,22 +106,30 @@ def pick(representation, view, x, y):
     """
     if representation not in view.Representations:
         raise ValueError("the representation is not shown in this view")
-    proxy = representation.SMProxy
-    pixel = proxy.GetProperty("PickedPixel")
-    pixel.SetElements2(-1, -1)  # so that asking for the same pixel again asks again
-    proxy.UpdateVTKObjects()
-    pixel.SetElements2(int(x), int(y))
-    proxy.UpdateVTKObjects()
-    tissue = proxy.GetProperty("PickedTissue")
-    proxy.UpdatePropertyInformation(tissue)
+    report = _report(representation, view)
+    report.GetProperty("Pixel").SetElements2(int(x), int(y))
+    report.UpdateVTKObjects()
+    tissue = _told(report, "Tissue")
     *position, found = (tissue.GetElement(i) for i in range(4))
     return tuple(position) if found else None
+
+
+def _numbers(representation):
+    lines = _told(_report(representation), "Counters").GetElement(0).splitlines()
+    return {name: int(number) for name, number in (line.split() for line in lines)}
 
 
 def counters(representation):
     """What the Deformed Volume renderer of a representation did since it was made, as a dict:
     frames, volumeUploads, latticeUploads, transferUploads, bytesUploaded, texelsRefined,
     presenceUpdates, imageScale (screen pixels a side for one drawn), programsCompiled."""
-    representation.SMProxy.UpdatePropertyInformation()
-    lines = representation.SMProxy.GetProperty("Counters").GetElement(0).splitlines()
-    return {name: int(number) for name, number in (line.split() for line in lines)}
+    numbers = _numbers(representation)
+    return {name: number for name, number in numbers.items() if not name.startswith("gpu")}
+
+
+def gpu(representation):
+    """How things are on the GPU, as a dict: gpuScalarBytes (the volume's scalars), gpuOtherBytes (all
+    other textures and buffers, those as large as the picture included), gpuFieldMicroseconds (its last
+    run from control points to offset field; 0 where the driver does not tell)."""
+    numbers = _numbers(representation)
+    return {name: number for name, number in numbers.items() if name.startswith("gpu")}

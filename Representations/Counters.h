@@ -18,6 +18,11 @@ struct Counters
   std::int64_t presenceUpdates = 0;  // times the deformed presence map was computed
   std::int64_t imageScale = 1;       // screen pixels a side for one pixel of the last image
   std::int64_t programsCompiled = 0; // shader programs compiled and linked
+
+  // How things are, not what was done.
+  std::int64_t gpuScalarBytes = 0;       // textures of the volume's scalars
+  std::int64_t gpuOtherBytes = 0;        // all other textures and buffers
+  std::int64_t gpuFieldMicroseconds = 0; // the GPU's last run from control points to offset field
 };
 }
 

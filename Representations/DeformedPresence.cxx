@@ -276,6 +276,11 @@ void DeformedPresence::drawFaces(int programHandle)
   glDeleteVertexArrays(1, &vertexArray);
 }
 
+std::int64_t DeformedPresence::faceBytes() const
+{
+  return static_cast<std::int64_t>(sizeof(Corner)) * 6 * this->Faces;
+}
+
 void DeformedPresence::releaseGraphicsResources(vtkWindow* window)
 {
   for (vtkTextureObject* texture : { this->Summed.Get(), this->Map.Get(), this->Leaps.Get() })

@@ -62,6 +62,13 @@ public:
   int faces() const { return this->Faces; }
   int occupied() const { return this->Occupied; }
 
+  // All textures, some of which may be null, and the bytes of the faces on the GPU.
+  std::vector<vtkTextureObject*> textures() const
+  {
+    return { this->Summed, this->Map, this->Leaps };
+  }
+  std::int64_t faceBytes() const;
+
   void releaseGraphicsResources(vtkWindow* window);
 
 private:

@@ -50,6 +50,13 @@ public:
   // Offsets computed by the last update.
   const IndexBox& changed() const { return this->Changed; }
 
+  // All textures, some of which may be null.
+  std::vector<vtkTextureObject*> textures() const
+  {
+    return { this->ControlPoints, this->Refined[0], this->Refined[1], this->Refined[2],
+      this->Offsets };
+  }
+
   void releaseGraphicsResources(vtkWindow* window);
 
 private:

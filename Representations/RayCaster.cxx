@@ -77,6 +77,7 @@ void setRayUniforms(Program& program, const RayCastScene& scene)
   program.set("farUp", glm::vec3(far.up));
   program.set("clipW", glm::vec2(near.w, far.w));
   program.set("worldFromTexture", glm::mat3(glm::dmat3(scene.worldFromTexture)));
+  program.set("mmFromTexture", glm::vec3(scene.mmFromTexture));
 }
 
 // Faces of the occupied bricks. All of a plane parallel to the near plane lies at the same share of
@@ -268,17 +269,31 @@ private:
 };
 }
 
-bool RayCaster::prepareImages(vtkOpenGLRenderWindow* window, const glm::ivec2& size)
+namespace
 {
-  if (this->Image && this->Image->GetWidth() == static_cast<unsigned int>(size.x) &&
-    this->Image->GetHeight() == static_cast<unsigned int>(size.y))
+bool sameSize(vtkTextureObject* image, const glm::ivec2& size)
+{
+  return image->GetWidth() == static_cast<unsigned int>(size.x) &&
+    image->GetHeight() == static_cast<unsigned int>(size.y);
+}
+}
+
+bool RayCaster::prepareImages(vtkOpenGLRenderWindow* window, const RayCastScene& scene)
+{
+  const auto prepare = [&](vtkSmartPointer<vtkTextureObject>& image, int format, int filter) {
+    if (!image || !sameSize(image, scene.size))
+    {
+      image = makeImage(window, scene.size, format, filter);
+    }
+    return image != nullptr;
+  };
+  if (!this->Hits[scene.tile] || !sameSize(this->Hits[scene.tile], scene.size))
   {
-    return true;
+    this->HitsPart[scene.tile] = { glm::ivec2(-1), scene.size + 1 }; // whatever memory held
   }
-  this->Image = makeImage(window, size, GL_RGBA16F, vtkTextureObject::Linear);
-  this->Hits = makeImage(window, size, GL_RGBA32F, vtkTextureObject::Nearest);
-  this->Spans = makeImage(window, size, GL_RG32F, vtkTextureObject::Nearest);
-  return this->Image && this->Hits && this->Spans;
+  return prepare(this->Image, GL_RGBA16F, vtkTextureObject::Linear) &&
+    prepare(this->Hits[scene.tile], GL_RGBA32F, vtkTextureObject::Nearest) &&
+    prepare(this->Spans, GL_RG32F, vtkTextureObject::Nearest);
 }
 
 // Rasterises the occupied bricks' faces: first and last t of every pixel.
@@ -319,6 +334,7 @@ void RayCaster::setUniforms(Program& program, const RayCastScene& scene)
     setLightUniforms(program, scene);
     program.set("fieldTexel", glm::vec3(scene.fieldTexel));
   }
+  setOptionUniforms(program, scene.options);
 }
 
 bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters)
@@ -328,10 +344,11 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
   variant.light = !scene.shaded ? RayCastVariant::Unshaded
     : !scene.normals            ? RayCastVariant::GradientsOnTheFly
                                 : RayCastVariant::GradientTexture;
-  Program& program = this->CastPrograms[variant.deformed][variant.light];
-  this->ShownLow = scene.shownLow;
-  this->ShownHigh = scene.shownHigh;
-  if (!this->prepareImages(window, scene.size) ||
+  variant.blend = scene.options.blend;
+  variant.coloring = scene.options.coloring;
+  variant.regions = scene.options.regions;
+  Program& program = this->CastPrograms[variant];
+  if (!this->prepareImages(window, scene) ||
     (scene.skipping && !this->findSpans(window, scene, counters)) ||
     !program.use(window, rayCastSource(variant), counters))
   {
@@ -341,11 +358,14 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
   {
     ImageScope images(window->GetState(), scene);
     images.attach(0, this->Image);
-    images.attach(1, this->Hits);
+    images.attach(1, this->Hits[scene.tile]);
+    this->clearStaleHits(scene);
     drawTriangles(1);
+    this->ImagePart = this->HitsPart[scene.tile] = { scene.shownLow, scene.shownHigh };
   }
   for (vtkTextureObject* texture : { scene.scalars, scene.offsets, scene.normals, scene.transfer,
-         scene.sceneDepth, scene.presence->leaps(), this->Spans.Get() })
+         scene.sceneDepth, scene.options.colors, scene.options.colorScalars,
+         scene.presence->leaps(), this->Spans.Get() })
   {
     if (texture)
     {
@@ -356,17 +376,31 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
   return true;
 }
 
-bool RayCaster::hitAt(vtkOpenGLRenderWindow* window, const glm::ivec2& pixel, glm::dvec4& hit)
+// Hits of an earlier picture must not be found beyond the part that is cast now.
+void RayCaster::clearStaleHits(const RayCastScene& scene)
 {
-  if (!this->Hits || glm::any(glm::lessThan(pixel, this->ShownLow)) ||
-    glm::any(glm::greaterThanEqual(pixel, this->ShownHigh)))
+  const Part& before = this->HitsPart[scene.tile];
+  if (glm::any(glm::lessThan(before.low, scene.shownLow)) ||
+    glm::any(glm::greaterThan(before.high, scene.shownHigh)))
+  {
+    const float none[4] = { 0.0f, 0.0f, 0.0f, -1.0f };
+    glDisable(GL_SCISSOR_TEST);
+    glClearBufferfv(GL_COLOR, 1, none);
+    glEnable(GL_SCISSOR_TEST);
+  }
+}
+
+bool RayCaster::hitAt(vtkOpenGLRenderWindow* window, const glm::dvec2& place, glm::dvec4& hit)
+{
+  vtkTextureObject* hits = this->Hits[false];
+  if (!hits)
   {
     return false;
   }
+  const glm::ivec2 pixel(place * glm::dvec2(hits->GetWidth(), hits->GetHeight()));
   vtkOpenGLState* state = window->GetState();
   FramebufferScope framebuffer(state);
-  glFramebufferTexture2D(
-    GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, this->Hits->GetHandle(), 0);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, hits->GetHandle(), 0);
   state->vtkglReadBuffer(GL_COLOR_ATTACHMENT0);
   float values[4] = { 0.0f, 0.0f, 0.0f, -1.0f };
   glReadPixels(pixel.x, pixel.y, 1, 1, GL_RGBA, GL_FLOAT, values);
@@ -396,8 +430,9 @@ bool RayCaster::composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origi
   // Not its empty rim: the filter would blend it with what an earlier picture left beyond.
   const glm::ivec2 end(this->Image->GetWidth(), this->Image->GetHeight());
   const glm::ivec2 first =
-    this->ShownLow + glm::ivec2(glm::greaterThan(this->ShownLow, glm::ivec2(0)));
-  const glm::ivec2 last = this->ShownHigh - glm::ivec2(glm::lessThan(this->ShownHigh, end));
+    this->ImagePart.low + glm::ivec2(glm::greaterThan(this->ImagePart.low, glm::ivec2(0)));
+  const glm::ivec2 last =
+    this->ImagePart.high - glm::ivec2(glm::lessThan(this->ImagePart.high, end));
   const glm::ivec2 low(glm::floor(glm::dvec2(first) * scale));
   const glm::ivec2 shown =
     glm::max(glm::ivec2(glm::ceil(glm::dvec2(last) * scale)) - low, glm::ivec2(0));
@@ -416,7 +451,7 @@ bool RayCaster::composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origi
 
 void RayCaster::releaseGraphicsResources(vtkWindow* window)
 {
-  for (auto* image : { &this->Image, &this->Hits, &this->Spans })
+  for (auto* image : { &this->Image, &this->Hits[0], &this->Hits[1], &this->Spans })
   {
     if (*image)
     {
@@ -426,12 +461,6 @@ void RayCaster::releaseGraphicsResources(vtkWindow* window)
   }
   this->SpansProgram.forget();
   this->CompositeProgram.forget();
-  for (auto& programs : this->CastPrograms)
-  {
-    for (Program& program : programs)
-    {
-      program.forget();
-    }
-  }
+  this->CastPrograms.clear();
 }
 }

@@ -5,6 +5,7 @@
 
 #include "Counters.h"
 #include "Program.h"
+#include "RayCastOptions.h"
 
 #include "vtkSmartPointer.h"
 
@@ -13,6 +14,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <map>
 #include <vector>
 
 class vtkOpenGLRenderWindow;
@@ -41,7 +43,8 @@ struct RayCastScene
   glm::ivec2 shownHigh{ 0 }; // and one past the last
   glm::dmat4 clipFromWorld{ 1.0 };
   glm::dmat4 worldFromTexture{ 1.0 };
-  glm::dvec3 spaceLow{ 0.0 }; // part of the deformed frame tissue can reach
+  glm::dvec3 mmFromTexture{ 1.0 }; // along the volume's axes, before an actor's scale
+  glm::dvec3 spaceLow{ 0.0 };      // part of the deformed frame tissue can reach
   glm::dvec3 spaceHigh{ 1.0 };
   glm::dvec3 movedLow{ 1.0 };  // part of the deformed frame where tissue may have moved;
   glm::dvec3 movedHigh{ 0.0 }; // high below low: none has
@@ -58,8 +61,10 @@ struct RayCastScene
   glm::dvec2 transferFromScalar{ 1.0, 0.0 }; // stored scalar to transfer coordinate
   glm::dvec4 material{ 0.0, 1.0, 0.0, 1.0 }; // ambient, diffuse, specular, specular power
   RayCastLights lights;
+  RayCastOptions options;
   bool shaded = false;
   bool skipping = true;
+  bool tile = false; // the image is a part of a picture larger than the window
 
   vtkTextureObject* scalars = nullptr;
   vtkTextureObject* offsets = nullptr; // null: the volume carries no deformation
@@ -86,23 +91,42 @@ public:
   bool composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origin, const glm::ivec2& size,
     Counters& counters);
 
-  // What the image shows at a pixel, from the lower left: first hit (mm, world) and its distance
-  // from the near plane (mm). False where no surface was hit or nothing was cast yet.
-  bool hitAt(vtkOpenGLRenderWindow* window, const glm::ivec2& pixel, glm::dvec4& hit);
+  // What the last whole image shows at a place counted from its lower left corner to 1: first hit
+  // (mm, world) and its distance from the near plane (mm). False where no surface was hit or nothing
+  // was cast yet.
+  bool hitAt(vtkOpenGLRenderWindow* window, const glm::dvec2& place, glm::dvec4& hit);
+
+  // What hitAt reads, texel by texel. Null if nothing was cast yet.
+  vtkTextureObject* hits() const { return this->Hits[false]; }
+
+  // All textures, some of which may be null.
+  std::vector<vtkTextureObject*> textures() const
+  {
+    return { this->Image, this->Hits[false], this->Hits[true], this->Spans };
+  }
 
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
-  bool prepareImages(vtkOpenGLRenderWindow* window, const glm::ivec2& size);
+  bool prepareImages(vtkOpenGLRenderWindow* window, const RayCastScene& scene);
   bool findSpans(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters);
   void setUniforms(Program& program, const RayCastScene& scene);
 
-  glm::ivec2 ShownLow{ 0 }; // what of the image was cast last: first pixel, one past the last
-  glm::ivec2 ShownHigh{ 0 };
+  void clearStaleHits(const RayCastScene& scene);
+
+  // What was cast last of an image: first pixel, one past the last.
+  struct Part
+  {
+    glm::ivec2 low{ 0 };
+    glm::ivec2 high{ 0 };
+  };
+  Part ImagePart;
+  Part HitsPart[2];                        // elsewhere Hits tell of none
   vtkSmartPointer<vtkTextureObject> Image; // colour times opacity, opacity
-  vtkSmartPointer<vtkTextureObject> Hits;  // first hit, mm; distance from the near plane, mm
+  vtkSmartPointer<vtkTextureObject>
+    Hits[2];                               // [tile] first hit, mm; distance from the near plane, mm
   vtkSmartPointer<vtkTextureObject> Spans; // least t, minus greatest t in occupied bricks
-  Program CastPrograms[2][RayCastVariant::LightCount]; // [deformed][light]
+  std::map<RayCastVariant, Program> CastPrograms; // those drawn with so far
   Program SpansProgram;
   Program CompositeProgram;
 };

@@ -2,31 +2,26 @@
 #include "ScalarTexture.h"
 
 #include "OpenGL.h"
+#include "Parallel.h"
 
 #include "vtkDataArray.h"
-#include "vtkDataArrayRange.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkSMPTools.h"
 #include "vtkTextureObject.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <vector>
+#include <memory>
 
 namespace brainshift
 {
 namespace
 {
-// One number of a tuple: a component, or the tuple's length.
+constexpr vtkIdType VoxelsAtLeast = 65536; // for a thread
+
 template <typename T>
-double numberOf(const T* tuple, int components, int component)
+double lengthOf(const T* tuple, int components)
 {
-  if (component >= 0)
-  {
-    return static_cast<double>(tuple[std::min(component, components - 1)]);
-  }
   double sum = 0.0;
   for (int c = 0; c < components; ++c)
   {
@@ -35,27 +30,35 @@ double numberOf(const T* tuple, int components, int component)
   return std::sqrt(sum);
 }
 
+// One number of each tuple: a component, or the tuple's length (-1).
 template <typename T, typename Stored, typename Convert>
-void convertTyped(
-  vtkDataArray* scalars, int component, std::vector<Stored>& stored, const Convert& convert)
+void convertTyped(vtkDataArray* scalars, int component, Stored* stored, const Convert& convert)
 {
   const T* values = static_cast<const T*>(scalars->GetVoidPointer(0));
-  const int components = scalars->GetNumberOfComponents();
-  vtkSMPTools::For(0, scalars->GetNumberOfTuples(), [&](vtkIdType first, vtkIdType end) {
-    for (vtkIdType i = first; i < end; ++i)
+  const vtkIdType components = scalars->GetNumberOfComponents();
+  const vtkIdType shown = std::min<vtkIdType>(component, components - 1);
+  parallelFor(0, scalars->GetNumberOfTuples(), VoxelsAtLeast, [&](vtkIdType first, vtkIdType end) {
+    for (vtkIdType i = first; components == 1 && i < end; ++i) // apart: this one vectorises
     {
-      stored[i] = convert(numberOf(values + i * components, components, component));
+      stored[i] = convert(values[i]);
+    }
+    for (vtkIdType i = first; components > 1 && i < end; ++i)
+    {
+      stored[i] = shown < 0 ? convert(lengthOf(values + i * components, components))
+                            : convert(values[i * components + shown]);
     }
   });
 }
 
+// Not zeroed first, so that each thread touches its own memory first.
 template <typename Stored, typename Convert>
-std::vector<Stored> convertAll(vtkDataArray* scalars, int component, const Convert& convert)
+std::unique_ptr<Stored[]> convertAll(vtkDataArray* scalars, int component, const Convert& convert)
 {
-  std::vector<Stored> stored(scalars->GetNumberOfTuples());
+  std::unique_ptr<Stored[]> stored(new Stored[scalars->GetNumberOfTuples()]);
   switch (scalars->GetDataType())
   {
-    vtkTemplateMacro((convertTyped<VTK_TT, Stored, Convert>(scalars, component, stored, convert)));
+    vtkTemplateMacro(
+      (convertTyped<VTK_TT, Stored, Convert>(scalars, component, stored.get(), convert)));
   }
   return stored;
 }
@@ -69,6 +72,11 @@ bool fitsSixteenBits(vtkDataArray* scalars, int component)
 
 ScalarTexture::ScalarTexture() = default;
 ScalarTexture::~ScalarTexture() = default;
+
+int ScalarTexture::bytesOf(vtkDataArray* scalars, int component)
+{
+  return fitsSixteenBits(scalars, component) ? 2 : 4;
+}
 
 bool ScalarTexture::update(vtkOpenGLRenderWindow* window, vtkDataArray* scalars,
   const glm::ivec3& dimensions, int component, Counters& counters, std::string& error)
@@ -110,47 +118,60 @@ bool ScalarTexture::upload(vtkOpenGLRenderWindow* window, vtkDataArray* scalars,
   this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
   this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
   this->Texture->SetWrapR(vtkTextureObject::ClampToEdge);
-  const auto create = [&](auto stored, int type, float shaderFromStored) {
-    this->keepRanges(brickRanges(stored.data(), dimensions), shaderFromStored);
-    counters.volumeUploads += 1;
-    counters.bytesUploaded += static_cast<std::int64_t>(stored.size() * sizeof(stored[0]));
-    return this->Texture->Create3DFromRaw(
-      dimensions.x, dimensions.y, dimensions.z, 1, type, stored.data());
-  };
   this->SixteenBits = fitsSixteenBits(scalars, component);
-  if (!this->SixteenBits)
+  return this->SixteenBits ? this->uploadSixteenBits(scalars, dimensions, component, counters)
+                           : this->uploadFloats(scalars, dimensions, component, counters);
+}
+
+bool ScalarTexture::uploadFloats(
+  vtkDataArray* scalars, const glm::ivec3& dimensions, int component, Counters& counters)
+{
+  this->Scale = 1.0;
+  this->Shift = 0.0;
+  this->Texture->SetInternalFormat(GL_R32F);
+  if (scalars->GetDataType() == VTK_FLOAT && scalars->GetNumberOfComponents() == 1)
   {
-    this->Scale = 1.0;
-    this->Shift = 0.0;
-    this->Texture->SetInternalFormat(GL_R32F);
-    return create(
-      convertAll<float>(scalars, component, [](double value) { return static_cast<float>(value); }),
-      VTK_FLOAT, 1.0f);
+    return this->create(
+      static_cast<float*>(scalars->GetVoidPointer(0)), VTK_FLOAT, 1.0f, dimensions, counters);
   }
-  // Whole numbers: stored from the type's lowest value up; eight bits spread over sixteen.
-  const double lowest = scalars->GetDataTypeMin();
-  const double spread = scalars->GetDataTypeSize() == 1 ? 257.0 : 1.0;
+  const auto converted = convertAll<float>(
+    scalars, component, [](auto value) { return static_cast<float>(static_cast<double>(value)); });
+  return this->create(converted.get(), VTK_FLOAT, 1.0f, dimensions, counters);
+}
+
+// Whole numbers: stored from the type's lowest value up; eight bits spread over sixteen.
+bool ScalarTexture::uploadSixteenBits(
+  vtkDataArray* scalars, const glm::ivec3& dimensions, int component, Counters& counters)
+{
+  constexpr float shaderFromStored = 1.0f / 65535.0f;
+  const int lowest = static_cast<int>(scalars->GetDataTypeMin());
+  const int spread = scalars->GetDataTypeSize() == 1 ? 257 : 1;
   this->Scale = 65535.0 / spread;
   this->Shift = lowest;
   this->Texture->SetInternalFormat(GL_R16);
-  return create(
-    convertAll<std::uint16_t>(scalars, component,
-      [=](double value) { return static_cast<std::uint16_t>((value - lowest) * spread); }),
-    VTK_UNSIGNED_SHORT, 1.0f / 65535.0f);
+  if (scalars->GetDataType() == VTK_UNSIGNED_SHORT && scalars->GetNumberOfComponents() == 1)
+  {
+    return this->create(static_cast<std::uint16_t*>(scalars->GetVoidPointer(0)), VTK_UNSIGNED_SHORT,
+      shaderFromStored, dimensions, counters);
+  }
+  const auto converted = convertAll<std::uint16_t>(scalars, component, [=](auto value) {
+    return static_cast<std::uint16_t>((static_cast<int>(value) - lowest) * spread);
+  });
+  return this->create(converted.get(), VTK_UNSIGNED_SHORT, shaderFromStored, dimensions, counters);
 }
 
-void ScalarTexture::keepRanges(const BrickRanges& ranges, float shaderFromStored)
+template <typename Stored>
+bool ScalarTexture::create(Stored* stored, int type, float shaderFromStored,
+  const glm::ivec3& dimensions, Counters& counters)
 {
-  this->Ranges = ranges;
-  float least = std::numeric_limits<float>::infinity();
-  float greatest = -least;
-  for (glm::vec2& range : this->Ranges.ranges)
-  {
-    range *= shaderFromStored;
-    least = std::min(least, range.x);
-    greatest = std::max(greatest, range.y);
-  }
-  this->Range = greatest > least && std::isfinite(greatest - least) ? greatest - least : 0.0f;
+  this->Ranges = brickRanges(stored, dimensions, shaderFromStored);
+  const glm::vec2 whole = this->Ranges.whole();
+  const float range = whole.y - whole.x;
+  this->Range = range > 0.0f && std::isfinite(range) ? range : 0.0f;
+  counters.volumeUploads += 1;
+  counters.bytesUploaded +=
+    static_cast<std::int64_t>(sizeof(Stored)) * dimensions.x * dimensions.y * dimensions.z;
+  return this->Texture->Create3DFromRaw(dimensions.x, dimensions.y, dimensions.z, 1, type, stored);
 }
 
 void ScalarTexture::releaseGraphicsResources(vtkWindow* window)

@@ -31,6 +31,9 @@ public:
   bool update(vtkOpenGLRenderWindow* window, vtkDataArray* scalars, const glm::ivec3& dimensions,
     int component, Counters& counters, std::string& error);
 
+  // Bytes that a value takes on the GPU.
+  static int bytesOf(vtkDataArray* scalars, int component);
+
   // Ranges of the stored values, as the shader reads them, in bricks of the volume.
   const BrickRanges& ranges() const { return this->Ranges; }
   // Greatest minus least stored value.
@@ -49,7 +52,13 @@ public:
 private:
   bool upload(vtkOpenGLRenderWindow* window, vtkDataArray* scalars, const glm::ivec3& dimensions,
     int component, Counters& counters);
-  void keepRanges(const BrickRanges& ranges, float shaderFromStored);
+  bool uploadFloats(
+    vtkDataArray* scalars, const glm::ivec3& dimensions, int component, Counters& counters);
+  bool uploadSixteenBits(
+    vtkDataArray* scalars, const glm::ivec3& dimensions, int component, Counters& counters);
+  template <typename Stored>
+  bool create(Stored* stored, int type, float shaderFromStored, const glm::ivec3& dimensions,
+    Counters& counters);
 
   vtkSmartPointer<vtkTextureObject> Texture;
   vtkWeakPointer<vtkDataArray> Uploaded;

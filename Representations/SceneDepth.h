@@ -26,6 +26,7 @@ public:
     const glm::ivec2& low, const glm::ivec2& high);
 
   vtkTextureObject* texture() const { return this->Shown; }
+  vtkTextureObject* copied() const { return this->Copy; } // null if the window's own is read
   // Texture coordinates from the share of the viewport: scale and shift.
   const glm::vec2& textureFromShare() const { return this->TextureFromShare; }
   const glm::vec2& textureOfShareZero() const { return this->TextureOfShareZero; }

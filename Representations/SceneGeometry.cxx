@@ -106,16 +106,14 @@ void placeField(const Grid& grid, const ValueLayout& layout, const Grid& lattice
   }
 }
 
-void cropSpace(
-  const Grid& grid, const ValueLayout& layout, const double planes[6], RayCastScene& scene)
+void cropBox(const Grid& grid, const ValueLayout& layout, const double planes[6], glm::dvec3& low,
+  glm::dvec3& high)
 {
-  const glm::dvec3 low(planes[0], planes[2], planes[4]);
-  const glm::dvec3 high(planes[1], planes[3], planes[5]);
   const auto textureFromPlane = [&](const glm::dvec3& plane) {
     return (plane - grid.origin) / grid.spacing * layout.textureFromGrid + layout.textureOfGridZero;
   };
-  scene.spaceLow = glm::max(scene.spaceLow, textureFromPlane(low));
-  scene.spaceHigh = glm::min(scene.spaceHigh, textureFromPlane(high));
+  low = textureFromPlane({ planes[0], planes[2], planes[4] });
+  high = textureFromPlane({ planes[1], planes[3], planes[5] });
 }
 
 void placeShownPixels(const IndexBox& bricks, RayCastScene& scene)

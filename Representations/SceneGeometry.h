@@ -42,10 +42,10 @@ glm::dvec3 textureFromLattice(const Grid& grid, const ValueLayout& layout, const
 void placeField(const Grid& grid, const ValueLayout& layout, const Grid& lattice,
   const FieldNodes& nodes, const IndexBox& moved, RayCastScene& scene);
 
-// Narrows the space to a box given in mm along the volume's axes as in vtkVolumeMapper's cropping
-// planes: low and high x, y, z. What is cropped is what is seen, so the box is not deformed.
-void cropSpace(
-  const Grid& grid, const ValueLayout& layout, const double planes[6], RayCastScene& scene);
+// The box (texture coordinates) between vtkVolumeMapper's cropping planes: low and high x, y, z, mm
+// along the volume's axes. What is cropped is what is seen, so the box is not deformed.
+void cropBox(const Grid& grid, const ValueLayout& layout, const double planes[6], glm::dvec3& low,
+  glm::dvec3& high);
 
 // Finds the pixels of the scene's image that a box of bricks can be seen at; all of them if part of
 // it lies behind the eye. Bricks count from the scene's first one. Where pixels are so large that the

@@ -3,22 +3,29 @@
 
 #include "OffsetField.h"
 
+#include "shader_clipping.h"
+#include "shader_components.h"
 #include "shader_composite_frag.h"
+#include "shader_cover_frag.h"
 #include "shader_field.h"
 #include "shader_fullscreen_vert.h"
 #include "shader_gradient.h"
 #include "shader_inversion.h"
 #include "shader_invert_frag.h"
+#include "shader_isosurface_frag.h"
 #include "shader_light.h"
+#include "shader_march.h"
 #include "shader_nodes.h"
 #include "shader_normals_frag.h"
 #include "shader_presence_frag.h"
+#include "shader_projection_frag.h"
 #include "shader_proxy_frag.h"
 #include "shader_proxy_vert.h"
 #include "shader_raycast_frag.h"
 #include "shader_rays.h"
 #include "shader_refine_frag.h"
 #include "shader_skipping.h"
+#include "shader_slice_frag.h"
 #include "shader_tissue.h"
 #include "shader_volume_pass.h"
 #include "shader_volume_pass_geom.h"
@@ -52,6 +59,38 @@ ShaderSource volumePassSource(const std::string& body)
   return { assemble({ shader_volume_pass_vert }), assemble({ shader_volume_pass_geom }),
     assemble({ Outputs, Shared, shader_volume_pass, body }) };
 }
+
+constexpr const char* BlendDefines[BlendCount] = { "COMPOSITE", "MAXIMUM", "MINIMUM", "AVERAGE",
+  "ADDITIVE", "ISOSURFACE", "SLICE" };
+
+// What follows raycast.frag.glsl for blend modes that do not use its loop.
+std::string otherBlendSource(Blend blend)
+{
+  switch (blend)
+  {
+    case Blend::Composite:
+      return "";
+    case Blend::Isosurface:
+      return std::string(shader_march) + shader_isosurface_frag;
+    case Blend::Slice:
+      return std::string(shader_march) + shader_slice_frag;
+    default:
+      return std::string(shader_march) + shader_projection_frag;
+  }
+}
+
+const char* const LightNames[RayCastVariant::LightCount] = { "_unshaded", "_gradients",
+  "_gradient_texture" };
+
+std::string nameOf(const RayCastVariant& variant)
+{
+  static const char* const blends[BlendCount] = { "", "_maximum", "_minimum", "_average",
+    "_additive", "_isosurface", "_slice" };
+  static const char* const colorings[] = { "", "_direct", "_other_scalar" };
+  return std::string("raycast") + (variant.deformed ? "_deformed" : "_rest") +
+    LightNames[variant.light] + blends[static_cast<int>(variant.blend)] +
+    colorings[static_cast<int>(variant.coloring)] + (variant.regions ? "_regions" : "");
+}
 }
 
 ShaderSource refineSource()
@@ -83,12 +122,19 @@ ShaderSource proxySource()
 ShaderSource rayCastSource(const RayCastVariant& variant)
 {
   std::string defines = "#define MAX_LIGHTS " + std::to_string(MaxLights) + "\n";
+  defines += "#define MAX_CLIP_PLANES " + std::to_string(MaxClipPlanes) + "\n";
+  defines += "#define MAX_ISOVALUES " + std::to_string(MaxIsovalues) + "\n";
+  defines += std::string("#define ") + BlendDefines[static_cast<int>(variant.blend)] + "\n";
   defines += variant.deformed ? "#define DEFORMED\n" : "";
   defines += variant.light != RayCastVariant::Unshaded ? "#define SHADED\n" : "";
   defines += variant.light == RayCastVariant::GradientTexture ? "#define GRADIENT_TEXTURE\n" : "";
+  defines += variant.coloring == Coloring::Direct ? "#define DIRECT_COLORS\n" : "";
+  defines += variant.coloring == Coloring::OtherScalar ? "#define COLOR_SCALARS\n" : "";
+  defines += variant.regions ? "#define REGIONS\n" : "";
   return { assemble({ shader_fullscreen_vert }), "",
-    assemble({ Outputs, defines, shader_rays, shader_skipping, shader_field, shader_gradient,
-      shader_tissue, shader_light, shader_raycast_frag }) };
+    assemble({ Outputs, defines, shader_rays, shader_skipping, shader_clipping, shader_field,
+      shader_gradient, shader_tissue, shader_components, shader_light, shader_raycast_frag,
+      otherBlendSource(variant.blend) }) };
 }
 
 ShaderSource compositeSource()
@@ -96,21 +142,39 @@ ShaderSource compositeSource()
   return { assemble({ shader_fullscreen_vert }), "", assemble({ Outputs, shader_composite_frag }) };
 }
 
+ShaderSource coverSource()
+{
+  return { assemble({ shader_fullscreen_vert }), "", assemble({ Outputs, shader_cover_frag }) };
+}
+
 std::vector<std::pair<std::string, ShaderSource>> allSources()
 {
   std::vector<std::pair<std::string, ShaderSource>> sources{ { "refine", refineSource() },
     { "invert", invertSource() }, { "normals", normalsSource() },
     { "presence_rest", presenceSource(false) }, { "presence_deformed", presenceSource(true) },
-    { "proxy", proxySource() }, { "composite", compositeSource() } };
-  const char* lights[] = { "_unshaded", "_gradients", "_gradient_texture" };
+    { "proxy", proxySource() }, { "composite", compositeSource() }, { "cover", coverSource() } };
+  const auto add = [&](const RayCastVariant& variant) {
+    sources.emplace_back(nameOf(variant), rayCastSource(variant));
+  };
   for (const bool deformed : { false, true })
   {
     for (int light = 0; light < RayCastVariant::LightCount; ++light)
     {
-      sources.emplace_back(
-        std::string("raycast") + (deformed ? "_deformed" : "_rest") + lights[light],
-        rayCastSource({ deformed, static_cast<RayCastVariant::Light>(light) }));
+      for (const Blend blend : { Blend::Composite, Blend::Isosurface, Blend::Slice })
+      {
+        add({ deformed, static_cast<RayCastVariant::Light>(light), blend });
+      }
     }
+    for (const Blend blend : { Blend::Maximum, Blend::Minimum, Blend::Average, Blend::Additive })
+    {
+      add({ deformed, RayCastVariant::Unshaded, blend });
+    }
+    for (const Coloring coloring : { Coloring::Direct, Coloring::OtherScalar })
+    {
+      add({ deformed, RayCastVariant::GradientTexture, Blend::Composite, coloring });
+      add({ deformed, RayCastVariant::Unshaded, Blend::Maximum, coloring, true });
+    }
+    add({ deformed, RayCastVariant::GradientTexture, Blend::Composite, Coloring::Mapped, true });
   }
   return sources;
 }

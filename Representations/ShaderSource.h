@@ -6,6 +6,7 @@
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,29 @@ struct ShaderSource
 };
 
 constexpr int MaxLights = 8;
+constexpr int MaxClipPlanes = 16;
+constexpr int MaxIsovalues = 32;
+
+// How the samples of a ray become one colour; numbers as in vtkVolumeMapper::BlendModes.
+enum class Blend
+{
+  Composite = 0,
+  Maximum = 1,
+  Minimum = 2,
+  Average = 3,
+  Additive = 4,
+  Isosurface = 5,
+  Slice = 6,
+};
+constexpr int BlendCount = 7;
+
+// Where a sample's colour comes from.
+enum class Coloring
+{
+  Mapped = 0,      // the colour map at the scalar
+  Direct = 1,      // three numbers of the voxel
+  OtherScalar = 2, // the colour map at another number of the voxel
+};
 
 // Variants of the ray caster; each combination is a program of its own.
 struct RayCastVariant
@@ -31,17 +55,31 @@ struct RayCastVariant
     GradientTexture = 2,
     LightCount = 3,
   } light = Unshaded;
+  Blend blend = Blend::Composite;
+  Coloring coloring = Coloring::Mapped;
+  bool regions = false; // VTK's cropping regions, other than the middle one alone
+
+  bool operator<(const RayCastVariant& other) const
+  {
+    const auto key = [](const RayCastVariant& variant) {
+      return std::make_tuple(
+        variant.deformed, variant.light, variant.blend, variant.coloring, variant.regions);
+    };
+    return key(*this) < key(other);
+  }
 };
 
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource refineSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource invertSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource rayCastSource(const RayCastVariant& variant);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource compositeSource();
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource coverSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource normalsSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource presenceSource(bool deformed);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource proxySource();
 
-// Every program the product can draw with, by name: for an offline compiler.
+// Every program the product can draw with, by name, for an offline compiler: of the ray caster's
+// variants each with every file and every #define in use.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<std::pair<std::string, ShaderSource>> allSources();
 }
 

@@ -21,11 +21,19 @@ namespace
 // As many as a 12-bit CT has values; so many that none need blending, which would cost four reads.
 constexpr int Entries = 4096;
 
-// Opacity of one step from the opacity of one unit distance.
-float opacityOfStep(float opacity, double unitsInStep)
+// What a sample counts, from the opacity of one unit distance.
+float opacityOfSample(float opacity, double unitsInStep, Blend blend)
 {
-  const double transparency = 1.0 - std::clamp(static_cast<double>(opacity), 0.0, 1.0);
-  return static_cast<float>(1.0 - std::pow(transparency, unitsInStep));
+  const double given = std::clamp(static_cast<double>(opacity), 0.0, 1.0);
+  switch (blend)
+  {
+    case Blend::Composite:
+      return static_cast<float>(1.0 - std::pow(1.0 - given, unitsInStep));
+    case Blend::Additive:
+      return static_cast<float>(given * unitsInStep);
+    default:
+      return static_cast<float>(given);
+  }
 }
 }
 
@@ -42,19 +50,20 @@ double TransferTexture::shift() const
   return 0.5 / Entries - this->Range[0] * this->scale();
 }
 
-bool TransferTexture::update(
-  vtkOpenGLRenderWindow* window, vtkVolumeProperty* property, double stepMm, Counters& counters)
+bool TransferTexture::update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* property,
+  double stepMm, Blend blend, Coloring coloring, Counters& counters)
 {
   vtkColorTransferFunction* color = property->GetRGBTransferFunction();
   vtkPiecewiseFunction* opacity = property->GetScalarOpacity();
   const double unitMm = property->GetScalarOpacityUnitDistance();
   if (this->Texture && this->ColorTime == color->GetMTime() &&
-    this->OpacityTime == opacity->GetMTime() && this->StepMm == stepMm && this->UnitMm == unitMm)
+    this->OpacityTime == opacity->GetMTime() && this->StepMm == stepMm && this->UnitMm == unitMm &&
+    this->Blending == blend && this->ColorSource == coloring)
   {
     return false;
   }
-  const double* colorRange = color->GetRange();
   const double* opacityRange = opacity->GetRange();
+  const double* colorRange = coloring == Coloring::Direct ? opacityRange : color->GetRange();
   this->Range[0] = std::min(colorRange[0], opacityRange[0]);
   this->Range[1] = std::max(colorRange[1], opacityRange[1]);
   if (!(this->Range[1] > this->Range[0]))
@@ -70,7 +79,7 @@ bool TransferTexture::update(
   for (int i = 0; i < Entries; ++i)
   {
     std::copy_n(&colors[3 * i], 3, &texels[4 * i]);
-    texels[4 * i + 3] = opacityOfStep(opacities[i], stepMm / unitMm);
+    texels[4 * i + 3] = opacityOfSample(opacities[i], stepMm / unitMm, blend);
     this->VisibleBefore[i + 1] = this->VisibleBefore[i] + (texels[4 * i + 3] > 0.0f ? 1 : 0);
   }
   this->Texture = vtkSmartPointer<vtkTextureObject>::New();
@@ -86,19 +95,31 @@ bool TransferTexture::update(
   this->OpacityTime = opacity->GetMTime();
   this->StepMm = stepMm;
   this->UnitMm = unitMm;
+  this->Blending = blend;
+  this->ColorSource = coloring;
   return true;
 }
 
-bool TransferTexture::visible(double least, double greatest) const
+VisibleValues TransferTexture::visibleValues(double scale, double shift) const
 {
-  // The entries the texture may answer with, and one more to either side for rounding.
-  const auto entry = [this](double scalar) {
-    return (scalar * this->scale() + this->shift()) * Entries - 0.5;
-  };
-  const double last = Entries - 1.0;
-  const int from = static_cast<int>(std::clamp(std::floor(entry(least)) - 1.0, 0.0, last));
-  const int to = static_cast<int>(std::clamp(std::ceil(entry(greatest)) + 1.0, 0.0, last));
-  return this->VisibleBefore[to + 1] > this->VisibleBefore[from];
+  VisibleValues visible;
+  visible.entries = Entries;
+  visible.before = this->VisibleBefore;
+  visible.entryFromValue = scale * this->scale() * Entries;
+  visible.entryOfValueZero = (shift * this->scale() + this->shift()) * Entries - 0.5;
+  return visible;
+}
+
+bool TransferTexture::visibleUpwards() const
+{
+  const int visible = this->VisibleBefore[Entries];
+  return this->VisibleBefore[Entries - visible] == 0;
+}
+
+bool TransferTexture::visibleDownwards() const
+{
+  const int visible = this->VisibleBefore[Entries];
+  return this->VisibleBefore[visible] == visible;
 }
 
 void TransferTexture::releaseGraphicsResources(vtkWindow* window)

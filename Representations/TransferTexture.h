@@ -4,6 +4,8 @@
 #define BrainShift_TransferTexture_h
 
 #include "Counters.h"
+#include "RestPresence.h"
+#include "ShaderSource.h"
 
 #include "vtkSmartPointer.h"
 
@@ -22,17 +24,23 @@ public:
   TransferTexture();
   ~TransferTexture();
 
-  // Uploads the maps if they, the unit distance or the step changed.
+  // Uploads the maps if they, the unit distance, the step or a mode changed. Opacities are those of
+  // a step where samples are blended (composite) or added (additive), else as given. Where colours
+  // come from elsewhere (direct), all entries go to the opacity curve.
   // True if they were uploaded.
-  bool update(
-    vtkOpenGLRenderWindow* window, vtkVolumeProperty* property, double stepMm, Counters& counters);
+  bool update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* property, double stepMm,
+    Blend blend, Coloring coloring, Counters& counters);
 
   // Texture coordinate from scalar: scalar * scale + shift. Beyond the ends the end colours hold.
   double scale() const;
   double shift() const;
 
-  // Whether a scalar between two values can have an opacity above 0, as the shader reads the map.
-  bool visible(double least, double greatest) const;
+  // Which values have an opacity above 0, as the shader reads the map; scalar = value * scale + shift.
+  VisibleValues visibleValues(double scale, double shift) const;
+
+  // Whether no invisible scalar lies above a visible one; below.
+  bool visibleUpwards() const;
+  bool visibleDownwards() const;
 
   vtkTextureObject* texture() const { return this->Texture; }
   void releaseGraphicsResources(vtkWindow* window);
@@ -43,6 +51,8 @@ private:
   unsigned long long OpacityTime = 0;
   double StepMm = 0.0;
   double UnitMm = 0.0;
+  Blend Blending = Blend::Composite;
+  Coloring ColorSource = Coloring::Mapped;
   std::vector<int> VisibleBefore; // visible entries with lower indices; one more than entries
   double Range[2] = { 0.0, 1.0 }; // scalars of the first and the last texel
 };

@@ -4,18 +4,19 @@
 #include "DeformableVolume.h"
 #include "DeformedPresence.h"
 #include "FieldTexture.h"
-#include "NormalTexture.h"
+#include "GpuMemory.h"
 #include "RayCaster.h"
-#include "ScalarTexture.h"
 #include "SceneDepth.h"
 #include "SceneGeometry.h"
-#include "TransferTexture.h"
+#include "SelectionCover.h"
+#include "TextureMemory.h"
+#include "Tissue.h"
 
-#include "vtkColorTransferFunction.h"
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkOpenGLRenderTimer.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkSmartVolumeMapper.h"
@@ -23,26 +24,45 @@
 #include "vtkTimerLog.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
+#include "vtkWeakPointer.h"
 
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 #include <string>
+#include <vector>
 
 using namespace brainshift;
 
-struct vtkDeformedVolumeMapper::State
+struct vtkDeformedVolumeMapper::Device
 {
-  ScalarTexture Scalars;
-  TransferTexture Transfer;
+  brainshift::Tissue Tissue;
   FieldTexture Field;
-  brainshift::NormalTexture Normals;
   DeformedPresence Presence;
   PresenceRequest Bricks; // what Presence shows
   SceneDepth Depth;
   RayCaster Caster;
+  SelectionCover Cover;
+  GpuMemory Memory;
+  vtkOpenGLRenderTimer FieldTimer;
+  vtkWeakPointer<vtkOpenGLRenderWindow> Window; // whose context holds all of these
+
+  // The deformation and the unit that Field shows.
+  unsigned long long FieldTime = 0;
+  glm::vec3 OffsetScale{ 0.0f };
+
+  double SecondsPerPixel = 0.0; // of the last image; 0: none yet
+
+  void Release(vtkWindow* window);
+};
+
+struct vtkDeformedVolumeMapper::State
+{
+  std::map<vtkWindow*, Device> Devices; // until the window lets its resources go
   Counters Count;
 
   // The deformation of the input, as read at DeformationTime.
@@ -51,12 +71,10 @@ struct vtkDeformedVolumeMapper::State
   FieldRequest Request;
   IndexBox Moved; // nodes of the offset field that can differ from zero
   unsigned long long DeformationTime = 0;
-  bool FieldCurrent = false; // the GPU's field shows Request
 
   vtkNew<vtkSmartVolumeMapper> Fallback;
-  std::string Reported; // the last trouble told
-
-  double SecondsPerPixel = 0.0; // of the last image; 0: none yet
+  std::string Reported;       // the last trouble told
+  std::set<std::string> Told; // unsupported choices
 };
 
 namespace
@@ -67,15 +85,16 @@ constexpr double InteractiveRate = 1.0;
 constexpr double SmoothRate = 15.0;
 constexpr int LargestImageScale = 4;
 
-// Which number of a tuple the colour map shows; -1: the vector's length.
-int shownComponent(vtkVolumeProperty* property, vtkDataArray* scalars)
+// Camera and light.
+void describeView(vtkRenderer* renderer, vtkVolume* volume, const Grid& grid,
+  const ValueLayout& layout, RayCastScene& scene)
 {
-  if (scalars->GetNumberOfComponents() == 1)
-  {
-    return 0;
-  }
-  vtkColorTransferFunction* color = property->GetRGBTransferFunction();
-  return color->GetVectorMode() == vtkScalarsToColors::COMPONENT ? color->GetVectorComponent() : -1;
+  scene.clipFromWorld = clipFromWorld(renderer);
+  scene.worldFromTexture = worldFromTexture(grid, layout, volume->GetMatrix());
+  scene.mmFromTexture = grid.spacing / layout.textureFromGrid;
+  scene.lights = lightsOf(renderer);
+  const int* tiles = renderer->GetRenderWindow()->GetTileScale();
+  scene.tile = tiles[0] * tiles[1] > 1;
 }
 }
 
@@ -98,7 +117,6 @@ void vtkDeformedVolumeMapper::UpdateDeformation(vtkImageData* image)
     return;
   }
   state.DeformationTime = time;
-  state.FieldCurrent = false;
   std::string problem;
   state.Deformed = carriesDeformation(image) && readDeformation(image, state.Source, problem);
   if (!problem.empty())
@@ -155,7 +173,11 @@ void vtkDeformedVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
   vtkNew<vtkTimerLog> timer;
   timer->StartTimer();
   std::string problem;
-  if (!this->Draw(renderer, volume, problem))
+  if (renderer->GetSelector())
+  {
+    this->CoverSelection(renderer);
+  }
+  else if (!this->Draw(renderer, volume, problem))
   {
     this->DrawUndeformed(renderer, volume, problem);
   }
@@ -163,9 +185,24 @@ void vtkDeformedVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
   this->TimeToDraw = timer->GetElapsedTime();
 }
 
+// What the last picture shows hides what is behind it; the volume itself cannot be selected.
+void vtkDeformedVolumeMapper::CoverSelection(vtkRenderer* renderer)
+{
+  auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  const auto found = this->Internal->Devices.find(window);
+  if (found == this->Internal->Devices.end() || !found->second.Caster.hits())
+  {
+    return;
+  }
+  Device& device = found->second;
+  if (!device.Cover.draw(window, renderer, device.Caster.hits(), this->Internal->Count))
+  {
+    vtkErrorMacro("The selection's shader does not compile. Selections reach through the volume.");
+  }
+}
+
 bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem)
 {
-  State& state = *this->Internal;
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   auto image = vtkImageData::SafeDownCast(this->GetDataSetInput());
   if (!window || !image)
@@ -186,21 +223,60 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
     return true; // nothing to draw yet
   }
   this->UpdateDeformation(image);
+  vtkVolumeProperty* property = volume->GetProperty();
+  this->TellUnsupported(property, scalars);
+  const double smallestSide = std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
+  const TissueRequest tissue{ property, scalars, layout,
+    this->SampleDistance > 0.0 ? this->SampleDistance : 0.5 * smallestSide, blendOf(this, property),
+    static_cast<GradientSource>(this->NormalTexture) };
+  Device& device = this->Internal->Devices[window];
+  device.Window = window;
+  takeOutOfMemory(); // what others left behind
+  const bool drawn = this->AskForMemory(renderer, device, tissue, problem) &&
+    this->DrawTissue(renderer, device, volume, tissue, grid, problem);
+  if (takeOutOfMemory())
+  {
+    device.Memory.refuse();
+    return this->AskForMemory(renderer, device, tissue, problem);
+  }
+  return drawn;
+}
+
+bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, vtkVolume* volume,
+  const TissueRequest& tissue, const Grid& grid, std::string& problem)
+{
+  State& state = *this->Internal;
+  auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  const ValueLayout& layout = tissue.layout;
   RayCastScene scene;
-  if (!this->PrepareTissue(window, volume->GetProperty(), scalars, grid, layout, scene, problem) ||
-    !this->PrepareSpace(window, grid, layout, scene, problem))
+  if (!device.Tissue.update(window, tissue, scene, state.Count, problem) ||
+    !this->PrepareSpace(window, device, grid, layout, scene, problem))
   {
     return false;
   }
+  scene.skipping = this->EmptySpaceSkipping && device.Tissue.skippingIsExact(tissue.blend);
+  describeView(renderer, volume, grid, layout, scene);
+  describeOptions(this, tissue.property, tissue.scalars, device.Tissue.stored(),
+    scene.worldFromTexture, scene.options);
   glm::ivec2 origin;
   glm::ivec2 size;
   renderer->GetTiledSizeAndOrigin(&size.x, &size.y, &origin.x, &origin.y);
-  state.Count.imageScale = this->ImageScale(window, size);
+  state.Count.imageScale = this->ImageScale(window, device, size);
   scene.size = glm::max(size / static_cast<int>(state.Count.imageScale), glm::ivec2(1));
-  this->DescribeView(renderer, volume, grid, layout, scene);
+  scene.shownHigh = scene.size;
+  if (scene.skipping)
+  {
+    placeShownPixels(device.Presence.occupiedBox(), scene);
+  }
+  const glm::dvec2 windowPixels = glm::dvec2(size) / glm::dvec2(scene.size); // for one of the image
+  device.Depth.capture(window, origin, size, glm::floor(glm::dvec2(scene.shownLow) * windowPixels),
+    glm::ceil(glm::dvec2(scene.shownHigh) * windowPixels));
+  scene.sceneDepth = device.Depth.texture();
+  scene.depthFromShare = device.Depth.textureFromShare();
+  scene.depthOfShareZero = device.Depth.textureOfShareZero();
   vtkNew<vtkTimerLog> timer;
   timer->StartTimer();
-  if (!state.Caster.cast(window, scene, state.Count))
+  if (!device.Caster.cast(window, scene, state.Count))
   {
     problem = "The ray caster's shader does not compile or its images cannot be made on this GPU";
     return false;
@@ -209,87 +285,37 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   {
     window->WaitForCompletion(); // else the time is that of the commands, not of the image
     timer->StopTimer();
-    state.SecondsPerPixel =
+    device.SecondsPerPixel =
       timer->GetElapsedTime() / (static_cast<double>(scene.size.x) * scene.size.y);
   }
-  return state.Caster.composite(window, origin, size, state.Count);
+  return device.Caster.composite(window, origin, size, state.Count);
 }
 
 // Screen pixels a side for one pixel of the image to come.
-int vtkDeformedVolumeMapper::ImageScale(vtkOpenGLRenderWindow* window, const glm::ivec2& size) const
+int vtkDeformedVolumeMapper::ImageScale(
+  vtkOpenGLRenderWindow* window, const Device& device, const glm::ivec2& size) const
 {
   const double rate = window->GetDesiredUpdateRate();
   if (!this->AdaptiveQuality || rate < InteractiveRate)
   {
     return 1;
   }
-  const double fullTime = this->Internal->SecondsPerPixel * size.x * size.y;
+  const double fullTime = device.SecondsPerPixel * size.x * size.y;
   const double allowed = 1.0 / std::max(rate, SmoothRate);
   const int scale = static_cast<int>(std::ceil(std::sqrt(fullTime / allowed)));
   return std::clamp(scale, 1, LargestImageScale);
 }
 
-// Scalars, gradients, colour and opacity.
-bool vtkDeformedVolumeMapper::PrepareTissue(vtkOpenGLRenderWindow* window,
-  vtkVolumeProperty* property, vtkDataArray* scalars, const Grid& grid, const ValueLayout& layout,
-  RayCastScene& scene, std::string& problem)
-{
-  State& state = *this->Internal;
-  const auto uploads = state.Count.volumeUploads;
-  if (!state.Scalars.update(window, scalars, layout.dimensions, shownComponent(property, scalars),
-        state.Count, problem))
-  {
-    return false;
-  }
-  const double smallestSide = std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
-  scene.stepMm = this->SampleDistance > 0.0 ? this->SampleDistance : 0.5 * smallestSide;
-  const bool newColours = state.Transfer.update(window, property, scene.stepMm, state.Count);
-  if (newColours || uploads != state.Count.volumeUploads)
-  {
-    this->UpdateVisibility(window);
-  }
-  scene.shaded = property->GetShade() != 0;
-  scene.voxel = layout.textureFromGrid;
-  if (scene.shaded && this->NormalTexture != OnTheFly)
-  {
-    if (!state.Normals.update(window, state.Scalars.texture(), layout.dimensions,
-          this->NormalTexture == HalfResolution, state.Scalars.range(), state.Count))
-    {
-      problem =
-        "The gradients' shader does not compile or their texture cannot be made on this GPU";
-      return false;
-    }
-    scene.normals = state.Normals.texture();
-  }
-  scene.scalars = state.Scalars.texture();
-  scene.transfer = state.Transfer.texture();
-  scene.transferFromScalar = glm::dvec2(state.Scalars.scale() * state.Transfer.scale(),
-    state.Scalars.shift() * state.Transfer.scale() + state.Transfer.shift());
-  scene.material = glm::dvec4(property->GetAmbient(), property->GetDiffuse(),
-    property->GetSpecular(), property->GetSpecularPower());
-  scene.volumeLow = layout.low;
-  scene.volumeHigh = layout.high;
-  return true;
-}
-
-// The rest volume's visibility, after a change of scalars, colour map or opacity.
-void vtkDeformedVolumeMapper::UpdateVisibility(vtkOpenGLRenderWindow* window)
-{
-  State& state = *this->Internal;
-  const BrickRanges& ranges = state.Scalars.ranges();
-  const auto visible = [&](const glm::vec2& stored) {
-    return state.Transfer.visible(stored.x * state.Scalars.scale() + state.Scalars.shift(),
-      stored.y * state.Scalars.scale() + state.Scalars.shift());
-  };
-  std::vector<float> summed = summedVisibility(ranges, visible);
-  state.Presence.setVisibility(window, ranges.count, summed, state.Count);
-}
-
 // The offset field and the bricks of the deformed frame.
-bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, const Grid& grid,
-  const ValueLayout& layout, RayCastScene& scene, std::string& problem)
+bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, Device& device,
+  const Grid& grid, const ValueLayout& layout, RayCastScene& scene, std::string& problem)
 {
   State& state = *this->Internal;
+  if (device.Tissue.takeVisibilityChange())
+  {
+    std::vector<float> summed = device.Tissue.summedVisibility();
+    device.Presence.setVisibility(window, device.Tissue.restBricks(), summed, state.Count);
+  }
   scene.spaceLow = layout.low;
   scene.spaceHigh = layout.high;
   IndexBox changed; // nodes of the offset field
@@ -297,74 +323,100 @@ bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, const 
   {
     const Grid& lattice = state.Source.lattice.grid;
     const glm::vec3 offsetScale(textureFromLattice(grid, layout, lattice));
-    if (!state.FieldCurrent || offsetScale != state.Request.offsetScale)
+    if (device.FieldTime != state.DeformationTime || device.OffsetScale != offsetScale)
     {
       state.Request.offsetScale = offsetScale;
-      if (!state.Field.update(window, state.Request, state.Count))
+      device.FieldTimer.Start();
+      const bool updated = device.Field.update(window, state.Request, state.Count);
+      device.FieldTimer.Stop();
+      if (!updated)
       {
         problem = "The deformation's shaders do not compile or its 3D float textures cannot be "
                   "made on this GPU";
         return false;
       }
-      state.FieldCurrent = true;
-      changed = state.Field.changed();
+      device.FieldTime = state.DeformationTime;
+      device.OffsetScale = offsetScale;
+      changed = device.Field.changed();
     }
-    scene.offsets = state.Field.offsets();
+    scene.offsets = device.Field.offsets();
     placeField(grid, layout, lattice, state.Request.nodes, state.Moved, scene);
   }
-  placeBricks(layout, scene, state.Bricks);
-  if (!state.Presence.update(window, state.Bricks, changed, state.Count))
+  placeBricks(layout, scene, device.Bricks);
+  if (!device.Presence.update(window, device.Bricks, changed, state.Count))
   {
     problem =
       "The presence map's shader does not compile or its texture cannot be made on this GPU";
     return false;
   }
-  if (this->Cropping && this->CroppingRegionFlags == VTK_CROP_SUBVOLUME)
-  {
-    cropSpace(grid, layout, this->CroppingRegionPlanes, scene);
-  }
-  scene.presence = &state.Presence;
-  scene.skipping = this->EmptySpaceSkipping;
+  this->DescribeCropping(grid, layout, scene);
+  scene.presence = &device.Presence;
   return true;
 }
 
-// Camera, light and what is drawn already.
-void vtkDeformedVolumeMapper::DescribeView(vtkRenderer* renderer, vtkVolume* volume,
+// The middle region alone narrows the space; others are asked for at each sample.
+void vtkDeformedVolumeMapper::DescribeCropping(
   const Grid& grid, const ValueLayout& layout, RayCastScene& scene)
 {
-  State& state = *this->Internal;
-  scene.clipFromWorld = clipFromWorld(renderer);
-  scene.worldFromTexture = worldFromTexture(grid, layout, volume->GetMatrix());
-  scene.lights = lightsOf(renderer);
-  scene.shownHigh = scene.size;
-  if (scene.skipping)
+  if (!this->Cropping)
   {
-    placeShownPixels(state.Presence.occupiedBox(), scene);
+    return;
   }
+  RayCastOptions& options = scene.options;
+  cropBox(grid, layout, this->CroppingRegionPlanes, options.regionLow, options.regionHigh);
+  if (this->CroppingRegionFlags == VTK_CROP_SUBVOLUME)
+  {
+    scene.spaceLow = glm::max(scene.spaceLow, options.regionLow);
+    scene.spaceHigh = glm::min(scene.spaceHigh, options.regionHigh);
+    return;
+  }
+  options.regions = true;
+  options.regionFlags = this->CroppingRegionFlags;
+}
+
+// Before memory is taken: some drivers end the program when there is none.
+bool vtkDeformedVolumeMapper::AskForMemory(
+  vtkRenderer* renderer, Device& device, const TissueRequest& tissue, std::string& problem)
+{
+  const State& state = *this->Internal;
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  DrawnSizes sizes;
+  addTissueSizes(tissue, sizes);
   glm::ivec2 origin;
-  glm::ivec2 size;
-  renderer->GetTiledSizeAndOrigin(&size.x, &size.y, &origin.x, &origin.y);
-  const glm::dvec2 windowPixels = glm::dvec2(size) / glm::dvec2(scene.size); // for one of the image
-  state.Depth.capture(window, origin, size, glm::floor(glm::dvec2(scene.shownLow) * windowPixels),
-    glm::ceil(glm::dvec2(scene.shownHigh) * windowPixels));
-  scene.sceneDepth = state.Depth.texture();
-  scene.depthFromShare = state.Depth.textureFromShare();
-  scene.depthOfShareZero = state.Depth.textureOfShareZero();
+  renderer->GetTiledSizeAndOrigin(&sizes.pixels.x, &sizes.pixels.y, &origin.x, &origin.y);
+  if (state.Deformed)
+  {
+    sizes.forwardNodes = (state.Request.dimensions - 1) * (state.Request.samples + 1) + 1;
+    sizes.backwardNodes = state.Request.nodes.count;
+  }
+  problem = device.Memory.ask(window, memoryNeed(sizes), this->MemoryLimit);
+  return problem.empty();
+}
+
+void vtkDeformedVolumeMapper::TellUnsupported(vtkVolumeProperty* property, vtkDataArray* scalars)
+{
+  for (const std::string& sentence : unsupportedChoices(this, property, scalars))
+  {
+    if (this->Internal->Told.insert(sentence).second)
+    {
+      vtkWarningMacro(<< sentence << ".");
+    }
+  }
 }
 
 bool vtkDeformedVolumeMapper::Pick(vtkRenderer* renderer, int x, int y, double position[3])
 {
-  State& state = *this->Internal;
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
-  if (!window)
+  const auto found = this->Internal->Devices.find(window);
+  const int* size = renderer->GetSize();
+  if (found == this->Internal->Devices.end() || x < 0 || y < 0 || x >= size[0] || y >= size[1])
   {
     return false;
   }
   window->MakeCurrent();
   glm::dvec4 hit;
-  const int scale = static_cast<int>(state.Count.imageScale);
-  if (x < 0 || y < 0 || !state.Caster.hitAt(window, { x / scale, y / scale }, hit))
+  const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) / glm::dvec2(size[0], size[1]);
+  if (!found->second.Caster.hitAt(window, place, hit))
   {
     return false;
   }
@@ -386,26 +438,76 @@ void vtkDeformedVolumeMapper::DrawUndeformed(
   state.Fallback->SetInputConnection(this->GetInputConnection(0, 0));
   state.Fallback->SetScalarMode(this->ScalarMode);
   state.Fallback->SelectScalarArray(this->ArrayName);
+  const bool blends = this->BlendMode == vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND ||
+    this->BlendMode == vtkVolumeMapper::MINIMUM_INTENSITY_BLEND ||
+    this->BlendMode == vtkVolumeMapper::ADDITIVE_BLEND;
+  state.Fallback->SetBlendMode(blends ? this->BlendMode : vtkVolumeMapper::COMPOSITE_BLEND);
+  state.Fallback->SetCropping(this->Cropping);
+  state.Fallback->SetCroppingRegionFlags(this->CroppingRegionFlags);
+  state.Fallback->SetCroppingRegionPlanes(this->CroppingRegionPlanes);
+  state.Fallback->SetClippingPlanes(this->ClippingPlanes);
   state.Fallback->Render(renderer, volume);
+}
+
+void vtkDeformedVolumeMapper::Device::Release(vtkWindow* window)
+{
+  this->Tissue.releaseGraphicsResources(window);
+  this->Presence.releaseGraphicsResources(window);
+  this->Field.releaseGraphicsResources(window);
+  this->Depth.releaseGraphicsResources(window);
+  this->Caster.releaseGraphicsResources(window);
+  this->FieldTimer.ReleaseGraphicsResources();
+  this->Cover.releaseGraphicsResources();
 }
 
 void vtkDeformedVolumeMapper::ReleaseGraphicsResources(vtkWindow* window)
 {
   State& state = *this->Internal;
-  state.Scalars.releaseGraphicsResources(window);
-  state.Transfer.releaseGraphicsResources(window);
-  state.Normals.releaseGraphicsResources(window);
-  state.Presence.releaseGraphicsResources(window);
-  state.Field.releaseGraphicsResources(window);
-  state.Depth.releaseGraphicsResources(window);
-  state.Caster.releaseGraphicsResources(window);
-  state.FieldCurrent = false;
+  const auto found = state.Devices.find(window);
+  if (found != state.Devices.end())
+  {
+    // Closing a view, ParaView leaves another window's context current, where our buffers' numbers
+    // may mean something else.
+    auto context = vtkOpenGLRenderWindow::SafeDownCast(window);
+    context->PushContext();
+    found->second.Release(window);
+    context->PopContext();
+    state.Devices.erase(found);
+  }
   state.Fallback->ReleaseGraphicsResources(window);
   this->Superclass::ReleaseGraphicsResources(window);
 }
 
-const Counters& vtkDeformedVolumeMapper::GetCounters() const
+// Asked for here and not in every frame: the driver's answers may make it wait for the GPU.
+void vtkDeformedVolumeMapper::AskTheGpu()
 {
+  Counters& count = this->Internal->Count;
+  count.gpuScalarBytes = 0;
+  count.gpuOtherBytes = 0;
+  for (auto& [key, device] : this->Internal->Devices)
+  {
+    if (!device.Window)
+    {
+      continue;
+    }
+    device.Window->MakeCurrent();
+    count.gpuScalarBytes += textureBytes(device.Tissue.scalars());
+    count.gpuOtherBytes += device.Presence.faceBytes() +
+      textureBytes({ device.Tissue.otherTextures(), { device.Depth.copied() },
+        device.Field.textures(), device.Presence.textures(), device.Caster.textures() });
+    if (device.FieldTimer.Stopped() && device.FieldTimer.Ready())
+    {
+      constexpr std::int64_t nanosecondsInMicrosecond = 1000;
+      count.gpuFieldMicroseconds =
+        static_cast<std::int64_t>(device.FieldTimer.GetElapsedNanoseconds()) /
+        nanosecondsInMicrosecond;
+    }
+  }
+}
+
+const Counters& vtkDeformedVolumeMapper::GetCounters()
+{
+  this->AskTheGpu();
   return this->Internal->Count;
 }
 
@@ -415,5 +517,6 @@ void vtkDeformedVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SampleDistance: " << this->SampleDistance << "\n"
      << indent << "EmptySpaceSkipping: " << this->EmptySpaceSkipping << "\n"
      << indent << "AdaptiveQuality: " << this->AdaptiveQuality << "\n"
+     << indent << "MemoryLimit: " << this->MemoryLimit << "\n"
      << indent << "NormalTexture: " << this->NormalTexture << "\n";
 }

@@ -7,6 +7,12 @@
  * Filters/DeformableVolume.h), never resampling a voxel; a volume without a lattice is drawn as it
  * is. Colours, opacity, light and position come from the vtkVolume, as for any volume mapper.
  *
+ * All blend modes, clipping planes, cropping regions and dependent components of VTK's volumes are
+ * drawn under the deformation; what is not drawn is told once (RayCastOptions.h).
+ *
+ * What lies on the GPU is kept for each window that shows the volume: two of them, drawn in turn,
+ * upload nothing.
+ *
  * Where the GPU cannot draw it, the reason is reported once and VTK's software mapper draws the volume
  * undeformed.
  *
@@ -32,6 +38,7 @@ namespace brainshift
 struct Counters;
 struct Grid;
 struct RayCastScene;
+struct TissueRequest;
 struct ValueLayout;
 }
 
@@ -76,10 +83,16 @@ public:
   vtkGetMacro(AdaptiveQuality, bool);
   ///@}
 
+  ///@{
+  /** Most memory of the GPU to use, MiB. 0 (default): all that the driver gives. */
+  vtkSetClampMacro(MemoryLimit, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(MemoryLimit, double);
+  ///@}
+
   /**
-   * Tissue position (mm, world, deformed frame) that the last picture shows at a pixel counted from
-   * the renderer's lower left corner, without drawing again: where the opacity along the ray reaches
-   * one half. False where it does not.
+   * Tissue position (mm, world, deformed frame) that the last whole picture in the renderer's window
+   * shows at a pixel counted from the renderer's lower left corner, without drawing again: where the
+   * opacity along the ray reaches one half. False where it does not.
    */
   bool Pick(vtkRenderer* renderer, int x, int y, double position[3]);
 
@@ -92,8 +105,8 @@ public:
   double* GetBounds() VTK_SIZEHINT(6) override;
   ///@}
 
-  /** What was done since the mapper was made. */
-  const brainshift::Counters& GetCounters() const;
+  /** What was done since the mapper was made, and what it holds on the GPU now. */
+  const brainshift::Counters& GetCounters();
 
 protected:
   vtkDeformedVolumeMapper();
@@ -103,27 +116,33 @@ private:
   vtkDeformedVolumeMapper(const vtkDeformedVolumeMapper&) = delete;
   void operator=(const vtkDeformedVolumeMapper&) = delete;
 
+  struct Device; // textures and programs of one window
+  struct State;  // what all windows share, and their devices
+
   // Draws deformed. False, with one sentence in `problem`, if this GPU cannot.
   bool Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem);
+  bool DrawTissue(vtkRenderer* renderer, Device& device, vtkVolume* volume,
+    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid, std::string& problem);
+  void CoverSelection(vtkRenderer* renderer);
   void DrawUndeformed(vtkRenderer* renderer, vtkVolume* volume, const std::string& problem);
 
-  int ImageScale(vtkOpenGLRenderWindow* window, const glm::ivec2& size) const;
+  void TellUnsupported(vtkVolumeProperty* property, vtkDataArray* scalars);
+  bool AskForMemory(vtkRenderer* renderer, Device& device, const brainshift::TissueRequest& tissue,
+    std::string& problem);
+  void AskTheGpu();
+  int ImageScale(vtkOpenGLRenderWindow* window, const Device& device, const glm::ivec2& size) const;
   void UpdateDeformation(vtkImageData* image);
-  bool PrepareTissue(vtkOpenGLRenderWindow* window, vtkVolumeProperty* property,
-    vtkDataArray* scalars, const brainshift::Grid& grid, const brainshift::ValueLayout& layout,
-    brainshift::RayCastScene& scene, std::string& problem);
-  void UpdateVisibility(vtkOpenGLRenderWindow* window);
-  bool PrepareSpace(vtkOpenGLRenderWindow* window, const brainshift::Grid& grid,
+  bool PrepareSpace(vtkOpenGLRenderWindow* window, Device& device, const brainshift::Grid& grid,
     const brainshift::ValueLayout& layout, brainshift::RayCastScene& scene, std::string& problem);
-  void DescribeView(vtkRenderer* renderer, vtkVolume* volume, const brainshift::Grid& grid,
-    const brainshift::ValueLayout& layout, brainshift::RayCastScene& scene);
+  void DescribeCropping(const brainshift::Grid& grid, const brainshift::ValueLayout& layout,
+    brainshift::RayCastScene& scene);
 
   double SampleDistance = 0.0;
   bool EmptySpaceSkipping = true;
   int NormalTexture = FullResolution;
   bool AdaptiveQuality = true;
+  double MemoryLimit = 0.0;
 
-  struct State; // textures, programs and what they were made from
   std::unique_ptr<State> Internal;
 };
 

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedVolumeRepresentation.h"
 
-#include "Counters.h"
 #include "vtkDeformedVolumeMapper.h"
+#include "vtkVolumeOrder.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPVRenderView.h"
 #include "vtkRenderer.h"
-
-#include <algorithm>
-#include <sstream>
+#include "vtkSmartVolumeMapper.h"
 
 vtkStandardNewMacro(vtkDeformedVolumeRepresentation);
 
@@ -18,60 +16,97 @@ vtkDeformedVolumeRepresentation::vtkDeformedVolumeRepresentation()
   this->VolumeMapper.TakeReference(vtkDeformedVolumeMapper::New());
 }
 
-vtkDeformedVolumeMapper* vtkDeformedVolumeRepresentation::Mapper() const
+vtkDeformedVolumeRepresentation::~vtkDeformedVolumeRepresentation() = default;
+
+vtkDeformedVolumeMapper* vtkDeformedVolumeRepresentation::GetDeformedVolumeMapper() const
 {
   return vtkDeformedVolumeMapper::SafeDownCast(this->VolumeMapper);
 }
 
+void vtkDeformedVolumeRepresentation::SetVisibility(bool visible)
+{
+  this->Superclass::SetVisibility(visible);
+  this->Order->SetEnabled(visible);
+}
+
 void vtkDeformedVolumeRepresentation::SetSampleDistance(double distance)
 {
-  this->Mapper()->SetSampleDistance(distance);
+  this->GetDeformedVolumeMapper()->SetSampleDistance(distance);
 }
 
 void vtkDeformedVolumeRepresentation::SetEmptySpaceSkipping(bool skipping)
 {
-  this->Mapper()->SetEmptySpaceSkipping(skipping);
+  this->GetDeformedVolumeMapper()->SetEmptySpaceSkipping(skipping);
 }
 
 void vtkDeformedVolumeRepresentation::SetNormalTexture(int normals)
 {
-  this->Mapper()->SetNormalTexture(normals);
+  this->GetDeformedVolumeMapper()->SetNormalTexture(normals);
 }
 
 void vtkDeformedVolumeRepresentation::SetAdaptiveQuality(bool adaptive)
 {
-  this->Mapper()->SetAdaptiveQuality(adaptive);
+  this->GetDeformedVolumeMapper()->SetAdaptiveQuality(adaptive);
+}
+
+void vtkDeformedVolumeRepresentation::SetMemoryLimit(double limit)
+{
+  this->GetDeformedVolumeMapper()->SetMemoryLimit(limit);
+}
+
+void vtkDeformedVolumeRepresentation::SetGlobalIlluminationReach(float reach)
+{
+  this->GlobalIlluminationReach = reach;
+}
+
+void vtkDeformedVolumeRepresentation::SetVolumetricScatteringBlending(float blending)
+{
+  this->VolumetricScatteringBlending = blending;
+}
+
+void vtkDeformedVolumeRepresentation::SetRequestedRenderMode(int mode)
+{
+  this->RequestedRenderMode = mode;
+}
+
+void vtkDeformedVolumeRepresentation::TellOnce(bool unsupported, const std::string& sentence)
+{
+  if (unsupported && this->Told.insert(sentence).second)
+  {
+    vtkWarningMacro(<< sentence << ".");
+  }
+}
+
+// Called for a picture, so that only what is shown is told of: ParaView sets the properties that
+// Volume and Deformed Volume share for both.
+void vtkDeformedVolumeRepresentation::UpdateMapperParameters()
+{
+  this->Superclass::UpdateMapperParameters();
+  this->TellOnce(this->GlobalIlluminationReach > 0.0f,
+    "GlobalIlluminationReach is above 0; Deformed Volume draws no shadows");
+  this->TellOnce(this->VolumetricScatteringBlending > 0.0f,
+    "VolumetricScatteringBlending is above 0; Deformed Volume draws no scattered light");
+  this->TellOnce(this->RequestedRenderMode == vtkSmartVolumeMapper::RayCastRenderMode ||
+      this->RequestedRenderMode == vtkSmartVolumeMapper::OSPRayRenderMode,
+    "VolumeRenderingMode asks for software or OSPRay; Deformed Volume draws on the GPU");
 }
 
 bool vtkDeformedVolumeRepresentation::AddToView(vtkView* view)
 {
   if (auto renderView = vtkPVRenderView::SafeDownCast(view))
   {
-    this->Renderer = renderView->GetRenderer();
+    renderView->GetRenderer()->AddCuller(this->Order);
   }
   return this->Superclass::AddToView(view);
 }
 
-void vtkDeformedVolumeRepresentation::SetPickedPixel(int x, int y)
+bool vtkDeformedVolumeRepresentation::RemoveFromView(vtkView* view)
 {
-  std::fill_n(this->PickedTissue, 4, 0.0);
-  if (this->Renderer && this->Mapper()->Pick(this->Renderer, x, y, this->PickedTissue))
+  if (auto renderView = vtkPVRenderView::SafeDownCast(view))
   {
-    this->PickedTissue[3] = 1.0;
+    renderView->GetRenderer()->RemoveCuller(this->Order);
   }
-}
-
-const char* vtkDeformedVolumeRepresentation::GetCounters()
-{
-  const brainshift::Counters& count = this->Mapper()->GetCounters();
-  std::ostringstream text;
-  text << "frames " << count.frames << "\nvolumeUploads " << count.volumeUploads
-       << "\nlatticeUploads " << count.latticeUploads << "\ntransferUploads "
-       << count.transferUploads << "\nbytesUploaded " << count.bytesUploaded << "\ntexelsRefined "
-       << count.texelsRefined << "\npresenceUpdates " << count.presenceUpdates << "\nimageScale "
-       << count.imageScale << "\nprogramsCompiled " << count.programsCompiled;
-  this->CountersText = text.str();
-  return this->CountersText.c_str();
+  return this->Superclass::RemoveFromView(view);
 }
 
 int vtkDeformedVolumeRepresentation::RequestData(

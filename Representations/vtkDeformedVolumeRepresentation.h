@@ -4,19 +4,21 @@
  * @brief   "Deformed Volume": ParaView's "Volume" with our ray caster
  *
  * Everything "Volume" does with data delivery, colour maps, opacity and transforms is inherited;
- * only the mapper differs, and the bounds told to the view are those of the deformed volume.
+ * only the mapper differs, and the bounds told to the view are those of the deformed volume. A view
+ * that shows it draws all its volumes from back to front.
  */
 #ifndef vtkDeformedVolumeRepresentation_h
 #define vtkDeformedVolumeRepresentation_h
 
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 #include "vtkImageVolumeRepresentation.h"
-#include "vtkWeakPointer.h" // for the renderer
+#include "vtkNew.h" // for the order
 
-#include <string> // for the counters' text
+#include <set>    // for what was told
+#include <string> // for its sentences
 
 class vtkDeformedVolumeMapper;
-class vtkRenderer;
+class vtkVolumeOrder;
 
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkDeformedVolumeRepresentation
   : public vtkImageVolumeRepresentation
@@ -25,6 +27,9 @@ public:
   static vtkDeformedVolumeRepresentation* New();
   vtkTypeMacro(vtkDeformedVolumeRepresentation, vtkImageVolumeRepresentation);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** Shown or not: also whether its view sorts its volumes. */
+  void SetVisibility(bool visible) override;
 
   /** Step along the ray, mm. 0 (default): half the smallest voxel side. */
   void SetSampleDistance(double distance);
@@ -38,24 +43,27 @@ public:
   /** Draw fewer pixels while moving, to hold the rate. Default true. */
   void SetAdaptiveQuality(bool adaptive);
 
-  ///@{
-  /**
-   * Asks which tissue the last picture shows at a pixel, counted from the view's lower left corner;
-   * GetPickedTissue then gives its position (mm, world, deformed frame) and 1, or zeros where no
-   * surface was hit. Nothing is drawn.
-   */
-  void SetPickedPixel(int x, int y);
-  vtkGetVector4Macro(PickedTissue, double);
-  ///@}
+  /** What draws it in this process. */
+  vtkDeformedVolumeMapper* GetDeformedVolumeMapper() const;
 
-  /** What the renderer did since it was made (Counters.h): lines of a name, a space, a number. */
-  const char* GetCounters();
+  /** Most memory of the GPU to use, MiB. 0 (default): all that the driver gives. */
+  void SetMemoryLimit(double limit);
+
+  ///@{
+  /** Light effects of ParaView's "Volume" that are not drawn: told once if they are asked for. */
+  void SetGlobalIlluminationReach(float reach);
+  void SetVolumetricScatteringBlending(float blending);
+  void SetRequestedRenderMode(int mode);
+  ///@}
 
 protected:
   vtkDeformedVolumeRepresentation();
-  ~vtkDeformedVolumeRepresentation() override = default;
+  ~vtkDeformedVolumeRepresentation() override;
 
   bool AddToView(vtkView* view) override;
+  bool RemoveFromView(vtkView* view) override;
+
+  void UpdateMapperParameters() override;
 
   int RequestData(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
@@ -64,11 +72,13 @@ private:
   vtkDeformedVolumeRepresentation(const vtkDeformedVolumeRepresentation&) = delete;
   void operator=(const vtkDeformedVolumeRepresentation&) = delete;
 
-  vtkDeformedVolumeMapper* Mapper() const;
+  void TellOnce(bool unsupported, const std::string& sentence);
 
-  std::string CountersText;
-  double PickedTissue[4] = { 0.0, 0.0, 0.0, 0.0 };
-  vtkWeakPointer<vtkRenderer> Renderer; // of the view this representation is shown in
+  vtkNew<vtkVolumeOrder> Order;
+  float GlobalIlluminationReach = 0.0f;
+  float VolumetricScatteringBlending = 0.0f;
+  int RequestedRenderMode = 0;
+  std::set<std::string> Told;
 };
 
 #endif

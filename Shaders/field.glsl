@@ -31,6 +31,11 @@ ivec2 movedSamples(Ray ray, vec2 span, float stepMm)
                                ceil((moved.y - span.x) / stepMm) + 2.0);
 }
 
+vec3 restFromDeformed(vec3 deformed)
+{
+  return deformed + offsetAt(deformed * fieldFromTexture + fieldFromTextureShift);
+}
+
 // Derivatives of the offsets, columns along the axes, at a position in the field's texture
 // coordinates; from the four corners of a tetrahedron: symmetric, and each corner serves all three.
 mat3 offsetSlopes(vec3 middle)
@@ -41,6 +46,11 @@ mat3 offsetSlopes(vec3 middle)
   vec3 d = offsetAt(middle + fieldTexel);
   vec3 scale = fieldFromTexture / (4.0 * fieldTexel);
   return mat3((a - b - c + d) * scale.x, (c + d - a - b) * scale.y, (b + d - a - c) * scale.z);
+}
+
+mat3 offsetSlopesAt(vec3 deformed)
+{
+  return offsetSlopes(deformed * fieldFromTexture + fieldFromTextureShift);
 }
 #else
 ivec2 movedSamples(Ray ray, vec2 span, float stepMm)
@@ -58,7 +68,17 @@ vec3 offsetAt(vec3 fieldPosition)
   return vec3(0.0);
 }
 
+vec3 restFromDeformed(vec3 deformed)
+{
+  return deformed;
+}
+
 mat3 offsetSlopes(vec3 middle)
+{
+  return mat3(0.0);
+}
+
+mat3 offsetSlopesAt(vec3 deformed)
 {
   return mat3(0.0);
 }

@@ -18,16 +18,24 @@ vec3 worldFromDeformed(vec3 deformed)
   return worldFromTexture * deformed + worldOfTextureZero;
 }
 
-// Colour times opacity, and opacity, of a sample. `slopes`: of the offsets near it.
-vec4 shown(vec4 tissue, vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
+// A sample's colour under light. `slopes`: of the offsets near it; `turn`: worldFromGradient.
+vec3 shade(vec3 color, vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
 {
-  vec3 color = tissue.rgb;
 #ifdef SHADED
   vec3 gradient = turn * deformedGradientFromRest(slopes, gradientAt(rest));
   float steepness = length(gradient);
   vec3 normal = steepness > 0.0 ? gradient / steepness : vec3(0.0);
-  color = lit(color, normal, towardsEye, worldFromDeformed(deformed));
+  return lit(color, normal, towardsEye, worldFromDeformed(deformed));
+#else
+  return color;
 #endif
+}
+
+#ifdef COMPOSITE
+// Colour times opacity, and opacity, of a sample.
+vec4 shown(vec4 tissue, vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
+{
+  vec3 color = shade(colorOf(tissue, rest), deformed, rest, slopes, turn, towardsEye);
   return tissue.a > 0.0 ? vec4(color * tissue.a, tissue.a) : vec4(0.0);
 }
 
@@ -36,8 +44,9 @@ void main()
   Ray ray = rayOfPixel(ndc);
   vec2 span = boxSpan(ray, spaceLow, spaceHigh);
   span.y = min(span.y, sceneDistance(ray, 0.5 * ndc + 0.5));
-  // Samples are numbered from the box's edge, whether empty space is skipped or not, and taken by
-  // twos: independent reads overlap, and one Jacobian does for both.
+  span = clippedSpan(ray, span, stepMm);
+  // Samples are numbered from the box's edge or a cut, whether empty space is skipped or not, and
+  // taken by twos: independent reads overlap, and one Jacobian does for both.
   ivec2 samples = presentSamples(ray, span, stepMm);
   ivec2 moved = movedSamples(ray, span, stepMm);
   Track deformed = Track(ray.start + span.x * ray.direction, stepMm * ray.direction);
@@ -72,7 +81,8 @@ void main()
       }
       vec4 one = tissueAt(table, oneRest);
       vec4 two = tissueAt(table, twoRest);
-      two.a = i + 1 < samples.y ? two.a : 0.0;
+      one.a = inShownRegion(oneDeformed) ? one.a : 0.0;
+      two.a = i + 1 < samples.y && inShownRegion(twoDeformed) ? two.a : 0.0;
       if (max(one.a, two.a) > 0.0)
       {
         ask = max(ask, i + Trust);
@@ -83,7 +93,8 @@ void main()
         }
         picture += (1.0 - picture.a) * shown(one, oneDeformed, oneRest, slopes, turn, towardsEye);
         hit = hit < 0.0 && picture.a >= HitOpacity ? max(float(i) - 0.5, 0.0) : hit;
-        picture += picture.a > OpaqueEnough ? vec4(0.0) : (1.0 - picture.a) * shown(two, twoDeformed, twoRest, slopes, turn, towardsEye);
+        vec4 further = shown(two, twoDeformed, twoRest, slopes, turn, towardsEye);
+        picture += picture.a > OpaqueEnough ? vec4(0.0) : (1.0 - picture.a) * further;
         hit = hit < 0.0 && picture.a >= HitOpacity ? float(i) + 0.5 : hit;
         if (picture.a > OpaqueEnough)
         {
@@ -98,3 +109,4 @@ void main()
     ? vec4(0.0, 0.0, 0.0, -1.0)
     : vec4(worldFromDeformed(deformed.first + hit * deformed.stride), span.x + hit * stepMm);
 }
+#endif

@@ -1,4 +1,6 @@
-// From a pixel to its ray, in the volume's texture coordinates. t is in mm from the near plane.
+// From a pixel to its ray, in the volume's texture coordinates. t is in mm from the near plane, in
+// the volume's own frame: an actor's scale changes neither the number of samples nor what is seen
+// through, as in VTK.
 
 uniform vec3 nearOrigin; // the near plane: position of ndc (0,0) and what one unit of ndc adds
 uniform vec3 nearRight;
@@ -8,6 +10,7 @@ uniform vec3 farRight;
 uniform vec3 farUp;
 uniform vec2 clipW;             // homogeneous w on the near and on the far plane
 uniform mat3 worldFromTexture;  // directions: mm (world axes) for one texture unit
+uniform vec3 mmFromTexture;     // mm for one texture unit, before an actor's scale
 uniform sampler2D sceneDepth;   // window depth of what is drawn already
 uniform vec2 depthFromShare;    // its texture coordinates from the share of the image: scale, shift
 uniform vec2 depthOfShareZero;
@@ -24,7 +27,7 @@ Ray rayOfPixel(vec2 ndc)
   Ray ray;
   ray.start = nearOrigin + ndc.x * nearRight + ndc.y * nearUp;
   vec3 across = farOrigin + ndc.x * farRight + ndc.y * farUp - ray.start;
-  ray.lengthMm = length(worldFromTexture * across);
+  ray.lengthMm = length(mmFromTexture * across);
   ray.direction = across / ray.lengthMm;
   return ray;
 }

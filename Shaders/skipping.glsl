@@ -35,7 +35,7 @@ ivec2 presentSamples(Ray ray, vec2 span, float stepMm)
     return ivec2(0); // the ray meets no occupied brick: even from inside it would leave one
   }
   found *= ray.lengthMm;
-  float nearest = span.x <= 0.0 && startsInside(ray.start) ? 0.0 : found.x;
+  float nearest = startsInside(ray.start) ? 0.0 : found.x;
   // One sample more to either side for rounding.
   ivec2 present = ivec2(int(floor((nearest - span.x) / stepMm)) - 1,
     int(ceil((-found.y - span.x) / stepMm)) + 2);

@@ -23,6 +23,11 @@ bool insideVolume(TissueTable table, vec3 rest)
   return all(greaterThanEqual(rest, table.volumeLow)) && all(lessThanEqual(rest, table.volumeHigh));
 }
 
+bool insideVolume(vec3 rest)
+{
+  return insideVolume(tissueTable(), rest);
+}
+
 uniform sampler3D scalars; // red: the scalar, as stored
 
 float scalarAt(vec3 rest)
@@ -30,13 +35,23 @@ float scalarAt(vec3 rest)
   return textureLod(scalars, rest, 0.0).r;
 }
 
-// Colour and opacity of one step; nothing outside the volume and where the scalar is not a number.
+// Colour and opacity of one step; nothing where the scalar is not a number.
+vec4 tissueOf(TissueTable table, float scalar)
+{
+  float entry = scalar * table.transferFromScalar.x + table.transferFromScalar.y;
+  return isnan(scalar) ? vec4(0.0) : textureLod(transfer, vec2(entry, 0.5), 0.0);
+}
+
+vec4 tissueOf(float scalar)
+{
+  return tissueOf(tissueTable(), scalar);
+}
+
+// The same at a position; nothing outside the volume.
 vec4 tissueAt(TissueTable table, vec3 rest)
 {
-  float scalar = scalarAt(rest);
-  float entry = scalar * table.transferFromScalar.x + table.transferFromScalar.y;
-  vec4 tissue = textureLod(transfer, vec2(entry, 0.5), 0.0);
-  return insideVolume(table, rest) && !isnan(scalar) ? tissue : vec4(0.0);
+  vec4 tissue = tissueOf(table, scalarAt(rest));
+  return insideVolume(table, rest) ? tissue : vec4(0.0);
 }
 
 // The scalar's gradient, of any length.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that baking moves voxels where the deformation says and invents no value.
+#include "OffsetField.h"
 #include "TestPipeline.h"
 
 #include <vtkCellData.h>
@@ -161,6 +162,56 @@ TEST(Bake, FollowsTheWorldOnAnObliqueVolume)
     const glm::dvec3 deformed = grid.worldFromGrid(glm::dvec3(index));
     EXPECT_NEAR(
       target->GetTuple1(grid.offset(index.x, index.y, index.z)), intensity(deformed - shift), 1e-3);
+  }
+}
+
+TEST(Bake, ReadsTheOffsetFieldAtEveryVoxel)
+{
+  // Rows are divided where movement begins and ends; intensity tells the position. Four voxels lie
+  // between two nodes.
+  const auto intensity = [](const glm::dvec3& rest) { return rest.x + 20.0 * rest.y; };
+  const auto indexOf = [](vtkIdType i) { return glm::dvec3(i % 17, i / 17 % 17, i / 289); };
+  auto volume =
+    volumeOn(VolumeGrid, VTK_DOUBLE, [&](vtkIdType i) { return intensity(indexOf(i)); });
+  Pipeline pipeline(volume);
+  pipeline.Deform->SetSamples(0);
+  for (const int x : { 0, 4, 8, 12, 16 })
+  {
+    setStrokes(pipeline.Deform, { strokeAt(Tool::Move, { x, 8, 8 }, { 0.7, -0.6, 0.3 }) });
+    vtkDataArray* baked = pipeline.baked(vtkBakeDeformation::Linear)->GetPointData()->GetScalars();
+    const Deformation deformation =
+      deformationOf(vtkImageData::SafeDownCast(pipeline.Deform->GetOutputDataObject(0)));
+    const NodeField field = offsetField(deformation.lattice, 0, Inverse::Exact);
+    for (vtkIdType i = 0; i < 17 * 17 * 17; ++i)
+    {
+      const glm::dvec3 offset(field.displacement(indexOf(i) / 4.0));
+      const glm::dvec3 rest = indexOf(i) + 4.0 * offset;
+      if (rest == glm::clamp(rest, glm::dvec3(0.0), glm::dvec3(16.0)))
+      {
+        ASSERT_NEAR(baked->GetTuple1(i), intensity(rest), 1e-4)
+          << "voxel " << i << ", stroke " << x;
+      }
+    }
+  }
+}
+
+TEST(Bake, HoldsTheBorderOfALatticeThatEndsWithinTheVolume)
+{
+  auto volume = volumeOn(VolumeGrid, VTK_UNSIGNED_CHAR, [](vtkIdType i) { return i % 17; });
+  Deformation deformation;
+  Grid middle = plainGrid(glm::ivec3(5), glm::dvec3(1.0));
+  middle.origin = glm::dvec3(5.0);
+  deformation.lattice = latticeOf(middle, 0, [](const glm::dvec3&) { return glm::dvec3(2, 0, 0); });
+  deformation.samples = 0;
+  attach(volume, deformation);
+  vtkNew<vtkBakeDeformation> bake;
+  bake->SetInputData(volume);
+  bake->Update();
+  vtkDataArray* baked = bake->GetOutput()->GetPointData()->GetScalars();
+  const vtkIdType row = VolumeGrid.offset(0, 8, 8);
+  for (int x = 2; x < 17; ++x)
+  {
+    EXPECT_EQ(baked->GetTuple1(row + x), x - 2.0);
   }
 }
 

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How fast BrainShift is to be: for each quantity a floor that must hold and a goal to aim at."""
+
+import dataclasses
+
+
+@dataclasses.dataclass
+class Target:
+    quantity: str
+    against: str
+    unit: str
+    least: float  #: the floor
+    goal: float
+    small_is_good: bool = False
+
+    def verdict(self, value):
+        sign = -1 if self.small_is_good else 1
+        if sign * value >= sign * self.goal:
+            return "goal"
+        return "yes" if sign * value >= sign * self.least else "NO"
+
+
+STOCK = "stock Volume as loaded, same step"
+COARSE = "stock Volume as loaded, its default step of a voxel"
+RESLICE = "vtkImageReslice, vtkBSplineTransform, upload, stock Volume"
+
+#: By the key that measurements are reported with, in the order of the table.
+TARGETS = {
+    "frame opaque": Target("steady frame, opaque", STOCK, "x", 4, 10),
+    "frame translucent": Target("steady frame, translucent", STOCK, "x", 2.5, 6),
+    "coarse opaque": Target("steady frame, opaque", COARSE, "x", 2, 5),
+    "coarse translucent": Target("steady frame, translucent", COARSE, "x", 1.3, 3),
+    "edit": Target("edit to picture, full quality", "a hand", "ms", 120, 40, small_is_good=True),
+    "edit ratio": Target("edit to picture, full quality", RESLICE, "x", 15, 40),
+    "drag": Target("edit to picture while dragging", "an eye", "/s", 15, 30),
+    "bake": Target("bake", "vtkImageReslice, vtkBSplineTransform", "x", 5, 15),
+    "field": Target("lattice to offset field, all of it", "-", "ms", 10, 3, small_is_good=True),
+    "memory": Target("GPU memory beyond the scalars", "the volume as float", "x", 2, 1,
+                     small_is_good=True),
+    "skipping": Target("pixels that skipping changes", "no skipping", "", 0, 0,
+                       small_is_good=True),
+}

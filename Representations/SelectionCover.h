@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Hides from a surface selection what the tissue drawn last hides from the eye.
+#ifndef BrainShift_SelectionCover_h
+#define BrainShift_SelectionCover_h
+
+#include "Counters.h"
+#include "Program.h"
+
+class vtkOpenGLRenderWindow;
+class vtkRenderer;
+class vtkTextureObject;
+
+namespace brainshift
+{
+class SelectionCover
+{
+public:
+  // Draws over the selection's buffer and its depth. `hits`: see RayCaster. False if the shader does
+  // not compile.
+  bool draw(vtkOpenGLRenderWindow* window, vtkRenderer* renderer, vtkTextureObject* hits,
+    Counters& counters);
+
+  void releaseGraphicsResources() { this->CoverProgram.forget(); }
+
+private:
+  Program CoverProgram;
+};
+}
+
+#endif

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the rays look up in the rest volume, on the GPU: scalars, colours, opacity, gradients.
+#ifndef BrainShift_Tissue_h
+#define BrainShift_Tissue_h
+
+#include "ColorTexture.h"
+#include "Counters.h"
+#include "GpuMemory.h"
+#include "NormalTexture.h"
+#include "RayCastOptions.h"
+#include "ScalarTexture.h"
+#include "SceneGeometry.h"
+#include "TransferTexture.h"
+
+#include <glm/vec3.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+class vtkDataArray;
+class vtkOpenGLRenderWindow;
+class vtkTextureObject;
+class vtkVolumeProperty;
+class vtkWindow;
+
+namespace brainshift
+{
+struct RayCastScene;
+
+// Where the gradients that light needs come from; numbers as in vtkDeformedVolumeMapper.
+enum class GradientSource
+{
+  HalfResolution = 0,
+  FullResolution = 1,
+  OnTheFly = 2,
+};
+
+struct TissueRequest
+{
+  vtkVolumeProperty* property = nullptr;
+  vtkDataArray* scalars = nullptr;
+  ValueLayout layout;
+  double stepMm = 1.0;
+  Blend blend = Blend::Composite;
+  GradientSource gradients = GradientSource::FullResolution;
+};
+
+class Tissue
+{
+public:
+  // Makes the textures current and fills in what the scene says of them. On failure returns false
+  // and says why in `problem`.
+  bool update(vtkOpenGLRenderWindow* window, const TissueRequest& request, RayCastScene& scene,
+    Counters& counters, std::string& problem);
+
+  // Whether updates since the last call changed which scalars can be seen, or where they are.
+  bool takeVisibilityChange() { return std::exchange(this->VisibilityChanged, false); }
+  const glm::ivec3& restBricks() const { return this->Scalars.ranges().count; }
+  std::vector<float> summedVisibility() const; // of the rest bricks, see RestPresence.h
+
+  // Whether samples that cannot be seen leave a picture as it is: not where they count all the same.
+  bool skippingIsExact(Blend blend) const;
+
+  vtkTextureObject* scalars() const { return this->Scalars.texture(); }
+  std::vector<vtkTextureObject*> otherTextures() const; // null: not in use
+
+  StoredScalar stored() const { return { this->Scalars.scale(), this->Scalars.shift() }; }
+
+  void releaseGraphicsResources(vtkWindow* window);
+
+private:
+  bool updateColors(vtkOpenGLRenderWindow* window, const TissueRequest& request,
+    RayCastScene& scene, Counters& counters, std::string& problem);
+  bool updateGradients(vtkOpenGLRenderWindow* window, const TissueRequest& request,
+    RayCastScene& scene, Counters& counters, std::string& problem);
+
+  ScalarTexture Scalars;
+  ScalarTexture ColorScalars; // where another number of the voxel gives the colour
+  ColorTexture Colors;        // where the voxel brings its colour along
+  TransferTexture Transfer;
+  NormalTexture Normals;
+  Blend VisibleBlend = Blend::Composite;
+  std::vector<double> VisibleIsovalues; // those that are looked for
+  bool VisibilityChanged = false;
+};
+
+// Adds what the tissue takes of the GPU's memory.
+void addTissueSizes(const TissueRequest& request, DrawnSizes& sizes);
+}
+
+#endif

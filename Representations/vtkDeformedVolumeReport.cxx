@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDeformedVolumeReport.h"
+
+#include "Counters.h"
+#include "vtkDeformedVolumeMapper.h"
+#include "vtkDeformedVolumeRepresentation.h"
+
+#include "vtkCompositeRepresentation.h"
+#include "vtkObjectFactory.h"
+#include "vtkPVRenderView.h"
+#include "vtkRenderer.h"
+
+#include <algorithm>
+#include <sstream>
+
+vtkStandardNewMacro(vtkDeformedVolumeReport);
+
+vtkDeformedVolumeReport::vtkDeformedVolumeReport() = default;
+vtkDeformedVolumeReport::~vtkDeformedVolumeReport() = default;
+
+void vtkDeformedVolumeReport::SetRepresentation(vtkPVDataRepresentation* representation)
+{
+  this->Representation = representation;
+}
+
+void vtkDeformedVolumeReport::SetView(vtkPVRenderView* view)
+{
+  this->View = view;
+}
+
+vtkDeformedVolumeMapper* vtkDeformedVolumeReport::Mapper() const
+{
+  vtkPVDataRepresentation* shown = this->Representation;
+  if (auto composite = vtkCompositeRepresentation::SafeDownCast(shown))
+  {
+    shown = composite->GetActiveRepresentation();
+  }
+  auto deformed = vtkDeformedVolumeRepresentation::SafeDownCast(shown);
+  return deformed ? deformed->GetDeformedVolumeMapper() : nullptr;
+}
+
+double* vtkDeformedVolumeReport::GetTissue()
+{
+  std::fill_n(this->Tissue, 4, 0.0);
+  vtkDeformedVolumeMapper* mapper = this->Mapper();
+  if (mapper && this->View &&
+    mapper->Pick(this->View->GetRenderer(), this->Pixel[0], this->Pixel[1], this->Tissue))
+  {
+    this->Tissue[3] = 1.0;
+  }
+  return this->Tissue;
+}
+
+const char* vtkDeformedVolumeReport::GetCounters()
+{
+  vtkDeformedVolumeMapper* mapper = this->Mapper();
+  if (!mapper)
+  {
+    return "";
+  }
+  const brainshift::Counters& count = mapper->GetCounters();
+  std::ostringstream text;
+  text << "frames " << count.frames << "\nvolumeUploads " << count.volumeUploads
+       << "\nlatticeUploads " << count.latticeUploads << "\ntransferUploads "
+       << count.transferUploads << "\nbytesUploaded " << count.bytesUploaded << "\ntexelsRefined "
+       << count.texelsRefined << "\npresenceUpdates " << count.presenceUpdates << "\nimageScale "
+       << count.imageScale << "\nprogramsCompiled " << count.programsCompiled << "\ngpuScalarBytes "
+       << count.gpuScalarBytes << "\ngpuOtherBytes " << count.gpuOtherBytes
+       << "\ngpuFieldMicroseconds " << count.gpuFieldMicroseconds;
+  this->Counters = text.str();
+  return this->Counters.c_str();
+}
+
+void vtkDeformedVolumeReport::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Pixel: " << this->Pixel[0] << " " << this->Pixel[1] << "\n";
+}

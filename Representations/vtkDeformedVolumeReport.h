@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkDeformedVolumeReport
+ * @brief   what a "Deformed Volume" drew, asked in the process that drew it
+ *
+ * With a server that draws, the client's own representation has no picture to ask. This object lives
+ * with the renderer; the XML proxy of the same name brings its answers to the client.
+ */
+#ifndef vtkDeformedVolumeReport_h
+#define vtkDeformedVolumeReport_h
+
+#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
+#include "vtkObject.h"
+#include "vtkWeakPointer.h" // for what is asked
+
+#include <string> // for the counters' text
+
+class vtkDeformedVolumeMapper;
+class vtkPVDataRepresentation;
+class vtkPVRenderView;
+
+class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkDeformedVolumeReport : public vtkObject
+{
+public:
+  static vtkDeformedVolumeReport* New();
+  vtkTypeMacro(vtkDeformedVolumeReport, vtkObject);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** A Deformed Volume, or a composite representation that shows one now. */
+  void SetRepresentation(vtkPVDataRepresentation* representation);
+
+  /** The view that shows it. */
+  void SetView(vtkPVRenderView* view);
+
+  ///@{
+  /** Pixel, from the view's lower left corner, that GetTissue asks for. Default -1 -1: none. */
+  vtkSetVector2Macro(Pixel, int);
+  vtkGetVector2Macro(Pixel, int);
+  ///@}
+
+  /**
+   * Which tissue the last picture shows at the pixel: its position (mm, world, deformed frame) and 1,
+   * or zeros where no surface was hit. Nothing is drawn.
+   */
+  double* GetTissue() VTK_SIZEHINT(4);
+
+  /** What the renderer did since it was made, and holds on the GPU (Counters.h): lines of a name, a space, a number. */
+  const char* GetCounters();
+
+protected:
+  vtkDeformedVolumeReport();
+  ~vtkDeformedVolumeReport() override;
+
+private:
+  vtkDeformedVolumeReport(const vtkDeformedVolumeReport&) = delete;
+  void operator=(const vtkDeformedVolumeReport&) = delete;
+
+  vtkDeformedVolumeMapper* Mapper() const; // null if there is none
+
+  vtkWeakPointer<vtkPVDataRepresentation> Representation;
+  vtkWeakPointer<vtkPVRenderView> View;
+  int Pixel[2] = { -1, -1 };
+  double Tissue[4] = { 0.0, 0.0, 0.0, 0.0 };
+  std::string Counters;
+};
+
+#endif

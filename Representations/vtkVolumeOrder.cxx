@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkVolumeOrder.h"
+
+#include "vtkCamera.h"
+#include "vtkObjectFactory.h"
+#include "vtkRenderer.h"
+#include "vtkVolume.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+vtkStandardNewMacro(vtkVolumeOrder);
+
+vtkVolumeOrder::vtkVolumeOrder() = default;
+vtkVolumeOrder::~vtkVolumeOrder() = default;
+
+double vtkVolumeOrder::Cull(vtkRenderer* renderer, vtkProp** props, int& count, int& initialized)
+{
+  const double* ahead = renderer->GetActiveCamera()->GetDirectionOfProjection();
+  double time = 0.0;                                // a culler returns the sum of what it leaves
+  std::vector<std::pair<double, vtkProp*>> volumes; // depth of the middle
+  std::vector<int> places;
+  for (int i = 0; i < count; ++i)
+  {
+    time += initialized ? props[i]->GetRenderTimeMultiplier() : 1.0;
+    const bool sorted = this->Enabled && vtkVolume::SafeDownCast(props[i]);
+    const double* box = sorted ? props[i]->GetBounds() : nullptr;
+    if (box)
+    {
+      const double depth = 0.5 *
+        (ahead[0] * (box[0] + box[1]) + ahead[1] * (box[2] + box[3]) +
+          ahead[2] * (box[4] + box[5]));
+      volumes.emplace_back(depth, props[i]);
+      places.push_back(i);
+    }
+  }
+  std::stable_sort(volumes.begin(), volumes.end(),
+    [](const auto& left, const auto& right) { return left.first > right.first; });
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    props[places[i]] = volumes[i].second;
+  }
+  return time;
+}

@@ -1,0 +1,25 @@
+// Colour of arrays with several numbers a voxel, whose last one gives the opacity.
+
+#if defined(DIRECT_COLORS)
+uniform sampler3D colors; // red, green, blue of the voxel
+
+vec3 colorOf(vec4 tissue, vec3 rest)
+{
+  return textureLod(colors, rest, 0.0).rgb;
+}
+#elif defined(COLOR_SCALARS)
+uniform sampler3D colorScalars;       // red: the first number, as stored
+uniform vec2 transferFromColorScalar; // scale and shift: stored scalar to texture coordinate
+
+vec3 colorOf(vec4 tissue, vec3 rest)
+{
+  float stored = textureLod(colorScalars, rest, 0.0).r;
+  float entry = stored * transferFromColorScalar.x + transferFromColorScalar.y;
+  return textureLod(transfer, vec2(entry, 0.5), 0.0).rgb;
+}
+#else
+vec3 colorOf(vec4 tissue, vec3 rest)
+{
+  return tissue.rgb;
+}
+#endif

@@ -1,0 +1,66 @@
+// The samples of a ray for blend modes other than composite, whose loop is in raycast.frag.glsl.
+
+struct March
+{
+  Ray ray;
+  vec2 span;         // first and last t in the space that tissue can reach, mm
+  ivec2 samples;     // first, and one past the last
+  ivec2 moved;       // where tissue may have moved
+  vec3 first;        // position of sample 0
+  vec3 stride;       // from a sample to the next
+  vec3 towardsEye;   // world axes
+};
+
+// `before`: samples wanted before the first that may be visible.
+March marchOf(vec2 ndc, int before)
+{
+  March march;
+  march.ray = rayOfPixel(ndc);
+  march.span = boxSpan(march.ray, spaceLow, spaceHigh);
+  march.span.y = min(march.span.y, sceneDistance(march.ray, 0.5 * ndc + 0.5));
+  march.span = clippedSpan(march.ray, march.span, stepMm);
+  march.samples = presentSamples(march.ray, march.span, stepMm);
+  march.samples.x = max(march.samples.x - before, 0);
+  march.moved = movedSamples(march.ray, march.span, stepMm);
+  march.first = march.ray.start + march.span.x * march.ray.direction;
+  march.stride = stepMm * march.ray.direction;
+  march.towardsEye = -normalize(worldFromTexture * march.ray.direction);
+  return march;
+}
+
+// Positions of a sample; a part of a number lies between two of them.
+vec3 deformedAt(March march, float number)
+{
+  return march.first + number * march.stride;
+}
+
+vec3 restAt(March march, float number)
+{
+  vec3 deformed = deformedAt(march, number);
+  bool moved = number >= float(march.moved.x) && number < float(march.moved.y);
+  return moved ? restFromDeformed(deformed) : deformed;
+}
+
+bool inShownTissue(vec3 deformed, vec3 rest)
+{
+  return insideVolume(rest) && inShownRegion(deformed);
+}
+
+// A sample's colour under light, with the Jacobian found for it alone.
+vec3 shadeAlone(March march, vec3 color, vec3 deformed, vec3 rest)
+{
+  mat3 slopes = mat3(0.0);
+  if (rest != deformed) // where nothing moves there is nothing to turn
+  {
+    slopes = offsetSlopesAt(deformed);
+  }
+  return shade(color, deformed, rest, slopes, worldFromGradient, march.towardsEye);
+}
+
+// The second target: where a surface was hit; `number` below 0: nowhere.
+vec4 hitAt(March march, float number)
+{
+  return number < 0.0
+    ? vec4(0.0, 0.0, 0.0, -1.0)
+    : vec4(worldFromDeformed(deformedAt(march, number)), march.span.x + number * stepMm);
+}

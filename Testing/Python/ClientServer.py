@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves that a server that draws sends the picture of the built-in session, pixel by pixel, and that
+# brainshift.pick, counters and gpu answer for what the server drew.
+import contextlib
+import gc
+import os
+import socket
+import subprocess
+
+import numpy
+from brainshift_testing import load_plugin, picture, run_tests, show_volume, view_along
+
+load_plugin()
+import brainshift  # noqa: E402 after the plugin
+from paraview.simple import (  # noqa: E402
+    Connect, Disconnect, FreeFormDeformation, LoadPlugin, Wavelet)
+
+PLUGIN = os.environ["BRAINSHIFT_PLUGIN"]
+SIZE = 200
+MIDDLE = (0.0, 0.0, 0.0)
+STROKE = brainshift.soft(MIDDLE, (4, 2, 1), 12.0)
+COLORS = [0, 0, 0, 1, 150, 0, 1, 0, 300, 1, 0, 0]
+OPACITIES = [0, 0, 0.5, 0, 150, 0.02, 0.5, 0, 300, 0.3, 0.5, 0]
+PIXELS = [(SIZE // 2, SIZE // 2), (70, 110), (120, 90), (2, 2)]
+
+
+class Shown:
+    """A bent wavelet, in the session that is connected. Its view draws without FXAA, which ParaView
+    applies on the server and once more on the client, to "Volume" as to all else."""
+
+    def __init__(self):
+        self.filter = FreeFormDeformation(
+            Input=Wavelet(WholeExtent=[-15, 15, -15, 15, -15, 15]), Strokes=STROKE)
+        self.view = view_along((-0.5, 0.3, -1), MIDDLE, 80.0, size=SIZE)
+        self.display = show_volume(self.filter, self.view, "Deformed Volume", COLORS, OPACITIES,
+                                   array="RTData", shade=True)
+
+    def answers(self):
+        """The picture, the tissue at some pixels, and the counters."""
+        drawn = picture(self.view)
+        return (drawn, [brainshift.pick(self.display, self.view, *pixel) for pixel in PIXELS],
+                {**brainshift.counters(self.display), **self.memory()})
+
+    def memory(self):
+        return {name: number for name, number in brainshift.gpu(self.display).items()
+                if name.endswith("Bytes")}
+
+    def all_answers(self):
+        """First drawn; then after another stroke."""
+        first = self.answers()
+        self.filter.Strokes = STROKE + brainshift.soft((4, -2, 7), (0, -3, 1), 10.0)
+        return first, self.answers()
+
+
+@contextlib.contextmanager
+def server(environment):
+    """The port of a pvserver on this machine."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    inherited = {name: value for name, value in os.environ.items() if name != "PV_PLUGIN_PATH"}
+    process = subprocess.Popen(
+        [os.environ["BRAINSHIFT_PVSERVER"], "--force-offscreen-rendering", f"--server-port={port}"],
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+        env={**inherited, **environment})
+    try:
+        said = ""
+        while "Accepting connection" not in said:
+            line = process.stdout.readline()
+            assert line, f"pvserver ended: {said}"
+            said += line
+        yield port
+    finally:
+        process.terminate()
+        process.wait()
+
+
+def on_server(question, **environment):
+    """What a function returns while connected to a server. The connection ends with the last proxy,
+    so the function keeps none."""
+    with server(environment) as port:
+        assert Connect("localhost", port).IsRemote()
+        try:
+            return question()
+        finally:
+            Disconnect()
+            gc.collect()
+
+
+SERVER_FINDS_PLUGIN = {"PV_PLUGIN_PATH": os.path.dirname(PLUGIN)}
+EXPECTED = Shown().all_answers()
+
+
+def assert_same(found):
+    for (drawn, tissue, counts), (expected, expected_tissue, expected_counts) in zip(found, EXPECTED):
+        differing = int((drawn != expected).any(axis=2).sum())
+        assert differing == 0, f"{differing} pixels differ, by {numpy.abs(drawn - expected).max()}"
+        assert tissue == expected_tissue, (tissue, expected_tissue)
+        assert counts == expected_counts, (counts, expected_counts)
+
+
+def test_the_built_in_session_has_something_to_compare():
+    (first, tissue, counts), (second, moved_tissue, moved_counts) = EXPECTED
+    assert (first.max(axis=2) > 0.02).mean() > 0.2
+    assert (first != second).any(axis=2).mean() > 0.05
+    assert [found is not None for found in tissue] == [True, True, True, False], tissue
+    assert moved_tissue != tissue
+    assert counts["latticeUploads"] == 1 and moved_counts["latticeUploads"] == 2, moved_counts
+    assert counts["volumeUploads"] == moved_counts["volumeUploads"] == 1, moved_counts
+    assert counts["gpuScalarBytes"] > 0 and counts["gpuOtherBytes"] > 0, counts
+
+
+def test_a_server_that_finds_the_plugin_by_itself():
+    assert_same(on_server(lambda: Shown().all_answers(), **SERVER_FINDS_PLUGIN))
+
+
+def test_a_server_that_is_told_to_load_the_plugin():
+    def load_and_show():
+        LoadPlugin(PLUGIN, remote=True)
+        return Shown().all_answers()
+    assert_same(on_server(load_and_show))
+
+
+def test_volumes_are_drawn_on_the_server_whatever_their_size():
+    def show(threshold):
+        shown = Shown()
+        shown.view.RemoteRenderThreshold = threshold  # MB; smaller surfaces go to the client
+        return shown.all_answers()
+    for threshold in (0.0, 1e6):
+        assert_same(on_server(lambda: show(threshold), **SERVER_FINDS_PLUGIN))
+
+
+run_tests(globals())

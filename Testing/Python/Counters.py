@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves that the renderer does again only what changed: counts of uploads, bytes, refined texels and
+# compiled programs.
+from brainshift_testing import (ball, load_plugin, look, picture, run_tests, show_volume,
+                                view_along, volume)
+
+load_plugin()
+import brainshift  # noqa: E402 after the plugin
+from paraview.simple import (CreatePiecewiseFunction, FreeFormDeformation,  # noqa: E402
+                             GetOpacityTransferFunction)
+
+MIDDLE = (16.0, 16.0, 16.0)
+COLORS = [0, 0, 0, 0, 100, 1, 1, 1]
+OPACITIES = [0, 0, 0.5, 0, 50, 0, 0.5, 0, 100, 1, 0.5, 0]
+LATTICE_BYTES = 19 ** 3 * 3 * 4  # 82 kB
+FIELD_TEXELS = 91 ** 3
+
+
+class Drawn:
+    """A bent ball on the screen, and what the renderer did since the last look."""
+
+    def __init__(self):
+        self.filter = FreeFormDeformation(
+            Input=volume(ball()), Strokes=brainshift.soft(MIDDLE, (2, 0, 0), 12))
+        self.view = view_along((0, 0, -1), MIDDLE, 100)
+        self.display = show_volume(
+            self.filter, self.view, "Deformed Volume", COLORS, OPACITIES, shade=True)
+        picture(self.view)
+        self.before = brainshift.counters(self.display)
+
+    def did(self):
+        """What a new picture took, without the frame itself."""
+        picture(self.view)
+        now = brainshift.counters(self.display)
+        done = {name: now[name] - self.before[name] for name in now}
+        self.before = now
+        assert done.pop("frames") > 0
+        return {name: count for name, count in done.items() if count}
+
+
+def test_a_first_picture_uploads_everything_once():
+    drawn = Drawn()
+    assert drawn.before["volumeUploads"] == 1, drawn.before
+    assert drawn.before["latticeUploads"] == 1, drawn.before
+    assert drawn.before["transferUploads"] >= 1, drawn.before
+    assert drawn.before["texelsRefined"] >= FIELD_TEXELS, drawn.before
+    assert drawn.before["bytesUploaded"] > LATTICE_BYTES + 33 ** 3 * 4, drawn.before
+
+
+def test_a_camera_move_uploads_nothing():
+    drawn = Drawn()
+    look(drawn.view, (1, -0.3, -1), MIDDLE, 90)
+    assert drawn.did() == {}
+
+
+def test_a_stroke_uploads_the_lattice_only():
+    drawn = Drawn()
+    drawn.filter.Strokes = brainshift.soft(MIDDLE, (3, 0, 0), 12)
+    done = drawn.did()
+    assert done.pop("latticeUploads") == 1, done
+    assert done.pop("bytesUploaded") == LATTICE_BYTES, done
+    assert done.pop("texelsRefined") > 0, done
+    assert done.pop("presenceUpdates") == 1, done
+    assert done == {}, done
+
+
+def test_a_stroke_refines_what_it_can_reach():
+    # Of a lattice of 19 points over 32 mm, a radius of 4 mm reaches 5 points a side; the kernel takes
+    # in two cells more to either side: 9 cells of 18 along each axis, of 5 nodes each.
+    drawn = Drawn()
+    everything = drawn.before["texelsRefined"]
+    there = brainshift.soft(MIDDLE, (2, 0, 0), 12)
+    for number, amount in enumerate((0.5, 1.0, 0.2)):
+        drawn.filter.Strokes = there + brainshift.soft((10, 12, 14), (0, amount, 0), 4.0)
+        refined = drawn.did()["texelsRefined"]
+        print(f"  stroke {number}: {refined} texels of {everything}", flush=True)
+        assert 0 < refined < everything / 4, (refined, everything)
+
+
+def test_dragging_compiles_and_uploads_nothing_else():
+    # Strokes and camera in turn, drawn at interactive rates as under a hand.
+    drawn = Drawn()
+    drawn.view.SMProxy.InteractiveRender()
+    drawn.did()
+    for step in range(1, 6):
+        drawn.filter.Strokes = brainshift.soft(MIDDLE, (2 + 0.5 * step, 0, 0), 12)
+        look(drawn.view, (0.1 * step, -0.3, -1), MIDDLE, 90)
+        drawn.view.SMProxy.InteractiveRender()
+    done = drawn.did()
+    assert done.pop("latticeUploads") == 5, done
+    assert done.pop("bytesUploaded") == 5 * LATTICE_BYTES, done
+    assert done.pop("texelsRefined") > 0, done
+    assert done.pop("presenceUpdates") == 5, done
+    done.pop("imageScale", 0)
+    assert done == {}, done
+
+
+def test_another_opacity_map_is_noticed_even_if_it_is_older():
+    drawn = Drawn()
+    older = CreatePiecewiseFunction(Points=[0, 0, 0.5, 0, 30, 0, 0.5, 0, 100, 0.5, 0.5, 0])
+    drawn.display.LookupTable.RGBPoints = [0, 0, 0, 1, 100, 1, 0, 0]  # now the newest of all
+    drawn.did()
+    drawn.display.ScalarOpacityFunction = older
+    assert drawn.did().get("transferUploads") == 1
+
+
+def test_an_opacity_edit_uploads_the_map_only():
+    drawn = Drawn()
+    opacity = GetOpacityTransferFunction("Intensity", drawn.display, separate=True)
+    opacity.Points = [0, 0, 0.5, 0, 30, 0, 0.5, 0, 100, 0.5, 0.5, 0]
+    done = drawn.did()
+    assert done.pop("transferUploads") == 1, done
+    # 4096 colours, and the visible bricks of 2 voxels, summed.
+    assert done.pop("bytesUploaded") == 4096 * 4 * 4 + 18 ** 3 * 4, done
+    assert done.pop("presenceUpdates") == 1, done
+    assert done == {}, done
+
+
+def test_the_panel_of_a_shown_volume_uploads_nothing():
+    # Its light, its step on and off again, a second look: all there already.
+    drawn = Drawn()
+    drawn.display.Specular = 0.7
+    assert drawn.did() == {}
+    drawn.display.EmptySpaceSkipping = 0
+    assert drawn.did() == {}
+
+
+def test_other_light_is_compiled_once():
+    drawn = Drawn()
+    for shade, compiled in ((0, 1), (1, 0), (0, 0)):
+        drawn.display.Shade = shade
+        assert drawn.did().get("programsCompiled", 0) == compiled, shade
+
+
+run_tests(globals())
