@@ -122,7 +122,8 @@ def _numbers(representation):
 def counters(representation):
     """What the Deformed Volume renderer of a representation did since it was made, as a dict:
     frames, volumeUploads, latticeUploads, transferUploads, bytesUploaded, texelsRefined,
-    presenceUpdates, imageScale (screen pixels a side for one drawn), programsCompiled."""
+    presenceUpdates, skippingBytes (faces and leaps made of the presence map), samplesTaken and
+    samplesSkipped (while the representation's CountSamples is on), imageScale (screen pixels a side for one drawn), programsCompiled."""
     numbers = _numbers(representation)
     return {name: number for name, number in numbers.items() if not name.startswith("gpu")}
 

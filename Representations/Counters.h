@@ -9,13 +9,16 @@ namespace brainshift
 {
 struct Counters
 {
-  std::int64_t frames = 0;           // images ray cast
-  std::int64_t volumeUploads = 0;    // scalars sent to the GPU
-  std::int64_t latticeUploads = 0;   // control points sent to the GPU
-  std::int64_t transferUploads = 0;  // colour and opacity maps sent to the GPU
-  std::int64_t bytesUploaded = 0;    // all of them together
-  std::int64_t texelsRefined = 0;    // nodes of the offset field computed
-  std::int64_t presenceUpdates = 0;  // times the deformed presence map was computed
+  std::int64_t frames = 0;          // images ray cast
+  std::int64_t volumeUploads = 0;   // scalars sent to the GPU
+  std::int64_t latticeUploads = 0;  // control points sent to the GPU
+  std::int64_t transferUploads = 0; // colour and opacity maps sent to the GPU
+  std::int64_t bytesUploaded = 0;   // all of them together
+  std::int64_t texelsRefined = 0;   // nodes of the offset field computed
+  std::int64_t presenceUpdates = 0; // times the deformed presence map was computed
+  std::int64_t skippingBytes = 0; // of that map, sent back as faces and leaps; not in bytesUploaded
+  std::int64_t samplesTaken = 0;  // while CountSamples is on, in the part of the image that is cast
+  std::int64_t samplesSkipped = 0;   // before a ray's end; likewise
   std::int64_t imageScale = 1;       // screen pixels a side for one pixel of the last image
   std::int64_t programsCompiled = 0; // shader programs compiled and linked
 

@@ -188,7 +188,7 @@ bool DeformedPresence::update(vtkOpenGLRenderWindow* window, const PresenceReque
   {
     return false;
   }
-  counters.bytesUploaded += static_cast<std::int64_t>(occupied.size());
+  counters.skippingBytes += static_cast<std::int64_t>(occupied.size()) + this->faceBytes();
   counters.presenceUpdates += 1;
   this->Shown = request;
   this->AllNew = false;

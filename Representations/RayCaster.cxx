@@ -98,6 +98,7 @@ void setSpaceUniforms(Program& program, const RayCastScene& scene)
 {
   program.set("spaceLow", glm::vec3(scene.spaceLow));
   program.set("spaceHigh", glm::vec3(scene.spaceHigh));
+  program.set("jitter", scene.jitter ? 1.0f : 0.0f);
   program.set("stepMm", static_cast<float>(scene.stepMm));
   program.set("worldOfTextureZero", glm::vec3(scene.worldFromTexture[3]));
   program.set("sceneDepth", scene.sceneDepth);
@@ -347,8 +348,10 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
   variant.blend = scene.options.blend;
   variant.coloring = scene.options.coloring;
   variant.regions = scene.options.regions;
+  variant.counted = scene.countSamples && variant.blend == Blend::Composite;
   Program& program = this->CastPrograms[variant];
   if (!this->prepareImages(window, scene) ||
+    (variant.counted && !this->prepareCount(window, scene.size)) ||
     (scene.skipping && !this->findSpans(window, scene, counters)) ||
     !program.use(window, rayCastSource(variant), counters))
   {
@@ -360,6 +363,10 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
     images.attach(0, this->Image);
     images.attach(1, this->Hits[scene.tile]);
     this->clearStaleHits(scene);
+    if (variant.counted)
+    {
+      images.attach(2, this->Count);
+    }
     drawTriangles(1);
     this->ImagePart = this->HitsPart[scene.tile] = { scene.shownLow, scene.shownHigh };
   }
@@ -372,8 +379,35 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
       texture->Deactivate();
     }
   }
+  if (variant.counted)
+  {
+    this->readCount(counters);
+  }
   counters.frames += 1;
   return true;
+}
+
+// A new one for each picture, all zero.
+bool RayCaster::prepareCount(vtkOpenGLRenderWindow* window, const glm::ivec2& size)
+{
+  this->Count = vtkSmartPointer<vtkTextureObject>::New();
+  this->Count->SetContext(window);
+  std::vector<float> zeros(static_cast<std::size_t>(size.x) * size.y * 4, 0.0f);
+  return this->Count->Create2DFromRaw(size.x, size.y, 4, VTK_FLOAT, zeros.data());
+}
+
+void RayCaster::readCount(Counters& counters)
+{
+  std::vector<float> counted(
+    static_cast<std::size_t>(this->Count->GetWidth()) * this->Count->GetHeight() * 4);
+  this->Count->Activate();
+  glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, counted.data());
+  this->Count->Deactivate();
+  for (std::size_t i = 0; i < counted.size(); i += 4)
+  {
+    counters.samplesTaken += static_cast<std::int64_t>(counted[i]);
+    counters.samplesSkipped += static_cast<std::int64_t>(counted[i + 1]);
+  }
 }
 
 // Hits of an earlier picture must not be found beyond the part that is cast now.
@@ -451,7 +485,7 @@ bool RayCaster::composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origi
 
 void RayCaster::releaseGraphicsResources(vtkWindow* window)
 {
-  for (auto* image : { &this->Image, &this->Hits[0], &this->Hits[1], &this->Spans })
+  for (auto* image : { &this->Image, &this->Hits[0], &this->Hits[1], &this->Count, &this->Spans })
   {
     if (*image)
     {

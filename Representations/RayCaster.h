@@ -64,7 +64,9 @@ struct RayCastScene
   RayCastOptions options;
   bool shaded = false;
   bool skipping = true;
-  bool tile = false; // the image is a part of a picture larger than the window
+  bool jitter = false;       // rays start at different shares of a step
+  bool countSamples = false; // counters learn of samples taken and skipped; Composite only
+  bool tile = false;         // the image is a part of a picture larger than the window
 
   vtkTextureObject* scalars = nullptr;
   vtkTextureObject* offsets = nullptr; // null: the volume carries no deformation
@@ -102,7 +104,7 @@ public:
   // All textures, some of which may be null.
   std::vector<vtkTextureObject*> textures() const
   {
-    return { this->Image, this->Hits[false], this->Hits[true], this->Spans };
+    return { this->Image, this->Hits[false], this->Hits[true], this->Count, this->Spans };
   }
 
   void releaseGraphicsResources(vtkWindow* window);
@@ -112,6 +114,8 @@ private:
   bool findSpans(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters);
   void setUniforms(Program& program, const RayCastScene& scene);
 
+  bool prepareCount(vtkOpenGLRenderWindow* window, const glm::ivec2& size);
+  void readCount(Counters& counters);
   void clearStaleHits(const RayCastScene& scene);
 
   // What was cast last of an image: first pixel, one past the last.
@@ -125,6 +129,7 @@ private:
   vtkSmartPointer<vtkTextureObject> Image; // colour times opacity, opacity
   vtkSmartPointer<vtkTextureObject>
     Hits[2];                               // [tile] first hit, mm; distance from the near plane, mm
+  vtkSmartPointer<vtkTextureObject> Count; // samples taken and skipped; null unless asked for
   vtkSmartPointer<vtkTextureObject> Spans; // least t, minus greatest t in occupied bricks
   std::map<RayCastVariant, Program> CastPrograms; // those drawn with so far
   Program SpansProgram;

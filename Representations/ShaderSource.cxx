@@ -6,6 +6,7 @@
 #include "shader_clipping.h"
 #include "shader_components.h"
 #include "shader_composite_frag.h"
+#include "shader_counting.h"
 #include "shader_cover_frag.h"
 #include "shader_field.h"
 #include "shader_fullscreen_vert.h"
@@ -42,6 +43,9 @@ constexpr const char* Head = "//VTK::System::Dec\n";
 constexpr const char* Outputs = "//VTK::Output::Dec\n";
 // Marks functions that C++ shares; nothing in GLSL.
 constexpr const char* Shared = "#define SHARED\n#define OUT(type) out type\n";
+
+// VTK declares an output for each that the source names, so that it may not name one in vain.
+constexpr const char* NotCounted = "void countSamples(int taken, int skipped) {}\n";
 
 std::string assemble(std::initializer_list<std::string> parts)
 {
@@ -89,7 +93,8 @@ std::string nameOf(const RayCastVariant& variant)
   static const char* const colorings[] = { "", "_direct", "_other_scalar" };
   return std::string("raycast") + (variant.deformed ? "_deformed" : "_rest") +
     LightNames[variant.light] + blends[static_cast<int>(variant.blend)] +
-    colorings[static_cast<int>(variant.coloring)] + (variant.regions ? "_regions" : "");
+    colorings[static_cast<int>(variant.coloring)] + (variant.regions ? "_regions" : "") +
+    (variant.counted ? "_counted" : "");
 }
 }
 
@@ -133,7 +138,8 @@ ShaderSource rayCastSource(const RayCastVariant& variant)
   defines += variant.regions ? "#define REGIONS\n" : "";
   return { assemble({ shader_fullscreen_vert }), "",
     assemble({ Outputs, defines, shader_rays, shader_skipping, shader_clipping, shader_field,
-      shader_gradient, shader_tissue, shader_components, shader_light, shader_raycast_frag,
+      shader_gradient, shader_tissue, shader_components, shader_light,
+      variant.counted ? std::string(shader_counting) : NotCounted, shader_raycast_frag,
       otherBlendSource(variant.blend) }) };
 }
 
@@ -175,6 +181,8 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
       add({ deformed, RayCastVariant::Unshaded, Blend::Maximum, coloring, true });
     }
     add({ deformed, RayCastVariant::GradientTexture, Blend::Composite, Coloring::Mapped, true });
+    add({ deformed, RayCastVariant::GradientTexture, Blend::Composite, Coloring::Mapped, false,
+      true });
   }
   return sources;
 }

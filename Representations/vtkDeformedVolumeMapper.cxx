@@ -263,6 +263,8 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   renderer->GetTiledSizeAndOrigin(&size.x, &size.y, &origin.x, &origin.y);
   state.Count.imageScale = this->ImageScale(window, device, size);
   scene.size = glm::max(size / static_cast<int>(state.Count.imageScale), glm::ivec2(1));
+  scene.countSamples = this->CountSamples;
+  scene.jitter = this->AdaptiveQuality && window->GetDesiredUpdateRate() >= InteractiveRate;
   scene.shownHigh = scene.size;
   if (scene.skipping)
   {
@@ -517,6 +519,7 @@ void vtkDeformedVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SampleDistance: " << this->SampleDistance << "\n"
      << indent << "EmptySpaceSkipping: " << this->EmptySpaceSkipping << "\n"
      << indent << "AdaptiveQuality: " << this->AdaptiveQuality << "\n"
+     << indent << "CountSamples: " << this->CountSamples << "\n"
      << indent << "MemoryLimit: " << this->MemoryLimit << "\n"
      << indent << "NormalTexture: " << this->NormalTexture << "\n";
 }

@@ -89,6 +89,15 @@ public:
   vtkGetMacro(MemoryLimit, double);
   ///@}
 
+  ///@{
+  /**
+   * Count the samples that composite blending takes and skips (GetCounters), by a third target that is
+   * read back after each picture. Default false.
+   */
+  vtkSetMacro(CountSamples, bool);
+  vtkGetMacro(CountSamples, bool);
+  ///@}
+
   /**
    * Tissue position (mm, world, deformed frame) that the last whole picture in the renderer's window
    * shows at a pixel counted from the renderer's lower left corner, without drawing again: where the
@@ -141,6 +150,7 @@ private:
   bool EmptySpaceSkipping = true;
   int NormalTexture = FullResolution;
   bool AdaptiveQuality = true;
+  bool CountSamples = false;
   double MemoryLimit = 0.0;
 
   std::unique_ptr<State> Internal;

@@ -44,6 +44,11 @@ void vtkDeformedVolumeRepresentation::SetNormalTexture(int normals)
   this->GetDeformedVolumeMapper()->SetNormalTexture(normals);
 }
 
+void vtkDeformedVolumeRepresentation::SetCountSamples(bool count)
+{
+  this->GetDeformedVolumeMapper()->SetCountSamples(count);
+}
+
 void vtkDeformedVolumeRepresentation::SetAdaptiveQuality(bool adaptive)
 {
   this->GetDeformedVolumeMapper()->SetAdaptiveQuality(adaptive);

@@ -43,6 +43,9 @@ public:
   /** Draw fewer pixels while moving, to hold the rate. Default true. */
   void SetAdaptiveQuality(bool adaptive);
 
+  /** Count samples taken and skipped, which costs time. Default false. */
+  void SetCountSamples(bool count);
+
   /** What draws it in this process. */
   vtkDeformedVolumeMapper* GetDeformedVolumeMapper() const;
 

@@ -7,6 +7,7 @@ in vec2 ndc;
 uniform vec3 spaceLow;  // the part of the deformed frame that tissue can reach, texture coordinates
 uniform vec3 spaceHigh;
 uniform float stepMm;
+uniform float jitter; // 1: neighbouring rays start at different shares of a step, against rings
 uniform mat3 worldFromGradient;  // world axes from a gradient for texture units (inverse transpose)
 uniform vec3 worldOfTextureZero; // mm
 
@@ -32,6 +33,15 @@ vec3 shade(vec3 color, vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 to
 }
 
 #ifdef COMPOSITE
+// Where in its first step a pixel's ray starts: 16 shares, ordered so that neighbours differ most
+// (Bayer, 1973).
+float startShare(ivec2 pixel)
+{
+  int mixed = pixel.x ^ pixel.y;
+  int rank = (mixed & 1) * 8 + (pixel.y & 1) * 4 + (mixed >> 1 & 1) * 2 + (pixel.y >> 1 & 1);
+  return (float(rank) + 0.5) / 16.0;
+}
+
 // Colour times opacity, and opacity, of a sample.
 vec4 shown(vec4 tissue, vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
 {
@@ -45,6 +55,7 @@ void main()
   vec2 span = boxSpan(ray, spaceLow, spaceHigh);
   span.y = min(span.y, sceneDistance(ray, 0.5 * ndc + 0.5));
   span = clippedSpan(ray, span, stepMm);
+  span.x += jitter * startShare(ivec2(gl_FragCoord.xy)) * stepMm;
   // Samples are numbered from the box's edge or a cut, whether empty space is skipped or not, and
   // taken by twos: independent reads overlap, and one Jacobian does for both.
   ivec2 samples = presentSamples(ray, span, stepMm);
@@ -58,6 +69,7 @@ void main()
 
   vec4 picture = vec4(0.0); // colour times opacity, opacity
   float hit = -1.0;         // where HitOpacity was reached: half a step before the sample past it
+  int taken = 0; // for countSamples
   int i = samples.x & ~1;
   int ask = skipping == 0 ? samples.y : i; // from this sample on, whether there is anything
   while (i < samples.y)
@@ -70,6 +82,7 @@ void main()
     }
     if (present)
     {
+      taken += min(2, samples.y - i);
       vec3 oneDeformed = positionOf(deformed, i);
       vec3 twoDeformed = positionOf(deformed, i + 1);
       vec3 oneRest = oneDeformed;
@@ -104,6 +117,8 @@ void main()
     }
     i = present ? i + 2 : ask;
   }
+  int end = picture.a > OpaqueEnough ? i + 2 : int(ceil((span.y - span.x) / stepMm));
+  countSamples(taken, max(end - taken, 0));
   gl_FragData[0] = picture;
   gl_FragData[1] = hit < 0.0
     ? vec4(0.0, 0.0, 0.0, -1.0)

@@ -61,6 +61,7 @@ def test_a_stroke_uploads_the_lattice_only():
     assert done.pop("bytesUploaded") == LATTICE_BYTES, done
     assert done.pop("texelsRefined") > 0, done
     assert done.pop("presenceUpdates") == 1, done
+    assert 0 < done.pop("skippingBytes") < LATTICE_BYTES, done
     assert done == {}, done
 
 
@@ -91,6 +92,7 @@ def test_dragging_compiles_and_uploads_nothing_else():
     assert done.pop("bytesUploaded") == 5 * LATTICE_BYTES, done
     assert done.pop("texelsRefined") > 0, done
     assert done.pop("presenceUpdates") == 5, done
+    assert 0 < done.pop("skippingBytes") < 5 * LATTICE_BYTES, done
     done.pop("imageScale", 0)
     assert done == {}, done
 
@@ -113,6 +115,7 @@ def test_an_opacity_edit_uploads_the_map_only():
     # 4096 colours, and the visible bricks of 2 voxels, summed.
     assert done.pop("bytesUploaded") == 4096 * 4 * 4 + 18 ** 3 * 4, done
     assert done.pop("presenceUpdates") == 1, done
+    assert 0 < done.pop("skippingBytes") < LATTICE_BYTES, done
     assert done == {}, done
 
 
@@ -123,6 +126,26 @@ def test_the_panel_of_a_shown_volume_uploads_nothing():
     assert drawn.did() == {}
     drawn.display.EmptySpaceSkipping = 0
     assert drawn.did() == {}
+
+
+def test_samples_are_counted():
+    # With skipping or without, a ray is as long; without it, all of it is sampled. Rays beyond the
+    # part of the picture that can show something are not cast with skipping.
+    drawn = Drawn()
+    assert "samplesTaken" not in drawn.did()
+    drawn.display.CountSamples = 1
+    drawn.display.EmptySpaceSkipping = 0
+    every = drawn.did()
+    drawn.display.EmptySpaceSkipping = 1
+    some = drawn.did()
+    print(f"  taken {every['samplesTaken']}, with skipping {some['samplesTaken']}, skipped "
+          f"{some['samplesSkipped']}", flush=True)
+    assert every.get("samplesSkipped", 0) == 0, every
+    assert 0 < some["samplesTaken"] < every["samplesTaken"] / 2, (some, every)
+    assert some["samplesSkipped"] > 0, some
+    assert some["samplesTaken"] + some["samplesSkipped"] <= every["samplesTaken"], (some, every)
+    drawn.display.CountSamples = 0
+    assert "samplesTaken" not in drawn.did()
 
 
 def test_other_light_is_compiled_once():
