@@ -98,6 +98,7 @@ void setSpaceUniforms(Program& program, const RayCastScene& scene)
 {
   program.set("spaceLow", glm::vec3(scene.spaceLow));
   program.set("spaceHigh", glm::vec3(scene.spaceHigh));
+  program.set("stepDoublings", scene.stepDoublings);
   program.set("jitter", scene.jitter ? 1.0f : 0.0f);
   program.set("stepMm", static_cast<float>(scene.stepMm));
   program.set("worldOfTextureZero", glm::vec3(scene.worldFromTexture[3]));

@@ -58,6 +58,7 @@ struct RayCastScene
   glm::dvec3 fieldFromTextureShift{ 0.0 };
   glm::dvec3 fieldTexel{ 1.0 }; // step for derivatives, the offset field's coordinates
   double stepMm = 1.0;
+  int stepDoublings = 0; // the colour map's opacities hold for a step this often halved
   glm::dvec2 transferFromScalar{ 1.0, 0.0 }; // stored scalar to transfer coordinate
   glm::dvec4 material{ 0.0, 1.0, 0.0, 1.0 }; // ambient, diffuse, specular, specular power
   RayCastLights lights;

@@ -5,6 +5,7 @@
 #include "DeformedPresence.h"
 #include "FieldTexture.h"
 #include "GpuMemory.h"
+#include "MovingQuality.h"
 #include "RayCaster.h"
 #include "SceneDepth.h"
 #include "SceneGeometry.h"
@@ -83,7 +84,7 @@ namespace
 constexpr double InteractiveRate = 1.0;
 // ParaView asks for 5 a second while the camera moves. Below 15 a hand sees steps.
 constexpr double SmoothRate = 15.0;
-constexpr int LargestImageScale = 4;
+constexpr double LeastShareForImage = 0.2; // of a frame's time, however long a stroke takes
 
 // Camera and light.
 void describeView(vtkRenderer* renderer, vtkVolume* volume, const Grid& grid,
@@ -249,6 +250,8 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   const ValueLayout& layout = tissue.layout;
   RayCastScene scene;
+  vtkNew<vtkTimerLog> timer;
+  timer->StartTimer();
   if (!device.Tissue.update(window, tissue, scene, state.Count, problem) ||
     !this->PrepareSpace(window, device, grid, layout, scene, problem))
   {
@@ -261,7 +264,11 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   glm::ivec2 origin;
   glm::ivec2 size;
   renderer->GetTiledSizeAndOrigin(&size.x, &size.y, &origin.x, &origin.y);
-  state.Count.imageScale = this->ImageScale(window, device, size);
+  timer->StopTimer();
+  const MovingQuality quality = this->Quality(window, device, size, timer->GetElapsedTime());
+  state.Count.imageScale = quality.imageScale;
+  scene.stepDoublings = tissue.blend == Blend::Composite ? quality.stepDoublings : 0;
+  scene.stepMm *= 1 << scene.stepDoublings;
   scene.size = glm::max(size / static_cast<int>(state.Count.imageScale), glm::ivec2(1));
   scene.countSamples = this->CountSamples;
   scene.jitter = this->AdaptiveQuality && window->GetDesiredUpdateRate() >= InteractiveRate;
@@ -276,7 +283,6 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   scene.sceneDepth = device.Depth.texture();
   scene.depthFromShare = device.Depth.textureFromShare();
   scene.depthOfShareZero = device.Depth.textureOfShareZero();
-  vtkNew<vtkTimerLog> timer;
   timer->StartTimer();
   if (!device.Caster.cast(window, scene, state.Count))
   {
@@ -287,25 +293,25 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   {
     window->WaitForCompletion(); // else the time is that of the commands, not of the image
     timer->StopTimer();
-    device.SecondsPerPixel =
-      timer->GetElapsedTime() / (static_cast<double>(scene.size.x) * scene.size.y);
+    device.SecondsPerPixel = timer->GetElapsedTime() * (1 << scene.stepDoublings) /
+      (static_cast<double>(scene.size.x) * scene.size.y);
   }
   return device.Caster.composite(window, origin, size, state.Count);
 }
 
-// Screen pixels a side for one pixel of the image to come.
-int vtkDeformedVolumeMapper::ImageScale(
-  vtkOpenGLRenderWindow* window, const Device& device, const glm::ivec2& size) const
+// Of the image to come. `seconds`: what preparing it took, which a stroke needs and a camera move does
+// not.
+MovingQuality vtkDeformedVolumeMapper::Quality(
+  vtkOpenGLRenderWindow* window, const Device& device, const glm::ivec2& size, double seconds) const
 {
   const double rate = window->GetDesiredUpdateRate();
   if (!this->AdaptiveQuality || rate < InteractiveRate)
   {
-    return 1;
+    return {};
   }
-  const double fullTime = device.SecondsPerPixel * size.x * size.y;
-  const double allowed = 1.0 / std::max(rate, SmoothRate);
-  const int scale = static_cast<int>(std::ceil(std::sqrt(fullTime / allowed)));
-  return std::clamp(scale, 1, LargestImageScale);
+  const double frame = 1.0 / std::max(rate, SmoothRate);
+  return movingQuality(device.SecondsPerPixel * size.x * size.y,
+    std::max(frame - seconds, LeastShareForImage * frame));
 }
 
 // The offset field and the bricks of the deformed frame.

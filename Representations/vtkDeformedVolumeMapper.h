@@ -37,6 +37,7 @@ namespace brainshift
 {
 struct Counters;
 struct Grid;
+struct MovingQuality;
 struct RayCastScene;
 struct TissueRequest;
 struct ValueLayout;
@@ -139,7 +140,8 @@ private:
   bool AskForMemory(vtkRenderer* renderer, Device& device, const brainshift::TissueRequest& tissue,
     std::string& problem);
   void AskTheGpu();
-  int ImageScale(vtkOpenGLRenderWindow* window, const Device& device, const glm::ivec2& size) const;
+  brainshift::MovingQuality Quality(vtkOpenGLRenderWindow* window, const Device& device,
+    const glm::ivec2& size, double seconds) const;
   void UpdateDeformation(vtkImageData* image);
   bool PrepareSpace(vtkOpenGLRenderWindow* window, Device& device, const brainshift::Grid& grid,
     const brainshift::ValueLayout& layout, brainshift::RayCastScene& scene, std::string& problem);

@@ -7,6 +7,7 @@ in vec2 ndc;
 uniform vec3 spaceLow;  // the part of the deformed frame that tissue can reach, texture coordinates
 uniform vec3 spaceHigh;
 uniform float stepMm;
+uniform int stepDoublings; // opacities hold for a step this often halved; at most 2
 uniform float jitter; // 1: neighbouring rays start at different shares of a step, against rings
 uniform mat3 worldFromGradient;  // world axes from a gradient for texture units (inverse transpose)
 uniform vec3 worldOfTextureZero; // mm
@@ -40,6 +41,14 @@ float startShare(ivec2 pixel)
   int mixed = pixel.x ^ pixel.y;
   int rank = (mixed & 1) * 8 + (pixel.y & 1) * 4 + (mixed >> 1 & 1) * 2 + (pixel.y >> 1 & 1);
   return (float(rank) + 0.5) / 16.0;
+}
+
+// Opacity of the present step.
+float opacityOf(float ofHalvedStep)
+{
+  float once = ofHalvedStep * (2.0 - ofHalvedStep);
+  float twice = once * (2.0 - once);
+  return stepDoublings == 0 ? ofHalvedStep : stepDoublings == 1 ? once : twice;
 }
 
 // Colour times opacity, and opacity, of a sample.
@@ -104,6 +113,8 @@ void main()
         {
           slopes = offsetSlopes(positionOf(field, i) + 0.5 * field.stride);
         }
+        one.a = opacityOf(one.a);
+        two.a = opacityOf(two.a);
         picture += (1.0 - picture.a) * shown(one, oneDeformed, oneRest, slopes, turn, towardsEye);
         hit = hit < 0.0 && picture.a >= HitOpacity ? max(float(i) - 0.5, 0.0) : hit;
         vec4 further = shown(two, twoDeformed, twoRest, slopes, turn, towardsEye);

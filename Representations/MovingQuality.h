@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is left out while the camera or a stroke moves, so that pictures come as fast as a hand wants.
+#ifndef BrainShift_MovingQuality_h
+#define BrainShift_MovingQuality_h
+
+#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
+
+namespace brainshift
+{
+struct MovingQuality
+{
+  int imageScale = 1;    // screen pixels a side for one pixel of the image
+  int stepDoublings = 0; // how often the step along the ray is doubled
+};
+
+constexpr int LargestImageScale = 4;
+constexpr int MostStepDoublings = 2;
+
+// `fullSeconds`: what an image with all pixels and the usual step takes; `allowedSeconds`: what it may
+// take, above 0. Fewer pixels first: longer steps only where these do not do.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT MovingQuality movingQuality(
+  double fullSeconds, double allowedSeconds);
+}
+
+#endif
