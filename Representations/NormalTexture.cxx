@@ -14,7 +14,7 @@ NormalTexture::NormalTexture() = default;
 NormalTexture::~NormalTexture() = default;
 
 bool NormalTexture::update(vtkOpenGLRenderWindow* window, vtkTextureObject* scalars,
-  const glm::ivec3& dimensions, bool half, float range, Counters& counters)
+  const glm::ivec3& dimensions, bool half, float difference, Counters& counters)
 {
   if (this->Texture && this->Source == scalars && this->Half == half)
   {
@@ -40,10 +40,10 @@ bool NormalTexture::update(vtkOpenGLRenderWindow* window, vtkTextureObject* scal
   program.set("scalars", scalars);
   program.set("texel", 1.0f / glm::vec3(size));
   program.set("voxel", voxel);
-  // Half the range over one voxel, the most there is, comes out as 1 along the longest side.
+  // The usual difference over two voxels comes out as 1 along the longest side.
   const float longest =
     static_cast<float>(glm::max(dimensions.x, glm::max(dimensions.y, dimensions.z)));
-  program.set("gradientScale", 2.0f / (range > 0.0f ? range * longest : longest));
+  program.set("gradientScale", 2.0f / (difference > 0.0f ? difference * longest : longest));
   runVolumePass(window, program.get()->GetHandle(), this->Texture, glm::ivec3(0), size);
   scalars->Deactivate();
   this->Source = scalars;

@@ -216,6 +216,29 @@ glm::vec2 BrickRanges::whole() const
   return whole;
 }
 
+float usualDifference(const BrickRanges& bricks)
+{
+  constexpr std::size_t enough = 100000; // bricks tell as well as all of them
+  const std::size_t step = std::max<std::size_t>(bricks.ranges.size() / enough, 1);
+  std::vector<float> differences;
+  for (std::size_t i = 0; i < bricks.ranges.size(); i += step)
+  {
+    const float difference = bricks.ranges[i].y - bricks.ranges[i].x;
+    if (difference > 0.0f && difference <= std::numeric_limits<float>::max())
+    {
+      differences.push_back(difference);
+    }
+  }
+  if (differences.empty())
+  {
+    return 0.0f;
+  }
+  const auto usual =
+    differences.begin() + static_cast<std::ptrdiff_t>(differences.size() * 99 / 100);
+  std::nth_element(differences.begin(), usual, differences.end());
+  return *usual;
+}
+
 BrickRanges brickRanges(const float* values, const glm::ivec3& dimensions, float scale)
 {
   return rangesOf(values, dimensions, scale);

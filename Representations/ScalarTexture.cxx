@@ -168,6 +168,7 @@ bool ScalarTexture::create(Stored* stored, int type, float shaderFromStored,
   const glm::vec2 whole = this->Ranges.whole();
   const float range = whole.y - whole.x;
   this->Range = range > 0.0f && std::isfinite(range) ? range : 0.0f;
+  this->Difference = usualDifference(this->Ranges);
   counters.volumeUploads += 1;
   counters.bytesUploaded +=
     static_cast<std::int64_t>(sizeof(Stored)) * dimensions.x * dimensions.y * dimensions.z;

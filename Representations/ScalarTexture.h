@@ -38,6 +38,8 @@ public:
   const BrickRanges& ranges() const { return this->Ranges; }
   // Greatest minus least stored value.
   float range() const { return this->Range; }
+  // usualDifference of the stored values.
+  float difference() const { return this->Difference; }
 
   // Stored values lie in 0 to 1, in steps of 16 bits.
   bool sixteenBits() const { return this->SixteenBits; }
@@ -66,6 +68,7 @@ private:
   int UploadedComponent = 0;
   BrickRanges Ranges;
   float Range = 0.0f;
+  float Difference = 0.0f;
   bool SixteenBits = false;
   double Scale = 1.0;
   double Shift = 0.0;

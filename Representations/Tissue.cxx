@@ -125,7 +125,7 @@ bool Tissue::updateGradients(vtkOpenGLRenderWindow* window, const TissueRequest&
   }
   setFilter(this->Scalars.texture(), false); // half resolution blends neighbours
   if (!this->Normals.update(window, this->Scalars.texture(), request.layout.dimensions,
-        request.gradients == GradientSource::HalfResolution, this->Scalars.range(), counters))
+        request.gradients == GradientSource::HalfResolution, this->Scalars.difference(), counters))
   {
     problem = "The gradients' shader does not compile or their texture cannot be made on this GPU";
     return false;

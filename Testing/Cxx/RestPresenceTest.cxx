@@ -232,3 +232,19 @@ TEST(RestPresence, CountsNoBrickWithoutANumber)
   values[0] = 1.0f;
   EXPECT_EQ(summedVisibility(brickRanges(values.data(), size), any).back(), 1.0f);
 }
+
+TEST(RestPresence, OutliersDoNotChangeTheUsualDifference)
+{
+  const glm::ivec3 size(64, 64, 8);
+  std::vector<float> values(64 * 64 * 8, 0.0f);
+  EXPECT_EQ(usualDifference(brickRanges(values.data(), size)), 0.0f);
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    values[i] = static_cast<float>(i % 64); // differs by 1 from voxel to voxel along x
+  }
+  const float usual = usualDifference(brickRanges(values.data(), size));
+  EXPECT_NEAR(usual, 2.0f + 2.0f * BrickMargin, 1e-5f);
+  values[1000] = 30000.0f;
+  values[1001] = Infinity;
+  EXPECT_EQ(usualDifference(brickRanges(values.data(), size)), usual);
+}
