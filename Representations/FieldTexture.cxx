@@ -130,6 +130,12 @@ bool FieldTexture::refine(vtkOpenGLRenderWindow* window, const FieldRequest& req
     coarse->Deactivate();
     coarse = this->Refined[axis];
   }
+  // The next stroke computes what it needs of these anew; their memory is worth more.
+  for (const int axis : { 0, 1 })
+  {
+    this->Refined[axis]->ReleaseGraphicsResources(window);
+    this->Refined[axis] = nullptr;
+  }
   return true;
 }
 
