@@ -107,26 +107,33 @@ bool DeformedPresence::setVisibility(vtkOpenGLRenderWindow* window, const glm::i
     restBricks.x + 1, restBricks.y + 1, restBricks.z + 1, 1, VTK_FLOAT, summed.data());
 }
 
-bool DeformedPresence::compute(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
-  const IndexBox& box, Counters& counters)
+bool DeformedPresence::allocate(vtkOpenGLRenderWindow* window, const glm::ivec3& count)
 {
-  const bool deformed = request.offsets != nullptr;
-  Program& program = this->MapPrograms[deformed];
-  if (!program.use(window, presenceSource(deformed), counters))
+  const auto make = [&](vtkSmartPointer<vtkTextureObject>& map, const glm::ivec3& side,
+                      int components, int type) {
+    map = vtkSmartPointer<vtkTextureObject>::New();
+    map->SetContext(window);
+    setNearest(map);
+    return map->Allocate3D(side.x, side.y, side.z, components, type);
+  };
+  const glm::ivec3 blocks = (count + BricksInBlock - 1) / BricksInBlock;
+  if (make(this->Blocks[0], blocks, 4, VTK_FLOAT) && make(this->Blocks[1], blocks, 4, VTK_FLOAT) &&
+    make(this->Map, count, 1, VTK_UNSIGNED_CHAR))
   {
-    return false;
+    return true;
   }
-  program.set("summed", this->Summed.Get());
-  program.set("restBricks", request.restBricks);
+  this->Map = nullptr;
+  return false;
+}
+
+// What Shaders/bricks.glsl asks for.
+void DeformedPresence::setBricks(Program& program, const PresenceRequest& request)
+{
   program.set("brickSide", static_cast<float>(BrickSide));
-  program.set("restBrickSide", static_cast<float>(RestBrickSide));
   program.set("firstBrick", request.first);
   program.set("margin", BrickMargin);
-  program.set("lowestVoxel", request.lowestVoxel);
-  program.set("highestVoxel", request.highestVoxel);
-  if (deformed)
+  if (request.offsets)
   {
-    setFilter(request.offsets, vtkTextureObject::Nearest);
     program.set("offsets", request.offsets);
     program.set("offsetCount",
       glm::ivec3(
@@ -135,11 +142,59 @@ bool DeformedPresence::compute(vtkOpenGLRenderWindow* window, const PresenceRequ
     program.set("nodesFromVoxel", request.nodesFromVoxel);
     program.set("nodesFromVoxelShift", request.nodesFromVoxelShift);
   }
-  runVolumePass(window, program.get()->GetHandle(), this->Map, box.first, box.size());
-  this->Summed->Deactivate();
+}
+
+bool DeformedPresence::findBlocks(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
+  const IndexBox& box, Counters& counters)
+{
+  if (!this->BlocksProgram.use(window, blocksSource(), counters))
+  {
+    return false;
+  }
+  this->setBricks(this->BlocksProgram, request);
+  const IndexBox blocks{ box.first / BricksInBlock, box.last / BricksInBlock };
+  runVolumePass(window, this->BlocksProgram.get()->GetHandle(),
+    { this->Blocks[0], this->Blocks[1] }, blocks.first, blocks.size());
+  request.offsets->Deactivate();
+  return true;
+}
+
+bool DeformedPresence::compute(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
+  const IndexBox& box, Counters& counters)
+{
+  const bool deformed = request.offsets != nullptr;
   if (deformed)
   {
-    request.offsets->Deactivate();
+    setFilter(request.offsets, vtkTextureObject::Nearest);
+  }
+  Program& program = this->MapPrograms[deformed];
+  if ((deformed && !this->findBlocks(window, request, box, counters)) ||
+    !program.use(window, presenceSource(deformed), counters))
+  {
+    return false;
+  }
+  this->setBricks(program, request);
+  program.set("summed", this->Summed.Get());
+  program.set("restBricks", request.restBricks);
+  program.set("restBrickSide", static_cast<float>(RestBrickSide));
+  program.set("lowestVoxel", request.lowestVoxel);
+  program.set("highestVoxel", request.highestVoxel);
+  if (deformed)
+  {
+    program.set("blockLeast", this->Blocks[0].Get());
+    program.set("blockGreatest", this->Blocks[1].Get());
+  }
+  runVolumePass(window, program.get()->GetHandle(), { this->Map }, box.first, box.size());
+  for (vtkTextureObject* texture :
+    { this->Summed.Get(), this->Blocks[0].Get(), this->Blocks[1].Get(), request.offsets })
+  {
+    if (texture)
+    {
+      texture->Deactivate();
+    }
+  }
+  if (deformed)
+  {
     setFilter(request.offsets, vtkTextureObject::Linear);
   }
   return true;
@@ -153,12 +208,8 @@ bool DeformedPresence::update(vtkOpenGLRenderWindow* window, const PresenceReque
   if (!this->Map || this->Map->GetWidth() != count.x || this->Map->GetHeight() != count.y ||
     this->Map->GetDepth() != count.z)
   {
-    this->Map = vtkSmartPointer<vtkTextureObject>::New();
-    this->Map->SetContext(window);
-    setNearest(this->Map);
-    if (!this->Map->Allocate3D(count.x, count.y, count.z, 1, VTK_UNSIGNED_CHAR))
+    if (!this->allocate(window, request.count))
     {
-      this->Map = nullptr;
       return false;
     }
   }
@@ -283,7 +334,7 @@ std::int64_t DeformedPresence::faceBytes() const
 
 void DeformedPresence::releaseGraphicsResources(vtkWindow* window)
 {
-  for (vtkTextureObject* texture : { this->Summed.Get(), this->Map.Get(), this->Leaps.Get() })
+  for (vtkTextureObject* texture : this->textures())
   {
     if (texture)
     {
@@ -297,7 +348,10 @@ void DeformedPresence::releaseGraphicsResources(vtkWindow* window)
   this->Summed = nullptr;
   this->Map = nullptr;
   this->Leaps = nullptr;
+  this->Blocks[0] = nullptr;
+  this->Blocks[1] = nullptr;
   this->Corners = nullptr;
+  this->BlocksProgram.forget();
   this->MapPrograms[0].forget();
   this->MapPrograms[1].forget();
 }

@@ -65,13 +65,17 @@ public:
   // All textures, some of which may be null, and the bytes of the faces on the GPU.
   std::vector<vtkTextureObject*> textures() const
   {
-    return { this->Summed, this->Map, this->Leaps };
+    return { this->Summed, this->Map, this->Leaps, this->Blocks[0], this->Blocks[1] };
   }
   std::int64_t faceBytes() const;
 
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
+  bool allocate(vtkOpenGLRenderWindow* window, const glm::ivec3& count);
+  void setBricks(Program& program, const PresenceRequest& request);
+  bool findBlocks(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
+    const IndexBox& box, Counters& counters);
   bool compute(vtkOpenGLRenderWindow* window, const PresenceRequest& request, const IndexBox& box,
     Counters& counters);
   bool makeLeaps(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
@@ -81,9 +85,11 @@ private:
   vtkSmartPointer<vtkTextureObject> Summed;
   vtkSmartPointer<vtkTextureObject> Map; // 1 for occupied bricks, 0 for others
   vtkSmartPointer<vtkTextureObject> Leaps;
+  vtkSmartPointer<vtkTextureObject> Blocks[2]; // least, greatest offset in each, voxels
   vtkSmartPointer<vtkOpenGLBufferObject> Corners;
-  PresenceRequest Shown;  // what Map shows
-  bool AllNew = true;     // nothing of Map can be kept
+  PresenceRequest Shown; // what Map shows
+  bool AllNew = true;    // nothing of Map can be kept
+  Program BlocksProgram;
   Program MapPrograms[2]; // [deformed]
   int Faces = 0;
   int Occupied = 0;

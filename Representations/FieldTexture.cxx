@@ -125,8 +125,8 @@ bool FieldTexture::refine(vtkOpenGLRenderWindow* window, const FieldRequest& req
     this->RefineProgram.set("perCell", forward.perCell);
     this->RefineProgram.get()->SetUniform4fv(
       "weights", forward.perCell, glm::value_ptr(weights[0]));
-    runVolumePass(
-      window, this->RefineProgram.get()->GetHandle(), this->Refined[axis], box.first, box.size());
+    runVolumePass(window, this->RefineProgram.get()->GetHandle(), { this->Refined[axis] },
+      box.first, box.size());
     coarse->Deactivate();
     coarse = this->Refined[axis];
   }
@@ -154,8 +154,8 @@ bool FieldTexture::invert(
   this->InvertProgram.set("firstCell", request.nodes.first);
   this->InvertProgram.set("offsetScale", request.offsetScale);
   this->InvertProgram.set("negated", request.inverse == Inverse::Negated ? 1 : 0);
-  runVolumePass(window, this->InvertProgram.get()->GetHandle(), this->Offsets, this->Changed.first,
-    this->Changed.size());
+  runVolumePass(window, this->InvertProgram.get()->GetHandle(), { this->Offsets },
+    this->Changed.first, this->Changed.size());
   this->Refined[2]->Deactivate();
   counters.texelsRefined += texels(this->Changed.size());
   return true;

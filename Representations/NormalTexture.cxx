@@ -44,7 +44,7 @@ bool NormalTexture::update(vtkOpenGLRenderWindow* window, vtkTextureObject* scal
   const float longest =
     static_cast<float>(glm::max(dimensions.x, glm::max(dimensions.y, dimensions.z)));
   program.set("gradientScale", 2.0f / (difference > 0.0f ? difference * longest : longest));
-  runVolumePass(window, program.get()->GetHandle(), this->Texture, glm::ivec3(0), size);
+  runVolumePass(window, program.get()->GetHandle(), { this->Texture }, glm::ivec3(0), size);
   scalars->Deactivate();
   this->Source = scalars;
   this->Half = half;

@@ -3,6 +3,8 @@
 
 #include "OffsetField.h"
 
+#include "shader_blocks_frag.h"
+#include "shader_bricks.h"
 #include "shader_clipping.h"
 #include "shader_components.h"
 #include "shader_composite_frag.h"
@@ -55,6 +57,11 @@ std::string assemble(std::initializer_list<std::string> parts)
     source += part;
   }
   return source;
+}
+
+std::string blockDefine()
+{
+  return "#define BRICKS_IN_BLOCK " + std::to_string(BricksInBlock) + "\n";
 }
 
 // A program for runVolumePass whose fragment stage ends with `body`.
@@ -114,9 +121,16 @@ ShaderSource normalsSource()
   return volumePassSource(std::string(shader_gradient) + shader_normals_frag);
 }
 
+ShaderSource blocksSource()
+{
+  return volumePassSource(
+    blockDefine() + "#define DEFORMED\n" + shader_bricks + shader_blocks_frag);
+}
+
 ShaderSource presenceSource(bool deformed)
 {
-  return volumePassSource(std::string(deformed ? "#define DEFORMED\n" : "") + shader_presence_frag);
+  return volumePassSource(
+    blockDefine() + (deformed ? "#define DEFORMED\n" : "") + shader_bricks + shader_presence_frag);
 }
 
 ShaderSource proxySource()
@@ -156,7 +170,7 @@ ShaderSource coverSource()
 std::vector<std::pair<std::string, ShaderSource>> allSources()
 {
   std::vector<std::pair<std::string, ShaderSource>> sources{ { "refine", refineSource() },
-    { "invert", invertSource() }, { "normals", normalsSource() },
+    { "invert", invertSource() }, { "normals", normalsSource() }, { "blocks", blocksSource() },
     { "presence_rest", presenceSource(false) }, { "presence_deformed", presenceSource(true) },
     { "proxy", proxySource() }, { "composite", compositeSource() }, { "cover", coverSource() } };
   const auto add = [&](const RayCastVariant& variant) {

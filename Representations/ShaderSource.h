@@ -20,6 +20,7 @@ struct ShaderSource
 };
 
 constexpr int MaxLights = 8;
+constexpr int BricksInBlock = 4; // a side; blocks of the presence map's bricks
 constexpr int MaxClipPlanes = 16;
 constexpr int MaxIsovalues = 32;
 
@@ -76,6 +77,7 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource rayCastSource(const RayCastVari
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource compositeSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource coverSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource normalsSource();
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource blocksSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource presenceSource(bool deformed);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource proxySource();
 

@@ -10,8 +10,9 @@
 
 namespace brainshift
 {
-void runVolumePass(vtkOpenGLRenderWindow* window, int programHandle, vtkTextureObject* target,
-  const glm::ivec3& first, const glm::ivec3& count)
+void runVolumePass(vtkOpenGLRenderWindow* window, int programHandle,
+  std::initializer_list<vtkTextureObject*> targets, const glm::ivec3& first,
+  const glm::ivec3& count)
 {
   vtkOpenGLState* state = window->GetState();
   vtkOpenGLState::ScopedglViewport viewport(state);
@@ -21,8 +22,13 @@ void runVolumePass(vtkOpenGLRenderWindow* window, int programHandle, vtkTextureO
   vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
   vtkOpenGLState::ScopedglEnableDisable cull(state, GL_CULL_FACE);
   FramebufferScope framebuffer(state);
-  glFramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, target->GetHandle(), 0);
-  framebuffer.drawColors(1);
+  unsigned int attached = 0;
+  for (vtkTextureObject* target : targets)
+  {
+    glFramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + attached, target->GetHandle(), 0);
+    attached += 1;
+  }
+  framebuffer.drawColors(attached);
 
   state->vtkglDisable(GL_BLEND);
   state->vtkglDisable(GL_DEPTH_TEST);
