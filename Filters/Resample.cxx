@@ -146,8 +146,8 @@ private:
   std::ptrdiff_t StrideZ;
 };
 
-// The offset field along one row of voxels: nodes blended across y and z once, so that a voxel costs
-// one blend along x.
+// The offset field along one row of voxels: nodes blended across y and z once, so that a voxel
+// costs one blend along x.
 class OffsetRow
 {
 public:

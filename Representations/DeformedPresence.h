@@ -45,8 +45,8 @@ public:
   bool setVisibility(vtkOpenGLRenderWindow* window, const glm::ivec3& restBricks,
     std::vector<float>& summed, Counters& counters);
 
-  // Finds the occupied bricks and makes their faces, if anything changed. `changed`: the nodes whose
-  // offsets differ from the last update; all bricks are done after any other change.
+  // Finds the occupied bricks and makes their faces, if anything changed. `changed`: the nodes
+  // whose offsets differ from the last update; all bricks are done after any other change.
   bool update(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
     const IndexBox& changed, Counters& counters);
 

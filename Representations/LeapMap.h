@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far a ray may leap through empty bricks (Deakin and Knackstedt, 2019, on rest volumes; here of
-// the deformed frame).
+// How far a ray may leap through empty bricks (Deakin and Knackstedt, 2019, on volumes at rest;
+// here of the deformed frame).
 #ifndef BrainShift_LeapMap_h
 #define BrainShift_LeapMap_h
 

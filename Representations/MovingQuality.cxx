@@ -6,6 +6,25 @@
 
 namespace brainshift
 {
+namespace
+{
+constexpr double InteractiveRate = 1.0;
+// ParaView asks for 5 a second while the camera moves. Below 15 a hand sees steps.
+constexpr double SmoothRate = 15.0;
+constexpr double LeastShareForImage = 0.2; // of a frame's time, however long a stroke takes
+}
+
+bool isMoving(double rate)
+{
+  return rate >= InteractiveRate;
+}
+
+double allowedSeconds(double rate, double spentSeconds)
+{
+  const double frame = 1.0 / std::max(rate, SmoothRate);
+  return std::max(frame - spentSeconds, LeastShareForImage * frame);
+}
+
 MovingQuality movingQuality(double fullSeconds, double allowedSeconds)
 {
   MovingQuality quality;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is left out while the camera or a stroke moves, so that pictures come as fast as a hand wants.
+// What is left out while the camera or a stroke moves, so that pictures come fast enough for a
+// hand.
 #ifndef BrainShift_MovingQuality_h
 #define BrainShift_MovingQuality_h
 
@@ -16,10 +17,18 @@ struct MovingQuality
 constexpr int LargestImageScale = 4;
 constexpr int MostStepDoublings = 2;
 
-// `fullSeconds`: what an image with all pixels and the usual step takes; `allowedSeconds`: what it may
-// take, above 0. Fewer pixels first: longer steps only where these do not do.
+// Whether a window that wants so many frames a second is being moved; still pictures ask for far
+// fewer.
+bool isMoving(double rate);
+
+// `fullSeconds`: what an image with all pixels and the usual step takes; `allowedSeconds`: what it
+// may take, above 0. Fewer pixels first: longer steps only where these do not do.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT MovingQuality movingQuality(
   double fullSeconds, double allowedSeconds);
+
+// What an image may take in a window that wants `rate` frames a second, after `spentSeconds` went
+// into preparing it: a stroke needs that, a camera move does not.
+double allowedSeconds(double rate, double spentSeconds);
 }
 
 #endif

@@ -23,9 +23,9 @@ public:
   NormalTexture();
   ~NormalTexture();
 
-  // Computes the gradients of `scalars` (voxels a side given), unless they are there already: at half
-  // or at full resolution, 10 bits a component. `difference`: how much stored values usually differ within two
-  // voxels; longer gradients are cut to that length.
+  // Computes the gradients of `scalars` (voxels a side given), unless they are there already: at
+  // half or at full resolution, 10 bits a component. `difference`: how much stored values usually
+  // differ within two voxels; longer gradients are cut to that length.
   bool update(vtkOpenGLRenderWindow* window, vtkTextureObject* scalars,
     const glm::ivec3& dimensions, bool half, float difference, Counters& counters);
 

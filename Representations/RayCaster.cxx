@@ -4,11 +4,8 @@
 #include "DeformedPresence.h"
 #include "OpenGL.h"
 
-#include "vtkLight.h"
-#include "vtkLightCollection.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
-#include "vtkRenderer.h"
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
 
@@ -166,46 +163,6 @@ void setLightUniforms(Program& program, const RayCastScene& scene)
 }
 }
 
-RayCastLights lightsOf(vtkRenderer* renderer)
-{
-  RayCastLights lights;
-  int others = 0;
-  vtkCollectionSimpleIterator iterator;
-  vtkLightCollection* collection = renderer->GetLights();
-  collection->InitTraversal(iterator);
-  while (vtkLight* light = collection->GetNextLight(iterator))
-  {
-    if (!light->GetSwitch() || static_cast<int>(lights.position.size()) >= 4 * MaxLights)
-    {
-      continue;
-    }
-    others += light->LightTypeIsHeadlight() ? 0 : 1;
-    double position[3];
-    light->GetTransformedPosition(position);
-    glm::dvec4 source(position[0], position[1], position[2], 1.0);
-    if (!light->GetPositional())
-    {
-      double focus[3];
-      light->GetTransformedFocalPoint(focus);
-      const glm::dvec3 towards(
-        position[0] - focus[0], position[1] - focus[1], position[2] - focus[2]);
-      source = glm::dvec4(glm::normalize(towards), 0.0);
-    }
-    const double intensity = light->GetIntensity();
-    for (int i = 0; i < 4; ++i)
-    {
-      lights.position.push_back(static_cast<float>(source[i]));
-    }
-    for (int i = 0; i < 3; ++i)
-    {
-      lights.color.push_back(static_cast<float>(light->GetDiffuseColor()[i] * intensity));
-      lights.specular.push_back(static_cast<float>(light->GetSpecularColor()[i] * intensity));
-    }
-  }
-  lights.headlight = others == 0 && lights.position.size() == 4;
-  return lights;
-}
-
 RayCaster::RayCaster() = default;
 RayCaster::~RayCaster() = default;
 
@@ -224,8 +181,8 @@ vtkSmartPointer<vtkTextureObject> makeImage(
   return image->Allocate2D(size.x, size.y, 4, VTK_FLOAT) ? image : nullptr;
 }
 
-// Drawing into images of our own: no blending, no tests, only the part that shows something; restored
-// at the end.
+// Drawing into images of our own: no blending, no tests, only the part that shows something;
+// restored at the end.
 class ImageScope
 {
 public:

@@ -5,6 +5,7 @@
 
 #include "Counters.h"
 #include "Program.h"
+#include "RayCastLights.h"
 #include "RayCastOptions.h"
 
 #include "vtkSmartPointer.h"
@@ -26,14 +27,6 @@ class vtkWindow;
 namespace brainshift
 {
 class DeformedPresence;
-
-struct RayCastLights
-{
-  bool headlight = false;      // the only light is at the eye
-  std::vector<float> position; // 4 each: world; w 0: direction towards the light
-  std::vector<float> color;    // 3 each, times intensity
-  std::vector<float> specular; // 3 each
-};
 
 // Everything one image depends on. Texture coordinates are the scalar texture's.
 struct RayCastScene
@@ -79,8 +72,6 @@ struct RayCastScene
   glm::vec2 depthOfShareZero{ 0.0f };
 };
 
-RayCastLights lightsOf(vtkRenderer* renderer);
-
 class RayCaster
 {
 public:
@@ -95,8 +86,8 @@ public:
     Counters& counters);
 
   // What the last whole image shows at a place counted from its lower left corner to 1: first hit
-  // (mm, world) and its distance from the near plane (mm). False where no surface was hit or nothing
-  // was cast yet.
+  // (mm, world) and its distance from the near plane (mm). False where no surface was hit or
+  // nothing was cast yet.
   bool hitAt(vtkOpenGLRenderWindow* window, const glm::dvec2& place, glm::dvec4& hit);
 
   // What hitAt reads, texel by texel. Null if nothing was cast yet.

@@ -39,8 +39,8 @@ struct Extremes
 template <typename T>
 using Rows = std::array<const T*, BrickReach>;
 
-// What interpolation finds BrickMargin beyond the voxel `at`, towards `next`, where that is less, or
-// more; else `at`. Whole numbers are rounded away from it.
+// What interpolation finds BrickMargin beyond the voxel `at`, towards `next`, where that is less,
+// or more; else `at`. Whole numbers are rounded away from it.
 float lessBeyond(float at, float next)
 {
   const float difference = next - at;
@@ -65,8 +65,9 @@ std::uint16_t moreBeyond(std::uint16_t at, std::uint16_t next)
   return static_cast<std::uint16_t>(at + (std::max(next - at, 0) + Parts - 1) / Parts);
 }
 
-// Extremes of the rows, the outer ones only as far as the margin, place by place. `least` and `greatest` are the same rows where nothing was
-// combined yet. A comparison with NaN is false, so NaN is left out.
+// Extremes of the rows, the outer ones only as far as the margin, place by place. `least` and
+// `greatest` are the same rows where nothing was combined yet. A comparison with NaN is false, so
+// NaN is left out.
 template <typename T>
 void combine(const Rows<T>& least, const Rows<T>& greatest, std::size_t length,
   T* __restrict leastOut, T* __restrict greatestOut)

@@ -20,8 +20,8 @@ namespace brainshift
 constexpr int RestBrickSide = 2; // voxels, in the rest volume
 constexpr int BrickSide = 4;     // voxels, in the deformed frame; 8 occupies more, 2 has more faces
 
-// Bricks of both frames look at so many voxels around them, so that a visible sample near a face makes
-// the brick beyond that face occupied too: the rasteriser and brick numbers may round.
+// Bricks of both frames look at so many voxels around them, so that a visible sample near a face
+// makes the brick beyond that face occupied too: the rasteriser and brick numbers may round.
 constexpr float BrickMargin = 1.0f / 8.0f;
 
 // The least and the greatest value that interpolation can find within each brick.
@@ -34,15 +34,16 @@ struct BrickRanges
   VTKBRAINSHIFTREPRESENTATIONS_EXPORT glm::vec2 whole() const;
 };
 
-// `values`: dimensions.x * y * z numbers, x fastest, to be multiplied by `scale`, which is above 0. A
-// range is that of all that interpolation finds within the brick and BrickMargin around it. NaN is left out: it is never visible.
+// `values`: dimensions.x * y * z numbers, x fastest, to be multiplied by `scale`, which is above 0.
+// A range is that of all that interpolation finds within the brick and BrickMargin around it. NaN
+// is left out: it is never visible.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT BrickRanges brickRanges(
   const float* values, const glm::ivec3& dimensions, float scale = 1.0f);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT BrickRanges brickRanges(
   const std::uint16_t* values, const glm::ivec3& dimensions, float scale = 1.0f);
 
-// How much values differ within a brick, if anything: all but one such brick in a hundred stay below.
-// 0 where nothing differs. So a few outliers, metal in a CT, tell nothing about the rest.
+// How much values differ within a brick, if anything: all but one such brick in a hundred stay
+// below. 0 where nothing differs. So a few outliers, metal in a CT, tell nothing about the rest.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT float usualDifference(const BrickRanges& bricks);
 
 // Which values a colour map of `entries` colours shows.
@@ -71,9 +72,9 @@ struct VisibleValues
 // Turns 1 for each visible brick, in the order of summedVisibility, into sums.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT void sumUp(std::vector<float>& counts, const glm::ivec3& size);
 
-// Number of visible bricks with lower indices on all axes: (count + 1)^3 numbers, x fastest, so that
-// eight of them tell how many lie in any box. `visible` says it of a range, on many threads. Exact
-// up to 2^24 bricks.
+// Number of visible bricks with lower indices on all axes: (count + 1)^3 numbers, x fastest, so
+// that eight of them tell how many lie in any box. `visible` says it of a range, on many threads.
+// Exact up to 2^24 bricks.
 template <typename Visible>
 std::vector<float> summedVisibility(const BrickRanges& bricks, const Visible& visible)
 {

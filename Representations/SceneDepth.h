@@ -20,8 +20,9 @@ public:
   SceneDepth();
   ~SceneDepth();
 
-  // Makes the depth of the framebuffer that is bound for drawing readable in a viewport (pixels) of it;
-  // of that, only what lies between the pixels `low` and `high`, counted in the viewport, is wanted.
+  // Makes the depth of the framebuffer that is bound for drawing readable in a viewport (pixels) of
+  // it; of that, only what lies between the pixels `low` and `high`, counted in the viewport, is
+  // wanted.
   void capture(vtkOpenGLRenderWindow* window, const glm::ivec2& origin, const glm::ivec2& size,
     const glm::ivec2& low, const glm::ivec2& high);
 

@@ -8,8 +8,10 @@
 #include "vtkMatrix3x3.h"
 #include "vtkMatrix4x4.h"
 #include "vtkOpenGLCamera.h"
+#include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkTextureObject.h"
+#include "vtkVolume.h"
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
@@ -18,8 +20,8 @@ namespace brainshift
 {
 namespace
 {
-// Voxels. The rasteriser rounds to 1/256 of a pixel, so that this leaves half of BrickMargin, and as
-// much again for what is farther from the eye.
+// Voxels. The rasteriser rounds to 1/256 of a pixel, so that this leaves half of BrickMargin, and
+// as much again for what is farther from the eye.
 constexpr double LargestPixel = 8.0;
 }
 
@@ -80,6 +82,21 @@ glm::dvec3 textureFromLattice(const Grid& grid, const ValueLayout& layout, const
   return lattice.spacing / grid.spacing * layout.textureFromGrid;
 }
 
+void widenByNodes(const Grid& lattice, const FieldNodes& nodes, double bounds[6])
+{
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const glm::vec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+    const glm::dvec3 world =
+      lattice.worldFromGrid(glm::dvec3(nodes.latticeFromNode(side * glm::vec3(nodes.count - 1))));
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      bounds[2 * axis] = glm::min(bounds[2 * axis], world[axis]);
+      bounds[2 * axis + 1] = glm::max(bounds[2 * axis + 1], world[axis]);
+    }
+  }
+}
+
 void placeField(const Grid& grid, const ValueLayout& layout, const Grid& lattice,
   const FieldNodes& nodes, const IndexBox& moved, RayCastScene& scene)
 {
@@ -114,6 +131,17 @@ void cropBox(const Grid& grid, const ValueLayout& layout, const double planes[6]
   };
   low = textureFromPlane({ planes[0], planes[2], planes[4] });
   high = textureFromPlane({ planes[1], planes[3], planes[5] });
+}
+
+void describeView(vtkRenderer* renderer, vtkVolume* volume, const Grid& grid,
+  const ValueLayout& layout, RayCastScene& scene)
+{
+  scene.clipFromWorld = clipFromWorld(renderer);
+  scene.worldFromTexture = worldFromTexture(grid, layout, volume->GetMatrix());
+  scene.mmFromTexture = grid.spacing / layout.textureFromGrid;
+  scene.lights = lightsOf(renderer);
+  const int* tiles = renderer->GetRenderWindow()->GetTileScale();
+  scene.tile = tiles[0] * tiles[1] > 1;
 }
 
 void placeShownPixels(const IndexBox& bricks, RayCastScene& scene)

@@ -13,6 +13,7 @@
 
 class vtkMatrix4x4;
 class vtkRenderer;
+class vtkVolume;
 
 namespace brainshift
 {
@@ -37,6 +38,9 @@ glm::dmat4 clipFromWorld(vtkRenderer* renderer);
 // Texture units for one lattice cell: the unit the offset field is wanted in.
 glm::dvec3 textureFromLattice(const Grid& grid, const ValueLayout& layout, const Grid& lattice);
 
+// Widens bounds (mm; x, y, z, least and greatest each) by the box of an offset field's nodes.
+void widenByNodes(const Grid& lattice, const FieldNodes& nodes, double bounds[6]);
+
 // Fills in how the offset field lies to the texture, the space tissue can reach, and the part of it
 // where tissue may have moved: the box of nodes `moved`.
 void placeField(const Grid& grid, const ValueLayout& layout, const Grid& lattice,
@@ -47,9 +51,13 @@ void placeField(const Grid& grid, const ValueLayout& layout, const Grid& lattice
 void cropBox(const Grid& grid, const ValueLayout& layout, const double planes[6], glm::dvec3& low,
   glm::dvec3& high);
 
+// Fills in camera, place of the volume and light.
+void describeView(vtkRenderer* renderer, vtkVolume* volume, const Grid& grid,
+  const ValueLayout& layout, RayCastScene& scene);
+
 // Finds the pixels of the scene's image that a box of bricks can be seen at; all of them if part of
-// it lies behind the eye. Bricks count from the scene's first one. Where pixels are so large that the
-// rasteriser's rounding would come near BrickMargin, nothing is skipped: the picture is tiny.
+// it lies behind the eye. Bricks count from the scene's first one. Where pixels are so large that
+// the rasteriser's rounding would come near BrickMargin, nothing is skipped: the picture is tiny.
 void placeShownPixels(const IndexBox& bricks, RayCastScene& scene);
 
 // Fills in how the deformed frame's bricks lie to the texture, in both.

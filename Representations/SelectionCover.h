@@ -15,8 +15,8 @@ namespace brainshift
 class SelectionCover
 {
 public:
-  // Draws over the selection's buffer and its depth. `hits`: see RayCaster. False if the shader does
-  // not compile.
+  // Draws over the selection's buffer and its depth. `hits`: see RayCaster. False if the shader
+  // does not compile.
   bool draw(vtkOpenGLRenderWindow* window, vtkRenderer* renderer, vtkTextureObject* hits,
     Counters& counters);
 

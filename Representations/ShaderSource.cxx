@@ -8,6 +8,7 @@
 #include "shader_clipping.h"
 #include "shader_components.h"
 #include "shader_composite_frag.h"
+#include "shader_compositing_frag.h"
 #include "shader_counting.h"
 #include "shader_cover_frag.h"
 #include "shader_field.h"
@@ -24,7 +25,7 @@
 #include "shader_projection_frag.h"
 #include "shader_proxy_frag.h"
 #include "shader_proxy_vert.h"
-#include "shader_raycast_frag.h"
+#include "shader_raycast.h"
 #include "shader_rays.h"
 #include "shader_refine_frag.h"
 #include "shader_skipping.h"
@@ -74,13 +75,13 @@ ShaderSource volumePassSource(const std::string& body)
 constexpr const char* BlendDefines[BlendCount] = { "COMPOSITE", "MAXIMUM", "MINIMUM", "AVERAGE",
   "ADDITIVE", "ISOSURFACE", "SLICE" };
 
-// What follows raycast.frag.glsl for blend modes that do not use its loop.
-std::string otherBlendSource(Blend blend)
+// The loop of a blend mode; it follows raycast.glsl.
+std::string blendSource(Blend blend)
 {
   switch (blend)
   {
     case Blend::Composite:
-      return "";
+      return shader_compositing_frag;
     case Blend::Isosurface:
       return std::string(shader_march) + shader_isosurface_frag;
     case Blend::Slice:
@@ -153,8 +154,8 @@ ShaderSource rayCastSource(const RayCastVariant& variant)
   return { assemble({ shader_fullscreen_vert }), "",
     assemble({ Outputs, defines, shader_rays, shader_skipping, shader_clipping, shader_field,
       shader_gradient, shader_tissue, shader_components, shader_light,
-      variant.counted ? std::string(shader_counting) : NotCounted, shader_raycast_frag,
-      otherBlendSource(variant.blend) }) };
+      variant.counted ? std::string(shader_counting) : NotCounted, shader_raycast,
+      blendSource(variant.blend) }) };
 }
 
 ShaderSource compositeSource()

@@ -13,8 +13,8 @@ class vtkTextureObject;
 
 namespace brainshift
 {
-// Bytes of a texture's first level, from the number of bits the driver chose for each channel; 0 for
-// null. Its OpenGL context must be current.
+// Bytes of a texture's first level, from the number of bits the driver chose for each channel; 0
+// for null. Its OpenGL context must be current.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::int64_t textureBytes(vtkTextureObject* texture);
 
 // The same of many.

@@ -59,7 +59,8 @@ public:
   const glm::ivec3& restBricks() const { return this->Scalars.ranges().count; }
   std::vector<float> summedVisibility() const; // of the rest bricks, see RestPresence.h
 
-  // Whether samples that cannot be seen leave a picture as it is: not where they count all the same.
+  // Whether samples that cannot be seen leave a picture as it is: not where they count all the
+  // same.
   bool skippingIsExact(Blend blend) const;
 
   vtkTextureObject* scalars() const { return this->Scalars.texture(); }

@@ -35,7 +35,8 @@ public:
   double scale() const;
   double shift() const;
 
-  // Which values have an opacity above 0, as the shader reads the map; scalar = value * scale + shift.
+  // Which values have an opacity above 0, as the shader reads the map; scalar = value * scale +
+  // shift.
   VisibleValues visibleValues(double scale, double shift) const;
 
   // Whether no invisible scalar lies above a visible one; below.

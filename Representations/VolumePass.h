@@ -13,9 +13,9 @@ class vtkTextureObject;
 
 namespace brainshift
 {
-// Runs the program in use, with its uniforms set, for every texel of a box of the 3D `targets`, which
-// are equally large; the first gets gl_FragData[0], and so on. The program's vertex and geometry stages
-// are those of volumePassSource.
+// Runs the program in use, with its uniforms set, for every texel of a box of the 3D `targets`,
+// which are equally large; the first gets gl_FragData[0], and so on. The program's vertex and
+// geometry stages are those of volumePassSource.
 void runVolumePass(vtkOpenGLRenderWindow* window, int programHandle,
   std::initializer_list<vtkTextureObject*> targets, const glm::ivec3& first,
   const glm::ivec3& count);

@@ -28,10 +28,8 @@
 #include "vtkWeakPointer.h"
 
 #include <glm/common.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -77,27 +75,6 @@ struct vtkDeformedVolumeMapper::State
   std::string Reported;       // the last trouble told
   std::set<std::string> Told; // unsupported choices
 };
-
-namespace
-{
-// A window that wants this many frames a second is being moved; still pictures ask for far fewer.
-constexpr double InteractiveRate = 1.0;
-// ParaView asks for 5 a second while the camera moves. Below 15 a hand sees steps.
-constexpr double SmoothRate = 15.0;
-constexpr double LeastShareForImage = 0.2; // of a frame's time, however long a stroke takes
-
-// Camera and light.
-void describeView(vtkRenderer* renderer, vtkVolume* volume, const Grid& grid,
-  const ValueLayout& layout, RayCastScene& scene)
-{
-  scene.clipFromWorld = clipFromWorld(renderer);
-  scene.worldFromTexture = worldFromTexture(grid, layout, volume->GetMatrix());
-  scene.mmFromTexture = grid.spacing / layout.textureFromGrid;
-  scene.lights = lightsOf(renderer);
-  const int* tiles = renderer->GetRenderWindow()->GetTileScale();
-  scene.tile = tiles[0] * tiles[1] > 1;
-}
-}
 
 vtkStandardNewMacro(vtkDeformedVolumeMapper);
 
@@ -153,18 +130,7 @@ double* vtkDeformedVolumeMapper::GetBounds()
   {
     return this->Bounds;
   }
-  const FieldNodes& nodes = state.Request.nodes;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    const glm::vec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
-    const glm::dvec3 world = state.Source.lattice.grid.worldFromGrid(
-      glm::dvec3(nodes.latticeFromNode(side * glm::vec3(nodes.count - 1))));
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->Bounds[2 * axis] = std::min(this->Bounds[2 * axis], world[axis]);
-      this->Bounds[2 * axis + 1] = std::max(this->Bounds[2 * axis + 1], world[axis]);
-    }
-  }
+  widenByNodes(state.Source.lattice.grid, state.Request.nodes, this->Bounds);
   return this->Bounds;
 }
 
@@ -265,13 +231,20 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   glm::ivec2 size;
   renderer->GetTiledSizeAndOrigin(&size.x, &size.y, &origin.x, &origin.y);
   timer->StopTimer();
-  const MovingQuality quality = this->Quality(window, device, size, timer->GetElapsedTime());
+  const double rate = window->GetDesiredUpdateRate();
+  const bool moving = this->AdaptiveQuality && isMoving(rate);
+  MovingQuality quality;
+  if (moving)
+  {
+    quality = movingQuality(
+      device.SecondsPerPixel * size.x * size.y, allowedSeconds(rate, timer->GetElapsedTime()));
+  }
   state.Count.imageScale = quality.imageScale;
   scene.stepDoublings = tissue.blend == Blend::Composite ? quality.stepDoublings : 0;
   scene.stepMm *= 1 << scene.stepDoublings;
   scene.size = glm::max(size / static_cast<int>(state.Count.imageScale), glm::ivec2(1));
   scene.countSamples = this->CountSamples;
-  scene.jitter = this->AdaptiveQuality && window->GetDesiredUpdateRate() >= InteractiveRate;
+  scene.jitter = moving;
   scene.shownHigh = scene.size;
   if (scene.skipping)
   {
@@ -297,21 +270,6 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
       (static_cast<double>(scene.size.x) * scene.size.y);
   }
   return device.Caster.composite(window, origin, size, state.Count);
-}
-
-// Of the image to come. `seconds`: what preparing it took, which a stroke needs and a camera move does
-// not.
-MovingQuality vtkDeformedVolumeMapper::Quality(
-  vtkOpenGLRenderWindow* window, const Device& device, const glm::ivec2& size, double seconds) const
-{
-  const double rate = window->GetDesiredUpdateRate();
-  if (!this->AdaptiveQuality || rate < InteractiveRate)
-  {
-    return {};
-  }
-  const double frame = 1.0 / std::max(rate, SmoothRate);
-  return movingQuality(device.SecondsPerPixel * size.x * size.y,
-    std::max(frame - seconds, LeastShareForImage * frame));
 }
 
 // The offset field and the bricks of the deformed frame.

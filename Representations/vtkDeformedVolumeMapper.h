@@ -13,8 +13,8 @@
  * What lies on the GPU is kept for each window that shows the volume: two of them, drawn in turn,
  * upload nothing.
  *
- * Where the GPU cannot draw it, the reason is reported once and VTK's software mapper draws the volume
- * undeformed.
+ * Where the GPU cannot draw it, the reason is reported once and VTK's software mapper draws the
+ * volume undeformed.
  *
  * Method: van der Steen et al., SPIE 7169 (2009), section 2; ARCHITECTURE.md says what differs.
  */
@@ -37,7 +37,6 @@ namespace brainshift
 {
 struct Counters;
 struct Grid;
-struct MovingQuality;
 struct RayCastScene;
 struct TissueRequest;
 struct ValueLayout;
@@ -92,17 +91,17 @@ public:
 
   ///@{
   /**
-   * Count the samples that composite blending takes and skips (GetCounters), by a third target that is
-   * read back after each picture. Default false.
+   * Count the samples that composite blending takes and skips (GetCounters), by a third target that
+   * is read back after each picture. Default false.
    */
   vtkSetMacro(CountSamples, bool);
   vtkGetMacro(CountSamples, bool);
   ///@}
 
   /**
-   * Tissue position (mm, world, deformed frame) that the last whole picture in the renderer's window
-   * shows at a pixel counted from the renderer's lower left corner, without drawing again: where the
-   * opacity along the ray reaches one half. False where it does not.
+   * Tissue position (mm, world, deformed frame) that the last whole picture in the renderer's
+   * window shows at a pixel counted from the renderer's lower left corner, without drawing again:
+   * where the opacity along the ray reaches one half. False where it does not.
    */
   bool Pick(vtkRenderer* renderer, int x, int y, double position[3]);
 
@@ -140,8 +139,6 @@ private:
   bool AskForMemory(vtkRenderer* renderer, Device& device, const brainshift::TissueRequest& tissue,
     std::string& problem);
   void AskTheGpu();
-  brainshift::MovingQuality Quality(vtkOpenGLRenderWindow* window, const Device& device,
-    const glm::ivec2& size, double seconds) const;
   void UpdateDeformation(vtkImageData* image);
   bool PrepareSpace(vtkOpenGLRenderWindow* window, Device& device, const brainshift::Grid& grid,
     const brainshift::ValueLayout& layout, brainshift::RayCastScene& scene, std::string& problem);

@@ -3,8 +3,8 @@
  * @class   vtkDeformedVolumeReport
  * @brief   what a "Deformed Volume" drew, asked in the process that drew it
  *
- * With a server that draws, the client's own representation has no picture to ask. This object lives
- * with the renderer; the XML proxy of the same name brings its answers to the client.
+ * With a server that draws, the client's own representation has no picture to ask. This object
+ * lives with the renderer; the XML proxy of the same name brings its answers to the client.
  */
 #ifndef vtkDeformedVolumeReport_h
 #define vtkDeformedVolumeReport_h
@@ -39,8 +39,8 @@ public:
   ///@}
 
   /**
-   * Which tissue the last picture shows at the pixel: its position (mm, world, deformed frame) and 1,
-   * or zeros where no surface was hit. Nothing is drawn.
+   * Which tissue the last picture shows at the pixel: its position (mm, world, deformed frame) and
+   * 1, or zeros where no surface was hit. Nothing is drawn.
    */
   double* GetTissue() VTK_SIZEHINT(4);
 

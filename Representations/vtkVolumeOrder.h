@@ -4,8 +4,8 @@
  * @brief   draws a renderer's volumes from back to front
  *
  * Volumes are blended one over the other in the order they were added, whichever is nearer. This
- * culler removes nothing: it sorts the volumes, VTK's own too, by the depth of their boxes' middles,
- * and leaves all other props where they are. Boxes with the same middle keep their order.
+ * culler removes nothing: it sorts the volumes, VTK's own too, by the depth of their boxes'
+ * middles, and leaves all other props where they are. Boxes with the same middle keep their order.
  */
 #ifndef vtkVolumeOrder_h
 #define vtkVolumeOrder_h

@@ -1,5 +1,5 @@
-// A third target for whoever tunes skipping: samples a ray took, and samples it leapt over before it
-// ended. Joined on demand only: counting costs.
+// A third target for whoever tunes skipping: samples a ray took, and samples it leapt over before
+// it ended. Joined on demand only: counting costs.
 
 void countSamples(int taken, int skipped)
 {

@@ -84,8 +84,8 @@ mat3 offsetSlopesAt(vec3 deformed)
 }
 #endif
 
-// Turns a gradient found in the rest frame into the deformed frame: times the transposed Jacobian of
-// restFromDeformed, else light would not follow the bent surface.
+// Turns a gradient found in the rest frame into the deformed frame: times the transposed Jacobian
+// of restFromDeformed, else light would not follow the bent surface.
 vec3 deformedGradientFromRest(mat3 slopes, vec3 gradient)
 {
   return gradient + gradient * slopes;

@@ -1,4 +1,5 @@
-// The samples of a ray for blend modes other than composite, whose loop is in raycast.frag.glsl.
+// The samples of a ray for blend modes other than composite, whose loop is in
+// compositing.frag.glsl.
 
 struct March
 {

@@ -59,8 +59,8 @@ BrickTrack brickTrack(Track deformed)
   return bricks;
 }
 
-// Whether something may be seen in the brick that sample `i` is in, and the first sample beyond it; if
-// nothing may, beyond all bricks around it that are as empty.
+// Whether something may be seen in the brick that sample `i` is in, and the first sample beyond it;
+// if nothing may, beyond all bricks around it that are as empty.
 int sampleBeyond(BrickTrack bricks, int i, out bool present)
 {
   vec3 position = positionOf(bricks.at, i);

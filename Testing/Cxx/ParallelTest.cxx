@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that our loops take many threads where nobody chose otherwise, do every step once, and give
-// the bits that one thread gives.
+// Proves that our loops take many threads where nobody chose otherwise, do every step once, and
+// give the bits that one thread gives.
 #include "Parallel.h"
 #include "TestPipeline.h"
 

@@ -52,8 +52,8 @@ double valueAt(const std::vector<T>& values, const glm::ivec3& size, const glm::
   return sum;
 }
 
-// Range of what interpolation finds on a brick and a margin around it: trilinear functions have their
-// extremes at corners.
+// Range of what interpolation finds on a brick and a margin around it: trilinear functions have
+// their extremes at corners.
 template <typename T>
 glm::vec2 rangeOf(const std::vector<T>& values, const glm::ivec3& size, const glm::ivec3& brick)
 {

@@ -210,8 +210,8 @@ TEST(Windows, TakeAVolumeOutAndInAgain)
 
 TEST(Windows, LetGoOfTheirOwnOnly)
 {
-  // As ParaView closes a view: while another window's context, with the same numbers for its buffers,
-  // is the current one.
+  // As ParaView closes a view: while another window's context, with the same numbers for its
+  // buffers, is the current one.
   const Picture expected = alone(2.0, 1);
   Ball ball(2.0);
   Window first(ball.volume(), Directions[0], Sizes[0]);

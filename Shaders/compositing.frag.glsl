@@ -1,0 +1,138 @@
+// Composite blending, front to back: the paper's ray caster (section 2), with a loop of its own,
+// since it is what is drawn all day.
+
+// Where in its first step a pixel's ray starts: 16 shares, ordered so that neighbours differ most
+// (Bayer, 1973).
+float startShare(ivec2 pixel)
+{
+  int mixed = pixel.x ^ pixel.y;
+  int rank = (mixed & 1) * 8 + (pixel.y & 1) * 4 + (mixed >> 1 & 1) * 2 + (pixel.y >> 1 & 1);
+  return (float(rank) + 0.5) / 16.0;
+}
+
+// Opacity of the present step.
+float opacityOf(float ofHalvedStep)
+{
+  float once = ofHalvedStep * (2.0 - ofHalvedStep);
+  float twice = once * (2.0 - once);
+  return stepDoublings == 0 ? ofHalvedStep : stepDoublings == 1 ? once : twice;
+}
+
+// Colour times opacity, and opacity, of a sample.
+vec4 shown(vec4 tissue, vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
+{
+  vec3 color = shade(colorOf(tissue, rest), deformed, rest, slopes, turn, towardsEye);
+  return tissue.a > 0.0 ? vec4(color * tissue.a, tissue.a) : vec4(0.0);
+}
+
+// A ray's way through the space that tissue can reach.
+struct Path
+{
+  vec2 span;       // first and last t, mm
+  ivec2 samples;   // first, and one past the last, that may be visible
+  ivec2 moved;     // likewise where tissue may have moved
+  Track deformed;
+  Track field;
+  BrickTrack bricks;
+  vec3 towardsEye; // world axes
+};
+
+Path pathOf(Ray ray)
+{
+  Path path;
+  vec2 span = boxSpan(ray, spaceLow, spaceHigh);
+  span.y = min(span.y, sceneDistance(ray, 0.5 * ndc + 0.5));
+  span = clippedSpan(ray, span, stepMm);
+  span.x += jitter * startShare(ivec2(gl_FragCoord.xy)) * stepMm;
+  path.span = span;
+  path.samples = presentSamples(ray, span, stepMm);
+  path.moved = movedSamples(ray, span, stepMm);
+  path.deformed = Track(ray.start + span.x * ray.direction, stepMm * ray.direction);
+  path.field = fieldTrack(path.deformed);
+  path.bricks = brickTrack(path.deformed);
+  path.towardsEye = -normalize(worldFromTexture * ray.direction);
+  return path;
+}
+
+struct Seen
+{
+  vec4 picture; // colour times opacity, opacity
+  float hit;    // number of the sample where HitOpacity was reached; below 0: not yet
+};
+
+// A sample's colour times opacity, and opacity; the surface is taken to lie half a step before it.
+void see(inout Seen seen, vec4 shown, int number)
+{
+  seen.picture += seen.picture.a > OpaqueEnough ? vec4(0.0) : (1.0 - seen.picture.a) * shown;
+  bool hit = seen.hit < 0.0 && seen.picture.a >= HitOpacity;
+  seen.hit = hit ? max(float(number) - 0.5, 0.0) : seen.hit;
+}
+
+// Takes the samples i and i + 1: their reads do not wait for each other, and one Jacobian does for
+// both. Whether one of them is visible.
+bool takeTwo(Path path, TissueTable table, mat3 turn, int i, inout Seen seen)
+{
+  vec3 oneDeformed = positionOf(path.deformed, i);
+  vec3 twoDeformed = positionOf(path.deformed, i + 1);
+  vec3 oneRest = oneDeformed;
+  vec3 twoRest = twoDeformed;
+  if (i + 1 >= path.moved.x && i < path.moved.y)
+  {
+    oneRest += offsetAt(positionOf(path.field, i));
+    twoRest += offsetAt(positionOf(path.field, i + 1));
+  }
+  vec4 one = tissueAt(table, oneRest);
+  vec4 two = tissueAt(table, twoRest);
+  one.a = inShownRegion(oneDeformed) ? opacityOf(one.a) : 0.0;
+  two.a = i + 1 < path.samples.y && inShownRegion(twoDeformed) ? opacityOf(two.a) : 0.0;
+  bool visible = max(one.a, two.a) > 0.0;
+  if (visible)
+  {
+    mat3 slopes = mat3(0.0);
+    if (oneRest != oneDeformed) // where nothing moves there is nothing to turn
+    {
+      slopes = offsetSlopes(positionOf(path.field, i) + 0.5 * path.field.stride);
+    }
+    see(seen, shown(one, oneDeformed, oneRest, slopes, turn, path.towardsEye), i);
+    see(seen, shown(two, twoDeformed, twoRest, slopes, turn, path.towardsEye), i + 1);
+  }
+  return visible;
+}
+
+void main()
+{
+  Path path = pathOf(rayOfPixel(ndc));
+  TissueTable table = tissueTable();
+  mat3 turn = worldFromGradient;
+  Seen seen = Seen(vec4(0.0), -1.0);
+  // Samples are numbered from the box's edge or a cut, whether empty space is skipped or not.
+  int end = path.samples.y;
+  int i = path.samples.x & ~1;
+  int ask = skipping == 0 ? end : i; // from this sample on, whether there is anything
+  int taken = 0;
+  while (i < end && seen.picture.a <= OpaqueEnough)
+  {
+    bool present = true;
+    if (i >= ask)
+    {
+      ask = sampleBeyond(path.bricks, i, present) & ~1;
+      present = present || ask <= i;
+    }
+    int next = ask;
+    if (present)
+    {
+      bool visible = takeTwo(path, table, turn, i, seen);
+      ask = visible ? max(ask, i + Trust) : ask;
+      taken += min(2, end - i);
+      next = i + 2;
+    }
+    i = next;
+  }
+  int all = int(ceil((path.span.y - path.span.x) / stepMm));
+  countSamples(taken, max((seen.picture.a > OpaqueEnough ? i : all) - taken, 0));
+  gl_FragData[0] = seen.picture;
+  gl_FragData[1] = seen.hit < 0.0
+    ? vec4(0.0, 0.0, 0.0, -1.0)
+    : vec4(worldFromDeformed(path.deformed.first + seen.hit * path.deformed.stride),
+        path.span.x + seen.hit * stepMm);
+}

@@ -1,0 +1,34 @@
+// Draws the deformed volume: the paper's ray caster (section 2). A ray runs straight through the
+// deformed frame; every sample looks its tissue up at the rest position it came from. Targets:
+// picture, and position of the first hit (mm, world) with its distance from the near plane (mm).
+
+in vec2 ndc;
+
+uniform vec3 spaceLow;  // the part of the deformed frame that tissue can reach, texture coordinates
+uniform vec3 spaceHigh;
+uniform float stepMm;
+uniform int stepDoublings; // opacities hold for a step this often halved; at most 2
+uniform float jitter; // 1: neighbouring rays start at different shares of a step, against rings
+uniform mat3 worldFromGradient;  // world axes from a gradient for texture units (inverse transpose)
+uniform vec3 worldOfTextureZero; // mm
+
+const float OpaqueEnough = 254.0 / 255.0; // what is behind would change less than one 8-bit level
+const float HitOpacity = 0.5;             // where this much is reached, the eye sees a surface
+
+vec3 worldFromDeformed(vec3 deformed)
+{
+  return worldFromTexture * deformed + worldOfTextureZero;
+}
+
+// A sample's colour under light. `slopes`: of the offsets near it; `turn`: worldFromGradient.
+vec3 shade(vec3 color, vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
+{
+#ifdef SHADED
+  vec3 gradient = turn * deformedGradientFromRest(slopes, gradientAt(rest));
+  float steepness = length(gradient);
+  vec3 normal = steepness > 0.0 ? gradient / steepness : vec3(0.0);
+  return lit(color, normal, towardsEye, worldFromDeformed(deformed));
+#else
+  return color;
+#endif
+}
