@@ -35,6 +35,14 @@ bool hasExtension(const char* name)
   return false;
 }
 
+// Mesa's drivers for processors draw in the machine's own memory. They have the extensions, but what
+// they answer is anything: 0, or what the stack held.
+bool drawsInSoftware()
+{
+  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return renderer && (std::strstr(renderer, "llvmpipe") || std::strstr(renderer, "softpipe"));
+}
+
 std::int64_t volumeOf(const glm::ivec3& sides)
 {
   return static_cast<std::int64_t>(sides.x) * sides.y * sides.z;
@@ -56,7 +64,7 @@ std::string bytesAsMiB(std::int64_t bytes)
 
 MemoryNeed memoryNeed(const DrawnSizes& sizes)
 {
-  constexpr std::int64_t GradientBytes = 8;           // four numbers of 16 bits
+  constexpr std::int64_t GradientBytes = 4;           // three numbers of ten bits, two bits spare
   constexpr std::int64_t NodeBytes = 16;              // four floats
   constexpr std::int64_t PixelBytes = 8 + 16 + 8 + 4; // picture, hits, spans, depth
   const std::int64_t voxels = volumeOf(sizes.voxels);
@@ -77,6 +85,10 @@ double freeMemoryMiB(vtkOpenGLRenderWindow* window)
 {
   window->MakeCurrent();
   GLint kiB[4] = { 0, 0, 0, 0 };
+  if (drawsInSoftware())
+  {
+    return UnknownMemory;
+  }
   if (hasExtension("GL_NVX_gpu_memory_info"))
   {
     glGetIntegerv(NvxCurrentAvailable, kiB);
@@ -85,7 +97,6 @@ double freeMemoryMiB(vtkOpenGLRenderWindow* window)
   {
     glGetIntegerv(AtiTextureFree, kiB); // the pool's total comes first
   }
-  // Software drivers have the extension and say 0.
   return kiB[0] > 0 ? kiB[0] / 1024.0 : UnknownMemory;
 }
 

@@ -6,6 +6,7 @@
 #include "vtkColorTransferFunction.h"
 #include "vtkContourValues.h"
 #include "vtkDataArray.h"
+#include "vtkPiecewiseFunction.h"
 #include "vtkPlane.h"
 #include "vtkPlaneCollection.h"
 #include "vtkShaderProgram.h"
@@ -15,6 +16,7 @@
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 namespace brainshift
@@ -123,6 +125,16 @@ void describeOptions(vtkVolumeMapper* mapper, vtkVolumeProperty* property, vtkDa
   }
 }
 
+namespace
+{
+// VTK's own mappers make a function that is 1 everywhere where there was none.
+bool dependsOnGradient(vtkVolumeProperty* property)
+{
+  return property->HasGradientOpacity() &&
+    std::strcmp(property->GetGradientOpacity()->GetType(), "Constant") != 0;
+}
+}
+
 std::vector<std::string> unsupportedChoices(
   vtkVolumeMapper* mapper, vtkVolumeProperty* property, vtkDataArray* scalars)
 {
@@ -138,7 +150,7 @@ std::vector<std::string> unsupportedChoices(
   say(twoDimensional,
     "Use 2D Transfer Function (UseTransfer2D) is on, which Deformed Volume does not draw: it uses "
     "the colour map and the opacity curve");
-  say(!twoDimensional && property->HasGradientOpacity(),
+  say(!twoDimensional && dependsOnGradient(property),
     "Gradient opacity is on, which Deformed Volume does not draw: it uses the scalar's opacity");
   say(
     !property->GetIndependentComponents() && components != 1 && components != 2 && components != 4,

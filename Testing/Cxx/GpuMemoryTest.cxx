@@ -30,9 +30,9 @@ TEST(GpuMemory, CountsEachPart)
   DrawnSizes sizes = largeHead();
   EXPECT_EQ(memoryNeed(sizes).total(), 16 * MiB);
   sizes.gradients = true;
-  EXPECT_EQ(memoryNeed(sizes).gradients, 64 * MiB);
+  EXPECT_EQ(memoryNeed(sizes).gradients, 32 * MiB);
   sizes.halfResolution = true;
-  EXPECT_EQ(memoryNeed(sizes).gradients, 8 * MiB);
+  EXPECT_EQ(memoryNeed(sizes).gradients, 4 * MiB);
   sizes.colorBytes = 4;
   EXPECT_EQ(memoryNeed(sizes).colors, 32 * MiB);
   sizes.forwardNodes = { 64, 64, 64 };
@@ -40,7 +40,7 @@ TEST(GpuMemory, CountsEachPart)
   EXPECT_EQ(memoryNeed(sizes).field, 12 * MiB);
   sizes.pixels = { 1024, 1024 };
   EXPECT_EQ(memoryNeed(sizes).images, 36 * MiB);
-  EXPECT_EQ(memoryNeed(sizes).total(), (16 + 8 + 32 + 12 + 36) * MiB);
+  EXPECT_EQ(memoryNeed(sizes).total(), (16 + 4 + 32 + 12 + 36) * MiB);
 }
 
 TEST(GpuMemory, DoesNotOverflow)

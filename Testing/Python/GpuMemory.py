@@ -34,7 +34,7 @@ def test_a_limit_is_told_and_kept():
         undeformed = picture(view)
     assert_says(said.text, "Memory Limit allows 2.5 MiB", "software mapper", "undeformed")
     total, each = parts(said.text)
-    expected = {"scalars": 49 ** 3 * 4 / 2 ** 20, "gradients": 49 ** 3 * 8 / 2 ** 20, "colours": 0,
+    expected = {"scalars": 49 ** 3 * 4 / 2 ** 20, "gradients": 49 ** 3 * 4 / 2 ** 20, "colours": 0,
                 "images": 200 * 200 * 36 / 2 ** 20}
     for name, size in expected.items():
         assert abs(each[name] - size) < 0.06, (name, each, size)
@@ -62,7 +62,7 @@ def test_what_is_not_kept_is_not_counted():
             picture(view)
         needs[normals] = parts(said.text)[1]["gradients"]
     assert needs["On the fly"] == 0.0, needs
-    assert 0.0 < needs["Half resolution"] < 0.2 * needs["Full resolution"], needs
+    assert 0.0 < needs["Half resolution"] < 0.3 * needs["Full resolution"], needs
 
 
 run_tests(globals())
