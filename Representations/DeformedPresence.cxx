@@ -264,7 +264,6 @@ void DeformedPresence::makeFaces(
   const glm::ivec3& count = request.count;
   const std::ptrdiff_t stride[3] = { 1, count.x, static_cast<std::ptrdiff_t>(count.x) * count.y };
   std::vector<Corner> corners;
-  this->Occupied = 0;
   std::size_t at = 0;
   glm::ivec3 low = count;
   glm::ivec3 high(-1);
@@ -279,7 +278,6 @@ void DeformedPresence::makeFaces(
         {
           continue;
         }
-        this->Occupied += 1;
         low = glm::min(low, brick);
         high = glm::max(high, brick);
         for (int axis = 0; axis < 3; ++axis)

@@ -59,9 +59,6 @@ public:
   // Box of the occupied bricks; its indices count from the request's first brick.
   const IndexBox& occupiedBox() const { return this->OccupiedBox; }
 
-  int faces() const { return this->Faces; }
-  int occupied() const { return this->Occupied; }
-
   // All textures, some of which may be null, and the bytes of the faces on the GPU.
   std::vector<vtkTextureObject*> textures() const
   {
@@ -92,7 +89,6 @@ private:
   Program BlocksProgram;
   Program MapPrograms[2]; // [deformed]
   int Faces = 0;
-  int Occupied = 0;
   IndexBox OccupiedBox;
 };
 }

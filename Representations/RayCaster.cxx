@@ -9,12 +9,11 @@
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 #include <glm/vector_relational.hpp>
-
-#include <glm/common.hpp>
 
 #include <algorithm>
 

@@ -118,9 +118,9 @@ bool ScalarTexture::upload(vtkOpenGLRenderWindow* window, vtkDataArray* scalars,
   this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
   this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
   this->Texture->SetWrapR(vtkTextureObject::ClampToEdge);
-  this->SixteenBits = fitsSixteenBits(scalars, component);
-  return this->SixteenBits ? this->uploadSixteenBits(scalars, dimensions, component, counters)
-                           : this->uploadFloats(scalars, dimensions, component, counters);
+  return fitsSixteenBits(scalars, component)
+    ? this->uploadSixteenBits(scalars, dimensions, component, counters)
+    : this->uploadFloats(scalars, dimensions, component, counters);
 }
 
 bool ScalarTexture::uploadFloats(

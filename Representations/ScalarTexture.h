@@ -40,10 +40,6 @@ public:
   float range() const { return this->Range; }
   // usualDifference of the stored values.
   float difference() const { return this->Difference; }
-
-  // Stored values lie in 0 to 1, in steps of 16 bits.
-  bool sixteenBits() const { return this->SixteenBits; }
-
   // scalar = stored * scale + shift
   double scale() const { return this->Scale; }
   double shift() const { return this->Shift; }
@@ -69,7 +65,6 @@ private:
   BrickRanges Ranges;
   float Range = 0.0f;
   float Difference = 0.0f;
-  bool SixteenBits = false;
   double Scale = 1.0;
   double Shift = 0.0;
 };
