@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FieldChange.h"
 
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace brainshift
 {
@@ -46,6 +50,38 @@ struct DisplacementRange
     this->greatest = middle + half;
   }
 };
+
+// A box in lattice coordinates.
+struct Reach
+{
+  glm::vec3 low;
+  glm::vec3 high;
+};
+
+// All that depends on a control point. At the border the kernel repeats the last one, and beyond it
+// the border holds.
+Reach reachOf(const glm::ivec3& point, const glm::ivec3& dimensions)
+{
+  constexpr float far = 1000.0f; // cells
+  const glm::vec3 low(point - KernelReach);
+  const glm::vec3 high(point + KernelReach);
+  return { glm::mix(low, glm::vec3(-far), glm::lessThan(low, glm::vec3(0.0f))),
+    glm::mix(high, glm::vec3(far), glm::greaterThan(high, glm::vec3(dimensions - 1))) };
+}
+
+void widen(SlabHull& hull, const Reach& reach)
+{
+  const glm::vec3 middle = 0.5f * (reach.low + reach.high);
+  const glm::vec3 half = 0.5f * (reach.high - reach.low);
+  for (int i = 0; i < SlabDirections; ++i)
+  {
+    const glm::vec3 direction = slabDirection(i);
+    const float at = glm::dot(direction, middle);
+    const float around = glm::dot(glm::abs(direction), half);
+    hull.spans[i] =
+      glm::vec2(std::min(hull.spans[i].x, at - around), std::max(hull.spans[i].y, at + around));
+  }
+}
 }
 
 IndexBox changedPoints(const glm::ivec3& dimensions, const std::vector<glm::vec3>& before,
@@ -114,11 +150,38 @@ IndexBox changedBackwardNodes(const IndexBox& points, const glm::ivec3& dimensio
   return box;
 }
 
-IndexBox movedBackwardNodes(
-  const glm::ivec3& dimensions, const std::vector<glm::vec3>& inCells, const FieldNodes& backward)
+SlabHull::SlabHull()
 {
-  const std::vector<glm::vec3> still(inCells.size(), glm::vec3(0.0f));
-  const IndexBox points = changedPoints(dimensions, still, inCells);
-  return changedBackwardNodes(points, dimensions, still, inCells, backward);
+  constexpr float all = std::numeric_limits<float>::max();
+  this->spans.fill(glm::vec2(all, -all));
+}
+
+glm::vec3 slabDirection(int index)
+{
+  static const std::array<glm::vec3, SlabDirections> directions{ { { 1, 0, 0 }, { 0, 1, 0 },
+    { 0, 0, 1 }, { 1, 1, 0 }, { 1, -1, 0 }, { 1, 0, 1 }, { 1, 0, -1 }, { 0, 1, 1 }, { 0, 1, -1 },
+    { 1, 1, 1 }, { 1, 1, -1 }, { 1, -1, 1 }, { 1, -1, -1 } } };
+  return directions[index];
+}
+
+SlabHull movedHull(const glm::ivec3& dimensions, const std::vector<glm::vec3>& inCells)
+{
+  SlabHull hull;
+  std::size_t point = 0;
+  glm::ivec3 index;
+  for (index.z = 0; index.z < dimensions.z; ++index.z)
+  {
+    for (index.y = 0; index.y < dimensions.y; ++index.y)
+    {
+      for (index.x = 0; index.x < dimensions.x; ++index.x, ++point)
+      {
+        if (inCells[point] != glm::vec3(0.0f))
+        {
+          widen(hull, reachOf(index, dimensions));
+        }
+      }
+    }
+  }
+  return hull;
 }
 }

@@ -6,8 +6,10 @@
 #include "OffsetField.h"
 
 #include <glm/common.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <vector>
 
 namespace brainshift
@@ -40,9 +42,26 @@ VTKBRAINSHIFTFILTERS_EXPORT IndexBox changedBackwardNodes(const IndexBox& points
   const glm::ivec3& dimensions, const std::vector<glm::vec3>& before,
   const std::vector<glm::vec3>& after, const FieldNodes& backward);
 
-// Nodes of the offset field that can differ from zero: elsewhere tissue stays.
-VTKBRAINSHIFTFILTERS_EXPORT IndexBox movedBackwardNodes(
-  const glm::ivec3& dimensions, const std::vector<glm::vec3>& inCells, const FieldNodes& backward);
+// A convex hull by slabs: along each direction the least and the greatest of dot(direction, position)
+// (Kay and Kajiya, SIGGRAPH 1986).
+constexpr int SlabDirections = 13; // axes, diagonals of faces, diagonals of the cube
+
+struct VTKBRAINSHIFTFILTERS_EXPORT SlabHull
+{
+  std::array<glm::vec2, SlabDirections> spans; // x: least, y: greatest; least > greatest: empty
+
+  SlabHull();
+  bool empty() const { return this->spans[0].x > this->spans[0].y; }
+};
+
+// Not normalised; lattice cells.
+VTKBRAINSHIFTFILTERS_EXPORT glm::vec3 slabDirection(int index);
+
+// Where displacement can differ from zero, in lattice coordinates; the same in the rest and in the
+// deformed frame, because tissue on its surface stays and what is seen outside stays too. Far
+// beyond the lattice where its border moves.
+VTKBRAINSHIFTFILTERS_EXPORT SlabHull movedHull(
+  const glm::ivec3& dimensions, const std::vector<glm::vec3>& inCells);
 }
 
 #endif

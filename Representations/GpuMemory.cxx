@@ -35,14 +35,6 @@ bool hasExtension(const char* name)
   return false;
 }
 
-// Mesa's drivers for processors draw in the machine's own memory. They have the extensions, but what
-// they answer is anything: 0, or what the stack held.
-bool drawsInSoftware()
-{
-  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  return renderer && (std::strstr(renderer, "llvmpipe") || std::strstr(renderer, "softpipe"));
-}
-
 std::int64_t volumeOf(const glm::ivec3& sides)
 {
   return static_cast<std::int64_t>(sides.x) * sides.y * sides.z;
@@ -87,6 +79,7 @@ double freeMemoryMiB(vtkOpenGLRenderWindow* window)
   GLint kiB[4] = { 0, 0, 0, 0 };
   if (drawsInSoftware())
   {
+    // They have the extensions, but what they answer is anything: 0, or what the stack held.
     return UnknownMemory;
   }
   if (hasExtension("GL_NVX_gpu_memory_info"))
@@ -98,6 +91,12 @@ double freeMemoryMiB(vtkOpenGLRenderWindow* window)
     glGetIntegerv(AtiTextureFree, kiB); // the pool's total comes first
   }
   return kiB[0] > 0 ? kiB[0] / 1024.0 : UnknownMemory;
+}
+
+bool drawsInSoftware()
+{
+  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return renderer && (std::strstr(renderer, "llvmpipe") || std::strstr(renderer, "softpipe"));
 }
 
 bool takeOutOfMemory()

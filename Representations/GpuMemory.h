@@ -51,6 +51,10 @@ constexpr double UnknownMemory = -1.0;
 // UnknownMemory where it does not say.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT double freeMemoryMiB(vtkOpenGLRenderWindow* window);
 
+// Whether the current context is one of Mesa's drivers for processors, which draw in the machine's
+// own memory.
+bool drawsInSoftware();
+
 // Takes back what OpenGL has reported so far. True if it was out of memory.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT bool takeOutOfMemory();
 

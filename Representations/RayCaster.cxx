@@ -3,6 +3,7 @@
 
 #include "DeformedPresence.h"
 #include "OpenGL.h"
+#include "TransferTexture.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
@@ -11,11 +12,13 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace brainshift
 {
@@ -94,7 +97,6 @@ void setSpaceUniforms(Program& program, const RayCastScene& scene)
 {
   program.set("spaceLow", glm::vec3(scene.spaceLow));
   program.set("spaceHigh", glm::vec3(scene.spaceHigh));
-  program.set("stepDoublings", scene.stepDoublings);
   program.set("jitter", scene.jitter ? 1.0f : 0.0f);
   program.set("stepMm", static_cast<float>(scene.stepMm));
   program.set("worldOfTextureZero", glm::vec3(scene.worldFromTexture[3]));
@@ -107,6 +109,7 @@ void setSkippingUniforms(Program& program, const RayCastScene& scene, vtkTexture
 {
   program.set("skipping", scene.skipping ? 1 : 0);
   program.set("spans", spans);
+  program.set("spansTexel", 1.0f / glm::vec2(scene.size));
   vtkTextureObject* leaps = scene.presence->leaps();
   program.set("leaps", leaps);
   program.set(
@@ -120,7 +123,10 @@ void setTissueUniforms(Program& program, const RayCastScene& scene)
 {
   program.set("scalars", scene.scalars);
   program.set("transfer", scene.transfer);
+  program.set("transferRow",
+    (static_cast<float>(scene.stepDoublings) + 0.5f) / static_cast<float>(TransferRows));
   program.set("transferFromScalar", glm::vec2(scene.transferFromScalar));
+  program.set("visibleScalars", glm::vec2(scene.visibleScalars));
   program.set("volumeLow", glm::vec3(scene.volumeLow));
   program.set("volumeHigh", glm::vec3(scene.volumeHigh));
 }
@@ -130,8 +136,20 @@ void setFieldUniforms(Program& program, const RayCastScene& scene)
   program.set("offsets", scene.offsets);
   program.set("fieldFromTexture", glm::vec3(scene.fieldFromTexture));
   program.set("fieldFromTextureShift", glm::vec3(scene.fieldFromTextureShift));
-  program.set("movedLow", glm::vec3(scene.movedLow));
-  program.set("movedHigh", glm::vec3(scene.movedHigh));
+  std::array<glm::vec3, SlabDirections> normals;
+  std::array<glm::vec2, SlabDirections> spans;
+  for (int i = 0; i < SlabDirections; ++i)
+  {
+    const glm::dvec3 normal(slabDirection(i));
+    normals[i] = glm::vec3(normal * scene.latticeFromTexture);
+    const double shift = glm::dot(normal, scene.latticeOfTextureZero);
+    spans[i] = scene.moved.empty() ? glm::vec2(1.0f, -1.0f)
+                                   : glm::vec2(glm::dvec2(scene.moved.spans[i]) - shift);
+  }
+  program.set("moves", scene.moved.empty() ? 0 : 1);
+  vtkShaderProgram* shader = program.get();
+  shader->SetUniform3fv("movedNormals", SlabDirections, glm::value_ptr(normals[0]));
+  shader->SetUniform2fv("movedSpans", SlabDirections, glm::value_ptr(spans[0]));
 }
 
 void setLightUniforms(Program& program, const RayCastScene& scene)

@@ -4,6 +4,7 @@
 #define BrainShift_RayCaster_h
 
 #include "Counters.h"
+#include "FieldChange.h"
 #include "Program.h"
 #include "RayCastLights.h"
 #include "RayCastOptions.h"
@@ -39,8 +40,9 @@ struct RayCastScene
   glm::dvec3 mmFromTexture{ 1.0 }; // along the volume's axes, before an actor's scale
   glm::dvec3 spaceLow{ 0.0 };      // part of the deformed frame tissue can reach
   glm::dvec3 spaceHigh{ 1.0 };
-  glm::dvec3 movedLow{ 1.0 };  // part of the deformed frame where tissue may have moved;
-  glm::dvec3 movedHigh{ 0.0 }; // high below low: none has
+  SlabHull moved;               // where tissue may have moved, in lattice coordinates, which are
+  glm::dvec3 latticeFromTexture{ 1.0 }; // texture * latticeFromTexture + latticeOfTextureZero
+  glm::dvec3 latticeOfTextureZero{ 0.0 };
   glm::dvec3 volumeLow{ 0.0 }; // the volume's box in the rest frame
   glm::dvec3 volumeHigh{ 1.0 };
   glm::dvec3 voxel{ 1.0 };            // one voxel, texture coordinates
@@ -53,6 +55,7 @@ struct RayCastScene
   double stepMm = 1.0;
   int stepDoublings = 0; // the colour map's opacities hold for a step this often halved
   glm::dvec2 transferFromScalar{ 1.0, 0.0 }; // stored scalar to transfer coordinate
+  glm::dvec2 visibleScalars{ 0.0, 1.0 };     // stored scalars beyond which nothing is visible
   glm::dvec4 material{ 0.0, 1.0, 0.0, 1.0 }; // ambient, diffuse, specular, specular power
   RayCastLights lights;
   RayCastOptions options;

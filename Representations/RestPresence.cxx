@@ -217,6 +217,24 @@ glm::vec2 BrickRanges::whole() const
   return whole;
 }
 
+glm::vec2 VisibleValues::ends() const
+{
+  constexpr float all = std::numeric_limits<float>::max(); // the end colours hold beyond the ends
+  const auto begin = this->before.begin();
+  const auto first = std::upper_bound(begin, this->before.end(), 0) - begin - 1;
+  const auto beyond =
+    std::lower_bound(begin, this->before.end(), this->before.back()) - begin; // past the last
+  const auto valueOf = [&](double entry) {
+    return static_cast<float>((entry - this->entryOfValueZero) / this->entryFromValue);
+  };
+  if (this->before.back() == 0)
+  {
+    return { all, -all };
+  }
+  return { first == 0 ? -all : valueOf(static_cast<double>(first) - 2.0),
+    beyond == this->entries ? all : valueOf(static_cast<double>(beyond) + 1.0) };
+}
+
 float usualDifference(const BrickRanges& bricks)
 {
   constexpr std::size_t enough = 100000; // bricks tell as well as all of them

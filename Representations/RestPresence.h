@@ -54,6 +54,10 @@ struct VisibleValues
   double entryFromValue = 1.0; // entry = value * entryFromValue + entryOfValueZero
   double entryOfValueZero = 0.0;
 
+  // Least and greatest value that can be visible, with two entries more to either side for rounding;
+  // least above greatest if none can.
+  VTKBRAINSHIFTREPRESENTATIONS_EXPORT glm::vec2 ends() const;
+
   // Whether a value in the range can be visible: whether one of the entries the texture may answer
   // with is, or one more to either side, for rounding.
   bool operator()(const glm::vec2& range) const

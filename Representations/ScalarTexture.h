@@ -31,7 +31,7 @@ public:
   bool update(vtkOpenGLRenderWindow* window, vtkDataArray* scalars, const glm::ivec3& dimensions,
     int component, Counters& counters, std::string& error);
 
-  // Bytes that a value takes on the GPU.
+  // Bytes that a value takes on the GPU of the current context.
   static int bytesOf(vtkDataArray* scalars, int component);
 
   // Ranges of the stored values, as the shader reads them, in bricks of the volume.

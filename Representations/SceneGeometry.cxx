@@ -98,7 +98,7 @@ void widenByNodes(const Grid& lattice, const FieldNodes& nodes, double bounds[6]
 }
 
 void placeField(const Grid& grid, const ValueLayout& layout, const Grid& lattice,
-  const FieldNodes& nodes, const IndexBox& moved, RayCastScene& scene)
+  const FieldNodes& nodes, RayCastScene& scene)
 {
   const glm::dvec3 texturePerCell = textureFromLattice(grid, layout, lattice);
   const glm::dvec3 textureOfLatticeZero =
@@ -112,15 +112,8 @@ void placeField(const Grid& grid, const ValueLayout& layout, const Grid& lattice
   scene.fieldTexel = 0.5 / count;
   scene.spaceLow = textureOfLatticeZero + first * texturePerCell;
   scene.spaceHigh = scene.spaceLow + (count - 1.0) / perCell * texturePerCell;
-  if (!moved.empty())
-  {
-    // The filter blends one node further; beyond the field's ends its border holds.
-    const glm::dvec3 low = scene.spaceLow + glm::dvec3(moved.first - 1) / perCell * texturePerCell;
-    const glm::dvec3 high = scene.spaceLow + glm::dvec3(moved.last + 1) / perCell * texturePerCell;
-    const glm::dvec3 far(1e6);
-    scene.movedLow = glm::mix(low, -far, glm::equal(moved.first, glm::ivec3(0)));
-    scene.movedHigh = glm::mix(high, far, glm::equal(moved.last, nodes.count - 1));
-  }
+  scene.latticeFromTexture = 1.0 / texturePerCell;
+  scene.latticeOfTextureZero = -textureOfLatticeZero / texturePerCell;
 }
 
 void cropBox(const Grid& grid, const ValueLayout& layout, const double planes[6], glm::dvec3& low,

@@ -41,10 +41,9 @@ glm::dvec3 textureFromLattice(const Grid& grid, const ValueLayout& layout, const
 // Widens bounds (mm; x, y, z, least and greatest each) by the box of an offset field's nodes.
 void widenByNodes(const Grid& lattice, const FieldNodes& nodes, double bounds[6]);
 
-// Fills in how the offset field lies to the texture, the space tissue can reach, and the part of it
-// where tissue may have moved: the box of nodes `moved`.
+// Fills in how the offset field and the lattice lie to the texture, and the space tissue can reach.
 void placeField(const Grid& grid, const ValueLayout& layout, const Grid& lattice,
-  const FieldNodes& nodes, const IndexBox& moved, RayCastScene& scene);
+  const FieldNodes& nodes, RayCastScene& scene);
 
 // The box (texture coordinates) between vtkVolumeMapper's cropping planes: low and high x, y, z, mm
 // along the volume's axes. What is cropped is what is seen, so the box is not deformed.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ShaderSource.h"
 
+#include "FieldChange.h"
 #include "OffsetField.h"
 
 #include "shader_blocks_frag.h"
@@ -48,7 +49,7 @@ constexpr const char* Outputs = "//VTK::Output::Dec\n";
 constexpr const char* Shared = "#define SHARED\n#define OUT(type) out type\n";
 
 // VTK declares an output for each that the source names, so that it may not name one in vain.
-constexpr const char* NotCounted = "void countSamples(int taken, int skipped) {}\n";
+constexpr const char* NotCounted = "void countSamples(float taken, float skipped) {}\n";
 
 std::string assemble(std::initializer_list<std::string> parts)
 {
@@ -143,6 +144,7 @@ ShaderSource rayCastSource(const RayCastVariant& variant)
 {
   std::string defines = "#define MAX_LIGHTS " + std::to_string(MaxLights) + "\n";
   defines += "#define MAX_CLIP_PLANES " + std::to_string(MaxClipPlanes) + "\n";
+  defines += "#define SLAB_DIRECTIONS " + std::to_string(SlabDirections) + "\n";
   defines += "#define MAX_ISOVALUES " + std::to_string(MaxIsovalues) + "\n";
   defines += std::string("#define ") + BlendDefines[static_cast<int>(variant.blend)] + "\n";
   defines += variant.deformed ? "#define DEFORMED\n" : "";

@@ -78,6 +78,8 @@ bool Tissue::update(vtkOpenGLRenderWindow* window, const TissueRequest& request,
   setFilter(scene.normals, nearest && request.gradients == GradientSource::FullResolution);
   scene.transfer = this->Transfer.texture();
   scene.transferFromScalar = transferFromStored(this->Transfer, this->Scalars);
+  scene.visibleScalars =
+    this->Transfer.visibleValues(this->Scalars.scale(), this->Scalars.shift()).ends();
   scene.voxel = request.layout.textureFromGrid;
   scene.volumeLow = request.layout.low;
   scene.volumeHigh = request.layout.high;

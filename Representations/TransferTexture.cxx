@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -74,7 +75,7 @@ bool TransferTexture::update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* p
   std::vector<float> opacities(Entries);
   color->GetTable(this->Range[0], this->Range[1], Entries, colors.data());
   opacity->GetTable(this->Range[0], this->Range[1], Entries, opacities.data());
-  std::vector<float> texels(4 * Entries);
+  std::vector<float> texels(4 * Entries * TransferRows);
   this->VisibleBefore.assign(Entries + 1, 0);
   for (int i = 0; i < Entries; ++i)
   {
@@ -82,13 +83,18 @@ bool TransferTexture::update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* p
     texels[4 * i + 3] = opacityOfSample(opacities[i], stepMm / unitMm, blend);
     this->VisibleBefore[i + 1] = this->VisibleBefore[i] + (texels[4 * i + 3] > 0.0f ? 1 : 0);
   }
+  for (std::size_t i = 4 * Entries; i < texels.size(); ++i)
+  {
+    const float above = texels[i - 4 * Entries];
+    texels[i] = i % 4 == 3 ? above * (2.0f - above) : above; // what two such steps hide
+  }
   this->Texture = vtkSmartPointer<vtkTextureObject>::New();
   this->Texture->SetContext(window);
   this->Texture->SetMinificationFilter(vtkTextureObject::Nearest);
   this->Texture->SetMagnificationFilter(vtkTextureObject::Nearest);
   this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
   this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
-  this->Texture->Create2DFromRaw(Entries, 1, 4, VTK_FLOAT, texels.data());
+  this->Texture->Create2DFromRaw(Entries, TransferRows, 4, VTK_FLOAT, texels.data());
   counters.transferUploads += 1;
   counters.bytesUploaded += static_cast<std::int64_t>(texels.size() * sizeof(float));
   this->ColorTime = color->GetMTime();

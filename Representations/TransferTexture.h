@@ -4,6 +4,7 @@
 #define BrainShift_TransferTexture_h
 
 #include "Counters.h"
+#include "MovingQuality.h"
 #include "RestPresence.h"
 #include "ShaderSource.h"
 
@@ -18,6 +19,10 @@ class vtkWindow;
 
 namespace brainshift
 {
+// The first row's opacities hold for the step as asked for, each further one's for twice as long a
+// step as the one before: while moving, steps are doubled.
+constexpr int TransferRows = MostStepDoublings + 1;
+
 class TransferTexture
 {
 public:

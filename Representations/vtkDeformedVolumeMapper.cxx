@@ -68,7 +68,7 @@ struct vtkDeformedVolumeMapper::State
   bool Deformed = false;
   Deformation Source;
   FieldRequest Request;
-  IndexBox Moved; // nodes of the offset field that can differ from zero
+  SlabHull Moved; // where tissue may have moved
   unsigned long long DeformationTime = 0;
 
   vtkNew<vtkSmartVolumeMapper> Fallback;
@@ -112,8 +112,7 @@ void vtkDeformedVolumeMapper::UpdateDeformation(vtkImageData* image)
   state.Request.inverse = state.Source.inverse;
   state.Request.inCells = displacementsInCells(lattice);
   state.Request.nodes = backwardNodes(lattice.grid, state.Request.inCells, state.Source.samples);
-  state.Moved =
-    movedBackwardNodes(lattice.grid.dimensions, state.Request.inCells, state.Request.nodes);
+  state.Moved = movedHull(lattice.grid.dimensions, state.Request.inCells);
 }
 
 double* vtkDeformedVolumeMapper::GetBounds()
@@ -306,7 +305,8 @@ bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, Device
       changed = device.Field.changed();
     }
     scene.offsets = device.Field.offsets();
-    placeField(grid, layout, lattice, state.Request.nodes, state.Moved, scene);
+    placeField(grid, layout, lattice, state.Request.nodes, scene);
+    scene.moved = state.Moved;
   }
   placeBricks(layout, scene, device.Bricks);
   if (!device.Presence.update(window, device.Bricks, changed, state.Count))

@@ -15,7 +15,7 @@ vec3 colorOf(vec4 tissue, vec3 rest)
 {
   float stored = textureLod(colorScalars, rest, 0.0).r;
   float entry = stored * transferFromColorScalar.x + transferFromColorScalar.y;
-  return textureLod(transfer, vec2(entry, 0.5), 0.0).rgb;
+  return textureLod(transfer, vec2(entry, transferRow), 0.0).rgb;
 }
 #else
 vec3 colorOf(vec4 tissue, vec3 rest)

@@ -10,14 +10,6 @@ float startShare(ivec2 pixel)
   return (float(rank) + 0.5) / 16.0;
 }
 
-// Opacity of the present step.
-float opacityOf(float ofHalvedStep)
-{
-  float once = ofHalvedStep * (2.0 - ofHalvedStep);
-  float twice = once * (2.0 - once);
-  return stepDoublings == 0 ? ofHalvedStep : stepDoublings == 1 ? once : twice;
-}
-
 // Colour times opacity, and opacity, of a sample.
 vec4 shown(vec4 tissue, vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
 {
@@ -29,8 +21,8 @@ vec4 shown(vec4 tissue, vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 t
 struct Path
 {
   vec2 span;       // first and last t, mm
-  ivec2 samples;   // first, and one past the last, that may be visible
-  ivec2 moved;     // likewise where tissue may have moved
+  vec2 samples;    // first, and one past the last, that may be visible
+  vec2 moved;      // likewise where tissue may have moved
   Track deformed;
   Track field;
   BrickTrack bricks;
@@ -46,11 +38,18 @@ Path pathOf(Ray ray)
   span.x += jitter * startShare(ivec2(gl_FragCoord.xy)) * stepMm;
   path.span = span;
   path.samples = presentSamples(ray, span, stepMm);
-  path.moved = movedSamples(ray, span, stepMm);
+  path.moved = vec2(0.0);
   path.deformed = Track(ray.start + span.x * ray.direction, stepMm * ray.direction);
-  path.field = fieldTrack(path.deformed);
-  path.bricks = brickTrack(path.deformed);
-  path.towardsEye = -normalize(worldFromTexture * ray.direction);
+  path.field = path.deformed;
+  path.bricks = BrickTrack(path.deformed, vec3(0.0), vec3(0.0));
+  path.towardsEye = vec3(0.0);
+  if (path.samples.x < path.samples.y) // else the rest is not asked for
+  {
+    path.moved = movedSamples(ray, span, stepMm);
+    path.field = fieldTrack(path.deformed);
+    path.bricks = brickTrack(path.deformed);
+    path.towardsEye = -normalize(worldFromTexture * ray.direction);
+  }
   return path;
 }
 
@@ -61,30 +60,41 @@ struct Seen
 };
 
 // A sample's colour times opacity, and opacity; the surface is taken to lie half a step before it.
-void see(inout Seen seen, vec4 shown, int number)
+void see(inout Seen seen, vec4 shown, float number)
 {
   seen.picture += seen.picture.a > OpaqueEnough ? vec4(0.0) : (1.0 - seen.picture.a) * shown;
   bool hit = seen.hit < 0.0 && seen.picture.a >= HitOpacity;
-  seen.hit = hit ? max(float(number) - 0.5, 0.0) : seen.hit;
+  seen.hit = hit ? max(number - 0.5, 0.0) : seen.hit;
+}
+
+float evenBelow(float number)
+{
+  return 2.0 * floor(0.5 * number);
 }
 
 // Takes the samples i and i + 1: their reads do not wait for each other, and one Jacobian does for
 // both. Whether one of them is visible.
-bool takeTwo(Path path, TissueTable table, mat3 turn, int i, inout Seen seen)
+bool takeTwo(Path path, TissueTable table, mat3 turn, float i, inout Seen seen)
 {
   vec3 oneDeformed = positionOf(path.deformed, i);
-  vec3 twoDeformed = positionOf(path.deformed, i + 1);
+  vec3 twoDeformed = positionOf(path.deformed, i + 1.0);
   vec3 oneRest = oneDeformed;
   vec3 twoRest = twoDeformed;
-  if (i + 1 >= path.moved.x && i < path.moved.y)
+  if (i + 1.0 >= path.moved.x && i < path.moved.y)
   {
     oneRest += offsetAt(positionOf(path.field, i));
-    twoRest += offsetAt(positionOf(path.field, i + 1));
+    twoRest += offsetAt(positionOf(path.field, i + 1.0));
   }
-  vec4 one = tissueAt(table, oneRest);
-  vec4 two = tissueAt(table, twoRest);
-  one.a = inShownRegion(oneDeformed) ? opacityOf(one.a) : 0.0;
-  two.a = i + 1 < path.samples.y && inShownRegion(twoDeformed) ? opacityOf(two.a) : 0.0;
+  float oneScalar = scalarAt(oneRest);
+  float twoScalar = scalarAt(twoRest);
+  if (!mayBeVisible(table, oneScalar) && !mayBeVisible(table, twoScalar))
+  {
+    return false;
+  }
+  vec4 one = tissueAt(table, oneRest, oneScalar);
+  vec4 two = tissueAt(table, twoRest, twoScalar);
+  one.a = inShownRegion(oneDeformed) ? one.a : 0.0;
+  two.a = i + 1.0 < path.samples.y && inShownRegion(twoDeformed) ? two.a : 0.0;
   bool visible = max(one.a, two.a) > 0.0;
   if (visible)
   {
@@ -94,7 +104,7 @@ bool takeTwo(Path path, TissueTable table, mat3 turn, int i, inout Seen seen)
       slopes = offsetSlopes(positionOf(path.field, i) + 0.5 * path.field.stride);
     }
     see(seen, shown(one, oneDeformed, oneRest, slopes, turn, path.towardsEye), i);
-    see(seen, shown(two, twoDeformed, twoRest, slopes, turn, path.towardsEye), i + 1);
+    see(seen, shown(two, twoDeformed, twoRest, slopes, turn, path.towardsEye), i + 1.0);
   }
   return visible;
 }
@@ -106,30 +116,30 @@ void main()
   mat3 turn = worldFromGradient;
   Seen seen = Seen(vec4(0.0), -1.0);
   // Samples are numbered from the box's edge or a cut, whether empty space is skipped or not.
-  int end = path.samples.y;
-  int i = path.samples.x & ~1;
-  int ask = skipping == 0 ? end : i; // from this sample on, whether there is anything
-  int taken = 0;
+  float end = path.samples.y;
+  float i = evenBelow(path.samples.x);
+  float ask = skipping == 0 ? end : i; // from this sample on, whether there is anything
+  float taken = 0.0;
   while (i < end && seen.picture.a <= OpaqueEnough)
   {
     bool present = true;
     if (i >= ask)
     {
-      ask = sampleBeyond(path.bricks, i, present) & ~1;
+      ask = evenBelow(sampleBeyond(path.bricks, i, present));
       present = present || ask <= i;
     }
-    int next = ask;
+    float next = ask;
     if (present)
     {
       bool visible = takeTwo(path, table, turn, i, seen);
       ask = visible ? max(ask, i + Trust) : ask;
-      taken += min(2, end - i);
-      next = i + 2;
+      taken += min(2.0, end - i);
+      next = i + 2.0;
     }
     i = next;
   }
-  int all = int(ceil((path.span.y - path.span.x) / stepMm));
-  countSamples(taken, max((seen.picture.a > OpaqueEnough ? i : all) - taken, 0));
+  float all = ceil((path.span.y - path.span.x) / stepMm);
+  countSamples(taken, max((seen.picture.a > OpaqueEnough ? i : all) - taken, 0.0));
   gl_FragData[0] = seen.picture;
   gl_FragData[1] = seen.hit < 0.0
     ? vec4(0.0, 0.0, 0.0, -1.0)

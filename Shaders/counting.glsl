@@ -1,7 +1,7 @@
 // A third target for whoever tunes skipping: samples a ray took, and samples it leapt over before
 // it ended. Joined on demand only: counting costs.
 
-void countSamples(int taken, int skipped)
+void countSamples(float taken, float skipped)
 {
-  gl_FragData[2] = vec4(float(taken), float(skipped), 0.0, 0.0);
+  gl_FragData[2] = vec4(taken, skipped, 0.0, 0.0);
 }

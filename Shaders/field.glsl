@@ -6,8 +6,9 @@ uniform vec3 fieldFromTexture;      // the offset field's texture coordinates: s
 uniform vec3 fieldFromTextureShift; // ... and shift
 uniform vec3 fieldTexel;            // step for derivatives: half a node, in its coordinates
 
-uniform vec3 movedLow;              // where tissue may have moved, the volume's texture coordinates
-uniform vec3 movedHigh;
+uniform int moves;                         // 0: nothing does
+uniform vec3 movedNormals[SLAB_DIRECTIONS]; // where tissue may have moved: dot(normal, deformed)
+uniform vec2 movedSpans[SLAB_DIRECTIONS];   // lies in all these spans
 
 vec3 offsetAt(vec3 fieldPosition)
 {
@@ -23,12 +24,19 @@ Track fieldTrack(Track deformed)
 
 // Samples, numbered from t = span.x, where tissue may have moved: first, and one past the last.
 // Elsewhere the offset is zero and need not be fetched.
-ivec2 movedSamples(Ray ray, vec2 span, float stepMm)
+vec2 movedSamples(Ray ray, vec2 span, float stepMm)
 {
-  vec2 moved = boxSpan(ray, movedLow, movedHigh);
-  return moved.y < moved.x ? ivec2(0)
-                           : ivec2(floor((moved.x - span.x) / stepMm) - 1.0,
-                               ceil((moved.y - span.x) / stepMm) + 2.0);
+  vec2 moved = span;
+  for (int i = 0; i < SLAB_DIRECTIONS; ++i)
+  {
+    float slope = dot(movedNormals[i], ray.direction);
+    slope = abs(slope) < 1e-12 ? 1e-12 : slope;
+    vec2 t = (movedSpans[i] - dot(movedNormals[i], ray.start)) / slope;
+    moved = vec2(max(moved.x, min(t.x, t.y)), min(moved.y, max(t.x, t.y)));
+  }
+  return moves == 0 || moved.y < moved.x ? vec2(0.0)
+                                         : vec2(floor((moved.x - span.x) / stepMm) - 1.0,
+                                             ceil((moved.y - span.x) / stepMm) + 2.0);
 }
 
 vec3 restFromDeformed(vec3 deformed)
@@ -53,9 +61,9 @@ mat3 offsetSlopesAt(vec3 deformed)
   return offsetSlopes(deformed * fieldFromTexture + fieldFromTextureShift);
 }
 #else
-ivec2 movedSamples(Ray ray, vec2 span, float stepMm)
+vec2 movedSamples(Ray ray, vec2 span, float stepMm)
 {
-  return ivec2(0);
+  return vec2(0.0);
 }
 
 Track fieldTrack(Track deformed)

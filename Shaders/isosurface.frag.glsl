@@ -30,16 +30,16 @@ float crossingBefore(March march, float number, float before, float after, float
 
 void main()
 {
-  March march = marchOf(ndc, 1);
+  March march = marchOf(ndc, 1.0);
   vec4 picture = vec4(0.0); // colour times opacity, opacity
   float hit = -1.0;
   bool known = false; // of the sample before
   float before = 0.0;
-  for (int i = march.samples.x; i < march.samples.y && picture.a <= OpaqueEnough; ++i)
+  for (float i = march.samples.x; i < march.samples.y && picture.a <= OpaqueEnough; i += 1.0)
   {
-    vec3 rest = restAt(march, float(i));
+    vec3 rest = restAt(march, i);
     float scalar = scalarAt(rest);
-    bool inside = inShownTissue(deformedAt(march, float(i)), rest) && !isnan(scalar);
+    bool inside = inShownTissue(deformedAt(march, i), rest) && !isnan(scalar);
     for (int k = 0; k < isovalueCount && known && inside; ++k)
     {
       float value = isovalues[scalar > before ? k : isovalueCount - 1 - k];
@@ -48,7 +48,7 @@ void main()
       {
         continue;
       }
-      float at = crossingBefore(march, float(i), before, scalar, value);
+      float at = crossingBefore(march, i, before, scalar, value);
       if (at >= 0.0)
       {
         vec3 place = restAt(march, at);

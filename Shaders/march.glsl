@@ -5,15 +5,15 @@ struct March
 {
   Ray ray;
   vec2 span;         // first and last t in the space that tissue can reach, mm
-  ivec2 samples;     // first, and one past the last
-  ivec2 moved;       // where tissue may have moved
+  vec2 samples;      // first, and one past the last
+  vec2 moved;        // where tissue may have moved
   vec3 first;        // position of sample 0
   vec3 stride;       // from a sample to the next
   vec3 towardsEye;   // world axes
 };
 
 // `before`: samples wanted before the first that may be visible.
-March marchOf(vec2 ndc, int before)
+March marchOf(vec2 ndc, float before)
 {
   March march;
   march.ray = rayOfPixel(ndc);
@@ -21,7 +21,7 @@ March marchOf(vec2 ndc, int before)
   march.span.y = min(march.span.y, sceneDistance(march.ray, 0.5 * ndc + 0.5));
   march.span = clippedSpan(march.ray, march.span, stepMm);
   march.samples = presentSamples(march.ray, march.span, stepMm);
-  march.samples.x = max(march.samples.x - before, 0);
+  march.samples.x = max(march.samples.x - before, 0.0);
   march.moved = movedSamples(march.ray, march.span, stepMm);
   march.first = march.ray.start + march.span.x * march.ray.direction;
   march.stride = stepMm * march.ray.direction;
@@ -38,7 +38,7 @@ vec3 deformedAt(March march, float number)
 vec3 restAt(March march, float number)
 {
   vec3 deformed = deformedAt(march, number);
-  bool moved = number >= float(march.moved.x) && number < float(march.moved.y);
+  bool moved = number >= march.moved.x && number < march.moved.y;
   return moved ? restFromDeformed(deformed) : deformed;
 }
 

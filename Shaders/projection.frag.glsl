@@ -16,19 +16,19 @@ bool beats(float scalar, float other)
 
 void main()
 {
-  March march = marchOf(ndc, 0);
+  March march = marchOf(ndc, 0.0);
   float extreme = 0.0;
   float at = -1.0; // sample of the extreme
-  for (int i = march.samples.x; i < march.samples.y; ++i)
+  for (float i = march.samples.x; i < march.samples.y; i += 1.0)
   {
-    vec3 rest = restAt(march, float(i));
-    if (inShownTissue(deformedAt(march, float(i)), rest))
+    vec3 rest = restAt(march, i);
+    if (inShownTissue(deformedAt(march, i), rest))
     {
       float scalar = scalarAt(rest);
       if (!isnan(scalar) && !isinf(scalar) && (at < 0.0 || beats(scalar, extreme)))
       {
         extreme = scalar;
-        at = float(i);
+        at = i;
       }
     }
   }
@@ -43,13 +43,13 @@ uniform vec2 averagedScalars; // least and greatest stored scalar that the avera
 
 void main()
 {
-  March march = marchOf(ndc, 0);
+  March march = marchOf(ndc, 0.0);
   float sum = 0.0;
   float count = 0.0;
-  for (int i = march.samples.x; i < march.samples.y; ++i)
+  for (float i = march.samples.x; i < march.samples.y; i += 1.0)
   {
-    vec3 rest = restAt(march, float(i));
-    if (inShownTissue(deformedAt(march, float(i)), rest))
+    vec3 rest = restAt(march, i);
+    if (inShownTissue(deformedAt(march, i), rest))
     {
       float scalar = scalarAt(rest);
       bool known = !isnan(scalar) && !isinf(scalar);

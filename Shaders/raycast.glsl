@@ -7,7 +7,6 @@ in vec2 ndc;
 uniform vec3 spaceLow;  // the part of the deformed frame that tissue can reach, texture coordinates
 uniform vec3 spaceHigh;
 uniform float stepMm;
-uniform int stepDoublings; // opacities hold for a step this often halved; at most 2
 uniform float jitter; // 1: neighbouring rays start at different shares of a step, against rings
 uniform mat3 worldFromGradient;  // world axes from a gradient for texture units (inverse transpose)
 uniform vec3 worldOfTextureZero; // mm

@@ -39,9 +39,10 @@ struct Track
   vec3 stride;
 };
 
-vec3 positionOf(Track track, int number)
+// Numbers are whole; as floats, because a software driver turns lane by lane what it makes integers.
+vec3 positionOf(Track track, float number)
 {
-  return track.first + float(number) * track.stride;
+  return track.first + number * track.stride;
 }
 
 // First and last t inside a box; last < first if the ray misses it.

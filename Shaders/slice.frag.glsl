@@ -4,7 +4,7 @@ uniform vec4 slicePlane; // texture coordinates: on it where dot(xyz, p) + w is 
 
 void main()
 {
-  March march = marchOf(ndc, 0);
+  March march = marchOf(ndc, 0.0);
   float height = dot(slicePlane.xyz, march.ray.start) + slicePlane.w;
   float t = -height / dot(slicePlane.xyz, march.ray.direction);
   float number = (t - march.span.x) / stepMm;

@@ -1,7 +1,10 @@
 // What is at a rest position: scalar, colour and opacity, gradient. Texture coordinates.
 
-uniform sampler2D transfer;      // colour, and opacity for one step, over the scalar range
+uniform sampler2D transfer;      // colour, and opacity for one step, over the scalar range; a row
+                                 // for each step length
+uniform float transferRow;       // texture coordinate of the present step's row
 uniform vec2 transferFromScalar; // scale and shift: stored scalar to texture coordinate
+uniform vec2 visibleScalars;     // stored scalars beyond which nothing is visible
 uniform vec3 volumeLow;          // the volume's box, texture coordinates
 uniform vec3 volumeHigh;
 
@@ -11,11 +14,12 @@ struct TissueTable
   vec3 volumeLow;
   vec3 volumeHigh;
   vec2 transferFromScalar;
+  vec2 visibleScalars;
 };
 
 TissueTable tissueTable()
 {
-  return TissueTable(volumeLow, volumeHigh, transferFromScalar);
+  return TissueTable(volumeLow, volumeHigh, transferFromScalar, visibleScalars);
 }
 
 bool insideVolume(TissueTable table, vec3 rest)
@@ -35,11 +39,13 @@ float scalarAt(vec3 rest)
   return textureLod(scalars, rest, 0.0).r;
 }
 
-// Colour and opacity of one step; nothing where the scalar is not a number.
+// Colour and opacity of one step; no opacity where the scalar is not a number.
 vec4 tissueOf(TissueTable table, float scalar)
 {
   float entry = scalar * table.transferFromScalar.x + table.transferFromScalar.y;
-  return isnan(scalar) ? vec4(0.0) : textureLod(transfer, vec2(entry, 0.5), 0.0);
+  vec4 tissue = textureLod(transfer, vec2(entry, transferRow), 0.0);
+  tissue.a = isnan(scalar) ? 0.0 : tissue.a;
+  return tissue;
 }
 
 vec4 tissueOf(float scalar)
@@ -47,11 +53,18 @@ vec4 tissueOf(float scalar)
   return tissueOf(tissueTable(), scalar);
 }
 
-// The same at a position; nothing outside the volume.
-vec4 tissueAt(TissueTable table, vec3 rest)
+// Whether a scalar may be visible: a look at the colour map saved.
+bool mayBeVisible(TissueTable table, float scalar)
 {
-  vec4 tissue = tissueOf(table, scalarAt(rest));
-  return insideVolume(table, rest) ? tissue : vec4(0.0);
+  return scalar >= table.visibleScalars.x && scalar <= table.visibleScalars.y;
+}
+
+// The same at a position; no opacity outside the volume.
+vec4 tissueAt(TissueTable table, vec3 rest, float scalar)
+{
+  vec4 tissue = tissueOf(table, scalar);
+  tissue.a = insideVolume(table, rest) ? tissue.a : 0.0;
+  return tissue;
 }
 
 // The scalar's gradient, of any length.

@@ -112,8 +112,8 @@ def test_an_opacity_edit_uploads_the_map_only():
     opacity.Points = [0, 0, 0.5, 0, 30, 0, 0.5, 0, 100, 0.5, 0.5, 0]
     done = drawn.did()
     assert done.pop("transferUploads") == 1, done
-    # 4096 colours, and the visible bricks of 2 voxels, summed.
-    assert done.pop("bytesUploaded") == 4096 * 4 * 4 + 18 ** 3 * 4, done
+    # 4096 colours for each of three steps, and the visible bricks of 2 voxels, summed.
+    assert done.pop("bytesUploaded") == 3 * 4096 * 4 * 4 + 18 ** 3 * 4, done
     assert done.pop("presenceUpdates") == 1, done
     assert 0 < done.pop("skippingBytes") < LATTICE_BYTES, done
     assert done == {}, done
