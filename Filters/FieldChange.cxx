@@ -82,6 +82,34 @@ void widen(SlabHull& hull, const Reach& reach)
       glm::vec2(std::min(hull.spans[i].x, at - around), std::max(hull.spans[i].y, at + around));
   }
 }
+
+bool contains(const IndexBox& box, const glm::ivec3& index)
+{
+  return glm::all(glm::greaterThanEqual(index, box.first)) &&
+    glm::all(glm::lessThanEqual(index, box.last));
+}
+
+// Whether no control point outside the box moves.
+bool staysOutside(
+  const glm::ivec3& dimensions, const std::vector<glm::vec3>& inCells, const IndexBox& box)
+{
+  std::size_t point = 0;
+  glm::ivec3 index;
+  for (index.z = 0; index.z < dimensions.z; ++index.z)
+  {
+    for (index.y = 0; index.y < dimensions.y; ++index.y)
+    {
+      for (index.x = 0; index.x < dimensions.x; ++index.x, ++point)
+      {
+        if (inCells[point] != glm::vec3(0.0f) && !contains(box, index))
+        {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
 }
 
 IndexBox changedPoints(const glm::ivec3& dimensions, const std::vector<glm::vec3>& before,
@@ -130,10 +158,16 @@ IndexBox changedBackwardNodes(const IndexBox& points, const glm::ivec3& dimensio
   const IndexBox taps{ glm::max(lowCell - KernelReach, glm::ivec3(0)),
     glm::min(highCell + KernelReach, dimensions - 1) };
   DisplacementRange range;
-  range.add(before, dimensions, taps);
-  range.add(after, dimensions, taps);
-  range.allowOvershoot();
-  const glm::vec3 margin(1.0f); // cells
+  glm::vec3 margin(0.0f); // cells
+  // If nothing else moves, tissue on the surface of what changes stays: so does all that is seen
+  // beyond it.
+  if (!staysOutside(dimensions, after, points))
+  {
+    range.add(before, dimensions, taps);
+    range.add(after, dimensions, taps);
+    range.allowOvershoot();
+    margin = glm::vec3(1.0f);
+  }
   const glm::vec3 low = glm::vec3(lowCell) + range.least - margin;
   const glm::vec3 high = glm::vec3(highCell) + range.greatest + margin;
   const glm::vec3 first(backward.first);

@@ -12,8 +12,8 @@
 
 namespace brainshift
 {
-// `Forward` provides void map(vec3 rest, vec3& displacement, mat3& jacobian) and
-// bool staysAt(vec3 rest), in lattice coordinates.
+// `Forward` provides void map(vec3 rest, vec3& displacement, mat3& jacobian), in lattice
+// coordinates.
 template <typename Forward>
 struct Inversion
 {
@@ -26,7 +26,6 @@ struct Inversion
   {
     this->forward.map(rest, displacement, jacobian);
   }
-  bool staysAt(const vec3& rest) { return this->forward.staysAt(rest); }
   static float min(float a, float b) { return glm::min(a, b); }
   static float dot(const vec3& a, const vec3& b) { return glm::dot(a, b); }
   static float determinant(const mat3& matrix) { return glm::determinant(matrix); }

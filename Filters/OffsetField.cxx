@@ -222,9 +222,10 @@ NodeField invert(const NodeField& forward, const FieldNodes& nodes, Inverse inve
         for (int i = 0; i < nodes.count.x; ++i)
         {
           const glm::vec3 deformed = nodes.latticeFromNode(glm::vec3(i, j, k));
-          field.values[nodeOffset(nodes.count, i, j, k)] = inverse == Inverse::Negated
-            ? -forward.displacement(deformed)
-            : inversion.inverseOffset(deformed);
+          const glm::vec3 displacement = forward.displacement(deformed);
+          const bool known = inverse == Inverse::Negated || displacement == glm::vec3(0.0f);
+          field.values[nodeOffset(nodes.count, i, j, k)] =
+            known ? -displacement : inversion.inverseOffset(deformed, -displacement);
         }
       }
     }

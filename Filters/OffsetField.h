@@ -50,7 +50,6 @@ struct VTKBRAINSHIFTFILTERS_EXPORT NodeField
   glm::vec3 displacement(const glm::vec3& lattice) const; // at a lattice coordinate
   // The same with the derivatives of position + displacement.
   void map(const glm::vec3& lattice, glm::vec3& displacement, glm::mat3& jacobian) const;
-  bool staysAt(const glm::vec3& lattice) const { return displacement(lattice) == glm::vec3(0.0f); }
 };
 
 // Nodes over the lattice itself: (points - 1) * (samples + 1) + 1 a side; 91 by default.

@@ -25,11 +25,6 @@ struct CubicForward
     jacobian =
       glm::mat3(1.0f) + cubicGradient(this->grid.dimensions, this->kernel, this->inCells, position);
   }
-  bool staysAt(const glm::vec3& rest) const
-  {
-    return cubicDisplacement(this->grid.dimensions, this->kernel, this->inCells,
-             this->reference + glm::dvec3(rest)) == glm::vec3(0.0f);
-  }
 };
 }
 
@@ -53,9 +48,15 @@ glm::dvec3 PointMap::restFromDeformed(const glm::dvec3& deformed) const
 {
   const glm::dvec3 position = this->LatticeGrid.gridFromWorld(deformed);
   const CubicForward forward{ this->LatticeGrid, this->Kernel, this->InCells.data(), position };
+  const glm::vec3 displacement =
+    cubicDisplacement(this->LatticeGrid.dimensions, this->Kernel, this->InCells.data(), position);
+  if (displacement == glm::vec3(0.0f))
+  {
+    return deformed;
+  }
   const glm::vec3 offset = this->Backward == Inverse::Negated
-    ? -cubicDisplacement(this->LatticeGrid.dimensions, this->Kernel, this->InCells.data(), position)
-    : Inversion<CubicForward>{ forward }.inverseOffset(glm::vec3(0.0f));
+    ? -displacement
+    : Inversion<CubicForward>{ forward }.inverseOffset(glm::vec3(0.0f), glm::vec3(0.0f));
   return deformed + this->LatticeGrid.worldVectorFromGrid(glm::dvec3(offset));
 }
 

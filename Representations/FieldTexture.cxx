@@ -112,7 +112,7 @@ bool FieldTexture::refine(vtkOpenGLRenderWindow* window, const FieldRequest& req
     box.first[axis] = nodes.first[axis];
     box.last[axis] = nodes.last[axis];
     if (!allocate(window, this->Refined[axis], count,
-          axis == 2 ? vtkTextureObject::Linear : vtkTextureObject::Nearest) ||
+          vtkTextureObject::Nearest) ||
       !this->RefineProgram.use(window, refineSource(), counters))
     {
       return false;

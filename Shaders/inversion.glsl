@@ -4,11 +4,10 @@
 //   void forwardMap(vec3 rest, OUT(vec3) displacement, OUT(mat3) jacobian)
 //     displacement: deformed - rest; jacobian: its columns are the derivatives of the deformed
 //     position
-//   bool staysAt(vec3 rest)   no displacement there; may say false when unsure
 // Newton's steps, halved while they do not bring the point closer: the plain fixed-point iteration
 // diverges where tissue is stretched more than twofold although nothing folds there.
 
-const int InversionSteps = 16;             // 3 or 4 are used; more near folding
+const int InversionSteps = 16;             // 2 to 4 are used; more near folding
 const float InversionTolerance = 2e-5f;    // lattice cells; 0.0003 mm on the default lattice
 const float SmallestDeterminant = 0.02f;   // below it: the step of the fixed-point iteration
 
@@ -21,18 +20,14 @@ SHARED vec3 inversionStep(mat3 jacobian, vec3 miss)
   return inverse(jacobian) * miss;
 }
 
-// restFromDeformed minus identity at a deformed position.
-SHARED vec3 inverseOffset(vec3 deformed)
+// restFromDeformed minus identity at a deformed position; `start`: a guess at it.
+SHARED vec3 inverseOffset(vec3 deformed, vec3 start)
 {
-  if (staysAt(deformed))
-  {
-    return vec3(0.0f); // most of space
-  }
   vec3 displacement;
   mat3 jacobian;
-  forwardMap(deformed, displacement, jacobian);
-  vec3 offset = vec3(0.0f);
-  vec3 miss = displacement; // where the tissue at deformed + offset goes, seen from deformed
+  forwardMap(deformed + start, displacement, jacobian);
+  vec3 offset = start;
+  vec3 miss = start + displacement; // where tissue at deformed + offset goes, seen from deformed
   float share = 1.0f;
   for (int i = 0; i < InversionSteps; ++i)
   {
