@@ -181,6 +181,9 @@ bool DeformedPresence::compute(vtkOpenGLRenderWindow* window, const PresenceRequ
   program.set("highestVoxel", request.highestVoxel);
   if (deformed)
   {
+    program.set("blocks",
+      glm::ivec3(this->Blocks[0]->GetWidth(), this->Blocks[0]->GetHeight(),
+        this->Blocks[0]->GetDepth()));
     program.set("blockLeast", this->Blocks[0].Get());
     program.set("blockGreatest", this->Blocks[1].Get());
   }

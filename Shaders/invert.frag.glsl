@@ -24,7 +24,7 @@ vec3 firstGuess(vec3 deformed, vec3 displacement)
 
 void main()
 {
-  vec3 deformed = vec3(firstCell) + vec3(targetTexel()) / float(perCell);
+  vec3 deformed = vec3(firstCell) + targetTexel() / float(perCell);
   vec3 displacement = displacementNear(deformed); // a node's own
   vec3 offset = vec3(0.0);
   if (negated == 1)

@@ -8,7 +8,7 @@ uniform float gradientScale; // longer ones than 1 are cut
 
 void main()
 {
-  vec3 middle = (vec3(targetTexel()) + 0.5) * texel;
+  vec3 middle = (targetTexel() + 0.5) * texel;
   vec3 gradient = centralDifferences(scalars, middle, voxel) * gradientScale;
   bool unknown = any(isnan(gradient)) || any(isinf(gradient));
   gradient = unknown ? vec3(0.0) : gradient;

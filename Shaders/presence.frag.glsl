@@ -13,17 +13,18 @@ uniform vec3 highestVoxel;
 #ifdef DEFORMED
 uniform sampler3D blockLeast;    // least and greatest offset in each block of bricks, voxels
 uniform sampler3D blockGreatest;
+uniform ivec3 blocks;            // blocks a side
 #endif
 
-float sumAt(int x, int y, int z)
+float sumAt(float x, float y, float z)
 {
   return textureLod(summed, (vec3(x, y, z) + 0.5) / vec3(restBricks + 1), 0.0).r;
 }
 
 // Visible bricks from `low` to `high`, both included.
-float visibleBricks(ivec3 low, ivec3 high)
+float visibleBricks(vec3 low, vec3 high)
 {
-  ivec3 above = high + 1;
+  vec3 above = high + 1.0;
   float back = sumAt(above.x, above.y, above.z) - sumAt(low.x, above.y, above.z) -
     sumAt(above.x, low.y, above.z) + sumAt(low.x, low.y, above.z);
   float front = sumAt(above.x, above.y, low.z) - sumAt(low.x, above.y, low.z) -
@@ -40,24 +41,25 @@ bvec2 visibleWithin(vec3 low, vec3 high)
   {
     return bvec2(false);
   }
-  ivec3 last = restBricks - 1;
+  vec3 last = vec3(restBricks - 1);
   // A rest brick knows of `margin` around it.
-  ivec3 from = clamp(ivec3(floor((low + margin) / restBrickSide)), ivec3(0), last);
-  ivec3 to = clamp(ivec3(ceil((high - margin) / restBrickSide)) - 1, from, last);
-  ivec3 side = to - from + 1;
+  vec3 from = clamp(floor((low + margin) / restBrickSide), vec3(0.0), last);
+  vec3 to = clamp(ceil((high - margin) / restBrickSide) - 1.0, from, last);
+  vec3 side = to - from + 1.0;
   float found = visibleBricks(from, to);
-  return bvec2(found > 0.5, found > float(side.x * side.y * side.z) - 0.5);
+  return bvec2(found > 0.5, found > side.x * side.y * side.z - 0.5);
 }
 
-bool present(ivec3 texel)
+bool present(vec3 texel)
 {
-  vec3 low = vec3(firstBrick + texel) * brickSide - margin;
+  vec3 low = (vec3(firstBrick) + texel) * brickSide - margin;
   vec3 high = low + brickSide + 2.0 * margin;
   vec3 least = vec3(0.0);
   vec3 greatest = vec3(0.0);
 #ifdef DEFORMED
-  least = texelFetch(blockLeast, texel / BRICKS_IN_BLOCK, 0).xyz;
-  greatest = texelFetch(blockGreatest, texel / BRICKS_IN_BLOCK, 0).xyz;
+  vec3 place = (floor((texel + 0.5) / float(BRICKS_IN_BLOCK)) + 0.5) / vec3(blocks);
+  least = textureLod(blockLeast, place, 0.0).xyz;
+  greatest = textureLod(blockGreatest, place, 0.0).xyz;
   bvec2 inBlock = visibleWithin(low + least, high + greatest);
   if (inBlock.x == inBlock.y)
   {

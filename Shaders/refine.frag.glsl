@@ -7,16 +7,21 @@ uniform int points;       // control points along the axis
 uniform int perCell;      // nodes for each lattice cell
 uniform vec4 weights[MAX_PER_CELL]; // of the four control points at each node of a cell, from C++
 
+// The control point, or node, of number `along` on the axis; the last ones repeat.
+vec3 coarseAt(vec3 across, float along)
+{
+  vec3 texel = across + clamp(along, 0.0, float(points - 1)) * vec3(axis);
+  return textureLod(coarse, (texel + 0.5) / vec3(textureSize(coarse, 0)), 0.0).xyz;
+}
+
 void main()
 {
-  ivec3 texel = targetTexel();
-  ivec3 across = texel * (1 - axis);
-  int node = texel.x * axis.x + texel.y * axis.y + texel.z * axis.z;
-  int cell = node / perCell;
-  vec4 weight = weights[node - cell * perCell];
-  vec3 sum = weight.x * texelFetch(coarse, across + axis * max(cell - 1, 0), 0).xyz +
-    weight.y * texelFetch(coarse, across + axis * cell, 0).xyz +
-    weight.z * texelFetch(coarse, across + axis * min(cell + 1, points - 1), 0).xyz +
-    weight.w * texelFetch(coarse, across + axis * min(cell + 2, points - 1), 0).xyz;
+  vec3 texel = targetTexel();
+  vec3 across = texel * vec3(1 - axis);
+  float node = dot(texel, vec3(axis));
+  float cell = floor((node + 0.5) / float(perCell));
+  vec4 weight = weights[int(node - cell * float(perCell) + 0.5)];
+  vec3 sum = weight.x * coarseAt(across, cell - 1.0) + weight.y * coarseAt(across, cell) +
+    weight.z * coarseAt(across, cell + 1.0) + weight.w * coarseAt(across, cell + 2.0);
   gl_FragData[0] = vec4(sum, 0.0);
 }

@@ -2,7 +2,8 @@
 
 flat in int layerGSOut;
 
-ivec3 targetTexel()
+// As whole floats: software drivers turn what becomes an integer lane by lane.
+vec3 targetTexel()
 {
-  return ivec3(gl_FragCoord.xy, layerGSOut);
+  return vec3(floor(gl_FragCoord.xy), layerGSOut);
 }
