@@ -278,7 +278,7 @@ double minimumJacobian(const Lattice& lattice)
 {
   const std::vector<glm::vec3> inCells = displacementsInCells(lattice);
   const glm::ivec3 cells = lattice.grid.dimensions - 1;
-  std::vector<double> smallest(cells.z, 1.0); // an unmoved cell has determinant 1
+  std::vector<double> smallest(cells.z, std::numeric_limits<double>::max());
   parallelFor(0, cells.z, 1, [&](vtkIdType first, vtkIdType last) {
     glm::ivec3 cell;
     for (cell.z = static_cast<int>(first); cell.z < last; ++cell.z)
@@ -287,11 +287,8 @@ double minimumJacobian(const Lattice& lattice)
       {
         for (cell.x = 0; cell.x < cells.x; ++cell.x)
         {
-          if (!allTapsZero(lattice, cell))
-          {
-            smallest[cell.z] =
-              std::min(smallest[cell.z], minimumJacobianInCell(lattice, inCells, cell));
-          }
+          smallest[cell.z] = std::min(smallest[cell.z],
+            allTapsZero(lattice, cell) ? 1.0 : minimumJacobianInCell(lattice, inCells, cell));
         }
       }
     }

@@ -49,8 +49,9 @@ VTKBRAINSHIFTFILTERS_EXPORT glm::mat3 cubicGradient(const glm::ivec3& dimensions
 // Largest displacement of a control point, mm.
 VTKBRAINSHIFTFILTERS_EXPORT double maximumDisplacement(const Lattice& lattice);
 
-// Smallest Jacobian determinant of deformedFromRest, sampled on the control points and halfway
-// between them. 1: volume is kept; 0 or less: tissue folds.
+// Smallest Jacobian determinant of deformedFromRest within the lattice, sampled on the control
+// points and halfway between them. 1: volume is kept, more: all of it grows, 0 or less: tissue
+// folds. Between the samples it can be less; the fold guard does not rely on it.
 VTKBRAINSHIFTFILTERS_EXPORT double minimumJacobian(const Lattice& lattice);
 }
 

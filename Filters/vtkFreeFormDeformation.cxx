@@ -8,9 +8,11 @@
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -20,6 +22,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -35,6 +38,8 @@ struct vtkFreeFormDeformation::State
   bool HasLastGood = false;
   double MinimumJacobian = 1.0;
   bool MinimumJacobianKnown = false;
+  vtkNew<vtkDoubleArray> StrokeShares;
+  std::vector<std::string> Warned;
 };
 
 namespace
@@ -54,6 +59,13 @@ Grid wholeGrid(vtkImageData* image, vtkInformation* info)
     grid.dimensions[axis] = whole[2 * axis + 1] - whole[2 * axis] + 1;
   }
   return grid;
+}
+
+std::string decimal(double number)
+{
+  std::ostringstream text;
+  text << number;
+  return text.str();
 }
 
 std::string triple(const glm::ivec3& numbers)
@@ -211,6 +223,7 @@ int vtkFreeFormDeformation::RequestData(
   {
     vtkErrorMacro(<< problem << ". The deformation stays as it was.");
   }
+  this->TellWarnings();
   State& state = *this->Internal;
   state.PointArrays.share(output->GetPointData());
   state.CellArrays.share(output->GetCellData());
@@ -255,13 +268,34 @@ std::string vtkFreeFormDeformation::Bend(const Grid& volumeGrid, vtkImageData* b
   {
     return problem;
   }
-  state.LastGood.lattice = state.StrokeReplay.run(start, strokes);
+  state.LastGood.lattice =
+    state.StrokeReplay.run(start, strokes, { this->GuardFolding, this->Samples });
   state.LastGood.samples = this->Samples;
   state.LastGood.inverse =
     this->Inverse ? brainshift::Inverse::Negated : brainshift::Inverse::Exact;
   state.LastGood.strength = this->Strength;
   state.MinimumJacobianKnown = false;
   return {};
+}
+
+void vtkFreeFormDeformation::TellWarnings()
+{
+  State& state = *this->Internal;
+  std::vector<std::string> warnings;
+  if (const int cells = state.StrokeReplay.foldedCells())
+  {
+    warnings.push_back("The base lattice folds by itself: the Jacobian determinant is below " +
+      decimal(SmallestGuardedJacobian) + " in " + std::to_string(cells) +
+      " of its cells. Strokes are not shortened there");
+  }
+  for (const std::string& warning : warnings)
+  {
+    if (std::find(state.Warned.begin(), state.Warned.end(), warning) == state.Warned.end())
+    {
+      vtkWarningMacro(<< warning << ".");
+    }
+  }
+  state.Warned = warnings;
 }
 
 double vtkFreeFormDeformation::GetMaximumDisplacement()
@@ -281,6 +315,24 @@ double vtkFreeFormDeformation::GetMinimumJacobian()
   return state.MinimumJacobian;
 }
 
+int vtkFreeFormDeformation::GetShortenedStrokes() const
+{
+  const std::vector<double>& shares = this->Internal->StrokeReplay.shares();
+  return static_cast<int>(
+    std::count_if(shares.begin(), shares.end(), [](double share) { return share < 1.0; }));
+}
+
+vtkDoubleArray* vtkFreeFormDeformation::GetStrokeShares()
+{
+  State& state = *this->Internal;
+  state.StrokeShares->Initialize();
+  for (const double share : state.StrokeReplay.shares())
+  {
+    state.StrokeShares->InsertNextValue(share);
+  }
+  return state.StrokeShares;
+}
+
 int vtkFreeFormDeformation::GetAppliedStrokes() const
 {
   return this->Internal->StrokeReplay.applied();
@@ -295,5 +347,6 @@ void vtkFreeFormDeformation::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Kernel: " << (this->Kernel ? "B-Spline" : "Catmull-Rom") << "\n"
      << indent << "Inverse: " << (this->Inverse ? "Negated" : "Exact") << "\n"
      << indent << "Strength: " << this->Strength << "\n"
+     << indent << "GuardFolding: " << this->GuardFolding << "\n"
      << indent << "Strokes: " << this->Internal->StrokeNumbers.size() / NumbersPerStroke << "\n";
 }

@@ -22,6 +22,7 @@
 #include <memory> // for the private part
 #include <string> // for messages
 
+class vtkDoubleArray;
 class vtkImageData;
 namespace brainshift
 {
@@ -60,6 +61,18 @@ public:
   ///@}
 
   ///@{
+  /**
+   * Whether each stroke is shortened to the largest part of it that keeps the Jacobian determinant
+   * of deformedFromRest at 0.1 or above everywhere (FoldGuard.h). Default on. The strokes' numbers
+   * stay as they are; what was applied is told by GetStrokeShares. Where the base lattice folds by
+   * itself a warning says so and strokes are not shortened.
+   */
+  vtkSetMacro(GuardFolding, bool);
+  vtkGetMacro(GuardFolding, bool);
+  vtkBooleanMacro(GuardFolding, bool);
+  ///@}
+
+  ///@{
   /** 0: Exact, tissue arrives where the handle is put (default); 1: Negated, the paper's form. */
   vtkSetMacro(Inverse, int);
   vtkGetMacro(Inverse, int);
@@ -81,10 +94,17 @@ public:
   double GetMaximumDisplacement();
 
   /**
-   * Smallest Jacobian determinant of deformedFromRest as drawn; 0 or less: tissue folds. Sampled
-   * on the control points and halfway between them. Computed when asked for.
+   * Smallest Jacobian determinant of deformedFromRest as drawn, within the volume: 1 where tissue
+   * stays, above 1 only if all of it grows, 0 or less: tissue folds. Sampled on the control points
+   * and halfway between them. Computed when asked for.
    */
   double GetMinimumJacobian();
+
+  /** Strokes of which the fold guard lets only a part be applied. */
+  int GetShortenedStrokes() const;
+
+  /** How much of each stroke was applied, 0 to 1; 1: all of it, or a disabled stroke. */
+  vtkDoubleArray* GetStrokeShares();
 
   /** Strokes the last execution had to apply: 1 while the last stroke is being changed. */
   int GetAppliedStrokes() const;
@@ -108,10 +128,14 @@ private:
   int Kernel = 0;
   int Inverse = 0;
   double Strength = 1.0;
+  bool GuardFolding = true;
 
   // Bends the lattice as the properties say. Returns what keeps it from doing so, in which case the
   // last good deformation stays; empty if nothing does.
   std::string Bend(const brainshift::Grid& volumeGrid, vtkImageData* base);
+
+  // Says what the user should know of the deformation, once for each change of what is said.
+  void TellWarnings();
 
   struct State; // strokes, replay and the last good deformation
   std::unique_ptr<State> Internal;

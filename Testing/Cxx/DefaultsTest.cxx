@@ -15,6 +15,7 @@ TEST(Defaults, OfFreeFormDeformationLiveInTheClass)
   vtkNew<vtkFreeFormDeformation> filter;
   const int* sides = filter->GetLatticeDimensions();
   const Defaults expected{
+    { "GuardFolding", { double(filter->GetGuardFolding()) } },
     { "Inverse", { double(filter->GetInverse()) } },
     { "Kernel", { double(filter->GetKernel()) } },
     { "LatticeDimensions", { double(sides[0]), double(sides[1]), double(sides[2]) } },

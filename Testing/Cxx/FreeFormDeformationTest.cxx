@@ -4,6 +4,7 @@
 #include "Kernels.h"
 #include "TestPipeline.h"
 
+#include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkMatrix3x3.h>
 
@@ -192,6 +193,42 @@ TEST_F(FreeFormDeformation, ScalesWithStrength)
   EXPECT_EQ(maximumDisplacement(effectiveLattice(deformationOf(this->output()))), 0.0);
   this->Filter->SetStrength(2.0);
   EXPECT_EQ(this->Filter->GetStrength(), 1.0);
+}
+
+TEST_F(FreeFormDeformation, GuardsFoldingUntilToldNotTo)
+{
+  Stroke far = this->stamp();
+  far.vector *= 20.0;
+  setStrokes(this->Filter, { this->stamp(), far });
+  this->output();
+  EXPECT_GE(this->Filter->GetMinimumJacobian(), 0.1);
+  EXPECT_EQ(this->Filter->GetShortenedStrokes(), 1);
+  ASSERT_EQ(this->Filter->GetStrokeShares()->GetNumberOfValues(), 2);
+  EXPECT_EQ(this->Filter->GetStrokeShares()->GetValue(0), 1.0);
+  EXPECT_LT(this->Filter->GetStrokeShares()->GetValue(1), 0.9);
+  EXPECT_EQ(this->Heard.take(), "");
+  this->Filter->GuardFoldingOff();
+  this->output();
+  EXPECT_LT(this->Filter->GetMinimumJacobian(), 0.0);
+  EXPECT_EQ(this->Filter->GetShortenedStrokes(), 0);
+  EXPECT_EQ(this->Filter->GetStrokeShares()->GetValue(1), 1.0);
+}
+
+TEST_F(FreeFormDeformation, SaysOnceThatTheBaseFoldsByItself)
+{
+  const glm::dvec3 corner = this->VolumeGrid.origin;
+  this->Filter->SetInputDataObject(1, fieldOn(this->VolumeGrid, [&](const glm::dvec3& rest) {
+    return glm::distance(rest, corner) < 30.0 ? -1.5 * (rest - corner) : glm::dvec3(0.0);
+  }));
+  setStrokes(this->Filter, { this->stamp() });
+  this->output();
+  const std::string warning = this->Heard.take();
+  EXPECT_NE(warning.find("base lattice folds by itself"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("below 0.1 in "), std::string::npos) << warning;
+  EXPECT_EQ(this->Filter->GetShortenedStrokes(), 0);
+  this->Filter->SetStrength(0.5);
+  this->output();
+  EXPECT_EQ(this->Heard.take(), "") << "told already";
 }
 
 TEST_F(FreeFormDeformation, AppliesOneStrokeWhileTheLastIsChanged)

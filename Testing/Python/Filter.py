@@ -59,9 +59,9 @@ def test_strokes_move_what_they_say():
     assert numpy.allclose(point, (0, 0, 3)), point
     assert math.isclose(information(filter, "MaximumDisplacement"), 3.0, rel_tol=1e-6)
     assert 0.1 < information(filter, "MinimumJacobian") < 1.0
-    filter.Strokes = brainshift.move((0, 0, 0), (1, 2, 3))
+    filter.Strokes = brainshift.move((0, 0, 0), (0.25, 0.5, 0.75))
     displacements = field(filter, "FFDDisplacements")
-    assert displacements[0].tolist() == [1, 2, 3]
+    assert displacements[0].tolist() == [0.25, 0.5, 0.75]
     assert not displacements[1:].any()
 
 
@@ -80,6 +80,21 @@ def test_adding_a_stroke_applies_one():
     filter.Strokes = STAMP + STAMP
     output(filter)
     assert information(filter, "AppliedStrokes") == 1
+
+
+def test_guard_shortens_strokes_and_tells_it():
+    filter = bent()
+    far = brainshift.stamp(MIDDLE, (16.0, 16.0, 0.0), 40.0, major=14.0, minor=10.0)
+    filter.Strokes = STAMP + far
+    output(filter)
+    assert information(filter, "MinimumJacobian") >= 0.1
+    assert information(filter, "ShortenedStrokes") == 1
+    assert filter.StrokeShares[0] == 1.0 and 0.0 < filter.StrokeShares[1] < 0.9
+    assert tuple(filter.Strokes) == STAMP + far, "the numbers are the user's"
+    filter.GuardFolding = 0
+    output(filter)
+    assert information(filter, "MinimumJacobian") < 0.0
+    assert information(filter, "ShortenedStrokes") == 0
 
 
 def test_strength_scales():
