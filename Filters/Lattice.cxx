@@ -64,8 +64,12 @@ struct RowOfTaps
   }
 };
 
-// Value at `distance` control points from the point whose basis function it is.
-double basisFunction(int kernel, double distance)
+// The control point of a lattice `ratio` times as dense, `distance` points of the coarser one away
+// from a point of that, whose basis function the denser lattice is to repeat. With Catmull-Rom it
+// is the function's value there. B-splines do not pass through their control points; this is the
+// coefficient that makes the denser ones add up to a cubic, and to the coarser B-spline exactly
+// where every knot of it is one of theirs.
+double basisFunction(int kernel, double distance, double ratio)
 {
   const double away = std::abs(distance);
   if (away >= 2.0)
@@ -75,7 +79,9 @@ double basisFunction(int kernel, double distance)
   const int cell = static_cast<int>(away);
   // At t in the cell right of the point, the point is the second of the four taps; one cell
   // further it is the first.
-  return kernelWeights(kernel, static_cast<float>(away - cell))[1 - cell];
+  const double value = kernelWeights(kernel, static_cast<float>(away - cell))[1 - cell];
+  const double curvature = cell == 0 ? 3.0 * away - 2.0 : 2.0 - away; // of a B-spline
+  return kernel == KernelBSpline ? value - curvature / (6.0 * ratio * ratio) : value;
 }
 
 void applyMove(Lattice& lattice, const Stroke& stroke)
@@ -97,8 +103,16 @@ void applyMove(Lattice& lattice, const Stroke& stroke)
   const auto weightAlong = [&](int axis, int index) {
     const double distance = index / ratio[axis] - point[axis];
     // On the lattice it was made at the stroke moves one control point, whatever the kernel.
-    return ratio[axis] == 1.0 ? double(std::abs(distance) < 0.5)
-                              : basisFunction(lattice.kernel, distance);
+    if (ratio[axis] == 1.0)
+    {
+      return double(std::abs(distance) < 0.5);
+    }
+    // A point at the border stands for its missing neighbour too.
+    const double below = point[axis] < 0.5 ? distance + 1.0 : 2.0;
+    const double above = point[axis] > last[axis] - 0.5 ? distance - 1.0 : 2.0;
+    return basisFunction(lattice.kernel, distance, ratio[axis]) +
+      basisFunction(lattice.kernel, below, ratio[axis]) +
+      basisFunction(lattice.kernel, above, ratio[axis]);
   };
   for (int k = low.z; k <= high.z; ++k)
   {

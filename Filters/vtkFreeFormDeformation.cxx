@@ -5,6 +5,7 @@
 #include "OffsetField.h"
 #include "Replay.h"
 #include "SharedArray.h"
+#include "StrokeDensity.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -39,6 +40,7 @@ struct vtkFreeFormDeformation::State
   double MinimumJacobian = 1.0;
   bool MinimumJacobianKnown = false;
   vtkNew<vtkDoubleArray> StrokeShares;
+  std::string TooFine; // strokes for the lattice: a sentence
   std::vector<std::string> Warned;
 };
 
@@ -231,17 +233,10 @@ int vtkFreeFormDeformation::RequestData(
   return 1;
 }
 
-std::string vtkFreeFormDeformation::Bend(const Grid& volumeGrid, vtkImageData* base)
+std::string vtkFreeFormDeformation::ProblemOfProperties() const
 {
-  State& state = *this->Internal;
   const glm::ivec3 sides(
     this->LatticeDimensions[0], this->LatticeDimensions[1], this->LatticeDimensions[2]);
-  if (!state.HasLastGood)
-  {
-    const glm::ivec3 plain = glm::clamp(sides, SmallestLatticeSide, LargestLatticeSide);
-    state.LastGood.lattice = makeLattice(withDimensions(volumeGrid, plain), 0);
-    state.HasLastGood = true;
-  }
   if (glm::any(glm::lessThan(sides, glm::ivec3(SmallestLatticeSide))) ||
     glm::any(glm::greaterThan(sides, glm::ivec3(LargestLatticeSide))))
   {
@@ -253,11 +248,35 @@ std::string vtkFreeFormDeformation::Bend(const Grid& volumeGrid, vtkImageData* b
     return "Samples is " + std::to_string(this->Samples) + "; it must be from " +
       std::to_string(SmallestSamples) + " to " + std::to_string(LargestSamples);
   }
+  const double* const interest = this->PointOfInterest;
+  if (!std::all_of(interest, interest + 3, [](double mm) { return std::isfinite(mm); }))
+  {
+    return "PointOfInterest is " + decimal(interest[0]) + " " + decimal(interest[1]) + " " +
+      decimal(interest[2]) + " mm; its numbers must be finite";
+  }
   if (std::isnan(this->Strength))
   {
     return "Strength is not a number; it must be from 0 to 1";
   }
-  std::string problem;
+  return {};
+}
+
+std::string vtkFreeFormDeformation::Bend(const Grid& volumeGrid, vtkImageData* base)
+{
+  State& state = *this->Internal;
+  const glm::ivec3 sides(
+    this->LatticeDimensions[0], this->LatticeDimensions[1], this->LatticeDimensions[2]);
+  if (!state.HasLastGood)
+  {
+    const glm::ivec3 plain = glm::clamp(sides, SmallestLatticeSide, LargestLatticeSide);
+    state.LastGood.lattice = makeLattice(withDimensions(volumeGrid, plain), 0);
+    state.HasLastGood = true;
+  }
+  std::string problem = this->ProblemOfProperties();
+  if (!problem.empty())
+  {
+    return problem;
+  }
   const std::vector<Stroke> strokes = strokesFromNumbers(state.StrokeNumbers, problem);
   Lattice start = makeLattice(withDimensions(volumeGrid, sides), this->Kernel != 0);
   if (problem.empty())
@@ -270,6 +289,7 @@ std::string vtkFreeFormDeformation::Bend(const Grid& volumeGrid, vtkImageData* b
   }
   state.LastGood.lattice =
     state.StrokeReplay.run(start, strokes, { this->GuardFolding, this->Samples });
+  state.TooFine = strokesTooFine(strokes, start.grid);
   state.LastGood.samples = this->Samples;
   state.LastGood.inverse =
     this->Inverse ? brainshift::Inverse::Negated : brainshift::Inverse::Exact;
@@ -287,6 +307,10 @@ void vtkFreeFormDeformation::TellWarnings()
     warnings.push_back("The base lattice folds by itself: the Jacobian determinant is below " +
       decimal(SmallestGuardedJacobian) + " in " + std::to_string(cells) +
       " of its cells. Strokes are not shortened there");
+  }
+  if (!state.TooFine.empty())
+  {
+    warnings.push_back(state.TooFine);
   }
   for (const std::string& warning : warnings)
   {
@@ -347,6 +371,8 @@ void vtkFreeFormDeformation::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Kernel: " << (this->Kernel ? "B-Spline" : "Catmull-Rom") << "\n"
      << indent << "Inverse: " << (this->Inverse ? "Negated" : "Exact") << "\n"
      << indent << "Strength: " << this->Strength << "\n"
+     << indent << "PointOfInterest: " << this->PointOfInterest[0] << " " << this->PointOfInterest[1]
+     << " " << this->PointOfInterest[2] << "\n"
      << indent << "GuardFolding: " << this->GuardFolding << "\n"
      << indent << "Strokes: " << this->Internal->StrokeNumbers.size() / NumbersPerStroke << "\n";
 }

@@ -80,6 +80,15 @@ public:
 
   ///@{
   /**
+   * The point (mm, world) that the stamp's long axis goes through, kept here for the tools: strokes
+   * hold their own axis. Default 0 0 0; ParaView makes it the centre of the volume.
+   */
+  vtkSetVector3Macro(PointOfInterest, double);
+  vtkGetVector3Macro(PointOfInterest, double);
+  ///@}
+
+  ///@{
+  /**
    * The strokes, replayed in order: 14 numbers each (Stroke.h). Given number by number, so that a
    * list of the wrong length is noticed and not cut short.
    */
@@ -129,6 +138,10 @@ private:
   int Inverse = 0;
   double Strength = 1.0;
   bool GuardFolding = true;
+  double PointOfInterest[3] = { 0.0, 0.0, 0.0 };
+
+  // What is wrong with a property; empty if nothing is.
+  std::string ProblemOfProperties() const;
 
   // Bends the lattice as the properties say. Returns what keeps it from doing so, in which case the
   // last good deformation stays; empty if nothing does.

@@ -122,23 +122,23 @@ TEST_F(FreeFormDeformation, PassesTheSameArrayOnUntilItChanges)
 
 TEST_F(FreeFormDeformation, AttachesTheContract)
 {
-  this->Filter->SetLatticeDimensions(7, 6, 5);
+  this->Filter->SetLatticeDimensions(8, 7, 6);
   this->Filter->SetKernel(KernelBSpline);
   this->Filter->SetSamples(3);
   this->Filter->SetInverse(1);
   this->Filter->SetStrength(0.5);
   this->bend();
   vtkImageData* image = this->output();
-  EXPECT_EQ(fieldArray(image, "FFDDisplacements", 3, 210)->GetDataType(), VTK_FLOAT);
+  EXPECT_EQ(fieldArray(image, "FFDDisplacements", 3, 336)->GetDataType(), VTK_FLOAT);
   const double* sides = fieldArray(image, "FFDDimensions", 3, 1)->GetTuple3(0);
-  EXPECT_EQ(glm::dvec3(sides[0], sides[1], sides[2]), glm::dvec3(7, 6, 5));
+  EXPECT_EQ(glm::dvec3(sides[0], sides[1], sides[2]), glm::dvec3(8, 7, 6));
   EXPECT_EQ(fieldArray(image, "FFDKernel", 1, 1)->GetTuple1(0), KernelBSpline);
   EXPECT_EQ(fieldArray(image, "FFDSamples", 1, 1)->GetTuple1(0), 3.0);
   EXPECT_EQ(fieldArray(image, "FFDInverse", 1, 1)->GetTuple1(0), 1.0);
   EXPECT_EQ(fieldArray(image, "FFDStrength", 1, 1)->GetTuple1(0), 0.5);
   vtkDataArray* box = fieldArray(image, "FFDBox", 15, 1);
   const glm::dvec3 spacing =
-    this->VolumeGrid.spacing * glm::dvec3(20, 15, 12) / glm::dvec3(6, 5, 4);
+    this->VolumeGrid.spacing * glm::dvec3(20, 15, 12) / glm::dvec3(7, 6, 5);
   for (int axis = 0; axis < 3; ++axis)
   {
     EXPECT_NEAR(box->GetComponent(0, axis), this->VolumeGrid.origin[axis], 1e-9);
@@ -282,6 +282,19 @@ TEST_F(FreeFormDeformation, RefusesAStrengthThatIsNoNumber)
   this->Filter->SetStrength(std::numeric_limits<double>::quiet_NaN());
   this->output();
   this->expectKeepsDeformation({ "Strength is not a number", "0 to 1" });
+}
+
+TEST_F(FreeFormDeformation, RefusesAPointOfInterestThatIsNowhere)
+{
+  this->bend();
+  this->Filter->SetPointOfInterest(1.5, std::numeric_limits<double>::infinity(), 3.0);
+  this->output();
+  this->expectKeepsDeformation({ "PointOfInterest is 1.5 inf 3 mm", "finite" });
+  this->Filter->SetPointOfInterest(1.5, 2.0, 3.0);
+  EXPECT_EQ(
+    deformationOf(this->output()).lattice.displacements, this->LastGood.lattice.displacements)
+    << "it bends nothing";
+  EXPECT_EQ(this->Heard.take(), "");
 }
 
 TEST_F(FreeFormDeformation, AddsStrokesToABaseOnItsOwnGrid)

@@ -106,6 +106,16 @@ def test_strength_scales():
     assert math.isclose(information(filter, "MaximumDisplacement"), 1.5, rel_tol=1e-6)
 
 
+def test_point_of_interest_starts_in_the_middle():
+    filter = bent()
+    assert tuple(filter.PointOfInterest) == MIDDLE
+    good = field(filter, "FFDDisplacements")
+    filter.PointOfInterest = [math.nan, 0, 0]
+    expect_kept(filter, good, "PointOfInterest is nan 0 0 mm", "finite")
+    given = FreeFormDeformation(Input=volume(ball()), PointOfInterest=[1, 2, 3])
+    assert tuple(given.PointOfInterest) == (1, 2, 3)
+
+
 def test_lattice_density_replays():
     filter = bent()
     filter.LatticeDimensions = [9, 10, 11]
