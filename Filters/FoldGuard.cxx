@@ -38,6 +38,7 @@ class Way
 public:
   Way(const Lattice& before, const Lattice& after, const IndexBox& changed)
     : Kernel(before.kernel)
+    , Mask(after.mask.get())
     , Dimensions(before.grid.dimensions)
     , First(glm::max(changed.first - 3, glm::ivec3(0)))
     , Size(glm::min(changed.last + 3, before.grid.dimensions - 1) - First + 1)
@@ -86,6 +87,25 @@ public:
   }
 
   int kernel() const { return this->Kernel; }
+  const NodeWeights* mask() const { return this->Mask; }
+
+  // The mask's weights on the nodes of a cell, x fastest.
+  std::vector<float> weightsIn(const glm::ivec3& cell) const
+  {
+    const int perCell = this->Mask->perCell;
+    const glm::ivec3 count = (this->Dimensions - 1) * perCell + 1;
+    std::vector<float> weights;
+    for (int k = cell.z * perCell; k <= (cell.z + 1) * perCell; ++k)
+    {
+      for (int j = cell.y * perCell; j <= (cell.y + 1) * perCell; ++j)
+      {
+        const float* row = this->Mask->values.data() +
+          (static_cast<std::size_t>(k) * count.y + j) * count.x + cell.x * perCell;
+        weights.insert(weights.end(), row, row + perCell + 1);
+      }
+    }
+    return weights;
+  }
 
   // Which side of the lattice's border a cell lies at along an axis: 0 low, 1 high, -1 neither.
   int borderSide(const glm::ivec3& cell, int axis) const
@@ -95,6 +115,7 @@ public:
 
 private:
   int Kernel;
+  const NodeWeights* Mask;
   glm::ivec3 Dimensions;
   glm::ivec3 First;
   glm::ivec3 Size;
@@ -163,10 +184,32 @@ bool bothHold(const CellTaps& taps, int kernel, int perCell, float limit)
     (cubicHolds(taps, kernel, limit) && nodesHold(nodesIn(taps, kernel, perCell), perCell, limit));
 }
 
+// With a mask there is one map, that of the nodes; beyond the lattice nothing moves.
+bool maskedHold(
+  const CellTaps& taps, int kernel, const std::vector<float>& weights, int perCell, float limit)
+{
+  const auto range = std::minmax_element(weights.begin(), weights.end());
+  if (*range.second == 0.0f ||
+    (*range.first == 1.0f && leastDeterminantOfAny(boundsOf(taps, kernel)) >= limit))
+  {
+    return true;
+  }
+  std::vector<glm::vec3> nodes = nodesIn(taps, kernel, perCell);
+  for (std::size_t node = 0; node < nodes.size(); ++node)
+  {
+    nodes[node] *= weights[node];
+  }
+  return nodesHold(nodes, perCell, limit);
+}
+
 // Both maps keep the limit in a cell, and beyond the lattice's faces and edges that it lies at.
 bool cellHolds(const Way& way, const GuardedCell& cell, float share, int perCell)
 {
   const CellTaps inside = way.tapsAround(cell.at, share);
+  if (way.mask())
+  {
+    return maskedHold(inside, way.kernel(), way.weightsIn(cell.at), perCell, cell.limit);
+  }
   for (int beyond = 0; beyond < 7; ++beyond) // bit a: beyond the border along axis a
   {
     CellTaps taps = inside;

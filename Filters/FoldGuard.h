@@ -5,6 +5,7 @@
 // pictures are drawn with, trilinear between its nodes; in all cells that the stroke reaches, and
 // beyond the lattice where its border holds. Both have a determinant of 0.1 or more afterwards, at
 // every point: proved by bounds (JacobianBound.h), not sampled. It is that of full strength.
+// With a mask both are one map, the refined displacement times the mask's weights.
 #ifndef BrainShift_FoldGuard_h
 #define BrainShift_FoldGuard_h
 

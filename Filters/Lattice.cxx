@@ -2,6 +2,7 @@
 #include "Lattice.h"
 
 #include "Kernels.h"
+#include "OffsetField.h"
 #include "Parallel.h"
 
 #include <glm/common.hpp>
@@ -200,6 +201,12 @@ double minimumJacobianInCell(
 }
 }
 
+bool sameMask(
+  const std::shared_ptr<const NodeWeights>& a, const std::shared_ptr<const NodeWeights>& b)
+{
+  return a == b || (a && b && a->perCell == b->perCell && a->values == b->values);
+}
+
 Lattice makeLattice(const Grid& grid, int kernel)
 {
   Lattice lattice;
@@ -281,6 +288,15 @@ glm::mat3 cubicGradient(const glm::ivec3& dimensions, int kernel, const glm::vec
 double maximumDisplacement(const Lattice& lattice)
 {
   float largest = 0.0f;
+  if (lattice.mask)
+  {
+    for (const glm::vec3& inCells : refine(lattice, lattice.mask->perCell - 1).values)
+    {
+      const glm::vec3 mm(lattice.grid.spacing * glm::dvec3(inCells)); // axes do not matter
+      largest = std::max(largest, glm::dot(mm, mm));
+    }
+    return std::sqrt(static_cast<double>(largest));
+  }
   for (const glm::vec3& displacement : lattice.displacements)
   {
     largest = std::max(largest, glm::dot(displacement, displacement));
@@ -290,6 +306,10 @@ double maximumDisplacement(const Lattice& lattice)
 
 double minimumJacobian(const Lattice& lattice)
 {
+  if (lattice.mask)
+  {
+    return minimumJacobian(refine(lattice, lattice.mask->perCell - 1));
+  }
   const std::vector<glm::vec3> inCells = displacementsInCells(lattice);
   const glm::ivec3 cells = lattice.grid.dimensions - 1;
   std::vector<double> smallest(cells.z, std::numeric_limits<double>::max());

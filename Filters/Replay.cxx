@@ -11,7 +11,8 @@ bool Replay::startsAsBefore(
 {
   return this->Guarded == guarding && this->Base.grid == base.grid &&
     this->Base.kernel == base.kernel && this->Base.displacements == base.displacements &&
-    !this->Strokes.empty() && strokes.size() >= this->Strokes.size() &&
+    sameMask(this->Base.mask, base.mask) && !this->Strokes.empty() &&
+    strokes.size() >= this->Strokes.size() &&
     std::equal(this->Strokes.begin(), this->Strokes.end() - 1, strokes.begin());
 }
 

@@ -2,6 +2,8 @@
 #include "vtkFreeFormDeformation.h"
 
 #include "DeformableVolume.h"
+#include "MaskImage.h"
+#include "MaskWeights.h"
 #include "OffsetField.h"
 #include "Replay.h"
 #include "SharedArray.h"
@@ -29,6 +31,25 @@
 
 using namespace brainshift;
 
+// All that the mask's weights depend on.
+struct MaskRequest
+{
+  vtkImageData* image = nullptr;
+  vtkMTimeType time = 0;
+  std::vector<int> labels;
+  double feather = 0.0;
+  Grid volume;
+  Grid lattice;
+  int samples = 0;
+
+  bool operator==(const MaskRequest& other) const
+  {
+    return this->image == other.image && this->time == other.time && this->labels == other.labels &&
+      this->feather == other.feather && this->volume == other.volume &&
+      this->lattice == other.lattice && this->samples == other.samples;
+  }
+};
+
 struct vtkFreeFormDeformation::State
 {
   std::vector<double> StrokeNumbers;
@@ -40,7 +61,9 @@ struct vtkFreeFormDeformation::State
   double MinimumJacobian = 1.0;
   bool MinimumJacobianKnown = false;
   vtkNew<vtkDoubleArray> StrokeShares;
-  std::string TooFine; // strokes for the lattice: a sentence
+  MaskRequest MaskFrom;
+  std::shared_ptr<const NodeWeights> MaskWeights; // of that; null if it is no mask
+  std::string TooFine;                            // strokes for the lattice: a sentence
   std::vector<std::string> Warned;
 };
 
@@ -162,7 +185,7 @@ vtkStandardNewMacro(vtkFreeFormDeformation);
 vtkFreeFormDeformation::vtkFreeFormDeformation()
   : Internal(std::make_unique<State>())
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(3);
 }
 
 vtkFreeFormDeformation::~vtkFreeFormDeformation() = default;
@@ -184,10 +207,27 @@ void vtkFreeFormDeformation::SetLatticeConnection(vtkAlgorithmOutput* lattice)
   this->SetInputConnection(1, lattice);
 }
 
+void vtkFreeFormDeformation::SetMaskConnection(vtkAlgorithmOutput* mask)
+{
+  this->SetInputConnection(2, mask);
+}
+
+void vtkFreeFormDeformation::AddMaskLabel(int label)
+{
+  this->MaskLabels.push_back(label);
+  this->Modified();
+}
+
+void vtkFreeFormDeformation::ClearMaskLabels()
+{
+  this->MaskLabels.clear();
+  this->Modified();
+}
+
 int vtkFreeFormDeformation::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
-  if (port == 1)
+  if (port > 0)
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
@@ -197,12 +237,15 @@ int vtkFreeFormDeformation::FillInputPortInformation(int port, vtkInformation* i
 int vtkFreeFormDeformation::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  // The base lattice is read everywhere, whichever piece of the volume is asked for.
-  if (vtkInformation* base = inputs[1]->GetInformationObject(0))
+  // Base lattice and mask are read everywhere, whichever piece of the volume is asked for.
+  for (const int port : { 1, 2 })
   {
-    int whole[6];
-    base->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
-    base->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), whole, 6);
+    if (vtkInformation* info = inputs[port]->GetInformationObject(0))
+    {
+      int whole[6];
+      info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
+      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), whole, 6);
+    }
   }
   return this->Superclass::RequestUpdateExtent(request, inputs, outputs);
 }
@@ -220,7 +263,8 @@ int vtkFreeFormDeformation::RequestData(
     vtkErrorMacro(<< problem << ".");
     return 0;
   }
-  problem = this->Bend(volumeGrid, vtkImageData::GetData(inputs[1]));
+  problem =
+    this->Bend(volumeGrid, vtkImageData::GetData(inputs[1]), vtkImageData::GetData(inputs[2]));
   if (!problem.empty())
   {
     vtkErrorMacro(<< problem << ". The deformation stays as it was.");
@@ -254,6 +298,10 @@ std::string vtkFreeFormDeformation::ProblemOfProperties() const
     return "PointOfInterest is " + decimal(interest[0]) + " " + decimal(interest[1]) + " " +
       decimal(interest[2]) + " mm; its numbers must be finite";
   }
+  if (!(this->Feather >= 0.0 && std::isfinite(this->Feather)))
+  {
+    return "Feather is " + decimal(this->Feather) + " mm; it must be 0 or more, and finite";
+  }
   if (std::isnan(this->Strength))
   {
     return "Strength is not a number; it must be from 0 to 1";
@@ -261,7 +309,8 @@ std::string vtkFreeFormDeformation::ProblemOfProperties() const
   return {};
 }
 
-std::string vtkFreeFormDeformation::Bend(const Grid& volumeGrid, vtkImageData* base)
+std::string vtkFreeFormDeformation::Bend(
+  const Grid& volumeGrid, vtkImageData* base, vtkImageData* maskImage)
 {
   State& state = *this->Internal;
   const glm::ivec3 sides(
@@ -283,6 +332,10 @@ std::string vtkFreeFormDeformation::Bend(const Grid& volumeGrid, vtkImageData* b
   {
     problem = addBase(start, base);
   }
+  if (problem.empty())
+  {
+    problem = this->FindMask(volumeGrid, start.grid, maskImage, start.mask);
+  }
   if (!problem.empty())
   {
     return problem;
@@ -298,6 +351,32 @@ std::string vtkFreeFormDeformation::Bend(const Grid& volumeGrid, vtkImageData* b
   return {};
 }
 
+std::string vtkFreeFormDeformation::FindMask(const Grid& volumeGrid, const Grid& lattice,
+  vtkImageData* image, std::shared_ptr<const NodeWeights>& weights)
+{
+  State& state = *this->Internal;
+  if (!image || image->GetNumberOfPoints() == 0)
+  {
+    return {};
+  }
+  const MaskRequest request{ image, image->GetMTime(), this->MaskLabels, this->Feather, volumeGrid,
+    lattice, this->Samples };
+  if (!state.MaskWeights || !(request == state.MaskFrom))
+  {
+    state.MaskWeights = nullptr;
+    Mask mask;
+    const std::string problem = readMask(image, this->MaskLabels, volumeGrid, mask);
+    if (!problem.empty())
+    {
+      return problem;
+    }
+    state.MaskWeights = maskWeights(lattice, this->Samples, mask, this->Feather);
+    state.MaskFrom = request;
+  }
+  weights = state.MaskWeights;
+  return {};
+}
+
 void vtkFreeFormDeformation::TellWarnings()
 {
   State& state = *this->Internal;
@@ -307,6 +386,12 @@ void vtkFreeFormDeformation::TellWarnings()
     warnings.push_back("The base lattice folds by itself: the Jacobian determinant is below " +
       decimal(SmallestGuardedJacobian) + " in " + std::to_string(cells) +
       " of its cells. Strokes are not shortened there");
+  }
+  if (const auto& mask = state.LastGood.lattice.mask;
+    mask && *std::max_element(mask->values.begin(), mask->values.end()) == 0.0f)
+  {
+    warnings.push_back("The mask leaves nothing to move: nowhere is it wider than two nodes of the "
+                       "refined field. Raise LatticeDimensions or Samples");
   }
   if (!state.TooFine.empty())
   {
@@ -373,6 +458,8 @@ void vtkFreeFormDeformation::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Strength: " << this->Strength << "\n"
      << indent << "PointOfInterest: " << this->PointOfInterest[0] << " " << this->PointOfInterest[1]
      << " " << this->PointOfInterest[2] << "\n"
+     << indent << "Feather: " << this->Feather << "\n"
+     << indent << "MaskLabels: " << this->MaskLabels.size() << "\n"
      << indent << "GuardFolding: " << this->GuardFolding << "\n"
      << indent << "Strokes: " << this->Internal->StrokeNumbers.size() / NumbersPerStroke << "\n";
 }

@@ -9,7 +9,8 @@
  *
  * Input 0: the volume, vtkImageData with at least two points a side. Input 1 (optional): a base
  * lattice or dense displacement field, vtkImageData with a three-component point array (mm, world
- * axes, forward), read at the control points; strokes add to it.
+ * axes, forward), read at the control points; strokes add to it. Input 2 (optional): a mask,
+ * vtkImageData on any grid with labels or scalars; only tissue inside it moves (MaskWeights.h).
  *
  * Method: van der Steen et al., SPIE 7169 (2009), section 2.
  */
@@ -21,12 +22,14 @@
 
 #include <memory> // for the private part
 #include <string> // for messages
+#include <vector> // for labels
 
 class vtkDoubleArray;
 class vtkImageData;
 namespace brainshift
 {
 struct Grid;
+struct NodeWeights;
 }
 
 class VTKBRAINSHIFTFILTERS_EXPORT vtkFreeFormDeformation : public vtkPassInputTypeAlgorithm
@@ -99,6 +102,25 @@ public:
   /** Base lattice: optional second input. */
   void SetLatticeConnection(vtkAlgorithmOutput* lattice);
 
+  /** Mask: optional third input. */
+  void SetMaskConnection(vtkAlgorithmOutput* mask);
+
+  ///@{
+  /** Values of the mask that are inside. None, the default: all above 0. */
+  void AddMaskLabel(int label);
+  void ClearMaskLabels();
+  ///@}
+
+  ///@{
+  /**
+   * Distance (mm) over which displacements rise from 0 at the mask's edge to what they are further
+   * inside; 0 or more. Default 10. The edge is that of the mask, moved inwards to the next nodes of
+   * the refined field: at most two of them.
+   */
+  vtkSetMacro(Feather, double);
+  vtkGetMacro(Feather, double);
+  ///@}
+
   /** Largest displacement of a control point as drawn, mm. */
   double GetMaximumDisplacement();
 
@@ -139,13 +161,20 @@ private:
   double Strength = 1.0;
   bool GuardFolding = true;
   double PointOfInterest[3] = { 0.0, 0.0, 0.0 };
+  double Feather = 10.0;
+  std::vector<int> MaskLabels;
 
   // What is wrong with a property; empty if nothing is.
   std::string ProblemOfProperties() const;
 
   // Bends the lattice as the properties say. Returns what keeps it from doing so, in which case the
   // last good deformation stays; empty if nothing does.
-  std::string Bend(const brainshift::Grid& volumeGrid, vtkImageData* base);
+  std::string Bend(const brainshift::Grid& volumeGrid, vtkImageData* base, vtkImageData* maskImage);
+
+  // Finds the mask's weights for a lattice, null without a mask; anew only if anything changed.
+  // Returns what is wrong with the mask; empty if nothing is.
+  std::string FindMask(const brainshift::Grid& volumeGrid, const brainshift::Grid& lattice,
+    vtkImageData* image, std::shared_ptr<const brainshift::NodeWeights>& weights);
 
   // Says what the user should know of the deformation, once for each change of what is said.
   void TellWarnings();

@@ -7,6 +7,10 @@ uniform int points;       // control points along the axis
 uniform int perCell;      // nodes for each lattice cell
 uniform vec4 weights[MAX_PER_CELL]; // of the four control points at each node of a cell, from C++
 
+#ifdef MASKED
+uniform sampler3D maskWeights; // share of the displacement that holds at each node
+#endif
+
 void main()
 {
   ivec3 texel = targetTexel();
@@ -18,5 +22,8 @@ void main()
     weight.y * texelFetch(coarse, across + axis * cell, 0).xyz +
     weight.z * texelFetch(coarse, across + axis * min(cell + 1, points - 1), 0).xyz +
     weight.w * texelFetch(coarse, across + axis * min(cell + 2, points - 1), 0).xyz;
+#ifdef MASKED
+  sum *= texelFetch(maskWeights, texel, 0).x;
+#endif
   gl_FragData[0] = vec4(sum, 0.0);
 }

@@ -16,6 +16,7 @@ TEST(Defaults, OfFreeFormDeformationLiveInTheClass)
   const int* sides = filter->GetLatticeDimensions();
   const double* interest = filter->GetPointOfInterest();
   const Defaults expected{
+    { "Feather", { filter->GetFeather() } },
     { "GuardFolding", { double(filter->GetGuardFolding()) } },
     { "Inverse", { double(filter->GetInverse()) } },
     { "Kernel", { double(filter->GetKernel()) } },
