@@ -4,11 +4,12 @@
 // Guarded are deformedFromRest, straight from the control points, and the refined displacement that
 // pictures are drawn with, trilinear between its nodes; in all cells that the stroke reaches, and
 // beyond the lattice where its border holds. Both have a determinant of 0.1 or more afterwards, at
-// every point: proved by bounds (JacobianBound.h), not sampled. It is that of full strength.
+// every point: proved by bounds (CellProof.h), not sampled. It is that of full strength.
 // With a mask both are one map, the refined displacement times the mask's weights.
 #ifndef BrainShift_FoldGuard_h
 #define BrainShift_FoldGuard_h
 
+#include "CellProof.h"
 #include "Lattice.h"
 
 #include <vector>
@@ -32,7 +33,7 @@ public:
   double share(const Lattice& before, const Lattice& after) const;
 
 private:
-  int Samples = 4;
+  CellProof Proof;
   std::vector<char> Folded; // by the cell's first control point; empty if there are none
   int FoldedCount = 0;
 };

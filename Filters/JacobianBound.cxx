@@ -6,7 +6,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace brainshift
@@ -249,6 +252,27 @@ bool holds(Box& box, int axis, float limit, int& boxes)
   const int next = (axis + 1) % 3;
   return holds(box, next, limit, boxes) && holds(upper, next, limit, boxes);
 }
+
+// Columns at three positions that need not be one.
+ColumnBounds apart(const ColumnBounds& columns)
+{
+  ColumnBounds result = columns;
+  for (int a = 0; a < 3; ++a)
+  {
+    const glm::mat3& slope = columns.slope[a];
+    result.rest[a] += 0.5f * (glm::abs(slope[0]) + glm::abs(slope[1]) + glm::abs(slope[2]));
+    result.slope[a] = glm::mat3(0.0f);
+  }
+  return result;
+}
+
+// Range of a product of two numbers.
+glm::vec2 product(const glm::vec2& a, const glm::vec2& b)
+{
+  const glm::vec4 corners(a.x * b.x, a.x * b.y, a.y * b.x, a.y * b.y);
+  return { glm::min(glm::min(corners.x, corners.y), glm::min(corners.z, corners.w)),
+    glm::max(glm::max(corners.x, corners.y), glm::max(corners.z, corners.w)) };
+}
 }
 
 float leastDeterminant(const ColumnBounds& columns)
@@ -277,14 +301,7 @@ float leastDeterminant(const ColumnBounds& columns)
 
 float leastDeterminantOfAny(const ColumnBounds& columns)
 {
-  ColumnBounds apart = columns;
-  for (int a = 0; a < 3; ++a)
-  {
-    const glm::mat3& slope = columns.slope[a];
-    apart.rest[a] += 0.5f * (glm::abs(slope[0]) + glm::abs(slope[1]) + glm::abs(slope[2]));
-    apart.slope[a] = glm::mat3(0.0f);
-  }
-  return leastDeterminant(apart);
+  return leastDeterminant(apart(columns));
 }
 
 void holdFace(CellTaps& taps, int kernel, int axis, int side)
@@ -309,6 +326,30 @@ void holdFace(CellTaps& taps, int kernel, int axis, int side)
 ColumnBounds boundsOf(const CellTaps& taps, int kernel)
 {
   return cubicOf(taps, kernel).columns();
+}
+
+ColumnBounds maskedBoundsOf(const CellTaps& taps, int kernel, const WeightRange& weights)
+{
+  const CubicBox cubic = cubicOf(taps, kernel);
+  ColumnBounds result = apart(cubic.columns());
+  for (int component = 0; component < 3; ++component)
+  {
+    const auto& values = cubic.coefficients.component[component];
+    const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      // A difference of products between nodes: weight * difference + weight's difference * value.
+      const float identity = axis == component ? 1.0f : 0.0f;
+      const float slope = result.middle[axis][component] - identity;
+      const float rest = result.rest[axis][component];
+      const glm::vec2 sum =
+        product({ weights.least, weights.greatest }, { slope - rest, slope + rest }) +
+        product({ weights.leastSlope[axis], weights.greatestSlope[axis] }, { *least, *greatest });
+      result.middle[axis][component] = identity + 0.5f * (sum.x + sum.y);
+      result.rest[axis][component] = 0.5f * (sum.y - sum.x);
+    }
+  }
+  return result;
 }
 
 bool cubicHolds(const CellTaps& taps, int kernel, float limit)

@@ -48,6 +48,20 @@ VTKBRAINSHIFTFILTERS_EXPORT void holdFace(CellTaps& taps, int kernel, int axis, 
 // what is trilinear between nodes of the cell: its columns are means of the cubic's.
 VTKBRAINSHIFTFILTERS_EXPORT ColumnBounds boundsOf(const CellTaps& taps, int kernel);
 
+// What a mask does to a cell: range of its weights, and of their slope along each axis, a lattice
+// cell.
+struct WeightRange
+{
+  float least = 1.0f;
+  float greatest = 1.0f;
+  glm::vec3 leastSlope{ 0.0f };
+  glm::vec3 greatestSlope{ 0.0f };
+};
+
+// Bounds on the columns of what is trilinear between nodes of the cell, each times its weight.
+VTKBRAINSHIFTFILTERS_EXPORT ColumnBounds maskedBoundsOf(
+  const CellTaps& taps, int kernel, const WeightRange& weights);
+
 // The determinant of the cubic is at or above the limit everywhere in the cell.
 VTKBRAINSHIFTFILTERS_EXPORT bool cubicHolds(const CellTaps& taps, int kernel, float limit);
 

@@ -116,6 +116,15 @@ def test_point_of_interest_starts_in_the_middle():
     assert tuple(given.PointOfInterest) == (1, 2, 3)
 
 
+def test_a_base_lattice_comes_and_goes():
+    shift = numpy.zeros((2, 2, 2, 3), numpy.float32)
+    shift[..., 0] = 2.5
+    filter = FreeFormDeformation(Input=volume(ball()), Lattice=volume(shift, spacing=(32,) * 3))
+    assert numpy.allclose(field(filter, "FFDDisplacements"), (2.5, 0, 0))
+    filter.Lattice = None
+    assert not field(filter, "FFDDisplacements").any()
+
+
 def test_lattice_density_replays():
     filter = bent()
     filter.LatticeDimensions = [9, 10, 11]
