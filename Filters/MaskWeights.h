@@ -6,7 +6,8 @@
 // the eight cells of nodes around it holds a point outside the mask, so what is trilinear between
 // the nodes is 0 outside the mask, exactly; as is what lies beyond the lattice. From the outermost
 // of these nodes the weight rises smoothly to 1 over the feather. Where nothing folds, what stays
-// inside the mask's edge is mapped onto itself: nothing from outside is seen inside.
+// inside the mask's edge is mapped onto itself: nothing from outside is seen inside. (The exact
+// inverse; the negated one promises nothing.)
 #ifndef BrainShift_MaskWeights_h
 #define BrainShift_MaskWeights_h
 
@@ -24,7 +25,10 @@ struct Mask
   std::vector<char> inside; // 1 or 0, x fastest
 };
 
-// `samples`: of the refined field. `featherMm`: 0 or more. The mask may lie anyhow to the lattice.
+constexpr double MostMaskedNodes = 1e8; // 400 MB of weights, 1.2 GB of displacements
+
+// `samples`: of the refined field, which has at most MostMaskedNodes. `featherMm`: 0 or more. The
+// mask may lie anyhow to the lattice.
 VTKBRAINSHIFTFILTERS_EXPORT std::shared_ptr<const NodeWeights> maskWeights(
   const Grid& lattice, int samples, const Mask& mask, double featherMm);
 }

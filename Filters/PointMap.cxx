@@ -74,7 +74,6 @@ glm::dmat3 PointMap::jacobian(const glm::dvec3& rest) const
 {
   const glm::dvec3 position = this->LatticeGrid.gridFromWorld(rest);
   glm::mat3 inLattice(1.0f);
-  glm::vec3 unused;
   if (this->Masked.values.empty())
   {
     inLattice +=
@@ -82,6 +81,7 @@ glm::dmat3 PointMap::jacobian(const glm::dvec3& rest) const
   }
   else
   {
+    glm::vec3 unused;
     this->Masked.map(glm::vec3(position), unused, inLattice);
   }
   const glm::dmat3& direction = this->LatticeGrid.direction;
@@ -89,6 +89,7 @@ glm::dmat3 PointMap::jacobian(const glm::dvec3& rest) const
   const glm::dmat3 scale(
     glm::dvec3(spacing.x, 0, 0), glm::dvec3(0, spacing.y, 0), glm::dvec3(0, 0, spacing.z));
   const glm::dmat3 worldFromGrid = direction * scale;
-  return worldFromGrid * glm::dmat3(inLattice) * glm::inverse(worldFromGrid);
+  const glm::dmat3 gradient(inLattice - glm::mat3(1.0f));
+  return glm::dmat3(1.0) + worldFromGrid * gradient * glm::inverse(worldFromGrid);
 }
 }

@@ -359,6 +359,13 @@ std::string vtkFreeFormDeformation::FindMask(const Grid& volumeGrid, const Grid&
   {
     return {};
   }
+  const glm::dvec3 nodes((lattice.dimensions - 1) * (this->Samples + 1) + 1);
+  if (nodes.x * nodes.y * nodes.z > MostMaskedNodes)
+  {
+    return "With a mask the refined field may have at most " + decimal(MostMaskedNodes) +
+      " nodes; a lattice of " + triple(lattice.dimensions) + " points and " +
+      std::to_string(this->Samples) + " Samples make " + decimal(nodes.x * nodes.y * nodes.z);
+  }
   const MaskRequest request{ image, image->GetMTime(), this->MaskLabels, this->Feather, volumeGrid,
     lattice, this->Samples };
   if (!state.MaskWeights || !(request == state.MaskFrom))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that with a mask only what is inside moves: nothing outside it does, by any amount; nothing
-// of it is seen inside; the rim does not fold; and that a mask which cannot be one is refused.
+// Proves that with a mask only what is inside moves: nothing outside it does, by any amount;
+// nothing of it is seen inside; the rim does not fold; and that what is no mask is refused.
 #include "Kernels.h"
 #include "MaskImage.h"
 #include "MaskWeights.h"
@@ -307,6 +307,9 @@ TEST_F(MaskedHead, KeepsTheDeformationWhenTheMaskIsNone)
   this->Filter->SetFeather(-1.0);
   expectKept("Feather is -1 mm; it must be 0 or more");
   this->Filter->SetFeather(4.0);
+  this->Filter->SetLatticeDimensions(200, 200, 200);
+  expectKept("a lattice of 200 x 200 x 200 points and 4 Samples make 9.88048e+08");
+  this->Filter->SetLatticeDimensions(12, 12, 12);
   this->Filter->ClearMaskLabels();
   this->Filter->AddMaskLabel(99);
   expectKept("no voxel of label 99");

@@ -15,6 +15,8 @@ MIDDLE = (32.0, 32.0, 32.0)
 BRAIN, SKULL = 1, 2
 # The plane z = 32 parts the ball; only what is below it may move.
 EDGE = 32
+COLORS = [0, 0, 0, 0, 100, 1, 1, 1]
+OPACITIES = [0, 0, 0.5, 0, 30, 0, 0.5, 0, 50, 0.5, 0.5, 0, 100, 0.8, 0.5, 0]
 
 
 def lower_half():
@@ -61,8 +63,7 @@ def test_the_picture_is_that_of_the_baked_volume():
                         (BakeDeformation(Input=masked, Interpolation="Cubic"), "Volume"),
                         (bent_ball(), "Deformed Volume")):
         view = view_along((-1.0, 0.4, -0.2), MIDDLE, 180.0, up=(0, 0, 1))
-        show_volume(shown, view, kind, [0, 0, 0, 0, 100, 1, 1, 1],
-                    [0, 0, 0.5, 0, 30, 0, 0.5, 0, 50, 0.5, 0.5, 0, 100, 0.8, 0.5, 0])
+        show_volume(shown, view, kind, COLORS, OPACITIES)
         images.append(picture(view))
         Delete(view)
     drawn, baked, free = images
@@ -77,8 +78,7 @@ def test_the_picture_is_that_of_the_baked_volume():
 def test_the_picture_follows_the_mask():
     filter = bent_ball(Mask=lower_half(), Feather=6.0)
     view = view_along((-1.0, 0.4, -0.2), MIDDLE, 180.0, up=(0, 0, 1))
-    show_volume(filter, view, "Deformed Volume", [0, 0, 0, 0, 100, 1, 1, 1],
-                [0, 0, 0.5, 0, 30, 0, 0.5, 0, 50, 0.5, 0.5, 0, 100, 0.8, 0.5, 0])
+    show_volume(filter, view, "Deformed Volume", COLORS, OPACITIES)
     soft = picture(view)
     filter.Feather = 20.0
     softer = picture(view)
@@ -92,6 +92,17 @@ def test_the_picture_follows_the_mask():
     assert mean_difference(soft, softer) > 0.0005
     assert mean_difference(soft, free) > 0.003
     assert numpy.array_equal(soft, again)
+    # A stroke redoes a part of the fields only; what a new filter does is all of them.
+    strokes = tuple(filter.Strokes) + brainshift.soft((40, 40, 22), (-4, -3, 2), 16.0)
+    filter.Strokes = strokes
+    bent = picture(view)
+    Delete(view)
+    view = view_along((-1.0, 0.4, -0.2), MIDDLE, 180.0, up=(0, 0, 1))
+    fresh = bent_ball(Mask=filter.Mask, Feather=6.0)
+    fresh.Strokes = strokes
+    show_volume(fresh, view, "Deformed Volume", COLORS, OPACITIES)
+    assert mean_difference(bent, again) > 0.0005
+    assert numpy.abs(bent - picture(view)).max() < 0.02
     Delete(view)
 
 
