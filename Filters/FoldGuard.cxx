@@ -248,6 +248,10 @@ double FoldGuard::share(const Lattice& before, const Lattice& after) const
 
 Lattice between(const Lattice& before, const Lattice& after, double share)
 {
+  if (share == 0.0)
+  {
+    return before; // `after` may be so far away that it is no number
+  }
   Lattice lattice = after;
   const auto part = static_cast<float>(share);
   for (std::size_t point = 0; point < lattice.displacements.size(); ++point)

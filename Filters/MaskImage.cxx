@@ -65,6 +65,23 @@ std::ostream& operator<<(std::ostream& out, const Bounds& bounds)
   return out << " mm";
 }
 
+// What is wrong with a refined field's size; empty if nothing is.
+std::string tooManyNodes(const Grid& lattice, int samples)
+{
+  const glm::ivec3& points = lattice.dimensions;
+  const glm::dvec3 nodes((points - 1) * (samples + 1) + 1);
+  const double count = nodes.x * nodes.y * nodes.z;
+  if (count <= MostMaskedNodes)
+  {
+    return {};
+  }
+  std::ostringstream problem;
+  problem << "With a mask the refined field may have at most " << MostMaskedNodes
+          << " nodes; a lattice of " << points.x << " x " << points.y << " x " << points.z
+          << " points and " << samples << " Samples make " << count;
+  return problem.str();
+}
+
 std::string noVoxel(const std::vector<int>& labels)
 {
   std::ostringstream problem;
@@ -109,5 +126,42 @@ std::string readMask(
       labels.empty() ? value > 0.0 : std::find(labels.begin(), labels.end(), value) != labels.end();
   }
   return std::count(mask.inside.begin(), mask.inside.end(), 1) ? std::string() : noVoxel(labels);
+}
+
+bool MaskSource::isKnown(const MaskRequest& request) const
+{
+  return this->Weights && this->Known.image == request.image &&
+    this->KnownTime == request.image->GetMTime() && this->Known.labels == request.labels &&
+    this->Known.featherMm == request.featherMm && this->Known.volume == request.volume &&
+    this->Known.lattice == request.lattice && this->Known.samples == request.samples;
+}
+
+std::string MaskSource::find(
+  const MaskRequest& request, std::shared_ptr<const NodeWeights>& weights)
+{
+  weights = nullptr;
+  if (!request.image || request.image->GetNumberOfPoints() == 0)
+  {
+    return {};
+  }
+  if (!this->isKnown(request))
+  {
+    this->Weights = nullptr;
+    Mask mask;
+    std::string problem = tooManyNodes(request.lattice, request.samples);
+    if (problem.empty())
+    {
+      problem = readMask(request.image, request.labels, request.volume, mask);
+    }
+    if (!problem.empty())
+    {
+      return problem;
+    }
+    this->Weights = maskWeights(request.lattice, request.samples, mask, request.featherMm);
+    this->Known = request;
+    this->KnownTime = request.image->GetMTime();
+  }
+  weights = this->Weights;
+  return {};
 }
 }

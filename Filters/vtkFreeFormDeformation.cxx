@@ -3,7 +3,6 @@
 
 #include "DeformableVolume.h"
 #include "MaskImage.h"
-#include "MaskWeights.h"
 #include "OffsetField.h"
 #include "Replay.h"
 #include "SharedArray.h"
@@ -31,25 +30,6 @@
 
 using namespace brainshift;
 
-// All that the mask's weights depend on.
-struct MaskRequest
-{
-  vtkImageData* image = nullptr;
-  vtkMTimeType time = 0;
-  std::vector<int> labels;
-  double feather = 0.0;
-  Grid volume;
-  Grid lattice;
-  int samples = 0;
-
-  bool operator==(const MaskRequest& other) const
-  {
-    return this->image == other.image && this->time == other.time && this->labels == other.labels &&
-      this->feather == other.feather && this->volume == other.volume &&
-      this->lattice == other.lattice && this->samples == other.samples;
-  }
-};
-
 struct vtkFreeFormDeformation::State
 {
   std::vector<double> StrokeNumbers;
@@ -61,9 +41,8 @@ struct vtkFreeFormDeformation::State
   double MinimumJacobian = 1.0;
   bool MinimumJacobianKnown = false;
   vtkNew<vtkDoubleArray> StrokeShares;
-  MaskRequest MaskFrom;
-  std::shared_ptr<const NodeWeights> MaskWeights; // of that; null if it is no mask
-  std::string TooFine;                            // strokes for the lattice: a sentence
+  MaskSource Masks;
+  std::string TooFine; // strokes for the lattice: a sentence
   std::vector<std::string> Warned;
 };
 
@@ -334,7 +313,9 @@ std::string vtkFreeFormDeformation::Bend(
   }
   if (problem.empty())
   {
-    problem = this->FindMask(volumeGrid, start.grid, maskImage, start.mask);
+    problem = state.Masks.find(
+      { maskImage, this->MaskLabels, this->Feather, volumeGrid, start.grid, this->Samples },
+      start.mask);
   }
   if (!problem.empty())
   {
@@ -348,39 +329,6 @@ std::string vtkFreeFormDeformation::Bend(
     this->Inverse ? brainshift::Inverse::Negated : brainshift::Inverse::Exact;
   state.LastGood.strength = this->Strength;
   state.MinimumJacobianKnown = false;
-  return {};
-}
-
-std::string vtkFreeFormDeformation::FindMask(const Grid& volumeGrid, const Grid& lattice,
-  vtkImageData* image, std::shared_ptr<const NodeWeights>& weights)
-{
-  State& state = *this->Internal;
-  if (!image || image->GetNumberOfPoints() == 0)
-  {
-    return {};
-  }
-  const glm::dvec3 nodes((lattice.dimensions - 1) * (this->Samples + 1) + 1);
-  if (nodes.x * nodes.y * nodes.z > MostMaskedNodes)
-  {
-    return "With a mask the refined field may have at most " + decimal(MostMaskedNodes) +
-      " nodes; a lattice of " + triple(lattice.dimensions) + " points and " +
-      std::to_string(this->Samples) + " Samples make " + decimal(nodes.x * nodes.y * nodes.z);
-  }
-  const MaskRequest request{ image, image->GetMTime(), this->MaskLabels, this->Feather, volumeGrid,
-    lattice, this->Samples };
-  if (!state.MaskWeights || !(request == state.MaskFrom))
-  {
-    state.MaskWeights = nullptr;
-    Mask mask;
-    const std::string problem = readMask(image, this->MaskLabels, volumeGrid, mask);
-    if (!problem.empty())
-    {
-      return problem;
-    }
-    state.MaskWeights = maskWeights(lattice, this->Samples, mask, this->Feather);
-    state.MaskFrom = request;
-  }
-  weights = state.MaskWeights;
   return {};
 }
 

@@ -29,7 +29,6 @@ class vtkImageData;
 namespace brainshift
 {
 struct Grid;
-struct NodeWeights;
 }
 
 class VTKBRAINSHIFTFILTERS_EXPORT vtkFreeFormDeformation : public vtkPassInputTypeAlgorithm
@@ -170,11 +169,6 @@ private:
   // Bends the lattice as the properties say. Returns what keeps it from doing so, in which case the
   // last good deformation stays; empty if nothing does.
   std::string Bend(const brainshift::Grid& volumeGrid, vtkImageData* base, vtkImageData* maskImage);
-
-  // Finds the mask's weights for a lattice, null without a mask; anew only if anything changed.
-  // Returns what is wrong with the mask; empty if nothing is.
-  std::string FindMask(const brainshift::Grid& volumeGrid, const brainshift::Grid& lattice,
-    vtkImageData* image, std::shared_ptr<const brainshift::NodeWeights>& weights);
 
   // Says what the user should know of the deformation, once for each change of what is said.
   void TellWarnings();

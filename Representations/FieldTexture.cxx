@@ -46,6 +46,17 @@ bool samePlaces(const FieldRequest& a, const FieldRequest& b)
     sameMask(a.mask, b.mask);
 }
 
+// The kernel's weights at each of the perCell nodes of a cell.
+std::vector<glm::vec4> weightsInCell(int kernel, int perCell)
+{
+  std::vector<glm::vec4> weights(perCell);
+  for (int node = 0; node < perCell; ++node)
+  {
+    weights[node] = kernelWeights(kernel, static_cast<float>(node) / static_cast<float>(perCell));
+  }
+  return weights;
+}
+
 std::int64_t texels(const glm::ivec3& count)
 {
   return static_cast<std::int64_t>(count.x) * count.y * count.z;
@@ -118,12 +129,7 @@ bool FieldTexture::refine(vtkOpenGLRenderWindow* window, const FieldRequest& req
   forward.perCell = request.samples + 1;
   forward.count = (request.dimensions - 1) * forward.perCell + 1;
   const IndexBox nodes = changedForwardNodes(points, forward);
-  std::vector<glm::vec4> weights(forward.perCell);
-  for (int node = 0; node < forward.perCell; ++node)
-  {
-    weights[node] =
-      kernelWeights(request.kernel, static_cast<float>(node) / static_cast<float>(forward.perCell));
-  }
+  const std::vector<glm::vec4> weights = weightsInCell(request.kernel, forward.perCell);
   glm::ivec3 count = request.dimensions;
   IndexBox box{ glm::ivec3(0),
     request.dimensions - 1 }; // of control points; of nodes, axis by axis

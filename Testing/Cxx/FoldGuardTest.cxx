@@ -217,6 +217,15 @@ TEST(FoldGuard, GoesOnFromTheLimit)
   EXPECT_LT(replay.shares()[1], 0.3);
 }
 
+TEST(FoldGuard, AppliesNothingOfWhatGoesBeyondAllNumbers)
+{
+  const Lattice start = base(KernelCatmullRom);
+  Stroke stroke = strokeAt(Tool::Soft, start.grid.worldFromGrid({ 3, 4, 3 }), { 1e300, 0, 0 });
+  Replay replay;
+  EXPECT_EQ(replay.run(start, { stroke }, { true, Samples }).displacements, start.displacements);
+  EXPECT_EQ(replay.shares(), std::vector<double>{ 0.0 });
+}
+
 TEST(FoldGuard, LeavesAloneWhatFoldsByItself)
 {
   Lattice folded = base(KernelCatmullRom);

@@ -224,6 +224,35 @@ TEST(ReadMask, RefusesWhatIsNone)
     readMask(field, {}, VolumeGrid, mask), "The mask has no point or cell array of one component");
 }
 
+TEST(MaskSource, FindsWeightsAnewOnlyAfterAChange)
+{
+  const auto head = headOn(VolumeGrid);
+  MaskRequest request{ head, { Brain }, 4.0, VolumeGrid, VolumeGrid, 0 };
+  MaskSource source;
+  std::shared_ptr<const NodeWeights> first;
+  std::shared_ptr<const NodeWeights> next;
+  ASSERT_EQ(source.find(request, first), "");
+  ASSERT_EQ(source.find(request, next), "");
+  EXPECT_EQ(first, next);
+  const auto expectOthers = [&](const char* what) {
+    ASSERT_EQ(source.find(request, next), "");
+    EXPECT_FALSE(sameMask(first, next)) << what;
+    first = next;
+  };
+  request.featherMm = 9.0;
+  expectOthers("feather");
+  request.labels = { Brain, Skull };
+  expectOthers("labels");
+  request.samples = 1;
+  expectOthers("samples");
+  head->GetPointData()->GetScalars()->Fill(Skull);
+  head->GetPointData()->GetScalars()->Modified();
+  expectOthers("the image's values");
+  request.image = nullptr;
+  ASSERT_EQ(source.find(request, next), "");
+  EXPECT_FALSE(next);
+}
+
 namespace
 {
 // A head of labels, bent under a mask and baked.
