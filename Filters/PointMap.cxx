@@ -63,7 +63,12 @@ glm::dvec3 PointMap::restFromDeformed(const glm::dvec3& deformed) const
 {
   const glm::dvec3 position = this->LatticeGrid.gridFromWorld(deformed);
   const CubicForward forward{ this->LatticeGrid, this->Kernel, this->InCells.data(), position };
-  const glm::vec3 offset = this->Backward == Inverse::Negated ? -this->displacement(position)
+  const glm::vec3 displacement = this->displacement(position);
+  if (displacement == glm::vec3(0.0f))
+  {
+    return deformed;
+  }
+  const glm::vec3 offset = this->Backward == Inverse::Negated ? -displacement
     : this->Masked.values.empty()
     ? Inversion<CubicForward>{ forward }.inverseOffset(glm::vec3(0.0f))
     : Inversion<NodeField>{ this->Masked }.inverseOffset(glm::vec3(position));
