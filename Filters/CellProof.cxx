@@ -67,7 +67,7 @@ bool nodesHold(const std::vector<glm::vec3>& nodes, int perCell, float limit)
 // Both maps keep the limit in one cell.
 bool bothHold(const CellTaps& taps, int kernel, int perCell, float limit)
 {
-  return leastDeterminantOfAny(boundsOf(taps, kernel)) >= limit ||
+  return leastDeterminant(boundsOf(taps, kernel)) >= limit ||
     (cubicHolds(taps, kernel, limit) && nodesHold(nodesIn(taps, kernel, perCell), perCell, limit));
 }
 

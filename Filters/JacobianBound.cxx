@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace brainshift
 {
@@ -79,6 +80,25 @@ LinearRange linearRange(const float* value, int axis)
   return range;
 }
 
+// Least and greatest difference between neighbours along an axis.
+std::pair<float, float> differences(const float* value, int axis)
+{
+  const int stride = Stride[axis];
+  float least = value[stride] - value[0];
+  float greatest = least;
+  for (int row = 0; row < 16; ++row)
+  {
+    const float* at = value + rowStart(axis, row);
+    for (int step = 0; step < 3; ++step, at += stride)
+    {
+      const float difference = at[stride] - at[0];
+      least = difference < least ? difference : least;
+      greatest = difference > greatest ? difference : greatest;
+    }
+  }
+  return { least, greatest };
+}
+
 // A cubic in Bernstein form over a box.
 struct CubicBox
 {
@@ -101,6 +121,26 @@ struct CubicBox
           result.slope[axis][along][component] = scale * range.slope[along];
         }
       }
+    }
+    return result;
+  }
+
+  // The same without slopes.
+  ColumnBounds hull() const
+  {
+    ColumnBounds result;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const float scale = 3.0f * this->perCell[axis];
+      for (int component = 0; component < 3; ++component)
+      {
+        const auto [least, greatest] =
+          differences(this->coefficients.component[component].data(), axis);
+        result.middle[axis][component] =
+          0.5f * scale * (least + greatest) + (axis == component ? 1.0f : 0.0f);
+        result.rest[axis][component] = 0.5f * scale * (greatest - least);
+      }
+      result.slope[axis] = glm::mat3(0.0f);
     }
     return result;
   }
@@ -253,19 +293,6 @@ bool holds(Box& box, int axis, float limit, int& boxes)
   return holds(box, next, limit, boxes) && holds(upper, next, limit, boxes);
 }
 
-// Columns at three positions that need not be one.
-ColumnBounds apart(const ColumnBounds& columns)
-{
-  ColumnBounds result = columns;
-  for (int a = 0; a < 3; ++a)
-  {
-    const glm::mat3& slope = columns.slope[a];
-    result.rest[a] += 0.5f * (glm::abs(slope[0]) + glm::abs(slope[1]) + glm::abs(slope[2]));
-    result.slope[a] = glm::mat3(0.0f);
-  }
-  return result;
-}
-
 // Range of a product of two numbers.
 glm::vec2 product(const glm::vec2& a, const glm::vec2& b)
 {
@@ -299,11 +326,6 @@ float leastDeterminant(const ColumnBounds& columns)
   return least - glm::dot(r[0], largestCross(r[1], r[2]));
 }
 
-float leastDeterminantOfAny(const ColumnBounds& columns)
-{
-  return leastDeterminant(apart(columns));
-}
-
 void holdFace(CellTaps& taps, int kernel, int axis, int side)
 {
   const glm::vec4 weight = kernelWeights(kernel, static_cast<float>(side));
@@ -325,13 +347,13 @@ void holdFace(CellTaps& taps, int kernel, int axis, int side)
 
 ColumnBounds boundsOf(const CellTaps& taps, int kernel)
 {
-  return cubicOf(taps, kernel).columns();
+  return cubicOf(taps, kernel).hull();
 }
 
 ColumnBounds maskedBoundsOf(const CellTaps& taps, int kernel, const WeightRange& weights)
 {
   const CubicBox cubic = cubicOf(taps, kernel);
-  ColumnBounds result = apart(cubic.columns());
+  ColumnBounds result = cubic.hull();
   for (int component = 0; component < 3; ++component)
   {
     const auto& values = cubic.coefficients.component[component];

@@ -30,9 +30,6 @@ struct ColumnBounds
 // The determinant is nowhere in the box below this.
 VTKBRAINSHIFTFILTERS_EXPORT float leastDeterminant(const ColumnBounds& columns);
 
-// The same if the columns are taken at three positions of the box, which need not be one.
-VTKBRAINSHIFTFILTERS_EXPORT float leastDeterminantOfAny(const ColumnBounds& columns);
-
 // Displacements (lattice cells) of the 64 control points around a lattice cell, each component by
 // itself: control point (i, j, k) of the 4 x 4 x 4 has index i + 4 j + 16 k.
 struct CellTaps
@@ -44,8 +41,9 @@ struct CellTaps
 // (side 1) face: what holds beyond that face if it is the lattice's border.
 VTKBRAINSHIFTFILTERS_EXPORT void holdFace(CellTaps& taps, int kernel, int axis, int side);
 
-// Bounds on the cubic's columns over the whole cell. leastDeterminantOfAny of them holds also for
-// what is trilinear between nodes of the cell: its columns are means of the cubic's.
+// Bounds on the cubic's columns over the whole cell, without slopes: so they hold for columns from
+// three different places too, and with them for what is trilinear between nodes of the cell, whose
+// columns are means of the cubic's.
 VTKBRAINSHIFTFILTERS_EXPORT ColumnBounds boundsOf(const CellTaps& taps, int kernel);
 
 // What a mask does to a cell: range of its weights, and of their slope along each axis, a lattice
