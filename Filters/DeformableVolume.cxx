@@ -29,8 +29,9 @@ constexpr const char* KernelName = "FFDKernel";
 constexpr const char* SamplesName = "FFDSamples";
 constexpr const char* InverseName = "FFDInverse";
 constexpr const char* StrengthName = "FFDStrength";
+constexpr const char* MaskName = "FFDMaskWeights";
 constexpr const char* AllNames[] = { DisplacementsName, DimensionsName, BoxName, KernelName,
-  SamplesName, InverseName, StrengthName };
+  SamplesName, InverseName, StrengthName, MaskName };
 
 // One tuple of numbers under a name.
 template <typename ArrayType>
@@ -51,6 +52,20 @@ void attachDisplacements(vtkFieldData* fields, const Lattice& lattice)
   array->SetNumberOfTuples(static_cast<vtkIdType>(lattice.displacements.size()));
   std::memcpy(array->GetPointer(0), lattice.displacements.data(),
     lattice.displacements.size() * sizeof(glm::vec3));
+  fields->AddArray(array);
+}
+
+void attachMask(vtkFieldData* fields, const Lattice& lattice)
+{
+  if (!lattice.mask)
+  {
+    fields->RemoveArray(MaskName); // that of a deformation before this one
+    return;
+  }
+  vtkNew<vtkFloatArray> array;
+  array->SetName(MaskName);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(lattice.mask->values.size()));
+  std::copy(lattice.mask->values.begin(), lattice.mask->values.end(), array->GetPointer(0));
   fields->AddArray(array);
 }
 
@@ -99,6 +114,37 @@ bool readInteger(
       "; it must be from " + std::to_string(low) + " to " + std::to_string(high);
     return false;
   }
+  return true;
+}
+
+// The mask's weights, if there are any; false, with `error` set, if they cannot be.
+bool readMask(vtkFieldData* fields, int samples, Lattice& lattice, std::string& error)
+{
+  lattice.mask = nullptr;
+  if (!fields->HasArray(MaskName))
+  {
+    return true;
+  }
+  const FieldNodes nodes = forwardNodes(lattice.grid, samples);
+  const vtkIdType count = static_cast<vtkIdType>(nodes.count.x) * nodes.count.y * nodes.count.z;
+  auto array = vtkFloatArray::FastDownCast(fields->GetArray(MaskName));
+  if (!array || array->GetNumberOfValues() != count)
+  {
+    error = std::string("Field array ") + MaskName + " must hold " + std::to_string(count) +
+      " numbers of type float";
+    return false;
+  }
+  const float* const first = array->GetPointer(0);
+  const float* const wrong =
+    std::find_if_not(first, first + count, [](float weight) { return weight >= 0 && weight <= 1; });
+  if (wrong != first + count)
+  {
+    error = std::string("Field array ") + MaskName + " holds " + std::to_string(*wrong) +
+      "; weights must be from 0 to 1";
+    return false;
+  }
+  lattice.mask = std::make_shared<const NodeWeights>(
+    NodeWeights{ nodes.perCell, std::vector<float>(first, first + count) });
   return true;
 }
 
@@ -166,6 +212,7 @@ void attach(vtkDataObject* volume, const Deformation& deformation)
     }
   }
   attachDisplacements(fields, deformation.lattice);
+  attachMask(fields, deformation.lattice);
   attachTuple<vtkIntArray>(fields, DimensionsName,
     { double(grid.dimensions.x), double(grid.dimensions.y), double(grid.dimensions.z) });
   attachTuple<vtkDoubleArray>(fields, BoxName, box);
@@ -189,7 +236,8 @@ bool readDeformation(vtkDataObject* volume, Deformation& deformation, std::strin
     !readInteger(fields, KernelName, 0, 1, lattice.kernel, error) ||
     !readInteger(
       fields, SamplesName, SmallestSamples, LargestSamples, deformation.samples, error) ||
-    !readInteger(fields, InverseName, 0, 1, inverse, error))
+    !readInteger(fields, InverseName, 0, 1, inverse, error) ||
+    !readMask(fields, deformation.samples, lattice, error))
   {
     return false;
   }

@@ -11,6 +11,9 @@
 //   FFDSamples        int: nodes of the refined field between two control points, 0 to 16
 //   FFDInverse        int: 0 exact, 1 negated
 //   FFDStrength       double, 0 to 1: factor on all displacements
+//   FFDMaskWeights    float32, only with a mask: share of the displacement, 0 to 1, that holds at
+//                     each node of the refined field, (points - 1) * (FFDSamples + 1) + 1 a side, x
+//                     fastest; what is drawn is trilinear between the nodes
 #ifndef BrainShift_DeformableVolume_h
 #define BrainShift_DeformableVolume_h
 

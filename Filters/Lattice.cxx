@@ -2,6 +2,7 @@
 #include "Lattice.h"
 
 #include "Kernels.h"
+#include "OffsetField.h"
 #include "Parallel.h"
 
 #include <glm/common.hpp>
@@ -64,8 +65,12 @@ struct RowOfTaps
   }
 };
 
-// Value at `distance` control points from the point whose basis function it is.
-double basisFunction(int kernel, double distance)
+// The control point of a lattice `ratio` times as dense, `distance` points of the coarser one away
+// from a point of that, whose basis function the denser lattice is to repeat. With Catmull-Rom it
+// is the function's value there. B-splines do not pass through their control points; this is the
+// coefficient that makes the denser ones add up to a cubic, and to the coarser B-spline exactly
+// where every knot of it is one of theirs.
+double basisFunction(int kernel, double distance, double ratio)
 {
   const double away = std::abs(distance);
   if (away >= 2.0)
@@ -75,7 +80,9 @@ double basisFunction(int kernel, double distance)
   const int cell = static_cast<int>(away);
   // At t in the cell right of the point, the point is the second of the four taps; one cell
   // further it is the first.
-  return kernelWeights(kernel, static_cast<float>(away - cell))[1 - cell];
+  const double value = kernelWeights(kernel, static_cast<float>(away - cell))[1 - cell];
+  const double curvature = cell == 0 ? 3.0 * away - 2.0 : 2.0 - away; // of a B-spline
+  return kernel == KernelBSpline ? value - curvature / (6.0 * ratio * ratio) : value;
 }
 
 void applyMove(Lattice& lattice, const Stroke& stroke)
@@ -97,8 +104,16 @@ void applyMove(Lattice& lattice, const Stroke& stroke)
   const auto weightAlong = [&](int axis, int index) {
     const double distance = index / ratio[axis] - point[axis];
     // On the lattice it was made at the stroke moves one control point, whatever the kernel.
-    return ratio[axis] == 1.0 ? double(std::abs(distance) < 0.5)
-                              : basisFunction(lattice.kernel, distance);
+    if (ratio[axis] == 1.0)
+    {
+      return double(std::abs(distance) < 0.5);
+    }
+    // A point at the border stands for its missing neighbour too.
+    const double below = point[axis] < 0.5 ? distance + 1.0 : 2.0;
+    const double above = point[axis] > last[axis] - 0.5 ? distance - 1.0 : 2.0;
+    return basisFunction(lattice.kernel, distance, ratio[axis]) +
+      basisFunction(lattice.kernel, below, ratio[axis]) +
+      basisFunction(lattice.kernel, above, ratio[axis]);
   };
   for (int k = low.z; k <= high.z; ++k)
   {
@@ -186,6 +201,12 @@ double minimumJacobianInCell(
 }
 }
 
+bool sameMask(
+  const std::shared_ptr<const NodeWeights>& a, const std::shared_ptr<const NodeWeights>& b)
+{
+  return a == b || (a && b && a->perCell == b->perCell && a->values == b->values);
+}
+
 Lattice makeLattice(const Grid& grid, int kernel)
 {
   Lattice lattice;
@@ -267,6 +288,15 @@ glm::mat3 cubicGradient(const glm::ivec3& dimensions, int kernel, const glm::vec
 double maximumDisplacement(const Lattice& lattice)
 {
   float largest = 0.0f;
+  if (lattice.mask)
+  {
+    for (const glm::vec3& inCells : refine(lattice, lattice.mask->perCell - 1).values)
+    {
+      const glm::vec3 mm(lattice.grid.spacing * glm::dvec3(inCells)); // axes do not matter
+      largest = std::max(largest, glm::dot(mm, mm));
+    }
+    return std::sqrt(static_cast<double>(largest));
+  }
   for (const glm::vec3& displacement : lattice.displacements)
   {
     largest = std::max(largest, glm::dot(displacement, displacement));
@@ -276,9 +306,13 @@ double maximumDisplacement(const Lattice& lattice)
 
 double minimumJacobian(const Lattice& lattice)
 {
+  if (lattice.mask)
+  {
+    return minimumJacobian(refine(lattice, lattice.mask->perCell - 1));
+  }
   const std::vector<glm::vec3> inCells = displacementsInCells(lattice);
   const glm::ivec3 cells = lattice.grid.dimensions - 1;
-  std::vector<double> smallest(cells.z, 1.0); // an unmoved cell has determinant 1
+  std::vector<double> smallest(cells.z, std::numeric_limits<double>::max());
   parallelFor(0, cells.z, 1, [&](vtkIdType first, vtkIdType last) {
     glm::ivec3 cell;
     for (cell.z = static_cast<int>(first); cell.z < last; ++cell.z)
@@ -287,11 +321,8 @@ double minimumJacobian(const Lattice& lattice)
       {
         for (cell.x = 0; cell.x < cells.x; ++cell.x)
         {
-          if (!allTapsZero(lattice, cell))
-          {
-            smallest[cell.z] =
-              std::min(smallest[cell.z], minimumJacobianInCell(lattice, inCells, cell));
-          }
+          smallest[cell.z] = std::min(smallest[cell.z],
+            allTapsZero(lattice, cell) ? 1.0 : minimumJacobianInCell(lattice, inCells, cell));
         }
       }
     }

@@ -10,6 +10,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include <memory>
 #include <vector>
 
 namespace brainshift
@@ -17,13 +18,27 @@ namespace brainshift
 constexpr int SmallestLatticeSide = 4;  // a cubic kernel spans four control points
 constexpr int LargestLatticeSide = 257; // 51 million numbers, 200 MB: more is a dense field
 
+// What share of the displacement holds at each node of a refined field; see MaskWeights.h.
+struct NodeWeights
+{
+  int perCell = 1;           // nodes for each lattice cell
+  std::vector<float> values; // 0 to 1, x fastest
+};
+
 struct Lattice
 {
   Grid grid;      // control points over the volume's box, rest frame
   int kernel = 0; // KernelCatmullRom or KernelBSpline, see Kernels.h
   // float32 x 3 (mm, world axes), one for each control point, x fastest. Zero means stays.
   std::vector<glm::vec3> displacements;
+  // Null: all of it moves as the control points say. Else deformedFromRest is the refined field
+  // times these weights, trilinear between its nodes.
+  std::shared_ptr<const NodeWeights> mask;
 };
+
+// The same weights, or none on both sides.
+VTKBRAINSHIFTFILTERS_EXPORT bool sameMask(
+  const std::shared_ptr<const NodeWeights>& a, const std::shared_ptr<const NodeWeights>& b);
 
 // A lattice of zero displacements.
 VTKBRAINSHIFTFILTERS_EXPORT Lattice makeLattice(const Grid& grid, int kernel);
@@ -46,11 +61,13 @@ VTKBRAINSHIFTFILTERS_EXPORT glm::vec3 cubicDisplacement(const glm::ivec3& dimens
 VTKBRAINSHIFTFILTERS_EXPORT glm::mat3 cubicGradient(const glm::ivec3& dimensions, int kernel,
   const glm::vec3* displacements, const glm::dvec3& position);
 
-// Largest displacement of a control point, mm.
+// Largest displacement of a control point, mm; with a mask, of a node of the refined field.
 VTKBRAINSHIFTFILTERS_EXPORT double maximumDisplacement(const Lattice& lattice);
 
-// Smallest Jacobian determinant of deformedFromRest, sampled on the control points and halfway
-// between them. 1: volume is kept; 0 or less: tissue folds.
+// Smallest Jacobian determinant of deformedFromRest within the lattice, sampled on the control
+// points and halfway between them. 1: volume is kept, more: all of it grows, 0 or less: tissue
+// folds. Between the samples it can be less; the fold guard does not rely on it. With a mask the
+// samples are the corners of all cells between nodes.
 VTKBRAINSHIFTFILTERS_EXPORT double minimumJacobian(const Lattice& lattice);
 }
 

@@ -5,7 +5,6 @@
 #define BrainShift_OffsetField_h
 
 #include "Lattice.h"
-#include "PointMap.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -16,6 +15,13 @@ namespace brainshift
 {
 constexpr int SmallestSamples = 0;
 constexpr int LargestSamples = 16;
+
+// How a picture finds tissue.
+enum class Inverse
+{
+  Exact = 0,   // solves the forward map: tissue arrives where the handle is put
+  Negated = 1, // the paper's form: subtracts the displacement found at the deformed point
+};
 
 // Catmull-Rom weights are partly negative: their absolute values sum to at most 1.25 along an
 // axis, 1.25^3 in space. A field value lies within the range of its 64 control points, widened by
@@ -62,6 +68,12 @@ VTKBRAINSHIFTFILTERS_EXPORT FieldNodes backwardNodes(
 // The displacement (forward map minus identity) on the nodes, separably: x, then y, then z.
 VTKBRAINSHIFTFILTERS_EXPORT NodeField refine(
   const Grid& grid, int kernel, const std::vector<glm::vec3>& inCells, int samples);
+
+// The same of a lattice, times its mask's weights if it has one, which must be for these samples.
+VTKBRAINSHIFTFILTERS_EXPORT NodeField refine(const Lattice& lattice, int samples);
+
+// Smallest Jacobian determinant of position + field at the corners of all its cells.
+VTKBRAINSHIFTFILTERS_EXPORT double minimumJacobian(const NodeField& field);
 
 // The offset field (backward map minus identity) on `nodes`, from the refined displacement.
 VTKBRAINSHIFTFILTERS_EXPORT NodeField invert(

@@ -34,41 +34,62 @@ PointMap::PointMap(const Lattice& lattice, Inverse inverse)
   , Backward(inverse)
   , InCells(displacementsInCells(lattice))
 {
+  if (lattice.mask)
+  {
+    this->Masked = refine(lattice, lattice.mask->perCell - 1);
+  }
+}
+
+// Lattice cells, at a position in lattice coordinates.
+glm::vec3 PointMap::displacement(const glm::dvec3& position) const
+{
+  return this->Masked.values.empty()
+    ? cubicDisplacement(this->LatticeGrid.dimensions, this->Kernel, this->InCells.data(), position)
+    : this->Masked.displacement(glm::vec3(position));
 }
 
 glm::dvec3 PointMap::deformedFromRest(const glm::dvec3& rest) const
 {
   const glm::dvec3 position = this->LatticeGrid.gridFromWorld(rest);
-  const glm::vec3 displacement =
-    cubicDisplacement(this->LatticeGrid.dimensions, this->Kernel, this->InCells.data(), position);
-  return rest + this->LatticeGrid.worldVectorFromGrid(glm::dvec3(displacement));
+  return rest + this->LatticeGrid.worldVectorFromGrid(glm::dvec3(this->displacement(position)));
 }
 
 glm::dvec3 PointMap::restFromDeformed(const glm::dvec3& deformed) const
 {
   const glm::dvec3 position = this->LatticeGrid.gridFromWorld(deformed);
   const CubicForward forward{ this->LatticeGrid, this->Kernel, this->InCells.data(), position };
-  const glm::vec3 displacement =
-    cubicDisplacement(this->LatticeGrid.dimensions, this->Kernel, this->InCells.data(), position);
+  const glm::vec3 displacement = this->displacement(position);
   if (displacement == glm::vec3(0.0f))
   {
     return deformed;
   }
-  const glm::vec3 offset = this->Backward == Inverse::Negated
-    ? -displacement
-    : Inversion<CubicForward>{ forward }.inverseOffset(glm::vec3(0.0f), glm::vec3(0.0f));
+  const glm::vec3 offset = this->Backward == Inverse::Negated ? -displacement
+    : this->Masked.values.empty()
+    ? Inversion<CubicForward>{ forward }.inverseOffset(glm::vec3(0.0f), glm::vec3(0.0f))
+    : Inversion<NodeField>{ this->Masked }.inverseOffset(glm::vec3(position), -displacement);
   return deformed + this->LatticeGrid.worldVectorFromGrid(glm::dvec3(offset));
 }
 
 glm::dmat3 PointMap::jacobian(const glm::dvec3& rest) const
 {
-  const glm::dmat3 gradient(cubicGradient(this->LatticeGrid.dimensions, this->Kernel,
-    this->InCells.data(), this->LatticeGrid.gridFromWorld(rest)));
+  const glm::dvec3 position = this->LatticeGrid.gridFromWorld(rest);
+  glm::mat3 inLattice(1.0f);
+  if (this->Masked.values.empty())
+  {
+    inLattice +=
+      cubicGradient(this->LatticeGrid.dimensions, this->Kernel, this->InCells.data(), position);
+  }
+  else
+  {
+    glm::vec3 unused;
+    this->Masked.map(glm::vec3(position), unused, inLattice);
+  }
   const glm::dmat3& direction = this->LatticeGrid.direction;
   const glm::dvec3& spacing = this->LatticeGrid.spacing;
   const glm::dmat3 scale(
     glm::dvec3(spacing.x, 0, 0), glm::dvec3(0, spacing.y, 0), glm::dvec3(0, 0, spacing.z));
   const glm::dmat3 worldFromGrid = direction * scale;
+  const glm::dmat3 gradient(inLattice - glm::mat3(1.0f));
   return glm::dmat3(1.0) + worldFromGrid * gradient * glm::inverse(worldFromGrid);
 }
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// deformedFromRest and its inverse for single points, straight from the control points.
+// deformedFromRest and its inverse for single points, straight from the control points; with a
+// mask, from the masked nodes that pictures are drawn from.
 #ifndef BrainShift_PointMap_h
 #define BrainShift_PointMap_h
 
 #include "Lattice.h"
+#include "OffsetField.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -12,13 +14,6 @@
 
 namespace brainshift
 {
-// How a picture finds tissue.
-enum class Inverse
-{
-  Exact = 0,   // solves the forward map: tissue arrives where the handle is put
-  Negated = 1, // the paper's form: subtracts the displacement found at the deformed point
-};
-
 class VTKBRAINSHIFTFILTERS_EXPORT PointMap
 {
 public:
@@ -35,10 +30,13 @@ public:
   glm::dmat3 jacobian(const glm::dvec3& rest) const;
 
 private:
+  glm::vec3 displacement(const glm::dvec3& position) const;
+
   Grid LatticeGrid;
   int Kernel;
   Inverse Backward;
   std::vector<glm::vec3> InCells; // displacements of the control points, lattice cells
+  NodeField Masked;               // with a mask: what holds instead; else without nodes
 };
 }
 

@@ -2,15 +2,19 @@
 #include "vtkFreeFormDeformation.h"
 
 #include "DeformableVolume.h"
+#include "MaskImage.h"
 #include "OffsetField.h"
 #include "Replay.h"
 #include "SharedArray.h"
+#include "StrokeDensity.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -20,6 +24,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -35,6 +40,10 @@ struct vtkFreeFormDeformation::State
   bool HasLastGood = false;
   double MinimumJacobian = 1.0;
   bool MinimumJacobianKnown = false;
+  vtkNew<vtkDoubleArray> StrokeShares;
+  MaskSource Masks;
+  std::string TooFine; // strokes for the lattice: a sentence
+  std::vector<std::string> Warned;
 };
 
 namespace
@@ -54,6 +63,13 @@ Grid wholeGrid(vtkImageData* image, vtkInformation* info)
     grid.dimensions[axis] = whole[2 * axis + 1] - whole[2 * axis] + 1;
   }
   return grid;
+}
+
+std::string decimal(double number)
+{
+  std::ostringstream text;
+  text << number;
+  return text.str();
 }
 
 std::string triple(const glm::ivec3& numbers)
@@ -148,7 +164,7 @@ vtkStandardNewMacro(vtkFreeFormDeformation);
 vtkFreeFormDeformation::vtkFreeFormDeformation()
   : Internal(std::make_unique<State>())
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(3);
 }
 
 vtkFreeFormDeformation::~vtkFreeFormDeformation() = default;
@@ -170,10 +186,27 @@ void vtkFreeFormDeformation::SetLatticeConnection(vtkAlgorithmOutput* lattice)
   this->SetInputConnection(1, lattice);
 }
 
+void vtkFreeFormDeformation::SetMaskConnection(vtkAlgorithmOutput* mask)
+{
+  this->SetInputConnection(2, mask);
+}
+
+void vtkFreeFormDeformation::AddMaskLabel(int label)
+{
+  this->MaskLabels.push_back(label);
+  this->Modified();
+}
+
+void vtkFreeFormDeformation::ClearMaskLabels()
+{
+  this->MaskLabels.clear();
+  this->Modified();
+}
+
 int vtkFreeFormDeformation::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
-  if (port == 1)
+  if (port > 0)
   {
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
@@ -183,12 +216,15 @@ int vtkFreeFormDeformation::FillInputPortInformation(int port, vtkInformation* i
 int vtkFreeFormDeformation::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  // The base lattice is read everywhere, whichever piece of the volume is asked for.
-  if (vtkInformation* base = inputs[1]->GetInformationObject(0))
+  // Base lattice and mask are read everywhere, whichever piece of the volume is asked for.
+  for (const int port : { 1, 2 })
   {
-    int whole[6];
-    base->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
-    base->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), whole, 6);
+    if (vtkInformation* info = inputs[port]->GetInformationObject(0))
+    {
+      int whole[6];
+      info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
+      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), whole, 6);
+    }
   }
   return this->Superclass::RequestUpdateExtent(request, inputs, outputs);
 }
@@ -206,11 +242,13 @@ int vtkFreeFormDeformation::RequestData(
     vtkErrorMacro(<< problem << ".");
     return 0;
   }
-  problem = this->Bend(volumeGrid, vtkImageData::GetData(inputs[1]));
+  problem =
+    this->Bend(volumeGrid, vtkImageData::GetData(inputs[1]), vtkImageData::GetData(inputs[2]));
   if (!problem.empty())
   {
     vtkErrorMacro(<< problem << ". The deformation stays as it was.");
   }
+  this->TellWarnings();
   State& state = *this->Internal;
   state.PointArrays.share(output->GetPointData());
   state.CellArrays.share(output->GetCellData());
@@ -218,17 +256,10 @@ int vtkFreeFormDeformation::RequestData(
   return 1;
 }
 
-std::string vtkFreeFormDeformation::Bend(const Grid& volumeGrid, vtkImageData* base)
+std::string vtkFreeFormDeformation::ProblemOfProperties() const
 {
-  State& state = *this->Internal;
   const glm::ivec3 sides(
     this->LatticeDimensions[0], this->LatticeDimensions[1], this->LatticeDimensions[2]);
-  if (!state.HasLastGood)
-  {
-    const glm::ivec3 plain = glm::clamp(sides, SmallestLatticeSide, LargestLatticeSide);
-    state.LastGood.lattice = makeLattice(withDimensions(volumeGrid, plain), 0);
-    state.HasLastGood = true;
-  }
   if (glm::any(glm::lessThan(sides, glm::ivec3(SmallestLatticeSide))) ||
     glm::any(glm::greaterThan(sides, glm::ivec3(LargestLatticeSide))))
   {
@@ -240,28 +271,95 @@ std::string vtkFreeFormDeformation::Bend(const Grid& volumeGrid, vtkImageData* b
     return "Samples is " + std::to_string(this->Samples) + "; it must be from " +
       std::to_string(SmallestSamples) + " to " + std::to_string(LargestSamples);
   }
+  const double* const interest = this->PointOfInterest;
+  if (!std::all_of(interest, interest + 3, [](double mm) { return std::isfinite(mm); }))
+  {
+    return "PointOfInterest is " + decimal(interest[0]) + " " + decimal(interest[1]) + " " +
+      decimal(interest[2]) + " mm; its numbers must be finite";
+  }
+  if (!(this->Feather >= 0.0 && std::isfinite(this->Feather)))
+  {
+    return "Feather is " + decimal(this->Feather) + " mm; it must be 0 or more, and finite";
+  }
   if (std::isnan(this->Strength))
   {
     return "Strength is not a number; it must be from 0 to 1";
   }
-  std::string problem;
+  return {};
+}
+
+std::string vtkFreeFormDeformation::Bend(
+  const Grid& volumeGrid, vtkImageData* base, vtkImageData* maskImage)
+{
+  State& state = *this->Internal;
+  const glm::ivec3 sides(
+    this->LatticeDimensions[0], this->LatticeDimensions[1], this->LatticeDimensions[2]);
+  if (!state.HasLastGood)
+  {
+    const glm::ivec3 plain = glm::clamp(sides, SmallestLatticeSide, LargestLatticeSide);
+    state.LastGood.lattice = makeLattice(withDimensions(volumeGrid, plain), 0);
+    state.HasLastGood = true;
+  }
+  std::string problem = this->ProblemOfProperties();
+  if (!problem.empty())
+  {
+    return problem;
+  }
   const std::vector<Stroke> strokes = strokesFromNumbers(state.StrokeNumbers, problem);
   Lattice start = makeLattice(withDimensions(volumeGrid, sides), this->Kernel != 0);
   if (problem.empty())
   {
     problem = addBase(start, base);
   }
+  if (problem.empty())
+  {
+    problem = state.Masks.find(
+      { maskImage, this->MaskLabels, this->Feather, volumeGrid, start.grid, this->Samples },
+      start.mask);
+  }
   if (!problem.empty())
   {
     return problem;
   }
-  state.LastGood.lattice = state.StrokeReplay.run(start, strokes);
+  state.LastGood.lattice =
+    state.StrokeReplay.run(start, strokes, { this->GuardFolding, this->Samples });
+  state.TooFine = strokesTooFine(strokes, start.grid);
   state.LastGood.samples = this->Samples;
   state.LastGood.inverse =
     this->Inverse ? brainshift::Inverse::Negated : brainshift::Inverse::Exact;
   state.LastGood.strength = this->Strength;
   state.MinimumJacobianKnown = false;
   return {};
+}
+
+void vtkFreeFormDeformation::TellWarnings()
+{
+  State& state = *this->Internal;
+  std::vector<std::string> warnings;
+  if (const int cells = state.StrokeReplay.foldedCells())
+  {
+    warnings.push_back("The base lattice folds by itself: the Jacobian determinant is below " +
+      decimal(SmallestGuardedJacobian) + " in " + std::to_string(cells) +
+      " of its cells. Strokes are not shortened there");
+  }
+  if (const auto& mask = state.LastGood.lattice.mask;
+    mask && *std::max_element(mask->values.begin(), mask->values.end()) == 0.0f)
+  {
+    warnings.push_back("The mask leaves nothing to move: nowhere is it wider than two nodes of the "
+                       "refined field. Raise LatticeDimensions or Samples");
+  }
+  if (!state.TooFine.empty())
+  {
+    warnings.push_back(state.TooFine);
+  }
+  for (const std::string& warning : warnings)
+  {
+    if (std::find(state.Warned.begin(), state.Warned.end(), warning) == state.Warned.end())
+    {
+      vtkWarningMacro(<< warning << ".");
+    }
+  }
+  state.Warned = warnings;
 }
 
 double vtkFreeFormDeformation::GetMaximumDisplacement()
@@ -281,6 +379,24 @@ double vtkFreeFormDeformation::GetMinimumJacobian()
   return state.MinimumJacobian;
 }
 
+int vtkFreeFormDeformation::GetShortenedStrokes() const
+{
+  const std::vector<double>& shares = this->Internal->StrokeReplay.shares();
+  return static_cast<int>(
+    std::count_if(shares.begin(), shares.end(), [](double share) { return share < 1.0; }));
+}
+
+vtkDoubleArray* vtkFreeFormDeformation::GetStrokeShares()
+{
+  State& state = *this->Internal;
+  state.StrokeShares->Initialize();
+  for (const double share : state.StrokeReplay.shares())
+  {
+    state.StrokeShares->InsertNextValue(share);
+  }
+  return state.StrokeShares;
+}
+
 int vtkFreeFormDeformation::GetAppliedStrokes() const
 {
   return this->Internal->StrokeReplay.applied();
@@ -295,5 +411,10 @@ void vtkFreeFormDeformation::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Kernel: " << (this->Kernel ? "B-Spline" : "Catmull-Rom") << "\n"
      << indent << "Inverse: " << (this->Inverse ? "Negated" : "Exact") << "\n"
      << indent << "Strength: " << this->Strength << "\n"
+     << indent << "PointOfInterest: " << this->PointOfInterest[0] << " " << this->PointOfInterest[1]
+     << " " << this->PointOfInterest[2] << "\n"
+     << indent << "Feather: " << this->Feather << "\n"
+     << indent << "MaskLabels: " << this->MaskLabels.size() << "\n"
+     << indent << "GuardFolding: " << this->GuardFolding << "\n"
      << indent << "Strokes: " << this->Internal->StrokeNumbers.size() / NumbersPerStroke << "\n";
 }

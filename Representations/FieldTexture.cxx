@@ -42,7 +42,19 @@ bool allocate(vtkOpenGLRenderWindow* window, vtkSmartPointer<vtkTextureObject>& 
 bool samePlaces(const FieldRequest& a, const FieldRequest& b)
 {
   return a.dimensions == b.dimensions && a.kernel == b.kernel && a.samples == b.samples &&
-    a.inverse == b.inverse && a.nodes == b.nodes && a.offsetScale == b.offsetScale;
+    a.inverse == b.inverse && a.nodes == b.nodes && a.offsetScale == b.offsetScale &&
+    sameMask(a.mask, b.mask);
+}
+
+// The kernel's weights at each of the perCell nodes of a cell.
+std::vector<glm::vec4> weightsInCell(int kernel, int perCell)
+{
+  std::vector<glm::vec4> weights(perCell);
+  for (int node = 0; node < perCell; ++node)
+  {
+    weights[node] = kernelWeights(kernel, static_cast<float>(node) / static_cast<float>(perCell));
+  }
+  return weights;
 }
 
 std::int64_t texels(const glm::ivec3& count)
@@ -65,7 +77,12 @@ bool FieldTexture::update(
     this->Changed = changedBackwardNodes(
       points, request.dimensions, this->Current.inCells, request.inCells, request.nodes);
   }
+  const bool maskIsCurrent = this->HasCurrent && sameMask(this->Current.mask, request.mask);
   this->HasCurrent = false; // not before all of it succeeded
+  if (!maskIsCurrent && !this->uploadMask(window, request, counters))
+  {
+    return false;
+  }
   if (!points.empty() &&
     (!this->upload(window, request, counters) || !this->refine(window, request, points, counters) ||
       !this->invert(window, request, counters)))
@@ -89,6 +106,22 @@ bool FieldTexture::upload(
     points.x, points.y, points.z, 3, VTK_FLOAT, const_cast<glm::vec3*>(request.inCells.data()));
 }
 
+bool FieldTexture::uploadMask(
+  vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters)
+{
+  this->MaskWeights = nullptr;
+  if (!request.mask)
+  {
+    return true;
+  }
+  const glm::ivec3 nodes = (request.dimensions - 1) * request.mask->perCell + 1;
+  this->MaskWeights = vtkSmartPointer<vtkTextureObject>::New();
+  this->MaskWeights->SetContext(window);
+  counters.bytesUploaded += texels(nodes) * static_cast<std::int64_t>(sizeof(float));
+  return this->MaskWeights->Create3DFromRaw(
+    nodes.x, nodes.y, nodes.z, 1, VTK_FLOAT, const_cast<float*>(request.mask->values.data()));
+}
+
 bool FieldTexture::refine(vtkOpenGLRenderWindow* window, const FieldRequest& request,
   const IndexBox& points, Counters& counters)
 {
@@ -96,12 +129,7 @@ bool FieldTexture::refine(vtkOpenGLRenderWindow* window, const FieldRequest& req
   forward.perCell = request.samples + 1;
   forward.count = (request.dimensions - 1) * forward.perCell + 1;
   const IndexBox nodes = changedForwardNodes(points, forward);
-  std::vector<glm::vec4> weights(forward.perCell);
-  for (int node = 0; node < forward.perCell; ++node)
-  {
-    weights[node] =
-      kernelWeights(request.kernel, static_cast<float>(node) / static_cast<float>(forward.perCell));
-  }
+  const std::vector<glm::vec4> weights = weightsInCell(request.kernel, forward.perCell);
   glm::ivec3 count = request.dimensions;
   IndexBox box{ glm::ivec3(0),
     request.dimensions - 1 }; // of control points; of nodes, axis by axis
@@ -111,23 +139,32 @@ bool FieldTexture::refine(vtkOpenGLRenderWindow* window, const FieldRequest& req
     count[axis] = forward.count[axis];
     box.first[axis] = nodes.first[axis];
     box.last[axis] = nodes.last[axis];
+    vtkTextureObject* mask = axis == 2 ? this->MaskWeights : nullptr;
+    Program& program = this->RefinePrograms[mask != nullptr];
     if (!allocate(window, this->Refined[axis], count,
           vtkTextureObject::Nearest) ||
-      !this->RefineProgram.use(window, refineSource(), counters))
+      !program.use(window, refineSource(mask != nullptr), counters))
     {
       return false;
     }
     glm::ivec3 unit(0);
     unit[axis] = 1;
-    this->RefineProgram.set("coarse", coarse);
-    this->RefineProgram.set("axis", unit);
-    this->RefineProgram.set("points", request.dimensions[axis]);
-    this->RefineProgram.set("perCell", forward.perCell);
-    this->RefineProgram.get()->SetUniform4fv(
-      "weights", forward.perCell, glm::value_ptr(weights[0]));
-    runVolumePass(window, this->RefineProgram.get()->GetHandle(), { this->Refined[axis] },
-      box.first, box.size());
+    if (mask)
+    {
+      program.set("maskWeights", mask);
+    }
+    program.set("coarse", coarse);
+    program.set("axis", unit);
+    program.set("points", request.dimensions[axis]);
+    program.set("perCell", forward.perCell);
+    program.get()->SetUniform4fv("weights", forward.perCell, glm::value_ptr(weights[0]));
+    runVolumePass(
+      window, program.get()->GetHandle(), { this->Refined[axis] }, box.first, box.size());
     coarse->Deactivate();
+    if (mask)
+    {
+      mask->Deactivate();
+    }
     coarse = this->Refined[axis];
   }
   // The next stroke computes what it needs of these anew; their memory is worth more.
@@ -163,8 +200,9 @@ bool FieldTexture::invert(
 
 void FieldTexture::releaseGraphicsResources(vtkWindow* window)
 {
-  for (vtkTextureObject* texture : { this->ControlPoints.Get(), this->Refined[0].Get(),
-         this->Refined[1].Get(), this->Refined[2].Get(), this->Offsets.Get() })
+  for (vtkTextureObject* texture :
+    { this->ControlPoints.Get(), this->Refined[0].Get(), this->Refined[1].Get(),
+      this->Refined[2].Get(), this->Offsets.Get(), this->MaskWeights.Get() })
   {
     if (texture)
     {
@@ -173,12 +211,14 @@ void FieldTexture::releaseGraphicsResources(vtkWindow* window)
   }
   this->ControlPoints = nullptr;
   this->Offsets = nullptr;
+  this->MaskWeights = nullptr;
   for (auto& texture : this->Refined)
   {
     texture = nullptr;
   }
   this->HasCurrent = false;
-  this->RefineProgram.forget();
+  this->RefinePrograms[0].forget();
+  this->RefinePrograms[1].forget();
   this->InvertProgram.forget();
 }
 }

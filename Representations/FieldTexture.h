@@ -12,6 +12,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <memory>
 #include <vector>
 
 class vtkOpenGLRenderWindow;
@@ -26,9 +27,10 @@ struct FieldRequest
   int kernel = 0;
   int samples = 4;
   Inverse inverse = Inverse::Exact;
-  std::vector<glm::vec3> inCells; // displacements, lattice cells
-  FieldNodes nodes;               // where offsets are wanted, see backwardNodes
-  glm::vec3 offsetScale{ 1.0f };  // wanted unit of the offsets for one lattice cell
+  std::vector<glm::vec3> inCells;          // displacements, lattice cells
+  std::shared_ptr<const NodeWeights> mask; // Lattice::mask; null: none
+  FieldNodes nodes;                        // where offsets are wanted, see backwardNodes
+  glm::vec3 offsetScale{ 1.0f };           // wanted unit of the offsets for one lattice cell
 };
 
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT FieldTexture
@@ -54,7 +56,7 @@ public:
   std::vector<vtkTextureObject*> textures() const
   {
     return { this->ControlPoints, this->Refined[0], this->Refined[1], this->Refined[2],
-      this->Offsets };
+      this->Offsets, this->MaskWeights };
   }
 
   void releaseGraphicsResources(vtkWindow* window);
@@ -65,13 +67,16 @@ private:
     Counters& counters);
   bool invert(vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters);
 
+  bool uploadMask(vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters);
+
   vtkSmartPointer<vtkTextureObject> ControlPoints;
-  vtkSmartPointer<vtkTextureObject> Refined[3]; // along x; x and y; x, y and z
+  vtkSmartPointer<vtkTextureObject> MaskWeights; // on the forward nodes; null: no mask
+  vtkSmartPointer<vtkTextureObject> Refined[3];  // along x; x and y; x, y and z
   vtkSmartPointer<vtkTextureObject> Offsets;
   FieldRequest Current; // what the textures show
   bool HasCurrent = false;
   IndexBox Changed;
-  Program RefineProgram;
+  Program RefinePrograms[2]; // [times the mask's weights]
   Program InvertProgram;
 };
 }

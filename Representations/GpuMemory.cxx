@@ -58,6 +58,7 @@ MemoryNeed memoryNeed(const DrawnSizes& sizes)
 {
   constexpr std::int64_t GradientBytes = 4;           // three numbers of ten bits, two bits spare
   constexpr std::int64_t NodeBytes = 16;              // four floats
+  constexpr std::int64_t WeightBytes = 4;             // of a mask at a node
   constexpr std::int64_t PixelBytes = 8 + 16 + 8 + 4; // picture, hits, spans, depth
   const std::int64_t voxels = volumeOf(sizes.voxels);
   MemoryNeed need;
@@ -69,6 +70,7 @@ MemoryNeed memoryNeed(const DrawnSizes& sizes)
       GradientBytes * (sizes.halfResolution ? volumeOf((sizes.voxels + 1) / 2) : voxels);
   }
   need.field = NodeBytes * (volumeOf(sizes.forwardNodes) + volumeOf(sizes.backwardNodes));
+  need.field += sizes.masked ? WeightBytes * volumeOf(sizes.forwardNodes) : 0;
   need.images = PixelBytes * sizes.pixels.x * sizes.pixels.y;
   return need;
 }

@@ -40,6 +40,7 @@ struct DrawnSizes
   bool halfResolution = false;   // of the gradients
   glm::ivec3 forwardNodes{ 0 };  // of the refined lattice, a side; 0: no lattice
   glm::ivec3 backwardNodes{ 0 }; // of the offset field
+  bool masked = false;           // a weight for each forward node
   glm::ivec2 pixels{ 0 };
 };
 

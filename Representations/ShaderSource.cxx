@@ -107,9 +107,9 @@ std::string nameOf(const RayCastVariant& variant)
 }
 }
 
-ShaderSource refineSource()
+ShaderSource refineSource(bool masked)
 {
-  return volumePassSource("#define MAX_PER_CELL " + std::to_string(LargestSamples + 1) + "\n" +
+  return volumePassSource((masked ? "#define MASKED\n" : std::string()) + "#define MAX_PER_CELL " + std::to_string(LargestSamples + 1) + "\n" +
     std::string(shader_refine_frag));
 }
 
@@ -172,7 +172,7 @@ ShaderSource coverSource()
 
 std::vector<std::pair<std::string, ShaderSource>> allSources()
 {
-  std::vector<std::pair<std::string, ShaderSource>> sources{ { "refine", refineSource() },
+  std::vector<std::pair<std::string, ShaderSource>> sources{ { "refine", refineSource(false) }, { "refine_masked", refineSource(true) },
     { "invert", invertSource() }, { "normals", normalsSource() }, { "blocks", blocksSource() },
     { "presence_rest", presenceSource(false) }, { "presence_deformed", presenceSource(true) },
     { "proxy", proxySource() }, { "composite", compositeSource() }, { "cover", coverSource() } };

@@ -71,7 +71,7 @@ struct RayCastVariant
   }
 };
 
-VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource refineSource();
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource refineSource(bool masked);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource invertSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource rayCastSource(const RayCastVariant& variant);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource compositeSource();

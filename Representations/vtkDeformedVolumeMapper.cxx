@@ -110,6 +110,7 @@ void vtkDeformedVolumeMapper::UpdateDeformation(vtkImageData* image)
   state.Request.kernel = lattice.kernel;
   state.Request.samples = state.Source.samples;
   state.Request.inverse = state.Source.inverse;
+  state.Request.mask = lattice.mask;
   state.Request.inCells = displacementsInCells(lattice);
   state.Request.nodes = backwardNodes(lattice.grid, state.Request.inCells, state.Source.samples);
   state.Moved = movedHull(lattice.grid.dimensions, state.Request.inCells);
@@ -354,6 +355,7 @@ bool vtkDeformedVolumeMapper::AskForMemory(
   {
     sizes.forwardNodes = (state.Request.dimensions - 1) * (state.Request.samples + 1) + 1;
     sizes.backwardNodes = state.Request.nodes.count;
+    sizes.masked = state.Request.mask != nullptr;
   }
   problem = device.Memory.ask(window, memoryNeed(sizes), this->MemoryLimit);
   return problem.empty();

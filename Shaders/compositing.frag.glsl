@@ -118,7 +118,7 @@ void main()
   // Samples are numbered from the box's edge or a cut, whether empty space is skipped or not.
   float end = path.samples.y;
   float i = evenBelow(path.samples.x);
-  float ask = skipping == 0 ? end : i; // from this sample on, whether there is anything
+  float ask = skipping == 0 ? end : i + Trust; // from this sample on, whether there is anything
   float taken = 0.0;
   while (i < end && seen.picture.a <= OpaqueEnough)
   {

@@ -7,6 +7,10 @@ uniform int points;       // control points along the axis
 uniform int perCell;      // nodes for each lattice cell
 uniform vec4 weights[MAX_PER_CELL]; // of the four control points at each node of a cell, from C++
 
+#ifdef MASKED
+uniform sampler3D maskWeights; // share of the displacement that holds at each node
+#endif
+
 // The control point, or node, of number `along` on the axis; the last ones repeat.
 vec3 coarseAt(vec3 across, float along)
 {
@@ -23,5 +27,8 @@ void main()
   vec4 weight = weights[int(node - cell * float(perCell) + 0.5)];
   vec3 sum = weight.x * coarseAt(across, cell - 1.0) + weight.y * coarseAt(across, cell) +
     weight.z * coarseAt(across, cell + 1.0) + weight.w * coarseAt(across, cell + 2.0);
+#ifdef MASKED
+  sum *= textureLod(maskWeights, (texel + 0.5) / vec3(textureSize(maskWeights, 0)), 0.0).x;
+#endif
   gl_FragData[0] = vec4(sum, 0.0);
 }

@@ -12,7 +12,7 @@ uniform vec3 brickOfTextureZero; // minus the first brick
 uniform vec3 leapsTexel;         // one brick, texture coordinates of `leaps`
 
 const float Nothing = 1e29; // what `spans` holds where no face is
-const float Trust = 8.0;    // so many samples after a visible one are not asked about
+const float Trust = 8.0; // so many samples, first ones and after a visible one, are not asked about
 
 // The eye may be inside an occupied brick: its front faces are then behind the eye.
 bool startsInside(vec3 position)

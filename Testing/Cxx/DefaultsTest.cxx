@@ -14,10 +14,14 @@ TEST(Defaults, OfFreeFormDeformationLiveInTheClass)
 {
   vtkNew<vtkFreeFormDeformation> filter;
   const int* sides = filter->GetLatticeDimensions();
+  const double* interest = filter->GetPointOfInterest();
   const Defaults expected{
+    { "Feather", { filter->GetFeather() } },
+    { "GuardFolding", { double(filter->GetGuardFolding()) } },
     { "Inverse", { double(filter->GetInverse()) } },
     { "Kernel", { double(filter->GetKernel()) } },
     { "LatticeDimensions", { double(sides[0]), double(sides[1]), double(sides[2]) } },
+    { "PointOfInterest", { interest[0], interest[1], interest[2] } },
     { "Samples", { double(filter->GetSamples()) } },
     { "Strength", { filter->GetStrength() } },
   };

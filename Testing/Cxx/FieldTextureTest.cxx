@@ -2,6 +2,7 @@
 // Proves that the GPU computes the same fields as the CPU: what is drawn is what is baked.
 #include "FieldTexture.h"
 #include "Kernels.h"
+#include "MaskWeights.h"
 #include "TestLattices.h"
 #include "TestWindow.h"
 
@@ -66,6 +67,7 @@ FieldRequest requestFor(const Lattice& lattice, int samples, Inverse inverse)
   request.kernel = lattice.kernel;
   request.samples = samples;
   request.inverse = inverse;
+  request.mask = lattice.mask;
   request.inCells = displacementsInCells(lattice);
   request.nodes = backwardNodes(lattice.grid, request.inCells, samples);
   return request;
@@ -146,6 +148,41 @@ TEST_P(FieldTextureTest, NegatesLikeTheCPU)
     offset *= request.offsetScale;
   }
   EXPECT_LT(largestDifference(download(this->Field.offsets()), known), 1e-5f * largest(known));
+}
+
+TEST_P(FieldTextureTest, MasksLikeTheCPU)
+{
+  // A ball's weights, then others, then none, on the same control points.
+  const glm::dvec3 middle =
+    this->Bent.grid.worldFromGrid(glm::dvec3(this->Bent.grid.dimensions) / 2.0);
+  for (const double radius : { 25.0, 18.0, 0.0 })
+  {
+    if (radius > 0.0)
+    {
+      Mask mask{ plainGrid(glm::ivec3(61), glm::dvec3(1.0)), {} };
+      mask.grid.origin = middle - 30.0;
+      for (int voxel = 0; voxel < 61 * 61 * 61; ++voxel)
+      {
+        const glm::dvec3 at(voxel % 61 - 30, voxel / 61 % 61 - 30, voxel / 3721 - 30);
+        mask.inside.push_back(glm::length(at) < radius);
+      }
+      this->Bent.mask = maskWeights(this->Bent.grid, this->Samples, mask, 9.0);
+    }
+    else
+    {
+      this->Bent.mask = nullptr;
+    }
+    const FieldRequest request = requestFor(this->Bent, this->Samples, Inverse::Exact);
+    ASSERT_TRUE(this->Field.update(this->Shown.window(), request, this->Count));
+    const NodeField known = refine(this->Bent, this->Samples);
+    EXPECT_LT(largestDifference(download(this->Field.displacements()), known.values),
+      1e-5f * std::max(largest(known.values), 1.0f))
+      << radius;
+    EXPECT_LT(largestDifference(download(this->Field.offsets()),
+                invert(known, request.nodes, Inverse::Exact).values),
+      1e-3f)
+      << radius;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, FieldTextureTest,

@@ -4,6 +4,7 @@
 #include "Kernels.h"
 #include "TestPipeline.h"
 
+#include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkMatrix3x3.h>
 
@@ -121,23 +122,23 @@ TEST_F(FreeFormDeformation, PassesTheSameArrayOnUntilItChanges)
 
 TEST_F(FreeFormDeformation, AttachesTheContract)
 {
-  this->Filter->SetLatticeDimensions(7, 6, 5);
+  this->Filter->SetLatticeDimensions(8, 7, 6);
   this->Filter->SetKernel(KernelBSpline);
   this->Filter->SetSamples(3);
   this->Filter->SetInverse(1);
   this->Filter->SetStrength(0.5);
   this->bend();
   vtkImageData* image = this->output();
-  EXPECT_EQ(fieldArray(image, "FFDDisplacements", 3, 210)->GetDataType(), VTK_FLOAT);
+  EXPECT_EQ(fieldArray(image, "FFDDisplacements", 3, 336)->GetDataType(), VTK_FLOAT);
   const double* sides = fieldArray(image, "FFDDimensions", 3, 1)->GetTuple3(0);
-  EXPECT_EQ(glm::dvec3(sides[0], sides[1], sides[2]), glm::dvec3(7, 6, 5));
+  EXPECT_EQ(glm::dvec3(sides[0], sides[1], sides[2]), glm::dvec3(8, 7, 6));
   EXPECT_EQ(fieldArray(image, "FFDKernel", 1, 1)->GetTuple1(0), KernelBSpline);
   EXPECT_EQ(fieldArray(image, "FFDSamples", 1, 1)->GetTuple1(0), 3.0);
   EXPECT_EQ(fieldArray(image, "FFDInverse", 1, 1)->GetTuple1(0), 1.0);
   EXPECT_EQ(fieldArray(image, "FFDStrength", 1, 1)->GetTuple1(0), 0.5);
   vtkDataArray* box = fieldArray(image, "FFDBox", 15, 1);
   const glm::dvec3 spacing =
-    this->VolumeGrid.spacing * glm::dvec3(20, 15, 12) / glm::dvec3(6, 5, 4);
+    this->VolumeGrid.spacing * glm::dvec3(20, 15, 12) / glm::dvec3(7, 6, 5);
   for (int axis = 0; axis < 3; ++axis)
   {
     EXPECT_NEAR(box->GetComponent(0, axis), this->VolumeGrid.origin[axis], 1e-9);
@@ -194,6 +195,42 @@ TEST_F(FreeFormDeformation, ScalesWithStrength)
   EXPECT_EQ(this->Filter->GetStrength(), 1.0);
 }
 
+TEST_F(FreeFormDeformation, GuardsFoldingUntilToldNotTo)
+{
+  Stroke far = this->stamp();
+  far.vector *= 20.0;
+  setStrokes(this->Filter, { this->stamp(), far });
+  this->output();
+  EXPECT_GE(this->Filter->GetMinimumJacobian(), 0.1);
+  EXPECT_EQ(this->Filter->GetShortenedStrokes(), 1);
+  ASSERT_EQ(this->Filter->GetStrokeShares()->GetNumberOfValues(), 2);
+  EXPECT_EQ(this->Filter->GetStrokeShares()->GetValue(0), 1.0);
+  EXPECT_LT(this->Filter->GetStrokeShares()->GetValue(1), 0.9);
+  EXPECT_EQ(this->Heard.take(), "");
+  this->Filter->GuardFoldingOff();
+  this->output();
+  EXPECT_LT(this->Filter->GetMinimumJacobian(), 0.0);
+  EXPECT_EQ(this->Filter->GetShortenedStrokes(), 0);
+  EXPECT_EQ(this->Filter->GetStrokeShares()->GetValue(1), 1.0);
+}
+
+TEST_F(FreeFormDeformation, SaysOnceThatTheBaseFoldsByItself)
+{
+  const glm::dvec3 corner = this->VolumeGrid.origin;
+  this->Filter->SetInputDataObject(1, fieldOn(this->VolumeGrid, [&](const glm::dvec3& rest) {
+    return glm::distance(rest, corner) < 30.0 ? -1.5 * (rest - corner) : glm::dvec3(0.0);
+  }));
+  setStrokes(this->Filter, { this->stamp() });
+  this->output();
+  const std::string warning = this->Heard.take();
+  EXPECT_NE(warning.find("base lattice folds by itself"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("below 0.1 in "), std::string::npos) << warning;
+  EXPECT_EQ(this->Filter->GetShortenedStrokes(), 0);
+  this->Filter->SetStrength(0.5);
+  this->output();
+  EXPECT_EQ(this->Heard.take(), "") << "told already";
+}
+
 TEST_F(FreeFormDeformation, AppliesOneStrokeWhileTheLastIsChanged)
 {
   std::vector<Stroke> strokes{ this->stamp(), this->stamp(), this->stamp() };
@@ -245,6 +282,19 @@ TEST_F(FreeFormDeformation, RefusesAStrengthThatIsNoNumber)
   this->Filter->SetStrength(std::numeric_limits<double>::quiet_NaN());
   this->output();
   this->expectKeepsDeformation({ "Strength is not a number", "0 to 1" });
+}
+
+TEST_F(FreeFormDeformation, RefusesAPointOfInterestThatIsNowhere)
+{
+  this->bend();
+  this->Filter->SetPointOfInterest(1.5, std::numeric_limits<double>::infinity(), 3.0);
+  this->output();
+  this->expectKeepsDeformation({ "PointOfInterest is 1.5 inf 3 mm", "finite" });
+  this->Filter->SetPointOfInterest(1.5, 2.0, 3.0);
+  EXPECT_EQ(
+    deformationOf(this->output()).lattice.displacements, this->LastGood.lattice.displacements)
+    << "it bends nothing";
+  EXPECT_EQ(this->Heard.take(), "");
 }
 
 TEST_F(FreeFormDeformation, AddsStrokesToABaseOnItsOwnGrid)

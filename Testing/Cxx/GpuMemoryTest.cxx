@@ -38,9 +38,11 @@ TEST(GpuMemory, CountsEachPart)
   sizes.forwardNodes = { 64, 64, 64 };
   sizes.backwardNodes = { 64, 64, 128 };
   EXPECT_EQ(memoryNeed(sizes).field, 12 * MiB);
+  sizes.masked = true;
+  EXPECT_EQ(memoryNeed(sizes).field, 13 * MiB);
   sizes.pixels = { 1024, 1024 };
   EXPECT_EQ(memoryNeed(sizes).images, 36 * MiB);
-  EXPECT_EQ(memoryNeed(sizes).total(), (16 + 4 + 32 + 12 + 36) * MiB);
+  EXPECT_EQ(memoryNeed(sizes).total(), (16 + 4 + 32 + 13 + 36) * MiB);
 }
 
 TEST(GpuMemory, DoesNotOverflow)

@@ -74,6 +74,17 @@ TEST(MinimumJacobian, OfHalvedLengthsIsAnEighth)
   EXPECT_NEAR(minimumJacobian(halved(KernelCatmullRom)), 0.4375 * 0.4375 * 0.4375, 1e-5);
 }
 
+TEST(MinimumJacobian, IsAboveOneOnlyIfAllOfItGrows)
+{
+  const Grid grid = plainGrid(glm::ivec3(7), glm::dvec3(10.0));
+  const auto grow = [](const glm::dvec3& rest) { return 0.5 * (rest - glm::dvec3(30.0)); };
+  // In a border cell the B-spline's slope is half the linear one at the border itself.
+  EXPECT_NEAR(minimumJacobian(latticeOf(grid, KernelBSpline, grow)), 1.25 * 1.25 * 1.25, 1e-5);
+  Lattice middle = makeLattice(grid, KernelBSpline);
+  middle.displacements[grid.offset(0, 0, 0)] = { -5.0f, 0.0f, 0.0f };
+  EXPECT_EQ(minimumJacobian(middle), 1.0) << "far from that corner tissue stays";
+}
+
 TEST(MinimumJacobian, IsNegativeWhereTissueFolds)
 {
   Lattice lattice = makeLattice(plainGrid(glm::ivec3(9), glm::dvec3(5.0)), KernelCatmullRom);

@@ -193,6 +193,25 @@ TEST(Move, KeepsItsShapeOnADenserLattice)
   }
 }
 
+TEST(Move, MovesTissueTheSameOnADenserBSplineLattice)
+{
+  Stroke stroke = strokeAt(Tool::Move, { 40, 40, 60 }, { 4, -8, 16 });
+  stroke.axis = glm::dvec3(20.0);
+  stroke.major = 20.0;
+  Lattice coarse = makeLattice(plainGrid(glm::ivec3(6), glm::dvec3(20.0)), KernelBSpline);
+  Lattice dense = makeLattice(plainGrid(glm::ivec3(11), glm::dvec3(10.0)), KernelBSpline);
+  applyStroke(coarse, stroke);
+  applyStroke(dense, stroke);
+  const PointMap coarseMap(coarse);
+  const PointMap denseMap(dense);
+  for (int point = 0; point < 21 * 21 * 21; ++point)
+  {
+    const glm::dvec3 rest = 5.0 * glm::dvec3(point % 21, point / 21 % 21, point / 441);
+    EXPECT_LT(
+      glm::distance(coarseMap.deformedFromRest(rest), denseMap.deformedFromRest(rest)), 1e-5);
+  }
+}
+
 TEST(Lattice, OfOneTranslationTranslatesEverywhere)
 {
   const glm::dvec3 shift(3.0, -5.0, 7.0);

@@ -3,6 +3,7 @@
 // maps of single points.
 #include "OffsetField.h"
 #include "Kernels.h"
+#include "PointMap.h"
 #include "TestLattices.h"
 
 #include <glm/vector_relational.hpp>

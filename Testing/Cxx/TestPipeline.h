@@ -79,7 +79,7 @@ inline vtkSmartPointer<vtkImageData> fieldOn(
   return image;
 }
 
-// Collects what a filter would tell the user.
+// Collects what a filter would tell the user: errors and warnings.
 class Errors
 {
 public:
@@ -89,6 +89,7 @@ public:
     this->Collect->SetCallback([](vtkObject*, unsigned long, void* self, void* text)
       { static_cast<Errors*>(self)->Text += static_cast<const char*>(text); });
     filter->AddObserver(vtkCommand::ErrorEvent, this->Collect);
+    filter->AddObserver(vtkCommand::WarningEvent, this->Collect);
     filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->Collect);
   }
 

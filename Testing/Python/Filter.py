@@ -59,9 +59,9 @@ def test_strokes_move_what_they_say():
     assert numpy.allclose(point, (0, 0, 3)), point
     assert math.isclose(information(filter, "MaximumDisplacement"), 3.0, rel_tol=1e-6)
     assert 0.1 < information(filter, "MinimumJacobian") < 1.0
-    filter.Strokes = brainshift.move((0, 0, 0), (1, 2, 3))
+    filter.Strokes = brainshift.move((0, 0, 0), (0.25, 0.5, 0.75))
     displacements = field(filter, "FFDDisplacements")
-    assert displacements[0].tolist() == [1, 2, 3]
+    assert displacements[0].tolist() == [0.25, 0.5, 0.75]
     assert not displacements[1:].any()
 
 
@@ -82,6 +82,21 @@ def test_adding_a_stroke_applies_one():
     assert information(filter, "AppliedStrokes") == 1
 
 
+def test_guard_shortens_strokes_and_tells_it():
+    filter = bent()
+    far = brainshift.stamp(MIDDLE, (16.0, 16.0, 0.0), 40.0, major=14.0, minor=10.0)
+    filter.Strokes = STAMP + far
+    output(filter)
+    assert information(filter, "MinimumJacobian") >= 0.1
+    assert information(filter, "ShortenedStrokes") == 1
+    assert filter.StrokeShares[0] == 1.0 and 0.0 < filter.StrokeShares[1] < 0.9
+    assert tuple(filter.Strokes) == STAMP + far, "the numbers are the user's"
+    filter.GuardFolding = 0
+    output(filter)
+    assert information(filter, "MinimumJacobian") < 0.0
+    assert information(filter, "ShortenedStrokes") == 0
+
+
 def test_strength_scales():
     filter = bent()
     whole = field(filter, "FFDDisplacements")
@@ -89,6 +104,25 @@ def test_strength_scales():
     assert field(filter, "FFDStrength").ravel().tolist() == [0.5]
     assert numpy.array_equal(field(filter, "FFDDisplacements"), whole)
     assert math.isclose(information(filter, "MaximumDisplacement"), 1.5, rel_tol=1e-6)
+
+
+def test_point_of_interest_starts_in_the_middle():
+    filter = bent()
+    assert tuple(filter.PointOfInterest) == MIDDLE
+    good = field(filter, "FFDDisplacements")
+    filter.PointOfInterest = [math.nan, 0, 0]
+    expect_kept(filter, good, "PointOfInterest is nan 0 0 mm", "finite")
+    given = FreeFormDeformation(Input=volume(ball()), PointOfInterest=[1, 2, 3])
+    assert tuple(given.PointOfInterest) == (1, 2, 3)
+
+
+def test_a_base_lattice_comes_and_goes():
+    shift = numpy.zeros((2, 2, 2, 3), numpy.float32)
+    shift[..., 0] = 2.5
+    filter = FreeFormDeformation(Input=volume(ball()), Lattice=volume(shift, spacing=(32,) * 3))
+    assert numpy.allclose(field(filter, "FFDDisplacements"), (2.5, 0, 0))
+    filter.Lattice = None
+    assert not field(filter, "FFDDisplacements").any()
 
 
 def test_lattice_density_replays():

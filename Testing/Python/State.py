@@ -19,6 +19,7 @@ def make_scene():
     filter = simple.FreeFormDeformation(registrationName="Bent", Input=simple.Wavelet())
     filter.LatticeDimensions = [11, 12, 13]
     filter.Strokes = STROKES
+    filter.PointOfInterest = [1.5, -2.25, 3.0]
     filter.Strength = 0.75
     filter.Kernel = "B-Spline"
     view = view_along((0.3, -0.4, -1), (0, 0, 0), 60)
@@ -37,6 +38,7 @@ def expect_scene(before, load):
     filter = simple.FindSource("Bent")
     assert filter is not None
     assert tuple(filter.Strokes) == STROKES, tuple(filter.Strokes)
+    assert tuple(filter.PointOfInterest) == (1.5, -2.25, 3.0), tuple(filter.PointOfInterest)
     assert tuple(filter.LatticeDimensions) == (11, 12, 13)
     assert filter.Strength == 0.75
     assert filter.Kernel == "B-Spline"

@@ -9,12 +9,14 @@ from brainshift_testing import (
 
 load_plugin()
 
+INTEREST = [-309, 22, 477]
+
 
 def bend_a_head():
     """What a user does in the window. A script's steps are traced where they create something."""
     head = simple.OpenDataFile(data("seg3d-utah", "seg3d_mr_t1.nii.gz"))
     deformation = simple.FreeFormDeformation(
-        Input=head, Strength=0.75,
+        Input=head, Strength=0.75, PointOfInterest=INTEREST,
         Strokes=(brainshift.stamp((-366, 40, 520), (-309, 22, 477), -10.0)
                  + brainshift.move((-309, 22, 540), (0.0, 0.0, 4.0))))
     view = simple.CreateView(
@@ -47,6 +49,7 @@ def test_trace_replays_to_the_same_picture():
     again = simple.FindSource("FreeFormDeformation1")
     assert list(again.Strokes) == strokes, list(again.Strokes)
     assert again.Strength == 0.75, again.Strength
+    assert list(again.PointOfInterest) == INTEREST, list(again.PointOfInterest)
     similarity = structural_similarity(drawn, picture(simple.GetActiveView()))
     assert similarity > 0.999, similarity
 

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reads a mask from an image: labels or scalars, on points or in cells, on any grid.
+#ifndef BrainShift_MaskImage_h
+#define BrainShift_MaskImage_h
+
+#include "MaskWeights.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkImageData;
+
+namespace brainshift
+{
+// Inside is what has one of the labels; with none given, what is above 0. The array is the active
+// scalars of the points, or the first of the points, or else of the cells, that has one component.
+// Returns what keeps it from being a mask for a volume; empty if nothing does.
+VTKBRAINSHIFTFILTERS_EXPORT std::string readMask(
+  vtkImageData* image, const std::vector<int>& labels, const Grid& volume, Mask& mask);
+
+// All that a mask's weights depend on.
+struct MaskRequest
+{
+  vtkImageData* image = nullptr; // null or empty: no mask
+  std::vector<int> labels;
+  double featherMm = 0.0;
+  Grid volume;
+  Grid lattice;
+  int samples = 0;
+};
+
+// Keeps the weights of the last request: they are found anew only if anything of it changed.
+class VTKBRAINSHIFTFILTERS_EXPORT MaskSource
+{
+public:
+  // Null weights without a mask. Returns what is wrong with it; empty if nothing is.
+  std::string find(const MaskRequest& request, std::shared_ptr<const NodeWeights>& weights);
+
+private:
+  bool isKnown(const MaskRequest& request) const;
+
+  MaskRequest Known;
+  unsigned long long KnownTime = 0;           // of its image
+  std::shared_ptr<const NodeWeights> Weights; // null: the last mask was none
+};
+}
+
+#endif
