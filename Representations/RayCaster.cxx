@@ -116,24 +116,6 @@ void setSkippingUniforms(Program& program, const RayCastScene& scene, vtkTexture
     glm::vec3(-scene.textureOfBrickZero / scene.textureFromBrick - scene.firstBrick));
 }
 
-void setTissueUniforms(Program& program, const RayCastScene& scene)
-{
-  program.set("scalars", scene.scalars);
-  program.set("transfer", scene.transfer);
-  program.set("transferFromScalar", glm::vec2(scene.transferFromScalar));
-  program.set("volumeLow", glm::vec3(scene.volumeLow));
-  program.set("volumeHigh", glm::vec3(scene.volumeHigh));
-}
-
-void setFieldUniforms(Program& program, const RayCastScene& scene)
-{
-  program.set("offsets", scene.offsets);
-  program.set("fieldFromTexture", glm::vec3(scene.fieldFromTexture));
-  program.set("fieldFromTextureShift", glm::vec3(scene.fieldFromTextureShift));
-  program.set("movedLow", glm::vec3(scene.movedLow));
-  program.set("movedHigh", glm::vec3(scene.movedHigh));
-}
-
 void setLightUniforms(Program& program, const RayCastScene& scene)
 {
   const glm::dmat3 worldFromTexture(scene.worldFromTexture);
@@ -160,6 +142,24 @@ void setLightUniforms(Program& program, const RayCastScene& scene)
   const glm::vec4 material(scene.material);
   shader->SetUniform4f("material", &material[0]);
 }
+}
+
+void setTissueUniforms(Program& program, const RayCastScene& scene)
+{
+  program.set("scalars", scene.scalars);
+  program.set("transfer", scene.transfer);
+  program.set("transferFromScalar", glm::vec2(scene.transferFromScalar));
+  program.set("volumeLow", glm::vec3(scene.volumeLow));
+  program.set("volumeHigh", glm::vec3(scene.volumeHigh));
+}
+
+void setFieldUniforms(Program& program, const RayCastScene& scene)
+{
+  program.set("offsets", scene.offsets);
+  program.set("fieldFromTexture", glm::vec3(scene.fieldFromTexture));
+  program.set("fieldFromTextureShift", glm::vec3(scene.fieldFromTextureShift));
+  program.set("movedLow", glm::vec3(scene.movedLow));
+  program.set("movedHigh", glm::vec3(scene.movedHigh));
 }
 
 RayCaster::RayCaster() = default;

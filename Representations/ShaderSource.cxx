@@ -11,6 +11,7 @@
 #include "shader_compositing_frag.h"
 #include "shader_counting.h"
 #include "shader_cover_frag.h"
+#include "shader_cubic.h"
 #include "shader_field.h"
 #include "shader_fullscreen_vert.h"
 #include "shader_gradient.h"
@@ -30,6 +31,8 @@
 #include "shader_refine_frag.h"
 #include "shader_skipping.h"
 #include "shader_slice_frag.h"
+#include "shader_slices_frag.h"
+#include "shader_slices_vert.h"
 #include "shader_tissue.h"
 #include "shader_volume_pass.h"
 #include "shader_volume_pass_geom.h"
@@ -91,6 +94,13 @@ std::string blendSource(Blend blend)
   }
 }
 
+std::string coloringDefine(Coloring coloring)
+{
+  return coloring == Coloring::Direct   ? "#define DIRECT_COLORS\n"
+    : coloring == Coloring::OtherScalar ? "#define COLOR_SCALARS\n"
+                                        : "";
+}
+
 const char* const LightNames[RayCastVariant::LightCount] = { "_unshaded", "_gradients",
   "_gradient_texture" };
 
@@ -148,8 +158,7 @@ ShaderSource rayCastSource(const RayCastVariant& variant)
   defines += variant.deformed ? "#define DEFORMED\n" : "";
   defines += variant.light != RayCastVariant::Unshaded ? "#define SHADED\n" : "";
   defines += variant.light == RayCastVariant::GradientTexture ? "#define GRADIENT_TEXTURE\n" : "";
-  defines += variant.coloring == Coloring::Direct ? "#define DIRECT_COLORS\n" : "";
-  defines += variant.coloring == Coloring::OtherScalar ? "#define COLOR_SCALARS\n" : "";
+  defines += coloringDefine(variant.coloring);
   defines += variant.regions ? "#define REGIONS\n" : "";
   return { assemble({ shader_fullscreen_vert }), "",
     assemble({ Outputs, defines, shader_rays, shader_skipping, shader_clipping, shader_field,
@@ -166,6 +175,14 @@ ShaderSource compositeSource()
 ShaderSource coverSource()
 {
   return { assemble({ shader_fullscreen_vert }), "", assemble({ Outputs, shader_cover_frag }) };
+}
+
+ShaderSource slicesSource(bool deformed, Coloring coloring)
+{
+  const std::string defines = (deformed ? "#define DEFORMED\n" : "") + coloringDefine(coloring);
+  return { assemble({ shader_slices_vert }), "",
+    assemble({ Outputs, defines, shader_rays, shader_field, shader_gradient, shader_tissue,
+      shader_components, shader_cubic, shader_slices_frag }) };
 }
 
 std::vector<std::pair<std::string, ShaderSource>> allSources()
@@ -199,6 +216,10 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
     add({ deformed, RayCastVariant::GradientTexture, Blend::Composite, Coloring::Mapped, false,
       true });
   }
+  sources.emplace_back("slices_rest", slicesSource(false, Coloring::Mapped));
+  sources.emplace_back("slices_deformed", slicesSource(true, Coloring::Mapped));
+  sources.emplace_back("slices_direct", slicesSource(true, Coloring::Direct));
+  sources.emplace_back("slices_other_scalar", slicesSource(true, Coloring::OtherScalar));
   return sources;
 }
 }

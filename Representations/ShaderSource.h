@@ -80,6 +80,7 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource normalsSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource blocksSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource presenceSource(bool deformed);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource proxySource();
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource slicesSource(bool deformed, Coloring coloring);
 
 // Every program the product can draw with, by name, for an offline compiler: of the ray caster's
 // variants each with every file and every #define in use.

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SliceDrawer.h"
+
+#include "OpenGL.h"
+
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
+#include "vtkTextureObject.h"
+
+#include <glm/mat4x4.hpp>
+
+#include <vector>
+
+namespace brainshift
+{
+namespace
+{
+void setSliceUniforms(Program& program, const SliceScene& scene)
+{
+  const RayCastScene& volume = scene.volume;
+  setTissueUniforms(program, volume);
+  if (volume.offsets)
+  {
+    setFieldUniforms(program, volume);
+  }
+  setColoringUniforms(program, volume.options);
+  program.set("clipFromTexture", glm::mat4(volume.clipFromWorld * volume.worldFromTexture));
+  program.set("voxels", glm::vec3(scene.voxels));
+  program.set("cubic", scene.cubic ? 1 : 0);
+  program.set("opacity", static_cast<float>(scene.opacity));
+  program.set("mapsOpacity", scene.mapsOpacity ? 1 : 0);
+  program.set("selecting", scene.selecting ? 1 : 0);
+}
+
+// Drawing into the scene; restored at the end.
+class SceneScope
+{
+public:
+  SceneScope(vtkOpenGLState* state, bool blended)
+    : DepthMask(state)
+    , DepthFunction(state)
+    , BlendFunction(state)
+    , DepthTest(state, GL_DEPTH_TEST)
+    , Blend(state, GL_BLEND)
+    , Cull(state, GL_CULL_FACE)
+  {
+    state->vtkglEnable(GL_DEPTH_TEST);
+    state->vtkglDepthFunc(GL_LEQUAL);
+    state->vtkglDepthMask(blended ? GL_FALSE : GL_TRUE);
+    state->vtkglDisable(GL_CULL_FACE);
+    if (blended)
+    {
+      state->vtkglEnable(GL_BLEND);
+      state->vtkglBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    }
+    else
+    {
+      state->vtkglDisable(GL_BLEND);
+    }
+  }
+
+private:
+  vtkOpenGLState::ScopedglDepthMask DepthMask;
+  vtkOpenGLState::ScopedglDepthFunc DepthFunction;
+  vtkOpenGLState::ScopedglBlendFuncSeparate BlendFunction;
+  vtkOpenGLState::ScopedglEnableDisable DepthTest;
+  vtkOpenGLState::ScopedglEnableDisable Blend;
+  vtkOpenGLState::ScopedglEnableDisable Cull;
+};
+}
+
+bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, Counters& counters)
+{
+  const RayCastScene& volume = scene.volume;
+  const bool deformed = volume.offsets != nullptr;
+  const Coloring coloring = volume.options.coloring;
+  Program& program = this->Programs[{ deformed, coloring }];
+  if (!program.use(window, slicesSource(deformed, coloring), counters))
+  {
+    return false;
+  }
+  setSliceUniforms(program, scene);
+  {
+    const SceneScope scope(window->GetState(), scene.blended);
+    const std::vector<SliceQuad> quads = scene.blended
+      ? quadsBackToFront(scene.planes, volume.clipFromWorld * volume.worldFromTexture)
+      : wholeQuads(scene.planes);
+    for (const SliceQuad& quad : quads)
+    {
+      program.set("quadCorner", glm::vec3(quad.corner));
+      program.set("quadRight", glm::vec3(quad.right));
+      program.set("quadUp", glm::vec3(quad.up));
+      constexpr int trianglesOfQuad = 2;
+      drawTriangles(trianglesOfQuad);
+    }
+  }
+  for (vtkTextureObject* texture : { volume.scalars, volume.offsets, volume.transfer,
+         volume.options.colors, volume.options.colorScalars })
+  {
+    if (texture)
+    {
+      texture->Deactivate();
+    }
+  }
+  counters.frames += 1;
+  return true;
+}
+}

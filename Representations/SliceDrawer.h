@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws planes through a deformed volume into the scene.
+#ifndef BrainShift_SliceDrawer_h
+#define BrainShift_SliceDrawer_h
+
+#include "Counters.h"
+#include "Program.h"
+#include "RayCaster.h"
+#include "SliceGeometry.h"
+
+#include <glm/vec3.hpp>
+
+#include <map>
+#include <utility>
+
+class vtkOpenGLRenderWindow;
+
+namespace brainshift
+{
+struct SliceScene
+{
+  RayCastScene volume; // tissue, offset field and camera of it
+  SlicePlanes planes;
+  glm::ivec3 voxels{ 1 };   // of the scalars, a side
+  bool cubic = false;       // else as the textures filter
+  double opacity = 1.0;     // of all that is shown
+  bool mapsOpacity = false; // times the opacity map's
+  bool blended = false;     // over what is there already, from back to front, leaving its depth
+  bool selecting = false;   // only depth, for a selection
+};
+
+class SliceDrawer
+{
+public:
+  // False if a shader does not compile.
+  bool draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, Counters& counters);
+
+  void releaseGraphicsResources() { this->Programs.clear(); }
+
+private:
+  std::map<std::pair<bool, Coloring>, Program> Programs; // deformed or not; those drawn with so far
+};
+}
+
+#endif
