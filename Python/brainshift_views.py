@@ -105,14 +105,30 @@ def _make_grey(displays, coloring):
 
 
 def _link(displays):
-    """Gives all displays one slice position from now on."""
+    """Gives all displays one slice position from now on. ParaView's links keep a closed view's display
+    as a null pointer and follow it; so the link is made anew without it."""
     from paraview import servermanager
 
+    manager = servermanager.ProxyManager()
     link = servermanager.vtkSMPropertyLink()
-    for display, direction in itertools.product(displays, (link.INPUT, link.OUTPUT)):
-        link.AddLinkedProperty(display.SMProxy, "SlicePosition", direction)
-    name = f"SlicePosition{displays[0].SMProxy.GetGlobalIDAsString()}"
-    servermanager.ProxyManager().RegisterLink(name, link)
+    link_name = f"SlicePosition{displays[0].SMProxy.GetGlobalIDAsString()}"
+    linked = {manager.GetProxyName("representations", display.SMProxy):
+              display.SMProxy.GetGlobalID() for display in displays}
+
+    def make_anew(*_):
+        if manager.SMProxyManager.GetRegisteredLink(link_name) != link:
+            return  # removed by hand, or with its session
+        link.RemoveAllLinks()
+        for (name, number), direction in itertools.product(
+                linked.items(), (link.INPUT, link.OUTPUT)):
+            proxy = manager.SMProxyManager.GetProxy("representations", name)
+            if proxy is not None and proxy.GetGlobalID() == number:  # names are used again
+                link.AddLinkedProperty(proxy, "SlicePosition", direction)
+
+    for display in displays:
+        display.SMProxy.AddObserver("DeleteEvent", make_anew)
+    manager.RegisterLink(link_name, link)
+    make_anew()
 
 
 def four_views(source, convention="radiological"):
