@@ -11,8 +11,8 @@ load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from paraview.simple import (  # noqa: E402
     AssignViewToLayout, ColorBy, CreateLayout, CreateRenderView, Delete, FreeFormDeformation,
-    GetDisplayProperties, GetLayout, GetViewsInLayout, LoadState, ResetSession, SaveState,
-    SetActiveView, Show, Wavelet)
+    GetDisplayProperties, GetLayout, GetRenderViews, GetSources, GetViewsInLayout, LoadState,
+    SaveState, SetActiveView, Show, Wavelet)
 
 MIDDLE = (16.0, 16.0, 16.0)
 SLICES = ("axial", "coronal", "sagittal")
@@ -162,20 +162,17 @@ def test_slices_share_a_grey_map():
 
 
 def test_a_state_file_keeps_the_link():
-    ResetSession()
-    load_plugin()
+    for source in GetSources().values():
+        Delete(source)
     source = FreeFormDeformation(Input=Wavelet(WholeExtent=[-8, 8, -8, 8, -8, 8]))
-    brainshift.four_views(source)
+    views = brainshift.four_views(source)
     state = scratch("four-views.pvsm")
     SaveState(state)
-    ResetSession()
-    load_plugin()
+    close(views)
     LoadState(state)
     os.remove(state)
-    from paraview import servermanager
-    manager = servermanager.ProxyManager()
-    displays = [proxy for proxy in manager.GetProxiesInGroup("representations").values()
-                if getattr(proxy, "Representation", None) == "Deformed Slices"]
+    displays = [display for view in GetRenderViews() for display in view.Representations
+                if getattr(display, "Representation", None) == "Deformed Slices"]
     assert len(displays) == 3, displays
     displays[0].SlicePosition = [1.0, 2.0, 3.0]
     for display in displays:
