@@ -22,20 +22,20 @@ MARGIN = 1.05
 
 
 def _place():
-    """The view for 3D, a layout, and its four cells in reading order. The active view and its layout
-    if it is a render view and alone there; else new ones."""
+    """The view for 3D, its layout, and the cells for axial, coronal and sagittal views. The active view
+    and its layout if it is a render view and alone there; else new ones."""
     from paraview import simple
 
     view = simple.GetActiveView()
     layout = simple.GetLayout(view) if view is not None else None
-    if (layout is not None and view.GetXMLName() == "RenderView"
-            and len(simple.GetViewsInLayout(layout)) == 1):
-        layout.RemoveView(view)
-    else:
+    if (layout is None or view.GetXMLName() != "RenderView"
+            or len(simple.GetViewsInLayout(layout)) > 1):
         layout, view = simple.CreateLayout("Four Views"), simple.CreateView("RenderView")
+        layout.AssignView(0, view)
     top = layout.SplitVertical(0, 0.5)
     left, bottom_left = (layout.SplitHorizontal(row, 0.5) for row in (top, top + 1))
-    return view, layout, (left, left + 1, bottom_left, bottom_left + 1)
+    layout.SwapCells(left, left + 1)  # the view has moved to the first cell
+    return view, layout, (left, bottom_left, bottom_left + 1)
 
 
 def _slice_view(plane):
@@ -134,7 +134,7 @@ def _link(displays):
 def four_views(source, convention="radiological"):
     """Lays out the classical four views of a volume: axial, 3D, coronal and sagittal.
 
-    Returns them as a dict: axial, volume, coronal, sagittal. The slices are Deformed Slices in 2D
+    Returns them as a dict: axial, coronal, sagittal, volume. The slices are Deformed Slices in 2D
     views with one position: set `SlicePosition` (mm) of one, the others follow; they share a grey
     colour map of their own. Letters tell the sides of the patient, where world axes are right,
     anterior, superior. `convention`: radiological (patient's right on the left of the picture) or
@@ -149,8 +149,7 @@ def four_views(source, convention="radiological"):
         raise ValueError(f"convention is {convention}; it must be {' or '.join(CAMERAS)}")
     source.UpdatePipeline()
     active, layout, cells = _place()
-    views = {"axial": _slice_view("axial"), "volume": active,
-             "coronal": _slice_view("coronal"), "sagittal": _slice_view("sagittal")}
+    views = {plane: _slice_view(plane) for plane in PLANES}
     for view, cell in zip(views.values(), cells):
         layout.AssignView(cell, view)
     was_shown = source in (getattr(shown, "Input", None) for shown in active.Representations)
@@ -169,4 +168,4 @@ def four_views(source, convention="radiological"):
     _link([*displays.values(), volume])
     simple.SetActiveView(active)
     simple.RenderAllViews()
-    return views
+    return {**views, "volume": active}
