@@ -148,10 +148,13 @@ def test_nothing_outside_tissue():
     lit = object_pixels(image)
     assert abs(lit.sum() - (SIZE / 2) ** 2) <= 2 * SIZE, lit.sum()
     assert (image[lit] == 1.0).all()
-    bent = FreeFormDeformation(Input=source, Strokes=brainshift.soft((16, 30, 16), (0, 9, 0), 14.0))
+    bent = FreeFormDeformation(Input=source, Strokes=brainshift.soft((16, 30, 16), (0, 7, 0), 9.0))
     pulled = object_pixels(slice_picture(bent, 2, 32.0))
-    assert pulled.sum() > 1.03 * lit.sum(), "tissue pulled out of the box is drawn"
     assert (pulled | ~lit).all(), "no hole where it was"
+    x, y, _ = pixel_positions((1, 0, 0), (0, 1, 0), MIDDLE, 32.0).transpose(2, 0, 1)
+    above, near = y > 33.0, numpy.abs(x - 16) < 9.0
+    assert pulled[above & near].sum() > 500, "tissue pulled out of the box is drawn"
+    assert not pulled[above & ~near].any(), "and nothing beside it"
 
 
 def test_a_flat_view_shows_a_flat_slice():

@@ -259,6 +259,21 @@ def test_selections_end_at_slices():
         assert selected == [1, 1, 0], (opacity, selected)
 
 
+def test_a_slice_is_no_number_to_a_selection():
+    # Selections draw numbers as colours: a dark red slice must not be taken for one.
+    view = flat_view(2, MIDDLE, 20.0, size=60)
+    display = show_slices(plain(), view, ("Axial",), MIDDLE)
+    Show(Sphere(Center=(16.0, 16.0, 8.0), Radius=5.0), view)
+    for number in range(1, 6):
+        color = GetColorTransferFunction("Intensity", display, separate=True)
+        color.RGBPoints = [0, number / 255, 0, 0, 100, number / 255, 0, 0]
+        picture(view)
+        representations, sources = vtkCollection(), vtkCollection()
+        view.SMProxy.SelectSurfaceCells([0, 0, 59, 59], representations, sources, 0)
+        assert sources.GetNumberOfItems() == 0, number
+    Delete(view)
+
+
 def read_png(name):
     reader = vtkPNGReader()
     reader.SetFileName(name)
