@@ -6,6 +6,7 @@
 #include "shader_blocks_frag.h"
 #include "shader_bricks.h"
 #include "shader_clipping.h"
+#include "shader_comparison.h"
 #include "shader_components.h"
 #include "shader_composite_frag.h"
 #include "shader_compositing_frag.h"
@@ -177,12 +178,13 @@ ShaderSource coverSource()
   return { assemble({ shader_fullscreen_vert }), "", assemble({ Outputs, shader_cover_frag }) };
 }
 
-ShaderSource slicesSource(bool deformed, Coloring coloring)
+ShaderSource slicesSource(const SlicesVariant& variant)
 {
-  const std::string defines = (deformed ? "#define DEFORMED\n" : "") + coloringDefine(coloring);
+  const std::string defines = (variant.deformed ? "#define DEFORMED\n" : "") +
+    coloringDefine(variant.coloring) + (variant.compared ? "#define COMPARED\n" : "");
   return { assemble({ shader_slices_vert }), "",
     assemble({ Outputs, defines, shader_rays, shader_field, shader_gradient, shader_tissue,
-      shader_components, shader_cubic, shader_slices_frag }) };
+      shader_components, shader_cubic, shader_comparison, shader_slices_frag }) };
 }
 
 std::vector<std::pair<std::string, ShaderSource>> allSources()
@@ -216,10 +218,10 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
     add({ deformed, RayCastVariant::GradientTexture, Blend::Composite, Coloring::Mapped, false,
       true });
   }
-  sources.emplace_back("slices_rest", slicesSource(false, Coloring::Mapped));
-  sources.emplace_back("slices_deformed", slicesSource(true, Coloring::Mapped));
-  sources.emplace_back("slices_direct", slicesSource(true, Coloring::Direct));
-  sources.emplace_back("slices_other_scalar", slicesSource(true, Coloring::OtherScalar));
+  sources.emplace_back("slices_rest", slicesSource({}));
+  sources.emplace_back("slices_deformed", slicesSource({ true }));
+  sources.emplace_back("slices_direct", slicesSource({ true, Coloring::Direct }));
+  sources.emplace_back("slices_compared", slicesSource({ true, Coloring::OtherScalar, true }));
   return sources;
 }
 }

@@ -32,6 +32,23 @@ void setSliceUniforms(Program& program, const SliceScene& scene)
   program.set("selecting", scene.selecting ? 1 : 0);
 }
 
+void setReferenceUniforms(Program& program, const SliceScene& scene)
+{
+  const ReferenceScene& reference = scene.reference;
+  program.set("reference", reference.scalars);
+  program.set("referenceFromTexture", glm::mat4(reference.referenceFromTexture));
+  program.set("referenceLow", glm::vec3(reference.low));
+  program.set("referenceHigh", glm::vec3(reference.high));
+  program.set("shareFromReference", glm::vec2(reference.shareFromReference));
+  program.set("shareFromScalar", glm::vec2(reference.shareFromScalar));
+  const glm::dvec2& own = reference.shareFromScalar;
+  const glm::dvec2& transfer = scene.volume.transferFromScalar;
+  const double scale = transfer.x / own.x;
+  program.set("transferFromShare", glm::vec2(scale, transfer.y - own.y * scale));
+  program.set("comparison", reference.comparison);
+  program.set("checkersFromTexture", glm::vec3(reference.checkersFromTexture));
+}
+
 // Drawing into the scene; restored at the end.
 class SceneScope
 {
@@ -72,14 +89,18 @@ private:
 bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, Counters& counters)
 {
   const RayCastScene& volume = scene.volume;
-  const bool deformed = volume.offsets != nullptr;
-  const Coloring coloring = volume.options.coloring;
-  Program& program = this->Programs[{ deformed, coloring }];
-  if (!program.use(window, slicesSource(deformed, coloring), counters))
+  const SlicesVariant variant{ volume.offsets != nullptr, volume.options.coloring,
+    scene.reference.scalars != nullptr };
+  Program& program = this->Programs[variant];
+  if (!program.use(window, slicesSource(variant), counters))
   {
     return false;
   }
   setSliceUniforms(program, scene);
+  if (variant.compared)
+  {
+    setReferenceUniforms(program, scene);
+  }
   {
     const SceneScope scope(window->GetState(), scene.blended);
     const std::vector<SliceQuad> quads = scene.blended
@@ -95,7 +116,7 @@ bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, C
     }
   }
   for (vtkTextureObject* texture : { volume.scalars, volume.offsets, volume.transfer,
-         volume.options.colors, volume.options.colorScalars })
+         volume.options.colors, volume.options.colorScalars, scene.reference.scalars })
   {
     if (texture)
     {

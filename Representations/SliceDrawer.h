@@ -11,16 +11,29 @@
 #include <glm/vec3.hpp>
 
 #include <map>
-#include <utility>
 
 class vtkOpenGLRenderWindow;
 
 namespace brainshift
 {
+// A volume to compare with.
+struct ReferenceScene
+{
+  vtkTextureObject* scalars = nullptr; // null: none
+  glm::dmat4 referenceFromTexture{ 1.0 }; // its texture coordinates from the volume's
+  glm::dvec3 low{ 0.0 };                  // its box, in its texture coordinates
+  glm::dvec3 high{ 1.0 };
+  glm::dvec2 shareFromReference{ 1.0, 0.0 }; // stored scalar to its share of what is shown
+  glm::dvec2 shareFromScalar{ 1.0, 0.0 };    // the same of the volume
+  int comparison = 0;                        // as vtkDeformedSlicesMapper numbers them
+  glm::dvec3 checkersFromTexture{ 1.0 };     // checker fields for a texture unit
+};
+
 struct SliceScene
 {
   RayCastScene volume; // tissue, offset field and camera of it
   SlicePlanes planes;
+  ReferenceScene reference;
   glm::ivec3 voxels{ 1 };   // of the scalars, a side
   bool cubic = false;       // else as the textures filter
   double opacity = 1.0;     // of all that is shown
@@ -38,7 +51,7 @@ public:
   void releaseGraphicsResources() { this->Programs.clear(); }
 
 private:
-  std::map<std::pair<bool, Coloring>, Program> Programs; // deformed or not; those drawn with so far
+  std::map<SlicesVariant, Program> Programs; // those drawn with so far
 };
 }
 

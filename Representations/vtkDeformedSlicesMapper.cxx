@@ -2,6 +2,8 @@
 #include "vtkDeformedSlicesMapper.h"
 
 #include "GpuMemory.h"
+#include "ReferenceVolume.h"
+#include "ScalarTexture.h"
 #include "SceneDeformation.h"
 #include "SceneGeometry.h"
 #include "SliceDrawer.h"
@@ -9,15 +11,20 @@
 #include "Tissue.h"
 #include "WindowDevices.h"
 
+#include "vtkColorTransferFunction.h"
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkTextureObject.h"
 #include "vtkVolume.h"
+#include "vtkVolumeProperty.h"
 
 #include <glm/common.hpp>
+#include <glm/matrix.hpp>
 
 #include <string>
 
@@ -26,6 +33,7 @@ using namespace brainshift;
 struct vtkDeformedSlicesMapper::Device
 {
   brainshift::Tissue Tissue;
+  ScalarTexture Reference;
   DeviceDeformation Deformation;
   SliceDrawer Drawer;
   GpuMemory Memory;
@@ -33,6 +41,7 @@ struct vtkDeformedSlicesMapper::Device
   void Release(vtkWindow* window)
   {
     this->Tissue.releaseGraphicsResources(window);
+    this->Reference.releaseGraphicsResources(window);
     this->Deformation.releaseGraphicsResources(window);
     this->Drawer.releaseGraphicsResources();
   }
@@ -145,7 +154,8 @@ bool vtkDeformedSlicesMapper::DrawPlanes(vtkRenderer* renderer, Device& device, 
   IndexBox changed;
   if (!device.Tissue.update(window, tissue, scene.volume, state.Count, problem) ||
     !device.Deformation.update(
-      window, state.Deformation, grid, tissue.layout, scene.volume, changed, state.Count, problem))
+      window, state.Deformation, grid, tissue.layout, scene.volume, changed, state.Count, problem) ||
+    !this->DescribeReference(window, device, tissue, grid, scene, problem))
   {
     return false;
   }
@@ -158,6 +168,45 @@ bool vtkDeformedSlicesMapper::DrawPlanes(vtkRenderer* renderer, Device& device, 
     problem = "The slices' shader does not compile on this GPU";
     return false;
   }
+  return true;
+}
+
+bool vtkDeformedSlicesMapper::DescribeReference(vtkOpenGLRenderWindow* window, Device& device,
+  const TissueRequest& tissue, const Grid& grid, SliceScene& scene, std::string& problem)
+{
+  const ReferenceVolume volume = readReference(this->GetDataSetInput());
+  if (!volume.voxels || this->Comparison == NoComparison)
+  {
+    return true;
+  }
+  const ValueLayout layout = layoutOf(volume.grid.dimensions, false);
+  constexpr int firstComponent = 0;
+  if (!device.Reference.update(window, volume.voxels, layout.dimensions, firstComponent,
+        this->Internal->Count, problem))
+  {
+    return false;
+  }
+  // The share of a scalar, from what the texture stores.
+  const auto shareFromStored = [](const double range[2], const StoredScalar& stored) {
+    const double length = range[1] > range[0] ? range[1] - range[0] : 1.0;
+    return glm::dvec2(stored.scale / length, (stored.shift - range[0]) / length);
+  };
+  const bool whole = !(this->ReferenceRange[0] < this->ReferenceRange[1]);
+  const double* shown = whole ? volume.voxels->GetRange(firstComponent) : this->ReferenceRange;
+  ReferenceScene& reference = scene.reference;
+  reference.scalars = device.Reference.texture();
+  reference.shareFromReference =
+    shareFromStored(shown, { device.Reference.scale(), device.Reference.shift() });
+  reference.shareFromScalar = shareFromStored(
+    tissue.property->GetRGBTransferFunction()->GetRange(), device.Tissue.stored());
+  vtkNew<vtkMatrix4x4> unmoved;
+  reference.referenceFromTexture = glm::inverse(worldFromTexture(volume.grid, layout, unmoved)) *
+    worldFromTexture(grid, tissue.layout, unmoved);
+  reference.low = layout.low;
+  reference.high = layout.high;
+  reference.comparison = this->Comparison;
+  reference.checkersFromTexture =
+    grid.spacing / tissue.layout.textureFromGrid / this->CheckerSize;
   return true;
 }
 
@@ -227,7 +276,7 @@ const Counters& vtkDeformedSlicesMapper::GetCounters()
   this->Internal->Devices.visit([&](Device& device) {
     count.gpuScalarBytes += textureBytes(device.Tissue.scalars());
     count.gpuOtherBytes +=
-      textureBytes({ device.Tissue.otherTextures(), device.Deformation.field().textures() });
+      textureBytes({ { device.Reference.texture() }, device.Tissue.otherTextures(), device.Deformation.field().textures() });
     device.Deformation.askTime(count.gpuFieldMicroseconds);
   });
   return count;
@@ -243,5 +292,9 @@ void vtkDeformedSlicesMapper::PrintSelf(ostream& os, vtkIndent indent)
      << " " << this->SlicePosition[2] << "\n"
      << indent << "Interpolation: " << this->Interpolation << "\n"
      << indent << "Opacity: " << this->Opacity << "\n"
-     << indent << "MapOpacity: " << this->MapOpacity << "\n";
+     << indent << "MapOpacity: " << this->MapOpacity << "\n"
+     << indent << "Comparison: " << this->Comparison << "\n"
+     << indent << "CheckerSize: " << this->CheckerSize << "\n"
+     << indent << "ReferenceRange: " << this->ReferenceRange[0] << " " << this->ReferenceRange[1]
+     << "\n";
 }

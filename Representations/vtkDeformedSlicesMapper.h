@@ -82,6 +82,33 @@ public:
   vtkGetMacro(MapOpacity, bool);
   ///@}
 
+  enum ComparisonType
+  {
+    NoComparison = 0,
+    RedGreen = 1,     // volume red, reference green, agreement yellow
+    Checkerboard = 2, // in turn, both by the colour map
+    Difference = 3,   // volume minus reference; agreement is grey
+  };
+
+  ///@{
+  /** How the reference that Compare Volumes attached is shown. Default not at all. */
+  vtkSetClampMacro(Comparison, int, NoComparison, Difference);
+  vtkGetMacro(Comparison, int);
+  ///@}
+
+  ///@{
+  /** Side of a field of the checkerboard, mm. Default 20. */
+  vtkSetClampMacro(CheckerSize, double, 0.01, VTK_DOUBLE_MAX);
+  vtkGetMacro(CheckerSize, double);
+  ///@}
+
+  ///@{
+  /** The reference's scalars shown as black and as white; the volume's are those of its colour map.
+   * Default 0 0: its whole range. */
+  vtkSetVector2Macro(ReferenceRange, double);
+  vtkGetVector2Macro(ReferenceRange, double);
+  ///@}
+
   /** Whether what lies behind may be seen through the planes. */
   bool IsTranslucent() const { return this->MapOpacity || this->Opacity < 1.0; }
 
@@ -121,6 +148,9 @@ private:
     const brainshift::TissueRequest& tissue, const brainshift::Grid& grid, std::string& problem);
   bool AskForMemory(vtkOpenGLRenderWindow* window, Device& device,
     const brainshift::TissueRequest& tissue, std::string& problem);
+  bool DescribeReference(vtkOpenGLRenderWindow* window, Device& device,
+    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
+    brainshift::SliceScene& scene, std::string& problem);
   void DescribePlanes(const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
     brainshift::SliceScene& scene);
   void UpdateDeformation(vtkImageData* image);
@@ -132,6 +162,9 @@ private:
   int Interpolation = Linear;
   double Opacity = 1.0;
   bool MapOpacity = false;
+  int Comparison = NoComparison;
+  double CheckerSize = 20.0;
+  double ReferenceRange[2] = { 0.0, 0.0 };
 
   std::unique_ptr<State> Internal;
 };

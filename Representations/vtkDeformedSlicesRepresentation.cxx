@@ -78,6 +78,21 @@ void vtkDeformedSlicesRepresentation::SetMapOpacity(bool map)
   this->GetDeformedSlicesMapper()->SetMapOpacity(map);
 }
 
+void vtkDeformedSlicesRepresentation::SetComparison(int comparison)
+{
+  this->GetDeformedSlicesMapper()->SetComparison(comparison);
+}
+
+void vtkDeformedSlicesRepresentation::SetCheckerSize(double size)
+{
+  this->GetDeformedSlicesMapper()->SetCheckerSize(size);
+}
+
+void vtkDeformedSlicesRepresentation::SetReferenceRange(double black, double white)
+{
+  this->GetDeformedSlicesMapper()->SetReferenceRange(black, white);
+}
+
 void vtkDeformedSlicesRepresentation::SetOrientationMarks(bool marks)
 {
   this->OrientationMarks = marks;

@@ -35,6 +35,9 @@ public:
   void SetSliceInterpolation(int interpolation);
   void SetOpacity(double opacity);
   void SetMapOpacity(bool map);
+  void SetComparison(int comparison);
+  void SetCheckerSize(double size);
+  void SetReferenceRange(double black, double white);
   ///@}
 
   ///@{

@@ -24,6 +24,7 @@ void main()
   }
   vec4 tissue = tissueOf(scalar);
   float shown = opacity * (mapsOpacity == 1 ? tissue.a : 1.0);
-  vec4 picture = vec4(colorOf(tissue, rest) * shown, shown);
+  vec3 color = compared(colorOf(tissue, rest), scalar, deformed);
+  vec4 picture = vec4(color * shown, shown);
   gl_FragData[0] = selecting == 1 ? vec4(0.0) : picture;
 }

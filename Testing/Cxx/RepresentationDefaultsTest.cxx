@@ -33,6 +33,9 @@ TEST(Defaults, OfDeformedSlicesLiveInTheMapper)
     { "SliceInterpolation", { double(mapper->GetInterpolation()) } },
     { "MapSliceOpacity", { double(mapper->GetMapOpacity()) } },
     { "OrientationMarks", { double(representation->GetOrientationMarks()) } },
+    { "SliceComparison", { double(mapper->GetComparison()) } },
+    { "CheckerSize", { mapper->GetCheckerSize() } },
+    { "ReferenceRange", { mapper->GetReferenceRange()[0], mapper->GetReferenceRange()[1] } },
     { "Opacity", { mapper->GetOpacity() } } };
   EXPECT_EQ(defaultsIn("Representations/DeformedSlices.xml"), expected);
 }
