@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Slices: three flat views of one plane each, beside ParaView's own filter Slice.
 
-Ours draws the bent volume. Stock cuts the volume that Bake Deformation, which is ours, made of it; a
-user without BrainShift has vtkImageReslice instead, which takes longer (see the group "bake"). A
+Ours draws the bent volume. Stock cuts the volume that Bake Deformation, which is ours, made of it;
+a user without BrainShift has vtkImageReslice instead, which takes longer (see the group "bake"). A
 slice of stock is a surface with a point a voxel, ours looks the volume up at every pixel.
 """
 

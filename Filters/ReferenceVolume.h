@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contract between Compare Volumes and what draws comparisons: a volume carries another one, the
-// reference, as field data. The reference has a grid of its own and is not bent.
+// The contract between Compare Volumes and what draws comparisons: a volume carries another one,
+// the reference, as field data. The reference has a grid of its own and is not bent.
 //
 //   ReferenceVoxels  any type x 1, nx*ny*nz tuples, x fastest: the reference's point scalars
 //   ReferenceGrid    double x 18: nx ny nz, world position of the first point (mm), spacing (mm),

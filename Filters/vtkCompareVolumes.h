@@ -4,14 +4,14 @@
  * @brief   attaches a reference volume to a volume, for pictures that compare them
  *
  * Input 0 passes through by reference, with all it carries; input 1, the reference, goes along as
- * field data (ReferenceVolume.h): its point scalars, shared, and its grid, moved rigidly. Nothing is
- * resampled. It may stand before or after Free-Form Deformation, which bends the first only.
+ * field data (ReferenceVolume.h): its point scalars, shared, and its grid, moved rigidly. Nothing
+ * is resampled. It may stand before or after Free-Form Deformation, which bends the first only.
  */
 #ifndef vtkCompareVolumes_h
 #define vtkCompareVolumes_h
 
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
-#include "vtkDataArray.h" // for what is kept
+#include "vtkDataArray.h"               // for what is kept
 #include "vtkImageAlgorithm.h"
 #include "vtkSmartPointer.h" // for what is kept
 

@@ -36,8 +36,7 @@ bool showsSlices(pqRepresentation* representation)
 {
   vtkSMProxy* proxy = representation->getProxy();
   return representation->isVisible() && proxy->GetProperty("Representation") &&
-    std::strcmp(
-      vtkSMPropertyHelper(proxy, "Representation").GetAsString(), "Deformed Slices") == 0;
+    std::strcmp(vtkSMPropertyHelper(proxy, "Representation").GetAsString(), "Deformed Slices") == 0;
 }
 
 // How the planes lie is known where they are drawn.
@@ -175,9 +174,8 @@ bool SliceMouse::onWheel(vtkObject*, unsigned long event, void*)
   {
     return false;
   }
-  const double step = event == vtkCommand::MouseWheelForwardEvent
-    ? slice.voxelSteps[slice.plane]
-    : -slice.voxelSteps[slice.plane];
+  const double step = event == vtkCommand::MouseWheelForwardEvent ? slice.voxelSteps[slice.plane]
+                                                                  : -slice.voxelSteps[slice.plane];
   double position[3];
   vtkSMPropertyHelper(slice.display, "SlicePosition").Get(position, 3);
   for (int i = 0; i < 3; ++i)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The mouse in a 2D view of Deformed Slices: the wheel goes through the slices a voxel at a time,
-// dragging with Shift brings the other planes to the cursor. With Ctrl the wheel zooms as elsewhere.
+// dragging with Shift brings the other planes to the cursor. With Ctrl the wheel zooms as
+// elsewhere.
 #ifndef BrainShift_SliceMouse_h
 #define BrainShift_SliceMouse_h
 

@@ -9,9 +9,9 @@ SAGITTAL, CORONAL, AXIAL = 0, 1, 2
 PLANES = {"axial": AXIAL, "coronal": CORONAL, "sagittal": SAGITTAL}
 
 #: Where each convention looks: along which axis (and whether towards its greater coordinates), and
-#: which axis points up. Radiological: the patient's right is on the left of the picture, as seen from
-#: the feet and from the front; neurological: on the right, from above and from behind. Both look at
-#: the sagittal plane from the left, nose to the left.
+#: which axis points up. Radiological: the patient's right is on the left of the picture, as seen
+#: from the feet and from the front; neurological: on the right, from above and from behind. Both
+#: look at the sagittal plane from the left, nose to the left.
 CAMERAS = {
     "radiological": {"axial": (1, CORONAL), "coronal": (-1, AXIAL), "sagittal": (1, AXIAL)},
     "neurological": {"axial": (-1, CORONAL), "coronal": (1, AXIAL), "sagittal": (1, AXIAL)},
@@ -22,8 +22,8 @@ MARGIN = 1.05
 
 
 def _place():
-    """The view for 3D, its layout, and the cells for axial, coronal and sagittal views. The active view
-    and its layout if it is a render view and alone there; else new ones."""
+    """The view for 3D, its layout, and the cells for axial, coronal and sagittal views. The active
+    view and its layout if it is a render view and alone there; else new ones."""
     from paraview import simple
 
     view = simple.GetActiveView()
@@ -105,8 +105,8 @@ def _make_grey(displays, coloring):
 
 
 def _link(displays):
-    """Gives all displays one slice position from now on. ParaView's links keep a closed view's display
-    as a null pointer and follow it; so the link is made anew without it."""
+    """Gives all displays one slice position from now on. ParaView's links keep a closed view's
+    display as a null pointer and follow it; so the link is made anew without it."""
     from paraview import servermanager
 
     manager = servermanager.ProxyManager()

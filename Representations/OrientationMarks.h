@@ -4,8 +4,8 @@
  * @brief   the letters R L A P S I at the edges of a view
  *
  * They tell towards which side of the patient each edge lies, where world axes are right, anterior,
- * superior. Found from the camera for every picture, so that they are right however a view is turned;
- * gone where the view looks along no axis, within about 25 degrees.
+ * superior. Found from the camera for every picture, so that they are right however a view is
+ * turned; gone where the view looks along no axis, within about 25 degrees.
  */
 #ifndef BrainShift_OrientationMarks_h
 #define BrainShift_OrientationMarks_h
@@ -22,8 +22,8 @@ class vtkTextActor;
 
 namespace brainshift
 {
-// Letters of the right, left, upper and lower edge of a view, from the directions (world) that point
-// right and up in it; empty where a direction follows no axis.
+// Letters of the right, left, upper and lower edge of a view, from the directions (world) that
+// point right and up in it; empty where a direction follows no axis.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::array<std::string, 4> edgeLetters(
   const double right[3], const double up[3]);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The deformation that a drawn volume carries: read when it changed, kept on the GPU of each window.
+// The deformation that a drawn volume carries: read when it changed, kept on the GPU of each
+// window.
 #ifndef BrainShift_SceneDeformation_h
 #define BrainShift_SceneDeformation_h
 
@@ -32,8 +33,8 @@ struct SceneDeformation
   FieldRequest request;
   IndexBox moved; // nodes of the offset field that can differ from zero
 
-  // Reads it if it changed. False, with one sentence in `problem`, if it is malformed: `deformed` is
-  // then false.
+  // Reads it if it changed. False, with one sentence in `problem`, if it is malformed: `deformed`
+  // is then false.
   bool update(vtkImageData* image, std::string& problem);
 
   // Widens bounds (mm) by where tissue can go.

@@ -19,7 +19,7 @@ namespace brainshift
 // A volume to compare with.
 struct ReferenceScene
 {
-  vtkTextureObject* scalars = nullptr; // null: none
+  vtkTextureObject* scalars = nullptr;    // null: none
   glm::dmat4 referenceFromTexture{ 1.0 }; // its texture coordinates from the volume's
   glm::dvec3 low{ 0.0 };                  // its box, in its texture coordinates
   glm::dvec3 high{ 1.0 };

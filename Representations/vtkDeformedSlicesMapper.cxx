@@ -153,8 +153,8 @@ bool vtkDeformedSlicesMapper::DrawPlanes(vtkRenderer* renderer, Device& device, 
   SliceScene scene;
   IndexBox changed;
   if (!device.Tissue.update(window, tissue, scene.volume, state.Count, problem) ||
-    !device.Deformation.update(
-      window, state.Deformation, grid, tissue.layout, scene.volume, changed, state.Count, problem) ||
+    !device.Deformation.update(window, state.Deformation, grid, tissue.layout, scene.volume,
+      changed, state.Count, problem) ||
     !this->DescribeReference(window, device, tissue, grid, scene, problem))
   {
     return false;
@@ -181,8 +181,8 @@ bool vtkDeformedSlicesMapper::DescribeReference(vtkOpenGLRenderWindow* window, D
   }
   const ValueLayout layout = layoutOf(volume.grid.dimensions, false);
   constexpr int firstComponent = 0;
-  if (!device.Reference.update(window, volume.voxels, layout.dimensions, firstComponent,
-        this->Internal->Count, problem))
+  if (!device.Reference.update(
+        window, volume.voxels, layout.dimensions, firstComponent, this->Internal->Count, problem))
   {
     return false;
   }
@@ -197,16 +197,15 @@ bool vtkDeformedSlicesMapper::DescribeReference(vtkOpenGLRenderWindow* window, D
   reference.scalars = device.Reference.texture();
   reference.shareFromReference =
     shareFromStored(shown, { device.Reference.scale(), device.Reference.shift() });
-  reference.shareFromScalar = shareFromStored(
-    tissue.property->GetRGBTransferFunction()->GetRange(), device.Tissue.stored());
+  reference.shareFromScalar =
+    shareFromStored(tissue.property->GetRGBTransferFunction()->GetRange(), device.Tissue.stored());
   vtkNew<vtkMatrix4x4> unmoved;
   reference.referenceFromTexture = glm::inverse(worldFromTexture(volume.grid, layout, unmoved)) *
     worldFromTexture(grid, tissue.layout, unmoved);
   reference.low = layout.low;
   reference.high = layout.high;
   reference.comparison = this->Comparison;
-  reference.checkersFromTexture =
-    grid.spacing / tissue.layout.textureFromGrid / this->CheckerSize;
+  reference.checkersFromTexture = grid.spacing / tissue.layout.textureFromGrid / this->CheckerSize;
   return true;
 }
 
@@ -275,8 +274,8 @@ const Counters& vtkDeformedSlicesMapper::GetCounters()
   count.gpuOtherBytes = 0;
   this->Internal->Devices.visit([&](Device& device) {
     count.gpuScalarBytes += textureBytes(device.Tissue.scalars());
-    count.gpuOtherBytes +=
-      textureBytes({ { device.Reference.texture() }, device.Tissue.otherTextures(), device.Deformation.field().textures() });
+    count.gpuOtherBytes += textureBytes({ { device.Reference.texture() },
+      device.Tissue.otherTextures(), device.Deformation.field().textures() });
     device.Deformation.askTime(count.gpuFieldMicroseconds);
   });
   return count;

@@ -52,7 +52,7 @@ public:
   ///@}
 
   ///@{
-  /** What all planes go through: mm, world axes, before the vtkVolume's transform. Default 0 0 0. */
+  /** All planes go through it: mm, world axes, before the vtkVolume's transform. Default 0 0 0. */
   vtkSetVector3Macro(SlicePosition, double);
   vtkGetVector3Macro(SlicePosition, double);
   ///@}

@@ -3,9 +3,9 @@
  * @class   vtkDeformedSlicesRepresentation
  * @brief   "Deformed Slices": planes through a volume and the lattice it carries
  *
- * Data delivery, colour maps and transforms are those of ParaView's "Volume": the volume stays where
- * it is drawn. What is drawn are the planes of vtkDeformedSlicesMapper, whose header says what the
- * properties mean.
+ * Data delivery, colour maps and transforms are those of ParaView's "Volume": the volume stays
+ * where it is drawn. What is drawn are the planes of vtkDeformedSlicesMapper, whose header says
+ * what the properties mean.
  */
 #ifndef vtkDeformedSlicesRepresentation_h
 #define vtkDeformedSlicesRepresentation_h

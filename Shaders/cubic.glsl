@@ -1,8 +1,8 @@
 // Cubic B-spline filter of a 3D texture from eight trilinear reads (Sigg and Hadwiger, GPU Gems 2,
 // chapter 20): along an axis, two neighbours weigh as much as one read between them.
 
-// Weight of the upper pair, and where between its voxels and those of the lower pair to read; voxels
-// from the one below, for a share of the way to the next.
+// Weight of the upper pair, and where between its voxels and those of the lower pair to read;
+// voxels from the one below, for a share of the way to the next.
 struct CubicPairs
 {
   vec3 upper;

@@ -1,5 +1,5 @@
-// A plane through the deformed frame. Each fragment looks its tissue up at the rest position it came
-// from, so that a slice is as smooth at any zoom as what it shows. Nothing outside the tissue.
+// A plane through the deformed frame. Each fragment looks its tissue up at the rest position it
+// came from, so that a slice is as smooth at any zoom as what it shows. Nothing outside the tissue.
 
 in vec3 deformed; // texture coordinates
 

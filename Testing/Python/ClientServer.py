@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that a server that draws sends the picture of the built-in session, pixel by pixel, and that
-# brainshift.pick, counters and gpu answer for what the server drew; of Deformed Slices too.
+# Proves that a server that draws sends the picture of the built-in session, pixel by pixel, and
+# that brainshift.pick, counters and gpu answer for what the server drew; of Deformed Slices too.
 import contextlib
 import gc
 import os
@@ -54,11 +54,12 @@ class Shown:
 
 
 def slices():
-    """Pictures of Deformed Slices, before and after they are moved, how they lie, and the counters."""
+    """Pictures of Deformed Slices before and after they are moved, how they lie, the counters."""
     bent = FreeFormDeformation(
         Input=Wavelet(WholeExtent=[-15, 15, -15, 15, -15, 15]), Strokes=STROKE)
     view = view_along((-0.5, 0.3, -1), MIDDLE, 80.0, size=SIZE)
-    display = show_slices(bent, view, ("Sagittal", "Coronal", "Axial"), MIDDLE, 0.0, 300.0, "RTData")
+    display = show_slices(bent, view, ("Sagittal", "Coronal", "Axial"), MIDDLE, high=300.0,
+                          array="RTData")
     display.OrientationMarks = 1
     drawn = [picture(view)]
     display.SlicePosition = [3.0, -2.0, 5.0]

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that "Deformed Slices" shows what ParaView's own Slice shows of the baked volume, for strong
-# bends, turned volumes and tissue that left the box; that it is flat where a view looks along an axis,
-# and filters as it says.
+# Proves that "Deformed Slices" shows what ParaView's own Slice shows of the baked volume, for
+# strong bends, turned volumes and tissue that left the box; that it is flat where a view looks
+# along an axis, and filters as it says.
 import math
 
 import numpy
-from brainshift_testing import (SIZE, ball, data, load_plugin, mean_difference, object_pixels, picture,
-                                run_tests, volume, voxels)
+from brainshift_testing import (SIZE, ball, data, load_plugin, mean_difference, object_pixels,
+                                picture, run_tests, volume, voxels)
 from slices_testing import (PLANES, cubic_spline, flat_view, pixel_positions, show_sliced,
                             show_slices, trilinear)
 

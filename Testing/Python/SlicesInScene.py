@@ -168,7 +168,8 @@ class Drawn:
         assert (image != self.image).any(), "nothing changed"
         self.image = image
         now = brainshift.counters(self.display)
-        done = {name: now[name] - self.before[name] for name in now if now[name] != self.before[name]}
+        done = {name: now[name] - self.before[name] for name in now
+                if now[name] != self.before[name]}
         self.before = now
         assert done.pop("frames") > 0
         return done
@@ -242,7 +243,7 @@ def test_another_representation_and_back():
 
 
 def test_selections_end_at_slices():
-    # Of a sphere that the plane cuts, only cells before it are selected; none where it is all behind.
+    # Of a sphere that the plane cuts, cells before it are selected; none where it is all behind.
     for opacity in (1.0, 0.5):
         selected = []
         for height in (30.0, 16.0, 8.0):

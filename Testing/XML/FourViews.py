@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Proves that ParaView's window, played by FourViews.xml, lays out four views with one slice position,
-and that wheel and Shift-drag move it: by a voxel, to the cursor. The window imports this file to bend
-the volume, to use the mouse, and to write down what it sees."""
+"""Proves that ParaView's window, played by FourViews.xml, lays out four views with one slice
+position, and that wheel and Shift-drag move it: by a voxel, to the cursor. The window imports this
+file to bend the volume, to use the mouse, and to write down what it sees."""
 import json
 import os
 
@@ -50,7 +50,7 @@ def _positions(views):
 
 
 def play_mouse():
-    """Turns the wheel and drags in the slices; writes down positions, zooms and pictures' brightness."""
+    """Turns the wheel and drags in the slices; writes down positions, zooms and brightness."""
     views = _views()
     axial, coronal = views["axial"][0], views["coronal"][0]
     width, height = axial.ViewSize
