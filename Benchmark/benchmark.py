@@ -42,6 +42,7 @@ import numpy  # noqa: E402
 from measure import Side, Times, interleaved  # noqa: E402
 from report import Report, header  # noqa: E402
 from scene import OPACITIES, Scene, load_plugin, mean_difference  # noqa: E402
+from slices import measure_slices  # noqa: E402
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
@@ -283,6 +284,7 @@ def reference(benchmark, windows, quick):
         benchmark.edits(window)
     benchmark.resampling(windows[0])
     benchmark.skipping(windows[0])
+    measure_slices(benchmark.scene, benchmark.report, benchmark.options, benchmark.about)
     if not quick:
         for opacities in OPACITIES:
             benchmark.normals(opacities, windows[0])

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BrainShiftBehavior.h"
 
+#include "SliceMouse.h"
+
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
@@ -84,6 +86,7 @@ void BrainShiftBehavior::onStartup()
     &BrainShiftBehavior::watchRepresentation);
   QObject::connect(
     model, &pqServerManagerModel::sourceAdded, this, &BrainShiftBehavior::watchSource);
+  SliceMouse::watchViews(this);
 }
 
 void BrainShiftBehavior::onShutdown()

@@ -12,6 +12,8 @@ Research software, not a medical device.
 
 import math
 
+from brainshift_views import four_views  # noqa: F401 part of this module
+
 MOVE, SOFT, STAMP = 0, 1, 2
 
 #: Numbers in one stroke.
@@ -76,11 +78,11 @@ def stamp(anchor, toward, amount, major=40.0, minor=25.0, sigma=0.5):
         _positive("major", major), _positive("minor", minor), _positive("sigma", sigma, ""), 1)
 
 
-def _report(representation, view=None):
+def _report(representation, view=None, wanted=("Deformed Volume", "Deformed Slices")):
     """The proxy that answers for a representation, in the process that draws it."""
     shown_as = getattr(representation, "Representation", None)
-    if shown_as != "Deformed Volume":
-        raise ValueError(f"the representation is {shown_as}; it must be Deformed Volume")
+    if shown_as not in wanted:
+        raise ValueError(f"the representation is {shown_as}; it must be {' or '.join(wanted)}")
     manager = representation.SMProxy.GetSessionProxyManager()
     report = manager.NewProxy("misc", "DeformedVolumeReport")
     report.UnRegister(None)  # Python holds it
@@ -106,12 +108,23 @@ def pick(representation, view, x, y):
     """
     if representation not in view.Representations:
         raise ValueError("the representation is not shown in this view")
-    report = _report(representation, view)
+    report = _report(representation, view, ("Deformed Volume",))
     report.GetProperty("Pixel").SetElements2(int(x), int(y))
     report.UpdateVTKObjects()
     tissue = _told(report, "Tissue")
     *position, found = (tissue.GetElement(i) for i in range(4))
     return tuple(position) if found else None
+
+
+def slice_axes(representation):
+    """How the planes of Deformed Slices lie: three directions (world, towards greater coordinates)
+    that the sagittal, the coronal and the axial plane lie across, and the distances (mm) between
+    voxels along them. They are known once the representation was drawn."""
+    report = _report(representation, wanted=("Deformed Slices",))
+    normals, steps = _told(report, "SliceNormals"), _told(report, "VoxelSteps")
+    directions = tuple(tuple(normals.GetElement(3 * plane + i) for i in range(3))
+                       for plane in range(3))
+    return directions, tuple(steps.GetElement(plane) for plane in range(3))
 
 
 def _numbers(representation):
@@ -120,7 +133,7 @@ def _numbers(representation):
 
 
 def counters(representation):
-    """What the Deformed Volume renderer of a representation did since it was made, as a dict:
+    """What the renderer of a Deformed Volume or of Deformed Slices did since it was made, as a dict:
     frames, volumeUploads, latticeUploads, transferUploads, bytesUploaded, texelsRefined,
     presenceUpdates, skippingBytes (faces and leaps made of the presence map), samplesTaken and
     samplesSkipped (while the representation's CountSamples is on), imageScale (screen pixels a side for one drawn), programsCompiled."""

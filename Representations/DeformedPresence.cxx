@@ -182,8 +182,8 @@ bool DeformedPresence::compute(vtkOpenGLRenderWindow* window, const PresenceRequ
   if (deformed)
   {
     program.set("blocks",
-      glm::ivec3(this->Blocks[0]->GetWidth(), this->Blocks[0]->GetHeight(),
-        this->Blocks[0]->GetDepth()));
+      glm::ivec3(
+        this->Blocks[0]->GetWidth(), this->Blocks[0]->GetHeight(), this->Blocks[0]->GetDepth()));
     program.set("blockLeast", this->Blocks[0].Get());
     program.set("blockGreatest", this->Blocks[1].Get());
   }

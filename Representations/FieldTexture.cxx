@@ -141,8 +141,7 @@ bool FieldTexture::refine(vtkOpenGLRenderWindow* window, const FieldRequest& req
     box.last[axis] = nodes.last[axis];
     vtkTextureObject* mask = axis == 2 ? this->MaskWeights : nullptr;
     Program& program = this->RefinePrograms[mask != nullptr];
-    if (!allocate(window, this->Refined[axis], count,
-          vtkTextureObject::Nearest) ||
+    if (!allocate(window, this->Refined[axis], count, vtkTextureObject::Nearest) ||
       !program.use(window, refineSource(mask != nullptr), counters))
     {
       return false;

@@ -210,6 +210,11 @@ void setOptionUniforms(Program& program, const RayCastOptions& options)
     const glm::vec4 plane(options.slicePlane);
     shader->SetUniform4f("slicePlane", &plane[0]);
   }
+  setColoringUniforms(program, options);
+}
+
+void setColoringUniforms(Program& program, const RayCastOptions& options)
+{
   if (options.coloring == Coloring::Direct)
   {
     program.set("colors", options.colors);

@@ -76,6 +76,9 @@ std::vector<std::string> unsupportedChoices(
   vtkVolumeMapper* mapper, vtkVolumeProperty* property, vtkDataArray* scalars);
 
 void setOptionUniforms(Program& program, const RayCastOptions& options);
+
+// Those of them that components.glsl needs.
+void setColoringUniforms(Program& program, const RayCastOptions& options);
 }
 
 #endif

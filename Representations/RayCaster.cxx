@@ -119,6 +119,34 @@ void setSkippingUniforms(Program& program, const RayCastScene& scene, vtkTexture
     glm::vec3(-scene.textureOfBrickZero / scene.textureFromBrick - scene.firstBrick));
 }
 
+void setLightUniforms(Program& program, const RayCastScene& scene)
+{
+  const glm::dmat3 worldFromTexture(scene.worldFromTexture);
+  if (!scene.normals)
+  {
+    program.set("voxel", glm::vec3(scene.voxel));
+  }
+  else
+  {
+    program.set("normals", scene.normals);
+  }
+  program.set("worldFromGradient", glm::mat3(glm::transpose(glm::inverse(worldFromTexture))));
+  const RayCastLights& lights = scene.lights;
+  const int count = static_cast<int>(lights.position.size() / 4);
+  program.set("lightCount", count);
+  program.set("headlight", lights.headlight ? 1 : 0);
+  vtkShaderProgram* shader = program.get();
+  if (count > 0)
+  {
+    shader->SetUniform4fv("lightPosition", count, lights.position.data());
+    shader->SetUniform3fv("lightColor", count, lights.color.data());
+    shader->SetUniform3fv("lightSpecular", count, lights.specular.data());
+  }
+  const glm::vec4 material(scene.material);
+  shader->SetUniform4f("material", &material[0]);
+}
+}
+
 void setTissueUniforms(Program& program, const RayCastScene& scene)
 {
   program.set("scalars", scene.scalars);
@@ -150,34 +178,6 @@ void setFieldUniforms(Program& program, const RayCastScene& scene)
   vtkShaderProgram* shader = program.get();
   shader->SetUniform3fv("movedNormals", SlabDirections, glm::value_ptr(normals[0]));
   shader->SetUniform2fv("movedSpans", SlabDirections, glm::value_ptr(spans[0]));
-}
-
-void setLightUniforms(Program& program, const RayCastScene& scene)
-{
-  const glm::dmat3 worldFromTexture(scene.worldFromTexture);
-  if (!scene.normals)
-  {
-    program.set("voxel", glm::vec3(scene.voxel));
-  }
-  else
-  {
-    program.set("normals", scene.normals);
-  }
-  program.set("worldFromGradient", glm::mat3(glm::transpose(glm::inverse(worldFromTexture))));
-  const RayCastLights& lights = scene.lights;
-  const int count = static_cast<int>(lights.position.size() / 4);
-  program.set("lightCount", count);
-  program.set("headlight", lights.headlight ? 1 : 0);
-  vtkShaderProgram* shader = program.get();
-  if (count > 0)
-  {
-    shader->SetUniform4fv("lightPosition", count, lights.position.data());
-    shader->SetUniform3fv("lightColor", count, lights.color.data());
-    shader->SetUniform3fv("lightSpecular", count, lights.specular.data());
-  }
-  const glm::vec4 material(scene.material);
-  shader->SetUniform4f("material", &material[0]);
-}
 }
 
 RayCaster::RayCaster() = default;

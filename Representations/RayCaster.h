@@ -75,6 +75,10 @@ struct RayCastScene
   glm::vec2 depthOfShareZero{ 0.0f };
 };
 
+// What tissue.glsl and field.glsl need; the latter where the scene has offsets.
+void setTissueUniforms(Program& program, const RayCastScene& scene);
+void setFieldUniforms(Program& program, const RayCastScene& scene);
+
 class RayCaster
 {
 public:

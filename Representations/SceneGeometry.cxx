@@ -5,6 +5,7 @@
 #include "RayCaster.h"
 
 #include "vtkCamera.h"
+#include "vtkDataArray.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMatrix4x4.h"
 #include "vtkOpenGLCamera.h"
@@ -35,6 +36,13 @@ ValueLayout layoutOf(const glm::ivec3& points, bool cells)
   layout.low = layout.textureOfGridZero;
   layout.high = glm::dvec3(points - 1) * layout.textureFromGrid + layout.textureOfGridZero;
   return layout;
+}
+
+bool holdsValues(vtkDataArray* scalars, const ValueLayout& layout)
+{
+  const glm::ivec3& values = layout.dimensions;
+  return scalars &&
+    scalars->GetNumberOfTuples() >= static_cast<vtkIdType>(values.x) * values.y * values.z;
 }
 
 glm::dmat4 worldFromTexture(const Grid& grid, const ValueLayout& layout, vtkMatrix4x4* actor)

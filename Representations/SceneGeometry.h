@@ -11,6 +11,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+class vtkDataArray;
 class vtkMatrix4x4;
 class vtkRenderer;
 class vtkVolume;
@@ -31,6 +32,9 @@ struct ValueLayout
 };
 
 ValueLayout layoutOf(const glm::ivec3& points, bool cells);
+
+// Whether there is an array with all values.
+bool holdsValues(vtkDataArray* scalars, const ValueLayout& layout);
 
 glm::dmat4 worldFromTexture(const Grid& grid, const ValueLayout& layout, vtkMatrix4x4* actor);
 glm::dmat4 clipFromWorld(vtkRenderer* renderer);

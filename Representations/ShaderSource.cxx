@@ -7,11 +7,13 @@
 #include "shader_blocks_frag.h"
 #include "shader_bricks.h"
 #include "shader_clipping.h"
+#include "shader_comparison.h"
 #include "shader_components.h"
 #include "shader_composite_frag.h"
 #include "shader_compositing_frag.h"
 #include "shader_counting.h"
 #include "shader_cover_frag.h"
+#include "shader_cubic.h"
 #include "shader_field.h"
 #include "shader_fullscreen_vert.h"
 #include "shader_gradient.h"
@@ -31,6 +33,8 @@
 #include "shader_refine_frag.h"
 #include "shader_skipping.h"
 #include "shader_slice_frag.h"
+#include "shader_slices_frag.h"
+#include "shader_slices_vert.h"
 #include "shader_tissue.h"
 #include "shader_volume_pass.h"
 #include "shader_volume_pass_geom.h"
@@ -92,6 +96,18 @@ std::string blendSource(Blend blend)
   }
 }
 
+std::string slabDefine()
+{
+  return "#define SLAB_DIRECTIONS " + std::to_string(SlabDirections) + "\n";
+}
+
+std::string coloringDefine(Coloring coloring)
+{
+  return coloring == Coloring::Direct   ? "#define DIRECT_COLORS\n"
+    : coloring == Coloring::OtherScalar ? "#define COLOR_SCALARS\n"
+                                        : "";
+}
+
 const char* const LightNames[RayCastVariant::LightCount] = { "_unshaded", "_gradients",
   "_gradient_texture" };
 
@@ -109,8 +125,8 @@ std::string nameOf(const RayCastVariant& variant)
 
 ShaderSource refineSource(bool masked)
 {
-  return volumePassSource((masked ? "#define MASKED\n" : std::string()) + "#define MAX_PER_CELL " + std::to_string(LargestSamples + 1) + "\n" +
-    std::string(shader_refine_frag));
+  return volumePassSource((masked ? "#define MASKED\n" : std::string()) + "#define MAX_PER_CELL " +
+    std::to_string(LargestSamples + 1) + "\n" + std::string(shader_refine_frag));
 }
 
 ShaderSource invertSource()
@@ -144,14 +160,13 @@ ShaderSource rayCastSource(const RayCastVariant& variant)
 {
   std::string defines = "#define MAX_LIGHTS " + std::to_string(MaxLights) + "\n";
   defines += "#define MAX_CLIP_PLANES " + std::to_string(MaxClipPlanes) + "\n";
-  defines += "#define SLAB_DIRECTIONS " + std::to_string(SlabDirections) + "\n";
+  defines += slabDefine();
   defines += "#define MAX_ISOVALUES " + std::to_string(MaxIsovalues) + "\n";
   defines += std::string("#define ") + BlendDefines[static_cast<int>(variant.blend)] + "\n";
   defines += variant.deformed ? "#define DEFORMED\n" : "";
   defines += variant.light != RayCastVariant::Unshaded ? "#define SHADED\n" : "";
   defines += variant.light == RayCastVariant::GradientTexture ? "#define GRADIENT_TEXTURE\n" : "";
-  defines += variant.coloring == Coloring::Direct ? "#define DIRECT_COLORS\n" : "";
-  defines += variant.coloring == Coloring::OtherScalar ? "#define COLOR_SCALARS\n" : "";
+  defines += coloringDefine(variant.coloring);
   defines += variant.regions ? "#define REGIONS\n" : "";
   return { assemble({ shader_fullscreen_vert }), "",
     assemble({ Outputs, defines, shader_rays, shader_skipping, shader_clipping, shader_field,
@@ -170,10 +185,20 @@ ShaderSource coverSource()
   return { assemble({ shader_fullscreen_vert }), "", assemble({ Outputs, shader_cover_frag }) };
 }
 
+ShaderSource slicesSource(const SlicesVariant& variant)
+{
+  const std::string defines = slabDefine() + (variant.deformed ? "#define DEFORMED\n" : "") +
+    coloringDefine(variant.coloring) + (variant.compared ? "#define COMPARED\n" : "");
+  return { assemble({ shader_slices_vert }), "",
+    assemble({ Outputs, defines, shader_rays, shader_field, shader_gradient, shader_tissue,
+      shader_components, shader_cubic, shader_comparison, shader_slices_frag }) };
+}
+
 std::vector<std::pair<std::string, ShaderSource>> allSources()
 {
-  std::vector<std::pair<std::string, ShaderSource>> sources{ { "refine", refineSource(false) }, { "refine_masked", refineSource(true) },
-    { "invert", invertSource() }, { "normals", normalsSource() }, { "blocks", blocksSource() },
+  std::vector<std::pair<std::string, ShaderSource>> sources{ { "refine", refineSource(false) },
+    { "refine_masked", refineSource(true) }, { "invert", invertSource() },
+    { "normals", normalsSource() }, { "blocks", blocksSource() },
     { "presence_rest", presenceSource(false) }, { "presence_deformed", presenceSource(true) },
     { "proxy", proxySource() }, { "composite", compositeSource() }, { "cover", coverSource() } };
   const auto add = [&](const RayCastVariant& variant) {
@@ -201,6 +226,10 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
     add({ deformed, RayCastVariant::GradientTexture, Blend::Composite, Coloring::Mapped, false,
       true });
   }
+  sources.emplace_back("slices_rest", slicesSource({}));
+  sources.emplace_back("slices_deformed", slicesSource({ true }));
+  sources.emplace_back("slices_direct", slicesSource({ true, Coloring::Direct }));
+  sources.emplace_back("slices_compared", slicesSource({ true, Coloring::OtherScalar, true }));
   return sources;
 }
 }

@@ -71,6 +71,20 @@ struct RayCastVariant
   }
 };
 
+// Variants of the slices' program.
+struct SlicesVariant
+{
+  bool deformed = false; // the volume carries a lattice
+  Coloring coloring = Coloring::Mapped;
+  bool compared = false; // with a reference
+
+  bool operator<(const SlicesVariant& other) const
+  {
+    return std::tie(this->deformed, this->coloring, this->compared) <
+      std::tie(other.deformed, other.coloring, other.compared);
+  }
+};
+
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource refineSource(bool masked);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource invertSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource rayCastSource(const RayCastVariant& variant);
@@ -80,6 +94,7 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource normalsSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource blocksSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource presenceSource(bool deformed);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource proxySource();
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource slicesSource(const SlicesVariant& variant);
 
 // Every program the product can draw with, by name, for an offline compiler: of the ray caster's
 // variants each with every file and every #define in use.

@@ -68,14 +68,13 @@ bool Tissue::update(vtkOpenGLRenderWindow* window, const TissueRequest& request,
   {
     return false;
   }
-  const bool nearest = request.property->GetInterpolationType() == VTK_NEAREST_INTERPOLATION;
   scene.scalars = this->Scalars.texture();
   for (vtkTextureObject* voxels :
     { scene.scalars, scene.options.colors, scene.options.colorScalars })
   {
-    setFilter(voxels, nearest);
+    setFilter(voxels, request.nearest);
   }
-  setFilter(scene.normals, nearest && request.gradients == GradientSource::FullResolution);
+  setFilter(scene.normals, request.nearest && request.gradients == GradientSource::FullResolution);
   scene.transfer = this->Transfer.texture();
   scene.transferFromScalar = transferFromStored(this->Transfer, this->Scalars);
   scene.visibleScalars =

@@ -44,6 +44,7 @@ struct TissueRequest
   double stepMm = 1.0;
   Blend blend = Blend::Composite;
   GradientSource gradients = GradientSource::FullResolution;
+  bool nearest = false; // voxels as they are, not blended
 };
 
 class Tissue

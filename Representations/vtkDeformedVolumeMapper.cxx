@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedVolumeMapper.h"
 
-#include "DeformableVolume.h"
 #include "DeformedPresence.h"
-#include "FieldTexture.h"
 #include "GpuMemory.h"
 #include "MovingQuality.h"
 #include "RayCaster.h"
+#include "SceneDeformation.h"
 #include "SceneDepth.h"
 #include "SceneGeometry.h"
 #include "SelectionCover.h"
 #include "TextureMemory.h"
 #include "Tissue.h"
+#include "WindowDevices.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkOpenGLRenderTimer.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkSmartVolumeMapper.h"
@@ -25,12 +24,10 @@
 #include "vtkTimerLog.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
-#include "vtkWeakPointer.h"
 
 #include <glm/common.hpp>
 
 #include <algorithm>
-#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -40,19 +37,13 @@ using namespace brainshift;
 struct vtkDeformedVolumeMapper::Device
 {
   brainshift::Tissue Tissue;
-  FieldTexture Field;
+  DeviceDeformation Deformation;
   DeformedPresence Presence;
   PresenceRequest Bricks; // what Presence shows
   SceneDepth Depth;
   RayCaster Caster;
   SelectionCover Cover;
   GpuMemory Memory;
-  vtkOpenGLRenderTimer FieldTimer;
-  vtkWeakPointer<vtkOpenGLRenderWindow> Window; // whose context holds all of these
-
-  // The deformation and the unit that Field shows.
-  unsigned long long FieldTime = 0;
-  glm::vec3 OffsetScale{ 0.0f };
 
   double SecondsPerPixel = 0.0; // of the last image; 0: none yet
 
@@ -61,15 +52,9 @@ struct vtkDeformedVolumeMapper::Device
 
 struct vtkDeformedVolumeMapper::State
 {
-  std::map<vtkWindow*, Device> Devices; // until the window lets its resources go
+  WindowDevices<Device> Devices;
   Counters Count;
-
-  // The deformation of the input, as read at DeformationTime.
-  bool Deformed = false;
-  Deformation Source;
-  FieldRequest Request;
-  SlabHull Moved; // where tissue may have moved
-  unsigned long long DeformationTime = 0;
+  SceneDeformation Deformation; // of the input
 
   vtkNew<vtkSmartVolumeMapper> Fallback;
   std::string Reported;       // the last trouble told
@@ -88,32 +73,11 @@ vtkDeformedVolumeMapper::~vtkDeformedVolumeMapper() = default;
 // Reads the deformation if it changed.
 void vtkDeformedVolumeMapper::UpdateDeformation(vtkImageData* image)
 {
-  State& state = *this->Internal;
-  const unsigned long long time = deformationTime(image);
-  if (time == state.DeformationTime)
-  {
-    return;
-  }
-  state.DeformationTime = time;
   std::string problem;
-  state.Deformed = carriesDeformation(image) && readDeformation(image, state.Source, problem);
-  if (!problem.empty())
+  if (!this->Internal->Deformation.update(image, problem))
   {
     vtkErrorMacro(<< problem << ". The volume is drawn undeformed.");
   }
-  if (!state.Deformed)
-  {
-    return;
-  }
-  const Lattice lattice = effectiveLattice(state.Source);
-  state.Request.dimensions = lattice.grid.dimensions;
-  state.Request.kernel = lattice.kernel;
-  state.Request.samples = state.Source.samples;
-  state.Request.inverse = state.Source.inverse;
-  state.Request.mask = lattice.mask;
-  state.Request.inCells = displacementsInCells(lattice);
-  state.Request.nodes = backwardNodes(lattice.grid, state.Request.inCells, state.Source.samples);
-  state.Moved = movedHull(lattice.grid.dimensions, state.Request.inCells);
 }
 
 double* vtkDeformedVolumeMapper::GetBounds()
@@ -125,12 +89,7 @@ double* vtkDeformedVolumeMapper::GetBounds()
     return this->Bounds;
   }
   this->UpdateDeformation(image);
-  const State& state = *this->Internal;
-  if (!state.Deformed)
-  {
-    return this->Bounds;
-  }
-  widenByNodes(state.Source.lattice.grid, state.Request.nodes, this->Bounds);
+  this->Internal->Deformation.widen(this->Bounds);
   return this->Bounds;
 }
 
@@ -156,13 +115,12 @@ void vtkDeformedVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
 void vtkDeformedVolumeMapper::CoverSelection(vtkRenderer* renderer)
 {
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
-  const auto found = this->Internal->Devices.find(window);
-  if (found == this->Internal->Devices.end() || !found->second.Caster.hits())
+  Device* device = this->Internal->Devices.find(window);
+  if (!device || !device->Caster.hits())
   {
     return;
   }
-  Device& device = found->second;
-  if (!device.Cover.draw(window, renderer, device.Caster.hits(), this->Internal->Count))
+  if (!device->Cover.draw(window, renderer, device->Caster.hits(), this->Internal->Count))
   {
     vtkErrorMacro("The selection's shader does not compile. Selections reach through the volume.");
   }
@@ -183,9 +141,7 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
     image, this->ScalarMode, this->ArrayAccessMode, this->ArrayId, this->ArrayName, cells);
   const Grid grid = gridOf(image);
   const ValueLayout layout = layoutOf(grid.dimensions, cells != 0);
-  if (!scalars ||
-    static_cast<std::size_t>(scalars->GetNumberOfTuples()) <
-      static_cast<std::size_t>(layout.dimensions.x) * layout.dimensions.y * layout.dimensions.z)
+  if (!holdsValues(scalars, layout))
   {
     return true; // nothing to draw yet
   }
@@ -195,9 +151,9 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   const double smallestSide = std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
   const TissueRequest tissue{ property, scalars, layout,
     this->SampleDistance > 0.0 ? this->SampleDistance : 0.5 * smallestSide, blendOf(this, property),
-    static_cast<GradientSource>(this->NormalTexture) };
-  Device& device = this->Internal->Devices[window];
-  device.Window = window;
+    static_cast<GradientSource>(this->NormalTexture),
+    property->GetInterpolationType() == VTK_NEAREST_INTERPOLATION };
+  Device& device = this->Internal->Devices.of(window);
   takeOutOfMemory(); // what others left behind
   const bool drawn = this->AskForMemory(renderer, device, tissue, problem) &&
     this->DrawTissue(renderer, device, volume, tissue, grid, problem);
@@ -282,32 +238,11 @@ bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, Device
     std::vector<float> summed = device.Tissue.summedVisibility();
     device.Presence.setVisibility(window, device.Tissue.restBricks(), summed, state.Count);
   }
-  scene.spaceLow = layout.low;
-  scene.spaceHigh = layout.high;
   IndexBox changed; // nodes of the offset field
-  if (state.Deformed)
+  if (!device.Deformation.update(
+        window, state.Deformation, grid, layout, scene, changed, state.Count, problem))
   {
-    const Grid& lattice = state.Source.lattice.grid;
-    const glm::vec3 offsetScale(textureFromLattice(grid, layout, lattice));
-    if (device.FieldTime != state.DeformationTime || device.OffsetScale != offsetScale)
-    {
-      state.Request.offsetScale = offsetScale;
-      device.FieldTimer.Start();
-      const bool updated = device.Field.update(window, state.Request, state.Count);
-      device.FieldTimer.Stop();
-      if (!updated)
-      {
-        problem = "The deformation's shaders do not compile or its 3D float textures cannot be "
-                  "made on this GPU";
-        return false;
-      }
-      device.FieldTime = state.DeformationTime;
-      device.OffsetScale = offsetScale;
-      changed = device.Field.changed();
-    }
-    scene.offsets = device.Field.offsets();
-    placeField(grid, layout, lattice, state.Request.nodes, scene);
-    scene.moved = state.Moved;
+    return false;
   }
   placeBricks(layout, scene, device.Bricks);
   if (!device.Presence.update(window, device.Bricks, changed, state.Count))
@@ -345,18 +280,12 @@ void vtkDeformedVolumeMapper::DescribeCropping(
 bool vtkDeformedVolumeMapper::AskForMemory(
   vtkRenderer* renderer, Device& device, const TissueRequest& tissue, std::string& problem)
 {
-  const State& state = *this->Internal;
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   DrawnSizes sizes;
   addTissueSizes(tissue, sizes);
   glm::ivec2 origin;
   renderer->GetTiledSizeAndOrigin(&sizes.pixels.x, &sizes.pixels.y, &origin.x, &origin.y);
-  if (state.Deformed)
-  {
-    sizes.forwardNodes = (state.Request.dimensions - 1) * (state.Request.samples + 1) + 1;
-    sizes.backwardNodes = state.Request.nodes.count;
-    sizes.masked = state.Request.mask != nullptr;
-  }
+  this->Internal->Deformation.addSizes(sizes);
   problem = device.Memory.ask(window, memoryNeed(sizes), this->MemoryLimit);
   return problem.empty();
 }
@@ -375,16 +304,16 @@ void vtkDeformedVolumeMapper::TellUnsupported(vtkVolumeProperty* property, vtkDa
 bool vtkDeformedVolumeMapper::Pick(vtkRenderer* renderer, int x, int y, double position[3])
 {
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
-  const auto found = this->Internal->Devices.find(window);
+  Device* device = this->Internal->Devices.find(window);
   const int* size = renderer->GetSize();
-  if (found == this->Internal->Devices.end() || x < 0 || y < 0 || x >= size[0] || y >= size[1])
+  if (!device || x < 0 || y < 0 || x >= size[0] || y >= size[1])
   {
     return false;
   }
   window->MakeCurrent();
   glm::dvec4 hit;
   const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) / glm::dvec2(size[0], size[1]);
-  if (!found->second.Caster.hitAt(window, place, hit))
+  if (!device->Caster.hitAt(window, place, hit))
   {
     return false;
   }
@@ -421,28 +350,16 @@ void vtkDeformedVolumeMapper::Device::Release(vtkWindow* window)
 {
   this->Tissue.releaseGraphicsResources(window);
   this->Presence.releaseGraphicsResources(window);
-  this->Field.releaseGraphicsResources(window);
+  this->Deformation.releaseGraphicsResources(window);
   this->Depth.releaseGraphicsResources(window);
   this->Caster.releaseGraphicsResources(window);
-  this->FieldTimer.ReleaseGraphicsResources();
   this->Cover.releaseGraphicsResources();
 }
 
 void vtkDeformedVolumeMapper::ReleaseGraphicsResources(vtkWindow* window)
 {
-  State& state = *this->Internal;
-  const auto found = state.Devices.find(window);
-  if (found != state.Devices.end())
-  {
-    // Closing a view, ParaView leaves another window's context current, where our buffers' numbers
-    // may mean something else.
-    auto context = vtkOpenGLRenderWindow::SafeDownCast(window);
-    context->PushContext();
-    found->second.Release(window);
-    context->PopContext();
-    state.Devices.erase(found);
-  }
-  state.Fallback->ReleaseGraphicsResources(window);
+  this->Internal->Devices.release(window);
+  this->Internal->Fallback->ReleaseGraphicsResources(window);
   this->Superclass::ReleaseGraphicsResources(window);
 }
 
@@ -452,25 +369,14 @@ void vtkDeformedVolumeMapper::AskTheGpu()
   Counters& count = this->Internal->Count;
   count.gpuScalarBytes = 0;
   count.gpuOtherBytes = 0;
-  for (auto& [key, device] : this->Internal->Devices)
-  {
-    if (!device.Window)
-    {
-      continue;
-    }
-    device.Window->MakeCurrent();
+  this->Internal->Devices.visit([&](Device& device) {
     count.gpuScalarBytes += textureBytes(device.Tissue.scalars());
     count.gpuOtherBytes += device.Presence.faceBytes() +
       textureBytes({ device.Tissue.otherTextures(), { device.Depth.copied() },
-        device.Field.textures(), device.Presence.textures(), device.Caster.textures() });
-    if (device.FieldTimer.Stopped() && device.FieldTimer.Ready())
-    {
-      constexpr std::int64_t nanosecondsInMicrosecond = 1000;
-      count.gpuFieldMicroseconds =
-        static_cast<std::int64_t>(device.FieldTimer.GetElapsedNanoseconds()) /
-        nanosecondsInMicrosecond;
-    }
-  }
+        device.Deformation.field().textures(), device.Presence.textures(),
+        device.Caster.textures() });
+    device.Deformation.askTime(count.gpuFieldMicroseconds);
+  });
 }
 
 const Counters& vtkDeformedVolumeMapper::GetCounters()

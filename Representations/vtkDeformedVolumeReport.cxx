@@ -2,6 +2,8 @@
 #include "vtkDeformedVolumeReport.h"
 
 #include "Counters.h"
+#include "vtkDeformedSlicesMapper.h"
+#include "vtkDeformedSlicesRepresentation.h"
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkDeformedVolumeRepresentation.h"
 
@@ -28,15 +30,42 @@ void vtkDeformedVolumeReport::SetView(vtkPVRenderView* view)
   this->View = view;
 }
 
+vtkPVDataRepresentation* vtkDeformedVolumeReport::Shown() const
+{
+  auto composite = vtkCompositeRepresentation::SafeDownCast(this->Representation);
+  return composite ? composite->GetActiveRepresentation() : this->Representation.Get();
+}
+
 vtkDeformedVolumeMapper* vtkDeformedVolumeReport::Mapper() const
 {
-  vtkPVDataRepresentation* shown = this->Representation;
-  if (auto composite = vtkCompositeRepresentation::SafeDownCast(shown))
-  {
-    shown = composite->GetActiveRepresentation();
-  }
-  auto deformed = vtkDeformedVolumeRepresentation::SafeDownCast(shown);
+  auto deformed = vtkDeformedVolumeRepresentation::SafeDownCast(this->Shown());
   return deformed ? deformed->GetDeformedVolumeMapper() : nullptr;
+}
+
+vtkDeformedSlicesMapper* vtkDeformedVolumeReport::Slices() const
+{
+  auto slices = vtkDeformedSlicesRepresentation::SafeDownCast(this->Shown());
+  return slices ? slices->GetDeformedSlicesMapper() : nullptr;
+}
+
+double* vtkDeformedVolumeReport::GetSliceNormals()
+{
+  std::fill_n(this->SliceNormals, 9, 0.0);
+  if (vtkDeformedSlicesMapper* slices = this->Slices())
+  {
+    slices->GetNormals(this->SliceNormals);
+  }
+  return this->SliceNormals;
+}
+
+double* vtkDeformedVolumeReport::GetVoxelSteps()
+{
+  std::fill_n(this->VoxelSteps, 3, 0.0);
+  if (vtkDeformedSlicesMapper* slices = this->Slices())
+  {
+    slices->GetVoxelSteps(this->VoxelSteps);
+  }
+  return this->VoxelSteps;
 }
 
 double* vtkDeformedVolumeReport::GetTissue()
@@ -54,11 +83,12 @@ double* vtkDeformedVolumeReport::GetTissue()
 const char* vtkDeformedVolumeReport::GetCounters()
 {
   vtkDeformedVolumeMapper* mapper = this->Mapper();
-  if (!mapper)
+  vtkDeformedSlicesMapper* slices = this->Slices();
+  if (!mapper && !slices)
   {
     return "";
   }
-  const brainshift::Counters& count = mapper->GetCounters();
+  const brainshift::Counters& count = mapper ? mapper->GetCounters() : slices->GetCounters();
   std::ostringstream text;
   text << "frames " << count.frames << "\nvolumeUploads " << count.volumeUploads
        << "\nlatticeUploads " << count.latticeUploads << "\ntransferUploads "

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkDeformedVolumeReport
- * @brief   what a "Deformed Volume" drew, asked in the process that drew it
+ * @brief   what a "Deformed Volume" or "Deformed Slices" drew, asked in the process that drew it
  *
  * With a server that draws, the client's own representation has no picture to ask. This object
  * lives with the renderer; the XML proxy of the same name brings its answers to the client.
@@ -15,6 +15,7 @@
 
 #include <string> // for the counters' text
 
+class vtkDeformedSlicesMapper;
 class vtkDeformedVolumeMapper;
 class vtkPVDataRepresentation;
 class vtkPVRenderView;
@@ -26,7 +27,7 @@ public:
   vtkTypeMacro(vtkDeformedVolumeReport, vtkObject);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** A Deformed Volume, or a composite representation that shows one now. */
+  /** A Deformed Volume or Deformed Slices, or a composite representation that shows one now. */
   void SetRepresentation(vtkPVDataRepresentation* representation);
 
   /** The view that shows it. */
@@ -47,6 +48,12 @@ public:
   /** What the renderer did since it was made, and holds on the GPU (Counters.h): lines of a name, a space, a number. */
   const char* GetCounters();
 
+  ///@{
+  /** Of Deformed Slices: see vtkDeformedSlicesMapper. Zeros if something else is shown. */
+  double* GetSliceNormals() VTK_SIZEHINT(9);
+  double* GetVoxelSteps() VTK_SIZEHINT(3);
+  ///@}
+
 protected:
   vtkDeformedVolumeReport();
   ~vtkDeformedVolumeReport() override;
@@ -55,12 +62,16 @@ private:
   vtkDeformedVolumeReport(const vtkDeformedVolumeReport&) = delete;
   void operator=(const vtkDeformedVolumeReport&) = delete;
 
+  vtkPVDataRepresentation* Shown() const;
   vtkDeformedVolumeMapper* Mapper() const; // null if there is none
+  vtkDeformedSlicesMapper* Slices() const; // likewise
 
   vtkWeakPointer<vtkPVDataRepresentation> Representation;
   vtkWeakPointer<vtkPVRenderView> View;
   int Pixel[2] = { -1, -1 };
   double Tissue[4] = { 0.0, 0.0, 0.0, 0.0 };
+  double SliceNormals[9] = {};
+  double VoxelSteps[3] = {};
   std::string Counters;
 };
 

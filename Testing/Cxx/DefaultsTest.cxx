@@ -2,6 +2,7 @@
 // Proves that a default in the XML is the class's own: it is written twice but lives once.
 #include "TestDefaults.h"
 #include "vtkBakeDeformation.h"
+#include "vtkCompareVolumes.h"
 #include "vtkFreeFormDeformation.h"
 
 #include <vtkNew.h>
@@ -26,6 +27,16 @@ TEST(Defaults, OfFreeFormDeformationLiveInTheClass)
     { "Strength", { filter->GetStrength() } },
   };
   EXPECT_EQ(defaultsIn("Filters/FreeFormDeformation.xml"), expected);
+}
+
+TEST(Defaults, OfCompareVolumesLiveInTheClass)
+{
+  vtkNew<vtkCompareVolumes> filter;
+  const double* turn = filter->GetReferenceRotation();
+  const double* move = filter->GetReferenceTranslation();
+  const Defaults expected{ { "ReferenceRotation", { turn[0], turn[1], turn[2] } },
+    { "ReferenceTranslation", { move[0], move[1], move[2] } } };
+  EXPECT_EQ(defaultsIn("Filters/CompareVolumes.xml"), expected);
 }
 
 TEST(Defaults, OfBakeDeformationLiveInTheClass)

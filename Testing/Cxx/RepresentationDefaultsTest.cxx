@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that the defaults in the XML of "Deformed Volume" are those of the classes behind it.
+// Proves that the defaults in the XML of "Deformed Volume" and "Deformed Slices" are those of the
+// classes behind them.
 #include "TestDefaults.h"
+#include "vtkDeformedSlicesMapper.h"
+#include "vtkDeformedSlicesRepresentation.h"
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkDeformedVolumeReport.h"
 
@@ -16,6 +19,25 @@ TEST(Defaults, OfDeformedVolumeReportLiveInTheClass)
   const int* pixel = report->GetPixel();
   const Defaults expected{ { "Pixel", { double(pixel[0]), double(pixel[1]) } } };
   EXPECT_EQ(defaultsIn("Representations/DeformedVolumeReport.xml"), expected);
+}
+
+TEST(Defaults, OfDeformedSlicesLiveInTheMapper)
+{
+  vtkNew<vtkDeformedSlicesMapper> mapper;
+  vtkNew<vtkDeformedSlicesRepresentation> representation;
+  const double* position = mapper->GetSlicePosition();
+  const Defaults expected{ { "ShowSagittal", { double(mapper->GetShowSagittal()) } },
+    { "ShowCoronal", { double(mapper->GetShowCoronal()) } },
+    { "ShowAxial", { double(mapper->GetShowAxial()) } },
+    { "SlicePosition", { position[0], position[1], position[2] } },
+    { "SliceInterpolation", { double(mapper->GetInterpolation()) } },
+    { "MapSliceOpacity", { double(mapper->GetMapOpacity()) } },
+    { "OrientationMarks", { double(representation->GetOrientationMarks()) } },
+    { "SliceComparison", { double(mapper->GetComparison()) } },
+    { "CheckerSize", { mapper->GetCheckerSize() } },
+    { "ReferenceRange", { mapper->GetReferenceRange()[0], mapper->GetReferenceRange()[1] } },
+    { "Opacity", { mapper->GetOpacity() } } };
+  EXPECT_EQ(defaultsIn("Representations/DeformedSlices.xml"), expected);
 }
 
 TEST(Defaults, OfDeformedVolumeLiveInTheMapper)

@@ -20,6 +20,7 @@ SAME_STEP = {"ours, bent", "stock, same step, as loaded"}
 COARSE = SAME_STEP | {"stock, one-voxel step, as loaded"}
 EVERY = COARSE | {"ParaView's Volume, its own step, as loaded",
                   "stock, same step, baked beforehand"}
+SLICES = {"ours, bent", "ours, bent, cubic", "Slice of the baked volume"}
 BAKE = {"Bake Deformation", "vtkImageReslice, vtkBSplineTransform"}
 
 
@@ -54,6 +55,8 @@ def test_every_comparison_is_there():
         assert set(rows_of(f"steady frame, {opacities}", [SIZE] * 3)) == SAME_STEP
         assert len(rows_of(f"skipping, {opacities}")) == 2
         assert len(rows_of(f"normals, {opacities}")) == 3
+    for kind in ("slices, steady", "slices, moved", "slices, edited"):
+        assert set(rows_of(kind)) == SLICES
     assert set(rows_of("edit to picture, opaque", window=WINDOWS[1])) == EDIT
     for case in ({}, {"dimensions": [SIZE] * 3}, {"lattice": LATTICE}):
         assert set(rows_of("edit to picture, opaque", **case)) == EDIT

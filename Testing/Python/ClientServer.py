@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that a server that draws sends the picture of the built-in session, pixel by pixel, and that
-# brainshift.pick, counters and gpu answer for what the server drew.
+# Proves that a server that draws sends the picture of the built-in session, pixel by pixel, and
+# that brainshift.pick, counters and gpu answer for what the server drew; of Deformed Slices too.
 import contextlib
 import gc
 import os
@@ -8,7 +8,8 @@ import socket
 import subprocess
 
 import numpy
-from brainshift_testing import load_plugin, picture, run_tests, show_volume, view_along
+from brainshift_testing import load_plugin, look, picture, run_tests, show_volume, view_along
+from slices_testing import show_slices
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
@@ -52,6 +53,23 @@ class Shown:
         return first, self.answers()
 
 
+def slices():
+    """Pictures of Deformed Slices before and after they are moved, how they lie, the counters."""
+    bent = FreeFormDeformation(
+        Input=Wavelet(WholeExtent=[-15, 15, -15, 15, -15, 15]), Strokes=STROKE)
+    view = view_along((-0.5, 0.3, -1), MIDDLE, 80.0, size=SIZE)
+    display = show_slices(bent, view, ("Sagittal", "Coronal", "Axial"), MIDDLE, high=300.0,
+                          array="RTData")
+    display.OrientationMarks = 1
+    drawn = [picture(view)]
+    display.SlicePosition = [3.0, -2.0, 5.0]
+    drawn.append(picture(view))
+    display.ShowSagittal = display.ShowCoronal = 0
+    look(view, (0, 0, -1), MIDDLE, 80.0)
+    drawn.append(picture(view))  # with letters, which the client draws
+    return drawn, brainshift.slice_axes(display), brainshift.counters(display)
+
+
 @contextlib.contextmanager
 def server(environment):
     """The port of a pvserver on this machine."""
@@ -89,6 +107,7 @@ def on_server(question, **environment):
 
 SERVER_FINDS_PLUGIN = {"PV_PLUGIN_PATH": os.path.dirname(PLUGIN)}
 EXPECTED = Shown().all_answers()
+EXPECTED_SLICES = slices()  # while there is a session
 
 
 def assert_same(found):
@@ -128,6 +147,18 @@ def test_volumes_are_drawn_on_the_server_whatever_their_size():
         return shown.all_answers()
     for threshold in (0.0, 1e6):
         assert_same(on_server(lambda: show(threshold), **SERVER_FINDS_PLUGIN))
+
+
+def test_slices_are_drawn_on_the_server():
+    pictures, axes, counts = on_server(slices, **SERVER_FINDS_PLUGIN)
+    expected, expected_axes, expected_counts = EXPECTED_SLICES
+    for image, local in zip(pictures, expected):
+        differing = int((image != local).any(axis=2).sum())
+        assert image.any() and differing == 0, differing
+    assert (pictures[0] != pictures[1]).any(), "the slices were moved"
+    assert axes == expected_axes, axes
+    assert {**counts, "frames": 0} == {**expected_counts, "frames": 0}, counts
+    assert counts["volumeUploads"] == counts["latticeUploads"] == 1, counts
 
 
 run_tests(globals())

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "FourViewsActions.h"
+
+#include <pqActiveObjects.h>
+#include <pqPipelineSource.h>
+#include <pqUndoStack.h>
+
+#include <vtkPVDataInformation.h>
+#include <vtkPVPluginTracker.h>
+#include <vtkPythonInterpreter.h>
+#include <vtkSMSourceProxy.h>
+
+#include <QAction>
+#include <QFileInfo>
+
+#include <cstring>
+
+namespace
+{
+// brainshift.py is installed beside the plugin.
+void findModule()
+{
+  vtkPVPluginTracker* plugins = vtkPVPluginTracker::GetInstance();
+  for (unsigned int i = 0; i < plugins->GetNumberOfPlugins(); ++i)
+  {
+    if (std::strcmp(plugins->GetPluginName(i), "BrainShift") == 0)
+    {
+      const QFileInfo file(plugins->GetPluginFileName(i));
+      vtkPythonInterpreter::PrependPythonPath(file.absolutePath().toUtf8().data());
+    }
+  }
+}
+
+bool isVolume(pqPipelineSource* source)
+{
+  auto proxy = source ? vtkSMSourceProxy::SafeDownCast(source->getProxy()) : nullptr;
+  return proxy && proxy->GetOutputPortsCreated() &&
+    proxy->GetDataInformation(0)->DataSetTypeIsA("vtkImageData");
+}
+}
+
+FourViewsActions::FourViewsActions(QObject* parent)
+  : QActionGroup(parent)
+{
+  QAction* action = this->addAction(tr("Four Views"));
+  action->setObjectName("actionBrainShiftFourViews");
+  action->setToolTip(
+    tr("Axial, 3D, coronal and sagittal views of the active volume, with linked slices"));
+  QObject::connect(action, &QAction::triggered, this, &FourViewsActions::layOut);
+  const auto enable = [action](pqPipelineSource* source) { action->setEnabled(isVolume(source)); };
+  pqActiveObjects& active = pqActiveObjects::instance();
+  QObject::connect(&active, &pqActiveObjects::sourceChanged, this, enable);
+  QObject::connect(&active, &pqActiveObjects::dataUpdated, this,
+    [enable] { enable(pqActiveObjects::instance().activeSource()); });
+  enable(active.activeSource());
+}
+
+void FourViewsActions::layOut()
+{
+  SCOPED_UNDO_EXCLUDE();
+  vtkPythonInterpreter::Initialize();
+  findModule();
+  vtkPythonInterpreter::RunSimpleString("import brainshift\n"
+                                        "from paraview import simple\n"
+                                        "brainshift.four_views(simple.GetActiveSource())\n");
+}

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SliceMouse.h"
+
+#include <pqApplicationCore.h>
+#include <pqRenderView.h>
+#include <pqRepresentation.h>
+#include <pqServerManagerModel.h>
+#include <pqUndoStack.h>
+
+#include <vtkCamera.h>
+#include <vtkCommand.h>
+#include <vtkMath.h>
+#include <vtkPVDataInformation.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+#include <vtkSMProperty.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMRenderViewProxy.h>
+#include <vtkSMSessionProxyManager.h>
+#include <vtkSMSourceProxy.h>
+#include <vtkSmartPointer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace
+{
+constexpr float Priority = 0.1f; // before ParaView's camera, after tools that take the mouse
+constexpr double Faces = 0.99;   // cosine between where a view looks and a plane's normal, at least
+constexpr int Planes = 3;
+constexpr const char* ShowNames[Planes] = { "ShowSagittal", "ShowCoronal", "ShowAxial" };
+constexpr int Flat = 1; // InteractionMode of a 2D view
+
+bool showsSlices(pqRepresentation* representation)
+{
+  vtkSMProxy* proxy = representation->getProxy();
+  return representation->isVisible() && proxy->GetProperty("Representation") &&
+    std::strcmp(vtkSMPropertyHelper(proxy, "Representation").GetAsString(), "Deformed Slices") == 0;
+}
+
+// How the planes lie is known where they are drawn.
+void askHowPlanesLie(vtkSMProxy* display, double normals[9], double voxelSteps[3])
+{
+  auto report = vtk::TakeSmartPointer(
+    display->GetSessionProxyManager()->NewProxy("misc", "DeformedVolumeReport"));
+  vtkSMPropertyHelper(report, "Representation").Set(display);
+  report->UpdateVTKObjects();
+  report->UpdatePropertyInformation();
+  vtkSMPropertyHelper(report, "SliceNormals").Get(normals, 3 * Planes);
+  vtkSMPropertyHelper(report, "VoxelSteps").Get(voxelSteps, Planes);
+}
+
+void clampToInput(vtkSMProxy* display, double position[3])
+{
+  vtkSMPropertyHelper input(display, "Input");
+  if (auto source = vtkSMSourceProxy::SafeDownCast(input.GetAsProxy()))
+  {
+    double bounds[6];
+    source->GetDataInformation(input.GetOutputPort())->GetBounds(bounds);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      position[axis] = std::clamp(position[axis], bounds[2 * axis], bounds[2 * axis + 1]);
+    }
+  }
+}
+
+// Draws every view of slices, for the position may be linked. Not the others: 3D takes its time.
+void drawSlices()
+{
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  for (pqRenderView* view : model->findItems<pqRenderView*>())
+  {
+    const QList<pqRepresentation*> shown = view->getRepresentations();
+    if (std::any_of(shown.begin(), shown.end(), showsSlices))
+    {
+      view->render();
+    }
+  }
+}
+
+void setPosition(vtkSMProxy* display, double position[3])
+{
+  SCOPED_UNDO_EXCLUDE(); // where one looks is no edit
+  clampToInput(display, position);
+  vtkSMPropertyHelper(display, "SlicePosition").Set(position, 3);
+  display->UpdateVTKObjects();
+  drawSlices();
+}
+}
+
+void SliceMouse::watchViews(QObject* context)
+{
+  const auto watch = [](pqView* added) {
+    auto view = qobject_cast<pqRenderView*>(added);
+    if (view && view->getRenderViewProxy()->GetInteractor())
+    {
+      new SliceMouse(view); // Qt deletes it with the view
+    }
+  };
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  QObject::connect(model, &pqServerManagerModel::viewAdded, context, watch);
+  for (pqView* view : model->findItems<pqView*>())
+  {
+    watch(view);
+  }
+}
+
+SliceMouse::SliceMouse(pqRenderView* view)
+  : QObject(view)
+  , View(view)
+  , Interactor(view->getRenderViewProxy()->GetInteractor())
+{
+  const auto observe = [this](unsigned long event, auto method) {
+    this->Observers.push_back(this->Interactor->AddObserver(event, this, method, Priority));
+  };
+  observe(vtkCommand::MouseWheelForwardEvent, &SliceMouse::onWheel);
+  observe(vtkCommand::MouseWheelBackwardEvent, &SliceMouse::onWheel);
+  observe(vtkCommand::LeftButtonPressEvent, &SliceMouse::onButton);
+  observe(vtkCommand::LeftButtonReleaseEvent, &SliceMouse::onButton);
+  observe(vtkCommand::MouseMoveEvent, &SliceMouse::onMove);
+}
+
+SliceMouse::~SliceMouse()
+{
+  for (const unsigned long observer : this->Observers)
+  {
+    if (this->Interactor)
+    {
+      this->Interactor->RemoveObserver(observer);
+    }
+  }
+}
+
+SliceMouse::Facing SliceMouse::facingSlice() const
+{
+  Facing facing;
+  if (vtkSMPropertyHelper(this->View->getProxy(), "InteractionMode").GetAsInt() != Flat)
+  {
+    return facing;
+  }
+  const double* ahead =
+    this->View->getRenderViewProxy()->GetRenderer()->GetActiveCamera()->GetDirectionOfProjection();
+  for (pqRepresentation* representation : this->View->getRepresentations())
+  {
+    if (!showsSlices(representation))
+    {
+      continue;
+    }
+    vtkSMProxy* display = representation->getProxy();
+    askHowPlanesLie(display, facing.normals, facing.voxelSteps);
+    for (facing.plane = 0; facing.plane < Planes; ++facing.plane)
+    {
+      const double cosine = vtkMath::Dot(ahead, facing.normals + 3 * facing.plane);
+      if (std::abs(cosine) > Faces &&
+        vtkSMPropertyHelper(display, ShowNames[facing.plane]).GetAsInt())
+      {
+        facing.display = display;
+        return facing;
+      }
+    }
+  }
+  return facing;
+}
+
+bool SliceMouse::onWheel(vtkObject*, unsigned long event, void*)
+{
+  if (this->Interactor->GetControlKey())
+  {
+    return false;
+  }
+  const Facing slice = this->facingSlice();
+  if (!slice.display)
+  {
+    return false;
+  }
+  const double step = event == vtkCommand::MouseWheelForwardEvent ? slice.voxelSteps[slice.plane]
+                                                                  : -slice.voxelSteps[slice.plane];
+  double position[3];
+  vtkSMPropertyHelper(slice.display, "SlicePosition").Get(position, 3);
+  for (int i = 0; i < 3; ++i)
+  {
+    position[i] += step * slice.normals[3 * slice.plane + i];
+  }
+  setPosition(slice.display, position);
+  return true;
+}
+
+bool SliceMouse::onButton(vtkObject*, unsigned long event, void*)
+{
+  if (event == vtkCommand::LeftButtonReleaseEvent)
+  {
+    const bool mine = this->Dragging;
+    this->Dragging = false;
+    return mine;
+  }
+  const Facing slice = this->Interactor->GetShiftKey() ? this->facingSlice() : Facing();
+  this->Dragging = slice.display != nullptr;
+  if (this->Dragging)
+  {
+    this->bringToCursor(slice);
+  }
+  return this->Dragging;
+}
+
+bool SliceMouse::onMove(vtkObject*, unsigned long, void*)
+{
+  const Facing slice = this->Dragging ? this->facingSlice() : Facing();
+  if (slice.display)
+  {
+    this->bringToCursor(slice);
+  }
+  return slice.display != nullptr;
+}
+
+// The other two planes go to the cursor, this one stays.
+void SliceMouse::bringToCursor(const Facing& slice)
+{
+  const int* pixel = this->Interactor->GetEventPosition();
+  vtkRenderer* renderer = this->View->getRenderViewProxy()->GetRenderer();
+  renderer->SetDisplayPoint(pixel[0], pixel[1], 0.0);
+  renderer->DisplayToWorld();
+  const double* world = renderer->GetWorldPoint(); // parallel: anywhere on the pixel's line will do
+  double position[3];
+  vtkSMPropertyHelper(slice.display, "SlicePosition").Get(position, 3);
+  const double* normal = slice.normals + 3 * slice.plane;
+  double across = 0.0; // from the slice to that place
+  for (int i = 0; i < 3; ++i)
+  {
+    across += (world[i] / world[3] - position[i]) * normal[i];
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    position[i] = world[i] / world[3] - across * normal[i];
+  }
+  setPosition(slice.display, position);
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The mouse in a 2D view of Deformed Slices: the wheel goes through the slices a voxel at a time,
+// dragging with Shift brings the other planes to the cursor. With Ctrl the wheel zooms as
+// elsewhere.
+#ifndef BrainShift_SliceMouse_h
+#define BrainShift_SliceMouse_h
+
+#include <QObject>
+
+#include <vtkWeakPointer.h>
+
+#include <vector>
+
+class pqRenderView;
+class vtkObject;
+class vtkRenderWindowInteractor;
+class vtkSMProxy;
+
+// Lives and ends with its view.
+class SliceMouse : public QObject
+{
+  Q_OBJECT
+
+public:
+  // One for every render view there is or will be, until `context` ends.
+  static void watchViews(QObject* context);
+
+  explicit SliceMouse(pqRenderView* view);
+  ~SliceMouse() override;
+
+private:
+  // A slice that faces the view.
+  struct Facing
+  {
+    vtkSMProxy* display = nullptr; // null: none
+    int plane = 0;                 // 0 sagittal, 1 coronal, 2 axial
+    double normals[9] = {};        // of all three, see vtkDeformedSlicesMapper
+    double voxelSteps[3] = {};     // mm
+  };
+  Facing facingSlice() const;
+
+  // Observers of the interactor; true: nobody else is to hear of the event.
+  bool onWheel(vtkObject* interactor, unsigned long event, void* data);
+  bool onButton(vtkObject* interactor, unsigned long event, void* data);
+  bool onMove(vtkObject* interactor, unsigned long event, void* data);
+
+  void bringToCursor(const Facing& slice);
+
+  pqRenderView* View;
+  vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
+  std::vector<unsigned long> Observers;
+  bool Dragging = false;
+};
+
+#endif

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SliceDrawer.h"
+
+#include "OpenGL.h"
+
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
+#include "vtkTextureObject.h"
+
+#include <glm/mat4x4.hpp>
+
+#include <vector>
+
+namespace brainshift
+{
+namespace
+{
+void setSliceUniforms(Program& program, const SliceScene& scene)
+{
+  const RayCastScene& volume = scene.volume;
+  setTissueUniforms(program, volume);
+  if (volume.offsets)
+  {
+    setFieldUniforms(program, volume);
+  }
+  setColoringUniforms(program, volume.options);
+  program.set("clipFromTexture", glm::mat4(volume.clipFromWorld * volume.worldFromTexture));
+  program.set("voxels", glm::vec3(scene.voxels));
+  program.set("cubic", scene.cubic ? 1 : 0);
+  program.set("opacity", static_cast<float>(scene.opacity));
+  program.set("mapsOpacity", scene.mapsOpacity ? 1 : 0);
+  program.set("selecting", scene.selecting ? 1 : 0);
+}
+
+void setReferenceUniforms(Program& program, const SliceScene& scene)
+{
+  const ReferenceScene& reference = scene.reference;
+  program.set("reference", reference.scalars);
+  program.set("referenceFromTexture", glm::mat4(reference.referenceFromTexture));
+  program.set("referenceLow", glm::vec3(reference.low));
+  program.set("referenceHigh", glm::vec3(reference.high));
+  program.set("shareFromReference", glm::vec2(reference.shareFromReference));
+  program.set("shareFromScalar", glm::vec2(reference.shareFromScalar));
+  const glm::dvec2& own = reference.shareFromScalar;
+  const glm::dvec2& transfer = scene.volume.transferFromScalar;
+  const double scale = transfer.x / own.x;
+  program.set("transferFromShare", glm::vec2(scale, transfer.y - own.y * scale));
+  program.set("comparison", reference.comparison);
+  program.set("checkersFromTexture", glm::vec3(reference.checkersFromTexture));
+}
+
+// Drawing into the scene; restored at the end.
+class SceneScope
+{
+public:
+  SceneScope(vtkOpenGLState* state, bool blended)
+    : DepthMask(state)
+    , DepthFunction(state)
+    , BlendFunction(state)
+    , DepthTest(state, GL_DEPTH_TEST)
+    , Blend(state, GL_BLEND)
+    , Cull(state, GL_CULL_FACE)
+  {
+    state->vtkglEnable(GL_DEPTH_TEST);
+    state->vtkglDepthFunc(GL_LEQUAL);
+    state->vtkglDepthMask(blended ? GL_FALSE : GL_TRUE);
+    state->vtkglDisable(GL_CULL_FACE);
+    if (blended)
+    {
+      state->vtkglEnable(GL_BLEND);
+      state->vtkglBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    }
+    else
+    {
+      state->vtkglDisable(GL_BLEND);
+    }
+  }
+
+private:
+  vtkOpenGLState::ScopedglDepthMask DepthMask;
+  vtkOpenGLState::ScopedglDepthFunc DepthFunction;
+  vtkOpenGLState::ScopedglBlendFuncSeparate BlendFunction;
+  vtkOpenGLState::ScopedglEnableDisable DepthTest;
+  vtkOpenGLState::ScopedglEnableDisable Blend;
+  vtkOpenGLState::ScopedglEnableDisable Cull;
+};
+}
+
+bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, Counters& counters)
+{
+  const RayCastScene& volume = scene.volume;
+  const SlicesVariant variant{ volume.offsets != nullptr, volume.options.coloring,
+    scene.reference.scalars != nullptr };
+  Program& program = this->Programs[variant];
+  if (!program.use(window, slicesSource(variant), counters))
+  {
+    return false;
+  }
+  setSliceUniforms(program, scene);
+  if (variant.compared)
+  {
+    setReferenceUniforms(program, scene);
+  }
+  {
+    const SceneScope scope(window->GetState(), scene.blended);
+    const std::vector<SliceQuad> quads = scene.blended
+      ? quadsBackToFront(scene.planes, volume.clipFromWorld * volume.worldFromTexture)
+      : wholeQuads(scene.planes);
+    for (const SliceQuad& quad : quads)
+    {
+      program.set("quadCorner", glm::vec3(quad.corner));
+      program.set("quadRight", glm::vec3(quad.right));
+      program.set("quadUp", glm::vec3(quad.up));
+      constexpr int trianglesOfQuad = 2;
+      drawTriangles(trianglesOfQuad);
+    }
+  }
+  for (vtkTextureObject* texture : { volume.scalars, volume.offsets, volume.transfer,
+         volume.options.colors, volume.options.colorScalars, scene.reference.scalars })
+  {
+    if (texture)
+    {
+      texture->Deactivate();
+    }
+  }
+  counters.frames += 1;
+  return true;
+}
+}

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDeformedSlicesMapper.h"
+
+#include "GpuMemory.h"
+#include "ReferenceVolume.h"
+#include "ScalarTexture.h"
+#include "SceneDeformation.h"
+#include "SceneGeometry.h"
+#include "SliceDrawer.h"
+#include "TextureMemory.h"
+#include "Tissue.h"
+#include "WindowDevices.h"
+
+#include "vtkColorTransferFunction.h"
+#include "vtkDataArray.h"
+#include "vtkImageData.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkRenderer.h"
+#include "vtkTextureObject.h"
+#include "vtkVolume.h"
+#include "vtkVolumeProperty.h"
+
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+
+#include <string>
+
+using namespace brainshift;
+
+struct vtkDeformedSlicesMapper::Device
+{
+  brainshift::Tissue Tissue;
+  ScalarTexture Reference;
+  DeviceDeformation Deformation;
+  SliceDrawer Drawer;
+  GpuMemory Memory;
+
+  void Release(vtkWindow* window)
+  {
+    this->Tissue.releaseGraphicsResources(window);
+    this->Reference.releaseGraphicsResources(window);
+    this->Deformation.releaseGraphicsResources(window);
+    this->Drawer.releaseGraphicsResources();
+  }
+};
+
+struct vtkDeformedSlicesMapper::State
+{
+  WindowDevices<Device> Devices;
+  Counters Count;
+  SceneDeformation Deformation; // of the input
+  std::string Reported;         // the last trouble told
+};
+
+vtkStandardNewMacro(vtkDeformedSlicesMapper);
+
+vtkDeformedSlicesMapper::vtkDeformedSlicesMapper()
+  : Internal(std::make_unique<State>())
+{
+}
+
+vtkDeformedSlicesMapper::~vtkDeformedSlicesMapper() = default;
+
+// Reads the deformation if it changed.
+void vtkDeformedSlicesMapper::UpdateDeformation(vtkImageData* image)
+{
+  std::string problem;
+  if (!this->Internal->Deformation.update(image, problem))
+  {
+    vtkErrorMacro(<< problem << ". The slices are drawn undeformed.");
+  }
+}
+
+double* vtkDeformedSlicesMapper::GetBounds()
+{
+  vtkVolumeMapper::GetBounds();
+  if (auto image = vtkImageData::SafeDownCast(this->GetDataSetInput()))
+  {
+    this->UpdateDeformation(image);
+    this->Internal->Deformation.widen(this->Bounds);
+  }
+  return this->Bounds;
+}
+
+void vtkDeformedSlicesMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
+{
+  this->GetInputAlgorithm()->Update();
+  std::string problem;
+  if (!this->Draw(renderer, volume, problem) && this->Internal->Reported != problem)
+  {
+    vtkErrorMacro(<< problem << ". The slices are not drawn.");
+    this->Internal->Reported = problem;
+  }
+}
+
+bool vtkDeformedSlicesMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem)
+{
+  auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  auto image = vtkImageData::SafeDownCast(this->GetDataSetInput());
+  if (!window || !image)
+  {
+    problem = "Deformed Slices draws image data in an OpenGL window only";
+    return false;
+  }
+  window->MakeCurrent();
+  int cells = 0;
+  vtkDataArray* scalars = this->GetScalars(
+    image, this->ScalarMode, this->ArrayAccessMode, this->ArrayId, this->ArrayName, cells);
+  const Grid grid = gridOf(image);
+  const ValueLayout layout = layoutOf(grid.dimensions, cells != 0);
+  if (!holdsValues(scalars, layout))
+  {
+    return true; // nothing to draw yet
+  }
+  this->UpdateDeformation(image);
+  TissueRequest tissue;
+  tissue.property = volume->GetProperty();
+  tissue.scalars = scalars;
+  tissue.layout = layout;
+  tissue.blend = Blend::Maximum; // one sample is seen: opacity as given, no light
+  tissue.nearest = this->Interpolation == Nearest;
+  Device& device = this->Internal->Devices.of(window);
+  takeOutOfMemory(); // what others left behind
+  const bool drawn = this->AskForMemory(window, device, tissue, problem) &&
+    this->DrawPlanes(renderer, device, volume, tissue, grid, problem);
+  if (takeOutOfMemory())
+  {
+    device.Memory.refuse();
+    return this->AskForMemory(window, device, tissue, problem);
+  }
+  return drawn;
+}
+
+bool vtkDeformedSlicesMapper::AskForMemory(
+  vtkOpenGLRenderWindow* window, Device& device, const TissueRequest& tissue, std::string& problem)
+{
+  DrawnSizes sizes;
+  addTissueSizes(tissue, sizes);
+  this->Internal->Deformation.addSizes(sizes);
+  constexpr double noLimit = 0.0;
+  problem = device.Memory.ask(window, memoryNeed(sizes), noLimit);
+  return problem.empty();
+}
+
+bool vtkDeformedSlicesMapper::DrawPlanes(vtkRenderer* renderer, Device& device, vtkVolume* volume,
+  const TissueRequest& tissue, const Grid& grid, std::string& problem)
+{
+  State& state = *this->Internal;
+  auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  SliceScene scene;
+  IndexBox changed;
+  if (!device.Tissue.update(window, tissue, scene.volume, state.Count, problem) ||
+    !device.Deformation.update(window, state.Deformation, grid, tissue.layout, scene.volume,
+      changed, state.Count, problem) ||
+    !this->DescribeReference(window, device, tissue, grid, scene, problem))
+  {
+    return false;
+  }
+  describeView(renderer, volume, grid, tissue.layout, scene.volume);
+  this->DescribePlanes(tissue, grid, scene);
+  scene.selecting = renderer->GetSelector() != nullptr;
+  scene.blended = this->IsTranslucent() && !scene.selecting;
+  if (!device.Drawer.draw(window, scene, state.Count))
+  {
+    problem = "The slices' shader does not compile on this GPU";
+    return false;
+  }
+  return true;
+}
+
+bool vtkDeformedSlicesMapper::DescribeReference(vtkOpenGLRenderWindow* window, Device& device,
+  const TissueRequest& tissue, const Grid& grid, SliceScene& scene, std::string& problem)
+{
+  const ReferenceVolume volume = readReference(this->GetDataSetInput());
+  if (!volume.voxels || this->Comparison == NoComparison)
+  {
+    return true;
+  }
+  const ValueLayout layout = layoutOf(volume.grid.dimensions, false);
+  constexpr int firstComponent = 0;
+  if (!device.Reference.update(
+        window, volume.voxels, layout.dimensions, firstComponent, this->Internal->Count, problem))
+  {
+    return false;
+  }
+  // The share of a scalar, from what the texture stores.
+  const auto shareFromStored = [](const double range[2], const StoredScalar& stored) {
+    const double length = range[1] > range[0] ? range[1] - range[0] : 1.0;
+    return glm::dvec2(stored.scale / length, (stored.shift - range[0]) / length);
+  };
+  const bool whole = !(this->ReferenceRange[0] < this->ReferenceRange[1]);
+  const double* shown = whole ? volume.voxels->GetRange(firstComponent) : this->ReferenceRange;
+  ReferenceScene& reference = scene.reference;
+  reference.scalars = device.Reference.texture();
+  reference.shareFromReference =
+    shareFromStored(shown, { device.Reference.scale(), device.Reference.shift() });
+  reference.shareFromScalar =
+    shareFromStored(tissue.property->GetRGBTransferFunction()->GetRange(), device.Tissue.stored());
+  vtkNew<vtkMatrix4x4> unmoved;
+  reference.referenceFromTexture = glm::inverse(worldFromTexture(volume.grid, layout, unmoved)) *
+    worldFromTexture(grid, tissue.layout, unmoved);
+  reference.low = layout.low;
+  reference.high = layout.high;
+  reference.comparison = this->Comparison;
+  reference.checkersFromTexture = grid.spacing / tissue.layout.textureFromGrid / this->CheckerSize;
+  return true;
+}
+
+void vtkDeformedSlicesMapper::DescribePlanes(
+  const TissueRequest& tissue, const Grid& grid, SliceScene& scene)
+{
+  const ValueLayout& layout = tissue.layout;
+  const glm::ivec3 axes = axesAcrossPlanes(grid.direction);
+  const bool shown[3] = { this->ShowSagittal, this->ShowCoronal, this->ShowAxial };
+  for (int plane = 0; plane < 3; ++plane)
+  {
+    scene.planes.shown[axes[plane]] = shown[plane];
+  }
+  const glm::dvec3 position(this->SlicePosition[0], this->SlicePosition[1], this->SlicePosition[2]);
+  scene.planes.position =
+    grid.gridFromWorld(position) * layout.textureFromGrid + layout.textureOfGridZero;
+  // A plane on the very face of the box must not come and go with rounding.
+  constexpr double roundingVoxels = 1e-3;
+  const glm::dvec3 rounding = roundingVoxels / glm::dvec3(layout.dimensions);
+  scene.volume.volumeLow -= rounding;
+  scene.volume.volumeHigh += rounding;
+  scene.planes.low = glm::min(scene.volume.spaceLow, scene.volume.volumeLow);
+  scene.planes.high = glm::max(scene.volume.spaceHigh, scene.volume.volumeHigh);
+  scene.voxels = layout.dimensions;
+  scene.cubic = this->Interpolation == Cubic;
+  scene.opacity = this->Opacity;
+  scene.mapsOpacity = this->MapOpacity;
+}
+
+void vtkDeformedSlicesMapper::GetNormals(double normals[9])
+{
+  auto image = vtkImageData::SafeDownCast(this->GetDataSetInput());
+  const glm::dmat3 direction = image ? gridOf(image).direction : glm::dmat3(1.0);
+  const glm::ivec3 axes = axesAcrossPlanes(direction);
+  for (int plane = 0; plane < 3; ++plane)
+  {
+    const glm::dvec3& axis = direction[axes[plane]];
+    for (int i = 0; i < 3; ++i)
+    {
+      normals[3 * plane + i] = axis[plane] < 0.0 ? -axis[i] : axis[i];
+    }
+  }
+}
+
+void vtkDeformedSlicesMapper::GetVoxelSteps(double steps[3])
+{
+  auto image = vtkImageData::SafeDownCast(this->GetDataSetInput());
+  const Grid grid = image ? gridOf(image) : Grid();
+  const glm::ivec3 axes = axesAcrossPlanes(grid.direction);
+  for (int plane = 0; plane < 3; ++plane)
+  {
+    steps[plane] = grid.spacing[axes[plane]];
+  }
+}
+
+void vtkDeformedSlicesMapper::ReleaseGraphicsResources(vtkWindow* window)
+{
+  this->Internal->Devices.release(window);
+  this->Superclass::ReleaseGraphicsResources(window);
+}
+
+const Counters& vtkDeformedSlicesMapper::GetCounters()
+{
+  Counters& count = this->Internal->Count;
+  count.gpuScalarBytes = 0;
+  count.gpuOtherBytes = 0;
+  this->Internal->Devices.visit([&](Device& device) {
+    count.gpuScalarBytes += textureBytes(device.Tissue.scalars());
+    count.gpuOtherBytes += textureBytes({ { device.Reference.texture() },
+      device.Tissue.otherTextures(), device.Deformation.field().textures() });
+    device.Deformation.askTime(count.gpuFieldMicroseconds);
+  });
+  return count;
+}
+
+void vtkDeformedSlicesMapper::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "ShowSagittal: " << this->ShowSagittal << "\n"
+     << indent << "ShowCoronal: " << this->ShowCoronal << "\n"
+     << indent << "ShowAxial: " << this->ShowAxial << "\n"
+     << indent << "SlicePosition: " << this->SlicePosition[0] << " " << this->SlicePosition[1]
+     << " " << this->SlicePosition[2] << "\n"
+     << indent << "Interpolation: " << this->Interpolation << "\n"
+     << indent << "Opacity: " << this->Opacity << "\n"
+     << indent << "MapOpacity: " << this->MapOpacity << "\n"
+     << indent << "Comparison: " << this->Comparison << "\n"
+     << indent << "CheckerSize: " << this->CheckerSize << "\n"
+     << indent << "ReferenceRange: " << this->ReferenceRange[0] << " " << this->ReferenceRange[1]
+     << "\n";
+}

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkDeformedSlicesMapper
+ * @brief   draws planes through a volume and the lattice it carries
+ *
+ * Three planes across the volume's axes, through one position: each fragment of them looks its
+ * scalar up at the rest position its tissue came from (Filters/DeformableVolume.h), so that nothing
+ * is resampled. The planes reach as far as tissue may go; outside tissue nothing is drawn. Colours
+ * and place come from the vtkVolume, light does not matter.
+ *
+ * Opaque planes are drawn among surfaces, with their depth; others where volumes are, blended over
+ * what is there.
+ *
+ * What lies on the GPU is kept for each window; where the GPU cannot draw, the reason is reported
+ * once and nothing is drawn.
+ */
+#ifndef vtkDeformedSlicesMapper_h
+#define vtkDeformedSlicesMapper_h
+
+#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
+#include "vtkVolumeMapper.h"
+
+#include <memory> // for the private part
+#include <string> // for messages
+
+class vtkImageData;
+class vtkOpenGLRenderWindow;
+namespace brainshift
+{
+struct Counters;
+struct Grid;
+struct SliceScene;
+struct TissueRequest;
+}
+
+class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkDeformedSlicesMapper : public vtkVolumeMapper
+{
+public:
+  static vtkDeformedSlicesMapper* New();
+  vtkTypeMacro(vtkDeformedSlicesMapper, vtkVolumeMapper);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** Whether a plane is drawn: the one across the volume's axis nearest to world x (sagittal), y
+   * (coronal), z (axial). Default true. */
+  vtkSetMacro(ShowSagittal, bool);
+  vtkGetMacro(ShowSagittal, bool);
+  vtkSetMacro(ShowCoronal, bool);
+  vtkGetMacro(ShowCoronal, bool);
+  vtkSetMacro(ShowAxial, bool);
+  vtkGetMacro(ShowAxial, bool);
+  ///@}
+
+  ///@{
+  /** All planes go through it: mm, world axes, before the vtkVolume's transform. Default 0 0 0. */
+  vtkSetVector3Macro(SlicePosition, double);
+  vtkGetVector3Macro(SlicePosition, double);
+  ///@}
+
+  enum InterpolationType
+  {
+    Nearest = 0, // as VTK numbers them
+    Linear = 1,
+    Cubic = 2, // B-spline: smooth, and a little softer
+  };
+
+  ///@{
+  /** How scalars are found between voxels. Default linear. */
+  vtkSetClampMacro(Interpolation, int, Nearest, Cubic);
+  vtkGetMacro(Interpolation, int);
+  ///@}
+
+  ///@{
+  /** Opacity of all, 0 to 1. Default 1. */
+  vtkSetClampMacro(Opacity, double, 0.0, 1.0);
+  vtkGetMacro(Opacity, double);
+  ///@}
+
+  ///@{
+  /** Times the opacity map's. Default false. */
+  vtkSetMacro(MapOpacity, bool);
+  vtkGetMacro(MapOpacity, bool);
+  ///@}
+
+  enum ComparisonType
+  {
+    NoComparison = 0,
+    RedGreen = 1,     // volume red, reference green, agreement yellow
+    Checkerboard = 2, // in turn, both by the colour map
+    Difference = 3,   // volume minus reference; agreement is grey
+  };
+
+  ///@{
+  /** How the reference that Compare Volumes attached is shown. Default not at all. */
+  vtkSetClampMacro(Comparison, int, NoComparison, Difference);
+  vtkGetMacro(Comparison, int);
+  ///@}
+
+  ///@{
+  /** Side of a field of the checkerboard, mm. Default 20. */
+  vtkSetClampMacro(CheckerSize, double, 0.01, VTK_DOUBLE_MAX);
+  vtkGetMacro(CheckerSize, double);
+  ///@}
+
+  ///@{
+  /** The reference's scalars shown as black and as white; the volume's are those of its colour map.
+   * Default 0 0: its whole range. */
+  vtkSetVector2Macro(ReferenceRange, double);
+  vtkGetVector2Macro(ReferenceRange, double);
+  ///@}
+
+  /** Whether what lies behind may be seen through the planes. */
+  bool IsTranslucent() const { return this->MapOpacity || this->Opacity < 1.0; }
+
+  void Render(vtkRenderer* renderer, vtkVolume* volume) override;
+  void ReleaseGraphicsResources(vtkWindow* window) override;
+
+  ///@{
+  /** Box that the deformed volume can reach, mm. */
+  using vtkVolumeMapper::GetBounds;
+  double* GetBounds() VTK_SIZEHINT(6) override;
+  ///@}
+
+  /** Directions (world) that the sagittal, the coronal and the axial plane lie across, 3 each,
+   * pointing towards greater world coordinates. Those of the world without an input. */
+  void GetNormals(double normals[9]);
+
+  /** Distances (mm) between voxels along these directions. 1 without an input. */
+  void GetVoxelSteps(double steps[3]);
+
+  /** What was done since the mapper was made, and what it holds on the GPU now. */
+  const brainshift::Counters& GetCounters();
+
+protected:
+  vtkDeformedSlicesMapper();
+  ~vtkDeformedSlicesMapper() override;
+
+private:
+  vtkDeformedSlicesMapper(const vtkDeformedSlicesMapper&) = delete;
+  void operator=(const vtkDeformedSlicesMapper&) = delete;
+
+  struct Device; // textures and programs of one window
+  struct State;  // what all windows share, and their devices
+
+  // False, with one sentence in `problem`, if this GPU cannot.
+  bool Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem);
+  bool DrawPlanes(vtkRenderer* renderer, Device& device, vtkVolume* volume,
+    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid, std::string& problem);
+  bool AskForMemory(vtkOpenGLRenderWindow* window, Device& device,
+    const brainshift::TissueRequest& tissue, std::string& problem);
+  bool DescribeReference(vtkOpenGLRenderWindow* window, Device& device,
+    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
+    brainshift::SliceScene& scene, std::string& problem);
+  void DescribePlanes(const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
+    brainshift::SliceScene& scene);
+  void UpdateDeformation(vtkImageData* image);
+
+  bool ShowSagittal = true;
+  bool ShowCoronal = true;
+  bool ShowAxial = true;
+  double SlicePosition[3] = { 0.0, 0.0, 0.0 };
+  int Interpolation = Linear;
+  double Opacity = 1.0;
+  bool MapOpacity = false;
+  int Comparison = NoComparison;
+  double CheckerSize = 20.0;
+  double ReferenceRange[2] = { 0.0, 0.0 };
+
+  std::unique_ptr<State> Internal;
+};
+
+#endif

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDeformedSlicesRepresentation.h"
+
+#include "OrientationMarks.h"
+#include "SlicesProp.h"
+#include "vtkDeformedSlicesMapper.h"
+
+#include "vtkObjectFactory.h"
+#include "vtkPVRenderView.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkRenderer.h"
+#include "vtkVolumeProperty.h"
+
+vtkStandardNewMacro(vtkDeformedSlicesRepresentation);
+
+vtkDeformedSlicesRepresentation::vtkDeformedSlicesRepresentation()
+{
+  vtkNew<vtkDeformedSlicesMapper> slices;
+  this->VolumeMapper = slices;
+  vtkNew<brainshift::SlicesProp> prop;
+  prop->Slices = slices;
+  prop->SetProperty(this->Property);
+  prop->SetLODMapper(this->OutlineMapper);
+  this->Actor = prop;
+  this->Marks = vtk::TakeSmartPointer(brainshift::OrientationMarks::New());
+  this->Marks->SetVisibility(false);
+}
+
+// Whoever still holds the prop must not draw.
+vtkDeformedSlicesRepresentation::~vtkDeformedSlicesRepresentation()
+{
+  static_cast<brainshift::SlicesProp*>(this->Actor.Get())->Slices = nullptr;
+}
+
+vtkDeformedSlicesMapper* vtkDeformedSlicesRepresentation::GetDeformedSlicesMapper() const
+{
+  return vtkDeformedSlicesMapper::SafeDownCast(this->VolumeMapper);
+}
+
+void vtkDeformedSlicesRepresentation::SetVisibility(bool visible)
+{
+  this->Superclass::SetVisibility(visible);
+  this->Marks->SetVisibility(visible && this->OrientationMarks);
+}
+
+void vtkDeformedSlicesRepresentation::SetShowSagittal(bool show)
+{
+  this->GetDeformedSlicesMapper()->SetShowSagittal(show);
+}
+
+void vtkDeformedSlicesRepresentation::SetShowCoronal(bool show)
+{
+  this->GetDeformedSlicesMapper()->SetShowCoronal(show);
+}
+
+void vtkDeformedSlicesRepresentation::SetShowAxial(bool show)
+{
+  this->GetDeformedSlicesMapper()->SetShowAxial(show);
+}
+
+void vtkDeformedSlicesRepresentation::SetSlicePosition(double x, double y, double z)
+{
+  this->GetDeformedSlicesMapper()->SetSlicePosition(x, y, z);
+}
+
+void vtkDeformedSlicesRepresentation::SetSliceInterpolation(int interpolation)
+{
+  this->GetDeformedSlicesMapper()->SetInterpolation(interpolation);
+}
+
+void vtkDeformedSlicesRepresentation::SetOpacity(double opacity)
+{
+  this->GetDeformedSlicesMapper()->SetOpacity(opacity);
+}
+
+void vtkDeformedSlicesRepresentation::SetMapOpacity(bool map)
+{
+  this->GetDeformedSlicesMapper()->SetMapOpacity(map);
+}
+
+void vtkDeformedSlicesRepresentation::SetComparison(int comparison)
+{
+  this->GetDeformedSlicesMapper()->SetComparison(comparison);
+}
+
+void vtkDeformedSlicesRepresentation::SetCheckerSize(double size)
+{
+  this->GetDeformedSlicesMapper()->SetCheckerSize(size);
+}
+
+void vtkDeformedSlicesRepresentation::SetReferenceRange(double black, double white)
+{
+  this->GetDeformedSlicesMapper()->SetReferenceRange(black, white);
+}
+
+void vtkDeformedSlicesRepresentation::SetOrientationMarks(bool marks)
+{
+  this->OrientationMarks = marks;
+  this->Marks->SetVisibility(marks && this->GetVisibility());
+}
+
+bool vtkDeformedSlicesRepresentation::AddToView(vtkView* view)
+{
+  if (auto renderView = vtkPVRenderView::SafeDownCast(view))
+  {
+    renderView->GetNonCompositedRenderer()->AddViewProp(this->Marks);
+  }
+  return this->Superclass::AddToView(view);
+}
+
+bool vtkDeformedSlicesRepresentation::RemoveFromView(vtkView* view)
+{
+  if (auto renderView = vtkPVRenderView::SafeDownCast(view))
+  {
+    renderView->GetNonCompositedRenderer()->RemoveViewProp(this->Marks);
+  }
+  return this->Superclass::RemoveFromView(view);
+}
+
+int vtkDeformedSlicesRepresentation::RequestData(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const int result = this->Superclass::RequestData(request, inputs, outputs);
+  // Tissue may lie outside the volume's own box: the camera must not cut it.
+  if (this->VolumeMapper->GetNumberOfInputConnections(0) > 0)
+  {
+    this->VolumeMapper->GetBounds(this->DataBounds);
+  }
+  return result;
+}
+
+void vtkDeformedSlicesRepresentation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "OrientationMarks: " << this->OrientationMarks << "\n";
+  this->VolumeMapper->PrintSelf(os, indent.GetNextIndent());
+}

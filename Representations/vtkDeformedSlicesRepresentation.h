@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkDeformedSlicesRepresentation
+ * @brief   "Deformed Slices": planes through a volume and the lattice it carries
+ *
+ * Data delivery, colour maps and transforms are those of ParaView's "Volume": the volume stays
+ * where it is drawn. What is drawn are the planes of vtkDeformedSlicesMapper, whose header says
+ * what the properties mean.
+ */
+#ifndef vtkDeformedSlicesRepresentation_h
+#define vtkDeformedSlicesRepresentation_h
+
+#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
+#include "vtkImageVolumeRepresentation.h"
+
+class vtkDeformedSlicesMapper;
+class vtkProp;
+
+class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkDeformedSlicesRepresentation
+  : public vtkImageVolumeRepresentation
+{
+public:
+  static vtkDeformedSlicesRepresentation* New();
+  vtkTypeMacro(vtkDeformedSlicesRepresentation, vtkImageVolumeRepresentation);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  void SetVisibility(bool visible) override;
+
+  ///@{
+  /** Passed on to the mapper. */
+  void SetShowSagittal(bool show);
+  void SetShowCoronal(bool show);
+  void SetShowAxial(bool show);
+  void SetSlicePosition(double x, double y, double z);
+  void SetSliceInterpolation(int interpolation);
+  void SetOpacity(double opacity);
+  void SetMapOpacity(bool map);
+  void SetComparison(int comparison);
+  void SetCheckerSize(double size);
+  void SetReferenceRange(double black, double white);
+  ///@}
+
+  ///@{
+  /** Letters R L A P S I at the edges of a view that looks along an axis. Default false. */
+  void SetOrientationMarks(bool marks);
+  vtkGetMacro(OrientationMarks, bool);
+  ///@}
+
+  /** What draws it in this process. */
+  vtkDeformedSlicesMapper* GetDeformedSlicesMapper() const;
+
+protected:
+  vtkDeformedSlicesRepresentation();
+  ~vtkDeformedSlicesRepresentation() override;
+
+  bool AddToView(vtkView* view) override;
+  bool RemoveFromView(vtkView* view) override;
+
+  int RequestData(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkDeformedSlicesRepresentation(const vtkDeformedSlicesRepresentation&) = delete;
+  void operator=(const vtkDeformedSlicesRepresentation&) = delete;
+
+  bool OrientationMarks = false;
+  vtkSmartPointer<vtkProp> Marks;
+};
+
+#endif

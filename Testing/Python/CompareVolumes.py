@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves that Compare Volumes and "Deformed Slices" show a volume beside a reference of any grid:
+# red and green, in a checkerboard, subtracted; live, for a stroke uploads the lattice only.
+import math
+
+import numpy
+from brainshift_testing import (assert_says, ball, field, load_plugin, messages, output, picture,
+                                run_tests, volume)
+from slices_testing import flat_view, pixel_positions, show_slices, trilinear
+
+load_plugin()
+import brainshift  # noqa: E402 after the plugin
+from paraview.simple import CompareVolumes, Delete, FreeFormDeformation  # noqa: E402
+
+MIDDLE = (16.0, 16.0, 16.3)
+HALF = 15.0  # mm, of the views
+STROKE = brainshift.soft((16, 16, 16), (4, 2, 0), 14)
+LATTICE_BYTES = 19 ** 3 * 3 * 4
+ENOUGH = 1.5 / 255.0
+
+
+def smooth(seed, side=33):
+    """Random waves, 0 to 100, without an edge."""
+    random = numpy.random.default_rng(seed)
+    z, y, x = numpy.mgrid[0:side, 0:side, 0:side] / (side - 1)
+    values = sum(numpy.sin(random.uniform(6, 22, 3) @ numpy.stack([x, y, z]).reshape(3, -1)
+                           + random.uniform(0, 6)) for _ in range(6)).reshape((side,) * 3)
+    low, high = values.min(), values.max()
+    return (100 * (values - low) / (high - low)).astype(numpy.float32)
+
+
+def compared_picture(source, comparison, **named):
+    view = flat_view(2, MIDDLE, HALF)
+    display = show_slices(source, view, ("Axial",), MIDDLE)
+    display.SliceComparison = comparison
+    for name, value in named.items():
+        setattr(display, name, value)
+    image = picture(view)
+    Delete(view)
+    return image
+
+
+def test_a_volume_agrees_with_itself():
+    source = volume(smooth(1))
+    bent = FreeFormDeformation(Input=source, Strokes=STROKE)
+    compare = CompareVolumes(Input=bent, Reference=source)
+    for strength in (0.0, 1.0):
+        bent.Strength = strength
+        both = compared_picture(compare, "Red and green")
+        apart = numpy.abs(both[:, :, 0] - both[:, :, 1])
+        difference = compared_picture(compare, "Difference")
+        off_grey = numpy.abs(difference - 0.5).max(axis=2)
+        assert not both[:, :, 2].any()
+        if strength == 0.0:
+            assert apart.max() <= ENOUGH and off_grey.max() <= ENOUGH, (apart.max(), off_grey.max())
+        else:
+            assert apart.max() > 0.2 and off_grey.max() > 0.1, (apart.max(), off_grey.max())
+
+
+class Pair:
+    """A bent volume and a reference of another type, grid and range, turned and moved."""
+
+    turn, move = 25.0, (2.0, -1.5, 0.5)
+
+    def __init__(self):
+        self.own = smooth(2)
+        self.bent = FreeFormDeformation(Input=volume(self.own), Strokes=STROKE)
+        self.voxels = (10 * smooth(3, side=41) + 500).astype(numpy.uint16)
+        self.origin, self.spacing = numpy.array((-2.0, 1.0, -4.0)), numpy.array((0.9, 0.8, 1.0))
+        self.reference = volume(self.voxels, self.origin, self.spacing)
+        self.compare = CompareVolumes(Input=self.bent, Reference=self.reference,
+                                      ReferenceRotation=[0, 0, self.turn],
+                                      ReferenceTranslation=self.move)
+
+    def expected(self):
+        """The reference's share of its range where each pixel lies, and where there is one."""
+        pixels = pixel_positions((1, 0, 0), (0, 1, 0), MIDDLE, HALF)
+        angle = math.radians(self.turn)
+        turned = numpy.array([[math.cos(angle), -math.sin(angle), 0],
+                              [math.sin(angle), math.cos(angle), 0], [0, 0, 1]])
+        middle = self.origin + self.spacing * 20
+        unturned = (pixels - middle - self.move) @ turned + middle
+        value, inside = trilinear(self.voxels, (unturned - self.origin) / self.spacing)
+        low, high = self.voxels.min(), self.voxels.max()
+        return (value - low) / (float(high) - low), inside
+
+
+def test_a_turned_reference_of_another_grid():
+    pair = Pair()
+    share, inside = pair.expected()
+    assert 0.5 < inside.mean() < 0.98, inside.mean()
+    both = compared_picture(pair.compare, "Red and green")
+    plain = compared_picture(pair.bent, "None")
+    assert numpy.abs(both[:, :, 0] - plain[:, :, 0]).max() <= ENOUGH, "red is the volume"
+    assert numpy.abs(both[:, :, 1] - share)[inside].max() < 2.5 / 255, "green is the reference"
+    outside = ~inside & ~numpy.roll(inside, (2, 2), (0, 1)) & ~numpy.roll(inside, (-2, -2), (0, 1))
+    assert not both[:, :, 1][outside].any(), "no reference, no green"
+    difference = compared_picture(pair.compare, "Difference")[:, :, 0]
+    expected = 0.5 + 0.5 * (plain[:, :, 0] - share)
+    assert numpy.abs(difference - expected)[inside].max() < 2.5 / 255
+    shown = compared_picture(pair.compare, "Red and green", ReferenceRange=[500.0, 1000.0])
+    wanted = numpy.clip(share * (pair.voxels.max() - pair.voxels.min())
+                        + pair.voxels.min() - 500.0, 0, 500) / 500
+    assert numpy.abs(shown[:, :, 1] - wanted)[inside].max() < 2.5 / 255, "a range of its own"
+
+
+def test_checkerboard():
+    pair = Pair()
+    share, inside = pair.expected()
+    plain = compared_picture(pair.bent, "None")[:, :, 0]
+    image = compared_picture(pair.compare, "Checkerboard", CheckerSize=6.0)[:, :, 0]
+    from_volume = numpy.abs(image - plain) < 2.5 / 255
+    from_reference = numpy.abs(image - share) < 3.5 / 255
+    assert (from_volume | from_reference)[inside].mean() > 0.99, "each field is one of the two"
+    x, y, z = pixel_positions((1, 0, 0), (0, 1, 0), MIDDLE, HALF).transpose(2, 0, 1)
+    edges = numpy.minimum.reduce([numpy.abs((c + 0.5) % 6.0 - 3.0) for c in (x, y)])
+    even = sum(numpy.floor((c + 0.5) / 6.0) for c in (x, y, z)) % 2 == 0
+    deep = inside & (edges < 2.8)
+    assert from_volume[even & deep].all() and from_reference[~even & deep].all()
+    assert (~from_reference[even & deep]).mean() > 0.5, "they must be told apart"
+
+
+def test_a_stroke_uploads_the_lattice_only():
+    pair = Pair()
+    view = flat_view(2, MIDDLE, HALF)
+    display = show_slices(pair.compare, view, ("Axial",), MIDDLE)
+    display.SliceComparison = "Red and green"
+    first = picture(view)
+    before = brainshift.counters(display)
+    assert before["volumeUploads"] == 2, before
+    pair.bent.Strokes = brainshift.soft((16, 16, 16), (0, 5, 0), 12)
+    second = picture(view)
+    after = brainshift.counters(display)
+    assert after["bytesUploaded"] - before["bytesUploaded"] == LATTICE_BYTES, (before, after)
+    changed = [numpy.abs(second - first)[60:240, 60:240, color].max() for color in (0, 1)]
+    assert changed[0] > 0.1 and changed[1] <= ENOUGH, changed
+    pair.compare.ReferenceTranslation = (0.0, 4.0, 0.0)
+    third = picture(view)
+    sent = brainshift.counters(display)["bytesUploaded"] - after["bytesUploaded"]
+    assert sent == 0, "a reference that moves is sent again"
+    changed = [numpy.abs(third - second)[60:240, 60:240, color].max() for color in (0, 1)]
+    assert changed[1] > 0.1 and changed[0] <= ENOUGH, changed
+    Delete(view)
+
+
+def test_the_volume_passes_through():
+    pair = Pair()
+    passed, bent = output(pair.compare), output(pair.bent)
+    assert passed.GetDimensions() == bent.GetDimensions()
+    assert passed.GetPointData().GetArray("Intensity") == bent.GetPointData().GetArray("Intensity")
+    assert (field(pair.compare, "FFDDisplacements") == field(pair.bent, "FFDDisplacements")).all()
+    assert field(pair.bent, "ReferenceGrid") is None, "the input must stay as it is"
+
+
+def test_errors_name_the_thing():
+    vectors = volume(numpy.zeros((5, 5, 5, 3), numpy.float32))
+    compare = CompareVolumes(Input=volume(ball(side=9, radius=3)), Reference=vectors)
+    with messages() as said:
+        compare.UpdatePipeline()
+    assert_says(said.text, "reference", "3 components", "must have 1")
+
+
+run_tests(globals())
