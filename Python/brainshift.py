@@ -76,6 +76,45 @@ def stamp(anchor, toward, amount, major=40.0, minor=25.0, sigma=0.5):
         _positive("major", major), _positive("minor", minor), _positive("sigma", sigma, ""), 1)
 
 
+def _mapped(filter, points, direction):
+    """N x 3 positions (mm), mapped by Deform Geometry where the volume is."""
+    import numpy
+    from paraview import servermanager, simple
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    points = numpy.asarray(points, float)
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise ValueError(f"points has the shape {points.shape}; it must be N x 3")
+    if len(points) == 0:
+        return points.copy()
+    active = simple.GetActiveSource()
+    source = simple.PolyPointSource(Points=points.ravel().tolist())
+    moved = simple.DeformGeometry(Input=source, Deformation=filter, Direction=direction)
+    try:
+        result = servermanager.Fetch(moved).GetPoints()
+        if result is None:
+            raise ValueError("filter attaches no deformation; it must be a Free-Form Deformation")
+        return vtk_to_numpy(result.GetData()).copy()
+    finally:
+        simple.Delete(moved)
+        simple.Delete(source)
+        simple.SetActiveSource(active)
+
+
+def deformed_from_rest(filter, points):
+    """Where tissue at rest goes: N x 3 positions (mm, world) to N x 3 positions.
+
+    `filter`: a Free-Form Deformation. The map is the cubic itself, not the field pictures are drawn
+    with; it is evaluated where the volume is, so it works with a server too.
+    """
+    return _mapped(filter, points, "Forward")
+
+
+def rest_from_deformed(filter, points):
+    """Which tissue is seen: the inverse of deformed_from_rest, N x 3 positions (mm, world)."""
+    return _mapped(filter, points, "Backward")
+
+
 def _report(representation, view=None):
     """The proxy that answers for a representation, in the process that draws it."""
     shown_as = getattr(representation, "Representation", None)

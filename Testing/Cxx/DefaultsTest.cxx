@@ -2,6 +2,7 @@
 // Proves that a default in the XML is the class's own: it is written twice but lives once.
 #include "TestDefaults.h"
 #include "vtkBakeDeformation.h"
+#include "vtkDeformGeometry.h"
 #include "vtkFreeFormDeformation.h"
 
 #include <vtkNew.h>
@@ -29,4 +30,11 @@ TEST(Defaults, OfBakeDeformationLiveInTheClass)
   vtkNew<vtkBakeDeformation> filter;
   const Defaults expected{ { "Interpolation", { double(filter->GetInterpolation()) } } };
   EXPECT_EQ(defaultsIn("Filters/BakeDeformation.xml"), expected);
+}
+
+TEST(Defaults, OfDeformGeometryLiveInTheClass)
+{
+  vtkNew<vtkDeformGeometry> filter;
+  const Defaults expected{ { "Direction", { double(filter->GetDirection()) } } };
+  EXPECT_EQ(defaultsIn("Filters/DeformGeometry.xml"), expected);
 }
