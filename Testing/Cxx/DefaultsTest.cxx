@@ -3,6 +3,7 @@
 #include "TestDefaults.h"
 #include "vtkBakeDeformation.h"
 #include "vtkDeformGeometry.h"
+#include "vtkDeformationField.h"
 #include "vtkFreeFormDeformation.h"
 
 #include <vtkNew.h>
@@ -37,4 +38,18 @@ TEST(Defaults, OfDeformGeometryLiveInTheClass)
   vtkNew<vtkDeformGeometry> filter;
   const Defaults expected{ { "Direction", { double(filter->GetDirection()) } } };
   EXPECT_EQ(defaultsIn("Filters/DeformGeometry.xml"), expected);
+}
+
+TEST(Defaults, OfDeformationFieldLiveInTheClass)
+{
+  vtkNew<vtkDeformationField> filter;
+  const int* sides = filter->GetDimensions();
+  const double* spacing = filter->GetSpacing();
+  const Defaults expected{
+    { "Dimensions", { double(sides[0]), double(sides[1]), double(sides[2]) } },
+    { "Direction", { double(filter->GetDirection()) } },
+    { "SampleGrid", { double(filter->GetSampleGrid()) } },
+    { "Spacing", { spacing[0], spacing[1], spacing[2] } },
+  };
+  EXPECT_EQ(defaultsIn("Filters/DeformationField.xml"), expected);
 }

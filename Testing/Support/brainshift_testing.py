@@ -76,10 +76,10 @@ def output(proxy):
 
 
 def voxels(proxy, name="Intensity"):
-    """A point array of an image, indexed [z, y, x]."""
+    """A point array of an image, indexed [z, y, x], or [z, y, x, component]."""
     image = output(proxy)
     array = vtk_to_numpy(image.GetPointData().GetArray(name))
-    return array.reshape(tuple(reversed(image.GetDimensions())))
+    return array.reshape(tuple(reversed(image.GetDimensions())) + array.shape[1:])
 
 
 def field(proxy, name):
