@@ -5,6 +5,7 @@
 #include "vtkDeformGeometry.h"
 #include "vtkDeformationField.h"
 #include "vtkFreeFormDeformation.h"
+#include "vtkTraceDistance.h"
 
 #include <vtkNew.h>
 
@@ -52,4 +53,15 @@ TEST(Defaults, OfDeformationFieldLiveInTheClass)
     { "Spacing", { spacing[0], spacing[1], spacing[2] } },
   };
   EXPECT_EQ(defaultsIn("Filters/DeformationField.xml"), expected);
+}
+
+TEST(Defaults, OfTraceDistanceLiveInTheClass)
+{
+  vtkNew<vtkTraceDistance> filter;
+  const Defaults expected{
+    { "Label", { double(filter->GetLabel()) } },
+    { "SurfaceBy", { double(filter->GetSurfaceBy()) } },
+    { "Threshold", { filter->GetThreshold() } },
+  };
+  EXPECT_EQ(defaultsIn("Filters/TraceDistance.xml"), expected);
 }
