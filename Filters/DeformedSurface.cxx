@@ -77,6 +77,7 @@ void DeformedSurface::LayOn(const Grid& lattice)
     this->CellOf[point] = static_cast<int>(cells.offset(cell.x, cell.y, cell.z));
   }
   this->Deformed = this->Rest.points;
+  this->FitAll = true;
 }
 
 void DeformedSurface::follow(
@@ -88,22 +89,24 @@ void DeformedSurface::follow(
     this->Followed = makeLattice(lattice.grid, lattice.kernel);
   }
   const std::vector<char> changed = changedCells(this->Followed, lattice);
-  std::vector<int> toMap;
-  for (std::size_t point = 0; point < this->CellOf.size(); ++point)
-  {
-    if (changed[this->CellOf[point]])
-    {
-      toMap.push_back(static_cast<int>(point));
-    }
-  }
-  this->Mapped = static_cast<vtkIdType>(toMap.size());
+  std::vector<char> moved(this->CellOf.size());
+  std::transform(this->CellOf.begin(), this->CellOf.end(), moved.begin(),
+    [&](int cell) { return changed[cell]; });
+  this->Mapped = std::count(moved.begin(), moved.end(), char(1));
   const PointMap map(lattice);
-  parallelFor(0, this->Mapped, PointsAtLeast, [&](vtkIdType first, vtkIdType end) {
+  const auto count = static_cast<vtkIdType>(moved.size());
+  parallelFor(0, count, PointsAtLeast, [&](vtkIdType first, vtkIdType end) {
     for (vtkIdType i = first; i < end; ++i)
     {
-      this->Deformed[toMap[i]] = map.deformedFromRest(this->Rest.points[toMap[i]]);
+      if (moved[i])
+      {
+        this->Deformed[i] = map.deformedFromRest(this->Rest.points[i]);
+      }
     }
   });
+  // After a cavity was looked at, or points were put back, nothing of the tree is known.
+  const bool fitAll = isRemoved || this->FitAll;
+  this->FitAll = static_cast<bool>(isRemoved);
   std::vector<char> kept;
   if (isRemoved)
   {
@@ -111,7 +114,7 @@ void DeformedSurface::follow(
     std::transform(this->Deformed.begin(), this->Deformed.end(), kept.begin(),
       [&](const glm::dvec3& point) { return !isRemoved(point); });
   }
-  this->Tree.fit(this->Deformed, kept);
+  this->Tree.fit(this->Deformed, fitAll ? std::vector<char>() : moved, kept);
   this->Followed = lattice;
 }
 }

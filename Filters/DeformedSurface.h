@@ -44,6 +44,7 @@ private:
   Lattice Followed;        // what Deformed was made with
   std::vector<int> CellOf; // lattice cell of each point, of Followed's grid
   vtkIdType Mapped = 0;
+  bool FitAll = true; // the next time
 };
 }
 

@@ -76,14 +76,15 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh)
   std::transform(order.begin(), order.end(), this->Triangles.begin(),
     [&](int triangle) { return mesh.triangles[triangle]; });
   this->Placed.resize(count);
-  this->fit(mesh.points, {});
+  this->Boxes.resize(this->Nodes.size());
+  this->fit(mesh.points, {}, {});
 }
 
 int TriangleTree::Build(
   std::vector<glm::dvec3>& middles, std::vector<int>& order, int first, int end)
 {
   const int node = static_cast<int>(this->Nodes.size());
-  this->Nodes.push_back({ glm::dvec3(Infinity), glm::dvec3(-Infinity), first, end - first });
+  this->Nodes.push_back({ first, end - first });
   if (end - first <= TrianglesPerLeaf)
   {
     return node;
@@ -107,37 +108,57 @@ int TriangleTree::Build(
   return node;
 }
 
-void TriangleTree::fit(const std::vector<glm::dvec3>& points, const std::vector<char>& kept)
+// Whether the leaf had to be fitted.
+bool TriangleTree::FitLeaf(std::size_t node, const std::vector<glm::dvec3>& points,
+  const std::vector<char>& moved, const std::vector<char>& kept)
 {
-  const auto fitLeaves = [&](vtkIdType firstNode, vtkIdType endNode) {
-    for (vtkIdType n = firstNode; n < endNode; ++n)
-    {
-      Node& node = this->Nodes[n];
-      node.low = glm::dvec3(Infinity);
-      node.high = glm::dvec3(-Infinity);
-      for (int i = node.first; i < node.first + node.count; ++i)
-      {
-        const glm::ivec3& id = this->Triangles[i];
-        Corners& placed = this->Placed[i];
-        placed = { points[id.x], points[id.y], points[id.z],
-          kept.empty() || (kept[id.x] && kept[id.y] && kept[id.z]) };
-        if (placed.kept)
-        {
-          node.low = glm::min(glm::min(node.low, placed.a), glm::min(placed.b, placed.c));
-          node.high = glm::max(glm::max(node.high, placed.a), glm::max(placed.b, placed.c));
-        }
-      }
-    }
+  const Node& leaf = this->Nodes[node];
+  const auto any = [&](const std::vector<char>& flags) {
+    return std::any_of(this->Triangles.begin() + leaf.first,
+      this->Triangles.begin() + leaf.first + leaf.count,
+      [&](const glm::ivec3& id) { return flags[id.x] || flags[id.y] || flags[id.z]; });
   };
-  const auto count = static_cast<vtkIdType>(this->Nodes.size());
-  parallelFor(0, count, NodesAtLeast, fitLeaves);
-  for (vtkIdType n = count - 1; n >= 0; --n)
+  if (!moved.empty() && !any(moved))
   {
-    Node& node = this->Nodes[n];
-    if (node.count == 0)
+    return false;
+  }
+  Box box{ glm::dvec3(Infinity), glm::dvec3(-Infinity) };
+  for (int i = leaf.first; i < leaf.first + leaf.count; ++i)
+  {
+    const glm::ivec3& id = this->Triangles[i];
+    Corners& placed = this->Placed[i];
+    placed = { points[id.x], points[id.y], points[id.z],
+      kept.empty() || (kept[id.x] && kept[id.y] && kept[id.z]) };
+    if (placed.kept)
     {
-      node.low = glm::min(this->Nodes[n + 1].low, this->Nodes[node.first].low);
-      node.high = glm::max(this->Nodes[n + 1].high, this->Nodes[node.first].high);
+      box.low = glm::min(glm::min(box.low, placed.a), glm::min(placed.b, placed.c));
+      box.high = glm::max(glm::max(box.high, placed.a), glm::max(placed.b, placed.c));
+    }
+  }
+  this->Boxes[node] = box;
+  return true;
+}
+
+void TriangleTree::fit(const std::vector<glm::dvec3>& points, const std::vector<char>& moved,
+  const std::vector<char>& kept)
+{
+  std::vector<char> fitted(this->Nodes.size(), 0);
+  const auto count = static_cast<vtkIdType>(this->Nodes.size());
+  parallelFor(0, count, NodesAtLeast, [&](vtkIdType first, vtkIdType end) {
+    for (vtkIdType node = first; node < end; ++node)
+    {
+      fitted[node] = this->Nodes[node].count > 0 && this->FitLeaf(node, points, moved, kept);
+    }
+  });
+  for (vtkIdType node = count - 1; node >= 0; --node)
+  {
+    const vtkIdType second = this->Nodes[node].first;
+    if (this->Nodes[node].count == 0 && (fitted[node + 1] || fitted[second]))
+    {
+      const Box& left = this->Boxes[node + 1];
+      const Box& right = this->Boxes[second];
+      this->Boxes[node] = { glm::min(left.low, right.low), glm::max(left.high, right.high) };
+      fitted[node] = 1;
     }
   }
 }
@@ -153,9 +174,8 @@ double TriangleTree::distance(const glm::dvec3& position) const
   int openCount = 0;
   double best = Infinity;
   const auto visit = [&](int node) {
-    const double nearest =
-      squaredDistanceToBox(position, this->Nodes[node].low, this->Nodes[node].high);
-    return Visit{ node, nearest };
+    const Box& box = this->Boxes[node];
+    return Visit{ node, squaredDistanceToBox(position, box.low, box.high) };
   };
   if (!this->Nodes.empty())
   {

@@ -19,19 +19,25 @@ public:
   TriangleTree() = default;
   explicit TriangleTree(const TriangleMesh& mesh);
 
-  // Puts the points, which are the mesh's in their order, elsewhere. Triangles with a point that is
-  // not `kept` are passed over; an empty `kept` keeps all.
-  void fit(const std::vector<glm::dvec3>& points, const std::vector<char>& kept);
+  // Puts the points, which are the mesh's in their order, elsewhere; only those that `moved` since
+  // the last call, all if it is empty. Triangles with a point that is not `kept` are passed over;
+  // an empty `kept` keeps all, and only then may `moved` name some.
+  void fit(const std::vector<glm::dvec3>& points, const std::vector<char>& moved,
+    const std::vector<char>& kept);
 
   // Distance (mm) from a position to the nearest point of the triangles as last fitted, exact for
   // flat triangles; infinite if there is none.
   double distance(const glm::dvec3& position) const;
 
 private:
+  struct Box
+  {
+    glm::dvec3 low; // of the triangles below; low > high if there is none
+    glm::dvec3 high;
+  };
+  // Apart from the boxes: fitting looks at all of these and at few of those.
   struct Node
   {
-    glm::dvec3 low; // box of the triangles below; low > high if there is none
-    glm::dvec3 high;
     int first; // leaf: first triangle; else: the second child (the first one is the next node)
     int count; // leaf: triangles; else 0
   };
@@ -41,11 +47,14 @@ private:
     bool kept;
   };
 
+  bool FitLeaf(std::size_t node, const std::vector<glm::dvec3>& points,
+    const std::vector<char>& moved, const std::vector<char>& kept);
   int Build(std::vector<glm::dvec3>& middles, std::vector<int>& order, int first, int end);
 
   std::vector<glm::ivec3> Triangles; // in the order of the leaves
   std::vector<Corners> Placed;       // the same ones, where they lie now
   std::vector<Node> Nodes;           // parents before their children
+  std::vector<Box> Boxes;            // of the nodes
 };
 
 // Square of the distance from a position to a triangle.

@@ -100,27 +100,37 @@ TEST(TriangleTree, FindsWhatAskingAllTrianglesFinds)
   const TriangleMesh mesh = randomMesh(11, 300, 900);
   TriangleTree tree(mesh);
   Random random(12);
-  std::vector<glm::dvec3> moved = mesh.points;
+  std::vector<glm::dvec3> points = mesh.points;
   std::vector<char> kept;
-  for (int round = 0; round < 3; ++round)
-  {
+  const auto expectSame = [&](const char* when) {
     for (int i = 0; i < 300; ++i)
     {
       const glm::dvec3 p = random.between(glm::dvec3(-40), glm::dvec3(40));
-      EXPECT_NEAR(tree.distance(p), askAll(mesh, moved, p, kept), 1e-9) << "round " << round;
+      EXPECT_NEAR(tree.distance(p), askAll(mesh, points, p, kept), 1e-9) << when;
     }
-    // Then all points elsewhere; then a third of them gone.
-    kept.assign(round == 0 ? 0 : moved.size(), 1);
-    for (std::size_t i = 0; i < moved.size(); ++i)
+  };
+  const auto moveEvery = [&](std::size_t step) {
+    std::vector<char> moved(points.size(), 0);
+    for (std::size_t i = 0; i < points.size(); i += step)
     {
-      moved[i] += random.between(glm::dvec3(-15), glm::dvec3(15));
-      if (!kept.empty())
-      {
-        kept[i] = i % 3 != 0;
-      }
+      points[i] += random.between(glm::dvec3(-15), glm::dvec3(15));
+      moved[i] = 1;
     }
-    tree.fit(moved, kept);
+    return moved;
+  };
+  expectSame("at first");
+  moveEvery(1);
+  tree.fit(points, {}, kept);
+  expectSame("all moved");
+  tree.fit(points, moveEvery(40), kept);
+  expectSame("a few moved");
+  kept.resize(points.size());
+  for (std::size_t i = 0; i < kept.size(); ++i)
+  {
+    kept[i] = i % 3 != 0;
   }
+  tree.fit(points, {}, kept);
+  expectSame("some gone");
 }
 
 TEST(TriangleTree, NothingIsInfinitelyFar)
@@ -129,7 +139,7 @@ TEST(TriangleTree, NothingIsInfinitelyFar)
   const TriangleMesh mesh = randomMesh(2, 30, 40);
   TriangleTree tree(mesh);
   EXPECT_LT(tree.distance({ 1, 2, 3 }), 30.0);
-  tree.fit(mesh.points, std::vector<char>(mesh.points.size(), 0));
+  tree.fit(mesh.points, {}, std::vector<char>(mesh.points.size(), 0));
   EXPECT_EQ(tree.distance({ 1, 2, 3 }), std::numeric_limits<double>::infinity());
 }
 
