@@ -2,7 +2,7 @@
 #include "vtkDeformationField.h"
 
 #include "DeformableVolume.h"
-#include "FieldDirection.h"
+#include "FieldImage.h"
 #include "Portions.h"
 
 #include "vtkFloatArray.h"
@@ -79,9 +79,9 @@ void place(vtkImageData* image, const Grid& samples, const int extent[6])
 // Both arrays, on an image that lies on `samples`. False if the user aborts.
 bool fill(vtkAlgorithm* filter, vtkImageData* image, const Grid& samples, const DirectedMap& map)
 {
-  const auto displacements = addArray(image, "Displacement", 3);
+  const auto displacements = addArray(image, DisplacementName, 3);
   const auto determinants = addArray(image, "JacobianDeterminant", 1);
-  image->GetPointData()->SetActiveVectors("Displacement");
+  image->GetPointData()->SetActiveVectors(DisplacementName);
   image->GetPointData()->SetActiveScalars("JacobianDeterminant");
   const int* extent = image->GetExtent();
   const glm::ivec3 first(extent[0], extent[2], extent[4]);
@@ -158,14 +158,8 @@ int vtkDeformationField::RequestInformation(
 {
   std::string problem; // told once, when data is made
   const Grid samples = this->SamplesOver(gridOf(inputs[0]->GetInformationObject(0)), problem);
-  const glm::ivec3 last = samples.dimensions - 1;
-  const int whole[6] = { 0, last.x, 0, last.y, 0, last.z };
-  const glm::dmat3 rows = glm::transpose(samples.direction);
   vtkInformation* info = outputs->GetInformationObject(0);
-  info->Set(Pipeline::WHOLE_EXTENT(), whole, 6);
-  info->Set(vtkDataObject::ORIGIN(), &samples.origin.x, 3);
-  info->Set(vtkDataObject::SPACING(), &samples.spacing.x, 3);
-  info->Set(vtkDataObject::DIRECTION(), &rows[0][0], 9);
+  announce(info, samples);
   vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_FLOAT, 1);
   return 1;
 }

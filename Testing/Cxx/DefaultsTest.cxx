@@ -4,6 +4,8 @@
 #include "vtkBakeDeformation.h"
 #include "vtkDeformGeometry.h"
 #include "vtkDeformationField.h"
+#include "vtkDisplacementFieldReader.h"
+#include "vtkDisplacementFieldWriter.h"
 #include "vtkFreeFormDeformation.h"
 #include "vtkTraceDistance.h"
 
@@ -64,4 +66,17 @@ TEST(Defaults, OfTraceDistanceLiveInTheClass)
     { "Threshold", { filter->GetThreshold() } },
   };
   EXPECT_EQ(defaultsIn("Filters/TraceDistance.xml"), expected);
+}
+
+TEST(Defaults, OfDisplacementFieldFilesLiveInTheClasses)
+{
+  vtkNew<vtkDisplacementFieldReader> reader;
+  const Defaults ofReader{
+    { "Direction", { double(reader->GetDirection()) } },
+    { "World", { double(reader->GetWorld()) } },
+  };
+  EXPECT_EQ(defaultsIn("Filters/DisplacementFieldReader.xml"), ofReader);
+  vtkNew<vtkDisplacementFieldWriter> writer;
+  const Defaults ofWriter{ { "World", { double(writer->GetWorld()) } } };
+  EXPECT_EQ(defaultsIn("Filters/DisplacementFieldWriter.xml"), ofWriter);
 }
