@@ -15,6 +15,7 @@
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 
+#include <QStringList>
 #include <QVariant>
 
 #include <cstring>
@@ -27,6 +28,12 @@ bool showsDeformedVolume(vtkSMProxy* representation)
 {
   const char* shown = vtkSMPropertyHelper(representation, "Representation").GetAsString();
   return shown && std::strcmp(shown, "Deformed Volume") == 0;
+}
+
+bool reportsNumbers(vtkSMProxy* filter)
+{
+  const QStringList reporting{ "FreeFormDeformation", "InvertDisplacementField", "TraceDistance" };
+  return reporting.contains(filter->GetXMLName());
 }
 
 // The first point array, else the first of all.
@@ -106,8 +113,7 @@ void BrainShiftBehavior::watchRepresentation(pqRepresentation* representation)
 
 void BrainShiftBehavior::watchSource(pqPipelineSource* source)
 {
-  vtkSMProxy* proxy = source->getProxy();
-  if (std::strcmp(proxy->GetXMLName(), "FreeFormDeformation") != 0)
+  if (!reportsNumbers(source->getProxy()))
   {
     return;
   }
