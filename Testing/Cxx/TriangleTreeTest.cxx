@@ -183,7 +183,39 @@ TEST(DeformedSurface, FollowsTheLatticeAndRedoesOnlyWhatAStrokeReaches)
     }
     surface.follow(lattice, {});
     EXPECT_EQ(surface.mapped(), 0) << "nothing changed";
+    const glm::dvec3 p = random.point(grid, -2.0);
     surface.follow(makeLattice(obliqueGrid({ 6, 7, 8 }), kernel), {});
     EXPECT_EQ(surface.points()[77], mesh.points[77]) << "another lattice that moves nothing";
+    EXPECT_NEAR(surface.distance(p), askAll(mesh, mesh.points, p, {}), 1e-9);
+  }
+}
+
+TEST(DeformedSurface, WhatIsRemovedComesBack)
+{
+  const Grid grid = obliqueGrid({ 12, 13, 14 });
+  TriangleMesh mesh = randomMesh(23, 500, 900);
+  Random random(6);
+  for (glm::dvec3& point : mesh.points)
+  {
+    point = random.point(grid, 0.0);
+  }
+  DeformedSurface surface(mesh);
+  const Lattice lattice = randomLattice(grid, 0, 9, 0.4);
+  const auto isRemoved = [&](const glm::dvec3& point) { return grid.gridFromWorld(point).x > 5.0; };
+  for (int round = 0; round < 2; ++round)
+  {
+    surface.follow(lattice, isRemoved);
+    std::vector<char> kept;
+    for (const glm::dvec3& point : surface.points())
+    {
+      kept.push_back(!isRemoved(point));
+    }
+    const glm::dvec3 p = grid.worldFromGrid({ 9.0, 6.0, 7.0 });
+    const double whole = askAll(mesh, surface.points(), p, {});
+    const double left = askAll(mesh, surface.points(), p, kept);
+    ASSERT_GT(left, whole + 1.0) << "mm";
+    EXPECT_NEAR(surface.distance(p), left, 1e-9);
+    surface.follow(lattice, {});
+    EXPECT_NEAR(surface.distance(p), whole, 1e-9);
   }
 }
