@@ -66,7 +66,7 @@ std::optional<DirectedMap> directedMapOf(
   {
     return {};
   }
-  const PointMap map(effectiveLattice(deformation), deformation.inverse);
-  return DirectedMap(map, deformation.inverse, direction);
+  return DirectedMap(
+    PointMap(effectiveLattice(deformation), deformation.inverse), deformation.inverse, direction);
 }
 }

@@ -11,6 +11,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 class vtkDataObject;
 
@@ -25,8 +26,8 @@ enum class Direction
 class VTKBRAINSHIFTFILTERS_EXPORT DirectedMap
 {
 public:
-  DirectedMap(const PointMap& map, Inverse inverse, Direction direction)
-    : Map(map)
+  DirectedMap(PointMap map, Inverse inverse, Direction direction)
+    : Map(std::move(map)) // a lattice can be large
     , Backward(inverse)
     , Towards(direction)
   {

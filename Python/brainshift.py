@@ -104,8 +104,8 @@ def _mapped(filter, points, direction):
 def deformed_from_rest(filter, points):
     """Where tissue at rest goes: N x 3 positions (mm, world) to N x 3 positions.
 
-    `filter`: a Free-Form Deformation. The map is the cubic itself, not the field pictures are drawn
-    with; it is evaluated where the volume is, so it works with a server too.
+    `filter`: a Free-Form Deformation. The map is the cubic itself, not the field pictures are
+    drawn with; it is evaluated where the volume is, so it works with a server too.
     """
     return _mapped(filter, points, "Forward")
 
@@ -140,8 +140,8 @@ def save_lattice(filter, name):
 
 
 def load_lattice(filter, name):
-    """Makes a file of save_lattice the base lattice of a Free-Form Deformation, with the density and
-    the kernel it was saved with. Its strokes add to it. Returns the reader."""
+    """Makes a file of save_lattice the base lattice of a Free-Form Deformation, with the density
+    and the kernel it was saved with. Its strokes add to it. Returns the reader."""
     from paraview import simple
 
     reader = simple.XMLImageDataReader(FileName=[name])
@@ -160,8 +160,9 @@ def save_field(filter, name, direction="Backward", spacing=None, world="RAS"):
     """Writes the dense displacement field (mm) of a Free-Form Deformation for other programs.
 
     `name`: .nii, .nii.gz, .mha, .mhd or .nrrd; each names the direction. `direction`: "Backward",
-    which ITK, ANTs, elastix and Slicer resample with, or "Forward". `spacing`: mm along the volume's
-    axes, three numbers; None: on the volume's own points. `world`: the volume's, "RAS" or "LPS".
+    which ITK, ANTs, elastix and Slicer resample with, or "Forward". `spacing`: mm along the
+    volume's axes, three numbers; None: on the volume's own points. `world`: the volume's, "RAS" or
+    "LPS".
     """
     from paraview import servermanager, simple
 
@@ -180,9 +181,9 @@ def load_field(name, direction="As the File Tells", world="RAS"):
     """Opens a displacement field of ANTs, elastix, NiftyReg, Slicer or save_field; returns a source
     that leads forward, to be the Lattice of a Free-Form Deformation.
 
-    A field that leads backward, as those of registration programs do, is inverted on its own points.
-    `direction`: "Forward" or "Backward" if you know better than the file. `world`: that of the
-    volume to bend, "RAS" or "LPS".
+    A field that leads backward, as those of registration programs do, is inverted on its own
+    points. `direction`: "Forward" or "Backward" if you know better than the file. `world`: that of
+    the volume to bend, "RAS" or "LPS".
     """
     from paraview import simple
 

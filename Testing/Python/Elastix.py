@@ -53,8 +53,8 @@ def transformix(folder, transform, *arguments):
     write_head(head)
     image = output(HEAD)
     lines = transform + [
-        '(InitialTransformParameterFileName "NoInitialTransform")', '(HowToCombineTransforms "Compose")',
-        "(FixedImageDimension 3)", "(MovingImageDimension 3)",
+        '(InitialTransformParameterFileName "NoInitialTransform")',
+        '(HowToCombineTransforms "Compose")', "(FixedImageDimension 3)", "(MovingImageDimension 3)",
         '(FixedInternalImagePixelType "float")', '(MovingInternalImagePixelType "float")',
         "(Size " + " ".join(str(side) for side in image.GetDimensions()) + ")", "(Index 0 0 0)",
         "(Spacing " + words(image.GetSpacing()) + ")", "(Origin " + words(lps_origin()) + ")",

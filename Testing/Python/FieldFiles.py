@@ -4,8 +4,8 @@
 import os
 
 import numpy
-from brainshift_testing import (assert_says, ball, load_plugin, messages, output, run_tests, scratch,
-                                volume, voxels)
+from brainshift_testing import (assert_says, ball, load_plugin, messages, output, run_tests,
+                                scratch, volume, voxels)
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
