@@ -32,8 +32,12 @@ public:
   // Points that the last call of follow mapped.
   vtkIdType mapped() const { return this->Mapped; }
 
-  // mm from a deformed position; infinite if no triangle is left.
-  double distance(const glm::dvec3& deformed) const { return this->Tree.distance(deformed); }
+  // As TriangleTree::distance, from a deformed position.
+  double distance(
+    const glm::dvec3& deformed, double limit = std::numeric_limits<double>::infinity()) const
+  {
+    return this->Tree.distance(deformed, limit);
+  }
 
 private:
   void LayOn(const Grid& lattice);

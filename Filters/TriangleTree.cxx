@@ -163,7 +163,7 @@ void TriangleTree::fit(const std::vector<glm::dvec3>& points, const std::vector<
   }
 }
 
-double TriangleTree::distance(const glm::dvec3& position) const
+double TriangleTree::distance(const glm::dvec3& position, double limit) const
 {
   struct Visit
   {
@@ -172,7 +172,7 @@ double TriangleTree::distance(const glm::dvec3& position) const
   };
   Visit open[64]; // as deep as the tree: it halves, so 2^62 triangles
   int openCount = 0;
-  double best = Infinity;
+  double best = limit * limit;
   const auto visit = [&](int node) {
     const Box& box = this->Boxes[node];
     return Visit{ node, squaredDistanceToBox(position, box.low, box.high) };

@@ -9,6 +9,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <limits>
 #include <vector>
 
 namespace brainshift
@@ -26,8 +27,10 @@ public:
     const std::vector<char>& kept);
 
   // Distance (mm) from a position to the nearest point of the triangles as last fitted, exact for
-  // flat triangles; infinite if there is none.
-  double distance(const glm::dvec3& position) const;
+  // flat triangles; infinite if there is none. What lies beyond `limit` (mm) need not be found:
+  // who knows that something is nearer is answered sooner.
+  double distance(
+    const glm::dvec3& position, double limit = std::numeric_limits<double>::infinity()) const;
 
 private:
   struct Box

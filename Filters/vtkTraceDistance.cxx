@@ -24,6 +24,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
 #include <cmath>
@@ -49,6 +50,20 @@ vtkDataArray* scalarsOf(vtkImageData* image, const std::string& name)
   }
   return arrays->GetScalars() ? arrays->GetScalars() : arrays->GetArray(0);
 }
+
+// The point of a trace before: a pointer moves little, so the next distance is about as large.
+struct Neighbour
+{
+  glm::dvec3 position{ 0.0 };
+  double distance = std::numeric_limits<double>::infinity();
+
+  // No distance from a point is larger, rounding included.
+  double limitAt(const glm::dvec3& point) const
+  {
+    constexpr double Slack = 1e-6; // mm, and as a share
+    return (this->distance + glm::length(point - this->position)) * (1.0 + Slack) + Slack;
+  }
+};
 
 struct Mask
 {
@@ -285,23 +300,25 @@ bool vtkTraceDistance::Measure(vtkPointSet* points, std::vector<double>& all)
   points->GetPointData()->SetActiveScalars(distances->GetName());
   const std::size_t before = all.size();
   all.resize(before + count, std::numeric_limits<double>::quiet_NaN());
-  const auto distanceOf = [&](const glm::dvec3& point) {
+  const auto distanceOf = [&](const glm::dvec3& point, Neighbour& previous) {
     if (!std::isfinite(point.x + point.y + point.z) ||
       (state.Cavity && state.Cavity->contains(point)))
     {
       return std::numeric_limits<double>::quiet_NaN();
     }
-    const double distance = state.Surface.distance(point);
+    const double distance = state.Surface.distance(point, previous.limitAt(point));
+    previous = { point, distance };
     const bool inside = state.Tissue.contains(state.Map->restFromDeformed(point));
     return std::isfinite(distance) ? (inside ? -distance : distance)
                                    : std::numeric_limits<double>::quiet_NaN();
   };
   return forPortions(this, 0.0, 1.0, count, PointsAtLeast, [&](vtkIdType first, vtkIdType last) {
+    Neighbour previous;
     for (vtkIdType i = first; i < last; ++i)
     {
       double point[3];
       points->GetPoints()->GetData()->GetTuple(i, point);
-      const double distance = distanceOf({ point[0], point[1], point[2] });
+      const double distance = distanceOf({ point[0], point[1], point[2] }, previous);
       all[before + i] = distance;
       distances->SetValue(i, static_cast<float>(distance));
     }
