@@ -184,7 +184,7 @@ int vtkDeformationField::RequestData(
   std::string problem;
   const std::optional<DirectedMap> map = directedMapOf(input, direction, problem);
   const Grid samples = this->SamplesOver(brainshift::gridOf(input), problem);
-  if (!problem.empty())
+  if (!map || !problem.empty())
   {
     vtkErrorMacro(<< problem << ".");
     return 0;
