@@ -211,6 +211,11 @@ std::string readTextHeader(const std::string& fileName, TextHeader& header)
       break;
     }
   }
+  const std::string skip = valueOf(lines, { "HeaderSize", "byte skip", "line skip" });
+  if (!skip.empty() && skip != "0")
+  {
+    return "has bytes to skip before its numbers (" + skip + "); there must be none";
+  }
   header = TextHeader();
   const std::string problem = isNRRD ? fromNRRD(lines, header) : fromMetaImage(lines, header);
   header.headerBytes = header.dataFile.empty() && file ? static_cast<std::size_t>(file.tellg()) : 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that displacement fields keep their place, their vectors and their direction through every
 // format, byte for byte as ITK, Slicer and NiftyReg mean them; and that damaged files are named.
-#include "FieldDirection.h"
 #include "FieldFile.h"
+#include "FieldDirection.h"
 #include "NIFTITestFile.h"
 #include "TestPipeline.h"
 #include "vtkDisplacementFieldReader.h"
@@ -321,6 +321,8 @@ TEST(FieldFile, WhatIsNoFieldIsNamed)
   expectSays(writeFieldFile("/nowhere/field.nii", someField(Direction::Forward)), "/nowhere");
   std::ofstream(scratch("wrong.nrrd")) << "NRRD0004\ntype: short\ndimension: 4\nsizes: 3 2 2 2\n\n";
   expectSays(problemOf(scratch("wrong.nrrd")), "type short; a field has float or double");
+  std::ofstream(scratch("skip.mhd")) << "HeaderSize = 128\nElementNumberOfChannels = 3\n";
+  expectSays(problemOf(scratch("skip.mhd")), "bytes to skip before its numbers (128)");
   std::ofstream(scratch("wrong.mha")) << "DimSize = 2 2 2\nElementNumberOfChannels = 1\n";
   expectSays(problemOf(scratch("wrong.mha")), "holds 1 components");
 }
