@@ -2,6 +2,7 @@
 #include "vtkFreeFormDeformation.h"
 
 #include "DeformableVolume.h"
+#include "FieldImage.h"
 #include "MaskImage.h"
 #include "OffsetField.h"
 #include "Replay.h"
@@ -137,13 +138,13 @@ std::string addBase(Lattice& lattice, vtkImageData* base)
   {
     return {};
   }
-  vtkDataArray* field = base->GetPointData()->GetVectors();
-  for (int i = 0; !field && i < base->GetPointData()->GetNumberOfArrays(); ++i)
+  if (directionOf(base) == Direction::Backward)
   {
-    vtkDataArray* candidate = base->GetPointData()->GetArray(i);
-    field = candidate && candidate->GetNumberOfComponents() == 3 ? candidate : nullptr;
+    return "The base lattice leads backward; it must lead forward: Invert Displacement Field "
+           "makes one that does";
   }
-  if (!field || field->GetNumberOfComponents() != 3)
+  vtkDataArray* field = fieldOf(base);
+  if (!field)
   {
     return "The base lattice has no point array of 3 components (mm)";
   }

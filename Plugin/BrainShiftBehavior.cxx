@@ -17,6 +17,7 @@
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 
+#include <QStringList>
 #include <QVariant>
 
 #include <cstring>
@@ -29,6 +30,12 @@ bool showsDeformedVolume(vtkSMProxy* representation)
 {
   const char* shown = vtkSMPropertyHelper(representation, "Representation").GetAsString();
   return shown && std::strcmp(shown, "Deformed Volume") == 0;
+}
+
+bool reportsNumbers(vtkSMProxy* filter)
+{
+  const QStringList reporting{ "FreeFormDeformation", "InvertDisplacementField", "TraceDistance" };
+  return reporting.contains(filter->GetXMLName());
 }
 
 // The first point array, else the first of all.
@@ -109,8 +116,7 @@ void BrainShiftBehavior::watchRepresentation(pqRepresentation* representation)
 
 void BrainShiftBehavior::watchSource(pqPipelineSource* source)
 {
-  vtkSMProxy* proxy = source->getProxy();
-  if (std::strcmp(proxy->GetXMLName(), "FreeFormDeformation") != 0)
+  if (!reportsNumbers(source->getProxy()))
   {
     return;
   }

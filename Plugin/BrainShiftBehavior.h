@@ -25,7 +25,7 @@ private:
   // ParaView takes care of for Volume only, and, the first time, shades.
   void watchRepresentation(pqRepresentation* representation);
 
-  // Keeps the numbers that Free-Form Deformation reports in the panel up to date.
+  // Keeps the numbers that our filters report in the panel up to date.
   void watchSource(pqPipelineSource* source);
 };
 

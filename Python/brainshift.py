@@ -78,6 +78,127 @@ def stamp(anchor, toward, amount, major=40.0, minor=25.0, sigma=0.5):
         _positive("major", major), _positive("minor", minor), _positive("sigma", sigma, ""), 1)
 
 
+def _mapped(filter, points, direction):
+    """N x 3 positions (mm), mapped by Deform Geometry where the volume is."""
+    import numpy
+    from paraview import servermanager, simple
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    points = numpy.asarray(points, float)
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise ValueError(f"points has the shape {points.shape}; it must be N x 3")
+    if len(points) == 0:
+        return points.copy()
+    active = simple.GetActiveSource()
+    source = simple.PolyPointSource(Points=points.ravel().tolist())
+    moved = simple.DeformGeometry(Input=source, Deformation=filter, Direction=direction)
+    try:
+        result = servermanager.Fetch(moved).GetPoints()
+        if result is None:
+            raise ValueError("filter attaches no deformation; it must be a Free-Form Deformation")
+        return vtk_to_numpy(result.GetData()).copy()
+    finally:
+        simple.Delete(moved)
+        simple.Delete(source)
+        simple.SetActiveSource(active)
+
+
+def deformed_from_rest(filter, points):
+    """Where tissue at rest goes: N x 3 positions (mm, world) to N x 3 positions.
+
+    `filter`: a Free-Form Deformation. The map is the cubic itself, not the field pictures are
+    drawn with; it is evaluated where the volume is, so it works with a server too.
+    """
+    return _mapped(filter, points, "Forward")
+
+
+def rest_from_deformed(filter, points):
+    """Which tissue is seen: the inverse of deformed_from_rest, N x 3 positions (mm, world)."""
+    return _mapped(filter, points, "Backward")
+
+
+def _write(writer, name):
+    """Runs a writer proxy; raises if no file came of it. A server's files are not looked for."""
+    import os
+    from paraview import servermanager
+
+    here = not servermanager.ActiveConnection.IsRemote()
+    if here and os.path.exists(name):
+        os.remove(name)
+    writer.UpdatePipeline()
+    if here and not os.path.exists(name):
+        raise OSError(f"{name} was not written; the output window tells why")
+
+
+def save_lattice(filter, name):
+    """Writes the control points of a Free-Form Deformation, as drawn, into an image file (.vti)."""
+    from paraview import simple
+
+    lattice = simple.DeformationLattice(Input=filter)
+    try:
+        simple.SaveData(name, proxy=lattice)
+    finally:
+        simple.Delete(lattice)
+
+
+def load_lattice(filter, name):
+    """Makes a file of save_lattice the base lattice of a Free-Form Deformation, with the density
+    and the kernel it was saved with. Its strokes add to it. Returns the reader."""
+    from paraview import simple
+
+    reader = simple.XMLImageDataReader(FileName=[name])
+    reader.UpdatePipeline()
+    information = reader.GetDataInformation()
+    low_x, high_x, low_y, high_y, low_z, high_z = information.GetExtent()
+    kernel = information.GetFieldDataInformation().GetArrayInformation("FFDKernel")
+    filter.Lattice = reader
+    filter.LatticeDimensions = [high_x - low_x + 1, high_y - low_y + 1, high_z - low_z + 1]
+    if kernel is not None:
+        filter.Kernel = int(kernel.GetComponentRange(0)[0])
+    return reader
+
+
+def save_field(filter, name, direction="Backward", spacing=None, world="RAS"):
+    """Writes the dense displacement field (mm) of a Free-Form Deformation for other programs.
+
+    `name`: .nii, .nii.gz, .mha, .mhd or .nrrd; each names the direction. `direction`: "Backward",
+    which ITK, ANTs, elastix and Slicer resample with, or "Forward". `spacing`: mm along the
+    volume's axes, three numbers; None: on the volume's own points. `world`: the volume's, "RAS" or
+    "LPS".
+    """
+    from paraview import servermanager, simple
+
+    grid = {} if spacing is None else {
+        "SampleGrid": "Given Spacing", "Spacing": list(_vector("spacing", spacing))}
+    field = simple.DeformationField(Input=filter, Direction=direction, **grid)
+    try:
+        writer = servermanager.writers.DisplacementFieldWriter(
+            Input=field, FileName=name, World=world)
+        _write(writer, name)
+    finally:
+        simple.Delete(field)
+
+
+def load_field(name, direction="As the File Tells", world="RAS"):
+    """Opens a displacement field of ANTs, elastix, NiftyReg, Slicer or save_field; returns a source
+    that leads forward, to be the Lattice of a Free-Form Deformation.
+
+    A field that leads backward, as those of registration programs do, is inverted on its own
+    points. `direction`: "Forward" or "Backward" if you know better than the file. `world`: that of
+    the volume to bend, "RAS" or "LPS".
+    """
+    from paraview import simple
+
+    reader = simple.DisplacementFieldReader(FileName=name, Direction=direction, World=world)
+    reader.UpdatePipeline()
+    leads = reader.GetDataInformation().GetFieldDataInformation().GetArrayInformation(
+        "DisplacementDirection")
+    if leads is None:
+        raise ValueError(f"{name} is no displacement field; the output window tells why")
+    return reader if leads.GetStringValue(0) == "forward" else (
+        simple.InvertDisplacementField(Input=reader))
+
+
 def _report(representation, view=None, wanted=("Deformed Volume", "Deformed Slices")):
     """The proxy that answers for a representation, in the process that draws it."""
     shown_as = getattr(representation, "Representation", None)

@@ -3,7 +3,12 @@
 #include "TestDefaults.h"
 #include "vtkBakeDeformation.h"
 #include "vtkCompareVolumes.h"
+#include "vtkDeformGeometry.h"
+#include "vtkDeformationField.h"
+#include "vtkDisplacementFieldReader.h"
+#include "vtkDisplacementFieldWriter.h"
 #include "vtkFreeFormDeformation.h"
+#include "vtkTraceDistance.h"
 
 #include <vtkNew.h>
 
@@ -44,4 +49,49 @@ TEST(Defaults, OfBakeDeformationLiveInTheClass)
   vtkNew<vtkBakeDeformation> filter;
   const Defaults expected{ { "Interpolation", { double(filter->GetInterpolation()) } } };
   EXPECT_EQ(defaultsIn("Filters/BakeDeformation.xml"), expected);
+}
+
+TEST(Defaults, OfDeformGeometryLiveInTheClass)
+{
+  vtkNew<vtkDeformGeometry> filter;
+  const Defaults expected{ { "Direction", { double(filter->GetDirection()) } } };
+  EXPECT_EQ(defaultsIn("Filters/DeformGeometry.xml"), expected);
+}
+
+TEST(Defaults, OfDeformationFieldLiveInTheClass)
+{
+  vtkNew<vtkDeformationField> filter;
+  const int* sides = filter->GetDimensions();
+  const double* spacing = filter->GetSpacing();
+  const Defaults expected{
+    { "Dimensions", { double(sides[0]), double(sides[1]), double(sides[2]) } },
+    { "Direction", { double(filter->GetDirection()) } },
+    { "SampleGrid", { double(filter->GetSampleGrid()) } },
+    { "Spacing", { spacing[0], spacing[1], spacing[2] } },
+  };
+  EXPECT_EQ(defaultsIn("Filters/DeformationField.xml"), expected);
+}
+
+TEST(Defaults, OfTraceDistanceLiveInTheClass)
+{
+  vtkNew<vtkTraceDistance> filter;
+  const Defaults expected{
+    { "Label", { double(filter->GetLabel()) } },
+    { "SurfaceBy", { double(filter->GetSurfaceBy()) } },
+    { "Threshold", { filter->GetThreshold() } },
+  };
+  EXPECT_EQ(defaultsIn("Filters/TraceDistance.xml"), expected);
+}
+
+TEST(Defaults, OfDisplacementFieldFilesLiveInTheClasses)
+{
+  vtkNew<vtkDisplacementFieldReader> reader;
+  const Defaults ofReader{
+    { "Direction", { double(reader->GetDirection()) } },
+    { "World", { double(reader->GetWorld()) } },
+  };
+  EXPECT_EQ(defaultsIn("Filters/DisplacementFieldReader.xml"), ofReader);
+  vtkNew<vtkDisplacementFieldWriter> writer;
+  const Defaults ofWriter{ { "World", { double(writer->GetWorld()) } } };
+  EXPECT_EQ(defaultsIn("Filters/DisplacementFieldWriter.xml"), ofWriter);
 }

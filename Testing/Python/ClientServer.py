@@ -1,20 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that a server that draws sends the picture of the built-in session, pixel by pixel, and
 # that brainshift.pick, counters and gpu answer for what the server drew; of Deformed Slices too.
-import contextlib
-import gc
 import os
-import socket
-import subprocess
 
 import numpy
-from brainshift_testing import load_plugin, look, picture, run_tests, show_volume, view_along
+from brainshift_testing import (load_plugin, look, on_server, picture, run_tests,
+                                server_finds_plugin, show_volume, view_along)
 from slices_testing import show_slices
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
-from paraview.simple import (  # noqa: E402
-    Connect, Disconnect, FreeFormDeformation, LoadPlugin, Wavelet)
+from paraview.simple import FreeFormDeformation, LoadPlugin, Wavelet  # noqa: E402
 
 PLUGIN = os.environ["BRAINSHIFT_PLUGIN"]
 SIZE = 200
@@ -70,42 +66,7 @@ def slices():
     return drawn, brainshift.slice_axes(display), brainshift.counters(display)
 
 
-@contextlib.contextmanager
-def server(environment):
-    """The port of a pvserver on this machine."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
-    inherited = {name: value for name, value in os.environ.items() if name != "PV_PLUGIN_PATH"}
-    process = subprocess.Popen(
-        [os.environ["BRAINSHIFT_PVSERVER"], "--force-offscreen-rendering", f"--server-port={port}"],
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-        env={**inherited, **environment})
-    try:
-        said = ""
-        while "Accepting connection" not in said:
-            line = process.stdout.readline()
-            assert line, f"pvserver ended: {said}"
-            said += line
-        yield port
-    finally:
-        process.terminate()
-        process.wait()
-
-
-def on_server(question, **environment):
-    """What a function returns while connected to a server. The connection ends with the last proxy,
-    so the function keeps none."""
-    with server(environment) as port:
-        assert Connect("localhost", port).IsRemote()
-        try:
-            return question()
-        finally:
-            Disconnect()
-            gc.collect()
-
-
-SERVER_FINDS_PLUGIN = {"PV_PLUGIN_PATH": os.path.dirname(PLUGIN)}
+SERVER_FINDS_PLUGIN = server_finds_plugin()
 EXPECTED = Shown().all_answers()
 EXPECTED_SLICES = slices()  # while there is a session
 

@@ -2,7 +2,10 @@
 """What the pvpython tests share: volumes with known voxels, fixed views, pictures as numbers."""
 
 import contextlib
+import gc
 import os
+import socket
+import subprocess
 
 import numpy
 from paraview import simple
@@ -73,10 +76,10 @@ def output(proxy):
 
 
 def voxels(proxy, name="Intensity"):
-    """A point array of an image, indexed [z, y, x]."""
+    """A point array of an image, indexed [z, y, x], or [z, y, x, component]."""
     image = output(proxy)
     array = vtk_to_numpy(image.GetPointData().GetArray(name))
-    return array.reshape(tuple(reversed(image.GetDimensions())))
+    return array.reshape(tuple(reversed(image.GetDimensions())) + array.shape[1:])
 
 
 def field(proxy, name):
@@ -209,3 +212,46 @@ def messages():
 def assert_says(text, *words):
     for word in words:
         assert word in text, f"{word!r} is not in {text!r}"
+
+
+# Servers ------------------------------------------------------------------------------------------
+
+
+@contextlib.contextmanager
+def server(environment):
+    """The port of a pvserver on this machine."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    inherited = {name: value for name, value in os.environ.items() if name != "PV_PLUGIN_PATH"}
+    process = subprocess.Popen(
+        [os.environ["BRAINSHIFT_PVSERVER"], "--force-offscreen-rendering", f"--server-port={port}"],
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+        env={**inherited, **environment})
+    try:
+        said = ""
+        while "Accepting connection" not in said:
+            line = process.stdout.readline()
+            assert line, f"pvserver ended: {said}"
+            said += line
+        yield port
+    finally:
+        process.terminate()
+        process.wait()
+
+
+def on_server(question, **environment):
+    """What a function returns while connected to a server. The connection ends with the last proxy,
+    so the function keeps none."""
+    with server(environment) as port:
+        assert simple.Connect("localhost", port).IsRemote()
+        try:
+            return question()
+        finally:
+            simple.Disconnect()
+            gc.collect()
+
+
+def server_finds_plugin():
+    """The environment in which a server loads the plugin by itself."""
+    return {"PV_PLUGIN_PATH": os.path.dirname(os.environ["BRAINSHIFT_PLUGIN"])}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finds the nearest point of a triangle mesh whose points move but whose triangles stay: a tree of
+// boxes, built once and fitted again after each move.
+#ifndef BrainShift_TriangleTree_h
+#define BrainShift_TriangleTree_h
+
+#include "TissueSurface.h"
+#include "vtkBrainShiftFiltersModule.h" // for the export macro
+
+#include <glm/vec3.hpp>
+
+#include <limits>
+#include <vector>
+
+namespace brainshift
+{
+class VTKBRAINSHIFTFILTERS_EXPORT TriangleTree
+{
+public:
+  TriangleTree() = default;
+  explicit TriangleTree(const TriangleMesh& mesh);
+
+  // Puts the points, which are the mesh's in their order, elsewhere; only those that `moved` since
+  // the last call, all if it is empty. Triangles with a point that is not `kept` are passed over;
+  // an empty `kept` keeps all, and only then may `moved` name some.
+  void fit(const std::vector<glm::dvec3>& points, const std::vector<char>& moved,
+    const std::vector<char>& kept);
+
+  // Distance (mm) from a position to the nearest point of the triangles as last fitted, exact for
+  // flat triangles; infinite if there is none. What lies beyond `limit` (mm) need not be found:
+  // who knows that something is nearer is answered sooner.
+  double distance(
+    const glm::dvec3& position, double limit = std::numeric_limits<double>::infinity()) const;
+
+private:
+  struct Box
+  {
+    glm::dvec3 low; // of the triangles below; low > high if there is none
+    glm::dvec3 high;
+  };
+  // Apart from the boxes: fitting looks at all of these and at few of those.
+  struct Node
+  {
+    int first; // leaf: first triangle; else: the second child (the first one is the next node)
+    int count; // leaf: triangles; else 0
+  };
+  struct Corners
+  {
+    glm::dvec3 a, b, c;
+    bool kept;
+  };
+
+  bool FitLeaf(std::size_t node, const std::vector<glm::dvec3>& points,
+    const std::vector<char>& moved, const std::vector<char>& kept);
+  int Build(std::vector<glm::dvec3>& middles, std::vector<int>& order, int first, int end);
+
+  std::vector<glm::ivec3> Triangles; // in the order of the leaves
+  std::vector<Corners> Placed;       // the same ones, where they lie now
+  std::vector<Node> Nodes;           // parents before their children
+  std::vector<Box> Boxes;            // of the nodes
+};
+
+// Square of the distance from a position to a triangle.
+VTKBRAINSHIFTFILTERS_EXPORT double squaredDistanceToTriangle(
+  const glm::dvec3& position, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
+}
+
+#endif

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDeformationField.h"
+
+#include "DeformableVolume.h"
+#include "FieldImage.h"
+#include "Portions.h"
+
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+#include <cmath>
+
+using namespace brainshift;
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+vtkStandardNewMacro(vtkDeformationField);
+
+namespace
+{
+constexpr int SmallestSide = 2;
+constexpr int LargestSide = 4096;
+
+// What the pipeline knows of an image before it is there.
+Grid gridOf(vtkInformation* info)
+{
+  Grid grid;
+  const int* whole = info->Get(Pipeline::WHOLE_EXTENT());
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    grid.dimensions[axis] = whole[2 * axis + 1] - whole[2 * axis] + 1;
+  }
+  if (const double* origin = info->Get(vtkDataObject::ORIGIN()))
+  {
+    grid.origin = { origin[0], origin[1], origin[2] };
+  }
+  if (const double* spacing = info->Get(vtkDataObject::SPACING()))
+  {
+    grid.spacing = { spacing[0], spacing[1], spacing[2] };
+  }
+  if (const double* rows = info->Get(vtkDataObject::DIRECTION()))
+  {
+    for (int i = 0; i < 9; ++i)
+    {
+      grid.direction[i % 3][i / 3] = rows[i];
+    }
+  }
+  grid.origin = grid.worldFromGrid({ whole[0], whole[2], whole[4] });
+  return grid;
+}
+
+vtkSmartPointer<vtkFloatArray> addArray(vtkImageData* image, const char* name, int components)
+{
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(image->GetNumberOfPoints());
+  image->GetPointData()->AddArray(array);
+  return array;
+}
+
+void place(vtkImageData* image, const Grid& samples, const int extent[6])
+{
+  const glm::dmat3 rows = glm::transpose(samples.direction);
+  image->SetExtent(extent[0], extent[1], extent[2], extent[3], extent[4], extent[5]);
+  image->SetOrigin(&samples.origin.x);
+  image->SetSpacing(&samples.spacing.x);
+  image->SetDirectionMatrix(&rows[0][0]);
+}
+
+// Both arrays, on an image that lies on `samples`. False if the user aborts.
+bool fill(vtkAlgorithm* filter, vtkImageData* image, const Grid& samples, const DirectedMap& map)
+{
+  const auto displacements = addArray(image, DisplacementName, 3);
+  const auto determinants = addArray(image, "JacobianDeterminant", 1);
+  image->GetPointData()->SetActiveVectors(DisplacementName);
+  image->GetPointData()->SetActiveScalars("JacobianDeterminant");
+  const int* extent = image->GetExtent();
+  const glm::ivec3 first(extent[0], extent[2], extent[4]);
+  const glm::ivec3 count = glm::ivec3(extent[1], extent[3], extent[5]) - first + 1;
+  const auto fillRows = [&](vtkIdType firstRow, vtkIdType endRow) {
+    for (vtkIdType row = firstRow; row < endRow; ++row)
+    {
+      const glm::ivec3 start = first + glm::ivec3(0, row % count.y, row / count.y);
+      for (int i = 0; i < count.x; ++i)
+      {
+        const glm::dvec3 from = samples.worldFromGrid(glm::dvec3(start + glm::ivec3(i, 0, 0)));
+        const glm::dvec3 to = map.position(from);
+        const glm::vec3 displacement(to - from);
+        const vtkIdType point = row * count.x + i;
+        displacements->SetTypedTuple(point, &displacement.x);
+        determinants->SetValue(point, float(glm::determinant(map.jacobian(from, to))));
+      }
+    }
+  };
+  return forPortions(filter, 0.0, 1.0, static_cast<vtkIdType>(count.y) * count.z, 1, fillRows);
+}
+
+std::string triple(const glm::dvec3& numbers)
+{
+  return std::to_string(numbers.x) + " x " + std::to_string(numbers.y) + " x " +
+    std::to_string(numbers.z);
+}
+
+// Points along an axis so that they lie no further apart than asked for, but stay in the box.
+int pointsEvery(double spacing, double extent)
+{
+  constexpr double Rounding = 1e-9; // a spacing that divides the extent reaches its end
+  return static_cast<int>(std::floor(extent / spacing + Rounding)) + 1;
+}
+}
+
+Grid vtkDeformationField::SamplesOver(const Grid& volume, std::string& problem) const
+{
+  Grid samples = volume;
+  if (this->SampleGrid == GivenDimensions)
+  {
+    const glm::ivec3 sides(this->Dimensions[0], this->Dimensions[1], this->Dimensions[2]);
+    samples = withDimensions(volume, glm::clamp(sides, SmallestSide, LargestSide));
+    if (samples.dimensions != sides)
+    {
+      problem = "Dimensions is " + std::to_string(sides.x) + " x " + std::to_string(sides.y) +
+        " x " + std::to_string(sides.z) + "; each must be from " + std::to_string(SmallestSide) +
+        " to " + std::to_string(LargestSide);
+    }
+  }
+  if (this->SampleGrid == GivenSpacing)
+  {
+    const glm::dvec3 spacing(this->Spacing[0], this->Spacing[1], this->Spacing[2]);
+    const glm::dvec3 extent = volume.spacing * glm::dvec3(volume.dimensions - 1);
+    const glm::dvec3 smallest = extent / double(LargestSide - 1);
+    if (!glm::all(glm::lessThanEqual(smallest, spacing)) ||
+      !glm::all(glm::lessThanEqual(spacing, extent)))
+    {
+      problem = "Spacing is " + triple(spacing) + " mm; this volume takes from " +
+        triple(smallest) + " to " + triple(extent) + " mm";
+      return samples;
+    }
+    samples.spacing = spacing;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      samples.dimensions[axis] = pointsEvery(spacing[axis], extent[axis]);
+    }
+  }
+  return samples;
+}
+
+int vtkDeformationField::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  std::string problem; // told once, when data is made
+  const Grid samples = this->SamplesOver(gridOf(inputs[0]->GetInformationObject(0)), problem);
+  vtkInformation* info = outputs->GetInformationObject(0);
+  announce(info, samples);
+  vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_FLOAT, 1);
+  return 1;
+}
+
+int vtkDeformationField::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
+{
+  // The volume's box is that of all of it.
+  vtkInformation* info = inputs[0]->GetInformationObject(0);
+  int whole[6];
+  info->Get(Pipeline::WHOLE_EXTENT(), whole);
+  info->Set(Pipeline::UPDATE_EXTENT(), whole, 6);
+  return 1;
+}
+
+int vtkDeformationField::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkImageData* input = vtkImageData::GetData(inputs[0]);
+  vtkImageData* output = vtkImageData::GetData(outputs);
+  const auto direction = static_cast<brainshift::Direction>(this->Direction);
+  std::string problem;
+  const std::optional<DirectedMap> map = directedMapOf(input, direction, problem);
+  const Grid samples = this->SamplesOver(brainshift::gridOf(input), problem);
+  if (!map || !problem.empty())
+  {
+    vtkErrorMacro(<< problem << ".");
+    return 0;
+  }
+  int extent[6];
+  outputs->GetInformationObject(0)->Get(Pipeline::UPDATE_EXTENT(), extent);
+  place(output, samples, extent);
+  nameDirection(output, direction);
+  if (!fill(this, output, samples, *map))
+  {
+    output->Initialize();
+  }
+  return 1;
+}
+
+void vtkDeformationField::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Direction: " << (this->Direction == Forward ? "Forward" : "Backward") << "\n"
+     << indent << "SampleGrid: " << this->SampleGrid << "\n"
+     << indent << "Dimensions: " << this->Dimensions[0] << " " << this->Dimensions[1] << " "
+     << this->Dimensions[2] << "\n"
+     << indent << "Spacing: " << this->Spacing[0] << " " << this->Spacing[1] << " "
+     << this->Spacing[2] << "\n";
+}

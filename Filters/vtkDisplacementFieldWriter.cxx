@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDisplacementFieldWriter.h"
+
+#include "DeformableVolume.h"
+#include "FieldFile.h"
+#include "FieldImage.h"
+
+#include "vtkErrorCode.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkObjectFactory.h"
+
+using namespace brainshift;
+
+vtkStandardNewMacro(vtkDisplacementFieldWriter);
+
+int vtkDisplacementFieldWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  return 1;
+}
+
+void vtkDisplacementFieldWriter::WriteData()
+{
+  auto* image = vtkImageData::SafeDownCast(this->GetInput());
+  vtkDataArray* array = fieldOf(image);
+  std::string problem;
+  if (array)
+  {
+    FieldFile field{ gridOf(image), vectorsOf(array), directionOf(image) };
+    if (this->World == LPS)
+    {
+      reverseXY(field);
+    }
+    problem = writeFieldFile(this->FileName, field);
+  }
+  else
+  {
+    problem = "The input has no point array of 3 components (mm)";
+  }
+  if (!problem.empty())
+  {
+    vtkErrorMacro(<< problem << ".");
+    this->SetErrorCode(vtkErrorCode::UnknownError);
+  }
+}
+
+void vtkDisplacementFieldWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << this->FileName << "\n"
+     << indent << "World: " << (this->World == RAS ? "RAS" : "LPS") << "\n";
+}

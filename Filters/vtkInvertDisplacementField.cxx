@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkInvertDisplacementField.h"
+
+#include "DeformableVolume.h"
+#include "FieldImage.h"
+#include "Inversion.h"
+#include "OffsetField.h"
+#include "Portions.h"
+
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace brainshift;
+
+namespace
+{
+constexpr double LargestGoodErrorMm = 0.05;
+
+// The field with its own points as nodes, counted in its cells.
+NodeField nodesOf(const Grid& grid, const std::vector<glm::vec3>& displacements)
+{
+  NodeField field;
+  field.nodes.count = grid.dimensions;
+  field.values.resize(displacements.size());
+  std::transform(displacements.begin(), displacements.end(), field.values.begin(),
+    [&](const glm::vec3& mm) { return glm::vec3(grid.gridVectorFromWorld(glm::dvec3(mm))); });
+  return field;
+}
+
+bool allFinite(const std::vector<glm::vec3>& vectors)
+{
+  return std::all_of(vectors.begin(), vectors.end(),
+    [](const glm::vec3& v) { return std::isfinite(v.x + v.y + v.z); });
+}
+}
+
+vtkStandardNewMacro(vtkInvertDisplacementField);
+
+int vtkInvertDisplacementField::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  // The inverse at a point may lie anywhere.
+  for (vtkInformation* info :
+    { inputs[0]->GetInformationObject(0), outputs->GetInformationObject(0) })
+  {
+    int whole[6];
+    info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
+    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), whole, 6);
+  }
+  return 1;
+}
+
+int vtkInvertDisplacementField::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  vtkImageData* input = vtkImageData::GetData(inputs[0]);
+  vtkImageData* output = vtkImageData::GetData(outputs);
+  vtkDataArray* array = fieldOf(input);
+  const std::vector<glm::vec3> displacements = array ? vectorsOf(array) : std::vector<glm::vec3>();
+  if (!array || !allFinite(displacements))
+  {
+    vtkErrorMacro(<< (array ? "The field's array holds a number that is not finite."
+                            : "The input has no point array of 3 components (mm)."));
+    return 0;
+  }
+  const Grid grid = gridOf(input);
+  const NodeField field = nodesOf(grid, displacements);
+  std::vector<glm::vec3> inverse(displacements.size());
+  std::vector<double> errors(grid.dimensions.z, 0.0); // of each slice, mm
+  const auto invertSlices = [&](vtkIdType first, vtkIdType end) {
+    Inversion<NodeField> inversion{ field };
+    for (int k = static_cast<int>(first); k < end; ++k)
+    {
+      for (int j = 0; j < grid.dimensions.y; ++j)
+      {
+        for (int i = 0; i < grid.dimensions.x; ++i)
+        {
+          const glm::vec3 at(i, j, k);
+          const glm::vec3 offset = inversion.inverseOffset(at, -field.displacement(at));
+          const glm::dvec3 miss(offset + field.displacement(at + offset));
+          errors[k] = std::max(errors[k], glm::length(grid.worldVectorFromGrid(miss)));
+          inverse[grid.offset(i, j, k)] = glm::vec3(grid.worldVectorFromGrid(glm::dvec3(offset)));
+        }
+      }
+    }
+  };
+  if (!forPortions(this, 0.0, 1.0, grid.dimensions.z, 1, invertSlices))
+  {
+    output->Initialize();
+    return 1;
+  }
+  this->LargestError = *std::max_element(errors.begin(), errors.end());
+  if (this->LargestError > LargestGoodErrorMm)
+  {
+    vtkWarningMacro(<< "The displacement field folds: its inverse is off by up to "
+                    << this->LargestError << " mm, where " << LargestGoodErrorMm
+                    << " mm is the limit.");
+  }
+  // A field that does not say leads backward, as registration programs' do.
+  const Direction was = directionOf(input).value_or(Direction::Backward);
+  setField(
+    output, grid, inverse, was == Direction::Backward ? Direction::Forward : Direction::Backward);
+  return 1;
+}
+
+void vtkInvertDisplacementField::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "LargestError: " << this->LargestError << "\n";
+}

@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTraceDistance.h"
+
+#include "DeformableVolume.h"
+#include "DeformedSurface.h"
+#include "Portions.h"
+#include "TraceStatistics.h"
+
+#include "vtkCompositeDataIterator.h"
+#include "vtkDataObjectTree.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkIntArray.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+using namespace brainshift;
+
+namespace
+{
+constexpr int DeformationPort = 1;
+constexpr int SegmentationPort = 2;
+constexpr int CavityPort = 3;
+constexpr vtkIdType PointsAtLeast = 32; // for a thread: about 0.1 ms
+
+// The scalars of an image under a name; the active ones, or the first, if there are none of it.
+vtkDataArray* scalarsOf(vtkImageData* image, const std::string& name)
+{
+  vtkPointData* arrays = image->GetPointData();
+  if (vtkDataArray* named = name.empty() ? nullptr : arrays->GetArray(name.c_str()))
+  {
+    return named;
+  }
+  return arrays->GetScalars() ? arrays->GetScalars() : arrays->GetArray(0);
+}
+
+// The point of a trace before: a pointer moves little, so the next distance is about as large.
+struct Neighbour
+{
+  glm::dvec3 position{ 0.0 };
+  double distance = std::numeric_limits<double>::infinity();
+
+  // No distance from a point is larger, rounding included.
+  double limitAt(const glm::dvec3& point) const
+  {
+    constexpr double Slack = 1e-6; // mm, and as a share
+    return (this->distance + glm::length(point - this->position)) * (1.0 + Slack) + Slack;
+  }
+};
+
+struct Mask
+{
+  Grid grid;
+  vtkSmartPointer<vtkDataArray> values;
+
+  // Of the voxel nearest to a position (mm, world); false outside.
+  bool contains(const glm::dvec3& position) const
+  {
+    const glm::dvec3 nearest = glm::round(this->grid.gridFromWorld(position));
+    if (!glm::all(glm::greaterThanEqual(nearest, glm::dvec3(0.0))) ||
+      !glm::all(glm::lessThan(nearest, glm::dvec3(this->grid.dimensions))))
+    {
+      return false;
+    }
+    const glm::ivec3 at(nearest);
+    const auto index = static_cast<vtkIdType>(this->grid.offset(at.x, at.y, at.z));
+    return this->values->GetComponent(index, 0) != 0.0;
+  }
+};
+
+std::optional<Mask> maskOf(vtkImageData* image)
+{
+  vtkDataArray* values = image ? scalarsOf(image, {}) : nullptr;
+  return values ? std::optional<Mask>({ gridOf(image), values }) : std::nullopt;
+}
+
+// The numbers of all processes, on each of them.
+std::vector<double> ofAllProcesses(const std::vector<double>& own)
+{
+  vtkMultiProcessController* processes = vtkMultiProcessController::GetGlobalController();
+  const int count = processes ? processes->GetNumberOfProcesses() : 1;
+  if (count == 1)
+  {
+    return own;
+  }
+  const auto length = static_cast<vtkIdType>(own.size());
+  std::vector<vtkIdType> lengths(count);
+  processes->AllGather(&length, lengths.data(), 1);
+  std::vector<vtkIdType> offsets(count, 0);
+  for (int i = 1; i < count; ++i)
+  {
+    offsets[i] = offsets[i - 1] + lengths[i - 1];
+  }
+  std::vector<double> all(offsets.back() + lengths.back());
+  processes->AllGatherV(own.data(), all.data(), length, lengths.data(), offsets.data());
+  return all;
+}
+
+template <typename ArrayType, typename Value>
+void addField(vtkDataObject* data, const char* name, Value value)
+{
+  vtkNew<ArrayType> array;
+  array->SetName(name);
+  array->InsertNextValue(value);
+  data->GetFieldData()->AddArray(array);
+}
+}
+
+struct vtkTraceDistance::State
+{
+  // What the surface was found for.
+  vtkSmartPointer<vtkDataArray> Scalars;
+  vtkMTimeType ScalarsTime = 0;
+  Grid ScalarsGrid;
+  int By = -1;
+  double Level = 0.0;
+
+  brainshift::Tissue Tissue;
+  DeformedSurface Surface;
+  std::optional<Mask> Cavity;
+  std::optional<PointMap> Map;
+  TraceStatistics Statistics;
+  int SurfacesFound = 0;
+
+  // `level`: the threshold or the label.
+  void find(vtkDataArray* scalars, const Grid& grid, int by, double level)
+  {
+    if (scalars == this->Scalars && scalars->GetMTime() == this->ScalarsTime &&
+      grid == this->ScalarsGrid && by == this->By && level == this->Level)
+    {
+      return;
+    }
+    this->Scalars = scalars;
+    this->ScalarsTime = scalars->GetMTime();
+    this->ScalarsGrid = grid;
+    this->By = by;
+    this->Level = level;
+    this->Tissue = by == ByLabel
+      ? brainshift::Tissue{ grid, maskOfLabel(scalars, static_cast<int>(level)), 0.5 }
+      : brainshift::Tissue{ grid, scalars, level };
+    this->Surface = DeformedSurface(surfaceOf(this->Tissue));
+    ++this->SurfacesFound;
+  }
+};
+
+vtkStandardNewMacro(vtkTraceDistance);
+
+vtkTraceDistance::vtkTraceDistance()
+  : Internal(std::make_unique<State>())
+{
+  this->SetNumberOfInputPorts(4);
+}
+
+vtkTraceDistance::~vtkTraceDistance() = default;
+
+void vtkTraceDistance::SetDeformationConnection(vtkAlgorithmOutput* volume)
+{
+  this->SetInputConnection(DeformationPort, volume);
+}
+
+void vtkTraceDistance::SetSegmentationConnection(vtkAlgorithmOutput* segmentation)
+{
+  this->SetInputConnection(SegmentationPort, segmentation);
+}
+
+void vtkTraceDistance::SetCavityConnection(vtkAlgorithmOutput* mask)
+{
+  this->SetInputConnection(CavityPort, mask);
+}
+
+int vtkTraceDistance::GetCount() const
+{
+  return static_cast<int>(this->Internal->Statistics.count);
+}
+
+double vtkTraceDistance::GetMean() const
+{
+  return this->Internal->Statistics.mean;
+}
+
+double vtkTraceDistance::GetRMS() const
+{
+  return this->Internal->Statistics.rms;
+}
+
+double vtkTraceDistance::GetPercentile95() const
+{
+  return this->Internal->Statistics.percentile95;
+}
+
+int vtkTraceDistance::GetSurfacesFound() const
+{
+  return this->Internal->SurfacesFound;
+}
+
+vtkIdType vtkTraceDistance::GetPointsMoved() const
+{
+  return this->Internal->Surface.mapped();
+}
+
+int vtkTraceDistance::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 0)
+  {
+    // Blocks first: then the pipeline leaves them together, and numbers are those of all blocks.
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObjectTree");
+    info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+    return 1;
+  }
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port != DeformationPort);
+  return 1;
+}
+
+int vtkTraceDistance::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  // Any point may be nearest to any part of the cortex.
+  for (int port = DeformationPort; port <= CavityPort; ++port)
+  {
+    if (vtkInformation* info = inputs[port]->GetInformationObject(0))
+    {
+      int whole[6];
+      info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
+      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), whole, 6);
+    }
+  }
+  return this->Superclass::RequestUpdateExtent(request, inputs, outputs);
+}
+
+std::string vtkTraceDistance::FindCortex(vtkInformationVector** inputs)
+{
+  State& state = *this->Internal;
+  vtkImageData* volume = vtkImageData::GetData(inputs[DeformationPort]);
+  vtkImageData* segmentation = vtkImageData::GetData(inputs[SegmentationPort]);
+  Deformation deformation;
+  std::string problem =
+    "The volume carries no deformation; it must be the output of Free-Form Deformation";
+  if (!carriesDeformation(volume) || !readDeformation(volume, deformation, problem))
+  {
+    return problem;
+  }
+  vtkImageData* image = segmentation ? segmentation : volume;
+  const std::string where = segmentation ? "The segmentation" : "The volume";
+  vtkDataArray* scalars = scalarsOf(image, this->SurfaceArray);
+  if (!scalars || scalars->GetNumberOfComponents() != 1)
+  {
+    return where +
+      (scalars ? "'s array " + std::string(scalars->GetName() ? scalars->GetName() : "") + " has " +
+            std::to_string(scalars->GetNumberOfComponents()) + " components; it must have 1"
+               : std::string(" has no point array to find the cortex in"));
+  }
+  const bool byLabel = this->SurfaceBy == ByLabel;
+  state.find(scalars, gridOf(image), this->SurfaceBy, byLabel ? this->Label : this->Threshold);
+  if (state.Surface.isEmpty())
+  {
+    const double* range = scalars->GetRange(0);
+    return (byLabel ? "Label is " + std::to_string(this->Label)
+                    : "Threshold is " + std::to_string(this->Threshold)) +
+      " and gives no surface; " + where + "'s scalars go from " + std::to_string(range[0]) +
+      " to " + std::to_string(range[1]);
+  }
+  const Lattice lattice = effectiveLattice(deformation);
+  state.Map.emplace(lattice, deformation.inverse);
+  state.Cavity = maskOf(vtkImageData::GetData(inputs[CavityPort]));
+  std::function<bool(const glm::dvec3&)> isRemoved;
+  if (state.Cavity)
+  {
+    isRemoved = [&](const glm::dvec3& deformed) { return state.Cavity->contains(deformed); };
+  }
+  state.Surface.follow(lattice, isRemoved);
+  return {};
+}
+
+bool vtkTraceDistance::Measure(vtkPointSet* points, std::vector<double>& all)
+{
+  const State& state = *this->Internal;
+  const vtkIdType count = points->GetNumberOfPoints();
+  vtkNew<vtkFloatArray> distances;
+  distances->SetName("DistanceToCortex");
+  distances->SetNumberOfTuples(count);
+  points->GetPointData()->AddArray(distances);
+  points->GetPointData()->SetActiveScalars(distances->GetName());
+  const std::size_t before = all.size();
+  all.resize(before + count, std::numeric_limits<double>::quiet_NaN());
+  const auto distanceOf = [&](const glm::dvec3& point, Neighbour& previous) {
+    if (!std::isfinite(point.x + point.y + point.z) ||
+      (state.Cavity && state.Cavity->contains(point)))
+    {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+    const double distance = state.Surface.distance(point, previous.limitAt(point));
+    previous = { point, distance };
+    const bool inside = state.Tissue.contains(state.Map->restFromDeformed(point));
+    return std::isfinite(distance) ? (inside ? -distance : distance)
+                                   : std::numeric_limits<double>::quiet_NaN();
+  };
+  return forPortions(this, 0.0, 1.0, count, PointsAtLeast, [&](vtkIdType first, vtkIdType last) {
+    Neighbour previous;
+    for (vtkIdType i = first; i < last; ++i)
+    {
+      double point[3];
+      points->GetPoints()->GetData()->GetTuple(i, point);
+      const double distance = distanceOf({ point[0], point[1], point[2] }, previous);
+      all[before + i] = distance;
+      distances->SetValue(i, static_cast<float>(distance));
+    }
+  });
+}
+
+int vtkTraceDistance::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  State& state = *this->Internal;
+  vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
+  vtkDataObject* output = vtkDataObject::GetData(outputs);
+  const std::string problem = this->FindCortex(inputs);
+  if (!problem.empty())
+  {
+    vtkErrorMacro(<< problem << ".");
+    return 0;
+  }
+  std::vector<double> distances;
+  bool going = true;
+  if (auto* blocks = vtkDataObjectTree::SafeDownCast(input))
+  {
+    auto* measured = vtkDataObjectTree::SafeDownCast(output);
+    measured->CompositeShallowCopy(blocks);
+    const auto block = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+    for (block->InitTraversal(); going && !block->IsDoneWithTraversal(); block->GoToNextItem())
+    {
+      if (auto* points = vtkPointSet::SafeDownCast(block->GetCurrentDataObject()))
+      {
+        auto copy = vtkSmartPointer<vtkPointSet>::Take(points->NewInstance());
+        copy->ShallowCopy(points);
+        measured->SetDataSet(block, copy);
+        going = this->Measure(copy, distances);
+      }
+    }
+  }
+  else
+  {
+    output->ShallowCopy(input);
+    going = this->Measure(vtkPointSet::SafeDownCast(output), distances);
+  }
+  state.Statistics = statisticsOf(ofAllProcesses(distances));
+  addField<vtkIntArray>(output, "Count", this->GetCount());
+  addField<vtkDoubleArray>(output, "Mean", state.Statistics.mean);
+  addField<vtkDoubleArray>(output, "RMS", state.Statistics.rms);
+  addField<vtkDoubleArray>(output, "Percentile95", state.Statistics.percentile95);
+  if (!going)
+  {
+    output->Initialize();
+  }
+  return 1;
+}
+
+void vtkTraceDistance::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "SurfaceArray: " << this->SurfaceArray << "\n"
+     << indent << "SurfaceBy: " << (this->SurfaceBy == ByLabel ? "Label" : "Threshold") << "\n"
+     << indent << "Threshold: " << this->Threshold << "\n"
+     << indent << "Label: " << this->Label << "\n"
+     << indent << "Count: " << this->GetCount() << "\n";
+}

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves that lattices and dense fields survive their files, that File > Save Data has the formats,
+# and that a field read back bends a volume as the strokes did.
+import os
+
+import numpy
+from brainshift_testing import (assert_says, ball, load_plugin, messages, output, run_tests,
+                                scratch, volume, voxels)
+
+load_plugin()
+import brainshift  # noqa: E402 after the plugin
+from paraview import servermanager  # noqa: E402
+from paraview.simple import (  # noqa: E402
+    BakeDeformation, DeformationField, FreeFormDeformation, SaveData)
+
+MIDDLE = (16.0, 16.0, 16.0)
+STAMP = brainshift.stamp(MIDDLE, (16.0, 16.0, 0.0), 4.0, major=15.0, minor=12.0)
+TURNED = (0.6, -0.8, 0.0, 0.8, 0.6, 0.0, 0.0, 0.0, 1.0)
+FORMATS = (".nii", ".nii.gz", ".mha", ".mhd", ".nrrd")
+
+
+def bent(strokes=STAMP, **properties):
+    return FreeFormDeformation(Input=volume(ball()), Strokes=strokes, **properties)
+
+
+def baked(filter):
+    return voxels(BakeDeformation(Input=filter)).astype(float)
+
+
+def test_lattices_come_back():
+    for kernel in ("Catmull-Rom", "B-Spline"):
+        name = scratch("lattice.vti")
+        saved = bent(LatticeDimensions=[9, 10, 11], Kernel=kernel, Strength=0.8)
+        brainshift.save_lattice(saved, name)
+        loaded = bent(strokes=[])
+        brainshift.load_lattice(loaded, name)
+        assert list(loaded.LatticeDimensions) == [9, 10, 11] and loaded.Kernel == kernel
+        assert numpy.abs(baked(loaded) - baked(saved)).max() < 1e-3
+        assert numpy.abs(baked(loaded) - ball()).max() > 20.0
+        loaded.Strokes = STAMP
+        assert numpy.abs(baked(loaded) - baked(saved)).max() > 20.0, "strokes add to it"
+
+
+def test_dense_fields_come_back():
+    expected = baked(bent())
+    for ending in FORMATS:
+        for direction in ("Forward", "Backward"):
+            name = scratch(f"dense{ending}")
+            brainshift.save_field(bent(), name, direction)
+            loaded = bent(strokes=[], LatticeDimensions=[33, 33, 33])
+            loaded.Lattice = brainshift.load_field(name)
+            difference = numpy.abs(baked(loaded) - expected)
+            assert difference.mean() < 0.3, (ending, direction, difference.mean())
+            # The wrong way round is another picture.
+            wrong = "Forward" if direction == "Backward" else "Backward"
+            loaded.Lattice = brainshift.load_field(name, direction=wrong)
+            assert numpy.abs(baked(loaded) - expected).mean() > 1.0, (ending, direction)
+
+
+def test_fields_lie_where_the_volume_lies():
+    turned = volume(ball(), origin=(100.0, -50.0, 30.0), spacing=(1.0, 1.5, 2.0), direction=TURNED)
+    filter = FreeFormDeformation(Input=turned, Strokes=brainshift.soft(
+        output(turned).GetCenter(), (4, 3, 2), 14.0))
+    for ending in FORMATS:
+        name = scratch(f"turned{ending}")
+        brainshift.save_field(filter, name, spacing=(2.0, 2.0, 2.0))
+        reader = brainshift.load_field(name).Input
+        saved = DeformationField(
+            Input=filter, Direction="Backward", SampleGrid="Given Spacing", Spacing=[2, 2, 2])
+        assert numpy.allclose(output(reader).GetBounds(), output(saved).GetBounds(), atol=1e-3)
+        found, expected = voxels(reader, "Displacement"), voxels(saved, "Displacement")
+        assert numpy.isclose(numpy.abs(found).max(), numpy.abs(expected).max(), rtol=1e-5)
+        assert numpy.allclose(found.sum(axis=(0, 1, 2)), expected.sum(axis=(0, 1, 2)), rtol=1e-3)
+
+
+def test_save_data_of_the_window_has_the_formats():
+    field = DeformationField(Input=bent(), Direction="Backward")
+    field.UpdatePipeline()
+    offered = servermanager.vtkSMProxyManager.GetProxyManager().GetWriterFactory()
+    text = offered.GetSupportedFileTypes(field.SMProxy, 0)
+    assert_says(text, "Displacement field (BrainShift)", "*.nii.gz", "*.nrrd", "*.mha")
+    name = scratch("saved_data.nii")
+    SaveData(name, proxy=field)
+    assert os.path.getsize(name) > 1000
+    lattice = brainshift.load_field(name).Input
+    assert numpy.allclose(numpy.abs(voxels(lattice, "Displacement")).max(),
+                          numpy.abs(voxels(field, "Displacement")).max(), rtol=1e-5)
+
+
+def test_plain_volumes_are_no_fields():
+    field = volume(ball())
+    name = scratch("plain.mha")
+    with messages() as said:
+        try:
+            brainshift.load_field(scratch("missing.mha"))
+        except ValueError as error:
+            assert_says(str(error), "missing.mha", "no displacement field")
+        else:
+            raise AssertionError("there is no such file")
+    assert_says(said.text, "missing.mha", "cannot be opened")
+    with messages() as said:
+        try:
+            brainshift.save_field(field, name)
+        except OSError as error:
+            assert_says(str(error), "plain.mha")
+        else:
+            raise AssertionError("a plain volume has no field")
+    assert_says(said.text, "carries no deformation")
+
+
+run_tests(globals())
