@@ -4,10 +4,13 @@
 #include "Counters.h"
 #include "RayCaster.h"
 
+#include "vtkAbstractVolumeMapper.h"
 #include "vtkProp.h"
 #include "vtkPropCollection.h"
 #include "vtkRenderer.h"
+#include "vtkTextureObject.h" // for the scene's pointers
 #include "vtkVolume.h"
+#include "vtkVolumeProperty.h"
 
 #include <utility>
 
@@ -80,7 +83,9 @@ bool PictureStamp::repeats(
   addView(now, scene);
   addUploads(now, counters);
   addProps(now, renderer, scene);
-  now.push_back(static_cast<double>(volume->GetRedrawMTime()));
+  // Not the volume's own time: ParaView poses it for each picture anew.
+  now.push_back(static_cast<double>(volume->GetMapper()->GetMTime()));
+  now.push_back(static_cast<double>(volume->GetProperty()->GetMTime()));
   const bool same = now == this->Last;
   this->Last = std::move(now);
   return same;
