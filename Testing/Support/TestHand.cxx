@@ -148,3 +148,12 @@ TEST_HAND_EXPORT void test_hand_quit()
 {
   QTimer::singleShot(0, qApp, &QApplication::quit);
 }
+
+// The active view, pixels.
+TEST_HAND_EXPORT void test_hand_resize(int width, int height)
+{
+  if (QWidget* widget = viewWidget())
+  {
+    widget->setFixedSize(width, height);
+  }
+}

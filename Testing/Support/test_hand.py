@@ -103,3 +103,9 @@ def is_there():
 def quit():
     """Closes ParaView when Python is done."""
     _library.test_hand_quit()
+
+
+def resize(width, height):
+    """Gives the active view a size of its own."""
+    _library.test_hand_resize(width, height)
+    wait(100)
