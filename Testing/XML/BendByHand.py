@@ -285,6 +285,7 @@ def show_before():
 
 
 def save_result():
+    take("NONE")  # what it shows is no part of the picture
     told["strokes"] = strokes()
     save_picture(simple.GetActiveView(), "window")
 
