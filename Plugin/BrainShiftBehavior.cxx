@@ -2,6 +2,7 @@
 #include "BrainShiftBehavior.h"
 
 #include "SliceMouse.h"
+#include "ViewTools.h"
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
@@ -94,10 +95,12 @@ void BrainShiftBehavior::onStartup()
   QObject::connect(
     model, &pqServerManagerModel::sourceAdded, this, &BrainShiftBehavior::watchSource);
   SliceMouse::watchViews(this);
+  this->Hand = new ViewTools(this);
 }
 
 void BrainShiftBehavior::onShutdown()
 {
+  delete this->Hand;
   QObject::disconnect(
     pqApplicationCore::instance()->getServerManagerModel(), nullptr, this, nullptr);
 }

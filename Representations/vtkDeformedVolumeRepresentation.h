@@ -31,6 +31,9 @@ public:
   /** Shown or not: also whether its view sorts its volumes. */
   void SetVisibility(bool visible) override;
 
+  int ProcessViewRequest(
+    vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output) override;
+
   /** Step along the ray, mm. 0 (default): half the smallest voxel side. */
   void SetSampleDistance(double distance);
 
@@ -45,6 +48,9 @@ public:
 
   /** Count samples taken and skipped, which costs time. Default false. */
   void SetCountSamples(bool count);
+
+  /** Cast no rays for a picture that would come out as the last one. Default false. */
+  void SetKeepPicture(bool keep);
 
   /** What draws it in this process. */
   vtkDeformedVolumeMapper* GetDeformedVolumeMapper() const;

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ActiveDeformation.h"
+
+#include <pqActiveObjects.h>
+#include <pqApplicationCore.h>
+#include <pqDataRepresentation.h>
+#include <pqOutputPort.h>
+#include <pqPipelineFilter.h>
+#include <pqServerManagerModel.h>
+#include <pqView.h>
+
+#include <vtkSMProxy.h>
+
+#include <cstring>
+
+namespace
+{
+// The next sources along the pipeline: first what a source is made of, then what is made of it.
+QList<pqPipelineSource*> neighboursOf(pqPipelineSource* source)
+{
+  QList<pqPipelineSource*> neighbours;
+  if (auto filter = qobject_cast<pqPipelineFilter*>(source))
+  {
+    for (pqOutputPort* input : filter->getAllInputs())
+    {
+      neighbours.append(input->getSource());
+    }
+  }
+  return neighbours + source->getAllConsumers();
+}
+
+bool isShown(pqPipelineSource* source, pqView* view)
+{
+  pqDataRepresentation* shown = view ? source->getRepresentation(view) : nullptr;
+  return shown && shown->isVisible();
+}
+
+// Breadth first, so that the nearest one is found.
+pqPipelineSource* nearestShown(pqPipelineSource* from, pqView* view)
+{
+  QList<pqPipelineSource*> reached{ from };
+  for (int next = 0; next < reached.size(); ++next)
+  {
+    pqPipelineSource* source = reached[next];
+    if (isDeformation(source) && isShown(source, view))
+    {
+      return source;
+    }
+    for (pqPipelineSource* neighbour : neighboursOf(source))
+    {
+      if (!reached.contains(neighbour))
+      {
+        reached.append(neighbour);
+      }
+    }
+  }
+  return nullptr;
+}
+}
+
+bool isDeformation(pqPipelineSource* source)
+{
+  return source && std::strcmp(source->getProxy()->GetXMLName(), "FreeFormDeformation") == 0;
+}
+
+pqPipelineSource* activeDeformation()
+{
+  pqActiveObjects& active = pqActiveObjects::instance();
+  pqPipelineSource* source = active.activeSource();
+  if (isDeformation(source))
+  {
+    return source;
+  }
+  if (pqPipelineSource* nearest = source ? nearestShown(source, active.activeView()) : nullptr)
+  {
+    return nearest;
+  }
+  pqPipelineSource* only = nullptr;
+  const auto sources =
+    pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>();
+  for (pqPipelineSource* candidate : sources)
+  {
+    if (isDeformation(candidate))
+    {
+      if (only)
+      {
+        return nullptr;
+      }
+      only = candidate;
+    }
+  }
+  return only;
+}
