@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the panel says about numbers, and in which colour.
+#ifndef BrainShift_Advice_h
+#define BrainShift_Advice_h
+
+#include <QColor>
+#include <QPalette>
+#include <QString>
+
+enum class Grade
+{
+  Good,
+  Doubtful,
+  Bad,
+};
+
+// Warning that control points `spacing` mm apart cannot follow a stroke of this radius (mm); empty
+// if they can. `name` is the radius's, to begin the sentence with.
+QString radiusAdvice(const QString& name, double radius, double spacing);
+
+// Smallest Jacobian determinant: 1 keeps volume, 0 or less folds tissue.
+Grade jacobianGrade(double determinant);
+QString jacobianText(double determinant);
+
+// Green, amber or red that reads on the palette's window colour, be it light or dark.
+QColor gradeColor(Grade grade, const QPalette& palette);
+
+#endif

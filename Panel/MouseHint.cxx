@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MouseHint.h"
+
+#include "ToolSettings.h"
+
+#include <QCoreApplication>
+
+using Tool = ToolSettings::Tool;
+using AxisHold = ToolSettings::AxisHold;
+
+namespace
+{
+QString tr(const char* text)
+{
+  return QCoreApplication::translate("BrainShift", text);
+}
+
+QString millimetres(double value)
+{
+  return tr("%1 mm").arg(value, 0, 'g', 3);
+}
+
+QString heldAxis(AxisHold axis)
+{
+  switch (axis)
+  {
+    case AxisHold::X:
+      return tr(" Held to X.");
+    case AxisHold::Y:
+      return tr(" Held to Y.");
+    case AxisHold::Z:
+      return tr(" Held to Z.");
+    case AxisHold::None:
+      break;
+  }
+  return {};
+}
+}
+
+QString mouseHint(const ToolSettings& settings)
+{
+  switch (settings.tool())
+  {
+    case Tool::Move:
+      return tr("Move: drag a control point; X, Y or Z holds it to an axis, Shift adds points. "
+                "Beside them the mouse moves the camera.") +
+        heldAxis(settings.axisHold());
+    case Tool::Soft:
+      return tr("Soft: drag tissue; all within %1 follows. Shift+wheel changes the radius; X, Y or Z "
+                "holds the drag to an axis.")
+               .arg(millimetres(settings.radius())) +
+        heldAxis(settings.axisHold());
+    case Tool::Stamp:
+      return tr("Stamp: over tissue the wheel pulls and pushes by %1 a click, and so does a drag. "
+                "Shift+wheel changes the radii. Beside tissue the wheel zooms.")
+        .arg(millimetres(settings.millimetresPerClick()));
+    case Tool::None:
+      break;
+  }
+  return tr("No tool: the mouse moves the camera.");
+}

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ResultWidget.h"
+
+#include "Advice.h"
+#include "StrokeEditor.h"
+#include "ValueSlider.h"
+
+#include <pqApplicationCore.h>
+#include <pqPipelineSource.h>
+#include <pqPropertiesPanel.h>
+#include <pqServerManagerModel.h>
+
+#include <vtkCommand.h>
+#include <vtkEventQtSlotConnect.h>
+#include <vtkSMPropertyHelper.h>
+
+#include <QEvent>
+#include <QFormLayout>
+#include <QLabel>
+#include <QPointer>
+
+namespace
+{
+constexpr int FiguresDelay = 50; // ms: 20 a second are read by nobody, and leave time to draw
+
+pqPipelineSource* sourceOf(vtkSMProxy* proxy)
+{
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  return model->findItem<pqPipelineSource*>(proxy);
+}
+
+void showGraded(QLabel* label, const QString& text, Grade grade)
+{
+  const QColor color = gradeColor(grade, label->palette());
+  label->setText(QString("<b style=\"color:%1\">%2</b>").arg(color.name(), text.toHtmlEscaped()));
+}
+}
+
+ResultWidget::ResultWidget(vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget* parent)
+  : pqPropertyGroupWidget(proxy, group, parent)
+  , Source(sourceOf(proxy))
+  , Strength(new ValueSlider("BrainShiftStrength", QString(), QString(), 2, this))
+{
+  auto form = new QFormLayout(this);
+  form->setContentsMargins(0, 0, 0, 0);
+  form->setHorizontalSpacing(2 * pqPropertiesPanel::suggestedHorizontalSpacing());
+  form->setVerticalSpacing(pqPropertiesPanel::suggestedVerticalSpacing());
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  this->Strength->setRange(0.0, 1.0);
+  this->Strength->setToolTip(
+    tr("How much of the bend is shown: 0 is as loaded, 1 all of it. Can be animated."));
+  form->addRow(tr("Strength"), this->Strength);
+  this->Displacement = this->addFigure(form, "BrainShiftDisplacement", tr("Largest displacement"),
+    tr("How far the control point that moves most has moved"));
+  this->Jacobian = this->addFigure(form, "BrainShiftJacobian", tr("Smallest Jacobian"),
+    tr("Smallest Jacobian determinant: the share of its volume that the tissue squeezed hardest "
+       "keeps. 1 keeps all, 0 or less folds."));
+  this->connectStrength();
+
+  this->FiguresSoon.setSingleShot(true);
+  this->FiguresSoon.setInterval(FiguresDelay);
+  this->connect(&this->FiguresSoon, &QTimer::timeout, this, &ResultWidget::showFigures);
+  this->connect(this->Source, qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
+    &ResultWidget::showFiguresSoon);
+}
+
+ResultWidget::~ResultWidget() = default;
+
+QLabel* ResultWidget::addFigure(
+  QFormLayout* form, const char* name, const QString& title, const QString& tip)
+{
+  auto figure = new QLabel(this);
+  figure->setObjectName(name);
+  figure->setToolTip(tip);
+  figure->setWordWrap(true);
+  figure->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  form->addRow(title, figure);
+  form->labelForField(figure)->setToolTip(tip);
+  return figure;
+}
+
+void ResultWidget::connectStrength()
+{
+  const QPointer<StrokeEditor> editor = StrokeEditor::of(this->Source);
+  this->connect(this->Strength, &ValueSlider::valueEdited, this, [editor](double strength) {
+    if (editor)
+    {
+      editor->changeStrength(strength);
+    }
+  });
+  this->connect(this->Strength, &ValueSlider::editingFinished, this, [editor] {
+    if (editor)
+    {
+      editor->commitStrength();
+    }
+  });
+  this->Observers->Connect(this->proxy()->GetProperty("Strength"), vtkCommand::ModifiedEvent, this,
+    SLOT(showStrength()));
+  this->showStrength();
+}
+
+void ResultWidget::showStrength()
+{
+  this->Strength->setValue(vtkSMPropertyHelper(this->proxy(), "Strength").GetAsDouble());
+}
+
+double ResultWidget::figure(const char* property)
+{
+  this->proxy()->UpdatePropertyInformation(this->proxy()->GetProperty(property));
+  return vtkSMPropertyHelper(this->proxy(), property).GetAsDouble();
+}
+
+void ResultWidget::showFiguresSoon()
+{
+  if (this->isVisible() && !this->FiguresSoon.isActive())
+  {
+    this->FiguresSoon.start();
+  }
+}
+
+void ResultWidget::showFigures()
+{
+  if (this->Source->modifiedState() == pqProxy::UNINITIALIZED) // not applied yet
+  {
+    this->Displacement->setText(tr("nothing bent yet"));
+    this->Jacobian->setText(QString());
+    return;
+  }
+  this->Displacement->setText(
+    tr("<b>%1 mm</b>").arg(this->figure("MaximumDisplacement"), 0, 'f', 1));
+  const double determinant = this->figure("MinimumJacobian");
+  showGraded(this->Jacobian, jacobianText(determinant), jacobianGrade(determinant));
+}
+
+void ResultWidget::changeEvent(QEvent* event)
+{
+  this->pqPropertyGroupWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange)
+  {
+    this->showFiguresSoon();
+  }
+}
+
+void ResultWidget::showEvent(QShowEvent* event)
+{
+  this->pqPropertyGroupWidget::showEvent(event);
+  this->showFigures();
+}
