@@ -40,6 +40,7 @@ ToolSettings* ToolSettings::instance()
 ToolSettings::ToolSettings()
   : QObject(pqApplicationCore::instance())
 {
+  this->setObjectName("BrainShiftToolSettings");
   restore("Radius", this->Radius);
   restore("MajorRadius", this->MajorRadius);
   restore("MinorRadius", this->MinorRadius);

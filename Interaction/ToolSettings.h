@@ -9,6 +9,14 @@
 class ToolSettings : public QObject
 {
   Q_OBJECT
+  Q_PROPERTY(Tool tool READ tool WRITE setTool NOTIFY changed)
+  Q_PROPERTY(AxisHold axisHold READ axisHold WRITE setAxisHold NOTIFY changed)
+  Q_PROPERTY(double radius READ radius WRITE setRadius NOTIFY changed)
+  Q_PROPERTY(double majorRadius READ majorRadius WRITE setMajorRadius NOTIFY changed)
+  Q_PROPERTY(double minorRadius READ minorRadius WRITE setMinorRadius NOTIFY changed)
+  Q_PROPERTY(double sigma READ sigma WRITE setSigma NOTIFY changed)
+  Q_PROPERTY(double millimetresPerClick READ millimetresPerClick WRITE setMillimetresPerClick NOTIFY
+      changed)
 
 public:
   enum class Tool

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BrainShiftBehavior.h"
 
+#include "ViewTools.h"
+
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
@@ -84,10 +86,12 @@ void BrainShiftBehavior::onStartup()
     &BrainShiftBehavior::watchRepresentation);
   QObject::connect(
     model, &pqServerManagerModel::sourceAdded, this, &BrainShiftBehavior::watchSource);
+  this->Hand = new ViewTools(this);
 }
 
 void BrainShiftBehavior::onShutdown()
 {
+  delete this->Hand;
   QObject::disconnect(
     pqApplicationCore::instance()->getServerManagerModel(), nullptr, this, nullptr);
 }

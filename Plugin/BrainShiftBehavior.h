@@ -6,6 +6,7 @@
 
 #include <QObject>
 
+class ViewTools;
 class pqPipelineSource;
 class pqRepresentation;
 class vtkSMProxy;
@@ -27,6 +28,8 @@ private:
 
   // Keeps the numbers that Free-Form Deformation reports in the panel up to date.
   void watchSource(pqPipelineSource* source);
+
+  ViewTools* Hand = nullptr; // the tools in the view, while the plugin is at work
 };
 
 #endif

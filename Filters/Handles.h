@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Finds the control points that a hand could reach for. Positions: mm, world axes.
+#ifndef BrainShift_Handles_h
+#define BrainShift_Handles_h
+
+#include "Lattice.h"
+#include "vtkBrainShiftFiltersModule.h" // for the export macro
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <set>
+
+namespace brainshift
+{
+constexpr std::size_t MostHandles = 1000; // for one question: more cannot be told apart in a view
+
+// The lattice as drawn, without a copy of it.
+struct DrawnLattice
+{
+  Grid grid;
+  const float* displacements = nullptr; // 3 for each point, mm, before strength
+  double strength = 1.0;
+
+  glm::dvec3 rest(const glm::ivec3& index) const;
+  glm::dvec3 displacement(const glm::ivec3& index) const; // as drawn
+  glm::dvec3 deformed(const glm::ivec3& index) const;
+};
+
+// Offsets of control points (Grid::offset).
+using HandleSet = std::set<std::size_t>;
+
+// Adds the control points that are drawn within a ball, the nearest if there are too many.
+VTKBRAINSHIFTFILTERS_EXPORT void addInBall(
+  const DrawnLattice& lattice, const glm::dvec3& centre, double radius, HandleSet& handles);
+
+// Adds those drawn within a cone from an apex along a unit direction, whose radius grows from
+// `radius` by `growth` a mm; the nearest to its axis if there are too many.
+VTKBRAINSHIFTFILTERS_EXPORT void addInCone(const DrawnLattice& lattice, const glm::dvec3& apex,
+  const glm::dvec3& direction, double radius, double growth, HandleSet& handles);
+
+// Adds those that moved by a hundredth of the spacing or more; the farthest if there are too many.
+VTKBRAINSHIFTFILTERS_EXPORT void addMoved(const DrawnLattice& lattice, HandleSet& handles);
+
+VTKBRAINSHIFTFILTERS_EXPORT glm::ivec3 indexOf(const Grid& grid, std::size_t offset);
+}
+
+#endif

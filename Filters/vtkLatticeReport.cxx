@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkLatticeReport.h"
+
+#include "Handles.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkObjectFactory.h"
+
+#include <algorithm>
+
+using namespace brainshift;
+
+namespace
+{
+// What the output carries (DeformableVolume.h), read in place. False if it carries nothing.
+bool readDrawn(vtkAlgorithm* filter, DrawnLattice& lattice)
+{
+  vtkDataObject* output = filter ? filter->GetOutputDataObject(0) : nullptr;
+  vtkFieldData* fields = output ? output->GetFieldData() : nullptr;
+  const auto array = [&](const char* name) { return fields ? fields->GetArray(name) : nullptr; };
+  auto displacements = vtkFloatArray::SafeDownCast(array("FFDDisplacements"));
+  vtkDataArray* dimensions = array("FFDDimensions");
+  vtkDataArray* box = array("FFDBox");
+  vtkDataArray* strength = array("FFDStrength");
+  if (!displacements || !dimensions || !box || !strength || dimensions->GetNumberOfValues() != 3 ||
+    box->GetNumberOfValues() != 15)
+  {
+    return false;
+  }
+  const auto number = [&](int i) { return box->GetVariantValue(i).ToDouble(); };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    lattice.grid.dimensions[axis] = dimensions->GetVariantValue(axis).ToInt();
+    lattice.grid.origin[axis] = number(axis);
+    lattice.grid.spacing[axis] = number(3 + axis);
+    for (int column = 0; column < 3; ++column)
+    {
+      lattice.grid.direction[column][axis] = number(6 + 3 * axis + column);
+    }
+  }
+  lattice.displacements = displacements->GetPointer(0);
+  lattice.strength = strength->GetVariantValue(0).ToDouble();
+  return displacements->GetNumberOfValues() == static_cast<vtkIdType>(3 * lattice.grid.count());
+}
+}
+
+vtkStandardNewMacro(vtkLatticeReport);
+
+vtkLatticeReport::vtkLatticeReport() = default;
+vtkLatticeReport::~vtkLatticeReport() = default;
+
+void vtkLatticeReport::SetFilter(vtkAlgorithm* filter)
+{
+  this->Filter = filter;
+}
+
+void vtkLatticeReport::SetCone(const double cone[8])
+{
+  std::copy_n(cone, 8, this->Cone);
+}
+
+vtkDoubleArray* vtkLatticeReport::GetHandles()
+{
+  constexpr int components = 9;
+  this->Handles->Reset();
+  this->Handles->SetNumberOfComponents(components);
+  DrawnLattice lattice;
+  if (!readDrawn(this->Filter, lattice))
+  {
+    return this->Handles;
+  }
+  HandleSet offsets;
+  if (this->Ball[3] > 0.0)
+  {
+    addInBall(lattice, { this->Ball[0], this->Ball[1], this->Ball[2] }, this->Ball[3], offsets);
+  }
+  const double* cone = this->Cone;
+  if (cone[6] > 0.0 || cone[7] > 0.0)
+  {
+    addInCone(lattice, { cone[0], cone[1], cone[2] }, { cone[3], cone[4], cone[5] }, cone[6],
+      cone[7], offsets);
+  }
+  if (this->Moved)
+  {
+    addMoved(lattice, offsets);
+  }
+  for (std::size_t offset : offsets)
+  {
+    const glm::ivec3 index = indexOf(lattice.grid, offset);
+    const glm::dvec3 rest = lattice.rest(index);
+    const glm::dvec3 drawn = lattice.deformed(index);
+    const double tuple[components] = { static_cast<double>(index.x), static_cast<double>(index.y),
+      static_cast<double>(index.z), rest.x, rest.y, rest.z, drawn.x, drawn.y, drawn.z };
+    this->Handles->InsertNextTuple(tuple);
+  }
+  return this->Handles;
+}
+
+vtkDoubleArray* vtkLatticeReport::GetGeometry()
+{
+  this->Geometry->Reset();
+  DrawnLattice lattice;
+  if (readDrawn(this->Filter, lattice))
+  {
+    const Grid& grid = lattice.grid;
+    for (const glm::dvec3& triple : { glm::dvec3(grid.dimensions), grid.origin, grid.spacing })
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        this->Geometry->InsertNextValue(triple[axis]);
+      }
+    }
+    for (int i = 0; i < 9; ++i)
+    {
+      this->Geometry->InsertNextValue(grid.direction[i % 3][i / 3]);
+    }
+  }
+  return this->Geometry;
+}
+
+void vtkLatticeReport::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Ball: " << this->Ball[0] << " " << this->Ball[1] << " " << this->Ball[2] << " "
+     << this->Ball[3] << "\n"
+     << indent << "Moved: " << this->Moved << "\n";
+}

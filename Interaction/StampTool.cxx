@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "StampTool.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+using namespace brainshift;
+
+namespace
+{
+constexpr double GrowthPerClick = 1.1;  // of the major radius, of the wheel with Shift
+constexpr double SamePlacePixels = 4.0; // a resting hand trembles less
+constexpr double CrossShare = 0.15;     // of the major radius
+}
+
+// The stamp over the tissue at a pixel. False where there is none.
+bool StampTool::take(const glm::dvec2& pixel)
+{
+  const std::optional<glm::dvec3> tissue = this->Bench.probe.tissueAt(pixel);
+  const glm::dvec3 interest = this->Bench.probe.pointOfInterest();
+  if (!tissue || *tissue == interest)
+  {
+    return false;
+  }
+  this->Stroke = this->strokeAt(*tissue, Tool::Stamp);
+  this->Stroke.axis = glm::normalize(interest - *tissue);
+  this->Amount = 0.0;
+  this->Made = false;
+  this->TakenAt = pixel;
+  return true;
+}
+
+bool StampTool::isAtLastStroke(const glm::dvec2& pixel) const
+{
+  if (glm::distance(pixel, this->TakenAt) > SamePlacePixels)
+  {
+    return false;
+  }
+  if (this->isDragging())
+  {
+    return true;
+  }
+  const StrokeEditor::Strokes strokes = this->Bench.editor.strokes();
+  const brainshift::Stroke now = this->strokeAt(this->Stroke.anchor, Tool::Stamp);
+  const bool sameShape = now.major == this->Stroke.major && now.minor == this->Stroke.minor &&
+    now.sigma == this->Stroke.sigma;
+  return this->Made && sameShape && !strokes.empty() && strokes.back() == this->Stroke;
+}
+
+void StampTool::show(const brainshift::Stroke& stroke, double amount)
+{
+  vtkLatticeRepresentation& shown = this->Bench.shown;
+  const glm::dvec3 interest = this->Bench.probe.pointOfInterest();
+  const glm::dvec3 away = -glm::normalize(stroke.axis);
+  this->showStroke(stroke);
+  std::vector<Polyline> marks = cross(interest, CrossShare * stroke.major);
+  marks.push_back({ interest, stroke.anchor });
+  marks.push_back({ stroke.anchor, stroke.anchor + amount * away });
+  shown.SetLines(vtkLatticeRepresentation::Mark, marks);
+  shown.SetHighlights({ stroke.anchor + amount * away });
+}
+
+void StampTool::hover(const HandEvent& event)
+{
+  if (this->isDragging() && this->isAtLastStroke(pixelOf(event)))
+  {
+    return;
+  }
+  this->settle();
+  if (this->Made && this->isAtLastStroke(pixelOf(event)))
+  {
+    return;
+  }
+  if (this->take(pixelOf(event)))
+  {
+    this->show(this->Stroke, 0.0);
+  }
+  else
+  {
+    this->Bench.shown.Clear();
+  }
+}
+
+void StampTool::apply(double amount)
+{
+  const glm::dvec3 away = -glm::normalize(this->Stroke.axis);
+  this->Amount = amount;
+  this->Stroke.vector = this->beforeStrength(amount * away);
+  this->show(this->Stroke, amount);
+}
+
+bool StampTool::press(const HandEvent& event)
+{
+  this->settle();
+  if (!this->take(pixelOf(event)))
+  {
+    return false;
+  }
+  // Along the image of the axis, or, where that points at the eye, up and down.
+  ViewProbe& probe = this->Bench.probe;
+  const glm::dvec3 away = -this->Stroke.axis;
+  const double millimetres = probe.millimetresPerPixel(this->Stroke.anchor);
+  const glm::dvec2 onScreen =
+    probe.pixelOf(this->Stroke.anchor + millimetres * away) - probe.pixelOf(this->Stroke.anchor);
+  constexpr double leastShare = 0.5; // of the axis' length that is seen
+  const bool isSeen = glm::length(onScreen) >= leastShare;
+  this->PullOnScreen =
+    isSeen ? millimetres * onScreen / glm::dot(onScreen, onScreen) : glm::dvec2(0.0, millimetres);
+  return true;
+}
+
+void StampTool::drag(const HandEvent& event)
+{
+  this->apply(glm::dot(pixelOf(event) - this->TakenAt, this->PullOnScreen));
+  if (this->isDragging())
+  {
+    this->Bench.editor.change(this->Stroke);
+  }
+  else
+  {
+    this->Bench.editor.begin(this->Stroke);
+  }
+}
+
+void StampTool::clickWheel(const HandEvent& event)
+{
+  const bool again = this->isAtLastStroke(pixelOf(event));
+  const bool under = again && this->isDragging();
+  if (!again)
+  {
+    this->settle();
+  }
+  if (!again && !this->take(pixelOf(event)))
+  {
+    return;
+  }
+  this->apply(this->Amount + event.clicks * this->Bench.settings.millimetresPerClick());
+  if (under)
+  {
+    this->Bench.editor.change(this->Stroke);
+  }
+  else if (again)
+  {
+    this->Bench.editor.beginAtLast(this->Stroke);
+  }
+  else
+  {
+    this->Bench.editor.begin(this->Stroke);
+  }
+}
+
+void StampTool::changeRadius(const HandEvent& event)
+{
+  ToolSettings& settings = this->Bench.settings;
+  settings.setMajorRadius(settings.majorRadius() * std::pow(GrowthPerClick, event.clicks));
+  if (this->isDragging())
+  {
+    this->Stroke.major = settings.majorRadius();
+    this->show(this->Stroke, this->Amount);
+    this->Bench.editor.change(this->Stroke);
+  }
+  else
+  {
+    this->Made = false; // the next click begins a stroke of this size
+    this->hover(event);
+  }
+}
+
+bool StampTool::wheel(const HandEvent& event)
+{
+  const bool acts = !event.control && !event.alt &&
+    (this->isAtLastStroke(pixelOf(event)) || this->Bench.probe.tissueAt(pixelOf(event)));
+  if (acts && event.shift)
+  {
+    this->changeRadius(event);
+  }
+  else if (acts)
+  {
+    this->clickWheel(event);
+  }
+  return acts;
+}
+
+void StampTool::settle()
+{
+  if (this->isDragging())
+  {
+    this->Made = true;
+    this->Bench.editor.commit(this->Amount < 0.0 ? "Stamp: push" : "Stamp: pull");
+  }
+}
+
+void StampTool::cancel()
+{
+  ViewTool::cancel();
+  this->Amount = 0.0;
+  this->Made = false;
+  this->Bench.shown.Clear();
+}

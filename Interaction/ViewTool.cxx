@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ViewTool.h"
+
+#include "MoveTool.h"
+#include "SoftTool.h"
+#include "StampTool.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace brainshift;
+
+std::unique_ptr<ViewTool> ViewTool::make(ToolSettings::Tool tool, const ToolBench& bench)
+{
+  switch (tool)
+  {
+    case ToolSettings::Tool::Move:
+      return std::make_unique<MoveTool>(bench);
+    case ToolSettings::Tool::Soft:
+      return std::make_unique<SoftTool>(bench);
+    case ToolSettings::Tool::Stamp:
+      return std::make_unique<StampTool>(bench);
+    case ToolSettings::Tool::None:
+      break;
+  }
+  return {};
+}
+
+ViewTool::ViewTool(const ToolBench& bench)
+  : Bench(bench)
+{
+}
+
+ViewTool::~ViewTool() = default;
+
+bool ViewTool::wheel(const HandEvent&)
+{
+  return false;
+}
+
+void ViewTool::release()
+{
+  this->settle();
+}
+
+void ViewTool::cancel()
+{
+  this->Bench.editor.cancel();
+}
+
+void ViewTool::settle() {}
+
+Stroke ViewTool::strokeAt(const glm::dvec3& anchor, Tool tool) const
+{
+  const ToolSettings& settings = this->Bench.settings;
+  Stroke stroke;
+  stroke.tool = tool;
+  stroke.anchor = anchor;
+  stroke.major = tool == Tool::Soft ? settings.radius() : settings.majorRadius();
+  stroke.minor = tool == Tool::Soft ? 0.0 : settings.minorRadius();
+  stroke.sigma = settings.sigma();
+  return stroke;
+}
+
+glm::dvec3 ViewTool::pulled(
+  const glm::dvec3& grip, const glm::dvec2& grippedAt, const glm::dvec2& pixel)
+{
+  ViewProbe& probe = this->Bench.probe;
+  const ToolSettings::AxisHold hold = this->Bench.settings.axisHold();
+  if (hold == ToolSettings::AxisHold::None)
+  {
+    return probe.positionAt(pixel, grip) - probe.positionAt(grippedAt, grip);
+  }
+  glm::dvec3 axis(0.0);
+  axis[static_cast<int>(hold) - static_cast<int>(ToolSettings::AxisHold::X)] = 1.0;
+  // As far along the axis as the hand went along the axis' image on the screen.
+  const double millimetre = probe.millimetresPerPixel(grip); // short, so that perspective is none
+  const glm::dvec2 onScreen = probe.pixelOf(grip + millimetre * axis) - probe.pixelOf(grip);
+  constexpr double leastPixels = 0.1; // an axis that points at the eye cannot be followed
+  const double length = glm::length(onScreen);
+  if (length < leastPixels)
+  {
+    return glm::dvec3(0.0);
+  }
+  const double alongScreen = glm::dot(pixel - grippedAt, onScreen / length);
+  return alongScreen / length * millimetre * axis;
+}
+
+glm::dvec3 ViewTool::beforeStrength(const glm::dvec3& displacement) const
+{
+  constexpr double least = 0.05; // of Strength; below it nothing follows the hand
+  return displacement / std::max(this->Bench.probe.strength(), least);
+}
+
+void ViewTool::showStroke(const Stroke& stroke)
+{
+  vtkLatticeRepresentation& shown = this->Bench.shown;
+  shown.SetLines(vtkLatticeRepresentation::Strong, outlineOf(stroke, 1.0));
+  shown.SetLines(
+    vtkLatticeRepresentation::Weak, outlineOf(stroke, shareOfHalfWeight(stroke.sigma)));
+}

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ViewTools.h"
+
+#include "ActiveDeformation.h"
+#include "StrokeEditor.h"
+#include "ViewProbe.h"
+#include "ViewTool.h"
+#include "WidgetInView.h"
+
+#include <pqActiveObjects.h>
+#include <pqApplicationCore.h>
+#include <pqDataRepresentation.h>
+#include <pqPipelineSource.h>
+#include <pqRenderView.h>
+#include <pqServerManagerModel.h>
+
+#include <vtkLatticeRepresentation.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <QApplication>
+#include <QKeyEvent>
+#include <QWidget>
+
+#include <algorithm>
+
+using brainshift::HandEvent;
+
+namespace
+{
+constexpr int SettleMs = 600; // between two clicks of one burst of the wheel, at most
+
+// Where a person types, keys are letters.
+bool isTyping()
+{
+  QWidget* focus = QApplication::focusWidget();
+  return focus && focus->testAttribute(Qt::WA_InputMethodEnabled);
+}
+}
+
+ViewTools::ViewTools(QObject* parent)
+  : QObject(parent)
+{
+  this->Refresh.setSingleShot(true);
+  this->Refresh.setInterval(0);
+  QObject::connect(&this->Refresh, &QTimer::timeout, this, &ViewTools::refresh);
+  this->Settle.setSingleShot(true);
+  this->Settle.setInterval(SettleMs);
+  QObject::connect(&this->Settle, &QTimer::timeout, this, [this] {
+    this->Zooming = false;
+    if (this->Tool && this->isAlive() && !this->Holding)
+    {
+      this->Tool->settle();
+    }
+  });
+  const auto soon = [this] { this->Refresh.start(); };
+  pqActiveObjects* active = &pqActiveObjects::instance();
+  QObject::connect(ToolSettings::instance(), &ToolSettings::changed, this, soon);
+  QObject::connect(active, &pqActiveObjects::viewChanged, this, soon);
+  QObject::connect(active, &pqActiveObjects::sourceChanged, this, soon);
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  QObject::connect(model, &pqServerManagerModel::sourceAdded, this, soon);
+  QObject::connect(model, &pqServerManagerModel::dataUpdated, this, soon);
+  // Before a source or view is gone, nothing of it may stay in hand.
+  QObject::connect(model, &pqServerManagerModel::preSourceRemoved, this, [this](auto* source) {
+    if (source == this->Deformation)
+    {
+      this->putDown();
+    }
+  });
+  QObject::connect(model, &pqServerManagerModel::preViewRemoved, this, [this](auto* view) {
+    if (view == this->View)
+    {
+      this->cancel();
+      this->putDown();
+    }
+  });
+  qApp->installEventFilter(this);
+}
+
+ViewTools::~ViewTools()
+{
+  this->putDown();
+}
+
+bool ViewTools::isAlive() const
+{
+  return this->Deformation && this->View && this->Editor;
+}
+
+void ViewTools::putDown()
+{
+  if (this->Tool && this->isAlive())
+  {
+    this->Tool->settle();
+  }
+  this->Holding = false;
+  this->Zooming = false;
+  this->Settle.stop();
+  this->Tool.reset();
+  this->Probe.reset();
+  this->Widget.reset();
+  this->Editor = nullptr;
+  this->Deformation = nullptr;
+  this->View = nullptr;
+  this->ToolInHand = ToolSettings::Tool::None;
+}
+
+void ViewTools::refresh()
+{
+  ToolSettings* settings = ToolSettings::instance();
+  pqPipelineSource* deformation = activeDeformation();
+  auto view = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
+  const bool both = deformation && view && deformation->getServer() == view->getServer();
+  const ToolSettings::Tool tool = both ? settings->tool() : ToolSettings::Tool::None;
+  if (!this->isAlive() || tool != this->ToolInHand || deformation != this->Deformation ||
+    view != this->View)
+  {
+    this->putDown();
+    if (tool != ToolSettings::Tool::None)
+    {
+      this->Deformation = deformation;
+      this->View = view;
+      this->Editor = StrokeEditor::of(deformation);
+      this->ToolInHand = tool;
+      this->Widget = std::make_unique<WidgetInView>(
+        view, [this](const HandEvent& event) { return this->handle(event); });
+      this->Probe = std::make_unique<ViewProbe>(deformation, view);
+      this->Tool = ViewTool::make(
+        tool, { *this->Probe, *this->Editor, *settings, *this->Widget->representation() });
+    }
+  }
+  if (const auto lattice = this->Probe ? this->Probe->lattice() : std::nullopt)
+  {
+    const glm::dvec3& spacing = lattice->spacing;
+    settings->suggestRanges(glm::length(spacing * glm::dvec3(lattice->dimensions - 1)),
+      std::max({ spacing.x, spacing.y, spacing.z }));
+  }
+}
+
+bool ViewTools::handle(const HandEvent& event)
+{
+  this->CursorInside = event.kind != HandEvent::Kind::Leave;
+  this->CursorX = event.x;
+  this->CursorY = event.y;
+  if (!this->Tool || !this->isAlive())
+  {
+    return false;
+  }
+  const auto before = this->Widget->representation()->GetMTime();
+  const bool taken = this->pass(event);
+  if (this->Widget && this->Widget->representation()->GetMTime() != before)
+  {
+    this->drawSoon();
+  }
+  return taken;
+}
+
+bool ViewTools::pass(const HandEvent& event)
+{
+  switch (event.kind)
+  {
+    case HandEvent::Kind::Press:
+      this->Settle.stop();
+      this->Tool->settle();
+      this->Holding = this->Tool->press(event);
+      return this->Holding;
+    case HandEvent::Kind::Move:
+      if (this->Holding)
+      {
+        this->Tool->drag(event);
+        return true;
+      }
+      this->Zooming = false;
+      if (QApplication::mouseButtons() == Qt::NoButton) // else the camera has the mouse
+      {
+        this->Tool->hover(event);
+      }
+      return false;
+    case HandEvent::Kind::Release:
+      if (!this->Holding)
+      {
+        return false;
+      }
+      this->Holding = false;
+      this->Tool->release();
+      ToolSettings::instance()->setAxisHold(ToolSettings::AxisHold::None);
+      return true;
+    case HandEvent::Kind::Wheel:
+      this->Settle.start();
+      this->Zooming = this->Zooming || !this->Tool->wheel(event);
+      return !this->Zooming;
+    case HandEvent::Kind::Leave:
+      if (!this->Holding)
+      {
+        this->Tool->settle();
+        this->Widget->representation()->Clear();
+      }
+      return false;
+  }
+  return false;
+}
+
+// While something is under the hand, its editor draws.
+void ViewTools::drawSoon()
+{
+  if (this->isAlive() && !this->Editor->isEditing())
+  {
+    this->View->render();
+  }
+}
+
+void ViewTools::cancel()
+{
+  if (this->Tool && this->isAlive())
+  {
+    this->Holding = false;
+    this->Tool->cancel();
+    this->Widget->widget()->LetGo();
+    ToolSettings::instance()->setAxisHold(ToolSettings::AxisHold::None);
+    this->drawSoon();
+  }
+}
+
+void ViewTools::holdAxis(ToolSettings::AxisHold axis)
+{
+  ToolSettings* settings = ToolSettings::instance();
+  settings->setAxisHold(settings->axisHold() == axis ? ToolSettings::AxisHold::None : axis);
+  HandEvent event;
+  event.x = this->CursorX;
+  event.y = this->CursorY;
+  this->handle(event);
+}
+
+void ViewTools::setInterest()
+{
+  if (const auto tissue = this->Probe->tissueAt({ this->CursorX, this->CursorY }))
+  {
+    this->Probe->setPointOfInterest(*tissue);
+    this->Widget->representation()->Clear();
+    this->drawSoon();
+  }
+}
+
+bool ViewTools::knowsKey(int key) const
+{
+  if (!this->Tool || !this->isAlive())
+  {
+    return false;
+  }
+  switch (key)
+  {
+    case Qt::Key_X:
+    case Qt::Key_Y:
+    case Qt::Key_Z:
+      return this->Holding;
+    case Qt::Key_Escape:
+      return this->Holding || this->Editor->isEditing();
+    case Qt::Key_I:
+      return this->CursorInside && this->ToolInHand == ToolSettings::Tool::Stamp && !isTyping();
+    case Qt::Key_O:
+      return this->CursorInside && !this->Holding && !isTyping();
+    default:
+      return false;
+  }
+}
+
+bool ViewTools::pressKey(int key)
+{
+  switch (key)
+  {
+    case Qt::Key_X:
+      this->holdAxis(ToolSettings::AxisHold::X);
+      break;
+    case Qt::Key_Y:
+      this->holdAxis(ToolSettings::AxisHold::Y);
+      break;
+    case Qt::Key_Z:
+      this->holdAxis(ToolSettings::AxisHold::Z);
+      break;
+    case Qt::Key_Escape:
+      this->cancel();
+      break;
+    case Qt::Key_I:
+      this->setInterest();
+      break;
+    case Qt::Key_O:
+      this->ShowingBefore = this->Editor;
+      this->Editor->showBefore(true);
+      break;
+  }
+  return true;
+}
+
+bool ViewTools::eventFilter(QObject* watched, QEvent* event)
+{
+  const QEvent::Type type = event->type();
+  if (type != QEvent::KeyPress && type != QEvent::KeyRelease && type != QEvent::ShortcutOverride)
+  {
+    return QObject::eventFilter(watched, event);
+  }
+  auto key = static_cast<QKeyEvent*>(event);
+  if (type == QEvent::KeyRelease && key->key() == Qt::Key_O && !key->isAutoRepeat() &&
+    this->ShowingBefore)
+  {
+    this->ShowingBefore->showBefore(false);
+    this->ShowingBefore = nullptr;
+    return true;
+  }
+  if (key->modifiers() != Qt::NoModifier || !this->knowsKey(key->key()))
+  {
+    return QObject::eventFilter(watched, event);
+  }
+  if (type == QEvent::ShortcutOverride)
+  {
+    event->accept(); // or a shortcut of the window comes first
+    return true;
+  }
+  return type == QEvent::KeyPress && !key->isAutoRepeat() ? this->pressKey(key->key()) : true;
+}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A lattice widget for as long as it is in a view.
+#ifndef BrainShift_WidgetInView_h
+#define BrainShift_WidgetInView_h
+
+#include <vtkLatticeWidget.h>
+#include <vtkSmartPointer.h>
+
+#include <QPointer>
+
+class pqRenderView;
+class vtkLatticeRepresentation;
+class vtkSMProxy;
+
+class WidgetInView
+{
+public:
+  WidgetInView(pqRenderView* view, vtkLatticeWidget::HandlerType handler);
+  ~WidgetInView();
+
+  vtkLatticeRepresentation* representation() const;
+  vtkLatticeWidget* widget() const;
+
+private:
+  void show(bool on);
+
+  QPointer<pqRenderView> View;
+  vtkSmartPointer<vtkSMProxy> Proxy;
+};
+
+#endif

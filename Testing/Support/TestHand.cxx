@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A hand for tests of ParaView's window: sends mouse, wheel and key events to the active view as
+// Qt's own come, which ParaView's test player does for mouse buttons only. test_hand.py calls it.
+#include <QVTKOpenGLNativeWidget.h>
+#include <QVTKOpenGLStereoWidget.h>
+#include <pqActiveObjects.h>
+#include <pqApplicationCore.h>
+#include <pqView.h>
+
+#include <QApplication>
+#include <QElapsedTimer>
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QOpenGLWindow>
+#include <QWheelEvent>
+#include <QWidget>
+
+#if defined(_WIN32)
+#define TEST_HAND_EXPORT extern "C" __declspec(dllexport)
+#else
+#define TEST_HAND_EXPORT extern "C" __attribute__((visibility("default")))
+#endif
+
+namespace
+{
+QWidget* viewWidget()
+{
+  pqView* view = pqActiveObjects::instance().activeView();
+  return view ? view->widget() : nullptr;
+}
+
+// What hears the mouse in the active view; null without a view.
+QObject* ear()
+{
+  QWidget* widget = viewWidget();
+  if (!widget)
+  {
+    return nullptr;
+  }
+  if (auto native = widget->findChild<QVTKOpenGLNativeWidget*>())
+  {
+    return native;
+  }
+  auto stereo = widget->findChild<QVTKOpenGLStereoWidget*>();
+  return stereo ? stereo->embeddedOpenGLWindow() : nullptr;
+}
+
+void send(QEvent& event)
+{
+  if (QObject* target = ear())
+  {
+    QApplication::sendEvent(target, &event);
+  }
+}
+
+QPointF onScreen(const QPointF& inView)
+{
+  QWidget* widget = viewWidget();
+  return widget ? widget->mapToGlobal(inView) : inView;
+}
+}
+
+// Pixels from the view's upper left corner. `type`: 0 move, 1 press, 2 release of the left button.
+// `held`: whether the left button is down afterwards. `modifiers`: Qt::KeyboardModifiers.
+TEST_HAND_EXPORT void test_hand_mouse(int type, int x, int y, int held, int modifiers)
+{
+  const QEvent::Type types[] = { QEvent::MouseMove, QEvent::MouseButtonPress,
+    QEvent::MouseButtonRelease };
+  const QPointF at(x, y);
+  QMouseEvent event(types[type], at, onScreen(at), type == 0 ? Qt::NoButton : Qt::LeftButton,
+    held ? Qt::LeftButton : Qt::NoButton, Qt::KeyboardModifiers(modifiers));
+  send(event);
+}
+
+// `clicks`: forward (away from the user) is positive.
+TEST_HAND_EXPORT void test_hand_wheel(int x, int y, int clicks, int modifiers)
+{
+  constexpr int eighthsOfDegree = 120; // of a click
+  const QPointF at(x, y);
+  QWheelEvent event(at, onScreen(at), QPoint(), QPoint(0, clicks * eighthsOfDegree), Qt::NoButton,
+    Qt::KeyboardModifiers(modifiers), Qt::NoScrollPhase, false);
+  send(event);
+}
+
+// `key`: Qt::Key. As Qt does, asks first whether a shortcut may have it.
+TEST_HAND_EXPORT void test_hand_key(int key, int press)
+{
+  if (press)
+  {
+    QKeyEvent ask(QEvent::ShortcutOverride, key, Qt::NoModifier);
+    send(ask);
+  }
+  QKeyEvent event(press ? QEvent::KeyPress : QEvent::KeyRelease, key, Qt::NoModifier);
+  send(event);
+}
+
+// Lets the window do what it has to do, for at least so long.
+TEST_HAND_EXPORT void test_hand_wait(int milliseconds)
+{
+  QElapsedTimer timer;
+  timer.start();
+  do
+  {
+    QApplication::processEvents();
+    QApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+  } while (timer.elapsed() < milliseconds);
+}
+
+// Of the tool settings. Returns the number it is afterwards; 0 if there is none of that name.
+TEST_HAND_EXPORT double test_hand_set(const char* property, double value)
+{
+  QObject* settings = pqApplicationCore::instance()->findChild<QObject*>("BrainShiftToolSettings");
+  if (!settings)
+  {
+    return 0.0;
+  }
+  const bool isWhole = qstrcmp(property, "tool") == 0;
+  settings->setProperty(property, isWhole ? QVariant(static_cast<int>(value)) : QVariant(value));
+  return settings->property(property).toDouble();
+}

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A hand in ParaView's window: press, drag, turn the wheel and type over the active view. Works
+inside the window's own Python only. Pixels count from the view's lower left corner."""
+import ctypes
+import os
+
+from paraview import simple
+
+SHIFT, CONTROL = 0x02000000, 0x04000000  # Qt::KeyboardModifiers
+ESCAPE = 0x01000000                      # Qt::Key; letters are their own codes
+_MOVE, _PRESS, _RELEASE = 0, 1, 2
+
+NONE, MOVE, SOFT, STAMP = 0, 1, 2, 3     # ToolSettings::Tool
+
+_library = ctypes.CDLL(os.environ["BRAINSHIFT_TEST_HAND"])
+_library.test_hand_set.restype = ctypes.c_double
+_library.test_hand_set.argtypes = [ctypes.c_char_p, ctypes.c_double]
+
+
+def _from_top(y):
+    return simple.GetActiveView().ViewSize[1] - 1 - int(y)
+
+
+def _mouse(kind, pixel, held, modifiers):
+    _library.test_hand_mouse(kind, int(pixel[0]), _from_top(pixel[1]), int(held), modifiers)
+
+
+def wait(milliseconds=0):
+    """Lets the window draw what is due."""
+    _library.test_hand_wait(milliseconds)
+
+
+def hover(pixel, modifiers=0):
+    _mouse(_MOVE, pixel, False, modifiers)
+
+
+def press(pixel, modifiers=0):
+    _mouse(_PRESS, pixel, True, modifiers)
+
+
+def drag_to(pixel, modifiers=0):
+    _mouse(_MOVE, pixel, True, modifiers)
+
+
+def release(pixel, modifiers=0):
+    _mouse(_RELEASE, pixel, False, modifiers)
+
+
+def drag(start, end, steps=5, modifiers=0):
+    """Presses, moves in even steps with a picture after each, and lets go."""
+    hover(start, modifiers)
+    press(start, modifiers)
+    for step in range(1, steps + 1):
+        share = step / steps
+        drag_to([a + share * (b - a) for a, b in zip(start, end)], modifiers)
+        wait()
+    release(end, modifiers)
+    wait()
+
+
+def wheel(pixel, clicks, modifiers=0):
+    """One event for each click; forward is positive."""
+    for _ in range(abs(clicks)):
+        _library.test_hand_wheel(
+            int(pixel[0]), _from_top(pixel[1]), 1 if clicks > 0 else -1, modifiers)
+
+
+def key_down(key):
+    _library.test_hand_key(key if isinstance(key, int) else ord(key.upper()), 1)
+
+
+def key_up(key):
+    _library.test_hand_key(key if isinstance(key, int) else ord(key.upper()), 0)
+
+
+def tap(key):
+    key_down(key)
+    key_up(key)
+
+
+def take(tool):
+    """Takes a tool in hand, or NONE."""
+    setting("tool", tool)
+    wait()
+
+
+def setting(name, value):
+    """Sets a property of the tool settings (ToolSettings.h); returns what it is afterwards."""
+    return _library.test_hand_set(name.encode(), value)

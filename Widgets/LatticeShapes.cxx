@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LatticeShapes.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace brainshift
+{
+namespace
+{
+constexpr int PointsOfCircle = 64;
+constexpr double Turn = 6.283185307179586; // radians
+
+// A unit vector across a unit vector.
+glm::dvec3 across(const glm::dvec3& axis)
+{
+  const glm::dvec3 other = std::abs(axis.x) < 0.8 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  return glm::normalize(glm::cross(axis, other));
+}
+
+// Two half axes, perpendicular.
+Polyline ellipse(const glm::dvec3& centre, const glm::dvec3& first, const glm::dvec3& second)
+{
+  Polyline line;
+  for (int i = 0; i <= PointsOfCircle; ++i)
+  {
+    const double angle = Turn * i / PointsOfCircle;
+    line.push_back(centre + std::cos(angle) * first + std::sin(angle) * second);
+  }
+  return line;
+}
+}
+
+std::vector<std::pair<int, int>> edgesBetween(const std::vector<Handle>& handles)
+{
+  using Key = std::tuple<int, int, int>;
+  std::map<Key, int> placeOf;
+  for (std::size_t i = 0; i < handles.size(); ++i)
+  {
+    const glm::ivec3& index = handles[i].index;
+    placeOf[Key(index.x, index.y, index.z)] = static_cast<int>(i);
+  }
+  std::vector<std::pair<int, int>> edges;
+  for (std::size_t i = 0; i < handles.size(); ++i)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      glm::ivec3 next = handles[i].index;
+      ++next[axis];
+      const auto found = placeOf.find(Key(next.x, next.y, next.z));
+      if (found != placeOf.end())
+      {
+        edges.emplace_back(static_cast<int>(i), found->second);
+      }
+    }
+  }
+  return edges;
+}
+
+Polyline circle(const glm::dvec3& centre, const glm::dvec3& normal, double radius)
+{
+  const glm::dvec3 first = across(normal);
+  return ellipse(centre, radius * first, radius * glm::cross(normal, first));
+}
+
+std::vector<Polyline> outlineOf(const Stroke& stroke, double share)
+{
+  const bool isSphere = stroke.tool == Tool::Soft;
+  const glm::dvec3 axis = isSphere ? glm::dvec3(0, 0, 1) : glm::normalize(stroke.axis);
+  const double along = share * stroke.major;
+  const double wide = share * (isSphere ? stroke.major : stroke.minor);
+  const glm::dvec3 first = across(axis);
+  const glm::dvec3 second = glm::cross(axis, first);
+  return { ellipse(stroke.anchor, wide * first, wide * second),
+    ellipse(stroke.anchor, along * axis, wide * first),
+    ellipse(stroke.anchor, along * axis, wide * second) };
+}
+
+double shareOfHalfWeight(double sigma)
+{
+  double low = 0.0;
+  double high = 1.0;
+  for (int halving = 0; halving < 30; ++halving)
+  {
+    const double middle = (low + high) / 2.0;
+    (falloff(middle, sigma) > 0.5 ? low : high) = middle;
+  }
+  return low;
+}
+
+std::vector<Polyline> cross(const glm::dvec3& centre, double size)
+{
+  std::vector<Polyline> lines;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    glm::dvec3 half(0.0);
+    half[axis] = size;
+    lines.push_back({ centre - half, centre + half });
+  }
+  return lines;
+}
+}

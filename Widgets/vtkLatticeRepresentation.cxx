@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkLatticeRepresentation.h"
+
+#include "vtkActor.h"
+#include "vtkBoundingBox.h"
+#include "vtkCellArray.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkPropCollection.h"
+#include "vtkProperty.h"
+
+#include <array>
+
+using namespace brainshift;
+
+namespace
+{
+// Something drawn in one colour.
+struct Drawing
+{
+  vtkNew<vtkPolyData> Shape;
+  vtkNew<vtkPolyDataMapper> Mapper;
+  vtkNew<vtkActor> Actor;
+
+  Drawing()
+  {
+    this->Shape->SetPoints(vtkNew<vtkPoints>());
+    this->Shape->GetPoints()->SetDataTypeToDouble();
+    this->Mapper->SetInputData(this->Shape);
+    this->Actor->SetMapper(this->Mapper);
+    this->Actor->GetProperty()->LightingOff();
+    this->Actor->VisibilityOff();
+  }
+
+  void look(const std::array<double, 3>& color, double opacity, double pixels)
+  {
+    vtkProperty* property = this->Actor->GetProperty();
+    property->SetColor(color[0], color[1], color[2]);
+    property->SetOpacity(opacity);
+    property->SetLineWidth(static_cast<float>(pixels));
+    property->SetPointSize(static_cast<float>(pixels));
+  }
+
+  void clear()
+  {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    this->Shape->Initialize();
+    this->Shape->SetPoints(points);
+    this->Shape->SetVerts(vtkNew<vtkCellArray>());
+    this->Shape->SetLines(vtkNew<vtkCellArray>());
+    this->Actor->VisibilityOff();
+  }
+
+  vtkIdType addPoint(const glm::dvec3& at)
+  {
+    return this->Shape->GetPoints()->InsertNextPoint(at.x, at.y, at.z);
+  }
+
+  void done()
+  {
+    this->Shape->Modified();
+    this->Actor->SetVisibility(this->Shape->GetNumberOfPoints() > 0);
+  }
+};
+
+constexpr std::array<double, 3> Yellow{ 1.0, 0.85, 0.2 };
+constexpr std::array<double, 3> White{ 0.95, 0.95, 0.95 };
+constexpr std::array<double, 3> Orange{ 1.0, 0.45, 0.05 };
+constexpr std::array<double, 3> Cyan{ 0.2, 0.9, 1.0 };
+constexpr double HandlePixels = 7.0; // below 5, users of trackpads miss it
+constexpr double HighlightPixels = 12.0;
+}
+
+struct vtkLatticeRepresentation::Parts
+{
+  std::vector<Handle> Handles;
+  Drawing Edges;
+  Drawing Points;
+  Drawing Highlights;
+  std::array<Drawing, NumberOfPens> Lines;
+
+  std::vector<Drawing*> all()
+  {
+    std::vector<Drawing*> drawings{ &this->Edges };
+    for (Drawing& lines : this->Lines)
+    {
+      drawings.push_back(&lines);
+    }
+    drawings.push_back(&this->Points);
+    drawings.push_back(&this->Highlights);
+    return drawings;
+  }
+};
+
+vtkStandardNewMacro(vtkLatticeRepresentation);
+
+vtkLatticeRepresentation::vtkLatticeRepresentation()
+  : Internal(std::make_unique<Parts>())
+{
+  Parts& parts = *this->Internal;
+  parts.Edges.look(White, 0.35, 1.0);
+  parts.Points.look(White, 1.0, HandlePixels);
+  parts.Points.Actor->GetProperty()->RenderPointsAsSpheresOn();
+  parts.Highlights.look(Orange, 1.0, HighlightPixels);
+  parts.Highlights.Actor->GetProperty()->RenderPointsAsSpheresOn();
+  parts.Lines[Strong].look(Yellow, 1.0, 2.0);
+  parts.Lines[Weak].look(Yellow, 0.4, 1.0);
+  parts.Lines[Mark].look(Cyan, 1.0, 2.0);
+}
+
+vtkLatticeRepresentation::~vtkLatticeRepresentation() = default;
+
+void vtkLatticeRepresentation::SetHandles(const std::vector<Handle>& handles)
+{
+  Parts& parts = *this->Internal;
+  parts.Handles = handles;
+  parts.Points.clear();
+  parts.Edges.clear();
+  for (const Handle& handle : handles)
+  {
+    const vtkIdType point = parts.Points.addPoint(handle.drawn);
+    parts.Points.Shape->GetVerts()->InsertNextCell(1, &point);
+    parts.Edges.addPoint(handle.drawn);
+  }
+  for (const auto& [first, second] : edgesBetween(handles))
+  {
+    const vtkIdType ends[2] = { first, second };
+    parts.Edges.Shape->GetLines()->InsertNextCell(2, ends);
+  }
+  parts.Points.done();
+  parts.Edges.done();
+  this->Modified();
+}
+
+const std::vector<Handle>& vtkLatticeRepresentation::GetHandles() const
+{
+  return this->Internal->Handles;
+}
+
+void vtkLatticeRepresentation::SetHighlights(const std::vector<glm::dvec3>& positions)
+{
+  Drawing& drawing = this->Internal->Highlights;
+  drawing.clear();
+  for (const glm::dvec3& position : positions)
+  {
+    const vtkIdType point = drawing.addPoint(position);
+    drawing.Shape->GetVerts()->InsertNextCell(1, &point);
+  }
+  drawing.done();
+  this->Modified();
+}
+
+void vtkLatticeRepresentation::SetLines(Pen pen, const std::vector<Polyline>& lines)
+{
+  Drawing& drawing = this->Internal->Lines[pen];
+  drawing.clear();
+  for (const Polyline& line : lines)
+  {
+    drawing.Shape->GetLines()->InsertNextCell(static_cast<int>(line.size()));
+    for (const glm::dvec3& point : line)
+    {
+      drawing.Shape->GetLines()->InsertCellPoint(drawing.addPoint(point));
+    }
+  }
+  drawing.done();
+  this->Modified();
+}
+
+void vtkLatticeRepresentation::Clear()
+{
+  this->Internal->Handles.clear();
+  for (Drawing* drawing : this->Internal->all())
+  {
+    drawing->clear();
+  }
+  this->Modified();
+}
+
+int vtkLatticeRepresentation::GetNumberOfHandles() const
+{
+  return static_cast<int>(this->Internal->Handles.size());
+}
+
+int vtkLatticeRepresentation::GetNumberOfHighlights() const
+{
+  return static_cast<int>(this->Internal->Highlights.Shape->GetNumberOfPoints());
+}
+
+int vtkLatticeRepresentation::GetNumberOfLines(int pen) const
+{
+  const bool known = pen >= 0 && pen < NumberOfPens;
+  return known ? static_cast<int>(this->Internal->Lines[pen].Shape->GetNumberOfLines()) : 0;
+}
+
+void vtkLatticeRepresentation::BuildRepresentation() {} // what is drawn is set, not derived
+
+double* vtkLatticeRepresentation::GetBounds()
+{
+  vtkBoundingBox box;
+  for (Drawing* drawing : this->Internal->all())
+  {
+    if (drawing->Actor->GetVisibility())
+    {
+      box.AddBounds(drawing->Actor->GetBounds());
+    }
+  }
+  if (!box.IsValid())
+  {
+    return nullptr;
+  }
+  box.GetBounds(this->Box);
+  return this->Box;
+}
+
+void vtkLatticeRepresentation::GetActors(vtkPropCollection* actors)
+{
+  for (Drawing* drawing : this->Internal->all())
+  {
+    drawing->Actor->GetActors(actors);
+  }
+}
+
+void vtkLatticeRepresentation::ReleaseGraphicsResources(vtkWindow* window)
+{
+  for (Drawing* drawing : this->Internal->all())
+  {
+    drawing->Actor->ReleaseGraphicsResources(window);
+  }
+  this->Superclass::ReleaseGraphicsResources(window);
+}
+
+int vtkLatticeRepresentation::RenderOpaqueGeometry(vtkViewport* viewport)
+{
+  int rendered = 0;
+  for (Drawing* drawing : this->Internal->all())
+  {
+    rendered +=
+      drawing->Actor->GetVisibility() ? drawing->Actor->RenderOpaqueGeometry(viewport) : 0;
+  }
+  return rendered;
+}
+
+int vtkLatticeRepresentation::RenderTranslucentPolygonalGeometry(vtkViewport* viewport)
+{
+  int rendered = 0;
+  for (Drawing* drawing : this->Internal->all())
+  {
+    rendered += drawing->Actor->GetVisibility()
+      ? drawing->Actor->RenderTranslucentPolygonalGeometry(viewport)
+      : 0;
+  }
+  return rendered;
+}
+
+vtkTypeBool vtkLatticeRepresentation::HasTranslucentPolygonalGeometry()
+{
+  for (Drawing* drawing : this->Internal->all())
+  {
+    if (drawing->Actor->GetVisibility() && drawing->Actor->HasTranslucentPolygonalGeometry())
+    {
+      return 1;
+    }
+  }
+  return 0;
+}
+
+void vtkLatticeRepresentation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Handles: " << this->GetNumberOfHandles() << "\n"
+     << indent << "Highlights: " << this->GetNumberOfHighlights() << "\n";
+}
