@@ -18,6 +18,7 @@
 #include <QFormLayout>
 #include <QLabel>
 #include <QPointer>
+#include <QVBoxLayout>
 
 namespace
 {
@@ -39,17 +40,20 @@ void showGraded(QLabel* label, const QString& text, Grade grade)
 ResultWidget::ResultWidget(vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget* parent)
   : pqPropertyGroupWidget(proxy, group, parent)
   , Source(sourceOf(proxy))
-  , Strength(new ValueSlider("BrainShiftStrength", QString(), QString(), 2, this))
+  , Strength(new ValueSlider("BrainShiftStrength", tr("Strength"), QString(), 2, this))
 {
-  auto form = new QFormLayout(this);
-  form->setContentsMargins(0, 0, 0, 0);
+  auto column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(pqPropertiesPanel::suggestedVerticalSpacing());
+  column->addWidget(this->Strength);
+  auto form = new QFormLayout;
+  column->addLayout(form);
   form->setHorizontalSpacing(2 * pqPropertiesPanel::suggestedHorizontalSpacing());
   form->setVerticalSpacing(pqPropertiesPanel::suggestedVerticalSpacing());
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
   this->Strength->setRange(0.0, 1.0);
   this->Strength->setToolTip(
     tr("How much of the bend is shown: 0 is as loaded, 1 all of it. Can be animated."));
-  form->addRow(tr("Strength"), this->Strength);
   this->Displacement = this->addFigure(form, "BrainShiftDisplacement", tr("Largest displacement"),
     tr("How far the control point that moves most has moved"));
   this->Jacobian = this->addFigure(form, "BrainShiftJacobian", tr("Smallest Jacobian"),

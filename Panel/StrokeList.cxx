@@ -18,6 +18,7 @@ StrokeList::StrokeList(StrokeModel* model, QWidget* parent)
   , Delete(new QToolButton(this))
   , Reset(new QToolButton(this))
 {
+  this->setObjectName("List");
   this->Tree->setObjectName("BrainShiftStrokes");
   this->Problem->setObjectName("BrainShiftProblem");
   this->Problem->setWordWrap(true);

@@ -59,9 +59,12 @@ StrokeTree::StrokeTree(StrokeModel* model, QWidget* parent)
   header->setSectionsMovable(false);
   this->connect(this->selectionModel(), &QItemSelectionModel::selectionChanged, this,
     &StrokeTree::selectedRowsChanged);
-  const auto resize = [this] { this->updateGeometry(); };
-  this->connect(model, &QAbstractItemModel::rowsInserted, this, resize);
-  this->connect(model, &QAbstractItemModel::rowsRemoved, this, resize);
+  const auto fit = [this] {
+    this->updateGeometry();
+    this->showWhereIfRoom();
+  };
+  this->connect(model, &QAbstractItemModel::rowsInserted, this, fit);
+  this->connect(model, &QAbstractItemModel::rowsRemoved, this, fit);
 }
 
 QList<int> StrokeTree::selectedRows() const
@@ -129,6 +132,28 @@ void StrokeTree::keyPressEvent(QKeyEvent* event)
     default:
       this->QTreeView::keyPressEvent(event);
   }
+}
+
+void StrokeTree::resizeEvent(QResizeEvent* event)
+{
+  this->QTreeView::resizeEvent(event);
+  this->showWhereIfRoom();
+}
+
+// Tool tips tell where, too; numbers to edit must not slip out of a narrow panel.
+void StrokeTree::showWhereIfRoom()
+{
+  int others = 0;
+  for (int column = 0; column < StrokeModel::ColumnCount; ++column)
+  {
+    if (column != StrokeModel::WhereColumn)
+    {
+      others += std::max(this->sizeHintForColumn(column), this->header()->sectionSizeHint(column));
+    }
+  }
+  const int needed = this->fontMetrics().horizontalAdvance("-300, -300, 300");
+  this->setColumnHidden(
+    StrokeModel::WhereColumn, this->viewport()->width() < others + needed);
 }
 
 void StrokeTree::paintEvent(QPaintEvent* event)

@@ -27,11 +27,13 @@ Q_SIGNALS:
 
 protected:
   void keyPressEvent(QKeyEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
 
 private:
   void toggleSelected();
   void moveColumn(int by);
+  void showWhereIfRoom();
   int heightOfRows(int rows) const;
 
   StrokeModel* const Strokes;

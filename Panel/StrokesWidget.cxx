@@ -52,7 +52,7 @@ StrokesWidget::StrokesWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget
   column->setSpacing(pqPropertiesPanel::suggestedVerticalSpacing());
   column->addWidget(pqProxyWidget::newGroupLabelWidget(tr("Tools"), this));
   column->addWidget(this->Tools);
-  column->addWidget(pqProxyWidget::newGroupLabelWidget(tr("Strokes"), this));
+  column->addWidget(pqProxyWidget::newGroupLabelWidget(tr("Strokes (mm)"), this));
   column->addWidget(new StrokeList(this->Strokes, this));
 
   this->connect(StrokeEditor::of(this->Source), &StrokeEditor::changed, this->Strokes,

@@ -59,6 +59,7 @@ ToolPanel::ToolPanel(QWidget* parent)
   , Warning(new QWidget(this))
   , WarningText(new QLabel(this->Warning))
 {
+  this->setObjectName("Tools");
   auto column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   this->addButtons(column);
@@ -118,6 +119,7 @@ void ToolPanel::addSliders(QBoxLayout* column)
 
 void ToolPanel::addWarning(QBoxLayout* column)
 {
+  this->Warning->setObjectName("Warning");
   auto row = new QHBoxLayout(this->Warning);
   row->setContentsMargins(0, 0, 0, 0);
   auto sign = new QLabel(this->Warning);

@@ -25,6 +25,13 @@ Toolbar::Toolbar(QWidget* mainWindow)
   this->addSeparator();
   this->addReset();
   this->addCompare();
+  for (QAction* action : this->actions()) // buttons are named like actions, for tests to press
+  {
+    if (!action->isSeparator())
+    {
+      this->widgetForAction(action)->setObjectName(action->objectName().mid(6) + "Button");
+    }
+  }
   mainWindow->addActions(this->actions()); // shortcuts hold while the toolbar is hidden
   this->followPipeline();
   this->connect(ToolSettings::instance(), &ToolSettings::changed, this, &Toolbar::refresh);
@@ -70,7 +77,6 @@ void Toolbar::addCompare()
   this->Compare->setObjectName("actionBrainShiftCompare");
   this->Compare->setToolTip(tr("Show the volume as loaded for as long as this is held down"));
   auto button = qobject_cast<QToolButton*>(this->widgetForAction(this->Compare));
-  button->setObjectName("BrainShiftCompareButton");
   const auto show = [this](bool before) {
     if (this->Editor)
     {

@@ -22,14 +22,18 @@ ValueSlider::ValueSlider(const QString& name, const QString& label, const QStrin
   , Slider(new QSlider(Qt::Horizontal, this))
   , SpinBox(new QDoubleSpinBox(this))
 {
+  this->setObjectName(name + "Row");
   this->Slider->setObjectName(name);
   this->Slider->setRange(0, Steps);
+  this->Slider->setMinimumWidth(40); // panels are narrow
   this->Slider->setPageStep(Steps / 10);
   this->Slider->setSingleStep(Steps / 100);
   this->SpinBox->setObjectName(name + "SpinBox");
   this->SpinBox->setDecimals(decimals);
   this->SpinBox->setSingleStep(std::pow(10.0, -decimals));
   this->SpinBox->setSuffix(unit);
+  // Wide enough for any of its kind, so that those below each other align.
+  this->SpinBox->setMinimumWidth(this->fontMetrics().horizontalAdvance("000.0 mm") + 40);
   this->SpinBox->setKeyboardTracking(false); // "12" is not 1 first
   this->Label->setBuddy(this->SpinBox);
   for (QWidget* control : { static_cast<QWidget*>(this->Slider), static_cast<QWidget*>(this->SpinBox) })

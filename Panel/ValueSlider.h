@@ -14,7 +14,7 @@ class ValueSlider : public QWidget
   Q_OBJECT
 
 public:
-  // The slider is called `name`, the spin box `name`SpinBox.
+  // The slider is called `name`, the spin box `name`SpinBox, both together `name`Row.
   ValueSlider(const QString& name, const QString& label, const QString& unit, int decimals,
     QWidget* parent = nullptr);
 
