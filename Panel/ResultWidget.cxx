@@ -20,9 +20,11 @@
 #include <QPointer>
 #include <QVBoxLayout>
 
+#include <algorithm>
+
 namespace
 {
-constexpr int FiguresDelay = 50; // ms: 20 a second are read by nobody, and leave time to draw
+constexpr qint64 FiguresMs = 100; // at least, from one update to the next: nobody reads faster
 
 pqPipelineSource* sourceOf(vtkSMProxy* proxy)
 {
@@ -62,7 +64,6 @@ ResultWidget::ResultWidget(vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget
   this->connectStrength();
 
   this->FiguresSoon.setSingleShot(true);
-  this->FiguresSoon.setInterval(FiguresDelay);
   this->connect(&this->FiguresSoon, &QTimer::timeout, this, &ResultWidget::showFigures);
   this->connect(this->Source, qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
     &ResultWidget::showFiguresSoon);
@@ -118,12 +119,14 @@ void ResultWidget::showFiguresSoon()
 {
   if (this->isVisible() && !this->FiguresSoon.isActive())
   {
-    this->FiguresSoon.start();
+    const qint64 passed = this->SinceFigures.isValid() ? this->SinceFigures.elapsed() : FiguresMs;
+    this->FiguresSoon.start(static_cast<int>(std::max<qint64>(FiguresMs - passed, 0)));
   }
 }
 
 void ResultWidget::showFigures()
 {
+  this->SinceFigures.start();
   if (this->Source->modifiedState() == pqProxy::UNINITIALIZED) // not applied yet
   {
     this->Displacement->setText(tr("nothing bent yet"));

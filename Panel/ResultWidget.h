@@ -8,6 +8,7 @@
 
 #include <vtkNew.h>
 
+#include <QElapsedTimer>
 #include <QTimer>
 
 class pqPipelineSource;
@@ -43,6 +44,7 @@ private:
   QLabel* Displacement = nullptr;
   QLabel* Jacobian = nullptr;
   QTimer FiguresSoon; // merges the updates of a drag: the smallest determinant takes its time
+  QElapsedTimer SinceFigures;
   vtkNew<vtkEventQtSlotConnect> Observers;
 };
 

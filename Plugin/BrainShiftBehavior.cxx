@@ -3,10 +3,8 @@
 
 #include "ViewTools.h"
 
-#include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
-#include <pqPipelineSource.h>
 #include <pqServerManagerModel.h>
 
 #include <vtkDataObject.h>
@@ -84,8 +82,6 @@ void BrainShiftBehavior::onStartup()
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
   QObject::connect(model, &pqServerManagerModel::representationAdded, this,
     &BrainShiftBehavior::watchRepresentation);
-  QObject::connect(
-    model, &pqServerManagerModel::sourceAdded, this, &BrainShiftBehavior::watchSource);
   this->Hand = new ViewTools(this);
 }
 
@@ -106,20 +102,4 @@ void BrainShiftBehavior::watchRepresentation(pqRepresentation* representation)
   QObject::connect(
     shown, &pqDataRepresentation::representationTypeModified, this, [shown] { prepare(shown); });
   prepare(shown);
-}
-
-void BrainShiftBehavior::watchSource(pqPipelineSource* source)
-{
-  vtkSMProxy* proxy = source->getProxy();
-  if (std::strcmp(proxy->GetXMLName(), "FreeFormDeformation") != 0)
-  {
-    return;
-  }
-  QObject::connect(source, qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
-    [](pqPipelineSource* updated) {
-      if (updated == pqActiveObjects::instance().activeSource()) // else the panel does not show it
-      {
-        updated->getProxy()->UpdatePropertyInformation();
-      }
-    });
 }

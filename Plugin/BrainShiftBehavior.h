@@ -7,7 +7,6 @@
 #include <QObject>
 
 class ViewTools;
-class pqPipelineSource;
 class pqRepresentation;
 class vtkSMProxy;
 
@@ -25,9 +24,6 @@ private:
   // Makes a representation that becomes Deformed Volume drawable: it colours by an array, as
   // ParaView takes care of for Volume only, and, the first time, shades.
   void watchRepresentation(pqRepresentation* representation);
-
-  // Keeps the numbers that Free-Form Deformation reports in the panel up to date.
-  void watchSource(pqPipelineSource* source);
 
   ViewTools* Hand = nullptr; // the tools in the view, while the plugin is at work
 };

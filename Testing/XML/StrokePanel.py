@@ -13,7 +13,7 @@ CENTRE = (0.0, 0.0, 0.0)
 STROKES = (brainshift.stamp(ANCHORS[0], CENTRE, -3.0, major=8.0, minor=5.0) +
            brainshift.soft(ANCHORS[1], (0.0, 1.0, 0.0), 6.0) +
            brainshift.move(ANCHORS[2], (0.0, 0.0, 0.5)))
-AMOUNT, MAJOR, ENABLED = slice(4, 7), 10, 13  # of a stroke's numbers
+VECTOR_X, MAJOR, ENABLED = 4, 10, 13  # places among a stroke's numbers
 
 
 def record_file():
@@ -32,6 +32,10 @@ def start():
 
 def set_strokes():
     simple.GetActiveSource().Strokes = STROKES
+
+
+def set_nonsense():
+    simple.GetActiveSource().Strokes = (1.0, 2.0, 3.0)
 
 
 def record(act):
@@ -55,29 +59,28 @@ def changed(numbers, stroke, *places):
 
 def expected():
     whole = list(STROKES)
-    count = brainshift.NUMBERS_PER_STROKE
     disabled = changed(whole, 1, (ENABLED, 0))
-    pushed = changed(disabled, 0, (4, -4.5))  # along x: the stamp at (4, 0, 0) points at the centre
+    pushed = changed(disabled, 0, (VECTOR_X, -4.5))  # along x: the stamp at (4, 0, 0) points at the centre
     widened = changed(pushed, 1, (MAJOR, 7.5))
-    deleted = widened[:2 * count]
     return [
         ("script", whole, 1.0),
         ("disable", disabled, 1.0),
         ("change amount", pushed, 1.0),
         ("change radius", widened, 1.0),
-        ("delete", deleted, 1.0),
+        ("refuse", widened, 1.0),
         ("undo delete", widened, 1.0),
-        ("undo radius", pushed, 1.0),
-        ("redo radius", widened, 1.0),
-        ("list reset", [], 1.0),
+        ("undo change", widened, 1.0),
+        ("space", changed(widened, 1, (ENABLED, 1)), 1.0),
+        ("space again", widened, 1.0),
         ("undo list reset", widened, 1.0),
-        ("toolbar reset", [], 1.0),
         ("undo toolbar reset", widened, 1.0),
         ("strength", widened, 0.5),
-        ("undo strength", widened, 1.0),
+        ("undo strength", widened, 0.5),
+        ("whole strength", widened, 1.0),
         ("before", widened, 0.0),
         ("after", widened, 1.0),
-        ("undo after", pushed, 1.0),
+        ("undo after", widened, 1.0),
+        ("reset of nonsense", [], 1.0),
     ]
 
 
