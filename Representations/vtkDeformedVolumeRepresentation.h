@@ -31,6 +31,9 @@ public:
   /** Shown or not: also whether its view sorts its volumes. */
   void SetVisibility(bool visible) override;
 
+  int ProcessViewRequest(
+    vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output) override;
+
   /** Step along the ray, mm. 0 (default): half the smallest voxel side. */
   void SetSampleDistance(double distance);
 
