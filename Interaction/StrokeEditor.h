@@ -84,7 +84,7 @@ private:
   bool ShowsBefore = false;
   bool ChangesStrength = false;
   double StrengthBefore = 1.0; // while Strength is under the hand
-  double StrengthAfter = 1.0; // while the volume is shown as loaded
+  double StrengthAfter = 1.0;  // while the volume is shown as loaded
 };
 
 #endif

@@ -19,11 +19,34 @@ QString radiusAdvice(const QString& name, double radius, double spacing)
   {
     return {};
   }
-  return tr("%1 %2 mm is below the %3 mm between control points: the lattice cannot follow it. Make "
-            "it larger, or the lattice denser.")
+  return tr(
+    "%1 %2 mm is below the %3 mm between control points: the lattice cannot follow it. Make "
+    "it larger, or the lattice denser.")
     .arg(name)
     .arg(radius, 0, 'f', 1)
     .arg(spacing, 0, 'f', 1);
+}
+
+QString guardAdvice(double amount, double share)
+{
+  if (share >= 1.0)
+  {
+    return {};
+  }
+  return tr("The guard applies %1 of %2 mm: more would fold tissue.")
+    .arg(share * amount, 0, 'f', 1)
+    .arg(amount, 0, 'f', 1);
+}
+
+QString guardAdvice(int shortenedStrokes)
+{
+  if (shortenedStrokes == 0)
+  {
+    return {};
+  }
+  return shortenedStrokes == 1
+    ? tr("1 stroke is shortened: all of it would fold tissue.")
+    : tr("%1 strokes are shortened: all of them would fold tissue.").arg(shortenedStrokes);
 }
 
 Grade jacobianGrade(double determinant)

@@ -5,8 +5,8 @@
 
 #include <pqCoreUtilities.h>
 
-#include <QDialogButtonBox>
 #include <QDialog>
+#include <QDialogButtonBox>
 #include <QLabel>
 #include <QVBoxLayout>
 
@@ -18,9 +18,15 @@ struct Shortcut
   const char* what;
 };
 
+QString heading(const QString& text)
+{
+  return QString("<tr><td colspan=2 style=\"padding-top:12px\"><big><b>%1</b></big></td></tr>")
+    .arg(text.toHtmlEscaped());
+}
+
 QString row(const QString& keys, const QString& what)
 {
-  return QString("<tr><td><b>%1</b>&nbsp;&nbsp;</td><td>%2</td></tr>")
+  return QString("<tr><td><b>%1</b>&nbsp;&nbsp;&nbsp;</td><td>%2</td></tr>")
     .arg(keys.toHtmlEscaped(), what.toHtmlEscaped());
 }
 
@@ -62,30 +68,32 @@ HelpActions::HelpActions(QObject* parent)
 void HelpActions::showShortcuts()
 {
   const Shortcut inView[] = {
-    { tr("Drag"), QT_TR_NOOP("Move, Soft: moves tissue. Stamp: pulls and pushes") },
+    { tr("Drag"), QT_TR_NOOP("Move, Soft: moves tissue. Stamp: pulls and pushes along its axis") },
     { tr("Wheel over tissue"), QT_TR_NOOP("Stamp: pulls and pushes by the millimetres per click") },
-    { tr("Shift+Wheel"), QT_TR_NOOP("Soft, Stamp: changes the radius") },
-    { tr("Shift+Click"), QT_TR_NOOP("Move: one control point more") },
-    { tr("X, Y, Z"), QT_TR_NOOP("Move, Soft: holds the drag to that axis; again: lets go") },
-    { tr("Escape"), QT_TR_NOOP("gives up what is being dragged") },
+    { tr("Shift+Wheel"), QT_TR_NOOP("Soft: the radius. Stamp: the major radius") },
+    { tr("Shift+Click"), QT_TR_NOOP("Move: one control point more, or one less") },
+    { tr("X, Y, Z"), QT_TR_NOOP("While dragging: holds the drag to that axis; again: lets go") },
+    { tr("I"), QT_TR_NOOP("Stamp: the point of interest is the tissue under the cursor") },
+    { tr("O"), QT_TR_NOOP("Shows the volume as loaded for as long as it is held down") },
+    { tr("Escape"), QT_TR_NOOP("Gives up what is under the hand") },
   };
   const Shortcut inList[] = {
-    { tr("Space"), QT_TR_NOOP("disables or enables the selected strokes") },
-    { tr("Left, Right, Enter"), QT_TR_NOOP("choose a number of the stroke and change it") },
-    { tr("Delete"), QT_TR_NOOP("deletes the selected strokes") },
-    { tr("Ctrl+Z, Ctrl+Shift+Z"), QT_TR_NOOP("undo and redo, one stroke a step") },
+    { tr("Space"), QT_TR_NOOP("Disables or enables the selected strokes") },
+    { tr("Left, Right, Enter"), QT_TR_NOOP("Choose a number of the stroke and change it") },
+    { tr("Delete"), QT_TR_NOOP("Deletes the selected strokes") },
+    { tr("Ctrl+Z, Ctrl+Y"), QT_TR_NOOP("Undo and redo, one edit a step, here and in the view") },
   };
-  QString text = tr("<h3>Tools</h3>") + "<table>";
+  QString text = "<table>" + heading(tr("Tools"));
   for (const ToolChoice& choice : toolChoices())
   {
-    text += row(choice.shortcut.toString(QKeySequence::NativeText), choice.tip);
+    text += row(choice.shortcut.toString(QKeySequence::NativeText), choice.what);
   }
-  text += "</table>" + tr("<h3>In the view, with a tool in hand</h3>") + "<table>";
+  text += heading(tr("In the view, with a tool in hand"));
   for (const Shortcut& shortcut : inView)
   {
     text += row(shortcut.keys, tr(shortcut.what));
   }
-  text += "</table>" + tr("<h3>In the list of strokes</h3>") + "<table>";
+  text += heading(tr("In the list of strokes"));
   for (const Shortcut& shortcut : inList)
   {
     text += row(shortcut.keys, tr(shortcut.what));

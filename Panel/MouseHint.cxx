@@ -42,17 +42,19 @@ QString mouseHint(const ToolSettings& settings)
   switch (settings.tool())
   {
     case Tool::Move:
-      return tr("Move: drag a control point; X, Y or Z holds it to an axis, Shift adds points. "
-                "Beside them the mouse moves the camera.") +
+      return tr("Move: drag a control point. Shift+click selects several; X, Y or Z while dragging "
+                "holds "
+                "an axis. Elsewhere the mouse moves the camera.") +
         heldAxis(settings.axisHold());
     case Tool::Soft:
-      return tr("Soft: drag tissue; all within %1 follows. Shift+wheel changes the radius; X, Y or Z "
-                "holds the drag to an axis.")
+      return tr("Soft: drag tissue; what lies within %1 follows. Shift+wheel changes the radius; "
+                "X, Y or "
+                "Z while dragging holds an axis.")
                .arg(millimetres(settings.radius())) +
         heldAxis(settings.axisHold());
     case Tool::Stamp:
       return tr("Stamp: over tissue the wheel pulls and pushes by %1 a click, and so does a drag. "
-                "Shift+wheel changes the radii. Beside tissue the wheel zooms.")
+                "Shift+wheel changes the major radius; I sets the point of interest.")
         .arg(millimetres(settings.millimetresPerClick()));
     case Tool::None:
       break;

@@ -9,11 +9,14 @@
 #include <pqPipelineSource.h>
 #include <pqPropertiesPanel.h>
 #include <pqServerManagerModel.h>
+#include <pqUndoStack.h>
 
 #include <vtkCommand.h>
 #include <vtkEventQtSlotConnect.h>
 #include <vtkSMPropertyHelper.h>
+#include <vtkSMTrace.h>
 
+#include <QCheckBox>
 #include <QEvent>
 #include <QFormLayout>
 #include <QLabel>
@@ -62,6 +65,10 @@ ResultWidget::ResultWidget(vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget
     tr("Smallest Jacobian determinant: the share of its volume that the tissue squeezed hardest "
        "keeps. 1 keeps all, 0 or less folds."));
   this->connectStrength();
+  if (proxy->GetProperty("GuardFolding"))
+  {
+    this->addGuard(column);
+  }
 
   this->FiguresSoon.setSingleShot(true);
   this->connect(&this->FiguresSoon, &QTimer::timeout, this, &ResultWidget::showFigures);
@@ -99,9 +106,42 @@ void ResultWidget::connectStrength()
       editor->commitStrength();
     }
   });
-  this->Observers->Connect(this->proxy()->GetProperty("Strength"), vtkCommand::ModifiedEvent, this,
-    SLOT(showStrength()));
+  this->Observers->Connect(
+    this->proxy()->GetProperty("Strength"), vtkCommand::ModifiedEvent, this, SLOT(showStrength()));
   this->showStrength();
+}
+
+void ResultWidget::addGuard(QVBoxLayout* column)
+{
+  this->Guard = new QCheckBox(tr("Guard against folding"), this);
+  this->Guard->setObjectName("BrainShiftGuard");
+  this->Guard->setToolTip(
+    tr("Shortens a stroke to what keeps the Jacobian determinant at 0.1 or above everywhere"));
+  this->Shortened = new QLabel(this);
+  this->Shortened->setObjectName("BrainShiftShortened");
+  this->Shortened->setWordWrap(true);
+  column->addWidget(this->Guard);
+  column->addWidget(this->Shortened);
+  this->connect(this->Guard, &QCheckBox::clicked, this, &ResultWidget::setGuard);
+  this->Observers->Connect(
+    this->proxy()->GetProperty("GuardFolding"), vtkCommand::ModifiedEvent, this, SLOT(showGuard()));
+  this->showGuard();
+}
+
+void ResultWidget::setGuard(bool on)
+{
+  {
+    SCOPED_UNDO_SET(tr("Guard Against Folding"));
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this->proxy());
+    vtkSMPropertyHelper(this->proxy(), "GuardFolding").Set(on);
+    this->proxy()->UpdateVTKObjects();
+  }
+  this->Source->renderAllViews();
+}
+
+void ResultWidget::showGuard()
+{
+  this->Guard->setChecked(vtkSMPropertyHelper(this->proxy(), "GuardFolding").GetAsInt() != 0);
 }
 
 void ResultWidget::showStrength()
@@ -137,6 +177,12 @@ void ResultWidget::showFigures()
     tr("<b>%1 mm</b>").arg(this->figure("MaximumDisplacement"), 0, 'f', 1));
   const double determinant = this->figure("MinimumJacobian");
   showGraded(this->Jacobian, jacobianText(determinant), jacobianGrade(determinant));
+  if (this->Guard)
+  {
+    const QString advice = guardAdvice(static_cast<int>(this->figure("ShortenedStrokes")));
+    showGraded(this->Shortened, advice, Grade::Doubtful);
+    this->Shortened->setVisible(!advice.isEmpty());
+  }
 }
 
 void ResultWidget::changeEvent(QEvent* event)

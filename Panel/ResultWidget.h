@@ -12,8 +12,10 @@
 #include <QTimer>
 
 class pqPipelineSource;
+class QCheckBox;
 class QFormLayout;
 class QLabel;
+class QVBoxLayout;
 class ValueSlider;
 class vtkEventQtSlotConnect;
 
@@ -31,11 +33,14 @@ protected:
 
 private Q_SLOTS:
   void showStrength();
+  void showGuard();
   void showFigures();
 
 private:
   QLabel* addFigure(QFormLayout* form, const char* name, const QString& title, const QString& tip);
   void connectStrength();
+  void addGuard(QVBoxLayout* column);
+  void setGuard(bool on);
   void showFiguresSoon();
   double figure(const char* property);
 
@@ -43,6 +48,8 @@ private:
   ValueSlider* const Strength;
   QLabel* Displacement = nullptr;
   QLabel* Jacobian = nullptr;
+  QCheckBox* Guard = nullptr; // none where the filter has no guard
+  QLabel* Shortened = nullptr;
   QTimer FiguresSoon; // merges the updates of a drag: the smallest determinant takes its time
   QElapsedTimer SinceFigures;
   vtkNew<vtkEventQtSlotConnect> Observers;

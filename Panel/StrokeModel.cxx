@@ -127,8 +127,9 @@ void StrokeModel::update()
   std::string problem;
   this->strokes(problem);
   this->Problem = QString::fromStdString(problem);
-  const int rows =
-    problem.empty() ? static_cast<int>(this->Property->GetNumberOfElements()) / NumbersPerStroke : 0;
+  const int rows = problem.empty()
+    ? static_cast<int>(this->Property->GetNumberOfElements()) / NumbersPerStroke
+    : 0;
   if (rows > this->Rows)
   {
     this->beginInsertRows({}, this->Rows, rows - 1);
@@ -157,6 +158,15 @@ void StrokeModel::setLatticeSpacing(double spacing)
   }
 }
 
+void StrokeModel::setAppliedShares(const std::vector<double>& shares)
+{
+  if (this->AppliedShares != shares)
+  {
+    this->AppliedShares = shares;
+    this->update();
+  }
+}
+
 std::vector<Stroke> StrokeModel::strokes(std::string& problem) const
 {
   const double* numbers = this->Property->GetElements();
@@ -177,8 +187,7 @@ Stroke StrokeModel::stroke(int row) const
   return one.empty() ? Stroke() : one.front();
 }
 
-void StrokeModel::write(
-  const std::function<void(std::vector<Stroke>&)>& edit, const QString& label)
+void StrokeModel::write(const std::function<void(std::vector<Stroke>&)>& edit, const QString& label)
 {
   std::string problem;
   std::vector<Stroke> strokes = this->strokes(problem);
@@ -292,16 +301,15 @@ QVariant StrokeModel::data(const QModelIndex& index, int role) const
       {
         return iconOf(stroke.tool);
       }
-      return this->advice(stroke, column).isEmpty() ? QVariant()
-                                                    : QIcon(":/BrainShift/warning.svg");
+      return this->advice(index.row(), column).isEmpty() ? QVariant()
+                                                         : QIcon(":/BrainShift/warning.svg");
     case Qt::ToolTipRole:
-      return this->toolTip(stroke, column);
+      return this->toolTip(index.row(), column);
     case Qt::TextAlignmentRole:
       return int(column < AmountColumn ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter;
     case Qt::ForegroundRole:
-      return stroke.enabled
-        ? QVariant()
-        : QGuiApplication::palette().brush(QPalette::Disabled, QPalette::Text);
+      return stroke.enabled ? QVariant()
+                            : QGuiApplication::palette().brush(QPalette::Disabled, QPalette::Text);
     case LeastRole:
       return leastNumber(stroke, column);
     case MostRole:
@@ -325,26 +333,34 @@ QString StrokeModel::text(const Stroke& stroke, int column) const
   }
 }
 
-QString StrokeModel::advice(const Stroke& stroke, int column) const
+QString StrokeModel::advice(int row, int column) const
 {
-  const bool isRadius = column == MajorColumn || column == MinorColumn;
-  if (!isRadius || !hasNumber(stroke, column))
+  const Stroke stroke = this->stroke(row);
+  if (!hasNumber(stroke, column))
   {
     return {};
+  }
+  const double number = numberIn(stroke, column);
+  if (column == AmountColumn)
+  {
+    const std::size_t place = static_cast<std::size_t>(row);
+    return guardAdvice(
+      number, place < this->AppliedShares.size() ? this->AppliedShares[place] : 1.0);
   }
   const QString name = column == MinorColumn ? tr("The minor radius")
     : stroke.tool == Tool::Soft              ? tr("The radius")
                                              : tr("The major radius");
-  return radiusAdvice(name, numberIn(stroke, column), this->LatticeSpacing);
+  return radiusAdvice(name, number, this->LatticeSpacing);
 }
 
-QString StrokeModel::toolTip(const Stroke& stroke, int column) const
+QString StrokeModel::toolTip(int row, int column) const
 {
-  const QString warning = this->advice(stroke, column);
+  const QString warning = this->advice(row, column);
   if (!warning.isEmpty())
   {
     return warning;
   }
+  const Stroke stroke = this->stroke(row);
   QString tip = tr("%1 at %2 mm, by %3 mm")
                   .arg(nameOf(stroke.tool), textOf(stroke.anchor, 2), textOf(stroke.vector, 2));
   if (stroke.tool != Tool::Move)

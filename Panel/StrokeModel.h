@@ -56,6 +56,9 @@ public:
   // Largest distance between neighbouring control points, mm: smaller radii are marked.
   void setLatticeSpacing(double spacing);
 
+  // How much of each stroke the guard against folding applies, 0 to 1; all of it where none is told.
+  void setAppliedShares(const std::vector<double>& shares);
+
   void setEnabled(const QList<int>& rows, bool enabled);
   void removeRowsOf(const QList<int>& rows);
   void removeAll();
@@ -74,16 +77,18 @@ Q_SIGNALS:
 
 private:
   std::vector<brainshift::Stroke> strokes(std::string& problem) const;
-  void write(const std::function<void(std::vector<brainshift::Stroke>&)>& edit, const QString& label);
+  void write(
+    const std::function<void(std::vector<brainshift::Stroke>&)>& edit, const QString& label);
   QString text(const brainshift::Stroke& stroke, int column) const;
-  QString advice(const brainshift::Stroke& stroke, int column) const;
-  QString toolTip(const brainshift::Stroke& stroke, int column) const;
+  QString advice(int row, int column) const;
+  QString toolTip(int row, int column) const;
 
   vtkSMDoubleVectorProperty* const Property; // outlives the model
   const Write WriteStrokes;
   QString Problem;
   int Rows = 0; // what the view was told
   double LatticeSpacing = 0.0;
+  std::vector<double> AppliedShares;
 };
 
 #endif

@@ -28,8 +28,8 @@ public:
     editor->setFrame(false);
     editor->setButtonSymbols(QAbstractSpinBox::NoButtons); // the cell is narrow
     editor->setDecimals(2);
-    editor->setRange(index.data(StrokeModel::LeastRole).toDouble(),
-      index.data(StrokeModel::MostRole).toDouble());
+    editor->setRange(
+      index.data(StrokeModel::LeastRole).toDouble(), index.data(StrokeModel::MostRole).toDouble());
     return editor;
   }
 };
@@ -152,8 +152,10 @@ void StrokeTree::showWhereIfRoom()
     }
   }
   const int needed = this->fontMetrics().horizontalAdvance("-300, -300, 300");
-  this->setColumnHidden(
-    StrokeModel::WhereColumn, this->viewport()->width() < others + needed);
+  const bool hidden = this->viewport()->width() < others + needed;
+  this->setColumnHidden(StrokeModel::WhereColumn, hidden);
+  this->header()->setSectionResizeMode(
+    StrokeModel::ToolColumn, hidden ? QHeaderView::Stretch : QHeaderView::ResizeToContents);
 }
 
 void StrokeTree::paintEvent(QPaintEvent* event)

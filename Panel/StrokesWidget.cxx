@@ -14,6 +14,8 @@
 #include <pqServerManagerModel.h>
 
 #include <vtkSMDoubleVectorProperty.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
 
 #include <QPointer>
 #include <QVBoxLayout>
@@ -29,7 +31,8 @@ pqPipelineSource* sourceOf(vtkSMProxy* proxy)
 StrokeModel* makeModel(StrokeEditor* owner, vtkSMProperty* property, QObject* parent)
 {
   const QPointer<StrokeEditor> editor = owner; // the source may go before its panel does
-  return new StrokeModel(vtkSMDoubleVectorProperty::SafeDownCast(property),
+  return new StrokeModel(
+    vtkSMDoubleVectorProperty::SafeDownCast(property),
     [editor](const std::vector<brainshift::Stroke>& strokes, const QString& label) {
       if (editor)
       {
@@ -55,16 +58,21 @@ StrokesWidget::StrokesWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget
   column->addWidget(pqProxyWidget::newGroupLabelWidget(tr("Strokes (mm)"), this));
   column->addWidget(new StrokeList(this->Strokes, this));
 
-  this->connect(StrokeEditor::of(this->Source), &StrokeEditor::changed, this->Strokes,
-    &StrokeModel::update);
+  this->connect(
+    StrokeEditor::of(this->Source), &StrokeEditor::changed, this->Strokes, &StrokeModel::update);
   this->connect(this->Source, qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
-    &StrokesWidget::measureLattice);
-  this->measureLattice();
+    &StrokesWidget::followResult);
+  this->followResult();
 }
 
-void StrokesWidget::measureLattice()
+void StrokesWidget::followResult()
 {
   const double spacing = volumeSize(this->Source).spacing;
   this->Tools->setLatticeSpacing(spacing);
   this->Strokes->setLatticeSpacing(spacing);
+  if (vtkSMProperty* shares = this->proxy()->GetProperty("StrokeShares"))
+  {
+    this->proxy()->UpdatePropertyInformation(shares);
+    this->Strokes->setAppliedShares(vtkSMPropertyHelper(shares).GetDoubleArray());
+  }
 }

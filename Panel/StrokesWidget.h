@@ -18,7 +18,7 @@ public:
   StrokesWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent = nullptr);
 
 private:
-  void measureLattice();
+  void followResult(); // of the filter's last execution
 
   pqPipelineSource* const Source;
   ToolPanel* const Tools;

@@ -11,12 +11,12 @@ QString tr(const char* text)
 }
 
 ToolChoice choice(
-  ToolSettings::Tool tool, const QString& id, const char* name, const char* keys, const char* tip)
+  ToolSettings::Tool tool, const QString& id, const char* name, const char* keys, const char* what)
 {
   const QKeySequence shortcut(keys);
-  return { tool, id, tr(name), ":/BrainShift/" + id.toLower() + ".svg", shortcut,
+  return { tool, id, tr(name), ":/BrainShift/" + id.toLower() + ".svg", shortcut, tr(what),
     tr("%1 (%2). Again: put the tool down.")
-      .arg(tr(tip), shortcut.toString(QKeySequence::NativeText)) };
+      .arg(tr(what), shortcut.toString(QKeySequence::NativeText)) };
 }
 }
 

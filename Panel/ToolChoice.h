@@ -12,13 +12,13 @@
 struct ToolChoice
 {
   ToolSettings::Tool tool;
-  QString id;   // last part of object names
-  QString name; // shown
-  QString icon; // file
+  QString id;            // last part of object names
+  QString name;          // shown
+  QString icon;          // file
   QKeySequence shortcut; // free in ParaView; works in the whole window
-  QString tip;
+  QString what;          // it is for
+  QString tip;           // the same, the shortcut, and how to put it down
 };
 
 const QList<ToolChoice>& toolChoices(); // Move, Soft, Stamp
-
 #endif

@@ -8,12 +8,36 @@
 
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QPainter>
 #include <QToolButton>
 #include <QVBoxLayout>
 
 #include <algorithm>
 
 using Tool = ToolSettings::Tool;
+
+namespace
+{
+// The tool in hand has a frame: on dark palettes a pressed button hardly differs from others.
+class ToolButton : public QToolButton
+{
+public:
+  using QToolButton::QToolButton;
+
+protected:
+  void paintEvent(QPaintEvent* event) override
+  {
+    this->QToolButton::paintEvent(event);
+    if (this->isChecked())
+    {
+      QPainter painter(this);
+      painter.setRenderHint(QPainter::Antialiasing);
+      painter.setPen(QPen(this->palette().color(QPalette::Highlight), 2.0));
+      painter.drawRoundedRect(QRectF(this->rect()).adjusted(1.0, 1.0, -1.0, -1.0), 3.0, 3.0);
+    }
+  }
+};
+}
 
 struct ToolPanel::Value
 {
@@ -68,8 +92,7 @@ ToolPanel::ToolPanel(QWidget* parent)
   column->addWidget(this->Hint);
   this->addSliders(column);
   this->addWarning(column);
-  this->connect(
-    ToolSettings::instance(), &ToolSettings::changed, this, &ToolPanel::refresh);
+  this->connect(ToolSettings::instance(), &ToolSettings::changed, this, &ToolPanel::refresh);
   this->refresh();
 }
 
@@ -78,7 +101,7 @@ void ToolPanel::addButtons(QBoxLayout* column)
   auto row = new QHBoxLayout;
   for (const ToolChoice& choice : toolChoices())
   {
-    auto button = new QToolButton(this);
+    auto button = new ToolButton(this);
     button->setObjectName("BrainShift" + choice.id);
     button->setText(choice.name);
     button->setIcon(QIcon(choice.icon));
@@ -88,9 +111,8 @@ void ToolPanel::addButtons(QBoxLayout* column)
     button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     button->setFocusPolicy(Qt::StrongFocus);
     button->setCheckable(true);
-    this->connect(button, &QToolButton::clicked, this, [tool = choice.tool](bool on) {
-      ToolSettings::instance()->setTool(on ? tool : Tool::None);
-    });
+    this->connect(button, &QToolButton::clicked, this,
+      [tool = choice.tool](bool on) { ToolSettings::instance()->setTool(on ? tool : Tool::None); });
     row->addWidget(button);
     this->Buttons.append(button);
   }
@@ -102,8 +124,7 @@ void ToolPanel::addSliders(QBoxLayout* column)
   int labelWidth = 0;
   for (const Value& value : values())
   {
-    auto slider =
-      new ValueSlider(value.name, tr(value.label), value.unit, value.decimals, this);
+    auto slider = new ValueSlider(value.name, tr(value.label), value.unit, value.decimals, this);
     slider->setToolTip(tr(value.tip));
     this->connect(slider, &ValueSlider::valueEdited, this,
       [set = value.set](double number) { (ToolSettings::instance()->*set)(number); });

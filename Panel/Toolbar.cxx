@@ -51,9 +51,8 @@ void Toolbar::addTools()
     action->setToolTip(choice.tip);
     action->setShortcut(choice.shortcut);
     action->setCheckable(true);
-    this->connect(action, &QAction::triggered, this, [tool = choice.tool](bool on) {
-      ToolSettings::instance()->setTool(on ? tool : Tool::None);
-    });
+    this->connect(action, &QAction::triggered, this,
+      [tool = choice.tool](bool on) { ToolSettings::instance()->setTool(on ? tool : Tool::None); });
     this->Tools.append(action);
   }
 }
@@ -75,7 +74,8 @@ void Toolbar::addCompare()
 {
   this->Compare = this->addAction(QIcon(":/BrainShift/compare.svg"), tr("Before/After"));
   this->Compare->setObjectName("actionBrainShiftCompare");
-  this->Compare->setToolTip(tr("Show the volume as loaded for as long as this is held down"));
+  this->Compare->setToolTip(
+    tr("Show the volume as loaded for as long as this, or O over the view, is held down"));
   auto button = qobject_cast<QToolButton*>(this->widgetForAction(this->Compare));
   const auto show = [this](bool before) {
     if (this->Editor)

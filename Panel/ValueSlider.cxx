@@ -15,8 +15,8 @@ namespace
 constexpr int Steps = 1000; // of the slider: finer than its pixels
 }
 
-ValueSlider::ValueSlider(const QString& name, const QString& label, const QString& unit,
-  int decimals, QWidget* parent)
+ValueSlider::ValueSlider(
+  const QString& name, const QString& label, const QString& unit, int decimals, QWidget* parent)
   : QWidget(parent)
   , Label(new QLabel(label, this))
   , Slider(new QSlider(Qt::Horizontal, this))
@@ -36,7 +36,8 @@ ValueSlider::ValueSlider(const QString& name, const QString& label, const QStrin
   this->SpinBox->setMinimumWidth(this->fontMetrics().horizontalAdvance("000.0 mm") + 40);
   this->SpinBox->setKeyboardTracking(false); // "12" is not 1 first
   this->Label->setBuddy(this->SpinBox);
-  for (QWidget* control : { static_cast<QWidget*>(this->Slider), static_cast<QWidget*>(this->SpinBox) })
+  for (QWidget* control :
+    { static_cast<QWidget*>(this->Slider), static_cast<QWidget*>(this->SpinBox) })
   {
     control->setFocusPolicy(Qt::StrongFocus);
     control->installEventFilter(this);
