@@ -4,13 +4,16 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <limits>
 
 using namespace brainshift;
 
 namespace
 {
 constexpr double ReachPixels = 16.0; // a control point is taken from this far
-constexpr double ShownCells = 2.2;   // those this many cells around the cursor are shown
+constexpr double ShownCells = 1.7;   // those this many cells around the cursor are shown
+
+constexpr double DepthWeight = 0.25; // a pixel beside the cursor counts as four in depth
 
 double widest(const Grid& grid)
 {
@@ -27,9 +30,9 @@ void MoveTool::find(const glm::dvec2& pixel)
   {
     return;
   }
-  const std::optional<glm::dvec3> tissue = probe.tissueAt(pixel);
-  this->Near = tissue ? probe.handlesNear(*tissue, ShownCells * widest(*lattice))
-                      : probe.handlesUnder(pixel, ReachPixels);
+  this->Tissue = probe.tissueAt(pixel);
+  this->Near = this->Tissue ? probe.handlesNear(*this->Tissue, ShownCells * widest(*lattice))
+                            : probe.handlesUnder(pixel, ReachPixels);
   // What was selected may have moved since.
   for (Handle& selected : this->Selected)
   {
@@ -39,18 +42,21 @@ void MoveTool::find(const glm::dvec2& pixel)
   }
 }
 
-// Of several under the cursor, the nearest to the eye: it hides the others.
+// Of several under the cursor, one near the tissue that is seen.
 const Handle* MoveTool::handleUnder(const glm::dvec2& pixel) const
 {
   const ViewProbe& probe = this->Bench.probe;
   const Handle* nearest = nullptr;
-  double least = ReachPixels;
+  double least = std::numeric_limits<double>::max();
   for (const Handle& handle : this->Near)
   {
     const double distance = glm::distance(probe.pixelOf(handle.drawn), pixel);
-    if (distance < least)
+    const double depth = this->Tissue ? glm::distance(handle.drawn, *this->Tissue) : 0.0;
+    const double strangeness =
+      distance + DepthWeight * depth / probe.millimetresPerPixel(handle.drawn);
+    if (distance < ReachPixels && strangeness < least)
     {
-      least = distance;
+      least = strangeness;
       nearest = &handle;
     }
   }

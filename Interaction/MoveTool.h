@@ -24,6 +24,7 @@ private:
   void find(const glm::dvec2& pixel);
 
   std::vector<brainshift::Handle> Near;     // what is shown
+  std::optional<glm::dvec3> Tissue;         // mm: under the cursor
   std::vector<brainshift::Handle> Selected; // what a drag takes along
   glm::dvec3 Grip{ 0.0 };                   // mm: where the drag began
   glm::dvec2 GrippedAt{ 0.0 };              // pixel

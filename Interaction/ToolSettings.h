@@ -15,8 +15,8 @@ class ToolSettings : public QObject
   Q_PROPERTY(double majorRadius READ majorRadius WRITE setMajorRadius NOTIFY changed)
   Q_PROPERTY(double minorRadius READ minorRadius WRITE setMinorRadius NOTIFY changed)
   Q_PROPERTY(double sigma READ sigma WRITE setSigma NOTIFY changed)
-  Q_PROPERTY(double millimetresPerClick READ millimetresPerClick WRITE setMillimetresPerClick NOTIFY
-      changed)
+  Q_PROPERTY(
+    double millimetresPerClick READ millimetresPerClick WRITE setMillimetresPerClick NOTIFY changed)
 
 public:
   enum class Tool

@@ -74,7 +74,29 @@ ViewProbe::ViewProbe(pqPipelineSource* deformation, pqRenderView* view)
   point(this->Points, "Filter", deformation->getProxy());
 }
 
-ViewProbe::~ViewProbe() = default;
+ViewProbe::~ViewProbe()
+{
+  this->keepPictureOf(nullptr);
+}
+
+void ViewProbe::keepPictureOf(pqDataRepresentation* shown)
+{
+  if (shown == this->Kept)
+  {
+    return;
+  }
+  SCOPED_UNDO_EXCLUDE();
+  for (pqDataRepresentation* representation : { this->Kept.data(), shown })
+  {
+    if (representation)
+    {
+      vtkSMPropertyHelper(representation->getProxy(), "KeepPicture", true)
+        .Set(representation == shown);
+      representation->getProxy()->UpdateVTKObjects();
+    }
+  }
+  this->Kept = shown;
+}
 
 vtkRenderer* ViewProbe::renderer() const
 {
@@ -95,6 +117,7 @@ pqDataRepresentation* ViewProbe::shownAs() const
 std::optional<glm::dvec3> ViewProbe::tissueAt(const glm::dvec2& pixel)
 {
   pqDataRepresentation* shown = this->shownAs();
+  this->keepPictureOf(shown);
   if (!shown)
   {
     return {};

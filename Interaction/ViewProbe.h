@@ -9,6 +9,7 @@
 #include "Grid.h"
 #include "LatticeShapes.h"
 
+#include <pqDataRepresentation.h>
 #include <vtkSmartPointer.h>
 
 #include <QPointer>
@@ -19,7 +20,6 @@
 #include <optional>
 #include <vector>
 
-class pqDataRepresentation;
 class pqPipelineSource;
 class pqRenderView;
 class vtkRenderer;
@@ -62,10 +62,13 @@ public:
 private:
   vtkRenderer* renderer() const;
   pqDataRepresentation* shownAs() const; // null unless as Deformed Volume
+  // While a tool is in hand, only what lies over the picture changes from event to event.
+  void keepPictureOf(pqDataRepresentation* shown);
   std::vector<brainshift::Handle> ask();
 
   QPointer<pqPipelineSource> Deformation;
   QPointer<pqRenderView> View;
+  QPointer<pqDataRepresentation> Kept; // whose picture is kept
   vtkSmartPointer<vtkSMProxy> Picture; // DeformedVolumeReport
   vtkSmartPointer<vtkSMProxy> Points;  // LatticeReport
 };

@@ -6,6 +6,7 @@
 #include "FieldTexture.h"
 #include "GpuMemory.h"
 #include "MovingQuality.h"
+#include "PictureStamp.h"
 #include "RayCaster.h"
 #include "SceneDepth.h"
 #include "SceneGeometry.h"
@@ -45,6 +46,7 @@ struct vtkDeformedVolumeMapper::Device
   PresenceRequest Bricks; // what Presence shows
   SceneDepth Depth;
   RayCaster Caster;
+  PictureStamp Stamp; // of what Caster holds
   SelectionCover Cover;
   GpuMemory Memory;
   vtkOpenGLRenderTimer FieldTimer;
@@ -233,6 +235,10 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   timer->StopTimer();
   const double rate = window->GetDesiredUpdateRate();
   const bool moving = this->AdaptiveQuality && isMoving(rate);
+  if (moving || !this->KeepPicture)
+  {
+    device.Stamp.forget();
+  }
   MovingQuality quality;
   if (moving)
   {
@@ -257,12 +263,15 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   scene.depthFromShare = device.Depth.textureFromShare();
   scene.depthOfShareZero = device.Depth.textureOfShareZero();
   timer->StartTimer();
-  if (!device.Caster.cast(window, scene, state.Count))
+  const bool repeats = this->KeepPicture && !moving &&
+    device.Stamp.repeats(renderer, volume, scene, state.Count);
+  if (!repeats && !device.Caster.cast(window, scene, state.Count))
   {
+    device.Stamp.forget();
     problem = "The ray caster's shader does not compile or its images cannot be made on this GPU";
     return false;
   }
-  if (this->AdaptiveQuality)
+  if (this->AdaptiveQuality && !repeats)
   {
     window->WaitForCompletion(); // else the time is that of the commands, not of the image
     timer->StopTimer();
@@ -483,6 +492,7 @@ void vtkDeformedVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SampleDistance: " << this->SampleDistance << "\n"
      << indent << "EmptySpaceSkipping: " << this->EmptySpaceSkipping << "\n"
      << indent << "AdaptiveQuality: " << this->AdaptiveQuality << "\n"
+     << indent << "KeepPicture: " << this->KeepPicture << "\n"
      << indent << "CountSamples: " << this->CountSamples << "\n"
      << indent << "MemoryLimit: " << this->MemoryLimit << "\n"
      << indent << "NormalTexture: " << this->NormalTexture << "\n";

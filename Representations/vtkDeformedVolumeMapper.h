@@ -98,6 +98,15 @@ public:
   vtkGetMacro(CountSamples, bool);
   ///@}
 
+  ///@{
+  /**
+   * Cast no rays for a still picture that would come out as the last one: what changes while a tool
+   * hovers lies over it. Default false.
+   */
+  vtkSetMacro(KeepPicture, bool);
+  vtkGetMacro(KeepPicture, bool);
+  ///@}
+
   /**
    * Tissue position (mm, world, deformed frame) that the last whole picture in the renderer's
    * window shows at a pixel counted from the renderer's lower left corner, without drawing again:
@@ -150,6 +159,7 @@ private:
   int NormalTexture = FullResolution;
   bool AdaptiveQuality = true;
   bool CountSamples = false;
+  bool KeepPicture = false;
   double MemoryLimit = 0.0;
 
   std::unique_ptr<State> Internal;

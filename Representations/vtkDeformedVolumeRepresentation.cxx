@@ -51,6 +51,11 @@ void vtkDeformedVolumeRepresentation::SetCountSamples(bool count)
   this->GetDeformedVolumeMapper()->SetCountSamples(count);
 }
 
+void vtkDeformedVolumeRepresentation::SetKeepPicture(bool keep)
+{
+  this->GetDeformedVolumeMapper()->SetKeepPicture(keep);
+}
+
 void vtkDeformedVolumeRepresentation::SetAdaptiveQuality(bool adaptive)
 {
   this->GetDeformedVolumeMapper()->SetAdaptiveQuality(adaptive);

@@ -49,6 +49,9 @@ public:
   /** Count samples taken and skipped, which costs time. Default false. */
   void SetCountSamples(bool count);
 
+  /** Cast no rays for a picture that would come out as the last one. Default false. */
+  void SetKeepPicture(bool keep);
+
   /** What draws it in this process. */
   vtkDeformedVolumeMapper* GetDeformedVolumeMapper() const;
 

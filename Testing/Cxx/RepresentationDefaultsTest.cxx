@@ -24,6 +24,7 @@ TEST(Defaults, OfDeformedVolumeLiveInTheMapper)
   const Defaults expected{ { "SampleDistance", { mapper->GetSampleDistance() } },
     { "EmptySpaceSkipping", { double(mapper->GetEmptySpaceSkipping()) } },
     { "AdaptiveQuality", { double(mapper->GetAdaptiveQuality()) } },
+    { "KeepPicture", { double(mapper->GetKeepPicture()) } },
     { "CountSamples", { double(mapper->GetCountSamples()) } },
     { "MemoryLimit", { mapper->GetMemoryLimit() } },
     { "VolumeNormalTexture", { double(mapper->GetNormalTexture()) } } };
