@@ -59,5 +59,5 @@ QString mouseHint(const ToolSettings& settings)
     case Tool::None:
       break;
   }
-  return tr("No tool: the mouse moves the camera.");
+  return tr("No tool in hand: the mouse moves the camera.");
 }

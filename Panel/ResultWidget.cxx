@@ -2,6 +2,7 @@
 #include "ResultWidget.h"
 
 #include "Advice.h"
+#include "InSight.h"
 #include "StrokeEditor.h"
 #include "ValueSlider.h"
 
@@ -65,6 +66,7 @@ ResultWidget::ResultWidget(vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget
     tr("Smallest Jacobian determinant: the share of its volume that the tissue squeezed hardest "
        "keeps. 1 keeps all, 0 or less folds."));
   this->connectStrength();
+  new InSight(this);
   if (proxy->GetProperty("GuardFolding"))
   {
     this->addGuard(column);
@@ -169,7 +171,7 @@ void ResultWidget::showFigures()
   this->SinceFigures.start();
   if (this->Source->modifiedState() == pqProxy::UNINITIALIZED) // not applied yet
   {
-    this->Displacement->setText(tr("nothing bent yet"));
+    this->Displacement->setText(tr("nothing yet"));
     this->Jacobian->setText(QString());
     return;
   }

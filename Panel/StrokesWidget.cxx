@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "StrokesWidget.h"
 
+#include "InSight.h"
 #include "LatticeSpacing.h"
 #include "StrokeEditor.h"
 #include "StrokeList.h"
@@ -58,10 +59,13 @@ StrokesWidget::StrokesWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget
   column->addWidget(pqProxyWidget::newGroupLabelWidget(tr("Strokes (mm)"), this));
   column->addWidget(new StrokeList(this->Strokes, this));
 
+  new InSight(this);
+
   this->connect(
     StrokeEditor::of(this->Source), &StrokeEditor::changed, this->Strokes, &StrokeModel::update);
   this->connect(this->Source, qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
     &StrokesWidget::followResult);
+  this->connect(this->Source, &pqProxy::modifiedStateChanged, this, &StrokesWidget::followResult);
   this->followResult();
 }
 
@@ -69,6 +73,7 @@ void StrokesWidget::followResult()
 {
   const double spacing = volumeSize(this->Source).spacing;
   this->Tools->setLatticeSpacing(spacing);
+  this->Tools->setReady(this->Source->modifiedState() != pqProxy::UNINITIALIZED);
   this->Strokes->setLatticeSpacing(spacing);
   if (vtkSMProperty* shares = this->proxy()->GetProperty("StrokeShares"))
   {

@@ -161,11 +161,21 @@ void ToolPanel::setLatticeSpacing(double spacing)
   }
 }
 
+void ToolPanel::setReady(bool ready)
+{
+  if (ready != this->Ready)
+  {
+    this->Ready = ready;
+    this->refresh();
+  }
+}
+
 void ToolPanel::refresh()
 {
   const ToolSettings& settings = *ToolSettings::instance();
   for (int i = 0; i < this->Buttons.size(); ++i)
   {
+    this->Buttons[i]->setEnabled(this->Ready);
     this->Buttons[i]->setChecked(toolChoices()[i].tool == settings.tool());
   }
   for (int i = 0; i < this->Sliders.size(); ++i)
@@ -176,7 +186,8 @@ void ToolPanel::refresh()
     this->Sliders[i]->setValue((settings.*value.value)());
     this->Sliders[i]->setVisible(value.tools.contains(settings.tool()));
   }
-  this->Hint->setText(mouseHint(settings));
+  this->Hint->setText(
+    this->Ready ? mouseHint(settings) : tr("Press Apply to see the volume, then choose a tool."));
   const QString warning = this->advice();
   this->WarningText->setText(warning);
   this->Warning->setVisible(!warning.isEmpty());

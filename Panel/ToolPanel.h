@@ -24,6 +24,9 @@ public:
   // Largest distance between neighbouring control points, mm: smaller radii are warned of.
   void setLatticeSpacing(double spacing);
 
+  // Before its first picture a filter has nothing to take hold of.
+  void setReady(bool ready);
+
 private:
   struct Value; // a number of ToolSettings and the slider that shows it
   static const QList<Value>& values();
@@ -40,6 +43,7 @@ private:
   QWidget* const Warning;
   QLabel* const WarningText;
   double LatticeSpacing = 0.0;
+  bool Ready = true;
 };
 
 #endif
