@@ -18,8 +18,8 @@ enum class Grade
 // if they can. `name` is the radius's, to begin the sentence with.
 QString radiusAdvice(const QString& name, double radius, double spacing);
 
-// Note that the guard against folding applies only a share, 0 to 1, of a stroke of so many mm; empty
-// if it applies all of it.
+// Note that the guard against folding applies only a share, 0 to 1, of a stroke of so many mm;
+// empty if it applies all of it.
 QString guardAdvice(double amount, double share);
 
 // The same of all strokes together; empty if none is shortened.

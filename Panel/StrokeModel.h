@@ -56,7 +56,8 @@ public:
   // Largest distance between neighbouring control points, mm: smaller radii are marked.
   void setLatticeSpacing(double spacing);
 
-  // How much of each stroke the guard against folding applies, 0 to 1; all of it where none is told.
+  // How much of each stroke the guard against folding applies, 0 to 1; all of it where none is
+  // told.
   void setAppliedShares(const std::vector<double>& shares);
 
   void setEnabled(const QList<int>& rows, bool enabled);

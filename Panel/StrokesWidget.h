@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Panel of the property Strokes: the tools that make strokes and the list of those made. Both act at
-// once, without Apply. For properties with panel_widget "BrainShiftStrokes".
+// Panel of the property Strokes: the tools that make strokes and the list of those made. Both act
+// at once, without Apply. For properties with panel_widget "BrainShiftStrokes".
 #ifndef BrainShift_StrokesWidget_h
 #define BrainShift_StrokesWidget_h
 

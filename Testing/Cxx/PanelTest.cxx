@@ -182,6 +182,19 @@ TEST_F(StrokesInAList, WarnsOfRadiiTheLatticeCannotFollow)
   EXPECT_TRUE(tip.contains("25.0 mm") && tip.contains("30.0 mm")) << tip.toStdString();
 }
 
+TEST_F(StrokesInAList, TellsWhatTheGuardApplies)
+{
+  this->set({ stamp(-10.0), stamp(8.0) });
+  this->Model.setAppliedShares({ 0.25 }); // of the second, nothing was told
+  const QString tip = this->at(0, StrokeModel::AmountColumn, Qt::ToolTipRole).toString();
+  EXPECT_TRUE(tip.contains("-2.5 of -10.0 mm")) << tip.toStdString();
+  EXPECT_FALSE(this->at(0, StrokeModel::AmountColumn, Qt::DecorationRole).isNull());
+  EXPECT_TRUE(this->at(1, StrokeModel::AmountColumn, Qt::DecorationRole).isNull());
+  EXPECT_EQ(this->at(0, StrokeModel::AmountColumn).toString(), "-10.0"); // the stroke's own
+  EXPECT_TRUE(guardAdvice(0).isEmpty());
+  EXPECT_TRUE(guardAdvice(2).contains("2 strokes"));
+}
+
 TEST(Advice, IsGivenBelowTheSpacing)
 {
   EXPECT_TRUE(radiusAdvice("The radius", 12.0, 12.0).isEmpty());
