@@ -38,6 +38,7 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
+import drag  # noqa: E402
 import numpy  # noqa: E402
 from measure import Side, Times, interleaved  # noqa: E402
 from report import Report, header  # noqa: E402
@@ -319,6 +320,7 @@ def main(arguments=None):
             compare(benchmark, options.windows[0])
         else:
             reference(benchmark, options.windows, options.quick)
+            drag.told(report, dimensions, options.windows, options.output)
             report.targets()
         scene.close()
     if len(cases) > 1:

@@ -16,7 +16,7 @@ namespace brainshift
 constexpr std::size_t MostHandles = 1000; // for one question: more cannot be told apart in a view
 
 // The lattice as drawn, without a copy of it.
-struct DrawnLattice
+struct VTKBRAINSHIFTFILTERS_EXPORT DrawnLattice
 {
   Grid grid;
   const float* displacements = nullptr; // 3 for each point, mm, before strength

@@ -76,6 +76,8 @@ ViewTools::ViewTools(QObject* parent)
       this->putDown();
     }
   });
+  // Later, parts of the window that hear of changes are gone already.
+  QObject::connect(qApp, &QCoreApplication::aboutToQuit, this, &ViewTools::putDown);
   qApp->installEventFilter(this);
 }
 

@@ -84,6 +84,7 @@ def _report(representation, view=None):
     manager = representation.SMProxy.GetSessionProxyManager()
     report = manager.NewProxy("misc", "DeformedVolumeReport")
     report.UnRegister(None)  # Python holds it
+    report.PrototypeOn()  # questions are no steps to undo
     report.GetProperty("Representation").AddProxy(representation.SMProxy)
     if view is not None:
         report.GetProperty("View").AddProxy(view.SMProxy)

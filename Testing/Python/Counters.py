@@ -7,7 +7,7 @@ from brainshift_testing import (ball, load_plugin, look, picture, run_tests, sho
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from paraview.simple import (CreatePiecewiseFunction, FreeFormDeformation,  # noqa: E402
-                             GetOpacityTransferFunction)
+                             GetOpacityTransferFunction, Show, Sphere)
 
 MIDDLE = (16.0, 16.0, 16.0)
 COLORS = [0, 0, 0, 0, 100, 1, 1, 1]
@@ -95,6 +95,34 @@ def test_dragging_compiles_and_uploads_nothing_else():
     assert 0 < done.pop("skippingBytes") < 5 * LATTICE_BYTES, done
     done.pop("imageScale", 0)
     assert done == {}, done
+
+
+def test_a_kept_picture_casts_no_rays_until_something_changes():
+    # What a hovering tool relies on. Each change must be seen; the picture must be the one that is
+    # cast without keeping.
+    drawn = Drawn()
+    drawn.display.KeepPicture = 1
+    kept = picture(drawn.view)
+    drawn.before = brainshift.counters(drawn.display)
+    for change in (lambda: None,
+                   lambda: look(drawn.view, (1, -0.3, -1), MIDDLE, 90),
+                   lambda: setattr(drawn.filter, "Strokes", brainshift.soft(MIDDLE, (3, 0, 0), 12)),
+                   lambda: setattr(drawn.display, "SampleDistance", 0.8),
+                   lambda: setattr(drawn.display, "Shade", 0),
+                   lambda: setattr(drawn.display, "Visibility", 1),
+                   lambda: Show(Sphere(Center=MIDDLE, Radius=4.0), drawn.view),
+                   lambda: drawn.view.SMProxy.InteractiveRender()):
+        change()
+        seen = picture(drawn.view)
+        now = brainshift.counters(drawn.display)["frames"]
+        again = picture(drawn.view)
+        assert brainshift.counters(drawn.display)["frames"] == now  # nothing changed since
+        drawn.display.KeepPicture = 0
+        cast = picture(drawn.view)
+        drawn.display.KeepPicture = 1
+        picture(drawn.view)
+        assert (seen == cast).all() and (again == cast).all()
+    assert kept.shape == seen.shape and (kept != seen).any()
 
 
 def test_another_opacity_map_is_noticed_even_if_it_is_older():

@@ -7,11 +7,13 @@
 #include <pqApplicationCore.h>
 #include <pqView.h>
 
+#include <QAction>
 #include <QApplication>
 #include <QElapsedTimer>
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QOpenGLWindow>
+#include <QTimer>
 #include <QWheelEvent>
 #include <QWidget>
 
@@ -114,7 +116,44 @@ TEST_HAND_EXPORT double test_hand_set(const char* property, double value)
   {
     return 0.0;
   }
-  const bool isWhole = qstrcmp(property, "tool") == 0;
-  settings->setProperty(property, isWhole ? QVariant(static_cast<int>(value)) : QVariant(value));
+  if (value == value) // not a number: only asked for
+  {
+    const bool isWhole = qstrcmp(property, "tool") == 0;
+    settings->setProperty(property, isWhole ? QVariant(static_cast<int>(value)) : QVariant(value));
+  }
   return settings->property(property).toDouble();
+}
+
+// Of the window's menus and toolbars, by its object name. Returns whether it could be triggered.
+TEST_HAND_EXPORT int test_hand_action(const char* name)
+{
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    auto action = window->findChild<QAction*>(name);
+    if (action && action->isEnabled())
+    {
+      action->trigger();
+      return 1;
+    }
+  }
+  return 0;
+}
+
+TEST_HAND_EXPORT int test_hand_is_there()
+{
+  return qobject_cast<QApplication*>(QCoreApplication::instance()) != nullptr;
+}
+
+TEST_HAND_EXPORT void test_hand_quit()
+{
+  QTimer::singleShot(0, qApp, &QApplication::quit);
+}
+
+// The active view, pixels.
+TEST_HAND_EXPORT void test_hand_resize(int width, int height)
+{
+  if (QWidget* widget = viewWidget())
+  {
+    widget->setFixedSize(width, height);
+  }
 }

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A hand in ParaView's window: press, drag, turn the wheel and type over the active view. Works
+"""A hand in ParaView's window: press, drag, turn the wheel and type over the active view. Acts
 inside the window's own Python only. Pixels count from the view's lower left corner."""
 import ctypes
+import math
 import os
 
 from paraview import simple
@@ -84,6 +85,27 @@ def take(tool):
     wait()
 
 
-def setting(name, value):
+def setting(name, value=math.nan):
     """Sets a property of the tool settings (ToolSettings.h); returns what it is afterwards."""
     return _library.test_hand_set(name.encode(), value)
+
+
+def action(name):
+    """Triggers an action of menu or toolbar; False if there is none or it is disabled."""
+    return bool(_library.test_hand_action(name.encode()))
+
+
+def is_there():
+    """Whether this Python is that of ParaView's window."""
+    return bool(_library.test_hand_is_there())
+
+
+def quit():
+    """Closes ParaView when Python is done."""
+    _library.test_hand_quit()
+
+
+def resize(width, height):
+    """Gives the active view a size of its own."""
+    _library.test_hand_resize(width, height)
+    wait(100)
