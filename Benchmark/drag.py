@@ -45,4 +45,4 @@ def told(report, dimensions, windows, folder):
         return
     for row in found:
         report.fact("{kind}, {window}x{window}: {median:.0f} ms from event to picture, worst "
-                    "{worst:.0f} ms of {count}".format(**row), **row)
+                    "{worst:.0f} ms of {count}, quiet {quiet:.0f} ms".format(**row), **row)

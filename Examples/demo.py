@@ -154,8 +154,9 @@ def play():
     scene.Play()
 
 
-load_plugin()
-if len(sys.argv) > 1:
-    draw(sys.argv[1])
-else:
-    play()
+if __name__ == "__main__":
+    load_plugin()
+    if len(sys.argv) > 1:
+        draw(sys.argv[1])
+    else:
+        play()
