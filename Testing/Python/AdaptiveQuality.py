@@ -50,6 +50,19 @@ def test_the_still_picture_is_whole_again():
     assert brainshift.counters(display)["imageScale"] == 1
 
 
+def test_a_stroke_is_seen_while_moving_above_the_lod_threshold():
+    # There ParaView delivers the data's stand-ins only, and a volume has none.
+    display, view, _ = drawn()
+    view.LODThreshold = 0
+    view.SMProxy.StillRender()
+    display.Input.Strokes = brainshift.soft(MIDDLE, (0, 3, 0), 12)
+    view.SMProxy.InteractiveRender()
+    moving_picture = on_screen(view)
+    assert brainshift.counters(display)["latticeUploads"] == 2
+    assert abs(moving_picture.mean() - still_picture(view).mean()) < 0.05 * moving_picture.mean()
+    assert moving_picture.max() > 50
+
+
 def test_moving_keeps_the_brightness():
     display, view, still = drawn()
     seen = moving(view)

@@ -402,6 +402,7 @@ def main():
     view = simple.CreateView("RenderView")
     view.ViewSize = window["view"]
     display = simple.Show(bent, view)
+    simple.Render(view)  # a view's first picture finds a camera of its own
     look_plain(view, bent)
     simple.Render(view)
 
