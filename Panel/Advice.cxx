@@ -66,7 +66,7 @@ QString jacobianText(double determinant)
     case Grade::Bad:
       return tr("%1: tissue folds").arg(number);
     case Grade::Doubtful:
-      return tr("%1: tissue is squeezed hard").arg(number);
+      return tr("%1: squeezed hard").arg(number);
     case Grade::Good:
       break;
   }

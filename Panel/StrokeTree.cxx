@@ -4,6 +4,8 @@
 #include "StrokeModel.h"
 
 #include <QDoubleSpinBox>
+#include <QEvent>
+#include <QGuiApplication>
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QPainter>
@@ -50,6 +52,7 @@ StrokeTree::StrokeTree(StrokeModel* model, QWidget* parent)
   this->setTabKeyNavigation(false); // Tab leaves the list
   this->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   this->setTextElideMode(Qt::ElideRight);
+  this->softenHighlight();
   QHeaderView* header = this->header();
   header->setStretchLastSection(false);
   header->setMinimumSectionSize(this->fontMetrics().averageCharWidth() * 5);
@@ -99,7 +102,11 @@ void StrokeTree::toggleSelected()
 void StrokeTree::moveColumn(int by)
 {
   const QModelIndex current = this->currentIndex();
-  const QModelIndex next = current.siblingAtColumn(current.column() + by);
+  QModelIndex next = current.siblingAtColumn(current.column() + by);
+  while (next.isValid() && this->isColumnHidden(next.column()))
+  {
+    next = next.siblingAtColumn(next.column() + by);
+  }
   if (next.isValid())
   {
     this->selectionModel()->setCurrentIndex(next, QItemSelectionModel::NoUpdate);
@@ -156,6 +163,31 @@ void StrokeTree::showWhereIfRoom()
   this->setColumnHidden(StrokeModel::WhereColumn, hidden);
   this->header()->setSectionResizeMode(
     StrokeModel::ToolColumn, hidden ? QHeaderView::Stretch : QHeaderView::ResizeToContents);
+}
+
+// Icons would be lost on the strong colour of most themes.
+void StrokeTree::softenHighlight()
+{
+  constexpr double share = 0.35; // of the theme's highlight
+  const QPalette theme = QGuiApplication::palette();
+  const QColor strong = theme.color(QPalette::Highlight);
+  const QColor base = theme.color(QPalette::Base);
+  const auto mixed = [](int part, int rest) { return int(share * part + (1.0 - share) * rest); };
+  QPalette soft;
+  soft.setColor(QPalette::Highlight,
+    QColor(mixed(strong.red(), base.red()), mixed(strong.green(), base.green()),
+      mixed(strong.blue(), base.blue())));
+  soft.setColor(QPalette::HighlightedText, theme.color(QPalette::Text));
+  this->setPalette(soft);
+}
+
+void StrokeTree::changeEvent(QEvent* event)
+{
+  this->QTreeView::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange) // our own one, equal to the last, changes nothing
+  {
+    this->softenHighlight();
+  }
 }
 
 void StrokeTree::paintEvent(QPaintEvent* event)

@@ -26,6 +26,7 @@ Q_SIGNALS:
   void selectedRowsChanged();
 
 protected:
+  void changeEvent(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
@@ -34,6 +35,7 @@ private:
   void toggleSelected();
   void moveColumn(int by);
   void showWhereIfRoom();
+  void softenHighlight();
   int heightOfRows(int rows) const;
 
   StrokeModel* const Strokes;
