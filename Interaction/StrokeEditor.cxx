@@ -140,6 +140,11 @@ void StrokeEditor::beginAtLast(const Stroke& stroke)
 void StrokeEditor::startEditing(
   const Strokes& before, const Strokes& kept, const Strokes& underHand)
 {
+  if (before.empty() &&
+    vtkSMPropertyHelper(this->Source->getProxy(), "Strokes").GetNumberOfElements() > 0)
+  {
+    return; // numbers that are no strokes: the filter says what is wrong, and they are not lost
+  }
   this->Before = before;
   this->Kept = kept;
   this->Editing = true;

@@ -32,7 +32,8 @@ public:
   Strokes strokes() const;
 
   // Strokes under the hand follow the strokes that are there: seen at once, at the quality of a
-  // moving picture, and in no undo step. What is under the hand already is given up first.
+  // moving picture, and in no undo step. What is under the hand already is given up first. Nothing
+  // begins while the property holds numbers that are no strokes.
   void begin(const brainshift::Stroke& stroke) { this->begin(Strokes{ stroke }); }
   void begin(const Strokes& underHand);
   // The last stroke comes under the hand again, as `stroke`.

@@ -7,7 +7,6 @@
 
 #include <glm/geometric.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 using namespace brainshift;
@@ -90,8 +89,9 @@ glm::dvec3 ViewTool::pulled(
 
 glm::dvec3 ViewTool::beforeStrength(const glm::dvec3& displacement) const
 {
-  constexpr double least = 0.05; // of Strength; below it nothing follows the hand
-  return displacement / std::max(this->Bench.probe.strength(), least);
+  constexpr double least = 0.05; // below it nothing can follow the hand
+  const double strength = this->Bench.probe.strength();
+  return strength < least ? displacement : displacement / strength;
 }
 
 void ViewTool::showStroke(const Stroke& stroke)

@@ -91,8 +91,18 @@ bool ViewTools::isAlive() const
   return this->Deformation && this->View && this->Editor;
 }
 
+void ViewTools::stopShowingBefore()
+{
+  if (this->ShowingBefore)
+  {
+    this->ShowingBefore->showBefore(false);
+    this->ShowingBefore = nullptr;
+  }
+}
+
 void ViewTools::putDown()
 {
+  this->stopShowingBefore();
   if (this->Tool && this->isAlive())
   {
     this->Tool->settle();
@@ -146,7 +156,7 @@ bool ViewTools::handle(const HandEvent& event)
   this->CursorInside = event.kind != HandEvent::Kind::Leave;
   this->CursorX = event.x;
   this->CursorY = event.y;
-  if (!this->Tool || !this->isAlive())
+  if (!this->Tool || !this->isAlive() || this->ShowingBefore)
   {
     return false;
   }
@@ -298,6 +308,10 @@ bool ViewTools::pressKey(int key)
 bool ViewTools::eventFilter(QObject* watched, QEvent* event)
 {
   const QEvent::Type type = event->type();
+  if (type == QEvent::ApplicationDeactivate)
+  {
+    this->stopShowingBefore(); // another window hears of the key's release
+  }
   if (type != QEvent::KeyPress && type != QEvent::KeyRelease && type != QEvent::ShortcutOverride)
   {
     return QObject::eventFilter(watched, event);
@@ -306,8 +320,7 @@ bool ViewTools::eventFilter(QObject* watched, QEvent* event)
   if (type == QEvent::KeyRelease && key->key() == Qt::Key_O && !key->isAutoRepeat() &&
     this->ShowingBefore)
   {
-    this->ShowingBefore->showBefore(false);
-    this->ShowingBefore = nullptr;
+    this->stopShowingBefore();
     return true;
   }
   if (key->modifiers() != Qt::NoModifier || !this->knowsKey(key->key()))

@@ -45,6 +45,7 @@ private:
   bool pressKey(int key);
   void holdAxis(ToolSettings::AxisHold axis);
   void setInterest();
+  void stopShowingBefore();
   void cancel();
   void drawSoon();
   bool isAlive() const;

@@ -277,14 +277,33 @@ def show_before():
     hand.hover(middle())
     hand.key_down("o")
     hand.wait(100)
-    during = deformation().Strength
+    during, before = deformation().Strength, strokes()
+    hand.drag(middle(), on_tissue(0.1, 0.1), steps=2)
+    assert strokes() == before, strokes()
     hand.key_up("o")
     hand.wait(100)
     assert (during, deformation().Strength) == (0.0, 1.0), (during, deformation().Strength)
     assert undo_labels() == undo, undo_labels()
+    place_camera(simple.GetActiveView())  # the drag was the camera's
+    simple.Render(simple.GetActiveView())
+    hand.wait(100)
+
+
+def numbers_that_are_no_strokes():
+    kept = list(deformation().Strokes)
+    for tool in ("STAMP", "SOFT", "MOVE"):
+        take(tool)
+        deformation().Strokes = kept + [1.0]
+        hand.drag(middle(), on_tissue(0.1, 0.1), steps=2)
+        assert list(deformation().Strokes) == kept + [1.0], deformation().Strokes
+    deformation().Strokes = kept
+    place_camera(simple.GetActiveView())
+    simple.Render(simple.GetActiveView())
+    hand.wait(100)
 
 
 def save_result():
+    take("NONE")  # what it shows is no part of the picture
     told["strokes"] = strokes()
     save_picture(simple.GetActiveView(), "window")
 
@@ -337,6 +356,7 @@ def play():
         edit("Undo", 2, 2, 1, 0)
         edit("Redo", 2, 2, 1, 0, 0, 0)
         show_before()
+        numbers_that_are_no_strokes()
         save_result()
         take("SOFT")
         delete_in_mid_drag()
