@@ -60,7 +60,8 @@ def changed(numbers, stroke, *places):
 def expected():
     whole = list(STROKES)
     disabled = changed(whole, 1, (ENABLED, 0))
-    pushed = changed(disabled, 0, (VECTOR_X, -4.5))  # along x: the stamp at (4, 0, 0) points at the centre
+    # Along x, for the stamp at (4, 0, 0) points at the centre.
+    pushed = changed(disabled, 0, (VECTOR_X, -4.5))
     widened = changed(pushed, 1, (MAJOR, 7.5))
     return [
         ("script", whole, 1.0),
