@@ -263,8 +263,8 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   scene.depthFromShare = device.Depth.textureFromShare();
   scene.depthOfShareZero = device.Depth.textureOfShareZero();
   timer->StartTimer();
-  const bool repeats = this->KeepPicture && !moving &&
-    device.Stamp.repeats(renderer, volume, scene, state.Count);
+  const bool repeats =
+    this->KeepPicture && !moving && device.Stamp.repeats(renderer, volume, scene, state.Count);
   if (!repeats && !device.Caster.cast(window, scene, state.Count))
   {
     device.Stamp.forget();
