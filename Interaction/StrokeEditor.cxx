@@ -202,9 +202,11 @@ void StrokeEditor::cancel()
 void StrokeEditor::replaceAll(const Strokes& strokes, const QString& label)
 {
   this->cancel();
-  if (strokes == this->strokes())
+  const unsigned int numbers =
+    vtkSMPropertyHelper(this->Source->getProxy(), "Strokes").GetNumberOfElements();
+  if (strokes == this->strokes() && strokes.size() * brainshift::NumbersPerStroke == numbers)
   {
-    return;
+    return; // and not for numbers that are no strokes, which read as none
   }
   vtkSMProxy* proxy = this->Source->getProxy();
   {
@@ -228,6 +230,44 @@ void StrokeEditor::showBefore(bool on)
   this->ShowsBefore = on;
   strength.Set(on ? 0.0 : this->StrengthAfter);
   this->Source->getProxy()->UpdateVTKObjects();
+  drawFully(this->Source);
+}
+
+void StrokeEditor::changeStrength(double strength)
+{
+  vtkSMPropertyHelper property(this->Source->getProxy(), "Strength");
+  if (!this->ChangesStrength)
+  {
+    this->showBefore(false);
+    this->ChangesStrength = true;
+    this->StrengthBefore = property.GetAsDouble();
+  }
+  property.Set(strength);
+  this->drawSoon();
+}
+
+void StrokeEditor::commitStrength()
+{
+  if (!this->ChangesStrength)
+  {
+    return;
+  }
+  this->ChangesStrength = false;
+  this->Redraw.stop();
+  vtkSMProxy* proxy = this->Source->getProxy();
+  vtkSMPropertyHelper property(proxy, "Strength");
+  const double after = property.GetAsDouble();
+  {
+    SCOPED_UNDO_EXCLUDE(); // what undo comes back to is what the session saw last
+    property.Set(this->StrengthBefore);
+    proxy->UpdateVTKObjects();
+  }
+  {
+    SCOPED_UNDO_SET("Change Strength");
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", proxy);
+    property.Set(after);
+    proxy->UpdateVTKObjects();
+  }
   drawFully(this->Source);
 }
 

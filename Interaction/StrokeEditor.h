@@ -53,6 +53,11 @@ public:
   void showBefore(bool on);
   bool showsBefore() const { return this->ShowsBefore; }
 
+  // Strength under the hand, 0 to 1: change as often as the hand moves, then commit for one undo
+  // step.
+  void changeStrength(double strength);
+  void commitStrength();
+
 Q_SIGNALS:
   // The property has other strokes, whoever changed it.
   void changed();
@@ -78,7 +83,9 @@ private:
   bool Editing = false;
   bool Writing = false; // the property changes because of this editor
   bool ShowsBefore = false;
-  double StrengthAfter = 1.0; // while the volume is shown as loaded
+  bool ChangesStrength = false;
+  double StrengthBefore = 1.0; // while Strength is under the hand
+  double StrengthAfter = 1.0;  // while the volume is shown as loaded
 };
 
 #endif

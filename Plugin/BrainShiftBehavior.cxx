@@ -35,7 +35,7 @@ bool showsDeformedVolume(vtkSMProxy* representation)
 
 bool reportsNumbers(vtkSMProxy* filter)
 {
-  const QStringList reporting{ "FreeFormDeformation", "InvertDisplacementField", "TraceDistance" };
+  const QStringList reporting{ "InvertDisplacementField", "TraceDistance" };
   return reporting.contains(filter->GetXMLName());
 }
 

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ResultWidget.h"
+
+#include "Advice.h"
+#include "InSight.h"
+#include "StrokeEditor.h"
+#include "ValueSlider.h"
+
+#include <pqApplicationCore.h>
+#include <pqPipelineSource.h>
+#include <pqPropertiesPanel.h>
+#include <pqServerManagerModel.h>
+#include <pqUndoStack.h>
+
+#include <vtkCommand.h>
+#include <vtkEventQtSlotConnect.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMTrace.h>
+
+#include <QCheckBox>
+#include <QEvent>
+#include <QFormLayout>
+#include <QLabel>
+#include <QPointer>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace
+{
+constexpr qint64 FiguresMs = 100; // at least, from one update to the next: nobody reads faster
+
+pqPipelineSource* sourceOf(vtkSMProxy* proxy)
+{
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  return model->findItem<pqPipelineSource*>(proxy);
+}
+
+void showGraded(QLabel* label, const QString& text, Grade grade)
+{
+  const QColor color = gradeColor(grade, label->palette());
+  label->setText(QString("<b style=\"color:%1\">%2</b>").arg(color.name(), text.toHtmlEscaped()));
+}
+}
+
+ResultWidget::ResultWidget(vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget* parent)
+  : pqPropertyGroupWidget(proxy, group, parent)
+  , Source(sourceOf(proxy))
+  , Strength(new ValueSlider("BrainShiftStrength", tr("Strength"), QString(), 2, this))
+{
+  auto column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(pqPropertiesPanel::suggestedVerticalSpacing());
+  column->addWidget(this->Strength);
+  auto form = new QFormLayout;
+  column->addLayout(form);
+  form->setHorizontalSpacing(2 * pqPropertiesPanel::suggestedHorizontalSpacing());
+  form->setVerticalSpacing(pqPropertiesPanel::suggestedVerticalSpacing());
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  this->Strength->setRange(0.0, 1.0);
+  this->Strength->setToolTip(
+    tr("How much of the bend is shown: 0 is as loaded, 1 all of it. Can be animated."));
+  this->Displacement = this->addFigure(form, "BrainShiftDisplacement", tr("Largest displacement"),
+    tr("How far the control point that moves most has moved"));
+  this->Jacobian = this->addFigure(form, "BrainShiftJacobian", tr("Smallest Jacobian"),
+    tr("Smallest Jacobian determinant: the share of its volume that the tissue squeezed hardest "
+       "keeps. 1 keeps all, 0 or less folds."));
+  this->connectStrength();
+  new InSight(this);
+  if (proxy->GetProperty("GuardFolding"))
+  {
+    this->addGuard(column);
+  }
+
+  this->FiguresSoon.setSingleShot(true);
+  this->connect(&this->FiguresSoon, &QTimer::timeout, this, &ResultWidget::showFigures);
+  this->connect(this->Source, qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
+    &ResultWidget::showFiguresSoon);
+}
+
+ResultWidget::~ResultWidget() = default;
+
+QLabel* ResultWidget::addFigure(
+  QFormLayout* form, const char* name, const QString& title, const QString& tip)
+{
+  auto figure = new QLabel(this);
+  figure->setObjectName(name);
+  figure->setToolTip(tip);
+  figure->setWordWrap(true);
+  figure->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  form->addRow(title, figure);
+  form->labelForField(figure)->setToolTip(tip);
+  return figure;
+}
+
+void ResultWidget::connectStrength()
+{
+  const QPointer<StrokeEditor> editor = StrokeEditor::of(this->Source);
+  this->connect(this->Strength, &ValueSlider::valueEdited, this, [editor](double strength) {
+    if (editor)
+    {
+      editor->changeStrength(strength);
+    }
+  });
+  this->connect(this->Strength, &ValueSlider::editingFinished, this, [editor] {
+    if (editor)
+    {
+      editor->commitStrength();
+    }
+  });
+  this->Observers->Connect(
+    this->proxy()->GetProperty("Strength"), vtkCommand::ModifiedEvent, this, SLOT(showStrength()));
+  this->showStrength();
+}
+
+void ResultWidget::addGuard(QVBoxLayout* column)
+{
+  this->Guard = new QCheckBox(tr("Guard against folding"), this);
+  this->Guard->setObjectName("BrainShiftGuard");
+  this->Guard->setToolTip(
+    tr("Shortens a stroke to what keeps the Jacobian determinant at 0.1 or above everywhere"));
+  this->Shortened = new QLabel(this);
+  this->Shortened->setObjectName("BrainShiftShortened");
+  this->Shortened->setWordWrap(true);
+  column->addWidget(this->Guard);
+  column->addWidget(this->Shortened);
+  this->connect(this->Guard, &QCheckBox::clicked, this, &ResultWidget::setGuard);
+  this->Observers->Connect(
+    this->proxy()->GetProperty("GuardFolding"), vtkCommand::ModifiedEvent, this, SLOT(showGuard()));
+  this->showGuard();
+}
+
+void ResultWidget::setGuard(bool on)
+{
+  {
+    SCOPED_UNDO_SET(tr("Guard Against Folding"));
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this->proxy());
+    vtkSMPropertyHelper(this->proxy(), "GuardFolding").Set(on);
+    this->proxy()->UpdateVTKObjects();
+  }
+  this->Source->renderAllViews();
+}
+
+void ResultWidget::showGuard()
+{
+  this->Guard->setChecked(vtkSMPropertyHelper(this->proxy(), "GuardFolding").GetAsInt() != 0);
+}
+
+void ResultWidget::showStrength()
+{
+  this->Strength->setValue(vtkSMPropertyHelper(this->proxy(), "Strength").GetAsDouble());
+}
+
+double ResultWidget::figure(const char* property)
+{
+  this->proxy()->UpdatePropertyInformation(this->proxy()->GetProperty(property));
+  return vtkSMPropertyHelper(this->proxy(), property).GetAsDouble();
+}
+
+void ResultWidget::showFiguresSoon()
+{
+  if (this->isVisible() && !this->FiguresSoon.isActive())
+  {
+    const qint64 passed = this->SinceFigures.isValid() ? this->SinceFigures.elapsed() : FiguresMs;
+    this->FiguresSoon.start(static_cast<int>(std::max<qint64>(FiguresMs - passed, 0)));
+  }
+}
+
+void ResultWidget::showFigures()
+{
+  this->SinceFigures.start();
+  if (this->Source->modifiedState() == pqProxy::UNINITIALIZED) // not applied yet
+  {
+    this->Displacement->setText(tr("nothing yet"));
+    this->Jacobian->setText(QString());
+    return;
+  }
+  this->Displacement->setText(
+    tr("<b>%1 mm</b>").arg(this->figure("MaximumDisplacement"), 0, 'f', 1));
+  const double determinant = this->figure("MinimumJacobian");
+  showGraded(this->Jacobian, jacobianText(determinant), jacobianGrade(determinant));
+  if (this->Guard)
+  {
+    const QString advice = guardAdvice(static_cast<int>(this->figure("ShortenedStrokes")));
+    showGraded(this->Shortened, advice, Grade::Doubtful);
+    this->Shortened->setVisible(!advice.isEmpty());
+  }
+}
+
+void ResultWidget::changeEvent(QEvent* event)
+{
+  this->pqPropertyGroupWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange)
+  {
+    this->showFiguresSoon();
+  }
+}
+
+void ResultWidget::showEvent(QShowEvent* event)
+{
+  this->pqPropertyGroupWidget::showEvent(event);
+  this->showFigures();
+}

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "StrokesWidget.h"
+
+#include "InSight.h"
+#include "LatticeSpacing.h"
+#include "StrokeEditor.h"
+#include "StrokeList.h"
+#include "StrokeModel.h"
+#include "ToolPanel.h"
+
+#include <pqApplicationCore.h>
+#include <pqPipelineSource.h>
+#include <pqPropertiesPanel.h>
+#include <pqProxyWidget.h>
+#include <pqServerManagerModel.h>
+
+#include <vtkSMDoubleVectorProperty.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
+
+#include <QPointer>
+#include <QVBoxLayout>
+
+namespace
+{
+pqPipelineSource* sourceOf(vtkSMProxy* proxy)
+{
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  return model->findItem<pqPipelineSource*>(proxy);
+}
+
+StrokeModel* makeModel(StrokeEditor* owner, vtkSMProperty* property, QObject* parent)
+{
+  const QPointer<StrokeEditor> editor = owner; // the source may go before its panel does
+  return new StrokeModel(
+    vtkSMDoubleVectorProperty::SafeDownCast(property),
+    [editor](const std::vector<brainshift::Stroke>& strokes, const QString& label) {
+      if (editor)
+      {
+        editor->replaceAll(strokes, label);
+      }
+    },
+    parent);
+}
+}
+
+StrokesWidget::StrokesWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent)
+  : pqPropertyWidget(proxy, parent)
+  , Source(sourceOf(proxy))
+  , Tools(new ToolPanel(this))
+  , Strokes(makeModel(StrokeEditor::of(this->Source), property, this))
+{
+  this->setShowLabel(false);
+  auto column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(pqPropertiesPanel::suggestedVerticalSpacing());
+  column->addWidget(pqProxyWidget::newGroupLabelWidget(tr("Tools"), this));
+  column->addWidget(this->Tools);
+  column->addWidget(pqProxyWidget::newGroupLabelWidget(tr("Strokes (mm)"), this));
+  column->addWidget(new StrokeList(this->Strokes, this));
+
+  new InSight(this);
+
+  this->connect(
+    StrokeEditor::of(this->Source), &StrokeEditor::changed, this->Strokes, &StrokeModel::update);
+  this->connect(this->Source, qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
+    &StrokesWidget::followResult);
+  this->connect(this->Source, &pqProxy::modifiedStateChanged, this, &StrokesWidget::followResult);
+  this->followResult();
+}
+
+void StrokesWidget::followResult()
+{
+  const double spacing = volumeSize(this->Source).spacing;
+  this->Tools->setLatticeSpacing(spacing);
+  this->Tools->setReady(this->Source->modifiedState() != pqProxy::UNINITIALIZED);
+  this->Strokes->setLatticeSpacing(spacing);
+  if (vtkSMProperty* shares = this->proxy()->GetProperty("StrokeShares"))
+  {
+    this->proxy()->UpdatePropertyInformation(shares);
+    this->Strokes->setAppliedShares(vtkSMPropertyHelper(shares).GetDoubleArray());
+  }
+}

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ToolPanel.h"
+
+#include "Advice.h"
+#include "MouseHint.h"
+#include "ToolChoice.h"
+#include "ValueSlider.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPainter>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+using Tool = ToolSettings::Tool;
+
+namespace
+{
+// The tool in hand has a frame: on dark palettes a pressed button hardly differs from others.
+class ToolButton : public QToolButton
+{
+public:
+  using QToolButton::QToolButton;
+
+protected:
+  void paintEvent(QPaintEvent* event) override
+  {
+    this->QToolButton::paintEvent(event);
+    if (this->isChecked())
+    {
+      QPainter painter(this);
+      painter.setRenderHint(QPainter::Antialiasing);
+      painter.setPen(QPen(this->palette().color(QPalette::Highlight), 2.0));
+      painter.drawRoundedRect(QRectF(this->rect()).adjusted(1.0, 1.0, -1.0, -1.0), 3.0, 3.0);
+    }
+  }
+};
+}
+
+struct ToolPanel::Value
+{
+  const char* name; // of the slider
+  const char* label;
+  const char* unit;
+  int decimals;
+  const char* tip;
+  QList<Tool> tools; // that use it
+  double (ToolSettings::*value)() const;
+  ToolSettings::Range (ToolSettings::*range)() const;
+  void (ToolSettings::*set)(double);
+};
+
+const QList<ToolPanel::Value>& ToolPanel::values()
+{
+  static const QList<Value> all{
+    { "BrainShiftRadius", QT_TR_NOOP("Radius"), " mm", 1,
+      QT_TR_NOOP("How far around the point taken hold of tissue follows"), { Tool::Soft },
+      &ToolSettings::radius, &ToolSettings::radiusRange, &ToolSettings::setRadius },
+    { "BrainShiftMajorRadius", QT_TR_NOOP("Major radius"), " mm", 1,
+      QT_TR_NOOP("How deep the stamp reaches towards the point of interest"), { Tool::Stamp },
+      &ToolSettings::majorRadius, &ToolSettings::radiusRange, &ToolSettings::setMajorRadius },
+    { "BrainShiftMinorRadius", QT_TR_NOOP("Minor radius"), " mm", 1,
+      QT_TR_NOOP("How wide the stamp is across that direction"), { Tool::Stamp },
+      &ToolSettings::minorRadius, &ToolSettings::radiusRange, &ToolSettings::setMinorRadius },
+    { "BrainShiftSigma", QT_TR_NOOP("Sigma"), "", 2,
+      QT_TR_NOOP("Width of the Gaussian as a share of the radius: small makes a peak, large moves "
+                 "nearly all within the radius alike"),
+      { Tool::Soft, Tool::Stamp }, &ToolSettings::sigma, &ToolSettings::sigmaRange,
+      &ToolSettings::setSigma },
+    { "BrainShiftMillimetresPerClick", QT_TR_NOOP("Per click"), " mm", 2,
+      QT_TR_NOOP("How far one click of the mouse wheel pulls or pushes"), { Tool::Stamp },
+      &ToolSettings::millimetresPerClick, &ToolSettings::millimetresPerClickRange,
+      &ToolSettings::setMillimetresPerClick },
+  };
+  return all;
+}
+
+ToolPanel::ToolPanel(QWidget* parent)
+  : QWidget(parent)
+  , Hint(new QLabel(this))
+  , Warning(new QWidget(this))
+  , WarningText(new QLabel(this->Warning))
+{
+  this->setObjectName("Tools");
+  auto column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  this->addButtons(column);
+  this->Hint->setObjectName("BrainShiftHint");
+  this->Hint->setWordWrap(true);
+  column->addWidget(this->Hint);
+  this->addSliders(column);
+  this->addWarning(column);
+  this->connect(ToolSettings::instance(), &ToolSettings::changed, this, &ToolPanel::refresh);
+  this->refresh();
+}
+
+void ToolPanel::addButtons(QBoxLayout* column)
+{
+  auto row = new QHBoxLayout;
+  for (const ToolChoice& choice : toolChoices())
+  {
+    auto button = new ToolButton(this);
+    button->setObjectName("BrainShift" + choice.id);
+    button->setText(choice.name);
+    button->setIcon(QIcon(choice.icon));
+    button->setIconSize({ 24, 24 });
+    button->setToolTip(choice.tip);
+    button->setToolButtonStyle(Qt::ToolButtonTextUnderIcon);
+    button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    button->setFocusPolicy(Qt::StrongFocus);
+    button->setCheckable(true);
+    this->connect(button, &QToolButton::clicked, this,
+      [tool = choice.tool](bool on) { ToolSettings::instance()->setTool(on ? tool : Tool::None); });
+    row->addWidget(button);
+    this->Buttons.append(button);
+  }
+  column->addLayout(row);
+}
+
+void ToolPanel::addSliders(QBoxLayout* column)
+{
+  int labelWidth = 0;
+  for (const Value& value : values())
+  {
+    auto slider = new ValueSlider(value.name, tr(value.label), value.unit, value.decimals, this);
+    slider->setToolTip(tr(value.tip));
+    this->connect(slider, &ValueSlider::valueEdited, this,
+      [set = value.set](double number) { (ToolSettings::instance()->*set)(number); });
+    column->addWidget(slider);
+    this->Sliders.append(slider);
+    labelWidth = std::max(labelWidth, slider->labelWidth());
+  }
+  for (ValueSlider* slider : this->Sliders)
+  {
+    slider->setLabelWidth(labelWidth);
+  }
+}
+
+void ToolPanel::addWarning(QBoxLayout* column)
+{
+  this->Warning->setObjectName("Warning");
+  auto row = new QHBoxLayout(this->Warning);
+  row->setContentsMargins(0, 0, 0, 0);
+  auto sign = new QLabel(this->Warning);
+  sign->setPixmap(QIcon(":/BrainShift/warning.svg").pixmap(20, 20));
+  row->addWidget(sign, 0, Qt::AlignTop);
+  this->WarningText->setObjectName("BrainShiftWarning");
+  this->WarningText->setWordWrap(true);
+  row->addWidget(this->WarningText, 1);
+  column->addWidget(this->Warning);
+}
+
+void ToolPanel::setLatticeSpacing(double spacing)
+{
+  if (spacing != this->LatticeSpacing)
+  {
+    this->LatticeSpacing = spacing;
+    this->refresh();
+  }
+}
+
+void ToolPanel::setReady(bool ready)
+{
+  if (ready != this->Ready)
+  {
+    this->Ready = ready;
+    this->refresh();
+  }
+}
+
+void ToolPanel::refresh()
+{
+  const ToolSettings& settings = *ToolSettings::instance();
+  for (int i = 0; i < this->Buttons.size(); ++i)
+  {
+    this->Buttons[i]->setEnabled(this->Ready);
+    this->Buttons[i]->setChecked(toolChoices()[i].tool == settings.tool());
+  }
+  for (int i = 0; i < this->Sliders.size(); ++i)
+  {
+    const Value& value = values()[i];
+    const ToolSettings::Range range = (settings.*value.range)();
+    this->Sliders[i]->setRange(range.least, range.most);
+    this->Sliders[i]->setValue((settings.*value.value)());
+    this->Sliders[i]->setVisible(value.tools.contains(settings.tool()));
+  }
+  this->Hint->setText(
+    this->Ready ? mouseHint(settings) : tr("Press Apply to see the volume, then choose a tool."));
+  const QString warning = this->advice();
+  this->WarningText->setText(warning);
+  this->Warning->setVisible(!warning.isEmpty());
+}
+
+QString ToolPanel::advice() const
+{
+  const ToolSettings& settings = *ToolSettings::instance();
+  switch (settings.tool())
+  {
+    case Tool::Soft:
+      return radiusAdvice(tr("The radius"), settings.radius(), this->LatticeSpacing);
+    case Tool::Stamp:
+    {
+      const bool minorIsLess = settings.minorRadius() <= settings.majorRadius();
+      return minorIsLess
+        ? radiusAdvice(tr("The minor radius"), settings.minorRadius(), this->LatticeSpacing)
+        : radiusAdvice(tr("The major radius"), settings.majorRadius(), this->LatticeSpacing);
+    }
+    default:
+      return {};
+  }
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Toolbar of the tools, Reset All and the comparison with the volume as loaded. It acts on the
+// active deformation (ActiveDeformation.h) and offers only what can be done to it.
+#ifndef BrainShift_Toolbar_h
+#define BrainShift_Toolbar_h
+
+#include <QList>
+#include <QPointer>
+#include <QTimer>
+#include <QToolBar>
+
+class StrokeEditor;
+
+class Toolbar : public QToolBar
+{
+  Q_OBJECT
+
+public:
+  Toolbar(QWidget* mainWindow);
+
+private:
+  void addTools();
+  void addReset();
+  void addCompare();
+  void followPipeline();
+  void follow(StrokeEditor* editor);
+  void refresh();
+
+  QList<QAction*> Tools; // in the order of toolChoices()
+  QAction* Reset = nullptr;
+  QAction* Compare = nullptr;
+  QPointer<StrokeEditor> Editor; // of the active deformation
+  QTimer RefreshSoon;            // merges the many signals of a pipeline that changes
+};
+
+#endif

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Proves, without a window, that the list of strokes reads the property at once, whoever changed
+// it, writes each edit as one list of strokes, and refuses what would lose them; and that advice is
+// given on the right side of its limits.
+#include "Advice.h"
+#include "StrokeModel.h"
+
+#include <vtkNew.h>
+#include <vtkSMDoubleVectorProperty.h>
+
+#include <QGuiApplication>
+#include <QSignalSpy>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using brainshift::Stroke;
+using brainshift::Tool;
+
+namespace
+{
+// Icons and palettes need an application, which needs no display.
+QGuiApplication* application()
+{
+  static int count = 3;
+  static char program[] = "PanelTest", option[] = "-platform", value[] = "offscreen";
+  static char* arguments[] = { program, option, value, nullptr };
+  static auto instance = new QGuiApplication(count, arguments);
+  return instance;
+}
+
+Stroke stamp(double pull)
+{
+  Stroke stroke;
+  stroke.tool = Tool::Stamp;
+  stroke.anchor = { 10.0, 20.0, 30.0 };
+  stroke.axis = { 0.0, 0.0, -2.0 };
+  stroke.vector = { 0.0, 0.0, pull };
+  stroke.major = 40.0;
+  stroke.minor = 25.0;
+  return stroke;
+}
+
+Stroke soft()
+{
+  Stroke stroke;
+  stroke.tool = Tool::Soft;
+  stroke.vector = { 3.0, 4.0, 0.0 };
+  stroke.major = 30.0;
+  return stroke;
+}
+
+class StrokesInAList : public testing::Test
+{
+protected:
+  StrokesInAList() { application(); }
+
+  void set(const std::vector<Stroke>& strokes)
+  {
+    const std::vector<double> numbers = brainshift::numbersFromStrokes(strokes);
+    this->Property->SetNumberOfElements(static_cast<unsigned int>(numbers.size()));
+    this->Property->SetElements(numbers.data(), static_cast<unsigned int>(numbers.size()));
+    this->Model.update();
+  }
+
+  QVariant at(int row, int column, int role = Qt::DisplayRole) const
+  {
+    return this->Model.data(this->Model.index(row, column), role);
+  }
+  bool edit(int row, int column, const QVariant& value, int role = Qt::EditRole)
+  {
+    return this->Model.setData(this->Model.index(row, column), value, role);
+  }
+
+  vtkNew<vtkSMDoubleVectorProperty> Property;
+  std::vector<std::vector<Stroke>> Written;
+  StrokeModel Model{ Property, [this](const std::vector<Stroke>& strokes, const QString& label) {
+                      EXPECT_FALSE(label.isEmpty());
+                      this->Written.push_back(strokes);
+                      this->set(strokes);
+                    } };
+};
+}
+
+TEST_F(StrokesInAList, ReadsThePropertyWhenAsked)
+{
+  this->set({ stamp(-10.0), soft() });
+  EXPECT_EQ(this->Model.rowCount(), 2);
+  EXPECT_EQ(this->at(0, StrokeModel::ToolColumn).toString(), "Stamp");
+  EXPECT_EQ(this->at(0, StrokeModel::WhereColumn).toString(), "10, 20, 30");
+  EXPECT_EQ(this->at(0, StrokeModel::AmountColumn).toString(), "-10.0");
+  EXPECT_EQ(this->at(0, StrokeModel::MinorColumn).toString(), "25.0");
+  EXPECT_EQ(this->at(1, StrokeModel::AmountColumn).toString(), "5.0");
+  EXPECT_EQ(this->at(1, StrokeModel::MinorColumn).toString(), "");
+  // Without being told: there is no copy to be out of date.
+  this->Property->SetElement(1, 11.0);
+  EXPECT_EQ(this->at(0, StrokeModel::WhereColumn).toString(), "11, 20, 30");
+}
+
+TEST_F(StrokesInAList, FollowsOtherLengths)
+{
+  QSignalSpy inserted(&this->Model, &QAbstractItemModel::rowsInserted);
+  QSignalSpy removed(&this->Model, &QAbstractItemModel::rowsRemoved);
+  this->set({ soft(), soft(), soft() });
+  this->set({ soft() });
+  this->set({});
+  EXPECT_EQ(inserted.count(), 1);
+  EXPECT_EQ(removed.count(), 2);
+  EXPECT_EQ(this->Model.rowCount(), 0);
+  // Between a change of the property and the notice of it, rows that are gone read as nothing.
+  this->set({ soft(), soft() });
+  this->Property->SetNumberOfElements(brainshift::NumbersPerStroke);
+  EXPECT_EQ(this->Model.stroke(1), Stroke());
+}
+
+TEST_F(StrokesInAList, EditsNumbersInOneListEach)
+{
+  this->set({ stamp(-10.0), soft() });
+  EXPECT_TRUE(this->edit(0, StrokeModel::AmountColumn, 4.0));
+  EXPECT_TRUE(this->edit(1, StrokeModel::AmountColumn, 10.0));
+  EXPECT_TRUE(this->edit(1, StrokeModel::MajorColumn, 12.5));
+  EXPECT_TRUE(this->edit(0, StrokeModel::MinorColumn, 9.0));
+  ASSERT_EQ(this->Written.size(), 4u);
+  EXPECT_EQ(this->Model.stroke(0).vector, glm::dvec3(0.0, 0.0, 4.0));
+  EXPECT_EQ(this->Model.stroke(1).vector, glm::dvec3(6.0, 8.0, 0.0));
+  EXPECT_EQ(this->Model.stroke(1).major, 12.5);
+  EXPECT_EQ(this->Model.stroke(0).minor, 9.0);
+}
+
+TEST_F(StrokesInAList, RefusesWhatWouldNotBeAStroke)
+{
+  Stroke still = soft();
+  still.vector = glm::dvec3(0.0);
+  this->set({ stamp(-10.0), soft(), still });
+  EXPECT_FALSE(this->edit(1, StrokeModel::MajorColumn, 0.0));
+  EXPECT_FALSE(this->edit(1, StrokeModel::AmountColumn, -5.0)); // only Stamp knows a sign
+  EXPECT_FALSE(this->edit(2, StrokeModel::AmountColumn, 5.0));  // along which direction?
+  EXPECT_FALSE(this->edit(1, StrokeModel::MinorColumn, 5.0));
+  EXPECT_FALSE(this->edit(0, StrokeModel::MajorColumn, "wide"));
+  EXPECT_FALSE(this->edit(0, StrokeModel::WhereColumn, 5.0));
+  EXPECT_TRUE(this->edit(0, StrokeModel::AmountColumn, -10.0)); // nothing new is nothing to undo
+  EXPECT_TRUE(this->Written.empty());
+}
+
+TEST_F(StrokesInAList, EnablesDeletesAndResets)
+{
+  this->set({ stamp(1.0), stamp(2.0), stamp(3.0), stamp(4.0) });
+  EXPECT_TRUE(this->edit(1, StrokeModel::ToolColumn, Qt::Unchecked, Qt::CheckStateRole));
+  EXPECT_FALSE(this->Model.stroke(1).enabled);
+  this->Model.setEnabled({ 0, 1 }, true);
+  EXPECT_TRUE(this->Model.stroke(1).enabled);
+  this->Model.removeRowsOf({ 0, 2 });
+  ASSERT_EQ(this->Model.rowCount(), 2);
+  EXPECT_EQ(this->Model.stroke(0), stamp(2.0));
+  EXPECT_EQ(this->Model.stroke(1), stamp(4.0));
+  this->Model.removeAll();
+  EXPECT_EQ(this->Model.rowCount(), 0);
+  EXPECT_EQ(this->Written.size(), 4u);
+}
+
+TEST_F(StrokesInAList, TellsNumbersThatAreNoStrokes)
+{
+  this->set({ soft() });
+  this->Property->SetNumberOfElements(15);
+  this->Model.update();
+  EXPECT_TRUE(this->Model.problem().contains("15 numbers"));
+  EXPECT_EQ(this->Model.rowCount(), 0);
+  this->Model.setEnabled({ 0 }, false);
+  EXPECT_TRUE(this->Written.empty());
+  this->Model.removeAll();
+  EXPECT_EQ(this->Written.size(), 1u);
+}
+
+TEST_F(StrokesInAList, WarnsOfRadiiTheLatticeCannotFollow)
+{
+  this->set({ stamp(1.0) }); // 40 mm, 25 mm
+  this->Model.setLatticeSpacing(30.0);
+  EXPECT_TRUE(this->at(0, StrokeModel::MajorColumn, Qt::DecorationRole).isNull());
+  EXPECT_FALSE(this->at(0, StrokeModel::MinorColumn, Qt::DecorationRole).isNull());
+  const QString tip = this->at(0, StrokeModel::MinorColumn, Qt::ToolTipRole).toString();
+  EXPECT_TRUE(tip.contains("25.0 mm") && tip.contains("30.0 mm")) << tip.toStdString();
+}
+
+TEST_F(StrokesInAList, TellsWhatTheGuardApplies)
+{
+  this->set({ stamp(-10.0), stamp(8.0) });
+  this->Model.setAppliedShares({ 0.25 }); // of the second, nothing was told
+  const QString tip = this->at(0, StrokeModel::AmountColumn, Qt::ToolTipRole).toString();
+  EXPECT_TRUE(tip.contains("-2.5 of -10.0 mm")) << tip.toStdString();
+  EXPECT_FALSE(this->at(0, StrokeModel::AmountColumn, Qt::DecorationRole).isNull());
+  EXPECT_TRUE(this->at(1, StrokeModel::AmountColumn, Qt::DecorationRole).isNull());
+  EXPECT_EQ(this->at(0, StrokeModel::AmountColumn).toString(), "-10.0"); // the stroke's own
+  EXPECT_TRUE(guardAdvice(0).isEmpty());
+  EXPECT_TRUE(guardAdvice(2).contains("2 strokes"));
+}
+
+TEST(Advice, IsGivenBelowTheSpacing)
+{
+  EXPECT_TRUE(radiusAdvice("The radius", 12.0, 12.0).isEmpty());
+  EXPECT_FALSE(radiusAdvice("The radius", 11.9, 12.0).isEmpty());
+}
+
+TEST(Advice, GradesTheSmallestJacobian)
+{
+  EXPECT_EQ(jacobianGrade(1.0), Grade::Good);
+  EXPECT_EQ(jacobianGrade(0.1), Grade::Doubtful);
+  EXPECT_EQ(jacobianGrade(0.0), Grade::Bad);
+}
+
+// W3C's contrast of text on a background, 1 to 21; 4.5 is asked of text.
+TEST(Advice, ColoursReadOnLightAndDark)
+{
+  const auto luminance = [](const QColor& color) {
+    const auto linear = [](double share) {
+      return share <= 0.03928 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
+    };
+    return 0.2126 * linear(color.redF()) + 0.7152 * linear(color.greenF()) +
+      0.0722 * linear(color.blueF());
+  };
+  for (const QColor& background :
+    { QColor(239, 239, 239), QColor(255, 255, 255), QColor(53, 53, 53) })
+  {
+    QPalette palette;
+    palette.setColor(QPalette::Window, background);
+    for (const Grade grade : { Grade::Good, Grade::Doubtful, Grade::Bad })
+    {
+      const double text = luminance(gradeColor(grade, palette)) + 0.05;
+      const double behind = luminance(background) + 0.05;
+      EXPECT_GT(std::max(text, behind) / std::min(text, behind), 4.5)
+        << background.name().toStdString() << " " << static_cast<int>(grade);
+    }
+  }
+}
