@@ -16,6 +16,7 @@
 #include <vtkSMTrace.h>
 
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <cmath>
 #include <cstring>
@@ -199,24 +200,28 @@ double ViewProbe::strength() const
 glm::dvec3 ViewProbe::pointOfInterest()
 {
   vtkSMProxy* filter = this->Deformation->getProxy();
-  if (filter->GetProperty("PointOfInterest"))
+  const glm::dvec3 set =
+    tripleAt(vtkSMPropertyHelper(filter, "PointOfInterest").GetDoubleArray(), 0);
+  const std::optional<Grid> grid = set == glm::dvec3(0.0) ? this->lattice() : std::nullopt;
+  if (!grid)
   {
-    return tripleAt(vtkSMPropertyHelper(filter, "PointOfInterest").GetDoubleArray(), 0);
+    return set;
   }
-  const std::optional<Grid> grid = this->lattice();
-  return grid ? grid->worldFromGrid(glm::dvec3(grid->dimensions - 1) / 2.0) : glm::dvec3(0.0);
+  // A filter made before its volume was read could not tell the volume's middle.
+  const glm::dvec3 end(grid->dimensions - 1);
+  const glm::dvec3 place = grid->gridFromWorld(set);
+  const bool inside = glm::all(glm::greaterThanEqual(place, glm::dvec3(0.0))) &&
+    glm::all(glm::lessThanEqual(place, end));
+  return inside ? set : grid->worldFromGrid(end / 2.0);
 }
 
 void ViewProbe::setPointOfInterest(const glm::dvec3& position)
 {
   vtkSMProxy* filter = this->Deformation->getProxy();
-  if (filter->GetProperty("PointOfInterest"))
-  {
-    SCOPED_UNDO_SET("Point of interest");
-    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", filter);
-    vtkSMPropertyHelper(filter, "PointOfInterest").Set(&position[0], 3);
-    filter->UpdateVTKObjects();
-  }
+  SCOPED_UNDO_SET("Point of interest");
+  SM_SCOPED_TRACE(PropertiesModified).arg("proxy", filter);
+  vtkSMPropertyHelper(filter, "PointOfInterest").Set(&position[0], 3);
+  filter->UpdateVTKObjects();
 }
 
 glm::dvec3 ViewProbe::positionAt(const glm::dvec2& pixel, const glm::dvec3& depth) const

@@ -146,6 +146,7 @@ TEST(Handles, TheReportTellsWhatTheFilterAttached)
   image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
   vtkNew<vtkFreeFormDeformation> filter;
   filter->SetInputData(image);
+  filter->SetGuardFolding(false); // the stroke as it is
   filter->SetLatticeDimensions(4, 4, 4);
   const std::vector<double> move{ 0, 6, 6, 6, 1, 2, 3, 0, 0, 0, 0, 0, 0.5, 1 };
   for (double number : move)
