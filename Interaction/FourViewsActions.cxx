@@ -12,6 +12,7 @@
 
 #include <QAction>
 #include <QFileInfo>
+#include <QIcon>
 
 #include <cstring>
 
@@ -43,6 +44,7 @@ FourViewsActions::FourViewsActions(QObject* parent)
   : QActionGroup(parent)
 {
   QAction* action = this->addAction(tr("Four Views"));
+  action->setIcon(QIcon(":/BrainShift/four-views.svg"));
   action->setObjectName("actionBrainShiftFourViews");
   action->setToolTip(
     tr("Axial, 3D, coronal and sagittal views of the active volume, with linked slices"));
