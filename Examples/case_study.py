@@ -1,0 +1,303 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A brain sinks under a craniotomy and is resected; ten stamps bring the MR made before to it.
+
+    pvpython case_study.py [FOLDER]   prints the figures, draws into FOLDER (demo-output)
+
+The "post-operative" volume is synthetic: the pre-operative MR bent by a known sag of soft strokes
+on a denser lattice, with a cavity. The stamps are found from 300 noisy points that a pointer
+traced on the exposed cortex, and from nothing else; the known sag serves to measure the error that
+is left. Where the plugin is not loaded yet, BRAINSHIFT_PLUGIN gives its path. Research software,
+not a medical device.
+"""
+
+import os
+import sys
+
+import numpy
+from paraview import servermanager, simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Testing", "Data")
+
+# The patient, RAS mm. The head lies so that the craniotomy is on top; gravity pulls through it.
+CRANIOTOMY = numpy.array((-340.0, 30.0, 523.0))  # middle of the exposed cortex
+EXPOSED_MM = 35.0  # radius of what a pointer can reach
+GRAVITY = numpy.array((0.30, 0.15, -0.94))
+CAVITY_CENTRE = CRANIOTOMY + (12.0, -12.0, -12.0)
+CAVITY_MM = 10.0
+CAVITY_MARGIN_MM = 2.0  # a cavity is drawn generously: its walls are not cortex
+
+TRACE_POINTS = 300
+NOISE_MM = 0.5  # of the pointer, standard deviation along each axis
+LANDMARKS = 50
+LANDMARK_REACH_MM = 70.0  # from the craniotomy; farther off, nothing moved
+SEED = 20090212
+
+STAMPS = 10
+# From coarse to fine: what all of the trace says first, then smaller regions of it.
+REGIONS_MM = numpy.geomspace(EXPOSED_MM, 10.0, STAMPS)  # radii
+STAMP_PER_REGION = 2.0  # a stamp falls to a half at some 0.6 of its radius
+
+# Of the pictures: half the height shown (mm), what is in the middle, the ends of the colours.
+WHITE = 330.0  # scalar of the MR
+SLICE_HALF_MM = 75.0
+SLICE_FOCUS = (20.0, 0.0, -35.0)  # from the cavity
+TRACE_HALF_MM = 85.0
+TRACE_FOCUS = (25.0, -5.0, -25.0)  # from the craniotomy
+TRACE_SCALE_MM = 6.0
+
+# "Inside" is the mask with its voxels' steps smoothed; 0.5 is the cortex.
+BRAIN = """
+import numpy
+intensity, mask = (image.PointData["Intensity"] for image in inputs)
+inside = numpy.asarray(mask, numpy.float32).reshape(inputs[0].GetDimensions()[::-1])
+for repetition in range(6):
+    for axis in range(3):
+        inside = (numpy.roll(inside, 1, axis) + 2 * inside + numpy.roll(inside, -1, axis)) / 4
+share = numpy.clip((inside - 0.4) / 0.4, 0, 1)
+output.PointData.append((intensity * share.ravel()).astype(numpy.float32), "Brain")
+output.PointData.append(inside.ravel(), "Inside")
+output.PointData.SetActiveScalars("Brain")
+"""
+
+# Where voxels lie within `radius` of `centre`: nothing is left of them; "Cavity" tells which.
+CAVITY = """
+import numpy
+image = inputs[0].VTKObject
+matrix = image.GetIndexToPhysicalMatrix()
+world = numpy.array([[matrix.GetElement(i, j) for j in range(4)] for i in range(3)])
+k, j, i = numpy.indices(image.GetDimensions()[::-1])
+offsets = [world[a, 0] * i + world[a, 1] * j + world[a, 2] * k + world[a, 3] - {centre}[a]
+           for a in range(3)]
+distance = numpy.linalg.norm(offsets, axis=0).ravel()
+for name in ("Brain", "Inside"):
+    left = numpy.clip(distance - {radius} + 0.5, 0, 1).astype(numpy.float32)
+    output.PointData.append(inputs[0].PointData[name] * left, name)
+drawn = (distance < {radius} + {margin}).astype(numpy.uint8)
+output.PointData.append(drawn, "Cavity")
+output.PointData.SetActiveScalars("{scalars}")
+"""
+
+
+def load_plugin():
+    definitions = servermanager.ActiveConnection.Session.GetSessionProxyManager()
+    if not definitions.GetProxyDefinitionManager().HasDefinition("filters", "FreeFormDeformation"):
+        simple.LoadPlugin(os.environ["BRAINSHIFT_PLUGIN"], remote=False, ns=vars(simple))
+
+
+# The patient --------------------------------------------------------------------------------------
+
+
+def preoperative_brain():
+    """The MR without its skull: "Brain", and "Inside", which is 0.5 at the cortex."""
+    head, mask = (simple.NIFTIVolumeReader(FileName=os.path.join(DATA, "seg3d-utah", file))
+                  for file in ("seg3d_mr_t1.nii.gz", "seg3d_brainmask.nii.gz"))
+    brain = simple.ProgrammableFilter(Input=[head, mask], Script=BRAIN)
+    brain.UpdatePipeline()
+    return brain
+
+
+def known_sag(brain):
+    """What happened, hidden from the tool: a deep sag, more of it in front, less beside."""
+    import brainshift
+    strokes = (brainshift.soft(CRANIOTOMY, 6.5 * GRAVITY, 90.0)
+               + brainshift.soft(CRANIOTOMY + (-5, 25, -10), 2.5 * GRAVITY, 45.0)
+               + brainshift.soft(CRANIOTOMY + (0, -30, -15), (0.5, -1.0, 0.5), 40.0))
+    return simple.FreeFormDeformation(Input=brain, Strokes=strokes,
+                                      LatticeDimensions=[31, 31, 31])
+
+
+def postoperative(baked, scalars):
+    """The sunken brain with its cavity; `scalars` names the array that other filters take."""
+    script = CAVITY.format(centre=CAVITY_CENTRE.tolist(), radius=CAVITY_MM,
+                           margin=CAVITY_MARGIN_MM, scalars=scalars)
+    return simple.ProgrammableFilter(Input=baked, Script=script)
+
+
+def points_of(source):
+    return vtk_to_numpy(servermanager.Fetch(source).GetPoints().GetData()).astype(float)
+
+
+def pointer_trace(surgery, random):
+    """Points anywhere on the exposed surface after surgery, the walls of the cavity included."""
+    surface = simple.Contour(Input=surgery, ContourBy=["POINTS", "Inside"], Isosurfaces=[0.5])
+    points = points_of(surface)
+    exposed = points[numpy.linalg.norm(points - CRANIOTOMY, axis=1) < EXPOSED_MM]
+    traced = random.choice(exposed, TRACE_POINTS, replace=False)
+    traced += random.normal(0.0, NOISE_MM, traced.shape)
+    return simple.PolyPointSource(Points=traced.ravel().tolist())
+
+
+def landmarks(brain, sag, random):
+    """Places in the brain at rest, near the craniotomy and not resected later."""
+    import brainshift
+    reach = LANDMARK_REACH_MM * random.uniform(-1.0, 1.0, (20 * LANDMARKS, 3))
+    reach = reach[numpy.linalg.norm(reach, axis=1) < LANDMARK_REACH_MM]
+    probe = simple.ResampleWithDataset(
+        SourceDataArrays=brain,
+        DestinationMesh=simple.PolyPointSource(Points=(CRANIOTOMY + reach).ravel().tolist()))
+    inside = vtk_to_numpy(servermanager.Fetch(probe).GetPointData().GetArray("Inside")) > 0.9
+    places = (CRANIOTOMY + reach)[inside]
+    from_cavity = numpy.linalg.norm(
+        brainshift.deformed_from_rest(sag, places) - CAVITY_CENTRE, axis=1)
+    return places[from_cavity > CAVITY_MM][:LANDMARKS]
+
+
+# The tool -----------------------------------------------------------------------------------------
+
+
+def measured_distances(measure):
+    """Where each trace point that counts lies, and how far (mm) out of the cortex as bent."""
+    measure.UpdatePipeline()
+    result = servermanager.Fetch(measure)
+    distances = vtk_to_numpy(result.GetPointData().GetArray("DistanceToCortex"))
+    counts = numpy.isfinite(distances)
+    return points_of(measure)[counts], distances[counts].astype(float)
+
+
+def next_stamp(points, distances, point_of_interest, region_mm):
+    """A stamp for the region of the trace that lies farthest off on average, by that distance."""
+    import brainshift
+    apart = numpy.linalg.norm(points[:, None] - points[None], axis=2)
+    near = (apart < region_mm).astype(float)
+    means = near @ distances / near.sum(axis=1)
+    worst = numpy.argmax(numpy.abs(means))
+    traced = near[worst] @ points / near[worst].sum()
+    outwards = (traced - point_of_interest) / numpy.linalg.norm(traced - point_of_interest)
+    cortex = traced - means[worst] * outwards  # the tissue to take hold of
+    radius = STAMP_PER_REGION * region_mm
+    return brainshift.stamp(cortex, point_of_interest, means[worst], radius, radius)
+
+
+def stamp_to_trace(bent, measure):
+    """Adds stamps one after the other, each found from the distances that the last one left."""
+    for region_mm in REGIONS_MM:
+        points, distances = measured_distances(measure)
+        stamp = next_stamp(points, distances, numpy.array(bent.PointOfInterest),
+                           region_mm)
+        bent.Strokes = tuple(bent.Strokes) + stamp
+
+
+# Figures and pictures -----------------------------------------------------------------------------
+
+
+class Case:
+    """The patient before and after surgery, the volume to bend, and what is measured of it."""
+
+    def __init__(self):
+        random = numpy.random.default_rng(SEED)
+        self.brain = preoperative_brain()
+        self.sag = known_sag(self.brain)
+        sunken = simple.BakeDeformation(Input=self.sag, Interpolation="Cubic")
+        self.after_surgery = postoperative(sunken, "Brain")
+        self.trace = pointer_trace(self.after_surgery, random)
+        self.landmarks = landmarks(self.brain, self.sag, random)
+        self.bent = simple.FreeFormDeformation(Input=self.brain)
+        self.measure = simple.TraceDistance(
+            Input=self.trace, Deformation=self.bent, Cavity=postoperative(sunken, "Cavity"),
+            SurfaceArray="Inside", Threshold=0.5)
+        self.compare = simple.CompareVolumes(Input=self.bent, Reference=self.after_surgery)
+
+    def figures(self):
+        """Trace distance and target registration error (TRE), mm."""
+        import brainshift
+        self.measure.UpdatePipeline()
+        self.measure.UpdatePropertyInformation()
+        error = numpy.linalg.norm(brainshift.deformed_from_rest(self.bent, self.landmarks)
+                                  - brainshift.deformed_from_rest(self.sag, self.landmarks), axis=1)
+        return {"count": self.measure.Count, "trace mean": self.measure.Mean,
+                "RMS": self.measure.RMS, "95th percentile": self.measure.Percentile95,
+                "TRE mean": float(error.mean()), "TRE largest": float(error.max())}
+
+
+def parallel_view(towards_eye, focus, half_height, size):
+    """A black view from that side at `focus` (mm), superior up."""
+    view = simple.CreateView("RenderView", ViewSize=(size, size))
+    view.UseColorPaletteForBackground = 0
+    view.BackgroundColorMode = "Single Color"
+    view.Background = (0.0, 0.0, 0.0)
+    view.OrientationAxesVisibility = 0
+    view.CenterAxesVisibility = 0
+    view.CameraFocalPoint = focus
+    view.CameraPosition = focus + 400.0 * numpy.array(towards_eye)
+    view.CameraViewUp = (0, 0, 1)
+    view.CameraParallelProjection = 1
+    view.CameraParallelScale = half_height
+    return view
+
+
+def show_red_green(compare, plane, towards_eye, size):
+    """One plane through the cavity: as bent red, as it is after surgery green, both yellow."""
+    view = parallel_view(towards_eye, CAVITY_CENTRE + SLICE_FOCUS, SLICE_HALF_MM, size)
+    display = simple.Show(compare, view, "UniformGridRepresentation")
+    display.SetRepresentationType("Deformed Slices")
+    simple.ColorBy(display, ("POINTS", "Brain"), separate=True)
+    display.SetScalarBarVisibility(view, False)
+    for other in ("Sagittal", "Coronal", "Axial"):
+        setattr(display, f"Show{other}", int(other == plane))
+    display.SlicePosition = CAVITY_CENTRE
+    display.OrientationMarks = 1
+    display.SliceComparison = "Red and green"
+    color = simple.GetColorTransferFunction("Brain", display, separate=True)
+    color.ColorSpace = "RGB"
+    color.RGBPoints = (0, 0, 0, 0, WHITE, 1, 1, 1)
+    display.ReferenceRange = (0, WHITE)
+    return view
+
+
+def show_trace(bent, measure, size):
+    """The cortex as bent, seen from above and the left, and the trace coloured by its distance."""
+    view = parallel_view((-0.4, -0.5, 0.75), CRANIOTOMY + TRACE_FOCUS, TRACE_HALF_MM, size)
+    surface = simple.Contour(Input=bent.Input, ContourBy=["POINTS", "Inside"], Isosurfaces=[0.5])
+    cortex = simple.Show(simple.DeformGeometry(Input=surface, Deformation=bent), view)
+    simple.ColorBy(cortex, None)
+    cortex.Opacity = 0.5  # points may lie below
+    cortex.BackfaceRepresentation = "Cull Backface"
+    points = simple.Show(measure, view)
+    simple.ColorBy(points, ("POINTS", "DistanceToCortex"))
+    color = simple.GetColorTransferFunction("DistanceToCortex")
+    color.RescaleTransferFunction(-TRACE_SCALE_MM, TRACE_SCALE_MM)
+    bar = simple.GetScalarBar(color, view)
+    bar.Title, bar.ComponentTitle = "mm above the cortex", ""
+    bar.RangeLabelFormat = "%.0f"
+    points.SetRepresentationType("Point Gaussian")
+    points.GaussianRadius = 1.2
+    points.SetScalarBarVisibility(view, True)
+    return view
+
+
+def draw(case, file, size=450):
+    """Coronal and sagittal slice and the trace, side by side."""
+    views = [show_red_green(case.compare, "Coronal", (0, 1, 0), size),
+             show_red_green(case.compare, "Sagittal", (-1, 0, 0), size),
+             show_trace(case.bent, case.measure, size)]
+    layout = simple.CreateLayout()
+    layout.AssignView(0, views[0])
+    layout.AssignView(layout.SplitHorizontal(0, 0.333) + 1, views[1])
+    layout.AssignView(layout.SplitViewHorizontal(views[1], 0.5) + 1, views[2])
+    simple.SaveScreenshot(file, layout, ImageResolution=(3 * size, size))
+    for view in views:
+        simple.Delete(view)
+    simple.Delete(layout)
+
+
+def report_and_draw(case, title, folder):
+    count, *lengths = case.figures().items()
+    print(f"{title}: {count[1]} of {TRACE_POINTS} trace points count;",
+          ", ".join(f"{name} {value:.2f} mm" for name, value in lengths))
+    file = os.path.join(folder, f"case-study-{title}.png")
+    draw(case, file)
+    print(file)
+
+
+def main(folder):
+    os.makedirs(folder, exist_ok=True)
+    case = Case()
+    report_and_draw(case, "before", folder)
+    stamp_to_trace(case.bent, case.measure)
+    report_and_draw(case, "after", folder)
+
+
+load_plugin()
+if __name__ == "__main__":
+    main(sys.argv[1] if len(sys.argv) > 1 else "demo-output")
