@@ -167,6 +167,30 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   return drawn;
 }
 
+namespace
+{
+// Fewer pixels and longer steps.
+void adapt(const MovingQuality& quality, Blend blend, const glm::ivec2& size, RayCastScene& scene)
+{
+  scene.stepDoublings = blend == Blend::Composite ? quality.stepDoublings : 0;
+  scene.stepMm *= 1 << scene.stepDoublings;
+  scene.size = glm::max(size / static_cast<int>(quality.imageScale), glm::ivec2(1));
+  scene.shownHigh = scene.size;
+}
+
+// What is drawn already behind the pixels that the volume can show.
+void captureDepth(SceneDepth& depth, vtkOpenGLRenderWindow* window, const glm::ivec2& origin,
+  const glm::ivec2& size, RayCastScene& scene)
+{
+  const glm::dvec2 windowPixels = glm::dvec2(size) / glm::dvec2(scene.size); // for one of the image
+  depth.capture(window, origin, size, glm::floor(glm::dvec2(scene.shownLow) * windowPixels),
+    glm::ceil(glm::dvec2(scene.shownHigh) * windowPixels));
+  scene.sceneDepth = depth.texture();
+  scene.depthFromShare = depth.textureFromShare();
+  scene.depthOfShareZero = depth.textureOfShareZero();
+}
+}
+
 bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, vtkVolume* volume,
   const TissueRequest& tissue, const Grid& grid, std::string& problem)
 {
@@ -202,22 +226,14 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
       device.SecondsPerPixel * size.x * size.y, allowedSeconds(rate, timer->GetElapsedTime()));
   }
   state.Count.imageScale = quality.imageScale;
-  scene.stepDoublings = tissue.blend == Blend::Composite ? quality.stepDoublings : 0;
-  scene.stepMm *= 1 << scene.stepDoublings;
-  scene.size = glm::max(size / static_cast<int>(state.Count.imageScale), glm::ivec2(1));
   scene.countSamples = this->CountSamples;
   scene.jitter = moving;
-  scene.shownHigh = scene.size;
+  adapt(quality, tissue.blend, size, scene);
   if (scene.skipping)
   {
     placeShownPixels(device.Presence.occupiedBox(), scene);
   }
-  const glm::dvec2 windowPixels = glm::dvec2(size) / glm::dvec2(scene.size); // for one of the image
-  device.Depth.capture(window, origin, size, glm::floor(glm::dvec2(scene.shownLow) * windowPixels),
-    glm::ceil(glm::dvec2(scene.shownHigh) * windowPixels));
-  scene.sceneDepth = device.Depth.texture();
-  scene.depthFromShare = device.Depth.textureFromShare();
-  scene.depthOfShareZero = device.Depth.textureOfShareZero();
+  captureDepth(device.Depth, window, origin, size, scene);
   timer->StartTimer();
   const bool repeats =
     this->KeepPicture && !moving && device.Stamp.repeats(renderer, volume, scene, state.Count);
