@@ -12,6 +12,8 @@ constexpr double InteractiveRate = 1.0;
 // ParaView asks for 5 a second while the camera moves. Below 15 a hand sees steps.
 constexpr double SmoothRate = 15.0;
 constexpr double LeastShareForImage = 0.2; // of a frame's time, however long a stroke takes
+// What the window itself takes of it, which no mapper sees: ParaView's smoothing of edges, copies.
+constexpr double ShareOfWindow = 0.4;
 }
 
 bool isMoving(double rate)
@@ -22,7 +24,7 @@ bool isMoving(double rate)
 double allowedSeconds(double rate, double spentSeconds)
 {
   const double frame = 1.0 / std::max(rate, SmoothRate);
-  return std::max(frame - spentSeconds, LeastShareForImage * frame);
+  return std::max((1.0 - ShareOfWindow) * frame - spentSeconds, LeastShareForImage * frame);
 }
 
 MovingQuality movingQuality(double fullSeconds, double allowedSeconds)
