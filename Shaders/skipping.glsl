@@ -43,14 +43,13 @@ vec2 presentSamples(Ray ray, vec2 span, float stepMm)
   return vec2(max(present.x, all.x), min(present.y, all.y));
 }
 
-// A ray among the bricks, counted in them. What holds for all its samples is made ready: the sample
-// on a face at `height` bricks is height * samplesPerBrick + samplesOfZero.
+// A ray among the bricks, counted in them. What holds for all its samples is made ready: a brick
+// with its lower corner at `corner` is left at sample corner * samplesPerBrick + samplesToFace.
 struct BrickTrack
 {
   Track at;
   vec3 samplesPerBrick; // 1 / stride
-  vec3 samplesToFace;   // from a brick's lower corner to the face where the ray leaves it, less the
-                        // sample at brick 0
+  vec3 samplesToFace;
 };
 
 BrickTrack brickTrack(Track deformed)
