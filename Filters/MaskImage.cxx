@@ -2,6 +2,7 @@
 #include "MaskImage.h"
 
 #include "DeformableVolume.h"
+#include "Parallel.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -19,6 +20,8 @@ namespace brainshift
 {
 namespace
 {
+constexpr vtkIdType VoxelsAtLeast = 65536; // for a thread
+
 vtkDataArray* scalarArrayOf(vtkDataSetAttributes* attributes)
 {
   vtkDataArray* array = attributes->GetScalars();
@@ -95,36 +98,64 @@ std::string noVoxel(const std::vector<int>& labels)
 }
 }
 
-std::string readMask(
-  vtkImageData* image, const std::vector<int>& labels, const Grid& volume, Mask& mask)
+LabelImage labelsOf(vtkImageData* image)
 {
-  mask.grid = gridOf(image);
-  vtkDataArray* array = scalarArrayOf(image->GetPointData());
-  if (!array)
+  LabelImage found;
+  found.grid = gridOf(image);
+  found.labels = scalarArrayOf(image->GetPointData());
+  if (!found.labels)
   {
-    array = scalarArrayOf(image->GetCellData());
-    mask.grid.origin = mask.grid.worldFromGrid(glm::dvec3(0.5));
-    mask.grid.dimensions = glm::max(mask.grid.dimensions - 1, glm::ivec3(1));
+    found.labels = scalarArrayOf(image->GetCellData());
+    found.grid.origin = found.grid.worldFromGrid(glm::dvec3(0.5));
+    found.grid.dimensions = glm::max(found.grid.dimensions - 1, glm::ivec3(1));
   }
-  if (!array)
+  return found;
+}
+
+std::string problemOf(const LabelImage& image, const Grid& volume, const std::string& noun)
+{
+  if (!image.labels)
   {
-    return "The mask has no point or cell array of one component";
+    return "The " + noun + " has no point or cell array of one component";
   }
-  const Bounds bounds(mask.grid, 0.5);
+  const Bounds bounds(image.grid, 0.5);
   const Bounds volumeBounds(volume, 0.0);
   if (!bounds.overlaps(volumeBounds))
   {
     std::ostringstream problem;
-    problem << "The mask (" << bounds << ") does not overlap the volume (" << volumeBounds << ")";
+    problem << "The " << noun << " (" << bounds << ") does not overlap the volume (" << volumeBounds
+            << ")";
     return problem.str();
   }
-  mask.inside.resize(mask.grid.count());
-  for (std::size_t voxel = 0; voxel < mask.inside.size(); ++voxel)
+  return {};
+}
+
+std::vector<char> insideOf(vtkDataArray* array, const std::vector<int>& labels)
+{
+  std::vector<char> inside(array->GetNumberOfTuples());
+  parallelFor(0, array->GetNumberOfTuples(), VoxelsAtLeast, [&](vtkIdType first, vtkIdType last) {
+    for (vtkIdType voxel = first; voxel < last; ++voxel)
+    {
+      const double value = array->GetComponent(voxel, 0);
+      inside[voxel] = labels.empty()
+        ? value > 0.0
+        : std::find(labels.begin(), labels.end(), value) != labels.end();
+    }
+  });
+  return inside;
+}
+
+std::string readMask(
+  vtkImageData* image, const std::vector<int>& labels, const Grid& volume, Mask& mask)
+{
+  const LabelImage found = labelsOf(image);
+  const std::string problem = problemOf(found, volume, "mask");
+  if (!problem.empty())
   {
-    const double value = array->GetComponent(static_cast<vtkIdType>(voxel), 0);
-    mask.inside[voxel] =
-      labels.empty() ? value > 0.0 : std::find(labels.begin(), labels.end(), value) != labels.end();
+    return problem;
   }
+  mask.grid = found.grid;
+  mask.inside = insideOf(found.labels, labels);
   return std::count(mask.inside.begin(), mask.inside.end(), 1) ? std::string() : noVoxel(labels);
 }
 

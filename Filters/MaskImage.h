@@ -9,13 +9,27 @@
 #include <string>
 #include <vector>
 
+class vtkDataArray;
 class vtkImageData;
 
 namespace brainshift
 {
-// Inside is what has one of the labels; with none given, what is above 0. The array is the active
-// scalars of the points, or the first of the points, or else of the cells, that has one component.
-// Returns what keeps it from being a mask for a volume; empty if nothing does.
+// The numbers of an image that are read as labels: the active scalars of the points, or the first
+// array of the points, or else of the cells, that has one component.
+struct LabelImage
+{
+  vtkDataArray* labels = nullptr; // null: the image has none
+  Grid grid;                      // of the labels: that of the points, or of the cells' middles
+};
+LabelImage labelsOf(vtkImageData* image);
+
+// What keeps labels from being those of a volume, told of a `noun`; empty if nothing does.
+std::string problemOf(const LabelImage& image, const Grid& volume, const std::string& noun);
+
+// 1 for what has one of the labels, else 0; with none given, 1 for what is above 0.
+std::vector<char> insideOf(vtkDataArray* array, const std::vector<int>& labels);
+
+// Returns what keeps an image from being a mask for a volume; empty if nothing does.
 VTKBRAINSHIFTFILTERS_EXPORT std::string readMask(
   vtkImageData* image, const std::vector<int>& labels, const Grid& volume, Mask& mask);
 

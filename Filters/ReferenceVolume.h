@@ -3,8 +3,7 @@
 // the reference, as field data. The reference has a grid of its own and is not bent.
 //
 //   ReferenceVoxels  any type x 1, nx*ny*nz tuples, x fastest: the reference's point scalars
-//   ReferenceGrid    double x 18: nx ny nz, world position of the first point (mm), spacing (mm),
-//                    direction matrix (row by row, as vtkImageData holds it)
+//   ReferenceGrid    see GridArray.h
 #ifndef BrainShift_ReferenceVolume_h
 #define BrainShift_ReferenceVolume_h
 

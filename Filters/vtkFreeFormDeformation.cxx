@@ -6,6 +6,7 @@
 #include "MaskImage.h"
 #include "OffsetField.h"
 #include "Replay.h"
+#include "Segmentation.h"
 #include "SharedArray.h"
 #include "StrokeDensity.h"
 
@@ -43,6 +44,8 @@ struct vtkFreeFormDeformation::State
   bool MinimumJacobianKnown = false;
   vtkNew<vtkDoubleArray> StrokeShares;
   MaskSource Masks;
+  SegmentationSource Segmentations;
+  Segmentation LastSegmentation;
   std::string TooFine; // strokes for the lattice: a sentence
   std::vector<std::string> Warned;
 };
@@ -165,7 +168,7 @@ vtkStandardNewMacro(vtkFreeFormDeformation);
 vtkFreeFormDeformation::vtkFreeFormDeformation()
   : Internal(std::make_unique<State>())
 {
-  this->SetNumberOfInputPorts(3);
+  this->SetNumberOfInputPorts(4);
 }
 
 vtkFreeFormDeformation::~vtkFreeFormDeformation() = default;
@@ -190,6 +193,11 @@ void vtkFreeFormDeformation::SetLatticeConnection(vtkAlgorithmOutput* lattice)
 void vtkFreeFormDeformation::SetMaskConnection(vtkAlgorithmOutput* mask)
 {
   this->SetInputConnection(2, mask);
+}
+
+void vtkFreeFormDeformation::SetSegmentationConnection(vtkAlgorithmOutput* segmentation)
+{
+  this->SetInputConnection(3, segmentation);
 }
 
 void vtkFreeFormDeformation::AddMaskLabel(int label)
@@ -217,8 +225,8 @@ int vtkFreeFormDeformation::FillInputPortInformation(int port, vtkInformation* i
 int vtkFreeFormDeformation::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  // Base lattice and mask are read everywhere, whichever piece of the volume is asked for.
-  for (const int port : { 1, 2 })
+  // The other inputs are read everywhere, whichever piece of the volume is asked for.
+  for (const int port : { 1, 2, 3 })
   {
     if (vtkInformation* info = inputs[port]->GetInformationObject(0))
     {
@@ -243,8 +251,8 @@ int vtkFreeFormDeformation::RequestData(
     vtkErrorMacro(<< problem << ".");
     return 0;
   }
-  problem =
-    this->Bend(volumeGrid, vtkImageData::GetData(inputs[1]), vtkImageData::GetData(inputs[2]));
+  problem = this->Bend(volumeGrid, vtkImageData::GetData(inputs[1]),
+    vtkImageData::GetData(inputs[2]), vtkImageData::GetData(inputs[3]));
   if (!problem.empty())
   {
     vtkErrorMacro(<< problem << ". The deformation stays as it was.");
@@ -254,6 +262,7 @@ int vtkFreeFormDeformation::RequestData(
   state.PointArrays.share(output->GetPointData());
   state.CellArrays.share(output->GetCellData());
   attach(output, state.LastGood);
+  attachSegmentation(output, state.LastSegmentation);
   return 1;
 }
 
@@ -290,7 +299,7 @@ std::string vtkFreeFormDeformation::ProblemOfProperties() const
 }
 
 std::string vtkFreeFormDeformation::Bend(
-  const Grid& volumeGrid, vtkImageData* base, vtkImageData* maskImage)
+  const Grid& volumeGrid, vtkImageData* base, vtkImageData* maskImage, vtkImageData* segments)
 {
   State& state = *this->Internal;
   const glm::ivec3 sides(
@@ -318,10 +327,17 @@ std::string vtkFreeFormDeformation::Bend(
       { maskImage, this->MaskLabels, this->Feather, volumeGrid, start.grid, this->Samples },
       start.mask);
   }
+  Segmentation segmentation;
+  if (problem.empty())
+  {
+    problem = state.Segmentations.find(segments ? segments : maskImage, volumeGrid, segmentation);
+  }
   if (!problem.empty())
   {
     return problem;
   }
+  segmentation.chosen = segments ? std::vector<int>() : this->MaskLabels;
+  state.LastSegmentation = segmentation;
   state.LastGood.lattice =
     state.StrokeReplay.run(start, strokes, { this->GuardFolding, this->Samples });
   state.TooFine = strokesTooFine(strokes, start.grid);

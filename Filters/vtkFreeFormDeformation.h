@@ -11,6 +11,8 @@
  * lattice or dense displacement field, vtkImageData with a three-component point array (mm, world
  * axes, forward), read at the control points; strokes add to it. Input 2 (optional): a mask,
  * vtkImageData on any grid with labels or scalars; only tissue inside it moves (MaskWeights.h).
+ * Input 3 (optional): a segmentation, likewise; it bends nothing but is attached, as is the mask
+ * where there is none, for "Deformed Volume" to draw chosen labels alone (Segmentation.h).
  *
  * Method: van der Steen et al., SPIE 7169 (2009), section 2.
  */
@@ -104,6 +106,9 @@ public:
   /** Mask: optional third input. */
   void SetMaskConnection(vtkAlgorithmOutput* mask);
 
+  /** Segmentation: optional fourth input. */
+  void SetSegmentationConnection(vtkAlgorithmOutput* segmentation);
+
   ///@{
   /** Values of the mask that are inside. None, the default: all above 0. */
   void AddMaskLabel(int label);
@@ -168,7 +173,8 @@ private:
 
   // Bends the lattice as the properties say. Returns what keeps it from doing so, in which case the
   // last good deformation stays; empty if nothing does.
-  std::string Bend(const brainshift::Grid& volumeGrid, vtkImageData* base, vtkImageData* maskImage);
+  std::string Bend(const brainshift::Grid& volumeGrid, vtkImageData* base, vtkImageData* maskImage,
+    vtkImageData* segments);
 
   // Says what the user should know of the deformation, once for each change of what is said.
   void TellWarnings();

@@ -13,6 +13,7 @@ struct Counters
   std::int64_t volumeUploads = 0;   // scalars sent to the GPU
   std::int64_t latticeUploads = 0;  // control points sent to the GPU
   std::int64_t transferUploads = 0; // colour and opacity maps sent to the GPU
+  std::int64_t segmentUploads = 0;  // segments sent to the GPU, to be drawn alone
   std::int64_t bytesUploaded = 0;   // all of them together
   std::int64_t texelsRefined = 0;   // nodes of the offset field computed
   std::int64_t presenceUpdates = 0; // times the deformed presence map was computed

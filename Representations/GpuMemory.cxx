@@ -69,6 +69,7 @@ MemoryNeed memoryNeed(const DrawnSizes& sizes)
     need.gradients =
       GradientBytes * (sizes.halfResolution ? volumeOf((sizes.voxels + 1) / 2) : voxels);
   }
+  need.segment = sizes.segmentBytes * voxels;
   need.field = NodeBytes * (volumeOf(sizes.forwardNodes) + volumeOf(sizes.backwardNodes));
   need.field += sizes.masked ? WeightBytes * volumeOf(sizes.forwardNodes) : 0;
   need.images = PixelBytes * sizes.pixels.x * sizes.pixels.y;
@@ -116,8 +117,9 @@ bool takeOutOfMemory()
 std::string describeNeed(const MemoryNeed& need)
 {
   return bytesAsMiB(need.total()) + " MiB (scalars " + bytesAsMiB(need.scalars) + ", gradients " +
-    bytesAsMiB(need.gradients) + ", colours " + bytesAsMiB(need.colors) + ", offset field " +
-    bytesAsMiB(need.field) + ", images " + bytesAsMiB(need.images) + ")";
+    bytesAsMiB(need.gradients) + ", colours " + bytesAsMiB(need.colors) + ", segment " +
+    bytesAsMiB(need.segment) + ", offset field " + bytesAsMiB(need.field) + ", images " +
+    bytesAsMiB(need.images) + ")";
 }
 
 std::string memoryProblem(

@@ -21,12 +21,14 @@ struct MemoryNeed
   std::int64_t scalars = 0;
   std::int64_t gradients = 0;
   std::int64_t colors = 0; // of volumes that bring their own, or a second scalar
-  std::int64_t field = 0;  // refined lattice and offset field
+  std::int64_t segment = 0;
+  std::int64_t field = 0; // refined lattice and offset field
   std::int64_t images = 0;
 
   std::int64_t total() const
   {
-    return this->scalars + this->gradients + this->colors + this->field + this->images;
+    return this->scalars + this->gradients + this->colors + this->segment + this->field +
+      this->images;
   }
 };
 
@@ -40,6 +42,7 @@ struct DrawnSizes
   bool halfResolution = false;   // of the gradients
   glm::ivec3 forwardNodes{ 0 };  // of the refined lattice, a side; 0: no lattice
   glm::ivec3 backwardNodes{ 0 }; // of the offset field
+  int segmentBytes = 0;          // of one voxel; 0: no segment is drawn alone
   bool masked = false;           // a weight for each forward node
   glm::ivec2 pixels{ 0 };
 };

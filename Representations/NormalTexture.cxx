@@ -43,7 +43,9 @@ bool NormalTexture::update(vtkOpenGLRenderWindow* window, vtkTextureObject* scal
   // The usual difference over two voxels comes out as 1 along the longest side.
   const float longest =
     static_cast<float>(glm::max(dimensions.x, glm::max(dimensions.y, dimensions.z)));
-  program.set("gradientScale", 2.0f / (difference > 0.0f ? difference * longest : longest));
+  const float scale = 2.0f / (difference > 0.0f ? difference * longest : longest);
+  program.set("gradientScale", scale);
+  this->Scale = scale * 511.0 / 1023.0; // as normals.frag.glsl stores it
   runVolumePass(window, program.get()->GetHandle(), { this->Texture }, glm::ivec3(0), size);
   scalars->Deactivate();
   this->Source = scalars;

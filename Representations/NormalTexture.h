@@ -29,6 +29,9 @@ public:
   bool update(vtkOpenGLRenderWindow* window, vtkTextureObject* scalars,
     const glm::ivec3& dimensions, bool half, float difference, Counters& counters);
 
+  // A texel less ZeroGradient is the gradient, for each texture unit, times this; long ones are cut.
+  double scale() const { return this->Scale; }
+
   vtkTextureObject* texture() const { return this->Texture; }
   void releaseGraphicsResources(vtkWindow* window);
 
@@ -36,6 +39,7 @@ private:
   vtkSmartPointer<vtkTextureObject> Texture;
   vtkWeakPointer<vtkTextureObject> Source; // the scalars it was made from
   bool Half = false;
+  double Scale = 1.0;
   Program NormalsProgram;
 };
 }

@@ -210,6 +210,12 @@ void setOptionUniforms(Program& program, const RayCastOptions& options)
     const glm::vec4 plane(options.slicePlane);
     shader->SetUniform4f("slicePlane", &plane[0]);
   }
+  if (options.segment)
+  {
+    program.set("segment", options.segment);
+    program.set("segmentVoxel", glm::vec3(options.segmentVoxel));
+    program.set("cutGradient", glm::vec2(options.cutGradient));
+  }
   setColoringUniforms(program, options);
 }
 

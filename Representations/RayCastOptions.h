@@ -54,6 +54,9 @@ struct RayCastOptions
   vtkTextureObject* colors = nullptr;          // Coloring::Direct
   vtkTextureObject* colorScalars = nullptr;    // Coloring::OtherScalar
   glm::dvec2 transferFromColorScalar{ 1.0, 0.0 };
+  vtkTextureObject* segment = nullptr; // null: all tissue is drawn
+  glm::dvec3 segmentVoxel{ 1.0 };      // one of its voxels, texture coordinates
+  glm::dvec2 cutGradient{ 1.0, 0.0 };  // stored scalar to how much its edge counts for light
 };
 
 // The numbers that a property shows of an array, as ParaView's "Volume" does: independent ones by

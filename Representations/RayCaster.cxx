@@ -323,6 +323,7 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
   variant.blend = scene.options.blend;
   variant.coloring = scene.options.coloring;
   variant.regions = scene.options.regions;
+  variant.segmented = scene.options.segment != nullptr;
   variant.counted = scene.countSamples && variant.blend == Blend::Composite;
   Program& program = this->CastPrograms[variant];
   if (!this->prepareImages(window, scene) ||
@@ -346,7 +347,7 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
     this->ImagePart = this->HitsPart[scene.tile] = { scene.shownLow, scene.shownHigh };
   }
   for (vtkTextureObject* texture : { scene.scalars, scene.offsets, scene.normals, scene.transfer,
-         scene.sceneDepth, scene.options.colors, scene.options.colorScalars,
+         scene.sceneDepth, scene.options.colors, scene.options.colorScalars, scene.options.segment,
          scene.presence->leaps(), this->Spans.Get() })
   {
     if (texture)

@@ -149,10 +149,14 @@ void placeShownPixels(const IndexBox& bricks, RayCastScene& scene)
 {
   scene.shownLow = glm::ivec2(0);
   scene.shownHigh = bricks.empty() ? glm::ivec2(0) : scene.size;
+  if (bricks.empty())
+  {
+    return;
+  }
   const glm::dmat4 clipFromTexture = scene.clipFromWorld * scene.worldFromTexture;
   glm::dvec2 low(1e9);
   glm::dvec2 high(-1e9);
-  for (int corner = 0; corner < 8 && !bricks.empty(); ++corner)
+  for (int corner = 0; corner < 8; ++corner)
   {
     const glm::dvec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
     const glm::dvec3 brick =

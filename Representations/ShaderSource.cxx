@@ -3,6 +3,7 @@
 
 #include "FieldChange.h"
 #include "OffsetField.h"
+#include "SegmentShares.h"
 
 #include "shader_blocks_frag.h"
 #include "shader_bricks.h"
@@ -14,6 +15,7 @@
 #include "shader_counting.h"
 #include "shader_cover_frag.h"
 #include "shader_cubic.h"
+#include "shader_cut.h"
 #include "shader_field.h"
 #include "shader_fullscreen_vert.h"
 #include "shader_gradient.h"
@@ -31,6 +33,7 @@
 #include "shader_raycast.h"
 #include "shader_rays.h"
 #include "shader_refine_frag.h"
+#include "shader_segment.h"
 #include "shader_skipping.h"
 #include "shader_slice_frag.h"
 #include "shader_slices_frag.h"
@@ -108,6 +111,11 @@ std::string coloringDefine(Coloring coloring)
                                         : "";
 }
 
+std::string segmentDefines()
+{
+  return "#define SEGMENTED\n#define LEAST_SHARE " + std::to_string(LeastShare) + "\n";
+}
+
 const char* const LightNames[RayCastVariant::LightCount] = { "_unshaded", "_gradients",
   "_gradient_texture" };
 
@@ -119,7 +127,7 @@ std::string nameOf(const RayCastVariant& variant)
   return std::string("raycast") + (variant.deformed ? "_deformed" : "_rest") +
     LightNames[variant.light] + blends[static_cast<int>(variant.blend)] +
     colorings[static_cast<int>(variant.coloring)] + (variant.regions ? "_regions" : "") +
-    (variant.counted ? "_counted" : "");
+    (variant.segmented ? "_segment" : "") + (variant.counted ? "_counted" : "");
 }
 }
 
@@ -168,9 +176,10 @@ ShaderSource rayCastSource(const RayCastVariant& variant)
   defines += variant.light == RayCastVariant::GradientTexture ? "#define GRADIENT_TEXTURE\n" : "";
   defines += coloringDefine(variant.coloring);
   defines += variant.regions ? "#define REGIONS\n" : "";
+  defines += variant.segmented ? segmentDefines() : "";
   return { assemble({ shader_fullscreen_vert }), "",
     assemble({ Outputs, defines, shader_rays, shader_skipping, shader_clipping, shader_field,
-      shader_gradient, shader_tissue, shader_components, shader_light,
+      shader_gradient, shader_segment, shader_tissue, shader_cut, shader_components, shader_light,
       variant.counted ? std::string(shader_counting) : NotCounted, shader_raycast,
       blendSource(variant.blend) }) };
 }
@@ -190,8 +199,8 @@ ShaderSource slicesSource(const SlicesVariant& variant)
   const std::string defines = slabDefine() + (variant.deformed ? "#define DEFORMED\n" : "") +
     coloringDefine(variant.coloring) + (variant.compared ? "#define COMPARED\n" : "");
   return { assemble({ shader_slices_vert }), "",
-    assemble({ Outputs, defines, shader_rays, shader_field, shader_gradient, shader_tissue,
-      shader_components, shader_cubic, shader_comparison, shader_slices_frag }) };
+    assemble({ Outputs, defines, shader_rays, shader_field, shader_gradient, shader_segment,
+      shader_tissue, shader_components, shader_cubic, shader_comparison, shader_slices_frag }) };
 }
 
 std::vector<std::pair<std::string, ShaderSource>> allSources()
@@ -224,7 +233,13 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
     }
     add({ deformed, RayCastVariant::GradientTexture, Blend::Composite, Coloring::Mapped, true });
     add({ deformed, RayCastVariant::GradientTexture, Blend::Composite, Coloring::Mapped, false,
-      true });
+      false, true });
+    for (const Blend blend : { Blend::Composite, Blend::Isosurface, Blend::Average })
+    {
+      const bool lit = blend != Blend::Average;
+      add({ deformed, lit ? RayCastVariant::GradientTexture : RayCastVariant::Unshaded, blend,
+        Coloring::Mapped, false, true });
+    }
   }
   sources.emplace_back("slices_rest", slicesSource({}));
   sources.emplace_back("slices_deformed", slicesSource({ true }));

@@ -17,6 +17,8 @@ namespace brainshift
 {
 namespace
 {
+constexpr double CutWeight = 4.0; // from pictures: less leaves noise, more flattens the cortex
+
 // The blend modes that VTK lights.
 bool isLit(Blend blend)
 {
@@ -64,6 +66,7 @@ bool Tissue::update(vtkOpenGLRenderWindow* window, const TissueRequest& request,
   this->VisibleBlend = request.blend;
   this->VisibleIsovalues = isovalues;
   if (!this->updateColors(window, request, scene, counters, problem) ||
+    !this->updateSegment(window, request, scene, counters, problem) ||
     !this->updateGradients(window, request, scene, counters, problem))
   {
     return false;
@@ -80,6 +83,7 @@ bool Tissue::update(vtkOpenGLRenderWindow* window, const TissueRequest& request,
   scene.visibleScalars =
     this->Transfer.visibleValues(this->Scalars.scale(), this->Scalars.shift()).ends();
   scene.voxel = request.layout.textureFromGrid;
+  this->describeCut(request, scene);
   scene.volumeLow = request.layout.low;
   scene.volumeHigh = request.layout.high;
   return true;
@@ -112,6 +116,21 @@ bool Tissue::updateColors(vtkOpenGLRenderWindow* window, const TissueRequest& re
   return true;
 }
 
+// What keeps all but one segment from being drawn.
+bool Tissue::updateSegment(vtkOpenGLRenderWindow* window, const TissueRequest& request,
+  RayCastScene& scene, Counters& counters, std::string& problem)
+{
+  bool changed = false;
+  if (!this->Segment.update(window, request.segment, counters, changed))
+  {
+    problem = "The GPU refused a 3D texture for the segment that is drawn alone";
+    return false;
+  }
+  this->VisibilityChanged = this->VisibilityChanged || changed;
+  scene.options.segment = this->Segment.texture();
+  return true;
+}
+
 // Light, and gradients in a texture where it wants them there.
 bool Tissue::updateGradients(vtkOpenGLRenderWindow* window, const TissueRequest& request,
   RayCastScene& scene, Counters& counters, std::string& problem)
@@ -135,13 +154,26 @@ bool Tissue::updateGradients(vtkOpenGLRenderWindow* window, const TissueRequest&
   return true;
 }
 
+// What light needs to know of the segment's edge: how much the scalars' gradients, as they are read,
+// would change if the scalars fell there to the least that is visible.
+void Tissue::describeCut(const TissueRequest& request, RayCastScene& scene)
+{
+  const double mapStart = -scene.transferFromScalar.y / scene.transferFromScalar.x;
+  const double least = std::max<double>(scene.visibleScalars.x, mapStart);
+  const double scale = CutWeight * (scene.normals ? this->Normals.scale() : 1.0);
+  scene.options.cutGradient = { scale, -scale * least };
+  scene.options.segmentVoxel = request.layout.textureFromGrid;
+}
+
 std::vector<float> Tissue::summedVisibility() const
 {
   const VisibleValues mapped =
     this->Transfer.visibleValues(this->Scalars.scale(), this->Scalars.shift());
   if (this->VisibleBlend != Blend::Isosurface)
   {
-    return brainshift::summedVisibility(this->Scalars.ranges(), mapped);
+    return this->Segment.texture()
+      ? brainshift::summedVisibility(this->Segment.within(this->Scalars.ranges()), mapped)
+      : brainshift::summedVisibility(this->Scalars.ranges(), mapped);
   }
   std::vector<double> surfaces; // visible isovalues, as stored
   for (const double isovalue : this->VisibleIsovalues)
@@ -152,7 +184,8 @@ std::vector<float> Tissue::summedVisibility() const
       surfaces.push_back(stored);
     }
   }
-  // The filter's rounding may find a surface where no voxel reaches its value.
+  // A crossing lies between two samples, of which the segment may hold both but not the crossing: so
+  // its bricks are not asked. The filter's rounding may find a surface where no voxel reaches its value.
   const double rounding = 1e-5 * this->Scalars.range();
   const auto visible = [&](const glm::vec2& range) {
     return std::any_of(surfaces.begin(), surfaces.end(),
@@ -164,7 +197,7 @@ std::vector<float> Tissue::summedVisibility() const
 std::vector<vtkTextureObject*> Tissue::otherTextures() const
 {
   return { this->ColorScalars.texture(), this->Colors.texture(), this->Transfer.texture(),
-    this->Normals.texture() };
+    this->Normals.texture(), this->Segment.texture() };
 }
 
 bool Tissue::skippingIsExact(Blend blend) const
@@ -190,6 +223,7 @@ void Tissue::releaseGraphicsResources(vtkWindow* window)
   this->Colors.releaseGraphicsResources(window);
   this->Transfer.releaseGraphicsResources(window);
   this->Normals.releaseGraphicsResources(window);
+  this->Segment.releaseGraphicsResources(window);
 }
 
 void addTissueSizes(const TissueRequest& request, DrawnSizes& sizes)
@@ -203,6 +237,7 @@ void addTissueSizes(const TissueRequest& request, DrawnSizes& sizes)
                                                         : 0;
   sizes.gradients = request.property->GetShade() != 0 && isLit(request.blend) &&
     request.gradients != GradientSource::OnTheFly;
+  sizes.segmentBytes = request.segment.segmentation.labels ? SegmentTexture::bytesOfVoxel() : 0;
   sizes.halfResolution = request.gradients == GradientSource::HalfResolution;
 }
 }

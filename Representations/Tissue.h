@@ -10,6 +10,7 @@
 #include "RayCastOptions.h"
 #include "ScalarTexture.h"
 #include "SceneGeometry.h"
+#include "SegmentTexture.h"
 #include "TransferTexture.h"
 
 #include <glm/vec3.hpp>
@@ -45,6 +46,7 @@ struct TissueRequest
   Blend blend = Blend::Composite;
   GradientSource gradients = GradientSource::FullResolution;
   bool nearest = false; // voxels as they are, not blended
+  SegmentRequest segment;
 };
 
 class Tissue
@@ -69,10 +71,16 @@ public:
 
   StoredScalar stored() const { return { this->Scalars.scale(), this->Scalars.shift() }; }
 
+  // A sentence if the segment that is drawn holds nothing; else empty.
+  const std::string& remark() const { return this->Segment.remark(); }
+
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
   bool updateColors(vtkOpenGLRenderWindow* window, const TissueRequest& request,
+    RayCastScene& scene, Counters& counters, std::string& problem);
+  void describeCut(const TissueRequest& request, RayCastScene& scene);
+  bool updateSegment(vtkOpenGLRenderWindow* window, const TissueRequest& request,
     RayCastScene& scene, Counters& counters, std::string& problem);
   bool updateGradients(vtkOpenGLRenderWindow* window, const TissueRequest& request,
     RayCastScene& scene, Counters& counters, std::string& problem);
@@ -82,6 +90,7 @@ private:
   ColorTexture Colors;        // where the voxel brings its colour along
   TransferTexture Transfer;
   NormalTexture Normals;
+  SegmentTexture Segment;
   Blend VisibleBlend = Blend::Composite;
   std::vector<double> VisibleIsovalues; // those that are looked for
   bool VisibilityChanged = false;

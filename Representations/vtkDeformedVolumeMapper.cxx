@@ -154,7 +154,8 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   const TissueRequest tissue{ property, scalars, layout,
     this->SampleDistance > 0.0 ? this->SampleDistance : 0.5 * smallestSide, blendOf(this, property),
     static_cast<GradientSource>(this->NormalTexture),
-    property->GetInterpolationType() == VTK_NEAREST_INTERPOLATION };
+    property->GetInterpolationType() == VTK_NEAREST_INTERPOLATION,
+    this->SegmentOf(image, grid, layout) };
   Device& device = this->Internal->Devices.of(window);
   takeOutOfMemory(); // what others left behind
   const bool drawn = this->AskForMemory(renderer, device, tissue, problem) &&
@@ -205,6 +206,7 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   {
     return false;
   }
+  this->TellOnce(device.Tissue.remark());
   scene.skipping = this->EmptySpaceSkipping && device.Tissue.skippingIsExact(tissue.blend);
   describeView(renderer, volume, grid, layout, scene);
   describeOptions(this, tissue.property, tissue.scalars, device.Tissue.stored(),
@@ -319,11 +321,42 @@ void vtkDeformedVolumeMapper::TellUnsupported(vtkVolumeProperty* property, vtkDa
 {
   for (const std::string& sentence : unsupportedChoices(this, property, scalars))
   {
-    if (this->Internal->Told.insert(sentence).second)
-    {
-      vtkWarningMacro(<< sentence << ".");
-    }
+    this->TellOnce(sentence);
   }
+}
+
+void vtkDeformedVolumeMapper::TellOnce(const std::string& sentence)
+{
+  if (!sentence.empty() && this->Internal->Told.insert(sentence).second)
+  {
+    vtkWarningMacro(<< sentence << ".");
+  }
+}
+
+void vtkDeformedVolumeMapper::AddDrawnLabel(int label)
+{
+  this->DrawnLabels.push_back(label);
+  this->Modified();
+}
+
+void vtkDeformedVolumeMapper::ClearDrawnLabels()
+{
+  this->DrawnLabels.clear();
+  this->Modified();
+}
+
+// No segmentation where all tissue is drawn.
+SegmentRequest vtkDeformedVolumeMapper::SegmentOf(
+  vtkImageData* image, const Grid& grid, const ValueLayout& layout)
+{
+  if (!this->DrawSegment)
+  {
+    return {};
+  }
+  std::string remark;
+  SegmentRequest request = requestSegment(image, grid, layout, this->DrawnLabels, remark);
+  this->TellOnce(remark);
+  return request;
 }
 
 bool vtkDeformedVolumeMapper::Pick(vtkRenderer* renderer, int x, int y, double position[3])
@@ -418,6 +451,8 @@ void vtkDeformedVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "AdaptiveQuality: " << this->AdaptiveQuality << "\n"
      << indent << "KeepPicture: " << this->KeepPicture << "\n"
      << indent << "CountSamples: " << this->CountSamples << "\n"
+     << indent << "DrawSegment: " << this->DrawSegment << "\n"
+     << indent << "DrawnLabels: " << this->DrawnLabels.size() << "\n"
      << indent << "MemoryLimit: " << this->MemoryLimit << "\n"
      << indent << "NormalTexture: " << this->NormalTexture << "\n";
 }

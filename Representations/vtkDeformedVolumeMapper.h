@@ -28,6 +28,7 @@
 
 #include <memory> // for the private part
 #include <string> // for messages
+#include <vector> // for labels
 
 class vtkDataArray;
 class vtkImageData;
@@ -38,6 +39,7 @@ namespace brainshift
 struct Counters;
 struct Grid;
 struct RayCastScene;
+struct SegmentRequest;
 struct TissueRequest;
 struct ValueLayout;
 }
@@ -107,6 +109,21 @@ public:
   vtkGetMacro(KeepPicture, bool);
   ///@}
 
+  ///@{
+  /**
+   * Draw only tissue whose place at rest lies in the chosen labels of the segmentation that the
+   * volume carries (Filters/Segmentation.h). Default false.
+   */
+  vtkSetMacro(DrawSegment, bool);
+  vtkGetMacro(DrawSegment, bool);
+  ///@}
+
+  ///@{
+  /** Labels to draw. None, the default: those the segmentation means, or else all above 0. */
+  void AddDrawnLabel(int label);
+  void ClearDrawnLabels();
+  ///@}
+
   /**
    * Tissue position (mm, world, deformed frame) that the last whole picture in the renderer's
    * window shows at a pixel counted from the renderer's lower left corner, without drawing again:
@@ -144,6 +161,9 @@ private:
   void CoverSelection(vtkRenderer* renderer);
   void DrawUndeformed(vtkRenderer* renderer, vtkVolume* volume, const std::string& problem);
 
+  brainshift::SegmentRequest SegmentOf(
+    vtkImageData* image, const brainshift::Grid& grid, const brainshift::ValueLayout& layout);
+  void TellOnce(const std::string& sentence);
   void TellUnsupported(vtkVolumeProperty* property, vtkDataArray* scalars);
   bool AskForMemory(vtkRenderer* renderer, Device& device, const brainshift::TissueRequest& tissue,
     std::string& problem);
@@ -161,6 +181,8 @@ private:
   bool CountSamples = false;
   bool KeepPicture = false;
   double MemoryLimit = 0.0;
+  bool DrawSegment = false;
+  std::vector<int> DrawnLabels;
 
   std::unique_ptr<State> Internal;
 };

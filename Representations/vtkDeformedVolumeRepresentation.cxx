@@ -56,6 +56,21 @@ void vtkDeformedVolumeRepresentation::SetKeepPicture(bool keep)
   this->GetDeformedVolumeMapper()->SetKeepPicture(keep);
 }
 
+void vtkDeformedVolumeRepresentation::SetDrawSegment(bool segment)
+{
+  this->GetDeformedVolumeMapper()->SetDrawSegment(segment);
+}
+
+void vtkDeformedVolumeRepresentation::AddDrawnLabel(int label)
+{
+  this->GetDeformedVolumeMapper()->AddDrawnLabel(label);
+}
+
+void vtkDeformedVolumeRepresentation::ClearDrawnLabels()
+{
+  this->GetDeformedVolumeMapper()->ClearDrawnLabels();
+}
+
 void vtkDeformedVolumeRepresentation::SetAdaptiveQuality(bool adaptive)
 {
   this->GetDeformedVolumeMapper()->SetAdaptiveQuality(adaptive);

@@ -52,6 +52,13 @@ public:
   /** Cast no rays for a picture that would come out as the last one. Default false. */
   void SetKeepPicture(bool keep);
 
+  ///@{
+  /** Draw chosen labels of the volume's segmentation alone. Default false; none chosen. */
+  void SetDrawSegment(bool segment);
+  void AddDrawnLabel(int label);
+  void ClearDrawnLabels();
+  ///@}
+
   /** What draws it in this process. */
   vtkDeformedVolumeMapper* GetDeformedVolumeMapper() const;
 

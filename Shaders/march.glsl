@@ -44,7 +44,7 @@ vec3 restAt(March march, float number)
 
 bool inShownTissue(vec3 deformed, vec3 rest)
 {
-  return insideVolume(rest) && inShownRegion(deformed);
+  return insideVolume(rest) && inShownRegion(deformed) && inSegment(rest);
 }
 
 // A sample's colour under light, with the Jacobian found for it alone.

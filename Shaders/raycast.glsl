@@ -23,7 +23,7 @@ vec3 worldFromDeformed(vec3 deformed)
 vec3 shade(vec3 color, vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
 {
 #ifdef SHADED
-  vec3 gradient = turn * deformedGradientFromRest(slopes, gradientAt(rest));
+  vec3 gradient = turn * deformedGradientFromRest(slopes, shownGradientAt(rest));
   float steepness = length(gradient);
   vec3 normal = steepness > 0.0 ? gradient / steepness : vec3(0.0);
   return lit(color, normal, towardsEye, worldFromDeformed(deformed));

@@ -63,7 +63,7 @@ bool mayBeVisible(TissueTable table, float scalar)
 vec4 tissueAt(TissueTable table, vec3 rest, float scalar)
 {
   vec4 tissue = tissueOf(table, scalar);
-  tissue.a = insideVolume(table, rest) ? tissue.a : 0.0;
+  tissue.a = insideVolume(table, rest) ? tissue.a * segmentOpacityAt(rest) : 0.0;
   return tissue;
 }
 

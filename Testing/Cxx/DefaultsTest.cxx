@@ -22,7 +22,6 @@ TEST(Defaults, OfFreeFormDeformationLiveInTheClass)
   const int* sides = filter->GetLatticeDimensions();
   const double* interest = filter->GetPointOfInterest();
   const Defaults expected{
-    { "Feather", { filter->GetFeather() } },
     { "GuardFolding", { double(filter->GetGuardFolding()) } },
     { "Inverse", { double(filter->GetInverse()) } },
     { "Kernel", { double(filter->GetKernel()) } },
@@ -32,6 +31,8 @@ TEST(Defaults, OfFreeFormDeformationLiveInTheClass)
     { "Strength", { filter->GetStrength() } },
   };
   EXPECT_EQ(defaultsIn("Filters/FreeFormDeformation.xml"), expected);
+  const Defaults ofMask{ { "Feather", { filter->GetFeather() } } };
+  EXPECT_EQ(defaultsIn("Filters/FreeFormDeformationMask.xml"), ofMask);
 }
 
 TEST(Defaults, OfCompareVolumesLiveInTheClass)

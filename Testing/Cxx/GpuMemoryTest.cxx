@@ -35,6 +35,8 @@ TEST(GpuMemory, CountsEachPart)
   EXPECT_EQ(memoryNeed(sizes).gradients, 4 * MiB);
   sizes.colorBytes = 4;
   EXPECT_EQ(memoryNeed(sizes).colors, 32 * MiB);
+  sizes.segmentBytes = 1;
+  EXPECT_EQ(memoryNeed(sizes).segment, 8 * MiB);
   sizes.forwardNodes = { 64, 64, 64 };
   sizes.backwardNodes = { 64, 64, 128 };
   EXPECT_EQ(memoryNeed(sizes).field, 12 * MiB);
@@ -42,7 +44,7 @@ TEST(GpuMemory, CountsEachPart)
   EXPECT_EQ(memoryNeed(sizes).field, 13 * MiB);
   sizes.pixels = { 1024, 1024 };
   EXPECT_EQ(memoryNeed(sizes).images, 36 * MiB);
-  EXPECT_EQ(memoryNeed(sizes).total(), (16 + 4 + 32 + 13 + 36) * MiB);
+  EXPECT_EQ(memoryNeed(sizes).total(), (16 + 4 + 32 + 8 + 13 + 36) * MiB);
 }
 
 TEST(GpuMemory, DoesNotOverflow)

@@ -51,4 +51,6 @@ TEST(Defaults, OfDeformedVolumeLiveInTheMapper)
     { "MemoryLimit", { mapper->GetMemoryLimit() } },
     { "VolumeNormalTexture", { double(mapper->GetNormalTexture()) } } };
   EXPECT_EQ(defaultsIn("Representations/DeformedVolume.xml"), expected);
+  const Defaults ofSegment{ { "DrawSegment", { double(mapper->GetDrawSegment()) } } };
+  EXPECT_EQ(defaultsIn("Representations/DeformedVolumeSegment.xml"), ofSegment);
 }

@@ -39,4 +39,8 @@ TEST(ShaderSource, HoldsOnlyWhatAVariantNeeds)
   EXPECT_EQ(plain.find("#define DEFORMED"), std::string::npos);
   EXPECT_NE(deformed.find("#define DEFORMED"), std::string::npos);
   EXPECT_EQ(deformed.find("#define SHADED"), std::string::npos);
+  RayCastVariant alone{ true, RayCastVariant::GradientTexture };
+  EXPECT_EQ(rayCastSource(alone).fragment.find("#define SEGMENTED"), std::string::npos);
+  alone.segmented = true;
+  EXPECT_NE(rayCastSource(alone).fragment.find("#define SEGMENTED"), std::string::npos);
 }
