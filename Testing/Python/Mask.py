@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that with a mask only tissue inside it moves, in the picture as in the baked volume: the
-# brain of a real head, whose skull stays, and a ball whose picture is compared with the baked one.
+# Proves that with a mask only tissue inside it moves, in the picture, in slices, in geometry and in
+# exported fields as in the baked volume: the brain of a real head, whose skull stays, and a ball whose
+# picture is compared with the baked one.
 import numpy
 from brainshift_testing import (assert_says, ball, data, field, load_plugin, mean_difference,
-                                messages, object_pixels, output, picture, run_tests, show_volume,
-                                view_along, voxels, volume)
+                                messages, object_pixels, output, picture, run_tests, scratch,
+                                show_volume, view_along, voxels, volume)
+from slices_testing import flat_view, show_slices
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
-from paraview.simple import (BakeDeformation, Delete, FreeFormDeformation,  # noqa: E402
-                             OpenDataFile)
+from paraview.simple import (BakeDeformation, DeformationField, Delete,  # noqa: E402
+                             FreeFormDeformation, OpenDataFile)
 
 MIDDLE = (32.0, 32.0, 32.0)
 BRAIN, SKULL = 1, 2
@@ -37,8 +40,8 @@ def lower_half():
 def bent_ball(**properties):
     strokes = brainshift.soft((32, 32, 24), (7, -5, -4), 30.0) + brainshift.stamp(
         (32, 32, 32), (32, 32, 0), 6.0, major=26.0, minor=20.0)
-    return FreeFormDeformation(
-        Input=volume(ball(side=65, radius=20.0, edge=16.0)), Strokes=strokes, **properties)
+    return FreeFormDeformation(Input=volume(ball(side=65, radius=20.0, edge=16.0)),
+                               **{"Strokes": strokes, **properties})
 
 
 def test_only_what_is_inside_moves():
@@ -73,6 +76,62 @@ def test_the_picture_is_that_of_the_baked_volume():
     assert object_pixels(baked).mean() > 0.05
     assert difference < 0.001, difference
     assert mean_difference(free, baked) > 0.003
+
+
+def test_slices_are_those_of_the_baked_volume():
+    masked = bent_ball(Mask=lower_half(), MaskLabels=[1], Feather=6.0)
+    images = []
+    for shown in (masked, BakeDeformation(Input=masked, Interpolation="Cubic"), bent_ball()):
+        view = flat_view(0, MIDDLE, 32.0)
+        show_slices(shown, view, ("Sagittal",), MIDDLE)
+        images.append(picture(view))
+        Delete(view)
+    drawn, baked, free = images
+    print(f"  differs by {100 * mean_difference(drawn, baked):.3f} %, without the mask by "
+          f"{100 * mean_difference(free, baked):.2f} %", flush=True)
+    assert mean_difference(drawn, baked) < 0.001
+    assert mean_difference(free, baked) > 0.005
+    half = drawn.shape[0] // 2 + 3  # rows above the edge
+    unbent = bent_ball(Strokes=())
+    view = flat_view(0, MIDDLE, 32.0)
+    show_slices(unbent, view, ("Sagittal",), MIDDLE)
+    assert numpy.array_equal(picture(view)[half:], drawn[half:]), "above the edge nothing moves"
+    Delete(view)
+
+
+def test_geometry_and_exported_fields_are_those_of_the_mask():
+    """The same map everywhere: outside it is none, inside it is the one that bakes."""
+    masked = bent_ball(Mask=lower_half(), MaskLabels=[1], Feather=6.0)
+    random = numpy.random.default_rng(8)
+    above = random.uniform((2, 2, EDGE), (62, 62, 62), (2000, 3))
+    below = random.uniform((8, 8, 8), (56, 56, 26), (2000, 3))
+    assert numpy.array_equal(brainshift.deformed_from_rest(masked, above), above)
+    assert numpy.array_equal(brainshift.rest_from_deformed(masked, above), above)
+    there = brainshift.deformed_from_rest(masked, below)
+    assert numpy.abs(there - below).max() > 3.0
+    assert numpy.abs(brainshift.rest_from_deformed(masked, there) - below).max() < 0.01
+    free = brainshift.deformed_from_rest(bent_ball(), above)
+    assert numpy.abs(free - above).max() > 3.0, "without the mask both halves move"
+
+    forward = DeformationField(Input=masked, Direction="Forward")
+    file = scratch("Mask-field.nii.gz")
+    brainshift.save_field(masked, file)
+    backward = OpenDataFile(file)
+    for field_image, towards in ((forward, brainshift.deformed_from_rest),
+                                 (backward, brainshift.rest_from_deformed)):
+        field_image.UpdatePipeline()
+        image = output(field_image)
+        vectors = next(image.GetPointData().GetArray(i)
+                       for i in range(image.GetPointData().GetNumberOfArrays())
+                       if image.GetPointData().GetArray(i).GetNumberOfComponents() == 3)
+        sides = image.GetDimensions()
+        displacements = vtk_to_numpy(vectors).reshape(sides[2], sides[1], sides[0], 3)
+        assert image.GetSpacing()[2] == 1.0 and abs(image.GetOrigin()[2]) < 1e-6
+        assert not displacements[EDGE:].any(), "above the edge nothing moves"
+        points = random.integers((8, 8, 8), (56, 56, 26), (500, 3))
+        moved = points + displacements[points[:, 2], points[:, 1], points[:, 0]]
+        assert numpy.abs(moved - towards(masked, points)).max() < 0.02, towards
+        assert numpy.abs(moved - points).max() > 3.0, towards
 
 
 def test_the_picture_follows_the_mask():
