@@ -2,6 +2,7 @@
 #include "ReferenceVolume.h"
 
 #include "GridArray.h"
+#include "SharedArray.h"
 
 #include "vtkDataObject.h"
 #include "vtkFieldData.h"
@@ -19,10 +20,7 @@ constexpr const char* GridName = "ReferenceGrid";
 
 vtkSmartPointer<vtkDataArray> asReferenceVoxels(vtkDataArray* scalars)
 {
-  auto voxels = vtk::TakeSmartPointer(scalars->NewInstance());
-  voxels->ShallowCopy(scalars);
-  voxels->SetName(VoxelsName);
-  return voxels;
+  return sharedAs(VoxelsName, scalars);
 }
 
 void attachReference(vtkDataObject* volume, const ReferenceVolume& reference)

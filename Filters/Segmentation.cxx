@@ -3,6 +3,7 @@
 
 #include "GridArray.h"
 #include "MaskImage.h"
+#include "SharedArray.h"
 
 #include "vtkDataObject.h"
 #include "vtkFieldData.h"
@@ -87,9 +88,7 @@ std::string SegmentationSource::find(
   {
     this->Source = found.labels;
     this->SourceTime = found.labels->GetMTime();
-    this->Labels = vtk::TakeSmartPointer(found.labels->NewInstance());
-    this->Labels->ShallowCopy(found.labels);
-    this->Labels->SetName(SegmentationName);
+    this->Labels = sharedAs(SegmentationName, found.labels);
   }
   segmentation.labels = this->Labels;
   segmentation.grid = found.grid;

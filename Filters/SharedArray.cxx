@@ -111,6 +111,18 @@ vtkSmartPointer<vtkDataArray> sharedOver(vtkDataArray* source)
 }
 }
 
+vtkSmartPointer<vtkDataArray> sharedAs(const char* name, vtkDataArray* source)
+{
+  vtkSmartPointer<vtkDataArray> shared = sharedOver(source);
+  if (shared == source) // which keeps its own name
+  {
+    shared = vtk::TakeSmartPointer(source->NewInstance());
+    shared->ShallowCopy(source);
+  }
+  shared->SetName(name);
+  return shared;
+}
+
 SharedArrays::SharedArrays() = default;
 SharedArrays::~SharedArrays() = default;
 

@@ -8,15 +8,18 @@
 #ifndef BrainShift_SharedArray_h
 #define BrainShift_SharedArray_h
 
+#include "vtkDataArray.h" // for its smart pointer
 #include "vtkSmartPointer.h"
 
 #include <vector>
 
-class vtkDataArray;
 class vtkDataSetAttributes;
 
 namespace brainshift
 {
+// The same numbers under another name, for data that travels beside a volume.
+vtkSmartPointer<vtkDataArray> sharedAs(const char* name, vtkDataArray* source);
+
 class SharedArrays
 {
 public:

@@ -121,6 +121,20 @@ TEST_F(SegmentedFilter, PassesTheSameArrayAgain)
   EXPECT_EQ(changed.labels->GetTuple1(0), 5.0);
 }
 
+TEST_F(SegmentedFilter, ReadsNoLabelForAStroke)
+{
+  // ParaView asks each output for the range of all its arrays.
+  const auto image = labelsOn(VolumeGrid);
+  this->Filter->SetInputDataObject(3, image);
+  double range[2];
+  this->output()->GetFieldData()->GetRange(SegmentationName, range);
+  EXPECT_EQ(range[1], 5.0);
+  image->GetPointData()->GetScalars()->SetTuple1(0, 200.0); // behind everybody's back
+  setStrokes(this->Filter, { strokeAt(Tool::Soft, Middle, { 3.0, 0.0, 0.0 }) });
+  this->output()->GetFieldData()->GetRange(SegmentationName, range);
+  EXPECT_EQ(range[1], 5.0);
+}
+
 TEST_F(SegmentedFilter, TakesNoneThatLiesElsewhere)
 {
   this->Filter->SetInputDataObject(3, labelsOn(VolumeGrid));
