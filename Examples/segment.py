@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws a head, its brain alone by Draw Segment, and the brain pulled out by a stamp: one picture of
-three.
+"""Draws a head, its brain alone by Draw Segment, and the brain pulled out by a stamp: one picture
+of three.
 
     pvpython segment.py FILE.png
 

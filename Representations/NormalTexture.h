@@ -29,7 +29,8 @@ public:
   bool update(vtkOpenGLRenderWindow* window, vtkTextureObject* scalars,
     const glm::ivec3& dimensions, bool half, float difference, Counters& counters);
 
-  // A texel less ZeroGradient is the gradient, for each texture unit, times this; long ones are cut.
+  // A texel less ZeroGradient is the gradient, for each texture unit, times this; long ones are
+  // cut.
   double scale() const { return this->Scale; }
 
   vtkTextureObject* texture() const { return this->Texture; }

@@ -154,8 +154,8 @@ bool Tissue::updateGradients(vtkOpenGLRenderWindow* window, const TissueRequest&
   return true;
 }
 
-// What light needs to know of the segment's edge: how much the scalars' gradients, as they are read,
-// would change if the scalars fell there to the least that is visible.
+// What light needs to know of the segment's edge: how much the scalars' gradients, as they are
+// read, would change if the scalars fell there to the least that is visible.
 void Tissue::describeCut(const TissueRequest& request, RayCastScene& scene)
 {
   const double mapStart = -scene.transferFromScalar.y / scene.transferFromScalar.x;
@@ -184,8 +184,9 @@ std::vector<float> Tissue::summedVisibility() const
       surfaces.push_back(stored);
     }
   }
-  // A crossing lies between two samples, of which the segment may hold both but not the crossing: so
-  // its bricks are not asked. The filter's rounding may find a surface where no voxel reaches its value.
+  // A crossing lies between two samples, of which the segment may hold both but not the crossing:
+  // so its bricks are not asked. The filter's rounding may find a surface where no voxel reaches
+  // its value.
   const double rounding = 1e-5 * this->Scalars.range();
   const auto visible = [&](const glm::vec2& range) {
     return std::any_of(surfaces.begin(), surfaces.end(),

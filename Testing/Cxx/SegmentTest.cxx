@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that a segmentation travels with a volume as the same array object, and that the shares its
-// segment is drawn by put every voxel's middle on the side of its label, smoothly, on any grid.
+// Proves that a segmentation travels with a volume as the same array object, and that the shares
+// its segment is drawn by put every voxel's middle on the side of its label, smoothly, on any grid.
 #include "SegmentShares.h"
 #include "Segmentation.h"
 #include "TestPipeline.h"

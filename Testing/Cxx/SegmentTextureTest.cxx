@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that skipping keeps each brick in which a segment may be seen, margin included, and no brick
-// that lies farther away; and which labels are drawn.
+// Proves that skipping keeps each brick in which a segment may be seen, margin included, and no
+// brick that lies farther away; and which labels are drawn.
 #include "SegmentTexture.h"
 #include "SceneGeometry.h"
 #include "SegmentShares.h"

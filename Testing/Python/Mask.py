@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that with a mask only tissue inside it moves, in the picture, in slices, in geometry and in
-# exported fields as in the baked volume: the brain of a real head, whose skull stays, and a ball whose
-# picture is compared with the baked one.
+# exported fields as in the baked volume: the brain of a real head, whose skull stays, and a ball
+# whose picture is compared with the baked one.
 import numpy
 from brainshift_testing import (assert_says, ball, data, field, load_plugin, mean_difference,
                                 messages, object_pixels, output, picture, run_tests, scratch,

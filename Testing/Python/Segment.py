@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that Deformed Volume draws chosen labels of a segmentation alone: as ParaView's Volume draws
-# a baked volume whose other voxels are the lowest; from labels on any grid; in every blend mode; with
-# picks that follow; and that what cannot be drawn is told.
+# Proves that Deformed Volume draws chosen labels of a segmentation alone: as ParaView's Volume
+# draws a baked volume whose other voxels are the lowest; from labels on any grid; in every blend
+# mode; with picks that follow; and that what cannot be drawn is told.
 import numpy
 from brainshift_testing import (assert_says, load_plugin, mean_difference, messages, object_pixels,
                                 picture, run_tests, use_headlight, view_along, volume, voxels)
@@ -45,8 +45,8 @@ def assert_drawn_alone(what, filter, labels, limit, **named):
     whole = picture_of(filter, **named)
     difference, other = mean_difference(drawn, expected), mean_difference(whole, expected)
     share = object_pixels(expected).mean()
-    print(f"  {what}: differs by {100 * difference:.2f} %, all of it by {100 * other:.2f} %, object "
-          f"on {100 * share:.0f} %", flush=True)
+    print(f"  {what}: differs by {100 * difference:.2f} %, all of it by {100 * other:.2f} %, "
+          f"object on {100 * share:.0f} %", flush=True)
     assert share > 0.1, (what, share)
     assert difference < limit, (what, difference)
     assert other > 4 * difference, (what, other)
@@ -92,7 +92,7 @@ def test_labels_asked_for_or_meant():
         return picture_of(bent(**named), list(labels))
 
     segmentation = volume(LABELS)
-    brain, skull = drawn([BRAIN], Segmentation=segmentation), drawn([SKULL], Segmentation=segmentation)
+    brain, skull = (drawn([label], Segmentation=segmentation) for label in (BRAIN, SKULL))
     every = drawn(Segmentation=segmentation)
     assert mean_difference(brain, skull) > 0.1 and mean_difference(brain, every) > 0.1
     assert numpy.array_equal(every, drawn([BRAIN, SKULL, VESSEL], Segmentation=segmentation))
@@ -116,8 +116,8 @@ def test_a_segmentation_keeps_nothing_from_moving():
 def test_other_blend_modes():
     filter = bent(Segmentation=volume(LABELS))
     brain = object_pixels(picture_of(filter, [BRAIN]))
-    for name, mode in (("isosurface", 5), ("maximum", 1), ("minimum", 2), ("average", 3), ("sum", 4),
-                       ("slice", 6)):
+    for name, mode in (("isosurface", 5), ("maximum", 1), ("minimum", 2), ("average", 3),
+                       ("sum", 4), ("slice", 6)):
         def configure(display, mode=mode):
             display.BlendMode = mode
             display.IsosurfaceValues = [60.0, 80.0]

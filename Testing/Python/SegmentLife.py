@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves of a segment that is drawn alone: skipping leaves the picture as it is bit for bit, with
-# lattices that fold and in every blend mode, and leaps over what is not drawn; what is uploaded, kept
-# and counted; that states and servers bring the same picture.
+# lattices that fold and in every blend mode, and leaps over what is not drawn; what is uploaded,
+# kept and counted; that states and servers bring the same picture.
 import numpy
 from brainshift_testing import (ball, load_plugin, on_server, picture, run_tests, scratch,
                                 server_finds_plugin, show_volume, view_along, volume)
