@@ -17,8 +17,8 @@ namespace brainshift
 {
 constexpr int WholeShare = 255; // all of the place belongs to the segment; half of it: the edge
 
-// Tissue with a smaller share in the segment is not drawn; with one as near to the
-// whole all of it is. In between opacity rises, over some one and a half voxels.
+// Tissue with a smaller share in the segment is not drawn; with one as near to the whole all of it
+// is. In between opacity rises, over about a voxel.
 constexpr float LeastShare = 0.3f;
 
 // Shares, 0 to WholeShare, at the points of a grid, which may lie anyhow to the segment's; x

@@ -16,8 +16,8 @@ DIRECTION = (-0.6, 0.5, -1.0)
 LABELS = labels_at(places())
 
 
-def new_view(size=220):
-    view = view_along(DIRECTION, MIDDLE, 110.0, size=size)
+def new_view():
+    view = view_along(DIRECTION, MIDDLE, 110.0, size=140)
     use_headlight(view)
     return view
 
@@ -137,7 +137,7 @@ def test_picks_follow_what_is_drawn():
     view = new_view()
     display = show(bent(Segmentation=volume(LABELS)), view)
     picture(view)
-    middle, corner = (110, 110), (30, 110)
+    middle, corner = (70, 70), (19, 70)
     outer = brainshift.pick(display, view, *middle)
     assert brainshift.pick(display, view, *corner) is not None
     display.DrawSegment = 1
