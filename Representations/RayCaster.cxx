@@ -267,9 +267,9 @@ bool RayCaster::prepareImages(vtkOpenGLRenderWindow* window, const RayCastScene&
   {
     this->HitsPart[scene.tile] = { glm::ivec2(-1), scene.size + 1 }; // whatever memory held
   }
-  return prepare(this->Image, GL_RGBA16F, vtkTextureObject::Linear) &&
+  return prepare(this->Image, GL_RGBA8, vtkTextureObject::Linear) &&
     prepare(this->Hits[scene.tile], GL_RGBA32F, vtkTextureObject::Nearest) &&
-    prepare(this->Spans, GL_RG32F, vtkTextureObject::Nearest);
+    prepare(this->Spans, GL_RG16, vtkTextureObject::Nearest);
 }
 
 // Rasterises the occupied bricks' faces: first and last t of every pixel.
@@ -284,7 +284,7 @@ bool RayCaster::findSpans(
   vtkOpenGLState* state = window->GetState();
   ImageScope images(state, scene);
   images.attach(0, this->Spans);
-  const float nothing[4] = { 1e30f, 1e30f, 1e30f, 1e30f };
+  const float nothing[4] = { 1.0f, 1.0f, 1.0f, 1.0f };
   glClearBufferfv(GL_COLOR, 0, nothing);
   state->vtkglEnable(GL_BLEND);
   glBlendEquation(GL_MIN);

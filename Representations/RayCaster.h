@@ -129,7 +129,7 @@ private:
   vtkSmartPointer<vtkTextureObject>
     Hits[2];                               // [tile] first hit, mm; distance from the near plane, mm
   vtkSmartPointer<vtkTextureObject> Count; // samples taken and skipped; null unless asked for
-  vtkSmartPointer<vtkTextureObject> Spans; // least t, minus greatest t in occupied bricks
+  vtkSmartPointer<vtkTextureObject> Spans; // of a ray: share before and behind occupied bricks
   std::map<RayCastVariant, Program> CastPrograms; // those drawn with so far
   Program SpansProgram;
   Program CompositeProgram;

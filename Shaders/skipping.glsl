@@ -2,8 +2,8 @@
 // where to start and end, from the distance to occupied bricks where to leap in between.
 
 uniform int skipping;         // 0: all samples, for comparison
-uniform sampler2D spans;      // red: least share of the ray on an occupied brick's face; green: minus
-                              // the greatest
+uniform sampler2D spans;      // red: least share of the ray on an occupied brick's face; green: what
+                              // is left of the ray behind the last one; 16 bits each
 uniform vec2 spansTexel;      // one pixel, texture coordinates of `spans`
 uniform sampler3D leaps;      // bricks of the deformed frame: 0 where something may be seen, else how
                               // many bricks away, of 255, the nearest such brick is
@@ -11,7 +11,7 @@ uniform vec3 brickFromTexture;
 uniform vec3 brickOfTextureZero; // minus the first brick
 uniform vec3 leapsTexel;         // one brick, texture coordinates of `leaps`
 
-const float Nothing = 1e29; // what `spans` holds where no face is
+const float SpanRounding = 1.0 / 65535.0; // of a share, at most
 const float Trust = 8.0; // so many samples, first ones and after a visible one, are not asked about
 
 // The eye may be inside an occupied brick: its front faces are then behind the eye.
@@ -31,15 +31,15 @@ vec2 presentSamples(Ray ray, vec2 span, float stepMm)
     return all;
   }
   vec2 found = textureLod(spans, gl_FragCoord.xy * spansTexel, 0.0).rg;
-  if (found.y > Nothing)
+  if (found.y == 1.0)
   {
     return vec2(0.0); // the ray meets no occupied brick: even from inside it would leave one
   }
-  found *= ray.lengthMm;
+  found = (found - SpanRounding) * ray.lengthMm;
   float nearest = startsInside(ray.start) ? 0.0 : found.x;
   // One sample more to either side for rounding.
   vec2 present = vec2(floor((nearest - span.x) / stepMm) - 1.0,
-    ceil((-found.y - span.x) / stepMm) + 2.0);
+    ceil((ray.lengthMm - found.y - span.x) / stepMm) + 2.0);
   return vec2(max(present.x, all.x), min(present.y, all.y));
 }
 
