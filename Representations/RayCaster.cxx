@@ -324,6 +324,7 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
   variant.coloring = scene.options.coloring;
   variant.regions = scene.options.regions;
   variant.counted = scene.countSamples && variant.blend == Blend::Composite;
+  variant.sharedLight = scene.shaded && scene.opaqueTissue && variant.blend == Blend::Composite;
   Program& program = this->CastPrograms[variant];
   if (!this->prepareImages(window, scene) ||
     (variant.counted && !this->prepareCount(window, scene.size)) ||

@@ -40,7 +40,7 @@ struct RayCastScene
   glm::dvec3 mmFromTexture{ 1.0 }; // along the volume's axes, before an actor's scale
   glm::dvec3 spaceLow{ 0.0 };      // part of the deformed frame tissue can reach
   glm::dvec3 spaceHigh{ 1.0 };
-  SlabHull moved;               // where tissue may have moved, in lattice coordinates, which are
+  SlabHull moved; // where tissue may have moved, in lattice coordinates, which are
   glm::dvec3 latticeFromTexture{ 1.0 }; // texture * latticeFromTexture + latticeOfTextureZero
   glm::dvec3 latticeOfTextureZero{ 0.0 };
   glm::dvec3 volumeLow{ 0.0 }; // the volume's box in the rest frame
@@ -60,6 +60,7 @@ struct RayCastScene
   RayCastLights lights;
   RayCastOptions options;
   bool shaded = false;
+  bool opaqueTissue = false; // at some value a step hides what is behind, so that rays end soon
   bool skipping = true;
   bool jitter = false;       // rays start at different shares of a step
   bool countSamples = false; // counters learn of samples taken and skipped; Composite only

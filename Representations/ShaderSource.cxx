@@ -119,14 +119,13 @@ std::string nameOf(const RayCastVariant& variant)
   return std::string("raycast") + (variant.deformed ? "_deformed" : "_rest") +
     LightNames[variant.light] + blends[static_cast<int>(variant.blend)] +
     colorings[static_cast<int>(variant.coloring)] + (variant.regions ? "_regions" : "") +
-    (variant.counted ? "_counted" : "");
+    (variant.counted ? "_counted" : "") + (variant.sharedLight ? "_shared_light" : "");
 }
 }
 
 ShaderSource refineSource(bool masked)
 {
-  return volumePassSource((masked ? "#define MASKED\n" : std::string()) + "#define MAX_PER_CELL " +
-    std::to_string(LargestSamples + 1) + "\n" + std::string(shader_refine_frag));
+  return volumePassSource((masked ? "#define MASKED\n" : "") + std::string(shader_refine_frag));
 }
 
 ShaderSource invertSource()
@@ -168,6 +167,7 @@ ShaderSource rayCastSource(const RayCastVariant& variant)
   defines += variant.light == RayCastVariant::GradientTexture ? "#define GRADIENT_TEXTURE\n" : "";
   defines += coloringDefine(variant.coloring);
   defines += variant.regions ? "#define REGIONS\n" : "";
+  defines += variant.sharedLight ? "#define SHARED_LIGHT\n" : "";
   return { assemble({ shader_fullscreen_vert }), "",
     assemble({ Outputs, defines, shader_rays, shader_skipping, shader_clipping, shader_field,
       shader_gradient, shader_tissue, shader_components, shader_light,
@@ -224,7 +224,7 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
     }
     add({ deformed, RayCastVariant::GradientTexture, Blend::Composite, Coloring::Mapped, true });
     add({ deformed, RayCastVariant::GradientTexture, Blend::Composite, Coloring::Mapped, false,
-      true });
+      true, true });
   }
   sources.emplace_back("slices_rest", slicesSource({}));
   sources.emplace_back("slices_deformed", slicesSource({ true }));

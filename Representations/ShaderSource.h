@@ -58,14 +58,15 @@ struct RayCastVariant
   } light = Unshaded;
   Blend blend = Blend::Composite;
   Coloring coloring = Coloring::Mapped;
-  bool regions = false; // VTK's cropping regions, other than the middle one alone
-  bool counted = false; // a third target tells the samples taken and skipped; Composite only
+  bool regions = false;     // VTK's cropping regions, other than the middle one alone
+  bool counted = false;     // a third target tells the samples taken and skipped; Composite only
+  bool sharedLight = false; // two samples share their light; Composite only, where there is light
 
   bool operator<(const RayCastVariant& other) const
   {
     const auto key = [](const RayCastVariant& variant) {
       return std::make_tuple(variant.deformed, variant.light, variant.blend, variant.coloring,
-        variant.regions, variant.counted);
+        variant.regions, variant.counted, variant.sharedLight);
     };
     return key(*this) < key(other);
   }

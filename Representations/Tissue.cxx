@@ -17,6 +17,9 @@ namespace brainshift
 {
 namespace
 {
+// What a step must hide for its tissue to be opaque: behind a few such steps a ray ends.
+constexpr float OpaqueStep = 0.9f;
+
 // The blend modes that VTK lights.
 bool isLit(Blend blend)
 {
@@ -76,6 +79,7 @@ bool Tissue::update(vtkOpenGLRenderWindow* window, const TissueRequest& request,
   }
   setFilter(scene.normals, request.nearest && request.gradients == GradientSource::FullResolution);
   scene.transfer = this->Transfer.texture();
+  scene.opaqueTissue = this->Transfer.largestOpacity() >= OpaqueStep;
   scene.transferFromScalar = transferFromStored(this->Transfer, this->Scalars);
   scene.visibleScalars =
     this->Transfer.visibleValues(this->Scalars.scale(), this->Scalars.shift()).ends();

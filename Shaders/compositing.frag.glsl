@@ -11,9 +11,9 @@ float startShare(ivec2 pixel)
 }
 
 // Colour times opacity, and opacity, of a sample.
-vec4 shown(vec4 tissue, vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
+vec4 shown(vec4 tissue, vec3 rest, Shine shine)
 {
-  vec3 color = shade(colorOf(tissue, rest), deformed, rest, slopes, turn, towardsEye);
+  vec3 color = shone(shine, colorOf(tissue, rest));
   return tissue.a > 0.0 ? vec4(color * tissue.a, tissue.a) : vec4(0.0);
 }
 
@@ -103,8 +103,19 @@ bool takeTwo(Path path, TissueTable table, mat3 turn, float i, inout Seen seen)
     {
       slopes = offsetSlopes(positionOf(path.field, i) + 0.5 * path.field.stride);
     }
-    see(seen, shown(one, oneDeformed, oneRest, slopes, turn, path.towardsEye), i);
-    see(seen, shown(two, twoDeformed, twoRest, slopes, turn, path.towardsEye), i + 1.0);
+#ifdef SHARED_LIGHT
+    // Light is found once, at the middle of what the two show.
+    float further = (1.0 - one.a) * two.a;
+    float way = further / (one.a + further);
+    Shine oneShine = shineAt(mix(oneDeformed, twoDeformed, way), mix(oneRest, twoRest, way), slopes,
+      turn, path.towardsEye);
+    Shine twoShine = oneShine;
+#else
+    Shine oneShine = shineAt(oneDeformed, oneRest, slopes, turn, path.towardsEye);
+    Shine twoShine = shineAt(twoDeformed, twoRest, slopes, turn, path.towardsEye);
+#endif
+    see(seen, shown(one, oneRest, oneShine), i);
+    see(seen, shown(two, twoRest, twoShine), i + 1.0);
   }
   return visible;
 }

@@ -19,15 +19,21 @@ vec3 worldFromDeformed(vec3 deformed)
   return worldFromTexture * deformed + worldOfTextureZero;
 }
 
-// A sample's colour under light. `slopes`: of the offsets near it; `turn`: worldFromGradient.
-vec3 shade(vec3 color, vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
+// What light does at a position. `slopes`: of the offsets near it; `turn`: worldFromGradient.
+Shine shineAt(vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
 {
 #ifdef SHADED
   vec3 gradient = turn * deformedGradientFromRest(slopes, gradientAt(rest));
   float steepness = length(gradient);
   vec3 normal = steepness > 0.0 ? gradient / steepness : vec3(0.0);
-  return lit(color, normal, towardsEye, worldFromDeformed(deformed));
+  return shineOn(normal, towardsEye, worldFromDeformed(deformed));
 #else
-  return color;
+  return Shine(vec3(1.0), vec3(0.0));
 #endif
+}
+
+// A sample's colour under light.
+vec3 shade(vec3 color, vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
+{
+  return shone(shineAt(deformed, rest, slopes, turn, towardsEye), color);
 }

@@ -41,8 +41,8 @@ TEST(GpuMemory, CountsEachPart)
   sizes.masked = true;
   EXPECT_EQ(memoryNeed(sizes).field, 13 * MiB);
   sizes.pixels = { 1024, 1024 };
-  EXPECT_EQ(memoryNeed(sizes).images, 36 * MiB);
-  EXPECT_EQ(memoryNeed(sizes).total(), (16 + 4 + 32 + 13 + 36) * MiB);
+  EXPECT_EQ(memoryNeed(sizes).images, 28 * MiB);
+  EXPECT_EQ(memoryNeed(sizes).total(), (16 + 4 + 32 + 13 + 28) * MiB);
 }
 
 TEST(GpuMemory, DoesNotOverflow)
