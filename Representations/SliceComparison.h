@@ -30,9 +30,9 @@ class Program;
 struct ComparisonChoice
 {
   int comparison = 0;             // as numbered there
-  double checkerSizeMm = 20.0;    // of a field
+  double checkerSizeMm = 1.0;     // of a field
   glm::dvec2 shownRange{ 0.0 };   // scalars of the reference that are black and white
-  double fullGradient = 0.3;      // share of the shown range within a mm that is fully green
+  double fullGradient = 1.0;      // share of the shown range within a mm that is fully green
   glm::dvec3 wipePosition{ 0.0 }; // mm, world
 };
 

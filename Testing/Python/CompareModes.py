@@ -170,6 +170,29 @@ def test_show_one_alone():
         assert not image[~inside & ~border].any(), "where no reference is, nothing is"
 
 
+def test_colours_of_the_map():
+    """Ways that mix grey values do not ask the colour map; what is shown alone does."""
+    pair = Pair()
+    share, inside = pair.expected()
+    grey = {way: compared_picture(pair.compare, way)
+            for way in ("Red and green", "Difference", "Gradient")}
+    view = flat_view(2, MIDDLE, HALF)
+    display = show_slices(pair.compare, view, ("Axial",), MIDDLE)
+    colors = simple.GetColorTransferFunction("Intensity", display, separate=True)
+    colors.RGBPoints = [0, 0, 0, 1, 100, 1, 0, 0]
+    for way, image in grey.items():
+        display.SliceComparison = way
+        assert (picture(view) == image).all(), way
+    display.SliceComparison = "Wipe"
+    display.WipePosition = [99.0, 0.0, 0.0]  # all of it is on the reference's side
+    wiped = picture(view)
+    pair.compare.Show = "Reference"
+    for image in (wiped, picture(view)):
+        for color, expected in enumerate((share, 0 * share, 1 - share)):
+            assert numpy.abs(image[:, :, color] - expected)[inside].max() < ENOUGH, color
+    Delete(view)
+
+
 def test_the_reference_alone_needs_no_tissue():
     holed = smooth(2)
     holed[:, 10:20, 10:20] = numpy.nan
