@@ -9,8 +9,9 @@ import os
 import brainshift
 import numpy
 import test_hand as hand
-from brainshift_testing import picture
 from paraview import simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
 MOVED = (-4.0, 0.0, 0.0)
 PLACE = (0.5, 0.5, 0.5)
@@ -31,7 +32,9 @@ def open_volumes():
     compare = simple.CompareVolumes(registrationName="compared", Input=bent, Reference=wavelet,
                                     ReferenceTranslation=MOVED)
     first = simple.GetActiveViewOrCreate("RenderView")
-    simple.Show(compare, first)
+    shown = simple.Show(compare, first)
+    shown.SetRepresentationType("Outline")  # the panel chooses another one
+    simple.ColorBy(shown, None)
     second = simple.CreateView("RenderView")
     simple.GetLayout(first).AssignView(simple.GetLayout(first).SplitHorizontal(0, 0.5) + 1, second)
     display = simple.Show(compare, second, "UniformGridRepresentation")
@@ -45,21 +48,33 @@ def place_slices():
     """What the panel leaves as it was; the picture is looked at from one side."""
     for view in simple.GetRenderViews():
         display = simple.GetDisplayProperties(simple.FindSource("compared"), view)
-        simple.ColorBy(display, ("POINTS", "RTData"))
         display.SlicePosition = PLACE
         view.ResetActiveCameraToNegativeZ()
         view.UseFXAA = 0
+        simple.Render(view)
+
+
+def on_screen(view):
+    """What was drawn last, every fourth pixel of it."""
+    pixels = vtkWindowToImageFilter()
+    pixels.SetInput(view.GetRenderWindow())
+    pixels.ReadFrontBufferOff()
+    pixels.ShouldRerenderOff()
+    pixels.Update()
+    image = pixels.GetOutput()
+    width, height, _ = image.GetDimensions()
+    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, 3)[::4, ::4]
 
 
 def look(name):
-    """Writes down what the filter and the views show now."""
+    """Writes down what the filter says and what the views show now, drawing nothing."""
     compare = simple.FindSource("compared")
     shown = {"show": str(compare.Show.GetData()), "flickers": hand.is_checked("actionBrainShiftFlicker"),
              "ways": [], "pictures": []}
     for view in simple.GetRenderViews():
         display = simple.GetDisplayProperties(compare, view)
         shown["ways"].append(str(display.SliceComparison.GetData()))
-        shown["pictures"].append((255 * picture(view)[::4, ::4]).astype(int).tolist())
+        shown["pictures"].append(on_screen(view).tolist())
     seen = {}
     if os.path.exists(seen_file()):
         with open(seen_file(), encoding="utf-8") as file:
