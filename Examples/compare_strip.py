@@ -56,6 +56,7 @@ def draw(file):
     display = simple.GetDisplayProperties(compare, view)
     display.OrientationMarks = 0
     display.CheckerSize = 15.0
+    display.FullGradient = 0.5
     display.WipePosition = case_study.CAVITY_CENTRE
     view.CameraFocalPoint = case_study.CAVITY_CENTRE + FOCUS
     view.CameraPosition = case_study.CAVITY_CENTRE + FOCUS + (0.0, 400.0, 0.0)
