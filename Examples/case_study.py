@@ -190,15 +190,13 @@ class Case:
         self.sag = known_sag(self.brain)
         sunken = simple.BakeDeformation(Input=self.sag, Interpolation="Cubic")
         self.after_surgery = postoperative(sunken, "Brain")
-        cavity = postoperative(sunken, "Cavity")
         self.trace = pointer_trace(self.after_surgery, random)
         self.landmarks = landmarks(self.brain, self.sag, random)
         self.bent = simple.FreeFormDeformation(Input=self.brain)
         self.measure = simple.TraceDistance(
-            Input=self.trace, Deformation=self.bent, Cavity=cavity,
+            Input=self.trace, Deformation=self.bent, Cavity=postoperative(sunken, "Cavity"),
             SurfaceArray="Inside", Threshold=0.5)
-        self.compare = simple.CompareVolumes(
-            Input=self.bent, Reference=self.after_surgery, Cavity=cavity)
+        self.compare = simple.CompareVolumes(Input=self.bent, Reference=self.after_surgery)
 
     def figures(self):
         """Trace distance and target registration error (TRE), mm."""
@@ -229,8 +227,7 @@ def parallel_view(towards_eye, focus, half_height, size):
 
 
 def show_red_green(compare, plane, towards_eye, size):
-    """One plane through the cavity: as bent red, as it is after surgery green, both yellow; the
-    cavity grey."""
+    """One plane through the cavity: as bent red, as it is after surgery green, both yellow."""
     view = parallel_view(towards_eye, CAVITY_CENTRE + SLICE_FOCUS, SLICE_HALF_MM, size)
     display = simple.Show(compare, view, "UniformGridRepresentation")
     display.SetRepresentationType("Deformed Slices")

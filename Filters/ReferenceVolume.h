@@ -8,7 +8,7 @@
 //   ReferenceShow    int: 0 both volumes are shown, 1 the deformed one alone, 2 the reference alone
 //   CavityVoxels     unsigned char x 1, only with a cavity: 1 where the reference lacks tissue that
 //                    was removed, else 0; a voxel is the box around its value, beyond them all is 0
-//   CavityGrid       double x 18: as ReferenceGrid; it lies in the world as the moved reference does
+//   CavityGrid       double x 18: as ReferenceGrid; in the world, moved as the reference is
 //
 // Colours and numbers that compare ignore what lies in the cavity.
 #ifndef BrainShift_ReferenceVolume_h

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shows a volume and its reference in turn, so that what differs flickers: Show of Compare Volumes,
-// of those that the active view shows, or else of all. It is where one looks and no edit: nothing of
-// it is undone, and in the end Show is what it was.
+// of those that the active view shows, or else of all. It is no edit: nothing of it is undone, and
+// in the end Show is what it was.
 #ifndef BrainShift_Flicker_h
 #define BrainShift_Flicker_h
 

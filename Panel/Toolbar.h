@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Toolbar of the tools, Reset All, the comparison with the volume as loaded and the flicker with a
-// reference (Flicker.h). It acts on the active deformation (ActiveDeformation.h) and offers only what
-// can be done to it.
+// reference (Flicker.h). The others act on the active deformation (ActiveDeformation.h). It offers
+// only what can be done.
 #ifndef BrainShift_Toolbar_h
 #define BrainShift_Toolbar_h
 

@@ -69,7 +69,8 @@ def on_screen(view):
 def look(name):
     """Writes down what the filter says and what the views show now, drawing nothing."""
     compare = simple.FindSource("compared")
-    shown = {"show": str(compare.Show.GetData()), "flickers": hand.is_checked("actionBrainShiftFlicker"),
+    shown = {"show": str(compare.Show.GetData()),
+             "flickers": hand.is_checked("actionBrainShiftFlicker"),
              "ways": [], "pictures": []}
     for view in simple.GetRenderViews():
         display = simple.GetDisplayProperties(compare, view)
