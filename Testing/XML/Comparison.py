@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that ParaView's window, played by Comparison.xml, compares two volumes in slices by its
 panel, and that the key K shows the reference in all views at once and then both again, without a
-step to undo. The window imports this file to make the volumes, to type, and to write down what it
+step to undo or a trace in a state file. The window imports this file to make the volumes, to type, and to write down what it
 sees; it lets no event be played while it does, for the player would go on with the next."""
 import json
 import os
+import xml.etree.ElementTree
 
 import brainshift
 import numpy
@@ -21,10 +22,15 @@ def seen_file():
     return os.path.join(os.environ["BRAINSHIFT_TEST_TEMP"], "Comparison.json")
 
 
+def state_file():
+    return os.path.join(os.environ["BRAINSHIFT_TEST_TEMP"], "Comparison.pvsm")
+
+
 def open_volumes():
     """A bent volume, compared with itself as it was, in two views."""
-    if os.path.exists(seen_file()):
-        os.remove(seen_file())
+    for file in (seen_file(), state_file()):
+        if os.path.exists(file):
+            os.remove(file)
     wavelet = simple.Wavelet()
     bent = simple.FreeFormDeformation(
         registrationName="bent", Input=wavelet,
@@ -106,6 +112,10 @@ def main():
     sizes = {p.shape for p in reference}
     assert len(sizes) == 1, sizes
     assert (reference[0] == reference[1]).mean() > 0.95, "one reference in both views"
+    state = xml.etree.ElementTree.parse(state_file()).getroot()
+    saved = [element.get("value") for element in state.findall(
+        ".//Proxy[@type='CompareVolumes']/Property[@name='Show']/Element")]
+    assert saved == ["0"], f"both, as chosen, not {saved}"
 
 
 if __name__ == "__main__":
