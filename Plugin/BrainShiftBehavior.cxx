@@ -27,10 +27,11 @@ namespace
 {
 constexpr const char* Shaded = "BrainShiftShaded"; // Qt property of a representation
 
-bool showsDeformedVolume(vtkSMProxy* representation)
+// `kind`: of a representation.
+bool isShownAs(vtkSMProxy* representation, const char* kind)
 {
   const char* shown = vtkSMPropertyHelper(representation, "Representation").GetAsString();
-  return shown && std::strcmp(shown, "Deformed Volume") == 0;
+  return shown && std::strcmp(shown, kind) == 0;
 }
 
 bool reportsNumbers(vtkSMProxy* filter)
@@ -64,8 +65,9 @@ void colorByFirstArray(vtkSMPVRepresentationProxy* representation)
 void prepare(pqRepresentation* shown)
 {
   auto representation = vtkSMPVRepresentationProxy::SafeDownCast(shown->getProxy());
-  if (!representation || !showsDeformedVolume(representation) ||
-    pqApplicationCore::instance()->isLoadingState())
+  const bool volume = representation && isShownAs(representation, "Deformed Volume");
+  const bool slices = representation && isShownAs(representation, "Deformed Slices");
+  if (!(volume || slices) || pqApplicationCore::instance()->isLoadingState())
   {
     return;
   }
@@ -73,7 +75,7 @@ void prepare(pqRepresentation* shown)
   {
     colorByFirstArray(representation);
   }
-  if (!shown->property(Shaded).toBool()) // once: who then turns it off means it
+  if (volume && !shown->property(Shaded).toBool()) // once: who then turns it off means it
   {
     shown->setProperty(Shaded, true);
     vtkSMPropertyHelper(representation, "Shade", /*quiet*/ true).Set(1);
