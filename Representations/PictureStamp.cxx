@@ -43,6 +43,11 @@ void addView(Numbers& numbers, const RayCastScene& scene)
   add(numbers, scene.lights.position);
   add(numbers, scene.lights.color);
   add(numbers, scene.lights.specular);
+  const RayCastComparison& comparison = scene.comparison;
+  if (comparison.reference)
+  {
+    add(numbers, comparison.reference->worldFromTexture);
+  }
 }
 
 // What was uploaded or made anew since the last picture.

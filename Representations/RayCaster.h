@@ -6,6 +6,7 @@
 #include "Counters.h"
 #include "FieldChange.h"
 #include "Program.h"
+#include "RayCastComparison.h"
 #include "RayCastLights.h"
 #include "RayCastOptions.h"
 
@@ -40,7 +41,7 @@ struct RayCastScene
   glm::dvec3 mmFromTexture{ 1.0 }; // along the volume's axes, before an actor's scale
   glm::dvec3 spaceLow{ 0.0 };      // part of the deformed frame tissue can reach
   glm::dvec3 spaceHigh{ 1.0 };
-  SlabHull moved;               // where tissue may have moved, in lattice coordinates, which are
+  SlabHull moved; // where tissue may have moved, in lattice coordinates, which are
   glm::dvec3 latticeFromTexture{ 1.0 }; // texture * latticeFromTexture + latticeOfTextureZero
   glm::dvec3 latticeOfTextureZero{ 0.0 };
   glm::dvec3 volumeLow{ 0.0 }; // the volume's box in the rest frame
@@ -59,6 +60,7 @@ struct RayCastScene
   glm::dvec4 material{ 0.0, 1.0, 0.0, 1.0 }; // ambient, diffuse, specular, specular power
   RayCastLights lights;
   RayCastOptions options;
+  RayCastComparison comparison;
   bool shaded = false;
   bool skipping = true;
   bool jitter = false;       // rays start at different shares of a step

@@ -58,14 +58,16 @@ struct RayCastVariant
   } light = Unshaded;
   Blend blend = Blend::Composite;
   Coloring coloring = Coloring::Mapped;
-  bool regions = false; // VTK's cropping regions, other than the middle one alone
-  bool counted = false; // a third target tells the samples taken and skipped; Composite only
+  bool regions = false;  // VTK's cropping regions, other than the middle one alone
+  bool counted = false;  // a third target tells the samples taken and skipped; Composite only
+  bool compared = false; // with a reference, red and green; Composite only
+  bool cavity = false;   // part of which is ignored
 
   bool operator<(const RayCastVariant& other) const
   {
     const auto key = [](const RayCastVariant& variant) {
       return std::make_tuple(variant.deformed, variant.light, variant.blend, variant.coloring,
-        variant.regions, variant.counted);
+        variant.regions, variant.counted, variant.compared, variant.cavity);
     };
     return key(*this) < key(other);
   }

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedVolumeMapper.h"
 
-#include "DeformedPresence.h"
 #include "GpuMemory.h"
 #include "MovingQuality.h"
 #include "PictureStamp.h"
+#include "PresentTissue.h"
 #include "RayCaster.h"
 #include "SceneDeformation.h"
 #include "SceneDepth.h"
 #include "SceneGeometry.h"
+#include "SceneReference.h"
 #include "SelectionCover.h"
 #include "TextureMemory.h"
-#include "Tissue.h"
 #include "WindowDevices.h"
 
 #include "vtkDataArray.h"
@@ -37,10 +37,9 @@ using namespace brainshift;
 
 struct vtkDeformedVolumeMapper::Device
 {
-  brainshift::Tissue Tissue;
+  PresentTissue Own;
+  PresentTissue Reference;
   DeviceDeformation Deformation;
-  DeformedPresence Presence;
-  PresenceRequest Bricks; // what Presence shows
   SceneDepth Depth;
   RayCaster Caster;
   PictureStamp Stamp; // of what Caster holds
@@ -92,6 +91,10 @@ double* vtkDeformedVolumeMapper::GetBounds()
   }
   this->UpdateDeformation(image);
   this->Internal->Deformation.widen(this->Bounds);
+  if (this->Comparison != NoComparison)
+  {
+    widenByReference(image, this->Bounds);
+  }
   return this->Bounds;
 }
 
@@ -154,17 +157,38 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   const TissueRequest tissue{ property, scalars, layout,
     this->SampleDistance > 0.0 ? this->SampleDistance : 0.5 * smallestSide, blendOf(this, property),
     static_cast<GradientSource>(this->NormalTexture),
-    property->GetInterpolationType() == VTK_NEAREST_INTERPOLATION };
+    property->GetInterpolationType() == VTK_NEAREST_INTERPOLATION, {} };
+  SceneReference reference = this->FindReference(image, tissue);
   Device& device = this->Internal->Devices.of(window);
   takeOutOfMemory(); // what others left behind
-  const bool drawn = this->AskForMemory(renderer, device, tissue, problem) &&
-    this->DrawTissue(renderer, device, volume, tissue, grid, problem);
+  const auto draw = [&] {
+    return this->AskForMemory(renderer, device, tissue, reference, problem) &&
+      this->DrawTissue(renderer, device, volume, tissue, grid, reference, problem);
+  };
+  const bool drawn = draw();
   if (takeOutOfMemory())
   {
     device.Memory.refuse();
-    return this->AskForMemory(renderer, device, tissue, problem);
+    return draw(); // less of it, if anything
   }
   return drawn;
+}
+
+SceneReference vtkDeformedVolumeMapper::FindReference(
+  vtkImageData* image, const TissueRequest& tissue)
+{
+  if (this->Comparison == NoComparison)
+  {
+    return {};
+  }
+  const SceneReference reference =
+    referenceOf(image, tissue, { this->ReferenceRange[0], this->ReferenceRange[1] });
+  if (reference.exists() && tissue.blend != Blend::Composite)
+  {
+    this->TellOnce("Red and green need blend mode Composite: the volume is drawn alone");
+    return {};
+  }
+  return reference;
 }
 
 namespace
@@ -192,23 +216,32 @@ void captureDepth(SceneDepth& depth, vtkOpenGLRenderWindow* window, const glm::i
 }
 
 bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, vtkVolume* volume,
-  const TissueRequest& tissue, const Grid& grid, std::string& problem)
+  const TissueRequest& tissue, const Grid& grid, const SceneReference& reference,
+  std::string& problem)
 {
   State& state = *this->Internal;
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
-  const ValueLayout& layout = tissue.layout;
   RayCastScene scene;
+  RayCastScene referenceScene;
   vtkNew<vtkTimerLog> timer;
   timer->StartTimer();
-  if (!device.Tissue.update(window, tissue, scene, state.Count, problem) ||
-    !this->PrepareSpace(window, device, grid, layout, scene, problem))
+  if (!this->PrepareSpace(window, device, tissue, grid, scene, problem))
   {
     return false;
   }
-  scene.skipping = this->EmptySpaceSkipping && device.Tissue.skippingIsExact(tissue.blend);
-  describeView(renderer, volume, grid, layout, scene);
-  describeOptions(this, tissue.property, tissue.scalars, device.Tissue.stored(),
-    scene.worldFromTexture, scene.options);
+  const Tissue& drawn = device.Own.Tissue;
+  scene.skipping = this->EmptySpaceSkipping && drawn.skippingIsExact(tissue.blend);
+  describeView(renderer, volume, grid, tissue.layout, scene);
+  describeOptions(
+    this, tissue.property, tissue.scalars, drawn.stored(), scene.worldFromTexture, scene.options);
+  if (reference.exists() && this->PrepareReference(window, device, reference, referenceScene))
+  {
+    describeView(renderer, volume, reference.grid, reference.tissue.layout, referenceScene);
+    scene.comparison.reference = &referenceScene;
+    scene.comparison.agreementMm = this->AgreementDistance > 0.0
+      ? this->AgreementDistance
+      : 2.0 * std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
+  }
   glm::ivec2 origin;
   glm::ivec2 size;
   renderer->GetTiledSizeAndOrigin(&size.x, &size.y, &origin.x, &origin.y);
@@ -231,7 +264,8 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   adapt(quality, tissue.blend, size, scene);
   if (scene.skipping)
   {
-    placeShownPixels(device.Presence.occupiedBox(), scene);
+    placeComparedPixels(
+      device.Own.Presence.occupiedBox(), device.Reference.Presence.occupiedBox(), scene);
   }
   captureDepth(device.Depth, window, origin, size, scene);
   timer->StartTimer();
@@ -253,32 +287,40 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   return device.Caster.composite(window, origin, size, state.Count);
 }
 
-// The offset field and the bricks of the deformed frame.
+// The tissue, the offset field and the bricks of the deformed frame.
 bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, Device& device,
-  const Grid& grid, const ValueLayout& layout, RayCastScene& scene, std::string& problem)
+  const TissueRequest& tissue, const Grid& grid, RayCastScene& scene, std::string& problem)
 {
   State& state = *this->Internal;
-  if (device.Tissue.takeVisibilityChange())
-  {
-    std::vector<float> summed = device.Tissue.summedVisibility();
-    device.Presence.setVisibility(window, device.Tissue.restBricks(), summed, state.Count);
-  }
   IndexBox changed; // nodes of the offset field
-  if (!device.Deformation.update(
-        window, state.Deformation, grid, layout, scene, changed, state.Count, problem))
+  if (!device.Own.Tissue.update(window, tissue, scene, state.Count, problem) ||
+    !device.Deformation.update(
+      window, state.Deformation, grid, tissue.layout, scene, changed, state.Count, problem) ||
+    !device.Own.updatePresence(window, tissue.layout, scene, changed, state.Count, problem))
   {
     return false;
   }
-  placeBricks(layout, scene, device.Bricks);
-  if (!device.Presence.update(window, device.Bricks, changed, state.Count))
-  {
-    problem =
-      "The presence map's shader does not compile or its texture cannot be made on this GPU";
-    return false;
-  }
-  this->DescribeCropping(grid, layout, scene);
-  scene.presence = &device.Presence;
+  this->DescribeCropping(grid, tissue.layout, scene);
   return true;
+}
+
+// The same of the reference, which is not bent. Where it cannot be had, the volume is drawn alone.
+bool vtkDeformedVolumeMapper::PrepareReference(vtkOpenGLRenderWindow* window, Device& device,
+  const SceneReference& reference, RayCastScene& scene)
+{
+  Counters& counters = this->Internal->Count;
+  const ValueLayout& layout = reference.tissue.layout;
+  scene.spaceLow = layout.low;
+  scene.spaceHigh = layout.high;
+  std::string problem;
+  if (device.Reference.Tissue.update(window, reference.tissue, scene, counters, problem) &&
+    device.Reference.updatePresence(window, layout, scene, IndexBox(), counters, problem))
+  {
+    return true;
+  }
+  device.Reference.releaseGraphicsResources(window);
+  this->TellOnce("The reference is not drawn: " + problem);
+  return false;
 }
 
 // The middle region alone narrows the space; others are asked for at each sample.
@@ -295,6 +337,8 @@ void vtkDeformedVolumeMapper::DescribeCropping(
   {
     scene.spaceLow = glm::max(scene.spaceLow, options.regionLow);
     scene.spaceHigh = glm::min(scene.spaceHigh, options.regionHigh);
+    scene.comparison.cropLow = options.regionLow;
+    scene.comparison.cropHigh = options.regionHigh;
     return;
   }
   options.regions = true;
@@ -302,8 +346,9 @@ void vtkDeformedVolumeMapper::DescribeCropping(
 }
 
 // Before memory is taken: some drivers end the program when there is none.
-bool vtkDeformedVolumeMapper::AskForMemory(
-  vtkRenderer* renderer, Device& device, const TissueRequest& tissue, std::string& problem)
+// Where there is too little for the reference, the volume is drawn without it.
+bool vtkDeformedVolumeMapper::AskForMemory(vtkRenderer* renderer, Device& device,
+  const TissueRequest& tissue, SceneReference& reference, std::string& problem)
 {
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   DrawnSizes sizes;
@@ -311,7 +356,21 @@ bool vtkDeformedVolumeMapper::AskForMemory(
   glm::ivec2 origin;
   renderer->GetTiledSizeAndOrigin(&sizes.pixels.x, &sizes.pixels.y, &origin.x, &origin.y);
   this->Internal->Deformation.addSizes(sizes);
-  problem = device.Memory.ask(window, memoryNeed(sizes), this->MemoryLimit);
+  MemoryNeed need = memoryNeed(sizes);
+  if (reference.exists())
+  {
+    need.reference = referenceBytes(reference);
+    problem = device.Memory.ask(window, need, this->MemoryLimit);
+    if (problem.empty())
+    {
+      return true;
+    }
+    this->TellOnce(problem + ". The reference is not drawn");
+    need.reference = 0;
+    reference = SceneReference();
+    device.Reference.releaseGraphicsResources(window);
+  }
+  problem = device.Memory.ask(window, need, this->MemoryLimit);
   return problem.empty();
 }
 
@@ -319,10 +378,15 @@ void vtkDeformedVolumeMapper::TellUnsupported(vtkVolumeProperty* property, vtkDa
 {
   for (const std::string& sentence : unsupportedChoices(this, property, scalars))
   {
-    if (this->Internal->Told.insert(sentence).second)
-    {
-      vtkWarningMacro(<< sentence << ".");
-    }
+    this->TellOnce(sentence);
+  }
+}
+
+void vtkDeformedVolumeMapper::TellOnce(const std::string& sentence)
+{
+  if (this->Internal->Told.insert(sentence).second)
+  {
+    vtkWarningMacro(<< sentence << ".");
   }
 }
 
@@ -373,8 +437,8 @@ void vtkDeformedVolumeMapper::DrawUndeformed(
 
 void vtkDeformedVolumeMapper::Device::Release(vtkWindow* window)
 {
-  this->Tissue.releaseGraphicsResources(window);
-  this->Presence.releaseGraphicsResources(window);
+  this->Own.releaseGraphicsResources(window);
+  this->Reference.releaseGraphicsResources(window);
   this->Deformation.releaseGraphicsResources(window);
   this->Depth.releaseGraphicsResources(window);
   this->Caster.releaseGraphicsResources(window);
@@ -395,11 +459,10 @@ void vtkDeformedVolumeMapper::AskTheGpu()
   count.gpuScalarBytes = 0;
   count.gpuOtherBytes = 0;
   this->Internal->Devices.visit([&](Device& device) {
-    count.gpuScalarBytes += textureBytes(device.Tissue.scalars());
-    count.gpuOtherBytes += device.Presence.faceBytes() +
-      textureBytes({ device.Tissue.otherTextures(), { device.Depth.copied() },
-        device.Deformation.field().textures(), device.Presence.textures(),
-        device.Caster.textures() });
+    count.gpuScalarBytes += textureBytes(device.Own.Tissue.scalars());
+    count.gpuOtherBytes += device.Own.otherBytes() + device.Reference.otherBytes() +
+      textureBytes({ { device.Reference.Tissue.scalars() }, { device.Depth.copied() },
+        device.Deformation.field().textures(), device.Caster.textures() });
     device.Deformation.askTime(count.gpuFieldMicroseconds);
   });
 }
@@ -419,5 +482,9 @@ void vtkDeformedVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "KeepPicture: " << this->KeepPicture << "\n"
      << indent << "CountSamples: " << this->CountSamples << "\n"
      << indent << "MemoryLimit: " << this->MemoryLimit << "\n"
-     << indent << "NormalTexture: " << this->NormalTexture << "\n";
+     << indent << "NormalTexture: " << this->NormalTexture << "\n"
+     << indent << "Comparison: " << this->Comparison << "\n"
+     << indent << "ReferenceRange: " << this->ReferenceRange[0] << " " << this->ReferenceRange[1]
+     << "\n"
+     << indent << "AgreementDistance: " << this->AgreementDistance << "\n";
 }

@@ -66,6 +66,25 @@ void vtkDeformedVolumeRepresentation::SetMemoryLimit(double limit)
   this->GetDeformedVolumeMapper()->SetMemoryLimit(limit);
 }
 
+void vtkDeformedVolumeRepresentation::SetComparison(int comparison)
+{
+  if (this->GetDeformedVolumeMapper()->GetComparison() != comparison)
+  {
+    this->GetDeformedVolumeMapper()->SetComparison(comparison);
+    this->MarkModified(); // the reference's box counts or not
+  }
+}
+
+void vtkDeformedVolumeRepresentation::SetReferenceRange(double low, double high)
+{
+  this->GetDeformedVolumeMapper()->SetReferenceRange(low, high);
+}
+
+void vtkDeformedVolumeRepresentation::SetAgreementDistance(double distance)
+{
+  this->GetDeformedVolumeMapper()->SetAgreementDistance(distance);
+}
+
 void vtkDeformedVolumeRepresentation::SetGlobalIlluminationReach(float reach)
 {
   this->GlobalIlluminationReach = reach;
