@@ -82,21 +82,21 @@ std::string tooManyNodes(const Grid& lattice, int samples)
   return problem.str();
 }
 
-std::string noVoxel(const std::vector<int>& labels)
+std::string noVoxel(const std::vector<int>& labels, const MaskNames& names)
 {
   std::ostringstream problem;
-  problem << "The mask has no voxel ";
+  problem << "The " << names.mask << " has no voxel ";
   for (std::size_t i = 0; i < labels.size(); ++i)
   {
     problem << (i ? " or " : "of label ") << labels[i];
   }
-  problem << (labels.empty() ? "above 0" : " (MaskLabels)");
+  problem << (labels.empty() ? "above 0" : " (" + names.labels + ")");
   return problem.str();
 }
 }
 
-std::string readMask(
-  vtkImageData* image, const std::vector<int>& labels, const Grid& volume, Mask& mask)
+std::string readMask(vtkImageData* image, const std::vector<int>& labels, const Grid& volume,
+  Mask& mask, const MaskNames& names)
 {
   mask.grid = gridOf(image);
   vtkDataArray* array = scalarArrayOf(image->GetPointData());
@@ -108,14 +108,15 @@ std::string readMask(
   }
   if (!array)
   {
-    return "The mask has no point or cell array of one component";
+    return "The " + names.mask + " has no point or cell array of one component";
   }
   const Bounds bounds(mask.grid, 0.5);
   const Bounds volumeBounds(volume, 0.0);
   if (!bounds.overlaps(volumeBounds))
   {
     std::ostringstream problem;
-    problem << "The mask (" << bounds << ") does not overlap the volume (" << volumeBounds << ")";
+    problem << "The " << names.mask << " (" << bounds << ") does not overlap the " << names.volume
+            << " (" << volumeBounds << ")";
     return problem.str();
   }
   mask.inside.resize(mask.grid.count());
@@ -125,7 +126,8 @@ std::string readMask(
     mask.inside[voxel] =
       labels.empty() ? value > 0.0 : std::find(labels.begin(), labels.end(), value) != labels.end();
   }
-  return std::count(mask.inside.begin(), mask.inside.end(), 1) ? std::string() : noVoxel(labels);
+  return std::count(mask.inside.begin(), mask.inside.end(), 1) ? std::string()
+                                                               : noVoxel(labels, names);
 }
 
 bool MaskSource::isKnown(const MaskRequest& request) const

@@ -15,9 +15,16 @@ namespace brainshift
 {
 // Inside is what has one of the labels; with none given, what is above 0. The array is the active
 // scalars of the points, or the first of the points, or else of the cells, that has one component.
-// Returns what keeps it from being a mask for a volume; empty if nothing does.
-VTKBRAINSHIFTFILTERS_EXPORT std::string readMask(
-  vtkImageData* image, const std::vector<int>& labels, const Grid& volume, Mask& mask);
+// Returns what keeps it from being a mask for a volume; empty if nothing does. The names are those
+// that messages give to both, and to the labels.
+struct MaskNames
+{
+  std::string mask = "mask";
+  std::string volume = "volume";
+  std::string labels = "MaskLabels";
+};
+VTKBRAINSHIFTFILTERS_EXPORT std::string readMask(vtkImageData* image,
+  const std::vector<int>& labels, const Grid& volume, Mask& mask, const MaskNames& names = {});
 
 // All that a mask's weights depend on.
 struct MaskRequest

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReferenceVolume.h"
 
+#include "SharedArray.h"
+
 #include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
+#include "vtkIntArray.h"
 #include "vtkNew.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
+
+#include <algorithm>
 
 namespace brainshift
 {
@@ -15,23 +21,16 @@ namespace
 {
 constexpr const char* VoxelsName = "ReferenceVoxels";
 constexpr const char* GridName = "ReferenceGrid";
+constexpr const char* ShowName = "ReferenceShow";
+constexpr const char* CavityName = "CavityVoxels";
+constexpr const char* CavityGridName = "CavityGrid";
 constexpr int GridNumbers = 18;
-}
 
-vtkSmartPointer<vtkDataArray> asReferenceVoxels(vtkDataArray* scalars)
+void attachPlaced(vtkFieldData* fields, const PlacedVoxels& placed, const char* gridName)
 {
-  auto voxels = vtk::TakeSmartPointer(scalars->NewInstance());
-  voxels->ShallowCopy(scalars);
-  voxels->SetName(VoxelsName);
-  return voxels;
-}
-
-void attachReference(vtkDataObject* volume, const ReferenceVolume& reference)
-{
-  volume->GetFieldData()->AddArray(reference.voxels);
-  const Grid& grid = reference.grid;
+  const Grid& grid = placed.grid;
   vtkNew<vtkDoubleArray> numbers;
-  numbers->SetName(GridName);
+  numbers->SetName(gridName);
   numbers->SetNumberOfComponents(GridNumbers);
   numbers->SetNumberOfTuples(1);
   for (int i = 0; i < 3; ++i)
@@ -44,20 +43,21 @@ void attachReference(vtkDataObject* volume, const ReferenceVolume& reference)
       numbers->SetComponent(0, 9 + 3 * i + column, grid.direction[column][i]);
     }
   }
-  volume->GetFieldData()->AddArray(numbers);
+  fields->AddArray(placed.voxels);
+  fields->AddArray(numbers);
 }
 
-ReferenceVolume readReference(vtkDataObject* volume)
+PlacedVoxels readPlaced(vtkFieldData* fields, const char* name, const char* gridName)
 {
-  ReferenceVolume reference;
-  vtkDataArray* voxels = volume->GetFieldData()->GetArray(VoxelsName);
-  vtkDataArray* numbers = volume->GetFieldData()->GetArray(GridName);
+  PlacedVoxels placed;
+  vtkDataArray* voxels = fields->GetArray(name);
+  vtkDataArray* numbers = fields->GetArray(gridName);
   if (!voxels || !numbers || numbers->GetNumberOfComponents() != GridNumbers ||
     numbers->GetNumberOfTuples() != 1)
   {
-    return reference;
+    return placed;
   }
-  Grid& grid = reference.grid;
+  Grid& grid = placed.grid;
   for (int i = 0; i < 3; ++i)
   {
     grid.dimensions[i] = static_cast<int>(numbers->GetComponent(0, i));
@@ -69,23 +69,85 @@ ReferenceVolume readReference(vtkDataObject* volume)
     }
   }
   const bool fits = voxels->GetNumberOfTuples() == static_cast<vtkIdType>(grid.count());
-  reference.voxels = fits ? voxels : nullptr;
+  placed.voxels = fits ? voxels : nullptr;
+  return placed;
+}
+}
+
+vtkSmartPointer<vtkDataArray> asReferenceVoxels(vtkDataArray* scalars)
+{
+  vtkSmartPointer<vtkDataArray> voxels = sharedArray(scalars);
+  if (voxels == scalars) // a memory layout that cannot be shared under another name
+  {
+    voxels = vtk::TakeSmartPointer(scalars->NewInstance());
+    voxels->ShallowCopy(scalars);
+  }
+  voxels->SetName(VoxelsName);
+  return voxels;
+}
+
+vtkSmartPointer<vtkDataArray> asCavityVoxels(const Mask& mask)
+{
+  vtkNew<vtkUnsignedCharArray> voxels;
+  voxels->SetName(CavityName);
+  voxels->SetNumberOfTuples(static_cast<vtkIdType>(mask.inside.size()));
+  std::copy(mask.inside.begin(), mask.inside.end(), voxels->GetPointer(0));
+  return sharedArray(voxels); // whose range is found once
+}
+
+void attachReference(vtkDataObject* volume, const ReferenceVolume& reference)
+{
+  vtkFieldData* fields = volume->GetFieldData();
+  attachPlaced(fields, reference, GridName);
+  if (reference.cavity.voxels)
+  {
+    attachPlaced(fields, reference.cavity, CavityGridName);
+  }
+  else
+  {
+    fields->RemoveArray(CavityName); // those of a reference before this one
+    fields->RemoveArray(CavityGridName);
+  }
+  vtkNew<vtkIntArray> show;
+  show->SetName(ShowName);
+  show->InsertNextValue(static_cast<int>(reference.show));
+  fields->AddArray(show);
+}
+
+ReferenceVolume readReference(vtkDataObject* volume)
+{
+  vtkFieldData* fields = volume->GetFieldData();
+  ReferenceVolume reference{ readPlaced(fields, VoxelsName, GridName) };
+  if (reference.voxels)
+  {
+    reference.cavity = readPlaced(fields, CavityName, CavityGridName);
+    vtkDataArray* show = fields->GetArray(ShowName);
+    const double shown = show && show->GetNumberOfValues() == 1 ? show->GetComponent(0, 0) : 0.0;
+    reference.show = shown == 1.0 ? ReferenceShow::Deformed
+      : shown == 2.0              ? ReferenceShow::Reference
+                                  : ReferenceShow::Both;
+  }
   return reference;
 }
 
-Grid movedRigidly(const Grid& grid, const glm::dvec3& rotation, const glm::dvec3& translation)
+glm::dvec3 middleOf(const Grid& grid)
+{
+  return grid.worldFromGrid(glm::dvec3(grid.dimensions - 1) * 0.5);
+}
+
+Grid movedRigidly(const Grid& grid, const RigidMotion& motion)
 {
   glm::dmat4 turn(1.0);
   for (int axis = 2; axis >= 0; --axis)
   {
     glm::dvec3 about(0.0);
     about[axis] = 1.0;
-    turn = glm::rotate(turn, glm::radians(rotation[axis]), about);
+    turn = glm::rotate(turn, glm::radians(motion.rotation[axis]), about);
   }
-  const glm::dvec3 middle = grid.worldFromGrid(glm::dvec3(grid.dimensions - 1) * 0.5);
   Grid moved = grid;
   moved.direction = glm::dmat3(turn) * grid.direction;
-  moved.origin = middle + glm::dmat3(turn) * (grid.origin - middle) + translation;
+  moved.origin =
+    motion.middle + glm::dmat3(turn) * (grid.origin - motion.middle) + motion.translation;
   return moved;
 }
 }

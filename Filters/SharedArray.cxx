@@ -71,7 +71,9 @@ private:
   vtkSmartPointer<vtkDataArray> Source; // owns the numbers
 };
 
-vtkSmartPointer<vtkDataArray> sharedOver(vtkDataArray* source)
+}
+
+vtkSmartPointer<vtkDataArray> sharedArray(vtkDataArray* source)
 {
   if (!source->HasStandardMemoryLayout())
   {
@@ -109,7 +111,6 @@ vtkSmartPointer<vtkDataArray> sharedOver(vtkDataArray* source)
       return source;
   }
 }
-}
 
 SharedArrays::SharedArrays() = default;
 SharedArrays::~SharedArrays() = default;
@@ -130,7 +131,7 @@ void SharedArrays::share(vtkDataSetAttributes* attributes)
     const auto known = std::find_if(this->Entries.begin(), this->Entries.end(),
       [&](const Entry& entry) { return entry.source == source && entry.time == time; });
     entries.push_back(
-      known != this->Entries.end() ? *known : Entry{ source, time, sharedOver(source) });
+      known != this->Entries.end() ? *known : Entry{ source, time, sharedArray(source) });
   }
   for (const Entry& entry : entries)
   {

@@ -17,6 +17,9 @@ class vtkDataSetAttributes;
 
 namespace brainshift
 {
+// Such an array, which keeps its source; the source itself if its memory layout is unusual.
+vtkSmartPointer<vtkDataArray> sharedArray(vtkDataArray* source);
+
 class SharedArrays
 {
 public:

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTraceDistance.h"
 
+#include "CavityMask.h"
 #include "DeformableVolume.h"
 #include "DeformedSurface.h"
 #include "Portions.h"
+#include "ReferenceVolume.h"
 #include "TraceStatistics.h"
 
 #include "vtkCompositeDataIterator.h"
@@ -65,32 +67,6 @@ struct Neighbour
   }
 };
 
-struct Mask
-{
-  Grid grid;
-  vtkSmartPointer<vtkDataArray> values;
-
-  // Of the voxel nearest to a position (mm, world); false outside.
-  bool contains(const glm::dvec3& position) const
-  {
-    const glm::dvec3 nearest = glm::round(this->grid.gridFromWorld(position));
-    if (!glm::all(glm::greaterThanEqual(nearest, glm::dvec3(0.0))) ||
-      !glm::all(glm::lessThan(nearest, glm::dvec3(this->grid.dimensions))))
-    {
-      return false;
-    }
-    const glm::ivec3 at(nearest);
-    const auto index = static_cast<vtkIdType>(this->grid.offset(at.x, at.y, at.z));
-    return this->values->GetComponent(index, 0) != 0.0;
-  }
-};
-
-std::optional<Mask> maskOf(vtkImageData* image)
-{
-  vtkDataArray* values = image ? scalarsOf(image, {}) : nullptr;
-  return values ? std::optional<Mask>({ gridOf(image), values }) : std::nullopt;
-}
-
 // The numbers of all processes, on each of them.
 std::vector<double> ofAllProcesses(const std::vector<double>& own)
 {
@@ -134,10 +110,18 @@ struct vtkTraceDistance::State
 
   brainshift::Tissue Tissue;
   DeformedSurface Surface;
-  std::optional<Mask> Cavity;
+  CavitySource CavityInput;
+  PlacedVoxels Cavity;           // that of the input
+  PlacedVoxels ReferencesCavity; // that Compare Volumes attached to the volume
   std::optional<PointMap> Map;
   TraceStatistics Statistics;
   int SurfacesFound = 0;
+
+  bool isRemoved(const glm::dvec3& deformed) const
+  {
+    return brainshift::isRemoved(this->Cavity, deformed) ||
+      brainshift::isRemoved(this->ReferencesCavity, deformed);
+  }
 
   // `level`: the threshold or the label.
   void find(vtkDataArray* scalars, const Grid& grid, int by, double level)
@@ -279,14 +263,17 @@ std::string vtkTraceDistance::FindCortex(vtkInformationVector** inputs)
   }
   const Lattice lattice = effectiveLattice(deformation);
   state.Map.emplace(lattice, deformation.inverse);
-  state.Cavity = maskOf(vtkImageData::GetData(inputs[CavityPort]));
+  problem.clear();
+  state.Cavity = state.CavityInput.find(
+    vtkImageData::GetData(inputs[CavityPort]), {}, gridOf(volume), "volume", problem);
+  state.ReferencesCavity = readReference(volume).cavity;
   std::function<bool(const glm::dvec3&)> isRemoved;
-  if (state.Cavity)
+  if (state.Cavity.voxels || state.ReferencesCavity.voxels)
   {
-    isRemoved = [&](const glm::dvec3& deformed) { return state.Cavity->contains(deformed); };
+    isRemoved = [&](const glm::dvec3& deformed) { return state.isRemoved(deformed); };
   }
   state.Surface.follow(lattice, isRemoved);
-  return {};
+  return problem;
 }
 
 bool vtkTraceDistance::Measure(vtkPointSet* points, std::vector<double>& all)
@@ -301,8 +288,7 @@ bool vtkTraceDistance::Measure(vtkPointSet* points, std::vector<double>& all)
   const std::size_t before = all.size();
   all.resize(before + count, std::numeric_limits<double>::quiet_NaN());
   const auto distanceOf = [&](const glm::dvec3& point, Neighbour& previous) {
-    if (!std::isfinite(point.x + point.y + point.z) ||
-      (state.Cavity && state.Cavity->contains(point)))
+    if (!std::isfinite(point.x + point.y + point.z) || state.isRemoved(point))
     {
       return std::numeric_limits<double>::quiet_NaN();
     }

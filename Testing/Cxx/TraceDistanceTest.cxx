@@ -5,6 +5,7 @@
 #include "TestPipeline.h"
 #include "TissueSurface.h"
 #include "TraceStatistics.h"
+#include "vtkCompareVolumes.h"
 #include "vtkTraceDistance.h"
 
 #include <vtkFieldData.h>
@@ -239,6 +240,26 @@ TEST_F(TraceDistance, ACavityCountsNeitherPointsNorTissue)
   traced = this->run(pointsAt({ above, inTheMiddle }));
   EXPECT_TRUE(std::isnan(trace(traced, 0)));
   EXPECT_NEAR(trace(traced, 1), -1.0, 0.2) << "the ball's top lies at its former middle";
+}
+
+TEST_F(TraceDistance, TheCavityOfCompareVolumesCountsAsOnesOwn)
+{
+  vtkNew<vtkCompareVolumes> compare;
+  compare->SetInputConnection(this->Bend->GetOutputPort());
+  compare->SetInputData(1, this->image([](const glm::dvec3&) { return 1.0; }));
+  compare->SetInputData(
+    2, this->image([&](const glm::dvec3& p) { return p.z > this->Middle.z ? 2.0 : -1.0; }));
+  this->Filter->SetDeformationConnection(compare->GetOutputPort());
+  const glm::dvec3 above = this->Middle + glm::dvec3(0, 0, Radius + 3.0);
+  const glm::dvec3 below = this->Middle - glm::dvec3(0, 0, Radius + 3.0);
+  vtkPointSet* traced = this->run(pointsAt({ above, below }));
+  EXPECT_TRUE(std::isnan(trace(traced, 0)));
+  EXPECT_NEAR(trace(traced, 1), 3.0, 0.03);
+  // Moved away with the reference, it counts no longer.
+  compare->SetReferenceTranslation(0, 0, 100.0);
+  traced = this->run(pointsAt({ above }));
+  EXPECT_NEAR(trace(traced, 0), 3.0, 0.03);
+  EXPECT_EQ(this->Filter->GetCount(), 1);
 }
 
 TEST_F(TraceDistance, TissueIsAThresholdALabelOrASegmentation)
