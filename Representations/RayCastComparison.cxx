@@ -67,9 +67,9 @@ void setComparisonUniforms(Program& program, const RayCastScene& scene)
   }
 }
 
-void placeComparedPixels(
-  const IndexBox& bricks, const IndexBox& referenceBricks, RayCastScene& scene)
+void placeComparedPixels(RayCastScene& scene)
 {
+  const IndexBox& bricks = scene.presence->occupiedBox();
   if (!scene.comparison.reference)
   {
     placeShownPixels(bricks, scene);
@@ -78,6 +78,7 @@ void placeComparedPixels(
   RayCastScene& reference = *scene.comparison.reference;
   reference.size = scene.size;
   reference.skipping = scene.skipping;
+  const IndexBox& referenceBricks = reference.presence->occupiedBox();
   placeShownPixels(referenceBricks, reference);
   if (bricks.empty())
   {

@@ -11,7 +11,6 @@ class vtkTextureObject;
 namespace brainshift
 {
 class Program;
-struct IndexBox;
 struct RayCastScene;
 
 struct RayCastComparison
@@ -28,8 +27,7 @@ struct RayCastComparison
 void setComparisonUniforms(Program& program, const RayCastScene& scene);
 
 // As placeShownPixels (SceneGeometry.h), of the scene's tissue and its reference, if any, together.
-void placeComparedPixels(
-  const IndexBox& bricks, const IndexBox& referenceBricks, RayCastScene& scene);
+void placeComparedPixels(RayCastScene& scene);
 }
 
 #endif

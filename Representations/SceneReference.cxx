@@ -44,6 +44,8 @@ SceneReference referenceOf(vtkDataObject* volume, const TissueRequest& own, cons
     return reference;
   }
   reference.grid = carried.grid;
+  reference.cavity = carried.cavity;
+  reference.show = carried.show;
   reference.tissue = own;
   reference.tissue.scalars = carried.voxels;
   reference.tissue.layout = layoutOf(carried.grid.dimensions, false);
@@ -81,6 +83,12 @@ std::int64_t referenceBytes(const SceneReference& reference)
 {
   DrawnSizes sizes;
   addTissueSizes(reference.tissue, sizes);
-  return memoryNeed(sizes).total();
+  std::int64_t bytes = memoryNeed(sizes).total();
+  if (vtkDataArray* cavity = reference.cavity.voxels)
+  {
+    bytes +=
+      static_cast<std::int64_t>(ScalarTexture::bytesOf(cavity, 0)) * cavity->GetNumberOfTuples();
+  }
+  return bytes;
 }
 }

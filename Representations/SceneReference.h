@@ -16,9 +16,12 @@ namespace brainshift
 struct SceneReference
 {
   Grid grid;
-  TissueRequest tissue; // without scalars: nothing to compare with
+  TissueRequest tissue; // without scalars: none
+  PlacedVoxels cavity;  // what colours ignore
+  ReferenceShow show = ReferenceShow::Both;
 
   bool exists() const { return this->tissue.scalars != nullptr; }
+  bool isAlone() const { return this->exists() && this->show == ReferenceShow::Reference; }
 };
 
 // The reference that a volume carries, drawn as `own` is. `range`: the reference's scalars at the
@@ -34,7 +37,7 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT StoredScalar usualMapping(
 // Widens bounds (mm) by the box of the reference that a volume carries, if any.
 void widenByReference(vtkDataObject* volume, double bounds[6]);
 
-// Bytes of its voxels and gradients on the GPU of the current context.
+// Bytes of its voxels, gradients and cavity on the GPU of the current context.
 std::int64_t referenceBytes(const SceneReference& reference);
 }
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedVolumeMapper.h"
 
+#include "DeviceReference.h"
 #include "GpuMemory.h"
 #include "MovingQuality.h"
 #include "PictureStamp.h"
-#include "PresentTissue.h"
 #include "RayCaster.h"
 #include "SceneDeformation.h"
 #include "SceneDepth.h"
 #include "SceneGeometry.h"
-#include "SceneReference.h"
 #include "SelectionCover.h"
+#include "SoftwareFallback.h"
 #include "TextureMemory.h"
 #include "WindowDevices.h"
 
@@ -38,7 +38,7 @@ using namespace brainshift;
 struct vtkDeformedVolumeMapper::Device
 {
   PresentTissue Own;
-  PresentTissue Reference;
+  DeviceReference Reference;
   DeviceDeformation Deformation;
   SceneDepth Depth;
   RayCaster Caster;
@@ -91,10 +91,7 @@ double* vtkDeformedVolumeMapper::GetBounds()
   }
   this->UpdateDeformation(image);
   this->Internal->Deformation.widen(this->Bounds);
-  if (this->Comparison != NoComparison)
-  {
-    widenByReference(image, this->Bounds);
-  }
+  widenByReference(image, this->Bounds);
   return this->Bounds;
 }
 
@@ -177,18 +174,18 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
 SceneReference vtkDeformedVolumeMapper::FindReference(
   vtkImageData* image, const TissueRequest& tissue)
 {
-  if (this->Comparison == NoComparison)
-  {
-    return {};
-  }
   const SceneReference reference =
     referenceOf(image, tissue, { this->ReferenceRange[0], this->ReferenceRange[1] });
-  if (reference.exists() && tissue.blend != Blend::Composite)
+  if (!reference.exists() || reference.show == ReferenceShow::Reference)
+  {
+    return reference;
+  }
+  const bool compared = reference.show == ReferenceShow::Both && this->Comparison != NoComparison;
+  if (compared && tissue.blend != Blend::Composite)
   {
     this->TellOnce("Red and green need blend mode Composite: the volume is drawn alone");
-    return {};
   }
-  return reference;
+  return compared && tissue.blend == Blend::Composite ? reference : SceneReference();
 }
 
 namespace
@@ -225,22 +222,16 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   RayCastScene referenceScene;
   vtkNew<vtkTimerLog> timer;
   timer->StartTimer();
-  if (!this->PrepareSpace(window, device, tissue, grid, scene, problem))
+  const bool described = reference.isAlone()
+    ? this->DescribeReference(renderer, device, volume, reference, scene, problem)
+    : this->DescribeTissue(renderer, device, volume, tissue, grid, scene, problem);
+  if (!described)
   {
     return false;
   }
-  const Tissue& drawn = device.Own.Tissue;
-  scene.skipping = this->EmptySpaceSkipping && drawn.skippingIsExact(tissue.blend);
-  describeView(renderer, volume, grid, tissue.layout, scene);
-  describeOptions(
-    this, tissue.property, tissue.scalars, drawn.stored(), scene.worldFromTexture, scene.options);
-  if (reference.exists() && this->PrepareReference(window, device, reference, referenceScene))
+  if (reference.exists() && !reference.isAlone())
   {
-    describeView(renderer, volume, reference.grid, reference.tissue.layout, referenceScene);
-    scene.comparison.reference = &referenceScene;
-    scene.comparison.agreementMm = this->AgreementDistance > 0.0
-      ? this->AgreementDistance
-      : 2.0 * std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
+    this->Compare(renderer, device, volume, grid, reference, scene, referenceScene);
   }
   glm::ivec2 origin;
   glm::ivec2 size;
@@ -264,8 +255,7 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   adapt(quality, tissue.blend, size, scene);
   if (scene.skipping)
   {
-    placeComparedPixels(
-      device.Own.Presence.occupiedBox(), device.Reference.Presence.occupiedBox(), scene);
+    placeComparedPixels(scene);
   }
   captureDepth(device.Depth, window, origin, size, scene);
   timer->StartTimer();
@@ -287,11 +277,13 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   return device.Caster.composite(window, origin, size, state.Count);
 }
 
-// The tissue, the offset field and the bricks of the deformed frame.
-bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, Device& device,
-  const TissueRequest& tissue, const Grid& grid, RayCastScene& scene, std::string& problem)
+// The tissue, the offset field and the bricks of the deformed frame, and how they are seen.
+bool vtkDeformedVolumeMapper::DescribeTissue(vtkRenderer* renderer, Device& device,
+  vtkVolume* volume, const TissueRequest& tissue, const Grid& grid, RayCastScene& scene,
+  std::string& problem)
 {
   State& state = *this->Internal;
+  auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   IndexBox changed; // nodes of the offset field
   if (!device.Own.Tissue.update(window, tissue, scene, state.Count, problem) ||
     !device.Deformation.update(
@@ -301,26 +293,49 @@ bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, Device
     return false;
   }
   this->DescribeCropping(grid, tissue.layout, scene);
+  this->DescribeOptions(renderer, volume, device.Own.Tissue, tissue, grid, scene);
   return true;
 }
 
-// The same of the reference, which is not bent. Where it cannot be had, the volume is drawn alone.
-bool vtkDeformedVolumeMapper::PrepareReference(vtkOpenGLRenderWindow* window, Device& device,
-  const SceneReference& reference, RayCastScene& scene)
+// The reference in place of the volume: not bent, in ordinary colours.
+bool vtkDeformedVolumeMapper::DescribeReference(vtkRenderer* renderer, Device& device,
+  vtkVolume* volume, const SceneReference& reference, RayCastScene& scene, std::string& problem)
 {
-  Counters& counters = this->Internal->Count;
-  const ValueLayout& layout = reference.tissue.layout;
-  scene.spaceLow = layout.low;
-  scene.spaceHigh = layout.high;
-  std::string problem;
-  if (device.Reference.Tissue.update(window, reference.tissue, scene, counters, problem) &&
-    device.Reference.updatePresence(window, layout, scene, IndexBox(), counters, problem))
+  auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  if (!device.Reference.update(window, reference, scene, this->Internal->Count, problem))
   {
-    return true;
+    return false;
   }
-  device.Reference.releaseGraphicsResources(window);
-  this->TellOnce("The reference is not drawn: " + problem);
-  return false;
+  this->DescribeOptions(
+    renderer, volume, device.Reference.Present.Tissue, reference.tissue, reference.grid, scene);
+  return true;
+}
+
+void vtkDeformedVolumeMapper::DescribeOptions(vtkRenderer* renderer, vtkVolume* volume,
+  const Tissue& drawn, const TissueRequest& tissue, const Grid& grid, RayCastScene& scene)
+{
+  scene.skipping = this->EmptySpaceSkipping && drawn.skippingIsExact(tissue.blend);
+  describeView(renderer, volume, grid, tissue.layout, scene);
+  describeOptions(
+    this, tissue.property, tissue.scalars, drawn.stored(), scene.worldFromTexture, scene.options);
+}
+
+// Where the reference cannot be had, the volume is drawn alone.
+void vtkDeformedVolumeMapper::Compare(vtkRenderer* renderer, Device& device, vtkVolume* volume,
+  const Grid& grid, const SceneReference& reference, RayCastScene& scene, RayCastScene& alone)
+{
+  std::string problem;
+  if (!device.Reference.compare(
+        renderer, volume, reference, scene, alone, this->Internal->Count, problem))
+  {
+    device.Reference.releaseGraphicsResources(renderer->GetRenderWindow());
+    this->TellOnce(problem + ". The reference is not drawn");
+    return;
+  }
+  constexpr double usualVoxels = 2.0;
+  scene.comparison.agreementMm = this->AgreementDistance > 0.0
+    ? this->AgreementDistance
+    : usualVoxels * std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
 }
 
 // The middle region alone narrows the space; others are asked for at each sample.
@@ -419,19 +434,7 @@ void vtkDeformedVolumeMapper::DrawUndeformed(
     vtkErrorMacro(<< problem << ". VTK's software mapper draws the volume undeformed.");
     state.Reported = problem;
   }
-  // In software: what stopped us would stop VTK's GPU mapper too, some of it by an abort.
-  state.Fallback->SetRequestedRenderModeToRayCast();
-  state.Fallback->SetInputConnection(this->GetInputConnection(0, 0));
-  state.Fallback->SetScalarMode(this->ScalarMode);
-  state.Fallback->SelectScalarArray(this->ArrayName);
-  const bool blends = this->BlendMode == vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND ||
-    this->BlendMode == vtkVolumeMapper::MINIMUM_INTENSITY_BLEND ||
-    this->BlendMode == vtkVolumeMapper::ADDITIVE_BLEND;
-  state.Fallback->SetBlendMode(blends ? this->BlendMode : vtkVolumeMapper::COMPOSITE_BLEND);
-  state.Fallback->SetCropping(this->Cropping);
-  state.Fallback->SetCroppingRegionFlags(this->CroppingRegionFlags);
-  state.Fallback->SetCroppingRegionPlanes(this->CroppingRegionPlanes);
-  state.Fallback->SetClippingPlanes(this->ClippingPlanes);
+  drawInSoftware(this, state.Fallback);
   state.Fallback->Render(renderer, volume);
 }
 
@@ -460,9 +463,9 @@ void vtkDeformedVolumeMapper::AskTheGpu()
   count.gpuOtherBytes = 0;
   this->Internal->Devices.visit([&](Device& device) {
     count.gpuScalarBytes += textureBytes(device.Own.Tissue.scalars());
-    count.gpuOtherBytes += device.Own.otherBytes() + device.Reference.otherBytes() +
-      textureBytes({ { device.Reference.Tissue.scalars() }, { device.Depth.copied() },
-        device.Deformation.field().textures(), device.Caster.textures() });
+    count.gpuOtherBytes += device.Own.otherBytes() + device.Reference.bytes() +
+      textureBytes({ { device.Depth.copied() }, device.Deformation.field().textures(),
+        device.Caster.textures() });
     device.Deformation.askTime(count.gpuFieldMicroseconds);
   });
 }

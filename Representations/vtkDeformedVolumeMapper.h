@@ -40,6 +40,7 @@ struct Grid;
 struct RayCastScene;
 struct SceneReference;
 struct TissueRequest;
+class Tissue;
 struct ValueLayout;
 }
 
@@ -185,11 +186,18 @@ private:
     brainshift::SceneReference& reference, std::string& problem);
   void AskTheGpu();
   void UpdateDeformation(vtkImageData* image);
-  bool PrepareSpace(vtkOpenGLRenderWindow* window, Device& device,
+  bool DescribeTissue(vtkRenderer* renderer, Device& device, vtkVolume* volume,
     const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
     brainshift::RayCastScene& scene, std::string& problem);
-  bool PrepareReference(vtkOpenGLRenderWindow* window, Device& device,
-    const brainshift::SceneReference& reference, brainshift::RayCastScene& scene);
+  bool DescribeReference(vtkRenderer* renderer, Device& device, vtkVolume* volume,
+    const brainshift::SceneReference& reference, brainshift::RayCastScene& scene,
+    std::string& problem);
+  void DescribeOptions(vtkRenderer* renderer, vtkVolume* volume, const brainshift::Tissue& drawn,
+    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
+    brainshift::RayCastScene& scene);
+  void Compare(vtkRenderer* renderer, Device& device, vtkVolume* volume,
+    const brainshift::Grid& grid, const brainshift::SceneReference& reference,
+    brainshift::RayCastScene& scene, brainshift::RayCastScene& alone);
   void DescribeCropping(const brainshift::Grid& grid, const brainshift::ValueLayout& layout,
     brainshift::RayCastScene& scene);
 

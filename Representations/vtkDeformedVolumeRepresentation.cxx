@@ -68,11 +68,7 @@ void vtkDeformedVolumeRepresentation::SetMemoryLimit(double limit)
 
 void vtkDeformedVolumeRepresentation::SetComparison(int comparison)
 {
-  if (this->GetDeformedVolumeMapper()->GetComparison() != comparison)
-  {
-    this->GetDeformedVolumeMapper()->SetComparison(comparison);
-    this->MarkModified(); // the reference's box counts or not
-  }
+  this->GetDeformedVolumeMapper()->SetComparison(comparison);
 }
 
 void vtkDeformedVolumeRepresentation::SetReferenceRange(double low, double high)
