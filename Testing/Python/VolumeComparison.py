@@ -97,7 +97,7 @@ def test_agreement_is_a_distance_between_surfaces():
     # green from one and a half on; on the flanks too, where rays meet them far apart.
     inner = volume(ball(side=41, radius=14.0))
     middle = (20.0, 20.0, 20.0)
-    for apart, distance, yellow in ((0.7, 0.0, True), (3.3, 0.0, False), (2.0, 1.0, False),
+    for apart, distance, yellow in ((1.0, 0.0, True), (3.3, 0.0, False), (2.0, 1.0, False),
                                     (2.0, 6.0, True)):
         outer = volume(ball(side=41, radius=14.0 + apart))
         for compare, front in ((CompareVolumes(Input=outer, Reference=inner), 0),
@@ -108,7 +108,7 @@ def test_agreement_is_a_distance_between_surfaces():
             radius = numpy.hypot(row - 74.5, column - 74.5) * 40.0 / 150
             within = radius < 0.9 * 14.0
             behind = image[:, :, 1 - front][within] / image[:, :, front][within]
-            wanted = (behind > 0.7) if yellow else (behind < 0.1)  # light differs, too
+            wanted = (behind > 0.65) if yellow else (behind < 0.1)  # light differs, too
             print(f"  {apart} mm at {distance} mm: {100 * wanted.mean():.1f} % right", flush=True)
             assert wanted.mean() > 0.98, (apart, distance, front, wanted.mean())
 
@@ -198,6 +198,15 @@ def test_skipping_is_exact():
         Delete(view)
 
 
+def test_skipping_is_exact_inside_the_reference():
+    own = volume(ball(inside=1.0, radius=4.0, center=(13, 12, 6)))
+    compare = CompareVolumes(Input=own, Reference=volume(ball(inside=1.0), (3.0, 0.0, 0.0)))
+    view = view_along(OBLIQUE, (19.0, 16.0, 16.0), 0.5, size=100)
+    display = show_volume(compare, view, "Deformed Volume", *curves("translucent"), shade=True)
+    assert_same(view, display, "the eye inside the reference", 0.9)
+    Delete(view)
+
+
 def test_each_alone_and_nothing_else():
     # A volume with nothing visible still shows the reference, and the other way round.
     nothing = volume(numpy.zeros((33, 33, 33), numpy.float32))
@@ -276,10 +285,10 @@ def test_ranges():
     assert not higher[:, :, 1].any() and higher[:, :, 0].max() > 0.8
     given = drawn(compare, VolumeReferenceRange=[500.0, 3500.0])
     assert numpy.abs(given - alike).max() <= 3 * LEVEL
-    # Nearly the same range means the same numbers: a cavity must not stretch what is left.
-    less = drawn(CompareVolumes(Input=volume(voxels), Reference=volume(0.8 * voxels)))
-    inside = numpy.hypot(*(numpy.mgrid[0:150, 0:150] - 74.5)) < 20
-    assert less[:, :, 1][inside].min() > 0.5, "still above the threshold in its middle"
+    # Nearly the same range means the same numbers: what is darker must not be stretched.
+    darker = drawn(CompareVolumes(Input=volume(voxels), Reference=volume(0.8 * voxels)),
+                   [0, 0, 0.5, 0, 85, 0, 0.5, 0, 95, 1, 0.5, 0])
+    assert not darker[:, :, 1].any() and darker[:, :, 0].max() > 0.8
 
 
 def test_one_of_them_alone():
