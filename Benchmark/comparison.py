@@ -41,6 +41,7 @@ class Comparison:
         simple.ColorBy(self.ours, ("POINTS", ARRAY))
         self.ours.SetScalarBarVisibility(scene.view, False)
         self.ours.Shade = 1
+        self.ours.Opacity = 0.0  # of the outline
         self.ours.ScalarOpacityUnitDistance = 1.0
         self.stock = {STOCK: [self._volume(), self._volume()], TOGETHER: [self._multi_volume()]}
         for volumes in self.stock.values():
@@ -77,7 +78,9 @@ class Comparison:
 
     def show(self, kind):
         self.scene.show("ours" if kind == ALONE else None)
-        self.ours.Visibility = int(kind == OURS)
+        # Beside stock an outline that is not seen: it tells the view how far it must see.
+        self.ours.Visibility = int(kind != ALONE)
+        self.ours.SetRepresentationType("Deformed Volume" if kind == OURS else "Outline")
         for name, volumes in self.stock.items():
             for volume in volumes:
                 volume.SetVisibility(name == kind)

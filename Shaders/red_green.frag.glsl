@@ -11,7 +11,8 @@ bool takeTwo(Path path, TissueTable table, TissueTable referenceTable, mat3 turn
   bool moved = i + 1.0 >= path.moved.x && i < path.moved.y;
   vec2 own = vec2(0.0);
   vec2 other = vec2(0.0);
-  if (i + 1.0 >= path.own.x && i < path.own.y)
+  // Behind what is opaque of its own a volume adds nothing.
+  if (seen.own.opacity <= OpaqueEnough && i + 1.0 >= path.own.x && i < path.own.y)
   {
     if (moved)
     {
@@ -21,7 +22,7 @@ bool takeTwo(Path path, TissueTable table, TissueTable referenceTable, mat3 turn
     own = opacitiesOf(table, oneRest, twoRest, vec2(scalarAt(oneRest), scalarAt(twoRest)), path.own,
       i);
   }
-  if (i + 1.0 >= path.other.x && i < path.other.y)
+  if (seen.other.opacity <= OpaqueEnough && i + 1.0 >= path.other.x && i < path.other.y)
   {
     vec3 one = positionOf(path.reference, i);
     vec3 two = positionOf(path.reference, i + 1.0);
