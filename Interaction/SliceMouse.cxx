@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace
 {
@@ -30,7 +31,9 @@ constexpr float Priority = 0.1f; // before ParaView's camera, after tools that t
 constexpr double Faces = 0.99;   // cosine between where a view looks and a plane's normal, at least
 constexpr int Planes = 3;
 constexpr const char* ShowNames[Planes] = { "ShowSagittal", "ShowCoronal", "ShowAxial" };
-constexpr int Flat = 1; // InteractionMode of a 2D view
+constexpr int Flat = 1;            // InteractionMode of a 2D view
+constexpr int Wipe = 5;            // SliceComparison
+constexpr double GripPixels = 6.0; // to either side of the wipe's line
 
 bool showsSlices(pqRepresentation* representation)
 {
@@ -79,13 +82,31 @@ void drawSlices()
   }
 }
 
-void setPosition(vtkSMProxy* display, double position[3])
+// `name`: SlicePosition or WipePosition.
+void setPosition(vtkSMProxy* display, const char* name, double position[3])
 {
   SCOPED_UNDO_EXCLUDE(); // where one looks is no edit
   clampToInput(display, position);
-  vtkSMPropertyHelper(display, "SlicePosition").Set(position, 3);
+  vtkSMPropertyHelper(display, name).Set(position, 3);
   display->UpdateVTKObjects();
   drawSlices();
+}
+
+// The direction that the wipe's line divides a plane across: see vtkDeformedSlicesMapper.
+const double* acrossWipe(const double normals[9], int plane)
+{
+  constexpr int sagittal = 0;
+  constexpr int coronal = 1;
+  return normals + 3 * (plane == sagittal ? coronal : sagittal);
+}
+
+// From the line to a place, mm.
+double beyondWipe(vtkSMProxy* display, const double place[3], const double across[3])
+{
+  double position[3];
+  vtkSMPropertyHelper(display, "WipePosition").Get(position, 3);
+  vtkMath::Subtract(place, position, position);
+  return vtkMath::Dot(position, across);
 }
 }
 
@@ -182,7 +203,7 @@ bool SliceMouse::onWheel(vtkObject*, unsigned long event, void*)
   {
     position[i] += step * slice.normals[3 * slice.plane + i];
   }
-  setPosition(slice.display, position);
+  setPosition(slice.display, "SlicePosition", position);
   return true;
 }
 
@@ -190,48 +211,94 @@ bool SliceMouse::onButton(vtkObject*, unsigned long event, void*)
 {
   if (event == vtkCommand::LeftButtonReleaseEvent)
   {
-    const bool mine = this->Dragging;
-    this->Dragging = false;
-    return mine;
+    return std::exchange(this->Dragging, Drag::Nothing) != Drag::Nothing;
   }
-  const Facing slice = this->Interactor->GetShiftKey() ? this->facingSlice() : Facing();
-  this->Dragging = slice.display != nullptr;
-  if (this->Dragging)
+  const Facing slice = this->Interactor->GetControlKey() ? Facing() : this->facingSlice();
+  this->Dragging = !slice.display     ? Drag::Nothing
+    : this->Interactor->GetShiftKey() ? Drag::Planes
+    : this->isOnWipe(slice)           ? Drag::Wipe
+                                      : Drag::Nothing;
+  if (this->Dragging == Drag::Planes)
   {
     this->bringToCursor(slice);
   }
-  return this->Dragging;
+  return this->Dragging != Drag::Nothing;
 }
 
 bool SliceMouse::onMove(vtkObject*, unsigned long, void*)
 {
-  const Facing slice = this->Dragging ? this->facingSlice() : Facing();
-  if (slice.display)
+  const Facing slice = this->Dragging != Drag::Nothing ? this->facingSlice() : Facing();
+  if (!slice.display)
+  {
+    return false;
+  }
+  if (this->Dragging == Drag::Wipe)
+  {
+    this->bringWipeToCursor(slice);
+  }
+  else
   {
     this->bringToCursor(slice);
   }
-  return slice.display != nullptr;
+  return true;
 }
 
-// The other two planes go to the cursor, this one stays.
-void SliceMouse::bringToCursor(const Facing& slice)
+void SliceMouse::findCursor(const Facing& slice, double world[3]) const
 {
   const int* pixel = this->Interactor->GetEventPosition();
   vtkRenderer* renderer = this->View->getRenderViewProxy()->GetRenderer();
   renderer->SetDisplayPoint(pixel[0], pixel[1], 0.0);
   renderer->DisplayToWorld();
-  const double* world = renderer->GetWorldPoint(); // parallel: anywhere on the pixel's line will do
+  const double* place = renderer->GetWorldPoint(); // parallel: anywhere on the pixel's line will do
   double position[3];
   vtkSMPropertyHelper(slice.display, "SlicePosition").Get(position, 3);
   const double* normal = slice.normals + 3 * slice.plane;
   double across = 0.0; // from the slice to that place
   for (int i = 0; i < 3; ++i)
   {
-    across += (world[i] / world[3] - position[i]) * normal[i];
+    world[i] = place[i] / place[3];
+    across += (world[i] - position[i]) * normal[i];
   }
   for (int i = 0; i < 3; ++i)
   {
-    position[i] = world[i] / world[3] - across * normal[i];
+    world[i] -= across * normal[i];
   }
-  setPosition(slice.display, position);
+}
+
+// The other two planes go to the cursor, this one stays.
+void SliceMouse::bringToCursor(const Facing& slice)
+{
+  double position[3];
+  this->findCursor(slice, position);
+  setPosition(slice.display, "SlicePosition", position);
+}
+
+bool SliceMouse::isOnWipe(const Facing& slice) const
+{
+  if (vtkSMPropertyHelper(slice.display, "SliceComparison").GetAsInt() != Wipe)
+  {
+    return false;
+  }
+  double cursor[3];
+  this->findCursor(slice, cursor);
+  vtkRenderer* renderer = this->View->getRenderViewProxy()->GetRenderer();
+  const double pixelMm =
+    2.0 * renderer->GetActiveCamera()->GetParallelScale() / renderer->GetSize()[1];
+  return std::abs(beyondWipe(slice.display, cursor, acrossWipe(slice.normals, slice.plane))) <=
+    GripPixels * pixelMm;
+}
+
+void SliceMouse::bringWipeToCursor(const Facing& slice)
+{
+  double cursor[3];
+  this->findCursor(slice, cursor);
+  const double* across = acrossWipe(slice.normals, slice.plane);
+  const double beyond = beyondWipe(slice.display, cursor, across);
+  double position[3];
+  vtkSMPropertyHelper(slice.display, "WipePosition").Get(position, 3);
+  for (int i = 0; i < 3; ++i)
+  {
+    position[i] += beyond * across[i];
+  }
+  setPosition(slice.display, "WipePosition", position);
 }

@@ -76,6 +76,7 @@ void HelpActions::showShortcuts()
     { tr("I"), QT_TR_NOOP("Stamp: the point of interest is the tissue under the cursor") },
     { tr("O"), QT_TR_NOOP("Shows the volume as loaded for as long as it is held down") },
     { tr("Escape"), QT_TR_NOOP("Gives up what is under the hand") },
+    { tr("K"), QT_TR_NOOP("Compare Volumes: deformed volume and reference in turn; again: ends") },
   };
   const Shortcut inList[] = {
     { tr("Space"), QT_TR_NOOP("Disables or enables the selected strokes") },

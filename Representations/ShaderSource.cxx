@@ -200,7 +200,8 @@ ShaderSource coverSource()
 ShaderSource slicesSource(const SlicesVariant& variant)
 {
   const std::string defines = slabDefine() + (variant.deformed ? "#define DEFORMED\n" : "") +
-    coloringDefine(variant.coloring) + (variant.compared ? "#define COMPARED\n" : "");
+    coloringDefine(variant.coloring) + (variant.compared ? "#define COMPARED\n" : "") +
+    (variant.cavity ? "#define CAVITY\n" : "");
   return { assemble({ shader_slices_vert }), "",
     assemble({ Outputs, defines, shader_rays, shader_field, shader_gradient, shader_tissue,
       shader_components, shader_cubic, shader_comparison, shader_slices_frag }) };
@@ -253,6 +254,7 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
   sources.emplace_back("slices_deformed", slicesSource({ true }));
   sources.emplace_back("slices_direct", slicesSource({ true, Coloring::Direct }));
   sources.emplace_back("slices_compared", slicesSource({ true, Coloring::OtherScalar, true }));
+  sources.emplace_back("slices_cavity", slicesSource({ true, Coloring::Mapped, true, true }));
   return sources;
 }
 }

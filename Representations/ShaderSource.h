@@ -79,11 +79,12 @@ struct SlicesVariant
   bool deformed = false; // the volume carries a lattice
   Coloring coloring = Coloring::Mapped;
   bool compared = false; // with a reference
+  bool cavity = false;   // part of which is ignored
 
   bool operator<(const SlicesVariant& other) const
   {
-    return std::tie(this->deformed, this->coloring, this->compared) <
-      std::tie(other.deformed, other.coloring, other.compared);
+    return std::tie(this->deformed, this->coloring, this->compared, this->cavity) <
+      std::tie(other.deformed, other.coloring, other.compared, other.cavity);
   }
 };
 

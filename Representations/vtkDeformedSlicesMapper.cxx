@@ -3,9 +3,9 @@
 
 #include "GpuMemory.h"
 #include "ReferenceVolume.h"
-#include "ScalarTexture.h"
 #include "SceneDeformation.h"
 #include "SceneGeometry.h"
+#include "SliceComparison.h"
 #include "SliceDrawer.h"
 #include "TextureMemory.h"
 #include "Tissue.h"
@@ -33,7 +33,7 @@ using namespace brainshift;
 struct vtkDeformedSlicesMapper::Device
 {
   brainshift::Tissue Tissue;
-  ScalarTexture Reference;
+  ReferenceTextures Reference;
   DeviceDeformation Deformation;
   SliceDrawer Drawer;
   GpuMemory Memory;
@@ -174,39 +174,25 @@ bool vtkDeformedSlicesMapper::DrawPlanes(vtkRenderer* renderer, Device& device, 
 bool vtkDeformedSlicesMapper::DescribeReference(vtkOpenGLRenderWindow* window, Device& device,
   const TissueRequest& tissue, const Grid& grid, SliceScene& scene, std::string& problem)
 {
-  const ReferenceVolume volume = readReference(this->GetDataSetInput());
-  if (!volume.voxels || this->Comparison == NoComparison)
+  const ReferenceVolume reference = readReference(this->GetDataSetInput());
+  const bool alone = reference.show == ReferenceShow::Reference;
+  const bool together = reference.show == ReferenceShow::Both && this->Comparison != NoComparison;
+  if (!reference.voxels || !(alone || together))
   {
     return true;
   }
-  const ValueLayout layout = layoutOf(volume.grid.dimensions, false);
-  constexpr int firstComponent = 0;
-  if (!device.Reference.update(
-        window, volume.voxels, layout.dimensions, firstComponent, this->Internal->Count, problem))
-  {
-    return false;
-  }
-  // The share of a scalar, from what the texture stores.
-  const auto shareFromStored = [](const double range[2], const StoredScalar& stored) {
-    const double length = range[1] > range[0] ? range[1] - range[0] : 1.0;
-    return glm::dvec2(stored.scale / length, (stored.shift - range[0]) / length);
-  };
-  const bool whole = !(this->ReferenceRange[0] < this->ReferenceRange[1]);
-  const double* shown = whole ? volume.voxels->GetRange(firstComponent) : this->ReferenceRange;
-  ReferenceScene& reference = scene.reference;
-  reference.scalars = device.Reference.texture();
-  reference.shareFromReference =
-    shareFromStored(shown, { device.Reference.scale(), device.Reference.shift() });
-  reference.shareFromScalar =
-    shareFromStored(tissue.property->GetRGBTransferFunction()->GetRange(), device.Tissue.stored());
-  vtkNew<vtkMatrix4x4> unmoved;
-  reference.referenceFromTexture = glm::inverse(worldFromTexture(volume.grid, layout, unmoved)) *
-    worldFromTexture(grid, tissue.layout, unmoved);
-  reference.low = layout.low;
-  reference.high = layout.high;
-  reference.comparison = this->Comparison;
-  reference.checkersFromTexture = grid.spacing / tissue.layout.textureFromGrid / this->CheckerSize;
-  return true;
+  ComparisonChoice choice;
+  choice.comparison = this->Comparison;
+  choice.checkerSizeMm = this->CheckerSize;
+  choice.shownRange = { this->ReferenceRange[0], this->ReferenceRange[1] };
+  choice.fullGradient = this->FullGradient;
+  choice.wipePosition = { this->WipePosition[0], this->WipePosition[1], this->WipePosition[2] };
+  const double* range = tissue.property->GetRGBTransferFunction()->GetRange();
+  const ComparedVolume volume{ grid, tissue.layout,
+    shareFromStored({ range[0], range[1] }, device.Tissue.stored()),
+    scene.volume.transferFromScalar, tissue.nearest };
+  return device.Reference.update(
+    window, reference, choice, volume, scene.reference, this->Internal->Count, problem);
 }
 
 void vtkDeformedSlicesMapper::DescribePlanes(
@@ -274,7 +260,7 @@ const Counters& vtkDeformedSlicesMapper::GetCounters()
   count.gpuOtherBytes = 0;
   this->Internal->Devices.visit([&](Device& device) {
     count.gpuScalarBytes += textureBytes(device.Tissue.scalars());
-    count.gpuOtherBytes += textureBytes({ { device.Reference.texture() },
+    count.gpuOtherBytes += textureBytes({ device.Reference.textures(),
       device.Tissue.otherTextures(), device.Deformation.field().textures() });
     device.Deformation.askTime(count.gpuFieldMicroseconds);
   });
@@ -295,5 +281,8 @@ void vtkDeformedSlicesMapper::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Comparison: " << this->Comparison << "\n"
      << indent << "CheckerSize: " << this->CheckerSize << "\n"
      << indent << "ReferenceRange: " << this->ReferenceRange[0] << " " << this->ReferenceRange[1]
-     << "\n";
+     << "\n"
+     << indent << "FullGradient: " << this->FullGradient << "\n"
+     << indent << "WipePosition: " << this->WipePosition[0] << " " << this->WipePosition[1] << " "
+     << this->WipePosition[2] << "\n";
 }

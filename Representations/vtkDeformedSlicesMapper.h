@@ -88,11 +88,15 @@ public:
     RedGreen = 1,     // volume red, reference green, agreement yellow
     Checkerboard = 2, // in turn, both by the colour map
     Difference = 3,   // volume minus reference; agreement is grey
+    Gradient = 4,     // the reference's gradient, green, over the volume in grey
+    Wipe = 5,         // the volume on one side of a line, the reference on the other
   };
 
   ///@{
-  /** How the reference that Compare Volumes attached is shown. Default not at all. */
-  vtkSetClampMacro(Comparison, int, NoComparison, Difference);
+  /** How the reference that Compare Volumes attached is shown. Default not at all. Colours and
+   * difference leave its cavity out. Where it attached that one of the two is shown alone, that one
+   * is drawn by the colour map, whatever the comparison. */
+  vtkSetClampMacro(Comparison, int, NoComparison, Wipe);
   vtkGetMacro(Comparison, int);
   ///@}
 
@@ -107,6 +111,21 @@ public:
    * Default 0 0: its whole range. */
   vtkSetVector2Macro(ReferenceRange, double);
   vtkGetVector2Macro(ReferenceRange, double);
+  ///@}
+
+  ///@{
+  /** How much the reference changes within a mm where Gradient is fully green, as a share of the
+   * range that is shown. Default 0.3. */
+  vtkSetClampMacro(FullGradient, double, 1e-6, VTK_DOUBLE_MAX);
+  vtkGetMacro(FullGradient, double);
+  ///@}
+
+  ///@{
+  /** The line of Wipe goes through it: mm, world axes, before the vtkVolume's transform. It divides
+   * axial and coronal slices across x, sagittal ones across y; the reference is where these are
+   * smaller. Default 0 0 0. */
+  vtkSetVector3Macro(WipePosition, double);
+  vtkGetVector3Macro(WipePosition, double);
   ///@}
 
   /** Whether what lies behind may be seen through the planes. */
@@ -165,6 +184,8 @@ private:
   int Comparison = NoComparison;
   double CheckerSize = 20.0;
   double ReferenceRange[2] = { 0.0, 0.0 };
+  double FullGradient = 0.3;
+  double WipePosition[3] = { 0.0, 0.0, 0.0 };
 
   std::unique_ptr<State> Internal;
 };

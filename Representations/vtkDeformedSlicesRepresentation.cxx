@@ -93,6 +93,16 @@ void vtkDeformedSlicesRepresentation::SetReferenceRange(double black, double whi
   this->GetDeformedSlicesMapper()->SetReferenceRange(black, white);
 }
 
+void vtkDeformedSlicesRepresentation::SetFullGradient(double share)
+{
+  this->GetDeformedSlicesMapper()->SetFullGradient(share);
+}
+
+void vtkDeformedSlicesRepresentation::SetWipePosition(double x, double y, double z)
+{
+  this->GetDeformedSlicesMapper()->SetWipePosition(x, y, z);
+}
+
 void vtkDeformedSlicesRepresentation::SetOrientationMarks(bool marks)
 {
   this->OrientationMarks = marks;

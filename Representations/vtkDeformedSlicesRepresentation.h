@@ -38,6 +38,8 @@ public:
   void SetComparison(int comparison);
   void SetCheckerSize(double size);
   void SetReferenceRange(double black, double white);
+  void SetFullGradient(double share);
+  void SetWipePosition(double x, double y, double z);
   ///@}
 
   ///@{

@@ -26,6 +26,7 @@ TEST(Defaults, OfDeformedSlicesLiveInTheMapper)
   vtkNew<vtkDeformedSlicesMapper> mapper;
   vtkNew<vtkDeformedSlicesRepresentation> representation;
   const double* position = mapper->GetSlicePosition();
+  const double* wipe = mapper->GetWipePosition();
   const Defaults expected{ { "ShowSagittal", { double(mapper->GetShowSagittal()) } },
     { "ShowCoronal", { double(mapper->GetShowCoronal()) } },
     { "ShowAxial", { double(mapper->GetShowAxial()) } },
@@ -36,7 +37,8 @@ TEST(Defaults, OfDeformedSlicesLiveInTheMapper)
     { "SliceComparison", { double(mapper->GetComparison()) } },
     { "CheckerSize", { mapper->GetCheckerSize() } },
     { "ReferenceRange", { mapper->GetReferenceRange()[0], mapper->GetReferenceRange()[1] } },
-    { "Opacity", { mapper->GetOpacity() } } };
+    { "FullGradient", { mapper->GetFullGradient() } },
+    { "WipePosition", { wipe[0], wipe[1], wipe[2] } }, { "Opacity", { mapper->GetOpacity() } } };
   EXPECT_EQ(defaultsIn("Representations/DeformedSlices.xml"), expected);
 }
 

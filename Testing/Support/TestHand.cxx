@@ -13,6 +13,7 @@
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QOpenGLWindow>
+#include <QTest>
 #include <QTimer>
 #include <QWheelEvent>
 #include <QWidget>
@@ -94,6 +95,30 @@ TEST_HAND_EXPORT void test_hand_key(int key, int press)
   }
   QKeyEvent event(press ? QEvent::KeyPress : QEvent::KeyRelease, key, Qt::NoModifier);
   send(event);
+}
+
+// `key`: Qt::Key, pressed and let go where the active view is: a shortcut of the window hears it.
+TEST_HAND_EXPORT void test_hand_shortcut(int key)
+{
+  if (QWidget* widget = viewWidget())
+  {
+    widget->window()->activateWindow();
+    QApplication::setActiveWindow(widget->window()); // without a window manager nobody else does
+    QTest::keyClick(widget, Qt::Key(key));
+  }
+}
+
+// Of an action of the window that can be checked.
+TEST_HAND_EXPORT int test_hand_is_checked(const char* name)
+{
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    if (auto action = window->findChild<QAction*>(name))
+    {
+      return action->isChecked() ? 1 : 0;
+    }
+  }
+  return 0;
 }
 
 // Lets the window do what it has to do, for at least so long.

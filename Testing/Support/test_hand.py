@@ -79,6 +79,16 @@ def tap(key):
     key_up(key)
 
 
+def shortcut(letter):
+    """Types a letter that is a shortcut of the window."""
+    _library.test_hand_shortcut(ord(letter.upper()))
+
+
+def is_checked(name):
+    """Whether an action of menu or toolbar is checked."""
+    return bool(_library.test_hand_is_checked(name.encode()))
+
+
 def take(tool):
     """Takes a tool in hand, or NONE."""
     setting("tool", tool)
