@@ -69,9 +69,10 @@ bool isAmong(float number, vec2 numbers)
   return number >= numbers.x && number < numbers.y;
 }
 
-// Opacities of samples `i` and `i` + 1 of one of the volumes, at these places in it.
-vec2 opacitiesOf(TissueTable table, vec3 one, vec3 two, vec2 scalars, vec2 numbers, float i)
+// Opacities of the samples `i` and `i` + 1 of the bent volume, at their rest positions.
+vec2 ownOpacities(TissueTable table, vec3 one, vec3 two, vec2 numbers, float i)
 {
+  vec2 scalars = vec2(scalarAt(one), scalarAt(two));
   if (!mayBeVisible(table, scalars.x) && !mayBeVisible(table, scalars.y))
   {
     return vec2(0.0);
@@ -80,13 +81,29 @@ vec2 opacitiesOf(TissueTable table, vec3 one, vec3 two, vec2 scalars, vec2 numbe
     isAmong(i + 1.0, numbers) ? tissueAt(table, two, scalars.y).a : 0.0);
 }
 
+// Likewise of the reference.
+vec2 referenceOpacities(TissueTable table, vec3 one, vec3 two, vec2 numbers, float i)
+{
+  vec2 scalars = vec2(referenceScalarAt(one), referenceScalarAt(two));
+  if (!mayBeVisible(table, scalars.x) && !mayBeVisible(table, scalars.y))
+  {
+    return vec2(0.0);
+  }
+  bvec2 shown = bvec2(isAmong(i, numbers) && insideVolume(table, one),
+    isAmong(i + 1.0, numbers) && insideVolume(table, two));
+  return vec2(shown.x ? tissueOf(table, scalars.x).a : 0.0,
+    shown.y ? tissueOf(table, scalars.y).a : 0.0);
+}
+
 // Takes a sample of both. `opacities`: of the bent volume and of the reference.
 void see(inout Seen seen, Path path, mat3 turn, mat3 slopes, float number, vec3 rest, vec2 opacities)
 {
   vec3 deformed = positionOf(path.deformed, number);
-  vec2 shares = opacities * vec2(shownShare(seen.own, seen.other, number),
-    shownShare(seen.other, seen.own, number));
   bool ignored = inCavity(deformed);
+  float behindBoth = (1.0 - seen.own.opacity) * (1.0 - seen.other.opacity);
+  vec2 shares = opacities * (ignored
+    ? behindBoth * vec2(1.0, 1.0 - opacities.x) // nothing agrees there: each hides the other
+    : vec2(shownShare(seen.own, seen.other, number), shownShare(seen.other, seen.own, number)));
   vec2 own = vec2(0.0);
   vec2 other = vec2(0.0);
   if (opacities.x > 0.0 && 1.0 - seen.own.opacity > Negligible)

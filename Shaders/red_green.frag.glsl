@@ -19,15 +19,12 @@ bool takeTwo(Path path, TissueTable table, TissueTable referenceTable, mat3 turn
       oneRest += offsetAt(positionOf(path.field, i));
       twoRest += offsetAt(positionOf(path.field, i + 1.0));
     }
-    own = opacitiesOf(table, oneRest, twoRest, vec2(scalarAt(oneRest), scalarAt(twoRest)), path.own,
-      i);
+    own = ownOpacities(table, oneRest, twoRest, path.own, i);
   }
   if (seen.other.opacity <= OpaqueEnough && i + 1.0 >= path.other.x && i < path.other.y)
   {
-    vec3 one = positionOf(path.reference, i);
-    vec3 two = positionOf(path.reference, i + 1.0);
-    other = opacitiesOf(referenceTable, one, two,
-      vec2(referenceScalarAt(one), referenceScalarAt(two)), path.other, i);
+    other = referenceOpacities(referenceTable, positionOf(path.reference, i),
+      positionOf(path.reference, i + 1.0), path.other, i);
   }
   vec2 regions = vec2(inShownRegion(oneDeformed), inShownRegion(twoDeformed));
   own *= regions;
