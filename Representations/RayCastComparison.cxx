@@ -6,9 +6,14 @@
 #include "SceneGeometry.h"
 
 #include "vtkTextureObject.h"
+#include "vtkVolume.h"
+#include "vtkVolumeMapper.h"
 
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
+
+#include <vector>
 
 namespace brainshift
 {
@@ -52,6 +57,7 @@ void setComparisonUniforms(Program& program, const RayCastScene& scene)
   program.set("referenceHigh", glm::vec3(reference.volumeHigh));
   program.set("cropLow", glm::vec3(comparison.cropLow));
   program.set("cropHigh", glm::vec3(comparison.cropHigh));
+  program.set("referenceTransfer", reference.transfer);
   program.set("transferFromReference", glm::vec2(reference.transferFromScalar));
   program.set("visibleReference", glm::vec2(reference.visibleScalars));
   program.set("agreementSamples", static_cast<float>(comparison.agreementMm / scene.stepMm));
@@ -65,6 +71,40 @@ void setComparisonUniforms(Program& program, const RayCastScene& scene)
     program.set("cavity", comparison.cavity);
     program.set("cavityFromTexture", glm::mat4(comparison.cavityFromTexture));
   }
+}
+
+bool cropByPlanes(vtkVolumeMapper* mapper, vtkVolume* volume, const Grid& grid,
+  const ValueLayout& layout, RayCastScene& scene)
+{
+  if (!mapper->GetCropping())
+  {
+    return true;
+  }
+  if (mapper->GetCroppingRegionFlags() != VTK_CROP_SUBVOLUME)
+  {
+    return false;
+  }
+  glm::dvec3 low;
+  glm::dvec3 high;
+  cropBox(grid, layout, mapper->GetCroppingRegionPlanes(), low, high);
+  const glm::dmat4 world = worldFromTexture(grid, layout, volume->GetMatrix());
+  const glm::dmat4 covectors =
+    glm::transpose(glm::inverse(world) * scene.worldFromTexture); // of planes, from that volume's
+  std::vector<float>& planes = scene.options.clipPlanes;
+  constexpr int numbersOfPlane = 4;
+  for (int side = 0; side < 6; ++side)
+  {
+    const int axis = side / 2;
+    glm::dvec4 plane(0.0);
+    plane[axis] = side % 2 ? -1.0 : 1.0;
+    plane.w = side % 2 ? high[axis] : -low[axis];
+    const glm::vec4 kept(covectors * plane);
+    if (planes.size() < MaxClipPlanes * numbersOfPlane)
+    {
+      planes.insert(planes.end(), &kept[0], &kept[0] + numbersOfPlane);
+    }
+  }
+  return true;
 }
 
 void placeComparedPixels(RayCastScene& scene)

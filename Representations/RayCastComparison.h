@@ -7,11 +7,15 @@
 #include <glm/vec3.hpp>
 
 class vtkTextureObject;
+class vtkVolume;
+class vtkVolumeMapper;
 
 namespace brainshift
 {
 class Program;
+struct Grid;
 struct RayCastScene;
+struct ValueLayout;
 
 struct RayCastComparison
 {
@@ -25,6 +29,11 @@ struct RayCastComparison
 
 // What reference.glsl, layers.glsl and skipping.glsl need for a scene with a reference.
 void setComparisonUniforms(Program& program, const RayCastScene& scene);
+
+// Cuts a scene that is drawn in place of a mapper's volume as the mapper crops that one, by planes.
+// False where that takes more than planes: regions other than the middle one.
+bool cropByPlanes(vtkVolumeMapper* mapper, vtkVolume* volume, const Grid& grid,
+  const ValueLayout& layout, RayCastScene& scene);
 
 // As placeShownPixels (SceneGeometry.h), of the scene's tissue and its reference, if any, together.
 void placeComparedPixels(RayCastScene& scene);

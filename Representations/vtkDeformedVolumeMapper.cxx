@@ -223,7 +223,7 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   vtkNew<vtkTimerLog> timer;
   timer->StartTimer();
   const bool described = reference.isAlone()
-    ? this->DescribeReference(renderer, device, volume, reference, scene, problem)
+    ? this->DescribeReference(renderer, device, volume, tissue, grid, reference, scene, problem)
     : this->DescribeTissue(renderer, device, volume, tissue, grid, scene, problem);
   if (!described)
   {
@@ -297,9 +297,10 @@ bool vtkDeformedVolumeMapper::DescribeTissue(vtkRenderer* renderer, Device& devi
   return true;
 }
 
-// The reference in place of the volume: not bent, in ordinary colours.
+// The reference in place of the volume: not bent, in ordinary colours, cropped as the volume is.
 bool vtkDeformedVolumeMapper::DescribeReference(vtkRenderer* renderer, Device& device,
-  vtkVolume* volume, const SceneReference& reference, RayCastScene& scene, std::string& problem)
+  vtkVolume* volume, const TissueRequest& tissue, const Grid& grid, const SceneReference& reference,
+  RayCastScene& scene, std::string& problem)
 {
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   if (!device.Reference.update(window, reference, scene, this->Internal->Count, problem))
@@ -308,6 +309,10 @@ bool vtkDeformedVolumeMapper::DescribeReference(vtkRenderer* renderer, Device& d
   }
   this->DescribeOptions(
     renderer, volume, device.Reference.Present.Tissue, reference.tissue, reference.grid, scene);
+  if (!cropByPlanes(this, volume, grid, tissue.layout, scene))
+  {
+    this->TellOnce("Of cropping, only the middle region cuts a reference that is shown alone");
+  }
   return true;
 }
 

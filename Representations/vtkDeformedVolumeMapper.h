@@ -124,8 +124,8 @@ public:
   ///@{
   /**
    * The reference's scalars that stand for the ends of the volume's colour map. Default 0 0: equal
-   * numbers where the volumes' ranges have at least half in common, else from the whole range of the
-   * one to that of the other.
+   * numbers where the volumes' ranges have at least half in common, else from the whole range of
+   * the one to that of the other.
    */
   vtkSetVector2Macro(ReferenceRange, double);
   vtkGetVector2Macro(ReferenceRange, double);
@@ -190,6 +190,7 @@ private:
     const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
     brainshift::RayCastScene& scene, std::string& problem);
   bool DescribeReference(vtkRenderer* renderer, Device& device, vtkVolume* volume,
+    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
     const brainshift::SceneReference& reference, brainshift::RayCastScene& scene,
     std::string& problem);
   void DescribeOptions(vtkRenderer* renderer, vtkVolume* volume, const brainshift::Tissue& drawn,

@@ -89,14 +89,13 @@ vec2 referenceOpacities(TissueTable table, vec3 one, vec3 two, vec2 numbers, flo
   {
     return vec2(0.0);
   }
-  bvec2 shown = bvec2(isAmong(i, numbers) && insideVolume(table, one),
-    isAmong(i + 1.0, numbers) && insideVolume(table, two));
-  return vec2(shown.x ? tissueOf(table, scalars.x).a : 0.0,
-    shown.y ? tissueOf(table, scalars.y).a : 0.0);
+  return vec2(isAmong(i, numbers) ? referenceOpacityAt(table, one, scalars.x) : 0.0,
+    isAmong(i + 1.0, numbers) ? referenceOpacityAt(table, two, scalars.y) : 0.0);
 }
 
 // Takes a sample of both. `opacities`: of the bent volume and of the reference.
-void see(inout Seen seen, Path path, mat3 turn, mat3 slopes, float number, vec3 rest, vec2 opacities)
+void see(inout Seen seen, Path path, mat3 turn, mat3 slopes, float number, vec3 rest,
+  vec2 opacities)
 {
   vec3 deformed = positionOf(path.deformed, number);
   bool ignored = inCavity(deformed);

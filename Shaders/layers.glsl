@@ -1,7 +1,7 @@
-// What a ray meets of two volumes, and how they hide each other (paper, section 3: the bent one red,
-// the reference green). Each hides what lies behind itself. It hides the other only where it lies
-// clearly before it: surfaces closer than the agreement count as one, and red and green add up to
-// yellow. Where both have the same opacities, each is as bright as alone.
+// What a ray meets of two volumes, and how they hide each other (paper, section 3: the bent one
+// red, the reference green). Each hides what lies behind itself. It hides the other only where it
+// lies clearly before it: surfaces closer than the agreement count as one, and red and green add up
+// to yellow. Where both have the same opacities, each is as bright as alone.
 
 uniform float agreementSamples; // samples from one surface to the other at which half is hidden
 

@@ -1,14 +1,15 @@
-// A reference volume beside the bent one, on a grid of its own. It is not bent and not resampled: it
-// is read where a sample lies, through one matrix. A cavity: what the comparison ignores.
+// A reference volume beside the bent one, on a grid of its own. It is not bent and not resampled:
+// it is read where a sample lies, through one matrix. A cavity: what the comparison ignores.
 
-uniform sampler3D reference;           // red: the scalar, as stored
-uniform mat4 referenceFromTexture;     // its texture coordinates from the volume's
-uniform vec3 referenceLow;             // its box, in its texture coordinates
+uniform sampler3D reference;       // red: the scalar, as stored
+uniform mat4 referenceFromTexture; // its texture coordinates from the volume's
+uniform vec3 referenceLow;         // its box, in its texture coordinates
 uniform vec3 referenceHigh;
-uniform vec3 cropLow;                  // what cropping leaves of it, the volume's texture coordinates
+uniform vec3 cropLow; // what cropping leaves of it, the volume's texture coordinates
 uniform vec3 cropHigh;
-uniform vec2 transferFromReference;    // stored scalar to the colour map's coordinate: scale, shift
-uniform vec2 visibleReference;         // stored scalars beyond which nothing is visible
+uniform sampler2D referenceTransfer; // as `transfer`
+uniform vec2 transferFromReference; // stored scalar to the colour map's coordinate: scale, shift
+uniform vec2 visibleReference;      // stored scalars beyond which nothing is visible
 uniform mat3 worldFromReferenceGradient; // world axes, from a gradient for its texture units
 
 TissueTable referenceTable()
@@ -24,6 +25,14 @@ vec3 referenceFromDeformed(vec3 deformed)
 float referenceScalarAt(vec3 place)
 {
   return textureLod(reference, place, 0.0).r;
+}
+
+// Opacity of one step; none outside the reference or where the scalar is not a number.
+float referenceOpacityAt(TissueTable table, vec3 place, float scalar)
+{
+  float entry = scalar * table.transferFromScalar.x + table.transferFromScalar.y;
+  bool there = insideVolume(table, place) && !isnan(scalar);
+  return there ? textureLod(referenceTransfer, vec2(entry, transferRow), 0.0).a : 0.0;
 }
 
 // A ray and its samples in the reference's texture coordinates; t stays the same.
@@ -65,8 +74,8 @@ vec3 referenceGradientAt(vec3 place)
 
 // Where tissue was removed colours say nothing.
 #ifdef CAVITY
-uniform sampler3D cavity;         // red: above 0 inside
-uniform mat4 cavityFromTexture;   // its texture coordinates from the volume's
+uniform sampler3D cavity;       // red: above 0 inside
+uniform mat4 cavityFromTexture; // its texture coordinates from the volume's
 
 bool inCavity(vec3 deformed)
 {

@@ -3,6 +3,7 @@
 # reference green, surfaces that agree yellow, each as bright as alone; wherever the reference lies;
 # with what skipping leaves out the same bit for bit; live, for a stroke uploads the lattice only.
 import itertools
+import re
 
 import numpy
 from brainshift_testing import (assert_says, ball, load_plugin, messages, object_pixels,
@@ -240,12 +241,33 @@ def test_a_stroke_uploads_the_lattice_only():
     Delete(view)
 
 
+def test_a_volume_with_colours_of_its_own():
+    # Only its opacity counts, the last of four numbers; its colour map is not that of the reference.
+    opacity = 2.55 * ball(center=(12, 16, 16), radius=5.0)
+    colored = numpy.stack([0 * opacity, 0 * opacity, 255 + 0 * opacity, opacity], axis=-1)
+    own = volume(colored.astype(numpy.uint8))
+    reference = volume((2.55 * ball(center=(24, 16, 16), radius=5.0)).astype(numpy.uint8))
+    view = new_view(direction=(0, 0, -1))
+    display = shown(CompareVolumes(Input=own, Reference=reference), view,
+                    [0, 0, 0.5, 0, 100, 0, 0.5, 0, 150, 1, 0.5, 0])
+    display.MapScalars = 0
+    image = picture(view)
+    for color in (0, 1):
+        area = (image[:, :, color] > 0.3).sum() * (40.0 / 150) ** 2
+        assert 0.85 < area / (numpy.pi * 5.0 ** 2) < 1.1, (color, area)
+    assert not image[:, :, 2].any()
+    display.EmptySpaceSkipping = 0
+    assert (picture(view) == image).all()
+    Delete(view)
+
+
 def test_without_a_reference_nothing_is_added():
     counted = {}
     own = volume(ball())
     for name, source in (("alone", own), ("off", CompareVolumes(Input=own, Reference=own))):
         view = new_view()
-        display = shown(source, view, VolumeComparison="Red and green" if name == "alone" else "Off")
+        display = shown(source, view)
+        display.VolumeComparison = "Red and green" if name == "alone" else "Off"
         picture(view)
         counted[name] = {**brainshift.counters(display), **brainshift.gpu(display)}
         counted[name].pop("gpuFieldMicroseconds")
@@ -345,10 +367,16 @@ def test_too_little_memory_leaves_the_volume():
     display.VolumeComparison = "Off"
     alone = picture(view)
     display.VolumeComparison = "Red and green"
-    display.MemoryLimit = 26.0
+    display.MemoryLimit = 0.1
+    with messages() as said:
+        picture(view)
+    need = re.search(r"needs ([\d.]+) MiB \(.*reference ([\d.]+)\)", said.text)
+    total, reference = (float(number) for number in need.groups())
+    assert abs(reference - 65 ** 3 * 8 / 2 ** 20) < 0.2 * reference, "scalars and gradients"
+    display.MemoryLimit = total - 0.5 * reference
     with messages() as said:
         image = picture(view)
-    assert_says(said.text, "reference 2.1)", "Memory Limit allows 26 MiB", "reference is not drawn")
+    assert_says(said.text, "Memory Limit allows", "reference is not drawn")
     assert (image == alone).all() and "software" not in said.text
     with messages() as said:
         picture(view)
@@ -379,11 +407,11 @@ def test_cropping_cuts_both():
     display.UseCropping = 1
     display.CroppingOrigin = [0, 0, 0]
     display.CroppingScale = [1.0, 0.5, 1.0]
-    image = picture(view)
-    for color in (0, 1):
-        rows = numpy.flatnonzero((image[:, :, color] > 0.3).any(axis=1))
+    for choice, color in (("Both", 0), ("Both", 1), ("Deformed", 0), ("Reference", 1)):
+        compare.Show = choice
+        rows = numpy.flatnonzero((picture(view)[:, :, color] > 0.3).any(axis=1))
         height = 16.0 + (rows - 74.5) * 40.0 / 150
-        assert 9.0 < height.min() < 11.0 and 15.0 < height.max() < 17.0, (color, height)
+        assert 9.0 < height.min() < 11.0 and 15.0 < height.max() < 17.0, (choice, color, height)
     Delete(view)
 
 
