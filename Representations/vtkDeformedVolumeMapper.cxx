@@ -198,18 +198,6 @@ void adapt(const MovingQuality& quality, Blend blend, const glm::ivec2& size, Ra
   scene.size = glm::max(size / static_cast<int>(quality.imageScale), glm::ivec2(1));
   scene.shownHigh = scene.size;
 }
-
-// What is drawn already behind the pixels that the volume can show.
-void captureDepth(SceneDepth& depth, vtkOpenGLRenderWindow* window, const glm::ivec2& origin,
-  const glm::ivec2& size, RayCastScene& scene)
-{
-  const glm::dvec2 windowPixels = glm::dvec2(size) / glm::dvec2(scene.size); // for one of the image
-  depth.capture(window, origin, size, glm::floor(glm::dvec2(scene.shownLow) * windowPixels),
-    glm::ceil(glm::dvec2(scene.shownHigh) * windowPixels));
-  scene.sceneDepth = depth.texture();
-  scene.depthFromShare = depth.textureFromShare();
-  scene.depthOfShareZero = depth.textureOfShareZero();
-}
 }
 
 bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, vtkVolume* volume,
@@ -257,7 +245,7 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   {
     placeComparedPixels(scene);
   }
-  captureDepth(device.Depth, window, origin, size, scene);
+  device.Depth.captureBehind(window, origin, size, scene);
   timer->StartTimer();
   const bool repeats =
     this->KeepPicture && !moving && device.Stamp.repeats(renderer, volume, scene, state.Count);
