@@ -249,7 +249,8 @@ def test_a_volume_with_colours_of_its_own():
     reference = volume((2.55 * ball(center=(24, 16, 16), radius=5.0)).astype(numpy.uint8))
     view = new_view(direction=(0, 0, -1))
     display = shown(CompareVolumes(Input=own, Reference=reference), view,
-                    [0, 0, 0.5, 0, 100, 0, 0.5, 0, 150, 1, 0.5, 0])
+                    [0, 0, 0.5, 0, 100, 0, 0.5, 0, 150, 1, 0.5, 0],
+                    colors=[-300, 1, 1, 1, 600, 1, 1, 1])
     display.MapScalars = 0
     image = picture(view)
     for color in (0, 1):
