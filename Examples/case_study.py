@@ -40,6 +40,7 @@ STAMP_PER_REGION = 2.0  # a stamp falls to a half at some 0.6 of its radius
 
 # Of the pictures: half the height shown (mm), what is in the middle, the ends of the colours.
 WHITE = 330.0  # scalar of the MR
+CORTEX = (50.0, 100.0)  # scalars between which the brain turns opaque
 SLICE_HALF_MM = 75.0
 SLICE_FOCUS = (20.0, 0.0, -35.0)  # from the cavity
 TRACE_HALF_MM = 85.0
@@ -193,10 +194,12 @@ class Case:
         self.trace = pointer_trace(self.after_surgery, random)
         self.landmarks = landmarks(self.brain, self.sag, random)
         self.bent = simple.FreeFormDeformation(Input=self.brain)
+        cavity = postoperative(sunken, "Cavity")
         self.measure = simple.TraceDistance(
-            Input=self.trace, Deformation=self.bent, Cavity=postoperative(sunken, "Cavity"),
+            Input=self.trace, Deformation=self.bent, Cavity=cavity,
             SurfaceArray="Inside", Threshold=0.5)
-        self.compare = simple.CompareVolumes(Input=self.bent, Reference=self.after_surgery)
+        self.compare = simple.CompareVolumes(Input=self.bent, Reference=self.after_surgery,
+                                             Cavity=cavity)
 
     def figures(self):
         """Trace distance and target registration error (TRE), mm."""
@@ -245,9 +248,29 @@ def show_red_green(compare, plane, towards_eye, size):
     return view
 
 
+def cortex_view(size):
+    """From above and the left."""
+    return parallel_view((-0.4, -0.5, 0.75), CRANIOTOMY + TRACE_FOCUS, TRACE_HALF_MM, size)
+
+
+def show_cortex(compare, size):
+    """Both brains: red where the bent one lies before the other, green where it lies behind, yellow
+    where their surfaces agree, grey in the cavity."""
+    view = cortex_view(size)
+    display = simple.Show(compare, view, "UniformGridRepresentation")
+    display.SetRepresentationType("Deformed Volume")
+    simple.ColorBy(display, ("POINTS", "Brain"), separate=True)
+    display.SetScalarBarVisibility(view, False)
+    opacity = simple.GetOpacityTransferFunction("Brain", display, separate=True)
+    opacity.Points = (0, 0, 0.5, 0, CORTEX[0], 0, 0.5, 0, CORTEX[1], 1, 0.5, 0, WHITE, 1, 0.5, 0)
+    display.ScalarOpacityUnitDistance = 1.0
+    display.Shade = 1
+    return view
+
+
 def show_trace(bent, measure, size):
-    """The cortex as bent, seen from above and the left, and the trace coloured by its distance."""
-    view = parallel_view((-0.4, -0.5, 0.75), CRANIOTOMY + TRACE_FOCUS, TRACE_HALF_MM, size)
+    """The cortex as bent, and the trace coloured by its distance."""
+    view = cortex_view(size)
     surface = simple.Contour(Input=bent.Input, ContourBy=["POINTS", "Inside"], Isosurfaces=[0.5])
     cortex = simple.Show(simple.DeformGeometry(Input=surface, Deformation=bent), view)
     simple.ColorBy(cortex, None)
@@ -267,15 +290,18 @@ def show_trace(bent, measure, size):
 
 
 def draw(case, file, size=450):
-    """Coronal and sagittal slice and the trace, side by side."""
+    """Coronal and sagittal slice, the cortex and the trace, side by side."""
     views = [show_red_green(case.compare, "Coronal", (0, 1, 0), size),
              show_red_green(case.compare, "Sagittal", (-1, 0, 0), size),
+             show_cortex(case.compare, size),
              show_trace(case.bent, case.measure, size)]
     layout = simple.CreateLayout()
     layout.AssignView(0, views[0])
-    layout.AssignView(layout.SplitHorizontal(0, 0.333) + 1, views[1])
-    layout.AssignView(layout.SplitViewHorizontal(views[1], 0.5) + 1, views[2])
-    simple.SaveScreenshot(file, layout, ImageResolution=(3 * size, size))
+    for number in range(1, len(views)):
+        share = 1.0 / (len(views) - number + 1)
+        left = layout.SplitViewHorizontal(views[number - 1], share)
+        layout.AssignView(left + 1, views[number])
+    simple.SaveScreenshot(file, layout, ImageResolution=(len(views) * size, size))
     for view in views:
         simple.Delete(view)
     simple.Delete(layout)

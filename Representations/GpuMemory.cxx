@@ -117,7 +117,8 @@ std::string describeNeed(const MemoryNeed& need)
 {
   return bytesAsMiB(need.total()) + " MiB (scalars " + bytesAsMiB(need.scalars) + ", gradients " +
     bytesAsMiB(need.gradients) + ", colours " + bytesAsMiB(need.colors) + ", offset field " +
-    bytesAsMiB(need.field) + ", images " + bytesAsMiB(need.images) + ")";
+    bytesAsMiB(need.field) + ", images " + bytesAsMiB(need.images) +
+    (need.reference > 0 ? ", reference " + bytesAsMiB(need.reference) : "") + ")";
 }
 
 std::string memoryProblem(

@@ -23,10 +23,12 @@ struct MemoryNeed
   std::int64_t colors = 0; // of volumes that bring their own, or a second scalar
   std::int64_t field = 0;  // refined lattice and offset field
   std::int64_t images = 0;
+  std::int64_t reference = 0; // of a volume to compare with: scalars, gradients, cavity
 
   std::int64_t total() const
   {
-    return this->scalars + this->gradients + this->colors + this->field + this->images;
+    return this->scalars + this->gradients + this->colors + this->field + this->images +
+      this->reference;
   }
 };
 

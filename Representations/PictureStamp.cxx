@@ -43,6 +43,15 @@ void addView(Numbers& numbers, const RayCastScene& scene)
   add(numbers, scene.lights.position);
   add(numbers, scene.lights.color);
   add(numbers, scene.lights.specular);
+  const RayCastComparison& comparison = scene.comparison;
+  numbers.push_back(scene.scalars->GetHandle()); // of the volume or of its reference
+  if (comparison.reference)
+  {
+    add(numbers, comparison.reference->worldFromTexture);
+    numbers.push_back(comparison.reference->scalars->GetHandle());
+    numbers.push_back(comparison.cavity ? comparison.cavity->GetHandle() : 0);
+    add(numbers, comparison.cavityFromTexture);
+  }
 }
 
 // What was uploaded or made anew since the last picture.

@@ -6,6 +6,7 @@
 #include "Counters.h"
 #include "FieldChange.h"
 #include "Program.h"
+#include "RayCastComparison.h"
 #include "RayCastLights.h"
 #include "RayCastOptions.h"
 
@@ -59,6 +60,7 @@ struct RayCastScene
   glm::dvec4 material{ 0.0, 1.0, 0.0, 1.0 }; // ambient, diffuse, specular, specular power
   RayCastLights lights;
   RayCastOptions options;
+  RayCastComparison comparison;
   bool shaded = false;
   bool opaqueTissue = false; // at some value a step hides what is behind, so that rays end soon
   bool skipping = true;

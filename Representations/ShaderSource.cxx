@@ -5,6 +5,7 @@
 #include "OffsetField.h"
 
 #include "shader_blocks_frag.h"
+#include "shader_both_paths.h"
 #include "shader_bricks.h"
 #include "shader_clipping.h"
 #include "shader_comparison.h"
@@ -20,6 +21,7 @@
 #include "shader_inversion.h"
 #include "shader_invert_frag.h"
 #include "shader_isosurface_frag.h"
+#include "shader_layers.h"
 #include "shader_light.h"
 #include "shader_march.h"
 #include "shader_nodes.h"
@@ -30,6 +32,8 @@
 #include "shader_proxy_vert.h"
 #include "shader_raycast.h"
 #include "shader_rays.h"
+#include "shader_red_green_frag.h"
+#include "shader_reference.h"
 #include "shader_refine_frag.h"
 #include "shader_skipping.h"
 #include "shader_slice_frag.h"
@@ -80,10 +84,15 @@ ShaderSource volumePassSource(const std::string& body)
 constexpr const char* BlendDefines[BlendCount] = { "COMPOSITE", "MAXIMUM", "MINIMUM", "AVERAGE",
   "ADDITIVE", "ISOSURFACE", "SLICE" };
 
-// The loop of a blend mode; it follows raycast.glsl.
-std::string blendSource(Blend blend)
+// The loop of a variant; it follows raycast.glsl.
+std::string loopSource(const RayCastVariant& variant)
 {
-  switch (blend)
+  if (variant.compared)
+  {
+    return std::string(shader_reference) + shader_layers + shader_both_paths +
+      shader_red_green_frag;
+  }
+  switch (variant.blend)
   {
     case Blend::Composite:
       return shader_compositing_frag;
@@ -119,7 +128,8 @@ std::string nameOf(const RayCastVariant& variant)
   return std::string("raycast") + (variant.deformed ? "_deformed" : "_rest") +
     LightNames[variant.light] + blends[static_cast<int>(variant.blend)] +
     colorings[static_cast<int>(variant.coloring)] + (variant.regions ? "_regions" : "") +
-    (variant.counted ? "_counted" : "") + (variant.sharedLight ? "_shared_light" : "");
+    (variant.counted ? "_counted" : "") + (variant.sharedLight ? "_shared_light" : "") +
+    (variant.compared ? "_compared" : "") + (variant.cavity ? "_cavity" : "");
 }
 }
 
@@ -168,11 +178,13 @@ ShaderSource rayCastSource(const RayCastVariant& variant)
   defines += coloringDefine(variant.coloring);
   defines += variant.regions ? "#define REGIONS\n" : "";
   defines += variant.sharedLight ? "#define SHARED_LIGHT\n" : "";
+  defines += variant.compared ? "#define COMPARED\n" : "";
+  defines += variant.cavity ? "#define CAVITY\n" : "";
   return { assemble({ shader_fullscreen_vert }), "",
     assemble({ Outputs, defines, shader_rays, shader_skipping, shader_clipping, shader_field,
       shader_gradient, shader_tissue, shader_components, shader_light,
       variant.counted ? std::string(shader_counting) : NotCounted, shader_raycast,
-      blendSource(variant.blend) }) };
+      loopSource(variant) }) };
 }
 
 ShaderSource compositeSource()
@@ -226,6 +238,17 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
     add({ deformed, RayCastVariant::GradientTexture, Blend::Composite, Coloring::Mapped, true });
     add({ deformed, RayCastVariant::GradientTexture, Blend::Composite, Coloring::Mapped, false,
       true, true });
+  }
+  for (const bool deformed : { false, true })
+  {
+    for (int light = 0; light < RayCastVariant::LightCount; ++light)
+    {
+      RayCastVariant compared{ deformed, static_cast<RayCastVariant::Light>(light) };
+      compared.compared = true;
+      add(compared);
+      compared.cavity = compared.regions = compared.counted = true;
+      add(compared);
+    }
   }
   sources.emplace_back("slices_rest", slicesSource({}));
   sources.emplace_back("slices_deformed", slicesSource({ true }));

@@ -61,12 +61,14 @@ struct RayCastVariant
   bool regions = false;     // VTK's cropping regions, other than the middle one alone
   bool counted = false;     // a third target tells the samples taken and skipped; Composite only
   bool sharedLight = false; // two samples share their light; Composite only, where there is light
+  bool compared = false;    // with a reference, red and green; Composite only
+  bool cavity = false;      // part of which is ignored
 
   bool operator<(const RayCastVariant& other) const
   {
     const auto key = [](const RayCastVariant& variant) {
       return std::make_tuple(variant.deformed, variant.light, variant.blend, variant.coloring,
-        variant.regions, variant.counted, variant.sharedLight);
+        variant.regions, variant.counted, variant.sharedLight, variant.compared, variant.cavity);
     };
     return key(*this) < key(other);
   }

@@ -45,6 +45,7 @@ struct TissueRequest
   Blend blend = Blend::Composite;
   GradientSource gradients = GradientSource::FullResolution;
   bool nearest = false; // voxels as they are, not blended
+  StoredScalar mapped;  // value for colours and opacities: scalar * scale + shift
 };
 
 class Tissue
@@ -67,7 +68,7 @@ public:
   vtkTextureObject* scalars() const { return this->Scalars.texture(); }
   std::vector<vtkTextureObject*> otherTextures() const; // null: not in use
 
-  StoredScalar stored() const { return { this->Scalars.scale(), this->Scalars.shift() }; }
+  const StoredScalar& stored() const { return this->Stored; }
 
   void releaseGraphicsResources(vtkWindow* window);
 
@@ -82,6 +83,7 @@ private:
   ColorTexture Colors;        // where the voxel brings its colour along
   TransferTexture Transfer;
   NormalTexture Normals;
+  StoredScalar Stored; // value for colours and opacities from what Scalars holds
   Blend VisibleBlend = Blend::Composite;
   std::vector<double> VisibleIsovalues; // those that are looked for
   bool VisibilityChanged = false;

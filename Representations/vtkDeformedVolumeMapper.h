@@ -38,7 +38,9 @@ namespace brainshift
 struct Counters;
 struct Grid;
 struct RayCastScene;
+struct SceneReference;
 struct TissueRequest;
+class Tissue;
 struct ValueLayout;
 }
 
@@ -107,6 +109,37 @@ public:
   vtkGetMacro(KeepPicture, bool);
   ///@}
 
+  enum ComparisonType
+  {
+    NoComparison = 0,
+    RedGreen = 1, // volume red, reference green, agreement yellow
+  };
+
+  ///@{
+  /** How the reference that Compare Volumes attached is shown. Default red and green. */
+  vtkSetClampMacro(Comparison, int, NoComparison, RedGreen);
+  vtkGetMacro(Comparison, int);
+  ///@}
+
+  ///@{
+  /**
+   * The reference's scalars that stand for the ends of the volume's colour map. Default 0 0: equal
+   * numbers where the volumes' ranges have at least half in common, else from the whole range of
+   * the one to that of the other.
+   */
+  vtkSetVector2Macro(ReferenceRange, double);
+  vtkGetVector2Macro(ReferenceRange, double);
+  ///@}
+
+  ///@{
+  /**
+   * Distance (mm) between two surfaces at which half of the one behind is seen through the other:
+   * all of it at half the distance, nothing at one and a half. 0 (default): two voxels.
+   */
+  vtkSetClampMacro(AgreementDistance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(AgreementDistance, double);
+  ///@}
+
   /**
    * Tissue position (mm, world, deformed frame) that the last whole picture in the renderer's
    * window shows at a pixel counted from the renderer's lower left corner, without drawing again:
@@ -140,17 +173,32 @@ private:
   // Draws deformed. False, with one sentence in `problem`, if this GPU cannot.
   bool Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem);
   bool DrawTissue(vtkRenderer* renderer, Device& device, vtkVolume* volume,
-    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid, std::string& problem);
+    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
+    const brainshift::SceneReference& reference, std::string& problem);
   void CoverSelection(vtkRenderer* renderer);
   void DrawUndeformed(vtkRenderer* renderer, vtkVolume* volume, const std::string& problem);
 
   void TellUnsupported(vtkVolumeProperty* property, vtkDataArray* scalars);
+  void TellOnce(const std::string& sentence);
+  brainshift::SceneReference FindReference(
+    vtkImageData* image, const brainshift::TissueRequest& tissue);
   bool AskForMemory(vtkRenderer* renderer, Device& device, const brainshift::TissueRequest& tissue,
-    std::string& problem);
+    brainshift::SceneReference& reference, std::string& problem);
   void AskTheGpu();
   void UpdateDeformation(vtkImageData* image);
-  bool PrepareSpace(vtkOpenGLRenderWindow* window, Device& device, const brainshift::Grid& grid,
-    const brainshift::ValueLayout& layout, brainshift::RayCastScene& scene, std::string& problem);
+  bool DescribeTissue(vtkRenderer* renderer, Device& device, vtkVolume* volume,
+    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
+    brainshift::RayCastScene& scene, std::string& problem);
+  bool DescribeReference(vtkRenderer* renderer, Device& device, vtkVolume* volume,
+    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
+    const brainshift::SceneReference& reference, brainshift::RayCastScene& scene,
+    std::string& problem);
+  void DescribeOptions(vtkRenderer* renderer, vtkVolume* volume, const brainshift::Tissue& drawn,
+    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
+    brainshift::RayCastScene& scene);
+  void Compare(vtkRenderer* renderer, Device& device, vtkVolume* volume,
+    const brainshift::Grid& grid, const brainshift::SceneReference& reference,
+    brainshift::RayCastScene& scene, brainshift::RayCastScene& alone);
   void DescribeCropping(const brainshift::Grid& grid, const brainshift::ValueLayout& layout,
     brainshift::RayCastScene& scene);
 
@@ -161,6 +209,9 @@ private:
   bool CountSamples = false;
   bool KeepPicture = false;
   double MemoryLimit = 0.0;
+  int Comparison = RedGreen;
+  double ReferenceRange[2] = { 0.0, 0.0 };
+  double AgreementDistance = 0.0;
 
   std::unique_ptr<State> Internal;
 };

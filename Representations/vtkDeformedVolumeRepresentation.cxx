@@ -66,6 +66,21 @@ void vtkDeformedVolumeRepresentation::SetMemoryLimit(double limit)
   this->GetDeformedVolumeMapper()->SetMemoryLimit(limit);
 }
 
+void vtkDeformedVolumeRepresentation::SetComparison(int comparison)
+{
+  this->GetDeformedVolumeMapper()->SetComparison(comparison);
+}
+
+void vtkDeformedVolumeRepresentation::SetReferenceRange(double low, double high)
+{
+  this->GetDeformedVolumeMapper()->SetReferenceRange(low, high);
+}
+
+void vtkDeformedVolumeRepresentation::SetAgreementDistance(double distance)
+{
+  this->GetDeformedVolumeMapper()->SetAgreementDistance(distance);
+}
+
 void vtkDeformedVolumeRepresentation::SetGlobalIlluminationReach(float reach)
 {
   this->GlobalIlluminationReach = reach;

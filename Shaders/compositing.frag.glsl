@@ -1,15 +1,6 @@
 // Composite blending, front to back: the paper's ray caster (section 2), with a loop of its own,
 // since it is what is drawn all day.
 
-// Where in its first step a pixel's ray starts: 16 shares, ordered so that neighbours differ most
-// (Bayer, 1973).
-float startShare(ivec2 pixel)
-{
-  int mixed = pixel.x ^ pixel.y;
-  int rank = (mixed & 1) * 8 + (pixel.y & 1) * 4 + (mixed >> 1 & 1) * 2 + (pixel.y >> 1 & 1);
-  return (float(rank) + 0.5) / 16.0;
-}
-
 // Colour times opacity, and opacity, of a sample.
 vec4 shown(vec4 tissue, vec3 rest, Shine shine)
 {
@@ -47,7 +38,7 @@ Path pathOf(Ray ray)
   {
     path.moved = movedSamples(ray, span, stepMm);
     path.field = fieldTrack(path.deformed);
-    path.bricks = brickTrack(path.deformed);
+    path.bricks = deformedBricks(path.deformed);
     path.towardsEye = -normalize(worldFromTexture * ray.direction);
   }
   return path;
@@ -65,11 +56,6 @@ void see(inout Seen seen, vec4 shown, float number)
   seen.picture += seen.picture.a > OpaqueEnough ? vec4(0.0) : (1.0 - seen.picture.a) * shown;
   bool hit = seen.hit < 0.0 && seen.picture.a >= HitOpacity;
   seen.hit = hit ? max(number - 0.5, 0.0) : seen.hit;
-}
-
-float evenBelow(float number)
-{
-  return 2.0 * floor(0.5 * number);
 }
 
 // Takes the samples i and i + 1: their reads do not wait for each other, and one Jacobian does for
@@ -136,7 +122,7 @@ void main()
     bool present = true;
     if (i >= ask)
     {
-      ask = evenBelow(sampleBeyond(path.bricks, i, present));
+      ask = evenBelow(sampleBeyond(leaps, leapsTexel, path.bricks, i, present));
       present = present || ask <= i;
     }
     float next = ask;

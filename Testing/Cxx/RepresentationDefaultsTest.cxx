@@ -47,6 +47,9 @@ TEST(Defaults, OfDeformedVolumeLiveInTheMapper)
   vtkNew<vtkDeformedVolumeMapper> mapper;
   const Defaults expected{ { "SampleDistance", { mapper->GetSampleDistance() } },
     { "EmptySpaceSkipping", { double(mapper->GetEmptySpaceSkipping()) } },
+    { "VolumeComparison", { double(mapper->GetComparison()) } },
+    { "AgreementDistance", { mapper->GetAgreementDistance() } },
+    { "VolumeReferenceRange", { mapper->GetReferenceRange()[0], mapper->GetReferenceRange()[1] } },
     { "AdaptiveQuality", { double(mapper->GetAdaptiveQuality()) } },
     { "KeepPicture", { double(mapper->GetKeepPicture()) } },
     { "CountSamples", { double(mapper->GetCountSamples()) } },

@@ -21,6 +21,8 @@ COARSE = SAME_STEP | {"stock, one-voxel step, as loaded"}
 EVERY = COARSE | {"ParaView's Volume, its own step, as loaded",
                   "stock, same step, baked beforehand"}
 SLICES = {"ours, bent", "ours, bent, cubic", "Slice of the baked volume"}
+COMPARED = {"ours, bent and reference", "ours, bent alone"}
+STOCK_COMPARED = {"stock, two volumes", "stock, two in a vtkMultiVolume"}
 BAKE = {"Bake Deformation", "vtkImageReslice, vtkBSplineTransform"}
 
 
@@ -57,6 +59,9 @@ def test_every_comparison_is_there():
         assert len(rows_of(f"normals, {opacities}")) == 3
     for kind in ("slices, steady", "slices, moved", "slices, edited"):
         assert set(rows_of(kind)) == SLICES
+    for kind in ("opaque", "translucent"):
+        assert set(rows_of(f"reference rendering (two volumes), {kind}")) == COMPARED | STOCK_COMPARED
+    assert set(rows_of("reference rendering (two volumes), edited")) == COMPARED
     assert set(rows_of("edit to picture, opaque", window=WINDOWS[1])) == EDIT
     for case in ({}, {"dimensions": [SIZE] * 3}, {"lattice": LATTICE}):
         assert set(rows_of("edit to picture, opaque", **case)) == EDIT
