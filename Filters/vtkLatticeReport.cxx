@@ -64,6 +64,11 @@ void vtkLatticeReport::SetCone(const double cone[8])
   std::copy_n(cone, 8, this->Cone);
 }
 
+void vtkLatticeReport::SetSlab(const double slab[7])
+{
+  std::copy_n(slab, 7, this->Slab);
+}
+
 vtkDoubleArray* vtkLatticeReport::GetHandles()
 {
   constexpr int components = 9;
@@ -75,9 +80,13 @@ vtkDoubleArray* vtkLatticeReport::GetHandles()
     return this->Handles;
   }
   HandleSet offsets;
+  const glm::dvec3 centre(this->Ball[0], this->Ball[1], this->Ball[2]);
+  const double* plane = this->Slab;
+  const brainshift::Slab slab{ { plane[0], plane[1], plane[2] }, { plane[3], plane[4], plane[5] },
+    plane[6] };
   if (this->Ball[3] > 0.0)
   {
-    addInBall(lattice, { this->Ball[0], this->Ball[1], this->Ball[2] }, this->Ball[3], offsets);
+    addInBall(lattice, centre, this->Ball[3], slab, offsets);
   }
   const double* cone = this->Cone;
   if (cone[6] > 0.0 || cone[7] > 0.0)
@@ -85,9 +94,9 @@ vtkDoubleArray* vtkLatticeReport::GetHandles()
     addInCone(lattice, { cone[0], cone[1], cone[2] }, { cone[3], cone[4], cone[5] }, cone[6],
       cone[7], offsets);
   }
-  if (this->Moved)
+  if (this->MovedWithin > 0.0)
   {
-    addMoved(lattice, offsets);
+    addMoved(lattice, centre, this->MovedWithin, slab, offsets);
   }
   for (std::size_t offset : offsets)
   {
@@ -128,5 +137,5 @@ void vtkLatticeReport::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Ball: " << this->Ball[0] << " " << this->Ball[1] << " " << this->Ball[2] << " "
      << this->Ball[3] << "\n"
-     << indent << "Moved: " << this->Moved << "\n";
+     << indent << "MovedWithin: " << this->MovedWithin << "\n";
 }

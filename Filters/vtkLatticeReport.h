@@ -43,10 +43,15 @@ public:
   ///@}
 
   ///@{
-  /** Tell those that moved, too; the farthest if there are too many. Default false. */
-  vtkSetMacro(Moved, bool);
-  vtkGetMacro(Moved, bool);
+  /** Radius (mm) about the ball's centre within which those that moved are told, too. Default 0:
+   * none. */
+  vtkSetMacro(MovedWithin, double);
+  vtkGetMacro(MovedWithin, double);
   ///@}
+
+  /** Of both, only those near a plane (mm, deformed frame) are told: a point of it, its unit normal,
+   * the largest distance. Default distance 0: all. */
+  void SetSlab(const double slab[7]);
 
   /**
    * Control points asked for, each once, at most 1000 for each question: index along the three
@@ -71,7 +76,8 @@ private:
   vtkWeakPointer<vtkAlgorithm> Filter;
   double Ball[4] = { 0.0, 0.0, 0.0, 0.0 };
   double Cone[8] = { 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0 };
-  bool Moved = false;
+  double MovedWithin = 0.0;
+  double Slab[7] = { 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0 };
   vtkNew<vtkDoubleArray> Handles;
   vtkNew<vtkDoubleArray> Geometry;
 };

@@ -163,27 +163,32 @@ SliceMouse::Facing SliceMouse::facingSlice() const
   return facing;
 }
 
-bool SliceMouse::onWheel(vtkObject*, unsigned long event, void*)
+SliceMouse* SliceMouse::of(pqRenderView* view)
 {
-  if (this->Interactor->GetControlKey())
-  {
-    return false;
-  }
+  return view ? view->findChild<SliceMouse*>(QString(), Qt::FindDirectChildrenOnly) : nullptr;
+}
+
+bool SliceMouse::step(int voxels)
+{
   const Facing slice = this->facingSlice();
   if (!slice.display)
   {
     return false;
   }
-  const double step = event == vtkCommand::MouseWheelForwardEvent ? slice.voxelSteps[slice.plane]
-                                                                  : -slice.voxelSteps[slice.plane];
   double position[3];
   vtkSMPropertyHelper(slice.display, "SlicePosition").Get(position, 3);
   for (int i = 0; i < 3; ++i)
   {
-    position[i] += step * slice.normals[3 * slice.plane + i];
+    position[i] += voxels * slice.voxelSteps[slice.plane] * slice.normals[3 * slice.plane + i];
   }
   setPosition(slice.display, position);
   return true;
+}
+
+bool SliceMouse::onWheel(vtkObject*, unsigned long event, void*)
+{
+  const int voxels = event == vtkCommand::MouseWheelForwardEvent ? 1 : -1;
+  return !this->Interactor->GetControlKey() && this->step(voxels);
 }
 
 bool SliceMouse::onButton(vtkObject*, unsigned long event, void*)

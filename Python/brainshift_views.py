@@ -106,7 +106,8 @@ def _make_grey(displays, coloring):
 
 def _link(displays):
     """Gives all displays one slice position from now on. ParaView's links keep a closed view's
-    display as a null pointer and follow it; so the link is made anew without it."""
+    display as a null pointer and follow it, and ParaView's window forgets the whole link with it; so
+    the link is made anew without it."""
     from paraview import servermanager
 
     manager = servermanager.ProxyManager()
@@ -115,19 +116,24 @@ def _link(displays):
     linked = {manager.GetProxyName("representations", display.SMProxy):
               display.SMProxy.GetGlobalID() for display in displays}
 
+    def remaining():
+        found = ((manager.SMProxyManager.GetProxy("representations", name), number)
+                 for name, number in linked.items())
+        return [proxy for proxy, number in found
+                if proxy is not None and proxy.GetGlobalID() == number]  # names are used again
+
     def make_anew(*_):
-        if manager.SMProxyManager.GetRegisteredLink(link_name) != link:
-            return  # removed by hand, or with its session
         link.RemoveAllLinks()
-        for (name, number), direction in itertools.product(
-                linked.items(), (link.INPUT, link.OUTPUT)):
-            proxy = manager.SMProxyManager.GetProxy("representations", name)
-            if proxy is not None and proxy.GetGlobalID() == number:  # names are used again
-                link.AddLinkedProperty(proxy, "SlicePosition", direction)
+        proxies = remaining()
+        if len(proxies) < 2:
+            return
+        if manager.SMProxyManager.GetRegisteredLink(link_name) != link:
+            manager.RegisterLink(link_name, link)
+        for proxy, direction in itertools.product(proxies, (link.INPUT, link.OUTPUT)):
+            link.AddLinkedProperty(proxy, "SlicePosition", direction)
 
     for display in displays:
         display.SMProxy.AddObserver("DeleteEvent", make_anew)
-    manager.RegisterLink(link_name, link)
     make_anew()
 
 
