@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MouseHint.h"
 
-#include "ToolSettings.h"
-
 #include <QCoreApplication>
 
 using Tool = ToolSettings::Tool;
@@ -37,55 +35,54 @@ QString heldAxis(AxisHold axis)
   return {};
 }
 
-QString inSlice(const ToolSettings& settings)
+QString inSlice(Ground ground)
 {
-  return settings.ground() == Ground::Volume ? QString() : tr(" within the slice");
+  return ground == Ground::Volume ? QString() : tr(" within the slice");
 }
 
 // Who has the wheel in a 2D view of slices.
-QString wheelHint(const ToolSettings& settings)
+QString wheelHint(Tool tool, Ground ground)
 {
-  if (settings.ground() != Ground::FlatSlices)
+  if (ground != Ground::FlatSlices)
   {
     return {};
   }
-  return settings.tool() == Tool::Stamp
-    ? tr(" Page Up, Page Down, and the wheel beside the slice, go through the slices.")
-    : tr(" The wheel goes through the slices.");
+  return tool == Tool::Stamp ? tr(" Page Up/Down and the wheel beside the slice: next slice.")
+                             : tr(" Wheel: next slice.");
 }
 
-QString restingHint(const ToolSettings& settings)
+QString restingHint(Ground ground)
 {
-  return settings.ground() == Ground::FlatSlices
-    ? tr("The wheel goes through the slices, with Ctrl it zooms; dragging with Shift brings the "
-         "other slices to the cursor.")
+  return ground == Ground::FlatSlices
+    ? tr("Wheel: next slice; Shift+drag: other slices to the cursor; Ctrl+wheel: zoom.")
     : tr("No tool in hand: the mouse moves the camera.");
 }
 }
 
-QString mouseHint(const ToolSettings& settings)
+QString mouseHint(const ToolSettings& settings, Ground ground)
 {
+  const QString wheel = wheelHint(settings.tool(), ground);
   switch (settings.tool())
   {
     case Tool::Move:
       return tr("Move: drag a control point%1. Shift+click selects several; X, Y or Z while "
                 "dragging "
-                "holds an axis. Elsewhere the mouse moves the camera.")
-               .arg(inSlice(settings)) +
-        wheelHint(settings) + heldAxis(settings.axisHold());
+                "holds an axis.")
+               .arg(inSlice(ground)) +
+        wheel + heldAxis(settings.axisHold());
     case Tool::Soft:
       return tr("Soft: drag tissue%1; what lies within %2 follows. Shift+wheel changes the radius; "
                 "X, Y or Z while dragging holds an axis.")
-               .arg(inSlice(settings), millimetres(settings.radius())) +
-        wheelHint(settings) + heldAxis(settings.axisHold());
+               .arg(inSlice(ground), millimetres(settings.radius())) +
+        wheel + heldAxis(settings.axisHold());
     case Tool::Stamp:
       return tr(
                "Stamp: over tissue the wheel pulls and pushes%1 by %2 a click, and so does a drag. "
                "Shift+wheel changes the major radius; I sets the point of interest.")
-               .arg(inSlice(settings), millimetres(settings.millimetresPerClick())) +
-        wheelHint(settings);
+               .arg(inSlice(ground), millimetres(settings.millimetresPerClick())) +
+        wheel;
     case Tool::None:
       break;
   }
-  return restingHint(settings);
+  return restingHint(ground);
 }

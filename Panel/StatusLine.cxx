@@ -19,6 +19,6 @@ void StatusLine::refresh()
   // Without a tool the mouse does what it always does, but for slices.
   const bool isOurs = settings.tool() != ToolSettings::Tool::None ||
     settings.ground() == ToolSettings::Ground::FlatSlices;
-  this->setText(isOurs ? mouseHint(settings) : QString());
+  this->setText(isOurs ? mouseHint(settings, settings.ground()) : QString());
   this->setToolTip(this->text());
 }

@@ -5,7 +5,9 @@
 #include <QVTKOpenGLStereoWidget.h>
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
+#include <pqObjectBuilder.h>
 #include <pqServerManagerModel.h>
+#include <pqUndoStack.h>
 #include <pqView.h>
 
 #include <vtkSMProxy.h>
@@ -154,6 +156,14 @@ TEST_HAND_EXPORT int test_hand_action(const char* name)
     }
   }
   return 0;
+}
+
+// Of the active source, as the menu Filters does. `name`: in XML.
+TEST_HAND_EXPORT void test_hand_create_filter(const char* name)
+{
+  SCOPED_UNDO_SET("Create filter");
+  pqApplicationCore::instance()->getObjectBuilder()->createFilter(
+    "filters", name, pqActiveObjects::instance().activeSource());
 }
 
 // A button, by its object name. Returns whether it could be pressed.

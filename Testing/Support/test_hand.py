@@ -106,6 +106,11 @@ def action(name):
     return bool(_library.test_hand_action(name.encode()))
 
 
+def create_filter(name):
+    """Makes a filter of the active source, as the menu Filters does: undo takes it back."""
+    _library.test_hand_create_filter(name.encode())
+
+
 def click(name):
     """Presses a button of the window; False if there is none or it is disabled."""
     return bool(_library.test_hand_click(name.encode()))

@@ -11,7 +11,7 @@ import brainshift
 import numpy
 import test_hand as hand
 import window_testing as window
-from brainshift_testing import picture
+from brainshift_testing import picture, volume
 from paraview import simple
 from window_testing import deformation, strokes, undo_labels
 
@@ -247,8 +247,8 @@ def what_the_mouse_does_is_told(scene):
     # The status line tells who has the wheel.
     scene.over("axial")
     hand.hover(scene.pixel_in("axial", 0.0, 0.0))
-    for tool, word in ((hand.STAMP, "Page Up"), (hand.SOFT, "The wheel goes through"),
-                       (hand.MOVE, "within the slice"), (hand.NONE, "with Ctrl it zooms")):
+    for tool, word in ((hand.STAMP, "Page Up"), (hand.SOFT, "Wheel: next slice"),
+                       (hand.MOVE, "within the slice"), (hand.NONE, "Ctrl+wheel: zoom")):
         hand.take(tool)
         hand.hover(scene.pixel_in("axial", 0.01, 0.0))
         hand.wait()
@@ -327,6 +327,28 @@ def parallel_volume(scene):
     window.edit("Undo")
 
 
+def radius_is_measured_along_the_lattice(scene):
+    # In a volume turned by 45 degrees: its control points are 4 mm apart, not 5.7.
+    share = math.sqrt(0.5)
+    source = volume(numpy.ones((41, 41, 41), numpy.float32),
+                    direction=(share, -share, 0, share, share, 0, 0, 0, 1))
+    turned = simple.FreeFormDeformation(Input=source, LatticeDimensions=[11, 11, 11])
+    simple.Show(turned, scene.views["volume"])
+    simple.SetActiveSource(turned)
+    simple.Render(scene.views["volume"])
+    hand.take(hand.SOFT)
+    for radius, warned in ((4.5, False), (3.5, True)):
+        hand.setting("radius", radius)
+        hand.wait(50)
+        text = hand.label("BrainShiftWarning")
+        assert bool(text) == warned, (radius, text)
+        assert not warned or "4.0 mm" in text, text
+    hand.take(hand.NONE)
+    simple.Delete(turned)
+    simple.SetActiveSource(scene.bent)
+    hand.setting("radius", 20.0)
+
+
 def what_compares_is_bent_too(scene):
     # Slices of what Compare Volumes makes of it: the tools bend what it is made of.
     compared = simple.CompareVolumes(Input=scene.bent, Reference=simple.Wavelet(
@@ -356,7 +378,7 @@ def play():
     for step in (soft_in_each, others_follow, move_in_slice, far_points_stay_out_of_reach,
                  stamp_in_slice, interest_in_slice, slices_scroll_elsewhere, shift_drags_slices,
                  what_the_mouse_does_is_told, slices_in_3d, parallel_volume,
-                 what_compares_is_bent_too):
+                 radius_is_measured_along_the_lattice, what_compares_is_bent_too):
         yield step, scene
 
 

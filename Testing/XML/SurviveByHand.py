@@ -71,6 +71,11 @@ def go_on(view):
     hand.wait(700)
 
 
+def deformations():
+    return [source for source in simple.GetSources().values()
+            if source.GetXMLName() == "FreeFormDeformation"]
+
+
 def each_tool(work, view):
     for tool in (hand.MOVE, hand.SOFT, hand.STAMP):
         hand.take(tool)
@@ -198,12 +203,14 @@ def one_of_four_views_closed():
 
 def undo_past_creation():
     finish()
-    simple.SetActiveSource(head())
+    source = head()
+    source.UpdatePipeline()
+    simple.SetActiveSource(source)
+    hand.wait(200)
     view = simple.GetActiveViewOrCreate("RenderView")
-    assert hand.action("FreeFormDeformation")
+    hand.create_filter("FreeFormDeformation")
     hand.wait(100)
-    bent = simple.GetActiveSource()
-    assert bent.GetXMLName() == "FreeFormDeformation", bent.GetXMLName()
+    bent, = deformations()
     hand.click("Accept")
     hand.wait(100)
     show(bent, view)
@@ -212,17 +219,14 @@ def undo_past_creation():
     assert len(bent.Strokes) == window.NUMBERS
     take_hold(view)
     del bent
-    undone = 0
-    while hand.action("actionEditUndo") and undone < 30:
-        undone += 1
+    while hand.action("actionEditUndo"):
         hand.wait()
-    kinds = {source.GetXMLName() for source in simple.GetSources().values()}
     go_on(view)
+    assert deformations() == [], deformations()
     while hand.action("actionEditRedo"):
         hand.wait()
+    assert [len(found.Strokes) for found in deformations()] == [window.NUMBERS], deformations()
     go_on(view)
-    assert undone > 1, undone
-    print("undone", undone, kinds, undo_labels(), flush=True)
 
 
 def two_filters():
@@ -266,6 +270,8 @@ def two_filters():
 
 
 def before_without_a_tool():
+    bent, view = begin()
+    assert hand.action("actionBrainShiftCompare"), "also without strokes, for a base lattice bends"
     bent, view = begin(Strokes=brainshift.soft((20, 20, 20), (3, 0, 0), 15.0))
     undo = undo_labels()
     hand.hover(middle(view))
