@@ -45,24 +45,13 @@ void forEachPoint(const Grid& grid, const glm::ivec3& low, const glm::ivec3& hig
   }
 }
 
-double farthest(const DrawnLattice& lattice)
-{
-  double squared = 0.0;
-  for (std::size_t i = 0; i < 3 * lattice.grid.count(); i += 3)
-  {
-    const float* d = lattice.displacements + i;
-    squared = std::max<double>(squared, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-  }
-  return lattice.strength * std::sqrt(squared);
-}
-
 // Control points drawn within a ball for which `wanted` holds of their index.
 template <typename Wanted>
 std::vector<Candidate> nearestWhere(
   const DrawnLattice& lattice, const glm::dvec3& centre, double radius, Wanted wanted)
 {
   // Nothing comes from farther away than the farthest displacement.
-  const glm::dvec3 reach = (radius + farthest(lattice)) / lattice.grid.spacing;
+  const glm::dvec3 reach = (radius + lattice.strength * lattice.farthest) / lattice.grid.spacing;
   const glm::dvec3 middle = lattice.grid.gridFromWorld(centre);
   const glm::dvec3 last(lattice.grid.dimensions - 1);
   const glm::ivec3 low(glm::ceil(glm::clamp(middle - reach, glm::dvec3(0.0), last + 1.0)));
@@ -77,6 +66,17 @@ std::vector<Candidate> nearestWhere(
   });
   return candidates;
 }
+}
+
+double longest(const DrawnLattice& lattice)
+{
+  double squared = 0.0;
+  for (std::size_t i = 0; i < 3 * lattice.grid.count(); i += 3)
+  {
+    const float* d = lattice.displacements + i;
+    squared = std::max<double>(squared, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  }
+  return std::sqrt(squared);
 }
 
 glm::dvec3 DrawnLattice::rest(const glm::ivec3& index) const

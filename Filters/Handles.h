@@ -23,11 +23,15 @@ struct VTKBRAINSHIFTFILTERS_EXPORT DrawnLattice
   Grid grid;
   const float* displacements = nullptr; // 3 for each point, mm, before strength
   double strength = 1.0;
+  double farthest = 0.0; // mm: no displacement is longer, before strength; see longest()
 
   glm::dvec3 rest(const glm::ivec3& index) const;
   glm::dvec3 displacement(const glm::ivec3& index) const; // as drawn
   glm::dvec3 deformed(const glm::ivec3& index) const;
 };
+
+// The longest displacement, mm, before strength: asks every control point.
+VTKBRAINSHIFTFILTERS_EXPORT double longest(const DrawnLattice& lattice);
 
 // What lies near a plane.
 struct Slab

@@ -17,8 +17,9 @@ using namespace brainshift;
 
 namespace
 {
-// What the output carries (DeformableVolume.h), read in place. False if it carries nothing.
-bool readDrawn(vtkAlgorithm* filter, DrawnLattice& lattice)
+// What the output carries (DeformableVolume.h), read in place: its displacements, or null if it
+// carries nothing.
+vtkFloatArray* readDrawn(vtkAlgorithm* filter, DrawnLattice& lattice)
 {
   vtkDataObject* output = filter ? filter->GetOutputDataObject(0) : nullptr;
   vtkFieldData* fields = output ? output->GetFieldData() : nullptr;
@@ -30,7 +31,7 @@ bool readDrawn(vtkAlgorithm* filter, DrawnLattice& lattice)
   if (!displacements || !dimensions || !box || !strength || dimensions->GetNumberOfValues() != 3 ||
     box->GetNumberOfValues() != 15)
   {
-    return false;
+    return nullptr;
   }
   const auto number = [&](int i) { return box->GetVariantValue(i).ToDouble(); };
   for (int axis = 0; axis < 3; ++axis)
@@ -45,7 +46,9 @@ bool readDrawn(vtkAlgorithm* filter, DrawnLattice& lattice)
   }
   lattice.displacements = displacements->GetPointer(0);
   lattice.strength = strength->GetVariantValue(0).ToDouble();
-  return displacements->GetNumberOfValues() == static_cast<vtkIdType>(3 * lattice.grid.count());
+  const bool complete =
+    displacements->GetNumberOfValues() == static_cast<vtkIdType>(3 * lattice.grid.count());
+  return complete ? displacements : nullptr;
 }
 }
 
@@ -69,16 +72,29 @@ void vtkLatticeReport::SetSlab(const double slab[7])
   std::copy_n(slab, 7, this->Slab);
 }
 
+void vtkLatticeReport::FindFarthest(vtkFloatArray* displacements, DrawnLattice& lattice)
+{
+  if (displacements != this->Known || displacements->GetMTime() != this->KnownTime)
+  {
+    this->Known = displacements;
+    this->KnownTime = displacements->GetMTime();
+    this->Farthest = longest(lattice);
+  }
+  lattice.farthest = this->Farthest;
+}
+
 vtkDoubleArray* vtkLatticeReport::GetHandles()
 {
   constexpr int components = 9;
   this->Handles->Reset();
   this->Handles->SetNumberOfComponents(components);
   DrawnLattice lattice;
-  if (!readDrawn(this->Filter, lattice))
+  vtkFloatArray* displacements = readDrawn(this->Filter, lattice);
+  if (!displacements)
   {
     return this->Handles;
   }
+  this->FindFarthest(displacements, lattice);
   HandleSet offsets;
   const glm::dvec3 centre(this->Ball[0], this->Ball[1], this->Ball[2]);
   const double* plane = this->Slab;

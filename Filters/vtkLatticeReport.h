@@ -18,6 +18,11 @@
 
 class vtkAlgorithm;
 class vtkDoubleArray;
+class vtkFloatArray;
+namespace brainshift
+{
+struct DrawnLattice;
+}
 
 class VTKBRAINSHIFTFILTERS_EXPORT vtkLatticeReport : public vtkObject
 {
@@ -70,6 +75,8 @@ protected:
   ~vtkLatticeReport() override;
 
 private:
+  void FindFarthest(vtkFloatArray* displacements, brainshift::DrawnLattice& lattice);
+
   vtkLatticeReport(const vtkLatticeReport&) = delete;
   void operator=(const vtkLatticeReport&) = delete;
 
@@ -78,6 +85,10 @@ private:
   double Cone[8] = { 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0 };
   double MovedWithin = 0.0;
   double Slab[7] = { 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0 };
+  // Of the control points that were asked last, so that a cursor that moves asks few of them.
+  vtkWeakPointer<vtkFloatArray> Known;
+  vtkMTimeType KnownTime = 0;
+  double Farthest = 0.0; // mm
   vtkNew<vtkDoubleArray> Handles;
   vtkNew<vtkDoubleArray> Geometry;
 };

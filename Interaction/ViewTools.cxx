@@ -97,7 +97,11 @@ ViewTools::ViewTools(QObject* parent)
       this->cancel();
       this->putDown();
     }
-    this->Under = view == this->Under ? nullptr : this->Under;
+    if (view == this->Under)
+    {
+      this->Under = nullptr;
+      ToolSettings::instance()->setGround(ToolSettings::Ground::Volume);
+    }
   });
   // Later, parts of the window that hear of changes are gone already.
   QObject::connect(qApp, &QCoreApplication::aboutToQuit, this, [this] {

@@ -290,5 +290,6 @@ void vtkLatticeRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Handles: " << this->GetNumberOfHandles() << "\n"
+     << indent << "Faint: " << this->GetNumberOfFaint() << "\n"
      << indent << "Highlights: " << this->GetNumberOfHighlights() << "\n";
 }

@@ -40,6 +40,7 @@ struct Bent
     soft.major = 7.0;
     applyStroke(this->lattice, soft);
     this->drawn = { grid, &this->lattice.displacements[0].x, strength };
+    this->drawn.farthest = longest(this->drawn);
   }
 
   glm::dvec3 middle() const

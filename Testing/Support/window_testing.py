@@ -77,6 +77,18 @@ def settle(label):
     assert undo_labels()[0] == label, undo_labels()
 
 
+def shown(view, what):
+    """How many Handles, Faint or Highlights the tool in a view shows."""
+    hidden = view.SMProxy.GetProperty("HiddenRepresentations")
+    for i in range(hidden.GetNumberOfProxies()):
+        tool = hidden.GetProxy(i).GetClientSideObject().GetRepresentation()
+        for line in str(tool).splitlines():
+            name, _, number = line.strip().partition(": ")
+            if name == what:
+                return int(number)
+    raise ValueError(f"nothing tells {what}")
+
+
 def pixel_of(view, position):
     renderer = view.GetRenderer()
     renderer.SetWorldPoint(*position, 1.0)

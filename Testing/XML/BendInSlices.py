@@ -155,6 +155,12 @@ def far_points_stay_out_of_reach(scene):
     hidden = [16.0, 28.0, 28.0]
     nearest = [16.0, 28.0, 20.0]
     assert numpy.allclose(scene.pixel("axial", hidden), scene.pixel("axial", nearest))
+    hand.hover(scene.pixel("axial", hidden))
+    hand.wait()
+    cells = 2.6  # that are shown about the cursor
+    layer = math.pi * cells ** 2
+    handles = window.shown(scene.views["axial"], "Handles")
+    assert 0.7 * layer < handles < 1.3 * layer, handles
     hand.drag(scene.pixel("axial", hidden), scene.pixel_in("axial", 0.2, 0.1))
     assert numpy.allclose(last()["anchor"], nearest), last()
     window.edit("Undo")

@@ -291,13 +291,16 @@ def before_without_a_tool():
 
 def large_lattice():
     # 65 control points a side: few of them are shown, and the one taken hold of moves.
-    bent, view = begin(LatticeDimensions=[65, 65, 65])
+    bent, view = begin(LatticeDimensions=[65, 65, 65], Samples=0)
     hand.take(hand.STAMP)
     hand.hover(middle(view))
     hand.wheel(middle(view), 3)
     window.settle("Stamp: pull")
     hand.take(hand.MOVE)
     hand.hover(middle(view, 3, 3))
+    hand.wait()
+    assert 5 < window.shown(view, "Handles") < 50, window.shown(view, "Handles")
+    assert 5 < window.shown(view, "Faint") < 250, window.shown(view, "Faint")
     hand.drag(middle(view, 3, 3), middle(view, 20, 12))
     tools = [stroke[0] for stroke in strokes()]
     assert tools == [brainshift.STAMP, brainshift.MOVE], tools
