@@ -27,6 +27,7 @@ def main(name, steps):
                 step(*arguments)
             except BaseException:
                 told["failures"].append(traceback.format_exc())
+                start_anew()
             told["played"] += 1
         with open(told_file(name), "w", encoding="utf-8") as file:
             json.dump(told, file)
@@ -37,6 +38,13 @@ def main(name, steps):
     os.remove(told_file(name))
     assert not told["failures"], "\n".join(told["failures"])
     assert told["played"] > 0, told
+
+
+def start_anew():
+    """So that one step's failure is not the next one's."""
+    hand.take(hand.NONE)
+    if deformation():
+        deformation().Strokes = []
 
 
 def deformation():
