@@ -106,7 +106,10 @@ def soft_in_each(scene):
 
 
 def others_follow(scene):
-    # While the hand still holds it; also in the view that another slice is drawn in.
+    # While the hand still holds it; also in the view that another slice is drawn in, and of volumes
+    # that ParaView has stand-ins drawn for meanwhile.
+    for view in scene.views.values():
+        view.LODThreshold = 0.0
     hand.take(hand.NONE)  # what a tool shows is no part of the pictures
     before = {name: picture(scene.views[name]) for name in SLICES}
     hand.take(hand.SOFT)
