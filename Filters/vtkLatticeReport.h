@@ -54,8 +54,8 @@ public:
   vtkGetMacro(MovedWithin, double);
   ///@}
 
-  /** Of both, only those near a plane (mm, deformed frame) are told: a point of it, its unit normal,
-   * the largest distance. Default distance 0: all. */
+  /** Of both, only those near a plane (mm, deformed frame) are told: a point of it, its unit
+   * normal, the largest distance. Default distance 0: all. */
   void SetSlab(const double slab[7]);
 
   /**

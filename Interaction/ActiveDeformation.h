@@ -15,8 +15,8 @@ pqPipelineSource* activeDeformation(pqView* view);
 // As the active view shows it.
 pqPipelineSource* activeDeformation();
 
-// How a view shows a Free-Form Deformation bent: as Deformed Volume or Deformed Slices, of itself or
-// of what a filter like Compare Volumes made of it. Null if it does not.
+// How a view shows a Free-Form Deformation bent: as Deformed Volume or Deformed Slices, of itself
+// or of what a filter like Compare Volumes made of it. Null if it does not.
 pqDataRepresentation* shownBent(pqPipelineSource* deformation, pqView* view);
 bool showsSlices(pqDataRepresentation* shown);
 

@@ -71,6 +71,18 @@ ViewTools::ViewTools(QObject* parent)
       this->Tool->settle();
     }
   });
+  this->followApplication();
+  // Later, parts of the window that hear of changes are gone already.
+  QObject::connect(qApp, &QCoreApplication::aboutToQuit, this, [this] {
+    this->stopShowingBefore();
+    this->putDown();
+    this->Kept.letGo();
+  });
+  qApp->installEventFilter(this);
+}
+
+void ViewTools::followApplication()
+{
   const auto soon = [this] { this->Refresh.start(); };
   pqActiveObjects* active = &pqActiveObjects::instance();
   QObject::connect(ToolSettings::instance(), &ToolSettings::changed, this, soon);
@@ -103,13 +115,6 @@ ViewTools::ViewTools(QObject* parent)
       ToolSettings::instance()->setGround(ToolSettings::Ground::Volume);
     }
   });
-  // Later, parts of the window that hear of changes are gone already.
-  QObject::connect(qApp, &QCoreApplication::aboutToQuit, this, [this] {
-    this->stopShowingBefore();
-    this->putDown();
-    this->Kept.letGo();
-  });
-  qApp->installEventFilter(this);
 }
 
 ViewTools::~ViewTools()

@@ -35,12 +35,13 @@ public:
   explicit ViewTools(QObject* parent);
   ~ViewTools() override;
 
-  // Keys, while the cursor is over a view: O as loaded while held; Page Up and Page Down through the
-  // slices of a 2D view; with the stamp in hand I point of interest; while something is under the
-  // hand X, Y, Z hold an axis or let it go, Escape cancels.
+  // Keys, while the cursor is over a view: O as loaded while held; Page Up and Page Down through
+  // the slices of a 2D view; with the stamp in hand I point of interest; while something is under
+  // the hand X, Y, Z hold an axis or let it go, Escape cancels.
   bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
+  void followApplication(); // from now on
   void followCursor(pqRenderView* view);
   void refresh(); // tool, view and filter as they are now
   void suggestRanges();

@@ -106,8 +106,8 @@ def _make_grey(displays, coloring):
 
 def _link(displays):
     """Gives all displays one slice position from now on. ParaView's links keep a closed view's
-    display as a null pointer and follow it, and ParaView's window forgets the whole link with it; so
-    the link is made anew without it."""
+    display as a null pointer and follow it, and ParaView's window forgets the whole link with it;
+    so the link is made anew without it."""
     from paraview import servermanager
 
     manager = servermanager.ProxyManager()

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that exactly the control points are told that are drawn within a ball or a cone, moved or near a
-// plane; also on a turned lattice, on a large one, and through the object a client asks.
+// Proves that exactly the control points are told that are drawn within a ball or a cone, moved or
+// near a plane; also on a turned lattice, on a large one, and through the object a client asks.
 #include "Handles.h"
 #include "TestPipeline.h"
 #include "vtkFreeFormDeformation.h"

@@ -33,8 +33,8 @@ def project(view, position):
 
 
 def check(view, display, on_plane, least):
-    """A pixel is picked where something is drawn; it is where it says, and of all planes there it is
-    the one in front."""
+    """A pixel is picked where something is drawn; it is where it says, and of all planes there it
+    is the one in front."""
     shown = picture(view)
     found = 0
     for column, row in PIXELS:
@@ -87,7 +87,8 @@ def test_the_plane_in_front():
 def test_bent_tissue():
     # Tissue pulled out of the volume's box is picked there; where none came from nothing is.
     bent = FreeFormDeformation(Input=volume(bright()), GuardFolding=0, Strokes=(
-        brainshift.soft((32, 16, 16), (6, 0, 0), 14.0) + brainshift.soft((0, 16, 16), (5, 1, 0), 12.0)))
+        brainshift.soft((32, 16, 16), (6, 0, 0), 14.0)
+        + brainshift.soft((0, 16, 16), (5, 1, 0), 12.0)))
     view = view_along((0, 0, -1), MIDDLE, 100.0, half_height=30.0, size=SIZE)
     display = show_slices(bent, view, ("Axial",), (16, 16, 15.2))
     check(view, display, lambda tissue: abs(tissue[2] - 15.2) < 1e-5, 20)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A hand in ParaView's window: press, drag, turn the wheel and type over the active view, or the one
-that over() was told. Acts inside the window's own Python only. Pixels count from the view's lower left corner."""
+"""A hand in ParaView's window: press, drag, turn the wheel and type over the active view, or the
+one that over() was told. Acts inside the window's own Python only. Pixels count from the view's
+lower left corner."""
 import ctypes
 import math
 import os
@@ -8,7 +9,7 @@ import os
 from paraview import simple
 
 SHIFT, CONTROL = 0x02000000, 0x04000000  # Qt::KeyboardModifiers
-ESCAPE, PAGE_UP, PAGE_DOWN = 0x01000000, 0x01000016, 0x01000017  # Qt::Key; letters are their own codes
+ESCAPE, PAGE_UP, PAGE_DOWN = 0x01000000, 0x01000016, 0x01000017  # Qt::Key; letters: their codes
 _MOVE, _PRESS, _RELEASE = 0, 1, 2
 
 NONE, MOVE, SOFT, STAMP = 0, 1, 2, 3     # ToolSettings::Tool

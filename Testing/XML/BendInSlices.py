@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Proves that Move, Soft and Stamp bend a volume in its slices, in 2D views and in 3D: what they act
-on lies in the slice under the cursor and moves within it, whichever view is active; the other views
-follow at once; the wheel is the stamp's over the slice only. And that they do in a parallel 3D view.
+"""Proves that Move, Soft and Stamp bend a volume in its slices, in 2D views and in 3D: what they
+act on lies in the slice under the cursor and moves within it, whichever view is active; the other
+views follow at once; the wheel is the stamp's over the slice only. And that they do in a parallel
+3D view.
 
 ParaView's window runs this file as a script; what did not hold is written down for the pvpython
 that runs it afterwards."""

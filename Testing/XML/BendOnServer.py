@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Proves that the tools bend a volume that a pvserver holds and draws: ParaView's window, connected to
-it, drags with each tool in 3D and in a slice, live, and takes back what it did.
+"""Proves that the tools bend a volume that a pvserver holds and draws: ParaView's window, connected
+to it, drags with each tool in 3D and in a slice, live, and takes back what it did.
 
 ParaView's window runs this file as a script; what did not hold is written down for the pvpython
 that runs it afterwards."""

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that nothing crashes and no stroke is lost when things change under the hand in ParaView's
 window: no data yet, a hidden volume, data replaced or gone, one of the four views closed, undo past
-the filter's creation, two filters at once, a large lattice; and, last, the window closed in mid-drag.
-And that O shows the volume as loaded without a tool.
+the filter's creation, two filters at once, a large lattice; and, last, the window closed in
+mid-drag. And that O shows the volume as loaded without a tool.
 
 ParaView's window runs this file as a script; what did not hold is written down for the pvpython
 that runs it afterwards."""
