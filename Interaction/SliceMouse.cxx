@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SliceMouse.h"
 
+#include "LatticeProbe.h"
+
 #include <pqApplicationCore.h>
 #include <pqRenderView.h>
 #include <pqRepresentation.h>
@@ -16,7 +18,6 @@
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMRenderViewProxy.h>
-#include <vtkSMSessionProxyManager.h>
 #include <vtkSMSourceProxy.h>
 #include <vtkSmartPointer.h>
 
@@ -42,13 +43,14 @@ bool showsSlices(pqRepresentation* representation)
 // How the planes lie is known where they are drawn.
 void askHowPlanesLie(vtkSMProxy* display, double normals[9], double voxelSteps[3])
 {
-  auto report = vtk::TakeSmartPointer(
-    display->GetSessionProxyManager()->NewProxy("misc", "DeformedVolumeReport"));
-  vtkSMPropertyHelper(report, "Representation").Set(display);
-  report->UpdateVTKObjects();
-  report->UpdatePropertyInformation();
-  vtkSMPropertyHelper(report, "SliceNormals").Get(normals, 3 * Planes);
-  vtkSMPropertyHelper(report, "VoxelSteps").Get(voxelSteps, Planes);
+  const vtkSmartPointer<vtkSMProxy> report = makeReport(display, "DeformedVolumeReport");
+  point(report, "Representation", display);
+  std::fill_n(normals, 3 * Planes, 0.0);
+  std::fill_n(voxelSteps, Planes, 0.0);
+  const std::vector<double> lie = told(report, "SliceNormals");
+  const std::vector<double> steps = told(report, "VoxelSteps");
+  std::copy_n(lie.begin(), std::min<std::size_t>(lie.size(), 3 * Planes), normals);
+  std::copy_n(steps.begin(), std::min<std::size_t>(steps.size(), Planes), voxelSteps);
 }
 
 void clampToInput(vtkSMProxy* display, double position[3])

@@ -207,6 +207,12 @@ void StampTool::settle()
   }
 }
 
+void StampTool::turnAway()
+{
+  this->settle();
+  this->Made = false;
+}
+
 void StampTool::cancel()
 {
   ViewTool::cancel();

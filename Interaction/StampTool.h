@@ -16,6 +16,7 @@ public:
   void drag(const brainshift::HandEvent& event) override;
   bool wheel(const brainshift::HandEvent& event) override;
   void settle() override;
+  void turnAway() override;
   void cancel() override;
 
 private:

@@ -51,6 +51,11 @@ void ViewTool::cancel()
 
 void ViewTool::settle() {}
 
+void ViewTool::turnAway()
+{
+  this->settle();
+}
+
 Stroke ViewTool::strokeAt(const glm::dvec3& anchor, Tool tool) const
 {
   const ToolSettings& settings = this->Bench.settings;

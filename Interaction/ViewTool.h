@@ -50,6 +50,8 @@ public:
   virtual void cancel();
   // What is under the hand is done; one undo step.
   virtual void settle();
+  // The same; what is under the cursor has changed, so the next stroke is another one.
+  virtual void turnAway();
 
 protected:
   brainshift::Stroke strokeAt(const glm::dvec3& anchor, brainshift::Tool tool) const;

@@ -263,6 +263,10 @@ bool ViewTools::pass(const HandEvent& event)
     case HandEvent::Kind::Wheel:
       this->Settle.start();
       this->Zooming = this->Zooming || !this->Tool->wheel(event);
+      if (this->Zooming && !this->Holding)
+      {
+        this->Tool->turnAway();
+      }
       return !this->Zooming;
     case HandEvent::Kind::Leave:
       if (!this->Holding)
@@ -347,6 +351,18 @@ bool ViewTools::knowsKey(int key) const
   }
 }
 
+void ViewTools::stepSlices(int voxels)
+{
+  if (this->Tool && this->isAlive())
+  {
+    this->Tool->turnAway();
+  }
+  if (SliceMouse* slices = SliceMouse::of(this->Cursor.view()))
+  {
+    slices->step(voxels);
+  }
+}
+
 bool ViewTools::pressKey(int key)
 {
   switch (key)
@@ -372,10 +388,7 @@ bool ViewTools::pressKey(int key)
       break;
     case Qt::Key_PageUp:
     case Qt::Key_PageDown:
-      if (SliceMouse* slices = SliceMouse::of(this->Cursor.view()))
-      {
-        slices->step(key == Qt::Key_PageUp ? 1 : -1);
-      }
+      this->stepSlices(key == Qt::Key_PageUp ? 1 : -1);
       break;
   }
   return true;

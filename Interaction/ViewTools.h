@@ -52,6 +52,7 @@ private:
   bool pressKey(int key);
   void holdAxis(ToolSettings::AxisHold axis);
   void setInterest();
+  void stepSlices(int voxels);
   StrokeEditor* editorUnderCursor() const; // null if nothing can be bent there
   void stopShowingBefore();
   void cancel();

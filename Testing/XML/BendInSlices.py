@@ -193,6 +193,32 @@ def stamp_in_slice(scene):
         window.edit("Undo")
 
 
+def next_slice_next_stroke(scene):
+    # Clicks at one place are one stroke; in the next slice it is another place.
+    hand.take(hand.STAMP)
+    scene.over("axial")
+    pixel = scene.pixel_in("axial", 0.12, 0.2)
+    hand.hover(pixel)
+    hand.wheel(pixel, 2)
+    hand.wheel(pixel, 1)
+    window.settle("Stamp: pull")
+    assert len(strokes()) == 1, strokes()
+    hand.wheel(pixel, 1)
+    hand.tap(hand.PAGE_UP)  # before that has settled
+    hand.wait(50)
+    hand.wheel(pixel, 1)
+    window.settle("Stamp: pull")
+    first, second = strokes()
+    assert math.isclose(second[3] - first[3], 1.0, abs_tol=1e-4), (first, second)
+    undo = undo_labels()
+    hand.tap(hand.PAGE_DOWN)
+    hand.wait(50)
+    assert undo_labels() == undo, (undo_labels(), undo)
+    window.edit("Undo", brainshift.STAMP)
+    window.edit("Undo", brainshift.STAMP)
+    window.edit("Undo")
+
+
 def interest_in_slice(scene):
     hand.take(hand.STAMP)
     scene.over("coronal")
@@ -386,7 +412,8 @@ def what_compares_is_bent_too(scene):
 def play():
     scene = Scene()
     for step in (soft_in_each, others_follow, move_in_slice, far_points_stay_out_of_reach,
-                 stamp_in_slice, interest_in_slice, slices_scroll_elsewhere, shift_drags_slices,
+                 stamp_in_slice, next_slice_next_stroke, interest_in_slice,
+                 slices_scroll_elsewhere, shift_drags_slices,
                  what_the_mouse_does_is_told, slices_in_3d, parallel_volume,
                  radius_is_measured_along_the_lattice, what_compares_is_bent_too):
         yield step, scene
