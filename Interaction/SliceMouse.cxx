@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SliceMouse.h"
 
+#include "LatticeProbe.h"
+
 #include <pqApplicationCore.h>
 #include <pqRenderView.h>
 #include <pqRepresentation.h>
@@ -16,7 +18,6 @@
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMRenderViewProxy.h>
-#include <vtkSMSessionProxyManager.h>
 #include <vtkSMSourceProxy.h>
 #include <vtkSmartPointer.h>
 
@@ -45,13 +46,14 @@ bool showsSlices(pqRepresentation* representation)
 // How the planes lie is known where they are drawn.
 void askHowPlanesLie(vtkSMProxy* display, double normals[9], double voxelSteps[3])
 {
-  auto report = vtk::TakeSmartPointer(
-    display->GetSessionProxyManager()->NewProxy("misc", "DeformedVolumeReport"));
-  vtkSMPropertyHelper(report, "Representation").Set(display);
-  report->UpdateVTKObjects();
-  report->UpdatePropertyInformation();
-  vtkSMPropertyHelper(report, "SliceNormals").Get(normals, 3 * Planes);
-  vtkSMPropertyHelper(report, "VoxelSteps").Get(voxelSteps, Planes);
+  const vtkSmartPointer<vtkSMProxy> report = makeReport(display, "DeformedVolumeReport");
+  point(report, "Representation", display);
+  std::fill_n(normals, 3 * Planes, 0.0);
+  std::fill_n(voxelSteps, Planes, 0.0);
+  const std::vector<double> lie = told(report, "SliceNormals");
+  const std::vector<double> steps = told(report, "VoxelSteps");
+  std::copy_n(lie.begin(), std::min<std::size_t>(lie.size(), 3 * Planes), normals);
+  std::copy_n(steps.begin(), std::min<std::size_t>(steps.size(), Planes), voxelSteps);
 }
 
 void clampToInput(vtkSMProxy* display, double position[3])
@@ -184,27 +186,32 @@ SliceMouse::Facing SliceMouse::facingSlice() const
   return facing;
 }
 
-bool SliceMouse::onWheel(vtkObject*, unsigned long event, void*)
+SliceMouse* SliceMouse::of(pqRenderView* view)
 {
-  if (this->Interactor->GetControlKey())
-  {
-    return false;
-  }
+  return view ? view->findChild<SliceMouse*>(QString(), Qt::FindDirectChildrenOnly) : nullptr;
+}
+
+bool SliceMouse::step(int voxels)
+{
   const Facing slice = this->facingSlice();
   if (!slice.display)
   {
     return false;
   }
-  const double step = event == vtkCommand::MouseWheelForwardEvent ? slice.voxelSteps[slice.plane]
-                                                                  : -slice.voxelSteps[slice.plane];
   double position[3];
   vtkSMPropertyHelper(slice.display, "SlicePosition").Get(position, 3);
   for (int i = 0; i < 3; ++i)
   {
-    position[i] += step * slice.normals[3 * slice.plane + i];
+    position[i] += voxels * slice.voxelSteps[slice.plane] * slice.normals[3 * slice.plane + i];
   }
   setPosition(slice.display, "SlicePosition", position);
   return true;
+}
+
+bool SliceMouse::onWheel(vtkObject*, unsigned long event, void*)
+{
+  const int voxels = event == vtkCommand::MouseWheelForwardEvent ? 1 : -1;
+  return !this->Interactor->GetControlKey() && this->step(voxels);
 }
 
 bool SliceMouse::onButton(vtkObject*, unsigned long event, void*)

@@ -25,8 +25,15 @@ public:
   // One for every render view there is or will be, until `context` ends.
   static void watchViews(QObject* context);
 
+  // The one of a view; null if it has none.
+  static SliceMouse* of(pqRenderView* view);
+
   explicit SliceMouse(pqRenderView* view);
   ~SliceMouse() override;
+
+  // Goes through the slices that face the view, by voxels towards greater coordinates. False if
+  // there are none.
+  bool step(int voxels);
 
 private:
   // A slice that faces the view.

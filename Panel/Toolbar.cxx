@@ -148,7 +148,7 @@ void Toolbar::refresh()
     this->Tools[i]->setChecked(toolChoices()[i].tool == ToolSettings::instance()->tool());
   }
   this->Reset->setEnabled(hasStrokes);
-  this->Compare->setEnabled(hasStrokes);
+  this->Compare->setEnabled(applied); // a base lattice bends without strokes
   this->Flickering->setEnabled(Flicker::isPossible());
   if (!applied)
   {

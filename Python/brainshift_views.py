@@ -109,7 +109,8 @@ def _make_grey(displays, coloring):
 
 def _link(displays, name):
     """Gives all displays one value of a property from now on. ParaView's links keep a closed view's
-    display as a null pointer and follow it; so the link is made anew without it."""
+    display as a null pointer and follow it, and ParaView's window forgets the whole link with it;
+    so the link is made anew without it."""
     from paraview import servermanager
 
     manager = servermanager.ProxyManager()
@@ -118,19 +119,24 @@ def _link(displays, name):
     linked = {manager.GetProxyName("representations", display.SMProxy):
               display.SMProxy.GetGlobalID() for display in displays}
 
+    def remaining():
+        found = ((manager.SMProxyManager.GetProxy("representations", registered), number)
+                 for registered, number in linked.items())
+        return [proxy for proxy, number in found
+                if proxy is not None and proxy.GetGlobalID() == number]  # names are used again
+
     def make_anew(*_):
-        if manager.SMProxyManager.GetRegisteredLink(link_name) != link:
-            return  # removed by hand, or with its session
         link.RemoveAllLinks()
-        for (registered, number), direction in itertools.product(
-                linked.items(), (link.INPUT, link.OUTPUT)):
-            proxy = manager.SMProxyManager.GetProxy("representations", registered)
-            if proxy is not None and proxy.GetGlobalID() == number:  # names are used again
-                link.AddLinkedProperty(proxy, name, direction)
+        proxies = remaining()
+        if len(proxies) < 2:
+            return
+        if manager.SMProxyManager.GetRegisteredLink(link_name) != link:
+            manager.RegisterLink(link_name, link)
+        for proxy, direction in itertools.product(proxies, (link.INPUT, link.OUTPUT)):
+            link.AddLinkedProperty(proxy, name, direction)
 
     for display in displays:
         display.SMProxy.AddObserver("DeleteEvent", make_anew)
-    manager.RegisterLink(link_name, link)
     make_anew()
 
 

@@ -20,6 +20,8 @@
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 #include "vtkVolumeMapper.h"
 
+#include <glm/fwd.hpp>
+
 #include <memory> // for the private part
 #include <string> // for messages
 
@@ -147,6 +149,13 @@ public:
   /** Distances (mm) between voxels along these directions. 1 without an input. */
   void GetVoxelSteps(double steps[3]);
 
+  /**
+   * Which tissue the last picture shows at a pixel, counted from the renderer's lower left corner:
+   * its position (mm, world, deformed frame), and the unit normal of its plane. False if none.
+   * Nothing is drawn.
+   */
+  bool Pick(vtkRenderer* renderer, int x, int y, double position[3], double normal[3]);
+
   /** What was done since the mapper was made, and what it holds on the GPU now. */
   const brainshift::Counters& GetCounters();
 
@@ -173,6 +182,7 @@ private:
   void DescribePlanes(const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
     brainshift::SliceScene& scene);
   void UpdateDeformation(vtkImageData* image);
+  bool IsSeenAt(const glm::dvec3& texture); // deformed frame
 
   bool ShowSagittal = true;
   bool ShowCoronal = true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedSlicesRepresentation.h"
 
+#include "InteractiveDelivery.h"
 #include "OrientationMarks.h"
 #include "SlicesProp.h"
 #include "vtkDeformedSlicesMapper.h"
@@ -125,6 +126,17 @@ bool vtkDeformedSlicesRepresentation::RemoveFromView(vtkView* view)
     renderView->GetNonCompositedRenderer()->RemoveViewProp(this->Marks);
   }
   return this->Superclass::RemoveFromView(view);
+}
+
+int vtkDeformedSlicesRepresentation::ProcessViewRequest(
+  vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
+{
+  const int result = this->Superclass::ProcessViewRequest(request, input, output);
+  if (result)
+  {
+    brainshift::deliverWithStandIns(this, request, input);
+  }
+  return result;
 }
 
 int vtkDeformedSlicesRepresentation::RequestData(

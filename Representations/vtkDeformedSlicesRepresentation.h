@@ -58,6 +58,8 @@ protected:
   bool AddToView(vtkView* view) override;
   bool RemoveFromView(vtkView* view) override;
 
+  int ProcessViewRequest(
+    vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output) override;
   int RequestData(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
