@@ -344,6 +344,7 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
     }
     drawTriangles(1);
     this->ImagePart = this->HitsPart[scene.tile] = { scene.shownLow, scene.shownHigh };
+    this->DrewTile = scene.tile;
   }
   for (vtkTextureObject* texture : { scene.scalars, scene.offsets, scene.normals, scene.transfer,
          scene.sceneDepth, scene.options.colors, scene.options.colorScalars,
