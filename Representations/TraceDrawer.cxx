@@ -36,7 +36,6 @@ public:
   {
     state->vtkglViewport(scene.origin.x, scene.origin.y, scene.size.x, scene.size.y);
     state->vtkglEnable(GL_DEPTH_TEST);
-    state->vtkglEnable(GL_BLEND);
     state->vtkglDisable(GL_CULL_FACE);
     state->vtkglDepthMask(GL_TRUE);
     state->vtkglBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -92,11 +91,8 @@ void TraceDrawer::setUniforms(Program& program, const TraceScene& scene)
   program.set("radius", static_cast<float>(scene.radius));
   program.set("pixelsForMm", static_cast<float>(0.5 * scene.size.y * glm::length(up)));
   program.set("hiddenOpacity", static_cast<float>(scene.hiddenOpacity));
-  if (!scene.hits.empty())
-  {
-    program.set("origin", glm::vec2(scene.origin));
-    program.set("shareOfPixel", 1.0f / glm::vec2(scene.size));
-  }
+  program.set("origin", glm::vec2(scene.origin));
+  program.set("size", glm::vec2(scene.size));
   for (std::size_t i = 0; i < scene.hits.size(); ++i)
   {
     program.set(("hits" + std::to_string(i)).c_str(), scene.hits[i]);
@@ -113,8 +109,10 @@ void TraceDrawer::drawBalls(vtkOpenGLRenderWindow* window, unsigned int program,
   enableAttribute(program, "color", 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(TraceVertex, color));
   vtkOpenGLState* state = window->GetState();
   state->vtkglDepthFunc(GL_LEQUAL);
+  state->vtkglDisable(GL_BLEND);
   if (blended)
   {
+    state->vtkglEnable(GL_BLEND);
     // The nearest ball alone, or a crowd of faded ones would be opaque.
     state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     glDrawArrays(GL_POINTS, 0, this->Count);
