@@ -11,6 +11,7 @@
 #include <QApplication>
 #include <QElapsedTimer>
 #include <QKeyEvent>
+#include <QLabel>
 #include <QMouseEvent>
 #include <QOpenGLWindow>
 #include <QTimer>
@@ -137,6 +138,21 @@ TEST_HAND_EXPORT int test_hand_action(const char* name)
     }
   }
   return 0;
+}
+
+// Of a label in the windows, by its object name; empty if there is none. Holds until the next call.
+TEST_HAND_EXPORT const char* test_hand_text(const char* name)
+{
+  static QByteArray text;
+  text.clear();
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    if (auto label = window->findChild<QLabel*>(name))
+    {
+      text = label->text().toUtf8();
+    }
+  }
+  return text.constData();
 }
 
 TEST_HAND_EXPORT int test_hand_is_there()

@@ -16,6 +16,7 @@ NONE, MOVE, SOFT, STAMP = 0, 1, 2, 3     # ToolSettings::Tool
 _library = ctypes.CDLL(os.environ["BRAINSHIFT_TEST_HAND"])
 _library.test_hand_set.restype = ctypes.c_double
 _library.test_hand_set.argtypes = [ctypes.c_char_p, ctypes.c_double]
+_library.test_hand_text.restype = ctypes.c_char_p
 
 
 def _from_top(y):
@@ -93,6 +94,11 @@ def setting(name, value=math.nan):
 def action(name):
     """Triggers an action of menu or toolbar; False if there is none or it is disabled."""
     return bool(_library.test_hand_action(name.encode()))
+
+
+def text(label):
+    """What a label of the window reads, by its object name."""
+    return _library.test_hand_text(label.encode()).decode()
 
 
 def is_there():
