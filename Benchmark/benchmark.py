@@ -44,6 +44,7 @@ from measure import Side, Times, interleaved  # noqa: E402
 from report import Report, header  # noqa: E402
 from scene import OPACITIES, Scene, load_plugin, mean_difference  # noqa: E402
 from slices import measure_slices  # noqa: E402
+from traces import measure_traces  # noqa: E402
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
@@ -286,6 +287,7 @@ def reference(benchmark, windows, quick):
     benchmark.resampling(windows[0])
     benchmark.skipping(windows[0])
     measure_slices(benchmark.scene, benchmark.report, benchmark.options, benchmark.about)
+    measure_traces(benchmark.scene, benchmark.report, benchmark.options, benchmark.about)
     if not quick:
         for opacities in OPACITIES:
             benchmark.normals(opacities, windows[0])

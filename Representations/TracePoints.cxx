@@ -220,26 +220,12 @@ bool TracePoints::Draw(vtkRenderer* renderer, const std::vector<vtkDeformedVolum
   return true;
 }
 
-// Where points are selected, VTK keeps the depths of the picture, which are the balls' own.
-int TracePoints::DrawSelection(vtkRenderer* renderer)
-{
-  const double radius = vtkPointGaussianMapper::SafeDownCast(this->Mapper)->GetScaleFactor();
-  const double* ahead = renderer->GetActiveCamera()->GetDirectionOfProjection();
-  const double nearer[3] = { -radius * ahead[0], -radius * ahead[1], -radius * ahead[2] };
-  double place[3];
-  this->GetPosition(place);
-  this->AddPosition(nearer[0], nearer[1], nearer[2]);
-  const int drawn = this->Superclass::RenderOpaqueGeometry(renderer);
-  this->SetPosition(place);
-  return drawn;
-}
-
 int TracePoints::RenderOpaqueGeometry(vtkViewport* viewport)
 {
   auto* renderer = vtkRenderer::SafeDownCast(viewport);
   if (renderer->GetSelector())
   {
-    return this->DrawSelection(renderer);
+    return this->Superclass::RenderOpaqueGeometry(viewport);
   }
   return deformedVolumesIn(renderer).empty() && this->Draw(renderer, {});
 }

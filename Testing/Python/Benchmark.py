@@ -21,6 +21,8 @@ COARSE = SAME_STEP | {"stock, one-voxel step, as loaded"}
 EVERY = COARSE | {"ParaView's Volume, its own step, as loaded",
                   "stock, same step, baked beforehand"}
 SLICES = {"ours, bent", "ours, bent, cubic", "Slice of the baked volume"}
+TRACES = {"ours, points faded", "ours, points hidden", "stock, same step, Points"}
+ALONE = {"ours alone", "stock, same step, alone"}
 BAKE = {"Bake Deformation", "vtkImageReslice, vtkBSplineTransform"}
 
 
@@ -57,6 +59,9 @@ def test_every_comparison_is_there():
         assert len(rows_of(f"normals, {opacities}")) == 3
     for kind in ("slices, steady", "slices, moved", "slices, edited"):
         assert set(rows_of(kind)) == SLICES
+    assert set(rows_of("traces, camera turns", window=WINDOWS[1])) == TRACES | ALONE
+    assert set(rows_of("traces, points change", window=WINDOWS[1])) == TRACES
+    assert set(rows_of("traces, distances", window=WINDOWS[1])) == {"Trace Distance after a stroke"}
     assert set(rows_of("edit to picture, opaque", window=WINDOWS[1])) == EDIT
     for case in ({}, {"dimensions": [SIZE] * 3}, {"lattice": LATTICE}):
         assert set(rows_of("edit to picture, opaque", **case)) == EDIT

@@ -4,7 +4,7 @@
 # with a server; that strokes uncover them; and that neither points nor their colours make the volume
 # be cast again.
 import numpy
-from brainshift_testing import (ball, load_plugin, on_server, picture, run_tests,
+from brainshift_testing import (ball, load_plugin, look, on_server, picture, run_tests,
                                 server_finds_plugin, show_volume, view_along, volume)
 
 load_plugin()
@@ -217,11 +217,15 @@ def selected(scene, whole):
 
 
 def test_tissue_hides_from_selections():
-    scene = Scene()
-    Render(scene.view)  # selecting does, and the first time moves the camera
-    found = selected(scene, [0, 0, SIZE - 1, SIZE - 1])
-    assert found == [0, 3], found
-    Delete(scene.view)
+    # A row of points in front of the ball, another behind.
+    row = [(x, 12.3 + 0.23 * x, z) for z in (30, 2) for x in range(13, 20)]
+    for parallel in (True, False):
+        scene = Scene(points=row, parallel=parallel)
+        Render(scene.view)  # selecting does, and the first time moves the camera
+        look(scene.view, (0.1, 0.2, -1), MIDDLE, DISTANCE)
+        found = selected(scene, [0, 0, SIZE - 1, SIZE - 1])
+        assert found == list(range(len(row) // 2)), (parallel, found)
+        Delete(scene.view)
 
 
 def test_with_a_server():
