@@ -220,12 +220,26 @@ bool TracePoints::Draw(vtkRenderer* renderer, const std::vector<vtkDeformedVolum
   return true;
 }
 
+// Where points are selected, VTK keeps the depths of the picture, which are the balls' own: nearer by
+// a radius, no rounding hides them from themselves.
+int TracePoints::DrawSelection(vtkRenderer* renderer)
+{
+  const double radius = vtkPointGaussianMapper::SafeDownCast(this->Mapper)->GetScaleFactor();
+  const double* ahead = renderer->GetActiveCamera()->GetDirectionOfProjection();
+  double place[3];
+  this->GetPosition(place);
+  this->AddPosition(-radius * ahead[0], -radius * ahead[1], -radius * ahead[2]);
+  const int drawn = this->Superclass::RenderOpaqueGeometry(renderer);
+  this->SetPosition(place);
+  return drawn;
+}
+
 int TracePoints::RenderOpaqueGeometry(vtkViewport* viewport)
 {
   auto* renderer = vtkRenderer::SafeDownCast(viewport);
   if (renderer->GetSelector())
   {
-    return this->Superclass::RenderOpaqueGeometry(viewport);
+    return this->DrawSelection(renderer);
   }
   return deformedVolumesIn(renderer).empty() && this->Draw(renderer, {});
 }

@@ -51,6 +51,7 @@ private:
   bool Draw(vtkRenderer* renderer, const std::vector<vtkDeformedVolumeMapper*>& volumes);
   std::vector<vtkTextureObject*> HitsOf(
     const std::vector<vtkDeformedVolumeMapper*>& volumes, vtkWindow* window);
+  int DrawSelection(vtkRenderer* renderer);
   vtkMTimeType LookTime();
 
   std::unique_ptr<State> Internal;
