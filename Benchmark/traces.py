@@ -2,9 +2,9 @@
 """Traces: 100 000 points beside a volume, while the camera turns, while only the points change, and
 their distances after a stroke.
 
-Ours draws the bent volume and Trace Points, which its tissue hides. Stock draws the volume as loaded,
-at the same step, and ParaView's Points of the same width, opaque wherever they are; it has nothing
-like Trace Distance. The cortex is the skin here, a threshold: a finer surface than a mask's.
+Ours draws the bent volume and Trace Points, which its tissue hides. Stock draws the volume as
+loaded, at the same step, and ParaView's Points of the same width, opaque wherever they are; it has
+nothing like Trace Distance. The cortex is the skin here, a threshold: a finer surface than a mask's.
 """
 
 import numpy
@@ -63,7 +63,8 @@ class Traces:
     def pixels_for_mm(self):
         view = self.scene.view
         distance = numpy.linalg.norm(numpy.subtract(view.CameraPosition, view.CameraFocalPoint))
-        return view.ViewSize[1] / (2 * distance * numpy.tan(numpy.radians(view.CameraViewAngle / 2)))
+        height = 2 * distance * numpy.tan(numpy.radians(view.CameraViewAngle / 2))
+        return view.ViewSize[1] / height
 
     def turn(self):
         """The camera, to and fro."""

@@ -5,8 +5,8 @@
 
 class pqDataRepresentation;
 
-// If it shows a Trace Distance, colours it white at the cortex, red outside and blue inside, as far as
-// the distances go; hides the points it was made of.
+// If it shows a Trace Distance, colours it white at the cortex, red outside and blue inside, as far
+// as the distances go; hides the points it was made of.
 void showByDistance(pqDataRepresentation* shown);
 
 #endif

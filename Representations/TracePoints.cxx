@@ -220,8 +220,8 @@ bool TracePoints::Draw(vtkRenderer* renderer, const std::vector<vtkDeformedVolum
   return true;
 }
 
-// Where points are selected, VTK keeps the depths of the picture, which are the balls' own: nearer by
-// a radius, no rounding hides them from themselves.
+// Where points are selected, VTK keeps the depths of the picture, which are the balls' own: nearer
+// by a radius, no rounding hides them from themselves.
 int TracePoints::DrawSelection(vtkRenderer* renderer)
 {
   const double radius = vtkPointGaussianMapper::SafeDownCast(this->Mapper)->GetScaleFactor();

@@ -5,8 +5,8 @@
  *
  * Drawn after the volumes and compared with the first hits of their last pictures, so that neither
  * points nor their colours make a volume be cast again. Where no deformed volume is shown they are
- * drawn when surfaces are. Positions, colours and selections are those of the vtkPointGaussianMapper
- * that the prop has.
+ * drawn when surfaces are. Positions, colours and selections are those of the prop's mapper, a
+ * vtkPointGaussianMapper.
  */
 #ifndef BrainShift_TracePoints_h
 #define BrainShift_TracePoints_h

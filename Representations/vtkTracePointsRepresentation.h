@@ -44,7 +44,7 @@ public:
   vtkGetMacro(HiddenOpacity, double);
   ///@}
 
-  /** Radius of the balls, mm; also the name of what Point Gaussian has for it. Default 1. */
+  /** Radius of the balls, mm: what SetSplatSize of Point Gaussian sets. Default 1. */
   double GetSplatSize();
 
   int ProcessViewRequest(

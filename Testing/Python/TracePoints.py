@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that Trace Points in front of the tissue a Deformed Volume shows are opaque and those behind
-# are faded, hidden or shown by choice, in both projections, for several volumes, beside surfaces and
-# with a server; that strokes uncover them; and that neither points nor their colours make the volume
-# be cast again.
+# Proves that Trace Points in front of the tissue a Deformed Volume shows are opaque and those
+# behind are faded, hidden or shown by choice, in both projections, for several volumes, beside
+# surfaces and with a server; that strokes uncover them; and that neither points nor their colours
+# make the volume be cast again.
 import numpy
-from brainshift_testing import (ball, load_plugin, look, on_server, picture, run_tests,
+from brainshift_testing import (ball, load_plugin, look, on_server, picture, run_tests, scratch,
                                 server_finds_plugin, show_volume, view_along, volume)
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from paraview.simple import (  # noqa: E402
-    Calculator, ClearSelection, ColorBy, Delete, FreeFormDeformation, GetColorTransferFunction, Hide,
-    PolyPointSource, Render, SelectSurfacePoints, Show, Sphere, Wavelet)
+    CSVReader, Calculator, ClearSelection, ColorBy, Delete, FreeFormDeformation,
+    GetColorTransferFunction, Hide, PolyPointSource, Render, SelectSurfacePoints, Show, Sphere,
+    TableToPoints, ThresholdTable, Wavelet)
 
 MIDDLE = numpy.array((16.0, 16.0, 16.0))  # of a ball of radius 9, green, seen along -z
 GREEN, RED, BLACK = (0, 1, 0), (1, 0, 0), (0, 0, 0)
@@ -202,6 +203,23 @@ def test_colors_of_an_array():
     colors.RGBPoints = [4, 0, 0, 1, 28, 0, 0, 1]
     assert scene.frames() == 0, "another colour map of the points"
     assert_close(scene.colors(FRONT, BESIDE), [(0, 0, 1)] * 2, "another map")
+    Delete(scene.view)
+
+
+def test_points_up_to_a_moment():
+    scene = Scene()
+    Hide(scene.source, scene.view)
+    with open(scratch("timed.csv"), "w", encoding="utf-8") as file:
+        file.write("time,x,y,z\n")
+        for time, point in enumerate(PLACES):
+            file.write(",".join(str(number) for number in (time, *point)) + "\n")
+    rows = ThresholdTable(Input=CSVReader(FileName=[scratch("timed.csv")]),
+                          Column=["ROWS", "time"], MinValue=0.0, MaxValue=1.0)
+    show_traces(TableToPoints(Input=rows, XColumn="x", YColumn="y", ZColumn="z"), scene.view)
+    assert_close(scene.colors(*PLACES), (RED, mixed(0.25), GREEN, BLACK), "the first two")
+    rows.MaxValue = 3.0
+    assert scene.frames() == 0, "later"
+    assert_close(scene.colors(*PLACES), (RED, mixed(0.25), mixed(0.25), RED), "all of them")
     Delete(scene.view)
 
 
