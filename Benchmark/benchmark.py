@@ -45,6 +45,7 @@ from measure import Side, Times, interleaved  # noqa: E402
 from report import Report, header  # noqa: E402
 from scene import OPACITIES, Scene, load_plugin, mean_difference  # noqa: E402
 from slices import measure_slices  # noqa: E402
+from traces import measure_traces  # noqa: E402
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
@@ -286,7 +287,7 @@ def reference(benchmark, windows, quick):
         benchmark.edits(window)
     benchmark.resampling(windows[0])
     benchmark.skipping(windows[0])
-    for measure in (measure_slices, measure_comparison):
+    for measure in (measure_slices, measure_comparison, measure_traces):
         measure(benchmark.scene, benchmark.report, benchmark.options, benchmark.about)
     if not quick:
         for opacities in OPACITIES:

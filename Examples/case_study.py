@@ -46,6 +46,7 @@ SLICE_FOCUS = (20.0, 0.0, -35.0)  # from the cavity
 TRACE_HALF_MM = 85.0
 TRACE_FOCUS = (25.0, -5.0, -25.0)  # from the craniotomy
 TRACE_SCALE_MM = 6.0
+TRACE_BALL_MM = 1.4  # radius
 
 # "Inside" is the mask with its voxels' steps smoothed; 0.5 is the cortex.
 BRAIN = """
@@ -269,22 +270,26 @@ def show_cortex(compare, size):
 
 
 def show_trace(bent, measure, size):
-    """The cortex as bent, and the trace coloured by its distance."""
+    """The brain as bent, and the trace coloured by its distance."""
     view = cortex_view(size)
-    surface = simple.Contour(Input=bent.Input, ContourBy=["POINTS", "Inside"], Isosurfaces=[0.5])
-    cortex = simple.Show(simple.DeformGeometry(Input=surface, Deformation=bent), view)
-    simple.ColorBy(cortex, None)
-    cortex.Opacity = 0.5  # points may lie below
-    cortex.BackfaceRepresentation = "Cull Backface"
-    points = simple.Show(measure, view)
+    brain = simple.Show(bent, view, "UniformGridRepresentation")
+    brain.SetRepresentationType("Deformed Volume")
+    simple.ColorBy(brain, ("POINTS", "Brain"), separate=True)
+    brain.SetScalarBarVisibility(view, False)
+    brain.Shade = 1
+    color = simple.GetColorTransferFunction("Brain", brain, separate=True)
+    color.ColorSpace = "RGB"
+    color.RGBPoints = (0, 0.25, 0.2, 0.18, WHITE, 0.85, 0.72, 0.65)
+    opacity = simple.GetOpacityTransferFunction("Brain", brain, separate=True)
+    opacity.Points = (0, 0, 0.5, 0, 0.15 * WHITE, 0, 0.5, 0, 0.4 * WHITE, 1, 0.5, 0)
+    points = simple.Show(measure, view)  # as Trace Points: faded where they lie below the cortex
+    points.TraceRadius = TRACE_BALL_MM
     simple.ColorBy(points, ("POINTS", "DistanceToCortex"))
     color = simple.GetColorTransferFunction("DistanceToCortex")
     color.RescaleTransferFunction(-TRACE_SCALE_MM, TRACE_SCALE_MM)
     bar = simple.GetScalarBar(color, view)
     bar.Title, bar.ComponentTitle = "mm above the cortex", ""
     bar.RangeLabelFormat = "%.0f"
-    points.SetRepresentationType("Point Gaussian")
-    points.GaussianRadius = 1.2
     points.SetScalarBarVisibility(view, True)
     return view
 

@@ -26,9 +26,9 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -52,20 +52,6 @@ vtkDataArray* scalarsOf(vtkImageData* image, const std::string& name)
   }
   return arrays->GetScalars() ? arrays->GetScalars() : arrays->GetArray(0);
 }
-
-// The point of a trace before: a pointer moves little, so the next distance is about as large.
-struct Neighbour
-{
-  glm::dvec3 position{ 0.0 };
-  double distance = std::numeric_limits<double>::infinity();
-
-  // No distance from a point is larger, rounding included.
-  double limitAt(const glm::dvec3& point) const
-  {
-    constexpr double Slack = 1e-6; // mm, and as a share
-    return (this->distance + glm::length(point - this->position)) * (1.0 + Slack) + Slack;
-  }
-};
 
 // The numbers of all processes, on each of them.
 std::vector<double> ofAllProcesses(const std::vector<double>& own)
@@ -114,6 +100,9 @@ struct vtkTraceDistance::State
   PlacedVoxels Cavity;           // that of the input
   PlacedVoxels ReferencesCavity; // that Compare Volumes attached to the volume
   std::optional<PointMap> Map;
+  // Of the points of all blocks, the triangle nearest before: a hint for the next time. Below 0:
+  // none.
+  std::vector<int> Nearest;
   TraceStatistics Statistics;
   int SurfacesFound = 0;
 
@@ -140,6 +129,7 @@ struct vtkTraceDistance::State
       ? brainshift::Tissue{ grid, maskOfLabel(scalars, static_cast<int>(level)), 0.5 }
       : brainshift::Tissue{ grid, scalars, level };
     this->Surface = DeformedSurface(surfaceOf(this->Tissue));
+    this->Nearest.clear();
     ++this->SurfacesFound;
   }
 };
@@ -278,7 +268,7 @@ std::string vtkTraceDistance::FindCortex(vtkInformationVector** inputs)
 
 bool vtkTraceDistance::Measure(vtkPointSet* points, std::vector<double>& all)
 {
-  const State& state = *this->Internal;
+  State& state = *this->Internal;
   const vtkIdType count = points->GetNumberOfPoints();
   vtkNew<vtkFloatArray> distances;
   distances->SetName("DistanceToCortex");
@@ -287,24 +277,28 @@ bool vtkTraceDistance::Measure(vtkPointSet* points, std::vector<double>& all)
   points->GetPointData()->SetActiveScalars(distances->GetName());
   const std::size_t before = all.size();
   all.resize(before + count, std::numeric_limits<double>::quiet_NaN());
-  const auto distanceOf = [&](const glm::dvec3& point, Neighbour& previous) {
+  state.Nearest.resize(std::max(state.Nearest.size(), all.size()), -1);
+  const auto distanceOf = [&](const glm::dvec3& point, int& nearest) {
     if (!std::isfinite(point.x + point.y + point.z) || state.isRemoved(point))
     {
       return std::numeric_limits<double>::quiet_NaN();
     }
-    const double distance = state.Surface.distance(point, previous.limitAt(point));
-    previous = { point, distance };
+    const TriangleTree::Nearest found = state.Surface.nearest(point, nearest);
+    nearest = found.triangle;
     const bool inside = state.Tissue.contains(state.Map->restFromDeformed(point));
-    return std::isfinite(distance) ? (inside ? -distance : distance)
-                                   : std::numeric_limits<double>::quiet_NaN();
+    return std::isfinite(found.distance) ? (inside ? -found.distance : found.distance)
+                                         : std::numeric_limits<double>::quiet_NaN();
   };
   return forPortions(this, 0.0, 1.0, count, PointsAtLeast, [&](vtkIdType first, vtkIdType last) {
-    Neighbour previous;
+    int previous = -1; // the first time: a pointer moves little
     for (vtkIdType i = first; i < last; ++i)
     {
       double point[3];
       points->GetPoints()->GetData()->GetTuple(i, point);
-      const double distance = distanceOf({ point[0], point[1], point[2] }, previous);
+      int& nearest = state.Nearest[before + i];
+      nearest = nearest < 0 ? previous : nearest;
+      const double distance = distanceOf({ point[0], point[1], point[2] }, nearest);
+      previous = nearest;
       all[before + i] = distance;
       distances->SetValue(i, static_cast<float>(distance));
     }

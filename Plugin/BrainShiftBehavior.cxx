@@ -2,6 +2,7 @@
 #include "BrainShiftBehavior.h"
 
 #include "SliceMouse.h"
+#include "TraceLook.h"
 #include "ViewTools.h"
 
 #include <pqActiveObjects.h>
@@ -18,7 +19,7 @@
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 
-#include <QStringList>
+#include <QTimer>
 #include <QVariant>
 
 #include <cstring>
@@ -36,8 +37,7 @@ bool isShownAs(vtkSMProxy* representation, const char* kind)
 
 bool reportsNumbers(vtkSMProxy* filter)
 {
-  const QStringList reporting{ "InvertDisplacementField", "TraceDistance" };
-  return reporting.contains(filter->GetXMLName());
+  return std::strcmp(filter->GetXMLName(), "InvertDisplacementField") == 0;
 }
 
 // The first point array, else the first of all.
@@ -117,6 +117,14 @@ void BrainShiftBehavior::watchRepresentation(pqRepresentation* representation)
   QObject::connect(
     shown, &pqDataRepresentation::representationTypeModified, this, [shown] { prepare(shown); });
   prepare(shown);
+  if (!pqApplicationCore::instance()->isLoadingState())
+  {
+    // Once there is something to colour, and ParaView has chosen colours of its own.
+    QObject::connect(
+      shown, &pqDataRepresentation::dataUpdated, this,
+      [shown] { QTimer::singleShot(0, shown, [shown] { showByDistance(shown); }); },
+      Qt::SingleShotConnection);
+  }
 }
 
 void BrainShiftBehavior::watchSource(pqPipelineSource* source)

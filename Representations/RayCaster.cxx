@@ -349,6 +349,7 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
     }
     drawTriangles(1);
     this->ImagePart = this->HitsPart[scene.tile] = { scene.shownLow, scene.shownHigh };
+    this->DrewTile = scene.tile;
   }
   deactivate(scene);
   this->Spans->Deactivate();

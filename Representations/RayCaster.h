@@ -103,6 +103,9 @@ public:
   // What hitAt reads, texel by texel. Null if nothing was cast yet.
   vtkTextureObject* hits() const { return this->Hits[false]; }
 
+  // The same of the last image, whole or a tile.
+  vtkTextureObject* drawnHits() const { return this->Hits[this->DrewTile]; }
+
   // All textures, some of which may be null.
   std::vector<vtkTextureObject*> textures() const
   {
@@ -126,6 +129,7 @@ private:
     glm::ivec2 low{ 0 };
     glm::ivec2 high{ 0 };
   };
+  bool DrewTile = false;
   Part ImagePart;
   Part HitsPart[2];                        // elsewhere Hits tell of none
   vtkSmartPointer<vtkTextureObject> Image; // colour times opacity, opacity

@@ -40,6 +40,8 @@
 #include "shader_slices_frag.h"
 #include "shader_slices_vert.h"
 #include "shader_tissue.h"
+#include "shader_traces_frag.h"
+#include "shader_traces_vert.h"
 #include "shader_volume_pass.h"
 #include "shader_volume_pass_geom.h"
 #include "shader_volume_pass_vert.h"
@@ -207,6 +209,12 @@ ShaderSource slicesSource(const SlicesVariant& variant)
       shader_components, shader_cubic, shader_comparison, shader_slices_frag }) };
 }
 
+ShaderSource tracesSource(int tissues)
+{
+  return { assemble({ "#define TISSUES " + std::to_string(tissues) + "\n", shader_traces_vert }), "",
+    assemble({ Outputs, shader_traces_frag }) };
+}
+
 std::vector<std::pair<std::string, ShaderSource>> allSources()
 {
   std::vector<std::pair<std::string, ShaderSource>> sources{ { "refine", refineSource(false) },
@@ -250,6 +258,8 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
       add(compared);
     }
   }
+  sources.emplace_back("traces", tracesSource(0));
+  sources.emplace_back("traces_hidden", tracesSource(MaxTissues));
   sources.emplace_back("slices_rest", slicesSource({}));
   sources.emplace_back("slices_deformed", slicesSource({ true }));
   sources.emplace_back("slices_direct", slicesSource({ true, Coloring::Direct }));

@@ -23,6 +23,7 @@ constexpr int MaxLights = 8;
 constexpr int BricksInBlock = 4; // a side; blocks of the presence map's bricks
 constexpr int MaxClipPlanes = 16;
 constexpr int MaxIsovalues = 32;
+constexpr int MaxTissues = 4; // volumes that hide traced points
 
 // How the samples of a ray become one colour; numbers as in vtkVolumeMapper::BlendModes.
 enum class Blend
@@ -99,6 +100,8 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource blocksSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource presenceSource(bool deformed);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource proxySource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource slicesSource(const SlicesVariant& variant);
+// `tissues`: volumes that hide points, 0 to MaxTissues.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource tracesSource(int tissues);
 
 // Every program the product can draw with, by name, for an offline compiler: of the ray caster's
 // variants each with every file and every #define in use.

@@ -12,6 +12,7 @@
 #include "SelectionCover.h"
 #include "SoftwareFallback.h"
 #include "TextureMemory.h"
+#include "TracePoints.h"
 #include "WindowDevices.h"
 
 #include "vtkDataArray.h"
@@ -227,7 +228,8 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   timer->StopTimer();
   const double rate = window->GetDesiredUpdateRate();
   const bool moving = this->AdaptiveQuality && isMoving(rate);
-  if (moving || !this->KeepPicture)
+  const bool keep = this->KeepPicture || TracePoints::areShownIn(renderer);
+  if (moving || !keep)
   {
     device.Stamp.forget();
   }
@@ -248,7 +250,7 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   device.Depth.captureBehind(window, origin, size, scene);
   timer->StartTimer();
   const bool repeats =
-    this->KeepPicture && !moving && device.Stamp.repeats(renderer, volume, scene, state.Count);
+    keep && !moving && device.Stamp.repeats(renderer, volume, scene, state.Count);
   if (!repeats && !device.Caster.cast(window, scene, state.Count))
   {
     device.Stamp.forget();
@@ -416,6 +418,12 @@ bool vtkDeformedVolumeMapper::Pick(vtkRenderer* renderer, int x, int y, double p
   }
   std::copy_n(&hit[0], 3, position);
   return true;
+}
+
+vtkTextureObject* vtkDeformedVolumeMapper::GetHits(vtkWindow* window)
+{
+  Device* device = this->Internal->Devices.find(window);
+  return device ? device->Caster.drawnHits() : nullptr;
 }
 
 void vtkDeformedVolumeMapper::DrawUndeformed(

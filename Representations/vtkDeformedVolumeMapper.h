@@ -32,6 +32,7 @@
 class vtkDataArray;
 class vtkImageData;
 class vtkOpenGLRenderWindow;
+class vtkTextureObject;
 class vtkVolumeProperty;
 namespace brainshift
 {
@@ -103,7 +104,7 @@ public:
   ///@{
   /**
    * Cast no rays for a still picture that would come out as the last one: what changes while a tool
-   * hovers lies over it. Default false.
+   * hovers lies over it. Default false; Trace Points in the view turn it on.
    */
   vtkSetMacro(KeepPicture, bool);
   vtkGetMacro(KeepPicture, bool);
@@ -146,6 +147,12 @@ public:
    * where the opacity along the ray reaches one half. False where it does not.
    */
   bool Pick(vtkRenderer* renderer, int x, int y, double position[3]);
+
+  /**
+   * First hits (mm, world; distance from the near plane, mm, below 0: none) of the last picture in
+   * a window, whole or a tile. Null if there is none.
+   */
+  vtkTextureObject* GetHits(vtkWindow* window);
 
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that the defaults in the XML of "Deformed Volume" and "Deformed Slices" are those of the
-// classes behind them.
+// Proves that the defaults in the XML of "Deformed Volume", "Deformed Slices" and "Trace Points" are
+// those of the classes behind them.
 #include "TestDefaults.h"
 #include "vtkDeformedSlicesMapper.h"
 #include "vtkDeformedSlicesRepresentation.h"
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkDeformedVolumeReport.h"
+#include "vtkTracePointsRepresentation.h"
 
 #include <vtkNew.h>
 
@@ -56,4 +57,13 @@ TEST(Defaults, OfDeformedVolumeLiveInTheMapper)
     { "MemoryLimit", { mapper->GetMemoryLimit() } },
     { "VolumeNormalTexture", { double(mapper->GetNormalTexture()) } } };
   EXPECT_EQ(defaultsIn("Representations/DeformedVolume.xml"), expected);
+}
+
+TEST(Defaults, OfTracePointsLiveInTheClass)
+{
+  vtkNew<vtkTracePointsRepresentation> points;
+  const Defaults expected{ { "GaussianRadius", { points->GetSplatSize() } },
+    { "HiddenPoints", { double(points->GetHiddenPoints()) } },
+    { "HiddenOpacity", { points->GetHiddenOpacity() } } };
+  EXPECT_EQ(defaultsIn("Representations/TracePoints.xml"), expected);
 }
