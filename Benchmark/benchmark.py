@@ -40,10 +40,12 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 import drag  # noqa: E402
 import numpy  # noqa: E402
+from comparison import measure_comparison  # noqa: E402
 from measure import Side, Times, interleaved  # noqa: E402
 from report import Report, header  # noqa: E402
 from scene import OPACITIES, Scene, load_plugin, mean_difference  # noqa: E402
 from slices import measure_slices  # noqa: E402
+from traces import measure_traces  # noqa: E402
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
@@ -285,7 +287,8 @@ def reference(benchmark, windows, quick):
         benchmark.edits(window)
     benchmark.resampling(windows[0])
     benchmark.skipping(windows[0])
-    measure_slices(benchmark.scene, benchmark.report, benchmark.options, benchmark.about)
+    for measure in (measure_slices, measure_comparison, measure_traces):
+        measure(benchmark.scene, benchmark.report, benchmark.options, benchmark.about)
     if not quick:
         for opacities in OPACITIES:
             benchmark.normals(opacities, windows[0])

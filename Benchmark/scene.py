@@ -246,7 +246,8 @@ class Scene:
         self.view.SMProxy.StillRender()
 
     def show(self, shown):
-        if shown not in self.volumes:
+        """Shows one of the volumes; None: none of them."""
+        if shown and shown not in self.volumes:
             self._add_stock(shown)
         for name, volume in self.volumes.items():
             if name in ("ours", "own"):  # ParaView sets the visibility of its own at every frame

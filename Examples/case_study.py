@@ -40,11 +40,13 @@ STAMP_PER_REGION = 2.0  # a stamp falls to a half at some 0.6 of its radius
 
 # Of the pictures: half the height shown (mm), what is in the middle, the ends of the colours.
 WHITE = 330.0  # scalar of the MR
+CORTEX = (50.0, 100.0)  # scalars between which the brain turns opaque
 SLICE_HALF_MM = 75.0
 SLICE_FOCUS = (20.0, 0.0, -35.0)  # from the cavity
 TRACE_HALF_MM = 85.0
 TRACE_FOCUS = (25.0, -5.0, -25.0)  # from the craniotomy
 TRACE_SCALE_MM = 6.0
+TRACE_BALL_MM = 1.4  # radius
 
 # "Inside" is the mask with its voxels' steps smoothed; 0.5 is the cortex.
 BRAIN = """
@@ -193,10 +195,12 @@ class Case:
         self.trace = pointer_trace(self.after_surgery, random)
         self.landmarks = landmarks(self.brain, self.sag, random)
         self.bent = simple.FreeFormDeformation(Input=self.brain)
+        cavity = postoperative(sunken, "Cavity")
         self.measure = simple.TraceDistance(
-            Input=self.trace, Deformation=self.bent, Cavity=postoperative(sunken, "Cavity"),
+            Input=self.trace, Deformation=self.bent, Cavity=cavity,
             SurfaceArray="Inside", Threshold=0.5)
-        self.compare = simple.CompareVolumes(Input=self.bent, Reference=self.after_surgery)
+        self.compare = simple.CompareVolumes(Input=self.bent, Reference=self.after_surgery,
+                                             Cavity=cavity)
 
     def figures(self):
         """Trace distance and target registration error (TRE), mm."""
@@ -245,37 +249,64 @@ def show_red_green(compare, plane, towards_eye, size):
     return view
 
 
+def cortex_view(size):
+    """From above and the left."""
+    return parallel_view((-0.4, -0.5, 0.75), CRANIOTOMY + TRACE_FOCUS, TRACE_HALF_MM, size)
+
+
+def show_cortex(compare, size):
+    """Both brains: red where the bent one lies before the other, green where it lies behind, yellow
+    where their surfaces agree, grey in the cavity."""
+    view = cortex_view(size)
+    display = simple.Show(compare, view, "UniformGridRepresentation")
+    display.SetRepresentationType("Deformed Volume")
+    simple.ColorBy(display, ("POINTS", "Brain"), separate=True)
+    display.SetScalarBarVisibility(view, False)
+    opacity = simple.GetOpacityTransferFunction("Brain", display, separate=True)
+    opacity.Points = (0, 0, 0.5, 0, CORTEX[0], 0, 0.5, 0, CORTEX[1], 1, 0.5, 0, WHITE, 1, 0.5, 0)
+    display.ScalarOpacityUnitDistance = 1.0
+    display.Shade = 1
+    return view
+
+
 def show_trace(bent, measure, size):
-    """The cortex as bent, seen from above and the left, and the trace coloured by its distance."""
-    view = parallel_view((-0.4, -0.5, 0.75), CRANIOTOMY + TRACE_FOCUS, TRACE_HALF_MM, size)
-    surface = simple.Contour(Input=bent.Input, ContourBy=["POINTS", "Inside"], Isosurfaces=[0.5])
-    cortex = simple.Show(simple.DeformGeometry(Input=surface, Deformation=bent), view)
-    simple.ColorBy(cortex, None)
-    cortex.Opacity = 0.5  # points may lie below
-    cortex.BackfaceRepresentation = "Cull Backface"
-    points = simple.Show(measure, view)
+    """The brain as bent, and the trace coloured by its distance."""
+    view = cortex_view(size)
+    brain = simple.Show(bent, view, "UniformGridRepresentation")
+    brain.SetRepresentationType("Deformed Volume")
+    simple.ColorBy(brain, ("POINTS", "Brain"), separate=True)
+    brain.SetScalarBarVisibility(view, False)
+    brain.Shade = 1
+    color = simple.GetColorTransferFunction("Brain", brain, separate=True)
+    color.ColorSpace = "RGB"
+    color.RGBPoints = (0, 0.25, 0.2, 0.18, WHITE, 0.85, 0.72, 0.65)
+    opacity = simple.GetOpacityTransferFunction("Brain", brain, separate=True)
+    opacity.Points = (0, 0, 0.5, 0, 0.15 * WHITE, 0, 0.5, 0, 0.4 * WHITE, 1, 0.5, 0)
+    points = simple.Show(measure, view)  # as Trace Points: faded where they lie below the cortex
+    points.TraceRadius = TRACE_BALL_MM
     simple.ColorBy(points, ("POINTS", "DistanceToCortex"))
     color = simple.GetColorTransferFunction("DistanceToCortex")
     color.RescaleTransferFunction(-TRACE_SCALE_MM, TRACE_SCALE_MM)
     bar = simple.GetScalarBar(color, view)
     bar.Title, bar.ComponentTitle = "mm above the cortex", ""
     bar.RangeLabelFormat = "%.0f"
-    points.SetRepresentationType("Point Gaussian")
-    points.GaussianRadius = 1.2
     points.SetScalarBarVisibility(view, True)
     return view
 
 
 def draw(case, file, size=450):
-    """Coronal and sagittal slice and the trace, side by side."""
+    """Coronal and sagittal slice, the cortex and the trace, side by side."""
     views = [show_red_green(case.compare, "Coronal", (0, 1, 0), size),
              show_red_green(case.compare, "Sagittal", (-1, 0, 0), size),
+             show_cortex(case.compare, size),
              show_trace(case.bent, case.measure, size)]
     layout = simple.CreateLayout()
     layout.AssignView(0, views[0])
-    layout.AssignView(layout.SplitHorizontal(0, 0.333) + 1, views[1])
-    layout.AssignView(layout.SplitViewHorizontal(views[1], 0.5) + 1, views[2])
-    simple.SaveScreenshot(file, layout, ImageResolution=(3 * size, size))
+    for number in range(1, len(views)):
+        share = 1.0 / (len(views) - number + 1)
+        left = layout.SplitViewHorizontal(views[number - 1], share)
+        layout.AssignView(left + 1, views[number])
+    simple.SaveScreenshot(file, layout, ImageResolution=(len(views) * size, size))
     for view in views:
         simple.Delete(view)
     simple.Delete(layout)

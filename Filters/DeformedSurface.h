@@ -32,11 +32,10 @@ public:
   // Points that the last call of follow mapped.
   vtkIdType mapped() const { return this->Mapped; }
 
-  // As TriangleTree::distance, from a deformed position.
-  double distance(
-    const glm::dvec3& deformed, double limit = std::numeric_limits<double>::infinity()) const
+  // As TriangleTree::nearest, from a deformed position.
+  TriangleTree::Nearest nearest(const glm::dvec3& deformed, int hint = -1) const
   {
-    return this->Tree.distance(deformed, limit);
+    return this->Tree.nearest(deformed, hint);
   }
 
 private:

@@ -112,6 +112,15 @@ bool staysOutside(
 }
 }
 
+IndexBox enclosing(const IndexBox& a, const IndexBox& b)
+{
+  if (a.empty() || b.empty())
+  {
+    return a.empty() ? b : a;
+  }
+  return { glm::min(a.first, b.first), glm::max(a.last, b.last) };
+}
+
 IndexBox changedPoints(const glm::ivec3& dimensions, const std::vector<glm::vec3>& before,
   const std::vector<glm::vec3>& after)
 {

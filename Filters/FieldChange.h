@@ -28,6 +28,9 @@ struct IndexBox
   glm::ivec3 size() const { return glm::max(this->last - this->first + 1, glm::ivec3(0)); }
 };
 
+// The least box that holds both.
+VTKBRAINSHIFTFILTERS_EXPORT IndexBox enclosing(const IndexBox& a, const IndexBox& b);
+
 // Control points whose displacement differs; both lists hold dimensions.x * y * z of them.
 VTKBRAINSHIFTFILTERS_EXPORT IndexBox changedPoints(const glm::ivec3& dimensions,
   const std::vector<glm::vec3>& before, const std::vector<glm::vec3>& after);

@@ -16,7 +16,7 @@ namespace
 // A control point and how little it is wanted.
 using Candidate = std::pair<double, std::size_t>;
 
-void addBest(std::vector<Candidate>& candidates, HandleSet& handles)
+void addBest(std::vector<Candidate> candidates, HandleSet& handles)
 {
   if (candidates.size() > MostHandles)
   {
@@ -45,7 +45,30 @@ void forEachPoint(const Grid& grid, const glm::ivec3& low, const glm::ivec3& hig
   }
 }
 
-double farthest(const DrawnLattice& lattice)
+// Control points drawn within a ball for which `wanted` holds of their index.
+template <typename Wanted>
+std::vector<Candidate> nearestWhere(
+  const DrawnLattice& lattice, const glm::dvec3& centre, double radius, Wanted wanted)
+{
+  // Nothing comes from farther away than the farthest displacement.
+  const glm::dvec3 reach = (radius + lattice.strength * lattice.farthest) / lattice.grid.spacing;
+  const glm::dvec3 middle = lattice.grid.gridFromWorld(centre);
+  const glm::dvec3 last(lattice.grid.dimensions - 1);
+  const glm::ivec3 low(glm::ceil(glm::clamp(middle - reach, glm::dvec3(0.0), last + 1.0)));
+  const glm::ivec3 high(glm::floor(glm::clamp(middle + reach, glm::dvec3(-1.0), last)));
+  std::vector<Candidate> candidates;
+  forEachPoint(lattice.grid, low, high, [&](const glm::ivec3& index, std::size_t offset) {
+    const double distance = glm::distance(lattice.deformed(index), centre);
+    if (distance <= radius && wanted(index))
+    {
+      candidates.emplace_back(distance, offset);
+    }
+  });
+  return candidates;
+}
+}
+
+double longest(const DrawnLattice& lattice)
 {
   double squared = 0.0;
   for (std::size_t i = 0; i < 3 * lattice.grid.count(); i += 3)
@@ -53,8 +76,7 @@ double farthest(const DrawnLattice& lattice)
     const float* d = lattice.displacements + i;
     squared = std::max<double>(squared, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
   }
-  return lattice.strength * std::sqrt(squared);
-}
+  return std::sqrt(squared);
 }
 
 glm::dvec3 DrawnLattice::rest(const glm::ivec3& index) const
@@ -73,24 +95,12 @@ glm::dvec3 DrawnLattice::deformed(const glm::ivec3& index) const
   return this->rest(index) + this->displacement(index);
 }
 
-void addInBall(
-  const DrawnLattice& lattice, const glm::dvec3& centre, double radius, HandleSet& handles)
+void addInBall(const DrawnLattice& lattice, const glm::dvec3& centre, double radius,
+  const Slab& slab, HandleSet& handles)
 {
-  // Nothing comes from farther away than the farthest displacement.
-  const glm::dvec3 reach = (radius + farthest(lattice)) / lattice.grid.spacing;
-  const glm::dvec3 middle = lattice.grid.gridFromWorld(centre);
-  const glm::dvec3 last(lattice.grid.dimensions - 1);
-  const glm::ivec3 low(glm::ceil(glm::clamp(middle - reach, glm::dvec3(0.0), last + 1.0)));
-  const glm::ivec3 high(glm::floor(glm::clamp(middle + reach, glm::dvec3(-1.0), last)));
-  std::vector<Candidate> candidates;
-  forEachPoint(lattice.grid, low, high, [&](const glm::ivec3& index, std::size_t offset) {
-    const double distance = glm::distance(lattice.deformed(index), centre);
-    if (distance <= radius)
-    {
-      candidates.emplace_back(distance, offset);
-    }
-  });
-  addBest(candidates, handles);
+  addBest(nearestWhere(lattice, centre, radius,
+            [&](const glm::ivec3& index) { return slab.contains(lattice.deformed(index)); }),
+    handles);
 }
 
 void addInCone(const DrawnLattice& lattice, const glm::dvec3& apex, const glm::dvec3& direction,
@@ -107,23 +117,20 @@ void addInCone(const DrawnLattice& lattice, const glm::dvec3& apex, const glm::d
         candidates.emplace_back(across, offset);
       }
     });
-  addBest(candidates, handles);
+  addBest(std::move(candidates), handles);
 }
 
-void addMoved(const DrawnLattice& lattice, HandleSet& handles)
+void addMoved(const DrawnLattice& lattice, const glm::dvec3& centre, double radius,
+  const Slab& slab, HandleSet& handles)
 {
   const glm::dvec3& spacing = lattice.grid.spacing;
   const double least = 0.01 * std::min({ spacing.x, spacing.y, spacing.z });
-  std::vector<Candidate> candidates;
-  forEachPoint(lattice.grid, glm::ivec3(0), lattice.grid.dimensions - 1,
-    [&](const glm::ivec3& index, std::size_t offset) {
-      const double distance = glm::length(lattice.displacement(index));
-      if (distance >= least)
-      {
-        candidates.emplace_back(-distance, offset);
-      }
-    });
-  addBest(candidates, handles);
+  addBest(nearestWhere(lattice, centre, radius,
+            [&](const glm::ivec3& index) {
+              return glm::length(lattice.displacement(index)) >= least &&
+                slab.contains(lattice.deformed(index));
+            }),
+    handles);
 }
 
 glm::ivec3 indexOf(const Grid& grid, std::size_t offset)

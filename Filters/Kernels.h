@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cubic kernels of the lattice. The GPU gets their values as uniforms, so both sides use the same
-// numbers.
+// Cubic kernels of the lattice. The GPU gets them as uniforms, so both sides use the same numbers.
 #ifndef BrainShift_Kernels_h
 #define BrainShift_Kernels_h
 
+#include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
 namespace brainshift
@@ -27,6 +27,17 @@ inline glm::vec4 kernelWeights(int kernel, float t)
   return glm::vec4(-t * s * s, 2.0f + t * t * (3.0f * t - 5.0f), 2.0f + s * s * (3.0f * s - 5.0f),
            -s * t * t) *
     0.5f;
+}
+
+// The same as polynomials: kernelPolynomials(kernel) * vec4(1, t, t^2, t^3).
+inline glm::mat4 kernelPolynomials(int kernel)
+{
+  if (kernel == KernelBSpline)
+  {
+    return glm::mat4(1, 4, 1, 0, /**/ -3, 0, 3, 0, /**/ 3, -6, 3, 0, /**/ -1, 3, -3, 1) *
+      (1.0f / 6.0f);
+  }
+  return glm::mat4(0, 2, 0, 0, /**/ -1, 0, 1, 0, /**/ 2, -5, 4, -1, /**/ -1, 3, -3, 1) * 0.5f;
 }
 
 // Derivatives of kernelWeights with respect to `t`. They sum to 0.

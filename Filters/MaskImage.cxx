@@ -85,15 +85,15 @@ std::string tooManyNodes(const Grid& lattice, int samples)
   return problem.str();
 }
 
-std::string noVoxel(const std::vector<int>& labels)
+std::string noVoxel(const std::vector<int>& labels, const MaskNames& names)
 {
   std::ostringstream problem;
-  problem << "The mask has no voxel ";
+  problem << "The " << names.mask << " has no voxel ";
   for (std::size_t i = 0; i < labels.size(); ++i)
   {
     problem << (i ? " or " : "of label ") << labels[i];
   }
-  problem << (labels.empty() ? "above 0" : " (MaskLabels)");
+  problem << (labels.empty() ? "above 0" : " (" + names.labels + ")");
   return problem.str();
 }
 }
@@ -112,19 +112,19 @@ LabelImage labelsOf(vtkImageData* image)
   return found;
 }
 
-std::string problemOf(const LabelImage& image, const Grid& volume, const std::string& noun)
+std::string problemOf(const LabelImage& image, const Grid& volume, const MaskNames& names)
 {
   if (!image.labels)
   {
-    return "The " + noun + " has no point or cell array of one component";
+    return "The " + names.mask + " has no point or cell array of one component";
   }
   const Bounds bounds(image.grid, 0.5);
   const Bounds volumeBounds(volume, 0.0);
   if (!bounds.overlaps(volumeBounds))
   {
     std::ostringstream problem;
-    problem << "The " << noun << " (" << bounds << ") does not overlap the volume (" << volumeBounds
-            << ")";
+    problem << "The " << names.mask << " (" << bounds << ") does not overlap the " << names.volume
+            << " (" << volumeBounds << ")";
     return problem.str();
   }
   return {};
@@ -145,18 +145,19 @@ std::vector<char> insideOf(vtkDataArray* array, const std::vector<int>& labels)
   return inside;
 }
 
-std::string readMask(
-  vtkImageData* image, const std::vector<int>& labels, const Grid& volume, Mask& mask)
+std::string readMask(vtkImageData* image, const std::vector<int>& labels, const Grid& volume,
+  Mask& mask, const MaskNames& names)
 {
   const LabelImage found = labelsOf(image);
-  const std::string problem = problemOf(found, volume, "mask");
+  const std::string problem = problemOf(found, volume, names);
   if (!problem.empty())
   {
     return problem;
   }
   mask.grid = found.grid;
   mask.inside = insideOf(found.labels, labels);
-  return std::count(mask.inside.begin(), mask.inside.end(), 1) ? std::string() : noVoxel(labels);
+  return std::count(mask.inside.begin(), mask.inside.end(), 1) ? std::string()
+                                                               : noVoxel(labels, names);
 }
 
 bool MaskSource::isKnown(const MaskRequest& request) const

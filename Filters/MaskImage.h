@@ -14,6 +14,14 @@ class vtkImageData;
 
 namespace brainshift
 {
+// What messages call a mask, what it is for, and its labels.
+struct MaskNames
+{
+  std::string mask = "mask";
+  std::string volume = "volume";
+  std::string labels = "MaskLabels";
+};
+
 // The numbers of an image that are read as labels: the active scalars of the points, or the first
 // array of the points, or else of the cells, that has one component.
 struct LabelImage
@@ -23,15 +31,15 @@ struct LabelImage
 };
 LabelImage labelsOf(vtkImageData* image);
 
-// What keeps labels from being those of a volume, told of a `noun`; empty if nothing does.
-std::string problemOf(const LabelImage& image, const Grid& volume, const std::string& noun);
+// What keeps labels from being those of a volume; empty if nothing does.
+std::string problemOf(const LabelImage& image, const Grid& volume, const MaskNames& names = {});
 
 // 1 for what has one of the labels, else 0; with none given, 1 for what is above 0.
 std::vector<char> insideOf(vtkDataArray* array, const std::vector<int>& labels);
 
 // Returns what keeps an image from being a mask for a volume; empty if nothing does.
-VTKBRAINSHIFTFILTERS_EXPORT std::string readMask(
-  vtkImageData* image, const std::vector<int>& labels, const Grid& volume, Mask& mask);
+VTKBRAINSHIFTFILTERS_EXPORT std::string readMask(vtkImageData* image,
+  const std::vector<int>& labels, const Grid& volume, Mask& mask, const MaskNames& names = {});
 
 // All that a mask's weights depend on.
 struct MaskRequest

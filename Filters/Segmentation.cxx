@@ -79,7 +79,7 @@ std::string SegmentationSource::find(
     return {};
   }
   const LabelImage found = labelsOf(image);
-  const std::string problem = problemOf(found, volume, "segmentation");
+  const std::string problem = problemOf(found, volume, { "segmentation" });
   if (!problem.empty())
   {
     return problem;

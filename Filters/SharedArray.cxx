@@ -71,6 +71,7 @@ private:
   vtkSmartPointer<vtkDataArray> Source; // owns the numbers
 };
 
+// Such an array, which keeps its source; the source itself if its memory layout is unusual.
 vtkSmartPointer<vtkDataArray> sharedOver(vtkDataArray* source)
 {
   if (!source->HasStandardMemoryLayout())

@@ -29,12 +29,12 @@ TraceStatistics statisticsOf(const std::vector<double>& distances)
   const auto count = static_cast<double>(sizes.size());
   statistics.mean = sum / count;
   statistics.rms = std::sqrt(squares / count);
-  std::sort(sizes.begin(), sizes.end());
   const double rank = 0.95 * (count - 1.0);
-  const auto below = static_cast<std::size_t>(rank);
-  const std::size_t above = std::min(below + 1, sizes.size() - 1);
-  statistics.percentile95 =
-    sizes[below] + (rank - static_cast<double>(below)) * (sizes[above] - sizes[below]);
+  const auto below = sizes.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(sizes.begin(), below, sizes.end());
+  const double above =
+    below + 1 == sizes.end() ? *below : *std::min_element(below + 1, sizes.end());
+  statistics.percentile95 = *below + (rank - std::floor(rank)) * (above - *below);
   return statistics;
 }
 }

@@ -30,30 +30,50 @@ double squaredDistanceToBox(
   return squared(glm::max(glm::max(low - position, position - high), glm::dvec3(0.0)));
 }
 
-double squaredDistanceToEdge(const glm::dvec3& position, const glm::dvec3& a, const glm::dvec3& b)
+// From the origin to the edge from `start`, `along` mm and way to its end.
+double squaredDistanceToEdge(const glm::dvec3& start, const glm::dvec3& along)
 {
-  const glm::dvec3 edge = b - a;
-  const double length = squared(edge);
-  const double along =
-    length > 0.0 ? glm::clamp(glm::dot(position - a, edge) / length, 0.0, 1.0) : 0.0;
-  return squared(position - (a + along * edge));
+  const double length = squared(along);
+  const double share = length > 0.0 ? glm::clamp(-glm::dot(start, along) / length, 0.0, 1.0) : 0.0;
+  return squared(start + share * along);
 }
 }
 
 double squaredDistanceToTriangle(
   const glm::dvec3& position, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 {
-  const glm::dvec3 normal = glm::cross(b - a, c - a);
-  const auto isInside = [&](const glm::dvec3& from, const glm::dvec3& to) {
-    return glm::dot(glm::cross(to - from, position - from), normal) >= 0.0;
-  };
-  if (squared(normal) > 0.0 && isInside(a, b) && isInside(b, c) && isInside(c, a))
+  const glm::dvec3 toA = a - position;
+  const glm::dvec3 ab = b - a;
+  const glm::dvec3 ac = c - a;
+  const double abab = squared(ab);
+  const double abac = glm::dot(ab, ac);
+  const double acac = squared(ac);
+  const double alongAb = -glm::dot(ab, toA);
+  const double alongAc = -glm::dot(ac, toA);
+  // The foot of the position in the triangle's plane is a + (s ab + t ac) / area.
+  const double area = abab * acac - abac * abac;
+  const double s = acac * alongAb - abac * alongAc;
+  const double t = abab * alongAc - abac * alongAb;
+  const bool flat = !(area > 0.0);
+  if (!flat && s >= 0.0 && t >= 0.0 && s + t <= area)
   {
-    const double height = glm::dot(position - a, normal);
-    return height * height / squared(normal);
+    return squared(toA + (s * ab + t * ac) / area);
   }
-  return std::min({ squaredDistanceToEdge(position, a, b), squaredDistanceToEdge(position, b, c),
-    squaredDistanceToEdge(position, c, a) });
+  // The nearest point lies on an edge that the foot is beyond.
+  double nearest = Infinity;
+  if (flat || s < 0.0)
+  {
+    nearest = squaredDistanceToEdge(toA, ac);
+  }
+  if (flat || t < 0.0)
+  {
+    nearest = std::min(nearest, squaredDistanceToEdge(toA, ab));
+  }
+  if (flat || s + t > area)
+  {
+    nearest = std::min(nearest, squaredDistanceToEdge(toA + ab, ac - ab));
+  }
+  return nearest;
 }
 
 TriangleTree::TriangleTree(const TriangleMesh& mesh)
@@ -163,7 +183,14 @@ void TriangleTree::fit(const std::vector<glm::dvec3>& points, const std::vector<
   }
 }
 
-double TriangleTree::distance(const glm::dvec3& position, double limit) const
+double TriangleTree::SquaredDistance(const glm::dvec3& position, int triangle) const
+{
+  const Corners& corners = this->Placed[triangle];
+  return corners.kept ? squaredDistanceToTriangle(position, corners.a, corners.b, corners.c)
+                      : Infinity;
+}
+
+TriangleTree::Nearest TriangleTree::nearest(const glm::dvec3& position, int hint) const
 {
   struct Visit
   {
@@ -172,14 +199,21 @@ double TriangleTree::distance(const glm::dvec3& position, double limit) const
   };
   Visit open[64]; // as deep as the tree: it halves, so 2^62 triangles
   int openCount = 0;
-  double best = limit * limit;
+  double best = hint < 0 ? Infinity : this->SquaredDistance(position, hint);
+  int triangle = best < Infinity ? hint : -1;
   const auto visit = [&](int node) {
     const Box& box = this->Boxes[node];
     return Visit{ node, squaredDistanceToBox(position, box.low, box.high) };
   };
+  const auto add = [&](const Visit& found) {
+    if (found.nearest < best)
+    {
+      open[openCount++] = found;
+    }
+  };
   if (!this->Nodes.empty())
   {
-    open[openCount++] = visit(0);
+    add(visit(0));
   }
   while (openCount > 0)
   {
@@ -191,11 +225,9 @@ double TriangleTree::distance(const glm::dvec3& position, double limit) const
     const Node& node = this->Nodes[next.node];
     for (int i = node.first; i < node.first + node.count; ++i)
     {
-      const Corners& corners = this->Placed[i];
-      if (corners.kept)
-      {
-        best = std::min(best, squaredDistanceToTriangle(position, corners.a, corners.b, corners.c));
-      }
+      const double distance = this->SquaredDistance(position, i);
+      triangle = distance < best ? i : triangle;
+      best = std::min(best, distance);
     }
     if (node.count == 0)
     {
@@ -205,10 +237,10 @@ double TriangleTree::distance(const glm::dvec3& position, double limit) const
       {
         std::swap(near, far);
       }
-      open[openCount++] = far;
-      open[openCount++] = near;
+      add(far);
+      add(near);
     }
   }
-  return std::sqrt(best);
+  return { std::sqrt(best), triangle };
 }
 }

@@ -9,7 +9,6 @@
 
 #include <glm/vec3.hpp>
 
-#include <limits>
 #include <vector>
 
 namespace brainshift
@@ -26,11 +25,15 @@ public:
   void fit(const std::vector<glm::dvec3>& points, const std::vector<char>& moved,
     const std::vector<char>& kept);
 
-  // Distance (mm) from a position to the nearest point of the triangles as last fitted, exact for
-  // flat triangles; infinite if there is none. What lies beyond `limit` (mm) need not be found:
-  // who knows that something is nearer is answered sooner.
-  double distance(
-    const glm::dvec3& position, double limit = std::numeric_limits<double>::infinity()) const;
+  struct Nearest
+  {
+    double distance; // mm; infinite if there is no triangle
+    int triangle;    // a number that stays, whatever moves; below 0 if there is none
+  };
+
+  // The nearest point of the triangles as last fitted, exact for flat triangles. `hint`: any
+  // triangle, or below 0; the nearer it is, the sooner the answer, which is the same.
+  Nearest nearest(const glm::dvec3& position, int hint = -1) const;
 
 private:
   struct Box
@@ -52,6 +55,7 @@ private:
 
   bool FitLeaf(std::size_t node, const std::vector<glm::dvec3>& points,
     const std::vector<char>& moved, const std::vector<char>& kept);
+  double SquaredDistance(const glm::dvec3& position, int triangle) const;
   int Build(std::vector<glm::dvec3>& middles, std::vector<int>& order, int first, int end);
 
   std::vector<glm::ivec3> Triangles; // in the order of the leaves

@@ -1,48 +1,123 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkCompareVolumes.h"
 
+#include "CavityMask.h"
 #include "DeformableVolume.h"
 #include "ReferenceVolume.h"
+#include "SharedArray.h"
 
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
+#include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/vec3.hpp>
 
+#include <string>
+
 using namespace brainshift;
+
+namespace
+{
+constexpr int ReferencePort = 1;
+constexpr int CavityPort = 2;
+constexpr int Ports = 3;
+
+// The scalars of the reference; null, with `problem` set, if it has none that can be compared.
+vtkDataArray* referenceScalars(vtkImageData* image, std::string& problem)
+{
+  vtkDataArray* scalars = image->GetPointData()->GetScalars();
+  scalars = scalars ? scalars : image->GetPointData()->GetArray(0);
+  const int components = scalars ? scalars->GetNumberOfComponents() : 0;
+  if (components != 1)
+  {
+    problem = "The reference's point scalars have " + std::to_string(components) +
+      " components; they must have 1";
+    return nullptr;
+  }
+  return scalars;
+}
+}
+
+// The same arrays for the same inputs, so that whoever has them on the GPU keeps them.
+struct vtkCompareVolumes::Kept
+{
+  SharedArrays PointArrays;
+  SharedArrays CellArrays;
+
+  vtkSmartPointer<vtkDataArray> Voxels;
+  vtkSmartPointer<vtkDataArray> Scalars; // that Voxels shows, as of ScalarsTime
+  vtkMTimeType ScalarsTime = 0;
+
+  CavitySource Cavity;
+
+  vtkDataArray* voxelsOf(vtkDataArray* scalars)
+  {
+    if (this->Scalars != scalars || this->ScalarsTime != scalars->GetMTime())
+    {
+      this->Voxels = asReferenceVoxels(scalars);
+      this->Scalars = scalars;
+      this->ScalarsTime = scalars->GetMTime();
+    }
+    return this->Voxels;
+  }
+};
 
 vtkStandardNewMacro(vtkCompareVolumes);
 
 vtkCompareVolumes::vtkCompareVolumes()
+  : Internal(std::make_unique<Kept>())
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(Ports);
 }
+
+vtkCompareVolumes::~vtkCompareVolumes() = default;
 
 void vtkCompareVolumes::SetReferenceConnection(vtkAlgorithmOutput* reference)
 {
-  this->SetInputConnection(1, reference);
+  this->SetInputConnection(ReferencePort, reference);
 }
 
-int vtkCompareVolumes::FillInputPortInformation(int, vtkInformation* info)
+void vtkCompareVolumes::SetCavityConnection(vtkAlgorithmOutput* cavity)
+{
+  this->SetInputConnection(CavityPort, cavity);
+}
+
+void vtkCompareVolumes::AddCavityLabel(int label)
+{
+  this->CavityLabels.push_back(label);
+  this->Modified();
+}
+
+void vtkCompareVolumes::ClearCavityLabels()
+{
+  this->CavityLabels.clear();
+  this->Modified();
+}
+
+int vtkCompareVolumes::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port == CavityPort);
   return 1;
 }
 
 int vtkCompareVolumes::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
-  for (int port = 0; port < 2; ++port)
+  for (int port = 0; port < Ports; ++port)
   {
-    vtkInformation* info = inputs[port]->GetInformationObject(0);
-    int whole[6];
-    info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
-    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), whole, 6);
+    if (vtkInformation* info = inputs[port]->GetInformationObject(0))
+    {
+      int whole[6];
+      info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
+      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), whole, 6);
+    }
   }
   return 1;
 }
@@ -52,25 +127,30 @@ int vtkCompareVolumes::RequestData(
 {
   vtkImageData* output = vtkImageData::GetData(outputs);
   output->ShallowCopy(vtkImageData::GetData(inputs[0]));
-  vtkImageData* image = vtkImageData::GetData(inputs[1]);
-  vtkDataArray* scalars = image->GetPointData()->GetScalars();
-  scalars = scalars ? scalars : image->GetPointData()->GetArray(0);
-  if (!scalars || scalars->GetNumberOfComponents() != 1)
+  this->Internal->PointArrays.share(output->GetPointData());
+  this->Internal->CellArrays.share(output->GetCellData());
+  vtkImageData* image = vtkImageData::GetData(inputs[ReferencePort]);
+  const Grid grid = gridOf(image);
+  std::string problem;
+  vtkDataArray* scalars = referenceScalars(image, problem);
+  PlacedVoxels cavity;
+  if (scalars)
   {
-    vtkErrorMacro("The reference's point scalars have "
-      << (scalars ? scalars->GetNumberOfComponents() : 0) << " components; they must have 1.");
-    return 0;
+    cavity = this->Internal->Cavity.find(
+      vtkImageData::GetData(inputs[CavityPort]), this->CavityLabels, grid, "reference", problem);
   }
-  if (this->Scalars != scalars || this->ScalarsTime != scalars->GetMTime())
+  if (!problem.empty())
   {
-    this->Voxels = asReferenceVoxels(scalars);
-    this->Scalars = scalars;
-    this->ScalarsTime = scalars->GetMTime();
+    vtkErrorMacro(<< problem << ".");
+    return 0;
   }
   const double* r = this->ReferenceRotation;
   const double* t = this->ReferenceTranslation;
+  const RigidMotion motion{ middleOf(grid), { r[0], r[1], r[2] }, { t[0], t[1], t[2] } };
+  cavity.grid = movedRigidly(cavity.grid, motion);
   attachReference(output,
-    { this->Voxels, movedRigidly(gridOf(image), { r[0], r[1], r[2] }, { t[0], t[1], t[2] }) });
+    { { this->Internal->voxelsOf(scalars), movedRigidly(grid, motion) }, cavity,
+      static_cast<ReferenceShow>(this->Show) });
   return 1;
 }
 
@@ -80,5 +160,7 @@ void vtkCompareVolumes::PrintSelf(ostream& os, vtkIndent indent)
   const double* r = this->ReferenceRotation;
   const double* t = this->ReferenceTranslation;
   os << indent << "ReferenceRotation: " << r[0] << " " << r[1] << " " << r[2] << "\n"
-     << indent << "ReferenceTranslation: " << t[0] << " " << t[1] << " " << t[2] << "\n";
+     << indent << "ReferenceTranslation: " << t[0] << " " << t[1] << " " << t[2] << "\n"
+     << indent << "Show: " << this->Show << "\n"
+     << indent << "CavityLabels: " << this->CavityLabels.size() << "\n";
 }

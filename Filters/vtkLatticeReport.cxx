@@ -17,8 +17,9 @@ using namespace brainshift;
 
 namespace
 {
-// What the output carries (DeformableVolume.h), read in place. False if it carries nothing.
-bool readDrawn(vtkAlgorithm* filter, DrawnLattice& lattice)
+// What the output carries (DeformableVolume.h), read in place: its displacements, or null if it
+// carries nothing.
+vtkFloatArray* readDrawn(vtkAlgorithm* filter, DrawnLattice& lattice)
 {
   vtkDataObject* output = filter ? filter->GetOutputDataObject(0) : nullptr;
   vtkFieldData* fields = output ? output->GetFieldData() : nullptr;
@@ -30,7 +31,7 @@ bool readDrawn(vtkAlgorithm* filter, DrawnLattice& lattice)
   if (!displacements || !dimensions || !box || !strength || dimensions->GetNumberOfValues() != 3 ||
     box->GetNumberOfValues() != 15)
   {
-    return false;
+    return nullptr;
   }
   const auto number = [&](int i) { return box->GetVariantValue(i).ToDouble(); };
   for (int axis = 0; axis < 3; ++axis)
@@ -45,7 +46,9 @@ bool readDrawn(vtkAlgorithm* filter, DrawnLattice& lattice)
   }
   lattice.displacements = displacements->GetPointer(0);
   lattice.strength = strength->GetVariantValue(0).ToDouble();
-  return displacements->GetNumberOfValues() == static_cast<vtkIdType>(3 * lattice.grid.count());
+  const bool complete =
+    displacements->GetNumberOfValues() == static_cast<vtkIdType>(3 * lattice.grid.count());
+  return complete ? displacements : nullptr;
 }
 }
 
@@ -64,20 +67,42 @@ void vtkLatticeReport::SetCone(const double cone[8])
   std::copy_n(cone, 8, this->Cone);
 }
 
+void vtkLatticeReport::SetSlab(const double slab[7])
+{
+  std::copy_n(slab, 7, this->Slab);
+}
+
+void vtkLatticeReport::FindFarthest(vtkFloatArray* displacements, DrawnLattice& lattice)
+{
+  if (displacements != this->Known || displacements->GetMTime() != this->KnownTime)
+  {
+    this->Known = displacements;
+    this->KnownTime = displacements->GetMTime();
+    this->Farthest = longest(lattice);
+  }
+  lattice.farthest = this->Farthest;
+}
+
 vtkDoubleArray* vtkLatticeReport::GetHandles()
 {
   constexpr int components = 9;
   this->Handles->Reset();
   this->Handles->SetNumberOfComponents(components);
   DrawnLattice lattice;
-  if (!readDrawn(this->Filter, lattice))
+  vtkFloatArray* displacements = readDrawn(this->Filter, lattice);
+  if (!displacements)
   {
     return this->Handles;
   }
+  this->FindFarthest(displacements, lattice);
   HandleSet offsets;
+  const glm::dvec3 centre(this->Ball[0], this->Ball[1], this->Ball[2]);
+  const double* plane = this->Slab;
+  const brainshift::Slab slab{ { plane[0], plane[1], plane[2] }, { plane[3], plane[4], plane[5] },
+    plane[6] };
   if (this->Ball[3] > 0.0)
   {
-    addInBall(lattice, { this->Ball[0], this->Ball[1], this->Ball[2] }, this->Ball[3], offsets);
+    addInBall(lattice, centre, this->Ball[3], slab, offsets);
   }
   const double* cone = this->Cone;
   if (cone[6] > 0.0 || cone[7] > 0.0)
@@ -85,9 +110,9 @@ vtkDoubleArray* vtkLatticeReport::GetHandles()
     addInCone(lattice, { cone[0], cone[1], cone[2] }, { cone[3], cone[4], cone[5] }, cone[6],
       cone[7], offsets);
   }
-  if (this->Moved)
+  if (this->MovedWithin > 0.0)
   {
-    addMoved(lattice, offsets);
+    addMoved(lattice, centre, this->MovedWithin, slab, offsets);
   }
   for (std::size_t offset : offsets)
   {
@@ -128,5 +153,5 @@ void vtkLatticeReport::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Ball: " << this->Ball[0] << " " << this->Ball[1] << " " << this->Ball[2] << " "
      << this->Ball[3] << "\n"
-     << indent << "Moved: " << this->Moved << "\n";
+     << indent << "MovedWithin: " << this->MovedWithin << "\n";
 }

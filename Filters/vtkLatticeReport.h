@@ -18,6 +18,11 @@
 
 class vtkAlgorithm;
 class vtkDoubleArray;
+class vtkFloatArray;
+namespace brainshift
+{
+struct DrawnLattice;
+}
 
 class VTKBRAINSHIFTFILTERS_EXPORT vtkLatticeReport : public vtkObject
 {
@@ -43,10 +48,15 @@ public:
   ///@}
 
   ///@{
-  /** Tell those that moved, too; the farthest if there are too many. Default false. */
-  vtkSetMacro(Moved, bool);
-  vtkGetMacro(Moved, bool);
+  /** Radius (mm) about the ball's centre within which those that moved are told, too. Default 0:
+   * none. */
+  vtkSetMacro(MovedWithin, double);
+  vtkGetMacro(MovedWithin, double);
   ///@}
+
+  /** Of both, only those near a plane (mm, deformed frame) are told: a point of it, its unit
+   * normal, the largest distance. Default distance 0: all. */
+  void SetSlab(const double slab[7]);
 
   /**
    * Control points asked for, each once, at most 1000 for each question: index along the three
@@ -65,13 +75,20 @@ protected:
   ~vtkLatticeReport() override;
 
 private:
+  void FindFarthest(vtkFloatArray* displacements, brainshift::DrawnLattice& lattice);
+
   vtkLatticeReport(const vtkLatticeReport&) = delete;
   void operator=(const vtkLatticeReport&) = delete;
 
   vtkWeakPointer<vtkAlgorithm> Filter;
   double Ball[4] = { 0.0, 0.0, 0.0, 0.0 };
   double Cone[8] = { 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0 };
-  bool Moved = false;
+  double MovedWithin = 0.0;
+  double Slab[7] = { 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0 };
+  // Of the control points that were asked last, so that a cursor that moves asks few of them.
+  vtkWeakPointer<vtkFloatArray> Known;
+  vtkMTimeType KnownTime = 0;
+  double Farthest = 0.0; // mm
   vtkNew<vtkDoubleArray> Handles;
   vtkNew<vtkDoubleArray> Geometry;
 };

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTraceDistance.h"
 
+#include "CavityMask.h"
 #include "DeformableVolume.h"
 #include "DeformedSurface.h"
 #include "Portions.h"
+#include "ReferenceVolume.h"
 #include "TraceStatistics.h"
 
 #include "vtkCompositeDataIterator.h"
@@ -24,9 +26,9 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -49,46 +51,6 @@ vtkDataArray* scalarsOf(vtkImageData* image, const std::string& name)
     return named;
   }
   return arrays->GetScalars() ? arrays->GetScalars() : arrays->GetArray(0);
-}
-
-// The point of a trace before: a pointer moves little, so the next distance is about as large.
-struct Neighbour
-{
-  glm::dvec3 position{ 0.0 };
-  double distance = std::numeric_limits<double>::infinity();
-
-  // No distance from a point is larger, rounding included.
-  double limitAt(const glm::dvec3& point) const
-  {
-    constexpr double Slack = 1e-6; // mm, and as a share
-    return (this->distance + glm::length(point - this->position)) * (1.0 + Slack) + Slack;
-  }
-};
-
-struct Mask
-{
-  Grid grid;
-  vtkSmartPointer<vtkDataArray> values;
-
-  // Of the voxel nearest to a position (mm, world); false outside.
-  bool contains(const glm::dvec3& position) const
-  {
-    const glm::dvec3 nearest = glm::round(this->grid.gridFromWorld(position));
-    if (!glm::all(glm::greaterThanEqual(nearest, glm::dvec3(0.0))) ||
-      !glm::all(glm::lessThan(nearest, glm::dvec3(this->grid.dimensions))))
-    {
-      return false;
-    }
-    const glm::ivec3 at(nearest);
-    const auto index = static_cast<vtkIdType>(this->grid.offset(at.x, at.y, at.z));
-    return this->values->GetComponent(index, 0) != 0.0;
-  }
-};
-
-std::optional<Mask> maskOf(vtkImageData* image)
-{
-  vtkDataArray* values = image ? scalarsOf(image, {}) : nullptr;
-  return values ? std::optional<Mask>({ gridOf(image), values }) : std::nullopt;
 }
 
 // The numbers of all processes, on each of them.
@@ -134,10 +96,21 @@ struct vtkTraceDistance::State
 
   brainshift::Tissue Tissue;
   DeformedSurface Surface;
-  std::optional<Mask> Cavity;
+  CavitySource CavityInput;
+  PlacedVoxels Cavity;           // that of the input
+  PlacedVoxels ReferencesCavity; // that Compare Volumes attached to the volume
   std::optional<PointMap> Map;
+  // Of the points of all blocks, the triangle nearest before: a hint for the next time. Below 0:
+  // none.
+  std::vector<int> Nearest;
   TraceStatistics Statistics;
   int SurfacesFound = 0;
+
+  bool isRemoved(const glm::dvec3& deformed) const
+  {
+    return brainshift::isRemoved(this->Cavity, deformed) ||
+      brainshift::isRemoved(this->ReferencesCavity, deformed);
+  }
 
   // `level`: the threshold or the label.
   void find(vtkDataArray* scalars, const Grid& grid, int by, double level)
@@ -156,6 +129,7 @@ struct vtkTraceDistance::State
       ? brainshift::Tissue{ grid, maskOfLabel(scalars, static_cast<int>(level)), 0.5 }
       : brainshift::Tissue{ grid, scalars, level };
     this->Surface = DeformedSurface(surfaceOf(this->Tissue));
+    this->Nearest.clear();
     ++this->SurfacesFound;
   }
 };
@@ -279,19 +253,22 @@ std::string vtkTraceDistance::FindCortex(vtkInformationVector** inputs)
   }
   const Lattice lattice = effectiveLattice(deformation);
   state.Map.emplace(lattice, deformation.inverse);
-  state.Cavity = maskOf(vtkImageData::GetData(inputs[CavityPort]));
+  problem.clear();
+  state.Cavity = state.CavityInput.find(
+    vtkImageData::GetData(inputs[CavityPort]), {}, gridOf(volume), "volume", problem);
+  state.ReferencesCavity = readReference(volume).cavity;
   std::function<bool(const glm::dvec3&)> isRemoved;
-  if (state.Cavity)
+  if (state.Cavity.voxels || state.ReferencesCavity.voxels)
   {
-    isRemoved = [&](const glm::dvec3& deformed) { return state.Cavity->contains(deformed); };
+    isRemoved = [&](const glm::dvec3& deformed) { return state.isRemoved(deformed); };
   }
   state.Surface.follow(lattice, isRemoved);
-  return {};
+  return problem;
 }
 
 bool vtkTraceDistance::Measure(vtkPointSet* points, std::vector<double>& all)
 {
-  const State& state = *this->Internal;
+  State& state = *this->Internal;
   const vtkIdType count = points->GetNumberOfPoints();
   vtkNew<vtkFloatArray> distances;
   distances->SetName("DistanceToCortex");
@@ -300,25 +277,28 @@ bool vtkTraceDistance::Measure(vtkPointSet* points, std::vector<double>& all)
   points->GetPointData()->SetActiveScalars(distances->GetName());
   const std::size_t before = all.size();
   all.resize(before + count, std::numeric_limits<double>::quiet_NaN());
-  const auto distanceOf = [&](const glm::dvec3& point, Neighbour& previous) {
-    if (!std::isfinite(point.x + point.y + point.z) ||
-      (state.Cavity && state.Cavity->contains(point)))
+  state.Nearest.resize(std::max(state.Nearest.size(), all.size()), -1);
+  const auto distanceOf = [&](const glm::dvec3& point, int& nearest) {
+    if (!std::isfinite(point.x + point.y + point.z) || state.isRemoved(point))
     {
       return std::numeric_limits<double>::quiet_NaN();
     }
-    const double distance = state.Surface.distance(point, previous.limitAt(point));
-    previous = { point, distance };
+    const TriangleTree::Nearest found = state.Surface.nearest(point, nearest);
+    nearest = found.triangle;
     const bool inside = state.Tissue.contains(state.Map->restFromDeformed(point));
-    return std::isfinite(distance) ? (inside ? -distance : distance)
-                                   : std::numeric_limits<double>::quiet_NaN();
+    return std::isfinite(found.distance) ? (inside ? -found.distance : found.distance)
+                                         : std::numeric_limits<double>::quiet_NaN();
   };
   return forPortions(this, 0.0, 1.0, count, PointsAtLeast, [&](vtkIdType first, vtkIdType last) {
-    Neighbour previous;
+    int previous = -1; // the first time: a pointer moves little
     for (vtkIdType i = first; i < last; ++i)
     {
       double point[3];
       points->GetPoints()->GetData()->GetTuple(i, point);
-      const double distance = distanceOf({ point[0], point[1], point[2] }, previous);
+      int& nearest = state.Nearest[before + i];
+      nearest = nearest < 0 ? previous : nearest;
+      const double distance = distanceOf({ point[0], point[1], point[2] }, nearest);
+      previous = nearest;
       all[before + i] = distance;
       distances->SetValue(i, static_cast<float>(distance));
     }

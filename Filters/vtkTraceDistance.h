@@ -5,8 +5,9 @@
  *
  * Input 0: points in the deformed frame (mm, world), blocks of them too. Input 1: the deformable
  * volume. Input 2 (optional): a segmentation at rest on any grid, which the cortex is taken from
- * instead of the volume. Input 3 (optional): a cavity mask in the deformed frame, on any grid:
- * where it is not 0, neither points nor tissue count.
+ * instead of the volume. Input 3 (optional): a cavity mask in the deformed frame, labels or scalars
+ * on any grid: where it is above 0, neither points nor tissue count; nor do they in the cavity that
+ * Compare Volumes attached to the volume.
  *
  * The cortex is where the scalars pass Threshold, or where Label ends. It is found once, at rest;
  * after a stroke only what the stroke reached is moved (DeformedSurface.h), so the filter follows a

@@ -9,6 +9,7 @@
 #include <pqServerManagerModel.h>
 #include <pqView.h>
 
+#include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 
 #include <cstring>
@@ -32,7 +33,13 @@ QList<pqPipelineSource*> neighboursOf(pqPipelineSource* source)
 bool isShown(pqPipelineSource* source, pqView* view)
 {
   pqDataRepresentation* shown = view ? source->getRepresentation(view) : nullptr;
-  return shown && shown->isVisible();
+  return (shown && shown->isVisible()) || shownBent(source, view);
+}
+
+bool isShownAs(pqDataRepresentation* shown, const char* type)
+{
+  const char* kind = vtkSMPropertyHelper(shown->getProxy(), "Representation", true).GetAsString();
+  return kind && std::strcmp(kind, type) == 0;
 }
 
 // Breadth first, so that the nearest one is found.
@@ -65,13 +72,17 @@ bool isDeformation(pqPipelineSource* source)
 
 pqPipelineSource* activeDeformation()
 {
-  pqActiveObjects& active = pqActiveObjects::instance();
-  pqPipelineSource* source = active.activeSource();
+  return activeDeformation(pqActiveObjects::instance().activeView());
+}
+
+pqPipelineSource* activeDeformation(pqView* view)
+{
+  pqPipelineSource* source = pqActiveObjects::instance().activeSource();
   if (isDeformation(source))
   {
     return source;
   }
-  if (pqPipelineSource* nearest = source ? nearestShown(source, active.activeView()) : nullptr)
+  if (pqPipelineSource* nearest = source ? nearestShown(source, view) : nullptr)
   {
     return nearest;
   }
@@ -90,4 +101,35 @@ pqPipelineSource* activeDeformation()
     }
   }
   return only;
+}
+
+bool showsSlices(pqDataRepresentation* shown)
+{
+  return isShownAs(shown, "Deformed Slices");
+}
+
+pqDataRepresentation* shownBent(pqPipelineSource* deformation, pqView* view)
+{
+  QList<pqPipelineSource*> reached;
+  if (deformation && view)
+  {
+    reached.append(deformation);
+  }
+  for (int next = 0; next < reached.size(); ++next)
+  {
+    pqDataRepresentation* shown = reached[next]->getRepresentation(view);
+    if (shown && shown->isVisible() && (isShownAs(shown, "Deformed Volume") || showsSlices(shown)))
+    {
+      return shown;
+    }
+    for (pqPipelineSource* consumer : reached[next]->getAllConsumers())
+    {
+      // What another one bends again lies elsewhere.
+      if (!isDeformation(consumer) && !reached.contains(consumer))
+      {
+        reached.append(consumer);
+      }
+    }
+  }
+  return nullptr;
 }

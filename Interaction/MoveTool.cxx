@@ -12,7 +12,8 @@ namespace
 {
 constexpr double ReachPixels = 16.0; // a control point is taken from this far
 constexpr double ShownCells = 1.7;   // those this many cells around the cursor are shown
-
+constexpr double SliceCells = 2.6;   // the same in a slice, where fewer lie one behind the other
+constexpr double MovedShare = 2.0;   // of that, those that moved are hinted at
 constexpr double DepthWeight = 0.25; // a pixel beside the cursor counts as four in depth
 
 double widest(const Grid& grid)
@@ -26,13 +27,25 @@ void MoveTool::find(const glm::dvec2& pixel)
   ViewProbe& probe = this->Bench.probe;
   const std::optional<Grid> lattice = probe.lattice();
   this->Near.clear();
+  this->Faint.clear();
   if (!lattice)
   {
     return;
   }
-  this->Tissue = probe.tissueAt(pixel);
-  this->Near = this->Tissue ? probe.handlesNear(*this->Tissue, ShownCells * widest(*lattice))
-                            : probe.handlesUnder(pixel, ReachPixels);
+  this->Tissue = probe.spotAt(pixel);
+  if (this->Tissue)
+  {
+    const double reach = (this->Tissue->slice ? SliceCells : ShownCells) * widest(*lattice);
+    for (const Handle& handle : probe.handlesNear(*this->Tissue, reach, MovedShare * reach))
+    {
+      const bool isNear = glm::distance(handle.drawn, this->Tissue->position) <= reach;
+      (isNear ? this->Near : this->Faint).push_back(handle);
+    }
+  }
+  else
+  {
+    this->Near = probe.handlesUnder(pixel, ReachPixels);
+  }
   // What was selected may have moved since.
   for (Handle& selected : this->Selected)
   {
@@ -51,7 +64,7 @@ const Handle* MoveTool::handleUnder(const glm::dvec2& pixel) const
   for (const Handle& handle : this->Near)
   {
     const double distance = glm::distance(probe.pixelOf(handle.drawn), pixel);
-    const double depth = this->Tissue ? glm::distance(handle.drawn, *this->Tissue) : 0.0;
+    const double depth = this->Tissue ? glm::distance(handle.drawn, this->Tissue->position) : 0.0;
     const double strangeness =
       distance + DepthWeight * depth / probe.millimetresPerPixel(handle.drawn);
     if (distance < ReachPixels && strangeness < least)
@@ -85,7 +98,13 @@ void MoveTool::highlight(const Handle* under, const glm::dvec3& moved)
   {
     handle.drawn += this->isSelected(handle) ? moved : glm::dvec3(0.0);
   }
+  std::vector<glm::dvec3> faint;
+  for (const Handle& handle : this->Faint)
+  {
+    faint.push_back(handle.drawn);
+  }
   this->Bench.shown.SetHandles(handles);
+  this->Bench.shown.SetFaint(faint);
   this->Bench.shown.SetHighlights(positions);
 }
 
@@ -124,8 +143,8 @@ bool MoveTool::press(const HandEvent& event)
   {
     return false;
   }
-  this->Grip = under->drawn;
-  this->GrippedAt = pixelOf(event);
+  this->Held = { { under->drawn, this->Tissue ? this->Tissue->slice : std::nullopt },
+    pixelOf(event) };
   this->select(Handle(*under), event.shift);
   this->highlight(nullptr, glm::dvec3(0.0));
   return true;
@@ -138,7 +157,7 @@ void MoveTool::drag(const HandEvent& event)
   {
     return;
   }
-  const glm::dvec3 moved = this->pulled(this->Grip, this->GrippedAt, pixelOf(event));
+  const glm::dvec3 moved = this->pulled(this->Held, pixelOf(event));
   StrokeEditor::Strokes strokes;
   for (const Handle& handle : this->Selected)
   {

@@ -23,11 +23,11 @@ private:
   void highlight(const brainshift::Handle* under, const glm::dvec3& moved);
   void find(const glm::dvec2& pixel);
 
-  std::vector<brainshift::Handle> Near;     // what is shown
-  std::optional<glm::dvec3> Tissue;         // mm: under the cursor
+  std::vector<brainshift::Handle> Near;     // what can be taken
+  std::vector<brainshift::Handle> Faint;    // what moved a little farther away
+  std::optional<Spot> Tissue;               // under the cursor
   std::vector<brainshift::Handle> Selected; // what a drag takes along
-  glm::dvec3 Grip{ 0.0 };                   // mm: where the drag began
-  glm::dvec2 GrippedAt{ 0.0 };              // pixel
+  Grip Held;
 };
 
 #endif

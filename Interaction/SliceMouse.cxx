@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SliceMouse.h"
 
+#include "LatticeProbe.h"
+
 #include <pqApplicationCore.h>
 #include <pqRenderView.h>
 #include <pqRepresentation.h>
@@ -16,13 +18,13 @@
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMRenderViewProxy.h>
-#include <vtkSMSessionProxyManager.h>
 #include <vtkSMSourceProxy.h>
 #include <vtkSmartPointer.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace
 {
@@ -30,7 +32,9 @@ constexpr float Priority = 0.1f; // before ParaView's camera, after tools that t
 constexpr double Faces = 0.99;   // cosine between where a view looks and a plane's normal, at least
 constexpr int Planes = 3;
 constexpr const char* ShowNames[Planes] = { "ShowSagittal", "ShowCoronal", "ShowAxial" };
-constexpr int Flat = 1; // InteractionMode of a 2D view
+constexpr int Flat = 1;            // InteractionMode of a 2D view
+constexpr int Wipe = 5;            // SliceComparison
+constexpr double GripPixels = 6.0; // to either side of the wipe's line
 
 bool showsSlices(pqRepresentation* representation)
 {
@@ -42,13 +46,14 @@ bool showsSlices(pqRepresentation* representation)
 // How the planes lie is known where they are drawn.
 void askHowPlanesLie(vtkSMProxy* display, double normals[9], double voxelSteps[3])
 {
-  auto report = vtk::TakeSmartPointer(
-    display->GetSessionProxyManager()->NewProxy("misc", "DeformedVolumeReport"));
-  vtkSMPropertyHelper(report, "Representation").Set(display);
-  report->UpdateVTKObjects();
-  report->UpdatePropertyInformation();
-  vtkSMPropertyHelper(report, "SliceNormals").Get(normals, 3 * Planes);
-  vtkSMPropertyHelper(report, "VoxelSteps").Get(voxelSteps, Planes);
+  const vtkSmartPointer<vtkSMProxy> report = makeReport(display, "DeformedVolumeReport");
+  point(report, "Representation", display);
+  std::fill_n(normals, 3 * Planes, 0.0);
+  std::fill_n(voxelSteps, Planes, 0.0);
+  const std::vector<double> lie = told(report, "SliceNormals");
+  const std::vector<double> steps = told(report, "VoxelSteps");
+  std::copy_n(lie.begin(), std::min<std::size_t>(lie.size(), 3 * Planes), normals);
+  std::copy_n(steps.begin(), std::min<std::size_t>(steps.size(), Planes), voxelSteps);
 }
 
 void clampToInput(vtkSMProxy* display, double position[3])
@@ -79,13 +84,31 @@ void drawSlices()
   }
 }
 
-void setPosition(vtkSMProxy* display, double position[3])
+// `name`: SlicePosition or WipePosition.
+void setPosition(vtkSMProxy* display, const char* name, double position[3])
 {
   SCOPED_UNDO_EXCLUDE(); // where one looks is no edit
   clampToInput(display, position);
-  vtkSMPropertyHelper(display, "SlicePosition").Set(position, 3);
+  vtkSMPropertyHelper(display, name).Set(position, 3);
   display->UpdateVTKObjects();
   drawSlices();
+}
+
+// The direction that the wipe's line divides a plane across: see vtkDeformedSlicesMapper.
+const double* acrossWipe(const double normals[9], int plane)
+{
+  constexpr int sagittal = 0;
+  constexpr int coronal = 1;
+  return normals + 3 * (plane == sagittal ? coronal : sagittal);
+}
+
+// From the line to a place, mm.
+double beyondWipe(vtkSMProxy* display, const double place[3], const double across[3])
+{
+  double position[3];
+  vtkSMPropertyHelper(display, "WipePosition").Get(position, 3);
+  vtkMath::Subtract(place, position, position);
+  return vtkMath::Dot(position, across);
 }
 }
 
@@ -163,75 +186,126 @@ SliceMouse::Facing SliceMouse::facingSlice() const
   return facing;
 }
 
-bool SliceMouse::onWheel(vtkObject*, unsigned long event, void*)
+SliceMouse* SliceMouse::of(pqRenderView* view)
 {
-  if (this->Interactor->GetControlKey())
-  {
-    return false;
-  }
+  return view ? view->findChild<SliceMouse*>(QString(), Qt::FindDirectChildrenOnly) : nullptr;
+}
+
+bool SliceMouse::step(int voxels)
+{
   const Facing slice = this->facingSlice();
   if (!slice.display)
   {
     return false;
   }
-  const double step = event == vtkCommand::MouseWheelForwardEvent ? slice.voxelSteps[slice.plane]
-                                                                  : -slice.voxelSteps[slice.plane];
   double position[3];
   vtkSMPropertyHelper(slice.display, "SlicePosition").Get(position, 3);
   for (int i = 0; i < 3; ++i)
   {
-    position[i] += step * slice.normals[3 * slice.plane + i];
+    position[i] += voxels * slice.voxelSteps[slice.plane] * slice.normals[3 * slice.plane + i];
   }
-  setPosition(slice.display, position);
+  setPosition(slice.display, "SlicePosition", position);
   return true;
+}
+
+bool SliceMouse::onWheel(vtkObject*, unsigned long event, void*)
+{
+  const int voxels = event == vtkCommand::MouseWheelForwardEvent ? 1 : -1;
+  return !this->Interactor->GetControlKey() && this->step(voxels);
 }
 
 bool SliceMouse::onButton(vtkObject*, unsigned long event, void*)
 {
   if (event == vtkCommand::LeftButtonReleaseEvent)
   {
-    const bool mine = this->Dragging;
-    this->Dragging = false;
-    return mine;
+    return std::exchange(this->Dragging, Drag::Nothing) != Drag::Nothing;
   }
-  const Facing slice = this->Interactor->GetShiftKey() ? this->facingSlice() : Facing();
-  this->Dragging = slice.display != nullptr;
-  if (this->Dragging)
+  const Facing slice = this->Interactor->GetControlKey() ? Facing() : this->facingSlice();
+  this->Dragging = !slice.display     ? Drag::Nothing
+    : this->Interactor->GetShiftKey() ? Drag::Planes
+    : this->isOnWipe(slice)           ? Drag::Wipe
+                                      : Drag::Nothing;
+  if (this->Dragging == Drag::Planes)
   {
     this->bringToCursor(slice);
   }
-  return this->Dragging;
+  return this->Dragging != Drag::Nothing;
 }
 
 bool SliceMouse::onMove(vtkObject*, unsigned long, void*)
 {
-  const Facing slice = this->Dragging ? this->facingSlice() : Facing();
-  if (slice.display)
+  const Facing slice = this->Dragging != Drag::Nothing ? this->facingSlice() : Facing();
+  if (!slice.display)
+  {
+    return false;
+  }
+  if (this->Dragging == Drag::Wipe)
+  {
+    this->bringWipeToCursor(slice);
+  }
+  else
   {
     this->bringToCursor(slice);
   }
-  return slice.display != nullptr;
+  return true;
 }
 
-// The other two planes go to the cursor, this one stays.
-void SliceMouse::bringToCursor(const Facing& slice)
+void SliceMouse::findCursor(const Facing& slice, double world[3]) const
 {
   const int* pixel = this->Interactor->GetEventPosition();
   vtkRenderer* renderer = this->View->getRenderViewProxy()->GetRenderer();
   renderer->SetDisplayPoint(pixel[0], pixel[1], 0.0);
   renderer->DisplayToWorld();
-  const double* world = renderer->GetWorldPoint(); // parallel: anywhere on the pixel's line will do
+  const double* place = renderer->GetWorldPoint(); // parallel: anywhere on the pixel's line will do
   double position[3];
   vtkSMPropertyHelper(slice.display, "SlicePosition").Get(position, 3);
   const double* normal = slice.normals + 3 * slice.plane;
   double across = 0.0; // from the slice to that place
   for (int i = 0; i < 3; ++i)
   {
-    across += (world[i] / world[3] - position[i]) * normal[i];
+    world[i] = place[i] / place[3];
+    across += (world[i] - position[i]) * normal[i];
   }
   for (int i = 0; i < 3; ++i)
   {
-    position[i] = world[i] / world[3] - across * normal[i];
+    world[i] -= across * normal[i];
   }
-  setPosition(slice.display, position);
+}
+
+// The other two planes go to the cursor, this one stays.
+void SliceMouse::bringToCursor(const Facing& slice)
+{
+  double position[3];
+  this->findCursor(slice, position);
+  setPosition(slice.display, "SlicePosition", position);
+}
+
+bool SliceMouse::isOnWipe(const Facing& slice) const
+{
+  if (vtkSMPropertyHelper(slice.display, "SliceComparison").GetAsInt() != Wipe)
+  {
+    return false;
+  }
+  double cursor[3];
+  this->findCursor(slice, cursor);
+  vtkRenderer* renderer = this->View->getRenderViewProxy()->GetRenderer();
+  const double pixelMm =
+    2.0 * renderer->GetActiveCamera()->GetParallelScale() / renderer->GetSize()[1];
+  return std::abs(beyondWipe(slice.display, cursor, acrossWipe(slice.normals, slice.plane))) <=
+    GripPixels * pixelMm;
+}
+
+void SliceMouse::bringWipeToCursor(const Facing& slice)
+{
+  double cursor[3];
+  this->findCursor(slice, cursor);
+  const double* across = acrossWipe(slice.normals, slice.plane);
+  const double beyond = beyondWipe(slice.display, cursor, across);
+  double position[3];
+  vtkSMPropertyHelper(slice.display, "WipePosition").Get(position, 3);
+  for (int i = 0; i < 3; ++i)
+  {
+    position[i] += beyond * across[i];
+  }
+  setPosition(slice.display, "WipePosition", position);
 }

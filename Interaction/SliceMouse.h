@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The mouse in a 2D view of Deformed Slices: the wheel goes through the slices a voxel at a time,
-// dragging with Shift brings the other planes to the cursor. With Ctrl the wheel zooms as
-// elsewhere.
+// dragging with Shift brings the other planes to the cursor, dragging the line of a Wipe moves it.
+// With Ctrl the wheel zooms as elsewhere.
 #ifndef BrainShift_SliceMouse_h
 #define BrainShift_SliceMouse_h
 
@@ -25,8 +25,15 @@ public:
   // One for every render view there is or will be, until `context` ends.
   static void watchViews(QObject* context);
 
+  // The one of a view; null if it has none.
+  static SliceMouse* of(pqRenderView* view);
+
   explicit SliceMouse(pqRenderView* view);
   ~SliceMouse() override;
+
+  // Goes through the slices that face the view, by voxels towards greater coordinates. False if
+  // there are none.
+  bool step(int voxels);
 
 private:
   // A slice that faces the view.
@@ -44,12 +51,23 @@ private:
   bool onButton(vtkObject* interactor, unsigned long event, void* data);
   bool onMove(vtkObject* interactor, unsigned long event, void* data);
 
+  // In the slice, mm.
+  void findCursor(const Facing& slice, double world[3]) const;
   void bringToCursor(const Facing& slice);
+  bool isOnWipe(const Facing& slice) const;
+  void bringWipeToCursor(const Facing& slice);
 
   pqRenderView* View;
   vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
   std::vector<unsigned long> Observers;
-  bool Dragging = false;
+
+  enum class Drag
+  {
+    Nothing,
+    Planes,
+    Wipe,
+  };
+  Drag Dragging = Drag::Nothing;
 };
 
 #endif

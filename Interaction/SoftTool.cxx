@@ -12,37 +12,36 @@ constexpr double GrowthPerClick = 1.1; // of the radius, of the wheel with Shift
 
 void SoftTool::hover(const HandEvent& event)
 {
-  const std::optional<glm::dvec3> tissue = this->Bench.probe.tissueAt(pixelOf(event));
-  if (!tissue)
+  const std::optional<Spot> spot = this->Bench.probe.spotAt(pixelOf(event));
+  if (!spot)
   {
     this->Bench.shown.Clear();
     return;
   }
-  this->showStroke(this->strokeAt(*tissue, Tool::Soft));
-  this->Bench.shown.SetHighlights({ *tissue });
+  this->showStroke(this->strokeAt(spot->position, Tool::Soft), spot->slice);
+  this->Bench.shown.SetHighlights({ spot->position });
 }
 
 bool SoftTool::press(const HandEvent& event)
 {
-  const std::optional<glm::dvec3> tissue = this->Bench.probe.tissueAt(pixelOf(event));
-  if (!tissue)
+  const std::optional<Spot> spot = this->Bench.probe.spotAt(pixelOf(event));
+  if (!spot || isForSlices(event, *spot))
   {
     return false;
   }
-  this->Anchor = *tissue;
-  this->GrippedAt = pixelOf(event);
+  this->Held = { *spot, pixelOf(event) };
   return true;
 }
 
 void SoftTool::pullTo(const glm::dvec2& pixel)
 {
-  const glm::dvec3 moved = this->pulled(this->Anchor, this->GrippedAt, pixel);
-  Stroke stroke = this->strokeAt(this->Anchor, Tool::Soft);
+  const glm::dvec3 moved = this->pulled(this->Held, pixel);
+  const glm::dvec3& anchor = this->Held.spot.position;
+  Stroke stroke = this->strokeAt(anchor, Tool::Soft);
   stroke.vector = this->beforeStrength(moved);
-  this->showStroke(stroke);
-  this->Bench.shown.SetLines(
-    vtkLatticeRepresentation::Mark, { { this->Anchor, this->Anchor + moved } });
-  this->Bench.shown.SetHighlights({ this->Anchor + moved });
+  this->showStroke(stroke, this->Held.spot.slice);
+  this->Bench.shown.SetLines(vtkLatticeRepresentation::Mark, { { anchor, anchor + moved } });
+  this->Bench.shown.SetHighlights({ anchor + moved });
   if (this->isDragging())
   {
     this->Bench.editor.change(stroke);
@@ -61,7 +60,7 @@ void SoftTool::drag(const HandEvent& event)
 bool SoftTool::wheel(const HandEvent& event)
 {
   const bool acts = event.shift && !event.control &&
-    (this->isDragging() || this->Bench.probe.tissueAt(pixelOf(event)));
+    (this->isDragging() || this->Bench.probe.spotAt(pixelOf(event)));
   if (acts)
   {
     ToolSettings& settings = this->Bench.settings;

@@ -19,8 +19,7 @@ public:
 private:
   void pullTo(const glm::dvec2& pixel);
 
-  glm::dvec3 Anchor{ 0.0 };    // mm, deformed frame before the stroke
-  glm::dvec2 GrippedAt{ 0.0 }; // pixel
+  Grip Held; // deformed frame before the stroke
 };
 
 #endif

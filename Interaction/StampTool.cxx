@@ -17,18 +17,33 @@ constexpr double CrossShare = 0.15;     // of the major radius
 // The stamp over the tissue at a pixel. False where there is none.
 bool StampTool::take(const glm::dvec2& pixel)
 {
-  const std::optional<glm::dvec3> tissue = this->Bench.probe.tissueAt(pixel);
-  const glm::dvec3 interest = this->Bench.probe.pointOfInterest();
-  if (!tissue || *tissue == interest)
+  const std::optional<Spot> spot = this->Bench.probe.spotAt(pixel);
+  if (!spot)
   {
     return false;
   }
-  this->Stroke = this->strokeAt(*tissue, Tool::Stamp);
-  this->Stroke.axis = glm::normalize(interest - *tissue);
+  const glm::dvec3 interest = this->interestFrom(*spot);
+  constexpr double nearest = 1e-3; // mm; nearer, it tells no direction
+  if (glm::distance(interest, spot->position) < nearest)
+  {
+    return false;
+  }
+  this->Slice = spot->slice;
+  this->Stroke = this->strokeAt(spot->position, Tool::Stamp);
+  this->Stroke.axis = glm::normalize(interest - spot->position);
   this->Amount = 0.0;
   this->Made = false;
   this->TakenAt = pixel;
   return true;
+}
+
+// The point of interest; in a slice the nearest point of the slice to it. So what is matched in a
+// slice moves within it: tissue pushed through it would leave the picture and bring other in.
+glm::dvec3 StampTool::interestFrom(const Spot& spot)
+{
+  const glm::dvec3 interest = this->Bench.probe.pointOfInterest();
+  return spot.slice ? interest - glm::dot(interest - spot.position, *spot.slice) * *spot.slice
+                    : interest;
 }
 
 bool StampTool::isAtLastStroke(const glm::dvec2& pixel) const
@@ -51,9 +66,9 @@ bool StampTool::isAtLastStroke(const glm::dvec2& pixel) const
 void StampTool::show(const brainshift::Stroke& stroke, double amount)
 {
   vtkLatticeRepresentation& shown = this->Bench.shown;
-  const glm::dvec3 interest = this->Bench.probe.pointOfInterest();
+  const glm::dvec3 interest = this->interestFrom({ stroke.anchor, this->Slice });
   const glm::dvec3 away = -glm::normalize(stroke.axis);
-  this->showStroke(stroke);
+  this->showStroke(stroke, this->Slice);
   std::vector<Polyline> marks = cross(interest, CrossShare * stroke.major);
   marks.push_back({ interest, stroke.anchor });
   marks.push_back({ stroke.anchor, stroke.anchor + amount * away });
@@ -93,7 +108,8 @@ void StampTool::apply(double amount)
 bool StampTool::press(const HandEvent& event)
 {
   this->settle();
-  if (!this->take(pixelOf(event)))
+  const std::optional<Spot> spot = this->Bench.probe.spotAt(pixelOf(event));
+  if (!spot || isForSlices(event, *spot) || !this->take(pixelOf(event)))
   {
     return false;
   }
@@ -170,7 +186,7 @@ void StampTool::changeRadius(const HandEvent& event)
 bool StampTool::wheel(const HandEvent& event)
 {
   const bool acts = !event.control && !event.alt &&
-    (this->isAtLastStroke(pixelOf(event)) || this->Bench.probe.tissueAt(pixelOf(event)));
+    (this->isAtLastStroke(pixelOf(event)) || this->Bench.probe.spotAt(pixelOf(event)));
   if (acts && event.shift)
   {
     this->changeRadius(event);
@@ -189,6 +205,12 @@ void StampTool::settle()
     this->Made = true;
     this->Bench.editor.commit(this->Amount < 0.0 ? "Stamp: push" : "Stamp: pull");
   }
+}
+
+void StampTool::turnAway()
+{
+  this->settle();
+  this->Made = false;
 }
 
 void StampTool::cancel()

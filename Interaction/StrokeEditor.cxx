@@ -2,6 +2,7 @@
 #include "StrokeEditor.h"
 
 #include "ActiveDeformation.h"
+#include "ShowingViews.h"
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
@@ -17,7 +18,6 @@
 #include <vtkSMTrace.h>
 #include <vtkSMViewProxy.h>
 
-#include <QSet>
 #include <QSignalBlocker>
 #include <QWidget>
 
@@ -27,32 +27,6 @@ using brainshift::Stroke;
 
 namespace
 {
-// Views that show the source or something made of it.
-void collectViews(pqPipelineSource* source, QSet<pqPipelineSource*>& seen, QSet<pqView*>& views)
-{
-  if (seen.contains(source))
-  {
-    return;
-  }
-  seen.insert(source);
-  for (pqView* view : source->getViews())
-  {
-    views.insert(view);
-  }
-  for (pqPipelineSource* consumer : source->getAllConsumers())
-  {
-    collectViews(consumer, seen, views);
-  }
-}
-
-QSet<pqView*> viewsOf(pqPipelineSource* source)
-{
-  QSet<pqPipelineSource*> seen;
-  QSet<pqView*> views;
-  collectViews(source, seen, views);
-  return views;
-}
-
 // The picture for now; the one at full quality follows when the stroke is done.
 void drawRoughly(pqView* view)
 {
@@ -71,7 +45,7 @@ void drawRoughly(pqView* view)
 
 void drawFully(pqPipelineSource* source)
 {
-  for (pqView* view : viewsOf(source))
+  for (pqView* view : viewsShowing(source))
   {
     view->render();
   }
@@ -308,7 +282,7 @@ void StrokeEditor::draw()
 {
   SCOPED_UNDO_EXCLUDE();
   this->Source->getProxy()->UpdateVTKObjects();
-  for (pqView* view : viewsOf(this->Source))
+  for (pqView* view : viewsShowing(this->Source))
   {
     drawRoughly(view);
   }

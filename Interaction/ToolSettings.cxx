@@ -119,6 +119,15 @@ void ToolSettings::setAxisHold(AxisHold axis)
   }
 }
 
+void ToolSettings::setGround(Ground ground)
+{
+  if (ground != this->GroundNow)
+  {
+    this->GroundNow = ground;
+    Q_EMIT this->changed();
+  }
+}
+
 void ToolSettings::keep(const char* name, double& kept, double value, const Range& range)
 {
   if (std::isfinite(value) && clamped(value, range) != kept)

@@ -38,6 +38,15 @@ public:
   };
   Q_ENUM(AxisHold)
 
+  // What the view under the cursor shows of the deformation.
+  enum class Ground
+  {
+    Volume,     // or nothing
+    Slices,     // in 3D
+    FlatSlices, // slices that face a 2D view
+  };
+  Q_ENUM(Ground)
+
   struct Range
   {
     double least;
@@ -48,6 +57,7 @@ public:
 
   Tool tool() const { return this->ToolInHand; }       // default None
   AxisHold axisHold() const { return this->HeldAxis; } // default None
+  Ground ground() const { return this->GroundNow; }    // default Volume
   double radius() const;                               // Soft: mm, default 25
   double majorRadius() const;                          // Stamp: half the long axis, mm, default 40
   double minorRadius() const;                          // Stamp: radius across, mm, default 25
@@ -67,6 +77,7 @@ public Q_SLOTS:
   // Numbers are clamped into their range.
   void setTool(ToolSettings::Tool tool);
   void setAxisHold(ToolSettings::AxisHold axis);
+  void setGround(ToolSettings::Ground ground);
   void setRadius(double millimetres);
   void setMajorRadius(double millimetres);
   void setMinorRadius(double millimetres);
@@ -83,6 +94,7 @@ private:
 
   Tool ToolInHand = Tool::None;
   AxisHold HeldAxis = AxisHold::None;
+  Ground GroundNow = Ground::Volume;
   double Radius = 25.0;
   double MajorRadius = 40.0;
   double MinorRadius = 25.0;

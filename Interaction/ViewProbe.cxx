@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ViewProbe.h"
 
+#include "ActiveDeformation.h"
+#include "KeptPictures.h"
+
 #include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
@@ -8,48 +11,22 @@
 
 #include <vtkCamera.h>
 #include <vtkRenderer.h>
-#include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 #include <vtkSMRenderViewProxy.h>
-#include <vtkSMSessionProxyManager.h>
 #include <vtkSMTrace.h>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vector_relational.hpp>
 
 #include <cmath>
-#include <cstring>
 
 using namespace brainshift;
 
 namespace
 {
-vtkSmartPointer<vtkSMProxy> makeReport(vtkSMProxy* beside, const char* name)
-{
-  SCOPED_UNDO_EXCLUDE();
-  auto report = vtk::TakeSmartPointer(
-    beside->GetSession() ? beside->GetSessionProxyManager()->NewProxy("misc", name) : nullptr);
-  report->PrototypeOn(); // questions are no steps to undo
-  return report;
-}
-
-void point(vtkSMProxy* report, const char* property, vtkSMProxy* at)
-{
-  vtkSMPropertyHelper helper(report, property);
-  if (helper.GetNumberOfElements() != 1 || helper.GetAsProxy() != at)
-  {
-    helper.Set(at);
-  }
-}
-
-std::vector<double> told(vtkSMProxy* report, const char* name)
-{
-  report->UpdateVTKObjects();
-  report->UpdatePropertyInformation(report->GetProperty(name));
-  return vtkSMPropertyHelper(report, name).GetDoubleArray();
-}
-
 glm::dvec3 tripleAt(const std::vector<double>& numbers, std::size_t first)
 {
   return { numbers[first], numbers[first + 1], numbers[first + 2] };
@@ -65,38 +42,14 @@ glm::dvec3 worldFromDisplay(vtkRenderer* renderer, const glm::dvec2& pixel, doub
 }
 }
 
-ViewProbe::ViewProbe(pqPipelineSource* deformation, pqRenderView* view)
+ViewProbe::ViewProbe(pqPipelineSource* deformation, pqRenderView* view, KeptPictures& kept)
   : Deformation(deformation)
   , View(view)
+  , Kept(kept)
   , Picture(makeReport(view->getProxy(), "DeformedVolumeReport"))
-  , Points(makeReport(deformation->getProxy(), "LatticeReport"))
+  , Points(deformation->getProxy())
 {
   point(this->Picture, "View", view->getProxy());
-  point(this->Points, "Filter", deformation->getProxy());
-}
-
-ViewProbe::~ViewProbe()
-{
-  this->keepPictureOf(nullptr);
-}
-
-void ViewProbe::keepPictureOf(pqDataRepresentation* shown)
-{
-  if (shown == this->Kept)
-  {
-    return;
-  }
-  SCOPED_UNDO_EXCLUDE();
-  for (pqDataRepresentation* representation : { this->Kept.data(), shown })
-  {
-    if (representation)
-    {
-      vtkSMPropertyHelper(representation->getProxy(), "KeepPicture", true)
-        .Set(representation == shown);
-      representation->getProxy()->UpdateVTKObjects();
-    }
-  }
-  this->Kept = shown;
 }
 
 vtkRenderer* ViewProbe::renderer() const
@@ -104,92 +57,62 @@ vtkRenderer* ViewProbe::renderer() const
   return this->View->getRenderViewProxy()->GetRenderer();
 }
 
-pqDataRepresentation* ViewProbe::shownAs() const
+std::optional<Spot> ViewProbe::spotAt(const glm::dvec2& pixel)
 {
-  pqDataRepresentation* shown = this->Deformation->getRepresentation(this->View);
-  if (!shown || !shown->isVisible())
-  {
-    return nullptr;
-  }
-  const char* kind = vtkSMPropertyHelper(shown->getProxy(), "Representation", true).GetAsString();
-  return kind && std::strcmp(kind, "Deformed Volume") == 0 ? shown : nullptr;
-}
-
-std::optional<glm::dvec3> ViewProbe::tissueAt(const glm::dvec2& pixel)
-{
-  pqDataRepresentation* shown = this->shownAs();
-  this->keepPictureOf(shown);
+  pqDataRepresentation* shown = shownBent(this->Deformation, this->View);
   if (!shown)
   {
     return {};
   }
+  this->Kept.keep(shown);
   point(this->Picture, "Representation", shown->getProxy());
   const int at[2] = { static_cast<int>(pixel.x), static_cast<int>(pixel.y) };
   vtkSMPropertyHelper(this->Picture, "Pixel").Set(at, 2);
   const std::vector<double> tissue = told(this->Picture, "Tissue");
-  if (tissue.size() != 4 || tissue[3] == 0.0)
+  if (tissue.size() != 7 || tissue[3] == 0.0)
   {
     return {};
   }
-  return tripleAt(tissue, 0);
-}
-
-std::vector<Handle> ViewProbe::ask()
-{
-  constexpr std::size_t numbersPerHandle = 9;
-  vtkSMPropertyHelper(this->Points, "Moved").Set(1);
-  const std::vector<double> numbers = told(this->Points, "Handles");
-  std::vector<Handle> handles;
-  for (std::size_t first = 0; first + numbersPerHandle <= numbers.size(); first += numbersPerHandle)
+  Spot spot{ tripleAt(tissue, 0), std::nullopt };
+  if (showsSlices(shown))
   {
-    handles.push_back({ glm::ivec3(tripleAt(numbers, first)), tripleAt(numbers, first + 3),
-      tripleAt(numbers, first + 6) });
+    spot.slice = tripleAt(tissue, 4);
   }
-  return handles;
+  return spot;
 }
 
-std::vector<Handle> ViewProbe::handlesNear(const glm::dvec3& position, double radius)
+std::vector<Handle> ViewProbe::handlesNear(const Spot& spot, double radius, double movedRadius)
 {
-  const double ball[4] = { position.x, position.y, position.z, radius };
-  const double noCone[8] = { 0, 0, 0, 0, 0, 1, 0, 0 };
-  vtkSMPropertyHelper(this->Points, "Ball").Set(ball, 4);
-  vtkSMPropertyHelper(this->Points, "Cone").Set(noCone, 8);
-  return this->ask();
+  LatticeProbe::Plane plane;
+  const std::optional<Grid> grid = spot.slice ? this->lattice() : std::nullopt;
+  if (grid)
+  {
+    // One layer of an unbent lattice, or two where the slice lies in the middle between them.
+    constexpr double cells = 0.55;
+    const glm::dvec3 along = glm::abs(glm::transpose(grid->direction) * *spot.slice);
+    plane = { spot.position, *spot.slice, cells * glm::dot(along, grid->spacing) };
+  }
+  return this->Points.around(spot.position, radius, movedRadius, plane);
 }
 
 std::vector<Handle> ViewProbe::handlesUnder(const glm::dvec2& pixel, double pixels)
 {
+  pqDataRepresentation* shown = shownBent(this->Deformation, this->View);
+  if (shown && showsSlices(shown))
+  {
+    return {}; // beside a slice are no control points of it
+  }
   const Ray ray = this->rayAt(pixel);
-  const glm::dvec3 ahead = ray.origin + 100.0 * ray.direction;
+  constexpr double ahead = 100.0; // mm
   const double radius = pixels * this->millimetresPerPixel(ray.origin);
-  const double growth = (pixels * this->millimetresPerPixel(ahead) - radius) / 100.0;
-  const double cone[8] = { ray.origin.x, ray.origin.y, ray.origin.z, ray.direction.x,
-    ray.direction.y, ray.direction.z, radius, growth };
-  const double noBall[4] = { 0, 0, 0, 0 };
-  vtkSMPropertyHelper(this->Points, "Ball").Set(noBall, 4);
-  vtkSMPropertyHelper(this->Points, "Cone").Set(cone, 8);
-  return this->ask();
+  const double farther =
+    pixels * this->millimetresPerPixel(ray.origin + ahead * ray.direction) - radius;
+  return this->Points.within({ ray.origin, ray.direction, radius, farther / ahead });
 }
 
 std::optional<Grid> ViewProbe::lattice()
 {
-  const std::vector<double> numbers = told(this->Points, "Geometry");
-  if (numbers.size() != 18)
-  {
-    return {};
-  }
-  Grid grid;
-  grid.dimensions = glm::ivec3(tripleAt(numbers, 0));
-  grid.origin = tripleAt(numbers, 3);
-  grid.spacing = tripleAt(numbers, 6);
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 3; ++column)
-    {
-      grid.direction[column][row] = numbers[9 + 3 * row + column];
-    }
-  }
-  return grid;
+  return this->Points.lattice();
 }
 
 double ViewProbe::strength() const
@@ -224,12 +147,17 @@ void ViewProbe::setPointOfInterest(const glm::dvec3& position)
   filter->UpdateVTKObjects();
 }
 
-glm::dvec3 ViewProbe::positionAt(const glm::dvec2& pixel, const glm::dvec3& depth) const
+glm::dvec3 ViewProbe::ahead() const
+{
+  const double* direction = this->renderer()->GetActiveCamera()->GetDirectionOfProjection();
+  return { direction[0], direction[1], direction[2] };
+}
+
+glm::dvec3 ViewProbe::positionAt(
+  const glm::dvec2& pixel, const glm::dvec3& depth, const glm::dvec3& normal) const
 {
   const Ray ray = this->rayAt(pixel);
-  const double* normal = this->renderer()->GetActiveCamera()->GetDirectionOfProjection();
-  const glm::dvec3 forward(normal[0], normal[1], normal[2]);
-  const double along = glm::dot(depth - ray.origin, forward) / glm::dot(ray.direction, forward);
+  const double along = glm::dot(depth - ray.origin, normal) / glm::dot(ray.direction, normal);
   return ray.origin + along * ray.direction;
 }
 

@@ -6,10 +6,8 @@
 #ifndef BrainShift_ViewProbe_h
 #define BrainShift_ViewProbe_h
 
-#include "Grid.h"
-#include "LatticeShapes.h"
+#include "LatticeProbe.h"
 
-#include <pqDataRepresentation.h>
 #include <vtkSmartPointer.h>
 
 #include <QPointer>
@@ -20,24 +18,33 @@
 #include <optional>
 #include <vector>
 
+class KeptPictures;
 class pqPipelineSource;
 class pqRenderView;
 class vtkRenderer;
 class vtkSMProxy;
 
+// Tissue under the cursor.
+struct Spot
+{
+  glm::dvec3 position{ 0.0 };
+  std::optional<glm::dvec3> slice; // unit normal of the slice that shows it; none in a volume
+};
+
 class ViewProbe
 {
 public:
-  ViewProbe(pqPipelineSource* deformation, pqRenderView* view);
-  ~ViewProbe();
+  // `kept` outlives it.
+  ViewProbe(pqPipelineSource* deformation, pqRenderView* view, KeptPictures& kept);
 
   // Where the picture drawn last shows tissue; nothing is drawn. None where it shows none, or the
-  // volume is not shown as Deformed Volume.
-  std::optional<glm::dvec3> tissueAt(const glm::dvec2& pixel);
+  // volume is shown neither as Deformed Volume nor as Deformed Slices.
+  std::optional<Spot> spotAt(const glm::dvec2& pixel);
 
-  // Control points within `radius` mm of a position, and those that moved.
-  std::vector<brainshift::Handle> handlesNear(const glm::dvec3& position, double radius);
-  // Control points within `pixels` of what lies under a pixel, and those that moved.
+  // Control points within `radius` mm of a spot, and those that moved within `movedRadius`; in a
+  // slice, only what lies near the slice.
+  std::vector<brainshift::Handle> handlesNear(const Spot& spot, double radius, double movedRadius);
+  // Control points within `pixels` of what lies under a pixel; none beside slices.
   std::vector<brainshift::Handle> handlesUnder(const glm::dvec2& pixel, double pixels);
 
   // The control points' grid, rest frame; none before the filter was applied.
@@ -48,8 +55,11 @@ public:
   glm::dvec3 pointOfInterest();
   void setPointOfInterest(const glm::dvec3& position); // one undo step
 
-  // Eye to scene, in the plane through `depth` that is parallel to the screen.
-  glm::dvec3 positionAt(const glm::dvec2& pixel, const glm::dvec3& depth) const;
+  // Where the camera looks: unit.
+  glm::dvec3 ahead() const;
+  // Eye to scene, in the plane through `depth` across `normal`.
+  glm::dvec3 positionAt(
+    const glm::dvec2& pixel, const glm::dvec3& depth, const glm::dvec3& normal) const;
   glm::dvec2 pixelOf(const glm::dvec3& position) const;
   double millimetresPerPixel(const glm::dvec3& position) const;
   struct Ray
@@ -61,16 +71,12 @@ public:
 
 private:
   vtkRenderer* renderer() const;
-  pqDataRepresentation* shownAs() const; // null unless as Deformed Volume
-  // While a tool is in hand, only what lies over the picture changes from event to event.
-  void keepPictureOf(pqDataRepresentation* shown);
-  std::vector<brainshift::Handle> ask();
 
   QPointer<pqPipelineSource> Deformation;
   QPointer<pqRenderView> View;
-  QPointer<pqDataRepresentation> Kept; // whose picture is kept
+  KeptPictures& Kept;
   vtkSmartPointer<vtkSMProxy> Picture; // DeformedVolumeReport
-  vtkSmartPointer<vtkSMProxy> Points;  // LatticeReport
+  LatticeProbe Points;
 };
 
 #endif

@@ -51,6 +51,11 @@ void ViewTool::cancel()
 
 void ViewTool::settle() {}
 
+void ViewTool::turnAway()
+{
+  this->settle();
+}
+
 Stroke ViewTool::strokeAt(const glm::dvec3& anchor, Tool tool) const
 {
   const ToolSettings& settings = this->Bench.settings;
@@ -63,27 +68,48 @@ Stroke ViewTool::strokeAt(const glm::dvec3& anchor, Tool tool) const
   return stroke;
 }
 
-glm::dvec3 ViewTool::pulled(
-  const glm::dvec3& grip, const glm::dvec2& grippedAt, const glm::dvec2& pixel)
+glm::dvec3 ViewTool::pulledInPlane(const Grip& grip, const glm::dvec2& pixel)
+{
+  const ViewProbe& probe = this->Bench.probe;
+  const glm::dvec3& from = grip.spot.position;
+  const auto along = [&](const glm::dvec3& normal) {
+    return probe.positionAt(pixel, from, normal) - probe.positionAt(grip.pixel, from, normal);
+  };
+  const glm::dvec3 ahead = probe.ahead();
+  if (!grip.spot.slice)
+  {
+    return along(ahead);
+  }
+  // A slice seen from its edge would run away under the hand: there it follows as seen.
+  const glm::dvec3& normal = *grip.spot.slice;
+  constexpr double leastCosine = 0.2;
+  const glm::dvec3 asSeen = along(ahead);
+  return std::abs(glm::dot(normal, ahead)) < leastCosine
+    ? asSeen - glm::dot(asSeen, normal) * normal
+    : along(normal);
+}
+
+glm::dvec3 ViewTool::pulled(const Grip& grip, const glm::dvec2& pixel)
 {
   ViewProbe& probe = this->Bench.probe;
   const ToolSettings::AxisHold hold = this->Bench.settings.axisHold();
   if (hold == ToolSettings::AxisHold::None)
   {
-    return probe.positionAt(pixel, grip) - probe.positionAt(grippedAt, grip);
+    return this->pulledInPlane(grip, pixel);
   }
+  const glm::dvec3& from = grip.spot.position;
   glm::dvec3 axis(0.0);
   axis[static_cast<int>(hold) - static_cast<int>(ToolSettings::AxisHold::X)] = 1.0;
   // As far along the axis as the hand went along the axis' image on the screen.
-  const double millimetre = probe.millimetresPerPixel(grip); // short, so that perspective is none
-  const glm::dvec2 onScreen = probe.pixelOf(grip + millimetre * axis) - probe.pixelOf(grip);
+  const double millimetre = probe.millimetresPerPixel(from); // short, so that perspective is none
+  const glm::dvec2 onScreen = probe.pixelOf(from + millimetre * axis) - probe.pixelOf(from);
   constexpr double leastPixels = 0.1; // an axis that points at the eye cannot be followed
   const double length = glm::length(onScreen);
   if (length < leastPixels)
   {
     return glm::dvec3(0.0);
   }
-  const double alongScreen = glm::dot(pixel - grippedAt, onScreen / length);
+  const double alongScreen = glm::dot(pixel - grip.pixel, onScreen / length);
   return alongScreen / length * millimetre * axis;
 }
 
@@ -94,10 +120,13 @@ glm::dvec3 ViewTool::beforeStrength(const glm::dvec3& displacement) const
   return strength < least ? displacement : displacement / strength;
 }
 
-void ViewTool::showStroke(const Stroke& stroke)
+void ViewTool::showStroke(const Stroke& stroke, const std::optional<glm::dvec3>& slice)
 {
+  const auto outline = [&](double share) {
+    return slice ? std::vector<Polyline>{ sectionOf(stroke, share, *slice) }
+                 : outlineOf(stroke, share);
+  };
   vtkLatticeRepresentation& shown = this->Bench.shown;
-  shown.SetLines(vtkLatticeRepresentation::Strong, outlineOf(stroke, 1.0));
-  shown.SetLines(
-    vtkLatticeRepresentation::Weak, outlineOf(stroke, shareOfHalfWeight(stroke.sigma)));
+  shown.SetLines(vtkLatticeRepresentation::Strong, outline(1.0));
+  shown.SetLines(vtkLatticeRepresentation::Weak, outline(shareOfHalfWeight(stroke.sigma)));
 }

@@ -22,6 +22,13 @@ struct ToolBench
   vtkLatticeRepresentation& shown;
 };
 
+// What a drag holds.
+struct Grip
+{
+  Spot spot;               // where it began
+  glm::dvec2 pixel{ 0.0 }; // there
+};
+
 class ViewTool
 {
 public:
@@ -43,17 +50,29 @@ public:
   virtual void cancel();
   // What is under the hand is done; one undo step.
   virtual void settle();
+  // The same; what is under the cursor has changed, so the next stroke is another one.
+  virtual void turnAway();
 
 protected:
   brainshift::Stroke strokeAt(const glm::dvec3& anchor, brainshift::Tool tool) const;
-  // From a grip to the pixel, in the plane of the screen, or along the axis that is held.
-  glm::dvec3 pulled(const glm::dvec3& grip, const glm::dvec2& grippedAt, const glm::dvec2& pixel);
+  // From a grip to the pixel: in the plane of the slice or else of the screen, or along the axis
+  // that is held.
+  glm::dvec3 pulled(const Grip& grip, const glm::dvec2& pixel);
   // Displacements are drawn times Strength, so a stroke must be as much longer.
   glm::dvec3 beforeStrength(const glm::dvec3& displacement) const;
-  void showStroke(const brainshift::Stroke& stroke);
+  // Its outline, in a slice the section by it.
+  void showStroke(const brainshift::Stroke& stroke, const std::optional<glm::dvec3>& slice);
+  // A drag with Shift in a slice brings the other slices there.
+  static bool isForSlices(const brainshift::HandEvent& event, const Spot& spot)
+  {
+    return event.shift && spot.slice;
+  }
   bool isDragging() const { return this->Bench.editor.isEditing(); }
 
   ToolBench Bench;
+
+private:
+  glm::dvec3 pulledInPlane(const Grip& grip, const glm::dvec2& pixel);
 };
 
 inline glm::dvec2 pixelOf(const brainshift::HandEvent& event)

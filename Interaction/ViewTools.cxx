@@ -2,6 +2,7 @@
 #include "ViewTools.h"
 
 #include "ActiveDeformation.h"
+#include "SliceMouse.h"
 #include "StrokeEditor.h"
 #include "ViewProbe.h"
 #include "ViewTool.h"
@@ -15,6 +16,7 @@
 #include <pqServerManagerModel.h>
 
 #include <vtkLatticeRepresentation.h>
+#include <vtkSMPropertyHelper.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -31,6 +33,20 @@ namespace
 {
 constexpr int SettleMs = 600; // between two clicks of one burst of the wheel, at most
 
+constexpr int Flat = 1; // InteractionMode of a 2D view
+
+ToolSettings::Ground groundOf(pqPipelineSource* deformation, pqRenderView* view)
+{
+  pqDataRepresentation* shown = shownBent(deformation, view);
+  if (!shown || !showsSlices(shown))
+  {
+    return ToolSettings::Ground::Volume;
+  }
+  return vtkSMPropertyHelper(view->getProxy(), "InteractionMode").GetAsInt() == Flat
+    ? ToolSettings::Ground::FlatSlices
+    : ToolSettings::Ground::Slices;
+}
+
 // Where a person types, keys are letters.
 bool isTyping()
 {
@@ -41,6 +57,7 @@ bool isTyping()
 
 ViewTools::ViewTools(QObject* parent)
   : QObject(parent)
+  , Cursor(this)
 {
   this->Refresh.setSingleShot(true);
   this->Refresh.setInterval(0);
@@ -54,10 +71,26 @@ ViewTools::ViewTools(QObject* parent)
       this->Tool->settle();
     }
   });
+  this->followApplication();
+  // Later, parts of the window that hear of changes are gone already.
+  QObject::connect(qApp, &QCoreApplication::aboutToQuit, this, [this] {
+    this->stopShowingBefore();
+    this->putDown();
+    this->Kept.letGo();
+  });
+  qApp->installEventFilter(this);
+}
+
+void ViewTools::followApplication()
+{
   const auto soon = [this] { this->Refresh.start(); };
   pqActiveObjects* active = &pqActiveObjects::instance();
   QObject::connect(ToolSettings::instance(), &ToolSettings::changed, this, soon);
-  QObject::connect(active, &pqActiveObjects::viewChanged, this, soon);
+  QObject::connect(active, &pqActiveObjects::viewChanged, this, [this](pqView* view) {
+    this->Under = qobject_cast<pqRenderView*>(view);
+    this->Refresh.start();
+  });
+  QObject::connect(&this->Cursor, &CursorWatch::moved, this, &ViewTools::followCursor);
   QObject::connect(active, &pqActiveObjects::sourceChanged, this, soon);
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
   QObject::connect(model, &pqServerManagerModel::sourceAdded, this, soon);
@@ -67,6 +100,7 @@ ViewTools::ViewTools(QObject* parent)
     if (source == this->Deformation)
     {
       this->putDown();
+      this->Kept.letGo();
     }
   });
   QObject::connect(model, &pqServerManagerModel::preViewRemoved, this, [this](auto* view) {
@@ -75,10 +109,12 @@ ViewTools::ViewTools(QObject* parent)
       this->cancel();
       this->putDown();
     }
+    if (view == this->Under)
+    {
+      this->Under = nullptr;
+      ToolSettings::instance()->setGround(ToolSettings::Ground::Volume);
+    }
   });
-  // Later, parts of the window that hear of changes are gone already.
-  QObject::connect(qApp, &QCoreApplication::aboutToQuit, this, &ViewTools::putDown);
-  qApp->installEventFilter(this);
 }
 
 ViewTools::~ViewTools()
@@ -102,7 +138,6 @@ void ViewTools::stopShowingBefore()
 
 void ViewTools::putDown()
 {
-  this->stopShowingBefore();
   if (this->Tool && this->isAlive())
   {
     this->Tool->settle();
@@ -122,14 +157,21 @@ void ViewTools::putDown()
 void ViewTools::refresh()
 {
   ToolSettings* settings = ToolSettings::instance();
-  pqPipelineSource* deformation = activeDeformation();
-  auto view = qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
+  pqRenderView* view = this->Under
+    ? this->Under.data()
+    : qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
+  pqPipelineSource* deformation = activeDeformation(view);
   const bool both = deformation && view && deformation->getServer() == view->getServer();
   const ToolSettings::Tool tool = both ? settings->tool() : ToolSettings::Tool::None;
   if (!this->isAlive() || tool != this->ToolInHand || deformation != this->Deformation ||
     view != this->View)
   {
+    const bool sameVolume = deformation == this->Deformation;
     this->putDown();
+    if (tool == ToolSettings::Tool::None || !sameVolume)
+    {
+      this->Kept.letGo();
+    }
     if (tool != ToolSettings::Tool::None)
     {
       this->Deformation = deformation;
@@ -138,22 +180,41 @@ void ViewTools::refresh()
       this->ToolInHand = tool;
       this->Widget = std::make_unique<WidgetInView>(
         view, [this](const HandEvent& event) { return this->handle(event); });
-      this->Probe = std::make_unique<ViewProbe>(deformation, view);
+      this->Probe = std::make_unique<ViewProbe>(deformation, view, this->Kept);
       this->Tool = ViewTool::make(
         tool, { *this->Probe, *this->Editor, *settings, *this->Widget->representation() });
     }
   }
+  this->suggestRanges();
+}
+
+void ViewTools::suggestRanges()
+{
   if (const auto lattice = this->Probe ? this->Probe->lattice() : std::nullopt)
   {
     const glm::dvec3& spacing = lattice->spacing;
-    settings->suggestRanges(glm::length(spacing * glm::dvec3(lattice->dimensions - 1)),
+    ToolSettings::instance()->suggestRanges(
+      glm::length(spacing * glm::dvec3(lattice->dimensions - 1)),
       std::max({ spacing.x, spacing.y, spacing.z }));
   }
 }
 
+void ViewTools::followCursor(pqRenderView* view)
+{
+  if (this->Holding)
+  {
+    return;
+  }
+  if (view != this->Under)
+  {
+    this->Under = view;
+    this->refresh();
+  }
+  ToolSettings::instance()->setGround(groundOf(activeDeformation(view), view));
+}
+
 bool ViewTools::handle(const HandEvent& event)
 {
-  this->CursorInside = event.kind != HandEvent::Kind::Leave;
   this->CursorX = event.x;
   this->CursorY = event.y;
   if (!this->Tool || !this->isAlive() || this->ShowingBefore)
@@ -202,6 +263,10 @@ bool ViewTools::pass(const HandEvent& event)
     case HandEvent::Kind::Wheel:
       this->Settle.start();
       this->Zooming = this->Zooming || !this->Tool->wheel(event);
+      if (this->Zooming && !this->Holding)
+      {
+        this->Tool->turnAway();
+      }
       return !this->Zooming;
     case HandEvent::Kind::Leave:
       if (!this->Holding)
@@ -247,20 +312,25 @@ void ViewTools::holdAxis(ToolSettings::AxisHold axis)
 
 void ViewTools::setInterest()
 {
-  if (const auto tissue = this->Probe->tissueAt({ this->CursorX, this->CursorY }))
+  if (const auto spot = this->Probe->spotAt({ this->CursorX, this->CursorY }))
   {
-    this->Probe->setPointOfInterest(*tissue);
+    this->Probe->setPointOfInterest(spot->position);
     this->Widget->representation()->Clear();
     this->drawSoon();
   }
 }
 
+StrokeEditor* ViewTools::editorUnderCursor() const
+{
+  pqPipelineSource* deformation = activeDeformation(this->Cursor.view());
+  const bool applied = deformation && deformation->modifiedState() != pqProxy::UNINITIALIZED;
+  return applied ? StrokeEditor::of(deformation) : nullptr;
+}
+
 bool ViewTools::knowsKey(int key) const
 {
-  if (!this->Tool || !this->isAlive())
-  {
-    return false;
-  }
+  const bool inHand = this->Tool && this->isAlive();
+  const bool overView = this->Cursor.view() && !this->Holding && !isTyping();
   switch (key)
   {
     case Qt::Key_X:
@@ -268,13 +338,28 @@ bool ViewTools::knowsKey(int key) const
     case Qt::Key_Z:
       return this->Holding;
     case Qt::Key_Escape:
-      return this->Holding || this->Editor->isEditing();
+      return inHand && (this->Holding || this->Editor->isEditing());
     case Qt::Key_I:
-      return this->CursorInside && this->ToolInHand == ToolSettings::Tool::Stamp && !isTyping();
+      return inHand && overView && this->ToolInHand == ToolSettings::Tool::Stamp;
     case Qt::Key_O:
-      return this->CursorInside && !this->Holding && !isTyping();
+      return overView && this->editorUnderCursor();
+    case Qt::Key_PageUp:
+    case Qt::Key_PageDown:
+      return overView && ToolSettings::instance()->ground() == ToolSettings::Ground::FlatSlices;
     default:
       return false;
+  }
+}
+
+void ViewTools::stepSlices(int voxels)
+{
+  if (this->Tool && this->isAlive())
+  {
+    this->Tool->turnAway();
+  }
+  if (SliceMouse* slices = SliceMouse::of(this->Cursor.view()))
+  {
+    slices->step(voxels);
   }
 }
 
@@ -298,8 +383,12 @@ bool ViewTools::pressKey(int key)
       this->setInterest();
       break;
     case Qt::Key_O:
-      this->ShowingBefore = this->Editor;
-      this->Editor->showBefore(true);
+      this->ShowingBefore = this->editorUnderCursor();
+      this->ShowingBefore->showBefore(true);
+      break;
+    case Qt::Key_PageUp:
+    case Qt::Key_PageDown:
+      this->stepSlices(key == Qt::Key_PageUp ? 1 : -1);
       break;
   }
   return true;
@@ -332,5 +421,8 @@ bool ViewTools::eventFilter(QObject* watched, QEvent* event)
     event->accept(); // or a shortcut of the window comes first
     return true;
   }
-  return type == QEvent::KeyPress && !key->isAutoRepeat() ? this->pressKey(key->key()) : true;
+  // A key that is held goes on through the slices, and does nothing else again.
+  const bool repeats = key->key() == Qt::Key_PageUp || key->key() == Qt::Key_PageDown;
+  const bool acts = type == QEvent::KeyPress && (repeats || !key->isAutoRepeat());
+  return acts ? this->pressKey(key->key()) : true;
 }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Puts the tool in hand into the active view and takes it out again: there is one hand, so there is
-// one of these. It also hears the keys that tools know.
+// Puts the tool in hand into the view that the cursor came to last, or that was made active since,
+// and takes it out again: there is one hand, so there is one of these. It also hears the keys that
+// tools and slices know.
 #ifndef BrainShift_ViewTools_h
 #define BrainShift_ViewTools_h
 
+#include "CursorWatch.h"
+#include "KeptPictures.h"
 #include "ToolSettings.h"
 
 #include <QObject>
@@ -32,12 +35,16 @@ public:
   explicit ViewTools(QObject* parent);
   ~ViewTools() override;
 
-  // Keys, while the cursor is over the view: I point of interest, O as loaded while held; while
-  // something is under the hand: X, Y, Z hold an axis or let it go, Escape cancels.
+  // Keys, while the cursor is over a view: O as loaded while held; Page Up and Page Down through
+  // the slices of a 2D view; with the stamp in hand I point of interest; while something is under
+  // the hand X, Y, Z hold an axis or let it go, Escape cancels.
   bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
+  void followApplication(); // from now on
+  void followCursor(pqRenderView* view);
   void refresh(); // tool, view and filter as they are now
+  void suggestRanges();
   void putDown();
   bool handle(const brainshift::HandEvent& event);
   bool pass(const brainshift::HandEvent& event);
@@ -45,11 +52,16 @@ private:
   bool pressKey(int key);
   void holdAxis(ToolSettings::AxisHold axis);
   void setInterest();
+  void stepSlices(int voxels);
+  StrokeEditor* editorUnderCursor() const; // null if nothing can be bent there
   void stopShowingBefore();
   void cancel();
   void drawSoon();
   bool isAlive() const;
 
+  CursorWatch Cursor;
+  QPointer<pqRenderView> Under; // where the tool belongs
+  KeptPictures Kept;            // for as long as a tool is in hand
   QPointer<pqPipelineSource> Deformation;
   QPointer<pqRenderView> View;
   QPointer<StrokeEditor> Editor;
@@ -61,7 +73,6 @@ private:
   QTimer Refresh; // after the events that may have changed something
   QTimer Settle;  // ends a burst of wheel clicks
   bool Holding = false;
-  bool CursorInside = false;
   bool Zooming = false; // a burst of wheel clicks that began away from tissue
   int CursorX = 0;      // pixels from the view's lower left corner
   int CursorY = 0;

@@ -70,12 +70,19 @@ void HelpActions::showShortcuts()
   const Shortcut inView[] = {
     { tr("Drag"), QT_TR_NOOP("Move, Soft: moves tissue. Stamp: pulls and pushes along its axis") },
     { tr("Wheel over tissue"), QT_TR_NOOP("Stamp: pulls and pushes by the millimetres per click") },
+    { tr("Over a slice"), QT_TR_NOOP("All of this stays within the slice") },
     { tr("Shift+Wheel"), QT_TR_NOOP("Soft: the radius. Stamp: the major radius") },
     { tr("Shift+Click"), QT_TR_NOOP("Move: one control point more, or one less") },
     { tr("X, Y, Z"), QT_TR_NOOP("While dragging: holds the drag to that axis; again: lets go") },
     { tr("I"), QT_TR_NOOP("Stamp: the point of interest is the tissue under the cursor") },
-    { tr("O"), QT_TR_NOOP("Shows the volume as loaded for as long as it is held down") },
     { tr("Escape"), QT_TR_NOOP("Gives up what is under the hand") },
+    { tr("K"), QT_TR_NOOP("Compare Volumes: deformed volume and reference in turn; again: ends") },
+  };
+  const Shortcut withoutTool[] = {
+    { tr("O"), QT_TR_NOOP("Shows the volume as loaded for as long as it is held down") },
+    { tr("Wheel, Page Up, Page Down"), QT_TR_NOOP("2D view of slices: the next slice") },
+    { tr("Shift+Drag"), QT_TR_NOOP("2D view of slices: brings the other slices to the cursor") },
+    { tr("Ctrl+Wheel"), QT_TR_NOOP("2D view of slices: zooms") },
   };
   const Shortcut inList[] = {
     { tr("Space"), QT_TR_NOOP("Disables or enables the selected strokes") },
@@ -90,6 +97,11 @@ void HelpActions::showShortcuts()
   }
   text += heading(tr("In the view, with a tool in hand"));
   for (const Shortcut& shortcut : inView)
+  {
+    text += row(shortcut.keys, tr(shortcut.what));
+  }
+  text += heading(tr("In the view, also without a tool"));
+  for (const Shortcut& shortcut : withoutTool)
   {
     text += row(shortcut.keys, tr(shortcut.what));
   }

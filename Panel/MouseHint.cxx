@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MouseHint.h"
 
-#include "ToolSettings.h"
-
 #include <QCoreApplication>
 
 using Tool = ToolSettings::Tool;
 using AxisHold = ToolSettings::AxisHold;
+using Ground = ToolSettings::Ground;
 
 namespace
 {
@@ -35,29 +34,55 @@ QString heldAxis(AxisHold axis)
   }
   return {};
 }
+
+QString inSlice(Ground ground)
+{
+  return ground == Ground::Volume ? QString() : tr(" within the slice");
 }
 
-QString mouseHint(const ToolSettings& settings)
+// Who has the wheel in a 2D view of slices.
+QString wheelHint(Tool tool, Ground ground)
 {
+  if (ground != Ground::FlatSlices)
+  {
+    return {};
+  }
+  return tool == Tool::Stamp ? tr(" Page Up/Down and the wheel beside the slice: next slice.")
+                             : tr(" Wheel: next slice.");
+}
+
+QString restingHint(Ground ground)
+{
+  return ground == Ground::FlatSlices
+    ? tr("Wheel: next slice; Shift+drag: other slices to the cursor; Ctrl+wheel: zoom.")
+    : tr("No tool in hand: the mouse moves the camera.");
+}
+}
+
+QString mouseHint(const ToolSettings& settings, Ground ground)
+{
+  const QString wheel = wheelHint(settings.tool(), ground);
   switch (settings.tool())
   {
     case Tool::Move:
-      return tr("Move: drag a control point. Shift+click selects several; X, Y or Z while dragging "
-                "holds "
-                "an axis. Elsewhere the mouse moves the camera.") +
-        heldAxis(settings.axisHold());
+      return tr("Move: drag a control point%1. Shift+click selects several; X, Y or Z while "
+                "dragging "
+                "holds an axis.")
+               .arg(inSlice(ground)) +
+        wheel + heldAxis(settings.axisHold());
     case Tool::Soft:
-      return tr("Soft: drag tissue; what lies within %1 follows. Shift+wheel changes the radius; "
-                "X, Y or "
-                "Z while dragging holds an axis.")
-               .arg(millimetres(settings.radius())) +
-        heldAxis(settings.axisHold());
+      return tr("Soft: drag tissue%1; what lies within %2 follows. Shift+wheel changes the radius; "
+                "X, Y or Z while dragging holds an axis.")
+               .arg(inSlice(ground), millimetres(settings.radius())) +
+        wheel + heldAxis(settings.axisHold());
     case Tool::Stamp:
-      return tr("Stamp: over tissue the wheel pulls and pushes by %1 a click, and so does a drag. "
-                "Shift+wheel changes the major radius; I sets the point of interest.")
-        .arg(millimetres(settings.millimetresPerClick()));
+      return tr(
+               "Stamp: over tissue the wheel pulls and pushes%1 by %2 a click, and so does a drag. "
+               "Shift+wheel changes the major radius; I sets the point of interest.")
+               .arg(inSlice(ground), millimetres(settings.millimetresPerClick())) +
+        wheel;
     case Tool::None:
       break;
   }
-  return tr("No tool in hand: the mouse moves the camera.");
+  return restingHint(ground);
 }

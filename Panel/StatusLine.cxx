@@ -16,7 +16,9 @@ StatusLine::StatusLine(QWidget* parent)
 void StatusLine::refresh()
 {
   const ToolSettings& settings = *ToolSettings::instance();
-  const bool inHand = settings.tool() != ToolSettings::Tool::None;
-  this->setText(inHand ? mouseHint(settings) : QString());
+  // Without a tool the mouse does what it always does, but for slices.
+  const bool isOurs = settings.tool() != ToolSettings::Tool::None ||
+    settings.ground() == ToolSettings::Ground::FlatSlices;
+  this->setText(isOurs ? mouseHint(settings, settings.ground()) : QString());
   this->setToolTip(this->text());
 }

@@ -2,7 +2,6 @@
 #include "StrokesWidget.h"
 
 #include "InSight.h"
-#include "LatticeSpacing.h"
 #include "StrokeEditor.h"
 #include "StrokeList.h"
 #include "StrokeModel.h"
@@ -17,6 +16,8 @@
 #include <vtkSMDoubleVectorProperty.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
+
+#include <algorithm>
 
 #include <QPointer>
 #include <QVBoxLayout>
@@ -69,9 +70,23 @@ StrokesWidget::StrokesWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget
   this->followResult();
 }
 
+double StrokesWidget::latticeSpacing()
+{
+  if (this->Source->modifiedState() == pqProxy::UNINITIALIZED)
+  {
+    return 0.0;
+  }
+  if (!this->Lattice)
+  {
+    this->Lattice.emplace(this->Source->getProxy());
+  }
+  const auto lattice = this->Lattice->lattice();
+  return lattice ? std::max({ lattice->spacing.x, lattice->spacing.y, lattice->spacing.z }) : 0.0;
+}
+
 void StrokesWidget::followResult()
 {
-  const double spacing = volumeSize(this->Source).spacing;
+  const double spacing = this->latticeSpacing();
   this->Tools->setLatticeSpacing(spacing);
   this->Tools->setReady(this->Source->modifiedState() != pqProxy::UNINITIALIZED);
   this->Strokes->setLatticeSpacing(spacing);

@@ -4,7 +4,11 @@
 #ifndef BrainShift_StrokesWidget_h
 #define BrainShift_StrokesWidget_h
 
+#include "LatticeProbe.h"
+
 #include <pqPropertyWidget.h>
+
+#include <optional>
 
 class pqPipelineSource;
 class StrokeModel;
@@ -18,11 +22,13 @@ public:
   StrokesWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent = nullptr);
 
 private:
-  void followResult(); // of the filter's last execution
+  void followResult();     // of the filter's last execution
+  double latticeSpacing(); // the widest between two control points, mm; 0 before there is one
 
   pqPipelineSource* const Source;
   ToolPanel* const Tools;
   StrokeModel* const Strokes;
+  std::optional<LatticeProbe> Lattice; // once there is something to ask
 };
 
 #endif

@@ -186,8 +186,8 @@ void ToolPanel::refresh()
     this->Sliders[i]->setValue((settings.*value.value)());
     this->Sliders[i]->setVisible(value.tools.contains(settings.tool()));
   }
-  this->Hint->setText(
-    this->Ready ? mouseHint(settings) : tr("Press Apply to see the volume, then choose a tool."));
+  this->Hint->setText(this->Ready ? mouseHint(settings, ToolSettings::Ground::Volume)
+                                  : tr("Press Apply to see the volume, then choose a tool."));
   const QString warning = this->advice();
   this->WarningText->setText(warning);
   this->Warning->setVisible(!warning.isEmpty());

@@ -2,6 +2,7 @@
 #include "Toolbar.h"
 
 #include "ActiveDeformation.h"
+#include "Flicker.h"
 #include "StatusLine.h"
 #include "StrokeEditor.h"
 #include "ToolChoice.h"
@@ -25,6 +26,7 @@ Toolbar::Toolbar(QWidget* mainWindow)
   this->addSeparator();
   this->addReset();
   this->addCompare();
+  this->addFlicker();
   for (QAction* action : this->actions()) // buttons are named like actions, for tests to press
   {
     if (!action->isSeparator())
@@ -87,6 +89,20 @@ void Toolbar::addCompare()
   this->connect(button, &QToolButton::released, this, [show] { show(false); });
 }
 
+void Toolbar::addFlicker()
+{
+  this->Flickering = this->addAction(QIcon(":/BrainShift/flicker.svg"), tr("Flicker"));
+  this->Flickering->setObjectName("actionBrainShiftFlicker");
+  this->Flickering->setToolTip(
+    tr("Show the deformed volume and the reference of Compare Volumes in turn (K)"));
+  this->Flickering->setShortcut(Qt::Key_K);
+  this->Flickering->setAutoRepeat(false);
+  this->Flickering->setCheckable(true);
+  auto flicker = new Flicker(this);
+  this->connect(this->Flickering, &QAction::triggered, flicker, &Flicker::turn);
+  this->connect(flicker, &Flicker::turned, this->Flickering, &QAction::setChecked);
+}
+
 void Toolbar::followPipeline()
 {
   this->RefreshSoon.setSingleShot(true);
@@ -132,7 +148,8 @@ void Toolbar::refresh()
     this->Tools[i]->setChecked(toolChoices()[i].tool == ToolSettings::instance()->tool());
   }
   this->Reset->setEnabled(hasStrokes);
-  this->Compare->setEnabled(hasStrokes);
+  this->Compare->setEnabled(applied); // a base lattice bends without strokes
+  this->Flickering->setEnabled(Flicker::isPossible());
   if (!applied)
   {
     ToolSettings::instance()->setTool(Tool::None);

@@ -2,6 +2,7 @@
 #include "BrainShiftBehavior.h"
 
 #include "SliceMouse.h"
+#include "TraceLook.h"
 #include "ViewTools.h"
 
 #include <pqActiveObjects.h>
@@ -18,7 +19,7 @@
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 
-#include <QStringList>
+#include <QTimer>
 #include <QVariant>
 
 #include <cstring>
@@ -27,16 +28,16 @@ namespace
 {
 constexpr const char* Shaded = "BrainShiftShaded"; // Qt property of a representation
 
-bool showsDeformedVolume(vtkSMProxy* representation)
+// `kind`: of a representation.
+bool isShownAs(vtkSMProxy* representation, const char* kind)
 {
   const char* shown = vtkSMPropertyHelper(representation, "Representation").GetAsString();
-  return shown && std::strcmp(shown, "Deformed Volume") == 0;
+  return shown && std::strcmp(shown, kind) == 0;
 }
 
 bool reportsNumbers(vtkSMProxy* filter)
 {
-  const QStringList reporting{ "InvertDisplacementField", "TraceDistance" };
-  return reporting.contains(filter->GetXMLName());
+  return std::strcmp(filter->GetXMLName(), "InvertDisplacementField") == 0;
 }
 
 // The first point array, else the first of all.
@@ -64,8 +65,9 @@ void colorByFirstArray(vtkSMPVRepresentationProxy* representation)
 void prepare(pqRepresentation* shown)
 {
   auto representation = vtkSMPVRepresentationProxy::SafeDownCast(shown->getProxy());
-  if (!representation || !showsDeformedVolume(representation) ||
-    pqApplicationCore::instance()->isLoadingState())
+  const bool volume = representation && isShownAs(representation, "Deformed Volume");
+  const bool slices = representation && isShownAs(representation, "Deformed Slices");
+  if (!(volume || slices) || pqApplicationCore::instance()->isLoadingState())
   {
     return;
   }
@@ -73,7 +75,7 @@ void prepare(pqRepresentation* shown)
   {
     colorByFirstArray(representation);
   }
-  if (!shown->property(Shaded).toBool()) // once: who then turns it off means it
+  if (volume && !shown->property(Shaded).toBool()) // once: who then turns it off means it
   {
     shown->setProperty(Shaded, true);
     vtkSMPropertyHelper(representation, "Shade", /*quiet*/ true).Set(1);
@@ -115,6 +117,14 @@ void BrainShiftBehavior::watchRepresentation(pqRepresentation* representation)
   QObject::connect(
     shown, &pqDataRepresentation::representationTypeModified, this, [shown] { prepare(shown); });
   prepare(shown);
+  if (!pqApplicationCore::instance()->isLoadingState())
+  {
+    // Once there is something to colour, and ParaView has chosen colours of its own.
+    QObject::connect(
+      shown, &pqDataRepresentation::dataUpdated, this,
+      [shown] { QTimer::singleShot(0, shown, [shown] { showByDistance(shown); }); },
+      Qt::SingleShotConnection);
+  }
 }
 
 void BrainShiftBehavior::watchSource(pqPipelineSource* source)

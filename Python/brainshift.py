@@ -225,12 +225,12 @@ def pick(representation, view, x, y):
     """Position (mm, world, deformed frame) of the tissue that `view` shows at a pixel, or None.
 
     `x`, `y`: pixels from the view's lower left corner, in the picture drawn last; nothing is drawn.
-    Tissue is where the opacity along the ray reaches one half. `representation` is shown in `view`
-    as Deformed Volume.
+    Tissue is where the opacity along the ray reaches one half, or the slice that is seen.
+    `representation` is shown in `view` as Deformed Volume or Deformed Slices.
     """
     if representation not in view.Representations:
         raise ValueError("the representation is not shown in this view")
-    report = _report(representation, view, ("Deformed Volume",))
+    report = _report(representation, view)
     report.GetProperty("Pixel").SetElements2(int(x), int(y))
     report.UpdateVTKObjects()
     tissue = _told(report, "Tissue")

@@ -17,6 +17,9 @@ CAMERAS = {
     "neurological": {"axial": (-1, CORONAL), "coronal": (1, AXIAL), "sagittal": (1, AXIAL)},
 }
 
+#: What is one for all four views.
+LINKED = ("SlicePosition", "SliceComparison", "WipePosition")
+
 #: Space around the volume, as a share of it.
 MARGIN = 1.05
 
@@ -104,30 +107,36 @@ def _make_grey(displays, coloring):
         display.LookupTable = grey
 
 
-def _link(displays):
-    """Gives all displays one slice position from now on. ParaView's links keep a closed view's
-    display as a null pointer and follow it; so the link is made anew without it."""
+def _link(displays, name):
+    """Gives all displays one value of a property from now on. ParaView's links keep a closed view's
+    display as a null pointer and follow it, and ParaView's window forgets the whole link with it;
+    so the link is made anew without it."""
     from paraview import servermanager
 
     manager = servermanager.ProxyManager()
     link = servermanager.vtkSMPropertyLink()
-    link_name = f"SlicePosition{displays[0].SMProxy.GetGlobalIDAsString()}"
+    link_name = f"{name}{displays[0].SMProxy.GetGlobalIDAsString()}"
     linked = {manager.GetProxyName("representations", display.SMProxy):
               display.SMProxy.GetGlobalID() for display in displays}
 
+    def remaining():
+        found = ((manager.SMProxyManager.GetProxy("representations", registered), number)
+                 for registered, number in linked.items())
+        return [proxy for proxy, number in found
+                if proxy is not None and proxy.GetGlobalID() == number]  # names are used again
+
     def make_anew(*_):
-        if manager.SMProxyManager.GetRegisteredLink(link_name) != link:
-            return  # removed by hand, or with its session
         link.RemoveAllLinks()
-        for (name, number), direction in itertools.product(
-                linked.items(), (link.INPUT, link.OUTPUT)):
-            proxy = manager.SMProxyManager.GetProxy("representations", name)
-            if proxy is not None and proxy.GetGlobalID() == number:  # names are used again
-                link.AddLinkedProperty(proxy, "SlicePosition", direction)
+        proxies = remaining()
+        if len(proxies) < 2:
+            return
+        if manager.SMProxyManager.GetRegisteredLink(link_name) != link:
+            manager.RegisterLink(link_name, link)
+        for proxy, direction in itertools.product(proxies, (link.INPUT, link.OUTPUT)):
+            link.AddLinkedProperty(proxy, name, direction)
 
     for display in displays:
         display.SMProxy.AddObserver("DeleteEvent", make_anew)
-    manager.RegisterLink(link_name, link)
     make_anew()
 
 
@@ -135,10 +144,10 @@ def four_views(source, convention="radiological"):
     """Lays out the classical four views of a volume: axial, 3D, coronal and sagittal.
 
     Returns them as a dict: axial, coronal, sagittal, volume. The slices are Deformed Slices in 2D
-    views with one position: set `SlicePosition` (mm) of one, the others follow; they share a grey
-    colour map of their own. Letters tell the sides of the patient, where world axes are right,
-    anterior, superior. `convention`: radiological (patient's right on the left of the picture) or
-    neurological (on the right).
+    views with one position: set `SlicePosition` (mm) of one, the others follow, as they do in
+    `SliceComparison` and `WipePosition`; they share a grey colour map of their own. Letters tell
+    the sides of the patient, where world axes are right, anterior, superior. `convention`:
+    radiological (patient's right on the left of the picture) or neurological (on the right).
 
     The active view becomes the 3D view if it is a render view that is alone in its layout; else a
     new layout is made.
@@ -165,7 +174,8 @@ def four_views(source, convention="radiological"):
         normals, _ = brainshift.slice_axes(display)
         _look(view, plane, convention, normals, source.GetDataInformation().GetBounds())
     _make_grey(list(displays.values()), coloring)
-    _link([*displays.values(), volume])
+    for name in LINKED:
+        _link([*displays.values(), volume], name)
     simple.SetActiveView(active)
     simple.RenderAllViews()
     return {**views, "volume": active}

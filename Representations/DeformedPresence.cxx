@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DeformedPresence.h"
 
+#include "BrickFaces.h"
 #include "LeapMap.h"
 #include "OpenGL.h"
 #include "VolumePass.h"
@@ -19,11 +20,9 @@ namespace brainshift
 {
 namespace
 {
-// A corner of a brick, in bricks; four shorts, because two-byte triples are misaligned.
-struct Corner
-{
-  std::int16_t x, y, z, unused;
-};
+// Rectangles overlap by so much, bricks (a sixteenth of a voxel): neighbours of different length
+// have no corners in common, and the rasteriser would leave gaps where it rounds.
+constexpr float RectangleOverlap = 1.0f / 64.0f;
 
 void setFilter(vtkTextureObject* texture, int filter)
 {
@@ -74,21 +73,20 @@ IndexBox bricksOfNodes(const PresenceRequest& request, const IndexBox& nodes)
   return box;
 }
 
-// Appends the two triangles of the face of `brick` across `axis`, on its lower or upper side.
-void appendFace(std::vector<Corner>& corners, const glm::ivec3& brick, int axis, int side)
+// Corners of a rectangle's two triangles, in bricks from the volume's first voxel.
+void appendRectangle(
+  std::vector<glm::vec3>& corners, const BrickRectangle& rectangle, const glm::ivec3& first)
 {
-  glm::ivec3 along(0);
-  glm::ivec3 across(0);
-  along[(axis + 1) % 3] = 1;
-  across[(axis + 2) % 3] = 1;
-  glm::ivec3 base = brick;
-  base[axis] += side;
-  for (const glm::ivec3& corner :
-    { base, base + along, base + along + across, base, base + along + across, base + across })
-  {
-    corners.push_back({ static_cast<std::int16_t>(corner.x), static_cast<std::int16_t>(corner.y),
-      static_cast<std::int16_t>(corner.z), 0 });
-  }
+  glm::vec3 margin(RectangleOverlap);
+  margin[rectangle.axis] = 0.0f;
+  const glm::vec3 low = glm::vec3(first + rectangle.low) - margin;
+  const glm::vec3 high = glm::vec3(first + rectangle.high) + margin;
+  const int along = (rectangle.axis + 1) % 3;
+  glm::vec3 lowHigh = low;
+  glm::vec3 highLow = high;
+  lowHigh[along] = high[along];
+  highLow[along] = low[along];
+  corners.insert(corners.end(), { low, lowHigh, high, low, high, highLow });
 }
 }
 
@@ -264,41 +262,17 @@ bool DeformedPresence::makeLeaps(vtkOpenGLRenderWindow* window, const PresenceRe
 void DeformedPresence::makeFaces(
   const PresenceRequest& request, const std::vector<std::uint8_t>& occupied)
 {
-  const glm::ivec3& count = request.count;
-  const std::ptrdiff_t stride[3] = { 1, count.x, static_cast<std::ptrdiff_t>(count.x) * count.y };
-  std::vector<Corner> corners;
-  std::size_t at = 0;
-  glm::ivec3 low = count;
+  std::vector<glm::vec3> corners;
+  glm::ivec3 low = request.count;
   glm::ivec3 high(-1);
-  glm::ivec3 brick;
-  for (brick.z = 0; brick.z < count.z; ++brick.z)
+  for (const BrickRectangle& rectangle : brickRectangles(occupied, request.count))
   {
-    for (brick.y = 0; brick.y < count.y; ++brick.y)
-    {
-      for (brick.x = 0; brick.x < count.x; ++brick.x, ++at)
-      {
-        if (!occupied[at])
-        {
-          continue;
-        }
-        low = glm::min(low, brick);
-        high = glm::max(high, brick);
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          if (brick[axis] == 0 || !occupied[at - stride[axis]])
-          {
-            appendFace(corners, request.first + brick, axis, 0);
-          }
-          if (brick[axis] == count[axis] - 1 || !occupied[at + stride[axis]])
-          {
-            appendFace(corners, request.first + brick, axis, 1);
-          }
-        }
-      }
-    }
+    low = glm::min(low, rectangle.low);
+    high = glm::max(high, rectangle.high - 1);
+    appendRectangle(corners, rectangle, request.first);
   }
   this->OccupiedBox = { low, high };
-  this->Faces = static_cast<int>(corners.size() / 6);
+  this->CornerCount = static_cast<int>(corners.size());
   if (!this->Corners)
   {
     this->Corners = vtkSmartPointer<vtkOpenGLBufferObject>::New();
@@ -311,7 +285,7 @@ void DeformedPresence::makeFaces(
 
 void DeformedPresence::drawFaces(int programHandle)
 {
-  if (this->Faces == 0)
+  if (this->CornerCount == 0)
   {
     return;
   }
@@ -321,8 +295,8 @@ void DeformedPresence::drawFaces(int programHandle)
   this->Corners->Bind();
   const GLint corner = glGetAttribLocation(programHandle, "corner");
   glEnableVertexAttribArray(corner);
-  glVertexAttribPointer(corner, 3, GL_SHORT, GL_FALSE, sizeof(Corner), nullptr);
-  glDrawArrays(GL_TRIANGLES, 0, 6 * this->Faces);
+  glVertexAttribPointer(corner, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
+  glDrawArrays(GL_TRIANGLES, 0, this->CornerCount);
   this->Corners->Release();
   glBindVertexArray(0);
   glDeleteVertexArrays(1, &vertexArray);
@@ -330,7 +304,7 @@ void DeformedPresence::drawFaces(int programHandle)
 
 std::int64_t DeformedPresence::faceBytes() const
 {
-  return static_cast<std::int64_t>(sizeof(Corner)) * 6 * this->Faces;
+  return static_cast<std::int64_t>(sizeof(glm::vec3)) * this->CornerCount;
 }
 
 void DeformedPresence::releaseGraphicsResources(vtkWindow* window)

@@ -88,7 +88,7 @@ private:
   bool AllNew = true;    // nothing of Map can be kept
   Program BlocksProgram;
   Program MapPrograms[2]; // [deformed]
-  int Faces = 0;
+  int CornerCount = 0;    // of the faces' triangles
   IndexBox OccupiedBox;
 };
 }

@@ -8,7 +8,7 @@
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
 
-#include <glm/gtc/type_ptr.hpp>
+#include <glm/mat4x4.hpp>
 
 #include <cstdint>
 
@@ -16,17 +16,11 @@ namespace brainshift
 {
 namespace
 {
-// A float texture of the wanted size, kept if it has that size already. Null if the GPU refuses.
-bool allocate(vtkOpenGLRenderWindow* window, vtkSmartPointer<vtkTextureObject>& texture,
-  const glm::ivec3& count, int filter)
+// A float texture. Null if the GPU refuses.
+vtkSmartPointer<vtkTextureObject> makeTexture(
+  vtkOpenGLRenderWindow* window, const glm::ivec3& count, int filter)
 {
-  if (texture && texture->GetWidth() == static_cast<unsigned int>(count.x) &&
-    texture->GetHeight() == static_cast<unsigned int>(count.y) &&
-    texture->GetDepth() == static_cast<unsigned int>(count.z))
-  {
-    return true;
-  }
-  texture = vtkSmartPointer<vtkTextureObject>::New();
+  auto texture = vtkSmartPointer<vtkTextureObject>::New();
   texture->SetContext(window);
   texture->SetMinificationFilter(filter);
   texture->SetMagnificationFilter(filter);
@@ -34,27 +28,36 @@ bool allocate(vtkOpenGLRenderWindow* window, vtkSmartPointer<vtkTextureObject>& 
   texture->SetWrapT(vtkTextureObject::ClampToEdge);
   texture->SetWrapR(vtkTextureObject::ClampToEdge);
   // Four components: three-component floats are the slowest format to sample.
-  return texture->Allocate3D(count.x, count.y, count.z, 4, VTK_FLOAT);
+  return texture->Allocate3D(count.x, count.y, count.z, 4, VTK_FLOAT) ? texture : nullptr;
 }
 
-// Whether the fields of two requests have the same nodes and the same unit, so that unchanged
-// control points leave them as they are.
-bool samePlaces(const FieldRequest& a, const FieldRequest& b)
+// Nodes of the refined displacement.
+FieldNodes forwardNodesOf(const FieldRequest& request)
 {
-  return a.dimensions == b.dimensions && a.kernel == b.kernel && a.samples == b.samples &&
-    a.inverse == b.inverse && a.nodes == b.nodes && a.offsetScale == b.offsetScale &&
-    sameMask(a.mask, b.mask);
+  FieldNodes nodes;
+  nodes.perCell = request.samples + 1;
+  nodes.count = (request.dimensions - 1) * nodes.perCell + 1;
+  return nodes;
 }
 
-// The kernel's weights at each of the perCell nodes of a cell.
-std::vector<glm::vec4> weightsInCell(int kernel, int perCell)
+// Whether the fields of two requests have the same nodes, so that the textures can be kept: where
+// neither moves anything both are zero.
+bool sameNodes(const FieldRequest& a, const FieldRequest& b)
 {
-  std::vector<glm::vec4> weights(perCell);
-  for (int node = 0; node < perCell; ++node)
-  {
-    weights[node] = kernelWeights(kernel, static_cast<float>(node) / static_cast<float>(perCell));
-  }
-  return weights;
+  return a.dimensions == b.dimensions && a.samples == b.samples && a.nodes == b.nodes;
+}
+
+// Whether the same control points make the same fields, so that unchanged ones leave them as they
+// are.
+bool sameMeaning(const FieldRequest& a, const FieldRequest& b)
+{
+  return sameNodes(a, b) && a.kernel == b.kernel && a.inverse == b.inverse &&
+    a.offsetScale == b.offsetScale && sameMask(a.mask, b.mask);
+}
+
+glm::vec3 texelOf(const glm::ivec3& count)
+{
+  return 1.0f / glm::vec3(count);
 }
 
 std::int64_t texels(const glm::ivec3& count)
@@ -69,17 +72,23 @@ FieldTexture::~FieldTexture() = default;
 bool FieldTexture::update(
   vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters)
 {
-  IndexBox points{ glm::ivec3(0), request.dimensions - 1 };
-  this->Changed = { glm::ivec3(0), request.nodes.count - 1 };
-  if (this->HasCurrent && samePlaces(this->Current, request))
-  {
-    points = changedPoints(request.dimensions, this->Current.inCells, request.inCells);
-    this->Changed = changedBackwardNodes(
-      points, request.dimensions, this->Current.inCells, request.inCells, request.nodes);
-  }
+  const bool kept = this->HasCurrent && sameNodes(this->Current, request);
+  const std::vector<glm::vec3> still(request.inCells.size(), glm::vec3(0.0f));
+  const std::vector<glm::vec3>& before = kept ? this->Current.inCells : still;
+  // Where nothing moves both fields stay zero, whatever they mean.
+  const IndexBox points = kept && sameMeaning(this->Current, request)
+    ? changedPoints(request.dimensions, before, request.inCells)
+    : enclosing(changedPoints(request.dimensions, still, before),
+        changedPoints(request.dimensions, still, request.inCells));
+  this->Changed =
+    changedBackwardNodes(points, request.dimensions, before, request.inCells, request.nodes);
   const bool maskIsCurrent = this->HasCurrent && sameMask(this->Current.mask, request.mask);
   this->HasCurrent = false; // not before all of it succeeded
   if (!maskIsCurrent && !this->uploadMask(window, request, counters))
+  {
+    return false;
+  }
+  if (!kept && !this->makeFields(window, request))
   {
     return false;
   }
@@ -89,8 +98,27 @@ bool FieldTexture::update(
   {
     return false;
   }
+  if (!kept)
+  {
+    this->Changed = { glm::ivec3(0), request.nodes.count - 1 }; // the zeros are new too
+  }
   this->Current = request;
   this->HasCurrent = true;
+  return true;
+}
+
+// Fields in which nothing moves.
+bool FieldTexture::makeFields(vtkOpenGLRenderWindow* window, const FieldRequest& request)
+{
+  this->Displacements =
+    makeTexture(window, forwardNodesOf(request).count, vtkTextureObject::Nearest);
+  this->Offsets = makeTexture(window, request.nodes.count, vtkTextureObject::Linear);
+  if (!this->Displacements || !this->Offsets)
+  {
+    return false;
+  }
+  clearVolume(window, this->Displacements);
+  clearVolume(window, this->Offsets);
   return true;
 }
 
@@ -125,52 +153,49 @@ bool FieldTexture::uploadMask(
 bool FieldTexture::refine(vtkOpenGLRenderWindow* window, const FieldRequest& request,
   const IndexBox& points, Counters& counters)
 {
-  FieldNodes forward;
-  forward.perCell = request.samples + 1;
-  forward.count = (request.dimensions - 1) * forward.perCell + 1;
+  const FieldNodes forward = forwardNodesOf(request);
   const IndexBox nodes = changedForwardNodes(points, forward);
-  const std::vector<glm::vec4> weights = weightsInCell(request.kernel, forward.perCell);
+  const glm::mat4 weights = kernelPolynomials(request.kernel);
   glm::ivec3 count = request.dimensions;
   IndexBox box{ glm::ivec3(0),
     request.dimensions - 1 }; // of control points; of nodes, axis by axis
-  vtkTextureObject* coarse = this->ControlPoints;
+  // Along x, and along x and y: the next stroke computes what it needs of these anew; their memory
+  // is worth more.
+  vtkSmartPointer<vtkTextureObject> coarse = this->ControlPoints;
   for (int axis = 0; axis < 3; ++axis)
   {
+    const glm::vec3 coarseTexel = texelOf(count);
     count[axis] = forward.count[axis];
     box.first[axis] = nodes.first[axis];
     box.last[axis] = nodes.last[axis];
     vtkTextureObject* mask = axis == 2 ? this->MaskWeights : nullptr;
     Program& program = this->RefinePrograms[mask != nullptr];
-    if (!allocate(window, this->Refined[axis], count, vtkTextureObject::Nearest) ||
-      !program.use(window, refineSource(mask != nullptr), counters))
+    const vtkSmartPointer<vtkTextureObject> refined =
+      axis == 2 ? this->Displacements : makeTexture(window, count, vtkTextureObject::Nearest);
+    if (!refined || !program.use(window, refineSource(mask != nullptr), counters))
     {
       return false;
     }
-    glm::ivec3 unit(0);
-    unit[axis] = 1;
+    glm::vec3 unit(0.0f);
+    unit[axis] = 1.0f;
     if (mask)
     {
       program.set("maskWeights", mask);
+      program.set("nodeTexel", texelOf(count));
     }
-    program.set("coarse", coarse);
+    program.set("coarse", coarse.Get());
+    program.set("coarseTexel", coarseTexel);
     program.set("axis", unit);
-    program.set("points", request.dimensions[axis]);
-    program.set("perCell", forward.perCell);
-    program.get()->SetUniform4fv("weights", forward.perCell, glm::value_ptr(weights[0]));
-    runVolumePass(
-      window, program.get()->GetHandle(), { this->Refined[axis] }, box.first, box.size());
+    program.set("points", static_cast<float>(request.dimensions[axis]));
+    program.set("perCell", static_cast<float>(forward.perCell));
+    program.set("weights", weights);
+    runVolumePass(window, program.get()->GetHandle(), { refined }, box.first, box.size());
     coarse->Deactivate();
     if (mask)
     {
       mask->Deactivate();
     }
-    coarse = this->Refined[axis];
-  }
-  // The next stroke computes what it needs of these anew; their memory is worth more.
-  for (const int axis : { 0, 1 })
-  {
-    this->Refined[axis]->ReleaseGraphicsResources(window);
-    this->Refined[axis] = nullptr;
+    coarse = refined;
   }
   return true;
 }
@@ -178,13 +203,12 @@ bool FieldTexture::refine(vtkOpenGLRenderWindow* window, const FieldRequest& req
 bool FieldTexture::invert(
   vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters)
 {
-  if (!allocate(window, this->Offsets, request.nodes.count, vtkTextureObject::Linear) ||
-    !this->InvertProgram.use(window, invertSource(), counters))
+  if (!this->InvertProgram.use(window, invertSource(), counters))
   {
     return false;
   }
   const int perCell = request.nodes.perCell;
-  this->InvertProgram.set("refined", this->Refined[2].Get());
+  this->InvertProgram.set("refined", this->Displacements.Get());
   this->InvertProgram.set("refinedCount", (request.dimensions - 1) * perCell + 1);
   this->InvertProgram.set("perCell", perCell);
   this->InvertProgram.set("firstCell", request.nodes.first);
@@ -192,16 +216,15 @@ bool FieldTexture::invert(
   this->InvertProgram.set("negated", request.inverse == Inverse::Negated ? 1 : 0);
   runVolumePass(window, this->InvertProgram.get()->GetHandle(), { this->Offsets },
     this->Changed.first, this->Changed.size());
-  this->Refined[2]->Deactivate();
+  this->Displacements->Deactivate();
   counters.texelsRefined += texels(this->Changed.size());
   return true;
 }
 
 void FieldTexture::releaseGraphicsResources(vtkWindow* window)
 {
-  for (vtkTextureObject* texture :
-    { this->ControlPoints.Get(), this->Refined[0].Get(), this->Refined[1].Get(),
-      this->Refined[2].Get(), this->Offsets.Get(), this->MaskWeights.Get() })
+  for (vtkTextureObject* texture : { this->ControlPoints.Get(), this->Displacements.Get(),
+         this->Offsets.Get(), this->MaskWeights.Get() })
   {
     if (texture)
     {
@@ -211,10 +234,7 @@ void FieldTexture::releaseGraphicsResources(vtkWindow* window)
   this->ControlPoints = nullptr;
   this->Offsets = nullptr;
   this->MaskWeights = nullptr;
-  for (auto& texture : this->Refined)
-  {
-    texture = nullptr;
-  }
+  this->Displacements = nullptr;
   this->HasCurrent = false;
   this->RefinePrograms[0].forget();
   this->RefinePrograms[1].forget();

@@ -47,7 +47,7 @@ public:
   vtkTextureObject* offsets() const { return this->Offsets; }
 
   // Displacements (deformedFromRest minus identity) on the forward nodes, lattice cells.
-  vtkTextureObject* displacements() const { return this->Refined[2]; }
+  vtkTextureObject* displacements() const { return this->Displacements; }
 
   // Offsets computed by the last update.
   const IndexBox& changed() const { return this->Changed; }
@@ -55,13 +55,13 @@ public:
   // All textures, some of which may be null.
   std::vector<vtkTextureObject*> textures() const
   {
-    return { this->ControlPoints, this->Refined[0], this->Refined[1], this->Refined[2],
-      this->Offsets, this->MaskWeights };
+    return { this->ControlPoints, this->Displacements, this->Offsets, this->MaskWeights };
   }
 
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
+  bool makeFields(vtkOpenGLRenderWindow* window, const FieldRequest& request);
   bool upload(vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters);
   bool refine(vtkOpenGLRenderWindow* window, const FieldRequest& request, const IndexBox& points,
     Counters& counters);
@@ -70,8 +70,8 @@ private:
   bool uploadMask(vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters);
 
   vtkSmartPointer<vtkTextureObject> ControlPoints;
-  vtkSmartPointer<vtkTextureObject> MaskWeights; // on the forward nodes; null: no mask
-  vtkSmartPointer<vtkTextureObject> Refined[3];  // along x; x and y; x, y and z
+  vtkSmartPointer<vtkTextureObject> MaskWeights;   // on the forward nodes; null: no mask
+  vtkSmartPointer<vtkTextureObject> Displacements; // on the forward nodes
   vtkSmartPointer<vtkTextureObject> Offsets;
   FieldRequest Current; // what the textures show
   bool HasCurrent = false;

@@ -59,7 +59,7 @@ MemoryNeed memoryNeed(const DrawnSizes& sizes)
   constexpr std::int64_t GradientBytes = 4;           // three numbers of ten bits, two bits spare
   constexpr std::int64_t NodeBytes = 16;              // four floats
   constexpr std::int64_t WeightBytes = 4;             // of a mask at a node
-  constexpr std::int64_t PixelBytes = 8 + 16 + 8 + 4; // picture, hits, spans, depth
+  constexpr std::int64_t PixelBytes = 4 + 16 + 4 + 4; // picture, hits, spans, depth
   const std::int64_t voxels = volumeOf(sizes.voxels);
   MemoryNeed need;
   need.scalars = sizes.scalarBytes * voxels;
@@ -119,7 +119,8 @@ std::string describeNeed(const MemoryNeed& need)
   return bytesAsMiB(need.total()) + " MiB (scalars " + bytesAsMiB(need.scalars) + ", gradients " +
     bytesAsMiB(need.gradients) + ", colours " + bytesAsMiB(need.colors) + ", segment " +
     bytesAsMiB(need.segment) + ", offset field " + bytesAsMiB(need.field) + ", images " +
-    bytesAsMiB(need.images) + ")";
+    bytesAsMiB(need.images) +
+    (need.reference > 0 ? ", reference " + bytesAsMiB(need.reference) : "") + ")";
 }
 
 std::string memoryProblem(

@@ -24,11 +24,12 @@ struct MemoryNeed
   std::int64_t segment = 0;
   std::int64_t field = 0; // refined lattice and offset field
   std::int64_t images = 0;
+  std::int64_t reference = 0; // of a volume to compare with: scalars, gradients, cavity
 
   std::int64_t total() const
   {
     return this->scalars + this->gradients + this->colors + this->segment + this->field +
-      this->images;
+      this->images + this->reference;
   }
 };
 

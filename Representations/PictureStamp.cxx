@@ -3,8 +3,10 @@
 
 #include "Counters.h"
 #include "RayCaster.h"
+#include "TracePoints.h"
 
 #include "vtkAbstractVolumeMapper.h"
+#include "vtkMath.h"
 #include "vtkProp.h"
 #include "vtkPropCollection.h"
 #include "vtkRenderer.h"
@@ -12,6 +14,10 @@
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
 
+#include <glm/common.hpp>
+#include <glm/gtc/matrix_access.hpp>
+
+#include <cmath>
 #include <utility>
 
 namespace brainshift
@@ -32,10 +38,38 @@ void add(Numbers& numbers, const glm::dmat4& matrix)
   numbers.insert(numbers.end(), &matrix[0][0], &matrix[0][0] + 16);
 }
 
+// Whether the clipping planes leave all of the volume.
+bool isUncut(const RayCastScene& scene)
+{
+  const glm::dmat4 clipFromTexture = scene.clipFromWorld * scene.worldFromTexture;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const glm::dvec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+    const glm::dvec4 clip =
+      clipFromTexture * glm::dvec4(glm::mix(scene.spaceLow, scene.spaceHigh, side), 1.0);
+    if (std::abs(clip.z) > clip.w)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Clipping planes follow everything in the scene, traced points too; they count if they cut.
+void addCamera(Numbers& numbers, const RayCastScene& scene)
+{
+  glm::dmat4 clipFromWorld = scene.clipFromWorld;
+  if (isUncut(scene))
+  {
+    clipFromWorld = glm::row(clipFromWorld, 2, glm::dvec4(0.0));
+  }
+  add(numbers, clipFromWorld);
+}
+
 // Where the picture is seen from, and in what light.
 void addView(Numbers& numbers, const RayCastScene& scene)
 {
-  add(numbers, scene.clipFromWorld);
+  addCamera(numbers, scene);
   add(numbers, scene.worldFromTexture);
   numbers.insert(numbers.end(),
     { double(scene.size.x), double(scene.size.y), scene.stepMm, double(scene.skipping),
@@ -43,6 +77,15 @@ void addView(Numbers& numbers, const RayCastScene& scene)
   add(numbers, scene.lights.position);
   add(numbers, scene.lights.color);
   add(numbers, scene.lights.specular);
+  const RayCastComparison& comparison = scene.comparison;
+  numbers.push_back(scene.scalars->GetHandle()); // of the volume or of its reference
+  if (comparison.reference)
+  {
+    add(numbers, comparison.reference->worldFromTexture);
+    numbers.push_back(comparison.reference->scalars->GetHandle());
+    numbers.push_back(comparison.cavity ? comparison.cavity->GetHandle() : 0);
+    add(numbers, comparison.cavityFromTexture);
+  }
 }
 
 // What was uploaded or made anew since the last picture.
@@ -64,8 +107,14 @@ void addProps(Numbers& numbers, vtkRenderer* renderer, const RayCastScene& scene
   props->InitTraversal(at);
   while (vtkProp* prop = props->GetNextProp(at))
   {
-    numbers.push_back(prop->GetVisibility());
-    numbers.push_back(static_cast<double>(prop->GetRedrawMTime()));
+    if (TracePoints::SafeDownCast(prop)) // drawn over the volumes
+    {
+      continue;
+    }
+    // What is nowhere changes often: ParaView's selections, for example.
+    const double* bounds = prop->GetVisibility() ? prop->GetBounds() : nullptr;
+    const bool seen = bounds && vtkMath::AreBoundsInitialized(bounds);
+    numbers.push_back(seen ? static_cast<double>(prop->GetRedrawMTime()) : 0.0);
   }
   add(numbers, scene.options.clipPlanes);
   add(numbers, scene.options.isovalues);

@@ -18,7 +18,7 @@ class PictureStamp
 {
 public:
   // True if all that the picture depends on is as it was at the last call; what lies in front of or
-  // behind the volume counts, too.
+  // behind the volume counts, too, but not traced points, which are drawn over it.
   bool repeats(
     vtkRenderer* renderer, vtkVolume* volume, const RayCastScene& scene, const Counters& counters);
 

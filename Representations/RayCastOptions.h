@@ -31,7 +31,7 @@ struct ShownComponents
   Coloring coloring = Coloring::Mapped;
 };
 
-// Stored scalar of the textures: scalar = stored * scale + shift.
+// Stored scalar of the textures: value = stored * scale + shift.
 struct StoredScalar
 {
   double scale = 1.0;

@@ -3,7 +3,6 @@
 
 #include "DeformedPresence.h"
 #include "OpenGL.h"
-#include "TransferTexture.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
@@ -18,7 +17,6 @@
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
-#include <array>
 
 namespace brainshift
 {
@@ -147,39 +145,6 @@ void setLightUniforms(Program& program, const RayCastScene& scene)
 }
 }
 
-void setTissueUniforms(Program& program, const RayCastScene& scene)
-{
-  program.set("scalars", scene.scalars);
-  program.set("transfer", scene.transfer);
-  program.set("transferRow",
-    (static_cast<float>(scene.stepDoublings) + 0.5f) / static_cast<float>(TransferRows));
-  program.set("transferFromScalar", glm::vec2(scene.transferFromScalar));
-  program.set("visibleScalars", glm::vec2(scene.visibleScalars));
-  program.set("volumeLow", glm::vec3(scene.volumeLow));
-  program.set("volumeHigh", glm::vec3(scene.volumeHigh));
-}
-
-void setFieldUniforms(Program& program, const RayCastScene& scene)
-{
-  program.set("offsets", scene.offsets);
-  program.set("fieldFromTexture", glm::vec3(scene.fieldFromTexture));
-  program.set("fieldFromTextureShift", glm::vec3(scene.fieldFromTextureShift));
-  std::array<glm::vec3, SlabDirections> normals;
-  std::array<glm::vec2, SlabDirections> spans;
-  for (int i = 0; i < SlabDirections; ++i)
-  {
-    const glm::dvec3 normal(slabDirection(i));
-    normals[i] = glm::vec3(normal * scene.latticeFromTexture);
-    const double shift = glm::dot(normal, scene.latticeOfTextureZero);
-    spans[i] = scene.moved.empty() ? glm::vec2(1.0f, -1.0f)
-                                   : glm::vec2(glm::dvec2(scene.moved.spans[i]) - shift);
-  }
-  program.set("moves", scene.moved.empty() ? 0 : 1);
-  vtkShaderProgram* shader = program.get();
-  shader->SetUniform3fv("movedNormals", SlabDirections, glm::value_ptr(normals[0]));
-  shader->SetUniform2fv("movedSpans", SlabDirections, glm::value_ptr(spans[0]));
-}
-
 RayCaster::RayCaster() = default;
 RayCaster::~RayCaster() = default;
 
@@ -267,9 +232,9 @@ bool RayCaster::prepareImages(vtkOpenGLRenderWindow* window, const RayCastScene&
   {
     this->HitsPart[scene.tile] = { glm::ivec2(-1), scene.size + 1 }; // whatever memory held
   }
-  return prepare(this->Image, GL_RGBA16F, vtkTextureObject::Linear) &&
+  return prepare(this->Image, GL_RGBA8, vtkTextureObject::Linear) &&
     prepare(this->Hits[scene.tile], GL_RGBA32F, vtkTextureObject::Nearest) &&
-    prepare(this->Spans, GL_RG32F, vtkTextureObject::Nearest);
+    prepare(this->Spans, GL_RG16, vtkTextureObject::Nearest);
 }
 
 // Rasterises the occupied bricks' faces: first and last t of every pixel.
@@ -284,12 +249,17 @@ bool RayCaster::findSpans(
   vtkOpenGLState* state = window->GetState();
   ImageScope images(state, scene);
   images.attach(0, this->Spans);
-  const float nothing[4] = { 1e30f, 1e30f, 1e30f, 1e30f };
+  const float nothing[4] = { 1.0f, 1.0f, 1.0f, 1.0f };
   glClearBufferfv(GL_COLOR, 0, nothing);
   state->vtkglEnable(GL_BLEND);
   glBlendEquation(GL_MIN);
   glEnable(GL_DEPTH_CLAMP); // faces beyond the clipping planes bound the ray too
   scene.presence->drawFaces(this->SpansProgram.get()->GetHandle());
+  if (const RayCastScene* reference = scene.comparison.reference)
+  {
+    setFaceUniforms(this->SpansProgram, *reference);
+    reference->presence->drawFaces(this->SpansProgram.get()->GetHandle());
+  }
   glDisable(GL_DEPTH_CLAMP);
   glBlendEquation(GL_FUNC_ADD);
   return true;
@@ -311,9 +281,15 @@ void RayCaster::setUniforms(Program& program, const RayCastScene& scene)
     program.set("fieldTexel", glm::vec3(scene.fieldTexel));
   }
   setOptionUniforms(program, scene.options);
+  if (scene.comparison.reference)
+  {
+    setComparisonUniforms(program, scene);
+  }
 }
 
-bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters)
+namespace
+{
+RayCastVariant variantOf(const RayCastScene& scene)
 {
   RayCastVariant variant;
   variant.deformed = scene.offsets != nullptr;
@@ -321,10 +297,39 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
     : !scene.normals            ? RayCastVariant::GradientsOnTheFly
                                 : RayCastVariant::GradientTexture;
   variant.blend = scene.options.blend;
-  variant.coloring = scene.options.coloring;
+  variant.compared = scene.comparison.reference != nullptr;
+  variant.cavity = variant.compared && scene.comparison.cavity;
+  variant.coloring = variant.compared ? Coloring::Mapped : scene.options.coloring;
   variant.regions = scene.options.regions;
   variant.segmented = scene.options.segment != nullptr;
   variant.counted = scene.countSamples && variant.blend == Blend::Composite;
+  variant.sharedLight =
+    scene.shaded && scene.opaqueTissue && !variant.compared && variant.blend == Blend::Composite;
+  return variant;
+}
+
+// Lets go of the texture units.
+void deactivate(const RayCastScene& scene)
+{
+  for (vtkTextureObject* texture : { scene.scalars, scene.offsets, scene.normals, scene.transfer,
+         scene.sceneDepth, scene.options.colors, scene.options.colorScalars, scene.options.segment,
+         scene.presence->leaps(), scene.comparison.cavity })
+  {
+    if (texture)
+    {
+      texture->Deactivate();
+    }
+  }
+  if (scene.comparison.reference)
+  {
+    deactivate(*scene.comparison.reference);
+  }
+}
+}
+
+bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters)
+{
+  const RayCastVariant variant = variantOf(scene);
   Program& program = this->CastPrograms[variant];
   if (!this->prepareImages(window, scene) ||
     (variant.counted && !this->prepareCount(window, scene.size)) ||
@@ -345,16 +350,10 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
     }
     drawTriangles(1);
     this->ImagePart = this->HitsPart[scene.tile] = { scene.shownLow, scene.shownHigh };
+    this->DrewTile = scene.tile;
   }
-  for (vtkTextureObject* texture : { scene.scalars, scene.offsets, scene.normals, scene.transfer,
-         scene.sceneDepth, scene.options.colors, scene.options.colorScalars, scene.options.segment,
-         scene.presence->leaps(), this->Spans.Get() })
-  {
-    if (texture)
-    {
-      texture->Deactivate();
-    }
-  }
+  deactivate(scene);
+  this->Spans->Deactivate();
   if (variant.counted)
   {
     this->readCount(counters);

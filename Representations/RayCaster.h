@@ -6,6 +6,7 @@
 #include "Counters.h"
 #include "FieldChange.h"
 #include "Program.h"
+#include "RayCastComparison.h"
 #include "RayCastLights.h"
 #include "RayCastOptions.h"
 
@@ -40,7 +41,7 @@ struct RayCastScene
   glm::dvec3 mmFromTexture{ 1.0 }; // along the volume's axes, before an actor's scale
   glm::dvec3 spaceLow{ 0.0 };      // part of the deformed frame tissue can reach
   glm::dvec3 spaceHigh{ 1.0 };
-  SlabHull moved;               // where tissue may have moved, in lattice coordinates, which are
+  SlabHull moved; // where tissue may have moved, in lattice coordinates, which are
   glm::dvec3 latticeFromTexture{ 1.0 }; // texture * latticeFromTexture + latticeOfTextureZero
   glm::dvec3 latticeOfTextureZero{ 0.0 };
   glm::dvec3 volumeLow{ 0.0 }; // the volume's box in the rest frame
@@ -59,7 +60,9 @@ struct RayCastScene
   glm::dvec4 material{ 0.0, 1.0, 0.0, 1.0 }; // ambient, diffuse, specular, specular power
   RayCastLights lights;
   RayCastOptions options;
+  RayCastComparison comparison;
   bool shaded = false;
+  bool opaqueTissue = false; // at some value a step hides what is behind, so that rays end soon
   bool skipping = true;
   bool jitter = false;       // rays start at different shares of a step
   bool countSamples = false; // counters learn of samples taken and skipped; Composite only
@@ -100,6 +103,9 @@ public:
   // What hitAt reads, texel by texel. Null if nothing was cast yet.
   vtkTextureObject* hits() const { return this->Hits[false]; }
 
+  // The same of the last image, whole or a tile.
+  vtkTextureObject* drawnHits() const { return this->Hits[this->DrewTile]; }
+
   // All textures, some of which may be null.
   std::vector<vtkTextureObject*> textures() const
   {
@@ -123,13 +129,14 @@ private:
     glm::ivec2 low{ 0 };
     glm::ivec2 high{ 0 };
   };
+  bool DrewTile = false;
   Part ImagePart;
   Part HitsPart[2];                        // elsewhere Hits tell of none
   vtkSmartPointer<vtkTextureObject> Image; // colour times opacity, opacity
   vtkSmartPointer<vtkTextureObject>
     Hits[2];                               // [tile] first hit, mm; distance from the near plane, mm
   vtkSmartPointer<vtkTextureObject> Count; // samples taken and skipped; null unless asked for
-  vtkSmartPointer<vtkTextureObject> Spans; // least t, minus greatest t in occupied bricks
+  vtkSmartPointer<vtkTextureObject> Spans; // of a ray: share before and behind occupied bricks
   std::map<RayCastVariant, Program> CastPrograms; // those drawn with so far
   Program SpansProgram;
   Program CompositeProgram;

@@ -3,11 +3,14 @@
 
 #include "OpenGL.h"
 #include "Program.h"
+#include "RayCaster.h"
 
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkTextureObject.h"
+
+#include <glm/common.hpp>
 
 namespace brainshift
 {
@@ -85,6 +88,17 @@ void SceneDepth::copy(vtkOpenGLRenderWindow* window, const glm::ivec2& origin,
   const glm::ivec2 to = origin + high;
   glBlitFramebuffer(
     from.x, from.y, to.x, to.y, low.x, low.y, high.x, high.y, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+}
+
+void SceneDepth::captureBehind(vtkOpenGLRenderWindow* window, const glm::ivec2& origin,
+  const glm::ivec2& size, RayCastScene& scene)
+{
+  const glm::dvec2 windowPixels = glm::dvec2(size) / glm::dvec2(scene.size); // for one of the image
+  this->capture(window, origin, size, glm::floor(glm::dvec2(scene.shownLow) * windowPixels),
+    glm::ceil(glm::dvec2(scene.shownHigh) * windowPixels));
+  scene.sceneDepth = this->texture();
+  scene.depthFromShare = this->textureFromShare();
+  scene.depthOfShareZero = this->textureOfShareZero();
 }
 
 void SceneDepth::releaseGraphicsResources(vtkWindow* window)

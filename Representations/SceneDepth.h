@@ -14,6 +14,8 @@ class vtkWindow;
 
 namespace brainshift
 {
+struct RayCastScene;
+
 class SceneDepth
 {
 public:
@@ -25,6 +27,10 @@ public:
   // wanted.
   void capture(vtkOpenGLRenderWindow* window, const glm::ivec2& origin, const glm::ivec2& size,
     const glm::ivec2& low, const glm::ivec2& high);
+
+  // The same where a scene can show something, and tells the scene of it.
+  void captureBehind(vtkOpenGLRenderWindow* window, const glm::ivec2& origin,
+    const glm::ivec2& size, RayCastScene& scene);
 
   vtkTextureObject* texture() const { return this->Shown; }
   vtkTextureObject* copied() const { return this->Copy; } // null if the window's own is read

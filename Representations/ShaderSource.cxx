@@ -6,6 +6,7 @@
 #include "SegmentShares.h"
 
 #include "shader_blocks_frag.h"
+#include "shader_both_paths.h"
 #include "shader_bricks.h"
 #include "shader_clipping.h"
 #include "shader_comparison.h"
@@ -22,6 +23,7 @@
 #include "shader_inversion.h"
 #include "shader_invert_frag.h"
 #include "shader_isosurface_frag.h"
+#include "shader_layers.h"
 #include "shader_light.h"
 #include "shader_march.h"
 #include "shader_nodes.h"
@@ -32,6 +34,8 @@
 #include "shader_proxy_vert.h"
 #include "shader_raycast.h"
 #include "shader_rays.h"
+#include "shader_red_green_frag.h"
+#include "shader_reference.h"
 #include "shader_refine_frag.h"
 #include "shader_segment.h"
 #include "shader_skipping.h"
@@ -39,6 +43,8 @@
 #include "shader_slices_frag.h"
 #include "shader_slices_vert.h"
 #include "shader_tissue.h"
+#include "shader_traces_frag.h"
+#include "shader_traces_vert.h"
 #include "shader_volume_pass.h"
 #include "shader_volume_pass_geom.h"
 #include "shader_volume_pass_vert.h"
@@ -83,10 +89,15 @@ ShaderSource volumePassSource(const std::string& body)
 constexpr const char* BlendDefines[BlendCount] = { "COMPOSITE", "MAXIMUM", "MINIMUM", "AVERAGE",
   "ADDITIVE", "ISOSURFACE", "SLICE" };
 
-// The loop of a blend mode; it follows raycast.glsl.
-std::string blendSource(Blend blend)
+// The loop of a variant; it follows raycast.glsl.
+std::string loopSource(const RayCastVariant& variant)
 {
-  switch (blend)
+  if (variant.compared)
+  {
+    return std::string(shader_reference) + shader_layers + shader_both_paths +
+      shader_red_green_frag;
+  }
+  switch (variant.blend)
   {
     case Blend::Composite:
       return shader_compositing_frag;
@@ -127,14 +138,15 @@ std::string nameOf(const RayCastVariant& variant)
   return std::string("raycast") + (variant.deformed ? "_deformed" : "_rest") +
     LightNames[variant.light] + blends[static_cast<int>(variant.blend)] +
     colorings[static_cast<int>(variant.coloring)] + (variant.regions ? "_regions" : "") +
-    (variant.segmented ? "_segment" : "") + (variant.counted ? "_counted" : "");
+    (variant.segmented ? "_segment" : "") + (variant.counted ? "_counted" : "") +
+    (variant.sharedLight ? "_shared_light" : "") + (variant.compared ? "_compared" : "") +
+    (variant.cavity ? "_cavity" : "");
 }
 }
 
 ShaderSource refineSource(bool masked)
 {
-  return volumePassSource((masked ? "#define MASKED\n" : std::string()) + "#define MAX_PER_CELL " +
-    std::to_string(LargestSamples + 1) + "\n" + std::string(shader_refine_frag));
+  return volumePassSource((masked ? "#define MASKED\n" : "") + std::string(shader_refine_frag));
 }
 
 ShaderSource invertSource()
@@ -177,11 +189,14 @@ ShaderSource rayCastSource(const RayCastVariant& variant)
   defines += coloringDefine(variant.coloring);
   defines += variant.regions ? "#define REGIONS\n" : "";
   defines += variant.segmented ? segmentDefines() : "";
+  defines += variant.sharedLight ? "#define SHARED_LIGHT\n" : "";
+  defines += variant.compared ? "#define COMPARED\n" : "";
+  defines += variant.cavity ? "#define CAVITY\n" : "";
   return { assemble({ shader_fullscreen_vert }), "",
     assemble({ Outputs, defines, shader_rays, shader_skipping, shader_clipping, shader_field,
       shader_gradient, shader_segment, shader_tissue, shader_cut, shader_components, shader_light,
       variant.counted ? std::string(shader_counting) : NotCounted, shader_raycast,
-      blendSource(variant.blend) }) };
+      loopSource(variant) }) };
 }
 
 ShaderSource compositeSource()
@@ -197,10 +212,17 @@ ShaderSource coverSource()
 ShaderSource slicesSource(const SlicesVariant& variant)
 {
   const std::string defines = slabDefine() + (variant.deformed ? "#define DEFORMED\n" : "") +
-    coloringDefine(variant.coloring) + (variant.compared ? "#define COMPARED\n" : "");
+    coloringDefine(variant.coloring) + (variant.compared ? "#define COMPARED\n" : "") +
+    (variant.cavity ? "#define CAVITY\n" : "");
   return { assemble({ shader_slices_vert }), "",
     assemble({ Outputs, defines, shader_rays, shader_field, shader_gradient, shader_segment,
       shader_tissue, shader_components, shader_cubic, shader_comparison, shader_slices_frag }) };
+}
+
+ShaderSource tracesSource(int tissues)
+{
+  return { assemble({ "#define TISSUES " + std::to_string(tissues) + "\n", shader_traces_vert }), "",
+    assemble({ Outputs, shader_traces_frag }) };
 }
 
 std::vector<std::pair<std::string, ShaderSource>> allSources()
@@ -233,7 +255,7 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
     }
     add({ deformed, RayCastVariant::GradientTexture, Blend::Composite, Coloring::Mapped, true });
     add({ deformed, RayCastVariant::GradientTexture, Blend::Composite, Coloring::Mapped, false,
-      false, true });
+      false, true, true });
     for (const Blend blend : { Blend::Composite, Blend::Isosurface, Blend::Average })
     {
       const bool lit = blend != Blend::Average;
@@ -241,10 +263,24 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
         Coloring::Mapped, false, true });
     }
   }
+  for (const bool deformed : { false, true })
+  {
+    for (int light = 0; light < RayCastVariant::LightCount; ++light)
+    {
+      RayCastVariant compared{ deformed, static_cast<RayCastVariant::Light>(light) };
+      compared.compared = true;
+      add(compared);
+      compared.cavity = compared.regions = compared.counted = true;
+      add(compared);
+    }
+  }
+  sources.emplace_back("traces", tracesSource(0));
+  sources.emplace_back("traces_hidden", tracesSource(MaxTissues));
   sources.emplace_back("slices_rest", slicesSource({}));
   sources.emplace_back("slices_deformed", slicesSource({ true }));
   sources.emplace_back("slices_direct", slicesSource({ true, Coloring::Direct }));
   sources.emplace_back("slices_compared", slicesSource({ true, Coloring::OtherScalar, true }));
+  sources.emplace_back("slices_cavity", slicesSource({ true, Coloring::Mapped, true, true }));
   return sources;
 }
 }

@@ -23,6 +23,7 @@ constexpr int MaxLights = 8;
 constexpr int BricksInBlock = 4; // a side; blocks of the presence map's bricks
 constexpr int MaxClipPlanes = 16;
 constexpr int MaxIsovalues = 32;
+constexpr int MaxTissues = 4; // volumes that hide traced points
 
 // How the samples of a ray become one colour; numbers as in vtkVolumeMapper::BlendModes.
 enum class Blend
@@ -58,15 +59,19 @@ struct RayCastVariant
   } light = Unshaded;
   Blend blend = Blend::Composite;
   Coloring coloring = Coloring::Mapped;
-  bool regions = false;   // VTK's cropping regions, other than the middle one alone
-  bool segmented = false; // a segment is drawn alone
-  bool counted = false;   // a third target tells the samples taken and skipped; Composite only
+  bool regions = false;     // VTK's cropping regions, other than the middle one alone
+  bool segmented = false;   // a segment is drawn alone
+  bool counted = false;     // a third target tells the samples taken and skipped; Composite only
+  bool sharedLight = false; // two samples share their light; Composite only, where there is light
+  bool compared = false;    // with a reference, red and green; Composite only
+  bool cavity = false;      // part of which is ignored
 
   bool operator<(const RayCastVariant& other) const
   {
     const auto key = [](const RayCastVariant& variant) {
       return std::make_tuple(variant.deformed, variant.light, variant.blend, variant.coloring,
-        variant.regions, variant.segmented, variant.counted);
+        variant.regions, variant.segmented, variant.counted, variant.sharedLight, variant.compared,
+        variant.cavity);
     };
     return key(*this) < key(other);
   }
@@ -78,11 +83,12 @@ struct SlicesVariant
   bool deformed = false; // the volume carries a lattice
   Coloring coloring = Coloring::Mapped;
   bool compared = false; // with a reference
+  bool cavity = false;   // part of which is ignored
 
   bool operator<(const SlicesVariant& other) const
   {
-    return std::tie(this->deformed, this->coloring, this->compared) <
-      std::tie(other.deformed, other.coloring, other.compared);
+    return std::tie(this->deformed, this->coloring, this->compared, this->cavity) <
+      std::tie(other.deformed, other.coloring, other.compared, other.cavity);
   }
 };
 
@@ -96,6 +102,8 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource blocksSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource presenceSource(bool deformed);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource proxySource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource slicesSource(const SlicesVariant& variant);
+// `tissues`: volumes that hide points, 0 to MaxTissues.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource tracesSource(int tissues);
 
 // Every program the product can draw with, by name, for an offline compiler: of the ray caster's
 // variants each with every file and every #define in use.

@@ -32,23 +32,6 @@ void setSliceUniforms(Program& program, const SliceScene& scene)
   program.set("selecting", scene.selecting ? 1 : 0);
 }
 
-void setReferenceUniforms(Program& program, const SliceScene& scene)
-{
-  const ReferenceScene& reference = scene.reference;
-  program.set("reference", reference.scalars);
-  program.set("referenceFromTexture", glm::mat4(reference.referenceFromTexture));
-  program.set("referenceLow", glm::vec3(reference.low));
-  program.set("referenceHigh", glm::vec3(reference.high));
-  program.set("shareFromReference", glm::vec2(reference.shareFromReference));
-  program.set("shareFromScalar", glm::vec2(reference.shareFromScalar));
-  const glm::dvec2& own = reference.shareFromScalar;
-  const glm::dvec2& transfer = scene.volume.transferFromScalar;
-  const double scale = transfer.x / own.x;
-  program.set("transferFromShare", glm::vec2(scale, transfer.y - own.y * scale));
-  program.set("comparison", reference.comparison);
-  program.set("checkersFromTexture", glm::vec3(reference.checkersFromTexture));
-}
-
 // Drawing into the scene; restored at the end.
 class SceneScope
 {
@@ -90,7 +73,7 @@ bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, C
 {
   const RayCastScene& volume = scene.volume;
   const SlicesVariant variant{ volume.offsets != nullptr, volume.options.coloring,
-    scene.reference.scalars != nullptr };
+    scene.reference.scalars != nullptr, scene.reference.cavity != nullptr };
   Program& program = this->Programs[variant];
   if (!program.use(window, slicesSource(variant), counters))
   {
@@ -99,7 +82,7 @@ bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, C
   setSliceUniforms(program, scene);
   if (variant.compared)
   {
-    setReferenceUniforms(program, scene);
+    setReferenceUniforms(program, scene.reference);
   }
   {
     const SceneScope scope(window->GetState(), scene.blended);
@@ -111,12 +94,17 @@ bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, C
       program.set("quadCorner", glm::vec3(quad.corner));
       program.set("quadRight", glm::vec3(quad.right));
       program.set("quadUp", glm::vec3(quad.up));
+      if (variant.compared)
+      {
+        setWipeUniforms(program, scene.reference, quad.axis);
+      }
       constexpr int trianglesOfQuad = 2;
       drawTriangles(trianglesOfQuad);
     }
   }
-  for (vtkTextureObject* texture : { volume.scalars, volume.offsets, volume.transfer,
-         volume.options.colors, volume.options.colorScalars, scene.reference.scalars })
+  for (vtkTextureObject* texture :
+    { volume.scalars, volume.offsets, volume.transfer, volume.options.colors,
+      volume.options.colorScalars, scene.reference.scalars, scene.reference.cavity })
   {
     if (texture)
     {

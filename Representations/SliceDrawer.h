@@ -6,6 +6,7 @@
 #include "Counters.h"
 #include "Program.h"
 #include "RayCaster.h"
+#include "SliceComparison.h"
 #include "SliceGeometry.h"
 
 #include <glm/vec3.hpp>
@@ -16,19 +17,6 @@ class vtkOpenGLRenderWindow;
 
 namespace brainshift
 {
-// A volume to compare with.
-struct ReferenceScene
-{
-  vtkTextureObject* scalars = nullptr;    // null: none
-  glm::dmat4 referenceFromTexture{ 1.0 }; // its texture coordinates from the volume's
-  glm::dvec3 low{ 0.0 };                  // its box, in its texture coordinates
-  glm::dvec3 high{ 1.0 };
-  glm::dvec2 shareFromReference{ 1.0, 0.0 }; // stored scalar to its share of what is shown
-  glm::dvec2 shareFromScalar{ 1.0, 0.0 };    // the same of the volume
-  int comparison = 0;                        // as vtkDeformedSlicesMapper numbers them
-  glm::dvec3 checkersFromTexture{ 1.0 };     // checker fields for a texture unit
-};
-
 struct SliceScene
 {
   RayCastScene volume; // tissue, offset field and camera of it

@@ -19,6 +19,7 @@ SliceQuad quadAcross(int axis, const SlicePlanes& box)
   const int right = (axis + 1) % Axes;
   const int up = (axis + 2) % Axes;
   SliceQuad quad;
+  quad.axis = axis;
   quad.corner = box.low;
   quad.corner[axis] = box.position[axis];
   quad.right[right] = box.high[right] - box.low[right];

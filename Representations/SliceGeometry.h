@@ -19,9 +19,11 @@ namespace brainshift
 // The volume's axis nearest to each world axis, each taken once.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT glm::ivec3 axesAcrossPlanes(const glm::dmat3& direction);
 
-// A rectangle: one corner, and the sides that leave it. Texture coordinates.
+// A rectangle: the axis it lies across, one corner, and the sides that leave it. Texture
+// coordinates.
 struct SliceQuad
 {
+  int axis = 0;
   glm::dvec3 corner{ 0.0 };
   glm::dvec3 right{ 0.0 };
   glm::dvec3 up{ 0.0 };

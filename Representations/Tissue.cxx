@@ -18,6 +18,8 @@ namespace brainshift
 namespace
 {
 constexpr double CutWeight = 4.0; // from pictures: less leaves noise, more flattens the cortex
+// What a step must hide for its tissue to be opaque: behind a few such steps a ray ends.
+constexpr float OpaqueStep = 0.9f;
 
 // The blend modes that VTK lights.
 bool isLit(Blend blend)
@@ -26,10 +28,9 @@ bool isLit(Blend blend)
 }
 
 // Texture coordinate of the colour map from a stored scalar: scale and shift.
-glm::dvec2 transferFromStored(const TransferTexture& transfer, const ScalarTexture& scalars)
+glm::dvec2 transferFromStored(const TransferTexture& transfer, const StoredScalar& stored)
 {
-  return { scalars.scale() * transfer.scale(),
-    scalars.shift() * transfer.scale() + transfer.shift() };
+  return { stored.scale * transfer.scale(), stored.shift * transfer.scale() + transfer.shift() };
 }
 
 // Voxels as they are, or blended.
@@ -60,9 +61,14 @@ bool Tissue::update(vtkOpenGLRenderWindow* window, const TissueRequest& request,
   const bool newColours = this->Transfer.update(
     window, request.property, request.stepMm, request.blend, shown.coloring, counters);
   const std::vector<double> isovalues = isovaluesOf(request.property);
+  const StoredScalar& mapped = request.mapped;
+  const StoredScalar stored{ this->Scalars.scale() * mapped.scale,
+    this->Scalars.shift() * mapped.scale + mapped.shift };
   this->VisibilityChanged = this->VisibilityChanged || newColours ||
-    uploads != counters.volumeUploads ||
+    uploads != counters.volumeUploads || stored.scale != this->Stored.scale ||
+    stored.shift != this->Stored.shift ||
     (request.blend == Blend::Isosurface && isovalues != this->VisibleIsovalues);
+  this->Stored = stored;
   this->VisibleBlend = request.blend;
   this->VisibleIsovalues = isovalues;
   if (!this->updateColors(window, request, scene, counters, problem) ||
@@ -79,9 +85,9 @@ bool Tissue::update(vtkOpenGLRenderWindow* window, const TissueRequest& request,
   }
   setFilter(scene.normals, request.nearest && request.gradients == GradientSource::FullResolution);
   scene.transfer = this->Transfer.texture();
-  scene.transferFromScalar = transferFromStored(this->Transfer, this->Scalars);
-  scene.visibleScalars =
-    this->Transfer.visibleValues(this->Scalars.scale(), this->Scalars.shift()).ends();
+  scene.opaqueTissue = this->Transfer.largestOpacity() >= OpaqueStep;
+  scene.transferFromScalar = transferFromStored(this->Transfer, this->Stored);
+  scene.visibleScalars = this->Transfer.visibleValues(stored.scale, stored.shift).ends();
   scene.voxel = request.layout.textureFromGrid;
   this->describeCut(request, scene);
   scene.volumeLow = request.layout.low;
@@ -111,7 +117,8 @@ bool Tissue::updateColors(vtkOpenGLRenderWindow* window, const TissueRequest& re
       return false;
     }
     options.colorScalars = this->ColorScalars.texture();
-    options.transferFromColorScalar = transferFromStored(this->Transfer, this->ColorScalars);
+    options.transferFromColorScalar = transferFromStored(
+      this->Transfer, { this->ColorScalars.scale(), this->ColorScalars.shift() });
   }
   return true;
 }
@@ -167,8 +174,7 @@ void Tissue::describeCut(const TissueRequest& request, RayCastScene& scene)
 
 std::vector<float> Tissue::summedVisibility() const
 {
-  const VisibleValues mapped =
-    this->Transfer.visibleValues(this->Scalars.scale(), this->Scalars.shift());
+  const VisibleValues mapped = this->Transfer.visibleValues(this->Stored.scale, this->Stored.shift);
   if (this->VisibleBlend != Blend::Isosurface)
   {
     return this->Segment.texture()
@@ -178,7 +184,7 @@ std::vector<float> Tissue::summedVisibility() const
   std::vector<double> surfaces; // visible isovalues, as stored
   for (const double isovalue : this->VisibleIsovalues)
   {
-    const double stored = (isovalue - this->Scalars.shift()) / this->Scalars.scale();
+    const double stored = (isovalue - this->Stored.shift) / this->Stored.scale;
     if (mapped(glm::vec2(stored)))
     {
       surfaces.push_back(stored);

@@ -47,6 +47,7 @@ struct TissueRequest
   GradientSource gradients = GradientSource::FullResolution;
   bool nearest = false; // voxels as they are, not blended
   SegmentRequest segment;
+  StoredScalar mapped; // value for colours and opacities: scalar * scale + shift
 };
 
 class Tissue
@@ -69,7 +70,7 @@ public:
   vtkTextureObject* scalars() const { return this->Scalars.texture(); }
   std::vector<vtkTextureObject*> otherTextures() const; // null: not in use
 
-  StoredScalar stored() const { return { this->Scalars.scale(), this->Scalars.shift() }; }
+  const StoredScalar& stored() const { return this->Stored; }
 
   // A sentence if the segment that is drawn holds nothing; else empty.
   const std::string& remark() const { return this->Segment.remark(); }
@@ -91,6 +92,7 @@ private:
   TransferTexture Transfer;
   NormalTexture Normals;
   SegmentTexture Segment;
+  StoredScalar Stored; // value for colours and opacities from what Scalars holds
   Blend VisibleBlend = Blend::Composite;
   std::vector<double> VisibleIsovalues; // those that are looked for
   bool VisibilityChanged = false;

@@ -77,10 +77,12 @@ bool TransferTexture::update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* p
   opacity->GetTable(this->Range[0], this->Range[1], Entries, opacities.data());
   std::vector<float> texels(4 * Entries * TransferRows);
   this->VisibleBefore.assign(Entries + 1, 0);
+  this->LargestOpacity = 0.0f;
   for (int i = 0; i < Entries; ++i)
   {
     std::copy_n(&colors[3 * i], 3, &texels[4 * i]);
     texels[4 * i + 3] = opacityOfSample(opacities[i], stepMm / unitMm, blend);
+    this->LargestOpacity = std::max(this->LargestOpacity, texels[4 * i + 3]);
     this->VisibleBefore[i + 1] = this->VisibleBefore[i] + (texels[4 * i + 3] > 0.0f ? 1 : 0);
   }
   for (std::size_t i = 4 * Entries; i < texels.size(); ++i)

@@ -48,6 +48,9 @@ public:
   bool visibleUpwards() const;
   bool visibleDownwards() const;
 
+  // Largest opacity of one sample, as asked for.
+  float largestOpacity() const { return this->LargestOpacity; }
+
   vtkTextureObject* texture() const { return this->Texture; }
   void releaseGraphicsResources(vtkWindow* window);
 
@@ -60,6 +63,7 @@ private:
   Blend Blending = Blend::Composite;
   Coloring ColorSource = Coloring::Mapped;
   std::vector<int> VisibleBefore; // visible entries with lower indices; one more than entries
+  float LargestOpacity = 0.0f;
   double Range[2] = { 0.0, 1.0 }; // scalars of the first and the last texel
 };
 }

@@ -39,4 +39,18 @@ void runVolumePass(vtkOpenGLRenderWindow* window, int programHandle,
   glUniform1i(glGetUniformLocation(programHandle, "firstLayer"), first.z);
   drawTriangles(count.z);
 }
+
+void clearVolume(vtkOpenGLRenderWindow* window, vtkTextureObject* target)
+{
+  vtkOpenGLState* state = window->GetState();
+  vtkOpenGLState::ScopedglColorMask colorMask(state);
+  vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
+  FramebufferScope framebuffer(state);
+  glFramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, target->GetHandle(), 0);
+  framebuffer.drawColors(1);
+  state->vtkglDisable(GL_SCISSOR_TEST);
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  const float zero[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
+  glClearBufferfv(GL_COLOR, 0, zero);
+}
 }

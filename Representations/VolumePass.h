@@ -19,6 +19,9 @@ namespace brainshift
 void runVolumePass(vtkOpenGLRenderWindow* window, int programHandle,
   std::initializer_list<vtkTextureObject*> targets, const glm::ivec3& first,
   const glm::ivec3& count);
+
+// Sets all of a 3D texture to zero.
+void clearVolume(vtkOpenGLRenderWindow* window, vtkTextureObject* target);
 }
 
 #endif

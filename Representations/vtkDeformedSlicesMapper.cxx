@@ -2,11 +2,13 @@
 #include "vtkDeformedSlicesMapper.h"
 
 #include "GpuMemory.h"
+#include "PointMap.h"
 #include "ReferenceVolume.h"
-#include "ScalarTexture.h"
 #include "SceneDeformation.h"
 #include "SceneGeometry.h"
+#include "SliceComparison.h"
 #include "SliceDrawer.h"
+#include "SlicePick.h"
 #include "TextureMemory.h"
 #include "Tissue.h"
 #include "WindowDevices.h"
@@ -18,14 +20,19 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLRenderWindow.h"
+#include "vtkPiecewiseFunction.h"
 #include "vtkRenderer.h"
 #include "vtkTextureObject.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
+#include "vtkWeakPointer.h"
 
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 using namespace brainshift;
@@ -33,10 +40,11 @@ using namespace brainshift;
 struct vtkDeformedSlicesMapper::Device
 {
   brainshift::Tissue Tissue;
-  ScalarTexture Reference;
+  ReferenceTextures Reference;
   DeviceDeformation Deformation;
   SliceDrawer Drawer;
   GpuMemory Memory;
+  DrawnSlices Drawn;
 
   void Release(vtkWindow* window)
   {
@@ -51,8 +59,11 @@ struct vtkDeformedSlicesMapper::State
 {
   WindowDevices<Device> Devices;
   Counters Count;
-  SceneDeformation Deformation; // of the input
-  std::string Reported;         // the last trouble told
+  SceneDeformation Deformation;  // of the input
+  std::string Reported;          // the last trouble told
+  std::unique_ptr<PointMap> Map; // of the deformation at MapTime, once asked for
+  unsigned long long MapTime = 0;
+  vtkWeakPointer<vtkVolumeProperty> Property; // drawn with last
 };
 
 vtkStandardNewMacro(vtkDeformedSlicesMapper);
@@ -161,6 +172,8 @@ bool vtkDeformedSlicesMapper::DrawPlanes(vtkRenderer* renderer, Device& device, 
   }
   describeView(renderer, volume, grid, tissue.layout, scene.volume);
   this->DescribePlanes(tissue, grid, scene);
+  device.Drawn = { scene.planes, scene.volume.worldFromTexture };
+  state.Property = volume->GetProperty();
   scene.selecting = renderer->GetSelector() != nullptr;
   scene.blended = this->IsTranslucent() && !scene.selecting;
   if (!device.Drawer.draw(window, scene, state.Count))
@@ -174,39 +187,25 @@ bool vtkDeformedSlicesMapper::DrawPlanes(vtkRenderer* renderer, Device& device, 
 bool vtkDeformedSlicesMapper::DescribeReference(vtkOpenGLRenderWindow* window, Device& device,
   const TissueRequest& tissue, const Grid& grid, SliceScene& scene, std::string& problem)
 {
-  const ReferenceVolume volume = readReference(this->GetDataSetInput());
-  if (!volume.voxels || this->Comparison == NoComparison)
+  const ReferenceVolume reference = readReference(this->GetDataSetInput());
+  const bool alone = reference.show == ReferenceShow::Reference;
+  const bool together = reference.show == ReferenceShow::Both && this->Comparison != NoComparison;
+  if (!reference.voxels || !(alone || together))
   {
     return true;
   }
-  const ValueLayout layout = layoutOf(volume.grid.dimensions, false);
-  constexpr int firstComponent = 0;
-  if (!device.Reference.update(
-        window, volume.voxels, layout.dimensions, firstComponent, this->Internal->Count, problem))
-  {
-    return false;
-  }
-  // The share of a scalar, from what the texture stores.
-  const auto shareFromStored = [](const double range[2], const StoredScalar& stored) {
-    const double length = range[1] > range[0] ? range[1] - range[0] : 1.0;
-    return glm::dvec2(stored.scale / length, (stored.shift - range[0]) / length);
-  };
-  const bool whole = !(this->ReferenceRange[0] < this->ReferenceRange[1]);
-  const double* shown = whole ? volume.voxels->GetRange(firstComponent) : this->ReferenceRange;
-  ReferenceScene& reference = scene.reference;
-  reference.scalars = device.Reference.texture();
-  reference.shareFromReference =
-    shareFromStored(shown, { device.Reference.scale(), device.Reference.shift() });
-  reference.shareFromScalar =
-    shareFromStored(tissue.property->GetRGBTransferFunction()->GetRange(), device.Tissue.stored());
-  vtkNew<vtkMatrix4x4> unmoved;
-  reference.referenceFromTexture = glm::inverse(worldFromTexture(volume.grid, layout, unmoved)) *
-    worldFromTexture(grid, tissue.layout, unmoved);
-  reference.low = layout.low;
-  reference.high = layout.high;
-  reference.comparison = this->Comparison;
-  reference.checkersFromTexture = grid.spacing / tissue.layout.textureFromGrid / this->CheckerSize;
-  return true;
+  ComparisonChoice choice;
+  choice.comparison = this->Comparison;
+  choice.checkerSizeMm = this->CheckerSize;
+  choice.shownRange = { this->ReferenceRange[0], this->ReferenceRange[1] };
+  choice.fullGradient = this->FullGradient;
+  choice.wipePosition = { this->WipePosition[0], this->WipePosition[1], this->WipePosition[2] };
+  const double* range = tissue.property->GetRGBTransferFunction()->GetRange();
+  const ComparedVolume volume{ grid, tissue.layout,
+    shareFromStored({ range[0], range[1] }, device.Tissue.stored()),
+    scene.volume.transferFromScalar, tissue.nearest };
+  return device.Reference.update(
+    window, reference, choice, volume, scene.reference, this->Internal->Count, problem);
 }
 
 void vtkDeformedSlicesMapper::DescribePlanes(
@@ -233,6 +232,71 @@ void vtkDeformedSlicesMapper::DescribePlanes(
   scene.cubic = this->Interpolation == Cubic;
   scene.opacity = this->Opacity;
   scene.mapsOpacity = this->MapOpacity;
+}
+
+// Tissue outside the volume, without a value, or see-through is not seen.
+bool vtkDeformedSlicesMapper::IsSeenAt(const glm::dvec3& texture)
+{
+  State& state = *this->Internal;
+  auto image = vtkImageData::SafeDownCast(this->GetDataSetInput());
+  int cells = 0;
+  vtkDataArray* scalars = this->GetScalars(
+    image, this->ScalarMode, this->ArrayAccessMode, this->ArrayId, this->ArrayName, cells);
+  const Grid grid = gridOf(image);
+  const ValueLayout layout = layoutOf(grid.dimensions, cells != 0);
+  if (!holdsValues(scalars, layout))
+  {
+    return false;
+  }
+  glm::dvec3 rest = texture;
+  if (state.Deformation.deformed)
+  {
+    if (!state.Map || state.MapTime != state.Deformation.time)
+    {
+      state.Map =
+        std::make_unique<PointMap>(state.Deformation.lattice, state.Deformation.request.inverse);
+      state.MapTime = state.Deformation.time;
+    }
+    const glm::dvec3 place = (texture - layout.textureOfGridZero) / layout.textureFromGrid;
+    const glm::dvec3 world = state.Map->restFromDeformed(grid.worldFromGrid(place));
+    rest = grid.gridFromWorld(world) * layout.textureFromGrid + layout.textureOfGridZero;
+  }
+  constexpr double roundingVoxels = 1e-3;
+  const glm::dvec3 rounding = roundingVoxels / glm::dvec3(layout.dimensions);
+  if (glm::any(glm::lessThan(rest, layout.low - rounding)) ||
+    glm::any(glm::greaterThan(rest, layout.high + rounding)))
+  {
+    return false;
+  }
+  const glm::ivec3 voxel = glm::clamp(glm::ivec3(glm::floor(rest * glm::dvec3(layout.dimensions))),
+    glm::ivec3(0), layout.dimensions - 1);
+  const vtkIdType index =
+    (static_cast<vtkIdType>(voxel.z) * layout.dimensions.y + voxel.y) * layout.dimensions.x +
+    voxel.x;
+  const double value = scalars->GetComponent(index, 0);
+  const bool seenThrough = this->MapOpacity && state.Property &&
+    state.Property->GetScalarOpacity()->GetValue(value) <= 0.0;
+  return !std::isnan(value) && !seenThrough;
+}
+
+bool vtkDeformedSlicesMapper::Pick(
+  vtkRenderer* renderer, int x, int y, double position[3], double normal[3])
+{
+  Device* device = this->Internal->Devices.find(renderer->GetRenderWindow());
+  if (!device || !vtkImageData::SafeDownCast(this->GetDataSetInput()))
+  {
+    return false;
+  }
+  for (const SliceHit& hit : hitsUnderPixel(device->Drawn, renderer, x, y))
+  {
+    if (this->IsSeenAt(hit.texture))
+    {
+      std::copy_n(&hit.world[0], 3, position);
+      std::copy_n(&hit.normal[0], 3, normal);
+      return true;
+    }
+  }
+  return false;
 }
 
 void vtkDeformedSlicesMapper::GetNormals(double normals[9])
@@ -274,7 +338,7 @@ const Counters& vtkDeformedSlicesMapper::GetCounters()
   count.gpuOtherBytes = 0;
   this->Internal->Devices.visit([&](Device& device) {
     count.gpuScalarBytes += textureBytes(device.Tissue.scalars());
-    count.gpuOtherBytes += textureBytes({ { device.Reference.texture() },
+    count.gpuOtherBytes += textureBytes({ device.Reference.textures(),
       device.Tissue.otherTextures(), device.Deformation.field().textures() });
     device.Deformation.askTime(count.gpuFieldMicroseconds);
   });
@@ -295,5 +359,8 @@ void vtkDeformedSlicesMapper::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Comparison: " << this->Comparison << "\n"
      << indent << "CheckerSize: " << this->CheckerSize << "\n"
      << indent << "ReferenceRange: " << this->ReferenceRange[0] << " " << this->ReferenceRange[1]
-     << "\n";
+     << "\n"
+     << indent << "FullGradient: " << this->FullGradient << "\n"
+     << indent << "WipePosition: " << this->WipePosition[0] << " " << this->WipePosition[1] << " "
+     << this->WipePosition[2] << "\n";
 }

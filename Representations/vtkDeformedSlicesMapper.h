@@ -20,6 +20,8 @@
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 #include "vtkVolumeMapper.h"
 
+#include <glm/fwd.hpp>
+
 #include <memory> // for the private part
 #include <string> // for messages
 
@@ -88,11 +90,15 @@ public:
     RedGreen = 1,     // volume red, reference green, agreement yellow
     Checkerboard = 2, // in turn, both by the colour map
     Difference = 3,   // volume minus reference; agreement is grey
+    Gradient = 4,     // the reference's gradient, green, over the volume in grey
+    Wipe = 5,         // the volume on one side of a line, the reference on the other
   };
 
   ///@{
-  /** How the reference that Compare Volumes attached is shown. Default not at all. */
-  vtkSetClampMacro(Comparison, int, NoComparison, Difference);
+  /** How the reference that Compare Volumes attached is shown. Default not at all. Colours and
+   * difference leave its cavity out. Where it attached that one of the two is shown alone, that one
+   * is drawn by the colour map, whatever the comparison. */
+  vtkSetClampMacro(Comparison, int, NoComparison, Wipe);
   vtkGetMacro(Comparison, int);
   ///@}
 
@@ -107,6 +113,21 @@ public:
    * Default 0 0: its whole range. */
   vtkSetVector2Macro(ReferenceRange, double);
   vtkGetVector2Macro(ReferenceRange, double);
+  ///@}
+
+  ///@{
+  /** How much the reference changes within a mm where Gradient is fully green, as a share of the
+   * range that is shown. Default 0.3. */
+  vtkSetClampMacro(FullGradient, double, 1e-6, VTK_DOUBLE_MAX);
+  vtkGetMacro(FullGradient, double);
+  ///@}
+
+  ///@{
+  /** The line of Wipe goes through it: mm, world axes, before the vtkVolume's transform. It divides
+   * axial and coronal slices across x, sagittal ones across y; the reference is where these are
+   * smaller. Default 0 0 0. */
+  vtkSetVector3Macro(WipePosition, double);
+  vtkGetVector3Macro(WipePosition, double);
   ///@}
 
   /** Whether what lies behind may be seen through the planes. */
@@ -127,6 +148,13 @@ public:
 
   /** Distances (mm) between voxels along these directions. 1 without an input. */
   void GetVoxelSteps(double steps[3]);
+
+  /**
+   * Which tissue the last picture shows at a pixel, counted from the renderer's lower left corner:
+   * its position (mm, world, deformed frame), and the unit normal of its plane. False if none.
+   * Nothing is drawn.
+   */
+  bool Pick(vtkRenderer* renderer, int x, int y, double position[3], double normal[3]);
 
   /** What was done since the mapper was made, and what it holds on the GPU now. */
   const brainshift::Counters& GetCounters();
@@ -154,6 +182,7 @@ private:
   void DescribePlanes(const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
     brainshift::SliceScene& scene);
   void UpdateDeformation(vtkImageData* image);
+  bool IsSeenAt(const glm::dvec3& texture); // deformed frame
 
   bool ShowSagittal = true;
   bool ShowCoronal = true;
@@ -165,6 +194,8 @@ private:
   int Comparison = NoComparison;
   double CheckerSize = 20.0;
   double ReferenceRange[2] = { 0.0, 0.0 };
+  double FullGradient = 0.3;
+  double WipePosition[3] = { 0.0, 0.0, 0.0 };
 
   std::unique_ptr<State> Internal;
 };

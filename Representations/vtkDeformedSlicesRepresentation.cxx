@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedSlicesRepresentation.h"
 
+#include "InteractiveDelivery.h"
 #include "OrientationMarks.h"
 #include "SlicesProp.h"
 #include "vtkDeformedSlicesMapper.h"
@@ -93,6 +94,16 @@ void vtkDeformedSlicesRepresentation::SetReferenceRange(double black, double whi
   this->GetDeformedSlicesMapper()->SetReferenceRange(black, white);
 }
 
+void vtkDeformedSlicesRepresentation::SetFullGradient(double share)
+{
+  this->GetDeformedSlicesMapper()->SetFullGradient(share);
+}
+
+void vtkDeformedSlicesRepresentation::SetWipePosition(double x, double y, double z)
+{
+  this->GetDeformedSlicesMapper()->SetWipePosition(x, y, z);
+}
+
 void vtkDeformedSlicesRepresentation::SetOrientationMarks(bool marks)
 {
   this->OrientationMarks = marks;
@@ -115,6 +126,17 @@ bool vtkDeformedSlicesRepresentation::RemoveFromView(vtkView* view)
     renderView->GetNonCompositedRenderer()->RemoveViewProp(this->Marks);
   }
   return this->Superclass::RemoveFromView(view);
+}
+
+int vtkDeformedSlicesRepresentation::ProcessViewRequest(
+  vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
+{
+  const int result = this->Superclass::ProcessViewRequest(request, input, output);
+  if (result)
+  {
+    brainshift::deliverWithStandIns(this, request, input);
+  }
+  return result;
 }
 
 int vtkDeformedSlicesRepresentation::RequestData(

@@ -38,6 +38,8 @@ public:
   void SetComparison(int comparison);
   void SetCheckerSize(double size);
   void SetReferenceRange(double black, double white);
+  void SetFullGradient(double share);
+  void SetWipePosition(double x, double y, double z);
   ///@}
 
   ///@{
@@ -56,6 +58,8 @@ protected:
   bool AddToView(vtkView* view) override;
   bool RemoveFromView(vtkView* view) override;
 
+  int ProcessViewRequest(
+    vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output) override;
   int RequestData(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedVolumeMapper.h"
 
-#include "DeformedPresence.h"
+#include "DeviceReference.h"
 #include "GpuMemory.h"
 #include "MovingQuality.h"
 #include "PictureStamp.h"
@@ -10,8 +10,9 @@
 #include "SceneDepth.h"
 #include "SceneGeometry.h"
 #include "SelectionCover.h"
+#include "SoftwareFallback.h"
 #include "TextureMemory.h"
-#include "Tissue.h"
+#include "TracePoints.h"
 #include "WindowDevices.h"
 
 #include "vtkDataArray.h"
@@ -37,10 +38,9 @@ using namespace brainshift;
 
 struct vtkDeformedVolumeMapper::Device
 {
-  brainshift::Tissue Tissue;
+  PresentTissue Own;
+  DeviceReference Reference;
   DeviceDeformation Deformation;
-  DeformedPresence Presence;
-  PresenceRequest Bricks; // what Presence shows
   SceneDepth Depth;
   RayCaster Caster;
   PictureStamp Stamp; // of what Caster holds
@@ -92,6 +92,7 @@ double* vtkDeformedVolumeMapper::GetBounds()
   }
   this->UpdateDeformation(image);
   this->Internal->Deformation.widen(this->Bounds);
+  widenByReference(image, this->Bounds);
   return this->Bounds;
 }
 
@@ -155,17 +156,38 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
     this->SampleDistance > 0.0 ? this->SampleDistance : 0.5 * smallestSide, blendOf(this, property),
     static_cast<GradientSource>(this->NormalTexture),
     property->GetInterpolationType() == VTK_NEAREST_INTERPOLATION,
-    this->SegmentOf(image, grid, layout) };
+    this->SegmentOf(image, grid, layout), {} };
+  SceneReference reference = this->FindReference(image, tissue);
   Device& device = this->Internal->Devices.of(window);
   takeOutOfMemory(); // what others left behind
-  const bool drawn = this->AskForMemory(renderer, device, tissue, problem) &&
-    this->DrawTissue(renderer, device, volume, tissue, grid, problem);
+  const auto draw = [&] {
+    return this->AskForMemory(renderer, device, tissue, reference, problem) &&
+      this->DrawTissue(renderer, device, volume, tissue, grid, reference, problem);
+  };
+  const bool drawn = draw();
   if (takeOutOfMemory())
   {
     device.Memory.refuse();
-    return this->AskForMemory(renderer, device, tissue, problem);
+    return draw(); // less of it, if anything
   }
   return drawn;
+}
+
+SceneReference vtkDeformedVolumeMapper::FindReference(
+  vtkImageData* image, const TissueRequest& tissue)
+{
+  const SceneReference reference =
+    referenceOf(image, tissue, { this->ReferenceRange[0], this->ReferenceRange[1] });
+  if (!reference.exists() || reference.show == ReferenceShow::Reference)
+  {
+    return reference;
+  }
+  const bool compared = reference.show == ReferenceShow::Both && this->Comparison != NoComparison;
+  if (compared && tissue.blend != Blend::Composite)
+  {
+    this->TellOnce("Red and green need blend mode Composite: the volume is drawn alone");
+  }
+  return compared && tissue.blend == Blend::Composite ? reference : SceneReference();
 }
 
 namespace
@@ -178,46 +200,38 @@ void adapt(const MovingQuality& quality, Blend blend, const glm::ivec2& size, Ra
   scene.size = glm::max(size / static_cast<int>(quality.imageScale), glm::ivec2(1));
   scene.shownHigh = scene.size;
 }
-
-// What is drawn already behind the pixels that the volume can show.
-void captureDepth(SceneDepth& depth, vtkOpenGLRenderWindow* window, const glm::ivec2& origin,
-  const glm::ivec2& size, RayCastScene& scene)
-{
-  const glm::dvec2 windowPixels = glm::dvec2(size) / glm::dvec2(scene.size); // for one of the image
-  depth.capture(window, origin, size, glm::floor(glm::dvec2(scene.shownLow) * windowPixels),
-    glm::ceil(glm::dvec2(scene.shownHigh) * windowPixels));
-  scene.sceneDepth = depth.texture();
-  scene.depthFromShare = depth.textureFromShare();
-  scene.depthOfShareZero = depth.textureOfShareZero();
-}
 }
 
 bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, vtkVolume* volume,
-  const TissueRequest& tissue, const Grid& grid, std::string& problem)
+  const TissueRequest& tissue, const Grid& grid, const SceneReference& reference,
+  std::string& problem)
 {
   State& state = *this->Internal;
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
-  const ValueLayout& layout = tissue.layout;
   RayCastScene scene;
+  RayCastScene referenceScene;
   vtkNew<vtkTimerLog> timer;
   timer->StartTimer();
-  if (!device.Tissue.update(window, tissue, scene, state.Count, problem) ||
-    !this->PrepareSpace(window, device, grid, layout, scene, problem))
+  const bool described = reference.isAlone()
+    ? this->DescribeReference(renderer, device, volume, tissue, grid, reference, scene, problem)
+    : this->DescribeTissue(renderer, device, volume, tissue, grid, scene, problem);
+  if (!described)
   {
     return false;
   }
-  this->TellOnce(device.Tissue.remark());
-  scene.skipping = this->EmptySpaceSkipping && device.Tissue.skippingIsExact(tissue.blend);
-  describeView(renderer, volume, grid, layout, scene);
-  describeOptions(this, tissue.property, tissue.scalars, device.Tissue.stored(),
-    scene.worldFromTexture, scene.options);
+  this->TellOnce(device.Own.Tissue.remark());
+  if (reference.exists() && !reference.isAlone())
+  {
+    this->Compare(renderer, device, volume, grid, reference, scene, referenceScene);
+  }
   glm::ivec2 origin;
   glm::ivec2 size;
   renderer->GetTiledSizeAndOrigin(&size.x, &size.y, &origin.x, &origin.y);
   timer->StopTimer();
   const double rate = window->GetDesiredUpdateRate();
   const bool moving = this->AdaptiveQuality && isMoving(rate);
-  if (moving || !this->KeepPicture)
+  const bool keep = this->KeepPicture || TracePoints::areShownIn(renderer);
+  if (moving || !keep)
   {
     device.Stamp.forget();
   }
@@ -233,12 +247,12 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   adapt(quality, tissue.blend, size, scene);
   if (scene.skipping)
   {
-    placeShownPixels(device.Presence.occupiedBox(), scene);
+    placeComparedPixels(scene);
   }
-  captureDepth(device.Depth, window, origin, size, scene);
+  device.Depth.captureBehind(window, origin, size, scene);
   timer->StartTimer();
   const bool repeats =
-    this->KeepPicture && !moving && device.Stamp.repeats(renderer, volume, scene, state.Count);
+    keep && !moving && device.Stamp.repeats(renderer, volume, scene, state.Count);
   if (!repeats && !device.Caster.cast(window, scene, state.Count))
   {
     device.Stamp.forget();
@@ -255,32 +269,70 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   return device.Caster.composite(window, origin, size, state.Count);
 }
 
-// The offset field and the bricks of the deformed frame.
-bool vtkDeformedVolumeMapper::PrepareSpace(vtkOpenGLRenderWindow* window, Device& device,
-  const Grid& grid, const ValueLayout& layout, RayCastScene& scene, std::string& problem)
+// The tissue, the offset field and the bricks of the deformed frame, and how they are seen.
+bool vtkDeformedVolumeMapper::DescribeTissue(vtkRenderer* renderer, Device& device,
+  vtkVolume* volume, const TissueRequest& tissue, const Grid& grid, RayCastScene& scene,
+  std::string& problem)
 {
   State& state = *this->Internal;
-  if (device.Tissue.takeVisibilityChange())
-  {
-    std::vector<float> summed = device.Tissue.summedVisibility();
-    device.Presence.setVisibility(window, device.Tissue.restBricks(), summed, state.Count);
-  }
+  auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   IndexBox changed; // nodes of the offset field
-  if (!device.Deformation.update(
-        window, state.Deformation, grid, layout, scene, changed, state.Count, problem))
+  if (!device.Own.Tissue.update(window, tissue, scene, state.Count, problem) ||
+    !device.Deformation.update(
+      window, state.Deformation, grid, tissue.layout, scene, changed, state.Count, problem) ||
+    !device.Own.updatePresence(window, tissue.layout, scene, changed, state.Count, problem))
   {
     return false;
   }
-  placeBricks(layout, scene, device.Bricks);
-  if (!device.Presence.update(window, device.Bricks, changed, state.Count))
-  {
-    problem =
-      "The presence map's shader does not compile or its texture cannot be made on this GPU";
-    return false;
-  }
-  this->DescribeCropping(grid, layout, scene);
-  scene.presence = &device.Presence;
+  this->DescribeCropping(grid, tissue.layout, scene);
+  this->DescribeOptions(renderer, volume, device.Own.Tissue, tissue, grid, scene);
   return true;
+}
+
+// The reference in place of the volume: not bent, in ordinary colours, cropped as the volume is.
+bool vtkDeformedVolumeMapper::DescribeReference(vtkRenderer* renderer, Device& device,
+  vtkVolume* volume, const TissueRequest& tissue, const Grid& grid, const SceneReference& reference,
+  RayCastScene& scene, std::string& problem)
+{
+  auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  if (!device.Reference.update(window, reference, scene, this->Internal->Count, problem))
+  {
+    return false;
+  }
+  this->DescribeOptions(
+    renderer, volume, device.Reference.Present.Tissue, reference.tissue, reference.grid, scene);
+  if (!cropByPlanes(this, volume, grid, tissue.layout, scene))
+  {
+    this->TellOnce("Of cropping, only the middle region cuts a reference that is shown alone");
+  }
+  return true;
+}
+
+void vtkDeformedVolumeMapper::DescribeOptions(vtkRenderer* renderer, vtkVolume* volume,
+  const Tissue& drawn, const TissueRequest& tissue, const Grid& grid, RayCastScene& scene)
+{
+  scene.skipping = this->EmptySpaceSkipping && drawn.skippingIsExact(tissue.blend);
+  describeView(renderer, volume, grid, tissue.layout, scene);
+  describeOptions(
+    this, tissue.property, tissue.scalars, drawn.stored(), scene.worldFromTexture, scene.options);
+}
+
+// Where the reference cannot be had, the volume is drawn alone.
+void vtkDeformedVolumeMapper::Compare(vtkRenderer* renderer, Device& device, vtkVolume* volume,
+  const Grid& grid, const SceneReference& reference, RayCastScene& scene, RayCastScene& alone)
+{
+  std::string problem;
+  if (!device.Reference.compare(
+        renderer, volume, reference, scene, alone, this->Internal->Count, problem))
+  {
+    device.Reference.releaseGraphicsResources(renderer->GetRenderWindow());
+    this->TellOnce(problem + ". The reference is not drawn");
+    return;
+  }
+  constexpr double usualVoxels = 2.0;
+  scene.comparison.agreementMm = this->AgreementDistance > 0.0
+    ? this->AgreementDistance
+    : usualVoxels * std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
 }
 
 // The middle region alone narrows the space; others are asked for at each sample.
@@ -297,6 +349,8 @@ void vtkDeformedVolumeMapper::DescribeCropping(
   {
     scene.spaceLow = glm::max(scene.spaceLow, options.regionLow);
     scene.spaceHigh = glm::min(scene.spaceHigh, options.regionHigh);
+    scene.comparison.cropLow = options.regionLow;
+    scene.comparison.cropHigh = options.regionHigh;
     return;
   }
   options.regions = true;
@@ -304,8 +358,9 @@ void vtkDeformedVolumeMapper::DescribeCropping(
 }
 
 // Before memory is taken: some drivers end the program when there is none.
-bool vtkDeformedVolumeMapper::AskForMemory(
-  vtkRenderer* renderer, Device& device, const TissueRequest& tissue, std::string& problem)
+// Where there is too little for the reference, the volume is drawn without it.
+bool vtkDeformedVolumeMapper::AskForMemory(vtkRenderer* renderer, Device& device,
+  const TissueRequest& tissue, SceneReference& reference, std::string& problem)
 {
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   DrawnSizes sizes;
@@ -313,7 +368,21 @@ bool vtkDeformedVolumeMapper::AskForMemory(
   glm::ivec2 origin;
   renderer->GetTiledSizeAndOrigin(&sizes.pixels.x, &sizes.pixels.y, &origin.x, &origin.y);
   this->Internal->Deformation.addSizes(sizes);
-  problem = device.Memory.ask(window, memoryNeed(sizes), this->MemoryLimit);
+  MemoryNeed need = memoryNeed(sizes);
+  if (reference.exists())
+  {
+    need.reference = referenceBytes(reference);
+    problem = device.Memory.ask(window, need, this->MemoryLimit);
+    if (problem.empty())
+    {
+      return true;
+    }
+    this->TellOnce(problem + ". The reference is not drawn");
+    need.reference = 0;
+    reference = SceneReference();
+    device.Reference.releaseGraphicsResources(window);
+  }
+  problem = device.Memory.ask(window, need, this->MemoryLimit);
   return problem.empty();
 }
 
@@ -331,18 +400,6 @@ void vtkDeformedVolumeMapper::TellOnce(const std::string& sentence)
   {
     vtkWarningMacro(<< sentence << ".");
   }
-}
-
-void vtkDeformedVolumeMapper::AddDrawnLabel(int label)
-{
-  this->DrawnLabels.push_back(label);
-  this->Modified();
-}
-
-void vtkDeformedVolumeMapper::ClearDrawnLabels()
-{
-  this->DrawnLabels.clear();
-  this->Modified();
 }
 
 // No segmentation where all tissue is drawn.
@@ -379,6 +436,12 @@ bool vtkDeformedVolumeMapper::Pick(vtkRenderer* renderer, int x, int y, double p
   return true;
 }
 
+vtkTextureObject* vtkDeformedVolumeMapper::GetHits(vtkWindow* window)
+{
+  Device* device = this->Internal->Devices.find(window);
+  return device ? device->Caster.drawnHits() : nullptr;
+}
+
 void vtkDeformedVolumeMapper::DrawUndeformed(
   vtkRenderer* renderer, vtkVolume* volume, const std::string& problem)
 {
@@ -388,26 +451,14 @@ void vtkDeformedVolumeMapper::DrawUndeformed(
     vtkErrorMacro(<< problem << ". VTK's software mapper draws the volume undeformed.");
     state.Reported = problem;
   }
-  // In software: what stopped us would stop VTK's GPU mapper too, some of it by an abort.
-  state.Fallback->SetRequestedRenderModeToRayCast();
-  state.Fallback->SetInputConnection(this->GetInputConnection(0, 0));
-  state.Fallback->SetScalarMode(this->ScalarMode);
-  state.Fallback->SelectScalarArray(this->ArrayName);
-  const bool blends = this->BlendMode == vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND ||
-    this->BlendMode == vtkVolumeMapper::MINIMUM_INTENSITY_BLEND ||
-    this->BlendMode == vtkVolumeMapper::ADDITIVE_BLEND;
-  state.Fallback->SetBlendMode(blends ? this->BlendMode : vtkVolumeMapper::COMPOSITE_BLEND);
-  state.Fallback->SetCropping(this->Cropping);
-  state.Fallback->SetCroppingRegionFlags(this->CroppingRegionFlags);
-  state.Fallback->SetCroppingRegionPlanes(this->CroppingRegionPlanes);
-  state.Fallback->SetClippingPlanes(this->ClippingPlanes);
+  drawInSoftware(this, state.Fallback);
   state.Fallback->Render(renderer, volume);
 }
 
 void vtkDeformedVolumeMapper::Device::Release(vtkWindow* window)
 {
-  this->Tissue.releaseGraphicsResources(window);
-  this->Presence.releaseGraphicsResources(window);
+  this->Own.releaseGraphicsResources(window);
+  this->Reference.releaseGraphicsResources(window);
   this->Deformation.releaseGraphicsResources(window);
   this->Depth.releaseGraphicsResources(window);
   this->Caster.releaseGraphicsResources(window);
@@ -428,10 +479,9 @@ void vtkDeformedVolumeMapper::AskTheGpu()
   count.gpuScalarBytes = 0;
   count.gpuOtherBytes = 0;
   this->Internal->Devices.visit([&](Device& device) {
-    count.gpuScalarBytes += textureBytes(device.Tissue.scalars());
-    count.gpuOtherBytes += device.Presence.faceBytes() +
-      textureBytes({ device.Tissue.otherTextures(), { device.Depth.copied() },
-        device.Deformation.field().textures(), device.Presence.textures(),
+    count.gpuScalarBytes += textureBytes(device.Own.Tissue.scalars());
+    count.gpuOtherBytes += device.Own.otherBytes() + device.Reference.bytes() +
+      textureBytes({ { device.Depth.copied() }, device.Deformation.field().textures(),
         device.Caster.textures() });
     device.Deformation.askTime(count.gpuFieldMicroseconds);
   });
@@ -441,18 +491,4 @@ const Counters& vtkDeformedVolumeMapper::GetCounters()
 {
   this->AskTheGpu();
   return this->Internal->Count;
-}
-
-void vtkDeformedVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "SampleDistance: " << this->SampleDistance << "\n"
-     << indent << "EmptySpaceSkipping: " << this->EmptySpaceSkipping << "\n"
-     << indent << "AdaptiveQuality: " << this->AdaptiveQuality << "\n"
-     << indent << "KeepPicture: " << this->KeepPicture << "\n"
-     << indent << "CountSamples: " << this->CountSamples << "\n"
-     << indent << "DrawSegment: " << this->DrawSegment << "\n"
-     << indent << "DrawnLabels: " << this->DrawnLabels.size() << "\n"
-     << indent << "MemoryLimit: " << this->MemoryLimit << "\n"
-     << indent << "NormalTexture: " << this->NormalTexture << "\n";
 }

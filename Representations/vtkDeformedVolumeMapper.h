@@ -33,14 +33,17 @@
 class vtkDataArray;
 class vtkImageData;
 class vtkOpenGLRenderWindow;
+class vtkTextureObject;
 class vtkVolumeProperty;
 namespace brainshift
 {
 struct Counters;
 struct Grid;
 struct RayCastScene;
+struct SceneReference;
 struct SegmentRequest;
 struct TissueRequest;
+class Tissue;
 struct ValueLayout;
 }
 
@@ -103,7 +106,7 @@ public:
   ///@{
   /**
    * Cast no rays for a still picture that would come out as the last one: what changes while a tool
-   * hovers lies over it. Default false.
+   * hovers lies over it. Default false; Trace Points in the view turn it on.
    */
   vtkSetMacro(KeepPicture, bool);
   vtkGetMacro(KeepPicture, bool);
@@ -122,6 +125,35 @@ public:
   /** Labels to draw. None, the default: those the segmentation means, or else all above 0. */
   void AddDrawnLabel(int label);
   void ClearDrawnLabels();
+  enum ComparisonType
+  {
+    NoComparison = 0,
+    RedGreen = 1, // volume red, reference green, agreement yellow
+  };
+
+  ///@{
+  /** How the reference that Compare Volumes attached is shown. Default red and green. */
+  vtkSetClampMacro(Comparison, int, NoComparison, RedGreen);
+  vtkGetMacro(Comparison, int);
+  ///@}
+
+  ///@{
+  /**
+   * The reference's scalars that stand for the ends of the volume's colour map. Default 0 0: equal
+   * numbers where the volumes' ranges have at least half in common, else from the whole range of
+   * the one to that of the other.
+   */
+  vtkSetVector2Macro(ReferenceRange, double);
+  vtkGetVector2Macro(ReferenceRange, double);
+  ///@}
+
+  ///@{
+  /**
+   * Distance (mm) between two surfaces at which half of the one behind is seen through the other:
+   * all of it at half the distance, nothing at one and a half. 0 (default): two voxels.
+   */
+  vtkSetClampMacro(AgreementDistance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(AgreementDistance, double);
   ///@}
 
   /**
@@ -130,6 +162,12 @@ public:
    * where the opacity along the ray reaches one half. False where it does not.
    */
   bool Pick(vtkRenderer* renderer, int x, int y, double position[3]);
+
+  /**
+   * First hits (mm, world; distance from the near plane, mm, below 0: none) of the last picture in
+   * a window, whole or a tile. Null if there is none.
+   */
+  vtkTextureObject* GetHits(vtkWindow* window);
 
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
@@ -157,20 +195,34 @@ private:
   // Draws deformed. False, with one sentence in `problem`, if this GPU cannot.
   bool Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem);
   bool DrawTissue(vtkRenderer* renderer, Device& device, vtkVolume* volume,
-    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid, std::string& problem);
+    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
+    const brainshift::SceneReference& reference, std::string& problem);
   void CoverSelection(vtkRenderer* renderer);
   void DrawUndeformed(vtkRenderer* renderer, vtkVolume* volume, const std::string& problem);
 
   brainshift::SegmentRequest SegmentOf(
     vtkImageData* image, const brainshift::Grid& grid, const brainshift::ValueLayout& layout);
-  void TellOnce(const std::string& sentence);
   void TellUnsupported(vtkVolumeProperty* property, vtkDataArray* scalars);
+  void TellOnce(const std::string& sentence);
+  brainshift::SceneReference FindReference(
+    vtkImageData* image, const brainshift::TissueRequest& tissue);
   bool AskForMemory(vtkRenderer* renderer, Device& device, const brainshift::TissueRequest& tissue,
-    std::string& problem);
+    brainshift::SceneReference& reference, std::string& problem);
   void AskTheGpu();
   void UpdateDeformation(vtkImageData* image);
-  bool PrepareSpace(vtkOpenGLRenderWindow* window, Device& device, const brainshift::Grid& grid,
-    const brainshift::ValueLayout& layout, brainshift::RayCastScene& scene, std::string& problem);
+  bool DescribeTissue(vtkRenderer* renderer, Device& device, vtkVolume* volume,
+    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
+    brainshift::RayCastScene& scene, std::string& problem);
+  bool DescribeReference(vtkRenderer* renderer, Device& device, vtkVolume* volume,
+    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
+    const brainshift::SceneReference& reference, brainshift::RayCastScene& scene,
+    std::string& problem);
+  void DescribeOptions(vtkRenderer* renderer, vtkVolume* volume, const brainshift::Tissue& drawn,
+    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
+    brainshift::RayCastScene& scene);
+  void Compare(vtkRenderer* renderer, Device& device, vtkVolume* volume,
+    const brainshift::Grid& grid, const brainshift::SceneReference& reference,
+    brainshift::RayCastScene& scene, brainshift::RayCastScene& alone);
   void DescribeCropping(const brainshift::Grid& grid, const brainshift::ValueLayout& layout,
     brainshift::RayCastScene& scene);
 
@@ -183,6 +235,9 @@ private:
   double MemoryLimit = 0.0;
   bool DrawSegment = false;
   std::vector<int> DrawnLabels;
+  int Comparison = RedGreen;
+  double ReferenceRange[2] = { 0.0, 0.0 };
+  double AgreementDistance = 0.0;
 
   std::unique_ptr<State> Internal;
 };

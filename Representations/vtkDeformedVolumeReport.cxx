@@ -70,13 +70,19 @@ double* vtkDeformedVolumeReport::GetVoxelSteps()
 
 double* vtkDeformedVolumeReport::GetTissue()
 {
-  std::fill_n(this->Tissue, 4, 0.0);
-  vtkDeformedVolumeMapper* mapper = this->Mapper();
-  if (mapper && this->View &&
-    mapper->Pick(this->View->GetRenderer(), this->Pixel[0], this->Pixel[1], this->Tissue))
+  std::fill_n(this->Tissue, 7, 0.0);
+  if (!this->View)
   {
-    this->Tissue[3] = 1.0;
+    return this->Tissue;
   }
+  vtkRenderer* renderer = this->View->GetRenderer();
+  vtkDeformedVolumeMapper* mapper = this->Mapper();
+  vtkDeformedSlicesMapper* slices = this->Slices();
+  const int* pixel = this->Pixel;
+  const bool found = mapper
+    ? mapper->Pick(renderer, pixel[0], pixel[1], this->Tissue)
+    : slices && slices->Pick(renderer, pixel[0], pixel[1], this->Tissue, this->Tissue + 4);
+  this->Tissue[3] = found ? 1.0 : 0.0;
   return this->Tissue;
 }
 

@@ -41,9 +41,10 @@ public:
 
   /**
    * Which tissue the last picture shows at the pixel: its position (mm, world, deformed frame) and
-   * 1, or zeros where no surface was hit. Nothing is drawn.
+   * 1, or zeros where no surface was hit; then the unit normal (world) of the slice that shows it,
+   * zeros in a Deformed Volume. Nothing is drawn.
    */
-  double* GetTissue() VTK_SIZEHINT(4);
+  double* GetTissue() VTK_SIZEHINT(7);
 
   /** What the renderer did since it was made, and holds on the GPU (Counters.h): lines of a name, a space, a number. */
   const char* GetCounters();
@@ -69,7 +70,7 @@ private:
   vtkWeakPointer<vtkPVDataRepresentation> Representation;
   vtkWeakPointer<vtkPVRenderView> View;
   int Pixel[2] = { -1, -1 };
-  double Tissue[4] = { 0.0, 0.0, 0.0, 0.0 };
+  double Tissue[7] = {};
   double SliceNormals[9] = {};
   double VoxelSteps[3] = {};
   std::string Counters;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedVolumeRepresentation.h"
 
+#include "InteractiveDelivery.h"
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkVolumeOrder.h"
 
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"
-#include "vtkPVDataDeliveryManager.h"
 #include "vtkPVRenderView.h"
 #include "vtkRenderer.h"
 #include "vtkSmartVolumeMapper.h"
@@ -81,6 +81,21 @@ void vtkDeformedVolumeRepresentation::SetMemoryLimit(double limit)
   this->GetDeformedVolumeMapper()->SetMemoryLimit(limit);
 }
 
+void vtkDeformedVolumeRepresentation::SetComparison(int comparison)
+{
+  this->GetDeformedVolumeMapper()->SetComparison(comparison);
+}
+
+void vtkDeformedVolumeRepresentation::SetReferenceRange(double low, double high)
+{
+  this->GetDeformedVolumeMapper()->SetReferenceRange(low, high);
+}
+
+void vtkDeformedVolumeRepresentation::SetAgreementDistance(double distance)
+{
+  this->GetDeformedVolumeMapper()->SetAgreementDistance(distance);
+}
+
 void vtkDeformedVolumeRepresentation::SetGlobalIlluminationReach(float reach)
 {
   this->GlobalIlluminationReach = reach;
@@ -140,14 +155,9 @@ int vtkDeformedVolumeRepresentation::ProcessViewRequest(
   vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
 {
   const int result = this->Superclass::ProcessViewRequest(request, input, output);
-  auto view = vtkPVView::SafeDownCast(input->Get(vtkPVView::VIEW()));
-  if (result && view && request == vtkPVView::REQUEST_UPDATE_LOD())
+  if (result)
   {
-    // Above its LOD threshold ParaView delivers an interactive picture the data's stand-ins only. A
-    // volume has none, and would be missing after a stroke.
-    const unsigned int id = this->GetUniqueIdentifier();
-    unsigned int volumeAndOutline[] = { id, 0, id, 1 }; // their ports
-    view->GetDeliveryManager()->Deliver(/*use_low_res*/ 0, 4, volumeAndOutline);
+    brainshift::deliverWithStandIns(this, request, input);
   }
   return result;
 }

@@ -66,6 +66,14 @@ public:
   void SetMemoryLimit(double limit);
 
   ///@{
+  /** How a reference that the data carries is shown, and what of it: as vtkDeformedVolumeMapper
+   * says. */
+  void SetComparison(int comparison);
+  void SetReferenceRange(double low, double high);
+  void SetAgreementDistance(double distance);
+  ///@}
+
+  ///@{
   /** Light effects of ParaView's "Volume" that are not drawn: told once if they are asked for. */
   void SetGlobalIlluminationReach(float reach);
   void SetVolumetricScatteringBlending(float blending);

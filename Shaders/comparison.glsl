@@ -4,22 +4,61 @@
 #ifdef COMPARED
 uniform sampler3D reference;       // red: the scalar, as stored
 uniform mat4 referenceFromTexture; // its texture coordinates from the volume's
+uniform vec3 referenceVoxels;      // of it, a side
 uniform vec3 referenceLow;         // its box, in its texture coordinates
 uniform vec3 referenceHigh;
 uniform vec2 shareFromReference;  // stored scalar to its share of the shown range: scale, shift
 uniform vec2 shareFromScalar;     // the same of the volume
 uniform vec2 transferFromShare;   // share to the colour map's coordinate: scale, shift
-uniform int comparison;           // as vtkDeformedSlicesMapper numbers them
+uniform int comparison;           // as vtkDeformedSlicesMapper numbers them; 0: the reference alone
 uniform vec3 checkersFromTexture; // checker fields for a texture unit
+uniform vec3 greenFromGradient;   // stored scalar for a unit of its texture to share of full green
+uniform vec3 wipeNormal;          // mm beyond the wipe's line, on the reference's side of it
+uniform float wipeShift;
 
-// The reference's share of its range, and whether there is one here.
-float referenceShareAt(vec3 deformed, out bool known)
+const int ReferenceAlone = 0;
+const int RedGreen = 1;
+const int Checkerboard = 2;
+const int Difference = 3;
+const int Gradient = 4;
+const int Wipe = 5;
+const vec3 WipeColor = vec3(0.91, 0.51, 0.12);
+const float HalfLinePixels = 0.75;
+
+#ifdef CAVITY
+uniform sampler3D cavity;       // red: whether it is one, as stored; the nearest voxel's holds
+uniform mat4 cavityFromTexture; // its texture coordinates from the volume's
+uniform float leastCavity;      // stored number from which on it is one
+
+bool isRemoved(vec3 deformed)
+{
+  vec3 place = (cavityFromTexture * vec4(deformed, 1.0)).xyz;
+  return all(greaterThanEqual(place, vec3(0.0))) && all(lessThan(place, vec3(1.0))) &&
+    textureLod(cavity, place, 0.0).r > leastCavity;
+}
+#else
+bool isRemoved(vec3 deformed)
+{
+  return false;
+}
+#endif
+
+// The reference at a position in its texture: its share of the range, 0 where it is not known.
+struct Referenced
+{
+  vec3 place;
+  bool known;
+  float share;
+};
+
+Referenced referenceAt(vec3 deformed)
 {
   vec3 place = (referenceFromTexture * vec4(deformed, 1.0)).xyz;
-  float scalar = textureLod(reference, place, 0.0).r;
-  known = all(greaterThanEqual(place, referenceLow)) && all(lessThanEqual(place, referenceHigh)) &&
-    !isnan(scalar);
-  return known ? clamp(scalar * shareFromReference.x + shareFromReference.y, 0.0, 1.0) : 0.0;
+  float scalar = filteredAt(reference, place, referenceVoxels);
+  bool known = all(greaterThanEqual(place, referenceLow)) &&
+    all(lessThanEqual(place, referenceHigh)) && !isnan(scalar);
+  float share = clamp(scalar * shareFromReference.x + shareFromReference.y, 0.0, 1.0);
+  return Referenced(place, known, known ? share : 0.0);
 }
 
 bool inEvenField(vec3 deformed)
@@ -28,26 +67,61 @@ bool inEvenField(vec3 deformed)
   return ((field.x + field.y + field.z) & 1) == 0;
 }
 
-vec3 compared(vec3 color, float scalar, vec3 deformed)
+// How green the reference's gradient is.
+float gradientGreen(Referenced other)
 {
-  bool known;
-  float other = referenceShareAt(deformed, known);
+  vec3 gradient = centralDifferences(reference, other.place, 1.0 / referenceVoxels);
+  float green = length(gradient * greenFromGradient);
+  return other.known && !isnan(green) ? min(green, 1.0) : 0.0;
+}
+
+// Both in one colour; what was removed does not count and is grey. `color`: the volume's, by its
+// colour map; `own`: the share of its range.
+vec3 compared(vec3 color, float own, Referenced other, vec3 alone, vec3 deformed)
+{
+  switch (comparison)
+  {
+    case RedGreen:
+      return isRemoved(deformed) ? vec3(own) : vec3(own, other.share, 0.0);
+    case Checkerboard:
+      return other.known && !inEvenField(deformed) ? alone : color;
+    case Difference:
+      return vec3(
+        other.known && !isRemoved(deformed) ? 0.5 + 0.5 * (own - other.share) : 0.5);
+    case Gradient:
+      return mix(vec3(own), vec3(0.0, 1.0, 0.0), isRemoved(deformed) ? 0.0 : gradientGreen(other));
+    default:
+      return color;
+  }
+}
+
+// What is seen of a tissue's colour and opacity, and of the reference; false: nothing.
+bool compare(bool hasTissue, float scalar, vec3 deformed, inout vec4 seen)
+{
+  Referenced other = referenceAt(deformed);
+  float entry = other.share * transferFromShare.x + transferFromShare.y;
+  vec4 alone = textureLod(transfer, vec2(entry, transferRow), 0.0);
   float own = clamp(scalar * shareFromScalar.x + shareFromScalar.y, 0.0, 1.0);
-  if (comparison == 1)
+  float beyondMm = dot(wipeNormal, deformed) + wipeShift;
+  float pixelMm = fwidth(beyondMm);
+  if (comparison == ReferenceAlone || (comparison == Wipe && beyondMm > 0.0))
   {
-    return vec3(own, other, 0.0);
+    seen = alone;
+    hasTissue = other.known;
   }
-  if (comparison == 2)
+  else if (hasTissue)
   {
-    return known && !inEvenField(deformed)
-      ? textureLod(transfer, vec2(other * transferFromShare.x + transferFromShare.y, transferRow), 0.0).rgb
-      : color;
+    seen.rgb = compared(seen.rgb, own, other, alone.rgb, deformed);
   }
-  return known ? vec3(0.5 + 0.5 * (own - other)) : vec3(0.5);
+  if (comparison == Wipe && abs(beyondMm) < HalfLinePixels * pixelMm)
+  {
+    seen.rgb = WipeColor;
+  }
+  return hasTissue;
 }
 #else
-vec3 compared(vec3 color, float scalar, vec3 deformed)
+bool compare(bool hasTissue, float scalar, vec3 deformed, inout vec4 seen)
 {
-  return color;
+  return hasTissue;
 }
 #endif

@@ -1,19 +1,10 @@
 // Composite blending, front to back: the paper's ray caster (section 2), with a loop of its own,
 // since it is what is drawn all day.
 
-// Where in its first step a pixel's ray starts: 16 shares, ordered so that neighbours differ most
-// (Bayer, 1973).
-float startShare(ivec2 pixel)
-{
-  int mixed = pixel.x ^ pixel.y;
-  int rank = (mixed & 1) * 8 + (pixel.y & 1) * 4 + (mixed >> 1 & 1) * 2 + (pixel.y >> 1 & 1);
-  return (float(rank) + 0.5) / 16.0;
-}
-
 // Colour times opacity, and opacity, of a sample.
-vec4 shown(vec4 tissue, vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
+vec4 shown(vec4 tissue, vec3 rest, Shine shine)
 {
-  vec3 color = shade(colorOf(tissue, rest), deformed, rest, slopes, turn, towardsEye);
+  vec3 color = shone(shine, colorOf(tissue, rest));
   return tissue.a > 0.0 ? vec4(color * tissue.a, tissue.a) : vec4(0.0);
 }
 
@@ -47,7 +38,7 @@ Path pathOf(Ray ray)
   {
     path.moved = movedSamples(ray, span, stepMm);
     path.field = fieldTrack(path.deformed);
-    path.bricks = brickTrack(path.deformed);
+    path.bricks = deformedBricks(path.deformed);
     path.towardsEye = -normalize(worldFromTexture * ray.direction);
   }
   return path;
@@ -65,11 +56,6 @@ void see(inout Seen seen, vec4 shown, float number)
   seen.picture += seen.picture.a > OpaqueEnough ? vec4(0.0) : (1.0 - seen.picture.a) * shown;
   bool hit = seen.hit < 0.0 && seen.picture.a >= HitOpacity;
   seen.hit = hit ? max(number - 0.5, 0.0) : seen.hit;
-}
-
-float evenBelow(float number)
-{
-  return 2.0 * floor(0.5 * number);
 }
 
 // Takes the samples i and i + 1: their reads do not wait for each other, and one Jacobian does for
@@ -103,8 +89,19 @@ bool takeTwo(Path path, TissueTable table, mat3 turn, float i, inout Seen seen)
     {
       slopes = offsetSlopes(positionOf(path.field, i) + 0.5 * path.field.stride);
     }
-    see(seen, shown(one, oneDeformed, oneRest, slopes, turn, path.towardsEye), i);
-    see(seen, shown(two, twoDeformed, twoRest, slopes, turn, path.towardsEye), i + 1.0);
+#ifdef SHARED_LIGHT
+    // Light is found once, at the middle of what the two show.
+    float further = (1.0 - one.a) * two.a;
+    float way = further / (one.a + further);
+    Shine oneShine = shineAt(mix(oneDeformed, twoDeformed, way), mix(oneRest, twoRest, way), slopes,
+      turn, path.towardsEye);
+    Shine twoShine = oneShine;
+#else
+    Shine oneShine = shineAt(oneDeformed, oneRest, slopes, turn, path.towardsEye);
+    Shine twoShine = shineAt(twoDeformed, twoRest, slopes, turn, path.towardsEye);
+#endif
+    see(seen, shown(one, oneRest, oneShine), i);
+    see(seen, shown(two, twoRest, twoShine), i + 1.0);
   }
   return visible;
 }
@@ -125,7 +122,7 @@ void main()
     bool present = true;
     if (i >= ask)
     {
-      ask = evenBelow(sampleBeyond(path.bricks, i, present));
+      ask = evenBelow(sampleBeyond(leaps, leapsTexel, path.bricks, i, present));
       present = present || ask <= i;
     }
     float next = ask;

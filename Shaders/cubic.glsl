@@ -39,3 +39,10 @@ float cubicAt(sampler3D texels, vec3 position, vec3 voxels)
   vec2 alongY = mix(sums.xz, sums.yw, pairs.upper.y);
   return mix(alongY.x, alongY.y, pairs.upper.z);
 }
+
+uniform int cubic; // 1: cubic filter; else the texture's own
+
+float filteredAt(sampler3D texels, vec3 position, vec3 voxels)
+{
+  return cubic == 1 ? cubicAt(texels, position, voxels) : textureLod(texels, position, 0.0).r;
+}

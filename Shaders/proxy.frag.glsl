@@ -1,9 +1,9 @@
 // First and last share of a ray within occupied bricks, through MIN blending: red keeps the least
-// share, green the least of minus the share.
+// share, green the least of what is left of the ray behind a face. The image cuts both at 0 and 1.
 
 in float share; // of the way from the near plane to the far plane
 
 void main()
 {
-  gl_FragData[0] = vec4(share, -share, 0.0, 0.0);
+  gl_FragData[0] = vec4(share, 1.0 - share, 0.0, 0.0);
 }

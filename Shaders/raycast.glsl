@@ -14,20 +14,41 @@ uniform vec3 worldOfTextureZero; // mm
 const float OpaqueEnough = 254.0 / 255.0; // what is behind would change less than one 8-bit level
 const float HitOpacity = 0.5;             // where this much is reached, the eye sees a surface
 
+// Where in its first step a pixel's ray starts: 16 shares, ordered so that neighbours differ most
+// (Bayer, 1973).
+float startShare(ivec2 pixel)
+{
+  int mixed = pixel.x ^ pixel.y;
+  int rank = (mixed & 1) * 8 + (pixel.y & 1) * 4 + (mixed >> 1 & 1) * 2 + (pixel.y >> 1 & 1);
+  return (float(rank) + 0.5) / 16.0;
+}
+
+// Composite takes samples by twos.
+float evenBelow(float number)
+{
+  return 2.0 * floor(0.5 * number);
+}
+
 vec3 worldFromDeformed(vec3 deformed)
 {
   return worldFromTexture * deformed + worldOfTextureZero;
 }
 
-// A sample's colour under light. `slopes`: of the offsets near it; `turn`: worldFromGradient.
-vec3 shade(vec3 color, vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
+// What light does at a position. `slopes`: of the offsets near it; `turn`: worldFromGradient.
+Shine shineAt(vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
 {
 #ifdef SHADED
   vec3 gradient = turn * deformedGradientFromRest(slopes, shownGradientAt(rest));
   float steepness = length(gradient);
   vec3 normal = steepness > 0.0 ? gradient / steepness : vec3(0.0);
-  return lit(color, normal, towardsEye, worldFromDeformed(deformed));
+  return shineOn(normal, towardsEye, worldFromDeformed(deformed));
 #else
-  return color;
+  return Shine(vec3(1.0), vec3(0.0));
 #endif
+}
+
+// A sample's colour under light.
+vec3 shade(vec3 color, vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
+{
+  return shone(shineAt(deformed, rest, slopes, turn, towardsEye), color);
 }

@@ -2,24 +2,44 @@
 // where to start and end, from the distance to occupied bricks where to leap in between.
 
 uniform int skipping;         // 0: all samples, for comparison
-uniform sampler2D spans;      // red: least share of the ray on an occupied brick's face; green: minus
-                              // the greatest
+uniform sampler2D spans;      // red: least share of the ray on an occupied brick's face; green: what
+                              // is left of the ray behind the last one; 16 bits each
 uniform vec2 spansTexel;      // one pixel, texture coordinates of `spans`
 uniform sampler3D leaps;      // bricks of the deformed frame: 0 where something may be seen, else how
                               // many bricks away, of 255, the nearest such brick is
 uniform vec3 brickFromTexture;
 uniform vec3 brickOfTextureZero; // minus the first brick
 uniform vec3 leapsTexel;         // one brick, texture coordinates of `leaps`
+#ifdef COMPARED
+uniform sampler3D referenceLeaps; // the same of the reference: bricks of its own voxels, unbent
+uniform vec3 brickFromReference;
+uniform vec3 brickOfReferenceZero;
+uniform vec3 referenceLeapsTexel;
 
-const float Nothing = 1e29; // what `spans` holds where no face is
+vec3 referenceFromDeformed(vec3 deformed); // reference.glsl
+#endif
+
+const float SpanRounding = 1.0 / 65535.0; // of a share, at most
 const float Trust = 8.0; // so many samples, first ones and after a visible one, are not asked about
+
+bool isOccupied(sampler3D map, vec3 place)
+{
+  bool among = all(greaterThanEqual(place, vec3(0.0))) && all(lessThan(place, vec3(1.0)));
+  return among && textureLod(map, place, 0.0).r == 0.0;
+}
 
 // The eye may be inside an occupied brick: its front faces are then behind the eye.
 bool startsInside(vec3 position)
 {
-  vec3 place = (position * brickFromTexture + brickOfTextureZero) * leapsTexel;
-  bool among = all(greaterThanEqual(place, vec3(0.0))) && all(lessThan(place, vec3(1.0)));
-  return among && textureLod(leaps, place, 0.0).r == 0.0;
+  vec3 bricks = position * brickFromTexture + brickOfTextureZero;
+#ifdef COMPARED
+  vec3 place = referenceFromDeformed(position);
+  vec3 referenceBricks = place * brickFromReference + brickOfReferenceZero;
+  return isOccupied(leaps, bricks * leapsTexel) ||
+    isOccupied(referenceLeaps, referenceBricks * referenceLeapsTexel);
+#else
+  return isOccupied(leaps, bricks * leapsTexel);
+#endif
 }
 
 // First sample and one past the last; samples are numbered from t = span.x.
@@ -31,15 +51,15 @@ vec2 presentSamples(Ray ray, vec2 span, float stepMm)
     return all;
   }
   vec2 found = textureLod(spans, gl_FragCoord.xy * spansTexel, 0.0).rg;
-  if (found.y > Nothing)
+  if (found.y == 1.0)
   {
     return vec2(0.0); // the ray meets no occupied brick: even from inside it would leave one
   }
-  found *= ray.lengthMm;
+  found = (found - SpanRounding) * ray.lengthMm;
   float nearest = startsInside(ray.start) ? 0.0 : found.x;
   // One sample more to either side for rounding.
   vec2 present = vec2(floor((nearest - span.x) / stepMm) - 1.0,
-    ceil((-found.y - span.x) / stepMm) + 2.0);
+    ceil((ray.lengthMm - found.y - span.x) / stepMm) + 2.0);
   return vec2(max(present.x, all.x), min(present.y, all.y));
 }
 
@@ -52,23 +72,28 @@ struct BrickTrack
   vec3 samplesToFace;
 };
 
-BrickTrack brickTrack(Track deformed)
+BrickTrack brickTrack(Track inBricks)
 {
   BrickTrack bricks;
-  bricks.at = Track(deformed.first * brickFromTexture + brickOfTextureZero,
-    deformed.stride * brickFromTexture);
+  bricks.at = inBricks;
   vec3 forward = step(0.0, bricks.at.stride);
   bricks.samplesPerBrick = (2.0 * forward - 1.0) / max(abs(bricks.at.stride), vec3(1e-9));
   bricks.samplesToFace = (forward - bricks.at.first) * bricks.samplesPerBrick;
   return bricks;
 }
 
+BrickTrack deformedBricks(Track deformed)
+{
+  return brickTrack(Track(deformed.first * brickFromTexture + brickOfTextureZero,
+    deformed.stride * brickFromTexture));
+}
+
 // Whether something may be seen in the brick that sample `i` is in, and the first sample beyond it;
-// if nothing may, beyond all bricks around it that are as empty.
-float sampleBeyond(BrickTrack bricks, float i, out bool present)
+// if nothing may, beyond all bricks around it that are as empty. `map`: their leaps.
+float sampleBeyond(sampler3D map, vec3 mapTexel, BrickTrack bricks, float i, out bool present)
 {
   vec3 position = positionOf(bricks.at, i);
-  float away = floor(textureLod(leaps, position * leapsTexel, 0.0).r * 255.0 + 0.5);
+  float away = floor(textureLod(map, position * mapTexel, 0.0).r * 255.0 + 0.5);
   present = away == 0.0;
   // The block of empty bricks: so many to either side, less one.
   float margin = max(away - 1.0, 0.0);

@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -61,12 +62,6 @@ std::vector<std::pair<int, int>> edgesBetween(const std::vector<Handle>& handles
   return edges;
 }
 
-Polyline circle(const glm::dvec3& centre, const glm::dvec3& normal, double radius)
-{
-  const glm::dvec3 first = across(normal);
-  return ellipse(centre, radius * first, radius * glm::cross(normal, first));
-}
-
 std::vector<Polyline> outlineOf(const Stroke& stroke, double share)
 {
   const bool isSphere = stroke.tool == Tool::Soft;
@@ -78,6 +73,20 @@ std::vector<Polyline> outlineOf(const Stroke& stroke, double share)
   return { ellipse(stroke.anchor, wide * first, wide * second),
     ellipse(stroke.anchor, along * axis, wide * first),
     ellipse(stroke.anchor, along * axis, wide * second) };
+}
+
+Polyline sectionOf(const Stroke& stroke, double share, const glm::dvec3& normal)
+{
+  const bool isSphere = stroke.tool == Tool::Soft;
+  const glm::dvec3 axis = isSphere ? normal : glm::normalize(stroke.axis);
+  const double minor = isSphere ? stroke.major : stroke.minor;
+  const glm::dvec3 inPlane = axis - glm::dot(axis, normal) * normal;
+  constexpr double nearlyNone = 1e-9;
+  const double cosine = glm::length(inPlane); // between the axis and the section
+  const glm::dvec3 first = cosine < nearlyNone ? across(normal) : inPlane / cosine;
+  const double along = 1.0 /
+    std::hypot(cosine / stroke.major, std::sqrt(std::max(0.0, 1.0 - cosine * cosine)) / minor);
+  return ellipse(stroke.anchor, share * along * first, share * minor * glm::cross(normal, first));
 }
 
 double shareOfHalfWeight(double sigma)

@@ -26,13 +26,13 @@ struct Handle
 VTKBRAINSHIFTWIDGETS_EXPORT std::vector<std::pair<int, int>> edgesBetween(
   const std::vector<Handle>& handles);
 
-// A circle about a unit normal, closed.
-VTKBRAINSHIFTWIDGETS_EXPORT Polyline circle(
-  const glm::dvec3& centre, const glm::dvec3& normal, double radius);
-
 // The surface at a share of the radius of a Soft stroke (a sphere) or a Stamp (an ellipsoid of
 // revolution): the circle across the axis and two ellipses along it.
 VTKBRAINSHIFTWIDGETS_EXPORT std::vector<Polyline> outlineOf(const Stroke& stroke, double share);
+
+// The same surface's section by the plane through the anchor across a unit normal.
+VTKBRAINSHIFTWIDGETS_EXPORT Polyline sectionOf(
+  const Stroke& stroke, double share, const glm::dvec3& normal);
 
 // Share of the radius at which a stroke of this sigma moves tissue half as far as in its middle.
 VTKBRAINSHIFTWIDGETS_EXPORT double shareOfHalfWeight(double sigma);

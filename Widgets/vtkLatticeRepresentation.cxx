@@ -60,6 +60,17 @@ struct Drawing
     return this->Shape->GetPoints()->InsertNextPoint(at.x, at.y, at.z);
   }
 
+  void show(const std::vector<glm::dvec3>& points)
+  {
+    this->clear();
+    for (const glm::dvec3& at : points)
+    {
+      const vtkIdType point = this->addPoint(at);
+      this->Shape->GetVerts()->InsertNextCell(1, &point);
+    }
+    this->done();
+  }
+
   void done()
   {
     this->Shape->Modified();
@@ -73,19 +84,21 @@ constexpr std::array<double, 3> Orange{ 1.0, 0.45, 0.05 };
 constexpr std::array<double, 3> Cyan{ 0.2, 0.9, 1.0 };
 constexpr double HandlePixels = 7.0; // below 5, users of trackpads miss it
 constexpr double HighlightPixels = 12.0;
+constexpr double FaintPixels = 3.0;
 }
 
 struct vtkLatticeRepresentation::Parts
 {
   std::vector<Handle> Handles;
   Drawing Edges;
+  Drawing Faint;
   Drawing Points;
   Drawing Highlights;
   std::array<Drawing, NumberOfPens> Lines;
 
   std::vector<Drawing*> all()
   {
-    std::vector<Drawing*> drawings{ &this->Edges };
+    std::vector<Drawing*> drawings{ &this->Edges, &this->Faint };
     for (Drawing& lines : this->Lines)
     {
       drawings.push_back(&lines);
@@ -103,6 +116,7 @@ vtkLatticeRepresentation::vtkLatticeRepresentation()
 {
   Parts& parts = *this->Internal;
   parts.Edges.look(White, 0.35, 1.0);
+  parts.Faint.look(White, 0.5, FaintPixels);
   parts.Points.look(White, 1.0, HandlePixels);
   parts.Points.Actor->GetProperty()->RenderPointsAsSpheresOn();
   parts.Highlights.look(Orange, 1.0, HighlightPixels);
@@ -141,16 +155,15 @@ const std::vector<Handle>& vtkLatticeRepresentation::GetHandles() const
   return this->Internal->Handles;
 }
 
+void vtkLatticeRepresentation::SetFaint(const std::vector<glm::dvec3>& positions)
+{
+  this->Internal->Faint.show(positions);
+  this->Modified();
+}
+
 void vtkLatticeRepresentation::SetHighlights(const std::vector<glm::dvec3>& positions)
 {
-  Drawing& drawing = this->Internal->Highlights;
-  drawing.clear();
-  for (const glm::dvec3& position : positions)
-  {
-    const vtkIdType point = drawing.addPoint(position);
-    drawing.Shape->GetVerts()->InsertNextCell(1, &point);
-  }
-  drawing.done();
+  this->Internal->Highlights.show(positions);
   this->Modified();
 }
 
@@ -183,6 +196,11 @@ void vtkLatticeRepresentation::Clear()
 int vtkLatticeRepresentation::GetNumberOfHandles() const
 {
   return static_cast<int>(this->Internal->Handles.size());
+}
+
+int vtkLatticeRepresentation::GetNumberOfFaint() const
+{
+  return static_cast<int>(this->Internal->Faint.Shape->GetNumberOfPoints());
 }
 
 int vtkLatticeRepresentation::GetNumberOfHighlights() const
@@ -272,5 +290,6 @@ void vtkLatticeRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Handles: " << this->GetNumberOfHandles() << "\n"
+     << indent << "Faint: " << this->GetNumberOfFaint() << "\n"
      << indent << "Highlights: " << this->GetNumberOfHighlights() << "\n";
 }

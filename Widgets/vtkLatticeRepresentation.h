@@ -36,6 +36,9 @@ public:
   void SetHandles(const std::vector<brainshift::Handle>& handles);
   const std::vector<brainshift::Handle>& GetHandles() const;
 
+  /** Positions of control points that are told, but not within reach. */
+  void SetFaint(const std::vector<glm::dvec3>& positions);
+
   /** Highlighted positions: selected, or under the cursor. */
   void SetHighlights(const std::vector<glm::dvec3>& positions);
 
@@ -47,6 +50,7 @@ public:
 
   /** Points, and lines of all kinds, that are drawn. */
   int GetNumberOfHandles() const;
+  int GetNumberOfFaint() const;
   int GetNumberOfHighlights() const;
   int GetNumberOfLines(int pen) const;
 

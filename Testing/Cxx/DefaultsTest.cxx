@@ -41,7 +41,8 @@ TEST(Defaults, OfCompareVolumesLiveInTheClass)
   const double* turn = filter->GetReferenceRotation();
   const double* move = filter->GetReferenceTranslation();
   const Defaults expected{ { "ReferenceRotation", { turn[0], turn[1], turn[2] } },
-    { "ReferenceTranslation", { move[0], move[1], move[2] } } };
+    { "ReferenceTranslation", { move[0], move[1], move[2] } },
+    { "Show", { double(filter->GetShow()) } } };
   EXPECT_EQ(defaultsIn("Filters/CompareVolumes.xml"), expected);
 }
 

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 using namespace brainshift;
@@ -209,4 +210,46 @@ TEST(FieldTexture, FollowsItsRequest)
   EXPECT_EQ(count.programsCompiled, 2);
   field.releaseGraphicsResources(shown.window());
   EXPECT_EQ(field.offsets(), nullptr);
+}
+
+// Where nothing moves textures are kept at zero, and only what moves, or moved, is made anew.
+TEST(FieldTexture, MakesWhatMovesAnewForOtherSettings)
+{
+  TestWindow shown;
+  FieldTexture field;
+  Counters count;
+  Lattice lattice = makeLattice(obliqueGrid(glm::ivec3(14)), KernelCatmullRom);
+  const std::size_t middle = (7 * 14 + 7) * 14 + 7;
+  lattice.displacements[middle] = { 3.0f, -2.0f, 1.0f };
+  FieldRequest request = requestFor(lattice, 4, Inverse::Exact);
+  const FieldNodes nodes = request.nodes;
+  const auto check = [&](const char* what) {
+    const std::int64_t before = count.texelsRefined;
+    ASSERT_TRUE(field.update(shown.window(), request, count)) << what;
+    const NodeField known = refine(lattice.grid, request.kernel, request.inCells, request.samples);
+    const float large = largest(known.values);
+    EXPECT_LT(largestDifference(download(field.displacements()), known.values), 1e-5f * large)
+      << what;
+    EXPECT_LT(largestDifference(
+                download(field.offsets()), invert(known, request.nodes, request.inverse).values),
+      1e-3f * large)
+      << what;
+    const glm::ivec3& all = request.nodes.count;
+    EXPECT_LT(count.texelsRefined - before, all.x * all.y * all.z / 2) << what;
+  };
+  check("first");
+  request.kernel = KernelBSpline;
+  check("other kernel");
+  request.inverse = Inverse::Negated;
+  check("other inverse");
+  std::swap(request.inCells[middle], request.inCells[middle + 2]);
+  request.kernel = KernelCatmullRom;
+  check("kernel and control points");
+  request.samples = 2;
+  request.nodes = backwardNodes(lattice.grid, request.inCells, 2);
+  check("fewer samples");
+  EXPECT_FALSE(request.nodes == nodes);
+  request.inCells.assign(request.inCells.size(), glm::vec3(0.0f));
+  ASSERT_TRUE(field.update(shown.window(), request, count));
+  EXPECT_EQ(largest(download(field.offsets())), 0.0f);
 }

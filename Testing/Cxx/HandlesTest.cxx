@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that exactly the control points are told that are drawn within a ball or a cone, or moved;
-// also on a turned lattice, on a large one, and through the object a client asks.
+// Proves that exactly the control points are told that are drawn within a ball or a cone, moved or
+// near a plane; also on a turned lattice, on a large one, and through the object a client asks.
 #include "Handles.h"
 #include "TestPipeline.h"
 #include "vtkFreeFormDeformation.h"
@@ -40,6 +40,7 @@ struct Bent
     soft.major = 7.0;
     applyStroke(this->lattice, soft);
     this->drawn = { grid, &this->lattice.displacements[0].x, strength };
+    this->drawn.farthest = longest(this->drawn);
   }
 
   glm::dvec3 middle() const
@@ -74,7 +75,7 @@ TEST(Handles, InABallAreThoseDrawnThere)
     // About where the middle went, so that some come in and others leave.
     const glm::dvec3 centre = bent.middle() + glm::dvec3(4.0, -1.0, 2.0);
     HandleSet found;
-    addInBall(bent.drawn, centre, 6.0, found);
+    addInBall(bent.drawn, centre, 6.0, Slab(), found);
     const HandleSet expected = bent.all([&](const glm::dvec3& drawn, const glm::dvec3&) {
       return glm::distance(drawn, centre) <= 6;
     });
@@ -87,8 +88,8 @@ TEST(Handles, ABallBesideTheLatticeHasNone)
 {
   const Bent bent(9);
   HandleSet found;
-  addInBall(bent.drawn, bent.middle() + glm::dvec3(1000.0, 0.0, 0.0), 6.0, found);
-  addInBall(bent.drawn, bent.middle() - glm::dvec3(1000.0, 0.0, 0.0), 6.0, found);
+  addInBall(bent.drawn, bent.middle() + glm::dvec3(1000.0, 0.0, 0.0), 6.0, Slab(), found);
+  addInBall(bent.drawn, bent.middle() - glm::dvec3(1000.0, 0.0, 0.0), 6.0, Slab(), found);
   EXPECT_TRUE(found.empty());
 }
 
@@ -111,12 +112,38 @@ TEST(Handles, MovedAreThoseThatLeftTheirPlace)
 {
   const Bent bent(9);
   HandleSet found;
-  addMoved(bent.drawn, found);
-  const HandleSet expected = bent.all([](const glm::dvec3& drawn, const glm::dvec3& rest) {
-    return glm::distance(drawn, rest) >= 0.02;
+  const glm::dvec3 centre = bent.middle() + glm::dvec3(2.0, 1.0, 0.0);
+  addMoved(bent.drawn, centre, 6.5, Slab(), found);
+  const HandleSet expected = bent.all([&](const glm::dvec3& drawn, const glm::dvec3& rest) {
+    return glm::distance(drawn, rest) >= 0.02 && glm::distance(drawn, centre) <= 6.5;
   });
   EXPECT_EQ(found, expected);
   EXPECT_GT(found.size(), 20u);
+  HandleSet all;
+  addMoved(bent.drawn, centre, 1000.0, Slab(), all);
+  EXPECT_GT(all.size(), found.size());
+}
+
+TEST(Handles, InASlabAreThoseDrawnNearThePlane)
+{
+  const Bent bent(9);
+  const Slab slab{ bent.middle(), glm::normalize(glm::dvec3(1.0, -2.0, 0.5)), 1.5 };
+  const auto inSlab = [&](const glm::dvec3& drawn) {
+    return std::abs(glm::dot(drawn - slab.point, slab.normal)) <= slab.halfThickness;
+  };
+  HandleSet near;
+  addInBall(bent.drawn, slab.point, 6.0, slab, near);
+  EXPECT_EQ(near, bent.all([&](const glm::dvec3& drawn, const glm::dvec3&) {
+    return glm::distance(drawn, slab.point) <= 6.0 && inSlab(drawn);
+  }));
+  EXPECT_GT(near.size(), 8u);
+  HandleSet moved;
+  addMoved(bent.drawn, slab.point, 6.0, slab, moved);
+  EXPECT_EQ(moved, bent.all([&](const glm::dvec3& drawn, const glm::dvec3& rest) {
+    return glm::distance(drawn, rest) >= 0.02 && glm::distance(drawn, slab.point) <= 6.0 &&
+      inSlab(drawn);
+  }));
+  EXPECT_GT(moved.size(), 8u);
 }
 
 TEST(Handles, OfTooManyTheNearestAreTold)
@@ -124,7 +151,7 @@ TEST(Handles, OfTooManyTheNearestAreTold)
   const Bent bent(33);
   const glm::dvec3 centre = bent.middle();
   HandleSet found;
-  addInBall(bent.drawn, centre, 1000.0, found);
+  addInBall(bent.drawn, centre, 1000.0, Slab(), found);
   ASSERT_EQ(found.size(), MostHandles);
   double farthest = 0.0;
   for (std::size_t offset : found)
@@ -156,7 +183,8 @@ TEST(Handles, TheReportTellsWhatTheFilterAttached)
   vtkNew<vtkLatticeReport> report;
   EXPECT_EQ(report->GetGeometry()->GetNumberOfValues(), 0); // nothing to ask yet
   report->SetFilter(filter);
-  report->SetMoved(true);
+  report->SetBall(6.0, 6.0, 6.0, 0.0);
+  report->SetMovedWithin(5.0);
   EXPECT_EQ(report->GetHandles()->GetNumberOfValues(), 0); // not executed yet
   filter->Update();
   vtkDoubleArray* handles = report->GetHandles();
@@ -166,6 +194,9 @@ TEST(Handles, TheReportTellsWhatTheFilterAttached)
   {
     EXPECT_NEAR(handles->GetComponent(0, i), expected[i], 1e-5) << i;
   }
+  const double beside[7] = { 0.0, 0.0, 12.5, 0.0, 0.0, 1.0, 3.0 };
+  report->SetSlab(beside);
+  EXPECT_EQ(report->GetHandles()->GetNumberOfTuples(), 0);
   vtkDoubleArray* geometry = report->GetGeometry();
   ASSERT_EQ(geometry->GetNumberOfValues(), 18);
   const std::vector<double> lattice{ 4, 4, 4, 0, 0, 0, 6, 6, 6, 1, 0, 0, 0, 1, 0, 0, 0, 1 };

@@ -45,6 +45,27 @@ TEST(LatticeShapes, OutlinesLieWhereTheStrokeEnds)
   }
 }
 
+TEST(LatticeShapes, SectionsLieInThePlaneWhereTheStrokeEnds)
+{
+  const glm::dvec3 axis = glm::normalize(someStroke(Tool::Stamp).axis);
+  for (Tool tool : { Tool::Soft, Tool::Stamp })
+  {
+    for (const glm::dvec3& normal : { glm::dvec3(0, 0, 1), glm::normalize(glm::dvec3(1, -2, 3)),
+           axis, glm::normalize(glm::cross(axis, glm::dvec3(0, 1, 0))) })
+    {
+      const Stroke stroke = someStroke(tool);
+      const Polyline section = sectionOf(stroke, 0.5, normal);
+      ASSERT_GT(section.size(), 30u);
+      EXPECT_LT(glm::distance(section.front(), section.back()), 1e-9);
+      for (const glm::dvec3& point : section)
+      {
+        EXPECT_NEAR(normalisedDistance(stroke, point), 0.5, 1e-9);
+        EXPECT_NEAR(glm::dot(point - stroke.anchor, normal), 0.0, 1e-9);
+      }
+    }
+  }
+}
+
 TEST(LatticeShapes, HalfWeightIsHalfOfTheMiddle)
 {
   for (double sigma : { 0.05, 0.5, 2.0 })
@@ -71,15 +92,18 @@ TEST(LatticeShapes, TheRepresentationHoldsWhatItWasGiven)
   std::vector<Handle> handles(2);
   handles[1].drawn = { 1.0, 2.0, 3.0 };
   shown->SetHandles(handles);
+  shown->SetFaint({ { 0.0, 8.0, 0.0 } });
   shown->SetHighlights({ { 5.0, 0.0, 0.0 } });
   shown->SetLines(vtkLatticeRepresentation::Mark, cross({ 0.0, 0.0, 0.0 }, 2.0));
   EXPECT_EQ(shown->GetNumberOfHandles(), 2);
+  EXPECT_EQ(shown->GetNumberOfFaint(), 1);
   EXPECT_EQ(shown->GetNumberOfHighlights(), 1);
   EXPECT_EQ(shown->GetNumberOfLines(vtkLatticeRepresentation::Mark), 3);
   EXPECT_EQ(shown->GetNumberOfLines(vtkLatticeRepresentation::Strong), 0);
   ASSERT_NE(shown->GetBounds(), nullptr);
   EXPECT_DOUBLE_EQ(shown->GetBounds()[0], -2.0);
   EXPECT_DOUBLE_EQ(shown->GetBounds()[1], 5.0);
+  EXPECT_DOUBLE_EQ(shown->GetBounds()[3], 8.0);
   shown->Clear();
   EXPECT_EQ(shown->GetBounds(), nullptr);
   EXPECT_EQ(shown->GetNumberOfHandles(), 0);

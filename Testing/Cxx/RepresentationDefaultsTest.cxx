@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that the defaults in the XML of "Deformed Volume" and "Deformed Slices" are those of the
-// classes behind them.
+// Proves that the defaults in the XML of "Deformed Volume", "Deformed Slices" and "Trace Points" are
+// those of the classes behind them.
 #include "TestDefaults.h"
 #include "vtkDeformedSlicesMapper.h"
 #include "vtkDeformedSlicesRepresentation.h"
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkDeformedVolumeReport.h"
+#include "vtkTracePointsRepresentation.h"
 
 #include <vtkNew.h>
 
@@ -26,6 +27,7 @@ TEST(Defaults, OfDeformedSlicesLiveInTheMapper)
   vtkNew<vtkDeformedSlicesMapper> mapper;
   vtkNew<vtkDeformedSlicesRepresentation> representation;
   const double* position = mapper->GetSlicePosition();
+  const double* wipe = mapper->GetWipePosition();
   const Defaults expected{ { "ShowSagittal", { double(mapper->GetShowSagittal()) } },
     { "ShowCoronal", { double(mapper->GetShowCoronal()) } },
     { "ShowAxial", { double(mapper->GetShowAxial()) } },
@@ -36,7 +38,8 @@ TEST(Defaults, OfDeformedSlicesLiveInTheMapper)
     { "SliceComparison", { double(mapper->GetComparison()) } },
     { "CheckerSize", { mapper->GetCheckerSize() } },
     { "ReferenceRange", { mapper->GetReferenceRange()[0], mapper->GetReferenceRange()[1] } },
-    { "Opacity", { mapper->GetOpacity() } } };
+    { "FullGradient", { mapper->GetFullGradient() } },
+    { "WipePosition", { wipe[0], wipe[1], wipe[2] } }, { "Opacity", { mapper->GetOpacity() } } };
   EXPECT_EQ(defaultsIn("Representations/DeformedSlices.xml"), expected);
 }
 
@@ -45,6 +48,9 @@ TEST(Defaults, OfDeformedVolumeLiveInTheMapper)
   vtkNew<vtkDeformedVolumeMapper> mapper;
   const Defaults expected{ { "SampleDistance", { mapper->GetSampleDistance() } },
     { "EmptySpaceSkipping", { double(mapper->GetEmptySpaceSkipping()) } },
+    { "VolumeComparison", { double(mapper->GetComparison()) } },
+    { "AgreementDistance", { mapper->GetAgreementDistance() } },
+    { "VolumeReferenceRange", { mapper->GetReferenceRange()[0], mapper->GetReferenceRange()[1] } },
     { "AdaptiveQuality", { double(mapper->GetAdaptiveQuality()) } },
     { "KeepPicture", { double(mapper->GetKeepPicture()) } },
     { "CountSamples", { double(mapper->GetCountSamples()) } },
@@ -53,4 +59,13 @@ TEST(Defaults, OfDeformedVolumeLiveInTheMapper)
   EXPECT_EQ(defaultsIn("Representations/DeformedVolume.xml"), expected);
   const Defaults ofSegment{ { "DrawSegment", { double(mapper->GetDrawSegment()) } } };
   EXPECT_EQ(defaultsIn("Representations/DeformedVolumeSegment.xml"), ofSegment);
+}
+
+TEST(Defaults, OfTracePointsLiveInTheClass)
+{
+  vtkNew<vtkTracePointsRepresentation> points;
+  const Defaults expected{ { "GaussianRadius", { points->GetSplatSize() } },
+    { "HiddenPoints", { double(points->GetHiddenPoints()) } },
+    { "HiddenOpacity", { points->GetHiddenOpacity() } } };
+  EXPECT_EQ(defaultsIn("Representations/TracePoints.xml"), expected);
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that Trace Distance gives the signed distance to the cortex as deformed, that its numbers
-// are those of the array, that cavities do not count, and that a stroke redoes only its own part.
+// are those of the array, that cavities do not count, and that a stroke redoes only its own part,
+// with the result of doing all of it.
 #include "PointMap.h"
 #include "TestPipeline.h"
 #include "TissueSurface.h"
 #include "TraceStatistics.h"
+#include "TriangleTree.h"
+#include "vtkCompareVolumes.h"
 #include "vtkTraceDistance.h"
 
 #include <vtkFieldData.h>
@@ -14,6 +17,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -216,6 +220,55 @@ TEST_F(TraceDistance, AStrokeRedoesOnlyWhatItReaches)
   EXPECT_EQ(this->Filter->GetSurfacesFound(), 2);
 }
 
+TEST_F(TraceDistance, AfterStrokesAHundredThousandPointsAreAsEvaluatedAnew)
+{
+  const auto positions = this->around(100000);
+  const auto set = pointsAt(positions);
+  this->run(set);
+  const glm::dvec3 top = this->Middle + glm::dvec3(0, 0, Radius);
+  const Stroke stamp = strokeAt(Tool::Stamp, top, { 1.0, 2.0, -7.0 });
+  setStrokes(this->Bend, { stamp });
+  this->Filter->Update();
+  setStrokes(this->Bend, { stamp, strokeAt(Tool::Soft, this->Middle, { 3.0, -2.0, 1.0 }) });
+  vtkPointSet* traced = this->run(set);
+  vtkNew<vtkTraceDistance> anew;
+  anew->SetInputData(set);
+  anew->SetDeformationConnection(this->Bend->GetOutputPort());
+  anew->SetThreshold(0.0);
+  anew->Update();
+  vtkPointSet* expected = vtkPointSet::SafeDownCast(anew->GetOutputDataObject(0));
+  for (int i = 0; i < 100000; ++i)
+  {
+    ASSERT_EQ(trace(traced, i), trace(expected, i)) << i;
+  }
+  EXPECT_EQ(this->Filter->GetCount(), 100000);
+  EXPECT_EQ(this->Filter->GetMean(), anew->GetMean());
+  EXPECT_EQ(this->Filter->GetRMS(), anew->GetRMS());
+  EXPECT_EQ(this->Filter->GetPercentile95(), anew->GetPercentile95());
+
+  // Plainly: the least distance to all triangles, each put where the map puts it.
+  const PointMap map = this->map();
+  const auto volume = vtkImageData::SafeDownCast(this->Bend->GetOutputDataObject(0));
+  const Tissue tissue{ this->Volume, volume->GetPointData()->GetScalars(), 0.0 };
+  TriangleMesh mesh = surfaceOf(tissue);
+  for (glm::dvec3& point : mesh.points)
+  {
+    point = map.deformedFromRest(point);
+  }
+  for (int i = 0; i < 100000; i += 500)
+  {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const glm::ivec3& t : mesh.triangles)
+    {
+      nearest = std::min(nearest,
+        squaredDistanceToTriangle(
+          positions[i], mesh.points[t.x], mesh.points[t.y], mesh.points[t.z]));
+    }
+    const double sign = tissue.contains(map.restFromDeformed(positions[i])) ? -1.0 : 1.0;
+    EXPECT_NEAR(trace(traced, i), sign * std::sqrt(nearest), 1e-5) << "mm, point " << i;
+  }
+}
+
 TEST_F(TraceDistance, ACavityCountsNeitherPointsNorTissue)
 {
   // Everything above the ball's middle is gone.
@@ -239,6 +292,26 @@ TEST_F(TraceDistance, ACavityCountsNeitherPointsNorTissue)
   traced = this->run(pointsAt({ above, inTheMiddle }));
   EXPECT_TRUE(std::isnan(trace(traced, 0)));
   EXPECT_NEAR(trace(traced, 1), -1.0, 0.2) << "the ball's top lies at its former middle";
+}
+
+TEST_F(TraceDistance, TheCavityOfCompareVolumesCountsAsOnesOwn)
+{
+  vtkNew<vtkCompareVolumes> compare;
+  compare->SetInputConnection(this->Bend->GetOutputPort());
+  compare->SetInputData(1, this->image([](const glm::dvec3&) { return 1.0; }));
+  compare->SetInputData(
+    2, this->image([&](const glm::dvec3& p) { return p.z > this->Middle.z ? 2.0 : -1.0; }));
+  this->Filter->SetDeformationConnection(compare->GetOutputPort());
+  const glm::dvec3 above = this->Middle + glm::dvec3(0, 0, Radius + 3.0);
+  const glm::dvec3 below = this->Middle - glm::dvec3(0, 0, Radius + 3.0);
+  vtkPointSet* traced = this->run(pointsAt({ above, below }));
+  EXPECT_TRUE(std::isnan(trace(traced, 0)));
+  EXPECT_NEAR(trace(traced, 1), 3.0, 0.03);
+  // Moved away with the reference, it counts no longer.
+  compare->SetReferenceTranslation(0, 0, 100.0);
+  traced = this->run(pointsAt({ above }));
+  EXPECT_NEAR(trace(traced, 0), 3.0, 0.03);
+  EXPECT_EQ(this->Filter->GetCount(), 1);
 }
 
 TEST_F(TraceDistance, TissueIsAThresholdALabelOrASegmentation)

@@ -107,8 +107,10 @@ TEST(TriangleTree, FindsWhatAskingAllTrianglesFinds)
     {
       const glm::dvec3 p = random.between(glm::dvec3(-40), glm::dvec3(40));
       const double expected = askAll(mesh, points, p, kept);
-      EXPECT_NEAR(tree.distance(p), expected, 1e-9) << when;
-      EXPECT_EQ(tree.distance(p, expected + 0.01), tree.distance(p)) << when;
+      const TriangleTree::Nearest found = tree.nearest(p);
+      EXPECT_NEAR(found.distance, expected, 1e-9) << when;
+      EXPECT_EQ(tree.nearest(p, found.triangle).distance, found.distance) << when;
+      EXPECT_EQ(tree.nearest(p, i).distance, found.distance) << when << ", with a wrong hint";
     }
   };
   const auto moveEvery = [&](std::size_t step) {
@@ -137,12 +139,12 @@ TEST(TriangleTree, FindsWhatAskingAllTrianglesFinds)
 
 TEST(TriangleTree, NothingIsInfinitelyFar)
 {
-  EXPECT_EQ(TriangleTree().distance({ 1, 2, 3 }), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(TriangleTree().nearest({ 1, 2, 3 }).distance, std::numeric_limits<double>::infinity());
   const TriangleMesh mesh = randomMesh(2, 30, 40);
   TriangleTree tree(mesh);
-  EXPECT_LT(tree.distance({ 1, 2, 3 }), 30.0);
+  EXPECT_LT(tree.nearest({ 1, 2, 3 }).distance, 30.0);
   tree.fit(mesh.points, {}, std::vector<char>(mesh.points.size(), 0));
-  EXPECT_EQ(tree.distance({ 1, 2, 3 }), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(tree.nearest({ 1, 2, 3 }).distance, std::numeric_limits<double>::infinity());
 }
 
 TEST(DeformedSurface, FollowsTheLatticeAndRedoesOnlyWhatAStrokeReaches)
@@ -180,7 +182,7 @@ TEST(DeformedSurface, FollowsTheLatticeAndRedoesOnlyWhatAStrokeReaches)
           EXPECT_LT(surface.mapped(), 1990) << "a stroke does not reach everything";
         }
         const glm::dvec3 p = random.point(grid, 1.0);
-        EXPECT_NEAR(surface.distance(p), askAll(mesh, surface.points(), p, {}), 1e-9);
+        EXPECT_NEAR(surface.nearest(p).distance, askAll(mesh, surface.points(), p, {}), 1e-9);
       }
     }
     surface.follow(lattice, {});
@@ -188,7 +190,7 @@ TEST(DeformedSurface, FollowsTheLatticeAndRedoesOnlyWhatAStrokeReaches)
     const glm::dvec3 p = random.point(grid, -2.0);
     surface.follow(makeLattice(obliqueGrid({ 6, 7, 8 }), kernel), {});
     EXPECT_EQ(surface.points()[77], mesh.points[77]) << "another lattice that moves nothing";
-    EXPECT_NEAR(surface.distance(p), askAll(mesh, mesh.points, p, {}), 1e-9);
+    EXPECT_NEAR(surface.nearest(p).distance, askAll(mesh, mesh.points, p, {}), 1e-9);
   }
 }
 
@@ -216,8 +218,8 @@ TEST(DeformedSurface, WhatIsRemovedComesBack)
     const double whole = askAll(mesh, surface.points(), p, {});
     const double left = askAll(mesh, surface.points(), p, kept);
     ASSERT_GT(left, whole + 1.0) << "mm";
-    EXPECT_NEAR(surface.distance(p), left, 1e-9);
+    EXPECT_NEAR(surface.nearest(p).distance, left, 1e-9);
     surface.follow(lattice, {});
-    EXPECT_NEAR(surface.distance(p), whole, 1e-9);
+    EXPECT_NEAR(surface.nearest(p).distance, whole, 1e-9);
   }
 }

@@ -21,6 +21,10 @@ COARSE = SAME_STEP | {"stock, one-voxel step, as loaded"}
 EVERY = COARSE | {"ParaView's Volume, its own step, as loaded",
                   "stock, same step, baked beforehand"}
 SLICES = {"ours, bent", "ours, bent, cubic", "Slice of the baked volume"}
+COMPARED = {"ours, bent and reference", "ours, bent alone"}
+STOCK_COMPARED = {"stock, two volumes", "stock, two in a vtkMultiVolume"}
+TRACES = {"ours, points faded", "ours, points hidden", "stock, same step, Points"}
+ALONE = {"ours alone", "stock, same step, alone"}
 BAKE = {"Bake Deformation", "vtkImageReslice, vtkBSplineTransform"}
 
 
@@ -57,6 +61,12 @@ def test_every_comparison_is_there():
         assert len(rows_of(f"normals, {opacities}")) == 3
     for kind in ("slices, steady", "slices, moved", "slices, edited"):
         assert set(rows_of(kind)) == SLICES
+    for kind in ("opaque", "translucent"):
+        assert set(rows_of(f"reference rendering (two volumes), {kind}")) == COMPARED | STOCK_COMPARED
+    assert set(rows_of("reference rendering (two volumes), edited")) == COMPARED
+    assert set(rows_of("traces, camera turns", window=WINDOWS[1])) == TRACES | ALONE
+    assert set(rows_of("traces, points change", window=WINDOWS[1])) == TRACES
+    assert set(rows_of("traces, distances", window=WINDOWS[1])) == {"Trace Distance after a stroke"}
     assert set(rows_of("edit to picture, opaque", window=WINDOWS[1])) == EDIT
     for case in ({}, {"dimensions": [SIZE] * 3}, {"lattice": LATTICE}):
         assert set(rows_of("edit to picture, opaque", **case)) == EDIT

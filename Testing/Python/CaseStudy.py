@@ -25,6 +25,17 @@ def disagreement(case):
     return numpy.abs(image[:, :, 0] - image[:, :, 1]).mean()
 
 
+def agreement(case):
+    """Share of the cortex in 3D, without the cavity, that is nearer to yellow than to red or
+    green."""
+    view = case_study.show_cortex(case.compare, SIZE)
+    image = picture(view)
+    Delete(view)
+    red, green, blue = image.transpose(2, 0, 1)
+    cortex = (numpy.maximum(red, green) > 0.3) & (blue < 0.1)
+    return (numpy.minimum(red, green) > 0.5 * numpy.maximum(red, green))[cortex].mean()
+
+
 def test_a_stamp_goes_to_the_worst_region_by_its_mean():
     # A region 4 mm below and one 1 mm above: the first is pushed, 4 mm, from where tissue is now.
     below = numpy.array((0.0, 0.0, 50.0)) + [(x, 0.0, 0.0) for x in (-1.0, 0.0, 1.0)]
@@ -43,10 +54,11 @@ def test_ten_stamps_reduce_every_error():
     case.sag.UpdatePropertyInformation()
     assert 7.0 < case.sag.MaximumDisplacement < 8.5, case.sag.MaximumDisplacement
     assert len(case.landmarks) == 50
-    before, apart_before = case.figures(), disagreement(case)
+    before, apart_before, agreed_before = case.figures(), disagreement(case), agreement(case)
     case_study.stamp_to_trace(case.bent, case.measure)
-    after, apart_after = case.figures(), disagreement(case)
+    after, apart_after, agreed_after = case.figures(), disagreement(case), agreement(case)
     print(f"  {before}\n  {after}\n  red and green apart: {apart_before:.4f}, {apart_after:.4f}")
+    print(f"  yellow: {agreed_before:.3f}, {agreed_after:.3f}")
     assert len(case.bent.Strokes) == 10 * brainshift.NUMBERS_PER_STROKE
     assert 100 < before["count"] == after["count"] < 300, "points in the cavity do not count"
     assert before["trace mean"] < -3.0 and abs(after["trace mean"]) < 0.5
@@ -54,6 +66,7 @@ def test_ten_stamps_reduce_every_error():
     assert after["95th percentile"] < before["95th percentile"] / 4
     assert after["TRE mean"] < before["TRE mean"] / 1.6
     assert apart_after < apart_before / 1.3
+    assert 1.0 - agreed_after < (1.0 - agreed_before) / 3
 
 
 run_tests(globals())

@@ -1,43 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that Compare Volumes and "Deformed Slices" show a volume beside a reference of any grid:
 # red and green, in a checkerboard, subtracted; live, for a stroke uploads the lattice only.
-import math
-
 import numpy
 from brainshift_testing import (assert_says, ball, field, load_plugin, messages, output, picture,
                                 run_tests, volume)
-from slices_testing import flat_view, pixel_positions, show_slices, trilinear
+from slices_testing import flat_view, pixel_positions, show_slices
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
+from compare_testing import HALF, MIDDLE, STROKE, Pair, compared_picture, smooth  # noqa: E402
 from paraview.simple import CompareVolumes, Delete, FreeFormDeformation  # noqa: E402
 
-MIDDLE = (16.0, 16.0, 16.3)
-HALF = 15.0  # mm, of the views
-STROKE = brainshift.soft((16, 16, 16), (4, 2, 0), 14)
 LATTICE_BYTES = 19 ** 3 * 3 * 4
 ENOUGH = 1.5 / 255.0
-
-
-def smooth(seed, side=33):
-    """Random waves, 0 to 100, without an edge."""
-    random = numpy.random.default_rng(seed)
-    z, y, x = numpy.mgrid[0:side, 0:side, 0:side] / (side - 1)
-    values = sum(numpy.sin(random.uniform(6, 22, 3) @ numpy.stack([x, y, z]).reshape(3, -1)
-                           + random.uniform(0, 6)) for _ in range(6)).reshape((side,) * 3)
-    low, high = values.min(), values.max()
-    return (100 * (values - low) / (high - low)).astype(numpy.float32)
-
-
-def compared_picture(source, comparison, **named):
-    view = flat_view(2, MIDDLE, HALF)
-    display = show_slices(source, view, ("Axial",), MIDDLE)
-    display.SliceComparison = comparison
-    for name, value in named.items():
-        setattr(display, name, value)
-    image = picture(view)
-    Delete(view)
-    return image
 
 
 def test_a_volume_agrees_with_itself():
@@ -55,34 +31,6 @@ def test_a_volume_agrees_with_itself():
             assert apart.max() <= ENOUGH and off_grey.max() <= ENOUGH, (apart.max(), off_grey.max())
         else:
             assert apart.max() > 0.2 and off_grey.max() > 0.1, (apart.max(), off_grey.max())
-
-
-class Pair:
-    """A bent volume and a reference of another type, grid and range, turned and moved."""
-
-    turn, move = 25.0, (2.0, -1.5, 0.5)
-
-    def __init__(self):
-        self.own = smooth(2)
-        self.bent = FreeFormDeformation(Input=volume(self.own), Strokes=STROKE)
-        self.voxels = (10 * smooth(3, side=41) + 500).astype(numpy.uint16)
-        self.origin, self.spacing = numpy.array((-2.0, 1.0, -4.0)), numpy.array((0.9, 0.8, 1.0))
-        self.reference = volume(self.voxels, self.origin, self.spacing)
-        self.compare = CompareVolumes(Input=self.bent, Reference=self.reference,
-                                      ReferenceRotation=[0, 0, self.turn],
-                                      ReferenceTranslation=self.move)
-
-    def expected(self):
-        """The reference's share of its range where each pixel lies, and where there is one."""
-        pixels = pixel_positions((1, 0, 0), (0, 1, 0), MIDDLE, HALF)
-        angle = math.radians(self.turn)
-        turned = numpy.array([[math.cos(angle), -math.sin(angle), 0],
-                              [math.sin(angle), math.cos(angle), 0], [0, 0, 1]])
-        middle = self.origin + self.spacing * 20
-        unturned = (pixels - middle - self.move) @ turned + middle
-        value, inside = trilinear(self.voxels, (unturned - self.origin) / self.spacing)
-        low, high = self.voxels.min(), self.voxels.max()
-        return (value - low) / (float(high) - low), inside
 
 
 def test_a_turned_reference_of_another_grid():
@@ -147,7 +95,9 @@ def test_the_volume_passes_through():
     pair = Pair()
     passed, bent = output(pair.compare), output(pair.bent)
     assert passed.GetDimensions() == bent.GetDimensions()
-    assert passed.GetPointData().GetArray("Intensity") == bent.GetPointData().GetArray("Intensity")
+    first, second = (vtk_to_numpy(image.GetPointData().GetArray("Intensity"))
+                     for image in (passed, bent))
+    assert numpy.shares_memory(first, second), "voxels are copied"
     assert (field(pair.compare, "FFDDisplacements") == field(pair.bent, "FFDDisplacements")).all()
     assert field(pair.bent, "ReferenceGrid") is None, "the input must stay as it is"
 

@@ -13,7 +13,7 @@ MIDDLE = (16.0, 16.0, 16.0)
 COLORS = [0, 0, 0, 0, 100, 1, 1, 1]
 OPACITIES = [0, 0, 0.5, 0, 50, 0, 0.5, 0, 100, 1, 0.5, 0]
 LATTICE_BYTES = 19 ** 3 * 3 * 4  # 82 kB
-FIELD_TEXELS = 91 ** 3
+FIELD_TEXELS = 91 ** 3  # nodes over the lattice
 
 
 class Drawn:
@@ -43,7 +43,7 @@ def test_a_first_picture_uploads_everything_once():
     assert drawn.before["volumeUploads"] == 1, drawn.before
     assert drawn.before["latticeUploads"] == 1, drawn.before
     assert drawn.before["transferUploads"] >= 1, drawn.before
-    assert drawn.before["texelsRefined"] >= FIELD_TEXELS, drawn.before
+    assert 0 < drawn.before["texelsRefined"] < FIELD_TEXELS, drawn.before  # only what may move
     assert drawn.before["bytesUploaded"] > LATTICE_BYTES + 33 ** 3 * 4, drawn.before
 
 
@@ -69,7 +69,7 @@ def test_a_stroke_refines_what_it_can_reach():
     # Of a lattice of 19 points over 32 mm, a radius of 4 mm reaches 5 points a side; the kernel takes
     # in two cells more to either side: 9 cells of 18 along each axis, of 5 nodes each.
     drawn = Drawn()
-    everything = drawn.before["texelsRefined"]
+    everything = FIELD_TEXELS
     there = brainshift.soft(MIDDLE, (2, 0, 0), 12)
     for number, amount in enumerate((0.5, 1.0, 0.2)):
         drawn.filter.Strokes = there + brainshift.soft((10, 12, 14), (0, amount, 0), 4.0)

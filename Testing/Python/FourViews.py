@@ -132,6 +132,11 @@ def test_slices_are_linked():
         displays[name].SlicePosition = position
         for other, display in displays.items():
             assert list(display.SlicePosition) == position, (name, other, display.SlicePosition)
+    displays["sagittal"].SliceComparison = "Wipe"
+    displays["axial"].WipePosition = [3.0, 4.0, 5.0]
+    for name, display in displays.items():
+        assert display.SliceComparison == "Wipe", name
+        assert list(display.WipePosition) == [3.0, 4.0, 5.0], name
     display = None
     del displays["axial"]  # what Python holds, ParaView keeps
     close({"axial": views.pop("axial")})

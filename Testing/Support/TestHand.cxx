@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A hand for tests of ParaView's window: sends mouse, wheel and key events to the active view as
-// Qt's own come, which ParaView's test player does for mouse buttons only. test_hand.py calls it.
+// A hand for tests of ParaView's window: sends mouse, wheel and key events to a view as Qt's own
+// come, which ParaView's test player does for mouse buttons only. test_hand.py calls it.
 #include <QVTKOpenGLNativeWidget.h>
 #include <QVTKOpenGLStereoWidget.h>
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
+#include <pqObjectBuilder.h>
+#include <pqServerManagerModel.h>
+#include <pqUndoStack.h>
 #include <pqView.h>
 
+#include <vtkSMProxy.h>
+
+#include <QAbstractButton>
 #include <QAction>
 #include <QApplication>
 #include <QElapsedTimer>
 #include <QKeyEvent>
+#include <QLabel>
 #include <QMouseEvent>
 #include <QOpenGLWindow>
+#include <QTest>
 #include <QTimer>
 #include <QWheelEvent>
 #include <QWidget>
@@ -25,13 +33,19 @@
 
 namespace
 {
+vtkTypeUInt32 viewId = 0; // of the view under the hand; 0: the active one
+
 QWidget* viewWidget()
 {
   pqView* view = pqActiveObjects::instance().activeView();
+  for (pqView* other : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqView*>())
+  {
+    view = other->getProxy()->GetGlobalID() == viewId ? other : view;
+  }
   return view ? view->widget() : nullptr;
 }
 
-// What hears the mouse in the active view; null without a view.
+// What hears the mouse in that view; null without a view.
 QObject* ear()
 {
   QWidget* widget = viewWidget();
@@ -60,6 +74,12 @@ QPointF onScreen(const QPointF& inView)
   QWidget* widget = viewWidget();
   return widget ? widget->mapToGlobal(inView) : inView;
 }
+}
+
+// The view that the hand is over from now on, by its proxy's number; 0: the active one.
+TEST_HAND_EXPORT void test_hand_over(unsigned int view)
+{
+  viewId = view;
 }
 
 // Pixels from the view's upper left corner. `type`: 0 move, 1 press, 2 release of the left button.
@@ -94,6 +114,30 @@ TEST_HAND_EXPORT void test_hand_key(int key, int press)
   }
   QKeyEvent event(press ? QEvent::KeyPress : QEvent::KeyRelease, key, Qt::NoModifier);
   send(event);
+}
+
+// `key`: Qt::Key, pressed and let go where the active view is: a shortcut of the window hears it.
+TEST_HAND_EXPORT void test_hand_shortcut(int key)
+{
+  if (QWidget* widget = viewWidget())
+  {
+    widget->window()->activateWindow();
+    QApplication::setActiveWindow(widget->window()); // without a window manager nobody else does
+    QTest::keyClick(widget, Qt::Key(key));
+  }
+}
+
+// Of an action of the window that can be checked.
+TEST_HAND_EXPORT int test_hand_is_checked(const char* name)
+{
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    if (auto action = window->findChild<QAction*>(name))
+    {
+      return action->isChecked() ? 1 : 0;
+    }
+  }
+  return 0;
 }
 
 // Lets the window do what it has to do, for at least so long.
@@ -139,6 +183,42 @@ TEST_HAND_EXPORT int test_hand_action(const char* name)
   return 0;
 }
 
+// Of the active source, as the menu Filters does. `name`: in XML.
+TEST_HAND_EXPORT void test_hand_create_filter(const char* name)
+{
+  SCOPED_UNDO_SET("Create filter");
+  pqApplicationCore::instance()->getObjectBuilder()->createFilter(
+    "filters", name, pqActiveObjects::instance().activeSource());
+}
+
+// A button, by its object name. Returns whether it could be pressed.
+TEST_HAND_EXPORT int test_hand_click(const char* name)
+{
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    auto button = window->findChild<QAbstractButton*>(name);
+    if (button && button->isEnabled())
+    {
+      button->click();
+      return 1;
+    }
+  }
+  return 0;
+}
+
+// The text of a label, by its object name; nothing without one. Holds until the next call.
+TEST_HAND_EXPORT const char* test_hand_label(const char* name)
+{
+  static QByteArray text;
+  text.clear();
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    auto label = window->findChild<QLabel*>(name);
+    text = label ? label->text().toUtf8() : text;
+  }
+  return text.constData();
+}
+
 TEST_HAND_EXPORT int test_hand_is_there()
 {
   return qobject_cast<QApplication*>(QCoreApplication::instance()) != nullptr;
@@ -149,7 +229,7 @@ TEST_HAND_EXPORT void test_hand_quit()
   QTimer::singleShot(0, qApp, &QApplication::quit);
 }
 
-// The active view, pixels.
+// The view, pixels.
 TEST_HAND_EXPORT void test_hand_resize(int width, int height)
 {
   if (QWidget* widget = viewWidget())

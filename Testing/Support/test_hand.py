@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A hand in ParaView's window: press, drag, turn the wheel and type over the active view. Acts
-inside the window's own Python only. Pixels count from the view's lower left corner."""
+"""A hand in ParaView's window: press, drag, turn the wheel and type over the active view, or the
+one that over() was told. Acts inside the window's own Python only. Pixels count from the view's
+lower left corner."""
 import ctypes
 import math
 import os
@@ -8,18 +9,29 @@ import os
 from paraview import simple
 
 SHIFT, CONTROL = 0x02000000, 0x04000000  # Qt::KeyboardModifiers
-ESCAPE = 0x01000000                      # Qt::Key; letters are their own codes
+ESCAPE, PAGE_UP, PAGE_DOWN = 0x01000000, 0x01000016, 0x01000017  # Qt::Key; letters: their codes
 _MOVE, _PRESS, _RELEASE = 0, 1, 2
 
 NONE, MOVE, SOFT, STAMP = 0, 1, 2, 3     # ToolSettings::Tool
 
 _library = ctypes.CDLL(os.environ["BRAINSHIFT_TEST_HAND"])
 _library.test_hand_set.restype = ctypes.c_double
+_library.test_hand_label.restype = ctypes.c_char_p
 _library.test_hand_set.argtypes = [ctypes.c_char_p, ctypes.c_double]
 
 
+_over = None  # a view, or the active one
+
+
+def over(view=None):
+    """Works in a view from now on without making it active; None: in the active view again."""
+    global _over
+    _over = view
+    _library.test_hand_over(view.SMProxy.GetGlobalID() if view else 0)
+
+
 def _from_top(y):
-    return simple.GetActiveView().ViewSize[1] - 1 - int(y)
+    return (_over or simple.GetActiveView()).ViewSize[1] - 1 - int(y)
 
 
 def _mouse(kind, pixel, held, modifiers):
@@ -79,6 +91,16 @@ def tap(key):
     key_up(key)
 
 
+def shortcut(letter):
+    """Types a letter that is a shortcut of the window."""
+    _library.test_hand_shortcut(ord(letter.upper()))
+
+
+def is_checked(name):
+    """Whether an action of menu or toolbar is checked."""
+    return bool(_library.test_hand_is_checked(name.encode()))
+
+
 def take(tool):
     """Takes a tool in hand, or NONE."""
     setting("tool", tool)
@@ -95,6 +117,21 @@ def action(name):
     return bool(_library.test_hand_action(name.encode()))
 
 
+def create_filter(name):
+    """Makes a filter of the active source, as the menu Filters does: undo takes it back."""
+    _library.test_hand_create_filter(name.encode())
+
+
+def click(name):
+    """Presses a button of the window; False if there is none or it is disabled."""
+    return bool(_library.test_hand_click(name.encode()))
+
+
+def label(name):
+    """The text of a label of the window."""
+    return _library.test_hand_label(name.encode()).decode()
+
+
 def is_there():
     """Whether this Python is that of ParaView's window."""
     return bool(_library.test_hand_is_there())
@@ -106,6 +143,6 @@ def quit():
 
 
 def resize(width, height):
-    """Gives the active view a size of its own."""
+    """Gives the view a size of its own."""
     _library.test_hand_resize(width, height)
     wait(100)

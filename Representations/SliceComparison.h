@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A reference volume beside the bent one in slices: what lies on the GPU, and what the shader is
+// told (Shaders/comparison.glsl).
+#ifndef BrainShift_SliceComparison_h
+#define BrainShift_SliceComparison_h
+
+#include "Counters.h"
+#include "ReferenceVolume.h"
+#include "ScalarTexture.h"
+#include "SceneGeometry.h"
+#include "Tissue.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <string>
+#include <vector>
+
+class vtkOpenGLRenderWindow;
+class vtkTextureObject;
+class vtkWindow;
+
+namespace brainshift
+{
+class Program;
+
+// What the user chose; see vtkDeformedSlicesMapper.
+struct ComparisonChoice
+{
+  int comparison = 0;             // as numbered there
+  double checkerSizeMm = 1.0;     // of a field
+  glm::dvec2 shownRange{ 0.0 };   // scalars of the reference that are black and white
+  double fullGradient = 1.0;      // share of the shown range within a mm that is fully green
+  glm::dvec3 wipePosition{ 0.0 }; // mm, world
+};
+
+// How the volume's scalars and texture lie to the world, and its scalars to what is shown.
+struct ComparedVolume
+{
+  Grid grid;
+  ValueLayout layout;
+  glm::dvec2 shareFromStored{ 1.0, 0.0 };    // of the range that is shown: scale, shift
+  glm::dvec2 transferFromStored{ 1.0, 0.0 }; // coordinate of the colour map
+  bool nearest = false;                      // filter of both
+};
+
+// What the share of a range is, from what a texture stores: scale, shift. `shown`: its ends.
+glm::dvec2 shareFromStored(const glm::dvec2& shown, const StoredScalar& stored);
+
+// A plane that divides a slice: mm beyond it from texture coordinates, on the reference's side.
+struct WipePlane
+{
+  glm::dvec3 normal{ 0.0 };
+  double shift = 0.0;
+};
+
+struct ReferenceScene
+{
+  vtkTextureObject* scalars = nullptr;    // null: nothing is compared
+  glm::dmat4 referenceFromTexture{ 1.0 }; // its texture coordinates from the volume's
+  glm::ivec3 voxels{ 1 };                 // of it, a side
+  glm::dvec3 low{ 0.0 };                  // its box, in its texture coordinates
+  glm::dvec3 high{ 1.0 };
+  glm::dvec2 shareFromReference{ 1.0, 0.0 }; // stored scalar to its share of what is shown
+  glm::dvec2 shareFromScalar{ 1.0, 0.0 };    // the same of the volume
+  glm::dvec2 transferFromShare{ 1.0, 0.0 };
+  int comparison = 0;                    // 0: the reference alone
+  glm::dvec3 checkersFromTexture{ 1.0 }; // checker fields for a texture unit
+  glm::dvec3 greenFromGradient{ 1.0 };   // stored scalar for a unit of its texture, to full green
+  std::array<WipePlane, 3> wipes;        // of the slices across each axis of the volume's texture
+
+  vtkTextureObject* cavity = nullptr; // null: none
+  glm::dmat4 cavityFromTexture{ 1.0 };
+  double leastCavity = 0.5; // stored
+};
+
+// Slices across the volume's axis nearest to world x are divided across the one nearest to y, all
+// others across the one nearest to x. The reference lies towards smaller x and y: on the right of
+// all radiological pictures.
+std::array<WipePlane, 3> wipePlanes(
+  const Grid& grid, const ValueLayout& layout, const glm::dvec3& positionMm);
+
+// The reference and its cavity in a window.
+class ReferenceTextures
+{
+public:
+  // Makes them current and fills in the scene. False, with one sentence in `problem`, if this GPU
+  // cannot.
+  bool update(vtkOpenGLRenderWindow* window, const ReferenceVolume& reference,
+    const ComparisonChoice& choice, const ComparedVolume& volume, ReferenceScene& scene,
+    Counters& counters, std::string& problem);
+
+  std::vector<vtkTextureObject*> textures() const; // null: not in use
+  void releaseGraphicsResources(vtkWindow* window);
+
+private:
+  ScalarTexture Voxels;
+  ScalarTexture Cavity;
+};
+
+void setReferenceUniforms(Program& program, const ReferenceScene& scene);
+
+// `axis`: of the volume's texture, that the slice to be drawn lies across.
+void setWipeUniforms(Program& program, const ReferenceScene& scene, int axis);
+}
+
+#endif

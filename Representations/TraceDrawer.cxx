@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TraceDrawer.h"
+
+#include "OpenGL.h"
+
+#include "vtkOpenGLBufferObject.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
+#include "vtkShaderProgram.h"
+#include "vtkTextureObject.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+
+namespace brainshift
+{
+namespace
+{
+// Drawing over the picture; restored at the end.
+class OverScope
+{
+public:
+  OverScope(vtkOpenGLState* state, const TraceScene& scene)
+    : Viewport(state)
+    , ColorMask(state)
+    , DepthMask(state)
+    , DepthFunction(state)
+    , BlendFunction(state)
+    , DepthTest(state, GL_DEPTH_TEST)
+    , Blend(state, GL_BLEND)
+    , Cull(state, GL_CULL_FACE)
+  {
+    state->vtkglViewport(scene.origin.x, scene.origin.y, scene.size.x, scene.size.y);
+    state->vtkglEnable(GL_DEPTH_TEST);
+    state->vtkglDisable(GL_CULL_FACE);
+    state->vtkglDepthMask(GL_TRUE);
+    state->vtkglBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glEnable(GL_PROGRAM_POINT_SIZE); // VTK's state does not know of it
+  }
+
+  ~OverScope() { glDisable(GL_PROGRAM_POINT_SIZE); }
+  OverScope(const OverScope&) = delete;
+  void operator=(const OverScope&) = delete;
+
+private:
+  vtkOpenGLState::ScopedglViewport Viewport;
+  vtkOpenGLState::ScopedglColorMask ColorMask;
+  vtkOpenGLState::ScopedglDepthMask DepthMask;
+  vtkOpenGLState::ScopedglDepthFunc DepthFunction;
+  vtkOpenGLState::ScopedglBlendFuncSeparate BlendFunction;
+  vtkOpenGLState::ScopedglEnableDisable DepthTest;
+  vtkOpenGLState::ScopedglEnableDisable Blend;
+  vtkOpenGLState::ScopedglEnableDisable Cull;
+};
+
+void enableAttribute(
+  GLuint program, const char* name, int size, GLenum type, GLboolean normalized, std::size_t offset)
+{
+  const GLint location = glGetAttribLocation(program, name);
+  glEnableVertexAttribArray(location);
+  glVertexAttribPointer(location, size, type, normalized, sizeof(TraceVertex),
+    reinterpret_cast<const void*>(offset)); // NOLINT: OpenGL takes an offset as a pointer
+}
+}
+
+void TraceDrawer::upload(const std::vector<TraceVertex>& vertices)
+{
+  this->Count = static_cast<int>(vertices.size());
+  this->Translucent = std::any_of(vertices.begin(), vertices.end(),
+    [](const TraceVertex& vertex) { return vertex.color[3] < 255; });
+  if (!this->Vertices)
+  {
+    this->Vertices = vtkSmartPointer<vtkOpenGLBufferObject>::New();
+  }
+  if (this->Count > 0)
+  {
+    this->Vertices->Upload(vertices.data(), vertices.size(), vtkOpenGLBufferObject::ArrayBuffer);
+  }
+}
+
+void TraceDrawer::setUniforms(Program& program, const TraceScene& scene)
+{
+  const glm::dvec3 up(glm::row(scene.clipFromWorld, 1));
+  program.set("ahead", glm::vec3(scene.ahead));
+  program.set("worldFromPoint", glm::mat4(scene.worldFromPoint));
+  program.set("clipFromWorld", glm::mat4(scene.clipFromWorld));
+  program.set("radius", static_cast<float>(scene.radius));
+  program.set("pixelsForMm", static_cast<float>(0.5 * scene.size.y * glm::length(up)));
+  program.set("hiddenOpacity", static_cast<float>(scene.hiddenOpacity));
+  program.set("origin", glm::vec2(scene.origin));
+  program.set("size", glm::vec2(scene.size));
+  for (std::size_t i = 0; i < scene.hits.size(); ++i)
+  {
+    program.set(("hits" + std::to_string(i)).c_str(), scene.hits[i]);
+  }
+}
+
+void TraceDrawer::drawBalls(vtkOpenGLRenderWindow* window, unsigned int program, bool blended)
+{
+  GLuint vertexArray = 0;
+  glGenVertexArrays(1, &vertexArray);
+  glBindVertexArray(vertexArray);
+  this->Vertices->Bind();
+  enableAttribute(program, "position", 3, GL_FLOAT, GL_FALSE, offsetof(TraceVertex, position));
+  enableAttribute(program, "color", 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(TraceVertex, color));
+  vtkOpenGLState* state = window->GetState();
+  state->vtkglDepthFunc(GL_LEQUAL);
+  state->vtkglDisable(GL_BLEND);
+  if (blended)
+  {
+    state->vtkglEnable(GL_BLEND);
+    // The nearest ball alone, or a crowd of faded ones would be opaque.
+    state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glDrawArrays(GL_POINTS, 0, this->Count);
+    state->vtkglDepthFunc(GL_EQUAL);
+  }
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDrawArrays(GL_POINTS, 0, this->Count);
+  this->Vertices->Release();
+  glBindVertexArray(0);
+  glDeleteVertexArrays(1, &vertexArray);
+}
+
+bool TraceDrawer::draw(vtkOpenGLRenderWindow* window, const TraceScene& scene, Counters& counters)
+{
+  const int tissues = static_cast<int>(scene.hits.size());
+  Program& program = this->Programs[tissues];
+  if (this->Count == 0)
+  {
+    return true;
+  }
+  if (!program.use(window, tracesSource(tissues), counters))
+  {
+    return false;
+  }
+  this->setUniforms(program, scene);
+  {
+    const OverScope scope(window->GetState(), scene);
+    const bool fades = tissues > 0 && scene.hiddenOpacity > 0.0 && scene.hiddenOpacity < 1.0;
+    this->drawBalls(window, program.get()->GetHandle(), fades || this->Translucent);
+  }
+  for (vtkTextureObject* hits : scene.hits)
+  {
+    hits->Deactivate();
+  }
+  return true;
+}
+
+void TraceDrawer::releaseGraphicsResources()
+{
+  if (this->Vertices)
+  {
+    this->Vertices->ReleaseGraphicsResources();
+  }
+  this->Vertices = nullptr;
+  this->Programs.clear();
+}
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkTracePointsRepresentation
+ * @brief   "Trace Points": points as balls, faded or hidden behind the tissue of deformed volumes
+ *
+ * Delivery, colours and selections are those of ParaView's "Point Gaussian", from which it inherits.
+ * Points and volumes may change without each other: see TracePoints.h.
+ */
+#ifndef vtkTracePointsRepresentation_h
+#define vtkTracePointsRepresentation_h
+
+#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
+#include "vtkPointGaussianRepresentation.h"
+
+namespace brainshift
+{
+class TracePoints;
+}
+
+class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkTracePointsRepresentation
+  : public vtkPointGaussianRepresentation
+{
+public:
+  static vtkTracePointsRepresentation* New();
+  vtkTypeMacro(vtkTracePointsRepresentation, vtkPointGaussianRepresentation);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum HiddenPointsType
+  {
+    Fade = 0, // with HiddenOpacity
+    Hide = 1,
+    Show = 2, // as if there were no tissue
+  };
+
+  ///@{
+  /** What becomes of points behind the tissue that is drawn: Fade (default), Hide or Show. */
+  void SetHiddenPoints(int hidden);
+  vtkGetMacro(HiddenPoints, int);
+  ///@}
+
+  ///@{
+  /** Share of their opacity that faded points keep, 0 to 1. Default 0.25. */
+  void SetHiddenOpacity(double opacity);
+  vtkGetMacro(HiddenOpacity, double);
+  ///@}
+
+  /** Radius of the balls, mm: what SetSplatSize of Point Gaussian sets. Default 1. */
+  double GetSplatSize();
+
+  int ProcessViewRequest(
+    vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output) override;
+
+protected:
+  vtkTracePointsRepresentation();
+  ~vtkTracePointsRepresentation() override;
+
+private:
+  vtkTracePointsRepresentation(const vtkTracePointsRepresentation&) = delete;
+  void operator=(const vtkTracePointsRepresentation&) = delete;
+
+  void TellProp();
+
+  int HiddenPoints = Fade;
+  double HiddenOpacity = 0.25;
+};
+
+#endif

@@ -1,0 +1,72 @@
+// A traced point as a ball: where its middle is seen, how large, and whether tissue hides it. A ball
+// counts as seen from where it touches the tissue, so that a trace on the cortex is no patchwork.
+
+in vec3 position; // the points' own coordinates, mm
+in vec4 color;    // opacity not multiplied in
+
+uniform mat4 worldFromPoint;
+uniform mat4 clipFromWorld;
+uniform vec3 ahead;          // unit vector the way the camera looks, world axes
+uniform float radius;        // mm
+uniform float pixelsForMm;   // where the homogeneous w is 1
+uniform float hiddenOpacity; // of what lies behind tissue, as a share
+uniform vec2 origin;         // the picture's lower left pixel in the window
+uniform vec2 size;           // of the picture, pixels
+
+flat out vec4 ballColor; // times opacity
+flat out vec3 ballPlace; // middle in the window, pixels; share of the radius for a pixel
+
+const float LeastRadius = 1.5; // pixels; smaller balls are lost to the eye
+
+bool isBehind(sampler2D hits, vec2 share, float depth)
+{
+  vec4 hit = textureLod(hits, share, 0.0); // first hit, mm (world); below 0: none
+  return hit.w >= 0.0 && dot(ahead, hit.xyz) < depth;
+}
+
+#if TISSUES > 0
+uniform sampler2D hits0; // of each volume
+#endif
+#if TISSUES > 1
+uniform sampler2D hits1;
+#endif
+#if TISSUES > 2
+uniform sampler2D hits2;
+#endif
+#if TISSUES > 3
+uniform sampler2D hits3;
+#endif
+
+// `share`: of the picture; `depth`: mm ahead.
+bool isHidden(vec2 share, float depth)
+{
+  bool hidden = false;
+#if TISSUES > 0
+  hidden = isBehind(hits0, share, depth);
+#endif
+#if TISSUES > 1
+  hidden = hidden || isBehind(hits1, share, depth);
+#endif
+#if TISSUES > 2
+  hidden = hidden || isBehind(hits2, share, depth);
+#endif
+#if TISSUES > 3
+  hidden = hidden || isBehind(hits3, share, depth);
+#endif
+  return hidden;
+}
+
+void main()
+{
+  vec4 world = worldFromPoint * vec4(position, 1.0);
+  vec4 clip = clipFromWorld * world;
+  float scale = pixelsForMm / clip.w;
+  float pixels = max(radius * scale, LeastRadius);
+  vec2 share = 0.5 * clip.xy / clip.w + 0.5;
+  bool hidden = isHidden(share, dot(ahead, world.xyz) - pixels / scale);
+  float opacity = color.a * (hidden ? hiddenOpacity : 1.0);
+  ballColor = vec4(color.rgb * opacity, opacity);
+  ballPlace = vec3(origin + share * size, 1.0 / pixels);
+  gl_PointSize = 2.0 * pixels;
+  gl_Position = opacity > 0.0 ? clip : vec4(0.0, 0.0, -2.0, 1.0); // beyond the near plane
+}

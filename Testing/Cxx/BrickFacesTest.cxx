@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Proves that the rectangles are the occupied bricks' faces, each once, and that faces side by side
+// share one.
+#include "BrickFaces.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <random>
+#include <tuple>
+
+using namespace brainshift;
+
+namespace
+{
+struct Bricks
+{
+  glm::ivec3 count;
+  std::vector<std::uint8_t> occupied;
+
+  bool at(const glm::ivec3& brick) const
+  {
+    if (glm::any(glm::lessThan(brick, glm::ivec3(0))) ||
+      glm::any(glm::greaterThanEqual(brick, this->count)))
+    {
+      return false;
+    }
+    return this->occupied[(std::size_t(brick.z) * this->count.y + brick.y) * this->count.x +
+             brick.x] != 0;
+  }
+};
+
+Bricks empty(const glm::ivec3& count)
+{
+  return { count, std::vector<std::uint8_t>(std::size_t(count.x) * count.y * count.z, 0) };
+}
+
+using Face = std::tuple<int, int, int, int>; // axis, and the brick above it
+
+// How many rectangles hold a face, for each that one holds.
+std::map<Face, int> facesOf(const std::vector<BrickRectangle>& rectangles)
+{
+  std::map<Face, int> faces;
+  for (const BrickRectangle& rectangle : rectangles)
+  {
+    glm::ivec3 end = rectangle.high;
+    EXPECT_EQ(rectangle.low[rectangle.axis], end[rectangle.axis]);
+    end[rectangle.axis] += 1;
+    for (int z = rectangle.low.z; z < end.z; ++z)
+    {
+      for (int y = rectangle.low.y; y < end.y; ++y)
+      {
+        for (int x = rectangle.low.x; x < end.x; ++x)
+        {
+          faces[Face(rectangle.axis, x, y, z)] += 1;
+        }
+      }
+    }
+  }
+  return faces;
+}
+
+// The answer by definition.
+std::map<Face, int> boundaryOf(const Bricks& bricks)
+{
+  std::map<Face, int> faces;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    glm::ivec3 before(0);
+    before[axis] = 1;
+    for (int z = 0; z <= bricks.count.z; ++z)
+    {
+      for (int y = 0; y <= bricks.count.y; ++y)
+      {
+        for (int x = 0; x <= bricks.count.x; ++x)
+        {
+          if (bricks.at({ x, y, z }) != bricks.at(glm::ivec3(x, y, z) - before))
+          {
+            faces[Face(axis, x, y, z)] = 1;
+          }
+        }
+      }
+    }
+  }
+  return faces;
+}
+}
+
+TEST(BrickFaces, AreTheBoundaryEachOnce)
+{
+  std::mt19937 random(5);
+  for (const glm::ivec3 count : { glm::ivec3(1), glm::ivec3(2, 1, 3), glm::ivec3(5, 13, 4),
+         glm::ivec3(11, 7, 9), glm::ivec3(30, 3, 3) })
+  {
+    for (const unsigned int outOfTen : { 0, 1, 5, 9, 10 })
+    {
+      Bricks bricks = empty(count);
+      for (std::uint8_t& brick : bricks.occupied)
+      {
+        brick = random() % 10 < outOfTen ? 255 : 0;
+      }
+      EXPECT_EQ(facesOf(brickRectangles(bricks.occupied, count)), boundaryOf(bricks))
+        << count.x << " " << count.y << " " << count.z << ", " << outOfTen << " of 10";
+    }
+  }
+}
+
+TEST(BrickFaces, ABlockHasSixRectangles)
+{
+  const glm::ivec3 count(9, 8, 7);
+  Bricks bricks = empty(count);
+  for (int z = 1; z < 6; ++z)
+  {
+    for (int y = 2; y < 8; ++y)
+    {
+      std::fill_n(&bricks.occupied[(std::size_t(z) * count.y + y) * count.x], 4, 1);
+    }
+  }
+  EXPECT_EQ(brickRectangles(bricks.occupied, count).size(), 6u);
+}

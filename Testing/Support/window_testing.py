@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What scripts share that ParaView's window plays with test_hand: a Free-Form Deformation called
+"bent", its strokes, steps of undo, and a file for what did not hold."""
+import json
+import os
+import traceback
+
+import brainshift
+import test_hand as hand
+from paraview import servermanager, simple
+
+NUMBERS = brainshift.NUMBERS_PER_STROKE
+
+
+def told_file(name):
+    return os.path.join(os.environ["BRAINSHIFT_TEST_TEMP"], f"{name}.json")
+
+
+def main(name, steps):
+    """In the window: plays the steps, functions with their argument, and writes down what did not
+    hold. In pvpython: tells it."""
+    if hand.is_there():
+        told = {"failures": [], "played": 0}
+        for step, *arguments in steps:
+            print(step.__name__, flush=True)
+            try:
+                step(*arguments)
+            except BaseException:
+                told["failures"].append(traceback.format_exc())
+                start_anew()
+            told["played"] += 1
+        with open(told_file(name), "w", encoding="utf-8") as file:
+            json.dump(told, file)
+        hand.quit()
+        return
+    with open(told_file(name), encoding="utf-8") as file:
+        told = json.load(file)
+    os.remove(told_file(name))
+    assert not told["failures"], "\n".join(told["failures"])
+    assert told["played"] > 0, told
+
+
+def start_anew():
+    """So that one step's failure is not the next one's."""
+    hand.take(hand.NONE)
+    if deformation():
+        deformation().Strokes = []
+
+
+def deformation():
+    return simple.FindSource("bent")
+
+
+def strokes():
+    numbers = list(deformation().Strokes)
+    assert len(numbers) % NUMBERS == 0, len(numbers)
+    return [numbers[i:i + NUMBERS] for i in range(0, len(numbers), NUMBERS)]
+
+
+def undo_labels():
+    stack = servermanager.vtkSMProxyManager.GetProxyManager().GetUndoStackBuilder().GetUndoStack()
+    return [stack.GetUndoSetLabel(i) for i in range(stack.GetNumberOfUndoSets())]
+
+
+def action(name):
+    """Undo or Redo."""
+    assert hand.action("actionEdit" + name)
+    hand.wait()
+
+
+def edit(name, *tools):
+    """Undo or Redo; then there are strokes of these tools."""
+    action(name)
+    assert [stroke[0] for stroke in strokes()] == list(tools), strokes()
+
+
+def settle(label):
+    """Waits until a burst of wheel clicks is over: a step more to undo."""
+    before = undo_labels()
+    for _ in range(200):
+        if undo_labels() != before:
+            break
+        hand.wait(50)
+    hand.wait(200)
+    assert undo_labels()[0] == label, undo_labels()
+
+
+def shown(view, what):
+    """How many Handles, Faint or Highlights the tool in a view shows."""
+    hidden = view.SMProxy.GetProperty("HiddenRepresentations")
+    for i in range(hidden.GetNumberOfProxies()):
+        tool = hidden.GetProxy(i).GetClientSideObject().GetRepresentation()
+        for line in str(tool).splitlines():
+            name, _, number = line.strip().partition(": ")
+            if name == what:
+                return int(number)
+    raise ValueError(f"nothing tells {what}")
+
+
+def pixel_of(view, position):
+    renderer = view.GetRenderer()
+    renderer.SetWorldPoint(*position, 1.0)
+    renderer.WorldToDisplay()
+    return [round(number) for number in renderer.GetDisplayPoint()[:2]]

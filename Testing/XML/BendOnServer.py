@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Proves that the tools bend a volume that a pvserver holds and draws: ParaView's window, connected
+to it, drags with each tool in 3D and in a slice, live, and takes back what it did.
+
+ParaView's window runs this file as a script; what did not hold is written down for the pvpython
+that runs it afterwards."""
+
+import brainshift
+import numpy
+import test_hand as hand
+import window_testing as window
+from brainshift_testing import server, server_finds_plugin
+from paraview import simple
+from window_testing import strokes
+
+MIDDLE = (20.0, 20.0, 20.0)
+
+
+def connect(port):
+    simple.Connect("localhost", port)
+    hand.wait(200)
+    assert simple.servermanager.ActiveConnection.IsRemote()
+
+
+def show():
+    """The block drawn by the server, in a view of the window."""
+    source = simple.Wavelet(WholeExtent=[0, 40, 0, 40, 0, 40], Center=MIDDLE)
+    bent = simple.FreeFormDeformation(
+        registrationName="bent", Input=source, LatticeDimensions=[11, 11, 11])
+    view = simple.GetActiveViewOrCreate("RenderView")
+    display = simple.Show(bent, view)
+    display.SetRepresentationType("Deformed Volume")
+    simple.ColorBy(display, ("POINTS", "RTData"))
+    simple.GetOpacityTransferFunction("RTData").Points = [0, 1, 0.5, 0, 300, 1, 0.5, 0]
+    simple.SetActiveSource(bent)
+    simple.ResetCamera(view)
+    simple.Render(view)
+    hand.wait(200)
+    return bent, view, display
+
+
+def drag_with_each_tool():
+    bent, view, display = show()
+    for kind in ("Deformed Volume", "Deformed Slices"):
+        display.SetRepresentationType(kind)
+        display.ShowSagittal = display.ShowCoronal = 0
+        simple.Render(view)
+        hand.wait(100)
+        for tool in (hand.SOFT, hand.STAMP, hand.MOVE):
+            drag(bent, view, display, tool, kind)
+
+
+def drag(bent, view, display, tool, kind):
+    hand.take(tool)
+    number = {hand.MOVE: brainshift.MOVE, hand.SOFT: brainshift.SOFT,
+              hand.STAMP: brainshift.STAMP}[tool]
+    tissue = (24.0, 24.0, 20.0)
+    if kind == "Deformed Volume":
+        tissue = brainshift.pick(display, view, *[side // 2 + 25 for side in view.ViewSize])
+        assert tissue is not None
+    start = window.pixel_of(view, numpy.round(numpy.divide(tissue, 4)) * 4)
+    drawn = brainshift.counters(display)["latticeUploads"]
+    hand.hover(start)
+    hand.press(start)
+    for step in (5, 10, 15):
+        hand.drag_to([start[0] + step, start[1] + step])
+        hand.wait(50)
+    assert len(strokes()) == 1 and strokes()[0][0] == number, (tool, kind, strokes())
+    assert brainshift.counters(display)["latticeUploads"] > drawn, "the server draws it meanwhile"
+    hand.release([start[0] + 15, start[1] + 15])
+    hand.wait(100)
+    if kind == "Deformed Slices":
+        assert abs(strokes()[0][6]) < 1e-5, strokes()
+    assert bent.MaximumDisplacement > 0, bent.MaximumDisplacement
+    window.edit("Undo")
+
+
+def turn_the_wheel():
+    hand.take(hand.STAMP)
+    view = simple.GetActiveView()
+    simple.GetDisplayProperties(window.deformation(), view).SetRepresentationType("Deformed Volume")
+    simple.Render(view)
+    middle = [side // 2 for side in view.ViewSize]
+    hand.hover(middle)
+    hand.wheel(middle, 2)
+    window.settle("Stamp: pull")
+    assert len(strokes()) == 1, strokes()
+
+
+def lose_the_server():
+    # With a tool in hand that shows something.
+    view = simple.GetActiveView()
+    hand.hover([side // 2 + 20 for side in view.ViewSize])
+    hand.wait(50)
+    del view  # or Python asks the server to let it go when there is none any more
+    simple.Disconnect()
+    hand.wait(300)
+    hand.take(hand.NONE)
+    hand.wait(100)
+
+
+def play():
+    with server(server_finds_plugin()) as port:
+        yield connect, port
+        yield drag_with_each_tool,
+        yield turn_the_wheel,
+        yield lose_the_server,
+
+
+if __name__ == "__main__":
+    window.main("BendOnServer", play())

@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Proves that in ParaView's window the key K shows the deformed volume and the reference in turn
+until it is pressed again, of what the active view shows, and lets go of what is deleted or chosen
+meanwhile; and that the mouse drags the line of a wipe in a 2D view, and nothing else then.
+
+ParaView's window runs this file as a script; what did not hold is written down for the pvpython
+that runs it afterwards."""
+import json
+import os
+import traceback
+
+import brainshift
+import test_hand as hand
+from brainshift_testing import picture
+from paraview import simple
+
+SIZE = 300
+HALF = 12.0  # mm, half a view's height
+WIPE_X = 2.0
+FLICKER = "actionBrainShiftFlicker"
+MOST_WAITS = 200  # of 50 ms; what takes longer never comes
+
+told = {"failures": []}
+
+
+def told_file():
+    return os.path.join(os.environ["BRAINSHIFT_TEST_TEMP"], "CompareByHand.json")
+
+
+def compared(name, move):
+    """A bent cube of 20 mm and itself, moved."""
+    wavelet = simple.Wavelet()
+    bent = simple.FreeFormDeformation(
+        Input=wavelet, Strokes=brainshift.soft((0, 0, 0), (2, 0, 0), 8))
+    return simple.CompareVolumes(registrationName=name, Input=bent, Reference=wavelet,
+                                 ReferenceTranslation=[move, 0, 0])
+
+
+def show(compare, view):
+    """An axial slice, radiological: the patient's right, greater x, at the left."""
+    display = simple.Show(compare, view, "UniformGridRepresentation")
+    display.SetRepresentationType("Deformed Slices")
+    simple.ColorBy(display, ("POINTS", "RTData"))
+    display.ShowSagittal = display.ShowCoronal = 0
+    display.SlicePosition = [0.5, 0.5, 0.5]
+    simple.Render(view)
+    view.InteractionMode = "2D"
+    view.CameraParallelProjection = 1
+    view.CameraFocalPoint = [0, 0, 0.5]
+    view.CameraPosition = [0, 0, -99.5]
+    view.CameraViewUp = [0, 1, 0]
+    view.CameraParallelScale = HALF
+    simple.Render(view)
+    return display
+
+
+def shown(compare):
+    return str(compare.Show.GetData())
+
+
+def wait_for(happened, what):
+    for _ in range(MOST_WAITS):
+        if happened():
+            return
+        hand.wait(50)
+    raise AssertionError(f"{what} never came")
+
+
+def flicker_in_turn(first, second, view):
+    pictures = {"Both": picture(view)}
+    hand.shortcut("K")
+    assert hand.is_checked(FLICKER)
+    for expected in ("Reference", "Deformed", "Reference", "Deformed"):
+        wait_for(lambda: shown(first) == expected, expected)
+        seen = picture(view)
+        assert (pictures.setdefault(expected, seen) == seen).all(), expected
+        assert shown(second) == "Both", "the active view does not show it"
+    assert (pictures["Reference"] != pictures["Deformed"]).mean() > 0.1
+    hand.shortcut("K")
+    assert not hand.is_checked(FLICKER)
+    assert shown(first) == "Both" and (picture(view) == pictures["Both"]).all()
+
+
+def keep_what_was_chosen(compare):
+    """Who chooses while it flickers is not overruled in the end; what was shown before is kept."""
+    compare.Show = "Deformed"
+    hand.shortcut("K")
+    wait_for(lambda: shown(compare) == "Reference", "the reference")
+    hand.shortcut("K")
+    assert shown(compare) == "Deformed", shown(compare)
+    hand.shortcut("K")
+    wait_for(lambda: shown(compare) == "Reference", "the reference")
+    compare.Show = "Both"
+    hand.shortcut("K")
+    assert shown(compare) == "Both", shown(compare)
+
+
+def pixel_at(view, x):
+    """In the middle row: x counts to the left."""
+    width, height = view.ViewSize
+    return [width / 2 - x / (2 * HALF) * height, height / 2]
+
+
+def drag_the_wipe(view, display):
+    display.SliceComparison = "Wipe"
+    display.WipePosition = [WIPE_X, 1.0, -1.0]
+    before = picture(view)
+    position, focus = list(display.SlicePosition), list(view.CameraFocalPoint)
+    hand.drag(pixel_at(view, WIPE_X), pixel_at(view, -5.0))
+    x, y, z = display.WipePosition
+    pixel_mm = 2 * HALF / view.ViewSize[1]
+    assert abs(x + 5.0) < 1.5 * pixel_mm and (y, z) == (1.0, -1.0), (x, y, z)
+    assert (picture(view) != before).mean() > 0.05, "the picture follows"
+    assert list(display.SlicePosition) == position
+    assert list(view.GetActiveCamera().GetFocalPoint()) == focus, "the camera has not the mouse"
+    # Away from the line the mouse is the camera's, as ever; and with another comparison too.
+    hand.drag(pixel_at(view, 5.0), pixel_at(view, 4.0))
+    assert list(display.WipePosition) == [x, y, z]
+    assert list(view.GetActiveCamera().GetFocalPoint()) != focus
+    view.CameraFocalPoint, view.CameraPosition = focus, [0, 0, -99.5]
+    simple.Render(view)
+    display.SliceComparison = "Difference"
+    hand.drag(pixel_at(view, x), pixel_at(view, 0.0))
+    assert list(display.WipePosition) == [x, y, z]
+
+
+def delete_while_it_flickers(first, second):
+    hand.shortcut("K")
+    assert hand.is_checked(FLICKER)
+    simple.Delete(first)
+    hand.wait(100)
+    assert not hand.is_checked(FLICKER), "nothing is left to flicker"
+    assert hand.action(FLICKER), "there is another one"
+    assert hand.is_checked(FLICKER) and shown(second) == "Reference"
+    assert hand.action(FLICKER) and shown(second) == "Both"
+
+
+def play():
+    try:
+        if os.path.exists(told_file()):
+            os.remove(told_file())
+        view = simple.GetActiveViewOrCreate("RenderView")
+        hand.resize(SIZE, SIZE)
+        first, second = compared("first", -4.0), compared("second", 4.0)
+        display = show(first, view)
+        hand.wait(100)
+        flicker_in_turn(first, second, view)
+        keep_what_was_chosen(first)
+        drag_the_wipe(view, display)
+        del display
+        delete_while_it_flickers(first, second)
+        told["done"] = True
+    except BaseException:
+        told["failures"].append(traceback.format_exc())
+    with open(told_file(), "w", encoding="utf-8") as file:
+        json.dump(told, file)
+    hand.quit()
+
+
+def main():
+    with open(told_file(), encoding="utf-8") as file:
+        window = json.load(file)
+    assert not window["failures"], "\n".join(window["failures"])
+    assert window["done"]
+
+
+if __name__ == "__main__":
+    if hand.is_there():
+        play()
+    else:
+        main()

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What Traces.xml asks ParaView's window, and afterwards whether the trace was measured, shown and
+followed a stamp. The trace lies 2 mm outside a ball, in front of it and behind."""
+import json
+import os
+
+import numpy
+from brainshift_testing import ball, object_pixels, picture, show_volume, volume
+from paraview import simple
+
+MIDDLE, RADIUS, OUTSIDE = numpy.array((16.0, 16.0, 16.0)), 9.0, 2.0
+POINTS = 200
+FIGURES = ("Count", "Mean", "RMS", "Percentile95")
+GREY = [0, 0.5, 0.5, 0.5, 1, 0.5, 0.5, 0.5]
+OPAQUE = [0, 0, 0.5, 0, 0.4, 0, 0.5, 0, 0.6, 1, 0.5, 0, 1, 1, 0.5, 0]
+
+
+def scratch(name):
+    return os.path.join(os.environ["BRAINSHIFT_TEST_TEMP"], name)
+
+
+def write_trace():
+    """Points with times, the time in the first column, as a pointer may tell them. Not named .csv,
+    for which ParaView may ask whether it is geography."""
+    aside = numpy.random.default_rng(3).normal(size=(POINTS, 3))
+    aside /= numpy.linalg.norm(aside, axis=1)[:, None]
+    with open(scratch("Traces.txt"), "w", encoding="utf-8") as file:
+        file.write("time,x,y,z\n")
+        for time, point in enumerate(MIDDLE + (RADIUS + OUTSIDE) * aside):
+            file.write(",".join(repr(float(number)) for number in (0.1 * time, *point)) + "\n")
+
+
+def start():
+    """The file, and a bent ball in the view, looked at along -z."""
+    write_trace()
+    with open(scratch("Traces.json"), "w", encoding="utf-8") as file:
+        json.dump({}, file)
+    source = volume(ball(inside=1.0, edge=2.0, radius=RADIUS))
+    bent = simple.FreeFormDeformation(registrationName="bent", Input=source)
+    view = simple.GetActiveViewOrCreate("RenderView")
+    show_volume(bent, view, "Deformed Volume", GREY, OPAQUE)
+    simple.SetActiveSource(bent)
+    simple.Render(view)
+    view.CameraFocalPoint = MIDDLE
+    view.CameraPosition = MIDDLE + (0, 0, 80)
+    view.CameraViewUp = (0, 1, 0)
+    simple.Render(view)
+
+
+def render_view():
+    return next(view for view in simple.GetRenderViews())
+
+
+def click_3d_view():
+    """ParaView opens a spreadsheet for the file, and shows what comes next in the active view."""
+    simple.SetActiveView(render_view())
+
+
+def stamp():
+    import test_hand as hand
+    click_3d_view()
+    hand.take(hand.STAMP)
+    width, height = render_view().ViewSize
+    hand.wheel([width // 2, height // 2], -3)
+    hand.wait(300)
+    hand.take(hand.NONE)
+
+
+def look(when):
+    """Writes down what panel, filter and view show."""
+    import test_hand as hand
+    hand.wait(300)
+    measure, view = simple.GetActiveSource(), render_view()
+    measure.SMProxy.UpdatePropertyInformation()
+    colors = simple.GetColorTransferFunction("DistanceToCortex")
+    shown = picture(view)
+    with open(scratch("Traces.json"), encoding="utf-8") as file:
+        seen = json.load(file)
+    seen[when] = {
+        "panel": {name: hand.text(name) for name in FIGURES},
+        "filter": {name: getattr(measure, name) for name in FIGURES},
+        "strokes": len(simple.FindSource("bent").Strokes) // 14,
+        "range": [colors.RGBPoints[0], colors.RGBPoints[-4]],
+        "title": simple.GetScalarBar(colors, view).Title,
+        "bar": simple.GetScalarBar(colors, view).Visibility,
+        "colored": int((numpy.ptp(shown, axis=2) > 0.3).sum()),
+        "drawn": int(object_pixels(shown).sum())}
+    with open(scratch("Traces.json"), "w", encoding="utf-8") as file:
+        json.dump(seen, file)
+
+
+def main():
+    with open(scratch("Traces.json"), encoding="utf-8") as file:
+        seen = json.load(file)
+    print(json.dumps(seen, indent=1))
+    opened, stamped = seen["opened"], seen["stamped"]
+    for now in (opened, stamped):
+        assert now["panel"]["Count"] == f"<b>{POINTS}</b>", now["panel"]
+        for name in FIGURES[1:]:
+            assert now["panel"][name] == f"<b>{now['filter'][name]:.2f} mm</b>", (name, now)
+    assert abs(opened["filter"]["Mean"] - OUTSIDE) < 0.1, opened
+    assert abs(opened["filter"]["RMS"] - OUTSIDE) < 0.1, opened
+    assert (opened["strokes"], stamped["strokes"]) == (0, 1)
+    assert stamped["filter"]["Mean"] > opened["filter"]["Mean"] + 0.05, "the cortex was pushed in"
+    assert opened["range"] == [-3.0, 3.0], opened["range"]
+    assert opened["title"] == "Distance to the cortex (mm)" and opened["bar"] == 1, opened
+    assert opened["colored"] > 100, "points and scale are coloured, the ball is grey"
+
+
+if __name__ == "__main__":
+    main()
