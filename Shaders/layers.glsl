@@ -50,7 +50,7 @@ vec2 lightOf(vec3 gradient, vec3 towardsEye, vec3 deformed)
 #ifdef SHADED
   float steepness = length(gradient);
   vec3 normal = steepness > 0.0 ? gradient / steepness : vec3(0.0);
-  vec3 light = lit(vec3(1.0), normal, towardsEye, worldFromDeformed(deformed));
+  vec3 light = shone(shineOn(normal, towardsEye, worldFromDeformed(deformed)), vec3(1.0));
   return vec2(clamp(dot(light, Luminance), 0.0, 1.0), abs(dot(normal, towardsEye)));
 #else
   return vec2(1.0);

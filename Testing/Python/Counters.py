@@ -137,7 +137,7 @@ def test_another_opacity_map_is_noticed_even_if_it_is_older():
 def test_an_opacity_edit_uploads_the_map_only():
     drawn = Drawn()
     opacity = GetOpacityTransferFunction("Intensity", drawn.display, separate=True)
-    opacity.Points = [0, 0, 0.5, 0, 30, 0, 0.5, 0, 100, 0.5, 0.5, 0]
+    opacity.Points = [0, 0, 0.5, 0, 30, 0, 0.5, 0, 100, 1, 0.5, 0]
     done = drawn.did()
     assert done.pop("transferUploads") == 1, done
     # 4096 colours for each of three steps, and the visible bricks of 2 voxels, summed.
@@ -145,6 +145,14 @@ def test_an_opacity_edit_uploads_the_map_only():
     assert done.pop("presenceUpdates") == 1, done
     assert 0 < done.pop("skippingBytes") < LATTICE_BYTES, done
     assert done == {}, done
+
+
+def test_opaque_tissue_and_fog_have_a_program_each_compiled_once():
+    drawn = Drawn()
+    opacity = GetOpacityTransferFunction("Intensity", drawn.display, separate=True)
+    for largest, compiled in ((0.5, 1), (1.0, 0), (0.3, 0)):
+        opacity.Points = [0, 0, 0.5, 0, 30, 0, 0.5, 0, 100, largest, 0.5, 0]
+        assert drawn.did().get("programsCompiled", 0) == compiled, largest
 
 
 def test_the_panel_of_a_shown_volume_uploads_nothing():
