@@ -77,7 +77,7 @@ def look(when):
     with open(scratch("Traces.json"), encoding="utf-8") as file:
         seen = json.load(file)
     seen[when] = {
-        "panel": {name: hand.text(name) for name in FIGURES},
+        "panel": {name: hand.label(name) for name in FIGURES},
         "filter": {name: getattr(measure, name) for name in FIGURES},
         "strokes": len(simple.FindSource("bent").Strokes) // 14,
         "range": [colors.RGBPoints[0], colors.RGBPoints[-4]],
