@@ -329,7 +329,7 @@ def test_one_of_them_alone():
         for setting in ("Red and green", "Off"):
             display.VolumeComparison = setting
             apart = numpy.abs(picture(view) - expected).max()
-            assert apart <= LEVEL, (choice, setting, apart)
+            assert apart <= 1.01 * LEVEL, (choice, setting, apart)
     uploads = brainshift.counters(display)["volumeUploads"]
     compare.Show, display.VolumeComparison = "Both", "Red and green"
     assert (picture(view) == both).all()
