@@ -221,8 +221,8 @@ ShaderSource slicesSource(const SlicesVariant& variant)
 
 ShaderSource tracesSource(int tissues)
 {
-  return { assemble({ "#define TISSUES " + std::to_string(tissues) + "\n", shader_traces_vert }), "",
-    assemble({ Outputs, shader_traces_frag }) };
+  return { assemble({ "#define TISSUES " + std::to_string(tissues) + "\n", shader_traces_vert }),
+    "", assemble({ Outputs, shader_traces_frag }) };
 }
 
 std::vector<std::pair<std::string, ShaderSource>> allSources()
