@@ -62,7 +62,8 @@ constexpr const char* Outputs = "//VTK::Output::Dec\n";
 constexpr const char* Shared = "#define SHARED\n#define OUT(type) out type\n";
 
 // VTK declares an output for each that the source names, so that it may not name one in vain.
-constexpr const char* NotCounted = "void countSamples(float taken, float skipped) {}\n";
+constexpr const char* NotCounted =
+  "const bool CountsSamples = false;\nvoid countSamples(float taken, float skipped) {}\n";
 
 std::string assemble(std::initializer_list<std::string> parts)
 {

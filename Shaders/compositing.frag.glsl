@@ -92,22 +92,34 @@ bool takeTwo(Path path, TissueTable table, mat3 turn, float i, inout Seen seen)
 #ifdef SHARED_LIGHT
     // Light is found once, at the middle of what the two show.
     float further = (1.0 - one.a) * two.a;
-    float way = further / (one.a + further);
-    Shine oneShine = shineAt(mix(oneDeformed, twoDeformed, way), mix(oneRest, twoRest, way), slopes,
+    float both = one.a + further;
+    float way = further / both;
+    Shine shine = shineAt(mix(oneDeformed, twoDeformed, way), mix(oneRest, twoRest, way), slopes,
       turn, path.towardsEye);
-    Shine twoShine = oneShine;
+    vec3 color = one.a * colorOf(one, oneRest) + further * colorOf(two, twoRest);
+    float before = 1.0 - seen.picture.a;
+    float middle = seen.picture.a + before * one.a;
+    seen.picture += before * vec4(color * shine.factor + both * shine.added, both);
+    float hit = middle >= HitOpacity ? i : i + 1.0;
+    seen.hit =
+      seen.hit < 0.0 && seen.picture.a >= HitOpacity ? max(hit - 0.5, 0.0) : seen.hit;
 #else
-    Shine oneShine = shineAt(oneDeformed, oneRest, slopes, turn, path.towardsEye);
-    Shine twoShine = shineAt(twoDeformed, twoRest, slopes, turn, path.towardsEye);
+    see(seen, shown(one, oneRest, shineAt(oneDeformed, oneRest, slopes, turn, path.towardsEye)), i);
+    see(seen, shown(two, twoRest, shineAt(twoDeformed, twoRest, slopes, turn, path.towardsEye)),
+      i + 1.0);
 #endif
-    see(seen, shown(one, oneRest, oneShine), i);
-    see(seen, shown(two, twoRest, twoShine), i + 1.0);
   }
   return visible;
 }
 
 void main()
 {
+  if (!CountsSamples && meetsNothing())
+  {
+    gl_FragData[0] = vec4(0.0);
+    gl_FragData[1] = vec4(0.0, 0.0, 0.0, -1.0);
+    return;
+  }
   Path path = pathOf(rayOfPixel(ndc));
   TissueTable table = tissueTable();
   mat3 turn = worldFromGradient;

@@ -42,6 +42,18 @@ bool startsInside(vec3 position)
 #endif
 }
 
+// Share of the ray before the first face, and behind the last; 1 where the ray meets none.
+vec2 spanOfPixel()
+{
+  return textureLod(spans, gl_FragCoord.xy * spansTexel, 0.0).rg;
+}
+
+// Whether the ray is known to meet no occupied brick: even from inside it would leave one.
+bool meetsNothing()
+{
+  return skipping == 1 && spanOfPixel().y == 1.0;
+}
+
 // First sample and one past the last; samples are numbered from t = span.x.
 vec2 presentSamples(Ray ray, vec2 span, float stepMm)
 {
@@ -50,10 +62,10 @@ vec2 presentSamples(Ray ray, vec2 span, float stepMm)
   {
     return all;
   }
-  vec2 found = textureLod(spans, gl_FragCoord.xy * spansTexel, 0.0).rg;
+  vec2 found = spanOfPixel();
   if (found.y == 1.0)
   {
-    return vec2(0.0); // the ray meets no occupied brick: even from inside it would leave one
+    return vec2(0.0);
   }
   found = (found - SpanRounding) * ray.lengthMm;
   float nearest = startsInside(ray.start) ? 0.0 : found.x;
