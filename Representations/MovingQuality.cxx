@@ -13,7 +13,7 @@ constexpr double InteractiveRate = 1.0;
 constexpr double SmoothRate = 15.0;
 constexpr double LeastShareForImage = 0.2; // of a frame's time, however long a stroke takes
 // What the window itself takes of it, which no mapper sees: ParaView's smoothing of edges, copies.
-constexpr double ShareOfWindow = 0.4;
+constexpr double ShareOfWindow = 0.5;
 }
 
 bool isMoving(double rate)
