@@ -1,5 +1,4 @@
-// Composite blending, front to back: the paper's ray caster (section 2), with a loop of its own,
-// since it is what is drawn all day.
+// Composite blending, front to back (paper, section 2); a loop of its own, for it is drawn most.
 
 // Colour times opacity, and opacity, of a sample.
 vec4 shown(vec4 tissue, vec3 rest, Shine shine)
@@ -92,22 +91,16 @@ bool takeTwo(Path path, TissueTable table, mat3 turn, float i, inout Seen seen)
 #ifdef SHARED_LIGHT
     // Light is found once, at the middle of what the two show.
     float further = (1.0 - one.a) * two.a;
-    float both = one.a + further;
-    float way = further / both;
-    Shine shine = shineAt(mix(oneDeformed, twoDeformed, way), mix(oneRest, twoRest, way), slopes,
+    float way = further / (one.a + further);
+    Shine oneShine = shineAt(mix(oneDeformed, twoDeformed, way), mix(oneRest, twoRest, way), slopes,
       turn, path.towardsEye);
-    vec3 color = one.a * colorOf(one, oneRest) + further * colorOf(two, twoRest);
-    float before = 1.0 - seen.picture.a;
-    float middle = seen.picture.a + before * one.a;
-    seen.picture += before * vec4(color * shine.factor + both * shine.added, both);
-    float hit = middle >= HitOpacity ? i : i + 1.0;
-    seen.hit =
-      seen.hit < 0.0 && seen.picture.a >= HitOpacity ? max(hit - 0.5, 0.0) : seen.hit;
+    Shine twoShine = oneShine;
 #else
-    see(seen, shown(one, oneRest, shineAt(oneDeformed, oneRest, slopes, turn, path.towardsEye)), i);
-    see(seen, shown(two, twoRest, shineAt(twoDeformed, twoRest, slopes, turn, path.towardsEye)),
-      i + 1.0);
+    Shine oneShine = shineAt(oneDeformed, oneRest, slopes, turn, path.towardsEye);
+    Shine twoShine = shineAt(twoDeformed, twoRest, slopes, turn, path.towardsEye);
 #endif
+    see(seen, shown(one, oneRest, oneShine), i);
+    see(seen, shown(two, twoRest, twoShine), i + 1.0);
   }
   return visible;
 }

@@ -55,7 +55,8 @@ vec3 shadeAlone(March march, vec3 color, vec3 deformed, vec3 rest)
   {
     slopes = offsetSlopesAt(deformed);
   }
-  return shade(color, deformed, rest, slopes, worldFromGradient, march.towardsEye);
+  Shine shine = shineAt(deformed, rest, slopes, worldFromGradient, march.towardsEye);
+  return shone(shine, color);
 }
 
 // The second target: where a surface was hit; `number` below 0: nowhere.

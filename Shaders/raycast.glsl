@@ -46,9 +46,3 @@ Shine shineAt(vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
   return Shine(vec3(1.0), vec3(0.0));
 #endif
 }
-
-// A sample's colour under light.
-vec3 shade(vec3 color, vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
-{
-  return shone(shineAt(deformed, rest, slopes, turn, towardsEye), color);
-}
