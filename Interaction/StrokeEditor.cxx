@@ -2,9 +2,11 @@
 #include "StrokeEditor.h"
 
 #include "ActiveDeformation.h"
+#include "QuietUpdates.h"
 #include "ShowingViews.h"
 
 #include <pqApplicationCore.h>
+#include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>
 #include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
@@ -280,10 +282,19 @@ void StrokeEditor::drawSoon()
 
 void StrokeEditor::draw()
 {
-  SCOPED_UNDO_EXCLUDE();
-  this->Source->getProxy()->UpdateVTKObjects();
-  for (pqView* view : viewsShowing(this->Source))
   {
-    drawRoughly(view);
+    SCOPED_UNDO_EXCLUDE();
+    QuietUpdates quiet;
+    quiet.add(this->Source->getProxy());
+    this->Source->getProxy()->UpdateVTKObjects();
+    for (pqView* view : viewsShowing(this->Source))
+    {
+      if (pqDataRepresentation* shown = this->Source->getRepresentation(view))
+      {
+        quiet.add(shown->getProxy());
+      }
+      drawRoughly(view);
+    }
   }
+  Q_EMIT this->drawn();
 }

@@ -62,6 +62,9 @@ Q_SIGNALS:
   // The property has other strokes, whoever changed it.
   void changed();
   void editing(bool on);
+  // There is a new picture of what is under the hand. Until the hand lets go this is the only news:
+  // the source's dataUpdated waits for the end.
+  void drawn();
 
 private Q_SLOTS:
   void notice();

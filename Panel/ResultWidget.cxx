@@ -28,7 +28,7 @@
 
 namespace
 {
-constexpr qint64 FiguresMs = 100; // at least, from one update to the next: nobody reads faster
+constexpr qint64 FiguresMs = 250; // at least, from one update to the next: nobody reads faster
 
 pqPipelineSource* sourceOf(vtkSMProxy* proxy)
 {
@@ -75,6 +75,8 @@ ResultWidget::ResultWidget(vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget
   this->FiguresSoon.setSingleShot(true);
   this->connect(&this->FiguresSoon, &QTimer::timeout, this, &ResultWidget::showFigures);
   this->connect(this->Source, qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
+    &ResultWidget::showFiguresSoon);
+  this->connect(StrokeEditor::of(this->Source), &StrokeEditor::drawn, this,
     &ResultWidget::showFiguresSoon);
 }
 

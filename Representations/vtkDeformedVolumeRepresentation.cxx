@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedVolumeRepresentation.h"
 
+#include "EdgeSmoothing.h"
 #include "InteractiveDelivery.h"
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkVolumeOrder.h"
@@ -14,6 +15,7 @@
 vtkStandardNewMacro(vtkDeformedVolumeRepresentation);
 
 vtkDeformedVolumeRepresentation::vtkDeformedVolumeRepresentation()
+  : Smoothing(std::make_unique<brainshift::EdgeSmoothing>())
 {
   this->VolumeMapper.TakeReference(vtkDeformedVolumeMapper::New());
 }
@@ -29,6 +31,7 @@ void vtkDeformedVolumeRepresentation::SetVisibility(bool visible)
 {
   this->Superclass::SetVisibility(visible);
   this->Order->SetEnabled(visible);
+  this->Smoothing->setEnabled(visible);
 }
 
 void vtkDeformedVolumeRepresentation::SetSampleDistance(double distance)
@@ -138,6 +141,7 @@ bool vtkDeformedVolumeRepresentation::AddToView(vtkView* view)
   if (auto renderView = vtkPVRenderView::SafeDownCast(view))
   {
     renderView->GetRenderer()->AddCuller(this->Order);
+    this->Smoothing->watch(renderView->GetRenderer());
   }
   return this->Superclass::AddToView(view);
 }
@@ -147,6 +151,7 @@ bool vtkDeformedVolumeRepresentation::RemoveFromView(vtkView* view)
   if (auto renderView = vtkPVRenderView::SafeDownCast(view))
   {
     renderView->GetRenderer()->RemoveCuller(this->Order);
+    this->Smoothing->watch(nullptr);
   }
   return this->Superclass::RemoveFromView(view);
 }

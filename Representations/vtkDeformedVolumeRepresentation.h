@@ -14,11 +14,17 @@
 #include "vtkImageVolumeRepresentation.h"
 #include "vtkNew.h" // for the order
 
+#include <memory> // for the smoothing
 #include <set>    // for what was told
 #include <string> // for its sentences
 
 class vtkDeformedVolumeMapper;
 class vtkVolumeOrder;
+
+namespace brainshift
+{
+class EdgeSmoothing;
+}
 
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkDeformedVolumeRepresentation
   : public vtkImageVolumeRepresentation
@@ -99,6 +105,7 @@ private:
   void TellOnce(bool unsupported, const std::string& sentence);
 
   vtkNew<vtkVolumeOrder> Order;
+  std::unique_ptr<brainshift::EdgeSmoothing> Smoothing;
   float GlobalIlluminationReach = 0.0f;
   float VolumetricScatteringBlending = 0.0f;
   int RequestedRenderMode = 0;

@@ -262,7 +262,7 @@ int vtkLatticeRepresentation::RenderOpaqueGeometry(vtkViewport* viewport)
   return rendered;
 }
 
-int vtkLatticeRepresentation::RenderTranslucentPolygonalGeometry(vtkViewport* viewport)
+int vtkLatticeRepresentation::RenderOverlay(vtkViewport* viewport)
 {
   int rendered = 0;
   for (Drawing* drawing : this->Internal->all())
@@ -272,18 +272,6 @@ int vtkLatticeRepresentation::RenderTranslucentPolygonalGeometry(vtkViewport* vi
       : 0;
   }
   return rendered;
-}
-
-vtkTypeBool vtkLatticeRepresentation::HasTranslucentPolygonalGeometry()
-{
-  for (Drawing* drawing : this->Internal->all())
-  {
-    if (drawing->Actor->GetVisibility() && drawing->Actor->HasTranslucentPolygonalGeometry())
-    {
-      return 1;
-    }
-  }
-  return 0;
 }
 
 void vtkLatticeRepresentation::PrintSelf(ostream& os, vtkIndent indent)

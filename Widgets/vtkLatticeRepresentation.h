@@ -59,8 +59,9 @@ public:
   void GetActors(vtkPropCollection* actors) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
   int RenderOpaqueGeometry(vtkViewport* viewport) override;
-  int RenderTranslucentPolygonalGeometry(vtkViewport* viewport) override;
-  vtkTypeBool HasTranslucentPolygonalGeometry() override;
+  /** What can be seen through is drawn last and simply: VTK's pass for such surfaces works on all
+   * pixels of the view, three times, which takes a software driver as long as the volume. */
+  int RenderOverlay(vtkViewport* viewport) override;
 
 protected:
   vtkLatticeRepresentation();

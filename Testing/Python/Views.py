@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that Deformed Volume is drawn right in every view that shows it: two at once, hidden and
-# shown, closed and opened, in a screenshot larger than the window, and for both eyes.
+# shown, closed and opened, in a screenshot larger than the window, and for both eyes. And that
+# ParaView's smoothing of edges is left out where it would change nothing.
 import os
 
 import numpy
@@ -179,6 +180,39 @@ def test_both_eyes():
     for stereo in (False, True):
         for ours, sphere in zip(found[stereo, "Deformed Volume"], found[stereo, "sphere"]):
             assert abs(ours - sphere) < 0.05, found
+
+
+def smooths(view):
+    """Whether edges are smoothed in a picture of the view; asked while it is drawn."""
+    renderer, asked = view.GetRenderer(), []
+    watch = renderer.AddObserver("StartEvent", lambda *_: asked.append(renderer.GetUseFXAA()), -1.0)
+    picture(view)
+    renderer.RemoveObserver(watch)
+    assert renderer.GetUseFXAA(), "it was not put back"
+    assert len(set(asked)) == 1, asked
+    return bool(asked[0])
+
+
+def test_edges_are_smoothed_where_there_are_any():
+    # VTK smooths before it draws volumes.
+    source = bent_ball()
+    view, display = opaque_view(source)
+    view.UseFXAA = 1  # as in ParaView's window
+    assert not smooths(view), "for a volume alone"
+    alone = picture(view)
+    sphere = Sphere(Center=(30, 20, 22), Radius=9.0)
+    Show(sphere, view)
+    assert smooths(view), "not for a sphere"
+    smooth = picture(view)
+    view.UseFXAA = 0
+    assert (picture(view) != smooth).any(), "nothing was smoothed"
+    view.UseFXAA = 1
+    Hide(sphere, view)
+    Show(Sphere(Center=MIDDLE, Radius=0.1), view)  # hidden by tissue
+    assert smooths(view)
+    assert_same(picture(view), alone, "smoothed without need")
+    Hide(source, view)
+    assert smooths(view), "hidden, the volume still has a say"
 
 
 run_tests(globals())

@@ -186,6 +186,25 @@ def zoom_away_from_tissue():
     hand.wait(100)
 
 
+def drag_quietly():
+    # Panels and menus hear of new data once the hand lets go, and not with each picture before.
+    heard = []
+    proxy = deformation().SMProxy
+    watch = proxy.AddObserver("UpdateDataEvent", lambda *_: heard.append(True))
+    hand.hover(middle())
+    hand.press(middle())
+    for step in range(1, 4):
+        hand.drag_to([middle()[0], middle()[1] + 5 * step])
+        hand.wait()
+    assert not heard, "heard under the hand"
+    hand.release([middle()[0], middle()[1] + 15])
+    hand.wait(300)
+    proxy.RemoveObserver(watch)
+    assert heard, "not heard at the end"
+    assert hand.action("actionEditUndo")
+    hand.wait()
+
+
 def escape_a_drag():
     before, undo = strokes(), undo_labels()
     hand.hover(middle())
@@ -355,6 +374,7 @@ def play():
         move_two_control_points()
         edit("Undo", 2, 2, 1, 0)
         edit("Redo", 2, 2, 1, 0, 0, 0)
+        drag_quietly()
         show_before()
         numbers_that_are_no_strokes()
         save_result()
