@@ -18,9 +18,11 @@ struct PlaneAxes
 
 constexpr PlaneAxes Planes[3] = { { 0, 1, 2 }, { 1, 0, 2 }, { 2, 0, 1 } };
 
-// Faces side by side in a row, and the row where the first such run below them starts.
+// Faces side by side in a row that look the same way, and the row where the first such run below
+// them starts.
 struct Run
 {
+  int outward;
   int from;
   int to; // one past the last
   int firstRow;
@@ -30,12 +32,14 @@ class PlaneMerger
 {
 public:
   PlaneMerger(const std::vector<std::uint8_t>& occupied, const glm::ivec3& count,
-    const PlaneAxes& axes, std::vector<BrickRectangle>& out)
+    const PlaneAxes& axes, std::vector<BrickRectangle>& downward,
+    std::vector<BrickRectangle>& upward)
     : Occupied(occupied)
     , Count(count)
     , Axes(axes)
     , Stride{ 1, count.x, static_cast<std::ptrdiff_t>(count.x) * count.y }
-    , Out(out)
+    , Downward(downward)
+    , Upward(upward)
   {
   }
 
@@ -65,24 +69,24 @@ private:
     const bool last = this->Plane == this->Count[this->Axes.across];
     const int length = this->Count[this->Axes.along];
     this->Runs.clear();
-    bool inRun = false;
+    int outward = 0; // of the run that goes on, if any
     for (int i = 0; i < length; ++i, after += step)
     {
-      const bool here = !last && after[0] != 0;
-      const bool before = !first && after[-across] != 0;
-      if ((here != before) == inRun)
+      const int here = !last && after[0] != 0;
+      const int before = !first && after[-across] != 0;
+      if (before - here == outward)
       {
         continue;
       }
-      if (inRun)
+      if (outward != 0)
       {
         this->Runs.back().to = i;
       }
-      else
+      outward = before - here;
+      if (outward != 0)
       {
-        this->Runs.push_back({ i, length, row });
+        this->Runs.push_back({ outward, i, length, row });
       }
-      inRun = !inRun;
     }
   }
 
@@ -94,7 +98,8 @@ private:
     {
       run =
         std::find_if(run, this->Runs.end(), [&](const Run& one) { return one.from >= below.from; });
-      if (run != this->Runs.end() && run->from == below.from && run->to == below.to)
+      if (run != this->Runs.end() && run->from == below.from && run->to == below.to &&
+        run->outward == below.outward)
       {
         run->firstRow = below.firstRow;
       }
@@ -114,32 +119,51 @@ private:
     rectangle.high[this->Axes.along] = run.to;
     rectangle.low[this->Axes.up] = run.firstRow;
     rectangle.high[this->Axes.up] = endRow;
-    this->Out.push_back(rectangle);
+    (run.outward > 0 ? this->Upward : this->Downward).push_back(rectangle);
   }
 
   const std::vector<std::uint8_t>& Occupied;
   glm::ivec3 Count;
   PlaneAxes Axes;
   std::ptrdiff_t Stride[3];
-  std::vector<BrickRectangle>& Out;
+  std::vector<BrickRectangle>& Downward;
+  std::vector<BrickRectangle>& Upward;
   int Plane = 0;
   std::vector<Run> Below; // runs of the row below, in order
   std::vector<Run> Runs;  // of the present row
 };
 }
 
-std::vector<BrickRectangle> brickRectangles(
+std::array<BrickFaces, 6> brickFaces(
   const std::vector<std::uint8_t>& occupied, const glm::ivec3& count)
 {
-  std::vector<BrickRectangle> rectangles;
-  for (const PlaneAxes& axes : Planes)
+  std::array<BrickFaces, 6> faces;
+  for (int axis = 0; axis < 3; ++axis)
   {
-    PlaneMerger merger(occupied, count, axes, rectangles);
-    for (int plane = 0; plane <= count[axes.across]; ++plane)
+    BrickFaces& downward = faces[2 * axis];
+    BrickFaces& upward = faces[2 * axis + 1];
+    downward.axis = upward.axis = axis;
+    downward.outward = -1;
+    PlaneMerger merger(occupied, count, Planes[axis], downward.rectangles, upward.rectangles);
+    for (int plane = 0; plane <= count[axis]; ++plane)
     {
       merger.merge(plane);
     }
   }
-  return rectangles;
+  return faces;
+}
+
+std::pair<int, int> facing(const BrickFaces& faces, const glm::dvec4& eye)
+{
+  const int all = static_cast<int>(faces.rectangles.size());
+  if (eye.w == 0.0)
+  {
+    return { 0, eye[faces.axis] * faces.outward > 0.0 ? all : 0 };
+  }
+  const double place = eye[faces.axis] / eye.w;
+  const auto beyond = std::partition_point(faces.rectangles.begin(), faces.rectangles.end(),
+    [&](const BrickRectangle& rectangle) { return rectangle.low[faces.axis] < place; });
+  const int below = static_cast<int>(beyond - faces.rectangles.begin());
+  return faces.outward > 0 ? std::make_pair(0, below) : std::make_pair(below, all);
 }
 }

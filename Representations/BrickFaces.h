@@ -6,8 +6,11 @@
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
+#include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace brainshift
@@ -21,10 +24,23 @@ struct BrickRectangle
   glm::ivec3 high{ 0 };
 };
 
+// Those that look the same way.
+struct BrickFaces
+{
+  int axis = 0;
+  int outward = 1;                        // 1: towards greater coordinates, the brick below; or -1
+  std::vector<BrickRectangle> rectangles; // planes in ascending order
+};
+
 // Every face between an occupied brick and an empty one, or none, in exactly one rectangle.
 // `occupied`: count.x * y * z numbers, x fastest, 0 for empty bricks.
-VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<BrickRectangle> brickRectangles(
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::array<BrickFaces, 6> brickFaces(
   const std::vector<std::uint8_t>& occupied, const glm::ivec3& count);
+
+// Which of the rectangles are seen from in front: the first, and one past the last. `eye`: bricks,
+// homogeneous; where w is 0, the direction towards an eye infinitely far away.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::pair<int, int> facing(
+  const BrickFaces& faces, const glm::dvec4& eye);
 }
 
 #endif

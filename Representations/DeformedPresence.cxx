@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DeformedPresence.h"
 
-#include "BrickFaces.h"
 #include "LeapMap.h"
 #include "OpenGL.h"
 #include "VolumePass.h"
@@ -12,6 +11,7 @@
 #include "vtkTextureObject.h"
 
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -23,6 +23,7 @@ namespace
 // Rectangles overlap by so much, bricks (a sixteenth of a voxel): neighbours of different length
 // have no corners in common, and the rasteriser would leave gaps where it rounds.
 constexpr float RectangleOverlap = 1.0f / 64.0f;
+constexpr int CornersPerRectangle = 6; // two triangles
 
 void setFilter(vtkTextureObject* texture, int filter)
 {
@@ -265,14 +266,17 @@ void DeformedPresence::makeFaces(
   std::vector<glm::vec3> corners;
   glm::ivec3 low = request.count;
   glm::ivec3 high(-1);
-  for (const BrickRectangle& rectangle : brickRectangles(occupied, request.count))
+  this->Faces = brickFaces(occupied, request.count);
+  for (const BrickFaces& faces : this->Faces)
   {
-    low = glm::min(low, rectangle.low);
-    high = glm::max(high, rectangle.high - 1);
-    appendRectangle(corners, rectangle, request.first);
+    for (const BrickRectangle& rectangle : faces.rectangles)
+    {
+      low = glm::min(low, rectangle.low);
+      high = glm::max(high, rectangle.high - 1);
+      appendRectangle(corners, rectangle, request.first);
+    }
   }
   this->OccupiedBox = { low, high };
-  this->CornerCount = static_cast<int>(corners.size());
   if (!this->Corners)
   {
     this->Corners = vtkSmartPointer<vtkOpenGLBufferObject>::New();
@@ -285,7 +289,48 @@ void DeformedPresence::makeFaces(
 
 void DeformedPresence::drawFaces(int programHandle)
 {
-  if (this->CornerCount == 0)
+  int all = 0;
+  for (const BrickFaces& faces : this->Faces)
+  {
+    all += static_cast<int>(faces.rectangles.size());
+  }
+  this->drawRectangles(programHandle, { { 0, all } });
+}
+
+void DeformedPresence::drawFaces(int programHandle, const glm::dvec4& eye)
+{
+  std::vector<std::pair<int, int>> ranges;
+  int before = 0;
+  for (const BrickFaces& faces : this->Faces)
+  {
+    const auto [first, last] = facing(faces, this->fromFirstBrick(eye));
+    ranges.emplace_back(before + first, before + last);
+    before += static_cast<int>(faces.rectangles.size());
+  }
+  this->drawRectangles(programHandle, ranges);
+}
+
+bool DeformedPresence::isOutside(const glm::dvec4& eye) const
+{
+  if (eye.w == 0.0)
+  {
+    return true;
+  }
+  const glm::dvec3 place = glm::dvec3(this->fromFirstBrick(eye)) / eye.w;
+  return glm::any(glm::lessThan(place, glm::dvec3(this->OccupiedBox.first))) ||
+    glm::any(glm::greaterThan(place, glm::dvec3(this->OccupiedBox.last + 1)));
+}
+
+glm::dvec4 DeformedPresence::fromFirstBrick(const glm::dvec4& eye) const
+{
+  return glm::dvec4(glm::dvec3(eye) - eye.w * glm::dvec3(this->Shown.first), eye.w);
+}
+
+// `ranges`: first rectangle, and one past the last.
+void DeformedPresence::drawRectangles(
+  int programHandle, const std::vector<std::pair<int, int>>& ranges)
+{
+  if (!this->Corners || this->faceBytes() == 0)
   {
     return;
   }
@@ -296,7 +341,10 @@ void DeformedPresence::drawFaces(int programHandle)
   const GLint corner = glGetAttribLocation(programHandle, "corner");
   glEnableVertexAttribArray(corner);
   glVertexAttribPointer(corner, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
-  glDrawArrays(GL_TRIANGLES, 0, this->CornerCount);
+  for (const auto& [first, last] : ranges)
+  {
+    glDrawArrays(GL_TRIANGLES, CornersPerRectangle * first, CornersPerRectangle * (last - first));
+  }
   this->Corners->Release();
   glBindVertexArray(0);
   glDeleteVertexArrays(1, &vertexArray);
@@ -304,7 +352,12 @@ void DeformedPresence::drawFaces(int programHandle)
 
 std::int64_t DeformedPresence::faceBytes() const
 {
-  return static_cast<std::int64_t>(sizeof(glm::vec3)) * this->CornerCount;
+  std::int64_t rectangles = 0;
+  for (const BrickFaces& faces : this->Faces)
+  {
+    rectangles += static_cast<std::int64_t>(faces.rectangles.size());
+  }
+  return rectangles * CornersPerRectangle * static_cast<std::int64_t>(sizeof(glm::vec3));
 }
 
 void DeformedPresence::releaseGraphicsResources(vtkWindow* window)

@@ -3,6 +3,7 @@
 #ifndef BrainShift_DeformedPresence_h
 #define BrainShift_DeformedPresence_h
 
+#include "BrickFaces.h"
 #include "Counters.h"
 #include "FieldChange.h"
 #include "Program.h"
@@ -11,8 +12,11 @@
 #include "vtkSmartPointer.h"
 
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
+#include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 class vtkOpenGLBufferObject;
@@ -53,8 +57,13 @@ public:
   // bricksToOccupied (LeapMap.h), as shares of 255.
   vtkTextureObject* leaps() const { return this->Leaps; }
 
-  // Draws the faces with a program in use whose attribute `corner` takes brick corners.
+  // Draws the faces with a program in use whose attribute `corner` takes brick corners: all, or
+  // those that `eye` (as `facing` takes it, from the volume's first voxel) sees from in front.
   void drawFaces(int programHandle);
+  void drawFaces(int programHandle, const glm::dvec4& eye);
+  // Whether an eye is outside the box of the occupied bricks, so that front faces are all it meets
+  // first.
+  bool isOutside(const glm::dvec4& eye) const;
 
   // Box of the occupied bricks; its indices count from the request's first brick.
   const IndexBox& occupiedBox() const { return this->OccupiedBox; }
@@ -78,6 +87,8 @@ private:
   bool makeLeaps(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
     const std::vector<std::uint8_t>& occupied);
   void makeFaces(const PresenceRequest& request, const std::vector<std::uint8_t>& occupied);
+  void drawRectangles(int programHandle, const std::vector<std::pair<int, int>>& ranges);
+  glm::dvec4 fromFirstBrick(const glm::dvec4& eye) const;
 
   vtkSmartPointer<vtkTextureObject> Summed;
   vtkSmartPointer<vtkTextureObject> Map; // 1 for occupied bricks, 0 for others
@@ -88,7 +99,7 @@ private:
   bool AllNew = true;    // nothing of Map can be kept
   Program BlocksProgram;
   Program MapPrograms[2]; // [deformed]
-  int CornerCount = 0;    // of the faces' triangles
+  std::array<BrickFaces, 6> Faces;
   IndexBox OccupiedBox;
 };
 }

@@ -61,6 +61,11 @@ Frustum frustumOf(const RayCastScene& scene)
     frustumPlane(clipFromTexture, textureFromClip, 1.0) };
 }
 
+bool raysEndSoon(const RayCastScene& scene)
+{
+  return scene.opaqueTissue && scene.options.blend == Blend::Composite;
+}
+
 void setRayUniforms(Program& program, const RayCastScene& scene)
 {
   const Frustum frustum = frustumOf(scene);
@@ -89,6 +94,34 @@ void setFaceUniforms(Program& program, const RayCastScene& scene)
   program.set("clipFromTexture", glm::mat4(scene.clipFromWorld * scene.worldFromTexture));
   program.set("textureFromBrick", glm::vec3(scene.textureFromBrick));
   program.set("textureOfBrickZero", glm::vec3(scene.textureOfBrickZero));
+}
+
+// The eye in bricks, as DeformedPresence takes it.
+glm::dvec4 eyeInBricks(const RayCastScene& scene)
+{
+  const glm::dmat4 clipFromTexture = scene.clipFromWorld * scene.worldFromTexture;
+  // What projects to no place in the window but to depth alone: the eye, or the way towards it.
+  const glm::dvec4 eye = glm::inverse(clipFromTexture) * glm::dvec4(0.0, 0.0, -1.0, 0.0);
+  const double w = std::abs(eye.w) < 1e-9 * glm::length(glm::dvec3(eye)) ? 0.0 : eye.w;
+  return glm::dvec4((glm::dvec3(eye) - w * scene.textureOfBrickZero) / scene.textureFromBrick, w);
+}
+
+// Where rays end in tissue, nothing is gained by knowing where they would leave it, but half of the
+// faces: a software driver's time goes by their number.
+void drawFaces(Program& program, const RayCastScene& scene)
+{
+  const glm::dvec4 eye = eyeInBricks(scene);
+  const bool frontAlone = raysEndSoon(scene) && scene.presence->isOutside(eye);
+  setFaceUniforms(program, scene);
+  program.set("backDrawn", frontAlone ? 0.0f : 1.0f);
+  if (frontAlone)
+  {
+    scene.presence->drawFaces(program.get()->GetHandle(), eye);
+  }
+  else
+  {
+    scene.presence->drawFaces(program.get()->GetHandle());
+  }
 }
 
 void setSpaceUniforms(Program& program, const RayCastScene& scene)
@@ -245,7 +278,6 @@ bool RayCaster::findSpans(
   {
     return false;
   }
-  setFaceUniforms(this->SpansProgram, scene);
   vtkOpenGLState* state = window->GetState();
   ImageScope images(state, scene);
   images.attach(0, this->Spans);
@@ -254,11 +286,10 @@ bool RayCaster::findSpans(
   state->vtkglEnable(GL_BLEND);
   glBlendEquation(GL_MIN);
   glEnable(GL_DEPTH_CLAMP); // faces beyond the clipping planes bound the ray too
-  scene.presence->drawFaces(this->SpansProgram.get()->GetHandle());
+  drawFaces(this->SpansProgram, scene);
   if (const RayCastScene* reference = scene.comparison.reference)
   {
-    setFaceUniforms(this->SpansProgram, *reference);
-    reference->presence->drawFaces(this->SpansProgram.get()->GetHandle());
+    drawFaces(this->SpansProgram, *reference);
   }
   glDisable(GL_DEPTH_CLAMP);
   glBlendEquation(GL_FUNC_ADD);
@@ -303,8 +334,7 @@ RayCastVariant variantOf(const RayCastScene& scene)
   variant.regions = scene.options.regions;
   variant.segmented = scene.options.segment != nullptr;
   variant.counted = scene.countSamples && variant.blend == Blend::Composite;
-  variant.sharedLight =
-    scene.shaded && scene.opaqueTissue && !variant.compared && variant.blend == Blend::Composite;
+  variant.sharedLight = scene.shaded && !variant.compared && raysEndSoon(scene);
   return variant;
 }
 

@@ -3,7 +3,9 @@
 
 in float share; // of the way from the near plane to the far plane
 
+uniform float backDrawn; // 0: front faces alone are drawn, and a ray that meets one may go on to its end
+
 void main()
 {
-  gl_FragData[0] = vec4(share, 1.0 - share, 0.0, 0.0);
+  gl_FragData[0] = vec4(share, backDrawn * (1.0 - share), 0.0, 0.0);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that the rectangles are the occupied bricks' faces, each once, and that faces side by side
-// share one.
+// Proves that the rectangles are the occupied bricks' faces, each once and the right way round, that
+// faces side by side share one, and that an eye is told which it sees from in front.
 #include "BrickFaces.h"
 
 #include <gtest/gtest.h>
@@ -9,10 +9,13 @@
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <map>
 #include <random>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 using namespace brainshift;
 
@@ -40,13 +43,27 @@ Bricks empty(const glm::ivec3& count)
   return { count, std::vector<std::uint8_t>(std::size_t(count.x) * count.y * count.z, 0) };
 }
 
-using Face = std::tuple<int, int, int, int>; // axis, and the brick above it
+using Face = std::tuple<int, int, int, int, int>; // axis, outward, and the brick above it
+
+std::vector<std::pair<BrickRectangle, int>> listed(const std::array<BrickFaces, 6>& found)
+{
+  std::vector<std::pair<BrickRectangle, int>> rectangles; // and outward
+  for (const BrickFaces& faces : found)
+  {
+    for (const BrickRectangle& rectangle : faces.rectangles)
+    {
+      EXPECT_EQ(rectangle.axis, faces.axis);
+      rectangles.emplace_back(rectangle, faces.outward);
+    }
+  }
+  return rectangles;
+}
 
 // How many rectangles hold a face, for each that one holds.
-std::map<Face, int> facesOf(const std::vector<BrickRectangle>& rectangles)
+std::map<Face, int> facesOf(const std::array<BrickFaces, 6>& found)
 {
   std::map<Face, int> faces;
-  for (const BrickRectangle& rectangle : rectangles)
+  for (const auto& [rectangle, outward] : listed(found))
   {
     glm::ivec3 end = rectangle.high;
     EXPECT_EQ(rectangle.low[rectangle.axis], end[rectangle.axis]);
@@ -57,7 +74,7 @@ std::map<Face, int> facesOf(const std::vector<BrickRectangle>& rectangles)
       {
         for (int x = rectangle.low.x; x < end.x; ++x)
         {
-          faces[Face(rectangle.axis, x, y, z)] += 1;
+          faces[Face(rectangle.axis, outward, x, y, z)] += 1;
         }
       }
     }
@@ -79,9 +96,11 @@ std::map<Face, int> boundaryOf(const Bricks& bricks)
       {
         for (int x = 0; x <= bricks.count.x; ++x)
         {
-          if (bricks.at({ x, y, z }) != bricks.at(glm::ivec3(x, y, z) - before))
+          const int above = bricks.at({ x, y, z });
+          const int below = bricks.at(glm::ivec3(x, y, z) - before);
+          if (above != below)
           {
-            faces[Face(axis, x, y, z)] = 1;
+            faces[Face(axis, below - above, x, y, z)] = 1;
           }
         }
       }
@@ -104,7 +123,7 @@ TEST(BrickFaces, AreTheBoundaryEachOnce)
       {
         brick = random() % 10 < outOfTen ? 255 : 0;
       }
-      EXPECT_EQ(facesOf(brickRectangles(bricks.occupied, count)), boundaryOf(bricks))
+      EXPECT_EQ(facesOf(brickFaces(bricks.occupied, count)), boundaryOf(bricks))
         << count.x << " " << count.y << " " << count.z << ", " << outOfTen << " of 10";
     }
   }
@@ -121,5 +140,32 @@ TEST(BrickFaces, ABlockHasSixRectangles)
       std::fill_n(&bricks.occupied[(std::size_t(z) * count.y + y) * count.x], 4, 1);
     }
   }
-  EXPECT_EQ(brickRectangles(bricks.occupied, count).size(), 6u);
+  EXPECT_EQ(listed(brickFaces(bricks.occupied, count)).size(), 6u);
+}
+
+TEST(BrickFaces, AnEyeSeesThoseThatLookTowardsIt)
+{
+  std::mt19937 random(6);
+  const glm::ivec3 count(7, 9, 8);
+  Bricks bricks = empty(count);
+  for (std::uint8_t& brick : bricks.occupied)
+  {
+    brick = random() % 2;
+  }
+  const auto found = brickFaces(bricks.occupied, count);
+  std::uniform_real_distribution<double> place(-5.0, 14.0);
+  for (int i = 0; i < 200; ++i)
+  {
+    const glm::dvec3 eye(place(random), place(random), place(random));
+    const double w = i % 3 == 0 ? 0.0 : i % 3 == 1 ? 0.5 : -2.0; // as a matrix may leave it
+    for (const BrickFaces& faces : found)
+    {
+      const auto [first, last] = facing(faces, glm::dvec4(w == 0.0 ? eye : w * eye, w));
+      for (int k = 0; k < static_cast<int>(faces.rectangles.size()); ++k)
+      {
+        const double plane = w == 0.0 ? 0.0 : faces.rectangles[k].low[faces.axis];
+        EXPECT_EQ(k >= first && k < last, faces.outward * (eye[faces.axis] - plane) > 0.0);
+      }
+    }
+  }
 }
