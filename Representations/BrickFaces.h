@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What bounds the occupied bricks, as few rectangles: a software driver's time goes by their number.
+// What bounds the occupied bricks, as few rectangles: a software driver's time goes by their
+// number.
 #ifndef BrainShift_BrickFaces_h
 #define BrainShift_BrickFaces_h
 

@@ -302,6 +302,10 @@ void RayCaster::setUniforms(Program& program, const RayCastScene& scene)
   setSpaceUniforms(program, scene);
   setSkippingUniforms(program, scene, this->Spans);
   setTissueUniforms(program, scene);
+  if (scene.transferSums)
+  {
+    program.set("transferSums", scene.transferSums);
+  }
   if (scene.offsets)
   {
     setFieldUniforms(program, scene);
@@ -334,7 +338,9 @@ RayCastVariant variantOf(const RayCastScene& scene)
   variant.regions = scene.options.regions;
   variant.segmented = scene.options.segment != nullptr;
   variant.counted = scene.countSamples && variant.blend == Blend::Composite;
-  variant.sharedLight = scene.shaded && !variant.compared && raysEndSoon(scene);
+  variant.averaged = scene.transferSums && variant.blend == Blend::Composite && !variant.compared;
+  variant.sharedLight =
+    scene.shaded && !variant.averaged && !variant.compared && raysEndSoon(scene);
   return variant;
 }
 
@@ -343,7 +349,7 @@ void deactivate(const RayCastScene& scene)
 {
   for (vtkTextureObject* texture : { scene.scalars, scene.offsets, scene.normals, scene.transfer,
          scene.sceneDepth, scene.options.colors, scene.options.colorScalars, scene.options.segment,
-         scene.presence->leaps(), scene.comparison.cavity })
+         scene.presence->leaps(), scene.comparison.cavity, scene.transferSums })
   {
     if (texture)
     {

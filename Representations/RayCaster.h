@@ -72,6 +72,7 @@ struct RayCastScene
   vtkTextureObject* offsets = nullptr; // null: the volume carries no deformation
   vtkTextureObject* normals = nullptr; // null: gradients on the fly
   vtkTextureObject* transfer = nullptr;
+  vtkTextureObject* transferSums = nullptr; // of a steep map, else null
   DeformedPresence* presence = nullptr;
   vtkTextureObject* sceneDepth = nullptr;
   glm::vec2 depthFromShare{ 1.0f }; // sceneDepth's coordinates from the share of the image

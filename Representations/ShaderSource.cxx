@@ -5,6 +5,7 @@
 #include "OffsetField.h"
 #include "SegmentShares.h"
 
+#include "shader_averaged.h"
 #include "shader_blocks_frag.h"
 #include "shader_both_paths.h"
 #include "shader_bricks.h"
@@ -12,6 +13,7 @@
 #include "shader_comparison.h"
 #include "shader_components.h"
 #include "shader_composite_frag.h"
+#include "shader_compositing.h"
 #include "shader_compositing_frag.h"
 #include "shader_counting.h"
 #include "shader_cover_frag.h"
@@ -28,6 +30,7 @@
 #include "shader_march.h"
 #include "shader_nodes.h"
 #include "shader_normals_frag.h"
+#include "shader_pointwise.h"
 #include "shader_presence_frag.h"
 #include "shader_projection_frag.h"
 #include "shader_proxy_frag.h"
@@ -101,7 +104,8 @@ std::string loopSource(const RayCastVariant& variant)
   switch (variant.blend)
   {
     case Blend::Composite:
-      return shader_compositing_frag;
+      return std::string(shader_compositing) +
+        (variant.averaged ? shader_averaged : shader_pointwise) + shader_compositing_frag;
     case Blend::Isosurface:
       return std::string(shader_march) + shader_isosurface_frag;
     case Blend::Slice:
@@ -140,8 +144,8 @@ std::string nameOf(const RayCastVariant& variant)
     LightNames[variant.light] + blends[static_cast<int>(variant.blend)] +
     colorings[static_cast<int>(variant.coloring)] + (variant.regions ? "_regions" : "") +
     (variant.segmented ? "_segment" : "") + (variant.counted ? "_counted" : "") +
-    (variant.sharedLight ? "_shared_light" : "") + (variant.compared ? "_compared" : "") +
-    (variant.cavity ? "_cavity" : "");
+    (variant.sharedLight ? "_shared_light" : "") + (variant.averaged ? "_averaged" : "") +
+    (variant.compared ? "_compared" : "") + (variant.cavity ? "_cavity" : "");
 }
 }
 
@@ -191,6 +195,7 @@ ShaderSource rayCastSource(const RayCastVariant& variant)
   defines += variant.regions ? "#define REGIONS\n" : "";
   defines += variant.segmented ? segmentDefines() : "";
   defines += variant.sharedLight ? "#define SHARED_LIGHT\n" : "";
+  defines += "#define TRANSFER_ENTRIES " + std::to_string(TransferEntries) + "\n";
   defines += variant.compared ? "#define COMPARED\n" : "";
   defines += variant.cavity ? "#define CAVITY\n" : "";
   return { assemble({ shader_fullscreen_vert }), "",
@@ -257,6 +262,12 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
     add({ deformed, RayCastVariant::GradientTexture, Blend::Composite, Coloring::Mapped, true });
     add({ deformed, RayCastVariant::GradientTexture, Blend::Composite, Coloring::Mapped, false,
       false, true, true });
+    for (int light = 0; light < RayCastVariant::LightCount; ++light)
+    {
+      RayCastVariant averaged{ deformed, static_cast<RayCastVariant::Light>(light) };
+      averaged.averaged = averaged.segmented = averaged.counted = true;
+      add(averaged);
+    }
     for (const Blend blend : { Blend::Composite, Blend::Isosurface, Blend::Average })
     {
       const bool lit = blend != Blend::Average;

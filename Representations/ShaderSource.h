@@ -23,6 +23,9 @@ constexpr int MaxLights = 8;
 constexpr int BricksInBlock = 4; // a side; blocks of the presence map's bricks
 constexpr int MaxClipPlanes = 16;
 constexpr int MaxIsovalues = 32;
+// Of the colour map: as many as a 12-bit CT has values; so many that none need blending, which
+// would cost four reads.
+constexpr int TransferEntries = 4096;
 constexpr int MaxTissues = 4; // volumes that hide traced points
 
 // How the samples of a ray become one colour; numbers as in vtkVolumeMapper::BlendModes.
@@ -63,6 +66,7 @@ struct RayCastVariant
   bool segmented = false;   // a segment is drawn alone
   bool counted = false;     // a third target tells the samples taken and skipped; Composite only
   bool sharedLight = false; // two samples share their light; Composite only, where there is light
+  bool averaged = false;    // samples take averages of the colour map; Composite only
   bool compared = false;    // with a reference, red and green; Composite only
   bool cavity = false;      // part of which is ignored
 
@@ -70,8 +74,8 @@ struct RayCastVariant
   {
     const auto key = [](const RayCastVariant& variant) {
       return std::make_tuple(variant.deformed, variant.light, variant.blend, variant.coloring,
-        variant.regions, variant.segmented, variant.counted, variant.sharedLight, variant.compared,
-        variant.cavity);
+        variant.regions, variant.segmented, variant.counted, variant.sharedLight, variant.averaged,
+        variant.compared, variant.cavity);
     };
     return key(*this) < key(other);
   }

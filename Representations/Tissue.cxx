@@ -18,8 +18,6 @@ namespace brainshift
 namespace
 {
 constexpr double CutWeight = 4.0; // from pictures: less leaves noise, more flattens the cortex
-// What a step must hide for its tissue to be opaque: behind a few such steps a ray ends.
-constexpr float OpaqueStep = 0.9f;
 
 // The blend modes that VTK lights.
 bool isLit(Blend blend)
@@ -85,7 +83,8 @@ bool Tissue::update(vtkOpenGLRenderWindow* window, const TissueRequest& request,
   }
   setFilter(scene.normals, request.nearest && request.gradients == GradientSource::FullResolution);
   scene.transfer = this->Transfer.texture();
-  scene.opaqueTissue = this->Transfer.largestOpacity() >= OpaqueStep;
+  scene.transferSums = this->Transfer.sums();
+  scene.opaqueTissue = this->Transfer.isOpaque();
   scene.transferFromScalar = transferFromStored(this->Transfer, this->Stored);
   scene.visibleScalars = this->Transfer.visibleValues(stored.scale, stored.shift).ends();
   scene.voxel = request.layout.textureFromGrid;
@@ -204,7 +203,7 @@ std::vector<float> Tissue::summedVisibility() const
 std::vector<vtkTextureObject*> Tissue::otherTextures() const
 {
   return { this->ColorScalars.texture(), this->Colors.texture(), this->Transfer.texture(),
-    this->Normals.texture(), this->Segment.texture() };
+    this->Transfer.sums(), this->Normals.texture(), this->Segment.texture() };
 }
 
 bool Tissue::skippingIsExact(Blend blend) const

@@ -19,8 +19,11 @@ namespace brainshift
 {
 namespace
 {
-// As many as a 12-bit CT has values; so many that none need blending, which would cost four reads.
-constexpr int Entries = 4096;
+constexpr int Entries = TransferEntries;
+// Rings show, in pictures of skin and cortex, where so much of a step's opacity comes within so
+// small a part of the colour map's range.
+constexpr float SteepRise = 0.8f;
+constexpr int SteepEntries = Entries / 12;
 
 // What a sample counts, from the opacity of one unit distance.
 float opacityOfSample(float opacity, double unitsInStep, Blend blend)
@@ -35,6 +38,33 @@ float opacityOfSample(float opacity, double unitsInStep, Blend blend)
     default:
       return static_cast<float>(given);
   }
+}
+
+// `texels`: colours and opacities of one step, of which the first row is asked.
+bool risesFast(const std::vector<float>& texels)
+{
+  float rise = 0.0f;
+  for (int i = 0; i < Entries - SteepEntries; ++i)
+  {
+    const float before = texels[4 * i + 3];
+    const float after = texels[4 * (i + SteepEntries) + 3];
+    rise = std::max(rise, std::abs(after - before));
+  }
+  return rise >= SteepRise;
+}
+
+vtkSmartPointer<vtkTextureObject> makeTable(
+  vtkOpenGLRenderWindow* window, std::vector<float>& texels, Counters& counters)
+{
+  auto table = vtkSmartPointer<vtkTextureObject>::New();
+  table->SetContext(window);
+  table->SetMinificationFilter(vtkTextureObject::Nearest);
+  table->SetMagnificationFilter(vtkTextureObject::Nearest);
+  table->SetWrapS(vtkTextureObject::ClampToEdge);
+  table->SetWrapT(vtkTextureObject::ClampToEdge);
+  table->Create2DFromRaw(Entries, TransferRows, 4, VTK_FLOAT, texels.data());
+  counters.bytesUploaded += static_cast<std::int64_t>(texels.size() * sizeof(float));
+  return table;
 }
 }
 
@@ -90,15 +120,9 @@ bool TransferTexture::update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* p
     const float above = texels[i - 4 * Entries];
     texels[i] = i % 4 == 3 ? above * (2.0f - above) : above; // what two such steps hide
   }
-  this->Texture = vtkSmartPointer<vtkTextureObject>::New();
-  this->Texture->SetContext(window);
-  this->Texture->SetMinificationFilter(vtkTextureObject::Nearest);
-  this->Texture->SetMagnificationFilter(vtkTextureObject::Nearest);
-  this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
-  this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
-  this->Texture->Create2DFromRaw(Entries, TransferRows, 4, VTK_FLOAT, texels.data());
+  this->Texture = makeTable(window, texels, counters);
+  this->makeSums(window, texels, counters);
   counters.transferUploads += 1;
-  counters.bytesUploaded += static_cast<std::int64_t>(texels.size() * sizeof(float));
   this->ColorTime = color->GetMTime();
   this->OpacityTime = opacity->GetMTime();
   this->StepMm = stepMm;
@@ -106,6 +130,32 @@ bool TransferTexture::update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* p
   this->Blending = blend;
   this->ColorSource = coloring;
   return true;
+}
+
+void TransferTexture::makeSums(
+  vtkOpenGLRenderWindow* window, const std::vector<float>& texels, Counters& counters)
+{
+  this->Sums = nullptr;
+  if (!risesFast(texels))
+  {
+    return;
+  }
+  std::vector<float> sums(texels.size());
+  for (int row = 0; row < TransferRows; ++row)
+  {
+    double before[4] = { 0.0, 0.0, 0.0, 1.0 };
+    for (int i = 4 * row * Entries; i < 4 * (row + 1) * Entries; i += 4)
+    {
+      const float opacity = texels[i + 3];
+      std::copy_n(before, 4, &sums[i]);
+      sums[i + 3] *= opacity > 0.0f ? 1.0f : -1.0f;
+      for (int component = 0; component < 4; ++component)
+      {
+        before[component] += component == 3 ? opacity : opacity * texels[i + component];
+      }
+    }
+  }
+  this->Sums = makeTable(window, sums, counters);
 }
 
 VisibleValues TransferTexture::visibleValues(double scale, double shift) const
@@ -132,10 +182,13 @@ bool TransferTexture::visibleDownwards() const
 
 void TransferTexture::releaseGraphicsResources(vtkWindow* window)
 {
-  if (this->Texture)
+  for (auto* table : { &this->Texture, &this->Sums })
   {
-    this->Texture->ReleaseGraphicsResources(window);
+    if (*table)
+    {
+      (*table)->ReleaseGraphicsResources(window);
+    }
+    *table = nullptr;
   }
-  this->Texture = nullptr;
 }
 }

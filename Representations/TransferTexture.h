@@ -48,14 +48,25 @@ public:
   bool visibleUpwards() const;
   bool visibleDownwards() const;
 
-  // Largest opacity of one sample, as asked for.
-  float largestOpacity() const { return this->LargestOpacity; }
+  // Whether a step somewhere hides nearly all that is behind, so that rays end soon.
+  bool isOpaque() const { return this->LargestOpacity >= OpaqueStep; }
+  // Whether it rises to that so fast that samples a step apart miss most of the rise: sums() is then
+  // what to take averages from.
+  bool isSteep() const { return this->Sums != nullptr; }
 
   vtkTextureObject* texture() const { return this->Texture; }
+  // What Shaders/averaged.glsl takes averages from; null unless isSteep.
+  vtkTextureObject* sums() const { return this->Sums; }
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
+  static constexpr float OpaqueStep = 0.9f;
+
+  void makeSums(
+    vtkOpenGLRenderWindow* window, const std::vector<float>& texels, Counters& counters);
+
   vtkSmartPointer<vtkTextureObject> Texture;
+  vtkSmartPointer<vtkTextureObject> Sums;
   unsigned long long ColorTime = 0; // of the maps as uploaded; VTK's times are unique
   unsigned long long OpacityTime = 0;
   double StepMm = 0.0;
