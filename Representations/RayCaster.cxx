@@ -22,48 +22,14 @@ namespace brainshift
 {
 namespace
 {
-// A plane of the view frustum: position of ndc (0,0), what one unit of ndc x and y adds, and the
-// homogeneous w on it. Positions on it are affine in ndc for every camera VTK has.
-struct FrustumPlane
+Frustum textureFrustum(const RayCastScene& scene)
 {
-  glm::dvec3 origin;
-  glm::dvec3 right;
-  glm::dvec3 up;
-  double w;
-};
-
-FrustumPlane frustumPlane(
-  const glm::dmat4& clipFromTexture, const glm::dmat4& textureFromClip, double depth)
-{
-  const auto unproject = [&](double x, double y) {
-    const glm::dvec4 position = textureFromClip * glm::dvec4(x, y, depth, 1.0);
-    return glm::dvec3(position) / position.w;
-  };
-  FrustumPlane plane;
-  plane.origin = unproject(0.0, 0.0);
-  plane.right = unproject(1.0, 0.0) - plane.origin;
-  plane.up = unproject(0.0, 1.0) - plane.origin;
-  plane.w = (clipFromTexture * glm::dvec4(plane.origin, 1.0)).w;
-  return plane;
-}
-
-struct Frustum
-{
-  FrustumPlane near;
-  FrustumPlane far;
-};
-
-Frustum frustumOf(const RayCastScene& scene)
-{
-  const glm::dmat4 clipFromTexture = scene.clipFromWorld * scene.worldFromTexture;
-  const glm::dmat4 textureFromClip = glm::inverse(clipFromTexture);
-  return { frustumPlane(clipFromTexture, textureFromClip, -1.0),
-    frustumPlane(clipFromTexture, textureFromClip, 1.0) };
+  return frustumOf(scene.clipFromWorld * scene.worldFromTexture);
 }
 
 void setRayUniforms(Program& program, const RayCastScene& scene)
 {
-  const Frustum frustum = frustumOf(scene);
+  const Frustum frustum = textureFrustum(scene);
   const FrustumPlane& near = frustum.near;
   const FrustumPlane& far = frustum.far;
   program.set("nearOrigin", glm::vec3(near.origin));
@@ -81,7 +47,7 @@ void setRayUniforms(Program& program, const RayCastScene& scene)
 // the way to the far plane, so that a ray's t is that share of its length.
 void setFaceUniforms(Program& program, const RayCastScene& scene)
 {
-  const Frustum frustum = frustumOf(scene);
+  const Frustum frustum = textureFrustum(scene);
   const glm::dvec3 across = glm::cross(frustum.near.right, frustum.near.up);
   const glm::dvec3 share = across / glm::dot(across, frustum.far.origin - frustum.near.origin);
   program.set("shareFromTexture", glm::vec3(share));
@@ -228,12 +194,13 @@ bool RayCaster::prepareImages(vtkOpenGLRenderWindow* window, const RayCastScene&
     }
     return image != nullptr;
   };
-  if (!this->Hits[scene.tile] || !sameSize(this->Hits[scene.tile], scene.size))
+  vtkSmartPointer<vtkTextureObject>& hits = this->Hits[scene.tile].texture;
+  if (!hits || !sameSize(hits, scene.size))
   {
     this->HitsPart[scene.tile] = { glm::ivec2(-1), scene.size + 1 }; // whatever memory held
   }
   return prepare(this->Image, GL_RGBA8, vtkTextureObject::Linear) &&
-    prepare(this->Hits[scene.tile], GL_RGBA32F, vtkTextureObject::Nearest) &&
+    prepare(hits, GL_R32F, vtkTextureObject::Nearest) &&
     prepare(this->Spans, GL_RG16, vtkTextureObject::Nearest);
 }
 
@@ -342,7 +309,7 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
   {
     ImageScope images(window->GetState(), scene);
     images.attach(0, this->Image);
-    images.attach(1, this->Hits[scene.tile]);
+    images.attach(1, this->Hits[scene.tile].texture);
     this->clearStaleHits(scene);
     if (variant.counted)
     {
@@ -350,6 +317,7 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
     }
     drawTriangles(1);
     this->ImagePart = this->HitsPart[scene.tile] = { scene.shownLow, scene.shownHigh };
+    this->Hits[scene.tile].frustum = frustumOf(scene.clipFromWorld);
     this->DrewTile = scene.tile;
   }
   deactivate(scene);
@@ -392,7 +360,7 @@ void RayCaster::clearStaleHits(const RayCastScene& scene)
   if (glm::any(glm::lessThan(before.low, scene.shownLow)) ||
     glm::any(glm::greaterThan(before.high, scene.shownHigh)))
   {
-    const float none[4] = { 0.0f, 0.0f, 0.0f, -1.0f };
+    const float none[4] = { -1.0f, -1.0f, -1.0f, -1.0f };
     glDisable(GL_SCISSOR_TEST);
     glClearBufferfv(GL_COLOR, 1, none);
     glEnable(GL_SCISSOR_TEST);
@@ -401,20 +369,25 @@ void RayCaster::clearStaleHits(const RayCastScene& scene)
 
 bool RayCaster::hitAt(vtkOpenGLRenderWindow* window, const glm::dvec2& place, glm::dvec4& hit)
 {
-  vtkTextureObject* hits = this->Hits[false];
+  vtkTextureObject* hits = this->Hits[false].texture;
   if (!hits)
   {
     return false;
   }
-  const glm::ivec2 pixel(place * glm::dvec2(hits->GetWidth(), hits->GetHeight()));
+  const glm::dvec2 size(hits->GetWidth(), hits->GetHeight());
+  const glm::ivec2 pixel(place * size);
   vtkOpenGLState* state = window->GetState();
   FramebufferScope framebuffer(state);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, hits->GetHandle(), 0);
   state->vtkglReadBuffer(GL_COLOR_ATTACHMENT0);
-  float values[4] = { 0.0f, 0.0f, 0.0f, -1.0f };
-  glReadPixels(pixel.x, pixel.y, 1, 1, GL_RGBA, GL_FLOAT, values);
-  hit = glm::dvec4(values[0], values[1], values[2], values[3]);
-  return values[3] >= 0.0f;
+  float share = -1.0f;
+  glReadPixels(pixel.x, pixel.y, 1, 1, GL_RED, GL_FLOAT, &share);
+  const Frustum& frustum = this->Hits[false].frustum;
+  const glm::dvec2 ndc = 2.0 * (glm::dvec2(pixel) + 0.5) / size - 1.0; // of the pixel's own ray
+  const glm::dvec3 near = frustum.near.at(ndc);
+  const glm::dvec3 way = static_cast<double>(share) * (frustum.far.at(ndc) - near);
+  hit = glm::dvec4(near + way, glm::length(way));
+  return share >= 0.0f;
 }
 
 bool RayCaster::composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origin,
@@ -460,7 +433,8 @@ bool RayCaster::composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origi
 
 void RayCaster::releaseGraphicsResources(vtkWindow* window)
 {
-  for (auto* image : { &this->Image, &this->Hits[0], &this->Hits[1], &this->Count, &this->Spans })
+  for (auto* image :
+    { &this->Image, &this->Hits[0].texture, &this->Hits[1].texture, &this->Count, &this->Spans })
   {
     if (*image)
     {

@@ -5,6 +5,7 @@
 
 #include "Counters.h"
 #include "FieldChange.h"
+#include "FirstHits.h"
 #include "Program.h"
 #include "RayCastComparison.h"
 #include "RayCastLights.h"
@@ -101,20 +102,25 @@ public:
   bool hitAt(vtkOpenGLRenderWindow* window, const glm::dvec2& place, glm::dvec4& hit);
 
   // What hitAt reads, texel by texel. Null if nothing was cast yet.
-  vtkTextureObject* hits() const { return this->Hits[false]; }
+  const FirstHits* hits() const { return this->castHits(false); }
 
   // The same of the last image, whole or a tile.
-  vtkTextureObject* drawnHits() const { return this->Hits[this->DrewTile]; }
+  const FirstHits* drawnHits() const { return this->castHits(this->DrewTile); }
 
   // All textures, some of which may be null.
   std::vector<vtkTextureObject*> textures() const
   {
-    return { this->Image, this->Hits[false], this->Hits[true], this->Count, this->Spans };
+    return { this->Image, this->Hits[false].texture, this->Hits[true].texture, this->Count,
+      this->Spans };
   }
 
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
+  const FirstHits* castHits(bool tile) const
+  {
+    return this->Hits[tile].texture ? &this->Hits[tile] : nullptr;
+  }
   bool prepareImages(vtkOpenGLRenderWindow* window, const RayCastScene& scene);
   bool findSpans(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters);
   void setUniforms(Program& program, const RayCastScene& scene);
@@ -132,9 +138,8 @@ private:
   bool DrewTile = false;
   Part ImagePart;
   Part HitsPart[2];                        // elsewhere Hits tell of none
+  FirstHits Hits[2];                       // [tile]
   vtkSmartPointer<vtkTextureObject> Image; // colour times opacity, opacity
-  vtkSmartPointer<vtkTextureObject>
-    Hits[2];                               // [tile] first hit, mm; distance from the near plane, mm
   vtkSmartPointer<vtkTextureObject> Count; // samples taken and skipped; null unless asked for
   vtkSmartPointer<vtkTextureObject> Spans; // of a ray: share before and behind occupied bricks
   std::map<RayCastVariant, Program> CastPrograms; // those drawn with so far
