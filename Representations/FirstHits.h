@@ -5,6 +5,7 @@
 #define BrainShift_FirstHits_h
 
 #include "Frustum.h"
+#include "ImageArea.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkTextureObject.h"
@@ -13,8 +14,9 @@ namespace brainshift
 {
 struct FirstHits
 {
-  // Share of the way from the near to the far plane; below 0: none.
+  // Share of the way from the near to the far plane; below 0: none, as beyond its area.
   vtkSmartPointer<vtkTextureObject> texture;
+  ImageArea area;  // of the picture
   Frustum frustum; // of the picture, mm (world)
 };
 }

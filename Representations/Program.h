@@ -35,7 +35,8 @@ public:
   void set(const char* name, const glm::mat3& value);
   void set(const char* name, const glm::mat4& value);
 
-  // An array of `count` vectors.
+  // Arrays of `count` vectors.
+  void set(const char* name, const glm::vec2* values, std::size_t count);
   void set(const char* name, const glm::vec3* values, std::size_t count);
 
   // Binds the texture to a unit of its own for as long as it stays active.

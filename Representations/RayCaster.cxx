@@ -43,6 +43,12 @@ void setRayUniforms(Program& program, const RayCastScene& scene)
   program.set("mmFromTexture", glm::vec3(scene.mmFromTexture));
 }
 
+void setPixelUniforms(Program& program, const ImageArea& area)
+{
+  program.set("firstPixel", glm::vec2(area.low));
+  program.set("ndcFromPixel", 2.0f / glm::vec2(area.picture));
+}
+
 // Faces of the occupied bricks. All of a plane parallel to the near plane lies at the same share of
 // the way to the far plane, so that a ray's t is that share of its length.
 void setFaceUniforms(Program& program, const RayCastScene& scene)
@@ -73,7 +79,7 @@ void setSkippingUniforms(Program& program, const RayCastScene& scene, vtkTexture
 {
   program.set("skipping", scene.skipping ? 1 : 0);
   program.set("spans", spans);
-  program.set("spansTexel", 1.0f / glm::vec2(scene.size));
+  program.set("spansTexel", 1.0f / glm::vec2(spans->GetWidth(), spans->GetHeight()));
   vtkTextureObject* leaps = scene.presence->leaps();
   program.set("leaps", leaps);
   program.set(
@@ -134,7 +140,7 @@ vtkSmartPointer<vtkTextureObject> makeImage(
 class ImageScope
 {
 public:
-  ImageScope(vtkOpenGLState* state, const RayCastScene& scene)
+  ImageScope(vtkOpenGLState* state, const RayCastScene& scene, const ImageArea& area)
     : Viewport(state)
     , ScissorBox(state)
     , ColorMask(state)
@@ -151,9 +157,10 @@ public:
     }
     const glm::ivec2 shown = scene.shownHigh - scene.shownLow;
     state->vtkglEnable(GL_SCISSOR_TEST);
-    state->vtkglScissor(scene.shownLow.x, scene.shownLow.y, shown.x, shown.y);
+    const glm::ivec2 first = scene.shownLow - area.low;
+    state->vtkglScissor(first.x, first.y, shown.x, shown.y);
     state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    state->vtkglViewport(0, 0, scene.size.x, scene.size.y);
+    state->vtkglViewport(-area.low.x, -area.low.y, area.picture.x, area.picture.y);
   }
 
   void attach(unsigned int index, vtkTextureObject* image)
@@ -187,21 +194,31 @@ bool sameSize(vtkTextureObject* image, const glm::ivec2& size)
 
 bool RayCaster::prepareImages(vtkOpenGLRenderWindow* window, const RayCastScene& scene)
 {
+  this->Area = areaAround(this->Area, scene.size, scene.shownLow, scene.shownHigh);
   const auto prepare = [&](vtkSmartPointer<vtkTextureObject>& image, int format, int filter) {
-    if (!image || !sameSize(image, scene.size))
+    if (!image || !sameSize(image, this->Area.size))
     {
-      image = makeImage(window, scene.size, format, filter);
+      image = makeImage(window, this->Area.size, format, filter);
     }
     return image != nullptr;
   };
-  vtkSmartPointer<vtkTextureObject>& hits = this->Hits[scene.tile].texture;
-  if (!hits || !sameSize(hits, scene.size))
+  FirstHits& hits = this->Hits[scene.tile];
+  if (!hits.texture || hits.area != this->Area)
   {
     this->HitsPart[scene.tile] = { glm::ivec2(-1), scene.size + 1 }; // whatever memory held
   }
-  return prepare(this->Image, GL_RGBA8, vtkTextureObject::Linear) &&
-    prepare(hits, GL_R32F, vtkTextureObject::Nearest) &&
-    prepare(this->Spans, GL_RG16, vtkTextureObject::Nearest);
+  hits.area = this->Area;
+  if (!prepare(this->Image, GL_RGBA8, vtkTextureObject::Linear) ||
+    !prepare(hits.texture, GL_R32F, vtkTextureObject::Nearest) ||
+    !prepare(this->Spans, GL_RG16, vtkTextureObject::Nearest))
+  {
+    return false;
+  }
+  float none[4] = { -1.0f, -1.0f, -1.0f, -1.0f };
+  hits.texture->SetWrapS(vtkTextureObject::ClampToBorder);
+  hits.texture->SetWrapT(vtkTextureObject::ClampToBorder);
+  hits.texture->SetBorderColor(none);
+  return true;
 }
 
 // Rasterises the occupied bricks' faces: first and last t of every pixel.
@@ -214,7 +231,7 @@ bool RayCaster::findSpans(
   }
   setFaceUniforms(this->SpansProgram, scene);
   vtkOpenGLState* state = window->GetState();
-  ImageScope images(state, scene);
+  ImageScope images(state, scene, this->Area);
   images.attach(0, this->Spans);
   const float nothing[4] = { 1.0f, 1.0f, 1.0f, 1.0f };
   glClearBufferfv(GL_COLOR, 0, nothing);
@@ -235,6 +252,7 @@ bool RayCaster::findSpans(
 void RayCaster::setUniforms(Program& program, const RayCastScene& scene)
 {
   setRayUniforms(program, scene);
+  setPixelUniforms(program, this->Area);
   setSpaceUniforms(program, scene);
   setSkippingUniforms(program, scene, this->Spans);
   setTissueUniforms(program, scene);
@@ -299,7 +317,7 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
   const RayCastVariant variant = variantOf(scene);
   Program& program = this->CastPrograms[variant];
   if (!this->prepareImages(window, scene) ||
-    (variant.counted && !this->prepareCount(window, scene.size)) ||
+    (variant.counted && !this->prepareCount(window, this->Area.size)) ||
     (scene.skipping && !this->findSpans(window, scene, counters)) ||
     !program.use(window, rayCastSource(variant), counters))
   {
@@ -307,7 +325,7 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
   }
   this->setUniforms(program, scene);
   {
-    ImageScope images(window->GetState(), scene);
+    ImageScope images(window->GetState(), scene, this->Area);
     images.attach(0, this->Image);
     images.attach(1, this->Hits[scene.tile].texture);
     this->clearStaleHits(scene);
@@ -369,23 +387,29 @@ void RayCaster::clearStaleHits(const RayCastScene& scene)
 
 bool RayCaster::hitAt(vtkOpenGLRenderWindow* window, const glm::dvec2& place, glm::dvec4& hit)
 {
-  vtkTextureObject* hits = this->Hits[false].texture;
-  if (!hits)
+  const FirstHits& hits = this->Hits[false];
+  if (!hits.texture)
   {
     return false;
   }
-  const glm::dvec2 size(hits->GetWidth(), hits->GetHeight());
+  const glm::dvec2 size(hits.area.picture);
   const glm::ivec2 pixel(place * size);
+  if (glm::any(glm::lessThan(pixel, hits.area.low)) ||
+    glm::any(glm::greaterThanEqual(pixel, hits.area.high())))
+  {
+    return false;
+  }
   vtkOpenGLState* state = window->GetState();
   FramebufferScope framebuffer(state);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, hits->GetHandle(), 0);
+  glFramebufferTexture2D(
+    GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, hits.texture->GetHandle(), 0);
   state->vtkglReadBuffer(GL_COLOR_ATTACHMENT0);
   float share = -1.0f;
-  glReadPixels(pixel.x, pixel.y, 1, 1, GL_RED, GL_FLOAT, &share);
-  const Frustum& frustum = this->Hits[false].frustum;
+  const glm::ivec2 texel = pixel - hits.area.low;
+  glReadPixels(texel.x, texel.y, 1, 1, GL_RED, GL_FLOAT, &share);
   const glm::dvec2 ndc = 2.0 * (glm::dvec2(pixel) + 0.5) / size - 1.0; // of the pixel's own ray
-  const glm::dvec3 near = frustum.near.at(ndc);
-  const glm::dvec3 way = static_cast<double>(share) * (frustum.far.at(ndc) - near);
+  const glm::dvec3 near = hits.frustum.near.at(ndc);
+  const glm::dvec3 way = static_cast<double>(share) * (hits.frustum.far.at(ndc) - near);
   hit = glm::dvec4(near + way, glm::length(way));
   return share >= 0.0f;
 }
@@ -407,10 +431,9 @@ bool RayCaster::composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origi
   state->vtkglBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   state->vtkglDisable(GL_DEPTH_TEST);
   state->vtkglDisable(GL_CULL_FACE);
-  const glm::dvec2 scale =
-    glm::dvec2(size) / glm::dvec2(this->Image->GetWidth(), this->Image->GetHeight());
+  const glm::ivec2& end = this->Area.picture;
+  const glm::dvec2 scale = glm::dvec2(size) / glm::dvec2(end);
   // Not its empty rim: the filter would blend it with what an earlier picture left beyond.
-  const glm::ivec2 end(this->Image->GetWidth(), this->Image->GetHeight());
   const glm::ivec2 first =
     this->ImagePart.low + glm::ivec2(glm::greaterThan(this->ImagePart.low, glm::ivec2(0)));
   const glm::ivec2 last =
@@ -425,7 +448,9 @@ bool RayCaster::composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origi
   this->Image->SetMagnificationFilter(filter);
   this->CompositeProgram.set("image", this->Image.Get());
   this->CompositeProgram.set("origin", glm::vec2(origin));
-  this->CompositeProgram.set("shareOfPixel", 1.0f / glm::vec2(size));
+  this->CompositeProgram.set(
+    "textureFromPixel", glm::vec2(this->Area.textureFromShare() / glm::dvec2(size)));
+  this->CompositeProgram.set("textureOfOrigin", glm::vec2(this->Area.textureOfShareZero()));
   drawTriangles(1);
   this->Image->Deactivate();
   return true;
@@ -442,6 +467,7 @@ void RayCaster::releaseGraphicsResources(vtkWindow* window)
     }
     *image = nullptr;
   }
+  this->Area = ImageArea();
   this->SpansProgram.forget();
   this->CompositeProgram.forget();
   this->CastPrograms.clear();

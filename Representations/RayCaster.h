@@ -6,6 +6,7 @@
 #include "Counters.h"
 #include "FieldChange.h"
 #include "FirstHits.h"
+#include "ImageArea.h"
 #include "Program.h"
 #include "RayCastComparison.h"
 #include "RayCastLights.h"
@@ -129,13 +130,14 @@ private:
   void readCount(Counters& counters);
   void clearStaleHits(const RayCastScene& scene);
 
-  // What was cast last of an image: first pixel, one past the last.
+  // What was cast last of a picture: first pixel, one past the last.
   struct Part
   {
     glm::ivec2 low{ 0 };
     glm::ivec2 high{ 0 };
   };
   bool DrewTile = false;
+  ImageArea Area; // of Image, Spans and Count, and the Hits drawn last
   Part ImagePart;
   Part HitsPart[2];                        // elsewhere Hits tell of none
   FirstHits Hits[2];                       // [tile]

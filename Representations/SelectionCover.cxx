@@ -37,6 +37,8 @@ bool SelectionCover::draw(
   state->vtkglDisable(GL_BLEND);
   state->vtkglDisable(GL_CULL_FACE);
   this->CoverProgram.set("hits", hits.texture.Get());
+  this->CoverProgram.set("hitsFromShare", glm::vec2(hits.area.textureFromShare()));
+  this->CoverProgram.set("hitsOfShareZero", glm::vec2(hits.area.textureOfShareZero()));
   this->CoverProgram.set("nearPlane", glm::mat3(hits.frustum.near.columns()));
   this->CoverProgram.set("farPlane", glm::mat3(hits.frustum.far.columns()));
   this->CoverProgram.set("clipFromWorld", glm::mat4(clipFromWorld(renderer)));

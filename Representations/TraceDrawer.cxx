@@ -92,15 +92,21 @@ void TraceDrawer::setUniforms(Program& program, const TraceScene& scene)
   program.set("hiddenOpacity", static_cast<float>(scene.hiddenOpacity));
   program.set("origin", glm::vec2(scene.origin));
   program.set("size", glm::vec2(scene.size));
+  std::array<glm::vec2, MaxTissues> hitsFromShare;
+  std::array<glm::vec2, MaxTissues> hitsOfShareZero;
   std::array<glm::vec3, MaxTissues> nearAhead;
   std::array<glm::vec3, MaxTissues> farAhead;
   for (std::size_t i = 0; i < scene.hits.size(); ++i)
   {
     const FirstHits& hits = *scene.hits[i];
     program.set(("hits" + std::to_string(i)).c_str(), hits.texture.Get());
+    hitsFromShare[i] = glm::vec2(hits.area.textureFromShare());
+    hitsOfShareZero[i] = glm::vec2(hits.area.textureOfShareZero());
     nearAhead[i] = glm::vec3(scene.ahead * hits.frustum.near.columns());
     farAhead[i] = glm::vec3(scene.ahead * hits.frustum.far.columns());
   }
+  program.set("hitsFromShare", hitsFromShare.data(), scene.hits.size());
+  program.set("hitsOfShareZero", hitsOfShareZero.data(), scene.hits.size());
   program.set("nearAhead", nearAhead.data(), scene.hits.size());
   program.set("farAhead", farAhead.data(), scene.hits.size());
 }

@@ -3,13 +3,15 @@
 in vec2 ndc;
 
 uniform sampler2D hits;     // first hit, share of the way from plane to plane; below 0: none
+uniform vec2 hitsFromShare; // their texture coordinates from the share of the picture: scale, shift
+uniform vec2 hitsOfShareZero;
 uniform mat3 nearPlane;     // of the picture, mm (world): times (1, ndc)
 uniform mat3 farPlane;
 uniform mat4 clipFromWorld; // of the camera
 
 void main()
 {
-  float hit = textureLod(hits, 0.5 * ndc + 0.5, 0.0).r;
+  float hit = textureLod(hits, (0.5 * ndc + 0.5) * hitsFromShare + hitsOfShareZero, 0.0).r;
   if (hit < 0.0)
   {
     discard;

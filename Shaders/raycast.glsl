@@ -2,7 +2,11 @@
 // deformed frame; every sample looks its tissue up at the rest position it came from. Targets:
 // picture, and where the first hit lies on the ray.
 
-in vec2 ndc;
+uniform vec2 firstPixel;   // of the picture, that the images hold
+uniform vec2 ndcFromPixel; // of the picture
+
+// From whole pixels, so that a ray is the same to the last bit whatever part of it the images hold.
+vec2 ndc = (gl_FragCoord.xy + firstPixel) * ndcFromPixel - 1.0;
 
 uniform vec3 spaceLow;  // the part of the deformed frame that tissue can reach, texture coordinates
 uniform vec3 spaceHigh;

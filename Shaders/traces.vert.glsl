@@ -21,13 +21,16 @@ const float LeastRadius = 1.5; // pixels; smaller balls are lost to the eye
 #if TISSUES > 0
 uniform vec3 nearAhead[TISSUES]; // of each volume's picture: mm ahead on its near plane, and on
 uniform vec3 farAhead[TISSUES];  // its far plane, times (1, ndc)
+uniform vec2 hitsFromShare[TISSUES];   // texture coordinates of its first hits from the share of the
+uniform vec2 hitsOfShareZero[TISSUES]; // picture: scale and shift
 
 // Whether a first hit, a share of the way from plane to plane or below 0, lies before `depth`.
 bool isBehind(int tissue, sampler2D hits, vec2 share, float depth)
 {
-  float hit = textureLod(hits, share, 0.0).r;
-  vec3 place = vec3(1.0, 2.0 * share - 1.0);
-  float hitDepth = mix(dot(nearAhead[tissue], place), dot(farAhead[tissue], place), hit);
+  vec2 place = share * hitsFromShare[tissue] + hitsOfShareZero[tissue];
+  float hit = textureLod(hits, place, 0.0).r;
+  vec3 onPlane = vec3(1.0, 2.0 * share - 1.0);
+  float hitDepth = mix(dot(nearAhead[tissue], onPlane), dot(farAhead[tissue], onPlane), hit);
   return hit >= 0.0 && hitDepth < depth;
 }
 
