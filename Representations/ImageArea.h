@@ -28,8 +28,8 @@ struct ImageArea
   glm::dvec2 textureOfShareZero() const { return -glm::dvec2(this->low) / glm::dvec2(this->size); }
 };
 
-// The area for a picture that can show something from the pixel `low` to before `high`: the one held
-// if it will do, so that a camera that moves a little makes nothing anew.
+// The area for a picture that can show something from the pixel `low` to before `high`: the one
+// held if it will do, so that a camera that moves a little makes nothing anew.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ImageArea areaAround(
   const ImageArea& held, const glm::ivec2& picture, const glm::ivec2& low, const glm::ivec2& high);
 }

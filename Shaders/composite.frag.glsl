@@ -2,7 +2,7 @@
 
 uniform sampler2D image;       // colour times opacity, opacity
 uniform vec2 origin;           // the picture's lower left pixel in the window
-uniform vec2 textureFromPixel; // the image's coordinates from pixels of the picture: scale and shift
+uniform vec2 textureFromPixel; // the image's coordinates from pixels of the picture: scale, shift
 uniform vec2 textureOfOrigin;
 
 void main()

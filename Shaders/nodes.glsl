@@ -3,11 +3,11 @@
 // holds. The same as NodeField in C++. Node numbers are floats: software drivers turn what becomes
 // an integer lane by lane.
 
-uniform sampler3D refined; // displacement on nodes around all that moves, lattice cells; unfiltered
-uniform vec3 refinedFromNode; // texture coordinates from a node's number: scale and shift
+uniform sampler3D refined;      // displacement on nodes around all that moves, cells; unfiltered
+uniform vec3 refinedFromNode;   // its texture coordinates from a node's number: scale, shift
 uniform vec3 refinedOfNodeZero;
-uniform vec3 lastNode; // of the lattice
-uniform float perCell; // nodes for each lattice cell
+uniform vec3 lastNode;          // of the lattice
+uniform float perCell;          // nodes for each lattice cell
 
 // Of whole number.
 vec3 valueAtNode(vec3 node)
@@ -17,8 +17,8 @@ vec3 valueAtNode(vec3 node)
 
 // The cell of nodes asked last: the solver's steps mostly stay in one.
 vec3 heldLow = vec3(-1.0);
-vec3 held[8]; // its corners, x fastest
-vec3 heldWithin; // the position asked last
+vec3 held[8];    // its corners, x fastest
+vec3 heldWithin; // of the position asked last
 vec3 heldInside; // 1 along an axis on which that lies within the nodes, else 0
 
 void hold(vec3 lattice)

@@ -21,8 +21,8 @@ const float LeastRadius = 1.5; // pixels; smaller balls are lost to the eye
 #if TISSUES > 0
 uniform vec3 nearAhead[TISSUES]; // of each volume's picture: mm ahead on its near plane, and on
 uniform vec3 farAhead[TISSUES];  // its far plane, times (1, ndc)
-uniform vec2 hitsFromShare[TISSUES];   // texture coordinates of its first hits from the share of the
-uniform vec2 hitsOfShareZero[TISSUES]; // picture: scale and shift
+uniform vec2 hitsFromShare[TISSUES];   // texture coordinates of its first hits from the share of
+uniform vec2 hitsOfShareZero[TISSUES]; // the picture: scale and shift
 
 // Whether a first hit, a share of the way from plane to plane or below 0, lies before `depth`.
 bool isBehind(int tissue, sampler2D hits, vec2 share, float depth)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that images cover all that can be seen, little more, and are not made anew for each move of
-// the camera.
+// Proves that images cover all that can be seen, little more, and are not made anew for each move
+// of the camera.
 #include "ImageArea.h"
 
 #include <glm/vector_relational.hpp>
