@@ -26,6 +26,10 @@ struct IndexBox
       this->last.z < this->first.z;
   }
   glm::ivec3 size() const { return glm::max(this->last - this->first + 1, glm::ivec3(0)); }
+  bool operator==(const IndexBox& other) const
+  {
+    return this->first == other.first && this->last == other.last;
+  }
 };
 
 // The least box that holds both.

@@ -7,7 +7,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
 namespace brainshift
@@ -21,20 +20,21 @@ struct Inversion
   using mat3 = glm::mat3;
 
   const Forward& forward;
+  mat3 jacobian{ 1.0f };
 
-  void forwardMap(const vec3& rest, vec3& displacement, mat3& jacobian)
+  vec3 displacementAt(const vec3& rest)
   {
-    this->forward.map(rest, displacement, jacobian);
+    vec3 displacement;
+    this->forward.map(rest, displacement, this->jacobian);
+    return displacement;
   }
+  const mat3& jacobianThere() const { return this->jacobian; }
   static float min(float a, float b) { return glm::min(a, b); }
   static float dot(const vec3& a, const vec3& b) { return glm::dot(a, b); }
-  static float determinant(const mat3& matrix) { return glm::determinant(matrix); }
-  static mat3 inverse(const mat3& matrix) { return glm::inverse(matrix); }
+  static vec3 cross(const vec3& a, const vec3& b) { return glm::cross(a, b); }
 
 #define SHARED
-#define OUT(type) type&
 #include "inversion.glsl"
-#undef OUT
 #undef SHARED
 };
 }

@@ -60,9 +60,25 @@ glm::vec3 texelOf(const glm::ivec3& count)
   return 1.0f / glm::vec3(count);
 }
 
+// Control points that the nodes depend on.
+IndexBox pointsAround(const IndexBox& nodes, int perCell, const glm::ivec3& dimensions)
+{
+  return { glm::max(nodes.first / perCell - 1, glm::ivec3(0)),
+    glm::min(nodes.last / perCell + 2, dimensions - 1) };
+}
+
 std::int64_t texels(const glm::ivec3& count)
 {
   return static_cast<std::int64_t>(count.x) * count.y * count.z;
+}
+
+// What a box that moves with the strokes may hold of nodes that all stay, before it is made anew.
+constexpr std::int64_t MostSpare = 2; // times those that are needed
+
+bool holds(const IndexBox& box, const IndexBox& needed)
+{
+  return needed.empty() ||
+    (enclosing(box, needed) == box && texels(box.size()) <= MostSpare * texels(needed.size()));
 }
 }
 
@@ -88,12 +104,21 @@ bool FieldTexture::update(
   {
     return false;
   }
-  if (!kept && !this->makeFields(window, request))
+  if (!kept && !this->makeOffsets(window, request))
   {
     return false;
   }
+  const FieldNodes forward = forwardNodesOf(request);
+  const IndexBox moved =
+    changedForwardNodes(changedPoints(request.dimensions, still, request.inCells), forward);
+  const bool grown = !(kept && holds(this->Displaced, moved));
+  if (grown && !this->makeDisplacements(window, moved))
+  {
+    return false;
+  }
+  const IndexBox nodes = grown ? moved : changedForwardNodes(points, forward);
   if (!points.empty() &&
-    (!this->upload(window, request, counters) || !this->refine(window, request, points, counters) ||
+    (!this->upload(window, request, counters) || !this->refine(window, request, nodes, counters) ||
       !this->invert(window, request, counters)))
   {
     return false;
@@ -107,19 +132,26 @@ bool FieldTexture::update(
   return true;
 }
 
-// Fields in which nothing moves.
-bool FieldTexture::makeFields(vtkOpenGLRenderWindow* window, const FieldRequest& request)
+// Offsets where nothing moves.
+bool FieldTexture::makeOffsets(vtkOpenGLRenderWindow* window, const FieldRequest& request)
 {
-  this->Displacements =
-    makeTexture(window, forwardNodesOf(request).count, vtkTextureObject::Nearest);
   this->Offsets = makeTexture(window, request.nodes.count, vtkTextureObject::Linear);
-  if (!this->Displacements || !this->Offsets)
+  if (!this->Offsets)
   {
     return false;
   }
-  clearVolume(window, this->Displacements);
   clearVolume(window, this->Offsets);
   return true;
+}
+
+// Displacements to be refined. On the surface of all that moves nothing does, but where the
+// lattice ends, beyond which its border holds: a clamped texture answers for all nodes.
+bool FieldTexture::makeDisplacements(vtkOpenGLRenderWindow* window, const IndexBox& nodes)
+{
+  this->Displaced = nodes;
+  this->Displacements =
+    nodes.empty() ? nullptr : makeTexture(window, nodes.size(), vtkTextureObject::Nearest);
+  return nodes.empty() || this->Displacements;
 }
 
 bool FieldTexture::upload(
@@ -151,23 +183,23 @@ bool FieldTexture::uploadMask(
 }
 
 bool FieldTexture::refine(vtkOpenGLRenderWindow* window, const FieldRequest& request,
-  const IndexBox& points, Counters& counters)
+  const IndexBox& nodes, Counters& counters)
 {
-  const FieldNodes forward = forwardNodesOf(request);
-  const IndexBox nodes = changedForwardNodes(points, forward);
   const glm::mat4 weights = kernelPolynomials(request.kernel);
+  const int perCell = request.samples + 1;
+  const glm::ivec3 displaced = this->Displaced.size();
   glm::ivec3 count = request.dimensions;
-  IndexBox box{ glm::ivec3(0),
-    request.dimensions - 1 }; // of control points; of nodes, axis by axis
+  // Of control points; axis by axis of nodes, counted from the first displaced one.
+  IndexBox box = pointsAround(nodes, perCell, request.dimensions);
   // Along x, and along x and y: the next stroke computes what it needs of these anew; their memory
   // is worth more.
   vtkSmartPointer<vtkTextureObject> coarse = this->ControlPoints;
   for (int axis = 0; axis < 3; ++axis)
   {
     const glm::vec3 coarseTexel = texelOf(count);
-    count[axis] = forward.count[axis];
-    box.first[axis] = nodes.first[axis];
-    box.last[axis] = nodes.last[axis];
+    count[axis] = displaced[axis];
+    box.first[axis] = nodes.first[axis] - this->Displaced.first[axis];
+    box.last[axis] = nodes.last[axis] - this->Displaced.first[axis];
     vtkTextureObject* mask = axis == 2 ? this->MaskWeights : nullptr;
     Program& program = this->RefinePrograms[mask != nullptr];
     const vtkSmartPointer<vtkTextureObject> refined =
@@ -181,13 +213,14 @@ bool FieldTexture::refine(vtkOpenGLRenderWindow* window, const FieldRequest& req
     if (mask)
     {
       program.set("maskWeights", mask);
-      program.set("nodeTexel", texelOf(count));
+      program.set("maskTexel", texelOf((request.dimensions - 1) * perCell + 1));
     }
     program.set("coarse", coarse.Get());
     program.set("coarseTexel", coarseTexel);
     program.set("axis", unit);
     program.set("points", static_cast<float>(request.dimensions[axis]));
-    program.set("perCell", static_cast<float>(forward.perCell));
+    program.set("perCell", static_cast<float>(perCell));
+    program.set("firstNode", glm::vec3(this->Displaced.first));
     program.set("weights", weights);
     runVolumePass(window, program.get()->GetHandle(), { refined }, box.first, box.size());
     coarse->Deactivate();
@@ -208,10 +241,13 @@ bool FieldTexture::invert(
     return false;
   }
   const int perCell = request.nodes.perCell;
+  const glm::vec3 texel = texelOf(this->Displaced.size());
   this->InvertProgram.set("refined", this->Displacements.Get());
-  this->InvertProgram.set("refinedCount", (request.dimensions - 1) * perCell + 1);
-  this->InvertProgram.set("perCell", perCell);
-  this->InvertProgram.set("firstCell", request.nodes.first);
+  this->InvertProgram.set("refinedFromNode", texel);
+  this->InvertProgram.set("refinedOfNodeZero", (0.5f - glm::vec3(this->Displaced.first)) * texel);
+  this->InvertProgram.set("lastNode", glm::vec3((request.dimensions - 1) * perCell));
+  this->InvertProgram.set("perCell", static_cast<float>(perCell));
+  this->InvertProgram.set("firstNode", glm::vec3(request.nodes.first * perCell));
   this->InvertProgram.set("offsetScale", request.offsetScale);
   this->InvertProgram.set("negated", request.inverse == Inverse::Negated ? 1 : 0);
   runVolumePass(window, this->InvertProgram.get()->GetHandle(), { this->Offsets },
@@ -235,6 +271,7 @@ void FieldTexture::releaseGraphicsResources(vtkWindow* window)
   this->Offsets = nullptr;
   this->MaskWeights = nullptr;
   this->Displacements = nullptr;
+  this->Displaced = IndexBox();
   this->HasCurrent = false;
   this->RefinePrograms[0].forget();
   this->RefinePrograms[1].forget();

@@ -46,8 +46,10 @@ public:
   // Offsets (restFromDeformed minus identity): RGBA32F, one texel a node, trilinear, clamped.
   vtkTextureObject* offsets() const { return this->Offsets; }
 
-  // Displacements (deformedFromRest minus identity) on the forward nodes, lattice cells.
+  // Displacements (deformedFromRest minus identity), lattice cells, on the forward nodes around all
+  // that moves; null where nothing ever did.
   vtkTextureObject* displacements() const { return this->Displacements; }
+  const IndexBox& displacedNodes() const { return this->Displaced; }
 
   // Offsets computed by the last update.
   const IndexBox& changed() const { return this->Changed; }
@@ -61,17 +63,19 @@ public:
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
-  bool makeFields(vtkOpenGLRenderWindow* window, const FieldRequest& request);
+  bool makeOffsets(vtkOpenGLRenderWindow* window, const FieldRequest& request);
+  bool makeDisplacements(vtkOpenGLRenderWindow* window, const IndexBox& nodes);
   bool upload(vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters);
-  bool refine(vtkOpenGLRenderWindow* window, const FieldRequest& request, const IndexBox& points,
+  bool refine(vtkOpenGLRenderWindow* window, const FieldRequest& request, const IndexBox& nodes,
     Counters& counters);
   bool invert(vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters);
 
   bool uploadMask(vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters);
 
   vtkSmartPointer<vtkTextureObject> ControlPoints;
-  vtkSmartPointer<vtkTextureObject> MaskWeights;   // on the forward nodes; null: no mask
-  vtkSmartPointer<vtkTextureObject> Displacements; // on the forward nodes
+  vtkSmartPointer<vtkTextureObject> MaskWeights; // on the forward nodes; null: no mask
+  vtkSmartPointer<vtkTextureObject> Displacements;
+  IndexBox Displaced; // forward nodes of Displacements; all others stay
   vtkSmartPointer<vtkTextureObject> Offsets;
   FieldRequest Current; // what the textures show
   bool HasCurrent = false;

@@ -65,6 +65,18 @@ void Program::set(const char* name, const glm::mat4& value)
   this->Compiled->SetUniformMatrix4x4(name, glm::value_ptr(columns));
 }
 
+void Program::set(const char* name, const glm::vec2* values, std::size_t count)
+{
+  const GLint location = glGetUniformLocation(this->Compiled->GetHandle(), name);
+  glUniform2fv(location, static_cast<GLsizei>(count), glm::value_ptr(*values));
+}
+
+void Program::set(const char* name, const glm::vec3* values, std::size_t count)
+{
+  const GLint location = glGetUniformLocation(this->Compiled->GetHandle(), name);
+  glUniform3fv(location, static_cast<GLsizei>(count), glm::value_ptr(*values));
+}
+
 void Program::set(const char* name, vtkTextureObject* texture)
 {
   texture->Activate();

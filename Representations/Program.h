@@ -11,6 +11,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <cstddef>
+
 class vtkOpenGLRenderWindow;
 class vtkOpenGLState;
 class vtkShaderProgram;
@@ -32,6 +34,10 @@ public:
   void set(const char* name, const glm::ivec3& value);
   void set(const char* name, const glm::mat3& value);
   void set(const char* name, const glm::mat4& value);
+
+  // Arrays of `count` vectors.
+  void set(const char* name, const glm::vec2* values, std::size_t count);
+  void set(const char* name, const glm::vec3* values, std::size_t count);
 
   // Binds the texture to a unit of its own for as long as it stays active.
   void set(const char* name, vtkTextureObject* texture);

@@ -2,6 +2,7 @@
 #include "RayCaster.h"
 
 #include "DeformedPresence.h"
+#include "FacePass.h"
 #include "OpenGL.h"
 
 #include "vtkOpenGLRenderWindow.h"
@@ -22,53 +23,9 @@ namespace brainshift
 {
 namespace
 {
-// A plane of the view frustum: position of ndc (0,0), what one unit of ndc x and y adds, and the
-// homogeneous w on it. Positions on it are affine in ndc for every camera VTK has.
-struct FrustumPlane
-{
-  glm::dvec3 origin;
-  glm::dvec3 right;
-  glm::dvec3 up;
-  double w;
-};
-
-FrustumPlane frustumPlane(
-  const glm::dmat4& clipFromTexture, const glm::dmat4& textureFromClip, double depth)
-{
-  const auto unproject = [&](double x, double y) {
-    const glm::dvec4 position = textureFromClip * glm::dvec4(x, y, depth, 1.0);
-    return glm::dvec3(position) / position.w;
-  };
-  FrustumPlane plane;
-  plane.origin = unproject(0.0, 0.0);
-  plane.right = unproject(1.0, 0.0) - plane.origin;
-  plane.up = unproject(0.0, 1.0) - plane.origin;
-  plane.w = (clipFromTexture * glm::dvec4(plane.origin, 1.0)).w;
-  return plane;
-}
-
-struct Frustum
-{
-  FrustumPlane near;
-  FrustumPlane far;
-};
-
-Frustum frustumOf(const RayCastScene& scene)
-{
-  const glm::dmat4 clipFromTexture = scene.clipFromWorld * scene.worldFromTexture;
-  const glm::dmat4 textureFromClip = glm::inverse(clipFromTexture);
-  return { frustumPlane(clipFromTexture, textureFromClip, -1.0),
-    frustumPlane(clipFromTexture, textureFromClip, 1.0) };
-}
-
-bool raysEndSoon(const RayCastScene& scene)
-{
-  return scene.opaqueTissue && scene.options.blend == Blend::Composite;
-}
-
 void setRayUniforms(Program& program, const RayCastScene& scene)
 {
-  const Frustum frustum = frustumOf(scene);
+  const Frustum frustum = frustumOf(scene.clipFromWorld * scene.worldFromTexture);
   const FrustumPlane& near = frustum.near;
   const FrustumPlane& far = frustum.far;
   program.set("nearOrigin", glm::vec3(near.origin));
@@ -82,46 +39,10 @@ void setRayUniforms(Program& program, const RayCastScene& scene)
   program.set("mmFromTexture", glm::vec3(scene.mmFromTexture));
 }
 
-// Faces of the occupied bricks. All of a plane parallel to the near plane lies at the same share of
-// the way to the far plane, so that a ray's t is that share of its length.
-void setFaceUniforms(Program& program, const RayCastScene& scene)
+void setPixelUniforms(Program& program, const ImageArea& area)
 {
-  const Frustum frustum = frustumOf(scene);
-  const glm::dvec3 across = glm::cross(frustum.near.right, frustum.near.up);
-  const glm::dvec3 share = across / glm::dot(across, frustum.far.origin - frustum.near.origin);
-  program.set("shareFromTexture", glm::vec3(share));
-  program.set("shareOfTextureZero", static_cast<float>(-glm::dot(share, frustum.near.origin)));
-  program.set("clipFromTexture", glm::mat4(scene.clipFromWorld * scene.worldFromTexture));
-  program.set("textureFromBrick", glm::vec3(scene.textureFromBrick));
-  program.set("textureOfBrickZero", glm::vec3(scene.textureOfBrickZero));
-}
-
-// The eye in bricks, as DeformedPresence takes it.
-glm::dvec4 eyeInBricks(const RayCastScene& scene)
-{
-  const glm::dmat4 clipFromTexture = scene.clipFromWorld * scene.worldFromTexture;
-  // What projects to no place in the window but to depth alone: the eye, or the way towards it.
-  const glm::dvec4 eye = glm::inverse(clipFromTexture) * glm::dvec4(0.0, 0.0, -1.0, 0.0);
-  const double w = std::abs(eye.w) < 1e-9 * glm::length(glm::dvec3(eye)) ? 0.0 : eye.w;
-  return glm::dvec4((glm::dvec3(eye) - w * scene.textureOfBrickZero) / scene.textureFromBrick, w);
-}
-
-// Where rays end in tissue, nothing is gained by knowing where they would leave it, but half of the
-// faces: a software driver's time goes by their number.
-void drawFaces(Program& program, const RayCastScene& scene)
-{
-  const glm::dvec4 eye = eyeInBricks(scene);
-  const bool frontAlone = raysEndSoon(scene) && scene.presence->isOutside(eye);
-  setFaceUniforms(program, scene);
-  program.set("backDrawn", frontAlone ? 0.0f : 1.0f);
-  if (frontAlone)
-  {
-    scene.presence->drawFaces(program.get()->GetHandle(), eye);
-  }
-  else
-  {
-    scene.presence->drawFaces(program.get()->GetHandle());
-  }
+  program.set("firstPixel", glm::vec2(area.low));
+  program.set("ndcFromPixel", 2.0f / glm::vec2(area.picture));
 }
 
 void setSpaceUniforms(Program& program, const RayCastScene& scene)
@@ -140,7 +61,7 @@ void setSkippingUniforms(Program& program, const RayCastScene& scene, vtkTexture
 {
   program.set("skipping", scene.skipping ? 1 : 0);
   program.set("spans", spans);
-  program.set("spansTexel", 1.0f / glm::vec2(scene.size));
+  program.set("spansTexel", 1.0f / glm::vec2(spans->GetWidth(), spans->GetHeight()));
   vtkTextureObject* leaps = scene.presence->leaps();
   program.set("leaps", leaps);
   program.set(
@@ -201,7 +122,7 @@ vtkSmartPointer<vtkTextureObject> makeImage(
 class ImageScope
 {
 public:
-  ImageScope(vtkOpenGLState* state, const RayCastScene& scene)
+  ImageScope(vtkOpenGLState* state, const RayCastScene& scene, const ImageArea& area)
     : Viewport(state)
     , ScissorBox(state)
     , ColorMask(state)
@@ -218,9 +139,10 @@ public:
     }
     const glm::ivec2 shown = scene.shownHigh - scene.shownLow;
     state->vtkglEnable(GL_SCISSOR_TEST);
-    state->vtkglScissor(scene.shownLow.x, scene.shownLow.y, shown.x, shown.y);
+    const glm::ivec2 first = scene.shownLow - area.low;
+    state->vtkglScissor(first.x, first.y, shown.x, shown.y);
     state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    state->vtkglViewport(0, 0, scene.size.x, scene.size.y);
+    state->vtkglViewport(-area.low.x, -area.low.y, area.picture.x, area.picture.y);
   }
 
   void attach(unsigned int index, vtkTextureObject* image)
@@ -254,20 +176,31 @@ bool sameSize(vtkTextureObject* image, const glm::ivec2& size)
 
 bool RayCaster::prepareImages(vtkOpenGLRenderWindow* window, const RayCastScene& scene)
 {
+  this->Area = areaAround(this->Area, scene.size, scene.shownLow, scene.shownHigh);
   const auto prepare = [&](vtkSmartPointer<vtkTextureObject>& image, int format, int filter) {
-    if (!image || !sameSize(image, scene.size))
+    if (!image || !sameSize(image, this->Area.size))
     {
-      image = makeImage(window, scene.size, format, filter);
+      image = makeImage(window, this->Area.size, format, filter);
     }
     return image != nullptr;
   };
-  if (!this->Hits[scene.tile] || !sameSize(this->Hits[scene.tile], scene.size))
+  FirstHits& hits = this->Hits[scene.tile];
+  if (!hits.texture || hits.area != this->Area)
   {
     this->HitsPart[scene.tile] = { glm::ivec2(-1), scene.size + 1 }; // whatever memory held
   }
-  return prepare(this->Image, GL_RGBA8, vtkTextureObject::Linear) &&
-    prepare(this->Hits[scene.tile], GL_RGBA32F, vtkTextureObject::Nearest) &&
-    prepare(this->Spans, GL_RG16, vtkTextureObject::Nearest);
+  hits.area = this->Area;
+  if (!prepare(this->Image, GL_RGBA8, vtkTextureObject::Linear) ||
+    !prepare(hits.texture, GL_R32F, vtkTextureObject::Nearest) ||
+    !prepare(this->Spans, GL_RG16, vtkTextureObject::Nearest))
+  {
+    return false;
+  }
+  float none[4] = { -1.0f, -1.0f, -1.0f, -1.0f };
+  hits.texture->SetWrapS(vtkTextureObject::ClampToBorder);
+  hits.texture->SetWrapT(vtkTextureObject::ClampToBorder);
+  hits.texture->SetBorderColor(none);
+  return true;
 }
 
 // Rasterises the occupied bricks' faces: first and last t of every pixel.
@@ -279,7 +212,7 @@ bool RayCaster::findSpans(
     return false;
   }
   vtkOpenGLState* state = window->GetState();
-  ImageScope images(state, scene);
+  ImageScope images(state, scene, this->Area);
   images.attach(0, this->Spans);
   const float nothing[4] = { 1.0f, 1.0f, 1.0f, 1.0f };
   glClearBufferfv(GL_COLOR, 0, nothing);
@@ -299,6 +232,7 @@ bool RayCaster::findSpans(
 void RayCaster::setUniforms(Program& program, const RayCastScene& scene)
 {
   setRayUniforms(program, scene);
+  setPixelUniforms(program, this->Area);
   setSpaceUniforms(program, scene);
   setSkippingUniforms(program, scene, this->Spans);
   setTissueUniforms(program, scene);
@@ -340,7 +274,7 @@ RayCastVariant variantOf(const RayCastScene& scene)
   variant.counted = scene.countSamples && variant.blend == Blend::Composite;
   variant.averaged = scene.transferSums && variant.blend == Blend::Composite && !variant.compared;
   variant.sharedLight =
-    scene.shaded && !variant.averaged && !variant.compared && raysEndSoon(scene);
+    scene.shaded && !variant.averaged && !variant.compared && scene.raysEndSoon();
   return variant;
 }
 
@@ -368,7 +302,7 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
   const RayCastVariant variant = variantOf(scene);
   Program& program = this->CastPrograms[variant];
   if (!this->prepareImages(window, scene) ||
-    (variant.counted && !this->prepareCount(window, scene.size)) ||
+    (variant.counted && !this->prepareCount(window, this->Area.size)) ||
     (scene.skipping && !this->findSpans(window, scene, counters)) ||
     !program.use(window, rayCastSource(variant), counters))
   {
@@ -376,9 +310,9 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
   }
   this->setUniforms(program, scene);
   {
-    ImageScope images(window->GetState(), scene);
+    ImageScope images(window->GetState(), scene, this->Area);
     images.attach(0, this->Image);
-    images.attach(1, this->Hits[scene.tile]);
+    images.attach(1, this->Hits[scene.tile].texture);
     this->clearStaleHits(scene);
     if (variant.counted)
     {
@@ -386,6 +320,7 @@ bool RayCaster::cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, C
     }
     drawTriangles(1);
     this->ImagePart = this->HitsPart[scene.tile] = { scene.shownLow, scene.shownHigh };
+    this->Hits[scene.tile].frustum = frustumOf(scene.clipFromWorld);
     this->DrewTile = scene.tile;
   }
   deactivate(scene);
@@ -428,7 +363,7 @@ void RayCaster::clearStaleHits(const RayCastScene& scene)
   if (glm::any(glm::lessThan(before.low, scene.shownLow)) ||
     glm::any(glm::greaterThan(before.high, scene.shownHigh)))
   {
-    const float none[4] = { 0.0f, 0.0f, 0.0f, -1.0f };
+    const float none[4] = { -1.0f, -1.0f, -1.0f, -1.0f };
     glDisable(GL_SCISSOR_TEST);
     glClearBufferfv(GL_COLOR, 1, none);
     glEnable(GL_SCISSOR_TEST);
@@ -437,20 +372,31 @@ void RayCaster::clearStaleHits(const RayCastScene& scene)
 
 bool RayCaster::hitAt(vtkOpenGLRenderWindow* window, const glm::dvec2& place, glm::dvec4& hit)
 {
-  vtkTextureObject* hits = this->Hits[false];
-  if (!hits)
+  const FirstHits& hits = this->Hits[false];
+  if (!hits.texture)
   {
     return false;
   }
-  const glm::ivec2 pixel(place * glm::dvec2(hits->GetWidth(), hits->GetHeight()));
+  const glm::dvec2 size(hits.area.picture);
+  const glm::ivec2 pixel(place * size);
+  if (glm::any(glm::lessThan(pixel, hits.area.low)) ||
+    glm::any(glm::greaterThanEqual(pixel, hits.area.high())))
+  {
+    return false;
+  }
   vtkOpenGLState* state = window->GetState();
   FramebufferScope framebuffer(state);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, hits->GetHandle(), 0);
+  glFramebufferTexture2D(
+    GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, hits.texture->GetHandle(), 0);
   state->vtkglReadBuffer(GL_COLOR_ATTACHMENT0);
-  float values[4] = { 0.0f, 0.0f, 0.0f, -1.0f };
-  glReadPixels(pixel.x, pixel.y, 1, 1, GL_RGBA, GL_FLOAT, values);
-  hit = glm::dvec4(values[0], values[1], values[2], values[3]);
-  return values[3] >= 0.0f;
+  float share = -1.0f;
+  const glm::ivec2 texel = pixel - hits.area.low;
+  glReadPixels(texel.x, texel.y, 1, 1, GL_RED, GL_FLOAT, &share);
+  const glm::dvec2 ndc = 2.0 * (glm::dvec2(pixel) + 0.5) / size - 1.0; // of the pixel's own ray
+  const glm::dvec3 near = hits.frustum.near.at(ndc);
+  const glm::dvec3 way = static_cast<double>(share) * (hits.frustum.far.at(ndc) - near);
+  hit = glm::dvec4(near + way, glm::length(way));
+  return share >= 0.0f;
 }
 
 bool RayCaster::composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origin,
@@ -470,10 +416,9 @@ bool RayCaster::composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origi
   state->vtkglBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   state->vtkglDisable(GL_DEPTH_TEST);
   state->vtkglDisable(GL_CULL_FACE);
-  const glm::dvec2 scale =
-    glm::dvec2(size) / glm::dvec2(this->Image->GetWidth(), this->Image->GetHeight());
+  const glm::ivec2& end = this->Area.picture;
+  const glm::dvec2 scale = glm::dvec2(size) / glm::dvec2(end);
   // Not its empty rim: the filter would blend it with what an earlier picture left beyond.
-  const glm::ivec2 end(this->Image->GetWidth(), this->Image->GetHeight());
   const glm::ivec2 first =
     this->ImagePart.low + glm::ivec2(glm::greaterThan(this->ImagePart.low, glm::ivec2(0)));
   const glm::ivec2 last =
@@ -488,7 +433,9 @@ bool RayCaster::composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origi
   this->Image->SetMagnificationFilter(filter);
   this->CompositeProgram.set("image", this->Image.Get());
   this->CompositeProgram.set("origin", glm::vec2(origin));
-  this->CompositeProgram.set("shareOfPixel", 1.0f / glm::vec2(size));
+  this->CompositeProgram.set(
+    "textureFromPixel", glm::vec2(this->Area.textureFromShare() / glm::dvec2(size)));
+  this->CompositeProgram.set("textureOfOrigin", glm::vec2(this->Area.textureOfShareZero()));
   drawTriangles(1);
   this->Image->Deactivate();
   return true;
@@ -496,7 +443,8 @@ bool RayCaster::composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origi
 
 void RayCaster::releaseGraphicsResources(vtkWindow* window)
 {
-  for (auto* image : { &this->Image, &this->Hits[0], &this->Hits[1], &this->Count, &this->Spans })
+  for (auto* image :
+    { &this->Image, &this->Hits[0].texture, &this->Hits[1].texture, &this->Count, &this->Spans })
   {
     if (*image)
     {
@@ -504,6 +452,7 @@ void RayCaster::releaseGraphicsResources(vtkWindow* window)
     }
     *image = nullptr;
   }
+  this->Area = ImageArea();
   this->SpansProgram.forget();
   this->CompositeProgram.forget();
   this->CastPrograms.clear();

@@ -5,6 +5,8 @@
 
 #include "Counters.h"
 #include "FieldChange.h"
+#include "FirstHits.h"
+#include "ImageArea.h"
 #include "Program.h"
 #include "RayCastComparison.h"
 #include "RayCastLights.h"
@@ -62,7 +64,7 @@ struct RayCastScene
   RayCastOptions options;
   RayCastComparison comparison;
   bool shaded = false;
-  bool opaqueTissue = false; // at some value a step hides what is behind, so that rays end soon
+  bool opaqueTissue = false; // at some value a step hides what is behind
   bool skipping = true;
   bool jitter = false;       // rays start at different shares of a step
   bool countSamples = false; // counters learn of samples taken and skipped; Composite only
@@ -77,6 +79,8 @@ struct RayCastScene
   vtkTextureObject* sceneDepth = nullptr;
   glm::vec2 depthFromShare{ 1.0f }; // sceneDepth's coordinates from the share of the image
   glm::vec2 depthOfShareZero{ 0.0f };
+
+  bool raysEndSoon() const { return this->opaqueTissue && this->options.blend == Blend::Composite; }
 };
 
 // What tissue.glsl and field.glsl need; the latter where the scene has offsets.
@@ -102,20 +106,25 @@ public:
   bool hitAt(vtkOpenGLRenderWindow* window, const glm::dvec2& place, glm::dvec4& hit);
 
   // What hitAt reads, texel by texel. Null if nothing was cast yet.
-  vtkTextureObject* hits() const { return this->Hits[false]; }
+  const FirstHits* hits() const { return this->castHits(false); }
 
   // The same of the last image, whole or a tile.
-  vtkTextureObject* drawnHits() const { return this->Hits[this->DrewTile]; }
+  const FirstHits* drawnHits() const { return this->castHits(this->DrewTile); }
 
   // All textures, some of which may be null.
   std::vector<vtkTextureObject*> textures() const
   {
-    return { this->Image, this->Hits[false], this->Hits[true], this->Count, this->Spans };
+    return { this->Image, this->Hits[false].texture, this->Hits[true].texture, this->Count,
+      this->Spans };
   }
 
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
+  const FirstHits* castHits(bool tile) const
+  {
+    return this->Hits[tile].texture ? &this->Hits[tile] : nullptr;
+  }
   bool prepareImages(vtkOpenGLRenderWindow* window, const RayCastScene& scene);
   bool findSpans(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters);
   void setUniforms(Program& program, const RayCastScene& scene);
@@ -124,18 +133,18 @@ private:
   void readCount(Counters& counters);
   void clearStaleHits(const RayCastScene& scene);
 
-  // What was cast last of an image: first pixel, one past the last.
+  // What was cast last of a picture: first pixel, one past the last.
   struct Part
   {
     glm::ivec2 low{ 0 };
     glm::ivec2 high{ 0 };
   };
   bool DrewTile = false;
+  ImageArea Area; // of Image, Spans and Count, and the Hits drawn last
   Part ImagePart;
   Part HitsPart[2];                        // elsewhere Hits tell of none
+  FirstHits Hits[2];                       // [tile]
   vtkSmartPointer<vtkTextureObject> Image; // colour times opacity, opacity
-  vtkSmartPointer<vtkTextureObject>
-    Hits[2];                               // [tile] first hit, mm; distance from the near plane, mm
   vtkSmartPointer<vtkTextureObject> Count; // samples taken and skipped; null unless asked for
   vtkSmartPointer<vtkTextureObject> Spans; // of a ray: share before and behind occupied bricks
   std::map<RayCastVariant, Program> CastPrograms; // those drawn with so far

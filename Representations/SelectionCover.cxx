@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SelectionCover.h"
 
+#include "FirstHits.h"
 #include "OpenGL.h"
 #include "SceneGeometry.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkRenderer.h"
-#include "vtkTextureObject.h"
 
 #include <glm/mat4x4.hpp>
 
 namespace brainshift
 {
 bool SelectionCover::draw(
-  vtkOpenGLRenderWindow* window, vtkRenderer* renderer, vtkTextureObject* hits, Counters& counters)
+  vtkOpenGLRenderWindow* window, vtkRenderer* renderer, const FirstHits& hits, Counters& counters)
 {
   if (!this->CoverProgram.use(window, coverSource(), counters))
   {
@@ -36,10 +36,14 @@ bool SelectionCover::draw(
   state->vtkglEnable(GL_DEPTH_TEST);
   state->vtkglDisable(GL_BLEND);
   state->vtkglDisable(GL_CULL_FACE);
-  this->CoverProgram.set("hits", hits);
+  this->CoverProgram.set("hits", hits.texture.Get());
+  this->CoverProgram.set("hitsFromShare", glm::vec2(hits.area.textureFromShare()));
+  this->CoverProgram.set("hitsOfShareZero", glm::vec2(hits.area.textureOfShareZero()));
+  this->CoverProgram.set("nearPlane", glm::mat3(hits.frustum.near.columns()));
+  this->CoverProgram.set("farPlane", glm::mat3(hits.frustum.far.columns()));
   this->CoverProgram.set("clipFromWorld", glm::mat4(clipFromWorld(renderer)));
   drawTriangles(1);
-  hits->Deactivate();
+  hits.texture->Deactivate();
   return true;
 }
 }

@@ -8,16 +8,16 @@
 
 class vtkOpenGLRenderWindow;
 class vtkRenderer;
-class vtkTextureObject;
 
 namespace brainshift
 {
+struct FirstHits;
+
 class SelectionCover
 {
 public:
-  // Draws over the selection's buffer and its depth. `hits`: see RayCaster. False if the shader
-  // does not compile.
-  bool draw(vtkOpenGLRenderWindow* window, vtkRenderer* renderer, vtkTextureObject* hits,
+  // Draws over the selection's buffer and its depth. False if the shader does not compile.
+  bool draw(vtkOpenGLRenderWindow* window, vtkRenderer* renderer, const FirstHits& hits,
     Counters& counters);
 
   void releaseGraphicsResources() { this->CoverProgram.forget(); }

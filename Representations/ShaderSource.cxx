@@ -62,7 +62,7 @@ namespace
 constexpr const char* Head = "//VTK::System::Dec\n";
 constexpr const char* Outputs = "//VTK::Output::Dec\n";
 // Marks functions that C++ shares; nothing in GLSL.
-constexpr const char* Shared = "#define SHARED\n#define OUT(type) out type\n";
+constexpr const char* Shared = "#define SHARED\n";
 
 // VTK declares an output for each that the source names, so that it may not name one in vain.
 constexpr const char* NotCounted =

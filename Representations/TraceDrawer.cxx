@@ -7,7 +7,6 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkShaderProgram.h"
-#include "vtkTextureObject.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
@@ -93,10 +92,23 @@ void TraceDrawer::setUniforms(Program& program, const TraceScene& scene)
   program.set("hiddenOpacity", static_cast<float>(scene.hiddenOpacity));
   program.set("origin", glm::vec2(scene.origin));
   program.set("size", glm::vec2(scene.size));
+  std::array<glm::vec2, MaxTissues> hitsFromShare;
+  std::array<glm::vec2, MaxTissues> hitsOfShareZero;
+  std::array<glm::vec3, MaxTissues> nearAhead;
+  std::array<glm::vec3, MaxTissues> farAhead;
   for (std::size_t i = 0; i < scene.hits.size(); ++i)
   {
-    program.set(("hits" + std::to_string(i)).c_str(), scene.hits[i]);
+    const FirstHits& hits = *scene.hits[i];
+    program.set(("hits" + std::to_string(i)).c_str(), hits.texture.Get());
+    hitsFromShare[i] = glm::vec2(hits.area.textureFromShare());
+    hitsOfShareZero[i] = glm::vec2(hits.area.textureOfShareZero());
+    nearAhead[i] = glm::vec3(scene.ahead * hits.frustum.near.columns());
+    farAhead[i] = glm::vec3(scene.ahead * hits.frustum.far.columns());
   }
+  program.set("hitsFromShare", hitsFromShare.data(), scene.hits.size());
+  program.set("hitsOfShareZero", hitsOfShareZero.data(), scene.hits.size());
+  program.set("nearAhead", nearAhead.data(), scene.hits.size());
+  program.set("farAhead", farAhead.data(), scene.hits.size());
 }
 
 void TraceDrawer::drawBalls(vtkOpenGLRenderWindow* window, unsigned int program, bool blended)
@@ -143,9 +155,9 @@ bool TraceDrawer::draw(vtkOpenGLRenderWindow* window, const TraceScene& scene, C
     const bool fades = tissues > 0 && scene.hiddenOpacity > 0.0 && scene.hiddenOpacity < 1.0;
     this->drawBalls(window, program.get()->GetHandle(), fades || this->Translucent);
   }
-  for (vtkTextureObject* hits : scene.hits)
+  for (const FirstHits* hits : scene.hits)
   {
-    hits->Deactivate();
+    hits->texture->Deactivate();
   }
   return true;
 }

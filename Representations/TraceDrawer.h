@@ -5,6 +5,7 @@
 #define BrainShift_TraceDrawer_h
 
 #include "Counters.h"
+#include "FirstHits.h"
 #include "Program.h"
 
 #include "vtkSmartPointer.h"
@@ -20,7 +21,6 @@
 
 class vtkOpenGLBufferObject;
 class vtkOpenGLRenderWindow;
-class vtkTextureObject;
 class vtkWindow;
 
 namespace brainshift
@@ -37,10 +37,10 @@ struct TraceScene
   glm::ivec2 size{ 1 };
   glm::dmat4 clipFromWorld{ 1.0 };
   glm::dmat4 worldFromPoint{ 1.0 };
-  glm::dvec3 ahead{ 0.0, 0.0, -1.0 };  // unit vector, the way the camera looks
-  double radius = 1.0;                 // mm
-  double hiddenOpacity = 1.0;          // share, of what lies behind tissue
-  std::vector<vtkTextureObject*> hits; // RayCaster::hits of the volumes; at most MaxTissues
+  glm::dvec3 ahead{ 0.0, 0.0, -1.0 }; // unit vector, the way the camera looks
+  double radius = 1.0;                // mm
+  double hiddenOpacity = 1.0;         // share, of what lies behind tissue
+  std::vector<const FirstHits*> hits; // of the volumes; at most MaxTissues
 };
 
 class TraceDrawer

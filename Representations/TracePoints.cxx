@@ -166,14 +166,14 @@ vtkMTimeType TracePoints::LookTime()
     input ? input->GetMTime() : 0, this->Mapper->GetLookupTable()->GetMTime() });
 }
 
-// Textures that tell where each volume's tissue is seen.
-std::vector<vtkTextureObject*> TracePoints::HitsOf(
+// Where each volume's tissue is seen.
+std::vector<const FirstHits*> TracePoints::HitsOf(
   const std::vector<vtkDeformedVolumeMapper*>& volumes, vtkWindow* window)
 {
-  std::vector<vtkTextureObject*> hits;
+  std::vector<const FirstHits*> hits;
   for (vtkDeformedVolumeMapper* volume : volumes)
   {
-    if (vtkTextureObject* drawn = volume->GetHits(window))
+    if (const FirstHits* drawn = volume->GetHits(window))
     {
       hits.push_back(drawn);
     }

@@ -18,10 +18,11 @@
 
 class vtkDeformedVolumeMapper;
 class vtkRenderer;
-class vtkTextureObject;
 
 namespace brainshift
 {
+struct FirstHits;
+
 class TracePoints : public vtkOpenGLActor
 {
 public:
@@ -49,7 +50,7 @@ private:
   struct State;
 
   bool Draw(vtkRenderer* renderer, const std::vector<vtkDeformedVolumeMapper*>& volumes);
-  std::vector<vtkTextureObject*> HitsOf(
+  std::vector<const FirstHits*> HitsOf(
     const std::vector<vtkDeformedVolumeMapper*>& volumes, vtkWindow* window);
   int DrawSelection(vtkRenderer* renderer);
   vtkMTimeType LookTime();

@@ -123,7 +123,7 @@ void vtkDeformedVolumeMapper::CoverSelection(vtkRenderer* renderer)
   {
     return;
   }
-  if (!device->Cover.draw(window, renderer, device->Caster.hits(), this->Internal->Count))
+  if (!device->Cover.draw(window, renderer, *device->Caster.hits(), this->Internal->Count))
   {
     vtkErrorMacro("The selection's shader does not compile. Selections reach through the volume.");
   }
@@ -436,7 +436,7 @@ bool vtkDeformedVolumeMapper::Pick(vtkRenderer* renderer, int x, int y, double p
   return true;
 }
 
-vtkTextureObject* vtkDeformedVolumeMapper::GetHits(vtkWindow* window)
+const FirstHits* vtkDeformedVolumeMapper::GetHits(vtkWindow* window)
 {
   Device* device = this->Internal->Devices.find(window);
   return device ? device->Caster.drawnHits() : nullptr;

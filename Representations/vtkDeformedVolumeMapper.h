@@ -33,11 +33,11 @@
 class vtkDataArray;
 class vtkImageData;
 class vtkOpenGLRenderWindow;
-class vtkTextureObject;
 class vtkVolumeProperty;
 namespace brainshift
 {
 struct Counters;
+struct FirstHits;
 struct Grid;
 struct RayCastScene;
 struct SceneReference;
@@ -164,10 +164,9 @@ public:
   bool Pick(vtkRenderer* renderer, int x, int y, double position[3]);
 
   /**
-   * First hits (mm, world; distance from the near plane, mm, below 0: none) of the last picture in
-   * a window, whole or a tile. Null if there is none.
+   * First hits of the last picture in a window, whole or a tile. Null if there is none.
    */
-  vtkTextureObject* GetHits(vtkWindow* window);
+  const brainshift::FirstHits* GetHits(vtkWindow* window);
 
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;

@@ -1,10 +1,12 @@
 // Lays the ray caster's image over the scene; blending does the rest.
 
-uniform sampler2D image;    // colour times opacity, opacity
-uniform vec2 origin;        // the image's lower left pixel in the window
-uniform vec2 shareOfPixel;  // of the image's sides
+uniform sampler2D image;       // colour times opacity, opacity
+uniform vec2 origin;           // the picture's lower left pixel in the window
+uniform vec2 textureFromPixel; // the image's coordinates from pixels of the picture: scale, shift
+uniform vec2 textureOfOrigin;
 
 void main()
 {
-  gl_FragData[0] = textureLod(image, (gl_FragCoord.xy - origin) * shareOfPixel, 0.0);
+  vec2 place = (gl_FragCoord.xy - origin) * textureFromPixel + textureOfOrigin;
+  gl_FragData[0] = textureLod(image, place, 0.0);
 }

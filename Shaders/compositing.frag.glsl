@@ -5,7 +5,7 @@ void main()
   if (!CountsSamples && meetsNothing())
   {
     gl_FragData[0] = vec4(0.0);
-    gl_FragData[1] = vec4(0.0, 0.0, 0.0, -1.0);
+    gl_FragData[1] = NoHit;
     return;
   }
   Path path = pathOf(rayOfPixel(ndc));
@@ -38,8 +38,5 @@ void main()
   float all = ceil((path.span.y - path.span.x) / stepMm);
   countSamples(taken, max((seen.picture.a > OpaqueEnough ? i : all) - taken, 0.0));
   gl_FragData[0] = seen.picture;
-  gl_FragData[1] = seen.hit < 0.0
-    ? vec4(0.0, 0.0, 0.0, -1.0)
-    : vec4(worldFromDeformed(path.deformed.first + seen.hit * path.deformed.stride),
-        path.span.x + seen.hit * stepMm);
+  gl_FragData[1] = seen.hit < 0.0 ? NoHit : hitAt(path.span.x + seen.hit * stepMm);
 }

@@ -58,10 +58,11 @@ Seen nothingYet()
   return Seen(vec4(0.0), -1.0, -2.0, 0.0, false);
 }
 
-// A sample's colour times opacity, and opacity; the surface is taken to lie half a step before it.
-void see(inout Seen seen, vec4 shown, float number)
+// A sample's colour times opacity, and opacity; `surface`: number of the sample where a surface lies
+// if this one hides enough to make one.
+void see(inout Seen seen, vec4 shown, float surface)
 {
   seen.picture += seen.picture.a > OpaqueEnough ? vec4(0.0) : (1.0 - seen.picture.a) * shown;
   bool hit = seen.hit < 0.0 && seen.picture.a >= HitOpacity;
-  seen.hit = hit ? max(number - 0.5, 0.0) : seen.hit;
+  seen.hit = hit ? max(surface, 0.0) : seen.hit;
 }

@@ -2,17 +2,22 @@
 
 in vec2 ndc;
 
-uniform sampler2D hits;     // first hit, mm (world); distance from the near plane, mm; below 0: none
+uniform sampler2D hits;     // first hit, share of the way from plane to plane; below 0: none
+uniform vec2 hitsFromShare; // their texture coordinates from the share of the picture: scale, shift
+uniform vec2 hitsOfShareZero;
+uniform mat3 nearPlane;     // of the picture, mm (world): times (1, ndc)
+uniform mat3 farPlane;
 uniform mat4 clipFromWorld; // of the camera
 
 void main()
 {
-  vec4 hit = textureLod(hits, 0.5 * ndc + 0.5, 0.0);
-  if (hit.w < 0.0)
+  float hit = textureLod(hits, (0.5 * ndc + 0.5) * hitsFromShare + hitsOfShareZero, 0.0).r;
+  if (hit < 0.0)
   {
     discard;
   }
-  vec4 clip = clipFromWorld * vec4(hit.xyz, 1.0);
+  vec3 place = vec3(1.0, ndc);
+  vec4 clip = clipFromWorld * vec4(mix(nearPlane * place, farPlane * place, hit), 1.0);
   gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;
   gl_FragData[0] = vec4(0.0); // to a selection, the background
 }

@@ -62,7 +62,5 @@ vec3 shadeAlone(March march, vec3 color, vec3 deformed, vec3 rest)
 // The second target: where a surface was hit; `number` below 0: nowhere.
 vec4 hitAt(March march, float number)
 {
-  return number < 0.0
-    ? vec4(0.0, 0.0, 0.0, -1.0)
-    : vec4(worldFromDeformed(deformedAt(march, number)), march.span.x + number * stepMm);
+  return number < 0.0 ? NoHit : hitAt(march.span.x + number * stepMm);
 }

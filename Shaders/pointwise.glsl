@@ -42,8 +42,8 @@ bool takeTwo(Path path, TissueTable table, mat3 turn, float i, inout Seen seen)
     Shine oneShine = shineAt(oneDeformed, oneRest, slopes, turn, path.towardsEye);
     Shine twoShine = shineAt(twoDeformed, twoRest, slopes, turn, path.towardsEye);
 #endif
-    see(seen, shown(one, oneRest, oneShine), i);
-    see(seen, shown(two, twoRest, twoShine), i + 1.0);
+    see(seen, shown(one, oneRest, oneShine), i - 0.5);
+    see(seen, shown(two, twoRest, twoShine), i + 0.5);
   }
   return visible;
 }

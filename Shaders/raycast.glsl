@@ -1,8 +1,12 @@
 // Draws the deformed volume: the paper's ray caster (section 2). A ray runs straight through the
 // deformed frame; every sample looks its tissue up at the rest position it came from. Targets:
-// picture, and position of the first hit (mm, world) with its distance from the near plane (mm).
+// picture, and where the first hit lies on the ray.
 
-in vec2 ndc;
+uniform vec2 firstPixel;   // of the picture, that the images hold
+uniform vec2 ndcFromPixel; // of the picture
+
+// From whole pixels, so that a ray is the same to the last bit whatever part of it the images hold.
+vec2 ndc = (gl_FragCoord.xy + firstPixel) * ndcFromPixel - 1.0;
 
 uniform vec3 spaceLow;  // the part of the deformed frame that tissue can reach, texture coordinates
 uniform vec3 spaceHigh;
@@ -13,6 +17,7 @@ uniform vec3 worldOfTextureZero; // mm
 
 const float OpaqueEnough = 254.0 / 255.0; // what is behind would change less than one 8-bit level
 const float HitOpacity = 0.5;             // where this much is reached, the eye sees a surface
+const vec4 NoHit = vec4(-1.0);
 
 // Where in its first step a pixel's ray starts: 16 shares, ordered so that neighbours differ most
 // (Bayer, 1973).
@@ -32,6 +37,13 @@ float evenBelow(float number)
 vec3 worldFromDeformed(vec3 deformed)
 {
   return worldFromTexture * deformed + worldOfTextureZero;
+}
+
+// The second target, of a hit at t: the share of the way from the near to the far plane. Whoever
+// wants its position knows the planes.
+vec4 hitAt(float t)
+{
+  return vec4(t / rayOfPixel(ndc).lengthMm);
 }
 
 // What light does at a position. `slopes`: of the offsets near it; `turn`: worldFromGradient.

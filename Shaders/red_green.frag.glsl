@@ -98,7 +98,5 @@ void main()
   countSamples(taken, max(min(i, all) - taken, 0.0));
   gl_FragData[0] = vec4(seen.light, max(seen.own.opacity, seen.other.opacity));
   float hit = seen.own.hit;
-  gl_FragData[1] = hit < 0.0
-    ? vec4(0.0, 0.0, 0.0, -1.0)
-    : vec4(worldFromDeformed(positionOf(path.deformed, hit)), path.span.x + hit * stepMm);
+  gl_FragData[1] = hit < 0.0 ? NoHit : hitAt(path.span.x + hit * stepMm);
 }

@@ -6,11 +6,12 @@ uniform vec3 coarseTexel; // one control point, or node, texture coordinates
 uniform vec3 axis;        // unit vector
 uniform float points;     // control points along the axis
 uniform float perCell;    // nodes for each lattice cell
+uniform vec3 firstNode;   // of the lattice's nodes, the first of the target, where it counts nodes
 uniform mat4 weights;     // of the four control points, from the powers 0 to 3 of the place in a cell
 
 #ifdef MASKED
 uniform sampler3D maskWeights; // share of the displacement that holds at each node
-uniform vec3 nodeTexel;        // one node, texture coordinates
+uniform vec3 maskTexel;        // one node, texture coordinates
 #endif
 
 // The control point, or node, of number `along` on the axis; the last ones repeat.
@@ -24,14 +25,14 @@ void main()
 {
   vec3 texel = targetTexel();
   vec3 across = (texel + 0.5) * (1.0 - axis) * coarseTexel;
-  float node = dot(texel, axis);
+  float node = dot(texel + firstNode, axis);
   float cell = floor((node + 0.5) / perCell);
   float t = (node - cell * perCell) / perCell;
   vec4 weight = weights * vec4(1.0, t, t * t, t * t * t);
   vec3 sum = weight.x * coarseAt(across, cell - 1.0) + weight.y * coarseAt(across, cell) +
     weight.z * coarseAt(across, cell + 1.0) + weight.w * coarseAt(across, cell + 2.0);
 #ifdef MASKED
-  sum *= textureLod(maskWeights, (texel + 0.5) * nodeTexel, 0.0).x;
+  sum *= textureLod(maskWeights, (texel + firstNode + 0.5) * maskTexel, 0.0).x;
 #endif
   gl_FragData[0] = vec4(sum, 0.0);
 }

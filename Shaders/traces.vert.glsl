@@ -18,14 +18,23 @@ flat out vec3 ballPlace; // middle in the window, pixels; share of the radius fo
 
 const float LeastRadius = 1.5; // pixels; smaller balls are lost to the eye
 
-bool isBehind(sampler2D hits, vec2 share, float depth)
+#if TISSUES > 0
+uniform vec3 nearAhead[TISSUES]; // of each volume's picture: mm ahead on its near plane, and on
+uniform vec3 farAhead[TISSUES];  // its far plane, times (1, ndc)
+uniform vec2 hitsFromShare[TISSUES];   // texture coordinates of its first hits from the share of
+uniform vec2 hitsOfShareZero[TISSUES]; // the picture: scale and shift
+
+// Whether a first hit, a share of the way from plane to plane or below 0, lies before `depth`.
+bool isBehind(int tissue, sampler2D hits, vec2 share, float depth)
 {
-  vec4 hit = textureLod(hits, share, 0.0); // first hit, mm (world); below 0: none
-  return hit.w >= 0.0 && dot(ahead, hit.xyz) < depth;
+  vec2 place = share * hitsFromShare[tissue] + hitsOfShareZero[tissue];
+  float hit = textureLod(hits, place, 0.0).r;
+  vec3 onPlane = vec3(1.0, 2.0 * share - 1.0);
+  float hitDepth = mix(dot(nearAhead[tissue], onPlane), dot(farAhead[tissue], onPlane), hit);
+  return hit >= 0.0 && hitDepth < depth;
 }
 
-#if TISSUES > 0
-uniform sampler2D hits0; // of each volume
+uniform sampler2D hits0; // first hits of each volume
 #endif
 #if TISSUES > 1
 uniform sampler2D hits1;
@@ -42,16 +51,16 @@ bool isHidden(vec2 share, float depth)
 {
   bool hidden = false;
 #if TISSUES > 0
-  hidden = isBehind(hits0, share, depth);
+  hidden = isBehind(0, hits0, share, depth);
 #endif
 #if TISSUES > 1
-  hidden = hidden || isBehind(hits1, share, depth);
+  hidden = hidden || isBehind(1, hits1, share, depth);
 #endif
 #if TISSUES > 2
-  hidden = hidden || isBehind(hits2, share, depth);
+  hidden = hidden || isBehind(2, hits2, share, depth);
 #endif
 #if TISSUES > 3
-  hidden = hidden || isBehind(hits3, share, depth);
+  hidden = hidden || isBehind(3, hits3, share, depth);
 #endif
   return hidden;
 }

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -38,6 +39,30 @@ std::vector<glm::vec3> download(vtkTextureObject* texture)
     values.emplace_back(texels[i], texels[i + 1], texels[i + 2]);
   }
   return values;
+}
+
+// Displacements on all nodes of the lattice: zero where the field holds none.
+std::vector<glm::vec3> displacementsOf(const FieldTexture& field, const FieldNodes& nodes)
+{
+  std::vector<glm::vec3> all(std::size_t(nodes.count.x) * nodes.count.y * nodes.count.z);
+  if (!field.displacements())
+  {
+    return all;
+  }
+  const IndexBox& box = field.displacedNodes();
+  std::size_t texel = 0;
+  const std::vector<glm::vec3> texels = download(field.displacements());
+  for (int k = box.first.z; k <= box.last.z; ++k)
+  {
+    for (int j = box.first.y; j <= box.last.y; ++j)
+    {
+      for (int i = box.first.x; i <= box.last.x; ++i, ++texel)
+      {
+        all[(std::size_t(k) * nodes.count.y + j) * nodes.count.x + i] = texels.at(texel);
+      }
+    }
+  }
+  return all;
 }
 
 float largest(const std::vector<glm::vec3>& values)
@@ -107,7 +132,7 @@ TEST_P(FieldTextureTest, RefinesLikeTheCPU)
   const FieldRequest request = requestFor(this->Bent, this->Samples, Inverse::Exact);
   ASSERT_TRUE(this->Field.update(this->Shown.window(), request, this->Count));
   const NodeField known = this->refined();
-  EXPECT_LT(largestDifference(download(this->Field.displacements()), known.values),
+  EXPECT_LT(largestDifference(displacementsOf(this->Field, known.nodes), known.values),
     1e-5f * largest(known.values));
 }
 
@@ -176,7 +201,7 @@ TEST_P(FieldTextureTest, MasksLikeTheCPU)
     const FieldRequest request = requestFor(this->Bent, this->Samples, Inverse::Exact);
     ASSERT_TRUE(this->Field.update(this->Shown.window(), request, this->Count));
     const NodeField known = refine(this->Bent, this->Samples);
-    EXPECT_LT(largestDifference(download(this->Field.displacements()), known.values),
+    EXPECT_LT(largestDifference(displacementsOf(this->Field, known.nodes), known.values),
       1e-5f * std::max(largest(known.values), 1.0f))
       << radius;
     EXPECT_LT(largestDifference(download(this->Field.offsets()),
@@ -228,7 +253,7 @@ TEST(FieldTexture, MakesWhatMovesAnewForOtherSettings)
     ASSERT_TRUE(field.update(shown.window(), request, count)) << what;
     const NodeField known = refine(lattice.grid, request.kernel, request.inCells, request.samples);
     const float large = largest(known.values);
-    EXPECT_LT(largestDifference(download(field.displacements()), known.values), 1e-5f * large)
+    EXPECT_LT(largestDifference(displacementsOf(field, known.nodes), known.values), 1e-5f * large)
       << what;
     EXPECT_LT(largestDifference(
                 download(field.offsets()), invert(known, request.nodes, request.inverse).values),
@@ -252,4 +277,39 @@ TEST(FieldTexture, MakesWhatMovesAnewForOtherSettings)
   request.inCells.assign(request.inCells.size(), glm::vec3(0.0f));
   ASSERT_TRUE(field.update(shown.window(), request, count));
   EXPECT_EQ(largest(download(field.offsets())), 0.0f);
+}
+
+// Displacements are held around what moves, wherever that goes, and are right there.
+TEST(FieldTexture, HoldsDisplacementsWhereTissueMoves)
+{
+  TestWindow shown;
+  FieldTexture field;
+  Counters count;
+  Lattice lattice = makeLattice(obliqueGrid(glm::ivec3(14)), KernelCatmullRom);
+  const FieldRequest still = requestFor(lattice, 4, Inverse::Exact);
+  const auto nodesHeld = [&](std::initializer_list<glm::ivec3> movedPoints) {
+    FieldRequest request = still;
+    for (const glm::ivec3& point : movedPoints)
+    {
+      request.inCells[(point.z * 14 + point.y) * 14 + point.x] = { 0.2f, -0.15f, 0.1f };
+    }
+    EXPECT_TRUE(field.update(shown.window(), request, count));
+    const NodeField known = refine(lattice.grid, lattice.kernel, request.inCells, 4);
+    EXPECT_LT(largestDifference(displacementsOf(field, known.nodes), known.values), 1e-6f);
+    EXPECT_LT(largestDifference(
+                download(field.offsets()), invert(known, request.nodes, Inverse::Exact).values),
+      1e-4f);
+    const glm::ivec3 held = field.displacedNodes().size();
+    return held.x * held.y * held.z;
+  };
+  EXPECT_EQ(nodesHeld({}), 0);
+  const int around = 4 * 5 + 1; // nodes a side that a control point moves
+  EXPECT_EQ(nodesHeld({ { 4, 4, 4 } }), around * around * around);
+  EXPECT_EQ(nodesHeld({ { 4, 4, 4 }, { 5, 4, 4 } }), (around + 5) * around * around);
+  EXPECT_EQ(nodesHeld({ { 5, 4, 4 } }), (around + 5) * around * around) << "little to spare: kept";
+  const int apart = around + 5 * 5;
+  EXPECT_EQ(nodesHeld({ { 4, 4, 4 }, { 9, 9, 9 } }), apart * apart * apart);
+  EXPECT_EQ(nodesHeld({ { 9, 9, 9 } }), around * around * around) << "much to spare: made anew";
+  EXPECT_EQ(nodesHeld({}), around * around * around) << "zeros";
+  EXPECT_EQ(nodesHeld({ { 13, 0, 9 } }), 11 * 11 * around) << "at the lattice's end";
 }

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that a volume for which the GPU's memory does not suffice is told, with what it needs and
 # what there is, and drawn by VTK's software mapper; and is drawn by ours again when there is more.
+# That images take memory only for the part of the picture that the volume is seen in.
 import re
 
 import numpy
@@ -35,7 +36,7 @@ def test_a_limit_is_told_and_kept():
     assert_says(said.text, "Memory Limit allows 2.5 MiB", "software mapper", "undeformed")
     total, each = parts(said.text)
     expected = {"scalars": 49 ** 3 * 4 / 2 ** 20, "gradients": 49 ** 3 * 4 / 2 ** 20, "colours": 0,
-                "images": 200 * 200 * 28 / 2 ** 20}
+                "images": 200 * 200 * 16 / 2 ** 20}
     for name, size in expected.items():
         assert abs(each[name] - size) < 0.06, (name, each, size)
     assert each["offset field"] >= 2 * 91 ** 3 * 16 / 2 ** 20 - 1, each
@@ -50,6 +51,31 @@ def test_a_limit_is_told_and_kept():
         again = picture(view)
     assert "MiB" not in said.text, said.text
     assert numpy.array_equal(again, deformed)
+
+
+def test_images_hold_what_can_be_seen():
+    """Where the volume is a small part of the picture: same picture, same picks, less memory."""
+    size = 400
+    view, display = shown(view_size=size)
+    picture(view)
+    near = brainshift.gpu(display)["gpuOtherBytes"]
+    view.CameraParallelProjection = 1
+    view.CameraParallelScale = 200.0
+    small = picture(view)
+    far = brainshift.gpu(display)["gpuOtherBytes"]
+    assert near - far > 0.4 * 12 * size ** 2, (near, far)
+    assert brainshift.gpu(display)["gpuOtherBytes"] == far
+    places = [(column, row) for column in range(160, 240, 4) for row in range(160, 240, 4)]
+    picked = [brainshift.pick(display, view, *place) for place in places]
+    assert sum(hit is not None for hit in picked) > 10, picked
+    assert brainshift.pick(display, view, 5, 5) is None
+    display.EmptySpaceSkipping = 0  # all of the picture is cast
+    assert numpy.array_equal(picture(view), small)
+    assert brainshift.gpu(display)["gpuOtherBytes"] > far + 0.7 * 12 * size ** 2
+    for place, hit in zip(places, picked):
+        again = brainshift.pick(display, view, *place)
+        assert (hit is None) == (again is None), place
+        assert hit is None or numpy.array_equal(hit, again), (place, hit, again)
 
 
 def test_what_is_not_kept_is_not_counted():

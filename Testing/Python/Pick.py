@@ -84,6 +84,19 @@ def test_a_moved_ball():
         assert len(misses) > 30 and max(misses) < HALF_A_VOXEL, (what, max(misses))
 
 
+def test_a_camera_that_moved_on():
+    """A pick is of the picture that is seen, not of the one that the camera would see now."""
+    _, view, display = shown(())
+    asked = [pixel for pixel in pixels(8) if brainshift.pick(display, view, *pixel) is not None]
+    seen = [brainshift.pick(display, view, *pixel) for pixel in asked]
+    camera = view.GetActiveCamera()
+    camera.Azimuth(40)
+    camera.Zoom(1.5)
+    camera.SetClippingRange(1, 500)
+    assert len(asked) > 30
+    assert numpy.array_equal(seen, [brainshift.pick(display, view, *pixel) for pixel in asked])
+
+
 def marched(intensity, start, direction):
     """Where the intensity (voxels [z, y, x], linear between them) first reaches 50; or None."""
     t = numpy.arange(DISTANCE - 30, DISTANCE + 30, 0.02)
