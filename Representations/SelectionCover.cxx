@@ -4,6 +4,8 @@
 #include "OpenGL.h"
 #include "SceneGeometry.h"
 
+#include "vtkDataObject.h"
+#include "vtkHardwareSelector.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkRenderer.h"
@@ -13,6 +15,12 @@
 
 namespace brainshift
 {
+bool selectsPoints(vtkRenderer* renderer)
+{
+  vtkHardwareSelector* selector = renderer->GetSelector();
+  return selector && selector->GetFieldAssociation() == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+}
+
 bool SelectionCover::draw(
   vtkOpenGLRenderWindow* window, vtkRenderer* renderer, vtkTextureObject* hits, Counters& counters)
 {
@@ -25,12 +33,14 @@ bool SelectionCover::draw(
   renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &origin[0], &origin[1]);
   vtkOpenGLState* state = window->GetState();
   vtkOpenGLState::ScopedglViewport viewport(state);
+  vtkOpenGLState::ScopedglScissor scissor(state);
   vtkOpenGLState::ScopedglDepthMask depthMask(state);
   vtkOpenGLState::ScopedglDepthFunc depthFunction(state);
   vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
   vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
   vtkOpenGLState::ScopedglEnableDisable cull(state, GL_CULL_FACE);
   state->vtkglViewport(origin[0], origin[1], size[0], size[1]);
+  state->vtkglScissor(origin[0], origin[1], size[0], size[1]);
   state->vtkglDepthMask(GL_TRUE);
   state->vtkglDepthFunc(GL_LEQUAL);
   state->vtkglEnable(GL_DEPTH_TEST);

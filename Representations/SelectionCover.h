@@ -12,6 +12,9 @@ class vtkTextureObject;
 
 namespace brainshift
 {
+// Whether a renderer draws a selection of points, and not one of cells or nothing of the kind.
+bool selectsPoints(vtkRenderer* renderer);
+
 class SelectionCover
 {
 public:

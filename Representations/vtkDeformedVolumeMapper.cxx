@@ -104,7 +104,10 @@ void vtkDeformedVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
   std::string problem;
   if (renderer->GetSelector())
   {
-    this->CoverSelection(renderer);
+    if (!selectsPoints(renderer))
+    {
+      this->CoverSelection(renderer);
+    }
   }
   else if (!this->Draw(renderer, volume, problem))
   {
@@ -114,7 +117,6 @@ void vtkDeformedVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
   this->TimeToDraw = timer->GetElapsedTime();
 }
 
-// What the last picture shows hides what is behind it; the volume itself cannot be selected.
 void vtkDeformedVolumeMapper::CoverSelection(vtkRenderer* renderer)
 {
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
