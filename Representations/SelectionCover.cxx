@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SelectionCover.h"
 
-#include "OpenGL.h"
 #include "SceneGeometry.h"
+#include "SceneScope.h"
 
 #include "vtkDataObject.h"
 #include "vtkHardwareSelector.h"
@@ -32,20 +32,10 @@ bool SelectionCover::draw(
   int origin[2];
   renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &origin[0], &origin[1]);
   vtkOpenGLState* state = window->GetState();
-  vtkOpenGLState::ScopedglViewport viewport(state);
-  vtkOpenGLState::ScopedglScissor scissor(state);
-  vtkOpenGLState::ScopedglDepthMask depthMask(state);
-  vtkOpenGLState::ScopedglDepthFunc depthFunction(state);
-  vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
-  vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
-  vtkOpenGLState::ScopedglEnableDisable cull(state, GL_CULL_FACE);
+  constexpr bool blended = false;
+  const SceneScope scope(state, blended);
   state->vtkglViewport(origin[0], origin[1], size[0], size[1]);
   state->vtkglScissor(origin[0], origin[1], size[0], size[1]);
-  state->vtkglDepthMask(GL_TRUE);
-  state->vtkglDepthFunc(GL_LEQUAL);
-  state->vtkglEnable(GL_DEPTH_TEST);
-  state->vtkglDisable(GL_BLEND);
-  state->vtkglDisable(GL_CULL_FACE);
   this->CoverProgram.set("hits", hits);
   this->CoverProgram.set("clipFromWorld", glm::mat4(clipFromWorld(renderer)));
   drawTriangles(1);

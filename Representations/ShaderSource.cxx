@@ -44,6 +44,7 @@
 #include "shader_slices_vert.h"
 #include "shader_tissue.h"
 #include "shader_traces_frag.h"
+#include "shader_traces_over_frag.h"
 #include "shader_traces_vert.h"
 #include "shader_volume_pass.h"
 #include "shader_volume_pass_geom.h"
@@ -226,13 +227,20 @@ ShaderSource tracesSource(int tissues)
     "", assemble({ Outputs, shader_traces_frag }) };
 }
 
+ShaderSource tracesOverSource()
+{
+  return { assemble({ shader_fullscreen_vert }), "",
+    assemble({ Outputs, shader_traces_over_frag }) };
+}
+
 std::vector<std::pair<std::string, ShaderSource>> allSources()
 {
   std::vector<std::pair<std::string, ShaderSource>> sources{ { "refine", refineSource(false) },
     { "refine_masked", refineSource(true) }, { "invert", invertSource() },
     { "normals", normalsSource() }, { "blocks", blocksSource() },
     { "presence_rest", presenceSource(false) }, { "presence_deformed", presenceSource(true) },
-    { "proxy", proxySource() }, { "composite", compositeSource() }, { "cover", coverSource() } };
+    { "proxy", proxySource() }, { "composite", compositeSource() }, { "cover", coverSource() },
+    { "traces_over", tracesOverSource() } };
   const auto add = [&](const RayCastVariant& variant) {
     sources.emplace_back(nameOf(variant), rayCastSource(variant));
   };
