@@ -4,7 +4,6 @@
 #include "Program.h"
 #include "SliceGeometry.h"
 
-#include "vtkDataArray.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkTextureObject.h"
@@ -37,12 +36,13 @@ glm::dvec3 mmFromTexture(const Grid& grid, const ValueLayout& layout)
 {
   return grid.spacing / layout.textureFromGrid;
 }
-}
 
-glm::dvec2 shareFromStored(const glm::dvec2& shown, const StoredScalar& stored)
+// Share of what is shown (its ends) from what a texture stores: scale, shift.
+glm::dvec2 shareFromStored(const glm::dvec2& shown, const StoredScalar& value)
 {
   const double length = shown.y > shown.x ? shown.y - shown.x : 1.0;
-  return { stored.scale / length, (stored.shift - shown.x) / length };
+  return { value.scale / length, (value.shift - shown.x) / length };
+}
 }
 
 std::array<WipePlane, 3> wipePlanes(
@@ -83,20 +83,18 @@ bool ReferenceTextures::update(vtkOpenGLRenderWindow* window, const ReferenceVol
     return false;
   }
   setNearest(this->Voxels.texture(), volume.nearest);
-  const double* whole = reference.voxels->GetRange(FirstComponent);
-  const glm::dvec2 shown =
-    choice.shownRange.x < choice.shownRange.y ? choice.shownRange : glm::dvec2(whole[0], whole[1]);
   scene.scalars = this->Voxels.texture();
   scene.referenceFromTexture =
     textureFromTexture(reference.grid, layout, volume.grid, volume.layout);
   scene.voxels = layout.dimensions;
   scene.low = layout.low;
   scene.high = layout.high;
-  scene.shareFromReference = shareFromStored(shown, { this->Voxels.scale(), this->Voxels.shift() });
-  scene.shareFromScalar = volume.shareFromStored;
-  const double scale = volume.transferFromStored.x / volume.shareFromStored.x;
+  scene.shareFromReference = shareFromStored(volume.shownRange,
+    mappedFurther({ this->Voxels.scale(), this->Voxels.shift() }, volume.valueFromReference));
+  scene.shareFromScalar = shareFromStored(volume.shownRange, volume.valueFromStored);
+  const double scale = volume.transferFromStored.x / scene.shareFromScalar.x;
   scene.transferFromShare = { scale,
-    volume.transferFromStored.y - volume.shareFromStored.y * scale };
+    volume.transferFromStored.y - scene.shareFromScalar.y * scale };
   scene.comparison = reference.show == ReferenceShow::Reference ? 0 : choice.comparison;
   scene.checkersFromTexture = mmFromTexture(volume.grid, volume.layout) / choice.checkerSizeMm;
   scene.greenFromGradient =

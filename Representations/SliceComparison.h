@@ -31,23 +31,21 @@ struct ComparisonChoice
 {
   int comparison = 0;             // as numbered there
   double checkerSizeMm = 1.0;     // of a field
-  glm::dvec2 shownRange{ 0.0 };   // scalars of the reference that are black and white
-  double fullGradient = 1.0;      // share of the shown range within a mm that is fully green
+  double fullGradient = 1.0;      // share of what is shown within a mm that is fully green
   glm::dvec3 wipePosition{ 0.0 }; // mm, world
 };
 
-// How the volume's scalars and texture lie to the world, and its scalars to what is shown.
+// How the volume's scalars and texture lie to the world, and the scalars of both to what is shown.
 struct ComparedVolume
 {
   Grid grid;
   ValueLayout layout;
-  glm::dvec2 shareFromStored{ 1.0, 0.0 };    // of the range that is shown: scale, shift
+  glm::dvec2 shownRange{ 0.0, 1.0 };         // the volume's values that are black and white
+  StoredScalar valueFromStored;              // of the volume
+  StoredScalar valueFromReference;           // as in 3D: see SceneReference.h
   glm::dvec2 transferFromStored{ 1.0, 0.0 }; // coordinate of the colour map
   bool nearest = false;                      // filter of both
 };
-
-// What the share of a range is, from what a texture stores: scale, shift. `shown`: its ends.
-glm::dvec2 shareFromStored(const glm::dvec2& shown, const StoredScalar& stored);
 
 // A plane that divides a slice: mm beyond it from texture coordinates, on the reference's side.
 struct WipePlane

@@ -6,6 +6,7 @@
 #include "ReferenceVolume.h"
 #include "SceneDeformation.h"
 #include "SceneGeometry.h"
+#include "SceneReference.h"
 #include "SliceComparison.h"
 #include "SliceDrawer.h"
 #include "SlicePick.h"
@@ -197,12 +198,12 @@ bool vtkDeformedSlicesMapper::DescribeReference(vtkOpenGLRenderWindow* window, D
   ComparisonChoice choice;
   choice.comparison = this->Comparison;
   choice.checkerSizeMm = this->CheckerSize;
-  choice.shownRange = { this->ReferenceRange[0], this->ReferenceRange[1] };
   choice.fullGradient = this->FullGradient;
   choice.wipePosition = { this->WipePosition[0], this->WipePosition[1], this->WipePosition[2] };
   const double* range = tissue.property->GetRGBTransferFunction()->GetRange();
-  const ComparedVolume volume{ grid, tissue.layout,
-    shareFromStored({ range[0], range[1] }, device.Tissue.stored()),
+  const ComparedVolume volume{ grid, tissue.layout, { range[0], range[1] }, device.Tissue.stored(),
+    valueFromReference(
+      reference.voxels, tissue, { this->ReferenceRange[0], this->ReferenceRange[1] }),
     scene.volume.transferFromScalar, tissue.nearest };
   return device.Reference.update(
     window, reference, choice, volume, scene.reference, this->Internal->Count, problem);
