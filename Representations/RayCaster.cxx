@@ -298,7 +298,7 @@ RayCastVariant variantOf(const RayCastScene& scene)
                                 : RayCastVariant::GradientTexture;
   variant.blend = scene.options.blend;
   variant.compared = scene.comparison.reference != nullptr;
-  variant.cavity = variant.compared && scene.comparison.cavity;
+  variant.cavity = variant.compared && scene.comparison.cavity.voxels;
   variant.coloring = variant.compared ? Coloring::Mapped : scene.options.coloring;
   variant.regions = scene.options.regions;
   variant.segmented = scene.options.segment != nullptr;
@@ -313,7 +313,7 @@ void deactivate(const RayCastScene& scene)
 {
   for (vtkTextureObject* texture : { scene.scalars, scene.offsets, scene.normals, scene.transfer,
          scene.sceneDepth, scene.options.colors, scene.options.colorScalars, scene.options.segment,
-         scene.presence->leaps(), scene.comparison.cavity })
+         scene.presence->leaps(), scene.comparison.cavity.voxels })
   {
     if (texture)
     {

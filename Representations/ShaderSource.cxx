@@ -8,6 +8,7 @@
 #include "shader_blocks_frag.h"
 #include "shader_both_paths.h"
 #include "shader_bricks.h"
+#include "shader_cavity.h"
 #include "shader_clipping.h"
 #include "shader_comparison.h"
 #include "shader_components.h"
@@ -96,7 +97,7 @@ std::string loopSource(const RayCastVariant& variant)
 {
   if (variant.compared)
   {
-    return std::string(shader_reference) + shader_layers + shader_both_paths +
+    return std::string(shader_cavity) + shader_reference + shader_layers + shader_both_paths +
       shader_red_green_frag;
   }
   switch (variant.blend)
@@ -217,8 +218,9 @@ ShaderSource slicesSource(const SlicesVariant& variant)
     coloringDefine(variant.coloring) + (variant.compared ? "#define COMPARED\n" : "") +
     (variant.cavity ? "#define CAVITY\n" : "");
   return { assemble({ shader_slices_vert }), "",
-    assemble({ Outputs, defines, shader_rays, shader_field, shader_gradient, shader_segment,
-      shader_tissue, shader_components, shader_cubic, shader_comparison, shader_slices_frag }) };
+    assemble(
+      { Outputs, defines, shader_rays, shader_field, shader_gradient, shader_segment, shader_tissue,
+        shader_components, shader_cubic, shader_cavity, shader_comparison, shader_slices_frag }) };
 }
 
 ShaderSource tracesSource(int tissues)

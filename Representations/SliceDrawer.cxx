@@ -38,7 +38,7 @@ bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, C
 {
   const RayCastScene& volume = scene.volume;
   const SlicesVariant variant{ volume.offsets != nullptr, volume.options.coloring,
-    scene.reference.scalars != nullptr, scene.reference.cavity != nullptr };
+    scene.reference.place.scalars != nullptr, scene.reference.cavity.voxels != nullptr };
   Program& program = this->Programs[variant];
   if (!program.use(window, slicesSource(variant), counters))
   {
@@ -71,7 +71,7 @@ bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, C
   }
   for (vtkTextureObject* texture :
     { volume.scalars, volume.offsets, volume.transfer, volume.options.colors,
-      volume.options.colorScalars, scene.reference.scalars, scene.reference.cavity })
+      volume.options.colorScalars, scene.reference.place.scalars, scene.reference.cavity.voxels })
   {
     if (texture)
     {
