@@ -30,8 +30,9 @@ bool CavityTexture::update(vtkOpenGLRenderWindow* window, const PlacedVoxels& ca
     return false;
   }
   placed.voxels = this->Voxels.texture();
-  placed.voxels->SetMinificationFilter(vtkTextureObject::Nearest);
-  placed.voxels->SetMagnificationFilter(vtkTextureObject::Nearest);
+  // The nearest voxel's would show steps.
+  placed.voxels->SetMinificationFilter(vtkTextureObject::Linear);
+  placed.voxels->SetMagnificationFilter(vtkTextureObject::Linear);
   placed.cavityFromTexture = volume.otherFromTexture(cavity.grid, layout);
   constexpr double half = 0.5; // between what is none and what is one
   placed.least = (half - this->Voxels.shift()) / this->Voxels.scale();

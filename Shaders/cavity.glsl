@@ -1,9 +1,9 @@
-// Tissue that was removed: comparisons ignore it.
+// Tissue that was removed: comparisons ignore it. Its edge lies where interpolation passes a half.
 
 #ifdef CAVITY
-uniform sampler3D cavity;       // red: whether it is one, as stored
+uniform sampler3D cavity;       // red: 0 or 1, as stored; linear in between
 uniform mat4 cavityFromTexture; // its texture coordinates from the volume's
-uniform float leastCavity;      // stored number from which on it is one
+uniform float leastCavity;      // stored number for a half
 
 bool isRemoved(vec3 deformed)
 {
