@@ -6,8 +6,9 @@
 //   ReferenceGrid    see GridArray.h
 //   ReferenceShow    int: 0 both volumes are shown, 1 the deformed one alone, 2 the reference alone
 //   CavityVoxels     unsigned char x 1, only with a cavity: 1 where the reference lacks tissue that
-//                    was removed, else 0; beyond the boxes around all voxels there is none. Numbers
-//                    take the nearest voxel's, pictures draw the edge where interpolation passes 0.5
+//                    was removed, else 0; beyond the boxes around all voxels there is none.
+//                    Numbers take the nearest voxel's, pictures draw the edge where interpolation
+//                    passes a half
 //   CavityGrid       see GridArray.h; in the world, moved as the reference is
 //
 // Colours and numbers that compare ignore what lies in the cavity.

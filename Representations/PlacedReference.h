@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a reference, and the cavity drawn in it, lie to the bent volume: what a shader that compares
-// is told, of rays and of slices.
+// Where a reference, and the cavity drawn in it, lie to the bent volume: what a shader that
+// compares is told, of rays and of slices.
 #ifndef BrainShift_PlacedReference_h
 #define BrainShift_PlacedReference_h
 

@@ -9,8 +9,8 @@
 
 namespace brainshift
 {
-// Begins with what is nearer, or as near, drawn over what is there, depth too. If `blended`, colours
-// are blended, opacity multiplied in.
+// Begins with what is nearer, or as near, drawn over what is there, depth too. If `blended`,
+// colours are blended, opacity multiplied in.
 class SceneScope
 {
 public:

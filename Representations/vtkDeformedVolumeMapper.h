@@ -179,9 +179,9 @@ public:
   ///@}
 
   /**
-   * Hides from a selection what lies behind the tissue of the last picture; the volume itself cannot
-   * be selected. Selections of surfaces' cells do so when volumes are drawn. Points are drawn
-   * without a depth of their own: there it must be called before anything is.
+   * Hides from a selection what lies behind the tissue of the last picture; the volume itself
+   * cannot be selected. Selections of surfaces' cells do so when volumes are drawn. Points are
+   * drawn without a depth of their own: there it must be called before anything is.
    */
   void CoverSelection(vtkRenderer* renderer);
 
