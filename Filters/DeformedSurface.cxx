@@ -83,7 +83,8 @@ void DeformedSurface::LayOn(const Grid& lattice)
 void DeformedSurface::follow(
   const Lattice& lattice, const std::function<bool(const glm::dvec3&)>& isRemoved)
 {
-  if (this->Followed.grid != lattice.grid || this->Followed.kernel != lattice.kernel)
+  if (this->Followed.grid != lattice.grid || this->Followed.kernel != lattice.kernel ||
+    !sameMask(this->Followed.mask, lattice.mask))
   {
     this->LayOn(lattice.grid);
     this->Followed = makeLattice(lattice.grid, lattice.kernel);

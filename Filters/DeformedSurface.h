@@ -38,6 +38,15 @@ public:
     return this->Tree.nearest(deformed, hint);
   }
 
+  // The same answer, sooner, where `before` was the nearest one until the last call of follow.
+  TriangleTree::Nearest nearestAfterMove(const glm::dvec3& deformed, int before) const
+  {
+    return this->Tree.nearestAfterMove(deformed, before);
+  }
+
+  // A number for how things lie: the next one after each call of follow.
+  int state() const { return this->Tree.fits(); }
+
 private:
   void LayOn(const Grid& lattice);
 

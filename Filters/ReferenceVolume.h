@@ -6,7 +6,9 @@
 //   ReferenceGrid    see GridArray.h
 //   ReferenceShow    int: 0 both volumes are shown, 1 the deformed one alone, 2 the reference alone
 //   CavityVoxels     unsigned char x 1, only with a cavity: 1 where the reference lacks tissue that
-//                    was removed, else 0; a voxel is the box around its value, beyond them all is 0
+//                    was removed, else 0; beyond the boxes around all voxels there is none.
+//                    Numbers take the nearest voxel's, pictures draw the edge where interpolation
+//                    passes a half
 //   CavityGrid       see GridArray.h; in the world, moved as the reference is
 //
 // Colours and numbers that compare ignore what lies in the cavity.
@@ -41,7 +43,7 @@ struct PlacedVoxels
 
 struct ReferenceVolume : PlacedVoxels
 {
-  PlacedVoxels cavity; // 1 or 0; the nearest voxel's holds
+  PlacedVoxels cavity; // 1 or 0
   ReferenceShow show = ReferenceShow::Both;
 };
 

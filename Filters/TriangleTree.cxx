@@ -162,23 +162,30 @@ bool TriangleTree::FitLeaf(std::size_t node, const std::vector<glm::dvec3>& poin
 void TriangleTree::fit(const std::vector<glm::dvec3>& points, const std::vector<char>& moved,
   const std::vector<char>& kept)
 {
-  std::vector<char> fitted(this->Nodes.size(), 0);
+  ++this->Fits;
   const auto count = static_cast<vtkIdType>(this->Nodes.size());
+  this->Fitted.assign(this->Nodes.size(), 0);
+  this->Moved.assign(this->Triangles.size(), 0);
   parallelFor(0, count, NodesAtLeast, [&](vtkIdType first, vtkIdType end) {
-    for (vtkIdType node = first; node < end; ++node)
+    for (vtkIdType i = first; i < end; ++i)
     {
-      fitted[node] = this->Nodes[node].count > 0 && this->FitLeaf(node, points, moved, kept);
+      const Node& node = this->Nodes[i];
+      if (node.count > 0 && this->FitLeaf(i, points, moved, kept))
+      {
+        this->Fitted[i] = 1;
+        std::fill_n(this->Moved.begin() + node.first, node.count, char(1));
+      }
     }
   });
   for (vtkIdType node = count - 1; node >= 0; --node)
   {
     const vtkIdType second = this->Nodes[node].first;
-    if (this->Nodes[node].count == 0 && (fitted[node + 1] || fitted[second]))
+    if (this->Nodes[node].count == 0 && (this->Fitted[node + 1] || this->Fitted[second]))
     {
       const Box& left = this->Boxes[node + 1];
       const Box& right = this->Boxes[second];
       this->Boxes[node] = { glm::min(left.low, right.low), glm::max(left.high, right.high) };
-      fitted[node] = 1;
+      this->Fitted[node] = 1;
     }
   }
 }
@@ -191,6 +198,19 @@ double TriangleTree::SquaredDistance(const glm::dvec3& position, int triangle) c
 }
 
 TriangleTree::Nearest TriangleTree::nearest(const glm::dvec3& position, int hint) const
+{
+  constexpr bool amongMoved = false;
+  return this->Search(position, hint, amongMoved);
+}
+
+TriangleTree::Nearest TriangleTree::nearestAfterMove(const glm::dvec3& position, int before) const
+{
+  return this->Search(position, before, before >= 0 && !this->Moved[before]);
+}
+
+// The nearest of all triangles, or of the hint and those that moved.
+TriangleTree::Nearest TriangleTree::Search(
+  const glm::dvec3& position, int hint, bool amongMoved) const
 {
   struct Visit
   {
@@ -206,7 +226,7 @@ TriangleTree::Nearest TriangleTree::nearest(const glm::dvec3& position, int hint
     return Visit{ node, squaredDistanceToBox(position, box.low, box.high) };
   };
   const auto add = [&](const Visit& found) {
-    if (found.nearest < best)
+    if (found.nearest < best && (!amongMoved || this->Fitted[found.node]))
     {
       open[openCount++] = found;
     }

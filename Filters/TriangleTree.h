@@ -35,6 +35,13 @@ public:
   // triangle, or below 0; the nearer it is, the sooner the answer, which is the same.
   Nearest nearest(const glm::dvec3& position, int hint = -1) const;
 
+  // The same answer where `before` was the nearest triangle until the last fit: if that one stayed,
+  // only triangles that moved can be nearer now.
+  Nearest nearestAfterMove(const glm::dvec3& position, int before) const;
+
+  // How often the triangles were fitted.
+  int fits() const { return this->Fits; }
+
 private:
   struct Box
   {
@@ -56,12 +63,16 @@ private:
   bool FitLeaf(std::size_t node, const std::vector<glm::dvec3>& points,
     const std::vector<char>& moved, const std::vector<char>& kept);
   double SquaredDistance(const glm::dvec3& position, int triangle) const;
+  Nearest Search(const glm::dvec3& position, int hint, bool amongMoved) const;
   int Build(std::vector<glm::dvec3>& middles, std::vector<int>& order, int first, int end);
 
   std::vector<glm::ivec3> Triangles; // in the order of the leaves
   std::vector<Corners> Placed;       // the same ones, where they lie now
   std::vector<Node> Nodes;           // parents before their children
   std::vector<Box> Boxes;            // of the nodes
+  std::vector<char> Fitted;          // nodes that the last fit reached
+  std::vector<char> Moved;           // triangles that it did
+  int Fits = 0;
 };
 
 // Square of the distance from a position to a triangle.

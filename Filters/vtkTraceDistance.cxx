@@ -31,6 +31,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 using namespace brainshift;
@@ -87,6 +88,14 @@ void addField(vtkDataObject* data, const char* name, Value value)
 
 struct vtkTraceDistance::State
 {
+  // The triangle that was nearest to a point (below 0: none) as the surface lay.
+  struct Found
+  {
+    glm::dvec3 point{ 0.0 };
+    int triangle = -1;
+    int surfaceState = 0;
+  };
+
   // What the surface was found for.
   vtkSmartPointer<vtkDataArray> Scalars;
   vtkMTimeType ScalarsTime = 0;
@@ -100,9 +109,8 @@ struct vtkTraceDistance::State
   PlacedVoxels Cavity;           // that of the input
   PlacedVoxels ReferencesCavity; // that Compare Volumes attached to the volume
   std::optional<PointMap> Map;
-  // Of the points of all blocks, the triangle nearest before: a hint for the next time. Below 0:
-  // none.
-  std::vector<int> Nearest;
+  // Of the points of all blocks, what was nearest.
+  std::vector<Found> Nearest;
   TraceStatistics Statistics;
   int SurfacesFound = 0;
 
@@ -110,6 +118,30 @@ struct vtkTraceDistance::State
   {
     return brainshift::isRemoved(this->Cavity, deformed) ||
       brainshift::isRemoved(this->ReferencesCavity, deformed);
+  }
+
+  // mm; infinite if there is no surface. `hint`: a triangle, where nothing was found before.
+  double distanceTo(const glm::dvec3& point, int hint, Found& found) const
+  {
+    const int now = this->Surface.state();
+    const bool same = found.triangle >= 0 && found.point == point;
+    const TriangleTree::Nearest nearest = same && found.surfaceState == now - 1
+      ? this->Surface.nearestAfterMove(point, found.triangle)
+      : this->Surface.nearest(point, found.triangle < 0 ? hint : found.triangle);
+    found = { point, nearest.triangle, now };
+    return nearest.distance;
+  }
+
+  // Points from the number `first` on, counted from there, so that neighbours follow each other:
+  // they ask for the same part of the surface, which then is in the processor's caches.
+  std::vector<vtkIdType> byTriangle(std::size_t first, vtkIdType count) const
+  {
+    std::vector<vtkIdType> order(count);
+    std::iota(order.begin(), order.end(), vtkIdType(0));
+    std::stable_sort(order.begin(), order.end(), [&](vtkIdType left, vtkIdType right) {
+      return this->Nearest[first + left].triangle < this->Nearest[first + right].triangle;
+    });
+    return order;
   }
 
   // `level`: the threshold or the label.
@@ -277,28 +309,28 @@ bool vtkTraceDistance::Measure(vtkPointSet* points, std::vector<double>& all)
   points->GetPointData()->SetActiveScalars(distances->GetName());
   const std::size_t before = all.size();
   all.resize(before + count, std::numeric_limits<double>::quiet_NaN());
-  state.Nearest.resize(std::max(state.Nearest.size(), all.size()), -1);
-  const auto distanceOf = [&](const glm::dvec3& point, int& nearest) {
+  state.Nearest.resize(std::max(state.Nearest.size(), all.size()));
+  const auto distanceOf = [&](const glm::dvec3& point, int hint, State::Found& found) {
     if (!std::isfinite(point.x + point.y + point.z) || state.isRemoved(point))
     {
       return std::numeric_limits<double>::quiet_NaN();
     }
-    const TriangleTree::Nearest found = state.Surface.nearest(point, nearest);
-    nearest = found.triangle;
+    const double distance = state.distanceTo(point, hint, found);
     const bool inside = state.Tissue.contains(state.Map->restFromDeformed(point));
-    return std::isfinite(found.distance) ? (inside ? -found.distance : found.distance)
-                                         : std::numeric_limits<double>::quiet_NaN();
+    return std::isfinite(distance) ? (inside ? -distance : distance)
+                                   : std::numeric_limits<double>::quiet_NaN();
   };
+  const std::vector<vtkIdType> order = state.byTriangle(before, count);
   return forPortions(this, 0.0, 1.0, count, PointsAtLeast, [&](vtkIdType first, vtkIdType last) {
     int previous = -1; // the first time: a pointer moves little
-    for (vtkIdType i = first; i < last; ++i)
+    for (vtkIdType step = first; step < last; ++step)
     {
+      const vtkIdType i = order[step];
       double point[3];
       points->GetPoints()->GetData()->GetTuple(i, point);
-      int& nearest = state.Nearest[before + i];
-      nearest = nearest < 0 ? previous : nearest;
-      const double distance = distanceOf({ point[0], point[1], point[2] }, nearest);
-      previous = nearest;
+      State::Found& found = state.Nearest[before + i];
+      const double distance = distanceOf({ point[0], point[1], point[2] }, previous, found);
+      previous = found.triangle;
       all[before + i] = distance;
       distances->SetValue(i, static_cast<float>(distance));
     }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DeviceReference.h"
 
-#include "OpenGL.h"
 #include "RayCaster.h"
 #include "TextureMemory.h"
 
@@ -9,8 +8,6 @@
 #include "vtkRenderer.h"
 #include "vtkTextureObject.h"
 #include "vtkVolume.h"
-
-#include <glm/matrix.hpp>
 
 namespace brainshift
 {
@@ -35,24 +32,9 @@ bool DeviceReference::compare(vtkRenderer* renderer, vtkVolume* volume,
     return false;
   }
   describeView(renderer, volume, reference.grid, reference.tissue.layout, alone);
-  RayCastComparison& comparison = scene.comparison;
-  if (vtkDataArray* voxels = reference.cavity.voxels)
-  {
-    const ValueLayout layout = layoutOf(reference.cavity.grid.dimensions, false);
-    constexpr int firstComponent = 0;
-    if (!this->Cavity.update(window, voxels, layout.dimensions, firstComponent, counters, problem))
-    {
-      return false;
-    }
-    comparison.cavity = this->Cavity.texture();
-    comparison.cavity->SetMinificationFilter(vtkTextureObject::Nearest);
-    comparison.cavity->SetMagnificationFilter(vtkTextureObject::Nearest);
-    comparison.cavityFromTexture =
-      glm::inverse(worldFromTexture(reference.cavity.grid, layout, volume->GetMatrix())) *
-      scene.worldFromTexture;
-  }
-  comparison.reference = &alone;
-  return true;
+  scene.comparison.reference = &alone;
+  return this->Cavity.update(window, reference.cavity,
+    { scene.worldFromTexture, volume->GetMatrix() }, scene.comparison.cavity, counters, problem);
 }
 
 std::int64_t DeviceReference::bytes() const

@@ -3,6 +3,7 @@
 #ifndef BrainShift_DeviceReference_h
 #define BrainShift_DeviceReference_h
 
+#include "PlacedReference.h"
 #include "PresentTissue.h"
 #include "SceneReference.h"
 
@@ -35,7 +36,7 @@ public:
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
-  ScalarTexture Cavity;
+  CavityTexture Cavity;
 };
 }
 

@@ -83,8 +83,8 @@ void addView(Numbers& numbers, const RayCastScene& scene)
   {
     add(numbers, comparison.reference->worldFromTexture);
     numbers.push_back(comparison.reference->scalars->GetHandle());
-    numbers.push_back(comparison.cavity ? comparison.cavity->GetHandle() : 0);
-    add(numbers, comparison.cavityFromTexture);
+    numbers.push_back(comparison.cavity.voxels ? comparison.cavity.voxels->GetHandle() : 0);
+    add(numbers, comparison.cavity.cavityFromTexture);
   }
 }
 

@@ -50,11 +50,9 @@ void setComparisonUniforms(Program& program, const RayCastScene& scene)
 {
   const RayCastComparison& comparison = scene.comparison;
   const RayCastScene& reference = *comparison.reference;
-  program.set("reference", reference.scalars);
-  program.set("referenceFromTexture",
-    glm::mat4(glm::inverse(reference.worldFromTexture) * scene.worldFromTexture));
-  program.set("referenceLow", glm::vec3(reference.volumeLow));
-  program.set("referenceHigh", glm::vec3(reference.volumeHigh));
+  setReferencePlace(program,
+    { reference.scalars, glm::inverse(reference.worldFromTexture) * scene.worldFromTexture,
+      reference.volumeLow, reference.volumeHigh });
   program.set("cropLow", glm::vec3(comparison.cropLow));
   program.set("cropHigh", glm::vec3(comparison.cropHigh));
   program.set("referenceTransfer", reference.transfer);
@@ -66,11 +64,7 @@ void setComparisonUniforms(Program& program, const RayCastScene& scene)
   {
     setLightUniforms(program, reference);
   }
-  if (comparison.cavity)
-  {
-    program.set("cavity", comparison.cavity);
-    program.set("cavityFromTexture", glm::mat4(comparison.cavityFromTexture));
-  }
+  setCavityUniforms(program, comparison.cavity);
 }
 
 bool cropByPlanes(vtkVolumeMapper* mapper, vtkVolume* volume, const Grid& grid,

@@ -3,28 +3,24 @@
 #ifndef BrainShift_RayCastComparison_h
 #define BrainShift_RayCastComparison_h
 
-#include <glm/mat4x4.hpp>
+#include "PlacedReference.h"
+
 #include <glm/vec3.hpp>
 
-class vtkTextureObject;
 class vtkVolume;
 class vtkVolumeMapper;
 
 namespace brainshift
 {
-class Program;
-struct Grid;
 struct RayCastScene;
-struct ValueLayout;
 
 struct RayCastComparison
 {
-  RayCastScene* reference = nullptr;   // as if drawn alone; null: nothing to compare with
-  double agreementMm = 1.0;            // surfaces half as far apart count as one
-  glm::dvec3 cropLow{ -1e6 };          // what cropping leaves of it, the bent volume's texture
-  glm::dvec3 cropHigh{ 1e6 };          // coordinates
-  vtkTextureObject* cavity = nullptr;  // what colours ignore; null: nothing
-  glm::dmat4 cavityFromTexture{ 1.0 }; // its texture coordinates from the bent volume's
+  RayCastScene* reference = nullptr; // as if drawn alone; null: nothing to compare with
+  double agreementMm = 1.0;          // surfaces half as far apart count as one
+  glm::dvec3 cropLow{ -1e6 };        // what cropping leaves of it, the bent volume's texture
+  glm::dvec3 cropHigh{ 1e6 };        // coordinates
+  PlacedCavity cavity;               // what colours ignore
 };
 
 // What reference.glsl, layers.glsl and skipping.glsl need for a scene with a reference.

@@ -38,6 +38,12 @@ struct StoredScalar
   double shift = 0.0;
 };
 
+// One mapping, then the next.
+inline StoredScalar mappedFurther(const StoredScalar& first, const StoredScalar& next)
+{
+  return { first.scale * next.scale, first.shift * next.scale + next.shift };
+}
+
 struct RayCastOptions
 {
   Blend blend = Blend::Composite;

@@ -267,7 +267,7 @@ RayCastVariant variantOf(const RayCastScene& scene)
                                 : RayCastVariant::GradientTexture;
   variant.blend = scene.options.blend;
   variant.compared = scene.comparison.reference != nullptr;
-  variant.cavity = variant.compared && scene.comparison.cavity;
+  variant.cavity = variant.compared && scene.comparison.cavity.voxels;
   variant.coloring = variant.compared ? Coloring::Mapped : scene.options.coloring;
   variant.regions = scene.options.regions;
   variant.segmented = scene.options.segment != nullptr;
@@ -283,7 +283,7 @@ void deactivate(const RayCastScene& scene)
 {
   for (vtkTextureObject* texture : { scene.scalars, scene.offsets, scene.normals, scene.transfer,
          scene.sceneDepth, scene.options.colors, scene.options.colorScalars, scene.options.segment,
-         scene.presence->leaps(), scene.comparison.cavity, scene.transferSums })
+         scene.presence->leaps(), scene.comparison.cavity.voxels, scene.transferSums })
   {
     if (texture)
     {

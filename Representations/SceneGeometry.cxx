@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SceneGeometry.h"
 
+#include "DeformableVolume.h"
 #include "DeformedPresence.h"
 #include "RayCaster.h"
 
+#include "vtkAbstractVolumeMapper.h"
 #include "vtkCamera.h"
 #include "vtkDataArray.h"
+#include "vtkImageData.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMatrix4x4.h"
 #include "vtkOpenGLCamera.h"
@@ -38,11 +41,18 @@ ValueLayout layoutOf(const glm::ivec3& points, bool cells)
   return layout;
 }
 
-bool holdsValues(vtkDataArray* scalars, const ValueLayout& layout)
+ShownValues shownValuesOf(vtkAbstractVolumeMapper* mapper, vtkImageData* image)
 {
-  const glm::ivec3& values = layout.dimensions;
-  return scalars &&
-    scalars->GetNumberOfTuples() >= static_cast<vtkIdType>(values.x) * values.y * values.z;
+  int cells = 0;
+  vtkDataArray* scalars = vtkAbstractMapper::GetScalars(image, mapper->GetScalarMode(),
+    mapper->GetArrayAccessMode(), mapper->GetArrayId(), mapper->GetArrayName(), cells);
+  ShownValues shown;
+  shown.grid = gridOf(image);
+  shown.layout = layoutOf(shown.grid.dimensions, cells != 0);
+  const glm::ivec3& values = shown.layout.dimensions;
+  const vtkIdType count = static_cast<vtkIdType>(values.x) * values.y * values.z;
+  shown.scalars = scalars && scalars->GetNumberOfTuples() >= count ? scalars : nullptr;
+  return shown;
 }
 
 glm::dmat4 worldFromTexture(const Grid& grid, const ValueLayout& layout, vtkMatrix4x4* actor)

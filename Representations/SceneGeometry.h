@@ -11,7 +11,9 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+class vtkAbstractVolumeMapper;
 class vtkDataArray;
+class vtkImageData;
 class vtkMatrix4x4;
 class vtkRenderer;
 class vtkVolume;
@@ -33,8 +35,15 @@ struct ValueLayout
 
 ValueLayout layoutOf(const glm::ivec3& points, bool cells);
 
-// Whether there is an array with all values.
-bool holdsValues(vtkDataArray* scalars, const ValueLayout& layout);
+// What a mapper shows of an image.
+struct ShownValues
+{
+  vtkDataArray* scalars = nullptr; // null: there is no such array, or not with all values
+  Grid grid;
+  ValueLayout layout;
+};
+
+ShownValues shownValuesOf(vtkAbstractVolumeMapper* mapper, vtkImageData* image);
 
 glm::dmat4 worldFromTexture(const Grid& grid, const ValueLayout& layout, vtkMatrix4x4* actor);
 glm::dmat4 clipFromWorld(vtkRenderer* renderer);

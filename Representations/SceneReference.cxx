@@ -35,6 +35,18 @@ StoredScalar usualMapping(const glm::dvec2& reference, const glm::dvec2& volume)
   return 2.0 * common >= both ? StoredScalar() : fromRangeToRange(reference, volume);
 }
 
+StoredScalar valueFromReference(
+  vtkDataArray* reference, const TissueRequest& own, const glm::dvec2& range)
+{
+  if (range.x < range.y)
+  {
+    const double* shown = own.property->GetRGBTransferFunction()->GetRange();
+    return fromRangeToRange(range, { shown[0], shown[1] });
+  }
+  const int component = shownComponents(own.property, own.scalars).scalar;
+  return usualMapping(rangeOf(reference, 0), rangeOf(own.scalars, component));
+}
+
 SceneReference referenceOf(vtkDataObject* volume, const TissueRequest& own, const glm::dvec2& range)
 {
   SceneReference reference;
@@ -50,17 +62,7 @@ SceneReference referenceOf(vtkDataObject* volume, const TissueRequest& own, cons
   reference.tissue.segment = {}; // the labels are the volume's
   reference.tissue.scalars = carried.voxels;
   reference.tissue.layout = layoutOf(carried.grid.dimensions, false);
-  if (range.x < range.y)
-  {
-    const double* shown = own.property->GetRGBTransferFunction()->GetRange();
-    reference.tissue.mapped = fromRangeToRange(range, { shown[0], shown[1] });
-  }
-  else
-  {
-    const int component = shownComponents(own.property, own.scalars).scalar;
-    reference.tissue.mapped =
-      usualMapping(rangeOf(carried.voxels, 0), rangeOf(own.scalars, component));
-  }
+  reference.tissue.mapped = valueFromReference(carried.voxels, own, range);
   return reference;
 }
 

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 
+class vtkDataArray;
 class vtkDataObject;
 
 namespace brainshift
@@ -29,7 +30,12 @@ struct SceneReference
 SceneReference referenceOf(
   vtkDataObject* volume, const TissueRequest& own, const glm::dvec2& range);
 
-// Value of the volume from the reference's scalars, by the least and the greatest of both: the same
+// Value of the volume that a scalar of its reference stands for, in 3D and in slices: colours and
+// opacities are the volume's. `range`: as above.
+StoredScalar valueFromReference(
+  vtkDataArray* reference, const TissueRequest& own, const glm::dvec2& range);
+
+// The same where no range is given: by the least and the greatest of both: the same
 // where the ranges have at least half in common, else from one range to the other.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT StoredScalar usualMapping(
   const glm::dvec2& reference, const glm::dvec2& volume);

@@ -2,9 +2,11 @@
 #include "SelectionCover.h"
 
 #include "FirstHits.h"
-#include "OpenGL.h"
 #include "SceneGeometry.h"
+#include "SceneScope.h"
 
+#include "vtkDataObject.h"
+#include "vtkHardwareSelector.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkRenderer.h"
@@ -13,6 +15,12 @@
 
 namespace brainshift
 {
+bool selectsPoints(vtkRenderer* renderer)
+{
+  vtkHardwareSelector* selector = renderer->GetSelector();
+  return selector && selector->GetFieldAssociation() == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+}
+
 bool SelectionCover::draw(
   vtkOpenGLRenderWindow* window, vtkRenderer* renderer, const FirstHits& hits, Counters& counters)
 {
@@ -24,18 +32,10 @@ bool SelectionCover::draw(
   int origin[2];
   renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &origin[0], &origin[1]);
   vtkOpenGLState* state = window->GetState();
-  vtkOpenGLState::ScopedglViewport viewport(state);
-  vtkOpenGLState::ScopedglDepthMask depthMask(state);
-  vtkOpenGLState::ScopedglDepthFunc depthFunction(state);
-  vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
-  vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
-  vtkOpenGLState::ScopedglEnableDisable cull(state, GL_CULL_FACE);
+  constexpr bool blended = false;
+  const SceneScope scope(state, blended);
   state->vtkglViewport(origin[0], origin[1], size[0], size[1]);
-  state->vtkglDepthMask(GL_TRUE);
-  state->vtkglDepthFunc(GL_LEQUAL);
-  state->vtkglEnable(GL_DEPTH_TEST);
-  state->vtkglDisable(GL_BLEND);
-  state->vtkglDisable(GL_CULL_FACE);
+  state->vtkglScissor(origin[0], origin[1], size[0], size[1]);
   this->CoverProgram.set("hits", hits.texture.Get());
   this->CoverProgram.set("hitsFromShare", glm::vec2(hits.area.textureFromShare()));
   this->CoverProgram.set("hitsOfShareZero", glm::vec2(hits.area.textureOfShareZero()));

@@ -13,6 +13,9 @@ namespace brainshift
 {
 struct FirstHits;
 
+// Whether a renderer draws a selection of points, and not one of cells or nothing of the kind.
+bool selectsPoints(vtkRenderer* renderer);
+
 class SelectionCover
 {
 public:

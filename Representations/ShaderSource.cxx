@@ -9,6 +9,7 @@
 #include "shader_blocks_frag.h"
 #include "shader_both_paths.h"
 #include "shader_bricks.h"
+#include "shader_cavity.h"
 #include "shader_clipping.h"
 #include "shader_comparison.h"
 #include "shader_components.h"
@@ -47,6 +48,7 @@
 #include "shader_slices_vert.h"
 #include "shader_tissue.h"
 #include "shader_traces_frag.h"
+#include "shader_traces_over_frag.h"
 #include "shader_traces_vert.h"
 #include "shader_volume_pass.h"
 #include "shader_volume_pass_geom.h"
@@ -98,7 +100,7 @@ std::string loopSource(const RayCastVariant& variant)
 {
   if (variant.compared)
   {
-    return std::string(shader_reference) + shader_layers + shader_both_paths +
+    return std::string(shader_cavity) + shader_reference + shader_layers + shader_both_paths +
       shader_red_green_frag;
   }
   switch (variant.blend)
@@ -221,8 +223,9 @@ ShaderSource slicesSource(const SlicesVariant& variant)
     coloringDefine(variant.coloring) + (variant.compared ? "#define COMPARED\n" : "") +
     (variant.cavity ? "#define CAVITY\n" : "");
   return { assemble({ shader_slices_vert }), "",
-    assemble({ Outputs, defines, shader_rays, shader_field, shader_gradient, shader_segment,
-      shader_tissue, shader_components, shader_cubic, shader_comparison, shader_slices_frag }) };
+    assemble(
+      { Outputs, defines, shader_rays, shader_field, shader_gradient, shader_segment, shader_tissue,
+        shader_components, shader_cubic, shader_cavity, shader_comparison, shader_slices_frag }) };
 }
 
 ShaderSource tracesSource(int tissues)
@@ -231,13 +234,20 @@ ShaderSource tracesSource(int tissues)
     "", assemble({ Outputs, shader_traces_frag }) };
 }
 
+ShaderSource tracesOverSource()
+{
+  return { assemble({ shader_fullscreen_vert }), "",
+    assemble({ Outputs, shader_traces_over_frag }) };
+}
+
 std::vector<std::pair<std::string, ShaderSource>> allSources()
 {
   std::vector<std::pair<std::string, ShaderSource>> sources{ { "refine", refineSource(false) },
     { "refine_masked", refineSource(true) }, { "invert", invertSource() },
     { "normals", normalsSource() }, { "blocks", blocksSource() },
     { "presence_rest", presenceSource(false) }, { "presence_deformed", presenceSource(true) },
-    { "proxy", proxySource() }, { "composite", compositeSource() }, { "cover", coverSource() } };
+    { "proxy", proxySource() }, { "composite", compositeSource() }, { "cover", coverSource() },
+    { "traces_over", tracesOverSource() } };
   const auto add = [&](const RayCastVariant& variant) {
     sources.emplace_back(nameOf(variant), rayCastSource(variant));
   };

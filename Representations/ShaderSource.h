@@ -108,6 +108,7 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource proxySource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource slicesSource(const SlicesVariant& variant);
 // `tissues`: volumes that hide points, 0 to MaxTissues.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource tracesSource(int tissues);
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource tracesOverSource();
 
 // Every program the product can draw with, by name, for an offline compiler: of the ray caster's
 // variants each with every file and every #define in use.

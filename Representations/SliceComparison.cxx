@@ -4,12 +4,9 @@
 #include "Program.h"
 #include "SliceGeometry.h"
 
-#include "vtkDataArray.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkTextureObject.h"
-
-#include <glm/matrix.hpp>
 
 namespace brainshift
 {
@@ -17,32 +14,17 @@ namespace
 {
 constexpr int FirstComponent = 0;
 
-// Texture coordinates of one grid from those of another.
-glm::dmat4 textureFromTexture(
-  const Grid& to, const ValueLayout& toLayout, const Grid& from, const ValueLayout& fromLayout)
-{
-  vtkNew<vtkMatrix4x4> unmoved;
-  return glm::inverse(worldFromTexture(to, toLayout, unmoved)) *
-    worldFromTexture(from, fromLayout, unmoved);
-}
-
-void setNearest(vtkTextureObject* texture, bool nearest)
-{
-  const int filter = nearest ? vtkTextureObject::Nearest : vtkTextureObject::Linear;
-  texture->SetMinificationFilter(filter);
-  texture->SetMagnificationFilter(filter);
-}
-
 glm::dvec3 mmFromTexture(const Grid& grid, const ValueLayout& layout)
 {
   return grid.spacing / layout.textureFromGrid;
 }
-}
 
-glm::dvec2 shareFromStored(const glm::dvec2& shown, const StoredScalar& stored)
+// Share of what is shown (its ends) from what a texture stores: scale, shift.
+glm::dvec2 shareFromStored(const glm::dvec2& shown, const StoredScalar& value)
 {
   const double length = shown.y > shown.x ? shown.y - shown.x : 1.0;
-  return { stored.scale / length, (stored.shift - shown.x) / length };
+  return { value.scale / length, (value.shift - shown.x) / length };
+}
 }
 
 std::array<WipePlane, 3> wipePlanes(
@@ -82,43 +64,26 @@ bool ReferenceTextures::update(vtkOpenGLRenderWindow* window, const ReferenceVol
   {
     return false;
   }
-  setNearest(this->Voxels.texture(), volume.nearest);
-  const double* whole = reference.voxels->GetRange(FirstComponent);
-  const glm::dvec2 shown =
-    choice.shownRange.x < choice.shownRange.y ? choice.shownRange : glm::dvec2(whole[0], whole[1]);
-  scene.scalars = this->Voxels.texture();
-  scene.referenceFromTexture =
-    textureFromTexture(reference.grid, layout, volume.grid, volume.layout);
+  const int filter = volume.nearest ? vtkTextureObject::Nearest : vtkTextureObject::Linear;
+  this->Voxels.texture()->SetMinificationFilter(filter);
+  this->Voxels.texture()->SetMagnificationFilter(filter);
+  vtkNew<vtkMatrix4x4> unmoved; // all of them are, alike
+  const VolumePlace place{ worldFromTexture(volume.grid, volume.layout, unmoved), unmoved };
+  scene.place = { this->Voxels.texture(), place.otherFromTexture(reference.grid, layout),
+    layout.low, layout.high };
   scene.voxels = layout.dimensions;
-  scene.low = layout.low;
-  scene.high = layout.high;
-  scene.shareFromReference = shareFromStored(shown, { this->Voxels.scale(), this->Voxels.shift() });
-  scene.shareFromScalar = volume.shareFromStored;
-  const double scale = volume.transferFromStored.x / volume.shareFromStored.x;
+  scene.shareFromReference = shareFromStored(volume.shownRange,
+    mappedFurther({ this->Voxels.scale(), this->Voxels.shift() }, volume.valueFromReference));
+  scene.shareFromScalar = shareFromStored(volume.shownRange, volume.valueFromStored);
+  const double scale = volume.transferFromStored.x / scene.shareFromScalar.x;
   scene.transferFromShare = { scale,
-    volume.transferFromStored.y - volume.shareFromStored.y * scale };
+    volume.transferFromStored.y - scene.shareFromScalar.y * scale };
   scene.comparison = reference.show == ReferenceShow::Reference ? 0 : choice.comparison;
   scene.checkersFromTexture = mmFromTexture(volume.grid, volume.layout) / choice.checkerSizeMm;
   scene.greenFromGradient =
     scene.shareFromReference.x / mmFromTexture(reference.grid, layout) / choice.fullGradient;
   scene.wipes = wipePlanes(volume.grid, volume.layout, choice.wipePosition);
-  const PlacedVoxels& cavity = reference.cavity;
-  if (cavity.voxels)
-  {
-    const ValueLayout cavityLayout = layoutOf(cavity.grid.dimensions, false);
-    if (!this->Cavity.update(
-          window, cavity.voxels, cavityLayout.dimensions, FirstComponent, counters, problem))
-    {
-      return false;
-    }
-    setNearest(this->Cavity.texture(), true);
-    scene.cavity = this->Cavity.texture();
-    scene.cavityFromTexture =
-      textureFromTexture(cavity.grid, cavityLayout, volume.grid, volume.layout);
-    constexpr double half = 0.5; // between what is none and what is one
-    scene.leastCavity = (half - this->Cavity.shift()) / this->Cavity.scale();
-  }
-  return true;
+  return this->Cavity.update(window, reference.cavity, place, scene.cavity, counters, problem);
 }
 
 std::vector<vtkTextureObject*> ReferenceTextures::textures() const
@@ -134,23 +99,15 @@ void ReferenceTextures::releaseGraphicsResources(vtkWindow* window)
 
 void setReferenceUniforms(Program& program, const ReferenceScene& scene)
 {
-  program.set("reference", scene.scalars);
-  program.set("referenceFromTexture", glm::mat4(scene.referenceFromTexture));
+  setReferencePlace(program, scene.place);
+  setCavityUniforms(program, scene.cavity);
   program.set("referenceVoxels", glm::vec3(scene.voxels));
-  program.set("referenceLow", glm::vec3(scene.low));
-  program.set("referenceHigh", glm::vec3(scene.high));
   program.set("shareFromReference", glm::vec2(scene.shareFromReference));
   program.set("shareFromScalar", glm::vec2(scene.shareFromScalar));
   program.set("transferFromShare", glm::vec2(scene.transferFromShare));
   program.set("comparison", scene.comparison);
   program.set("checkersFromTexture", glm::vec3(scene.checkersFromTexture));
   program.set("greenFromGradient", glm::vec3(scene.greenFromGradient));
-  if (scene.cavity)
-  {
-    program.set("cavity", scene.cavity);
-    program.set("cavityFromTexture", glm::mat4(scene.cavityFromTexture));
-    program.set("leastCavity", static_cast<float>(scene.leastCavity));
-  }
 }
 
 void setWipeUniforms(Program& program, const ReferenceScene& scene, int axis)

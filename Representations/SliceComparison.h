@@ -5,12 +5,12 @@
 #define BrainShift_SliceComparison_h
 
 #include "Counters.h"
+#include "PlacedReference.h"
 #include "ReferenceVolume.h"
 #include "ScalarTexture.h"
 #include "SceneGeometry.h"
 #include "Tissue.h"
 
-#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -31,23 +31,21 @@ struct ComparisonChoice
 {
   int comparison = 0;             // as numbered there
   double checkerSizeMm = 1.0;     // of a field
-  glm::dvec2 shownRange{ 0.0 };   // scalars of the reference that are black and white
-  double fullGradient = 1.0;      // share of the shown range within a mm that is fully green
+  double fullGradient = 1.0;      // share of what is shown within a mm that is fully green
   glm::dvec3 wipePosition{ 0.0 }; // mm, world
 };
 
-// How the volume's scalars and texture lie to the world, and its scalars to what is shown.
+// How the volume's scalars and texture lie to the world, and the scalars of both to what is shown.
 struct ComparedVolume
 {
   Grid grid;
   ValueLayout layout;
-  glm::dvec2 shareFromStored{ 1.0, 0.0 };    // of the range that is shown: scale, shift
+  glm::dvec2 shownRange{ 0.0, 1.0 };         // the volume's values that are black and white
+  StoredScalar valueFromStored;              // of the volume
+  StoredScalar valueFromReference;           // as in 3D: see SceneReference.h
   glm::dvec2 transferFromStored{ 1.0, 0.0 }; // coordinate of the colour map
   bool nearest = false;                      // filter of both
 };
-
-// What the share of a range is, from what a texture stores: scale, shift. `shown`: its ends.
-glm::dvec2 shareFromStored(const glm::dvec2& shown, const StoredScalar& stored);
 
 // A plane that divides a slice: mm beyond it from texture coordinates, on the reference's side.
 struct WipePlane
@@ -58,11 +56,9 @@ struct WipePlane
 
 struct ReferenceScene
 {
-  vtkTextureObject* scalars = nullptr;    // null: nothing is compared
-  glm::dmat4 referenceFromTexture{ 1.0 }; // its texture coordinates from the volume's
-  glm::ivec3 voxels{ 1 };                 // of it, a side
-  glm::dvec3 low{ 0.0 };                  // its box, in its texture coordinates
-  glm::dvec3 high{ 1.0 };
+  PlacedReference place;
+  PlacedCavity cavity;
+  glm::ivec3 voxels{ 1 };                    // of the reference, a side
   glm::dvec2 shareFromReference{ 1.0, 0.0 }; // stored scalar to its share of what is shown
   glm::dvec2 shareFromScalar{ 1.0, 0.0 };    // the same of the volume
   glm::dvec2 transferFromShare{ 1.0, 0.0 };
@@ -70,10 +66,6 @@ struct ReferenceScene
   glm::dvec3 checkersFromTexture{ 1.0 }; // checker fields for a texture unit
   glm::dvec3 greenFromGradient{ 1.0 };   // stored scalar for a unit of its texture, to full green
   std::array<WipePlane, 3> wipes;        // of the slices across each axis of the volume's texture
-
-  vtkTextureObject* cavity = nullptr; // null: none
-  glm::dmat4 cavityFromTexture{ 1.0 };
-  double leastCavity = 0.5; // stored
 };
 
 // Slices across the volume's axis nearest to world x are divided across the one nearest to y, all
@@ -97,7 +89,7 @@ public:
 
 private:
   ScalarTexture Voxels;
-  ScalarTexture Cavity;
+  CavityTexture Cavity;
 };
 
 void setReferenceUniforms(Program& program, const ReferenceScene& scene);

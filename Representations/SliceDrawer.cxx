@@ -2,6 +2,7 @@
 #include "SliceDrawer.h"
 
 #include "OpenGL.h"
+#include "SceneScope.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
@@ -31,49 +32,13 @@ void setSliceUniforms(Program& program, const SliceScene& scene)
   program.set("mapsOpacity", scene.mapsOpacity ? 1 : 0);
   program.set("selecting", scene.selecting ? 1 : 0);
 }
-
-// Drawing into the scene; restored at the end.
-class SceneScope
-{
-public:
-  SceneScope(vtkOpenGLState* state, bool blended)
-    : DepthMask(state)
-    , DepthFunction(state)
-    , BlendFunction(state)
-    , DepthTest(state, GL_DEPTH_TEST)
-    , Blend(state, GL_BLEND)
-    , Cull(state, GL_CULL_FACE)
-  {
-    state->vtkglEnable(GL_DEPTH_TEST);
-    state->vtkglDepthFunc(GL_LEQUAL);
-    state->vtkglDepthMask(blended ? GL_FALSE : GL_TRUE);
-    state->vtkglDisable(GL_CULL_FACE);
-    if (blended)
-    {
-      state->vtkglEnable(GL_BLEND);
-      state->vtkglBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    }
-    else
-    {
-      state->vtkglDisable(GL_BLEND);
-    }
-  }
-
-private:
-  vtkOpenGLState::ScopedglDepthMask DepthMask;
-  vtkOpenGLState::ScopedglDepthFunc DepthFunction;
-  vtkOpenGLState::ScopedglBlendFuncSeparate BlendFunction;
-  vtkOpenGLState::ScopedglEnableDisable DepthTest;
-  vtkOpenGLState::ScopedglEnableDisable Blend;
-  vtkOpenGLState::ScopedglEnableDisable Cull;
-};
 }
 
 bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, Counters& counters)
 {
   const RayCastScene& volume = scene.volume;
   const SlicesVariant variant{ volume.offsets != nullptr, volume.options.coloring,
-    scene.reference.scalars != nullptr, scene.reference.cavity != nullptr };
+    scene.reference.place.scalars != nullptr, scene.reference.cavity.voxels != nullptr };
   Program& program = this->Programs[variant];
   if (!program.use(window, slicesSource(variant), counters))
   {
@@ -85,7 +50,9 @@ bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, C
     setReferenceUniforms(program, scene.reference);
   }
   {
-    const SceneScope scope(window->GetState(), scene.blended);
+    vtkOpenGLState* state = window->GetState();
+    const SceneScope scope(state, scene.blended);
+    state->vtkglDepthMask(scene.blended ? GL_FALSE : GL_TRUE);
     const std::vector<SliceQuad> quads = scene.blended
       ? quadsBackToFront(scene.planes, volume.clipFromWorld * volume.worldFromTexture)
       : wholeQuads(scene.planes);
@@ -104,7 +71,7 @@ bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, C
   }
   for (vtkTextureObject* texture :
     { volume.scalars, volume.offsets, volume.transfer, volume.options.colors,
-      volume.options.colorScalars, scene.reference.scalars, scene.reference.cavity })
+      volume.options.colorScalars, scene.reference.place.scalars, scene.reference.cavity.voxels })
   {
     if (texture)
     {

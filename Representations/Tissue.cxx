@@ -59,9 +59,8 @@ bool Tissue::update(vtkOpenGLRenderWindow* window, const TissueRequest& request,
   const bool newColours = this->Transfer.update(
     window, request.property, request.stepMm, request.blend, shown.coloring, counters);
   const std::vector<double> isovalues = isovaluesOf(request.property);
-  const StoredScalar& mapped = request.mapped;
-  const StoredScalar stored{ this->Scalars.scale() * mapped.scale,
-    this->Scalars.shift() * mapped.scale + mapped.shift };
+  const StoredScalar stored =
+    mappedFurther({ this->Scalars.scale(), this->Scalars.shift() }, request.mapped);
   this->VisibilityChanged = this->VisibilityChanged || newColours ||
     uploads != counters.volumeUploads || stored.scale != this->Stored.scale ||
     stored.shift != this->Stored.shift ||

@@ -2,6 +2,8 @@
 #include "TraceDrawer.h"
 
 #include "OpenGL.h"
+#include "SceneScope.h"
+#include "TraceOrder.h"
 
 #include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -19,41 +21,14 @@ namespace brainshift
 {
 namespace
 {
-// Drawing over the picture; restored at the end.
-class OverScope
+// A vertex shader says how large points are; VTK's state does not know of it.
+class PointSizeScope
 {
 public:
-  OverScope(vtkOpenGLState* state, const TraceScene& scene)
-    : Viewport(state)
-    , ColorMask(state)
-    , DepthMask(state)
-    , DepthFunction(state)
-    , BlendFunction(state)
-    , DepthTest(state, GL_DEPTH_TEST)
-    , Blend(state, GL_BLEND)
-    , Cull(state, GL_CULL_FACE)
-  {
-    state->vtkglViewport(scene.origin.x, scene.origin.y, scene.size.x, scene.size.y);
-    state->vtkglEnable(GL_DEPTH_TEST);
-    state->vtkglDisable(GL_CULL_FACE);
-    state->vtkglDepthMask(GL_TRUE);
-    state->vtkglBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    glEnable(GL_PROGRAM_POINT_SIZE); // VTK's state does not know of it
-  }
-
-  ~OverScope() { glDisable(GL_PROGRAM_POINT_SIZE); }
-  OverScope(const OverScope&) = delete;
-  void operator=(const OverScope&) = delete;
-
-private:
-  vtkOpenGLState::ScopedglViewport Viewport;
-  vtkOpenGLState::ScopedglColorMask ColorMask;
-  vtkOpenGLState::ScopedglDepthMask DepthMask;
-  vtkOpenGLState::ScopedglDepthFunc DepthFunction;
-  vtkOpenGLState::ScopedglBlendFuncSeparate BlendFunction;
-  vtkOpenGLState::ScopedglEnableDisable DepthTest;
-  vtkOpenGLState::ScopedglEnableDisable Blend;
-  vtkOpenGLState::ScopedglEnableDisable Cull;
+  PointSizeScope() { glEnable(GL_PROGRAM_POINT_SIZE); }
+  ~PointSizeScope() { glDisable(GL_PROGRAM_POINT_SIZE); }
+  PointSizeScope(const PointSizeScope&) = delete;
+  void operator=(const PointSizeScope&) = delete;
 };
 
 void enableAttribute(
@@ -77,7 +52,7 @@ void TraceDrawer::upload(const std::vector<TraceVertex>& vertices)
   }
   if (this->Count > 0)
   {
-    this->Vertices->Upload(vertices.data(), vertices.size(), vtkOpenGLBufferObject::ArrayBuffer);
+    this->Vertices->Upload(sortedBySpace(vertices), vtkOpenGLBufferObject::ArrayBuffer);
   }
 }
 
@@ -90,7 +65,6 @@ void TraceDrawer::setUniforms(Program& program, const TraceScene& scene)
   program.set("radius", static_cast<float>(scene.radius));
   program.set("pixelsForMm", static_cast<float>(0.5 * scene.size.y * glm::length(up)));
   program.set("hiddenOpacity", static_cast<float>(scene.hiddenOpacity));
-  program.set("origin", glm::vec2(scene.origin));
   program.set("size", glm::vec2(scene.size));
   std::array<glm::vec2, MaxTissues> hitsFromShare;
   std::array<glm::vec2, MaxTissues> hitsOfShareZero;
@@ -111,26 +85,15 @@ void TraceDrawer::setUniforms(Program& program, const TraceScene& scene)
   program.set("farAhead", farAhead.data(), scene.hits.size());
 }
 
-void TraceDrawer::drawBalls(vtkOpenGLRenderWindow* window, unsigned int program, bool blended)
+void TraceDrawer::drawBalls(unsigned int program)
 {
+  const PointSizeScope pointSize;
   GLuint vertexArray = 0;
   glGenVertexArrays(1, &vertexArray);
   glBindVertexArray(vertexArray);
   this->Vertices->Bind();
   enableAttribute(program, "position", 3, GL_FLOAT, GL_FALSE, offsetof(TraceVertex, position));
   enableAttribute(program, "color", 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(TraceVertex, color));
-  vtkOpenGLState* state = window->GetState();
-  state->vtkglDepthFunc(GL_LEQUAL);
-  state->vtkglDisable(GL_BLEND);
-  if (blended)
-  {
-    state->vtkglEnable(GL_BLEND);
-    // The nearest ball alone, or a crowd of faded ones would be opaque.
-    state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    glDrawArrays(GL_POINTS, 0, this->Count);
-    state->vtkglDepthFunc(GL_EQUAL);
-  }
-  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDrawArrays(GL_POINTS, 0, this->Count);
   this->Vertices->Release();
   glBindVertexArray(0);
@@ -149,21 +112,36 @@ bool TraceDrawer::draw(vtkOpenGLRenderWindow* window, const TraceScene& scene, C
   {
     return false;
   }
+  const bool fades = tissues > 0 && scene.hiddenOpacity > 0.0 && scene.hiddenOpacity < 1.0;
+  const bool apart = fades || this->Translucent;
   this->setUniforms(program, scene);
+  program.set("origin", apart ? glm::vec2(0.0f) : glm::vec2(scene.origin));
+  vtkOpenGLState* state = window->GetState();
+  const SceneScope scope(state, apart);
+  state->vtkglViewport(scene.origin.x, scene.origin.y, scene.size.x, scene.size.y);
+  state->vtkglScissor(scene.origin.x, scene.origin.y, scene.size.x, scene.size.y);
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  const auto drawBalls = [&] { this->drawBalls(program.get()->GetHandle()); };
+  bool drawn = true;
+  if (apart)
   {
-    const OverScope scope(window->GetState(), scene);
-    const bool fades = tissues > 0 && scene.hiddenOpacity > 0.0 && scene.hiddenOpacity < 1.0;
-    this->drawBalls(window, program.get()->GetHandle(), fades || this->Translucent);
+    this->Image.draw(window, scene.size, drawBalls);
+    drawn = this->Image.layOver(window, counters);
+  }
+  else
+  {
+    drawBalls();
   }
   for (const FirstHits* hits : scene.hits)
   {
     hits->texture->Deactivate();
   }
-  return true;
+  return drawn;
 }
 
-void TraceDrawer::releaseGraphicsResources()
+void TraceDrawer::releaseGraphicsResources(vtkWindow* window)
 {
+  this->Image.releaseGraphicsResources(window);
   if (this->Vertices)
   {
     this->Vertices->ReleaseGraphicsResources();

@@ -7,6 +7,7 @@
 #include "Counters.h"
 #include "FirstHits.h"
 #include "Program.h"
+#include "TraceImage.h"
 
 #include "vtkSmartPointer.h"
 
@@ -51,16 +52,17 @@ public:
   // False if the shader does not compile.
   bool draw(vtkOpenGLRenderWindow* window, const TraceScene& scene, Counters& counters);
 
-  void releaseGraphicsResources();
+  void releaseGraphicsResources(vtkWindow* window);
 
 private:
   void setUniforms(Program& program, const TraceScene& scene);
-  void drawBalls(vtkOpenGLRenderWindow* window, unsigned int program, bool blended);
+  void drawBalls(unsigned int program);
 
   vtkSmartPointer<vtkOpenGLBufferObject> Vertices;
   int Count = 0;
   bool Translucent = false;        // some point's colour is
   std::map<int, Program> Programs; // by the number of volumes
+  TraceImage Image;                // of faded points
 };
 }
 

@@ -34,7 +34,7 @@ struct TracePoints::Device
   TraceDrawer Drawer;
   vtkMTimeType Uploaded = 0; // LookTime of what Drawer has
 
-  void Release(vtkWindow*) { this->Drawer.releaseGraphicsResources(); }
+  void Release(vtkWindow* window) { this->Drawer.releaseGraphicsResources(window); }
 };
 
 struct TracePoints::State

@@ -6,6 +6,7 @@
 #include "ReferenceVolume.h"
 #include "SceneDeformation.h"
 #include "SceneGeometry.h"
+#include "SceneReference.h"
 #include "SliceComparison.h"
 #include "SliceDrawer.h"
 #include "SlicePick.h"
@@ -66,6 +67,16 @@ struct vtkDeformedSlicesMapper::State
   vtkWeakPointer<vtkVolumeProperty> Property; // drawn with last
 };
 
+namespace
+{
+// A plane on the very face of the box must not come and go with rounding; texture coordinates.
+glm::dvec3 roundingOf(const ValueLayout& layout)
+{
+  constexpr double roundingVoxels = 1e-3;
+  return roundingVoxels / glm::dvec3(layout.dimensions);
+}
+}
+
 vtkStandardNewMacro(vtkDeformedSlicesMapper);
 
 vtkDeformedSlicesMapper::vtkDeformedSlicesMapper()
@@ -117,26 +128,22 @@ bool vtkDeformedSlicesMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
     return false;
   }
   window->MakeCurrent();
-  int cells = 0;
-  vtkDataArray* scalars = this->GetScalars(
-    image, this->ScalarMode, this->ArrayAccessMode, this->ArrayId, this->ArrayName, cells);
-  const Grid grid = gridOf(image);
-  const ValueLayout layout = layoutOf(grid.dimensions, cells != 0);
-  if (!holdsValues(scalars, layout))
+  const ShownValues shown = shownValuesOf(this, image);
+  if (!shown.scalars)
   {
     return true; // nothing to draw yet
   }
   this->UpdateDeformation(image);
   TissueRequest tissue;
   tissue.property = volume->GetProperty();
-  tissue.scalars = scalars;
-  tissue.layout = layout;
+  tissue.scalars = shown.scalars;
+  tissue.layout = shown.layout;
   tissue.blend = Blend::Maximum; // one sample is seen: opacity as given, no light
   tissue.nearest = this->Interpolation == Nearest;
   Device& device = this->Internal->Devices.of(window);
   takeOutOfMemory(); // what others left behind
   const bool drawn = this->AskForMemory(window, device, tissue, problem) &&
-    this->DrawPlanes(renderer, device, volume, tissue, grid, problem);
+    this->DrawPlanes(renderer, device, volume, tissue, shown.grid, problem);
   if (takeOutOfMemory())
   {
     device.Memory.refuse();
@@ -197,12 +204,12 @@ bool vtkDeformedSlicesMapper::DescribeReference(vtkOpenGLRenderWindow* window, D
   ComparisonChoice choice;
   choice.comparison = this->Comparison;
   choice.checkerSizeMm = this->CheckerSize;
-  choice.shownRange = { this->ReferenceRange[0], this->ReferenceRange[1] };
   choice.fullGradient = this->FullGradient;
   choice.wipePosition = { this->WipePosition[0], this->WipePosition[1], this->WipePosition[2] };
   const double* range = tissue.property->GetRGBTransferFunction()->GetRange();
-  const ComparedVolume volume{ grid, tissue.layout,
-    shareFromStored({ range[0], range[1] }, device.Tissue.stored()),
+  const ComparedVolume volume{ grid, tissue.layout, { range[0], range[1] }, device.Tissue.stored(),
+    valueFromReference(
+      reference.voxels, tissue, { this->ReferenceRange[0], this->ReferenceRange[1] }),
     scene.volume.transferFromScalar, tissue.nearest };
   return device.Reference.update(
     window, reference, choice, volume, scene.reference, this->Internal->Count, problem);
@@ -221,9 +228,7 @@ void vtkDeformedSlicesMapper::DescribePlanes(
   const glm::dvec3 position(this->SlicePosition[0], this->SlicePosition[1], this->SlicePosition[2]);
   scene.planes.position =
     grid.gridFromWorld(position) * layout.textureFromGrid + layout.textureOfGridZero;
-  // A plane on the very face of the box must not come and go with rounding.
-  constexpr double roundingVoxels = 1e-3;
-  const glm::dvec3 rounding = roundingVoxels / glm::dvec3(layout.dimensions);
+  const glm::dvec3 rounding = roundingOf(layout);
   scene.volume.volumeLow -= rounding;
   scene.volume.volumeHigh += rounding;
   scene.planes.low = glm::min(scene.volume.spaceLow, scene.volume.volumeLow);
@@ -239,12 +244,8 @@ bool vtkDeformedSlicesMapper::IsSeenAt(const glm::dvec3& texture)
 {
   State& state = *this->Internal;
   auto image = vtkImageData::SafeDownCast(this->GetDataSetInput());
-  int cells = 0;
-  vtkDataArray* scalars = this->GetScalars(
-    image, this->ScalarMode, this->ArrayAccessMode, this->ArrayId, this->ArrayName, cells);
-  const Grid grid = gridOf(image);
-  const ValueLayout layout = layoutOf(grid.dimensions, cells != 0);
-  if (!holdsValues(scalars, layout))
+  const auto [scalars, grid, layout] = shownValuesOf(this, image);
+  if (!scalars)
   {
     return false;
   }
@@ -261,8 +262,7 @@ bool vtkDeformedSlicesMapper::IsSeenAt(const glm::dvec3& texture)
     const glm::dvec3 world = state.Map->restFromDeformed(grid.worldFromGrid(place));
     rest = grid.gridFromWorld(world) * layout.textureFromGrid + layout.textureOfGridZero;
   }
-  constexpr double roundingVoxels = 1e-3;
-  const glm::dvec3 rounding = roundingVoxels / glm::dvec3(layout.dimensions);
+  const glm::dvec3 rounding = roundingOf(layout);
   if (glm::any(glm::lessThan(rest, layout.low - rounding)) ||
     glm::any(glm::greaterThan(rest, layout.high + rounding)))
   {

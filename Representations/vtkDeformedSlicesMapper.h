@@ -109,15 +109,15 @@ public:
   ///@}
 
   ///@{
-  /** The reference's scalars shown as black and as white; the volume's are those of its colour map.
-   * Default 0 0: its whole range. */
+  /** The reference's scalars that stand for the ends of the colour map. Default 0 0, as all that is
+   * no range: as vtkDeformedVolumeMapper maps them, equal numbers where both ranges are alike. */
   vtkSetVector2Macro(ReferenceRange, double);
   vtkGetVector2Macro(ReferenceRange, double);
   ///@}
 
   ///@{
   /** How much the reference changes within a mm where Gradient is fully green, as a share of the
-   * range that is shown. Default 0.3. */
+   * colour map's range. Default 0.3. */
   vtkSetClampMacro(FullGradient, double, 1e-6, VTK_DOUBLE_MAX);
   vtkGetMacro(FullGradient, double);
   ///@}

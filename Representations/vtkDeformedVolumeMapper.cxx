@@ -104,7 +104,10 @@ void vtkDeformedVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
   std::string problem;
   if (renderer->GetSelector())
   {
-    this->CoverSelection(renderer);
+    if (!selectsPoints(renderer))
+    {
+      this->CoverSelection(renderer);
+    }
   }
   else if (!this->Draw(renderer, volume, problem))
   {
@@ -114,7 +117,6 @@ void vtkDeformedVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
   this->TimeToDraw = timer->GetElapsedTime();
 }
 
-// What the last picture shows hides what is behind it; the volume itself cannot be selected.
 void vtkDeformedVolumeMapper::CoverSelection(vtkRenderer* renderer)
 {
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
@@ -139,24 +141,21 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
     return false;
   }
   window->MakeCurrent();
-  int cells = 0;
-  vtkDataArray* scalars = this->GetScalars(
-    image, this->ScalarMode, this->ArrayAccessMode, this->ArrayId, this->ArrayName, cells);
-  const Grid grid = gridOf(image);
-  const ValueLayout layout = layoutOf(grid.dimensions, cells != 0);
-  if (!holdsValues(scalars, layout))
+  const ShownValues shown = shownValuesOf(this, image);
+  const Grid& grid = shown.grid;
+  if (!shown.scalars)
   {
     return true; // nothing to draw yet
   }
   this->UpdateDeformation(image);
   vtkVolumeProperty* property = volume->GetProperty();
-  this->TellUnsupported(property, scalars);
+  this->TellUnsupported(property, shown.scalars);
   const double smallestSide = std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
-  const TissueRequest tissue{ property, scalars, layout,
+  const TissueRequest tissue{ property, shown.scalars, shown.layout,
     this->SampleDistance > 0.0 ? this->SampleDistance : 0.5 * smallestSide, blendOf(this, property),
     static_cast<GradientSource>(this->NormalTexture),
     property->GetInterpolationType() == VTK_NEAREST_INTERPOLATION,
-    this->SegmentOf(image, grid, layout), {} };
+    this->SegmentOf(image, grid, shown.layout), {} };
   SceneReference reference = this->FindReference(image, tissue);
   Device& device = this->Internal->Devices.of(window);
   takeOutOfMemory(); // what others left behind

@@ -177,6 +177,13 @@ public:
   double* GetBounds() VTK_SIZEHINT(6) override;
   ///@}
 
+  /**
+   * Hides from a selection what lies behind the tissue of the last picture; the volume itself
+   * cannot be selected. Selections of surfaces' cells do so when volumes are drawn. Points are
+   * drawn without a depth of their own: there it must be called before anything is.
+   */
+  void CoverSelection(vtkRenderer* renderer);
+
   /** What was done since the mapper was made, and what it holds on the GPU now. */
   const brainshift::Counters& GetCounters();
 
@@ -196,7 +203,6 @@ private:
   bool DrawTissue(vtkRenderer* renderer, Device& device, vtkVolume* volume,
     const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
     const brainshift::SceneReference& reference, std::string& problem);
-  void CoverSelection(vtkRenderer* renderer);
   void DrawUndeformed(vtkRenderer* renderer, vtkVolume* volume, const std::string& problem);
 
   brainshift::SegmentRequest SegmentOf(

@@ -3,9 +3,11 @@
 
 #include "EdgeSmoothing.h"
 #include "InteractiveDelivery.h"
+#include "SelectionCover.h"
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkVolumeOrder.h"
 
+#include "vtkCommand.h"
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVRenderView.h"
@@ -136,12 +138,26 @@ void vtkDeformedVolumeRepresentation::UpdateMapperParameters()
     "VolumeRenderingMode asks for software or OSPRay; Deformed Volume draws on the GPU");
 }
 
+// Points are selected against the depths of the picture before, to which they add none. Those are
+// lost where ParaView's insets, the axes in the corners, cleared them; so the tissue's come first.
+void vtkDeformedVolumeRepresentation::CoverPointSelection(vtkObject* caller, unsigned long, void*)
+{
+  auto* renderer = static_cast<vtkRenderer*>(caller);
+  if (brainshift::selectsPoints(renderer) && this->Actor->GetVisibility())
+  {
+    this->GetDeformedVolumeMapper()->CoverSelection(renderer);
+  }
+}
+
 bool vtkDeformedVolumeRepresentation::AddToView(vtkView* view)
 {
   if (auto renderView = vtkPVRenderView::SafeDownCast(view))
   {
-    renderView->GetRenderer()->AddCuller(this->Order);
-    this->Smoothing->watch(renderView->GetRenderer());
+    vtkRenderer* renderer = renderView->GetRenderer();
+    renderer->AddCuller(this->Order);
+    this->Smoothing->watch(renderer);
+    this->RenderStart = renderer->AddObserver(
+      vtkCommand::StartEvent, this, &vtkDeformedVolumeRepresentation::CoverPointSelection);
   }
   return this->Superclass::AddToView(view);
 }
@@ -152,6 +168,7 @@ bool vtkDeformedVolumeRepresentation::RemoveFromView(vtkView* view)
   {
     renderView->GetRenderer()->RemoveCuller(this->Order);
     this->Smoothing->watch(nullptr);
+    renderView->GetRenderer()->RemoveObserver(this->RenderStart);
   }
   return this->Superclass::RemoveFromView(view);
 }

@@ -103,9 +103,11 @@ private:
   void operator=(const vtkDeformedVolumeRepresentation&) = delete;
 
   void TellOnce(bool unsupported, const std::string& sentence);
+  void CoverPointSelection(vtkObject* caller, unsigned long, void*);
 
   vtkNew<vtkVolumeOrder> Order;
   std::unique_ptr<brainshift::EdgeSmoothing> Smoothing;
+  unsigned long RenderStart = 0; // observer of the view's renderer
   float GlobalIlluminationReach = 0.0f;
   float VolumetricScatteringBlending = 0.0f;
   int RequestedRenderMode = 0;

@@ -98,7 +98,7 @@ void see(inout Seen seen, Path path, mat3 turn, mat3 slopes, float number, vec3 
   vec2 opacities)
 {
   vec3 deformed = positionOf(path.deformed, number);
-  bool ignored = inCavity(deformed);
+  bool ignored = isRemoved(deformed);
   float behindBoth = (1.0 - seen.own.opacity) * (1.0 - seen.other.opacity);
   vec2 shares = opacities * (ignored
     ? behindBoth * vec2(1.0, 1.0 - opacities.x) // nothing agrees there: each hides the other

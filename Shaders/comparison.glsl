@@ -25,24 +25,6 @@ const int Wipe = 5;
 const vec3 WipeColor = vec3(0.91, 0.51, 0.12);
 const float HalfLinePixels = 0.75;
 
-#ifdef CAVITY
-uniform sampler3D cavity;       // red: whether it is one, as stored; the nearest voxel's holds
-uniform mat4 cavityFromTexture; // its texture coordinates from the volume's
-uniform float leastCavity;      // stored number from which on it is one
-
-bool isRemoved(vec3 deformed)
-{
-  vec3 place = (cavityFromTexture * vec4(deformed, 1.0)).xyz;
-  return all(greaterThanEqual(place, vec3(0.0))) && all(lessThan(place, vec3(1.0))) &&
-    textureLod(cavity, place, 0.0).r > leastCavity;
-}
-#else
-bool isRemoved(vec3 deformed)
-{
-  return false;
-}
-#endif
-
 // The reference at a position in its texture: its share of the range, 0 where it is not known.
 struct Referenced
 {

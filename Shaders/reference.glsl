@@ -1,5 +1,5 @@
 // A reference volume beside the bent one, on a grid of its own. It is not bent and not resampled:
-// it is read where a sample lies, through one matrix. A cavity: what the comparison ignores.
+// it is read where a sample lies, through one matrix.
 
 uniform sampler3D reference;       // red: the scalar, as stored
 uniform mat4 referenceFromTexture; // its texture coordinates from the volume's
@@ -69,23 +69,5 @@ uniform vec3 referenceVoxel; // one voxel, in its texture coordinates
 vec3 referenceGradientAt(vec3 place)
 {
   return centralDifferences(reference, place, referenceVoxel);
-}
-#endif
-
-// Where tissue was removed colours say nothing.
-#ifdef CAVITY
-uniform sampler3D cavity;       // red: above 0 inside
-uniform mat4 cavityFromTexture; // its texture coordinates from the volume's
-
-bool inCavity(vec3 deformed)
-{
-  vec3 place = (cavityFromTexture * vec4(deformed, 1.0)).xyz;
-  bool within = all(greaterThanEqual(place, vec3(0.0))) && all(lessThanEqual(place, vec3(1.0)));
-  return within && textureLod(cavity, place, 0.0).r > 0.0;
-}
-#else
-bool inCavity(vec3 deformed)
-{
-  return false;
 }
 #endif

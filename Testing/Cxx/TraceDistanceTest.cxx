@@ -269,6 +269,44 @@ TEST_F(TraceDistance, AfterStrokesAHundredThousandPointsAreAsEvaluatedAnew)
   }
 }
 
+TEST_F(TraceDistance, OtherPointsBetweenStrokesAreAsEvaluatedAnew)
+{
+  auto positions = this->around(2000);
+  const glm::dvec3 top = this->Middle + glm::dvec3(0, 0, Radius);
+  std::vector<Stroke> strokes;
+  const auto expectAsAnew = [&](const char* when) {
+    const auto set = pointsAt(positions);
+    vtkPointSet* traced = this->run(set);
+    vtkNew<vtkTraceDistance> anew;
+    anew->SetInputData(set);
+    anew->SetDeformationConnection(this->Bend->GetOutputPort());
+    anew->SetThreshold(0.0);
+    anew->Update();
+    vtkPointSet* expected = vtkPointSet::SafeDownCast(anew->GetOutputDataObject(0));
+    for (vtkIdType i = 0; i < set->GetNumberOfPoints(); ++i)
+    {
+      ASSERT_EQ(trace(traced, i), trace(expected, i)) << when << ", point " << i;
+    }
+  };
+  const auto bend = [&](const glm::dvec3& place, const glm::dvec3& by) {
+    Stroke stroke = strokeAt(Tool::Soft, place, by);
+    stroke.major = 12.0;
+    strokes.push_back(stroke);
+    setStrokes(this->Bend, strokes);
+  };
+  expectAsAnew("at first");
+  std::reverse(positions.begin(), positions.end());
+  bend(top, { 0.0, 0.0, -6.0 });
+  expectAsAnew("points in another order");
+  const auto all = positions;
+  positions.resize(10);
+  bend(top + glm::dvec3(3, 0, 0), { -3.0, 0.0, 4.0 });
+  expectAsAnew("a few");
+  positions = all;
+  bend(this->Middle - glm::dvec3(0, 0, Radius), { 0.0, 2.0, 5.0 });
+  expectAsAnew("all of them again, after a stroke that these did not see");
+}
+
 TEST_F(TraceDistance, ACavityCountsNeitherPointsNorTissue)
 {
   // Everything above the ball's middle is gone.

@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 
 using namespace brainshift;
 using namespace brainshift::testing;
@@ -137,6 +138,42 @@ TEST(TriangleTree, FindsWhatAskingAllTrianglesFinds)
   expectSame("some gone");
 }
 
+TEST(TriangleTree, AfterAMoveTheAnswerIsThatOfAskingAll)
+{
+  const TriangleMesh mesh = randomMesh(13, 600, 900);
+  TriangleTree tree(mesh);
+  Random random(14);
+  std::vector<glm::dvec3> points = mesh.points;
+  std::vector<glm::dvec3> asked;
+  std::vector<int> before;
+  for (int i = 0; i < 400; ++i)
+  {
+    asked.push_back(random.between(glm::dvec3(-30), glm::dvec3(30)));
+    before.push_back(tree.nearest(asked[i]).triangle);
+  }
+  int changed = 0;
+  for (int move = 0; move < 10; ++move)
+  {
+    std::vector<char> moved(points.size(), 0);
+    const auto first = static_cast<std::size_t>(random.between(0.0, points.size() - 20.0));
+    for (std::size_t i = first; i < first + 20; ++i)
+    {
+      points[i] = random.between(glm::dvec3(-20), glm::dvec3(20));
+      moved[i] = 1;
+    }
+    tree.fit(points, moved, {});
+    for (std::size_t i = 0; i < asked.size(); ++i)
+    {
+      const TriangleTree::Nearest found = tree.nearestAfterMove(asked[i], before[i]);
+      EXPECT_EQ(found.distance, tree.nearest(asked[i]).distance) << move << ", " << i;
+      EXPECT_NEAR(found.distance, askAll(mesh, points, asked[i], {}), 1e-9);
+      changed += found.triangle != before[i];
+      before[i] = found.triangle;
+    }
+  }
+  EXPECT_GT(changed, 100) << "of 4000";
+}
+
 TEST(TriangleTree, NothingIsInfinitelyFar)
 {
   EXPECT_EQ(TriangleTree().nearest({ 1, 2, 3 }).distance, std::numeric_limits<double>::infinity());
@@ -191,6 +228,31 @@ TEST(DeformedSurface, FollowsTheLatticeAndRedoesOnlyWhatAStrokeReaches)
     surface.follow(makeLattice(obliqueGrid({ 6, 7, 8 }), kernel), {});
     EXPECT_EQ(surface.points()[77], mesh.points[77]) << "another lattice that moves nothing";
     EXPECT_NEAR(surface.nearest(p).distance, askAll(mesh, mesh.points, p, {}), 1e-9);
+  }
+}
+
+TEST(DeformedSurface, FollowsAnotherMask)
+{
+  const Grid grid = obliqueGrid({ 12, 13, 14 });
+  TriangleMesh mesh = randomMesh(25, 500, 900);
+  Random random(7);
+  for (glm::dvec3& point : mesh.points)
+  {
+    point = random.point(grid, 0.0);
+  }
+  DeformedSurface surface(mesh);
+  Lattice lattice = randomLattice(grid, 0, 9, 0.4);
+  for (const float weight : { 1.0f, 0.5f, 0.0f })
+  {
+    auto mask = std::make_shared<NodeWeights>();
+    mask->values.assign(grid.count(), weight);
+    lattice.mask = mask;
+    surface.follow(lattice, {});
+    const PointMap map(lattice);
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    {
+      ASSERT_EQ(surface.points()[i], map.deformedFromRest(mesh.points[i])) << weight << ", " << i;
+    }
   }
 }
 

@@ -121,12 +121,11 @@ class WithCavity(Pair):
         self.compare.Cavity = self.mask
 
     def removed(self):
-        """Which pixels lie in the cavity, and which too near to its steps to be told."""
-        grid = (self.unturned() - self.cavity_origin) / self.cavity_step
-        index = numpy.clip(numpy.rint(grid).astype(int), 0, 13)
-        inside = ((grid > -0.5) & (grid < 13.5)).all(axis=2)
-        removed = inside & (self.labels[index[..., 2], index[..., 1], index[..., 0]] == 1)
-        return removed, (numpy.abs(grid - numpy.floor(grid) - 0.5) < 0.02).any(axis=2)
+        """Which pixels lie in the cavity, and which too near to its edge to be told. The edge is
+        where interpolation between its voxels passes a half."""
+        share, _ = trilinear(
+            self.labels, (self.unturned() - self.cavity_origin) / self.cavity_step)
+        return share > 0.5, numpy.abs(share - 0.5) < 0.02
 
 
 def test_the_cavity_is_ignored():

@@ -3,7 +3,7 @@
 # red and green, in a checkerboard, subtracted; live, for a stroke uploads the lattice only.
 import numpy
 from brainshift_testing import (assert_says, ball, field, load_plugin, messages, output, picture,
-                                run_tests, volume)
+                                run_tests, show_volume, volume)
 from slices_testing import flat_view, pixel_positions, show_slices
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -50,6 +50,30 @@ def test_a_turned_reference_of_another_grid():
     wanted = numpy.clip(share * (pair.voxels.max() - pair.voxels.min())
                         + pair.voxels.min() - 500.0, 0, 500) / 500
     assert numpy.abs(shown[:, :, 1] - wanted)[inside].max() < 2.5 / 255, "a range of its own"
+
+
+def test_ranges_are_those_of_3d():
+    # Both rise from left to right. The number is the grey of the reference halfway.
+    share = numpy.broadcast_to(numpy.linspace(0.0, 1.0, 33), (33, 33, 33)).astype(numpy.float32)
+    cases = (("alike: equal numbers", 80 * share, (0, 0), (0, 100), 0.4),
+             ("alike, another window", 80 * share, (0, 0), (20, 70), 0.4),
+             ("not alike: range to range", 3000 * share + 500, (0, 0), (0, 100), 0.5),
+             ("not alike, another window", 3000 * share + 500, (0, 0), (25, 75), 0.5),
+             ("given", 3000 * share + 500, (500, 2500), (20, 70), 0.75))
+    for what, voxels, given, window, grey in cases:
+        compare = CompareVolumes(Input=volume(100 * share), Reference=volume(voxels))
+        compare.Show = "Reference"
+        cut = compared_picture(compare, "None", window, ReferenceRange=given)[:, :, 0]
+        view = flat_view(2, MIDDLE, HALF)
+        colors = [window[0], 0, 0, 0, window[1], 1, 1, 1]
+        opaque = [window[0], 1, 0.5, 0, window[1], 1, 0.5, 0]
+        display = show_volume(compare, view, "Deformed Volume", colors, opaque)
+        display.VolumeReferenceRange = given
+        apart = numpy.abs(picture(view)[:, :, 0] - cut).max()
+        middle = cut.shape[0] // 2
+        assert abs(cut[middle, middle] - grey) < 0.02, (what, cut[middle, middle])
+        assert apart < 3.0 / 255, (what, apart)
+        Delete(view)
 
 
 def test_checkerboard():

@@ -6,6 +6,7 @@ from brainshift_testing import (ball, load_plugin, look, picture, run_tests, sho
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
+from counters_testing import Counted  # noqa: E402
 from paraview.simple import (CreatePiecewiseFunction, FreeFormDeformation,  # noqa: E402
                              GetOpacityTransferFunction, Show, Sphere)
 
@@ -16,26 +17,15 @@ LATTICE_BYTES = 19 ** 3 * 3 * 4  # 82 kB
 FIELD_TEXELS = 91 ** 3  # nodes over the lattice
 
 
-class Drawn:
-    """A bent ball on the screen, and what the renderer did since the last look."""
+class Drawn(Counted):
+    """A bent ball on the screen."""
 
     def __init__(self):
         self.filter = FreeFormDeformation(
             Input=volume(ball()), Strokes=brainshift.soft(MIDDLE, (2, 0, 0), 12))
-        self.view = view_along((0, 0, -1), MIDDLE, 100)
-        self.display = show_volume(
-            self.filter, self.view, "Deformed Volume", COLORS, OPACITIES, shade=True)
-        picture(self.view)
-        self.before = brainshift.counters(self.display)
-
-    def did(self):
-        """What a new picture took, without the frame itself."""
-        picture(self.view)
-        now = brainshift.counters(self.display)
-        done = {name: now[name] - self.before[name] for name in now}
-        self.before = now
-        assert done.pop("frames") > 0
-        return {name: count for name, count in done.items() if count}
+        view = view_along((0, 0, -1), MIDDLE, 100)
+        super().__init__(view, show_volume(
+            self.filter, view, "Deformed Volume", COLORS, OPACITIES, shade=True))
 
 
 def test_a_first_picture_uploads_everything_once():

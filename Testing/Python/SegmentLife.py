@@ -8,6 +8,7 @@ from brainshift_testing import (ball, load_plugin, on_server, picture, run_tests
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
+from counters_testing import Counted  # noqa: E402
 from paraview import simple, smstate  # noqa: E402
 from segment_testing import (BRAIN, COLORS, MIDDLE, OPACITIES, SIDE, SKULL,  # noqa: E402
                              STROKES, bent, labels_at, places, show, tissue)
@@ -59,24 +60,14 @@ def test_skipping_is_exact_in_other_blend_modes():
     simple.Delete(view)
 
 
-class Drawn:
-    """The brain alone on the screen, and what the renderer did since the last look."""
+class Drawn(Counted):
+    """The brain alone on the screen."""
 
-    def __init__(self, labels=None, source=None):
+    def __init__(self, labels=None):
         self.segmentation = volume(labels_at(places()))
         self.filter = bent(Segmentation=self.segmentation)
-        self.view = view_along(DIRECTION, MIDDLE, 110.0, size=200)
-        self.display = show(self.filter, self.view, labels, shade=True)
-        picture(self.view)
-        self.before = brainshift.counters(self.display)
-
-    def did(self):
-        picture(self.view)
-        now = brainshift.counters(self.display)
-        done = {name: now[name] - self.before[name] for name in now}
-        self.before = now
-        assert done.pop("frames") > 0
-        return {name: count for name, count in done.items() if count}
+        view = view_along(DIRECTION, MIDDLE, 110.0, size=200)
+        super().__init__(view, show(self.filter, view, labels, shade=True))
 
 
 def test_only_what_changed_is_uploaded():

@@ -11,6 +11,7 @@ from slices_testing import flat_view, show_slices
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
+from counters_testing import Counted  # noqa: E402
 from paraview.simple import (  # noqa: E402
     Delete, FreeFormDeformation, GetColorTransferFunction,
     GetOpacityTransferFunction, Hide, SaveScreenshot, Show, Sphere)
@@ -152,26 +153,19 @@ def test_opacity_map():
     Delete(view)
 
 
-class Drawn:
-    """Slices of a bent ball on the screen, and what was done since the last look."""
+class Drawn(Counted):
+    """Slices of a bent ball on the screen."""
 
     def __init__(self):
         self.filter = bent_ball()
-        self.view = view_along((0.3, 0.2, -1), MIDDLE, 100, size=150)
-        self.display = show_slices(self.filter, self.view, ALL, MIDDLE)
-        self.image = picture(self.view)
-        self.before = brainshift.counters(self.display)
+        view = view_along((0.3, 0.2, -1), MIDDLE, 100, size=150)
+        super().__init__(view, show_slices(self.filter, view, ALL, MIDDLE))
 
     def did(self):
-        """What a new picture, which must be another one, took, without the frame itself."""
-        image = picture(self.view)
-        assert (image != self.image).any(), "nothing changed"
-        self.image = image
-        now = brainshift.counters(self.display)
-        done = {name: now[name] - self.before[name] for name in now
-                if now[name] != self.before[name]}
-        self.before = now
-        assert done.pop("frames") > 0
+        """What a new picture, which must be another one, took."""
+        last = self.image
+        done = super().did()
+        assert (self.image != last).any(), "nothing changed"
         return done
 
 

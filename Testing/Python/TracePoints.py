@@ -105,6 +105,21 @@ def test_a_crowd_is_as_faint_as_one_point():
     Delete(scene.view)
 
 
+def test_faded_points_hide_a_set_drawn_later():
+    scene = Scene(points=[12, 19, 14])
+    traces = show_traces(PolyPointSource(Points=[12, 19, 4]), scene.view)
+    traces.DiffuseColor = traces.AmbientColor = (0, 0, 1)
+    assert_close(scene.colors((12, 19, 14)), [mixed(0.25)], "red alone")
+    Delete(scene.view)
+
+
+def test_translucent_points_are_blended_once():
+    scene = Scene(points=[(16 + 0.05 * i, 16, 38 - i) for i in range(5)])
+    scene.traces.HiddenPoints, scene.traces.Opacity = "Show", 0.5
+    assert_close(scene.colors((16.1, 16, 36)), [mixed(0.5)], "in front of tissue")
+    Delete(scene.view)
+
+
 def test_the_volume_is_not_cast_again():
     scene = Scene()
     picture(scene.view)
@@ -235,14 +250,16 @@ def selected(scene, whole):
 
 
 def test_tissue_hides_from_selections():
-    # A row of points in front of the ball, another behind.
+    # A row of points in front of the ball, another behind. In the corners ParaView's insets take
+    # part of the picture's depths.
     row = [(x, 12.3 + 0.23 * x, z) for z in (30, 2) for x in range(13, 20)]
     for parallel in (True, False):
         scene = Scene(points=row, parallel=parallel)
         Render(scene.view)  # selecting does, and the first time moves the camera
-        look(scene.view, (0.1, 0.2, -1), MIDDLE, DISTANCE)
-        found = selected(scene, [0, 0, SIZE - 1, SIZE - 1])
-        assert found == list(range(len(row) // 2)), (parallel, found)
+        for aside in ((0, 0, 0), (12, 12, 0), (-12, -12, 0)):
+            look(scene.view, (0.1, 0.2, -1), MIDDLE + aside, DISTANCE)
+            found = selected(scene, [0, 0, SIZE - 1, SIZE - 1])
+            assert found == list(range(len(row) // 2)), (parallel, aside, found)
         Delete(scene.view)
 
 

@@ -25,9 +25,9 @@ def smooth(seed, side=33):
     return (100 * (values - low) / (high - low)).astype(numpy.float32)
 
 
-def compared_picture(source, comparison, **named):
+def compared_picture(source, comparison, window=(0.0, 100.0), **named):
     view = flat_view(2, MIDDLE, HALF)
-    display = show_slices(source, view, ("Axial",), MIDDLE)
+    display = show_slices(source, view, ("Axial",), MIDDLE, *window)
     display.SliceComparison = comparison
     for name, value in named.items():
         setattr(display, name, value)

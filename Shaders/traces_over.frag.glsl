@@ -1,0 +1,18 @@
+// Lays the nearest of faded balls over the scene; blending does the rest.
+
+in vec2 ndc;
+
+uniform sampler2D balls;  // colour times opacity, opacity
+uniform sampler2D depths; // of the window; 1: no ball
+
+void main()
+{
+  vec2 share = 0.5 * ndc + 0.5;
+  float depth = textureLod(depths, share, 0.0).r;
+  if (depth >= 1.0)
+  {
+    discard;
+  }
+  gl_FragDepth = depth;
+  gl_FragData[0] = textureLod(balls, share, 0.0);
+}
