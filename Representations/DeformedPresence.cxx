@@ -74,6 +74,18 @@ IndexBox bricksOfNodes(const PresenceRequest& request, const IndexBox& nodes)
   return box;
 }
 
+IndexBox blocksOf(const IndexBox& bricks)
+{
+  return { bricks.first / BricksInBlock, bricks.last / BricksInBlock };
+}
+
+// Where the blocks of a box lie in their textures: they are asked at once and not kept.
+glm::ivec3 blockShift(const IndexBox& bricks)
+{
+  const IndexBox blocks = blocksOf(bricks);
+  return { leadToSecondThread(blocks.first.x, blocks.size().x), 0, 0 };
+}
+
 // Corners of a rectangle's two triangles, in bricks from the volume's first voxel.
 void appendRectangle(
   std::vector<glm::vec3>& corners, const BrickRectangle& rectangle, const glm::ivec3& first)
@@ -115,7 +127,8 @@ bool DeformedPresence::allocate(vtkOpenGLRenderWindow* window, const glm::ivec3&
     setNearest(map);
     return map->Allocate3D(side.x, side.y, side.z, components, type);
   };
-  const glm::ivec3 blocks = (count + BricksInBlock - 1) / BricksInBlock;
+  glm::ivec3 blocks = (count + BricksInBlock - 1) / BricksInBlock;
+  blocks.x += leadToSecondThread(0, 0); // at most
   if (make(this->Blocks[0], blocks, 4, VTK_FLOAT) && make(this->Blocks[1], blocks, 4, VTK_FLOAT) &&
     make(this->Map, count, 1, VTK_UNSIGNED_CHAR))
   {
@@ -151,9 +164,11 @@ bool DeformedPresence::findBlocks(vtkOpenGLRenderWindow* window, const PresenceR
     return false;
   }
   this->setBricks(this->BlocksProgram, request);
-  const IndexBox blocks{ box.first / BricksInBlock, box.last / BricksInBlock };
+  const IndexBox blocks = blocksOf(box);
+  const glm::ivec3 shift = blockShift(box);
+  this->BlocksProgram.set("blockShift", glm::vec3(shift));
   runVolumePass(window, this->BlocksProgram.get()->GetHandle(),
-    { this->Blocks[0], this->Blocks[1] }, blocks.first, blocks.size());
+    { this->Blocks[0], this->Blocks[1] }, blocks.first + shift, blocks.size());
   request.offsets->Deactivate();
   return true;
 }
@@ -183,6 +198,7 @@ bool DeformedPresence::compute(vtkOpenGLRenderWindow* window, const PresenceRequ
     program.set("blocks",
       glm::ivec3(
         this->Blocks[0]->GetWidth(), this->Blocks[0]->GetHeight(), this->Blocks[0]->GetDepth()));
+    program.set("blockShift", glm::vec3(blockShift(box)));
     program.set("blockLeast", this->Blocks[0].Get());
     program.set("blockGreatest", this->Blocks[1].Get());
   }

@@ -149,9 +149,21 @@ bool FieldTexture::makeOffsets(vtkOpenGLRenderWindow* window, const FieldRequest
 bool FieldTexture::makeDisplacements(vtkOpenGLRenderWindow* window, const IndexBox& nodes)
 {
   this->Displaced = nodes;
+  this->Displacements = nullptr;
+  this->Lead = 0;
+  if (nodes.empty())
+  {
+    return true;
+  }
+  this->Lead = leadToSecondThread(0, nodes.size().x);
   this->Displacements =
-    nodes.empty() ? nullptr : makeTexture(window, nodes.size(), vtkTextureObject::Nearest);
-  return nodes.empty() || this->Displacements;
+    makeTexture(window, this->heldNodes().size(), vtkTextureObject::Nearest);
+  if (!this->Displacements)
+  {
+    return false;
+  }
+  clearVolume(window, this->Displacements);
+  return true;
 }
 
 bool FieldTexture::upload(
@@ -187,7 +199,7 @@ bool FieldTexture::refine(vtkOpenGLRenderWindow* window, const FieldRequest& req
 {
   const glm::mat4 weights = kernelPolynomials(request.kernel);
   const int perCell = request.samples + 1;
-  const glm::ivec3 displaced = this->Displaced.size();
+  const IndexBox displaced = this->heldNodes();
   glm::ivec3 count = request.dimensions;
   // Of control points; axis by axis of nodes, counted from the first displaced one.
   IndexBox box = pointsAround(nodes, perCell, request.dimensions);
@@ -197,9 +209,9 @@ bool FieldTexture::refine(vtkOpenGLRenderWindow* window, const FieldRequest& req
   for (int axis = 0; axis < 3; ++axis)
   {
     const glm::vec3 coarseTexel = texelOf(count);
-    count[axis] = displaced[axis];
-    box.first[axis] = nodes.first[axis] - this->Displaced.first[axis];
-    box.last[axis] = nodes.last[axis] - this->Displaced.first[axis];
+    count[axis] = displaced.size()[axis];
+    box.first[axis] = nodes.first[axis] - displaced.first[axis];
+    box.last[axis] = nodes.last[axis] - displaced.first[axis];
     vtkTextureObject* mask = axis == 2 ? this->MaskWeights : nullptr;
     Program& program = this->RefinePrograms[mask != nullptr];
     const vtkSmartPointer<vtkTextureObject> refined =
@@ -220,7 +232,7 @@ bool FieldTexture::refine(vtkOpenGLRenderWindow* window, const FieldRequest& req
     program.set("axis", unit);
     program.set("points", static_cast<float>(request.dimensions[axis]));
     program.set("perCell", static_cast<float>(perCell));
-    program.set("firstNode", glm::vec3(this->Displaced.first));
+    program.set("firstNode", glm::vec3(displaced.first));
     program.set("weights", weights);
     runVolumePass(window, program.get()->GetHandle(), { refined }, box.first, box.size());
     coarse->Deactivate();
@@ -241,10 +253,11 @@ bool FieldTexture::invert(
     return false;
   }
   const int perCell = request.nodes.perCell;
-  const glm::vec3 texel = texelOf(this->Displaced.size());
+  const IndexBox displaced = this->heldNodes();
+  const glm::vec3 texel = texelOf(displaced.size());
   this->InvertProgram.set("refined", this->Displacements.Get());
   this->InvertProgram.set("refinedFromNode", texel);
-  this->InvertProgram.set("refinedOfNodeZero", (0.5f - glm::vec3(this->Displaced.first)) * texel);
+  this->InvertProgram.set("refinedOfNodeZero", (0.5f - glm::vec3(displaced.first)) * texel);
   this->InvertProgram.set("lastNode", glm::vec3((request.dimensions - 1) * perCell));
   this->InvertProgram.set("perCell", static_cast<float>(perCell));
   this->InvertProgram.set("firstNode", glm::vec3(request.nodes.first * perCell));

@@ -51,6 +51,14 @@ public:
   vtkTextureObject* displacements() const { return this->Displacements; }
   const IndexBox& displacedNodes() const { return this->Displaced; }
 
+  // The nodes of the texture: along x it may begin earlier, even before the lattice, with zeros.
+  IndexBox heldNodes() const
+  {
+    IndexBox box = this->Displaced;
+    box.first.x -= this->Lead;
+    return box;
+  }
+
   // Offsets computed by the last update.
   const IndexBox& changed() const { return this->Changed; }
 
@@ -76,6 +84,7 @@ private:
   vtkSmartPointer<vtkTextureObject> MaskWeights; // on the forward nodes; null: no mask
   vtkSmartPointer<vtkTextureObject> Displacements;
   IndexBox Displaced; // forward nodes of Displacements; all others stay
+  int Lead = 0;       // nodes before them, which are zero (leadToSecondThread)
   vtkSmartPointer<vtkTextureObject> Offsets;
   FieldRequest Current; // what the textures show
   bool HasCurrent = false;

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VolumePass.h"
 
+#include "GpuMemory.h"
 #include "OpenGL.h"
 #include "Program.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkTextureObject.h"
+
+#include <algorithm>
 
 namespace brainshift
 {
@@ -38,6 +41,12 @@ void runVolumePass(vtkOpenGLRenderWindow* window, int programHandle,
   state->vtkglScissor(first.x, first.y, count.x, count.y);
   glUniform1i(glGetUniformLocation(programHandle, "firstLayer"), first.z);
   drawTriangles(count.z);
+}
+
+int leadToSecondThread(int first, int count)
+{
+  constexpr int square = 64;
+  return drawsInSoftware() ? std::max(square - (first + count / 2), 0) : 0;
 }
 
 void clearVolume(vtkOpenGLRenderWindow* window, vtkTextureObject* target)

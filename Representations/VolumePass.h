@@ -20,6 +20,11 @@ void runVolumePass(vtkOpenGLRenderWindow* window, int programHandle,
   std::initializer_list<vtkTextureObject*> targets, const glm::ivec3& first,
   const glm::ivec3& count);
 
+// How far along x to move a box of texels that starts at `first`, so that a software driver has two
+// threads draw it: they share a target out by squares of 64 pixels, whatever its layers, and a box
+// within one square would be left to one of them. 0 with other drivers.
+int leadToSecondThread(int first, int count);
+
 // Sets all of a 3D texture to zero.
 void clearVolume(vtkOpenGLRenderWindow* window, vtkTextureObject* target);
 }

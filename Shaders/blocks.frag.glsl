@@ -3,7 +3,7 @@
 
 void main()
 {
-  vec3 low = (vec3(firstBrick) + targetTexel() * float(BRICKS_IN_BLOCK)) * brickSide - margin;
+  vec3 low = (vec3(firstBrick) + (targetTexel() - blockShift) * float(BRICKS_IN_BLOCK)) * brickSide - margin;
   vec3 high = low + brickSide * float(BRICKS_IN_BLOCK) + 2.0 * margin;
   vec3 least;
   vec3 greatest;

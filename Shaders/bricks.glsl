@@ -10,6 +10,7 @@ uniform ivec3 offsetCount;
 uniform vec3 voxelsFromOffset;   // voxels for one unit of an offset
 uniform vec3 nodesFromVoxel;     // node = voxel * nodesFromVoxel + nodesFromVoxelShift
 uniform vec3 nodesFromVoxelShift;
+uniform vec3 blockShift;         // texel of block 0 0 0 among the blocks
 
 // One node, of whole number. A software driver reads a texture whose filter is off in a third of
 // texelFetch's time, and turns what becomes an integer lane by lane.

@@ -11,7 +11,7 @@ const float Small = 0.25 * InversionTolerance;
 void main()
 {
   vec3 node = firstNode + targetTexel();
-  vec3 displacement = valueAtNode(node);
+  vec3 displacement = valueAtNode(clamp(node, vec3(0.0), lastNode));
   vec3 offset = -displacement;
   if (negated == 0 && dot(displacement, displacement) > Small * Small)
   {

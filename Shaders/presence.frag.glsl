@@ -13,7 +13,7 @@ uniform vec3 highestVoxel;
 #ifdef DEFORMED
 uniform sampler3D blockLeast;    // least and greatest offset in each block of bricks, voxels
 uniform sampler3D blockGreatest;
-uniform ivec3 blocks;            // blocks a side
+uniform ivec3 blocks;            // texels of both a side
 #endif
 
 float sumAt(float x, float y, float z)
@@ -57,7 +57,8 @@ bool present(vec3 texel)
   vec3 least = vec3(0.0);
   vec3 greatest = vec3(0.0);
 #ifdef DEFORMED
-  vec3 place = (floor((texel + 0.5) / float(BRICKS_IN_BLOCK)) + 0.5) / vec3(blocks);
+  vec3 place = (floor((texel + 0.5) / float(BRICKS_IN_BLOCK)) + blockShift + 0.5) /
+    vec3(blocks);
   least = textureLod(blockLeast, place, 0.0).xyz;
   greatest = textureLod(blockGreatest, place, 0.0).xyz;
   bvec2 inBlock = visibleWithin(low + least, high + greatest);

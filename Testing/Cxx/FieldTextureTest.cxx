@@ -49,7 +49,7 @@ std::vector<glm::vec3> displacementsOf(const FieldTexture& field, const FieldNod
   {
     return all;
   }
-  const IndexBox& box = field.displacedNodes();
+  const IndexBox box = field.heldNodes();
   std::size_t texel = 0;
   const std::vector<glm::vec3> texels = download(field.displacements());
   for (int k = box.first.z; k <= box.last.z; ++k)
@@ -58,7 +58,14 @@ std::vector<glm::vec3> displacementsOf(const FieldTexture& field, const FieldNod
     {
       for (int i = box.first.x; i <= box.last.x; ++i, ++texel)
       {
-        all[(std::size_t(k) * nodes.count.y + j) * nodes.count.x + i] = texels.at(texel);
+        if (i < field.displacedNodes().first.x)
+        {
+          EXPECT_EQ(texels.at(texel), glm::vec3(0.0f)) << "before what moves";
+        }
+        else
+        {
+          all[(std::size_t(k) * nodes.count.y + j) * nodes.count.x + i] = texels.at(texel);
+        }
       }
     }
   }
