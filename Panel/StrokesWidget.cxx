@@ -24,6 +24,8 @@
 
 namespace
 {
+constexpr int ListMs = 250; // from one update of a list under the hand to the next
+
 pqPipelineSource* sourceOf(vtkSMProxy* proxy)
 {
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
@@ -62,12 +64,32 @@ StrokesWidget::StrokesWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget
 
   new InSight(this);
 
-  this->connect(
-    StrokeEditor::of(this->Source), &StrokeEditor::changed, this->Strokes, &StrokeModel::update);
+  const StrokeEditor* editor = StrokeEditor::of(this->Source);
+  this->connect(editor, &StrokeEditor::changed, this, &StrokesWidget::followStrokes);
+  this->connect(editor, &StrokeEditor::editing, this, &StrokesWidget::followStrokes);
+  this->ListSoon.setSingleShot(true);
+  this->connect(&this->ListSoon, &QTimer::timeout, this->Strokes, &StrokeModel::update);
   this->connect(this->Source, qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
     &StrokesWidget::followResult);
   this->connect(this->Source, &pqProxy::modifiedStateChanged, this, &StrokesWidget::followResult);
   this->followResult();
+}
+
+void StrokesWidget::followStrokes()
+{
+  // Rows must be those of the property at once, but painting numbers takes its time from a drag.
+  const int rows =
+    vtkSMPropertyHelper(this->property()).GetNumberOfElements() / brainshift::NumbersPerStroke;
+  if (StrokeEditor::of(this->Source)->isEditing() && rows == this->Strokes->rowCount())
+  {
+    if (!this->ListSoon.isActive())
+    {
+      this->ListSoon.start(ListMs);
+    }
+    return;
+  }
+  this->ListSoon.stop();
+  this->Strokes->update();
 }
 
 double StrokesWidget::latticeSpacing()

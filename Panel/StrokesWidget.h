@@ -8,6 +8,8 @@
 
 #include <pqPropertyWidget.h>
 
+#include <QTimer>
+
 #include <optional>
 
 class pqPipelineSource;
@@ -22,12 +24,14 @@ public:
   StrokesWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent = nullptr);
 
 private:
+  void followStrokes();    // under the hand, as often as can be read
   void followResult();     // of the filter's last execution
   double latticeSpacing(); // the widest between two control points, mm; 0 before there is one
 
   pqPipelineSource* const Source;
   ToolPanel* const Tools;
   StrokeModel* const Strokes;
+  QTimer ListSoon;
   std::optional<LatticeProbe> Lattice; // once there is something to ask
 };
 
