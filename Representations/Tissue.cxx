@@ -82,7 +82,8 @@ bool Tissue::update(vtkOpenGLRenderWindow* window, const TissueRequest& request,
   }
   setFilter(scene.normals, request.nearest && request.gradients == GradientSource::FullResolution);
   scene.transfer = this->Transfer.texture();
-  scene.transferSums = this->Transfer.sums();
+  // Between two voxels that are shown as they are there is nothing to take an average of.
+  scene.transferSums = request.nearest ? nullptr : this->Transfer.sums();
   scene.opaqueTissue = this->Transfer.isOpaque();
   scene.transferFromScalar = transferFromStored(this->Transfer, this->Stored);
   scene.visibleScalars = this->Transfer.visibleValues(stored.scale, stored.shift).ends();
