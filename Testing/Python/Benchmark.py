@@ -79,9 +79,10 @@ def test_every_row_has_its_numbers():
     for group in RESULTS["groups"]:
         for name, row in group["rows"].items():
             at = (group["title"], name)
-            assert row["rounds"] == len(row["wall"]) == 2, at
-            assert 0.0 < row["min"] <= row["median"] <= row["max"], at
             by_gpu = group["kind"] == "lattice to offset field"
+            times = 7 * 2 if by_gpu else 2  # the field is short, so it is measured more often
+            assert row["rounds"] == len(row["wall"]) == times, at
+            assert 0.0 < row["min"] <= row["median"] <= row["max"], at
             assert (row["cpu"] is None) if by_gpu else (row["cpu"] > 0.0), at
         assert next(iter(group["rows"].values()))["ratio"] == 1.0, group["title"]
 
