@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// While one lives, nobody hears that the data of the proxies added to it were updated. ParaView asks for every array's
-// range at such news, looks through the menu of filters and lays out its panels: a third of the
-// time that one picture of a drag takes the main thread.
+// While one lives, nobody hears that the data of the proxies added to it were updated. ParaView
+// asks for every array's range at such news, looks through the menu of filters and lays out its
+// panels: a third of the time that one picture of a drag takes the main thread.
 #ifndef BrainShift_QuietUpdates_h
 #define BrainShift_QuietUpdates_h
 

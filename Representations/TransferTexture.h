@@ -50,12 +50,10 @@ public:
 
   // Whether a step somewhere hides nearly all that is behind, so that rays end soon.
   bool isOpaque() const { return this->LargestOpacity >= OpaqueStep; }
-  // Whether it rises to that so fast that samples a step apart miss most of the rise: sums() is then
-  // what to take averages from.
-  bool isSteep() const { return this->Sums != nullptr; }
 
   vtkTextureObject* texture() const { return this->Texture; }
-  // What Shaders/averaged.glsl takes averages from; null unless isSteep.
+  // What Shaders/averaged.glsl takes averages from; null unless the map rises to opaque so fast that
+  // samples a step apart miss most of the rise.
   vtkTextureObject* sums() const { return this->Sums; }
   void releaseGraphicsResources(vtkWindow* window);
 

@@ -106,7 +106,7 @@ bool takeTwo(Path path, TissueTable table, mat3 turn, float i, inout Seen seen)
     float way = further / (first.a + further) - 0.5;
     Shine shine = shineAt(mix(oneDeformed, twoDeformed, way), mix(oneRest, twoRest, way), slopes,
       turn, path.towardsEye);
-    // As if all from the surface on were opaque: opacities so far are then parts of a step behind it.
+    // As if all from the surface on were opaque: opacities are then parts of a step behind it.
     see(seen, shown(first, oneRest, shine), i - seen.picture.a - first.a);
     see(seen, shown(second, twoRest, shine), i + 1.0 - seen.picture.a - second.a);
   }

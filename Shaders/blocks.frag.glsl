@@ -3,7 +3,8 @@
 
 void main()
 {
-  vec3 low = (vec3(firstBrick) + (targetTexel() - blockShift) * float(BRICKS_IN_BLOCK)) * brickSide - margin;
+  vec3 block = targetTexel() - blockShift;
+  vec3 low = (vec3(firstBrick) + block * float(BRICKS_IN_BLOCK)) * brickSide - margin;
   vec3 high = low + brickSide * float(BRICKS_IN_BLOCK) + 2.0 * margin;
   vec3 least;
   vec3 greatest;

@@ -58,8 +58,8 @@ Seen nothingYet()
   return Seen(vec4(0.0), -1.0, -2.0, 0.0, false);
 }
 
-// A sample's colour times opacity, and opacity; `surface`: number of the sample where a surface lies
-// if this one hides enough to make one.
+// A sample's colour times opacity, and opacity; `surface`: number of the sample where a surface
+// lies if this one hides enough to make one.
 void see(inout Seen seen, vec4 shown, float surface)
 {
   seen.picture += seen.picture.a > OpaqueEnough ? vec4(0.0) : (1.0 - seen.picture.a) * shown;

@@ -3,7 +3,7 @@
 
 in float share; // of the way from the near plane to the far plane
 
-uniform float backDrawn; // 0: front faces alone are drawn; a ray that meets one may go on to its end
+uniform float backDrawn; // 0: front faces alone are drawn; a ray that meets one may go on
 
 void main()
 {
