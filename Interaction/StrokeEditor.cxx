@@ -8,6 +8,7 @@
 #include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>
+#include <pqProgressManager.h>
 #include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
 #include <pqView.h>
@@ -37,7 +38,13 @@ void drawRoughly(pqView* view)
     view->widget()->isVisible())
   {
     view->cancelPendingRenders();
-    proxy->InteractiveRender();
+    pqProgressManager* progress = pqApplicationCore::instance()->getProgressManager();
+    progress->lockProgress(view);
+    {
+      const QSignalBlocker quiet(view);
+      proxy->InteractiveRender();
+    }
+    progress->unlockProgress(view);
   }
   else
   {
