@@ -13,6 +13,7 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -79,11 +80,15 @@ IndexBox blocksOf(const IndexBox& bricks)
   return { bricks.first / BricksInBlock, bricks.last / BricksInBlock };
 }
 
-// Where the blocks of a box lie in their textures: they are asked at once and not kept.
+// Where boxes lie in their textures: they are asked at once and not kept.
+glm::ivec3 shiftOf(const IndexBox& box)
+{
+  return { leadToSecondThread(box.first.x, box.size().x), 0, 0 };
+}
+
 glm::ivec3 blockShift(const IndexBox& bricks)
 {
-  const IndexBox blocks = blocksOf(bricks);
-  return { leadToSecondThread(blocks.first.x, blocks.size().x), 0, 0 };
+  return shiftOf(blocksOf(bricks));
 }
 
 // Corners of a rectangle's two triangles, in bricks from the volume's first voxel.
@@ -128,10 +133,12 @@ bool DeformedPresence::allocate(vtkOpenGLRenderWindow* window, const glm::ivec3&
     return map->Allocate3D(side.x, side.y, side.z, components, type);
   };
   glm::ivec3 blocks = (count + BricksInBlock - 1) / BricksInBlock;
-  blocks.x += leadToSecondThread(0, 0); // at most
+  const glm::ivec3 lead(leadToSecondThread(0, 0), 0, 0); // at most
+  blocks += lead;
   if (make(this->Blocks[0], blocks, 4, VTK_FLOAT) && make(this->Blocks[1], blocks, 4, VTK_FLOAT) &&
-    make(this->Map, count, 1, VTK_UNSIGNED_CHAR))
+    make(this->Map, count + lead, 1, VTK_UNSIGNED_CHAR))
   {
+    this->Occupied.assign(static_cast<std::size_t>(count.x) * count.y * count.z, 0);
     return true;
   }
   this->Map = nullptr;
@@ -202,7 +209,9 @@ bool DeformedPresence::compute(vtkOpenGLRenderWindow* window, const PresenceRequ
     program.set("blockLeast", this->Blocks[0].Get());
     program.set("blockGreatest", this->Blocks[1].Get());
   }
-  runVolumePass(window, program.get()->GetHandle(), { this->Map }, box.first, box.size());
+  const glm::ivec3 shift = shiftOf(box);
+  program.set("mapShift", glm::vec3(shift));
+  runVolumePass(window, program.get()->GetHandle(), { this->Map }, box.first + shift, box.size());
   for (vtkTextureObject* texture :
     { this->Summed.Get(), this->Blocks[0].Get(), this->Blocks[1].Get(), request.offsets })
   {
@@ -221,15 +230,14 @@ bool DeformedPresence::compute(vtkOpenGLRenderWindow* window, const PresenceRequ
 bool DeformedPresence::update(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
   const IndexBox& changed, Counters& counters)
 {
-  const glm::uvec3 count(request.count);
   IndexBox box{ glm::ivec3(0), request.count - 1 };
-  if (!this->Map || this->Map->GetWidth() != count.x || this->Map->GetHeight() != count.y ||
-    this->Map->GetDepth() != count.z)
+  if (!this->Map || this->Shown.count != request.count)
   {
     if (!this->allocate(window, request.count))
     {
       return false;
     }
+    this->Shown.count = request.count;
   }
   else if (!this->AllNew && samePlaces(this->Shown, request))
   {
@@ -244,30 +252,46 @@ bool DeformedPresence::update(vtkOpenGLRenderWindow* window, const PresenceReque
   {
     return false;
   }
-  // One byte a brick comes back, once an edit and never for a camera move: making the faces on the
-  // GPU would cost its geometry stage every frame, and distances many passes.
-  std::vector<std::uint8_t> occupied(
-    static_cast<std::size_t>(request.count.x) * request.count.y * request.count.z);
-  this->Map->Activate();
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glGetTexImage(GL_TEXTURE_3D, 0, GL_RED, GL_UNSIGNED_BYTE, occupied.data());
-  this->Map->Deactivate();
-  this->makeFaces(request, occupied);
-  if (!this->makeLeaps(window, request, occupied))
+  this->readMap(request, box);
+  this->makeFaces(request);
+  if (!this->makeLeaps(window, request))
   {
     return false;
   }
-  counters.skippingBytes += static_cast<std::int64_t>(occupied.size()) + this->faceBytes();
+  counters.skippingBytes += static_cast<std::int64_t>(this->Occupied.size()) + this->faceBytes();
   counters.presenceUpdates += 1;
   this->Shown = request;
   this->AllNew = false;
   return true;
 }
 
-bool DeformedPresence::makeLeaps(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
-  const std::vector<std::uint8_t>& occupied)
+// One byte a brick comes back, once an edit and never for a camera move: making the faces on the GPU
+// would cost its geometry stage every frame, and distances many passes.
+void DeformedPresence::readMap(const PresenceRequest& request, const IndexBox& box)
 {
-  std::vector<std::uint8_t> distances = bricksToOccupied(occupied, request.count);
+  const glm::ivec3 held(this->Map->GetWidth(), this->Map->GetHeight(), this->Map->GetDepth());
+  std::vector<std::uint8_t> map(static_cast<std::size_t>(held.x) * held.y * held.z);
+  this->Map->Activate();
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glGetTexImage(GL_TEXTURE_3D, 0, GL_RED, GL_UNSIGNED_BYTE, map.data());
+  this->Map->Deactivate();
+  const auto placeIn = [](const glm::ivec3& size, const glm::ivec3& at) {
+    return (static_cast<std::size_t>(at.z) * size.y + at.y) * size.x + at.x;
+  };
+  glm::ivec3 row = box.first;
+  for (row.z = box.first.z; row.z <= box.last.z; ++row.z)
+  {
+    for (row.y = box.first.y; row.y <= box.last.y; ++row.y)
+    {
+      std::copy_n(map.begin() + placeIn(held, row + shiftOf(box)), box.size().x,
+        this->Occupied.begin() + placeIn(request.count, row));
+    }
+  }
+}
+
+bool DeformedPresence::makeLeaps(vtkOpenGLRenderWindow* window, const PresenceRequest& request)
+{
+  std::vector<std::uint8_t> distances = bricksToOccupied(this->Occupied, request.count);
   this->Leaps = vtkSmartPointer<vtkTextureObject>::New();
   this->Leaps->SetContext(window);
   setNearest(this->Leaps);
@@ -276,13 +300,12 @@ bool DeformedPresence::makeLeaps(vtkOpenGLRenderWindow* window, const PresenceRe
     request.count.x, request.count.y, request.count.z, 1, VTK_UNSIGNED_CHAR, distances.data());
 }
 
-void DeformedPresence::makeFaces(
-  const PresenceRequest& request, const std::vector<std::uint8_t>& occupied)
+void DeformedPresence::makeFaces(const PresenceRequest& request)
 {
   std::vector<glm::vec3> corners;
   glm::ivec3 low = request.count;
   glm::ivec3 high(-1);
-  this->Faces = brickFaces(occupied, request.count);
+  this->Faces = brickFaces(this->Occupied, request.count);
   for (const BrickFaces& faces : this->Faces)
   {
     for (const BrickRectangle& rectangle : faces.rectangles)

@@ -84,18 +84,19 @@ private:
     const IndexBox& box, Counters& counters);
   bool compute(vtkOpenGLRenderWindow* window, const PresenceRequest& request, const IndexBox& box,
     Counters& counters);
-  bool makeLeaps(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
-    const std::vector<std::uint8_t>& occupied);
-  void makeFaces(const PresenceRequest& request, const std::vector<std::uint8_t>& occupied);
+  void readMap(const PresenceRequest& request, const IndexBox& box);
+  bool makeLeaps(vtkOpenGLRenderWindow* window, const PresenceRequest& request);
+  void makeFaces(const PresenceRequest& request);
   void drawRectangles(int programHandle, const std::vector<std::pair<int, int>>& ranges);
   glm::dvec4 fromFirstBrick(const glm::dvec4& eye) const;
 
   vtkSmartPointer<vtkTextureObject> Summed;
-  vtkSmartPointer<vtkTextureObject> Map; // 1 for occupied bricks, 0 for others
+  vtkSmartPointer<vtkTextureObject> Map; // 1 for occupied bricks, 0 for others: those asked last
+  std::vector<std::uint8_t> Occupied;    // the same, of all bricks
   vtkSmartPointer<vtkTextureObject> Leaps;
   vtkSmartPointer<vtkTextureObject> Blocks[2]; // least, greatest offset in each, voxels
   vtkSmartPointer<vtkOpenGLBufferObject> Corners;
-  PresenceRequest Shown; // what Map shows
+  PresenceRequest Shown; // what Occupied tells
   bool AllNew = true;    // nothing of Map can be kept
   Program BlocksProgram;
   Program MapPrograms[2]; // [deformed]

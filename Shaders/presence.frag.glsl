@@ -4,6 +4,7 @@
 // the rest volume's summed visibility: that never misses a visible sample. See
 // ARCHITECTURE.md, "Skipping".
 
+uniform vec3 mapShift;           // texel of brick 0 0 0 of the map
 uniform sampler3D summed;        // visible bricks with lower indices; one more a side than bricks
 uniform ivec3 restBricks;        // bricks a side of the rest volume
 uniform float restBrickSide;     // voxels, rest volume
@@ -73,5 +74,5 @@ bool present(vec3 texel)
 
 void main()
 {
-  gl_FragData[0] = vec4(present(targetTexel()) ? 1.0 : 0.0);
+  gl_FragData[0] = vec4(present(targetTexel() - mapShift) ? 1.0 : 0.0);
 }
