@@ -154,6 +154,35 @@ IndexBox changedForwardNodes(const IndexBox& points, const FieldNodes& forward)
     glm::min((points.last + KernelReach) * forward.perCell, forward.count - 1) };
 }
 
+namespace
+{
+// How far from where a control point reaches offsets can differ: cells.
+struct Spread
+{
+  glm::vec3 low{ 0.0f };
+  glm::vec3 high{ 0.0f };
+};
+
+// `points`: those that change.
+Spread spreadOf(const IndexBox& points, const glm::ivec3& dimensions,
+  const std::vector<glm::vec3>& before, const std::vector<glm::vec3>& after)
+{
+  // If nothing else moves, tissue on the surface of what changes stays: so does all that is seen
+  // beyond it.
+  if (staysOutside(dimensions, after, points))
+  {
+    return {};
+  }
+  const IndexBox taps{ glm::max(points.first - 2 * KernelReach, glm::ivec3(0)),
+    glm::min(points.last + 2 * KernelReach, dimensions - 1) };
+  DisplacementRange range;
+  range.add(before, dimensions, taps);
+  range.add(after, dimensions, taps);
+  range.allowOvershoot();
+  return { range.least - 1.0f, range.greatest + 1.0f };
+}
+}
+
 IndexBox changedBackwardNodes(const IndexBox& points, const glm::ivec3& dimensions,
   const std::vector<glm::vec3>& before, const std::vector<glm::vec3>& after,
   const FieldNodes& backward)
@@ -164,21 +193,9 @@ IndexBox changedBackwardNodes(const IndexBox& points, const glm::ivec3& dimensio
   }
   const glm::ivec3 lowCell = points.first - KernelReach;
   const glm::ivec3 highCell = points.last + KernelReach;
-  const IndexBox taps{ glm::max(lowCell - KernelReach, glm::ivec3(0)),
-    glm::min(highCell + KernelReach, dimensions - 1) };
-  DisplacementRange range;
-  glm::vec3 margin(0.0f); // cells
-  // If nothing else moves, tissue on the surface of what changes stays: so does all that is seen
-  // beyond it.
-  if (!staysOutside(dimensions, after, points))
-  {
-    range.add(before, dimensions, taps);
-    range.add(after, dimensions, taps);
-    range.allowOvershoot();
-    margin = glm::vec3(1.0f);
-  }
-  const glm::vec3 low = glm::vec3(lowCell) + range.least - margin;
-  const glm::vec3 high = glm::vec3(highCell) + range.greatest + margin;
+  const Spread spread = spreadOf(points, dimensions, before, after);
+  const glm::vec3 low = glm::vec3(lowCell) + spread.low;
+  const glm::vec3 high = glm::vec3(highCell) + spread.high;
   const glm::vec3 first(backward.first);
   const float perCell = static_cast<float>(backward.perCell);
   IndexBox box{ glm::max(glm::ivec3(glm::floor((low - first) * perCell)), glm::ivec3(0)),
@@ -191,6 +208,50 @@ IndexBox changedBackwardNodes(const IndexBox& points, const glm::ivec3& dimensio
       highCell[axis] >= dimensions[axis] - 1 ? backward.count[axis] - 1 : box.last[axis];
   }
   return box;
+}
+
+std::vector<glm::vec3> cornersOfChange(const glm::ivec3& dimensions,
+  const std::vector<glm::vec3>& before, const std::vector<glm::vec3>& after, float margin)
+{
+  std::vector<glm::vec3> corners;
+  const IndexBox points = changedPoints(dimensions, before, after);
+  if (points.empty())
+  {
+    return corners;
+  }
+  const Spread spread = spreadOf(points, dimensions, before, after);
+  glm::ivec3 row = points.first;
+  for (row.z = points.first.z; row.z <= points.last.z; ++row.z)
+  {
+    for (row.y = points.first.y; row.y <= points.last.y; ++row.y)
+    {
+      const auto changes = [&](int x) {
+        const std::size_t point = pointOffset(dimensions, { x, row.y, row.z });
+        return before[point] != after[point];
+      };
+      int first = points.first.x;
+      int last = points.last.x;
+      for (; first <= last && !changes(first); ++first)
+      {
+      }
+      for (; last > first && !changes(last); --last)
+      {
+      }
+      if (first > last)
+      {
+        continue;
+      }
+      const glm::vec3 low = reachOf({ first, row.y, row.z }, dimensions).low + spread.low - margin;
+      const glm::vec3 high =
+        reachOf({ last, row.y, row.z }, dimensions).high + spread.high + margin;
+      for (int corner = 0; corner < 8; ++corner)
+      {
+        corners.push_back(
+          glm::mix(low, high, glm::vec3(corner & 1, corner >> 1 & 1, corner >> 2 & 1)));
+      }
+    }
+  }
+  return corners;
 }
 
 SlabHull::SlabHull()

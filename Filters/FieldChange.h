@@ -49,6 +49,12 @@ VTKBRAINSHIFTFILTERS_EXPORT IndexBox changedBackwardNodes(const IndexBox& points
   const glm::ivec3& dimensions, const std::vector<glm::vec3>& before,
   const std::vector<glm::vec3>& after, const FieldNodes& backward);
 
+// Positions (lattice coordinates) between which all lies that is up to `margin` (cells) away from
+// offsets that can differ: corners of boxes around rows of control points. None where nothing
+// changes. Beyond the lattice they are far.
+VTKBRAINSHIFTFILTERS_EXPORT std::vector<glm::vec3> cornersOfChange(const glm::ivec3& dimensions,
+  const std::vector<glm::vec3>& before, const std::vector<glm::vec3>& after, float margin);
+
 // A convex hull by slabs: along each direction the least and the greatest of dot(direction, position)
 // (Kay and Kajiya, SIGGRAPH 1986).
 constexpr int SlabDirections = 13; // axes, diagonals of faces, diagonals of the cube

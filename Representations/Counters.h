@@ -10,6 +10,7 @@ namespace brainshift
 struct Counters
 {
   std::int64_t frames = 0;          // images ray cast
+  std::int64_t pixelsCast = 0;      // of all of them
   std::int64_t volumeUploads = 0;   // scalars sent to the GPU
   std::int64_t latticeUploads = 0;  // control points sent to the GPU
   std::int64_t transferUploads = 0; // colour and opacity maps sent to the GPU

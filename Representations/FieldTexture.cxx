@@ -48,11 +48,11 @@ bool sameNodes(const FieldRequest& a, const FieldRequest& b)
 }
 
 // Whether the same control points make the same fields, so that unchanged ones leave them as they
-// are.
+// are wherever both have nodes.
 bool sameMeaning(const FieldRequest& a, const FieldRequest& b)
 {
-  return sameNodes(a, b) && a.kernel == b.kernel && a.inverse == b.inverse &&
-    a.offsetScale == b.offsetScale && sameMask(a.mask, b.mask);
+  return a.dimensions == b.dimensions && a.samples == b.samples && a.kernel == b.kernel &&
+    a.inverse == b.inverse && a.offsetScale == b.offsetScale && sameMask(a.mask, b.mask);
 }
 
 glm::vec3 texelOf(const glm::ivec3& count)
@@ -98,6 +98,15 @@ bool FieldTexture::update(
         changedPoints(request.dimensions, still, request.inCells));
   this->Changed =
     changedBackwardNodes(points, request.dimensions, before, request.inCells, request.nodes);
+  this->LastBent = Bent();
+  this->LastBent.all = !(this->HasCurrent && sameMeaning(this->Current, request));
+  if (!this->LastBent.all)
+  {
+    // Between nodes the field is blended, and light asks half a node farther.
+    const float margin = 2.0f / static_cast<float>(request.nodes.perCell);
+    this->LastBent.corners =
+      cornersOfChange(request.dimensions, this->Current.inCells, request.inCells, margin);
+  }
   const bool maskIsCurrent = this->HasCurrent && sameMask(this->Current.mask, request.mask);
   this->HasCurrent = false; // not before all of it succeeded
   if (!maskIsCurrent && !this->uploadMask(window, request, counters))
@@ -156,8 +165,7 @@ bool FieldTexture::makeDisplacements(vtkOpenGLRenderWindow* window, const IndexB
     return true;
   }
   this->Lead = leadToSecondThread(0, nodes.size().x);
-  this->Displacements =
-    makeTexture(window, this->heldNodes().size(), vtkTextureObject::Nearest);
+  this->Displacements = makeTexture(window, this->heldNodes().size(), vtkTextureObject::Nearest);
   if (!this->Displacements)
   {
     return false;

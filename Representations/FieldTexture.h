@@ -62,6 +62,15 @@ public:
   // Offsets computed by the last update.
   const IndexBox& changed() const { return this->Changed; }
 
+  // Between these positions (lattice coordinates) lies all whose place or light the last update
+  // changed. `all`: anywhere.
+  struct Bent
+  {
+    bool all = false;
+    std::vector<glm::vec3> corners;
+  };
+  const Bent& bent() const { return this->LastBent; }
+
   // All textures, some of which may be null.
   std::vector<vtkTextureObject*> textures() const
   {
@@ -89,6 +98,7 @@ private:
   FieldRequest Current; // what the textures show
   bool HasCurrent = false;
   IndexBox Changed;
+  Bent LastBent;
   Program RefinePrograms[2]; // [times the mask's weights]
   Program InvertProgram;
 };

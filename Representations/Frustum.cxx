@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Frustum.h"
 
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 
@@ -28,5 +29,13 @@ Frustum frustumOf(const glm::dmat4& clipFromSpace)
   const glm::dmat4 spaceFromClip = glm::inverse(clipFromSpace);
   return { planeOf(clipFromSpace, spaceFromClip, -1.0),
     planeOf(clipFromSpace, spaceFromClip, 1.0) };
+}
+
+glm::dvec2 shareFromShare(const Frustum& to, const Frustum& from)
+{
+  const glm::dvec3 way = to.far.origin - to.near.origin;
+  const glm::dvec3 unit = way / glm::dot(way, way);
+  return { glm::dot(from.far.origin - from.near.origin, unit),
+    glm::dot(from.near.origin - to.near.origin, unit) };
 }
 }

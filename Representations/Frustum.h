@@ -35,6 +35,11 @@ struct Frustum
 };
 
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT Frustum frustumOf(const glm::dmat4& clipFromSpace);
+
+// Of one camera with other near and far planes: the share of the way between those of `to`, from
+// the share between those of `from`: scale and shift.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT glm::dvec2 shareFromShare(
+  const Frustum& to, const Frustum& from);
 }
 
 #endif

@@ -9,6 +9,34 @@
 
 namespace brainshift
 {
+// Pixels of a picture: the first, and one past the last.
+struct PixelBox
+{
+  glm::ivec2 low{ 0 };
+  glm::ivec2 high{ 0 };
+
+  bool empty() const { return this->high.x <= this->low.x || this->high.y <= this->low.y; }
+  glm::ivec2 size() const { return this->high - this->low; }
+};
+
+// A convex part of a picture: pixels in a box, and in another one that is turned by 45 degrees.
+struct PixelPart
+{
+  PixelBox box;
+  PixelBox turned; // of x + y and x - y
+
+  bool empty() const { return this->box.empty() || this->turned.empty(); }
+};
+// How many they are, about.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT double pixelsIn(const PixelPart& part);
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT PixelPart partOf(const PixelBox& box);
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT PixelPart enclosing(const PixelPart& a, const PixelPart& b);
+
+// The least box that holds both.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT PixelBox enclosing(const PixelBox& a, const PixelBox& b);
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT PixelBox overlap(const PixelBox& a, const PixelBox& b);
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT bool contains(const PixelBox& a, const PixelBox& b);
+
 // Pixels.
 struct ImageArea
 {
@@ -17,6 +45,7 @@ struct ImageArea
   glm::ivec2 size{ 0 };
 
   glm::ivec2 high() const { return this->low + this->size; } // one past the last
+  PixelBox box() const { return { this->low, this->high() }; }
   bool operator==(const ImageArea& other) const
   {
     return this->picture == other.picture && this->low == other.low && this->size == other.size;
@@ -28,10 +57,10 @@ struct ImageArea
   glm::dvec2 textureOfShareZero() const { return -glm::dvec2(this->low) / glm::dvec2(this->size); }
 };
 
-// The area for a picture that can show something from the pixel `low` to before `high`: the one
-// held if it will do, so that a camera that moves a little makes nothing anew.
+// The area for a picture that can show something in a box: the one held if it will do, so that a
+// camera that moves a little makes nothing anew.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ImageArea areaAround(
-  const ImageArea& held, const glm::ivec2& picture, const glm::ivec2& low, const glm::ivec2& high);
+  const ImageArea& held, const glm::ivec2& picture, const PixelBox& shown);
 }
 
 #endif

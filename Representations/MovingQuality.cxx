@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MovingQuality.h"
 
+#include "vtkTimerLog.h"
+
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 
 namespace brainshift
 {
 namespace
 {
 constexpr double InteractiveRate = 1.0;
-// ParaView asks for 5 a second while the camera moves. Below 15 a hand sees steps.
-constexpr double SmoothRate = 15.0;
-constexpr double LeastShareForImage = 0.2; // of a frame's time, however long a stroke takes
-// What the window itself takes of it, which no mapper sees: ParaView's smoothing of edges, copies.
-constexpr double ShareOfWindow = 0.5;
+// ParaView asks for 5 a second while the camera moves. Below 15 a hand sees steps; some are slower.
+constexpr double SmoothRate = 18.0;
+constexpr double LeastShareForImage = 0.12; // of a frame's time, however long all else takes
+constexpr double LongestPause = 0.5;        // seconds; after more the hand has rested
 }
 
 bool isMoving(double rate)
@@ -21,10 +23,40 @@ bool isMoving(double rate)
   return rate >= InteractiveRate;
 }
 
-double allowedSeconds(double rate, double spentSeconds)
+double allowedSeconds(double rate, double windowSeconds, double spentSeconds)
 {
   const double frame = 1.0 / std::max(rate, SmoothRate);
-  return std::max((1.0 - ShareOfWindow) * frame - spentSeconds, LeastShareForImage * frame);
+  return std::max(frame - windowSeconds - spentSeconds, LeastShareForImage * frame);
+}
+
+WindowPace::Time WindowPace::now()
+{
+  return { vtkTimerLog::GetUniversalTime(), static_cast<double>(std::clock()) / CLOCKS_PER_SEC };
+}
+
+void WindowPace::beginPicture()
+{
+  this->Begin = WindowPace::now();
+  this->learn(
+    this->Begin.clock - this->End.clock, this->Begin.processor - this->End.processor);
+}
+
+void WindowPace::endPicture()
+{
+  this->End = WindowPace::now();
+}
+
+double WindowPace::spentSeconds() const
+{
+  return WindowPace::now().clock - this->Begin.clock;
+}
+
+void WindowPace::learn(double clock, double processor)
+{
+  if (clock < LongestPause)
+  {
+    this->Window += 0.3 * (std::min(clock, processor) - this->Window);
+  }
 }
 
 MovingQuality movingQuality(double fullSeconds, double allowedSeconds)

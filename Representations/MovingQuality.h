@@ -12,6 +12,8 @@ struct MovingQuality
 {
   int imageScale = 1;    // screen pixels a side for one pixel of the image
   int stepDoublings = 0; // how often the step along the ray is doubled
+
+  bool isFull() const { return this->imageScale == 1 && this->stepDoublings == 0; }
 };
 
 constexpr int LargestImageScale = 4;
@@ -26,9 +28,38 @@ bool isMoving(double rate);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT MovingQuality movingQuality(
   double fullSeconds, double allowedSeconds);
 
-// What an image may take in a window that wants `rate` frames a second, after `spentSeconds` went
-// into preparing it: a stroke needs that, a camera move does not.
-double allowedSeconds(double rate, double spentSeconds);
+// What an image may take in a window that wants `rate` frames a second, of which the window itself
+// takes `windowSeconds` each, after `spentSeconds` went into preparing it: a stroke needs that, a
+// camera move does not.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT double allowedSeconds(
+  double rate, double windowSeconds, double spentSeconds);
+
+// How long a window and its application take from one moving picture to the next, which no mapper
+// sees: smoothing of edges, copies, news of new data.
+class VTKBRAINSHIFTREPRESENTATIONS_EXPORT WindowPace
+{
+public:
+  void beginPicture();
+  void endPicture();
+  double spentSeconds() const; // since the picture's beginning
+  double windowSeconds() const { return this->Window; }
+
+  // What one pause between pictures tells. `processor`: seconds of all processors, that a hand
+  // which rests does not take.
+  void learn(double clock, double processor);
+
+private:
+  struct Time
+  {
+    double clock = 0.0;
+    double processor = 0.0;
+  };
+  static Time now();
+
+  Time Begin;
+  Time End;
+  double Window = 0.03; // until a picture follows another
+};
 }
 
 #endif

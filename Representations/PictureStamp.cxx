@@ -5,7 +5,6 @@
 #include "RayCaster.h"
 #include "TracePoints.h"
 
-#include "vtkAbstractVolumeMapper.h"
 #include "vtkMath.h"
 #include "vtkProp.h"
 #include "vtkPropCollection.h"
@@ -17,7 +16,10 @@
 #include <glm/common.hpp>
 #include <glm/gtc/matrix_access.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <initializer_list>
 #include <utility>
 
 namespace brainshift
@@ -72,8 +74,9 @@ void addView(Numbers& numbers, const RayCastScene& scene)
   addCamera(numbers, scene);
   add(numbers, scene.worldFromTexture);
   numbers.insert(numbers.end(),
-    { double(scene.size.x), double(scene.size.y), scene.stepMm, double(scene.skipping),
-      double(scene.countSamples), double(scene.tile), double(scene.lights.headlight) });
+    { double(scene.offsets != nullptr), double(scene.size.x), double(scene.size.y), scene.stepMm,
+      double(scene.skipping), double(scene.countSamples), double(scene.tile),
+      double(scene.lights.headlight) });
   add(numbers, scene.lights.position);
   add(numbers, scene.lights.color);
   add(numbers, scene.lights.specular);
@@ -88,26 +91,23 @@ void addView(Numbers& numbers, const RayCastScene& scene)
   }
 }
 
-// What was uploaded or made anew since the last picture.
-void addUploads(Numbers& numbers, const Counters& counters)
+void add(Numbers& numbers, std::initializer_list<std::int64_t> counts)
 {
-  for (const auto count :
-    { counters.volumeUploads, counters.latticeUploads, counters.transferUploads,
-      counters.texelsRefined, counters.presenceUpdates, counters.bytesUploaded })
+  for (const std::int64_t count : counts)
   {
     numbers.push_back(static_cast<double>(count));
   }
 }
 
 // The volume as the user chose it, and everything else in the scene.
-void addProps(Numbers& numbers, vtkRenderer* renderer, const RayCastScene& scene)
+void addProps(Numbers& numbers, vtkRenderer* renderer, vtkVolume* volume, const RayCastScene& scene)
 {
   vtkPropCollection* props = renderer->GetViewProps();
   vtkCollectionSimpleIterator at;
   props->InitTraversal(at);
   while (vtkProp* prop = props->GetNextProp(at))
   {
-    if (TracePoints::SafeDownCast(prop)) // drawn over the volumes
+    if (prop == volume || TracePoints::SafeDownCast(prop)) // drawn over the volumes
     {
       continue;
     }
@@ -125,18 +125,44 @@ void addProps(Numbers& numbers, vtkRenderer* renderer, const RayCastScene& scene
 }
 }
 
-bool PictureStamp::repeats(
-  vtkRenderer* renderer, vtkVolume* volume, const RayCastScene& scene, const Counters& counters)
+namespace
+{
+// A camera's matrix is rounded otherwise when its clipping planes move; counts and times are far
+// below the 12 digits that are compared.
+bool same(const Numbers& a, const Numbers& b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double one, double other) {
+    return std::abs(one - other) <= 1e-12 * std::abs(one);
+  });
+}
+}
+
+PictureStamp::Change PictureStamp::change(vtkRenderer* renderer, vtkVolume* volume,
+  unsigned long long settingsTime, const RayCastScene& scene, const Counters& counters)
 {
   Numbers now;
   addView(now, scene);
-  addUploads(now, counters);
-  addProps(now, renderer, scene);
+  add(now, { counters.volumeUploads, counters.transferUploads, counters.segmentUploads });
+  addProps(now, renderer, volume, scene);
   // Not the volume's own time: ParaView poses it for each picture anew.
-  now.push_back(static_cast<double>(volume->GetMapper()->GetMTime()));
+  now.push_back(static_cast<double>(settingsTime));
   now.push_back(static_cast<double>(volume->GetProperty()->GetMTime()));
-  const bool same = now == this->Last;
+  Numbers bending;
+  add(bending,
+    { counters.latticeUploads, counters.texelsRefined, counters.presenceUpdates,
+      counters.bytesUploaded, static_cast<std::int64_t>(volume->GetRedrawMTime()) });
+  Numbers space;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    space.insert(
+      space.end(), { scene.spaceLow[axis], scene.spaceHigh[axis], scene.fieldTexel[axis] });
+  }
+  const bool sameView = same(now, this->Last);
+  const bool sameSpace = space == this->LastSpace;
+  const bool sameBending = bending == this->LastBending;
   this->Last = std::move(now);
-  return same;
+  this->LastSpace = std::move(space);
+  this->LastBending = std::move(bending);
+  return !sameView ? Anything : !sameSpace ? Reaching : sameBending ? Nothing : Bending;
 }
 }

@@ -117,16 +117,16 @@ void placeComparedPixels(RayCastScene& scene)
   if (bricks.empty())
   {
     scene.skipping = reference.skipping;
-    scene.shownLow = reference.shownLow;
-    scene.shownHigh = reference.shownHigh;
+    scene.shown.low = reference.shown.low;
+    scene.shown.high = reference.shown.high;
     return;
   }
   placeShownPixels(bricks, scene);
   if (!referenceBricks.empty())
   {
     scene.skipping = scene.skipping && reference.skipping;
-    scene.shownLow = glm::min(scene.shownLow, reference.shownLow);
-    scene.shownHigh = glm::max(scene.shownHigh, reference.shownHigh);
+    scene.shown.low = glm::min(scene.shown.low, reference.shown.low);
+    scene.shown.high = glm::max(scene.shown.high, reference.shown.high);
   }
 }
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Casts the rays into an image of its own and lays that image over the scene.
+// Casts the rays into images of its own, which are then laid over the scene.
 #ifndef BrainShift_RayCaster_h
 #define BrainShift_RayCaster_h
 
+#include "CastImages.h"
 #include "Counters.h"
 #include "FieldChange.h"
-#include "FirstHits.h"
 #include "ImageArea.h"
 #include "Program.h"
 #include "RayCastComparison.h"
@@ -35,9 +35,9 @@ class DeformedPresence;
 // Everything one image depends on. Texture coordinates are the scalar texture's.
 struct RayCastScene
 {
-  glm::ivec2 size{ 0 };      // pixels
-  glm::ivec2 shownLow{ 0 };  // the part of the image that can show something: first pixel,
-  glm::ivec2 shownHigh{ 0 }; // and one past the last
+  glm::ivec2 size{ 0 }; // pixels
+  PixelBox shown;       // the part of the image that is cast: what can show something, or less,
+  PixelBox turned{ glm::ivec2(-1 << 20), glm::ivec2(1 << 20) }; // see PixelPart
   glm::dmat4 clipFromWorld{ 1.0 };
   glm::dmat4 worldFromTexture{ 1.0 };
   glm::dvec3 mmFromTexture{ 1.0 }; // along the volume's axes, before an actor's scale
@@ -69,6 +69,7 @@ struct RayCastScene
   bool jitter = false;       // rays start at different shares of a step
   bool countSamples = false; // counters learn of samples taken and skipped; Composite only
   bool tile = false;         // the image is a part of a picture larger than the window
+  glm::dvec2 hitFromShare{ 1.0, 0.0 }; // what is told of a hit, from its share of the ray
 
   vtkTextureObject* scalars = nullptr;
   vtkTextureObject* offsets = nullptr; // null: the volume carries no deformation
@@ -96,60 +97,24 @@ public:
   // Draws the image. False if a shader does not compile or the image cannot be made.
   bool cast(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters);
 
-  // Blends the image over a rectangle (pixels) of the framebuffer that is bound.
-  bool composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origin, const glm::ivec2& size,
-    Counters& counters);
+  // Draws the scene's part of an image that is held anew, with the camera it was drawn with. The
+  // rest of the image stays.
+  bool castPart(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters);
 
-  // What the last whole image shows at a place counted from its lower left corner to 1: first hit
-  // (mm, world) and its distance from the near plane (mm). False where no surface was hit or
-  // nothing was cast yet.
-  bool hitAt(vtkOpenGLRenderWindow* window, const glm::dvec2& place, glm::dvec4& hit);
-
-  // What hitAt reads, texel by texel. Null if nothing was cast yet.
-  const FirstHits* hits() const { return this->castHits(false); }
-
-  // The same of the last image, whole or a tile.
-  const FirstHits* drawnHits() const { return this->castHits(this->DrewTile); }
-
-  // All textures, some of which may be null.
-  std::vector<vtkTextureObject*> textures() const
-  {
-    return { this->Image, this->Hits[false].texture, this->Hits[true].texture, this->Count,
-      this->Spans };
-  }
+  CastImages& images() { return this->Images; }
+  const CastImages& images() const { return this->Images; }
 
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
-  const FirstHits* castHits(bool tile) const
-  {
-    return this->Hits[tile].texture ? &this->Hits[tile] : nullptr;
-  }
-  bool prepareImages(vtkOpenGLRenderWindow* window, const RayCastScene& scene);
+  bool draw(
+    vtkOpenGLRenderWindow* window, const RayCastScene& scene, bool part, Counters& counters);
   bool findSpans(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters);
   void setUniforms(Program& program, const RayCastScene& scene);
 
-  bool prepareCount(vtkOpenGLRenderWindow* window, const glm::ivec2& size);
-  void readCount(Counters& counters);
-  void clearStaleHits(const RayCastScene& scene);
-
-  // What was cast last of a picture: first pixel, one past the last.
-  struct Part
-  {
-    glm::ivec2 low{ 0 };
-    glm::ivec2 high{ 0 };
-  };
-  bool DrewTile = false;
-  ImageArea Area; // of Image, Spans and Count, and the Hits drawn last
-  Part ImagePart;
-  Part HitsPart[2];                        // elsewhere Hits tell of none
-  FirstHits Hits[2];                       // [tile]
-  vtkSmartPointer<vtkTextureObject> Image; // colour times opacity, opacity
-  vtkSmartPointer<vtkTextureObject> Count; // samples taken and skipped; null unless asked for
-  vtkSmartPointer<vtkTextureObject> Spans; // of a ray: share before and behind occupied bricks
+  CastImages Images;
   std::map<RayCastVariant, Program> CastPrograms; // those drawn with so far
   Program SpansProgram;
-  Program CompositeProgram;
 };
 }
 

@@ -54,12 +54,12 @@ void SceneDeformation::addSizes(DrawnSizes& sizes) const
 }
 
 bool DeviceDeformation::update(vtkOpenGLRenderWindow* window, SceneDeformation& deformation,
-  const Grid& grid, const ValueLayout& layout, RayCastScene& scene, IndexBox& changed,
+  const Grid& grid, const ValueLayout& layout, RayCastScene& scene, Change& change,
   Counters& counters, std::string& problem)
 {
   scene.spaceLow = layout.low;
   scene.spaceHigh = layout.high;
-  changed = IndexBox();
+  change = Change();
   if (!deformation.deformed)
   {
     return true;
@@ -80,7 +80,7 @@ bool DeviceDeformation::update(vtkOpenGLRenderWindow* window, SceneDeformation& 
     }
     this->FieldTime = deformation.time;
     this->OffsetScale = offsetScale;
-    changed = this->Field.changed();
+    change = { this->Field.changed(), this->Field.bent() };
   }
   scene.offsets = this->Field.offsets();
   placeField(grid, layout, lattice, deformation.request.nodes, scene);

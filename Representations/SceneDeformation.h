@@ -50,10 +50,16 @@ struct SceneDeformation
 class DeviceDeformation
 {
 public:
-  // Makes the field current and fills in what the scene says of it. `changed`: its nodes computed
-  // anew. On failure returns false and says why in `problem`.
+  // Nodes of the field that an update computed anew, and where it gave other values.
+  struct Change
+  {
+    IndexBox computed;
+    FieldTexture::Bent bent;
+  };
+  // Makes the field current and fills in what the scene says of it. On failure returns false and
+  // says why in `problem`.
   bool update(vtkOpenGLRenderWindow* window, SceneDeformation& deformation, const Grid& grid,
-    const ValueLayout& layout, RayCastScene& scene, IndexBox& changed, Counters& counters,
+    const ValueLayout& layout, RayCastScene& scene, Change& change, Counters& counters,
     std::string& problem);
 
   const FieldTexture& field() const { return this->Field; }

@@ -94,8 +94,8 @@ void SceneDepth::captureBehind(vtkOpenGLRenderWindow* window, const glm::ivec2& 
   const glm::ivec2& size, RayCastScene& scene)
 {
   const glm::dvec2 windowPixels = glm::dvec2(size) / glm::dvec2(scene.size); // for one of the image
-  this->capture(window, origin, size, glm::floor(glm::dvec2(scene.shownLow) * windowPixels),
-    glm::ceil(glm::dvec2(scene.shownHigh) * windowPixels));
+  this->capture(window, origin, size, glm::floor(glm::dvec2(scene.shown.low) * windowPixels),
+    glm::ceil(glm::dvec2(scene.shown.high) * windowPixels));
   scene.sceneDepth = this->texture();
   scene.depthFromShare = this->textureFromShare();
   scene.depthOfShareZero = this->textureOfShareZero();

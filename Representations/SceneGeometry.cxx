@@ -20,6 +20,8 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
+#include <limits>
+
 namespace brainshift
 {
 namespace
@@ -155,43 +157,97 @@ void describeView(vtkRenderer* renderer, vtkVolume* volume, const Grid& grid,
   scene.tile = tiles[0] * tiles[1] > 1;
 }
 
+namespace
+{
+// Where points (texture coordinates) are seen in the image.
+class SeenPoints
+{
+public:
+  explicit SeenPoints(const RayCastScene& scene)
+    : ClipFromTexture(scene.clipFromWorld * scene.worldFromTexture)
+    , Size(scene.size)
+  {
+  }
+
+  // False if it lies behind the eye.
+  bool add(const glm::dvec3& point)
+  {
+    const glm::dvec4 clip = this->ClipFromTexture * glm::dvec4(point, 1.0);
+    if (clip.w <= 0.0)
+    {
+      return false;
+    }
+    const glm::dvec2 pixel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * this->Size;
+    const glm::dvec2 turned(pixel.x + pixel.y, pixel.x - pixel.y);
+    this->low = glm::min(this->low, pixel);
+    this->high = glm::max(this->high, pixel);
+    this->turnedLow = glm::min(this->turnedLow, turned);
+    this->turnedHigh = glm::max(this->turnedHigh, turned);
+    return true;
+  }
+
+  // Two pixels more to every side: for rounding, and empty ones for a filter to blend with.
+  PixelPart around() const
+  {
+    const PixelBox box{ glm::ivec2(
+                          glm::clamp(glm::floor(this->low) - 2.0, glm::dvec2(0.0), this->Size)),
+      glm::ivec2(glm::clamp(glm::ceil(this->high) + 2.0, glm::dvec2(0.0), this->Size)) };
+    return { box,
+      { glm::ivec2(glm::floor(this->turnedLow)) - 5,
+        glm::ivec2(glm::ceil(this->turnedHigh)) + 5 } };
+  }
+
+  glm::dvec2 low{ std::numeric_limits<double>::max() };
+  glm::dvec2 high{ std::numeric_limits<double>::lowest() };
+  glm::dvec2 turnedLow = low;
+  glm::dvec2 turnedHigh = high;
+
+private:
+  glm::dmat4 ClipFromTexture;
+  glm::dvec2 Size;
+};
+}
+
+PixelPart pixelsBetween(const std::vector<glm::vec3>& positions, const RayCastScene& scene)
+{
+  SeenPoints seen(scene);
+  for (const glm::vec3& position : positions)
+  {
+    const glm::dvec3 texture =
+      (glm::dvec3(position) - scene.latticeOfTextureZero) / scene.latticeFromTexture;
+    if (!seen.add(glm::clamp(texture, scene.spaceLow, scene.spaceHigh)))
+    {
+      return partOf({ glm::ivec2(0), scene.size });
+    }
+  }
+  return positions.empty() ? PixelPart() : seen.around();
+}
+
 void placeShownPixels(const IndexBox& bricks, RayCastScene& scene)
 {
-  scene.shownLow = glm::ivec2(0);
-  scene.shownHigh = bricks.empty() ? glm::ivec2(0) : scene.size;
-  if (bricks.empty())
+  scene.shown = { glm::ivec2(0), bricks.empty() ? glm::ivec2(0) : scene.size };
+  SeenPoints seen(scene);
+  for (int corner = 0; corner < 8 && !bricks.empty(); ++corner)
   {
-    return;
-  }
-  const glm::dmat4 clipFromTexture = scene.clipFromWorld * scene.worldFromTexture;
-  glm::dvec2 low(1e9);
-  glm::dvec2 high(-1e9);
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    const glm::dvec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
-    const glm::dvec3 brick =
-      scene.firstBrick + glm::mix(glm::dvec3(bricks.first), glm::dvec3(bricks.last + 1), side);
-    const glm::dvec4 clip =
-      clipFromTexture * glm::dvec4(brick * scene.textureFromBrick + scene.textureOfBrickZero, 1.0);
-    if (clip.w <= 0.0)
+    const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+    const glm::dvec3 brick(bricks.first + side * bricks.size());
+    if (!seen.add((scene.firstBrick + brick) * scene.textureFromBrick + scene.textureOfBrickZero))
     {
       return;
     }
-    const glm::dvec2 pixel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(scene.size);
-    low = glm::min(low, pixel);
-    high = glm::max(high, pixel);
+  }
+  if (bricks.empty())
+  {
+    return;
   }
   // From wherever it is seen, the picture is about as long as the box's middle side or longer.
   const glm::ivec3 side = bricks.size() * BrickSide;
   const int longest = glm::max(side.x, glm::max(side.y, side.z));
   const int shortest = glm::min(side.x, glm::min(side.y, side.z));
   const int middle = side.x + side.y + side.z - longest - shortest;
-  const double pixels = glm::max(high.x - low.x, high.y - low.y);
+  const double pixels = glm::max(seen.high.x - seen.low.x, seen.high.y - seen.low.y);
   scene.skipping = scene.skipping && pixels * LargestPixel > middle;
-  // Two pixels more to every side: for rounding, and empty ones for a filter to blend with.
-  const glm::dvec2 end(scene.size);
-  scene.shownLow = glm::ivec2(glm::clamp(glm::floor(low) - 2.0, glm::dvec2(0.0), end));
-  scene.shownHigh = glm::ivec2(glm::clamp(glm::ceil(high) + 2.0, glm::dvec2(0.0), end));
+  scene.shown = seen.around().box;
 }
 
 void placeBricks(const ValueLayout& layout, RayCastScene& scene, PresenceRequest& request)

@@ -6,10 +6,13 @@
 
 #include "FieldChange.h"
 #include "Grid.h"
+#include "ImageArea.h"
 #include "OffsetField.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+
+#include <vector>
 
 class vtkAbstractVolumeMapper;
 class vtkDataArray;
@@ -71,6 +74,10 @@ void describeView(vtkRenderer* renderer, vtkVolume* volume, const Grid& grid,
 // it lies behind the eye. Bricks count from the scene's first one. Where pixels are so large that
 // the rasteriser's rounding would come near BrickMargin, nothing is skipped: the picture is tiny.
 void placeShownPixels(const IndexBox& bricks, RayCastScene& scene);
+
+// The pixels of the scene's image at which all is seen that lies between positions (lattice
+// coordinates) and that tissue can reach; all of them if a position lies behind the eye.
+PixelPart pixelsBetween(const std::vector<glm::vec3>& positions, const RayCastScene& scene);
 
 // Fills in how the deformed frame's bricks lie to the texture, in both.
 void placeBricks(const ValueLayout& layout, RayCastScene& scene, PresenceRequest& request);

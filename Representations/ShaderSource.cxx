@@ -20,6 +20,7 @@
 #include "shader_cover_frag.h"
 #include "shader_cubic.h"
 #include "shader_cut.h"
+#include "shader_enlarge_frag.h"
 #include "shader_field.h"
 #include "shader_fullscreen_vert.h"
 #include "shader_gradient.h"
@@ -212,6 +213,11 @@ ShaderSource compositeSource()
   return { assemble({ shader_fullscreen_vert }), "", assemble({ Outputs, shader_composite_frag }) };
 }
 
+ShaderSource enlargeSource()
+{
+  return { assemble({ shader_fullscreen_vert }), "", assemble({ Outputs, shader_enlarge_frag }) };
+}
+
 ShaderSource coverSource()
 {
   return { assemble({ shader_fullscreen_vert }), "", assemble({ Outputs, shader_cover_frag }) };
@@ -246,8 +252,8 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
     { "refine_masked", refineSource(true) }, { "invert", invertSource() },
     { "normals", normalsSource() }, { "blocks", blocksSource() },
     { "presence_rest", presenceSource(false) }, { "presence_deformed", presenceSource(true) },
-    { "proxy", proxySource() }, { "composite", compositeSource() }, { "cover", coverSource() },
-    { "traces_over", tracesOverSource() } };
+    { "proxy", proxySource() }, { "composite", compositeSource() }, { "enlarge", enlargeSource() },
+    { "cover", coverSource() }, { "traces_over", tracesOverSource() } };
   const auto add = [&](const RayCastVariant& variant) {
     sources.emplace_back(nameOf(variant), rayCastSource(variant));
   };

@@ -169,10 +169,10 @@ bool vtkDeformedSlicesMapper::DrawPlanes(vtkRenderer* renderer, Device& device, 
   State& state = *this->Internal;
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   SliceScene scene;
-  IndexBox changed;
+  DeviceDeformation::Change change;
   if (!device.Tissue.update(window, tissue, scene.volume, state.Count, problem) ||
-    !device.Deformation.update(window, state.Deformation, grid, tissue.layout, scene.volume,
-      changed, state.Count, problem) ||
+    !device.Deformation.update(
+      window, state.Deformation, grid, tissue.layout, scene.volume, change, state.Count, problem) ||
     !this->DescribeReference(window, device, tissue, grid, scene, problem))
   {
     return false;

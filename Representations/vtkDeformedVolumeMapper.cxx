@@ -3,11 +3,9 @@
 
 #include "DeviceReference.h"
 #include "GpuMemory.h"
-#include "MovingQuality.h"
-#include "PictureStamp.h"
+#include "Picture.h"
 #include "RayCaster.h"
 #include "SceneDeformation.h"
-#include "SceneDepth.h"
 #include "SceneGeometry.h"
 #include "SelectionCover.h"
 #include "SoftwareFallback.h"
@@ -41,13 +39,9 @@ struct vtkDeformedVolumeMapper::Device
   PresentTissue Own;
   DeviceReference Reference;
   DeviceDeformation Deformation;
-  SceneDepth Depth;
-  RayCaster Caster;
-  PictureStamp Stamp; // of what Caster holds
+  Picture Shown;
   SelectionCover Cover;
   GpuMemory Memory;
-
-  double SecondsPerPixel = 0.0; // of the last image; 0: none yet
 
   void Release(vtkWindow* window);
 };
@@ -57,6 +51,9 @@ struct vtkDeformedVolumeMapper::State
   WindowDevices<Device> Devices;
   Counters Count;
   SceneDeformation Deformation; // of the input
+
+  bool TakesInput = false;
+  unsigned long long SettingsTime = 0; // of the last change, but for the input
 
   vtkNew<vtkSmartVolumeMapper> Fallback;
   std::string Reported;       // the last trouble told
@@ -71,6 +68,23 @@ vtkDeformedVolumeMapper::vtkDeformedVolumeMapper()
 }
 
 vtkDeformedVolumeMapper::~vtkDeformedVolumeMapper() = default;
+
+// ParaView hands over the same input anew with each stroke, which changes no setting.
+void vtkDeformedVolumeMapper::SetInputConnection(int port, vtkAlgorithmOutput* input)
+{
+  this->Internal->TakesInput = true;
+  this->Superclass::SetInputConnection(port, input);
+  this->Internal->TakesInput = false;
+}
+
+void vtkDeformedVolumeMapper::Modified()
+{
+  this->Superclass::Modified();
+  if (this->Internal && !this->Internal->TakesInput)
+  {
+    this->Internal->SettingsTime = this->GetMTime();
+  }
+}
 
 // Reads the deformation if it changed.
 void vtkDeformedVolumeMapper::UpdateDeformation(vtkImageData* image)
@@ -121,11 +135,11 @@ void vtkDeformedVolumeMapper::CoverSelection(vtkRenderer* renderer)
 {
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   Device* device = this->Internal->Devices.find(window);
-  if (!device || !device->Caster.hits())
+  if (!device || !device->Shown.images().hits())
   {
     return;
   }
-  if (!device->Cover.draw(window, renderer, *device->Caster.hits(), this->Internal->Count))
+  if (!device->Cover.draw(window, renderer, *device->Shown.images().hits(), this->Internal->Count))
   {
     vtkErrorMacro("The selection's shader does not compile. Selections reach through the volume.");
   }
@@ -189,18 +203,6 @@ SceneReference vtkDeformedVolumeMapper::FindReference(
   return compared && tissue.blend == Blend::Composite ? reference : SceneReference();
 }
 
-namespace
-{
-// Fewer pixels and longer steps.
-void adapt(const MovingQuality& quality, Blend blend, const glm::ivec2& size, RayCastScene& scene)
-{
-  scene.stepDoublings = blend == Blend::Composite ? quality.stepDoublings : 0;
-  scene.stepMm *= 1 << scene.stepDoublings;
-  scene.size = glm::max(size / static_cast<int>(quality.imageScale), glm::ivec2(1));
-  scene.shownHigh = scene.size;
-}
-}
-
 bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, vtkVolume* volume,
   const TissueRequest& tissue, const Grid& grid, const SceneReference& reference,
   std::string& problem)
@@ -209,8 +211,7 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   RayCastScene scene;
   RayCastScene referenceScene;
-  vtkNew<vtkTimerLog> timer;
-  timer->StartTimer();
+  device.Shown.begin();
   const bool described = reference.isAlone()
     ? this->DescribeReference(renderer, device, volume, tissue, grid, reference, scene, problem)
     : this->DescribeTissue(renderer, device, volume, tissue, grid, scene, problem);
@@ -223,49 +224,23 @@ bool vtkDeformedVolumeMapper::DrawTissue(vtkRenderer* renderer, Device& device, 
   {
     this->Compare(renderer, device, volume, grid, reference, scene, referenceScene);
   }
-  glm::ivec2 origin;
-  glm::ivec2 size;
-  renderer->GetTiledSizeAndOrigin(&size.x, &size.y, &origin.x, &origin.y);
-  timer->StopTimer();
-  const double rate = window->GetDesiredUpdateRate();
-  const bool moving = this->AdaptiveQuality && isMoving(rate);
-  const bool keep = this->KeepPicture || TracePoints::areShownIn(renderer);
-  if (moving || !keep)
-  {
-    device.Stamp.forget();
-  }
-  MovingQuality quality;
-  if (moving)
-  {
-    quality = movingQuality(
-      device.SecondsPerPixel * size.x * size.y, allowedSeconds(rate, timer->GetElapsedTime()));
-  }
-  state.Count.imageScale = quality.imageScale;
+  PictureWish wish;
+  glm::ivec2& size = scene.size;
+  renderer->GetTiledSizeAndOrigin(&size.x, &size.y, &wish.origin.x, &wish.origin.y);
+  const glm::ivec2 whole = size;
+  wish.adaptive = this->AdaptiveQuality;
+  wish.keep = this->KeepPicture || TracePoints::areShownIn(renderer);
+  wish.rate = window->GetDesiredUpdateRate();
+  wish.settingsTime = this->Internal->SettingsTime;
   scene.countSamples = this->CountSamples;
-  scene.jitter = moving;
-  adapt(quality, tissue.blend, size, scene);
-  if (scene.skipping)
+  if (!device.Shown.cast(renderer, volume, wish, scene, state.Count))
   {
-    placeComparedPixels(scene);
-  }
-  device.Depth.captureBehind(window, origin, size, scene);
-  timer->StartTimer();
-  const bool repeats =
-    keep && !moving && device.Stamp.repeats(renderer, volume, scene, state.Count);
-  if (!repeats && !device.Caster.cast(window, scene, state.Count))
-  {
-    device.Stamp.forget();
     problem = "The ray caster's shader does not compile or its images cannot be made on this GPU";
     return false;
   }
-  if (this->AdaptiveQuality && !repeats)
-  {
-    window->WaitForCompletion(); // else the time is that of the commands, not of the image
-    timer->StopTimer();
-    device.SecondsPerPixel = timer->GetElapsedTime() * (1 << scene.stepDoublings) /
-      (static_cast<double>(scene.size.x) * scene.size.y);
-  }
-  return device.Caster.composite(window, origin, size, state.Count);
+  const bool drawn = device.Shown.images().composite(window, wish.origin, whole, state.Count);
+  device.Shown.end();
+  return drawn;
 }
 
 // The tissue, the offset field and the bricks of the deformed frame, and how they are seen.
@@ -275,14 +250,15 @@ bool vtkDeformedVolumeMapper::DescribeTissue(vtkRenderer* renderer, Device& devi
 {
   State& state = *this->Internal;
   auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
-  IndexBox changed; // nodes of the offset field
+  DeviceDeformation::Change change;
   if (!device.Own.Tissue.update(window, tissue, scene, state.Count, problem) ||
     !device.Deformation.update(
-      window, state.Deformation, grid, tissue.layout, scene, changed, state.Count, problem) ||
-    !device.Own.updatePresence(window, tissue.layout, scene, changed, state.Count, problem))
+      window, state.Deformation, grid, tissue.layout, scene, change, state.Count, problem) ||
+    !device.Own.updatePresence(window, tissue.layout, scene, change.computed, state.Count, problem))
   {
     return false;
   }
+  device.Shown.bend(change.bent);
   this->DescribeCropping(grid, tissue.layout, scene);
   this->DescribeOptions(renderer, volume, device.Own.Tissue, tissue, grid, scene);
   return true;
@@ -427,7 +403,7 @@ bool vtkDeformedVolumeMapper::Pick(vtkRenderer* renderer, int x, int y, double p
   window->MakeCurrent();
   glm::dvec4 hit;
   const glm::dvec2 place = (glm::dvec2(x, y) + 0.5) / glm::dvec2(size[0], size[1]);
-  if (!device->Caster.hitAt(window, place, hit))
+  if (!device->Shown.images().hitAt(window, place, hit))
   {
     return false;
   }
@@ -438,7 +414,7 @@ bool vtkDeformedVolumeMapper::Pick(vtkRenderer* renderer, int x, int y, double p
 const FirstHits* vtkDeformedVolumeMapper::GetHits(vtkWindow* window)
 {
   Device* device = this->Internal->Devices.find(window);
-  return device ? device->Caster.drawnHits() : nullptr;
+  return device ? device->Shown.images().drawnHits() : nullptr;
 }
 
 void vtkDeformedVolumeMapper::DrawUndeformed(
@@ -459,8 +435,7 @@ void vtkDeformedVolumeMapper::Device::Release(vtkWindow* window)
   this->Own.releaseGraphicsResources(window);
   this->Reference.releaseGraphicsResources(window);
   this->Deformation.releaseGraphicsResources(window);
-  this->Depth.releaseGraphicsResources(window);
-  this->Caster.releaseGraphicsResources(window);
+  this->Shown.releaseGraphicsResources(window);
   this->Cover.releaseGraphicsResources();
 }
 
@@ -480,8 +455,7 @@ void vtkDeformedVolumeMapper::AskTheGpu()
   this->Internal->Devices.visit([&](Device& device) {
     count.gpuScalarBytes += textureBytes(device.Own.Tissue.scalars());
     count.gpuOtherBytes += device.Own.otherBytes() + device.Reference.bytes() +
-      textureBytes({ { device.Depth.copied() }, device.Deformation.field().textures(),
-        device.Caster.textures() });
+      textureBytes({ device.Deformation.field().textures(), device.Shown.textures() });
     device.Deformation.askTime(count.gpuFieldMicroseconds);
   });
 }

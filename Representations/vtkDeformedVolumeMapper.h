@@ -54,6 +54,10 @@ public:
   vtkTypeMacro(vtkDeformedVolumeMapper, vtkVolumeMapper);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  using Superclass::SetInputConnection;
+  void SetInputConnection(int port, vtkAlgorithmOutput* input) override;
+  void Modified() override;
+
   ///@{
   /** Step along the ray, mm. 0 (default): half the smallest voxel side. */
   vtkSetClampMacro(SampleDistance, double, 0.0, VTK_DOUBLE_MAX);

@@ -96,8 +96,8 @@ const char* vtkDeformedVolumeReport::GetCounters()
   }
   const brainshift::Counters& count = mapper ? mapper->GetCounters() : slices->GetCounters();
   std::ostringstream text;
-  text << "frames " << count.frames << "\nvolumeUploads " << count.volumeUploads
-       << "\nlatticeUploads " << count.latticeUploads << "\ntransferUploads "
+  text << "frames " << count.frames << "\npixelsCast " << count.pixelsCast << "\nvolumeUploads "
+       << count.volumeUploads << "\nlatticeUploads " << count.latticeUploads << "\ntransferUploads "
        << count.transferUploads << "\nsegmentUploads " << count.segmentUploads << "\nbytesUploaded "
        << count.bytesUploaded << "\ntexelsRefined " << count.texelsRefined << "\npresenceUpdates "
        << count.presenceUpdates << "\nskippingBytes " << count.skippingBytes << "\nsamplesTaken "

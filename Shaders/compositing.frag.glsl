@@ -2,6 +2,7 @@
 
 void main()
 {
+  leaveOthers();
   if (!CountsSamples && meetsNothing())
   {
     gl_FragData[0] = vec4(0.0);

@@ -15,6 +15,7 @@ struct March
 // `before`: samples wanted before the first that may be visible.
 March marchOf(vec2 ndc, float before)
 {
+  leaveOthers();
   March march;
   march.ray = rayOfPixel(ndc);
   march.span = boxSpan(march.ray, spaceLow, spaceHigh);

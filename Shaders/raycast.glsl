@@ -8,6 +8,20 @@ uniform vec2 ndcFromPixel; // of the picture
 // From whole pixels, so that a ray is the same to the last bit whatever part of it the images hold.
 vec2 ndc = (gl_FragCoord.xy + firstPixel) * ndcFromPixel - 1.0;
 
+uniform vec2 turnedLow; // of pixels that are cast: x + y and x - y
+uniform vec2 turnedHigh;
+
+// All others stay as they are: scissors cut along the picture's sides, this along its diagonals.
+void leaveOthers()
+{
+  vec2 pixel = gl_FragCoord.xy + firstPixel;
+  vec2 turned = vec2(pixel.x + pixel.y, pixel.x - pixel.y);
+  if (any(lessThan(turned, turnedLow)) || any(greaterThan(turned, turnedHigh)))
+  {
+    discard;
+  }
+}
+
 uniform vec3 spaceLow;  // the part of the deformed frame that tissue can reach, texture coordinates
 uniform vec3 spaceHigh;
 uniform float stepMm;
@@ -39,11 +53,13 @@ vec3 worldFromDeformed(vec3 deformed)
   return worldFromTexture * deformed + worldOfTextureZero;
 }
 
-// The second target, of a hit at t: the share of the way from the near to the far plane. Whoever
-// wants its position knows the planes.
+uniform vec2 hitFromShare; // scale and shift
+
+// The second target, of a hit at t: the share of the way from the near to the far plane, of which
+// whoever wants its position knows. Where part of a picture is cast they are those of the rest.
 vec4 hitAt(float t)
 {
-  return vec4(t / rayOfPixel(ndc).lengthMm);
+  return vec4(t / rayOfPixel(ndc).lengthMm * hitFromShare.x + hitFromShare.y);
 }
 
 // What light does at a position. `slopes`: of the offsets near it; `turn`: worldFromGradient.

@@ -124,4 +124,49 @@ TEST_P(FieldChangeTest, NodesOutsideTheChangeStayAsTheyWere)
   }
 }
 
+TEST_P(FieldChangeTest, WhatChangesLiesBetweenItsCorners)
+{
+  // A picture that is cast in part looks at what lies between them, from any side.
+  for (const bool alone : { true, false })
+  {
+    for (const IndexBox& box : { Middle, Corner })
+    {
+      const std::vector<glm::vec3> others =
+        alone ? still() : moveBox(still(), { { 8, 7, 6 }, { 9, 8, 7 } }, 7);
+      const std::vector<glm::vec3> before = moveBox(others, box, 8);
+      const std::vector<glm::vec3> after = moveBox(others, box, 9);
+      const FieldNodes nodes = backwardNodes(obliqueGrid(Points), after, Samples);
+      const std::vector<glm::vec3> corners = cornersOfChange(Points, before, after, 0.0f);
+      SlabHull hull;
+      for (const glm::vec3& corner : corners)
+      {
+        for (int i = 0; i < SlabDirections; ++i)
+        {
+          const float along = glm::dot(slabDirection(i), corner);
+          hull.spans[i] = { glm::min(hull.spans[i].x, along), glm::max(hull.spans[i].y, along) };
+        }
+      }
+      const NodeField was = backward(GetParam(), before, nodes);
+      const NodeField is = backward(GetParam(), after, nodes);
+      int changed = 0;
+      forNodes(nodes, [&](const glm::ivec3& index, std::size_t at) {
+        if (was.values[at] == is.values[at])
+        {
+          return;
+        }
+        changed += 1;
+        const glm::vec3 position = nodes.latticeFromNode(glm::vec3(index));
+        for (int i = 0; i < SlabDirections; ++i)
+        {
+          const float along = glm::dot(slabDirection(i), position);
+          EXPECT_GE(along, hull.spans[i].x) << i;
+          EXPECT_LE(along, hull.spans[i].y) << i;
+        }
+      });
+      EXPECT_GT(changed, 100);
+    }
+  }
+  EXPECT_TRUE(cornersOfChange(Points, still(), still(), 1.0f).empty());
+}
+
 INSTANTIATE_TEST_SUITE_P(Kernels, FieldChangeTest, ::testing::Values(0, 1));

@@ -43,3 +43,30 @@ TEST(MovingQuality, StopsWhereNothingCouldBeSeenAnyMore)
   EXPECT_EQ(quality.imageScale, LargestImageScale);
   EXPECT_EQ(quality.stepDoublings, MostStepDoublings);
 }
+
+TEST(MovingQuality, LeavesTheWindowItsTime)
+{
+  const double usual = allowedSeconds(5.0, 0.02, 0.0);
+  EXPECT_GT(usual, 0.02);
+  EXPECT_LT(usual, 1.0 / 15.0 - 0.02);
+  EXPECT_NEAR(allowedSeconds(5.0, 0.03, 0.005), usual - 0.015, 1e-12);
+  EXPECT_NEAR(allowedSeconds(30.0, 0.01, 0.0), 1.0 / 30.0 - 0.01, 1e-12);
+  EXPECT_GT(allowedSeconds(5.0, 1.0, 1.0), 0.0) << "an image has to be cast";
+}
+
+TEST(WindowPace, FollowsTheWindowAndNotTheHand)
+{
+  WindowPace pace;
+  for (int i = 0; i < 30; ++i)
+  {
+    pace.learn(0.012, 0.02); // two processors at work
+  }
+  EXPECT_NEAR(pace.windowSeconds(), 0.012, 1e-4);
+  for (int i = 0; i < 30; ++i)
+  {
+    pace.learn(0.3, 0.015); // the hand moves seldom
+  }
+  EXPECT_NEAR(pace.windowSeconds(), 0.015, 1e-4);
+  pace.learn(10.0, 0.2);
+  EXPECT_NEAR(pace.windowSeconds(), 0.015, 1e-4);
+}

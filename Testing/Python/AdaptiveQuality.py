@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that drawing fewer pixels while moving changes neither brightness nor the still picture.
 import brainshift_testing as testing
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
 testing.load_plugin()
 import brainshift  # noqa: E402 after the plugin
@@ -21,26 +19,16 @@ def drawn():
     return display, view, still_picture(view)
 
 
-def on_screen(view):
-    """The window's pixels as they are: a capture would draw a still picture first."""
-    reader = vtkWindowToImageFilter()
-    reader.SetInput(view.GetRenderWindow())
-    reader.ReadFrontBufferOff()
-    reader.ShouldRerenderOff()
-    reader.Update()
-    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).astype(float)
-
-
 def still_picture(view):
     view.SMProxy.StillRender()
-    return on_screen(view)
+    return testing.on_screen(view)
 
 
 def moving(view):
     """The picture while the camera moves: the second one, which knows what the first one cost."""
     for _ in range(2):
         view.SMProxy.GetClientSideObject().InteractiveRender()
-    return on_screen(view)
+    return testing.on_screen(view)
 
 
 def test_the_still_picture_is_whole_again():
@@ -57,7 +45,7 @@ def test_a_stroke_is_seen_while_moving_above_the_lod_threshold():
     view.SMProxy.StillRender()
     display.Input.Strokes = brainshift.soft(MIDDLE, (0, 3, 0), 12)
     view.SMProxy.InteractiveRender()
-    moving_picture = on_screen(view)
+    moving_picture = testing.on_screen(view)
     assert brainshift.counters(display)["latticeUploads"] == 2
     assert abs(moving_picture.mean() - still_picture(view).mean()) < 0.05 * moving_picture.mean()
     assert moving_picture.max() > 50

@@ -20,6 +20,8 @@ COLORS = [0, 0, 0, 1, 50, 0, 1, 0, 100, 1, 0, 0]
 OPAQUE = [0, 0, 0.5, 0, 49, 0, 0.5, 0, 51, 1, 0.5, 0, 100, 1, 0.5, 0]
 TRANSLUCENT = [0, 0, 0.5, 0, 20, 0, 0.5, 0, 100, 0.1, 0.5, 0]
 
+NOT_COUNTED = {"frames": 0, "pixelsCast": 0}
+
 
 def bent_ball():
     return FreeFormDeformation(
@@ -67,7 +69,7 @@ def test_two_views_of_one_volume():
     before = draw_in_turn("first")
     for now, then in zip(draw_in_turn("second"), before):
         assert now["volumeUploads"] == 1, now
-        assert {**now, "frames": 0} == {**then, "frames": 0}, (now, then)
+        assert {**now, **NOT_COUNTED} == {**then, **NOT_COUNTED}, (now, then)
     source.Strength = 0.0
     for (view, _), image in zip(views, expected):
         assert (picture(view) != image).any(), "a view did not follow"
@@ -100,7 +102,7 @@ def test_hidden_and_shown_again():
     Show(source, view)
     assert_same(picture(view), shown, "shown again")
     after = brainshift.counters(display)
-    assert {**after, "frames": 0} == {**before, "frames": 0}, (after, before)
+    assert {**after, **NOT_COUNTED} == {**before, **NOT_COUNTED}, (after, before)
 
 
 def test_another_representation_and_back():

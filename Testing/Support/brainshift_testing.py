@@ -12,7 +12,7 @@ from paraview import simple
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkRenderingCore import vtkLight
+from vtkmodules.vtkRenderingCore import vtkLight, vtkWindowToImageFilter
 
 #: Edge of a test picture, pixels.
 SIZE = 300
@@ -154,6 +154,19 @@ def picture(view):
     result = pixels.reshape(height, width, -1)[:, :, :3].astype(float) / 255.0
     image.UnRegister(None)
     return result
+
+
+def on_screen(view):
+    """The window's pixels as they are, indexed [row from below, column, colour], 0 to 255: a capture
+    would draw a still picture first."""
+    reader = vtkWindowToImageFilter()
+    reader.SetInput(view.GetRenderWindow())
+    reader.ReadFrontBufferOff()
+    reader.ShouldRerenderOff()
+    reader.Update()
+    image = reader.GetOutput()
+    width, height, _ = image.GetDimensions()
+    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1).astype(float)
 
 
 # Pictures -----------------------------------------------------------------------------------------

@@ -21,4 +21,5 @@ class Counted:
                 if now[name] != self.before[name]}
         self.before = now
         assert done.pop("frames") > 0
+        done.pop("pixelsCast", 0)
         return done
