@@ -92,6 +92,24 @@ void CastImages::attach(ImageScope& scope, const RayCastScene& scene, bool part,
   this->HitsPart[scene.tile] = this->Part;
 }
 
+void CastImages::drawPart(Program& program, const PixelPart& part) const
+{
+  constexpr std::size_t boxCorners = 4;
+  std::vector<glm::vec2> corners;
+  for (const glm::dvec2& corner : stripOf(part))
+  {
+    corners.emplace_back(2.0 * corner / glm::dvec2(this->Area.picture) - 1.0);
+  }
+  if (corners.size() <= boxCorners)
+  {
+    // What the scissors cut out: one triangle around it has no edge within, along which software
+    // drivers draw blocks of pixels twice.
+    corners = { { -1.0f, -1.0f }, { 3.0f, -1.0f }, { -1.0f, 3.0f } };
+  }
+  program.set("corners", corners.data(), corners.size());
+  drawStrip(static_cast<int>(corners.size()));
+}
+
 // Nothing of an earlier picture must be found beyond the part that is cast now.
 void CastImages::clearStale(const RayCastScene& scene)
 {
@@ -228,12 +246,9 @@ bool CastImages::enlarge(vtkOpenGLRenderWindow* window, const CastImages& smalle
   picture->SetMagnificationFilter(vtkTextureObject::Linear);
   this->EnlargeProgram.set("image", picture);
   this->EnlargeProgram.set("hits", hits);
-  this->EnlargeProgram.set("firstPixel", glm::vec2(this->Area.low));
-  this->EnlargeProgram.set("turnedLow", glm::vec2(part.turned.low));
-  this->EnlargeProgram.set("turnedHigh", glm::vec2(part.turned.high));
   this->EnlargeProgram.set("textureFromShare", glm::vec2(smaller.Area.textureFromShare()));
   this->EnlargeProgram.set("textureOfShareZero", glm::vec2(smaller.Area.textureOfShareZero()));
-  drawTriangles(1);
+  this->drawPart(this->EnlargeProgram, part);
   picture->Deactivate();
   hits->Deactivate();
   this->Part = this->HitsPart[false] = enclosing(this->Part, part.box);

@@ -34,6 +34,9 @@ public:
   // Lets the scene be drawn into them: a picture of its own, or a part of the one that is held.
   void attach(ImageScope& scope, const RayCastScene& scene, bool part, bool counted);
 
+  // Draws the pixels of a part, with a program whose vertex stage is outline.vert.glsl.
+  void drawPart(Program& program, const PixelPart& part) const;
+
   // Adds up what was told of the samples.
   void readCount(Counters& counters);
 

@@ -2,8 +2,10 @@
 #include "ImageArea.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
+#include <cstddef>
 #include <cstdint>
 
 namespace brainshift
@@ -47,12 +49,62 @@ double pixelsIn(const PixelPart& part)
   return part.empty() ? 0.0 : glm::min(area(part.box), 0.5 * area(part.turned));
 }
 
+namespace
+{
+// The part of a convex polygon where dot(normal, position) <= end (Sutherland and Hodgman, 1974).
+std::vector<glm::dvec2> clipped(
+  const std::vector<glm::dvec2>& polygon, const glm::dvec2& normal, double end)
+{
+  std::vector<glm::dvec2> result;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+  {
+    const glm::dvec2& from = polygon[i];
+    const glm::dvec2& to = polygon[(i + 1) % polygon.size()];
+    const double before = end - glm::dot(normal, from);
+    const double after = end - glm::dot(normal, to);
+    if (before >= 0.0)
+    {
+      result.push_back(from);
+    }
+    if ((before > 0.0 && after < 0.0) || (before < 0.0 && after > 0.0))
+    {
+      result.push_back(glm::mix(from, to, before / (before - after)));
+    }
+  }
+  return result;
+}
+}
+
+std::vector<glm::dvec2> stripOf(const PixelPart& part)
+{
+  const glm::dvec2 low(part.box.low);
+  const glm::dvec2 high(part.box.high);
+  std::vector<glm::dvec2> corners{ low, { high.x, low.y }, high, { low.x, high.y } };
+  const glm::dvec2 turnedLow(part.turned.low);
+  const glm::dvec2 turnedHigh(part.turned.high);
+  corners = clipped(corners, { 1.0, 1.0 }, turnedHigh.x);
+  corners = clipped(corners, { -1.0, -1.0 }, -turnedLow.x);
+  corners = clipped(corners, { 1.0, -1.0 }, turnedHigh.y);
+  corners = clipped(corners, { -1.0, 1.0 }, -turnedLow.y);
+  // From one end to the other, by turns on both sides.
+  std::vector<glm::dvec2> strip;
+  std::size_t first = 0;
+  for (std::size_t last = corners.size(); first < last;)
+  {
+    strip.push_back(corners[first++]);
+    if (first < last)
+    {
+      strip.push_back(corners[--last]);
+    }
+  }
+  return strip;
+}
+
 PixelPart partOf(const PixelBox& box)
 {
-  const glm::ivec2 last = box.high - 1;
   return { box,
-    { { box.low.x + box.low.y, box.low.x - last.y },
-      { last.x + last.y + 1, last.x - box.low.y + 1 } } };
+    { { box.low.x + box.low.y, box.low.x - box.high.y },
+      { box.high.x + box.high.y, box.high.x - box.low.y } } };
 }
 
 PixelPart enclosing(const PixelPart& a, const PixelPart& b)

@@ -7,6 +7,8 @@
 
 #include <glm/vec2.hpp>
 
+#include <vector>
+
 namespace brainshift
 {
 // Pixels of a picture: the first, and one past the last.
@@ -29,6 +31,8 @@ struct PixelPart
 };
 // How many they are, about.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT double pixelsIn(const PixelPart& part);
+// Its corners, at most eight, in the order of a strip of triangles.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<glm::dvec2> stripOf(const PixelPart& part);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT PixelPart partOf(const PixelBox& box);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT PixelPart enclosing(const PixelPart& a, const PixelPart& b);
 

@@ -83,14 +83,27 @@ void Program::set(const char* name, vtkTextureObject* texture)
   this->Compiled->SetUniformi(name, texture->GetTextureUnit());
 }
 
-void drawTriangles(int instances)
+namespace
+{
+void drawWithoutBuffers(GLenum mode, int vertices, int instances)
 {
   GLuint vertexArray = 0; // the core profile wants one bound, if empty
   glGenVertexArrays(1, &vertexArray);
   glBindVertexArray(vertexArray);
-  glDrawArraysInstanced(GL_TRIANGLES, 0, 3, instances);
+  glDrawArraysInstanced(mode, 0, vertices, instances);
   glBindVertexArray(0);
   glDeleteVertexArrays(1, &vertexArray);
+}
+}
+
+void drawTriangles(int instances)
+{
+  drawWithoutBuffers(GL_TRIANGLES, 3, instances);
+}
+
+void drawStrip(int vertices)
+{
+  drawWithoutBuffers(GL_TRIANGLE_STRIP, vertices, 1);
 }
 
 FramebufferScope::FramebufferScope(vtkOpenGLState* state)

@@ -52,6 +52,9 @@ private:
 // Runs three vertices `instances` times, without buffers.
 void drawTriangles(int instances);
 
+// Runs the vertices of a strip of triangles, without buffers.
+void drawStrip(int vertices);
+
 // A framebuffer of our own, bound for drawing from here to the end of the scope; then those that
 // were bound before are bound again. Attach a texture, then call drawColors.
 class FramebufferScope

@@ -40,10 +40,8 @@ void setRayUniforms(Program& program, const RayCastScene& scene)
   program.set("mmFromTexture", glm::vec3(scene.mmFromTexture));
 }
 
-void setPixelUniforms(Program& program, const ImageArea& area, const PixelBox& turned)
+void setPixelUniforms(Program& program, const ImageArea& area)
 {
-  program.set("turnedLow", glm::vec2(turned.low));
-  program.set("turnedHigh", glm::vec2(turned.high));
   program.set("firstPixel", glm::vec2(area.low));
   program.set("ndcFromPixel", 2.0f / glm::vec2(area.picture));
 }
@@ -134,7 +132,7 @@ bool RayCaster::findSpans(
 void RayCaster::setUniforms(Program& program, const RayCastScene& scene)
 {
   setRayUniforms(program, scene);
-  setPixelUniforms(program, this->Images.area(), scene.turned);
+  setPixelUniforms(program, this->Images.area());
   program.set("hitFromShare", glm::vec2(scene.hitFromShare));
   setSpaceUniforms(program, scene);
   setSkippingUniforms(program, scene, this->Images.spans());
@@ -228,7 +226,7 @@ bool RayCaster::draw(
   {
     ImageScope scope(window->GetState(), scene.shown, this->Images.area());
     this->Images.attach(scope, scene, part, variant.counted);
-    drawTriangles(1);
+    this->Images.drawPart(program, { scene.shown, scene.turned });
   }
   deactivate(scene);
   this->Images.spans()->Deactivate();

@@ -32,6 +32,7 @@
 #include "shader_march.h"
 #include "shader_nodes.h"
 #include "shader_normals_frag.h"
+#include "shader_outline_vert.h"
 #include "shader_pointwise.h"
 #include "shader_presence_frag.h"
 #include "shader_projection_frag.h"
@@ -79,6 +80,13 @@ std::string assemble(std::initializer_list<std::string> parts)
     source += part;
   }
   return source;
+}
+
+// A vertex stage that draws a part of a picture.
+std::string outlineStage()
+{
+  return assemble(
+    { "#define MAX_CORNERS " + std::to_string(MaxCorners) + "\n", shader_outline_vert });
 }
 
 std::string blockDefine()
@@ -201,7 +209,7 @@ ShaderSource rayCastSource(const RayCastVariant& variant)
   defines += "#define TRANSFER_ENTRIES " + std::to_string(TransferEntries) + "\n";
   defines += variant.compared ? "#define COMPARED\n" : "";
   defines += variant.cavity ? "#define CAVITY\n" : "";
-  return { assemble({ shader_fullscreen_vert }), "",
+  return { outlineStage(), "",
     assemble({ Outputs, defines, shader_rays, shader_skipping, shader_clipping, shader_field,
       shader_gradient, shader_segment, shader_tissue, shader_cut, shader_components, shader_light,
       variant.counted ? std::string(shader_counting) : NotCounted, shader_raycast,
@@ -215,7 +223,7 @@ ShaderSource compositeSource()
 
 ShaderSource enlargeSource()
 {
-  return { assemble({ shader_fullscreen_vert }), "", assemble({ Outputs, shader_enlarge_frag }) };
+  return { outlineStage(), "", assemble({ Outputs, shader_enlarge_frag }) };
 }
 
 ShaderSource coverSource()

@@ -26,6 +26,7 @@ constexpr int MaxIsovalues = 32;
 // Of the colour map: as many as a 12-bit CT has values; so many that none need blending, which
 // would cost four reads.
 constexpr int TransferEntries = 4096;
+constexpr int MaxCorners = 8; // of a part of a picture
 constexpr int MaxTissues = 4; // volumes that hide traced points
 
 // How the samples of a ray become one colour; numbers as in vtkVolumeMapper::BlendModes.

@@ -2,7 +2,6 @@
 
 void main()
 {
-  leaveOthers();
   if (!CountsSamples && meetsNothing())
   {
     gl_FragData[0] = vec4(0.0);

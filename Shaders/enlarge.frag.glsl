@@ -7,18 +7,8 @@ uniform sampler2D hits;
 uniform vec2 textureFromShare; // their coordinates from the share of the picture: scale, shift
 uniform vec2 textureOfShareZero;
 
-uniform vec2 turnedLow; // of the part's pixels: x + y and x - y
-uniform vec2 turnedHigh;
-uniform vec2 firstPixel; // of the picture, that the images hold
-
 void main()
 {
-  vec2 pixel = gl_FragCoord.xy + firstPixel;
-  vec2 turned = vec2(pixel.x + pixel.y, pixel.x - pixel.y);
-  if (any(lessThan(turned, turnedLow)) || any(greaterThan(turned, turnedHigh)))
-  {
-    discard;
-  }
   vec2 place = (0.5 * ndc + 0.5) * textureFromShare + textureOfShareZero;
   gl_FragData[0] = textureLod(image, place, 0.0);
   gl_FragData[1] = textureLod(hits, place, 0.0);

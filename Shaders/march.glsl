@@ -15,7 +15,6 @@ struct March
 // `before`: samples wanted before the first that may be visible.
 March marchOf(vec2 ndc, float before)
 {
-  leaveOthers();
   March march;
   march.ray = rayOfPixel(ndc);
   march.span = boxSpan(march.ray, spaceLow, spaceHigh);

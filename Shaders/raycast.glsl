@@ -8,20 +8,6 @@ uniform vec2 ndcFromPixel; // of the picture
 // From whole pixels, so that a ray is the same to the last bit whatever part of it the images hold.
 vec2 ndc = (gl_FragCoord.xy + firstPixel) * ndcFromPixel - 1.0;
 
-uniform vec2 turnedLow; // of pixels that are cast: x + y and x - y
-uniform vec2 turnedHigh;
-
-// All others stay as they are: scissors cut along the picture's sides, this along its diagonals.
-void leaveOthers()
-{
-  vec2 pixel = gl_FragCoord.xy + firstPixel;
-  vec2 turned = vec2(pixel.x + pixel.y, pixel.x - pixel.y);
-  if (any(lessThan(turned, turnedLow)) || any(greaterThan(turned, turnedHigh)))
-  {
-    discard;
-  }
-}
-
 uniform vec3 spaceLow;  // the part of the deformed frame that tissue can reach, texture coordinates
 uniform vec3 spaceHigh;
 uniform float stepMm;

@@ -7,6 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
 using namespace brainshift;
 
 namespace
@@ -84,4 +88,43 @@ TEST(PixelBox, EnclosesOverlapsAndContains)
   EXPECT_TRUE(contains(a, overlap(a, b)));
   EXPECT_TRUE(contains(a, none));
   EXPECT_FALSE(contains(a, b));
+}
+
+namespace
+{
+// Of the triangles of a strip, pixels.
+double areaOf(const std::vector<glm::dvec2>& strip)
+{
+  double area = 0.0;
+  for (std::size_t i = 2; i < strip.size(); ++i)
+  {
+    const glm::dvec2 a = strip[i - 1] - strip[i - 2];
+    const glm::dvec2 b = strip[i] - strip[i - 2];
+    area += 0.5 * std::abs(a.x * b.y - a.y * b.x);
+  }
+  return area;
+}
+}
+
+TEST(PixelPart, IsDrawnAsOneStrip)
+{
+  const PixelPart box = partOf({ { 10, 20 }, { 110, 80 } });
+  EXPECT_EQ(stripOf(box).size(), 4u);
+  EXPECT_DOUBLE_EQ(areaOf(stripOf(box)), 100.0 * 60.0);
+
+  // All corners cut, by 10, 20, 5 and 15 pixels along each side.
+  PixelPart cut = box;
+  cut.turned = { { 10 + 20 + 10, 10 - 80 + 20 }, { 110 + 80 - 5, 110 - 20 - 15 } };
+  EXPECT_EQ(stripOf(cut).size(), 8u);
+  EXPECT_DOUBLE_EQ(areaOf(stripOf(cut)), 6000.0 - 0.5 * (100.0 + 400.0 + 25.0 + 225.0));
+  EXPECT_LE(pixelsIn(cut), 6000.0);
+  EXPECT_GE(pixelsIn(cut), areaOf(stripOf(cut)));
+  for (const glm::dvec2& corner : stripOf(cut))
+  {
+    EXPECT_GE(corner.x + corner.y, cut.turned.low.x);
+    EXPECT_LE(corner.x + corner.y, cut.turned.high.x);
+    EXPECT_GE(corner.x - corner.y, cut.turned.low.y);
+    EXPECT_LE(corner.x - corner.y, cut.turned.high.y);
+  }
+  EXPECT_TRUE(stripOf({ { { 0, 0 }, { 10, 10 } }, { { 100, 0 }, { 110, 10 } } }).empty());
 }
