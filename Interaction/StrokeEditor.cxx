@@ -38,6 +38,8 @@ void drawRoughly(pqView* view)
     view->widget()->isVisible())
   {
     view->cancelPendingRenders();
+    // The bar of progress would make the window lay out and paint itself anew, and at the end of a
+    // picture ParaView asks for the sizes of all that is shown.
     pqProgressManager* progress = pqApplicationCore::instance()->getProgressManager();
     progress->lockProgress(view);
     {

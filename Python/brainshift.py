@@ -256,9 +256,10 @@ def _numbers(representation):
 
 def counters(representation):
     """What the renderer of a Deformed Volume or of Deformed Slices did since it was made, as a dict:
-    frames, volumeUploads, latticeUploads, transferUploads, bytesUploaded, texelsRefined,
-    presenceUpdates, skippingBytes (faces and leaps made of the presence map), samplesTaken and
-    samplesSkipped (while the representation's CountSamples is on), imageScale (screen pixels a side for one drawn), programsCompiled."""
+    frames, pixelsCast (of their images, about), volumeUploads, latticeUploads, transferUploads,
+    segmentUploads, bytesUploaded, texelsRefined, presenceUpdates, skippingBytes (faces and leaps made
+    of the presence map), samplesTaken and samplesSkipped (while the representation's CountSamples is
+    on), imageScale (screen pixels a side for one drawn), programsCompiled."""
     numbers = _numbers(representation)
     return {name: number for name, number in numbers.items() if not name.startswith("gpu")}
 

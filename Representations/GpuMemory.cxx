@@ -56,10 +56,11 @@ std::string bytesAsMiB(std::int64_t bytes)
 
 MemoryNeed memoryNeed(const DrawnSizes& sizes)
 {
-  constexpr std::int64_t GradientBytes = 4;          // three numbers of ten bits, two bits spare
-  constexpr std::int64_t NodeBytes = 16;             // four floats
-  constexpr std::int64_t WeightBytes = 4;            // of a mask at a node
-  constexpr std::int64_t PixelBytes = 4 + 4 + 4 + 4; // picture, hits, spans, depth
+  constexpr std::int64_t GradientBytes = 4; // three numbers of ten bits, two bits spare
+  constexpr std::int64_t NodeBytes = 16;    // four floats
+  constexpr std::int64_t WeightBytes = 4;   // of a mask at a node
+  // Picture, hits, spans, depth; the first three again for a part that moves, at half the sides.
+  constexpr std::int64_t PixelBytes = 4 + 4 + 4 + 4 + (4 + 4 + 4) / 4;
   const std::int64_t voxels = volumeOf(sizes.voxels);
   MemoryNeed need;
   need.scalars = sizes.scalarBytes * voxels;

@@ -87,7 +87,8 @@ bool Picture::cast(vtkRenderer* renderer, vtkVolume* volume, const PictureWish& 
 bool Picture::canKeep(
   PictureStamp::Change change, const PictureWish& wish, const RayCastScene& scene)
 {
-  if (scene.countSamples || !this->images().hold(scene) || (!this->isBent() && this->RoughPart.empty() && !wish.keep))
+  if (scene.countSamples || !this->images().hold(scene) ||
+    (!this->isBent() && this->RoughPart.empty() && !wish.keep))
   {
     return false;
   }

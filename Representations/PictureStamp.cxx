@@ -131,9 +131,8 @@ namespace
 // below the 12 digits that are compared.
 bool same(const Numbers& a, const Numbers& b)
 {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double one, double other) {
-    return std::abs(one - other) <= 1e-12 * std::abs(one);
-  });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+    [](double one, double other) { return std::abs(one - other) <= 1e-12 * std::abs(one); });
 }
 }
 

@@ -43,12 +43,12 @@ TEST(GpuMemory, CountsEachPart)
   sizes.masked = true;
   EXPECT_EQ(memoryNeed(sizes).field, 13 * MiB);
   sizes.pixels = { 1024, 1024 };
-  EXPECT_EQ(memoryNeed(sizes).images, 16 * MiB);
+  EXPECT_EQ(memoryNeed(sizes).images, 19 * MiB);
   MemoryNeed need = memoryNeed(sizes);
-  EXPECT_EQ(need.total(), (16 + 4 + 32 + 8 + 13 + 16) * MiB);
+  EXPECT_EQ(need.total(), (16 + 4 + 32 + 8 + 13 + 19) * MiB);
   EXPECT_EQ(describeNeed(need).find("reference"), std::string::npos);
   need.reference = 10 * MiB;
-  EXPECT_EQ(need.total(), (16 + 4 + 32 + 8 + 13 + 16 + 10) * MiB);
+  EXPECT_EQ(need.total(), (16 + 4 + 32 + 8 + 13 + 19 + 10) * MiB);
   EXPECT_NE(describeNeed(need).find("reference 10)"), std::string::npos) << describeNeed(need);
 }
 
