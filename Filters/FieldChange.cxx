@@ -89,9 +89,10 @@ bool contains(const IndexBox& box, const glm::ivec3& index)
     glm::all(glm::lessThanEqual(index, box.last));
 }
 
-// Whether no control point outside the box moves.
+// Whether no control point moves for which inside(index) is false.
+template <typename Inside>
 bool staysOutside(
-  const glm::ivec3& dimensions, const std::vector<glm::vec3>& inCells, const IndexBox& box)
+  const glm::ivec3& dimensions, const std::vector<glm::vec3>& inCells, const Inside& inside)
 {
   std::size_t point = 0;
   glm::ivec3 index;
@@ -101,7 +102,7 @@ bool staysOutside(
     {
       for (index.x = 0; index.x < dimensions.x; ++index.x, ++point)
       {
-        if (inCells[point] != glm::vec3(0.0f) && !contains(box, index))
+        if (inCells[point] != glm::vec3(0.0f) && !inside(index))
         {
           return false;
         }
@@ -163,13 +164,12 @@ struct Spread
   glm::vec3 high{ 0.0f };
 };
 
-// `points`: those that change.
-Spread spreadOf(const IndexBox& points, const glm::ivec3& dimensions,
+// `points`: those that change. `alone`: no others move; tissue on the surface of what changes then
+// stays, and so does all that is seen beyond it.
+Spread spreadOf(const IndexBox& points, bool alone, const glm::ivec3& dimensions,
   const std::vector<glm::vec3>& before, const std::vector<glm::vec3>& after)
 {
-  // If nothing else moves, tissue on the surface of what changes stays: so does all that is seen
-  // beyond it.
-  if (staysOutside(dimensions, after, points))
+  if (alone)
   {
     return {};
   }
@@ -193,7 +193,9 @@ IndexBox changedBackwardNodes(const IndexBox& points, const glm::ivec3& dimensio
   }
   const glm::ivec3 lowCell = points.first - KernelReach;
   const glm::ivec3 highCell = points.last + KernelReach;
-  const Spread spread = spreadOf(points, dimensions, before, after);
+  const bool alone = staysOutside(
+    dimensions, after, [&](const glm::ivec3& index) { return contains(points, index); });
+  const Spread spread = spreadOf(points, alone, dimensions, before, after);
   const glm::vec3 low = glm::vec3(lowCell) + spread.low;
   const glm::vec3 high = glm::vec3(highCell) + spread.high;
   const glm::vec3 first(backward.first);
@@ -210,6 +212,57 @@ IndexBox changedBackwardNodes(const IndexBox& points, const glm::ivec3& dimensio
   return box;
 }
 
+namespace
+{
+// Rows of control points along x, each from the first to the last that changes.
+class ChangedRows
+{
+public:
+  ChangedRows(const IndexBox& points, const glm::ivec3& dimensions,
+    const std::vector<glm::vec3>& before, const std::vector<glm::vec3>& after)
+    : Points(points)
+  {
+    for (int z = points.first.z; z <= points.last.z; ++z)
+    {
+      for (int y = points.first.y; y <= points.last.y; ++y)
+      {
+        glm::ivec2 ends(points.last.x + 1, points.first.x - 1); // first, last
+        for (int x = points.first.x; x <= points.last.x; ++x)
+        {
+          const std::size_t point = pointOffset(dimensions, { x, y, z });
+          if (before[point] != after[point])
+          {
+            ends = { glm::min(ends.x, x), x };
+          }
+        }
+        this->Ends.push_back(ends);
+      }
+    }
+  }
+
+  // First and last of a row in the box; first > last: none changes.
+  const glm::ivec2& ends(int y, int z) const
+  {
+    return this->Ends[static_cast<std::size_t>(z - this->Points.first.z) * this->Points.size().y +
+      (y - this->Points.first.y)];
+  }
+
+  bool contain(const glm::ivec3& index) const
+  {
+    if (!contains(this->Points, index))
+    {
+      return false;
+    }
+    const glm::ivec2& row = this->ends(index.y, index.z);
+    return row.x <= index.x && index.x <= row.y;
+  }
+
+private:
+  IndexBox Points;
+  std::vector<glm::ivec2> Ends;
+};
+}
+
 std::vector<glm::vec3> cornersOfChange(const glm::ivec3& dimensions,
   const std::vector<glm::vec3>& before, const std::vector<glm::vec3>& after, float margin)
 {
@@ -219,31 +272,21 @@ std::vector<glm::vec3> cornersOfChange(const glm::ivec3& dimensions,
   {
     return corners;
   }
-  const Spread spread = spreadOf(points, dimensions, before, after);
-  glm::ivec3 row = points.first;
-  for (row.z = points.first.z; row.z <= points.last.z; ++row.z)
+  const ChangedRows rows(points, dimensions, before, after);
+  const bool alone =
+    staysOutside(dimensions, after, [&](const glm::ivec3& index) { return rows.contain(index); });
+  const Spread spread = spreadOf(points, alone, dimensions, before, after);
+  for (int z = points.first.z; z <= points.last.z; ++z)
   {
-    for (row.y = points.first.y; row.y <= points.last.y; ++row.y)
+    for (int y = points.first.y; y <= points.last.y; ++y)
     {
-      const auto changes = [&](int x) {
-        const std::size_t point = pointOffset(dimensions, { x, row.y, row.z });
-        return before[point] != after[point];
-      };
-      int first = points.first.x;
-      int last = points.last.x;
-      for (; first <= last && !changes(first); ++first)
-      {
-      }
-      for (; last > first && !changes(last); --last)
-      {
-      }
-      if (first > last)
+      const glm::ivec2& row = rows.ends(y, z);
+      if (row.x > row.y)
       {
         continue;
       }
-      const glm::vec3 low = reachOf({ first, row.y, row.z }, dimensions).low + spread.low - margin;
-      const glm::vec3 high =
-        reachOf({ last, row.y, row.z }, dimensions).high + spread.high + margin;
+      const glm::vec3 low = reachOf({ row.x, y, z }, dimensions).low + spread.low - margin;
+      const glm::vec3 high = reachOf({ row.y, y, z }, dimensions).high + spread.high + margin;
       for (int corner = 0; corner < 8; ++corner)
       {
         corners.push_back(

@@ -94,13 +94,12 @@ void CastImages::attach(ImageScope& scope, const RayCastScene& scene, bool part,
 
 void CastImages::drawPart(Program& program, const PixelPart& part) const
 {
-  constexpr std::size_t boxCorners = 4;
   std::vector<glm::vec2> corners;
   for (const glm::dvec2& corner : stripOf(part))
   {
     corners.emplace_back(2.0 * corner / glm::dvec2(this->Area.picture) - 1.0);
   }
-  if (corners.size() <= boxCorners)
+  if (isDrawnAsBox(part))
   {
     // What the scissors cut out: one triangle around it has no edge within, along which software
     // drivers draw blocks of pixels twice.
@@ -113,17 +112,23 @@ void CastImages::drawPart(Program& program, const PixelPart& part) const
 // Nothing of an earlier picture must be found beyond the part that is cast now.
 void CastImages::clearStale(const RayCastScene& scene)
 {
-  const float empty[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
-  const float none[4] = { -1.0f, -1.0f, -1.0f, -1.0f };
-  glDisable(GL_SCISSOR_TEST);
   if (!contains(scene.shown, this->Part))
   {
-    glClearBufferfv(GL_COLOR, 0, empty);
+    this->clear(0);
   }
   if (!contains(scene.shown, this->HitsPart[scene.tile]))
   {
-    glClearBufferfv(GL_COLOR, 1, none);
+    this->clear(1);
   }
+}
+
+// All of the picture (0) or the hits (1) that are attached.
+void CastImages::clear(unsigned int target)
+{
+  const float nothing = target == 0 ? 0.0f : -1.0f;
+  const float values[4] = { nothing, nothing, nothing, nothing };
+  glDisable(GL_SCISSOR_TEST);
+  glClearBufferfv(GL_COLOR, static_cast<GLint>(target), values);
   glEnable(GL_SCISSOR_TEST);
 }
 
@@ -131,8 +136,30 @@ bool CastImages::hold(const RayCastScene& scene) const
 {
   const FirstHits& hits = this->Hits[false];
   return this->Image && hits.texture && !this->DrewTile && !scene.tile &&
-    this->Area.picture == scene.size && hits.area == this->Area &&
-    contains(this->Area.box(), scene.shown);
+    this->Area.picture == scene.size && hits.area == this->Area;
+}
+
+bool CastImages::grow(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters)
+{
+  const CastImages old = *this;
+  FirstHits& hits = this->Hits[false];
+  this->Image = nullptr;
+  hits.texture = nullptr;
+  RayCastScene roomy = scene;
+  roomy.shown = enclosing(scene.shown, old.Part);
+  if (!this->prepare(window, roomy))
+  {
+    return false;
+  }
+  {
+    ImageScope scope(window->GetState(), this->Area.box(), this->Area);
+    scope.attach(0, this->Image);
+    scope.attach(1, hits.texture);
+    this->clear(0);
+    this->clear(1);
+  }
+  this->Part = this->HitsPart[false] = PixelBox();
+  return this->enlarge(window, old, partOf(old.Part), counters);
 }
 
 glm::dvec2 CastImages::hitFromShare(const RayCastScene& scene) const
@@ -230,8 +257,8 @@ bool CastImages::composite(vtkOpenGLRenderWindow* window, const glm::ivec2& orig
   return true;
 }
 
-bool CastImages::enlarge(vtkOpenGLRenderWindow* window, const CastImages& smaller,
-  const PixelPart& part, Counters& counters)
+bool CastImages::enlarge(
+  vtkOpenGLRenderWindow* window, const CastImages& other, const PixelPart& part, Counters& counters)
 {
   if (!this->EnlargeProgram.use(window, enlargeSource(), counters))
   {
@@ -240,14 +267,16 @@ bool CastImages::enlarge(vtkOpenGLRenderWindow* window, const CastImages& smalle
   ImageScope images(window->GetState(), part.box, this->Area);
   images.attach(0, this->Image);
   images.attach(1, this->Hits[false].texture);
-  vtkTextureObject* picture = smaller.Image;
-  vtkTextureObject* hits = smaller.Hits[false].texture;
-  picture->SetMinificationFilter(vtkTextureObject::Linear);
-  picture->SetMagnificationFilter(vtkTextureObject::Linear);
+  vtkTextureObject* picture = other.Image;
+  vtkTextureObject* hits = other.Hits[false].texture;
+  const int filter =
+    other.Area.picture == this->Area.picture ? vtkTextureObject::Nearest : vtkTextureObject::Linear;
+  picture->SetMinificationFilter(filter);
+  picture->SetMagnificationFilter(filter);
   this->EnlargeProgram.set("image", picture);
   this->EnlargeProgram.set("hits", hits);
-  this->EnlargeProgram.set("textureFromShare", glm::vec2(smaller.Area.textureFromShare()));
-  this->EnlargeProgram.set("textureOfShareZero", glm::vec2(smaller.Area.textureOfShareZero()));
+  this->EnlargeProgram.set("textureFromShare", glm::vec2(other.Area.textureFromShare()));
+  this->EnlargeProgram.set("textureOfShareZero", glm::vec2(other.Area.textureOfShareZero()));
   this->drawPart(this->EnlargeProgram, part);
   picture->Deactivate();
   hits->Deactivate();

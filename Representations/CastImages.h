@@ -27,11 +27,12 @@ struct RayCastScene;
 class CastImages
 {
 public:
-  // Makes images for the scene. False if the GPU refuses. `counted`: with samples told.
+  // Makes images for the scene. False if the GPU refuses.
   bool prepare(vtkOpenGLRenderWindow* window, const RayCastScene& scene);
   bool prepareCount(vtkOpenGLRenderWindow* window);
 
   // Lets the scene be drawn into them: a picture of its own, or a part of the one that is held.
+  // `counted`: with samples told.
   void attach(ImageScope& scope, const RayCastScene& scene, bool part, bool counted);
 
   // Draws the pixels of a part, with a program whose vertex stage is outline.vert.glsl.
@@ -40,14 +41,18 @@ public:
   // Adds up what was told of the samples.
   void readCount(Counters& counters);
 
-  // Whether they hold a whole picture of the scene's size, with room for what is shown.
+  // Whether they hold a whole picture of the scene's size, and with room for what is shown.
   bool hold(const RayCastScene& scene) const;
+  bool haveRoom(const PixelBox& shown) const { return contains(this->Area.box(), shown); }
+
+  // Makes room for what is shown and keeps the picture that is held.
+  bool grow(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters);
 
   // What hits are told in, for the scene's part to be cast into the picture that is held.
   glm::dvec2 hitFromShare(const RayCastScene& scene) const;
 
-  // Replaces a part of the picture that is held by that of a smaller one.
-  bool enlarge(vtkOpenGLRenderWindow* window, const CastImages& smaller, const PixelPart& part,
+  // Replaces a part of the picture that is held by that of another one, smaller or not.
+  bool enlarge(vtkOpenGLRenderWindow* window, const CastImages& other, const PixelPart& part,
     Counters& counters);
 
   // Blends the picture over a rectangle (pixels) of the framebuffer that is bound.
@@ -84,6 +89,7 @@ private:
     return this->Hits[tile].texture ? &this->Hits[tile] : nullptr;
   }
   void clearStale(const RayCastScene& scene);
+  void clear(unsigned int target);
 
   bool DrewTile = false;
   ImageArea Area;                          // of Image, Spans and Count, and the Hits drawn last

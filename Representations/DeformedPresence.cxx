@@ -265,8 +265,8 @@ bool DeformedPresence::update(vtkOpenGLRenderWindow* window, const PresenceReque
   return true;
 }
 
-// One byte a brick comes back, once an edit and never for a camera move: making the faces on the GPU
-// would cost its geometry stage every frame, and distances many passes.
+// One byte a brick comes back, once an edit and never for a camera move: making the faces on the
+// GPU would cost its geometry stage every frame, and distances many passes.
 void DeformedPresence::readMap(const PresenceRequest& request, const IndexBox& box)
 {
   const glm::ivec3 held(this->Map->GetWidth(), this->Map->GetHeight(), this->Map->GetDepth());

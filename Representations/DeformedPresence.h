@@ -97,7 +97,7 @@ private:
   vtkSmartPointer<vtkTextureObject> Blocks[2]; // least, greatest offset in each, voxels
   vtkSmartPointer<vtkOpenGLBufferObject> Corners;
   PresenceRequest Shown; // what Occupied tells
-  bool AllNew = true;    // nothing of Map can be kept
+  bool AllNew = true;    // nothing of Occupied can be kept
   Program BlocksProgram;
   Program MapPrograms[2]; // [deformed]
   std::array<BrickFaces, 6> Faces;

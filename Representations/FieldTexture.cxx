@@ -85,6 +85,18 @@ bool holds(const IndexBox& box, const IndexBox& needed)
 FieldTexture::FieldTexture() = default;
 FieldTexture::~FieldTexture() = default;
 
+FieldTexture::Bent FieldTexture::bentBy(const FieldRequest& request) const
+{
+  if (!this->HasCurrent || !sameMeaning(this->Current, request))
+  {
+    return { true, {} };
+  }
+  // Between nodes the field is blended, and light asks half a node farther.
+  const float margin = 2.0f / static_cast<float>(request.nodes.perCell);
+  return { false,
+    cornersOfChange(request.dimensions, this->Current.inCells, request.inCells, margin) };
+}
+
 bool FieldTexture::update(
   vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters)
 {
@@ -98,15 +110,7 @@ bool FieldTexture::update(
         changedPoints(request.dimensions, still, request.inCells));
   this->Changed =
     changedBackwardNodes(points, request.dimensions, before, request.inCells, request.nodes);
-  this->LastBent = Bent();
-  this->LastBent.all = !(this->HasCurrent && sameMeaning(this->Current, request));
-  if (!this->LastBent.all)
-  {
-    // Between nodes the field is blended, and light asks half a node farther.
-    const float margin = 2.0f / static_cast<float>(request.nodes.perCell);
-    this->LastBent.corners =
-      cornersOfChange(request.dimensions, this->Current.inCells, request.inCells, margin);
-  }
+  this->LastBent = this->bentBy(request);
   const bool maskIsCurrent = this->HasCurrent && sameMask(this->Current.mask, request.mask);
   this->HasCurrent = false; // not before all of it succeeded
   if (!maskIsCurrent && !this->uploadMask(window, request, counters))

@@ -80,6 +80,7 @@ public:
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
+  Bent bentBy(const FieldRequest& request) const;
   bool makeOffsets(vtkOpenGLRenderWindow* window, const FieldRequest& request);
   bool makeDisplacements(vtkOpenGLRenderWindow* window, const IndexBox& nodes);
   bool upload(vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters);

@@ -100,6 +100,12 @@ std::vector<glm::dvec2> stripOf(const PixelPart& part)
   return strip;
 }
 
+bool isDrawnAsBox(const PixelPart& part)
+{
+  constexpr std::size_t boxCorners = 4;
+  return stripOf(part).size() <= boxCorners;
+}
+
 PixelPart partOf(const PixelBox& box)
 {
   return { box,

@@ -33,6 +33,8 @@ struct PixelPart
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT double pixelsIn(const PixelPart& part);
 // Its corners, at most eight, in the order of a strip of triangles.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<glm::dvec2> stripOf(const PixelPart& part);
+// Whether it has so few corners that all of its box is drawn.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT bool isDrawnAsBox(const PixelPart& part);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT PixelPart partOf(const PixelBox& box);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT PixelPart enclosing(const PixelPart& a, const PixelPart& b);
 

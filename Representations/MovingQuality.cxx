@@ -37,8 +37,7 @@ WindowPace::Time WindowPace::now()
 void WindowPace::beginPicture()
 {
   this->Begin = WindowPace::now();
-  this->learn(
-    this->Begin.clock - this->End.clock, this->Begin.processor - this->End.processor);
+  this->learn(this->Begin.clock - this->End.clock, this->Begin.processor - this->End.processor);
 }
 
 void WindowPace::endPicture()
@@ -53,7 +52,7 @@ double WindowPace::spentSeconds() const
 
 void WindowPace::learn(double clock, double processor)
 {
-  if (clock < LongestPause)
+  if (clock >= 0.0 && clock < LongestPause) // clocks are set, too
   {
     this->Window += 0.3 * (std::min(clock, processor) - this->Window);
   }

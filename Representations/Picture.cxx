@@ -13,6 +13,8 @@ namespace brainshift
 {
 namespace
 {
+constexpr double FewPixels = 2000.0;
+
 bool moves(const PictureWish& wish)
 {
   return wish.adaptive && isMoving(wish.rate);
@@ -78,7 +80,11 @@ bool Picture::cast(vtkRenderer* renderer, vtkVolume* volume, const PictureWish& 
                          : this->castAll(window, wish, scene, counters);
   if (!done)
   {
-    this->Stamp.forget();
+    this->forget();
+  }
+  if (!moves(wish))
+  {
+    this->Rough.images().releaseGraphicsResources(window);
   }
   return done;
 }
@@ -119,6 +125,8 @@ bool Picture::castAll(
   const bool cast =
     this->measure(window, wish, scene, [&] { return this->Whole.cast(window, scene, counters); });
   this->Bent = FieldTexture::Bent();
+  this->SpaceLow = scene.spaceLow;
+  this->SpaceHigh = scene.spaceHigh;
   this->Mixed = false;
   this->RoughPart = scene.jitter ? partOf({ glm::ivec2(0), size }) : PixelPart();
   return cast;
@@ -127,19 +135,30 @@ bool Picture::castAll(
 PixelPart Picture::changedPart(bool moving, const RayCastScene& scene) const
 {
   const PixelBox shown = enclosing(scene.shown, this->images().shown());
-  PixelPart part = this->Bent.all ? partOf(scene.shown) : pixelsBetween(this->Bent.corners, scene);
+  PixelPart part = this->Bent.all
+    ? partOf(shown)
+    : pixelsBetween(this->Bent.corners, this->SpaceLow, this->SpaceHigh, scene);
   if (!moving)
   {
     part = enclosing(part, this->RoughPart);
   }
   part.box = overlap(part.box, shown);
-  return part;
+  // What the picture's edge leaves of an octagon may be no box but have as few corners, which
+  // CastImages draws as one.
+  return isDrawnAsBox(part) ? partOf(part.box) : part;
 }
 
 bool Picture::castChanged(
   vtkOpenGLRenderWindow* window, const PictureWish& wish, RayCastScene& scene, Counters& counters)
 {
   const bool moving = moves(wish);
+  CastImages& held = this->images();
+  if (!held.haveRoom(scene.shown) && !held.grow(window, scene, counters))
+  {
+    return false;
+  }
+  this->SpaceLow = glm::min(this->SpaceLow, scene.spaceLow);
+  this->SpaceHigh = glm::max(this->SpaceHigh, scene.spaceHigh);
   const PixelPart part = this->changedPart(moving, scene);
   const MovingQuality quality = this->qualityFor(wish, part);
   bool done = true;
@@ -158,7 +177,6 @@ bool Picture::castChanged(
   if (!moving)
   {
     this->RoughPart = PixelPart();
-    this->Rough.releaseGraphicsResources(window);
   }
   this->Bent = FieldTexture::Bent();
   return done;
@@ -198,12 +216,13 @@ bool Picture::measure(vtkOpenGLRenderWindow* window, const PictureWish& wish,
   {
     return false;
   }
-  if (wish.adaptive && !scene.shown.empty())
+  // Of few pixels the time is that of all else.
+  const double pixels = pixelsIn({ scene.shown, scene.turned });
+  if (wish.adaptive && (pixels >= FewPixels || (pixels > 0.0 && this->SecondsPerPixel == 0.0)))
   {
     window->WaitForCompletion(); // else the time is that of the commands, not of the image
     timer->StopTimer();
-    this->SecondsPerPixel = timer->GetElapsedTime() * (1 << scene.stepDoublings) /
-      pixelsIn({ scene.shown, scene.turned });
+    this->SecondsPerPixel = timer->GetElapsedTime() * (1 << scene.stepDoublings) / pixels;
   }
   return true;
 }

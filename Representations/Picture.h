@@ -12,6 +12,7 @@
 #include "SceneDepth.h"
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <vector>
 
@@ -41,6 +42,9 @@ public:
 
   // The offset field has changed there since the last picture.
   void bend(const FieldTexture::Bent& bent);
+
+  // The next picture is cast whole.
+  void forget() { this->Stamp.forget(); }
 
   // Casts what has changed of a scene of full size and quality. False if a shader does not compile
   // or an image cannot be made.
@@ -73,12 +77,14 @@ private:
     const Cast& cast);
 
   RayCaster Whole;
-  RayCaster Rough;         // parts with fewer pixels, on their way into Whole
-  SceneDepth Depth;        // of what is drawn already
-  PictureStamp Stamp;      // of what Whole holds
-  FieldTexture::Bent Bent; // what changed since
-  bool Mixed = false;      // parts of what Whole holds had rays that began elsewhere
-  PixelPart RoughPart;     // of what Whole holds: not at full quality
+  RayCaster Rough;             // parts with fewer pixels, on their way into Whole
+  SceneDepth Depth;            // of what is drawn already
+  PictureStamp Stamp;          // of what Whole holds
+  FieldTexture::Bent Bent;     // what changed since
+  glm::dvec3 SpaceLow{ 0.0 };  // what tissue could reach in any part of what Whole holds,
+  glm::dvec3 SpaceHigh{ 0.0 }; // texture coordinates
+  bool Mixed = false;          // parts of what Whole holds had rays that began elsewhere
+  PixelPart RoughPart;         // of what Whole holds: not at full quality
   WindowPace Pace;
   double SecondsPerPixel = 0.0; // of the last one cast, with the usual step; 0: none yet
 };

@@ -73,6 +73,11 @@ void addView(Numbers& numbers, const RayCastScene& scene)
 {
   addCamera(numbers, scene);
   add(numbers, scene.worldFromTexture);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    numbers.insert(
+      numbers.end(), { scene.latticeFromTexture[axis], scene.latticeOfTextureZero[axis] });
+  }
   numbers.insert(numbers.end(),
     { double(scene.offsets != nullptr), double(scene.size.x), double(scene.size.y), scene.stepMm,
       double(scene.skipping), double(scene.countSamples), double(scene.tile),

@@ -11,14 +11,10 @@
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/gtc/type_ptr.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
-#include <glm/vector_relational.hpp>
 
-#include <algorithm>
+#include <cstdint>
 
 namespace brainshift
 {

@@ -189,12 +189,15 @@ public:
   // Two pixels more to every side: for rounding, and empty ones for a filter to blend with.
   PixelPart around() const
   {
-    const PixelBox box{ glm::ivec2(
-                          glm::clamp(glm::floor(this->low) - 2.0, glm::dvec2(0.0), this->Size)),
-      glm::ivec2(glm::clamp(glm::ceil(this->high) + 2.0, glm::dvec2(0.0), this->Size)) };
-    return { box,
-      { glm::ivec2(glm::floor(this->turnedLow)) - 5,
-        glm::ivec2(glm::ceil(this->turnedHigh)) + 5 } };
+    const glm::dvec2 far(1 << 20); // beyond any picture
+    const auto within = [](const glm::dvec2& place, const glm::dvec2& least,
+                          const glm::dvec2& greatest) {
+      return glm::ivec2(glm::clamp(place, least, greatest));
+    };
+    return { { within(glm::floor(this->low) - 2.0, glm::dvec2(0.0), this->Size),
+               within(glm::ceil(this->high) + 2.0, glm::dvec2(0.0), this->Size) },
+      { within(glm::floor(this->turnedLow) - 5.0, -far, far),
+        within(glm::ceil(this->turnedHigh) + 5.0, -far, far) } };
   }
 
   glm::dvec2 low{ std::numeric_limits<double>::max() };
@@ -208,14 +211,15 @@ private:
 };
 }
 
-PixelPart pixelsBetween(const std::vector<glm::vec3>& positions, const RayCastScene& scene)
+PixelPart pixelsBetween(const std::vector<glm::vec3>& positions, const glm::dvec3& spaceLow,
+  const glm::dvec3& spaceHigh, const RayCastScene& scene)
 {
   SeenPoints seen(scene);
   for (const glm::vec3& position : positions)
   {
     const glm::dvec3 texture =
       (glm::dvec3(position) - scene.latticeOfTextureZero) / scene.latticeFromTexture;
-    if (!seen.add(glm::clamp(texture, scene.spaceLow, scene.spaceHigh)))
+    if (!seen.add(glm::clamp(texture, spaceLow, spaceHigh)))
     {
       return partOf({ glm::ivec2(0), scene.size });
     }

@@ -76,8 +76,9 @@ void describeView(vtkRenderer* renderer, vtkVolume* volume, const Grid& grid,
 void placeShownPixels(const IndexBox& bricks, RayCastScene& scene);
 
 // The pixels of the scene's image at which all is seen that lies between positions (lattice
-// coordinates) and that tissue can reach; all of them if a position lies behind the eye.
-PixelPart pixelsBetween(const std::vector<glm::vec3>& positions, const RayCastScene& scene);
+// coordinates) in a space (texture coordinates); all of them if a position lies behind the eye.
+PixelPart pixelsBetween(const std::vector<glm::vec3>& positions, const glm::dvec3& spaceLow,
+  const glm::dvec3& spaceHigh, const RayCastScene& scene);
 
 // Fills in how the deformed frame's bricks lie to the texture, in both.
 void placeBricks(const ValueLayout& layout, RayCastScene& scene, PresenceRequest& request);

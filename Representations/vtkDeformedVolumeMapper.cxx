@@ -181,6 +181,7 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   if (takeOutOfMemory())
   {
     device.Memory.refuse();
+    device.Shown.forget();
     return draw(); // less of it, if anything
   }
   return drawn;
@@ -253,12 +254,16 @@ bool vtkDeformedVolumeMapper::DescribeTissue(vtkRenderer* renderer, Device& devi
   DeviceDeformation::Change change;
   if (!device.Own.Tissue.update(window, tissue, scene, state.Count, problem) ||
     !device.Deformation.update(
-      window, state.Deformation, grid, tissue.layout, scene, change, state.Count, problem) ||
-    !device.Own.updatePresence(window, tissue.layout, scene, change.computed, state.Count, problem))
+      window, state.Deformation, grid, tissue.layout, scene, change, state.Count, problem))
   {
     return false;
   }
-  device.Shown.bend(change.bent);
+  device.Shown.bend(change.bent); // known to the next picture if this one fails
+  if (!device.Own.updatePresence(
+        window, tissue.layout, scene, change.computed, state.Count, problem))
+  {
+    return false;
+  }
   this->DescribeCropping(grid, tissue.layout, scene);
   this->DescribeOptions(renderer, volume, device.Own.Tissue, tissue, grid, scene);
   return true;

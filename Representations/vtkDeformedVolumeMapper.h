@@ -109,7 +109,7 @@ public:
 
   ///@{
   /**
-   * Cast no rays for a still picture that would come out as the last one: what changes while a tool
+   * Cast no rays for a picture that would come out as the last one: what changes while a tool
    * hovers lies over it. Default false; Trace Points in the view turn it on.
    */
   vtkSetMacro(KeepPicture, bool);

@@ -1,8 +1,8 @@
-// Part of a picture from a smaller one: colours between pixels, hits as they are.
+// Part of a picture from another one, smaller or not: colours blended, hits as they are.
 
 in vec2 ndc; // of the picture
 
-uniform sampler2D image; // of the smaller one: colour times opacity, opacity
+uniform sampler2D image; // of the other one: colour times opacity, opacity
 uniform sampler2D hits;
 uniform vec2 textureFromShare; // their coordinates from the share of the picture: scale, shift
 uniform vec2 textureOfShareZero;

@@ -124,49 +124,69 @@ TEST_P(FieldChangeTest, NodesOutsideTheChangeStayAsTheyWere)
   }
 }
 
+namespace
+{
+// Expects offsets to differ between the corners alone, seen along every direction of a hull.
+void expectChangeBetweenCorners(
+  int kernel, const std::vector<glm::vec3>& before, const std::vector<glm::vec3>& after)
+{
+  const FieldNodes nodes = backwardNodes(obliqueGrid(Points), after, Samples);
+  SlabHull hull;
+  for (const glm::vec3& corner : cornersOfChange(Points, before, after, 0.0f))
+  {
+    for (int i = 0; i < SlabDirections; ++i)
+    {
+      const float along = glm::dot(slabDirection(i), corner);
+      hull.spans[i] = { glm::min(hull.spans[i].x, along), glm::max(hull.spans[i].y, along) };
+    }
+  }
+  const NodeField was = backward(kernel, before, nodes);
+  const NodeField is = backward(kernel, after, nodes);
+  int changed = 0;
+  forNodes(nodes, [&](const glm::ivec3& index, std::size_t at) {
+    if (was.values[at] == is.values[at])
+    {
+      return;
+    }
+    changed += 1;
+    const glm::vec3 position = nodes.latticeFromNode(glm::vec3(index));
+    for (int i = 0; i < SlabDirections; ++i)
+    {
+      const float along = glm::dot(slabDirection(i), position);
+      EXPECT_GE(along, hull.spans[i].x) << i;
+      EXPECT_LE(along, hull.spans[i].y) << i;
+    }
+  });
+  EXPECT_GT(changed, 100);
+}
+}
+
 TEST_P(FieldChangeTest, WhatChangesLiesBetweenItsCorners)
 {
   // A picture that is cast in part looks at what lies between them, from any side.
-  for (const bool alone : { true, false })
+  const std::vector<glm::vec3> aside = moveBox(still(), { { 8, 7, 6 }, { 9, 8, 7 } }, 7);
+  for (const std::vector<glm::vec3>& others : { still(), aside })
   {
     for (const IndexBox& box : { Middle, Corner })
     {
-      const std::vector<glm::vec3> others =
-        alone ? still() : moveBox(still(), { { 8, 7, 6 }, { 9, 8, 7 } }, 7);
-      const std::vector<glm::vec3> before = moveBox(others, box, 8);
-      const std::vector<glm::vec3> after = moveBox(others, box, 9);
-      const FieldNodes nodes = backwardNodes(obliqueGrid(Points), after, Samples);
-      const std::vector<glm::vec3> corners = cornersOfChange(Points, before, after, 0.0f);
-      SlabHull hull;
-      for (const glm::vec3& corner : corners)
-      {
-        for (int i = 0; i < SlabDirections; ++i)
-        {
-          const float along = glm::dot(slabDirection(i), corner);
-          hull.spans[i] = { glm::min(hull.spans[i].x, along), glm::max(hull.spans[i].y, along) };
-        }
-      }
-      const NodeField was = backward(GetParam(), before, nodes);
-      const NodeField is = backward(GetParam(), after, nodes);
-      int changed = 0;
-      forNodes(nodes, [&](const glm::ivec3& index, std::size_t at) {
-        if (was.values[at] == is.values[at])
-        {
-          return;
-        }
-        changed += 1;
-        const glm::vec3 position = nodes.latticeFromNode(glm::vec3(index));
-        for (int i = 0; i < SlabDirections; ++i)
-        {
-          const float along = glm::dot(slabDirection(i), position);
-          EXPECT_GE(along, hull.spans[i].x) << i;
-          EXPECT_LE(along, hull.spans[i].y) << i;
-        }
-      });
-      EXPECT_GT(changed, 100);
+      expectChangeBetweenCorners(GetParam(), moveBox(others, box, 8), moveBox(others, box, 9));
     }
   }
   EXPECT_TRUE(cornersOfChange(Points, still(), still(), 1.0f).empty());
+}
+
+TEST_P(FieldChangeTest, WhatMovesBesideTheChangeSpreadsIt)
+{
+  // Two rows change; at the corner of their box a third moves as before and carries tissue along.
+  std::vector<glm::vec3> others = still();
+  others[(4 * Points.y + 3) * Points.x + 7] = glm::vec3(0.9f, -0.9f, 0.0f);
+  const auto changed = [&](float amount) {
+    std::vector<glm::vec3> moved = others;
+    moved[(4 * Points.y + 3) * Points.x + 4] = glm::vec3(amount, 0.0f, 0.0f);
+    moved[(4 * Points.y + 6) * Points.x + 7] = glm::vec3(0.0f, amount, 0.0f);
+    return moved;
+  };
+  expectChangeBetweenCorners(GetParam(), changed(0.2f), changed(0.5f));
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, FieldChangeTest, ::testing::Values(0, 1));

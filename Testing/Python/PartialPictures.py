@@ -130,6 +130,41 @@ def test_picks_are_those_of_a_whole_picture():
     assert abs(moved) > 50.0
 
 
+def test_parts_at_the_edge_of_the_picture():
+    # So near that what moves lies over corners and edges of the window.
+    scene = Scene(SURFACE)
+    scene.display.SampleDistance = 0.02
+    scene.display.KeepPicture = 1
+    first = scene.filter.Strokes.GetData()[:]
+    for focus in ((18, 19, 9), (6, 13, 9), (17, 8, 9), (12, 24, 9)):
+        testing.look(scene.view, (0.1, 0.2, 1), focus, 30)
+        for amount in (0.0, 1.5, 0.7):
+            scene.filter.Strokes = list(first) + list(small(amount))
+            scene.view.SMProxy.InteractiveRender()
+            assert differing(scene.seen()[0], scene.whole()) == 0, (focus, amount)
+
+
+def test_tissue_leaves_nothing_where_it_was():
+    # Pulled far out of the volume's box and let back in one drag, tissue reaches less far again.
+    scene = Scene(SURFACE)
+    scene.display.KeepPicture = 1
+    first = scene.filter.Strokes.GetData()[:]
+    testing.look(scene.view, (1, 0.1, 0.2), MIDDLE, 100)
+    scene.filter.GuardFolding = 0
+    pulled = brainshift.soft((16, 16, 7), (0, 0, -25), 14.0)
+    still_picture(scene.view)
+    shown = []
+    for strokes in ((), pulled, ()):
+        scene.filter.Strokes = list(first) + list(strokes)
+        scene.view.SMProxy.InteractiveRender()
+        shown.append(testing.on_screen(scene.view))
+    empty, pulled_out, left = ((picture.max(axis=-1) == 0) for picture in shown)
+    ghosts, seen = (empty & ~left).sum(), (empty & ~pulled_out).sum()
+    print(f"  {seen} pixels of pulled tissue, {ghosts} left when it is back", flush=True)
+    assert seen > 200
+    assert ghosts < 0.15 * seen  # rough edges
+
+
 def test_other_strokes_elsewhere_are_kept():
     # A second place is bent, then the first one again: both are as in a whole picture.
     scene = Scene(SURFACE)
