@@ -14,7 +14,7 @@ namespace
 constexpr double InteractiveRate = 1.0;
 // ParaView asks for 5 a second while the camera moves. Below 15 a hand sees steps; some are slower.
 constexpr double SmoothRate = 18.0;
-constexpr double LeastShareForImage = 0.12; // of a frame's time, however long all else takes
+constexpr double LeastShareForImage = 0.16; // of a picture's time, however long all else takes
 constexpr double LongestPause = 0.5;        // seconds; after more the hand has rested
 }
 

@@ -160,7 +160,8 @@ bool Picture::castChanged(
   this->SpaceLow = glm::min(this->SpaceLow, scene.spaceLow);
   this->SpaceHigh = glm::max(this->SpaceHigh, scene.spaceHigh);
   const PixelPart part = this->changedPart(moving, scene);
-  const MovingQuality quality = this->qualityFor(wish, part);
+  MovingQuality quality = this->qualityFor(wish, part);
+  quality.stepDoublings = 0; // beside what stays, surfaces would look grainy
   bool done = true;
   if (!part.empty() && !quality.isFull())
   {
