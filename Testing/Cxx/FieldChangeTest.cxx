@@ -66,6 +66,16 @@ void forNodes(const FieldNodes& nodes, const Visit& visit)
   }
 }
 
+void expectWithin(const SlabHull& hull, const glm::vec3& position)
+{
+  for (int i = 0; i < SlabDirections; ++i)
+  {
+    const float along = glm::dot(slabDirection(i), position);
+    EXPECT_GE(along, hull.spans[i].x) << i;
+    EXPECT_LE(along, hull.spans[i].y) << i;
+  }
+}
+
 const IndexBox Middle{ { 4, 4, 4 }, { 5, 6, 4 } };
 const IndexBox Corner{ { 0, 0, 1 }, { 1, 1, 2 } };
 
@@ -89,13 +99,7 @@ TEST_P(FieldChangeTest, NothingMovesOutsideTheHull)
         return;
       }
       moved += 1;
-      const glm::vec3 position = nodes.latticeFromNode(glm::vec3(index));
-      for (int i = 0; i < SlabDirections; ++i)
-      {
-        const float along = glm::dot(slabDirection(i), position);
-        EXPECT_GE(along, hull.spans[i].x) << i;
-        EXPECT_LE(along, hull.spans[i].y) << i;
-      }
+      expectWithin(hull, nodes.latticeFromNode(glm::vec3(index)));
     });
     EXPECT_GT(moved, 100);
   }
@@ -149,13 +153,7 @@ void expectChangeBetweenCorners(
       return;
     }
     changed += 1;
-    const glm::vec3 position = nodes.latticeFromNode(glm::vec3(index));
-    for (int i = 0; i < SlabDirections; ++i)
-    {
-      const float along = glm::dot(slabDirection(i), position);
-      EXPECT_GE(along, hull.spans[i].x) << i;
-      EXPECT_LE(along, hull.spans[i].y) << i;
-    }
+    expectWithin(hull, nodes.latticeFromNode(glm::vec3(index)));
   });
   EXPECT_GT(changed, 100);
 }
