@@ -55,8 +55,8 @@ VTKBRAINSHIFTFILTERS_EXPORT IndexBox changedBackwardNodes(const IndexBox& points
 VTKBRAINSHIFTFILTERS_EXPORT std::vector<glm::vec3> cornersOfChange(const glm::ivec3& dimensions,
   const std::vector<glm::vec3>& before, const std::vector<glm::vec3>& after, float margin);
 
-// A convex hull by slabs: along each direction the least and the greatest of dot(direction, position)
-// (Kay and Kajiya, SIGGRAPH 1986).
+// A convex hull by slabs: along each direction the least and the greatest of dot(direction,
+// position) (Kay and Kajiya, SIGGRAPH 1986).
 constexpr int SlabDirections = 13; // axes, diagonals of faces, diagonals of the cube
 
 struct VTKBRAINSHIFTFILTERS_EXPORT SlabHull

@@ -41,8 +41,10 @@ public:
   // Adds up what was told of the samples.
   void readCount(Counters& counters);
 
-  // Whether they hold a whole picture of the scene's size, and with room for what is shown.
+  // Whether they hold a whole picture of the scene's size.
   bool hold(const RayCastScene& scene) const;
+
+  // Whether there is room for what is shown.
   bool haveRoom(const PixelBox& shown) const { return contains(this->Area.box(), shown); }
 
   // Makes room for what is shown and keeps the picture that is held.

@@ -13,7 +13,7 @@ namespace brainshift
 {
 namespace
 {
-constexpr double FewPixels = 2000.0;
+constexpr double FewPixels = 2000.0; // whose time is that of all else
 
 bool moves(const PictureWish& wish)
 {
@@ -217,7 +217,6 @@ bool Picture::measure(vtkOpenGLRenderWindow* window, const PictureWish& wish,
   {
     return false;
   }
-  // Of few pixels the time is that of all else.
   const double pixels = pixelsIn({ scene.shown, scene.turned });
   if (wish.adaptive && (pixels >= FewPixels || (pixels > 0.0 && this->SecondsPerPixel == 0.0)))
   {
