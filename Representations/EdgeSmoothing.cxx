@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EdgeSmoothing.h"
 
-#include "GpuMemory.h"
-#include "MovingQuality.h"
-
 #include "vtkActor2D.h"
 #include "vtkMath.h"
 #include "vtkPropCollection.h"
-#include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
-#include "vtkRendererCollection.h"
 #include "vtkVolume.h"
 
 namespace brainshift
@@ -53,8 +48,6 @@ EdgeSmoothing::EdgeSmoothing()
   this->Before->SetCallback(&EdgeSmoothing::beforePicture);
   this->After->SetClientData(this);
   this->After->SetCallback(&EdgeSmoothing::afterPicture);
-  this->AfterInsets->SetClientData(this);
-  this->AfterInsets->SetCallback(&EdgeSmoothing::afterInsets);
 }
 
 EdgeSmoothing::~EdgeSmoothing()
@@ -64,7 +57,6 @@ EdgeSmoothing::~EdgeSmoothing()
 
 void EdgeSmoothing::watch(vtkRenderer* renderer)
 {
-  this->smoothInsets();
   if (this->Renderer)
   {
     this->Renderer->RemoveObserver(this->Before);
@@ -87,11 +79,6 @@ void EdgeSmoothing::beforePicture(vtkObject*, unsigned long, void* self, void*)
   {
     renderer->UseFXAAOff();
   }
-  if (smoothing->Enabled && isMoving(renderer->GetRenderWindow()->GetDesiredUpdateRate()) &&
-    drawsInSoftware())
-  {
-    smoothing->leaveOutInsets();
-  }
 }
 
 void EdgeSmoothing::afterPicture(vtkObject*, unsigned long, void* self, void*)
@@ -101,46 +88,6 @@ void EdgeSmoothing::afterPicture(vtkObject*, unsigned long, void* self, void*)
   {
     smoothing->Renderer->UseFXAAOn();
     smoothing->LeftOut = false;
-  }
-}
-
-void EdgeSmoothing::afterInsets(vtkObject*, unsigned long, void* self, void*)
-{
-  static_cast<EdgeSmoothing*>(self)->smoothInsets();
-}
-
-void EdgeSmoothing::leaveOutInsets()
-{
-  this->smoothInsets();
-  this->Window = this->Renderer->GetRenderWindow();
-  vtkRendererCollection* renderers = this->Window->GetRenderers();
-  vtkCollectionSimpleIterator next;
-  renderers->InitTraversal(next);
-  while (vtkRenderer* inset = renderers->GetNextRenderer(next))
-  {
-    if (inset != this->Renderer && inset->GetUseFXAA())
-    {
-      inset->UseFXAAOff();
-      this->Insets.emplace_back(inset);
-    }
-  }
-  this->Window->AddObserver(vtkCommand::EndEvent, this->AfterInsets);
-}
-
-void EdgeSmoothing::smoothInsets()
-{
-  for (const vtkWeakPointer<vtkRenderer>& inset : this->Insets)
-  {
-    if (inset)
-    {
-      inset->UseFXAAOn();
-    }
-  }
-  this->Insets.clear();
-  if (this->Window)
-  {
-    this->Window->RemoveObserver(this->AfterInsets);
-    this->Window = nullptr;
   }
 }
 }

@@ -6,10 +6,7 @@
 #include "vtkNew.h"
 #include "vtkWeakPointer.h"
 
-#include <vector>
-
 class vtkObject;
-class vtkRenderWindow;
 class vtkRenderer;
 
 namespace brainshift
@@ -18,8 +15,6 @@ namespace brainshift
  * Leaves out a renderer's smoothing of edges (FXAA) in pictures of volumes alone. VTK smooths
  * before it draws volumes, so no pixel changes, but on a software driver the pass takes some 20 ms
  * a megapixel. Where anything else is visible, a textured background too, edges are smoothed.
- * While the window moves, a software driver smooths no insets (orientation axes) either: it would
- * have to wait for the picture under them.
  */
 class EdgeSmoothing
 {
@@ -36,16 +31,10 @@ public:
 private:
   static void beforePicture(vtkObject*, unsigned long, void* self, void*);
   static void afterPicture(vtkObject*, unsigned long, void* self, void*);
-  static void afterInsets(vtkObject*, unsigned long, void* self, void*);
-  void leaveOutInsets();
-  void smoothInsets();
 
   vtkNew<vtkCallbackCommand> Before;
   vtkNew<vtkCallbackCommand> After;
-  vtkNew<vtkCallbackCommand> AfterInsets;
   vtkWeakPointer<vtkRenderer> Renderer;
-  vtkWeakPointer<vtkRenderWindow> Window;          // while insets are left out
-  std::vector<vtkWeakPointer<vtkRenderer>> Insets; // that are left out
   bool Enabled = true;
   bool LeftOut = false; // of the picture that is being drawn
 };

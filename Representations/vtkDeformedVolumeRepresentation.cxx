@@ -3,6 +3,7 @@
 
 #include "EdgeSmoothing.h"
 #include "InteractiveDelivery.h"
+#include "MovingWindow.h"
 #include "SelectionCover.h"
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkVolumeOrder.h"
@@ -18,6 +19,7 @@ vtkStandardNewMacro(vtkDeformedVolumeRepresentation);
 
 vtkDeformedVolumeRepresentation::vtkDeformedVolumeRepresentation()
   : Smoothing(std::make_unique<brainshift::EdgeSmoothing>())
+  , Moving(std::make_unique<brainshift::MovingWindow>())
 {
   this->VolumeMapper.TakeReference(vtkDeformedVolumeMapper::New());
 }
@@ -34,6 +36,7 @@ void vtkDeformedVolumeRepresentation::SetVisibility(bool visible)
   this->Superclass::SetVisibility(visible);
   this->Order->SetEnabled(visible);
   this->Smoothing->setEnabled(visible);
+  this->Moving->setEnabled(visible);
 }
 
 void vtkDeformedVolumeRepresentation::SetSampleDistance(double distance)
@@ -156,6 +159,7 @@ bool vtkDeformedVolumeRepresentation::AddToView(vtkView* view)
     vtkRenderer* renderer = renderView->GetRenderer();
     renderer->AddCuller(this->Order);
     this->Smoothing->watch(renderer);
+    this->Moving->watch(renderer);
     this->RenderStart = renderer->AddObserver(
       vtkCommand::StartEvent, this, &vtkDeformedVolumeRepresentation::CoverPointSelection);
   }
@@ -168,6 +172,7 @@ bool vtkDeformedVolumeRepresentation::RemoveFromView(vtkView* view)
   {
     renderView->GetRenderer()->RemoveCuller(this->Order);
     this->Smoothing->watch(nullptr);
+    this->Moving->watch(nullptr);
     renderView->GetRenderer()->RemoveObserver(this->RenderStart);
   }
   return this->Superclass::RemoveFromView(view);

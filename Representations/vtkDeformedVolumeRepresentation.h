@@ -24,6 +24,7 @@ class vtkVolumeOrder;
 namespace brainshift
 {
 class EdgeSmoothing;
+class MovingWindow;
 }
 
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkDeformedVolumeRepresentation
@@ -107,6 +108,7 @@ private:
 
   vtkNew<vtkVolumeOrder> Order;
   std::unique_ptr<brainshift::EdgeSmoothing> Smoothing;
+  std::unique_ptr<brainshift::MovingWindow> Moving;
   unsigned long RenderStart = 0; // observer of the view's renderer
   float GlobalIlluminationReach = 0.0f;
   float VolumetricScatteringBlending = 0.0f;
