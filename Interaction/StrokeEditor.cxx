@@ -133,6 +133,7 @@ void StrokeEditor::startEditing(
   this->Before = before;
   this->Kept = kept;
   this->Editing = true;
+  this->Idle.leaveOut(this->Source);
   Q_EMIT this->editing(true);
   this->change(underHand);
 }
@@ -141,6 +142,7 @@ void StrokeEditor::stopEditing()
 {
   this->Redraw.stop();
   this->Editing = false;
+  this->Idle.putBack();
   Q_EMIT this->editing(false);
 }
 

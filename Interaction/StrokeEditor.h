@@ -4,6 +4,7 @@
 #ifndef BrainShift_StrokeEditor_h
 #define BrainShift_StrokeEditor_h
 
+#include "EmptySelections.h"
 #include "Stroke.h"
 
 #include <QObject>
@@ -80,6 +81,7 @@ private:
 
   pqPipelineSource* Source;
   vtkNew<vtkEventQtSlotConnect> Connector;
+  EmptySelections Idle; // while editing
   QTimer Redraw;
   Strokes Before; // while editing: what cancel and undo come back to
   Strokes Kept;   // while editing: all that is not under the hand

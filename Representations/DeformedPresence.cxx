@@ -247,18 +247,21 @@ bool DeformedPresence::update(vtkOpenGLRenderWindow* window, const PresenceReque
       return true;
     }
   }
+  const bool allNew = box.size() == request.count;
   this->AllNew = true; // until all of it succeeded
   if (!this->compute(window, request, box, counters))
   {
     return false;
   }
-  this->readMap(request, box);
-  this->makeFaces(request);
-  if (!this->makeLeaps(window, request))
+  if (this->readMap(request, box) || allNew)
   {
-    return false;
+    this->makeFaces(request);
+    if (!this->makeLeaps(window, request))
+    {
+      return false;
+    }
+    counters.skippingBytes += static_cast<std::int64_t>(this->Occupied.size()) + this->faceBytes();
   }
-  counters.skippingBytes += static_cast<std::int64_t>(this->Occupied.size()) + this->faceBytes();
   counters.presenceUpdates += 1;
   this->Shown = request;
   this->AllNew = false;
@@ -266,8 +269,9 @@ bool DeformedPresence::update(vtkOpenGLRenderWindow* window, const PresenceReque
 }
 
 // One byte a brick comes back, once an edit and never for a camera move: making the faces on the
-// GPU would cost its geometry stage every frame, and distances many passes.
-void DeformedPresence::readMap(const PresenceRequest& request, const IndexBox& box)
+// GPU would cost its geometry stage every frame, and distances many passes. Half the pictures of a
+// slow drag fill or empty no brick at all: returns whether this one does.
+bool DeformedPresence::readMap(const PresenceRequest& request, const IndexBox& box)
 {
   const glm::ivec3 held(this->Map->GetWidth(), this->Map->GetHeight(), this->Map->GetDepth());
   std::vector<std::uint8_t> map(static_cast<std::size_t>(held.x) * held.y * held.z);
@@ -278,15 +282,19 @@ void DeformedPresence::readMap(const PresenceRequest& request, const IndexBox& b
   const auto placeIn = [](const glm::ivec3& size, const glm::ivec3& at) {
     return (static_cast<std::size_t>(at.z) * size.y + at.y) * size.x + at.x;
   };
+  bool changed = false;
   glm::ivec3 row = box.first;
   for (row.z = box.first.z; row.z <= box.last.z; ++row.z)
   {
     for (row.y = box.first.y; row.y <= box.last.y; ++row.y)
     {
-      std::copy_n(map.begin() + placeIn(held, row + shiftOf(box)), box.size().x,
-        this->Occupied.begin() + placeIn(request.count, row));
+      const auto read = map.begin() + placeIn(held, row + shiftOf(box));
+      const auto known = this->Occupied.begin() + placeIn(request.count, row);
+      changed = changed || !std::equal(read, read + box.size().x, known);
+      std::copy_n(read, box.size().x, known);
     }
   }
+  return changed;
 }
 
 bool DeformedPresence::makeLeaps(vtkOpenGLRenderWindow* window, const PresenceRequest& request)

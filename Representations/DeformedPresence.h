@@ -84,7 +84,7 @@ private:
     const IndexBox& box, Counters& counters);
   bool compute(vtkOpenGLRenderWindow* window, const PresenceRequest& request, const IndexBox& box,
     Counters& counters);
-  void readMap(const PresenceRequest& request, const IndexBox& box);
+  bool readMap(const PresenceRequest& request, const IndexBox& box);
   bool makeLeaps(vtkOpenGLRenderWindow* window, const PresenceRequest& request);
   void makeFaces(const PresenceRequest& request);
   void drawRectangles(int programHandle, const std::vector<std::pair<int, int>>& ranges);

@@ -24,6 +24,7 @@ struct Drawing
   vtkNew<vtkPolyData> Shape;
   vtkNew<vtkPolyDataMapper> Mapper;
   vtkNew<vtkActor> Actor;
+  std::vector<Polyline> Lines; // those that are shown: most stay as they are throughout a drag
 
   Drawing()
   {
@@ -52,6 +53,7 @@ struct Drawing
     this->Shape->SetPoints(points);
     this->Shape->SetVerts(vtkNew<vtkCellArray>());
     this->Shape->SetLines(vtkNew<vtkCellArray>());
+    this->Lines.clear();
     this->Actor->VisibilityOff();
   }
 
@@ -68,6 +70,25 @@ struct Drawing
       const vtkIdType point = this->addPoint(at);
       this->Shape->GetVerts()->InsertNextCell(1, &point);
     }
+    this->done();
+  }
+
+  void show(const std::vector<Polyline>& lines)
+  {
+    if (lines == this->Lines)
+    {
+      return;
+    }
+    this->clear();
+    for (const Polyline& line : lines)
+    {
+      this->Shape->GetLines()->InsertNextCell(static_cast<int>(line.size()));
+      for (const glm::dvec3& point : line)
+      {
+        this->Shape->GetLines()->InsertCellPoint(this->addPoint(point));
+      }
+    }
+    this->Lines = lines;
     this->done();
   }
 
@@ -169,17 +190,7 @@ void vtkLatticeRepresentation::SetHighlights(const std::vector<glm::dvec3>& posi
 
 void vtkLatticeRepresentation::SetLines(Pen pen, const std::vector<Polyline>& lines)
 {
-  Drawing& drawing = this->Internal->Lines[pen];
-  drawing.clear();
-  for (const Polyline& line : lines)
-  {
-    drawing.Shape->GetLines()->InsertNextCell(static_cast<int>(line.size()));
-    for (const glm::dvec3& point : line)
-    {
-      drawing.Shape->GetLines()->InsertCellPoint(drawing.addPoint(point));
-    }
-  }
-  drawing.done();
+  this->Internal->Lines[pen].show(lines);
   this->Modified();
 }
 

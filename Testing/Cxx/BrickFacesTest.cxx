@@ -110,11 +110,13 @@ std::map<Face, int> boundaryOf(const Bricks& bricks)
 }
 }
 
+// Rows are longer than, as long as, and shorter than a word of bits.
 TEST(BrickFaces, AreTheBoundaryEachOnce)
 {
   std::mt19937 random(5);
-  for (const glm::ivec3 count : { glm::ivec3(1), glm::ivec3(2, 1, 3), glm::ivec3(5, 13, 4),
-         glm::ivec3(11, 7, 9), glm::ivec3(30, 3, 3) })
+  for (const glm::ivec3 count :
+    { glm::ivec3(1), glm::ivec3(2, 1, 3), glm::ivec3(5, 13, 4), glm::ivec3(11, 7, 9),
+      glm::ivec3(30, 3, 3), glm::ivec3(150, 3, 2), glm::ivec3(2, 64, 3), glm::ivec3(3, 128, 2) })
   {
     for (const unsigned int outOfTen : { 0, 1, 5, 9, 10 })
     {
