@@ -58,7 +58,7 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT double freeMemoryMiB(vtkOpenGLRenderWindow* 
 
 // Whether the current context is one of Mesa's drivers for processors, which draw in the machine's
 // own memory.
-bool drawsInSoftware();
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT bool drawsInSoftware();
 
 // Takes back what OpenGL has reported so far. True if it was out of memory.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT bool takeOutOfMemory();

@@ -2,6 +2,7 @@
 #ifndef MovingWindow_h
 #define MovingWindow_h
 
+#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 #include "vtkCallbackCommand.h"
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
@@ -24,7 +25,7 @@ namespace brainshift
  *   where the window is a widget of Qt, which shows colors alone. Depths are read from where they
  *   were drawn.
  */
-class MovingWindow
+class VTKBRAINSHIFTREPRESENTATIONS_EXPORT MovingWindow
 {
 public:
   MovingWindow();

@@ -3,10 +3,16 @@
 #include "LatticeShapes.h"
 #include "vtkLatticeRepresentation.h"
 
+#include "vtkActor.h"
+#include "vtkDataObject.h"
+#include "vtkMapper.h"
 #include "vtkNew.h"
+#include "vtkPropCollection.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 using namespace brainshift;
 
@@ -107,5 +113,38 @@ TEST(LatticeShapes, TheRepresentationHoldsWhatItWasGiven)
   shown->Clear();
   EXPECT_EQ(shown->GetBounds(), nullptr);
   EXPECT_EQ(shown->GetNumberOfHandles(), 0);
+}
+
+TEST(LatticeShapes, TheRepresentationMakesWhatStaysOnce)
+{
+  vtkNew<vtkLatticeRepresentation> shown;
+  const auto size = [&] { return shown->GetBounds() ? shown->GetBounds()[1] : 0.0; };
+  const auto mark = [&](const std::vector<Polyline>& lines) {
+    shown->SetLines(vtkLatticeRepresentation::Mark, lines);
+    return size();
+  };
+  const std::vector<Polyline> first = cross({ 0.0, 0.0, 0.0 }, 2.0);
+  EXPECT_EQ(mark(first), 2.0);
+  vtkNew<vtkPropCollection> actors;
+  shown->GetActors(actors);
+  const auto drawn = [&] {
+    vtkMTimeType last = 0;
+    for (int i = 0; i < actors->GetNumberOfItems(); ++i)
+    {
+      auto actor = vtkActor::SafeDownCast(actors->GetItemAsObject(i));
+      last = std::max(last, actor->GetMapper()->GetInputDataObject(0, 0)->GetMTime());
+    }
+    return last;
+  };
+  const vtkMTimeType made = drawn();
+  EXPECT_EQ(mark(first), 2.0);
+  EXPECT_EQ(drawn(), made);
+  EXPECT_EQ(mark(cross({ 0.0, 0.0, 0.0 }, 3.0)), 3.0);
+  EXPECT_GT(drawn(), made);
+  EXPECT_EQ(mark({}), 0.0);
+  EXPECT_EQ(mark(first), 2.0);
+  shown->Clear();
+  EXPECT_EQ(size(), 0.0);
+  EXPECT_EQ(mark(first), 2.0) << "cleared, then the same again";
 }
 }

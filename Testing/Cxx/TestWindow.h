@@ -26,6 +26,7 @@ public:
     this->window()->MakeCurrent();
   }
 
+  vtkRenderer* renderer() { return this->Renderer; }
   vtkOpenGLRenderWindow* window() { return vtkOpenGLRenderWindow::SafeDownCast(this->Window); }
 
 private:

@@ -186,8 +186,28 @@ def zoom_away_from_tissue():
     hand.wait(100)
 
 
+def shows_selections():
+    display = simple.GetDisplayProperties(deformation()).SMProxy
+    return display.GetProperty("SelectionVisibility").GetElement(0) == 1
+
+
+def keep_a_selection():
+    # What is selected stays visible under the hand.
+    simple.SelectIDs(IDs=[0, 5], FieldType="POINT", Source=deformation())
+    hand.hover(middle())
+    hand.press(middle())
+    hand.drag_to([middle()[0], middle()[1] + 5])
+    hand.wait()
+    assert shows_selections()
+    hand.tap(hand.ESCAPE)
+    hand.release([middle()[0], middle()[1] + 5])
+    simple.ClearSelection(deformation())
+    hand.wait(100)
+
+
 def drag_quietly():
-    # Panels and menus hear of new data once the hand lets go, and not with each picture before.
+    # Panels and menus hear of new data once the hand lets go, and not with each picture before;
+    # and what would show a selection of nothing is brought up to date then.
     heard = []
     proxy = deformation().SMProxy
     watch = proxy.AddObserver("UpdateDataEvent", lambda *_: heard.append(True))
@@ -197,10 +217,12 @@ def drag_quietly():
         hand.drag_to([middle()[0], middle()[1] + 5 * step])
         hand.wait()
     assert not heard, "heard under the hand"
+    assert not shows_selections(), "an empty selection is kept up to date"
     hand.release([middle()[0], middle()[1] + 15])
     hand.wait(300)
     proxy.RemoveObserver(watch)
     assert heard, "not heard at the end"
+    assert shows_selections(), "selections stay hidden"
     assert hand.action("actionEditUndo")
     hand.wait()
 
@@ -375,6 +397,7 @@ def play():
         edit("Undo", 2, 2, 1, 0)
         edit("Redo", 2, 2, 1, 0, 0, 0)
         drag_quietly()
+        keep_a_selection()
         show_before()
         numbers_that_are_no_strokes()
         save_result()
