@@ -234,7 +234,7 @@ double* vtkLatticeRepresentation::GetBounds()
   {
     if (drawing->Actor->GetVisibility())
     {
-      box.AddBounds(drawing->Actor->GetBounds());
+      box.AddBounds(drawing->Shape->GetBounds()); // the actor would ask its mapper's pipeline
     }
   }
   if (!box.IsValid())
