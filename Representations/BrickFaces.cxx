@@ -153,6 +153,28 @@ std::array<BrickFaces, 6> brickFaces(
   return faces;
 }
 
+std::vector<IndexBox> occupiedLayers(const std::array<BrickFaces, 6>& faces, int layers)
+{
+  std::vector<IndexBox> boxes(layers);
+  // A row of occupied bricks ends at a face across x on either side.
+  for (const BrickFaces* across : { &faces[0], &faces[1] })
+  {
+    for (const BrickRectangle& rectangle : across->rectangles)
+    {
+      const int x = across->outward > 0 ? rectangle.low.x - 1 : rectangle.low.x;
+      for (int z = rectangle.low.z; z < rectangle.high.z; ++z)
+      {
+        boxes[z] =
+          enclosing(boxes[z], { { x, rectangle.low.y, z }, { x, rectangle.high.y - 1, z } });
+      }
+    }
+  }
+  boxes.erase(
+    std::remove_if(boxes.begin(), boxes.end(), [](const IndexBox& box) { return box.empty(); }),
+    boxes.end());
+  return boxes;
+}
+
 std::pair<int, int> facing(const BrickFaces& faces, const glm::dvec4& eye)
 {
   const int all = static_cast<int>(faces.rectangles.size());

@@ -4,6 +4,7 @@
 #ifndef BrainShift_BrickFaces_h
 #define BrainShift_BrickFaces_h
 
+#include "FieldChange.h"
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 
 #include <glm/vec3.hpp>
@@ -37,6 +38,11 @@ struct BrickFaces
 // `occupied`: count.x * y * z numbers, x fastest, 0 for empty bricks.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::array<BrickFaces, 6> brickFaces(
   const std::vector<std::uint8_t>& occupied, const glm::ivec3& count);
+
+// Of each layer across z that holds an occupied brick the box of these, in ascending order: together
+// they bound what can be seen far closer than one box. `faces`: those of brickFaces.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<IndexBox> occupiedLayers(
+  const std::array<BrickFaces, 6>& faces, int layers);
 
 // Which of the rectangles are seen from in front: the first, and one past the last. `eye`: bricks,
 // homogeneous; where w is 0, the direction towards an eye infinitely far away.

@@ -311,19 +311,20 @@ bool DeformedPresence::makeLeaps(vtkOpenGLRenderWindow* window, const PresenceRe
 void DeformedPresence::makeFaces(const PresenceRequest& request)
 {
   std::vector<glm::vec3> corners;
-  glm::ivec3 low = request.count;
-  glm::ivec3 high(-1);
   this->Faces = brickFaces(this->Occupied, request.count);
   for (const BrickFaces& faces : this->Faces)
   {
     for (const BrickRectangle& rectangle : faces.rectangles)
     {
-      low = glm::min(low, rectangle.low);
-      high = glm::max(high, rectangle.high - 1);
       appendRectangle(corners, rectangle, request.first);
     }
   }
-  this->OccupiedBox = { low, high };
+  this->OccupiedLayers = brainshift::occupiedLayers(this->Faces, request.count.z);
+  this->OccupiedBox = IndexBox();
+  for (const IndexBox& layer : this->OccupiedLayers)
+  {
+    this->OccupiedBox = enclosing(this->OccupiedBox, layer);
+  }
   if (!this->Corners)
   {
     this->Corners = vtkSmartPointer<vtkOpenGLBufferObject>::New();

@@ -65,8 +65,8 @@ public:
   // first.
   bool isOutside(const glm::dvec4& eye) const;
 
-  // Box of the occupied bricks; its indices count from the request's first brick.
-  const IndexBox& occupiedBox() const { return this->OccupiedBox; }
+  // Boxes that hold the occupied bricks (BrickFaces.h); indices count from the request's first one.
+  const std::vector<IndexBox>& occupiedLayers() const { return this->OccupiedLayers; }
 
   // All textures, some of which may be null, and the bytes of the faces on the GPU.
   std::vector<vtkTextureObject*> textures() const
@@ -101,7 +101,8 @@ private:
   Program BlocksProgram;
   Program MapPrograms[2]; // [deformed]
   std::array<BrickFaces, 6> Faces;
-  IndexBox OccupiedBox;
+  std::vector<IndexBox> OccupiedLayers;
+  IndexBox OccupiedBox; // around them
 };
 }
 

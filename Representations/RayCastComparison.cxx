@@ -103,7 +103,7 @@ bool cropByPlanes(vtkVolumeMapper* mapper, vtkVolume* volume, const Grid& grid,
 
 void placeComparedPixels(RayCastScene& scene)
 {
-  const IndexBox& bricks = scene.presence->occupiedBox();
+  const std::vector<IndexBox>& bricks = scene.presence->occupiedLayers();
   if (!scene.comparison.reference)
   {
     placeShownPixels(bricks, scene);
@@ -112,7 +112,7 @@ void placeComparedPixels(RayCastScene& scene)
   RayCastScene& reference = *scene.comparison.reference;
   reference.size = scene.size;
   reference.skipping = scene.skipping;
-  const IndexBox& referenceBricks = reference.presence->occupiedBox();
+  const std::vector<IndexBox>& referenceBricks = reference.presence->occupiedLayers();
   placeShownPixels(referenceBricks, reference);
   if (bricks.empty())
   {

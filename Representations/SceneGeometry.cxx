@@ -227,20 +227,25 @@ PixelPart pixelsBetween(const std::vector<glm::vec3>& positions, const glm::dvec
   return positions.empty() ? PixelPart() : seen.around();
 }
 
-void placeShownPixels(const IndexBox& bricks, RayCastScene& scene)
+void placeShownPixels(const std::vector<IndexBox>& boxes, RayCastScene& scene)
 {
-  scene.shown = { glm::ivec2(0), bricks.empty() ? glm::ivec2(0) : scene.size };
+  scene.shown = { glm::ivec2(0), boxes.empty() ? glm::ivec2(0) : scene.size };
   SeenPoints seen(scene);
-  for (int corner = 0; corner < 8 && !bricks.empty(); ++corner)
+  IndexBox bricks;
+  for (const IndexBox& box : boxes)
   {
-    const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
-    const glm::dvec3 brick(bricks.first + side * bricks.size());
-    if (!seen.add((scene.firstBrick + brick) * scene.textureFromBrick + scene.textureOfBrickZero))
+    bricks = enclosing(bricks, box);
+    for (int corner = 0; corner < 8; ++corner)
     {
-      return;
+      const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+      const glm::dvec3 brick(box.first + side * box.size());
+      if (!seen.add((scene.firstBrick + brick) * scene.textureFromBrick + scene.textureOfBrickZero))
+      {
+        return;
+      }
     }
   }
-  if (bricks.empty())
+  if (boxes.empty())
   {
     return;
   }

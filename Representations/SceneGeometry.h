@@ -70,10 +70,10 @@ void cropBox(const Grid& grid, const ValueLayout& layout, const double planes[6]
 void describeView(vtkRenderer* renderer, vtkVolume* volume, const Grid& grid,
   const ValueLayout& layout, RayCastScene& scene);
 
-// Finds the pixels of the scene's image that a box of bricks can be seen at; all of them if part of
-// it lies behind the eye. Bricks count from the scene's first one. Where pixels are so large that
+// Finds the pixels of the scene's image that boxes of bricks can be seen at; all of them if part of
+// one lies behind the eye. Bricks count from the scene's first one. Where pixels are so large that
 // the rasteriser's rounding would come near BrickMargin, nothing is skipped: the picture is tiny.
-void placeShownPixels(const IndexBox& bricks, RayCastScene& scene);
+void placeShownPixels(const std::vector<IndexBox>& boxes, RayCastScene& scene);
 
 // The pixels of the scene's image at which all is seen that lies between positions (lattice
 // coordinates) in a space (texture coordinates); all of them if a position lies behind the eye.

@@ -145,6 +145,36 @@ TEST(BrickFaces, ABlockHasSixRectangles)
   EXPECT_EQ(listed(brickFaces(bricks.occupied, count)).size(), 6u);
 }
 
+TEST(BrickFaces, LayersHoldTheOccupiedBricksAndNoMore)
+{
+  std::mt19937 random(7);
+  const glm::ivec3 count(9, 8, 12);
+  for (const unsigned int outOf100 : { 0, 1, 5, 50, 100 })
+  {
+    Bricks bricks = empty(count);
+    std::vector<IndexBox> expected(count.z);
+    for (int z = 0; z < count.z; ++z)
+    {
+      for (int y = 0; y < count.y; ++y)
+      {
+        for (int x = 0; x < count.x; ++x)
+        {
+          if (random() % 100 < outOf100)
+          {
+            bricks.occupied[(std::size_t(z) * count.y + y) * count.x + x] = 255;
+            expected[z] = enclosing(expected[z], { { x, y, z }, { x, y, z } });
+          }
+        }
+      }
+    }
+    expected.erase(std::remove_if(expected.begin(), expected.end(),
+                     [](const IndexBox& box) { return box.empty(); }),
+      expected.end());
+    EXPECT_TRUE(occupiedLayers(brickFaces(bricks.occupied, count), count.z) == expected)
+      << outOf100;
+  }
+}
+
 TEST(BrickFaces, AnEyeSeesThoseThatLookTowardsIt)
 {
   std::mt19937 random(6);
