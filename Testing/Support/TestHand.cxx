@@ -20,6 +20,7 @@
 #include <QLabel>
 #include <QMouseEvent>
 #include <QOpenGLWindow>
+#include <QScreen>
 #include <QTest>
 #include <QTimer>
 #include <QWheelEvent>
@@ -229,11 +230,17 @@ TEST_HAND_EXPORT void test_hand_quit()
   QTimer::singleShot(0, qApp, &QApplication::quit);
 }
 
-// The view, pixels.
+// The view, pixels. The window grows until it shows all of it, or fills the screen.
 TEST_HAND_EXPORT void test_hand_resize(int width, int height)
 {
   if (QWidget* widget = viewWidget())
   {
     widget->setFixedSize(width, height);
+    QApplication::processEvents();
+    const QSize hidden = widget->size() - widget->visibleRegion().boundingRect().size();
+    QWidget* window = widget->window();
+    window->resize(
+      (window->size() + hidden).boundedTo(window->screen()->availableGeometry().size()));
+    QApplication::processEvents();
   }
 }
