@@ -46,7 +46,7 @@ void EmptySelections::leaveOut(pqPipelineSource* source)
   {
     pqDataRepresentation* shown = source->getRepresentation(view);
     vtkSMProxy* proxy = shown ? shown->getProxy() : nullptr;
-    if (proxy && proxy->GetProperty(Visible) && vtkSMPropertyHelper(proxy, Visible).GetAsInt() != 0)
+    if (proxy && proxy->GetProperty(Visible))
     {
       showSelection(proxy, 0);
       this->Representations.emplace_back(proxy);

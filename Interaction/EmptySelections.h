@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// While a stroke is edited, ParaView need not bring up to date what would show a selection of the
-// deformation where nothing of it is selected: that is a tenth of what a picture of a drag takes
-// the main thread.
+// Leaves out what would show a selection of a deformation while nothing of it is selected. ParaView
+// brings that up to date with every change: a tenth of the main thread's time in a drag.
 #ifndef BrainShift_EmptySelections_h
 #define BrainShift_EmptySelections_h
 
@@ -15,7 +14,10 @@ class pqPipelineSource;
 class EmptySelections
 {
 public:
+  EmptySelections() = default;
   ~EmptySelections() { this->putBack(); }
+  EmptySelections(const EmptySelections&) = delete;
+  EmptySelections& operator=(const EmptySelections&) = delete;
 
   // In every view that shows the source.
   void leaveOut(pqPipelineSource* source);

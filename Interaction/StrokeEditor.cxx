@@ -92,6 +92,8 @@ StrokeEditor::StrokeEditor(pqPipelineSource* source)
   this->Redraw.setSingleShot(true);
   this->Redraw.setInterval(0);
   QObject::connect(&this->Redraw, &QTimer::timeout, this, &StrokeEditor::draw);
+  QObject::connect(pqApplicationCore::instance(), &pqApplicationCore::aboutToWriteState, this,
+    [this] { this->Unselected.putBack(); }); // what an edit leaves out for now is no state
   this->Connector->Connect(
     source->getProxy()->GetProperty("Strokes"), vtkCommand::ModifiedEvent, this, SLOT(notice()));
 }
@@ -133,7 +135,7 @@ void StrokeEditor::startEditing(
   this->Before = before;
   this->Kept = kept;
   this->Editing = true;
-  this->Idle.leaveOut(this->Source);
+  this->Unselected.leaveOut(this->Source);
   Q_EMIT this->editing(true);
   this->change(underHand);
 }
@@ -142,7 +144,7 @@ void StrokeEditor::stopEditing()
 {
   this->Redraw.stop();
   this->Editing = false;
-  this->Idle.putBack();
+  this->Unselected.putBack();
   Q_EMIT this->editing(false);
 }
 

@@ -81,7 +81,7 @@ private:
 
   pqPipelineSource* Source;
   vtkNew<vtkEventQtSlotConnect> Connector;
-  EmptySelections Idle; // while editing
+  EmptySelections Unselected; // while editing
   QTimer Redraw;
   Strokes Before; // while editing: what cancel and undo come back to
   Strokes Kept;   // while editing: all that is not under the hand

@@ -39,8 +39,8 @@ struct BrickFaces
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::array<BrickFaces, 6> brickFaces(
   const std::vector<std::uint8_t>& occupied, const glm::ivec3& count);
 
-// Of each layer across z that holds an occupied brick the box of these, in ascending order: together
-// they bound what can be seen far closer than one box. `faces`: those of brickFaces.
+// The box of the occupied bricks in each layer across z that has any, in ascending order: together
+// they bound what can be seen closer than one box does. `faces`: those of brickFaces.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<IndexBox> occupiedLayers(
   const std::array<BrickFaces, 6>& faces, int layers);
 

@@ -231,6 +231,7 @@ bool DeformedPresence::update(vtkOpenGLRenderWindow* window, const PresenceReque
   const IndexBox& changed, Counters& counters)
 {
   IndexBox box{ glm::ivec3(0), request.count - 1 };
+  bool known = false; // which bricks were occupied
   if (!this->Map || this->Shown.count != request.count)
   {
     if (!this->allocate(window, request.count))
@@ -241,19 +242,19 @@ bool DeformedPresence::update(vtkOpenGLRenderWindow* window, const PresenceReque
   }
   else if (!this->AllNew && samePlaces(this->Shown, request))
   {
+    known = true;
     box = bricksOfNodes(request, changed);
     if (box.empty())
     {
       return true;
     }
   }
-  const bool allNew = box.size() == request.count;
   this->AllNew = true; // until all of it succeeded
   if (!this->compute(window, request, box, counters))
   {
     return false;
   }
-  if (this->readMap(request, box) || allNew)
+  if (this->readMap(request, box) || !known)
   {
     this->makeFaces(request);
     if (!this->makeLeaps(window, request))
@@ -269,8 +270,8 @@ bool DeformedPresence::update(vtkOpenGLRenderWindow* window, const PresenceReque
 }
 
 // One byte a brick comes back, once an edit and never for a camera move: making the faces on the
-// GPU would cost its geometry stage every frame, and distances many passes. Half the pictures of a
-// slow drag fill or empty no brick at all: returns whether this one does.
+// GPU would cost its geometry stage every frame, and distances many passes. Returns whether
+// any brick changed: half the pictures of a slow drag fill or empty none.
 bool DeformedPresence::readMap(const PresenceRequest& request, const IndexBox& box)
 {
   const glm::ivec3 held(this->Map->GetWidth(), this->Map->GetHeight(), this->Map->GetDepth());

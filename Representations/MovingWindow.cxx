@@ -110,6 +110,7 @@ void MovingWindow::putBack()
     this->Window->RemoveObserver(this->After);
     if (this->ShownDepths)
     {
+      this->Window->MakeCurrent(); // other observers may draw elsewhere
       this->Window->GetDisplayFramebuffer()->AddDepthAttachment(this->ShownDepths);
     }
   }

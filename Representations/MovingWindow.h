@@ -21,9 +21,9 @@ namespace brainshift
  * Leaves out what nobody misses in a window that moves and is drawn by a software driver:
  * - smoothing of insets (orientation axes), for which the driver would wait for the picture under
  *   them;
- * - the copy of depths beside that of colors into what the window shows (some 6 ms a megapixel),
- *   where the window is a widget of Qt, which shows colors alone. Depths are read from where they
- *   were drawn.
+ * - the copy of depths beside that of colours into what the window shows (some 6 ms a megapixel),
+ *   where VTK leaves showing it to others (NoBlit): Qt's widget takes colours alone. Depths are
+ *   read from where they were drawn.
  */
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT MovingWindow
 {

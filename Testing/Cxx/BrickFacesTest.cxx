@@ -110,7 +110,7 @@ std::map<Face, int> boundaryOf(const Bricks& bricks)
 }
 }
 
-// Rows are longer than, as long as, and shorter than a word of bits.
+// Long rows too.
 TEST(BrickFaces, AreTheBoundaryEachOnce)
 {
   std::mt19937 random(5);

@@ -20,7 +20,7 @@ constexpr double Moving = 15.0; // pictures a second
 constexpr double Still = 0.001;
 
 // A window with an inset, as ParaView's orientation axes are, and what it held when the last of
-// its pictures was drawn but not yet copied.
+// its renderers had drawn and nothing was copied yet.
 class MovingWindowTest : public ::testing::Test
 {
 protected:

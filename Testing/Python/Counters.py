@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that the renderer does again only what changed: counts of uploads, bytes, refined texels and
 # compiled programs.
+import numpy
 from brainshift_testing import (ball, load_plugin, look, picture, run_tests, show_volume,
                                 view_along, volume)
 
@@ -11,6 +12,7 @@ from paraview.simple import (CreatePiecewiseFunction, FreeFormDeformation,  # no
                              GetOpacityTransferFunction, Show, Sphere)
 
 MIDDLE = (16.0, 16.0, 16.0)
+SURFACE = (7.0, 16.0, 16.0)  # pulled from here, the ball fills bricks that were empty
 COLORS = [0, 0, 0, 0, 100, 1, 1, 1]
 OPACITIES = [0, 0, 0.5, 0, 50, 0, 0.5, 0, 100, 1, 0.5, 0]
 LATTICE_BYTES = 19 ** 3 * 3 * 4  # 82 kB
@@ -45,7 +47,7 @@ def test_a_camera_move_uploads_nothing():
 
 def test_a_stroke_uploads_the_lattice_only():
     drawn = Drawn()
-    drawn.filter.Strokes = brainshift.soft(MIDDLE, (3, 0, 0), 12)
+    drawn.filter.Strokes = brainshift.soft(SURFACE, (-3, 0, 0), 12)
     done = drawn.did()
     assert done.pop("latticeUploads") == 1, done
     assert done.pop("bytesUploaded") == LATTICE_BYTES, done
@@ -53,6 +55,32 @@ def test_a_stroke_uploads_the_lattice_only():
     assert done.pop("presenceUpdates") == 1, done
     assert 0 < done.pop("skippingBytes") < LATTICE_BYTES, done
     assert done == {}, done
+
+
+def test_a_stroke_that_fills_no_brick_sends_no_faces():
+    drawn = Drawn()
+    drawn.filter.Strokes = brainshift.soft(MIDDLE, (2.0001, 0, 0), 12)
+    done = drawn.did()
+    assert done.pop("presenceUpdates") == 1 and done.pop("texelsRefined") > 0, done
+    assert "skippingBytes" not in done, done
+
+
+def test_rays_are_cast_where_something_can_be_seen():
+    # A rod from corner to corner, seen along its length: the box around it fills two thirds of
+    # the picture.
+    places = numpy.indices((33,) * 3) - 16.0
+    aside = (places ** 2).sum(axis=0) - places.sum(axis=0) ** 2 / 3.0  # squared, from the diagonal
+    rod = volume(numpy.where(aside < 9.0, 100.0, 0.0))
+    view = view_along((-1, -1, -1), MIDDLE, 100, up=(0, 0, 1), half_height=30)
+    display = show_volume(rod, view, "Deformed Volume", COLORS, OPACITIES)
+    picture(view)
+    before = brainshift.counters(display)["pixelsCast"]
+    look(view, (-1, -1.01, -1), MIDDLE, 100, up=(0, 0, 1))
+    picture(view)
+    cast = brainshift.counters(display)["pixelsCast"] - before
+    pixels = view.ViewSize[0] * view.ViewSize[1]
+    print(f"  {cast} of {pixels} pixels", flush=True)
+    assert 0 < cast < 0.4 * pixels, (cast, pixels)
 
 
 def test_a_stroke_refines_what_it_can_reach():
@@ -74,7 +102,7 @@ def test_dragging_compiles_and_uploads_nothing_else():
     drawn.view.SMProxy.InteractiveRender()
     drawn.did()
     for step in range(1, 6):
-        drawn.filter.Strokes = brainshift.soft(MIDDLE, (2 + 0.5 * step, 0, 0), 12)
+        drawn.filter.Strokes = brainshift.soft(SURFACE, (-0.8 * step, 0, 0), 12)
         look(drawn.view, (0.1 * step, -0.3, -1), MIDDLE, 90)
         drawn.view.SMProxy.InteractiveRender()
     done = drawn.did()

@@ -230,7 +230,7 @@ TEST_HAND_EXPORT void test_hand_quit()
   QTimer::singleShot(0, qApp, &QApplication::quit);
 }
 
-// The view, pixels. The window grows until it shows all of it, or fills the screen.
+// The view, pixels. The window grows by what it would hide of a lone view, if the screen has room.
 TEST_HAND_EXPORT void test_hand_resize(int width, int height)
 {
   if (QWidget* widget = viewWidget())

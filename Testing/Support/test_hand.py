@@ -143,6 +143,6 @@ def quit():
 
 
 def resize(width, height):
-    """Gives the view a size of its own, and the window one that shows all of it."""
+    """Gives a lone view a size of its own, and the window one that shows all of it."""
     _library.test_hand_resize(width, height)
     wait(100)

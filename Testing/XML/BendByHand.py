@@ -193,12 +193,13 @@ def shows_selections():
 
 def keep_a_selection():
     # What is selected stays visible under the hand.
+    before = len(strokes())
     simple.SelectIDs(IDs=[0, 5], FieldType="POINT", Source=deformation())
     hand.hover(middle())
     hand.press(middle())
     hand.drag_to([middle()[0], middle()[1] + 5])
     hand.wait()
-    assert shows_selections()
+    assert len(strokes()) == before + 1 and shows_selections(), strokes()
     hand.tap(hand.ESCAPE)
     hand.release([middle()[0], middle()[1] + 5])
     simple.ClearSelection(deformation())
