@@ -107,9 +107,16 @@ link_python_modules() {
   done
 }
 
-# prepare_debian NUMBER: what is there is asked of dpkg each time, not remembered.
+is_debian_prepared() {
+  [[ -z $(missing_packages "$1") && -z $(unlinked_python_modules) ]]
+}
+
+# prepare_debian NUMBER: what is there is asked of dpkg each time, not remembered. Only a launch that
+# has to install something waits for others that do.
 prepare_debian() {
   local packages modules
+  if is_debian_prepared "$1"; then return; fi
+  lock_setup
   mapfile -t packages < <(missing_packages "$1")
   if ((${#packages[@]} > 0)); then
     ((EUID == 0)) || fail 1 "Run this as root, or first: apt-get install ${packages[*]}"
@@ -122,4 +129,5 @@ prepare_debian() {
     step "debian-$1-links" "Linking ${#modules[@]} Python modules of ParaView" \
       link_python_modules "${modules[@]}"
   fi
+  unlock
 }

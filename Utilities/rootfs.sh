@@ -68,6 +68,11 @@ make_rootfs() {
     write_apt_settings "$1" "$3"
     return
   fi
+  lock_setup
+  if [[ -d $1 ]]; then # another launch made it while this one waited
+    unlock
+    return
+  fi
   # a fresh machine does not know yet what its archives hold
   debian_mirror >/dev/null || step mirror "Updating the package lists of this machine" \
     apt-get -o Acquire::Check-Valid-Until=false update
@@ -77,6 +82,7 @@ make_rootfs() {
     step debootstrap "Installing debootstrap" apt_install debootstrap debian-archive-keyring
   fi
   step "debian-$2-bootstrap" "Making a Debian $2 in $1" bootstrap "$1" "$3" "$mirror"
+  unlock
 }
 
 # Folders that would hide a part of the root filesystem if they were shown in it.

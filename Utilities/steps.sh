@@ -28,15 +28,18 @@ step() {
   echo "$((SECONDS - start)) s" >&2
 }
 
-# One launch at a time sets up and builds. Children inherit the lock: where a launch was killed,
-# the next one waits for what it left running.
+# lock FILE WHAT: waits until no other launch does WHAT, and says so. Children inherit the lock: where
+# a launch was killed, the next one waits for what it left running.
 lock() {
-  mkdir -p "$cache" || fail 1 "Cannot write to the cache folder $cache"
-  exec 9>"$cache/lock"
+  mkdir -p "$(dirname "$1")" || fail 1 "Cannot write to the folder $(dirname "$1")"
+  exec 9>"$1"
   if ! flock --nonblock 9; then
-    say "waiting for another brainshift, which sets up or builds"
+    say "waiting for another brainshift, which $2"
     flock 9
   fi
 }
 
 unlock() { exec 9>&-; }
+
+# Launches from all checkouts share the system's packages and the root filesystems.
+lock_setup() { lock "$cache/lock" "sets up"; }
