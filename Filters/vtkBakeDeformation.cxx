@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkBakeDeformation.h"
 
-#include "DeformableVolume.h"
-#include "Resample.h"
+#include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/Resample.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

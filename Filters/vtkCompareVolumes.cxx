@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkCompareVolumes.h"
 
-#include "CavityMask.h"
-#include "DeformableVolume.h"
-#include "ReferenceVolume.h"
-#include "SharedArray.h"
+#include "Filters/Attached/CavityMask.h"
+#include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/ReferenceVolume.h"
+#include "Filters/Attached/SharedArray.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformGeometry.h"
 
-#include "DirectedMap.h"
-#include "Portions.h"
+#include "Filters/Attached/DirectedMap.h"
+#include "Filters/Attached/Portions.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformationField.h"
 
-#include "DeformableVolume.h"
-#include "FieldImage.h"
-#include "Portions.h"
+#include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Files/FieldImage.h"
+#include "Filters/Attached/Portions.h"
 
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformationLattice.h"
 
-#include "DeformableVolume.h"
-#include "FieldImage.h"
+#include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Files/FieldImage.h"
 
 #include "vtkFieldData.h"
 #include "vtkImageData.h"

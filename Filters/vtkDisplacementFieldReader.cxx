@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDisplacementFieldReader.h"
 
-#include "FieldFile.h"
-#include "FieldImage.h"
+#include "Filters/Files/FieldFile.h"
+#include "Filters/Files/FieldImage.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDisplacementFieldWriter.h"
 
-#include "DeformableVolume.h"
-#include "FieldFile.h"
-#include "FieldImage.h"
+#include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Files/FieldFile.h"
+#include "Filters/Files/FieldImage.h"
 
 #include "vtkErrorCode.h"
 #include "vtkImageData.h"

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkFreeFormDeformation.h"
 
-#include "DeformableVolume.h"
-#include "FieldImage.h"
-#include "MaskImage.h"
-#include "OffsetField.h"
-#include "Replay.h"
-#include "Segmentation.h"
-#include "SharedArray.h"
-#include "StrokeDensity.h"
+#include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Files/FieldImage.h"
+#include "Filters/Attached/MaskImage.h"
+#include "Filters/Deformation/OffsetField.h"
+#include "Filters/Deformation/Replay.h"
+#include "Filters/Attached/Segmentation.h"
+#include "Filters/Attached/SharedArray.h"
+#include "Filters/Deformation/StrokeDensity.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkInvertDisplacementField.h"
 
-#include "DeformableVolume.h"
-#include "FieldImage.h"
-#include "Inversion.h"
-#include "OffsetField.h"
-#include "Portions.h"
+#include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Files/FieldImage.h"
+#include "Filters/Deformation/Inversion.h"
+#include "Filters/Deformation/OffsetField.h"
+#include "Filters/Attached/Portions.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"

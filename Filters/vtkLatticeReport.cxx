@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkLatticeReport.h"
 
-#include "Handles.h"
+#include "Filters/Deformation/Handles.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataArray.h"

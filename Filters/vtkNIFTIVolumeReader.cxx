@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNIFTIVolumeReader.h"
 
-#include "NIFTIFileCheck.h"
-#include "NIFTIGeometry.h"
-#include "Parallel.h"
+#include "Filters/Files/NIFTIFileCheck.h"
+#include "Filters/Files/NIFTIGeometry.h"
+#include "Filters/Deformation/Parallel.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkDataArray.h"

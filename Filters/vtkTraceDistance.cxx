@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTraceDistance.h"
 
-#include "CavityMask.h"
-#include "DeformableVolume.h"
-#include "DeformedSurface.h"
-#include "Portions.h"
-#include "ReferenceVolume.h"
-#include "TraceStatistics.h"
+#include "Filters/Attached/CavityMask.h"
+#include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Traces/DeformedSurface.h"
+#include "Filters/Attached/Portions.h"
+#include "Filters/Attached/ReferenceVolume.h"
+#include "Filters/Traces/TraceStatistics.h"
 
 #include "vtkCompositeDataIterator.h"
 #include "vtkDataObjectTree.h"

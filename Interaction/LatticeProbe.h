@@ -4,8 +4,8 @@
 #ifndef BrainShift_LatticeProbe_h
 #define BrainShift_LatticeProbe_h
 
-#include "Grid.h"
-#include "LatticeShapes.h"
+#include "Filters/Deformation/Grid.h"
+#include "Widgets/LatticeShapes.h"
 
 #include <vtkSmartPointer.h>
 

@@ -5,7 +5,7 @@
 #define BrainShift_StrokeEditor_h
 
 #include "EmptySelections.h"
-#include "Stroke.h"
+#include "Filters/Deformation/Stroke.h"
 
 #include <QObject>
 #include <QTimer>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SegmentationDecorator.h"
 
-#include "Segmentation.h"
+#include "Filters/Attached/Segmentation.h"
 
 #include <pqApplicationCore.h>
 #include <pqPropertyWidget.h>

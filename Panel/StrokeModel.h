@@ -4,7 +4,7 @@
 #ifndef BrainShift_StrokeModel_h
 #define BrainShift_StrokeModel_h
 
-#include "Stroke.h"
+#include "Filters/Deformation/Stroke.h"
 
 #include <QAbstractTableModel>
 #include <QList>

@@ -4,7 +4,7 @@
  * @brief   draws planes through a volume and the lattice it carries
  *
  * Three planes across the volume's axes, through one position: each fragment of them looks its
- * scalar up at the rest position its tissue came from (Filters/DeformableVolume.h), so that nothing
+ * scalar up at the rest position its tissue came from (Filters/Attached/DeformableVolume.h), so that nothing
  * is resampled. The planes reach as far as tissue may go; outside tissue nothing is drawn. Colours
  * and place come from the vtkVolume, light does not matter.
  *

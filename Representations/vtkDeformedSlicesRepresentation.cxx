@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedSlicesRepresentation.h"
 
-#include "InteractiveDelivery.h"
-#include "OrientationMarks.h"
-#include "SlicesProp.h"
+#include "Representations/Window/InteractiveDelivery.h"
+#include "Representations/Slices/OrientationMarks.h"
+#include "Representations/Slices/SlicesProp.h"
 #include "vtkDeformedSlicesMapper.h"
 
 #include "vtkObjectFactory.h"

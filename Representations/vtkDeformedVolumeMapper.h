@@ -4,7 +4,7 @@
  * @brief   ray casts a volume through the lattice it carries
  *
  * Draws a vtkImageData with the deformation that Free-Form Deformation attached to it (see
- * Filters/DeformableVolume.h), never resampling a voxel; a volume without a lattice is drawn as it
+ * Filters/Attached/DeformableVolume.h), never resampling a voxel; a volume without a lattice is drawn as it
  * is. Colours, opacity, light and position come from the vtkVolume, as for any volume mapper.
  *
  * All blend modes, clipping planes, cropping regions and dependent components of VTK's volumes are
@@ -119,7 +119,7 @@ public:
   ///@{
   /**
    * Draw only tissue whose place at rest lies in the chosen labels of the segmentation that the
-   * volume carries (Filters/Segmentation.h). Default false.
+   * volume carries (Filters/Attached/Segmentation.h). Default false.
    */
   vtkSetMacro(DrawSegment, bool);
   vtkGetMacro(DrawSegment, bool);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedVolumeReport.h"
 
-#include "Counters.h"
+#include "Representations/Gpu/Counters.h"
 #include "vtkDeformedSlicesMapper.h"
 #include "vtkDeformedSlicesRepresentation.h"
 #include "vtkDeformedVolumeMapper.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedVolumeRepresentation.h"
 
-#include "EdgeSmoothing.h"
-#include "InteractiveDelivery.h"
-#include "MovingWindow.h"
-#include "SelectionCover.h"
+#include "Representations/Window/EdgeSmoothing.h"
+#include "Representations/Window/InteractiveDelivery.h"
+#include "Representations/Window/MovingWindow.h"
+#include "Representations/Picture/SelectionCover.h"
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkVolumeOrder.h"
 

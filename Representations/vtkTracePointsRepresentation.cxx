@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTracePointsRepresentation.h"
 
-#include "TracePoints.h"
+#include "Representations/Traces/TracePoints.h"
 
 #include "vtkInformation.h"
 #include "vtkNew.h"

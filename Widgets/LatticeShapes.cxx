@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "LatticeShapes.h"
+#include "Widgets/LatticeShapes.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -3,7 +3,7 @@
 #ifndef BrainShift_LatticeShapes_h
 #define BrainShift_LatticeShapes_h
 
-#include "Stroke.h"
+#include "Filters/Deformation/Stroke.h"
 #include "vtkBrainShiftWidgetsModule.h" // for the export macro
 
 #include <glm/vec3.hpp>

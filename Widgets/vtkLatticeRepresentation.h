@@ -10,7 +10,7 @@
 #ifndef vtkLatticeRepresentation_h
 #define vtkLatticeRepresentation_h
 
-#include "LatticeShapes.h"
+#include "Widgets/LatticeShapes.h"
 #include "vtkBrainShiftWidgetsModule.h" // for the export macro
 #include "vtkWidgetRepresentation.h"
 

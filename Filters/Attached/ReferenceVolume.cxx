@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Attached/ReferenceVolume.h"
+
+#include "Filters/Attached/GridArray.h"
+#include "Filters/Attached/SharedArray.h"
+
+#include "vtkDataObject.h"
+#include "vtkFieldData.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+
+namespace brainshift
+{
+namespace
+{
+constexpr const char* VoxelsName = "ReferenceVoxels";
+constexpr const char* GridName = "ReferenceGrid";
+constexpr const char* ShowName = "ReferenceShow";
+constexpr const char* CavityName = "CavityVoxels";
+constexpr const char* CavityGridName = "CavityGrid";
+
+void attachPlaced(vtkFieldData* fields, const PlacedVoxels& placed, const char* gridName)
+{
+  fields->AddArray(placed.voxels);
+  attachGrid(fields, gridName, placed.grid);
+}
+
+PlacedVoxels readPlaced(vtkFieldData* fields, const char* name, const char* gridName)
+{
+  PlacedVoxels placed;
+  vtkDataArray* voxels = fields->GetArray(name);
+  if (!voxels || !readGrid(fields, gridName, placed.grid))
+  {
+    return placed;
+  }
+  const bool fits = voxels->GetNumberOfTuples() == static_cast<vtkIdType>(placed.grid.count());
+  placed.voxels = fits ? voxels : nullptr;
+  return placed;
+}
+}
+
+vtkSmartPointer<vtkDataArray> asReferenceVoxels(vtkDataArray* scalars)
+{
+  return sharedAs(VoxelsName, scalars);
+}
+
+vtkSmartPointer<vtkDataArray> asCavityVoxels(const Mask& mask)
+{
+  vtkNew<vtkUnsignedCharArray> voxels;
+  voxels->SetNumberOfTuples(static_cast<vtkIdType>(mask.inside.size()));
+  std::copy(mask.inside.begin(), mask.inside.end(), voxels->GetPointer(0));
+  return sharedAs(CavityName, voxels); // whose range is found once
+}
+
+void attachReference(vtkDataObject* volume, const ReferenceVolume& reference)
+{
+  vtkFieldData* fields = volume->GetFieldData();
+  attachPlaced(fields, reference, GridName);
+  if (reference.cavity.voxels)
+  {
+    attachPlaced(fields, reference.cavity, CavityGridName);
+  }
+  else
+  {
+    fields->RemoveArray(CavityName); // those of a reference before this one
+    fields->RemoveArray(CavityGridName);
+  }
+  vtkNew<vtkIntArray> show;
+  show->SetName(ShowName);
+  show->InsertNextValue(static_cast<int>(reference.show));
+  fields->AddArray(show);
+}
+
+ReferenceVolume readReference(vtkDataObject* volume)
+{
+  vtkFieldData* fields = volume->GetFieldData();
+  ReferenceVolume reference{ readPlaced(fields, VoxelsName, GridName) };
+  if (reference.voxels)
+  {
+    reference.cavity = readPlaced(fields, CavityName, CavityGridName);
+    vtkDataArray* show = fields->GetArray(ShowName);
+    const double shown = show && show->GetNumberOfValues() == 1 ? show->GetComponent(0, 0) : 0.0;
+    reference.show = shown == 1.0 ? ReferenceShow::Deformed
+      : shown == 2.0              ? ReferenceShow::Reference
+                                  : ReferenceShow::Both;
+  }
+  return reference;
+}
+
+glm::dvec3 middleOf(const Grid& grid)
+{
+  return grid.worldFromGrid(glm::dvec3(grid.dimensions - 1) * 0.5);
+}
+
+Grid movedRigidly(const Grid& grid, const RigidMotion& motion)
+{
+  glm::dmat4 turn(1.0);
+  for (int axis = 2; axis >= 0; --axis)
+  {
+    glm::dvec3 about(0.0);
+    about[axis] = 1.0;
+    turn = glm::rotate(turn, glm::radians(motion.rotation[axis]), about);
+  }
+  Grid moved = grid;
+  moved.direction = glm::dmat3(turn) * grid.direction;
+  moved.origin =
+    motion.middle + glm::dmat3(turn) * (grid.origin - motion.middle) + motion.translation;
+  return moved;
+}
+}

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Attached/Resample.h"
+
+#include "Filters/Deformation/Kernels.h"
+#include "Filters/Deformation/Parallel.h"
+
+#include "vtkDataArray.h"
+
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <vector>
+
+namespace brainshift
+{
+namespace
+{
+// A position this far outside the voxels still counts as the border: single precision's share.
+constexpr float BorderTolerance = 1e-3f; // voxels
+
+template <typename T>
+T fromReal(double value)
+{
+  if constexpr (std::is_integral<T>::value)
+  {
+    const double low = static_cast<double>(std::numeric_limits<T>::lowest());
+    const double high = static_cast<double>(std::numeric_limits<T>::max());
+    if constexpr (sizeof(T) <= 2)
+    {
+      // Cut to a whole number above the lowest: floor is a call on processors before SSE 4.1.
+      const double aboveLow = std::min(std::max(value - low + 0.5, 0.0), high - low);
+      return static_cast<T>(static_cast<int>(aboveLow) + std::numeric_limits<T>::lowest());
+    }
+    const double rounded = std::floor(value + 0.5);
+    return rounded <= low ? std::numeric_limits<T>::lowest()
+      : rounded >= high   ? std::numeric_limits<T>::max()
+                          : static_cast<T>(rounded);
+  }
+  else
+  {
+    return static_cast<T>(value);
+  }
+}
+
+// The source array and how to read it at a fractional index.
+template <typename T>
+class Voxels
+{
+public:
+  Voxels(const T* values, int components, const glm::ivec3& dimensions)
+    : Values(values)
+    , Components(components)
+    , Dimensions(dimensions)
+    , StrideY(static_cast<std::ptrdiff_t>(components) * dimensions.x)
+    , StrideZ(StrideY * dimensions.y)
+  {
+  }
+
+  const T* at(const glm::ivec3& index) const
+  {
+    return this->Values + index.z * this->StrideZ + index.y * this->StrideY +
+      static_cast<std::ptrdiff_t>(index.x) * this->Components;
+  }
+
+  bool contains(const glm::vec3& position) const
+  {
+    return glm::all(glm::greaterThanEqual(position, glm::vec3(-BorderTolerance))) &&
+      glm::all(glm::lessThanEqual(position, glm::vec3(this->Dimensions - 1) + BorderTolerance));
+  }
+
+  void read(Reading reading, const glm::vec3& position, T* out) const
+  {
+    switch (reading)
+    {
+      case Reading::Nearest:
+        return this->nearest(position, out);
+      case Reading::Linear:
+        return this->linear(position, out);
+      case Reading::Cubic:
+        return this->cubic(position, out);
+    }
+  }
+
+private:
+  void nearest(const glm::vec3& position, T* out) const
+  {
+    const glm::ivec3 index =
+      glm::clamp(glm::ivec3(glm::floor(position + 0.5f)), glm::ivec3(0), this->Dimensions - 1);
+    std::copy_n(this->at(index), this->Components, out);
+  }
+
+  void linear(const glm::vec3& position, T* out) const
+  {
+    const glm::vec3 inside = glm::clamp(position, glm::vec3(0.0f), glm::vec3(this->Dimensions - 1));
+    const glm::ivec3 low = glm::min(glm::ivec3(inside), glm::max(this->Dimensions - 2, 0));
+    const glm::vec3 w = inside - glm::vec3(low);
+    const glm::ivec3 next = glm::min(this->Dimensions - 1 - low, glm::ivec3(1));
+    const std::ptrdiff_t x = static_cast<std::ptrdiff_t>(next.x) * this->Components;
+    const std::ptrdiff_t y = next.y * this->StrideY;
+    const std::ptrdiff_t z = next.z * this->StrideZ;
+    const T* v = this->at(low);
+    for (int c = 0; c < this->Components; ++c, ++v)
+    {
+      out[c] = fromReal<T>(mix(mix(mix(v[0], v[x], w.x), mix(v[y], v[y + x], w.x), w.y),
+        mix(mix(v[z], v[z + x], w.x), mix(v[z + y], v[z + y + x], w.x), w.y), w.z));
+    }
+  }
+
+  void cubic(const glm::vec3& position, T* out) const
+  {
+    const glm::vec3 inside = glm::clamp(position, glm::vec3(0.0f), glm::vec3(this->Dimensions - 1));
+    const glm::ivec3 low(inside);
+    const glm::vec3 w = inside - glm::vec3(low);
+    const glm::vec4 weight[3] = { kernelWeights(KernelCatmullRom, w.x),
+      kernelWeights(KernelCatmullRom, w.y), kernelWeights(KernelCatmullRom, w.z) };
+    for (int c = 0; c < this->Components; ++c)
+    {
+      double sum = 0.0;
+      for (int tap = 0; tap < 64; ++tap)
+      {
+        const glm::ivec3 step(tap & 3, tap >> 2 & 3, tap >> 4);
+        const glm::ivec3 index = glm::clamp(low + step - 1, glm::ivec3(0), this->Dimensions - 1);
+        sum += static_cast<double>(weight[0][step.x] * weight[1][step.y] * weight[2][step.z]) *
+          static_cast<double>(this->at(index)[c]);
+      }
+      out[c] = fromReal<T>(sum);
+    }
+  }
+
+  // Double for types whose values a float cannot hold.
+  using Real = typename std::conditional<(sizeof(T) < 4), float, double>::type;
+  template <typename A, typename B>
+  static Real mix(A a, B b, float t)
+  {
+    return static_cast<Real>(a) + (static_cast<Real>(b) - static_cast<Real>(a)) * t;
+  }
+
+  const T* Values;
+  int Components;
+  glm::ivec3 Dimensions;
+  std::ptrdiff_t StrideY;
+  std::ptrdiff_t StrideZ;
+};
+
+// The offset field along one row of voxels: nodes blended across y and z once, so that a voxel
+// costs one blend along x.
+class OffsetRow
+{
+public:
+  void set(const NodeField& field, float latticeY, float latticeZ)
+  {
+    const FieldNodes& nodes = field.nodes;
+    const glm::vec2 last(nodes.count.y - 1, nodes.count.z - 1);
+    const glm::vec2 node =
+      glm::clamp((glm::vec2(latticeY, latticeZ) - glm::vec2(nodes.first.y, nodes.first.z)) *
+          static_cast<float>(nodes.perCell),
+        glm::vec2(0.0f), last);
+    const glm::ivec2 low(node);
+    const glm::ivec2 high = glm::min(low + 1, glm::ivec2(last));
+    const glm::vec2 w = node - glm::vec2(low);
+    const auto row = [&](int y, int z) {
+      return &field.values[(static_cast<std::size_t>(z) * nodes.count.y + y) * nodes.count.x];
+    };
+    const glm::vec3* rows[4] = { row(low.x, low.y), row(high.x, low.y), row(low.x, high.y),
+      row(high.x, high.y) };
+    this->Nodes.resize(nodes.count.x);
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    this->MovedFrom = infinity;
+    this->MovedTo = -infinity;
+    for (int x = 0; x < nodes.count.x; ++x)
+    {
+      this->Nodes[x] =
+        glm::mix(glm::mix(rows[0][x], rows[1][x], w.x), glm::mix(rows[2][x], rows[3][x], w.x), w.y);
+      if (this->Nodes[x] != glm::vec3(0.0f))
+      {
+        this->MovedFrom = std::min(this->MovedFrom, x - 1.0f);
+        this->MovedTo = x + 1.0f;
+      }
+    }
+    // Beyond the nodes the last one holds.
+    this->MovedFrom = this->Nodes.front() != glm::vec3(0.0f) ? -infinity : this->MovedFrom;
+    this->MovedTo = this->Nodes.back() != glm::vec3(0.0f) ? infinity : this->MovedTo;
+  }
+
+  // Nodes between which offsets may differ from zero; none if from > to.
+  float movedFrom() const { return this->MovedFrom; }
+  float movedTo() const { return this->MovedTo; }
+
+  glm::vec3 at(float node) const
+  {
+    const int last = static_cast<int>(this->Nodes.size()) - 1;
+    const float inside = std::clamp(node, 0.0f, static_cast<float>(last));
+    const int low = std::min(static_cast<int>(inside), std::max(last - 1, 0));
+    return glm::mix(this->Nodes[low], this->Nodes[std::min(low + 1, last)], inside - low);
+  }
+
+private:
+  std::vector<glm::vec3> Nodes;
+  float MovedFrom = 0.0f;
+  float MovedTo = 0.0f;
+};
+
+template <typename T>
+std::vector<T> lowestValues(vtkDataArray* source)
+{
+  std::vector<T> lowest(source->GetNumberOfComponents());
+  for (int component = 0; component < source->GetNumberOfComponents(); ++component)
+  {
+    double range[2];
+    source->GetFiniteRange(range, component);
+    lowest[component] = range[0] <= range[1] ? fromReal<T>(range[0]) : T(0);
+  }
+  return lowest;
+}
+
+// Writes one row of the target; `index` is its first voxel in source indices.
+template <typename T>
+void resampleRow(const Voxels<T>& voxels, int components, const std::vector<T>& outside,
+  const ResampleGeometry& geometry, const NodeField& offsets, Reading reading, OffsetRow& row,
+  const glm::ivec3& index, T* out)
+{
+  const glm::dvec3 lattice =
+    glm::dvec3(index) * geometry.latticeFromIndex + geometry.latticeOfFirst;
+  const int length = geometry.last.x - geometry.first.x + 1;
+  row.set(offsets, static_cast<float>(lattice.y), static_cast<float>(lattice.z));
+  const glm::vec3 indexFromCells(1.0 / geometry.latticeFromIndex);
+  const float nodeStep = static_cast<float>(geometry.latticeFromIndex.x * offsets.nodes.perCell);
+  const float firstNode =
+    static_cast<float>((lattice.x - offsets.nodes.first.x) * offsets.nodes.perCell);
+  const auto voxelOf = [&](float node) {
+    return static_cast<int>(
+      glm::clamp((node - firstNode) / nodeStep, 0.0f, static_cast<float>(length)));
+  };
+  const int moved = voxelOf(row.movedFrom());
+  const int still = std::max(std::min(voxelOf(row.movedTo()) + 2, length), moved);
+  out = std::copy_n(voxels.at(index), static_cast<std::ptrdiff_t>(moved) * components, out);
+  for (int i = moved; i < still; ++i, out += components)
+  {
+    const glm::vec3 position =
+      glm::vec3(index.x + i, index.y, index.z) + row.at(firstNode + i * nodeStep) * indexFromCells;
+    if (voxels.contains(position))
+    {
+      voxels.read(reading, position, out);
+    }
+    else
+    {
+      std::copy(outside.begin(), outside.end(), out);
+    }
+  }
+  std::copy_n(voxels.at(index + glm::ivec3(still, 0, 0)),
+    static_cast<std::ptrdiff_t>(length - still) * components, out);
+}
+
+template <typename T>
+void resampleTyped(vtkDataArray* source, vtkDataArray* target, const ResampleGeometry& geometry,
+  const NodeField& offsets, Reading reading, const std::function<bool(double)>& proceed)
+{
+  const int components = source->GetNumberOfComponents();
+  const Voxels<T> voxels(
+    static_cast<const T*>(source->GetVoidPointer(0)), components, geometry.dimensions);
+  T* const out = static_cast<T*>(target->GetVoidPointer(0));
+  const std::vector<T> outside = lowestValues<T>(source);
+  const glm::ivec3 size = geometry.last - geometry.first + 1;
+  const vtkIdType rows = static_cast<vtkIdType>(size.y) * size.z;
+  const vtkIdType rowsAtOnce = std::max<vtkIdType>(rows / 20, 256); // between two progress reports
+  for (vtkIdType done = 0; done < rows; done += rowsAtOnce)
+  {
+    if (!proceed(static_cast<double>(done) / rows))
+    {
+      return;
+    }
+    const vtkIdType next = std::min(done + rowsAtOnce, rows);
+    parallelFor(done, next, 64, [&](vtkIdType begin, vtkIdType end) {
+      OffsetRow offsetRow;
+      for (vtkIdType row = begin; row < end; ++row)
+      {
+        const glm::ivec3 index = geometry.first +
+          glm::ivec3(0, static_cast<int>(row % size.y), static_cast<int>(row / size.y));
+        resampleRow(voxels, components, outside, geometry, offsets, reading, offsetRow, index,
+          out + static_cast<std::size_t>(row) * size.x * components);
+      }
+    });
+  }
+}
+}
+
+void resample(vtkDataArray* source, vtkDataArray* target, const ResampleGeometry& geometry,
+  const NodeField& offsets, Reading reading, const std::function<bool(double)>& proceed)
+{
+  switch (source->GetDataType())
+  {
+    vtkTemplateMacro(resampleTyped<VTK_TT>(source, target, geometry, offsets, reading, proceed));
+  }
+}
+}

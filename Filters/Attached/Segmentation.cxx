@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Attached/Segmentation.h"
+
+#include "Filters/Attached/GridArray.h"
+#include "Filters/Attached/MaskImage.h"
+#include "Filters/Attached/SharedArray.h"
+
+#include "vtkDataObject.h"
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+
+namespace brainshift
+{
+namespace
+{
+constexpr const char* GridName = "FFDSegmentationGrid";
+constexpr const char* ChosenName = "FFDSegmentationLabels";
+}
+
+void attachSegmentation(vtkDataObject* volume, const Segmentation& segmentation)
+{
+  vtkFieldData* fields = volume->GetFieldData();
+  for (const char* name : { SegmentationName, GridName, ChosenName })
+  {
+    fields->RemoveArray(name);
+  }
+  if (!segmentation.labels)
+  {
+    return;
+  }
+  fields->AddArray(segmentation.labels);
+  attachGrid(fields, GridName, segmentation.grid);
+  if (!segmentation.chosen.empty())
+  {
+    vtkNew<vtkIntArray> chosen;
+    chosen->SetName(ChosenName);
+    for (const int label : segmentation.chosen)
+    {
+      chosen->InsertNextValue(label);
+    }
+    fields->AddArray(chosen);
+  }
+}
+
+Segmentation readSegmentation(vtkDataObject* volume)
+{
+  vtkFieldData* fields = volume->GetFieldData();
+  Segmentation segmentation;
+  vtkDataArray* labels = fields->GetArray(SegmentationName);
+  if (!labels || !readGrid(fields, GridName, segmentation.grid) ||
+    labels->GetNumberOfValues() != static_cast<vtkIdType>(segmentation.grid.count()))
+  {
+    return segmentation;
+  }
+  segmentation.labels = labels;
+  if (vtkDataArray* chosen = fields->GetArray(ChosenName))
+  {
+    for (vtkIdType i = 0; i < chosen->GetNumberOfTuples(); ++i)
+    {
+      segmentation.chosen.push_back(static_cast<int>(chosen->GetComponent(i, 0)));
+    }
+  }
+  return segmentation;
+}
+
+Mask segmentOf(const Segmentation& segmentation, const std::vector<int>& labels)
+{
+  return { segmentation.grid, insideOf(segmentation.labels, labels) };
+}
+
+std::string SegmentationSource::find(
+  vtkImageData* image, const Grid& volume, Segmentation& segmentation)
+{
+  segmentation = Segmentation();
+  if (!image || image->GetNumberOfPoints() == 0)
+  {
+    return {};
+  }
+  const LabelImage found = labelsOf(image);
+  const std::string problem = problemOf(found, volume, { "segmentation" });
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  if (this->Source != found.labels || this->SourceTime != found.labels->GetMTime())
+  {
+    this->Source = found.labels;
+    this->SourceTime = found.labels->GetMTime();
+    this->Labels = sharedAs(SegmentationName, found.labels);
+  }
+  segmentation.labels = this->Labels;
+  segmentation.grid = found.grid;
+  return {};
+}
+}

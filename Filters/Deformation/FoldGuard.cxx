@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Deformation/FoldGuard.h"
+
+#include "Filters/Deformation/FieldChange.h"
+#include "Filters/Deformation/Parallel.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+
+namespace brainshift
+{
+namespace
+{
+constexpr vtkIdType CellsAtLeast = 64; // for a thread
+// Shares of a stroke are told apart to half a percent of themselves; below the last one nothing
+// of the stroke is left.
+constexpr double ShareStep = 0.005;
+constexpr double SmallestShare = 1e-6;
+// Above the limit by more than single precision can lose. What an earlier stroke brought to the
+// first one may not be proved for it again, rounded otherwise; the second is left for that.
+constexpr float ProvedLimit = SmallestGuardedJacobian + 2e-4f;
+constexpr float ProvedAgainLimit = SmallestGuardedJacobian + 1e-4f;
+
+struct GuardedCell
+{
+  glm::ivec3 at;
+  float limit = ProvedLimit;
+};
+using Cells = std::vector<GuardedCell>;
+
+// The way from one lattice to another, in lattice cells, for all that depends on a box of points.
+class Way
+{
+public:
+  Way(const Lattice& before, const Lattice& after, const IndexBox& changed)
+    : Dimensions(before.grid.dimensions)
+    , First(glm::max(changed.first - 3, glm::ivec3(0)))
+    , Size(glm::min(changed.last + 3, before.grid.dimensions - 1) - First + 1)
+  {
+    for (int k = 0; k < this->Size.z; ++k)
+    {
+      for (int j = 0; j < this->Size.y; ++j)
+      {
+        for (int i = 0; i < this->Size.x; ++i)
+        {
+          const glm::ivec3 at = this->First + glm::ivec3(i, j, k);
+          const std::size_t point = before.grid.offset(at.x, at.y, at.z);
+          const glm::dvec3 from(before.displacements[point]);
+          const glm::dvec3 to(after.displacements[point]);
+          this->From.emplace_back(before.grid.gridVectorFromWorld(from));
+          this->Change.emplace_back(before.grid.gridVectorFromWorld(to - from));
+        }
+      }
+    }
+  }
+
+  CellTaps tapsAround(const glm::ivec3& cell, double part) const
+  {
+    const auto share = static_cast<float>(part);
+    CellTaps taps;
+    int tap = 0;
+    for (int k = -1; k < 3; ++k)
+    {
+      for (int j = -1; j < 3; ++j)
+      {
+        for (int i = -1; i < 3; ++i, ++tap)
+        {
+          const std::size_t point = this->pointOf(cell + glm::ivec3(i, j, k));
+          for (int component = 0; component < 3; ++component)
+          {
+            taps.component[component][tap] =
+              this->From[point][component] + share * this->Change[point][component];
+          }
+        }
+      }
+    }
+    return taps;
+  }
+
+  // Whether any control point around a cell differs.
+  bool changes(const glm::ivec3& cell) const
+  {
+    for (int tap = 0; tap < 64; ++tap)
+    {
+      const glm::ivec3 at = cell + glm::ivec3(tap & 3, tap >> 2 & 3, tap >> 4) - 1;
+      if (this->Change[this->pointOf(at)] != glm::vec3(0.0f))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+private:
+  std::size_t pointOf(const glm::ivec3& index) const
+  {
+    const glm::ivec3 at = glm::clamp(index, glm::ivec3(0), this->Dimensions - 1) - this->First;
+    return (static_cast<std::size_t>(at.z) * this->Size.y + at.y) * this->Size.x + at.x;
+  }
+
+  glm::ivec3 Dimensions;
+  glm::ivec3 First;
+  glm::ivec3 Size;
+  std::vector<glm::vec3> From;
+  std::vector<glm::vec3> Change;
+};
+
+// Takes those cells out of a list that do not hold.
+Cells takeFailing(const CellProof& proof, const Way& way, Cells& cells, double share)
+{
+  std::vector<char> failed(cells.size());
+  const auto count = static_cast<vtkIdType>(cells.size());
+  parallelFor(0, count, CellsAtLeast, [&](vtkIdType first, vtkIdType last) {
+    for (vtkIdType i = first; i < last; ++i)
+    {
+      failed[i] = !proof.holds(way.tapsAround(cells[i].at, share), cells[i].at, cells[i].limit);
+    }
+  });
+  Cells kept;
+  Cells failing;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    (failed[i] ? failing : kept).push_back(cells[i]);
+  }
+  cells.swap(kept);
+  return failing;
+}
+
+// The largest share at which one cell holds. It does at 0, and not at `high`.
+double shareOf(const CellProof& proof, const Way& way, const GuardedCell& cell, double high)
+{
+  double low = 0.0;
+  while (high - low > ShareStep * high && high > SmallestShare)
+  {
+    const double middle = 0.5 * (low + high);
+    (proof.holds(way.tapsAround(cell.at, middle), cell.at, cell.limit) ? low : high) = middle;
+  }
+  return low;
+}
+
+// The largest share up to `high` at which all cells hold; they do at 0. Lowered by one failing cell
+// after the other: each spares about half of those that are left.
+double largestShare(const CellProof& proof, const Way& way, const Cells& cells, double high)
+{
+  double share = high;
+  while (share > 0.0)
+  {
+    Cells open = cells;
+    Cells failing = takeFailing(proof, way, open, share);
+    if (failing.empty())
+    {
+      break;
+    }
+    for (; !failing.empty() && share > 0.0; failing = takeFailing(proof, way, open, share))
+    {
+      share = shareOf(proof, way, failing[failing.size() / 2], share);
+      open = failing;
+    }
+  }
+  return share;
+}
+
+IndexBox cellsAround(const IndexBox& points, const glm::ivec3& dimensions)
+{
+  return { glm::max(points.first - 2, glm::ivec3(0)), glm::min(points.last + 1, dimensions - 2) };
+}
+
+void addCells(const IndexBox& box, Cells& cells)
+{
+  glm::ivec3 cell;
+  for (cell.z = box.first.z; cell.z <= box.last.z; ++cell.z)
+  {
+    for (cell.y = box.first.y; cell.y <= box.last.y; ++cell.y)
+    {
+      for (cell.x = box.first.x; cell.x <= box.last.x; ++cell.x)
+      {
+        cells.push_back({ cell });
+      }
+    }
+  }
+}
+}
+
+void FoldGuard::setBase(const Lattice& base, int samples)
+{
+  if (!this->Proof.isFor(base, samples))
+  {
+    this->Proof = CellProof(base, samples);
+  }
+  this->Folded.clear();
+  this->FoldedCount = 0;
+  const glm::ivec3& dimensions = base.grid.dimensions;
+  const Lattice still = makeLattice(base.grid, base.kernel);
+  const IndexBox moved = changedPoints(dimensions, still.displacements, base.displacements);
+  if (moved.empty())
+  {
+    return;
+  }
+  Cells cells;
+  addCells(cellsAround(moved, dimensions), cells);
+  const Cells folded = takeFailing(this->Proof, Way(still, base, moved), cells, 1.0);
+  if (folded.empty())
+  {
+    return;
+  }
+  this->Folded.assign(base.grid.count(), 0);
+  this->FoldedCount = static_cast<int>(folded.size());
+  for (const GuardedCell& cell : folded)
+  {
+    this->Folded[base.grid.offset(cell.at.x, cell.at.y, cell.at.z)] = 1;
+  }
+}
+
+double FoldGuard::share(const Lattice& before, const Lattice& after) const
+{
+  const glm::ivec3& dimensions = before.grid.dimensions;
+  const IndexBox changed = changedPoints(dimensions, before.displacements, after.displacements);
+  if (changed.empty())
+  {
+    return 1.0;
+  }
+  const Way way(before, after, changed);
+  Cells reached;
+  addCells(cellsAround(changed, dimensions), reached);
+  const auto isNotAsked = [&](const GuardedCell& cell) {
+    return !way.changes(cell.at) ||
+      (!this->Folded.empty() && this->Folded[before.grid.offset(cell.at.x, cell.at.y, cell.at.z)]);
+  };
+  reached.erase(std::remove_if(reached.begin(), reached.end(), isNotAsked), reached.end());
+  Cells critical;
+  double share = 1.0;
+  // A cell that holds at the whole stroke need not hold at a part of it, so all are asked again.
+  Cells more = takeFailing(this->Proof, way, reached, 1.0);
+  while (!more.empty() && share > 0.0)
+  {
+    for (GuardedCell cell : takeFailing(this->Proof, way, more, 0.0))
+    {
+      cell.limit = ProvedAgainLimit;
+      more.push_back(cell);
+    }
+    critical.insert(critical.end(), more.begin(), more.end());
+    share = largestShare(this->Proof, way, critical, share);
+    more = takeFailing(this->Proof, way, reached, share);
+  }
+  return share;
+}
+
+Lattice between(const Lattice& before, const Lattice& after, double share)
+{
+  if (share == 0.0)
+  {
+    return before; // `after` may be so far away that it is no number
+  }
+  Lattice lattice = after;
+  const auto part = static_cast<float>(share);
+  for (std::size_t point = 0; point < lattice.displacements.size(); ++point)
+  {
+    const glm::vec3& from = before.displacements[point];
+    lattice.displacements[point] = from + part * (after.displacements[point] - from);
+  }
+  return lattice;
+}
+}

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Deformation/MaskWeights.h"
+
+#include "Filters/Deformation/Parallel.h"
+
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace brainshift
+{
+namespace
+{
+constexpr float Far = std::numeric_limits<float>::max();
+constexpr double Touching = 1e-6; // nodes: a voxel that ends at a cell's face is not in it
+
+// Numbers on the nodes of a refined field, or in its cells.
+template <typename T>
+struct NodeImage
+{
+  glm::ivec3 count;
+  std::vector<T> values;
+
+  NodeImage(const glm::ivec3& size, T value)
+    : count(size)
+    , values(static_cast<std::size_t>(size.x) * size.y * size.z, value)
+  {
+  }
+  std::size_t offset(const glm::ivec3& at) const
+  {
+    return (static_cast<std::size_t>(at.z) * this->count.y + at.y) * this->count.x + at.x;
+  }
+};
+
+// Calls visit(index) for all of a box, both ends included.
+template <typename Visit>
+void forBox(const glm::ivec3& first, const glm::ivec3& last, const Visit& visit)
+{
+  glm::ivec3 at;
+  for (at.z = first.z; at.z <= last.z; ++at.z)
+  {
+    for (at.y = first.y; at.y <= last.y; ++at.y)
+    {
+      for (at.x = first.x; at.x <= last.x; ++at.x)
+      {
+        visit(at);
+      }
+    }
+  }
+}
+
+// Cells of nodes that hold a point outside the mask: in a voxel that is outside ...
+void markVoxels(const Mask& mask, const Grid& nodes, NodeImage<char>& outside)
+{
+  glm::dvec3 half(0.0); // of a voxel's box, along the axes of the nodes
+  glm::dmat3 step;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    glm::dvec3 unit(0.0);
+    unit[axis] = 1.0;
+    step[axis] = nodes.gridVectorFromWorld(mask.grid.worldVectorFromGrid(unit));
+    half += 0.5 * glm::abs(step[axis]);
+  }
+  half -= Touching;
+  const glm::dvec3 origin = nodes.gridFromWorld(mask.grid.origin);
+  std::size_t voxel = 0;
+  forBox(glm::ivec3(0), mask.grid.dimensions - 1, [&](const glm::ivec3& at) {
+    if (!mask.inside[voxel++])
+    {
+      const glm::dvec3 middle = origin + step * glm::dvec3(at);
+      const glm::ivec3 first(glm::max(glm::floor(middle - half), glm::dvec3(0.0)));
+      const glm::ivec3 last(glm::min(glm::floor(middle + half), glm::dvec3(outside.count) - 1.0));
+      forBox(
+        first, last, [&](const glm::ivec3& cell) { outside.values[outside.offset(cell)] = 1; });
+    }
+  });
+}
+
+// ... or beyond all voxels. Their box is convex: a cell is in it if its corners are.
+void markBeyond(const Mask& mask, const Grid& nodes, NodeImage<char>& outside)
+{
+  const glm::dvec3 low(-0.5 - Touching);
+  const glm::dvec3 high = glm::dvec3(mask.grid.dimensions) - 0.5 + Touching;
+  const glm::ivec3 lastCell = outside.count - 1;
+  forBox(glm::ivec3(0), nodes.dimensions - 1, [&](const glm::ivec3& node) {
+    const glm::dvec3 at = mask.grid.gridFromWorld(nodes.worldFromGrid(glm::dvec3(node)));
+    if (glm::any(glm::lessThan(at, low)) || glm::any(glm::greaterThan(at, high)))
+    {
+      forBox(glm::max(node - 1, glm::ivec3(0)), glm::min(node, lastCell),
+        [&](const glm::ivec3& cell) { outside.values[outside.offset(cell)] = 1; });
+    }
+  });
+}
+
+// Squared distance (mm) to the nearest node that cannot move, if below the reach.
+NodeImage<float> squaredDistances(const NodeImage<char>& outside, const Grid& nodes, double reachMm)
+{
+  NodeImage<float> squared(nodes.dimensions, Far);
+  const glm::ivec3 lastNode = nodes.dimensions - 1;
+  forBox(glm::ivec3(0), lastNode, [&](const glm::ivec3& node) {
+    bool still = glm::any(glm::equal(node, glm::ivec3(0))) || glm::any(glm::equal(node, lastNode));
+    if (!still)
+    {
+      forBox(node - 1, node,
+        [&](const glm::ivec3& cell) { still = still || outside.values[outside.offset(cell)]; });
+    }
+    if (still)
+    {
+      squared.values[squared.offset(node)] = 0.0f;
+    }
+  });
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    // Squared distances add up axis by axis, so each looks along its own rows only.
+    const NodeImage<float> before = squared;
+    const int reach = static_cast<int>(std::ceil(reachMm / nodes.spacing[axis]));
+    parallelFor(0, nodes.dimensions.z, 1, [&](vtkIdType begin, vtkIdType end) {
+      forBox({ 0, 0, static_cast<int>(begin) },
+        { lastNode.x, lastNode.y, static_cast<int>(end) - 1 }, [&](const glm::ivec3& node) {
+          float& nearest = squared.values[squared.offset(node)];
+          glm::ivec3 other = node;
+          const int last = std::min(node[axis] + reach, lastNode[axis]);
+          for (other[axis] = std::max(node[axis] - reach, 0); other[axis] <= last; ++other[axis])
+          {
+            const float away = static_cast<float>((other[axis] - node[axis]) * nodes.spacing[axis]);
+            nearest = std::min(nearest, before.values[before.offset(other)] + away * away);
+          }
+        });
+    });
+  }
+  return squared;
+}
+}
+
+std::shared_ptr<const NodeWeights> maskWeights(
+  const Grid& lattice, int samples, const Mask& mask, double featherMm)
+{
+  auto weights = std::make_shared<NodeWeights>();
+  weights->perCell = samples + 1;
+  const Grid nodes = withDimensions(lattice, (lattice.dimensions - 1) * weights->perCell + 1);
+  NodeImage<char> outside(nodes.dimensions - 1, 0);
+  markVoxels(mask, nodes, outside);
+  markBeyond(mask, nodes, outside);
+  weights->values = squaredDistances(outside, nodes, featherMm).values;
+  for (float& value : weights->values)
+  {
+    const double share =
+      value == 0.0f ? 0.0 : std::sqrt(static_cast<double>(value)) / std::max(featherMm, 1e-9);
+    const double t = std::min(share, 1.0);
+    value = static_cast<float>(t * t * (3.0 - 2.0 * t));
+  }
+  return weights;
+}
+}

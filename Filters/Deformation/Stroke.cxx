@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Deformation/Stroke.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace brainshift
+{
+namespace
+{
+Stroke strokeFromNumbers(const double* numbers)
+{
+  Stroke stroke;
+  stroke.tool = static_cast<Tool>(static_cast<int>(numbers[0]));
+  stroke.anchor = { numbers[1], numbers[2], numbers[3] };
+  stroke.vector = { numbers[4], numbers[5], numbers[6] };
+  stroke.axis = { numbers[7], numbers[8], numbers[9] };
+  stroke.major = numbers[10];
+  stroke.minor = numbers[11];
+  stroke.sigma = numbers[12];
+  stroke.enabled = numbers[13] != 0.0;
+  return stroke;
+}
+
+void requireRadius(std::ostream& problem, const char* name, double value)
+{
+  if (value <= 0.0)
+  {
+    problem << "its " << name << " is " << value << " mm; it must be above 0 mm";
+  }
+}
+
+// What is wrong with one stroke's numbers; empty if nothing is.
+std::string problemOf(const double* numbers)
+{
+  std::ostringstream problem;
+  const auto bad = std::find_if_not(
+    numbers, numbers + NumbersPerStroke, [](double value) { return std::isfinite(value); });
+  if (bad != numbers + NumbersPerStroke)
+  {
+    problem << "its number " << bad - numbers << " is " << *bad << "; it must be finite";
+    return problem.str();
+  }
+  if (numbers[0] != 0.0 && numbers[0] != 1.0 && numbers[0] != 2.0)
+  {
+    problem << "its tool is " << numbers[0] << "; it must be 0 (Move), 1 (Soft) or 2 (Stamp)";
+    return problem.str();
+  }
+  const Stroke stroke = strokeFromNumbers(numbers);
+  if (stroke.major < 0.0 || stroke.minor < 0.0)
+  {
+    problem << "its radii are " << stroke.major << " and " << stroke.minor
+            << " mm; they must not be below 0 mm";
+  }
+  else if (stroke.tool != Tool::Move && stroke.sigma <= 0.0)
+  {
+    problem << "its sigma is " << stroke.sigma << "; it must be above 0";
+  }
+  else if (stroke.tool == Tool::Soft)
+  {
+    requireRadius(problem, "radius", stroke.major);
+  }
+  else if (stroke.tool == Tool::Stamp)
+  {
+    requireRadius(problem, "major radius", stroke.major);
+    requireRadius(problem, "minor radius", stroke.minor);
+    if (glm::length(stroke.axis) <= 0.0)
+    {
+      problem << "its axis is 0 0 0; it must have a length above 0";
+    }
+  }
+  return problem.str();
+}
+}
+
+bool Stroke::operator==(const Stroke& other) const
+{
+  return this->tool == other.tool && this->anchor == other.anchor && this->vector == other.vector &&
+    this->axis == other.axis && this->major == other.major && this->minor == other.minor &&
+    this->sigma == other.sigma && this->enabled == other.enabled;
+}
+
+std::vector<Stroke> strokesFromNumbers(const std::vector<double>& numbers, std::string& error)
+{
+  error.clear();
+  std::vector<Stroke> strokes;
+  if (numbers.size() % NumbersPerStroke != 0)
+  {
+    error = "Strokes holds " + std::to_string(numbers.size()) + " numbers; it must hold " +
+      std::to_string(NumbersPerStroke) + " for each stroke";
+    return strokes;
+  }
+  strokes.reserve(numbers.size() / NumbersPerStroke);
+  for (std::size_t first = 0; first < numbers.size(); first += NumbersPerStroke)
+  {
+    const std::string problem = problemOf(&numbers[first]);
+    if (!problem.empty())
+    {
+      error = "Stroke " + std::to_string(first / NumbersPerStroke) + ": " + problem;
+      return {};
+    }
+    strokes.push_back(strokeFromNumbers(&numbers[first]));
+  }
+  return strokes;
+}
+
+std::vector<double> numbersFromStrokes(const std::vector<Stroke>& strokes)
+{
+  std::vector<double> numbers;
+  numbers.reserve(strokes.size() * NumbersPerStroke);
+  for (const Stroke& stroke : strokes)
+  {
+    numbers.push_back(static_cast<double>(stroke.tool));
+    for (const glm::dvec3& vector : { stroke.anchor, stroke.vector, stroke.axis })
+    {
+      numbers.insert(numbers.end(), { vector.x, vector.y, vector.z });
+    }
+    numbers.insert(
+      numbers.end(), { stroke.major, stroke.minor, stroke.sigma, stroke.enabled ? 1.0 : 0.0 });
+  }
+  return numbers;
+}
+
+double falloff(double distance, double sigma)
+{
+  if (distance >= 1.0)
+  {
+    return 0.0;
+  }
+  // The Gaussian alone still has 13 % at the surface for sigma 0.5; the second factor brings value
+  // and slope to 0 there and leaves the middle alone.
+  const double rim = 1.0 - distance * distance;
+  return std::exp(-0.5 * distance * distance / (sigma * sigma)) * rim * rim;
+}
+
+double normalisedDistance(const Stroke& stroke, const glm::dvec3& position)
+{
+  const glm::dvec3 fromAnchor = position - stroke.anchor;
+  if (stroke.tool == Tool::Soft)
+  {
+    return glm::length(fromAnchor) / stroke.major;
+  }
+  const double along = glm::dot(fromAnchor, glm::normalize(stroke.axis));
+  const double acrossSquared = std::max(0.0, glm::dot(fromAnchor, fromAnchor) - along * along);
+  return std::sqrt(
+    along * along / (stroke.major * stroke.major) + acrossSquared / (stroke.minor * stroke.minor));
+}
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Files/FieldFile.h"
+
+#include "Filters/Files/FieldFileFormats.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace brainshift
+{
+namespace
+{
+bool endsWith(const std::string& text, const std::string& end)
+{
+  return text.size() >= end.size() &&
+    std::equal(end.rbegin(), end.rend(), text.rbegin(), [](char wanted, char found) {
+      return wanted == std::tolower(static_cast<unsigned char>(found));
+    });
+}
+
+enum class Format
+{
+  Unknown,
+  NIFTI,
+  MetaImage,
+  NRRD,
+};
+
+Format formatOf(const std::string& fileName)
+{
+  if (endsWith(fileName, ".nii") || endsWith(fileName, ".nii.gz"))
+  {
+    return Format::NIFTI;
+  }
+  if (endsWith(fileName, ".mha") || endsWith(fileName, ".mhd"))
+  {
+    return Format::MetaImage;
+  }
+  const bool isNRRD = endsWith(fileName, ".nrrd") || endsWith(fileName, ".nhdr");
+  return isNRRD ? Format::NRRD : Format::Unknown;
+}
+
+std::string unknownFormat(const std::string& fileName)
+{
+  return "File " + fileName +
+    " has no ending of a displacement field; it must be .nii, .nii.gz, .mha, .mhd, .nrrd or .nhdr";
+}
+}
+
+void reverseXY(FieldFile& field)
+{
+  const glm::dvec3 signs(-1.0, -1.0, 1.0);
+  field.grid.origin *= signs;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    field.grid.direction[axis] *= signs;
+  }
+  for (glm::vec3& displacement : field.displacements)
+  {
+    displacement *= glm::vec3(signs);
+  }
+}
+
+bool isFieldFile(const std::string& fileName)
+{
+  switch (formatOf(fileName))
+  {
+    case Format::NIFTI:
+      return isNIFTIField(fileName);
+    case Format::MetaImage:
+    case Format::NRRD:
+      return isTextHeaderField(fileName);
+    default:
+      return false;
+  }
+}
+
+std::string readFieldFile(const std::string& fileName, FieldFile& field)
+{
+  switch (formatOf(fileName))
+  {
+    case Format::NIFTI:
+      return readNIFTIField(fileName, field);
+    case Format::MetaImage:
+    case Format::NRRD:
+      return readTextHeaderField(fileName, field);
+    default:
+      return unknownFormat(fileName);
+  }
+}
+
+std::string writeFieldFile(const std::string& fileName, const FieldFile& field)
+{
+  switch (formatOf(fileName))
+  {
+    case Format::NIFTI:
+      return writeNIFTIField(fileName, field);
+    case Format::MetaImage:
+      return writeMetaImageField(fileName, field);
+    case Format::NRRD:
+      return writeNRRDField(fileName, field);
+    default:
+      return unknownFormat(fileName);
+  }
+}
+}

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Files/NIFTIGeometry.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace
+{
+constexpr double IdentityTolerance = 1e-6;   // rotations below are float32 rounding of the header
+constexpr double HalfTurnTolerance = 1e-7;   // the same for 1 - |quaternion|^2
+constexpr double SmallestSpacingMm = 1e-9;   // below: a zero column that was rounded
+constexpr double SmallestDeterminant = 1e-6; // of the unit axes; flatter is singular
+
+glm::dmat3 unitColumns(const glm::dmat4& worldFromVoxel)
+{
+  return glm::dmat3(glm::normalize(glm::dvec3(worldFromVoxel[0])),
+    glm::normalize(glm::dvec3(worldFromVoxel[1])), glm::normalize(glm::dvec3(worldFromVoxel[2])));
+}
+
+double largestDifference(const glm::dmat3& a, const glm::dmat3& b)
+{
+  double largest = 0.0;
+  for (int column = 0; column < 3; ++column)
+  {
+    const glm::dvec3 difference = glm::abs(a[column] - b[column]);
+    largest = std::max({ largest, difference.x, difference.y, difference.z });
+  }
+  return largest;
+}
+
+// The orthogonal factor of the polar decomposition, by Newton's iteration.
+glm::dmat3 nearestOrthogonal(glm::dmat3 matrix)
+{
+  constexpr int MostSteps =
+    60; // converges quadratically once near; singular-ish starts take longest
+  for (int step = 0; step < MostSteps; ++step)
+  {
+    const glm::dmat3 next = 0.5 * (matrix + glm::transpose(glm::inverse(matrix)));
+    const double change = largestDifference(next, matrix);
+    matrix = next;
+    if (change < 1e-15)
+    {
+      break;
+    }
+  }
+  return matrix;
+}
+
+// The voxel axis along each RAS axis: the assignment whose cosines have the largest sum. For an
+// orthogonal matrix that sum exceeds 1, so what remains after flipping is always a rotation.
+std::array<int, 3> nearestAxes(const glm::dmat3& axes)
+{
+  std::array<int, 3> candidate{ 0, 1, 2 };
+  std::array<int, 3> best = candidate;
+  double largest = 0.0;
+  do
+  {
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      sum += std::abs(axes[candidate[axis]][axis]);
+    }
+    if (sum > largest + IdentityTolerance) // at a tie the file's own order stays
+    {
+      largest = sum;
+      best = candidate;
+    }
+  } while (std::next_permutation(candidate.begin(), candidate.end()));
+  return best;
+}
+
+double largestCosine(const glm::dmat3& axes)
+{
+  return std::max({ std::abs(glm::dot(axes[0], axes[1])), std::abs(glm::dot(axes[0], axes[2])),
+    std::abs(glm::dot(axes[1], axes[2])) });
+}
+
+// How far apart two affine maps are at most over a box: at one of its corners.
+double largestCornerDistance(const brainshift::Grid& grid, const glm::dmat4& worldFromGrid)
+{
+  double largest = 0.0;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const glm::dvec3 position = glm::dvec3(grid.dimensions - 1) *
+      glm::dvec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1);
+    const glm::dvec3 world(worldFromGrid * glm::dvec4(position, 1.0));
+    largest = std::max(largest, glm::distance(world, grid.worldFromGrid(position)));
+  }
+  return largest;
+}
+
+glm::dmat3 rotationFromQuaternion(const glm::dvec3& stored)
+{
+  const double b = stored.x;
+  const double c = stored.y;
+  const double d = stored.z;
+  const double rest = 1.0 - (b * b + c * c + d * d);
+  if (rest < HalfTurnTolerance) // half a turn: the real part is rounding, so leave it out
+  {
+    const glm::dvec3 n = glm::normalize(stored);
+    return 2.0 * glm::outerProduct(n, n) - glm::dmat3(1.0);
+  }
+  const double a = std::sqrt(rest);
+  return glm::dmat3(a * a + b * b - c * c - d * d, 2.0 * (b * c + a * d), 2.0 * (b * d - a * c),
+    2.0 * (b * c - a * d), a * a + c * c - b * b - d * d, 2.0 * (c * d + a * b),
+    2.0 * (b * d + a * c), 2.0 * (c * d - a * b), a * a + d * d - b * b - c * c);
+}
+
+glm::dmat4 affine(const glm::dmat3& axes, const glm::dvec3& offset)
+{
+  return glm::dmat4(glm::dvec4(axes[0], 0.0), glm::dvec4(axes[1], 0.0), glm::dvec4(axes[2], 0.0),
+    glm::dvec4(offset, 1.0));
+}
+}
+
+namespace brainshift
+{
+double mmPerNIFTIUnit(int xyztUnits)
+{
+  switch (xyztUnits & 0x07)
+  {
+    case 1: // metre
+      return 1000.0;
+    case 3: // micrometre
+      return 0.001;
+    default:
+      return 1.0;
+  }
+}
+
+double secondsPerNIFTIUnit(int xyztUnits)
+{
+  switch (xyztUnits & 0x38)
+  {
+    case 16: // millisecond
+      return 1e-3;
+    case 24: // microsecond
+      return 1e-6;
+    default:
+      return 1.0;
+  }
+}
+
+glm::dmat4 worldFromVoxel(const NIFTIPlacement& placement)
+{
+  if (placement.sformCode > 0)
+  {
+    glm::dmat4 world(1.0);
+    for (int row = 0; row < 3; ++row)
+    {
+      for (int column = 0; column < 4; ++column)
+      {
+        world[column][row] = placement.mmPerUnit * placement.sformRows[row][column];
+      }
+    }
+    return world;
+  }
+  glm::dvec3 size = glm::abs(placement.pixelSize);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    size[axis] = placement.mmPerUnit * (size[axis] == 0.0 ? 1.0 : size[axis]); // as the standard
+  }
+  glm::dmat3 axes(1.0);
+  glm::dvec3 offset(0.0);
+  if (placement.qformCode > 0)
+  {
+    axes = rotationFromQuaternion(placement.quaternion);
+    axes[2] *= placement.qfac < 0.0 ? -1.0 : 1.0;
+    offset = placement.mmPerUnit * placement.qformOffset;
+  }
+  return affine(glm::dmat3(size.x * axes[0], size.y * axes[1], size.z * axes[2]), offset);
+}
+
+std::string affineProblem(const glm::dmat4& worldFromVoxel)
+{
+  std::ostringstream problem;
+  for (int column = 0; column < 4; ++column)
+  {
+    for (int row = 0; row < 3; ++row)
+    {
+      if (!std::isfinite(worldFromVoxel[column][row]))
+      {
+        problem << "row " << row << ", column " << column << " of the affine is "
+                << worldFromVoxel[column][row] << "; it has to be finite";
+        return problem.str();
+      }
+    }
+    const double spacingMm = glm::length(glm::dvec3(worldFromVoxel[column]));
+    if (column < 3 && !(spacingMm >= SmallestSpacingMm))
+    {
+      problem << "column " << column << " of the affine has length " << spacingMm
+              << " mm; at least " << SmallestSpacingMm << " mm is needed";
+      return problem.str();
+    }
+  }
+  const double determinant = glm::determinant(unitColumns(worldFromVoxel));
+  if (!(std::abs(determinant) >= SmallestDeterminant))
+  {
+    problem << "the affine is singular: the determinant of its unit axes is " << determinant
+            << "; at least " << SmallestDeterminant << " is needed";
+  }
+  return problem.str();
+}
+
+NIFTIGrid nearestRasGrid(const glm::dmat4& worldFromVoxel, const glm::ivec3& dimensions)
+{
+  const glm::dmat3 axes = unitColumns(worldFromVoxel);
+  const glm::dmat3 orthogonal = nearestOrthogonal(axes);
+  NIFTIGrid found;
+  found.shear = largestCosine(axes);
+  found.voxelAxis = nearestAxes(orthogonal);
+  glm::dmat4 worldFromGrid(1.0);
+  worldFromGrid[3] = worldFromVoxel[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int voxelAxis = found.voxelAxis[axis];
+    found.reversed[axis] = orthogonal[voxelAxis][axis] < 0.0;
+    const double sign = found.reversed[axis] ? -1.0 : 1.0;
+    found.grid.dimensions[axis] = dimensions[voxelAxis];
+    found.grid.spacing[axis] = glm::length(glm::dvec3(worldFromVoxel[voxelAxis]));
+    found.grid.direction[axis] = sign * orthogonal[voxelAxis];
+    worldFromGrid[axis] = sign * worldFromVoxel[voxelAxis];
+    if (found.reversed[axis])
+    {
+      worldFromGrid[3] += worldFromVoxel[voxelAxis] * double(dimensions[voxelAxis] - 1);
+    }
+  }
+  if (largestDifference(found.grid.direction, glm::dmat3(1.0)) < IdentityTolerance)
+  {
+    found.grid.direction = glm::dmat3(1.0);
+  }
+  found.grid.origin = glm::dvec3(worldFromGrid[3]);
+  if (found.shear > LargestUnreportedShear) // no corner can be right, so the centre is
+  {
+    const glm::dvec3 centre = 0.5 * glm::dvec3(found.grid.dimensions - 1);
+    found.grid.origin =
+      glm::dvec3(worldFromGrid * glm::dvec4(centre, 1.0)) - found.grid.worldVectorFromGrid(centre);
+  }
+  found.largestErrorMm = largestCornerDistance(found.grid, worldFromGrid);
+  return found;
+}
+}

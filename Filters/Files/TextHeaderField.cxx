@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Files/FieldFileFormats.h"
+#include "Filters/Files/TextHeader.h"
+
+#include "vtk_zlib.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+namespace brainshift
+{
+namespace
+{
+constexpr int DetectZlibOrGzip = 15 + 32; // zlib's window bits
+
+bool thisMachineIsBigEndian()
+{
+  const int one = 1;
+  char first;
+  std::memcpy(&first, &one, 1);
+  return first == 0;
+}
+
+// Unpacks into `to`, whole; false if the packed bytes are damaged or unpack to fewer.
+bool unpack(const std::vector<char>& packed, std::vector<char>& to)
+{
+  z_stream stream{};
+  if (inflateInit2(&stream, DetectZlibOrGzip) != Z_OK)
+  {
+    return false;
+  }
+  // zlib counts in 32 bits, so both sides go in pieces.
+  constexpr std::size_t Piece = 1u << 30;
+  std::size_t in = 0;
+  std::size_t out = 0;
+  int status = Z_OK;
+  while (status == Z_OK && out < to.size())
+  {
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + in));
+    stream.avail_in = static_cast<uInt>(std::min(Piece, packed.size() - in));
+    stream.next_out = reinterpret_cast<Bytef*>(to.data() + out);
+    stream.avail_out = static_cast<uInt>(std::min(Piece, to.size() - out));
+    const uInt inBefore = stream.avail_in;
+    const uInt outBefore = stream.avail_out;
+    status = inflate(&stream, Z_NO_FLUSH);
+    in += inBefore - stream.avail_in;
+    out += outBefore - stream.avail_out;
+  }
+  inflateEnd(&stream);
+  return out == to.size();
+}
+
+std::string readData(const std::string& fileName, const TextHeader& header, std::vector<char>& data)
+{
+  const std::string dataFile = header.dataFile.empty()
+    ? fileName
+    : (std::filesystem::path(fileName).parent_path() / header.dataFile).string();
+  std::ifstream file(dataFile, std::ios::binary);
+  if (!file)
+  {
+    return "names the file " + dataFile + ", which cannot be opened";
+  }
+  file.seekg(0, std::ios::end);
+  const auto size = static_cast<std::size_t>(file.tellg());
+  const std::size_t bytes = size - std::min(header.headerBytes, size);
+  if (!header.isPacked && bytes < header.dataBytes())
+  {
+    return "promises " + std::to_string(header.dataBytes()) + " bytes of numbers; there are " +
+      std::to_string(bytes);
+  }
+  std::vector<char> stored(header.isPacked ? bytes : header.dataBytes());
+  file.seekg(static_cast<std::streamoff>(header.headerBytes));
+  file.read(stored.data(), static_cast<std::streamsize>(stored.size()));
+  if (!header.isPacked)
+  {
+    data = std::move(stored);
+    return {};
+  }
+  // No stream unpacks to more than some thousand times its size: a damaged header asks for more.
+  if (header.dataBytes() / 1100 > bytes)
+  {
+    return "promises " + std::to_string(header.dataBytes()) + " bytes of numbers in " +
+      std::to_string(bytes) + " packed ones";
+  }
+  data.resize(header.dataBytes());
+  return unpack(stored, data) ? std::string() : "holds packed numbers that are damaged or too few";
+}
+
+template <typename Number>
+void copyNumbers(std::vector<char>& data, bool swap, std::vector<glm::vec3>& vectors)
+{
+  for (std::size_t i = 0; i < 3 * vectors.size(); ++i)
+  {
+    char* bytes = data.data() + i * sizeof(Number);
+    if (swap)
+    {
+      std::reverse(bytes, bytes + sizeof(Number));
+    }
+    Number number;
+    std::memcpy(&number, bytes, sizeof(Number));
+    vectors[i / 3][static_cast<int>(i % 3)] = static_cast<float>(number);
+  }
+}
+
+std::string list(const glm::dvec3& numbers, const char* between)
+{
+  std::ostringstream text;
+  text.precision(17);
+  text << numbers.x << between << numbers.y << between << numbers.z;
+  return text.str();
+}
+
+const char* byteOrder()
+{
+  return thisMachineIsBigEndian() ? "big" : "little";
+}
+
+std::string write(const std::string& fileName, const std::string& header, const FieldFile& field)
+{
+  std::ofstream file(fileName, std::ios::binary);
+  file << header;
+  file.write(reinterpret_cast<const char*>(field.displacements.data()),
+    static_cast<std::streamsize>(field.displacements.size() * sizeof(glm::vec3)));
+  file.close();
+  return file ? std::string() : "File " + fileName + " cannot be written";
+}
+}
+
+bool isTextHeaderField(const std::string& fileName)
+{
+  TextHeader header;
+  return readTextHeader(fileName, header).empty();
+}
+
+std::string readTextHeaderField(const std::string& fileName, FieldFile& field)
+{
+  TextHeader header;
+  std::vector<char> data;
+  std::string problem = readTextHeader(fileName, header);
+  problem = problem.empty() ? readData(fileName, header, data) : problem;
+  if (!problem.empty())
+  {
+    return "File " + fileName + " " + problem;
+  }
+  field.grid = header.grid;
+  field.direction = header.direction;
+  field.displacements.resize(header.grid.count());
+  const bool swap = header.isBigEndian != thisMachineIsBigEndian();
+  if (header.isDouble)
+  {
+    copyNumbers<double>(data, swap, field.displacements);
+  }
+  else
+  {
+    copyNumbers<float>(data, swap, field.displacements);
+  }
+  reverseXY(field);
+  return {};
+}
+
+std::string writeMetaImageField(const std::string& fileName, const FieldFile& ras)
+{
+  FieldFile field = ras;
+  reverseXY(field);
+  const Grid& grid = field.grid;
+  std::ostringstream header;
+  header << "ObjectType = Image\nNDims = 3\n"
+         << "Comment = "
+         << (field.direction == Direction::Forward ? ForwardComment : BackwardComment) << "\n"
+         << "BinaryData = True\nBinaryDataByteOrderMSB = "
+         << (thisMachineIsBigEndian() ? "True" : "False") << "\nCompressedData = False\n"
+         << "TransformMatrix = " << list(grid.direction[0], " ") << " "
+         << list(grid.direction[1], " ") << " " << list(grid.direction[2], " ") << "\n"
+         << "Offset = " << list(grid.origin, " ") << "\nCenterOfRotation = 0 0 0\n"
+         << "ElementSpacing = " << list(grid.spacing, " ") << "\n"
+         << "DimSize = " << list(glm::dvec3(grid.dimensions), " ") << "\n"
+         << "ElementNumberOfChannels = 3\nElementType = MET_FLOAT\nElementDataFile = LOCAL\n";
+  return write(fileName, header.str(), field);
+}
+
+std::string writeNRRDField(const std::string& fileName, const FieldFile& ras)
+{
+  FieldFile field = ras;
+  reverseXY(field);
+  const Grid& grid = field.grid;
+  std::ostringstream header;
+  header << "NRRD0005\ntype: float\ndimension: 4\nspace: left-posterior-superior\n"
+         << "sizes: 3 " << list(glm::dvec3(grid.dimensions), " ") << "\nspace directions: none";
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    header << " (" << list(grid.direction[axis] * grid.spacing[axis], ",") << ")";
+  }
+  header << "\nkinds: vector domain domain domain\nendian: " << byteOrder()
+         << "\nencoding: raw\nspace origin: (" << list(grid.origin, ",") << ")\n"
+         << "displacement field type:="
+         << (field.direction == Direction::Forward ? "modeling" : "resampling") << "\n\n";
+  return write(fileName, header.str(), field);
+}
+}

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Traces/DeformedSurface.h"
+
+#include "Filters/Deformation/Parallel.h"
+#include "Filters/Deformation/PointMap.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace brainshift
+{
+namespace
+{
+constexpr vtkIdType PointsAtLeast = 512; // for a thread
+
+// Cells of a lattice: between control points.
+Grid cellsOf(const Grid& lattice)
+{
+  Grid cells = lattice;
+  cells.dimensions = lattice.dimensions - 1;
+  return cells;
+}
+
+// Cells whose displacement, anywhere in them, may differ between two lattices on one grid.
+std::vector<char> changedCells(const Lattice& before, const Lattice& after)
+{
+  const Grid cells = cellsOf(after.grid);
+  std::vector<char> changed(cells.count(), 0);
+  glm::ivec3 point;
+  std::size_t index = 0;
+  for (point.z = 0; point.z < after.grid.dimensions.z; ++point.z)
+  {
+    for (point.y = 0; point.y < after.grid.dimensions.y; ++point.y)
+    {
+      for (point.x = 0; point.x < after.grid.dimensions.x; ++point.x, ++index)
+      {
+        if (before.displacements[index] == after.displacements[index])
+        {
+          continue;
+        }
+        // A cell's kernel spans the control points from one before it to two after it.
+        const glm::ivec3 low = glm::max(point - 2, glm::ivec3(0));
+        const glm::ivec3 high = glm::min(point + 1, cells.dimensions - 1);
+        for (int k = low.z; k <= high.z; ++k)
+        {
+          for (int j = low.y; j <= high.y; ++j)
+          {
+            std::fill_n(changed.begin() + static_cast<std::ptrdiff_t>(cells.offset(low.x, j, k)),
+              high.x - low.x + 1, char(1));
+          }
+        }
+      }
+    }
+  }
+  return changed;
+}
+}
+
+DeformedSurface::DeformedSurface(TriangleMesh rest)
+  : Rest(std::move(rest))
+  , Deformed(this->Rest.points)
+  , Tree(this->Rest)
+{
+}
+
+void DeformedSurface::LayOn(const Grid& lattice)
+{
+  const Grid cells = cellsOf(lattice);
+  this->CellOf.resize(this->Rest.points.size());
+  for (std::size_t point = 0; point < this->CellOf.size(); ++point)
+  {
+    const glm::ivec3 cell =
+      glm::clamp(glm::ivec3(glm::floor(lattice.gridFromWorld(this->Rest.points[point]))),
+        glm::ivec3(0), cells.dimensions - 1);
+    this->CellOf[point] = static_cast<int>(cells.offset(cell.x, cell.y, cell.z));
+  }
+  this->Deformed = this->Rest.points;
+  this->FitAll = true;
+}
+
+void DeformedSurface::follow(
+  const Lattice& lattice, const std::function<bool(const glm::dvec3&)>& isRemoved)
+{
+  if (this->Followed.grid != lattice.grid || this->Followed.kernel != lattice.kernel ||
+    !sameMask(this->Followed.mask, lattice.mask))
+  {
+    this->LayOn(lattice.grid);
+    this->Followed = makeLattice(lattice.grid, lattice.kernel);
+  }
+  const std::vector<char> changed = changedCells(this->Followed, lattice);
+  std::vector<char> moved(this->CellOf.size());
+  std::transform(this->CellOf.begin(), this->CellOf.end(), moved.begin(),
+    [&](int cell) { return changed[cell]; });
+  this->Mapped = std::count(moved.begin(), moved.end(), char(1));
+  const PointMap map(lattice);
+  const auto count = static_cast<vtkIdType>(moved.size());
+  parallelFor(0, count, PointsAtLeast, [&](vtkIdType first, vtkIdType end) {
+    for (vtkIdType i = first; i < end; ++i)
+    {
+      if (moved[i])
+      {
+        this->Deformed[i] = map.deformedFromRest(this->Rest.points[i]);
+      }
+    }
+  });
+  // After a cavity was looked at, or points were put back, nothing of the tree is known.
+  const bool fitAll = isRemoved || this->FitAll;
+  this->FitAll = static_cast<bool>(isRemoved);
+  std::vector<char> kept;
+  if (isRemoved)
+  {
+    kept.resize(this->Deformed.size());
+    std::transform(this->Deformed.begin(), this->Deformed.end(), kept.begin(),
+      [&](const glm::dvec3& point) { return !isRemoved(point); });
+  }
+  this->Tree.fit(this->Deformed, fitAll ? std::vector<char>() : moved, kept);
+  this->Followed = lattice;
+}
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Representations/Field/SceneDeformation.h"
+
+#include "Representations/Picture/RayCaster.h"
+
+#include "vtkImageData.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkTextureObject.h"
+
+namespace brainshift
+{
+bool SceneDeformation::update(vtkImageData* image, std::string& problem)
+{
+  const unsigned long long latest = deformationTime(image);
+  if (latest == this->time)
+  {
+    return true;
+  }
+  this->time = latest;
+  Deformation source;
+  this->deformed = carriesDeformation(image) && readDeformation(image, source, problem);
+  if (!this->deformed)
+  {
+    return problem.empty();
+  }
+  this->lattice = effectiveLattice(source);
+  this->request.dimensions = this->lattice.grid.dimensions;
+  this->request.kernel = this->lattice.kernel;
+  this->request.samples = source.samples;
+  this->request.inverse = source.inverse;
+  this->request.inCells = displacementsInCells(this->lattice);
+  this->request.nodes = backwardNodes(this->lattice.grid, this->request.inCells, source.samples);
+  this->request.mask = this->lattice.mask;
+  this->moved = movedHull(this->lattice.grid.dimensions, this->request.inCells);
+  return true;
+}
+
+void SceneDeformation::widen(double bounds[6]) const
+{
+  if (this->deformed)
+  {
+    widenByNodes(this->lattice.grid, this->request.nodes, bounds);
+  }
+}
+
+void SceneDeformation::addSizes(DrawnSizes& sizes) const
+{
+  if (this->deformed)
+  {
+    sizes.forwardNodes = (this->request.dimensions - 1) * (this->request.samples + 1) + 1;
+    sizes.backwardNodes = this->request.nodes.count;
+    sizes.masked = this->request.mask != nullptr;
+  }
+}
+
+bool DeviceDeformation::update(vtkOpenGLRenderWindow* window, SceneDeformation& deformation,
+  const Grid& grid, const ValueLayout& layout, RayCastScene& scene, Change& change,
+  Counters& counters, std::string& problem)
+{
+  scene.spaceLow = layout.low;
+  scene.spaceHigh = layout.high;
+  change = Change();
+  if (!deformation.deformed)
+  {
+    return true;
+  }
+  const Grid& lattice = deformation.lattice.grid;
+  const glm::vec3 offsetScale(textureFromLattice(grid, layout, lattice));
+  if (this->FieldTime != deformation.time || this->OffsetScale != offsetScale)
+  {
+    deformation.request.offsetScale = offsetScale;
+    this->Timer.Start();
+    const bool updated = this->Field.update(window, deformation.request, counters);
+    this->Timer.Stop();
+    if (!updated)
+    {
+      problem = "The deformation's shaders do not compile or its 3D float textures cannot be made "
+                "on this GPU";
+      return false;
+    }
+    this->FieldTime = deformation.time;
+    this->OffsetScale = offsetScale;
+    change = { this->Field.changed(), this->Field.bent() };
+  }
+  scene.offsets = this->Field.offsets();
+  placeField(grid, layout, lattice, deformation.request.nodes, scene);
+  scene.moved = deformation.moved;
+  return true;
+}
+
+void DeviceDeformation::askTime(std::int64_t& microseconds)
+{
+  constexpr std::int64_t nanosecondsInMicrosecond = 1000;
+  if (this->Timer.Stopped() && this->Timer.Ready())
+  {
+    microseconds =
+      static_cast<std::int64_t>(this->Timer.GetElapsedNanoseconds()) / nanosecondsInMicrosecond;
+  }
+}
+
+void DeviceDeformation::releaseGraphicsResources(vtkWindow* window)
+{
+  this->Field.releaseGraphicsResources(window);
+  this->Timer.ReleaseGraphicsResources();
+}
+}

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Representations/Gpu/GpuMemory.h"
+
+#include "Representations/Gpu/OpenGL.h"
+
+#include "vtkOpenGLRenderWindow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <sstream>
+
+namespace brainshift
+{
+namespace
+{
+constexpr double BytesPerMiB = 1024.0 * 1024.0;
+
+// From the extensions' own texts; loaders differ in whether they know them. Both in KiB.
+constexpr GLenum NvxCurrentAvailable = 0x9049;
+constexpr GLenum AtiTextureFree = 0x87FC;
+
+bool hasExtension(const char* name)
+{
+  GLint count = 0;
+  glGetIntegerv(GL_NUM_EXTENSIONS, &count);
+  for (GLint i = 0; i < count; ++i)
+  {
+    const auto* found = reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, i));
+    if (found && std::strcmp(found, name) == 0)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::int64_t volumeOf(const glm::ivec3& sides)
+{
+  return static_cast<std::int64_t>(sides.x) * sides.y * sides.z;
+}
+
+// One decimal below 100 MiB.
+std::string asMiB(double miB)
+{
+  std::ostringstream text;
+  text << (miB < 100.0 ? std::round(10.0 * miB) / 10.0 : std::round(miB));
+  return text.str();
+}
+
+std::string bytesAsMiB(std::int64_t bytes)
+{
+  return asMiB(static_cast<double>(bytes) / BytesPerMiB);
+}
+}
+
+MemoryNeed memoryNeed(const DrawnSizes& sizes)
+{
+  constexpr std::int64_t GradientBytes = 4; // three numbers of ten bits, two bits spare
+  constexpr std::int64_t NodeBytes = 16;    // four floats
+  constexpr std::int64_t WeightBytes = 4;   // of a mask at a node
+  // Picture, hits, spans, depth; the first three again for a part that moves, at half the sides.
+  constexpr std::int64_t PixelBytes = 4 + 4 + 4 + 4 + (4 + 4 + 4) / 4;
+  const std::int64_t voxels = volumeOf(sizes.voxels);
+  MemoryNeed need;
+  need.scalars = sizes.scalarBytes * voxels;
+  need.colors = sizes.colorBytes * voxels;
+  if (sizes.gradients)
+  {
+    need.gradients =
+      GradientBytes * (sizes.halfResolution ? volumeOf((sizes.voxels + 1) / 2) : voxels);
+  }
+  need.segment = sizes.segmentBytes * voxels;
+  need.field = NodeBytes * (volumeOf(sizes.forwardNodes) + volumeOf(sizes.backwardNodes));
+  need.field += sizes.masked ? WeightBytes * volumeOf(sizes.forwardNodes) : 0;
+  need.images = PixelBytes * sizes.pixels.x * sizes.pixels.y;
+  return need;
+}
+
+double freeMemoryMiB(vtkOpenGLRenderWindow* window)
+{
+  window->MakeCurrent();
+  GLint kiB[4] = { 0, 0, 0, 0 };
+  if (drawsInSoftware())
+  {
+    // They have the extensions, but what they answer is anything: 0, or what the stack held.
+    return UnknownMemory;
+  }
+  if (hasExtension("GL_NVX_gpu_memory_info"))
+  {
+    glGetIntegerv(NvxCurrentAvailable, kiB);
+  }
+  else if (hasExtension("GL_ATI_meminfo"))
+  {
+    glGetIntegerv(AtiTextureFree, kiB); // the pool's total comes first
+  }
+  return kiB[0] > 0 ? kiB[0] / 1024.0 : UnknownMemory;
+}
+
+bool drawsInSoftware()
+{
+  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  return renderer && (std::strstr(renderer, "llvmpipe") || std::strstr(renderer, "softpipe"));
+}
+
+bool takeOutOfMemory()
+{
+  constexpr int MostErrors = 16; // a lost context reports without end
+  bool outOfMemory = false;
+  GLenum error = GL_NO_ERROR;
+  for (int i = 0; i < MostErrors && (error = glGetError()) != GL_NO_ERROR; ++i)
+  {
+    outOfMemory = outOfMemory || error == GL_OUT_OF_MEMORY;
+  }
+  return outOfMemory;
+}
+
+std::string describeNeed(const MemoryNeed& need)
+{
+  return bytesAsMiB(need.total()) + " MiB (scalars " + bytesAsMiB(need.scalars) + ", gradients " +
+    bytesAsMiB(need.gradients) + ", colours " + bytesAsMiB(need.colors) + ", segment " +
+    bytesAsMiB(need.segment) + ", offset field " + bytesAsMiB(need.field) + ", images " +
+    bytesAsMiB(need.images) +
+    (need.reference > 0 ? ", reference " + bytesAsMiB(need.reference) : "") + ")";
+}
+
+std::string memoryProblem(
+  const MemoryNeed& need, std::int64_t held, double limitMiB, double freeMiB)
+{
+  const double neededMiB = static_cast<double>(need.total()) / BytesPerMiB;
+  const std::string needed = "The deformed volume needs " + describeNeed(need) + " of GPU memory; ";
+  if (limitMiB > 0.0 && neededMiB > limitMiB)
+  {
+    return needed + "Memory Limit allows " + asMiB(limitMiB) + " MiB";
+  }
+  const double heldMiB = static_cast<double>(held) / BytesPerMiB;
+  if (freeMiB != UnknownMemory && neededMiB - heldMiB > freeMiB)
+  {
+    return needed + "the GPU has " + asMiB(freeMiB + heldMiB) + " MiB left for it";
+  }
+  return "";
+}
+
+std::string GpuMemory::ask(vtkOpenGLRenderWindow* window, const MemoryNeed& need, double limitMiB)
+{
+  if (this->Refused > 0 && need.total() >= this->Refused)
+  {
+    return "The GPU is out of memory: the deformed volume needs " + describeNeed(need);
+  }
+  const bool more = need.total() > this->Granted;
+  const std::string problem =
+    memoryProblem(need, this->Granted, limitMiB, more ? freeMemoryMiB(window) : UnknownMemory);
+  if (problem.empty())
+  {
+    this->Granted = std::max(this->Granted, need.total());
+  }
+  return problem;
+}
+}

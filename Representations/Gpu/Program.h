@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One compiled shader program of a window, and the glue to run it.
+#ifndef BrainShift_Program_h
+#define BrainShift_Program_h
+
+#include "Representations/Gpu/Counters.h"
+#include "Representations/Gpu/ShaderSource.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+
+class vtkOpenGLRenderWindow;
+class vtkOpenGLState;
+class vtkShaderProgram;
+class vtkTextureObject;
+
+namespace brainshift
+{
+class Program
+{
+public:
+  // Makes the program current, compiling it the first time. False if it does not compile; the
+  // log has then gone to VTK's error output.
+  bool use(vtkOpenGLRenderWindow* window, const ShaderSource& source, Counters& counters);
+
+  void set(const char* name, int value);
+  void set(const char* name, float value);
+  void set(const char* name, const glm::vec2& value);
+  void set(const char* name, const glm::vec3& value);
+  void set(const char* name, const glm::ivec3& value);
+  void set(const char* name, const glm::mat3& value);
+  void set(const char* name, const glm::mat4& value);
+
+  // Arrays of `count` vectors.
+  void set(const char* name, const glm::vec2* values, std::size_t count);
+  void set(const char* name, const glm::vec3* values, std::size_t count);
+
+  // Binds the texture to a unit of its own for as long as it stays active.
+  void set(const char* name, vtkTextureObject* texture);
+
+  vtkShaderProgram* get() const { return this->Compiled; }
+  void forget() { this->Compiled = nullptr; } // the window's resources are gone
+
+private:
+  vtkShaderProgram* Compiled = nullptr; // owned by the window's shader cache
+};
+
+// Runs three vertices `instances` times, without buffers.
+void drawTriangles(int instances);
+
+// Runs the vertices of a strip of triangles, without buffers.
+void drawStrip(int vertices);
+
+// A framebuffer of our own, bound for drawing from here to the end of the scope; then those that
+// were bound before are bound again. Attach a texture, then call drawColors.
+class FramebufferScope
+{
+public:
+  explicit FramebufferScope(vtkOpenGLState* state);
+  ~FramebufferScope();
+  FramebufferScope(const FramebufferScope&) = delete;
+  void operator=(const FramebufferScope&) = delete;
+
+  // Draw into the first `count` colour attachments.
+  void drawColors(unsigned int count);
+
+private:
+  vtkOpenGLState* State;
+  unsigned int Framebuffer = 0;
+};
+}
+
+#endif

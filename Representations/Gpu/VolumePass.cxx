@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Representations/Gpu/VolumePass.h"
+
+#include "Representations/Gpu/GpuMemory.h"
+#include "Representations/Gpu/OpenGL.h"
+#include "Representations/Gpu/Program.h"
+
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
+#include "vtkTextureObject.h"
+
+#include <algorithm>
+
+namespace brainshift
+{
+void runVolumePass(vtkOpenGLRenderWindow* window, int programHandle,
+  std::initializer_list<vtkTextureObject*> targets, const glm::ivec3& first,
+  const glm::ivec3& count)
+{
+  vtkOpenGLState* state = window->GetState();
+  vtkOpenGLState::ScopedglViewport viewport(state);
+  vtkOpenGLState::ScopedglScissor scissor(state);
+  vtkOpenGLState::ScopedglColorMask colorMask(state);
+  vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
+  vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
+  vtkOpenGLState::ScopedglEnableDisable cull(state, GL_CULL_FACE);
+  FramebufferScope framebuffer(state);
+  unsigned int attached = 0;
+  for (vtkTextureObject* target : targets)
+  {
+    glFramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + attached, target->GetHandle(), 0);
+    attached += 1;
+  }
+  framebuffer.drawColors(attached);
+
+  state->vtkglDisable(GL_BLEND);
+  state->vtkglDisable(GL_DEPTH_TEST);
+  state->vtkglDisable(GL_CULL_FACE);
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  state->vtkglViewport(first.x, first.y, count.x, count.y);
+  state->vtkglScissor(first.x, first.y, count.x, count.y);
+  glUniform1i(glGetUniformLocation(programHandle, "firstLayer"), first.z);
+  drawTriangles(count.z);
+}
+
+int leadToSecondThread(int first, int count)
+{
+  constexpr int square = 64;
+  return drawsInSoftware() ? std::max(square - (first + count / 2), 0) : 0;
+}
+
+void clearVolume(vtkOpenGLRenderWindow* window, vtkTextureObject* target)
+{
+  vtkOpenGLState* state = window->GetState();
+  vtkOpenGLState::ScopedglColorMask colorMask(state);
+  vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
+  FramebufferScope framebuffer(state);
+  glFramebufferTexture(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, target->GetHandle(), 0);
+  framebuffer.drawColors(1);
+  state->vtkglDisable(GL_SCISSOR_TEST);
+  state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  const float zero[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
+  glClearBufferfv(GL_COLOR, 0, zero);
+}
+}

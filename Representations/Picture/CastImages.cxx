@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Representations/Picture/CastImages.h"
+
+#include "Representations/Gpu/ImageScope.h"
+#include "Representations/Picture/RayCaster.h"
+
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
+#include "vtkTextureObject.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+#include <cstddef>
+
+namespace brainshift
+{
+namespace
+{
+vtkSmartPointer<vtkTextureObject> makeImage(
+  vtkOpenGLRenderWindow* window, const glm::ivec2& size, unsigned int format, int filter)
+{
+  auto image = vtkSmartPointer<vtkTextureObject>::New();
+  image->SetContext(window);
+  image->SetInternalFormat(format);
+  image->SetMinificationFilter(filter);
+  image->SetMagnificationFilter(filter);
+  image->SetWrapS(vtkTextureObject::ClampToEdge);
+  image->SetWrapT(vtkTextureObject::ClampToEdge);
+  return image->Allocate2D(size.x, size.y, 4, VTK_FLOAT) ? image : nullptr;
+}
+
+bool sameSize(vtkTextureObject* image, const glm::ivec2& size)
+{
+  return image->GetWidth() == static_cast<unsigned int>(size.x) &&
+    image->GetHeight() == static_cast<unsigned int>(size.y);
+}
+}
+
+bool CastImages::prepare(vtkOpenGLRenderWindow* window, const RayCastScene& scene)
+{
+  const ImageArea area = areaAround(this->Area, scene.size, scene.shown);
+  const PixelBox anything{ glm::ivec2(-1), scene.size + 1 }; // whatever memory held
+  if (!this->Image || area != this->Area)
+  {
+    this->Part = anything;
+  }
+  this->Area = area;
+  const auto make = [&](vtkSmartPointer<vtkTextureObject>& image, int format, int filter) {
+    if (!image || !sameSize(image, this->Area.size))
+    {
+      image = makeImage(window, this->Area.size, format, filter);
+    }
+    return image != nullptr;
+  };
+  FirstHits& hits = this->Hits[scene.tile];
+  if (!hits.texture || hits.area != this->Area)
+  {
+    this->HitsPart[scene.tile] = anything;
+  }
+  hits.area = this->Area;
+  if (!make(this->Image, GL_RGBA8, vtkTextureObject::Linear) ||
+    !make(hits.texture, GL_R32F, vtkTextureObject::Nearest) ||
+    !make(this->Spans, GL_RG16, vtkTextureObject::Nearest))
+  {
+    return false;
+  }
+  float none[4] = { -1.0f, -1.0f, -1.0f, -1.0f };
+  hits.texture->SetWrapS(vtkTextureObject::ClampToBorder);
+  hits.texture->SetWrapT(vtkTextureObject::ClampToBorder);
+  hits.texture->SetBorderColor(none);
+  return true;
+}
+
+void CastImages::attach(ImageScope& scope, const RayCastScene& scene, bool part, bool counted)
+{
+  FirstHits& hits = this->Hits[scene.tile];
+  scope.attach(0, this->Image);
+  scope.attach(1, hits.texture);
+  if (!part)
+  {
+    this->clearStale(scene);
+    hits.frustum = frustumOf(scene.clipFromWorld);
+    this->DrewTile = scene.tile;
+  }
+  if (counted)
+  {
+    scope.attach(2, this->Count);
+  }
+  this->Part = part ? enclosing(this->Part, scene.shown) : scene.shown;
+  this->HitsPart[scene.tile] = this->Part;
+}
+
+void CastImages::drawPart(Program& program, const PixelPart& part) const
+{
+  std::vector<glm::vec2> corners;
+  for (const glm::dvec2& corner : stripOf(part))
+  {
+    corners.emplace_back(2.0 * corner / glm::dvec2(this->Area.picture) - 1.0);
+  }
+  if (isDrawnAsBox(part))
+  {
+    // What the scissors cut out: one triangle around it has no edge within, along which software
+    // drivers draw blocks of pixels twice.
+    corners = { { -1.0f, -1.0f }, { 3.0f, -1.0f }, { -1.0f, 3.0f } };
+  }
+  program.set("corners", corners.data(), corners.size());
+  drawStrip(static_cast<int>(corners.size()));
+}
+
+// Nothing of an earlier picture must be found beyond the part that is cast now.
+void CastImages::clearStale(const RayCastScene& scene)
+{
+  if (!contains(scene.shown, this->Part))
+  {
+    this->clear(0);
+  }
+  if (!contains(scene.shown, this->HitsPart[scene.tile]))
+  {
+    this->clear(1);
+  }
+}
+
+// All of the picture (0) or the hits (1) that are attached.
+void CastImages::clear(unsigned int target)
+{
+  const float nothing = target == 0 ? 0.0f : -1.0f;
+  const float values[4] = { nothing, nothing, nothing, nothing };
+  glDisable(GL_SCISSOR_TEST);
+  glClearBufferfv(GL_COLOR, static_cast<GLint>(target), values);
+  glEnable(GL_SCISSOR_TEST);
+}
+
+bool CastImages::hold(const RayCastScene& scene) const
+{
+  const FirstHits& hits = this->Hits[false];
+  return this->Image && hits.texture && !this->DrewTile && !scene.tile &&
+    this->Area.picture == scene.size && hits.area == this->Area;
+}
+
+bool CastImages::grow(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters)
+{
+  const CastImages old = *this;
+  FirstHits& hits = this->Hits[false];
+  this->Image = nullptr;
+  hits.texture = nullptr;
+  RayCastScene roomy = scene;
+  roomy.shown = enclosing(scene.shown, old.Part);
+  if (!this->prepare(window, roomy))
+  {
+    return false;
+  }
+  {
+    ImageScope scope(window->GetState(), this->Area.box(), this->Area);
+    scope.attach(0, this->Image);
+    scope.attach(1, hits.texture);
+    this->clear(0);
+    this->clear(1);
+  }
+  this->Part = this->HitsPart[false] = PixelBox();
+  return this->enlarge(window, old, partOf(old.Part), counters);
+}
+
+glm::dvec2 CastImages::hitFromShare(const RayCastScene& scene) const
+{
+  return shareFromShare(this->Hits[false].frustum, frustumOf(scene.clipFromWorld));
+}
+
+// A new one for each picture, all zero.
+bool CastImages::prepareCount(vtkOpenGLRenderWindow* window)
+{
+  const glm::ivec2& size = this->Area.size;
+  this->Count = vtkSmartPointer<vtkTextureObject>::New();
+  this->Count->SetContext(window);
+  std::vector<float> zeros(static_cast<std::size_t>(size.x) * size.y * 4, 0.0f);
+  return this->Count->Create2DFromRaw(size.x, size.y, 4, VTK_FLOAT, zeros.data());
+}
+
+void CastImages::readCount(Counters& counters)
+{
+  std::vector<float> counted(
+    static_cast<std::size_t>(this->Count->GetWidth()) * this->Count->GetHeight() * 4);
+  this->Count->Activate();
+  glGetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, counted.data());
+  this->Count->Deactivate();
+  for (std::size_t i = 0; i < counted.size(); i += 4)
+  {
+    counters.samplesTaken += static_cast<std::int64_t>(counted[i]);
+    counters.samplesSkipped += static_cast<std::int64_t>(counted[i + 1]);
+  }
+}
+
+bool CastImages::hitAt(vtkOpenGLRenderWindow* window, const glm::dvec2& place, glm::dvec4& hit)
+{
+  const FirstHits& hits = this->Hits[false];
+  if (!hits.texture)
+  {
+    return false;
+  }
+  const glm::dvec2 size(hits.area.picture);
+  const glm::ivec2 pixel(place * size);
+  if (glm::any(glm::lessThan(pixel, hits.area.low)) ||
+    glm::any(glm::greaterThanEqual(pixel, hits.area.high())))
+  {
+    return false;
+  }
+  vtkOpenGLState* state = window->GetState();
+  FramebufferScope framebuffer(state);
+  glFramebufferTexture2D(
+    GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, hits.texture->GetHandle(), 0);
+  state->vtkglReadBuffer(GL_COLOR_ATTACHMENT0);
+  float share = -1.0f;
+  const glm::ivec2 texel = pixel - hits.area.low;
+  glReadPixels(texel.x, texel.y, 1, 1, GL_RED, GL_FLOAT, &share);
+  const glm::dvec2 ndc = 2.0 * (glm::dvec2(pixel) + 0.5) / size - 1.0; // of the pixel's own ray
+  const glm::dvec3 near = hits.frustum.near.at(ndc);
+  const glm::dvec3 way = static_cast<double>(share) * (hits.frustum.far.at(ndc) - near);
+  hit = glm::dvec4(near + way, glm::length(way));
+  return share >= 0.0f;
+}
+
+bool CastImages::composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origin,
+  const glm::ivec2& size, Counters& counters)
+{
+  if (!this->CompositeProgram.use(window, compositeSource(), counters))
+  {
+    return false;
+  }
+  vtkOpenGLState* state = window->GetState();
+  vtkOpenGLState::ScopedglViewport viewport(state);
+  vtkOpenGLState::ScopedglBlendFuncSeparate blendFunction(state);
+  vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
+  vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
+  vtkOpenGLState::ScopedglEnableDisable cull(state, GL_CULL_FACE);
+  state->vtkglEnable(GL_BLEND);
+  state->vtkglBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  state->vtkglDisable(GL_DEPTH_TEST);
+  state->vtkglDisable(GL_CULL_FACE);
+  const glm::ivec2& end = this->Area.picture;
+  const glm::dvec2 scale = glm::dvec2(size) / glm::dvec2(end);
+  const glm::ivec2 low(glm::floor(glm::dvec2(this->Part.low) * scale));
+  const glm::ivec2 shown(
+    glm::max(glm::ceil(glm::dvec2(this->Part.high) * scale) - glm::dvec2(low), 0.0));
+  state->vtkglViewport(origin.x + low.x, origin.y + low.y, shown.x, shown.y);
+  const int filter =
+    scale == glm::dvec2(1.0) ? vtkTextureObject::Nearest : vtkTextureObject::Linear;
+  this->Image->SetMinificationFilter(filter);
+  this->Image->SetMagnificationFilter(filter);
+  this->CompositeProgram.set("image", this->Image.Get());
+  this->CompositeProgram.set("origin", glm::vec2(origin));
+  this->CompositeProgram.set(
+    "textureFromPixel", glm::vec2(this->Area.textureFromShare() / glm::dvec2(size)));
+  this->CompositeProgram.set("textureOfOrigin", glm::vec2(this->Area.textureOfShareZero()));
+  drawTriangles(1);
+  this->Image->Deactivate();
+  return true;
+}
+
+bool CastImages::enlarge(
+  vtkOpenGLRenderWindow* window, const CastImages& other, const PixelPart& part, Counters& counters)
+{
+  if (!this->EnlargeProgram.use(window, enlargeSource(), counters))
+  {
+    return false;
+  }
+  ImageScope images(window->GetState(), part.box, this->Area);
+  images.attach(0, this->Image);
+  images.attach(1, this->Hits[false].texture);
+  vtkTextureObject* picture = other.Image;
+  vtkTextureObject* hits = other.Hits[false].texture;
+  const int filter =
+    other.Area.picture == this->Area.picture ? vtkTextureObject::Nearest : vtkTextureObject::Linear;
+  picture->SetMinificationFilter(filter);
+  picture->SetMagnificationFilter(filter);
+  this->EnlargeProgram.set("image", picture);
+  this->EnlargeProgram.set("hits", hits);
+  this->EnlargeProgram.set("textureFromShare", glm::vec2(other.Area.textureFromShare()));
+  this->EnlargeProgram.set("textureOfShareZero", glm::vec2(other.Area.textureOfShareZero()));
+  this->drawPart(this->EnlargeProgram, part);
+  picture->Deactivate();
+  hits->Deactivate();
+  this->Part = this->HitsPart[false] = enclosing(this->Part, part.box);
+  return true;
+}
+
+void CastImages::releaseGraphicsResources(vtkWindow* window)
+{
+  for (auto* image :
+    { &this->Image, &this->Hits[0].texture, &this->Hits[1].texture, &this->Count, &this->Spans })
+  {
+    if (*image)
+    {
+      (*image)->ReleaseGraphicsResources(window);
+    }
+    *image = nullptr;
+  }
+  this->Area = ImageArea();
+  this->CompositeProgram.forget();
+  this->EnlargeProgram.forget();
+}
+}

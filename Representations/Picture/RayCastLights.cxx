@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Representations/Picture/RayCastLights.h"
+
+#include "Representations/Gpu/ShaderSource.h"
+
+#include "vtkLight.h"
+#include "vtkLightCollection.h"
+#include "vtkRenderer.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace brainshift
+{
+RayCastLights lightsOf(vtkRenderer* renderer)
+{
+  RayCastLights lights;
+  int others = 0;
+  vtkCollectionSimpleIterator iterator;
+  vtkLightCollection* collection = renderer->GetLights();
+  collection->InitTraversal(iterator);
+  while (vtkLight* light = collection->GetNextLight(iterator))
+  {
+    if (!light->GetSwitch() || static_cast<int>(lights.position.size()) >= 4 * MaxLights)
+    {
+      continue;
+    }
+    others += light->LightTypeIsHeadlight() ? 0 : 1;
+    double position[3];
+    light->GetTransformedPosition(position);
+    glm::dvec4 source(position[0], position[1], position[2], 1.0);
+    if (!light->GetPositional())
+    {
+      double focus[3];
+      light->GetTransformedFocalPoint(focus);
+      const glm::dvec3 towards(
+        position[0] - focus[0], position[1] - focus[1], position[2] - focus[2]);
+      source = glm::dvec4(glm::normalize(towards), 0.0);
+    }
+    const double intensity = light->GetIntensity();
+    for (int i = 0; i < 4; ++i)
+    {
+      lights.position.push_back(static_cast<float>(source[i]));
+    }
+    for (int i = 0; i < 3; ++i)
+    {
+      lights.color.push_back(static_cast<float>(light->GetDiffuseColor()[i] * intensity));
+      lights.specular.push_back(static_cast<float>(light->GetSpecularColor()[i] * intensity));
+    }
+  }
+  lights.headlight = others == 0 && lights.position.size() == 4;
+  return lights;
+}
+}

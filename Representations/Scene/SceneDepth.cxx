@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Representations/Scene/SceneDepth.h"
+
+#include "Representations/Gpu/OpenGL.h"
+#include "Representations/Gpu/Program.h"
+#include "Representations/Picture/RayCaster.h"
+
+#include "vtkOpenGLFramebufferObject.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
+#include "vtkTextureObject.h"
+
+#include <glm/common.hpp>
+
+namespace brainshift
+{
+namespace
+{
+// The depth texture of the window's own framebuffer, if that is what is drawn into; null otherwise.
+vtkTextureObject* attachedDepth(vtkOpenGLRenderWindow* window)
+{
+  GLint bound = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
+  vtkOpenGLFramebufferObject* own = window->GetRenderFramebuffer();
+  if (!own || own->GetFBOIndex() != static_cast<unsigned int>(bound))
+  {
+    return nullptr;
+  }
+  vtkTextureObject* depth = own->GetDepthAttachmentAsTextureObject();
+  return depth && depth->GetTarget() == GL_TEXTURE_2D ? depth : nullptr;
+}
+}
+
+SceneDepth::SceneDepth() = default;
+SceneDepth::~SceneDepth() = default;
+
+void SceneDepth::capture(vtkOpenGLRenderWindow* window, const glm::ivec2& origin,
+  const glm::ivec2& size, const glm::ivec2& low, const glm::ivec2& high)
+{
+  if (vtkTextureObject* own = attachedDepth(window))
+  {
+    this->Shown = own;
+    const glm::vec2 whole(own->GetWidth(), own->GetHeight());
+    this->TextureFromShare = glm::vec2(size) / whole;
+    this->TextureOfShareZero = glm::vec2(origin) / whole;
+    return;
+  }
+  this->copy(window, origin, size, low, high);
+  this->Shown = this->Copy;
+  this->TextureFromShare = glm::vec2(1.0f);
+  this->TextureOfShareZero = glm::vec2(0.0f);
+}
+
+void SceneDepth::copy(vtkOpenGLRenderWindow* window, const glm::ivec2& origin,
+  const glm::ivec2& size, const glm::ivec2& low, const glm::ivec2& high)
+{
+  if (!this->Copy)
+  {
+    this->Copy = vtkSmartPointer<vtkTextureObject>::New();
+    this->Copy->SetContext(window);
+    this->Copy->SetMinificationFilter(vtkTextureObject::Nearest);
+    this->Copy->SetMagnificationFilter(vtkTextureObject::Nearest);
+    // A blit wants the format of the window's own buffer.
+    if (window->GetStencilCapable())
+    {
+      this->Copy->AllocateDepthStencil(size.x, size.y);
+    }
+    else
+    {
+      this->Copy->AllocateDepth(size.x, size.y, vtkTextureObject::Fixed32);
+    }
+  }
+  this->Copy->Resize(size.x, size.y);
+
+  vtkOpenGLState* state = window->GetState();
+  vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
+  state->vtkglDisable(GL_SCISSOR_TEST); // it would cut the copy
+  GLint source = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &source);
+  FramebufferScope framebuffer(state);
+  const GLenum attachment =
+    window->GetStencilCapable() ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT;
+  glFramebufferTexture2D(
+    GL_DRAW_FRAMEBUFFER, attachment, GL_TEXTURE_2D, this->Copy->GetHandle(), 0);
+  framebuffer.drawColors(0);
+  state->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<unsigned int>(source));
+  const glm::ivec2 from = origin + low;
+  const glm::ivec2 to = origin + high;
+  glBlitFramebuffer(
+    from.x, from.y, to.x, to.y, low.x, low.y, high.x, high.y, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+}
+
+void SceneDepth::captureBehind(vtkOpenGLRenderWindow* window, const glm::ivec2& origin,
+  const glm::ivec2& size, RayCastScene& scene)
+{
+  const glm::dvec2 windowPixels = glm::dvec2(size) / glm::dvec2(scene.size); // for one of the image
+  this->capture(window, origin, size, glm::floor(glm::dvec2(scene.shown.low) * windowPixels),
+    glm::ceil(glm::dvec2(scene.shown.high) * windowPixels));
+  scene.sceneDepth = this->texture();
+  scene.depthFromShare = this->textureFromShare();
+  scene.depthOfShareZero = this->textureOfShareZero();
+}
+
+void SceneDepth::releaseGraphicsResources(vtkWindow* window)
+{
+  if (this->Copy)
+  {
+    this->Copy->ReleaseGraphicsResources(window);
+  }
+  this->Copy = nullptr;
+  this->Shown = nullptr;
+}
+}

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The presence map in the deformed frame, and the faces of its occupied bricks.
+#ifndef BrainShift_DeformedPresence_h
+#define BrainShift_DeformedPresence_h
+
+#include "Representations/Skipping/BrickFaces.h"
+#include "Representations/Gpu/Counters.h"
+#include "Filters/Deformation/FieldChange.h"
+#include "Representations/Gpu/Program.h"
+#include "Representations/Skipping/RestPresence.h"
+
+#include "vtkSmartPointer.h"
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+class vtkOpenGLBufferObject;
+class vtkOpenGLRenderWindow;
+class vtkTextureObject;
+class vtkWindow;
+
+namespace brainshift
+{
+struct PresenceRequest
+{
+  glm::ivec3 restBricks{ 0 };
+  glm::ivec3 first{ 0 };         // first brick of the deformed frame
+  glm::ivec3 count{ 0 };         // bricks a side
+  glm::vec3 lowestVoxel{ 0.0f }; // the volume's box, voxels
+  glm::vec3 highestVoxel{ 0.0f };
+  vtkTextureObject* offsets = nullptr; // null: nothing is deformed
+  glm::vec3 voxelsFromOffset{ 1.0f };
+  glm::vec3 nodesFromVoxel{ 1.0f };
+  glm::vec3 nodesFromVoxelShift{ 0.0f };
+};
+
+class DeformedPresence
+{
+public:
+  DeformedPresence();
+  ~DeformedPresence();
+
+  // Uploads summedVisibility of the rest volume; anew after a change of the colour map.
+  bool setVisibility(vtkOpenGLRenderWindow* window, const glm::ivec3& restBricks,
+    std::vector<float>& summed, Counters& counters);
+
+  // Finds the occupied bricks and makes their faces, if anything changed. `changed`: the nodes
+  // whose offsets differ from the last update; all bricks are done after any other change.
+  bool update(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
+    const IndexBox& changed, Counters& counters);
+
+  // bricksToOccupied (LeapMap.h), as shares of 255.
+  vtkTextureObject* leaps() const { return this->Leaps; }
+
+  // Draws the faces with a program in use whose attribute `corner` takes brick corners: all, or
+  // those that `eye` (as `facing` takes it, from the volume's first voxel) sees from in front.
+  void drawFaces(int programHandle);
+  void drawFaces(int programHandle, const glm::dvec4& eye);
+  // Whether an eye is outside the box of the occupied bricks, so that front faces are all it meets
+  // first.
+  bool isOutside(const glm::dvec4& eye) const;
+
+  // Boxes that hold the occupied bricks (BrickFaces.h); indices count from the request's first one.
+  const std::vector<IndexBox>& occupiedLayers() const { return this->OccupiedLayers; }
+
+  // All textures, some of which may be null, and the bytes of the faces on the GPU.
+  std::vector<vtkTextureObject*> textures() const
+  {
+    return { this->Summed, this->Map, this->Leaps, this->Blocks[0], this->Blocks[1] };
+  }
+  std::int64_t faceBytes() const;
+
+  void releaseGraphicsResources(vtkWindow* window);
+
+private:
+  bool allocate(vtkOpenGLRenderWindow* window, const glm::ivec3& count);
+  void setBricks(Program& program, const PresenceRequest& request);
+  bool findBlocks(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
+    const IndexBox& box, Counters& counters);
+  bool compute(vtkOpenGLRenderWindow* window, const PresenceRequest& request, const IndexBox& box,
+    Counters& counters);
+  bool readMap(const PresenceRequest& request, const IndexBox& box);
+  bool makeLeaps(vtkOpenGLRenderWindow* window, const PresenceRequest& request);
+  void makeFaces(const PresenceRequest& request);
+  void drawRectangles(int programHandle, const std::vector<std::pair<int, int>>& ranges);
+  glm::dvec4 fromFirstBrick(const glm::dvec4& eye) const;
+
+  vtkSmartPointer<vtkTextureObject> Summed;
+  vtkSmartPointer<vtkTextureObject> Map; // 1 for occupied bricks, 0 for others: those asked last
+  std::vector<std::uint8_t> Occupied;    // the same, of all bricks
+  vtkSmartPointer<vtkTextureObject> Leaps;
+  vtkSmartPointer<vtkTextureObject> Blocks[2]; // least, greatest offset in each, voxels
+  vtkSmartPointer<vtkOpenGLBufferObject> Corners;
+  PresenceRequest Shown; // what Occupied tells
+  bool AllNew = true;    // nothing of Occupied can be kept
+  Program BlocksProgram;
+  Program MapPrograms[2]; // [deformed]
+  std::array<BrickFaces, 6> Faces;
+  std::vector<IndexBox> OccupiedLayers;
+  IndexBox OccupiedBox; // around them
+};
+}
+
+#endif

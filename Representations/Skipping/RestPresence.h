@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which blocks of the rest volume can be seen with the present colour map: the paper's presence map
+// (section 2), as the rest-frame half of exact skipping. See ARCHITECTURE.md, "Skipping".
+#ifndef BrainShift_RestPresence_h
+#define BrainShift_RestPresence_h
+
+#include "Filters/Deformation/Parallel.h"
+#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace brainshift
+{
+constexpr int RestBrickSide = 2; // voxels, in the rest volume
+constexpr int BrickSide = 4;     // voxels, in the deformed frame; 8 occupies more, 2 has more faces
+
+// Bricks of both frames look at so many voxels around them, so that a visible sample near a face
+// makes the brick beyond that face occupied too: the rasteriser and brick numbers may round.
+constexpr float BrickMargin = 1.0f / 8.0f;
+
+// The least and the greatest value that interpolation can find within each brick.
+struct BrickRanges
+{
+  glm::ivec3 count{ 0 };
+  std::vector<glm::vec2> ranges; // x: least, y: greatest; least > greatest: no number in it
+
+  // Least and greatest of all; least > greatest: no number in any.
+  VTKBRAINSHIFTREPRESENTATIONS_EXPORT glm::vec2 whole() const;
+};
+
+// `values`: dimensions.x * y * z numbers, x fastest, to be multiplied by `scale`, which is above 0.
+// A range is that of all that interpolation finds within the brick and BrickMargin around it. NaN
+// is left out: it is never visible.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT BrickRanges brickRanges(
+  const float* values, const glm::ivec3& dimensions, float scale = 1.0f);
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT BrickRanges brickRanges(
+  const std::uint16_t* values, const glm::ivec3& dimensions, float scale = 1.0f);
+
+// How much values differ within a brick, if anything: all but one such brick in a hundred stay
+// below. 0 where nothing differs. So a few outliers, metal in a CT, tell nothing about the rest.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT float usualDifference(const BrickRanges& bricks);
+
+// Which values a colour map of `entries` colours shows.
+struct VisibleValues
+{
+  int entries = 0;
+  std::vector<int> before;     // visible entries with lower indices; entries + 1 of them
+  double entryFromValue = 1.0; // entry = value * entryFromValue + entryOfValueZero
+  double entryOfValueZero = 0.0;
+
+  // Least and greatest value that can be visible, with two entries more to either side for rounding;
+  // least above greatest if none can.
+  VTKBRAINSHIFTREPRESENTATIONS_EXPORT glm::vec2 ends() const;
+
+  // Whether a value in the range can be visible: whether one of the entries the texture may answer
+  // with is, or one more to either side, for rounding.
+  bool operator()(const glm::vec2& range) const
+  {
+    const double last = this->entries - 1.0;
+    const double low = range.x * this->entryFromValue + this->entryOfValueZero;
+    const double high = range.y * this->entryFromValue + this->entryOfValueZero;
+    // Clamped, then cut to whole numbers: floor and ceil are calls on processors before SSE 4.1.
+    const int from = static_cast<int>(std::min(std::max(low - 1.0, 0.0), last));
+    const int to =
+      this->entries - 1 - static_cast<int>(std::min(std::max(last - 1.0 - high, 0.0), last));
+    return this->before[to + 1] > this->before[from];
+  }
+};
+
+// Turns 1 for each visible brick, in the order of summedVisibility, into sums.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT void sumUp(std::vector<float>& counts, const glm::ivec3& size);
+
+// Number of visible bricks with lower indices on all axes: (count + 1)^3 numbers, x fastest, so
+// that eight of them tell how many lie in any box. `visible` says it of a range, on many threads.
+// Exact up to 2^24 bricks.
+template <typename Visible>
+std::vector<float> summedVisibility(const BrickRanges& bricks, const Visible& visible)
+{
+  const glm::ivec3 size = bricks.count + 1;
+  std::vector<float> counts(static_cast<std::size_t>(size.x) * size.y * size.z, 0.0f);
+  const vtkIdType rows = static_cast<vtkIdType>(bricks.count.y) * bricks.count.z;
+  parallelFor(0, rows, 64, [&](vtkIdType first, vtkIdType last) {
+    for (vtkIdType row = first; row < last; ++row)
+    {
+      const vtkIdType j = row % bricks.count.y + 1;
+      const vtkIdType k = row / bricks.count.y + 1;
+      const glm::vec2* range = &bricks.ranges[row * bricks.count.x];
+      float* out = &counts[(k * size.y + j) * size.x + 1];
+      for (int i = 0; i < bricks.count.x; ++i)
+      {
+        out[i] = range[i].x <= range[i].y && visible(range[i]) ? 1.0f : 0.0f;
+      }
+    }
+  });
+  sumUp(counts, size);
+  return counts;
+}
+}
+
+#endif

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Representations/Slices/SliceGeometry.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
+
+#include <array>
+#include <cmath>
+
+namespace brainshift
+{
+namespace
+{
+constexpr int Axes = 3;
+
+SliceQuad quadAcross(int axis, const SlicePlanes& box)
+{
+  const int right = (axis + 1) % Axes;
+  const int up = (axis + 2) % Axes;
+  SliceQuad quad;
+  quad.axis = axis;
+  quad.corner = box.low;
+  quad.corner[axis] = box.position[axis];
+  quad.right[right] = box.high[right] - box.low[right];
+  quad.up[up] = box.high[up] - box.low[up];
+  return quad;
+}
+
+bool isCut(int axis, const SlicePlanes& box)
+{
+  return box.shown[axis] && box.position[axis] >= box.low[axis] &&
+    box.position[axis] <= box.high[axis];
+}
+
+// Whether the eye looks from the side of greater coordinates, across each axis.
+glm::bvec3 eyeAbove(const glm::dvec3& position, const glm::dmat4& clipFromTexture)
+{
+  // The eye is what the camera maps to (0, 0, z, 0); w is 0 if it is infinitely far away, then this
+  // is the direction it looks along.
+  glm::dvec4 eye = glm::inverse(clipFromTexture) * glm::dvec4(0.0, 0.0, 1.0, 0.0);
+  constexpr double nearlyNone = 1e-9;
+  const bool parallel = std::abs(eye.w) < nearlyNone * glm::length(glm::dvec3(eye));
+  const glm::dvec3 towardsEye = parallel ? -glm::dvec3(eye) : glm::dvec3(eye) / eye.w - position;
+  return { towardsEye.x > 0.0, towardsEye.y > 0.0, towardsEye.z > 0.0 };
+}
+
+// What is behind the plane across `axis`, the plane, what is before it.
+void appendBackToFront(
+  int axis, const SlicePlanes& box, const glm::bvec3& above, std::vector<SliceQuad>& quads)
+{
+  if (axis == Axes)
+  {
+    return;
+  }
+  if (!isCut(axis, box))
+  {
+    appendBackToFront(axis + 1, box, above, quads);
+    return;
+  }
+  SlicePlanes lower = box;
+  SlicePlanes upper = box;
+  lower.high[axis] = upper.low[axis] = box.position[axis];
+  appendBackToFront(axis + 1, above[axis] ? lower : upper, above, quads);
+  quads.push_back(quadAcross(axis, box));
+  appendBackToFront(axis + 1, above[axis] ? upper : lower, above, quads);
+}
+}
+
+glm::ivec3 axesAcrossPlanes(const glm::dmat3& direction)
+{
+  constexpr std::array<std::array<int, Axes>, 6> orders{ { { 0, 1, 2 }, { 0, 2, 1 }, { 1, 0, 2 },
+    { 1, 2, 0 }, { 2, 0, 1 }, { 2, 1, 0 } } };
+  glm::ivec3 best(0);
+  double most = -1.0;
+  for (const auto& order : orders)
+  {
+    double agreement = 0.0;
+    for (int world = 0; world < Axes; ++world)
+    {
+      agreement += std::abs(direction[order[world]][world]);
+    }
+    if (agreement > most)
+    {
+      most = agreement;
+      best = { order[0], order[1], order[2] };
+    }
+  }
+  return best;
+}
+
+std::vector<SliceQuad> wholeQuads(const SlicePlanes& planes)
+{
+  std::vector<SliceQuad> quads;
+  for (int axis = 0; axis < Axes; ++axis)
+  {
+    if (isCut(axis, planes))
+    {
+      quads.push_back(quadAcross(axis, planes));
+    }
+  }
+  return quads;
+}
+
+std::vector<SliceQuad> quadsBackToFront(
+  const SlicePlanes& planes, const glm::dmat4& clipFromTexture)
+{
+  std::vector<SliceQuad> quads;
+  appendBackToFront(0, planes, eyeAbove(planes.position, clipFromTexture), quads);
+  return quads;
+}
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Representations/Slices/SlicesProp.h"
+
+#include "vtkDeformedSlicesMapper.h"
+
+#include "vtkObjectFactory.h"
+#include "vtkRenderer.h"
+
+namespace brainshift
+{
+vtkStandardNewMacro(SlicesProp);
+
+// Where the data is elsewhere, ParaView's outline stands for it.
+bool SlicesProp::Draws(bool translucent)
+{
+  return !this->EnableLOD && this->Slices && this->Slices->GetNumberOfInputConnections(0) > 0 &&
+    this->Slices->IsTranslucent() == translucent;
+}
+
+int SlicesProp::Draw(vtkViewport* viewport)
+{
+  this->Slices->Render(vtkRenderer::SafeDownCast(viewport), this);
+  return 1;
+}
+
+int SlicesProp::RenderOpaqueGeometry(vtkViewport* viewport)
+{
+  return this->Draws(false) ? this->Draw(viewport)
+                            : this->Superclass::RenderOpaqueGeometry(viewport);
+}
+
+int SlicesProp::RenderVolumetricGeometry(vtkViewport* viewport)
+{
+  // The superclass would draw the mapper it has, which is the slices'.
+  return this->EnableLOD ? this->Superclass::RenderVolumetricGeometry(viewport)
+    : this->Draws(true)  ? this->Draw(viewport)
+                         : 0;
+}
+}

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Representations/Tissue/SceneReference.h"
+
+#include "vtkColorTransferFunction.h"
+#include "vtkDataArray.h"
+#include "vtkTextureObject.h" // for the pointers of what is included
+#include "vtkVolumeProperty.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+
+namespace brainshift
+{
+namespace
+{
+glm::dvec2 rangeOf(vtkDataArray* scalars, int component)
+{
+  double range[2];
+  scalars->GetFiniteRange(range, component);
+  return { range[0], range[1] };
+}
+
+StoredScalar fromRangeToRange(const glm::dvec2& from, const glm::dvec2& to)
+{
+  const double scale = from.y > from.x && to.y > to.x ? (to.y - to.x) / (from.y - from.x) : 1.0;
+  return { scale, to.x - from.x * scale };
+}
+}
+
+StoredScalar usualMapping(const glm::dvec2& reference, const glm::dvec2& volume)
+{
+  const double common = std::min(reference.y, volume.y) - std::max(reference.x, volume.x);
+  const double both = std::max(reference.y, volume.y) - std::min(reference.x, volume.x);
+  return 2.0 * common >= both ? StoredScalar() : fromRangeToRange(reference, volume);
+}
+
+StoredScalar valueFromReference(
+  vtkDataArray* reference, const TissueRequest& own, const glm::dvec2& range)
+{
+  if (range.x < range.y)
+  {
+    const double* shown = own.property->GetRGBTransferFunction()->GetRange();
+    return fromRangeToRange(range, { shown[0], shown[1] });
+  }
+  const int component = shownComponents(own.property, own.scalars).scalar;
+  return usualMapping(rangeOf(reference, 0), rangeOf(own.scalars, component));
+}
+
+SceneReference referenceOf(vtkDataObject* volume, const TissueRequest& own, const glm::dvec2& range)
+{
+  SceneReference reference;
+  const ReferenceVolume carried = readReference(volume);
+  if (!carried.voxels)
+  {
+    return reference;
+  }
+  reference.grid = carried.grid;
+  reference.cavity = carried.cavity;
+  reference.show = carried.show;
+  reference.tissue = own;
+  reference.tissue.segment = {}; // the labels are the volume's
+  reference.tissue.scalars = carried.voxels;
+  reference.tissue.layout = layoutOf(carried.grid.dimensions, false);
+  reference.tissue.mapped = valueFromReference(carried.voxels, own, range);
+  return reference;
+}
+
+void widenByReference(vtkDataObject* volume, double bounds[6])
+{
+  const ReferenceVolume reference = readReference(volume);
+  for (int corner = 0; corner < 8 && reference.voxels; ++corner)
+  {
+    const glm::dvec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+    const glm::dvec3 world =
+      reference.grid.worldFromGrid(side * glm::dvec3(reference.grid.dimensions - 1));
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      bounds[2 * axis] = std::min(bounds[2 * axis], world[axis]);
+      bounds[2 * axis + 1] = std::max(bounds[2 * axis + 1], world[axis]);
+    }
+  }
+}
+
+std::int64_t referenceBytes(const SceneReference& reference)
+{
+  DrawnSizes sizes;
+  addTissueSizes(reference.tissue, sizes);
+  std::int64_t bytes = memoryNeed(sizes).total();
+  if (vtkDataArray* cavity = reference.cavity.voxels)
+  {
+    bytes +=
+      static_cast<std::int64_t>(ScalarTexture::bytesOf(cavity, 0)) * cavity->GetNumberOfTuples();
+  }
+  return bytes;
+}
+}

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Representations/Tissue/TransferTexture.h"
+
+#include "Representations/Gpu/OpenGL.h"
+
+#include "vtkColorTransferFunction.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkPiecewiseFunction.h"
+#include "vtkTextureObject.h"
+#include "vtkVolumeProperty.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace brainshift
+{
+namespace
+{
+constexpr int Entries = TransferEntries;
+// Rings show, in pictures of skin and cortex, where so much of a step's opacity comes within so
+// small a part of the colour map's range.
+constexpr float SteepRise = 0.8f;
+constexpr int SteepEntries = Entries / 12;
+
+// What a sample counts, from the opacity of one unit distance.
+float opacityOfSample(float opacity, double unitsInStep, Blend blend)
+{
+  const double given = std::clamp(static_cast<double>(opacity), 0.0, 1.0);
+  switch (blend)
+  {
+    case Blend::Composite:
+      return static_cast<float>(1.0 - std::pow(1.0 - given, unitsInStep));
+    case Blend::Additive:
+      return static_cast<float>(given * unitsInStep);
+    default:
+      return static_cast<float>(given);
+  }
+}
+
+// `texels`: colours and opacities of one step, of which the first row is asked.
+bool risesFast(const std::vector<float>& texels)
+{
+  float rise = 0.0f;
+  for (int i = 0; i < Entries - SteepEntries; ++i)
+  {
+    const float before = texels[4 * i + 3];
+    const float after = texels[4 * (i + SteepEntries) + 3];
+    rise = std::max(rise, std::abs(after - before));
+  }
+  return rise >= SteepRise;
+}
+
+vtkSmartPointer<vtkTextureObject> makeTable(
+  vtkOpenGLRenderWindow* window, std::vector<float>& texels, Counters& counters)
+{
+  auto table = vtkSmartPointer<vtkTextureObject>::New();
+  table->SetContext(window);
+  table->SetMinificationFilter(vtkTextureObject::Nearest);
+  table->SetMagnificationFilter(vtkTextureObject::Nearest);
+  table->SetWrapS(vtkTextureObject::ClampToEdge);
+  table->SetWrapT(vtkTextureObject::ClampToEdge);
+  table->Create2DFromRaw(Entries, TransferRows, 4, VTK_FLOAT, texels.data());
+  counters.bytesUploaded += static_cast<std::int64_t>(texels.size() * sizeof(float));
+  return table;
+}
+}
+
+TransferTexture::TransferTexture() = default;
+TransferTexture::~TransferTexture() = default;
+
+double TransferTexture::scale() const
+{
+  return (Entries - 1.0) / Entries / (this->Range[1] - this->Range[0]);
+}
+
+double TransferTexture::shift() const
+{
+  return 0.5 / Entries - this->Range[0] * this->scale();
+}
+
+bool TransferTexture::update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* property,
+  double stepMm, Blend blend, Coloring coloring, Counters& counters)
+{
+  vtkColorTransferFunction* color = property->GetRGBTransferFunction();
+  vtkPiecewiseFunction* opacity = property->GetScalarOpacity();
+  const double unitMm = property->GetScalarOpacityUnitDistance();
+  if (this->Texture && this->ColorTime == color->GetMTime() &&
+    this->OpacityTime == opacity->GetMTime() && this->StepMm == stepMm && this->UnitMm == unitMm &&
+    this->Blending == blend && this->ColorSource == coloring)
+  {
+    return false;
+  }
+  const double* opacityRange = opacity->GetRange();
+  const double* colorRange = coloring == Coloring::Direct ? opacityRange : color->GetRange();
+  this->Range[0] = std::min(colorRange[0], opacityRange[0]);
+  this->Range[1] = std::max(colorRange[1], opacityRange[1]);
+  if (!(this->Range[1] > this->Range[0]))
+  {
+    this->Range[1] = this->Range[0] + 1.0;
+  }
+  std::vector<float> colors(3 * Entries);
+  std::vector<float> opacities(Entries);
+  color->GetTable(this->Range[0], this->Range[1], Entries, colors.data());
+  opacity->GetTable(this->Range[0], this->Range[1], Entries, opacities.data());
+  std::vector<float> texels(4 * Entries * TransferRows);
+  this->VisibleBefore.assign(Entries + 1, 0);
+  this->LargestOpacity = 0.0f;
+  for (int i = 0; i < Entries; ++i)
+  {
+    std::copy_n(&colors[3 * i], 3, &texels[4 * i]);
+    texels[4 * i + 3] = opacityOfSample(opacities[i], stepMm / unitMm, blend);
+    this->LargestOpacity = std::max(this->LargestOpacity, texels[4 * i + 3]);
+    this->VisibleBefore[i + 1] = this->VisibleBefore[i] + (texels[4 * i + 3] > 0.0f ? 1 : 0);
+  }
+  for (std::size_t i = 4 * Entries; i < texels.size(); ++i)
+  {
+    const float above = texels[i - 4 * Entries];
+    texels[i] = i % 4 == 3 ? above * (2.0f - above) : above; // what two such steps hide
+  }
+  this->Texture = makeTable(window, texels, counters);
+  this->makeSums(window, texels, counters);
+  counters.transferUploads += 1;
+  this->ColorTime = color->GetMTime();
+  this->OpacityTime = opacity->GetMTime();
+  this->StepMm = stepMm;
+  this->UnitMm = unitMm;
+  this->Blending = blend;
+  this->ColorSource = coloring;
+  return true;
+}
+
+void TransferTexture::makeSums(
+  vtkOpenGLRenderWindow* window, const std::vector<float>& texels, Counters& counters)
+{
+  this->Sums = nullptr;
+  if (!risesFast(texels))
+  {
+    return;
+  }
+  std::vector<float> sums(texels.size());
+  for (int row = 0; row < TransferRows; ++row)
+  {
+    double before[4] = { 0.0, 0.0, 0.0, 1.0 };
+    for (int i = 4 * row * Entries; i < 4 * (row + 1) * Entries; i += 4)
+    {
+      const float opacity = texels[i + 3];
+      std::copy_n(before, 4, &sums[i]);
+      sums[i + 3] *= opacity > 0.0f ? 1.0f : -1.0f;
+      for (int component = 0; component < 4; ++component)
+      {
+        before[component] += component == 3 ? opacity : opacity * texels[i + component];
+      }
+    }
+  }
+  this->Sums = makeTable(window, sums, counters);
+}
+
+VisibleValues TransferTexture::visibleValues(double scale, double shift) const
+{
+  VisibleValues visible;
+  visible.entries = Entries;
+  visible.before = this->VisibleBefore;
+  visible.entryFromValue = scale * this->scale() * Entries;
+  visible.entryOfValueZero = (shift * this->scale() + this->shift()) * Entries - 0.5;
+  return visible;
+}
+
+bool TransferTexture::visibleUpwards() const
+{
+  const int visible = this->VisibleBefore[Entries];
+  return this->VisibleBefore[Entries - visible] == 0;
+}
+
+bool TransferTexture::visibleDownwards() const
+{
+  const int visible = this->VisibleBefore[Entries];
+  return this->VisibleBefore[visible] == visible;
+}
+
+void TransferTexture::releaseGraphicsResources(vtkWindow* window)
+{
+  for (auto* table : { &this->Texture, &this->Sums })
+  {
+    if (*table)
+    {
+      (*table)->ReleaseGraphicsResources(window);
+    }
+    *table = nullptr;
+  }
+}
+}

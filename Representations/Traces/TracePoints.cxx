@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Representations/Traces/TracePoints.h"
+
+#include "Representations/Scene/SceneGeometry.h"
+#include "Representations/Traces/TraceDrawer.h"
+#include "Representations/Gpu/WindowDevices.h"
+#include "vtkDeformedVolumeMapper.h"
+
+#include "vtkCamera.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkMatrix4x4.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointGaussianMapper.h"
+#include "vtkPointSet.h"
+#include "vtkPropCollection.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
+#include "vtkScalarsToColors.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkVolume.h"
+#include "vtkVolumeCollection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace brainshift
+{
+vtkStandardNewMacro(TracePoints);
+
+struct TracePoints::Device
+{
+  TraceDrawer Drawer;
+  vtkMTimeType Uploaded = 0; // LookTime of what Drawer has
+
+  void Release(vtkWindow* window) { this->Drawer.releaseGraphicsResources(window); }
+};
+
+struct TracePoints::State
+{
+  WindowDevices<Device> Devices;
+  Counters Count;
+  bool Told = false; // of more volumes than can be compared
+};
+
+TracePoints::TracePoints()
+  : Internal(std::make_unique<State>())
+{
+}
+
+TracePoints::~TracePoints() = default;
+
+namespace
+{
+std::uint8_t byteOf(double share)
+{
+  return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
+}
+
+// Appends the points of one set; those that are no numbers are left out.
+void addVertices(vtkPointSet* points, vtkPointGaussianMapper* mapper, vtkProperty* property,
+  std::vector<TraceVertex>& vertices)
+{
+  vtkUnsignedCharArray* colors =
+    mapper->GetScalarVisibility() ? mapper->MapScalars(points, property->GetOpacity()) : nullptr;
+  const double* plain = property->GetDiffuseColor();
+  TraceVertex vertex{ {},
+    { byteOf(plain[0]), byteOf(plain[1]), byteOf(plain[2]), byteOf(property->GetOpacity()) } };
+  const vtkIdType count = points->GetNumberOfPoints();
+  vertices.reserve(vertices.size() + count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    double position[3];
+    points->GetPoint(i, position);
+    if (!std::isfinite(position[0] + position[1] + position[2]))
+    {
+      continue;
+    }
+    std::copy_n(position, 3, vertex.position.begin());
+    if (colors)
+    {
+      std::copy_n(colors->GetPointer(4 * i), 4, vertex.color.begin());
+    }
+    vertices.push_back(vertex);
+  }
+}
+
+std::vector<TraceVertex> verticesOf(vtkPointGaussianMapper* mapper, vtkProperty* property)
+{
+  std::vector<TraceVertex> vertices;
+  vtkDataObject* input = mapper->GetInputDataObject(0, 0);
+  if (auto* blocks = vtkCompositeDataSet::SafeDownCast(input))
+  {
+    const auto block = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks->NewIterator());
+    for (block->InitTraversal(); !block->IsDoneWithTraversal(); block->GoToNextItem())
+    {
+      if (auto* points = vtkPointSet::SafeDownCast(block->GetCurrentDataObject()))
+      {
+        addVertices(points, mapper, property, vertices);
+      }
+    }
+  }
+  else if (auto* points = vtkPointSet::SafeDownCast(input))
+  {
+    addVertices(points, mapper, property, vertices);
+  }
+  return vertices;
+}
+
+std::vector<vtkDeformedVolumeMapper*> deformedVolumesIn(vtkRenderer* renderer)
+{
+  std::vector<vtkDeformedVolumeMapper*> shown;
+  vtkVolumeCollection* volumes = renderer->GetVolumes();
+  vtkCollectionSimpleIterator at;
+  volumes->InitTraversal(at);
+  while (vtkVolume* volume = volumes->GetNextVolume(at))
+  {
+    auto* mapper = vtkDeformedVolumeMapper::SafeDownCast(volume->GetMapper());
+    if (mapper && volume->GetVisibility())
+    {
+      shown.push_back(mapper);
+    }
+  }
+  return shown;
+}
+
+TraceScene sceneOf(vtkRenderer* renderer, vtkMatrix4x4* worldFromPoint)
+{
+  TraceScene scene;
+  renderer->GetTiledSizeAndOrigin(&scene.size.x, &scene.size.y, &scene.origin.x, &scene.origin.y);
+  scene.clipFromWorld = clipFromWorld(renderer);
+  const double* ahead = renderer->GetActiveCamera()->GetDirectionOfProjection();
+  scene.ahead = { ahead[0], ahead[1], ahead[2] };
+  for (int row = 0; row < 4; ++row)
+  {
+    for (int column = 0; column < 4; ++column)
+    {
+      scene.worldFromPoint[column][row] = worldFromPoint->GetElement(row, column);
+    }
+  }
+  return scene;
+}
+}
+
+bool TracePoints::areShownIn(vtkRenderer* renderer)
+{
+  vtkPropCollection* props = renderer->GetViewProps();
+  vtkCollectionSimpleIterator at;
+  props->InitTraversal(at);
+  while (vtkProp* prop = props->GetNextProp(at))
+  {
+    if (prop->GetVisibility() && TracePoints::SafeDownCast(prop))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+// When positions or colours changed last.
+vtkMTimeType TracePoints::LookTime()
+{
+  vtkDataObject* input = this->Mapper->GetInputDataObject(0, 0);
+  return std::max({ this->Mapper->GetMTime(), this->GetProperty()->GetMTime(),
+    input ? input->GetMTime() : 0, this->Mapper->GetLookupTable()->GetMTime() });
+}
+
+// Where each volume's tissue is seen.
+std::vector<const FirstHits*> TracePoints::HitsOf(
+  const std::vector<vtkDeformedVolumeMapper*>& volumes, vtkWindow* window)
+{
+  std::vector<const FirstHits*> hits;
+  for (vtkDeformedVolumeMapper* volume : volumes)
+  {
+    if (const FirstHits* drawn = volume->GetHits(window))
+    {
+      hits.push_back(drawn);
+    }
+  }
+  if (hits.size() > MaxTissues)
+  {
+    if (!std::exchange(this->Internal->Told, true))
+    {
+      vtkWarningMacro(<< "The view shows " << hits.size() << " deformed volumes; Trace Points are "
+                      << "hidden by " << MaxTissues << " of them.");
+    }
+    hits.resize(MaxTissues);
+  }
+  return hits;
+}
+
+bool TracePoints::Draw(vtkRenderer* renderer, const std::vector<vtkDeformedVolumeMapper*>& volumes)
+{
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  auto* mapper = vtkPointGaussianMapper::SafeDownCast(this->Mapper);
+  if (!window || !mapper)
+  {
+    return false;
+  }
+  Device& device = this->Internal->Devices.of(window);
+  const vtkMTimeType time = this->LookTime();
+  if (device.Uploaded != time)
+  {
+    device.Drawer.upload(verticesOf(mapper, this->GetProperty()));
+    device.Uploaded = time;
+  }
+  TraceScene scene = sceneOf(renderer, this->GetMatrix());
+  scene.radius = mapper->GetScaleFactor();
+  scene.hiddenOpacity = this->HiddenOpacity;
+  if (scene.hiddenOpacity < 1.0)
+  {
+    scene.hits = this->HitsOf(volumes, window);
+  }
+  if (!device.Drawer.draw(window, scene, this->Internal->Count))
+  {
+    vtkErrorMacro("The shader of Trace Points does not compile.");
+    return false;
+  }
+  return true;
+}
+
+// Where points are selected, VTK keeps the depths of the picture, which are the balls' own: nearer
+// by a radius, no rounding hides them from themselves.
+int TracePoints::DrawSelection(vtkRenderer* renderer)
+{
+  const double radius = vtkPointGaussianMapper::SafeDownCast(this->Mapper)->GetScaleFactor();
+  const double* ahead = renderer->GetActiveCamera()->GetDirectionOfProjection();
+  double place[3];
+  this->GetPosition(place);
+  this->AddPosition(-radius * ahead[0], -radius * ahead[1], -radius * ahead[2]);
+  const int drawn = this->Superclass::RenderOpaqueGeometry(renderer);
+  this->SetPosition(place);
+  return drawn;
+}
+
+int TracePoints::RenderOpaqueGeometry(vtkViewport* viewport)
+{
+  auto* renderer = vtkRenderer::SafeDownCast(viewport);
+  if (renderer->GetSelector())
+  {
+    return this->DrawSelection(renderer);
+  }
+  return deformedVolumesIn(renderer).empty() && this->Draw(renderer, {});
+}
+
+int TracePoints::RenderOverlay(vtkViewport* viewport)
+{
+  auto* renderer = vtkRenderer::SafeDownCast(viewport);
+  if (renderer->GetSelector())
+  {
+    return 0;
+  }
+  const auto volumes = deformedVolumesIn(renderer);
+  return !volumes.empty() && this->Draw(renderer, volumes);
+}
+
+void TracePoints::ReleaseGraphicsResources(vtkWindow* window)
+{
+  this->Internal->Devices.release(window);
+  this->Superclass::ReleaseGraphicsResources(window);
+}
+}

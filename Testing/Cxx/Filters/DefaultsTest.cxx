@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Proves that a default in the XML is the class's own: it is written twice but lives once.
+#include "Testing/Cxx/Filters/TestDefaults.h"
+#include "vtkBakeDeformation.h"
+#include "vtkCompareVolumes.h"
+#include "vtkDeformGeometry.h"
+#include "vtkDeformationField.h"
+#include "vtkDisplacementFieldReader.h"
+#include "vtkDisplacementFieldWriter.h"
+#include "vtkFreeFormDeformation.h"
+#include "vtkTraceDistance.h"
+
+#include <vtkNew.h>
+
+#include <gtest/gtest.h>
+
+using namespace brainshift::testing;
+
+TEST(Defaults, OfFreeFormDeformationLiveInTheClass)
+{
+  vtkNew<vtkFreeFormDeformation> filter;
+  const int* sides = filter->GetLatticeDimensions();
+  const double* interest = filter->GetPointOfInterest();
+  const Defaults expected{
+    { "GuardFolding", { double(filter->GetGuardFolding()) } },
+    { "Inverse", { double(filter->GetInverse()) } },
+    { "Kernel", { double(filter->GetKernel()) } },
+    { "LatticeDimensions", { double(sides[0]), double(sides[1]), double(sides[2]) } },
+    { "PointOfInterest", { interest[0], interest[1], interest[2] } },
+    { "Samples", { double(filter->GetSamples()) } },
+    { "Strength", { filter->GetStrength() } },
+  };
+  EXPECT_EQ(defaultsIn("Filters/FreeFormDeformation.xml"), expected);
+  const Defaults ofMask{ { "Feather", { filter->GetFeather() } } };
+  EXPECT_EQ(defaultsIn("Filters/FreeFormDeformationMask.xml"), ofMask);
+}
+
+TEST(Defaults, OfCompareVolumesLiveInTheClass)
+{
+  vtkNew<vtkCompareVolumes> filter;
+  const double* turn = filter->GetReferenceRotation();
+  const double* move = filter->GetReferenceTranslation();
+  const Defaults expected{ { "ReferenceRotation", { turn[0], turn[1], turn[2] } },
+    { "ReferenceTranslation", { move[0], move[1], move[2] } },
+    { "Show", { double(filter->GetShow()) } } };
+  EXPECT_EQ(defaultsIn("Filters/CompareVolumes.xml"), expected);
+}
+
+TEST(Defaults, OfBakeDeformationLiveInTheClass)
+{
+  vtkNew<vtkBakeDeformation> filter;
+  const Defaults expected{ { "Interpolation", { double(filter->GetInterpolation()) } } };
+  EXPECT_EQ(defaultsIn("Filters/BakeDeformation.xml"), expected);
+}
+
+TEST(Defaults, OfDeformGeometryLiveInTheClass)
+{
+  vtkNew<vtkDeformGeometry> filter;
+  const Defaults expected{ { "Direction", { double(filter->GetDirection()) } } };
+  EXPECT_EQ(defaultsIn("Filters/DeformGeometry.xml"), expected);
+}
+
+TEST(Defaults, OfDeformationFieldLiveInTheClass)
+{
+  vtkNew<vtkDeformationField> filter;
+  const int* sides = filter->GetDimensions();
+  const double* spacing = filter->GetSpacing();
+  const Defaults expected{
+    { "Dimensions", { double(sides[0]), double(sides[1]), double(sides[2]) } },
+    { "Direction", { double(filter->GetDirection()) } },
+    { "SampleGrid", { double(filter->GetSampleGrid()) } },
+    { "Spacing", { spacing[0], spacing[1], spacing[2] } },
+  };
+  EXPECT_EQ(defaultsIn("Filters/DeformationField.xml"), expected);
+}
+
+TEST(Defaults, OfTraceDistanceLiveInTheClass)
+{
+  vtkNew<vtkTraceDistance> filter;
+  const Defaults expected{
+    { "Label", { double(filter->GetLabel()) } },
+    { "SurfaceBy", { double(filter->GetSurfaceBy()) } },
+    { "Threshold", { filter->GetThreshold() } },
+  };
+  EXPECT_EQ(defaultsIn("Filters/TraceDistance.xml"), expected);
+}
+
+TEST(Defaults, OfDisplacementFieldFilesLiveInTheClasses)
+{
+  vtkNew<vtkDisplacementFieldReader> reader;
+  const Defaults ofReader{
+    { "Direction", { double(reader->GetDirection()) } },
+    { "World", { double(reader->GetWorld()) } },
+  };
+  EXPECT_EQ(defaultsIn("Filters/DisplacementFieldReader.xml"), ofReader);
+  vtkNew<vtkDisplacementFieldWriter> writer;
+  const Defaults ofWriter{ { "World", { double(writer->GetWorld()) } } };
+  EXPECT_EQ(defaultsIn("Filters/DisplacementFieldWriter.xml"), ofWriter);
+}

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Proves that vtkNIFTIVolumeReader lets no damaged file through, says what is wrong with it, and
+// works again with the next good one.
+#include "Testing/Cxx/Filters/NIFTITestFile.h"
+#include "Testing/Cxx/Filters/NIFTITestReading.h"
+
+#include <vtkDemandDrivenPipeline.h>
+
+#include <glm/mat4x4.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+using namespace brainshift::testing;
+
+namespace
+{
+void expectFailure(const std::string& fileName, const std::string& words)
+{
+  Reading reading(fileName);
+  EXPECT_NE(reading.errors.find(words), std::string::npos) << reading.errors;
+  EXPECT_EQ(reading.image()->GetNumberOfPoints(), 0);
+}
+
+void expectFailure(const std::vector<char>& bytes, const std::string& words)
+{
+  writePlain(temporary("bad.nii"), bytes);
+  expectFailure(temporary("bad.nii"), words);
+}
+}
+
+TEST(NIFTIReaderErrors, FilesThatAreNoNIFTI)
+{
+  expectFailure(temporary("missing.nii"), "does not exist");
+  expectFailure("", "FileName is empty");
+  expectFailure(BRAINSHIFT_TEST_TEMP, "is not a file");
+  expectFailure(std::vector<char>{}, "has 0 readable bytes; a NIfTI header has 348");
+  expectFailure(std::vector<char>(100, 'x'), "has 100 readable bytes");
+  expectFailure(std::vector<char>(1000, 'x'), "is not NIfTI");
+  NIFTITestFile analyze;
+  analyze.magic = "";
+  expectFailure(analyze.bytes(), "is not NIfTI");
+}
+
+TEST(NIFTIReaderErrors, TruncatedFiles)
+{
+  NIFTITestFile file;
+  file.dimensions = { 20, 20, 20 };
+  std::vector<char> bytes = file.bytes();
+  bytes.pop_back();
+  expectFailure(bytes, "bad.nii has 16351 bytes where the header announces 16352");
+  writePacked(temporary("short.nii.gz"), bytes);
+  expectFailure(temporary("short.nii.gz"), "truncated");
+
+  writePacked(temporary("whole.nii.gz"), file.bytes());
+  std::ifstream whole(temporary("whole.nii.gz"), std::ios::binary);
+  std::vector<char> packed{ std::istreambuf_iterator<char>(whole), {} };
+  packed.resize(packed.size() / 2);
+  writePlain(temporary("cut.nii.gz"), packed);
+  expectFailure(temporary("cut.nii.gz"), "truncated");
+
+  NIFTITestFile pair;
+  pair.magic = "ni1";
+  pair.voxelOffset = 0.0;
+  writePlain(temporary("cut.hdr"), pair.header());
+  writePlain(temporary("cut.img"), std::vector<char>(20, 0));
+  expectFailure(temporary("cut.hdr"), "cut.img has 20 bytes where the header announces 120");
+  writePlain(temporary("lonely.hdr"), pair.header());
+  expectFailure(temporary("lonely.hdr"), "lonely.img does not exist");
+}
+
+TEST(NIFTIReaderErrors, HeadersThatCannotBe)
+{
+  NIFTITestFile file;
+  file.dataType = 1536; // 128-bit floats
+  expectFailure(file.bytes(), "data type 1536");
+  file = NIFTITestFile();
+  file.voxelOffset = 0.0;
+  expectFailure(file.bytes(), "byte 0; at least 348");
+  for (const std::vector<int>& dimensions : { std::vector<int>{ 4, 0, 5 }, { 4, -3, 5 } })
+  {
+    file = NIFTITestFile();
+    file.dimensions = dimensions;
+    expectFailure(file.header(), "in dimension 2; 1 to 2147483647 are possible");
+  }
+  file.dimensions = { 1, 1, 1 };
+  expectFailure(file.bytes(), "has 1 voxel");
+  file.dimensions = {};
+  expectFailure(file.header(), "has 0 dimensions");
+  file.dimensions = { 2, 2, 2, 1, 1, 2 };
+  expectFailure(file.bytes(), "has 2 entries in dimension 6");
+  file.dimensions = { 32767, 32767, 32767, 32767 };
+  expectFailure(file.header(), "bad.nii has 352 bytes where");
+}
+
+TEST(NIFTIReaderErrors, AffinesThatCannotBe)
+{
+  glm::dmat4 sform(1.0);
+  sform[2][1] = std::nan("");
+  expectFailure(withSform(sform).bytes(), "row 1, column 2 of the affine is nan");
+  sform[2] = glm::dvec4(0.0);
+  expectFailure(withSform(sform).bytes(), "column 2 of the affine has length 0 mm");
+  sform[2] = sform[0] + sform[1];
+  expectFailure(withSform(sform).bytes(), "singular");
+  NIFTITestFile file;
+  file.slope = 1.0;
+  file.intercept = std::nan("");
+  expectFailure(file.bytes(), "scl_inter");
+}
+
+// ParaView goes on to RequestData; its voxels must not be read into another one's grid.
+TEST(NIFTIReaderErrors, ABadFileAfterAGoodOneGivesNoVoxels)
+{
+  writePlain(temporary("good.nii"), NIFTITestFile().bytes());
+  glm::dmat4 sform(1.0);
+  sform[3][0] = std::nan("");
+  NIFTITestFile bad = withSform(sform);
+  bad.dimensions = { 2, 2, 2 };
+  writePlain(temporary("bad.nii"), bad.bytes());
+  Reading reading(temporary("good.nii"));
+  ASSERT_EQ(reading.errors, "");
+  reading.reader->SetFileName(temporary("bad.nii").c_str());
+  reading.reader->UpdateInformation();
+  EXPECT_NE(reading.errors.find("column 3 of the affine is nan"), std::string::npos);
+  auto* pipeline = vtkDemandDrivenPipeline::SafeDownCast(reading.reader->GetExecutive());
+  pipeline->UpdateData(0);
+  EXPECT_EQ(reading.image()->GetNumberOfPoints(), 0);
+}
+
+TEST(NIFTIReaderErrors, AGoodFileAfterABadOneLoads)
+{
+  writePlain(temporary("good.nii"), NIFTITestFile().bytes());
+  Reading reading(temporary("missing.nii"));
+  EXPECT_NE(reading.errors, "");
+  reading.errors.clear();
+  reading.reader->SetFileName(temporary("good.nii").c_str());
+  reading.reader->Update();
+  EXPECT_EQ(reading.errors, "");
+  EXPECT_EQ(reading.image()->GetNumberOfPoints(), NIFTITestFile().count());
+}
+
+TEST(NIFTIReaderErrors, CanReadFileLooksInside)
+{
+  writePlain(temporary("can.nii"), NIFTITestFile().bytes());
+  writePlain(temporary("cannot.nii"), std::vector<char>(1000, 'x'));
+  vtkNew<vtkNIFTIVolumeReader> reader;
+  EXPECT_EQ(reader->CanReadFile(temporary("can.nii").c_str()), 1);
+  EXPECT_EQ(reader->CanReadFile(temporary("cannot.nii").c_str()), 0);
+  EXPECT_EQ(reader->CanReadFile(temporary("missing.nii").c_str()), 0);
+  EXPECT_EQ(reader->CanReadFile(nullptr), 0);
+}
+
+TEST(NIFTIReaderErrors, TheSameNameDoesNotModify)
+{
+  vtkNew<vtkNIFTIVolumeReader> reader;
+  reader->SetFileName("a.nii");
+  const vtkMTimeType before = reader->GetMTime();
+  reader->SetFileName("a.nii");
+  EXPECT_EQ(reader->GetMTime(), before);
+  reader->SetFileName("b.nii");
+  EXPECT_GT(reader->GetMTime(), before);
+}

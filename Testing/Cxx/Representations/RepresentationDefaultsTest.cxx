@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Proves that the defaults in the XML of "Deformed Volume", "Deformed Slices" and "Trace Points" are
+// those of the classes behind them.
+#include "Testing/Cxx/Filters/TestDefaults.h"
+#include "vtkDeformedSlicesMapper.h"
+#include "vtkDeformedSlicesRepresentation.h"
+#include "vtkDeformedVolumeMapper.h"
+#include "vtkDeformedVolumeReport.h"
+#include "vtkTracePointsRepresentation.h"
+
+#include <vtkNew.h>
+
+#include <gtest/gtest.h>
+
+using namespace brainshift::testing;
+
+TEST(Defaults, OfDeformedVolumeReportLiveInTheClass)
+{
+  vtkNew<vtkDeformedVolumeReport> report;
+  const int* pixel = report->GetPixel();
+  const Defaults expected{ { "Pixel", { double(pixel[0]), double(pixel[1]) } } };
+  EXPECT_EQ(defaultsIn("Representations/DeformedVolumeReport.xml"), expected);
+}
+
+TEST(Defaults, OfDeformedSlicesLiveInTheMapper)
+{
+  vtkNew<vtkDeformedSlicesMapper> mapper;
+  vtkNew<vtkDeformedSlicesRepresentation> representation;
+  const double* position = mapper->GetSlicePosition();
+  const double* wipe = mapper->GetWipePosition();
+  const Defaults expected{ { "ShowSagittal", { double(mapper->GetShowSagittal()) } },
+    { "ShowCoronal", { double(mapper->GetShowCoronal()) } },
+    { "ShowAxial", { double(mapper->GetShowAxial()) } },
+    { "SlicePosition", { position[0], position[1], position[2] } },
+    { "SliceInterpolation", { double(mapper->GetInterpolation()) } },
+    { "MapSliceOpacity", { double(mapper->GetMapOpacity()) } },
+    { "OrientationMarks", { double(representation->GetOrientationMarks()) } },
+    { "SliceComparison", { double(mapper->GetComparison()) } },
+    { "CheckerSize", { mapper->GetCheckerSize() } },
+    { "ReferenceRange", { mapper->GetReferenceRange()[0], mapper->GetReferenceRange()[1] } },
+    { "FullGradient", { mapper->GetFullGradient() } },
+    { "WipePosition", { wipe[0], wipe[1], wipe[2] } }, { "Opacity", { mapper->GetOpacity() } } };
+  EXPECT_EQ(defaultsIn("Representations/DeformedSlices.xml"), expected);
+}
+
+TEST(Defaults, OfDeformedVolumeLiveInTheMapper)
+{
+  vtkNew<vtkDeformedVolumeMapper> mapper;
+  const Defaults expected{ { "SampleDistance", { mapper->GetSampleDistance() } },
+    { "EmptySpaceSkipping", { double(mapper->GetEmptySpaceSkipping()) } },
+    { "VolumeComparison", { double(mapper->GetComparison()) } },
+    { "AgreementDistance", { mapper->GetAgreementDistance() } },
+    { "VolumeReferenceRange", { mapper->GetReferenceRange()[0], mapper->GetReferenceRange()[1] } },
+    { "AdaptiveQuality", { double(mapper->GetAdaptiveQuality()) } },
+    { "KeepPicture", { double(mapper->GetKeepPicture()) } },
+    { "CountSamples", { double(mapper->GetCountSamples()) } },
+    { "MemoryLimit", { mapper->GetMemoryLimit() } },
+    { "VolumeNormalTexture", { double(mapper->GetNormalTexture()) } } };
+  EXPECT_EQ(defaultsIn("Representations/DeformedVolume.xml"), expected);
+  const Defaults ofSegment{ { "DrawSegment", { double(mapper->GetDrawSegment()) } } };
+  EXPECT_EQ(defaultsIn("Representations/DeformedVolumeSegment.xml"), ofSegment);
+}
+
+TEST(Defaults, OfTracePointsLiveInTheClass)
+{
+  vtkNew<vtkTracePointsRepresentation> points;
+  const Defaults expected{ { "GaussianRadius", { points->GetSplatSize() } },
+    { "HiddenPoints", { double(points->GetHiddenPoints()) } },
+    { "HiddenOpacity", { points->GetHiddenOpacity() } } };
+  EXPECT_EQ(defaultsIn("Representations/TracePoints.xml"), expected);
+}
