@@ -179,7 +179,7 @@ def save_field(filter, name, direction="Backward", spacing=None, world="RAS"):
         simple.Delete(field)
 
 
-def load_field(name, direction="As the File Tells", world="RAS"):
+def load_field(name, direction="As Stored In The File", world="RAS"):
     """Opens a displacement field of ANTs, elastix, NiftyReg, Slicer or save_field; returns a source
     that leads forward, to be the Lattice of a Free-Form Deformation.
 
