@@ -30,9 +30,9 @@ TEST(Defaults, OfFreeFormDeformationLiveInTheClass)
     { "Samples", { double(filter->GetSamples()) } },
     { "Strength", { filter->GetStrength() } },
   };
-  EXPECT_EQ(defaultsIn("Filters/FreeFormDeformation.xml"), expected);
+  EXPECT_EQ(defaultsIn("Filters/Proxies/FreeFormDeformation.xml"), expected);
   const Defaults ofMask{ { "Feather", { filter->GetFeather() } } };
-  EXPECT_EQ(defaultsIn("Filters/FreeFormDeformationMask.xml"), ofMask);
+  EXPECT_EQ(defaultsIn("Filters/Proxies/FreeFormDeformationMask.xml"), ofMask);
 }
 
 TEST(Defaults, OfCompareVolumesLiveInTheClass)
@@ -43,21 +43,21 @@ TEST(Defaults, OfCompareVolumesLiveInTheClass)
   const Defaults expected{ { "ReferenceRotation", { turn[0], turn[1], turn[2] } },
     { "ReferenceTranslation", { move[0], move[1], move[2] } },
     { "Show", { double(filter->GetShow()) } } };
-  EXPECT_EQ(defaultsIn("Filters/CompareVolumes.xml"), expected);
+  EXPECT_EQ(defaultsIn("Filters/Proxies/CompareVolumes.xml"), expected);
 }
 
 TEST(Defaults, OfBakeDeformationLiveInTheClass)
 {
   vtkNew<vtkBakeDeformation> filter;
   const Defaults expected{ { "Interpolation", { double(filter->GetInterpolation()) } } };
-  EXPECT_EQ(defaultsIn("Filters/BakeDeformation.xml"), expected);
+  EXPECT_EQ(defaultsIn("Filters/Proxies/BakeDeformation.xml"), expected);
 }
 
 TEST(Defaults, OfDeformGeometryLiveInTheClass)
 {
   vtkNew<vtkDeformGeometry> filter;
   const Defaults expected{ { "Direction", { double(filter->GetDirection()) } } };
-  EXPECT_EQ(defaultsIn("Filters/DeformGeometry.xml"), expected);
+  EXPECT_EQ(defaultsIn("Filters/Proxies/DeformGeometry.xml"), expected);
 }
 
 TEST(Defaults, OfDeformationFieldLiveInTheClass)
@@ -71,7 +71,7 @@ TEST(Defaults, OfDeformationFieldLiveInTheClass)
     { "SampleGrid", { double(filter->GetSampleGrid()) } },
     { "Spacing", { spacing[0], spacing[1], spacing[2] } },
   };
-  EXPECT_EQ(defaultsIn("Filters/DeformationField.xml"), expected);
+  EXPECT_EQ(defaultsIn("Filters/Proxies/DeformationField.xml"), expected);
 }
 
 TEST(Defaults, OfTraceDistanceLiveInTheClass)
@@ -82,7 +82,7 @@ TEST(Defaults, OfTraceDistanceLiveInTheClass)
     { "SurfaceBy", { double(filter->GetSurfaceBy()) } },
     { "Threshold", { filter->GetThreshold() } },
   };
-  EXPECT_EQ(defaultsIn("Filters/TraceDistance.xml"), expected);
+  EXPECT_EQ(defaultsIn("Filters/Proxies/TraceDistance.xml"), expected);
 }
 
 TEST(Defaults, OfDisplacementFieldFilesLiveInTheClasses)
@@ -92,8 +92,8 @@ TEST(Defaults, OfDisplacementFieldFilesLiveInTheClasses)
     { "Direction", { double(reader->GetDirection()) } },
     { "World", { double(reader->GetWorld()) } },
   };
-  EXPECT_EQ(defaultsIn("Filters/DisplacementFieldReader.xml"), ofReader);
+  EXPECT_EQ(defaultsIn("Filters/Proxies/DisplacementFieldReader.xml"), ofReader);
   vtkNew<vtkDisplacementFieldWriter> writer;
   const Defaults ofWriter{ { "World", { double(writer->GetWorld()) } } };
-  EXPECT_EQ(defaultsIn("Filters/DisplacementFieldWriter.xml"), ofWriter);
+  EXPECT_EQ(defaultsIn("Filters/Proxies/DisplacementFieldWriter.xml"), ofWriter);
 }

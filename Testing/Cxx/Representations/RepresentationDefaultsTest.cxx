@@ -19,7 +19,7 @@ TEST(Defaults, OfDeformedVolumeReportLiveInTheClass)
   vtkNew<vtkDeformedVolumeReport> report;
   const int* pixel = report->GetPixel();
   const Defaults expected{ { "Pixel", { double(pixel[0]), double(pixel[1]) } } };
-  EXPECT_EQ(defaultsIn("Representations/DeformedVolumeReport.xml"), expected);
+  EXPECT_EQ(defaultsIn("Representations/Proxies/DeformedVolumeReport.xml"), expected);
 }
 
 TEST(Defaults, OfDeformedSlicesLiveInTheMapper)
@@ -40,7 +40,7 @@ TEST(Defaults, OfDeformedSlicesLiveInTheMapper)
     { "ReferenceRange", { mapper->GetReferenceRange()[0], mapper->GetReferenceRange()[1] } },
     { "FullGradient", { mapper->GetFullGradient() } },
     { "WipePosition", { wipe[0], wipe[1], wipe[2] } }, { "Opacity", { mapper->GetOpacity() } } };
-  EXPECT_EQ(defaultsIn("Representations/DeformedSlices.xml"), expected);
+  EXPECT_EQ(defaultsIn("Representations/Proxies/DeformedSlices.xml"), expected);
 }
 
 TEST(Defaults, OfDeformedVolumeLiveInTheMapper)
@@ -56,9 +56,9 @@ TEST(Defaults, OfDeformedVolumeLiveInTheMapper)
     { "CountSamples", { double(mapper->GetCountSamples()) } },
     { "MemoryLimit", { mapper->GetMemoryLimit() } },
     { "VolumeNormalTexture", { double(mapper->GetNormalTexture()) } } };
-  EXPECT_EQ(defaultsIn("Representations/DeformedVolume.xml"), expected);
+  EXPECT_EQ(defaultsIn("Representations/Proxies/DeformedVolume.xml"), expected);
   const Defaults ofSegment{ { "DrawSegment", { double(mapper->GetDrawSegment()) } } };
-  EXPECT_EQ(defaultsIn("Representations/DeformedVolumeSegment.xml"), ofSegment);
+  EXPECT_EQ(defaultsIn("Representations/Proxies/DeformedVolumeSegment.xml"), ofSegment);
 }
 
 TEST(Defaults, OfTracePointsLiveInTheClass)
@@ -67,5 +67,5 @@ TEST(Defaults, OfTracePointsLiveInTheClass)
   const Defaults expected{ { "GaussianRadius", { points->GetSplatSize() } },
     { "HiddenPoints", { double(points->GetHiddenPoints()) } },
     { "HiddenOpacity", { points->GetHiddenOpacity() } } };
-  EXPECT_EQ(defaultsIn("Representations/TracePoints.xml"), expected);
+  EXPECT_EQ(defaultsIn("Representations/Proxies/TracePoints.xml"), expected);
 }
