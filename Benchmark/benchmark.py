@@ -1,35 +1,36 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures BrainShift beside ParaView's own volume rendering, both in one process.
+"""Measures BrainShift and ParaView's own volume rendering in one process.
 
     ./brainshift bench [--quick] [--sizes 128 256 512] [--lattices 9 19 37] [--windows 512 1024]
                        [--rounds 5] [--seconds 15]
 
-Prints tables, the last one beside the floors and goals of targets.py, and writes
-bench-output/benchmark.json and a plot. The reference case is the sample MRI on 256x256x150 voxels of
-1 mm, uint8, a 19x19x19 lattice, 4 samples, one stamp of 20 mm.
+It prints tables and writes bench-output/benchmark.json and a plot. The last table shows the floors
+and goals of targets.py. The reference case is the sample MRI on 256x256x150 voxels of 1 mm, uint8,
+with a 19x19x19 lattice, 4 samples and one stamp of 20 mm.
 
-What makes it fair
-- One view, one camera, one window, one headlight: all sides are drawn by the same vtkRenderer.
-- One vtkVolumeProperty (colours, opacities, shading) is shared by ours and every pinned stock
-  volume. ParaView's own representation has a property of its own, set alike.
-- One step. ParaView's "Volume" adjusts its sample distance and does not expose it, so "stock" is
-  VTK's GPU mapper, which ParaView's representation uses inside, put into the same renderer with
-  automatic adjustment, the lock to the spacing and jitter switched off, at our half-voxel step, and
-  once more at VTK's default step of a voxel. "ParaView's Volume" is the representation as a user
-  gets it.
-- The headlight is the one light under which VTK's mapper turns normals rightly (ARCHITECTURE.md).
+What makes the comparison fair:
+- There is one view, one camera, one window and one headlight. One vtkRenderer draws all sides.
+- Our volume and every pinned stock volume share one vtkVolumeProperty (colours, opacities,
+  shading). ParaView's own representation has a property of its own with the same values.
+- All sides take one step. ParaView's "Volume" adjusts its sample distance and does not expose it.
+  So "stock" is VTK's GPU mapper, which that representation uses, in the same renderer, without
+  automatic adjustment, lock to the spacing and jitter. It is measured at our step of half a voxel
+  and at VTK's default step of one voxel. "ParaView's Volume" is the representation as users get it.
+- The headlight is the one light under which VTK's mapper turns normals correctly.
 - The pictures are compared, and their mean difference is printed.
-- Sides are run in turn, round by round, so that other work on the machine hits all of them. A
-  time ends when OpenGL has finished, not when it was asked.
-- Ours draws the bent volume; stock draws the volume as loaded, or bent by vtkImageReslice with
-  vtkBSplineTransform, or bent by Bake Deformation beforehand. ParaView holds vtkImageReslice to one
-  thread; here it gets as many as llvmpipe, so a user of ParaView waits longer than shown.
-- GPU memory is what the driver says it gave each texture. The offset field's time is the GPU's own.
+- The sides run in turn, round by round, so other work on the machine affects all of them. A time
+  ends when OpenGL has finished.
+- Our side draws the bent volume. Stock draws the volume as it was loaded, or bent by
+  vtkImageReslice with vtkBSplineTransform, or bent by Bake Deformation beforehand. ParaView runs
+  vtkImageReslice on one thread. Here it gets as many threads as llvmpipe, so a user of ParaView
+  waits longer than shown.
+- GPU memory is what the driver says it gave each texture. The GPU itself measures the time of the
+  offset field.
 
-"CPU" is the processor time of all threads, "quiet" the same divided by the number of rendering
-threads: about what the clock would show on a quiet machine, where llvmpipe does the work and spreads
-it evenly. What runs on one thread needs up to all of "CPU". Where a GPU draws both mean nothing.
-Targets are judged by the clock and once more by "quiet", which on a busy machine is the one to read.
+"CPU" is the processor time of all threads. "Quiet" is "CPU" divided by the number of rendering
+threads. It approximates the time on a quiet machine, where llvmpipe spreads the work evenly. Work
+of one thread takes up to all of "CPU". Neither means anything where a GPU draws. Targets are
+compared with the time and with "quiet". On a busy machine, read "quiet".
 """
 
 import argparse
@@ -54,11 +55,12 @@ REFERENCE = (256, 256, 150)
 NORMALS = ("Full resolution", "Half resolution", "On the fly")
 OURS, SAME_STEP = "ours, bent", "stock, same step, as loaded"
 COARSE = "stock, one-voxel step, as loaded"
-TIMES_FOR_FIELD = 7  # as many rounds: what takes a hundredth of a second varies most
+TIMES_FOR_FIELD = 7  # times as many rounds, because times of some milliseconds vary most
 FULL, DRAGGING = "ours, full quality", "ours, as while dragging"
 RESLICED = "vtkImageReslice, vtkBSplineTransform, upload, stock"
 BAKE, RESLICE = "Bake Deformation", "vtkImageReslice, vtkBSplineTransform"
-FILTER, ALL_BUT_RAYS = "ours: stroke, lattice (filter alone)", "ours: the same, fields, presence, 32x32"
+FILTER = "ours: stroke, lattice (filter alone)"
+ALL_BUT_RAYS = "ours: the same, fields, presence, 32x32"
 AFTER_A_STROKE, ALL_OF_IT = "ours, after a stroke", "ours, all of it"
 
 
@@ -94,7 +96,7 @@ class Benchmark:
                 setattr(self.scene.ours, key, value)
             self.scene.show(name)
             if properties:
-                self.scene.frame()  # what the property changes is made anew in a frame not timed
+                self.scene.frame()  # not timed: it computes what the property changes
 
         return Side(text, self.scene.frame, prepare)
 
@@ -104,8 +106,8 @@ class Benchmark:
         gpu = brainshift.gpu(self.scene.ours)
         share = gpu["gpuOtherBytes"] / (4 * self.about["voxels"])
         self.report.fact(f"GPU memory: scalars {gpu['gpuScalarBytes'] / 2 ** 20:.1f} MiB, all else "
-                         f"{gpu['gpuOtherBytes'] / 2 ** 20:.1f} MiB, {share:.2f} times the volume as "
-                         "float", **self.about, share=share, scalars=gpu["gpuScalarBytes"],
+                         f"{gpu['gpuOtherBytes'] / 2 ** 20:.1f} MiB, {share:.2f} times the volume "
+                         "as float", **self.about, share=share, scalars=gpu["gpuScalarBytes"],
                          others=gpu["gpuOtherBytes"])
         self._target("memory", share)
 
@@ -240,7 +242,7 @@ class Benchmark:
                 milliseconds = brainshift.gpu(self.scene.ours)["gpuFieldMicroseconds"] / 1000.0
                 times[name].wall.append(milliseconds)
         for of in times.values():
-            del of.wall[0]  # textures and shaders were made
+            del of.wall[0]  # the first one made textures and shaders
         rows = self.report.group("lattice to offset field", "lattice to offset field, GPU alone",
                                  {**self.about, "window": window}, times)
         self._target("field", rows[ALL_OF_IT]["median"])
@@ -261,7 +263,7 @@ def parse(arguments):
                         help="edges of the picture (512 1024)")
     parser.add_argument("--rounds", type=int, metavar="N", help="most rounds (5)")
     parser.add_argument("--seconds", type=float, metavar="S", default=15.0,
-                        help="slow sides of a comparison run once or twice when it took longer (15)")
+                        help="seconds after which slow sides run once or twice only (15)")
     parser.add_argument("--output", metavar="FOLDER", default="bench-output")
     options = parser.parse_args(arguments)
     quick = options.quick

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A bent volume and a reference in one picture, beside stock volumes in one renderer.
+"""Measures a bent volume and a reference in one picture, and two stock volumes in one renderer.
 
-Ours draws the scene's bent volume red and the volume as loaded green, along the same rays. Stock
-draws two volumes of the same voxels and property with VTK's GPU mapper at our step: one after the
-other, so that the second lies over the first wherever it is; and with vtkMultiVolume, the one way
-VTK has to composite two volumes along one ray. Neither bends, and neither tells agreement.
+Our side draws the scene's bent volume red and the volume as loaded green, along the same rays.
+Stock draws two volumes of the same voxels and property with VTK's GPU mapper at our step, in two
+ways. Drawn one after the other, the second lies over the first wherever it is. vtkMultiVolume is
+VTK's one way to composite two volumes along one ray. Neither bends, and neither shows agreement.
 """
 
 from measure import Side, interleaved
@@ -78,7 +78,7 @@ class Comparison:
 
     def show(self, kind):
         self.scene.show("ours" if kind == ALONE else None)
-        # Beside stock an outline that is not seen: it tells the view how far it must see.
+        # An invisible outline makes the view include the stock volumes.
         self.ours.Visibility = int(kind != ALONE)
         self.ours.SetRepresentationType("Deformed Volume" if kind == OURS else "Outline")
         for name, volumes in self.stock.items():

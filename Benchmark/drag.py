@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From the mouse to the picture, in ParaView's window: 100 moves of a drag and 50 clicks of the wheel,
-each of them a Qt event, with the stamp on the reference case.
+"""Measures the time from the mouse to the picture in ParaView's window.
 
-benchmark.py starts the window with drag_window.py as its script. A time runs from the event to the
-end of the picture that shows it, which is one at reduced quality, as under a hand."""
+The stamp works on the reference case: 100 moves of a drag and 50 clicks of the wheel, each of them
+a Qt event. benchmark.py starts the window with drag_window.py as its script. A time runs from the
+event to the end of the picture that shows it. That picture has reduced quality, as it has under a
+hand.
+"""
 
 import json
 import os
@@ -41,7 +43,7 @@ def told(report, dimensions, windows, folder):
     """Adds what was measured to a report."""
     found = measured(dimensions, windows, folder)
     if found is None:
-        report.fact("drag and wheel: not measured, for ParaView's window or its test hand is not here")
+        report.fact("drag and wheel: not measured: ParaView's window or its test hand is missing")
         return
     for row in found:
         report.fact("{kind}, {window}x{window}: {median:.0f} ms from event to picture, worst "

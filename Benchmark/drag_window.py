@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What drag.py measures, played in ParaView's window."""
+"""Plays in ParaView's window what drag.py measures."""
 
 import json
 import os
@@ -9,7 +9,7 @@ import time
 import traceback
 
 MOVES, CLICKS, HOVERS = 100, 50, 20
-LONGEST = 5.0  # seconds for one picture; more means that none comes
+LONGEST = 5.0  # seconds for one picture; after that none is expected
 
 
 class Pictures:
@@ -37,7 +37,7 @@ class Pictures:
 
 
 def row(kind, window, seconds):
-    """"quiet": what the clock would show on a quiet machine (benchmark.py), where llvmpipe draws."""
+    """The time on a quiet machine where llvmpipe draws: "quiet" of benchmark.py."""
     clock, processors = zip(*seconds)
     return {"kind": kind, "window": window, "count": len(seconds),
             "median": 1000 * statistics.median(clock), "worst": 1000 * max(clock),

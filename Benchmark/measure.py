@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Times sides against each other: one round runs every side once, so that noise hits all."""
+"""Measures the times of several sides. One round runs every side once, so noise affects all."""
 
 import dataclasses
 import os
@@ -14,15 +14,14 @@ class Side:
     name: str
     run: Callable[[], None]
     prepare: Optional[Callable[[], None]] = None
-    #: Run once untimed, so that caches and shaders are made. Not worth it where a run takes seconds
-    #: and makes everything anew.
+    #: Run once untimed to fill caches and compile shaders. Runs that take seconds do without.
     warm: bool = True
 
 
 @dataclasses.dataclass
 class Times:
-    """Milliseconds, one number a round: of the clock, and of all this process's threads (empty where
-    only the GPU's own clock was asked)."""
+    """Milliseconds, one number for each round: elapsed, and of all threads of this process. The
+    second list is empty where only the GPU measured."""
     wall: list
     processor: list
 

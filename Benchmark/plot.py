@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Time against size as a picture, with VTK's charts: every ParaView has them."""
+"""Draws time against size with VTK's charts, which every ParaView has."""
 
 import numpy
 import vtkmodules.vtkRenderingContextOpenGL2  # noqa: F401 draws charts
@@ -11,7 +11,7 @@ from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 from vtkmodules.vtkViewsContext2D import vtkContextView
 
-# Told apart also by who does not see red and green alike.
+# Colours that people who cannot tell red from green can tell apart.
 COLORS = ((0, 90, 180), (230, 130, 0), (0, 150, 110), (190, 60, 140), (110, 110, 110))
 CHART_WIDTH, CHART_HEIGHT = 560, 430  # pixels
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What was measured: tables on screen, JSON and a plot on disk."""
+"""Writes the results: tables on screen, JSON and a plot on disk."""
 
 import json
 import os

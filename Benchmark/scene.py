@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is measured: the sample head, one stroke, one view, and the volumes shown in it in turn."""
+"""Makes what is measured: the sample head, one stroke, one view, and the volumes shown in turn."""
 
 import math
 import os
@@ -32,7 +32,7 @@ COLORS = (0, 0.35, 0.20, 0.15, 40, 0.75, 0.50, 0.40, 130, 0.95, 0.78, 0.65, 255,
 TOWARDS_EYE = (0.55, 0.70, 0.45)  # from the head's middle
 VIEW_ANGLE = 24.0                 # degrees
 
-# One stroke, for a volume whose longest side has 256 voxels of 1 mm; others in proportion.
+# One stroke, for a volume whose longest side has 256 voxels of 1 mm. Others are scaled.
 AMOUNT, MAJOR, MINOR = -20.0, 80.0, 56.0
 
 
@@ -140,7 +140,7 @@ class Scene:
         self.view.OrientationAxesVisibility = 0
         self.view.CenterAxesVisibility = 0
         self.view.UseFXAA = 0
-        # Above its limit of 20 MB ParaView shows nothing of a volume that changes while it moves.
+        # Above this limit of 20 MB ParaView shows no changing volume while the view moves.
         self.view.LODThreshold = 1e6
         self.view.UseLight = 0
         self.view.CameraViewAngle = VIEW_ANGLE

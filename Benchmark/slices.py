@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Slices: three flat views of one plane each, beside ParaView's own filter Slice.
+"""Measures three flat views of one slice each, and ParaView's own filter Slice.
 
-Ours draws the bent volume. Stock cuts the volume that Bake Deformation, which is ours, made of it;
-a user without BrainShift has vtkImageReslice instead, which takes longer (see the group "bake"). A
-slice of stock is a surface with a point a voxel, ours looks the volume up at every pixel.
+Our side draws the bent volume. Stock cuts the volume that our Bake Deformation made of it. A user
+without BrainShift has vtkImageReslice instead, which takes longer: see the group "bake". A stock
+slice is a surface with one point for each voxel. Ours looks the volume up at every pixel.
 """
 
 from measure import Side, interleaved

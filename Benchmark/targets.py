@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How fast BrainShift is to be: for each quantity a floor that must hold and a goal to aim at."""
+"""Lists how fast BrainShift must be: for each quantity a floor that must hold, and a goal."""
 
 import dataclasses
 

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Traces: 100 000 points beside a volume, while the camera turns, while only the points change, and
-their distances after a stroke.
+"""Measures 100 000 traced points with a volume: while the camera turns, while points change, and
+the computation of their distances after a stroke.
 
-Ours draws the bent volume and Trace Points, which its tissue hides. Stock draws the volume as
-loaded, at the same step, and ParaView's Points of the same width, opaque wherever they are; it has
-nothing like Trace Distance. The cortex is the skin here, a threshold: a finer surface than a mask's.
+Our side draws the bent volume and Trace Points, which its tissue hides. Stock draws the volume as
+loaded at the same step, and ParaView's Points of the same width, which are opaque everywhere. Stock
+has nothing like Trace Distance. The cortex is here the skin, found by a threshold. Its surface is
+finer than that of a mask.
 """
 
 import numpy
@@ -67,7 +68,7 @@ class Traces:
         return view.ViewSize[1] / height
 
     def turn(self):
-        """The camera, to and fro."""
+        """The camera, back and forth."""
         self.changes += 1
         self.scene.view.GetActiveCamera().Azimuth(1.0 if self.changes % 2 else -1.0)
         self.scene.frame()

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A brain sinks under a craniotomy and is resected; ten stamps bring the MR made before to it.
+"""Bends the MR of a brain to what is seen after its craniotomy and resection.
 
     pvpython case_study.py [FOLDER]   prints the figures, draws into FOLDER (demo-output)
 
-The "post-operative" volume is synthetic: the pre-operative MR bent by a known sag of soft strokes
-on a denser lattice, with a cavity. The stamps are found from 300 noisy points that a pointer
-traced on the exposed cortex, and from nothing else; the known sag serves to measure the error that
-is left. Where the plugin is not loaded yet, BRAINSHIFT_PLUGIN gives its path. Research software,
-not a medical device.
+The "post-operative" volume is synthetic. It is the pre-operative MR, bent by a known sag of soft
+strokes on a denser lattice, with a cavity. Ten stamps are found from 300 noisy points that a
+pointer traced on the exposed cortex. Nothing else is used to find them. The known sag serves to
+measure the error that is left. If the plugin is not loaded yet, BRAINSHIFT_PLUGIN gives its path.
+Research software, not a medical device.
 """
 
 import os
@@ -36,9 +36,9 @@ SEED = 20090212
 STAMPS = 10
 # From coarse to fine: what all of the trace says first, then smaller regions of it.
 REGIONS_MM = numpy.geomspace(EXPOSED_MM, 10.0, STAMPS)  # radii
-STAMP_PER_REGION = 2.0  # a stamp falls to a half at some 0.6 of its radius
+STAMP_PER_REGION = 2.0  # a stamp falls to one half at about 0.6 of its radius
 
-# Of the pictures: half the height shown (mm), what is in the middle, the ends of the colours.
+# What the pictures show: half their height (mm), what is in the middle, the ends of the colours.
 WHITE = 330.0  # scalar of the MR
 CORTEX = (50.0, 100.0)  # scalars between which the brain turns opaque
 SLICE_HALF_MM = 75.0
@@ -62,7 +62,7 @@ output.PointData.append(inside.ravel(), "Inside")
 output.PointData.SetActiveScalars("Brain")
 """
 
-# Where voxels lie within `radius` of `centre`: nothing is left of them; "Cavity" tells which.
+# Removes the voxels within `radius` of `centre`. The array "Cavity" marks them.
 CAVITY = """
 import numpy
 image = inputs[0].VTKObject

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws a strip of pictures of one slice compared with a reference in each way that Deformed Slices
-knows: the brain of case_study.py before any stamp, and after its synthetic surgery.
+"""Draws a strip of pictures of one slice, compared with a reference in each way of Deformed Slices.
 
     ./brainshift python Examples/compare_strip.py FILE.png
+
+It shows the brain of case_study.py before any stamp, and after its synthetic surgery.
 """
 
 import os

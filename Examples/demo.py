@@ -4,9 +4,9 @@
     pvpython demo.py FOLDER        draws before, after and the strengths between into FOLDER
     paraview --script=demo.py      builds the same scene in the window and plays it
 
-Where the plugin is not loaded yet, BRAINSHIFT_PLUGIN gives its path; BRAINSHIFT_DATA gives the
-folder of the volumes to ParaView's window, which does not tell a script where it lies. Both come
-from environment.sh in the build folder. Research software, not a medical device.
+If the plugin is not loaded yet, BRAINSHIFT_PLUGIN gives its path. ParaView's window does not tell a
+script where it lies, so BRAINSHIFT_DATA gives the folder of the volumes there. Both variables are
+in environment.sh in the build folder. Research software, not a medical device.
 """
 
 import os
@@ -22,7 +22,7 @@ else:
 BACKGROUND = (0.11, 0.12, 0.13)
 STRENGTHS = (0.0, 0.25, 0.5, 0.75, 1.0)
 
-# On the surface, left of the midline, RAS mm.
+# A point on the surface, left of the midline, RAS mm.
 SCALP_ANCHOR = (-366.0, 40.0, 520.0)
 CORTEX_ANCHOR = (-340.0, 30.0, 515.0)
 PUSH_MM = -10.0  # towards the centre, as a brain sinks after the skull is opened
@@ -34,7 +34,7 @@ CORTEX_COLORS = (0, 0.30, 0.10, 0.10, 110, 0.60, 0.35, 0.30, 170, 0.85, 0.62, 0.
                  260, 0.98, 0.90, 0.82, 512, 1.0, 1.0, 1.0)
 CORTEX_OPACITIES = (0, 0, 90, 0, 140, 1, 512, 1)
 
-# The mask's edge is softened, or its voxels would show as steps where it cuts the cortex.
+# The edge of the mask is softened, because its voxels would show as steps on the cortex.
 SKULL_STRIPPING = """
 import numpy
 intensity, mask = (image.PointData["Intensity"] for image in inputs)

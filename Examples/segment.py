@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws a head, its brain alone by Draw Segment, and the brain pulled out by a stamp: one picture
-of three.
+"""Draws one picture of three: a head, its brain alone by Draw Segment, and the brain pulled out by
+a stamp.
 
     pvpython segment.py FILE.png
 
-BRAINSHIFT_PLUGIN gives the plugin's path, as for demo.py. Research software, not a medical device.
+BRAINSHIFT_PLUGIN gives the path of the plugin, as for demo.py. Research software, not a medical
+device.
 """
 
 import sys

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws a strip of pictures of the stamp at work, as a hand sees it in ParaView's window: the ellipse
-on the cortex before anything is changed, then the cortex pulled out click by click.
+"""Draws a strip of pictures of the stamp at work, as a user sees it in ParaView's window.
 
-Run in `./brainshift shell`, where BRAINSHIFT_STRIP names the picture to write:
+The first picture shows the ellipse on the cortex before anything is changed. The next ones show the
+cortex pulled out click by click. Run it in `./brainshift shell`. BRAINSHIFT_STRIP names the picture
+to write:
 
     . build/paraview-5.13/environment.sh
     BRAINSHIFT_STRIP=stamp.png xvfb-run -s "-screen 0 1600x1200x24 -noreset" paraview --dr \\
-      --plugin-search-paths=$BRAINSHIFT_PLUGIN_DIR --plugins=BrainShift --script=Examples/stamp_strip.py
+      --plugin-search-paths=$BRAINSHIFT_PLUGIN_DIR --plugins=BrainShift \\
+      --script=Examples/stamp_strip.py
 """
 
 import os

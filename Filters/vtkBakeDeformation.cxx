@@ -3,6 +3,7 @@
 
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/Resample.h"
+#include "Filters/Attached/WholeExtent.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -74,10 +75,7 @@ int vtkBakeDeformation::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
   // Tissue may come from anywhere.
-  vtkInformation* info = inputs[0]->GetInformationObject(0);
-  int whole[6];
-  info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
-  info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), whole, 6);
+  updateWholeExtent(inputs[0]->GetInformationObject(0));
   return 1;
 }
 
@@ -87,8 +85,8 @@ int vtkBakeDeformation::RequestData(
   vtkImageData* input = vtkImageData::GetData(inputs[0]);
   vtkImageData* output = vtkImageData::GetData(outputs);
   Deformation deformation;
-  std::string problem = "The input carries no deformation; insert Free-Form Deformation before it";
-  if (!carriesDeformation(input) || !readDeformation(input, deformation, problem))
+  std::string problem;
+  if (!readDeformation(input, deformation, problem))
   {
     vtkErrorMacro(<< problem << ".");
     return 0;

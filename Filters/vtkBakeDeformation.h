@@ -3,10 +3,12 @@
  * @class   vtkBakeDeformation
  * @brief   resamples a deformable volume into an ordinary image, bent
  *
- * Output: an image on the same grid as the input, every point- and cell-data array resampled
- * through the same offset field that "Deformed Volume" draws with. Where the tissue seen lies
- * outside the volume, the voxel takes the array's lowest value. Integer arrays are rounded.
- * Runs on all cores; reports progress and can be aborted.
+ * Input: a deformable volume, the output of Free-Form Deformation. Output: an image on the grid of
+ * the input. Every numeric point and cell array is resampled through the offset field that
+ * "Deformed Volume" draws with. A voxel whose tissue would come from outside the volume takes the
+ * array's lowest value. Values of integer arrays are rounded.
+ *
+ * The filter runs on all cores, reports progress and can be aborted.
  */
 #ifndef vtkBakeDeformation_h
 #define vtkBakeDeformation_h
@@ -23,9 +25,9 @@ public:
 
   enum InterpolationType
   {
-    Nearest = 0, // for labels
-    Linear = 1,
-    Cubic = 2, // Catmull-Rom over 64 voxels
+    Nearest = 0, ///< for labels
+    Linear = 1,  ///< trilinear
+    Cubic = 2,   ///< Catmull-Rom over 64 voxels
   };
 
   ///@{

@@ -5,6 +5,7 @@
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Attached/SharedArray.h"
+#include "Filters/Attached/WholeExtent.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -14,7 +15,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkSmartPointer.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/vec3.hpp>
 
@@ -44,7 +44,7 @@ vtkDataArray* referenceScalars(vtkImageData* image, std::string& problem)
 }
 }
 
-// The same arrays for the same inputs, so that whoever has them on the GPU keeps them.
+// Hands out one array object for one input, so that what holds it on the GPU knows it again.
 struct vtkCompareVolumes::Kept
 {
   SharedArrays PointArrays;
@@ -112,12 +112,7 @@ int vtkCompareVolumes::RequestUpdateExtent(
 {
   for (int port = 0; port < Ports; ++port)
   {
-    if (vtkInformation* info = inputs[port]->GetInformationObject(0))
-    {
-      int whole[6];
-      info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
-      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), whole, 6);
-    }
+    updateWholeExtent(inputs[port]->GetInformationObject(0));
   }
   return 1;
 }

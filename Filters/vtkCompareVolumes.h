@@ -3,12 +3,13 @@
  * @class   vtkCompareVolumes
  * @brief   attaches a reference volume to a volume, for pictures that compare them
  *
- * Input 0 passes through by reference, with all it carries; input 1, the reference, goes along as
- * field data (ReferenceVolume.h): its point scalars, shared, and its grid, moved rigidly. Nothing
- * is resampled. It may stand before or after Free-Form Deformation, which bends the first only.
+ * Input 0, the volume, passes through by reference with all that it carries. Input 1 is the
+ * reference. The output carries it as field data (ReferenceVolume.h): its point scalars, which are
+ * shared and not copied, and its grid, which is moved rigidly. Nothing is resampled. This filter
+ * may stand before or after Free-Form Deformation, which bends the volume only.
  *
- * Input 2, the optional cavity, tells where the reference lacks tissue that was removed: what
- * compares ignores it. It lies to the reference as it was drawn there, and is moved with it.
+ * Input 2 (optional) is the cavity: where the reference lacks tissue that was removed. Colours and
+ * numbers that compare the volumes ignore it. It is drawn on the reference and is moved with it.
  */
 #ifndef vtkCompareVolumes_h
 #define vtkCompareVolumes_h
@@ -26,39 +27,45 @@ public:
   vtkTypeMacro(vtkCompareVolumes, vtkImageAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** The reference; any image with point scalars of one component. */
+  /** The reference (input 1): any image with point scalars of one component. */
   void SetReferenceConnection(vtkAlgorithmOutput* reference);
 
-  /** The cavity, optional: labels or scalars, on points or in cells, on any grid. */
+  /** The cavity (input 2): labels or scalars, on points or in cells, on any grid. */
   void SetCavityConnection(vtkAlgorithmOutput* cavity);
 
   ///@{
-  /** Labels of the cavity. None (default): what is above 0. */
+  /** The labels that are cavity. Default: none, which means every value above 0. */
   void AddCavityLabel(int label);
   void ClearCavityLabels();
   ///@}
 
   ///@{
-  /** Turn the reference about the middle of its box: degrees about x, then y, then z. Default 0. */
+  /**
+   * Rotation of the reference about the middle of its box: degrees about x, then y, then z. Default
+   * 0 0 0.
+   */
   vtkSetVector3Macro(ReferenceRotation, double);
   vtkGetVector3Macro(ReferenceRotation, double);
   ///@}
 
   ///@{
-  /** Then move it: mm, world axes. Default 0 0 0. */
+  /** Translation of the reference after its rotation: mm, world axes. Default 0 0 0. */
   vtkSetVector3Macro(ReferenceTranslation, double);
   vtkGetVector3Macro(ReferenceTranslation, double);
   ///@}
 
+  /** The numbers of ReferenceShow in ReferenceVolume.h. */
   enum ShowType
   {
-    Both = 0, // as ReferenceShow in ReferenceVolume.h
+    Both = 0,
     Deformed = 1,
     Reference = 2,
   };
 
   ///@{
-  /** Which volume is shown where both are drawn; alone, in its ordinary colours. Default both. */
+  /**
+   * Which volume is shown. One that is shown alone has its ordinary colours. Default Both.
+   */
   vtkSetClampMacro(Show, int, Both, Reference);
   vtkGetMacro(Show, int);
   ///@}

@@ -99,7 +99,7 @@ bool movePoints(vtkAlgorithm* filter, ProgressShare share, const DirectedMap& ma
   return forPortions(filter, share.from, share.to, from->GetNumberOfTuples(), PointsAtLeast, move);
 }
 
-// `placeOf` tells where a normal stands, before the map.
+// `placeOf(i)`: where normal i stands before the map.
 template <typename Place>
 bool turnNormals(vtkAlgorithm* filter, ProgressShare share, const DirectedMap& map,
   vtkDataSetAttributes* from, vtkDataSetAttributes* to, const Place& placeOf)
@@ -182,7 +182,7 @@ int vtkDeformGeometry::RequestData(
     static_cast<brainshift::Direction>(this->Direction), problem);
   if (!map)
   {
-    vtkErrorMacro(<< "Deformation: " << problem << ".");
+    vtkErrorMacro(<< problem << ".");
     return 0;
   }
   output->ShallowCopy(input);

@@ -3,12 +3,13 @@
  * @class   vtkDeformGeometry
  * @brief   moves meshes, tracts, traces and landmarks with a deformed volume
  *
- * Input 0: any point set; its points are mapped, all else passes. Normals of points and cells are
- * turned so that they stay across the surface; other vectors stay as they are. Points that are not
- * finite stay. Input 1: the deformable volume, output of Free-Form Deformation.
+ * Input 0: any point set, in world mm. Its points are mapped and everything else passes. Normals of
+ * points and cells are turned, so that they stay perpendicular to the surface. Other vectors stay
+ * as they are. Points that are not finite stay. Input 1: a deformable volume, the output of
+ * Free-Form Deformation.
  *
- * Maps are those of PointMap: the cubic itself, not the field pictures are drawn with. Runs on all
- * cores; reports progress and can be aborted.
+ * The maps are those of PointMap: the cubic itself, not the field that pictures are drawn with. The
+ * filter runs on all cores, reports progress and can be aborted.
  */
 #ifndef vtkDeformGeometry_h
 #define vtkDeformGeometry_h
@@ -25,17 +26,17 @@ public:
 
   enum DirectionType
   {
-    Forward = 0,  // deformedFromRest
-    Backward = 1, // restFromDeformed
+    Forward = 0,  ///< deformedFromRest: where tissue goes
+    Backward = 1, ///< restFromDeformed: which tissue is seen
   };
 
   ///@{
-  /** Forward (default): from where tissue rests to where it is drawn. Backward: the inverse. */
+  /** Forward: from the rest frame to the deformed frame. Backward: the inverse. Default Forward. */
   vtkSetClampMacro(Direction, int, Forward, Backward);
   vtkGetMacro(Direction, int);
   ///@}
 
-  /** The deformable volume: second input. */
+  /** The deformable volume (input 1). */
   void SetDeformationConnection(vtkAlgorithmOutput* volume);
 
 protected:

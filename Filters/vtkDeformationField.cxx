@@ -2,8 +2,9 @@
 #include "vtkDeformationField.h"
 
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Files/FieldImage.h"
 #include "Filters/Attached/Portions.h"
+#include "Filters/Attached/WholeExtent.h"
+#include "Filters/Files/FieldImage.h"
 
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
@@ -140,7 +141,7 @@ Grid vtkDeformationField::SamplesOver(const Grid& volume, std::string& problem) 
     if (!glm::all(glm::lessThanEqual(smallest, spacing)) ||
       !glm::all(glm::lessThanEqual(spacing, extent)))
     {
-      problem = "Spacing is " + triple(spacing) + " mm; this volume takes from " +
+      problem = "Spacing is " + triple(spacing) + " mm; for this volume it must be from " +
         triple(smallest) + " to " + triple(extent) + " mm";
       return samples;
     }
@@ -156,7 +157,7 @@ Grid vtkDeformationField::SamplesOver(const Grid& volume, std::string& problem) 
 int vtkDeformationField::RequestInformation(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  std::string problem; // told once, when data is made
+  std::string problem; // reported once, when data is made
   const Grid samples = this->SamplesOver(gridOf(inputs[0]->GetInformationObject(0)), problem);
   vtkInformation* info = outputs->GetInformationObject(0);
   announce(info, samples);
@@ -168,10 +169,7 @@ int vtkDeformationField::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
   // The volume's box is that of all of it.
-  vtkInformation* info = inputs[0]->GetInformationObject(0);
-  int whole[6];
-  info->Get(Pipeline::WHOLE_EXTENT(), whole);
-  info->Set(Pipeline::UPDATE_EXTENT(), whole, 6);
+  updateWholeExtent(inputs[0]->GetInformationObject(0));
   return 1;
 }
 

@@ -3,12 +3,17 @@
  * @class   vtkDeformationField
  * @brief   a deformation as numbers on a grid: displacements and Jacobian determinants
  *
- * Input: the deformable volume, output of Free-Form Deformation. Output: an image over the
- * volume's box, along its axes (direction matrix included), with point arrays
- *   Displacement         float32 x 3 (mm, world axes): where the map leads, minus the point itself
- *   JacobianDeterminant  float32: what the map makes of a small volume; 1 keeps it, 0 or less folds
- * and a field array that names the direction (FieldDirection.h). Both come from the cubic itself,
- * as PointMap evaluates it. Runs on all cores; reports progress and can be aborted.
+ * Input: a deformable volume, the output of Free-Form Deformation. Output: an image over the
+ * volume's box and along its axes, with a field array that names the direction (FieldDirection.h)
+ * and these point arrays:
+ *
+ *     Displacement         float32 x 3 (mm, world axes): where the map takes the point, minus the
+ *                          point itself
+ *     JacobianDeterminant  float32: the factor by which the map changes a small volume; 1 keeps it,
+ *                          0 or less folds tissue
+ *
+ * Both come from the cubic itself, as PointMap evaluates it. The filter runs on all cores, reports
+ * progress and can be aborted.
  */
 #ifndef vtkDeformationField_h
 #define vtkDeformationField_h
@@ -32,37 +37,43 @@ public:
 
   enum DirectionType
   {
-    Forward = 0,  // deformedFromRest at rest points
-    Backward = 1, // restFromDeformed at deformed points
+    Forward = 0,  ///< deformedFromRest at rest points
+    Backward = 1, ///< restFromDeformed at deformed points
   };
 
   enum SampleGridType
   {
-    Volume = 0,          // the volume's own points
-    GivenDimensions = 1, // Dimensions points over its box
-    GivenSpacing = 2,    // points every Spacing mm from its first one
+    Volume = 0,          ///< the volume's own points
+    GivenDimensions = 1, ///< Dimensions points over the volume's box
+    GivenSpacing = 2,    ///< points every Spacing mm from the volume's first one
   };
 
   ///@{
-  /** Forward (default): where tissue goes. Backward: which tissue is seen. */
+  /** Forward: where tissue goes. Backward: which tissue is seen. Default Forward. */
   vtkSetClampMacro(Direction, int, Forward, Backward);
   vtkGetMacro(Direction, int);
   ///@}
 
   ///@{
-  /** Which points: Volume (default), GivenDimensions or GivenSpacing. */
+  /** The points of the output: Volume (default), GivenDimensions or GivenSpacing. */
   vtkSetClampMacro(SampleGrid, int, Volume, GivenSpacing);
   vtkGetMacro(SampleGrid, int);
   ///@}
 
   ///@{
-  /** Points along the volume's axes, 2 to 4096 each, if SampleGrid asks. Default 64 64 64. */
+  /**
+   * Points along each axis of the volume, 2 to 4096, if SampleGrid is GivenDimensions. Default
+   * 64 64 64.
+   */
   vtkSetVector3Macro(Dimensions, int);
   vtkGetVector3Macro(Dimensions, int);
   ///@}
 
   ///@{
-  /** mm between points along the volume's axes, if SampleGrid asks. Default 4 4 4. */
+  /**
+   * mm between points along each axis of the volume, if SampleGrid is GivenSpacing. It may be as
+   * long as the volume, and so short that there are 4096 points. Default 4 4 4.
+   */
   vtkSetVector3Macro(Spacing, double);
   vtkGetVector3Macro(Spacing, double);
   ///@}
@@ -82,7 +93,7 @@ private:
   vtkDeformationField(const vtkDeformationField&) = delete;
   void operator=(const vtkDeformationField&) = delete;
 
-  // The grid to sample on. What is wrong with it, if anything is, comes back in `problem`.
+  // The grid to sample on. If it cannot be used, `problem` becomes a sentence.
   brainshift::Grid SamplesOver(const brainshift::Grid& volume, std::string& problem) const;
 
   int Direction = Forward;

@@ -2,6 +2,7 @@
 #include "vtkDeformationLattice.h"
 
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/WholeExtent.h"
 #include "Filters/Files/FieldImage.h"
 
 #include "vtkFieldData.h"
@@ -9,12 +10,10 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <string>
 
 using namespace brainshift;
-using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 vtkStandardNewMacro(vtkDeformationLattice);
 
@@ -24,9 +23,9 @@ int vtkDeformationLattice::RequestInformation(
   // How many control points there are comes with the data only.
   this->GetInputAlgorithm()->Update();
   Deformation deformation;
-  std::string problem; // told when data is asked for
+  std::string problem; // reported when data is asked for
   vtkImageData* input = vtkImageData::GetData(inputs[0]);
-  if (carriesDeformation(input) && readDeformation(input, deformation, problem))
+  if (readDeformation(input, deformation, problem))
   {
     announce(outputs->GetInformationObject(0), deformation.lattice.grid);
   }
@@ -36,10 +35,7 @@ int vtkDeformationLattice::RequestInformation(
 int vtkDeformationLattice::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
-  vtkInformation* info = inputs[0]->GetInformationObject(0);
-  int whole[6];
-  info->Get(Pipeline::WHOLE_EXTENT(), whole);
-  info->Set(Pipeline::UPDATE_EXTENT(), whole, 6);
+  updateWholeExtent(inputs[0]->GetInformationObject(0));
   return 1;
 }
 
@@ -49,9 +45,8 @@ int vtkDeformationLattice::RequestData(
   vtkImageData* input = vtkImageData::GetData(inputs[0]);
   vtkImageData* output = vtkImageData::GetData(outputs);
   Deformation deformation;
-  std::string problem =
-    "The volume carries no deformation; it must be the output of Free-Form Deformation";
-  if (!carriesDeformation(input) || !readDeformation(input, deformation, problem))
+  std::string problem;
+  if (!readDeformation(input, deformation, problem))
   {
     vtkErrorMacro(<< problem << ".");
     return 0;

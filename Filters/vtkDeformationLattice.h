@@ -3,10 +3,12 @@
  * @class   vtkDeformationLattice
  * @brief   the control points of a deformable volume as an image
  *
- * Output: an image of the control points with their displacements as drawn (Displacement, float32
- * x 3, mm, world axes; Strength applied) and the field arrays FFDKernel and FFDSamples. Saved as
- * .vti and given to Free-Form Deformation as Lattice, with the same LatticeDimensions and kernel,
- * it is the same deformation.
+ * Input: a deformable volume, the output of Free-Form Deformation. Output: an image whose points
+ * are the control points. It has the point array Displacement (float32 x 3, mm, world axes;
+ * Strength is applied) and the field arrays FFDKernel and FFDSamples.
+ *
+ * Save it as .vti, and give it to Free-Form Deformation as Lattice with the LatticeDimensions and
+ * the kernel of the first one: this restores the deformation.
  */
 #ifndef vtkDeformationLattice_h
 #define vtkDeformationLattice_h

@@ -13,7 +13,7 @@ using namespace brainshift;
 
 struct vtkDisplacementFieldReader::State
 {
-  FieldFile Field;
+  DirectedField Field;
   bool Good = false;
 };
 
@@ -37,7 +37,7 @@ int vtkDisplacementFieldReader::RequestInformation(
 {
   State& state = *this->Internal;
   const std::string problem = this->FileName.empty()
-    ? std::string("FileName is empty; it has to name a displacement field")
+    ? std::string("FileName is empty; it must name a displacement field")
     : readFieldFile(this->FileName, state.Field);
   state.Good = problem.empty();
   if (!state.Good)
@@ -59,7 +59,7 @@ int vtkDisplacementFieldReader::RequestData(
   const State& state = *this->Internal;
   if (!state.Good)
   {
-    return 0; // told by RequestInformation
+    return 0; // RequestInformation has reported why
   }
   brainshift::Direction direction = state.Field.direction.value_or(brainshift::Direction::Backward);
   if (this->Direction != AsTheFileTells)

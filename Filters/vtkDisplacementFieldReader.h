@@ -3,8 +3,8 @@
  * @class   vtkDisplacementFieldReader
  * @brief   reads the displacement fields of ANTs, elastix, NiftyReg, Slicer and BrainShift
  *
- * Formats: FieldFile.h. Output: an image with the vectors Displacement (float32 x 3, mm, world
- * axes) and a field array that names the direction (FieldDirection.h).
+ * FieldFile.h lists the formats. Output: an image with the point array Displacement as its vectors
+ * (float32 x 3, mm, world axes) and a field array that names the direction (FieldDirection.h).
  */
 #ifndef vtkDisplacementFieldReader_h
 #define vtkDisplacementFieldReader_h
@@ -24,31 +24,31 @@ public:
 
   enum WorldType
   {
-    RAS = 0, // x to the right, y to the front: that of the NIFTI Volume Reader
-    LPS = 1, // that of ITK, and of ParaView's own readers of ITK's files
+    RAS = 0, ///< x to the right, y to the front: the world of NIFTI Volume Reader
+    LPS = 1, ///< x to the left, y to the back: the world of ITK and of ParaView's own readers
   };
 
   enum DirectionType
   {
-    AsTheFileTells = 0, // backward if it does not
+    AsTheFileTells = 0, ///< the direction that the file names; backward if it names none
     Forward = 1,
     Backward = 2,
   };
 
   ///@{
-  /** The file: .nii, .nii.gz, .mha, .mhd, .nrrd or .nhdr. */
+  /** The file: .nii, .nii.gz, .mha, .mhd, .nrrd or .nhdr. Default: none, which is an error. */
   vtkSetMacro(FileName, std::string);
   vtkGetMacro(FileName, std::string);
   ///@}
 
   ///@{
-  /** Which world the volumes to bend lie in: RAS (default) or LPS. */
+  /** The world in which the volumes to bend lie: RAS (default) or LPS. */
   vtkSetClampMacro(World, int, RAS, LPS);
   vtkGetMacro(World, int);
   ///@}
 
   ///@{
-  /** Which way the field leads. Default: AsTheFileTells. */
+  /** The direction of the field. Default AsTheFileTells. */
   vtkSetClampMacro(Direction, int, AsTheFileTells, Backward);
   vtkGetMacro(Direction, int);
   ///@}

@@ -27,7 +27,7 @@ void vtkDisplacementFieldWriter::WriteData()
   std::string problem;
   if (array)
   {
-    FieldFile field{ gridOf(image), vectorsOf(array), directionOf(image) };
+    DirectedField field{ gridOf(image), vectorsOf(array), directionOf(image) };
     if (this->World == LPS)
     {
       reverseXY(field);

@@ -3,8 +3,9 @@
  * @class   vtkDisplacementFieldWriter
  * @brief   writes a displacement field for registration programs
  *
- * Input: an image with displacements, such as Deformation Field's. Formats and how each names the
- * direction: FieldFile.h; the name's ending chooses. ITK takes fields that lead backward.
+ * Input: an image with displacements (mm, world axes), such as the output of Deformation Field. The
+ * ending of the file's name chooses the format. FieldFile.h lists the formats and where each of
+ * them names the direction. ITK expects fields that lead backward.
  */
 #ifndef vtkDisplacementFieldWriter_h
 #define vtkDisplacementFieldWriter_h
@@ -23,18 +24,18 @@ public:
 
   enum WorldType
   {
-    RAS = 0, // that of the NIFTI Volume Reader
-    LPS = 1, // that of ITK, and of ParaView's own readers of ITK's files
+    RAS = 0, ///< x to the right, y to the front: the world of NIFTI Volume Reader
+    LPS = 1, ///< x to the left, y to the back: the world of ITK and of ParaView's own readers
   };
 
   ///@{
-  /** The file: .nii, .nii.gz, .mha, .mhd or .nrrd. */
+  /** The file: .nii, .nii.gz, .mha, .mhd or .nrrd. Default: none, which is an error. */
   vtkSetMacro(FileName, std::string);
   vtkGetMacro(FileName, std::string);
   ///@}
 
   ///@{
-  /** Which world the input lies in: RAS (default) or LPS. */
+  /** The world in which the input lies: RAS (default) or LPS. */
   vtkSetClampMacro(World, int, RAS, LPS);
   vtkGetMacro(World, int);
   ///@}

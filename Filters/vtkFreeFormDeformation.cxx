@@ -2,13 +2,15 @@
 #include "vtkFreeFormDeformation.h"
 
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Files/FieldImage.h"
 #include "Filters/Attached/MaskImage.h"
-#include "Filters/Deformation/OffsetField.h"
-#include "Filters/Deformation/Replay.h"
 #include "Filters/Attached/Segmentation.h"
 #include "Filters/Attached/SharedArray.h"
-#include "Filters/Deformation/StrokeDensity.h"
+#include "Filters/Attached/WholeExtent.h"
+#include "Filters/Deformation/IndexLoop.h"
+#include "Filters/Deformation/LatticeExtremes.h"
+#include "Filters/Deformation/OffsetField.h"
+#include "Filters/Deformation/Replay.h"
+#include "Filters/Files/FieldImage.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -52,7 +54,7 @@ struct vtkFreeFormDeformation::State
 
 namespace
 {
-// The grid of the whole volume, of which `image` may be one rank's piece.
+// The grid of the whole volume. `image` may be the piece of one process.
 Grid wholeGrid(vtkImageData* image, vtkInformation* info)
 {
   int whole[6];
@@ -108,30 +110,23 @@ void addField(Lattice& lattice, vtkImageData* image, vtkDataArray* field)
     field->GetTuple(static_cast<vtkIdType>(from.offset(at.x, at.y, at.z)), tuple);
     return glm::dvec3(tuple[0], tuple[1], tuple[2]);
   };
+  const glm::ivec3 last = from.dimensions - 1;
   std::size_t point = 0;
-  glm::ivec3 index;
-  for (index.z = 0; index.z < lattice.grid.dimensions.z; ++index.z)
-  {
-    for (index.y = 0; index.y < lattice.grid.dimensions.y; ++index.y)
+  forEachIndex(glm::ivec3(0), lattice.grid.dimensions - 1, [&](const glm::ivec3& index) {
+    const glm::dvec3 position =
+      glm::clamp(from.gridFromWorld(lattice.grid.worldFromGrid(glm::dvec3(index))), glm::dvec3(0.0),
+        glm::dvec3(last));
+    const glm::ivec3 low(position);
+    const glm::dvec3 within = position - glm::dvec3(low);
+    glm::dvec3 sum(0.0);
+    for (int corner = 0; corner < 8; ++corner)
     {
-      for (index.x = 0; index.x < lattice.grid.dimensions.x; ++index.x, ++point)
-      {
-        const glm::dvec3 last(from.dimensions - 1);
-        const glm::dvec3 position = glm::clamp(
-          from.gridFromWorld(lattice.grid.worldFromGrid(glm::dvec3(index))), glm::dvec3(0.0), last);
-        const glm::ivec3 low(position);
-        const glm::dvec3 within = position - glm::dvec3(low);
-        glm::dvec3 sum(0.0);
-        for (int corner = 0; corner < 8; ++corner)
-        {
-          const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
-          const glm::dvec3 weight = glm::mix(1.0 - within, within, glm::dvec3(side));
-          sum += weight.x * weight.y * weight.z * value(glm::min(low + side, from.dimensions - 1));
-        }
-        lattice.displacements[point] += glm::vec3(sum);
-      }
+      const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+      const glm::dvec3 weight = glm::mix(1.0 - within, within, glm::dvec3(side));
+      sum += weight.x * weight.y * weight.z * value(glm::min(low + side, last));
     }
-  }
+    lattice.displacements[point++] += glm::vec3(sum);
+  });
 }
 
 // Adds the optional base lattice. Returns what is wrong with it; empty if nothing is.
@@ -143,8 +138,8 @@ std::string addBase(Lattice& lattice, vtkImageData* base)
   }
   if (directionOf(base) == Direction::Backward)
   {
-    return "The base lattice leads backward; it must lead forward: Invert Displacement Field "
-           "makes one that does";
+    return "The base lattice is a backward field; it must be a forward field. Invert Displacement "
+           "Field makes a forward field";
   }
   vtkDataArray* field = fieldOf(base);
   if (!field)
@@ -228,12 +223,7 @@ int vtkFreeFormDeformation::RequestUpdateExtent(
   // The other inputs are read everywhere, whichever piece of the volume is asked for.
   for (const int port : { 1, 2, 3 })
   {
-    if (vtkInformation* info = inputs[port]->GetInformationObject(0))
-    {
-      int whole[6];
-      info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
-      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), whole, 6);
-    }
+    updateWholeExtent(inputs[port]->GetInformationObject(0));
   }
   return this->Superclass::RequestUpdateExtent(request, inputs, outputs);
 }
@@ -362,7 +352,7 @@ void vtkFreeFormDeformation::TellWarnings()
   if (const auto& mask = state.LastGood.lattice.mask;
     mask && *std::max_element(mask->values.begin(), mask->values.end()) == 0.0f)
   {
-    warnings.push_back("The mask leaves nothing to move: nowhere is it wider than two nodes of the "
+    warnings.push_back("The mask leaves nothing to move: it is nowhere wider than two nodes of the "
                        "refined field. Raise LatticeDimensions or Samples");
   }
   if (!state.TooFine.empty())

@@ -3,16 +3,20 @@
  * @class   vtkFreeFormDeformation
  * @brief   attaches a free-form-deformation lattice to a volume
  *
- * Passes the volume through by shallow copy, never touching a voxel, and attaches the lattice that
- * its strokes bend (see DeformableVolume.h for the field data). "Deformed Volume" draws the result
- * bent; other filters see the volume undeformed until Bake Deformation.
+ * The volume passes through by shallow copy. The filter never touches a voxel: it attaches the
+ * lattice that its strokes bend (DeformableVolume.h describes the field data). "Deformed Volume"
+ * draws the result bent. Other filters see the volume undeformed, unless Bake Deformation stands
+ * before them. After an error the last good deformation stays.
  *
- * Input 0: the volume, vtkImageData with at least two points a side. Input 1 (optional): a base
- * lattice or dense displacement field, vtkImageData with a three-component point array (mm, world
- * axes, forward), read at the control points; strokes add to it. Input 2 (optional): a mask,
- * vtkImageData on any grid with labels or scalars; only tissue inside it moves (MaskWeights.h).
- * Input 3 (optional): a segmentation, likewise; it bends nothing but is attached, as is the mask
- * where there is none, for "Deformed Volume" to draw chosen labels alone (Segmentation.h).
+ * - Input 0: the volume, vtkImageData with at least two points along each axis.
+ * - Input 1 (optional): a base lattice or a dense displacement field, vtkImageData with a point
+ *   array of three components (mm, world axes, forward). It is read at the control points, and
+ *   strokes add to it.
+ * - Input 2 (optional): a mask, vtkImageData on any grid with labels or scalars. Only tissue inside
+ *   it moves (MaskWeights.h).
+ * - Input 3 (optional): a segmentation, vtkImageData on any grid with labels or scalars. It bends
+ *   nothing. It is attached, so that "Deformed Volume" can draw chosen labels alone
+ *   (Segmentation.h). Without it the mask is attached as the segmentation.
  *
  * Method: van der Steen et al., SPIE 7169 (2009), section 2.
  */
@@ -41,7 +45,7 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /** Control points along the volume's axes, 4 to 257 each. Default 19 19 19. */
+  /** Control points along each axis of the volume, 4 to 257. Default 19 19 19. */
   vtkSetVector3Macro(LatticeDimensions, int);
   vtkGetVector3Macro(LatticeDimensions, int);
   ///@}
@@ -67,9 +71,9 @@ public:
   ///@{
   /**
    * Whether each stroke is shortened to the largest part of it that keeps the Jacobian determinant
-   * of deformedFromRest at 0.1 or above everywhere (FoldGuard.h). Default on. The strokes' numbers
-   * stay as they are; what was applied is told by GetStrokeShares. Where the base lattice folds by
-   * itself a warning says so and strokes are not shortened.
+   * of deformedFromRest at 0.1 or above everywhere (FoldGuard.h). Default on. The numbers of the
+   * strokes stay as they are; GetStrokeShares returns what was applied. In cells where the base
+   * lattice folds by itself strokes are not shortened, and a warning says so.
    */
   vtkSetMacro(GuardFolding, bool);
   vtkGetMacro(GuardFolding, bool);
@@ -77,15 +81,19 @@ public:
   ///@}
 
   ///@{
-  /** 0: Exact, tissue arrives where the handle is put (default); 1: Negated, the paper's form. */
+  /**
+   * How pictures find tissue. 0: Exact (default): tissue arrives where the control point is put. 1:
+   * Negated: the form in the paper, which is right for small displacements only.
+   */
   vtkSetMacro(Inverse, int);
   vtkGetMacro(Inverse, int);
   ///@}
 
   ///@{
   /**
-   * The point (mm, world) that the stamp's long axis goes through, kept here for the tools: strokes
-   * hold their own axis. Default 0 0 0; ParaView makes it the centre of the volume.
+   * The point (mm, world) that the long axis of a stamp goes through. Only the tools read it,
+   * because each stroke holds its own axis. Default 0 0 0; ParaView sets it to the centre of the
+   * volume.
    */
   vtkSetVector3Macro(PointOfInterest, double);
   vtkGetVector3Macro(PointOfInterest, double);
@@ -93,55 +101,55 @@ public:
 
   ///@{
   /**
-   * The strokes, replayed in order: 14 numbers each (Stroke.h). Given number by number, so that a
-   * list of the wrong length is noticed and not cut short.
+   * The strokes, replayed in order: 14 numbers each (Stroke.h). Numbers are given one by one, so
+   * that a list of the wrong length is an error and is not cut short. Default: none.
    */
   void AddStrokeNumber(double number);
   void ClearStrokes();
   ///@}
 
-  /** Base lattice: optional second input. */
+  /** The base lattice (input 1). */
   void SetLatticeConnection(vtkAlgorithmOutput* lattice);
 
-  /** Mask: optional third input. */
+  /** The mask (input 2). */
   void SetMaskConnection(vtkAlgorithmOutput* mask);
 
-  /** Segmentation: optional fourth input. */
+  /** The segmentation (input 3). */
   void SetSegmentationConnection(vtkAlgorithmOutput* segmentation);
 
   ///@{
-  /** Values of the mask that are inside. None, the default: all above 0. */
+  /** The labels of the mask that are inside. Default: none, which means every value above 0. */
   void AddMaskLabel(int label);
   void ClearMaskLabels();
   ///@}
 
   ///@{
   /**
-   * Distance (mm) over which displacements rise from 0 at the mask's edge to what they are further
-   * inside; 0 or more. Default 10. The edge is that of the mask, moved inwards to the next nodes of
-   * the refined field: at most two of them.
+   * Distance (mm) from the mask's edge over which the displacement rises from 0 to its full size; 0
+   * or more. Default 10. The edge is moved inwards to nodes of the refined field, by two of them at
+   * most.
    */
   vtkSetMacro(Feather, double);
   vtkGetMacro(Feather, double);
   ///@}
 
-  /** Largest displacement of a control point as drawn, mm. */
+  /** Largest displacement (mm) of a control point; Strength is applied. */
   double GetMaximumDisplacement();
 
   /**
-   * Smallest Jacobian determinant of deformedFromRest as drawn, within the volume: 1 where tissue
-   * stays, above 1 only if all of it grows, 0 or less: tissue folds. Sampled on the control points
-   * and halfway between them. Computed when asked for.
+   * Smallest Jacobian determinant of deformedFromRest within the volume; Strength is applied. 1:
+   * the volume of tissue is kept; above 1: all tissue grows; 0 or less: tissue folds. It is sampled
+   * on the control points and halfway between them, and computed when this is called.
    */
   double GetMinimumJacobian();
 
-  /** Strokes of which the fold guard lets only a part be applied. */
+  /** How many strokes the fold guard shortened. */
   int GetShortenedStrokes() const;
 
-  /** How much of each stroke was applied, 0 to 1; 1: all of it, or a disabled stroke. */
+  /** The share of each stroke that was applied, 0 to 1. A disabled stroke has 1. */
   vtkDoubleArray* GetStrokeShares();
 
-  /** Strokes the last execution had to apply: 1 while the last stroke is being changed. */
+  /** How many strokes the last execution applied: 1 while the last stroke is being changed. */
   int GetAppliedStrokes() const;
 
 protected:
@@ -168,15 +176,15 @@ private:
   double Feather = 10.0;
   std::vector<int> MaskLabels;
 
-  // What is wrong with a property; empty if nothing is.
+  // One sentence on a property that is wrong; empty if all are good.
   std::string ProblemOfProperties() const;
 
-  // Bends the lattice as the properties say. Returns what keeps it from doing so, in which case the
-  // last good deformation stays; empty if nothing does.
+  // Bends the lattice as the properties say. Returns one sentence if it cannot, and keeps the last
+  // good deformation; empty if it can.
   std::string Bend(const brainshift::Grid& volumeGrid, vtkImageData* base, vtkImageData* maskImage,
     vtkImageData* segments);
 
-  // Says what the user should know of the deformation, once for each change of what is said.
+  // Warns of what the user should know. A warning is repeated only after it was gone.
   void TellWarnings();
 
   struct State; // strokes, replay and the last good deformation

@@ -2,16 +2,16 @@
 #include "vtkInvertDisplacementField.h"
 
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Files/FieldImage.h"
+#include "Filters/Attached/Portions.h"
+#include "Filters/Attached/WholeExtent.h"
 #include "Filters/Deformation/Inversion.h"
 #include "Filters/Deformation/OffsetField.h"
-#include "Filters/Attached/Portions.h"
+#include "Filters/Files/FieldImage.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/geometric.hpp>
 
@@ -51,9 +51,7 @@ int vtkInvertDisplacementField::RequestUpdateExtent(
   for (vtkInformation* info :
     { inputs[0]->GetInformationObject(0), outputs->GetInformationObject(0) })
   {
-    int whole[6];
-    info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
-    info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), whole, 6);
+    updateWholeExtent(info);
   }
   return 1;
 }
@@ -67,8 +65,9 @@ int vtkInvertDisplacementField::RequestData(
   const std::vector<glm::vec3> displacements = array ? vectorsOf(array) : std::vector<glm::vec3>();
   if (!array || !allFinite(displacements))
   {
-    vtkErrorMacro(<< (array ? "The field's array holds a number that is not finite."
-                            : "The input has no point array of 3 components (mm)."));
+    vtkErrorMacro(<< (array
+                      ? "The input's array of displacements holds a number that is not finite."
+                      : "The input has no point array of 3 components (mm)."));
     return 0;
   }
   const Grid grid = gridOf(input);
@@ -100,9 +99,8 @@ int vtkInvertDisplacementField::RequestData(
   this->LargestError = *std::max_element(errors.begin(), errors.end());
   if (this->LargestError > LargestGoodErrorMm)
   {
-    vtkWarningMacro(<< "The displacement field folds: its inverse is off by up to "
-                    << this->LargestError << " mm, where " << LargestGoodErrorMm
-                    << " mm is the limit.");
+    vtkWarningMacro(<< "The displacement field folds: the error of its inverse is up to "
+                    << this->LargestError << " mm; the limit is " << LargestGoodErrorMm << " mm.");
   }
   // A field that does not say leads backward, as registration programs' do.
   const Direction was = directionOf(input).value_or(Direction::Backward);

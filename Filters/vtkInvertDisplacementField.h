@@ -3,11 +3,15 @@
  * @class   vtkInvertDisplacementField
  * @brief   makes the forward field of a backward one, and the other way round
  *
- * Registration programs write fields that lead backward; a base lattice leads forward. Input: an
- * image with displacements (mm, world axes), trilinear between its points, the nearest one's
- * outside. Output: on the same points, the displacements that undo them, to 0.05 mm wherever the
- * field does not fold; where it does, the nearest the solver comes. Between the points the output
- * is trilinear again, which is as exact as the field is smooth over a cell.
+ * Registration programs write fields that lead backward. A base lattice leads forward.
+ *
+ * Input: an image with displacements (mm, world axes). They are trilinear between the points;
+ * outside, the displacement of the nearest point holds. Output: an image with the same points and
+ * the displacements that undo those of the input. They are exact to 0.05 mm wherever the field does
+ * not fold. Where it folds, they are the best that the solver finds. Between its points the output
+ * is trilinear again, so it is less exact where the field changes much over a cell.
+ *
+ * A field that does not name its direction counts as backward.
  */
 #ifndef vtkInvertDisplacementField_h
 #define vtkInvertDisplacementField_h
@@ -23,8 +27,8 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * Largest distance (mm) of a point from where the output and then the input lead it. Above
-   * 0.05 mm the field folds somewhere, and a warning tells.
+   * Largest distance (mm) between a point and where the output and then the input take it. If it is
+   * above 0.05 mm, the field folds somewhere, and a warning says so. Default 0.
    */
   vtkGetMacro(LargestError, double);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkLatticeReport.h"
 
-#include "Filters/Deformation/Handles.h"
+#include "Filters/Deformation/ControlPoints.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataArray.h"
@@ -47,7 +47,7 @@ vtkFloatArray* readDrawn(vtkAlgorithm* filter, DrawnLattice& lattice)
   lattice.displacements = displacements->GetPointer(0);
   lattice.strength = strength->GetVariantValue(0).ToDouble();
   const bool complete =
-    displacements->GetNumberOfValues() == static_cast<vtkIdType>(3 * lattice.grid.count());
+    static_cast<std::size_t>(displacements->GetNumberOfValues()) == 3 * lattice.grid.count();
   return complete ? displacements : nullptr;
 }
 }
@@ -83,19 +83,19 @@ void vtkLatticeReport::FindFarthest(vtkFloatArray* displacements, DrawnLattice& 
   lattice.farthest = this->Farthest;
 }
 
-vtkDoubleArray* vtkLatticeReport::GetHandles()
+vtkDoubleArray* vtkLatticeReport::GetControlPoints()
 {
   constexpr int components = 9;
-  this->Handles->Reset();
-  this->Handles->SetNumberOfComponents(components);
+  this->ControlPoints->Reset();
+  this->ControlPoints->SetNumberOfComponents(components);
   DrawnLattice lattice;
   vtkFloatArray* displacements = readDrawn(this->Filter, lattice);
   if (!displacements)
   {
-    return this->Handles;
+    return this->ControlPoints;
   }
   this->FindFarthest(displacements, lattice);
-  HandleSet offsets;
+  ControlPointSet offsets;
   const glm::dvec3 centre(this->Ball[0], this->Ball[1], this->Ball[2]);
   const double* plane = this->Slab;
   const brainshift::Slab slab{ { plane[0], plane[1], plane[2] }, { plane[3], plane[4], plane[5] },
@@ -121,9 +121,9 @@ vtkDoubleArray* vtkLatticeReport::GetHandles()
     const glm::dvec3 drawn = lattice.deformed(index);
     const double tuple[components] = { static_cast<double>(index.x), static_cast<double>(index.y),
       static_cast<double>(index.z), rest.x, rest.y, rest.z, drawn.x, drawn.y, drawn.z };
-    this->Handles->InsertNextTuple(tuple);
+    this->ControlPoints->InsertNextTuple(tuple);
   }
-  return this->Handles;
+  return this->ControlPoints;
 }
 
 vtkDoubleArray* vtkLatticeReport::GetGeometry()

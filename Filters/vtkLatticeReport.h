@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkLatticeReport
- * @brief   control points of a deformed lattice, asked where the data is
+ * @brief   finds control points of a deformed lattice where the data is
  *
- * Tools in the view need the few control points near the cursor, of a lattice that may have
- * millions and may lie on a server. This object lives beside the filter; the XML proxy of the same
- * name brings its answers to the client. They are read from the filter's output, so they are what
- * is drawn, whatever bent it.
+ * Tools in the view need the few control points near the cursor. The lattice may have millions and
+ * may lie on a server. This object lives beside the filter, and the XML proxy of the same name
+ * brings its answers to the client. It reads the filter's output, so the answers are what is drawn.
+ *
+ * Positions and lengths are mm, world. Nothing is kept between two questions but the longest
+ * displacement.
  */
 #ifndef vtkLatticeReport_h
 #define vtkLatticeReport_h
@@ -35,38 +37,46 @@ public:
   void SetFilter(vtkAlgorithm* filter);
 
   ///@{
-  /** Ball (mm, deformed frame) whose control points are told: centre and radius. Default radius 0:
-   * none. */
+  /**
+   * Asks for the control points in a ball (deformed frame): centre and radius. Default radius 0: no
+   * ball.
+   */
   vtkSetVector4Macro(Ball, double);
   vtkGetVector4Macro(Ball, double);
   ///@}
 
-  ///@{
-  /** Cone (mm, deformed frame) whose control points are told: apex, unit direction, radius at the
-   * apex, growth of the radius a mm. Default radius and growth 0: none. */
+  /**
+   * Asks for the control points in a cone (deformed frame): apex, unit direction, radius at the
+   * apex, growth of the radius for each mm. Default radius and growth 0: no cone.
+   */
   void SetCone(const double cone[8]);
-  ///@}
 
   ///@{
-  /** Radius (mm) about the ball's centre within which those that moved are told, too. Default 0:
-   * none. */
+  /**
+   * Asks for the control points that have moved, within this radius of the ball's centre. Default
+   * 0: none of them.
+   */
   vtkSetMacro(MovedWithin, double);
   vtkGetMacro(MovedWithin, double);
   ///@}
 
-  /** Of both, only those near a plane (mm, deformed frame) are told: a point of it, its unit
-   * normal, the largest distance. Default distance 0: all. */
+  /**
+   * Limits the answers for the ball and for moved points to control points near a plane (deformed
+   * frame): a point of the plane, its unit normal, the largest distance. Default distance 0: no
+   * limit.
+   */
   void SetSlab(const double slab[7]);
 
   /**
-   * Control points asked for, each once, at most 1000 for each question: index along the three
-   * lattice axes, rest position, position as drawn (mm). Nine components.
+   * The control points that were asked for, each of them once, and at most 1000 for each question.
+   * A tuple has nine components: index along the three lattice axes, rest position, position as
+   * drawn.
    */
-  vtkDoubleArray* GetHandles();
+  vtkDoubleArray* GetControlPoints();
 
   /**
-   * The lattice, 1 tuple of 18: points along each axis, position of the first (mm), spacing (mm),
-   * direction matrix row by row. Empty if the filter's output carries none.
+   * The lattice as 18 numbers: points along each axis, position of the first one, spacing,
+   * direction matrix row by row. Empty if the filter's output carries no lattice.
    */
   vtkDoubleArray* GetGeometry();
 
@@ -85,11 +95,11 @@ private:
   double Cone[8] = { 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0 };
   double MovedWithin = 0.0;
   double Slab[7] = { 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0 };
-  // Of the control points that were asked last, so that a cursor that moves asks few of them.
+  // Of the displacements that were read last: a moving cursor then reads only a few of them.
   vtkWeakPointer<vtkFloatArray> Known;
   vtkMTimeType KnownTime = 0;
   double Farthest = 0.0; // mm
-  vtkNew<vtkDoubleArray> Handles;
+  vtkNew<vtkDoubleArray> ControlPoints;
   vtkNew<vtkDoubleArray> Geometry;
 };
 

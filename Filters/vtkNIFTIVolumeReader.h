@@ -1,24 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads NIfTI-1 and NIfTI-2 volumes (.nii, .nii.gz, .hdr/.img pairs) into RAS millimetres.
-//
-// The voxels are permuted and flipped, never resampled, so that the image's axes run along the
-// nearest RAS axes. What rotation is left (an oblique scan) is the image's direction matrix:
-// exactly the identity for scans along the axes, so that filters which ignore directions are right
-// too. The sform counts before the qform; with neither, voxel (0,0,0) is the world's origin. A
-// sheared sform, which no image can hold, gives a warning with the distance that it costs.
-//
-// Output: vtkImageData with the point scalars "Intensity". Their type is the file's own, or float32
-// where scl_slope and scl_inter rescale (a slope of 0 or NaN does not; colours are never rescaled).
-// A time series is offered as time steps, in seconds.
-// On an error nothing is read and the output stays as it was, or is empty.
+/**
+ * @class   vtkNIFTIVolumeReader
+ * @brief   reads NIfTI-1 and NIfTI-2 volumes into RAS millimetres
+ *
+ * Files: .nii, .nii.gz, and pairs of .hdr and .img. World is RAS: x to the patient's right, y to
+ * the front, z to the head.
+ *
+ * Voxels are permuted and flipped, never resampled, so that the axes of the image run along the
+ * nearest RAS axes. The rotation that is left (an oblique scan) becomes the direction matrix of the
+ * image. For scans along the axes that matrix is exactly the identity, so filters that ignore
+ * directions are right too. The sform counts before the qform; without both, voxel (0, 0, 0) lies
+ * at the origin of the world. No image can hold a sheared sform: it gives a warning that names the
+ * error in mm.
+ *
+ * Output: vtkImageData with the point scalars "Intensity". Their type is the type in the file, or
+ * float32 if scl_slope and scl_inter rescale them; a slope of 0 or NaN does not rescale, and
+ * colours are never rescaled. A time series has time steps, in seconds. After an error the output
+ * stays as it was, or is empty.
+ */
 #ifndef vtkNIFTIVolumeReader_h
 #define vtkNIFTIVolumeReader_h
 
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 #include "vtkImageAlgorithm.h"
 
-#include <memory>
-#include <string>
+#include <memory> // for the private part
+
+namespace brainshift
+{
+class NIFTIVolume;
+}
 
 class VTKBRAINSHIFTFILTERS_EXPORT vtkNIFTIVolumeReader : public vtkImageAlgorithm
 {
@@ -27,11 +38,13 @@ public:
   vtkTypeMacro(vtkNIFTIVolumeReader, vtkImageAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  // The file to read. Default: none, which is an error.
+  ///@{
+  /** The file to read. Default: none, which is an error. */
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
+  ///@}
 
-  // 1 if the file is there and begins like NIfTI, else 0.
+  /** 1 if the file exists and begins like a NIfTI file, else 0. */
   int CanReadFile(VTK_FILEPATH const char* fileName);
 
 protected:
@@ -47,17 +60,8 @@ private:
   vtkNIFTIVolumeReader(const vtkNIFTIVolumeReader&) = delete;
   void operator=(const vtkNIFTIVolumeReader&) = delete;
 
-  // Fills `Stored` from the header; returns one sentence if it cannot, else an empty string.
-  std::string ReadHeader();
-  void ReportShear();
-  // Makes `Stored` hold the voxels and allocates the output; reports and returns false if it
-  // cannot.
-  bool LoadVoxels(vtkInformation* information, vtkImageData* shown);
-
-  class StoredVolume;
-
   char* FileName = nullptr;
-  std::unique_ptr<StoredVolume> Stored;
+  std::unique_ptr<brainshift::NIFTIVolume> Stored;
 };
 
 #endif

@@ -3,9 +3,10 @@
 
 #include "Filters/Attached/CavityMask.h"
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Traces/DeformedSurface.h"
 #include "Filters/Attached/Portions.h"
 #include "Filters/Attached/ReferenceVolume.h"
+#include "Filters/Attached/WholeExtent.h"
+#include "Filters/Traces/DeformedSurface.h"
 #include "Filters/Traces/TraceStatistics.h"
 
 #include "vtkCompositeDataIterator.h"
@@ -23,7 +24,6 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkSmartPointer.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
@@ -103,7 +103,7 @@ struct vtkTraceDistance::State
   int By = -1;
   double Level = 0.0;
 
-  brainshift::Tissue Tissue;
+  TissueRegion Tissue;
   DeformedSurface Surface;
   CavitySource CavityInput;
   PlacedVoxels Cavity;           // that of the input
@@ -158,8 +158,8 @@ struct vtkTraceDistance::State
     this->By = by;
     this->Level = level;
     this->Tissue = by == ByLabel
-      ? brainshift::Tissue{ grid, maskOfLabel(scalars, static_cast<int>(level)), 0.5 }
-      : brainshift::Tissue{ grid, scalars, level };
+      ? TissueRegion{ grid, maskOfLabel(scalars, static_cast<int>(level)), 0.5 }
+      : TissueRegion{ grid, scalars, level };
     this->Surface = DeformedSurface(surfaceOf(this->Tissue));
     this->Nearest.clear();
     ++this->SurfacesFound;
@@ -241,12 +241,7 @@ int vtkTraceDistance::RequestUpdateExtent(
   // Any point may be nearest to any part of the cortex.
   for (int port = DeformationPort; port <= CavityPort; ++port)
   {
-    if (vtkInformation* info = inputs[port]->GetInformationObject(0))
-    {
-      int whole[6];
-      info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
-      info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), whole, 6);
-    }
+    updateWholeExtent(inputs[port]->GetInformationObject(0));
   }
   return this->Superclass::RequestUpdateExtent(request, inputs, outputs);
 }
@@ -257,9 +252,8 @@ std::string vtkTraceDistance::FindCortex(vtkInformationVector** inputs)
   vtkImageData* volume = vtkImageData::GetData(inputs[DeformationPort]);
   vtkImageData* segmentation = vtkImageData::GetData(inputs[SegmentationPort]);
   Deformation deformation;
-  std::string problem =
-    "The volume carries no deformation; it must be the output of Free-Form Deformation";
-  if (!carriesDeformation(volume) || !readDeformation(volume, deformation, problem))
+  std::string problem;
+  if (!readDeformation(volume, deformation, problem))
   {
     return problem;
   }
@@ -280,7 +274,8 @@ std::string vtkTraceDistance::FindCortex(vtkInformationVector** inputs)
     const double* range = scalars->GetRange(0);
     return (byLabel ? "Label is " + std::to_string(this->Label)
                     : "Threshold is " + std::to_string(this->Threshold)) +
-      " and gives no surface; " + where + "'s scalars go from " + std::to_string(range[0]) +
+      " and gives no surface; the scalars of " +
+      (segmentation ? "the segmentation" : "the volume") + " go from " + std::to_string(range[0]) +
       " to " + std::to_string(range[1]);
   }
   const Lattice lattice = effectiveLattice(deformation);

@@ -3,20 +3,23 @@
  * @class   vtkTraceDistance
  * @brief   how far the points of a trace lie from the deformed cortex
  *
- * Input 0: points in the deformed frame (mm, world), blocks of them too. Input 1: the deformable
- * volume. Input 2 (optional): a segmentation at rest on any grid, which the cortex is taken from
- * instead of the volume. Input 3 (optional): a cavity mask in the deformed frame, labels or scalars
- * on any grid: where it is above 0, neither points nor tissue count; nor do they in the cavity that
- * Compare Volumes attached to the volume.
+ * - Input 0: points in the deformed frame (mm, world), or blocks of them.
+ * - Input 1: a deformable volume, the output of Free-Form Deformation.
+ * - Input 2 (optional): a segmentation in the rest frame on any grid. The cortex is taken from it
+ *   instead of the volume.
+ * - Input 3 (optional): a cavity in the deformed frame, labels or scalars on any grid. Points and
+ *   tissue do not count where it is above 0. They do not count either in the cavity that Compare
+ *   Volumes attached to the volume.
  *
- * The cortex is where the scalars pass Threshold, or where Label ends. It is found once, at rest;
- * after a stroke only what the stroke reached is moved (DeformedSurface.h), so the filter follows a
- * hand. Distances are exact for the moved triangles, which are as fine as the voxels. A point is
- * inside if the tissue seen at it, restFromDeformed, is.
+ * The cortex is the surface where the scalars pass Threshold, or where Label ends. It is found
+ * once, at rest. After a stroke only the part that the stroke reached is moved (DeformedSurface.h),
+ * so the filter follows a hand. Distances are exact for the moved triangles, which are as fine as
+ * the voxels. A point is inside if the tissue that is seen there (restFromDeformed) is inside.
  *
- * Output: the points with DistanceToCortex (float32, mm, positive outside; not a number for points
- * that do not count), and field arrays Count, Mean (signed), RMS and Percentile95 (of absolute
- * distances), over all blocks and all processes.
+ * Output: the points with the point array DistanceToCortex (float32, signed distance in mm,
+ * positive outside; NaN for points that do not count), and the field arrays Count, Mean (of the
+ * signed distances), RMS and Percentile95 (of the absolute distances), in mm, over all blocks and
+ * all processes.
  */
 #ifndef vtkTraceDistance_h
 #define vtkTraceDistance_h
@@ -39,24 +42,27 @@ public:
 
   enum SurfaceByType
   {
-    ByThreshold = 0, // scalars at or above Threshold are tissue
-    ByLabel = 1,     // scalars equal to Label are
+    ByThreshold = 0, ///< tissue is where scalars are at or above Threshold
+    ByLabel = 1,     ///< tissue is where scalars equal Label
   };
 
   ///@{
-  /** Name of the scalars that tell tissue; empty (default): the active ones, or the first. */
+  /**
+   * Name of the point array in which to find tissue. Empty (default): the active scalars, or the
+   * first array.
+   */
   vtkSetMacro(SurfaceArray, std::string);
   vtkGetMacro(SurfaceArray, std::string);
   ///@}
 
   ///@{
-  /** ByThreshold (default) or ByLabel. */
+  /** How tissue is found: ByThreshold (default) or ByLabel. */
   vtkSetClampMacro(SurfaceBy, int, ByThreshold, ByLabel);
   vtkGetMacro(SurfaceBy, int);
   ///@}
 
   ///@{
-  /** Least scalar of tissue. Default 0.5: the edge of a mask of 0 and 1. */
+  /** Smallest scalar of tissue. Default 0.5: the edge of a mask of 0 and 1. */
   vtkSetMacro(Threshold, double);
   vtkGetMacro(Threshold, double);
   ///@}
@@ -68,14 +74,17 @@ public:
   ///@}
 
   ///@{
-  /** Inputs 1, 2 and 3. */
+  /** The deformable volume (input 1), the segmentation (input 2) and the cavity (input 3). */
   void SetDeformationConnection(vtkAlgorithmOutput* volume);
   void SetSegmentationConnection(vtkAlgorithmOutput* segmentation);
   void SetCavityConnection(vtkAlgorithmOutput* mask);
   ///@}
 
   ///@{
-  /** Of the last execution: points that counted; mm, not a number if there were none. */
+  /**
+   * Figures of the last execution: how many points counted, and their distances in mm, which are
+   * NaN if no point counted.
+   */
   int GetCount() const;
   double GetMean() const;
   double GetRMS() const;
@@ -83,7 +92,10 @@ public:
   ///@}
 
   ///@{
-  /** What the filter redid so far: surfaces found; points of the surface moved by the last run. */
+  /**
+   * What the filter had to do: how many surfaces it found so far, and how many points of the
+   * surface the last execution moved.
+   */
   int GetSurfacesFound() const;
   vtkIdType GetPointsMoved() const;
   ///@}
@@ -107,9 +119,9 @@ private:
   double Threshold = 0.5;
   int Label = 1;
 
-  // Returns what keeps the filter from knowing the cortex; empty if nothing does.
+  // Finds the cortex. Returns one sentence if it cannot; empty if it can.
   std::string FindCortex(vtkInformationVector** inputs);
-  // Adds the array to points; false if the user aborts.
+  // Adds the array to points. False if the user aborts.
   bool Measure(vtkPointSet* points, std::vector<double>& all);
 
   struct State;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BrainShiftBehavior.h"
 
-#include "SliceMouse.h"
-#include "TraceLook.h"
-#include "ViewTools.h"
+#include "Interaction/ToolCarrier.h"
+#include "Interaction/Views/SliceMouse.h"
+#include "Plugin/TraceLook.h"
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
@@ -31,8 +31,8 @@ constexpr const char* Shaded = "BrainShiftShaded"; // Qt property of a represent
 // `kind`: of a representation.
 bool isShownAs(vtkSMProxy* representation, const char* kind)
 {
-  const char* shown = vtkSMPropertyHelper(representation, "Representation").GetAsString();
-  return shown && std::strcmp(shown, kind) == 0;
+  const char* type = vtkSMPropertyHelper(representation, "Representation").GetAsString();
+  return type && std::strcmp(type, kind) == 0;
 }
 
 bool reportsNumbers(vtkSMProxy* filter)
@@ -62,9 +62,9 @@ void colorByFirstArray(vtkSMPVRepresentationProxy* representation)
 }
 
 // A state being loaded says itself how it looks.
-void prepare(pqRepresentation* shown)
+void prepare(pqRepresentation* display)
 {
-  auto representation = vtkSMPVRepresentationProxy::SafeDownCast(shown->getProxy());
+  auto representation = vtkSMPVRepresentationProxy::SafeDownCast(display->getProxy());
   const bool volume = representation && isShownAs(representation, "Deformed Volume");
   const bool slices = representation && isShownAs(representation, "Deformed Slices");
   if (!(volume || slices) || pqApplicationCore::instance()->isLoadingState())
@@ -75,9 +75,9 @@ void prepare(pqRepresentation* shown)
   {
     colorByFirstArray(representation);
   }
-  if (volume && !shown->property(Shaded).toBool()) // once: who then turns it off means it
+  if (volume && !display->property(Shaded).toBool()) // once: who then turns it off means it
   {
-    shown->setProperty(Shaded, true);
+    display->setProperty(Shaded, true);
     vtkSMPropertyHelper(representation, "Shade", /*quiet*/ true).Set(1);
   }
   representation->UpdateVTKObjects();
@@ -96,8 +96,8 @@ void BrainShiftBehavior::onStartup()
     &BrainShiftBehavior::watchRepresentation);
   QObject::connect(
     model, &pqServerManagerModel::sourceAdded, this, &BrainShiftBehavior::watchSource);
-  SliceMouse::watchViews(this);
-  this->Hand = new ViewTools(this);
+  brainshift::SliceMouse::watchViews(this);
+  this->Hand = new brainshift::ToolCarrier(this);
 }
 
 void BrainShiftBehavior::onShutdown()
@@ -109,20 +109,22 @@ void BrainShiftBehavior::onShutdown()
 
 void BrainShiftBehavior::watchRepresentation(pqRepresentation* representation)
 {
-  auto shown = qobject_cast<pqDataRepresentation*>(representation);
-  if (!shown || !shown->getProxy()->GetProperty("Representation"))
+  auto display = qobject_cast<pqDataRepresentation*>(representation);
+  if (!display || !display->getProxy()->GetProperty("Representation"))
   {
     return;
   }
-  QObject::connect(
-    shown, &pqDataRepresentation::representationTypeModified, this, [shown] { prepare(shown); });
-  prepare(shown);
+  QObject::connect(display, &pqDataRepresentation::representationTypeModified, this,
+    [display] { prepare(display); });
+  prepare(display);
   if (!pqApplicationCore::instance()->isLoadingState())
   {
     // Once there is something to colour, and ParaView has chosen colours of its own.
     QObject::connect(
-      shown, &pqDataRepresentation::dataUpdated, this,
-      [shown] { QTimer::singleShot(0, shown, [shown] { showByDistance(shown); }); },
+      display, &pqDataRepresentation::dataUpdated, this,
+      [display] {
+        QTimer::singleShot(0, display, [display] { brainshift::showByDistance(display); });
+      },
       Qt::SingleShotConnection);
   }
 }

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What BrainShift does in ParaView's window on its own accord. It sets properties that are there,
-// and computes nothing.
+/// @file
+/// What BrainShift does in ParaView's window without being asked. It sets existing properties and
+/// computes nothing.
 #ifndef BrainShift_BrainShiftBehavior_h
 #define BrainShift_BrainShiftBehavior_h
 
 #include <QObject>
 
-class ViewTools;
 class pqPipelineSource;
 class pqRepresentation;
 class vtkSMProxy;
+
+namespace brainshift
+{
+class ToolCarrier;
+}
 
 class BrainShiftBehavior : public QObject
 {
@@ -18,18 +23,20 @@ class BrainShiftBehavior : public QObject
 public:
   BrainShiftBehavior(QObject* parent = nullptr);
 
+  /// ParaView calls it after the plugin was loaded.
   void onStartup();
+  /// ParaView calls it before it ends.
   void onShutdown();
 
 private:
-  // Makes a representation that becomes Deformed Volume drawable: it colours by an array, as
-  // ParaView takes care of for Volume only, and, the first time, shades.
+  /// Prepares a representation that becomes Deformed Volume or Deformed Slices: it gets an array to
+  /// colour by, which ParaView chooses for Volume only. A volume is also shaded the first time.
   void watchRepresentation(pqRepresentation* representation);
 
-  // Keeps the numbers that our filters report in the panel up to date.
+  /// Keeps the numbers that a filter reports in the panel up to date.
   void watchSource(pqPipelineSource* source);
 
-  ViewTools* Hand = nullptr; // the tools in the view, while the plugin is at work
+  brainshift::ToolCarrier* Hand = nullptr; ///< From startup to shutdown.
 };
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "TraceLook.h"
+#include "Plugin/TraceLook.h"
 
 #include <pqDataRepresentation.h>
 #include <pqOutputPort.h>
@@ -22,20 +22,22 @@
 #include <cmath>
 #include <cstring>
 
+namespace brainshift
+{
 namespace
 {
 constexpr const char* Distance = "DistanceToCortex";
 
-bool showsTraceDistance(pqDataRepresentation* shown)
+bool showsTraceDistance(pqDataRepresentation* display)
 {
-  pqPipelineSource* source = shown->getInput();
+  pqPipelineSource* source = display->getInput();
   return source && std::strcmp(source->getProxy()->GetXMLName(), "TraceDistance") == 0;
 }
 
 // Whole mm; 0 if there are no distances.
-double largestDistance(pqDataRepresentation* shown)
+double largestDistance(pqDataRepresentation* display)
 {
-  auto source = vtkSMSourceProxy::SafeDownCast(shown->getInput()->getProxy());
+  auto source = vtkSMSourceProxy::SafeDownCast(display->getInput()->getProxy());
   vtkPVArrayInformation* distances =
     source->GetDataInformation(0)->GetPointDataInformation()->GetArrayInformation(Distance);
   if (!distances)
@@ -57,37 +59,39 @@ void labelScale(vtkSMProxy* colors, vtkSMProxy* view)
 }
 
 // They would lie within ours.
-void hideTracedPoints(pqDataRepresentation* shown)
+void hideTracedPoints(pqDataRepresentation* display)
 {
-  auto filter = qobject_cast<pqPipelineFilter*>(shown->getInput());
+  auto filter = qobject_cast<pqPipelineFilter*>(display->getInput());
   pqOutputPort* points = filter ? filter->getInput("Input", 0) : nullptr;
-  if (pqDataRepresentation* traced = points ? points->getRepresentation(shown->getView()) : nullptr)
+  if (pqDataRepresentation* traced =
+        points ? points->getRepresentation(display->getView()) : nullptr)
   {
     traced->setVisible(false);
   }
 }
 }
 
-void showByDistance(pqDataRepresentation* shown)
+void showByDistance(pqDataRepresentation* display)
 {
-  if (!showsTraceDistance(shown))
+  if (!showsTraceDistance(display))
   {
     return;
   }
-  auto representation = vtkSMPVRepresentationProxy::SafeDownCast(shown->getProxy());
-  const double largest = largestDistance(shown);
-  if (!shown->getView() || largest <= 0.0 ||
+  auto representation = vtkSMPVRepresentationProxy::SafeDownCast(display->getProxy());
+  const double largest = largestDistance(display);
+  if (!display->getView() || largest <= 0.0 ||
     !representation->SetScalarColoring(Distance, vtkDataObject::POINT))
   {
     return;
   }
-  vtkSMProxy* view = shown->getView()->getProxy();
+  vtkSMProxy* view = display->getView()->getProxy();
   vtkSMProxy* colors = vtkSMPropertyHelper(representation, "LookupTable").GetAsProxy();
   vtkSMTransferFunctionProxy::ApplyPreset(colors, "Cool to Warm");
   vtkSMTransferFunctionProxy::RescaleTransferFunction(colors, -largest, largest);
   labelScale(colors, view);
   representation->SetScalarBarVisibility(view, true);
   representation->UpdateVTKObjects();
-  hideTracedPoints(shown);
-  shown->getView()->render();
+  hideTracedPoints(display);
+  display->getView()->render();
+}
 }

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How Trace Distance looks when it is first shown in the window: by distance, with a scale in mm.
+/// @file
+/// How the window shows a Trace Distance for the first time: coloured by distance, with a scale in
+/// mm.
 #ifndef BrainShift_TraceLook_h
 #define BrainShift_TraceLook_h
 
 class pqDataRepresentation;
 
-// If it shows a Trace Distance, colours it white at the cortex, red outside and blue inside, as far
-// as the distances go; hides the points it was made of.
-void showByDistance(pqDataRepresentation* shown);
+namespace brainshift
+{
+/// Colours a representation of a Trace Distance by signed distance: white at the cortex, red
+/// outside, blue inside. Hides the traced points that the filter was made of. Other representations
+/// stay as they are.
+void showByDistance(pqDataRepresentation* display);
+}
 
 #endif

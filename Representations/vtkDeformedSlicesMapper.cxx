@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedSlicesMapper.h"
 
-#include "Representations/Gpu/GpuMemory.h"
-#include "Filters/Deformation/PointMap.h"
 #include "Filters/Attached/ReferenceVolume.h"
+#include "Filters/Deformation/PointMap.h"
 #include "Representations/Field/SceneDeformation.h"
-#include "Representations/Scene/SceneGeometry.h"
-#include "Representations/Tissue/SceneReference.h"
+#include "Representations/Gpu/GpuMemory.h"
+#include "Representations/Gpu/GpuTask.h"
+#include "Representations/Gpu/TextureMemory.h"
+#include "Representations/Gpu/WindowDevices.h"
+#include "Representations/Scene/SceneFrame.h"
 #include "Representations/Slices/SliceComparison.h"
 #include "Representations/Slices/SliceDrawer.h"
 #include "Representations/Slices/SlicePick.h"
-#include "Representations/Gpu/TextureMemory.h"
-#include "Representations/Tissue/Tissue.h"
-#include "Representations/Gpu/WindowDevices.h"
+#include "Representations/Tissue/SceneReference.h"
+#include "Representations/Tissue/TissueTextures.h"
 
 #include "vtkColorTransferFunction.h"
 #include "vtkDataArray.h"
@@ -40,7 +41,7 @@ using namespace brainshift;
 
 struct vtkDeformedSlicesMapper::Device
 {
-  brainshift::Tissue Tissue;
+  TissueTextures Tissue;
   ReferenceTextures Reference;
   DeviceDeformation Deformation;
   SliceDrawer Drawer;
@@ -61,7 +62,7 @@ struct vtkDeformedSlicesMapper::State
   WindowDevices<Device> Devices;
   Counters Count;
   SceneDeformation Deformation;  // of the input
-  std::string Reported;          // the last trouble told
+  std::string Reported;          // the last problem
   std::unique_ptr<PointMap> Map; // of the deformation at MapTime, once asked for
   unsigned long long MapTime = 0;
   vtkWeakPointer<vtkVolumeProperty> Property; // drawn with last
@@ -69,7 +70,7 @@ struct vtkDeformedSlicesMapper::State
 
 namespace
 {
-// A plane on the very face of the box must not come and go with rounding; texture coordinates.
+// Texture coordinates. A plane on the very face of the box must not come and go with rounding.
 glm::dvec3 roundingOf(const ValueLayout& layout)
 {
   constexpr double roundingVoxels = 1e-3;
@@ -128,71 +129,66 @@ bool vtkDeformedSlicesMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
     return false;
   }
   window->MakeCurrent();
-  const ShownValues shown = shownValuesOf(this, image);
-  if (!shown.scalars)
+  const DrawnValues values = drawnValuesOf(this, image);
+  if (!values.scalars)
   {
     return true; // nothing to draw yet
   }
   this->UpdateDeformation(image);
   TissueRequest tissue;
   tissue.property = volume->GetProperty();
-  tissue.scalars = shown.scalars;
-  tissue.layout = shown.layout;
+  tissue.values = values;
   tissue.blend = Blend::Maximum; // one sample is seen: opacity as given, no light
   tissue.nearest = this->Interpolation == Nearest;
   Device& device = this->Internal->Devices.of(window);
-  takeOutOfMemory(); // what others left behind
-  const bool drawn = this->AskForMemory(window, device, tissue, problem) &&
-    this->DrawPlanes(renderer, device, volume, tissue, shown.grid, problem);
+  GpuTask gpu(window, this->Internal->Count);
+  takeOutOfMemory(); // errors of others
+  bool drawn = this->AskForMemory(gpu, device, tissue) &&
+    this->DrawPlanes(gpu, { renderer, volume }, device, tissue);
   if (takeOutOfMemory())
   {
     device.Memory.refuse();
-    return this->AskForMemory(window, device, tissue, problem);
+    drawn = this->AskForMemory(gpu, device, tissue);
   }
+  problem = gpu.problem;
   return drawn;
 }
 
 bool vtkDeformedSlicesMapper::AskForMemory(
-  vtkOpenGLRenderWindow* window, Device& device, const TissueRequest& tissue, std::string& problem)
+  GpuTask& gpu, Device& device, const TissueRequest& tissue)
 {
   DrawnSizes sizes;
   addTissueSizes(tissue, sizes);
   this->Internal->Deformation.addSizes(sizes);
   constexpr double noLimit = 0.0;
-  problem = device.Memory.ask(window, memoryNeed(sizes), noLimit);
-  return problem.empty();
+  gpu.problem = device.Memory.ask(gpu.window, memoryNeed(sizes), noLimit);
+  return gpu.problem.empty();
 }
 
-bool vtkDeformedSlicesMapper::DrawPlanes(vtkRenderer* renderer, Device& device, vtkVolume* volume,
-  const TissueRequest& tissue, const Grid& grid, std::string& problem)
+bool vtkDeformedSlicesMapper::DrawPlanes(
+  GpuTask& gpu, const DrawnVolume& seen, Device& device, const TissueRequest& tissue)
 {
   State& state = *this->Internal;
-  auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   SliceScene scene;
   DeviceDeformation::Change change;
-  if (!device.Tissue.update(window, tissue, scene.volume, state.Count, problem) ||
-    !device.Deformation.update(
-      window, state.Deformation, grid, tissue.layout, scene.volume, change, state.Count, problem) ||
-    !this->DescribeReference(window, device, tissue, grid, scene, problem))
+  if (!device.Tissue.update(gpu, tissue, scene.tissue) ||
+    !device.Deformation.update(gpu, state.Deformation, tissue.values, scene.field, change) ||
+    !this->UploadReference(gpu, device, tissue, scene))
   {
     return false;
   }
-  describeView(renderer, volume, grid, tissue.layout, scene.volume);
-  this->DescribePlanes(tissue, grid, scene);
-  device.Drawn = { scene.planes, scene.volume.worldFromTexture };
-  state.Property = volume->GetProperty();
-  scene.selecting = renderer->GetSelector() != nullptr;
+  scene.frame = frameOf(seen, tissue.values);
+  this->PlacePlanes(tissue.values, scene);
+  device.Drawn = { scene.planes, scene.frame.worldFromTexture };
+  state.Property = tissue.property;
+  scene.selecting = seen.renderer->GetSelector() != nullptr;
   scene.blended = this->IsTranslucent() && !scene.selecting;
-  if (!device.Drawer.draw(window, scene, state.Count))
-  {
-    problem = "The slices' shader does not compile on this GPU";
-    return false;
-  }
-  return true;
+  return device.Drawer.draw(gpu.window, scene, gpu.counters) ||
+    gpu.fail("The slices' shader does not compile on this GPU");
 }
 
-bool vtkDeformedSlicesMapper::DescribeReference(vtkOpenGLRenderWindow* window, Device& device,
-  const TissueRequest& tissue, const Grid& grid, SliceScene& scene, std::string& problem)
+bool vtkDeformedSlicesMapper::UploadReference(
+  GpuTask& gpu, Device& device, const TissueRequest& tissue, SliceScene& scene)
 {
   const ReferenceVolume reference = readReference(this->GetDataSetInput());
   const bool alone = reference.show == ReferenceShow::Reference;
@@ -207,45 +203,44 @@ bool vtkDeformedSlicesMapper::DescribeReference(vtkOpenGLRenderWindow* window, D
   choice.fullGradient = this->FullGradient;
   choice.wipePosition = { this->WipePosition[0], this->WipePosition[1], this->WipePosition[2] };
   const double* range = tissue.property->GetRGBTransferFunction()->GetRange();
-  const ComparedVolume volume{ grid, tissue.layout, { range[0], range[1] }, device.Tissue.stored(),
+  const ComparedVolume volume{ tissue.values.grid, tissue.values.layout, { range[0], range[1] },
+    device.Tissue.stored(),
     valueFromReference(
       reference.voxels, tissue, { this->ReferenceRange[0], this->ReferenceRange[1] }),
-    scene.volume.transferFromScalar, tissue.nearest };
-  return device.Reference.update(
-    window, reference, choice, volume, scene.reference, this->Internal->Count, problem);
+    scene.tissue.transferFromScalar, tissue.nearest };
+  return device.Reference.update(gpu, reference, choice, volume, scene.reference);
 }
 
-void vtkDeformedSlicesMapper::DescribePlanes(
-  const TissueRequest& tissue, const Grid& grid, SliceScene& scene)
+void vtkDeformedSlicesMapper::PlacePlanes(const DrawnValues& values, SliceScene& scene)
 {
-  const ValueLayout& layout = tissue.layout;
-  const glm::ivec3 axes = axesAcrossPlanes(grid.direction);
+  const ValueLayout& layout = values.layout;
+  const glm::ivec3 axes = axesAcrossPlanes(values.grid.direction);
   const bool shown[3] = { this->ShowSagittal, this->ShowCoronal, this->ShowAxial };
   for (int plane = 0; plane < 3; ++plane)
   {
     scene.planes.shown[axes[plane]] = shown[plane];
   }
   const glm::dvec3 position(this->SlicePosition[0], this->SlicePosition[1], this->SlicePosition[2]);
-  scene.planes.position =
-    grid.gridFromWorld(position) * layout.textureFromGrid + layout.textureOfGridZero;
+  scene.planes.position = textureFromWorld(values, position);
   const glm::dvec3 rounding = roundingOf(layout);
-  scene.volume.volumeLow -= rounding;
-  scene.volume.volumeHigh += rounding;
-  scene.planes.low = glm::min(scene.volume.spaceLow, scene.volume.volumeLow);
-  scene.planes.high = glm::max(scene.volume.spaceHigh, scene.volume.volumeHigh);
+  scene.tissue.volumeLow -= rounding;
+  scene.tissue.volumeHigh += rounding;
+  scene.planes.low = glm::min(scene.field.spaceLow, scene.tissue.volumeLow);
+  scene.planes.high = glm::max(scene.field.spaceHigh, scene.tissue.volumeHigh);
   scene.voxels = layout.dimensions;
   scene.cubic = this->Interpolation == Cubic;
   scene.opacity = this->Opacity;
   scene.mapsOpacity = this->MapOpacity;
 }
 
-// Tissue outside the volume, without a value, or see-through is not seen.
+// Tissue is not seen outside the volume, without a value, or where it is transparent.
 bool vtkDeformedSlicesMapper::IsSeenAt(const glm::dvec3& texture)
 {
   State& state = *this->Internal;
   auto image = vtkImageData::SafeDownCast(this->GetDataSetInput());
-  const auto [scalars, grid, layout] = shownValuesOf(this, image);
-  if (!scalars)
+  const DrawnValues values = drawnValuesOf(this, image);
+  const ValueLayout& layout = values.layout;
+  if (!values.scalars)
   {
     return false;
   }
@@ -259,8 +254,7 @@ bool vtkDeformedSlicesMapper::IsSeenAt(const glm::dvec3& texture)
       state.MapTime = state.Deformation.time;
     }
     const glm::dvec3 place = (texture - layout.textureOfGridZero) / layout.textureFromGrid;
-    const glm::dvec3 world = state.Map->restFromDeformed(grid.worldFromGrid(place));
-    rest = grid.gridFromWorld(world) * layout.textureFromGrid + layout.textureOfGridZero;
+    rest = textureFromWorld(values, state.Map->restFromDeformed(values.grid.worldFromGrid(place)));
   }
   const glm::dvec3 rounding = roundingOf(layout);
   if (glm::any(glm::lessThan(rest, layout.low - rounding)) ||
@@ -273,7 +267,7 @@ bool vtkDeformedSlicesMapper::IsSeenAt(const glm::dvec3& texture)
   const vtkIdType index =
     (static_cast<vtkIdType>(voxel.z) * layout.dimensions.y + voxel.y) * layout.dimensions.x +
     voxel.x;
-  const double value = scalars->GetComponent(index, 0);
+  const double value = values.scalars->GetComponent(index, 0);
   const bool seenThrough = this->MapOpacity && state.Property &&
     state.Property->GetScalarOpacity()->GetValue(value) <= 0.0;
   return !std::isnan(value) && !seenThrough;

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkDeformedSlicesMapper
- * @brief   draws planes through a volume and the lattice it carries
+ * @brief   draws planes through a volume and the lattice that it carries
  *
- * Three planes across the volume's axes, through one position: each fragment of them looks its
- * scalar up at the rest position its tissue came from (Filters/Attached/DeformableVolume.h), so that nothing
- * is resampled. The planes reach as far as tissue may go; outside tissue nothing is drawn. Colours
- * and place come from the vtkVolume, light does not matter.
+ * Draws three planes across the volume's axes, through one position. Each fragment reads its scalar
+ * at the rest position that its tissue came from (Filters/Attached/DeformableVolume.h). So nothing
+ * is resampled. The planes reach as far as tissue can go. Outside tissue nothing is drawn. Colours
+ * and place come from the vtkVolume; there is no light.
  *
- * Opaque planes are drawn among surfaces, with their depth; others where volumes are, blended over
- * what is there.
+ * Opaque planes are drawn together with the surfaces, with their depth. See-through planes are
+ * drawn together with the volumes and blended over what is there.
  *
- * What lies on the GPU is kept for each window; where the GPU cannot draw, the reason is reported
- * once and nothing is drawn.
+ * Each window keeps its own textures. If the GPU cannot draw the planes, the mapper reports the
+ * reason once and draws nothing.
  */
 #ifndef vtkDeformedSlicesMapper_h
 #define vtkDeformedSlicesMapper_h
@@ -26,11 +26,12 @@
 #include <string> // for messages
 
 class vtkImageData;
-class vtkOpenGLRenderWindow;
 namespace brainshift
 {
 struct Counters;
-struct Grid;
+struct DrawnValues;
+struct DrawnVolume;
+struct GpuTask;
 struct SliceScene;
 struct TissueRequest;
 }
@@ -43,8 +44,10 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /** Whether a plane is drawn: the one across the volume's axis nearest to world x (sagittal), y
-   * (coronal), z (axial). Default true. */
+  /**
+   * Whether a plane is drawn: across the volume's axis nearest to world x (sagittal), y (coronal)
+   * or z (axial). Default true.
+   */
   vtkSetMacro(ShowSagittal, bool);
   vtkGetMacro(ShowSagittal, bool);
   vtkSetMacro(ShowCoronal, bool);
@@ -54,32 +57,33 @@ public:
   ///@}
 
   ///@{
-  /** All planes go through it: mm, world axes, before the vtkVolume's transform. Default 0 0 0. */
+  /** All planes go through this position: mm, world axes, before the vtkVolume's transform. Default
+   * 0 0 0. */
   vtkSetVector3Macro(SlicePosition, double);
   vtkGetVector3Macro(SlicePosition, double);
   ///@}
 
   enum InterpolationType
   {
-    Nearest = 0, // as VTK numbers them
+    Nearest = 0, ///< Numbered as in VTK.
     Linear = 1,
-    Cubic = 2, // B-spline: smooth, and a little softer
+    Cubic = 2, ///< B-spline: smooth, and a little softer.
   };
 
   ///@{
-  /** How scalars are found between voxels. Default linear. */
+  /** How scalars are interpolated between voxels. Default linear. */
   vtkSetClampMacro(Interpolation, int, Nearest, Cubic);
   vtkGetMacro(Interpolation, int);
   ///@}
 
   ///@{
-  /** Opacity of all, 0 to 1. Default 1. */
+  /** Opacity of all planes, 0 to 1. Default 1. */
   vtkSetClampMacro(Opacity, double, 0.0, 1.0);
   vtkGetMacro(Opacity, double);
   ///@}
 
   ///@{
-  /** Times the opacity map's. Default false. */
+  /** Whether the opacity curve makes planes see-through, too. Default false. */
   vtkSetMacro(MapOpacity, bool);
   vtkGetMacro(MapOpacity, bool);
   ///@}
@@ -87,45 +91,51 @@ public:
   enum ComparisonType
   {
     NoComparison = 0,
-    RedGreen = 1,     // volume red, reference green, agreement yellow
-    Checkerboard = 2, // in turn, both by the colour map
-    Difference = 3,   // volume minus reference; agreement is grey
-    Gradient = 4,     // the reference's gradient, green, over the volume in grey
-    Wipe = 5,         // the volume on one side of a line, the reference on the other
+    RedGreen = 1,     ///< Volume red, reference green, agreement yellow.
+    Checkerboard = 2, ///< Fields of volume and reference in turn, with the colour map.
+    Difference = 3,   ///< Volume minus reference; agreement is grey.
+    Gradient = 4,     ///< The reference's gradient, green, over the volume in grey.
+    Wipe = 5,         ///< The volume on one side of a line, the reference on the other.
   };
 
   ///@{
-  /** How the reference that Compare Volumes attached is shown. Default not at all. Colours and
-   * difference leave its cavity out. Where it attached that one of the two is shown alone, that one
-   * is drawn by the colour map, whatever the comparison. */
+  /**
+   * How the reference that Compare Volumes attached is shown. Default: it is not shown. Colours and
+   * difference ignore its cavity. If Compare Volumes says that one of the two volumes is shown
+   * alone, that one is drawn with the colour map, whatever the comparison.
+   */
   vtkSetClampMacro(Comparison, int, NoComparison, Wipe);
   vtkGetMacro(Comparison, int);
   ///@}
 
   ///@{
-  /** Side of a field of the checkerboard, mm. Default 20. */
+  /** Side of a field of the checkerboard, mm. Default 20, at least 0.01. */
   vtkSetClampMacro(CheckerSize, double, 0.01, VTK_DOUBLE_MAX);
   vtkGetMacro(CheckerSize, double);
   ///@}
 
   ///@{
-  /** The reference's scalars that stand for the ends of the colour map. Default 0 0, as all that is
-   * no range: as vtkDeformedVolumeMapper maps them, equal numbers where both ranges are alike. */
+  /** The reference's scalars that stand for the ends of the colour map. Default 0 0: see
+   * vtkDeformedVolumeMapper. Any two numbers of which the first is not smaller mean the default. */
   vtkSetVector2Macro(ReferenceRange, double);
   vtkGetVector2Macro(ReferenceRange, double);
   ///@}
 
   ///@{
-  /** How much the reference changes within a mm where Gradient is fully green, as a share of the
-   * colour map's range. Default 0.3. */
+  /**
+   * Change of the reference within one mm at which Gradient is fully green, as a share of the
+   * colour map's range. Default 0.3.
+   */
   vtkSetClampMacro(FullGradient, double, 1e-6, VTK_DOUBLE_MAX);
   vtkGetMacro(FullGradient, double);
   ///@}
 
   ///@{
-  /** The line of Wipe goes through it: mm, world axes, before the vtkVolume's transform. It divides
-   * axial and coronal slices across x, sagittal ones across y; the reference is where these are
-   * smaller. Default 0 0 0. */
+  /**
+   * The line of Wipe goes through this position: mm, world axes, before the vtkVolume's transform.
+   * It divides axial and coronal slices across x, sagittal slices across y. The reference is drawn
+   * on the side of smaller coordinates. Default 0 0 0.
+   */
   vtkSetVector3Macro(WipePosition, double);
   vtkGetVector3Macro(WipePosition, double);
   ///@}
@@ -142,21 +152,23 @@ public:
   double* GetBounds() VTK_SIZEHINT(6) override;
   ///@}
 
-  /** Directions (world) that the sagittal, the coronal and the axial plane lie across, 3 each,
-   * pointing towards greater world coordinates. Those of the world without an input. */
+  /**
+   * Normals (world) of the sagittal, the coronal and the axial plane, 3 numbers each, pointing
+   * towards greater world coordinates. Without an input: the axes of the world.
+   */
   void GetNormals(double normals[9]);
 
-  /** Distances (mm) between voxels along these directions. 1 without an input. */
+  /** Distances (mm) between voxels along these normals. Without an input: 1. */
   void GetVoxelSteps(double steps[3]);
 
   /**
-   * Which tissue the last picture shows at a pixel, counted from the renderer's lower left corner:
-   * its position (mm, world, deformed frame), and the unit normal of its plane. False if none.
-   * Nothing is drawn.
+   * Position of the tissue (mm, world, deformed frame) at a pixel of the last picture, and the unit
+   * normal of its plane. False if there is no tissue. `x` and `y` count from the renderer's lower
+   * left corner. Nothing is drawn.
    */
   bool Pick(vtkRenderer* renderer, int x, int y, double position[3], double normal[3]);
 
-  /** What was done since the mapper was made, and what it holds on the GPU now. */
+  /** What the mapper did since it was made, and what it holds on the GPU now. */
   const brainshift::Counters& GetCounters();
 
 protected:
@@ -170,17 +182,15 @@ private:
   struct Device; // textures and programs of one window
   struct State;  // what all windows share, and their devices
 
-  // False, with one sentence in `problem`, if this GPU cannot.
+  // False, with a problem, if this GPU cannot.
   bool Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem);
-  bool DrawPlanes(vtkRenderer* renderer, Device& device, vtkVolume* volume,
-    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid, std::string& problem);
-  bool AskForMemory(vtkOpenGLRenderWindow* window, Device& device,
-    const brainshift::TissueRequest& tissue, std::string& problem);
-  bool DescribeReference(vtkOpenGLRenderWindow* window, Device& device,
-    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
-    brainshift::SliceScene& scene, std::string& problem);
-  void DescribePlanes(const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
-    brainshift::SliceScene& scene);
+  bool AskForMemory(
+    brainshift::GpuTask& gpu, Device& device, const brainshift::TissueRequest& tissue);
+  bool DrawPlanes(brainshift::GpuTask& gpu, const brainshift::DrawnVolume& seen, Device& device,
+    const brainshift::TissueRequest& tissue);
+  bool UploadReference(brainshift::GpuTask& gpu, Device& device,
+    const brainshift::TissueRequest& tissue, brainshift::SliceScene& scene);
+  void PlacePlanes(const brainshift::DrawnValues& values, brainshift::SliceScene& scene);
   void UpdateDeformation(vtkImageData* image);
   bool IsSeenAt(const glm::dvec3& texture); // deformed frame
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedSlicesRepresentation.h"
 
-#include "Representations/Window/InteractiveDelivery.h"
 #include "Representations/Slices/OrientationMarks.h"
 #include "Representations/Slices/SlicesProp.h"
+#include "Representations/Window/InteractiveDelivery.h"
 #include "vtkDeformedSlicesMapper.h"
 
 #include "vtkObjectFactory.h"
@@ -20,6 +20,7 @@ vtkDeformedSlicesRepresentation::vtkDeformedSlicesRepresentation()
   this->VolumeMapper = slices;
   vtkNew<brainshift::SlicesProp> prop;
   prop->Slices = slices;
+  prop->IsTranslucent = [mapper = slices.Get()] { return mapper->IsTranslucent(); };
   prop->SetProperty(this->Property);
   prop->SetLODMapper(this->OutlineMapper);
   this->Actor = prop;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkDeformedSlicesRepresentation
- * @brief   "Deformed Slices": planes through a volume and the lattice it carries
+ * @brief   "Deformed Slices": planes through a volume and the lattice that it carries
  *
- * Data delivery, colour maps and transforms are those of ParaView's "Volume": the volume stays
- * where it is drawn. What is drawn are the planes of vtkDeformedSlicesMapper, whose header says
- * what the properties mean.
+ * Data delivery, colour maps and transforms are those of ParaView's "Volume": the volume stays on
+ * the server that draws it. vtkDeformedSlicesMapper draws the planes; its header explains the
+ * properties.
  */
 #ifndef vtkDeformedSlicesRepresentation_h
 #define vtkDeformedSlicesRepresentation_h
@@ -27,7 +27,7 @@ public:
   void SetVisibility(bool visible) override;
 
   ///@{
-  /** Passed on to the mapper. */
+  /** Passed on to the mapper; see there. */
   void SetShowSagittal(bool show);
   void SetShowCoronal(bool show);
   void SetShowAxial(bool show);
@@ -48,7 +48,7 @@ public:
   vtkGetMacro(OrientationMarks, bool);
   ///@}
 
-  /** What draws it in this process. */
+  /** The mapper that draws it in this process. */
   vtkDeformedSlicesMapper* GetDeformedSlicesMapper() const;
 
 protected:

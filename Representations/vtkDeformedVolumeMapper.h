@@ -1,53 +1,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkDeformedVolumeMapper
- * @brief   ray casts a volume through the lattice it carries
+ * @brief   ray casts a volume through the lattice that it carries
  *
  * Draws a vtkImageData with the deformation that Free-Form Deformation attached to it (see
- * Filters/Attached/DeformableVolume.h), never resampling a voxel; a volume without a lattice is drawn as it
- * is. Colours, opacity, light and position come from the vtkVolume, as for any volume mapper.
+ * Filters/Attached/DeformableVolume.h). No voxel is resampled. A volume without a lattice is drawn
+ * as it is. Colours, opacity, light and position come from the vtkVolume, as for any volume mapper.
  *
- * All blend modes, clipping planes, cropping regions and dependent components of VTK's volumes are
- * drawn under the deformation; what is not drawn is told once (RayCastOptions.h).
+ * All blend modes, clipping planes, cropping regions and dependent components of VTK's volumes work
+ * with the deformation. A warning, given once, names what is not drawn (unsupportedChoices in
+ * Representations/Scene/VolumeChoices.h).
  *
- * What lies on the GPU is kept for each window that shows the volume: two of them, drawn in turn,
+ * Each window that shows the volume keeps its own textures. Two windows that are drawn in turn
  * upload nothing.
  *
- * Where the GPU cannot draw it, the reason is reported once and VTK's software mapper draws the
- * volume undeformed.
+ * If the GPU cannot draw the volume, the mapper reports the reason once and VTK's software mapper
+ * draws the volume undeformed.
  *
- * Method: van der Steen et al., SPIE 7169 (2009), section 2; ARCHITECTURE.md says what differs.
+ * Method: van der Steen et al., SPIE 7169 (2009), section 2; ARCHITECTURE.md lists the differences.
  */
 #ifndef vtkDeformedVolumeMapper_h
 #define vtkDeformedVolumeMapper_h
 
+#include "Representations/Scene/HitSource.h"    // for what hides points
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 #include "vtkVolumeMapper.h"
-
-#include <glm/vec2.hpp> // for sizes in pixels
 
 #include <memory> // for the private part
 #include <string> // for messages
 #include <vector> // for labels
 
-class vtkDataArray;
 class vtkImageData;
-class vtkOpenGLRenderWindow;
 class vtkVolumeProperty;
 namespace brainshift
 {
 struct Counters;
-struct FirstHits;
-struct Grid;
-struct RayCastScene;
+struct DrawnValues;
 struct SceneReference;
-struct SegmentRequest;
 struct TissueRequest;
-class Tissue;
-struct ValueLayout;
 }
 
-class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkDeformedVolumeMapper : public vtkVolumeMapper
+class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkDeformedVolumeMapper
+  : public vtkVolumeMapper
+  , public brainshift::HitSource
 {
 public:
   static vtkDeformedVolumeMapper* New();
@@ -65,16 +60,16 @@ public:
   ///@}
 
   ///@{
-  /** Leap over what cannot be seen. The picture is the same bit for bit. Default true. */
+  /** Leap over what cannot be seen. The picture stays identical to the bit. Default true. */
   vtkSetMacro(EmptySpaceSkipping, bool);
   vtkGetMacro(EmptySpaceSkipping, bool);
   ///@}
 
   enum NormalTextureType
   {
-    HalfResolution = 0, // the paper's choice: an eighth of the memory, softer light
+    HalfResolution = 0, ///< The paper's choice: an eighth of the memory, softer light.
     FullResolution = 1,
-    OnTheFly = 2, // no texture: six more reads for each lit sample
+    OnTheFly = 2, ///< No texture: six more reads for each lit sample.
   };
 
   ///@{
@@ -85,8 +80,8 @@ public:
 
   ///@{
   /**
-   * Draw fewer pixels while the window asks for interactive rates, as many as hold the rate; the
-   * still picture has them all. Default true.
+   * Draw fewer pixels while the window asks for interactive rates: as many as it has time for. The
+   * still picture has all pixels. Default true.
    */
   vtkSetMacro(AdaptiveQuality, bool);
   vtkGetMacro(AdaptiveQuality, bool);
@@ -100,8 +95,8 @@ public:
 
   ///@{
   /**
-   * Count the samples that composite blending takes and skips (GetCounters), by a third target that
-   * is read back after each picture. Default false.
+   * Count the samples that composite blending takes and skips (GetCounters). A third target is then
+   * read back after each picture. Default false.
    */
   vtkSetMacro(CountSamples, bool);
   vtkGetMacro(CountSamples, bool);
@@ -109,8 +104,8 @@ public:
 
   ///@{
   /**
-   * Cast no rays for a picture that would come out as the last one: what changes while a tool
-   * hovers lies over it. Default false; Trace Points in the view turn it on.
+   * Cast no rays for a picture that would look like the last one. While a tool hovers, only what
+   * lies over the picture changes. Default false; Trace Points in the view have the same effect.
    */
   vtkSetMacro(KeepPicture, bool);
   vtkGetMacro(KeepPicture, bool);
@@ -126,13 +121,15 @@ public:
   ///@}
 
   ///@{
-  /** Labels to draw. None, the default: those the segmentation means, or else all above 0. */
+  /** Labels to draw. None (default): those that the segmentation means, or else all above 0. */
   void AddDrawnLabel(int label);
   void ClearDrawnLabels();
+  ///@}
+
   enum ComparisonType
   {
     NoComparison = 0,
-    RedGreen = 1, // volume red, reference green, agreement yellow
+    RedGreen = 1, ///< Volume red, reference green, agreement yellow.
   };
 
   ///@{
@@ -143,9 +140,9 @@ public:
 
   ///@{
   /**
-   * The reference's scalars that stand for the ends of the volume's colour map. Default 0 0: equal
-   * numbers where the volumes' ranges have at least half in common, else from the whole range of
-   * the one to that of the other.
+   * The reference's scalars that stand for the ends of the volume's colour map. Default 0 0:
+   * scalars keep their numbers if the ranges of both volumes have at least half in common. Else the
+   * range of the reference is mapped to the range of the volume.
    */
   vtkSetVector2Macro(ReferenceRange, double);
   vtkGetVector2Macro(ReferenceRange, double);
@@ -153,24 +150,25 @@ public:
 
   ///@{
   /**
-   * Distance (mm) between two surfaces at which half of the one behind is seen through the other:
-   * all of it at half the distance, nothing at one and a half. 0 (default): two voxels.
+   * Distance (mm) between two surfaces at which half of the one behind is seen through the one in
+   * front. At half this distance all of it is seen, at one and a half times nothing. 0 (default):
+   * two voxels.
    */
   vtkSetClampMacro(AgreementDistance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(AgreementDistance, double);
   ///@}
 
   /**
-   * Tissue position (mm, world, deformed frame) that the last whole picture in the renderer's
-   * window shows at a pixel counted from the renderer's lower left corner, without drawing again:
-   * where the opacity along the ray reaches one half. False where it does not.
+   * Position of the tissue (mm, world, deformed frame) at a pixel of the last whole picture in the
+   * renderer's window: where the opacity along the ray reaches one half. False if it never does.
+   * `x` and `y` count from the renderer's lower left corner. Nothing is drawn.
    */
   bool Pick(vtkRenderer* renderer, int x, int y, double position[3]);
 
   /**
    * First hits of the last picture in a window, whole or a tile. Null if there is none.
    */
-  const brainshift::FirstHits* GetHits(vtkWindow* window);
+  const brainshift::FirstHits* GetHits(vtkWindow* window) override;
 
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
@@ -182,13 +180,13 @@ public:
   ///@}
 
   /**
-   * Hides from a selection what lies behind the tissue of the last picture; the volume itself
-   * cannot be selected. Selections of surfaces' cells do so when volumes are drawn. Points are
-   * drawn without a depth of their own: there it must be called before anything is.
+   * Hides what lies behind the tissue of the last picture from a selection. The volume itself
+   * cannot be selected. A selection of cells does so when it draws volumes. A selection of points
+   * draws no depth of its own: call this before it draws anything.
    */
   void CoverSelection(vtkRenderer* renderer);
 
-  /** What was done since the mapper was made, and what it holds on the GPU now. */
+  /** What the mapper did since it was made, and what it holds on the GPU now. */
   const brainshift::Counters& GetCounters();
 
 protected:
@@ -199,41 +197,19 @@ private:
   vtkDeformedVolumeMapper(const vtkDeformedVolumeMapper&) = delete;
   void operator=(const vtkDeformedVolumeMapper&) = delete;
 
-  struct Device; // textures and programs of one window
-  struct State;  // what all windows share, and their devices
+  struct State; // what all windows share, and what each of them keeps
 
   // Draws deformed. False, with one sentence in `problem`, if this GPU cannot.
   bool Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem);
-  bool DrawTissue(vtkRenderer* renderer, Device& device, vtkVolume* volume,
-    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
-    const brainshift::SceneReference& reference, std::string& problem);
   void DrawUndeformed(vtkRenderer* renderer, vtkVolume* volume, const std::string& problem);
 
-  brainshift::SegmentRequest SegmentOf(
-    vtkImageData* image, const brainshift::Grid& grid, const brainshift::ValueLayout& layout);
-  void TellUnsupported(vtkVolumeProperty* property, vtkDataArray* scalars);
-  void TellOnce(const std::string& sentence);
-  brainshift::SceneReference FindReference(
+  // What is to be drawn, as the settings say.
+  brainshift::TissueRequest TissueOf(
+    vtkImageData* image, vtkVolumeProperty* property, const brainshift::DrawnValues& values);
+  brainshift::SceneReference ReferenceOf(
     vtkImageData* image, const brainshift::TissueRequest& tissue);
-  bool AskForMemory(vtkRenderer* renderer, Device& device, const brainshift::TissueRequest& tissue,
-    brainshift::SceneReference& reference, std::string& problem);
-  void AskTheGpu();
   void UpdateDeformation(vtkImageData* image);
-  bool DescribeTissue(vtkRenderer* renderer, Device& device, vtkVolume* volume,
-    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
-    brainshift::RayCastScene& scene, std::string& problem);
-  bool DescribeReference(vtkRenderer* renderer, Device& device, vtkVolume* volume,
-    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
-    const brainshift::SceneReference& reference, brainshift::RayCastScene& scene,
-    std::string& problem);
-  void DescribeOptions(vtkRenderer* renderer, vtkVolume* volume, const brainshift::Tissue& drawn,
-    const brainshift::TissueRequest& tissue, const brainshift::Grid& grid,
-    brainshift::RayCastScene& scene);
-  void Compare(vtkRenderer* renderer, Device& device, vtkVolume* volume,
-    const brainshift::Grid& grid, const brainshift::SceneReference& reference,
-    brainshift::RayCastScene& scene, brainshift::RayCastScene& alone);
-  void DescribeCropping(const brainshift::Grid& grid, const brainshift::ValueLayout& layout,
-    brainshift::RayCastScene& scene);
+  void TellOnce(const std::string& sentence);
 
   double SampleDistance = 0.0;
   bool EmptySpaceSkipping = true;

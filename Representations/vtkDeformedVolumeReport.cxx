@@ -30,7 +30,7 @@ void vtkDeformedVolumeReport::SetView(vtkPVRenderView* view)
   this->View = view;
 }
 
-vtkPVDataRepresentation* vtkDeformedVolumeReport::Shown() const
+vtkPVDataRepresentation* vtkDeformedVolumeReport::ActiveRepresentation() const
 {
   auto composite = vtkCompositeRepresentation::SafeDownCast(this->Representation);
   return composite ? composite->GetActiveRepresentation() : this->Representation.Get();
@@ -38,13 +38,13 @@ vtkPVDataRepresentation* vtkDeformedVolumeReport::Shown() const
 
 vtkDeformedVolumeMapper* vtkDeformedVolumeReport::Mapper() const
 {
-  auto deformed = vtkDeformedVolumeRepresentation::SafeDownCast(this->Shown());
+  auto deformed = vtkDeformedVolumeRepresentation::SafeDownCast(this->ActiveRepresentation());
   return deformed ? deformed->GetDeformedVolumeMapper() : nullptr;
 }
 
 vtkDeformedSlicesMapper* vtkDeformedVolumeReport::Slices() const
 {
-  auto slices = vtkDeformedSlicesRepresentation::SafeDownCast(this->Shown());
+  auto slices = vtkDeformedSlicesRepresentation::SafeDownCast(this->ActiveRepresentation());
   return slices ? slices->GetDeformedSlicesMapper() : nullptr;
 }
 

@@ -30,7 +30,7 @@ public:
   /** A Deformed Volume or Deformed Slices, or a composite representation that shows one now. */
   void SetRepresentation(vtkPVDataRepresentation* representation);
 
-  /** The view that shows it. */
+  /** The view that shows the representation. */
   void SetView(vtkPVRenderView* view);
 
   ///@{
@@ -40,17 +40,20 @@ public:
   ///@}
 
   /**
-   * Which tissue the last picture shows at the pixel: its position (mm, world, deformed frame) and
-   * 1, or zeros where no surface was hit; then the unit normal (world) of the slice that shows it,
-   * zeros in a Deformed Volume. Nothing is drawn.
+   * Seven numbers about the tissue at the pixel of the last picture: its position (mm, world,
+   * deformed frame); 1, or 0 if no surface was hit; the unit normal (world) of its slice, or zeros
+   * in a Deformed Volume. Nothing is drawn.
    */
   double* GetTissue() VTK_SIZEHINT(7);
 
-  /** What the renderer did since it was made, and holds on the GPU (Counters.h): lines of a name, a space, a number. */
+  /**
+   * What the renderer did since it was made, and what it holds on the GPU (Gpu/Counters.h): lines
+   * of a name, a space and a number.
+   */
   const char* GetCounters();
 
   ///@{
-  /** Of Deformed Slices: see vtkDeformedSlicesMapper. Zeros if something else is shown. */
+  /** Of Deformed Slices, see vtkDeformedSlicesMapper. Zeros if something else is shown. */
   double* GetSliceNormals() VTK_SIZEHINT(9);
   double* GetVoxelSteps() VTK_SIZEHINT(3);
   ///@}
@@ -63,9 +66,9 @@ private:
   vtkDeformedVolumeReport(const vtkDeformedVolumeReport&) = delete;
   void operator=(const vtkDeformedVolumeReport&) = delete;
 
-  vtkPVDataRepresentation* Shown() const;
+  vtkPVDataRepresentation* ActiveRepresentation() const;
   vtkDeformedVolumeMapper* Mapper() const; // null if there is none
-  vtkDeformedSlicesMapper* Slices() const; // likewise
+  vtkDeformedSlicesMapper* Slices() const; // null if there is none
 
   vtkWeakPointer<vtkPVDataRepresentation> Representation;
   vtkWeakPointer<vtkPVRenderView> View;

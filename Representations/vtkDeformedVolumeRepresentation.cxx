@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedVolumeRepresentation.h"
 
+#include "Representations/Picture/SelectionCover.h"
 #include "Representations/Window/EdgeSmoothing.h"
 #include "Representations/Window/InteractiveDelivery.h"
 #include "Representations/Window/MovingWindow.h"
-#include "Representations/Picture/SelectionCover.h"
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkVolumeOrder.h"
 
@@ -127,8 +127,8 @@ void vtkDeformedVolumeRepresentation::TellOnce(bool unsupported, const std::stri
   }
 }
 
-// Called for a picture, so that only what is shown is told of: ParaView sets the properties that
-// Volume and Deformed Volume share for both.
+// This is called for a picture. ParaView sets properties of Volume for Deformed Volume, too, even
+// while only Volume is shown; so a warning waits until there is a picture.
 void vtkDeformedVolumeRepresentation::UpdateMapperParameters()
 {
   this->Superclass::UpdateMapperParameters();
@@ -141,8 +141,8 @@ void vtkDeformedVolumeRepresentation::UpdateMapperParameters()
     "VolumeRenderingMode asks for software or OSPRay; Deformed Volume draws on the GPU");
 }
 
-// Points are selected against the depths of the picture before, to which they add none. Those are
-// lost where ParaView's insets, the axes in the corners, cleared them; so the tissue's come first.
+// A selection of points compares with the depths of the last picture and adds none. ParaView's
+// insets, the axes in the corners, clear some of them. So the depths of the tissue are drawn first.
 void vtkDeformedVolumeRepresentation::CoverPointSelection(vtkObject* caller, unsigned long, void*)
 {
   auto* renderer = static_cast<vtkRenderer*>(caller);

@@ -3,9 +3,9 @@
  * @class   vtkDeformedVolumeRepresentation
  * @brief   "Deformed Volume": ParaView's "Volume" with our ray caster
  *
- * Everything "Volume" does with data delivery, colour maps, opacity and transforms is inherited;
- * only the mapper differs, and the bounds told to the view are those of the deformed volume. A view
- * that shows it draws all its volumes from back to front.
+ * Data delivery, colour maps, opacity and transforms are inherited from "Volume". The mapper
+ * differs, and the view gets the bounds of the deformed volume. A view that shows one draws all its
+ * volumes from back to front.
  */
 #ifndef vtkDeformedVolumeRepresentation_h
 #define vtkDeformedVolumeRepresentation_h
@@ -15,7 +15,7 @@
 #include "vtkNew.h" // for the order
 
 #include <memory> // for the smoothing
-#include <set>    // for what was told
+#include <set>    // for warnings that were given
 #include <string> // for its sentences
 
 class vtkDeformedVolumeMapper;
@@ -35,7 +35,7 @@ public:
   vtkTypeMacro(vtkDeformedVolumeRepresentation, vtkImageVolumeRepresentation);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** Shown or not: also whether its view sorts its volumes. */
+  /** Shown or not. While it is shown, its view sorts its volumes. */
   void SetVisibility(bool visible) override;
 
   int ProcessViewRequest(
@@ -44,19 +44,19 @@ public:
   /** Step along the ray, mm. 0 (default): half the smallest voxel side. */
   void SetSampleDistance(double distance);
 
-  /** Leap over what cannot be seen: the same picture, sooner. Default true. */
+  /** Leap over what cannot be seen: an identical picture, sooner. Default true. */
   void SetEmptySpaceSkipping(bool skipping);
 
   /** Gradients for light: 0 half resolution, 1 full resolution (default), 2 on the fly. */
   void SetNormalTexture(int normals);
 
-  /** Draw fewer pixels while moving, to hold the rate. Default true. */
+  /** Draw fewer pixels while moving, so that pictures come fast enough. Default true. */
   void SetAdaptiveQuality(bool adaptive);
 
-  /** Count samples taken and skipped, which costs time. Default false. */
+  /** Count samples that are taken and skipped, which costs time. Default false. */
   void SetCountSamples(bool count);
 
-  /** Cast no rays for a picture that would come out as the last one. Default false. */
+  /** Cast no rays for a picture that would look like the last one. Default false. */
   void SetKeepPicture(bool keep);
 
   ///@{
@@ -66,22 +66,21 @@ public:
   void ClearDrawnLabels();
   ///@}
 
-  /** What draws it in this process. */
+  /** The mapper that draws it in this process. */
   vtkDeformedVolumeMapper* GetDeformedVolumeMapper() const;
 
   /** Most memory of the GPU to use, MiB. 0 (default): all that the driver gives. */
   void SetMemoryLimit(double limit);
 
   ///@{
-  /** How a reference that the data carries is shown, and what of it: as vtkDeformedVolumeMapper
-   * says. */
+  /** How a reference that the data carries is shown; see vtkDeformedVolumeMapper. */
   void SetComparison(int comparison);
   void SetReferenceRange(double low, double high);
   void SetAgreementDistance(double distance);
   ///@}
 
   ///@{
-  /** Light effects of ParaView's "Volume" that are not drawn: told once if they are asked for. */
+  /** Light effects of "Volume" that are not drawn. A warning says so once if they are on. */
   void SetGlobalIlluminationReach(float reach);
   void SetVolumetricScatteringBlending(float blending);
   void SetRequestedRenderMode(int mode);

@@ -3,8 +3,8 @@
  * @class   vtkTracePointsRepresentation
  * @brief   "Trace Points": points as balls, faded or hidden behind the tissue of deformed volumes
  *
- * Delivery, colours and selections are those of ParaView's "Point Gaussian", from which it inherits.
- * Points and volumes may change without each other: see TracePoints.h.
+ * Delivery, colours and selections are inherited from ParaView's "Point Gaussian". A change of the
+ * points does not draw the volumes anew, see Traces/TracePoints.h.
  */
 #ifndef vtkTracePointsRepresentation_h
 #define vtkTracePointsRepresentation_h
@@ -27,13 +27,13 @@ public:
 
   enum HiddenPointsType
   {
-    Fade = 0, // with HiddenOpacity
+    Fade = 0, ///< With HiddenOpacity.
     Hide = 1,
-    Show = 2, // as if there were no tissue
+    Show = 2, ///< As if there were no tissue.
   };
 
   ///@{
-  /** What becomes of points behind the tissue that is drawn: Fade (default), Hide or Show. */
+  /** How points behind the tissue are drawn: Fade (default), Hide or Show. */
   void SetHiddenPoints(int hidden);
   vtkGetMacro(HiddenPoints, int);
   ///@}

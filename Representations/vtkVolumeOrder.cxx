@@ -19,7 +19,7 @@ vtkVolumeOrder::~vtkVolumeOrder() = default;
 double vtkVolumeOrder::Cull(vtkRenderer* renderer, vtkProp** props, int& count, int& initialized)
 {
   const double* ahead = renderer->GetActiveCamera()->GetDirectionOfProjection();
-  double time = 0.0;                                // a culler returns the sum of what it leaves
+  double time = 0.0; // a culler returns the sum of the props that it keeps
   std::vector<std::pair<double, vtkProp*>> volumes; // depth of the middle
   std::vector<int> places;
   for (int i = 0; i < count; ++i)

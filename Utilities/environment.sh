@@ -78,10 +78,11 @@ apt_install() {
     rm -f /var/cache/apt/archives/partial/*.deb
 }
 
-# missing_packages DEBIAN_NUMBER
+# missing_packages DEBIAN_NUMBER: packages-COMMAND.txt lists what one command needs beside the others.
 missing_packages() {
-  local lists=("$checkout/Utilities/packages-common.txt" "$checkout/Utilities/packages-debian-$1.txt")
-  local wanted
+  local lists=("$checkout"/Utilities/packages-{common,"debian-$1"}.txt) wanted
+  local own=$checkout/Utilities/packages-${command:-}.txt
+  [[ ! -f $own ]] || lists+=("$own")
   mapfile -t wanted < <(sed 's/#.*//' "${lists[@]}" | tr -s '[:space:]' '\n' | grep . | sort -u)
   comm -23 <(printf '%s\n' "${wanted[@]}") <(
     # shellcheck disable=SC2016 # dpkg-query fills these in
@@ -116,7 +117,7 @@ is_debian_prepared() {
 prepare_debian() {
   local packages modules
   if is_debian_prepared "$1"; then return; fi
-  lock_setup
+  lock_setup "debian-$1"
   mapfile -t packages < <(missing_packages "$1")
   if ((${#packages[@]} > 0)); then
     ((EUID == 0)) || fail 1 "Run this as root, or first: apt-get install ${packages[*]}"

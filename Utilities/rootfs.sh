@@ -68,11 +68,17 @@ make_rootfs() {
     write_apt_settings "$1" "$3"
     return
   fi
-  lock_setup
-  if [[ -d $1 ]]; then # another launch made it while this one waited
-    unlock
-    return
+  prepare_bootstrap
+  lock_setup "debian-$2"
+  if [[ ! -d $1 ]]; then # else another launch made it while this one waited
+    step "debian-$2-bootstrap" "Making a Debian $2 in $1" bootstrap "$1" "$3" "$mirror"
   fi
+  unlock
+}
+
+# What this machine needs before it can make a Debian; sets mirror.
+prepare_bootstrap() {
+  lock_setup machine
   # a fresh machine does not know yet what its archives hold
   debian_mirror >/dev/null || step mirror "Updating the package lists of this machine" \
     apt-get -o Acquire::Check-Valid-Until=false update
@@ -81,7 +87,6 @@ make_rootfs() {
   if ! command -v debootstrap >/dev/null; then
     step debootstrap "Installing debootstrap" apt_install debootstrap debian-archive-keyring
   fi
-  step "debian-$2-bootstrap" "Making a Debian $2 in $1" bootstrap "$1" "$3" "$mirror"
   unlock
 }
 

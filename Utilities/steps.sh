@@ -13,11 +13,13 @@ fail() {
   exit "$1"
 }
 
-# step LOG_NAME MESSAGE COMMAND…: one line to read; the command's own output goes to a log file.
+# step LOG MESSAGE COMMAND…: one line to read; the command's own output goes to the file LOG.log, in the
+# cache unless LOG is a path.
 step() {
-  local log=$cache/log/$1.log message=$2 start=$SECONDS status=0
+  local log=$1.log message=$2 start=$SECONDS status=0
   shift 2
-  mkdir -p "$cache/log"
+  [[ $log == /* ]] || log=$cache/log/$log
+  mkdir -p "$(dirname "$log")"
   printf 'brainshift: %s ... ' "$message" >&2
   ("$@") >"$log" 2>&1 </dev/null || status=$?
   if ((status != 0)); then
@@ -41,5 +43,6 @@ lock() {
 
 unlock() { exec 9>&-; }
 
-# Launches from all checkouts share the system's packages and the root filesystems.
-lock_setup() { lock "$cache/lock" "sets up"; }
+# lock_setup NAME: launches from all checkouts share this machine's packages and the root filesystems.
+# Each has a lock of its own: two releases of Debian are set up side by side.
+lock_setup() { lock "$cache/$1.lock" "sets up $1"; }

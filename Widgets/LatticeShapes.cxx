@@ -36,21 +36,21 @@ Polyline ellipse(const glm::dvec3& centre, const glm::dvec3& first, const glm::d
 }
 }
 
-std::vector<std::pair<int, int>> edgesBetween(const std::vector<Handle>& handles)
+std::vector<std::pair<int, int>> edgesBetween(const std::vector<ControlPoint>& points)
 {
   using Key = std::tuple<int, int, int>;
   std::map<Key, int> placeOf;
-  for (std::size_t i = 0; i < handles.size(); ++i)
+  for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const glm::ivec3& index = handles[i].index;
+    const glm::ivec3& index = points[i].index;
     placeOf[Key(index.x, index.y, index.z)] = static_cast<int>(i);
   }
   std::vector<std::pair<int, int>> edges;
-  for (std::size_t i = 0; i < handles.size(); ++i)
+  for (std::size_t i = 0; i < points.size(); ++i)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      glm::ivec3 next = handles[i].index;
+      glm::ivec3 next = points[i].index;
       ++next[axis];
       const auto found = placeOf.find(Key(next.x, next.y, next.z));
       if (found != placeOf.end())

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a tool shows of itself, as lines. Positions: mm, world axes, deformed frame.
+/// @file
+/// The outlines of tools as lines. Positions: mm, world axes, deformed frame.
 #ifndef BrainShift_LatticeShapes_h
 #define BrainShift_LatticeShapes_h
 
@@ -12,32 +13,33 @@
 
 namespace brainshift
 {
+/// Points joined by lines, in this order.
 using Polyline = std::vector<glm::dvec3>;
 
-// A control point as a tool sees it.
-struct Handle
+/// A control point as a tool sees it.
+struct ControlPoint
 {
-  glm::ivec3 index{ 0 };   // along the lattice axes
-  glm::dvec3 rest{ 0.0 };  // mm
-  glm::dvec3 drawn{ 0.0 }; // mm, deformed frame
+  glm::ivec3 index{ 0 };   ///< Along the lattice axes.
+  glm::dvec3 rest{ 0.0 };  ///< mm, rest frame.
+  glm::dvec3 drawn{ 0.0 }; ///< mm, deformed frame.
 };
 
-// Edges between handles that are neighbours in the lattice, as pairs of positions in the list.
+/// Edges between control points that are neighbours in the lattice, as pairs of places in the list.
 VTKBRAINSHIFTWIDGETS_EXPORT std::vector<std::pair<int, int>> edgesBetween(
-  const std::vector<Handle>& handles);
+  const std::vector<ControlPoint>& points);
 
-// The surface at a share of the radius of a Soft stroke (a sphere) or a Stamp (an ellipsoid of
-// revolution): the circle across the axis and two ellipses along it.
+/// The surface at a share of the radius: a sphere for a Soft stroke, an ellipsoid of revolution for
+/// a Stamp. The lines are the circle across the axis and two ellipses along it.
 VTKBRAINSHIFTWIDGETS_EXPORT std::vector<Polyline> outlineOf(const Stroke& stroke, double share);
 
-// The same surface's section by the plane through the anchor across a unit normal.
+/// The section of that surface by the plane through the anchor with this unit normal.
 VTKBRAINSHIFTWIDGETS_EXPORT Polyline sectionOf(
   const Stroke& stroke, double share, const glm::dvec3& normal);
 
-// Share of the radius at which a stroke of this sigma moves tissue half as far as in its middle.
+/// Share of the radius at which a stroke of this sigma moves tissue half as far as at its centre.
 VTKBRAINSHIFTWIDGETS_EXPORT double shareOfHalfWeight(double sigma);
 
-// Three strokes of a pen along the world's axes, `size` mm each way.
+/// Three lines along the world axes through a centre, `size` mm each way.
 VTKBRAINSHIFTWIDGETS_EXPORT std::vector<Polyline> cross(const glm::dvec3& centre, double size);
 }
 

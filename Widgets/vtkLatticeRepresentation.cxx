@@ -103,14 +103,14 @@ constexpr std::array<double, 3> Yellow{ 1.0, 0.85, 0.2 };
 constexpr std::array<double, 3> White{ 0.95, 0.95, 0.95 };
 constexpr std::array<double, 3> Orange{ 1.0, 0.45, 0.05 };
 constexpr std::array<double, 3> Cyan{ 0.2, 0.9, 1.0 };
-constexpr double HandlePixels = 7.0; // below 5, users of trackpads miss it
+constexpr double PointPixels = 7.0; // below 5, users of trackpads miss it
 constexpr double HighlightPixels = 12.0;
 constexpr double FaintPixels = 3.0;
 }
 
 struct vtkLatticeRepresentation::Parts
 {
-  std::vector<Handle> Handles;
+  std::vector<ControlPoint> ControlPoints;
   Drawing Edges;
   Drawing Faint;
   Drawing Points;
@@ -138,7 +138,7 @@ vtkLatticeRepresentation::vtkLatticeRepresentation()
   Parts& parts = *this->Internal;
   parts.Edges.look(White, 0.35, 1.0);
   parts.Faint.look(White, 0.5, FaintPixels);
-  parts.Points.look(White, 1.0, HandlePixels);
+  parts.Points.look(White, 1.0, PointPixels);
   parts.Points.Actor->GetProperty()->RenderPointsAsSpheresOn();
   parts.Highlights.look(Orange, 1.0, HighlightPixels);
   parts.Highlights.Actor->GetProperty()->RenderPointsAsSpheresOn();
@@ -149,19 +149,19 @@ vtkLatticeRepresentation::vtkLatticeRepresentation()
 
 vtkLatticeRepresentation::~vtkLatticeRepresentation() = default;
 
-void vtkLatticeRepresentation::SetHandles(const std::vector<Handle>& handles)
+void vtkLatticeRepresentation::SetControlPoints(const std::vector<ControlPoint>& points)
 {
   Parts& parts = *this->Internal;
-  parts.Handles = handles;
+  parts.ControlPoints = points;
   parts.Points.clear();
   parts.Edges.clear();
-  for (const Handle& handle : handles)
+  for (const ControlPoint& point : points)
   {
-    const vtkIdType point = parts.Points.addPoint(handle.drawn);
-    parts.Points.Shape->GetVerts()->InsertNextCell(1, &point);
-    parts.Edges.addPoint(handle.drawn);
+    const vtkIdType added = parts.Points.addPoint(point.drawn);
+    parts.Points.Shape->GetVerts()->InsertNextCell(1, &added);
+    parts.Edges.addPoint(point.drawn);
   }
-  for (const auto& [first, second] : edgesBetween(handles))
+  for (const auto& [first, second] : edgesBetween(points))
   {
     const vtkIdType ends[2] = { first, second };
     parts.Edges.Shape->GetLines()->InsertNextCell(2, ends);
@@ -171,9 +171,9 @@ void vtkLatticeRepresentation::SetHandles(const std::vector<Handle>& handles)
   this->Modified();
 }
 
-const std::vector<Handle>& vtkLatticeRepresentation::GetHandles() const
+const std::vector<ControlPoint>& vtkLatticeRepresentation::GetControlPoints() const
 {
-  return this->Internal->Handles;
+  return this->Internal->ControlPoints;
 }
 
 void vtkLatticeRepresentation::SetFaint(const std::vector<glm::dvec3>& positions)
@@ -196,7 +196,7 @@ void vtkLatticeRepresentation::SetLines(Pen pen, const std::vector<Polyline>& li
 
 void vtkLatticeRepresentation::Clear()
 {
-  this->Internal->Handles.clear();
+  this->Internal->ControlPoints.clear();
   for (Drawing* drawing : this->Internal->all())
   {
     drawing->clear();
@@ -204,9 +204,9 @@ void vtkLatticeRepresentation::Clear()
   this->Modified();
 }
 
-int vtkLatticeRepresentation::GetNumberOfHandles() const
+int vtkLatticeRepresentation::GetNumberOfControlPoints() const
 {
-  return static_cast<int>(this->Internal->Handles.size());
+  return static_cast<int>(this->Internal->ControlPoints.size());
 }
 
 int vtkLatticeRepresentation::GetNumberOfFaint() const
@@ -288,7 +288,7 @@ int vtkLatticeRepresentation::RenderOverlay(vtkViewport* viewport)
 void vtkLatticeRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Handles: " << this->GetNumberOfHandles() << "\n"
+  os << indent << "ControlPoints: " << this->GetNumberOfControlPoints() << "\n"
      << indent << "Faint: " << this->GetNumberOfFaint() << "\n"
      << indent << "Highlights: " << this->GetNumberOfHighlights() << "\n";
 }

@@ -3,9 +3,9 @@
  * @class   vtkLatticeRepresentation
  * @brief   control points and tool outlines over a picture
  *
- * Draws what a tool gives it: control points with thin lines between neighbours, some of them
- * highlighted, and outlines. It is given little, so that it costs a picture nothing, whatever the
- * size of the lattice. All positions are mm, world axes, deformed frame.
+ * Draws control points with thin lines between neighbours, highlights some of them, and draws the
+ * outlines of a tool. It gets only the control points near the cursor, so a picture costs the same
+ * for every size of lattice. Positions: mm, world axes, deformed frame.
  */
 #ifndef vtkLatticeRepresentation_h
 #define vtkLatticeRepresentation_h
@@ -24,19 +24,20 @@ public:
   vtkTypeMacro(vtkLatticeRepresentation, vtkWidgetRepresentation);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /** How lines are drawn. */
   enum Pen
   {
-    Strong, // the edge of a tool
-    Weak,   // what lies within
-    Mark,   // the point of interest
+    Strong, ///< The edge of a tool.
+    Weak,   ///< Within a tool.
+    Mark,   ///< The point of interest.
     NumberOfPens,
   };
 
   /** Control points with lines between neighbours. */
-  void SetHandles(const std::vector<brainshift::Handle>& handles);
-  const std::vector<brainshift::Handle>& GetHandles() const;
+  void SetControlPoints(const std::vector<brainshift::ControlPoint>& points);
+  const std::vector<brainshift::ControlPoint>& GetControlPoints() const;
 
-  /** Positions of control points that are told, but not within reach. */
+  /** Positions of control points that are out of reach, drawn as faint dots. */
   void SetFaint(const std::vector<glm::dvec3>& positions);
 
   /** Highlighted positions: selected, or under the cursor. */
@@ -45,22 +46,24 @@ public:
   /** Lines drawn with a pen. */
   void SetLines(Pen pen, const std::vector<brainshift::Polyline>& lines);
 
-  /** Nothing is drawn afterwards. */
+  /** Removes everything. */
   void Clear();
 
-  /** Points, and lines of all kinds, that are drawn. */
-  int GetNumberOfHandles() const;
+  ///@{
+  /** The number of things drawn, by kind. */
+  int GetNumberOfControlPoints() const;
   int GetNumberOfFaint() const;
   int GetNumberOfHighlights() const;
   int GetNumberOfLines(int pen) const;
+  ///@}
 
   void BuildRepresentation() override;
   double* GetBounds() VTK_SIZEHINT(6) override;
   void GetActors(vtkPropCollection* actors) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
   int RenderOpaqueGeometry(vtkViewport* viewport) override;
-  /** What can be seen through is drawn last and simply: VTK's pass for such surfaces works on all
-   * pixels of the view, three times, which takes a software driver as long as the volume. */
+  /** Draws translucent lines last and simply. VTK's own pass for translucent surfaces works on all
+   * pixels of the view three times. On a software driver that takes as long as the volume. */
   int RenderOverlay(vtkViewport* viewport) override;
 
 protected:

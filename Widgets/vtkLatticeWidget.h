@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkLatticeWidget
- * @brief   tells a tool of the mouse before the camera hears of it
+ * @brief   passes mouse events to a tool before the camera gets them
  *
- * What the mouse means depends on the tissue under it, which only ParaView's client can ask for. So
- * the widget passes each event on to its handler and keeps it from the camera if the handler takes
- * it. While a button is held that was taken, all events are the handler's.
+ * What the mouse means depends on the tissue under the cursor, and only ParaView's client can ask
+ * for that. So the widget passes each event to its handler. If the handler takes the event, the
+ * camera does not get it. After the handler took a press, it gets all events until the release.
  */
 #ifndef vtkLatticeWidget_h
 #define vtkLatticeWidget_h
@@ -19,6 +19,7 @@ class vtkLatticeRepresentation;
 
 namespace brainshift
 {
+/// An event of the mouse.
 struct HandEvent
 {
   enum class Kind
@@ -30,9 +31,9 @@ struct HandEvent
     Leave,
   };
   Kind kind = Kind::Move;
-  int x = 0; // pixels from the window's lower left corner
+  int x = 0; ///< Pixels from the lower left corner of the window.
   int y = 0;
-  int clicks = 0; // Wheel: 1 forward (away from the user), -1 backward
+  int clicks = 0; ///< Wheel: 1 forward (away from the user), -1 backward.
   bool shift = false;
   bool control = false;
   bool alt = false;
@@ -50,7 +51,7 @@ public:
   using HandlerType = std::function<bool(const brainshift::HandEvent&)>;
   void SetHandler(HandlerType handler);
 
-  /** The button that is held is not the handler's any more. */
+  /** Ends a press that the handler took; the next events go to the camera again. */
   void LetGo();
 
   void SetRepresentation(vtkLatticeRepresentation* representation);

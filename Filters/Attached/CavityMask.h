@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tissue that was removed, told by a mask: colours and numbers ignore it.
+/**
+ * @file
+ * @brief Tissue that was removed, as a mask image gives it. Colours and numbers ignore it.
+ */
 #ifndef BrainShift_CavityMask_h
 #define BrainShift_CavityMask_h
 
@@ -14,12 +17,24 @@
 
 namespace brainshift
 {
-// Keeps the voxels of the last image: the same array object for as long as nothing of it changed.
+/**
+ * Reads a cavity from an image. It keeps the voxels of the last image and hands out the same array
+ * object as long as nothing of the image changes.
+ */
 class VTKBRAINSHIFTFILTERS_EXPORT CavitySource
 {
 public:
-  // Nothing without an image. `labels` and `volume` as in readMask, `volumeName` for messages; sets
-  // `problem` to what is wrong with the image, if anything is.
+  /**
+   * Finds the cavity.
+   *
+   * @param image        null or empty: no cavity
+   * @param labels       labels of the cavity; none: all above 0
+   * @param volume       the volume that the cavity must overlap
+   * @param volumeName   what messages call that volume
+   * @param problem      set to one sentence, without a full stop, if the image is no mask; else
+   *                     left as it is
+   * @return the voxels (1 or 0); no voxels without an image or after a problem
+   */
   PlacedVoxels find(vtkImageData* image, const std::vector<int>& labels, const Grid& volume,
     const std::string& volumeName, std::string& problem);
 
@@ -31,8 +46,10 @@ private:
   std::vector<int> Labels;
 };
 
-// Whether the voxel nearest to a position (mm, world) is cavity; false beyond all voxels, and where
-// there is no cavity.
+/**
+ * Whether the voxel nearest to a position (mm, world) is cavity. False beyond the voxels, and if
+ * there is no cavity.
+ */
 VTKBRAINSHIFTFILTERS_EXPORT bool isRemoved(const PlacedVoxels& cavity, const glm::dvec3& position);
 }
 

@@ -229,6 +229,11 @@ bool carriesDeformation(vtkDataObject* volume)
 
 bool readDeformation(vtkDataObject* volume, Deformation& deformation, std::string& error)
 {
+  if (!carriesDeformation(volume))
+  {
+    error = "The volume carries no deformation; it must be the output of Free-Form Deformation";
+    return false;
+  }
   vtkFieldData* fields = volume->GetFieldData();
   Lattice& lattice = deformation.lattice;
   int inverse = 0;

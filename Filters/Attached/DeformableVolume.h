@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The contract between the Free-Form Deformation filter and everything that draws, bakes or
-// exports: a deformable volume is a vtkImageData as it was, with these field-data arrays.
-//
-//   FFDDisplacements  float32 x 3, nx*ny*nz tuples, x fastest: displacement of each control point
-//                     (mm, world axes, before Strength). Zero means stays.
-//   FFDDimensions     int x 3: nx ny nz, 4 to 257 each
-//   FFDBox            double x 15: world position of the first control point (mm), spacing (mm),
-//                     direction matrix (row by row, as vtkImageData holds it)
-//   FFDKernel         int: 0 Catmull-Rom, 1 B-spline
-//   FFDSamples        int: nodes of the refined field between two control points, 0 to 16
-//   FFDInverse        int: 0 exact, 1 negated
-//   FFDStrength       double, 0 to 1: factor on all displacements
-//   FFDMaskWeights    float32, only with a mask: share of the displacement, 0 to 1, that holds at
-//                     each node of the refined field, (points - 1) * (FFDSamples + 1) + 1 a side, x
-//                     fastest; what is drawn is trilinear between the nodes
+/**
+ * @file
+ * @brief The contract between the Free-Form Deformation filter and all that draws, bakes or exports
+ *        a deformation.
+ *
+ * A deformable volume is a vtkImageData, unchanged, with these field-data arrays:
+ *
+ *     FFDDisplacements  float32 x 3, nx*ny*nz tuples, x fastest: displacement of each control point
+ *                       (mm, world axes, before Strength). Zero: the point stays.
+ *     FFDDimensions     int x 3: nx ny nz, 4 to 257 each
+ *     FFDBox            double x 15: world position of the first control point (mm), spacing (mm),
+ *                       direction matrix (row by row, as vtkImageData holds it)
+ *     FFDKernel         int: 0 Catmull-Rom, 1 B-spline
+ *     FFDSamples        int: nodes of the refined field between two control points, 0 to 16
+ *     FFDInverse        int: 0 exact, 1 negated
+ *     FFDStrength       double, 0 to 1: factor on all displacements
+ *     FFDMaskWeights    float32, only with a mask: share of the displacement, 0 to 1, at each node
+ *                       of the refined field, (points - 1) * (FFDSamples + 1) + 1 along each axis,
+ *                       x fastest; the field is trilinear between the nodes
+ */
 #ifndef BrainShift_DeformableVolume_h
 #define BrainShift_DeformableVolume_h
 
@@ -28,30 +33,38 @@ class vtkImageData;
 
 namespace brainshift
 {
+/** What the arrays hold. */
 struct Deformation
 {
-  Lattice lattice;
-  int samples = 4;
-  Inverse inverse = Inverse::Exact;
-  double strength = 1.0;
+  Lattice lattice;                  ///< before Strength
+  int samples = 4;                  ///< nodes between two control points, 0 to 16
+  Inverse inverse = Inverse::Exact; ///< how pictures find tissue
+  double strength = 1.0;            ///< factor on all displacements, 0 to 1
 };
 
-// Geometry of an image's points.
+/** The grid of an image's points, in world space. */
 VTKBRAINSHIFTFILTERS_EXPORT Grid gridOf(vtkImageData* image);
 
+/** Attaches the arrays to a data set. Arrays of an earlier deformation are replaced. */
 VTKBRAINSHIFTFILTERS_EXPORT void attach(vtkDataObject* volume, const Deformation& deformation);
 
-// True if the data carries a deformation, well formed or not.
+/** Whether a data set carries a deformation, well formed or not. False for null. */
 VTKBRAINSHIFTFILTERS_EXPORT bool carriesDeformation(vtkDataObject* volume);
 
-// Reads what attach wrote. False, with one sentence in `error`, if an array is missing or wrong.
+/**
+ * Reads what attach wrote.
+ *
+ * @param error   set to one sentence, without a full stop, if the data carries no deformation or if
+ *                an array is missing or wrong
+ * @return whether the deformation was read
+ */
 VTKBRAINSHIFTFILTERS_EXPORT bool readDeformation(
   vtkDataObject* volume, Deformation& deformation, std::string& error);
 
-// The lattice with Strength applied: what is drawn.
+/** The lattice with Strength applied, as it is drawn. */
 VTKBRAINSHIFTFILTERS_EXPORT Lattice effectiveLattice(const Deformation& deformation);
 
-// Latest change of the attached arrays; 0 if there are none.
+/** The latest modification time of the attached arrays; 0 if there are none. */
 VTKBRAINSHIFTFILTERS_EXPORT unsigned long long deformationTime(vtkDataObject* volume);
 }
 

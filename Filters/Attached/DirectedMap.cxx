@@ -57,11 +57,6 @@ std::optional<DirectedMap> directedMapOf(
   vtkDataObject* volume, Direction direction, std::string& problem)
 {
   Deformation deformation;
-  if (!carriesDeformation(volume))
-  {
-    problem = "The volume carries no deformation; it must be the output of Free-Form Deformation";
-    return {};
-  }
   if (!readDeformation(volume, deformation, problem))
   {
     return {};

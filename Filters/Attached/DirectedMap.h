@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One of the two maps of a deformable volume, for filters that take a direction.
+/**
+ * @file
+ * @brief One of the two maps of a deformable volume, for filters that have a Direction.
+ */
 #ifndef BrainShift_DirectedMap_h
 #define BrainShift_DirectedMap_h
 
@@ -17,15 +20,18 @@ class vtkDataObject;
 
 namespace brainshift
 {
+/** Which way a map leads. */
 enum class Direction
 {
-  Forward = 0,  // deformedFromRest: where tissue goes
-  Backward = 1, // restFromDeformed: which tissue is seen
+  Forward = 0,  ///< deformedFromRest: where tissue goes
+  Backward = 1, ///< restFromDeformed: which tissue is seen
 };
 
+/** A map in one direction. Positions are mm along world axes. */
 class VTKBRAINSHIFTFILTERS_EXPORT DirectedMap
 {
 public:
+  /** `inverse`: how the map was made to find tissue; it decides the backward derivatives. */
   DirectedMap(PointMap map, Inverse inverse, Direction direction)
     : Map(std::move(map)) // a lattice can be large
     , Backward(inverse)
@@ -33,12 +39,13 @@ public:
   {
   }
 
-  // Position in the frame the map leads to, of one in the frame it starts from. mm, world. A
-  // position that is not finite stays.
+  /** Where the map takes a position. A position that is not finite stays as it is. */
   glm::dvec3 position(const glm::dvec3& from) const;
 
-  // Derivatives of the map at `from`, whose position is `to`: column a is d(to)/d(from_a). Not
-  // finite where a backward map meets tissue that is pressed to nothing.
+  /**
+   * Derivatives of the map at `from`, which it takes to `to`: column a is d(to) / d(from_a). They
+   * are not finite where a backward map meets tissue whose volume the deformation makes zero.
+   */
   glm::dmat3 jacobian(const glm::dvec3& from, const glm::dvec3& to) const;
 
 private:
@@ -47,13 +54,19 @@ private:
   Direction Towards;
 };
 
-// What a surface's normal becomes under a map with these derivatives: across the mapped surface,
-// as long as it was. A normal that the map leaves without direction stays.
+/**
+ * The normal of a surface after a map with these derivatives. It is perpendicular to the mapped
+ * surface and as long as it was. If the map leaves no direction for it, the normal stays.
+ */
 VTKBRAINSHIFTFILTERS_EXPORT glm::dvec3 turnedNormal(
   const glm::dmat3& jacobian, const glm::dvec3& normal);
 
-// The map of a filter's deformation input; none, with one sentence in `problem`, if the input is
-// no deformable volume.
+/**
+ * The map of a deformable volume.
+ *
+ * @param problem   set to one sentence, without a full stop, if the data is no deformable volume
+ * @return the map; none after a problem
+ */
 VTKBRAINSHIFTFILTERS_EXPORT std::optional<DirectedMap> directedMapOf(
   vtkDataObject* volume, Direction direction, std::string& problem);
 }

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a displacement field tells which way it leads: the field array DisplacementDirection, one
-// string, "forward" (where tissue goes; ITK: modelling) or "backward" (which tissue is seen; ITK:
-// resampling).
+/**
+ * @file
+ * @brief The field array that names the direction of a displacement field.
+ *
+ * The array DisplacementDirection holds one string: "forward" (where tissue goes; ITK calls it the
+ * modelling direction) or "backward" (which tissue is seen; ITK: the resampling direction).
+ */
 #ifndef BrainShift_FieldDirection_h
 #define BrainShift_FieldDirection_h
 
@@ -14,9 +18,10 @@ class vtkDataObject;
 
 namespace brainshift
 {
+/** Attaches the array. */
 VTKBRAINSHIFTFILTERS_EXPORT void nameDirection(vtkDataObject* field, Direction direction);
 
-// None if the data does not say.
+/** The direction that the array names; none if there is no such array. */
 VTKBRAINSHIFTFILTERS_EXPORT std::optional<Direction> directionOf(vtkDataObject* field);
 }
 

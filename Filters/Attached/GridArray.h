@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A grid as a field array, for images that travel with a data object: double x 18, which are nx ny
-// nz, world position of the first point (mm), spacing (mm), direction matrix (row by row, as
-// vtkImageData holds it).
+/**
+ * @file
+ * @brief A grid as a field array, for images that travel with a data set.
+ *
+ * The array has one tuple of 18 doubles: nx ny nz, world position of the first point (mm), spacing
+ * (mm), direction matrix (row by row, as vtkImageData holds it).
+ */
 #ifndef BrainShift_GridArray_h
 #define BrainShift_GridArray_h
 
@@ -11,9 +15,10 @@ class vtkFieldData;
 
 namespace brainshift
 {
+/** Attaches the grid under a name. */
 void attachGrid(vtkFieldData* fields, const char* name, const Grid& grid);
 
-// False if there is no such array.
+/** Reads the grid that was attached under a name. False if there is no such array. */
 bool readGrid(vtkFieldData* fields, const char* name, Grid& grid);
 }
 

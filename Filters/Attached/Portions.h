@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Long loops of filters: on all cores, with progress told and aborts heard in between.
+/**
+ * @file
+ * @brief Long loops of filters: on all cores, with progress and aborts in between.
+ */
 #ifndef BrainShift_Portions_h
 #define BrainShift_Portions_h
 
@@ -11,8 +14,14 @@
 
 namespace brainshift
 {
-// Calls body(begin, end) for pieces of 0 to `count`, in parallel, a portion of the loop after the
-// other. Tells progress between the two shares given. False if the user aborts: the rest is left.
+/**
+ * Calls body(begin, end) for pieces that together are the steps 0 to `count`, one portion of the
+ * loop after the other, each of them in parallel.
+ *
+ * @param progressFrom, progressTo   progress of the filter (0 to 1) at the loop's begin and end
+ * @param grain                      steps that are too few for a second thread, see parallelFor
+ * @return false if the user aborts; the remaining steps are then not done
+ */
 template <typename Body>
 bool forPortions(vtkAlgorithm* filter, double progressFrom, double progressTo, vtkIdType count,
   vtkIdType grain, const Body& body)

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads an array of voxels through an offset field: the CPU's way of drawing a bent volume.
+/**
+ * @file
+ * @brief Reads an array of voxels through an offset field: how the CPU makes a bent volume.
+ */
 #ifndef BrainShift_Resample_h
 #define BrainShift_Resample_h
 
@@ -12,27 +15,36 @@ class vtkDataArray;
 
 namespace brainshift
 {
-// Which voxels to write and how they lie to the lattice.
+/** Which voxels to write, and where they lie in the lattice. */
 struct ResampleGeometry
 {
-  glm::ivec3 dimensions{ 0 }; // of the whole source array, values a side
-  glm::ivec3 first{ 0 };      // region to write, in source indices, inclusive
-  glm::ivec3 last{ 0 };
-  glm::dvec3 latticeFromIndex{ 1.0 }; // lattice = index * latticeFromIndex + latticeOfFirst
-  glm::dvec3 latticeOfFirst{ 0.0 };
+  glm::ivec3 dimensions{ 0 }; ///< of the whole source array: values along each axis
+  glm::ivec3 first{ 0 };      ///< region to write, in indices of the source
+  glm::ivec3 last{ 0 };       ///< inclusive
+
+  /** Lattice cells for each step of the index: lattice = index * this + latticeOfFirst. */
+  glm::dvec3 latticeFromIndex{ 1.0 };
+
+  glm::dvec3 latticeOfFirst{ 0.0 }; ///< lattice coordinates of the source's first value
 };
 
-// How voxels are read; values as vtkBakeDeformation's.
+/** How voxels are read; the numbers of vtkBakeDeformation::InterpolationType. */
 enum class Reading
 {
   Nearest = 0,
-  Linear = 1,
-  Cubic = 2,
+  Linear = 1, ///< trilinear
+  Cubic = 2,  ///< Catmull-Rom over 64 voxels
 };
 
-// Fills `target` (allocated: the region's tuples, x fastest, same type and components as `source`)
-// with the source read at restFromDeformed of each voxel. Outside the source: its lowest value.
-// `proceed` is told the share done, 0 to 1, and says whether to go on.
+/**
+ * Fills an array with the source as it is seen at each voxel of the region, which is the source at
+ * restFromDeformed of that voxel. Outside the source its lowest value holds.
+ *
+ * @param target    allocated: the region's tuples, x fastest, with the type and the components of
+ *                  `source`
+ * @param proceed   is called with the share that is done, 0 to 1; if it returns false, the rest is
+ *                  not done
+ */
 void resample(vtkDataArray* source, vtkDataArray* target, const ResampleGeometry& geometry,
   const NodeField& offsets, Reading reading, const std::function<bool(double)>& proceed);
 }

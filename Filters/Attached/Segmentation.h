@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Labels that travel with a deformable volume, for what draws chosen ones alone. They lie at rest,
-// on a grid of their own:
-//
-//   FFDSegmentation        any type x 1, nx*ny*nz tuples, x fastest: labels or scalars
-//   FFDSegmentationGrid    see GridArray.h
-//   FFDSegmentationLabels  int, only if some are meant unless others are asked for (MaskLabels)
+/**
+ * @file
+ * @brief Labels that travel with a deformable volume, so that chosen ones can be drawn alone.
+ *
+ * They lie in the rest frame, on a grid of their own:
+ *
+ *     FFDSegmentation        any type x 1, nx*ny*nz tuples, x fastest: labels or scalars
+ *     FFDSegmentationGrid    see GridArray.h
+ *     FFDSegmentationLabels  int: the labels that are drawn if the user chooses none; absent: all
+ *                            above 0
+ */
 #ifndef BrainShift_Segmentation_h
 #define BrainShift_Segmentation_h
 
@@ -23,34 +28,44 @@ class vtkImageData;
 
 namespace brainshift
 {
-// Field array of the labels.
+/** Name of the field array of the labels. */
 constexpr const char* SegmentationName = "FFDSegmentation";
 
+/** What the arrays hold. */
 struct Segmentation
 {
-  vtkSmartPointer<vtkDataArray> labels; // null: none
-  Grid grid;                            // of the labels
-  std::vector<int> chosen;              // labels that are meant; none: all above 0
+  vtkSmartPointer<vtkDataArray> labels; ///< null: none
+  Grid grid;                            ///< of the labels
+  std::vector<int> chosen;              ///< drawn if the user chooses none; empty: all above 0
 };
 
-// Attaches a segmentation whose labels SegmentationSource made; without labels, takes away one that
-// was attached before.
+/**
+ * Attaches a segmentation whose labels SegmentationSource made. Without labels it removes a
+ * segmentation that was attached before.
+ */
 VTKBRAINSHIFTFILTERS_EXPORT void attachSegmentation(
   vtkDataObject* volume, const Segmentation& segmentation);
 
-// Reads what attachSegmentation wrote; no labels if there are none or they do not fit their grid.
+/**
+ * Reads what attachSegmentation wrote. Labels that are missing or do not fit their grid are null.
+ */
 VTKBRAINSHIFTFILTERS_EXPORT Segmentation readSegmentation(vtkDataObject* volume);
 
-// Voxels that have one of the labels; with none given, those above 0.
+/** The voxels that have one of the labels; without labels, those above 0. */
 VTKBRAINSHIFTFILTERS_EXPORT Mask segmentOf(
   const Segmentation& segmentation, const std::vector<int>& labels);
 
-// Hands out the same array object for the same numbers, so that what draws it knows it again.
+/**
+ * Reads a segmentation from an image. It hands out the same array object as long as the numbers
+ * stay, so that what draws the segmentation knows it again.
+ */
 class VTKBRAINSHIFTFILTERS_EXPORT SegmentationSource
 {
 public:
-  // No labels without an image. Returns what keeps the image from being a segmentation of the
-  // volume; empty if nothing does.
+  /**
+   * Finds the labels; null without an image. Returns one sentence, without a full stop, on why the
+   * image cannot be a segmentation of the volume; empty if it can.
+   */
   std::string find(vtkImageData* image, const Grid& volume, Segmentation& segmentation);
 
 private:

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A second array object over the same numbers, which keeps their range.
-//
-// ParaView asks a filter's output for the range of every array after each execution, and VTK keeps
-// the answer with the data set and not with the array: a filter that passes 10 million voxels
-// through pays for reading them, twice, at every stroke (0.2 s). These arrays answer from the
-// range that the source array keeps.
+/**
+ * @file
+ * @brief A second array object over the same numbers, which keeps their range.
+ *
+ * ParaView asks a filter's output for the range of every array after each execution. VTK keeps the
+ * answer with the data set and not with the array. So a filter that passes 10 million voxels
+ * through reads them twice at every stroke, which costs 0.2 s. These arrays answer from the range
+ * that the source array keeps.
+ */
 #ifndef BrainShift_SharedArray_h
 #define BrainShift_SharedArray_h
 
@@ -17,18 +20,21 @@ class vtkDataSetAttributes;
 
 namespace brainshift
 {
-// The same numbers under another name, for data that travels beside a volume.
+/** An array over the same numbers with another name, for data that travels beside a volume. */
 vtkSmartPointer<vtkDataArray> sharedAs(const char* name, vtkDataArray* source);
 
+/** Shares all arrays of a data set, time after time. */
 class SharedArrays
 {
 public:
   SharedArrays();
   ~SharedArrays();
 
-  // Replaces the numeric arrays of `attributes` by arrays over the same numbers, the same ones as
-  // last time for an array that did not change. Attributes (scalars, vectors, ...) stay as they
-  // were. Arrays of an unusual memory layout stay themselves.
+  /**
+   * Replaces the numeric arrays of `attributes` by arrays over the same numbers. An array that did
+   * not change since the last call gets the object that it got then. Attributes (scalars, vectors,
+   * ...) stay as they were. Arrays with an unusual memory layout are not replaced.
+   */
   void share(vtkDataSetAttributes* attributes);
 
 private:

@@ -125,7 +125,7 @@ CellProof::CellProof(const Lattice& lattice, int samples)
   }
   this->Ranges.resize(this->Points.count());
   const glm::ivec3& dimensions = this->Points.dimensions;
-  parallelFor(0, dimensions.z - 1, 1, [&](vtkIdType first, vtkIdType last) {
+  parallelFor(0, dimensions.z - 1, 1, [&](std::int64_t first, std::int64_t last) {
     for (int k = static_cast<int>(first); k < last; ++k)
     {
       for (int j = 0; j < dimensions.y - 1; ++j)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/FieldChange.h"
 
+#include "Filters/Deformation/IndexLoop.h"
+
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
@@ -27,19 +29,11 @@ struct DisplacementRange
 
   void add(const std::vector<glm::vec3>& inCells, const glm::ivec3& dimensions, const IndexBox& box)
   {
-    glm::ivec3 index;
-    for (index.z = box.first.z; index.z <= box.last.z; ++index.z)
-    {
-      for (index.y = box.first.y; index.y <= box.last.y; ++index.y)
-      {
-        for (index.x = box.first.x; index.x <= box.last.x; ++index.x)
-        {
-          const glm::vec3& displacement = inCells[pointOffset(dimensions, index)];
-          this->least = glm::min(this->least, displacement);
-          this->greatest = glm::max(this->greatest, displacement);
-        }
-      }
-    }
+    forEachIndex(box.first, box.last, [&](const glm::ivec3& index) {
+      const glm::vec3& displacement = inCells[pointOffset(dimensions, index)];
+      this->least = glm::min(this->least, displacement);
+      this->greatest = glm::max(this->greatest, displacement);
+    });
   }
 
   void allowOvershoot()
@@ -89,7 +83,7 @@ bool contains(const IndexBox& box, const glm::ivec3& index)
     glm::all(glm::lessThanEqual(index, box.last));
 }
 
-// Whether no control point moves for which inside(index) is false.
+// Whether all control points that move are inside(index).
 template <typename Inside>
 bool staysOutside(
   const glm::ivec3& dimensions, const std::vector<glm::vec3>& inCells, const Inside& inside)
@@ -127,21 +121,14 @@ IndexBox changedPoints(const glm::ivec3& dimensions, const std::vector<glm::vec3
 {
   IndexBox box{ dimensions, glm::ivec3(-1) };
   std::size_t point = 0;
-  glm::ivec3 index;
-  for (index.z = 0; index.z < dimensions.z; ++index.z)
-  {
-    for (index.y = 0; index.y < dimensions.y; ++index.y)
+  forEachIndex(glm::ivec3(0), dimensions - 1, [&](const glm::ivec3& index) {
+    if (before[point] != after[point])
     {
-      for (index.x = 0; index.x < dimensions.x; ++index.x, ++point)
-      {
-        if (before[point] != after[point])
-        {
-          box.first = glm::min(box.first, index);
-          box.last = glm::max(box.last, index);
-        }
-      }
+      box.first = glm::min(box.first, index);
+      box.last = glm::max(box.last, index);
     }
-  }
+    ++point;
+  });
   return box;
 }
 
@@ -315,20 +302,12 @@ SlabHull movedHull(const glm::ivec3& dimensions, const std::vector<glm::vec3>& i
 {
   SlabHull hull;
   std::size_t point = 0;
-  glm::ivec3 index;
-  for (index.z = 0; index.z < dimensions.z; ++index.z)
-  {
-    for (index.y = 0; index.y < dimensions.y; ++index.y)
+  forEachIndex(glm::ivec3(0), dimensions - 1, [&](const glm::ivec3& index) {
+    if (inCells[point++] != glm::vec3(0.0f))
     {
-      for (index.x = 0; index.x < dimensions.x; ++index.x, ++point)
-      {
-        if (inCells[point] != glm::vec3(0.0f))
-        {
-          widen(hull, reachOf(index, dimensions));
-        }
-      }
+      widen(hull, reachOf(index, dimensions));
     }
-  }
+  });
   return hull;
 }
 }

@@ -12,7 +12,7 @@ namespace brainshift
 {
 namespace
 {
-constexpr vtkIdType CellsAtLeast = 64; // for a thread
+constexpr std::int64_t CellsAtLeast = 64; // for a thread
 // Shares of a stroke are told apart to half a percent of themselves; below the last one nothing
 // of the stroke is left.
 constexpr double ShareStep = 0.005;
@@ -110,9 +110,9 @@ private:
 Cells takeFailing(const CellProof& proof, const Way& way, Cells& cells, double share)
 {
   std::vector<char> failed(cells.size());
-  const auto count = static_cast<vtkIdType>(cells.size());
-  parallelFor(0, count, CellsAtLeast, [&](vtkIdType first, vtkIdType last) {
-    for (vtkIdType i = first; i < last; ++i)
+  const auto count = static_cast<std::int64_t>(cells.size());
+  parallelFor(0, count, CellsAtLeast, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
     {
       failed[i] = !proof.holds(way.tapsAround(cells[i].at, share), cells[i].at, cells[i].limit);
     }

@@ -1,35 +1,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keeps strokes from folding tissue: tells how much of a stroke may be applied.
-//
-// Guarded are deformedFromRest, straight from the control points, and the refined displacement that
-// pictures are drawn with, trilinear between its nodes; in all cells that the stroke reaches, and
-// beyond the lattice where its border holds. Both have a determinant of 0.1 or more afterwards, at
-// every point: proved by bounds (CellProof.h), not sampled. It is that of full strength.
-// With a mask both are one map, the refined displacement times the mask's weights.
+/**
+ * @file
+ * @brief Keeps strokes from folding tissue: finds how much of a stroke may be applied.
+ *
+ * Two maps are guarded: deformedFromRest as the cubic gives it, and the refined displacement that
+ * pictures are drawn with, which is trilinear between its nodes. With a mask the two are one map:
+ * the refined displacement times the mask's weights.
+ *
+ * Afterwards the Jacobian determinant of both is 0.1 or more at every point of every cell that the
+ * stroke reaches, and beyond the lattice, where the values of its border hold. This is proved by
+ * bounds (CellProof.h) and not sampled. It is the determinant at full strength.
+ */
 #ifndef BrainShift_FoldGuard_h
 #define BrainShift_FoldGuard_h
 
 #include "Filters/Deformation/CellProof.h"
+#include "Filters/Deformation/Export.h"
 #include "Filters/Deformation/Lattice.h"
 
 #include <vector>
 
 namespace brainshift
 {
+/** The smallest Jacobian determinant that the guard allows. */
 constexpr float SmallestGuardedJacobian = 0.1f;
 
-class VTKBRAINSHIFTFILTERS_EXPORT FoldGuard
+/** Guards the strokes that are applied to one base lattice. */
+class BRAINSHIFT_DEFORMATION_EXPORT FoldGuard
 {
 public:
-  // The lattice before any stroke, and the samples it is drawn with. Cells in which it has
-  // determinants below the limit by itself are left alone: else no stroke could touch them.
+  /**
+   * Sets the lattice before any stroke and the samples (0 to 16) it is drawn with. If a cell of the
+   * base has a determinant below the limit, the guard ignores that cell: otherwise no stroke could
+   * touch it.
+   */
   void setBase(const Lattice& base, int samples);
 
-  // Lattice cells that are left alone.
+  /** How many lattice cells the guard ignores because the base folds in them. */
   int foldedCells() const { return this->FoldedCount; }
 
-  // The largest part, 0 to 1, of the way from one lattice to the other that keeps the limit, or up
-  // to 1 % less. `before` keeps it itself.
+  /**
+   * The largest share, 0 to 1, of the way from `before` to `after` that keeps the limit. The answer
+   * can be up to 0.01 below the largest one. `before` must keep the limit.
+   */
   double share(const Lattice& before, const Lattice& after) const;
 
 private:
@@ -38,8 +51,8 @@ private:
   int FoldedCount = 0;
 };
 
-// The lattice at a share, 0 to 1, of the way from one to the other.
-VTKBRAINSHIFTFILTERS_EXPORT Lattice between(
+/** The lattice at a share, 0 to 1, of the way from one to the other. */
+BRAINSHIFT_DEFORMATION_EXPORT Lattice between(
   const Lattice& before, const Lattice& after, double share);
 }
 

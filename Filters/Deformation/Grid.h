@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Geometry of a regular grid in world space: what vtkImageData holds, as a small value.
+/**
+ * @file
+ * @brief Geometry of a regular grid in world space, as a small value.
+ */
 #ifndef BrainShift_Grid_h
 #define BrainShift_Grid_h
 
@@ -11,38 +14,48 @@
 
 namespace brainshift
 {
+/**
+ * Points in rows along three axes. Grid coordinates count points from the first one along the
+ * grid's own axes. World coordinates are mm.
+ */
 struct Grid
 {
-  glm::ivec3 dimensions{ 0 };  // points a side
-  glm::dvec3 origin{ 0.0 };    // mm, world position of point (0,0,0)
-  glm::dvec3 spacing{ 1.0 };   // mm between neighbours along the grid's own axes, above 0
-  glm::dmat3 direction{ 1.0 }; // columns: the grid's axes in world space; a rotation
+  glm::ivec3 dimensions{ 0 };  ///< number of points along each axis
+  glm::dvec3 origin{ 0.0 };    ///< mm, world position of point (0, 0, 0)
+  glm::dvec3 spacing{ 1.0 };   ///< mm between neighbours along the grid's own axes; above 0
+  glm::dmat3 direction{ 1.0 }; ///< columns: the grid's axes in world space; a rotation
 
+  /** Number of points. */
   std::size_t count() const
   {
     return static_cast<std::size_t>(this->dimensions.x) * this->dimensions.y * this->dimensions.z;
   }
 
+  /** Number of a point in an array of all points, x fastest. */
   std::size_t offset(int i, int j, int k) const
   {
     return (static_cast<std::size_t>(k) * this->dimensions.y + j) * this->dimensions.x + i;
   }
 
-  // Positions: mm (world axes) from, or to, grid coordinates (points from the first one).
+  /** World position (mm) of a position in grid coordinates. */
   glm::dvec3 worldFromGrid(const glm::dvec3& position) const
   {
     return this->origin + this->direction * (this->spacing * position);
   }
+
+  /** Grid coordinates of a world position (mm). */
   glm::dvec3 gridFromWorld(const glm::dvec3& world) const
   {
     return glm::transpose(this->direction) * (world - this->origin) / this->spacing;
   }
 
-  // Displacements: the same without the origin.
+  /** World displacement (mm) of a displacement in grid cells. The origin does not count. */
   glm::dvec3 worldVectorFromGrid(const glm::dvec3& vector) const
   {
     return this->direction * (this->spacing * vector);
   }
+
+  /** Displacement in grid cells of a world displacement (mm). The origin does not count. */
   glm::dvec3 gridVectorFromWorld(const glm::dvec3& vector) const
   {
     return glm::transpose(this->direction) * vector / this->spacing;
@@ -56,7 +69,10 @@ struct Grid
   bool operator!=(const Grid& other) const { return !(*this == other); }
 };
 
-// The grid with other numbers of points over the same box. A side of one point stays one cell long.
+/**
+ * A grid over the same box with other numbers of points. A side that has one point counts as one
+ * cell long.
+ */
 inline Grid withDimensions(const Grid& grid, const glm::ivec3& dimensions)
 {
   Grid result = grid;

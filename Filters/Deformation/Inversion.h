@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// C++ view of Shaders/Field/inversion.glsl: the solver of the backward map, from the very source the GPU
-// compiles.
+/**
+ * @file
+ * @brief The solver of the backward map for C++. It compiles Shaders/Field/inversion.glsl, the file
+ *        that the GPU runs too, so both sides take the same steps.
+ */
 #ifndef BrainShift_Inversion_h
 #define BrainShift_Inversion_h
 
@@ -11,8 +14,12 @@
 
 namespace brainshift
 {
-// `Forward` provides void map(vec3 rest, vec3& displacement, mat3& jacobian), in lattice
-// coordinates.
+/**
+ * Gives the functions of the GLSL file what they call.
+ *
+ * `Forward` has `void map(vec3 rest, vec3& displacement, mat3& jacobian) const`: the displacement
+ * and the derivatives of position + displacement, both in lattice coordinates.
+ */
 template <typename Forward>
 struct Inversion
 {

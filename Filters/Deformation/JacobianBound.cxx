@@ -125,7 +125,7 @@ struct CubicBox
     return result;
   }
 
-  // The same without slopes.
+  // Without slopes.
   ColumnBounds hull() const
   {
     ColumnBounds result;

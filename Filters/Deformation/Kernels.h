@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cubic kernels of the lattice. The GPU gets them as uniforms, so both sides use the same numbers.
+/**
+ * @file
+ * @brief The cubic kernels of the lattice.
+ *
+ * The GPU gets their numbers as uniforms, so both sides compute with the same ones.
+ */
 #ifndef BrainShift_Kernels_h
 #define BrainShift_Kernels_h
 
@@ -8,13 +13,22 @@
 
 namespace brainshift
 {
-// Interpolates the control points; the default (paper, section 2).
+/**
+ * Catmull-Rom: the displacement passes through the control points. The default. Source: van der
+ * Steen et al., SPIE 7169 (2009), section 2.
+ */
 constexpr int KernelCatmullRom = 0;
-// Uniform cubic B-spline: comes near them only, but has continuous second derivatives.
+
+/**
+ * Uniform cubic B-spline: the displacement only comes near the control points, but its second
+ * derivatives are continuous.
+ */
 constexpr int KernelBSpline = 1;
 
-// Weights of the four control points around a position, in lattice order: the position lies at
-// `t` (0 to 1) between the second and the third. They sum to 1.
+/**
+ * Weights of the four control points around a position, in the order of the lattice. The position
+ * lies at `t` (0 to 1) between the second and the third. The weights sum to 1.
+ */
 inline glm::vec4 kernelWeights(int kernel, float t)
 {
   float s = 1.0f - t;
@@ -29,7 +43,7 @@ inline glm::vec4 kernelWeights(int kernel, float t)
     0.5f;
 }
 
-// The same as polynomials: kernelPolynomials(kernel) * vec4(1, t, t^2, t^3).
+/** The weights as polynomials: kernelPolynomials(kernel) * vec4(1, t, t^2, t^3) gives them. */
 inline glm::mat4 kernelPolynomials(int kernel)
 {
   if (kernel == KernelBSpline)
@@ -40,7 +54,7 @@ inline glm::mat4 kernelPolynomials(int kernel)
   return glm::mat4(0, 2, 0, 0, /**/ -1, 0, 1, 0, /**/ 2, -5, 4, -1, /**/ -1, 3, -3, 1) * 0.5f;
 }
 
-// Derivatives of kernelWeights with respect to `t`. They sum to 0.
+/** Derivatives of kernelWeights with respect to `t`. They sum to 0. */
 inline glm::vec4 kernelSlopes(int kernel, float t)
 {
   float s = 1.0f - t;

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/Lattice.h"
 
+#include "Filters/Deformation/IndexLoop.h"
 #include "Filters/Deformation/Kernels.h"
-#include "Filters/Deformation/OffsetField.h"
 #include "Filters/Deformation/Parallel.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 
 namespace brainshift
 {
 namespace
 {
-constexpr vtkIdType PointsAtLeast = 32768; // for a thread: about 0.2 ms
+constexpr std::int64_t PointsAtLeast = 32768; // for a thread: about 0.2 ms
 
 // The four control points around a position along one axis and their weights.
 struct Taps
@@ -43,12 +42,22 @@ Taps tapsAt(int kernel, int points, double position)
   return taps;
 }
 
+// Those along each axis.
+using TapsOfAxes = std::array<Taps, 3>;
+
+TapsOfAxes tapsAround(const glm::ivec3& dimensions, int kernel, const glm::dvec3& position)
+{
+  return { tapsAt(kernel, dimensions.x, position.x), tapsAt(kernel, dimensions.y, position.y),
+    tapsAt(kernel, dimensions.z, position.z) };
+}
+
 // The four control points of one row around a position.
 struct RowOfTaps
 {
   const glm::vec3* tap[4];
 
-  RowOfTaps(const glm::ivec3& dimensions, const glm::vec3* values, const Taps taps[3], int j, int k)
+  RowOfTaps(
+    const glm::ivec3& dimensions, const glm::vec3* values, const TapsOfAxes& taps, int j, int k)
   {
     const glm::vec3* row = values +
       (static_cast<std::size_t>(taps[2].index[k]) * dimensions.y + taps[1].index[j]) * dimensions.x;
@@ -115,89 +124,38 @@ void applyMove(Lattice& lattice, const Stroke& stroke)
       basisFunction(lattice.kernel, below, ratio[axis]) +
       basisFunction(lattice.kernel, above, ratio[axis]);
   };
-  for (int k = low.z; k <= high.z; ++k)
-  {
-    for (int j = low.y; j <= high.y; ++j)
-    {
-      for (int i = low.x; i <= high.x; ++i)
-      {
-        const double weight = weightAlong(0, i) * weightAlong(1, j) * weightAlong(2, k);
-        lattice.displacements[grid.offset(i, j, k)] += glm::vec3(weight * stroke.vector);
-      }
-    }
-  }
+  forEachIndex(low, high, [&](const glm::ivec3& at) {
+    const double weight = weightAlong(0, at.x) * weightAlong(1, at.y) * weightAlong(2, at.z);
+    lattice.displacements[grid.offset(at.x, at.y, at.z)] += glm::vec3(weight * stroke.vector);
+  });
 }
 
 void applyAround(Lattice& lattice, const Stroke& stroke)
 {
   const Grid& grid = lattice.grid;
   const double reach = std::max(stroke.major, stroke.minor);
-  const vtkIdType layer = static_cast<vtkIdType>(grid.dimensions.x) * grid.dimensions.y;
-  parallelFor(0, grid.dimensions.z, PointsAtLeast / layer, [&](vtkIdType first, vtkIdType last) {
-    for (int k = static_cast<int>(first); k < last; ++k)
-    {
-      for (int j = 0; j < grid.dimensions.y; ++j)
+  const std::int64_t layer = static_cast<std::int64_t>(grid.dimensions.x) * grid.dimensions.y;
+  parallelFor(
+    0, grid.dimensions.z, PointsAtLeast / layer, [&](std::int64_t first, std::int64_t last) {
+      for (int k = static_cast<int>(first); k < last; ++k)
       {
-        glm::vec3* displacement = &lattice.displacements[grid.offset(0, j, k)];
-        for (int i = 0; i < grid.dimensions.x; ++i, ++displacement)
+        for (int j = 0; j < grid.dimensions.y; ++j)
         {
-          const glm::dvec3 deformed =
-            grid.worldFromGrid(glm::dvec3(i, j, k)) + glm::dvec3(*displacement);
-          const glm::dvec3 fromAnchor = deformed - stroke.anchor;
-          if (glm::dot(fromAnchor, fromAnchor) < reach * reach)
+          glm::vec3* displacement = &lattice.displacements[grid.offset(0, j, k)];
+          for (int i = 0; i < grid.dimensions.x; ++i, ++displacement)
           {
-            const double weight = falloff(normalisedDistance(stroke, deformed), stroke.sigma);
-            *displacement += glm::vec3(weight * stroke.vector);
+            const glm::dvec3 deformed =
+              grid.worldFromGrid(glm::dvec3(i, j, k)) + glm::dvec3(*displacement);
+            const glm::dvec3 fromAnchor = deformed - stroke.anchor;
+            if (glm::dot(fromAnchor, fromAnchor) < reach * reach)
+            {
+              const double weight = falloff(normalisedDistance(stroke, deformed), stroke.sigma);
+              *displacement += glm::vec3(weight * stroke.vector);
+            }
           }
         }
       }
-    }
-  });
-}
-
-bool allTapsZero(const Lattice& lattice, const glm::ivec3& cell)
-{
-  const glm::ivec3 low = glm::max(cell - 1, glm::ivec3(0));
-  const glm::ivec3 high = glm::min(cell + 2, lattice.grid.dimensions - 1);
-  for (int k = low.z; k <= high.z; ++k)
-  {
-    for (int j = low.y; j <= high.y; ++j)
-    {
-      for (int i = low.x; i <= high.x; ++i)
-      {
-        if (lattice.displacements[lattice.grid.offset(i, j, k)] != glm::vec3(0.0f))
-        {
-          return false;
-        }
-      }
-    }
-  }
-  return true;
-}
-
-// Smallest determinant on the corners, edges' middles, faces' middles and middle of a cell. Those
-// it shares with the next cell are left to that one: it is as moved as they are.
-double minimumJacobianInCell(
-  const Lattice& lattice, const std::vector<glm::vec3>& inCells, const glm::ivec3& cell)
-{
-  const glm::ivec3 samples =
-    2 + glm::ivec3(glm::equal(cell, lattice.grid.dimensions - 2)); // a side
-  double smallest = std::numeric_limits<double>::max();
-  glm::ivec3 sample;
-  for (sample.z = 0; sample.z < samples.z; ++sample.z)
-  {
-    for (sample.y = 0; sample.y < samples.y; ++sample.y)
-    {
-      for (sample.x = 0; sample.x < samples.x; ++sample.x)
-      {
-        const glm::mat3 jacobian = glm::mat3(1.0f) +
-          cubicGradient(lattice.grid.dimensions, lattice.kernel, inCells.data(),
-            glm::dvec3(cell) + 0.5 * glm::dvec3(sample));
-        smallest = std::min(smallest, static_cast<double>(glm::determinant(jacobian)));
-      }
-    }
-  }
-  return smallest;
+    });
 }
 }
 
@@ -245,8 +203,7 @@ std::vector<glm::vec3> displacementsInCells(const Lattice& lattice)
 glm::vec3 cubicDisplacement(const glm::ivec3& dimensions, int kernel,
   const glm::vec3* displacements, const glm::dvec3& position)
 {
-  const Taps taps[3] = { tapsAt(kernel, dimensions.x, position.x),
-    tapsAt(kernel, dimensions.y, position.y), tapsAt(kernel, dimensions.z, position.z) };
+  const TapsOfAxes taps = tapsAround(dimensions, kernel, position);
   glm::vec3 sum(0.0f);
   for (int k = 0; k < 4; ++k)
   {
@@ -264,8 +221,7 @@ glm::vec3 cubicDisplacement(const glm::ivec3& dimensions, int kernel,
 glm::mat3 cubicGradient(const glm::ivec3& dimensions, int kernel, const glm::vec3* displacements,
   const glm::dvec3& position)
 {
-  const Taps taps[3] = { tapsAt(kernel, dimensions.x, position.x),
-    tapsAt(kernel, dimensions.y, position.y), tapsAt(kernel, dimensions.z, position.z) };
+  const TapsOfAxes taps = tapsAround(dimensions, kernel, position);
   glm::mat3 gradient(0.0f);
   for (int k = 0; k < 4; ++k)
   {
@@ -283,50 +239,5 @@ glm::mat3 cubicGradient(const glm::ivec3& dimensions, int kernel, const glm::vec
     gradient[2] += taps[2].slope[k] * plane[2];
   }
   return gradient;
-}
-
-double maximumDisplacement(const Lattice& lattice)
-{
-  float largest = 0.0f;
-  if (lattice.mask)
-  {
-    for (const glm::vec3& inCells : refine(lattice, lattice.mask->perCell - 1).values)
-    {
-      const glm::vec3 mm(lattice.grid.spacing * glm::dvec3(inCells)); // axes do not matter
-      largest = std::max(largest, glm::dot(mm, mm));
-    }
-    return std::sqrt(static_cast<double>(largest));
-  }
-  for (const glm::vec3& displacement : lattice.displacements)
-  {
-    largest = std::max(largest, glm::dot(displacement, displacement));
-  }
-  return std::sqrt(static_cast<double>(largest));
-}
-
-double minimumJacobian(const Lattice& lattice)
-{
-  if (lattice.mask)
-  {
-    return minimumJacobian(refine(lattice, lattice.mask->perCell - 1));
-  }
-  const std::vector<glm::vec3> inCells = displacementsInCells(lattice);
-  const glm::ivec3 cells = lattice.grid.dimensions - 1;
-  std::vector<double> smallest(cells.z, std::numeric_limits<double>::max());
-  parallelFor(0, cells.z, 1, [&](vtkIdType first, vtkIdType last) {
-    glm::ivec3 cell;
-    for (cell.z = static_cast<int>(first); cell.z < last; ++cell.z)
-    {
-      for (cell.y = 0; cell.y < cells.y; ++cell.y)
-      {
-        for (cell.x = 0; cell.x < cells.x; ++cell.x)
-        {
-          smallest[cell.z] = std::min(smallest[cell.z],
-            allTapsZero(lattice, cell) ? 1.0 : minimumJacobianInCell(lattice, inCells, cell));
-        }
-      }
-    }
-  });
-  return *std::min_element(smallest.begin(), smallest.end());
 }
 }

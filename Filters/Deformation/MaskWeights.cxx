@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/MaskWeights.h"
 
+#include "Filters/Deformation/IndexLoop.h"
 #include "Filters/Deformation/Parallel.h"
 
 #include <glm/common.hpp>
@@ -35,23 +36,6 @@ struct NodeImage
   }
 };
 
-// Calls visit(index) for all of a box, both ends included.
-template <typename Visit>
-void forBox(const glm::ivec3& first, const glm::ivec3& last, const Visit& visit)
-{
-  glm::ivec3 at;
-  for (at.z = first.z; at.z <= last.z; ++at.z)
-  {
-    for (at.y = first.y; at.y <= last.y; ++at.y)
-    {
-      for (at.x = first.x; at.x <= last.x; ++at.x)
-      {
-        visit(at);
-      }
-    }
-  }
-}
-
 // Cells of nodes that hold a point outside the mask: in a voxel that is outside ...
 void markVoxels(const Mask& mask, const Grid& nodes, NodeImage<char>& outside)
 {
@@ -67,13 +51,13 @@ void markVoxels(const Mask& mask, const Grid& nodes, NodeImage<char>& outside)
   half -= Touching;
   const glm::dvec3 origin = nodes.gridFromWorld(mask.grid.origin);
   std::size_t voxel = 0;
-  forBox(glm::ivec3(0), mask.grid.dimensions - 1, [&](const glm::ivec3& at) {
+  forEachIndex(glm::ivec3(0), mask.grid.dimensions - 1, [&](const glm::ivec3& at) {
     if (!mask.inside[voxel++])
     {
       const glm::dvec3 middle = origin + step * glm::dvec3(at);
       const glm::ivec3 first(glm::max(glm::floor(middle - half), glm::dvec3(0.0)));
       const glm::ivec3 last(glm::min(glm::floor(middle + half), glm::dvec3(outside.count) - 1.0));
-      forBox(
+      forEachIndex(
         first, last, [&](const glm::ivec3& cell) { outside.values[outside.offset(cell)] = 1; });
     }
   });
@@ -85,11 +69,11 @@ void markBeyond(const Mask& mask, const Grid& nodes, NodeImage<char>& outside)
   const glm::dvec3 low(-0.5 - Touching);
   const glm::dvec3 high = glm::dvec3(mask.grid.dimensions) - 0.5 + Touching;
   const glm::ivec3 lastCell = outside.count - 1;
-  forBox(glm::ivec3(0), nodes.dimensions - 1, [&](const glm::ivec3& node) {
+  forEachIndex(glm::ivec3(0), nodes.dimensions - 1, [&](const glm::ivec3& node) {
     const glm::dvec3 at = mask.grid.gridFromWorld(nodes.worldFromGrid(glm::dvec3(node)));
     if (glm::any(glm::lessThan(at, low)) || glm::any(glm::greaterThan(at, high)))
     {
-      forBox(glm::max(node - 1, glm::ivec3(0)), glm::min(node, lastCell),
+      forEachIndex(glm::max(node - 1, glm::ivec3(0)), glm::min(node, lastCell),
         [&](const glm::ivec3& cell) { outside.values[outside.offset(cell)] = 1; });
     }
   });
@@ -100,11 +84,11 @@ NodeImage<float> squaredDistances(const NodeImage<char>& outside, const Grid& no
 {
   NodeImage<float> squared(nodes.dimensions, Far);
   const glm::ivec3 lastNode = nodes.dimensions - 1;
-  forBox(glm::ivec3(0), lastNode, [&](const glm::ivec3& node) {
+  forEachIndex(glm::ivec3(0), lastNode, [&](const glm::ivec3& node) {
     bool still = glm::any(glm::equal(node, glm::ivec3(0))) || glm::any(glm::equal(node, lastNode));
     if (!still)
     {
-      forBox(node - 1, node,
+      forEachIndex(node - 1, node,
         [&](const glm::ivec3& cell) { still = still || outside.values[outside.offset(cell)]; });
     }
     if (still)
@@ -117,8 +101,8 @@ NodeImage<float> squaredDistances(const NodeImage<char>& outside, const Grid& no
     // Squared distances add up axis by axis, so each looks along its own rows only.
     const NodeImage<float> before = squared;
     const int reach = static_cast<int>(std::ceil(reachMm / nodes.spacing[axis]));
-    parallelFor(0, nodes.dimensions.z, 1, [&](vtkIdType begin, vtkIdType end) {
-      forBox({ 0, 0, static_cast<int>(begin) },
+    parallelFor(0, nodes.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
+      forEachIndex({ 0, 0, static_cast<int>(begin) },
         { lastNode.x, lastNode.y, static_cast<int>(end) - 1 }, [&](const glm::ivec3& node) {
           float& nearest = squared.values[squared.offset(node)];
           glm::ivec3 other = node;

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where tissue may move, and how freely: the share of the displacement that holds at each node of
-// the refined field.
-//
-// Nodes are fine enough for a thin rim where control points are not. A node has weight 0 if any of
-// the eight cells of nodes around it holds a point outside the mask, so what is trilinear between
-// the nodes is 0 outside the mask, exactly; as is what lies beyond the lattice. From the outermost
-// of these nodes the weight rises smoothly to 1 over the feather. Where nothing folds, what stays
-// inside the mask's edge is mapped onto itself: nothing from outside is seen inside. (The exact
-// inverse; the negated one promises nothing.)
+/**
+ * @file
+ * @brief Where tissue may move, and how freely: the share of the displacement that holds at each
+ *        node of the refined field.
+ *
+ * Nodes are fine enough for a thin rim; control points are not. A node has weight 0 if any of the
+ * eight cells of nodes around it holds a point outside the mask. The field is trilinear between the
+ * nodes, so it is exactly 0 outside the mask and beyond the lattice. From the outermost of these
+ * nodes the weight rises smoothly to 1 over the feather.
+ *
+ * If nothing folds, the tissue inside the mask is mapped onto itself, so no tissue from outside is
+ * seen inside. This holds for the exact inverse and not for the negated one.
+ */
 #ifndef BrainShift_MaskWeights_h
 #define BrainShift_MaskWeights_h
 
+#include "Filters/Deformation/Export.h"
 #include "Filters/Deformation/Lattice.h"
 
 #include <memory>
@@ -18,18 +23,25 @@
 
 namespace brainshift
 {
-// Which voxels of an image are inside; a voxel is the box around its value.
+/** Which voxels of an image are inside. A voxel is the box around its value. */
 struct Mask
 {
-  Grid grid;
-  std::vector<char> inside; // 1 or 0, x fastest
+  Grid grid;                ///< positions of the voxels' middles
+  std::vector<char> inside; ///< 1 or 0 for each voxel, x fastest
 };
 
-constexpr double MostMaskedNodes = 1e8; // 400 MB of weights, 1.2 GB of displacements
+/** Most nodes of a refined field with a mask: 400 MB of weights and 1.2 GB of displacements. */
+constexpr double MostMaskedNodes = 1e8;
 
-// `samples`: of the refined field, which has at most MostMaskedNodes. `featherMm`: 0 or more. The
-// mask may lie anyhow to the lattice.
-VTKBRAINSHIFTFILTERS_EXPORT std::shared_ptr<const NodeWeights> maskWeights(
+/**
+ * The weights that a mask gives the nodes of a refined field. The mask may lie anywhere and in any
+ * direction relative to the lattice.
+ *
+ * @param lattice     the control points
+ * @param samples     nodes between two control points; the field has at most MostMaskedNodes nodes
+ * @param featherMm   distance (mm) over which weights rise from 0 to 1; 0 or more
+ */
+BRAINSHIFT_DEFORMATION_EXPORT std::shared_ptr<const NodeWeights> maskWeights(
   const Grid& lattice, int samples, const Mask& mask, double featherMm);
 }
 

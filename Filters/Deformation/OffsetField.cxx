@@ -17,7 +17,7 @@ namespace brainshift
 {
 namespace
 {
-constexpr vtkIdType NodesAtLeast = 65536; // for a thread
+constexpr std::int64_t NodesAtLeast = 65536; // for a thread
 
 std::size_t nodeOffset(const glm::ivec3& count, int i, int j, int k)
 {
@@ -69,27 +69,28 @@ std::vector<glm::vec3> refineAxis(const std::vector<glm::vec3>& from, int points
   const std::vector<glm::vec4> weights = weightsInCell(kernel, perCell);
   const int rows = (points - 1) * perCell + 1;
   std::vector<glm::vec3> to(blocks * rows * stride);
-  const vtkIdType grain = NodesAtLeast / static_cast<vtkIdType>(stride);
-  parallelFor(0, static_cast<vtkIdType>(blocks) * rows, grain, [&](vtkIdType first, vtkIdType end) {
-    for (vtkIdType outRow = first; outRow < end; ++outRow)
-    {
-      const std::size_t block = outRow / rows;
-      const int row = static_cast<int>(outRow % rows);
-      const int cell = row / perCell;
-      const glm::vec4& weight = weights[row % perCell];
-      const glm::vec3* tap[4];
-      for (int i = 0; i < 4; ++i)
+  const std::int64_t grain = NodesAtLeast / static_cast<std::int64_t>(stride);
+  parallelFor(
+    0, static_cast<std::int64_t>(blocks) * rows, grain, [&](std::int64_t first, std::int64_t end) {
+      for (std::int64_t outRow = first; outRow < end; ++outRow)
       {
-        tap[i] = &from[(block * points + std::clamp(cell - 1 + i, 0, points - 1)) * stride];
+        const std::size_t block = outRow / rows;
+        const int row = static_cast<int>(outRow % rows);
+        const int cell = row / perCell;
+        const glm::vec4& weight = weights[row % perCell];
+        const glm::vec3* tap[4];
+        for (int i = 0; i < 4; ++i)
+        {
+          tap[i] = &from[(block * points + std::clamp(cell - 1 + i, 0, points - 1)) * stride];
+        }
+        glm::vec3* out = &to[outRow * stride];
+        for (std::size_t s = 0; s < stride; ++s)
+        {
+          out[s] = weight[0] * tap[0][s] + weight[1] * tap[1][s] + weight[2] * tap[2][s] +
+            weight[3] * tap[3][s];
+        }
       }
-      glm::vec3* out = &to[outRow * stride];
-      for (std::size_t s = 0; s < stride; ++s)
-      {
-        out[s] = weight[0] * tap[0][s] + weight[1] * tap[1][s] + weight[2] * tap[2][s] +
-          weight[3] * tap[3][s];
-      }
-    }
-  });
+    });
   return to;
 }
 
@@ -250,7 +251,7 @@ double minimumJacobian(const NodeField& field)
 {
   const glm::ivec3 cells = field.nodes.count - 1;
   std::vector<double> smallest(cells.z, std::numeric_limits<double>::max());
-  parallelFor(0, cells.z, 1, [&](vtkIdType first, vtkIdType end) {
+  parallelFor(0, cells.z, 1, [&](std::int64_t first, std::int64_t end) {
     for (int k = static_cast<int>(first); k < end; ++k)
     {
       for (int cell = 0; cell < cells.x * cells.y; ++cell)
@@ -268,7 +269,7 @@ NodeField invert(const NodeField& forward, const FieldNodes& nodes, Inverse inve
   NodeField field;
   field.nodes = nodes;
   field.values.resize(static_cast<std::size_t>(nodes.count.x) * nodes.count.y * nodes.count.z);
-  parallelFor(0, nodes.count.z, 1, [&](vtkIdType first, vtkIdType end) {
+  parallelFor(0, nodes.count.z, 1, [&](std::int64_t first, std::int64_t end) {
     Inversion<NodeField> inversion{ forward };
     for (int k = static_cast<int>(first); k < end; ++k)
     {

@@ -1,49 +1,61 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loops over all processor cores. Debian's ParaView 5.13 leaves vtkSMPTools on one core unless the
-// user names a back end (VTK_SMP_BACKEND_IN_USE); our own loops take threads there all the same.
-// VTK_SMP_MAX_THREADS limits them everywhere.
+/**
+ * @file
+ * @brief Loops over all processor cores.
+ *
+ * The core has a loop of its own, on std::thread, and needs no other library. A program may replace
+ * it: the Filters module sets the loop of vtkSMPTools (Filters/Attached/SMPLoop.h), so that inside
+ * ParaView the settings of VTK hold.
+ */
 #ifndef BrainShift_Parallel_h
 #define BrainShift_Parallel_h
 
-#include "vtkSMP.h"
-#include "vtkSMPTools.h"
-#include "vtkType.h"
+#include "Filters/Deformation/Export.h"
 
-#include <cstdlib>
-#include <cstring>
+#include <cstdint>
+#include <functional>
 
 namespace brainshift
 {
-// Whether vtkSMPTools is on one core because nobody chose otherwise.
-inline bool leftSequential()
-{
-#if VTK_SMP_DEFAULT_IMPLEMENTATION_SEQUENTIAL && VTK_SMP_ENABLE_STDTHREAD
-  return !std::getenv("VTK_SMP_BACKEND_IN_USE") &&
-    std::strcmp(vtkSMPTools::GetBackend(), "Sequential") == 0;
-#else
-  return false;
-#endif
-}
+/** One piece of a loop: does the steps from `first` up to, but not including, `last`. */
+using LoopBody = std::function<void(std::int64_t first, std::int64_t last)>;
 
-// Calls body(begin, end) for pieces that together are first to last, on many threads. Pieces must
-// not depend on each other; then the result is that of body(first, last), bit for bit. Up to
-// `grain` steps are not worth a thread: they run at once, as does a loop within a piece.
+/**
+ * Calls `body` for pieces that together are the steps from `first` up to, but not including,
+ * `last`, and returns when all of them are done. A loop that runs within a piece stays on the
+ * piece's thread.
+ */
+using Loop = void (*)(std::int64_t first, std::int64_t last, const LoopBody& body);
+
+/**
+ * The loop that parallelFor uses by default: one thread for each processor core. The first
+ * exception that a piece throws is thrown again when all threads have ended.
+ */
+BRAINSHIFT_DEFORMATION_EXPORT void loopOnThreads(
+  std::int64_t first, std::int64_t last, const LoopBody& body);
+
+/** Makes parallelFor use another loop. Call it before any loop runs. Null: the default. */
+BRAINSHIFT_DEFORMATION_EXPORT void setLoop(Loop loop);
+
+/** The loop that parallelFor uses. */
+BRAINSHIFT_DEFORMATION_EXPORT Loop currentLoop();
+
+/**
+ * Calls body(begin, end) for pieces that together are `first` to `last`, on many threads.
+ *
+ * Pieces must not depend on each other. Then the result equals that of body(first, last), bit for
+ * bit. A loop of at most `grain` steps is too short for a second thread: it runs at once.
+ */
 template <typename Body>
-void parallelFor(vtkIdType first, vtkIdType last, vtkIdType grain, const Body& body)
+void parallelFor(std::int64_t first, std::int64_t last, std::int64_t grain, const Body& body)
 {
   if (last - first <= grain)
   {
     body(first, last);
   }
-  else if (leftSequential())
-  {
-    // ParaView runs pipelines and draws on one thread, so nobody else sees the back end change.
-    vtkSMPTools::LocalScope(
-      vtkSMPTools::Config(std::string("STDThread")), [&] { vtkSMPTools::For(first, last, body); });
-  }
   else
   {
-    vtkSMPTools::For(first, last, body);
+    currentLoop()(first, last, [&body](std::int64_t begin, std::int64_t end) { body(begin, end); });
   }
 }
 }

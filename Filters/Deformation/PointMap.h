@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// deformedFromRest and its inverse for single points, straight from the control points; with a
-// mask, from the masked nodes that pictures are drawn from.
+/**
+ * @file
+ * @brief The two maps of a lattice for single points.
+ *
+ * They evaluate the cubic itself and not the field that pictures are drawn with. With a mask they
+ * read the masked nodes, as pictures do.
+ */
 #ifndef BrainShift_PointMap_h
 #define BrainShift_PointMap_h
 
+#include "Filters/Deformation/Export.h"
 #include "Filters/Deformation/Lattice.h"
 #include "Filters/Deformation/OffsetField.h"
 
@@ -14,19 +20,24 @@
 
 namespace brainshift
 {
-class VTKBRAINSHIFTFILTERS_EXPORT PointMap
+/** deformedFromRest, its inverse and its derivatives. Positions are mm along world axes. */
+class BRAINSHIFT_DEFORMATION_EXPORT PointMap
 {
 public:
+  /** `inverse`: how restFromDeformed finds tissue. */
   explicit PointMap(const Lattice& lattice, Inverse inverse = Inverse::Exact);
 
-  // Where tissue at a rest point goes. mm, world, both ways.
+  /** Where tissue at a rest point goes. */
   glm::dvec3 deformedFromRest(const glm::dvec3& rest) const;
 
-  // Which tissue is seen at a deformed point: deformedFromRest of the answer is the point, to
-  // 0.0001 lattice cells or better, wherever the map does not fold.
+  /**
+   * The rest point of the tissue that is seen at a deformed point. With the exact inverse,
+   * deformedFromRest of the answer is the point, to 0.0001 lattice cells or better, wherever the
+   * map does not fold.
+   */
   glm::dvec3 restFromDeformed(const glm::dvec3& deformed) const;
 
-  // Derivatives of deformedFromRest at a rest point, world axes: column a is d(deformed)/d(rest_a).
+  /** Derivatives of deformedFromRest at a rest point: column a is d(deformed) / d(rest_a). */
   glm::dmat3 jacobian(const glm::dvec3& rest) const;
 
 private:

@@ -1,21 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Turns the list of strokes into control-point displacements, doing again only what changed. With
-// the fold guard each stroke, in order, is applied as far as nothing folds.
+/**
+ * @file
+ * @brief Turns the list of strokes into displacements of control points and redoes only what
+ *        changed.
+ *
+ * With the fold guard each stroke, in order, is applied only as far as nothing folds. The strokes
+ * that a lattice is too coarse for are found here, too.
+ */
 #ifndef BrainShift_Replay_h
 #define BrainShift_Replay_h
 
+#include "Filters/Deformation/Export.h"
 #include "Filters/Deformation/FoldGuard.h"
 #include "Filters/Deformation/Lattice.h"
 #include "Filters/Deformation/Stroke.h"
 
+#include <string>
 #include <vector>
 
 namespace brainshift
 {
+/** Whether and for which refined field the fold guard works. */
 struct Guarding
 {
   bool on = false;
-  int samples = 4; // nodes between two control points of the field that is drawn
+  int samples = 4; ///< nodes between two control points of the field that is drawn, 0 to 16
 
   bool operator==(const Guarding& other) const
   {
@@ -23,21 +32,24 @@ struct Guarding
   }
 };
 
-class VTKBRAINSHIFTFILTERS_EXPORT Replay
+/** Keeps the result of the last run, so that changing the last stroke costs one stroke. */
+class BRAINSHIFT_DEFORMATION_EXPORT Replay
 {
 public:
-  // The base lattice after `strokes`, in order. If only the last stroke differs from the previous
-  // call, or one was added, one stroke is applied; otherwise all are.
+  /**
+   * The base lattice after all strokes, in order. If only the last stroke differs from the previous
+   * call, or one stroke was added, one stroke is applied. Otherwise all strokes are applied.
+   */
   const Lattice& run(
     const Lattice& base, const std::vector<Stroke>& strokes, const Guarding& guarding = {});
 
-  // Strokes applied by the last run.
+  /** How many strokes the last run applied. */
   int applied() const { return this->Applied; }
 
-  // How much of each stroke was applied, 0 to 1; 1: all of it, or a disabled stroke.
+  /** The share of each stroke that was applied, 0 to 1. A disabled stroke has 1. */
   const std::vector<double>& shares() const { return this->Shares; }
 
-  // Cells of the base lattice that the guard leaves alone, since they fold by themselves.
+  /** How many cells of the base lattice the guard ignores because the base folds in them. */
   int foldedCells() const { return this->Guarded.on ? this->Guard.foldedCells() : 0; }
 
 private:
@@ -54,6 +66,16 @@ private:
   Lattice Result;     // after all of them
   int Applied = 0;
 };
+
+/**
+ * One sentence, without a full stop, about the enabled strokes whose radius is below the lattice's
+ * spacing. It names the strokes, their radii and the spacing. It is empty if there are none.
+ *
+ * Few or no control points lie within such a radius. The anchor then moves by a third of the
+ * stroke's vector or less (measured with Catmull-Rom and sigma 0.5).
+ */
+BRAINSHIFT_DEFORMATION_EXPORT std::string strokesTooFine(
+  const std::vector<Stroke>& strokes, const Grid& lattice);
 }
 
 #endif

@@ -25,8 +25,8 @@ void forRows(const glm::ivec3& side, int axis, const Visit& visit)
   const int slow = axis == 2 ? 1 : 2;
   const int fast = axis == 0 ? 1 : 0;
   const std::ptrdiff_t stride[3] = { 1, side.x, static_cast<std::ptrdiff_t>(side.x) * side.y };
-  parallelFor(0, side[slow], 1, [&](vtkIdType begin, vtkIdType end) {
-    for (vtkIdType outer = begin; outer < end; ++outer)
+  parallelFor(0, side[slow], 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t outer = begin; outer < end; ++outer)
     {
       for (int inner = 0; inner < side[fast]; ++inner)
       {
@@ -117,9 +117,9 @@ std::vector<std::uint8_t> segmentShares(const Mask& segment, const Grid& points)
   const glm::dvec3 first = inSegment(glm::dvec3(0.0));
   const glm::dmat3 step(inSegment({ 1.0, 0.0, 0.0 }) - first, inSegment({ 0.0, 1.0, 0.0 }) - first,
     inSegment({ 0.0, 0.0, 1.0 }) - first);
-  parallelFor(0, side.z, 1, [&](vtkIdType begin, vtkIdType end) {
+  parallelFor(0, side.z, 1, [&](std::int64_t begin, std::int64_t end) {
     std::size_t at = begin * static_cast<std::size_t>(side.x) * side.y;
-    for (vtkIdType z = begin; z < end; ++z)
+    for (std::int64_t z = begin; z < end; ++z)
     {
       for (int y = 0; y < side.y; ++y)
       {

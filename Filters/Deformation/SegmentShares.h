@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A segment as a smooth field, so that what is cut out along it has no steps: how much of the place
-// around a point belongs to it. Half, and the point lies on the segment's surface.
-//
-// Voxels are smoothed on their own grid by a binomial filter of five, which leaves a slope of about
-// two voxels; then each voxel's middle is put back on the side that its label says, so that what is
-// thinner than the filter stays and nothing else comes in.
+/**
+ * @file
+ * @brief A segment as a smooth field, so that its surface shows no steps of voxels.
+ *
+ * The share at a point is how much of the space around it belongs to the segment. A share of one
+ * half means that the point lies on the segment's surface.
+ *
+ * Voxels are smoothed on their own grid by a binomial filter of five, whose edge is about two
+ * voxels wide. Then the middle of each voxel is put back on the side that its label says. So a part
+ * that is thinner than the filter stays, and no voxel outside comes in.
+ */
 #ifndef BrainShift_SegmentShares_h
 #define BrainShift_SegmentShares_h
 
+#include "Filters/Deformation/Export.h"
 #include "Filters/Deformation/MaskWeights.h"
 
 #include <cstdint>
@@ -15,15 +21,20 @@
 
 namespace brainshift
 {
-constexpr int WholeShare = 255; // all of the place belongs to the segment; half of it: the edge
+/** The share where all of the space belongs to the segment. Its half is the segment's surface. */
+constexpr int WholeShare = 255;
 
-// Tissue with a smaller share in the segment is not drawn; with one as near to the whole all of it
-// is. In between opacity rises, over about a voxel.
+/**
+ * Tissue whose share (0 to 1) is below this is not drawn. Tissue whose share is above 1 minus this
+ * is drawn with its full opacity. Opacity rises in between, over about one voxel.
+ */
 constexpr float LeastShare = 0.3f;
 
-// Shares, 0 to WholeShare, at the points of a grid, which may lie anyhow to the segment's; x
-// fastest. What lies beyond the segment's own voxels does not belong to it.
-VTKBRAINSHIFTFILTERS_EXPORT std::vector<std::uint8_t> segmentShares(
+/**
+ * Shares, 0 to WholeShare, at the points of a grid, x fastest. The grid may lie anywhere and in any
+ * direction relative to the segment's. Space beyond the segment's voxels does not belong to it.
+ */
+BRAINSHIFT_DEFORMATION_EXPORT std::vector<std::uint8_t> segmentShares(
   const Mask& segment, const Grid& points);
 }
 

@@ -66,8 +66,11 @@ std::string problemOf(const double* numbers)
   else if (stroke.tool == Tool::Stamp)
   {
     requireRadius(problem, "major radius", stroke.major);
-    requireRadius(problem, "minor radius", stroke.minor);
-    if (glm::length(stroke.axis) <= 0.0)
+    if (problem.str().empty())
+    {
+      requireRadius(problem, "minor radius", stroke.minor);
+    }
+    if (problem.str().empty() && glm::length(stroke.axis) <= 0.0)
     {
       problem << "its axis is 0 0 0; it must have a length above 0";
     }

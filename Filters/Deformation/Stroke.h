@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One edit of the deformation, as data: design section "one truth for edits".
+/**
+ * @file
+ * @brief A stroke: one edit of the deformation, as data.
+ *
+ * The list of strokes is the only record of what a user did. A lattice follows from it.
+ */
 #ifndef BrainShift_Stroke_h
 #define BrainShift_Stroke_h
 
-#include "vtkBrainShiftFiltersModule.h" // for the export macro
+#include "Filters/Deformation/Export.h"
 
 #include <glm/vec3.hpp>
 
@@ -12,49 +17,82 @@
 
 namespace brainshift
 {
+/** Which control points a stroke moves. */
 enum class Tool
 {
-  Move = 0,  // one control point: the nearest to the anchor in the rest frame
-  Soft = 1,  // all within a sphere around the anchor, measured in the deformed frame
-  Stamp = 2, // all within an ellipsoid of revolution, in the deformed frame (paper, section 2)
+  Move = 0, ///< the one nearest to the anchor, measured in the rest frame
+  Soft = 1, ///< all within a sphere around the anchor, measured in the deformed frame
+  /**
+   * All within an ellipsoid of revolution around the anchor, measured in the deformed frame.
+   * Source: van der Steen et al., SPIE 7169 (2009), section 2.
+   */
+  Stamp = 2,
 };
 
-// A stroke is 14 numbers:
-// tool, anchor xyz, vector xyz, axis xyz, major, minor, sigma, enabled (1 or 0).
+/**
+ * One edit. As a list of 14 numbers: tool, anchor xyz, vector xyz, axis xyz, major, minor, sigma,
+ * enabled (1 or 0).
+ */
 struct Stroke
 {
   Tool tool = Tool::Move;
-  glm::dvec3 anchor{ 0.0 }; // mm, world: where the user took hold
-  glm::dvec3 vector{ 0.0 }; // mm, world axes: how far full weight moves
-  glm::dvec3 axis{ 0.0 };   // Stamp: direction of the long axis, any length above 0.
-                            // Move: lattice spacing (mm) along each lattice axis, or 0 0 0
-  double major = 0.0;       // mm. Stamp: half the long axis. Soft: radius. Move: spacing of the
-                            // lattice the stroke was made at; 0: that of the lattice it meets
-  double minor = 0.0;       // mm. Stamp: radius across the long axis. Others: unused
-  double sigma = 0.5;       // width of the Gaussian, as a share of the radius. Move: unused
-  bool enabled = true;
+  glm::dvec3 anchor{ 0.0 }; ///< mm, world: where the user took hold
+  glm::dvec3 vector{ 0.0 }; ///< mm, world axes: displacement where the weight is 1
 
-  VTKBRAINSHIFTFILTERS_EXPORT bool operator==(const Stroke& other) const;
+  /**
+   * Stamp: direction of the long axis, of any length above 0. Move: spacing (mm) of the lattice the
+   * stroke was made at, along each lattice axis; 0 0 0 leaves it to `major`. Soft: unused.
+   */
+  glm::dvec3 axis{ 0.0 };
+
+  /**
+   * mm. Stamp: half the length of the long axis. Soft: radius. Move: spacing of the lattice the
+   * stroke was made at, if `axis` does not give it; 0: the spacing of the lattice it is applied to.
+   */
+  double major = 0.0;
+
+  double minor = 0.0;  ///< mm. Stamp: radius across the long axis. Others: unused
+  double sigma = 0.5;  ///< width of the Gaussian, as a share of the radius. Move: unused
+  bool enabled = true; ///< false: the stroke is kept but moves nothing
+
+  /** Whether all 14 numbers are equal. */
+  BRAINSHIFT_DEFORMATION_EXPORT bool operator==(const Stroke& other) const;
   bool operator!=(const Stroke& other) const { return !(*this == other); }
 };
 
+/** Length of a stroke as a list of numbers. */
 constexpr int NumbersPerStroke = 14;
 
-// Reads strokes from their flat list of numbers. On bad input returns no strokes and writes one
-// sentence to `error` that names the number, its value and its limit; `error` is empty otherwise.
-VTKBRAINSHIFTFILTERS_EXPORT std::vector<Stroke> strokesFromNumbers(
+/**
+ * Reads strokes from their list of numbers.
+ *
+ * @param error   empty if the numbers are good; otherwise one sentence, without a full stop, that
+ *                names the stroke, the number, its value and its limit
+ * @return the strokes; none if a number is bad
+ */
+BRAINSHIFT_DEFORMATION_EXPORT std::vector<Stroke> strokesFromNumbers(
   const std::vector<double>& numbers, std::string& error);
 
-VTKBRAINSHIFTFILTERS_EXPORT std::vector<double> numbersFromStrokes(
+/** The strokes as a list of numbers, 14 for each. */
+BRAINSHIFT_DEFORMATION_EXPORT std::vector<double> numbersFromStrokes(
   const std::vector<Stroke>& strokes);
 
-// Weight, 0 to 1, at a distance from the anchor given as a share of the radius: a Gaussian of width
-// `sigma` that falls smoothly (value and slope) to 0 at distance 1.
-VTKBRAINSHIFTFILTERS_EXPORT double falloff(double distance, double sigma);
+/**
+ * Weight, 0 to 1, at a distance from the anchor: a Gaussian whose value and slope fall to 0 at
+ * distance 1.
+ *
+ * @param distance   as a share of the radius
+ * @param sigma      width of the Gaussian, as a share of the radius
+ */
+BRAINSHIFT_DEFORMATION_EXPORT double falloff(double distance, double sigma);
 
-// Distance from the anchor as a share of the radius: 1 on the sphere of a Soft stroke or on the
-// ellipsoid of a Stamp. `position`: mm, deformed frame. Not meant for Move.
-VTKBRAINSHIFTFILTERS_EXPORT double normalisedDistance(
+/**
+ * Distance from the anchor as a share of the radius: 1 on the sphere of a Soft stroke or on the
+ * ellipsoid of a Stamp. It has no meaning for Move.
+ *
+ * @param position   mm, deformed frame
+ */
+BRAINSHIFT_DEFORMATION_EXPORT double normalisedDistance(
   const Stroke& stroke, const glm::dvec3& position);
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Files/FieldFile.h"
 
-#include "Filters/Files/FieldFileFormats.h"
+#include "Filters/Files/NIFTIField.h"
+#include "Filters/Files/TextHeaderField.h"
 
 #include <algorithm>
 #include <cctype>
@@ -42,23 +43,9 @@ Format formatOf(const std::string& fileName)
 
 std::string unknownFormat(const std::string& fileName)
 {
-  return "File " + fileName +
-    " has no ending of a displacement field; it must be .nii, .nii.gz, .mha, .mhd, .nrrd or .nhdr";
+  return "The extension of the displacement field " + fileName +
+    " must be .nii, .nii.gz, .mha, .mhd, .nrrd or .nhdr";
 }
-}
-
-void reverseXY(FieldFile& field)
-{
-  const glm::dvec3 signs(-1.0, -1.0, 1.0);
-  field.grid.origin *= signs;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    field.grid.direction[axis] *= signs;
-  }
-  for (glm::vec3& displacement : field.displacements)
-  {
-    displacement *= glm::vec3(signs);
-  }
 }
 
 bool isFieldFile(const std::string& fileName)
@@ -75,7 +62,7 @@ bool isFieldFile(const std::string& fileName)
   }
 }
 
-std::string readFieldFile(const std::string& fileName, FieldFile& field)
+std::string readFieldFile(const std::string& fileName, DirectedField& field)
 {
   switch (formatOf(fileName))
   {
@@ -89,7 +76,7 @@ std::string readFieldFile(const std::string& fileName, FieldFile& field)
   }
 }
 
-std::string writeFieldFile(const std::string& fileName, const FieldFile& field)
+std::string writeFieldFile(const std::string& fileName, const DirectedField& field)
 {
   switch (formatOf(fileName))
   {

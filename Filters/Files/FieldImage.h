@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Displacement fields as images: what files, inversion and lattices hand to the pipeline.
+/**
+ * @file
+ * @brief Displacement fields as images: what readers, inversion and lattices hand to the pipeline.
+ */
 #ifndef BrainShift_FieldImage_h
 #define BrainShift_FieldImage_h
 
@@ -17,20 +20,28 @@ class vtkInformation;
 
 namespace brainshift
 {
+/** Name of the point array of displacements. */
 constexpr const char* DisplacementName = "Displacement";
 
-// The whole of a grid, told before the data is there.
+/**
+ * Tells the pipeline where an output will lie: on all of a grid. Call it in RequestInformation.
+ */
 VTKBRAINSHIFTFILTERS_EXPORT void announce(vtkInformation* output, const Grid& grid);
 
-// Makes `image` lie on `grid`, whole, with the point array Displacement (float32 x 3, mm, world
-// axes) as its vectors, and names the direction.
+/**
+ * Makes an image of a field: it lies on the whole grid and has the point array Displacement
+ * (float32 x 3, mm, world axes) as its vectors and a field array that names the direction.
+ */
 VTKBRAINSHIFTFILTERS_EXPORT void setField(vtkImageData* image, const Grid& grid,
   const std::vector<glm::vec3>& displacements, Direction direction);
 
-// The displacements of an image: Displacement, its vectors, or the first point array of three
-// components; null if there is none.
+/**
+ * The displacements of an image: its point array Displacement, else its vectors, else its first
+ * point array of three components; null if there is none.
+ */
 VTKBRAINSHIFTFILTERS_EXPORT vtkDataArray* fieldOf(vtkImageData* image);
 
+/** The tuples of an array of three components. */
 VTKBRAINSHIFTFILTERS_EXPORT std::vector<glm::vec3> vectorsOf(vtkDataArray* array);
 }
 

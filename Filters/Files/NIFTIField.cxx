@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/Files/FieldFileFormats.h"
+#include "Filters/Files/NIFTIField.h"
 
-#include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Files/FieldImage.h"
 #include "Filters/Files/NIFTIFileCheck.h"
-#include "vtkNIFTIVolumeReader.h"
+#include "Filters/Files/NIFTIVolume.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
@@ -49,7 +48,7 @@ Intent intentOf(const std::string& fileName)
   }
   vtkNew<vtkNIFTIImageReader> reader;
   reader->SetFileName(fileName.c_str());
-  vtkNew<vtkCallbackCommand> silent; // whoever reads the file in earnest speaks
+  vtkNew<vtkCallbackCommand> silent; // the reader of the voxels reports problems
   silent->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   reader->AddObserver(vtkCommand::WarningEvent, silent);
   reader->AddObserver(vtkCommand::ErrorEvent, silent);
@@ -69,25 +68,58 @@ std::string intentProblem(const Intent& intent)
 {
   if (!intent.isVectors)
   {
-    return "does not hold 3 components a voxel (in dim[5])";
+    return "does not have 3 components per voxel (in dim[5])";
   }
   if (intent.code != vtkNIFTIImageHeader::IntentDispVect &&
     intent.code != vtkNIFTIImageHeader::IntentVector)
   {
     return "has the intent " + std::to_string(intent.code) +
-      "; a displacement field has 1006 (DISPVECT) or 1007 (VECTOR)";
+      "; a displacement field must have 1006 (DISPVECT) or 1007 (VECTOR)";
   }
   if (intent.name == NiftyRegName && intent.p1 != NiftyRegPositions &&
     intent.p1 != NiftyRegDisplacements)
   {
     return "is a NiftyReg transformation of type " + std::to_string(static_cast<int>(intent.p1)) +
-      "; it must be 0 (deformation field) or 1 (displacement field): reg_transform makes one";
+      "; it must be 0 (deformation field) or 1 (displacement field). NiftyReg's reg_transform "
+      "makes one";
   }
   return {};
 }
 
+// Reads the grid and the vectors as the file has them.
+std::string readVectors(const std::string& fileName, DirectedField& field)
+{
+  NIFTIVolume file;
+  std::string problem = file.readHeader(fileName);
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  const std::string warning = file.shearWarning();
+  if (!warning.empty())
+  {
+    vtkGenericWarningMacro(<< warning << ".");
+  }
+  if (file.components() != 3)
+  {
+    return "NIfTI file " + fileName + " has " + std::to_string(file.components()) +
+      " components per voxel; it must have 3";
+  }
+  const glm::ivec3 last = file.geometry().grid.dimensions - 1;
+  const int extent[6] = { 0, last.x, 0, last.y, 0, last.z };
+  vtkNew<vtkImageData> image;
+  problem = file.load(image, extent);
+  if (problem.empty())
+  {
+    file.fill(image, 0);
+    field.grid = file.geometry().grid;
+    field.displacements = vectorsOf(image->GetPointData()->GetScalars());
+  }
+  return problem;
+}
+
 // From where points go to how far they go.
-void subtractPositions(FieldFile& field)
+void subtractPositions(DirectedField& field)
 {
   const glm::ivec3& n = field.grid.dimensions;
   for (std::size_t i = 0; i < field.displacements.size(); ++i)
@@ -99,7 +131,7 @@ void subtractPositions(FieldFile& field)
   }
 }
 
-void reverseVectorsXY(FieldFile& field)
+void reverseVectorsXY(DirectedField& field)
 {
   for (glm::vec3& displacement : field.displacements)
   {
@@ -116,7 +148,7 @@ bool isNIFTIField(const std::string& fileName)
       intent.code == vtkNIFTIImageHeader::IntentVector);
 }
 
-std::string readNIFTIField(const std::string& fileName, FieldFile& field)
+std::string readNIFTIField(const std::string& fileName, DirectedField& field)
 {
   std::string problem = niftiFileProblem(fileName);
   const Intent intent = problem.empty() ? intentOf(fileName) : Intent();
@@ -125,17 +157,11 @@ std::string readNIFTIField(const std::string& fileName, FieldFile& field)
   {
     return "NIfTI file " + fileName + " " + problem;
   }
-  vtkNew<vtkNIFTIVolumeReader> reader; // says itself what it does not like
-  reader->SetFileName(fileName.c_str());
-  reader->Update();
-  vtkImageData* image = reader->GetOutput();
-  vtkDataArray* vectors = image->GetPointData()->GetScalars();
-  if (!vectors || vectors->GetNumberOfComponents() != 3)
+  problem = readVectors(fileName, field);
+  if (!problem.empty())
   {
-    return "NIfTI file " + fileName + " could not be read";
+    return problem;
   }
-  field.grid = gridOf(image);
-  field.displacements = vectorsOf(vectors);
   field.direction.reset();
   if (intent.name == NiftyRegName)
   {
@@ -156,7 +182,7 @@ std::string readNIFTIField(const std::string& fileName, FieldFile& field)
   return {};
 }
 
-std::string writeNIFTIField(const std::string& fileName, const FieldFile& field)
+std::string writeNIFTIField(const std::string& fileName, const DirectedField& field)
 {
   const Grid& grid = field.grid;
   const Direction direction = field.direction.value_or(Direction::Backward);

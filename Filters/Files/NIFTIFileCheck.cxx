@@ -132,7 +132,7 @@ std::string headerProblem(const RawHeader& header)
   }
   else if (VoxelBytes.count(header.dataType()) == 0)
   {
-    problem << "has NIfTI data type " << header.dataType() << "; readable are";
+    problem << "has NIfTI data type " << header.dataType() << "; BrainShift reads the types";
     for (const auto& known : VoxelBytes)
     {
       problem << " " << known.first;
@@ -140,8 +140,8 @@ std::string headerProblem(const RawHeader& header)
   }
   else if (header.isSingleFile() && !(header.voxelOffset() >= NIFTI1Bytes))
   {
-    problem << "has its voxels at byte " << header.voxelOffset() << "; at least " << NIFTI1Bytes
-            << " is possible";
+    problem << "has its voxels at byte " << header.voxelOffset() << "; the first possible byte is "
+            << NIFTI1Bytes;
   }
   return problem.str();
 }
@@ -152,7 +152,7 @@ std::string dimensionsProblem(const RawHeader& header)
   const std::int64_t rank = header.dimension(0);
   if (rank < 1 || rank > 7)
   {
-    problem << "has " << rank << " dimensions; 1 to 7 are possible";
+    problem << "has " << rank << " dimensions; it must have from 1 to 7";
     return problem.str();
   }
   bool oneVoxel = true;
@@ -163,14 +163,14 @@ std::string dimensionsProblem(const RawHeader& header)
     oneVoxel = oneVoxel && (size == 1 || axis > 3);
     if (size < 1 || size > limit)
     {
-      problem << "has " << size << " entries in dimension " << axis << "; 1 to " << limit
-              << " are possible";
+      problem << "has " << size << " entries in dimension " << axis << "; it must have from 1 to "
+              << limit;
       return problem.str();
     }
   }
   if (oneVoxel)
   {
-    problem << "has 1 voxel; at least 2 are needed";
+    problem << "has 1 voxel; it must have at least 2";
   }
   return problem.str();
 }

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What vtkNIFTIImageReader takes for granted about a file. VTK 9.3 reads past a table's end on an
-// unknown data type, and allocates whatever size a damaged header names.
+/**
+ * @file
+ * @brief Checks a NIfTI file for what vtkNIFTIImageReader assumes of it.
+ *
+ * VTK 9.3 reads past the end of a table if the data type is unknown, and allocates any size that a
+ * damaged header names.
+ */
 #ifndef BrainShift_NIFTIFileCheck_h
 #define BrainShift_NIFTIFileCheck_h
 
@@ -10,12 +15,16 @@
 
 namespace brainshift
 {
-// Whether the file is there and begins like a NIfTI-1 or NIfTI-2 header. Analyze 7.5 does not
-// count: it does not say which side is left.
+/**
+ * Whether the file exists and begins like a NIfTI-1 or NIfTI-2 header. Analyze 7.5 does not count,
+ * because it does not say which side is left.
+ */
 VTKBRAINSHIFTFILTERS_EXPORT bool isNIFTIFile(const std::string& fileName);
 
-// One sentence on why a file cannot be read, with the value and its limit; empty if nothing speaks
-// against it. A compressed file may still turn out truncated.
+/**
+ * Why a file cannot be read, with the value and its limit: the end of a sentence, after the name of
+ * the file. Empty if the header is good. A compressed file can still be truncated.
+ */
 VTKBRAINSHIFTFILTERS_EXPORT std::string niftiFileProblem(const std::string& fileName);
 }
 

@@ -187,7 +187,7 @@ std::string affineProblem(const glm::dmat4& worldFromVoxel)
       if (!std::isfinite(worldFromVoxel[column][row]))
       {
         problem << "row " << row << ", column " << column << " of the affine is "
-                << worldFromVoxel[column][row] << "; it has to be finite";
+                << worldFromVoxel[column][row] << "; it must be finite";
         return problem.str();
       }
     }
@@ -195,7 +195,7 @@ std::string affineProblem(const glm::dmat4& worldFromVoxel)
     if (column < 3 && !(spacingMm >= SmallestSpacingMm))
     {
       problem << "column " << column << " of the affine has length " << spacingMm
-              << " mm; at least " << SmallestSpacingMm << " mm is needed";
+              << " mm; it must have at least " << SmallestSpacingMm << " mm";
       return problem.str();
     }
   }
@@ -203,7 +203,7 @@ std::string affineProblem(const glm::dmat4& worldFromVoxel)
   if (!(std::abs(determinant) >= SmallestDeterminant))
   {
     problem << "the affine is singular: the determinant of its unit axes is " << determinant
-            << "; at least " << SmallestDeterminant << " is needed";
+            << "; it must be at least " << SmallestDeterminant;
   }
   return problem.str();
 }

@@ -73,7 +73,8 @@ std::string place(const std::vector<double>& sides, const std::vector<double>& o
   {
     if (!(sides[axis] >= 1.0 && sides[axis] <= 65535.0))
     {
-      return "has a side of " + std::to_string(sides[axis]) + " points; it must be 1 to 65535";
+      return "has a side of " + std::to_string(sides[axis]) +
+        " points; it must have from 1 to 65535";
     }
     const glm::dvec3 step(steps[3 * axis], steps[3 * axis + 1], steps[3 * axis + 2]);
     grid.dimensions[axis] = static_cast<int>(sides[axis]);
@@ -83,7 +84,7 @@ std::string place(const std::vector<double>& sides, const std::vector<double>& o
     if (!std::isfinite(grid.origin[axis]) || !(grid.spacing[axis] > 0.0) ||
       !std::isfinite(grid.spacing[axis]))
     {
-      return "has an origin or a spacing that places no points";
+      return "has an origin that is not finite, or a spacing that is 0 or not finite";
     }
   }
   for (int axis = 0; axis < 3; ++axis)
@@ -92,7 +93,7 @@ std::string place(const std::vector<double>& sides, const std::vector<double>& o
     if (std::abs(skew) > LargestSkew)
     {
       return "has axes that are not at right angles: the cosine between two is " +
-        std::to_string(skew) + ", the limit " + std::to_string(LargestSkew);
+        std::to_string(skew) + "; the limit is " + std::to_string(LargestSkew);
     }
   }
   return {};
@@ -103,13 +104,13 @@ std::string fromMetaImage(const Lines& lines, TextHeader& header)
   if (valueOf(lines, { "ElementNumberOfChannels" }) != "3")
   {
     return "holds " + valueOf(lines, { "ElementNumberOfChannels" }) +
-      " components a point (ElementNumberOfChannels); a field has 3";
+      " components per point (ElementNumberOfChannels); a field must have 3";
   }
   const std::string type = valueOf(lines, { "ElementType" });
   header.isDouble = type == "MET_DOUBLE" || type == "MET_DOUBLE_ARRAY";
   if (!header.isDouble && type != "MET_FLOAT" && type != "MET_FLOAT_ARRAY")
   {
-    return "has the ElementType " + type + "; a field has MET_FLOAT or MET_DOUBLE";
+    return "has the ElementType " + type + "; a field must have MET_FLOAT or MET_DOUBLE";
   }
   if (!isTrue(valueOf(lines, { "BinaryData" })))
   {
@@ -141,15 +142,15 @@ std::string fromNRRD(const Lines& lines, TextHeader& header)
   std::vector<double> sides = numbersIn(valueOf(lines, { "sizes" }));
   if (sides.size() != 4 || sides[0] != 3.0)
   {
-    return "does not hold 3 numbers a point, first of 4 axes (sizes: " +
-      valueOf(lines, { "sizes" }) + ")";
+    return "has the sizes " + valueOf(lines, { "sizes" }) +
+      "; a field must have 4, the first of them 3 numbers per point";
   }
   sides.erase(sides.begin());
   const std::string type = valueOf(lines, { "type" });
   header.isDouble = type == "double";
   if (!header.isDouble && type != "float")
   {
-    return "has the type " + type + "; a field has float or double";
+    return "has the type " + type + "; a field must have float or double";
   }
   const std::string encoding = valueOf(lines, { "encoding" });
   header.isPacked = encoding == "gzip" || encoding == "gz";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/Files/FieldFileFormats.h"
+#include "Filters/Files/TextHeaderField.h"
+
 #include "Filters/Files/TextHeader.h"
 
 #include "vtk_zlib.h"
@@ -69,8 +70,8 @@ std::string readData(const std::string& fileName, const TextHeader& header, std:
   const std::size_t bytes = size - std::min(header.headerBytes, size);
   if (!header.isPacked && bytes < header.dataBytes())
   {
-    return "promises " + std::to_string(header.dataBytes()) + " bytes of numbers; there are " +
-      std::to_string(bytes);
+    return "has " + std::to_string(bytes) + " bytes of numbers where the header announces " +
+      std::to_string(header.dataBytes());
   }
   std::vector<char> stored(header.isPacked ? bytes : header.dataBytes());
   file.seekg(static_cast<std::streamoff>(header.headerBytes));
@@ -83,11 +84,11 @@ std::string readData(const std::string& fileName, const TextHeader& header, std:
   // No stream unpacks to more than some thousand times its size: a damaged header asks for more.
   if (header.dataBytes() / 1100 > bytes)
   {
-    return "promises " + std::to_string(header.dataBytes()) + " bytes of numbers in " +
-      std::to_string(bytes) + " packed ones";
+    return "has " + std::to_string(bytes) + " packed bytes where the header announces " +
+      std::to_string(header.dataBytes()) + " bytes of numbers";
   }
   data.resize(header.dataBytes());
-  return unpack(stored, data) ? std::string() : "holds packed numbers that are damaged or too few";
+  return unpack(stored, data) ? std::string() : "has packed numbers that are damaged or too few";
 }
 
 template <typename Number>
@@ -119,7 +120,8 @@ const char* byteOrder()
   return thisMachineIsBigEndian() ? "big" : "little";
 }
 
-std::string write(const std::string& fileName, const std::string& header, const FieldFile& field)
+std::string write(
+  const std::string& fileName, const std::string& header, const DirectedField& field)
 {
   std::ofstream file(fileName, std::ios::binary);
   file << header;
@@ -136,7 +138,7 @@ bool isTextHeaderField(const std::string& fileName)
   return readTextHeader(fileName, header).empty();
 }
 
-std::string readTextHeaderField(const std::string& fileName, FieldFile& field)
+std::string readTextHeaderField(const std::string& fileName, DirectedField& field)
 {
   TextHeader header;
   std::vector<char> data;
@@ -162,9 +164,9 @@ std::string readTextHeaderField(const std::string& fileName, FieldFile& field)
   return {};
 }
 
-std::string writeMetaImageField(const std::string& fileName, const FieldFile& ras)
+std::string writeMetaImageField(const std::string& fileName, const DirectedField& ras)
 {
-  FieldFile field = ras;
+  DirectedField field = ras;
   reverseXY(field);
   const Grid& grid = field.grid;
   std::ostringstream header;
@@ -182,9 +184,9 @@ std::string writeMetaImageField(const std::string& fileName, const FieldFile& ra
   return write(fileName, header.str(), field);
 }
 
-std::string writeNRRDField(const std::string& fileName, const FieldFile& ras)
+std::string writeNRRDField(const std::string& fileName, const DirectedField& ras)
 {
-  FieldFile field = ras;
+  DirectedField field = ras;
   reverseXY(field);
   const Grid& grid = field.grid;
   std::ostringstream header;

@@ -65,7 +65,7 @@ DeformedSurface::DeformedSurface(TriangleMesh rest)
 {
 }
 
-void DeformedSurface::LayOn(const Grid& lattice)
+void DeformedSurface::layOn(const Grid& lattice)
 {
   const Grid cells = cellsOf(lattice);
   this->CellOf.resize(this->Rest.points.size());
@@ -86,7 +86,7 @@ void DeformedSurface::follow(
   if (this->Followed.grid != lattice.grid || this->Followed.kernel != lattice.kernel ||
     !sameMask(this->Followed.mask, lattice.mask))
   {
-    this->LayOn(lattice.grid);
+    this->layOn(lattice.grid);
     this->Followed = makeLattice(lattice.grid, lattice.kernel);
   }
   const std::vector<char> changed = changedCells(this->Followed, lattice);

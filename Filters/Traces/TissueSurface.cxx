@@ -18,7 +18,7 @@
 
 namespace brainshift
 {
-bool Tissue::contains(const glm::dvec3& rest) const
+bool TissueRegion::contains(const glm::dvec3& rest) const
 {
   const glm::dvec3 index = this->grid.gridFromWorld(rest);
   const glm::dvec3 last(this->grid.dimensions - 1);
@@ -52,7 +52,7 @@ vtkSmartPointer<vtkDataArray> maskOfLabel(vtkDataArray* labels, int label)
   return mask;
 }
 
-TriangleMesh surfaceOf(const Tissue& tissue)
+TriangleMesh surfaceOf(const TissueRegion& tissue)
 {
   // In index space: the filter knows no direction matrix in VTK 9.3.
   vtkNew<vtkImageData> image;

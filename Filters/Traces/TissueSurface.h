@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The surface of tissue in a volume at rest: where its scalars pass a threshold, or where a label
-// ends.
+/**
+ * @file
+ * @brief The surface of tissue in a volume at rest: where scalars pass a threshold, or where a
+ *        label ends.
+ */
 #ifndef BrainShift_TissueSurface_h
 #define BrainShift_TissueSurface_h
 
@@ -17,30 +20,33 @@ class vtkDataArray;
 
 namespace brainshift
 {
+/** Points and the triangles between them. */
 struct TriangleMesh
 {
-  std::vector<glm::dvec3> points; // mm, world
-  std::vector<glm::ivec3> triangles;
+  std::vector<glm::dvec3> points;    ///< mm, world
+  std::vector<glm::ivec3> triangles; ///< numbers of three points each
 };
 
-// Scalars on a grid; those at or above the level are tissue.
-struct VTKBRAINSHIFTFILTERS_EXPORT Tissue
+/** The part of space in which scalars on a grid are at or above a level. */
+struct VTKBRAINSHIFTFILTERS_EXPORT TissueRegion
 {
-  Grid grid; // mm, world, rest frame
-  vtkSmartPointer<vtkDataArray> scalars;
+  Grid grid;                             ///< mm, world, rest frame
+  vtkSmartPointer<vtkDataArray> scalars; ///< one for each point of the grid, x fastest
   double level = 0.0;
 
-  // Trilinear; nothing outside the grid is tissue.
+  /** Whether a rest position is in the region. Scalars are trilinear; outside the grid: false. */
   bool contains(const glm::dvec3& rest) const;
 };
 
-// 1 where the labels are `label`, else 0: scalars of a Tissue with level 0.5.
+/** 1 where the labels are `label`, else 0: the scalars of a TissueRegion with level 0.5. */
 VTKBRAINSHIFTFILTERS_EXPORT vtkSmartPointer<vtkDataArray> maskOfLabel(
   vtkDataArray* labels, int label);
 
-// Triangles where the scalars pass the level; none on the grid's own faces. Triangles beside
-// scalars that are not finite are left out.
-VTKBRAINSHIFTFILTERS_EXPORT TriangleMesh surfaceOf(const Tissue& tissue);
+/**
+ * The triangles where the scalars pass the level. There are none on the grid's own faces and none
+ * beside scalars that are not finite.
+ */
+VTKBRAINSHIFTFILTERS_EXPORT TriangleMesh surfaceOf(const TissueRegion& tissue);
 }
 
 #endif

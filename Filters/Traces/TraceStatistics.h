@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What many distances amount to.
+/**
+ * @file
+ * @brief Mean, root mean square and 95th percentile of distances.
+ */
 #ifndef BrainShift_TraceStatistics_h
 #define BrainShift_TraceStatistics_h
 
@@ -11,17 +14,20 @@
 
 namespace brainshift
 {
+/** Figures in mm. They are NaN if no distance counts. */
 struct TraceStatistics
 {
-  std::size_t count = 0; // of the distances that are numbers
-  // mm; not a number if there is none.
-  double mean = std::numeric_limits<double>::quiet_NaN(); // signed: what is too far out stays +
-  double rms = std::numeric_limits<double>::quiet_NaN();
-  double percentile95 = std::numeric_limits<double>::quiet_NaN(); // of the absolute distances
+  std::size_t count = 0; ///< distances that are finite
+
+  /** Of the signed distances: positive if points lie outside on average. */
+  double mean = std::numeric_limits<double>::quiet_NaN();
+  double rms = std::numeric_limits<double>::quiet_NaN(); ///< root mean square
+
+  /** Of the absolute distances, interpolated between the two nearest ranks. */
+  double percentile95 = std::numeric_limits<double>::quiet_NaN();
 };
 
-// `distances`: signed, mm; those that are not finite are left out. The percentile is interpolated
-// between the two ranks it falls between.
+/** Figures of signed distances (mm). Distances that are not finite do not count. */
 VTKBRAINSHIFTFILTERS_EXPORT TraceStatistics statisticsOf(const std::vector<double>& distances);
 }
 

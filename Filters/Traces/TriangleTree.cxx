@@ -90,7 +90,7 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh)
   if (count > 0)
   {
     this->Nodes.reserve(2 * count / TrianglesPerLeaf + 1);
-    this->Build(middles, order, 0, static_cast<int>(count));
+    this->build(middles, order, 0, static_cast<int>(count));
   }
   this->Triangles.resize(count);
   std::transform(order.begin(), order.end(), this->Triangles.begin(),
@@ -100,7 +100,7 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh)
   this->fit(mesh.points, {}, {});
 }
 
-int TriangleTree::Build(
+int TriangleTree::build(
   std::vector<glm::dvec3>& middles, std::vector<int>& order, int first, int end)
 {
   const int node = static_cast<int>(this->Nodes.size());
@@ -121,15 +121,15 @@ int TriangleTree::Build(
   const int half = first + (end - first) / 2;
   std::nth_element(order.begin() + first, order.begin() + half, order.begin() + end,
     [&](int left, int right) { return middles[left][axis] < middles[right][axis]; });
-  this->Build(middles, order, first, half);
-  const int second = this->Build(middles, order, half, end);
+  this->build(middles, order, first, half);
+  const int second = this->build(middles, order, half, end);
   this->Nodes[node].first = second;
   this->Nodes[node].count = 0;
   return node;
 }
 
 // Whether the leaf had to be fitted.
-bool TriangleTree::FitLeaf(std::size_t node, const std::vector<glm::dvec3>& points,
+bool TriangleTree::fitLeaf(std::size_t node, const std::vector<glm::dvec3>& points,
   const std::vector<char>& moved, const std::vector<char>& kept)
 {
   const Node& leaf = this->Nodes[node];
@@ -170,7 +170,7 @@ void TriangleTree::fit(const std::vector<glm::dvec3>& points, const std::vector<
     for (vtkIdType i = first; i < end; ++i)
     {
       const Node& node = this->Nodes[i];
-      if (node.count > 0 && this->FitLeaf(i, points, moved, kept))
+      if (node.count > 0 && this->fitLeaf(i, points, moved, kept))
       {
         this->Fitted[i] = 1;
         std::fill_n(this->Moved.begin() + node.first, node.count, char(1));
@@ -190,7 +190,7 @@ void TriangleTree::fit(const std::vector<glm::dvec3>& points, const std::vector<
   }
 }
 
-double TriangleTree::SquaredDistance(const glm::dvec3& position, int triangle) const
+double TriangleTree::squaredDistance(const glm::dvec3& position, int triangle) const
 {
   const Corners& corners = this->Placed[triangle];
   return corners.kept ? squaredDistanceToTriangle(position, corners.a, corners.b, corners.c)
@@ -200,16 +200,16 @@ double TriangleTree::SquaredDistance(const glm::dvec3& position, int triangle) c
 TriangleTree::Nearest TriangleTree::nearest(const glm::dvec3& position, int hint) const
 {
   constexpr bool amongMoved = false;
-  return this->Search(position, hint, amongMoved);
+  return this->search(position, hint, amongMoved);
 }
 
 TriangleTree::Nearest TriangleTree::nearestAfterMove(const glm::dvec3& position, int before) const
 {
-  return this->Search(position, before, before >= 0 && !this->Moved[before]);
+  return this->search(position, before, before >= 0 && !this->Moved[before]);
 }
 
 // The nearest of all triangles, or of the hint and those that moved.
-TriangleTree::Nearest TriangleTree::Search(
+TriangleTree::Nearest TriangleTree::search(
   const glm::dvec3& position, int hint, bool amongMoved) const
 {
   struct Visit
@@ -219,7 +219,7 @@ TriangleTree::Nearest TriangleTree::Search(
   };
   Visit open[64]; // as deep as the tree: it halves, so 2^62 triangles
   int openCount = 0;
-  double best = hint < 0 ? Infinity : this->SquaredDistance(position, hint);
+  double best = hint < 0 ? Infinity : this->squaredDistance(position, hint);
   int triangle = best < Infinity ? hint : -1;
   const auto visit = [&](int node) {
     const Box& box = this->Boxes[node];
@@ -245,7 +245,7 @@ TriangleTree::Nearest TriangleTree::Search(
     const Node& node = this->Nodes[next.node];
     for (int i = node.first; i < node.first + node.count; ++i)
     {
-      const double distance = this->SquaredDistance(position, i);
+      const double distance = this->squaredDistance(position, i);
       triangle = distance < best ? i : triangle;
       best = std::min(best, distance);
     }

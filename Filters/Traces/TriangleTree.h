@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Finds the nearest point of a triangle mesh whose points move but whose triangles stay: a tree of
-// boxes, built once and fitted again after each move.
+/**
+ * @file
+ * @brief Finds the nearest point of a triangle mesh whose points move but whose triangles stay.
+ *
+ * A tree of boxes is built once and fitted to the triangles again after each move.
+ */
 #ifndef BrainShift_TriangleTree_h
 #define BrainShift_TriangleTree_h
 
@@ -13,33 +17,47 @@
 
 namespace brainshift
 {
+/** Positions and distances are mm, world. */
 class VTKBRAINSHIFTFILTERS_EXPORT TriangleTree
 {
 public:
   TriangleTree() = default;
+
+  /** Builds the tree from where the points lie now. */
   explicit TriangleTree(const TriangleMesh& mesh);
 
-  // Puts the points, which are the mesh's in their order, elsewhere; only those that `moved` since
-  // the last call, all if it is empty. Triangles with a point that is not `kept` are passed over;
-  // an empty `kept` keeps all, and only then may `moved` name some.
+  /**
+   * Puts the points elsewhere.
+   *
+   * @param points   the mesh's points, in their order
+   * @param moved    for each point whether it moved since the last call; empty: all moved. It must
+   *                 be empty if `kept` is not
+   * @param kept     for each point whether its triangles count; empty: all count
+   */
   void fit(const std::vector<glm::dvec3>& points, const std::vector<char>& moved,
     const std::vector<char>& kept);
 
+  /** An answer. */
   struct Nearest
   {
-    double distance; // mm; infinite if there is no triangle
-    int triangle;    // a number that stays, whatever moves; below 0 if there is none
+    double distance; ///< mm; infinite if there is no triangle
+    int triangle;    ///< its number, which no move changes; below 0 if there is no triangle
   };
 
-  // The nearest point of the triangles as last fitted, exact for flat triangles. `hint`: any
-  // triangle, or below 0; the nearer it is, the sooner the answer, which is the same.
+  /**
+   * The nearest point of the triangles as they were last fitted. It is exact: triangles are flat.
+   *
+   * @param hint   any triangle, or below 0. A nearer one gives the same answer sooner.
+   */
   Nearest nearest(const glm::dvec3& position, int hint = -1) const;
 
-  // The same answer where `before` was the nearest triangle until the last fit: if that one stayed,
-  // only triangles that moved can be nearer now.
+  /**
+   * Gives the answer of nearest() sooner if `before` was the nearest triangle until the last fit:
+   * if that triangle stayed, only triangles that moved can be nearer now.
+   */
   Nearest nearestAfterMove(const glm::dvec3& position, int before) const;
 
-  // How often the triangles were fitted.
+  /** How often the triangles were fitted. */
   int fits() const { return this->Fits; }
 
 private:
@@ -48,7 +66,7 @@ private:
     glm::dvec3 low; // of the triangles below; low > high if there is none
     glm::dvec3 high;
   };
-  // Apart from the boxes: fitting looks at all of these and at few of those.
+  // Kept apart from the boxes, because fitting reads all nodes but few boxes.
   struct Node
   {
     int first; // leaf: first triangle; else: the second child (the first one is the next node)
@@ -60,11 +78,11 @@ private:
     bool kept;
   };
 
-  bool FitLeaf(std::size_t node, const std::vector<glm::dvec3>& points,
+  bool fitLeaf(std::size_t node, const std::vector<glm::dvec3>& points,
     const std::vector<char>& moved, const std::vector<char>& kept);
-  double SquaredDistance(const glm::dvec3& position, int triangle) const;
-  Nearest Search(const glm::dvec3& position, int hint, bool amongMoved) const;
-  int Build(std::vector<glm::dvec3>& middles, std::vector<int>& order, int first, int end);
+  double squaredDistance(const glm::dvec3& position, int triangle) const;
+  Nearest search(const glm::dvec3& position, int hint, bool amongMoved) const;
+  int build(std::vector<glm::dvec3>& middles, std::vector<int>& order, int first, int end);
 
   std::vector<glm::ivec3> Triangles; // in the order of the leaves
   std::vector<Corners> Placed;       // the same ones, where they lie now
@@ -75,7 +93,7 @@ private:
   int Fits = 0;
 };
 
-// Square of the distance from a position to a triangle.
+/** The square of the distance (mm^2) from a position to the triangle between a, b and c. */
 VTKBRAINSHIFTFILTERS_EXPORT double squaredDistanceToTriangle(
   const glm::dvec3& position, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 }

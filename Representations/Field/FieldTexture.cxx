@@ -40,15 +40,15 @@ FieldNodes forwardNodesOf(const FieldRequest& request)
   return nodes;
 }
 
-// Whether the fields of two requests have the same nodes, so that the textures can be kept: where
-// neither moves anything both are zero.
+// Whether the fields of two requests have the same nodes, so that the textures can be kept. Where
+// neither request moves anything, both fields are zero.
 bool sameNodes(const FieldRequest& a, const FieldRequest& b)
 {
   return a.dimensions == b.dimensions && a.samples == b.samples && a.nodes == b.nodes;
 }
 
-// Whether the same control points make the same fields, so that unchanged ones leave them as they
-// are wherever both have nodes.
+// Whether equal control points make equal fields. Then control points that did not change leave the
+// fields as they are, wherever both have nodes.
 bool sameMeaning(const FieldRequest& a, const FieldRequest& b)
 {
   return a.dimensions == b.dimensions && a.samples == b.samples && a.kernel == b.kernel &&
@@ -72,8 +72,9 @@ std::int64_t texels(const glm::ivec3& count)
   return static_cast<std::int64_t>(count.x) * count.y * count.z;
 }
 
-// What a box that moves with the strokes may hold of nodes that all stay, before it is made anew.
-constexpr std::int64_t MostSpare = 2; // times those that are needed
+// A box of nodes that moves with the strokes is made anew when it holds more than this many times
+// the nodes that are needed.
+constexpr std::int64_t MostSpare = 2;
 
 bool holds(const IndexBox& box, const IndexBox& needed)
 {
@@ -91,7 +92,7 @@ FieldTexture::Bent FieldTexture::bentBy(const FieldRequest& request) const
   {
     return { true, {} };
   }
-  // Between nodes the field is blended, and light asks half a node farther.
+  // The field is blended between nodes, and light reads it half a node farther.
   const float margin = 2.0f / static_cast<float>(request.nodes.perCell);
   return { false,
     cornersOfChange(request.dimensions, this->Current.inCells, request.inCells, margin) };
@@ -145,7 +146,7 @@ bool FieldTexture::update(
   return true;
 }
 
-// Offsets where nothing moves.
+// Offsets of zero.
 bool FieldTexture::makeOffsets(vtkOpenGLRenderWindow* window, const FieldRequest& request)
 {
   this->Offsets = makeTexture(window, request.nodes.count, vtkTextureObject::Linear);
@@ -157,8 +158,9 @@ bool FieldTexture::makeOffsets(vtkOpenGLRenderWindow* window, const FieldRequest
   return true;
 }
 
-// Displacements to be refined. On the surface of all that moves nothing does, but where the
-// lattice ends, beyond which its border holds: a clamped texture answers for all nodes.
+// Displacements to be refined. On the surface of the box nothing moves, except at the end of the
+// lattice, beyond which the displacement of its border holds. So a clamped texture answers for all
+// nodes.
 bool FieldTexture::makeDisplacements(vtkOpenGLRenderWindow* window, const IndexBox& nodes)
 {
   this->Displaced = nodes;
@@ -213,10 +215,11 @@ bool FieldTexture::refine(vtkOpenGLRenderWindow* window, const FieldRequest& req
   const int perCell = request.samples + 1;
   const IndexBox displaced = this->heldNodes();
   glm::ivec3 count = request.dimensions;
-  // Of control points; axis by axis of nodes, counted from the first displaced one.
+  // A box of control points, which becomes, axis by axis, a box of nodes counted from the first
+  // displaced one.
   IndexBox box = pointsAround(nodes, perCell, request.dimensions);
-  // Along x, and along x and y: the next stroke computes what it needs of these anew; their memory
-  // is worth more.
+  // What is refined along x only, and along x and y only, is not kept: the next stroke computes
+  // what it needs of these anew, and their memory is worth more.
   vtkSmartPointer<vtkTextureObject> coarse = this->ControlPoints;
   for (int axis = 0; axis < 3; ++axis)
   {

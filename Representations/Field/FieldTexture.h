@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The offset field on the GPU: uploads the control points, refines them, inverts the map.
+/**
+ * @file
+ * @brief The offset field on the GPU: uploads the control points, refines them and inverts the map.
+ */
 #ifndef BrainShift_FieldTexture_h
 #define BrainShift_FieldTexture_h
 
-#include "Representations/Gpu/Counters.h"
 #include "Filters/Deformation/FieldChange.h"
 #include "Filters/Deformation/OffsetField.h"
+#include "Representations/Gpu/Counters.h"
 #include "Representations/Gpu/Program.h"
 
+#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 #include "vtkSmartPointer.h"
 
 #include <glm/vec3.hpp>
@@ -21,37 +25,42 @@ class vtkWindow;
 
 namespace brainshift
 {
+/// A lattice, and where its offsets are wanted.
 struct FieldRequest
 {
-  glm::ivec3 dimensions{ 0 }; // control points a side
-  int kernel = 0;
-  int samples = 4;
+  glm::ivec3 dimensions{ 0 }; ///< Control points a side.
+  int kernel = 0;             ///< As numbered in Filters/Deformation/Kernels.h.
+  int samples = 4;            ///< Nodes of the refined lattice between two control points.
   Inverse inverse = Inverse::Exact;
-  std::vector<glm::vec3> inCells;          // displacements, lattice cells
-  std::shared_ptr<const NodeWeights> mask; // Lattice::mask; null: none
-  FieldNodes nodes;                        // where offsets are wanted, see backwardNodes
-  glm::vec3 offsetScale{ 1.0f };           // wanted unit of the offsets for one lattice cell
+  std::vector<glm::vec3> inCells;          ///< Displacements, lattice cells.
+  std::shared_ptr<const NodeWeights> mask; ///< Lattice::mask; null: there is none.
+  FieldNodes nodes;                        ///< Where offsets are wanted, see backwardNodes.
+  glm::vec3 offsetScale{ 1.0f }; ///< Of one lattice cell, in the unit that offsets are wanted in.
 };
 
+/// The textures of one window.
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT FieldTexture
 {
 public:
   FieldTexture();
   ~FieldTexture();
 
-  // Uploads the control points and computes what they changed since the last call. False if a
-  // shader does not compile or a texture cannot be made.
+  /// Uploads the control points and computes what they changed since the last call. False if a
+  /// shader does not compile or a texture cannot be made.
   bool update(vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters);
 
-  // Offsets (restFromDeformed minus identity): RGBA32F, one texel a node, trilinear, clamped.
+  /// Offsets (restFromDeformed minus identity): RGBA32F, one texel a node, trilinear, clamped.
   vtkTextureObject* offsets() const { return this->Offsets; }
 
-  // Displacements (deformedFromRest minus identity), lattice cells, on the forward nodes around all
-  // that moves; null where nothing ever did.
+  /// Displacements (deformedFromRest minus identity), lattice cells, on the forward nodes around
+  /// all that moves. Null if nothing ever moved.
   vtkTextureObject* displacements() const { return this->Displacements; }
+
+  /// Forward nodes that may move; all others stay.
   const IndexBox& displacedNodes() const { return this->Displaced; }
 
-  // The nodes of the texture: along x it may begin earlier, even before the lattice, with zeros.
+  /// The nodes of the texture of displacements. Along x it may begin earlier, even before the
+  /// lattice, with zeros.
   IndexBox heldNodes() const
   {
     IndexBox box = this->Displaced;
@@ -59,19 +68,20 @@ public:
     return box;
   }
 
-  // Offsets computed by the last update.
+  /// Nodes whose offsets the last update computed.
   const IndexBox& changed() const { return this->Changed; }
 
-  // Between these positions (lattice coordinates) lies all whose place or light the last update
-  // changed. `all`: anywhere.
+  /// Where place or light of tissue changed.
   struct Bent
   {
-    bool all = false;
-    std::vector<glm::vec3> corners;
+    bool all = false;               ///< Anywhere.
+    std::vector<glm::vec3> corners; ///< Only between these positions, lattice coordinates.
   };
+
+  /// What the last update changed.
   const Bent& bent() const { return this->LastBent; }
 
-  // All textures, some of which may be null.
+  /// All textures; some may be null.
   std::vector<vtkTextureObject*> textures() const
   {
     return { this->ControlPoints, this->Displacements, this->Offsets, this->MaskWeights };

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Field/SceneDeformation.h"
 
-#include "Representations/Picture/RayCaster.h"
+#include "Representations/Gpu/GpuTask.h"
+#include "Representations/Scene/FieldPlace.h"
 
 #include "vtkImageData.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -53,38 +54,35 @@ void SceneDeformation::addSizes(DrawnSizes& sizes) const
   }
 }
 
-bool DeviceDeformation::update(vtkOpenGLRenderWindow* window, SceneDeformation& deformation,
-  const Grid& grid, const ValueLayout& layout, RayCastScene& scene, Change& change,
-  Counters& counters, std::string& problem)
+bool DeviceDeformation::update(GpuTask& gpu, SceneDeformation& deformation,
+  const DrawnValues& values, SceneField& field, Change& change)
 {
-  scene.spaceLow = layout.low;
-  scene.spaceHigh = layout.high;
   change = Change();
   if (!deformation.deformed)
   {
+    field = restField(values.layout);
     return true;
   }
   const Grid& lattice = deformation.lattice.grid;
-  const glm::vec3 offsetScale(textureFromLattice(grid, layout, lattice));
+  const glm::vec3 offsetScale(textureFromLattice(values, lattice));
   if (this->FieldTime != deformation.time || this->OffsetScale != offsetScale)
   {
     deformation.request.offsetScale = offsetScale;
     this->Timer.Start();
-    const bool updated = this->Field.update(window, deformation.request, counters);
+    const bool updated = this->Field.update(gpu.window, deformation.request, gpu.counters);
     this->Timer.Stop();
     if (!updated)
     {
-      problem = "The deformation's shaders do not compile or its 3D float textures cannot be made "
-                "on this GPU";
-      return false;
+      return gpu.fail("The deformation's shaders do not compile or its 3D float textures cannot be "
+                      "made on this GPU");
     }
     this->FieldTime = deformation.time;
     this->OffsetScale = offsetScale;
     change = { this->Field.changed(), this->Field.bent() };
   }
-  scene.offsets = this->Field.offsets();
-  placeField(grid, layout, lattice, deformation.request.nodes, scene);
-  scene.moved = deformation.moved;
+  field = bentField(values, lattice, deformation.request.nodes);
+  field.offsets = this->Field.offsets();
+  field.moved = deformation.moved;
   return true;
 }
 

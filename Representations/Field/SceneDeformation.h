@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The deformation that a drawn volume carries: read when it changed, kept on the GPU of each
-// window.
+/**
+ * @file
+ * @brief The deformation that a drawn volume carries: read when it changed, kept on the GPU of each
+ * window.
+ */
 #ifndef BrainShift_SceneDeformation_h
 #define BrainShift_SceneDeformation_h
 
-#include "Representations/Gpu/Counters.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Representations/Field/FieldTexture.h"
 #include "Representations/Gpu/GpuMemory.h"
+#include "Representations/Scene/RayCastScene.h"
 #include "Representations/Scene/SceneGeometry.h"
 
 #include "vtkOpenGLRenderTimer.h"
@@ -18,53 +21,53 @@
 #include <string>
 
 class vtkImageData;
-class vtkOpenGLRenderWindow;
 class vtkWindow;
 
 namespace brainshift
 {
-struct RayCastScene;
+struct GpuTask;
 
-// What all windows share.
+/// The deformation as all windows share it.
 struct SceneDeformation
 {
-  bool deformed = false; // else all tissue stays
-  Lattice lattice;       // effective
+  bool deformed = false; ///< Else all tissue stays.
+  Lattice lattice;       ///< With Strength applied (effectiveLattice).
   FieldRequest request;
-  SlabHull moved; // where tissue may have moved
+  SlabHull moved; ///< Where tissue may have moved, lattice coordinates.
 
-  // Reads it if it changed. False, with one sentence in `problem`, if it is malformed: `deformed`
-  // is then false.
+  /// Reads the deformation of the image if it changed. False, with one sentence in `problem`, if it
+  /// is malformed: `deformed` is then false.
   bool update(vtkImageData* image, std::string& problem);
 
-  // Widens bounds (mm) by where tissue can go.
+  /// Widens bounds (mm; x, y, z, least and greatest each) by where tissue can go.
   void widen(double bounds[6]) const;
 
-  // Adds what it takes of the GPU's memory.
+  /// Adds what the deformation takes of the GPU's memory.
   void addSizes(DrawnSizes& sizes) const;
 
-  unsigned long long time = 0; // of what was read
+  unsigned long long time = 0; ///< Of what was read.
 };
 
-// One window's offset field.
+/// The offset field of one window.
 class DeviceDeformation
 {
 public:
-  // Nodes of the field that an update computed anew, and where it gave other values.
+  /// What an update changed.
   struct Change
   {
-    IndexBox computed;
-    FieldTexture::Bent bent;
+    IndexBox computed;       ///< Nodes that were computed anew.
+    FieldTexture::Bent bent; ///< Where the field has other values.
   };
-  // Makes the field current and fills in what the scene says of it. On failure returns false and
-  // says why in `problem`.
-  bool update(vtkOpenGLRenderWindow* window, SceneDeformation& deformation, const Grid& grid,
-    const ValueLayout& layout, RayCastScene& scene, Change& change, Counters& counters,
-    std::string& problem);
+
+  /// Computes the field if it changed, and fills the scene's field. False, with a problem, if this
+  /// GPU cannot.
+  bool update(GpuTask& gpu, SceneDeformation& deformation, const DrawnValues& values,
+    SceneField& field, Change& change);
 
   const FieldTexture& field() const { return this->Field; }
 
-  // Replaces `microseconds` by the GPU's last run from control points to offset field, if known.
+  /// Replaces `microseconds` by the time of the GPU's last run from control points to offset field,
+  /// if that is known.
   void askTime(std::int64_t& microseconds);
 
   void releaseGraphicsResources(vtkWindow* window);

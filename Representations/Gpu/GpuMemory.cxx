@@ -16,7 +16,7 @@ namespace
 {
 constexpr double BytesPerMiB = 1024.0 * 1024.0;
 
-// From the extensions' own texts; loaders differ in whether they know them. Both in KiB.
+// From the texts of the extensions, because not all loaders know them. Both in KiB.
 constexpr GLenum NvxCurrentAvailable = 0x9049;
 constexpr GLenum AtiTextureFree = 0x87FC;
 
@@ -59,7 +59,8 @@ MemoryNeed memoryNeed(const DrawnSizes& sizes)
   constexpr std::int64_t GradientBytes = 4; // three numbers of ten bits, two bits spare
   constexpr std::int64_t NodeBytes = 16;    // four floats
   constexpr std::int64_t WeightBytes = 4;   // of a mask at a node
-  // Picture, hits, spans, depth; the first three again for a part that moves, at half the sides.
+  // Picture, hits, spans and depth. The first three again for a moving part, at half the size a
+  // side.
   constexpr std::int64_t PixelBytes = 4 + 4 + 4 + 4 + (4 + 4 + 4) / 4;
   const std::int64_t voxels = volumeOf(sizes.voxels);
   MemoryNeed need;
@@ -83,7 +84,7 @@ double freeMemoryMiB(vtkOpenGLRenderWindow* window)
   GLint kiB[4] = { 0, 0, 0, 0 };
   if (drawsInSoftware())
   {
-    // They have the extensions, but what they answer is anything: 0, or what the stack held.
+    // They have the extensions, but their answers mean nothing: 0, or whatever the stack held.
     return UnknownMemory;
   }
   if (hasExtension("GL_NVX_gpu_memory_info"))

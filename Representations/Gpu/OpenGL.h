@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// OpenGL's functions. VTK changed its loader between the two ParaView targets: GLEW in 5.13, glad
-// in 6.1. Nothing else in this folder depends on which.
+/**
+ * @file
+ * @brief OpenGL's functions.
+ *
+ * VTK changed its loader between the two supported versions of ParaView: GLEW in 5.13, glad in 6.1.
+ * Nothing else in this folder depends on which.
+ */
 #ifndef BrainShift_OpenGL_h
 #define BrainShift_OpenGL_h
 

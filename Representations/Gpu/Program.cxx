@@ -2,6 +2,7 @@
 #include "Representations/Gpu/Program.h"
 
 #include "Representations/Gpu/OpenGL.h"
+#include "Representations/Gpu/UniformCheck.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLShaderCache.h"
@@ -18,11 +19,18 @@ bool Program::use(vtkOpenGLRenderWindow* window, const ShaderSource& source, Cou
   vtkOpenGLShaderCache* cache = window->GetShaderCache();
   if (this->Compiled)
   {
+    checkUniforms({ window, static_cast<unsigned int>(this->Compiled->GetHandle()) });
     return cache->ReadyShaderProgram(this->Compiled) != nullptr;
   }
   this->Compiled = cache->ReadyShaderProgram(
     source.vertex.c_str(), source.fragment.c_str(), source.geometry.c_str());
   counters.programsCompiled += 1;
+  if (this->Compiled)
+  {
+    const auto handle = static_cast<unsigned int>(this->Compiled->GetHandle());
+    checkUniforms({ window, handle });
+    markUniforms({ window, handle }, source);
+  }
   return this->Compiled != nullptr;
 }
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drawing into the scene among VTK's own props, whose state comes back at the end of the scope.
+/**
+ * @file
+ * @brief The OpenGL state for drawing into the window, among VTK's own props.
+ */
 #ifndef BrainShift_SceneScope_h
 #define BrainShift_SceneScope_h
 
@@ -9,11 +12,12 @@
 
 namespace brainshift
 {
-// Begins with what is nearer, or as near, drawn over what is there, depth too. If `blended`,
-// colours are blended, opacity multiplied in.
+/// Draws what is as near as, or nearer than, what is there, and its depth too. The end of the scope
+/// restores the state.
 class SceneScope
 {
 public:
+  /// `blended`: colours, already times their opacity, are blended over what is there.
   SceneScope(vtkOpenGLState* state, bool blended)
     : Viewport(state)
     , ScissorBox(state)

@@ -52,6 +52,7 @@
 #include "shader_traces_frag.h"
 #include "shader_traces_over_frag.h"
 #include "shader_traces_vert.h"
+#include "shader_two_samples.h"
 #include "shader_volume_pass.h"
 #include "shader_volume_pass_geom.h"
 #include "shader_volume_pass_vert.h"
@@ -68,7 +69,8 @@ constexpr const char* Outputs = "//VTK::Output::Dec\n";
 // Marks functions that C++ shares; nothing in GLSL.
 constexpr const char* Shared = "#define SHARED\n";
 
-// VTK declares an output for each that the source names, so that it may not name one in vain.
+// VTK declares an output for each one that the source names. So the source must not name unused
+// ones.
 constexpr const char* NotCounted =
   "const bool CountsSamples = false;\nvoid countSamples(float taken, float skipped) {}\n";
 
@@ -116,7 +118,8 @@ std::string loopSource(const RayCastVariant& variant)
   {
     case Blend::Composite:
       return std::string(shader_compositing) +
-        (variant.averaged ? shader_averaged : shader_pointwise) + shader_compositing_frag;
+        (variant.averaged ? shader_averaged : shader_pointwise) + shader_two_samples +
+        shader_compositing_frag;
     case Blend::Isosurface:
       return std::string(shader_march) + shader_isosurface_frag;
     case Blend::Slice:
@@ -254,61 +257,79 @@ ShaderSource tracesOverSource()
     assemble({ Outputs, shader_traces_over_frag }) };
 }
 
+namespace
+{
+using NamedSources = std::vector<std::pair<std::string, ShaderSource>>;
+
+void add(NamedSources& sources, const RayCastVariant& variant)
+{
+  sources.emplace_back(nameOf(variant), rayCastSource(variant));
+}
+
+// The ray caster of a volume alone.
+void addAlone(NamedSources& sources, bool deformed)
+{
+  for (int light = 0; light < RayCastVariant::LightCount; ++light)
+  {
+    for (const Blend blend : { Blend::Composite, Blend::Isosurface, Blend::Slice })
+    {
+      add(sources, { deformed, static_cast<RayCastVariant::Light>(light), blend });
+    }
+  }
+  for (const Blend blend : { Blend::Maximum, Blend::Minimum, Blend::Average, Blend::Additive })
+  {
+    add(sources, { deformed, RayCastVariant::Unshaded, blend });
+  }
+  for (const Coloring coloring : { Coloring::Direct, Coloring::OtherScalar })
+  {
+    add(sources, { deformed, RayCastVariant::GradientTexture, Blend::Composite, coloring });
+    add(sources, { deformed, RayCastVariant::Unshaded, Blend::Maximum, coloring, true });
+  }
+  add(sources,
+    { deformed, RayCastVariant::GradientTexture, Blend::Composite, Coloring::Mapped, true });
+  add(sources,
+    { deformed, RayCastVariant::GradientTexture, Blend::Composite, Coloring::Mapped, false, false,
+      true, true });
+  for (int light = 0; light < RayCastVariant::LightCount; ++light)
+  {
+    RayCastVariant averaged{ deformed, static_cast<RayCastVariant::Light>(light) };
+    averaged.averaged = averaged.segmented = averaged.counted = true;
+    add(sources, averaged);
+  }
+  for (const Blend blend : { Blend::Composite, Blend::Isosurface, Blend::Average })
+  {
+    const bool lit = blend != Blend::Average;
+    add(sources,
+      { deformed, lit ? RayCastVariant::GradientTexture : RayCastVariant::Unshaded, blend,
+        Coloring::Mapped, false, true });
+  }
+}
+
+// The ray caster of a volume and a reference.
+void addCompared(NamedSources& sources, bool deformed)
+{
+  for (int light = 0; light < RayCastVariant::LightCount; ++light)
+  {
+    RayCastVariant compared{ deformed, static_cast<RayCastVariant::Light>(light) };
+    compared.compared = true;
+    add(sources, compared);
+    compared.cavity = compared.regions = compared.counted = true;
+    add(sources, compared);
+  }
+}
+}
+
 std::vector<std::pair<std::string, ShaderSource>> allSources()
 {
-  std::vector<std::pair<std::string, ShaderSource>> sources{ { "refine", refineSource(false) },
-    { "refine_masked", refineSource(true) }, { "invert", invertSource() },
-    { "normals", normalsSource() }, { "blocks", blocksSource() },
+  NamedSources sources{ { "refine", refineSource(false) }, { "refine_masked", refineSource(true) },
+    { "invert", invertSource() }, { "normals", normalsSource() }, { "blocks", blocksSource() },
     { "presence_rest", presenceSource(false) }, { "presence_deformed", presenceSource(true) },
     { "proxy", proxySource() }, { "composite", compositeSource() }, { "enlarge", enlargeSource() },
     { "cover", coverSource() }, { "traces_over", tracesOverSource() } };
-  const auto add = [&](const RayCastVariant& variant) {
-    sources.emplace_back(nameOf(variant), rayCastSource(variant));
-  };
   for (const bool deformed : { false, true })
   {
-    for (int light = 0; light < RayCastVariant::LightCount; ++light)
-    {
-      for (const Blend blend : { Blend::Composite, Blend::Isosurface, Blend::Slice })
-      {
-        add({ deformed, static_cast<RayCastVariant::Light>(light), blend });
-      }
-    }
-    for (const Blend blend : { Blend::Maximum, Blend::Minimum, Blend::Average, Blend::Additive })
-    {
-      add({ deformed, RayCastVariant::Unshaded, blend });
-    }
-    for (const Coloring coloring : { Coloring::Direct, Coloring::OtherScalar })
-    {
-      add({ deformed, RayCastVariant::GradientTexture, Blend::Composite, coloring });
-      add({ deformed, RayCastVariant::Unshaded, Blend::Maximum, coloring, true });
-    }
-    add({ deformed, RayCastVariant::GradientTexture, Blend::Composite, Coloring::Mapped, true });
-    add({ deformed, RayCastVariant::GradientTexture, Blend::Composite, Coloring::Mapped, false,
-      false, true, true });
-    for (int light = 0; light < RayCastVariant::LightCount; ++light)
-    {
-      RayCastVariant averaged{ deformed, static_cast<RayCastVariant::Light>(light) };
-      averaged.averaged = averaged.segmented = averaged.counted = true;
-      add(averaged);
-    }
-    for (const Blend blend : { Blend::Composite, Blend::Isosurface, Blend::Average })
-    {
-      const bool lit = blend != Blend::Average;
-      add({ deformed, lit ? RayCastVariant::GradientTexture : RayCastVariant::Unshaded, blend,
-        Coloring::Mapped, false, true });
-    }
-  }
-  for (const bool deformed : { false, true })
-  {
-    for (int light = 0; light < RayCastVariant::LightCount; ++light)
-    {
-      RayCastVariant compared{ deformed, static_cast<RayCastVariant::Light>(light) };
-      compared.compared = true;
-      add(compared);
-      compared.cavity = compared.regions = compared.counted = true;
-      add(compared);
-    }
+    addAlone(sources, deformed);
+    addCompared(sources, deformed);
   }
   sources.emplace_back("traces", tracesSource(0));
   sources.emplace_back("traces_hidden", tracesSource(MaxTissues));

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Assembles the files of Shaders/ into programs. From C++ come only #define lines.
+/**
+ * @file
+ * @brief Assembles the files of Shaders/ into programs. Only #define lines come from C++.
+ */
 #ifndef BrainShift_ShaderSource_h
 #define BrainShift_ShaderSource_h
 
@@ -12,24 +15,29 @@
 
 namespace brainshift
 {
+/// The stages of a program.
 struct ShaderSource
 {
   std::string vertex;
-  std::string geometry; // empty: none
+  std::string geometry; ///< Empty: there is none.
   std::string fragment;
 };
 
 constexpr int MaxLights = 8;
-constexpr int BricksInBlock = 4; // a side; blocks of the presence map's bricks
+constexpr int BricksInBlock = 4; ///< A side: bricks of the presence map in one block.
 constexpr int MaxClipPlanes = 16;
 constexpr int MaxIsovalues = 32;
-// Of the colour map: as many as a 12-bit CT has values; so many that none need blending, which
-// would cost four reads.
-constexpr int TransferEntries = 4096;
-constexpr int MaxCorners = 8; // of a part of a picture
-constexpr int MaxTissues = 4; // volumes that hide traced points
 
-// How the samples of a ray become one colour; numbers as in vtkVolumeMapper::BlendModes.
+/// Colours of the colour map: as many as a 12-bit CT has values. With so many, neighbours need no
+/// blending, which would cost four reads.
+constexpr int TransferEntries = 4096;
+
+constexpr int MostStepDoublings = 2;                ///< Of the step along rays, while moving.
+constexpr int TransferRows = MostStepDoublings + 1; ///< Of the colour map: one for each step.
+constexpr int MaxCorners = 8;                       ///< Of a part of a picture.
+constexpr int MaxTissues = 4;                       ///< Volumes that hide traced points.
+
+/// How the samples of a ray become one colour; numbers as in vtkVolumeMapper::BlendModes.
 enum class Blend
 {
   Composite = 0,
@@ -42,18 +50,18 @@ enum class Blend
 };
 constexpr int BlendCount = 7;
 
-// Where a sample's colour comes from.
+/// Where a sample's colour comes from.
 enum class Coloring
 {
-  Mapped = 0,      // the colour map at the scalar
-  Direct = 1,      // three numbers of the voxel
-  OtherScalar = 2, // the colour map at another number of the voxel
+  Mapped = 0,      ///< The colour map at the scalar.
+  Direct = 1,      ///< Three numbers of the voxel.
+  OtherScalar = 2, ///< The colour map at another number of the voxel.
 };
 
-// Variants of the ray caster; each combination is a program of its own.
+/// Variants of the ray caster. Each combination is a program of its own.
 struct RayCastVariant
 {
-  bool deformed = false; // the volume carries a lattice
+  bool deformed = false; ///< The volume carries a lattice.
   enum Light
   {
     Unshaded = 0,
@@ -63,13 +71,13 @@ struct RayCastVariant
   } light = Unshaded;
   Blend blend = Blend::Composite;
   Coloring coloring = Coloring::Mapped;
-  bool regions = false;     // VTK's cropping regions, other than the middle one alone
-  bool segmented = false;   // a segment is drawn alone
-  bool counted = false;     // a third target tells the samples taken and skipped; Composite only
-  bool sharedLight = false; // two samples share their light; Composite only, where there is light
-  bool averaged = false;    // samples take averages of the colour map; Composite only
-  bool compared = false;    // with a reference, red and green; Composite only
-  bool cavity = false;      // part of which is ignored
+  bool regions = false;     ///< Cropping keeps other regions than the middle one.
+  bool segmented = false;   ///< A segment is drawn alone.
+  bool counted = false;     ///< A third target counts samples; Composite only.
+  bool sharedLight = false; ///< Two samples share their light; Composite and shaded only.
+  bool averaged = false;    ///< Samples take averages of the colour map; Composite only.
+  bool compared = false;    ///< Drawn with a reference, red and green; Composite only.
+  bool cavity = false;      ///< The comparison ignores a cavity.
 
   bool operator<(const RayCastVariant& other) const
   {
@@ -82,13 +90,13 @@ struct RayCastVariant
   }
 };
 
-// Variants of the slices' program.
+/// Variants of the program for slices.
 struct SlicesVariant
 {
-  bool deformed = false; // the volume carries a lattice
+  bool deformed = false; ///< The volume carries a lattice.
   Coloring coloring = Coloring::Mapped;
-  bool compared = false; // with a reference
-  bool cavity = false;   // part of which is ignored
+  bool compared = false; ///< Drawn with a reference.
+  bool cavity = false;   ///< The comparison ignores a cavity.
 
   bool operator<(const SlicesVariant& other) const
   {
@@ -97,6 +105,9 @@ struct SlicesVariant
   }
 };
 
+///@{
+/// The program of that name in Shaders/README.md. `masked`: the strokes have a mask. `deformed`:
+/// the volume carries a lattice. `tissues`: volumes that hide points, 0 to MaxTissues.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource refineSource(bool masked);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource invertSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource rayCastSource(const RayCastVariant& variant);
@@ -108,12 +119,12 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource blocksSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource presenceSource(bool deformed);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource proxySource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource slicesSource(const SlicesVariant& variant);
-// `tissues`: volumes that hide points, 0 to MaxTissues.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource tracesSource(int tissues);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource tracesOverSource();
+///@}
 
-// Every program the product can draw with, by name, for an offline compiler: of the ray caster's
-// variants each with every file and every #define in use.
+/// Programs by name, for an offline compiler. Among the ray caster's variants, each file and each
+/// #define is used at least once.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<std::pair<std::string, ShaderSource>> allSources();
 }
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Renders into a 3D texture: the framework all computing passes share (paper, section 2: "GPGPU").
-// A new pass is one fragment shader and one call.
+/**
+ * @file
+ * @brief Renders into a 3D texture: what all computing passes share (paper, section 2: "GPGPU").
+ *
+ * A new pass is one fragment shader and one call.
+ */
 #ifndef BrainShift_VolumePass_h
 #define BrainShift_VolumePass_h
 
@@ -13,19 +17,19 @@ class vtkTextureObject;
 
 namespace brainshift
 {
-// Runs the program in use, with its uniforms set, for every texel of a box of the 3D `targets`,
-// which are equally large; the first gets gl_FragData[0], and so on. The program's vertex and
-// geometry stages are those of volumePassSource.
+/// Runs the program in use, with its uniforms set, for every texel of a box of the 3D `targets`,
+/// which are equally large. The first target gets gl_FragData[0], and so on. The program's vertex
+/// and geometry stages are those of volumePassSource. `first`, `count`: the box, texels.
 void runVolumePass(vtkOpenGLRenderWindow* window, int programHandle,
   std::initializer_list<vtkTextureObject*> targets, const glm::ivec3& first,
   const glm::ivec3& count);
 
-// How far along x to move a box of texels that starts at `first`, so that a software driver has two
-// threads draw it: they share a target out by squares of 64 pixels, whatever its layers, and a box
-// within one square would be left to one of them. 0 with other drivers.
+/// How far along x to move a box of texels that starts at `first`, so that a software driver lets
+/// two threads draw it. Its threads share a target by squares of 64 pixels, whatever its layers,
+/// and only one of them would draw a box within one square. 0 with other drivers.
 int leadToSecondThread(int first, int count);
 
-// Sets all of a 3D texture to zero.
+/// Sets all of a 3D texture to zero.
 void clearVolume(vtkOpenGLRenderWindow* window, vtkTextureObject* target);
 }
 

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a mapper keeps for each window that draws it: textures and programs belong to a context.
+/**
+ * @file
+ * @brief What a mapper keeps for each window that draws it: textures and programs belong to a
+ * window.
+ */
 #ifndef BrainShift_WindowDevices_h
 #define BrainShift_WindowDevices_h
 
@@ -10,11 +14,13 @@
 
 namespace brainshift
 {
-// `Device` is made on first use and has Release(vtkWindow*), called when the window lets go.
+/// One `Device` for each window, made on first use. The type has a function Release(vtkWindow*),
+/// which is called when the window lets go.
 template <typename Device>
 class WindowDevices
 {
 public:
+  /// The device of a window.
   Device& of(vtkOpenGLRenderWindow* window)
   {
     Entry& entry = this->Entries[window];
@@ -22,13 +28,14 @@ public:
     return entry.device;
   }
 
-  // Null if the window has drawn nothing.
+  /// The device of a window. Null if the window has drawn nothing.
   Device* find(vtkWindow* window)
   {
     const auto found = this->Entries.find(window);
     return found == this->Entries.end() ? nullptr : &found->second.device;
   }
 
+  /// Releases the device of a window and forgets it.
   void release(vtkWindow* window)
   {
     Device* device = this->find(window);
@@ -36,8 +43,8 @@ public:
     {
       return;
     }
-    // Closing a view, ParaView leaves another window's context current, where our buffers' numbers
-    // may mean something else.
+    // When ParaView closes a view, the context of another window is current. There the numbers of
+    // our buffers may mean something else.
     auto context = vtkOpenGLRenderWindow::SafeDownCast(window);
     context->PushContext();
     device->Release(window);
@@ -45,7 +52,7 @@ public:
     this->Entries.erase(window);
   }
 
-  // Calls visit(device) with each window's context current.
+  /// Calls visit(device) for each window, with its OpenGL context current.
   template <typename Visit>
   void visit(const Visit& visit)
   {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Picture/CastImages.h"
 
-#include "Representations/Gpu/ImageScope.h"
-#include "Representations/Picture/RayCaster.h"
+#include "Representations/Picture/ImageScope.h"
+#include "Representations/Scene/RayCastScene.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
@@ -40,11 +40,11 @@ bool sameSize(vtkTextureObject* image, const glm::ivec2& size)
 
 bool CastImages::prepare(vtkOpenGLRenderWindow* window, const RayCastScene& scene)
 {
-  const ImageArea area = areaAround(this->Area, scene.size, scene.shown);
-  const PixelBox anything{ glm::ivec2(-1), scene.size + 1 }; // whatever memory held
+  const ImageArea area = areaAround(this->Area, scene.image.size, scene.image.part.box);
+  const PixelBox anything{ glm::ivec2(-1), scene.image.size + 1 }; // the memory is not cleared yet
   if (!this->Image || area != this->Area)
   {
-    this->Part = anything;
+    this->Filled = anything;
   }
   this->Area = area;
   const auto make = [&](vtkSmartPointer<vtkTextureObject>& image, int format, int filter) {
@@ -54,10 +54,10 @@ bool CastImages::prepare(vtkOpenGLRenderWindow* window, const RayCastScene& scen
     }
     return image != nullptr;
   };
-  FirstHits& hits = this->Hits[scene.tile];
+  FirstHits& hits = this->Hits[scene.frame.tile];
   if (!hits.texture || hits.area != this->Area)
   {
-    this->HitsPart[scene.tile] = anything;
+    this->HitsFilled[scene.frame.tile] = anything;
   }
   hits.area = this->Area;
   if (!make(this->Image, GL_RGBA8, vtkTextureObject::Linear) ||
@@ -75,21 +75,21 @@ bool CastImages::prepare(vtkOpenGLRenderWindow* window, const RayCastScene& scen
 
 void CastImages::attach(ImageScope& scope, const RayCastScene& scene, bool part, bool counted)
 {
-  FirstHits& hits = this->Hits[scene.tile];
+  FirstHits& hits = this->Hits[scene.frame.tile];
   scope.attach(0, this->Image);
   scope.attach(1, hits.texture);
   if (!part)
   {
     this->clearStale(scene);
-    hits.frustum = frustumOf(scene.clipFromWorld);
-    this->DrewTile = scene.tile;
+    hits.frustum = frustumOf(scene.frame.clipFromWorld);
+    this->DrewTile = scene.frame.tile;
   }
   if (counted)
   {
     scope.attach(2, this->Count);
   }
-  this->Part = part ? enclosing(this->Part, scene.shown) : scene.shown;
-  this->HitsPart[scene.tile] = this->Part;
+  this->Filled = part ? enclosing(this->Filled, scene.image.part.box) : scene.image.part.box;
+  this->HitsFilled[scene.frame.tile] = this->Filled;
 }
 
 void CastImages::drawPart(Program& program, const PixelPart& part) const
@@ -101,28 +101,28 @@ void CastImages::drawPart(Program& program, const PixelPart& part) const
   }
   if (isDrawnAsBox(part))
   {
-    // What the scissors cut out: one triangle around it has no edge within, along which software
-    // drivers draw blocks of pixels twice.
+    // The scissors cut the box out of one large triangle. So no edge lies within the box, along
+    // which software drivers would draw blocks of pixels twice.
     corners = { { -1.0f, -1.0f }, { 3.0f, -1.0f }, { -1.0f, 3.0f } };
   }
   program.set("corners", corners.data(), corners.size());
   drawStrip(static_cast<int>(corners.size()));
 }
 
-// Nothing of an earlier picture must be found beyond the part that is cast now.
+// Nothing of an earlier picture may stay outside the part that is cast now.
 void CastImages::clearStale(const RayCastScene& scene)
 {
-  if (!contains(scene.shown, this->Part))
+  if (!contains(scene.image.part.box, this->Filled))
   {
     this->clear(0);
   }
-  if (!contains(scene.shown, this->HitsPart[scene.tile]))
+  if (!contains(scene.image.part.box, this->HitsFilled[scene.frame.tile]))
   {
     this->clear(1);
   }
 }
 
-// All of the picture (0) or the hits (1) that are attached.
+// Clears all of the attached picture (0) or hits (1).
 void CastImages::clear(unsigned int target)
 {
   const float nothing = target == 0 ? 0.0f : -1.0f;
@@ -135,8 +135,8 @@ void CastImages::clear(unsigned int target)
 bool CastImages::hold(const RayCastScene& scene) const
 {
   const FirstHits& hits = this->Hits[false];
-  return this->Image && hits.texture && !this->DrewTile && !scene.tile &&
-    this->Area.picture == scene.size && hits.area == this->Area;
+  return this->Image && hits.texture && !this->DrewTile && !scene.frame.tile &&
+    this->Area.picture == scene.image.size && hits.area == this->Area;
 }
 
 bool CastImages::grow(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters)
@@ -146,7 +146,7 @@ bool CastImages::grow(vtkOpenGLRenderWindow* window, const RayCastScene& scene, 
   this->Image = nullptr;
   hits.texture = nullptr;
   RayCastScene roomy = scene;
-  roomy.shown = enclosing(scene.shown, old.Part);
+  roomy.image.part.box = enclosing(scene.image.part.box, old.Filled);
   if (!this->prepare(window, roomy))
   {
     return false;
@@ -158,16 +158,15 @@ bool CastImages::grow(vtkOpenGLRenderWindow* window, const RayCastScene& scene, 
     this->clear(0);
     this->clear(1);
   }
-  this->Part = this->HitsPart[false] = PixelBox();
-  return this->enlarge(window, old, partOf(old.Part), counters);
+  this->Filled = this->HitsFilled[false] = PixelBox();
+  return this->enlarge(window, old, partOf(old.Filled), counters);
 }
 
 glm::dvec2 CastImages::hitFromShare(const RayCastScene& scene) const
 {
-  return shareFromShare(this->Hits[false].frustum, frustumOf(scene.clipFromWorld));
+  return shareFromShare(this->Hits[false].frustum, frustumOf(scene.frame.clipFromWorld));
 }
 
-// A new one for each picture, all zero.
 bool CastImages::prepareCount(vtkOpenGLRenderWindow* window)
 {
   const glm::ivec2& size = this->Area.size;
@@ -239,10 +238,10 @@ bool CastImages::composite(vtkOpenGLRenderWindow* window, const glm::ivec2& orig
   state->vtkglDisable(GL_CULL_FACE);
   const glm::ivec2& end = this->Area.picture;
   const glm::dvec2 scale = glm::dvec2(size) / glm::dvec2(end);
-  const glm::ivec2 low(glm::floor(glm::dvec2(this->Part.low) * scale));
-  const glm::ivec2 shown(
-    glm::max(glm::ceil(glm::dvec2(this->Part.high) * scale) - glm::dvec2(low), 0.0));
-  state->vtkglViewport(origin.x + low.x, origin.y + low.y, shown.x, shown.y);
+  const glm::ivec2 low(glm::floor(glm::dvec2(this->Filled.low) * scale));
+  const glm::ivec2 filled(
+    glm::max(glm::ceil(glm::dvec2(this->Filled.high) * scale) - glm::dvec2(low), 0.0));
+  state->vtkglViewport(origin.x + low.x, origin.y + low.y, filled.x, filled.y);
   const int filter =
     scale == glm::dvec2(1.0) ? vtkTextureObject::Nearest : vtkTextureObject::Linear;
   this->Image->SetMinificationFilter(filter);
@@ -280,7 +279,7 @@ bool CastImages::enlarge(
   this->drawPart(this->EnlargeProgram, part);
   picture->Deactivate();
   hits->Deactivate();
-  this->Part = this->HitsPart[false] = enclosing(this->Part, part.box);
+  this->Filled = this->HitsFilled[false] = enclosing(this->Filled, part.box);
   return true;
 }
 

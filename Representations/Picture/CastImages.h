@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The images that rays are cast into, and what of them holds.
+/**
+ * @file
+ * @brief The images that rays are cast into: the picture, the first hits, and helpers.
+ */
 #ifndef BrainShift_CastImages_h
 #define BrainShift_CastImages_h
 
 #include "Representations/Gpu/Counters.h"
+#include "Representations/Gpu/Program.h"
 #include "Representations/Scene/FirstHits.h"
 #include "Representations/Scene/ImageArea.h"
-#include "Representations/Gpu/Program.h"
 
 #include "vtkSmartPointer.h"
 
@@ -24,59 +27,71 @@ namespace brainshift
 class ImageScope;
 struct RayCastScene;
 
+/// The images of one window. They hold only that area of the picture where something can be seen.
 class CastImages
 {
 public:
-  // Makes images for the scene. False if the GPU refuses.
+  /// Makes images for the scene. False if the GPU refuses.
   bool prepare(vtkOpenGLRenderWindow* window, const RayCastScene& scene);
+
+  /// Makes the image that samples are counted in, all zero. False if the GPU refuses.
   bool prepareCount(vtkOpenGLRenderWindow* window);
 
-  // Lets the scene be drawn into them: a picture of its own, or a part of the one that is held.
-  // `counted`: with samples told.
+  /// Lets the scene be drawn into the images: as a picture of its own, or as a `part` of the one
+  /// that is held. `counted`: samples are counted.
   void attach(ImageScope& scope, const RayCastScene& scene, bool part, bool counted);
 
-  // Draws the pixels of a part, with a program whose vertex stage is outline.vert.glsl.
+  /// Draws the pixels of a part, with a program whose vertex stage is outline.vert.glsl.
   void drawPart(Program& program, const PixelPart& part) const;
 
-  // Adds up what was told of the samples.
+  /// Adds the counted samples to the counters.
   void readCount(Counters& counters);
 
-  // Whether they hold a whole picture of the scene's size.
+  /// Whether the images hold a whole picture of the scene's size.
   bool hold(const RayCastScene& scene) const;
 
-  // Whether there is room for what is shown.
-  bool haveRoom(const PixelBox& shown) const { return contains(this->Area.box(), shown); }
+  /// Whether the images have room for a box of the picture's pixels.
+  bool haveRoom(const PixelBox& box) const { return contains(this->Area.box(), box); }
 
-  // Makes room for what is shown and keeps the picture that is held.
+  /// Makes room for the scene's pixels and keeps the picture that is held. False if the GPU
+  /// refuses.
   bool grow(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters);
 
-  // What hits are told in, for the scene's part to be cast into the picture that is held.
+  /// Scale and shift that turn a share of the scene's rays into a share between the near and the
+  /// far plane of the held picture, in which hits are kept.
   glm::dvec2 hitFromShare(const RayCastScene& scene) const;
 
-  // Replaces a part of the picture that is held by that of another one, smaller or not.
+  /// Replaces a part of the held picture by that part of another one, which may be smaller. False
+  /// if the shader does not compile.
   bool enlarge(vtkOpenGLRenderWindow* window, const CastImages& other, const PixelPart& part,
     Counters& counters);
 
-  // Blends the picture over a rectangle (pixels) of the framebuffer that is bound.
+  /// Blends the picture over a rectangle (pixels) of the framebuffer that is bound. False if the
+  /// shader does not compile.
   bool composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origin, const glm::ivec2& size,
     Counters& counters);
 
-  // What the last whole picture shows at a place counted from its lower left corner to 1: first hit
-  // (mm, world) and its distance from the near plane (mm). False where no surface was hit or
-  // nothing was cast yet.
+  /// First hit (mm, world; then its distance from the near plane, mm) of the last whole picture.
+  /// `place`: from the lower left corner, 0, to the upper right one, 1. False if no surface was hit
+  /// there or nothing has been cast yet.
   bool hitAt(vtkOpenGLRenderWindow* window, const glm::dvec2& place, glm::dvec4& hit);
 
-  // What hitAt reads, texel by texel. Null if nothing was cast yet.
+  /// First hits of the last whole picture. Null if nothing has been cast yet.
   const FirstHits* hits() const { return this->castHits(false); }
 
-  // The same of the last picture, whole or a tile.
+  /// First hits of the last picture, whole or a tile. Null if nothing has been cast yet.
   const FirstHits* drawnHits() const { return this->castHits(this->DrewTile); }
 
+  /// What the images hold of the picture.
   const ImageArea& area() const { return this->Area; }
-  const PixelBox& shown() const { return this->Part; } // the pixels that may show something
+
+  /// The pixels of the picture that may show something.
+  const PixelBox& filled() const { return this->Filled; }
+
+  /// For each ray, its share before and behind the occupied bricks.
   vtkTextureObject* spans() const { return this->Spans; }
 
-  // All textures, some of which may be null.
+  /// All textures; some may be null.
   std::vector<vtkTextureObject*> textures() const
   {
     return { this->Image, this->Hits[false].texture, this->Hits[true].texture, this->Count,
@@ -94,13 +109,13 @@ private:
   void clear(unsigned int target);
 
   bool DrewTile = false;
-  ImageArea Area;                          // of Image, Spans and Count, and the Hits drawn last
-  PixelBox Part;                           // elsewhere Image is empty,
-  PixelBox HitsPart[2];                    // and Hits tell of none
+  ImageArea Area;                          // of Image, Spans, Count and the Hits drawn last
+  PixelBox Filled;                         // Image is empty elsewhere
+  PixelBox HitsFilled[2];                  // Hits hold none elsewhere; [tile]
   FirstHits Hits[2];                       // [tile]
   vtkSmartPointer<vtkTextureObject> Image; // colour times opacity, opacity
   vtkSmartPointer<vtkTextureObject> Count; // samples taken and skipped; null unless asked for
-  vtkSmartPointer<vtkTextureObject> Spans; // of a ray: share before and behind occupied bricks
+  vtkSmartPointer<vtkTextureObject> Spans;
   Program CompositeProgram;
   Program EnlargeProgram;
 };

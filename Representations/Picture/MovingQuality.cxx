@@ -12,10 +12,11 @@ namespace brainshift
 namespace
 {
 constexpr double InteractiveRate = 1.0;
-// ParaView asks for 5 a second while the camera moves. Below 15 a hand sees steps; some are slower.
+// ParaView asks for 5 frames a second while the camera moves. A hand sees steps below 15; some
+// pictures are slower than the average.
 constexpr double SmoothRate = 18.0;
-constexpr double LeastShareForImage = 0.16; // of a picture's time, however long all else takes
-constexpr double LongestPause = 0.5;        // seconds; after more the hand has rested
+constexpr double LeastShareForImage = 0.16; // of a picture's time, at least
+constexpr double LongestPause = 0.5;        // seconds; in a longer pause the hand has rested
 }
 
 bool isMoving(double rate)
@@ -52,7 +53,7 @@ double WindowPace::spentSeconds() const
 
 void WindowPace::learn(double clock, double processor)
 {
-  if (clock >= 0.0 && clock < LongestPause) // clocks are set, too
+  if (clock >= 0.0 && clock < LongestPause) // a clock that is set may run backwards
   {
     this->Window += 0.3 * (std::min(clock, processor) - this->Window);
   }

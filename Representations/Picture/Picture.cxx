@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Picture/Picture.h"
 
+#include "Representations/Gpu/GpuTask.h"
+#include "Representations/Picture/SeenPixels.h"
+
 #include "vtkNew.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
@@ -13,29 +16,39 @@ namespace brainshift
 {
 namespace
 {
-constexpr double FewPixels = 2000.0; // whose time is that of all else
+constexpr double FewPixels = 2000.0; // below, everything else takes most of the time
 
 bool moves(const PictureWish& wish)
 {
   return wish.adaptive && isMoving(wish.rate);
 }
 
-// Finds what of the scene's image can show something.
+// Finds the pixels of the scene's image that can show something.
 void placePixels(RayCastScene& scene)
 {
-  scene.shown = { glm::ivec2(0), scene.size };
-  if (scene.skipping)
+  scene.image.part.box = { glm::ivec2(0), scene.image.size };
+  if (scene.image.skips)
   {
-    placeComparedPixels(scene);
+    placeSeenPixels(scene);
   }
+}
+
+// The image in full size and quality.
+void beginImage(const PictureWish& wish, RayCastScene& scene)
+{
+  scene.image = SceneImage();
+  scene.image.size = wish.size;
+  scene.image.skips = scene.skipping.allowed;
+  scene.image.countSamples = wish.countSamples;
+  placePixels(scene);
 }
 
 // Fewer pixels and longer steps.
 void adapt(const MovingQuality& quality, RayCastScene& scene)
 {
-  scene.stepDoublings = scene.options.blend == Blend::Composite ? quality.stepDoublings : 0;
-  scene.stepMm *= 1 << scene.stepDoublings;
-  scene.size = glm::max(scene.size / quality.imageScale, glm::ivec2(1));
+  SceneImage& image = scene.image;
+  image.stepDoublings = scene.tissue.blend == Blend::Composite ? quality.stepDoublings : 0;
+  image.size = glm::max(image.size / quality.imageScale, glm::ivec2(1));
   placePixels(scene);
 }
 
@@ -53,12 +66,6 @@ PixelPart reduced(const PixelPart& part, const glm::ivec2& size, const glm::ivec
     { glm::ivec2(glm::floor(glm::dvec2(part.turned.low) * least - more)),
       glm::ivec2(glm::ceil(glm::dvec2(part.turned.high) * least + more)) } };
 }
-
-void setPart(const PixelPart& part, RayCastScene& scene)
-{
-  scene.shown = part.box;
-  scene.turned = part.turned;
-}
 }
 
 void Picture::bend(const FieldTexture::Bent& bent)
@@ -67,24 +74,22 @@ void Picture::bend(const FieldTexture::Bent& bent)
   this->Bent.corners.insert(this->Bent.corners.end(), bent.corners.begin(), bent.corners.end());
 }
 
-bool Picture::cast(vtkRenderer* renderer, vtkVolume* volume, const PictureWish& wish,
-  RayCastScene& scene, Counters& counters)
+bool Picture::cast(
+  GpuTask& gpu, const DrawnVolume& drawn, const PictureWish& wish, RayCastScene& scene)
 {
-  auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
-  placePixels(scene);
+  beginImage(wish, scene);
   const PictureStamp::Change change =
-    this->Stamp.change(renderer, volume, wish.settingsTime, scene, counters);
+    this->Stamp.change(drawn, wish.settingsTime, scene, gpu.counters);
   const bool kept = this->canKeep(change, wish, scene);
-  counters.imageScale = 1;
-  const bool done = kept ? this->castChanged(window, wish, scene, counters)
-                         : this->castAll(window, wish, scene, counters);
+  gpu.counters.imageScale = 1;
+  const bool done = kept ? this->castChanged(gpu, wish, scene) : this->castAll(gpu, wish, scene);
   if (!done)
   {
     this->forget();
   }
   if (!moves(wish))
   {
-    this->Rough.images().releaseGraphicsResources(window);
+    this->Rough.images().releaseGraphicsResources(gpu.window);
   }
   return done;
 }
@@ -93,7 +98,7 @@ bool Picture::cast(vtkRenderer* renderer, vtkVolume* volume, const PictureWish& 
 bool Picture::canKeep(
   PictureStamp::Change change, const PictureWish& wish, const RayCastScene& scene)
 {
-  if (scene.countSamples || !this->images().hold(scene) ||
+  if (scene.image.countSamples || !this->images().hold(scene) ||
     (!this->isBent() && this->RoughPart.empty() && !wish.keep))
   {
     return false;
@@ -105,7 +110,7 @@ bool Picture::canKeep(
     case PictureStamp::Bending:
       return !scene.comparison.reference && (moves(wish) || !this->Mixed);
     case PictureStamp::Reaching:
-      // Samples lie elsewhere on their rays: as different as a rough picture is anyway.
+      // Samples lie elsewhere on their rays. The difference is that of a rough picture.
       this->Mixed = true;
       return !scene.comparison.reference && moves(wish);
     default:
@@ -113,67 +118,62 @@ bool Picture::canKeep(
   }
 }
 
-bool Picture::castAll(
-  vtkOpenGLRenderWindow* window, const PictureWish& wish, RayCastScene& scene, Counters& counters)
+bool Picture::castAll(GpuTask& gpu, const PictureWish& wish, RayCastScene& scene)
 {
-  const glm::ivec2 size = scene.size;
-  const MovingQuality quality = this->qualityFor(wish, partOf(scene.shown));
-  counters.imageScale = quality.imageScale;
+  const MovingQuality quality = this->qualityFor(wish, partOf(scene.image.part.box));
+  gpu.counters.imageScale = quality.imageScale;
   adapt(quality, scene);
-  scene.jitter = moves(wish);
-  this->Depth.captureBehind(window, wish.origin, size, scene);
-  const bool cast =
-    this->measure(window, wish, scene, [&] { return this->Whole.cast(window, scene, counters); });
+  scene.image.jitter = moves(wish);
+  scene.behind = this->Depth.captureBehind(gpu.window, wish.origin, wish.size, scene.image);
+  const bool cast = this->measure(
+    gpu, wish, scene, [&] { return this->Whole.cast(gpu.window, scene, gpu.counters); });
   this->Bent = FieldTexture::Bent();
-  this->SpaceLow = scene.spaceLow;
-  this->SpaceHigh = scene.spaceHigh;
+  this->Space = { scene.cuts.spaceLow, scene.cuts.spaceHigh };
   this->Mixed = false;
-  this->RoughPart = scene.jitter ? partOf({ glm::ivec2(0), size }) : PixelPart();
+  this->RoughPart = scene.image.jitter ? partOf({ glm::ivec2(0), wish.size }) : PixelPart();
   return cast;
 }
 
 PixelPart Picture::changedPart(bool moving, const RayCastScene& scene) const
 {
-  const PixelBox shown = enclosing(scene.shown, this->images().shown());
-  PixelPart part = this->Bent.all
-    ? partOf(shown)
-    : pixelsBetween(this->Bent.corners, this->SpaceLow, this->SpaceHigh, scene);
+  const PixelBox filled = enclosing(scene.image.part.box, this->images().filled());
+  PixelPart part =
+    this->Bent.all ? partOf(filled) : pixelsBetween(this->Bent.corners, this->Space, scene);
   if (!moving)
   {
     part = enclosing(part, this->RoughPart);
   }
-  part.box = overlap(part.box, shown);
-  // What the picture's edge leaves of an octagon may be no box but have as few corners, which
-  // CastImages draws as one.
+  part.box = overlap(part.box, filled);
+  // The picture's edge may leave an octagon with as few corners as a box, which CastImages draws as
+  // a box.
   return isDrawnAsBox(part) ? partOf(part.box) : part;
 }
 
-bool Picture::castChanged(
-  vtkOpenGLRenderWindow* window, const PictureWish& wish, RayCastScene& scene, Counters& counters)
+bool Picture::castChanged(GpuTask& gpu, const PictureWish& wish, RayCastScene& scene)
 {
   const bool moving = moves(wish);
   CastImages& held = this->images();
-  if (!held.haveRoom(scene.shown) && !held.grow(window, scene, counters))
+  if (!held.haveRoom(scene.image.part.box) && !held.grow(gpu.window, scene, gpu.counters))
   {
     return false;
   }
-  this->SpaceLow = glm::min(this->SpaceLow, scene.spaceLow);
-  this->SpaceHigh = glm::max(this->SpaceHigh, scene.spaceHigh);
+  this->Space.low = glm::min(this->Space.low, scene.cuts.spaceLow);
+  this->Space.high = glm::max(this->Space.high, scene.cuts.spaceHigh);
   const PixelPart part = this->changedPart(moving, scene);
   MovingQuality quality = this->qualityFor(wish, part);
   quality.stepDoublings = 0; // beside what stays, surfaces would look grainy
   bool done = true;
   if (!part.empty() && !quality.isFull())
   {
-    done = this->castRoughly(window, wish, quality, scene, part, counters);
+    done = this->castRoughly(gpu, wish, quality, scene, part);
     this->RoughPart = enclosing(this->RoughPart, part);
   }
   else if (!part.empty())
   {
-    setPart(part, scene);
-    this->Depth.captureBehind(window, wish.origin, scene.size, scene);
+    scene.image.part = part;
+    scene.behind = this->Depth.captureBehind(gpu.window, wish.origin, wish.size, scene.image);
     done = this->measure(
-      window, wish, scene, [&] { return this->Whole.castPart(window, scene, counters); });
+      gpu, wish, scene, [&] { return this->Whole.castPart(gpu.window, scene, gpu.counters); });
   }
   if (!moving)
   {
@@ -183,20 +183,19 @@ bool Picture::castChanged(
   return done;
 }
 
-bool Picture::castRoughly(vtkOpenGLRenderWindow* window, const PictureWish& wish,
-  const MovingQuality& quality, const RayCastScene& scene, const PixelPart& part,
-  Counters& counters)
+bool Picture::castRoughly(GpuTask& gpu, const PictureWish& wish, const MovingQuality& quality,
+  const RayCastScene& scene, const PixelPart& part)
 {
-  counters.imageScale = quality.imageScale;
+  gpu.counters.imageScale = quality.imageScale;
   RayCastScene rough = scene;
   adapt(quality, rough);
-  setPart(reduced(part, scene.size, rough.size), rough);
-  rough.jitter = true;
-  rough.hitFromShare = this->images().hitFromShare(scene);
-  this->Depth.captureBehind(window, wish.origin, scene.size, rough);
+  rough.image.part = reduced(part, wish.size, rough.image.size);
+  rough.image.jitter = true;
+  rough.image.hitFromShare = this->images().hitFromShare(scene);
+  rough.behind = this->Depth.captureBehind(gpu.window, wish.origin, wish.size, rough.image);
   return this->measure(
-           window, wish, rough, [&] { return this->Rough.cast(window, rough, counters); }) &&
-    this->images().enlarge(window, this->Rough.images(), part, counters);
+           gpu, wish, rough, [&] { return this->Rough.cast(gpu.window, rough, gpu.counters); }) &&
+    this->images().enlarge(gpu.window, this->Rough.images(), part, gpu.counters);
 }
 
 MovingQuality Picture::qualityFor(const PictureWish& wish, const PixelPart& part) const
@@ -208,8 +207,8 @@ MovingQuality Picture::qualityFor(const PictureWish& wish, const PixelPart& part
 }
 
 template <typename Cast>
-bool Picture::measure(vtkOpenGLRenderWindow* window, const PictureWish& wish,
-  const RayCastScene& scene, const Cast& cast)
+bool Picture::measure(
+  const GpuTask& gpu, const PictureWish& wish, const RayCastScene& scene, const Cast& cast)
 {
   vtkNew<vtkTimerLog> timer;
   timer->StartTimer();
@@ -217,12 +216,12 @@ bool Picture::measure(vtkOpenGLRenderWindow* window, const PictureWish& wish,
   {
     return false;
   }
-  const double pixels = pixelsIn({ scene.shown, scene.turned });
+  const double pixels = pixelsIn(scene.image.part);
   if (wish.adaptive && (pixels >= FewPixels || (pixels > 0.0 && this->SecondsPerPixel == 0.0)))
   {
-    window->WaitForCompletion(); // else the time is that of the commands, not of the image
+    gpu.window->WaitForCompletion(); // else the time would be that of the commands alone
     timer->StopTimer();
-    this->SecondsPerPixel = timer->GetElapsedTime() * (1 << scene.stepDoublings) / pixels;
+    this->SecondsPerPixel = timer->GetElapsedTime() * (1 << scene.image.stepDoublings) / pixels;
   }
   return true;
 }

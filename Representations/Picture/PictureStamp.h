@@ -1,36 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Knows what of a picture would come out as it did the last time. While a tool hovers, only its
-// outline over the picture changes; while it bends, only the tissue it moves.
+/**
+ * @file
+ * @brief Finds what has changed since the last picture. While a tool hovers, only its outline over
+ * the picture changes. While it bends, only the tissue that it moves changes.
+ */
 #ifndef BrainShift_PictureStamp_h
 #define BrainShift_PictureStamp_h
 
-#include <vector>
+#include "Representations/Scene/SceneFrame.h"
 
-class vtkRenderer;
-class vtkVolume;
+#include <vector>
 
 namespace brainshift
 {
 struct Counters;
 struct RayCastScene;
 
+/// Remembers what the last picture depended on.
 class PictureStamp
 {
 public:
   enum Change
   {
-    Nothing,
-    Bending,  // the offset field alone has other values
-    Reaching, // the same, and tissue can reach farther or less far: rays begin elsewhere
-    Anything
+    Nothing,  ///< The picture would be the same.
+    Bending,  ///< Only the values of the offset field changed.
+    Reaching, ///< Besides, tissue can reach farther or less far: rays begin elsewhere.
+    Anything  ///< The whole picture is new.
   };
-  // What that a picture depends on differs from the last call; what lies in front of or behind the
-  // volume counts, too, but not traced points, which are drawn over it.
-  // `settingsTime`: when the mapper was set up otherwise.
-  Change change(vtkRenderer* renderer, vtkVolume* volume, unsigned long long settingsTime,
+
+  /// Compares with the last call and remembers this one. Whatever lies in front of or behind the
+  /// volume counts, too, but not the props that are drawn over volumes. `settingsTime`: when the
+  /// settings of the mapper changed last.
+  Change change(const DrawnVolume& drawn, unsigned long long settingsTime,
     const RayCastScene& scene, const Counters& counters);
 
-  // To the next picture anything has changed.
+  /// The next call finds that anything has changed.
   void forget() { this->Last.clear(); }
 
 private:

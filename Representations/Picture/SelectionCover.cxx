@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Picture/SelectionCover.h"
 
+#include "Representations/Gpu/SceneScope.h"
 #include "Representations/Scene/FirstHits.h"
 #include "Representations/Scene/SceneGeometry.h"
-#include "Representations/Gpu/SceneScope.h"
 
 #include "vtkDataObject.h"
 #include "vtkHardwareSelector.h"

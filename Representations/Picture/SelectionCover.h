@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Hides from a surface selection what the tissue drawn last hides from the eye.
+/**
+ * @file
+ * @brief Hides what lies behind the tissue of the last picture from a selection of surfaces.
+ */
 #ifndef BrainShift_SelectionCover_h
 #define BrainShift_SelectionCover_h
 
@@ -13,13 +16,14 @@ namespace brainshift
 {
 struct FirstHits;
 
-// Whether a renderer draws a selection of points, and not one of cells or nothing of the kind.
+/// Whether a renderer draws a selection of points now.
 bool selectsPoints(vtkRenderer* renderer);
 
+/// The program that does it, of one window.
 class SelectionCover
 {
 public:
-  // Draws over the selection's buffer and its depth. False if the shader does not compile.
+  /// Draws over the selection's buffer and its depth. False if the shader does not compile.
   bool draw(vtkOpenGLRenderWindow* window, vtkRenderer* renderer, const FirstHits& hits,
     Counters& counters);
 

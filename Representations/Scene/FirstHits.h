@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the rays of a picture met a surface first. One number a pixel: the rest follows from the
-// camera that the picture was cast with, which may have moved on since.
+/**
+ * @file
+ * @brief Where the rays of a picture met a surface first.
+ */
 #ifndef BrainShift_FirstHits_h
 #define BrainShift_FirstHits_h
 
@@ -12,12 +14,14 @@
 
 namespace brainshift
 {
+/// One number for each pixel. The position follows from it and from the camera of the picture,
+/// which may have moved on since.
 struct FirstHits
 {
-  // Share of the way from the near to the far plane; below 0: none, as beyond its area.
+  /// Share of the way from the near to the far plane. Below 0, and beyond the area: no hit.
   vtkSmartPointer<vtkTextureObject> texture;
-  ImageArea area;  // of the picture
-  Frustum frustum; // of the picture, mm (world)
+  ImageArea area;  ///< Of the picture.
+  Frustum frustum; ///< Of the picture, mm, world.
 };
 }
 

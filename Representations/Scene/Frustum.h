@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a camera sees: the near and the far plane, in any coordinates.
+/**
+ * @file
+ * @brief What a camera sees: the near and the far plane, in any coordinates.
+ */
 #ifndef BrainShift_Frustum_h
 #define BrainShift_Frustum_h
 
@@ -12,32 +15,37 @@
 
 namespace brainshift
 {
-// Positions on it are affine in ndc for every camera VTK has.
+/// One of the planes. Positions on it are affine in ndc (normalised device coordinates, -1 to 1)
+/// for every camera that VTK has.
 struct FrustumPlane
 {
-  glm::dvec3 origin{ 0.0 }; // position of ndc (0,0)
-  glm::dvec3 right{ 0.0 };  // what one unit of ndc x and y adds
-  glm::dvec3 up{ 0.0 };
-  double w = 1.0; // homogeneous
+  glm::dvec3 origin{ 0.0 }; ///< Position of ndc (0,0).
+  glm::dvec3 right{ 0.0 };  ///< What one unit of ndc x adds.
+  glm::dvec3 up{ 0.0 };     ///< What one unit of ndc y adds.
+  double w = 1.0;           ///< Homogeneous coordinate of the plane.
 
+  /// Position of a point in ndc.
   glm::dvec3 at(const glm::dvec2& ndc) const
   {
     return this->origin + ndc.x * this->right + ndc.y * this->up;
   }
-  // Times (1, ndc x, ndc y): the position.
+
+  /// The matrix that gives the position from (1, ndc x, ndc y).
   glm::dmat3 columns() const { return glm::dmat3(this->origin, this->right, this->up); }
 };
 
+/// The space between two planes.
 struct Frustum
 {
   FrustumPlane near;
   FrustumPlane far;
 };
 
+/// The frustum in the coordinates of `space`.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT Frustum frustumOf(const glm::dmat4& clipFromSpace);
 
-// Of one camera with other near and far planes: the share of the way between those of `to`, from
-// the share between those of `from`: scale and shift.
+/// For two frustums of one camera, which differ only in their near and far planes: scale and shift
+/// that turn a share of the way between the planes of `from` into a share between those of `to`.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT glm::dvec2 shareFromShare(
   const Frustum& to, const Frustum& from);
 }

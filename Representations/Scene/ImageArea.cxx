@@ -45,7 +45,7 @@ double pixelsIn(const PixelPart& part)
   const auto area = [](const PixelBox& box) {
     return static_cast<double>(box.size().x) * box.size().y;
   };
-  // Turned, a box of as many pixels is twice as large.
+  // In turned coordinates, a box of as many pixels is twice as large.
   return part.empty() ? 0.0 : glm::min(area(part.box), 0.5 * area(part.turned));
 }
 
@@ -86,7 +86,7 @@ std::vector<glm::dvec2> stripOf(const PixelPart& part)
   corners = clipped(corners, { -1.0, -1.0 }, -turnedLow.x);
   corners = clipped(corners, { 1.0, -1.0 }, turnedHigh.y);
   corners = clipped(corners, { -1.0, 1.0 }, -turnedLow.y);
-  // From one end to the other, by turns on both sides.
+  // From one end to the other, alternating between both sides.
   std::vector<glm::dvec2> strip;
   std::size_t first = 0;
   for (std::size_t last = corners.size(); first < last;)
@@ -128,11 +128,11 @@ bool contains(const PixelBox& a, const PixelBox& b)
     (glm::all(glm::lessThanEqual(a.low, b.low)) && glm::all(glm::greaterThanEqual(a.high, b.high)));
 }
 
-ImageArea areaAround(const ImageArea& held, const glm::ivec2& picture, const PixelBox& shown)
+ImageArea areaAround(const ImageArea& held, const glm::ivec2& picture, const PixelBox& seen)
 {
   // At least a pixel, in the picture.
-  const glm::ivec2 first = glm::min(shown.low, picture - 1) / Step * Step;
-  const glm::ivec2 last = glm::max(shown.high - 1, first);
+  const glm::ivec2 first = glm::min(seen.low, picture - 1) / Step * Step;
+  const glm::ivec2 last = glm::max(seen.high - 1, first);
   const ImageArea needed = between(picture, first, glm::min((last / Step + 1) * Step, picture));
   if (held.picture != picture)
   {

@@ -3,7 +3,6 @@
 
 #include "Representations/Gpu/OpenGL.h"
 #include "Representations/Gpu/Program.h"
-#include "Representations/Picture/RayCaster.h"
 
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -34,25 +33,8 @@ vtkTextureObject* attachedDepth(vtkOpenGLRenderWindow* window)
 SceneDepth::SceneDepth() = default;
 SceneDepth::~SceneDepth() = default;
 
-void SceneDepth::capture(vtkOpenGLRenderWindow* window, const glm::ivec2& origin,
-  const glm::ivec2& size, const glm::ivec2& low, const glm::ivec2& high)
-{
-  if (vtkTextureObject* own = attachedDepth(window))
-  {
-    this->Shown = own;
-    const glm::vec2 whole(own->GetWidth(), own->GetHeight());
-    this->TextureFromShare = glm::vec2(size) / whole;
-    this->TextureOfShareZero = glm::vec2(origin) / whole;
-    return;
-  }
-  this->copy(window, origin, size, low, high);
-  this->Shown = this->Copy;
-  this->TextureFromShare = glm::vec2(1.0f);
-  this->TextureOfShareZero = glm::vec2(0.0f);
-}
-
 void SceneDepth::copy(vtkOpenGLRenderWindow* window, const glm::ivec2& origin,
-  const glm::ivec2& size, const glm::ivec2& low, const glm::ivec2& high)
+  const glm::ivec2& size, const PixelBox& part)
 {
   if (!this->Copy)
   {
@@ -84,21 +66,30 @@ void SceneDepth::copy(vtkOpenGLRenderWindow* window, const glm::ivec2& origin,
     GL_DRAW_FRAMEBUFFER, attachment, GL_TEXTURE_2D, this->Copy->GetHandle(), 0);
   framebuffer.drawColors(0);
   state->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<unsigned int>(source));
+  const glm::ivec2& low = part.low;
+  const glm::ivec2& high = part.high;
   const glm::ivec2 from = origin + low;
   const glm::ivec2 to = origin + high;
   glBlitFramebuffer(
     from.x, from.y, to.x, to.y, low.x, low.y, high.x, high.y, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
 }
 
-void SceneDepth::captureBehind(vtkOpenGLRenderWindow* window, const glm::ivec2& origin,
-  const glm::ivec2& size, RayCastScene& scene)
+SceneBehind SceneDepth::captureBehind(vtkOpenGLRenderWindow* window, const glm::ivec2& origin,
+  const glm::ivec2& size, const SceneImage& image)
 {
-  const glm::dvec2 windowPixels = glm::dvec2(size) / glm::dvec2(scene.size); // for one of the image
-  this->capture(window, origin, size, glm::floor(glm::dvec2(scene.shown.low) * windowPixels),
-    glm::ceil(glm::dvec2(scene.shown.high) * windowPixels));
-  scene.sceneDepth = this->texture();
-  scene.depthFromShare = this->textureFromShare();
-  scene.depthOfShareZero = this->textureOfShareZero();
+  if (vtkTextureObject* own = attachedDepth(window))
+  {
+    this->Readable = own;
+    const glm::vec2 whole(own->GetWidth(), own->GetHeight());
+    return { own, glm::vec2(size) / whole, glm::vec2(origin) / whole };
+  }
+  const glm::dvec2 windowPixels = glm::dvec2(size) / glm::dvec2(image.size); // for one of the image
+  const PixelBox& box = image.part.box;
+  this->copy(window, origin, size,
+    { glm::floor(glm::dvec2(box.low) * windowPixels),
+      glm::ceil(glm::dvec2(box.high) * windowPixels) });
+  this->Readable = this->Copy;
+  return { this->Copy, glm::vec2(1.0f), glm::vec2(0.0f) };
 }
 
 void SceneDepth::releaseGraphicsResources(vtkWindow* window)
@@ -108,6 +99,6 @@ void SceneDepth::releaseGraphicsResources(vtkWindow* window)
     this->Copy->ReleaseGraphicsResources(window);
   }
   this->Copy = nullptr;
-  this->Shown = nullptr;
+  this->Readable = nullptr;
 }
 }

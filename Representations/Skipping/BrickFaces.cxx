@@ -8,7 +8,8 @@ namespace brainshift
 {
 namespace
 {
-// The axes of a plane: one across it, and two in it, the first of which is nearer in memory.
+// The axes of a plane: one across it, and two in it. Neighbours along the first are nearer in
+// memory.
 struct PlaneAxes
 {
   int across;
@@ -18,8 +19,8 @@ struct PlaneAxes
 
 constexpr PlaneAxes Planes[3] = { { 0, 1, 2 }, { 1, 0, 2 }, { 2, 0, 1 } };
 
-// Faces side by side in a row that look the same way, and the row where the first such run below
-// them starts.
+// Faces side by side in a row that look in one direction, and the row in which the rectangle that
+// they belong to starts.
 struct Run
 {
   int outward;
@@ -69,7 +70,7 @@ private:
     const bool last = this->Plane == this->Count[this->Axes.across];
     const int length = this->Count[this->Axes.along];
     this->Runs.clear();
-    int outward = 0; // of the run that goes on, if any
+    int outward = 0; // of the present run, if any
     for (int i = 0; i < length; ++i, after += step)
     {
       const int here = !last && after[0] != 0;
@@ -90,7 +91,7 @@ private:
     }
   }
 
-  // Runs as long as the one below go on with it; runs below that nothing goes on with are done.
+  // A run that is as long as the run below continues its rectangle. Other runs below are finished.
   void join(int row)
   {
     auto run = this->Runs.begin();

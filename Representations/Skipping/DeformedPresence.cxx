@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Skipping/DeformedPresence.h"
 
-#include "Representations/Skipping/LeapMap.h"
 #include "Representations/Gpu/OpenGL.h"
 #include "Representations/Gpu/VolumePass.h"
+#include "Representations/Skipping/LeapMap.h"
 
 #include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -21,8 +21,8 @@ namespace brainshift
 {
 namespace
 {
-// Rectangles overlap by so much, bricks (a sixteenth of a voxel): neighbours of different length
-// have no corners in common, and the rasteriser would leave gaps where it rounds.
+// Rectangles overlap by so many bricks, which is a sixteenth of a voxel. Neighbours of different
+// length have no corners in common, and the rasteriser would leave gaps where it rounds.
 constexpr float RectangleOverlap = 1.0f / 64.0f;
 constexpr int CornersPerRectangle = 6; // two triangles
 
@@ -61,8 +61,8 @@ IndexBox bricksOfNodes(const PresenceRequest& request, const IndexBox& nodes)
       (glm::vec3(node) - request.nodesFromVoxelShift) / request.nodesFromVoxel;
     return glm::ivec3(glm::floor(voxel / static_cast<float>(BrickSide))) - request.first;
   };
-  // A brick also asks the nodes just beyond its overlap into its neighbours; nodes at the field's
-  // end stand for all that lies beyond.
+  // A brick also asks the nodes just beyond its margin. Nodes at the end of the field stand for
+  // everything that lies beyond.
   IndexBox box{ glm::max(brickOfNode(nodes.first - 1) - 1, glm::ivec3(0)),
     glm::min(brickOfNode(nodes.last + 1) + 1, request.count - 1) };
   const glm::ivec3 lastNode(request.offsets->GetWidth() - 1, request.offsets->GetHeight() - 1,
@@ -80,7 +80,7 @@ IndexBox blocksOf(const IndexBox& bricks)
   return { bricks.first / BricksInBlock, bricks.last / BricksInBlock };
 }
 
-// Where boxes lie in their textures: they are asked at once and not kept.
+// How far a box is moved along x in its texture, which is read at once and not kept.
 glm::ivec3 shiftOf(const IndexBox& box)
 {
   return { leadToSecondThread(box.first.x, box.size().x), 0, 0 };
@@ -232,15 +232,15 @@ bool DeformedPresence::update(vtkOpenGLRenderWindow* window, const PresenceReque
 {
   IndexBox box{ glm::ivec3(0), request.count - 1 };
   bool known = false; // which bricks were occupied
-  if (!this->Map || this->Shown.count != request.count)
+  if (!this->Map || this->Known.count != request.count)
   {
     if (!this->allocate(window, request.count))
     {
       return false;
     }
-    this->Shown.count = request.count;
+    this->Known.count = request.count;
   }
-  else if (!this->AllNew && samePlaces(this->Shown, request))
+  else if (!this->AllNew && samePlaces(this->Known, request))
   {
     known = true;
     box = bricksOfNodes(request, changed);
@@ -264,14 +264,14 @@ bool DeformedPresence::update(vtkOpenGLRenderWindow* window, const PresenceReque
     counters.skippingBytes += static_cast<std::int64_t>(this->Occupied.size()) + this->faceBytes();
   }
   counters.presenceUpdates += 1;
-  this->Shown = request;
+  this->Known = request;
   this->AllNew = false;
   return true;
 }
 
-// One byte a brick comes back, once an edit and never for a camera move: making the faces on the
-// GPU would cost its geometry stage every frame, and distances many passes. Returns whether
-// any brick changed: half the pictures of a slow drag fill or empty none.
+// One byte of each brick comes back, once for an edit and never for a camera move. Making the faces
+// on the GPU would cost its geometry stage in every frame, and distances would take many passes.
+// Returns whether any brick changed: half the pictures of a slow drag fill or empty none.
 bool DeformedPresence::readMap(const PresenceRequest& request, const IndexBox& box)
 {
   const glm::ivec3 held(this->Map->GetWidth(), this->Map->GetHeight(), this->Map->GetDepth());
@@ -372,7 +372,7 @@ bool DeformedPresence::isOutside(const glm::dvec4& eye) const
 
 glm::dvec4 DeformedPresence::fromFirstBrick(const glm::dvec4& eye) const
 {
-  return glm::dvec4(glm::dvec3(eye) - eye.w * glm::dvec3(this->Shown.first), eye.w);
+  return glm::dvec4(glm::dvec3(eye) - eye.w * glm::dvec3(this->Known.first), eye.w);
 }
 
 // `ranges`: first rectangle, and one past the last.

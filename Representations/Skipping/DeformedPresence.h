@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The presence map in the deformed frame, and the faces of its occupied bricks.
+/**
+ * @file
+ * @brief The presence map in the deformed frame, and the faces of its occupied bricks.
+ */
 #ifndef BrainShift_DeformedPresence_h
 #define BrainShift_DeformedPresence_h
 
-#include "Representations/Skipping/BrickFaces.h"
-#include "Representations/Gpu/Counters.h"
 #include "Filters/Deformation/FieldChange.h"
+#include "Representations/Gpu/Counters.h"
 #include "Representations/Gpu/Program.h"
+#include "Representations/Skipping/BrickFaces.h"
 #include "Representations/Skipping/RestPresence.h"
 
 #include "vtkSmartPointer.h"
+#include "vtkTextureObject.h" // for its smart pointer
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -21,58 +25,65 @@
 
 class vtkOpenGLBufferObject;
 class vtkOpenGLRenderWindow;
-class vtkTextureObject;
 class vtkWindow;
 
 namespace brainshift
 {
+/// Which bricks are asked for, and how the offset field lies to them.
 struct PresenceRequest
 {
-  glm::ivec3 restBricks{ 0 };
-  glm::ivec3 first{ 0 };         // first brick of the deformed frame
-  glm::ivec3 count{ 0 };         // bricks a side
-  glm::vec3 lowestVoxel{ 0.0f }; // the volume's box, voxels
+  glm::ivec3 restBricks{ 0 };    ///< Bricks of the rest volume, a side.
+  glm::ivec3 first{ 0 };         ///< First brick of the deformed frame.
+  glm::ivec3 count{ 0 };         ///< Bricks of the deformed frame, a side.
+  glm::vec3 lowestVoxel{ 0.0f }; ///< The volume's box, voxels.
   glm::vec3 highestVoxel{ 0.0f };
-  vtkTextureObject* offsets = nullptr; // null: nothing is deformed
+  vtkTextureObject* offsets = nullptr; ///< Null: nothing is deformed.
   glm::vec3 voxelsFromOffset{ 1.0f };
-  glm::vec3 nodesFromVoxel{ 1.0f };
+  glm::vec3 nodesFromVoxel{ 1.0f }; ///< node = voxel * nodesFromVoxel + nodesFromVoxelShift
   glm::vec3 nodesFromVoxelShift{ 0.0f };
 };
 
+/// The presence map of one volume in one window.
 class DeformedPresence
 {
 public:
   DeformedPresence();
   ~DeformedPresence();
 
-  // Uploads summedVisibility of the rest volume; anew after a change of the colour map.
+  /// Uploads the summedVisibility of the rest volume. Call it anew after a change of the colour
+  /// map.
   bool setVisibility(vtkOpenGLRenderWindow* window, const glm::ivec3& restBricks,
     std::vector<float>& summed, Counters& counters);
 
-  // Finds the occupied bricks and makes their faces, if anything changed. `changed`: the nodes
-  // whose offsets differ from the last update; all bricks are done after any other change.
+  /// Finds the occupied bricks and makes their faces, if anything changed. `changed`: the nodes
+  /// whose offsets differ from the last update. After any other change all bricks are asked.
   bool update(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
     const IndexBox& changed, Counters& counters);
 
-  // bricksToOccupied (LeapMap.h), as shares of 255.
+  /// bricksToOccupied (LeapMap.h), as shares of 255.
   vtkTextureObject* leaps() const { return this->Leaps; }
 
-  // Draws the faces with a program in use whose attribute `corner` takes brick corners: all, or
-  // those that `eye` (as `facing` takes it, from the volume's first voxel) sees from in front.
+  /// Draws all faces with a program in use, whose attribute `corner` takes the corners in bricks.
   void drawFaces(int programHandle);
+
+  /// Draws only the faces that look towards an eye. `eye`: see `facing`, from the volume's first
+  /// voxel.
   void drawFaces(int programHandle, const glm::dvec4& eye);
-  // Whether an eye is outside the box of the occupied bricks, so that front faces are all it meets
-  // first.
+
+  /// Whether an eye is outside the box of the occupied bricks. Then a ray meets front faces first.
   bool isOutside(const glm::dvec4& eye) const;
 
-  // Boxes that hold the occupied bricks (BrickFaces.h); indices count from the request's first one.
+  /// Boxes that hold the occupied bricks (BrickFaces.h). Indices count from the request's first
+  /// brick.
   const std::vector<IndexBox>& occupiedLayers() const { return this->OccupiedLayers; }
 
-  // All textures, some of which may be null, and the bytes of the faces on the GPU.
+  /// All textures; some may be null.
   std::vector<vtkTextureObject*> textures() const
   {
     return { this->Summed, this->Map, this->Leaps, this->Blocks[0], this->Blocks[1] };
   }
+
+  /// Bytes of the faces on the GPU.
   std::int64_t faceBytes() const;
 
   void releaseGraphicsResources(vtkWindow* window);
@@ -91,12 +102,12 @@ private:
   glm::dvec4 fromFirstBrick(const glm::dvec4& eye) const;
 
   vtkSmartPointer<vtkTextureObject> Summed;
-  vtkSmartPointer<vtkTextureObject> Map; // 1 for occupied bricks, 0 for others: those asked last
-  std::vector<std::uint8_t> Occupied;    // the same, of all bricks
+  vtkSmartPointer<vtkTextureObject> Map; // 1 for occupied bricks, 0 for others, of those asked last
+  std::vector<std::uint8_t> Occupied;    // 1 for occupied bricks, 0 for others, of all bricks
   vtkSmartPointer<vtkTextureObject> Leaps;
   vtkSmartPointer<vtkTextureObject> Blocks[2]; // least, greatest offset in each, voxels
   vtkSmartPointer<vtkOpenGLBufferObject> Corners;
-  PresenceRequest Shown; // what Occupied tells
+  PresenceRequest Known; // the request that Occupied answers
   bool AllNew = true;    // nothing of Occupied can be kept
   Program BlocksProgram;
   Program MapPrograms[2]; // [deformed]

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Skipping/FacePass.h"
 
-#include "Representations/Skipping/DeformedPresence.h"
+#include "Representations/Gpu/Program.h"
 #include "Representations/Scene/Frustum.h"
-#include "Representations/Picture/RayCaster.h"
+#include "Representations/Scene/RayCastScene.h"
+#include "Representations/Skipping/DeformedPresence.h"
 
 #include "vtkShaderProgram.h"
 
@@ -16,46 +17,46 @@ namespace brainshift
 {
 namespace
 {
-// Faces of the occupied bricks. All of a plane parallel to the near plane lies at the same share of
-// the way to the far plane, so that a ray's t is that share of its length.
+// A plane parallel to the near plane lies at one share of the way to the far plane. So the distance
+// along a ray is that share of the ray's length.
 void setFaceUniforms(Program& program, const RayCastScene& scene)
 {
-  const glm::dmat4 clipFromTexture = scene.clipFromWorld * scene.worldFromTexture;
+  const glm::dmat4 clipFromTexture = scene.frame.clipFromWorld * scene.frame.worldFromTexture;
   const Frustum frustum = frustumOf(clipFromTexture);
   const glm::dvec3 across = glm::cross(frustum.near.right, frustum.near.up);
   const glm::dvec3 share = across / glm::dot(across, frustum.far.origin - frustum.near.origin);
   program.set("shareFromTexture", glm::vec3(share));
   program.set("shareOfTextureZero", static_cast<float>(-glm::dot(share, frustum.near.origin)));
   program.set("clipFromTexture", glm::mat4(clipFromTexture));
-  program.set("textureFromBrick", glm::vec3(scene.textureFromBrick));
-  program.set("textureOfBrickZero", glm::vec3(scene.textureOfBrickZero));
+  program.set("textureFromBrick", glm::vec3(scene.skipping.textureFromBrick));
+  program.set("textureOfBrickZero", glm::vec3(scene.skipping.textureOfBrickZero));
 }
 
-// The eye in bricks, as DeformedPresence takes it.
+// The eye in bricks, homogeneous, as DeformedPresence takes it.
 glm::dvec4 eyeInBricks(const RayCastScene& scene)
 {
-  const glm::dmat4 clipFromTexture = scene.clipFromWorld * scene.worldFromTexture;
-  // What projects to no place in the window but to depth alone: the eye, or the way towards it.
+  const glm::dmat4 clipFromTexture = scene.frame.clipFromWorld * scene.frame.worldFromTexture;
+  // What projects to no place in the window but only to a depth: the eye, or the direction to it.
   const glm::dvec4 eye = glm::inverse(clipFromTexture) * glm::dvec4(0.0, 0.0, -1.0, 0.0);
   const double w = std::abs(eye.w) < 1e-9 * glm::length(glm::dvec3(eye)) ? 0.0 : eye.w;
-  return glm::dvec4((glm::dvec3(eye) - w * scene.textureOfBrickZero) / scene.textureFromBrick, w);
+  return glm::dvec4(
+    (glm::dvec3(eye) - w * scene.skipping.textureOfBrickZero) / scene.skipping.textureFromBrick, w);
 }
-
 }
 
 void drawFaces(Program& program, const RayCastScene& scene)
 {
   const glm::dvec4 eye = eyeInBricks(scene);
-  const bool frontAlone = scene.raysEndSoon() && scene.presence->isOutside(eye);
+  const bool frontAlone = scene.tissue.raysEndSoon() && scene.skipping.presence->isOutside(eye);
   setFaceUniforms(program, scene);
   program.set("backDrawn", frontAlone ? 0.0f : 1.0f);
   if (frontAlone)
   {
-    scene.presence->drawFaces(program.get()->GetHandle(), eye);
+    scene.skipping.presence->drawFaces(program.get()->GetHandle(), eye);
   }
   else
   {
-    scene.presence->drawFaces(program.get()->GetHandle());
+    scene.skipping.presence->drawFaces(program.get()->GetHandle());
   }
 }
 }

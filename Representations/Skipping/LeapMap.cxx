@@ -8,7 +8,8 @@ namespace brainshift
 {
 namespace
 {
-// Lowers `to` to what is found `away` elements further on in `from`, or to `away` if that is more.
+// Lowers `to` to the greater of `away` and the element of `from` that lies `away` elements further
+// on.
 void lower(std::uint8_t* to, const std::uint8_t* from, std::uint8_t away, std::size_t count)
 {
   for (std::size_t i = 0; i < count; ++i)
@@ -17,8 +18,8 @@ void lower(std::uint8_t* to, const std::uint8_t* from, std::uint8_t away, std::s
   }
 }
 
-// Distances along one axis, whose `length` elements lie `stride` apart in each of `blocks` blocks:
-// the maximum norm is found axis by axis.
+// Distances along one axis, whose `length` elements lie `stride` apart in each of `blocks` blocks.
+// The maximum norm can be computed axis by axis.
 std::vector<std::uint8_t> alongAxis(
   const std::vector<std::uint8_t>& from, int length, std::size_t stride, std::size_t blocks)
 {

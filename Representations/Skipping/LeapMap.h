@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How far a ray may leap through empty bricks (Deakin and Knackstedt, 2019, on volumes at rest;
-// here of the deformed frame).
+/**
+ * @file
+ * @brief How far a ray may leap through empty bricks.
+ *
+ * Deakin and Knackstedt (2019) do so with volumes at rest; here it is done in the deformed frame.
+ */
 #ifndef BrainShift_LeapMap_h
 #define BrainShift_LeapMap_h
 
@@ -13,11 +17,11 @@
 
 namespace brainshift
 {
-constexpr int LongestLeap = 8; // bricks; longer ones gain little
+constexpr int LongestLeap = 8; ///< Bricks. Longer leaps gain little.
 
-// For each of count.x * y * z bricks, x fastest: how many bricks away the nearest occupied one is,
-// along the axis on which it is farthest (Chebyshev distance); 0 if it is occupied itself, at most
-// LongestLeap. `occupied`: 0 for empty bricks.
+/// For each of count.x * y * z bricks, x fastest: the Chebyshev distance to the nearest occupied
+/// brick, in bricks, at most LongestLeap. 0 if the brick is occupied itself. `occupied`: 0 for
+/// empty bricks.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<std::uint8_t> bricksToOccupied(
   const std::vector<std::uint8_t>& occupied, const glm::ivec3& count);
 }

@@ -22,7 +22,7 @@ template <typename T>
 constexpr T NoGreatest = std::numeric_limits<T>::has_infinity ? -std::numeric_limits<T>::infinity()
                                                               : std::numeric_limits<T>::lowest();
 
-// Least and greatest values, place by place.
+// Least and greatest values, element by element.
 template <typename T>
 struct Extremes
 {
@@ -39,8 +39,8 @@ struct Extremes
 template <typename T>
 using Rows = std::array<const T*, BrickReach>;
 
-// What interpolation finds BrickMargin beyond the voxel `at`, towards `next`, where that is less,
-// or more; else `at`. Whole numbers are rounded away from it.
+// The value that interpolation finds BrickMargin beyond the voxel `at`, towards `next`, if it is
+// less (or more) than `at`; else `at`. Whole numbers are rounded away from `at`.
 float lessBeyond(float at, float next)
 {
   const float difference = next - at;
@@ -65,9 +65,9 @@ std::uint16_t moreBeyond(std::uint16_t at, std::uint16_t next)
   return static_cast<std::uint16_t>(at + (std::max(next - at, 0) + Parts - 1) / Parts);
 }
 
-// Extremes of the rows, the outer ones only as far as the margin, place by place. `least` and
-// `greatest` are the same rows where nothing was combined yet. A comparison with NaN is false, so
-// NaN is left out.
+// Extremes of the rows, element by element; the outer rows count only as far as the margin. Before
+// anything is combined, `least` and `greatest` point to equal rows. A comparison with NaN is false,
+// so NaN is left out.
 template <typename T>
 void combine(const Rows<T>& least, const Rows<T>& greatest, std::size_t length,
   T* __restrict leastOut, T* __restrict greatestOut)
@@ -98,7 +98,7 @@ void combine(const Rows<T>& least, const Rows<T>& greatest, std::size_t length,
   }
 }
 
-// The rows a brick knows, of `count` rows `stride` apart; at the border the last one again.
+// The rows that a brick knows, of `count` rows `stride` apart. At the border the last row repeats.
 template <typename T>
 Rows<T> rowsOf(const T* values, int brick, int count, std::size_t stride)
 {
@@ -110,7 +110,8 @@ Rows<T> rowsOf(const T* values, int brick, int count, std::size_t stride)
   return rows;
 }
 
-// What one thread needs: a layer of bricks is narrowed along z, then a row of it along y, then x.
+// The work of one thread: it reduces a layer of bricks along z, then each row of it along y, then
+// x.
 template <typename T>
 class LayerRanges
 {
@@ -156,7 +157,8 @@ private:
       least[i] = &this->Row.least[i];
       greatest[i] = &this->Row.greatest[i];
     }
-    // Every voxel's window, of which every other is a brick's: faster than to gather these alone.
+    // All windows, although only every second one belongs to a brick: that is faster than to gather
+    // only those.
     combine(least, greatest, width, this->Windows.least.data(), this->Windows.greatest.data());
     for (int brick = 0; brick < bricks; ++brick)
     {
@@ -237,7 +239,7 @@ glm::vec2 VisibleValues::ends() const
 
 float usualDifference(const BrickRanges& bricks)
 {
-  constexpr std::size_t enough = 100000; // bricks tell as well as all of them
+  constexpr std::size_t enough = 100000; // so many bricks give nearly the result of all of them
   const std::size_t step = std::max<std::size_t>(bricks.ranges.size() / enough, 1);
   std::vector<float> differences;
   for (std::size_t i = 0; i < bricks.ranges.size(); i += step)
@@ -270,7 +272,7 @@ BrickRanges brickRanges(const std::uint16_t* values, const glm::ivec3& dimension
 
 void sumUp(std::vector<float>& counts, const glm::ivec3& size)
 {
-  // No sum on the way exceeds the last, so all stay exact.
+  // No partial sum exceeds the last one, so all are exact.
   const std::size_t width = size.x;
   const std::size_t layer = width * size.y;
   parallelFor(0, size.z, 1, [&](vtkIdType first, vtkIdType last) {

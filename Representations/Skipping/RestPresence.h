@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which blocks of the rest volume can be seen with the present colour map: the paper's presence map
-// (section 2), as the rest-frame half of exact skipping. See ARCHITECTURE.md, "Skipping".
+/**
+ * @file
+ * @brief Which bricks of the rest volume can be seen with the present colour map.
+ *
+ * This is the presence map of the paper (section 2), as the rest-frame half of exact skipping.
+ */
 #ifndef BrainShift_RestPresence_h
 #define BrainShift_RestPresence_h
 
 #include "Filters/Deformation/Parallel.h"
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
+
+#include "vtkType.h" // for vtkIdType
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -17,49 +23,51 @@
 
 namespace brainshift
 {
-constexpr int RestBrickSide = 2; // voxels, in the rest volume
-constexpr int BrickSide = 4;     // voxels, in the deformed frame; 8 occupies more, 2 has more faces
+constexpr int RestBrickSide = 2; ///< Voxels, in the rest volume.
+constexpr int BrickSide = 4; ///< Voxels, in the deformed frame. 8 occupies more, 2 has more faces.
 
-// Bricks of both frames look at so many voxels around them, so that a visible sample near a face
-// makes the brick beyond that face occupied too: the rasteriser and brick numbers may round.
+/// Bricks of both frames look at so many voxels around them. A visible sample near a face so makes
+/// the brick beyond that face occupied, too: the rasteriser and brick numbers may round.
 constexpr float BrickMargin = 1.0f / 8.0f;
 
-// The least and the greatest value that interpolation can find within each brick.
+/// The least and the greatest value that interpolation can find within each brick.
 struct BrickRanges
 {
-  glm::ivec3 count{ 0 };
-  std::vector<glm::vec2> ranges; // x: least, y: greatest; least > greatest: no number in it
+  glm::ivec3 count{ 0 };         ///< Bricks a side.
+  std::vector<glm::vec2> ranges; ///< x: least, y: greatest; least > greatest: no number.
 
-  // Least and greatest of all; least > greatest: no number in any.
+  /// Least and greatest value of all bricks; least > greatest: no number in any.
   VTKBRAINSHIFTREPRESENTATIONS_EXPORT glm::vec2 whole() const;
 };
 
-// `values`: dimensions.x * y * z numbers, x fastest, to be multiplied by `scale`, which is above 0.
-// A range is that of all that interpolation finds within the brick and BrickMargin around it. NaN
-// is left out: it is never visible.
+///@{
+/// The range of each brick: of all that interpolation finds within it and BrickMargin around it.
+/// NaN is left out: it is never visible. `values`: dimensions.x * y * z numbers, x fastest, which
+/// are multiplied by `scale`, above 0.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT BrickRanges brickRanges(
   const float* values, const glm::ivec3& dimensions, float scale = 1.0f);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT BrickRanges brickRanges(
   const std::uint16_t* values, const glm::ivec3& dimensions, float scale = 1.0f);
+///@}
 
-// How much values differ within a brick, if anything: all but one such brick in a hundred stay
-// below. 0 where nothing differs. So a few outliers, metal in a CT, tell nothing about the rest.
+/// How much values usually differ within a brick: of all bricks in which they differ, 99 in a
+/// hundred stay below. 0 if no values differ. So a few outliers, like metal in a CT, do not count.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT float usualDifference(const BrickRanges& bricks);
 
-// Which values a colour map of `entries` colours shows.
+/// Which values a colour map makes visible.
 struct VisibleValues
 {
-  int entries = 0;
-  std::vector<int> before;     // visible entries with lower indices; entries + 1 of them
-  double entryFromValue = 1.0; // entry = value * entryFromValue + entryOfValueZero
+  int entries = 0;             ///< Colours of the map.
+  std::vector<int> before;     ///< Visible entries with lower indices: entries + 1 numbers.
+  double entryFromValue = 1.0; ///< entry = value * entryFromValue + entryOfValueZero
   double entryOfValueZero = 0.0;
 
-  // Least and greatest value that can be visible, with two entries more to either side for rounding;
-  // least above greatest if none can.
+  /// Least and greatest value that can be visible, with two more entries on either side for
+  /// rounding. Least above greatest if no value can be visible.
   VTKBRAINSHIFTREPRESENTATIONS_EXPORT glm::vec2 ends() const;
 
-  // Whether a value in the range can be visible: whether one of the entries the texture may answer
-  // with is, or one more to either side, for rounding.
+  /// Whether a value in the range can be visible: whether any entry is that the texture may answer
+  /// with, or one more entry on either side, for rounding.
   bool operator()(const glm::vec2& range) const
   {
     const double last = this->entries - 1.0;
@@ -73,12 +81,12 @@ struct VisibleValues
   }
 };
 
-// Turns 1 for each visible brick, in the order of summedVisibility, into sums.
+/// Turns 1 for each visible brick, in the order of summedVisibility, into sums.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT void sumUp(std::vector<float>& counts, const glm::ivec3& size);
 
-// Number of visible bricks with lower indices on all axes: (count + 1)^3 numbers, x fastest, so
-// that eight of them tell how many lie in any box. `visible` says it of a range, on many threads.
-// Exact up to 2^24 bricks.
+/// Number of visible bricks with lower indices on all axes: (count + 1)^3 numbers, x fastest. Eight
+/// of them give the number of visible bricks in any box. `visible`, called on many threads, says
+/// whether a range is visible. Exact up to 2^24 bricks.
 template <typename Visible>
 std::vector<float> summedVisibility(const BrickRanges& bricks, const Visible& visible)
 {

@@ -3,9 +3,10 @@
  * @class   OrientationMarks
  * @brief   the letters R L A P S I at the edges of a view
  *
- * They tell towards which side of the patient each edge lies, where world axes are right, anterior,
- * superior. Found from the camera for every picture, so that they are right however a view is
- * turned; gone where the view looks along no axis, within about 25 degrees.
+ * A letter names the side of the patient towards which its edge lies: right, left, anterior,
+ * posterior, superior or inferior. The letters follow from the camera of each picture, so that they
+ * are right however the view is turned. A view that looks along no axis, within about 25 degrees,
+ * shows none.
  */
 #ifndef BrainShift_OrientationMarks_h
 #define BrainShift_OrientationMarks_h
@@ -22,8 +23,8 @@ class vtkTextActor;
 
 namespace brainshift
 {
-// Letters of the right, left, upper and lower edge of a view, from the directions (world) that
-// point right and up in it; empty where a direction follows no axis.
+/// Letters of the right, left, upper and lower edge of a view, from the directions (world) that
+/// point right and up in it. Empty if a direction follows no axis.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::array<std::string, 4> edgeLetters(
   const double right[3], const double up[3]);
 

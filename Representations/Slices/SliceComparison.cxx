@@ -19,11 +19,11 @@ glm::dvec3 mmFromTexture(const Grid& grid, const ValueLayout& layout)
   return grid.spacing / layout.textureFromGrid;
 }
 
-// Share of what is shown (its ends) from what a texture stores: scale, shift.
-glm::dvec2 shareFromStored(const glm::dvec2& shown, const StoredScalar& value)
+// Share of the range of greys from what a texture stores: scale, shift.
+glm::dvec2 shareFromStored(const glm::dvec2& greys, const StoredScalar& value)
 {
-  const double length = shown.y > shown.x ? shown.y - shown.x : 1.0;
-  return { value.scale / length, (value.shift - shown.x) / length };
+  const double length = greys.y > greys.x ? greys.y - greys.x : 1.0;
+  return { value.scale / length, (value.shift - greys.x) / length };
 }
 }
 
@@ -54,13 +54,11 @@ std::array<WipePlane, 3> wipePlanes(
   return planes;
 }
 
-bool ReferenceTextures::update(vtkOpenGLRenderWindow* window, const ReferenceVolume& reference,
-  const ComparisonChoice& choice, const ComparedVolume& volume, ReferenceScene& scene,
-  Counters& counters, std::string& problem)
+bool ReferenceTextures::update(GpuTask& gpu, const ReferenceVolume& reference,
+  const ComparisonChoice& choice, const ComparedVolume& volume, ReferenceScene& scene)
 {
   const ValueLayout layout = layoutOf(reference.grid.dimensions, false);
-  if (!this->Voxels.update(
-        window, reference.voxels, layout.dimensions, FirstComponent, counters, problem))
+  if (!this->Voxels.update(gpu, reference.voxels, layout.dimensions, FirstComponent))
   {
     return false;
   }
@@ -72,9 +70,9 @@ bool ReferenceTextures::update(vtkOpenGLRenderWindow* window, const ReferenceVol
   scene.place = { this->Voxels.texture(), place.otherFromTexture(reference.grid, layout),
     layout.low, layout.high };
   scene.voxels = layout.dimensions;
-  scene.shareFromReference = shareFromStored(volume.shownRange,
+  scene.shareFromReference = shareFromStored(volume.greyRange,
     mappedFurther({ this->Voxels.scale(), this->Voxels.shift() }, volume.valueFromReference));
-  scene.shareFromScalar = shareFromStored(volume.shownRange, volume.valueFromStored);
+  scene.shareFromScalar = shareFromStored(volume.greyRange, volume.valueFromStored);
   const double scale = volume.transferFromStored.x / scene.shareFromScalar.x;
   scene.transferFromShare = { scale,
     volume.transferFromStored.y - scene.shareFromScalar.y * scale };
@@ -83,7 +81,7 @@ bool ReferenceTextures::update(vtkOpenGLRenderWindow* window, const ReferenceVol
   scene.greenFromGradient =
     scene.shareFromReference.x / mmFromTexture(reference.grid, layout) / choice.fullGradient;
   scene.wipes = wipePlanes(volume.grid, volume.layout, choice.wipePosition);
-  return this->Cavity.update(window, reference.cavity, place, scene.cavity, counters, problem);
+  return this->Cavity.update(gpu, reference.cavity, place, scene.cavity);
 }
 
 std::vector<vtkTextureObject*> ReferenceTextures::textures() const

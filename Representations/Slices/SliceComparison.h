@@ -1,90 +1,92 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A reference volume beside the bent one in slices: what lies on the GPU, and what the shader is
-// told (Shaders/Slices/comparison.glsl).
+/**
+ * @file
+ * @brief A reference volume beside the bent one in slices: its textures, and the uniforms of
+ * Shaders/Slices/comparison.glsl.
+ */
 #ifndef BrainShift_SliceComparison_h
 #define BrainShift_SliceComparison_h
 
-#include "Representations/Gpu/Counters.h"
-#include "Representations/Tissue/PlacedReference.h"
 #include "Filters/Attached/ReferenceVolume.h"
-#include "Representations/Tissue/ScalarTexture.h"
+#include "Representations/Scene/PlacedReference.h"
 #include "Representations/Scene/SceneGeometry.h"
-#include "Representations/Tissue/Tissue.h"
+#include "Representations/Scene/VolumeChoices.h"
+#include "Representations/Tissue/CavityTexture.h"
+#include "Representations/Tissue/ScalarTexture.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <array>
-#include <string>
 #include <vector>
 
-class vtkOpenGLRenderWindow;
 class vtkTextureObject;
 class vtkWindow;
 
 namespace brainshift
 {
+struct GpuTask;
 class Program;
 
-// What the user chose; see vtkDeformedSlicesMapper.
+/// What the user chose; see vtkDeformedSlicesMapper.
 struct ComparisonChoice
 {
-  int comparison = 0;             // as numbered there
-  double checkerSizeMm = 1.0;     // of a field
-  double fullGradient = 1.0;      // share of what is shown within a mm that is fully green
-  glm::dvec3 wipePosition{ 0.0 }; // mm, world
+  int comparison = 0;             ///< As numbered there.
+  double checkerSizeMm = 1.0;     ///< Side of a field.
+  double fullGradient = 1.0;      ///< Share of the range of greys per mm that is fully green.
+  glm::dvec3 wipePosition{ 0.0 }; ///< mm, world.
 };
 
-// How the volume's scalars and texture lie to the world, and the scalars of both to what is shown.
+/// The bent volume, and what the scalars of both volumes mean.
 struct ComparedVolume
 {
   Grid grid;
   ValueLayout layout;
-  glm::dvec2 shownRange{ 0.0, 1.0 };         // the volume's values that are black and white
-  StoredScalar valueFromStored;              // of the volume
-  StoredScalar valueFromReference;           // as in 3D: see SceneReference.h
-  glm::dvec2 transferFromStored{ 1.0, 0.0 }; // coordinate of the colour map
-  bool nearest = false;                      // filter of both
+  glm::dvec2 greyRange{ 0.0, 1.0 };          ///< The volume's values that are black and white.
+  StoredScalar valueFromStored;              ///< Of the volume.
+  StoredScalar valueFromReference;           ///< See SceneReference.h; used in 3D, too.
+  glm::dvec2 transferFromStored{ 1.0, 0.0 }; ///< Coordinate of the colour map: scale, shift.
+  bool nearest = false;                      ///< Voxels of both are drawn as they are.
 };
 
-// A plane that divides a slice: mm beyond it from texture coordinates, on the reference's side.
+/// A plane that divides a slice: mm beyond it, on the reference's side, from texture coordinates.
 struct WipePlane
 {
   glm::dvec3 normal{ 0.0 };
   double shift = 0.0;
 };
 
+/// What the shader needs of a reference.
 struct ReferenceScene
 {
   PlacedReference place;
   PlacedCavity cavity;
-  glm::ivec3 voxels{ 1 };                    // of the reference, a side
-  glm::dvec2 shareFromReference{ 1.0, 0.0 }; // stored scalar to its share of what is shown
-  glm::dvec2 shareFromScalar{ 1.0, 0.0 };    // the same of the volume
-  glm::dvec2 transferFromShare{ 1.0, 0.0 };
-  int comparison = 0;                    // 0: the reference alone
-  glm::dvec3 checkersFromTexture{ 1.0 }; // checker fields for a texture unit
-  glm::dvec3 greenFromGradient{ 1.0 };   // stored scalar for a unit of its texture, to full green
-  std::array<WipePlane, 3> wipes;        // of the slices across each axis of the volume's texture
+  glm::ivec3 voxels{ 1 };                    ///< Of the reference, a side.
+  glm::dvec2 shareFromReference{ 1.0, 0.0 }; ///< Stored scalar to its share of the range of greys.
+  glm::dvec2 shareFromScalar{ 1.0, 0.0 }; ///< The volume's stored scalar to its share of the greys.
+  glm::dvec2 transferFromShare{ 1.0, 0.0 }; ///< Coordinate of the colour map from that share.
+  int comparison = 0;                       ///< 0: the reference alone.
+  glm::dvec3 checkersFromTexture{ 1.0 };    ///< Checker fields for a texture unit.
+  glm::dvec3 greenFromGradient{ 1.0 }; ///< Gradient (stored scalar per texture unit) to full green.
+  std::array<WipePlane, 3> wipes;      ///< For the slices across each axis of the texture.
 };
 
-// Slices across the volume's axis nearest to world x are divided across the one nearest to y, all
-// others across the one nearest to x. The reference lies towards smaller x and y: on the right of
-// all radiological pictures.
+/// The planes that divide the slices across each axis. Slices across the volume's axis nearest to
+/// world x are divided across the axis nearest to y, all others across the axis nearest to x. The
+/// reference lies towards smaller x and y: on the right of all radiological pictures.
 std::array<WipePlane, 3> wipePlanes(
   const Grid& grid, const ValueLayout& layout, const glm::dvec3& positionMm);
 
-// The reference and its cavity in a window.
+/// The reference and its cavity in one window.
 class ReferenceTextures
 {
 public:
-  // Makes them current and fills in the scene. False, with one sentence in `problem`, if this GPU
-  // cannot.
-  bool update(vtkOpenGLRenderWindow* window, const ReferenceVolume& reference,
-    const ComparisonChoice& choice, const ComparedVolume& volume, ReferenceScene& scene,
-    Counters& counters, std::string& problem);
+  /// Uploads them if they changed, and fills in the scene. False, with a problem, if this GPU
+  /// cannot.
+  bool update(GpuTask& gpu, const ReferenceVolume& reference, const ComparisonChoice& choice,
+    const ComparedVolume& volume, ReferenceScene& scene);
 
-  std::vector<vtkTextureObject*> textures() const; // null: not in use
+  std::vector<vtkTextureObject*> textures() const; ///< Null: not in use.
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
@@ -92,9 +94,11 @@ private:
   CavityTexture Cavity;
 };
 
+/// Sets the uniforms of comparison.glsl, except for the wipe.
 void setReferenceUniforms(Program& program, const ReferenceScene& scene);
 
-// `axis`: of the volume's texture, that the slice to be drawn lies across.
+/// Sets the uniforms of the wipe. `axis`: the axis of the volume's texture that the slice lies
+/// across.
 void setWipeUniforms(Program& program, const ReferenceScene& scene, int axis);
 }
 

@@ -3,6 +3,7 @@
 
 #include "Representations/Gpu/OpenGL.h"
 #include "Representations/Gpu/SceneScope.h"
+#include "Representations/Scene/SceneUniforms.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
@@ -16,16 +17,21 @@ namespace brainshift
 {
 namespace
 {
+glm::dmat4 clipFromTexture(const SceneFrame& frame)
+{
+  return frame.clipFromWorld * frame.worldFromTexture;
+}
+
 void setSliceUniforms(Program& program, const SliceScene& scene)
 {
-  const RayCastScene& volume = scene.volume;
-  setTissueUniforms(program, volume);
-  if (volume.offsets)
+  constexpr int noDoublings = 0;
+  setTissueUniforms(program, scene.tissue, noDoublings);
+  if (scene.field.offsets)
   {
-    setFieldUniforms(program, volume);
+    setFieldUniforms(program, scene.field);
   }
-  setColoringUniforms(program, volume.options);
-  program.set("clipFromTexture", glm::mat4(volume.clipFromWorld * volume.worldFromTexture));
+  setColoringUniforms(program, scene.tissue.coloring);
+  program.set("clipFromTexture", glm::mat4(clipFromTexture(scene.frame)));
   program.set("voxels", glm::vec3(scene.voxels));
   program.set("cubic", scene.cubic ? 1 : 0);
   program.set("opacity", static_cast<float>(scene.opacity));
@@ -36,8 +42,8 @@ void setSliceUniforms(Program& program, const SliceScene& scene)
 
 bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, Counters& counters)
 {
-  const RayCastScene& volume = scene.volume;
-  const SlicesVariant variant{ volume.offsets != nullptr, volume.options.coloring,
+  const SceneTissue& tissue = scene.tissue;
+  const SlicesVariant variant{ scene.field.offsets != nullptr, tissue.coloring.source,
     scene.reference.place.scalars != nullptr, scene.reference.cavity.voxels != nullptr };
   Program& program = this->Programs[variant];
   if (!program.use(window, slicesSource(variant), counters))
@@ -54,7 +60,7 @@ bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, C
     const SceneScope scope(state, scene.blended);
     state->vtkglDepthMask(scene.blended ? GL_FALSE : GL_TRUE);
     const std::vector<SliceQuad> quads = scene.blended
-      ? quadsBackToFront(scene.planes, volume.clipFromWorld * volume.worldFromTexture)
+      ? quadsBackToFront(scene.planes, clipFromTexture(scene.frame))
       : wholeQuads(scene.planes);
     for (const SliceQuad& quad : quads)
     {
@@ -70,8 +76,8 @@ bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, C
     }
   }
   for (vtkTextureObject* texture :
-    { volume.scalars, volume.offsets, volume.transfer, volume.options.colors,
-      volume.options.colorScalars, scene.reference.place.scalars, scene.reference.cavity.voxels })
+    { tissue.scalars, scene.field.offsets, tissue.transfer, tissue.coloring.colors,
+      tissue.coloring.scalars, scene.reference.place.scalars, scene.reference.cavity.voxels })
   {
     if (texture)
     {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws planes through a deformed volume into the scene.
+/**
+ * @file
+ * @brief Draws planes through a deformed volume into the window.
+ */
 #ifndef BrainShift_SliceDrawer_h
 #define BrainShift_SliceDrawer_h
 
 #include "Representations/Gpu/Counters.h"
 #include "Representations/Gpu/Program.h"
-#include "Representations/Picture/RayCaster.h"
+#include "Representations/Scene/RayCastScene.h"
 #include "Representations/Slices/SliceComparison.h"
 #include "Representations/Slices/SliceGeometry.h"
 
@@ -17,23 +20,27 @@ class vtkOpenGLRenderWindow;
 
 namespace brainshift
 {
+/// Everything that a picture of slices depends on.
 struct SliceScene
 {
-  RayCastScene volume; // tissue, offset field and camera of it
+  SceneFrame frame;
+  SceneField field;
+  SceneTissue tissue;
   SlicePlanes planes;
   ReferenceScene reference;
-  glm::ivec3 voxels{ 1 };   // of the scalars, a side
-  bool cubic = false;       // else as the textures filter
-  double opacity = 1.0;     // of all that is shown
-  bool mapsOpacity = false; // times the opacity map's
-  bool blended = false;     // over what is there already, from back to front, leaving its depth
-  bool selecting = false;   // only depth, for a selection
+  glm::ivec3 voxels{ 1 };   ///< Of the scalars, a side.
+  bool cubic = false;       ///< Cubic filter; else as the textures filter.
+  double opacity = 1.0;     ///< Of everything, 0 to 1.
+  bool mapsOpacity = false; ///< The opacity map counts, too.
+  bool blended = false;     ///< Blended from back to front, without writing depth.
+  bool selecting = false;   ///< Only depth is drawn, for a selection.
 };
 
+/// The programs of one window.
 class SliceDrawer
 {
 public:
-  // False if a shader does not compile.
+  /// Draws the planes. False if a shader does not compile.
   bool draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, Counters& counters);
 
   void releaseGraphicsResources() { this->Programs.clear(); }

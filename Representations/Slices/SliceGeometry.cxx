@@ -36,8 +36,8 @@ bool isCut(int axis, const SlicePlanes& box)
 // Whether the eye looks from the side of greater coordinates, across each axis.
 glm::bvec3 eyeAbove(const glm::dvec3& position, const glm::dmat4& clipFromTexture)
 {
-  // The eye is what the camera maps to (0, 0, z, 0); w is 0 if it is infinitely far away, then this
-  // is the direction it looks along.
+  // The camera maps the eye to (0, 0, z, 0). If w is 0, the eye is infinitely far away and this is
+  // the direction in which it looks.
   glm::dvec4 eye = glm::inverse(clipFromTexture) * glm::dvec4(0.0, 0.0, 1.0, 0.0);
   constexpr double nearlyNone = 1e-9;
   const bool parallel = std::abs(eye.w) < nearlyNone * glm::length(glm::dvec3(eye));
@@ -45,7 +45,7 @@ glm::bvec3 eyeAbove(const glm::dvec3& position, const glm::dmat4& clipFromTextur
   return { towardsEye.x > 0.0, towardsEye.y > 0.0, towardsEye.z > 0.0 };
 }
 
-// What is behind the plane across `axis`, the plane, what is before it.
+// What lies behind the plane across `axis`, then the plane, then what lies in front of it.
 void appendBackToFront(
   int axis, const SlicePlanes& box, const glm::bvec3& above, std::vector<SliceQuad>& quads)
 {

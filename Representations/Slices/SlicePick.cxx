@@ -28,7 +28,7 @@ glm::dvec3 turned(const glm::dmat4& matrix, const glm::dvec3& vector)
   return glm::dvec3(matrix * glm::dvec4(vector, 0.0));
 }
 
-// Share of the way from one end to the other at which a rectangle is met; below 0: it is not.
+// Share of the way from one end to the other at which a rectangle is met; below 0: it is not met.
 double shareAtQuad(const SliceQuad& quad, const glm::dvec3& from, const glm::dvec3& to)
 {
   constexpr double missed = -1.0;
@@ -70,6 +70,7 @@ std::vector<SliceHit> hitsAlong(
   std::sort(hits.begin(), hits.end(),
     [](const auto& first, const auto& second) { return first.first < second.first; });
   std::vector<SliceHit> sorted;
+  sorted.reserve(hits.size());
   for (const auto& [share, hit] : hits)
   {
     sorted.push_back(hit);

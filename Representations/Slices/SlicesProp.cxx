@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Slices/SlicesProp.h"
 
-#include "vtkDeformedSlicesMapper.h"
-
 #include "vtkObjectFactory.h"
 #include "vtkRenderer.h"
+#include "vtkVolumeMapper.h"
 
 namespace brainshift
 {
@@ -14,7 +13,7 @@ vtkStandardNewMacro(SlicesProp);
 bool SlicesProp::Draws(bool translucent)
 {
   return !this->EnableLOD && this->Slices && this->Slices->GetNumberOfInputConnections(0) > 0 &&
-    this->Slices->IsTranslucent() == translucent;
+    this->IsTranslucent() == translucent;
 }
 
 int SlicesProp::Draw(vtkViewport* viewport)

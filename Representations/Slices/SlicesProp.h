@@ -4,14 +4,17 @@
  * @brief   the prop of Deformed Slices: a volume to ParaView, a surface to the eye
  *
  * ParaView's volume delivery, transforms and colour maps come with a vtkPVLODVolume. Opaque slices
- * are drawn when surfaces are, so that whatever follows knows their depth; others with the volumes.
+ * are drawn together with the surfaces, so that whatever follows knows their depth. See-through
+ * slices are drawn together with the volumes.
  */
 #ifndef BrainShift_SlicesProp_h
 #define BrainShift_SlicesProp_h
 
 #include "vtkPVLODVolume.h"
 
-class vtkDeformedSlicesMapper;
+#include <functional>
+
+class vtkVolumeMapper;
 
 namespace brainshift
 {
@@ -24,7 +27,8 @@ public:
   int RenderOpaqueGeometry(vtkViewport* viewport) override;
   int RenderVolumetricGeometry(vtkViewport* viewport) override;
 
-  vtkDeformedSlicesMapper* Slices = nullptr; // of the representation that owns both
+  vtkVolumeMapper* Slices = nullptr;   ///< Draws them; the representation owns both.
+  std::function<bool()> IsTranslucent; ///< Whether what lies behind may be seen through them.
 
 private:
   bool Draws(bool translucent);

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Colours that a volume brings along: the first three of four numbers a voxel, on the GPU.
+/**
+ * @file
+ * @brief Colours that a volume brings along: the first three of four numbers of each voxel.
+ */
 #ifndef BrainShift_ColorTexture_h
 #define BrainShift_ColorTexture_h
 
@@ -17,14 +20,15 @@ class vtkWindow;
 
 namespace brainshift
 {
+/// The colours of one volume on the GPU of one window.
 class ColorTexture
 {
 public:
   ColorTexture();
   ~ColorTexture();
 
-  // Uploads the array if it changed since the last call: 0 to 255 of whole numbers, 0 to 1 of
-  // others, clamped. False if the GPU refuses.
+  /// Uploads the array if it changed since the last call. Whole numbers are clamped to 0 to 255,
+  /// real numbers to 0 to 1. `dimensions`: voxels a side. False if the GPU refuses.
   bool update(vtkOpenGLRenderWindow* window, vtkDataArray* array, const glm::ivec3& dimensions,
     Counters& counters);
 

@@ -1,51 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Tissue/DeviceReference.h"
 
-#include "Representations/Picture/RayCaster.h"
 #include "Representations/Gpu/TextureMemory.h"
+#include "Representations/Scene/FieldPlace.h"
 
-#include "vtkOpenGLRenderWindow.h"
-#include "vtkRenderer.h"
 #include "vtkTextureObject.h"
 #include "vtkVolume.h"
 
 namespace brainshift
 {
-bool DeviceReference::update(vtkOpenGLRenderWindow* window, const SceneReference& reference,
-  RayCastScene& scene, Counters& counters, std::string& problem)
+bool DeviceReference::update(
+  GpuTask& gpu, const DrawnVolume& drawn, const SceneReference& reference, RayCastScene& scene)
 {
-  const ValueLayout& layout = reference.tissue.layout;
-  scene.spaceLow = layout.low;
-  scene.spaceHigh = layout.high;
+  const TissueRequest& request = reference.tissue;
   const IndexBox nothingMoves;
-  return this->Present.Tissue.update(window, reference.tissue, scene, counters, problem) &&
-    this->Present.updatePresence(window, layout, scene, nothingMoves, counters, problem);
+  scene.field = restField(request.values.layout);
+  scene.frame = frameOf(drawn, request.values);
+  return this->Tissue.Textures.update(gpu, request, scene.tissue) &&
+    this->Tissue.updateBricks(gpu, request, scene.field, nothingMoves, scene.skipping);
 }
 
-bool DeviceReference::compare(vtkRenderer* renderer, vtkVolume* volume,
-  const SceneReference& reference, RayCastScene& scene, RayCastScene& alone, Counters& counters,
-  std::string& problem)
+bool DeviceReference::compare(GpuTask& gpu, const DrawnVolume& drawn,
+  const SceneReference& reference, RayCastScene& scene, RayCastScene& alone)
 {
-  auto window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
-  if (!this->update(window, reference, alone, counters, problem))
+  if (!this->update(gpu, drawn, reference, alone))
   {
     return false;
   }
-  describeView(renderer, volume, reference.grid, reference.tissue.layout, alone);
+  const VolumePlace place{ scene.frame.worldFromTexture, drawn.volume->GetMatrix() };
+  if (!this->Cavity.update(gpu, reference.cavity, place, scene.comparison.cavity))
+  {
+    return false;
+  }
   scene.comparison.reference = &alone;
-  return this->Cavity.update(window, reference.cavity,
-    { scene.worldFromTexture, volume->GetMatrix() }, scene.comparison.cavity, counters, problem);
+  scene.comparison.agreementMm = reference.agreementMm;
+  return true;
 }
 
 std::int64_t DeviceReference::bytes() const
 {
-  return this->Present.otherBytes() +
-    textureBytes({ { this->Present.Tissue.scalars(), this->Cavity.texture() } });
+  return this->Tissue.otherBytes() +
+    textureBytes({ { this->Tissue.Textures.scalars(), this->Cavity.texture() } });
 }
 
 void DeviceReference::releaseGraphicsResources(vtkWindow* window)
 {
-  this->Present.releaseGraphicsResources(window);
+  this->Tissue.releaseGraphicsResources(window);
   this->Cavity.releaseGraphicsResources(window);
 }
 }

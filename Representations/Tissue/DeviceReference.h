@@ -1,36 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A reference volume and its cavity on the GPU of one window.
+/**
+ * @file
+ * @brief A reference volume and its cavity on the GPU of one window.
+ */
 #ifndef BrainShift_DeviceReference_h
 #define BrainShift_DeviceReference_h
 
-#include "Representations/Tissue/PlacedReference.h"
-#include "Representations/Tissue/PresentTissue.h"
+#include "Representations/Scene/SceneFrame.h"
+#include "Representations/Tissue/CavityTexture.h"
+#include "Representations/Tissue/DeviceTissue.h"
 #include "Representations/Tissue/SceneReference.h"
 
 #include <cstdint>
-#include <string>
-
-class vtkRenderer;
-class vtkVolume;
 
 namespace brainshift
 {
+/// The reference of one volume.
 class DeviceReference
 {
 public:
-  PresentTissue Present;
+  DeviceTissue Tissue;
 
-  // Makes the reference current and describes the scene in which it is drawn alone, all but its
-  // camera. On failure returns false and says why in `problem`.
-  bool update(vtkOpenGLRenderWindow* window, const SceneReference& reference, RayCastScene& scene,
-    Counters& counters, std::string& problem);
+  /// Uploads the reference if it changed, and fills frame, field, tissue and skipping of a scene in
+  /// which it is drawn alone. False, with a problem, if this GPU cannot.
+  bool update(
+    GpuTask& gpu, const DrawnVolume& drawn, const SceneReference& reference, RayCastScene& scene);
 
-  // Likewise the scene, whose camera is placed, as compared with the reference. `alone`: kept by
-  // the caller as long as the scene.
-  bool compare(vtkRenderer* renderer, vtkVolume* volume, const SceneReference& reference,
-    RayCastScene& scene, RayCastScene& alone, Counters& counters, std::string& problem);
+  /// Uploads the reference and its cavity if they changed, and fills the comparison of a scene,
+  /// whose frame is filled already. The caller keeps `alone` as long as the scene: it becomes the
+  /// scene in which the reference is drawn alone. False, with a problem, if this GPU cannot.
+  bool compare(GpuTask& gpu, const DrawnVolume& drawn, const SceneReference& reference,
+    RayCastScene& scene, RayCastScene& alone);
 
-  // Bytes on the GPU.
+  /// Bytes on the GPU.
   std::int64_t bytes() const;
 
   void releaseGraphicsResources(vtkWindow* window);

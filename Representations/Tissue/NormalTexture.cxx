@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Tissue/NormalTexture.h"
 
+#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/OpenGL.h"
 #include "Representations/Gpu/VolumePass.h"
 
@@ -13,8 +14,8 @@ namespace brainshift
 NormalTexture::NormalTexture() = default;
 NormalTexture::~NormalTexture() = default;
 
-bool NormalTexture::update(vtkOpenGLRenderWindow* window, vtkTextureObject* scalars,
-  const glm::ivec3& dimensions, bool half, float difference, Counters& counters)
+bool NormalTexture::update(GpuTask& gpu, vtkTextureObject* scalars, const glm::ivec3& dimensions,
+  bool half, float difference)
 {
   if (this->Texture && this->Source == scalars && this->Half == half)
   {
@@ -22,7 +23,7 @@ bool NormalTexture::update(vtkOpenGLRenderWindow* window, vtkTextureObject* scal
   }
   const glm::ivec3 size = half ? (dimensions + 1) / 2 : dimensions;
   this->Texture = vtkSmartPointer<vtkTextureObject>::New();
-  this->Texture->SetContext(window);
+  this->Texture->SetContext(gpu.window);
   this->Texture->SetInternalFormat(GL_RGB10_A2);
   this->Texture->SetMinificationFilter(vtkTextureObject::Linear);
   this->Texture->SetMagnificationFilter(vtkTextureObject::Linear);
@@ -31,7 +32,7 @@ bool NormalTexture::update(vtkOpenGLRenderWindow* window, vtkTextureObject* scal
   this->Texture->SetWrapR(vtkTextureObject::ClampToEdge);
   Program& program = this->NormalsProgram;
   if (!this->Texture->Allocate3D(size.x, size.y, size.z, 4, VTK_FLOAT) ||
-    !program.use(window, normalsSource(), counters))
+    !program.use(gpu.window, normalsSource(), gpu.counters))
   {
     this->Texture = nullptr;
     return false;
@@ -40,13 +41,13 @@ bool NormalTexture::update(vtkOpenGLRenderWindow* window, vtkTextureObject* scal
   program.set("scalars", scalars);
   program.set("texel", 1.0f / glm::vec3(size));
   program.set("voxel", voxel);
-  // The usual difference over two voxels comes out as 1 along the longest side.
+  // Along the longest side, the usual difference over two voxels becomes a gradient of 1.
   const float longest =
     static_cast<float>(glm::max(dimensions.x, glm::max(dimensions.y, dimensions.z)));
   const float scale = 2.0f / (difference > 0.0f ? difference * longest : longest);
   program.set("gradientScale", scale);
   this->Scale = scale * 511.0 / 1023.0; // as normals.frag.glsl stores it
-  runVolumePass(window, program.get()->GetHandle(), { this->Texture }, glm::ivec3(0), size);
+  runVolumePass(gpu.window, program.get()->GetHandle(), { this->Texture }, glm::ivec3(0), size);
   scalars->Deactivate();
   this->Source = scalars;
   this->Half = half;

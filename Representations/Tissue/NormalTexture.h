@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Gradients for light, found once on the GPU when the volume is loaded (paper, section 2).
+/**
+ * @file
+ * @brief Gradients for light, computed once on the GPU when the volume is loaded (paper, section
+ * 2).
+ */
 #ifndef BrainShift_NormalTexture_h
 #define BrainShift_NormalTexture_h
 
-#include "Representations/Gpu/Counters.h"
 #include "Representations/Gpu/Program.h"
 
 #include "vtkSmartPointer.h"
@@ -11,26 +14,28 @@
 
 #include <glm/vec3.hpp>
 
-class vtkOpenGLRenderWindow;
 class vtkTextureObject;
 class vtkWindow;
 
 namespace brainshift
 {
+struct GpuTask;
+
+/// The gradients of one texture of scalars, 10 bits a component.
 class NormalTexture
 {
 public:
   NormalTexture();
   ~NormalTexture();
 
-  // Computes the gradients of `scalars` (voxels a side given), unless they are there already: at
-  // half or at full resolution, 10 bits a component. `difference`: how much stored values usually
-  // differ within two voxels; longer gradients are cut to that length.
-  bool update(vtkOpenGLRenderWindow* window, vtkTextureObject* scalars,
-    const glm::ivec3& dimensions, bool half, float difference, Counters& counters);
+  /// Computes the gradients of `scalars` unless they are there already. `dimensions`: voxels a
+  /// side. `half`: at half resolution. `difference`: how much stored values usually differ within
+  /// two voxels; longer gradients are cut to that length. False if the shader does not compile or
+  /// the GPU refuses.
+  bool update(GpuTask& gpu, vtkTextureObject* scalars, const glm::ivec3& dimensions, bool half,
+    float difference);
 
-  // A texel less ZeroGradient is the gradient, for each texture unit, times this; long ones are
-  // cut.
+  /// gradient (stored values per texture unit) = (texel - ZeroGradient) / scale
   double scale() const { return this->Scale; }
 
   vtkTextureObject* texture() const { return this->Texture; }

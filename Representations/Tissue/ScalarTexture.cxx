@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Tissue/ScalarTexture.h"
 
-#include "Representations/Gpu/GpuMemory.h"
-#include "Representations/Gpu/OpenGL.h"
 #include "Filters/Deformation/Parallel.h"
+#include "Representations/Gpu/GpuMemory.h"
+#include "Representations/Gpu/GpuTask.h"
+#include "Representations/Gpu/OpenGL.h"
 
 #include "vtkDataArray.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -31,13 +32,13 @@ double lengthOf(const T* tuple, int components)
   return std::sqrt(sum);
 }
 
-// One number of each tuple: a component, or the tuple's length (-1).
+// One number of each tuple: a component, or the tuple's length if `component` is -1.
 template <typename T, typename Stored, typename Convert>
 void convertTyped(vtkDataArray* scalars, int component, Stored* stored, const Convert& convert)
 {
   const T* values = static_cast<const T*>(scalars->GetVoidPointer(0));
   const vtkIdType components = scalars->GetNumberOfComponents();
-  const vtkIdType shown = std::min<vtkIdType>(component, components - 1);
+  const vtkIdType chosen = std::min<vtkIdType>(component, components - 1);
   parallelFor(0, scalars->GetNumberOfTuples(), VoxelsAtLeast, [&](vtkIdType first, vtkIdType end) {
     for (vtkIdType i = first; components == 1 && i < end; ++i) // apart: this one vectorises
     {
@@ -45,13 +46,13 @@ void convertTyped(vtkDataArray* scalars, int component, Stored* stored, const Co
     }
     for (vtkIdType i = first; components > 1 && i < end; ++i)
     {
-      stored[i] = shown < 0 ? convert(lengthOf(values + i * components, components))
-                            : convert(values[i * components + shown]);
+      stored[i] = chosen < 0 ? convert(lengthOf(values + i * components, components))
+                             : convert(values[i * components + chosen]);
     }
   });
 }
 
-// Not zeroed first, so that each thread touches its own memory first.
+// The memory is not set to zero, so that each thread is the first to touch its own part.
 template <typename Stored, typename Convert>
 std::unique_ptr<Stored[]> convertAll(vtkDataArray* scalars, int component, const Convert& convert)
 {
@@ -79,8 +80,8 @@ int ScalarTexture::bytesOf(vtkDataArray* scalars, int component)
   return fitsSixteenBits(scalars, component) && !drawsInSoftware() ? 2 : 4;
 }
 
-bool ScalarTexture::update(vtkOpenGLRenderWindow* window, vtkDataArray* scalars,
-  const glm::ivec3& dimensions, int component, Counters& counters, std::string& error)
+bool ScalarTexture::update(
+  GpuTask& gpu, vtkDataArray* scalars, const glm::ivec3& dimensions, int component)
 {
   const unsigned long long time = scalars->GetMTime();
   if (this->Texture && this->Uploaded == scalars && this->UploadedTime == time &&
@@ -88,20 +89,18 @@ bool ScalarTexture::update(vtkOpenGLRenderWindow* window, vtkDataArray* scalars,
   {
     return true;
   }
-  const int limit = vtkTextureObject::GetMaximumTextureSize3D(window);
+  const int limit = vtkTextureObject::GetMaximumTextureSize3D(gpu.window);
   const int longest = std::max({ dimensions.x, dimensions.y, dimensions.z });
   if (longest > limit)
   {
-    error = "The volume has " + std::to_string(longest) +
-      " voxels along one axis; the GPU takes at most " + std::to_string(limit);
-    return false;
+    return gpu.fail("The volume has " + std::to_string(longest) +
+      " voxels along one axis; the GPU takes at most " + std::to_string(limit));
   }
-  if (!this->upload(window, scalars, dimensions, component, counters))
+  if (!this->upload(gpu, scalars, dimensions, component))
   {
-    error = "The GPU refused a 3D texture of " + std::to_string(dimensions.x) + " x " +
-      std::to_string(dimensions.y) + " x " + std::to_string(dimensions.z) + " voxels";
     this->Texture = nullptr;
-    return false;
+    return gpu.fail("The GPU refused a 3D texture of " + std::to_string(dimensions.x) + " x " +
+      std::to_string(dimensions.y) + " x " + std::to_string(dimensions.z) + " voxels");
   }
   this->Uploaded = scalars;
   this->UploadedTime = time;
@@ -109,19 +108,19 @@ bool ScalarTexture::update(vtkOpenGLRenderWindow* window, vtkDataArray* scalars,
   return true;
 }
 
-bool ScalarTexture::upload(vtkOpenGLRenderWindow* window, vtkDataArray* scalars,
-  const glm::ivec3& dimensions, int component, Counters& counters)
+bool ScalarTexture::upload(
+  GpuTask& gpu, vtkDataArray* scalars, const glm::ivec3& dimensions, int component)
 {
   this->Texture = vtkSmartPointer<vtkTextureObject>::New();
-  this->Texture->SetContext(window);
+  this->Texture->SetContext(gpu.window);
   this->Texture->SetMinificationFilter(vtkTextureObject::Linear);
   this->Texture->SetMagnificationFilter(vtkTextureObject::Linear);
   this->Texture->SetWrapS(vtkTextureObject::ClampToEdge);
   this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
   this->Texture->SetWrapR(vtkTextureObject::ClampToEdge);
   return fitsSixteenBits(scalars, component)
-    ? this->uploadSixteenBits(scalars, dimensions, component, counters)
-    : this->uploadFloats(scalars, dimensions, component, counters);
+    ? this->uploadSixteenBits(scalars, dimensions, component, gpu.counters)
+    : this->uploadFloats(scalars, dimensions, component, gpu.counters);
 }
 
 bool ScalarTexture::uploadFloats(

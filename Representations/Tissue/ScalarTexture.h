@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The volume's scalars on the GPU, and how a stored value relates to the scalar.
+/**
+ * @file
+ * @brief The scalars of a volume as a texture, and how a stored value relates to the scalar.
+ */
 #ifndef BrainShift_ScalarTexture_h
 #define BrainShift_ScalarTexture_h
 
@@ -11,45 +14,49 @@
 
 #include <glm/vec3.hpp>
 
-#include <string>
-
 class vtkDataArray;
-class vtkOpenGLRenderWindow;
 class vtkTextureObject;
 class vtkWindow;
 
 namespace brainshift
 {
+struct GpuTask;
+
+/// One number of each voxel: 32-bit floats, or 16-bit integers where these hold the values exactly.
 class ScalarTexture
 {
 public:
   ScalarTexture();
   ~ScalarTexture();
 
-  // Uploads the array if it changed since the last call. `component`: which one, or -1 for the
-  // length of the vector. On failure returns false and says why in `error`.
-  bool update(vtkOpenGLRenderWindow* window, vtkDataArray* scalars, const glm::ivec3& dimensions,
-    int component, Counters& counters, std::string& error);
+  /// Uploads the array if it changed since the last call. `dimensions`: voxels a side. `component`:
+  /// which number of the voxel; -1: the length of the vector. False, with a problem, if the GPU
+  /// refuses.
+  bool update(GpuTask& gpu, vtkDataArray* scalars, const glm::ivec3& dimensions, int component);
 
-  // Bytes that a value takes on the GPU of the current context.
+  /// Bytes of one value on the GPU of the current context.
   static int bytesOf(vtkDataArray* scalars, int component);
 
-  // Ranges of the stored values, as the shader reads them, in bricks of the volume.
+  /// Ranges of the stored values, as the shader reads them, in bricks of the rest volume.
   const BrickRanges& ranges() const { return this->Ranges; }
-  // Greatest minus least stored value.
+
+  /// The greatest stored value minus the least.
   float range() const { return this->Range; }
-  // usualDifference of the stored values.
+
+  /// The usualDifference (RestPresence.h) of the stored values.
   float difference() const { return this->Difference; }
-  // scalar = stored * scale + shift
+
+  ///@{
+  /// scalar = stored * scale + shift
   double scale() const { return this->Scale; }
   double shift() const { return this->Shift; }
+  ///@}
 
   vtkTextureObject* texture() const { return this->Texture; }
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
-  bool upload(vtkOpenGLRenderWindow* window, vtkDataArray* scalars, const glm::ivec3& dimensions,
-    int component, Counters& counters);
+  bool upload(GpuTask& gpu, vtkDataArray* scalars, const glm::ivec3& dimensions, int component);
   bool uploadFloats(
     vtkDataArray* scalars, const glm::ivec3& dimensions, int component, Counters& counters);
   bool uploadSixteenBits(

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Tissue/SceneReference.h"
 
+#include "Representations/Gpu/GpuMemory.h"
+
 #include "vtkColorTransferFunction.h"
 #include "vtkDataArray.h"
-#include "vtkTextureObject.h" // for the pointers of what is included
+#include "vtkTextureObject.h"
 #include "vtkVolumeProperty.h"
 
 #include <glm/common.hpp>
@@ -40,11 +42,11 @@ StoredScalar valueFromReference(
 {
   if (range.x < range.y)
   {
-    const double* shown = own.property->GetRGBTransferFunction()->GetRange();
-    return fromRangeToRange(range, { shown[0], shown[1] });
+    const double* ends = own.property->GetRGBTransferFunction()->GetRange();
+    return fromRangeToRange(range, { ends[0], ends[1] });
   }
-  const int component = shownComponents(own.property, own.scalars).scalar;
-  return usualMapping(rangeOf(reference, 0), rangeOf(own.scalars, component));
+  const int component = drawnComponents(own.property, own.values.scalars).scalar;
+  return usualMapping(rangeOf(reference, 0), rangeOf(own.values.scalars, component));
 }
 
 SceneReference referenceOf(vtkDataObject* volume, const TissueRequest& own, const glm::dvec2& range)
@@ -55,13 +57,12 @@ SceneReference referenceOf(vtkDataObject* volume, const TissueRequest& own, cons
   {
     return reference;
   }
-  reference.grid = carried.grid;
   reference.cavity = carried.cavity;
   reference.show = carried.show;
   reference.tissue = own;
   reference.tissue.segment = {}; // the labels are the volume's
-  reference.tissue.scalars = carried.voxels;
-  reference.tissue.layout = layoutOf(carried.grid.dimensions, false);
+  reference.tissue.values = { carried.voxels, carried.grid,
+    layoutOf(carried.grid.dimensions, false) };
   reference.tissue.mapped = valueFromReference(carried.voxels, own, range);
   return reference;
 }

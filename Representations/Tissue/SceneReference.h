@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The volume that a drawn one is compared with, as the data carries it (Filters/Attached/ReferenceVolume.h).
+/**
+ * @file
+ * @brief The volume that a drawn one is compared with, as the data carries it
+ * (Filters/Attached/ReferenceVolume.h).
+ */
 #ifndef BrainShift_SceneReference_h
 #define BrainShift_SceneReference_h
 
 #include "Filters/Attached/ReferenceVolume.h"
-#include "Representations/Tissue/Tissue.h"
+#include "Representations/Tissue/TissueTextures.h"
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
+
+#include <glm/vec2.hpp>
 
 #include <cstdint>
 
@@ -14,36 +20,37 @@ class vtkDataObject;
 
 namespace brainshift
 {
+/// A reference, and how it is drawn.
 struct SceneReference
 {
-  Grid grid;
-  TissueRequest tissue; // without scalars: none
-  PlacedVoxels cavity;  // what colours ignore
+  TissueRequest tissue; ///< Without scalars there is no reference.
+  PlacedVoxels cavity;  ///< What the colours ignore.
   ReferenceShow show = ReferenceShow::Both;
+  double agreementMm = 1.0; ///< Surfaces half as far apart count as one.
 
-  bool exists() const { return this->tissue.scalars != nullptr; }
+  bool exists() const { return this->tissue.values.scalars != nullptr; }
   bool isAlone() const { return this->exists() && this->show == ReferenceShow::Reference; }
 };
 
-// The reference that a volume carries, drawn as `own` is. `range`: the reference's scalars at the
-// ends of the volume's colour map; where they are no range, usualMapping tells.
+/// The reference that a volume carries, drawn as `own`, the volume itself, is. `range`: the scalars
+/// of the reference at the ends of the volume's colour map; usualMapping decides if x >= y.
 SceneReference referenceOf(
   vtkDataObject* volume, const TissueRequest& own, const glm::dvec2& range);
 
-// Value of the volume that a scalar of its reference stands for, in 3D and in slices: colours and
-// opacities are the volume's. `range`: as above.
+/// The value of the volume that a scalar of its reference stands for, in 3D and in slices: colours
+/// and opacities are those of the volume. `range`: see referenceOf.
 StoredScalar valueFromReference(
   vtkDataArray* reference, const TissueRequest& own, const glm::dvec2& range);
 
-// The same where no range is given: by the least and the greatest of both: the same
-// where the ranges have at least half in common, else from one range to the other.
+/// The mapping from the least and the greatest scalar of both, if no range is given. Scalars keep
+/// their numbers if the ranges have at least half in common; else one range maps to the other.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT StoredScalar usualMapping(
   const glm::dvec2& reference, const glm::dvec2& volume);
 
-// Widens bounds (mm) by the box of the reference that a volume carries, if any.
+/// Widens bounds (mm) by the box of the reference that a volume carries, if any.
 void widenByReference(vtkDataObject* volume, double bounds[6]);
 
-// Bytes of its voxels, gradients and cavity on the GPU of the current context.
+/// Bytes of the reference's voxels, gradients and cavity on the GPU of the current context.
 std::int64_t referenceBytes(const SceneReference& reference);
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Tissue/SegmentTexture.h"
 
+#include "Filters/Deformation/SegmentShares.h"
 #include "Representations/Gpu/GpuMemory.h"
 #include "Representations/Gpu/OpenGL.h"
 #include "Representations/Scene/SceneGeometry.h"
-#include "Filters/Deformation/SegmentShares.h"
 
 #include "vtkImageData.h"
 #include "vtkOpenGLRenderWindow.h"

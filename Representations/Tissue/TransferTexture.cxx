@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Tissue/TransferTexture.h"
 
+#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/OpenGL.h"
 
 #include "vtkColorTransferFunction.h"
@@ -20,12 +21,12 @@ namespace brainshift
 namespace
 {
 constexpr int Entries = TransferEntries;
-// Rings show, in pictures of skin and cortex, where so much of a step's opacity comes within so
+// Pictures of skin and cortex show rings where so much of a step's opacity is gained within so
 // small a part of the colour map's range.
 constexpr float SteepRise = 0.8f;
 constexpr int SteepEntries = Entries / 12;
 
-// What a sample counts, from the opacity of one unit distance.
+// The opacity of a sample, from the opacity of one unit distance.
 float opacityOfSample(float opacity, double unitsInStep, Blend blend)
 {
   const double given = std::clamp(static_cast<double>(opacity), 0.0, 1.0);
@@ -40,7 +41,7 @@ float opacityOfSample(float opacity, double unitsInStep, Blend blend)
   }
 }
 
-// `texels`: colours and opacities of one step, of which the first row is asked.
+// `texels`: colours and opacities. Only the first row, of one step, counts.
 bool risesFast(const std::vector<float>& texels)
 {
   float rise = 0.0f;
@@ -81,8 +82,8 @@ double TransferTexture::shift() const
   return 0.5 / Entries - this->Range[0] * this->scale();
 }
 
-bool TransferTexture::update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* property,
-  double stepMm, Blend blend, Coloring coloring, Counters& counters)
+bool TransferTexture::update(
+  GpuTask& gpu, vtkVolumeProperty* property, double stepMm, Blend blend, Coloring coloring)
 {
   vtkColorTransferFunction* color = property->GetRGBTransferFunction();
   vtkPiecewiseFunction* opacity = property->GetScalarOpacity();
@@ -120,9 +121,9 @@ bool TransferTexture::update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* p
     const float above = texels[i - 4 * Entries];
     texels[i] = i % 4 == 3 ? above * (2.0f - above) : above; // what two such steps hide
   }
-  this->Texture = makeTable(window, texels, counters);
-  this->makeSums(window, texels, counters);
-  counters.transferUploads += 1;
+  this->Texture = makeTable(gpu.window, texels, gpu.counters);
+  this->makeSums(gpu.window, texels, gpu.counters);
+  gpu.counters.transferUploads += 1;
   this->ColorTime = color->GetMTime();
   this->OpacityTime = opacity->GetMTime();
   this->StepMm = stepMm;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ParaView's colour map and opacity curve as one texture, opacity corrected for the step.
+/**
+ * @file
+ * @brief ParaView's colour map and opacity curve as one texture, with opacities for the step.
+ */
 #ifndef BrainShift_TransferTexture_h
 #define BrainShift_TransferTexture_h
 
 #include "Representations/Gpu/Counters.h"
-#include "Representations/Picture/MovingQuality.h"
-#include "Representations/Skipping/RestPresence.h"
 #include "Representations/Gpu/ShaderSource.h"
+#include "Representations/Skipping/RestPresence.h"
 
 #include "vtkSmartPointer.h"
 
@@ -19,42 +21,46 @@ class vtkWindow;
 
 namespace brainshift
 {
-// The first row's opacities hold for the step as asked for, each further one's for twice as long a
-// step as the one before: while moving, steps are doubled.
-constexpr int TransferRows = MostStepDoublings + 1;
+struct GpuTask;
 
+/// TransferRows rows of TransferEntries colours. The opacities of the first row hold for the step
+/// that was asked for, those of each further row for twice the step of the row before.
 class TransferTexture
 {
 public:
   TransferTexture();
   ~TransferTexture();
 
-  // Uploads the maps if they, the unit distance, the step or a mode changed. Opacities are those of
-  // a step where samples are blended (composite) or added (additive), else as given. Where colours
-  // come from elsewhere (direct), all entries go to the opacity curve.
-  // True if they were uploaded.
-  bool update(vtkOpenGLRenderWindow* window, vtkVolumeProperty* property, double stepMm,
-    Blend blend, Coloring coloring, Counters& counters);
+  /// Uploads the maps if they, the unit distance, the step or a mode changed; true if it did.
+  /// Opacities are those of a step if samples are blended (Composite) or added (Additive), else as
+  /// given. With Coloring::Direct all entries go to the opacity curve.
+  bool update(
+    GpuTask& gpu, vtkVolumeProperty* property, double stepMm, Blend blend, Coloring coloring);
 
-  // Texture coordinate from scalar: scalar * scale + shift. Beyond the ends the end colours hold.
+  ///@{
+  /// Texture coordinate = scalar * scale + shift. Beyond the ends the end colours hold.
   double scale() const;
   double shift() const;
+  ///@}
 
-  // Which values have an opacity above 0, as the shader reads the map; scalar = value * scale +
-  // shift.
+  /// The values that have an opacity above 0; scalar = value * scale + shift.
   VisibleValues visibleValues(double scale, double shift) const;
 
-  // Whether no invisible scalar lies above a visible one; below.
+  /// Whether all scalars above a visible one are visible, too.
   bool visibleUpwards() const;
+
+  /// Whether all scalars below a visible one are visible, too.
   bool visibleDownwards() const;
 
-  // Whether a step somewhere hides nearly all that is behind, so that rays end soon.
+  /// Whether one step somewhere hides nearly all that is behind, so that rays end soon.
   bool isOpaque() const { return this->LargestOpacity >= OpaqueStep; }
 
   vtkTextureObject* texture() const { return this->Texture; }
-  // What Shaders/Tissue/averaged.glsl takes averages from; null unless the map rises to opaque so fast that
-  // samples a step apart miss most of the rise.
+
+  /// What Shaders/Tissue/averaged.glsl takes averages from. Null unless the map rises to opaque so
+  /// fast that samples a step apart miss most of the rise.
   vtkTextureObject* sums() const { return this->Sums; }
+
   void releaseGraphicsResources(vtkWindow* window);
 
 private:

@@ -14,6 +14,7 @@
 #include <glm/gtc/matrix_access.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <string>
 
@@ -21,7 +22,7 @@ namespace brainshift
 {
 namespace
 {
-// A vertex shader says how large points are; VTK's state does not know of it.
+// Lets the vertex shader choose the size of points. VTK's state does not know this setting.
 class PointSizeScope
 {
 public:
@@ -31,13 +32,22 @@ public:
   void operator=(const PointSizeScope&) = delete;
 };
 
-void enableAttribute(
-  GLuint program, const char* name, int size, GLenum type, GLboolean normalized, std::size_t offset)
+// A member of TraceVertex; bytes become 0 to 1.
+struct Attribute
 {
-  const GLint location = glGetAttribLocation(program, name);
+  const char* name;
+  int size; // numbers
+  GLenum type;
+  std::size_t offset; // bytes
+};
+
+void enable(const Attribute& attribute, GLuint program)
+{
+  const GLint location = glGetAttribLocation(program, attribute.name);
+  const GLboolean normalized = attribute.type == GL_UNSIGNED_BYTE ? GL_TRUE : GL_FALSE;
   glEnableVertexAttribArray(location);
-  glVertexAttribPointer(location, size, type, normalized, sizeof(TraceVertex),
-    reinterpret_cast<const void*>(offset)); // NOLINT: OpenGL takes an offset as a pointer
+  glVertexAttribPointer(location, attribute.size, attribute.type, normalized, sizeof(TraceVertex),
+    reinterpret_cast<const void*>(attribute.offset)); // NOLINT: OpenGL takes it as a pointer
 }
 }
 
@@ -92,8 +102,8 @@ void TraceDrawer::drawBalls(unsigned int program)
   glGenVertexArrays(1, &vertexArray);
   glBindVertexArray(vertexArray);
   this->Vertices->Bind();
-  enableAttribute(program, "position", 3, GL_FLOAT, GL_FALSE, offsetof(TraceVertex, position));
-  enableAttribute(program, "color", 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(TraceVertex, color));
+  enable({ "position", 3, GL_FLOAT, offsetof(TraceVertex, position) }, program);
+  enable({ "color", 4, GL_UNSIGNED_BYTE, offsetof(TraceVertex, color) }, program);
   glDrawArrays(GL_POINTS, 0, this->Count);
   this->Vertices->Release();
   glBindVertexArray(0);

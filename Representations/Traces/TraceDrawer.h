@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws traced points into one window: what of them lies in front of the tissue that volumes show,
-// and, faded, what lies behind.
+/**
+ * @file
+ * @brief Draws traced points into one window: those in front of the tissue of volumes, and, faded,
+ * those
+ * behind it.
+ */
 #ifndef BrainShift_TraceDrawer_h
 #define BrainShift_TraceDrawer_h
 
 #include "Representations/Gpu/Counters.h"
-#include "Representations/Scene/FirstHits.h"
 #include "Representations/Gpu/Program.h"
+#include "Representations/Scene/FirstHits.h"
 #include "Representations/Traces/TraceImage.h"
+#include "Representations/Traces/TraceVertex.h"
 
 #include "vtkSmartPointer.h"
 
@@ -15,8 +20,6 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include <array>
-#include <cstdint>
 #include <map>
 #include <vector>
 
@@ -26,30 +29,27 @@ class vtkWindow;
 
 namespace brainshift
 {
-struct TraceVertex
-{
-  std::array<float, 3> position;     // mm, the points' own coordinates
-  std::array<std::uint8_t, 4> color; // red, green, blue, opacity
-};
-
+/// Everything that a picture of points depends on.
 struct TraceScene
 {
-  glm::ivec2 origin{ 0 }; // of the picture in the window, pixels
-  glm::ivec2 size{ 1 };
+  glm::ivec2 origin{ 0 }; ///< Of the picture in the window, pixels.
+  glm::ivec2 size{ 1 };   ///< Of the picture, pixels.
   glm::dmat4 clipFromWorld{ 1.0 };
   glm::dmat4 worldFromPoint{ 1.0 };
-  glm::dvec3 ahead{ 0.0, 0.0, -1.0 }; // unit vector, the way the camera looks
-  double radius = 1.0;                // mm
-  double hiddenOpacity = 1.0;         // share, of what lies behind tissue
-  std::vector<const FirstHits*> hits; // of the volumes; at most MaxTissues
+  glm::dvec3 ahead{ 0.0, 0.0, -1.0 }; ///< Unit vector, the way the camera looks, world.
+  double radius = 1.0;                ///< mm.
+  double hiddenOpacity = 1.0;         ///< Share of the opacity that is left behind tissue.
+  std::vector<const FirstHits*> hits; ///< Of the volumes; at most MaxTissues.
 };
 
+/// Points, programs and images of one window.
 class TraceDrawer
 {
 public:
+  /// Sends points to the GPU.
   void upload(const std::vector<TraceVertex>& vertices);
 
-  // False if the shader does not compile.
+  /// Draws the points that were uploaded. False if a shader does not compile.
   bool draw(vtkOpenGLRenderWindow* window, const TraceScene& scene, Counters& counters);
 
   void releaseGraphicsResources(vtkWindow* window);

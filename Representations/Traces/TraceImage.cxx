@@ -52,7 +52,7 @@ void TraceImage::draw(
   state->vtkglViewport(0, 0, size.x, size.y);
   state->vtkglScissor(0, 0, size.x, size.y);
   state->vtkglDisable(GL_BLEND);
-  // Not by the state's own clear: that would have to be told the scene's colour again.
+  // The clear of VTK's state would change the clear colour of the window.
   const float nothing[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
   const float farthest = 1.0f;
   glClearBufferfv(GL_COLOR, 0, nothing);

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An image of faded points by themselves. Of each pixel it holds the nearest ball, so that a crowd,
-// laid over the scene once, is as faint as a single one; and every ball is drawn only once for it.
+/**
+ * @file
+ * @brief An image of faded points by themselves, which is laid over the window.
+ *
+ * Each pixel holds the nearest ball. So a crowd of points is as faint as a single one, and every
+ * ball is drawn only once.
+ */
 #ifndef BrainShift_TraceImage_h
 #define BrainShift_TraceImage_h
 
@@ -19,6 +24,7 @@ class vtkWindow;
 
 namespace brainshift
 {
+/// The image of one window.
 class TraceImage
 {
 public:
@@ -27,11 +33,12 @@ public:
   TraceImage(const TraceImage&) = delete;
   void operator=(const TraceImage&) = delete;
 
-  // Calls drawBalls with the empty image in place of the scene, `size` pixels from 0 0.
+  /// Calls drawBalls while drawing goes into the empty image, `size` pixels from 0 0.
   void draw(
     vtkOpenGLRenderWindow* window, const glm::ivec2& size, const std::function<void()>& drawBalls);
 
-  // Blends what was drawn over the viewport, with its depths. False if the shader does not compile.
+  /// Blends what was drawn over the viewport, with its depths. False if the shader does not
+  /// compile.
   bool layOver(vtkOpenGLRenderWindow* window, Counters& counters);
 
   void releaseGraphicsResources(vtkWindow* window);

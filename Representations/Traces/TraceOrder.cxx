@@ -10,7 +10,7 @@ namespace brainshift
 {
 namespace
 {
-constexpr int Bits = 5; // cells a side, as a power of two
+constexpr int Bits = 5; // 2^5 cells a side
 constexpr int CellsASide = 1 << Bits;
 constexpr std::size_t CellCount = std::size_t(1) << (3 * Bits);
 
@@ -19,7 +19,7 @@ glm::vec3 placeOf(const TraceVertex& vertex)
   return { vertex.position[0], vertex.position[1], vertex.position[2] };
 }
 
-// Number of a cell along the Z-curve: the bits of its three places in turn.
+// Number of a cell along the Z-curve: the bits of its three coordinates in turn.
 std::size_t numberOf(const glm::ivec3& cell)
 {
   std::size_t number = 0;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Traces/TracePoints.h"
 
+#include "Representations/Gpu/WindowDevices.h"
+#include "Representations/Scene/HitSource.h"
 #include "Representations/Scene/SceneGeometry.h"
 #include "Representations/Traces/TraceDrawer.h"
-#include "Representations/Gpu/WindowDevices.h"
-#include "vtkDeformedVolumeMapper.h"
 
+#include "vtkAbstractVolumeMapper.h"
 #include "vtkCamera.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
@@ -13,7 +14,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointGaussianMapper.h"
 #include "vtkPointSet.h"
-#include "vtkPropCollection.h"
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkScalarsToColors.h"
@@ -41,7 +41,7 @@ struct TracePoints::State
 {
   WindowDevices<Device> Devices;
   Counters Count;
-  bool Told = false; // of more volumes than can be compared
+  bool Told = false; // the warning about too many volumes was given
 };
 
 TracePoints::TracePoints()
@@ -58,7 +58,7 @@ std::uint8_t byteOf(double share)
   return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
 }
 
-// Appends the points of one set; those that are no numbers are left out.
+// Appends the points of one set. Positions that are not finite are left out.
 void addVertices(vtkPointSet* points, vtkPointGaussianMapper* mapper, vtkProperty* property,
   std::vector<TraceVertex>& vertices)
 {
@@ -108,21 +108,22 @@ std::vector<TraceVertex> verticesOf(vtkPointGaussianMapper* mapper, vtkProperty*
   return vertices;
 }
 
-std::vector<vtkDeformedVolumeMapper*> deformedVolumesIn(vtkRenderer* renderer)
+// What hides points: the mappers of the renderer's deformed volumes.
+std::vector<HitSource*> deformedVolumesIn(vtkRenderer* renderer)
 {
-  std::vector<vtkDeformedVolumeMapper*> shown;
+  std::vector<HitSource*> sources;
   vtkVolumeCollection* volumes = renderer->GetVolumes();
   vtkCollectionSimpleIterator at;
   volumes->InitTraversal(at);
   while (vtkVolume* volume = volumes->GetNextVolume(at))
   {
-    auto* mapper = vtkDeformedVolumeMapper::SafeDownCast(volume->GetMapper());
+    auto* mapper = dynamic_cast<HitSource*>(volume->GetMapper());
     if (mapper && volume->GetVisibility())
     {
-      shown.push_back(mapper);
+      sources.push_back(mapper);
     }
   }
-  return shown;
+  return sources;
 }
 
 TraceScene sceneOf(vtkRenderer* renderer, vtkMatrix4x4* worldFromPoint)
@@ -143,21 +144,6 @@ TraceScene sceneOf(vtkRenderer* renderer, vtkMatrix4x4* worldFromPoint)
 }
 }
 
-bool TracePoints::areShownIn(vtkRenderer* renderer)
-{
-  vtkPropCollection* props = renderer->GetViewProps();
-  vtkCollectionSimpleIterator at;
-  props->InitTraversal(at);
-  while (vtkProp* prop = props->GetNextProp(at))
-  {
-    if (prop->GetVisibility() && TracePoints::SafeDownCast(prop))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
 // When positions or colours changed last.
 vtkMTimeType TracePoints::LookTime()
 {
@@ -166,12 +152,12 @@ vtkMTimeType TracePoints::LookTime()
     input ? input->GetMTime() : 0, this->Mapper->GetLookupTable()->GetMTime() });
 }
 
-// Where each volume's tissue is seen.
+// The first hits of each volume. A warning, given once, says if there are too many volumes.
 std::vector<const FirstHits*> TracePoints::HitsOf(
-  const std::vector<vtkDeformedVolumeMapper*>& volumes, vtkWindow* window)
+  const std::vector<HitSource*>& volumes, vtkWindow* window)
 {
   std::vector<const FirstHits*> hits;
-  for (vtkDeformedVolumeMapper* volume : volumes)
+  for (HitSource* volume : volumes)
   {
     if (const FirstHits* drawn = volume->GetHits(window))
     {
@@ -190,7 +176,7 @@ std::vector<const FirstHits*> TracePoints::HitsOf(
   return hits;
 }
 
-bool TracePoints::Draw(vtkRenderer* renderer, const std::vector<vtkDeformedVolumeMapper*>& volumes)
+bool TracePoints::Draw(vtkRenderer* renderer, const std::vector<HitSource*>& volumes)
 {
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   auto* mapper = vtkPointGaussianMapper::SafeDownCast(this->Mapper);
@@ -220,8 +206,8 @@ bool TracePoints::Draw(vtkRenderer* renderer, const std::vector<vtkDeformedVolum
   return true;
 }
 
-// Where points are selected, VTK keeps the depths of the picture, which are the balls' own: nearer
-// by a radius, no rounding hides them from themselves.
+// A selection of points keeps the depths of the picture, which are those of the balls. Points that
+// are drawn nearer by a radius are not hidden by their own balls.
 int TracePoints::DrawSelection(vtkRenderer* renderer)
 {
   const double radius = vtkPointGaussianMapper::SafeDownCast(this->Mapper)->GetScaleFactor();

@@ -3,37 +3,35 @@
  * @class   TracePoints
  * @brief   the prop of Trace Points: balls that the tissue of deformed volumes fades or hides
  *
- * Drawn after the volumes and compared with the first hits of their last pictures, so that neither
- * points nor their colours make a volume be cast again. Where no deformed volume is shown they are
- * drawn when surfaces are. Positions, colours and selections are those of the prop's mapper, a
- * vtkPointGaussianMapper.
+ * Points are drawn after the volumes and compared with the first hits of their last pictures. So a
+ * change of points or of their colours casts no ray. In a view without a deformed volume, points
+ * are drawn together with the surfaces. Positions, colours and selections are those of the prop's
+ * mapper, a vtkPointGaussianMapper.
  */
 #ifndef BrainShift_TracePoints_h
 #define BrainShift_TracePoints_h
 
-#include "vtkOpenGLActor.h"
+#include "Representations/Scene/OverVolumes.h"
 
 #include <memory>
 #include <vector>
 
-class vtkDeformedVolumeMapper;
 class vtkRenderer;
+class vtkWindow;
 
 namespace brainshift
 {
 struct FirstHits;
+class HitSource;
 
-class TracePoints : public vtkOpenGLActor
+class TracePoints : public OverVolumes
 {
 public:
   static TracePoints* New();
-  vtkTypeMacro(TracePoints, vtkOpenGLActor);
+  vtkTypeMacro(TracePoints, OverVolumes);
 
-  // Share of the opacity that is left of what lies behind tissue, 0 to 1.
+  /// Share of the opacity that points behind tissue keep, 0 to 1.
   double HiddenOpacity = 1.0;
-
-  // Whether a renderer shows any.
-  static bool areShownIn(vtkRenderer* renderer);
 
   int RenderOpaqueGeometry(vtkViewport* viewport) override;
   int RenderOverlay(vtkViewport* viewport) override;
@@ -49,9 +47,8 @@ private:
   struct Device; // of one window
   struct State;
 
-  bool Draw(vtkRenderer* renderer, const std::vector<vtkDeformedVolumeMapper*>& volumes);
-  std::vector<const FirstHits*> HitsOf(
-    const std::vector<vtkDeformedVolumeMapper*>& volumes, vtkWindow* window);
+  bool Draw(vtkRenderer* renderer, const std::vector<HitSource*>& volumes);
+  std::vector<const FirstHits*> HitsOf(const std::vector<HitSource*>& volumes, vtkWindow* window);
   int DrawSelection(vtkRenderer* renderer);
   vtkMTimeType LookTime();
 

@@ -11,14 +11,14 @@ namespace brainshift
 {
 namespace
 {
-// Volumes, and what lies flat on the picture, are drawn after the smoothing.
+// Volumes and 2D annotations are drawn after the smoothing.
 bool isSmoothed(vtkProp* prop)
 {
   if (!prop->GetVisibility() || vtkVolume::SafeDownCast(prop) || vtkActor2D::SafeDownCast(prop))
   {
     return false;
   }
-  const double* box = prop->GetBounds(); // none: it does not tell, as the sky does not
+  const double* box = prop->GetBounds(); // null: unknown, as of a sky
   return !box || vtkMath::AreBoundsInitialized(box);
 }
 

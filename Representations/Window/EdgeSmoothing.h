@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef EdgeSmoothing_h
-#define EdgeSmoothing_h
+/**
+ * @file
+ * @brief Leaves out the smoothing of edges in pictures of volumes alone.
+ */
+#ifndef BrainShift_EdgeSmoothing_h
+#define BrainShift_EdgeSmoothing_h
 
 #include "vtkCallbackCommand.h"
 #include "vtkNew.h"
@@ -12,9 +16,10 @@ class vtkRenderer;
 namespace brainshift
 {
 /**
- * Leaves out a renderer's smoothing of edges (FXAA) in pictures of volumes alone. VTK smooths
- * before it draws volumes, so no pixel changes, but on a software driver the pass takes some 20 ms
- * a megapixel. Where anything else is visible, a textured background too, edges are smoothed.
+ * Leaves out a renderer's smoothing of edges (FXAA) in pictures that show only volumes. VTK smooths
+ * before it draws volumes, so no pixel changes. On a software driver the pass would take about 20
+ * ms for each megapixel. If anything else is visible, like a textured background, edges are
+ * smoothed.
  */
 class EdgeSmoothing
 {
@@ -22,10 +27,10 @@ public:
   EdgeSmoothing();
   ~EdgeSmoothing();
 
-  /** Watches a renderer from now on, and none before; null: none. */
+  /** Watches this renderer, and no other, from now on. Null: watches none. */
   void watch(vtkRenderer* renderer);
 
-  /** Leave anything out at all. Default true. */
+  /** Whether anything is left out. Default true. */
   void setEnabled(bool enabled) { this->Enabled = enabled; }
 
 private:

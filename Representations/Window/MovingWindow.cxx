@@ -81,7 +81,7 @@ void MovingWindow::leaveOutInsets()
   }
 }
 
-// OpenGL copies no depths to where there is no place for them.
+// OpenGL copies no depths into a framebuffer without a depth attachment.
 void MovingWindow::leaveOutDepths()
 {
   if (this->Window->GetFrameBlitMode() == vtkOpenGLRenderWindow::NoBlit)

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef MovingWindow_h
-#define MovingWindow_h
+/**
+ * @file
+ * @brief Leaves out work that nobody sees in a window that moves.
+ */
+#ifndef BrainShift_MovingWindow_h
+#define BrainShift_MovingWindow_h
 
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 #include "vtkCallbackCommand.h"
@@ -18,12 +22,13 @@ class vtkTextureObject;
 namespace brainshift
 {
 /**
- * Leaves out what nobody misses in a window that moves and is drawn by a software driver:
- * - smoothing of insets (orientation axes), for which the driver would wait for the picture under
- *   them;
- * - the copy of depths beside that of colours into what the window shows (some 6 ms a megapixel),
- *   where VTK leaves showing it to others (NoBlit): Qt's widget takes colours alone. Depths are
- *   read from where they were drawn.
+ * Leaves out two things in a window that moves and is drawn by a software driver:
+ * - The smoothing of insets (orientation axes). The driver would have to finish the picture under
+ *   them first.
+ * - The copy of depths into the framebuffer that the window shows, about 6 ms for each megapixel.
+ * It
+ *   is left out only if VTK leaves the display to others (NoBlit): Qt's widget takes only colours.
+ *   Depths are read from where they were drawn.
  */
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT MovingWindow
 {
@@ -31,10 +36,10 @@ public:
   MovingWindow();
   ~MovingWindow();
 
-  /** Watches the window of a renderer from now on, and none before; null: none. */
+  /** Watches the window of this renderer, and no other, from now on. Null: watches none. */
   void watch(vtkRenderer* renderer);
 
-  /** Leave anything out at all. Default true. */
+  /** Whether anything is left out. Default true. */
   void setEnabled(bool enabled) { this->Enabled = enabled; }
 
 private:

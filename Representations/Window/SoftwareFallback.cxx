@@ -7,7 +7,7 @@ namespace brainshift
 {
 void drawInSoftware(vtkVolumeMapper* mapper, vtkSmartVolumeMapper* fallback)
 {
-  // What stopped us would stop VTK's GPU mapper too, some of it by an abort.
+  // What stopped our mapper would stop VTK's GPU mapper, too, in some cases by an abort.
   fallback->SetRequestedRenderModeToRayCast();
   fallback->SetInputConnection(mapper->GetInputConnection(0, 0));
   fallback->SetScalarMode(mapper->GetScalarMode());

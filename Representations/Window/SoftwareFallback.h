@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// VTK's software mapper, for where the GPU cannot draw a volume bent.
+/**
+ * @file
+ * @brief VTK's software mapper, which draws a volume unbent if the GPU cannot draw it bent.
+ */
 #ifndef BrainShift_SoftwareFallback_h
 #define BrainShift_SoftwareFallback_h
 
@@ -8,7 +11,7 @@ class vtkVolumeMapper;
 
 namespace brainshift
 {
-// Gives it what a mapper draws and how.
+/// Gives the fallback what a mapper draws, and how.
 void drawInSoftware(vtkVolumeMapper* mapper, vtkSmartVolumeMapper* fallback);
 }
 

@@ -4,8 +4,9 @@ uniform vec3 firstNode;   // the target's first node among the lattice's; below 
 uniform vec3 offsetScale; // wanted unit (the volume's texture coordinates) for one lattice cell
 uniform int negated;      // 1: the paper's form, minus the displacement at the drawn point
 
-// Lattice cells. What moves less is solved by its negative within the solver's tolerance, unless
-// tissue is stretched fivefold there. Most of space stays, and around a stamp a tenth moves less.
+// Lattice cells. If tissue moves less, the negative displacement is within the solver's tolerance,
+// unless tissue is stretched fivefold there. Most of space stays, and around a stamp a tenth moves
+// less.
 const float Small = 0.25 * InversionTolerance;
 
 void main()

@@ -1,20 +1,21 @@
 // Refines the lattice along one axis: cubic weights over four control points (paper, section 2).
-// Three runs, one an axis, give the tensor product with 12 fetches a node instead of 64.
+// Three runs, one for each axis, give the tensor product with 12 instead of 64 fetches per node.
 
 uniform sampler3D coarse; // displacements, lattice cells; refined already along lower axes
 uniform vec3 coarseTexel; // one control point, or node, texture coordinates
 uniform vec3 axis;        // unit vector
 uniform float points;     // control points along the axis
 uniform float perCell;    // nodes for each lattice cell
-uniform vec3 firstNode;   // of the lattice's nodes, the first of the target, where it counts nodes
-uniform mat4 weights;     // of the four control points, from the powers 0 to 3 of the place in a cell
+uniform vec3 firstNode;   // the target's first node, counted from the lattice's first node
+// Weights of the four control points, from the powers 0 to 3 of the place in a cell.
+uniform mat4 weights;
 
 #ifdef MASKED
 uniform sampler3D maskWeights; // share of the displacement that holds at each node
 uniform vec3 maskTexel;        // one node, texture coordinates
 #endif
 
-// The control point, or node, of number `along` on the axis; the last ones repeat.
+// The control point or node with number `along` on the axis. Beyond the ends, the last one repeats.
 vec3 coarseAt(vec3 across, float along)
 {
   vec3 place = across + (clamp(along, 0.0, points - 1.0) + 0.5) * (axis * coarseTexel);

@@ -1,4 +1,4 @@
-// Lays the ray caster's image over the scene; blending does the rest.
+// Gives the ray caster's image to blending, which lays it over the window.
 
 uniform sampler2D image;       // colour times opacity, opacity
 uniform vec2 origin;           // the picture's lower left pixel in the window

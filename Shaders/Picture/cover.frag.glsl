@@ -1,11 +1,11 @@
-// What is seen is what is selected: where the last picture showed tissue, nothing behind it is.
+// Nothing behind the tissue of the last picture is selected: only what is seen can be.
 
 in vec2 ndc;
 
-uniform sampler2D hits;     // first hit, share of the way from plane to plane; below 0: none
+uniform sampler2D hits;     // first hit, share of the way from near to far plane; below 0: none
 uniform vec2 hitsFromShare; // their texture coordinates from the share of the picture: scale, shift
 uniform vec2 hitsOfShareZero;
-uniform mat3 nearPlane;     // of the picture, mm (world): times (1, ndc)
+uniform mat3 nearPlane;     // of the picture: mm, world, from (1, ndc)
 uniform mat3 farPlane;
 uniform mat4 clipFromWorld; // of the camera
 
@@ -19,5 +19,5 @@ void main()
   vec3 place = vec3(1.0, ndc);
   vec4 clip = clipFromWorld * vec4(mix(nearPlane * place, farPlane * place, hit), 1.0);
   gl_FragDepth = 0.5 * clip.z / clip.w + 0.5;
-  gl_FragData[0] = vec4(0.0); // to a selection, the background
+  gl_FragData[0] = vec4(0.0); // the background of a selection
 }

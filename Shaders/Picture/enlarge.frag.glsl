@@ -1,8 +1,9 @@
-// Part of a picture from another one, smaller or not: colours blended, hits as they are.
+// A part of a picture from another picture, which may be smaller. Colours are blended, hits are
+// not.
 
 in vec2 ndc; // of the picture
 
-uniform sampler2D image; // of the other one: colour times opacity, opacity
+uniform sampler2D image; // of the other picture: colour times opacity, opacity
 uniform sampler2D hits;
 uniform vec2 textureFromShare; // their coordinates from the share of the picture: scale, shift
 uniform vec2 textureOfShareZero;

@@ -1,4 +1,4 @@
-// One triangle that covers the viewport; drawn with three vertices and no buffer.
+// One triangle that covers the viewport: three vertices without a buffer.
 
 out vec2 ndc; // -1 to 1 across the viewport
 

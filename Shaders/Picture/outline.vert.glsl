@@ -1,4 +1,4 @@
-// A convex part of a picture as a strip of triangles; no buffer.
+// A convex part of a picture as a strip of triangles, without a buffer.
 
 uniform vec2 corners[MAX_CORNERS]; // ndc of the picture
 

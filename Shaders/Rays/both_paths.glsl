@@ -1,15 +1,15 @@
 // A bent volume and a reference along one ray: where each may be, and what a sample of both adds.
 
-const float Negligible = 1.0 / 1024.0; // behind so little transparency no light is seen
+const float Negligible = 1.0 / 1024.0; // light is not seen behind so little transparency
 
 // A ray's way through the space that either can reach.
 struct Path
 {
   vec2 span;    // first and last t, mm
   vec2 samples; // first, and one past the last, that may be visible
-  vec2 own;     // likewise of the bent volume alone
-  vec2 other;   // of the reference alone
-  vec2 moved;   // where tissue may have moved
+  vec2 own;     // first, and one past the last, of the bent volume alone
+  vec2 other;   // first, and one past the last, of the reference alone
+  vec2 moved;   // first, and one past the last, where tissue may have moved
   Track deformed;
   Track field;
   Track reference;
@@ -81,7 +81,7 @@ vec2 ownOpacities(TissueTable table, vec3 one, vec3 two, vec2 numbers, float i)
     isAmong(i + 1.0, numbers) ? tissueAt(table, two, scalars.y).a : 0.0);
 }
 
-// Likewise of the reference.
+// Opacities of the samples `i` and `i` + 1 of the reference, at its own positions.
 vec2 referenceOpacities(TissueTable table, vec3 one, vec3 two, vec2 numbers, float i)
 {
   vec2 scalars = vec2(referenceScalarAt(one), referenceScalarAt(two));
@@ -93,7 +93,7 @@ vec2 referenceOpacities(TissueTable table, vec3 one, vec3 two, vec2 numbers, flo
     isAmong(i + 1.0, numbers) ? referenceOpacityAt(table, two, scalars.y) : 0.0);
 }
 
-// Takes a sample of both. `opacities`: of the bent volume and of the reference.
+// Adds a sample of both. `opacities`: of the bent volume and of the reference.
 void see(inout Seen seen, Path path, mat3 turn, mat3 slopes, float number, vec3 rest,
   vec2 opacities)
 {
@@ -102,12 +102,12 @@ void see(inout Seen seen, Path path, mat3 turn, mat3 slopes, float number, vec3 
   float behindBoth = (1.0 - seen.own.opacity) * (1.0 - seen.other.opacity);
   vec2 shares = opacities * (ignored
     ? behindBoth * vec2(1.0, 1.0 - opacities.x) // nothing agrees there: each hides the other
-    : vec2(shownShare(seen.own, seen.other, number), shownShare(seen.other, seen.own, number)));
+    : vec2(seenShare(seen.own, seen.other, number), seenShare(seen.other, seen.own, number)));
   vec2 own = vec2(0.0);
   vec2 other = vec2(0.0);
   if (opacities.x > 0.0 && 1.0 - seen.own.opacity > Negligible)
   {
-    vec3 gradient = turn * deformedGradientFromRest(slopes, shownGradientAt(rest));
+    vec3 gradient = turn * deformedGradientFromRest(slopes, litGradientAt(rest));
     own = lightOf(gradient, path.towardsEye, deformed);
   }
   if (opacities.y > 0.0 && 1.0 - seen.other.opacity > Negligible)

@@ -1,12 +1,12 @@
-// What is cut away of the deformed frame: clipping planes narrow a ray's span, cropping regions
-// drop samples one by one.
+// What is cut away from the deformed frame. Clipping planes narrow a ray's span. Cropping regions
+// drop single samples.
 
 uniform int clipCount;
-uniform vec4 clipPlanes[MAX_CLIP_PLANES]; // texture coordinates: kept where dot(xyz, p) + w >= 0
+uniform vec4 clipPlanes[MAX_CLIP_PLANES]; // texture coordinates; kept: dot(xyz, p) + w >= 0
 
-// First and last t on the kept side of every plane; last < first if there is none. Behind a cut the
-// first sample lies in the middle of its step: numbered from elsewhere, samples would show as rings
-// on the cut face.
+// First and last t on the kept side of every plane; last < first if there is none. Behind a cut,
+// the first sample lies in the middle of its step. If samples were numbered from anywhere else, the
+// cut face would show rings.
 vec2 clippedSpan(Ray ray, vec2 span, float stepMm)
 {
   for (int i = 0; i < clipCount; ++i)
@@ -23,7 +23,7 @@ vec2 clippedSpan(Ray ray, vec2 span, float stepMm)
     }
     else if (height < 0.0)
     {
-      span.y = -1.0; // all of the ray lies on the side that goes
+      span.y = -1.0; // the whole ray is cut away
     }
   }
   return span;
@@ -42,16 +42,16 @@ bool notClipped(vec3 deformed)
 #ifdef REGIONS
 uniform vec3 regionLow; // the planes between VTK's 27 cropping regions, texture coordinates
 uniform vec3 regionHigh;
-uniform int regionFlags; // bit x + 3 y + 9 z: the region is shown
+uniform int regionFlags; // bit x + 3 y + 9 z: the region is kept
 
-bool inShownRegion(vec3 deformed)
+bool inKeptRegion(vec3 deformed)
 {
   ivec3 region =
     ivec3(greaterThanEqual(deformed, regionLow)) + ivec3(greaterThanEqual(deformed, regionHigh));
   return (regionFlags >> (region.x + 3 * region.y + 9 * region.z) & 1) == 1;
 }
 #else
-bool inShownRegion(vec3 deformed)
+bool inKeptRegion(vec3 deformed)
 {
   return true;
 }

@@ -1,4 +1,4 @@
-// Composite blending, front to back (paper, section 2); a loop of its own, for it is drawn most.
+// Composite blending from front to back (paper, section 2). It is used most and has its own loop.
 
 void main()
 {
@@ -12,10 +12,10 @@ void main()
   TissueTable table = tissueTable();
   mat3 turn = worldFromGradient;
   Seen seen = nothingYet();
-  // Samples are numbered from the box's edge or a cut, whether empty space is skipped or not.
+  // Samples are numbered from the edge of the box or from a cut, even if empty space is skipped.
   float end = path.samples.y;
   float i = evenBelow(path.samples.x);
-  float ask = skipping == 0 ? end : i + Trust; // from this sample on, whether there is anything
+  float ask = skipping == 0 ? end : i + Trust; // the first sample whose brick is asked
   float taken = 0.0;
   while (i < end && seen.picture.a <= OpaqueEnough)
   {

@@ -1,7 +1,7 @@
-// Composite blending, front to back (paper, section 2): a ray's way, and what it has seen.
+// Composite blending from front to back (paper, section 2): the way of a ray, and what it has seen.
 
 // Colour times opacity, and opacity, of a sample.
-vec4 shown(vec4 tissue, vec3 rest, Shine shine)
+vec4 litTissue(vec4 tissue, vec3 rest, Shine shine)
 {
   vec3 color = shone(shine, colorOf(tissue, rest));
   return tissue.a > 0.0 ? vec4(color * tissue.a, tissue.a) : vec4(0.0);
@@ -12,7 +12,7 @@ struct Path
 {
   vec2 span;       // first and last t, mm
   vec2 samples;    // first, and one past the last, that may be visible
-  vec2 moved;      // likewise where tissue may have moved
+  vec2 moved;      // first, and one past the last, where tissue may have moved
   Track deformed;
   Track field;
   BrickTrack bricks;
@@ -43,11 +43,29 @@ Path pathOf(Ray ray)
   return path;
 }
 
+// Two neighbouring samples: positions in both frames, and stored scalars.
+struct Pair
+{
+  vec3 oneDeformed;
+  vec3 twoDeformed;
+  vec3 oneRest;
+  vec3 twoRest;
+  float oneScalar;
+  float twoScalar;
+};
+
+// Light at a share of the way from the first to the second sample.
+Shine shineBetween(Path path, Pair pair, mat3 slopes, mat3 turn, float way)
+{
+  return shineAt(mix(pair.oneDeformed, pair.twoDeformed, way),
+    mix(pair.oneRest, pair.twoRest, way), slopes, turn, path.towardsEye);
+}
+
 struct Seen
 {
   vec4 picture; // colour times opacity, opacity
   float hit;    // number of the sample where HitOpacity was reached; below 0: not yet
-  // The last sample that was taken; averaged.glsl asks for it.
+  // The last sample that was taken, for averaged.glsl.
   float lastNumber;
   float lastScalar;
   bool lastVisible;
@@ -58,11 +76,11 @@ Seen nothingYet()
   return Seen(vec4(0.0), -1.0, -2.0, 0.0, false);
 }
 
-// A sample's colour times opacity, and opacity; `surface`: number of the sample where a surface
-// lies if this one hides enough to make one.
-void see(inout Seen seen, vec4 shown, float surface)
+// Adds a sample's colour times opacity, and opacity. `surface`: the number of the sample at which a
+// surface lies if this one makes the ray reach HitOpacity.
+void see(inout Seen seen, vec4 added, float surface)
 {
-  seen.picture += seen.picture.a > OpaqueEnough ? vec4(0.0) : (1.0 - seen.picture.a) * shown;
+  seen.picture += seen.picture.a > OpaqueEnough ? vec4(0.0) : (1.0 - seen.picture.a) * added;
   bool hit = seen.hit < 0.0 && seen.picture.a >= HitOpacity;
   seen.hit = hit ? max(surface, 0.0) : seen.hit;
 }

@@ -1,13 +1,13 @@
-// Surfaces of equal scalars: where two neighbouring samples lie on either side of a value, the
-// crossing is refined and drawn with the value's colour, opacity and the light there.
+// Surfaces of equal scalars. If two neighbouring samples lie on different sides of an isovalue, the
+// crossing is refined and drawn with the colour and opacity of the isovalue and the light there.
 
 uniform int isovalueCount;
 uniform float isovalues[MAX_ISOVALUES]; // stored scalars, ascending
 
 const int Halvings = 5; // 1/32 of a step, before the last, linear guess
 
-// Where the scalar crosses `value` between the samples `number` - 1 and `number`: a sample number
-// with a fraction. Below 0 where what lies between is no tissue, or no number.
+// The sample number, with a fraction, at which the scalar crosses `value` between the samples
+// `number` - 1 and `number`. Below 0 if there is no tissue in between, or no scalar.
 float crossingBefore(March march, float number, float before, float after, float value)
 {
   vec2 ends = vec2(number - 1.0, number);
@@ -17,7 +17,7 @@ float crossingBefore(March march, float number, float before, float after, float
     float middle = 0.5 * (ends.x + ends.y);
     vec3 rest = restAt(march, middle);
     float scalar = scalarAt(rest);
-    if (isnan(scalar) || !inShownTissue(deformedAt(march, middle), rest))
+    if (isnan(scalar) || !inKeptTissue(deformedAt(march, middle), rest))
     {
       return -1.0;
     }
@@ -39,7 +39,7 @@ void main()
   {
     vec3 rest = restAt(march, i);
     float scalar = scalarAt(rest);
-    bool inside = inShownTissue(deformedAt(march, i), rest) && !isnan(scalar);
+    bool inside = inKeptTissue(deformedAt(march, i), rest) && !isnan(scalar);
     for (int k = 0; k < isovalueCount && known && inside; ++k)
     {
       float value = isovalues[scalar > before ? k : isovalueCount - 1 - k];

@@ -1,26 +1,27 @@
-// What a ray meets of two volumes, and how they hide each other (paper, section 3: the bent one
-// red, the reference green). Each hides what lies behind itself. It hides the other only where it
-// lies clearly before it: surfaces closer than the agreement count as one, and red and green add up
-// to yellow. Where both have the same opacities, each is as bright as alone.
+// What a ray meets of two volumes, and how they hide each other (paper, section 3: the bent volume
+// is red, the reference green). Each volume hides what lies behind its own surface. It hides the
+// other volume only where it lies clearly in front: surfaces that are closer than the agreement
+// count as one, and red and green add up to yellow. Volumes with equal opacities are each as bright
+// as alone.
 
 uniform float agreementSamples; // samples from one surface to the other at which half is hidden
 
-const float LeastFacing = 0.35; // surfaces seen more from the side are measured as if they were not
+const float LeastFacing = 0.35; // surfaces that are seen more from the side count as this
 const vec3 Luminance = vec3(0.2126, 0.7152, 0.0722);
 
-// What was met of one volume.
+// What a ray has met of one volume.
 struct Layer
 {
   float opacity;
   float place;  // numbers of its samples, each times what it added to the opacity
-  float facing; // likewise how squarely their surfaces face the eye, 0 to 1
+  float facing; // how squarely their surfaces face the eye, 0 to 1, each times that opacity
   float hit;    // number of the sample where HitOpacity was reached; below 0: not yet
 };
 
 const Layer NothingMet = Layer(0.0, 0.0, 0.0, -1.0);
 
-// How much of a sample is hidden by a layer before it, by the distance between the surfaces, which
-// is shorter than that along the ray.
+// How much of a sample a layer before it hides. This depends on the distance between the surfaces,
+// which is shorter than the distance along the ray.
 float hiding(Layer front, float number)
 {
   float met = max(front.opacity, 1e-6);
@@ -28,8 +29,8 @@ float hiding(Layer front, float number)
   return front.opacity * clamp(behind / agreementSamples - 0.5, 0.0, 1.0);
 }
 
-// Share of what lies at a sample of its own layer that reaches the eye.
-float shownShare(Layer own, Layer other, float number)
+// The share of a sample of the layer `own` that reaches the eye.
+float seenShare(Layer own, Layer other, float number)
 {
   return min(1.0 - own.opacity, 1.0 - hiding(other, number));
 }

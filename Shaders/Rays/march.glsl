@@ -1,4 +1,4 @@
-// The samples of a ray for blend modes other than composite, whose loop is in
+// The samples of a ray for all blend modes but composite, which has a loop of its own in
 // compositing.frag.glsl.
 
 struct March
@@ -6,7 +6,7 @@ struct March
   Ray ray;
   vec2 span;         // first and last t in the space that tissue can reach, mm
   vec2 samples;      // first, and one past the last
-  vec2 moved;        // where tissue may have moved
+  vec2 moved;        // first, and one past the last, where tissue may have moved
   vec3 first;        // position of sample 0
   vec3 stride;       // from a sample to the next
   vec3 towardsEye;   // world axes
@@ -29,7 +29,7 @@ March marchOf(vec2 ndc, float before)
   return march;
 }
 
-// Positions of a sample; a part of a number lies between two of them.
+// Position of a sample. A fraction of a number lies between two samples.
 vec3 deformedAt(March march, float number)
 {
   return march.first + number * march.stride;
@@ -42,12 +42,12 @@ vec3 restAt(March march, float number)
   return moved ? restFromDeformed(deformed) : deformed;
 }
 
-bool inShownTissue(vec3 deformed, vec3 rest)
+bool inKeptTissue(vec3 deformed, vec3 rest)
 {
-  return insideVolume(rest) && inShownRegion(deformed) && inSegment(rest);
+  return insideVolume(rest) && inKeptRegion(deformed) && inSegment(rest);
 }
 
-// A sample's colour under light, with the Jacobian found for it alone.
+// A sample's colour under light, with a Jacobian of its own.
 vec3 shadeAlone(March march, vec3 color, vec3 deformed, vec3 rest)
 {
   mat3 slopes = mat3(0.0);
@@ -59,7 +59,7 @@ vec3 shadeAlone(March march, vec3 color, vec3 deformed, vec3 rest)
   return shone(shine, color);
 }
 
-// The second target: where a surface was hit; `number` below 0: nowhere.
+// The second target: where a surface was hit. `number` below 0: no surface was hit.
 vec4 hitAt(March march, float number)
 {
   return number < 0.0 ? NoHit : hitAt(march.span.x + number * stepMm);

@@ -1,5 +1,5 @@
-// Projections along the ray, as VTK defines them: the greatest or the least scalar, shown with its
-// colour and opacity; or scalars times opacity, averaged or added, shown as grey.
+// Projections along the ray, as VTK defines them. The greatest or the least scalar has its colour
+// and opacity. Averages and sums of scalars times opacity are grey.
 
 #if defined(MAXIMUM) || defined(MINIMUM)
 #ifdef MAXIMUM
@@ -22,7 +22,7 @@ void main()
   for (float i = march.samples.x; i < march.samples.y; i += 1.0)
   {
     vec3 rest = restAt(march, i);
-    if (inShownTissue(deformedAt(march, i), rest))
+    if (inKeptTissue(deformedAt(march, i), rest))
     {
       float scalar = scalarAt(rest);
       if (!isnan(scalar) && !isinf(scalar) && (at < 0.0 || beats(scalar, extreme)))
@@ -49,7 +49,7 @@ void main()
   for (float i = march.samples.x; i < march.samples.y; i += 1.0)
   {
     vec3 rest = restAt(march, i);
-    if (inShownTissue(deformedAt(march, i), rest))
+    if (inKeptTissue(deformedAt(march, i), rest))
     {
       float scalar = scalarAt(rest);
       bool known = !isnan(scalar) && !isinf(scalar);

@@ -1,26 +1,26 @@
 // Draws the deformed volume: the paper's ray caster (section 2). A ray runs straight through the
-// deformed frame; every sample looks its tissue up at the rest position it came from. Targets:
-// picture, and where the first hit lies on the ray.
+// deformed frame. Every sample reads its tissue at the rest position that it came from. The first
+// target is the picture, the second one says where the first hit lies on the ray.
 
-uniform vec2 firstPixel;   // of the picture, that the images hold
+uniform vec2 firstPixel;   // first pixel of the picture that the images hold
 uniform vec2 ndcFromPixel; // of the picture
 
-// From whole pixels, so that a ray is the same to the last bit whatever part of it the images hold.
+// From pixels of the whole picture: a ray is identical to the bit whatever part the images hold.
 vec2 ndc = (gl_FragCoord.xy + firstPixel) * ndcFromPixel - 1.0;
 
-uniform vec3 spaceLow;  // the part of the deformed frame that tissue can reach, texture coordinates
+uniform vec3 spaceLow;  // the part of the deformed frame that is drawn, texture coordinates
 uniform vec3 spaceHigh;
 uniform float stepMm;
 uniform float jitter; // 1: neighbouring rays start at different shares of a step, against rings
 uniform mat3 worldFromGradient;  // world axes from a gradient for texture units (inverse transpose)
 uniform vec3 worldOfTextureZero; // mm
 
-const float OpaqueEnough = 254.0 / 255.0; // what is behind would change less than one 8-bit level
-const float HitOpacity = 0.5;             // where this much is reached, the eye sees a surface
+const float OpaqueEnough = 254.0 / 255.0; // more would change less than one 8-bit level
+const float HitOpacity = 0.5;             // the eye sees a surface where a ray reaches this
 const vec4 NoHit = vec4(-1.0);
 
-// Where in its first step a pixel's ray starts: 16 shares, ordered so that neighbours differ most
-// (Bayer, 1973).
+// The share of the first step after which a pixel's ray starts: one of 16, ordered so that
+// neighbours differ most (Bayer, 1973).
 float startShare(ivec2 pixel)
 {
   int mixed = pixel.x ^ pixel.y;
@@ -28,7 +28,7 @@ float startShare(ivec2 pixel)
   return (float(rank) + 0.5) / 16.0;
 }
 
-// Composite takes samples by twos.
+// The composite mode takes two samples at a time.
 float evenBelow(float number)
 {
   return 2.0 * floor(0.5 * number);
@@ -41,8 +41,8 @@ vec3 worldFromDeformed(vec3 deformed)
 
 uniform vec2 hitFromShare; // scale and shift
 
-// The second target, of a hit at t: the share of the way from the near to the far plane, of which
-// whoever wants its position knows. Where part of a picture is cast they are those of the rest.
+// The second target for a hit at t: the share of the way from the near to the far plane. A part of
+// a picture uses the planes of the whole picture.
 vec4 hitAt(float t)
 {
   return vec4(t / rayOfPixel(ndc).lengthMm * hitFromShare.x + hitFromShare.y);
@@ -52,7 +52,7 @@ vec4 hitAt(float t)
 Shine shineAt(vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
 {
 #ifdef SHADED
-  vec3 gradient = turn * deformedGradientFromRest(slopes, shownGradientAt(rest));
+  vec3 gradient = turn * deformedGradientFromRest(slopes, litGradientAt(rest));
   float steepness = length(gradient);
   vec3 normal = steepness > 0.0 ? gradient / steepness : vec3(0.0);
   return shineOn(normal, towardsEye, worldFromDeformed(deformed));

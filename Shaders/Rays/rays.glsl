@@ -1,11 +1,11 @@
-// From a pixel to its ray, in the volume's texture coordinates. t is in mm from the near plane, in
-// the volume's own frame: an actor's scale changes neither the number of samples nor what is seen
-// through, as in VTK.
+// From a pixel to its ray, in the volume's texture coordinates. t counts mm from the near plane in
+// the volume's own frame. So the scale of an actor changes neither the number of samples nor the
+// opacity, as in VTK.
 
 uniform vec3 nearOrigin; // the near plane: position of ndc (0,0) and what one unit of ndc adds
 uniform vec3 nearRight;
 uniform vec3 nearUp;
-uniform vec3 farOrigin; // the far plane likewise
+uniform vec3 farOrigin; // the far plane: as for the near plane
 uniform vec3 farRight;
 uniform vec3 farUp;
 uniform vec2 clipW;             // homogeneous w on the near and on the far plane
@@ -39,7 +39,7 @@ struct Track
   vec3 stride;
 };
 
-// Numbers are whole; as floats, because a software driver turns lane by lane what it makes integers.
+// Numbers are whole, but floats: a software driver converts floats to integers lane by lane.
 vec3 positionOf(Track track, float number)
 {
   return track.first + number * track.stride;
@@ -56,7 +56,7 @@ vec2 boxSpan(Ray ray, vec3 low, vec3 high)
     min(min(leave.x, leave.y), min(leave.z, ray.lengthMm)));
 }
 
-// t of the surface drawn already at this pixel; the far plane if there is none.
+// t of the surface that is drawn already at this pixel; of the far plane if there is none.
 float sceneDistance(Ray ray, vec2 share)
 {
   float depth = textureLod(sceneDepth, share * depthFromShare + depthOfShareZero, 0.0).r;

@@ -1,6 +1,6 @@
 // Composite blending of a bent volume, red, and a reference, green, along one ray.
 
-// Takes the samples i and i + 1. Whether one of them is visible.
+// Takes the samples i and i + 1. Returns whether one of them is visible.
 bool takeTwo(Path path, TissueTable table, TissueTable referenceTable, mat3 turn, float i,
   inout Seen seen)
 {
@@ -11,7 +11,7 @@ bool takeTwo(Path path, TissueTable table, TissueTable referenceTable, mat3 turn
   bool moved = i + 1.0 >= path.moved.x && i < path.moved.y;
   vec2 own = vec2(0.0);
   vec2 other = vec2(0.0);
-  // Behind what is opaque of its own a volume adds nothing.
+  // A volume adds nothing behind its own opaque tissue.
   if (seen.own.opacity <= OpaqueEnough && i + 1.0 >= path.own.x && i < path.own.y)
   {
     if (moved)
@@ -26,7 +26,7 @@ bool takeTwo(Path path, TissueTable table, TissueTable referenceTable, mat3 turn
     other = referenceOpacities(referenceTable, positionOf(path.reference, i),
       positionOf(path.reference, i + 1.0), path.other, i);
   }
-  vec2 regions = vec2(inShownRegion(oneDeformed), inShownRegion(twoDeformed));
+  vec2 regions = vec2(inKeptRegion(oneDeformed), inKeptRegion(twoDeformed));
   own *= regions;
   other *= regions;
   bool visible = max(max(own.x, own.y), max(other.x, other.y)) > 0.0;
@@ -43,16 +43,17 @@ bool takeTwo(Path path, TissueTable table, TissueTable referenceTable, mat3 turn
   return visible;
 }
 
-// Whether nothing that follows would be seen. The bent volume's first hit is looked for behind the
-// reference too: it is what a tool takes hold of.
+// Whether nothing that follows would be seen. The first hit of the bent volume is wanted even
+// behind the reference: a tool takes hold of it.
 bool isDone(Seen seen, Path path, float number)
 {
   float left = max(
-    shownShare(seen.own, seen.other, number), shownShare(seen.other, seen.own, number));
+    seenShare(seen.own, seen.other, number), seenShare(seen.other, seen.own, number));
   return left < 1.0 - OpaqueEnough && (seen.own.hit >= 0.0 || number >= path.own.y);
 }
 
-// Whether either volume may be seen at sample `i`, and the first sample of which that is not known.
+// Finds whether either volume may be seen at sample `i`. Returns the first sample beyond, where
+// that is unknown again.
 float sampleBeyondBoth(Path path, float i, out bool present)
 {
   float own = sampleBeyond(leaps, leapsTexel, path.bricks, i, present);
@@ -74,7 +75,7 @@ void main()
   Seen seen = Seen(vec3(0.0), NothingMet, NothingMet);
   float end = path.samples.y;
   float i = evenBelow(path.samples.x);
-  float ask = skipping == 0 ? end : i + Trust; // from this sample on, whether there is anything
+  float ask = skipping == 0 ? end : i + Trust; // the first sample whose brick is asked
   float taken = 0.0;
   while (i < end && !isDone(seen, path, i))
   {

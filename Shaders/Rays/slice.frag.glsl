@@ -1,6 +1,6 @@
 // The plane of a slice through the deformed volume, with the scalars' colour and opacity.
 
-uniform vec4 slicePlane; // texture coordinates: on it where dot(xyz, p) + w is 0
+uniform vec4 slicePlane; // texture coordinates: dot(xyz, p) + w is 0 on the plane
 
 void main()
 {
@@ -13,7 +13,7 @@ void main()
   vec4 picture = vec4(0.0);
   vec2 space = boxSpan(march.ray, spaceLow, spaceHigh); // the first sample lies behind a cut
   bool reached = t >= space.x && t <= march.span.y && notClipped(deformed);
-  if (reached && inShownTissue(deformed, rest))
+  if (reached && inKeptTissue(deformed, rest))
   {
     vec4 tissue = tissueOf(scalarAt(rest));
     vec3 color = shadeAlone(march, colorOf(tissue, rest), deformed, rest);

@@ -1,5 +1,5 @@
-// Least and greatest offset in blocks of bricks: most bricks are far enough from what is visible,
-// or deep enough in it, to need no closer look (presence.frag.glsl).
+// Least and greatest offset in blocks of bricks. Most bricks are so far from what is visible, or so
+// deep in it, that they need no closer look (presence.frag.glsl).
 
 void main()
 {

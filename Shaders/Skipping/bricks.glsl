@@ -2,7 +2,7 @@
 
 uniform float brickSide;         // voxels
 uniform ivec3 firstBrick;        // the map's first brick; below 0 beyond the volume
-uniform float margin;            // voxels, how much more than a brick is looked at to every side
+uniform float margin;            // voxels around a brick that are looked at, too
 
 #ifdef DEFORMED
 uniform sampler3D offsets;       // the volume's texture coordinates; unfiltered
@@ -12,8 +12,8 @@ uniform vec3 nodesFromVoxel;     // node = voxel * nodesFromVoxel + nodesFromVox
 uniform vec3 nodesFromVoxelShift;
 uniform vec3 blockShift;         // texel of block 0 0 0 among the blocks
 
-// One node, of whole number. A software driver reads a texture whose filter is off in a third of
-// texelFetch's time, and turns what becomes an integer lane by lane.
+// The offset of one node; its number is whole. A software driver needs a third of texelFetch's time
+// to read a texture without a filter, and it converts floats to integers lane by lane.
 vec3 offsetOf(vec3 node)
 {
   return textureLod(offsets, (node + 0.5) / vec3(offsetCount), 0.0).xyz;
@@ -33,7 +33,7 @@ void offsetRange(vec3 low, vec3 high, out vec3 least, out vec3 greatest)
     vec3 offset = offsetOf(node);
     least = min(least, offset);
     greatest = max(greatest, offset);
-    // One loop that carries over: nested ones are miscompiled by old software drivers.
+    // One loop with carries, because old software drivers miscompile nested loops.
     node.x += 1.0;
     bool rowDone = node.x > last.x;
     node.x = rowDone ? first.x : node.x;

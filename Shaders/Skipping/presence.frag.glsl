@@ -1,8 +1,8 @@
 // The presence map in the deformed frame: whether anything can be seen in a brick, for any lattice.
-// What the ray caster evaluates is trilinear between nodes, so over a brick the offset lies between
-// the least and the greatest of the nodes its cells touch. The brick, moved by these, is asked of
-// the rest volume's summed visibility: that never misses a visible sample. See
-// ARCHITECTURE.md, "Skipping".
+// What the ray caster evaluates is trilinear between nodes. So over a brick the offset lies between
+// the least and the greatest of the nodes that its cells touch. The brick, moved by these offsets,
+// covers a box of the rest volume, whose summed visibility says whether anything is visible there.
+// That never misses a visible sample, see Representations/Skipping/README.md.
 
 uniform vec3 mapShift;           // texel of brick 0 0 0 of the map
 uniform sampler3D summed;        // visible bricks with lower indices; one more a side than bricks
@@ -43,7 +43,7 @@ bvec2 visibleWithin(vec3 low, vec3 high)
     return bvec2(false);
   }
   vec3 last = vec3(restBricks - 1);
-  // A rest brick knows of `margin` around it.
+  // A rest brick knows what lies within `margin` around it.
   vec3 from = clamp(floor((low + margin) / restBrickSide), vec3(0.0), last);
   vec3 to = clamp(ceil((high - margin) / restBrickSide) - 1.0, from, last);
   vec3 side = to - from + 1.0;

@@ -1,9 +1,9 @@
-// First and last share of a ray within occupied bricks, through MIN blending: red keeps the least
-// share, green the least of what is left of the ray behind a face. The image cuts both at 0 and 1.
+// First and last share of a ray within occupied bricks. MIN blending keeps the least share in red
+// and the least share of the ray behind a face in green. The image clamps both to 0 to 1.
 
 in float share; // of the way from the near plane to the far plane
 
-uniform float backDrawn; // 0: front faces alone are drawn; a ray that meets one may go on
+uniform float backDrawn; // 0: only front faces are drawn; a ray that meets one may go on
 
 void main()
 {

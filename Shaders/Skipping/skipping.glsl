@@ -1,17 +1,19 @@
-// Which samples of a ray can be visible: from the faces of the occupied bricks (proxy.frag.glsl)
-// where to start and end, from the distance to occupied bricks where to leap in between.
+// Which samples of a ray can be visible. The faces of the occupied bricks (proxy.frag.glsl) say
+// where to start and end. The distance to occupied bricks says where to leap in between.
 
 uniform int skipping;         // 0: all samples, for comparison
-uniform sampler2D spans;      // red: least share of the ray on an occupied brick's face; green: what
-                              // is left of the ray behind the last one; 16 bits each
+// Red: share of the ray before the first face of an occupied brick. Green: share of the ray behind
+// the last face. 16 bits each.
+uniform sampler2D spans;
 uniform vec2 spansTexel;      // one pixel, texture coordinates of `spans`
-uniform sampler3D leaps;      // bricks of the deformed frame: 0 where something may be seen, else how
-                              // many bricks away, of 255, the nearest such brick is
+// For each brick of the deformed frame: distance to the nearest brick in which something may be
+// seen, in bricks, of 255.
+uniform sampler3D leaps;
 uniform vec3 brickFromTexture;
 uniform vec3 brickOfTextureZero; // minus the first brick
 uniform vec3 leapsTexel;         // one brick, texture coordinates of `leaps`
 #ifdef COMPARED
-uniform sampler3D referenceLeaps; // the same of the reference: bricks of its own voxels, unbent
+uniform sampler3D referenceLeaps; // the leaps of the reference: bricks of its own voxels, unbent
 uniform vec3 brickFromReference;
 uniform vec3 brickOfReferenceZero;
 uniform vec3 referenceLeapsTexel;
@@ -20,7 +22,8 @@ vec3 referenceFromDeformed(vec3 deformed); // reference.glsl
 #endif
 
 const float SpanRounding = 1.0 / 65535.0; // of a share, at most
-const float Trust = 8.0; // so many samples, first ones and after a visible one, are not asked about
+// So many samples, at the start and after a visible one, do not ask whether their brick is empty.
+const float Trust = 8.0;
 
 bool isOccupied(sampler3D map, vec3 place)
 {
@@ -42,19 +45,19 @@ bool startsInside(vec3 position)
 #endif
 }
 
-// Share of the ray before the first face, and behind the last; 1 where the ray meets none.
+// Share of the ray before the first face, and behind the last one; 1 if the ray meets none.
 vec2 spanOfPixel()
 {
   return textureLod(spans, gl_FragCoord.xy * spansTexel, 0.0).rg;
 }
 
-// Whether the ray is known to meet no occupied brick: even from inside it would leave one.
+// Whether the ray meets no occupied brick for certain. From inside a brick it would leave one.
 bool meetsNothing()
 {
   return skipping == 1 && spanOfPixel().y == 1.0;
 }
 
-// First sample and one past the last; samples are numbered from t = span.x.
+// First sample, and one past the last. Samples are numbered from t = span.x.
 vec2 presentSamples(Ray ray, vec2 span, float stepMm)
 {
   vec2 all = vec2(0.0, ceil((span.y - span.x) / stepMm));
@@ -69,14 +72,14 @@ vec2 presentSamples(Ray ray, vec2 span, float stepMm)
   }
   found = (found - SpanRounding) * ray.lengthMm;
   float nearest = startsInside(ray.start) ? 0.0 : found.x;
-  // One sample more to either side for rounding.
+  // One more sample on either side, for rounding.
   vec2 present = vec2(floor((nearest - span.x) / stepMm) - 1.0,
     ceil((ray.lengthMm - found.y - span.x) / stepMm) + 2.0);
   return vec2(max(present.x, all.x), min(present.y, all.y));
 }
 
-// A ray among the bricks, counted in them. What holds for all its samples is made ready: a brick
-// with its lower corner at `corner` is left at sample corner * samplesPerBrick + samplesToFace.
+// A ray in units of bricks, with what all its samples need: a ray leaves the brick whose lower
+// corner is at `corner` at sample corner * samplesPerBrick + samplesToFace.
 struct BrickTrack
 {
   Track at;
@@ -100,14 +103,15 @@ BrickTrack deformedBricks(Track deformed)
     deformed.stride * brickFromTexture));
 }
 
-// Whether something may be seen in the brick that sample `i` is in, and the first sample beyond it;
-// if nothing may, beyond all bricks around it that are as empty. `map`: their leaps.
+// Finds whether something may be seen in the brick of sample `i`. Returns the first sample beyond
+// that brick, or, if nothing may be seen, beyond all bricks around it that are known to be empty.
+// `map`: the leaps.
 float sampleBeyond(sampler3D map, vec3 mapTexel, BrickTrack bricks, float i, out bool present)
 {
   vec3 position = positionOf(bricks.at, i);
   float away = floor(textureLod(map, position * mapTexel, 0.0).r * 255.0 + 0.5);
   present = away == 0.0;
-  // The block of empty bricks: so many to either side, less one.
+  // The block of empty bricks: their distance less one to either side.
   float margin = max(away - 1.0, 0.0);
   vec3 samples = floor(position) * bricks.samplesPerBrick + bricks.samplesToFace +
     margin * abs(bricks.samplesPerBrick);

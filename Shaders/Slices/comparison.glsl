@@ -1,18 +1,18 @@
-// A reference volume beside the bent one, in one picture. The reference is not bent: it is read
-// where the fragment lies, not where its tissue came from.
+// A reference volume beside the bent one, in one picture. The reference is not bent: it is read at
+// the place of the fragment, and not at the rest position.
 
 #ifdef COMPARED
 uniform sampler3D reference;       // red: the scalar, as stored
 uniform mat4 referenceFromTexture; // its texture coordinates from the volume's
-uniform vec3 referenceVoxels;      // of it, a side
+uniform vec3 referenceVoxels;      // voxels of the reference, a side
 uniform vec3 referenceLow;         // its box, in its texture coordinates
 uniform vec3 referenceHigh;
-uniform vec2 shareFromReference;  // stored scalar to its share of the shown range: scale, shift
-uniform vec2 shareFromScalar;     // the same of the volume
+uniform vec2 shareFromReference;  // stored scalar to its share of the range of greys: scale, shift
+uniform vec2 shareFromScalar;     // the volume's stored scalar to that share: scale, shift
 uniform vec2 transferFromShare;   // share to the colour map's coordinate: scale, shift
 uniform int comparison;           // as vtkDeformedSlicesMapper numbers them; 0: the reference alone
 uniform vec3 checkersFromTexture; // checker fields for a texture unit
-uniform vec3 greenFromGradient;   // stored scalar for a unit of its texture to share of full green
+uniform vec3 greenFromGradient;   // stored scalar per texture unit to share of full green
 uniform vec3 wipeNormal;          // mm beyond the wipe's line, on the reference's side of it
 uniform float wipeShift;
 
@@ -25,7 +25,7 @@ const int Wipe = 5;
 const vec3 WipeColor = vec3(0.91, 0.51, 0.12);
 const float HalfLinePixels = 0.75;
 
-// The reference at a position in its texture: its share of the range, 0 where it is not known.
+// The reference at a position in its texture: share of the range of greys; 0 where it is unknown.
 struct Referenced
 {
   vec3 place;
@@ -57,8 +57,8 @@ float gradientGreen(Referenced other)
   return other.known && !isnan(green) ? min(green, 1.0) : 0.0;
 }
 
-// Both in one colour; what was removed does not count and is grey. `color`: the volume's, by its
-// colour map; `own`: the share of its range.
+// Both volumes in one colour. The cavity does not count and is grey. `color`: of the volume, from
+// its colour map. `own`: the volume's share of the range of greys.
 vec3 compared(vec3 color, float own, Referenced other, vec3 alone, vec3 deformed)
 {
   switch (comparison)
@@ -77,7 +77,7 @@ vec3 compared(vec3 color, float own, Referenced other, vec3 alone, vec3 deformed
   }
 }
 
-// What is seen of a tissue's colour and opacity, and of the reference; false: nothing.
+// What is seen of the colour and opacity of tissue and reference. Returns false if nothing is.
 bool compare(bool hasTissue, float scalar, vec3 deformed, inout vec4 seen)
 {
   Referenced other = referenceAt(deformed);

@@ -1,12 +1,12 @@
-// A plane through the deformed frame. Each fragment looks its tissue up at the rest position it
-// came from, so that a slice is as smooth at any zoom as what it shows. Nothing outside the tissue.
+// A plane through the deformed frame. Each fragment reads its tissue at the rest position that it
+// came from, so that a slice is smooth at any zoom. Nothing is drawn outside the tissue.
 
 in vec3 deformed; // texture coordinates
 
 uniform vec3 voxels;     // of the scalars, a side
-uniform float opacity;   // of all
-uniform int mapsOpacity; // 1: times the opacity map's
-uniform int selecting;   // 1: only depth, and to a selection the background
+uniform float opacity;   // of everything
+uniform int mapsOpacity; // 1: the opacity map counts, too
+uniform int selecting;   // 1: only depth is drawn; colours are the background of a selection
 
 void main()
 {
@@ -19,7 +19,7 @@ void main()
   {
     discard;
   }
-  float shown = opacity * (mapsOpacity == 1 ? seen.a : 1.0);
-  vec4 picture = vec4(seen.rgb * shown, shown);
+  float share = opacity * (mapsOpacity == 1 ? seen.a : 1.0);
+  vec4 picture = vec4(seen.rgb * share, share);
   gl_FragData[0] = selecting == 1 ? vec4(0.0) : picture;
 }

@@ -1,10 +1,11 @@
-// What samples add where the colour map rises to opaque within less than scalars change in a step.
-// A sample then stands for the way from the one before it, with what the map holds on average
-// between the two scalars: the map at the sample alone would show how deep the first one lies, as
-// rings. Two samples share one light, at the middle of what they show.
+// What two samples add if the colour map rises to opaque while scalars change by less than they do
+// in one step. A sample then stands for the way from the sample before it, with the average of the
+// map between the two scalars. The map at the sample alone would show rings, which tell how deep in
+// the tissue the first sample lies. Two samples share one light, at the middle of what they show.
 
-uniform sampler2D transferSums; // before each entry of the map: sums of colour times opacity and
-                                // of opacity; of the latter 1 more, negative if it is invisible
+// For each entry of the map: the sums, over all entries before it, of colour times opacity, and of
+// opacity plus 1. The latter is negative if the entry itself is invisible.
+uniform sampler2D transferSums;
 
 const float Entries = float(TRANSFER_ENTRIES);
 
@@ -23,7 +24,7 @@ Entry entryOf(TissueTable table, float scalar)
   return Entry(number, vec4(sums.rgb, abs(sums.a)), sums.a > 0.0 && !isnan(scalar));
 }
 
-// Colour and opacity between two scalars, of which one is visible.
+// Colour and opacity between two scalars. At least one of them is visible.
 vec4 averageOf(TissueTable table, Entry from, Entry to, float scalar)
 {
   float entries = to.number - from.number;
@@ -35,11 +36,11 @@ vec4 averageOf(TissueTable table, Entry from, Entry to, float scalar)
   return vec4(average.rgb / max(average.a, 1e-6), average.a);
 }
 
-// How much of what the colour map has there is drawn: cropping, the volume's box, a segment.
-float shownShare(TissueTable table, vec3 deformed, vec3 rest, float scalar)
+// The share of the map's opacity that is drawn, after cropping, the volume's box and a segment.
+float drawnShare(TissueTable table, vec3 deformed, vec3 rest, float scalar)
 {
-  bool shown = inShownRegion(deformed) && insideVolume(table, rest) && !isnan(scalar);
-  return shown ? segmentOpacityAt(rest) : 0.0;
+  bool drawn = inKeptRegion(deformed) && insideVolume(table, rest) && !isnan(scalar);
+  return drawn ? segmentOpacityAt(rest) : 0.0;
 }
 
 float scalarOfSample(Path path, float i)
@@ -52,28 +53,17 @@ float scalarOfSample(Path path, float i)
   return scalarAt(rest);
 }
 
-// Takes the samples i and i + 1: their reads do not wait for each other, and one Jacobian does for
-// both. Whether something is seen.
-bool takeTwo(Path path, TissueTable table, mat3 turn, float i, inout Seen seen)
+// Finds colour and opacity. Returns false if neither sample nor the one before can be visible.
+bool colorsOfTwo(Path path, TissueTable table, Pair pair, float i, inout Seen seen,
+  inout vec4 first, inout vec4 second)
 {
-  vec3 oneDeformed = positionOf(path.deformed, i);
-  vec3 twoDeformed = positionOf(path.deformed, i + 1.0);
-  vec3 oneRest = oneDeformed;
-  vec3 twoRest = twoDeformed;
-  if (i + 1.0 >= path.moved.x && i < path.moved.y)
-  {
-    oneRest += offsetAt(positionOf(path.field, i));
-    twoRest += offsetAt(positionOf(path.field, i + 1.0));
-  }
-  float oneScalar = scalarAt(oneRest);
-  float twoScalar = scalarAt(twoRest);
   bool follows = seen.lastNumber == i - 1.0;
-  bool zeroVisible = follows && seen.lastVisible; // what was not taken is not visible
+  bool zeroVisible = follows && seen.lastVisible; // a sample that was not taken is not visible
   float zeroScalar = seen.lastScalar;
   seen.lastNumber = i + 1.0;
-  seen.lastScalar = twoScalar;
+  seen.lastScalar = pair.twoScalar;
   seen.lastVisible = false;
-  if (!mayBeVisible(table, oneScalar) && !mayBeVisible(table, twoScalar) && !zeroVisible)
+  if (!mayBeVisible(table, pair.oneScalar) && !mayBeVisible(table, pair.twoScalar) && !zeroVisible)
   {
     return false;
   }
@@ -81,34 +71,31 @@ bool takeTwo(Path path, TissueTable table, mat3 turn, float i, inout Seen seen)
   {
     zeroScalar = scalarOfSample(path, i - 1.0);
   }
-  Entry zero = entryOf(table, isnan(zeroScalar) ? oneScalar : zeroScalar);
-  Entry one = entryOf(table, oneScalar);
-  Entry two = entryOf(table, twoScalar);
-  float oneShare = shownShare(table, oneDeformed, oneRest, oneScalar);
-  float twoShare =
-    i + 1.0 < path.samples.y ? shownShare(table, twoDeformed, twoRest, twoScalar) : 0.0;
+  Entry zero = entryOf(table, isnan(zeroScalar) ? pair.oneScalar : zeroScalar);
+  Entry one = entryOf(table, pair.oneScalar);
+  Entry two = entryOf(table, pair.twoScalar);
+  float oneShare = drawnShare(table, pair.oneDeformed, pair.oneRest, pair.oneScalar);
+  float twoShare = i + 1.0 < path.samples.y
+    ? drawnShare(table, pair.twoDeformed, pair.twoRest, pair.twoScalar)
+    : 0.0;
   bool oneVisible = one.visible && oneShare > 0.0;
   seen.lastVisible = two.visible && twoShare > 0.0;
-  vec4 first = averageOf(table, zero, one, oneScalar);
-  vec4 second = averageOf(table, isnan(oneScalar) ? two : one, two, twoScalar);
+  first = averageOf(table, zero, one, pair.oneScalar);
+  second = averageOf(table, isnan(pair.oneScalar) ? two : one, two, pair.twoScalar);
   first.a *= zeroVisible || oneVisible ? oneShare : 0.0;
   second.a *= oneVisible || seen.lastVisible ? twoShare : 0.0;
-  bool visible = max(first.a, second.a) > 0.0;
-  if (visible)
-  {
-    mat3 slopes = mat3(0.0);
-    if (oneRest != oneDeformed) // where nothing moves there is nothing to turn
-    {
-      slopes = offsetSlopes(positionOf(path.field, i) + 0.5 * path.field.stride);
-    }
-    // The middle of the way that a sample stands for lies half a step before it.
-    float further = (1.0 - first.a) * second.a;
-    float way = further / (first.a + further) - 0.5;
-    Shine shine = shineAt(mix(oneDeformed, twoDeformed, way), mix(oneRest, twoRest, way), slopes,
-      turn, path.towardsEye);
-    // As if all from the surface on were opaque: opacities are then parts of a step behind it.
-    see(seen, shown(first, oneRest, shine), i - seen.picture.a - first.a);
-    see(seen, shown(second, twoRest, shine), i + 1.0 - seen.picture.a - second.a);
-  }
-  return visible;
+  return true;
+}
+
+// Adds both samples under light. `slopes`: of the offsets near them; `turn`: worldFromGradient.
+void seeTwo(Path path, Pair pair, mat3 slopes, mat3 turn, float i, vec4 first, vec4 second,
+  inout Seen seen)
+{
+  // The middle of the way that a sample stands for lies half a step before it.
+  float further = (1.0 - first.a) * second.a;
+  float way = further / (first.a + further) - 0.5;
+  Shine shine = shineBetween(path, pair, slopes, turn, way);
+  // As if everything from the surface on were opaque: opacities are then parts of a step behind it.
+  see(seen, litTissue(first, pair.oneRest, shine), i - seen.picture.a - first.a);
+  see(seen, litTissue(second, pair.twoRest, shine), i + 1.0 - seen.picture.a - second.a);
 }

@@ -1,9 +1,9 @@
-// Tissue that was removed: comparisons ignore it. Its edge lies where interpolation passes a half.
+// Tissue that was removed; comparisons ignore it. Its edge lies where interpolation passes 0.5.
 
 #ifdef CAVITY
 uniform sampler3D cavity;       // red: 0 or 1, as stored; linear in between
 uniform mat4 cavityFromTexture; // its texture coordinates from the volume's
-uniform float leastCavity;      // stored number for a half
+uniform float leastCavity;      // the stored number for 0.5
 
 bool isRemoved(vec3 deformed)
 {

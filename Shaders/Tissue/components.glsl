@@ -1,4 +1,4 @@
-// Colour of arrays with several numbers a voxel, whose last one gives the opacity.
+// Colour of arrays with several numbers for each voxel. The last one gives the opacity.
 
 #if defined(DIRECT_COLORS)
 uniform sampler3D colors; // red, green, blue of the voxel

@@ -1,8 +1,8 @@
-// Gradients for light where a segment is drawn alone.
+// Gradients for light if a segment is drawn alone.
 
 #ifdef SEGMENTED
 uniform vec3 segmentVoxel; // one voxel, texture coordinates
-uniform vec2 cutGradient;  // scale and shift: stored scalar to how much the edge counts beside it
+uniform vec2 cutGradient;  // stored scalar to the weight of the edge: scale and shift
 
 // From the four corners of a tetrahedron, a voxel away on each axis.
 vec3 segmentSlope(vec3 rest)
@@ -15,11 +15,11 @@ vec3 segmentSlope(vec3 rest)
   return vec3(a - b - c + d, c + d - a - b, b + d - a - c) / (4.0 * step);
 }
 
-// Where the edge cuts through tissue, the scalars' gradient has nothing to do with the surface that
-// is seen. So light takes the gradient of scalars that fall across the edge to the least that is
-// visible. Where the tissue's own leads the other way, only what lies in the cut counts of it: else
-// the two would cancel out.
-vec3 shownGradientAt(vec3 rest)
+// Where the edge cuts through tissue, the gradient of the scalars has nothing to do with the
+// surface that is seen. So light uses the gradient of scalars that fall across the edge to the
+// least visible one. If the tissue's own gradient points the other way, only its part within the
+// cut counts: else the two would cancel out.
+vec3 litGradientAt(vec3 rest)
 {
   vec3 gradient = gradientAt(rest);
   if (segmentShareAt(rest) > 0.999)
@@ -32,7 +32,7 @@ vec3 shownGradientAt(vec3 rest)
   return gradient + (1.0 - min(along, 0.0)) * fall;
 }
 #else
-vec3 shownGradientAt(vec3 rest)
+vec3 litGradientAt(vec3 rest)
 {
   return gradientAt(rest);
 }

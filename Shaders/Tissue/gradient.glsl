@@ -1,7 +1,7 @@
 // A gradient of zero as a texture holds it: whole numbers of ten bits, so that it is exact.
 const float ZeroGradient = 512.0 / 1023.0;
 
-// The scalar's gradient, for each texture unit: central differences over one voxel to either side.
+// Gradient of the scalar per texture unit: central differences over one voxel to either side.
 
 vec3 centralDifferences(sampler3D field, vec3 position, vec3 voxel)
 {

@@ -1,6 +1,6 @@
 // Phong's model (paper, section 2) with ParaView's lights, two-sided as its volumes are.
 
-// What light does to a colour.
+// How light changes a colour.
 struct Shine
 {
   vec3 factor;
@@ -26,7 +26,7 @@ Shine shineOn(vec3 normal, vec3 towardsEye, vec3 position)
   Shine shine = Shine(vec3(material.x), vec3(0.0));
   if (headlight == 1)
   {
-    // The commonest case: light, eye and mirrored light lie in one line with the normal's plane.
+    // The most common case: the light is at the eye.
     float facing = dot(normal, towardsEye);
     shine.factor += material.y * abs(facing) * lightColor[0];
     if (material.z > 0.0)

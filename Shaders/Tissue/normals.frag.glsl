@@ -1,10 +1,10 @@
-// Gradients for light, found once when the volume is loaded (paper, section 2). Not of unit length:
-// long ones count more where the filter blends neighbours. Ten bits a component.
+// Gradients for light, computed once when the volume is loaded (paper, section 2). They keep their
+// length: long ones count more where the filter blends neighbours. Ten bits a component.
 
 uniform sampler3D scalars;
 uniform vec3 texel;          // one texel of the target, texture coordinates
 uniform vec3 voxel;          // one voxel, texture coordinates
-uniform float gradientScale; // longer ones than 1 are cut
+uniform float gradientScale; // gradients longer than 1, once scaled, are cut
 
 void main()
 {
@@ -12,6 +12,6 @@ void main()
   vec3 gradient = centralDifferences(scalars, middle, voxel) * gradientScale;
   bool unknown = any(isnan(gradient)) || any(isinf(gradient));
   gradient = unknown ? vec3(0.0) : gradient;
-  gradient /= max(length(gradient), 1.0); // the direction counts
+  gradient /= max(length(gradient), 1.0); // keeps the direction
   gl_FragData[0] = vec4(511.0 / 1023.0 * gradient + ZeroGradient, 0.0);
 }

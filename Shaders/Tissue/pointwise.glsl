@@ -1,49 +1,34 @@
-// What samples add, each with the opacity that the colour map has at it.
+// What two samples add, each with the opacity that the colour map has at it.
 
-// Takes the samples i and i + 1: their reads do not wait for each other, and one Jacobian does for
-// both. Whether one of them is visible.
-bool takeTwo(Path path, TissueTable table, mat3 turn, float i, inout Seen seen)
+// Finds colour and opacity. Returns false if neither sample can be visible.
+bool colorsOfTwo(Path path, TissueTable table, Pair pair, float i, inout Seen seen,
+  inout vec4 one, inout vec4 two)
 {
-  vec3 oneDeformed = positionOf(path.deformed, i);
-  vec3 twoDeformed = positionOf(path.deformed, i + 1.0);
-  vec3 oneRest = oneDeformed;
-  vec3 twoRest = twoDeformed;
-  if (i + 1.0 >= path.moved.x && i < path.moved.y)
-  {
-    oneRest += offsetAt(positionOf(path.field, i));
-    twoRest += offsetAt(positionOf(path.field, i + 1.0));
-  }
-  float oneScalar = scalarAt(oneRest);
-  float twoScalar = scalarAt(twoRest);
-  if (!mayBeVisible(table, oneScalar) && !mayBeVisible(table, twoScalar))
+  if (!mayBeVisible(table, pair.oneScalar) && !mayBeVisible(table, pair.twoScalar))
   {
     return false;
   }
-  vec4 one = tissueAt(table, oneRest, oneScalar);
-  vec4 two = tissueAt(table, twoRest, twoScalar);
-  one.a = inShownRegion(oneDeformed) ? one.a : 0.0;
-  two.a = i + 1.0 < path.samples.y && inShownRegion(twoDeformed) ? two.a : 0.0;
-  bool visible = max(one.a, two.a) > 0.0;
-  if (visible)
-  {
-    mat3 slopes = mat3(0.0);
-    if (oneRest != oneDeformed) // where nothing moves there is nothing to turn
-    {
-      slopes = offsetSlopes(positionOf(path.field, i) + 0.5 * path.field.stride);
-    }
+  one = tissueAt(table, pair.oneRest, pair.oneScalar);
+  two = tissueAt(table, pair.twoRest, pair.twoScalar);
+  one.a = inKeptRegion(pair.oneDeformed) ? one.a : 0.0;
+  two.a = i + 1.0 < path.samples.y && inKeptRegion(pair.twoDeformed) ? two.a : 0.0;
+  return true;
+}
+
+// Adds both samples under light. `slopes`: of the offsets near them; `turn`: worldFromGradient.
+void seeTwo(Path path, Pair pair, mat3 slopes, mat3 turn, float i, vec4 one, vec4 two,
+  inout Seen seen)
+{
 #ifdef SHARED_LIGHT
-    // Light is found once, at the middle of what the two show.
-    float further = (1.0 - one.a) * two.a;
-    float way = further / (one.a + further);
-    Shine oneShine = shineAt(mix(oneDeformed, twoDeformed, way), mix(oneRest, twoRest, way), slopes,
-      turn, path.towardsEye);
-    Shine twoShine = oneShine;
+  // Light is found once, at the middle of what the two show.
+  float further = (1.0 - one.a) * two.a;
+  float way = further / (one.a + further);
+  Shine oneShine = shineBetween(path, pair, slopes, turn, way);
+  Shine twoShine = oneShine;
 #else
-    Shine oneShine = shineAt(oneDeformed, oneRest, slopes, turn, path.towardsEye);
-    Shine twoShine = shineAt(twoDeformed, twoRest, slopes, turn, path.towardsEye);
+  Shine oneShine = shineAt(pair.oneDeformed, pair.oneRest, slopes, turn, path.towardsEye);
+  Shine twoShine = shineAt(pair.twoDeformed, pair.twoRest, slopes, turn, path.towardsEye);
 #endif
-    see(seen, shown(one, oneRest, oneShine), i - 0.5);
-    see(seen, shown(two, twoRest, twoShine), i + 0.5);
-  }
-  return visible;
+  see(seen, litTissue(one, pair.oneRest, oneShine), i - 0.5);
+  see(seen, litTissue(two, pair.twoRest, twoShine), i + 0.5);
 }

@@ -1,5 +1,5 @@
-// A reference volume beside the bent one, on a grid of its own. It is not bent and not resampled:
-// it is read where a sample lies, through one matrix.
+// A reference volume beside the bent one, on a grid of its own. It is not bent and not resampled.
+// One matrix leads from a sample to its place in the reference.
 
 uniform sampler3D reference;       // red: the scalar, as stored
 uniform mat4 referenceFromTexture; // its texture coordinates from the volume's
@@ -7,7 +7,7 @@ uniform vec3 referenceLow;         // its box, in its texture coordinates
 uniform vec3 referenceHigh;
 uniform vec3 cropLow; // what cropping leaves of it, the volume's texture coordinates
 uniform vec3 cropHigh;
-uniform sampler2D referenceTransfer; // as `transfer`
+uniform sampler2D referenceTransfer; // colour map of the reference, see `transfer` in tissue.glsl
 uniform vec2 transferFromReference; // stored scalar to the colour map's coordinate: scale, shift
 uniform vec2 visibleReference;      // stored scalars beyond which nothing is visible
 uniform mat3 worldFromReferenceGradient; // world axes, from a gradient for its texture units
@@ -27,7 +27,7 @@ float referenceScalarAt(vec3 place)
   return textureLod(reference, place, 0.0).r;
 }
 
-// Opacity of one step; none outside the reference or where the scalar is not a number.
+// Opacity of one step: 0 outside the reference or if the scalar is not a number.
 float referenceOpacityAt(TissueTable table, vec3 place, float scalar)
 {
   float entry = scalar * table.transferFromScalar.x + table.transferFromScalar.y;
@@ -47,7 +47,7 @@ Track referenceTrack(Track deformed)
   return Track(referenceFromDeformed(deformed.first), mat3(referenceFromTexture) * deformed.stride);
 }
 
-// First and last t where the reference is and is shown; last < first if nowhere.
+// First and last t at which the reference is drawn; last < first if there is none.
 vec2 referenceSpan(Ray ray)
 {
   vec2 inBox = boxSpan(referenceRay(ray), referenceLow, referenceHigh);

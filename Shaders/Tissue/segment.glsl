@@ -1,14 +1,14 @@
-// Which tissue is drawn, where a segment is drawn alone.
+// Which tissue is drawn if a segment is drawn alone.
 
 #ifdef SEGMENTED
-uniform sampler3D segment; // red: how much of a place belongs to the segment; half of it: the edge
+uniform sampler3D segment; // red: how much of a place belongs to the segment; 0.5: the edge
 
 float segmentShareAt(vec3 rest)
 {
   return textureLod(segment, rest, 0.0).r;
 }
 
-// Factor on opacity: it rises across the edge, so that the edge shows no steps.
+// Factor on opacity. It rises across the edge, so that the edge shows no steps.
 float segmentOpacityAt(vec3 rest)
 {
   return clamp((segmentShareAt(rest) - LEAST_SHARE) / (1.0 - 2.0 * LEAST_SHARE), 0.0, 1.0);

@@ -1,14 +1,14 @@
 // What is at a rest position: scalar, colour and opacity, gradient. Texture coordinates.
 
-uniform sampler2D transfer;      // colour, and opacity for one step, over the scalar range; a row
-                                 // for each step length
+// Colour, and opacity for one step, over the range of scalars. Each step length has a row.
+uniform sampler2D transfer;
 uniform float transferRow;       // texture coordinate of the present step's row
 uniform vec2 transferFromScalar; // scale and shift: stored scalar to texture coordinate
 uniform vec2 visibleScalars;     // stored scalars beyond which nothing is visible
 uniform vec3 volumeLow;          // the volume's box, texture coordinates
 uniform vec3 volumeHigh;
 
-// What the loop needs, read once: a software driver reads uniforms anew, and checked, at each use.
+// What the loop needs is read once: a software driver reads and checks a uniform at each use.
 struct TissueTable
 {
   vec3 volumeLow;
@@ -39,7 +39,7 @@ float scalarAt(vec3 rest)
   return textureLod(scalars, rest, 0.0).r;
 }
 
-// Colour and opacity of one step; no opacity where the scalar is not a number.
+// Colour and opacity of one step. No opacity if the scalar is not a number.
 vec4 tissueOf(TissueTable table, float scalar)
 {
   float entry = scalar * table.transferFromScalar.x + table.transferFromScalar.y;
@@ -53,13 +53,13 @@ vec4 tissueOf(float scalar)
   return tissueOf(tissueTable(), scalar);
 }
 
-// Whether a scalar may be visible: a look at the colour map saved.
+// Whether a scalar may be visible. This is faster than a read of the colour map.
 bool mayBeVisible(TissueTable table, float scalar)
 {
   return scalar >= table.visibleScalars.x && scalar <= table.visibleScalars.y;
 }
 
-// The same at a position; no opacity outside the volume.
+// Colour and opacity of one step at a position. No opacity outside the volume.
 vec4 tissueAt(TissueTable table, vec3 rest, float scalar)
 {
   vec4 tissue = tissueOf(table, scalar);

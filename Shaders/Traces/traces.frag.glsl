@@ -1,4 +1,4 @@
-// A traced point's ball. Beside other balls and surfaces it is a disc.
+// The ball of a traced point. For its depth among other balls and surfaces it is a disc.
 
 flat in vec4 ballColor;
 flat in vec3 ballPlace;
@@ -7,7 +7,7 @@ const float RimShade = 0.5; // brightness where the ball turns away from the eye
 
 void main()
 {
-  // Not from gl_PointCoord: software drivers take a quarter longer over it.
+  // gl_PointCoord would say it, too, but software drivers would take a quarter longer.
   vec2 aside = (gl_FragCoord.xy - ballPlace.xy) * ballPlace.z;
   float rim = dot(aside, aside);
   if (rim > 1.0)

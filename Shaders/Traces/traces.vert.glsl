@@ -1,30 +1,32 @@
-// A traced point as a ball: where its middle is seen, how large, and whether tissue hides it. A ball
-// counts as seen from where it touches the tissue, so that a trace on the cortex is no patchwork.
+// A traced point as a ball: where its middle is seen, how large it is, and whether tissue hides it.
+// A ball that touches the tissue is not hidden, so that a trace on the cortex is no patchwork.
 
 in vec3 position; // the points' own coordinates, mm
-in vec4 color;    // opacity not multiplied in
+in vec4 color;    // not multiplied by opacity
 
 uniform mat4 worldFromPoint;
 uniform mat4 clipFromWorld;
 uniform vec3 ahead;          // unit vector the way the camera looks, world axes
 uniform float radius;        // mm
 uniform float pixelsForMm;   // where the homogeneous w is 1
-uniform float hiddenOpacity; // of what lies behind tissue, as a share
+uniform float hiddenOpacity; // share of the opacity that points behind tissue keep
 uniform vec2 origin;         // the picture's lower left pixel in the window
 uniform vec2 size;           // of the picture, pixels
 
-flat out vec4 ballColor; // times opacity
+flat out vec4 ballColor; // multiplied by opacity
 flat out vec3 ballPlace; // middle in the window, pixels; share of the radius for a pixel
 
 const float LeastRadius = 1.5; // pixels; smaller balls are lost to the eye
 
 #if TISSUES > 0
-uniform vec3 nearAhead[TISSUES]; // of each volume's picture: mm ahead on its near plane, and on
-uniform vec3 farAhead[TISSUES];  // its far plane, times (1, ndc)
-uniform vec2 hitsFromShare[TISSUES];   // texture coordinates of its first hits from the share of
-uniform vec2 hitsOfShareZero[TISSUES]; // the picture: scale and shift
+// Of each volume's picture: mm ahead on the near and on the far plane, from (1, ndc).
+uniform vec3 nearAhead[TISSUES];
+uniform vec3 farAhead[TISSUES];
+// Texture coordinates of its first hits from the share of the picture: scale and shift.
+uniform vec2 hitsFromShare[TISSUES];
+uniform vec2 hitsOfShareZero[TISSUES];
 
-// Whether a first hit, a share of the way from plane to plane or below 0, lies before `depth`.
+// Whether a first hit (share of the way from near to far plane; below 0: none) lies before `depth`.
 bool isBehind(int tissue, sampler2D hits, vec2 share, float depth)
 {
   vec2 place = share * hitsFromShare[tissue] + hitsOfShareZero[tissue];

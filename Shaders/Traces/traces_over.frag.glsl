@@ -1,4 +1,4 @@
-// Lays the nearest of faded balls over the scene; blending does the rest.
+// Gives the nearest faded balls to blending, which lays them over the window.
 
 in vec2 ndc;
 

@@ -157,8 +157,8 @@ def picture(view):
 
 
 def on_screen(view):
-    """The window's pixels as they are, indexed [row from below, column, colour], 0 to 255: a capture
-    would draw a still picture first."""
+    """The pixels of the window as they are, indexed [row from below, column, colour], 0 to 255. A
+    capture would draw a still picture first."""
     reader = vtkWindowToImageFilter()
     reader.SetInput(view.GetRenderWindow())
     reader.ReadFrontBufferOff()

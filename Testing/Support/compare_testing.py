@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What tests of comparisons share: a bent volume, a reference, and slices of both as numbers.
-Imported after the plugin was loaded."""
+
+Import it after the plugin is loaded.
+"""
 
 import math
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What tests of the renderer's counters share. Imported after the plugin was loaded."""
+"""What tests of the renderer's counters share. Import it after the plugin is loaded."""
 
 import brainshift
 from brainshift_testing import picture

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What tests of a segment that is drawn alone share: tissue everywhere, parted by labels."""
+"""What tests of a segment that is drawn alone share: tissue everywhere, divided by labels."""
 
 import brainshift
 import numpy
@@ -9,7 +9,7 @@ from paraview.simple import FreeFormDeformation
 SIDE = 49  # voxels, 1 mm
 MIDDLE = ((SIDE - 1) / 2,) * 3
 BRAIN, SKULL, VESSEL = 3, 7, 9
-# One colour: where voxels are set to 0, interpolation passes through all colours below theirs.
+# There is one colour, because interpolation to voxels of 0 passes through all lower colours.
 COLORS = [0, 1, 0.7, 0.4, 100, 1, 0.7, 0.4]
 OPACITIES = [0, 0, 0.5, 0, 25, 0, 0.5, 0, 40, 0.9, 0.5, 0, 100, 0.9, 0.5, 0]
 STROKES = brainshift.soft((24, 26, 30), (5, -4, -5), 16.0)

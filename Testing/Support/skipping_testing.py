@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What tests of empty-space skipping share: volumes with much to skip, lattices that fold, and the
-comparison bit for bit."""
+"""What tests of empty-space skipping share: volumes with much to skip, lattices that fold, and a
+comparison of pictures to the bit."""
 
 import itertools
 
@@ -12,8 +12,8 @@ from paraview.simple import FreeFormDeformation
 SIDE = 21  # voxels
 MIDDLE = ((SIDE - 1) / 2,) * 3
 OBLIQUE = (-0.5, -0.3, -0.8)
-# Opacity of 1 mm over the share of the scalar range. The band meets no voxel of `scattered`: it is
-# passed between neighbours only.
+# Pairs of a fraction of the scalar range and its opacity for 1 mm. No voxel of `scattered` lies in
+# the band; only interpolation between neighbours passes through it.
 OPACITIES = {
     "opaque": ((0.0, 0.0), (0.4, 0.0), (0.5, 1.0), (1.0, 1.0)),
     "translucent": ((0.0, 0.0), (0.2, 0.0), (0.3, 0.1), (1.0, 0.3)),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What tests of Deformed Slices share: flat views, grey maps, and slices sampled here."""
+"""What tests of Deformed Slices share: flat views, grey colour maps, and slices sampled here."""
 
 import numpy
 from brainshift_testing import SIZE, view_along

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A smooth volume, bent, beside ParaView's own "Volume" of the same volume, baked."""
+"""Compares a smooth bent volume with ParaView's own "Volume" of the same volume, bent and baked."""
 
 import brainshift
 import numpy
@@ -15,7 +15,7 @@ DIRECTION = (-0.6, 0.2, -1.0)
 COLORS = [0, 0, 0.2, 1, 50, 1, 0.6, 0, 100, 1, 1, 0.8]
 OPACITIES = [0, 0, 0.5, 0, 20, 0, 0.5, 0, 100, 0.7, 0.5, 0]
 MAPPER_STEP = 0.05  # mm, of mapper_picture
-# Baking blurs, and VTK's steps are twice as long.
+# Baking blurs the volume, and VTK's steps are twice as long.
 LARGEST_DIFFERENCE = 0.005  # mean, of full scale, over the object's pixels
 
 

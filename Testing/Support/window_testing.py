@@ -86,7 +86,7 @@ def settle(label):
 
 
 def shown(view, what):
-    """How many Handles, Faint or Highlights the tool in a view shows."""
+    """How many ControlPoints, Faint or Highlights the tool in a view shows."""
     hidden = view.SMProxy.GetProperty("HiddenRepresentations")
     for i in range(hidden.GetNumberOfProxies()):
         tool = hidden.GetProxy(i).GetClientSideObject().GetRepresentation()

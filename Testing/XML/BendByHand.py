@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Proves that Stamp, Soft and Move bend a volume by hand in ParaView's window: mouse, wheel and keys,
-one step of undo a stroke, nothing lost when things go away under the hand. Then that a script gets
-the same strokes and the same picture by properties alone.
+"""Proves that Stamp, Soft and Move bend a volume by hand in ParaView's window with mouse, wheel and
+keys. Each stroke is one step of undo, and nothing is lost when things disappear under the hand.
+Then a script gets the same strokes and the same picture by properties alone.
 
 ParaView's window runs this file as a script; what did not hold is written down for the pvpython
 that runs it afterwards."""

@@ -163,8 +163,8 @@ def far_points_stay_out_of_reach(scene):
     hand.wait()
     cells = 2.6  # that are shown about the cursor
     layer = math.pi * cells ** 2
-    handles = window.shown(scene.views["axial"], "Handles")
-    assert 0.7 * layer < handles < 1.3 * layer, handles
+    points = window.shown(scene.views["axial"], "ControlPoints")
+    assert 0.7 * layer < points < 1.3 * layer, points
     hand.drag(scene.pixel("axial", hidden), scene.pixel_in("axial", 0.2, 0.1))
     assert numpy.allclose(last()["anchor"], nearest), last()
     window.edit("Undo")
@@ -284,7 +284,7 @@ def what_the_mouse_does_is_told(scene):
     scene.over("axial")
     hand.hover(scene.pixel_in("axial", 0.0, 0.0))
     for tool, word in ((hand.STAMP, "Page Up"), (hand.SOFT, "Wheel: next slice"),
-                       (hand.MOVE, "within the slice"), (hand.NONE, "Ctrl+wheel: zoom")):
+                       (hand.MOVE, "within the slice"), (hand.NONE, "Ctrl+Wheel: zoom")):
         hand.take(tool)
         hand.hover(scene.pixel_in("axial", 0.01, 0.0))
         hand.wait()

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that ParaView's window, played by Comparison.xml, compares two volumes in slices by its
 panel, and that the key K shows the reference in all views at once and then both again, without a
-step to undo or a trace in a state file. The window imports this file to make the volumes, to type, and to write down what it
-sees; it lets no event be played while it does, for the player would go on with the next."""
+step to undo and without a trace in a state file.
+
+The window imports this file to make the volumes, to type, and to write down what it sees. The file
+lets no event be played while it works, because the player would go on with the next event.
+"""
 import json
 import os
 import xml.etree.ElementTree

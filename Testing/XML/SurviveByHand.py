@@ -299,7 +299,7 @@ def large_lattice():
     hand.take(hand.MOVE)
     hand.hover(middle(view, 3, 3))
     hand.wait()
-    assert 5 < window.shown(view, "Handles") < 50, window.shown(view, "Handles")
+    assert 5 < window.shown(view, "ControlPoints") < 50, window.shown(view, "ControlPoints")
     assert 5 < window.shown(view, "Faint") < 250, window.shown(view, "Faint")
     hand.drag(middle(view, 3, 3), middle(view, 20, 12))
     tools = [stroke[0] for stroke in strokes()]

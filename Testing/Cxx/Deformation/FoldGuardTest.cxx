@@ -4,6 +4,7 @@
 // to; and that it leaves alone what folds without any stroke.
 #include "Filters/Deformation/FoldGuard.h"
 #include "Filters/Deformation/Kernels.h"
+#include "Filters/Deformation/LatticeExtremes.h"
 #include "Filters/Deformation/OffsetField.h"
 #include "Filters/Deformation/PointMap.h"
 #include "Filters/Deformation/Replay.h"
@@ -63,7 +64,8 @@ double smallestOfDrawn(const Lattice& lattice)
     {
       for (int i = 0; i < 3 * cells.x; ++i)
       {
-        const glm::vec3 node(i / 3 + within[i % 3], j / 3 + within[j % 3], k / 3 + within[k % 3]);
+        const glm::vec3 node = glm::vec3(glm::ivec3(i, j, k) / 3) +
+          glm::vec3(within[i % 3], within[j % 3], within[k % 3]);
         glm::vec3 displacement;
         glm::mat3 jacobian;
         field.map(node / float(Samples + 1) - 1.0f, displacement, jacobian);
@@ -92,6 +94,7 @@ std::vector<Stroke> anyStrokes(unsigned int seed, const Grid& grid, int count)
 {
   Random random(seed);
   std::vector<Stroke> strokes;
+  strokes.reserve(count);
   for (int i = 0; i < count; ++i)
   {
     strokes.push_back(anyStroke(random, grid));

@@ -3,6 +3,7 @@
 // right.
 #include "Filters/Deformation/Kernels.h"
 #include "Filters/Deformation/Lattice.h"
+#include "Filters/Deformation/LatticeExtremes.h"
 #include "Filters/Deformation/PointMap.h"
 #include "Testing/Cxx/Deformation/TestLattices.h"
 

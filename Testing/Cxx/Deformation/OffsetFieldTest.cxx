@@ -3,6 +3,7 @@
 // maps of single points.
 #include "Filters/Deformation/OffsetField.h"
 #include "Filters/Deformation/Kernels.h"
+#include "Filters/Deformation/LatticeExtremes.h"
 #include "Filters/Deformation/PointMap.h"
 #include "Testing/Cxx/Deformation/TestLattices.h"
 

@@ -5,6 +5,7 @@
 #define BrainShift_TestLattices_h
 
 #include "Filters/Deformation/Lattice.h"
+#include "Filters/Deformation/LatticeExtremes.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -88,8 +89,9 @@ inline Lattice latticeOf(
 inline Lattice randomLattice(const Grid& grid, int kernel, unsigned int seed, double cells)
 {
   Random random(seed);
-  return latticeOf(grid, kernel, [&](const glm::dvec3&)
-    { return grid.worldVectorFromGrid(random.between(glm::dvec3(-cells), glm::dvec3(cells))); });
+  return latticeOf(grid, kernel, [&](const glm::dvec3&) {
+    return grid.worldVectorFromGrid(random.between(glm::dvec3(-cells), glm::dvec3(cells)));
+  });
 }
 
 // Random displacements, as large as they may be with every Jacobian determinant at 0.1 or above:

@@ -25,9 +25,9 @@ std::string scratch(const std::string& name)
   return std::string(BRAINSHIFT_TEST_TEMP) + "/" + name;
 }
 
-FieldFile someField(Direction direction)
+DirectedField someField(Direction direction)
 {
-  FieldFile field;
+  DirectedField field;
   field.grid = obliqueGrid({ 4, 5, 6 });
   Random random(8);
   for (std::size_t i = 0; i < field.grid.count(); ++i)
@@ -40,7 +40,7 @@ FieldFile someField(Direction direction)
 
 // Where a field leads a point (mm, RAS), trilinear: asked of both fields, whichever way their
 // points are ordered in memory.
-glm::dvec3 displacementAt(const FieldFile& field, const glm::dvec3& world)
+glm::dvec3 displacementAt(const DirectedField& field, const glm::dvec3& world)
 {
   const glm::dvec3 at = glm::clamp(
     field.grid.gridFromWorld(world), glm::dvec3(0.0), glm::dvec3(field.grid.dimensions - 1));
@@ -58,7 +58,7 @@ glm::dvec3 displacementAt(const FieldFile& field, const glm::dvec3& world)
   return sum;
 }
 
-void expectSameField(const FieldFile& found, const FieldFile& expected, double tolerance)
+void expectSameField(const DirectedField& found, const DirectedField& expected, double tolerance)
 {
   ASSERT_EQ(found.displacements.size(), expected.displacements.size());
   EXPECT_EQ(found.direction, expected.direction);
@@ -103,7 +103,8 @@ std::string writeVectors(const char* name, int intent, const char* intentName, f
   std::copy_n(intentName, std::strlen(intentName), bytes.begin() + 328);
   for (int i = 0; i < 24; ++i) // component by component: x of all points, then y, then z
   {
-    const float value = i % 8 == 0 ? float(i / 8 + 1) : 0.0f;
+    const int component = i / 8;
+    const float value = i % 8 == 0 ? float(component + 1) : 0.0f;
     const char* raw = reinterpret_cast<const char*>(&value);
     bytes.insert(bytes.end(), raw, raw + 4);
   }
@@ -121,10 +122,10 @@ TEST_P(FieldFormat, KeepsPlaceVectorsAndDirection)
   const std::string fileName = scratch(std::string("field") + GetParam());
   for (const Direction direction : { Direction::Forward, Direction::Backward })
   {
-    const FieldFile field = someField(direction);
+    const DirectedField field = someField(direction);
     ASSERT_EQ(writeFieldFile(fileName, field), "");
     EXPECT_TRUE(isFieldFile(fileName));
-    FieldFile found;
+    DirectedField found;
     ASSERT_EQ(readFieldFile(fileName, found), "");
     // NIfTI places by float32: 705 mm from the origin to 0.00003 mm, times vectors' steepness.
     expectSameField(found, field, 1e-3);
@@ -134,7 +135,7 @@ TEST_P(FieldFormat, KeepsPlaceVectorsAndDirection)
 TEST_P(FieldFormat, ReaderAndWriterMeanTheSameWorld)
 {
   const std::string fileName = scratch(std::string("world") + GetParam());
-  const FieldFile field = someField(Direction::Backward);
+  const DirectedField field = someField(Direction::Backward);
   const auto image =
     fieldOn(field.grid, [&](const glm::dvec3& p) { return displacementAt(field, p); });
   vtkNew<vtkDisplacementFieldWriter> writer;
@@ -148,7 +149,7 @@ TEST_P(FieldFormat, ReaderAndWriterMeanTheSameWorld)
   {
     reader->SetWorld(world);
     reader->Update();
-    FieldFile found{ gridOf(reader->GetOutput()), {}, directionOf(reader->GetOutput()) };
+    DirectedField found{ gridOf(reader->GetOutput()), {}, directionOf(reader->GetOutput()) };
     vtkDataArray* vectors = reader->GetOutput()->GetPointData()->GetVectors();
     for (vtkIdType i = 0; i < vectors->GetNumberOfTuples(); ++i)
     {
@@ -200,7 +201,7 @@ TEST(FieldFile, NIFTISaysDisplacementAndDirection)
 
 TEST(FieldFile, TextHeadersSayDirectionAndLPS)
 {
-  FieldFile field = someField(Direction::Forward);
+  DirectedField field = someField(Direction::Forward);
   field.grid.direction = glm::dmat3(1.0);
   field.displacements[0] = { 1.0f, 2.0f, 3.0f };
   ASSERT_EQ(writeFieldFile(scratch("said.nrrd"), field), "");
@@ -227,7 +228,7 @@ TEST(FieldFile, TextHeadersSayDirectionAndLPS)
 
 TEST(FieldFile, VectorsOfNIFTIFilesAreWhatTheirProgramsMean)
 {
-  FieldFile found;
+  DirectedField found;
   const auto firstOf = [&](const std::string& fileName) {
     EXPECT_EQ(readFieldFile(fileName, found), "");
     return found.displacements.at(0);
@@ -247,7 +248,7 @@ TEST(FieldFile, VectorsOfNIFTIFilesAreWhatTheirProgramsMean)
 TEST(FieldFile, PackedAndForeignNumbersAreRead)
 {
   // What ITK writes when asked to compress, and doubles of the other byte order.
-  const FieldFile field = someField(Direction::Backward);
+  const DirectedField field = someField(Direction::Backward);
   const auto packed = [&](const char* name, const std::string& from, const std::string& to,
                         const std::string& end, int windowBits) {
     ASSERT_EQ(writeFieldFile(scratch(name), field), "");
@@ -266,7 +267,7 @@ TEST(FieldFile, PackedAndForeignNumbersAreRead)
     bytes.replace(data, std::string::npos, out);
     bytes.replace(bytes.find(from), from.size(), to);
     std::ofstream(scratch(name), std::ios::binary) << bytes;
-    FieldFile found;
+    DirectedField found;
     EXPECT_EQ(readFieldFile(scratch(name), found), "");
     expectSameField(found, field, 1e-4);
     std::ofstream(scratch(name), std::ios::binary) << bytes.substr(0, bytes.size() - 200);
@@ -293,7 +294,7 @@ TEST(FieldFile, PackedAndForeignNumbersAreRead)
     }
   }
   raw.close();
-  FieldFile found;
+  DirectedField found;
   ASSERT_EQ(readFieldFile(scratch("big.mhd"), found), "");
   EXPECT_EQ(found.displacements[1], glm::vec3(-3.5f, -4.5f, 5.5f));
   EXPECT_EQ(found.direction, std::nullopt);
@@ -301,13 +302,14 @@ TEST(FieldFile, PackedAndForeignNumbersAreRead)
 
 TEST(FieldFile, WhatIsNoFieldIsNamed)
 {
-  FieldFile found;
+  DirectedField found;
   const auto problemOf = [&](
                            const std::string& fileName) { return readFieldFile(fileName, found); };
   const auto expectSays = [](const std::string& said, const char* words) {
     EXPECT_NE(said.find(words), std::string::npos) << said;
   };
-  expectSays(problemOf(writeVectors("stat.nii", 5, "", 0)), "intent 5; a displacement field has");
+  expectSays(
+    problemOf(writeVectors("stat.nii", 5, "", 0)), "intent 5; a displacement field must have");
   EXPECT_FALSE(isFieldFile(scratch("stat.nii")));
   expectSays(problemOf(writeVectors("spline.nii", 1007, "NREG_TRANS", 2)),
     "NiftyReg transformation of type 2");
@@ -320,7 +322,7 @@ TEST(FieldFile, WhatIsNoFieldIsNamed)
   expectSays(writeFieldFile("/nowhere/field.mha", someField(Direction::Forward)), "/nowhere");
   expectSays(writeFieldFile("/nowhere/field.nii", someField(Direction::Forward)), "/nowhere");
   std::ofstream(scratch("wrong.nrrd")) << "NRRD0004\ntype: short\ndimension: 4\nsizes: 3 2 2 2\n\n";
-  expectSays(problemOf(scratch("wrong.nrrd")), "type short; a field has float or double");
+  expectSays(problemOf(scratch("wrong.nrrd")), "type short; a field must have float or double");
   std::ofstream(scratch("skip.mhd")) << "HeaderSize = 128\nElementNumberOfChannels = 3\n";
   expectSays(problemOf(scratch("skip.mhd")), "bytes to skip before its numbers (128)");
   std::ofstream(scratch("wrong.mha")) << "DimSize = 2 2 2\nElementNumberOfChannels = 1\n";

@@ -2,6 +2,7 @@
 // Proves that the filter attaches what DeformableVolume.h promises, touches no voxel, and keeps the
 // last good deformation whatever it is given.
 #include "Filters/Deformation/Kernels.h"
+#include "Filters/Deformation/LatticeExtremes.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
 
 #include <vtkDoubleArray.h>
@@ -364,4 +365,29 @@ TEST(FreeFormDeformationInput, NeedsTwoPointsAlongEachAxis)
     EXPECT_NE(error.find(named), std::string::npos) << error;
     EXPECT_NE(error.find("at least 2"), std::string::npos) << error;
   }
+}
+
+TEST(StrokesTooFine, IsToldOnceForEachChange)
+{
+  vtkNew<vtkFreeFormDeformation> filter;
+  Errors heard(filter);
+  auto volume =
+    volumeOn(plainGrid(glm::ivec3(11), glm::dvec3(16.0)), VTK_SHORT, [](vtkIdType) { return 1.0; });
+  filter->SetInputData(volume);
+  Stroke stroke = strokeAt(Tool::Soft, glm::dvec3(80.0), { 1, 0, 0 });
+  stroke.major = 12.0;
+  const auto said = [&] {
+    setStrokes(filter, { stroke });
+    filter->Update();
+    return heard.take();
+  };
+  EXPECT_EQ(said(), "");
+  filter->SetLatticeDimensions(9, 9, 9);
+  EXPECT_NE(said().find("stroke 0 (12 mm): its spacing is 20 mm"), std::string::npos);
+  stroke.vector.y = 0.5;
+  EXPECT_EQ(said(), "") << "told already";
+  filter->SetLatticeDimensions(19, 19, 19);
+  EXPECT_EQ(said(), "");
+  filter->SetLatticeDimensions(9, 9, 9);
+  EXPECT_NE(said(), "") << "a change again";
 }

@@ -152,7 +152,7 @@ TEST(InvertDisplacementField, ABackwardBaseLatticeIsRefused)
   bend->SetInputData(1, backwardField());
   bend->Update();
   const std::string said = errors.take();
-  EXPECT_NE(said.find("leads backward"), std::string::npos) << said;
+  EXPECT_NE(said.find("is a backward field"), std::string::npos) << said;
   EXPECT_NE(said.find("Invert Displacement Field"), std::string::npos) << said;
 }
 

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that with a mask only what is inside moves: nothing outside it does, by any amount;
-// nothing of it is seen inside; the rim does not fold; and that what is no mask is refused.
-#include "Filters/Deformation/Kernels.h"
+// Proves that a mask is read from any image of labels or scalars, that what is no mask is refused,
+// and that the filter bends what lies inside the mask alone.
 #include "Filters/Attached/MaskImage.h"
-#include "Filters/Deformation/MaskWeights.h"
-#include "Filters/Deformation/OffsetField.h"
-#include "Filters/Deformation/Replay.h"
+#include "Testing/Cxx/Deformation/TestHead.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
 
 #include <vtkCellData.h>
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,25 +14,10 @@
 
 using namespace brainshift;
 using namespace brainshift::testing;
+using namespace brainshift::testing::head;
 
 namespace
 {
-constexpr int Samples = 4;
-constexpr int Brain = 4;
-constexpr int Skull = 7;
-
-// Two millimetres a voxel.
-const Grid VolumeGrid = plainGrid({ 41, 37, 33 }, glm::dvec3(2.0));
-const glm::dvec3 Middle(40.0, 36.0, 32.0);
-
-// A head: a brain with a cleft from above, in a skull. Labels from a position (mm).
-int labelAt(const glm::dvec3& world)
-{
-  const double fromMiddle = glm::length((world - Middle) / glm::dvec3(1.2, 1.1, 1.0));
-  const bool cleft = std::abs(world.x - Middle.x) < 2.5 && world.z > Middle.z + 6.0;
-  return fromMiddle > 28.0 ? 0 : fromMiddle > 24.0 || cleft ? Skull : Brain;
-}
-
 vtkSmartPointer<vtkImageData> headOn(const Grid& grid)
 {
   return volumeOn(grid, VTK_UNSIGNED_CHAR, [&](vtkIdType i) {
@@ -46,136 +27,12 @@ vtkSmartPointer<vtkImageData> headOn(const Grid& grid)
   });
 }
 
-// A finer grid that shares no axis with the volume and covers it.
-Grid obliqueMaskGrid()
-{
-  Grid grid = plainGrid(glm::ivec3(90), glm::dvec3(1.3));
-  grid.direction = glm::dmat3(glm::rotate(glm::dmat4(1.0), 0.4, glm::dvec3(1.0, -2.0, 0.5)));
-  grid.origin = Middle - grid.worldVectorFromGrid(glm::dvec3(44.5));
-  return grid;
-}
-
 Mask brainOn(const Grid& grid)
 {
   Mask mask;
   EXPECT_EQ(readMask(headOn(grid), { Brain }, VolumeGrid, mask), "");
   return mask;
 }
-
-// Whether a point lies in a voxel that is inside.
-bool isInside(const Mask& mask, const glm::dvec3& world)
-{
-  const glm::ivec3 voxel(glm::floor(mask.grid.gridFromWorld(world) + 0.5));
-  return mask.inside[mask.grid.offset(voxel.x, voxel.y, voxel.z)] != 0;
-}
-
-Lattice maskedLattice(const Mask& mask, double feather, int kernel = KernelCatmullRom)
-{
-  Lattice lattice = makeLattice(withDimensions(VolumeGrid, glm::ivec3(12)), kernel);
-  lattice.mask = maskWeights(lattice.grid, Samples, mask, feather);
-  return lattice;
-}
-
-// Strokes all over the head, most of which would fold tissue.
-std::vector<Stroke> strongStrokes(unsigned int seed, int count)
-{
-  Random random(seed);
-  std::vector<Stroke> strokes;
-  for (int i = 0; i < count; ++i)
-  {
-    Stroke stroke = strokeAt(i % 2 ? Tool::Soft : Tool::Stamp, random.point(VolumeGrid, -4.0),
-      random.between(glm::dvec3(-25.0), glm::dvec3(25.0)));
-    stroke.major = random.between(12.0, 40.0);
-    stroke.minor = random.between(10.0, 30.0);
-    strokes.push_back(stroke);
-  }
-  return strokes;
-}
-
-class MaskOnGrid : public ::testing::TestWithParam<bool>
-{
-protected:
-  Mask Inside = brainOn(GetParam() ? obliqueMaskGrid() : VolumeGrid);
-};
-}
-
-TEST_P(MaskOnGrid, NothingOutsideMoves)
-{
-  Lattice lattice = maskedLattice(this->Inside, 4.0);
-  std::fill(lattice.displacements.begin(), lattice.displacements.end(), glm::vec3(30, -20, 25));
-  const NodeField field = refine(lattice, Samples);
-  const PointMap map(lattice);
-  Random random(31);
-  int outside = 0;
-  double largest = 0.0;
-  for (int i = 0; i < 200000; ++i)
-  {
-    const glm::dvec3 rest = random.point(VolumeGrid, 0.0);
-    const glm::vec3 moved = field.displacement(glm::vec3(lattice.grid.gridFromWorld(rest)));
-    if (!isInside(this->Inside, rest))
-    {
-      ++outside;
-      EXPECT_EQ(moved, glm::vec3(0.0f));
-      EXPECT_EQ(map.deformedFromRest(rest), rest);
-    }
-    largest = std::max(largest, glm::distance(map.deformedFromRest(rest), rest));
-  }
-  EXPECT_GT(outside, 20000);
-  EXPECT_NEAR(largest, glm::length(glm::vec3(30, -20, 25)), 1e-3) << "deep inside all of it moves";
-  EXPECT_EQ(map.deformedFromRest({ -50.0, 36.0, 32.0 }), glm::dvec3(-50.0, 36.0, 32.0));
-}
-
-TEST_P(MaskOnGrid, TheRimDoesNotFoldAndKeepsWhatIsInside)
-{
-  for (const int kernel : { KernelCatmullRom, KernelBSpline })
-  {
-    Replay replay;
-    const Lattice& bent = replay.run(
-      maskedLattice(this->Inside, 5.0, kernel), strongStrokes(33, 16), { true, Samples });
-    EXPECT_GT(maximumDisplacement(bent), 2.0);
-    EXPECT_GT(minimumJacobian(bent), 0.1 - 5e-5);
-    const PointMap map(bent);
-    Random random(32);
-    for (int i = 0; i < 50000; ++i)
-    {
-      const glm::dvec3 rest = random.point(VolumeGrid, 0.0);
-      const glm::dvec3 goes = map.deformedFromRest(rest);
-      EXPECT_EQ(isInside(this->Inside, goes), isInside(this->Inside, rest));
-      EXPECT_EQ(isInside(this->Inside, map.restFromDeformed(rest)), isInside(this->Inside, rest));
-      EXPECT_LT(glm::distance(map.restFromDeformed(goes), rest), 2e-3);
-      EXPECT_GT(glm::determinant(map.jacobian(rest)), 0.1 - 5e-5);
-    }
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Grids, MaskOnGrid, ::testing::Values(false, true));
-
-TEST(MaskWeights, RiseOverTheFeather)
-{
-  // Inside: x from 1.5 to 8.5 cells of 10 mm. Nodes every 2 mm: the first that may move lies at 18,
-  // the last that may not at 16.
-  Mask mask{ plainGrid({ 10, 3, 3 }, { 10.0, 50.0, 50.0 }), std::vector<char>(90, 1) };
-  mask.grid.origin = { 0.0, -5.0, -5.0 };
-  for (std::size_t voxel = 0; voxel < 90; ++voxel)
-  {
-    mask.inside[voxel] = voxel % 10 > 1 && voxel % 10 < 9;
-  }
-  const Grid lattice = plainGrid(glm::ivec3(10), glm::dvec3(10.0));
-  const auto weights = maskWeights(lattice, 4, mask, 20.0);
-  const int side = 46;
-  ASSERT_EQ(weights->values.size(), std::size_t(side * side * side));
-  const auto at = [&](int x) { return weights->values[(22 * side + 22) * side + x]; };
-  EXPECT_EQ(at(8), 0.0f);
-  EXPECT_NEAR(at(9), 0.1 * 0.1 * 2.8, 1e-6);
-  EXPECT_NEAR(at(13), 0.5, 1e-6);
-  EXPECT_EQ(at(18), 1.0f);
-  EXPECT_EQ(at(30), 1.0f);
-  EXPECT_EQ(at(42), 0.0f) << "84 mm, and 85 is the edge";
-  EXPECT_GT(at(41), 0.0f);
-  EXPECT_EQ(weights->values[(22 * side + 0) * side + 22], 0.0f) << "the volume's border";
-  const auto hard = maskWeights(lattice, 4, mask, 0.0);
-  EXPECT_EQ(hard->values[(22 * side + 22) * side + 8], 0.0f);
-  EXPECT_EQ(hard->values[(22 * side + 22) * side + 9], 1.0f);
 }
 
 TEST(ReadMask, TakesLabelsOrWhatIsAboveZero)

@@ -78,12 +78,12 @@ TEST(NIFTIReaderErrors, HeadersThatCannotBe)
   expectFailure(file.bytes(), "data type 1536");
   file = NIFTITestFile();
   file.voxelOffset = 0.0;
-  expectFailure(file.bytes(), "byte 0; at least 348");
+  expectFailure(file.bytes(), "byte 0; the first possible byte is 348");
   for (const std::vector<int>& dimensions : { std::vector<int>{ 4, 0, 5 }, { 4, -3, 5 } })
   {
     file = NIFTITestFile();
     file.dimensions = dimensions;
-    expectFailure(file.header(), "in dimension 2; 1 to 2147483647 are possible");
+    expectFailure(file.header(), "in dimension 2; it must have from 1 to 2147483647");
   }
   file.dimensions = { 1, 1, 1 };
   expectFailure(file.bytes(), "has 1 voxel");

@@ -28,13 +28,11 @@ public:
   explicit Reading(const std::string& fileName)
   {
     this->Collect->SetClientData(this);
-    this->Collect->SetCallback(
-      [](vtkObject*, unsigned long event, void* self, void* text)
-      {
-        auto* reading = static_cast<Reading*>(self);
-        (event == vtkCommand::ErrorEvent ? reading->errors : reading->warnings) +=
-          static_cast<const char*>(text);
-      });
+    this->Collect->SetCallback([](vtkObject*, unsigned long event, void* self, void* text) {
+      auto* reading = static_cast<Reading*>(self);
+      (event == vtkCommand::ErrorEvent ? reading->errors : reading->warnings) +=
+        static_cast<const char*>(text);
+    });
     for (unsigned long event : { vtkCommand::ErrorEvent, vtkCommand::WarningEvent })
     {
       this->reader->AddObserver(event, this->Collect);

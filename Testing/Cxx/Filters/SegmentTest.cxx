@@ -1,63 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that a segmentation travels with a volume as the same array object, and that the shares
-// its segment is drawn by put every voxel's middle on the side of its label, smoothly, on any grid.
-#include "Filters/Deformation/SegmentShares.h"
+// Proves that a segmentation travels with a volume as the same array object.
 #include "Filters/Attached/Segmentation.h"
+#include "Filters/Deformation/ControlPoints.h"
+#include "Testing/Cxx/Deformation/TestBall.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
 
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 using namespace brainshift;
 using namespace brainshift::testing;
+using namespace brainshift::testing::ball;
 
 namespace
 {
-constexpr double Half = 0.5 * WholeShare;
-
-const Grid VolumeGrid = plainGrid({ 25, 21, 23 }, glm::dvec3(2.0));
-const glm::dvec3 Middle(24.0, 20.0, 22.0);
-
-// Labels: 3 in a ball of 12 mm, 5 around it up to 17 mm.
-int labelAt(const glm::dvec3& world)
-{
-  const double away = glm::distance(world, Middle);
-  return away < 12.0 ? 3 : away < 17.0 ? 5 : 0;
-}
-
-glm::ivec3 indexOf(const Grid& grid, vtkIdType i)
-{
-  const glm::ivec3& side = grid.dimensions;
-  return { i % side.x, i / side.x % side.y, i / side.x / side.y };
-}
-
 vtkSmartPointer<vtkImageData> labelsOn(const Grid& grid)
 {
   return volumeOn(grid, VTK_UNSIGNED_CHAR,
     [&](vtkIdType i) { return labelAt(grid.worldFromGrid(glm::dvec3(indexOf(grid, i)))); });
-}
-
-// A finer grid that shares no axis with the volume and covers it.
-Grid obliqueLabels()
-{
-  Grid grid = plainGrid(glm::ivec3(70), glm::dvec3(1.1));
-  grid.direction = glm::dmat3(glm::rotate(glm::dmat4(1.0), 0.6, glm::dvec3(1.0, -2.0, 0.5)));
-  grid.origin = Middle - grid.worldVectorFromGrid(glm::dvec3(34.5));
-  return grid;
-}
-
-Mask segmentOn(const Grid& grid, const std::vector<int>& labels)
-{
-  Segmentation segmentation;
-  SegmentationSource source;
-  EXPECT_EQ(source.find(labelsOn(grid), VolumeGrid, segmentation), "");
-  return segmentOf(segmentation, labels);
 }
 
 class SegmentedFilter : public ::testing::Test
@@ -172,70 +136,20 @@ TEST(Segmentation, LiesInCellsAtTheirMiddles)
   EXPECT_EQ(segmentation.grid.dimensions, VolumeGrid.dimensions - 1);
 }
 
-TEST(SegmentShares, PutEveryVoxelOnItsSide)
+TEST(Segmentation, ASegmentIsTheVoxelsOfItsLabels)
 {
+  SegmentationSource source;
+  Segmentation segmentation;
+  ASSERT_EQ(source.find(labelsOn(obliqueLabels()), VolumeGrid, segmentation), "");
   for (const std::vector<int>& labels : { std::vector<int>{ 3 }, { 5 }, { 3, 5 }, {} })
   {
-    const Mask segment = segmentOn(VolumeGrid, labels);
-    const std::vector<std::uint8_t> shares = segmentShares(segment, VolumeGrid);
-    ASSERT_EQ(shares.size(), VolumeGrid.count());
-    for (std::size_t i = 0; i < shares.size(); ++i)
+    const Mask segment = segmentOf(segmentation, labels);
+    ASSERT_EQ(segment.grid, obliqueLabels());
+    for (std::size_t i = 0; i < segment.inside.size(); ++i)
     {
-      EXPECT_EQ(shares[i] > Half, segment.inside[i] != 0) << i;
-    }
-    EXPECT_GT(std::count(shares.begin(), shares.end(), 0), 100);
-  }
-}
-
-TEST(SegmentShares, KeepWhatIsThin)
-{
-  const Grid grid = plainGrid(glm::ivec3(9), glm::dvec3(1.0));
-  Mask segment{ grid, std::vector<char>(grid.count(), 0) };
-  segment.inside[grid.offset(4, 4, 4)] = 1;
-  const std::vector<std::uint8_t> shares = segmentShares(segment, grid);
-  EXPECT_GT(shares[grid.offset(4, 4, 4)], Half);
-  EXPECT_LT(shares[grid.offset(5, 4, 4)], Half);
-  EXPECT_GT(shares[grid.offset(6, 4, 4)], 0) << "two voxels are smoothed into";
-  EXPECT_EQ(shares[grid.offset(7, 4, 4)], 0);
-}
-
-TEST(SegmentShares, SlopeAcrossAFlatEdge)
-{
-  const Grid grid = plainGrid(glm::ivec3(12), glm::dvec3(1.0));
-  Mask segment{ grid, std::vector<char>(grid.count(), 0) };
-  for (std::size_t i = 0; i < grid.count(); ++i)
-  {
-    segment.inside[i] = i % 12 >= 6;
-  }
-  const std::vector<std::uint8_t> shares = segmentShares(segment, grid);
-  const int expected[] = { 0, 0, 0, 0, 16, 80, 175, 239, 255, 255 }; // sixteenths: 0 1 5 11 15 16
-  for (int x = 0; x < 10; ++x)
-  {
-    EXPECT_NEAR(shares[grid.offset(x, 6, 6)], expected[x], 1.0) << x;
-  }
-  EXPECT_LT(shares[grid.offset(11, 6, 6)], WholeShare) << "nothing beyond belongs to it";
-}
-
-TEST(SegmentShares, LieOnAnyGrid)
-{
-  // Against what is known: the surface of label 3 is 12 mm from the middle.
-  const Grid oblique = obliqueLabels();
-  const Mask segment = segmentOn(oblique, { 3 });
-  const std::vector<std::uint8_t> shares = segmentShares(segment, VolumeGrid);
-  int near = 0;
-  for (std::size_t i = 0; i < shares.size(); ++i)
-  {
-    const glm::ivec3 at = indexOf(VolumeGrid, static_cast<vtkIdType>(i));
-    const double inside = 12.0 - glm::distance(VolumeGrid.worldFromGrid(glm::dvec3(at)), Middle);
-    near += std::abs(inside) < 3.0;
-    if (std::abs(inside) > 0.8)
-    {
-      EXPECT_EQ(shares[i] > Half, inside > 0.0) << inside;
+      const int label = labelAt(segment.grid.worldFromGrid(glm::dvec3(indexOf(segment.grid, i))));
+      const bool isChosen = std::find(labels.begin(), labels.end(), label) != labels.end();
+      ASSERT_EQ(segment.inside[i] != 0, labels.empty() ? label > 0 : isChosen) << i;
     }
   }
-  EXPECT_GT(near, 500);
-  Grid away = VolumeGrid;
-  away.origin.x = 300.0;
-  const std::vector<std::uint8_t> beyond = segmentShares(segment, away);
-  EXPECT_EQ(*std::max_element(beyond.begin(), beyond.end()), 0);
 }

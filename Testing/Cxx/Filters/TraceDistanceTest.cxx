@@ -3,10 +3,10 @@
 // are those of the array, that cavities do not count, and that a stroke redoes only its own part,
 // with the result of doing all of it.
 #include "Filters/Deformation/PointMap.h"
-#include "Testing/Cxx/Filters/TestPipeline.h"
 #include "Filters/Traces/TissueSurface.h"
 #include "Filters/Traces/TraceStatistics.h"
 #include "Filters/Traces/TriangleTree.h"
+#include "Testing/Cxx/Filters/TestPipeline.h"
 #include "vtkCompareVolumes.h"
 #include "vtkTraceDistance.h"
 
@@ -172,6 +172,7 @@ TEST_F(TraceDistance, NumbersAreThoseOfTheArray)
   vtkPointSet* traced = this->run(pointsAt(positions));
   EXPECT_TRUE(std::isnan(trace(traced, 400)));
   std::vector<double> distances;
+  distances.reserve(400);
   for (int i = 0; i < 400; ++i)
   {
     distances.push_back(trace(traced, i));
@@ -249,7 +250,7 @@ TEST_F(TraceDistance, AfterStrokesAHundredThousandPointsAreAsEvaluatedAnew)
   // Plainly: the least distance to all triangles, each put where the map puts it.
   const PointMap map = this->map();
   const auto volume = vtkImageData::SafeDownCast(this->Bend->GetOutputDataObject(0));
-  const Tissue tissue{ this->Volume, volume->GetPointData()->GetScalars(), 0.0 };
+  const TissueRegion tissue{ this->Volume, volume->GetPointData()->GetScalars(), 0.0 };
   TriangleMesh mesh = surfaceOf(tissue);
   for (glm::dvec3& point : mesh.points)
   {
@@ -429,7 +430,7 @@ TEST(TissueSurface, ScalarsThatAreNoNumbersGiveNoTriangles)
     const glm::dvec3 p(i % 9, i / 9 % 9, i / 81);
     return p.x > 6.0 ? NaN : 2.5 - glm::length(p - glm::dvec3(4.0));
   };
-  const Tissue tissue{ grid, arrayOf(VTK_FLOAT, "s", 729, value), 0.0 };
+  const TissueRegion tissue{ grid, arrayOf(VTK_FLOAT, "s", 729, value), 0.0 };
   const TriangleMesh mesh = surfaceOf(tissue);
   EXPECT_GT(mesh.triangles.size(), 50u);
   for (const glm::ivec3& triangle : mesh.triangles)

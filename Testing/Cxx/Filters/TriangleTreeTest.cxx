@@ -3,8 +3,8 @@
 // after the points move; and that a surface follows a lattice point for point, redoing only what a
 // stroke reaches.
 #include "Filters/Traces/TriangleTree.h"
-#include "Filters/Traces/DeformedSurface.h"
 #include "Filters/Deformation/PointMap.h"
+#include "Filters/Traces/DeformedSurface.h"
 #include "Testing/Cxx/Deformation/TestLattices.h"
 
 #include <gtest/gtest.h>

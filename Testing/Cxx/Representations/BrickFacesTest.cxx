@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that the rectangles are the occupied bricks' faces, each once and the right way round, that
-// faces side by side share one, and that an eye is told which it sees from in front.
+// Proves that the rectangles are the occupied bricks' faces, each once and the right way round,
+// that faces side by side share one, and that an eye is told which it sees from in front.
 #include "Representations/Skipping/BrickFaces.h"
 
 #include <gtest/gtest.h>

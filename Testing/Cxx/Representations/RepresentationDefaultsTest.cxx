@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that the defaults in the XML of "Deformed Volume", "Deformed Slices" and "Trace Points" are
-// those of the classes behind them.
+// Proves that the defaults in the XML of "Deformed Volume", "Deformed Slices" and "Trace Points"
+// are those of the classes behind them.
 #include "Testing/Cxx/Filters/TestDefaults.h"
 #include "vtkDeformedSlicesMapper.h"
 #include "vtkDeformedSlicesRepresentation.h"

@@ -2,8 +2,8 @@
 // Proves that skipping keeps each brick in which a segment may be seen, margin included, and no
 // brick that lies farther away; and which labels are drawn.
 #include "Representations/Tissue/SegmentTexture.h"
-#include "Representations/Scene/SceneGeometry.h"
 #include "Filters/Deformation/SegmentShares.h"
+#include "Representations/Scene/SceneGeometry.h"
 
 #include <vtkImageData.h>
 #include <vtkNew.h>

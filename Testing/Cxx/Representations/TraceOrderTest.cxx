@@ -23,6 +23,7 @@ std::vector<TraceVertex> pointsIn(const std::array<float, 3>& sides)
   std::mt19937 random(1);
   std::uniform_real_distribution<float> share(0.0f, 1.0f);
   std::vector<TraceVertex> points;
+  points.reserve(count);
   for (int i = 0; i < count; ++i)
   {
     points.push_back(

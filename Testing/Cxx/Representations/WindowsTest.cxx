@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that one vtkDeformedVolumeMapper draws in several windows, each an OpenGL context of its
 // own, what it draws in a single one, and uploads to each of them once.
-#include "Representations/Gpu/Counters.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Deformation/Stroke.h"
+#include "Representations/Gpu/Counters.h"
 #include "Testing/Cxx/Representations/TestWindow.h"
 #include "vtkDeformedVolumeMapper.h"
 

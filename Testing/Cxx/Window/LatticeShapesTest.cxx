@@ -82,26 +82,26 @@ TEST(LatticeShapes, HalfWeightIsHalfOfTheMiddle)
 
 TEST(LatticeShapes, EdgesJoinNeighboursOnly)
 {
-  std::vector<Handle> handles(4);
-  handles[0].index = { 3, 3, 3 };
-  handles[1].index = { 4, 3, 3 };
-  handles[2].index = { 3, 3, 4 };
-  handles[3].index = { 4, 4, 4 }; // beside none of them
+  std::vector<ControlPoint> points(4);
+  points[0].index = { 3, 3, 3 };
+  points[1].index = { 4, 3, 3 };
+  points[2].index = { 3, 3, 4 };
+  points[3].index = { 4, 4, 4 }; // beside none of them
   const std::vector<std::pair<int, int>> expected{ { 0, 1 }, { 0, 2 } };
-  EXPECT_EQ(edgesBetween(handles), expected);
+  EXPECT_EQ(edgesBetween(points), expected);
 }
 
 TEST(LatticeShapes, TheRepresentationHoldsWhatItWasGiven)
 {
   vtkNew<vtkLatticeRepresentation> shown;
   EXPECT_EQ(shown->GetBounds(), nullptr);
-  std::vector<Handle> handles(2);
-  handles[1].drawn = { 1.0, 2.0, 3.0 };
-  shown->SetHandles(handles);
+  std::vector<ControlPoint> points(2);
+  points[1].drawn = { 1.0, 2.0, 3.0 };
+  shown->SetControlPoints(points);
   shown->SetFaint({ { 0.0, 8.0, 0.0 } });
   shown->SetHighlights({ { 5.0, 0.0, 0.0 } });
   shown->SetLines(vtkLatticeRepresentation::Mark, cross({ 0.0, 0.0, 0.0 }, 2.0));
-  EXPECT_EQ(shown->GetNumberOfHandles(), 2);
+  EXPECT_EQ(shown->GetNumberOfControlPoints(), 2);
   EXPECT_EQ(shown->GetNumberOfFaint(), 1);
   EXPECT_EQ(shown->GetNumberOfHighlights(), 1);
   EXPECT_EQ(shown->GetNumberOfLines(vtkLatticeRepresentation::Mark), 3);
@@ -112,7 +112,7 @@ TEST(LatticeShapes, TheRepresentationHoldsWhatItWasGiven)
   EXPECT_DOUBLE_EQ(shown->GetBounds()[3], 8.0);
   shown->Clear();
   EXPECT_EQ(shown->GetBounds(), nullptr);
-  EXPECT_EQ(shown->GetNumberOfHandles(), 0);
+  EXPECT_EQ(shown->GetNumberOfControlPoints(), 0);
 }
 
 TEST(LatticeShapes, TheRepresentationMakesWhatStaysOnce)

@@ -1,22 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves, without a window, that the list of strokes reads the property at once, whoever changed
-// it, writes each edit as one list of strokes, and refuses what would lose them; and that advice is
-// given on the right side of its limits.
-#include "Advice.h"
-#include "StrokeModel.h"
+// it, writes each edit as one list of strokes, and refuses what would lose them; that advice is
+// given on the right side of its limits; that each key and gesture means one command; and that
+// Documentation/keys.md says what the table of commands says. With BRAINSHIFT_WRITE_KEYS set, the
+// test writes that file.
+#include "Interaction/Commands/Commands.h"
+#include "Panel/Parts/Advice.h"
+#include "Panel/Strokes/StrokeModel.h"
+#include "Panel/Window/KeysText.h"
 
 #include <vtkNew.h>
 #include <vtkSMDoubleVectorProperty.h>
 
+#include <QFile>
 #include <QGuiApplication>
+#include <QSet>
 #include <QSignalSpy>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-using brainshift::Stroke;
-using brainshift::Tool;
+using namespace brainshift;
 
 namespace
 {
@@ -58,7 +63,7 @@ protected:
 
   void set(const std::vector<Stroke>& strokes)
   {
-    const std::vector<double> numbers = brainshift::numbersFromStrokes(strokes);
+    const std::vector<double> numbers = numbersFromStrokes(strokes);
     this->Property->SetNumberOfElements(static_cast<unsigned int>(numbers.size()));
     this->Property->SetElements(numbers.data(), static_cast<unsigned int>(numbers.size()));
     this->Model.update();
@@ -110,7 +115,7 @@ TEST_F(StrokesInAList, FollowsOtherLengths)
   EXPECT_EQ(this->Model.rowCount(), 0);
   // Between a change of the property and the notice of it, rows that are gone read as nothing.
   this->set({ soft(), soft() });
-  this->Property->SetNumberOfElements(brainshift::NumbersPerStroke);
+  this->Property->SetNumberOfElements(NumbersPerStroke);
   EXPECT_EQ(this->Model.stroke(1), Stroke());
 }
 
@@ -231,4 +236,68 @@ TEST(Advice, ColoursReadOnLightAndDark)
         << background.name().toStdString() << " " << static_cast<int>(grade);
     }
   }
+}
+
+TEST(Commands, EachGestureMeansOneThing)
+{
+  QSet<QString> seen;
+  for (const CommandRow& row : commandTable())
+  {
+    EXPECT_TRUE(row.keys.empty() != (row.mouse == Mouse::None)) << row.what;
+    EXPECT_TRUE(QString(row.what).endsWith('.')) << row.what;
+    EXPECT_FALSE(QString(row.hint).endsWith('.')) << row.hint;
+    for (const ToolKind tool : row.tools.empty() ? std::vector{ ToolKind::None } : row.tools)
+    {
+      const QString gesture =
+        QString("%1 %2 %3").arg(int(row.scope)).arg(int(tool)).arg(keysText(row));
+      EXPECT_FALSE(seen.contains(gesture)) << gesture.toStdString();
+      seen.insert(gesture);
+    }
+  }
+}
+
+TEST(Commands, AreFoundByKey)
+{
+  const auto inView = [](int key) {
+    return commandOfKey({ Scope::Tool, Scope::View, Scope::Slices }, key);
+  };
+  EXPECT_EQ(inView(Qt::Key_Y).command, Command::HoldAxis);
+  EXPECT_EQ(inView(Qt::Key_Y).place, 1);
+  EXPECT_EQ(inView(Qt::Key_PageDown).place, 1);
+  EXPECT_EQ(inView(Qt::Key_Delete).command, Command::None); // the list's
+  EXPECT_EQ(inView(Qt::Key_K).command, Command::None);      // the window's
+  EXPECT_EQ(commandOfKey({ Scope::List }, Qt::Key_Enter).command, Command::EditNumber);
+  EXPECT_EQ(shortcutOf(Command::TakeTool, ToolKind::Stamp), QKeySequence("Alt+3"));
+}
+
+TEST(Commands, AreFoundByGesture)
+{
+  const auto stamp = [](bool shift, bool control) {
+    return commandOfMouse(Scope::Tool, ToolKind::Stamp, Mouse::Wheel, shift, control);
+  };
+  EXPECT_EQ(stamp(false, false), Command::StampByClick);
+  EXPECT_EQ(stamp(true, false), Command::ChangeMajorRadius);
+  EXPECT_EQ(stamp(false, true), Command::None);
+  EXPECT_EQ(stamp(true, true), Command::None);
+  const auto slices = [](Mouse mouse, bool shift, bool control) {
+    return commandOfMouse(Scope::Slices, ToolKind::None, mouse, shift, control);
+  };
+  EXPECT_EQ(slices(Mouse::Wheel, true, false), Command::StepSlices); // no row asks for Shift
+  EXPECT_EQ(slices(Mouse::Wheel, true, true), Command::Zoom);
+  EXPECT_EQ(slices(Mouse::Drag, true, false), Command::BringSlices);
+  EXPECT_EQ(slices(Mouse::Drag, false, true), Command::None);
+}
+
+TEST(Commands, AreInTheDocumentation)
+{
+  QFile file(BRAINSHIFT_SOURCE_DIR "/Documentation/keys.md");
+  if (qEnvironmentVariableIsSet("BRAINSHIFT_WRITE_KEYS"))
+  {
+    ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+    file.write(keysAsMarkdown().toUtf8());
+    file.close();
+  }
+  ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+  EXPECT_EQ(QString::fromUtf8(file.readAll()).toStdString(), keysAsMarkdown().toStdString())
+    << "Run this test once with BRAINSHIFT_WRITE_KEYS=1.";
 }

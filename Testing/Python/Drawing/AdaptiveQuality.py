@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that drawing fewer pixels while moving changes neither brightness nor the still picture.
+# Proves that drawing fewer pixels while the view moves changes neither the brightness nor the
+# still picture.
 import brainshift_testing as testing
 
 testing.load_plugin()
@@ -39,7 +40,7 @@ def test_the_still_picture_is_whole_again():
 
 
 def test_a_stroke_is_seen_while_moving_above_the_lod_threshold():
-    # There ParaView delivers the data's stand-ins only, and a volume has none.
+    # There ParaView delivers only stand-ins of the data, and a volume has none.
     display, view, _ = drawn()
     view.LODThreshold = 0
     view.SMProxy.StillRender()

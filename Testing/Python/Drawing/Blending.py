@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that each blend mode shows of a bent volume what ParaView's "Volume" shows of the baked one
-# in the same mode, and the same bit for bit with empty-space skipping and without.
+# Proves that each blend mode shows a bent volume as ParaView's "Volume" shows the baked volume in
+# that mode. Empty-space skipping changes no bit of the picture.
 import numpy
 from brainshift_testing import (assert_says, load_plugin, messages, picture, run_tests,
                                 show_volume, view_along, volume)
@@ -18,8 +18,8 @@ NAMES = ("composite", "maximum", "minimum", "average", "additive", "isosurface",
 OPAQUE = [0, 1, 0.5, 0, 100, 1, 0.5, 0]
 FAINT = [0, 0, 0.5, 0, 100, 0.05, 0.5, 0]
 LOW_ONES = [0, 0.9, 0.5, 0, 80, 0.2, 0.5, 0, 90, 0, 0.5, 0, 100, 0, 0.5, 0]
-# VTK reads the scalars of a slice up to half a voxel off: it leaves out that values lie in the
-# middle of texels (in_inverseTextureDatasetMatrix), as it does not for other modes.
+# VTK reads the scalars of a slice up to half a voxel off. Here it forgets that values lie in
+# the middle of texels (in_inverseTextureDatasetMatrix).
 LARGEST_SLICE_DIFFERENCE = 0.012
 
 
@@ -49,7 +49,7 @@ def test_every_mode_looks_like_the_baked_volume():
 
 
 def test_additive_counts_each_unit_distance():
-    # 20 mm of scalars that share 0.5 of their range, 0.1 each 2 mm: 20 / 2 * 0.1 * 0.5.
+    # 20 mm of tissue at half the range, with opacity 0.1 for 2 mm: 20 / 2 * 0.1 * 0.5.
     voxels = numpy.full((21, 21, 21), 50.0, numpy.float32)
     voxels[:, 0, 0], voxels[:, 0, 1] = 0.0, 100.0
     for step in (0.3, 0.7):
@@ -129,7 +129,7 @@ def low_ones(colors, opacities):
 
 def test_skipping_changes_no_mode():
     for amplitude in (0.0, 20.0, 40.0):
-        # Of scattered voxels the greatest are seen, of holes in the rest the least.
+        # Bright voxels show in the maximum, and holes in the minimum.
         bright = bent(volume(scattered()), amplitude)
         dark = bent(volume(1 - scattered()), amplitude)
         for filter, name, mode, maps in (
@@ -156,8 +156,8 @@ def test_skipping_changes_no_mode():
 
 
 def test_what_cannot_be_seen_hides_what_can():
-    # Two slabs with nothing around them, not even numbers between: where the far one, invisible, is
-    # greater, the maximum is invisible. Its bricks are those that skipping would leave out.
+    # Two slabs with no numbers around them. The far one is invisible. Where it holds the maximum,
+    # nothing is seen, and its bricks are those that skipping would leave out.
     for mode, near, far in ((MAXIMUM, 0.5, 1.0), (MINIMUM, 0.5, 0.0)):
         voxels = numpy.full((21, 21, 21), numpy.nan, numpy.float32)
         voxels[14:] = near
@@ -172,7 +172,7 @@ def test_what_cannot_be_seen_hides_what_can():
 
 
 def test_new_isosurfaces_are_not_skipped():
-    # The bricks known are those of the old value, which the new one's surface does not meet.
+    # The surface of the new value does not meet the bricks of the old value.
     view = view_along(OBLIQUE, MIDDLE, 140.0, size=100)
     display = show_volume(volume(smooth()), view, "Deformed Volume", COLORS, OPAQUE)
     display.BlendMode = ISOSURFACE

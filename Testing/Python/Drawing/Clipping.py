@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that clipping planes and cropping regions cut a bent volume where VTK cuts the baked one,
-# and the same bit for bit with empty-space skipping and without.
+# Proves that clipping planes and cropping regions cut a bent volume where VTK cuts the baked
+# volume. Empty-space skipping changes no bit of the picture.
 import numpy
 from brainshift_testing import (assert_says, load_plugin, look, messages, picture, run_tests,
                                 show_volume, view_along, volume)
@@ -46,7 +46,7 @@ def test_planes_cut_where_vtk_cuts_the_baked_volume():
             def cut(display, view):
                 if moved:
                     placed(display)
-                # VTK's first sample lies two steps behind a cut: short ones tell where it is.
+                # VTK's first sample lies two steps behind a cut. Short steps show the cut.
                 display.SampleDistance = MAPPER_STEP
                 picture(view)  # the mapper is there after it
                 add_planes(prop_of(view).GetMapper(), planes_about(MIDDLE))
@@ -67,7 +67,7 @@ def test_planes_cut_where_vtk_cuts_the_baked_volume():
 
 
 def test_a_plane_cuts_what_is_seen():
-    # A box of one scalar, cut across at 12.25 mm: nothing is seen beyond.
+    # A box of one scalar is cut at 12.25 mm. Nothing is seen beyond.
     voxels = numpy.full((33, 33, 33), 100.0, numpy.float32)
     view = view_along((0, 0, -1), (16, 16, 16), 100.0, half_height=16.0, size=200)
     show_volume(volume(voxels), view, "Deformed Volume", COLORS, [0, 1, 0.5, 0, 100, 1, 0.5, 0])
@@ -102,7 +102,7 @@ def test_regions_crop_as_the_stock_volume_does():
             display.CroppingOrigin, display.CroppingScale = [20.0, 19.0, 21.0], [0.2, 0.15, 0.1]
             picture(view)
             prop_of(view).GetMapper().SetCroppingRegionFlags(flags)
-        # Both lose up to a step at each edge of a region, VTK a longer one.
+        # Both lose up to a step at each edge of a region, and VTK's step is longer.
         assert_like_stock(name, blobs, crop, limit=0.015)
 
 
@@ -123,7 +123,7 @@ def test_skipping_changes_nothing_that_is_cut():
             display.BlendMode = 0
             look(view, OBLIQUE, LITTLE_MIDDLE, 3.0)
             assert_same(view, display, what + "planes, eye inside", 0.003)
-            # The eye in tissue, and a cut between it and what is left.
+            # The eye is in tissue, with a cut between it and the rest.
             look(view, OBLIQUE, LITTLE_MIDDLE, 6.0)
             add_planes(mapper, ((LITTLE_MIDDLE, OBLIQUE),))
             assert_same(view, display, what + "a plane ahead", 0.003)

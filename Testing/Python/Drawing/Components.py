@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that volumes of several numbers a voxel are shown as ParaView's "Volume" shows them baked:
-# colours of their own, a second number or a separate array for the opacity; and that what is not
-# drawn is told and drawn with the colour map.
+# Proves that volumes with several numbers in a voxel are shown as ParaView's "Volume" shows them
+# baked: with colours of their own, with a second number for the opacity, or with a separate array
+# for it. What cannot be drawn gives a message and is drawn with the colour map.
 import numpy
 from brainshift_testing import (assert_says, load_plugin, messages, picture, run_tests,
                                 show_volume, view_along, volume)
@@ -35,7 +35,7 @@ def unmapped(display, view):
 
 
 def test_colours_of_its_own():
-    # VTK bakes zeros into the box only where tissue came from outside: nowhere here.
+    # Baking writes zeros where tissue came from outside the box. Here no tissue does.
     blobs = Bent(colored_bytes())
     assert_like_stock("four bytes", blobs, unmapped, opacities=OPACITY_OF_BYTES, limit=0.01)
 

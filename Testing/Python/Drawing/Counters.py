@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that the renderer does again only what changed: counts of uploads, bytes, refined texels and
-# compiled programs.
+# Proves that the renderer does only what a change needs. It counts uploads, bytes, refined
+# samples of the field and compiled programs.
 import numpy
 from brainshift_testing import (ball, load_plugin, look, picture, run_tests, show_volume,
                                 view_along, volume)
@@ -66,8 +66,7 @@ def test_a_stroke_that_fills_no_brick_sends_no_faces():
 
 
 def test_rays_are_cast_where_something_can_be_seen():
-    # A rod from corner to corner, seen along its length: the box around it fills two thirds of
-    # the picture.
+    # A rod from corner to corner, seen along its length. Its box fills two thirds of the picture.
     places = numpy.indices((33,) * 3) - 16.0
     aside = (places ** 2).sum(axis=0) - places.sum(axis=0) ** 2 / 3.0  # squared, from the diagonal
     rod = volume(numpy.where(aside < 9.0, 100.0, 0.0))
@@ -84,8 +83,8 @@ def test_rays_are_cast_where_something_can_be_seen():
 
 
 def test_a_stroke_refines_what_it_can_reach():
-    # Of a lattice of 19 points over 32 mm, a radius of 4 mm reaches 5 points a side; the kernel takes
-    # in two cells more to either side: 9 cells of 18 along each axis, of 5 nodes each.
+    # The lattice has 19 points over 32 mm. A radius of 4 mm reaches 5 points along each axis. The
+    # kernel adds two cells on either side: 9 of 18 cells along each axis, with 5 nodes each.
     drawn = Drawn()
     everything = FIELD_TEXELS
     there = brainshift.soft(MIDDLE, (2, 0, 0), 12)
@@ -116,8 +115,8 @@ def test_dragging_compiles_and_uploads_nothing_else():
 
 
 def test_a_kept_picture_casts_no_rays_until_something_changes():
-    # What a hovering tool relies on. Each change must be seen; the picture must be the one that is
-    # cast without keeping.
+    # A hovering tool relies on this. Each change must be seen, and the picture must equal the one
+    # that is cast without keeping.
     drawn = Drawn()
     drawn.display.KeepPicture = 1
     kept = picture(drawn.view)
@@ -174,7 +173,7 @@ def test_opaque_tissue_and_fog_have_a_program_each_compiled_once():
 
 
 def test_the_panel_of_a_shown_volume_uploads_nothing():
-    # Its light, its step on and off again, a second look: all there already.
+    # Light, step on and off again, a second look: all of that is there already.
     drawn = Drawn()
     drawn.display.Specular = 0.7
     assert drawn.did() == {}
@@ -183,8 +182,8 @@ def test_the_panel_of_a_shown_volume_uploads_nothing():
 
 
 def test_samples_are_counted():
-    # With skipping or without, a ray is as long; without it, all of it is sampled. Rays beyond the
-    # part of the picture that can show something are not cast with skipping.
+    # Rays have one length with and without skipping, and without it all of the ray is sampled. With
+    # skipping, only rays that can show something are cast.
     drawn = Drawn()
     assert "samplesTaken" not in drawn.did()
     drawn.display.CountSamples = 1

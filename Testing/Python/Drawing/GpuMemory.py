@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that a volume for which the GPU's memory does not suffice is told, with what it needs and
-# what there is, and drawn by VTK's software mapper; and is drawn by ours again when there is more.
-# That images take memory only for the part of the picture that the volume is seen in.
+# Proves that a volume that is too large for the memory of the GPU gives a message with the memory
+# it needs and the memory there is. VTK's software mapper draws it then, and our mapper draws it
+# again when there is more memory. Images take memory only for the part of the picture that shows
+# the volume.
 import re
 
 import numpy

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that light falls on the bent surface as it would on the baked volume's: normals drawn and
-# normals of the baked volume differ by less than 3 degrees on the mean. A red, a green and a blue
-# light along the three axes show all of a normal in one picture: the pixel is (|x|, |y|, |z|).
+# Proves that light falls on the bent surface as it falls on the surface of the baked volume: the
+# normals differ by less than 3 degrees on average. A red, a green and a blue light along the
+# three axes show the whole normal in one picture: the pixel is (|x|, |y|, |z|).
 import numpy
 from brainshift_testing import (ball, load_plugin, picture, run_tests, show_volume, view_along,
                                 volume, voxels)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that a stroke casts only the pixels behind which tissue moved, and that the picture and the
-# picks are those of a picture that is cast as a whole.
+# Proves that a stroke casts only the pixels that show moved tissue, and that the picture and the
+# picks equal those of a picture that is cast as a whole.
 import numpy
 import brainshift_testing as testing
 
@@ -86,7 +86,7 @@ def test_a_stroke_casts_what_it_moves():
 
 
 def test_a_drag_leaves_nothing_rough_behind():
-    # Steps so short that a moving picture cannot have all pixels.
+    # The steps are so short that a moving picture cannot have all pixels.
     for opacities, lit in ((SURFACE, True), (FOG, False)):
         scene = Scene(opacities, lit)
         scene.display.SampleDistance = 0.02
@@ -101,7 +101,7 @@ def test_a_drag_leaves_nothing_rough_behind():
 
 
 def test_picks_are_those_of_a_whole_picture():
-    # Points that come and go far away move the camera's clipping planes between both pictures.
+    # Points far away come and go, and move the camera's clipping planes between two pictures.
     scene = Scene(SURFACE)
     first = scene.filter.Strokes.GetData()[:]
     far = Sphere(Center=(60, 0, -60), Radius=0.5)
@@ -131,7 +131,7 @@ def test_picks_are_those_of_a_whole_picture():
 
 
 def test_parts_at_the_edge_of_the_picture():
-    # So near that what moves lies over corners and edges of the window.
+    # The eye is so near that moving tissue covers corners and edges of the window.
     scene = Scene(SURFACE)
     scene.display.SampleDistance = 0.02
     scene.display.KeepPicture = 1
@@ -145,7 +145,7 @@ def test_parts_at_the_edge_of_the_picture():
 
 
 def test_tissue_leaves_nothing_where_it_was():
-    # Pulled far out of the volume's box and let back in one drag, tissue reaches less far again.
+    # In one drag, tissue is pulled far out of the volume's box and then let back.
     scene = Scene(SURFACE)
     scene.display.KeepPicture = 1
     first = scene.filter.Strokes.GetData()[:]
@@ -166,7 +166,7 @@ def test_tissue_leaves_nothing_where_it_was():
 
 
 def test_other_strokes_elsewhere_are_kept():
-    # A second place is bent, then the first one again: both are as in a whole picture.
+    # A second place is bent, then the first one again. Both look as in a whole picture.
     scene = Scene(SURFACE)
     first = scene.filter.Strokes.GetData()[:]
     other = (23.0, 22.0, 10.0)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that brainshift.pick tells where the tissue under a pixel is: less than half a voxel from
-# the CPU's answer, nothing on the background, and without drawing.
+# Proves that brainshift.pick finds where the tissue under a pixel is. It differs by less than
+# half a voxel from the answer of the CPU, finds nothing on the background, and draws nothing.
 import numpy
 from brainshift_testing import (ball, load_plugin, look, picture, run_tests, show_volume,
                                 view_along, volume, voxels)
@@ -69,7 +69,7 @@ def shown(strokes, edge=2.0):
 
 def test_a_moved_ball():
     shift = numpy.array((3.3, -2.1, 1.7))
-    # So wide that all of the lattice moves alike.
+    # The stroke is so wide that all of the lattice moves alike.
     _, view, display = shown(brainshift.soft(MIDDLE, shift, 4000.0, sigma=100.0))
     for what in both_projections(view):
         misses = []

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that "Deformed Volume" shows what ParaView's own "Volume" shows of the baked volume, and
-# that it takes its place among surfaces in front, inside and behind.
+# Proves that "Deformed Volume" shows what ParaView's "Volume" shows of the baked volume, and that
+# surfaces in front of it, inside it and behind it are hidden or seen correctly.
 import numpy
 from brainshift_testing import (SIZE, ball, data, load_plugin, mean_difference,
                                 object_pixels, picture, run_tests, show_volume,
@@ -16,8 +16,8 @@ HEAD_OPACITIES = [0, 0, 0.5, 0, 70, 0, 0.5, 0, 200, 0.3, 0.5, 0, 512, 0.8, 0.5, 
 HEAD_VIEWS = {"back": ((0.4, 1, -0.4), (0, 0, 1)), "side": ((-1, 0.3, -0.2), (0, 0, 1)),
               "top": ((0.1, 0.2, -1), (0, 1, 0))}
 LARGEST_DIFFERENCE = 0.02  # of full scale, over the object's pixels
-# Shaded, the skin's finest detail counts: baking blurs it, and VTK's steps are twice as long. An
-# undeformed head differs by 1 % from VTK's picture for that alone.
+# Shading shows the finest detail of the skin. Baking blurs it, and VTK's steps are twice as long.
+# That alone makes an undeformed head differ by 1 % from VTK's picture.
 SMALLEST_SIMILARITY = {False: 0.99, True: 0.92}
 
 BALL_COLORS = [0, 0, 1, 0, 100, 0, 1, 0]
@@ -34,7 +34,7 @@ class Head:
         self.volume.UpdatePipeline()
         bounds = numpy.array(self.volume.GetDataInformation().GetBounds()).reshape(3, 2)
         self.middle = bounds.mean(axis=1)
-        # All inwards, so that no tissue leaves the box, where baking on the same grid would cut it.
+        # All strokes push inwards. Baking would cut off tissue that leaves the box.
         strokes = brainshift.stamp(self.surface_above(), self.middle, -20.0, major=80.0, minor=70.0)
         for x in bounds[0]:
             side = (x, self.middle[1], self.middle[2] + 20.0)
@@ -87,7 +87,7 @@ def test_looks_like_the_baked_volume():
 
 
 def test_light_follows_the_bent_surface():
-    # A smooth blob loses nothing by baking, so that what differs is how normals are found.
+    # A smooth blob loses nothing by baking, so only the normals can differ.
     middle = (32.0, 32.0, 32.0)
     source = volume(ball(side=65, radius=20.0, edge=24.0))
     filter = FreeFormDeformation(Input=source, Strokes=(
@@ -154,7 +154,7 @@ def test_opaque_tissue_hides_what_is_behind_it():
 
 
 def test_translucent_tissue_is_counted_up_to_the_surface():
-    # 5 % for each mm: 6 mm of tissue before a sphere inside, 18 mm before one behind.
+    # 5 % for each mm. 6 mm of tissue hide the sphere inside, and 18 mm the sphere behind.
     opacities = [0, 0, 0.5, 0, 40, 0, 0.5, 0, 60, 0.05, 0.5, 0, 100, 0.05, 0.5, 0]
     _, sphere, view = ball_view(opacities)
     for z, thickness in ((30.0, 0.0), (16.0, 6.0), (2.0, 18.0)):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that a flat surface under an opacity map that rises within less than a step shows no rings:
-# how deep the first sample of a ray lies behind it is not to be seen.
+# Proves that a flat surface shows no rings under an opacity map that rises within less than a
+# step: the depth of the first sample on a ray cannot be seen.
 import numpy
 from brainshift_testing import (load_plugin, picture, run_tests, show_volume, view_along, volume)
 
@@ -41,7 +41,7 @@ def steep(width):
 
 
 def test_no_rings():
-    # With the map at each sample alone the ripples are 17, 11 and 6 levels.
+    # If each sample took the opacity map alone, the ripples would be 17, 11 and 6 levels.
     for strokes in ((), brainshift.soft((16, 16, 16), (0, 0, 2), 14)):
         for shade, width in ((False, 0.5), (False, 8.0), (True, 0.5), (True, 4.0)):
             found = ripples(patch(steep(width), shade, strokes))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that Deformed Volume draws chosen labels of a segmentation alone: as ParaView's Volume
-# draws a baked volume whose other voxels are the lowest; from labels on any grid; in every blend
-# mode; with picks that follow; and that what cannot be drawn is told.
+# Proves that Deformed Volume draws chosen labels of a segmentation alone, as ParaView's "Volume"
+# draws a baked volume whose other voxels have the lowest value. The labels may lie on any grid,
+# and every blend mode and picks work. What cannot be drawn gives a message.
 import numpy
 from brainshift_testing import (assert_says, load_plugin, mean_difference, messages, object_pixels,
                                 picture, run_tests, use_headlight, view_along, volume, voxels)
@@ -53,8 +53,8 @@ def assert_drawn_alone(what, filter, labels, limit, **named):
 
 
 def test_labels_are_drawn_alone():
-    # Volume's edge runs through voxels in steps, ours does not: that is most of what differs. Light
-    # shows the steps even more.
+    # The edge of Volume runs through voxels in steps, and ours does not. That is most of the
+    # difference. Light shows the steps even more.
     filter = bent(Segmentation=volume(LABELS))
     for labels in ([BRAIN], [SKULL], [BRAIN, VESSEL]):
         assert_drawn_alone(labels, filter, labels, 0.04)
@@ -96,8 +96,8 @@ def test_labels_asked_for_or_meant():
     every = drawn(Segmentation=segmentation)
     assert mean_difference(brain, skull) > 0.1 and mean_difference(brain, every) > 0.1
     assert numpy.array_equal(every, drawn([BRAIN, SKULL, VESSEL], Segmentation=segmentation))
-    # A mask is a segmentation too, and its labels are meant, unless others are asked for or another
-    # segmentation is given.
+    # A mask is a segmentation too. Its labels are drawn, unless other labels are asked for or
+    # another segmentation is given.
     masked = {"Mask": segmentation, "MaskLabels": [BRAIN]}
     own = drawn(**masked)
     assert numpy.array_equal(own, drawn([BRAIN], **masked))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves of a segment that is drawn alone: skipping leaves the picture as it is bit for bit, with
-# lattices that fold and in every blend mode, and leaps over what is not drawn; what is uploaded,
-# kept and counted; that states and servers bring the same picture.
+# Proves what happens to a segment that is drawn alone. Skipping changes no bit of the picture,
+# with lattices that fold and in every blend mode, and leaps over what is not drawn. Uploads and
+# memory are counted. State files and servers give the same picture.
 import numpy
 from brainshift_testing import (ball, load_plugin, on_server, picture, run_tests, scratch,
                                 server_finds_plugin, show_volume, view_along, volume)
@@ -116,7 +116,7 @@ def test_memory_is_counted():
     without = brainshift.gpu(drawn.display)
     drawn.display.DrawSegment = 1
     drawn.did()
-    # Bytes, or floats where the driver draws in software.
+    # They are bytes, or floats if the driver draws in software.
     grown = brainshift.gpu(drawn.display)["gpuOtherBytes"] - without["gpuOtherBytes"]
     assert SIDE ** 3 * 0.9 < grown < SIDE ** 3 * 4.2, grown
     drawn.display.DrawSegment = 0
@@ -125,7 +125,7 @@ def test_memory_is_counted():
 
 
 def test_less_is_sampled():
-    # A clear ball in a cloud: alone, its rays leap over the cloud.
+    # A ball in a cloud. If the ball is drawn alone, its rays leap over the cloud.
     labels = (ball(side=SIDE, radius=8.0) > 50).astype(numpy.uint8)
     filter = bent(Segmentation=volume(labels))
     view = view_along(DIRECTION, MIDDLE, 110.0, size=150)

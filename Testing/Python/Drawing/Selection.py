@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that cells and points of surfaces beside a Deformed Volume are selected where they are seen:
-# all of them in front of it, beside it and behind tissue that is not half opaque, none behind tissue
-# that is.
+# Proves that a selection takes the cells and points of surfaces that are seen beside a Deformed
+# Volume. It takes all of them in front of the volume, beside it, and behind tissue that is less
+# than half opaque. It takes none behind tissue that is more opaque.
 import numpy
 from brainshift_testing import (SIZE, ball, load_plugin, look, output, picture, run_tests,
                                 show_volume, view_along, volume)
@@ -75,8 +75,8 @@ def test_opaque_tissue_hides():
 
 
 def test_opaque_tissue_hides_points():
-    # In ParaView's selection a point on a silhouette has no depth, so that what is drawn later may
-    # hide it: points that face the eye are counted.
+    # In ParaView's selection a point on a silhouette has no depth, so later drawing may hide it. So
+    # only points that face the eye are counted.
     scene = Scene(OPAQUE)
     for place in (FRONT, BESIDE, BEHIND):
         found = scene.selected(SelectSurfacePoints, place)
@@ -98,7 +98,7 @@ def test_moved_tissue_hides_where_it_is_seen():
 
 
 def test_a_part_that_sticks_out():
-    # A sphere half behind the ball's silhouette: what is left of it, and nothing else, is selected.
+    # Half of a sphere stands out behind the ball. Only that half is selected.
     scene = Scene(OPAQUE)
     place = (16, 25, 2)
     whole = scene.selected_without_volume(SelectSurfaceCells, place)

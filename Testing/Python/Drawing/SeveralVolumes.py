@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that several volumes in one view are drawn from back to front, ours and ParaView's own, in
-# whichever order they were added.
+# Proves that several volumes in one view, ours and those of ParaView, are drawn from back to
+# front in whatever order they were added.
 import numpy
 from brainshift_testing import (ball, load_plugin, mean_difference, picture, run_tests, show_volume,
                                 view_along, volume)
@@ -70,7 +70,7 @@ def test_one_hidden():
 
 
 def test_views_without_ours_stay_as_paraview_draws_them():
-    # Added from front to back, and left so.
+    # They were added from front to back and stay in that order.
     view, _ = two_balls((STOCK, STOCK), (1, 0), CURVES["opaque"], (0, 0, -1))
     assert numpy.array_equal(picture(view)[40, 40], (1, 0, 0))
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that empty-space skipping never changes the picture: bit for bit the same with it and
-# without, for lattices that fold too, and after strokes of which only a part was redone.
+# Proves that empty-space skipping changes no bit of the picture, also for lattices that fold and
+# after strokes that redo only a part of the field.
 import numpy
 from brainshift_testing import (ball, load_plugin, look, output, picture, run_tests, show_volume,
                                 view_along, volume)
@@ -121,7 +121,7 @@ def test_strokes_one_by_one():
         strokes += brainshift.soft(anchor, vector, random.uniform(7, 9))
         filter.Strokes = strokes
         assert_same(view, display, f"{number} strokes", 0.002)
-        # Of these pictures a part was redone; all of it in a pipeline of its own.
+        # Here only a part of each picture was redone. A new pipeline draws all of it.
         apart = new_view(focus=focus, half_height=24.0)
         fresh = FreeFormDeformation(Input=source, Samples=2, Strokes=strokes)
         show_volume(fresh, apart, "Deformed Volume", *colours, shade=True)
@@ -132,8 +132,8 @@ def test_strokes_one_by_one():
 
 
 def test_a_stroke_that_grows_out_of_its_bricks():
-    # A ball well inside its volume, drawn out step by step without folding: bricks that were empty
-    # before the last step hold tissue after it, and only those in reach of the stroke are redone.
+    # A ball inside its volume is drawn out step by step without folding. Empty bricks hold
+    # tissue after the last step, and only bricks in reach of the stroke are redone.
     focus = (48.0, 48.0, 48.0)
     filter = FreeFormDeformation(Input=volume(ball(side=97, radius=14.0)))
     filter.Strokes = brainshift.soft((48, 48, 62), (0, 0, 0.5), 20.0)

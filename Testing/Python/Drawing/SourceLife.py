@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that Deformed Volume follows its source: deleted while shown, made larger, smaller and as it
-# was again, exchanged for another, and stepping through time. Each picture is that of a new view.
+# Proves that Deformed Volume follows its source when it is deleted while it is shown, made
+# larger, smaller and as it was, exchanged for another, or stepped through time. Each picture
+# equals that of a new view.
 import os
 import struct
 
@@ -87,12 +88,12 @@ def test_another_input():
 
 
 def write_nifti(name, steps):
-    """A time series of volumes [step, z, y, x] of 16 bits, 1 mm and 2 s apart, around the origin."""
+    """A time series of volumes [step, z, y, x], 16 bits, with steps of 1 mm and 2 s, about 0."""
     times, depth, height, width = steps.shape
     header = struct.pack(
         "<i36x8h14x2h2x8f3f2x2B", 348, 4, width, height, depth, times, 1, 1, 1, 4, 16,
         1.0, 1.0, 1.0, 1.0, 2.0, 0.0, 0.0, 0.0, 352.0, 1.0, 0.0, 0, 10)
-    # From here to the end: an sform that puts the middle at the origin.
+    # The rest is an sform that puts the middle at the origin.
     shifts = [-(side - 1) / 2 for side in (width, height, depth)]
     rows = [1.0, 0.0, 0.0, shifts[0], 0.0, 1.0, 0.0, shifts[1], 0.0, 0.0, 1.0, shifts[2]]
     header += bytes(252 - len(header)) + struct.pack("<2h24x12f16x4s4x", 0, 1, *rows, b"n+1\0")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that Deformed Volume is drawn right in every view that shows it: two at once, hidden and
-# shown, closed and opened, in a screenshot larger than the window, and for both eyes. And that
+# Proves that Deformed Volume is drawn correctly in every view that shows it: two at once, hidden
+# and shown, closed and opened, in a screenshot larger than the window, and for both eyes.
 # ParaView's smoothing of edges is left out where it would change nothing.
 import os
 
@@ -143,7 +143,7 @@ def test_a_screenshot_larger_than_the_window():
         largest = numpy.abs(tiled - large).max()
         print(f"  {differing} pixels differ, by at most {255 * largest:.0f} levels", flush=True)
         assert tiled.shape == large.shape
-        # Rounding of the tiles' matrices; a surface's silhouette may fall on the next pixel.
+        # The matrices of tiles are rounded, so a silhouette may fall on the next pixel.
         assert numpy.abs(tiled - large).mean() < 1e-4, numpy.abs(tiled - large).mean()
         assert differing < 0.002 * 450 * 450, differing
         Delete(view)
@@ -157,8 +157,8 @@ def middles(image):
 
 
 def test_both_eyes():
-    # A white ball before the plane of the screen, next to a white sphere of the same size as ParaView
-    # draws it. VTK's own volumes are three times too far apart for the two eyes.
+    # A white ball in front of the plane of the screen, and a white sphere of that size
+    # that ParaView draws. VTK's own volumes are three times too far apart for the two eyes.
     found = {}
     for stereo in (False, True):
         for kind in ("Deformed Volume", "sphere"):

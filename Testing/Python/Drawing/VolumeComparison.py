@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that "Deformed Volume" shows a reference that Compare Volumes attached: the volume red, the
-# reference green, surfaces that agree yellow, each as bright as alone; wherever the reference lies;
-# with what skipping leaves out the same bit for bit; live, for a stroke uploads the lattice only.
+# Proves that "Deformed Volume" shows a reference that Compare Volumes attached: the volume red,
+# the reference green, and surfaces that agree yellow, each as bright as it is alone, wherever the
+# reference lies. Skipping changes no bit of the picture. A stroke uploads only the lattice.
 import itertools
 import re
 
@@ -47,7 +47,7 @@ def drawn(source, opacities=OPAQUE, colors=WHITE, shade=True, view=None, **named
 
 
 def test_a_volume_agrees_with_itself():
-    # Yellow all over, and each colour as bright as the volume alone in white.
+    # All of it is yellow, and each colour is as bright as the volume alone in white.
     voxels = ball(radius=10.0)
     bent_ball = FreeFormDeformation(Input=volume(voxels), Strokes=STROKE, Strength=0.0)
     compare = CompareVolumes(Input=bent_ball, Reference=volume(voxels))
@@ -66,8 +66,8 @@ def test_a_volume_agrees_with_itself():
 
 
 def test_colours_tell_what_is_where():
-    # Balls side by side, the reference's beyond the volume's box on a grid of its own: red covers
-    # what the one alone covers, green what the other does.
+    # Two balls, one beside the other. The reference lies beyond the volume's box on its own grid.
+    # Red covers what the volume alone covers, and green what the reference alone covers.
     own = volume(ball(radius=7.0))
     other = volume(ball(side=23, radius=6.0), origin=(28.0, 4.0, 3.0), spacing=(0.9, 1.0, 1.1))
     compare = CompareVolumes(Input=own, Reference=other)
@@ -94,8 +94,8 @@ def test_the_one_before_hides_the_other():
 
 
 def test_agreement_is_a_distance_between_surfaces():
-    # Balls in each other, and how far the surfaces are apart: yellow to half the distance, red or
-    # green from one and a half on; on the flanks too, where rays meet them far apart.
+    # One ball inside the other. Surfaces are yellow up to half the distance, and red or green above
+    # one and a half of it, on the flanks too, where rays meet the surfaces far apart.
     inner = volume(ball(side=41, radius=14.0))
     middle = (20.0, 20.0, 20.0)
     for apart, distance, yellow in ((1.0, 0.0, True), (3.3, 0.0, False), (2.0, 1.0, False),
@@ -182,8 +182,8 @@ def test_a_moved_reference_on_another_grid():
 
 
 def test_skipping_is_exact():
-    # Bit for bit, and so for the first hits: with lattices that fold, a turned reference on another
-    # grid that stands out of the volume's box, and the eye inside of both.
+    # Pictures and first hits are equal to the bit, with lattices that fold, with a turned reference
+    # on another grid that stands out of the volume's box, and with the eye inside both.
     source = volume(scattered())
     other = volume(scattered(seed=5)[:, 2:17, :], (6.0, -3.0, 4.0), (1.3, 0.8, 1.1))
     for amplitude, opacities in itertools.product((0.0, 20.0), ("opaque", "translucent", "band")):
@@ -209,7 +209,7 @@ def test_skipping_is_exact_inside_the_reference():
 
 
 def test_each_alone_and_nothing_else():
-    # A volume with nothing visible still shows the reference, and the other way round.
+    # If nothing of one of them is visible, the other one is still shown.
     nothing = volume(numpy.zeros((33, 33, 33), numpy.float32))
     full = volume(ball(radius=8.0))
     for own, other, color in ((nothing, full, 1), (full, nothing, 0)):
@@ -242,7 +242,7 @@ def test_a_stroke_uploads_the_lattice_only():
 
 
 def test_a_volume_with_colours_of_its_own():
-    # Only its opacity counts, the last of four numbers; its colour map is not that of the reference.
+    # Only its opacity counts, which is the last of four numbers. The reference has its own map.
     opacity = 2.55 * ball(center=(12, 16, 16), radius=5.0)
     colored = numpy.stack([0 * opacity, 0 * opacity, 255 + 0 * opacity, opacity], axis=-1)
     own = volume(colored.astype(numpy.uint8))
@@ -278,7 +278,7 @@ def test_without_a_reference_nothing_is_added():
 
 
 def test_picks_find_the_bent_tissue():
-    # Also where the reference is seen before it: a tool must take hold of what it moves.
+    # This holds behind the reference too, because a tool must take hold of what it moves.
     own = FreeFormDeformation(Input=volume(ball()), Strokes=STROKE)
     before = volume(ball(radius=7.0), origin=(0.0, 0.0, 22.0))
     view = new_view(direction=(0, 0, -1))
@@ -298,24 +298,24 @@ def test_picks_find_the_bent_tissue():
 
 
 def test_ranges():
-    # Numbers of another scale: by their whole ranges, unless a range is given.
+    # Numbers of another scale are compared by their whole ranges, unless a range is given.
     voxels = ball(radius=9.0)
     alike = drawn(CompareVolumes(Input=volume(voxels), Reference=volume(voxels)))
     scaled = volume((30.0 * voxels + 500.0).astype(numpy.uint16))
     compare = CompareVolumes(Input=volume(voxels), Reference=scaled)
     assert numpy.abs(drawn(compare) - alike).max() <= 3 * LEVEL
-    higher = drawn(compare, VolumeReferenceRange=[2000.0, 6000.0])  # 0.5 is at 4000: nowhere
+    higher = drawn(compare, VolumeReferenceRange=[2000.0, 6000.0])  # no voxel is 4000
     assert not higher[:, :, 1].any() and higher[:, :, 0].max() > 0.8
     given = drawn(compare, VolumeReferenceRange=[500.0, 3500.0])
     assert numpy.abs(given - alike).max() <= 3 * LEVEL
-    # Nearly the same range means the same numbers: what is darker must not be stretched.
+    # Ranges that nearly agree mean equal numbers, so a darker volume must not be stretched.
     darker = drawn(CompareVolumes(Input=volume(voxels), Reference=volume(0.8 * voxels)),
                    [0, 0, 0.5, 0, 85, 0, 0.5, 0, 95, 1, 0.5, 0])
     assert not darker[:, :, 1].any() and darker[:, :, 0].max() > 0.8
 
 
 def test_one_of_them_alone():
-    # Show of Compare Volumes: in ordinary colours, as if drawn without the other.
+    # Show of Compare Volumes draws one in ordinary colours, as if the other was not there.
     colors = [0, 0.2, 0.4, 1.0, 100, 0.9, 0.8, 0.3]
     own = FreeFormDeformation(Input=volume(ball()), Strokes=STROKE)
     reference = volume(ball(side=27), origin=(2.0, 3.0, 4.0))

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that interpolation, material, unit distance, place and spacing of a bent volume do what
-# they do to the baked one in ParaView's "Volume".
+# Proves that interpolation, material, unit distance, position and spacing act on a bent volume as
+# they act on the baked volume in ParaView's "Volume".
 import numpy
 from brainshift_testing import (load_plugin, mean_difference, run_tests, show_volume, view_along,
                                 volume)
@@ -40,8 +40,8 @@ def test_nearest_shows_voxels_as_stock_does():
     assert_alike("nearest", *(shown(kind, interpolation, False) for kind, interpolation in (
         ("Deformed Volume", "Nearest"), ("Volume", "Nearest"), ("Volume", "Linear"))),
                  limit=0.01)
-    # Lit, VTK looks for gradients N / (N - 1) voxels away and so finds two in some voxels. Here a
-    # voxel has one, wherever it comes from.
+    # VTK looks for gradients N / (N - 1) voxels away and so finds two in some voxels. Here each
+    # voxel has one gradient.
     lit = shown("Deformed Volume", "Nearest", True)
     assert_alike("nearest, lit", lit, shown("Volume", "Nearest", True),
                  shown("Volume", "Linear", True), limit=0.06, control=1.5)
@@ -81,7 +81,7 @@ def test_without_shade_material_and_light_do_nothing():
 
 
 def test_light_kit():
-    # In a box that is a cube, where VTK's normals are right for any light.
+    # The box is a cube, because VTK's normals are right for any light only there.
     def kit(display, view):
         view.UseLight = 1
         view.AdditionalLights = []
@@ -103,8 +103,8 @@ def test_places():
 
 
 def test_light_on_a_stretched_volume():
-    # VTK lights an actor's stretched surface as if it were not. The same surface made by spacing it
-    # lights rightly, and so must we whichever way it is made.
+    # VTK lights a surface that an actor stretches as if it was not stretched. It lights a surface
+    # that spacing stretches correctly. We must light both correctly.
     sides = (0.7, 1.3, 1.0)
 
     def isosurface(**named):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that an animation of Strength bends the volume step by step, in what the filter tells and
-# in the bent voxels.
+# Proves that an animation of Strength bends the volume step by step, in the numbers that the
+# filter reports and in the bent voxels.
 import math
 
 import numpy

@@ -67,7 +67,7 @@ def test_a_bad_base_lattice_keeps_the_picture():
 
 
 def test_not_a_number_is_transparent():
-    # The nearer half of the ball is not there; what stays is drawn as without it.
+    # The nearer half of the ball has no values. The other half is drawn as if it was alone.
     for wrong in (math.nan, math.inf, -math.inf):
         voxels = ball()
         voxels[:, :, 20:] = wrong

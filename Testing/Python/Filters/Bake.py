@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that Bake Deformation moves voxels where strokes say, on real data too.
+# Proves that Bake Deformation moves voxels to where the strokes move tissue, on real data too.
 import numpy
 from brainshift_testing import (assert_says, ball, data, load_plugin, messages, output, run_tests,
                                 volume, voxels)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that Compare Volumes and "Deformed Slices" show a volume beside a reference of any grid:
-# red and green, in a checkerboard, subtracted; live, for a stroke uploads the lattice only.
+# Proves that Compare Volumes and "Deformed Slices" show a volume with a reference on any grid: in
+# red and green, in a checkerboard, and subtracted. A stroke uploads only the lattice.
 import numpy
 from brainshift_testing import (assert_says, ball, field, load_plugin, messages, output, picture,
                                 run_tests, show_volume, volume)
@@ -53,7 +53,7 @@ def test_a_turned_reference_of_another_grid():
 
 
 def test_ranges_are_those_of_3d():
-    # Both rise from left to right. The number is the grey of the reference halfway.
+    # Both rise from left to right. The number is the grey in the middle of the reference.
     share = numpy.broadcast_to(numpy.linspace(0.0, 1.0, 33), (33, 33, 33)).astype(numpy.float32)
     cases = (("alike: equal numbers", 80 * share, (0, 0), (0, 100), 0.4),
              ("alike, another window", 80 * share, (0, 0), (20, 70), 0.4),

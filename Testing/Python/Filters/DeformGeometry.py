@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that meshes follow a deformed volume, blocks of them too, and that the two maps of the
-# module brainshift are exact, undo each other and are those of a server as well.
+# Proves that meshes and blocks of meshes follow a deformed volume, and that the two maps of the
+# module brainshift are exact, undo each other, and give the same numbers with a server.
 import numpy
 from brainshift_testing import (assert_says, ball, load_plugin, messages, on_server, output,
                                 run_tests, server_finds_plugin, volume)
@@ -107,7 +107,7 @@ def test_wrong_input_is_named():
 
 
 def test_a_server_maps_the_same():
-    # Last: the session of the other tests ends with the connection.
+    # This test is last, because the session ends with the connection.
     def answer():
         wavelet = Wavelet(WholeExtent=[0, 32, 0, 32, 0, 32])
         filter = FreeFormDeformation(Input=wavelet, Strokes=STAMP)

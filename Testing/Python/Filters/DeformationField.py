@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that ParaView's own filters make glyphs, a bent grid and mm maps of Deformation Field, and
-# that what they make lies where Deform Geometry and the stroke say.
+# Proves that ParaView's own filters make glyphs, a bent grid and maps in mm from Deformation
+# Field, and that they lie where Deform Geometry and the stroke put them.
 import numpy
 from brainshift_testing import ball, load_plugin, output, run_tests, volume, voxels
 from vtkmodules.util.numpy_support import vtk_to_numpy

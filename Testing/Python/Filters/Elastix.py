@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves, by a program that is not ours, that displacement fields mean what they say: elastix'
-# transformix warps with the fields that BrainShift saves as BrainShift does, and BrainShift draws
-# through the fields that transformix writes as transformix does.
+# Proves with a program of others that displacement fields mean what they say. transformix of
+# elastix warps with fields that BrainShift saved as BrainShift warps, and BrainShift draws
+# through fields that transformix wrote as transformix warps.
 import os
 import subprocess
 
@@ -76,7 +76,8 @@ def transformix(head, folder, transform, *arguments, result="mhd"):
         "(Origin " + words(lps_origin(head)) + ")",
         "(Direction " + words(lps_axes(head)) + ")", '(UseDirectionCosines "true")',
         '(ResampleInterpolator "FinalLinearInterpolator")', '(Resampler "DefaultResampler")',
-        "(DefaultPixelValue 0)", f'(ResultImageFormat "{result}")', '(ResultImagePixelType "float")',
+        "(DefaultPixelValue 0)", f'(ResultImageFormat "{result}")',
+        '(ResultImagePixelType "float")',
         '(CompressResultImage "false")']
     parameters = os.path.join(folder, "transform.txt")
     with open(parameters, "w") as file:
@@ -123,7 +124,7 @@ def test_we_draw_through_fields_of_transformix_as_it_does():
     coefficients[0, 4:6, 4:7, 5:8] = 9.0
     coefficients[1, 4:7, 5:7, 4:6] = -12.0
     coefficients[2, 5:8, 3:6, 4:7] = 7.0
-    # One cell of coefficients around the head; its axes run against x and y of LPS.
+    # One cell of coefficients covers the head. Its axes run against x and y of LPS.
     grid_origin = lps_origin(HEAD) - FROM_RAS * spacing
     transform = [
         '(Transform "BSplineTransform")', f"(NumberOfParameters {coefficients.size})",

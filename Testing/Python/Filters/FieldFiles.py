@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that lattices and dense fields survive their files, that File > Save Data has the formats,
-# and that a field read back bends a volume as the strokes did.
+# Proves that files keep lattices and dense fields, that File > Save Data has their formats, and
+# that a field that is read back bends a volume as the strokes did.
 import os
 
 import numpy
@@ -51,7 +51,7 @@ def test_dense_fields_come_back():
             loaded.Lattice = brainshift.load_field(name)
             difference = numpy.abs(baked(loaded) - expected)
             assert difference.mean() < 0.3, (ending, direction, difference.mean())
-            # The wrong way round is another picture.
+            # The wrong direction gives another picture.
             wrong = "Forward" if direction == "Backward" else "Backward"
             loaded.Lattice = brainshift.load_field(name, direction=wrong)
             assert numpy.abs(baked(loaded) - expected).mean() > 1.0, (ending, direction)
@@ -94,7 +94,7 @@ def test_plain_volumes_are_no_fields():
         try:
             brainshift.load_field(scratch("missing.mha"))
         except ValueError as error:
-            assert_says(str(error), "missing.mha", "no displacement field")
+            assert_says(str(error), "missing.mha", "not a displacement field")
         else:
             raise AssertionError("there is no such file")
     assert_says(said.text, "missing.mha", "cannot be opened")

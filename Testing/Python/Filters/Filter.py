@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that Free-Form Deformation can be driven from Python: strokes in, lattice attached, voxels
-# untouched, and nothing lost by bad values.
+# Proves that Python can drive Free-Form Deformation: strokes go in, the lattice is attached, the
+# voxels stay as they were, and bad values lose nothing.
 import math
 
 import numpy

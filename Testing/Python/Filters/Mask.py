@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that with a mask only tissue inside it moves, in the picture, in slices, in geometry and in
-# exported fields as in the baked volume: the brain of a real head, whose skull stays, and a ball
-# whose picture is compared with the baked one.
+# Proves that with a mask only tissue inside it moves, in the picture, in slices, in geometry and
+# in exported fields, as in the baked volume. It uses the brain of a real head, whose skull stays,
+# and a ball whose picture is compared with that of the baked ball.
 import numpy
 from brainshift_testing import (assert_says, ball, data, field, load_plugin, mean_difference,
                                 messages, object_pixels, output, picture, run_tests, scratch,
@@ -16,7 +16,7 @@ from paraview.simple import (BakeDeformation, DeformationField, Delete,  # noqa:
 
 MIDDLE = (32.0, 32.0, 32.0)
 BRAIN, SKULL = 1, 2
-# The plane z = 32 parts the ball; only what is below it may move.
+# The plane z = 32 divides the ball. Only tissue below it may move.
 EDGE = 32
 COLORS = [0, 0, 0, 0, 100, 1, 1, 1]
 OPACITIES = [0, 0, 0.5, 0, 30, 0, 0.5, 0, 50, 0.5, 0.5, 0, 100, 0.8, 0.5, 0]
@@ -151,7 +151,7 @@ def test_the_picture_follows_the_mask():
     assert mean_difference(soft, softer) > 0.0005
     assert mean_difference(soft, free) > 0.003
     assert numpy.array_equal(soft, again)
-    # A stroke redoes a part of the fields only; what a new filter does is all of them.
+    # A stroke redoes only a part of the fields. A new filter computes all of them.
     strokes = tuple(filter.Strokes) + brainshift.soft((40, 40, 22), (-4, -3, 2), 16.0)
     filter.Strokes = strokes
     bent = picture(view)

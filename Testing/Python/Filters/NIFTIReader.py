@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that ParaView opens .nii.gz with our reader, at the right place, and says what is wrong
-# with a file that is not there.
+# Proves that ParaView opens .nii.gz with our reader and puts the volume at the right place, and
+# that a missing file gives an error that names it.
 import os
 import tempfile
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that the module brainshift writes strokes as documented, and says what is wrong with its
-# arguments.
+# Proves that the module brainshift writes strokes as documented, and that errors name what is
+# wrong with an argument.
 import math
 
 import brainshift

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that a state file, in XML or Python, brings back the same strokes and the same picture bit
-# for bit.
+# Proves that a state file, in XML or Python, brings back the same strokes and the same picture to
+# the bit.
 import numpy
 from brainshift_testing import load_plugin, picture, run_tests, scratch, show_volume, view_along
 from paraview import simple, smstate
@@ -23,8 +23,8 @@ def make_scene():
     filter.Strength = 0.75
     filter.Kernel = "B-Spline"
     view = view_along((0.3, -0.4, -1), (0, 0, 0), 60)
-    # A unit of 1.0 would be missing in the Python state: ParaView writes no value that is the XML's
-    # default, though Show then sets another.
+    # A unit of 1.0 would be missing in the Python state. ParaView writes no value that equals the
+    # default in the XML, although Show then sets another value.
     show_volume(filter, view, "Deformed Volume", COLORS, OPACITIES, array="RTData", shade=True,
                 unit=1.5)
     return view

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that a trace in a CSV file is measured against the cortex as bent, with or without a
+# Proves that a trace in a CSV file is measured against the bent cortex, with and without a
 # segmentation and a cavity, and that the numbers reach Python and follow strokes.
 import math
 

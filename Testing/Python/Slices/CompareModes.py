@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that each way Deformed Slices compares a bent volume with a reference shows what the baked
-# volume and the reference's voxels say, that a cavity stays grey, that Show of Compare Volumes
-# shows one of them alone without sending a voxel, and that state files keep all of it.
+# Proves that each way in which Deformed Slices compares a bent volume with a reference shows what
+# the baked volume and the voxels of the reference say. A cavity stays grey. Show of Compare
+# Volumes shows one of them alone without sending a voxel. State files keep all of it.
 import numpy
 from brainshift_testing import (load_plugin, picture, run_tests, scratch, view_along, volume)
 from paraview import simple
@@ -77,7 +77,7 @@ def test_wipe_divides_by_world_axes():
     for place in (13.05, 18.05):
         image = compared_picture(pair.compare, "Wipe", WipePosition=[place, 99.0, -99.0])
         assert_wiped(pair, image, x - place, own, share, inside)
-    # Where the reference is not known its side is empty, and the volume's is not.
+    # Where the reference has no voxels, only its side is empty.
     nothing = ~inside & (x < 13.05) & ~numpy.roll(inside, (3, 3), (0, 1)) & ~numpy.roll(
         inside, (-3, -3), (0, 1))
     image = compared_picture(pair.compare, "Wipe", WipePosition=[13.05, 0, 0])

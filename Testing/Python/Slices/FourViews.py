@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that brainshift.four_views lays out axial, 3D, coronal and sagittal views of a volume, with
-# one slice position for all, each seen from the side its convention says.
+# Proves that brainshift.four_views lays out axial, 3D, coronal and sagittal views of a volume
+# with one slice position, and that each view looks from the side that its convention asks for.
 import os
 
 import numpy
@@ -102,7 +102,7 @@ def spot_at_edges(image):
 
 
 def test_conventions():
-    # Also for a volume whose voxels run along other axes: the world's count, not the voxels'.
+    # Voxels may run along other axes. The axes of the world count, not those of the voxels.
     for direction in (None, (0, 1, 0, 0, 0, 1, 1, 0, 0), (-1, 0, 0, 0, -1, 0, 0, 0, 1)):
         for convention, edges in EDGES.items():
             source = FreeFormDeformation(Input=marked(direction))

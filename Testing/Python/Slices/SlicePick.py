@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that brainshift.pick tells which tissue of Deformed Slices a pixel shows: in the nearest
-# plane that is seen there, also bent, moved as an actor and with a direction matrix; and nothing
-# where a picture shows none.
+# Proves that brainshift.pick finds the tissue of Deformed Slices under a pixel. It takes the
+# nearest plane that is seen there, also when the volume is bent, moved as an actor or has a
+# direction matrix. It finds nothing where the picture shows nothing.
 import numpy
 from brainshift_testing import (load_plugin, look, picture, run_tests, view_along, volume)
 from slices_testing import PLANES, show_slices
@@ -71,7 +71,7 @@ def test_the_plane_in_front():
             ray = ahead if view.CameraParallelProjection else tissue - eye
             ray = ray / numpy.linalg.norm(ray)
             on = numpy.abs(tissue - place) < 1e-5
-            # Before it, no other plane is met within the volume.
+            # The ray meets no other plane inside the volume before it.
             for axis in numpy.flatnonzero(~on):
                 if abs(ray[axis]) < 1e-6:
                     continue
@@ -85,7 +85,7 @@ def test_the_plane_in_front():
 
 
 def test_bent_tissue():
-    # Tissue pulled out of the volume's box is picked there; where none came from nothing is.
+    # Tissue that was pulled out of the volume's box is picked there, nothing where it came from.
     bent = FreeFormDeformation(Input=volume(bright()), GuardFolding=0, Strokes=(
         brainshift.soft((32, 16, 16), (6, 0, 0), 14.0)
         + brainshift.soft((0, 16, 16), (5, 1, 0), 12.0)))
@@ -116,7 +116,7 @@ def test_a_turned_volume_and_a_moved_actor():
 
 
 def test_what_cannot_be_seen_is_not_picked():
-    # Without a value, or without opacity: what lies behind is.
+    # What lies behind is picked where a voxel has no value or no opacity.
     hole = (slice(8, 24), slice(8, 24), slice(0, 33))
     view = view_along((0, 0, -1), MIDDLE, 100.0, half_height=30.0, size=SIZE)
     display = show_slices(volume(bright(hole)), view, ("Axial",), MIDDLE)

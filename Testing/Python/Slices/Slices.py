@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that "Deformed Slices" shows what ParaView's own Slice shows of the baked volume, for
-# strong bends, turned volumes and tissue that left the box; that it is flat where a view looks
-# along an axis, and filters as it says.
+# Proves that "Deformed Slices" shows what ParaView's filter Slice shows of the baked volume, for
+# strong bends, turned volumes and tissue that left the box. It is flat where a view looks along
+# an axis, and filters as its property says.
 import math
 
 import numpy
@@ -107,7 +107,7 @@ def test_a_turned_volume_is_cut_across_its_own_axes():
 
 
 def test_axes_are_named_by_the_world():
-    # Columns: the volume's x runs along -z, y along x, z along -y.
+    # The columns of the matrix: the volume's x runs along -z, y along x, z along -y.
     direction = (0, 1, 0, 0, 0, -1, -1, 0, 0)
     source = volume(ball(side=21), spacing=(1.0, 2.0, 3.0), direction=direction)
     view = flat_view(2, (20, -30, -10), 60.0, size=100)
@@ -123,7 +123,7 @@ def test_axes_are_named_by_the_world():
 
 
 def test_tissue_that_left_the_box_is_drawn():
-    # All control points move by (7, 0, -5) mm, so the picture is that of the volume, elsewhere.
+    # All control points move by (7, 0, -5) mm, so the picture moves and stays as it is otherwise.
     source = volume(random_voxels(side=33))
     moved = numpy.zeros((5, 5, 5, 3), numpy.float32)
     moved[...] = (7.0, 0.0, -5.0)
@@ -142,7 +142,7 @@ def test_tissue_that_left_the_box_is_drawn():
 
 
 def test_nothing_outside_tissue():
-    # White everywhere inside, on a white map: all that is drawn is the volume's own box.
+    # The volume is white everywhere, so the picture shows the volume's box.
     source = volume(numpy.full((33, 33, 33), 100.0, numpy.float32))
     image = slice_picture(source, 2, 32.0)
     lit = object_pixels(image)
@@ -195,7 +195,7 @@ def test_cubic_interpolation_is_the_spline():
     linear, _ = trilinear(voxel, grid)
     assert numpy.abs(image - expected)[inside].max() < 0.8
     assert numpy.abs(linear - expected)[inside].max() > 10, "cubic must be told from linear"
-    # No jagged edges: from pixel to pixel, the slope changes by little.
+    # Without jagged edges, the slope changes little from pixel to pixel.
     bend = [numpy.abs(numpy.diff(values, 2, axis=1))[:, 40:260].max() for values in (image, linear)]
     assert bend[0] < 0.3 * bend[1], bend
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that "Deformed Slices" takes its place in a scene: among surfaces and volumes, moved,
-# see-through, in several views, in selections and screenshots; that it follows the colour map; and
-# that it does again only what changed.
+# Proves that "Deformed Slices" works in a scene: among surfaces and volumes, moved, translucent,
+# in several views, in selections and in screenshots. It follows the colour map, and does only
+# what a change needs.
 import os
 
 import numpy
@@ -48,7 +48,8 @@ def red_pixels(image):
 
 
 def test_depth_among_surfaces():
-    # A sphere before the axial plane is seen, one behind is not, half of one that it cuts is.
+    # A sphere in front of the axial plane is seen, one behind it is not, and half of one that it
+    # cuts is seen.
     for half_height in (None, 20.0):
         seen = {}
         for name, height in (("before", 22.0), ("cut", 16.0), ("behind", 10.0), ("alone", 22.0)):
@@ -66,7 +67,7 @@ def test_depth_among_surfaces():
 
 
 def test_deformed_volume_ends_at_slices():
-    # The volume's rays stop at an opaque slice, whichever was shown first.
+    # The volume's rays stop at an opaque slice, whichever of the two was shown first.
     opaque = [0, 1, 0.5, 0, 100, 1, 0.5, 0]
     for slices_first in (True, False):
         view = view_along((0, 0, -1), MIDDLE, 90.0, half_height=20.0, size=100)
@@ -104,7 +105,7 @@ def test_it_moves_with_its_actor():
 
 
 def test_see_through():
-    # Planes of one grey g at opacity a, over black: a g, and over each other a g (1 + (1 - a)).
+    # A plane of grey g at opacity a shows a g over black. Two of them show a g (1 + (1 - a)).
     view = flat_view(2, MIDDLE, 14.0, size=100)
     display = show_slices(plain(), view, ("Axial",), MIDDLE)
     grey = picture(view)[30, 30, 0]
@@ -122,8 +123,8 @@ def test_see_through():
 
 
 def test_the_nearer_plane_is_over_the_farther():
-    # The same in every order of drawing: see-through planes look the same from where the volume is
-    # its own mirror image.
+    # The order of drawing changes nothing. The volume is its own mirror image, so translucent
+    # planes look alike from both sides.
     source = volume(ball(radius=12.0, edge=12.0))
     images = []
     for direction in ((1, 1, 1), (-1, 1, 1), (1, -1, 1), (1, 1, -1)):
@@ -237,7 +238,7 @@ def test_another_representation_and_back():
 
 
 def test_selections_end_at_slices():
-    # Of a sphere that the plane cuts, cells before it are selected; none where it is all behind.
+    # The plane cuts a sphere. Cells in front of it are selected, and none if all are behind it.
     for opacity in (1.0, 0.5):
         selected = []
         for height in (30.0, 16.0, 8.0):
@@ -255,7 +256,7 @@ def test_selections_end_at_slices():
 
 
 def test_a_slice_is_no_number_to_a_selection():
-    # Selections draw numbers as colours: a dark red slice must not be taken for one.
+    # Selections draw numbers as colours. A dark red slice must not be taken for a number.
     view = flat_view(2, MIDDLE, 20.0, size=60)
     display = show_slices(plain(), view, ("Axial",), MIDDLE)
     Show(Sphere(Center=(16.0, 16.0, 8.0), Radius=5.0), view)
@@ -295,7 +296,7 @@ def test_a_screenshot_larger_than_the_window():
 
 
 def test_letters_at_the_edges():
-    # Beside a letter's picture: none in an oblique view; those of an axial one where it should be.
+    # No letter is in an oblique view, and those of an axial view are at the right place.
     source = plain(0.0)
     view = flat_view(2, MIDDLE, 30.0, size=200)
     display = show_slices(source, view, ("Axial",), MIDDLE)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that the Python trace of a session holds its strokes, and that running the trace gives the
+# Proves that the Python trace of a session has its strokes, and that running the trace gives the
 # same picture.
 from paraview import simple, smtrace
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that Trace Points in front of the tissue a Deformed Volume shows are opaque and those
-# behind are faded, hidden or shown by choice, in both projections, for several volumes, beside
-# surfaces and with a server; that strokes uncover them; and that neither points nor their colours
-# make the volume be cast again.
+# Proves that Trace Points are opaque in front of the tissue of a Deformed Volume, and faded,
+# hidden or shown behind it by choice. This holds in both projections, for several volumes, beside
+# surfaces and with a server. Strokes uncover points. Neither points nor their colours make the
+# renderer cast the volume again.
 import numpy
 from brainshift_testing import (ball, load_plugin, look, on_server, picture, run_tests, scratch,
                                 server_finds_plugin, show_volume, view_along, volume)
@@ -146,7 +146,7 @@ def test_the_volume_is_not_cast_again():
 
 
 def test_what_the_clipping_planes_cut_is_cast_again():
-    # The eye is in the ball: then the near plane, which follows the points, decides what is seen.
+    # The eye is in the ball. There the near plane decides what is seen, and it follows the points.
     scene = Scene(points=[WITHIN, (16, 16, -300)], parallel=False, opacities=FAINT)
     scene.view.CameraPosition = [16, 16, 18]
     picture(scene.view)
@@ -250,8 +250,8 @@ def selected(scene, whole):
 
 
 def test_tissue_hides_from_selections():
-    # A row of points in front of the ball, another behind. In the corners ParaView's insets take
-    # part of the picture's depths.
+    # One row of points is in front of the ball, another behind it. In the corners ParaView's insets
+    # write into the depths of the picture.
     row = [(x, 12.3 + 0.23 * x, z) for z in (30, 2) for x in range(13, 20)]
     for parallel in (True, False):
         scene = Scene(points=row, parallel=parallel)
@@ -265,7 +265,7 @@ def test_tissue_hides_from_selections():
 
 def test_with_a_server():
     def question():
-        # Data made on the server: a ball is where the wavelet is high.
+        # The data is made on the server. High values of the wavelet make a ball.
         wave = Wavelet(WholeExtent=[-12, 12, -12, 12, -12, 12])
         view = view_along((0, 0, -1), (0, 0, 0), DISTANCE, size=SIZE, half_height=HALF_HEIGHT)
         display = show_volume(FreeFormDeformation(Input=wave), view, "Deformed Volume",

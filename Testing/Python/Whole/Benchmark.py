@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that the benchmark runs from end to end and that its file has every row: toy sizes, and no
-# word about speed.
+# Proves that the benchmark runs from end to end at toy sizes and that its file has every row. It
+# says nothing about speed.
 import json
 import os
 import shutil
@@ -8,7 +8,8 @@ import sys
 
 from brainshift_testing import run_tests, scratch
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "Benchmark"))
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..")
+sys.path.insert(0, os.path.join(ROOT, "Benchmark"))
 import benchmark  # noqa: E402 loads the plugin
 from targets import TARGETS  # noqa: E402
 
@@ -36,7 +37,8 @@ def run():
     folder = scratch("benchmark")
     shutil.rmtree(folder, ignore_errors=True)
     benchmark.main(["--reference", *numbers(REFERENCE), "--sizes", str(SIZE), "--lattices",
-                    str(LATTICE), "--windows", *numbers(WINDOWS), "--rounds", "2", "--output", folder])
+                    str(LATTICE), "--windows", *numbers(WINDOWS), "--rounds", "2",
+                    "--output", folder])
     with open(os.path.join(folder, "benchmark.json"), encoding="utf-8") as file:
         return json.load(file), os.path.join(folder, "time-against-size.png")
 
@@ -62,7 +64,8 @@ def test_every_comparison_is_there():
     for kind in ("slices, steady", "slices, moved", "slices, edited"):
         assert set(rows_of(kind)) == SLICES
     for kind in ("opaque", "translucent"):
-        assert set(rows_of(f"reference rendering (two volumes), {kind}")) == COMPARED | STOCK_COMPARED
+        rows = set(rows_of(f"reference rendering (two volumes), {kind}"))
+        assert rows == COMPARED | STOCK_COMPARED
     assert set(rows_of("reference rendering (two volumes), edited")) == COMPARED
     assert set(rows_of("traces, camera turns", window=WINDOWS[1])) == TRACES | ALONE
     assert set(rows_of("traces, points change", window=WINDOWS[1])) == TRACES
@@ -80,7 +83,7 @@ def test_every_row_has_its_numbers():
         for name, row in group["rows"].items():
             at = (group["title"], name)
             by_gpu = group["kind"] == "lattice to offset field"
-            times = 7 * 2 if by_gpu else 2  # the field is short, so it is measured more often
+            times = 7 * 2 if by_gpu else 2  # short times are measured more often
             assert row["rounds"] == len(row["wall"]) == times, at
             assert 0.0 < row["min"] <= row["median"] <= row["max"], at
             assert (row["cpu"] is None) if by_gpu else (row["cpu"] > 0.0), at
@@ -113,7 +116,7 @@ def test_memory_is_what_was_allocated():
     memory = [fact for fact in RESULTS["facts"] if "scalars" in fact]
     assert len(memory) == 3, memory
     for fact in memory:
-        # Eight bits are stored in sixteen or as floats. Beside them: light, and the offset field's nodes.
+        # Eight bits are stored as sixteen bits or floats. Others are light and nodes of the field.
         assert fact["scalars"] in (2 * fact["voxels"], 4 * fact["voxels"]), fact
         nodes = (fact["lattice"] - 1) * 5 + 1
         assert fact["others"] > fact["voxels"] + 8 * nodes ** 3, fact

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that the case study of Examples brings a brain to what a pointer traced: ten stamps, found
-# from the trace alone, reduce trace distance and target registration error, and its pictures show
-# more agreement.
+# Proves that the case study in Examples brings a brain to what a pointer traced. Ten stamps,
+# found from the trace alone, reduce the trace distance and the target registration error, and the
+# pictures agree better.
 import os
 import sys
 
@@ -37,7 +37,7 @@ def agreement(case):
 
 
 def test_a_stamp_goes_to_the_worst_region_by_its_mean():
-    # A region 4 mm below and one 1 mm above: the first is pushed, 4 mm, from where tissue is now.
+    # One region is 4 mm below, one 1 mm above. The first is pushed by 4 mm from where it is now.
     below = numpy.array((0.0, 0.0, 50.0)) + [(x, 0.0, 0.0) for x in (-1.0, 0.0, 1.0)]
     above = numpy.array((50.0, 0.0, 0.0)) + [(0.0, y, 0.0) for y in (-1.0, 0.0, 1.0)]
     distances = numpy.array((-4.0, -4.0, -4.0, 1.0, 1.0, 1.0))

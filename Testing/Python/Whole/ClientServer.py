@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that a server that draws sends the picture of the built-in session, pixel by pixel, and
-# that brainshift.pick, counters and gpu answer for what the server drew; of Deformed Slices too.
+# that brainshift.pick, counters and gpu answer for what the server drew. This holds for Deformed
+# Slices too.
 import os
 
 import numpy
@@ -74,7 +75,8 @@ EXPECTED_SLICES = slices()  # while there is a session
 
 
 def assert_same(found):
-    for (drawn, tissue, counts), (expected, expected_tissue, expected_counts) in zip(found, EXPECTED):
+    for (drawn, tissue, counts), wanted in zip(found, EXPECTED):
+        expected, expected_tissue, expected_counts = wanted
         differing = int((drawn != expected).any(axis=2).sum())
         assert differing == 0, f"{differing} pixels differ, by {numpy.abs(drawn - expected).max()}"
         assert tissue == expected_tissue, (tissue, expected_tissue)

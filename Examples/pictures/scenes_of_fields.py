@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scenes of the documentation that show lattices, displacement fields and moved geometry."""
+
+import os
+import tempfile
+
+from paraview import simple
+
+import stage
+
+FOCUS = (-325.0, 30.0, 500.0)
+HALF_MM = 52.0
+ARROWS_MM = 7.0  # between arrows
+IN_FRONT_MM = 8.0  # of a slice, so that what lies in its plane is seen
+LARGEST_MM = 12.0
+BEHIND = (-310.0, -15.0, 475.0)  # the control points that move
+
+# Displacements of the second input's points from those of the first.
+MOVED_BY = """
+import numpy
+shift = numpy.asarray(inputs[1].Points) - numpy.asarray(inputs[0].Points)
+output.ShallowCopy(inputs[1].VTKObject)
+output.PointData.append(numpy.linalg.norm(shift, axis=1), "Moved (mm)")
+"""
+
+# The control points that moved by more than half a millimetre, where they moved to.
+CONTROL_POINTS = """
+import numpy
+image, shift = inputs[0].VTKObject, numpy.asarray(inputs[0].PointData["Displacement"])
+rest = numpy.array([image.GetPoint(i) for i in range(image.GetNumberOfPoints())])
+length = numpy.linalg.norm(shift, axis=1)
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.util.numpy_support import numpy_to_vtk
+points = vtkPoints()
+points.SetData(numpy_to_vtk((rest + shift)[length > 0.5], deep=True))
+output.VTKObject.SetPoints(points)
+output.PointData.append(length[length > 0.5], "Moved (mm)")
+"""
+
+
+def _push():
+    return stage.push(-LARGEST_MM, 80.0, 35.0)
+
+
+def _slice_of(bent, side):
+    made = stage.flat_view(side, FOCUS, HALF_MM)
+    stage.show_slices(bent, made)
+    return made
+
+
+def _moved_forward(source):
+    """Towards the eye of a coronal view."""
+    moved = simple.Transform(Input=source)
+    moved.Transform.Translate = (0.0, IN_FRONT_MM, 0.0)
+    return moved
+
+
+def lattice_layer(bent):
+    """The layer of control points nearest to the coronal slice, as bent, as lines."""
+    lattice = simple.DeformationLattice(Input=bent)
+    lattice.UpdatePipeline()
+    information = lattice.GetDataInformation()
+    low, high = information.GetBounds()[2:4]
+    last = information.GetExtent()[3]
+    layer = round((stage.CORTEX[1] - low) / (high - low) * last)
+    subset = simple.ExtractSubset(Input=lattice, VOI=[0, 18, layer, layer, 0, 18])
+    return _moved_forward(stage.as_bent(subset))
+
+
+def free_form_deformation(width):
+    """A coronal slice with a layer of the lattice, as loaded and bent."""
+    side = width // 2
+    views = []
+    for strokes in ((), _push()):
+        bent = stage.bend(stage.head(), strokes)
+        made = _slice_of(bent, side)
+        display = stage.show_surface(lattice_layer(bent), made, stage.CYAN)
+        display.SetRepresentationType("Wireframe")
+        display.LineWidth, display.Ambient, display.Diffuse = 1.5, 1.0, 0.0
+        views.append(made)
+    return stage.side_by_side(views)
+
+
+def deformation_lattice(width):
+    """The brain as bent, and those control points that moved, by how far, before a slice."""
+    side = width // 2
+    bent = stage.bend(stage.brain(), _push())
+    moved = simple.ProgrammableFilter(Input=simple.DeformationLattice(Input=bent),
+                                      Script=CONTROL_POINTS, OutputDataSetType="vtkPolyData")
+    balls = simple.Glyph(Input=moved, GlyphType="Sphere", GlyphMode="All Points",
+                         ScaleArray=["POINTS", "No scale array"])
+    balls.ScaleFactor = 4.0
+    views = [stage.brain_view(bent, side), stage.view(side)]
+    stage.color_by(balls, views[1], "Moved (mm)", "mm", 0.0, LARGEST_MM, component=None)
+    slices = stage.show_slices(bent, views[1], array="Brain", position=BEHIND)
+    slices.MapSliceOpacity = 1
+    stage.look_at_brain(views[1])
+    return stage.side_by_side(views)
+
+
+def _arrows(bent, made, direction):
+    field = simple.DeformationField(Input=bent, Direction=direction, SampleGrid="Given Spacing",
+                                    Spacing=[ARROWS_MM, ARROWS_MM, ARROWS_MM])
+    field.UpdatePipeline()
+    low, high = field.GetDataInformation().GetBounds()[2:4]
+    last = field.GetDataInformation().GetExtent()
+    layer = round((stage.CORTEX[1] - low) / (high - low) * last[3])
+    subset = simple.ExtractSubset(Input=field, VOI=[0, last[1], layer, layer, 0, last[5]])
+    arrows = simple.Glyph(Input=subset, GlyphType="Arrow", GlyphMode="All Points",
+                          OrientationArray=["POINTS", "Displacement"],
+                          ScaleArray=["POINTS", "Displacement"])
+    arrows.ScaleFactor = 1.0  # ParaView chooses one of its own while the filter is made
+    arrows.GlyphType.ShaftRadius, arrows.GlyphType.TipRadius = 0.05, 0.14
+    display = stage.color_by(_moved_forward(arrows), made, "Displacement", "mm", 0.0, LARGEST_MM)
+    display.Ambient, display.Diffuse = 0.6, 0.4
+
+
+def deformation_field(width):
+    """Backward displacements over the bent slice; Jacobian determinants over it at rest."""
+    side = width // 2
+    bent = stage.bend(stage.head(), _push())
+    first = _slice_of(bent, side)
+    _arrows(bent, first, "Backward")
+    second = _slice_of(stage.bend(stage.head()), side)
+    field = simple.DeformationField(Input=bent, SampleGrid="Given Spacing", Spacing=[1.5, 1.5, 1.5])
+    cut = simple.Slice(Input=field)
+    cut.SliceType.Origin, cut.SliceType.Normal = stage.CORTEX, (0, 1, 0)
+    display = stage.color_by(_moved_forward(cut), second, "JacobianDeterminant", "Jacobian", 0.6,
+                             1.4, component=None)
+    display.Opacity, display.Ambient, display.Diffuse = 0.6, 1.0, 0.0
+    return stage.side_by_side([first, second])
+
+
+def invert(width):
+    """The forward field over the slice as loaded; the backward one over the slice as bent."""
+    side = width // 2
+    views = []
+    for strength, direction in ((0.0, "Forward"), (1.0, "Backward")):
+        shown = stage.bend(stage.head(), _push(), Strength=strength)
+        views.append(_slice_of(shown, side))
+        _arrows(stage.bend(stage.head(), _push()), views[-1], direction)
+    return stage.side_by_side(views)
+
+
+def field_files(width):
+    """A brain bent by a stroke, and drawn through the field that was saved of it."""
+    import brainshift
+    side = width // 2
+    bent = stage.bend(stage.brain(), stage.push())
+    with tempfile.TemporaryDirectory() as folder:
+        file = os.path.join(folder, "field.nii.gz")
+        brainshift.save_field(bent, file, spacing=(3.0, 3.0, 3.0))
+        loaded = stage.bend(stage.brain(), Lattice=brainshift.load_field(file))
+        views = [stage.brain_view(bent, side), stage.brain_view(loaded, side)]
+        return stage.side_by_side(views)
+
+
+def deform_geometry(width):
+    """A mesh of the brain as loaded, and moved along, coloured by how far, before a slice."""
+    side = width // 2
+    mesh = stage.cortex(stage.brain())
+    moved = simple.DeformGeometry(Input=mesh, Deformation=stage.bend(stage.brain(), _push()))
+    colored = simple.ProgrammableFilter(Input=[mesh, moved], Script=MOVED_BY)
+    views = [stage.view(side), stage.view(side)]
+    stage.show_surface(mesh, views[0], (0.85, 0.85, 0.85), Specular=0.2)
+    stage.color_by(colored, views[1], "Moved (mm)", "mm", 0.0, LARGEST_MM, component=None)
+    for made in views:
+        stage.look_at_brain(made)
+    return stage.side_by_side(views)
+
+
+FIELD_SCENES = {
+    "filter-free-form-deformation": free_form_deformation,
+    "filter-deformation-lattice": deformation_lattice,
+    "filter-deformation-field": deformation_field,
+    "filter-invert-displacement-field": invert,
+    "filter-displacement-field-files": field_files,
+    "filter-deform-geometry": deform_geometry}

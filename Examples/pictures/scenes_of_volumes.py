@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scenes of the documentation that show volumes and slices as they are drawn."""
+
+from paraview import simple
+
+import demo
+import stage
+
+DENT = -12.0  # mm
+
+# The mask, a little smaller and without its voxels' steps, so that no membrane is left over it.
+INNER_MASK = """
+import numpy
+inside = numpy.asarray(inputs[0].PointData[0], numpy.float32)
+inside = inside.reshape(inputs[0].GetDimensions()[::-1])
+for repetition in range(10):
+    for axis in range(3):
+        inside = (numpy.roll(inside, 1, axis) + 2 * inside + numpy.roll(inside, -1, axis)) / 4
+output.PointData.append((inside.ravel() > 0.9).astype(numpy.uint8), "Label")
+output.PointData.SetActiveScalars("Label")
+"""
+
+
+def _bent_head(amount=DENT, **properties):
+    import brainshift
+    stroke = brainshift.stamp(demo.SCALP_ANCHOR, stage.CENTRE, amount, 80.0, 50.0)
+    return stage.bend(stage.head(), stroke, **properties)
+
+
+def before_after(width):
+    """A brain as loaded, and pushed in by 10 mm."""
+    side = width // 2
+    return stage.side_by_side([stage.brain_view(stage.bend(stage.brain(), strokes), side)
+                               for strokes in ((), stage.push())])
+
+
+def strength(width):
+    """A head at strength 0, 0.5 and 1."""
+    side = width // 3
+    return stage.side_by_side([stage.head_view(_bent_head(Strength=part), side)
+                               for part in (0.0, 0.5, 1.0)])
+
+
+def deformed_volume(width):
+    """A head, and its brain as a segment alone."""
+    side = width // 2
+    inner = simple.ProgrammableFilter(Input=stage.mask(), Script=INNER_MASK)
+    brain = stage.bend(stage.head(), stage.push(), Segmentation=inner)
+    views = [stage.head_view(_bent_head(), side), stage.view(side)]
+    demo.show(brain, "Intensity", views[1])
+    display = simple.GetDisplayProperties(brain, views[1])
+    display.DrawSegment = 1
+    _separate_maps(display, demo.CORTEX_COLORS, demo.CORTEX_OPACITIES)
+    stage.look_at_brain(views[1])
+    return stage.side_by_side(views)
+
+
+def _separate_maps(display, colors, opacities):
+    """Colour and opacity of one view's own."""
+    simple.ColorBy(display, ("POINTS", "Intensity"), separate=True)
+    color = simple.GetColorTransferFunction("Intensity", display, separate=True)
+    color.RGBPoints = colors
+    opacity = simple.GetOpacityTransferFunction("Intensity", display, separate=True)
+    opacity.Points = [number for scalar, share in zip(opacities[0::2], opacities[1::2])
+                      for number in (scalar, share, 0.5, 0.0)]
+
+
+def deformed_slices(width):
+    """Three planes through a bent head in 3D, and the coronal one seen from the front."""
+    side = width // 2
+    bent = stage.bend(stage.head(), stage.push(-15.0))
+    scene = stage.view(side)
+    display = stage.show_slices(bent, scene, ("Sagittal", "Coronal", "Axial"))
+    simple.Render(scene)
+    demo.frame(scene, (-309, 20, 470), (-330, 420, 260), 24)
+    display.SlicePosition = (-335.0, 10.0, 460.0)
+    display.MapSliceOpacity = 1
+    flat = stage.flat_view(side, (-309.0, 30.0, 470.0), 95.0)
+    stage.show_slices(bent, flat).OrientationMarks = 1
+    return stage.side_by_side([scene, flat])
+
+
+def mask(width):
+    """A coronal slice pushed in: without a mask the skull goes along, with the mask it stays."""
+    side = width // 2
+    views = []
+    for properties in ({}, {"Mask": stage.mask(), "Feather": 8.0}):
+        bent = stage.bend(stage.head(), stage.push(-14.0, 80.0, 35.0), **properties)
+        views.append(stage.flat_view(side, (-325.0, 30.0, 500.0), 50.0))
+        stage.show_slices(bent, views[-1])
+    return stage.side_by_side(views)
+
+
+def bake(width):
+    """Contour of Free-Form Deformation sees the volume unbent; of Bake Deformation, bent."""
+    side = width // 2
+    bent = stage.bend(stage.brain(), stage.push())
+    views = []
+    for volume in (bent, simple.BakeDeformation(Input=bent)):
+        contour = stage.cortex(volume)
+        made = stage.view(side)
+        stage.show_surface(contour, made, (0.85, 0.72, 0.6), Specular=0.2)
+        stage.look_at_brain(made)
+        views.append(made)
+    return stage.side_by_side(views)
+
+
+def orientation(width):
+    """One axial slice: radiological, the patient's right on the left; then neurological."""
+    side = width // 2
+    views = []
+    for mirrored in (False, True):
+        made = stage.flat_view(side, (-309.0, 25.0, 480.0), 118.0, "Axial")
+        if mirrored:
+            x, y, z = made.CameraPosition
+            made.CameraPosition = (x, y, z + 800.0)
+        display = stage.show_slices(stage.head(), made, ("Axial",), position=(-309, 25, 480))
+        display.OrientationMarks = 1
+        views.append(made)
+    return stage.side_by_side(views)
+
+
+def nifti(width):
+    """A NIfTI volume's three planes, each seen along its axis."""
+    side = width // 3
+    views = []
+    for plane in ("Axial", "Coronal", "Sagittal"):
+        made = stage.flat_view(side, (-309.0, 25.0, 475.0), 125.0, plane)
+        display = stage.show_slices(stage.head(), made, (plane,), position=(-320, 25, 475))
+        display.OrientationMarks = 1
+        views.append(made)
+    return stage.side_by_side(views)
+
+
+VOLUME_SCENES = {
+    "brain-before-after": before_after, "head-strength": strength,
+    "representation-deformed-volume": deformed_volume,
+    "representation-deformed-slices": deformed_slices, "filter-free-form-deformation-mask": mask,
+    "filter-bake-deformation": bake, "orientation": orientation,
+    "filter-nifti-volume-reader": nifti}

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Interaction/Commands/Commands.h"
+
+#include <QCoreApplication>
+#include <QStringList>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace brainshift
+{
+namespace
+{
+QString tr(const char* text)
+{
+  return QCoreApplication::translate("BrainShift", text);
+}
+
+using Tools = std::vector<ToolKind>;
+using Keys = std::vector<QKeyCombination>;
+
+CommandRow byMouse(Command command, Scope scope, const Tools& tools, Mouse mouse,
+  Qt::KeyboardModifiers modifiers, const char* what, const char* hint)
+{
+  return { command, scope, tools, mouse, modifiers, {}, what, hint };
+}
+
+CommandRow byKey(Command command, Scope scope, const Tools& tools, const Keys& keys,
+  const char* what, const char* hint = "")
+{
+  return { command, scope, tools, Mouse::None, {}, keys, what, hint };
+}
+
+std::vector<CommandRow> windowRows()
+{
+  return {
+    byKey(Command::TakeTool, Scope::Window, { ToolKind::Move }, { Qt::ALT | Qt::Key_1 },
+      QT_TRANSLATE_NOOP("BrainShift", "Move single control points.")),
+    byKey(Command::TakeTool, Scope::Window, { ToolKind::Soft }, { Qt::ALT | Qt::Key_2 },
+      QT_TRANSLATE_NOOP("BrainShift", "Drag all tissue within a radius.")),
+    byKey(Command::TakeTool, Scope::Window, { ToolKind::Stamp }, { Qt::ALT | Qt::Key_3 },
+      QT_TRANSLATE_NOOP("BrainShift", "Pull or push an ellipsoid of tissue with the wheel.")),
+    byKey(Command::Flicker, Scope::Window, {}, { Qt::Key_K },
+      QT_TRANSLATE_NOOP("BrainShift",
+        "Show the deformed volume and the reference of Compare Volumes in turn. Press the key "
+        "again to stop.")),
+    byKey(Command::Undo, Scope::Window, {}, { Qt::CTRL | Qt::Key_Z },
+      QT_TRANSLATE_NOOP("BrainShift", "Undo the last edit. Each stroke is one edit.")),
+    byKey(Command::Redo, Scope::Window, {}, { Qt::CTRL | Qt::Key_Y },
+      QT_TRANSLATE_NOOP("BrainShift", "Redo the edit that was undone last.")),
+  };
+}
+
+std::vector<CommandRow> moveAndSoftRows()
+{
+  return {
+    byMouse(Command::MoveControlPoints, Scope::Tool, { ToolKind::Move }, Mouse::Drag, {},
+      QT_TRANSLATE_NOOP("BrainShift",
+        "Move the control point under the cursor. All selected control points move with it."),
+      QT_TRANSLATE_NOOP("BrainShift", "move a control point")),
+    byMouse(Command::SelectControlPoint, Scope::Tool, { ToolKind::Move }, Mouse::Click,
+      Qt::ShiftModifier,
+      QT_TRANSLATE_NOOP(
+        "BrainShift", "Select one more control point, or deselect a selected control point."),
+      QT_TRANSLATE_NOOP("BrainShift", "select several")),
+    byMouse(Command::MoveTissue, Scope::Tool, { ToolKind::Soft }, Mouse::Drag, {},
+      QT_TRANSLATE_NOOP("BrainShift",
+        "Move the tissue under the cursor. Tissue within the radius follows, less and less towards "
+        "the edge."),
+      QT_TRANSLATE_NOOP("BrainShift", "move the tissue within %1")),
+    byMouse(Command::ChangeRadius, Scope::Tool, { ToolKind::Soft }, Mouse::Wheel, Qt::ShiftModifier,
+      QT_TRANSLATE_NOOP("BrainShift", "Change the radius."),
+      QT_TRANSLATE_NOOP("BrainShift", "change the radius")),
+    byKey(Command::HoldAxis, Scope::Tool, { ToolKind::Move, ToolKind::Soft },
+      { Qt::Key_X, Qt::Key_Y, Qt::Key_Z },
+      QT_TRANSLATE_NOOP("BrainShift",
+        "During a drag: hold the drag to that world axis. Press the key again to release it."),
+      QT_TRANSLATE_NOOP("BrainShift", "hold the drag to an axis")),
+  };
+}
+
+std::vector<CommandRow> stampRows()
+{
+  return {
+    byMouse(Command::StampByClick, Scope::Tool, { ToolKind::Stamp }, Mouse::Wheel, {},
+      QT_TRANSLATE_NOOP("BrainShift",
+        "Over tissue: pull the tissue away from the point of interest (forward) or push it towards "
+        "the point (backward). Each click moves it by the distance under Per click. Clicks at one "
+        "place are one stroke."),
+      QT_TRANSLATE_NOOP("BrainShift", "pull or push the tissue by %1 per click")),
+    byMouse(Command::StampByDrag, Scope::Tool, { ToolKind::Stamp }, Mouse::Drag, {},
+      QT_TRANSLATE_NOOP("BrainShift",
+        "Pull or push without steps. Drag along the blue line. Where the line points at you, drag "
+        "up or down."),
+      QT_TRANSLATE_NOOP("BrainShift", "pull or push without steps")),
+    byMouse(Command::ChangeMajorRadius, Scope::Tool, { ToolKind::Stamp }, Mouse::Wheel,
+      Qt::ShiftModifier, QT_TRANSLATE_NOOP("BrainShift", "Change the major radius."),
+      QT_TRANSLATE_NOOP("BrainShift", "change the major radius")),
+    byKey(Command::SetPointOfInterest, Scope::Tool, { ToolKind::Stamp }, { Qt::Key_I },
+      QT_TRANSLATE_NOOP("BrainShift", "Set the point of interest to the tissue under the cursor."),
+      QT_TRANSLATE_NOOP("BrainShift", "set the point of interest")),
+    byKey(Command::Cancel, Scope::Tool, {}, { Qt::Key_Escape },
+      QT_TRANSLATE_NOOP("BrainShift", "Cancel the stroke that is being made.")),
+  };
+}
+
+std::vector<CommandRow> viewRows()
+{
+  return {
+    byKey(Command::ShowAsLoaded, Scope::View, {}, { Qt::Key_O },
+      QT_TRANSLATE_NOOP("BrainShift", "Show the volume as loaded while the key is held down.")),
+    byMouse(Command::StepSlices, Scope::Slices, {}, Mouse::Wheel, {},
+      QT_TRANSLATE_NOOP("BrainShift",
+        "Step through the slices, one voxel per click. With Stamp in hand, the wheel does this "
+        "only away from tissue."),
+      QT_TRANSLATE_NOOP("BrainShift", "next slice")),
+    byKey(Command::StepSlices, Scope::Slices, {}, { Qt::Key_PageUp, Qt::Key_PageDown },
+      QT_TRANSLATE_NOOP("BrainShift", "Step through the slices, one voxel each time."),
+      QT_TRANSLATE_NOOP("BrainShift", "next slice")),
+    byMouse(Command::BringSlices, Scope::Slices, {}, Mouse::Drag, Qt::ShiftModifier,
+      QT_TRANSLATE_NOOP("BrainShift", "Bring the other slices to the cursor."),
+      QT_TRANSLATE_NOOP("BrainShift", "bring the other slices to the cursor")),
+    byMouse(Command::MoveWipe, Scope::Slices, {}, Mouse::Drag, {},
+      QT_TRANSLATE_NOOP("BrainShift", "On the line of a Wipe comparison: move the line."), ""),
+    byMouse(Command::Zoom, Scope::Slices, {}, Mouse::Wheel, Qt::ControlModifier,
+      QT_TRANSLATE_NOOP("BrainShift", "Zoom."), QT_TRANSLATE_NOOP("BrainShift", "zoom")),
+  };
+}
+
+std::vector<CommandRow> listRows()
+{
+  return {
+    byKey(Command::ToggleStrokes, Scope::List, {}, { Qt::Key_Space },
+      QT_TRANSLATE_NOOP("BrainShift", "Disable or enable the selected strokes.")),
+    byKey(Command::ChooseNumber, Scope::List, {}, { Qt::Key_Left, Qt::Key_Right },
+      QT_TRANSLATE_NOOP("BrainShift", "Choose a number of the stroke.")),
+    byKey(Command::EditNumber, Scope::List, {}, { Qt::Key_Return, Qt::Key_Enter },
+      QT_TRANSLATE_NOOP("BrainShift", "Edit the chosen number.")),
+    byKey(Command::DeleteStrokes, Scope::List, {}, { Qt::Key_Delete },
+      QT_TRANSLATE_NOOP("BrainShift", "Delete the selected strokes.")),
+  };
+}
+
+bool works(const CommandRow& row, ToolKind tool)
+{
+  return row.tools.empty() ||
+    std::find(row.tools.begin(), row.tools.end(), tool) != row.tools.end();
+}
+
+Command commandOfGesture(Scope scope, ToolKind tool, Mouse mouse, Qt::KeyboardModifiers modifiers)
+{
+  for (const CommandRow& row : commandTable())
+  {
+    if (row.scope == scope && row.mouse == mouse && row.modifiers == modifiers && works(row, tool))
+    {
+      return row.command;
+    }
+  }
+  return Command::None;
+}
+
+QString keyText(QKeyCombination key)
+{
+  static const std::array<std::pair<const char*, const char*>, 5> longNames{ {
+    { "PgUp", "Page Up" },
+    { "PgDown", "Page Down" },
+    { "Esc", "Escape" },
+    { "Del", "Delete" },
+    { "Return", "Enter" },
+  } };
+  const QString text = QKeySequence(key).toString(QKeySequence::PortableText);
+  for (const auto& [brief, whole] : longNames)
+  {
+    if (text == brief)
+    {
+      return tr(whole);
+    }
+  }
+  return text;
+}
+
+QString mouseText(Mouse mouse)
+{
+  switch (mouse)
+  {
+    case Mouse::Drag:
+      return tr("Drag");
+    case Mouse::Click:
+      return tr("Click");
+    case Mouse::Wheel:
+      return tr("Wheel");
+    case Mouse::None:
+      break;
+  }
+  return {};
+}
+}
+
+const std::vector<CommandRow>& commandTable()
+{
+  static const std::vector<CommandRow> table = [] {
+    std::vector<CommandRow> all;
+    for (const auto& rows :
+      { windowRows(), moveAndSoftRows(), stampRows(), viewRows(), listRows() })
+    {
+      all.insert(all.end(), rows.begin(), rows.end());
+    }
+    return all;
+  }();
+  return table;
+}
+
+const CommandRow& rowOf(Command command, ToolKind tool)
+{
+  const std::vector<CommandRow>& table = commandTable();
+  static const CommandRow nothing;
+  const auto found = std::find_if(table.begin(), table.end(), [=](const CommandRow& row) {
+    return row.command == command && (tool == ToolKind::None || works(row, tool));
+  });
+  return found == table.end() ? nothing : *found;
+}
+
+KeyCommand commandOfKey(std::initializer_list<Scope> scopes, int key)
+{
+  for (const CommandRow& row : commandTable())
+  {
+    const auto found = std::find_if(row.keys.begin(), row.keys.end(),
+      [key](QKeyCombination combination) { return combination.key() == key; });
+    const bool heard = std::find(scopes.begin(), scopes.end(), row.scope) != scopes.end();
+    if (heard && found != row.keys.end())
+    {
+      return { row.command, static_cast<int>(found - row.keys.begin()) };
+    }
+  }
+  return {};
+}
+
+Command commandOfMouse(Scope scope, ToolKind tool, Mouse mouse, bool shift, bool control)
+{
+  const Qt::KeyboardModifiers without = control ? Qt::ControlModifier : Qt::NoModifier;
+  const Command exact =
+    commandOfGesture(scope, tool, mouse, shift ? without | Qt::ShiftModifier : without);
+  return exact == Command::None ? commandOfGesture(scope, tool, mouse, without) : exact;
+}
+
+QKeySequence shortcutOf(Command command, ToolKind tool)
+{
+  const CommandRow& row = rowOf(command, tool);
+  return row.keys.empty() ? QKeySequence() : QKeySequence(row.keys.front());
+}
+
+QString keysText(const CommandRow& row)
+{
+  QStringList texts;
+  for (const QKeyCombination key : row.keys)
+  {
+    texts.append(keyText(key));
+  }
+  texts.removeDuplicates(); // a keyboard has two keys called Enter
+  if (row.mouse == Mouse::None)
+  {
+    return texts.join(", ");
+  }
+  QString text = mouseText(row.mouse);
+  text.prepend(row.modifiers & Qt::ShiftModifier ? tr("Shift+") : QString());
+  text.prepend(row.modifiers & Qt::ControlModifier ? tr("Ctrl+") : QString());
+  return text;
+}
+
+QString headingOf(Scope scope)
+{
+  switch (scope)
+  {
+    case Scope::Window:
+      return tr("In the whole window");
+    case Scope::Tool:
+      return tr("In the view, with a tool in hand");
+    case Scope::View:
+      return tr("In the view, with or without a tool");
+    case Scope::Slices:
+      return tr("In a 2D view of slices");
+    case Scope::List:
+      return tr("In the list of strokes");
+  }
+  return {};
+}
+
+QString remarkOn(Scope scope)
+{
+  switch (scope)
+  {
+    case Scope::Window:
+      return tr("Alt+1, Alt+2 and Alt+3 take a tool in hand. The same keys put it down.");
+    case Scope::Tool:
+      return tr("Over a slice, every tool works within the slice. Away from tissue, and with the "
+                "other mouse buttons, the mouse moves the camera.");
+    default:
+      return {};
+  }
+}
+
+QString nameOf(ToolKind tool)
+{
+  switch (tool)
+  {
+    case ToolKind::Move:
+      return tr("Move");
+    case ToolKind::Soft:
+      return tr("Soft");
+    case ToolKind::Stamp:
+      return tr("Stamp");
+    case ToolKind::None:
+      break;
+  }
+  return {};
+}
+}

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Interaction/Edits/StrokeEditor.h"
+
+#include "Interaction/Edits/QuietUpdates.h"
+#include "Interaction/Views/ActiveDeformation.h"
+#include "Interaction/Views/ShowingViews.h"
+
+#include <pqApplicationCore.h>
+#include <pqDataRepresentation.h>
+#include <pqPipelineSource.h>
+#include <pqProgressManager.h>
+#include <pqServerManagerModel.h>
+#include <pqUndoStack.h>
+#include <pqView.h>
+
+#include <vtkCommand.h>
+#include <vtkSMProperty.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMSession.h>
+#include <vtkSMSourceProxy.h>
+#include <vtkSMTrace.h>
+#include <vtkSMViewProxy.h>
+
+#include <QSignalBlocker>
+#include <QWidget>
+
+#include <string>
+
+namespace brainshift
+{
+namespace
+{
+// The picture for now; the one at full quality follows when the stroke is done.
+void drawRoughly(pqView* view)
+{
+  vtkSMViewProxy* proxy = view->getViewProxy();
+  if (proxy && !proxy->GetSession()->GetPendingProgress() && proxy->GetRenderWindow() &&
+    view->widget()->isVisible())
+  {
+    view->cancelPendingRenders();
+    // The bar of progress would make the window lay out and paint itself anew, and at the end of a
+    // picture ParaView asks for the sizes of all that is shown.
+    pqProgressManager* progress = pqApplicationCore::instance()->getProgressManager();
+    progress->lockProgress(view);
+    {
+      const QSignalBlocker quiet(view);
+      proxy->InteractiveRender();
+    }
+    progress->unlockProgress(view);
+  }
+  else
+  {
+    view->render();
+  }
+}
+
+void drawFully(pqPipelineSource* source)
+{
+  for (pqView* view : viewsShowing(source))
+  {
+    view->render();
+  }
+}
+
+StrokeEditor::Strokes joined(StrokeEditor::Strokes first, const StrokeEditor::Strokes& second)
+{
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+}
+
+StrokeEditor* StrokeEditor::of(pqPipelineSource* source)
+{
+  if (!isDeformation(source))
+  {
+    return nullptr;
+  }
+  auto editor = source->findChild<StrokeEditor*>(QString(), Qt::FindDirectChildrenOnly);
+  return editor ? editor : new StrokeEditor(source);
+}
+
+StrokeEditor* StrokeEditor::of(vtkSMSourceProxy* proxy)
+{
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  return proxy ? StrokeEditor::of(model->findItem<pqPipelineSource*>(proxy)) : nullptr;
+}
+
+StrokeEditor::StrokeEditor(pqPipelineSource* source)
+  : QObject(source)
+  , Source(source)
+{
+  this->Redraw.setSingleShot(true);
+  this->Redraw.setInterval(0);
+  QObject::connect(&this->Redraw, &QTimer::timeout, this, &StrokeEditor::draw);
+  QObject::connect(pqApplicationCore::instance(), &pqApplicationCore::aboutToWriteState, this,
+    [this] { this->Unselected.putBack(); }); // what an edit leaves out for now is no state
+  this->Connector->Connect(
+    source->getProxy()->GetProperty("Strokes"), vtkCommand::ModifiedEvent, this, SLOT(notice()));
+}
+
+StrokeEditor::Strokes StrokeEditor::strokes() const
+{
+  std::string problem;
+  return strokesFromNumbers(
+    vtkSMPropertyHelper(this->Source->getProxy(), "Strokes").GetDoubleArray(), problem);
+}
+
+void StrokeEditor::begin(const Strokes& underHand)
+{
+  this->cancel();
+  const Strokes before = this->strokes();
+  this->startEditing(before, before, underHand);
+}
+
+void StrokeEditor::beginAtLast(const Stroke& stroke)
+{
+  this->cancel();
+  const Strokes before = this->strokes();
+  Strokes kept = before;
+  if (!kept.empty())
+  {
+    kept.pop_back();
+  }
+  this->startEditing(before, kept, { stroke });
+}
+
+void StrokeEditor::startEditing(
+  const Strokes& before, const Strokes& kept, const Strokes& underHand)
+{
+  if (before.empty() &&
+    vtkSMPropertyHelper(this->Source->getProxy(), "Strokes").GetNumberOfElements() > 0)
+  {
+    return; // numbers that are no strokes: the filter says what is wrong, and they are not lost
+  }
+  this->Before = before;
+  this->Kept = kept;
+  this->Editing = true;
+  this->Unselected.leaveOut(this->Source);
+  Q_EMIT this->editing(true);
+  this->change(underHand);
+}
+
+void StrokeEditor::stopEditing()
+{
+  this->Redraw.stop();
+  this->Editing = false;
+  this->Unselected.putBack();
+  Q_EMIT this->editing(false);
+}
+
+void StrokeEditor::change(const Strokes& underHand)
+{
+  if (this->Editing)
+  {
+    this->write(joined(this->Kept, underHand));
+    this->drawSoon();
+  }
+}
+
+void StrokeEditor::commit(const QString& label)
+{
+  if (!this->Editing)
+  {
+    return;
+  }
+  const Strokes after = this->strokes();
+  {
+    // What undo comes back to is what the session saw last, so it sees the beginning once more.
+    SCOPED_UNDO_EXCLUDE();
+    const QSignalBlocker quiet(this);
+    this->write(this->Before);
+    this->Source->getProxy()->UpdateVTKObjects();
+  }
+  this->stopEditing();
+  this->replaceAll(after, label);
+  drawFully(this->Source);
+}
+
+void StrokeEditor::cancel()
+{
+  if (this->Editing)
+  {
+    SCOPED_UNDO_EXCLUDE();
+    this->write(this->Before);
+    this->Source->getProxy()->UpdateVTKObjects();
+    this->stopEditing();
+    drawFully(this->Source);
+  }
+}
+
+void StrokeEditor::replaceAll(const Strokes& strokes, const QString& label)
+{
+  this->cancel();
+  const unsigned int numbers =
+    vtkSMPropertyHelper(this->Source->getProxy(), "Strokes").GetNumberOfElements();
+  if (strokes == this->strokes() && strokes.size() * NumbersPerStroke == numbers)
+  {
+    return; // and not for numbers that are no strokes, which read as none
+  }
+  vtkSMProxy* proxy = this->Source->getProxy();
+  {
+    SCOPED_UNDO_SET(label);
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", proxy);
+    this->write(strokes);
+    proxy->UpdateVTKObjects();
+  }
+  drawFully(this->Source);
+}
+
+void StrokeEditor::showBefore(bool on)
+{
+  if (on == this->ShowsBefore)
+  {
+    return;
+  }
+  SCOPED_UNDO_EXCLUDE();
+  vtkSMPropertyHelper strength(this->Source->getProxy(), "Strength");
+  this->StrengthAfter = on ? strength.GetAsDouble() : this->StrengthAfter;
+  this->ShowsBefore = on;
+  strength.Set(on ? 0.0 : this->StrengthAfter);
+  this->Source->getProxy()->UpdateVTKObjects();
+  drawFully(this->Source);
+}
+
+void StrokeEditor::changeStrength(double strength)
+{
+  vtkSMPropertyHelper property(this->Source->getProxy(), "Strength");
+  if (!this->ChangesStrength)
+  {
+    this->showBefore(false);
+    this->ChangesStrength = true;
+    this->StrengthBefore = property.GetAsDouble();
+  }
+  property.Set(strength);
+  this->drawSoon();
+}
+
+void StrokeEditor::commitStrength()
+{
+  if (!this->ChangesStrength)
+  {
+    return;
+  }
+  this->ChangesStrength = false;
+  this->Redraw.stop();
+  vtkSMProxy* proxy = this->Source->getProxy();
+  vtkSMPropertyHelper property(proxy, "Strength");
+  const double after = property.GetAsDouble();
+  {
+    SCOPED_UNDO_EXCLUDE(); // what undo comes back to is what the session saw last
+    property.Set(this->StrengthBefore);
+    proxy->UpdateVTKObjects();
+  }
+  {
+    SCOPED_UNDO_SET("Change Strength");
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", proxy);
+    property.Set(after);
+    proxy->UpdateVTKObjects();
+  }
+  drawFully(this->Source);
+}
+
+void StrokeEditor::write(const Strokes& strokes)
+{
+  const std::vector<double> numbers = numbersFromStrokes(strokes);
+  this->Writing = true;
+  vtkSMPropertyHelper property(this->Source->getProxy(), "Strokes");
+  if (numbers.empty())
+  {
+    property.SetNumberOfElements(0);
+  }
+  else
+  {
+    property.Set(numbers.data(), static_cast<unsigned int>(numbers.size()));
+  }
+  this->Writing = false;
+}
+
+void StrokeEditor::notice()
+{
+  if (this->Editing && !this->Writing)
+  {
+    this->stopEditing(); // undo, a script or the panel came first: what they want stands
+  }
+  Q_EMIT this->changed();
+}
+
+void StrokeEditor::drawSoon()
+{
+  if (!this->Redraw.isActive())
+  {
+    this->Redraw.start();
+  }
+}
+
+void StrokeEditor::draw()
+{
+  {
+    SCOPED_UNDO_EXCLUDE();
+    QuietUpdates quiet;
+    quiet.add(this->Source->getProxy());
+    this->Source->getProxy()->UpdateVTKObjects();
+    for (pqView* view : viewsShowing(this->Source))
+    {
+      if (pqDataRepresentation* display = this->Source->getRepresentation(view))
+      {
+        quiet.add(display->getProxy());
+      }
+      drawRoughly(view);
+    }
+  }
+  Q_EMIT this->drawn();
+}
+}

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Carries the tool in hand from view to view. The tool belongs to the view that the cursor entered
+/// last, or to a view that was made active since then. There is one hand, so there is one carrier.
+/// It also hears the keys of the table of commands that work in views.
+#ifndef BrainShift_ToolCarrier_h
+#define BrainShift_ToolCarrier_h
+
+#include "Interaction/Commands/Commands.h"
+#include "Interaction/Commands/ToolSettings.h"
+#include "Interaction/Views/CursorWatch.h"
+#include "Interaction/Views/KeptPictures.h"
+
+#include <QObject>
+#include <QPointer>
+#include <QTimer>
+
+#include <memory>
+
+class QKeyEvent;
+class pqPipelineSource;
+class pqRenderView;
+
+namespace brainshift
+{
+class StrokeEditor;
+class ViewProbe;
+class HandTool;
+class WidgetInView;
+struct HandEvent;
+
+class ToolCarrier : public QObject
+{
+  Q_OBJECT
+
+public:
+  explicit ToolCarrier(QObject* parent);
+  ~ToolCarrier() override;
+
+  /// Keys are heard before ParaView's shortcuts, but only while the cursor is over a view and no
+  /// text is typed. The table of commands says what they do.
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+  void followApplication(); ///< Connects the signals of ParaView.
+  void followCursor(pqRenderView* view);
+  void refresh(); ///< Adapts to the tool, the view and the filter that are active now.
+  void suggestRanges();
+  void putDown();
+  bool handle(const HandEvent& event);
+  bool pass(const HandEvent& event);
+  bool canDo(Command command) const;
+  void act(const KeyCommand& found);
+  void holdAxis(ToolSettings::AxisHold axis);
+  void setInterest();
+  void stepSlices(int voxels);
+  StrokeEditor* editorUnderCursor() const; ///< Null if nothing can be deformed there.
+  void stopShowingBefore();
+  void cancel();
+  void drawSoon();
+  bool isAlive() const;
+
+  CursorWatch Cursor;
+  QPointer<pqRenderView> Under; ///< The view that the tool belongs to.
+  KeptPictures Kept;            ///< As long as a tool is in hand.
+  QPointer<pqPipelineSource> Deformation;
+  QPointer<pqRenderView> View;
+  QPointer<StrokeEditor> Editor;
+  QPointer<StrokeEditor> ShowingBefore;
+  std::unique_ptr<WidgetInView> Widget;
+  std::unique_ptr<ViewProbe> Probe;
+  std::unique_ptr<HandTool> Tool;
+  ToolKind ToolInHand = ToolKind::None;
+  QTimer Refresh; ///< Merges events that may have changed something.
+  QTimer Settle;  ///< Ends a burst of wheel clicks.
+  bool Holding = false;
+  bool Zooming = false; ///< A burst of wheel clicks began away from tissue.
+  int CursorX = 0;      ///< Pixels from the view's lower left corner.
+  int CursorY = 0;
+};
+}
+
+#endif

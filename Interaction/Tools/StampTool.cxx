@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Interaction/Tools/StampTool.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace brainshift
+{
+namespace
+{
+constexpr double GrowthPerClick = 1.1;  // of the major radius, of the wheel with Shift
+constexpr double SamePlacePixels = 4.0; // a resting hand trembles less
+constexpr double CrossShare = 0.15;     // of the major radius
+}
+
+// The stamp over the tissue at a pixel. False where there is none.
+bool StampTool::take(const glm::dvec2& pixel)
+{
+  const std::optional<Spot> spot = this->Bench.probe.spotAt(pixel);
+  if (!spot)
+  {
+    return false;
+  }
+  const glm::dvec3 interest = this->interestFrom(*spot);
+  constexpr double nearest = 1e-3; // mm; a nearer point gives no direction
+  if (glm::distance(interest, spot->position) < nearest)
+  {
+    return false;
+  }
+  this->Slice = spot->slice;
+  this->Latest = this->strokeAt(spot->position, Tool::Stamp);
+  this->Latest.axis = glm::normalize(interest - spot->position);
+  this->Amount = 0.0;
+  this->Made = false;
+  this->TakenAt = pixel;
+  return true;
+}
+
+// The point of interest; in a slice the nearest point of the slice to it. So what is matched in a
+// slice moves within it: tissue pushed through it would leave the picture and bring other in.
+glm::dvec3 StampTool::interestFrom(const Spot& spot)
+{
+  const glm::dvec3 interest = this->Bench.probe.pointOfInterest();
+  return spot.slice ? interest - glm::dot(interest - spot.position, *spot.slice) * *spot.slice
+                    : interest;
+}
+
+bool StampTool::isAtLastStroke(const glm::dvec2& pixel) const
+{
+  if (glm::distance(pixel, this->TakenAt) > SamePlacePixels)
+  {
+    return false;
+  }
+  if (this->isDragging())
+  {
+    return true;
+  }
+  const StrokeEditor::Strokes strokes = this->Bench.editor.strokes();
+  const Stroke now = this->strokeAt(this->Latest.anchor, Tool::Stamp);
+  const bool sameShape = now.major == this->Latest.major && now.minor == this->Latest.minor &&
+    now.sigma == this->Latest.sigma;
+  return this->Made && sameShape && !strokes.empty() && strokes.back() == this->Latest;
+}
+
+void StampTool::show(const Stroke& stroke, double amount)
+{
+  vtkLatticeRepresentation& drawing = this->Bench.drawing;
+  const glm::dvec3 interest = this->interestFrom({ stroke.anchor, this->Slice });
+  const glm::dvec3 away = -glm::normalize(stroke.axis);
+  this->showStroke(stroke, this->Slice);
+  std::vector<Polyline> marks = cross(interest, CrossShare * stroke.major);
+  marks.push_back({ interest, stroke.anchor });
+  marks.push_back({ stroke.anchor, stroke.anchor + amount * away });
+  drawing.SetLines(vtkLatticeRepresentation::Mark, marks);
+  drawing.SetHighlights({ stroke.anchor + amount * away });
+}
+
+void StampTool::hover(const HandEvent& event)
+{
+  if (this->isDragging() && this->isAtLastStroke(pixelOf(event)))
+  {
+    return;
+  }
+  this->settle();
+  if (this->Made && this->isAtLastStroke(pixelOf(event)))
+  {
+    return;
+  }
+  if (this->take(pixelOf(event)))
+  {
+    this->show(this->Latest, 0.0);
+  }
+  else
+  {
+    this->Bench.drawing.Clear();
+  }
+}
+
+void StampTool::apply(double amount)
+{
+  const glm::dvec3 away = -glm::normalize(this->Latest.axis);
+  this->Amount = amount;
+  this->Latest.vector = this->beforeStrength(amount * away);
+  this->show(this->Latest, amount);
+}
+
+bool StampTool::press(const HandEvent& event)
+{
+  this->settle();
+  const std::optional<Spot> spot = this->Bench.probe.spotAt(pixelOf(event));
+  if (!spot || isForSlices(event, *spot) || !this->take(pixelOf(event)))
+  {
+    return false;
+  }
+  // Along the image of the axis, or, where that points at the eye, up and down.
+  ViewProbe& probe = this->Bench.probe;
+  const glm::dvec3 away = -this->Latest.axis;
+  const double millimetres = probe.millimetresPerPixel(this->Latest.anchor);
+  const glm::dvec2 onScreen =
+    probe.pixelOf(this->Latest.anchor + millimetres * away) - probe.pixelOf(this->Latest.anchor);
+  constexpr double leastShare = 0.5; // of the axis' length that is seen
+  const bool isSeen = glm::length(onScreen) >= leastShare;
+  this->PullOnScreen =
+    isSeen ? millimetres * onScreen / glm::dot(onScreen, onScreen) : glm::dvec2(0.0, millimetres);
+  return true;
+}
+
+void StampTool::drag(const HandEvent& event)
+{
+  this->apply(glm::dot(pixelOf(event) - this->TakenAt, this->PullOnScreen));
+  if (this->isDragging())
+  {
+    this->Bench.editor.change(this->Latest);
+  }
+  else
+  {
+    this->Bench.editor.begin(this->Latest);
+  }
+}
+
+void StampTool::clickWheel(const HandEvent& event)
+{
+  const bool again = this->isAtLastStroke(pixelOf(event));
+  const bool under = again && this->isDragging();
+  if (!again)
+  {
+    this->settle();
+  }
+  if (!again && !this->take(pixelOf(event)))
+  {
+    return;
+  }
+  this->apply(this->Amount + event.clicks * this->Bench.settings.millimetresPerClick());
+  if (under)
+  {
+    this->Bench.editor.change(this->Latest);
+  }
+  else if (again)
+  {
+    this->Bench.editor.beginAtLast(this->Latest);
+  }
+  else
+  {
+    this->Bench.editor.begin(this->Latest);
+  }
+}
+
+void StampTool::changeRadius(const HandEvent& event)
+{
+  ToolSettings& settings = this->Bench.settings;
+  settings.setMajorRadius(settings.majorRadius() * std::pow(GrowthPerClick, event.clicks));
+  if (this->isDragging())
+  {
+    this->Latest.major = settings.majorRadius();
+    this->show(this->Latest, this->Amount);
+    this->Bench.editor.change(this->Latest);
+  }
+  else
+  {
+    this->Made = false; // the next click begins a stroke of this size
+    this->hover(event);
+  }
+}
+
+bool StampTool::wheel(const HandEvent& event)
+{
+  const Command command = commandOf(ToolKind::Stamp, Mouse::Wheel, event);
+  const bool acts = command != Command::None && !event.alt &&
+    (this->isAtLastStroke(pixelOf(event)) || this->Bench.probe.spotAt(pixelOf(event)));
+  if (acts && command == Command::ChangeMajorRadius)
+  {
+    this->changeRadius(event);
+  }
+  else if (acts)
+  {
+    this->clickWheel(event);
+  }
+  return acts;
+}
+
+void StampTool::settle()
+{
+  if (this->isDragging())
+  {
+    this->Made = true;
+    this->Bench.editor.commit(this->Amount < 0.0 ? "Stamp: push" : "Stamp: pull");
+  }
+}
+
+void StampTool::turnAway()
+{
+  this->settle();
+  this->Made = false;
+}
+
+void StampTool::cancel()
+{
+  HandTool::cancel();
+  this->Amount = 0.0;
+  this->Made = false;
+  this->Bench.drawing.Clear();
+}
+}

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Interaction/Views/ActiveDeformation.h"
+
+#include <pqActiveObjects.h>
+#include <pqApplicationCore.h>
+#include <pqDataRepresentation.h>
+#include <pqOutputPort.h>
+#include <pqPipelineFilter.h>
+#include <pqServerManagerModel.h>
+#include <pqView.h>
+
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
+
+#include <cstring>
+
+namespace brainshift
+{
+namespace
+{
+// The next sources along the pipeline: first what a source is made of, then what is made of it.
+QList<pqPipelineSource*> neighboursOf(pqPipelineSource* source)
+{
+  QList<pqPipelineSource*> neighbours;
+  if (auto filter = qobject_cast<pqPipelineFilter*>(source))
+  {
+    for (pqOutputPort* input : filter->getAllInputs())
+    {
+      neighbours.append(input->getSource());
+    }
+  }
+  return neighbours + source->getAllConsumers();
+}
+
+bool isShown(pqPipelineSource* source, pqView* view)
+{
+  pqDataRepresentation* display = view ? source->getRepresentation(view) : nullptr;
+  return (display && display->isVisible()) || bentDisplay(source, view);
+}
+
+bool isShownAs(pqDataRepresentation* display, const char* type)
+{
+  const char* kind = vtkSMPropertyHelper(display->getProxy(), "Representation", true).GetAsString();
+  return kind && std::strcmp(kind, type) == 0;
+}
+
+// Breadth first, so that the nearest one is found.
+pqPipelineSource* nearestShown(pqPipelineSource* from, pqView* view)
+{
+  QList<pqPipelineSource*> reached{ from };
+  for (int next = 0; next < reached.size(); ++next)
+  {
+    pqPipelineSource* source = reached[next];
+    if (isDeformation(source) && isShown(source, view))
+    {
+      return source;
+    }
+    for (pqPipelineSource* neighbour : neighboursOf(source))
+    {
+      if (!reached.contains(neighbour))
+      {
+        reached.append(neighbour);
+      }
+    }
+  }
+  return nullptr;
+}
+}
+
+bool isDeformation(pqPipelineSource* source)
+{
+  return source && std::strcmp(source->getProxy()->GetXMLName(), "FreeFormDeformation") == 0;
+}
+
+pqPipelineSource* activeDeformation()
+{
+  return activeDeformation(pqActiveObjects::instance().activeView());
+}
+
+pqPipelineSource* activeDeformation(pqView* view)
+{
+  pqPipelineSource* source = pqActiveObjects::instance().activeSource();
+  if (isDeformation(source))
+  {
+    return source;
+  }
+  if (pqPipelineSource* nearest = source ? nearestShown(source, view) : nullptr)
+  {
+    return nearest;
+  }
+  pqPipelineSource* only = nullptr;
+  const auto sources =
+    pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>();
+  for (pqPipelineSource* candidate : sources)
+  {
+    if (isDeformation(candidate))
+    {
+      if (only)
+      {
+        return nullptr;
+      }
+      only = candidate;
+    }
+  }
+  return only;
+}
+
+bool showsSlices(pqDataRepresentation* display)
+{
+  return isShownAs(display, "Deformed Slices");
+}
+
+pqDataRepresentation* bentDisplay(pqPipelineSource* deformation, pqView* view)
+{
+  QList<pqPipelineSource*> reached;
+  if (deformation && view)
+  {
+    reached.append(deformation);
+  }
+  for (int next = 0; next < reached.size(); ++next)
+  {
+    pqDataRepresentation* display = reached[next]->getRepresentation(view);
+    if (display && display->isVisible() &&
+      (isShownAs(display, "Deformed Volume") || showsSlices(display)))
+    {
+      return display;
+    }
+    for (pqPipelineSource* consumer : reached[next]->getAllConsumers())
+    {
+      // What another one bends again lies elsewhere.
+      if (!isDeformation(consumer) && !reached.contains(consumer))
+      {
+        reached.append(consumer);
+      }
+    }
+  }
+  return nullptr;
+}
+}

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Finds the Free-Form Deformation that the tools and the toolbar act on.
+#ifndef BrainShift_ActiveDeformation_h
+#define BrainShift_ActiveDeformation_h
+
+class pqDataRepresentation;
+class pqPipelineSource;
+class pqView;
+
+namespace brainshift
+{
+/// Whether a source is a Free-Form Deformation.
+bool isDeformation(pqPipelineSource* source);
+
+/// The active source, if it is a Free-Form Deformation. Otherwise the nearest one upstream or
+/// downstream that the view shows. Otherwise the only one there is. Null if there is none.
+pqPipelineSource* activeDeformation(pqView* view);
+/// activeDeformation of the active view.
+pqPipelineSource* activeDeformation();
+
+/// The representation (Deformed Volume or Deformed Slices) with which a view shows a Free-Form
+/// Deformation, or shows what a filter like Compare Volumes made of it. Null if there is none.
+pqDataRepresentation* bentDisplay(pqPipelineSource* deformation, pqView* view);
+/// Whether a representation is Deformed Slices.
+bool showsSlices(pqDataRepresentation* display);
+}
+
+#endif

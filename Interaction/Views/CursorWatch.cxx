@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Interaction/Views/CursorWatch.h"
+
+#include <pqApplicationCore.h>
+#include <pqRenderView.h>
+#include <pqServerManagerModel.h>
+
+#include <vtkCommand.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkSMRenderViewProxy.h>
+
+namespace brainshift
+{
+namespace
+{
+constexpr float Priority = 1.0f; // before widgets, 0.5
+}
+
+CursorWatch::CursorWatch(QObject* parent)
+  : QObject(parent)
+{
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  QObject::connect(model, &pqServerManagerModel::viewAdded, this, &CursorWatch::watch);
+  for (pqView* view : model->findItems<pqView*>())
+  {
+    this->watch(view);
+  }
+}
+
+pqRenderView* CursorWatch::view() const
+{
+  return this->Over;
+}
+
+void CursorWatch::watch(pqView* added)
+{
+  auto view = qobject_cast<pqRenderView*>(added);
+  vtkRenderWindowInteractor* interactor =
+    view ? view->getRenderViewProxy()->GetInteractor() : nullptr;
+  if (!interactor)
+  {
+    return;
+  }
+  this->Views[interactor] = view;
+  for (unsigned long event : { vtkCommand::EnterEvent, vtkCommand::MouseMoveEvent })
+  {
+    this->Connector->Connect(interactor, event, this, SLOT(enter(vtkObject*)), nullptr, Priority);
+  }
+  this->Connector->Connect(
+    interactor, vtkCommand::LeaveEvent, this, SLOT(leave(vtkObject*)), nullptr, Priority);
+  QObject::connect(view, &QObject::destroyed, this, [this, interactor] {
+    this->Views.remove(interactor);
+    this->Connector->Disconnect(interactor);
+  });
+}
+
+void CursorWatch::enter(vtkObject* interactor)
+{
+  this->Over = this->Views.value(interactor);
+  if (this->Over)
+  {
+    Q_EMIT this->moved(this->Over);
+  }
+}
+
+void CursorWatch::leave(vtkObject* interactor)
+{
+  if (this->Over == this->Views.value(interactor))
+  {
+    this->Over = nullptr;
+  }
+}
+}

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Interaction/Views/SliceMouse.h"
+
+#include "Interaction/Views/Reports.h"
+
+#include <pqApplicationCore.h>
+#include <pqRenderView.h>
+#include <pqRepresentation.h>
+#include <pqServerManagerModel.h>
+#include <pqUndoStack.h>
+
+#include <vtkCamera.h>
+#include <vtkCommand.h>
+#include <vtkMath.h>
+#include <vtkPVDataInformation.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+#include <vtkSMProperty.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMRenderViewProxy.h>
+#include <vtkSMSourceProxy.h>
+#include <vtkSmartPointer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace brainshift
+{
+namespace
+{
+constexpr float Priority = 0.1f; // before ParaView's camera, after tools that take the mouse
+constexpr double Faces = 0.99;   // cosine between where a view looks and a plane's normal, at least
+constexpr int Planes = 3;
+constexpr const char* ShowNames[Planes] = { "ShowSagittal", "ShowCoronal", "ShowAxial" };
+constexpr int Flat = 1;            // InteractionMode of a 2D view
+constexpr int Wipe = 5;            // SliceComparison
+constexpr double GripPixels = 6.0; // to either side of the wipe's line
+
+bool showsSlices(pqRepresentation* representation)
+{
+  vtkSMProxy* proxy = representation->getProxy();
+  return representation->isVisible() && proxy->GetProperty("Representation") &&
+    std::strcmp(vtkSMPropertyHelper(proxy, "Representation").GetAsString(), "Deformed Slices") == 0;
+}
+
+// How the planes lie is known where they are drawn.
+void askHowPlanesLie(vtkSMProxy* display, double normals[9], double voxelSteps[3])
+{
+  const vtkSmartPointer<vtkSMProxy> report = makeReport(display, "DeformedVolumeReport");
+  pointAt(report, "Representation", display);
+  std::fill_n(normals, 3 * Planes, 0.0);
+  std::fill_n(voxelSteps, Planes, 0.0);
+  const std::vector<double> lie = answerOf(report, "SliceNormals");
+  const std::vector<double> steps = answerOf(report, "VoxelSteps");
+  std::copy_n(lie.begin(), std::min<std::size_t>(lie.size(), 3 * Planes), normals);
+  std::copy_n(steps.begin(), std::min<std::size_t>(steps.size(), Planes), voxelSteps);
+}
+
+void clampToInput(vtkSMProxy* display, double position[3])
+{
+  vtkSMPropertyHelper input(display, "Input");
+  if (auto source = vtkSMSourceProxy::SafeDownCast(input.GetAsProxy()))
+  {
+    double bounds[6];
+    source->GetDataInformation(input.GetOutputPort())->GetBounds(bounds);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      position[axis] = std::clamp(position[axis], bounds[2 * axis], bounds[2 * axis + 1]);
+    }
+  }
+}
+
+// Draws every view of slices, for the position may be linked. Not the others: 3D takes its time.
+void drawSlices()
+{
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  for (pqRenderView* view : model->findItems<pqRenderView*>())
+  {
+    const QList<pqRepresentation*> displays = view->getRepresentations();
+    if (std::any_of(displays.begin(), displays.end(), showsSlices))
+    {
+      view->render();
+    }
+  }
+}
+
+// `name`: SlicePosition or WipePosition.
+void setPosition(vtkSMProxy* display, const char* name, double position[3])
+{
+  SCOPED_UNDO_EXCLUDE(); // where one looks is no edit
+  clampToInput(display, position);
+  vtkSMPropertyHelper(display, name).Set(position, 3);
+  display->UpdateVTKObjects();
+  drawSlices();
+}
+
+// The direction that the wipe's line divides a plane across: see vtkDeformedSlicesMapper.
+const double* acrossWipe(const double normals[9], int plane)
+{
+  constexpr int sagittal = 0;
+  constexpr int coronal = 1;
+  return normals + 3 * (plane == sagittal ? coronal : sagittal);
+}
+
+// From the line to a place, mm.
+double beyondWipe(vtkSMProxy* display, const double place[3], const double across[3])
+{
+  double position[3];
+  vtkSMPropertyHelper(display, "WipePosition").Get(position, 3);
+  vtkMath::Subtract(place, position, position);
+  return vtkMath::Dot(position, across);
+}
+}
+
+void SliceMouse::watchViews(QObject* context)
+{
+  const auto watch = [](pqView* added) {
+    auto view = qobject_cast<pqRenderView*>(added);
+    if (view && view->getRenderViewProxy()->GetInteractor())
+    {
+      new SliceMouse(view); // Qt deletes it with the view
+    }
+  };
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  QObject::connect(model, &pqServerManagerModel::viewAdded, context, watch);
+  for (pqView* view : model->findItems<pqView*>())
+  {
+    watch(view);
+  }
+}
+
+SliceMouse::SliceMouse(pqRenderView* view)
+  : QObject(view)
+  , View(view)
+  , Interactor(view->getRenderViewProxy()->GetInteractor())
+{
+  const auto observe = [this](unsigned long event, auto method) {
+    this->Observers.push_back(this->Interactor->AddObserver(event, this, method, Priority));
+  };
+  observe(vtkCommand::MouseWheelForwardEvent, &SliceMouse::onWheel);
+  observe(vtkCommand::MouseWheelBackwardEvent, &SliceMouse::onWheel);
+  observe(vtkCommand::LeftButtonPressEvent, &SliceMouse::onButton);
+  observe(vtkCommand::LeftButtonReleaseEvent, &SliceMouse::onButton);
+  observe(vtkCommand::MouseMoveEvent, &SliceMouse::onMove);
+}
+
+SliceMouse::~SliceMouse()
+{
+  for (const unsigned long observer : this->Observers)
+  {
+    if (this->Interactor)
+    {
+      this->Interactor->RemoveObserver(observer);
+    }
+  }
+}
+
+SliceMouse::Facing SliceMouse::facingSlice() const
+{
+  Facing facing;
+  if (vtkSMPropertyHelper(this->View->getProxy(), "InteractionMode").GetAsInt() != Flat)
+  {
+    return facing;
+  }
+  const double* ahead =
+    this->View->getRenderViewProxy()->GetRenderer()->GetActiveCamera()->GetDirectionOfProjection();
+  for (pqRepresentation* representation : this->View->getRepresentations())
+  {
+    if (!showsSlices(representation))
+    {
+      continue;
+    }
+    vtkSMProxy* display = representation->getProxy();
+    askHowPlanesLie(display, facing.normals, facing.voxelSteps);
+    for (facing.plane = 0; facing.plane < Planes; ++facing.plane)
+    {
+      const double cosine = vtkMath::Dot(ahead, facing.normals + 3 * facing.plane);
+      if (std::abs(cosine) > Faces &&
+        vtkSMPropertyHelper(display, ShowNames[facing.plane]).GetAsInt())
+      {
+        facing.display = display;
+        return facing;
+      }
+    }
+  }
+  return facing;
+}
+
+SliceMouse* SliceMouse::of(pqRenderView* view)
+{
+  return view ? view->findChild<SliceMouse*>(QString(), Qt::FindDirectChildrenOnly) : nullptr;
+}
+
+bool SliceMouse::step(int voxels)
+{
+  const Facing slice = this->facingSlice();
+  if (!slice.display)
+  {
+    return false;
+  }
+  double position[3];
+  vtkSMPropertyHelper(slice.display, "SlicePosition").Get(position, 3);
+  for (int i = 0; i < 3; ++i)
+  {
+    position[i] += voxels * slice.voxelSteps[slice.plane] * slice.normals[3 * slice.plane + i];
+  }
+  setPosition(slice.display, "SlicePosition", position);
+  return true;
+}
+
+Command SliceMouse::commandOf(Mouse mouse) const
+{
+  return commandOfMouse(Scope::Slices, ToolKind::None, mouse, this->Interactor->GetShiftKey() != 0,
+    this->Interactor->GetControlKey() != 0);
+}
+
+bool SliceMouse::onWheel(vtkObject*, unsigned long event, void*)
+{
+  const int voxels = event == vtkCommand::MouseWheelForwardEvent ? 1 : -1;
+  return this->commandOf(Mouse::Wheel) == Command::StepSlices && this->step(voxels);
+}
+
+bool SliceMouse::onButton(vtkObject*, unsigned long event, void*)
+{
+  if (event == vtkCommand::LeftButtonReleaseEvent)
+  {
+    return std::exchange(this->Dragging, Drag::Nothing) != Drag::Nothing;
+  }
+  const Command command = this->commandOf(Mouse::Drag);
+  const Facing slice = command == Command::None ? Facing() : this->facingSlice();
+  this->Dragging = !slice.display                           ? Drag::Nothing
+    : command == Command::BringSlices                       ? Drag::Planes
+    : command == Command::MoveWipe && this->isOnWipe(slice) ? Drag::Wipe
+                                                            : Drag::Nothing;
+  if (this->Dragging == Drag::Planes)
+  {
+    this->bringToCursor(slice);
+  }
+  return this->Dragging != Drag::Nothing;
+}
+
+bool SliceMouse::onMove(vtkObject*, unsigned long, void*)
+{
+  const Facing slice = this->Dragging != Drag::Nothing ? this->facingSlice() : Facing();
+  if (!slice.display)
+  {
+    return false;
+  }
+  if (this->Dragging == Drag::Wipe)
+  {
+    this->bringWipeToCursor(slice);
+  }
+  else
+  {
+    this->bringToCursor(slice);
+  }
+  return true;
+}
+
+void SliceMouse::findCursor(const Facing& slice, double world[3]) const
+{
+  const int* pixel = this->Interactor->GetEventPosition();
+  vtkRenderer* renderer = this->View->getRenderViewProxy()->GetRenderer();
+  renderer->SetDisplayPoint(pixel[0], pixel[1], 0.0);
+  renderer->DisplayToWorld();
+  const double* place = renderer->GetWorldPoint(); // parallel: anywhere on the pixel's line will do
+  double position[3];
+  vtkSMPropertyHelper(slice.display, "SlicePosition").Get(position, 3);
+  const double* normal = slice.normals + 3 * slice.plane;
+  double across = 0.0; // from the slice to that place
+  for (int i = 0; i < 3; ++i)
+  {
+    world[i] = place[i] / place[3];
+    across += (world[i] - position[i]) * normal[i];
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    world[i] -= across * normal[i];
+  }
+}
+
+// The other two planes go to the cursor, this one stays.
+void SliceMouse::bringToCursor(const Facing& slice)
+{
+  double position[3];
+  this->findCursor(slice, position);
+  setPosition(slice.display, "SlicePosition", position);
+}
+
+bool SliceMouse::isOnWipe(const Facing& slice) const
+{
+  if (vtkSMPropertyHelper(slice.display, "SliceComparison").GetAsInt() != Wipe)
+  {
+    return false;
+  }
+  double cursor[3];
+  this->findCursor(slice, cursor);
+  vtkRenderer* renderer = this->View->getRenderViewProxy()->GetRenderer();
+  const double pixelMm =
+    2.0 * renderer->GetActiveCamera()->GetParallelScale() / renderer->GetSize()[1];
+  return std::abs(beyondWipe(slice.display, cursor, acrossWipe(slice.normals, slice.plane))) <=
+    GripPixels * pixelMm;
+}
+
+void SliceMouse::bringWipeToCursor(const Facing& slice)
+{
+  double cursor[3];
+  this->findCursor(slice, cursor);
+  const double* across = acrossWipe(slice.normals, slice.plane);
+  const double beyond = beyondWipe(slice.display, cursor, across);
+  double position[3];
+  vtkSMPropertyHelper(slice.display, "WipePosition").Get(position, 3);
+  for (int i = 0; i < 3; ++i)
+  {
+    position[i] += beyond * across[i];
+  }
+  setPosition(slice.display, "WipePosition", position);
+}
+}

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// The mouse in a 2D view of Deformed Slices. The table of commands lists the gestures under
+/// Scope::Slices.
+#ifndef BrainShift_SliceMouse_h
+#define BrainShift_SliceMouse_h
+
+#include "Interaction/Commands/Commands.h"
+
+#include <QObject>
+
+#include <vtkWeakPointer.h>
+
+#include <vector>
+
+class pqRenderView;
+class vtkObject;
+class vtkRenderWindowInteractor;
+class vtkSMProxy;
+
+namespace brainshift
+{
+/// Belongs to one view and ends with it.
+class SliceMouse : public QObject
+{
+  Q_OBJECT
+
+public:
+  /// Makes one for every render view, also for views that come later, until `context` ends.
+  static void watchViews(QObject* context);
+
+  /// The object of a view. Null if the view has none.
+  static SliceMouse* of(pqRenderView* view);
+
+  explicit SliceMouse(pqRenderView* view);
+  ~SliceMouse() override;
+
+  /// Steps through the slices that face the view, by voxels towards greater coordinates. False if
+  /// no slice faces the view.
+  bool step(int voxels);
+
+private:
+  /// A slice that faces the view.
+  struct Facing
+  {
+    vtkSMProxy* display = nullptr; ///< Null: there is none.
+    int plane = 0;                 ///< 0 sagittal, 1 coronal, 2 axial.
+    double normals[9] = {};        ///< Of all three, see vtkDeformedSlicesMapper.
+    double voxelSteps[3] = {};     ///< mm.
+  };
+  Facing facingSlice() const;
+
+  Command commandOf(Mouse mouse) const; ///< With the modifiers held now.
+
+  /// Observer of the interactor. True: nobody else gets the event.
+  bool onWheel(vtkObject* interactor, unsigned long event, void* data);
+  /// Observer of the interactor. True: nobody else gets the event.
+  bool onButton(vtkObject* interactor, unsigned long event, void* data);
+  /// Observer of the interactor. True: nobody else gets the event.
+  bool onMove(vtkObject* interactor, unsigned long event, void* data);
+
+  /// Finds the position under the cursor in the slice (mm).
+  void findCursor(const Facing& slice, double world[3]) const;
+  void bringToCursor(const Facing& slice);
+  bool isOnWipe(const Facing& slice) const;
+  void bringWipeToCursor(const Facing& slice);
+
+  pqRenderView* View;
+  vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
+  std::vector<unsigned long> Observers;
+
+  enum class Drag
+  {
+    Nothing,
+    Planes,
+    Wipe,
+  };
+  Drag Dragging = Drag::Nothing;
+};
+}
+
+#endif

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Interaction/Views/ViewProbe.h"
+
+#include "Interaction/Views/ActiveDeformation.h"
+#include "Interaction/Views/KeptPictures.h"
+#include "Interaction/Views/Reports.h"
+
+#include <pqDataRepresentation.h>
+#include <pqPipelineSource.h>
+#include <pqRenderView.h>
+#include <pqUndoStack.h>
+
+#include <vtkCamera.h>
+#include <vtkRenderer.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
+#include <vtkSMRenderViewProxy.h>
+#include <vtkSMTrace.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
+
+#include <cmath>
+
+namespace brainshift
+{
+namespace
+{
+glm::dvec3 tripleAt(const std::vector<double>& numbers, std::size_t first)
+{
+  return { numbers[first], numbers[first + 1], numbers[first + 2] };
+}
+
+// From the display's pixels and depth (0 near plane, 1 far plane).
+glm::dvec3 worldFromDisplay(vtkRenderer* renderer, const glm::dvec2& pixel, double depth)
+{
+  renderer->SetDisplayPoint(pixel.x, pixel.y, depth);
+  renderer->DisplayToWorld();
+  const double* world = renderer->GetWorldPoint();
+  return glm::dvec3(world[0], world[1], world[2]) / world[3];
+}
+}
+
+ViewProbe::ViewProbe(pqPipelineSource* deformation, pqRenderView* view, KeptPictures& kept)
+  : Deformation(deformation)
+  , View(view)
+  , Kept(kept)
+  , Picture(makeReport(view->getProxy(), "DeformedVolumeReport"))
+  , Points(deformation->getProxy())
+{
+  pointAt(this->Picture, "View", view->getProxy());
+}
+
+vtkRenderer* ViewProbe::renderer() const
+{
+  return this->View->getRenderViewProxy()->GetRenderer();
+}
+
+std::optional<Spot> ViewProbe::spotAt(const glm::dvec2& pixel)
+{
+  pqDataRepresentation* display = bentDisplay(this->Deformation, this->View);
+  if (!display)
+  {
+    return {};
+  }
+  this->Kept.keep(display);
+  pointAt(this->Picture, "Representation", display->getProxy());
+  const int at[2] = { static_cast<int>(pixel.x), static_cast<int>(pixel.y) };
+  vtkSMPropertyHelper(this->Picture, "Pixel").Set(at, 2);
+  const std::vector<double> tissue = answerOf(this->Picture, "Tissue");
+  if (tissue.size() != 7 || tissue[3] == 0.0)
+  {
+    return {};
+  }
+  Spot spot{ tripleAt(tissue, 0), std::nullopt };
+  if (showsSlices(display))
+  {
+    spot.slice = tripleAt(tissue, 4);
+  }
+  return spot;
+}
+
+std::vector<ControlPoint> ViewProbe::controlPointsNear(
+  const Spot& spot, double radius, double movedRadius)
+{
+  LatticeProbe::Plane plane;
+  const std::optional<Grid> grid = spot.slice ? this->lattice() : std::nullopt;
+  if (grid)
+  {
+    // One layer of an unbent lattice, or two where the slice lies in the middle between them.
+    constexpr double cells = 0.55;
+    const glm::dvec3 along = glm::abs(glm::transpose(grid->direction) * *spot.slice);
+    plane = { spot.position, *spot.slice, cells * glm::dot(along, grid->spacing) };
+  }
+  return this->Points.around(spot.position, radius, movedRadius, plane);
+}
+
+std::vector<ControlPoint> ViewProbe::controlPointsUnder(const glm::dvec2& pixel, double pixels)
+{
+  pqDataRepresentation* display = bentDisplay(this->Deformation, this->View);
+  if (display && showsSlices(display))
+  {
+    return {}; // beside a slice are no control points of it
+  }
+  const Ray ray = this->rayAt(pixel);
+  constexpr double ahead = 100.0; // mm
+  const double radius = pixels * this->millimetresPerPixel(ray.origin);
+  const double farther =
+    pixels * this->millimetresPerPixel(ray.origin + ahead * ray.direction) - radius;
+  return this->Points.within({ ray.origin, ray.direction, radius, farther / ahead });
+}
+
+std::optional<Grid> ViewProbe::lattice()
+{
+  return this->Points.lattice();
+}
+
+double ViewProbe::strength() const
+{
+  return vtkSMPropertyHelper(this->Deformation->getProxy(), "Strength").GetAsDouble();
+}
+
+glm::dvec3 ViewProbe::pointOfInterest()
+{
+  vtkSMProxy* filter = this->Deformation->getProxy();
+  const glm::dvec3 set =
+    tripleAt(vtkSMPropertyHelper(filter, "PointOfInterest").GetDoubleArray(), 0);
+  const std::optional<Grid> grid = set == glm::dvec3(0.0) ? this->lattice() : std::nullopt;
+  if (!grid)
+  {
+    return set;
+  }
+  // A filter made before its volume was read could not tell the volume's middle.
+  const glm::dvec3 end(grid->dimensions - 1);
+  const glm::dvec3 place = grid->gridFromWorld(set);
+  const bool inside = glm::all(glm::greaterThanEqual(place, glm::dvec3(0.0))) &&
+    glm::all(glm::lessThanEqual(place, end));
+  return inside ? set : grid->worldFromGrid(end / 2.0);
+}
+
+void ViewProbe::setPointOfInterest(const glm::dvec3& position)
+{
+  vtkSMProxy* filter = this->Deformation->getProxy();
+  SCOPED_UNDO_SET("Point of interest");
+  SM_SCOPED_TRACE(PropertiesModified).arg("proxy", filter);
+  vtkSMPropertyHelper(filter, "PointOfInterest").Set(&position[0], 3);
+  filter->UpdateVTKObjects();
+}
+
+glm::dvec3 ViewProbe::ahead() const
+{
+  const double* direction = this->renderer()->GetActiveCamera()->GetDirectionOfProjection();
+  return { direction[0], direction[1], direction[2] };
+}
+
+glm::dvec3 ViewProbe::positionAt(
+  const glm::dvec2& pixel, const glm::dvec3& depth, const glm::dvec3& normal) const
+{
+  const Ray ray = this->rayAt(pixel);
+  const double along = glm::dot(depth - ray.origin, normal) / glm::dot(ray.direction, normal);
+  return ray.origin + along * ray.direction;
+}
+
+glm::dvec2 ViewProbe::pixelOf(const glm::dvec3& position) const
+{
+  vtkRenderer* renderer = this->renderer();
+  renderer->SetWorldPoint(position.x, position.y, position.z, 1.0);
+  renderer->WorldToDisplay();
+  const double* display = renderer->GetDisplayPoint();
+  return { display[0], display[1] };
+}
+
+double ViewProbe::millimetresPerPixel(const glm::dvec3& position) const
+{
+  vtkRenderer* renderer = this->renderer();
+  vtkCamera* camera = renderer->GetActiveCamera();
+  const int height = renderer->GetSize()[1];
+  if (camera->GetParallelProjection())
+  {
+    return 2.0 * camera->GetParallelScale() / height;
+  }
+  const double* eye = camera->GetPosition();
+  const double* forward = camera->GetDirectionOfProjection();
+  const double distance = glm::dot(
+    position - glm::dvec3(eye[0], eye[1], eye[2]), glm::dvec3(forward[0], forward[1], forward[2]));
+  constexpr double radiansPerDegree = 0.017453292519943295;
+  return 2.0 * distance * std::tan(0.5 * radiansPerDegree * camera->GetViewAngle()) / height;
+}
+
+ViewProbe::Ray ViewProbe::rayAt(const glm::dvec2& pixel) const
+{
+  // A pixel's middle, since a pick reads the pixel.
+  const glm::dvec2 middle = glm::floor(pixel) + 0.5;
+  const glm::dvec3 nearest = worldFromDisplay(this->renderer(), middle, 0.0);
+  const glm::dvec3 farthest = worldFromDisplay(this->renderer(), middle, 1.0);
+  return { nearest, glm::normalize(farthest - nearest) };
+}
+}

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Finds what lies under the cursor in a view of a Free-Form Deformation: tissue and control
+/// points. It also converts between pixels and millimetres. The server answers, so it works
+/// wherever data and picture are. Positions: mm, world axes, deformed frame. Pixels: from the lower
+/// left corner of the view.
+#ifndef BrainShift_ViewProbe_h
+#define BrainShift_ViewProbe_h
+
+#include "Interaction/Views/LatticeProbe.h"
+
+#include <vtkSmartPointer.h>
+
+#include <QPointer>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <optional>
+#include <vector>
+
+class pqPipelineSource;
+class pqRenderView;
+class vtkRenderer;
+class vtkSMProxy;
+
+namespace brainshift
+{
+class KeptPictures;
+
+/// Tissue under the cursor.
+struct Spot
+{
+  glm::dvec3 position{ 0.0 };
+  std::optional<glm::dvec3> slice; ///< Unit normal of its slice. None in a volume.
+};
+
+class ViewProbe
+{
+public:
+  /// `kept` outlives the probe.
+  ViewProbe(pqPipelineSource* deformation, pqRenderView* view, KeptPictures& kept);
+
+  /// The tissue that the last picture shows at a pixel. Draws nothing. None where the picture shows
+  /// no tissue, or where the volume is shown neither as Deformed Volume nor as Deformed Slices.
+  std::optional<Spot> spotAt(const glm::dvec2& pixel);
+
+  /// Control points within `radius` (mm) of a spot, and moved ones within `movedRadius`. In a
+  /// slice, only those near the slice.
+  std::vector<ControlPoint> controlPointsNear(const Spot& spot, double radius, double movedRadius);
+  /// Control points within `pixels` of the line of sight through a pixel. None in views of slices.
+  std::vector<ControlPoint> controlPointsUnder(const glm::dvec2& pixel, double pixels);
+
+  /// The grid of the control points in the rest frame. None before the filter was applied.
+  std::optional<Grid> lattice();
+  /// The property Strength of the filter.
+  double strength() const;
+
+  /// The property PointOfInterest of the filter, or the centre of the volume if it was never set.
+  glm::dvec3 pointOfInterest();
+  /// Sets the property in one undo step.
+  void setPointOfInterest(const glm::dvec3& position);
+
+  /// The direction of view, unit length.
+  glm::dvec3 ahead() const;
+  /// Where the line of sight through a pixel meets the plane through `depth` with this normal.
+  glm::dvec3 positionAt(
+    const glm::dvec2& pixel, const glm::dvec3& depth, const glm::dvec3& normal) const;
+  glm::dvec2 pixelOf(const glm::dvec3& position) const;
+  double millimetresPerPixel(const glm::dvec3& position) const;
+  struct Ray
+  {
+    glm::dvec3 origin;
+    glm::dvec3 direction; ///< Unit length.
+  };
+  Ray rayAt(const glm::dvec2& pixel) const;
+
+private:
+  vtkRenderer* renderer() const;
+
+  QPointer<pqPipelineSource> Deformation;
+  QPointer<pqRenderView> View;
+  KeptPictures& Kept;
+  vtkSmartPointer<vtkSMProxy> Picture; ///< A DeformedVolumeReport.
+  LatticeProbe Points;
+};
+}
+
+#endif

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Panel/Parts/Advice.h"
+
+#include <QCoreApplication>
+
+namespace brainshift
+{
+namespace
+{
+constexpr double DoubtfulJacobian = 0.3; // few users want to compress tissue to less than a third
+
+QString tr(const char* text)
+{
+  return QCoreApplication::translate("BrainShift", text);
+}
+}
+
+QString radiusAdvice(const QString& name, double radius, double spacing)
+{
+  if (radius >= spacing)
+  {
+    return {};
+  }
+  return tr(
+    "%1, %2 mm, is smaller than the spacing of the control points, %3 mm. The lattice cannot "
+    "follow it. Increase the radius, or add control points.")
+    .arg(name)
+    .arg(radius, 0, 'f', 1)
+    .arg(spacing, 0, 'f', 1);
+}
+
+QString guardAdvice(double amount, double share)
+{
+  if (share >= 1.0)
+  {
+    return {};
+  }
+  return tr("The guard against folding applies %1 of %2 mm. More would fold the tissue.")
+    .arg(share * amount, 0, 'f', 1)
+    .arg(amount, 0, 'f', 1);
+}
+
+QString guardAdvice(int shortenedStrokes)
+{
+  if (shortenedStrokes == 0)
+  {
+    return {};
+  }
+  return shortenedStrokes == 1
+    ? tr("1 stroke is shortened. Its full length would fold the tissue.")
+    : tr("%1 strokes are shortened. Their full length would fold the tissue.")
+        .arg(shortenedStrokes);
+}
+
+Grade jacobianGrade(double determinant)
+{
+  if (determinant <= 0.0)
+  {
+    return Grade::Bad;
+  }
+  return determinant < DoubtfulJacobian ? Grade::Doubtful : Grade::Good;
+}
+
+QString jacobianText(double determinant)
+{
+  const QString number = QString::number(determinant, 'f', 2);
+  switch (jacobianGrade(determinant))
+  {
+    case Grade::Bad:
+      return tr("%1 (folds)").arg(number);
+    case Grade::Doubtful:
+      return tr("%1 (compressed)").arg(number);
+    case Grade::Good:
+      break;
+  }
+  return tr("%1 (no folding)").arg(number);
+}
+
+QColor gradeColor(Grade grade, const QPalette& palette)
+{
+  const bool dark = palette.color(QPalette::Window).lightness() < 128;
+  switch (grade)
+  {
+    case Grade::Bad:
+      return dark ? QColor(255, 128, 120) : QColor(176, 16, 32);
+    case Grade::Doubtful:
+      return dark ? QColor(255, 200, 90) : QColor(138, 84, 0);
+    case Grade::Good:
+      break;
+  }
+  return dark ? QColor(120, 215, 140) : QColor(20, 110, 50);
+}
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// What the panel says about numbers, and the colour that it says it in.
+#ifndef BrainShift_Advice_h
+#define BrainShift_Advice_h
+
+#include <QColor>
+#include <QPalette>
+#include <QString>
+
+namespace brainshift
+{
+/// How good a number is.
+enum class Grade
+{
+  Good,
+  Doubtful,
+  Bad,
+};
+
+/// Warns that control points `spacing` mm apart cannot follow a stroke of this radius (mm). Empty
+/// if they can. The sentence begins with `name`, the name of the radius.
+QString radiusAdvice(const QString& name, double radius, double spacing);
+
+/// Notes that the guard against folding applies only a share (0 to 1) of a stroke of `amount` mm.
+/// Empty if it applies the whole stroke.
+QString guardAdvice(double amount, double share);
+
+/// Notes how many strokes the guard against folding shortens. Empty if it shortens none.
+QString guardAdvice(int shortenedStrokes);
+
+/// Grades the smallest Jacobian determinant: 1 keeps the volume of tissue, 0 or less folds it.
+Grade jacobianGrade(double determinant);
+/// The determinant and what it means.
+QString jacobianText(double determinant);
+
+/// Green, amber or red that is legible on the window colour of a palette, light or dark.
+QColor gradeColor(Grade grade, const QPalette& palette);
+}
+
+#endif

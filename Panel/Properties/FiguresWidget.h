@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Panel of the figures that a filter reports: label, value and unit of each property. It follows
+/// the data of the filter. It is for property groups with panel_widget "BrainShiftFigures". A
+/// property may have the hint <Unit name="mm" />.
+#ifndef BrainShift_FiguresWidget_h
+#define BrainShift_FiguresWidget_h
+
+#include <pqPropertyGroupWidget.h>
+
+#include <QList>
+#include <QPair>
+
+class QLabel;
+class vtkSMProperty;
+
+namespace brainshift
+{
+class FiguresWidget : public pqPropertyGroupWidget
+{
+  Q_OBJECT
+
+public:
+  FiguresWidget(vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget* parent = nullptr);
+
+private:
+  void addFigure(vtkSMPropertyGroup* group, unsigned int index);
+  void showFigures();
+
+  QList<QPair<vtkSMProperty*, QLabel*>> Figures;
+};
+}
+
+#endif

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Panel/Properties/ResultWidget.h"
+
+#include "Interaction/Edits/StrokeEditor.h"
+#include "Panel/Parts/Advice.h"
+#include "Panel/Parts/InSight.h"
+#include "Panel/Parts/ValueSlider.h"
+
+#include <pqApplicationCore.h>
+#include <pqPipelineSource.h>
+#include <pqPropertiesPanel.h>
+#include <pqServerManagerModel.h>
+#include <pqUndoStack.h>
+
+#include <vtkCommand.h>
+#include <vtkEventQtSlotConnect.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMTrace.h>
+
+#include <QCheckBox>
+#include <QEvent>
+#include <QFormLayout>
+#include <QLabel>
+#include <QPointer>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace brainshift
+{
+namespace
+{
+constexpr qint64 FiguresMs = 250; // at least, from one update to the next: nobody reads faster
+
+pqPipelineSource* sourceOf(vtkSMProxy* proxy)
+{
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  return model->findItem<pqPipelineSource*>(proxy);
+}
+
+void showGraded(QLabel* label, const QString& text, Grade grade)
+{
+  const QColor color = gradeColor(grade, label->palette());
+  label->setText(QString("<b style=\"color:%1\">%2</b>").arg(color.name(), text.toHtmlEscaped()));
+}
+}
+
+ResultWidget::ResultWidget(vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget* parent)
+  : pqPropertyGroupWidget(proxy, group, parent)
+  , Source(sourceOf(proxy))
+  , Strength(new ValueSlider("BrainShiftStrength", tr("Strength"), QString(), 2, this))
+{
+  auto column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(pqPropertiesPanel::suggestedVerticalSpacing());
+  column->addWidget(this->Strength);
+  auto form = new QFormLayout;
+  column->addLayout(form);
+  form->setHorizontalSpacing(2 * pqPropertiesPanel::suggestedHorizontalSpacing());
+  form->setVerticalSpacing(pqPropertiesPanel::suggestedVerticalSpacing());
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  this->Strength->setRange(0.0, 1.0);
+  this->Strength->setToolTip(tr(
+    "The fraction of the deformation that is shown. 0 shows the volume as loaded, 1 shows the full "
+    "deformation. Strength can be animated."));
+  this->Displacement = this->addFigure(form, "BrainShiftDisplacement", tr("Largest displacement"),
+    tr("The largest displacement of a control point (mm)"));
+  this->Jacobian = this->addFigure(form, "BrainShiftJacobian", tr("Smallest Jacobian"),
+    tr("The fraction of its volume that the most compressed tissue keeps. 1 means that its volume "
+       "is unchanged. 0 or less means that tissue folds."));
+  this->connectStrength();
+  new InSight(this);
+  if (proxy->GetProperty("GuardFolding"))
+  {
+    this->addGuard(column);
+  }
+
+  this->FiguresSoon.setSingleShot(true);
+  this->connect(&this->FiguresSoon, &QTimer::timeout, this, &ResultWidget::showFigures);
+  this->connect(this->Source, qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
+    &ResultWidget::showFiguresSoon);
+  this->connect(
+    StrokeEditor::of(this->Source), &StrokeEditor::drawn, this, &ResultWidget::showFiguresSoon);
+}
+
+ResultWidget::~ResultWidget() = default;
+
+QLabel* ResultWidget::addFigure(
+  QFormLayout* form, const char* name, const QString& title, const QString& tip)
+{
+  auto figure = new QLabel(this);
+  figure->setObjectName(name);
+  figure->setToolTip(tip);
+  // no wrapping: beside a title it would make the panel's scroll area resize itself without end
+  figure->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  form->addRow(title, figure);
+  form->labelForField(figure)->setToolTip(tip);
+  return figure;
+}
+
+void ResultWidget::connectStrength()
+{
+  const QPointer<StrokeEditor> editor = StrokeEditor::of(this->Source);
+  this->connect(this->Strength, &ValueSlider::valueEdited, this, [editor](double strength) {
+    if (editor)
+    {
+      editor->changeStrength(strength);
+    }
+  });
+  this->connect(this->Strength, &ValueSlider::editingFinished, this, [editor] {
+    if (editor)
+    {
+      editor->commitStrength();
+    }
+  });
+  this->Observers->Connect(
+    this->proxy()->GetProperty("Strength"), vtkCommand::ModifiedEvent, this, SLOT(showStrength()));
+  this->showStrength();
+}
+
+void ResultWidget::addGuard(QVBoxLayout* column)
+{
+  this->Guard = new QCheckBox(tr("Guard against folding"), this);
+  this->Guard->setObjectName("BrainShiftGuard");
+  this->Guard->setToolTip(
+    tr("Shorten each stroke so that the Jacobian determinant stays at 0.1 or above everywhere."));
+  this->Shortened = new QLabel(this);
+  this->Shortened->setObjectName("BrainShiftShortened");
+  this->Shortened->setWordWrap(true);
+  column->addWidget(this->Guard);
+  column->addWidget(this->Shortened);
+  this->connect(this->Guard, &QCheckBox::clicked, this, &ResultWidget::setGuard);
+  this->Observers->Connect(
+    this->proxy()->GetProperty("GuardFolding"), vtkCommand::ModifiedEvent, this, SLOT(showGuard()));
+  this->showGuard();
+}
+
+void ResultWidget::setGuard(bool on)
+{
+  {
+    SCOPED_UNDO_SET(tr("Guard Against Folding"));
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this->proxy());
+    vtkSMPropertyHelper(this->proxy(), "GuardFolding").Set(on);
+    this->proxy()->UpdateVTKObjects();
+  }
+  this->Source->renderAllViews();
+}
+
+void ResultWidget::showGuard()
+{
+  this->Guard->setChecked(vtkSMPropertyHelper(this->proxy(), "GuardFolding").GetAsInt() != 0);
+}
+
+void ResultWidget::showStrength()
+{
+  this->Strength->setValue(vtkSMPropertyHelper(this->proxy(), "Strength").GetAsDouble());
+}
+
+double ResultWidget::figure(const char* property)
+{
+  this->proxy()->UpdatePropertyInformation(this->proxy()->GetProperty(property));
+  return vtkSMPropertyHelper(this->proxy(), property).GetAsDouble();
+}
+
+void ResultWidget::showFiguresSoon()
+{
+  if (this->isVisible() && !this->FiguresSoon.isActive())
+  {
+    const qint64 passed = this->SinceFigures.isValid() ? this->SinceFigures.elapsed() : FiguresMs;
+    this->FiguresSoon.start(static_cast<int>(std::max<qint64>(FiguresMs - passed, 0)));
+  }
+}
+
+void ResultWidget::showFigures()
+{
+  this->SinceFigures.start();
+  if (this->Source->modifiedState() == pqProxy::UNINITIALIZED) // not applied yet
+  {
+    this->Displacement->setText(tr("not applied yet"));
+    this->Jacobian->setText(QString());
+    return;
+  }
+  this->Displacement->setText(
+    tr("<b>%1 mm</b>").arg(this->figure("MaximumDisplacement"), 0, 'f', 1));
+  const double determinant = this->figure("MinimumJacobian");
+  showGraded(this->Jacobian, jacobianText(determinant), jacobianGrade(determinant));
+  if (this->Guard)
+  {
+    const QString advice = guardAdvice(static_cast<int>(this->figure("ShortenedStrokes")));
+    showGraded(this->Shortened, advice, Grade::Doubtful);
+    this->Shortened->setVisible(!advice.isEmpty());
+  }
+}
+
+void ResultWidget::changeEvent(QEvent* event)
+{
+  this->pqPropertyGroupWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange)
+  {
+    this->showFiguresSoon();
+  }
+}
+
+void ResultWidget::showEvent(QShowEvent* event)
+{
+  this->pqPropertyGroupWidget::showEvent(event);
+  this->showFigures();
+}
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Panel/Strokes/StrokeList.h"
+
+#include "Panel/Parts/Advice.h"
+#include "Panel/Strokes/StrokeModel.h"
+#include "Panel/Strokes/StrokeTree.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+namespace brainshift
+{
+StrokeList::StrokeList(StrokeModel* model, QWidget* parent)
+  : QWidget(parent)
+  , Strokes(model)
+  , Tree(new StrokeTree(model, this))
+  , Problem(new QLabel(this))
+  , Delete(new QToolButton(this))
+  , Reset(new QToolButton(this))
+{
+  this->setObjectName("List");
+  this->Tree->setObjectName("BrainShiftStrokes");
+  this->Problem->setObjectName("BrainShiftProblem");
+  this->Problem->setWordWrap(true);
+  this->Delete->setObjectName("BrainShiftDelete");
+  this->Delete->setText(tr("Delete"));
+  this->Delete->setIcon(QIcon(":/BrainShift/delete.svg"));
+  this->Delete->setToolTip(
+    tr("Delete the selected strokes (Delete key). Ctrl+Z brings them back."));
+  this->Reset->setObjectName("BrainShiftReset");
+  this->Reset->setText(tr("Reset All"));
+  this->Reset->setIcon(QIcon(":/BrainShift/reset.svg"));
+  this->Reset->setToolTip(tr("Delete all strokes. Ctrl+Z brings them back."));
+
+  auto buttons = new QHBoxLayout;
+  for (QToolButton* button : { this->Delete, this->Reset })
+  {
+    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    button->setFocusPolicy(Qt::StrongFocus);
+    buttons->addWidget(button);
+  }
+  buttons->addStretch();
+  auto column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(this->Problem);
+  column->addWidget(this->Tree);
+  column->addLayout(buttons);
+
+  this->connect(this->Delete, &QToolButton::clicked, this->Tree, &StrokeTree::removeSelected);
+  this->connect(this->Reset, &QToolButton::clicked, model, &StrokeModel::removeAll);
+  this->connect(this->Tree, &StrokeTree::selectedRowsChanged, this, &StrokeList::refresh);
+  this->connect(model, &StrokeModel::updated, this, &StrokeList::refresh);
+  this->refresh();
+}
+
+void StrokeList::refresh()
+{
+  const QString& problem = this->Strokes->problem();
+  this->Problem->setText(problem);
+  this->Problem->setVisible(!problem.isEmpty());
+  QPalette palette = this->palette();
+  palette.setColor(QPalette::WindowText, gradeColor(Grade::Bad, palette));
+  this->Problem->setPalette(palette);
+  this->Delete->setEnabled(!this->Tree->selectedRows().isEmpty());
+  this->Reset->setEnabled(this->Strokes->rowCount() > 0 || !problem.isEmpty());
+}
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// The list of strokes with its buttons. The user disables, changes and deletes strokes in it.
+#ifndef BrainShift_StrokeList_h
+#define BrainShift_StrokeList_h
+
+#include <QWidget>
+
+class QLabel;
+class QToolButton;
+
+namespace brainshift
+{
+class StrokeModel;
+class StrokeTree;
+
+class StrokeList : public QWidget
+{
+  Q_OBJECT
+
+public:
+  StrokeList(StrokeModel* model, QWidget* parent = nullptr);
+
+private:
+  void refresh();
+
+  StrokeModel* const Strokes;
+  StrokeTree* const Tree;
+  QLabel* const Problem;
+  QToolButton* const Delete;
+  QToolButton* const Reset;
+};
+}
+
+#endif

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// The strokes of a Free-Form Deformation as rows of a table, in the order of replay. The model
+/// holds no stroke: it reads a cell from the property when a view asks for the cell.
+#ifndef BrainShift_StrokeModel_h
+#define BrainShift_StrokeModel_h
+
+#include "Filters/Deformation/Stroke.h"
+
+#include <QAbstractTableModel>
+#include <QList>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+class vtkSMDoubleVectorProperty;
+
+namespace brainshift
+{
+/// Displacement at the centre of a stroke, mm. Stamp: pull (away from the point of interest) is
+/// above 0.
+double amountOf(const Stroke& stroke);
+
+/// The stroke with another amount in its own direction. A stroke without direction stays unchanged.
+Stroke withAmount(Stroke stroke, double amount);
+
+class StrokeModel : public QAbstractTableModel
+{
+  Q_OBJECT
+
+public:
+  enum Column
+  {
+    ToolColumn, ///< With the check box that enables the stroke.
+    WhereColumn,
+    AmountColumn, ///< mm, editable.
+    MajorColumn,  ///< mm, editable: radius of Soft, half the long axis of Stamp.
+    MinorColumn,  ///< mm, editable: radius of Stamp across its long axis.
+    ColumnCount,
+  };
+  /// Limits of an editable number, mm.
+  enum Role
+  {
+    LeastRole = Qt::UserRole,
+    MostRole,
+  };
+
+  /// Replaces all strokes. The text names the edit on the undo stack.
+  using Write = std::function<void(const std::vector<Stroke>&, const QString&)>;
+
+  StrokeModel(vtkSMDoubleVectorProperty* strokes, Write write, QObject* parent = nullptr);
+
+  /// Must be called after the property changed, whoever changed it.
+  void update();
+
+  /// Why the numbers of the property are not valid strokes. Empty if they are. While they are not,
+  /// nothing can be edited, because an edit would lose them.
+  const QString& problem() const { return this->Problem; }
+
+  /// Largest spacing of control points, mm. Smaller radii get a warning.
+  void setLatticeSpacing(double spacing);
+
+  /// The share of each stroke (0 to 1) that the guard against folding applies. Strokes without a
+  /// share are applied whole.
+  void setAppliedShares(const std::vector<double>& shares);
+
+  /// Enables or disables strokes: one edit.
+  void setEnabled(const QList<int>& rows, bool enabled);
+  /// Deletes strokes: one edit.
+  void removeRowsOf(const QList<int>& rows);
+  /// Deletes all strokes: one edit.
+  void removeAll();
+
+  /// The stroke of a row, read from the property.
+  Stroke stroke(int row) const;
+
+  int rowCount(const QModelIndex& parent = {}) const override;
+  int columnCount(const QModelIndex& parent = {}) const override;
+  Qt::ItemFlags flags(const QModelIndex& index) const override;
+  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+  QVariant data(const QModelIndex& index, int role) const override;
+  bool setData(const QModelIndex& index, const QVariant& value, int role) override;
+
+Q_SIGNALS:
+  void updated(); ///< Rows and cells have followed the property.
+
+private:
+  std::vector<Stroke> strokes(std::string& problem) const;
+  void write(const std::function<void(std::vector<Stroke>&)>& edit, const QString& label);
+  QString text(const Stroke& stroke, int column) const;
+  QString advice(int row, int column) const;
+  QString toolTip(int row, int column) const;
+
+  vtkSMDoubleVectorProperty* const Property; ///< Outlives the model.
+  const Write WriteStrokes;
+  QString Problem;
+  int Rows = 0; ///< As announced to views.
+  double LatticeSpacing = 0.0;
+  std::vector<double> AppliedShares;
+};
+}
+
+#endif

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// What the mouse does in a view, as one line for the panel and the status bar. The words are those
+/// of the table of commands.
+#ifndef BrainShift_MouseHint_h
+#define BrainShift_MouseHint_h
+
+#include "Interaction/Commands/ToolSettings.h"
+
+#include <QString>
+
+namespace brainshift
+{
+/// The line for the tool in hand over a ground.
+QString mouseHint(const ToolSettings& settings, ToolSettings::Ground ground);
+}
+
+#endif

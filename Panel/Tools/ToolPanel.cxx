@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Panel/Tools/ToolPanel.h"
+
+#include "Panel/Parts/Advice.h"
+#include "Panel/Parts/ValueSlider.h"
+#include "Panel/Tools/MouseHint.h"
+#include "Panel/Tools/ToolChoice.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPainter>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace brainshift
+{
+namespace
+{
+// The tool in hand has a frame: on dark palettes a pressed button hardly differs from others.
+class ToolButton : public QToolButton
+{
+public:
+  using QToolButton::QToolButton;
+
+protected:
+  void paintEvent(QPaintEvent* event) override
+  {
+    this->QToolButton::paintEvent(event);
+    if (this->isChecked())
+    {
+      QPainter painter(this);
+      painter.setRenderHint(QPainter::Antialiasing);
+      painter.setPen(QPen(this->palette().color(QPalette::Highlight), 2.0));
+      painter.drawRoundedRect(QRectF(this->rect()).adjusted(1.0, 1.0, -1.0, -1.0), 3.0, 3.0);
+    }
+  }
+};
+}
+
+struct ToolPanel::Value
+{
+  const char* name; // of the slider
+  const char* label;
+  const char* unit;
+  int decimals;
+  const char* tip;
+  QList<ToolKind> tools; // that use it
+  double (ToolSettings::*value)() const;
+  ToolSettings::Range (ToolSettings::*range)() const;
+  void (ToolSettings::*set)(double);
+};
+
+const QList<ToolPanel::Value>& ToolPanel::values()
+{
+  static const QList<Value> all{
+    { "BrainShiftRadius", QT_TR_NOOP("Radius"), " mm", 1,
+      QT_TR_NOOP("Tissue within this distance of the cursor follows"), { ToolKind::Soft },
+      &ToolSettings::radius, &ToolSettings::radiusRange, &ToolSettings::setRadius },
+    { "BrainShiftMajorRadius", QT_TR_NOOP("Major radius"), " mm", 1,
+      QT_TR_NOOP(
+        "Half the length of the stamp along its axis, which leads to the point of interest"),
+      { ToolKind::Stamp }, &ToolSettings::majorRadius, &ToolSettings::radiusRange,
+      &ToolSettings::setMajorRadius },
+    { "BrainShiftMinorRadius", QT_TR_NOOP("Minor radius"), " mm", 1,
+      QT_TR_NOOP("The radius of the stamp across its axis"), { ToolKind::Stamp },
+      &ToolSettings::minorRadius, &ToolSettings::radiusRange, &ToolSettings::setMinorRadius },
+    { "BrainShiftSigma", QT_TR_NOOP("Sigma"), "", 2,
+      QT_TR_NOOP(
+        "The width of the Gaussian as a fraction of the radius. A small sigma makes a peak. "
+        "A large sigma moves nearly all tissue within the radius equally far."),
+      { ToolKind::Soft, ToolKind::Stamp }, &ToolSettings::sigma, &ToolSettings::sigmaRange,
+      &ToolSettings::setSigma },
+    { "BrainShiftMillimetresPerClick", QT_TR_NOOP("Per click"), " mm", 2,
+      QT_TR_NOOP("One click of the mouse wheel pulls or pushes the tissue this far"),
+      { ToolKind::Stamp }, &ToolSettings::millimetresPerClick,
+      &ToolSettings::millimetresPerClickRange, &ToolSettings::setMillimetresPerClick },
+  };
+  return all;
+}
+
+ToolPanel::ToolPanel(QWidget* parent)
+  : QWidget(parent)
+  , Hint(new QLabel(this))
+  , Warning(new QWidget(this))
+  , WarningText(new QLabel(this->Warning))
+{
+  this->setObjectName("Tools");
+  auto column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  this->addButtons(column);
+  this->Hint->setObjectName("BrainShiftHint");
+  this->Hint->setWordWrap(true);
+  column->addWidget(this->Hint);
+  this->addSliders(column);
+  this->addWarning(column);
+  this->connect(ToolSettings::instance(), &ToolSettings::changed, this, &ToolPanel::refresh);
+  this->refresh();
+}
+
+void ToolPanel::addButtons(QBoxLayout* column)
+{
+  auto row = new QHBoxLayout;
+  for (const ToolChoice& choice : toolChoices())
+  {
+    auto button = new ToolButton(this);
+    button->setObjectName("BrainShift" + choice.id);
+    button->setText(choice.name);
+    button->setIcon(QIcon(choice.icon));
+    button->setIconSize({ 24, 24 });
+    button->setToolTip(choice.tip);
+    button->setToolButtonStyle(Qt::ToolButtonTextUnderIcon);
+    button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    button->setFocusPolicy(Qt::StrongFocus);
+    button->setCheckable(true);
+    this->connect(button, &QToolButton::clicked, this, [tool = choice.tool](bool on) {
+      ToolSettings::instance()->setTool(on ? tool : ToolKind::None);
+    });
+    row->addWidget(button);
+    this->Buttons.append(button);
+  }
+  column->addLayout(row);
+}
+
+void ToolPanel::addSliders(QBoxLayout* column)
+{
+  int labelWidth = 0;
+  for (const Value& value : values())
+  {
+    auto slider = new ValueSlider(value.name, tr(value.label), value.unit, value.decimals, this);
+    slider->setToolTip(tr(value.tip));
+    this->connect(slider, &ValueSlider::valueEdited, this,
+      [set = value.set](double number) { (ToolSettings::instance()->*set)(number); });
+    column->addWidget(slider);
+    this->Sliders.append(slider);
+    labelWidth = std::max(labelWidth, slider->labelWidth());
+  }
+  for (ValueSlider* slider : this->Sliders)
+  {
+    slider->setLabelWidth(labelWidth);
+  }
+}
+
+void ToolPanel::addWarning(QBoxLayout* column)
+{
+  this->Warning->setObjectName("Warning");
+  auto row = new QHBoxLayout(this->Warning);
+  row->setContentsMargins(0, 0, 0, 0);
+  auto sign = new QLabel(this->Warning);
+  sign->setPixmap(QIcon(":/BrainShift/warning.svg").pixmap(20, 20));
+  row->addWidget(sign, 0, Qt::AlignTop);
+  this->WarningText->setObjectName("BrainShiftWarning");
+  this->WarningText->setWordWrap(true);
+  row->addWidget(this->WarningText, 1);
+  column->addWidget(this->Warning);
+}
+
+void ToolPanel::setLatticeSpacing(double spacing)
+{
+  if (spacing != this->LatticeSpacing)
+  {
+    this->LatticeSpacing = spacing;
+    this->refresh();
+  }
+}
+
+void ToolPanel::setReady(bool ready)
+{
+  if (ready != this->Ready)
+  {
+    this->Ready = ready;
+    this->refresh();
+  }
+}
+
+void ToolPanel::refresh()
+{
+  const ToolSettings& settings = *ToolSettings::instance();
+  for (int i = 0; i < this->Buttons.size(); ++i)
+  {
+    this->Buttons[i]->setEnabled(this->Ready);
+    this->Buttons[i]->setChecked(toolChoices()[i].tool == settings.tool());
+  }
+  for (int i = 0; i < this->Sliders.size(); ++i)
+  {
+    const Value& value = values()[i];
+    const ToolSettings::Range range = (settings.*value.range)();
+    this->Sliders[i]->setRange(range.least, range.most);
+    this->Sliders[i]->setValue((settings.*value.value)());
+    this->Sliders[i]->setVisible(value.tools.contains(settings.tool()));
+  }
+  this->Hint->setText(this->Ready ? mouseHint(settings, ToolSettings::Ground::Volume)
+                                  : tr("Press Apply to show the volume. Then choose a tool."));
+  const QString warning = this->advice();
+  this->WarningText->setText(warning);
+  this->Warning->setVisible(!warning.isEmpty());
+}
+
+QString ToolPanel::advice() const
+{
+  const ToolSettings& settings = *ToolSettings::instance();
+  switch (settings.tool())
+  {
+    case ToolKind::Soft:
+      return radiusAdvice(tr("The radius"), settings.radius(), this->LatticeSpacing);
+    case ToolKind::Stamp:
+    {
+      const bool minorIsLess = settings.minorRadius() <= settings.majorRadius();
+      return minorIsLess
+        ? radiusAdvice(tr("The minor radius"), settings.minorRadius(), this->LatticeSpacing)
+        : radiusAdvice(tr("The major radius"), settings.majorRadius(), this->LatticeSpacing);
+    }
+    default:
+      return {};
+  }
+}
+}

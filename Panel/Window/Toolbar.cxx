@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Panel/Window/Toolbar.h"
+
+#include "Interaction/Commands/Commands.h"
+#include "Interaction/Edits/StrokeEditor.h"
+#include "Interaction/Views/ActiveDeformation.h"
+#include "Interaction/Views/Flicker.h"
+#include "Panel/Tools/ToolChoice.h"
+#include "Panel/Window/StatusLine.h"
+
+#include <pqActiveObjects.h>
+#include <pqApplicationCore.h>
+#include <pqPipelineSource.h>
+#include <pqServerManagerModel.h>
+
+#include <QMainWindow>
+#include <QStatusBar>
+#include <QToolButton>
+
+namespace brainshift
+{
+Toolbar::Toolbar(QWidget* mainWindow)
+  : QToolBar(tr("BrainShift"), mainWindow)
+{
+  this->setObjectName("BrainShift");
+  this->addTools();
+  this->addSeparator();
+  this->addReset();
+  this->addCompare();
+  this->addFlicker();
+  for (QAction* action : this->actions()) // buttons are named like actions, for tests to press
+  {
+    if (!action->isSeparator())
+    {
+      this->widgetForAction(action)->setObjectName(action->objectName().mid(6) + "Button");
+    }
+  }
+  mainWindow->addActions(this->actions()); // shortcuts hold while the toolbar is hidden
+  this->followPipeline();
+  this->connect(ToolSettings::instance(), &ToolSettings::changed, this, &Toolbar::refresh);
+  this->refresh();
+  if (auto window = qobject_cast<QMainWindow*>(mainWindow))
+  {
+    window->statusBar()->addWidget(new StatusLine(window), 1);
+  }
+}
+
+void Toolbar::addTools()
+{
+  for (const ToolChoice& choice : toolChoices())
+  {
+    QAction* action = this->addAction(QIcon(choice.icon), choice.name);
+    action->setObjectName("actionBrainShift" + choice.id);
+    action->setToolTip(choice.tip);
+    action->setShortcut(choice.shortcut);
+    action->setCheckable(true);
+    this->connect(action, &QAction::triggered, this, [tool = choice.tool](bool on) {
+      ToolSettings::instance()->setTool(on ? tool : ToolKind::None);
+    });
+    this->Tools.append(action);
+  }
+}
+
+void Toolbar::addReset()
+{
+  this->Reset = this->addAction(QIcon(":/BrainShift/reset.svg"), tr("Reset All Strokes"));
+  this->Reset->setObjectName("actionBrainShiftReset");
+  this->Reset->setToolTip(tr("Delete all strokes. Ctrl+Z brings them back."));
+  this->connect(this->Reset, &QAction::triggered, this, [this] {
+    if (this->Editor)
+    {
+      this->Editor->replaceAll({}, tr("Reset All Strokes"));
+    }
+  });
+}
+
+void Toolbar::addCompare()
+{
+  this->Compare = this->addAction(QIcon(":/BrainShift/compare.svg"), tr("Before/After"));
+  this->Compare->setObjectName("actionBrainShiftCompare");
+  this->Compare->setToolTip(
+    tr("Show the volume as loaded while this button is held down. Over a view, the key O does this "
+       "too."));
+  auto button = qobject_cast<QToolButton*>(this->widgetForAction(this->Compare));
+  const auto show = [this](bool before) {
+    if (this->Editor)
+    {
+      this->Editor->showBefore(before);
+    }
+  };
+  this->connect(button, &QToolButton::pressed, this, [show] { show(true); });
+  this->connect(button, &QToolButton::released, this, [show] { show(false); });
+}
+
+void Toolbar::addFlicker()
+{
+  this->Flickering = this->addAction(QIcon(":/BrainShift/flicker.svg"), tr("Flicker"));
+  this->Flickering->setObjectName("actionBrainShiftFlicker");
+  this->Flickering->setToolTip(
+    tr("Show the deformed volume and the reference of Compare Volumes in turn (K). Press again to "
+       "stop."));
+  this->Flickering->setShortcut(shortcutOf(Command::Flicker));
+  this->Flickering->setAutoRepeat(false);
+  this->Flickering->setCheckable(true);
+  auto flicker = new Flicker(this);
+  this->connect(this->Flickering, &QAction::triggered, flicker, &Flicker::turn);
+  this->connect(flicker, &Flicker::turned, this->Flickering, &QAction::setChecked);
+}
+
+void Toolbar::followPipeline()
+{
+  this->RefreshSoon.setSingleShot(true);
+  this->RefreshSoon.setInterval(0);
+  this->connect(&this->RefreshSoon, &QTimer::timeout, this, &Toolbar::refresh);
+  const auto soon = [this] { this->RefreshSoon.start(); };
+  pqActiveObjects& active = pqActiveObjects::instance();
+  this->connect(&active, &pqActiveObjects::sourceChanged, this, soon);
+  this->connect(&active, &pqActiveObjects::viewChanged, this, soon);
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  this->connect(model, &pqServerManagerModel::sourceAdded, this, soon);
+  this->connect(model, &pqServerManagerModel::sourceRemoved, this, soon);
+  this->connect(model, &pqServerManagerModel::dataUpdated, this, soon);
+  this->connect(model, &pqServerManagerModel::modifiedStateChanged, this, soon);
+}
+
+void Toolbar::follow(StrokeEditor* editor)
+{
+  if (editor != this->Editor)
+  {
+    if (this->Editor)
+    {
+      this->Editor->showBefore(false);
+      this->Editor->disconnect(this);
+    }
+    this->Editor = editor;
+    if (editor)
+    {
+      this->connect(editor, &StrokeEditor::changed, this, &Toolbar::refresh);
+    }
+  }
+}
+
+void Toolbar::refresh()
+{
+  pqPipelineSource* source = activeDeformation();
+  const bool applied = source && source->modifiedState() != pqProxy::UNINITIALIZED;
+  this->follow(applied ? StrokeEditor::of(source) : nullptr);
+  const bool hasStrokes = this->Editor && !this->Editor->strokes().empty();
+  for (int i = 0; i < this->Tools.size(); ++i)
+  {
+    this->Tools[i]->setEnabled(applied);
+    this->Tools[i]->setChecked(toolChoices()[i].tool == ToolSettings::instance()->tool());
+  }
+  this->Reset->setEnabled(hasStrokes);
+  this->Compare->setEnabled(applied); // a base lattice bends without strokes
+  this->Flickering->setEnabled(Flicker::isPossible());
+  if (!applied)
+  {
+    ToolSettings::instance()->setTool(ToolKind::None);
+  }
+}
+}

@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Helpers to bend a medical volume with BrainShift from Python.
+
+    import brainshift
+    ffd.Strokes = brainshift.stamp(anchor, toward, 10.0) + brainshift.move(point, (0, 0, 2))
+
+`move`, `soft` and `stamp` make strokes. A stroke is a tuple of 14 numbers. The property `Strokes`
+of a Free-Form Deformation holds strokes one after another, so add tuples to get several.
+
+All positions and distances are in millimetres, in world axes. The *rest frame* is the volume as it
+was loaded. The *deformed frame* is the volume as it is drawn.
+
+Research software, not a medical device.
+"""
+
+from .answers import counters, gpu, pick, slice_axes
+from .files import load_field, load_lattice, save_field, save_lattice
+from .maps import deformed_from_rest, rest_from_deformed
+from .strokes import MOVE, NUMBERS_PER_STROKE, SOFT, STAMP, move, soft, stamp
+from .views import four_views
+
+__all__ = [
+    "MOVE", "NUMBERS_PER_STROKE", "SOFT", "STAMP",
+    "counters", "deformed_from_rest", "four_views", "gpu", "load_field", "load_lattice", "move",
+    "pick", "rest_from_deformed", "save_field", "save_lattice", "slice_axes", "soft", "stamp"]

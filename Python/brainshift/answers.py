@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Asks a Deformed Volume or Deformed Slices about the picture they drew.
+
+The answers come from the process that draws, so they are right with a server too.
+"""
+
+REPRESENTATIONS = ("Deformed Volume", "Deformed Slices")
+
+
+def _report(representation, view=None, wanted=REPRESENTATIONS):
+    """The proxy that answers for a representation, in the process that draws it."""
+    kind = getattr(representation, "Representation", None)
+    if kind not in wanted:
+        raise ValueError(f"the representation is {kind}; it must be {' or '.join(wanted)}")
+    manager = representation.SMProxy.GetSessionProxyManager()
+    report = manager.NewProxy("misc", "DeformedVolumeReport")
+    report.UnRegister(None)  # Python holds it
+    report.PrototypeOn()  # a question is no step to undo
+    report.GetProperty("Representation").AddProxy(representation.SMProxy)
+    if view is not None:
+        report.GetProperty("View").AddProxy(view.SMProxy)
+    report.UpdateVTKObjects()
+    return report
+
+
+def _answer(report, name):
+    """The property that holds the answer, brought up to date."""
+    answer = report.GetProperty(name)
+    report.UpdatePropertyInformation(answer)
+    return answer
+
+
+def pick(representation, view, x, y):
+    """Find the position of the tissue that a view shows at a pixel.
+
+    The tissue lies where the opacity along the ray reaches one half, or on the slice that is seen.
+    The answer describes the picture that was drawn last. The function draws nothing.
+
+    - `representation`: the display of the volume in `view`. It must be drawn as Deformed Volume or
+      Deformed Slices.
+    - `view`: a render view.
+    - `x`, `y`: pixels from the lower left corner of the view.
+
+    Returns three numbers in mm, world axes, deformed frame, or `None` where there is no tissue.
+
+    Raises `ValueError` if `representation` is not shown in `view` or is drawn in another way.
+    """
+    if representation not in view.Representations:
+        raise ValueError("the representation is not shown in this view")
+    report = _report(representation, view)
+    report.GetProperty("Pixel").SetElements2(int(x), int(y))
+    report.UpdateVTKObjects()
+    tissue = _answer(report, "Tissue")
+    *position, found = (tissue.GetElement(i) for i in range(4))
+    return tuple(position) if found else None
+
+
+def slice_axes(representation):
+    """Find how the planes of Deformed Slices lie in the world.
+
+    They are known once the representation has been drawn.
+
+    - `representation`: a display that is drawn as Deformed Slices.
+
+    Returns two tuples. The first has three directions in world axes, the normals of the sagittal,
+    the coronal and the axial plane. Each points towards greater coordinates. The second has three
+    numbers, the distances in mm between voxels along those directions.
+
+    Raises `ValueError` if `representation` is drawn in another way.
+    """
+    report = _report(representation, wanted=("Deformed Slices",))
+    normals, steps = _answer(report, "SliceNormals"), _answer(report, "VoxelSteps")
+    directions = tuple(tuple(normals.GetElement(3 * plane + i) for i in range(3))
+                       for plane in range(3))
+    return directions, tuple(steps.GetElement(plane) for plane in range(3))
+
+
+def _numbers(representation):
+    lines = _answer(_report(representation), "Counters").GetElement(0).splitlines()
+    return {name: int(number) for name, number in (line.split() for line in lines)}
+
+
+def counters(representation):
+    """Count what the renderer of a representation has done since it was created.
+
+    - `representation`: a display that is drawn as Deformed Volume or Deformed Slices.
+
+    Returns a dict of integers:
+
+    - `frames`: pictures drawn
+    - `pixelsCast`: pixels of its images that rays were cast through, approximately
+    - `volumeUploads`, `latticeUploads`, `transferUploads`, `segmentUploads`: how often the voxels,
+      the control points, the colour map and the segments were sent to the GPU
+    - `bytesUploaded`: bytes sent to the GPU
+    - `texelsRefined`: samples of the displacement that were computed from control points
+    - `presenceUpdates`: how often the map of visible bricks was computed
+    - `skippingBytes`: bytes of brick faces and leaps that were made from that map
+    - `samplesTaken`, `samplesSkipped`: samples along rays. They are counted while the property
+      `CountSamples` of the representation is on
+    - `imageScale`: screen pixels along one side of a pixel that was drawn, a state, not a count
+    - `programsCompiled`: shader programs compiled
+
+    Raises `ValueError` if `representation` is drawn in another way.
+    """
+    numbers = _numbers(representation)
+    return {name: number for name, number in numbers.items() if not name.startswith("gpu")}
+
+
+def gpu(representation):
+    """Ask how much of the GPU a representation uses now.
+
+    - `representation`: a display that is drawn as Deformed Volume or Deformed Slices.
+
+    Returns a dict of integers:
+
+    - `gpuScalarBytes`: bytes of the voxels
+    - `gpuOtherBytes`: bytes of all other textures and buffers, including those of picture size
+    - `gpuFieldMicroseconds`: microseconds of the last computation from control points to offset
+      field, or 0 if the driver does not measure it
+
+    Raises `ValueError` if `representation` is drawn in another way.
+    """
+    numbers = _numbers(representation)
+    return {name: number for name, number in numbers.items() if name.startswith("gpu")}

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Saves and loads lattices and displacement fields."""
+
+from .arguments import vector
+
+
+def _write(writer, name):
+    """Runs a writer proxy, and raises an error if it made no file. A server's disk is not read."""
+    import os
+    from paraview import servermanager
+
+    here = not servermanager.ActiveConnection.IsRemote()
+    if here and os.path.exists(name):
+        os.remove(name)
+    writer.UpdatePipeline()
+    if here and not os.path.exists(name):
+        raise OSError(f"{name} was not written; ParaView's output window says why")
+
+
+def save_lattice(filter, name):
+    """Save the control points of a Free-Form Deformation, as they are drawn.
+
+    - `filter`: a Free-Form Deformation.
+    - `name`: path of the file to write, an image file that ends in `.vti`.
+    """
+    from paraview import simple
+
+    lattice = simple.DeformationLattice(Input=filter)
+    try:
+        simple.SaveData(name, proxy=lattice)
+    finally:
+        simple.Delete(lattice)
+
+
+def load_lattice(filter, name):
+    """Load a file of `save_lattice` as the base lattice of a Free-Form Deformation.
+
+    The filter takes the density and the kernel that the file was saved with. Its strokes add to
+    the lattice of the file.
+
+    - `filter`: a Free-Form Deformation.
+    - `name`: path of the file.
+
+    Returns the reader of the file, a ParaView source.
+    """
+    from paraview import simple
+
+    reader = simple.XMLImageDataReader(FileName=[name])
+    reader.UpdatePipeline()
+    information = reader.GetDataInformation()
+    low_x, high_x, low_y, high_y, low_z, high_z = information.GetExtent()
+    kernel = information.GetFieldDataInformation().GetArrayInformation("FFDKernel")
+    filter.Lattice = reader
+    filter.LatticeDimensions = [high_x - low_x + 1, high_y - low_y + 1, high_z - low_z + 1]
+    if kernel is not None:
+        filter.Kernel = int(kernel.GetComponentRange(0)[0])
+    return reader
+
+
+def save_field(filter, name, direction="Backward", spacing=None, world="RAS"):
+    """Save the displacement field of a Free-Form Deformation for another program.
+
+    - `filter`: a Free-Form Deformation.
+    - `name`: path of the file to write. It ends in `.nii`, `.nii.gz`, `.mha`, `.mhd` or `.nrrd`.
+      The file records the direction.
+    - `direction`: `"Backward"`, the default, is the direction with which ITK, ANTs, elastix
+      and Slicer resample images.
+      `"Forward"` maps the rest frame to the deformed frame.
+    - `spacing`: three numbers in mm, the distances between samples along the axes of the volume.
+      The default, `None`, takes the points of the volume itself.
+    - `world`: `"RAS"`, the default, or `"LPS"`, the world axes of the volume.
+
+    Raises `OSError` if the file is not written, and `ValueError` if `spacing` does not have three
+    finite numbers.
+    """
+    from paraview import servermanager, simple
+
+    grid = {} if spacing is None else {
+        "SampleGrid": "Given Spacing", "Spacing": list(vector("spacing", spacing))}
+    field = simple.DeformationField(Input=filter, Direction=direction, **grid)
+    try:
+        writer = servermanager.writers.DisplacementFieldWriter(
+            Input=field, FileName=name, World=world)
+        _write(writer, name)
+    finally:
+        simple.Delete(field)
+
+
+def load_field(name, direction="As Stored In The File", world="RAS"):
+    """Load a displacement field to be the `Lattice` of a Free-Form Deformation.
+
+    It reads files of ANTs, elastix, NiftyReg, Slicer and `save_field`. Registration programs write
+    backward fields. A backward field is inverted on its own points.
+
+    - `name`: path of the file.
+    - `direction`: `"As Stored In The File"`, the default. If you know better than the file, give
+      `"Forward"` or `"Backward"`.
+    - `world`: `"RAS"`, the default, or `"LPS"`, the world axes of the volume to bend.
+
+    Returns a ParaView source with a forward field in mm.
+
+    Raises `ValueError` if the file is not a displacement field.
+    """
+    from paraview import simple
+
+    reader = simple.DisplacementFieldReader(FileName=name, Direction=direction, World=world)
+    reader.UpdatePipeline()
+    leads = reader.GetDataInformation().GetFieldDataInformation().GetArrayInformation(
+        "DisplacementDirection")
+    if leads is None:
+        raise ValueError(f"{name} is not a displacement field; ParaView's output window says why")
+    if leads.GetStringValue(0) == "forward":
+        return reader
+    return simple.InvertDisplacementField(Input=reader)

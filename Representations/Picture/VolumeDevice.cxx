@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Representations/Picture/VolumeDevice.h"
+
+#include "Representations/Gpu/GpuTask.h"
+#include "Representations/Gpu/TextureMemory.h"
+#include "Representations/Scene/SceneCuts.h"
+
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkRenderer.h"
+#include "vtkTextureObject.h"
+#include "vtkVolume.h"
+#include "vtkVolumeMapper.h"
+
+namespace brainshift
+{
+namespace
+{
+SceneBlending blendingFor(const VolumeRequest& request, const TissueRequest& tissue,
+  const TissueTextures& textures, const SceneFrame& frame)
+{
+  return blendingOf(request.mapper, tissue.property, tissue.values.scalars, textures.stored(),
+    frame.worldFromTexture);
+}
+}
+
+bool VolumeDevice::draw(
+  GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation, VolumeRequest request)
+{
+  PictureWish& wish = request.wish;
+  drawn.renderer->GetTiledSizeAndOrigin(&wish.size.x, &wish.size.y, &wish.origin.x, &wish.origin.y);
+  takeOutOfMemory(); // errors of others
+  const auto draw = [&] {
+    return this->askForMemory(gpu, deformation, request) &&
+      this->drawTissue(gpu, drawn, deformation, request);
+  };
+  const bool done = draw();
+  if (takeOutOfMemory())
+  {
+    this->Memory.refuse();
+    this->Picture.forget();
+    return draw(); // less of it, if anything
+  }
+  return done;
+}
+
+// Memory is asked for before it is taken: some drivers end the program when there is none. If there
+// is too little for the reference, the volume is drawn without it.
+bool VolumeDevice::askForMemory(
+  GpuTask& gpu, const SceneDeformation& deformation, VolumeRequest& request)
+{
+  DrawnSizes sizes;
+  addTissueSizes(request.tissue, sizes);
+  sizes.pixels = request.wish.size;
+  deformation.addSizes(sizes);
+  MemoryNeed need = memoryNeed(sizes);
+  if (request.reference.exists())
+  {
+    need.reference = referenceBytes(request.reference);
+    gpu.problem = this->Memory.ask(gpu.window, need, request.memoryLimitMiB);
+    if (gpu.problem.empty())
+    {
+      return true;
+    }
+    gpu.remarks.push_back(gpu.problem + ". The reference is not drawn");
+    need.reference = 0;
+    request.reference = SceneReference();
+    this->Reference.releaseGraphicsResources(gpu.window);
+  }
+  gpu.problem = this->Memory.ask(gpu.window, need, request.memoryLimitMiB);
+  return gpu.problem.empty();
+}
+
+bool VolumeDevice::drawTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation,
+  const VolumeRequest& request)
+{
+  RayCastScene scene;
+  RayCastScene referenceScene;
+  this->Picture.begin();
+  const bool uploaded = request.reference.isAlone()
+    ? this->uploadReference(gpu, drawn, request, scene)
+    : this->uploadVolume(gpu, drawn, deformation, request, scene);
+  if (!uploaded)
+  {
+    return false;
+  }
+  gpu.remarks.push_back(this->Tissue.Textures.remark());
+  if (request.reference.exists() && !request.reference.isAlone())
+  {
+    this->compare(gpu, drawn, request, scene, referenceScene);
+  }
+  const PictureWish& wish = request.wish;
+  if (!this->Picture.cast(gpu, drawn, wish, scene))
+  {
+    return gpu.fail(
+      "The ray caster's shader does not compile or its images cannot be made on this GPU");
+  }
+  const bool done = this->images().composite(gpu.window, wish.origin, wish.size, gpu.counters);
+  this->Picture.end();
+  return done;
+}
+
+// The volume with its offset field and the bricks of the deformed frame.
+bool VolumeDevice::uploadVolume(GpuTask& gpu, const DrawnVolume& drawn,
+  SceneDeformation& deformation, const VolumeRequest& request, RayCastScene& scene)
+{
+  const TissueRequest& tissue = request.tissue;
+  DeviceDeformation::Change change;
+  if (!this->Tissue.Textures.update(gpu, tissue, scene.tissue) ||
+    !this->Deformation.update(gpu, deformation, tissue.values, scene.field, change))
+  {
+    return false;
+  }
+  this->Picture.bend(change.bent); // the next picture needs it if this one fails
+  if (!this->Tissue.updateBricks(gpu, tissue, scene.field, change.computed, scene.skipping))
+  {
+    return false;
+  }
+  scene.frame = frameOf(drawn, tissue.values);
+  scene.cuts = cutsOf(request.mapper, tissue.values, scene.frame, scene.field);
+  scene.blending = blendingFor(request, tissue, this->Tissue.Textures, scene.frame);
+  return true;
+}
+
+// The reference in place of the volume: not bent, in ordinary colours, cropped as the volume is.
+bool VolumeDevice::uploadReference(
+  GpuTask& gpu, const DrawnVolume& drawn, const VolumeRequest& request, RayCastScene& scene)
+{
+  if (!this->Reference.update(gpu, drawn, request.reference, scene))
+  {
+    return false;
+  }
+  const DrawnValues& values = request.tissue.values;
+  const glm::dmat4 worldFromVolumeTexture =
+    worldFromTexture(values.grid, values.layout, drawn.volume->GetMatrix());
+  bool exact = true;
+  scene.cuts = cutsOfReference(request.mapper, scene, values, worldFromVolumeTexture, exact);
+  if (!exact)
+  {
+    gpu.remarks.emplace_back(
+      "Only the middle cropping region cuts a reference that is shown alone");
+  }
+  scene.blending =
+    blendingFor(request, request.reference.tissue, this->Reference.Tissue.Textures, scene.frame);
+  return true;
+}
+
+// If the reference cannot be drawn, the volume is drawn alone.
+void VolumeDevice::compare(GpuTask& gpu, const DrawnVolume& drawn, const VolumeRequest& request,
+  RayCastScene& scene, RayCastScene& alone)
+{
+  if (!this->Reference.compare(gpu, drawn, request.reference, scene, alone))
+  {
+    this->Reference.releaseGraphicsResources(gpu.window);
+    gpu.remarks.push_back(gpu.problem + ". The reference is not drawn");
+    gpu.problem.clear();
+  }
+}
+
+bool VolumeDevice::coverSelection(GpuTask& gpu, vtkRenderer* renderer)
+{
+  const FirstHits* hits = this->images().hits();
+  return !hits || this->Cover.draw(gpu.window, renderer, *hits, gpu.counters);
+}
+
+void VolumeDevice::addHeldBytes(Counters& counters)
+{
+  counters.gpuScalarBytes += textureBytes(this->Tissue.Textures.scalars());
+  counters.gpuOtherBytes += this->Tissue.otherBytes() + this->Reference.bytes() +
+    textureBytes({ this->Deformation.field().textures(), this->Picture.textures() });
+  this->Deformation.askTime(counters.gpuFieldMicroseconds);
+}
+
+void VolumeDevice::Release(vtkWindow* window)
+{
+  this->Tissue.releaseGraphicsResources(window);
+  this->Reference.releaseGraphicsResources(window);
+  this->Deformation.releaseGraphicsResources(window);
+  this->Picture.releaseGraphicsResources(window);
+  this->Cover.releaseGraphicsResources();
+}
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief Everything that one window keeps of a deformed volume, and how a picture of it is made.
+ */
+#ifndef BrainShift_VolumeDevice_h
+#define BrainShift_VolumeDevice_h
+
+#include "Representations/Field/SceneDeformation.h"
+#include "Representations/Gpu/GpuMemory.h"
+#include "Representations/Picture/Picture.h"
+#include "Representations/Picture/SelectionCover.h"
+#include "Representations/Scene/SceneFrame.h"
+#include "Representations/Tissue/DeviceReference.h"
+#include "Representations/Tissue/DeviceTissue.h"
+#include "Representations/Tissue/SceneReference.h"
+
+class vtkVolumeMapper;
+class vtkWindow;
+
+namespace brainshift
+{
+struct GpuTask;
+
+/// What is to be drawn.
+struct VolumeRequest
+{
+  vtkVolumeMapper* mapper = nullptr; ///< Gives blend mode, clipping and cropping.
+  TissueRequest tissue;
+  SceneReference reference;
+  double memoryLimitMiB = 0.0; ///< 0: all that the driver gives.
+  PictureWish wish;            ///< Place and size are filled in by draw.
+};
+
+/// Textures, programs and images of one window.
+class VolumeDevice
+{
+public:
+  /// Draws the volume with its deformation. False, with a problem, if this GPU cannot.
+  bool draw(
+    GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation, VolumeRequest request);
+
+  /// Hides what lies behind the tissue of the last picture from a selection, if there is a picture.
+  /// False if the shader does not compile.
+  bool coverSelection(GpuTask& gpu, vtkRenderer* renderer);
+
+  CastImages& images() { return this->Picture.images(); }
+
+  /// Adds to the counters what is held on the GPU, which may make it wait.
+  void addHeldBytes(Counters& counters);
+
+  void Release(vtkWindow* window); // named as WindowDevices wants it
+
+private:
+  bool askForMemory(GpuTask& gpu, const SceneDeformation& deformation, VolumeRequest& request);
+  bool drawTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation,
+    const VolumeRequest& request);
+  bool uploadVolume(GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation,
+    const VolumeRequest& request, RayCastScene& scene);
+  bool uploadReference(
+    GpuTask& gpu, const DrawnVolume& drawn, const VolumeRequest& request, RayCastScene& scene);
+  void compare(GpuTask& gpu, const DrawnVolume& drawn, const VolumeRequest& request,
+    RayCastScene& scene, RayCastScene& alone);
+
+  DeviceTissue Tissue;
+  DeviceReference Reference;
+  DeviceDeformation Deformation;
+  brainshift::Picture Picture;
+  SelectionCover Cover;
+  GpuMemory Memory;
+};
+}
+
+#endif

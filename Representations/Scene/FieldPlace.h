@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief How lattice and offset field lie to the volume's texture, and how far tissue can go.
+ */
+#ifndef BrainShift_FieldPlace_h
+#define BrainShift_FieldPlace_h
+
+#include "Filters/Deformation/Grid.h"
+#include "Filters/Deformation/OffsetField.h"
+#include "Representations/Scene/RayCastScene.h"
+#include "Representations/Scene/SceneGeometry.h"
+
+#include <glm/vec3.hpp>
+
+namespace brainshift
+{
+/// Texture units of one lattice cell: the unit that the offset field is wanted in.
+glm::dvec3 textureFromLattice(const DrawnValues& values, const Grid& lattice);
+
+/// Widens bounds (mm; x, y, z, least and greatest each) by the box of an offset field's nodes.
+void widenByNodes(const Grid& lattice, const FieldNodes& nodes, double bounds[6]);
+
+/// The field of a volume without a deformation: tissue stays in the volume's box.
+SceneField restField(const ValueLayout& layout);
+
+/// The field of a volume with a lattice: all but the texture of offsets and the hull of what moves.
+SceneField bentField(const DrawnValues& values, const Grid& lattice, const FieldNodes& nodes);
+}
+
+#endif

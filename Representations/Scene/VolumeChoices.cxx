@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Representations/Scene/VolumeChoices.h"
+
+#include "Representations/Scene/SceneCuts.h"
+
+#include "vtkColorTransferFunction.h"
+#include "vtkContourValues.h"
+#include "vtkDataArray.h"
+#include "vtkPiecewiseFunction.h"
+#include "vtkPlane.h"
+#include "vtkPlaneCollection.h"
+#include "vtkVolumeMapper.h"
+#include "vtkVolumeProperty.h"
+
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+namespace brainshift
+{
+namespace
+{
+glm::dvec2 storedRange(const double range[2], const StoredScalar& stored)
+{
+  const double largest = std::numeric_limits<float>::max();
+  const glm::dvec2 values = (glm::dvec2(range[0], range[1]) - stored.shift) / stored.scale;
+  return glm::clamp(values, -largest, largest);
+}
+
+vtkPlane* slicePlaneOf(vtkVolumeProperty* property)
+{
+  return vtkPlane::SafeDownCast(property->GetSliceFunction());
+}
+}
+
+DrawnComponents drawnComponents(vtkVolumeProperty* property, vtkDataArray* scalars)
+{
+  const int count = scalars->GetNumberOfComponents();
+  if (!property->GetIndependentComponents() && count == 4)
+  {
+    return { 3, Coloring::Direct };
+  }
+  if (!property->GetIndependentComponents() && count == 2)
+  {
+    return { 1, Coloring::OtherScalar };
+  }
+  vtkColorTransferFunction* color = property->GetRGBTransferFunction();
+  const bool one = count == 1 || color->GetVectorMode() == vtkScalarsToColors::COMPONENT;
+  return { count == 1 ? 0 : one ? color->GetVectorComponent() : -1, Coloring::Mapped };
+}
+
+Blend blendOf(vtkVolumeMapper* mapper, vtkVolumeProperty* property)
+{
+  const int mode = mapper->GetBlendMode();
+  const bool known = mode >= 0 && mode < BlendCount;
+  const Blend blend = known ? static_cast<Blend>(mode) : Blend::Composite;
+  return blend == Blend::Slice && !slicePlaneOf(property) ? Blend::Composite : blend;
+}
+
+std::vector<double> isovaluesOf(vtkVolumeProperty* property)
+{
+  vtkContourValues* contours = property->GetIsoSurfaceValues();
+  std::vector<double> values(
+    contours->GetValues(), contours->GetValues() + contours->GetNumberOfContours());
+  values.resize(std::min<std::size_t>(values.size(), MaxIsovalues));
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+SceneBlending blendingOf(vtkVolumeMapper* mapper, vtkVolumeProperty* property,
+  vtkDataArray* scalars, const StoredScalar& stored, const glm::dmat4& worldFromTexture)
+{
+  SceneBlending blending;
+  const Blend blend = blendOf(mapper, property);
+  if (blend == Blend::Isosurface)
+  {
+    for (const double value : isovaluesOf(property))
+    {
+      blending.isovalues.push_back(static_cast<float>((value - stored.shift) / stored.scale));
+    }
+  }
+  else if (blend == Blend::Average || blend == Blend::Additive)
+  {
+    double range[2];
+    scalars->GetFiniteRange(range, drawnComponents(property, scalars).scalar);
+    const double width = range[1] > range[0] ? range[1] - range[0] : 1.0;
+    blending.shareFromScalar = { stored.scale / width, (stored.shift - range[0]) / width };
+    blending.averagedScalars = storedRange(mapper->GetAverageIPScalarRange(), stored);
+  }
+  else if (blend == Blend::Slice)
+  {
+    blending.slicePlane = texturePlane(slicePlaneOf(property), worldFromTexture);
+  }
+  return blending;
+}
+
+namespace
+{
+// VTK's own mappers make a function that is 1 everywhere where there was none.
+bool dependsOnGradient(vtkVolumeProperty* property)
+{
+  return property->HasGradientOpacity() &&
+    std::strcmp(property->GetGradientOpacity()->GetType(), "Constant") != 0;
+}
+}
+
+std::vector<std::string> unsupportedChoices(
+  vtkVolumeMapper* mapper, vtkVolumeProperty* property, vtkDataArray* scalars)
+{
+  std::vector<std::string> sentences;
+  const auto say = [&](bool unsupported, const std::string& sentence) {
+    if (unsupported)
+    {
+      sentences.push_back(sentence);
+    }
+  };
+  const int components = scalars->GetNumberOfComponents();
+  const bool twoDimensional = property->GetTransferFunctionMode() == vtkVolumeProperty::TF_2D;
+  say(twoDimensional,
+    "Use 2D Transfer Function (UseTransfer2D) is on, which Deformed Volume does not draw: it uses "
+    "the colour map and the opacity curve");
+  say(!twoDimensional && dependsOnGradient(property),
+    "Gradient opacity is on, which Deformed Volume does not draw: it uses the scalar's opacity");
+  say(
+    !property->GetIndependentComponents() && components != 1 && components != 2 && components != 4,
+    "Colours and opacity given directly (MapScalars off, or MultiComponentsMapping) need 2 or 4 "
+    "components; the array has " +
+      std::to_string(components) + ": Deformed Volume uses the colour map");
+  const int planes = clipPlaneCount(mapper);
+  say(planes > MaxClipPlanes,
+    std::to_string(planes) + " clipping planes are set; Deformed Volume cuts with the first " +
+      std::to_string(MaxClipPlanes));
+  const int mode = mapper->GetBlendMode();
+  say(mode < 0 || mode >= BlendCount,
+    "Blend mode " + std::to_string(mode) + " is not one of 0 to " + std::to_string(BlendCount - 1) +
+      ": Deformed Volume composites");
+  const int isovalues = property->GetIsoSurfaceValues()->GetNumberOfContours();
+  say(mode == static_cast<int>(Blend::Isosurface) && isovalues > MaxIsovalues,
+    std::to_string(isovalues) + " isosurface values are set; Deformed Volume shows the first " +
+      std::to_string(MaxIsovalues));
+  vtkImplicitFunction* slice = property->GetSliceFunction();
+  say(mode == static_cast<int>(Blend::Slice) && !slicePlaneOf(property),
+    std::string("Blend mode Slice needs a plane as Slice Type (SliceFunction); there is ") +
+      (slice ? slice->GetClassName() : "none") + ": Deformed Volume composites");
+  return sentences;
+}
+}

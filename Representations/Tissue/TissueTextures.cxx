@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Representations/Tissue/TissueTextures.h"
+
+#include "Representations/Gpu/GpuTask.h"
+#include "Representations/Skipping/RestPresence.h"
+
+#include "vtkDataArray.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkTextureObject.h"
+#include "vtkVolumeProperty.h"
+
+#include <glm/vec2.hpp>
+
+#include <algorithm>
+
+namespace brainshift
+{
+namespace
+{
+constexpr double CutWeight = 4.0; // chosen by eye: less leaves noise, more flattens the cortex
+
+// The blend modes that VTK lights.
+bool isLit(Blend blend)
+{
+  return blend == Blend::Composite || blend == Blend::Isosurface || blend == Blend::Slice;
+}
+
+// Texture coordinate of the colour map from a stored scalar: scale and shift.
+glm::dvec2 transferFromStored(const TransferTexture& transfer, const StoredScalar& stored)
+{
+  return { stored.scale * transfer.scale(), stored.shift * transfer.scale() + transfer.shift() };
+}
+
+// Nearest: voxels are drawn as they are. Else neighbours are blended.
+void setFilter(vtkTextureObject* texture, bool nearest)
+{
+  if (texture)
+  {
+    const int filter = nearest ? vtkTextureObject::Nearest : vtkTextureObject::Linear;
+    texture->SetMinificationFilter(filter);
+    texture->SetMagnificationFilter(filter);
+  }
+}
+}
+
+bool TissueTextures::update(GpuTask& gpu, const TissueRequest& request, SceneTissue& tissue)
+{
+  tissue = SceneTissue();
+  const auto uploads = gpu.counters.volumeUploads;
+  vtkDataArray* scalars = request.values.scalars;
+  const DrawnComponents drawn = drawnComponents(request.property, scalars);
+  tissue.blend = request.blend;
+  tissue.coloring.source = drawn.coloring;
+  tissue.stepMm = request.stepMm;
+  if (!this->Scalars.update(gpu, scalars, request.values.layout.dimensions, drawn.scalar))
+  {
+    return false;
+  }
+  const bool newColours =
+    this->Transfer.update(gpu, request.property, request.stepMm, request.blend, drawn.coloring);
+  this->noteVisibility(request, newColours || uploads != gpu.counters.volumeUploads);
+  if (!this->updateColors(gpu, request, tissue.coloring) ||
+    !this->updateSegment(gpu, request, tissue) || !this->updateGradients(gpu, request, tissue))
+  {
+    return false;
+  }
+  tissue.scalars = this->Scalars.texture();
+  for (vtkTextureObject* voxels :
+    { tissue.scalars, tissue.coloring.colors, tissue.coloring.scalars })
+  {
+    setFilter(voxels, request.nearest);
+  }
+  setFilter(tissue.normals, request.nearest && request.gradients == GradientSource::FullResolution);
+  this->describe(request, tissue);
+  return true;
+}
+
+// Remembers which scalars can be seen, and whether that changed.
+void TissueTextures::noteVisibility(const TissueRequest& request, bool uploaded)
+{
+  const std::vector<double> isovalues = isovaluesOf(request.property);
+  const StoredScalar stored =
+    mappedFurther({ this->Scalars.scale(), this->Scalars.shift() }, request.mapped);
+  this->VisibilityChanged = this->VisibilityChanged || uploaded ||
+    stored.scale != this->Stored.scale || stored.shift != this->Stored.shift ||
+    (request.blend == Blend::Isosurface && isovalues != this->VisibleIsovalues);
+  this->Stored = stored;
+  this->VisibleBlend = request.blend;
+  this->VisibleIsovalues = isovalues;
+}
+
+// What the scene knows beside the textures of voxels.
+void TissueTextures::describe(const TissueRequest& request, SceneTissue& tissue) const
+{
+  const ValueLayout& layout = request.values.layout;
+  tissue.transfer = this->Transfer.texture();
+  // Voxels that are drawn as they are leave nothing between two of them to take an average of.
+  tissue.transferSums = request.nearest ? nullptr : this->Transfer.sums();
+  tissue.opaque = this->Transfer.isOpaque();
+  tissue.transferFromScalar = transferFromStored(this->Transfer, this->Stored);
+  tissue.visibleScalars =
+    this->Transfer.visibleValues(this->Stored.scale, this->Stored.shift).ends();
+  tissue.voxel = layout.textureFromGrid;
+  tissue.volumeLow = layout.low;
+  tissue.volumeHigh = layout.high;
+  // Light at the segment's edge: how much the gradients, as they are read, would change if the
+  // scalars fell there to the least that is visible.
+  const double mapStart = -tissue.transferFromScalar.y / tissue.transferFromScalar.x;
+  const double least = std::max<double>(tissue.visibleScalars.x, mapStart);
+  const double scale = CutWeight * (tissue.normals ? this->Normals.scale() : 1.0);
+  tissue.segment.cutGradient = { scale, -scale * least };
+  tissue.segment.voxel = layout.textureFromGrid;
+}
+
+// Colours that do not come from the drawn scalar.
+bool TissueTextures::updateColors(
+  GpuTask& gpu, const TissueRequest& request, SceneColoring& coloring)
+{
+  vtkDataArray* scalars = request.values.scalars;
+  const glm::ivec3& dimensions = request.values.layout.dimensions;
+  if (coloring.source == Coloring::Direct)
+  {
+    if (!this->Colors.update(gpu.window, scalars, dimensions, gpu.counters))
+    {
+      return gpu.fail("The GPU refused a 3D texture for the volume's own colours");
+    }
+    coloring.colors = this->Colors.texture();
+  }
+  else if (coloring.source == Coloring::OtherScalar)
+  {
+    if (!this->ColorScalars.update(gpu, scalars, dimensions, 0))
+    {
+      return false;
+    }
+    coloring.scalars = this->ColorScalars.texture();
+    coloring.transferFromScalar = transferFromStored(
+      this->Transfer, { this->ColorScalars.scale(), this->ColorScalars.shift() });
+  }
+  return true;
+}
+
+// The segment that alone is drawn.
+bool TissueTextures::updateSegment(GpuTask& gpu, const TissueRequest& request, SceneTissue& tissue)
+{
+  bool changed = false;
+  if (!this->Segment.update(gpu.window, request.segment, gpu.counters, changed))
+  {
+    return gpu.fail("The GPU refused a 3D texture for the segment that is drawn alone");
+  }
+  this->VisibilityChanged = this->VisibilityChanged || changed;
+  tissue.segment.shares = this->Segment.texture();
+  return true;
+}
+
+// Light, and gradients in a texture if the user wants them there.
+bool TissueTextures::updateGradients(
+  GpuTask& gpu, const TissueRequest& request, SceneTissue& tissue)
+{
+  vtkVolumeProperty* property = request.property;
+  tissue.shaded = property->GetShade() != 0 && isLit(request.blend);
+  tissue.material = glm::dvec4(property->GetAmbient(), property->GetDiffuse(),
+    property->GetSpecular(), property->GetSpecularPower());
+  if (!tissue.shaded || request.gradients == GradientSource::OnTheFly)
+  {
+    return true;
+  }
+  vtkTextureObject* scalars = this->Scalars.texture();
+  setFilter(scalars, false); // half resolution blends neighbours
+  const bool half = request.gradients == GradientSource::HalfResolution;
+  if (!this->Normals.update(
+        gpu, scalars, request.values.layout.dimensions, half, this->Scalars.difference()))
+  {
+    return gpu.fail(
+      "The gradients' shader does not compile or their texture cannot be made on this GPU");
+  }
+  tissue.normals = this->Normals.texture();
+  return true;
+}
+
+std::vector<float> TissueTextures::summedVisibility() const
+{
+  const VisibleValues mapped = this->Transfer.visibleValues(this->Stored.scale, this->Stored.shift);
+  if (this->VisibleBlend != Blend::Isosurface)
+  {
+    return this->Segment.texture()
+      ? brainshift::summedVisibility(this->Segment.within(this->Scalars.ranges()), mapped)
+      : brainshift::summedVisibility(this->Scalars.ranges(), mapped);
+  }
+  std::vector<double> surfaces; // visible isovalues, as stored
+  for (const double isovalue : this->VisibleIsovalues)
+  {
+    const double stored = (isovalue - this->Stored.shift) / this->Stored.scale;
+    if (mapped(glm::vec2(stored)))
+    {
+      surfaces.push_back(stored);
+    }
+  }
+  // A crossing lies between two samples. The segment may hold both samples but not the crossing, so
+  // its bricks are not asked. The filter's rounding may find a surface where no voxel reaches the
+  // isovalue.
+  const double rounding = 1e-5 * this->Scalars.range();
+  const auto visible = [&](const glm::vec2& range) {
+    return std::any_of(surfaces.begin(), surfaces.end(),
+      [&](double stored) { return stored >= range.x - rounding && stored <= range.y + rounding; });
+  };
+  return brainshift::summedVisibility(this->Scalars.ranges(), visible);
+}
+
+std::vector<vtkTextureObject*> TissueTextures::otherTextures() const
+{
+  return { this->ColorScalars.texture(), this->Colors.texture(), this->Transfer.texture(),
+    this->Transfer.sums(), this->Normals.texture(), this->Segment.texture() };
+}
+
+bool TissueTextures::skippingIsExact(Blend blend) const
+{
+  switch (blend)
+  {
+    case Blend::Composite:
+    case Blend::Isosurface:
+      return true;
+    case Blend::Maximum:
+      return this->Transfer.visibleUpwards(); // what is skipped is less than what is seen
+    case Blend::Minimum:
+      return this->Transfer.visibleDownwards();
+    default:
+      return false;
+  }
+}
+
+void TissueTextures::releaseGraphicsResources(vtkWindow* window)
+{
+  this->Scalars.releaseGraphicsResources(window);
+  this->ColorScalars.releaseGraphicsResources(window);
+  this->Colors.releaseGraphicsResources(window);
+  this->Transfer.releaseGraphicsResources(window);
+  this->Normals.releaseGraphicsResources(window);
+  this->Segment.releaseGraphicsResources(window);
+}
+
+void addTissueSizes(const TissueRequest& request, DrawnSizes& sizes)
+{
+  constexpr int DirectColorBytes = 4;
+  vtkDataArray* scalars = request.values.scalars;
+  const DrawnComponents drawn = drawnComponents(request.property, scalars);
+  sizes.voxels = request.values.layout.dimensions;
+  sizes.scalarBytes = ScalarTexture::bytesOf(scalars, drawn.scalar);
+  sizes.colorBytes = drawn.coloring == Coloring::Direct ? DirectColorBytes
+    : drawn.coloring == Coloring::OtherScalar           ? ScalarTexture::bytesOf(scalars, 0)
+                                                        : 0;
+  sizes.gradients = request.property->GetShade() != 0 && isLit(request.blend) &&
+    request.gradients != GradientSource::OnTheFly;
+  sizes.segmentBytes = request.segment.segmentation.labels ? SegmentTexture::bytesOfVoxel() : 0;
+  sizes.halfResolution = request.gradients == GradientSource::HalfResolution;
+}
+}

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves that each filter, reader, writer and representation has a page with its properties and a
+# picture, and that the generated references hold what they are generated from.
+import re
+
+from documents import PAGES, property_reference, python_reference, run_tests, text_of
+
+MARKER = re.compile(r"<!-- properties: (\w+) -->")
+
+
+def pages_by_proxy():
+    return {proxy: page for page in PAGES.rglob("*.md") for proxy in MARKER.findall(text_of(page))}
+
+
+def test_every_proxy_has_a_page_with_a_picture():
+    pages = pages_by_proxy()
+    for proxy in property_reference.public_proxies():
+        assert proxy.name in pages, f"no page holds <!-- properties: {proxy.name} -->"
+        text = text_of(pages[proxy.name])
+        assert re.search(r"!\[[^\]]+\]\([^)]+\.png\)", text), f"no picture on {pages[proxy.name]}"
+
+
+def test_markers_name_proxies():
+    names = {proxy.name for proxy in property_reference.public_proxies()}
+    unknown = set(pages_by_proxy()) - names
+    assert not unknown, f"the XML has no {sorted(unknown)}"
+
+
+def test_every_property_is_documented():
+    for proxy in property_reference.proxies().values():
+        table = property_reference.table(proxy)
+        for element in proxy.properties:
+            assert f"| `{element.get('name')}` |" in table, (proxy.name, element.get("name"))
+
+
+def test_properties_have_their_defaults():
+    tables = {proxy.name: property_reference.table(proxy)
+              for proxy in property_reference.public_proxies()}
+    deformation = tables["FreeFormDeformation"]
+    assert "| `LatticeDimensions` | 3 × integer, 4 to 257 | 19 19 19 |" in deformation
+    assert '| `Kernel` | "Catmull-Rom", "B-Spline" | "Catmull-Rom" |' in deformation
+    assert "| `Mask` | optional input |" in deformation  # from the extension of the filter
+    assert "| `TraceRadius` |" in tables["TracePointsRepresentation"]  # exposed by that name
+
+
+def test_python_reference_has_the_public_functions():
+    page = python_reference.page()
+    for name in ("move", "soft", "stamp", "deformed_from_rest", "rest_from_deformed", "pick",
+                 "counters", "four_views", "save_field", "load_field"):
+        assert f"## {name}\n" in page, name
+    assert "## _" not in page
+
+
+run_tests(globals())

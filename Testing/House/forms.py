@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checks what a reader finds at the top of each header and of each room."""
+
+import re
+
+import rooms
+
+#: Rooms beside those of C++ that a reader walks into.
+MORE_ROOMS = ["Benchmark", "Examples", "Python", "Shaders", "Testing", "Testing/House", "Utilities"]
+
+
+#: One comment at the top: lines with two or three slashes, or one block.
+OPENING = re.compile(r"((?://[^\n]*\n)+|/\*.*?\*/\n)", re.DOTALL)
+
+
+def every_header_opens(tree):
+    """Each header has the licence, one opening comment and an include guard named for it."""
+    for path in tree.ending(".h"):
+        first, _, rest = tree.text(path).partition("\n")
+        if not first.startswith("// SPDX-License-Identifier:"):
+            yield f"{path}: its first line must name the licence"
+        opening = OPENING.match(rest)
+        if opening is None or not re.search(r"\w{3}", opening.group(1)):
+            yield f"{path}: has no opening comment under the licence"
+        if not _is_guarded(path, rest[opening.end() if opening else 0:]):
+            yield f"{path}: has no include guard named for it under its opening comment"
+
+
+def _is_guarded(path, text):
+    name = re.escape(path.rpartition("/")[2][:-2])
+    return re.match(rf"\s*#ifndef (\w*{name}_h)\n#define \1\n.*\n#endif[^\n]*\s*$", text, re.DOTALL)
+
+
+def every_room_says_what_it_is_for(tree):
+    """Every room has a README.md of a few lines."""
+    for room in [*rooms.STANDS_ON, *MORE_ROOMS]:
+        if f"{room}/README.md" not in tree.known:
+            yield f"{room}: has no README.md"
+
+
+CHECKS = [every_header_opens, every_room_says_what_it_is_for]

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checks that nothing lies in a folder without being built or run."""
+
+import posixpath
+import re
+
+from tree import folder_of
+
+BUILT = ("Filters", "Representations", "Widgets", "Interaction", "Panel", "Plugin", "Testing/Cxx")
+
+
+def _named_paths(tree):
+    """Every word of every CMakeLists.txt, as a path from the root of the checkout."""
+    named = set()
+    for path in tree.ending("CMakeLists.txt"):
+        text = re.sub(r"#.*", "", tree.text(path))
+        for word in re.findall(r"[^\s()\"]+", text):
+            word = word.replace("${PROJECT_SOURCE_DIR}/", "/")
+            beside = word[1:] if word.startswith("/") else f"{folder_of(path)}/{word}"
+            named.add(posixpath.normpath(beside).lstrip("/"))
+    return named
+
+
+def _unnamed(tree, paths, endings=("",)):
+    """The paths that no CMakeLists.txt names. A list may leave out one of the endings."""
+    named = _named_paths(tree)
+    for path in paths:
+        if not any(path.endswith(ending) and path[:len(path) - len(ending)] in named
+                   for ending in endings):
+            yield path
+
+
+def every_source_is_built(tree):
+    """Every .cxx of the product and of its tests is named by a CMakeLists.txt."""
+    for path in _unnamed(tree, tree.below(*BUILT, suffixes=(".cxx",)), ("", ".cxx")):
+        yield f"{path}: no CMakeLists.txt names it, so it is not built"
+
+
+def every_shader_is_built(tree):
+    """Every .glsl is named by the list of shaders in Representations/CMakeLists.txt."""
+    listed = "Representations/CMakeLists.txt"
+    words = set(re.findall(r"[\w./-]+", tree.text(listed))) if listed in tree.known else set()
+    for path in tree.below("Shaders", suffixes=(".glsl",)):
+        if path[len("Shaders/"):-len(".glsl")] not in words:
+            yield f"{path}: {listed} does not name it, so it is not built"
+
+
+def every_script_runs(tree):
+    """Every script in Testing/Python and Testing/XML is named by a CMakeLists.txt."""
+    scripts = tree.below("Testing/Python", "Testing/XML", suffixes=(".py", ".xml"))
+    for path in _unnamed(tree, scripts, (".py", ".xml")):
+        yield f"{path}: no CMakeLists.txt names it, so it does not run"
+
+
+def every_proxy_is_loaded(tree):
+    """Every .xml of proxies is named by the CMakeLists.txt of its module."""
+    proxies = tree.below("Filters", "Representations", "Plugin", suffixes=(".xml",))
+    for path in _unnamed(tree, proxies):
+        yield f"{path}: no CMakeLists.txt names it, so ParaView does not load it"
+
+
+CHECKS = [every_source_is_built, every_shader_is_built, every_script_runs, every_proxy_is_loaded]

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The rooms of the C++ code, and which room stands on which.
+
+This table is the one place that says what may include what. A file may include files of its own
+room, of the rooms named in its row, and of every room that those stand on.
+"""
+
+STANDS_ON = {
+    "Filters/Deformation": [],
+    "Filters/Attached": ["Filters/Deformation"],
+    "Filters/Files": ["Filters/Attached"],
+    "Filters/Traces": ["Filters/Attached"],
+    "Filters": ["Filters/Files", "Filters/Traces"],
+    "Representations/Gpu": ["Filters"],
+    "Representations/Scene": ["Representations/Gpu"],
+    "Representations/Field": ["Representations/Scene"],
+    "Representations/Skipping": ["Representations/Scene"],
+    "Representations/Tissue": ["Representations/Skipping"],
+    "Representations/Traces": ["Representations/Scene"],
+    "Representations/Picture": ["Representations/Field", "Representations/Tissue"],
+    "Representations/Slices": ["Representations/Field", "Representations/Tissue"],
+    "Representations/Window": [
+        "Representations/Picture", "Representations/Slices", "Representations/Traces"],
+    "Representations": ["Representations/Window"],
+    "Widgets": ["Filters"],
+    "Interaction/Commands": [],
+    "Interaction/Views": ["Interaction/Commands", "Widgets"],
+    "Interaction/Edits": ["Interaction/Views"],
+    "Interaction/Tools": ["Interaction/Edits"],
+    "Interaction": ["Interaction/Tools"],
+    "Panel/Parts": [],
+    "Panel/Strokes": ["Panel/Parts", "Interaction"],
+    "Panel/Tools": ["Panel/Parts", "Interaction"],
+    "Panel/Properties": ["Panel/Strokes", "Panel/Tools"],
+    "Panel/Window": ["Panel/Properties"],
+    "Panel": ["Panel/Window"],
+    "Plugin": ["Panel", "Representations"],
+}
+
+#: Libraries that a room and the rooms inside it must not include. Each has a pattern below.
+KEEPS_OUT = {
+    "Filters/Deformation": ["VTK"],
+    "Filters": ["OpenGL", "Qt"],
+    "Representations": ["Qt"],
+    "Widgets": ["Qt"],
+}
+
+#: How an included header shows which library it belongs to.
+LIBRARIES = {
+    "VTK": r"vtk(?!BrainShift)",
+    "OpenGL": r"(vtk_gl|vtkOpenGL|GL/|Representations/Gpu/OpenGL)",
+    "Qt": r"(Q[A-Z]|Qt|pq[A-Z])",
+}
+
+
+def below(room):
+    """All rooms that a room stands on, directly or through others."""
+    found = set()
+    waiting = list(STANDS_ON[room])
+    while waiting:
+        lower = waiting.pop()
+        if lower not in found:
+            found.add(lower)
+            waiting += STANDS_ON[lower]
+    return found

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Checks the budgets of CONTRIBUTING.md: files in a folder, lines in a file and in a function,
+parameters of a function, characters in a line."""
+
+import ast
+import collections
+
+from functions import functions_of
+from tree import folder_of
+
+FILES_IN_A_FOLDER = 35
+LINES_OF_A_FUNCTION = 60
+PARAMETERS = 5
+CHARACTERS_OF_A_LINE = 100
+LINES_OF_A_FILE = {".h": 500, ".cxx": 500, ".py": 500, ".glsl": 150, ".xml": 250}
+
+
+def no_folder_is_crowded(tree):
+    """No folder holds more than 35 files."""
+    count = collections.Counter(folder_of(path) for path in tree.files)
+    for folder, files in sorted(count.items()):
+        if files > FILES_IN_A_FOLDER:
+            yield f"{folder}: has {files} files; a folder may have {FILES_IN_A_FOLDER}"
+
+
+def no_file_is_long(tree):
+    """No file has more lines than its kind may have."""
+    for path in tree.files:
+        limit = LINES_OF_A_FILE.get("." + path.rpartition(".")[2])
+        if limit and len(tree.lines(path)) > limit:
+            yield f"{path}: has {len(tree.lines(path))} lines; it may have {limit}"
+
+
+def no_function_is_long(tree):
+    """No function in C++ or Python has more than 60 lines, its head included."""
+    for path in tree.sources():
+        for function in functions_of(tree.text(path)):
+            if function.lines > LINES_OF_A_FUNCTION:
+                yield (f"{path}:{function.line}: {function.name} has {function.lines} lines; "
+                       f"a function may have {LINES_OF_A_FUNCTION}")
+    for path in tree.ending(".py"):
+        for node in ast.walk(ast.parse(tree.text(path))):
+            lines = getattr(node, "end_lineno", 0) - getattr(node, "lineno", 0) + 1
+            if isinstance(node, ast.FunctionDef) and lines > LINES_OF_A_FUNCTION:
+                yield (f"{path}:{node.lineno}: {node.name} has {lines} lines; "
+                       f"a function may have {LINES_OF_A_FUNCTION}")
+
+
+def no_signature_is_long(tree):
+    """No function of Representations has more than 5 parameters; constructors may."""
+    for path in tree.below("Representations", suffixes=(".h", ".cxx")):
+        for function in functions_of(tree.text(path)):
+            if function.parameters > PARAMETERS and not function.constructor:
+                yield (f"{path}:{function.line}: {function.name} has {function.parameters} "
+                       f"parameters; it may have {PARAMETERS}")
+
+
+def no_line_is_wide(tree):
+    """No line of code has more than 100 characters."""
+    code = tree.ending(".h", ".cxx", ".glsl", ".py", ".cmake", "CMakeLists.txt")
+    for path in code:
+        for number, line in enumerate(tree.lines(path), 1):
+            if len(line) > CHARACTERS_OF_A_LINE:
+                yield (f"{path}:{number}: has {len(line)} characters; "
+                       f"a line may have {CHARACTERS_OF_A_LINE}")
+
+
+CHECKS = [no_folder_is_crowded, no_file_is_long, no_function_is_long, no_signature_is_long,
+          no_line_is_wide]

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs a program of others over the files of a checkout that it understands:
+
+    python3 written.py CHECKOUT format CLANG_FORMAT
+    python3 written.py CHECKOUT spelling CODESPELL
+
+`format` fails if clang-format would write a C++ file in another way. `spelling` fails if codespell
+knows a better word. Versions of clang-format differ, so any but that of Debian 13 is skipped.
+"""
+
+import re
+import subprocess
+import sys
+
+from tree import Tree
+
+#: Names such as numberIn are no words.
+JOINED_WORDS = r"\w*[a-z][A-Z]\w*"
+
+#: GLSL's inout, ParaView's level of detail, and the target registration error.
+OUR_WORDS = "inout,lod,tre"
+
+
+#: The major version of LLVM whose answers count, and how ctest hears of a test that is skipped.
+LLVM_VERSION = 19
+SKIPPED = 77
+
+
+def skip_other_versions(program):
+    """Ends the test as skipped if the program is of another version of LLVM."""
+    said = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
+    version = int(re.search(r"version (\d+)", said).group(1))
+    if version != LLVM_VERSION:
+        print(f"{program} has version {version}; this check needs version {LLVM_VERSION}")
+        sys.exit(SKIPPED)
+
+
+def command_of(tree, check, program):
+    if check == "format":
+        skip_other_versions(program)
+        return [program, "--dry-run", "-Werror", *tree.sources()]
+    words = tree.ending(".h", ".cxx", ".glsl", ".py", ".xml", ".md", ".txt", ".cmake")
+    return [program, "--ignore-regex", JOINED_WORDS, "--ignore-words-list", OUR_WORDS, *words]
+
+
+def main():
+    tree = Tree(sys.argv[1])
+    result = subprocess.run(command_of(tree, *sys.argv[2:4]), cwd=tree.root, check=False)
+    sys.exit(result.returncode)
+
+
+if __name__ == "__main__":
+    main()

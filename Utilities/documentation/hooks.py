@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What mkdocs calls while it builds the site: adds the two generated reference pages, and fills in
+the table of properties where a page says <!-- properties: NameOfTheProxy -->."""
+
+import pathlib
+import re
+import sys
+
+from mkdocs.structure.files import File
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import property_reference  # noqa: E402
+import python_reference  # noqa: E402
+
+GENERATED = {"reference/python.md": python_reference.page,
+             "reference/properties.md": property_reference.page}
+MARKER = re.compile(r"<!-- properties: (\w+) -->")
+
+
+def on_files(files, config):
+    for path, make in GENERATED.items():
+        files.append(File.generated(config, path, content=make()))
+    return files
+
+
+def on_page_markdown(markdown, **_):
+    tables = {proxy.name: property_reference.table(proxy)
+              for proxy in property_reference.public_proxies()}
+    return MARKER.sub(lambda marker: tables[marker[1]], markdown)
