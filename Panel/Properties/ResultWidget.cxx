@@ -5,6 +5,7 @@
 #include "Panel/Parts/Advice.h"
 #include "Panel/Parts/InSight.h"
 #include "Panel/Parts/ValueSlider.h"
+#include "Panel/Parts/WrappedLabel.h"
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
@@ -124,9 +125,8 @@ void ResultWidget::addGuard(QVBoxLayout* column)
   this->Guard->setObjectName("BrainShiftGuard");
   this->Guard->setToolTip(
     tr("Shorten each stroke so that the Jacobian determinant stays at 0.1 or above everywhere."));
-  this->Shortened = new QLabel(this);
+  this->Shortened = new WrappedLabel(this);
   this->Shortened->setObjectName("BrainShiftShortened");
-  this->Shortened->setWordWrap(true);
   column->addWidget(this->Guard);
   column->addWidget(this->Shortened);
   this->connect(this->Guard, &QCheckBox::clicked, this, &ResultWidget::setGuard);

@@ -2,6 +2,7 @@
 #include "Panel/Strokes/StrokeList.h"
 
 #include "Panel/Parts/Advice.h"
+#include "Panel/Parts/WrappedLabel.h"
 #include "Panel/Strokes/StrokeModel.h"
 #include "Panel/Strokes/StrokeTree.h"
 
@@ -16,14 +17,13 @@ StrokeList::StrokeList(StrokeModel* model, QWidget* parent)
   : QWidget(parent)
   , Strokes(model)
   , Tree(new StrokeTree(model, this))
-  , Problem(new QLabel(this))
+  , Problem(new WrappedLabel(this))
   , Delete(new QToolButton(this))
   , Reset(new QToolButton(this))
 {
   this->setObjectName("List");
   this->Tree->setObjectName("BrainShiftStrokes");
   this->Problem->setObjectName("BrainShiftProblem");
-  this->Problem->setWordWrap(true);
   this->Delete->setObjectName("BrainShiftDelete");
   this->Delete->setText(tr("Delete"));
   this->Delete->setIcon(QIcon(":/BrainShift/delete.svg"));
