@@ -2,6 +2,7 @@
 #include "Panel/Parts/WrappedLabel.h"
 
 #include <QResizeEvent>
+#include <QScrollArea>
 #include <QStyle>
 
 #include <algorithm>
@@ -43,6 +44,19 @@ void WrappedLabel::resizeEvent(QResizeEvent* event)
     this->MeasuredHeight = otherPanel ? 0 : this->MeasuredHeight;
     this->MeasuredWidth = width;
     this->updateGeometry();
+  }
+}
+
+void WrappedLabel::showEvent(QShowEvent* event)
+{
+  this->QLabel::showEvent(event);
+  for (QWidget* widget = this->parentWidget(); widget; widget = widget->parentWidget())
+  {
+    if (auto area = qobject_cast<QScrollArea*>(widget))
+    {
+      area->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn);
+      return;
+    }
   }
 }
 }

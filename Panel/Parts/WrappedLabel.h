@@ -11,7 +11,7 @@ namespace brainshift
 /// ParaView's panel is a scroll area. A QLabel that wraps asks for a height that depends on its
 /// width, so the area's scroll bar changes the height, which changes the scroll bar: Qt resizes the
 /// area without end. This label's height changes only with its text or with a wider or narrower
-/// panel.
+/// panel, and the scroll area that shows it keeps its vertical scroll bar.
 class WrappedLabel : public QLabel
 {
 public:
@@ -23,6 +23,7 @@ public:
 
 protected:
   void resizeEvent(QResizeEvent* event) override;
+  void showEvent(QShowEvent* event) override;
 
 private:
   mutable QString MeasuredText;
