@@ -4,12 +4,46 @@
 #include <QResizeEvent>
 #include <QScrollArea>
 #include <QStyle>
+#include <QTimer>
 
 #include <algorithm>
 #include <cstdlib>
 
 namespace brainshift
 {
+namespace
+{
+// Ends the resizes that Qt's scroll area answers with another resize, within one turn of the event
+// loop. The next layout request puts the size right.
+class ResizeLimit : public QObject
+{
+public:
+  explicit ResizeLimit(QWidget* contents)
+    : QObject(contents)
+  {
+    this->setObjectName("BrainShiftResizeLimit");
+    contents->installEventFilter(this);
+  }
+
+  bool eventFilter(QObject* watched, QEvent* event) override
+  {
+    constexpr int most = 40;
+    if (event->type() != QEvent::Resize)
+    {
+      return this->QObject::eventFilter(watched, event);
+    }
+    if (this->Count++ == 0)
+    {
+      QTimer::singleShot(0, this, [this] { this->Count = 0; });
+    }
+    return this->Count > most;
+  }
+
+private:
+  int Count = 0;
+};
+}
+
 WrappedLabel::WrappedLabel(QWidget* parent)
   : QLabel(parent)
 {
@@ -55,6 +89,11 @@ void WrappedLabel::showEvent(QShowEvent* event)
     if (auto area = qobject_cast<QScrollArea*>(widget))
     {
       area->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn);
+      QWidget* contents = area->widget();
+      if (contents && !contents->findChild<QObject*>("BrainShiftResizeLimit"))
+      {
+        new ResizeLimit(contents);
+      }
       return;
     }
   }
