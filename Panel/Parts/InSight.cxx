@@ -38,14 +38,26 @@ bool InSight::eventFilter(QObject* watched, QEvent* event)
       this->Panel->viewport()->installEventFilter(this);
     }
   }
-  if ((event->type() == QEvent::Show || event->type() == QEvent::Resize) && this->Panel)
+  const QEvent::Type type = event->type();
+  const bool asked = type == QEvent::Show || type == QEvent::Resize || type == QEvent::LayoutRequest;
+  if (asked && this->Panel)
   {
-    const int begin = this->Part->mapTo(this->Panel->widget(), QPoint(0, 0)).x();
-    const int seen = this->Panel->viewport()->width() - begin;
-    QMargins margins = this->Part->layout()->contentsMargins();
-    margins.setRight(std::max(0, this->Part->width() - seen));
-    this->Part->layout()->setContentsMargins(margins);
+    this->fitMargin();
   }
   return this->QObject::eventFilter(watched, event);
+}
+
+// The part asks for the width of its contents alone. If the margin counted as well, contents wider
+// than what is seen would widen the part, and the part its margin: Qt resizes without end.
+void InSight::fitMargin()
+{
+  QLayout* layout = this->Part->layout();
+  QMargins margins = layout->contentsMargins();
+  const int begin = this->Part->mapTo(this->Panel->widget(), QPoint(0, 0)).x();
+  const int seen = this->Panel->viewport()->width() - begin;
+  const int needed = layout->totalMinimumSize().width() - margins.right();
+  this->Part->setMinimumWidth(needed);
+  margins.setRight(std::max(0, this->Part->width() - std::max(seen, needed)));
+  layout->setContentsMargins(margins);
 }
 }

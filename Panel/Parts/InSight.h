@@ -25,6 +25,8 @@ protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
+  void fitMargin();
+
   QWidget* const Part;
   QScrollArea* Panel = nullptr; ///< Known when the part is shown for the first time.
 };

@@ -5,7 +5,6 @@
 #include "Panel/Parts/Advice.h"
 #include "Panel/Parts/InSight.h"
 #include "Panel/Parts/ValueSlider.h"
-#include "Panel/Parts/WrappedLabel.h"
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
@@ -92,7 +91,6 @@ QLabel* ResultWidget::addFigure(
   auto figure = new QLabel(this);
   figure->setObjectName(name);
   figure->setToolTip(tip);
-  // no wrapping: beside a title it would make the panel's scroll area resize itself without end
   figure->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
   form->addRow(title, figure);
   form->labelForField(figure)->setToolTip(tip);
@@ -125,8 +123,9 @@ void ResultWidget::addGuard(QVBoxLayout* column)
   this->Guard->setObjectName("BrainShiftGuard");
   this->Guard->setToolTip(
     tr("Shorten each stroke so that the Jacobian determinant stays at 0.1 or above everywhere."));
-  this->Shortened = new WrappedLabel(this);
+  this->Shortened = new QLabel(this);
   this->Shortened->setObjectName("BrainShiftShortened");
+  this->Shortened->setWordWrap(true);
   column->addWidget(this->Guard);
   column->addWidget(this->Shortened);
   this->connect(this->Guard, &QCheckBox::clicked, this, &ResultWidget::setGuard);

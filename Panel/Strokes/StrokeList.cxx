@@ -2,7 +2,6 @@
 #include "Panel/Strokes/StrokeList.h"
 
 #include "Panel/Parts/Advice.h"
-#include "Panel/Parts/WrappedLabel.h"
 #include "Panel/Strokes/StrokeModel.h"
 #include "Panel/Strokes/StrokeTree.h"
 
@@ -17,13 +16,14 @@ StrokeList::StrokeList(StrokeModel* model, QWidget* parent)
   : QWidget(parent)
   , Strokes(model)
   , Tree(new StrokeTree(model, this))
-  , Problem(new WrappedLabel(this))
+  , Problem(new QLabel(this))
   , Delete(new QToolButton(this))
   , Reset(new QToolButton(this))
 {
   this->setObjectName("List");
   this->Tree->setObjectName("BrainShiftStrokes");
   this->Problem->setObjectName("BrainShiftProblem");
+  this->Problem->setWordWrap(true);
   this->Delete->setObjectName("BrainShiftDelete");
   this->Delete->setText(tr("Delete"));
   this->Delete->setIcon(QIcon(":/BrainShift/delete.svg"));

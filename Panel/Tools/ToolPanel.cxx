@@ -3,7 +3,6 @@
 
 #include "Panel/Parts/Advice.h"
 #include "Panel/Parts/ValueSlider.h"
-#include "Panel/Parts/WrappedLabel.h"
 #include "Panel/Tools/MouseHint.h"
 #include "Panel/Tools/ToolChoice.h"
 
@@ -83,15 +82,16 @@ const QList<ToolPanel::Value>& ToolPanel::values()
 
 ToolPanel::ToolPanel(QWidget* parent)
   : QWidget(parent)
-  , Hint(new WrappedLabel(this))
+  , Hint(new QLabel(this))
   , Warning(new QWidget(this))
-  , WarningText(new WrappedLabel(this->Warning))
+  , WarningText(new QLabel(this->Warning))
 {
   this->setObjectName("Tools");
   auto column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   this->addButtons(column);
   this->Hint->setObjectName("BrainShiftHint");
+  this->Hint->setWordWrap(true);
   column->addWidget(this->Hint);
   this->addSliders(column);
   this->addWarning(column);
@@ -151,6 +151,7 @@ void ToolPanel::addWarning(QBoxLayout* column)
   sign->setPixmap(QIcon(":/BrainShift/warning.svg").pixmap(20, 20));
   row->addWidget(sign, 0, Qt::AlignTop);
   this->WarningText->setObjectName("BrainShiftWarning");
+  this->WarningText->setWordWrap(true);
   row->addWidget(this->WarningText, 1);
   column->addWidget(this->Warning);
 }

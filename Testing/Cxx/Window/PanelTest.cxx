@@ -8,12 +8,12 @@
 #include "Panel/Parts/Advice.h"
 #include "Panel/Strokes/StrokeModel.h"
 #include "Panel/Window/KeysText.h"
+#include "Testing/Cxx/Window/Application.h"
 
 #include <vtkNew.h>
 #include <vtkSMDoubleVectorProperty.h>
 
 #include <QFile>
-#include <QGuiApplication>
 #include <QSet>
 #include <QSignalSpy>
 
@@ -25,16 +25,6 @@ using namespace brainshift;
 
 namespace
 {
-// Icons and palettes need an application, which needs no display.
-QGuiApplication* application()
-{
-  static int count = 3;
-  static char program[] = "PanelTest", option[] = "-platform", value[] = "offscreen";
-  static char* arguments[] = { program, option, value, nullptr };
-  static auto instance = new QGuiApplication(count, arguments);
-  return instance;
-}
-
 Stroke stamp(double pull)
 {
   Stroke stroke;
