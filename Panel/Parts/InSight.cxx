@@ -39,8 +39,8 @@ bool InSight::eventFilter(QObject* watched, QEvent* event)
     }
   }
   const QEvent::Type type = event->type();
-  const bool asked = type == QEvent::Show || type == QEvent::Resize || type == QEvent::LayoutRequest;
-  if (asked && this->Panel)
+  const bool fit = type == QEvent::Show || type == QEvent::Resize || type == QEvent::LayoutRequest;
+  if (fit && this->Panel)
   {
     this->fitMargin();
   }
