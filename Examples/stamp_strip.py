@@ -35,8 +35,7 @@ MILLIMETRES_PER_CLICK = 1.0
 def open_brain(view):
     head = demo.open_volume("Head", "seg3d_mr_t1.nii.gz")
     mask = demo.open_volume("Brain mask", "seg3d_brainmask.nii.gz")
-    brain = simple.ProgrammableFilter(
-        registrationName="Brain", Input=[head, mask], Script=demo.SKULL_STRIPPING)
+    brain = demo.brain_alone(head, mask)
     bent = simple.FreeFormDeformation(registrationName="Bent brain", Input=brain)
     demo.look_like_tissue("Brain", demo.CORTEX_COLORS, demo.CORTEX_OPACITIES)
     demo.show(bent, "Brain", view)

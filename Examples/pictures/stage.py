@@ -50,8 +50,7 @@ def mask():
 
 def brain():
     """The MR without its skull, array "Brain"."""
-    return once("brain", lambda: simple.ProgrammableFilter(
-        Input=[head(), mask()], Script=demo.SKULL_STRIPPING))
+    return once("brain", lambda: demo.brain_alone(head(), mask()))
 
 
 def clear():
