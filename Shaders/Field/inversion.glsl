@@ -1,6 +1,6 @@
 // Inverts the forward map at one point: which rest position is seen at a deformed position.
-// One source for GLSL and C++ (Filters/Deformation/Inversion.h). The includer provides, in lattice coordinates
-// (cells from the first control point):
+// One source for GLSL and C++ (Filters/Deformation/Inversion.h). The includer provides, in lattice
+// coordinates (cells from the first control point):
 //   vec3 displacementAt(vec3 rest)   // deformed - rest
 //   mat3 jacobianThere()             // of the position asked last: its columns are the derivatives
 //                                    // of the deformed position
