@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Files/TextHeader.h"
 
+#include "Filters/Files/PlainFile.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
@@ -56,9 +58,10 @@ std::vector<double> numbersIn(std::string text)
   return numbers;
 }
 
+// As in ITK, the first letter decides.
 bool isTrue(const std::string& value)
 {
-  return value == "True" || value == "true" || value == "1";
+  return !value.empty() && (value[0] == 'T' || value[0] == 't' || value[0] == '1');
 }
 
 // Sides and, as columns, the steps from one point to the next.
@@ -71,10 +74,10 @@ std::string place(const std::vector<double>& sides, const std::vector<double>& o
   }
   for (int axis = 0; axis < 3; ++axis)
   {
-    if (!(sides[axis] >= 1.0 && sides[axis] <= 65535.0))
+    if (!(sides[axis] >= 1.0 && sides[axis] <= 65535.0) || sides[axis] != std::floor(sides[axis]))
     {
       return "has a side of " + std::to_string(sides[axis]) +
-        " points; it must have from 1 to 65535";
+        " points; it must have a whole number from 1 to 65535";
     }
     const glm::dvec3 step(steps[3 * axis], steps[3 * axis + 1], steps[3 * axis + 2]);
     grid.dimensions[axis] = static_cast<int>(sides[axis]);
@@ -121,8 +124,15 @@ std::string fromMetaImage(const Lines& lines, TextHeader& header)
   std::vector<double> steps =
     numbersIn(valueOf(lines, { "TransformMatrix", "Rotation", "Orientation" }));
   steps = steps.empty() ? std::vector<double>{ 1, 0, 0, 0, 1, 0, 0, 0, 1 } : steps;
-  const std::vector<double> spacing = numbersIn(valueOf(lines, { "ElementSpacing" }));
-  for (std::size_t i = 0; i < steps.size() && spacing.size() == 3; ++i)
+  // Without a spacing, the size of a voxel is the spacing; without both, it is 1 mm.
+  const std::string spacingText = valueOf(lines, { "ElementSpacing", "ElementSize" });
+  std::vector<double> spacing = numbersIn(spacingText);
+  spacing = spacingText.empty() ? std::vector<double>{ 1, 1, 1 } : spacing;
+  if (spacing.size() != 3)
+  {
+    return "has the spacing " + spacingText + "; it must have 3 numbers (mm)";
+  }
+  for (std::size_t i = 0; i < steps.size(); ++i)
   {
     steps[i] *= spacing[std::min<std::size_t>(i / 3, 2)];
   }
@@ -158,7 +168,12 @@ std::string fromNRRD(const Lines& lines, TextHeader& header)
   {
     return "has the encoding " + encoding + "; it must be raw or gzip";
   }
-  header.isBigEndian = valueOf(lines, { "endian" }) == "big";
+  const std::string endian = valueOf(lines, { "endian" });
+  header.isBigEndian = endian == "big";
+  if (!header.isBigEndian && endian != "little")
+  {
+    return "has the endian '" + endian + "'; it must be little or big";
+  }
   std::string directions = valueOf(lines, { "space directions" });
   directions.erase(0, directions.find('(') == std::string::npos ? 0 : directions.find('('));
   std::vector<double> steps = numbersIn(directions);
@@ -180,25 +195,37 @@ std::string fromNRRD(const Lines& lines, TextHeader& header)
   header.dataFile = valueOf(lines, { "data file", "datafile" });
   return place(sides, origin, steps, header.grid);
 }
-}
 
-std::string readTextHeader(const std::string& fileName, TextHeader& header)
+// The bytes of a file in which a header must end.
+std::string readStart(const std::string& fileName, std::string& text)
 {
   std::ifstream file(fileName, std::ios::binary);
   if (!file)
   {
     return "cannot be opened";
   }
-  std::string line;
-  std::getline(file, line);
-  const bool isNRRD = line.compare(0, 4, "NRRD") == 0;
-  Lines lines;
-  for (bool more = true; more && file && static_cast<std::size_t>(file.tellg()) < LongestHeader;
-    more = static_cast<bool>(std::getline(file, line)))
+  text.resize(LongestHeader);
+  file.read(&text[0], static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return {};
+}
+
+// Puts the lines of a header under their keys; `end` is the byte after it. False if the text ends
+// before the header does.
+bool splitLines(const std::string& text, bool isNRRD, Lines& lines, std::size_t& end)
+{
+  for (std::size_t begin = 0; begin < text.size(); begin = end)
   {
+    const std::size_t newLine = text.find('\n', begin);
+    if (newLine == std::string::npos && text.size() == LongestHeader)
+    {
+      return false;
+    }
+    const std::string line = text.substr(begin, newLine - begin);
+    end = newLine == std::string::npos ? text.size() : newLine + 1;
     if (isNRRD && trimmed(line).empty())
     {
-      break; // the numbers follow
+      return true; // the numbers follow
     }
     const std::size_t mark = line.find(isNRRD ? ':' : '=');
     if (mark == std::string::npos || line[0] == '#')
@@ -207,19 +234,49 @@ std::string readTextHeader(const std::string& fileName, TextHeader& header)
     }
     const std::size_t value = line.compare(mark, 2, ":=") == 0 ? mark + 2 : mark + 1;
     lines[trimmed(line.substr(0, mark))] = trimmed(line.substr(value));
-    if (lines.count("ElementDataFile"))
+    if (!isNRRD && lines.count("ElementDataFile"))
     {
-      break;
+      return true;
     }
   }
-  const std::string skip = valueOf(lines, { "HeaderSize", "byte skip", "line skip" });
-  if (!skip.empty() && skip != "0")
+  return text.size() < LongestHeader;
+}
+
+std::string skipProblem(const Lines& lines)
+{
+  for (const char* key : { "HeaderSize", "byte skip", "byteskip", "line skip", "lineskip" })
   {
-    return "has bytes to skip before its numbers (" + skip + "); there must be none";
+    const std::string skip = valueOf(lines, { key });
+    if (!skip.empty() && skip != "0")
+    {
+      return std::string("has ") + key + " " + skip +
+        " before its numbers; nothing must be skipped";
+    }
+  }
+  return {};
+}
+}
+
+std::string readTextHeader(const std::string& fileName, TextHeader& header)
+{
+  std::string problem = plainFileProblem(fileName);
+  std::string text;
+  problem = problem.empty() ? readStart(fileName, text) : problem;
+  Lines lines;
+  std::size_t end = 0;
+  const bool isNRRD = text.compare(0, 4, "NRRD") == 0;
+  if (problem.empty() && !splitLines(text, isNRRD, lines, end))
+  {
+    problem = "has no end of a header in its first " + std::to_string(LongestHeader) + " bytes";
+  }
+  problem = problem.empty() ? skipProblem(lines) : problem;
+  if (!problem.empty())
+  {
+    return problem;
   }
   header = TextHeader();
-  const std::string problem = isNRRD ? fromNRRD(lines, header) : fromMetaImage(lines, header);
-  header.headerBytes = header.dataFile.empty() && file ? static_cast<std::size_t>(file.tellg()) : 0;
+  problem = isNRRD ? fromNRRD(lines, header) : fromMetaImage(lines, header);
+  header.headerBytes = header.dataFile.empty() ? end : 0;
   return problem;
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Files/TextHeaderField.h"
 
+#include "Filters/Files/PlainFile.h"
 #include "Filters/Files/TextHeader.h"
 
 #include "vtk_zlib.h"
@@ -60,6 +61,11 @@ std::string readData(const std::string& fileName, const TextHeader& header, std:
   const std::string dataFile = header.dataFile.empty()
     ? fileName
     : (std::filesystem::path(fileName).parent_path() / header.dataFile).string();
+  const std::string problem = plainFileProblem(dataFile);
+  if (!problem.empty())
+  {
+    return "names the file " + dataFile + ", which " + problem;
+  }
   std::ifstream file(dataFile, std::ios::binary);
   if (!file)
   {
@@ -75,7 +81,10 @@ std::string readData(const std::string& fileName, const TextHeader& header, std:
   }
   std::vector<char> stored(header.isPacked ? bytes : header.dataBytes());
   file.seekg(static_cast<std::streamoff>(header.headerBytes));
-  file.read(stored.data(), static_cast<std::streamsize>(stored.size()));
+  if (!file.read(stored.data(), static_cast<std::streamsize>(stored.size())))
+  {
+    return "has only " + std::to_string(file.gcount()) + " readable bytes of numbers";
+  }
   if (!header.isPacked)
   {
     data = std::move(stored);

@@ -317,14 +317,14 @@ TEST(FieldFile, WhatIsNoFieldIsNamed)
   expectSays(problemOf(scratch("scalar.nii")), "3 components");
   EXPECT_FALSE(isFieldFile(scratch("scalar.nii")));
   expectSays(problemOf(scratch("field.xyz")), "must be .nii");
-  expectSays(problemOf(scratch("missing.mha")), "cannot be opened");
+  expectSays(problemOf(scratch("missing.mha")), "does not exist");
   EXPECT_FALSE(isFieldFile(scratch("missing.mha")));
   expectSays(writeFieldFile("/nowhere/field.mha", someField(Direction::Forward)), "/nowhere");
   expectSays(writeFieldFile("/nowhere/field.nii", someField(Direction::Forward)), "/nowhere");
   std::ofstream(scratch("wrong.nrrd")) << "NRRD0004\ntype: short\ndimension: 4\nsizes: 3 2 2 2\n\n";
   expectSays(problemOf(scratch("wrong.nrrd")), "type short; a field must have float or double");
   std::ofstream(scratch("skip.mhd")) << "HeaderSize = 128\nElementNumberOfChannels = 3\n";
-  expectSays(problemOf(scratch("skip.mhd")), "bytes to skip before its numbers (128)");
+  expectSays(problemOf(scratch("skip.mhd")), "has HeaderSize 128 before its numbers");
   std::ofstream(scratch("wrong.mha")) << "DimSize = 2 2 2\nElementNumberOfChannels = 1\n";
   expectSays(problemOf(scratch("wrong.mha")), "holds 1 components");
 }

@@ -97,7 +97,7 @@ def test_plain_volumes_are_no_fields():
             assert_says(str(error), "missing.mha", "not a displacement field")
         else:
             raise AssertionError("there is no such file")
-    assert_says(said.text, "missing.mha", "cannot be opened")
+    assert_says(said.text, "missing.mha", "does not exist")
     with messages() as said:
         try:
             brainshift.save_field(field, name)

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Proves that the text headers of fields are read within bounds and by their formats' rules: a file
+// without an end of lines, a folder or a pipe in place of a file, bytes to skip, a spacing under
+// its other name, and words that are spelled otherwise.
+#include "Filters/Files/FieldFile.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#ifndef _WIN32
+#include <sys/stat.h>
+#endif
+
+using namespace brainshift;
+
+namespace
+{
+namespace fs = std::filesystem;
+
+std::string scratch(const std::string& name)
+{
+  return std::string(BRAINSHIFT_TEST_TEMP) + "/" + name;
+}
+
+// The numbers 0 to 23, big-endian or little-endian, for 2 x 2 x 2 points.
+std::string numbers(bool big)
+{
+  std::string bytes;
+  for (int i = 0; i < 24; ++i)
+  {
+    const auto value = static_cast<float>(i);
+    char raw[4];
+    std::memcpy(raw, &value, 4);
+    const int one = 1;
+    const bool machineIsBig = *reinterpret_cast<const char*>(&one) == 0;
+    bytes +=
+      big == machineIsBig ? std::string(raw, 4) : std::string{ raw[3], raw[2], raw[1], raw[0] };
+  }
+  return bytes;
+}
+
+const std::string Meta = "ObjectType = Image\nNDims = 3\nBinaryData = True\nOffset = 0 0 0\n"
+                         "DimSize = 2 2 2\nElementNumberOfChannels = 3\nElementType = MET_FLOAT\n";
+const std::string Nrrd =
+  "NRRD0005\ntype: float\ndimension: 4\nspace: left-posterior-superior\nsizes: 3 2 2 2\n"
+  "space directions: none (1,0,0) (0,1,0) (0,0,1)\nencoding: raw\nspace origin: (0,0,0)\n";
+
+// Reads a file of these bytes.
+std::string problemOf(const std::string& name, const std::string& bytes, DirectedField& field)
+{
+  std::ofstream(scratch(name), std::ios::binary) << bytes;
+  return readFieldFile(scratch(name), field);
+}
+
+void expectProblem(const std::string& name, const std::string& bytes, const char* words)
+{
+  DirectedField field;
+  const std::string problem = problemOf(name, bytes, field);
+  EXPECT_NE(problem.find(words), std::string::npos) << name << ": " << problem;
+}
+}
+
+TEST(TextHeader, HasAnEndWithinItsBounds)
+{
+  // 1 GB of nothing that takes no room on the disk, in one line.
+  for (const char* name : { "endless.nrrd", "endless.mha" })
+  {
+    expectProblem(name, name[8] == 'n' ? "NRRD0005\n" : "ObjectType = Image\n", "a field must");
+    fs::resize_file(scratch(name), std::uintmax_t(1) << 30);
+    DirectedField field;
+    const std::string problem = readFieldFile(scratch(name), field);
+    EXPECT_NE(problem.find("no end of a header in its first 1048576 bytes"), std::string::npos)
+      << problem;
+    EXPECT_FALSE(isFieldFile(scratch(name)));
+    fs::remove(scratch(name));
+  }
+}
+
+TEST(TextHeader, FoldersAndPipesAreNoFiles)
+{
+  fs::create_directories(scratch("folder.nrrd"));
+  fs::create_directories(scratch("numbers"));
+  DirectedField field;
+  EXPECT_NE(readFieldFile(scratch("folder.nrrd"), field).find("is a folder"), std::string::npos);
+  expectProblem(
+    "of_folder.mhd", Meta + "ElementDataFile = numbers\n", "numbers, which is a folder");
+  expectProblem(
+    "of_folder.nhdr", Nrrd + "endian: little\ndata file: numbers\n", "which is a folder");
+#ifndef _WIN32
+  fs::remove(scratch("pipe.mha"));
+  ASSERT_EQ(mkfifo(scratch("pipe.mha").c_str(), 0600), 0);
+  EXPECT_FALSE(isFieldFile(scratch("pipe.mha")));
+  EXPECT_NE(readFieldFile(scratch("pipe.mha"), field).find("is a pipe"), std::string::npos);
+  expectProblem("of_pipe.mhd", Meta + "ElementDataFile = pipe.mha\n", "which is a pipe");
+#endif
+}
+
+TEST(TextHeader, NothingIsSkippedInSilence)
+{
+  const std::string skips = "endian: little\nbyte skip: 0\nline skip: 3\n\n";
+  expectProblem("skip.nrrd", Nrrd + skips + numbers(false), "has line skip 3");
+  expectProblem(
+    "skip.nrrd", Nrrd + "endian: little\nbyte skip: -1\n\n" + numbers(false), "has byte skip -1");
+  DirectedField field;
+  EXPECT_EQ(problemOf("noskip.nrrd",
+              Nrrd + "endian: little\nbyte skip: 0\nline skip: 0\n\n" + numbers(false), field),
+    "");
+}
+
+TEST(TextHeader, TheSizeOfAVoxelIsItsSpacingIfThereIsNoOther)
+{
+  const std::string end = "ElementDataFile = LOCAL\n" + numbers(false);
+  DirectedField field;
+  ASSERT_EQ(problemOf("size.mha", Meta + "ElementSize = 2 3 4\n" + end, field), "");
+  EXPECT_EQ(field.grid.spacing, glm::dvec3(2, 3, 4));
+  const std::string both = "ElementSize = 2 3 4\nElementSpacing = 5 6 7\n";
+  ASSERT_EQ(problemOf("both.mha", Meta + both + end, field), "");
+  EXPECT_EQ(field.grid.spacing, glm::dvec3(5, 6, 7));
+  ASSERT_EQ(problemOf("none.mha", Meta + end, field), "");
+  EXPECT_EQ(field.grid.spacing, glm::dvec3(1));
+  expectProblem("two.mha", Meta + "ElementSpacing = 5 6\n" + end, "has the spacing 5 6");
+}
+
+TEST(TextHeader, WordsSpelledOtherwiseAreReadOrRefused)
+{
+  const std::string end = "ElementDataFile = LOCAL\n" + numbers(true);
+  DirectedField field;
+  ASSERT_EQ(problemOf("upper.mha", Meta + "BinaryDataByteOrderMSB = TRUE\n" + end, field), "");
+  EXPECT_EQ(field.displacements[1], glm::vec3(-3, -4, 5));
+  ASSERT_EQ(problemOf("big.nrrd", Nrrd + "endian: big\n\n" + numbers(true), field), "");
+  EXPECT_EQ(field.displacements[1], glm::vec3(-3, -4, 5));
+  expectProblem("Big.nrrd", Nrrd + "endian: Big\n\n" + numbers(true), "endian 'Big'");
+  expectProblem("no_endian.nrrd", Nrrd + "\n" + numbers(true), "must be little or big");
+  std::string half = Meta;
+  half.replace(half.find("2 2 2"), 5, "2.5 2 2");
+  expectProblem("half.mha", half + end, "a whole number from 1 to 65535");
+}
