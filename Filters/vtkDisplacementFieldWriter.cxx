@@ -24,7 +24,6 @@ void vtkDisplacementFieldWriter::WriteData()
 {
   auto* image = vtkImageData::SafeDownCast(this->GetInput());
   vtkDataArray* array = fieldOf(image);
-  std::string problem;
   if (array)
   {
     DirectedField field{ gridOf(image), vectorsOf(array), directionOf(image) };
@@ -32,15 +31,15 @@ void vtkDisplacementFieldWriter::WriteData()
     {
       reverseXY(field);
     }
-    problem = writeFieldFile(this->FileName, field);
+    this->Problem = writeFieldFile(this->FileName, field);
   }
   else
   {
-    problem = "The input has no point array of 3 components (mm)";
+    this->Problem = "The input has no point array of 3 components (mm)";
   }
-  if (!problem.empty())
+  if (!this->Problem.empty())
   {
-    vtkErrorMacro(<< problem << ".");
+    vtkErrorMacro(<< this->Problem << ".");
     this->SetErrorCode(vtkErrorCode::UnknownError);
   }
 }

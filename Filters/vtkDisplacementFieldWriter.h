@@ -40,6 +40,12 @@ public:
   vtkGetMacro(World, int);
   ///@}
 
+  /**
+   * Why the last run wrote no file: one sentence, without a full stop. Empty if it wrote the file.
+   * A file that was there before then stays as it was.
+   */
+  vtkGetMacro(Problem, std::string);
+
 protected:
   vtkDisplacementFieldWriter() = default;
   ~vtkDisplacementFieldWriter() override = default;
@@ -53,6 +59,7 @@ private:
 
   std::string FileName;
   int World = RAS;
+  std::string Problem = "Nothing was written";
 };
 
 #endif

@@ -4,6 +4,7 @@
 #include "Filters/Files/FieldImage.h"
 #include "Filters/Files/NIFTIFileCheck.h"
 #include "Filters/Files/NIFTIVolume.h"
+#include "Filters/Files/WholeFile.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
@@ -17,13 +18,17 @@
 #include "vtkNIFTIImageWriter.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtk_zlib.h"
 
 #include <glm/matrix.hpp>
+
+#include <vector>
 
 namespace brainshift
 {
 namespace
 {
+constexpr int SmallestNIFTIHeader = 348; // bytes
 constexpr const char* NiftyRegName = "NREG_TRANS";
 constexpr int NiftyRegPositions = 0;     // intent_p1: where a point goes
 constexpr int NiftyRegDisplacements = 1; // how far
@@ -131,6 +136,21 @@ void subtractPositions(DirectedField& field)
   }
 }
 
+// vtkNIFTIImageWriter does not see that its last bytes found no place.
+std::string storageProblem(const std::string& fileName, double bytesOfVectors)
+{
+  gzFile file = gzopen(fileName.c_str(), "rb");
+  double found = -static_cast<double>(SmallestNIFTIHeader);
+  std::vector<char> piece(1 << 20);
+  int read = 0;
+  while (file && (read = gzread(file, piece.data(), static_cast<unsigned>(piece.size()))) > 0)
+  {
+    found += read;
+  }
+  const bool whole = file && gzclose(file) == Z_OK && read == 0 && found >= bytesOfVectors;
+  return whole ? std::string() : "the disk took a part of its bytes only";
+}
+
 void reverseVectorsXY(DirectedField& field)
 {
   for (glm::vec3& displacement : field.displacements)
@@ -207,7 +227,6 @@ std::string writeNIFTIField(const std::string& fileName, const DirectedField& fi
   header->SetIntentName(direction == Direction::Forward ? ForwardName : BackwardName);
   vtkNew<vtkNIFTIImageWriter> writer;
   writer->SetInputData(image);
-  writer->SetFileName(fileName.c_str());
   writer->SetNIFTIHeader(header);
   writer->SetDescription("BrainShift displacement field, mm");
   if (glm::determinant(grid.direction) > 0.0)
@@ -218,9 +237,13 @@ std::string writeNIFTIField(const std::string& fileName, const DirectedField& fi
   vtkNew<vtkCallbackCommand> silent; // the error code says enough
   silent->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   writer->AddObserver(vtkCommand::ErrorEvent, silent);
-  writer->Write();
-  return writer->GetErrorCode() == vtkErrorCode::NoError ? std::string()
-                                                         : "File " + fileName +
-      " cannot be written: " + vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode());
+  const double bytes = 12.0 * static_cast<double>(grid.count());
+  return writeWhole(fileName, [&](const std::string& beside) {
+    writer->SetFileName(beside.c_str());
+    writer->Write();
+    const int error = writer->GetErrorCode();
+    return error == vtkErrorCode::NoError ? storageProblem(beside, bytes)
+                                          : vtkErrorCode::GetStringFromErrorCode(error);
+  });
 }
 }

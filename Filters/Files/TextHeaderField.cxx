@@ -3,10 +3,12 @@
 
 #include "Filters/Files/PlainFile.h"
 #include "Filters/Files/TextHeader.h"
+#include "Filters/Files/WholeFile.h"
 
 #include "vtk_zlib.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -132,12 +134,15 @@ const char* byteOrder()
 std::string write(
   const std::string& fileName, const std::string& header, const DirectedField& field)
 {
-  std::ofstream file(fileName, std::ios::binary);
-  file << header;
-  file.write(reinterpret_cast<const char*>(field.displacements.data()),
-    static_cast<std::streamsize>(field.displacements.size() * sizeof(glm::vec3)));
-  file.close();
-  return file ? std::string() : "File " + fileName + " cannot be written";
+  return writeWhole(fileName, [&](const std::string& beside) {
+    errno = 0;
+    std::ofstream file(beside, std::ios::binary);
+    file << header;
+    file.write(reinterpret_cast<const char*>(field.displacements.data()),
+      static_cast<std::streamsize>(field.displacements.size() * sizeof(glm::vec3)));
+    file.close();
+    return file ? std::string() : lastSystemError();
+  });
 }
 }
 

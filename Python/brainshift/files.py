@@ -5,16 +5,12 @@ from .arguments import vector
 
 
 def _write(writer, name):
-    """Runs a writer proxy, and raises an error if it made no file. A server's disk is not read."""
-    import os
-    from paraview import servermanager
-
-    here = not servermanager.ActiveConnection.IsRemote()
-    if here and os.path.exists(name):
-        os.remove(name)
+    """Runs a writer proxy, and raises an error with the reason if it made no file."""
     writer.UpdatePipeline()
-    if here and not os.path.exists(name):
-        raise OSError(f"{name} was not written; ParaView's output window says why")
+    writer.SMProxy.UpdatePropertyInformation()
+    problem = writer.GetPropertyValue("Problem")
+    if problem:
+        raise OSError(f"{name} was not written: {problem}. ParaView's output window says more")
 
 
 def save_lattice(filter, name):
@@ -70,8 +66,10 @@ def save_field(filter, name, direction="Backward", spacing=None, world="RAS"):
       The default, `None`, takes the points of the volume itself.
     - `world`: `"RAS"`, the default, or `"LPS"`, the world axes of the volume.
 
-    Raises `OSError` if the file is not written, and `ValueError` if `spacing` does not have three
-    finite numbers.
+    The new file takes the place of an old one only when the disk holds all of it.
+
+    Raises `OSError` with the reason if the file is not written, and `ValueError` if `spacing` does
+    not have three finite numbers.
     """
     from paraview import servermanager, simple
 

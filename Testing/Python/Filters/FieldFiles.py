@@ -2,6 +2,8 @@
 # Proves that files keep lattices and dense fields, that File > Save Data has their formats, and
 # that a field that is read back bends a volume as the strokes did.
 import os
+import resource
+import signal
 
 import numpy
 from brainshift_testing import (assert_says, ball, load_plugin, messages, output, run_tests,
@@ -73,18 +75,63 @@ def test_fields_lie_where_the_volume_lies():
         assert numpy.allclose(found.sum(axis=(0, 1, 2)), expected.sum(axis=(0, 1, 2)), rtol=1e-3)
 
 
+def test_the_world_of_a_saved_field_is_the_one_asked_for():
+    """Half a turn about z leads from RAS to LPS: it reverses the sums along x and y."""
+    middle = output(volume(ball())).GetCenter()
+    filter = bent(brainshift.soft(middle, (4, 3, 2), 14.0))
+    sums = {}
+    for world in ("RAS", "LPS"):
+        brainshift.save_field(filter, scratch("world.nrrd"), world=world)
+        reader = brainshift.load_field(scratch("world.nrrd"), world="RAS").Input
+        sums[world] = voxels(reader, "Displacement").sum(axis=(0, 1, 2))
+        ends = numpy.array(output(reader).GetBounds()).reshape(3, 2).mean(axis=1)
+        sign = 1 if world == "RAS" else -1
+        assert numpy.allclose(ends, numpy.array(middle) * (sign, sign, 1)), (world, ends)
+    assert numpy.abs(sums["RAS"]).min() > 100.0
+    assert numpy.allclose(sums["LPS"], sums["RAS"] * (-1, -1, 1), rtol=1e-5), sums
+
+
+def test_a_full_disk_keeps_the_old_file_and_says_so():
+    # Where a process may write no more than so many bytes, every disk is full.
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    for ending in FORMATS:
+        name = scratch(f"kept{ending}")
+        brainshift.save_field(bent(), name, "Forward")
+        with open(name, "rb") as file:
+            old = file.read()
+        resource.setrlimit(resource.RLIMIT_FSIZE, (2000, before[1]))
+        try:
+            with messages() as said:
+                brainshift.save_field(bent(), name, "Backward")
+        except OSError as error:
+            assert_says(str(error), f"kept{ending} was not written", "cannot be written: ")
+        else:
+            raise AssertionError(f"a part of kept{ending} passed for all of it")
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, before)
+        assert_says(said.text, f"kept{ending} cannot be written")
+        with open(name, "rb") as file:
+            assert file.read() == old, ending
+    left = [file for file in os.listdir(os.path.dirname(name)) if file.startswith(".part-")]
+    assert not left, left
+
+
 def test_save_data_of_the_window_has_the_formats():
     field = DeformationField(Input=bent(), Direction="Backward")
     field.UpdatePipeline()
     offered = servermanager.vtkSMProxyManager.GetProxyManager().GetWriterFactory()
     text = offered.GetSupportedFileTypes(field.SMProxy, 0)
     assert_says(text, "Displacement field (BrainShift)", "*.nii.gz", "*.nrrd", "*.mha")
-    name = scratch("saved_data.nii")
-    SaveData(name, proxy=field)
-    assert os.path.getsize(name) > 1000
-    lattice = brainshift.load_field(name).Input
-    assert numpy.allclose(numpy.abs(voxels(lattice, "Displacement")).max(),
-                          numpy.abs(voxels(field, "Displacement")).max(), rtol=1e-5)
+    for ending in (".nii", ".nii.gz", ".mha", ".nrrd"):
+        name = scratch(f"saved_data{ending}")
+        if os.path.exists(name):
+            os.remove(name)
+        SaveData(name, proxy=field)
+        assert os.path.getsize(name) > 1000, ending
+        lattice = brainshift.load_field(name).Input
+        assert numpy.allclose(numpy.abs(voxels(lattice, "Displacement")).max(),
+                              numpy.abs(voxels(field, "Displacement")).max(), rtol=1e-5), ending
 
 
 def test_plain_volumes_are_no_fields():
