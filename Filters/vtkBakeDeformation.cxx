@@ -71,6 +71,14 @@ void bakeArrays(vtkDataSetAttributes* from, vtkDataSetAttributes* to,
 }
 }
 
+int vtkBakeDeformation::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  // Each process bakes its own part.
+  outputs->GetInformationObject(0)->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
+  return 1;
+}
+
 int vtkBakeDeformation::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
@@ -85,8 +93,8 @@ int vtkBakeDeformation::RequestData(
   vtkImageData* input = vtkImageData::GetData(inputs[0]);
   vtkImageData* output = vtkImageData::GetData(outputs);
   Deformation deformation;
-  std::string problem;
-  if (!readDeformation(input, deformation, problem))
+  std::string problem = problemOfPart(input, inputs[0]->GetInformationObject(0));
+  if (!problem.empty() || !readDeformation(input, deformation, problem))
   {
     vtkErrorMacro(<< problem << ".");
     return 0;

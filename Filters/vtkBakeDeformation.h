@@ -40,6 +40,8 @@ protected:
   vtkBakeDeformation() = default;
   ~vtkBakeDeformation() override = default;
 
+  int RequestInformation(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   int RequestUpdateExtent(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   int RequestData(

@@ -110,7 +110,8 @@ int vtkCompareVolumes::FillInputPortInformation(int port, vtkInformation* info)
 int vtkCompareVolumes::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
-  for (int port = 0; port < Ports; ++port)
+  // The volume passes through in the pieces that are asked for.
+  for (const int port : { ReferencePort, CavityPort })
   {
     updateWholeExtent(inputs[port]->GetInformationObject(0));
   }

@@ -30,34 +30,6 @@ namespace
 constexpr int SmallestSide = 2;
 constexpr int LargestSide = 4096;
 
-// What the pipeline knows of an image before it is there.
-Grid gridOf(vtkInformation* info)
-{
-  Grid grid;
-  const int* whole = info->Get(Pipeline::WHOLE_EXTENT());
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    grid.dimensions[axis] = whole[2 * axis + 1] - whole[2 * axis] + 1;
-  }
-  if (const double* origin = info->Get(vtkDataObject::ORIGIN()))
-  {
-    grid.origin = { origin[0], origin[1], origin[2] };
-  }
-  if (const double* spacing = info->Get(vtkDataObject::SPACING()))
-  {
-    grid.spacing = { spacing[0], spacing[1], spacing[2] };
-  }
-  if (const double* rows = info->Get(vtkDataObject::DIRECTION()))
-  {
-    for (int i = 0; i < 9; ++i)
-    {
-      grid.direction[i % 3][i / 3] = rows[i];
-    }
-  }
-  grid.origin = grid.worldFromGrid({ whole[0], whole[2], whole[4] });
-  return grid;
-}
-
 vtkSmartPointer<vtkFloatArray> addArray(vtkImageData* image, const char* name, int components)
 {
   auto array = vtkSmartPointer<vtkFloatArray>::New();
@@ -158,9 +130,10 @@ int vtkDeformationField::RequestInformation(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   std::string problem; // reported once, when data is made
-  const Grid samples = this->SamplesOver(gridOf(inputs[0]->GetInformationObject(0)), problem);
+  const Grid samples = this->SamplesOver(wholeGridOf(inputs[0]->GetInformationObject(0)), problem);
   vtkInformation* info = outputs->GetInformationObject(0);
   announce(info, samples);
+  info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1); // each process fills its own part
   vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_FLOAT, 1);
   return 1;
 }
@@ -179,9 +152,10 @@ int vtkDeformationField::RequestData(
   vtkImageData* input = vtkImageData::GetData(inputs[0]);
   vtkImageData* output = vtkImageData::GetData(outputs);
   const auto direction = static_cast<brainshift::Direction>(this->Direction);
-  std::string problem;
-  const std::optional<DirectedMap> map = directedMapOf(input, direction, problem);
-  const Grid samples = this->SamplesOver(brainshift::gridOf(input), problem);
+  std::string problem = problemOfPart(input, inputs[0]->GetInformationObject(0));
+  const std::optional<DirectedMap> map =
+    problem.empty() ? directedMapOf(input, direction, problem) : std::nullopt;
+  const Grid samples = this->SamplesOver(gridOf(input), problem);
   if (!map || !problem.empty())
   {
     vtkErrorMacro(<< problem << ".");

@@ -10,6 +10,7 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <string>
 
@@ -28,6 +29,7 @@ int vtkDeformationLattice::RequestInformation(
   if (readDeformation(input, deformation, problem))
   {
     announce(outputs->GetInformationObject(0), deformation.lattice.grid);
+    outputs->GetInformationObject(0)->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
   }
   return 1;
 }
@@ -53,6 +55,8 @@ int vtkDeformationLattice::RequestData(
   }
   const Lattice lattice = effectiveLattice(deformation);
   setField(output, lattice.grid, lattice.displacements, Direction::Forward);
+  output->Crop( // each process passes on its own part
+    outputs->GetInformationObject(0)->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()));
   for (const char* name : { "FFDKernel", "FFDSamples" })
   {
     output->GetFieldData()->AddArray(input->GetFieldData()->GetAbstractArray(name));

@@ -57,6 +57,10 @@ namespace
 // The grid of the whole volume. `image` may be the piece of one process.
 Grid wholeGrid(vtkImageData* image, vtkInformation* info)
 {
+  if (image->GetNumberOfPoints() == 0) // a reader gave this process nothing, not even a place
+  {
+    return wholeGridOf(info);
+  }
   int whole[6];
   info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
   int extent[6];

@@ -12,6 +12,7 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/geometric.hpp>
 
@@ -40,19 +41,40 @@ bool allFinite(const std::vector<glm::vec3>& vectors)
   return std::all_of(vectors.begin(), vectors.end(),
     [](const glm::vec3& v) { return std::isfinite(v.x + v.y + v.z); });
 }
+
+// Of all points; if they are no field, `problem` says why.
+std::vector<glm::vec3> displacementsOf(vtkImageData* image, std::string& problem)
+{
+  vtkDataArray* array = fieldOf(image);
+  if (!array)
+  {
+    problem = "The input has no point array of 3 components (mm)";
+    return {};
+  }
+  std::vector<glm::vec3> displacements = vectorsOf(array);
+  if (!allFinite(displacements))
+  {
+    problem = "The input's array of displacements holds a number that is not finite";
+  }
+  return displacements;
+}
 }
 
 vtkStandardNewMacro(vtkInvertDisplacementField);
 
+int vtkInvertDisplacementField::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  // Each process passes on its own part.
+  outputs->GetInformationObject(0)->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
+  return 1;
+}
+
 int vtkInvertDisplacementField::RequestUpdateExtent(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
   // The inverse at a point may lie anywhere.
-  for (vtkInformation* info :
-    { inputs[0]->GetInformationObject(0), outputs->GetInformationObject(0) })
-  {
-    updateWholeExtent(info);
-  }
+  updateWholeExtent(inputs[0]->GetInformationObject(0));
   return 1;
 }
 
@@ -61,13 +83,11 @@ int vtkInvertDisplacementField::RequestData(
 {
   vtkImageData* input = vtkImageData::GetData(inputs[0]);
   vtkImageData* output = vtkImageData::GetData(outputs);
-  vtkDataArray* array = fieldOf(input);
-  const std::vector<glm::vec3> displacements = array ? vectorsOf(array) : std::vector<glm::vec3>();
-  if (!array || !allFinite(displacements))
+  std::string problem = problemOfPart(input, inputs[0]->GetInformationObject(0));
+  const std::vector<glm::vec3> displacements = displacementsOf(input, problem);
+  if (!problem.empty())
   {
-    vtkErrorMacro(<< (array
-                      ? "The input's array of displacements holds a number that is not finite."
-                      : "The input has no point array of 3 components (mm)."));
+    vtkErrorMacro(<< problem << ".");
     return 0;
   }
   const Grid grid = gridOf(input);
@@ -106,6 +126,10 @@ int vtkInvertDisplacementField::RequestData(
   const Direction was = directionOf(input).value_or(Direction::Backward);
   setField(
     output, grid, inverse, was == Direction::Backward ? Direction::Forward : Direction::Backward);
+  output->SetExtent(input->GetExtent()); // its first point may have another index than 0 0 0
+  output->SetOrigin(input->GetOrigin());
+  output->Crop(
+    outputs->GetInformationObject(0)->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()));
   return 1;
 }
 

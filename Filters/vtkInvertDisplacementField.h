@@ -36,6 +36,8 @@ protected:
   vtkInvertDisplacementField() = default;
   ~vtkInvertDisplacementField() override = default;
 
+  int RequestInformation(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   int RequestUpdateExtent(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   int RequestData(

@@ -258,6 +258,12 @@ std::string vtkTraceDistance::FindCortex(vtkInformationVector** inputs)
     return problem;
   }
   vtkImageData* image = segmentation ? segmentation : volume;
+  const int port = segmentation ? SegmentationPort : DeformationPort;
+  problem = problemOfPart(image, inputs[port]->GetInformationObject(0));
+  if (!problem.empty())
+  {
+    return problem;
+  }
   const std::string where = segmentation ? "The segmentation" : "The volume";
   vtkDataArray* scalars = scalarsOf(image, this->SurfaceArray);
   if (!scalars || scalars->GetNumberOfComponents() != 1)

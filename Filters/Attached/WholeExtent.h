@@ -6,17 +6,36 @@
 #ifndef BrainShift_WholeExtent_h
 #define BrainShift_WholeExtent_h
 
+#include "Filters/Deformation/Grid.h"
+
+#include <string>
+
+class vtkImageData;
 class vtkInformation;
 
 namespace brainshift
 {
 /**
- * Makes the update extent of an image its whole extent. Call it in RequestUpdateExtent.
+ * Asks for all of an image, in one piece. Call it in RequestUpdateExtent. On several MPI ranks,
+ * each rank then gets all of it. An extent alone would not do: a reader still splits the extent
+ * into the pieces of the ranks.
  *
- * @param image   pipeline information of an input or output; null, for an optional input that is
- *                not connected, does nothing
+ * @param image   pipeline information of an input; null, for an optional input that is not
+ *                connected, does nothing
  */
 void updateWholeExtent(vtkInformation* image);
+
+/// The grid of all of an image (mm, world), as the pipeline knows it before there is data.
+Grid wholeGridOf(vtkInformation* information);
+
+/**
+ * What an image lacks of its whole extent: a sentence without its end, or empty if it is whole. A
+ * source that knows no pieces may deliver less than it was asked for.
+ *
+ * @param image         the data
+ * @param information   pipeline information of that input
+ */
+std::string problemOfPart(vtkImageData* image, vtkInformation* information);
 }
 
 #endif
