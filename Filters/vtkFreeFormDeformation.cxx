@@ -154,11 +154,11 @@ std::string addBase(Lattice& lattice, vtkImageData* base)
   const auto finite = [](const glm::vec3& d) {
     return std::isfinite(d.x) && std::isfinite(d.y) && std::isfinite(d.z);
   };
-  const bool allFinite =
-    std::all_of(lattice.displacements.begin(), lattice.displacements.end(), finite);
-  return allFinite ? std::string()
-                   : std::string("The base lattice's array ") + field->GetName() +
-      " holds a number that is not finite";
+  const std::string array =
+    std::string("base lattice's array ") + (field->GetName() ? field->GetName() : "without a name");
+  return std::all_of(lattice.displacements.begin(), lattice.displacements.end(), finite)
+    ? problemOfDisplacements(lattice, "the " + array)
+    : "The " + array + " holds a number that is not finite";
 }
 }
 
@@ -330,10 +330,16 @@ std::string vtkFreeFormDeformation::Bend(
   {
     return problem;
   }
+  const Lattice& bent =
+    state.StrokeReplay.run(start, strokes, { this->GuardFolding, this->Samples });
+  problem = problemOfDisplacements(bent, "the strokes");
+  if (!problem.empty())
+  {
+    return problem;
+  }
   segmentation.chosen = segments ? std::vector<int>() : this->MaskLabels;
   state.LastSegmentation = segmentation;
-  state.LastGood.lattice =
-    state.StrokeReplay.run(start, strokes, { this->GuardFolding, this->Samples });
+  state.LastGood.lattice = bent;
   state.TooFine = strokesTooFine(strokes, start.grid);
   state.LastGood.samples = this->Samples;
   state.LastGood.inverse =

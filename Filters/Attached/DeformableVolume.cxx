@@ -262,7 +262,8 @@ bool readDeformation(vtkDataObject* volume, Deformation& deformation, std::strin
     lattice.displacements[point] =
       glm::vec3(numbers[3 * point], numbers[3 * point + 1], numbers[3 * point + 2]);
   }
-  return true;
+  error = problemOfDisplacements(lattice, std::string("field array ") + DisplacementsName);
+  return error.empty();
 }
 
 Lattice effectiveLattice(const Deformation& deformation)

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 
 namespace brainshift
 {
@@ -107,9 +108,10 @@ void applyMove(Lattice& lattice, const Stroke& stroke)
   // The control point, in the coordinates of the lattice the stroke was made at.
   const glm::dvec3 point =
     glm::clamp(glm::round(grid.gridFromWorld(stroke.anchor) / ratio), glm::dvec3(0.0), last);
-  const glm::ivec3 low = glm::max(glm::ivec3(glm::ceil((point - 2.0) * ratio)), glm::ivec3(0));
-  const glm::ivec3 high =
-    glm::min(glm::ivec3(glm::floor((point + 2.0) * ratio)), grid.dimensions - 1);
+  const glm::dvec3 end(grid.dimensions - 1);
+  // Clamped first: a far position is no integer.
+  const glm::ivec3 low(glm::clamp(glm::ceil((point - 2.0) * ratio), glm::dvec3(0.0), end));
+  const glm::ivec3 high(glm::clamp(glm::floor((point + 2.0) * ratio), glm::dvec3(0.0), end));
   const auto weightAlong = [&](int axis, int index) {
     const double distance = index / ratio[axis] - point[axis];
     // On the lattice it was made at the stroke moves one control point, whatever the kernel.
@@ -172,6 +174,24 @@ Lattice makeLattice(const Grid& grid, int kernel)
   lattice.kernel = kernel;
   lattice.displacements.assign(grid.count(), glm::vec3(0.0f));
   return lattice;
+}
+
+std::string problemOfDisplacements(const Lattice& lattice, const std::string& cause)
+{
+  const glm::dvec3& spacing = lattice.grid.spacing;
+  const double longest = LongestDisplacementCells * std::min({ spacing.x, spacing.y, spacing.z });
+  const auto tooLong =
+    std::find_if_not(lattice.displacements.begin(), lattice.displacements.end(),
+      [&](const glm::vec3& d) { return glm::length(glm::dvec3(d)) <= longest; });
+  if (tooLong == lattice.displacements.end())
+  {
+    return {};
+  }
+  std::ostringstream problem;
+  problem << "A control point is displaced by " << cause << " by "
+          << glm::length(glm::dvec3(*tooLong)) << " mm; it must be at most " << longest << " mm, "
+          << LongestDisplacementCells << " cells of the lattice";
+  return problem.str();
 }
 
 void applyStroke(Lattice& lattice, const Stroke& stroke)

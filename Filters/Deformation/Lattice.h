@@ -17,6 +17,7 @@
 #include <glm/vec3.hpp>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace brainshift
@@ -26,6 +27,12 @@ constexpr int SmallestLatticeSide = 4;
 
 /** Most control points along an axis: 257^3 hold 200 MB of numbers. More is a dense field. */
 constexpr int LargestLatticeSide = 257;
+
+/**
+ * Longest displacement of a control point, in cells of the axis with the smallest spacing. Within
+ * it, positions fit single precision and numbers of nodes fit an integer.
+ */
+constexpr double LongestDisplacementCells = 10000.0;
 
 /** The share of the displacement that holds at each node of a refined field; see MaskWeights.h. */
 struct NodeWeights
@@ -56,6 +63,15 @@ BRAINSHIFT_DEFORMATION_EXPORT bool sameMask(
 
 /** A lattice whose displacements are all zero. */
 BRAINSHIFT_DEFORMATION_EXPORT Lattice makeLattice(const Grid& grid, int kernel);
+
+/**
+ * One sentence, without a full stop, about a displacement that is no number or longer than
+ * LongestDisplacementCells. It is empty if there is none.
+ *
+ * @param cause   what displaces, as the end of "... is displaced by"
+ */
+BRAINSHIFT_DEFORMATION_EXPORT std::string problemOfDisplacements(
+  const Lattice& lattice, const std::string& cause);
 
 /**
  * Moves the control points that a stroke reaches. The weights depend on where the lattice was

@@ -159,9 +159,11 @@ Reach reachAlong(const Grid& grid, const std::vector<glm::vec3>& inCells, int ax
     lowest = std::min(lowest, static_cast<float>(cell) + middle - half);
     highest = std::max(highest, static_cast<float>(cell + 1) + middle + half);
   }
+  constexpr auto farthest = static_cast<float>(2.0 * LongestDisplacementCells); // fits an integer
   Reach reach;
-  reach.below = static_cast<int>(std::ceil(-lowest));
-  reach.above = static_cast<int>(std::ceil(highest)) - (layers - 1);
+  reach.below = static_cast<int>(std::ceil(std::min(-lowest, farthest)));
+  reach.above =
+    static_cast<int>(std::ceil(std::min(highest - static_cast<float>(layers - 1), farthest)));
   return reach;
 }
 }

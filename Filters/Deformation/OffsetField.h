@@ -85,7 +85,9 @@ BRAINSHIFT_DEFORMATION_EXPORT FieldNodes forwardNodes(const Grid& lattice, int s
 /**
  * Nodes over the lattice and over every place that its tissue may reach, rounded up to whole cells.
  *
- * @param inCells   displacements of the control points (lattice cells), see displacementsInCells
+ * @param inCells   displacements of the control points (lattice cells), see displacementsInCells;
+ *                  they are finite and no longer than LongestDisplacementCells, or the nodes end
+ *                  where twice that would reach
  */
 BRAINSHIFT_DEFORMATION_EXPORT FieldNodes backwardNodes(
   const Grid& lattice, const std::vector<glm::vec3>& inCells, int samples);

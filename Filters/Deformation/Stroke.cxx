@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/Stroke.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -37,11 +38,12 @@ void requireRadius(std::ostream& problem, const char* name, double value)
 std::string problemOf(const double* numbers)
 {
   std::ostringstream problem;
-  const auto bad = std::find_if_not(
-    numbers, numbers + NumbersPerStroke, [](double value) { return std::isfinite(value); });
+  const auto bad = std::find_if_not(numbers, numbers + NumbersPerStroke,
+    [](double value) { return std::abs(value) <= LargestStrokeNumber; });
   if (bad != numbers + NumbersPerStroke)
   {
-    problem << "its number " << bad - numbers << " is " << *bad << "; it must be finite";
+    problem << "its number " << bad - numbers << " is " << *bad << "; it must be finite, from "
+            << -LargestStrokeNumber << " to " << LargestStrokeNumber;
     return problem.str();
   }
   if (numbers[0] != 0.0 && numbers[0] != 1.0 && numbers[0] != 2.0)
@@ -55,9 +57,9 @@ std::string problemOf(const double* numbers)
     problem << "its radii are " << stroke.major << " and " << stroke.minor
             << " mm; they must not be below 0 mm";
   }
-  else if (stroke.tool != Tool::Move && stroke.sigma <= 0.0)
+  else if (stroke.tool != Tool::Move && stroke.sigma < SmallestSigma)
   {
-    problem << "its sigma is " << stroke.sigma << "; it must be above 0";
+    problem << "its sigma is " << stroke.sigma << "; it must be at least " << SmallestSigma;
   }
   else if (stroke.tool == Tool::Soft)
   {
@@ -70,7 +72,7 @@ std::string problemOf(const double* numbers)
     {
       requireRadius(problem, "minor radius", stroke.minor);
     }
-    if (problem.str().empty() && glm::length(stroke.axis) <= 0.0)
+    if (problem.str().empty() && stroke.axis == glm::dvec3(0.0))
     {
       problem << "its axis is 0 0 0; it must have a length above 0";
     }
@@ -146,9 +148,12 @@ double normalisedDistance(const Stroke& stroke, const glm::dvec3& position)
   {
     return glm::length(fromAnchor) / stroke.major;
   }
-  const double along = glm::dot(fromAnchor, glm::normalize(stroke.axis));
-  const double acrossSquared = std::max(0.0, glm::dot(fromAnchor, fromAnchor) - along * along);
-  return std::sqrt(
-    along * along / (stroke.major * stroke.major) + acrossSquared / (stroke.minor * stroke.minor));
+  // Squares of very small lengths are 0, so lengths are divided before they are squared.
+  const glm::dvec3 size = glm::abs(stroke.axis);
+  const double along = glm::dot(
+    fromAnchor, glm::normalize(stroke.axis / std::max({ size.x, size.y, size.z })));
+  const double across =
+    std::sqrt(std::max(0.0, glm::dot(fromAnchor, fromAnchor) - along * along));
+  return std::hypot(along / stroke.major, across / stroke.minor);
 }
 }

@@ -63,6 +63,12 @@ struct Stroke
 /** Length of a stroke as a list of numbers. */
 constexpr int NumbersPerStroke = 14;
 
+/** Each number of a stroke lies between this and its negative. */
+constexpr double LargestStrokeNumber = 1e9;
+
+/** Least sigma of Soft and Stamp: half the weight is lost at a thousandth of the radius. */
+constexpr double SmallestSigma = 0.001;
+
 /**
  * Reads strokes from their list of numbers.
  *

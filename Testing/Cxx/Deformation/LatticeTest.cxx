@@ -293,3 +293,35 @@ TEST(MaximumDisplacement, IsTheLongestVector)
   lattice.displacements[9] = { 0, 6, 0 };
   EXPECT_NEAR(maximumDisplacement(lattice), 7.0, 1e-6);
 }
+
+TEST(ProblemOfDisplacements, NamesTheDisplacementAndItsLimit)
+{
+  Lattice lattice = makeLattice(plainGrid(glm::ivec3(5), { 2.0, 3.0, 4.0 }), KernelCatmullRom);
+  lattice.displacements[7] = { 0.0f, 20000.0f, 0.0f };
+  EXPECT_EQ(problemOfDisplacements(lattice, "a test"), "");
+  for (const float value : { 20001.0f, 1e12f, std::numeric_limits<float>::infinity(),
+         std::numeric_limits<float>::quiet_NaN() })
+  {
+    lattice.displacements[7].y = -value;
+    const std::string problem = problemOfDisplacements(lattice, "a test");
+    EXPECT_NE(problem.find("displaced by a test by"), std::string::npos) << problem;
+    EXPECT_NE(problem.find("at most 20000 mm"), std::string::npos) << problem;
+  }
+}
+
+TEST(ApplyStroke, FarAwayMovesNoOtherPoint)
+{
+  // A spacing (mm) of long ago that no integer of cells holds, and an anchor as far.
+  Lattice lattice = makeLattice(plainGrid(glm::ivec3(5), glm::dvec3(0.01)), KernelCatmullRom);
+  Stroke stroke = strokeAt(Tool::Move, glm::dvec3(1e9), { 1.0, 0.0, 0.0 });
+  applyStroke(lattice, stroke);
+  EXPECT_EQ(lattice.displacements[lattice.grid.offset(4, 4, 4)], glm::vec3(1.0f, 0.0f, 0.0f));
+  EXPECT_EQ(std::count(lattice.displacements.begin(), lattice.displacements.end(), glm::vec3(0.0f)),
+    124);
+  stroke.major = 1e9;
+  applyStroke(lattice, stroke);
+  for (const glm::vec3& displacement : lattice.displacements)
+  {
+    EXPECT_NEAR(displacement.x, 1.0f, 1.0f);
+  }
+}

@@ -277,3 +277,14 @@ TEST(BackwardNodes, AreNoMoreThanNeeded)
   EXPECT_EQ(nodes.first, glm::ivec3(0));
   EXPECT_EQ(nodes.count, glm::ivec3(26, 31, 36 + 2 * 5)) << "1.2 cells beyond the top";
 }
+
+TEST(BackwardNodes, AreNeverMoreThanAnIntegerCounts)
+{
+  const Grid grid = plainGrid(glm::ivec3(5), glm::dvec3(10.0));
+  std::vector<glm::vec3> inCells(125, glm::vec3(0.0f));
+  inCells[62] = { 1e12f, -1e12f, 0.0f };
+  const FieldNodes nodes = backwardNodes(grid, inCells, 4);
+  EXPECT_EQ(nodes.count.x, (4 + 2 * 20000) * 5 + 1) << "the cubic overshoots to the other side";
+  EXPECT_EQ(nodes.first.y, -20000);
+  EXPECT_EQ(nodes.count.z, 21);
+}

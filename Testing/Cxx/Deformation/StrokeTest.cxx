@@ -118,6 +118,16 @@ TEST(Strokes, NeedFiniteNumbers)
   expectNames(errorAbout(Tool::Soft, 4, -Infinity), { "Stroke 1", "number 4 is -inf", "finite" });
 }
 
+TEST(Strokes, NeedNumbersThatALatticeCanHold)
+{
+  for (int place = 0; place < NumbersPerStroke; ++place)
+  {
+    expectNames(errorAbout(Tool::Move, place, 1e39),
+      { "Stroke 1", "number " + std::to_string(place) + " is 1e+39", "from -1e+09 to 1e+09" });
+  }
+  expectNames(errorAbout(Tool::Move, 4, -1.1e9), { "number 4 is -1.1e+09", "-1e+09" });
+}
+
 TEST(Strokes, NeedAKnownTool)
 {
   const std::string limit = "it must be 0 (Move), 1 (Soft) or 2 (Stamp)";
@@ -149,8 +159,11 @@ TEST(Strokes, NeedAWidth)
 {
   for (const Tool tool : { Tool::Soft, Tool::Stamp })
   {
-    expectNames(errorAbout(tool, SigmaPlace, 0.0), { "Stroke 1", "sigma is 0", "above 0" });
-    expectNames(errorAbout(tool, SigmaPlace, -0.5), { "Stroke 1", "sigma is -0.5", "above 0" });
+    expectNames(errorAbout(tool, SigmaPlace, 0.0), { "Stroke 1", "sigma is 0", "0.001" });
+    expectNames(errorAbout(tool, SigmaPlace, -0.5), { "Stroke 1", "sigma is -0.5", "0.001" });
+    // Its square is 0, and 0 / 0 at the anchor would be no number.
+    expectNames(
+      errorAbout(tool, SigmaPlace, 1e-200), { "Stroke 1", "sigma is 1e-200", "at least 0.001" });
   }
 }
 
@@ -223,5 +236,17 @@ TEST(NormalisedDistance, OfAStampIsOneOnItsEllipsoid)
   const double along = 40.0 / std::sqrt(2.0);
   EXPECT_NEAR(normalisedDistance(stroke, { 100 + along, 200 + along, 300 }), 1.0, 1e-12);
   EXPECT_NEAR(normalisedDistance(stroke, { 100 + along, 200 - along, 300 }), 2.0, 1e-12);
+  EXPECT_EQ(normalisedDistance(stroke, stroke.anchor), 0.0);
+}
+
+TEST(NormalisedDistance, OfVerySmallLengthsIsANumber)
+{
+  Stroke stroke;
+  stroke.tool = Tool::Stamp;
+  stroke.major = 40.0;
+  stroke.minor = 1e-200;
+  stroke.axis = { 0, 0, 3e-300 };
+  EXPECT_NEAR(normalisedDistance(stroke, { 0, 0, 10 }), 0.25, 1e-12) << "on the axis";
+  EXPECT_GT(normalisedDistance(stroke, { 1, 0, 10 }), 1.0) << "beside it";
   EXPECT_EQ(normalisedDistance(stroke, stroke.anchor), 0.0);
 }

@@ -348,6 +348,27 @@ TEST_F(FreeFormDeformation, RefusesABaseThatIsNoField)
   this->expectKeepsDeformation({ "Displacement", "not finite" });
 }
 
+TEST_F(FreeFormDeformation, RefusesDisplacementsThatNoFieldHolds)
+{
+  // The nodes that would reach so far are more than an integer counts.
+  this->bend();
+  std::size_t next = 0;
+  auto far = fieldOn(this->VolumeGrid,
+    [&](const glm::dvec3&) { return glm::dvec3(next++ == 500 ? 1e12 : 0.0, 0.0, 0.0); });
+  this->Filter->SetInputDataObject(1, far);
+  this->output();
+  this->expectKeepsDeformation({ "base lattice", "Displacement", "mm; it must be at most", "10000" });
+  this->Filter->SetInputDataObject(1, nullptr);
+  this->Filter->GuardFoldingOff();
+  const glm::dvec3 middle = this->VolumeGrid.worldFromGrid({ 10, 8, 6 });
+  setStrokes(this->Filter, { strokeAt(Tool::Move, middle, { 1e8, 0.0, 0.0 }) });
+  this->output();
+  this->expectKeepsDeformation({ "the strokes by 1e+08 mm", "at most", "10000" });
+  setStrokes(this->Filter, { strokeAt(Tool::Move, middle, { 1e39, 0.0, 0.0 }) });
+  this->output();
+  this->expectKeepsDeformation({ "Stroke 0", "number 4 is 1e+39", "1e+09" });
+}
+
 TEST(FreeFormDeformationInput, NeedsTwoPointsAlongEachAxis)
 {
   for (const glm::ivec3& dimensions :
