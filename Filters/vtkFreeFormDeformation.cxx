@@ -96,13 +96,8 @@ std::string problemOf(const Grid& volume)
     return "The volume has " + triple(volume.dimensions) +
       " points; it must have at least 2 along each axis";
   }
-  if (glm::any(glm::lessThanEqual(volume.spacing, glm::dvec3(0.0))))
-  {
-    return "The volume's spacing is " + std::to_string(volume.spacing.x) + " " +
-      std::to_string(volume.spacing.y) + " " + std::to_string(volume.spacing.z) +
-      " mm; it must be above 0";
-  }
-  return {};
+  const std::string problem = problemOfGrid(volume);
+  return problem.empty() ? problem : "The volume's " + problem;
 }
 
 // Adds a displacement field on any grid to a lattice, read trilinearly at the control points.
@@ -149,6 +144,11 @@ std::string addBase(Lattice& lattice, vtkImageData* base)
   if (!field)
   {
     return "The base lattice has no point array of 3 components (mm)";
+  }
+  const std::string problem = problemOfGrid(gridOf(base));
+  if (!problem.empty())
+  {
+    return "The base lattice's " + problem;
   }
   addField(lattice, base, field);
   const auto finite = [](const glm::vec3& d) {

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <sstream>
 
 namespace brainshift
 {
@@ -174,7 +175,9 @@ bool readGrid(vtkFieldData* fields, Grid& grid, std::string& error)
       grid.direction[column][axis] = box[6 + 3 * axis + column];
     }
   }
-  return true;
+  const std::string problem = problemOfGrid(grid);
+  error = problem.empty() ? problem : std::string("In field array ") + BoxName + ", the " + problem;
+  return problem.empty();
 }
 }
 
@@ -196,6 +199,33 @@ Grid gridOf(vtkImageData* image)
   }
   grid.origin = grid.worldFromGrid(glm::dvec3(extent[0], extent[2], extent[4]));
   return grid;
+}
+
+std::string problemOfGrid(const Grid& grid)
+{
+  const auto isFinite = [](const glm::dvec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  };
+  const auto isSpacing = [](double mm) { return mm >= ShortestSpacing && mm <= LongestSpacing; };
+  const glm::dvec3& spacing = grid.spacing;
+  const glm::dvec3& origin = grid.origin;
+  std::ostringstream problem;
+  if (!isSpacing(spacing.x) || !isSpacing(spacing.y) || !isSpacing(spacing.z))
+  {
+    problem << "spacing is " << spacing.x << " " << spacing.y << " " << spacing.z
+            << " mm; it must be from " << ShortestSpacing << " to " << LongestSpacing << " mm";
+  }
+  else if (!isFinite(origin))
+  {
+    problem << "origin is " << origin.x << " " << origin.y << " " << origin.z
+            << " mm; its numbers must be finite";
+  }
+  else if (!isFinite(grid.direction[0]) || !isFinite(grid.direction[1]) ||
+    !isFinite(grid.direction[2]))
+  {
+    problem << "direction holds a number that is not finite";
+  }
+  return problem.str();
 }
 
 void attach(vtkDataObject* volume, const Deformation& deformation)
@@ -253,6 +283,14 @@ bool readDeformation(vtkDataObject* volume, Deformation& deformation, std::strin
     : readNumbers(fields, DisplacementsName, 3 * lattice.grid.count(), error);
   if (numbers.empty())
   {
+    return false;
+  }
+  if (strength[0] < 0.0 || strength[0] > 1.0)
+  {
+    std::ostringstream value;
+    value << strength[0];
+    error = std::string("Field array ") + StrengthName + " is " + value.str() +
+      "; it must be from 0 to 1";
     return false;
   }
   deformation.strength = strength[0];

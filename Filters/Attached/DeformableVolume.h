@@ -33,6 +33,12 @@ class vtkImageData;
 
 namespace brainshift
 {
+///@{
+/** Limits of the spacing (mm) between neighbours of a grid: floats hold their squares. */
+constexpr double ShortestSpacing = 1e-9;
+constexpr double LongestSpacing = 1e9;
+///@}
+
 /** What the arrays hold. */
 struct Deformation
 {
@@ -44,6 +50,13 @@ struct Deformation
 
 /** The grid of an image's points, in world space. */
 VTKBRAINSHIFTFILTERS_EXPORT Grid gridOf(vtkImageData* image);
+
+/**
+ * What is wrong with the place of a grid, as the end of a sentence about it, without a full stop:
+ * its spacing must be from ShortestSpacing to LongestSpacing, its other numbers must be finite. It
+ * is empty if nothing is wrong.
+ */
+VTKBRAINSHIFTFILTERS_EXPORT std::string problemOfGrid(const Grid& grid);
 
 /** Attaches the arrays to a data set. Arrays of an earlier deformation are replaced. */
 VTKBRAINSHIFTFILTERS_EXPORT void attach(vtkDataObject* volume, const Deformation& deformation);

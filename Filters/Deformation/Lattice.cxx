@@ -180,9 +180,8 @@ std::string problemOfDisplacements(const Lattice& lattice, const std::string& ca
 {
   const glm::dvec3& spacing = lattice.grid.spacing;
   const double longest = LongestDisplacementCells * std::min({ spacing.x, spacing.y, spacing.z });
-  const auto tooLong =
-    std::find_if_not(lattice.displacements.begin(), lattice.displacements.end(),
-      [&](const glm::vec3& d) { return glm::length(glm::dvec3(d)) <= longest; });
+  const auto tooLong = std::find_if_not(lattice.displacements.begin(), lattice.displacements.end(),
+    [&](const glm::vec3& d) { return glm::length(glm::dvec3(d)) <= longest; });
   if (tooLong == lattice.displacements.end())
   {
     return {};

@@ -150,10 +150,9 @@ double normalisedDistance(const Stroke& stroke, const glm::dvec3& position)
   }
   // Squares of very small lengths are 0, so lengths are divided before they are squared.
   const glm::dvec3 size = glm::abs(stroke.axis);
-  const double along = glm::dot(
-    fromAnchor, glm::normalize(stroke.axis / std::max({ size.x, size.y, size.z })));
-  const double across =
-    std::sqrt(std::max(0.0, glm::dot(fromAnchor, fromAnchor) - along * along));
+  const double along =
+    glm::dot(fromAnchor, glm::normalize(stroke.axis / std::max({ size.x, size.y, size.z })));
+  const double across = std::sqrt(std::max(0.0, glm::dot(fromAnchor, fromAnchor) - along * along));
   return std::hypot(along / stroke.major, across / stroke.minor);
 }
 }

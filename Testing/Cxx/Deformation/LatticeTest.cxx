@@ -316,8 +316,8 @@ TEST(ApplyStroke, FarAwayMovesNoOtherPoint)
   Stroke stroke = strokeAt(Tool::Move, glm::dvec3(1e9), { 1.0, 0.0, 0.0 });
   applyStroke(lattice, stroke);
   EXPECT_EQ(lattice.displacements[lattice.grid.offset(4, 4, 4)], glm::vec3(1.0f, 0.0f, 0.0f));
-  EXPECT_EQ(std::count(lattice.displacements.begin(), lattice.displacements.end(), glm::vec3(0.0f)),
-    124);
+  EXPECT_EQ(
+    std::count(lattice.displacements.begin(), lattice.displacements.end(), glm::vec3(0.0f)), 124);
   stroke.major = 1e9;
   applyStroke(lattice, stroke);
   for (const glm::vec3& displacement : lattice.displacements)

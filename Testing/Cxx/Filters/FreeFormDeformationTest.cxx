@@ -19,6 +19,8 @@ using namespace brainshift::testing;
 
 namespace
 {
+constexpr double NotANumber = std::numeric_limits<double>::quiet_NaN();
+
 class FreeFormDeformation : public ::testing::Test
 {
 protected:
@@ -348,6 +350,28 @@ TEST_F(FreeFormDeformation, RefusesABaseThatIsNoField)
   this->expectKeepsDeformation({ "Displacement", "not finite" });
 }
 
+TEST_F(FreeFormDeformation, RefusesABaseThatIsNowhere)
+{
+  // A position in such a grid is no number, and no array has an element of that index.
+  this->bend();
+  auto base = fieldOn(this->VolumeGrid, [](const glm::dvec3&) { return glm::dvec3(1.0); });
+  this->Filter->SetInputDataObject(1, base);
+  constexpr double Infinity = std::numeric_limits<double>::infinity();
+  for (const double spacing : { 0.0, -1.0, 1e-300, Infinity, NotANumber })
+  {
+    base->SetSpacing(2.0, spacing, 2.0);
+    this->output();
+    this->expectKeepsDeformation({ "base lattice's spacing is 2 ", "from 1e-09 to 1e+09 mm" });
+  }
+  base->SetSpacing(2.0, 2.0, 2.0);
+  for (const double origin : { NotANumber, -Infinity })
+  {
+    base->SetOrigin(5.0, 6.0, origin);
+    this->output();
+    this->expectKeepsDeformation({ "base lattice's origin is 5 6 ", "must be finite" });
+  }
+}
+
 TEST_F(FreeFormDeformation, RefusesDisplacementsThatNoFieldHolds)
 {
   // The nodes that would reach so far are more than an integer counts.
@@ -357,7 +381,8 @@ TEST_F(FreeFormDeformation, RefusesDisplacementsThatNoFieldHolds)
     [&](const glm::dvec3&) { return glm::dvec3(next++ == 500 ? 1e12 : 0.0, 0.0, 0.0); });
   this->Filter->SetInputDataObject(1, far);
   this->output();
-  this->expectKeepsDeformation({ "base lattice", "Displacement", "mm; it must be at most", "10000" });
+  this->expectKeepsDeformation(
+    { "base lattice", "Displacement", "mm; it must be at most", "10000" });
   this->Filter->SetInputDataObject(1, nullptr);
   this->Filter->GuardFoldingOff();
   const glm::dvec3 middle = this->VolumeGrid.worldFromGrid({ 10, 8, 6 });
@@ -385,6 +410,50 @@ TEST(FreeFormDeformationInput, NeedsTwoPointsAlongEachAxis)
       " x " + std::to_string(dimensions.z);
     EXPECT_NE(error.find(named), std::string::npos) << error;
     EXPECT_NE(error.find("at least 2"), std::string::npos) << error;
+  }
+}
+
+TEST(FreeFormDeformationInput, NeedsAPlace)
+{
+  auto volume =
+    volumeOn(plainGrid(glm::ivec3(8), glm::dvec3(1.0)), VTK_SHORT, [](vtkIdType) { return 1.0; });
+  volume->SetSpacing(1.0, 1.0, NotANumber);
+  vtkNew<vtkFreeFormDeformation> filter;
+  Errors heard(filter);
+  filter->SetInputData(volume);
+  filter->Update();
+  EXPECT_NE(heard.take().find("volume's spacing is 1 1 nan mm"), std::string::npos);
+  volume->SetSpacing(1.0, 1.0, 1.0);
+  volume->SetOrigin(NotANumber, 0.0, 0.0);
+  filter->Update();
+  EXPECT_NE(heard.take().find("volume's origin is nan 0 0 mm"), std::string::npos);
+}
+
+TEST_F(FreeFormDeformation, AttachedNumbersHaveLimits)
+{
+  // As a file may hold them.
+  struct Case
+  {
+    const char* array;
+    int component;
+    double value;
+    const char* words;
+  };
+  const Case cases[] = { { "FFDBox", 4, 0.0, "FFDBox, the spacing is" },
+    { "FFDBox", 4, 1e-300, "1e-300" }, { "FFDStrength", 0, 1e3, "FFDStrength is 1000; it must be" },
+    { "FFDStrength", 0, -0.5, "from 0 to 1" },
+    { "FFDDisplacements", 1, 1e12, "field array FFDDisplacements by 1e+12 mm" } };
+  for (const Case& one : cases)
+  {
+    this->bend();
+    vtkNew<vtkImageData> image;
+    image->DeepCopy(this->output());
+    Deformation deformation;
+    std::string error;
+    ASSERT_TRUE(readDeformation(image, deformation, error)) << error;
+    image->GetFieldData()->GetArray(one.array)->SetComponent(0, one.component, one.value);
+    EXPECT_FALSE(readDeformation(image, deformation, error)) << one.array << " " << one.value;
+    EXPECT_NE(error.find(one.words), std::string::npos) << error;
   }
 }
 
