@@ -45,7 +45,7 @@ ResampleGeometry geometryOf(const Grid& volume, const Grid& lattice, const int e
 
 // Resamples every numeric array of `from` into `to`.
 void bakeArrays(vtkDataSetAttributes* from, vtkDataSetAttributes* to,
-  const ResampleGeometry& geometry, const NodeField& offsets, Reading reading,
+  const ResampleGeometry& geometry, const BackwardMap& backward, Reading reading,
   const std::function<bool(double)>& proceed)
 {
   to->Initialize();
@@ -61,7 +61,7 @@ void bakeArrays(vtkDataSetAttributes* from, vtkDataSetAttributes* to,
     target->SetName(source->GetName());
     target->SetNumberOfComponents(source->GetNumberOfComponents());
     target->SetNumberOfTuples(static_cast<vtkIdType>(size.x) * size.y * size.z);
-    resample(source, target, geometry, offsets, reading, proceed);
+    resample(source, target, geometry, backward, reading, proceed);
     to->AddArray(target);
   }
   if (from->GetScalars())
@@ -100,7 +100,7 @@ int vtkBakeDeformation::RequestData(
     return 0;
   }
   const Lattice lattice = effectiveLattice(deformation);
-  const NodeField offsets = offsetField(lattice, deformation.samples, deformation.inverse);
+  const BackwardMap backward(lattice, deformation.samples, deformation.inverse);
 
   int extent[6];
   outputs->GetInformationObject(0)->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent);
@@ -115,9 +115,9 @@ int vtkBakeDeformation::RequestData(
   const auto reading = static_cast<Reading>(this->Interpolation);
   const Grid volume = gridOf(input);
   bakeArrays(input->GetPointData(), output->GetPointData(),
-    geometryOf(volume, lattice.grid, extent, inputExtent, false), offsets, reading, proceed);
+    geometryOf(volume, lattice.grid, extent, inputExtent, false), backward, reading, proceed);
   bakeArrays(input->GetCellData(), output->GetCellData(),
-    geometryOf(volume, lattice.grid, extent, inputExtent, true), offsets, reading, proceed);
+    geometryOf(volume, lattice.grid, extent, inputExtent, true), backward, reading, proceed);
   return 1;
 }
 

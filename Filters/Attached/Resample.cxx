@@ -146,8 +146,8 @@ private:
   std::ptrdiff_t StrideZ;
 };
 
-// The offset field along one row of voxels: nodes blended across y and z once, so that a voxel
-// costs one blend along x.
+// The first guess along one row of voxels: nodes blended across y and z once, so that a voxel costs
+// one blend along x.
 class OffsetRow
 {
 public:
@@ -175,15 +175,16 @@ public:
     {
       this->Nodes[x] =
         glm::mix(glm::mix(rows[0][x], rows[1][x], w.x), glm::mix(rows[2][x], rows[3][x], w.x), w.y);
-      if (this->Nodes[x] != glm::vec3(0.0f))
+      // Not their blend, which may cancel where the cubic does not.
+      if (std::any_of(rows, rows + 4, [&](auto* nodes) { return nodes[x] != glm::vec3(0.0f); }))
       {
         this->MovedFrom = std::min(this->MovedFrom, x - 1.0f);
         this->MovedTo = x + 1.0f;
       }
     }
     // Beyond the nodes the last one holds.
-    this->MovedFrom = this->Nodes.front() != glm::vec3(0.0f) ? -infinity : this->MovedFrom;
-    this->MovedTo = this->Nodes.back() != glm::vec3(0.0f) ? infinity : this->MovedTo;
+    this->MovedFrom = this->MovedFrom < 0.0f ? -infinity : this->MovedFrom;
+    this->MovedTo = this->MovedTo >= static_cast<float>(nodes.count.x) ? infinity : this->MovedTo;
   }
 
   // Nodes between which offsets may differ from zero; none if from > to.
@@ -220,17 +221,17 @@ std::vector<T> lowestValues(vtkDataArray* source)
 // Writes one row of the target; `index` is its first voxel in source indices.
 template <typename T>
 void resampleRow(const Voxels<T>& voxels, int components, const std::vector<T>& outside,
-  const ResampleGeometry& geometry, const NodeField& offsets, Reading reading, OffsetRow& row,
+  const ResampleGeometry& geometry, const BackwardMap& backward, Reading reading, OffsetRow& row,
   const glm::ivec3& index, T* out)
 {
   const glm::dvec3 lattice =
     glm::dvec3(index) * geometry.latticeFromIndex + geometry.latticeOfFirst;
   const int length = geometry.last.x - geometry.first.x + 1;
-  row.set(offsets, static_cast<float>(lattice.y), static_cast<float>(lattice.z));
+  const FieldNodes& nodes = backward.firstGuess.nodes;
+  row.set(backward.firstGuess, static_cast<float>(lattice.y), static_cast<float>(lattice.z));
   const glm::vec3 indexFromCells(1.0 / geometry.latticeFromIndex);
-  const float nodeStep = static_cast<float>(geometry.latticeFromIndex.x * offsets.nodes.perCell);
-  const float firstNode =
-    static_cast<float>((lattice.x - offsets.nodes.first.x) * offsets.nodes.perCell);
+  const float nodeStep = static_cast<float>(geometry.latticeFromIndex.x * nodes.perCell);
+  const float firstNode = static_cast<float>((lattice.x - nodes.first.x) * nodes.perCell);
   const auto voxelOf = [&](float node) {
     return static_cast<int>(
       glm::clamp((node - firstNode) / nodeStep, 0.0f, static_cast<float>(length)));
@@ -240,8 +241,9 @@ void resampleRow(const Voxels<T>& voxels, int components, const std::vector<T>& 
   out = std::copy_n(voxels.at(index), static_cast<std::ptrdiff_t>(moved) * components, out);
   for (int i = moved; i < still; ++i, out += components)
   {
-    const glm::vec3 position =
-      glm::vec3(index.x + i, index.y, index.z) + row.at(firstNode + i * nodeStep) * indexFromCells;
+    const glm::dvec3 deformed(lattice.x + i * geometry.latticeFromIndex.x, lattice.y, lattice.z);
+    const glm::vec3 offset = backward.map.offsetInCells(deformed, row.at(firstNode + i * nodeStep));
+    const glm::vec3 position = glm::vec3(index.x + i, index.y, index.z) + offset * indexFromCells;
     if (voxels.contains(position))
     {
       voxels.read(reading, position, out);
@@ -257,7 +259,7 @@ void resampleRow(const Voxels<T>& voxels, int components, const std::vector<T>& 
 
 template <typename T>
 void resampleTyped(vtkDataArray* source, vtkDataArray* target, const ResampleGeometry& geometry,
-  const NodeField& offsets, Reading reading, const std::function<bool(double)>& proceed)
+  const BackwardMap& backward, Reading reading, const std::function<bool(double)>& proceed)
 {
   const int components = source->GetNumberOfComponents();
   const Voxels<T> voxels(
@@ -280,7 +282,7 @@ void resampleTyped(vtkDataArray* source, vtkDataArray* target, const ResampleGeo
       {
         const glm::ivec3 index = geometry.first +
           glm::ivec3(0, static_cast<int>(row % size.y), static_cast<int>(row / size.y));
-        resampleRow(voxels, components, outside, geometry, offsets, reading, offsetRow, index,
+        resampleRow(voxels, components, outside, geometry, backward, reading, offsetRow, index,
           out + static_cast<std::size_t>(row) * size.x * components);
       }
     });
@@ -288,12 +290,19 @@ void resampleTyped(vtkDataArray* source, vtkDataArray* target, const ResampleGeo
 }
 }
 
+BackwardMap::BackwardMap(const Lattice& lattice, int samples, Inverse inverse)
+  : map(lattice, inverse)
+  , firstGuess(offsetField(lattice, lattice.mask ? samples : std::max(samples, 2), inverse))
+{
+  // Two samples: a tricubic that is zero at the 64 nodes of a lattice cell is zero within it.
+}
+
 void resample(vtkDataArray* source, vtkDataArray* target, const ResampleGeometry& geometry,
-  const NodeField& offsets, Reading reading, const std::function<bool(double)>& proceed)
+  const BackwardMap& backward, Reading reading, const std::function<bool(double)>& proceed)
 {
   switch (source->GetDataType())
   {
-    vtkTemplateMacro(resampleTyped<VTK_TT>(source, target, geometry, offsets, reading, proceed));
+    vtkTemplateMacro(resampleTyped<VTK_TT>(source, target, geometry, backward, reading, proceed));
   }
 }
 }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Reads an array of voxels through an offset field: how the CPU makes a bent volume.
+ * @brief Reads an array of voxels through a backward map: how the CPU makes a bent volume.
  */
 #ifndef BrainShift_Resample_h
 #define BrainShift_Resample_h
 
 #include "Filters/Deformation/Grid.h"
 #include "Filters/Deformation/OffsetField.h"
+#include "Filters/Deformation/PointMap.h"
 
 #include <functional>
 
@@ -28,6 +29,18 @@ struct ResampleGeometry
   glm::dvec3 latticeOfFirst{ 0.0 }; ///< lattice coordinates of the source's first value
 };
 
+/** The backward map of a lattice for many points: exact, and quick where nothing moves. */
+struct BackwardMap
+{
+  /** `samples`: of the lattice's mask; without a mask any number. */
+  BackwardMap(const Lattice& lattice, int samples, Inverse inverse);
+
+  PointMap map;
+
+  /** The offset field. In a cell whose eight nodes are zero, nothing moves. */
+  NodeField firstGuess;
+};
+
 /** How voxels are read; the numbers of vtkBakeDeformation::InterpolationType. */
 enum class Reading
 {
@@ -46,7 +59,7 @@ enum class Reading
  *                  not done
  */
 void resample(vtkDataArray* source, vtkDataArray* target, const ResampleGeometry& geometry,
-  const NodeField& offsets, Reading reading, const std::function<bool(double)>& proceed);
+  const BackwardMap& backward, Reading reading, const std::function<bool(double)>& proceed);
 }
 
 #endif

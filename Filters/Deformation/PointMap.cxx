@@ -57,17 +57,28 @@ glm::dvec3 PointMap::deformedFromRest(const glm::dvec3& rest) const
 glm::dvec3 PointMap::restFromDeformed(const glm::dvec3& deformed) const
 {
   const glm::dvec3 position = this->LatticeGrid.gridFromWorld(deformed);
-  const CubicForward forward{ this->LatticeGrid, this->Kernel, this->InCells.data(), position };
   const glm::vec3 displacement = this->displacement(position);
   if (displacement == glm::vec3(0.0f))
   {
     return deformed;
   }
-  const glm::vec3 offset = this->Backward == Inverse::Negated ? -displacement
-    : this->Masked.values.empty()
-    ? Inversion<CubicForward>{ forward }.inverseOffset(glm::vec3(0.0f), glm::vec3(0.0f))
-    : Inversion<NodeField>{ this->Masked }.inverseOffset(glm::vec3(position), -displacement);
+  const glm::vec3 guess = this->Masked.values.empty() ? glm::vec3(0.0f) : -displacement;
+  const glm::vec3 offset = this->offsetInCells(position, guess);
   return deformed + this->LatticeGrid.worldVectorFromGrid(glm::dvec3(offset));
+}
+
+glm::vec3 PointMap::offsetInCells(const glm::dvec3& deformed, const glm::vec3& guess) const
+{
+  if (this->Backward == Inverse::Negated)
+  {
+    return -this->displacement(deformed);
+  }
+  if (!this->Masked.values.empty())
+  {
+    return Inversion<NodeField>{ this->Masked }.inverseOffset(glm::vec3(deformed), guess);
+  }
+  const CubicForward forward{ this->LatticeGrid, this->Kernel, this->InCells.data(), deformed };
+  return Inversion<CubicForward>{ forward }.inverseOffset(glm::vec3(0.0f), guess);
 }
 
 glm::dmat3 PointMap::jacobian(const glm::dvec3& rest) const

@@ -37,6 +37,14 @@ public:
    */
   glm::dvec3 restFromDeformed(const glm::dvec3& deformed) const;
 
+  /**
+   * restFromDeformed minus identity, lattice cells. It needs fewer steps from a guess nearby.
+   *
+   * @param deformed   lattice coordinates: cells from the first control point
+   * @param guess      where the search begins, lattice cells; the negated inverse needs none
+   */
+  glm::vec3 offsetInCells(const glm::dvec3& deformed, const glm::vec3& guess) const;
+
   /** Derivatives of deformedFromRest at a rest point: column a is d(deformed) / d(rest_a). */
   glm::dmat3 jacobian(const glm::dvec3& rest) const;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that baking moves voxels where the deformation says and invents no value.
-#include "Filters/Deformation/OffsetField.h"
+#include "Filters/Deformation/Kernels.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
 
 #include <vtkCellData.h>
@@ -165,34 +165,134 @@ TEST(Bake, FollowsTheWorldOnAnObliqueVolume)
   }
 }
 
-TEST(Bake, ReadsTheOffsetFieldAtEveryVoxel)
+// How far from each voxel that moves the tissue arrives that was baked into it, mm. Each voxel of
+// the volume holds its own position, so the baked voxel holds where its tissue comes from.
+class Misses
 {
-  // Rows are divided where movement begins and ends; intensity tells the position. Four voxels lie
-  // between two nodes.
-  const auto intensity = [](const glm::dvec3& rest) { return rest.x + 20.0 * rest.y; };
-  const auto indexOf = [](vtkIdType i) { return glm::dvec3(i % 17, i / 17 % 17, i / 289); };
-  auto volume =
-    volumeOn(VolumeGrid, VTK_DOUBLE, [&](vtkIdType i) { return intensity(indexOf(i)); });
-  Pipeline pipeline(volume);
-  pipeline.Deform->SetSamples(0);
-  for (const int x : { 0, 4, 8, 12, 16 })
+public:
+  Misses(Pipeline& pipeline, const Grid& grid)
   {
-    setStrokes(pipeline.Deform, { strokeAt(Tool::Move, { x, 8, 8 }, { 0.7, -0.6, 0.3 }) });
-    vtkDataArray* baked = pipeline.baked(vtkBakeDeformation::Linear)->GetPointData()->GetScalars();
+    vtkDataArray* rest =
+      pipeline.baked(vtkBakeDeformation::Linear)->GetPointData()->GetArray("Position");
     const Deformation deformation =
       deformationOf(vtkImageData::SafeDownCast(pipeline.Deform->GetOutputDataObject(0)));
-    const NodeField field = offsetField(deformation.lattice, 0, Inverse::Exact);
-    for (vtkIdType i = 0; i < 17 * 17 * 17; ++i)
+    const PointMap map(effectiveLattice(deformation), deformation.inverse);
+    for (vtkIdType i = 0; i < rest->GetNumberOfTuples(); ++i)
     {
-      const glm::dvec3 offset(field.displacement(indexOf(i) / 4.0));
-      const glm::dvec3 rest = indexOf(i) + 4.0 * offset;
-      if (rest == glm::clamp(rest, glm::dvec3(0.0), glm::dvec3(16.0)))
+      glm::dvec3 from;
+      rest->GetTuple(i, &from.x);
+      const glm::dvec3 deformed = positionOf(grid, i);
+      // Tissue from outside the volume has the lowest value of each component: the first position.
+      if (map.deformedFromRest(deformed) != deformed && from != grid.origin)
       {
-        ASSERT_NEAR(baked->GetTuple1(i), intensity(rest), 1e-4)
-          << "voxel " << i << ", stroke " << x;
+        ++this->Moved;
+        this->Largest =
+          std::max(this->Largest, glm::distance(map.deformedFromRest(from), deformed));
       }
     }
   }
+
+  static glm::dvec3 positionOf(const Grid& grid, vtkIdType i)
+  {
+    const vtkIdType row = i / grid.dimensions.x;
+    return grid.worldFromGrid(
+      glm::dvec3(i % grid.dimensions.x, row % grid.dimensions.y, row / grid.dimensions.y));
+  }
+
+  // Every voxel holds its position.
+  static vtkSmartPointer<vtkImageData> volumeOn(const Grid& grid)
+  {
+    auto image = imageOn(grid);
+    auto positions = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(VTK_DOUBLE));
+    positions->SetName("Position");
+    positions->SetNumberOfComponents(3);
+    positions->SetNumberOfTuples(image->GetNumberOfPoints());
+    for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+    {
+      positions->SetTuple(i, &positionOf(grid, i)[0]);
+    }
+    image->GetPointData()->AddArray(positions);
+    return image;
+  }
+
+  int Moved = 0; // voxels
+  double Largest = 0.0;
+};
+
+Stroke stampAt(const glm::dvec3& anchor, double amount, double major, double minor)
+{
+  Stroke stamp = strokeAt(Tool::Stamp, anchor, { 0.0, 0.0, amount });
+  stamp.major = major;
+  stamp.minor = minor;
+  return stamp;
+}
+
+TEST(Bake, PutsTissueWhereStrokesSay)
+{
+  const Grid grid = plainGrid({ 86, 86, 50 }, glm::dvec3(3.0));
+  const std::vector<Stroke> strokes = { stampAt({ 128, 128, 110 }, 20.0, 60.0, 40.0),
+    stampAt({ 126, 131, 70 }, 20.0, 20.0, 12.0),
+    strokeAt(Tool::Move, { 127, 125, 74 }, { 6, 0, 2 }),
+    strokeAt(Tool::Soft, { 120, 120, 80 }, { 9, 7, -12 }) };
+  auto volume = Misses::volumeOn(grid);
+  for (std::size_t i = 0; i < strokes.size(); ++i)
+  {
+    for (const int kernel : { KernelCatmullRom, KernelBSpline })
+    {
+      for (const int samples : { 0, 4 })
+      {
+        Pipeline pipeline(volume);
+        pipeline.Deform->SetLatticeDimensions(19, 19, 19);
+        pipeline.Deform->SetKernel(kernel);
+        pipeline.Deform->SetSamples(samples);
+        setStrokes(pipeline.Deform, { strokes[i] });
+        const Misses misses(pipeline, grid);
+        EXPECT_GT(misses.Moved, 200);
+        // 0.0001 cells of 14 mm, and at the volume's border a thousandth of a voxel.
+        EXPECT_LT(misses.Largest, 0.005)
+          << "stroke " << i << ", kernel " << kernel << ", " << samples << " samples";
+      }
+    }
+  }
+}
+
+TEST(Bake, PutsTissueWhereTheMaskedFieldSays)
+{
+  const Grid grid = plainGrid(glm::ivec3(33), glm::dvec3(2.0));
+  Pipeline pipeline(Misses::volumeOn(grid));
+  auto mask = volumeOn(grid, VTK_UNSIGNED_CHAR, [](vtkIdType i) { return i % 33 < 19; });
+  pipeline.Deform->SetInputDataObject(2, mask);
+  pipeline.Deform->SetFeather(6.0);
+  setStrokes(pipeline.Deform, { strokeAt(Tool::Soft, { 24, 32, 32 }, { -4, 3, 2 }) });
+  const Misses misses(pipeline, grid);
+  EXPECT_GT(misses.Moved, 200);
+  EXPECT_LT(misses.Largest, 0.0015);
+}
+
+TEST(Bake, NegatedSubtractsTheDisplacementThere)
+{
+  const Grid grid = plainGrid(glm::ivec3(33), glm::dvec3(2.0));
+  Pipeline pipeline(Misses::volumeOn(grid));
+  pipeline.Deform->SetInverse(static_cast<int>(Inverse::Negated));
+  const glm::dvec3 anchor(32.0);
+  setStrokes(pipeline.Deform, { strokeAt(Tool::Soft, anchor, { -4, 3, 2 }) });
+  vtkDataArray* rest =
+    pipeline.baked(vtkBakeDeformation::Linear)->GetPointData()->GetArray("Position");
+  const PointMap map(
+    deformationOf(vtkImageData::SafeDownCast(pipeline.Deform->GetOutputDataObject(0))).lattice);
+  double farthest = 0.0;
+  for (vtkIdType i = 0; i < rest->GetNumberOfTuples(); ++i)
+  {
+    glm::dvec3 from;
+    rest->GetTuple(i, &from.x);
+    const glm::dvec3 deformed = Misses::positionOf(grid, i);
+    const glm::dvec3 moves = map.deformedFromRest(deformed) - deformed;
+    farthest = std::max(farthest, glm::length(moves));
+    const bool outside = from == grid.origin; // the lowest value
+    // A thousandth of a voxel at the volume's border.
+    ASSERT_TRUE(outside || glm::distance(from, deformed - moves) < 0.0021) << i;
+  }
+  EXPECT_GT(farthest, 3.0);
 }
 
 TEST(Bake, HoldsTheBorderOfALatticeThatEndsWithinTheVolume)
