@@ -3,7 +3,6 @@
 
 #include "Representations/Slices/OrientationMarks.h"
 #include "Representations/Slices/SlicesProp.h"
-#include "Representations/Window/InteractiveDelivery.h"
 #include "vtkDeformedSlicesMapper.h"
 
 #include "vtkObjectFactory.h"
@@ -127,29 +126,6 @@ bool vtkDeformedSlicesRepresentation::RemoveFromView(vtkView* view)
     renderView->GetNonCompositedRenderer()->RemoveViewProp(this->Marks);
   }
   return this->Superclass::RemoveFromView(view);
-}
-
-int vtkDeformedSlicesRepresentation::ProcessViewRequest(
-  vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
-{
-  const int result = this->Superclass::ProcessViewRequest(request, input, output);
-  if (result)
-  {
-    brainshift::deliverWithStandIns(this, request, input);
-  }
-  return result;
-}
-
-int vtkDeformedSlicesRepresentation::RequestData(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  const int result = this->Superclass::RequestData(request, inputs, outputs);
-  // Tissue may lie outside the volume's own box: the camera must not cut it.
-  if (this->VolumeMapper->GetNumberOfInputConnections(0) > 0)
-  {
-    this->VolumeMapper->GetBounds(this->DataBounds);
-  }
-  return result;
 }
 
 void vtkDeformedSlicesRepresentation::PrintSelf(ostream& os, vtkIndent indent)

@@ -11,17 +11,17 @@
 #define vtkDeformedSlicesRepresentation_h
 
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
-#include "vtkImageVolumeRepresentation.h"
+#include "vtkWholeVolumeRepresentation.h"
 
 class vtkDeformedSlicesMapper;
 class vtkProp;
 
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkDeformedSlicesRepresentation
-  : public vtkImageVolumeRepresentation
+  : public vtkWholeVolumeRepresentation
 {
 public:
   static vtkDeformedSlicesRepresentation* New();
-  vtkTypeMacro(vtkDeformedSlicesRepresentation, vtkImageVolumeRepresentation);
+  vtkTypeMacro(vtkDeformedSlicesRepresentation, vtkWholeVolumeRepresentation);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   void SetVisibility(bool visible) override;
@@ -57,11 +57,6 @@ protected:
 
   bool AddToView(vtkView* view) override;
   bool RemoveFromView(vtkView* view) override;
-
-  int ProcessViewRequest(
-    vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output) override;
-  int RequestData(
-    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:
   vtkDeformedSlicesRepresentation(const vtkDeformedSlicesRepresentation&) = delete;

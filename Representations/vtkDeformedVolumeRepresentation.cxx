@@ -3,13 +3,11 @@
 
 #include "Representations/Picture/SelectionCover.h"
 #include "Representations/Window/EdgeSmoothing.h"
-#include "Representations/Window/InteractiveDelivery.h"
 #include "Representations/Window/MovingWindow.h"
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkVolumeOrder.h"
 
 #include "vtkCommand.h"
-#include "vtkInformation.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVRenderView.h"
 #include "vtkRenderer.h"
@@ -176,29 +174,6 @@ bool vtkDeformedVolumeRepresentation::RemoveFromView(vtkView* view)
     renderView->GetRenderer()->RemoveObserver(this->RenderStart);
   }
   return this->Superclass::RemoveFromView(view);
-}
-
-int vtkDeformedVolumeRepresentation::ProcessViewRequest(
-  vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
-{
-  const int result = this->Superclass::ProcessViewRequest(request, input, output);
-  if (result)
-  {
-    brainshift::deliverWithStandIns(this, request, input);
-  }
-  return result;
-}
-
-int vtkDeformedVolumeRepresentation::RequestData(
-  vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  const int result = this->Superclass::RequestData(request, inputs, outputs);
-  // Tissue may lie outside the volume's own box: the camera must not cut it.
-  if (this->VolumeMapper->GetNumberOfInputConnections(0) > 0)
-  {
-    this->VolumeMapper->GetBounds(this->DataBounds);
-  }
-  return result;
 }
 
 void vtkDeformedVolumeRepresentation::PrintSelf(ostream& os, vtkIndent indent)

@@ -11,8 +11,8 @@
 #define vtkDeformedVolumeRepresentation_h
 
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
-#include "vtkImageVolumeRepresentation.h"
-#include "vtkNew.h" // for the order
+#include "vtkNew.h"                             // for the order
+#include "vtkWholeVolumeRepresentation.h"
 
 #include <memory> // for the smoothing
 #include <set>    // for warnings that were given
@@ -28,18 +28,15 @@ class MovingWindow;
 }
 
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkDeformedVolumeRepresentation
-  : public vtkImageVolumeRepresentation
+  : public vtkWholeVolumeRepresentation
 {
 public:
   static vtkDeformedVolumeRepresentation* New();
-  vtkTypeMacro(vtkDeformedVolumeRepresentation, vtkImageVolumeRepresentation);
+  vtkTypeMacro(vtkDeformedVolumeRepresentation, vtkWholeVolumeRepresentation);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** Shown or not. While it is shown, its view sorts its volumes. */
   void SetVisibility(bool visible) override;
-
-  int ProcessViewRequest(
-    vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output) override;
 
   /** Step along the ray, mm. 0 (default): half the smallest voxel side. */
   void SetSampleDistance(double distance);
@@ -94,9 +91,6 @@ protected:
   bool RemoveFromView(vtkView* view) override;
 
   void UpdateMapperParameters() override;
-
-  int RequestData(
-    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 private:
   vtkDeformedVolumeRepresentation(const vtkDeformedVolumeRepresentation&) = delete;

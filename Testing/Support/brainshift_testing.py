@@ -231,14 +231,16 @@ def assert_says(text, *words):
 
 
 @contextlib.contextmanager
-def server(environment):
-    """The port of a pvserver on this machine."""
+def server(environment, launcher=()):
+    """A pvserver on this machine: its port and its process. `launcher`: what starts it, such as
+    mpirun -np 2."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
     inherited = {name: value for name, value in os.environ.items() if name != "PV_PLUGIN_PATH"}
     process = subprocess.Popen(
-        [os.environ["BRAINSHIFT_PVSERVER"], "--force-offscreen-rendering", f"--server-port={port}"],
+        [*launcher, os.environ["BRAINSHIFT_PVSERVER"], "--force-offscreen-rendering",
+         f"--server-port={port}"],
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
         env={**inherited, **environment})
     try:
@@ -247,16 +249,16 @@ def server(environment):
             line = process.stdout.readline()
             assert line, f"pvserver ended: {said}"
             said += line
-        yield port
+        yield port, process
     finally:
         process.terminate()
         process.wait()
 
 
-def on_server(question, **environment):
+def on_server(question, launcher=(), **environment):
     """What a function returns while connected to a server. The connection ends with the last proxy,
     so the function keeps none."""
-    with server(environment) as port:
+    with server(environment, launcher) as (port, _):
         assert simple.Connect("localhost", port).IsRemote()
         try:
             return question()

@@ -100,7 +100,7 @@ def lose_the_server():
 
 
 def play():
-    with server(server_finds_plugin()) as port:
+    with server(server_finds_plugin()) as (port, _):
         yield connect, port
         yield drag_with_each_tool,
         yield turn_the_wheel,

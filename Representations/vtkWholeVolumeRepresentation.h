@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkWholeVolumeRepresentation
+ * @brief   a volume that one process draws whole
+ *
+ * Data delivery, colour maps and transforms are those of ParaView's "Volume", with one difference.
+ * On several MPI ranks, ParaView gives each rank a part of the volume to draw. Bent tissue crosses
+ * the borders of parts, and light, picks and traces need all of it. So the first rank collects the
+ * parts and draws them, and the others draw nothing of it. Surfaces in the view follow it there.
+ */
+#ifndef vtkWholeVolumeRepresentation_h
+#define vtkWholeVolumeRepresentation_h
+
+#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
+#include "vtkImageVolumeRepresentation.h"
+
+#include <memory> // for what is gathered
+
+class vtkImageData;
+
+namespace brainshift
+{
+class GatheredVolume;
+}
+
+class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkWholeVolumeRepresentation
+  : public vtkImageVolumeRepresentation
+{
+public:
+  vtkAbstractTypeMacro(vtkWholeVolumeRepresentation, vtkImageVolumeRepresentation);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  int ProcessViewRequest(
+    vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output) override;
+
+protected:
+  vtkWholeVolumeRepresentation();
+  ~vtkWholeVolumeRepresentation() override;
+
+  int RequestData(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+  void UpdateMapperParameters() override;
+
+private:
+  vtkWholeVolumeRepresentation(const vtkWholeVolumeRepresentation&) = delete;
+  void operator=(const vtkWholeVolumeRepresentation&) = delete;
+
+  void GatherParts();
+  void WidenBounds();
+
+  std::unique_ptr<brainshift::GatheredVolume> Gathered;
+  vtkSmartPointer<vtkImageData> Part; // of this process
+  bool IsNew = false;                 // the part, since parts were gathered
+  bool IsDrawnElsewhere = false;
+};
+
+#endif

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves that pvbatch on 2 and 4 MPI ranks, and a pvserver of 2 ranks, give the numbers, pictures
+# and picks of one process: filters to 1e-6, pictures to no more than ParaView's "Volume" differs.
+import os
+
+import numpy
+from brainshift_testing import load_plugin, on_server, run_tests, scratch, server_finds_plugin
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+load_plugin()
+from paraview.simple import OpenDataFile  # noqa: E402 after the plugin
+from ranks_testing import MPI, answers, answers_of_batch  # noqa: E402
+
+FOLDER = scratch("ranks")
+SERVER_FINDS_PLUGIN = server_finds_plugin()
+LARGEST_NUMBER = 1e-6  # mm, or a voxel's unit
+
+
+def files_of(folder):
+    """All numbers of the images in a folder, whole, by file and array."""
+    found = {}
+    for name in ("bake", "field", "inverse"):
+        image = OpenDataFile(os.path.join(folder, name + ".pvti"))
+        image.UpdatePipeline()
+        data = image.GetClientSideObject().GetOutputDataObject(0)
+        for i in range(data.GetPointData().GetNumberOfArrays()):
+            array = data.GetPointData().GetArray(i)
+            found[f"{name} {array.GetName()}"] = vtk_to_numpy(array).astype(float)
+    return found
+
+
+def folder_of(ranks):
+    return os.path.join(FOLDER, str(ranks))
+
+
+def expected_answers():
+    os.makedirs(folder_of(1), exist_ok=True)
+    return answers(folder_of(1))
+
+
+EXPECTED = expected_answers()
+EXPECTED_FILES = files_of(folder_of(1))
+
+
+def largest(found, expected):
+    """The largest difference; nan, which says that nothing was found, is equal to nan."""
+    assert found.shape == expected.shape, (found.shape, expected.shape)
+    assert (numpy.isnan(found) == numpy.isnan(expected)).all(), (found, expected)
+    return numpy.abs(numpy.nan_to_num(found) - numpy.nan_to_num(expected)).max()
+
+
+def assert_same(found):
+    assert set(found) == set(EXPECTED), set(found) ^ set(EXPECTED)
+    allowed = largest(found["stock"], EXPECTED["stock"])
+    differences = {name: largest(numbers, EXPECTED[name]) for name, numbers in found.items()}
+    print(differences, flush=True)
+    for name, difference in differences.items():
+        limit = allowed if EXPECTED[name].ndim == 3 else LARGEST_NUMBER
+        assert difference <= limit, (name, difference, limit)
+
+
+def assert_same_files(folder):
+    found = files_of(folder)
+    assert set(found) == set(EXPECTED_FILES), set(found)
+    for name, numbers in found.items():
+        difference = largest(numbers, EXPECTED_FILES[name])
+        assert difference <= LARGEST_NUMBER, (name, difference)
+
+
+def test_one_process_has_something_to_compare():
+    for name, numbers in EXPECTED.items():
+        if numbers.ndim == 3:
+            assert (numbers.max(axis=2) > 0.02).mean() > 0.1, name
+    for name in ("volume picks", "slices picks"):
+        seen = ~numpy.isnan(EXPECTED[name]).any(axis=1)
+        assert seen.tolist() == [True, True, True, False], (name, EXPECTED[name])
+    assert (EXPECTED["volume"] != EXPECTED["volume after a stroke"]).any()
+    assert EXPECTED["uploads"].tolist() == [1, 2], "a stroke sends no voxels"
+
+
+def test_two_ranks_of_pvbatch():
+    assert_same(answers_of_batch(2, folder_of(2)))
+    assert_same_files(folder_of(2))
+
+
+def test_four_ranks_of_pvbatch():
+    assert_same(answers_of_batch(4, folder_of(4)))
+    assert_same_files(folder_of(4))
+
+
+def test_a_server_of_two_ranks():
+    assert_same(on_server(answers, launcher=[*MPI, "2"], **SERVER_FINDS_PLUGIN))
+
+
+run_tests(globals())

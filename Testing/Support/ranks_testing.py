@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What tests of several MPI ranks ask: numbers, pictures, slices and picks of one bent volume. As a
+script of pvbatch, this module writes the answers into the file that it is given."""
+
+import os
+import subprocess
+import sys
+
+import numpy
+from brainshift_testing import picture, scratch, show_volume, view_along
+from paraview import servermanager, simple
+from slices_testing import show_slices
+
+SIZE = 120
+MIDDLE = (0.0, 0.0, 0.0)
+EXTENT = [-12, 12, -12, 12, -12, 12]
+COLORS = [0, 0, 0, 1, 150, 0, 1, 0, 300, 1, 0, 0]
+OPACITIES = [0, 0, 0.5, 0, 150, 0.02, 0.5, 0, 300, 0.3, 0.5, 0]
+PIXELS = [(SIZE // 2, SIZE // 2), (45, 68), (75, 52), (2, 2)]
+NOWHERE = (numpy.nan,) * 3
+
+#: How a program starts on several ranks of one machine, whatever its cores and its user.
+MPI = [os.environ.get("BRAINSHIFT_MPIEXEC", "mpirun"), "--oversubscribe", "--allow-run-as-root",
+       "-np"]
+
+
+def wavelet():
+    return simple.Wavelet(WholeExtent=EXTENT)
+
+
+def bent(**properties):
+    import brainshift
+    return simple.FreeFormDeformation(
+        Input=wavelet(), Strokes=brainshift.soft(MIDDLE, (4, 2, 1), 12.0), **properties)
+
+
+def see(size=SIZE):
+    return view_along((-0.5, 0.3, -1), MIDDLE, 80.0, size=size)
+
+
+def drawn(found, name, display, view):
+    """Adds a picture to the answers, and where the tissue lies under some pixels."""
+    import brainshift
+    found[name] = picture(view)
+    picks = [brainshift.pick(display, view, *pixel) for pixel in PIXELS]
+    found[name + " picks"] = numpy.array([pick or NOWHERE for pick in picks])
+
+
+def answer_volume(found):
+    import brainshift
+    volume, view = bent(), see()
+    display = show_volume(volume, view, "Deformed Volume", COLORS, OPACITIES, array="RTData",
+                          shade=True)
+    drawn(found, "volume", display, view)
+    volume.Strokes = list(volume.Strokes) + list(brainshift.soft((4, -2, 7), (0, -3, 1), 10.0))
+    drawn(found, "volume after a stroke", display, view)
+    found["uploads"] = numpy.array(
+        [brainshift.counters(display)[name] for name in ("volumeUploads", "latticeUploads")])
+    volume.UpdatePipeline()
+    volume.SMProxy.UpdatePropertyInformation()
+    found["filter"] = numpy.array([volume.MinimumJacobian, volume.MaximumDisplacement])
+
+
+def answer_scene(found):
+    """A volume, a surface that cuts it, and traced points before and behind tissue."""
+    view = see()
+    display = show_volume(bent(), view, "Deformed Volume", COLORS, OPACITIES, array="RTData")
+    ball = simple.Show(simple.Sphere(Center=(8, 0, -4), Radius=9, ThetaResolution=40,
+                                     PhiResolution=40), view, "GeometryRepresentation")
+    ball.DisableLighting = 1
+    points = simple.PolyPointSource(Points=[-6, 4, 20, 5, -9, 4, -8, -8, -8])
+    traces = simple.Show(points, view, "GeometryRepresentation")
+    traces.SetRepresentationType("Trace Points")
+    traces.TraceRadius = 2.0
+    drawn(found, "scene", display, view)
+
+
+def answer_slices(found):
+    view = see()
+    display = show_slices(bent(), view, ("Sagittal", "Coronal", "Axial"), MIDDLE, high=300.0,
+                          array="RTData")
+    drawn(found, "slices", display, view)
+    display.SlicePosition = [3.0, -2.0, 5.0]
+    drawn(found, "slices moved", display, view)
+
+
+def answer_comparison(found):
+    compared = simple.CompareVolumes(Input=bent(), Reference=wavelet())
+    view = see()
+    display = show_volume(compared, view, "Deformed Volume", COLORS, OPACITIES, array="RTData")
+    drawn(found, "red and green", display, view)
+
+
+def answer_stock(found):
+    """ParaView's own "Volume", for comparison."""
+    view = see()
+    show_volume(wavelet(), view, "Volume", COLORS, OPACITIES, array="RTData", shade=True)
+    found["stock"] = picture(view)
+
+
+def answer_traces(found):
+    places = numpy.random.default_rng(3).uniform(-11, 11, 120).tolist()
+    points = simple.PolyPointSource(Points=places)
+    trace = simple.TraceDistance(Input=points, Deformation=bent(), SurfaceBy="Threshold",
+                                 Threshold=200.0)
+    trace.UpdatePipeline()
+    trace.SMProxy.UpdatePropertyInformation()
+    found["trace"] = numpy.array([trace.Count, trace.Mean, trace.RMS, trace.Percentile95])
+    moved = simple.DeformGeometry(Input=points, Deformation=bent())
+    result = servermanager.Fetch(moved)
+    found["moved points"] = numpy.array(
+        [result.GetPoint(i) for i in range(result.GetNumberOfPoints())])
+
+
+def answer_files(found, folder):
+    """Images are written in pieces; the test reads the files."""
+    made = {"bake": simple.BakeDeformation(Input=bent()),
+            "field": simple.DeformationField(Input=bent(), Direction="Backward")}
+    made["inverse"] = simple.InvertDisplacementField(
+        Input=simple.DeformationField(Input=bent(), Direction="Forward"))
+    for name, proxy in made.items():
+        simple.SaveData(os.path.join(folder, name + ".pvti"), proxy)
+
+
+def answers(folder=None):
+    """All answers by name: pictures [row, column, colour], picks (mm), numbers of filters."""
+    found = {}
+    answer_volume(found)
+    answer_scene(found)
+    answer_slices(found)
+    answer_comparison(found)
+    answer_stock(found)
+    answer_traces(found)
+    if folder:
+        answer_files(found, folder)
+    return found
+
+
+def answers_of_batch(ranks, folder):
+    """What pvbatch answers on that many ranks."""
+    os.makedirs(folder, exist_ok=True)
+    name = scratch(f"ranks{ranks}.npz")
+    command = [*MPI, str(ranks), os.environ["BRAINSHIFT_PVBATCH"], __file__, name, folder]
+    ended = subprocess.run(command, text=True, capture_output=True, timeout=600)
+    said = ended.stdout + ended.stderr
+    assert ended.returncode == 0, f"pvbatch ended with {ended.returncode}: {said}"
+    errors = [line for line in said.splitlines()
+              if "ERR|" in line and "No plugin loaded yet" not in line]  # it was loaded already
+    assert not errors, errors
+    with numpy.load(name) as saved:
+        return dict(saved)
+
+
+if __name__ == "__main__":
+    simple.LoadPlugin(os.environ["BRAINSHIFT_PLUGIN"], remote=False, ns=simple.__dict__)
+    simple.LoadPlugin(os.environ["BRAINSHIFT_PLUGIN"], remote=True, ns=simple.__dict__)
+    numpy.savez(sys.argv[1], **answers(sys.argv[2]))
