@@ -2,6 +2,7 @@
 #include "vtkTracePointsRepresentation.h"
 
 #include "Representations/Traces/TracePoints.h"
+#include "Representations/Window/FailedUpdate.h"
 
 #include "vtkInformation.h"
 #include "vtkNew.h"
@@ -52,7 +53,9 @@ double vtkTracePointsRepresentation::GetSplatSize()
 int vtkTracePointsRepresentation::ProcessViewRequest(
   vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
 {
+  brainshift::FailedUpdate failed(this, request);
   const int result = this->Superclass::ProcessViewRequest(request, input, output);
+  failed.end();
   auto* view = vtkPVView::SafeDownCast(input->Get(vtkPVView::VIEW()));
   if (result && view && request == vtkPVView::REQUEST_UPDATE_LOD())
   {

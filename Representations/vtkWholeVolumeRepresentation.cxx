@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkWholeVolumeRepresentation.h"
 
+#include "Representations/Window/FailedUpdate.h"
 #include "Representations/Window/GatheredVolume.h"
 #include "Representations/Window/InteractiveDelivery.h"
 
@@ -25,11 +26,13 @@ int vtkWholeVolumeRepresentation::ProcessViewRequest(
 {
   // First the data of this process, then that of all. The superclass finds both done and only hands
   // the data to the view.
+  brainshift::FailedUpdate failed(this, request);
   if (request == vtkPVView::REQUEST_UPDATE() &&
     this->vtkVolumeRepresentation::ProcessViewRequest(request, input, output))
   {
     this->GatherParts();
   }
+  failed.end();
   const int result = this->Superclass::ProcessViewRequest(request, input, output);
   if (result)
   {
