@@ -44,6 +44,7 @@ struct vtkFreeFormDeformation::State
   bool HasLastGood = false;
   double MinimumJacobian = 1.0;
   bool MinimumJacobianKnown = false;
+  bool IsProved = false; // the guard's limit holds for the last good deformation
   vtkNew<vtkDoubleArray> StrokeShares;
   MaskSource Masks;
   SegmentationSource Segmentations;
@@ -346,6 +347,9 @@ std::string vtkFreeFormDeformation::Bend(
     this->Inverse ? brainshift::Inverse::Negated : brainshift::Inverse::Exact;
   state.LastGood.strength = this->Strength;
   state.MinimumJacobianKnown = false;
+  // The guard's proof is for the full strength.
+  state.IsProved =
+    this->GuardFolding && this->Strength == 1.0 && state.StrokeReplay.foldedCells() == 0;
   return {};
 }
 
@@ -390,7 +394,9 @@ double vtkFreeFormDeformation::GetMinimumJacobian()
   State& state = *this->Internal;
   if (!state.MinimumJacobianKnown && state.HasLastGood)
   {
-    state.MinimumJacobian = minimumJacobian(effectiveLattice(state.LastGood));
+    // Both are proved, so the larger one holds.
+    state.MinimumJacobian = std::max(minimumJacobian(effectiveLattice(state.LastGood)),
+      state.IsProved ? static_cast<double>(SmallestGuardedJacobian) : -HUGE_VAL);
     state.MinimumJacobianKnown = true;
   }
   return state.MinimumJacobian;

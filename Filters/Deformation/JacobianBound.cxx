@@ -20,10 +20,42 @@ namespace
 constexpr int LargestBoxes = 2000;      // for a proof; where they do not do, it counts as failed
 constexpr int Stride[3] = { 1, 4, 16 }; // to the next control point along an axis
 
+template <typename T>
+using Vector = glm::vec<3, T>;
+template <typename T>
+using Matrix = glm::mat<3, 3, T>;
+
 // |a x b| when the signs of all numbers are the worst.
-glm::vec3 largestCross(const glm::vec3& a, const glm::vec3& b)
+template <typename T>
+Vector<T> largestCross(const Vector<T>& a, const Vector<T>& b)
 {
   return { a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x };
+}
+
+template <typename T>
+T leastOf(const ColumnBoundsOf<T>& columns)
+{
+  // The determinant is linear in each column: expand middle + change, and take each term at its
+  // worst; those of first order along each axis together.
+  const Vector<T>* m = columns.middle;
+  Vector<T> r[3]; // largest change
+  Vector<T> firstOrder(T(0));
+  T least = glm::dot(m[0], glm::cross(m[1], m[2]));
+  for (int a = 0; a < 3; ++a)
+  {
+    const Matrix<T>& slope = columns.slope[a];
+    r[a] =
+      T(0.5) * (glm::abs(slope[0]) + glm::abs(slope[1]) + glm::abs(slope[2])) + columns.rest[a];
+    const Vector<T> cofactors = glm::cross(m[(a + 1) % 3], m[(a + 2) % 3]);
+    firstOrder += cofactors * slope; // the change along each axis
+    least -= glm::dot(columns.rest[a], glm::abs(cofactors));
+  }
+  least -= T(0.5) * (std::abs(firstOrder.x) + std::abs(firstOrder.y) + std::abs(firstOrder.z));
+  for (int a = 0; a < 3; ++a)
+  {
+    least -= glm::dot(glm::abs(m[a]), largestCross<T>(r[(a + 1) % 3], r[(a + 2) % 3]));
+  }
+  return least - glm::dot(r[0], largestCross<T>(r[1], r[2]));
 }
 
 // Index of the first control point of one of the 16 rows along an axis.
@@ -34,64 +66,67 @@ int rowStart(int axis, int row)
   return axis == 0 ? 4 * low + 16 * high : axis == 1 ? low + 16 * high : low + 4 * high;
 }
 
+template <typename T>
 struct LinearRange
 {
-  float middle;
-  glm::vec3 slope; // across the box
-  float rest;      // at most, to either side
+  T middle;
+  Vector<T> slope; // across the box
+  T rest;          // at most, to either side
 };
 
 // A linear function near a cubic's derivative along an axis (times the box's size / 3), and how far
 // off it is. The derivative's Bernstein coefficients lie at regular places in the box; what is left
 // of them is a bound on what is left of it.
-LinearRange linearRange(const float* value, int axis)
+template <typename T>
+LinearRange<T> linearRange(const T* value, int axis)
 {
   const int own = Stride[axis];
   const auto difference = [&](int at) { return value[at + own] - value[at]; };
   const int last[3] = { axis == 0 ? 2 : 3, axis == 1 ? 2 : 3, axis == 2 ? 2 : 3 };
-  LinearRange range{ 0.0f, glm::vec3(0.0f), 0.0f };
+  LinearRange<T> range{ T(0), Vector<T>(T(0)), T(0) };
   for (int corner = 0; corner < 8; ++corner)
   {
     const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2);
-    const float at = 0.125f *
+    const T at = T(0.125) *
       difference(side.x * last[0] + side.y * last[1] * Stride[1] + side.z * last[2] * Stride[2]);
     range.middle += at;
-    range.slope += at * glm::vec3(4 * side - 2);
+    range.slope += at * Vector<T>(4 * side - 2);
   }
-  const glm::vec3 step(range.slope.x / last[0], range.slope.y / last[1], range.slope.z / last[2]);
-  float least = 0.0f;
-  float greatest = 0.0f;
+  const Vector<T> step(range.slope.x / last[0], range.slope.y / last[1], range.slope.z / last[2]);
+  T least = T(0.0);
+  T greatest = T(0.0);
   for (int k = 0; k <= last[2]; ++k)
   {
     for (int j = 0; j <= last[1]; ++j)
     {
-      float linear = range.middle - 0.5f * (range.slope.x + range.slope.y + range.slope.z) +
-        static_cast<float>(j) * step.y + static_cast<float>(k) * step.z;
+      T linear = range.middle - T(0.5) * (range.slope.x + range.slope.y + range.slope.z) +
+        static_cast<T>(j) * step.y + static_cast<T>(k) * step.z;
       for (int i = 0; i <= last[0]; ++i, linear += step.x)
       {
-        const float left = difference(i + j * Stride[1] + k * Stride[2]) - linear;
+        const T left = difference(i + j * Stride[1] + k * Stride[2]) - linear;
         least = left < least ? left : least;
         greatest = left > greatest ? left : greatest;
       }
     }
   }
-  range.middle += 0.5f * (least + greatest);
-  range.rest = 0.5f * (greatest - least);
+  range.middle += T(0.5) * (least + greatest);
+  range.rest = T(0.5) * (greatest - least);
   return range;
 }
 
 // Least and greatest difference between neighbours along an axis.
-std::pair<float, float> differences(const float* value, int axis)
+template <typename T>
+std::pair<T, T> differences(const T* value, int axis)
 {
   const int stride = Stride[axis];
-  float least = value[stride] - value[0];
-  float greatest = least;
+  T least = value[stride] - value[0];
+  T greatest = least;
   for (int row = 0; row < 16; ++row)
   {
-    const float* at = value + rowStart(axis, row);
+    const T* at = value + rowStart(axis, row);
     for (int step = 0; step < 3; ++step, at += stride)
     {
-      const float difference = at[stride] - at[0];
+      const T difference = at[stride] - at[0];
       least = difference < least ? difference : least;
       greatest = difference > greatest ? difference : greatest;
     }
@@ -100,21 +135,24 @@ std::pair<float, float> differences(const float* value, int axis)
 }
 
 // A cubic in Bernstein form over a box.
+template <typename T>
 struct CubicBox
 {
-  CellTaps coefficients;
-  glm::vec3 perCell{ 1.0f }; // such boxes in a lattice cell along each axis
+  CellTapsOf<T> coefficients;
+  Vector<T> perCell{ T(1) }; // such boxes in a lattice cell along each axis
 
-  ColumnBounds columns() const
+  ColumnBoundsOf<T> columns() const
   {
-    ColumnBounds result;
+    ColumnBoundsOf<T> result;
     for (int axis = 0; axis < 3; ++axis)
     {
       for (int component = 0; component < 3; ++component)
       {
-        const LinearRange range = linearRange(this->coefficients.component[component].data(), axis);
-        const float scale = 3.0f * this->perCell[axis];
-        result.middle[axis][component] = scale * range.middle + (axis == component ? 1.0f : 0.0f);
+        const LinearRange<T> range =
+          linearRange(this->coefficients.component[component].data(), axis);
+        const T scale = T(3.0) * this->perCell[axis];
+        result.middle[axis][component] =
+          scale * range.middle + (axis == component ? T(1.0) : T(0.0));
         result.rest[axis][component] = scale * range.rest;
         for (int along = 0; along < 3; ++along)
         {
@@ -126,29 +164,29 @@ struct CubicBox
   }
 
   // Without slopes.
-  ColumnBounds hull() const
+  ColumnBoundsOf<T> hull() const
   {
-    ColumnBounds result;
+    ColumnBoundsOf<T> result;
     for (int axis = 0; axis < 3; ++axis)
     {
-      const float scale = 3.0f * this->perCell[axis];
+      const T scale = T(3.0) * this->perCell[axis];
       for (int component = 0; component < 3; ++component)
       {
         const auto [least, greatest] =
           differences(this->coefficients.component[component].data(), axis);
         result.middle[axis][component] =
-          0.5f * scale * (least + greatest) + (axis == component ? 1.0f : 0.0f);
-        result.rest[axis][component] = 0.5f * scale * (greatest - least);
+          T(0.5) * scale * (least + greatest) + (axis == component ? T(1.0) : T(0.0));
+        result.rest[axis][component] = T(0.5) * scale * (greatest - least);
       }
-      result.slope[axis] = glm::mat3(0.0f);
+      result.slope[axis] = Matrix<T>(T(0.0));
     }
     return result;
   }
 
   // At the first corner, or at the last.
-  float determinantAtCorner(bool last) const
+  T determinantAtCorner(bool last) const
   {
-    glm::mat3 jacobian(1.0f);
+    Matrix<T> jacobian(T(1.0));
     for (int axis = 0; axis < 3; ++axis)
     {
       const int to = last ? 63 : Stride[axis];
@@ -156,32 +194,58 @@ struct CubicBox
       for (int component = 0; component < 3; ++component)
       {
         const auto& value = this->coefficients.component[component];
-        jacobian[axis][component] += 3.0f * this->perCell[axis] * (value[to] - value[from]);
+        jacobian[axis][component] += T(3.0) * this->perCell[axis] * (value[to] - value[from]);
       }
     }
     return glm::determinant(jacobian);
   }
 
+  // Largest change, along an axis, of a difference along any axis: 0 if halving is of no use.
+  T curvature(int axis) const
+  {
+    T largest = T(0);
+    for (int other = 0; other < 3; ++other)
+    {
+      glm::ivec3 last(3);
+      --last[axis];
+      --last[other];
+      const int a = Stride[axis];
+      const int b = Stride[other];
+      for (const auto& value : this->coefficients.component)
+      {
+        for (int i = 0; i < 64; ++i)
+        {
+          if ((i & 3) <= last.x && (i >> 2 & 3) <= last.y && (i >> 4) <= last.z)
+          {
+            const T second = value[i + a + b] - value[i + a] - value[i + b] + value[i];
+            largest = std::max(largest, std::abs(second) * this->perCell[other]);
+          }
+        }
+      }
+    }
+    return largest;
+  }
+
   // Halves along an axis: this becomes the lower half, the upper one is returned.
   CubicBox split(int axis)
   {
-    this->perCell[axis] *= 2.0f;
+    this->perCell[axis] *= T(2.0);
     CubicBox upper = *this;
     const int stride = Stride[axis];
     for (int component = 0; component < 3; ++component)
     {
       for (int row = 0; row < 16; ++row)
       {
-        float* low = this->coefficients.component[component].data() + rowStart(axis, row);
-        float* high = upper.coefficients.component[component].data() + rowStart(axis, row);
-        const float first = 0.5f * (low[0] + low[stride]);
-        const float middle = 0.5f * (low[stride] + low[2 * stride]);
-        const float last = 0.5f * (low[2 * stride] + low[3 * stride]);
-        const float below = 0.5f * (first + middle);
-        const float above = 0.5f * (middle + last);
+        T* low = this->coefficients.component[component].data() + rowStart(axis, row);
+        T* high = upper.coefficients.component[component].data() + rowStart(axis, row);
+        const T first = T(0.5) * (low[0] + low[stride]);
+        const T middle = T(0.5) * (low[stride] + low[2 * stride]);
+        const T last = T(0.5) * (low[2 * stride] + low[3 * stride]);
+        const T below = T(0.5) * (first + middle);
+        const T above = T(0.5) * (middle + last);
         low[stride] = first;
         low[2 * stride] = below;
-        low[3 * stride] = 0.5f * (below + above);
+        low[3 * stride] = T(0.5) * (below + above);
         high[0] = low[3 * stride];
         high[stride] = above;
         high[2 * stride] = last;
@@ -192,9 +256,10 @@ struct CubicBox
 };
 
 // Bernstein coefficients of the kernel's cubic between the second and the third control point.
-CubicBox cubicOf(const CellTaps& taps, int kernel)
+template <typename T>
+CubicBox<T> cubicOf(const CellTapsOf<T>& taps, int kernel)
 {
-  CubicBox box;
+  CubicBox<T> box;
   box.coefficients = taps;
   for (auto& component : box.coefficients.component)
   {
@@ -203,13 +268,13 @@ CubicBox cubicOf(const CellTaps& taps, int kernel)
       const int stride = Stride[axis];
       for (int row = 0; row < 16; ++row)
       {
-        float* b = component.data() + rowStart(axis, row);
-        const float p[4] = { b[0], b[stride], b[2 * stride], b[3 * stride] };
+        T* b = component.data() + rowStart(axis, row);
+        const T p[4] = { b[0], b[stride], b[2 * stride], b[3 * stride] };
         const bool smooth = kernel == KernelBSpline;
-        b[0] = smooth ? (p[0] + 4.0f * p[1] + p[2]) / 6.0f : p[1];
-        b[stride] = smooth ? (2.0f * p[1] + p[2]) / 3.0f : p[1] + (p[2] - p[0]) / 6.0f;
-        b[2 * stride] = smooth ? (p[1] + 2.0f * p[2]) / 3.0f : p[2] - (p[3] - p[1]) / 6.0f;
-        b[3 * stride] = smooth ? (p[1] + 4.0f * p[2] + p[3]) / 6.0f : p[2];
+        b[0] = smooth ? (p[0] + T(4.0) * p[1] + p[2]) / T(6.0) : p[1];
+        b[stride] = smooth ? (T(2.0) * p[1] + p[2]) / T(3.0) : p[1] + (p[2] - p[0]) / T(6.0);
+        b[2 * stride] = smooth ? (p[1] + T(2.0) * p[2]) / T(3.0) : p[2] - (p[3] - p[1]) / T(6.0);
+        b[3 * stride] = smooth ? (p[1] + T(4.0) * p[2] + p[3]) / T(6.0) : p[2];
       }
     }
   }
@@ -217,39 +282,40 @@ CubicBox cubicOf(const CellTaps& taps, int kernel)
 }
 
 // A trilinear displacement over a box.
+template <typename T>
 struct TrilinearBox
 {
-  std::array<glm::vec3, 8> corners;
-  glm::vec3 perCell;
+  std::array<Vector<T>, 8> corners;
+  Vector<T> perCell;
 
   // Slope along an axis on the box's edge from a corner.
-  glm::vec3 slope(int axis, int corner) const
+  Vector<T> slope(int axis, int corner) const
   {
     return this->perCell[axis] * (this->corners[corner | 1 << axis] - this->corners[corner]);
   }
 
-  ColumnBounds columns() const
+  ColumnBoundsOf<T> columns() const
   {
-    ColumnBounds result;
+    ColumnBoundsOf<T> result;
     for (int axis = 0; axis < 3; ++axis)
     {
       const int a = 1 << (axis + 1) % 3;
       const int b = 1 << (axis + 2) % 3;
-      const glm::vec3 edges[4] = { this->slope(axis, 0), this->slope(axis, a), this->slope(axis, b),
+      const Vector<T> edges[4] = { this->slope(axis, 0), this->slope(axis, a), this->slope(axis, b),
         this->slope(axis, a | b) };
-      result.middle[axis] = 0.25f * (edges[0] + edges[1] + edges[2] + edges[3]);
-      result.middle[axis][axis] += 1.0f;
-      result.slope[axis] = glm::mat3(0.0f);
-      result.slope[axis][(axis + 1) % 3] = 0.5f * (edges[1] + edges[3] - edges[0] - edges[2]);
-      result.slope[axis][(axis + 2) % 3] = 0.5f * (edges[2] + edges[3] - edges[0] - edges[1]);
-      result.rest[axis] = 0.25f * glm::abs(edges[0] + edges[3] - edges[1] - edges[2]);
+      result.middle[axis] = T(0.25) * (edges[0] + edges[1] + edges[2] + edges[3]);
+      result.middle[axis][axis] += T(1.0);
+      result.slope[axis] = Matrix<T>(T(0.0));
+      result.slope[axis][(axis + 1) % 3] = T(0.5) * (edges[1] + edges[3] - edges[0] - edges[2]);
+      result.slope[axis][(axis + 2) % 3] = T(0.5) * (edges[2] + edges[3] - edges[0] - edges[1]);
+      result.rest[axis] = T(0.25) * glm::abs(edges[0] + edges[3] - edges[1] - edges[2]);
     }
     return result;
   }
 
-  float determinantAtCorner(bool last) const
+  T determinantAtCorner(bool last) const
   {
-    glm::mat3 jacobian(1.0f);
+    Matrix<T> jacobian(T(1.0));
     for (int axis = 0; axis < 3; ++axis)
     {
       jacobian[axis] += this->slope(axis, last ? 7 & ~(1 << axis) : 0);
@@ -257,16 +323,32 @@ struct TrilinearBox
     return glm::determinant(jacobian);
   }
 
+  // As of a CubicBox.
+  T curvature(int axis) const
+  {
+    T largest = T(0);
+    for (int other = 0; other < 3; ++other)
+    {
+      for (int corner = 0; corner < 8 && other != axis; ++corner)
+      {
+        const Vector<T> change = glm::abs(this->slope(other, (corner | 1 << axis) & ~(1 << other)) -
+          this->slope(other, corner & ~(1 << axis | 1 << other)));
+        largest = std::max({ largest, change.x, change.y, change.z });
+      }
+    }
+    return largest;
+  }
+
   TrilinearBox split(int axis)
   {
-    this->perCell[axis] *= 2.0f;
+    this->perCell[axis] *= T(2.0);
     TrilinearBox upper = *this;
     for (int corner = 0; corner < 8; ++corner)
     {
       if (!(corner >> axis & 1))
       {
         const int other = corner | 1 << axis;
-        const glm::vec3 middle = 0.5f * (this->corners[corner] + this->corners[other]);
+        const Vector<T> middle = T(0.5) * (this->corners[corner] + this->corners[other]);
         this->corners[other] = middle;
         upper.corners[corner] = middle;
       }
@@ -279,7 +361,7 @@ struct TrilinearBox
 template <typename Box>
 bool holds(Box& box, int axis, float limit, int& boxes)
 {
-  if (leastDeterminant(box.columns()) >= limit)
+  if (leastOf(box.columns()) >= limit)
   {
     return true;
   }
@@ -293,6 +375,37 @@ bool holds(Box& box, int axis, float limit, int& boxes)
   return holds(box, next, limit, boxes) && holds(upper, next, limit, boxes);
 }
 
+template <typename Box>
+class PartOf : public DeterminantPart
+{
+public:
+  explicit PartOf(const Box& box)
+    : Part(box)
+  {
+    this->bound();
+  }
+
+  std::unique_ptr<DeterminantPart> halve() override
+  {
+    const std::array<double, 3> bent{ this->Part.curvature(0), this->Part.curvature(1),
+      this->Part.curvature(2) };
+    const auto axis = std::max_element(bent.begin(), bent.end()) - bent.begin();
+    auto upper = std::make_unique<PartOf>(this->Part.split(static_cast<int>(axis)));
+    this->bound();
+    return upper;
+  }
+
+private:
+  void bound()
+  {
+    this->least = leastOf(this->Part.columns());
+    this->found =
+      std::min(this->Part.determinantAtCorner(false), this->Part.determinantAtCorner(true));
+  }
+
+  Box Part;
+};
+
 // Range of a product of two numbers.
 glm::vec2 product(const glm::vec2& a, const glm::vec2& b)
 {
@@ -304,26 +417,7 @@ glm::vec2 product(const glm::vec2& a, const glm::vec2& b)
 
 float leastDeterminant(const ColumnBounds& columns)
 {
-  // The determinant is linear in each column: expand middle + change, and take each term at its
-  // worst; those of first order along each axis together.
-  const glm::vec3* m = columns.middle;
-  glm::vec3 r[3]; // largest change
-  glm::vec3 firstOrder(0.0f);
-  float least = glm::dot(m[0], glm::cross(m[1], m[2]));
-  for (int a = 0; a < 3; ++a)
-  {
-    const glm::mat3& slope = columns.slope[a];
-    r[a] = 0.5f * (glm::abs(slope[0]) + glm::abs(slope[1]) + glm::abs(slope[2])) + columns.rest[a];
-    const glm::vec3 cofactors = glm::cross(m[(a + 1) % 3], m[(a + 2) % 3]);
-    firstOrder += cofactors * slope; // the change along each axis
-    least -= glm::dot(columns.rest[a], glm::abs(cofactors));
-  }
-  least -= 0.5f * (std::abs(firstOrder.x) + std::abs(firstOrder.y) + std::abs(firstOrder.z));
-  for (int a = 0; a < 3; ++a)
-  {
-    least -= glm::dot(glm::abs(m[a]), largestCross(r[(a + 1) % 3], r[(a + 2) % 3]));
-  }
-  return least - glm::dot(r[0], largestCross(r[1], r[2]));
+  return leastOf(columns);
 }
 
 void holdFace(CellTaps& taps, int kernel, int axis, int side)
@@ -352,7 +446,7 @@ ColumnBounds boundsOf(const CellTaps& taps, int kernel)
 
 ColumnBounds maskedBoundsOf(const CellTaps& taps, int kernel, const WeightRange& weights)
 {
-  const CubicBox cubic = cubicOf(taps, kernel);
+  const CubicBox<float> cubic = cubicOf(taps, kernel);
   ColumnBounds result = cubic.hull();
   for (int component = 0; component < 3; ++component)
   {
@@ -376,15 +470,27 @@ ColumnBounds maskedBoundsOf(const CellTaps& taps, int kernel, const WeightRange&
 
 bool cubicHolds(const CellTaps& taps, int kernel, float limit)
 {
-  CubicBox box = cubicOf(taps, kernel);
+  CubicBox<float> box = cubicOf(taps, kernel);
   int boxes = LargestBoxes;
   return holds(box, 0, limit, boxes);
 }
 
 bool trilinearHolds(const std::array<glm::vec3, 8>& corners, int perCell, float limit)
 {
-  TrilinearBox box{ corners, glm::vec3(static_cast<float>(perCell)) };
+  TrilinearBox<float> box{ corners, glm::vec3(static_cast<float>(perCell)) };
   int boxes = LargestBoxes;
   return holds(box, 0, limit, boxes);
+}
+
+std::unique_ptr<DeterminantPart> cubicPart(const CellTapsOf<double>& taps, int kernel)
+{
+  return std::make_unique<PartOf<CubicBox<double>>>(cubicOf(taps, kernel));
+}
+
+std::unique_ptr<DeterminantPart> trilinearPart(
+  const std::array<glm::dvec3, 8>& corners, int perCell)
+{
+  return std::make_unique<PartOf<TrilinearBox<double>>>(
+    TrilinearBox<double>{ corners, glm::dvec3(perCell) });
 }
 }

@@ -20,6 +20,7 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <memory>
 
 namespace brainshift
 {
@@ -27,22 +28,26 @@ namespace brainshift
  * What the three columns of a matrix can be over a box: middle + slope * position + rest.
  * Positions go from -0.5 to 0.5 along each axis.
  */
-struct ColumnBounds
+template <typename T>
+struct ColumnBoundsOf
 {
-  glm::vec3 middle[3]; ///< of each column, at the middle of the box
-  glm::mat3 slope[3];  ///< of each column: change over the box along each axis
-  glm::vec3 rest[3];   ///< largest absolute value of each number of the rest; 0 or more
+  glm::vec<3, T> middle[3];   ///< of each column, at the middle of the box
+  glm::mat<3, 3, T> slope[3]; ///< of each column: change over the box along each axis
+  glm::vec<3, T> rest[3];     ///< largest absolute value of each number of the rest; 0 or more
 };
+using ColumnBounds = ColumnBoundsOf<float>;
 
 /** A number that the determinant is nowhere below in the box. */
 BRAINSHIFT_DEFORMATION_EXPORT float leastDeterminant(const ColumnBounds& columns);
 
 /** Displacements of the 64 control points around a lattice cell, one list for each component. */
-struct CellTaps
+template <typename T>
+struct CellTapsOf
 {
   /** Control point (i, j, k) of the 4 x 4 x 4 has the index i + 4 j + 16 k. */
-  std::array<float, 64> component[3];
+  std::array<T, 64> component[3];
 };
+using CellTaps = CellTapsOf<float>;
 
 /**
  * Makes the displacement constant along an axis, with the values of the cell's lower (`side` 0) or
@@ -82,6 +87,27 @@ BRAINSHIFT_DEFORMATION_EXPORT bool cubicHolds(const CellTaps& taps, int kernel, 
  */
 BRAINSHIFT_DEFORMATION_EXPORT bool trilinearHolds(
   const std::array<glm::vec3, 8>& corners, int perCell, float limit);
+
+/** A part of a cell, in double precision, and what is known of the determinants in it. */
+class BRAINSHIFT_DEFORMATION_EXPORT DeterminantPart
+{
+public:
+  virtual ~DeterminantPart() = default;
+
+  double least = 0.0; ///< no determinant in the part is below this
+  double found = 0.0; ///< the smaller one of those at two corners
+
+  /** Halves the part where that helps the bound most. Returns the half that is no longer in it. */
+  virtual std::unique_ptr<DeterminantPart> halve() = 0;
+};
+
+/** A whole cell of the cubic. */
+BRAINSHIFT_DEFORMATION_EXPORT std::unique_ptr<DeterminantPart> cubicPart(
+  const CellTapsOf<double>& taps, int kernel);
+
+/** A whole box of a displacement that is trilinear. The arguments are those of trilinearHolds. */
+BRAINSHIFT_DEFORMATION_EXPORT std::unique_ptr<DeterminantPart> trilinearPart(
+  const std::array<glm::dvec3, 8>& corners, int perCell);
 }
 
 #endif

@@ -6,12 +6,10 @@
 #include "Filters/Deformation/Parallel.h"
 
 #include <glm/common.hpp>
-#include <glm/matrix.hpp>
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace brainshift
 {
@@ -92,32 +90,6 @@ std::vector<glm::vec3> refineAxis(const std::vector<glm::vec3>& from, int points
       }
     });
   return to;
-}
-
-// Smallest determinant at the 8 corners of a cell of nodes, as seen from within.
-double smallestAtCorners(const NodeField& field, const glm::ivec3& low)
-{
-  glm::vec3 corners[8];
-  bool moves = false;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    corners[corner] = field.values[nodeOffset(
-      field.nodes.count, low.x + (corner & 1), low.y + (corner >> 1 & 1), low.z + (corner >> 2))];
-    moves = moves || corners[corner] != glm::vec3(0.0f);
-  }
-  float smallest = moves ? std::numeric_limits<float>::max() : 1.0f;
-  for (int corner = 0; moves && corner < 8; ++corner)
-  {
-    glm::mat3 jacobian(1.0f);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const int bit = 1 << axis;
-      jacobian[axis] +=
-        static_cast<float>(field.nodes.perCell) * (corners[corner | bit] - corners[corner & ~bit]);
-    }
-    smallest = std::min(smallest, glm::determinant(jacobian));
-  }
-  return smallest;
 }
 
 // How many whole cells tissue may leave the lattice by, below and above, along one axis.
@@ -247,23 +219,6 @@ NodeField refine(const Lattice& lattice, int samples)
     field.values[node] *= lattice.mask->values[node];
   }
   return field;
-}
-
-double minimumJacobian(const NodeField& field)
-{
-  const glm::ivec3 cells = field.nodes.count - 1;
-  std::vector<double> smallest(cells.z, std::numeric_limits<double>::max());
-  parallelFor(0, cells.z, 1, [&](std::int64_t first, std::int64_t end) {
-    for (int k = static_cast<int>(first); k < end; ++k)
-    {
-      for (int cell = 0; cell < cells.x * cells.y; ++cell)
-      {
-        const glm::ivec3 low(cell % cells.x, cell / cells.x, k);
-        smallest[k] = std::min(smallest[k], smallestAtCorners(field, low));
-      }
-    }
-  });
-  return *std::min_element(smallest.begin(), smallest.end());
 }
 
 NodeField invert(const NodeField& forward, const FieldNodes& nodes, Inverse inverse)

@@ -107,9 +107,6 @@ BRAINSHIFT_DEFORMATION_EXPORT NodeField refine(
  */
 BRAINSHIFT_DEFORMATION_EXPORT NodeField refine(const Lattice& lattice, int samples);
 
-/** Smallest Jacobian determinant of position + field, at the corners of all its cells. */
-BRAINSHIFT_DEFORMATION_EXPORT double minimumJacobian(const NodeField& field);
-
 /** The offset field on `nodes`, from the refined displacement. */
 BRAINSHIFT_DEFORMATION_EXPORT NodeField invert(
   const NodeField& forward, const FieldNodes& nodes, Inverse inverse);
