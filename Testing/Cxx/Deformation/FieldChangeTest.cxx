@@ -187,4 +187,17 @@ TEST_P(FieldChangeTest, WhatMovesBesideTheChangeSpreadsIt)
   expectChangeBetweenCorners(GetParam(), changed(0.2f), changed(0.5f));
 }
 
+TEST_P(FieldChangeTest, AChangeReachesAsFarAsItsWayBack)
+{
+  // A stroke and its undo redo the same nodes and pixels: both fields count, not the later one.
+  const std::vector<glm::vec3> still = moveBox(::still(), Corner, 7);
+  std::vector<glm::vec3> far = still;
+  far[(5 * Points.y + 5) * Points.x + 5] = { 2.5f, -3.5f, 3.0f };
+  const FieldNodes nodes = backwardNodes(obliqueGrid(Points), far, Samples);
+  const IndexBox points = changedPoints(Points, still, far);
+  EXPECT_EQ(changedBackwardNodes(points, Points, still, far, nodes),
+    changedBackwardNodes(points, Points, far, still, nodes));
+  EXPECT_EQ(cornersOfChange(Points, still, far, 1.0f), cornersOfChange(Points, far, still, 1.0f));
+}
+
 INSTANTIATE_TEST_SUITE_P(Kernels, FieldChangeTest, ::testing::Values(0, 1));

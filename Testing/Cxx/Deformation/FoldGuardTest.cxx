@@ -247,3 +247,26 @@ TEST(FoldGuard, LeavesAloneWhatFoldsByItself)
   guard.setBase(base(KernelCatmullRom), Samples);
   EXPECT_EQ(guard.foldedCells(), 0);
 }
+
+TEST(FoldGuard, AsksAllCellsAgainAtASmallerShare)
+{
+  // Displacements -k(r) (p - middle) across z, with k from 3 in the middle to 2.07 at 6 cells and
+  // to 0 at 9. Wholly applied, the middle is turned by half a circle and does not fold; at a third
+  // it shrinks to nothing. The ring around it folds unless only a third is applied.
+  const Grid grid = plainGrid({ 23, 23, 4 }, glm::dvec3(10.0));
+  const glm::dvec3 middle(110.0, 110.0, 0.0);
+  const Lattice before = makeLattice(grid, KernelBSpline);
+  const Lattice after = latticeOf(grid, KernelBSpline, [&](const glm::dvec3& rest) {
+    const glm::dvec3 aside(rest.x - middle.x, rest.y - middle.y, 0.0);
+    const double r = glm::length(aside) / 60.0;
+    const double factor =
+      r < 1.0 ? 3.0 - 0.93 * r * r * r * r : 2.07 * std::max(0.0, 3.0 - 2.0 * r);
+    return -factor * aside;
+  });
+  FoldGuard guard;
+  guard.setBase(before, Samples);
+  const double share = guard.share(before, after);
+  EXPECT_GT(share, 0.1);
+  EXPECT_LT(share, 0.3);
+  EXPECT_GT(smallestOfCubic(between(before, after, share), 4), Limit - Rounding);
+}

@@ -147,3 +147,40 @@ TEST(HoldFace, MakesTheDisplacementThatOfTheFace)
     }
   }
 }
+
+TEST(LeastDeterminant, KnowsColumnsThatAllChange)
+{
+  // Columns that can be the unit vectors or their negatives: the determinant can be -1.
+  ColumnBounds columns;
+  for (int column = 0; column < 3; ++column)
+  {
+    columns.middle[column] = glm::vec3(0.0f);
+    columns.slope[column] = glm::mat3(0.0f);
+    columns.rest[column] = glm::vec3(0.0f);
+    columns.rest[column][column] = 1.0f;
+  }
+  EXPECT_EQ(leastDeterminant(columns), -1.0f);
+  // Of random bounds, at the ends of all rests.
+  Random random(3);
+  for (int i = 0; i < 200; ++i)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      columns.middle[column] = glm::vec3(random.between(glm::dvec3(-0.3), glm::dvec3(0.3)));
+      columns.rest[column] = glm::vec3(random.between(glm::dvec3(0.0), glm::dvec3(2.0)));
+    }
+    const float least = leastDeterminant(columns);
+    for (int signs = 0; signs < 512; ++signs)
+    {
+      glm::mat3 matrix;
+      for (int number = 0; number < 9; ++number)
+      {
+        const int column = number / 3;
+        const float rest = columns.rest[column][number % 3];
+        matrix[column][number % 3] =
+          columns.middle[column][number % 3] + (signs >> number & 1 ? rest : -rest);
+      }
+      EXPECT_GE(glm::determinant(matrix), least - 1e-4f) << i;
+    }
+  }
+}

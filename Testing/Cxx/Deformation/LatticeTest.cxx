@@ -325,3 +325,19 @@ TEST(ApplyStroke, FarAwayMovesNoOtherPoint)
     EXPECT_NEAR(displacement.x, 1.0f, 1.0f);
   }
 }
+
+TEST(ApplyStroke, AWideStampReachesItsMinorRadius)
+{
+  Lattice lattice = makeLattice(plainGrid(glm::ivec3(13), glm::dvec3(10.0)), KernelCatmullRom);
+  Stroke stroke = strokeAt(Tool::Stamp, glm::dvec3(60.0), { 0.0, 0.0, 4.0 });
+  stroke.major = 15.0;
+  stroke.minor = 45.0;
+  applyStroke(lattice, stroke);
+  for (int point = 0; point < 13 * 13 * 13; ++point)
+  {
+    const glm::dvec3 at = 10.0 * glm::dvec3(point % 13, point / 13 % 13, point / 169);
+    const double weight = falloff(normalisedDistance(stroke, at), stroke.sigma);
+    EXPECT_EQ(lattice.displacements[point], glm::vec3(weight * stroke.vector)) << point;
+  }
+  EXPECT_GT(at(lattice, 10, 6, 6).z, 0.01f) << "40 mm aside";
+}

@@ -11,6 +11,7 @@
 #include "Testing/Cxx/Deformation/TestHead.h"
 
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -131,4 +132,51 @@ TEST(MaskWeights, RiseOverTheFeather)
   const auto hard = maskWeights(lattice, 4, mask, 0.0);
   EXPECT_EQ(hard->values[(22 * side + 22) * side + 8], 0.0f);
   EXPECT_EQ(hard->values[(22 * side + 22) * side + 9], 1.0f);
+}
+
+TEST(MaskWeights, RiseEquallyFarAlongEachAxis)
+{
+  // Nodes every 2, 1 and 4 mm. Inside is what lies above 40 mm along one axis.
+  const Grid lattice = plainGrid(glm::ivec3(12), { 10.0, 5.0, 20.0 });
+  const glm::dvec3 spacing = lattice.spacing / 5.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    Mask mask{ plainGrid(glm::ivec3(3), glm::dvec3(400.0)), std::vector<char>(27, 1) };
+    mask.grid.origin = glm::dvec3(-400.0);
+    mask.grid.origin[axis] = -160.0; // the first voxel ends at 40 mm
+    for (std::size_t voxel = 0; voxel < 27; ++voxel)
+    {
+      mask.inside[voxel] = indexOf(mask.grid, voxel)[axis] > 0;
+    }
+    const auto weights = maskWeights(lattice, 4, mask, 8.0);
+    const Grid nodes = withDimensions(lattice, glm::ivec3(56));
+    for (int steps = 0; steps < 3; ++steps)
+    {
+      glm::ivec3 node(28);
+      const int last = static_cast<int>(40.0 / spacing[axis]); // that may not move
+      node[axis] = last + steps;
+      const double t = std::min(steps * spacing[axis] / 8.0, 1.0);
+      EXPECT_NEAR(
+        weights->values[nodes.offset(node.x, node.y, node.z)], t * t * (3.0 - 2.0 * t), 1e-6)
+        << axis << " " << steps;
+    }
+  }
+}
+
+TEST(MaskWeights, AreZeroOnTheWholeBorder)
+{
+  // A mask far beyond the lattice: still no tissue may leave it.
+  Mask mask{ plainGrid(glm::ivec3(2), glm::dvec3(1000.0)), std::vector<char>(8, 1) };
+  mask.grid.origin = glm::dvec3(-400.0);
+  const Grid lattice = plainGrid({ 5, 6, 7 }, glm::dvec3(10.0));
+  const auto weights = maskWeights(lattice, 1, mask, 0.0);
+  const Grid nodes = withDimensions(lattice, { 9, 11, 13 });
+  for (std::size_t number = 0; number < nodes.count(); ++number)
+  {
+    const glm::ivec3 node = indexOf(nodes, number);
+    const bool atBorder =
+      glm::any(glm::equal(node, glm::ivec3(0))) || glm::any(glm::equal(node, nodes.dimensions - 1));
+    EXPECT_EQ(weights->values[number], atBorder ? 0.0f : 1.0f)
+      << node.x << " " << node.y << " " << node.z;
+  }
 }

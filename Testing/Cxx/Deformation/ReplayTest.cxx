@@ -130,3 +130,20 @@ TEST_F(ReplayTest, RepeatsAllOnAnotherBase)
   this->expectAfterwards(3, shifted);
   this->expectAfterwards(3, makeLattice(plainGrid(glm::ivec3(14), glm::dvec3(8.0)), 0));
 }
+
+TEST_F(ReplayTest, RepeatsAllForAnotherGuard)
+{
+  // The guard proves the field that is drawn, too, which has as many samples.
+  for (const Guarding& guarding :
+    { Guarding{ true, 4 }, Guarding{ true, 0 }, Guarding{ false, 0 } })
+  {
+    const std::vector<glm::vec3> result =
+      this->Running.run(base(), this->Strokes, guarding).displacements;
+    EXPECT_EQ(this->Running.applied(), 3) << guarding.samples;
+    Replay fresh;
+    EXPECT_EQ(result, fresh.run(base(), this->Strokes, guarding).displacements);
+    EXPECT_EQ(this->Running.shares(), fresh.shares());
+  }
+  this->Running.run(base(), this->Strokes, { false, 7 });
+  EXPECT_EQ(this->Running.applied(), 1) << "without a guard samples do not matter";
+}

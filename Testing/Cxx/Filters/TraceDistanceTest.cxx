@@ -375,6 +375,25 @@ TEST_F(TraceDistance, TissueIsAThresholdALabelOrASegmentation)
     << "label 9 is a shell: its middle is outside";
 }
 
+TEST_F(TraceDistance, TheSameNumberAsThresholdAndAsLabelIsAnotherSurface)
+{
+  // Label 1 is a shell around label 2. From 1 on, both are tissue.
+  const auto labels = this->image([&](const glm::dvec3& p) {
+    return this->depth(p) > 6.0 ? 2.0 : this->depth(p) > 0.0 ? 1.0 : 0.0;
+  });
+  this->Filter->SetInputData(2, labels);
+  this->Filter->SetThreshold(1.0);
+  this->Filter->SetLabel(1);
+  const auto set = pointsAt({ this->Middle });
+  for (int turn = 0; turn < 2; ++turn)
+  {
+    this->Filter->SetSurfaceBy(vtkTraceDistance::ByThreshold);
+    EXPECT_NEAR(trace(this->run(set), 0), -Radius, 1.5) << "a surface of labels has steps";
+    this->Filter->SetSurfaceBy(vtkTraceDistance::ByLabel);
+    EXPECT_NEAR(trace(this->run(set), 0), Radius - 6.0, 1.0) << "the middle is outside";
+  }
+}
+
 TEST_F(TraceDistance, BlocksGiveOneSetOfNumbers)
 {
   vtkNew<vtkMultiBlockDataSet> blocks;
