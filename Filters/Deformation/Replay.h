@@ -15,6 +15,7 @@
 #include "Filters/Deformation/Lattice.h"
 #include "Filters/Deformation/Stroke.h"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -32,13 +33,24 @@ struct Guarding
   }
 };
 
-/** Keeps the result of the last run, so that changing the last stroke costs one stroke. */
+/** A checkpoint follows so many strokes, until checkpoints take MostCheckpointBytes. */
+constexpr std::size_t StrokesPerCheckpoint = 16;
+
+/** Bytes of checkpoints; above it, every second one is dropped. 800 of 19^3 points fit. */
+constexpr std::size_t MostCheckpointBytes = std::size_t(64) << 20;
+
+/**
+ * Keeps the result of the last run, and the lattice at checkpoints before it. So changing the last
+ * stroke costs one stroke, and taking strokes back costs those since a checkpoint, unguarded.
+ */
 class BRAINSHIFT_DEFORMATION_EXPORT Replay
 {
 public:
   /**
-   * The base lattice after all strokes, in order. If only the last stroke differs from the previous
-   * call, or one stroke was added, one stroke is applied. Otherwise all strokes are applied.
+   * The base lattice after all strokes, in order. Strokes that the previous call had at the start,
+   * too, are not guarded again, and they are applied only from the last checkpoint among them. All
+   * strokes after a changed one are guarded and applied anew, because weights depend on where
+   * earlier strokes moved tissue.
    */
   const Lattice& run(
     const Lattice& base, const std::vector<Stroke>& strokes, const Guarding& guarding = {});
@@ -53,9 +65,18 @@ public:
   int foldedCells() const { return this->Guarded.on ? this->Guard.foldedCells() : 0; }
 
 private:
-  bool startsAsBefore(
-    const Lattice& base, const std::vector<Stroke>& strokes, const Guarding& guarding) const;
-  double apply(const Stroke& stroke);
+  void start(const Lattice& base, const Guarding& guarding);
+  bool isFor(const Lattice& base, const Guarding& guarding) const;
+  std::size_t goBack(std::size_t same, std::size_t count);
+  void apply(const Stroke& stroke, double share);
+  void keepCheckpoint(std::size_t count);
+
+  // The displacements after the first `count` strokes.
+  struct Checkpoint
+  {
+    std::size_t count = 0;
+    std::vector<glm::vec3> displacements;
+  };
 
   Lattice Base;
   Guarding Guarded;
@@ -65,6 +86,8 @@ private:
   Lattice BeforeLast; // after all strokes but the last
   Lattice Result;     // after all of them
   int Applied = 0;
+  std::vector<Checkpoint> Checkpoints; // in the order of the strokes
+  std::size_t PerCheckpoint = StrokesPerCheckpoint;
 };
 
 /**

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 using namespace brainshift;
@@ -145,5 +146,76 @@ TEST_F(ReplayTest, RepeatsAllForAnotherGuard)
     EXPECT_EQ(this->Running.shares(), fresh.shares());
   }
   this->Running.run(base(), this->Strokes, { false, 7 });
-  EXPECT_EQ(this->Running.applied(), 1) << "without a guard samples do not matter";
+  EXPECT_EQ(this->Running.applied(), 0) << "without a guard samples do not matter";
+}
+
+namespace
+{
+// Many strokes of all tools, most of which the guard shortens.
+std::vector<Stroke> manyStrokes(int count)
+{
+  Random random(8);
+  std::vector<Stroke> strokes;
+  for (int i = 0; i < count; ++i)
+  {
+    Stroke stroke = strokeAt(static_cast<Tool>(i % 3), random.point(base().grid, -1.0),
+      random.between(glm::dvec3(-14.0), glm::dvec3(14.0)));
+    stroke.major = i % 3 == 0 ? 0.0 : random.between(15.0, 30.0);
+    stroke.minor = random.between(15.0, 30.0);
+    strokes.push_back(stroke);
+  }
+  return strokes;
+}
+}
+
+TEST(LongReplay, GoesOnFromACheckpoint)
+{
+  const Guarding guarding{ true, 0 };
+  constexpr int Gap = StrokesPerCheckpoint;
+  constexpr int Count = 2 * Gap + 6;
+  std::vector<Stroke> strokes = manyStrokes(Count);
+  Replay running;
+  running.run(base(), strokes, guarding);
+  EXPECT_LT(*std::min_element(running.shares().begin(), running.shares().end()), 0.9);
+  const auto expectAsAnew = [&](int most, const char* when) {
+    const std::vector<glm::vec3> result = running.run(base(), strokes, guarding).displacements;
+    EXPECT_LE(running.applied(), most) << when;
+    Replay fresh;
+    EXPECT_EQ(result, fresh.run(base(), strokes, guarding).displacements) << when;
+    EXPECT_EQ(running.shares(), fresh.shares()) << when;
+  };
+  expectAsAnew(0, "nothing changed");
+  const std::vector<Stroke> all = strokes;
+  strokes.pop_back();
+  expectAsAnew(Gap, "the last one is taken back");
+  strokes.back().vector *= 0.5;
+  expectAsAnew(Gap, "then another last one is changed");
+  strokes.resize(Gap + 1);
+  expectAsAnew(Gap, "many are taken back, to just after a checkpoint");
+  strokes.resize(Gap);
+  expectAsAnew(Gap, "to the checkpoint");
+  strokes = all;
+  expectAsAnew(Count - Gap, "all are back");
+  strokes[Count - 5].enabled = false;
+  expectAsAnew(5 + Gap, "one of the last ones is disabled");
+  strokes.erase(strokes.begin() + Count - 8);
+  expectAsAnew(7 + Gap, "one of them is deleted");
+  strokes[0].vector *= 0.9;
+  expectAsAnew(Count - 1, "the first one is changed");
+  strokes.clear();
+  expectAsAnew(0, "none is left");
+}
+
+TEST(LongReplay, KeepsNoMoreCheckpointsThanFit)
+{
+  // 113^3 points take 17 MB: 3 checkpoints fit.
+  const Lattice large = makeLattice(plainGrid(glm::ivec3(113), glm::dvec3(1.0)), KernelCatmullRom);
+  Stroke still = strokeAt(Tool::Move, Middle, glm::dvec3(0.1));
+  std::vector<Stroke> strokes(StrokesPerCheckpoint * 8, still);
+  Replay running;
+  running.run(large, strokes);
+  strokes.pop_back();
+  running.run(large, strokes);
+  EXPECT_LE(running.applied(), static_cast<int>(4 * StrokesPerCheckpoint));
+  EXPECT_GT(running.applied(), static_cast<int>(StrokesPerCheckpoint));
 }
