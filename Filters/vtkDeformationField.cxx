@@ -2,6 +2,7 @@
 #include "vtkDeformationField.h"
 
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/DirectedMap.h"
 #include "Filters/Attached/Portions.h"
 #include "Filters/Attached/WholeExtent.h"
 #include "Filters/Files/FieldImage.h"
@@ -164,6 +165,7 @@ int vtkDeformationField::RequestData(
   int extent[6];
   outputs->GetInformationObject(0)->Get(Pipeline::UPDATE_EXTENT(), extent);
   place(output, samples, extent);
+  detach(output);
   nameDirection(output, direction);
   if (!fill(this, output, samples, *map))
   {

@@ -101,6 +101,11 @@ std::string problemOf(const Grid& volume)
   return problem.empty() ? problem : "The volume's " + problem;
 }
 
+constexpr const char* BentAlready =
+  "The volume carries a deformation already, and that one stays. Free-Form Deformation cannot bend "
+  "a bent volume: add the strokes to the first Free-Form Deformation, or put Bake Deformation "
+  "between the two";
+
 // Adds a displacement field on any grid to a lattice, read trilinearly at the control points.
 void addField(Lattice& lattice, vtkImageData* image, vtkDataArray* field)
 {
@@ -239,6 +244,11 @@ int vtkFreeFormDeformation::RequestData(
   vtkImageData* volume = vtkImageData::GetData(inputs[0]);
   vtkImageData* output = vtkImageData::GetData(outputs);
   output->ShallowCopy(volume);
+  if (carriesDeformation(volume))
+  {
+    vtkErrorMacro(<< BentAlready << ".");
+    return 1;
+  }
   const Grid volumeGrid = wholeGrid(volume, inputs[0]->GetInformationObject(0));
   std::string problem = problemOf(volumeGrid);
   if (!problem.empty())

@@ -8,7 +8,8 @@
  * draws the result bent. Other filters see the volume undeformed, unless Bake Deformation stands
  * before them. After an error the last good deformation stays.
  *
- * - Input 0: the volume, vtkImageData with at least two points along each axis.
+ * - Input 0: the volume, vtkImageData with at least two points along each axis. A volume that
+ *   carries a deformation already is passed on as it is, with an error.
  * - Input 1 (optional): a base lattice or a dense displacement field, vtkImageData with a point
  *   array of three components (mm, world axes, forward). It is read at the control points, and
  *   strokes add to it.

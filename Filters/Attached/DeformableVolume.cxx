@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Attached/DeformableVolume.h"
 
+#include "Filters/Attached/FieldDirection.h"
 #include "Filters/Deformation/OffsetField.h"
 
 #include "vtkDataArray.h"
@@ -23,6 +24,7 @@ namespace brainshift
 {
 namespace
 {
+constexpr const char* Prefix = "FFD"; // of each array that is attached
 constexpr const char* DisplacementsName = "FFDDisplacements";
 constexpr const char* DimensionsName = "FFDDimensions";
 constexpr const char* BoxName = "FFDBox";
@@ -241,6 +243,7 @@ void attach(vtkDataObject* volume, const Deformation& deformation)
       box.push_back(grid.direction[column][row]);
     }
   }
+  forgetDirection(volume);
   attachDisplacements(fields, deformation.lattice);
   attachMask(fields, deformation.lattice);
   attachTuple<vtkIntArray>(fields, DimensionsName,
@@ -252,9 +255,22 @@ void attach(vtkDataObject* volume, const Deformation& deformation)
   attachTuple<vtkDoubleArray>(fields, StrengthName, { deformation.strength });
 }
 
+void detach(vtkDataObject* volume)
+{
+  vtkFieldData* fields = volume->GetFieldData();
+  for (int i = fields->GetNumberOfArrays() - 1; i >= 0; --i)
+  {
+    const char* const name = fields->GetArrayName(i);
+    if (name && std::strncmp(name, Prefix, std::strlen(Prefix)) == 0)
+    {
+      fields->RemoveArray(i);
+    }
+  }
+}
+
 bool carriesDeformation(vtkDataObject* volume)
 {
-  return volume && volume->GetFieldData()->HasArray(DisplacementsName);
+  return volume && volume->GetFieldData()->HasArray(DisplacementsName) && !directionOf(volume);
 }
 
 bool readDeformation(vtkDataObject* volume, Deformation& deformation, std::string& error)

@@ -58,10 +58,19 @@ VTKBRAINSHIFTFILTERS_EXPORT Grid gridOf(vtkImageData* image);
  */
 VTKBRAINSHIFTFILTERS_EXPORT std::string problemOfGrid(const Grid& grid);
 
-/** Attaches the arrays to a data set. Arrays of an earlier deformation are replaced. */
+/**
+ * Attaches the arrays to a data set. Arrays of an earlier deformation are replaced. A displacement
+ * field is a volume like any other from here on: its direction (FieldDirection.h) is removed.
+ */
 VTKBRAINSHIFTFILTERS_EXPORT void attach(vtkDataObject* volume, const Deformation& deformation);
 
-/** Whether a data set carries a deformation, well formed or not. False for null. */
+/** Removes every array whose name begins with FFD, those of the segmentation included. */
+VTKBRAINSHIFTFILTERS_EXPORT void detach(vtkDataObject* volume);
+
+/**
+ * Whether a data set carries a deformation, well formed or not. False for null, and for a
+ * displacement field (FieldDirection.h): a field is made from a deformation and is not bent by it.
+ */
 VTKBRAINSHIFTFILTERS_EXPORT bool carriesDeformation(vtkDataObject* volume);
 
 /**

@@ -6,6 +6,7 @@
 #ifndef BrainShift_DirectedMap_h
 #define BrainShift_DirectedMap_h
 
+#include "Filters/Attached/FieldDirection.h"
 #include "Filters/Deformation/PointMap.h"
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 
@@ -20,13 +21,6 @@ class vtkDataObject;
 
 namespace brainshift
 {
-/** Which way a map leads. */
-enum class Direction
-{
-  Forward = 0,  ///< deformedFromRest: where tissue goes
-  Backward = 1, ///< restFromDeformed: which tissue is seen
-};
-
 /** A map in one direction. Positions are mm along world axes. */
 class VTKBRAINSHIFTFILTERS_EXPORT DirectedMap
 {

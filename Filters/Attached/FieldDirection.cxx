@@ -23,6 +23,11 @@ void nameDirection(vtkDataObject* field, Direction direction)
   field->GetFieldData()->AddArray(name);
 }
 
+void forgetDirection(vtkDataObject* field)
+{
+  field->GetFieldData()->RemoveArray(ArrayName);
+}
+
 std::optional<Direction> directionOf(vtkDataObject* field)
 {
   auto* array = vtkStringArray::SafeDownCast(field->GetFieldData()->GetAbstractArray(ArrayName));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief The field array that names the direction of a displacement field.
+ * @brief The two directions of a map, and the field array that names that of a displacement field.
  *
  * The array DisplacementDirection holds one string: "forward" (where tissue goes; ITK calls it the
  * modelling direction) or "backward" (which tissue is seen; ITK: the resampling direction).
@@ -9,7 +9,6 @@
 #ifndef BrainShift_FieldDirection_h
 #define BrainShift_FieldDirection_h
 
-#include "Filters/Attached/DirectedMap.h"
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 
 #include <optional>
@@ -18,8 +17,18 @@ class vtkDataObject;
 
 namespace brainshift
 {
+/** Which way a map leads. */
+enum class Direction
+{
+  Forward = 0,  ///< deformedFromRest: where tissue goes
+  Backward = 1, ///< restFromDeformed: which tissue is seen
+};
+
 /** Attaches the array. */
 VTKBRAINSHIFTFILTERS_EXPORT void nameDirection(vtkDataObject* field, Direction direction);
+
+/** Removes the array, if there is one. */
+VTKBRAINSHIFTFILTERS_EXPORT void forgetDirection(vtkDataObject* field);
 
 /** The direction that the array names; none if there is no such array. */
 VTKBRAINSHIFTFILTERS_EXPORT std::optional<Direction> directionOf(vtkDataObject* field);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Files/FieldImage.h"
 
+#include "Filters/Attached/DeformableVolume.h"
+
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -39,6 +41,7 @@ void setField(vtkImageData* image, const Grid& grid, const std::vector<glm::vec3
   array->SetNumberOfTuples(static_cast<vtkIdType>(displacements.size()));
   std::memcpy(array->GetPointer(0), displacements.data(), displacements.size() * sizeof(glm::vec3));
   image->GetPointData()->SetVectors(array);
+  detach(image);
   nameDirection(image, direction);
 }
 

@@ -4,7 +4,9 @@
 #include "Filters/Attached/FieldDirection.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
 #include "vtkDeformationField.h"
+#include "vtkInvertDisplacementField.h"
 
+#include <vtkFieldData.h>
 #include <vtkPointData.h>
 
 #include <glm/matrix.hpp>
@@ -12,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 using namespace brainshift;
 using namespace brainshift::testing;
@@ -224,6 +227,26 @@ TEST_F(DeformationField, SaysWhichWayItLeads)
   EXPECT_EQ(directionOf(this->run()), Direction::Backward);
   vtkNew<vtkImageData> silent;
   EXPECT_EQ(directionOf(silent), std::nullopt);
+}
+
+TEST_F(DeformationField, CarriesNothingOfWhatBentTheVolume)
+{
+  const auto expectNone = [](vtkImageData* field) {
+    for (int i = 0; i < field->GetFieldData()->GetNumberOfArrays(); ++i)
+    {
+      const std::string name = field->GetFieldData()->GetArrayName(i);
+      EXPECT_NE(name.substr(0, 3), "FFD") << name;
+    }
+  };
+  expectNone(this->run());
+  vtkNew<vtkImageData> tagged; // a field that an earlier release saved
+  this->Bend->Update();
+  tagged->ShallowCopy(this->run());
+  attach(tagged, deformationOf(vtkImageData::SafeDownCast(this->Bend->GetOutputDataObject(0))));
+  vtkNew<vtkInvertDisplacementField> invert;
+  invert->SetInputData(tagged);
+  invert->Update();
+  expectNone(invert->GetOutput());
 }
 
 TEST_F(DeformationField, GridsThatCannotBeMadeAreRefused)
