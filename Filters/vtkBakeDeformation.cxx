@@ -4,6 +4,7 @@
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/Resample.h"
 #include "Filters/Attached/WholeExtent.h"
+#include "Filters/Attached/WorldAxes.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -107,6 +108,7 @@ int vtkBakeDeformation::RequestData(
   int inputExtent[6];
   input->GetExtent(inputExtent);
   output->CopyStructure(input);
+  nameWorldAxes(output, worldAxesOf(input));
   output->SetExtent(extent);
   const auto proceed = [this](double share) {
     this->UpdateProgress(share);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNIFTIVolumeReader.h"
 
+#include "Filters/Attached/WorldAxes.h"
 #include "Filters/Files/FieldImage.h"
 #include "Filters/Files/NIFTIFileCheck.h"
 #include "Filters/Files/NIFTIVolume.h"
@@ -119,5 +120,7 @@ int vtkNIFTIVolumeReader::RequestData(
   }
   shown->GetPointData()->GetScalars()->SetName(ScalarsName);
   this->Stored->fill(shown, volume);
+  brainshift::nameWorldAxes(shown,
+    this->Stored->knowsSides() ? brainshift::WorldAxes::RAS : brainshift::WorldAxes::Unknown);
   return 1;
 }

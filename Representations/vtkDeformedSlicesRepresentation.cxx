@@ -1,15 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedSlicesRepresentation.h"
 
+#include "Filters/Attached/WorldAxes.h"
 #include "Representations/Slices/OrientationMarks.h"
 #include "Representations/Slices/SlicesProp.h"
 #include "vtkDeformedSlicesMapper.h"
 
+#include "vtkImageData.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVRenderView.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkRenderer.h"
 #include "vtkVolumeProperty.h"
+
+namespace
+{
+constexpr int AxesPort = 2; // of what is delivered; 0 is the volume, 1 its outline
+}
 
 vtkStandardNewMacro(vtkDeformedSlicesRepresentation);
 
@@ -25,6 +34,10 @@ vtkDeformedSlicesRepresentation::vtkDeformedSlicesRepresentation()
   this->Actor = prop;
   this->Marks = vtk::TakeSmartPointer(brainshift::OrientationMarks::New());
   this->Marks->SetVisibility(false);
+  this->Marks->Volume = prop;
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(0.0, 0.0, 0.0);
+  this->AxesPiece->SetPoints(points);
 }
 
 // Whoever still holds the prop must not draw.
@@ -110,6 +123,44 @@ void vtkDeformedSlicesRepresentation::SetOrientationMarks(bool marks)
   this->Marks->SetVisibility(marks && this->GetVisibility());
 }
 
+void vtkDeformedSlicesRepresentation::SetWorldAxes(int axes)
+{
+  this->WorldAxes = axes;
+  this->UpdateMarks();
+}
+
+void vtkDeformedSlicesRepresentation::UpdateMarks()
+{
+  this->Marks->Axes =
+    static_cast<brainshift::WorldAxes>(this->WorldAxes ? this->WorldAxes : this->AttachedAxes);
+}
+
+void vtkDeformedSlicesRepresentation::DeliverAxes(
+  vtkInformationRequestKey* request, vtkInformation* input)
+{
+  if (request == vtkPVView::REQUEST_UPDATE())
+  {
+    const double axes = static_cast<double>(brainshift::worldAxesOf(this->Cache));
+    if (this->AxesPiece->GetPoint(0)[0] != axes) // an unchanged piece is not sent again
+    {
+      vtkNew<vtkPoints> points;
+      points->InsertNextPoint(axes, 0.0, 0.0);
+      this->AxesPiece->SetPoints(points);
+    }
+    vtkPVRenderView::SetPiece(input, this, this->AxesPiece, 0, AxesPort);
+    vtkPVRenderView::SetDeliverToClientAndRenderingProcesses(input, this, true, false, AxesPort);
+  }
+  else if (request == vtkPVView::REQUEST_RENDER())
+  {
+    auto piece = vtkPolyData::SafeDownCast(vtkPVView::GetDeliveredPiece(input, this, AxesPort));
+    if (piece && piece->GetNumberOfPoints() > 0)
+    {
+      this->AttachedAxes = static_cast<int>(piece->GetPoint(0)[0]);
+      this->UpdateMarks();
+    }
+  }
+}
+
 bool vtkDeformedSlicesRepresentation::AddToView(vtkView* view)
 {
   if (auto renderView = vtkPVRenderView::SafeDownCast(view))
@@ -128,9 +179,21 @@ bool vtkDeformedSlicesRepresentation::RemoveFromView(vtkView* view)
   return this->Superclass::RemoveFromView(view);
 }
 
+int vtkDeformedSlicesRepresentation::ProcessViewRequest(
+  vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
+{
+  const int result = this->Superclass::ProcessViewRequest(request, input, output);
+  if (result)
+  {
+    this->DeliverAxes(request, input);
+  }
+  return result;
+}
+
 void vtkDeformedSlicesRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "OrientationMarks: " << this->OrientationMarks << "\n";
+  os << indent << "WorldAxes: " << this->WorldAxes << "\n";
   this->VolumeMapper->PrintSelf(os, indent.GetNextIndent());
 }

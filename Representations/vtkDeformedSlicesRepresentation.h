@@ -11,10 +11,15 @@
 #define vtkDeformedSlicesRepresentation_h
 
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
+#include "vtkNew.h" // for the private part
 #include "vtkWholeVolumeRepresentation.h"
 
 class vtkDeformedSlicesMapper;
-class vtkProp;
+class vtkPolyData;
+namespace brainshift
+{
+class OrientationMarks;
+}
 
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkDeformedSlicesRepresentation
   : public vtkWholeVolumeRepresentation
@@ -48,6 +53,15 @@ public:
   vtkGetMacro(OrientationMarks, bool);
   ///@}
 
+  ///@{
+  /**
+   * What the axes of the world mean for the patient: 0 (default): what the volume's reader has
+   * attached (WorldAxes.h); 1: RAS; 2: LPS.
+   */
+  void SetWorldAxes(int axes);
+  vtkGetMacro(WorldAxes, int);
+  ///@}
+
   /** The mapper that draws it in this process. */
   vtkDeformedSlicesMapper* GetDeformedSlicesMapper() const;
 
@@ -58,12 +72,25 @@ protected:
   bool AddToView(vtkView* view) override;
   bool RemoveFromView(vtkView* view) override;
 
+  int ProcessViewRequest(
+    vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output) override;
+
 private:
   vtkDeformedSlicesRepresentation(const vtkDeformedSlicesRepresentation&) = delete;
   void operator=(const vtkDeformedSlicesRepresentation&) = delete;
 
+  // The process that shows the picture draws the letters. It may not have the volume: what the
+  // volume says of its axes goes there by itself.
+  void DeliverAxes(vtkInformationRequestKey* request, vtkInformation* input);
+
+  // Hands the marks what the user says of the axes, or else what the volume says.
+  void UpdateMarks();
+
   bool OrientationMarks = false;
-  vtkSmartPointer<vtkProp> Marks;
+  int WorldAxes = 0;
+  int AttachedAxes = 0; // what the volume says
+  vtkNew<vtkPolyData> AxesPiece; // one point; its x is AttachedAxes
+  vtkSmartPointer<brainshift::OrientationMarks> Marks;
 };
 
 #endif

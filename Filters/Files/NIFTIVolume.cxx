@@ -205,6 +205,7 @@ std::string NIFTIVolume::readHeader(const std::string& fileName)
     worldOfVoxel = worldOfVoxel * voxelFromReversedSlices(dimensions.z);
   }
   this->Geometry = nearestRasGrid(worldOfVoxel, dimensions);
+  this->KnowsSides = header->GetSFormCode() > 0 || header->GetQFormCode() > 0;
   this->Placed = true;
   return {};
 }

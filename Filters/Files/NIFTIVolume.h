@@ -45,6 +45,12 @@ public:
    */
   std::string shearWarning() const;
 
+  /**
+   * Whether the file says where the sides of the patient are: by an sform or a qform. Without both
+   * the axes of the voxels stand for right, anterior and superior, which may be wrong.
+   */
+  bool knowsSides() const { return this->KnowsSides; }
+
   /** Where the voxels lie. */
   const NIFTIGrid& geometry() const { return this->Geometry; }
 
@@ -81,6 +87,7 @@ private:
 
   std::string FileName;
   bool Placed = false;
+  bool KnowsSides = false;
   std::string Error; // of Voxels
   vtkNew<vtkCallbackCommand> KeepError;
   vtkNew<vtkNIFTIImageReader> Voxels; // all volumes of a time series as components

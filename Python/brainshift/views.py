@@ -21,8 +21,12 @@ CAMERAS = {
     "neurological": {"axial": (-1, CORONAL), "coronal": (1, AXIAL), "sagittal": (1, AXIAL)},
 }
 
+#: Where the right, anterior and superior sides of the patient lie along x, y and z: 1 towards
+#: greater coordinates, -1 towards smaller ones.
+WORLDS = {"RAS": (1, 1, 1), "LPS": (-1, -1, 1)}
+
 #: Properties that have one value for all four views.
-LINKED = ("SlicePosition", "SliceComparison", "WipePosition")
+LINKED = ("SlicePosition", "SliceComparison", "WipePosition", "WorldAxes")
 
 #: Size of a view as a multiple of the volume's size, so that some space stays around it.
 MARGIN = 1.05
@@ -77,6 +81,26 @@ def _coloring(source, display):
     return (association, name) if name else _first_array(source)
 
 
+def _show_volume(source, view):
+    """Shows the volume in the 3D view and returns its display.
+
+    A volume that the view showed before keeps its representation. Any other becomes a Deformed
+    Volume. A Deformed Volume that has no colours gets those of its first array, and shading.
+    """
+    from paraview import simple
+
+    was_shown = source in [getattr(display, "Input", None) for display in view.Representations]
+    display = simple.Show(source, view)
+    if not was_shown:
+        simple.ResetCamera(view)
+        display.SetRepresentationType("Deformed Volume")
+    if display.Representation == "Deformed Volume" and not display.ColorArrayName[1]:
+        simple.ColorBy(display, _first_array(source))
+        display.SetScalarBarVisibility(view, False)
+        display.Shade = 1
+    return display
+
+
 def _show_slice(source, view, plane, coloring):
     from paraview import simple
 
@@ -90,15 +114,26 @@ def _show_slice(source, view, plane, coloring):
     return display
 
 
-def _look(view, plane, convention, normals, bounds):
+def _world_axes(source):
+    """The world axes that the reader of the data has attached, or None."""
+    attached = source.GetDataInformation().GetFieldDataInformation().GetArrayInformation(
+        "WorldAxes")
+    if attached is None or attached.GetNumberOfStringValues() == 0:
+        return None
+    name = attached.GetStringValue(0)
+    return name if name in WORLDS else None
+
+
+def _look(view, plane, convention, sides, bounds):
+    """`sides`: directions (world) of the patient's right, anterior and superior."""
     towards, up = CAMERAS[convention][plane]
-    direction = [towards * part for part in normals[PLANES[plane]]]
+    direction = [towards * part for part in sides[PLANES[plane]]]
     middle = [(low + high) / 2 for low, high in zip(bounds[0::2], bounds[1::2])]
     size = [high - low for low, high in zip(bounds[0::2], bounds[1::2])]
     distance = 2 * sum(size)
     view.CameraFocalPoint = middle
     view.CameraPosition = [m - distance * d for m, d in zip(middle, direction)]
-    view.CameraViewUp = list(normals[up])
+    view.CameraViewUp = list(sides[up])
     view.CameraParallelScale = MARGIN / 2 * max(size)  # one magnification for all views
 
 
@@ -149,46 +184,50 @@ def _link(displays, name):
     relink()
 
 
-def four_views(source, convention="radiological"):
+def four_views(source, convention="radiological", world=None):
     """Lay out the classical four views of a volume: axial, 3D, coronal and sagittal.
 
     The three slice views are 2D views of Deformed Slices. They share a grey colour map and one
     slice position: set `SlicePosition` (mm) of one display, and the others follow. They also share
-    `SliceComparison` and `WipePosition`. Letters mark the sides of the patient, if the world axes
-    are right, anterior and superior.
+    `SliceComparison`, `WipePosition` and `WorldAxes`. Letters mark the sides of the patient where
+    the world axes are known. Elsewhere x, y and z mark the edges, and the views lie as for RAS.
 
-    The active view becomes the 3D view if it is a render view that is alone in its layout.
+    The 3D view shows Deformed Volume, unless it shows the volume in another way already. The active
+    view becomes the 3D view if it is a render view that is alone in its layout.
     Otherwise a new layout is made.
 
     - `source`: a ParaView source of image data, for example a Free-Form Deformation.
     - `convention`: `"radiological"`, the default, shows the patient's right on the left of the
       picture. `"neurological"` shows it on the right.
+    - `world`: what x, y and z mean for the patient, `"RAS"` or `"LPS"`. Default: what the reader of
+      the file has attached to the data, if anything.
 
     Returns a dict of views with the keys `axial`, `coronal`, `sagittal` and `volume`.
 
-    Raises `ValueError` if `convention` is neither of these or the volume has no array.
+    Raises `ValueError` if `convention` or `world` is none of these or the volume has no array.
     """
     from paraview import simple
 
     if convention not in CAMERAS:
         raise ValueError(f"convention is {convention}; it must be {' or '.join(CAMERAS)}")
+    if world is not None and world not in WORLDS:
+        raise ValueError(f"world is {world}; it must be {' or '.join(WORLDS)}")
     source.UpdatePipeline()
+    signs = WORLDS[world or _world_axes(source) or "RAS"]
     active, layout, cells = _place()
     views = {plane: _slice_view(plane) for plane in PLANES}
     for view, cell in zip(views.values(), cells):
         layout.AssignView(cell, view)
-    inputs = [getattr(display, "Input", None) for display in active.Representations]
-    was_shown = source in inputs
-    volume = simple.Show(source, active)
-    if not was_shown:
-        simple.ResetCamera(active)
+    volume = _show_volume(source, active)
     coloring = _coloring(source, volume)
     displays = {plane: _show_slice(source, views[plane], plane, coloring) for plane in PLANES}
     for plane, display in displays.items():
         view = views[plane]
+        display.WorldAxes = world or "From the data"
         view.SMProxy.StillRender()  # the axes are known after that
         normals, _ = slice_axes(display)
-        _look(view, plane, convention, normals, source.GetDataInformation().GetBounds())
+        sides = [[sign * part for part in normal] for sign, normal in zip(signs, normals)]
+        _look(view, plane, convention, sides, source.GetDataInformation().GetBounds())
     _make_grey(list(displays.values()), coloring)
     for name in LINKED:
         _link([*displays.values(), volume], name)

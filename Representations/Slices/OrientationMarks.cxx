@@ -5,6 +5,7 @@
 #include "vtkCoordinate.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
+#include "vtkProp3D.h"
 #include "vtkRenderer.h"
 #include "vtkTextActor.h"
 #include "vtkTextProperty.h"
@@ -18,6 +19,8 @@ namespace
 {
 constexpr double Follows = 0.9; // cosine between a direction and an axis, at least
 constexpr int FontSize = 18;
+constexpr int WarningFontSize = 13;
+const double WarningColor[3] = { 1.0, 0.75, 0.2 }; // amber
 constexpr double Inset = 0.015; // from the edge, share of the view
 
 // Right, left, upper and lower edge: place, share of the view, and which side of a letter is there.
@@ -33,25 +36,40 @@ constexpr std::array<Edge, 4> Edges{ { { 1.0 - Inset, 0.5, VTK_TEXT_RIGHT, VTK_T
   { 0.5, 1.0 - Inset, VTK_TEXT_CENTERED, VTK_TEXT_TOP },
   { 0.5, Inset, VTK_TEXT_CENTERED, VTK_TEXT_BOTTOM } } };
 
-std::string letterOf(const double direction[3], double sign)
+// Names of the sides towards greater and towards smaller coordinates.
+struct Sides
 {
-  static const char* const above[] = { "R", "A", "S" };
-  static const char* const below[] = { "L", "P", "I" };
+  const char* greater[3];
+  const char* smaller[3];
+};
+
+const Sides& sidesOf(WorldAxes axes)
+{
+  static const Sides unknown{ { "+x", "+y", "+z" }, { "-x", "-y", "-z" } };
+  static const Sides ras{ { "R", "A", "S" }, { "L", "P", "I" } };
+  static const Sides lps{ { "L", "P", "S" }, { "R", "A", "I" } };
+  return axes == WorldAxes::RAS ? ras : axes == WorldAxes::LPS ? lps : unknown;
+}
+
+std::string letterOf(const double direction[3], double sign, const Sides& sides)
+{
   for (int axis = 0; axis < 3; ++axis)
   {
     if (std::abs(direction[axis]) >= Follows)
     {
-      return sign * direction[axis] > 0.0 ? above[axis] : below[axis];
+      return sign * direction[axis] > 0.0 ? sides.greater[axis] : sides.smaller[axis];
     }
   }
   return {};
 }
 }
 
-std::array<std::string, 4> edgeLetters(const double right[3], const double up[3])
+std::array<std::string, 4> edgeLetters(
+  const double right[3], const double up[3], WorldAxes axes)
 {
-  std::array<std::string, 4> letters{ letterOf(right, 1.0), letterOf(right, -1.0),
-    letterOf(up, 1.0), letterOf(up, -1.0) };
+  const Sides& sides = sidesOf(axes);
+  std::array<std::string, 4> letters{ letterOf(right, 1.0, sides), letterOf(right, -1.0, sides),
+    letterOf(up, 1.0, sides), letterOf(up, -1.0, sides) };
   const bool alongAxis = !letters[0].empty() && !letters[2].empty();
   return alongAxis ? letters : std::array<std::string, 4>{};
 }
@@ -73,27 +91,62 @@ OrientationMarks::OrientationMarks()
     text->SetJustification(Edges[i].horizontal);
     text->SetVerticalJustification(Edges[i].vertical);
   }
+  this->Warning->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+  this->Warning->SetPosition(Inset, Inset);
+  // The last line is left to the letter of the lower edge.
+  this->Warning->SetInput("Patient sides unknown:\nset World Axes\n ");
+  vtkTextProperty* text = this->Warning->GetTextProperty();
+  text->SetFontSize(WarningFontSize);
+  text->SetBold(true);
+  text->SetColor(WarningColor);
+  text->SetVerticalJustification(VTK_TEXT_BOTTOM);
 }
 
 OrientationMarks::~OrientationMarks() = default;
+
+std::array<double, 3> OrientationMarks::AlongAxes(const double direction[3]) const
+{
+  vtkNew<vtkMatrix4x4> worldFromVolume;
+  if (this->Volume)
+  {
+    this->Volume->GetMatrix(worldFromVolume);
+  }
+  std::array<double, 3> cosines{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    double length = 0.0;
+    for (int row = 0; row < 3; ++row)
+    {
+      const double part = worldFromVolume->GetElement(row, axis);
+      cosines[axis] += part * direction[row];
+      length = std::hypot(length, part);
+    }
+    cosines[axis] = length > 0.0 ? cosines[axis] / length : 0.0;
+  }
+  return cosines;
+}
 
 int OrientationMarks::RenderOpaqueGeometry(vtkViewport* viewport)
 {
   auto renderer = vtkRenderer::SafeDownCast(viewport);
   vtkMatrix4x4* viewFromWorld = renderer->GetActiveCamera()->GetViewTransformMatrix();
-  const auto letters = edgeLetters(viewFromWorld->GetData(), viewFromWorld->GetData() + 4);
+  const std::array<double, 3> right = this->AlongAxes(viewFromWorld->GetData());
+  const std::array<double, 3> up = this->AlongAxes(viewFromWorld->GetData() + 4);
+  const auto letters = edgeLetters(right.data(), up.data(), this->Axes);
   int drawn = 0;
   for (std::size_t i = 0; i < letters.size(); ++i)
   {
     this->Letters[i]->SetInput(letters[i].c_str());
     drawn += letters[i].empty() ? 0 : this->Letters[i]->RenderOpaqueGeometry(viewport);
   }
+  this->Warning->SetVisibility(this->Axes == WorldAxes::Unknown && !letters[0].empty());
+  drawn += this->Warning->GetVisibility() ? this->Warning->RenderOpaqueGeometry(viewport) : 0;
   return drawn;
 }
 
 int OrientationMarks::RenderOverlay(vtkViewport* viewport)
 {
-  int drawn = 0;
+  int drawn = this->Warning->GetVisibility() ? this->Warning->RenderOverlay(viewport) : 0;
   for (auto& letter : this->Letters)
   {
     drawn += *letter->GetInput() ? letter->RenderOverlay(viewport) : 0;
@@ -107,6 +160,7 @@ void OrientationMarks::ReleaseGraphicsResources(vtkWindow* window)
   {
     letter->ReleaseGraphicsResources(window);
   }
+  this->Warning->ReleaseGraphicsResources(window);
   this->Superclass::ReleaseGraphicsResources(window);
 }
 }

@@ -4,29 +4,38 @@
  * @brief   the letters R L A P S I at the edges of a view
  *
  * A letter names the side of the patient towards which its edge lies: right, left, anterior,
- * posterior, superior or inferior. The letters follow from the camera of each picture, so that they
- * are right however the view is turned. A view that looks along no axis, within about 25 degrees,
- * shows none.
+ * posterior, superior or inferior. The letters follow from the camera of each picture and from the
+ * transform of the volume, so that they are right however both are turned. A view that looks along
+ * no axis, within about 25 degrees, shows none. Where nobody has said what the axes mean for the
+ * patient, x, y and z stand in place of letters, and a warning says so.
  */
 #ifndef BrainShift_OrientationMarks_h
 #define BrainShift_OrientationMarks_h
 
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 
+#include "Filters/Attached/WorldAxes.h"
+
 #include "vtkNew.h"
 #include "vtkProp.h"
+#include "vtkWeakPointer.h"
 
 #include <array>
 #include <string>
 
+class vtkProp3D;
 class vtkTextActor;
 
 namespace brainshift
 {
-/// Letters of the right, left, upper and lower edge of a view, from the directions (world) that
-/// point right and up in it. Empty if a direction follows no axis.
+/// Letters of the right, left, upper and lower edge of a view.
+///
+/// @param right   cosines between the direction to the right in the view and the volume's x, y, z
+/// @param up      the same for the direction upwards
+/// @param axes    what x, y and z mean for the patient
+/// @return        empty strings if a direction follows no axis
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::array<std::string, 4> edgeLetters(
-  const double right[3], const double up[3]);
+  const double right[3], const double up[3], WorldAxes axes);
 
 class OrientationMarks : public vtkProp
 {
@@ -38,12 +47,22 @@ public:
   int RenderOverlay(vtkViewport* viewport) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
+  /// What the axes of the volume mean for the patient.
+  WorldAxes Axes = WorldAxes::Unknown;
+
+  /// The volume, whose transform turns the axes. Null: they are those of the world.
+  vtkWeakPointer<vtkProp3D> Volume;
+
 protected:
   OrientationMarks();
   ~OrientationMarks() override;
 
 private:
+  // Cosines between a direction (world) and the volume's axes.
+  std::array<double, 3> AlongAxes(const double direction[3]) const;
+
   std::array<vtkNew<vtkTextActor>, 4> Letters;
+  vtkNew<vtkTextActor> Warning;
 };
 }
 

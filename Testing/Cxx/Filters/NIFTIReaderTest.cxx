@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that vtkNIFTIVolumeReader puts every voxel where the file's affine says, with the value
 // the file says.
+#include "Filters/Attached/WorldAxes.h"
 #include "Filters/Files/NIFTIGeometry.h"
 #include "Testing/Cxx/Filters/NIFTITestFile.h"
 #include "Testing/Cxx/Filters/NIFTITestReading.h"
@@ -480,5 +481,20 @@ TEST(NIFTIGeometry, AnyOrthogonalAffineIsLossless)
       EXPECT_GT(found.grid.direction[a][a], 0.0);
       EXPECT_GT(found.grid.spacing[a], 0.0);
     }
+  }
+}
+
+TEST(NIFTIReader, NamesTheSidesOnlyIfTheFileDoes)
+{
+  const std::vector<std::pair<int, int>> codes{ { 0, 0 }, { 1, 0 }, { 0, 2 } };
+  for (const auto& [sformCode, qformCode] : codes)
+  {
+    NIFTITestFile file;
+    file.sformCode = sformCode;
+    file.qformCode = qformCode;
+    writePlain(temporary("sides.nii"), file.bytes());
+    Reading reading(temporary("sides.nii"));
+    const bool named = brainshift::worldAxesOf(reading.image()) == brainshift::WorldAxes::RAS;
+    EXPECT_EQ(named, sformCode + qformCode > 0) << sformCode << ' ' << qformCode;
   }
 }

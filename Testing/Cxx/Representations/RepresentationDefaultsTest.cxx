@@ -35,6 +35,7 @@ TEST(Defaults, OfDeformedSlicesLiveInTheMapper)
     { "SliceInterpolation", { double(mapper->GetInterpolation()) } },
     { "MapSliceOpacity", { double(mapper->GetMapOpacity()) } },
     { "OrientationMarks", { double(representation->GetOrientationMarks()) } },
+    { "WorldAxes", { double(representation->GetWorldAxes()) } },
     { "SliceComparison", { double(mapper->GetComparison()) } },
     { "CheckerSize", { mapper->GetCheckerSize() } },
     { "ReferenceRange", { mapper->GetReferenceRange()[0], mapper->GetReferenceRange()[1] } },

@@ -146,8 +146,21 @@ TEST(OrientationMarks, TellWhereEdgesLie)
   const double superior[3] = { 0, 0.1, 0.995 };
   const double oblique[3] = { 0.7, 0, 0.7 };
   const std::array<std::string, 4> expected{ "L", "R", "S", "I" };
-  EXPECT_EQ(edgeLetters(left, superior), expected);
+  EXPECT_EQ(edgeLetters(left, superior, WorldAxes::RAS), expected);
   const std::array<std::string, 4> none;
-  EXPECT_EQ(edgeLetters(left, oblique), none);
-  EXPECT_EQ(edgeLetters(oblique, superior), none);
+  for (const WorldAxes axes : { WorldAxes::RAS, WorldAxes::LPS, WorldAxes::Unknown })
+  {
+    EXPECT_EQ(edgeLetters(left, oblique, axes), none);
+    EXPECT_EQ(edgeLetters(oblique, superior, axes), none);
+  }
+}
+
+TEST(OrientationMarks, NameNoSideThatIsNotKnown)
+{
+  const double x[3] = { 1, 0, 0 };
+  const double y[3] = { 0, 1, 0 };
+  const std::array<std::string, 4> lps{ "L", "R", "P", "A" };
+  EXPECT_EQ(edgeLetters(x, y, WorldAxes::LPS), lps);
+  const std::array<std::string, 4> unknown{ "+x", "-x", "+y", "-y" };
+  EXPECT_EQ(edgeLetters(x, y, WorldAxes::Unknown), unknown);
 }

@@ -66,6 +66,21 @@ def test_the_active_view_becomes_one_of_four():
     close(views)
 
 
+def test_the_3d_view_shows_a_volume_that_had_no_colours():
+    source = FreeFormDeformation(Input=marked())
+    SetActiveView(None)
+    views = brainshift.four_views(source)
+    display = GetDisplayProperties(source, views["volume"])
+    assert display.Representation == "Deformed Volume", display.Representation
+    view = views["volume"]
+    view.ViewSize = [200, 200]
+    view.OrientationAxesVisibility = view.CenterAxesVisibility = 0
+    view.UseColorPaletteForBackground = 0
+    view.Background = [0.0, 0.0, 0.0]
+    assert object_pixels(picture(view)).mean() > 0.05, "an empty 3D view"
+    close(views)
+
+
 def test_a_view_with_neighbours_keeps_its_place():
     source = FreeFormDeformation(Input=marked())
     first = placed(source)
@@ -122,6 +137,27 @@ def test_conventions():
             close(views)
 
 
+#: The spots towards +x, +y and +z in an LPS world: left, posterior and superior.
+LPS_EDGES = {"axial": (0, None, None, 1), "coronal": (0, None, 2, None),
+             "sagittal": (1, None, 2, None)}
+
+
+def test_an_lps_world_is_turned():
+    source = FreeFormDeformation(Input=marked())
+    placed(source)
+    views = brainshift.four_views(source, world="LPS")
+    for name, expected in LPS_EDGES.items():
+        view = views[name]
+        view.ViewSize = [200, 200]
+        display = GetDisplayProperties(source, view)
+        assert display.WorldAxes == "LPS", display.WorldAxes
+        display.OrientationMarks = 0
+        display.LookupTable.RGBPoints = [0, 0, 0, 0, 100, 1, 1, 1]
+        found = spot_at_edges(picture(view))
+        assert found == expected, (name, found, expected)
+    close(views)
+
+
 def test_slices_are_linked():
     source = FreeFormDeformation(Input=marked())
     placed(source)
@@ -151,7 +187,7 @@ def test_slices_share_a_grey_map():
     source = FreeFormDeformation(Input=marked())
     view = placed(source)
     ColorBy(GetDisplayProperties(source, view), ("POINTS", "Intensity"))
-    views = brainshift.four_views(source)
+    views = brainshift.four_views(source, world="RAS")  # no amber warning
     displays = displays_of(source, views)
     grey = displays["axial"].LookupTable
     assert displays["coronal"].LookupTable == displays["sagittal"].LookupTable == grey
@@ -191,6 +227,11 @@ def test_errors_name_the_thing():
         raise AssertionError("an unknown convention passed")
     except ValueError as error:
         assert_says(str(error), "convention", "surgical", "radiological", "neurological")
+    try:
+        brainshift.four_views(source, world="XYZ")
+        raise AssertionError("an unknown world passed")
+    except ValueError as error:
+        assert_says(str(error), "world is XYZ", "RAS or LPS")
 
 
 run_tests(globals())

@@ -301,7 +301,7 @@ def test_letters_at_the_edges():
     view = flat_view(2, MIDDLE, 30.0, size=200)
     display = show_slices(source, view, ("Axial",), MIDDLE)
     assert not picture(view).any()
-    display.OrientationMarks = 1
+    display.OrientationMarks, display.WorldAxes = 1, "RAS"
     rows, columns = numpy.nonzero(picture(view).max(axis=2) > 0.5)
     for near in (columns < 25, columns > 175, rows < 25, rows > 175):
         assert near.any(), "a letter at each edge"
@@ -311,6 +311,29 @@ def test_letters_at_the_edges():
     look(view, (0, 0, -1), MIDDLE, 200.0)
     Hide(source, view)
     assert not picture(view).any(), "letters go with the slices"
+    Delete(view)
+
+
+def amber(image):
+    """Pixels of the warning."""
+    return ((image[:, :, 0] > 0.7) & (image[:, :, 2] < 0.4)).sum()
+
+
+def test_sides_that_are_not_known_are_not_named():
+    source = plain(0.0)
+    view = flat_view(2, MIDDLE, 30.0, size=300)
+    display = show_slices(source, view, ("Axial",), MIDDLE)
+    display.OrientationMarks = 1
+    unknown = picture(view)
+    assert amber(unknown) > 100, "a warning"
+    drawn = {}
+    for axes in ("RAS", "LPS"):
+        display.WorldAxes = axes
+        drawn[axes] = picture(view)
+        assert amber(drawn[axes]) == 0 and (drawn[axes] != unknown).any(), axes
+    assert (drawn["RAS"] != drawn["LPS"]).any(), "left is right"
+    display.Orientation = [0.0, 0.0, 180.0]
+    assert (picture(view) == drawn["RAS"]).all(), "half a turn of the volume takes LPS to RAS"
     Delete(view)
 
 

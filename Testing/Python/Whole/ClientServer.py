@@ -5,15 +5,17 @@
 import os
 
 import numpy
-from brainshift_testing import (load_plugin, look, on_server, picture, run_tests,
+from brainshift_testing import (data, load_plugin, look, on_server, picture, run_tests,
                                 server_finds_plugin, show_volume, view_along)
 from slices_testing import show_slices
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
-from paraview.simple import FreeFormDeformation, LoadPlugin, Wavelet  # noqa: E402
+from paraview.simple import (  # noqa: E402
+    FreeFormDeformation, LoadPlugin, OpenDataFile, Wavelet)
 
 PLUGIN = os.environ["BRAINSHIFT_PLUGIN"]
+HEAD = data("seg3d-utah", "seg3d_mr_t1.nii.gz")
 SIZE = 200
 MIDDLE = (0.0, 0.0, 0.0)
 STROKE = brainshift.soft(MIDDLE, (4, 2, 1), 12.0)
@@ -66,6 +68,14 @@ def slices():
     display.ShowSagittal = display.ShowCoronal = 0
     look(view, (0, 0, -1), MIDDLE, 80.0)
     drawn.append(picture(view))  # with letters, which the client draws
+    head = OpenDataFile(HEAD)
+    head.UpdatePipeline()
+    low_x, high_x, low_y, high_y, low_z, high_z = head.GetDataInformation().GetBounds()
+    middle = [(low_x + high_x) / 2, (low_y + high_y) / 2, (low_z + high_z) / 2]
+    flat = view_along((0, 0, 1), middle, 500.0, half_height=110.0, size=SIZE)
+    of_head = show_slices(head, flat, ("Axial",), middle, high=300.0)
+    of_head.OrientationMarks = 1
+    drawn.append(picture(flat))  # letters of a file that says where the sides are
     return drawn, brainshift.slice_axes(display), brainshift.counters(display)
 
 
@@ -121,6 +131,8 @@ def test_slices_are_drawn_on_the_server():
         differing = int((image != local).any(axis=2).sum())
         assert image.any() and differing == 0, differing
     assert (pictures[0] != pictures[1]).any(), "the slices were moved"
+    amber = [((image[:, :, 0] > 0.7) & (image[:, :, 2] < 0.4)).any() for image in pictures[2:]]
+    assert amber == [True, False], "a warning where the axes are unknown, and there alone"
     assert axes == expected_axes, axes
     assert {**counts, **NOT_COUNTED} == {**expected_counts, **NOT_COUNTED}, counts
     assert counts["volumeUploads"] == counts["latticeUploads"] == 1, counts
