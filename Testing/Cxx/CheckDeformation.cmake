@@ -1,6 +1,7 @@
 # Proves that the deformation core needs no VTK: its test program loads no library of VTK, its files
 # include nothing but the core, the solver's GLSL, GLM and the standard library, and it configures
-# alone. Variables: program (of its tests), core (its folder), build (a folder for the last check).
+# alone. Variables: program (of its tests), core (its folder), build (a folder for the last check),
+# and generator, make and compiler of this build. No others need to be installed.
 cmake_minimum_required(VERSION 3.22)
 
 file(GET_RUNTIME_DEPENDENCIES
@@ -28,7 +29,8 @@ foreach (source IN LISTS sources)
 endforeach ()
 
 execute_process(
-  COMMAND "${CMAKE_COMMAND}" -S "${core}" -B "${build}"
+  COMMAND "${CMAKE_COMMAND}" -S "${core}" -B "${build}" -G "${generator}"
+    "-DCMAKE_MAKE_PROGRAM=${make}" "-DCMAKE_CXX_COMPILER=${compiler}"
   RESULT_VARIABLE result
   OUTPUT_VARIABLE output
   ERROR_VARIABLE output)
