@@ -88,7 +88,7 @@ private:
 
   bool OrientationMarks = false;
   int WorldAxes = 0;
-  int AttachedAxes = 0; // what the volume says
+  int AttachedAxes = 0;          // what the volume says
   vtkNew<vtkPolyData> AxesPiece; // one point; its x is AttachedAxes
   vtkSmartPointer<brainshift::OrientationMarks> Marks;
 };

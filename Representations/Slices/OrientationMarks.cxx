@@ -21,7 +21,7 @@ constexpr double Follows = 0.9; // cosine between a direction and an axis, at le
 constexpr int FontSize = 18;
 constexpr int WarningFontSize = 13;
 const double WarningColor[3] = { 1.0, 0.75, 0.2 }; // amber
-constexpr double Inset = 0.015; // from the edge, share of the view
+constexpr double Inset = 0.015;                    // from the edge, share of the view
 
 // Right, left, upper and lower edge: place, share of the view, and which side of a letter is there.
 struct Edge
@@ -64,8 +64,7 @@ std::string letterOf(const double direction[3], double sign, const Sides& sides)
 }
 }
 
-std::array<std::string, 4> edgeLetters(
-  const double right[3], const double up[3], WorldAxes axes)
+std::array<std::string, 4> edgeLetters(const double right[3], const double up[3], WorldAxes axes)
 {
   const Sides& sides = sidesOf(axes);
   std::array<std::string, 4> letters{ letterOf(right, 1.0, sides), letterOf(right, -1.0, sides),
