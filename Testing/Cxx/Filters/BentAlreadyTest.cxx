@@ -32,10 +32,7 @@ protected:
     setStrokes(this->Second, { stroke, stroke });
     this->First->Update();
   }
-  vtkImageData* bent()
-  {
-    return vtkImageData::SafeDownCast(this->First->GetOutputDataObject(0));
-  }
+  vtkImageData* bent() { return vtkImageData::SafeDownCast(this->First->GetOutputDataObject(0)); }
   vtkImageData* output()
   {
     this->Second->Update();
@@ -48,8 +45,7 @@ TEST_F(BentAlready, TheFirstDeformationStaysAndAnErrorSaysSo)
 {
   this->Second->SetInputConnection(this->First->GetOutputPort());
   const Deformation kept = deformationOf(this->output());
-  EXPECT_EQ(
-    kept.lattice.displacements, deformationOf(this->bent()).lattice.displacements);
+  EXPECT_EQ(kept.lattice.displacements, deformationOf(this->bent()).lattice.displacements);
   const std::string error = this->Heard.take();
   for (const char* word : { "carries a deformation already", "Bake Deformation" })
   {
