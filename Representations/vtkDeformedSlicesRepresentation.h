@@ -11,7 +11,7 @@
 #define vtkDeformedSlicesRepresentation_h
 
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
-#include "vtkNew.h" // for the private part
+#include "vtkNew.h"                             // for the private part
 #include "vtkWholeVolumeRepresentation.h"
 
 class vtkDeformedSlicesMapper;
