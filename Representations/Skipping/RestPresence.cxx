@@ -272,20 +272,23 @@ BrickRanges brickRanges(const std::uint16_t* values, const glm::ivec3& dimension
 
 void sumUp(std::vector<float>& counts, const glm::ivec3& size)
 {
-  // No partial sum exceeds the last one, so all are exact.
+  const auto add = [](float a, float b) { // both below the modulus, so it is exact
+    const float sum = a + b;
+    return sum >= SumModulus ? sum - SumModulus : sum;
+  };
   const std::size_t width = size.x;
   const std::size_t layer = width * size.y;
   parallelFor(0, size.z, 1, [&](vtkIdType first, vtkIdType last) {
     for (float* row = &counts[first * layer]; row < counts.data() + last * layer; row += width)
     {
-      std::partial_sum(row, row + width, row);
+      std::partial_sum(row, row + width, row, add);
     }
     for (vtkIdType k = first; k < last; ++k)
     {
       float* above = &counts[k * layer] + width;
       for (float* end = above + layer - width; above < end; ++above)
       {
-        *above += *(above - width);
+        *above = add(*above, *(above - width));
       }
     }
   });
@@ -296,7 +299,7 @@ void sumUp(std::vector<float>& counts, const glm::ivec3& size)
       float* here = &counts[k * layer];
       for (std::size_t i = first * width; i < last * width; ++i)
       {
-        here[i] += below[i];
+        here[i] = add(here[i], below[i]);
       }
     }
   });

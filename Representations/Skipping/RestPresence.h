@@ -81,12 +81,17 @@ struct VisibleValues
   }
 };
 
-/// Turns 1 for each visible brick, in the order of summedVisibility, into sums.
+/// Sums of bricks count up to this and then from 0 again. Single precision is exact for eight of
+/// them. The difference that eight sums give is the number of bricks in a box, but for a multiple.
+/// A box of so many bricks counts as visible. presence.frag.glsl holds the number, too.
+constexpr float SumModulus = 2097152.0f; // 2^21
+
+/// Turns 1 for each visible brick, in the order of summedVisibility, into sums below SumModulus.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT void sumUp(std::vector<float>& counts, const glm::ivec3& size);
 
-/// Number of visible bricks with lower indices on all axes: (count + 1)^3 numbers, x fastest. Eight
-/// of them give the number of visible bricks in any box. `visible`, called on many threads, says
-/// whether a range is visible. Exact up to 2^24 bricks.
+/// Number of visible bricks with lower indices on all axes, less multiples of SumModulus: (count +
+/// 1)^3 numbers, x fastest. Eight of them say whether any brick in a box is visible. `visible`,
+/// called on many threads, says whether a range is visible.
 template <typename Visible>
 std::vector<float> summedVisibility(const BrickRanges& bricks, const Visible& visible)
 {

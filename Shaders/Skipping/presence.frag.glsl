@@ -17,12 +17,15 @@ uniform sampler3D blockGreatest;
 uniform ivec3 blocks;            // texels of both a side
 #endif
 
+// Sums start from 0 again here, so that single precision is exact: SumModulus in RestPresence.h.
+const float sumModulus = 2097152.0;
+
 float sumAt(float x, float y, float z)
 {
   return textureLod(summed, (vec3(x, y, z) + 0.5) / vec3(restBricks + 1), 0.0).r;
 }
 
-// Visible bricks from `low` to `high`, both included.
+// Visible bricks from `low` to `high`, both included, modulo sumModulus.
 float visibleBricks(vec3 low, vec3 high)
 {
   vec3 above = high + 1.0;
@@ -30,7 +33,7 @@ float visibleBricks(vec3 low, vec3 high)
     sumAt(above.x, low.y, above.z) + sumAt(low.x, low.y, above.z);
   float front = sumAt(above.x, above.y, low.z) - sumAt(low.x, above.y, low.z) -
     sumAt(above.x, low.y, low.z) + sumAt(low.x, low.y, low.z);
-  return back - front;
+  return mod(back - front, sumModulus);
 }
 
 // Whether anything in a box of voxels of the rest volume is visible, and whether all of it is.
@@ -47,8 +50,13 @@ bvec2 visibleWithin(vec3 low, vec3 high)
   vec3 from = clamp(floor((low + margin) / restBrickSide), vec3(0.0), last);
   vec3 to = clamp(ceil((high - margin) / restBrickSide) - 1.0, from, last);
   vec3 side = to - from + 1.0;
+  float bricks = side.x * side.y * side.z;
+  if (bricks > sumModulus - 0.5) // sums cannot tell all of them from none
+  {
+    return bvec2(true, false);
+  }
   float found = visibleBricks(from, to);
-  return bvec2(found > 0.5, found > side.x * side.y * side.z - 0.5);
+  return bvec2(found > 0.5, found > bricks - 0.5);
 }
 
 bool present(vec3 texel)

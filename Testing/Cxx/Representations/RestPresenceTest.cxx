@@ -233,6 +233,35 @@ TEST(RestPresence, CountsNoBrickWithoutANumber)
   EXPECT_EQ(summedVisibility(brickRanges(values.data(), size), any).back(), 1.0f);
 }
 
+TEST(RestPresence, SumsOfMoreThanSinglePrecisionHoldsAreExact)
+{
+  // 2^24 + 197 377 visible bricks: a volume of 514 voxels a side. From 2^24 on, every second whole
+  // number is no float.
+  const glm::ivec3 size(257);
+  std::vector<float> sums(std::size_t(257) * 257 * 257, 1.0f);
+  sumUp(sums, size);
+  const auto sumAt = [&](int x, int y, int z) {
+    return sums[(std::size_t(z) * size.y + y) * size.x + x];
+  };
+  // As presence.frag.glsl asks: `high` and all of the bricks after `low`.
+  const auto visible = [&](const glm::ivec3& low, const glm::ivec3& high) {
+    const float back = sumAt(high.x, high.y, high.z) - sumAt(low.x, high.y, high.z) -
+      sumAt(high.x, low.y, high.z) + sumAt(low.x, low.y, high.z);
+    const float front = sumAt(high.x, high.y, low.z) - sumAt(low.x, high.y, low.z) -
+      sumAt(high.x, low.y, low.z) + sumAt(low.x, low.y, low.z);
+    const float difference = back - front;
+    return difference - SumModulus * std::floor(difference / SumModulus);
+  };
+  for (const int side : { 1, 2, 3, 7, 100 })
+  {
+    for (const int last : { 128, 255, 256 })
+    {
+      const glm::ivec3 high(last, 256, last);
+      EXPECT_EQ(visible(high - side, high), float(side * side * side)) << side << " " << last;
+    }
+  }
+}
+
 TEST(RestPresence, OutliersDoNotChangeTheUsualDifference)
 {
   const glm::ivec3 size(64, 64, 8);
