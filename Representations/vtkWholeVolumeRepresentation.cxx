@@ -4,6 +4,7 @@
 #include "Representations/Window/FailedUpdate.h"
 #include "Representations/Window/GatheredVolume.h"
 #include "Representations/Window/InteractiveDelivery.h"
+#include "Representations/Window/LostServer.h"
 
 #include "vtkCommunicator.h"
 #include "vtkImageData.h"
@@ -90,6 +91,12 @@ void vtkWholeVolumeRepresentation::GatherParts()
   this->OutlineSource->SetBounds(volume->GetBounds());
   this->OutlineSource->Update();
   this->WidenBounds();
+}
+
+bool vtkWholeVolumeRepresentation::AddToView(vtkView* view)
+{
+  brainshift::watchServer();
+  return this->Superclass::AddToView(view);
 }
 
 void vtkWholeVolumeRepresentation::UpdateMapperParameters()

@@ -40,6 +40,7 @@ protected:
   int RequestData(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
+  bool AddToView(vtkView* view) override;
   void UpdateMapperParameters() override;
 
 private:
