@@ -9,6 +9,8 @@
 
 #include "Representations/Scene/SceneFrame.h"
 
+#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
+
 #include <vector>
 
 namespace brainshift
@@ -17,7 +19,7 @@ struct Counters;
 struct RayCastScene;
 
 /// Remembers what the last picture depended on.
-class PictureStamp
+class VTKBRAINSHIFTREPRESENTATIONS_EXPORT PictureStamp
 {
 public:
   enum Change

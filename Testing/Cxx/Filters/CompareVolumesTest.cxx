@@ -136,6 +136,15 @@ TEST_F(CompareVolumes, TheCavityIsMovedWithTheReference)
   EXPECT_FALSE(isRemoved(PlacedVoxels(), middle));
 }
 
+TEST(MovedRigidly, TurnsAboutXThenYThenZ)
+{
+  // Quarter turns do not commute: z goes to -y, stays, and goes to x.
+  const Grid moved = movedRigidly(plainGrid(glm::ivec3(3), glm::dvec3(1.0)),
+    { glm::dvec3(0.0), glm::dvec3(90.0, 90.0, 90.0), glm::dvec3(0.0) });
+  EXPECT_LT(glm::distance(moved.direction * glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0)), 1e-12);
+  EXPECT_LT(glm::distance(moved.direction * glm::dvec3(1, 0, 0), glm::dvec3(0, 0, -1)), 1e-12);
+}
+
 TEST_F(CompareVolumes, WithoutACavityThatOfAnEarlierOneIsGone)
 {
   this->Filter->SetInputData(2, twoLabels(this->ReferenceGrid));

@@ -244,6 +244,26 @@ TEST(FieldTexture, FollowsItsRequest)
   EXPECT_EQ(field.offsets(), nullptr);
 }
 
+// Tissue that hardly moves must be inverted, too, if it is stretched threefold there.
+TEST(FieldTexture, InvertsSmallDisplacementsInStretchedTissue)
+{
+  TestWindow shown;
+  FieldTexture field;
+  Counters count;
+  const Grid grid = plainGrid(glm::ivec3(7), glm::dvec3(1.0));
+  // A node lies 0.00012 cells beside the plane that stays: it moves by 0.00024 cells.
+  const Lattice lattice = latticeOf(grid, KernelCatmullRom,
+    [](const glm::dvec3& rest) { return glm::dvec3(2.0 * (rest.x - 3.00012), 0.0, 0.0); });
+  const FieldRequest request = requestFor(lattice, 4, Inverse::Exact);
+  ASSERT_TRUE(field.update(shown.window(), request, count));
+  const NodeField forward = refine(lattice, 4);
+  NodeField offsets{ request.nodes, download(field.offsets()) };
+  const glm::vec3 deformed(3.0f);
+  const glm::vec3 rest = deformed + offsets.displacement(deformed);
+  EXPECT_LT(glm::distance(rest + forward.displacement(rest), deformed), 3e-5f);
+  field.releaseGraphicsResources(shown.window());
+}
+
 // Where nothing moves textures are kept at zero, and only what moves, or moved, is made anew.
 TEST(FieldTexture, MakesWhatMovesAnewForOtherSettings)
 {
