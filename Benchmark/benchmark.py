@@ -45,6 +45,7 @@ from comparison import measure_comparison  # noqa: E402
 from measure import Side, Times, interleaved  # noqa: E402
 from report import Report, header  # noqa: E402
 from scene import OPACITIES, Scene, load_plugin, mean_difference  # noqa: E402
+from session import measure_session  # noqa: E402
 from slices import measure_slices  # noqa: E402
 from traces import measure_traces  # noqa: E402
 
@@ -261,6 +262,8 @@ def parse(arguments):
                         help="control points along each side (9 19 37)")
     parser.add_argument("--windows", type=int, nargs="+", metavar="PIXELS",
                         help="edges of the picture (512 1024)")
+    parser.add_argument("--strokes", type=int, metavar="N",
+                        help="strokes of the long session (10000)")
     parser.add_argument("--rounds", type=int, metavar="N", help="most rounds (5)")
     parser.add_argument("--seconds", type=float, metavar="S", default=15.0,
                         help="seconds after which slow sides run once or twice only (15)")
@@ -268,11 +271,14 @@ def parse(arguments):
     options = parser.parse_args(arguments)
     quick = options.quick
     for name, usual, few in (("sizes", [128, 256, 512], []), ("lattices", [9, 19, 37], []),
-                             ("windows", [512, 1024], [512]), ("rounds", 5, 1)):
+                             ("windows", [512, 1024], [512]), ("strokes", 10000, 1000),
+                             ("rounds", 5, 1)):
         if getattr(options, name) is None:
             setattr(options, name, few if quick else usual)
     if options.rounds < 1:
         parser.error(f"--rounds is {options.rounds}; it must be at least 1")
+    if options.strokes < 10:
+        parser.error(f"--strokes is {options.strokes}; it must be at least 10")
     for name, least in (("reference", 16), ("sizes", 16), ("lattices", 4), ("windows", 32)):
         for value in getattr(options, name):
             if value < least:
@@ -290,7 +296,7 @@ def reference(benchmark, windows, quick):
         benchmark.edits(window)
     benchmark.resampling(windows[0])
     benchmark.skipping(windows[0])
-    for measure in (measure_slices, measure_comparison, measure_traces):
+    for measure in (measure_slices, measure_comparison, measure_traces, measure_session):
         measure(benchmark.scene, benchmark.report, benchmark.options, benchmark.about)
     if not quick:
         for opacities in OPACITIES:

@@ -38,6 +38,7 @@ def run():
     shutil.rmtree(folder, ignore_errors=True)
     benchmark.main(["--reference", *numbers(REFERENCE), "--sizes", str(SIZE), "--lattices",
                     str(LATTICE), "--windows", *numbers(WINDOWS), "--rounds", "2",
+                    "--strokes", "20",
                     "--output", folder])
     with open(os.path.join(folder, "benchmark.json"), encoding="utf-8") as file:
         return json.load(file), os.path.join(folder, "time-against-size.png")
@@ -70,6 +71,9 @@ def test_every_comparison_is_there():
     assert set(rows_of("traces, camera turns", window=WINDOWS[1])) == TRACES | ALONE
     assert set(rows_of("traces, points change", window=WINDOWS[1])) == TRACES
     assert set(rows_of("traces, distances", window=WINDOWS[1])) == {"Trace Distance after a stroke"}
+    assert set(rows_of("long session")) == {
+        "a stroke is added", "the last stroke is taken back", "the tenth last stroke is changed",
+        "the last stroke is taken back, replay alone"}
     assert set(rows_of("edit to picture, opaque", window=WINDOWS[1])) == EDIT
     for case in ({}, {"dimensions": [SIZE] * 3}, {"lattice": LATTICE}):
         assert set(rows_of("edit to picture, opaque", **case)) == EDIT
