@@ -2,6 +2,8 @@
 #include "vtkBakeDeformation.h"
 
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/Guard.h"
+#include "Filters/Attached/HostMemory.h"
 #include "Filters/Attached/Resample.h"
 #include "Filters/Attached/WholeExtent.h"
 #include "Filters/Attached/WorldAxes.h"
@@ -24,6 +26,7 @@
 using namespace brainshift;
 
 vtkStandardNewMacro(vtkBakeDeformation);
+brainshiftGuardRequestsMacro(vtkBakeDeformation);
 
 namespace
 {
@@ -42,6 +45,29 @@ ResampleGeometry geometryOf(const Grid& volume, const Grid& lattice, const int e
     geometry.last[axis] = extent[2 * axis + 1] - inputExtent[2 * axis] - (cells ? 1 : 0);
   }
   return geometry;
+}
+
+// Bytes of the arrays that a bake of a volume makes, if it makes all of it.
+double bytesOf(vtkDataSetAttributes* arrays)
+{
+  double bytes = 0.0;
+  for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = arrays->GetArray(i);
+    bytes += array ? static_cast<double>(array->GetNumberOfValues()) * array->GetDataTypeSize() : 0;
+  }
+  return bytes;
+}
+
+// Why there is too little memory for the field, or for what is made with it; empty if there is.
+std::string memoryProblemOf(vtkImageData* input, const Lattice& lattice, int samples)
+{
+  const std::string problem = offsetFieldProblem(lattice, samples);
+  const double arrays = bytesOf(input->GetPointData()) + bytesOf(input->GetCellData());
+  const double bytes = arrays + offsetFieldBytes(lattice, samples);
+  const glm::dvec3 sides(gridOf(input).dimensions);
+  return problem.empty() ? hostMemoryProblem("A bake of " + sizeText(sides) + " points", bytes)
+                         : problem;
 }
 
 // Resamples every numeric array of `from` into `to`.
@@ -101,6 +127,12 @@ int vtkBakeDeformation::RequestData(
     return 0;
   }
   const Lattice lattice = effectiveLattice(deformation);
+  problem = memoryProblemOf(input, lattice, deformation.samples);
+  if (!problem.empty())
+  {
+    vtkErrorMacro(<< problem << ".");
+    return 0;
+  }
   const BackwardMap backward(lattice, deformation.samples, deformation.inverse);
 
   int extent[6];

@@ -3,6 +3,7 @@
 
 #include "Filters/Attached/CavityMask.h"
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/Guard.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Attached/SharedArray.h"
 #include "Filters/Attached/WholeExtent.h"
@@ -69,6 +70,7 @@ struct vtkCompareVolumes::Kept
 };
 
 vtkStandardNewMacro(vtkCompareVolumes);
+brainshiftGuardRequestsMacro(vtkCompareVolumes);
 
 vtkCompareVolumes::vtkCompareVolumes()
   : Internal(std::make_unique<Kept>())

@@ -2,6 +2,7 @@
 #include "vtkDeformGeometry.h"
 
 #include "Filters/Attached/DirectedMap.h"
+#include "Filters/Attached/Guard.h"
 #include "Filters/Attached/Portions.h"
 
 #include "vtkCellData.h"
@@ -25,6 +26,7 @@
 using namespace brainshift;
 
 vtkStandardNewMacro(vtkDeformGeometry);
+brainshiftGuardRequestsMacro(vtkDeformGeometry);
 
 namespace
 {

@@ -3,6 +3,8 @@
 
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/DirectedMap.h"
+#include "Filters/Attached/Guard.h"
+#include "Filters/Attached/HostMemory.h"
 #include "Filters/Attached/Portions.h"
 #include "Filters/Attached/WholeExtent.h"
 #include "Filters/Files/FieldImage.h"
@@ -25,6 +27,7 @@ using namespace brainshift;
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 vtkStandardNewMacro(vtkDeformationField);
+brainshiftGuardRequestsMacro(vtkDeformationField);
 
 namespace
 {
@@ -82,6 +85,16 @@ std::string triple(const glm::dvec3& numbers)
 {
   return std::to_string(numbers.x) + " x " + std::to_string(numbers.y) + " x " +
     std::to_string(numbers.z);
+}
+
+// Why there is too little memory for both arrays; empty if there is enough.
+std::string memoryProblemOf(const int extent[6])
+{
+  constexpr double BytesPerPoint = 4.0 * sizeof(float);
+  const glm::dvec3 sides = glm::dvec3(extent[1], extent[3], extent[5]) -
+    glm::dvec3(extent[0], extent[2], extent[4]) + 1.0;
+  return hostMemoryProblem(
+    "A field of " + sizeText(sides) + " points", BytesPerPoint * sides.x * sides.y * sides.z);
 }
 
 // Points along an axis so that they lie no further apart than asked for, but stay in the box.
@@ -157,13 +170,14 @@ int vtkDeformationField::RequestData(
   const std::optional<DirectedMap> map =
     problem.empty() ? directedMapOf(input, direction, problem) : std::nullopt;
   const Grid samples = this->SamplesOver(gridOf(input), problem);
+  int extent[6];
+  outputs->GetInformationObject(0)->Get(Pipeline::UPDATE_EXTENT(), extent);
+  problem = problem.empty() ? memoryProblemOf(extent) : problem;
   if (!map || !problem.empty())
   {
     vtkErrorMacro(<< problem << ".");
     return 0;
   }
-  int extent[6];
-  outputs->GetInformationObject(0)->Get(Pipeline::UPDATE_EXTENT(), extent);
   place(output, samples, extent);
   detach(output);
   nameDirection(output, direction);

@@ -2,6 +2,7 @@
 #include "vtkDeformationLattice.h"
 
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/Guard.h"
 #include "Filters/Attached/WholeExtent.h"
 #include "Filters/Files/FieldImage.h"
 
@@ -17,6 +18,7 @@
 using namespace brainshift;
 
 vtkStandardNewMacro(vtkDeformationLattice);
+brainshiftGuardRequestsMacro(vtkDeformationLattice);
 
 int vtkDeformationLattice::RequestInformation(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDisplacementFieldReader.h"
 
+#include "Filters/Attached/Guard.h"
 #include "Filters/Files/FieldFile.h"
 #include "Filters/Files/FieldImage.h"
 
@@ -18,6 +19,7 @@ struct vtkDisplacementFieldReader::State
 };
 
 vtkStandardNewMacro(vtkDisplacementFieldReader);
+brainshiftGuardRequestsMacro(vtkDisplacementFieldReader);
 
 vtkDisplacementFieldReader::vtkDisplacementFieldReader()
   : Internal(std::make_unique<State>())

@@ -2,6 +2,7 @@
 #include "vtkDisplacementFieldWriter.h"
 
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/Guard.h"
 #include "Filters/Files/FieldFile.h"
 #include "Filters/Files/FieldImage.h"
 
@@ -13,6 +14,7 @@
 using namespace brainshift;
 
 vtkStandardNewMacro(vtkDisplacementFieldWriter);
+brainshiftGuardRequestsMacro(vtkDisplacementFieldWriter);
 
 int vtkDisplacementFieldWriter::FillInputPortInformation(int, vtkInformation* info)
 {

@@ -2,6 +2,7 @@
 #include "vtkFreeFormDeformation.h"
 
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/Guard.h"
 #include "Filters/Attached/MaskImage.h"
 #include "Filters/Attached/Segmentation.h"
 #include "Filters/Attached/SharedArray.h"
@@ -169,6 +170,7 @@ std::string addBase(Lattice& lattice, vtkImageData* base)
 }
 
 vtkStandardNewMacro(vtkFreeFormDeformation);
+brainshiftGuardRequestsMacro(vtkFreeFormDeformation);
 
 vtkFreeFormDeformation::vtkFreeFormDeformation()
   : Internal(std::make_unique<State>())
@@ -256,8 +258,15 @@ int vtkFreeFormDeformation::RequestData(
     vtkErrorMacro(<< problem << ".");
     return 0;
   }
-  problem = this->Bend(volumeGrid, vtkImageData::GetData(inputs[1]),
-    vtkImageData::GetData(inputs[2]), vtkImageData::GetData(inputs[3]));
+  const std::string thrown = thrownBy([&] {
+    problem = this->Bend(volumeGrid, vtkImageData::GetData(inputs[1]),
+      vtkImageData::GetData(inputs[2]), vtkImageData::GetData(inputs[3]));
+  });
+  if (!thrown.empty())
+  {
+    this->Internal->StrokeReplay = Replay(); // it may have stopped between two strokes
+    problem = "Free-Form Deformation " + thrown;
+  }
   if (!problem.empty())
   {
     vtkErrorMacro(<< problem << ". The deformation stays as it was.");
@@ -350,7 +359,8 @@ std::string vtkFreeFormDeformation::Bend(
   }
   segmentation.chosen = segments ? std::vector<int>() : this->MaskLabels;
   state.LastSegmentation = segmentation;
-  state.LastGood.lattice = bent;
+  Lattice result = bent;
+  std::swap(state.LastGood.lattice, result); // all of it or nothing
   state.TooFine = strokesTooFine(strokes, start.grid);
   state.LastGood.samples = this->Samples;
   state.LastGood.inverse =
@@ -404,10 +414,12 @@ double vtkFreeFormDeformation::GetMinimumJacobian()
   State& state = *this->Internal;
   if (!state.MinimumJacobianKnown && state.HasLastGood)
   {
-    // Both are proved, so the larger one holds.
-    state.MinimumJacobian = std::max(minimumJacobian(effectiveLattice(state.LastGood)),
-      state.IsProved ? static_cast<double>(SmallestGuardedJacobian) : -HUGE_VAL);
-    state.MinimumJacobianKnown = true;
+    guarded(this, [&] {
+      // Both are proved, so the larger one holds.
+      state.MinimumJacobian = std::max(minimumJacobian(effectiveLattice(state.LastGood)),
+        state.IsProved ? static_cast<double>(SmallestGuardedJacobian) : -HUGE_VAL);
+      state.MinimumJacobianKnown = true;
+    });
   }
   return state.MinimumJacobian;
 }

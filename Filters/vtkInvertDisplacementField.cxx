@@ -2,6 +2,7 @@
 #include "vtkInvertDisplacementField.h"
 
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/Guard.h"
 #include "Filters/Attached/Portions.h"
 #include "Filters/Attached/WholeExtent.h"
 #include "Filters/Deformation/Inversion.h"
@@ -61,6 +62,7 @@ std::vector<glm::vec3> displacementsOf(vtkImageData* image, std::string& problem
 }
 
 vtkStandardNewMacro(vtkInvertDisplacementField);
+brainshiftGuardRequestsMacro(vtkInvertDisplacementField);
 
 int vtkInvertDisplacementField::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)

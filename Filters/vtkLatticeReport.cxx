@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkLatticeReport.h"
 
+#include "Filters/Attached/Guard.h"
 #include "Filters/Deformation/ControlPoints.h"
 
 #include "vtkAlgorithm.h"
@@ -17,6 +18,8 @@ using namespace brainshift;
 
 namespace
 {
+constexpr int components = 9; // of a control point
+
 // What the output carries (DeformableVolume.h), read in place: its displacements, or null if it
 // carries nothing.
 vtkFloatArray* readDrawn(vtkAlgorithm* filter, DrawnLattice& lattice)
@@ -85,15 +88,19 @@ void vtkLatticeReport::FindFarthest(vtkFloatArray* displacements, DrawnLattice& 
 
 vtkDoubleArray* vtkLatticeReport::GetControlPoints()
 {
-  constexpr int components = 9;
   this->ControlPoints->Reset();
   this->ControlPoints->SetNumberOfComponents(components);
   DrawnLattice lattice;
   vtkFloatArray* displacements = readDrawn(this->Filter, lattice);
-  if (!displacements)
+  if (displacements)
   {
-    return this->ControlPoints;
+    guarded(this, [&] { this->ListControlPoints(displacements, lattice); });
   }
+  return this->ControlPoints;
+}
+
+void vtkLatticeReport::ListControlPoints(vtkFloatArray* displacements, DrawnLattice& lattice)
+{
   this->FindFarthest(displacements, lattice);
   ControlPointSet offsets;
   const glm::dvec3 centre(this->Ball[0], this->Ball[1], this->Ball[2]);
@@ -123,7 +130,6 @@ vtkDoubleArray* vtkLatticeReport::GetControlPoints()
       static_cast<double>(index.z), rest.x, rest.y, rest.z, drawn.x, drawn.y, drawn.z };
     this->ControlPoints->InsertNextTuple(tuple);
   }
-  return this->ControlPoints;
 }
 
 vtkDoubleArray* vtkLatticeReport::GetGeometry()

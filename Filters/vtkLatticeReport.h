@@ -85,6 +85,7 @@ protected:
   ~vtkLatticeReport() override;
 
 private:
+  void ListControlPoints(vtkFloatArray* displacements, brainshift::DrawnLattice& lattice);
   void FindFarthest(vtkFloatArray* displacements, brainshift::DrawnLattice& lattice);
 
   vtkLatticeReport(const vtkLatticeReport&) = delete;

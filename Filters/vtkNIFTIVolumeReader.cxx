@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkNIFTIVolumeReader.h"
 
+#include "Filters/Attached/Guard.h"
 #include "Filters/Attached/WorldAxes.h"
 #include "Filters/Files/FieldImage.h"
 #include "Filters/Files/NIFTIFileCheck.h"
@@ -36,6 +37,7 @@ std::size_t nearestIndex(const std::vector<double>& times, double time)
 }
 
 vtkStandardNewMacro(vtkNIFTIVolumeReader);
+brainshiftGuardRequestsMacro(vtkNIFTIVolumeReader);
 
 vtkNIFTIVolumeReader::vtkNIFTIVolumeReader()
   : Stored(std::make_unique<brainshift::NIFTIVolume>())

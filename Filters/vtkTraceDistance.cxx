@@ -3,6 +3,7 @@
 
 #include "Filters/Attached/CavityMask.h"
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/Guard.h"
 #include "Filters/Attached/Portions.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Attached/WholeExtent.h"
@@ -167,6 +168,7 @@ struct vtkTraceDistance::State
 };
 
 vtkStandardNewMacro(vtkTraceDistance);
+brainshiftGuardRequestsMacro(vtkTraceDistance);
 
 vtkTraceDistance::vtkTraceDistance()
   : Internal(std::make_unique<State>())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedSlicesMapper.h"
 
+#include "Filters/Attached/Guard.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Deformation/PointMap.h"
 #include "Representations/Field/SceneDeformation.h"
@@ -91,7 +92,9 @@ vtkDeformedSlicesMapper::~vtkDeformedSlicesMapper() = default;
 void vtkDeformedSlicesMapper::UpdateDeformation(vtkImageData* image)
 {
   std::string problem;
-  if (!this->Internal->Deformation.update(image, problem))
+  const std::string thrown = thrownBy([&] { this->Internal->Deformation.update(image, problem); });
+  problem = thrown.empty() ? problem : "The deformation " + thrown;
+  if (!problem.empty())
   {
     vtkErrorMacro(<< problem << ". The slices are drawn undeformed.");
   }
@@ -111,12 +114,17 @@ double* vtkDeformedSlicesMapper::GetBounds()
 void vtkDeformedSlicesMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
 {
   this->GetInputAlgorithm()->Update();
-  std::string problem;
-  if (!this->Draw(renderer, volume, problem) && this->Internal->Reported != problem)
-  {
-    vtkErrorMacro(<< problem << ". The slices are not drawn.");
-    this->Internal->Reported = problem;
-  }
+  guarded(this, [&] {
+    std::string problem;
+    bool drawn = false;
+    const std::string thrown = thrownBy([&] { drawn = this->Draw(renderer, volume, problem); });
+    problem = thrown.empty() ? problem : "Deformed Slices " + thrown;
+    if (!drawn && this->Internal->Reported != problem)
+    {
+      vtkErrorMacro(<< problem << ". The slices are not drawn.");
+      this->Internal->Reported = problem;
+    }
+  });
 }
 
 bool vtkDeformedSlicesMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std::string& problem)

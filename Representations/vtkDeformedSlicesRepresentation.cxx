@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedSlicesRepresentation.h"
 
+#include "Filters/Attached/Guard.h"
 #include "Filters/Attached/WorldAxes.h"
 #include "Representations/Slices/OrientationMarks.h"
 #include "Representations/Slices/SlicesProp.h"
@@ -182,12 +183,14 @@ bool vtkDeformedSlicesRepresentation::RemoveFromView(vtkView* view)
 int vtkDeformedSlicesRepresentation::ProcessViewRequest(
   vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
 {
-  const int result = this->Superclass::ProcessViewRequest(request, input, output);
-  if (result)
-  {
-    this->DeliverAxes(request, input);
-  }
-  return result;
+  return brainshift::guarded(this, 0, [&] {
+    const int result = this->Superclass::ProcessViewRequest(request, input, output);
+    if (result)
+    {
+      this->DeliverAxes(request, input);
+    }
+    return result;
+  });
 }
 
 void vtkDeformedSlicesRepresentation::PrintSelf(ostream& os, vtkIndent indent)

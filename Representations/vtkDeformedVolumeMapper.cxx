@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedVolumeMapper.h"
 
+#include "Filters/Attached/Guard.h"
 #include "Representations/Field/SceneDeformation.h"
 #include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/WindowDevices.h"
@@ -70,7 +71,9 @@ void vtkDeformedVolumeMapper::Modified()
 void vtkDeformedVolumeMapper::UpdateDeformation(vtkImageData* image)
 {
   std::string problem;
-  if (!this->Internal->Deformation.update(image, problem))
+  const std::string thrown = thrownBy([&] { this->Internal->Deformation.update(image, problem); });
+  problem = thrown.empty() ? problem : "The deformation " + thrown;
+  if (!problem.empty())
   {
     vtkErrorMacro(<< problem << ". The volume is drawn undeformed.");
   }
@@ -95,20 +98,33 @@ void vtkDeformedVolumeMapper::Render(vtkRenderer* renderer, vtkVolume* volume)
   this->GetInputAlgorithm()->Update();
   vtkNew<vtkTimerLog> timer;
   timer->StartTimer();
-  std::string problem;
-  if (renderer->GetSelector())
-  {
-    if (!selectsPoints(renderer))
+  guarded(this, [&] {
+    if (!renderer->GetSelector())
+    {
+      this->DrawAnyhow(renderer, volume);
+    }
+    else if (!selectsPoints(renderer))
     {
       this->CoverSelection(renderer);
     }
+  });
+  timer->StopTimer();
+  this->TimeToDraw = timer->GetElapsedTime();
+}
+
+void vtkDeformedVolumeMapper::DrawAnyhow(vtkRenderer* renderer, vtkVolume* volume)
+{
+  std::string problem;
+  bool drawn = false;
+  const std::string thrown = thrownBy([&] { drawn = this->Draw(renderer, volume, problem); });
+  if (!thrown.empty())
+  {
+    problem = "Deformed Volume " + thrown;
   }
-  else if (!this->Draw(renderer, volume, problem))
+  if (!drawn)
   {
     this->DrawUndeformed(renderer, volume, problem);
   }
-  timer->StopTimer();
-  this->TimeToDraw = timer->GetElapsedTime();
 }
 
 void vtkDeformedVolumeMapper::CoverSelection(vtkRenderer* renderer)

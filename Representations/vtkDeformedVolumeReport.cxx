@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedVolumeReport.h"
 
+#include "Filters/Attached/Guard.h"
 #include "Representations/Gpu/Counters.h"
 #include "vtkDeformedSlicesMapper.h"
 #include "vtkDeformedSlicesRepresentation.h"
@@ -79,9 +80,11 @@ double* vtkDeformedVolumeReport::GetTissue()
   vtkDeformedVolumeMapper* mapper = this->Mapper();
   vtkDeformedSlicesMapper* slices = this->Slices();
   const int* pixel = this->Pixel;
-  const bool found = mapper
-    ? mapper->Pick(renderer, pixel[0], pixel[1], this->Tissue)
-    : slices && slices->Pick(renderer, pixel[0], pixel[1], this->Tissue, this->Tissue + 4);
+  const bool found = brainshift::guarded(this, false, [&] {
+    return mapper
+      ? mapper->Pick(renderer, pixel[0], pixel[1], this->Tissue)
+      : slices && slices->Pick(renderer, pixel[0], pixel[1], this->Tissue, this->Tissue + 4);
+  });
   this->Tissue[3] = found ? 1.0 : 0.0;
   return this->Tissue;
 }

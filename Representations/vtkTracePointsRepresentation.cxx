@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTracePointsRepresentation.h"
 
+#include "Filters/Attached/Guard.h"
 #include "Representations/Traces/TracePoints.h"
 #include "Representations/Window/FailedUpdate.h"
 
@@ -14,6 +15,7 @@
 #include <algorithm>
 
 vtkStandardNewMacro(vtkTracePointsRepresentation);
+brainshiftGuardRequestsMacro(vtkTracePointsRepresentation);
 
 vtkTracePointsRepresentation::vtkTracePointsRepresentation()
 {
@@ -53,17 +55,19 @@ double vtkTracePointsRepresentation::GetSplatSize()
 int vtkTracePointsRepresentation::ProcessViewRequest(
   vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
 {
-  brainshift::FailedUpdate failed(this, request);
-  const int result = this->Superclass::ProcessViewRequest(request, input, output);
-  failed.end();
-  auto* view = vtkPVView::SafeDownCast(input->Get(vtkPVView::VIEW()));
-  if (result && view && request == vtkPVView::REQUEST_UPDATE_LOD())
-  {
-    // Points have no stand-ins for interactive pictures, and would be missing after a stroke.
-    unsigned int idAndPort[] = { this->GetUniqueIdentifier(), 0 };
-    view->GetDeliveryManager()->Deliver(/*use_low_res*/ 0, 2, idAndPort);
-  }
-  return result;
+  return brainshift::guarded(this, 0, [&] {
+    brainshift::FailedUpdate failed(this, request);
+    const int result = this->Superclass::ProcessViewRequest(request, input, output);
+    failed.end();
+    auto* view = vtkPVView::SafeDownCast(input->Get(vtkPVView::VIEW()));
+    if (result && view && request == vtkPVView::REQUEST_UPDATE_LOD())
+    {
+      // Points have no stand-ins for interactive pictures, and would be missing after a stroke.
+      unsigned int idAndPort[] = { this->GetUniqueIdentifier(), 0 };
+      view->GetDeliveryManager()->Deliver(/*use_low_res*/ 0, 2, idAndPort);
+    }
+    return result;
+  });
 }
 
 void vtkTracePointsRepresentation::PrintSelf(ostream& os, vtkIndent indent)

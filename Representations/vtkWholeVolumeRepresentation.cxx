@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkWholeVolumeRepresentation.h"
 
+#include "Filters/Attached/Guard.h"
 #include "Representations/Window/FailedUpdate.h"
 #include "Representations/Window/GatheredVolume.h"
 #include "Representations/Window/InteractiveDelivery.h"
@@ -15,6 +16,8 @@
 #include "vtkPVView.h"
 #include "vtkVolumeMapper.h"
 
+brainshiftGuardRequestsMacro(vtkWholeVolumeRepresentation);
+
 vtkWholeVolumeRepresentation::vtkWholeVolumeRepresentation()
   : Gathered(std::make_unique<brainshift::GatheredVolume>())
 {
@@ -25,21 +28,23 @@ vtkWholeVolumeRepresentation::~vtkWholeVolumeRepresentation() = default;
 int vtkWholeVolumeRepresentation::ProcessViewRequest(
   vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
 {
-  // First the data of this process, then that of all. The superclass finds both done and only hands
-  // the data to the view.
-  brainshift::FailedUpdate failed(this, request);
-  if (request == vtkPVView::REQUEST_UPDATE() &&
-    this->vtkVolumeRepresentation::ProcessViewRequest(request, input, output))
-  {
-    this->GatherParts();
-  }
-  failed.end();
-  const int result = this->Superclass::ProcessViewRequest(request, input, output);
-  if (result)
-  {
-    brainshift::deliverWithStandIns(this, request, input);
-  }
-  return result;
+  return brainshift::guarded(this, 0, [&] {
+    // First the data of this process, then that of all. The superclass finds both done and only
+    // hands the data to the view.
+    brainshift::FailedUpdate failed(this, request);
+    if (request == vtkPVView::REQUEST_UPDATE() &&
+      this->vtkVolumeRepresentation::ProcessViewRequest(request, input, output))
+    {
+      this->GatherParts();
+    }
+    failed.end();
+    const int result = this->Superclass::ProcessViewRequest(request, input, output);
+    if (result)
+    {
+      brainshift::deliverWithStandIns(this, request, input);
+    }
+    return result;
+  });
 }
 
 int vtkWholeVolumeRepresentation::RequestData(

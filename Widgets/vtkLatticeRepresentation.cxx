@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkLatticeRepresentation.h"
 
+#include "Filters/Attached/Guard.h"
+
 #include "vtkActor.h"
 #include "vtkBoundingBox.h"
 #include "vtkCellArray.h"
@@ -264,25 +266,29 @@ void vtkLatticeRepresentation::ReleaseGraphicsResources(vtkWindow* window)
 
 int vtkLatticeRepresentation::RenderOpaqueGeometry(vtkViewport* viewport)
 {
-  int rendered = 0;
-  for (Drawing* drawing : this->Internal->all())
-  {
-    rendered +=
-      drawing->Actor->GetVisibility() ? drawing->Actor->RenderOpaqueGeometry(viewport) : 0;
-  }
-  return rendered;
+  return guarded(this, 0, [&] {
+    int rendered = 0;
+    for (Drawing* drawing : this->Internal->all())
+    {
+      rendered +=
+        drawing->Actor->GetVisibility() ? drawing->Actor->RenderOpaqueGeometry(viewport) : 0;
+    }
+    return rendered;
+  });
 }
 
 int vtkLatticeRepresentation::RenderOverlay(vtkViewport* viewport)
 {
-  int rendered = 0;
-  for (Drawing* drawing : this->Internal->all())
-  {
-    rendered += drawing->Actor->GetVisibility()
-      ? drawing->Actor->RenderTranslucentPolygonalGeometry(viewport)
-      : 0;
-  }
-  return rendered;
+  return guarded(this, 0, [&] {
+    int rendered = 0;
+    for (Drawing* drawing : this->Internal->all())
+    {
+      rendered += drawing->Actor->GetVisibility()
+        ? drawing->Actor->RenderTranslucentPolygonalGeometry(viewport)
+        : 0;
+    }
+    return rendered;
+  });
 }
 
 void vtkLatticeRepresentation::PrintSelf(ostream& os, vtkIndent indent)

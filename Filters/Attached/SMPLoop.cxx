@@ -32,15 +32,18 @@ const struct Chosen
 
 void loopWithSMPTools(std::int64_t first, std::int64_t last, const LoopBody& body)
 {
+  PieceRunner runner(body);
+  const LoopBody piece = [&](std::int64_t begin, std::int64_t end) { runner.run(begin, end); };
   if (leftSequential())
   {
     // ParaView runs pipelines and draws on one thread, so nobody else sees the back end change.
     vtkSMPTools::LocalScope(
-      vtkSMPTools::Config(std::string("STDThread")), [&] { vtkSMPTools::For(first, last, body); });
+      vtkSMPTools::Config(std::string("STDThread")), [&] { vtkSMPTools::For(first, last, piece); });
   }
   else
   {
-    vtkSMPTools::For(first, last, body);
+    vtkSMPTools::For(first, last, piece);
   }
+  runner.rethrow();
 }
 }

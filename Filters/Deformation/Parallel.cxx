@@ -2,8 +2,6 @@
 #include "Filters/Deformation/Parallel.h"
 
 #include <algorithm>
-#include <exception>
-#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -13,44 +11,29 @@ namespace
 {
 Loop chosenLoop = loopOnThreads;
 thread_local bool withinPiece = false;
+}
 
-// Runs pieces on several threads and keeps the first exception that one of them throws.
-class PieceRunner
+void PieceRunner::run(std::int64_t begin, std::int64_t end)
 {
-public:
-  explicit PieceRunner(const LoopBody& body)
-    : Body(body)
+  withinPiece = true;
+  try
   {
+    this->Body(begin, end);
   }
-
-  void run(std::int64_t begin, std::int64_t end)
+  catch (...)
   {
-    withinPiece = true;
-    try
-    {
-      this->Body(begin, end);
-    }
-    catch (...)
-    {
-      const std::lock_guard<std::mutex> lock(this->Mutex);
-      this->Thrown = this->Thrown ? this->Thrown : std::current_exception();
-    }
-    withinPiece = false;
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->Thrown = this->Thrown ? this->Thrown : std::current_exception();
   }
+  withinPiece = false;
+}
 
-  void rethrow() const
+void PieceRunner::rethrow() const
+{
+  if (this->Thrown)
   {
-    if (this->Thrown)
-    {
-      std::rethrow_exception(this->Thrown);
-    }
+    std::rethrow_exception(this->Thrown);
   }
-
-private:
-  const LoopBody& Body;
-  std::mutex Mutex;
-  std::exception_ptr Thrown;
-};
 }
 
 void loopOnThreads(std::int64_t first, std::int64_t last, const LoopBody& body)

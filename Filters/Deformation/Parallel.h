@@ -13,7 +13,9 @@
 #include "Filters/Deformation/Export.h"
 
 #include <cstdint>
+#include <exception>
 #include <functional>
+#include <mutex>
 
 namespace brainshift
 {
@@ -26,6 +28,30 @@ using LoopBody = std::function<void(std::int64_t first, std::int64_t last)>;
  * piece's thread.
  */
 using Loop = void (*)(std::int64_t first, std::int64_t last, const LoopBody& body);
+
+/**
+ * Runs pieces on several threads and keeps the first exception that one of them throws: one that
+ * leaves a thread ends the program.
+ */
+class BRAINSHIFT_DEFORMATION_EXPORT PieceRunner
+{
+public:
+  explicit PieceRunner(const LoopBody& body)
+    : Body(body)
+  {
+  }
+
+  /** Runs one piece, on any thread. */
+  void run(std::int64_t first, std::int64_t last);
+
+  /** Throws again what a piece threw. Call it when all threads have ended. */
+  void rethrow() const;
+
+private:
+  const LoopBody& Body;
+  std::mutex Mutex;
+  std::exception_ptr Thrown;
+};
 
 /**
  * The loop that parallelFor uses by default: one thread for each processor core. The first

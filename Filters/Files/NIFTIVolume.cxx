@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Files/NIFTIVolume.h"
 
+#include "Filters/Attached/HostMemory.h"
 #include "Filters/Deformation/Parallel.h"
 #include "Filters/Files/NIFTIFileCheck.h"
 
 #include "vtkCommand.h"
+#include "vtkDataArray.h"
 #include "vtkExecutive.h"
 #include "vtkImageData.h"
 #include "vtkNIFTIImageHeader.h"
 
 #include <array>
 #include <cmath>
-#include <new>
 #include <sstream>
 
 namespace brainshift
@@ -234,25 +235,38 @@ int NIFTIVolume::scalarType() const
   return this->Rescale.needed ? VTK_FLOAT : this->Voxels->GetDataScalarType();
 }
 
+std::string NIFTIVolume::memoryProblem(const int extent[6]) const
+{
+  const glm::ivec3& size = this->Geometry.grid.dimensions;
+  const bool isLoaded = this->Voxels->GetOutput()->GetNumberOfPoints() > 0; // of a time series
+  const double stored = isLoaded ? 0.0
+                                 : static_cast<double>(this->Geometry.grid.count()) *
+      this->Voxels->GetNumberOfScalarComponents() *
+      vtkDataArray::GetDataTypeSize(this->Voxels->GetDataScalarType());
+  double shown =
+    static_cast<double>(this->components()) * vtkDataArray::GetDataTypeSize(this->scalarType());
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    shown *= extent[2 * axis + 1] - extent[2 * axis] + 1.0;
+  }
+  return hostMemoryProblem(std::to_string(this->Times.size()) + " volumes of " +
+      sizeText(glm::dvec3(size)) + " voxels",
+    stored + shown);
+}
+
 std::string NIFTIVolume::load(vtkImageData* image, const int extent[6])
 {
-  std::string problem;
-  try
+  std::string problem = this->memoryProblem(extent);
+  if (problem.empty())
   {
     this->Error.clear();
     this->Voxels->UpdateWholeExtent();
     problem = this->Error;
-    if (problem.empty())
-    {
-      image->SetExtent(extent[0], extent[1], extent[2], extent[3], extent[4], extent[5]);
-      image->AllocateScalars(this->scalarType(), this->components());
-    }
   }
-  catch (const std::bad_alloc&)
+  if (problem.empty())
   {
-    const glm::ivec3& size = this->Geometry.grid.dimensions;
-    problem = std::to_string(this->Times.size()) + " volumes of " + std::to_string(size.x) + " x " +
-      std::to_string(size.y) + " x " + std::to_string(size.z) + " voxels do not fit in memory";
+    image->SetExtent(extent[0], extent[1], extent[2], extent[3], extent[4], extent[5]);
+    image->AllocateScalars(this->scalarType(), this->components());
   }
   return problem.empty() ? problem : "NIfTI file " + this->FileName + " cannot be read: " + problem;
 }

@@ -83,6 +83,8 @@ private:
     double slope = 1.0;
     double intercept = 0.0;
   };
+  // Why there is too little memory for the voxels; empty if there is enough.
+  std::string memoryProblem(const int extent[6]) const;
   static Rescaling rescalingOf(vtkNIFTIImageHeader* header);
 
   std::string FileName;

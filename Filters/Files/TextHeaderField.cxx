@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Files/TextHeaderField.h"
 
+#include "Filters/Attached/HostMemory.h"
 #include "Filters/Files/PlainFile.h"
 #include "Filters/Files/TextHeader.h"
 #include "Filters/Files/WholeFile.h"
@@ -58,6 +59,17 @@ bool unpack(const std::vector<char>& packed, std::vector<char>& to)
   return out == to.size();
 }
 
+// Why there is too little memory for the field; the end of a sentence, empty if there is enough.
+std::string memoryProblemOf(const TextHeader& header, std::size_t storedBytes)
+{
+  const double bytes = static_cast<double>(header.dataBytes()) +
+    static_cast<double>(header.grid.count() * sizeof(glm::vec3)) +
+    (header.isPacked ? static_cast<double>(storedBytes) : 0.0);
+  const std::string problem = hostMemoryProblem(
+    "a field of " + sizeText(glm::dvec3(header.grid.dimensions)) + " points", bytes);
+  return problem.empty() ? problem : "cannot be read: " + problem;
+}
+
 std::string readData(const std::string& fileName, const TextHeader& header, std::vector<char>& data)
 {
   const std::string dataFile = header.dataFile.empty()
@@ -81,6 +93,17 @@ std::string readData(const std::string& fileName, const TextHeader& header, std:
     return "has " + std::to_string(bytes) + " bytes of numbers where the header announces " +
       std::to_string(header.dataBytes());
   }
+  // No stream unpacks to more than some thousand times its size: a damaged header asks for more.
+  if (header.isPacked && header.dataBytes() / 1100 > bytes)
+  {
+    return "has " + std::to_string(bytes) + " packed bytes where the header announces " +
+      std::to_string(header.dataBytes()) + " bytes of numbers";
+  }
+  const std::string tooLarge = memoryProblemOf(header, bytes);
+  if (!tooLarge.empty())
+  {
+    return tooLarge;
+  }
   std::vector<char> stored(header.isPacked ? bytes : header.dataBytes());
   file.seekg(static_cast<std::streamoff>(header.headerBytes));
   if (!file.read(stored.data(), static_cast<std::streamsize>(stored.size())))
@@ -91,12 +114,6 @@ std::string readData(const std::string& fileName, const TextHeader& header, std:
   {
     data = std::move(stored);
     return {};
-  }
-  // No stream unpacks to more than some thousand times its size: a damaged header asks for more.
-  if (header.dataBytes() / 1100 > bytes)
-  {
-    return "has " + std::to_string(bytes) + " packed bytes where the header announces " +
-      std::to_string(header.dataBytes()) + " bytes of numbers";
   }
   data.resize(header.dataBytes());
   return unpack(stored, data) ? std::string() : "has packed numbers that are damaged or too few";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Field/SceneDeformation.h"
 
+#include "Filters/Attached/HostMemory.h"
 #include "Representations/Gpu/GpuTask.h"
 #include "Representations/Scene/FieldPlace.h"
 
@@ -18,13 +19,18 @@ bool SceneDeformation::update(vtkImageData* image, std::string& problem)
     return true;
   }
   this->time = latest;
+  this->deformed = false; // not before all of it succeeded
   Deformation source;
-  this->deformed = carriesDeformation(image) && readDeformation(image, source, problem);
-  if (!this->deformed)
+  if (!carriesDeformation(image) || !readDeformation(image, source, problem))
   {
     return problem.empty();
   }
   this->lattice = effectiveLattice(source);
+  problem = offsetFieldProblem(this->lattice, source.samples);
+  if (!problem.empty())
+  {
+    return false;
+  }
   this->request.dimensions = this->lattice.grid.dimensions;
   this->request.kernel = this->lattice.kernel;
   this->request.samples = source.samples;
@@ -33,6 +39,7 @@ bool SceneDeformation::update(vtkImageData* image, std::string& problem)
   this->request.nodes = backwardNodes(this->lattice.grid, this->request.inCells, source.samples);
   this->request.mask = this->lattice.mask;
   this->moved = movedHull(this->lattice.grid.dimensions, this->request.inCells);
+  this->deformed = true;
   return true;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Slices/OrientationMarks.h"
 
+#include "Filters/Attached/Guard.h"
+
 #include "vtkCamera.h"
 #include "vtkCoordinate.h"
 #include "vtkMatrix4x4.h"
@@ -129,28 +131,32 @@ int OrientationMarks::RenderOpaqueGeometry(vtkViewport* viewport)
 {
   auto renderer = vtkRenderer::SafeDownCast(viewport);
   vtkMatrix4x4* viewFromWorld = renderer->GetActiveCamera()->GetViewTransformMatrix();
-  const std::array<double, 3> right = this->AlongAxes(viewFromWorld->GetData());
-  const std::array<double, 3> up = this->AlongAxes(viewFromWorld->GetData() + 4);
-  const auto letters = edgeLetters(right.data(), up.data(), this->Axes);
-  int drawn = 0;
-  for (std::size_t i = 0; i < letters.size(); ++i)
-  {
-    this->Letters[i]->SetInput(letters[i].c_str());
-    drawn += letters[i].empty() ? 0 : this->Letters[i]->RenderOpaqueGeometry(viewport);
-  }
-  this->Warning->SetVisibility(this->Axes == WorldAxes::Unknown && !letters[0].empty());
-  drawn += this->Warning->GetVisibility() ? this->Warning->RenderOpaqueGeometry(viewport) : 0;
-  return drawn;
+  return guarded(this, 0, [&] {
+    const std::array<double, 3> right = this->AlongAxes(viewFromWorld->GetData());
+    const std::array<double, 3> up = this->AlongAxes(viewFromWorld->GetData() + 4);
+    const auto letters = edgeLetters(right.data(), up.data(), this->Axes);
+    int drawn = 0;
+    for (std::size_t i = 0; i < letters.size(); ++i)
+    {
+      this->Letters[i]->SetInput(letters[i].c_str());
+      drawn += letters[i].empty() ? 0 : this->Letters[i]->RenderOpaqueGeometry(viewport);
+    }
+    this->Warning->SetVisibility(this->Axes == WorldAxes::Unknown && !letters[0].empty());
+    drawn += this->Warning->GetVisibility() ? this->Warning->RenderOpaqueGeometry(viewport) : 0;
+    return drawn;
+  });
 }
 
 int OrientationMarks::RenderOverlay(vtkViewport* viewport)
 {
-  int drawn = this->Warning->GetVisibility() ? this->Warning->RenderOverlay(viewport) : 0;
-  for (auto& letter : this->Letters)
-  {
-    drawn += *letter->GetInput() ? letter->RenderOverlay(viewport) : 0;
-  }
-  return drawn;
+  return guarded(this, 0, [&] {
+    int drawn = this->Warning->GetVisibility() ? this->Warning->RenderOverlay(viewport) : 0;
+    for (auto& letter : this->Letters)
+    {
+      drawn += *letter->GetInput() ? letter->RenderOverlay(viewport) : 0;
+    }
+    return drawn;
+  });
 }
 
 void OrientationMarks::ReleaseGraphicsResources(vtkWindow* window)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Slices/SlicesProp.h"
 
+#include "Filters/Attached/Guard.h"
+
 #include "vtkObjectFactory.h"
 #include "vtkRenderer.h"
 #include "vtkVolumeMapper.h"
@@ -24,15 +26,19 @@ int SlicesProp::Draw(vtkViewport* viewport)
 
 int SlicesProp::RenderOpaqueGeometry(vtkViewport* viewport)
 {
-  return this->Draws(false) ? this->Draw(viewport)
-                            : this->Superclass::RenderOpaqueGeometry(viewport);
+  return guarded(this, 0, [&] {
+    return this->Draws(false) ? this->Draw(viewport)
+                              : this->Superclass::RenderOpaqueGeometry(viewport);
+  });
 }
 
 int SlicesProp::RenderVolumetricGeometry(vtkViewport* viewport)
 {
   // The superclass would draw the mapper it has, which is the slices'.
-  return this->EnableLOD ? this->Superclass::RenderVolumetricGeometry(viewport)
-    : this->Draws(true)  ? this->Draw(viewport)
-                         : 0;
+  return guarded(this, 0, [&] {
+    return this->EnableLOD ? this->Superclass::RenderVolumetricGeometry(viewport)
+      : this->Draws(true)  ? this->Draw(viewport)
+                           : 0;
+  });
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Traces/TracePoints.h"
 
+#include "Filters/Attached/Guard.h"
 #include "Representations/Gpu/WindowDevices.h"
 #include "Representations/Scene/HitSource.h"
 #include "Representations/Scene/SceneGeometry.h"
@@ -223,11 +224,11 @@ int TracePoints::DrawSelection(vtkRenderer* renderer)
 int TracePoints::RenderOpaqueGeometry(vtkViewport* viewport)
 {
   auto* renderer = vtkRenderer::SafeDownCast(viewport);
-  if (renderer->GetSelector())
-  {
-    return this->DrawSelection(renderer);
-  }
-  return deformedVolumesIn(renderer).empty() && this->Draw(renderer, {});
+  return guarded(this, 0, [&] {
+    return renderer->GetSelector()
+      ? this->DrawSelection(renderer)
+      : static_cast<int>(deformedVolumesIn(renderer).empty() && this->Draw(renderer, {}));
+  });
 }
 
 int TracePoints::RenderOverlay(vtkViewport* viewport)
@@ -237,8 +238,10 @@ int TracePoints::RenderOverlay(vtkViewport* viewport)
   {
     return 0;
   }
-  const auto volumes = deformedVolumesIn(renderer);
-  return !volumes.empty() && this->Draw(renderer, volumes);
+  return guarded(this, 0, [&] {
+    const auto volumes = deformedVolumesIn(renderer);
+    return static_cast<int>(!volumes.empty() && this->Draw(renderer, volumes));
+  });
 }
 
 void TracePoints::ReleaseGraphicsResources(vtkWindow* window)

@@ -9,12 +9,13 @@ import sys
 import time
 
 import forms
+import guards
 import includes
 import listed
 import sizes
 from tree import Tree
 
-CHECKS = {check.__name__: check for module in (includes, sizes, listed, forms)
+CHECKS = {check.__name__: check for module in (includes, sizes, listed, forms, guards)
           for check in module.CHECKS}
 
 

@@ -31,6 +31,8 @@ def house():
     files["Filters/Deformation/Lattice.cxx"] = '#include "Filters/Deformation/Lattice.h"\n'
     files["Filters/vtkBend.h"] = header("Bend", '#include "Filters/Deformation/Lattice.h"').replace(
         "BrainShift_Bend_h", "vtkBend_h")
+    files["Filters/vtkBend.cxx"] = (
+        "brainshiftGuardRequestsMacro(vtkBend);\nint vtkBend::RequestData(int) { return 1; }\n")
     files["Filters/Bend.xml"] = "<ServerManagerConfiguration/>\n"
     files["Filters/CMakeLists.txt"] = "set(classes vtkBend Deformation/Lattice.cxx Bend.xml)\n"
     files["Representations/vtkDraw.cxx"] = '#include "vtkBend.h"\nvoid draw(int a, int b) {}\n'
@@ -57,6 +59,15 @@ SIX = "(int a, std::map<int, int> b, int (*c)(int, int), int d, int e, int f)"
 
 #: For each check: what is put into the checkout, and the file that must be named.
 BREAKS = [
+    ("every_boundary_is_guarded", "Filters/vtkBend.cxx",
+     "int vtkBend::RequestData(int) { return 1; }\n", None),
+    ("every_boundary_is_guarded", "Filters/vtkBend.cxx",
+     "brainshiftGuardRequestsMacro(vtkBow);\nint vtkBend::RequestInformation(int) { return 1; }\n",
+     None),
+    ("every_boundary_is_guarded", "Filters/vtkBend.cxx",
+     "void vtkBend::WriteData()\n{\n  write();\n}\n", None),
+    ("every_boundary_is_guarded", "Representations/vtkDraw.cxx",
+     "void vtkDraw::Render(int)\n{\n  draw();\n}\nvoid f() { guarded(0); }\n", None),
     ("no_include_runs_upwards", "Filters/Deformation/Lattice.h",
      header("Lattice", '#include "Filters/Attached/Map.h"'), "Filters/Attached/Map.h"),
     ("no_include_runs_upwards", "Widgets/Hand.h",

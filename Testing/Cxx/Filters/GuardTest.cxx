@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Proves that no exception leaves a filter, from whichever thread: the filter reports an error that
+// says why, and works again afterwards.
+#include "Filters/Attached/Guard.h"
+#include "Filters/Attached/SMPLoop.h"
+#include "Testing/Cxx/Filters/TestPipeline.h"
+
+#include <vtkImageAlgorithm.h>
+#include <vtkObjectFactory.h>
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <new>
+#include <stdexcept>
+
+using namespace brainshift;
+using namespace brainshift::testing;
+
+namespace
+{
+// An algorithm whose request for data does what the test wants.
+class Thrower : public vtkImageAlgorithm
+{
+public:
+  static Thrower* New();
+  vtkTypeMacro(Thrower, vtkImageAlgorithm);
+  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
+    vtkInformationVector* outputs) override;
+
+  std::function<void()> Step;
+  bool Done = false;
+
+protected:
+  Thrower() { this->SetNumberOfInputPorts(0); }
+
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override
+  {
+    this->Done = false;
+    this->Step();
+    this->Done = true;
+    return 1;
+  }
+};
+
+vtkStandardNewMacro(Thrower);
+brainshiftGuardRequestsMacro(Thrower);
+
+std::string errorsOf(Thrower* filter, const std::function<void()>& step)
+{
+  Errors errors(filter);
+  filter->Step = step;
+  filter->Modified();
+  EXPECT_NO_THROW(filter->Update());
+  return errors.take();
+}
+
+void throwOutOfRange()
+{
+  throw std::out_of_range("there is no such place");
+}
+}
+
+TEST(Guard, TurnsExceptionsIntoErrors)
+{
+  vtkNew<Thrower> filter;
+  const auto says = [&](const std::string& said, const char* words) {
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+    EXPECT_FALSE(filter->Done);
+  };
+  says(errorsOf(filter, [] { throw std::bad_alloc(); }),
+    "Thrower needs more memory than this machine has left.");
+  says(errorsOf(filter, [] { throw std::length_error("vector"); }),
+    "Thrower needs more memory than any machine has.");
+  says(errorsOf(filter, throwOutOfRange), "Thrower failed: there is no such place.");
+  says(errorsOf(filter, [] { throw 7; }), "Thrower failed for a reason it does not know.");
+  EXPECT_EQ(errorsOf(filter, [] {}), "");
+  EXPECT_TRUE(filter->Done);
+}
+
+TEST(Guard, HoldsForThreads)
+{
+  vtkNew<Thrower> filter;
+  for (const Loop loop : { loopOnThreads, loopWithSMPTools })
+  {
+    const std::string said = errorsOf(filter, [&] {
+      loop(0, 1000, [](std::int64_t first, std::int64_t last) {
+        if (first <= 990 && 990 < last)
+        {
+          throw std::bad_alloc();
+        }
+      });
+    });
+    EXPECT_NE(said.find("Thrower needs more memory"), std::string::npos) << said;
+  }
+}
