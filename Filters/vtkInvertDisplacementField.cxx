@@ -3,12 +3,14 @@
 
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/Guard.h"
+#include "Filters/Attached/HostMemory.h"
 #include "Filters/Attached/Portions.h"
 #include "Filters/Attached/WholeExtent.h"
 #include "Filters/Deformation/Inversion.h"
 #include "Filters/Deformation/OffsetField.h"
 #include "Filters/Files/FieldImage.h"
 
+#include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -19,12 +21,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
 
 using namespace brainshift;
 
 namespace
 {
 constexpr double LargestGoodErrorMm = 0.05;
+constexpr float LargestCells = 1e6f; // beyond it the solver's squares leave single precision
 
 // The field with its own points as nodes, counted in its cells.
 NodeField nodesOf(const Grid& grid, const std::vector<glm::vec3>& displacements)
@@ -37,27 +43,74 @@ NodeField nodesOf(const Grid& grid, const std::vector<glm::vec3>& displacements)
   return field;
 }
 
-bool allFinite(const std::vector<glm::vec3>& vectors)
+bool isPositive(double number)
 {
-  return std::all_of(vectors.begin(), vectors.end(),
-    [](const glm::vec3& v) { return std::isfinite(v.x + v.y + v.z); });
+  return number > 0.0 && std::isfinite(number);
 }
 
-// Of all points; if they are no field, `problem` says why.
-std::vector<glm::vec3> displacementsOf(vtkImageData* image, std::string& problem)
+// What keeps a field on this grid from being inverted; empty if nothing does.
+std::string problemOf(const Grid& grid, vtkDataArray* array)
 {
-  vtkDataArray* array = fieldOf(image);
+  constexpr double BytesPerPoint = 4.0 * sizeof(glm::vec3); // read, in cells, inverse, handed out
   if (!array)
   {
-    problem = "The input has no point array of 3 components (mm)";
+    return "The input has no point array of 3 components (mm)";
+  }
+  const auto points = static_cast<double>(grid.count());
+  if (points == 0 || array->GetNumberOfTuples() != static_cast<vtkIdType>(grid.count()))
+  {
+    return "The input has " + sizeText(glm::dvec3(grid.dimensions)) + " points and " +
+      std::to_string(array->GetNumberOfTuples()) + " displacements; it must have one for each, at "
+      "least 1";
+  }
+  const glm::dvec3& spacing = grid.spacing;
+  if (!isPositive(spacing.x) || !isPositive(spacing.y) || !isPositive(spacing.z))
+  {
+    return "The input's spacing is " + sizeText(spacing) + " mm; it must be above 0 and finite";
+  }
+  if (!std::isfinite(grid.origin.x + grid.origin.y + grid.origin.z))
+  {
+    return "The input's origin is not finite";
+  }
+  return hostMemoryProblem("The inverse of a field of " + sizeText(glm::dvec3(grid.dimensions)) +
+      " points",
+    BytesPerPoint * points);
+}
+
+// What is wrong with displacements (lattice cells); empty if nothing is.
+std::string problemOf(const std::vector<glm::vec3>& inCells)
+{
+  for (const glm::vec3& v : inCells)
+  {
+    const float longest = std::max({ std::abs(v.x), std::abs(v.y), std::abs(v.z) });
+    if (!std::isfinite(v.x + v.y + v.z))
+    {
+      return "The input's array of displacements holds a number that is not finite";
+    }
+    if (longest > LargestCells)
+    {
+      std::ostringstream problem;
+      problem << "The input's array of displacements holds one of " << longest
+              << " spacings of its grid; the limit is " << LargestCells;
+      return problem.str();
+    }
+  }
+  return {};
+}
+
+// The field of an image with its own points as nodes; if it has no inverse, `problem` says why.
+NodeField fieldToInvert(vtkImageData* image, std::string& problem)
+{
+  const Grid grid = gridOf(image);
+  vtkDataArray* array = fieldOf(image);
+  problem = problem.empty() ? problemOf(grid, array) : problem;
+  if (!problem.empty())
+  {
     return {};
   }
-  std::vector<glm::vec3> displacements = vectorsOf(array);
-  if (!allFinite(displacements))
-  {
-    problem = "The input's array of displacements holds a number that is not finite";
-  }
-  return displacements;
+  NodeField field = nodesOf(grid, vectorsOf(array));
+  problem = problemOf(field.values);
+  return field;
 }
 }
 
@@ -86,15 +139,14 @@ int vtkInvertDisplacementField::RequestData(
   vtkImageData* input = vtkImageData::GetData(inputs[0]);
   vtkImageData* output = vtkImageData::GetData(outputs);
   std::string problem = problemOfPart(input, inputs[0]->GetInformationObject(0));
-  const std::vector<glm::vec3> displacements = displacementsOf(input, problem);
+  const NodeField field = fieldToInvert(input, problem);
   if (!problem.empty())
   {
     vtkErrorMacro(<< problem << ".");
     return 0;
   }
   const Grid grid = gridOf(input);
-  const NodeField field = nodesOf(grid, displacements);
-  std::vector<glm::vec3> inverse(displacements.size());
+  std::vector<glm::vec3> inverse(grid.count());
   std::vector<double> errors(grid.dimensions.z, 0.0); // of each slice, mm
   const auto invertSlices = [&](vtkIdType first, vtkIdType end) {
     Inversion<NodeField> inversion{ field };

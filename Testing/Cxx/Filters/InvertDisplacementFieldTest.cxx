@@ -156,6 +156,46 @@ TEST(InvertDisplacementField, ABackwardBaseLatticeIsRefused)
   EXPECT_NE(said.find("Invert Displacement Field"), std::string::npos) << said;
 }
 
+// Grids and vectors on which the solver would leave its numbers, and its memory.
+TEST(InvertDisplacementField, WhatCannotBeInvertedIsNamed)
+{
+  vtkNew<vtkInvertDisplacementField> invert;
+  Errors errors(invert);
+  const auto said = [&](vtkImageData* field) {
+    invert->SetInputData(field);
+    invert->Update();
+    return errors.take();
+  };
+  const auto expectSays = [](const std::string& text, const char* words) {
+    EXPECT_NE(text.find(words), std::string::npos) << text;
+  };
+  const Grid good = plainGrid(glm::ivec3(5), glm::dvec3(2.0));
+  const auto fieldOf = [&](const glm::dvec3& vector) {
+    return fieldOn(good, [&](const glm::dvec3&) { return vector; });
+  };
+  auto flat = fieldOf(glm::dvec3(1.0));
+  flat->SetSpacing(2.0, 0.0, 2.0);
+  expectSays(said(flat), "spacing is 2 x 0 x 2 mm; it must be above 0 and finite");
+  flat->SetSpacing(2.0, std::nan(""), 2.0);
+  expectSays(said(flat), "spacing is 2 x nan x 2 mm");
+  auto nowhere = fieldOf(glm::dvec3(1.0));
+  nowhere->SetOrigin(0.0, std::nan(""), 0.0);
+  expectSays(said(nowhere), "origin is not finite");
+  expectSays(said(fieldOf(glm::dvec3(1e38))), "one of 5e+37 spacings of its grid; the limit is");
+  expectSays(said(fieldOf(glm::dvec3(1e39))), "holds a number that is not finite");
+  expectSays(said(fieldOf(glm::dvec3(std::nan("")))), "holds a number that is not finite");
+
+  auto empty = fieldOf(glm::dvec3(1.0));
+  empty->GetPointData()->GetArray("Displacement")->SetNumberOfTuples(0);
+  expectSays(said(empty), "has 5 x 5 x 5 points and 0 displacements");
+  empty->SetExtent(0, -1, 0, -1, 0, -1);
+  expectSays(said(empty), "has 0 x 0 x 0 points and 0 displacements");
+  EXPECT_EQ(invert->GetOutput()->GetNumberOfPoints(), 0);
+
+  EXPECT_EQ(said(fieldOf(glm::dvec3(1.0))), "");
+  EXPECT_EQ(displacementOf(invert->GetOutput(), 0), glm::dvec3(-1.0));
+}
+
 TEST(DeformationLattice, IsTheSameDeformationWhenGivenBack)
 {
   for (const int kernel : { 0, 1 })
