@@ -21,8 +21,11 @@
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <set>
+#include <sstream>
 #include <string>
 
 using namespace brainshift;
@@ -184,12 +187,10 @@ TissueRequest vtkDeformedVolumeMapper::TissueOf(
   {
     this->TellOnce(sentence);
   }
-  const glm::dvec3& side = values.grid.spacing;
   TissueRequest tissue;
   tissue.property = property;
   tissue.values = values;
-  tissue.stepMm =
-    this->SampleDistance > 0.0 ? this->SampleDistance : 0.5 * std::min({ side.x, side.y, side.z });
+  tissue.stepMm = this->StepOn(values.grid);
   tissue.blend = blendOf(this, property);
   tissue.gradients = static_cast<GradientSource>(this->NormalTexture);
   tissue.nearest = property->GetInterpolationType() == VTK_NEAREST_INTERPOLATION;
@@ -201,6 +202,25 @@ TissueRequest vtkDeformedVolumeMapper::TissueOf(
     this->TellOnce(remark);
   }
   return tissue;
+}
+
+// mm. A ray through all of a volume takes a limited number of samples, so that a picture ends.
+double vtkDeformedVolumeMapper::StepOn(const Grid& grid)
+{
+  constexpr double MostSamples = 8192.0;
+  const glm::dvec3& side = grid.spacing;
+  const double asked =
+    this->SampleDistance > 0.0 ? this->SampleDistance : 0.5 * std::min({ side.x, side.y, side.z });
+  const double longest = glm::length(side * glm::dvec3(grid.dimensions));
+  const double step = std::clamp(asked, longest / MostSamples, longest);
+  if (step > asked)
+  {
+    std::ostringstream remark;
+    remark << "SampleDistance is " << asked << " mm; a ray of " << longest << " mm takes at most "
+           << MostSamples << " samples, so it is drawn with " << step << " mm";
+    this->TellOnce(remark.str());
+  }
+  return step;
 }
 
 // None if the data carries no reference or it is not to be drawn.

@@ -36,6 +36,7 @@ namespace brainshift
 {
 struct Counters;
 struct DrawnValues;
+struct Grid;
 struct SceneReference;
 struct TissueRequest;
 }
@@ -54,7 +55,10 @@ public:
   void Modified() override;
 
   ///@{
-  /** Step along the ray, mm. 0 (default): half the smallest voxel side. */
+  /**
+   * Step along the ray, mm. 0 (default): half the smallest voxel side. A step that is shorter than
+   * 1/8192 of the volume's diagonal is drawn as that long, and a warning says so.
+   */
   vtkSetClampMacro(SampleDistance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(SampleDistance, double);
   ///@}
@@ -209,6 +213,7 @@ private:
     vtkImageData* image, vtkVolumeProperty* property, const brainshift::DrawnValues& values);
   brainshift::SceneReference ReferenceOf(
     vtkImageData* image, const brainshift::TissueRequest& tissue);
+  double StepOn(const brainshift::Grid& grid);
   void UpdateDeformation(vtkImageData* image);
   void TellOnce(const std::string& sentence);
 

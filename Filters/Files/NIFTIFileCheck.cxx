@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Files/NIFTIFileCheck.h"
 
+#include "Filters/Files/PlainFile.h"
+
 #include "vtk_zlib.h"
 
 #include <algorithm>
@@ -16,6 +18,7 @@ namespace
 {
 constexpr int NIFTI1Bytes = 348;
 constexpr int NIFTI2Bytes = 540;
+constexpr std::int64_t MostTimeSteps = 65536; // and numbers for a voxel: each takes memory
 constexpr double LargestDeflateRatio = 1032.0; // no zlib stream unpacks to more times its size
 
 // Bytes of a voxel for each data type that vtkNIFTIImageReader knows.
@@ -98,7 +101,12 @@ bool isPacked(const std::string& fileName)
 RawHeader readHeader(const std::string& fileName)
 {
   RawHeader header;
-  gzFile file = gzopen(siblingOf(fileName, ".img", ".hdr").c_str(), "rb");
+  const std::string headerName = siblingOf(fileName, ".img", ".hdr");
+  if (!brainshift::plainFileProblem(headerName).empty())
+  {
+    return header; // a pipe would never open
+  }
+  gzFile file = gzopen(headerName.c_str(), "rb");
   if (!file)
   {
     return header;
@@ -159,7 +167,9 @@ std::string dimensionsProblem(const RawHeader& header)
   for (int axis = 1; axis <= rank; ++axis)
   {
     const std::int64_t size = header.dimension(axis);
-    const std::int64_t limit = axis < 6 ? std::numeric_limits<std::int32_t>::max() : 1;
+    const std::int64_t limit = axis < 4 ? std::numeric_limits<std::int32_t>::max()
+      : axis < 6                        ? MostTimeSteps
+                                        : 1;
     oneVoxel = oneVoxel && (size == 1 || axis > 3);
     if (size < 1 || size > limit)
     {
@@ -187,12 +197,17 @@ std::string sizeProblem(const RawHeader& header, const std::string& fileName)
     header.isSingleFile() ? fileName : siblingOf(fileName, ".hdr", ".img");
   std::error_code error;
   const auto stored = std::filesystem::file_size(dataName, error);
-  const bool packed = isPacked(dataName);
+  const std::string notPlain = brainshift::plainFileProblem(dataName);
+  const bool packed = notPlain.empty() && isPacked(dataName);
   std::ostringstream problem;
   problem.precision(15);
-  if (error)
+  if (!notPlain.empty())
   {
-    problem << "has no voxels: " << dataName << " does not exist";
+    problem << "has no voxels: " << dataName << " " << notPlain;
+  }
+  else if (error)
+  {
+    problem << "has no voxels: the size of " << dataName << " is not known";
   }
   else if (static_cast<double>(stored) * (packed ? LargestDeflateRatio : 1.0) < wanted)
   {
@@ -212,14 +227,10 @@ bool isNIFTIFile(const std::string& fileName)
 
 std::string niftiFileProblem(const std::string& fileName)
 {
-  std::error_code error;
-  if (!std::filesystem::exists(fileName, error))
+  const std::string notPlain = plainFileProblem(fileName);
+  if (!notPlain.empty())
   {
-    return "does not exist";
-  }
-  if (!std::filesystem::is_regular_file(fileName, error))
-  {
-    return "is not a file";
+    return notPlain;
   }
   const RawHeader header = readHeader(fileName);
   if (!header.opened)

@@ -10,8 +10,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+
+#ifndef _WIN32
+#include <sys/stat.h>
+#endif
 
 using namespace brainshift::testing;
 
@@ -35,7 +40,7 @@ TEST(NIFTIReaderErrors, FilesThatAreNoNIFTI)
 {
   expectFailure(temporary("missing.nii"), "does not exist");
   expectFailure("", "FileName is empty");
-  expectFailure(BRAINSHIFT_TEST_TEMP, "is not a file");
+  expectFailure(BRAINSHIFT_TEST_TEMP, "is a folder");
   expectFailure(std::vector<char>{}, "has 0 readable bytes; a NIfTI header has 348");
   expectFailure(std::vector<char>(100, 'x'), "has 100 readable bytes");
   expectFailure(std::vector<char>(1000, 'x'), "is not NIfTI");
@@ -94,6 +99,48 @@ TEST(NIFTIReaderErrors, HeadersThatCannotBe)
   file.dimensions = { 32767, 32767, 32767, 32767 };
   expectFailure(file.header(), "bad.nii has 352 bytes where");
 }
+
+// A NIfTI-2 header may announce more steps than memory has room for their times.
+TEST(NIFTIReaderErrors, TimeStepsHaveALimit)
+{
+  const NIFTITestFile file; // for put
+  std::vector<char> bytes(544, 0);
+  file.put<std::int32_t>(bytes, 0, 540);
+  const char magic[8] = { 'n', '+', '2', 0, '\r', '\n', '\x1a', '\n' };
+  std::copy(magic, magic + 8, bytes.begin() + 4);
+  file.put<std::int16_t>(bytes, 12, NIFTIType<std::uint8_t>);
+  file.put<std::int64_t>(bytes, 168, 544);
+  const std::int64_t steps = 20000000;
+  const std::int64_t dimensions[8] = { 4, 2, 2, 2, steps, 1, 1, 1 };
+  for (int i = 0; i < 8; ++i)
+  {
+    file.put(bytes, 16 + 8 * i, dimensions[i]);
+  }
+  writePlain(temporary("steps.nii"), bytes);
+  std::filesystem::resize_file(temporary("steps.nii"), 544 + 8 * steps); // takes no room
+  expectFailure(temporary("steps.nii"),
+    "has 20000000 entries in dimension 4; it must have from 1 to 65536");
+  std::filesystem::remove(temporary("steps.nii"));
+}
+
+#ifndef _WIN32
+// Opening a pipe waits until somebody writes into it.
+TEST(NIFTIReaderErrors, PipesAreNoFiles)
+{
+  std::filesystem::remove(temporary("pipe.nii"));
+  ASSERT_EQ(mkfifo(temporary("pipe.nii").c_str(), 0600), 0);
+  vtkNew<vtkNIFTIVolumeReader> reader;
+  EXPECT_EQ(reader->CanReadFile(temporary("pipe.nii").c_str()), 0);
+  expectFailure(temporary("pipe.nii"), "is a pipe or a device");
+  NIFTITestFile pair;
+  pair.magic = "ni1";
+  pair.voxelOffset = 0.0;
+  writePlain(temporary("piped.hdr"), pair.header());
+  std::filesystem::remove(temporary("piped.img"));
+  ASSERT_EQ(mkfifo(temporary("piped.img").c_str(), 0600), 0);
+  expectFailure(temporary("piped.hdr"), "piped.img is a pipe or a device");
+}
+#endif
 
 TEST(NIFTIReaderErrors, AffinesThatCannotBe)
 {

@@ -9,7 +9,7 @@ from brainshift_testing import (assert_says, ball, load_plugin, look, messages, 
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
-from paraview.simple import FreeFormDeformation, Sphere  # noqa: E402
+from paraview.simple import DeformationField, FreeFormDeformation, Sphere  # noqa: E402
 
 MIDDLE = (16.0, 16.0, 16.0)
 STROKE = brainshift.soft(MIDDLE, (3, 0, 0), 12)
@@ -95,6 +95,43 @@ def test_a_volume_larger_than_the_gpu_takes_is_drawn_undeformed():
         shown = picture(view)
     assert_says(said.text, "20000 voxels", "at most", "undeformed")
     assert shown.any()
+
+
+def test_a_step_without_length_ends():
+    filter, view = drawn(ball())
+    display = view.Representations[0]
+    display.SampleDistance = 33.0 * math.sqrt(3.0) / 8192.0
+    shortest = picture(view)
+    for step in (1e-9, 1e-300):
+        display.SampleDistance = step
+        with messages() as said:
+            assert numpy.array_equal(picture(view), shortest)
+        assert_says(said.text, f"SampleDistance is {step:g} mm", "at most 8192 samples")
+    display.SampleDistance = 1e300
+    assert picture(view).shape == shortest.shape
+    display.SampleDistance = 0.0
+    assert picture(view).any()
+
+
+def test_a_field_too_fine_for_the_memory_is_named():
+    filter, view = drawn(ball(), strokes=())
+    before = picture(view)
+    filter.LatticeDimensions, filter.Samples = [129, 129, 129], 16
+    with messages() as said:
+        picture(view)
+    assert_says(said.text, "The offset field of 2177 x 2177 x 2177 nodes", "GB of memory")
+    filter.LatticeDimensions, filter.Samples = [19, 19, 19], 4
+    with messages() as said:
+        assert numpy.array_equal(picture(view), before)
+    assert "error" not in said.text.lower(), said.text
+
+
+def test_a_field_of_too_many_points_is_named():
+    field = DeformationField(Input=FreeFormDeformation(Input=volume(ball())),
+                             SampleGrid="Given Dimensions", Dimensions=[4096, 4096, 4096])
+    with messages() as said:
+        field.UpdatePipeline()
+    assert_says(said.text, "A field of 4096 x 4096 x 4096 points needs 1100 GB of memory")
 
 
 def test_volumes_without_volume_are_named():
