@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A second reader of displacement fields in MetaImage and NRRD files, written from their texts with
+nothing but numpy and zlib. Its answers are in RAS mm."""
+
+import re
+import zlib
+
+import numpy
+from nifti_oracle import Open, Wrong
+
+NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?$")
+
+
+def numbers(text, count):
+    words = text.split()
+    if len(words) != count or not all(NUMBER.match(word) for word in words):
+        raise Wrong(f"not {count} numbers: {text!r}")
+    values = numpy.array(words, float)
+    if not numpy.isfinite(values).all():
+        raise Wrong("a number beyond all bounds")
+    return values
+
+
+def sides_of(values):
+    if (values != numpy.floor(values)).any() or (values < 1).any():
+        raise Wrong("sides")
+    return [int(side) for side in values]
+
+
+def lines_of(raw, mark, last):
+    """The lines of a header by their keys, and where the numbers begin."""
+    found, place = {}, 0
+    while place < len(raw):
+        end = raw.find(b"\n", place)
+        end = len(raw) if end < 0 else end
+        try:
+            line = raw[place:end].decode("ascii").strip(" \t\r")
+        except UnicodeDecodeError as error:
+            raise Open("letters beyond ASCII") from error
+        place = end + 1
+        if mark == ":" and not line:
+            return found, place
+        if mark not in line or line.startswith("#"):
+            continue
+        key, _, value = line.partition(mark)
+        key, value = key.strip(), value.lstrip("=" if mark == ":" else "").strip()
+        if key in found:
+            raise Open(f"{key} twice")
+        found[key] = value
+        if key == last:
+            return found, place
+    return found, len(raw)
+
+
+class Field:
+    """`world(index)` in RAS mm, `values[x, y, z, component]` in RAS mm."""
+
+    def __init__(self, origin, steps, values):
+        if abs(numpy.linalg.det(steps)) == 0.0:
+            raise Wrong("flat")
+        self.flip = numpy.array([-1.0, -1.0, 1.0])
+        self.origin, self.steps = origin, steps
+        self.values = values * self.flip
+
+    def world(self, index):
+        return self.flip * (self.origin + self.steps @ numpy.asarray(index, float))
+
+
+def _values(raw, sides, kind, packed):
+    dtype = numpy.dtype(kind)
+    count = 3 * int(numpy.prod(sides, dtype=float))
+    if packed:
+        stream = zlib.decompressobj(47)
+        try:
+            raw = stream.decompress(raw, count * dtype.itemsize)
+        except zlib.error as error:
+            raise Wrong(f"packed: {error}") from error
+    if len(raw) < count * dtype.itemsize:
+        raise Wrong("truncated")
+    flat = numpy.frombuffer(raw, dtype, count).astype(float)
+    return flat.reshape([3, *sides], order="F").transpose(1, 2, 3, 0)
+
+
+def _first(lines, *keys, default=None):
+    present = [key for key in keys if key in lines]
+    if len(present) > 1 and default is None:
+        raise Open(f"{present} together")
+    if present:
+        return lines[present[0]]
+    if default is None:
+        raise Wrong(f"no {keys[0]}")
+    return default
+
+
+def meta_image(raw):
+    lines, start = lines_of(raw, "=", "ElementDataFile")
+    truth = {"True": True, "False": False}
+    flags = {key: truth.get(lines.get(key, default)) for key, default in (
+        ("BinaryData", "False"), ("BinaryDataByteOrderMSB", "False"), ("CompressedData", "False"))}
+    if None in flags.values() or "ElementByteOrderMSB" in lines:
+        raise Open("a word that is neither True nor False")
+    if not flags["BinaryData"] or lines.get("ElementNumberOfChannels") != "3":
+        raise Wrong("not binary vectors")
+    if lines.get("ElementDataFile") != "LOCAL" or lines.get("HeaderSize", "0") != "0":
+        raise Open("numbers elsewhere")
+    kind = {"MET_FLOAT": "f4", "MET_DOUBLE": "f8"}.get(lines.get("ElementType"))
+    if kind is None:
+        raise Open("type")
+    if lines.get("NDims", "3") != "3":
+        raise Open("dimensions")
+    sides = sides_of(numbers(_first(lines, "DimSize"), 3))
+    origin = numbers(_first(lines, "Offset", "Position", "Origin"), 3)
+    spacing = numbers(_first(lines, "ElementSpacing", "ElementSize", default="1 1 1"), 3)
+    rows = numbers(_first(lines, "TransformMatrix", "Rotation", "Orientation",
+                          default="1 0 0 0 1 0 0 0 1"), 9).reshape(3, 3)
+    order = ">" if flags["BinaryDataByteOrderMSB"] else "<"
+    return Field(origin, (rows * spacing[:, None]).T,
+                 _values(raw[start:], sides, order + kind, flags["CompressedData"]))
+
+
+def nrrd(raw):
+    if raw[:4] != b"NRRD":
+        raise Wrong("magic")
+    lines, start = lines_of(raw, ":", None)
+    for skip in ("byte skip", "line skip", "byteskip", "lineskip"):
+        if lines.get(skip, "0") != "0":
+            raise Open(skip)
+    if any(key in lines for key in ("data file", "datafile", "measurement frame")):
+        raise Open("numbers elsewhere")
+    if lines.get("dimension") != "4":
+        raise Open("dimensions")
+    sides = sides_of(numbers(_first(lines, "sizes"), 4))
+    kind = {"float": "f4", "double": "f8"}.get(lines.get("type"))
+    order = {"little": "<", "big": ">"}.get(lines.get("endian"))
+    packed = {"raw": False, "gzip": True, "gz": True}.get(lines.get("encoding"))
+    if None in (kind, order, packed) or sides[0] != 3:
+        raise Wrong("type, endian, encoding or components")
+    if lines.get("space") not in ("left-posterior-superior", "LPS"):
+        raise Wrong("space")
+    vector = r"\(([^(),]*),([^(),]*),([^(),]*)\)"
+    three = rf"none\s+{vector}\s+{vector}\s+{vector}"
+    found = re.fullmatch(three, lines.get("space directions", ""))
+    place = re.fullmatch(vector, lines.get("space origin", ""))
+    if not found or not place:
+        raise Wrong("place")
+    steps = numbers(" ".join(found.groups()), 9).reshape(3, 3).T
+    return Field(numbers(" ".join(place.groups()), 3), steps,
+                 _values(raw[start:], sides[1:], order + kind, packed))
