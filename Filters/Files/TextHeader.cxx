@@ -257,6 +257,15 @@ std::string skipProblem(const Lines& lines)
 }
 }
 
+std::string shownWords(const std::string& words)
+{
+  constexpr std::size_t MostLetters = 200;
+  std::string shown = words.substr(0, MostLetters);
+  std::replace_if(
+    shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return words.size() > MostLetters ? shown + "..." : shown;
+}
+
 std::string readTextHeader(const std::string& fileName, TextHeader& header)
 {
   std::string problem = plainFileProblem(fileName);
@@ -272,11 +281,11 @@ std::string readTextHeader(const std::string& fileName, TextHeader& header)
   problem = problem.empty() ? skipProblem(lines) : problem;
   if (!problem.empty())
   {
-    return problem;
+    return shownWords(problem);
   }
   header = TextHeader();
   problem = isNRRD ? fromNRRD(lines, header) : fromMetaImage(lines, header);
   header.headerBytes = header.dataFile.empty() ? end : 0;
-  return problem;
+  return shownWords(problem);
 }
 }

@@ -40,6 +40,9 @@ struct TextHeader
   std::size_t dataBytes() const { return this->grid.count() * 3 * this->numberBytes(); }
 };
 
+/** Words of a file as an error may show them: printable, and not too many. */
+std::string shownWords(const std::string& words);
+
 /**
  * Reads the header of a file. Returns the end of a sentence, after the name of the file, on why the
  * file is no field; empty if it is one.

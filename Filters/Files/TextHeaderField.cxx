@@ -78,12 +78,12 @@ std::string readData(const std::string& fileName, const TextHeader& header, std:
   const std::string problem = plainFileProblem(dataFile);
   if (!problem.empty())
   {
-    return "names the file " + dataFile + ", which " + problem;
+    return "names the file " + shownWords(dataFile) + ", which " + problem;
   }
   std::ifstream file(dataFile, std::ios::binary);
   if (!file)
   {
-    return "names the file " + dataFile + ", which cannot be opened";
+    return "names the file " + shownWords(dataFile) + ", which cannot be opened";
   }
   file.seekg(0, std::ios::end);
   const auto size = static_cast<std::size_t>(file.tellg());

@@ -58,6 +58,11 @@ class Worker:
         """The next line; None at the end. Raises queue.Empty if none comes in time."""
         return self.lines.get(timeout=seconds)
 
+    def last_words(self):
+        """The end of what the process said."""
+        with open(self.errors.name, encoding="utf-8", errors="replace") as said:
+            return " | ".join(said.read().splitlines()[-2:])[-200:]
+
     def end(self):
         self.process.kill()
         self.process.wait()
@@ -79,7 +84,7 @@ def run_some(kind, options, first, end, folder):
                 yield int(number), result
                 current = None
         if current is not None or first < end and worker.process.wait() != 0:
-            yield first if current is None else current, "crash"
+            yield first if current is None else current, f"crash: {worker.last_words()}"
     except queue.Empty:
         yield first if current is None else current, "hang"
     finally:

@@ -78,6 +78,7 @@ class Cases:
         for name, display in self.scene.displays.items():
             for found in vectors_of(display, DISPLAYED).items():
                 self.choices.append((name, display, *found))
+        self.scene.state()  # the first picture of a view may come before its marks
         self.before = self.scene.state()
         again = difference(self.before, self.scene.state())
         assert again is None, f"the scene does not repeat itself: {again}"

@@ -30,8 +30,9 @@ def array_of(proxy):
     proxy.UpdatePipeline()
     data = proxy.GetClientSideObject().GetOutputDataObject(0)
     arrays = data.GetPointData()
-    numbers = [vtk_to_numpy(arrays.GetArray(i)).ravel().astype(float)
-               for i in range(arrays.GetNumberOfArrays()) if arrays.GetArray(i)]
+    # By name: a second execution may add them in another order.
+    names = sorted(arrays.GetArrayName(i) for i in range(arrays.GetNumberOfArrays()))
+    numbers = [vtk_to_numpy(arrays.GetArray(name)).ravel().astype(float) for name in names]
     return numpy.concatenate(numbers) if numbers else numpy.zeros(0)
 
 

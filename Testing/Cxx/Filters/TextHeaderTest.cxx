@@ -125,6 +125,16 @@ TEST(TextHeader, TheSizeOfAVoxelIsItsSpacingIfThereIsNoOther)
   expectProblem("two.mha", Meta + "ElementSpacing = 5 6\n" + end, "has the spacing 5 6");
 }
 
+// Nobody can read bytes that are no letters, nor a megabyte of them.
+TEST(TextHeader, ErrorsShowPrintableWords)
+{
+  DirectedField field;
+  const std::string bytes = "NRRD0004\nsizes: 3 \x8d\x01" + std::string(100000, 'x') + "\n\n";
+  const std::string problem = problemOf("bytes.nrrd", bytes, field);
+  EXPECT_NE(problem.find("has the sizes 3 ??xxx"), std::string::npos) << problem;
+  EXPECT_LT(problem.size(), scratch("bytes.nrrd").size() + 300);
+}
+
 TEST(TextHeader, WordsSpelledOtherwiseAreReadOrRefused)
 {
   const std::string end = "ElementDataFile = LOCAL\n" + numbers(true);
