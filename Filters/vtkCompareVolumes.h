@@ -26,8 +26,8 @@ public:
   static vtkCompareVolumes* New();
   vtkTypeMacro(vtkCompareVolumes, vtkImageAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs) override;
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
   /** The reference (input 1): any image with point scalars of one component. */
   void SetReferenceConnection(vtkAlgorithmOutput* reference);

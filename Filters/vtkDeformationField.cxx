@@ -91,8 +91,8 @@ std::string triple(const glm::dvec3& numbers)
 std::string memoryProblemOf(const int extent[6])
 {
   constexpr double BytesPerPoint = 4.0 * sizeof(float);
-  const glm::dvec3 sides = glm::dvec3(extent[1], extent[3], extent[5]) -
-    glm::dvec3(extent[0], extent[2], extent[4]) + 1.0;
+  const glm::dvec3 sides =
+    glm::dvec3(extent[1], extent[3], extent[5]) - glm::dvec3(extent[0], extent[2], extent[4]) + 1.0;
   return hostMemoryProblem(
     "A field of " + sizeText(sides) + " points", BytesPerPoint * sides.x * sides.y * sides.z);
 }

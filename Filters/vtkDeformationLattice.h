@@ -21,8 +21,8 @@ class VTKBRAINSHIFTFILTERS_EXPORT vtkDeformationLattice : public vtkImageAlgorit
 public:
   static vtkDeformationLattice* New();
   vtkTypeMacro(vtkDeformationLattice, vtkImageAlgorithm);
-  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs) override;
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
 protected:
   vtkDeformationLattice() = default;

@@ -21,8 +21,8 @@ public:
   static vtkDisplacementFieldWriter* New();
   vtkTypeMacro(vtkDisplacementFieldWriter, vtkWriter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs) override;
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
   enum WorldType
   {

@@ -44,8 +44,8 @@ public:
   static vtkFreeFormDeformation* New();
   vtkTypeMacro(vtkFreeFormDeformation, vtkPassInputTypeAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs) override;
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
   ///@{
   /** Control points along each axis of the volume, 4 to 257. Default 19 19 19. */

@@ -60,7 +60,8 @@ std::string problemOf(const Grid& grid, vtkDataArray* array)
   if (points == 0 || array->GetNumberOfTuples() != static_cast<vtkIdType>(grid.count()))
   {
     return "The input has " + sizeText(glm::dvec3(grid.dimensions)) + " points and " +
-      std::to_string(array->GetNumberOfTuples()) + " displacements; it must have one for each, at "
+      std::to_string(array->GetNumberOfTuples()) +
+      " displacements; it must have one for each, at "
       "least 1";
   }
   const glm::dvec3& spacing = grid.spacing;
@@ -72,8 +73,8 @@ std::string problemOf(const Grid& grid, vtkDataArray* array)
   {
     return "The input's origin is not finite";
   }
-  return hostMemoryProblem("The inverse of a field of " + sizeText(glm::dvec3(grid.dimensions)) +
-      " points",
+  return hostMemoryProblem(
+    "The inverse of a field of " + sizeText(glm::dvec3(grid.dimensions)) + " points",
     BytesPerPoint * points);
 }
 

@@ -25,8 +25,8 @@ public:
   static vtkInvertDisplacementField* New();
   vtkTypeMacro(vtkInvertDisplacementField, vtkImageAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs) override;
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
   /**
    * Largest distance (mm) between a point and where the output and then the input take it. If it is

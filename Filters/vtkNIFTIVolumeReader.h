@@ -37,8 +37,8 @@ public:
   static vtkNIFTIVolumeReader* New();
   vtkTypeMacro(vtkNIFTIVolumeReader, vtkImageAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs) override;
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
   ///@{
   /** The file to read. Default: none, which is an error. */

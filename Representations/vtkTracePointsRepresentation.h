@@ -24,8 +24,8 @@ public:
   static vtkTracePointsRepresentation* New();
   vtkTypeMacro(vtkTracePointsRepresentation, vtkPointGaussianRepresentation);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs) override;
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
   enum HiddenPointsType
   {

@@ -29,8 +29,8 @@ class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkWholeVolumeRepresentation
 public:
   vtkAbstractTypeMacro(vtkWholeVolumeRepresentation, vtkImageVolumeRepresentation);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs) override;
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
   int ProcessViewRequest(
     vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output) override;

@@ -116,8 +116,8 @@ double offsetFieldBytes(const Lattice& lattice, int samples)
 {
   // The forward field, that before its last axis is refined, and the backward field.
   const glm::dvec3 forward = forwardSides(lattice.grid, samples);
-  const double nodes = product(forward) * (1.0 + 1.0 / (samples + 1.0)) +
-    product(backwardSides(lattice, samples));
+  const double nodes =
+    product(forward) * (1.0 + 1.0 / (samples + 1.0)) + product(backwardSides(lattice, samples));
   return nodes * static_cast<double>(sizeof(glm::vec3));
 }
 

@@ -18,7 +18,7 @@ namespace
 {
 constexpr int NIFTI1Bytes = 348;
 constexpr int NIFTI2Bytes = 540;
-constexpr std::int64_t MostTimeSteps = 65536; // and numbers for a voxel: each takes memory
+constexpr std::int64_t MostTimeSteps = 65536;  // and numbers for a voxel: each takes memory
 constexpr double LargestDeflateRatio = 1032.0; // no zlib stream unpacks to more times its size
 
 // Bytes of a voxel for each data type that vtkNIFTIImageReader knows.

@@ -249,8 +249,8 @@ std::string NIFTIVolume::memoryProblem(const int extent[6]) const
   {
     shown *= extent[2 * axis + 1] - extent[2 * axis] + 1.0;
   }
-  return hostMemoryProblem(std::to_string(this->Times.size()) + " volumes of " +
-      sizeText(glm::dvec3(size)) + " voxels",
+  return hostMemoryProblem(
+    std::to_string(this->Times.size()) + " volumes of " + sizeText(glm::dvec3(size)) + " voxels",
     stored + shown);
 }
 

@@ -261,8 +261,7 @@ std::string shownWords(const std::string& words)
 {
   constexpr std::size_t MostLetters = 200;
   std::string shown = words.substr(0, MostLetters);
-  std::replace_if(
-    shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  std::replace_if(shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   return words.size() > MostLetters ? shown + "..." : shown;
 }
 

@@ -25,8 +25,8 @@ class Thrower : public vtkImageAlgorithm
 public:
   static Thrower* New();
   vtkTypeMacro(Thrower, vtkImageAlgorithm);
-  vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputs,
-    vtkInformationVector* outputs) override;
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
   std::function<void()> Step;
   bool Done = false;

@@ -118,8 +118,8 @@ TEST(NIFTIReaderErrors, TimeStepsHaveALimit)
   }
   writePlain(temporary("steps.nii"), bytes);
   std::filesystem::resize_file(temporary("steps.nii"), 544 + 8 * steps); // takes no room
-  expectFailure(temporary("steps.nii"),
-    "has 20000000 entries in dimension 4; it must have from 1 to 65536");
+  expectFailure(
+    temporary("steps.nii"), "has 20000000 entries in dimension 4; it must have from 1 to 65536");
   std::filesystem::remove(temporary("steps.nii"));
 }
 
