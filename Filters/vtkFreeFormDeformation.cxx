@@ -47,6 +47,7 @@ struct vtkFreeFormDeformation::State
   bool MinimumJacobianKnown = false;
   bool IsProved = false; // the guard's limit holds for the last good deformation
   vtkNew<vtkDoubleArray> StrokeShares;
+  vtkNew<vtkDoubleArray> StrokeReaches;
   MaskSource Masks;
   SegmentationSource Segmentations;
   Segmentation LastSegmentation;
@@ -440,6 +441,17 @@ vtkDoubleArray* vtkFreeFormDeformation::GetStrokeShares()
     state.StrokeShares->InsertNextValue(share);
   }
   return state.StrokeShares;
+}
+
+vtkDoubleArray* vtkFreeFormDeformation::GetStrokeReaches()
+{
+  State& state = *this->Internal;
+  state.StrokeReaches->Initialize();
+  for (const double reach : state.StrokeReplay.reaches())
+  {
+    state.StrokeReaches->InsertNextValue(reach);
+  }
+  return state.StrokeReaches;
 }
 
 int vtkFreeFormDeformation::GetAppliedStrokes() const

@@ -153,6 +153,13 @@ public:
   /** The share of each stroke that was applied, 0 to 1. A disabled stroke has 1. */
   vtkDoubleArray* GetStrokeShares();
 
+  /**
+   * How far (mm) each stroke took the tissue at its anchor along its vector, before Strength. The
+   * length of the vector was asked for. A coarse lattice, the fold guard and the feather of a mask
+   * leave less of it. 0 for a disabled stroke.
+   */
+  vtkDoubleArray* GetStrokeReaches();
+
   /** How many strokes the last execution applied: 1 while the last stroke is being changed. */
   int GetAppliedStrokes() const;
 

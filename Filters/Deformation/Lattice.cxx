@@ -2,6 +2,7 @@
 #include "Filters/Deformation/Lattice.h"
 
 #include "Filters/Deformation/IndexLoop.h"
+#include "Filters/Deformation/Inversion.h"
 #include "Filters/Deformation/Kernels.h"
 #include "Filters/Deformation/Parallel.h"
 
@@ -75,6 +76,74 @@ struct RowOfTaps
   }
 };
 
+// The forward map around one position, in lattice coordinates. With a mask it evaluates the eight
+// nodes around a point and no others.
+struct ForwardAround
+{
+  const Lattice& lattice;
+  glm::dvec3 reference;
+
+  // Of tissue at `rest` from the reference. `jacobian`: of position + displacement.
+  void map(const glm::vec3& rest, glm::vec3& displacement, glm::mat3& jacobian) const
+  {
+    const glm::dvec3 position = this->reference + glm::dvec3(rest);
+    glm::mat3 gradient(0.0f); // mm for each cell
+    const glm::vec3 moved =
+      this->lattice.mask ? this->masked(position, gradient) : this->unmasked(position, gradient);
+    displacement = this->inCells(moved);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      jacobian[axis] = this->inCells(gradient[axis]);
+      jacobian[axis][axis] += 1.0f;
+    }
+  }
+
+private:
+  glm::vec3 inCells(const glm::vec3& mm) const
+  {
+    return glm::vec3(this->lattice.grid.gridVectorFromWorld(glm::dvec3(mm)));
+  }
+
+  glm::vec3 at(const glm::dvec3& position) const
+  {
+    return cubicDisplacement(this->lattice.grid.dimensions, this->lattice.kernel,
+      this->lattice.displacements.data(), position);
+  }
+
+  glm::vec3 unmasked(const glm::dvec3& position, glm::mat3& gradient) const
+  {
+    gradient = cubicGradient(this->lattice.grid.dimensions, this->lattice.kernel,
+      this->lattice.displacements.data(), position);
+    return this->at(position);
+  }
+
+  glm::vec3 masked(const glm::dvec3& position, glm::mat3& gradient) const
+  {
+    const NodeWeights& mask = *this->lattice.mask;
+    const double perCell = mask.perCell;
+    const glm::ivec3 count = (this->lattice.grid.dimensions - 1) * mask.perCell + 1;
+    const glm::dvec3 node = glm::clamp(position * perCell, glm::dvec3(0.0), glm::dvec3(count - 1));
+    const glm::ivec3 low = glm::min(glm::ivec3(node), count - 2);
+    const glm::dvec3 within = node - glm::dvec3(low);
+    glm::vec3 sum(0.0f);
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+      const glm::ivec3 at = low + side;
+      const float share =
+        mask.values[(static_cast<std::size_t>(at.z) * count.y + at.y) * count.x + at.x];
+      const glm::vec3 value = share * this->at(glm::dvec3(at) / perCell);
+      const glm::vec3 part(glm::mix(1.0 - within, within, glm::dvec3(side)));
+      const glm::vec3 slope = (2.0f * glm::vec3(side) - 1.0f) * static_cast<float>(perCell);
+      sum += part.x * part.y * part.z * value;
+      gradient[0] += slope.x * part.y * part.z * value;
+      gradient[1] += part.x * slope.y * part.z * value;
+      gradient[2] += part.x * part.y * slope.z * value;
+    }
+    return sum;
+  }
+};
+
 // The control point of a lattice `ratio` times as dense, `distance` points of the coarser one away
 // from a point of that, whose basis function the denser lattice is to repeat. With Catmull-Rom it
 // is the function's value there. B-splines do not pass through their control points; this is the
@@ -95,19 +164,34 @@ double basisFunction(int kernel, double distance, double ratio)
   return kernel == KernelBSpline ? value - curvature / (6.0 * ratio * ratio) : value;
 }
 
+// The lattice that a Move was made at, on a denser one or the same.
+struct MadeAt
+{
+  glm::dvec3 ratio; // of its spacing to that of the denser lattice
+  glm::dvec3 last;  // control point, in its own coordinates
+  glm::dvec3 point; // the one that the stroke moves
+
+  MadeAt(const Grid& grid, const Stroke& stroke)
+  {
+    glm::dvec3 spacing = stroke.axis;
+    if (glm::any(glm::lessThanEqual(spacing, glm::dvec3(0.0))))
+    {
+      spacing = stroke.major > 0.0 ? glm::dvec3(stroke.major) : grid.spacing;
+    }
+    this->ratio = glm::max(spacing / grid.spacing, glm::dvec3(1.0));
+    this->last = glm::dvec3(grid.dimensions - 1) / this->ratio;
+    this->point = glm::clamp(
+      glm::round(grid.gridFromWorld(stroke.anchor) / this->ratio), glm::dvec3(0.0), this->last);
+  }
+};
+
 void applyMove(Lattice& lattice, const Stroke& stroke)
 {
   const Grid& grid = lattice.grid;
-  glm::dvec3 madeAt = stroke.axis;
-  if (glm::any(glm::lessThanEqual(madeAt, glm::dvec3(0.0))))
-  {
-    madeAt = stroke.major > 0.0 ? glm::dvec3(stroke.major) : grid.spacing;
-  }
-  const glm::dvec3 ratio = glm::max(madeAt / grid.spacing, glm::dvec3(1.0));
-  const glm::dvec3 last = glm::dvec3(grid.dimensions - 1) / ratio;
-  // The control point, in the coordinates of the lattice the stroke was made at.
-  const glm::dvec3 point =
-    glm::clamp(glm::round(grid.gridFromWorld(stroke.anchor) / ratio), glm::dvec3(0.0), last);
+  const MadeAt madeAt(grid, stroke);
+  const glm::dvec3& ratio = madeAt.ratio;
+  const glm::dvec3& last = madeAt.last;
+  const glm::dvec3& point = madeAt.point;
   const glm::dvec3 end(grid.dimensions - 1);
   // Clamped first: a far position is no integer.
   const glm::ivec3 low(glm::clamp(glm::ceil((point - 2.0) * ratio), glm::dvec3(0.0), end));
@@ -207,6 +291,44 @@ void applyStroke(Lattice& lattice, const Stroke& stroke)
   {
     applyAround(lattice, stroke);
   }
+}
+
+glm::dvec3 displacementOfTissue(const Lattice& lattice, const glm::dvec3& rest)
+{
+  glm::vec3 displacement;
+  glm::mat3 unused;
+  const glm::dvec3 position = lattice.grid.gridFromWorld(rest);
+  ForwardAround{ lattice, position }.map(glm::vec3(0.0f), displacement, unused);
+  return lattice.grid.worldVectorFromGrid(glm::dvec3(displacement));
+}
+
+glm::dvec3 tissueAt(const Lattice& lattice, const glm::dvec3& deformed)
+{
+  const ForwardAround forward{ lattice, lattice.grid.gridFromWorld(deformed) };
+  const glm::vec3 offset =
+    Inversion<ForwardAround>{ forward }.inverseOffset(glm::vec3(0.0f), glm::vec3(0.0f));
+  return deformed + lattice.grid.worldVectorFromGrid(glm::dvec3(offset));
+}
+
+double reachOf(const Lattice& before, const Lattice& after, const Stroke& stroke)
+{
+  const double length = glm::length(stroke.vector);
+  if (!stroke.enabled || length == 0.0)
+  {
+    return 0.0;
+  }
+  glm::dvec3 rest;
+  if (stroke.tool == Tool::Move)
+  {
+    const MadeAt madeAt(before.grid, stroke);
+    rest = before.grid.worldFromGrid(madeAt.point * madeAt.ratio);
+  }
+  else
+  {
+    rest = tissueAt(before, stroke.anchor);
+  }
+  const glm::dvec3 moved = displacementOfTissue(after, rest) - displacementOfTissue(before, rest);
+  return glm::dot(moved, stroke.vector) / length;
 }
 
 std::vector<glm::vec3> displacementsInCells(const Lattice& lattice)

@@ -79,6 +79,25 @@ BRAINSHIFT_DEFORMATION_EXPORT std::string problemOfDisplacements(
  */
 BRAINSHIFT_DEFORMATION_EXPORT void applyStroke(Lattice& lattice, const Stroke& stroke);
 
+/** The displacement (mm, world axes) of the tissue at one rest position (mm, world). */
+BRAINSHIFT_DEFORMATION_EXPORT glm::dvec3 displacementOfTissue(
+  const Lattice& lattice, const glm::dvec3& rest);
+
+/** The rest position (mm, world) of the tissue that one deformed position (mm, world) shows. */
+BRAINSHIFT_DEFORMATION_EXPORT glm::dvec3 tissueAt(
+  const Lattice& lattice, const glm::dvec3& deformed);
+
+/**
+ * How far (mm) a stroke has taken the tissue at its anchor along its vector. 0 for a disabled
+ * stroke. The length of the vector was asked for; a coarse lattice, the fold guard and a mask leave
+ * less of it. For Move, the tissue is that at the control point in the rest frame.
+ *
+ * @param before   the lattice that the stroke was applied to
+ * @param after    the same lattice with the stroke
+ */
+BRAINSHIFT_DEFORMATION_EXPORT double reachOf(
+  const Lattice& before, const Lattice& after, const Stroke& stroke);
+
 /**
  * The displacements of all control points, counted in lattice cells along the lattice's own axes.
  * Maps and shaders compute with these, because positions and displacements then share one unit.

@@ -115,6 +115,7 @@ const Lattice& Replay::run(
     strokes.begin());
   const std::size_t first = this->goBack(same, strokes.size());
   this->Shares.resize(same);
+  this->Reaches.resize(same);
   for (std::size_t next = first; next < strokes.size(); ++next)
   {
     if (next < same)
@@ -131,6 +132,7 @@ const Lattice& Replay::run(
         this->Result = between(this->BeforeLast, this->Result, share);
       }
       this->Shares.push_back(share);
+      this->Reaches.push_back(reachOf(this->BeforeLast, this->Result, strokes[next]));
     }
     this->keepCheckpoint(next + 1);
   }

@@ -61,6 +61,9 @@ public:
   /** The share of each stroke that was applied, 0 to 1. A disabled stroke has 1. */
   const std::vector<double>& shares() const { return this->Shares; }
 
+  /** How far (mm) each stroke took the tissue at its anchor along its vector; see reachOf. */
+  const std::vector<double>& reaches() const { return this->Reaches; }
+
   /** How many cells of the base lattice the guard ignores because the base folds in them. */
   int foldedCells() const { return this->Guarded.on ? this->Guard.foldedCells() : 0; }
 
@@ -83,6 +86,7 @@ private:
   FoldGuard Guard;
   std::vector<Stroke> Strokes;
   std::vector<double> Shares;
+  std::vector<double> Reaches;
   Lattice BeforeLast; // after all strokes but the last
   Lattice Result;     // after all of them
   int Applied = 0;

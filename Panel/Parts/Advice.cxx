@@ -3,10 +3,14 @@
 
 #include <QCoreApplication>
 
+#include <cmath>
+
 namespace brainshift
 {
 namespace
 {
+constexpr double LeastAmount = 0.05;     // mm; less is shown as 0.0
+constexpr double DoubtfulReach = 0.8;    // share of the amount
 constexpr double DoubtfulJacobian = 0.3; // few users want to compress tissue to less than a third
 
 QString tr(const char* text)
@@ -37,6 +41,19 @@ QString guardAdvice(double amount, double share)
   }
   return tr("The guard against folding applies %1 of %2 mm. More would fold the tissue.")
     .arg(share * amount, 0, 'f', 1)
+    .arg(amount, 0, 'f', 1);
+}
+
+QString reachAdvice(double amount, double reached)
+{
+  if (std::abs(amount) < LeastAmount || reached / amount >= DoubtfulReach)
+  {
+    return {};
+  }
+  return tr("The tissue at the centre went %1 of %2 mm. Near the edge of a mask, use the mask as "
+            "Segmentation instead, lower Feather, or take a larger mask. Elsewhere, increase the "
+            "radius or add control points.")
+    .arg(reached, 0, 'f', 1)
     .arg(amount, 0, 'f', 1);
 }
 

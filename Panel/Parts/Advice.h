@@ -26,6 +26,10 @@ QString radiusAdvice(const QString& name, double radius, double spacing);
 /// Empty if it applies the whole stroke.
 QString guardAdvice(double amount, double share);
 
+/// Warns that the tissue at the centre of a stroke of `amount` mm went less than 80 % of that.
+/// Empty if it went further.
+QString reachAdvice(double amount, double reached);
+
 /// Notes how many strokes the guard against folding shortens. Empty if it shortens none.
 QString guardAdvice(int shortenedStrokes);
 

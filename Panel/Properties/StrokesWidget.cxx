@@ -118,5 +118,10 @@ void StrokesWidget::followResult()
     this->proxy()->UpdatePropertyInformation(shares);
     this->Strokes->setAppliedShares(vtkSMPropertyHelper(shares).GetDoubleArray());
   }
+  if (vtkSMProperty* reaches = this->proxy()->GetProperty("StrokeReaches"))
+  {
+    this->proxy()->UpdatePropertyInformation(reaches);
+    this->Strokes->setReaches(vtkSMPropertyHelper(reaches).GetDoubleArray());
+  }
 }
 }

@@ -165,6 +165,26 @@ void StrokeModel::setAppliedShares(const std::vector<double>& shares)
   }
 }
 
+void StrokeModel::setReaches(const std::vector<double>& reaches)
+{
+  if (this->Reaches != reaches)
+  {
+    this->Reaches = reaches;
+    this->update();
+  }
+}
+
+// mm, with the sign of the amount. None for a disabled stroke.
+std::optional<double> StrokeModel::reach(int row, const Stroke& stroke) const
+{
+  const std::size_t place = static_cast<std::size_t>(row);
+  if (!stroke.enabled || place >= this->Reaches.size())
+  {
+    return std::nullopt;
+  }
+  return amountOf(stroke) < 0.0 ? -this->Reaches[place] : this->Reaches[place];
+}
+
 std::vector<Stroke> StrokeModel::strokes(std::string& problem) const
 {
   const double* numbers = this->Property->GetElements();
@@ -256,11 +276,14 @@ Qt::ItemFlags StrokeModel::flags(const QModelIndex& index) const
 QVariant StrokeModel::headerData(int section, Qt::Orientation orientation, int role) const
 {
   static const char* const titles[ColumnCount] = { QT_TR_NOOP("Stroke"), QT_TR_NOOP("Position"),
-    QT_TR_NOOP("Amount"), QT_TR_NOOP("Major"), QT_TR_NOOP("Minor") };
+    QT_TR_NOOP("Amount"), QT_TR_NOOP("Reached"), QT_TR_NOOP("Major"), QT_TR_NOOP("Minor") };
   static const char* const tips[ColumnCount] = {
     QT_TR_NOOP("The tool that made the stroke. The check mark enables the stroke."),
     QT_TR_NOOP("The position of the stroke: right, anterior, superior (mm)"),
     QT_TR_NOOP("The displacement at the centre (mm). A Stamp pulls above 0 and pushes below 0."),
+    QT_TR_NOOP("How far the tissue at the centre went (mm). It is less than the amount where the "
+               "lattice is coarse, where the guard against folding shortens the stroke, and near "
+               "the edge of a mask."),
     QT_TR_NOOP("Soft: the radius (mm). Stamp: half the long axis (mm)."),
     QT_TR_NOOP("Stamp: the radius across the long axis (mm)"),
   };
@@ -288,6 +311,11 @@ QVariant StrokeModel::data(const QModelIndex& index, int role) const
   switch (role)
   {
     case Qt::DisplayRole:
+      if (column == ReachColumn)
+      {
+        const std::optional<double> reached = this->reach(index.row(), stroke);
+        return reached ? QString::number(*reached, 'f', 1) : QString();
+      }
       return this->text(stroke, column);
     case Qt::EditRole:
       return hasNumber(stroke, column) ? QVariant(numberIn(stroke, column)) : QVariant();
@@ -334,6 +362,11 @@ QString StrokeModel::text(const Stroke& stroke, int column) const
 QString StrokeModel::advice(int row, int column) const
 {
   const Stroke stroke = this->stroke(row);
+  if (column == ReachColumn)
+  {
+    const std::optional<double> reached = this->reach(row, stroke);
+    return reached ? reachAdvice(amountOf(stroke), *reached) : QString();
+  }
   if (!hasNumber(stroke, column))
   {
     return {};

@@ -11,6 +11,7 @@
 #include <QList>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,8 @@ public:
   {
     ToolColumn, ///< With the check box that enables the stroke.
     WhereColumn,
-    AmountColumn, ///< mm, editable.
+    AmountColumn, ///< mm, editable: what was asked for.
+    ReachColumn,  ///< mm: how far the tissue at the anchor went.
     MajorColumn,  ///< mm, editable: radius of Soft, half the long axis of Stamp.
     MinorColumn,  ///< mm, editable: radius of Stamp across its long axis.
     ColumnCount,
@@ -65,6 +67,10 @@ public:
   /// share are applied whole.
   void setAppliedShares(const std::vector<double>& shares);
 
+  /// How far (mm) each stroke took the tissue at its anchor along its vector. Strokes without a
+  /// reach show none.
+  void setReaches(const std::vector<double>& reaches);
+
   /// Enables or disables strokes: one edit.
   void setEnabled(const QList<int>& rows, bool enabled);
   /// Deletes strokes: one edit.
@@ -91,6 +97,7 @@ private:
   QString text(const Stroke& stroke, int column) const;
   QString advice(int row, int column) const;
   QString toolTip(int row, int column) const;
+  std::optional<double> reach(int row, const Stroke& stroke) const;
 
   vtkSMDoubleVectorProperty* const Property; ///< Outlives the model.
   const Write WriteStrokes;
@@ -98,6 +105,7 @@ private:
   int Rows = 0; ///< As announced to views.
   double LatticeSpacing = 0.0;
   std::vector<double> AppliedShares;
+  std::vector<double> Reaches;
 };
 }
 

@@ -2,6 +2,7 @@
 // Proves that replaying strokes does again only what changed, and gives the same bits as doing all.
 #include "Filters/Deformation/Replay.h"
 #include "Filters/Deformation/Kernels.h"
+#include "Filters/Deformation/PointMap.h"
 #include "Testing/Cxx/Deformation/TestLattices.h"
 
 #include <gtest/gtest.h>
@@ -64,6 +65,30 @@ TEST_F(ReplayTest, AppliesInOrder)
   EXPECT_EQ(fullReplay(base(), this->Strokes), lattice.displacements);
   EXPECT_NE(
     fullReplay(base(), { this->Strokes.rbegin(), this->Strokes.rend() }), lattice.displacements);
+}
+
+// PointMap is another road to where tissue goes. It prepares the whole lattice.
+TEST_F(ReplayTest, SaysHowFarEachStrokeReached)
+{
+  ASSERT_EQ(this->Running.reaches().size(), this->Strokes.size());
+  Lattice lattice = base();
+  for (std::size_t i = 0; i < this->Strokes.size(); ++i)
+  {
+    const Stroke& stroke = this->Strokes[i];
+    const PointMap before(lattice);
+    applyStroke(lattice, stroke);
+    const glm::dvec3 rest = stroke.tool == Tool::Move
+      ? base().grid.worldFromGrid(glm::round(base().grid.gridFromWorld(stroke.anchor)))
+      : before.restFromDeformed(stroke.anchor);
+    const glm::dvec3 moved =
+      PointMap(lattice).deformedFromRest(rest) - before.deformedFromRest(rest);
+    const double expected = glm::dot(moved, glm::normalize(stroke.vector));
+    EXPECT_NEAR(this->Running.reaches()[i], expected, 1e-3) << "stroke " << i;
+    EXPECT_GT(expected, 0.1 * glm::length(stroke.vector));
+  }
+  this->Strokes.back().enabled = false;
+  this->Running.run(base(), this->Strokes);
+  EXPECT_EQ(this->Running.reaches().back(), 0.0);
 }
 
 TEST_F(ReplayTest, AppliesAChangedLastStrokeOnly)

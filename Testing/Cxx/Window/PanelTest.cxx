@@ -190,6 +190,19 @@ TEST_F(StrokesInAList, TellsWhatTheGuardApplies)
   EXPECT_TRUE(guardAdvice(2).contains("2 strokes"));
 }
 
+TEST_F(StrokesInAList, ShowsHowFarTissueWent)
+{
+  this->set({ stamp(-10.0), stamp(8.0), stamp(4.0) });
+  this->Model.setReaches({ 2.0, 7.9 }); // of the third, nothing is known
+  EXPECT_EQ(this->at(0, StrokeModel::ReachColumn).toString(), "-2.0");
+  EXPECT_EQ(this->at(1, StrokeModel::ReachColumn).toString(), "7.9");
+  EXPECT_EQ(this->at(2, StrokeModel::ReachColumn).toString(), "");
+  EXPECT_FALSE(this->at(0, StrokeModel::ReachColumn, Qt::DecorationRole).isNull());
+  EXPECT_TRUE(this->at(1, StrokeModel::ReachColumn, Qt::DecorationRole).isNull());
+  const QString tip = this->at(0, StrokeModel::ReachColumn, Qt::ToolTipRole).toString();
+  EXPECT_TRUE(tip.contains("-2.0 of -10.0 mm")) << tip.toStdString();
+}
+
 TEST(Advice, IsGivenBelowTheSpacing)
 {
   EXPECT_TRUE(radiusAdvice("The radius", 12.0, 12.0).isEmpty());

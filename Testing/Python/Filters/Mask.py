@@ -44,6 +44,20 @@ def bent_ball(**properties):
                                **{"Strokes": strokes, **properties})
 
 
+def test_a_stroke_at_the_edge_says_how_little_it_reached():
+    anchor, asked = (32.0, 32.0, 31.0), 8.0
+    stamp = brainshift.stamp(anchor, (32, 32, 0), -asked, major=26.0, minor=20.0)
+    reached = {}
+    for name, properties in (("masked", {"Mask": lower_half(), "MaskLabels": [1]}), ("free", {})):
+        filter = bent_ball(Strokes=stamp, **properties)
+        filter.UpdatePipeline()
+        filter.UpdatePropertyInformation()
+        went = brainshift.deformed_from_rest(filter, [anchor])[0] - numpy.array(anchor)
+        reached[name] = float(numpy.atleast_1d(filter.StrokeReaches)[0])  # one is no list
+        assert abs(reached[name] + went[2]) < 0.01, (name, reached, went)
+    assert reached["masked"] < 0.1 * asked < 0.9 * asked < reached["free"], reached
+
+
 def test_only_what_is_inside_moves():
     filter = bent_ball(Mask=lower_half(), MaskLabels=[1], Feather=6.0)
     before = voxels(filter.Input)
