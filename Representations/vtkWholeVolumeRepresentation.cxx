@@ -33,6 +33,7 @@ int vtkWholeVolumeRepresentation::ProcessViewRequest(
     // hands the data to the view.
     brainshift::FailedUpdate failed(this, request);
     if (request == vtkPVView::REQUEST_UPDATE() &&
+      // NOLINTNEXTLINE(bugprone-parent-virtual-call): without the delivery of the class between
       this->vtkVolumeRepresentation::ProcessViewRequest(request, input, output))
     {
       this->GatherParts();

@@ -196,6 +196,7 @@ double leastDeterminantOf(std::int64_t count, const PartOfCell& partOf)
   double found = leastFound(count, partOf);
   const Bounds bounds = boundsBelow(enoughFor(found), count, partOf);
   std::vector<Part> heap;
+  heap.reserve(bounds.cells.size());
   for (const CellBound& bound : bounds.cells)
   {
     heap.push_back(partOf(bound.cell));

@@ -281,9 +281,7 @@ QVariant StrokeModel::headerData(int section, Qt::Orientation orientation, int r
     QT_TR_NOOP("The tool that made the stroke. The check mark enables the stroke."),
     QT_TR_NOOP("The position of the stroke: right, anterior, superior (mm)"),
     QT_TR_NOOP("The displacement at the centre (mm). A Stamp pulls above 0 and pushes below 0."),
-    QT_TR_NOOP("How far the tissue at the centre went (mm). It is less than the amount where the "
-               "lattice is coarse, where the guard against folding shortens the stroke, and near "
-               "the edge of a mask."),
+    QT_TR_NOOP("How far the tissue at the centre went (mm), at full Strength"),
     QT_TR_NOOP("Soft: the radius (mm). Stamp: half the long axis (mm)."),
     QT_TR_NOOP("Stamp: the radius across the long axis (mm)"),
   };
