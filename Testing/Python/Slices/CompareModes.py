@@ -15,6 +15,7 @@ from paraview.simple import CompareVolumes, Delete, FreeFormDeformation  # noqa:
 LATTICE_BYTES = 19 ** 3 * 3 * 4
 ENOUGH = 2.5 / 255.0
 BAKED = 0.01  # mean difference from a baked volume, of full scale
+LARGEST = 10  # of that: a bake is exact, and slices read the offset field, which is trilinear
 WAYS = ("Red and green", "Checkerboard", "Difference", "Gradient", "Wipe")
 PIXEL_MM = 2 * HALF / 300
 
@@ -25,7 +26,7 @@ def is_grey(image):
 
 def assert_like(image, expected, where, mean=BAKED):
     apart = numpy.abs(image - expected)[where]
-    assert apart.mean() < mean and apart.max() < 8 * mean, (apart.mean(), apart.max())
+    assert apart.mean() < mean and apart.max() < LARGEST * mean, (apart.mean(), apart.max())
 
 
 def test_gradient_is_green_over_grey():
