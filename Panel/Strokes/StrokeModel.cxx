@@ -169,8 +169,12 @@ void StrokeModel::setReaches(const std::vector<double>& reaches)
 {
   if (this->Reaches != reaches)
   {
-    this->Reaches = reaches;
-    this->update();
+    this->Reaches = reaches; // at each step of a drag: the strokes are not read again
+    if (this->Rows > 0)
+    {
+      Q_EMIT this->dataChanged(
+        this->index(0, ReachColumn), this->index(this->Rows - 1, ReachColumn));
+    }
   }
 }
 
@@ -279,7 +283,7 @@ QVariant StrokeModel::headerData(int section, Qt::Orientation orientation, int r
     QT_TR_NOOP("Amount"), QT_TR_NOOP("Reached"), QT_TR_NOOP("Major"), QT_TR_NOOP("Minor") };
   static const char* const tips[ColumnCount] = {
     QT_TR_NOOP("The tool that made the stroke. The check mark enables the stroke."),
-    QT_TR_NOOP("The position of the stroke: right, anterior, superior (mm)"),
+    QT_TR_NOOP("The position of the stroke: x, y, z (mm, world axes)"),
     QT_TR_NOOP("The displacement at the centre (mm). A Stamp pulls above 0 and pushes below 0."),
     QT_TR_NOOP("How far the tissue at the centre went (mm), at full Strength"),
     QT_TR_NOOP("Soft: the radius (mm). Stamp: half the long axis (mm)."),
