@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <vector>
@@ -44,7 +45,8 @@ std::string valueOf(const Lines& lines, const std::vector<std::string>& keys)
   return {};
 }
 
-// All numbers in a text, whatever stands between them.
+// All numbers in a text, with brackets and commas between them. What is no number ends the list
+// with one that no place takes: half of a number must not count as a number.
 std::vector<double> numbersIn(std::string text)
 {
   std::replace_if(
@@ -54,6 +56,10 @@ std::vector<double> numbersIn(std::string text)
   for (double number; stream >> number;)
   {
     numbers.push_back(number);
+  }
+  if (!stream.eof())
+  {
+    numbers.push_back(std::numeric_limits<double>::quiet_NaN());
   }
   return numbers;
 }

@@ -126,6 +126,26 @@ TEST(TextHeader, TheSizeOfAVoxelIsItsSpacingIfThereIsNoOther)
 }
 
 // Nobody can read bytes that are no letters, nor a megabyte of them.
+TEST(TextHeader, HalfOfANumberIsNoNumber)
+{
+  const std::string end = "ElementDataFile = LOCAL\n" + numbers(false);
+  for (const std::string broken : { "ElementSpacing = 1 1 1/.5\n", "Offset = 0 0 6f5\n",
+         "TransformMatrix = x\n", "TransformMatrix = 1 0 0 0 1 0 0 0 1;5\n" })
+  {
+    const bool isOffset = broken[0] == 'O';
+    std::string header = Meta;
+    header.replace(header.find("Offset"), 15, isOffset ? broken : "Offset = 0 0 0\n");
+    header += isOffset ? "" : broken;
+    header += end;
+    DirectedField field;
+    EXPECT_NE(problemOf("half.mha", header, field), "") << broken;
+  }
+  std::string nrrd = Nrrd + "endian: little\n\n" + numbers(false);
+  nrrd.replace(nrrd.find("(0,0,0)"), 7, "(0,0,0;5)");
+  DirectedField field;
+  EXPECT_NE(problemOf("half.nrrd", nrrd, field), "");
+}
+
 TEST(TextHeader, ErrorsShowPrintableWords)
 {
   DirectedField field;
