@@ -302,9 +302,13 @@ std::string vtkFreeFormDeformation::ProblemOfProperties() const
     return "PointOfInterest is " + decimal(interest[0]) + " " + decimal(interest[1]) + " " +
       decimal(interest[2]) + " mm; its numbers must be finite";
   }
-  if (!(this->Feather >= 0.0 && std::isfinite(this->Feather)))
+  for (const auto& [name, mm] :
+    { std::pair("Feather", this->Feather), std::pair("MaskGrowth", this->MaskGrowth) })
   {
-    return "Feather is " + decimal(this->Feather) + " mm; it must be 0 or more, and finite";
+    if (!(mm >= 0.0 && std::isfinite(mm)))
+    {
+      return name + (" is " + decimal(mm)) + " mm; it must be 0 or more, and finite";
+    }
   }
   if (std::isnan(this->Strength))
   {
@@ -338,8 +342,8 @@ std::string vtkFreeFormDeformation::Bend(
   }
   if (problem.empty())
   {
-    problem = state.Masks.find(
-      { maskImage, this->MaskLabels, this->Feather, volumeGrid, start.grid, this->Samples },
+    problem = state.Masks.find({ maskImage, this->MaskLabels, this->MaskGrowth, this->Feather,
+                                 volumeGrid, start.grid, this->Samples },
       start.mask);
   }
   Segmentation segmentation;
@@ -390,9 +394,12 @@ void vtkFreeFormDeformation::TellWarnings()
     warnings.push_back("The mask leaves nothing to move: it is nowhere wider than two nodes of the "
                        "refined field. Raise LatticeDimensions or Samples");
   }
-  if (!state.TooFine.empty())
+  for (const std::string& warning : { state.TooFine, state.StrokeReplay.strokesInFeather() })
   {
-    warnings.push_back(state.TooFine);
+    if (!warning.empty())
+    {
+      warnings.push_back(warning);
+    }
   }
   for (const std::string& warning : warnings)
   {
@@ -471,6 +478,7 @@ void vtkFreeFormDeformation::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "PointOfInterest: " << this->PointOfInterest[0] << " " << this->PointOfInterest[1]
      << " " << this->PointOfInterest[2] << "\n"
      << indent << "Feather: " << this->Feather << "\n"
+     << indent << "MaskGrowth: " << this->MaskGrowth << "\n"
      << indent << "MaskLabels: " << this->MaskLabels.size() << "\n"
      << indent << "GuardFolding: " << this->GuardFolding << "\n"
      << indent << "Strokes: " << this->Internal->StrokeNumbers.size() / NumbersPerStroke << "\n";

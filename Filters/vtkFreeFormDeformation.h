@@ -136,6 +136,16 @@ public:
   vtkGetMacro(Feather, double);
   ///@}
 
+  ///@{
+  /**
+   * Distance (mm) by which the mask grows before anything else is done with it; 0 or more. Default
+   * 0. It moves the feather out of tissue that is to move all the way, such as the cortex under a
+   * mask of the brain. The mask's image limits the growth.
+   */
+  vtkSetMacro(MaskGrowth, double);
+  vtkGetMacro(MaskGrowth, double);
+  ///@}
+
   /** Largest displacement (mm) of a control point; Strength is applied. */
   double GetMaximumDisplacement();
 
@@ -185,6 +195,7 @@ private:
   bool GuardFolding = true;
   double PointOfInterest[3] = { 0.0, 0.0, 0.0 };
   double Feather = 10.0;
+  double MaskGrowth = 0.0;
   std::vector<int> MaskLabels;
 
   // One sentence on a property that is wrong; empty if all are good.

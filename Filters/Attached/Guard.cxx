@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Attached/Guard.h"
 
+#include "vtkExecutive.h"
+#include "vtkInformation.h"
+#include "vtkInformationExecutivePortVectorKey.h"
+#include "vtkInformationVector.h"
 #include "vtkObject.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <exception>
 #include <new>
@@ -36,5 +41,20 @@ std::string thrownReason()
 void reportThrown(vtkObject* object)
 {
   vtkErrorWithObjectMacro(object, << object->GetClassName() << " " << thrownReason() << ".");
+}
+
+void forgetExtents(vtkInformationVector* outputs)
+{
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    vtkInformation* info = outputs->GetInformationObject(port);
+    info->Remove(vtkStreamingDemandDrivenPipeline::COMBINED_UPDATE_EXTENT());
+    // What reads this output keeps its request, too.
+    vtkExecutive** const readers = vtkExecutive::CONSUMERS()->GetExecutives(info);
+    for (int reader = 0; reader < vtkExecutive::CONSUMERS()->Length(info); ++reader)
+    {
+      forgetExtents(readers[reader]->GetOutputInformation());
+    }
+  }
 }
 }

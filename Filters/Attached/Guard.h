@@ -14,6 +14,7 @@
 
 #include <string>
 
+class vtkInformationVector;
 class vtkObject;
 
 namespace brainshift
@@ -23,6 +24,13 @@ VTKBRAINSHIFTFILTERS_EXPORT std::string thrownReason();
 
 /** Reports an exception as an error of an object. Call it in a catch. */
 VTKBRAINSHIFTFILTERS_EXPORT void reportThrown(vtkObject* object);
+
+/**
+ * Lets the next request ask for its own extent after one that failed. VTK adds the extent of a
+ * failed request to those that follow, so a filter that refused a size would refuse all smaller
+ * ones, too.
+ */
+VTKBRAINSHIFTFILTERS_EXPORT void forgetExtents(vtkInformationVector* outputs);
 
 /** Runs a step. Returns what it threw, the end of a sentence; empty if nothing. */
 template <typename Step>
@@ -74,8 +82,13 @@ void guarded(vtkObject* object, const Step& step)
   vtkTypeBool name::ProcessRequest(                                                                \
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)         \
   {                                                                                                \
-    return brainshift::guarded(this, vtkTypeBool(0),                                               \
+    const vtkTypeBool done = brainshift::guarded(this, vtkTypeBool(0),                             \
       [&] { return this->Superclass::ProcessRequest(request, inputs, outputs); });                 \
+    if (!done)                                                                                     \
+    {                                                                                              \
+      brainshift::forgetExtents(outputs);                                                          \
+    }                                                                                              \
+    return done;                                                                                   \
   }
 
 #endif

@@ -2,6 +2,7 @@
 #include "Filters/Attached/MaskImage.h"
 
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/HostMemory.h"
 #include "Filters/Deformation/Parallel.h"
 
 #include "vtkCellData.h"
@@ -85,6 +86,14 @@ std::string tooManyNodes(const Grid& lattice, int samples)
   return problem.str();
 }
 
+// Why there is too little memory to grow a mask; empty if there is enough.
+std::string growthProblem(const Mask& mask)
+{
+  const glm::dvec3 sides(mask.grid.dimensions);
+  return hostMemoryProblem("Growing a mask of " + sizeText(sides) + " voxels",
+    MaskGrowthBytes * sides.x * sides.y * sides.z);
+}
+
 std::string noVoxel(const std::vector<int>& labels, const MaskNames& names)
 {
   std::ostringstream problem;
@@ -164,8 +173,9 @@ bool MaskSource::isKnown(const MaskRequest& request) const
 {
   return this->Weights && this->Known.image == request.image &&
     this->KnownTime == request.image->GetMTime() && this->Known.labels == request.labels &&
-    this->Known.featherMm == request.featherMm && this->Known.volume == request.volume &&
-    this->Known.lattice == request.lattice && this->Known.samples == request.samples;
+    this->Known.growMm == request.growMm && this->Known.featherMm == request.featherMm &&
+    this->Known.volume == request.volume && this->Known.lattice == request.lattice &&
+    this->Known.samples == request.samples;
 }
 
 std::string MaskSource::find(
@@ -185,10 +195,15 @@ std::string MaskSource::find(
     {
       problem = readMask(request.image, request.labels, request.volume, mask);
     }
+    if (problem.empty() && request.growMm > 0.0)
+    {
+      problem = growthProblem(mask);
+    }
     if (!problem.empty())
     {
       return problem;
     }
+    growMask(mask, request.growMm);
     this->Weights = maskWeights(request.lattice, request.samples, mask, request.featherMm);
     this->Known = request;
     this->KnownTime = request.image->GetMTime();

@@ -56,6 +56,7 @@ struct MaskRequest
 {
   vtkImageData* image = nullptr; ///< null or empty: no mask
   std::vector<int> labels;       ///< labels that are inside; none: all above 0
+  double growMm = 0.0;           ///< mm by which the mask grows first; 0 or more
   double featherMm = 0.0;        ///< mm over which weights rise from 0 to 1; 0 or more
   Grid volume;                   ///< which the mask must overlap
   Grid lattice;                  ///< control points
@@ -66,7 +67,10 @@ struct MaskRequest
 class VTKBRAINSHIFTFILTERS_EXPORT MaskSource
 {
 public:
-  /** Finds the weights; null without a mask. Returns the problem if the image is no mask. */
+  /**
+   * Finds the weights; null without a mask. Returns the problem if the image is no mask, or if the
+   * machine has too little memory to grow it.
+   */
   std::string find(const MaskRequest& request, std::shared_ptr<const NodeWeights>& weights);
 
 private:

@@ -21,6 +21,10 @@ namespace
 {
 constexpr std::int64_t PointsAtLeast = 32768; // for a thread: about 0.2 ms
 
+// A Soft stroke lengthens its vector at most by 1 / this. A radius that holds few control points
+// would otherwise throw them far.
+constexpr double SmallestSoftShare = 0.2;
+
 // The four control points around a position along one axis and their weights.
 struct Taps
 {
@@ -216,31 +220,58 @@ void applyMove(Lattice& lattice, const Stroke& stroke)
   });
 }
 
+// Soft and Stamp: the weight of a control point where it is now.
+double weightOf(const Lattice& lattice, const Stroke& stroke, const glm::ivec3& at)
+{
+  const Grid& grid = lattice.grid;
+  const glm::dvec3 deformed = grid.worldFromGrid(glm::dvec3(at)) +
+    glm::dvec3(lattice.displacements[grid.offset(at.x, at.y, at.z)]);
+  const glm::dvec3 fromAnchor = deformed - stroke.anchor;
+  const double reach = std::max(stroke.major, stroke.minor);
+  return glm::dot(fromAnchor, fromAnchor) < reach * reach
+    ? falloff(normalisedDistance(stroke, deformed), stroke.sigma)
+    : 0.0;
+}
+
+// The share of a stroke's vector by which the tissue at its anchor moves if each control point
+// moves by its weight. It is below 1 because the kernel averages weights that fall off.
+double shareAtAnchor(const Lattice& lattice, const Stroke& stroke)
+{
+  const glm::ivec3& dimensions = lattice.grid.dimensions;
+  const glm::dvec3 rest = lattice.grid.gridFromWorld(tissueAt(lattice, stroke.anchor));
+  const TapsOfAxes taps = tapsAround(dimensions, lattice.kernel, rest);
+  double share = 0.0;
+  forEachIndex(glm::ivec3(0), glm::ivec3(3), [&](const glm::ivec3& tap) {
+    const glm::ivec3 at(taps[0].index[tap.x], taps[1].index[tap.y], taps[2].index[tap.z]);
+    const double part =
+      double(taps[0].weight[tap.x]) * double(taps[1].weight[tap.y]) * double(taps[2].weight[tap.z]);
+    share += part * weightOf(lattice, stroke, at);
+  });
+  return share;
+}
+
+// The vector that the control points of a stroke follow by their weights. With Soft it is longer
+// than the stroke's, so that the tissue at the anchor follows the hand all the way.
+glm::dvec3 vectorOfPoints(const Lattice& lattice, const Stroke& stroke)
+{
+  return stroke.tool == Tool::Soft
+    ? stroke.vector / std::clamp(shareAtAnchor(lattice, stroke), SmallestSoftShare, 1.0)
+    : stroke.vector;
+}
+
 void applyAround(Lattice& lattice, const Stroke& stroke)
 {
   const Grid& grid = lattice.grid;
-  const double reach = std::max(stroke.major, stroke.minor);
+  const glm::dvec3 vector = vectorOfPoints(lattice, stroke);
   const std::int64_t layer = static_cast<std::int64_t>(grid.dimensions.x) * grid.dimensions.y;
   parallelFor(
     0, grid.dimensions.z, PointsAtLeast / layer, [&](std::int64_t first, std::int64_t last) {
-      for (int k = static_cast<int>(first); k < last; ++k)
-      {
-        for (int j = 0; j < grid.dimensions.y; ++j)
-        {
-          glm::vec3* displacement = &lattice.displacements[grid.offset(0, j, k)];
-          for (int i = 0; i < grid.dimensions.x; ++i, ++displacement)
-          {
-            const glm::dvec3 deformed =
-              grid.worldFromGrid(glm::dvec3(i, j, k)) + glm::dvec3(*displacement);
-            const glm::dvec3 fromAnchor = deformed - stroke.anchor;
-            if (glm::dot(fromAnchor, fromAnchor) < reach * reach)
-            {
-              const double weight = falloff(normalisedDistance(stroke, deformed), stroke.sigma);
-              *displacement += glm::vec3(weight * stroke.vector);
-            }
-          }
-        }
-      }
+      forEachIndex({ 0, 0, static_cast<int>(first) },
+        { grid.dimensions.x - 1, grid.dimensions.y - 1, static_cast<int>(last) - 1 },
+        [&](const glm::ivec3& at) {
+          const double weight = weightOf(lattice, stroke, at);
+          lattice.displacements[grid.offset(at.x, at.y, at.z)] += glm::vec3(weight * vector);
+        });
     });
 }
 }

@@ -76,6 +76,9 @@ BRAINSHIFT_DEFORMATION_EXPORT std::string problemOfDisplacements(
 /**
  * Moves the control points that a stroke reaches. The weights depend on where the lattice was
  * before, and never on the stroke's vector. A disabled stroke changes nothing.
+ *
+ * Soft lengthens the vector of its control points, at most fivefold, so that without a mask the
+ * tissue at the anchor moves by the stroke's vector. The radius must hold enough control points.
  */
 BRAINSHIFT_DEFORMATION_EXPORT void applyStroke(Lattice& lattice, const Stroke& stroke);
 

@@ -79,6 +79,33 @@ void markBeyond(const Mask& mask, const Grid& nodes, NodeImage<char>& outside)
   });
 }
 
+// Turns values that are 0 at sources and Far elsewhere into squared distances (mm) to the nearest
+// source, as far as they are below the reach.
+void spread(NodeImage<float>& squared, const glm::dvec3& spacing, double reachMm)
+{
+  const glm::ivec3 last = squared.count - 1;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    // Squared distances add up axis by axis, so each looks along its own rows only.
+    const NodeImage<float> before = squared;
+    const int reach =
+      static_cast<int>(std::min(std::ceil(reachMm / spacing[axis]), last[axis] + 0.0));
+    parallelFor(0, squared.count.z, 1, [&](std::int64_t begin, std::int64_t end) {
+      forEachIndex({ 0, 0, static_cast<int>(begin) }, { last.x, last.y, static_cast<int>(end) - 1 },
+        [&](const glm::ivec3& at) {
+          float& nearest = squared.values[squared.offset(at)];
+          glm::ivec3 other = at;
+          const int end = std::min(at[axis] + reach, last[axis]);
+          for (other[axis] = std::max(at[axis] - reach, 0); other[axis] <= end; ++other[axis])
+          {
+            const float away = static_cast<float>((other[axis] - at[axis]) * spacing[axis]);
+            nearest = std::min(nearest, before.values[before.offset(other)] + away * away);
+          }
+        });
+    });
+  }
+}
+
 // Squared distance (mm) to the nearest node that cannot move, if below the reach.
 NodeImage<float> squaredDistances(const NodeImage<char>& outside, const Grid& nodes, double reachMm)
 {
@@ -96,27 +123,24 @@ NodeImage<float> squaredDistances(const NodeImage<char>& outside, const Grid& no
       squared.values[squared.offset(node)] = 0.0f;
     }
   });
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    // Squared distances add up axis by axis, so each looks along its own rows only.
-    const NodeImage<float> before = squared;
-    const int reach = static_cast<int>(std::ceil(reachMm / nodes.spacing[axis]));
-    parallelFor(0, nodes.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
-      forEachIndex({ 0, 0, static_cast<int>(begin) },
-        { lastNode.x, lastNode.y, static_cast<int>(end) - 1 }, [&](const glm::ivec3& node) {
-          float& nearest = squared.values[squared.offset(node)];
-          glm::ivec3 other = node;
-          const int last = std::min(node[axis] + reach, lastNode[axis]);
-          for (other[axis] = std::max(node[axis] - reach, 0); other[axis] <= last; ++other[axis])
-          {
-            const float away = static_cast<float>((other[axis] - node[axis]) * nodes.spacing[axis]);
-            nearest = std::min(nearest, before.values[before.offset(other)] + away * away);
-          }
-        });
-    });
-  }
+  spread(squared, nodes.spacing, reachMm);
   return squared;
 }
+}
+
+void growMask(Mask& mask, double byMm)
+{
+  if (byMm <= 0.0)
+  {
+    return;
+  }
+  NodeImage<float> squared(mask.grid.dimensions, Far);
+  std::transform(mask.inside.begin(), mask.inside.end(), squared.values.begin(),
+    [](char inside) { return inside ? 0.0f : Far; });
+  spread(squared, mask.grid.spacing, byMm);
+  const auto reached = static_cast<float>(byMm * byMm);
+  std::transform(squared.values.begin(), squared.values.end(), mask.inside.begin(),
+    [&](float distance) { return static_cast<char>(distance <= reached); });
 }
 
 std::shared_ptr<const NodeWeights> maskWeights(

@@ -30,6 +30,15 @@ struct Mask
   std::vector<char> inside; ///< 1 or 0 for each voxel, x fastest
 };
 
+/**
+ * Adds every voxel whose middle lies within a distance (mm, 0 or more) of the middle of a voxel
+ * that is inside. The mask's own image limits it. It takes MaskGrowthBytes for each voxel.
+ */
+BRAINSHIFT_DEFORMATION_EXPORT void growMask(Mask& mask, double byMm);
+
+/** Memory that growMask takes while it works, for each voxel. */
+constexpr double MaskGrowthBytes = 8.0;
+
 /** Most nodes of a refined field with a mask: 400 MB of weights and 1.2 GB of displacements. */
 constexpr double MostMaskedNodes = 1e8;
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/Replay.h"
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 #include <sstream>
 
@@ -10,6 +13,7 @@ namespace
 {
 constexpr int MostNamed = 3;
 constexpr double Rounding = 1e-6; // of spacings that went through text
+constexpr double FullReach = 0.8; // of a stroke's length; less of it is worth a word
 
 // How finely a stroke bends, mm; 0 if it takes whatever the lattice has.
 double finestRadius(const Stroke& stroke)
@@ -17,6 +21,41 @@ double finestRadius(const Stroke& stroke)
   // Move: the spacing it was made at.
   return stroke.tool == Tool::Stamp ? std::min(stroke.major, stroke.minor) : stroke.major;
 }
+
+// Whether a mask leaves the tissue at a position (mm, world) less than its whole displacement. The
+// nearest node answers.
+bool isFeathered(const Lattice& lattice, const glm::dvec3& world)
+{
+  const NodeWeights& mask = *lattice.mask;
+  const glm::ivec3 count = (lattice.grid.dimensions - 1) * mask.perCell + 1;
+  const glm::ivec3 node(
+    glm::clamp(glm::round(lattice.grid.gridFromWorld(world) * double(mask.perCell)),
+      glm::dvec3(0.0), glm::dvec3(count - 1)));
+  return mask.values[(static_cast<std::size_t>(node.z) * count.y + node.y) * count.x + node.x] <
+    1.0f;
+}
+
+// The first of some strokes by their numbers, such as "2 (8.5 mm), 4 (3 mm) and 3 more".
+class NamedStrokes
+{
+public:
+  void add(const std::string& name)
+  {
+    this->Names += this->Count < MostNamed ? (this->Count ? ", " : "") + name : "";
+    ++this->Count;
+  }
+  bool empty() const { return this->Count == 0; }
+  std::string text() const
+  {
+    return this->Count > MostNamed
+      ? this->Names + " and " + std::to_string(this->Count - MostNamed) + " more"
+      : this->Names;
+  }
+
+private:
+  std::string Names;
+  int Count = 0;
+};
 }
 
 bool Replay::isFor(const Lattice& base, const Guarding& guarding) const
@@ -141,34 +180,44 @@ const Lattice& Replay::run(
   return this->Result;
 }
 
+std::string Replay::strokesInFeather() const
+{
+  NamedStrokes named;
+  for (std::size_t number = 0; this->Base.mask && number < this->Strokes.size(); ++number)
+  {
+    const Stroke& stroke = this->Strokes[number];
+    if (stroke.enabled && this->Reaches[number] < FullReach * glm::length(stroke.vector) &&
+      isFeathered(this->Base, stroke.anchor))
+    {
+      named.add(std::to_string(number));
+    }
+  }
+  return named.empty() ? std::string()
+                       : "The mask holds back the tissue at the anchor of stroke " + named.text() +
+      ": it lies outside the mask or in its feather. StrokeReaches says how far it went. Raise "
+      "MaskGrowth, lower Feather, or use the mask as Segmentation, which limits nothing";
+}
+
 std::string strokesTooFine(const std::vector<Stroke>& strokes, const Grid& lattice)
 {
   const double spacing = std::max({ lattice.spacing.x, lattice.spacing.y, lattice.spacing.z });
-  std::ostringstream named;
-  int count = 0;
+  NamedStrokes named;
   for (std::size_t number = 0; number < strokes.size(); ++number)
   {
     const double radius = finestRadius(strokes[number]);
-    if (!strokes[number].enabled || radius <= 0.0 || radius >= spacing * (1.0 - Rounding))
+    if (strokes[number].enabled && radius > 0.0 && radius < spacing * (1.0 - Rounding))
     {
-      continue;
+      std::ostringstream name;
+      name << number << " (" << radius << " mm)";
+      named.add(name.str());
     }
-    if (count < MostNamed)
-    {
-      named << (count ? ", " : "") << number << " (" << radius << " mm)";
-    }
-    ++count;
   }
-  if (count == 0)
+  if (named.empty())
   {
     return {};
   }
-  if (count > MostNamed)
-  {
-    named << " and " << count - MostNamed << " more";
-  }
   std::ostringstream sentence;
-  sentence << "The lattice is too coarse for the radius of stroke " << named.str()
+  sentence << "The lattice is too coarse for the radius of stroke " << named.text()
            << ": its spacing is " << spacing << " mm. Make LatticeDimensions larger";
   return sentence.str();
 }

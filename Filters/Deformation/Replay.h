@@ -64,6 +64,13 @@ public:
   /** How far (mm) each stroke took the tissue at its anchor along its vector; see reachOf. */
   const std::vector<double>& reaches() const { return this->Reaches; }
 
+  /**
+   * One sentence, without a full stop, about the enabled strokes whose anchor a mask holds back: it
+   * lies where the mask leaves less than the whole displacement, and the tissue there moved by less
+   * than 80 % of the stroke's length. Empty if there are none.
+   */
+  std::string strokesInFeather() const;
+
   /** How many cells of the base lattice the guard ignores because the base folds in them. */
   int foldedCells() const { return this->Guarded.on ? this->Guard.foldedCells() : 0; }
 

@@ -50,9 +50,10 @@ QString reachAdvice(double amount, double reached)
   {
     return {};
   }
-  return tr("The tissue at the centre went %1 of %2 mm. Near the edge of a mask, use the mask as "
-            "Segmentation instead, lower Feather, or take a larger mask. Elsewhere, increase the "
-            "radius or add control points.")
+  return tr(
+    "The tissue at the centre went %1 of %2 mm. Near the edge of a mask, increase Mask Growth, "
+    "lower Feather, or use the mask as Segmentation instead. Elsewhere, increase the "
+    "radius or add control points.")
     .arg(reached, 0, 'f', 1)
     .arg(amount, 0, 'f', 1);
 }

@@ -89,6 +89,67 @@ TEST(Soft, FallsOffWithTheDistance)
   expectFallsOff(stroke, 7);
 }
 
+namespace
+{
+// Soft strokes of 3.7 mm all over a lattice of 14 mm, one after the other.
+class ManySoft : public ::testing::TestWithParam<int>
+{
+protected:
+  // Visits each stroke with the lattice before and after it.
+  template <typename Visit>
+  void visit(double radius, const Visit& visitStroke) const
+  {
+    Random random(61);
+    Lattice lattice = makeLattice(plainGrid(glm::ivec3(15), glm::dvec3(14.0)), GetParam());
+    for (int i = 0; i < 20; ++i)
+    {
+      Stroke stroke = strokeAt(Tool::Soft, random.point(lattice.grid, -3.0), { 3, -2, 1 });
+      stroke.major = radius;
+      const Lattice before = lattice;
+      applyStroke(lattice, stroke);
+      visitStroke(before, lattice, stroke);
+    }
+  }
+};
+}
+
+// reachOf follows the tissue through the map; it knows nothing of weights.
+TEST_P(ManySoft, TakeTheTissueAtTheirAnchorsAllTheWay)
+{
+  for (const double radius : { 25.0, 40.0 })
+  {
+    this->visit(radius, [&](const Lattice& before, const Lattice& after, const Stroke& stroke) {
+      EXPECT_NEAR(reachOf(before, after, stroke), glm::length(stroke.vector), 1e-3) << radius;
+    });
+  }
+  // A B-spline averages more control points than a sphere of 1.4 spacings holds.
+  this->visit(20.0, [&](const Lattice& before, const Lattice& after, const Stroke& stroke) {
+    EXPECT_GT(reachOf(before, after, stroke), 0.7 * glm::length(stroke.vector));
+  });
+}
+
+TEST_P(ManySoft, ThrowNoTissueFurtherThanTheHand)
+{
+  Random random(62);
+  double furthest = 0.0;
+  for (const double radius : { 3.0, 9.0, 15.0, 25.0, 40.0 })
+  {
+    this->visit(radius, [&](const Lattice& before, const Lattice& after, const Stroke& stroke) {
+      for (int i = 0; i < 2000; ++i)
+      {
+        const glm::dvec3 rest = random.point(before.grid, -2.0);
+        furthest = std::max(furthest,
+          glm::distance(displacementOfTissue(after, rest), displacementOfTissue(before, rest)) /
+            glm::length(stroke.vector));
+      }
+    });
+  }
+  EXPECT_GT(furthest, 0.9);
+  EXPECT_LT(furthest, 1.25);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kernels, ManySoft, ::testing::Values(KernelCatmullRom, KernelBSpline));
+
 TEST(Stamp, FallsOffWithinItsEllipsoid)
 {
   Stroke stroke = strokeAt(Tool::Stamp, { 30, 30, 30 }, { 0, 4, 0 });
@@ -132,10 +193,11 @@ TEST(SoftAndStamp, AreMeasuredInTheDeformedFrame)
     EXPECT_EQ(movedPoints(lattice), 0) << "at rest no control point is within 4 mm";
     applyStroke(lattice, strokeAt(Tool::Move, { 30, 30, 30 }, { 5, 0, 0 }));
     applyStroke(lattice, stroke);
-    EXPECT_EQ(at(lattice, 3, 3, 3), glm::vec3(5, 1, 0)) << "the first stroke moved it there";
+    const glm::vec3 there = at(lattice, 3, 3, 3);
+    EXPECT_LT(glm::distance(there, glm::vec3(5, 1, 0)), 1e-3f) << "the first stroke moved it there";
     stroke.anchor.x = 30.0;
     applyStroke(lattice, stroke);
-    EXPECT_EQ(at(lattice, 3, 3, 3), glm::vec3(5, 1, 0)) << "it is not at its rest position";
+    EXPECT_EQ(at(lattice, 3, 3, 3), there) << "it is not at its rest position";
   }
 }
 

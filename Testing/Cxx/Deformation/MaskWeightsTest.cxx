@@ -180,3 +180,65 @@ TEST(MaskWeights, AreZeroOnTheWholeBorder)
       << node.x << " " << node.y << " " << node.z;
   }
 }
+
+TEST(GrowMask, AddsTheVoxelsWithinADistance)
+{
+  const Grid grid = plainGrid({ 20, 17, 9 }, { 1.0, 1.5, 3.0 });
+  Random random(35);
+  for (const double by : { 0.0, 1.4, 4.0, 100.0 })
+  {
+    Mask mask{ grid, std::vector<char>(grid.count(), 0) };
+    std::vector<glm::dvec3> inside;
+    for (int i = 0; i < 5; ++i)
+    {
+      const glm::ivec3 voxel(grid.gridFromWorld(random.point(grid, 0.0)));
+      mask.inside[grid.offset(voxel.x, voxel.y, voxel.z)] = 1;
+      inside.push_back(grid.worldFromGrid(glm::dvec3(voxel)));
+    }
+    growMask(mask, by);
+    for (std::size_t offset = 0; offset < grid.count(); ++offset)
+    {
+      const glm::dvec3 at = grid.worldFromGrid(glm::dvec3(indexOf(grid, offset)));
+      double nearest = 1e9;
+      for (const glm::dvec3& voxel : inside)
+      {
+        nearest = std::min(nearest, glm::distance(at, voxel));
+      }
+      EXPECT_EQ(mask.inside[offset] != 0, nearest <= by) << by << " mm, " << nearest;
+    }
+  }
+}
+
+TEST(StrokesInFeather, NamesThoseThatTheMaskHoldsBack)
+{
+  // The mask is what lies below x = 50 mm, with a feather of 15 mm.
+  const Grid lattice = plainGrid(glm::ivec3(13), glm::dvec3(10.0));
+  Mask mask{ plainGrid(glm::ivec3(25), glm::dvec3(5.0)), std::vector<char>(25 * 25 * 25) };
+  for (std::size_t voxel = 0; voxel < mask.inside.size(); ++voxel)
+  {
+    mask.inside[voxel] = voxel % 25 < 10;
+  }
+  std::vector<Stroke> strokes(4, strokeAt(Tool::Soft, { 25, 60, 60 }, { 0, 3, 0 }));
+  strokes[1].anchor.x = 44.0;
+  strokes[2].anchor.x = 90.0; // outside
+  strokes[3].anchor.x = 44.0;
+  strokes[3].enabled = false;
+  for (Stroke& stroke : strokes)
+  {
+    stroke.major = 20.0;
+  }
+  Lattice base = makeLattice(lattice, KernelCatmullRom);
+  Replay replay;
+  replay.run(base, strokes);
+  EXPECT_EQ(replay.strokesInFeather(), "") << "without a mask";
+  base.mask = maskWeights(lattice, Samples, mask, 15.0);
+  replay.run(base, strokes);
+  const std::string words = replay.strokesInFeather();
+  EXPECT_NE(words.find("the anchor of stroke 1, 2:"), std::string::npos) << words;
+  EXPECT_NE(words.find("Raise MaskGrowth"), std::string::npos) << words;
+  strokes.erase(strokes.begin() + 2, strokes.end());
+  growMask(mask, 25.0);
+  base.mask = maskWeights(lattice, Samples, mask, 15.0);
+  replay.run(base, strokes);
+  EXPECT_EQ(replay.strokesInFeather(), "") << "the feather lies beyond the anchors now";
+}

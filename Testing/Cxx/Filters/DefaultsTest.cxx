@@ -31,7 +31,8 @@ TEST(Defaults, OfFreeFormDeformationLiveInTheClass)
     { "Strength", { filter->GetStrength() } },
   };
   EXPECT_EQ(defaultsIn("Filters/Proxies/FreeFormDeformation.xml"), expected);
-  const Defaults ofMask{ { "Feather", { filter->GetFeather() } } };
+  const Defaults ofMask{ { "Feather", { filter->GetFeather() } },
+    { "MaskGrowth", { filter->GetMaskGrowth() } } };
   EXPECT_EQ(defaultsIn("Filters/Proxies/FreeFormDeformationMask.xml"), ofMask);
 }
 

@@ -4,12 +4,13 @@
 import math
 
 import numpy
-from brainshift_testing import (assert_says, ball, load_plugin, look, messages, picture, run_tests,
-                                show_volume, view_along, volume)
+from brainshift_testing import (assert_says, ball, load_plugin, look, messages, output, picture,
+                                run_tests, show_volume, view_along, volume)
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
-from paraview.simple import DeformationField, FreeFormDeformation, Sphere  # noqa: E402
+from paraview.simple import (BakeDeformation, DeformationField,  # noqa: E402
+                             FreeFormDeformation, Sphere)
 
 MIDDLE = (16.0, 16.0, 16.0)
 STROKE = brainshift.soft(MIDDLE, (3, 0, 0), 12)
@@ -132,6 +133,22 @@ def test_a_field_of_too_many_points_is_named():
     with messages() as said:
         field.UpdatePipeline()
     assert_says(said.text, "A field of 4096 x 4096 x 4096 points needs 1100 GB of memory")
+    with messages() as said:
+        field.Dimensions = [5, 6, 7]
+        field.UpdatePipeline()
+    assert said.text == "" and output(field).GetDimensions() == (5, 6, 7), said.text
+
+
+def test_a_guarded_stroke_of_300_mm_bakes():
+    strokes = brainshift.stamp((16, 16, 8), MIDDLE, 300.0, major=12.0, minor=10.0)
+    bent = FreeFormDeformation(Input=volume(ball()), Strokes=strokes)
+    with messages() as said:
+        baked = BakeDeformation(Input=bent)
+        baked.UpdatePipeline()
+    assert said.text == "", said.text
+    bent.UpdatePropertyInformation()
+    assert bent.ShortenedStrokes == 1 and bent.MinimumJacobian > 0.0999, bent.MinimumJacobian
+    assert output(baked).GetDimensions() == output(bent).GetDimensions()
 
 
 def test_volumes_without_volume_are_named():

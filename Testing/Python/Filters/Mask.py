@@ -58,6 +58,29 @@ def test_a_stroke_at_the_edge_says_how_little_it_reached():
     assert reached["masked"] < 0.1 * asked < 0.9 * asked < reached["free"], reached
 
 
+def test_growth_lets_the_edge_move_and_the_filter_names_it():
+    asked = 8.0
+    stamp = brainshift.stamp((32, 32, 31), (32, 32, 0), -asked, major=26.0, minor=20.0)
+    with messages() as said:
+        filter = bent_ball(Strokes=stamp, Mask=lower_half(), MaskLabels=[1], Feather=6.0)
+        filter.UpdatePipeline()
+        filter.Strength = 0.5
+        filter.UpdatePipeline()
+    assert said.text.count("The mask holds back the tissue at the anchor of stroke 0") == 1, said.text
+    with messages() as said:
+        filter.MaskGrowth = 12.0
+        filter.UpdatePipeline()
+    assert said.text == "", said.text
+    filter.UpdatePropertyInformation()
+    reached = float(numpy.atleast_1d(filter.StrokeReaches)[0])
+    assert reached > 0.9 * asked, reached
+    filter.Strength = 1.0
+    before, after = voxels(filter.Input), voxels(BakeDeformation(Input=filter))
+    # The mask lies on voxels of 2 mm: it may end a voxel above the plane.
+    assert (after == before)[EDGE + 14:].all(), "12 mm above the plane nothing moves"
+    assert (after != before)[EDGE:EDGE + 6].any(), "below that the edge does"
+
+
 def test_only_what_is_inside_moves():
     filter = bent_ball(Mask=lower_half(), MaskLabels=[1], Feather=6.0)
     before = voxels(filter.Input)

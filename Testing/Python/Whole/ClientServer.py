@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that a server that draws sends the picture of the built-in session, pixel by pixel, and
 # that brainshift.pick, counters and gpu answer for what the server drew. This holds for Deformed
-# Slices too.
+# Slices too. A server survives requests that no memory holds.
 import os
 
 import numpy
@@ -12,7 +12,7 @@ from slices_testing import show_slices
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from paraview.simple import (  # noqa: E402
-    FreeFormDeformation, LoadPlugin, OpenDataFile, Wavelet)
+    BakeDeformation, DeformationField, FreeFormDeformation, LoadPlugin, OpenDataFile, Wavelet)
 
 PLUGIN = os.environ["BRAINSHIFT_PLUGIN"]
 HEAD = data("seg3d-utah", "seg3d_mr_t1.nii.gz")
@@ -136,6 +136,29 @@ def test_slices_are_drawn_on_the_server():
     assert axes == expected_axes, axes
     assert {**counts, **NOT_COUNTED} == {**expected_counts, **NOT_COUNTED}, counts
     assert counts["volumeUploads"] == counts["latticeUploads"] == 1, counts
+
+
+def refused_and_made():
+    """Points of a field that no memory holds, of one that it holds, and of a bake beyond memory."""
+    bent = FreeFormDeformation(
+        Input=Wavelet(WholeExtent=[-15, 15, -15, 15, -15, 15]), Strokes=STROKE)
+    field = DeformationField(Input=bent, SampleGrid="Given Dimensions", Dimensions=[4096] * 3)
+    baked = BakeDeformation(Input=bent)
+    points = []
+    for dimensions, sides, samples in (([4096] * 3, [129] * 3, 16), ([5, 6, 7], [9] * 3, 4)):
+        field.Dimensions = dimensions
+        field.UpdatePipeline()
+        points.append(field.GetDataInformation().GetNumberOfPoints())
+        bent.LatticeDimensions, bent.Samples = sides, samples
+        baked.UpdatePipeline()
+        points.append(baked.GetDataInformation().GetNumberOfPoints())
+    return points
+
+
+def test_a_server_survives_what_no_memory_holds():
+    refused, first_bake, made, bake = on_server(refused_and_made, **SERVER_FINDS_PLUGIN)
+    assert (refused, made, bake) == (0, 5 * 6 * 7, 31 ** 3), (refused, made, bake)
+    assert first_bake in (0, 31 ** 3), first_bake  # as much as the machine has memory
 
 
 run_tests(globals())
