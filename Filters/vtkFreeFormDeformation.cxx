@@ -181,16 +181,13 @@ vtkFreeFormDeformation::vtkFreeFormDeformation()
 
 vtkFreeFormDeformation::~vtkFreeFormDeformation() = default;
 
-void vtkFreeFormDeformation::AddStrokeNumber(double number)
+void vtkFreeFormDeformation::SetStrokeNumbers(const std::vector<double>& numbers)
 {
-  this->Internal->StrokeNumbers.push_back(number);
-  this->Modified();
-}
-
-void vtkFreeFormDeformation::ClearStrokes()
-{
-  this->Internal->StrokeNumbers.clear();
-  this->Modified();
+  if (this->Internal->StrokeNumbers != numbers)
+  {
+    this->Internal->StrokeNumbers = numbers;
+    this->Modified();
+  }
 }
 
 void vtkFreeFormDeformation::SetLatticeConnection(vtkAlgorithmOutput* lattice)

@@ -102,14 +102,11 @@ public:
   vtkGetVector3Macro(PointOfInterest, double);
   ///@}
 
-  ///@{
   /**
-   * The strokes, replayed in order: 14 numbers each (Stroke.h). Numbers are given one by one, so
-   * that a list of the wrong length is an error and is not cut short. Default: none.
+   * The strokes, replayed in order: 14 numbers each (Stroke.h). A list of the wrong length is an
+   * error. Default: none.
    */
-  void AddStrokeNumber(double number);
-  void ClearStrokes();
-  ///@}
+  void SetStrokeNumbers(const std::vector<double>& numbers);
 
   /** The base lattice (input 1). */
   void SetLatticeConnection(vtkAlgorithmOutput* lattice);

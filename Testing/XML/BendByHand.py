@@ -18,6 +18,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 
 NUMBERS = brainshift.NUMBERS_PER_STROKE
+MAJOR = 10  # number of a stroke: its major radius
 SIZE = (300, 300)  # of pictures, pixels
 
 
@@ -160,6 +161,25 @@ def stamp():
     edit("Redo", brainshift.STAMP)
     edit("Redo", brainshift.STAMP, brainshift.STAMP)
     first_is(5.0)
+    another_radius_is_another_stroke()
+
+
+def another_radius_is_another_stroke():
+    had = [brainshift.STAMP, brainshift.STAMP]
+    hand.hover(middle())
+    hand.wheel(middle(), 1)
+    settle()
+    has(*had, brainshift.STAMP)
+    hand.wheel(middle(), 1, hand.SHIFT)
+    hand.wheel(middle(), 1)
+    settle()
+    has(*had, brainshift.STAMP, brainshift.STAMP)
+    narrow, wide = (stroke[MAJOR] for stroke in strokes()[-2:])
+    assert math.isclose(wide, 1.1 * narrow, rel_tol=1e-9), (narrow, wide)
+    hand.wheel(middle(), -1, hand.SHIFT)
+    hand.wait(100)
+    edit("Undo", *had, brainshift.STAMP)
+    edit("Undo", *had)
 
 
 def soft():

@@ -251,12 +251,12 @@ TEST_F(FreeFormDeformation, RefusesBadStrokes)
   this->bend();
   std::vector<double> numbers = numbersFromStrokes({ this->stamp() });
   numbers.push_back(1.0);
-  setStrokeNumbers(this->Filter, numbers);
+  this->Filter->SetStrokeNumbers(numbers);
   this->output();
   this->expectKeepsDeformation({ "Strokes", "15" });
   numbers.pop_back();
   numbers[5] = std::numeric_limits<double>::quiet_NaN();
-  setStrokeNumbers(this->Filter, numbers);
+  this->Filter->SetStrokeNumbers(numbers);
   this->output();
   this->expectKeepsDeformation({ "Stroke 0", "number 5", "nan" });
 }

@@ -21,11 +21,7 @@ TEST(LatticeReport, NamesTheControlPointsThatTheFilterAttached)
   filter->SetInputData(image);
   filter->SetGuardFolding(false); // the stroke as it is
   filter->SetLatticeDimensions(4, 4, 4);
-  const std::vector<double> move{ 0, 6, 6, 6, 1, 2, 3, 0, 0, 0, 0, 0, 0.5, 1 };
-  for (double number : move)
-  {
-    filter->AddStrokeNumber(number);
-  }
+  filter->SetStrokeNumbers({ 0, 6, 6, 6, 1, 2, 3, 0, 0, 0, 0, 0, 0.5, 1 });
   vtkNew<vtkLatticeReport> report;
   EXPECT_EQ(report->GetGeometry()->GetNumberOfValues(), 0); // nothing to ask yet
   report->SetFilter(filter);

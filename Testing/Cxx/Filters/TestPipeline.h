@@ -107,18 +107,9 @@ private:
   std::string Text;
 };
 
-inline void setStrokeNumbers(vtkFreeFormDeformation* filter, const std::vector<double>& numbers)
-{
-  filter->ClearStrokes();
-  for (const double number : numbers)
-  {
-    filter->AddStrokeNumber(number);
-  }
-}
-
 inline void setStrokes(vtkFreeFormDeformation* filter, const std::vector<Stroke>& strokes)
 {
-  setStrokeNumbers(filter, numbersFromStrokes(strokes));
+  filter->SetStrokeNumbers(numbersFromStrokes(strokes));
 }
 
 // The deformation attached to a filter's output.

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that light falls on the bent surface as it falls on the surface of the baked volume: the
 # normals differ by less than 3 degrees on average. A red, a green and a blue light along the
-# three axes show the whole normal in one picture: the pixel is (|x|, |y|, |z|).
+# three axes show the whole normal in one picture: the pixel is (|x|, |y|, |z|). Proves, too, that
+# the glints of several lights on a ball are those of Phong's formula.
 import numpy
 from brainshift_testing import (ball, load_plugin, picture, run_tests, show_volume, view_along,
                                 volume, voxels)
@@ -14,6 +15,7 @@ from paraview.simple import BakeDeformation, Delete, FreeFormDeformation  # noqa
 SIZE = 140           # edge of the picture, pixels
 PIXELS_APART = 3     # of those whose normals are compared
 LARGEST_ANGLE = 3.0  # mean, degrees
+SHINE, POWER = 0.8, 6.0  # of the material with glints
 SIDE = 49
 MIDDLE = (24.0, 24.0, 24.0)
 COLORS = [0, 1, 1, 1, 100, 1, 1, 1]
@@ -26,11 +28,17 @@ def bent(source):
         + brainshift.stamp((10, 24, 26), MIDDLE, 9.0, major=24.0, minor=20.0)))
 
 
-def light_along_axes(view):
+def light_scene(view):
+    """The renderer of a view, without any light."""
     view.UseLight = 0
     view.SMProxy.StillRender()
     renderer = view.GetClientSideObject().GetRenderer()
     renderer.GetLights().RemoveAllItems()
+    return renderer
+
+
+def light_along_axes(view):
+    renderer = light_scene(view)
     for axis in numpy.eye(3):
         light = vtkLight()
         light.SetLightTypeToSceneLight()
@@ -104,6 +112,55 @@ def test_drawn_normals_are_those_of_the_baked_surface():
             assert len(expected) > 200
             assert angle < LARGEST_ANGLE, (normals, angle)
             assert without > 2 * LARGEST_ANGLE, ("the bend is too weak to tell", without)
+
+
+def glints(display, view, lights):
+    """What a black ball shows in the light of some lights, and the formula's answer: one row each
+    for some pixels."""
+    eye = numpy.array(view.CameraPosition[:])
+    image = picture(view)
+    shown, expected = [], []
+    for row in range(0, SIZE, PIXELS_APART):
+        for column in range(0, SIZE, PIXELS_APART):
+            position = brainshift.pick(display, view, column, row)
+            if position is None:
+                continue
+            normal, towards_eye = (v / numpy.linalg.norm(v) for v in (
+                numpy.array(position) - MIDDLE, eye - position))
+            light = numpy.zeros(3)
+            for towards, color in lights:
+                towards = towards / numpy.linalg.norm(towards)
+                mirrored = 2.0 * (normal @ towards) * normal - towards
+                light += numpy.array(color) * max(mirrored @ towards_eye, 0.0) ** POWER
+            shown.append(image[row, column])
+            expected.append((SHINE * light).clip(0.0, 1.0))
+    return numpy.array(shown), numpy.array(expected)
+
+
+def test_each_light_has_its_glint():
+    lights = [(numpy.array((0.5, 0.2, 1.0)), (1.0, 0.2, 0.0)),
+              (numpy.array((-0.6, 0.4, 0.8)), (0.0, 0.5, 1.0))]
+    view = view_along((0.1, -0.2, -1.0), MIDDLE, 110.0, size=SIZE)
+    display = show_volume(volume(ball(side=SIDE, radius=13.0, edge=18.0)), view, "Deformed Volume",
+                          [0, 0, 0, 0, 100, 0, 0, 0], SURFACE, shade=True)
+    display.SampleDistance = 0.1
+    display.Ambient, display.Diffuse = 0.0, 0.0
+    display.Specular, display.SpecularPower = SHINE, POWER
+    renderer = light_scene(view)
+    for towards, color in lights:
+        light = vtkLight()
+        light.SetLightTypeToSceneLight()
+        light.SetPosition(*towards)
+        light.SetFocalPoint(0, 0, 0)
+        light.SetSpecularColor(*color)
+        renderer.AddLight(light)
+    shown, expected = glints(display, view, lights)
+    Delete(view)
+    difference = numpy.abs(shown - expected).mean()
+    print(f"  glints differ by {100 * difference:.2f} %; {len(shown)} points, brightest "
+          f"{expected.max(axis=0)}", flush=True)
+    assert len(shown) > 200 and (expected.max(axis=0) > 0.3).all()
+    assert difference < 0.01, difference
 
 
 run_tests(globals())
