@@ -91,6 +91,14 @@ std::string triple(const glm::ivec3& numbers)
     std::to_string(numbers.z);
 }
 
+// An array with these values.
+vtkDoubleArray* filled(vtkDoubleArray* array, const std::vector<double>& values)
+{
+  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  return array;
+}
+
 // What keeps this volume from being deformed; empty if nothing does.
 std::string problemOf(const Grid& volume)
 {
@@ -438,24 +446,12 @@ int vtkFreeFormDeformation::GetShortenedStrokes() const
 
 vtkDoubleArray* vtkFreeFormDeformation::GetStrokeShares()
 {
-  State& state = *this->Internal;
-  state.StrokeShares->Initialize();
-  for (const double share : state.StrokeReplay.shares())
-  {
-    state.StrokeShares->InsertNextValue(share);
-  }
-  return state.StrokeShares;
+  return filled(this->Internal->StrokeShares, this->Internal->StrokeReplay.shares());
 }
 
 vtkDoubleArray* vtkFreeFormDeformation::GetStrokeReaches()
 {
-  State& state = *this->Internal;
-  state.StrokeReaches->Initialize();
-  for (const double reach : state.StrokeReplay.reaches())
-  {
-    state.StrokeReaches->InsertNextValue(reach);
-  }
-  return state.StrokeReaches;
+  return filled(this->Internal->StrokeReaches, this->Internal->StrokeReplay.reaches());
 }
 
 int vtkFreeFormDeformation::GetAppliedStrokes() const

@@ -217,10 +217,11 @@ std::string problemOfGrid(const Grid& grid)
     problem << "spacing is " << spacing.x << " " << spacing.y << " " << spacing.z
             << " mm; it must be from " << ShortestSpacing << " to " << LongestSpacing << " mm";
   }
-  else if (!isFinite(origin))
+  else if (!grid.placesItsPoints())
   {
     problem << "origin is " << origin.x << " " << origin.y << " " << origin.z
-            << " mm; its numbers must be finite";
+            << " mm; it must be finite and at most " << FarthestOriginSpacings
+            << " spacings away from 0";
   }
   else if (!isFinite(grid.direction[0]) || !isFinite(grid.direction[1]) ||
     !isFinite(grid.direction[2]))

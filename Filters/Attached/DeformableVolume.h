@@ -53,8 +53,8 @@ VTKBRAINSHIFTFILTERS_EXPORT Grid gridOf(vtkImageData* image);
 
 /**
  * What is wrong with the place of a grid, as the end of a sentence about it, without a full stop:
- * its spacing must be from ShortestSpacing to LongestSpacing, its other numbers must be finite. It
- * is empty if nothing is wrong.
+ * its spacing must be from ShortestSpacing to LongestSpacing, its origin at most
+ * FarthestOriginSpacings away from 0, its other numbers finite. It is empty if nothing is wrong.
  */
 VTKBRAINSHIFTFILTERS_EXPORT std::string problemOfGrid(const Grid& grid);
 

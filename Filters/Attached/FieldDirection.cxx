@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Attached/FieldDirection.h"
 
-#include "vtkDataObject.h"
-#include "vtkFieldData.h"
-#include "vtkNew.h"
-#include "vtkStringArray.h"
+#include "Filters/Attached/FieldWord.h"
 
 namespace brainshift
 {
@@ -17,21 +14,17 @@ constexpr const char* BackwardName = "backward";
 
 void nameDirection(vtkDataObject* field, Direction direction)
 {
-  vtkNew<vtkStringArray> name;
-  name->SetName(ArrayName);
-  name->InsertNextValue(direction == Direction::Forward ? ForwardName : BackwardName);
-  field->GetFieldData()->AddArray(name);
+  setFieldWord(field, ArrayName, direction == Direction::Forward ? ForwardName : BackwardName);
 }
 
 void forgetDirection(vtkDataObject* field)
 {
-  field->GetFieldData()->RemoveArray(ArrayName);
+  setFieldWord(field, ArrayName, "");
 }
 
 std::optional<Direction> directionOf(vtkDataObject* field)
 {
-  auto* array = vtkStringArray::SafeDownCast(field->GetFieldData()->GetAbstractArray(ArrayName));
-  const std::string name = array && array->GetNumberOfValues() > 0 ? array->GetValue(0) : "";
+  const std::string name = fieldWordOf(field, ArrayName);
   if (name == ForwardName)
   {
     return Direction::Forward;

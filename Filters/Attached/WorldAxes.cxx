@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Attached/WorldAxes.h"
 
-#include "vtkDataObject.h"
-#include "vtkFieldData.h"
-#include "vtkNew.h"
-#include "vtkStringArray.h"
-
-#include <string>
+#include "Filters/Attached/FieldWord.h"
 
 namespace brainshift
 {
@@ -19,22 +14,15 @@ constexpr const char* LPSName = "LPS";
 
 void nameWorldAxes(vtkDataObject* volume, WorldAxes axes)
 {
-  volume->GetFieldData()->RemoveArray(ArrayName);
-  if (axes != WorldAxes::Unknown)
-  {
-    vtkNew<vtkStringArray> name;
-    name->SetName(ArrayName);
-    name->InsertNextValue(axes == WorldAxes::RAS ? RASName : LPSName);
-    volume->GetFieldData()->AddArray(name);
-  }
+  setFieldWord(volume, ArrayName,
+    axes == WorldAxes::RAS     ? RASName
+      : axes == WorldAxes::LPS ? LPSName
+                               : "");
 }
 
 WorldAxes worldAxesOf(vtkDataObject* volume)
 {
-  auto* array = volume
-    ? vtkStringArray::SafeDownCast(volume->GetFieldData()->GetAbstractArray(ArrayName))
-    : nullptr;
-  const std::string name = array && array->GetNumberOfValues() > 0 ? array->GetValue(0) : "";
+  const std::string name = fieldWordOf(volume, ArrayName);
   if (name == RASName)
   {
     return WorldAxes::RAS;

@@ -6,6 +6,7 @@
 #ifndef BrainShift_Grid_h
 #define BrainShift_Grid_h
 
+#include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
@@ -14,6 +15,9 @@
 
 namespace brainshift
 {
+/** A grid's origin lies at most so many spacings from 0: double precision still places its points. */
+constexpr double FarthestOriginSpacings = 1e9;
+
 /**
  * Points in rows along three axes. Grid coordinates count points from the first one along the
  * grid's own axes. World coordinates are mm.
@@ -24,6 +28,15 @@ struct Grid
   glm::dvec3 origin{ 0.0 };    ///< mm, world position of point (0, 0, 0)
   glm::dvec3 spacing{ 1.0 };   ///< mm between neighbours along the grid's own axes; above 0
   glm::dmat3 direction{ 1.0 }; ///< columns: the grid's axes in world space; a rotation
+
+  /** Whether the origin is near enough for the points to have places of their own. */
+  bool placesItsPoints() const
+  {
+    const double spacing = glm::min(this->spacing.x, glm::min(this->spacing.y, this->spacing.z));
+    const glm::dvec3 away = glm::abs(this->origin);
+    return away.x <= FarthestOriginSpacings * spacing &&
+      away.y <= FarthestOriginSpacings * spacing && away.z <= FarthestOriginSpacings * spacing;
+  }
 
   /** Number of points. */
   std::size_t count() const

@@ -199,6 +199,19 @@ std::string affineProblem(const glm::dmat4& worldFromVoxel)
       return problem.str();
     }
   }
+  double spacingMm = glm::length(glm::dvec3(worldFromVoxel[0]));
+  double awayMm = 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    spacingMm = std::min(spacingMm, glm::length(glm::dvec3(worldFromVoxel[axis])));
+    awayMm = std::max(awayMm, std::abs(worldFromVoxel[3][axis]));
+  }
+  if (awayMm > FarthestOriginSpacings * spacingMm)
+  {
+    problem << "the offset of the affine is " << awayMm << " mm; it must be at most "
+            << FarthestOriginSpacings << " times the voxel's size, " << spacingMm << " mm";
+    return problem.str();
+  }
   const double determinant = glm::determinant(unitColumns(worldFromVoxel));
   if (!(std::abs(determinant) >= SmallestDeterminant))
   {

@@ -45,12 +45,10 @@ std::string valueOf(const Lines& lines, const std::vector<std::string>& keys)
   return {};
 }
 
-// All numbers in a text, with brackets and commas between them. What is no number ends the list
-// with one that no place takes: half of a number must not count as a number.
-std::vector<double> numbersIn(std::string text)
+// All numbers in a text. What is no number ends the list with one that no place takes: half of a
+// number must not count as a number.
+std::vector<double> numbersIn(const std::string& text)
 {
-  std::replace_if(
-    text.begin(), text.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
   std::istringstream stream(text);
   std::vector<double> numbers;
   for (double number; stream >> number;)
@@ -60,6 +58,28 @@ std::vector<double> numbersIn(std::string text)
   if (!stream.eof())
   {
     numbers.push_back(std::numeric_limits<double>::quiet_NaN());
+  }
+  return numbers;
+}
+
+// All numbers of vectors such as "(1,0,0) (0,1,0)". None if anything else stands there.
+std::vector<double> vectorsIn(const std::string& text)
+{
+  std::istringstream stream(text);
+  std::vector<double> numbers;
+  for (char open = 0; stream >> open;)
+  {
+    double number[3];
+    char after[3];
+    for (int i = 0; i < 3; ++i)
+    {
+      stream >> number[i] >> after[i];
+    }
+    if (!stream || open != '(' || after[0] != ',' || after[1] != ',' || after[2] != ')')
+    {
+      return {};
+    }
+    numbers.insert(numbers.end(), number, number + 3);
   }
   return numbers;
 }
@@ -95,6 +115,12 @@ std::string place(const std::vector<double>& sides, const std::vector<double>& o
     {
       return "has an origin that is not finite, or a spacing that is 0 or not finite";
     }
+  }
+  if (!grid.placesItsPoints())
+  {
+    std::ostringstream problem;
+    problem << "has an origin more than " << FarthestOriginSpacings << " spacings away from 0";
+    return problem.str();
   }
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -180,10 +206,12 @@ std::string fromNRRD(const Lines& lines, TextHeader& header)
   {
     return "has the endian '" + endian + "'; it must be little or big";
   }
-  std::string directions = valueOf(lines, { "space directions" });
-  directions.erase(0, directions.find('(') == std::string::npos ? 0 : directions.find('('));
-  std::vector<double> steps = numbersIn(directions);
-  std::vector<double> origin = numbersIn(valueOf(lines, { "space origin" }));
+  const std::string directions = valueOf(lines, { "space directions" });
+  const std::string none = "none"; // the numbers of a point have no direction
+  const bool isOfPoints = directions.compare(0, none.size(), none) == 0;
+  const std::vector<double> steps =
+    vectorsIn(isOfPoints ? directions.substr(none.size()) : directions);
+  const std::vector<double> origin = vectorsIn(valueOf(lines, { "space origin" }));
   const std::string space = valueOf(lines, { "space" });
   if (space == "right-anterior-superior" || space == "RAS")
   {

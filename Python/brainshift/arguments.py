@@ -14,9 +14,17 @@ def vector(name, values):
     return numbers
 
 
-def positive(name, value, unit=" mm"):
-    """`value` as a finite number above 0."""
+def positive(name, value):
+    """`value` in mm as a finite number above 0."""
     number = float(value)
     if not (math.isfinite(number) and number > 0.0):
-        raise ValueError(f"{name} is {number}{unit}; it must be above 0{unit}")
+        raise ValueError(f"{name} is {number} mm; it must be above 0 mm")
+    return number
+
+
+def at_least(limit, name, value):
+    """`value` as a finite number that is `limit` or more."""
+    number = float(value)
+    if not (math.isfinite(number) and number >= limit):
+        raise ValueError(f"{name} is {number}; it must be at least {limit}")
     return number

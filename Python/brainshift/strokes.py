@@ -3,11 +3,14 @@
 
 import math
 
-from .arguments import positive
+from .arguments import at_least, positive
 from .arguments import vector as _vector
 
 #: The first number of a stroke: which tool made it.
 MOVE, SOFT, STAMP = 0, 1, 2
+
+#: Least `sigma` of Soft and Stamp.
+SMALLEST_SIGMA = 0.001
 
 #: How many numbers one stroke has.
 NUMBERS_PER_STROKE = 14
@@ -45,14 +48,15 @@ def soft(anchor, vector, radius, sigma=0.5):
     - `vector`: three numbers in mm, the displacement at the centre. Control points farther out
       move less, by a Gaussian of their distance that falls smoothly to 0 at `radius`.
     - `radius`: above 0 mm.
-    - `sigma`: above 0, the width of the Gaussian as a fraction of `radius`. The default is 0.5.
+    - `sigma`: at least 0.001, the width of the Gaussian as a fraction of `radius`. The default is
+      0.5.
 
     Returns a tuple of 14 numbers.
 
-    Raises `ValueError` if an argument is not finite or not above its limit.
+    Raises `ValueError` if an argument is not finite or not within its limit.
     """
     return _stroke(SOFT, _vector("anchor", anchor), _vector("vector", vector), (0.0, 0.0, 0.0),
-                   (positive("radius", radius), 0.0, positive("sigma", sigma, "")))
+                   (positive("radius", radius), 0.0, at_least(SMALLEST_SIGMA, "sigma", sigma)))
 
 
 def stamp(anchor, toward, amount, major=40.0, minor=25.0, sigma=0.5):
@@ -68,11 +72,12 @@ def stamp(anchor, toward, amount, major=40.0, minor=25.0, sigma=0.5):
       interest. Below 0 pushes tissue towards it.
     - `major`: above 0 mm, the radius along the long axis. The default is 40 mm.
     - `minor`: above 0 mm, the radius across the long axis. The default is 25 mm.
-    - `sigma`: above 0, the width of the Gaussian as a fraction of the radii. The default is 0.5.
+    - `sigma`: at least 0.001, the width of the Gaussian as a fraction of the radii. The default is
+      0.5.
 
     Returns a tuple of 14 numbers.
 
-    Raises `ValueError` if an argument is not finite or not above its limit, or if `anchor` and
+    Raises `ValueError` if an argument is not finite or not within its limit, or if `anchor` and
     `toward` are one position.
     """
     anchor = _vector("anchor", anchor)
@@ -87,4 +92,4 @@ def stamp(anchor, toward, amount, major=40.0, minor=25.0, sigma=0.5):
     axis = tuple(-value / length for value in away)
     return _stroke(STAMP, anchor, displacement, axis,
                    (positive("major", major), positive("minor", minor),
-                    positive("sigma", sigma, "")))
+                    at_least(SMALLEST_SIGMA, "sigma", sigma)))

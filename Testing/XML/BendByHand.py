@@ -13,11 +13,11 @@ import traceback
 import brainshift
 import test_hand as hand
 from brainshift_testing import mean_difference, structural_similarity
-from paraview import servermanager, simple
+from paraview import simple
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
+from window_testing import deformation, edit, strokes, undo_labels
 
-NUMBERS = brainshift.NUMBERS_PER_STROKE
 MAJOR = 10  # number of a stroke: its major radius
 SIZE = (300, 300)  # of pictures, pixels
 
@@ -29,21 +29,6 @@ def scratch(name):
 # In the window ------------------------------------------------------------------------------------
 
 told = {"failures": []}
-
-
-def strokes():
-    numbers = list(deformation().Strokes)
-    assert len(numbers) % NUMBERS == 0, len(numbers)
-    return [numbers[i:i + NUMBERS] for i in range(0, len(numbers), NUMBERS)]
-
-
-def deformation():
-    return simple.FindSource("bent")
-
-
-def undo_labels():
-    stack = servermanager.vtkSMProxyManager.GetProxyManager().GetUndoStackBuilder().GetUndoStack()
-    return [stack.GetUndoSetLabel(i) for i in range(stack.GetNumberOfUndoSets())]
 
 
 def amount(stroke):
@@ -125,13 +110,6 @@ def has(*tools):
 
 def first_is(millimetres):
     assert math.isclose(amount(strokes()[0]), millimetres, rel_tol=1e-9), strokes()
-
-
-def edit(action, *tools):
-    """Undo or Redo; then there are strokes of these tools."""
-    assert hand.action("actionEdit" + action)
-    hand.wait()
-    has(*tools)
 
 
 def stamp():

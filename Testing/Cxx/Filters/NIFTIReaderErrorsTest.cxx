@@ -151,6 +151,9 @@ TEST(NIFTIReaderErrors, AffinesThatCannotBe)
   expectFailure(withSform(sform).bytes(), "column 2 of the affine has length 0 mm");
   sform[2] = sform[0] + sform[1];
   expectFailure(withSform(sform).bytes(), "singular");
+  sform = glm::dmat4(1.0);
+  sform[3][0] = -3e16;
+  expectFailure(withSform(sform).bytes(), "offset of the affine is 3e+16 mm; it must be at most");
   NIFTITestFile file;
   file.slope = 1.0;
   file.intercept = std::nan("");

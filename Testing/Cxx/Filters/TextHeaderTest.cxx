@@ -146,6 +146,39 @@ TEST(TextHeader, HalfOfANumberIsNoNumber)
   EXPECT_NE(problemOf("half.nrrd", nrrd, field), "");
 }
 
+TEST(TextHeader, VectorsAreWrittenAsVectors)
+{
+  const std::string good = Nrrd + "endian: little\n\n" + numbers(false);
+  DirectedField field;
+  ASSERT_EQ(problemOf("good.nrrd", good, field), "");
+  const std::size_t directions = good.find("none");
+  ASSERT_NE(directions, std::string::npos);
+  for (const std::string broken : { "nine", "none(", "\x18one", "" })
+  {
+    std::string header = good;
+    header.replace(directions, 4, broken);
+    const bool isEmpty = broken.empty();
+    EXPECT_EQ(problemOf("broken.nrrd", header, field).empty(), isEmpty) << broken;
+  }
+  std::string header = good;
+  header.replace(header.find("(0,0,0)"), 7, "0 0 0");
+  EXPECT_NE(problemOf("origin.nrrd", header, field), "");
+}
+
+TEST(TextHeader, AnOriginTooFarForItsSpacingIsRefused)
+{
+  DirectedField field;
+  for (const auto& [origin, isFar] :
+    { std::pair("(-33885387783937907,-50,-68)", true), std::pair("(-500000,40,3e5)", false) })
+  {
+    std::string header = Nrrd + "endian: little\n\n" + numbers(false);
+    header.replace(header.find("(0,0,0)"), 7, origin);
+    const std::string problem = problemOf("far.nrrd", header, field);
+    EXPECT_EQ(problem.find("more than 1e+09 spacings away from 0") != std::string::npos, isFar)
+      << problem;
+  }
+}
+
 TEST(TextHeader, ErrorsShowPrintableWords)
 {
   DirectedField field;

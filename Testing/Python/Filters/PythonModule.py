@@ -40,7 +40,8 @@ def test_bad_arguments_are_named():
     expect_refused(["anchor", "2 numbers", "3"], brainshift.move, (1, 2), (0, 0, 1))
     expect_refused(["vector", "finite"], brainshift.move, (1, 2, 3), (0, 0, math.nan))
     expect_refused(["radius", "-5", "above 0 mm"], brainshift.soft, (1, 2, 3), (0, 0, 1), -5)
-    expect_refused(["sigma", "0.0", "above 0"], brainshift.soft, (1, 2, 3), (0, 0, 1), 5, sigma=0)
+    expect_refused(["sigma", "0.0", "at least 0.001"],
+                   brainshift.soft, (1, 2, 3), (0, 0, 1), 5, sigma=0)
     expect_refused(["major", "inf"], brainshift.stamp, (1, 2, 3), (0, 0, 0), 5, major=math.inf)
     expect_refused(["minor", "0.0"], brainshift.stamp, (1, 2, 3), (0, 0, 0), 5, minor=0)
     expect_refused(["toward", "differ"], brainshift.stamp, (1, 2, 3), (1, 2, 3), 5)
