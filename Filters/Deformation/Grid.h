@@ -15,7 +15,9 @@
 
 namespace brainshift
 {
-/** A grid's origin lies at most so many spacings from 0: double precision still places its points. */
+/**
+ * A grid's origin lies at most so many spacings from 0. Double precision still places its points.
+ */
 constexpr double FarthestOriginSpacings = 1e9;
 
 /**
