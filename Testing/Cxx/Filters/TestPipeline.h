@@ -94,6 +94,10 @@ public:
     filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->Collect);
   }
 
+  ~Errors() { this->Collect->SetCallback(nullptr); } // a filter that lives on keeps the command
+  Errors(const Errors&) = delete;
+  Errors& operator=(const Errors&) = delete;
+
   // What was said since the last call.
   std::string take()
   {
