@@ -222,6 +222,7 @@ def parallel_view(towards_eye, focus, half_height, size):
     view.Background = (0.0, 0.0, 0.0)
     view.OrientationAxesVisibility = 0
     view.CenterAxesVisibility = 0
+    simple.Render(view)  # the first picture of a session finds a camera of its own
     view.CameraFocalPoint = focus
     view.CameraPosition = focus + 400.0 * numpy.array(towards_eye)
     view.CameraViewUp = (0, 0, 1)
@@ -241,6 +242,7 @@ def show_red_green(compare, plane, towards_eye, size):
         setattr(display, f"Show{other}", int(other == plane))
     display.SlicePosition = CAVITY_CENTRE
     display.OrientationMarks = 1
+    display.WorldAxes = "RAS"  # as in the head's file; what makes the cavity drops the word
     display.SliceComparison = "Red and green"
     color = simple.GetColorTransferFunction("Brain", display, separate=True)
     color.ColorSpace = "RGB"
