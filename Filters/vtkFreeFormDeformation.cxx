@@ -53,6 +53,7 @@ struct vtkFreeFormDeformation::State
   Segmentation LastSegmentation;
   std::string TooFine; // strokes for the lattice: a sentence
   std::vector<std::string> Warned;
+  bool WarnedOfMask = false; // that it holds strokes back
 };
 
 namespace
@@ -399,12 +400,9 @@ void vtkFreeFormDeformation::TellWarnings()
     warnings.push_back("The mask leaves nothing to move: it is nowhere wider than two nodes of the "
                        "refined field. Raise LatticeDimensions or Samples");
   }
-  for (const std::string& warning : { state.TooFine, state.StrokeReplay.strokesInFeather() })
+  if (!state.TooFine.empty())
   {
-    if (!warning.empty())
-    {
-      warnings.push_back(warning);
-    }
+    warnings.push_back(state.TooFine);
   }
   for (const std::string& warning : warnings)
   {
@@ -414,6 +412,13 @@ void vtkFreeFormDeformation::TellWarnings()
     }
   }
   state.Warned = warnings;
+  // More strokes of this kind do not interrupt again: the list of strokes marks each of them.
+  const std::string held = state.StrokeReplay.strokesInFeather();
+  if (!held.empty() && !state.WarnedOfMask)
+  {
+    vtkWarningMacro(<< held << ".");
+  }
+  state.WarnedOfMask = !held.empty();
 }
 
 double vtkFreeFormDeformation::GetMaximumDisplacement()

@@ -66,6 +66,9 @@ def test_growth_lets_the_edge_move_and_the_filter_names_it():
         filter.UpdatePipeline()
         filter.Strength = 0.5
         filter.UpdatePipeline()
+        filter.Strokes = 2 * stamp  # one more does not interrupt again
+        filter.UpdatePipeline()
+        filter.Strokes = stamp
     words = "The mask holds back the tissue at the anchor of stroke 0"
     assert said.text.count(words) == 1, said.text
     with messages() as said:
