@@ -88,15 +88,15 @@ void spread(NodeImage<float>& squared, const glm::dvec3& spacing, double reachMm
   {
     // Squared distances add up axis by axis, so each looks along its own rows only.
     const NodeImage<float> before = squared;
-    const int reach =
-      static_cast<int>(std::min(std::ceil(reachMm / spacing[axis]), last[axis] + 0.0));
+    const double steps = std::ceil(reachMm / spacing[axis]);
+    const int reach = static_cast<int>(std::min(steps, static_cast<double>(last[axis])));
     parallelFor(0, squared.count.z, 1, [&](std::int64_t begin, std::int64_t end) {
       forEachIndex({ 0, 0, static_cast<int>(begin) }, { last.x, last.y, static_cast<int>(end) - 1 },
         [&](const glm::ivec3& at) {
           float& nearest = squared.values[squared.offset(at)];
           glm::ivec3 other = at;
-          const int end = std::min(at[axis] + reach, last[axis]);
-          for (other[axis] = std::max(at[axis] - reach, 0); other[axis] <= end; ++other[axis])
+          const int furthest = std::min(at[axis] + reach, last[axis]);
+          for (other[axis] = std::max(at[axis] - reach, 0); other[axis] <= furthest; ++other[axis])
           {
             const float away = static_cast<float>((other[axis] - at[axis]) * spacing[axis]);
             nearest = std::min(nearest, before.values[before.offset(other)] + away * away);
