@@ -12,8 +12,9 @@
 
 namespace
 {
-constexpr double IdentityTolerance = 1e-6;   // rotations below are float32 rounding of the header
-constexpr double HalfTurnTolerance = 1e-7;   // the same for 1 - |quaternion|^2
+constexpr double IdentityTolerance = 1e-6; // rotations below are float32 rounding of the header
+constexpr double HalfTurnTolerance = 1e-7; // the same for 1 - |quaternion|^2
+constexpr double LargestSpacingMm = 1e9;
 constexpr double SmallestSpacingMm = 1e-9;   // below: a zero column that was rounded
 constexpr double SmallestDeterminant = 1e-6; // of the unit axes; flatter is singular
 
@@ -192,10 +193,11 @@ std::string affineProblem(const glm::dmat4& worldFromVoxel)
       }
     }
     const double spacingMm = glm::length(glm::dvec3(worldFromVoxel[column]));
-    if (column < 3 && !(spacingMm >= SmallestSpacingMm))
+    if (column < 3 && !(spacingMm >= SmallestSpacingMm && spacingMm <= LargestSpacingMm))
     {
       problem << "column " << column << " of the affine has length " << spacingMm
-              << " mm; it must have at least " << SmallestSpacingMm << " mm";
+              << " mm; it must have from " << SmallestSpacingMm << " to " << LargestSpacingMm
+              << " mm";
       return problem.str();
     }
   }

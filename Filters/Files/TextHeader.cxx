@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Files/TextHeader.h"
 
+#include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Files/PlainFile.h"
 
 #include <glm/common.hpp>
@@ -8,6 +9,7 @@
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -51,13 +53,18 @@ std::vector<double> numbersIn(const std::string& text)
 {
   std::istringstream stream(text);
   std::vector<double> numbers;
-  for (double number; stream >> number;)
+  for (std::string word; stream >> word;)
   {
+    const std::size_t plus = word[0] == '+' ? 1 : 0;
+    double number = 0.0;
+    const char* const end = word.data() + word.size();
+    const std::from_chars_result found = std::from_chars(word.data() + plus, end, number);
+    if (found.ec != std::errc() || found.ptr != end)
+    {
+      numbers.push_back(std::numeric_limits<double>::quiet_NaN());
+      break;
+    }
     numbers.push_back(number);
-  }
-  if (!stream.eof())
-  {
-    numbers.push_back(std::numeric_limits<double>::quiet_NaN());
   }
   return numbers;
 }
@@ -116,11 +123,10 @@ std::string place(const std::vector<double>& sides, const std::vector<double>& o
       return "has an origin that is not finite, or a spacing that is 0 or not finite";
     }
   }
-  if (!grid.placesItsPoints())
+  const std::string wrong = problemOfGrid(grid);
+  if (!wrong.empty())
   {
-    std::ostringstream problem;
-    problem << "has an origin more than " << FarthestOriginSpacings << " spacings away from 0";
-    return problem.str();
+    return "lies where no field can: its " + wrong;
   }
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -276,6 +282,17 @@ bool splitLines(const std::string& text, bool isNRRD, Lines& lines, std::size_t&
   return text.size() < LongestHeader;
 }
 
+std::string controlProblem(const std::string& header)
+{
+  const auto isControl = [](char c) {
+    return (c >= 0 && c < ' ' && c != '\t' && c != '\r' && c != '\n') || c == '\x7f';
+  };
+  const auto found = std::find_if(header.begin(), header.end(), isControl);
+  return found == header.end() ? std::string()
+                               : "has a header with the control character " +
+      std::to_string(static_cast<int>(*found)) + "; a header must be text";
+}
+
 std::string skipProblem(const Lines& lines)
 {
   for (const char* key : { "HeaderSize", "byte skip", "byteskip", "line skip", "lineskip" })
@@ -311,6 +328,7 @@ std::string readTextHeader(const std::string& fileName, TextHeader& header)
   {
     problem = "has no end of a header in its first " + std::to_string(LongestHeader) + " bytes";
   }
+  problem = problem.empty() ? controlProblem(text.substr(0, end)) : problem;
   problem = problem.empty() ? skipProblem(lines) : problem;
   if (!problem.empty())
   {

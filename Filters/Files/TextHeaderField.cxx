@@ -55,8 +55,17 @@ bool unpack(const std::vector<char>& packed, std::vector<char>& to)
     in += inBefore - stream.avail_in;
     out += outBefore - stream.avail_out;
   }
+  if (status == Z_OK) // what follows the numbers is their checksum
+  {
+    Bytef more = 0;
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + in));
+    stream.avail_in = static_cast<uInt>(std::min(Piece, packed.size() - in));
+    stream.next_out = &more;
+    stream.avail_out = 1;
+    status = inflate(&stream, Z_NO_FLUSH);
+  }
   inflateEnd(&stream);
-  return out == to.size();
+  return out == to.size() && status != Z_DATA_ERROR;
 }
 
 // Why there is too little memory for the field; the end of a sentence, empty if there is enough.

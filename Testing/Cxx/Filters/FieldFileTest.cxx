@@ -270,6 +270,10 @@ TEST(FieldFile, PackedAndForeignNumbersAreRead)
     DirectedField found;
     EXPECT_EQ(readFieldFile(scratch(name), found), "");
     expectSameField(found, field, 1e-4);
+    std::string broken = bytes;
+    broken[broken.size() - 3] ^= 1; // in the checksum: the numbers are whole, and may be others
+    std::ofstream(scratch(name), std::ios::binary) << broken;
+    EXPECT_NE(readFieldFile(scratch(name), found).find("damaged or too few"), std::string::npos);
     std::ofstream(scratch(name), std::ios::binary) << bytes.substr(0, bytes.size() - 200);
     EXPECT_NE(readFieldFile(scratch(name), found).find("damaged or too few"), std::string::npos);
   };

@@ -152,6 +152,9 @@ TEST(NIFTIReaderErrors, AffinesThatCannotBe)
   sform[2] = sform[0] + sform[1];
   expectFailure(withSform(sform).bytes(), "singular");
   sform = glm::dmat4(1.0);
+  sform[1][1] = 1e30;
+  expectFailure(withSform(sform).bytes(), "column 1 of the affine has length 1e+30 mm");
+  sform = glm::dmat4(1.0);
   sform[3][0] = -3e16;
   expectFailure(withSform(sform).bytes(), "offset of the affine is 3e+16 mm; it must be at most");
   NIFTITestFile file;

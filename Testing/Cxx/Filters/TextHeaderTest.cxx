@@ -129,8 +129,10 @@ TEST(TextHeader, TheSizeOfAVoxelIsItsSpacingIfThereIsNoOther)
 TEST(TextHeader, HalfOfANumberIsNoNumber)
 {
   const std::string end = "ElementDataFile = LOCAL\n" + numbers(false);
-  for (const std::string broken : { "ElementSpacing = 1 1 1/.5\n", "Offset = 0 0 6f5\n",
-         "TransformMatrix = x\n", "TransformMatrix = 1 0 0 0 1 0 0 0 1;5\n" })
+  for (const std::string broken :
+    { "ElementSpacing = 1 1 1/.5\n", "Offset = 0 0 6f5\n", "TransformMatrix = x\n",
+      "TransformMatrix = 1 0 0 0 1 0 0 0 1;5\n", "ElementSpacing = 1 1+1\n",
+      "ElementSpacing = 1.5.5 1\n", "ElementSpacing = 1 1 1e20\n", "Comment = a\x01b\n" })
   {
     const bool isOffset = broken[0] == 'O';
     std::string header = Meta;
@@ -174,7 +176,7 @@ TEST(TextHeader, AnOriginTooFarForItsSpacingIsRefused)
     std::string header = Nrrd + "endian: little\n\n" + numbers(false);
     header.replace(header.find("(0,0,0)"), 7, origin);
     const std::string problem = problemOf("far.nrrd", header, field);
-    EXPECT_EQ(problem.find("more than 1e+09 spacings away from 0") != std::string::npos, isFar)
+    EXPECT_EQ(problem.find("at most 1e+09 spacings away from 0") != std::string::npos, isFar)
       << problem;
   }
 }
@@ -182,7 +184,7 @@ TEST(TextHeader, AnOriginTooFarForItsSpacingIsRefused)
 TEST(TextHeader, ErrorsShowPrintableWords)
 {
   DirectedField field;
-  const std::string bytes = "NRRD0004\nsizes: 3 \x8d\x01" + std::string(100000, 'x') + "\n\n";
+  const std::string bytes = "NRRD0004\nsizes: 3 \x8d\x8e" + std::string(100000, 'x') + "\n\n";
   const std::string problem = problemOf("bytes.nrrd", bytes, field);
   EXPECT_NE(problem.find("has the sizes 3 ??xxx"), std::string::npos) << problem;
   EXPECT_LT(problem.size(), scratch("bytes.nrrd").size() + 300);
