@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Files/NIFTIGeometry.h"
 
+#include "Filters/Attached/DeformableVolume.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -12,10 +14,8 @@
 
 namespace
 {
-constexpr double IdentityTolerance = 1e-6; // rotations below are float32 rounding of the header
-constexpr double HalfTurnTolerance = 1e-7; // the same for 1 - |quaternion|^2
-constexpr double LargestSpacingMm = 1e9;
-constexpr double SmallestSpacingMm = 1e-9;   // below: a zero column that was rounded
+constexpr double IdentityTolerance = 1e-6;   // rotations below are float32 rounding of the header
+constexpr double HalfTurnTolerance = 1e-7;   // the same for 1 - |quaternion|^2
 constexpr double SmallestDeterminant = 1e-6; // of the unit axes; flatter is singular
 
 glm::dmat3 unitColumns(const glm::dmat4& worldFromVoxel)
@@ -193,11 +193,10 @@ std::string affineProblem(const glm::dmat4& worldFromVoxel)
       }
     }
     const double spacingMm = glm::length(glm::dvec3(worldFromVoxel[column]));
-    if (column < 3 && !(spacingMm >= SmallestSpacingMm && spacingMm <= LargestSpacingMm))
+    if (column < 3 && !(spacingMm >= ShortestSpacing && spacingMm <= LongestSpacing))
     {
       problem << "column " << column << " of the affine has length " << spacingMm
-              << " mm; it must have from " << SmallestSpacingMm << " to " << LargestSpacingMm
-              << " mm";
+              << " mm; it must have from " << ShortestSpacing << " to " << LongestSpacing << " mm";
       return problem.str();
     }
   }

@@ -28,23 +28,19 @@ def bent(source):
         + brainshift.stamp((10, 24, 26), MIDDLE, 9.0, major=24.0, minor=20.0)))
 
 
-def light_scene(view):
-    """The renderer of a view, without any light."""
+def light_scene(view, lights):
+    """Lights a view from some directions, each with its colour, and by nothing else."""
     view.UseLight = 0
     view.SMProxy.StillRender()
     renderer = view.GetClientSideObject().GetRenderer()
     renderer.GetLights().RemoveAllItems()
-    return renderer
-
-
-def light_along_axes(view):
-    renderer = light_scene(view)
-    for axis in numpy.eye(3):
+    for towards, color in lights:
         light = vtkLight()
         light.SetLightTypeToSceneLight()
-        light.SetPosition(*axis)
+        light.SetPosition(*towards)
         light.SetFocalPoint(0, 0, 0)
-        light.SetDiffuseColor(*axis)
+        light.SetDiffuseColor(*color)
+        light.SetSpecularColor(*color)
         renderer.AddLight(light)
 
 
@@ -80,7 +76,7 @@ class Surface:
         display.VolumeNormalTexture = normals
         display.SampleDistance = 0.1  # mm: the sample drawn is where the pick says
         display.Ambient, display.Diffuse, display.Specular = 0.0, 1.0, 0.0
-        light_along_axes(view)
+        light_scene(view, [(axis, axis) for axis in numpy.eye(3)])
         image = picture(view)
         found = []
         for row in range(0, SIZE, PIXELS_APART):
@@ -146,14 +142,7 @@ def test_each_light_has_its_glint():
     display.SampleDistance = 0.1
     display.Ambient, display.Diffuse = 0.0, 0.0
     display.Specular, display.SpecularPower = SHINE, POWER
-    renderer = light_scene(view)
-    for towards, color in lights:
-        light = vtkLight()
-        light.SetLightTypeToSceneLight()
-        light.SetPosition(*towards)
-        light.SetFocalPoint(0, 0, 0)
-        light.SetSpecularColor(*color)
-        renderer.AddLight(light)
+    light_scene(view, lights)
     shown, expected = glints(display, view, lights)
     Delete(view)
     difference = numpy.abs(shown - expected).mean()
