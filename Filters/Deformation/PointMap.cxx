@@ -3,6 +3,7 @@
 
 #include "Filters/Deformation/Inversion.h"
 
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 namespace brainshift
@@ -15,15 +16,16 @@ struct CubicForward
 {
   const Grid& grid;
   int kernel;
-  const glm::vec3* inCells;
+  const glm::vec4* inCells;
   glm::dvec3 reference; // lattice coordinates
 
   void map(const glm::vec3& rest, glm::vec3& displacement, glm::mat3& jacobian) const
   {
     const glm::dvec3 position = this->reference + glm::dvec3(rest);
-    displacement = cubicDisplacement(this->grid.dimensions, this->kernel, this->inCells, position);
-    jacobian =
-      glm::mat3(1.0f) + cubicGradient(this->grid.dimensions, this->kernel, this->inCells, position);
+    const CubicValue value =
+      cubicValue(this->grid.dimensions, this->kernel, this->inCells, position);
+    displacement = value.displacement;
+    jacobian = glm::mat3(1.0f) + value.gradient;
   }
 };
 }
@@ -32,8 +34,11 @@ PointMap::PointMap(const Lattice& lattice, Inverse inverse)
   : LatticeGrid(lattice.grid)
   , Kernel(lattice.kernel)
   , Backward(inverse)
-  , InCells(displacementsInCells(lattice))
 {
+  for (const glm::vec3& displacement : displacementsInCells(lattice))
+  {
+    this->InCells.emplace_back(displacement, 0.0f);
+  }
   if (lattice.mask)
   {
     this->Masked = refine(lattice, lattice.mask->perCell - 1);
@@ -44,7 +49,8 @@ PointMap::PointMap(const Lattice& lattice, Inverse inverse)
 glm::vec3 PointMap::displacement(const glm::dvec3& position) const
 {
   return this->Masked.values.empty()
-    ? cubicDisplacement(this->LatticeGrid.dimensions, this->Kernel, this->InCells.data(), position)
+    ? cubicValue(this->LatticeGrid.dimensions, this->Kernel, this->InCells.data(), position)
+        .displacement
     : this->Masked.displacement(glm::vec3(position));
 }
 
@@ -81,6 +87,25 @@ glm::vec3 PointMap::offsetInCells(const glm::dvec3& deformed, const glm::vec3& g
   return Inversion<CubicForward>{ forward }.inverseOffset(glm::vec3(0.0f), guess);
 }
 
+glm::vec3 PointMap::offsetNear(const glm::dvec3& deformed, const glm::vec3& guess) const
+{
+  // A step leaves about the square of its length, times half of the map's curvature over its slope.
+  constexpr float shortStep = 0.004f;
+  constexpr float farFromFolding = 0.05f; // Jacobian determinant
+  if (this->Backward == Inverse::Negated || this->isTrilinear())
+  {
+    return this->offsetInCells(deformed, guess);
+  }
+  const CubicForward forward{ this->LatticeGrid, this->Kernel, this->InCells.data(), deformed };
+  Inversion<CubicForward> inversion{ forward };
+  const glm::vec3 miss = guess + inversion.displacementAt(guess);
+  const glm::mat3 slopes = inversion.jacobianThere();
+  const glm::vec3 step = inversion.inversionStep(slopes, miss);
+  return glm::dot(step, step) < shortStep * shortStep && glm::determinant(slopes) > farFromFolding
+    ? guess - step
+    : inversion.inverseOffset(glm::vec3(0.0f), guess);
+}
+
 glm::dmat3 PointMap::jacobian(const glm::dvec3& rest) const
 {
   const glm::dvec3 position = this->LatticeGrid.gridFromWorld(rest);
@@ -88,7 +113,8 @@ glm::dmat3 PointMap::jacobian(const glm::dvec3& rest) const
   if (this->Masked.values.empty())
   {
     inLattice +=
-      cubicGradient(this->LatticeGrid.dimensions, this->Kernel, this->InCells.data(), position);
+      cubicValue(this->LatticeGrid.dimensions, this->Kernel, this->InCells.data(), position)
+        .gradient;
   }
   else
   {

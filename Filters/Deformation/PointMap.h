@@ -15,6 +15,7 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <vector>
 
@@ -26,6 +27,15 @@ class BRAINSHIFT_DEFORMATION_EXPORT PointMap
 public:
   /** `inverse`: how restFromDeformed finds tissue. */
   explicit PointMap(const Lattice& lattice, Inverse inverse = Inverse::Exact);
+
+  /** The control points. */
+  const Grid& grid() const { return this->LatticeGrid; }
+
+  /** How restFromDeformed finds tissue. */
+  Inverse inverse() const { return this->Backward; }
+
+  /** Whether displacements are trilinear between masked nodes. Else they are cubic. */
+  bool isTrilinear() const { return !this->Masked.values.empty(); }
 
   /** Where tissue at a rest point goes. */
   glm::dvec3 deformedFromRest(const glm::dvec3& rest) const;
@@ -45,6 +55,12 @@ public:
    */
   glm::vec3 offsetInCells(const glm::dvec3& deformed, const glm::vec3& guess) const;
 
+  /**
+   * offsetInCells with a single step if the guess is near. Where the map does not fold, the two
+   * differ by less than 0.0005 lattice cells.
+   */
+  glm::vec3 offsetNear(const glm::dvec3& deformed, const glm::vec3& guess) const;
+
   /** Derivatives of deformedFromRest at a rest point: column a is d(deformed) / d(rest_a). */
   glm::dmat3 jacobian(const glm::dvec3& rest) const;
 
@@ -54,7 +70,7 @@ private:
   Grid LatticeGrid;
   int Kernel;
   Inverse Backward;
-  std::vector<glm::vec3> InCells; // displacements of the control points, lattice cells
+  std::vector<glm::vec4> InCells; // displacements of the control points, lattice cells; w: 0
   NodeField Masked;               // with a mask: what holds instead; else without nodes
 };
 }

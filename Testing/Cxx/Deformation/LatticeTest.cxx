@@ -334,6 +334,38 @@ TEST(Lattice, HoldsItsNearestValueOutside)
   }
 }
 
+// Two roads to one cubic, within the lattice and outside.
+TEST(Lattice, GivesValueAndGradientAtOnce)
+{
+  const Grid grid = plainGrid({ 5, 4, 6 }, glm::dvec3(1.0));
+  for (const int kernel : BothKernels)
+  {
+    const Lattice lattice = randomLattice(grid, kernel, 5, 1.0);
+    const glm::vec3* values = lattice.displacements.data();
+    std::vector<glm::vec4> padded;
+    padded.reserve(lattice.displacements.size());
+    for (const glm::vec3& value : lattice.displacements)
+    {
+      padded.emplace_back(value, 1e30f);
+    }
+    Random random(6);
+    for (int i = 0; i < 1000; ++i)
+    {
+      const glm::dvec3 position =
+        i < 50 ? glm::round(random.point(grid, 0.0)) : random.point(grid, 1.5);
+      const CubicValue both = cubicValue(grid.dimensions, kernel, padded.data(), position);
+      EXPECT_LT(glm::distance(
+                  both.displacement, cubicDisplacement(grid.dimensions, kernel, values, position)),
+        1e-5f);
+      const glm::mat3 gradient = cubicGradient(grid.dimensions, kernel, values, position);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        EXPECT_LT(glm::distance(both.gradient[axis], gradient[axis]), 2e-5f);
+      }
+    }
+  }
+}
+
 TEST(Lattice, PassesThroughItsControlPointsWithCatmullRom)
 {
   const Lattice lattice = randomLattice(obliqueGrid({ 5, 4, 6 }), KernelCatmullRom, 5, 1.0);

@@ -107,3 +107,28 @@ TEST(PointMap, NegatedSubtractsTheDisplacementAtTheDrawnPoint)
   }
   EXPECT_GT(largestDifference, 1.0) << "mm: the two must be told apart";
 }
+
+// One step from a guess nearby, against as many as it takes.
+TEST(PointMap, FindsOffsetsNearAGuess)
+{
+  for (const int kernel : { KernelCatmullRom, KernelBSpline })
+  {
+    for (unsigned int seed = 70; seed < 76; ++seed)
+    {
+      const Lattice lattice = randomLatticeWithoutFolds(obliqueGrid({ 6, 5, 7 }), kernel, seed);
+      const PointMap map(lattice);
+      Random random(seed);
+      float largest = 0.0f;
+      for (int i = 0; i < 5000; ++i)
+      {
+        const glm::dvec3 deformed =
+          random.between(glm::dvec3(-0.5), glm::dvec3(lattice.grid.dimensions) - 0.5);
+        const glm::vec3 known = map.offsetInCells(deformed, glm::vec3(0.0f));
+        const glm::vec3 guess =
+          known + glm::vec3(random.between(glm::dvec3(-0.02), glm::dvec3(0.02)));
+        largest = std::max(largest, glm::distance(map.offsetNear(deformed, guess), known));
+      }
+      EXPECT_LT(largest, 5e-4f) << "kernel " << kernel << " seed " << seed;
+    }
+  }
+}
