@@ -3,12 +3,12 @@
 
 #include "Filters/Attached/Guard.h"
 #include "Filters/Attached/ReferenceVolume.h"
-#include "Filters/Deformation/PointMap.h"
 #include "Representations/Field/SceneDeformation.h"
 #include "Representations/Gpu/GpuMemory.h"
 #include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/TextureMemory.h"
 #include "Representations/Gpu/WindowDevices.h"
+#include "Representations/Picture/MovingQuality.h"
 #include "Representations/Scene/SceneFrame.h"
 #include "Representations/Slices/SliceComparison.h"
 #include "Representations/Slices/SliceDrawer.h"
@@ -36,6 +36,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 
 using namespace brainshift;
@@ -62,10 +63,9 @@ struct vtkDeformedSlicesMapper::State
 {
   WindowDevices<Device> Devices;
   Counters Count;
-  SceneDeformation Deformation;  // of the input
-  std::string Reported;          // the last problem
-  std::unique_ptr<PointMap> Map; // of the deformation at MapTime, once asked for
-  unsigned long long MapTime = 0;
+  SceneDeformation Deformation;               // of the input
+  std::string Reported;                       // the last problem
+  std::set<std::string> Told;                 // remarks
   vtkWeakPointer<vtkVolumeProperty> Property; // drawn with last
 };
 
@@ -150,6 +150,7 @@ bool vtkDeformedSlicesMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   tissue.nearest = this->Interpolation == Nearest;
   Device& device = this->Internal->Devices.of(window);
   GpuTask gpu(window, this->Internal->Count);
+  gpu.moving = isMoving(window->GetDesiredUpdateRate());
   takeOutOfMemory(); // errors of others
   bool drawn = this->AskForMemory(gpu, device, tissue) &&
     this->DrawPlanes(gpu, { renderer, volume }, device, tissue);
@@ -157,6 +158,13 @@ bool vtkDeformedSlicesMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   {
     device.Memory.refuse();
     drawn = this->AskForMemory(gpu, device, tissue);
+  }
+  for (const std::string& remark : gpu.remarks)
+  {
+    if (this->Internal->Told.insert(remark).second)
+    {
+      vtkWarningMacro(<< remark << ".");
+    }
   }
   problem = gpu.problem;
   return drawn;
@@ -169,8 +177,7 @@ bool vtkDeformedSlicesMapper::AskForMemory(
   addTissueSizes(tissue, sizes);
   this->Internal->Deformation.addSizes(sizes);
   constexpr double noLimit = 0.0;
-  gpu.problem = device.Memory.ask(gpu.window, memoryNeed(sizes), noLimit);
-  return gpu.problem.empty();
+  return device.Deformation.askForMemory(gpu, device.Memory, memoryNeed(sizes), noLimit);
 }
 
 bool vtkDeformedSlicesMapper::DrawPlanes(
@@ -255,14 +262,9 @@ bool vtkDeformedSlicesMapper::IsSeenAt(const glm::dvec3& texture)
   glm::dvec3 rest = texture;
   if (state.Deformation.deformed)
   {
-    if (!state.Map || state.MapTime != state.Deformation.time)
-    {
-      state.Map =
-        std::make_unique<PointMap>(state.Deformation.lattice, state.Deformation.request.inverse);
-      state.MapTime = state.Deformation.time;
-    }
     const glm::dvec3 place = (texture - layout.textureOfGridZero) / layout.textureFromGrid;
-    rest = textureFromWorld(values, state.Map->restFromDeformed(values.grid.worldFromGrid(place)));
+    rest = textureFromWorld(
+      values, state.Deformation.map().restFromDeformed(values.grid.worldFromGrid(place)));
   }
   const glm::dvec3 rounding = roundingOf(layout);
   if (glm::any(glm::lessThan(rest, layout.low - rounding)) ||

@@ -103,11 +103,12 @@ const char* vtkDeformedVolumeReport::GetCounters()
        << count.volumeUploads << "\nlatticeUploads " << count.latticeUploads << "\ntransferUploads "
        << count.transferUploads << "\nsegmentUploads " << count.segmentUploads << "\nbytesUploaded "
        << count.bytesUploaded << "\ntexelsRefined " << count.texelsRefined << "\npresenceUpdates "
-       << count.presenceUpdates << "\nskippingBytes " << count.skippingBytes << "\nsamplesTaken "
-       << count.samplesTaken << "\nsamplesSkipped " << count.samplesSkipped << "\nimageScale "
-       << count.imageScale << "\nprogramsCompiled " << count.programsCompiled << "\ngpuScalarBytes "
-       << count.gpuScalarBytes << "\ngpuOtherBytes " << count.gpuOtherBytes
-       << "\ngpuFieldMicroseconds " << count.gpuFieldMicroseconds;
+       << count.presenceUpdates << "\nskippingBytes " << count.skippingBytes << "\ncorrectionBytes "
+       << count.correctionBytes << "\nsamplesTaken " << count.samplesTaken << "\nsamplesSkipped "
+       << count.samplesSkipped << "\nimageScale " << count.imageScale << "\nprogramsCompiled "
+       << count.programsCompiled << "\ngpuScalarBytes " << count.gpuScalarBytes
+       << "\ngpuOtherBytes " << count.gpuOtherBytes << "\ngpuFieldMicroseconds "
+       << count.gpuFieldMicroseconds;
   this->Counters = text.str();
   return this->Counters.c_str();
 }

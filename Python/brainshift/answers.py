@@ -91,10 +91,11 @@ def counters(representation):
     - `pixelsCast`: pixels of its images that rays were cast through, approximately
     - `volumeUploads`, `latticeUploads`, `transferUploads`, `segmentUploads`: how often the voxels,
       the control points, the colour map and the segments were sent to the GPU
-    - `bytesUploaded`: bytes sent to the GPU
+    - `bytesUploaded`: bytes sent to the GPU, but for corrections and bricks
     - `texelsRefined`: samples of the displacement that were computed from control points
     - `presenceUpdates`: how often the map of visible bricks was computed
     - `skippingBytes`: bytes of brick faces and leaps that were made from that map
+    - `correctionBytes`: bytes sent to the GPU to correct the deformation where it bends much
     - `samplesTaken`, `samplesSkipped`: samples along rays. They are counted while the property
       `CountSamples` of the representation is on
     - `imageScale`: screen pixels along one side of a pixel that was drawn, a state, not a count

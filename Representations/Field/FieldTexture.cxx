@@ -8,8 +8,10 @@
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
 
+#include <glm/common.hpp>
 #include <glm/mat4x4.hpp>
 
+#include <cstddef>
 #include <cstdint>
 
 namespace brainshift
@@ -98,6 +100,77 @@ FieldTexture::Bent FieldTexture::bentBy(const FieldRequest& request) const
     cornersOfChange(request.dimensions, this->Current.inCells, request.inCells, margin) };
 }
 
+void FieldTexture::Bent::add(const Bent& other)
+{
+  constexpr std::size_t mostCorners = 8192;
+  this->all = this->all || other.all;
+  this->corners.insert(this->corners.end(), other.corners.begin(), other.corners.end());
+  if (this->corners.size() > mostCorners)
+  {
+    glm::vec3 low = this->corners.front();
+    glm::vec3 high = low;
+    for (const glm::vec3& corner : this->corners)
+    {
+      low = glm::min(low, corner);
+      high = glm::max(high, corner);
+    }
+    this->corners.clear();
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      const glm::vec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+      this->corners.push_back(glm::mix(low, high, side));
+    }
+  }
+}
+
+// Corrections belong to the offsets that they were found for.
+void FieldTexture::roughen(bool allNew)
+{
+  this->Computed = this->Changed;
+  if (allNew)
+  {
+    this->Fine.reset(this->Current.nodes);
+    this->Rough = this->Unfinished = IndexBox();
+    this->RoughBent = Bent();
+  }
+  this->Rough = enclosing(enclosing(this->Rough, this->Changed), this->Unfinished);
+  this->RoughBent.add(this->LastBent);
+}
+
+void FieldTexture::leaveOutCorrections()
+{
+  this->Fine.leaveOut(this->Computed);
+}
+
+void FieldTexture::forgetCorrections()
+{
+  if (!this->Fine.codes())
+  {
+    return;
+  }
+  this->Fine.reset(this->Current.nodes);
+  this->Rough = this->allNodes();
+  this->RoughBent = { true, {} };
+}
+
+bool FieldTexture::correct(
+  vtkOpenGLRenderWindow* window, const Accuracy& accuracy, Counters& counters)
+{
+  const IndexBox rough = this->Rough;
+  const DrawnOffsets offsets{ this->Offsets, this->Current.nodes, this->Current.offsetScale };
+  const bool done = this->Fine.correct(window, offsets, accuracy, rough, counters);
+  const IndexBox& written = this->Fine.written();
+  const IndexBox around = this->Fine.cells().cellsAround(rough);
+  // Others were corrected, too, if all places were given away anew.
+  const bool others = !(enclosing(around, written) == IndexBox{ around.first, around.last + 1 });
+  this->Changed = done ? written : this->allNodes();
+  this->LastBent = done && !others ? this->RoughBent : Bent{ true, {} };
+  this->Rough = IndexBox();
+  this->RoughBent = Bent();
+  this->Unfinished = this->Fine.leftOut() ? rough : IndexBox();
+  return done;
+}
+
 bool FieldTexture::update(
   vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters)
 {
@@ -137,11 +210,12 @@ bool FieldTexture::update(
   {
     return false;
   }
+  this->Current = request;
+  this->roughen(!kept);
   if (!kept)
   {
     this->Changed = { glm::ivec3(0), request.nodes.count - 1 }; // the zeros are new too
   }
-  this->Current = request;
   this->HasCurrent = true;
   return true;
 }
@@ -285,8 +359,20 @@ bool FieldTexture::invert(
   return true;
 }
 
+std::vector<vtkTextureObject*> FieldTexture::textures() const
+{
+  std::vector<vtkTextureObject*> all = this->Fine.textures();
+  all.insert(all.end(),
+    { this->ControlPoints.Get(), this->Displacements.Get(), this->Offsets.Get(),
+      this->MaskWeights.Get() });
+  return all;
+}
+
 void FieldTexture::releaseGraphicsResources(vtkWindow* window)
 {
+  this->Fine.releaseGraphicsResources(window);
+  this->Rough = this->Unfinished = IndexBox();
+  this->RoughBent = Bent();
   for (vtkTextureObject* texture : { this->ControlPoints.Get(), this->Displacements.Get(),
          this->Offsets.Get(), this->MaskWeights.Get() })
   {

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief The offset field on the GPU: uploads the control points, refines them and inverts the map.
+ * @brief The offset field on the GPU: uploads the control points, refines them, inverts the map and
+ *        corrects it.
  */
 #ifndef BrainShift_FieldTexture_h
 #define BrainShift_FieldTexture_h
 
 #include "Filters/Deformation/FieldChange.h"
 #include "Filters/Deformation/OffsetField.h"
+#include "Representations/Field/FineTextures.h"
 #include "Representations/Gpu/Counters.h"
 #include "Representations/Gpu/Program.h"
 
@@ -49,7 +51,22 @@ public:
   /// shader does not compile or a texture cannot be made.
   bool update(vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters);
 
-  /// Offsets (restFromDeformed minus identity): RGBA32F, one texel a node, trilinear, clamped.
+  /// Corrects what the updates since the last call have changed, so that the field misses by no
+  /// more than `accuracy` allows. False if a texture cannot be made: then nothing is corrected.
+  /// Each update is followed by this or by leaveOutCorrections.
+  bool correct(vtkOpenGLRenderWindow* window, const Accuracy& accuracy, Counters& counters);
+
+  /// Leaves the field trilinear between its nodes where the last update has changed it.
+  void leaveOutCorrections();
+
+  /// Leaves it so everywhere, and gives their memory back.
+  void forgetCorrections();
+
+  /// Whether there is something to correct.
+  bool isRough() const { return !this->Rough.empty(); }
+
+  /// Offsets (restFromDeformed minus identity): RGBA32F, one texel a node, trilinear, clamped. The
+  /// fourth number is at least FineCells::reaches.
   vtkTextureObject* offsets() const { return this->Offsets; }
 
   /// Displacements (deformedFromRest minus identity), lattice cells, on the forward nodes around
@@ -68,7 +85,10 @@ public:
     return box;
   }
 
-  /// Nodes whose offsets the last update computed.
+  /// What is added to the offsets.
+  const FineTextures& fine() const { return this->Fine; }
+
+  /// Nodes that the last update or correction computed.
   const IndexBox& changed() const { return this->Changed; }
 
   /// Where place or light of tissue changed.
@@ -76,21 +96,23 @@ public:
   {
     bool all = false;               ///< Anywhere.
     std::vector<glm::vec3> corners; ///< Only between these positions, lattice coordinates.
+
+    /// Takes what another change has changed, too.
+    void add(const Bent& other);
   };
 
-  /// What the last update changed.
+  /// What the last update or correction changed.
   const Bent& bent() const { return this->LastBent; }
 
   /// All textures; some may be null.
-  std::vector<vtkTextureObject*> textures() const
-  {
-    return { this->ControlPoints, this->Displacements, this->Offsets, this->MaskWeights };
-  }
+  std::vector<vtkTextureObject*> textures() const;
 
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
   Bent bentBy(const FieldRequest& request) const;
+  void roughen(bool allNew);
+  IndexBox allNodes() const { return { glm::ivec3(0), this->Current.nodes.count - 1 }; }
   bool makeOffsets(vtkOpenGLRenderWindow* window, const FieldRequest& request);
   bool makeDisplacements(vtkOpenGLRenderWindow* window, const IndexBox& nodes);
   bool upload(vtkOpenGLRenderWindow* window, const FieldRequest& request, Counters& counters);
@@ -110,6 +132,11 @@ private:
   bool HasCurrent = false;
   IndexBox Changed;
   Bent LastBent;
+  FineTextures Fine;
+  IndexBox Computed;         // nodes of the last update
+  IndexBox Rough;            // nodes that were computed since the last correction
+  Bent RoughBent;            // what these changed
+  IndexBox Unfinished;       // nodes around cells for which there was no place left
   Program RefinePrograms[2]; // [times the mask's weights]
   Program InvertProgram;
 };

@@ -9,6 +9,9 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkTextureObject.h"
 
+#include <algorithm>
+#include <sstream>
+
 namespace brainshift
 {
 bool SceneDeformation::update(vtkImageData* image, std::string& problem)
@@ -20,6 +23,7 @@ bool SceneDeformation::update(vtkImageData* image, std::string& problem)
   }
   this->time = latest;
   this->deformed = false; // not before all of it succeeded
+  this->Map.reset();
   Deformation source;
   if (!carriesDeformation(image) || !readDeformation(image, source, problem))
   {
@@ -43,6 +47,15 @@ bool SceneDeformation::update(vtkImageData* image, std::string& problem)
   return true;
 }
 
+const PointMap& SceneDeformation::map()
+{
+  if (!this->Map)
+  {
+    this->Map = std::make_unique<PointMap>(this->lattice, this->request.inverse);
+  }
+  return *this->Map;
+}
+
 void SceneDeformation::widen(double bounds[6]) const
 {
   if (this->deformed)
@@ -57,8 +70,16 @@ void SceneDeformation::addSizes(DrawnSizes& sizes) const
   {
     sizes.forwardNodes = (this->request.dimensions - 1) * (this->request.samples + 1) + 1;
     sizes.backwardNodes = this->request.nodes.count;
+    sizes.corrected = true;
     sizes.masked = this->request.mask != nullptr;
   }
+}
+
+double allowedMissMm(const glm::dvec3& spacing)
+{
+  constexpr double leastMm = 0.05;
+  constexpr double ofVoxel = 0.05;
+  return std::max(leastMm, ofVoxel * std::min({ spacing.x, spacing.y, spacing.z }));
 }
 
 bool DeviceDeformation::update(GpuTask& gpu, SceneDeformation& deformation,
@@ -74,23 +95,91 @@ bool DeviceDeformation::update(GpuTask& gpu, SceneDeformation& deformation,
   const glm::vec3 offsetScale(textureFromLattice(values, lattice));
   if (this->FieldTime != deformation.time || this->OffsetScale != offsetScale)
   {
-    deformation.request.offsetScale = offsetScale;
-    this->Timer.Start();
-    const bool updated = this->Field.update(gpu.window, deformation.request, gpu.counters);
-    this->Timer.Stop();
-    if (!updated)
+    if (!this->compute(gpu, deformation, offsetScale))
     {
-      return gpu.fail("The deformation's shaders do not compile or its 3D float textures cannot be "
-                      "made on this GPU");
+      return false;
     }
-    this->FieldTime = deformation.time;
-    this->OffsetScale = offsetScale;
     change = { this->Field.changed(), this->Field.bent() };
+    this->Field.leaveOutCorrections();
+  }
+  if (this->Field.isRough() && this->Corrects && !gpu.moving)
+  {
+    this->correct(gpu, deformation, values);
+    change.computed = enclosing(change.computed, this->Field.changed());
+    change.bent = this->Field.bent();
   }
   field = bentField(values, lattice, deformation.request.nodes);
   field.offsets = this->Field.offsets();
   field.moved = deformation.moved;
+  field.corrections.codes = this->Field.fine().codes();
+  field.corrections.values = this->Field.fine().corrections();
   return true;
+}
+
+bool DeviceDeformation::compute(
+  GpuTask& gpu, SceneDeformation& deformation, const glm::vec3& offsetScale)
+{
+  deformation.request.offsetScale = offsetScale;
+  this->Timer.Start();
+  const bool updated = this->Field.update(gpu.window, deformation.request, gpu.counters);
+  this->Timer.Stop();
+  if (!updated)
+  {
+    return gpu.fail("The deformation's shaders do not compile or its 3D float textures cannot be "
+                    "made on this GPU");
+  }
+  this->FieldTime = deformation.time;
+  this->OffsetScale = offsetScale;
+  return true;
+}
+
+// Without corrections the picture is less exact, but it is a picture.
+void DeviceDeformation::correct(
+  GpuTask& gpu, SceneDeformation& deformation, const DrawnValues& values)
+{
+  Accuracy accuracy;
+  accuracy.map = &deformation.map();
+  accuracy.mmFromCell = glm::vec3(deformation.lattice.grid.spacing);
+  accuracy.allowedMm = static_cast<float>(allowedMissMm(values.grid.spacing));
+  const bool corrected = this->Field.correct(gpu.window, accuracy, gpu.counters);
+  if (!corrected)
+  {
+    gpu.remarks.emplace_back(
+      "This GPU cannot make the 3D textures that make the drawn deformation exact");
+  }
+  else if (this->Field.fine().leftOut())
+  {
+    std::ostringstream remark;
+    remark << "The deformation bends so much that parts of it are drawn off by more than "
+           << accuracy.allowedMm << " mm. More Samples make the picture more exact";
+    gpu.remarks.push_back(remark.str());
+  }
+}
+
+bool DeviceDeformation::askForMemory(
+  GpuTask& gpu, GpuMemory& memory, MemoryNeed need, double limitMiB)
+{
+  this->MostCorrectionBytes =
+    std::max({ this->MostCorrectionBytes, this->Field.fine().bytes(), need.corrections });
+  need.corrections = need.corrections > 0 ? this->MostCorrectionBytes : 0;
+  gpu.problem = memory.ask(gpu.window, need, limitMiB);
+  this->Corrects = gpu.problem.empty();
+  if (!this->Corrects && need.corrections > 0)
+  {
+    need.corrections = 0;
+    const std::string refused = gpu.problem;
+    gpu.problem = memory.ask(gpu.window, need, limitMiB);
+    if (gpu.problem.empty())
+    {
+      gpu.remarks.push_back(refused + ". So the deformation is drawn less exactly");
+    }
+    else
+    {
+      gpu.problem = refused; // names all that would be needed
+    }
+    this->Field.forgetCorrections();
+  }
+  return gpu.problem.empty();
 }
 
 void DeviceDeformation::askTime(std::int64_t& microseconds)
@@ -107,5 +196,6 @@ void DeviceDeformation::releaseGraphicsResources(vtkWindow* window)
 {
   this->Field.releaseGraphicsResources(window);
   this->Timer.ReleaseGraphicsResources();
+  this->MostCorrectionBytes = 0;
 }
 }

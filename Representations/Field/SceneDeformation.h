@@ -8,16 +8,19 @@
 #define BrainShift_SceneDeformation_h
 
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Deformation/PointMap.h"
 #include "Representations/Field/FieldTexture.h"
 #include "Representations/Gpu/GpuMemory.h"
 #include "Representations/Scene/RayCastScene.h"
 #include "Representations/Scene/SceneGeometry.h"
 
+#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 #include "vtkOpenGLRenderTimer.h"
 
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 class vtkImageData;
@@ -39,6 +42,9 @@ struct SceneDeformation
   /// is malformed: `deformed` is then false.
   bool update(vtkImageData* image, std::string& problem);
 
+  /// The exact maps of the lattice, made when they are first asked for.
+  const PointMap& map();
+
   /// Widens bounds (mm; x, y, z, least and greatest each) by where tissue can go.
   void widen(double bounds[6]) const;
 
@@ -46,7 +52,14 @@ struct SceneDeformation
   void addSizes(DrawnSizes& sizes) const;
 
   unsigned long long time = 0; ///< Of what was read.
+
+private:
+  std::unique_ptr<PointMap> Map; // of the lattice; null: not asked for yet
 };
+
+/// The most that tissue may be drawn away from where the lattice puts it, mm: 0.05 mm or 0.05 of a
+/// voxel's shortest side, whichever is larger. `spacing`: of the voxels, mm.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT double allowedMissMm(const glm::dvec3& spacing);
 
 /// The offset field of one window.
 class DeviceDeformation
@@ -59,12 +72,17 @@ public:
     FieldTexture::Bent bent; ///< Where the field has other values.
   };
 
-  /// Computes the field if it changed, and fills the scene's field. False, with a problem, if this
-  /// GPU cannot.
+  /// Computes the field if it changed, and fills the scene's field. In a still picture the field is
+  /// exact to what allowedMissMm says. While the picture moves, what changed is trilinear between
+  /// nodes. False, with a problem, if this GPU cannot.
   bool update(GpuTask& gpu, SceneDeformation& deformation, const DrawnValues& values,
     SceneField& field, Change& change);
 
   const FieldTexture& field() const { return this->Field; }
+
+  /// Asks for the memory of a picture. If there is too little for corrections, it leaves them out
+  /// and says so. False, with a problem, if there is too little for the rest, too.
+  bool askForMemory(GpuTask& gpu, GpuMemory& memory, MemoryNeed need, double limitMiB);
 
   /// Replaces `microseconds` by the time of the GPU's last run from control points to offset field,
   /// if that is known.
@@ -73,11 +91,16 @@ public:
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
+  bool compute(GpuTask& gpu, SceneDeformation& deformation, const glm::vec3& offsetScale);
+  void correct(GpuTask& gpu, SceneDeformation& deformation, const DrawnValues& values);
+
   FieldTexture Field;
   vtkOpenGLRenderTimer Timer;
   // The deformation and the unit that Field shows.
   unsigned long long FieldTime = 0;
   glm::vec3 OffsetScale{ 0.0f };
+  bool Corrects = true;                 // there is memory for corrections ...
+  std::int64_t MostCorrectionBytes = 0; // ... which have taken so much
 };
 }
 

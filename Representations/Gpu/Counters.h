@@ -24,6 +24,7 @@ struct Counters
   std::int64_t texelsRefined = 0;  ///< Nodes of the offset field that were computed.
   std::int64_t presenceUpdates = 0;  ///< Times that the deformed presence map was computed.
   std::int64_t skippingBytes = 0;    ///< Faces and leaps sent back; not part of bytesUploaded.
+  std::int64_t correctionBytes = 0;  ///< Corrections of the offset field; not in bytesUploaded.
   std::int64_t samplesTaken = 0;     ///< Samples of cast pixels, while CountSamples is on.
   std::int64_t samplesSkipped = 0;   ///< Samples skipped before the ends of these rays.
   std::int64_t imageScale = 1;       ///< Screen pixels a side for one pixel of the last image.

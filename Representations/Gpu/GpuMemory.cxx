@@ -2,6 +2,7 @@
 #include "Representations/Gpu/GpuMemory.h"
 
 #include "Representations/Gpu/OpenGL.h"
+#include "Representations/Gpu/ShaderSource.h"
 
 #include "vtkOpenGLRenderWindow.h"
 
@@ -74,6 +75,11 @@ MemoryNeed memoryNeed(const DrawnSizes& sizes)
   need.segment = sizes.segmentBytes * voxels;
   need.field = NodeBytes * (volumeOf(sizes.forwardNodes) + volumeOf(sizes.backwardNodes));
   need.field += sizes.masked ? WeightBytes * volumeOf(sizes.forwardNodes) : 0;
+  if (sizes.corrected)
+  {
+    constexpr std::int64_t codeBytes = 4; // of a node
+    need.corrections = codeBytes * volumeOf(sizes.backwardNodes) + CorrectionLayerBytes;
+  }
   need.images = PixelBytes * sizes.pixels.x * sizes.pixels.y;
   return need;
 }
@@ -120,8 +126,8 @@ std::string describeNeed(const MemoryNeed& need)
 {
   return bytesAsMiB(need.total()) + " MiB (scalars " + bytesAsMiB(need.scalars) + ", gradients " +
     bytesAsMiB(need.gradients) + ", colours " + bytesAsMiB(need.colors) + ", segment " +
-    bytesAsMiB(need.segment) + ", offset field " + bytesAsMiB(need.field) + ", images " +
-    bytesAsMiB(need.images) +
+    bytesAsMiB(need.segment) + ", offset field " + bytesAsMiB(need.field) + ", corrections of it " +
+    bytesAsMiB(need.corrections) + ", images " + bytesAsMiB(need.images) +
     (need.reference > 0 ? ", reference " + bytesAsMiB(need.reference) : "") + ")";
 }
 

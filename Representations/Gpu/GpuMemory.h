@@ -26,14 +26,15 @@ struct MemoryNeed
   std::int64_t colors =
     0; ///< Of a volume with its own colours, or with a second scalar for colour.
   std::int64_t segment = 0;
-  std::int64_t field = 0; ///< Refined lattice and offset field.
+  std::int64_t field = 0;       ///< Refined lattice and offset field.
+  std::int64_t corrections = 0; ///< Of the offset field; at least, before they are known.
   std::int64_t images = 0;
   std::int64_t reference = 0; ///< Scalars, gradients and cavity of a volume to compare with.
 
   std::int64_t total() const
   {
     return this->scalars + this->gradients + this->colors + this->segment + this->field +
-      this->images + this->reference;
+      this->corrections + this->images + this->reference;
   }
 };
 
@@ -47,6 +48,7 @@ struct DrawnSizes
   bool halfResolution = false;   ///< Of the gradients.
   glm::ivec3 forwardNodes{ 0 };  ///< Of the refined lattice, a side; 0: no lattice.
   glm::ivec3 backwardNodes{ 0 }; ///< Of the offset field, a side.
+  bool corrected = false;        ///< The offset field is to be exact between its nodes, too.
   int segmentBytes = 0;          ///< Of one voxel; 0: no segment is drawn alone.
   bool masked = false;           ///< There is a weight for each forward node.
   glm::ivec2 pixels{ 0 };        ///< Of the picture, a side.

@@ -27,6 +27,7 @@ struct GpuTask
 
   vtkOpenGLRenderWindow* window;    ///< Its OpenGL context is current.
   Counters& counters;               ///< They count what is done.
+  bool moving = false;              ///< Work that the next still picture can do is left to it.
   std::string problem;              ///< One sentence, without a full stop, if the work failed.
   std::vector<std::string> remarks; ///< Sentences for the user, who hears each of them once.
 

@@ -9,6 +9,8 @@
 #include "Representations/Gpu/Counters.h"
 #include "Representations/Gpu/ShaderSource.h"
 
+#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
+
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -24,7 +26,7 @@ class vtkTextureObject;
 namespace brainshift
 {
 /// A program. It belongs to the OpenGL context that it was used in first.
-class Program
+class VTKBRAINSHIFTREPRESENTATIONS_EXPORT Program
 {
 public:
   /// Makes the program current, compiling it the first time. False if it does not compile; VTK's

@@ -129,9 +129,9 @@ std::string loopSource(const RayCastVariant& variant)
   }
 }
 
-std::string slabDefine()
+std::string floatDefine(const std::string& name, int value)
 {
-  return "#define SLAB_DIRECTIONS " + std::to_string(SlabDirections) + "\n";
+  return "#define " + name + " " + std::to_string(value) + ".0\n";
 }
 
 std::string coloringDefine(Coloring coloring)
@@ -161,6 +161,13 @@ std::string nameOf(const RayCastVariant& variant)
     (variant.sharedLight ? "_shared_light" : "") + (variant.averaged ? "_averaged" : "") +
     (variant.compared ? "_compared" : "") + (variant.cavity ? "_cavity" : "");
 }
+}
+
+std::string fieldDefines()
+{
+  return "#define SLAB_DIRECTIONS " + std::to_string(SlabDirections) + "\n" +
+    floatDefine("SLOT_SIDE", SlotSide) + floatDefine("SLOTS_IN_ROW", SlotsInRow) +
+    floatDefine("ROWS_IN_LAYER", RowsInLayer) + floatDefine("CODE_OF_SLOT", CodeOfSlot);
 }
 
 ShaderSource refineSource(bool masked)
@@ -199,7 +206,7 @@ ShaderSource rayCastSource(const RayCastVariant& variant)
 {
   std::string defines = "#define MAX_LIGHTS " + std::to_string(MaxLights) + "\n";
   defines += "#define MAX_CLIP_PLANES " + std::to_string(MaxClipPlanes) + "\n";
-  defines += slabDefine();
+  defines += fieldDefines();
   defines += "#define MAX_ISOVALUES " + std::to_string(MaxIsovalues) + "\n";
   defines += std::string("#define ") + BlendDefines[static_cast<int>(variant.blend)] + "\n";
   defines += variant.deformed ? "#define DEFORMED\n" : "";
@@ -236,7 +243,7 @@ ShaderSource coverSource()
 
 ShaderSource slicesSource(const SlicesVariant& variant)
 {
-  const std::string defines = slabDefine() + (variant.deformed ? "#define DEFORMED\n" : "") +
+  const std::string defines = fieldDefines() + (variant.deformed ? "#define DEFORMED\n" : "") +
     coloringDefine(variant.coloring) + (variant.compared ? "#define COMPARED\n" : "") +
     (variant.cavity ? "#define CAVITY\n" : "");
   return { assemble({ shader_slices_vert }), "",

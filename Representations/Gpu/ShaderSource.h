@@ -25,6 +25,17 @@ struct ShaderSource
 
 constexpr int MaxLights = 8;
 constexpr int BricksInBlock = 4; ///< A side: bricks of the presence map in one block.
+
+///@{
+/// Where field.glsl finds corrections, see Representations/Field/FineCells.h.
+constexpr int SlotSide = 3;     ///< Fine nodes of a slot, a side.
+constexpr int SlotsInRow = 64;  ///< Slots along x in the texture of corrections.
+constexpr int RowsInLayer = 64; ///< Rows of slots along y.
+constexpr int CodeOfSlot = 16;  ///< A cell's code: this times its first slot, plus slots a side.
+/// Of one layer of slots: four half floats each.
+constexpr int CorrectionLayerBytes = SlotsInRow * RowsInLayer * SlotSide * SlotSide * SlotSide * 8;
+///@}
+
 constexpr int MaxClipPlanes = 16;
 constexpr int MaxIsovalues = 32;
 
@@ -122,6 +133,9 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource slicesSource(const SlicesVarian
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource tracesSource(int tissues);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource tracesOverSource();
 ///@}
+
+/// The #define lines that field.glsl needs.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::string fieldDefines();
 
 /// Programs by name, for an offline compiler. Among the ray caster's variants, each file and each
 /// #define is used at least once.

@@ -10,6 +10,7 @@
 #include "vtkTextureObject.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace brainshift
 {
@@ -47,6 +48,22 @@ int leadToSecondThread(int first, int count)
 {
   constexpr int square = 64;
   return drawsInSoftware() ? std::max(square - (first + count / 2), 0) : 0;
+}
+
+std::vector<glm::vec4> readVolume(vtkOpenGLRenderWindow* window, vtkTextureObject* texture,
+  const glm::ivec3& first, const glm::ivec3& count)
+{
+  const std::size_t layer = static_cast<std::size_t>(count.x) * count.y;
+  std::vector<glm::vec4> texels(layer * count.z);
+  const FramebufferScope framebuffer(window->GetState());
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  for (int z = 0; z < count.z; ++z)
+  {
+    glFramebufferTextureLayer(
+      GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, texture->GetHandle(), 0, first.z + z);
+    glReadPixels(first.x, first.y, count.x, count.y, GL_RGBA, GL_FLOAT, &texels[layer * z]);
+  }
+  return texels;
 }
 
 void clearVolume(vtkOpenGLRenderWindow* window, vtkTextureObject* target)

@@ -18,11 +18,6 @@ namespace
 {
 constexpr double FewPixels = 2000.0; // below, everything else takes most of the time
 
-bool moves(const PictureWish& wish)
-{
-  return wish.adaptive && isMoving(wish.rate);
-}
-
 // Finds the pixels of the scene's image that can show something.
 void placePixels(RayCastScene& scene)
 {
@@ -68,10 +63,14 @@ PixelPart reduced(const PixelPart& part, const glm::ivec2& size, const glm::ivec
 }
 }
 
+bool isMovingPicture(const PictureWish& wish)
+{
+  return wish.adaptive && isMoving(wish.rate);
+}
+
 void Picture::bend(const FieldTexture::Bent& bent)
 {
-  this->Bent.all = this->Bent.all || bent.all;
-  this->Bent.corners.insert(this->Bent.corners.end(), bent.corners.begin(), bent.corners.end());
+  this->Bent.add(bent);
 }
 
 bool Picture::cast(
@@ -87,7 +86,7 @@ bool Picture::cast(
   {
     this->forget();
   }
-  if (!moves(wish))
+  if (!isMovingPicture(wish))
   {
     this->Rough.images().releaseGraphicsResources(gpu.window);
   }
@@ -106,13 +105,13 @@ bool Picture::canKeep(
   switch (change)
   {
     case PictureStamp::Nothing:
-      return moves(wish) || !this->Mixed;
+      return isMovingPicture(wish) || !this->Mixed;
     case PictureStamp::Bending:
-      return !scene.comparison.reference && (moves(wish) || !this->Mixed);
+      return !scene.comparison.reference && (isMovingPicture(wish) || !this->Mixed);
     case PictureStamp::Reaching:
       // Samples lie elsewhere on their rays. The difference is that of a rough picture.
       this->Mixed = true;
-      return !scene.comparison.reference && moves(wish);
+      return !scene.comparison.reference && isMovingPicture(wish);
     default:
       return false;
   }
@@ -123,7 +122,7 @@ bool Picture::castAll(GpuTask& gpu, const PictureWish& wish, RayCastScene& scene
   const MovingQuality quality = this->qualityFor(wish, partOf(scene.image.part.box));
   gpu.counters.imageScale = quality.imageScale;
   adapt(quality, scene);
-  scene.image.jitter = moves(wish);
+  scene.image.jitter = isMovingPicture(wish);
   scene.behind = this->Depth.captureBehind(gpu.window, wish.origin, wish.size, scene.image);
   const bool cast = this->measure(
     gpu, wish, scene, [&] { return this->Whole.cast(gpu.window, scene, gpu.counters); });
@@ -151,7 +150,7 @@ PixelPart Picture::changedPart(bool moving, const RayCastScene& scene) const
 
 bool Picture::castChanged(GpuTask& gpu, const PictureWish& wish, RayCastScene& scene)
 {
-  const bool moving = moves(wish);
+  const bool moving = isMovingPicture(wish);
   CastImages& held = this->images();
   if (!held.haveRoom(scene.image.part.box) && !held.grow(gpu.window, scene, gpu.counters))
   {
@@ -200,7 +199,7 @@ bool Picture::castRoughly(GpuTask& gpu, const PictureWish& wish, const MovingQua
 
 MovingQuality Picture::qualityFor(const PictureWish& wish, const PixelPart& part) const
 {
-  return moves(wish)
+  return isMovingPicture(wish)
     ? movingQuality(this->SecondsPerPixel * pixelsIn(part),
         allowedSeconds(wish.rate, this->Pace.windowSeconds(), this->Pace.spentSeconds()))
     : MovingQuality();

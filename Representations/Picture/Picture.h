@@ -41,6 +41,9 @@ struct PictureWish
   unsigned long long settingsTime = 0; ///< When the settings of the mapper changed last.
 };
 
+/// Whether the picture may be a rough one, because the next one follows at once.
+bool isMovingPicture(const PictureWish& wish);
+
 /// Calls for one picture: begin, bend, cast, end.
 class Picture
 {

@@ -234,16 +234,16 @@ void setRayCastUniforms(
 void deactivateTextures(const RayCastScene& scene)
 {
   const SceneTissue& tissue = scene.tissue;
-  for (vtkTextureObject* texture :
-    { tissue.scalars, scene.field.offsets, tissue.normals, tissue.transfer, scene.behind.depth,
-      tissue.coloring.colors, tissue.coloring.scalars, tissue.segment.shares,
-      scene.skipping.presence->leaps(), scene.comparison.cavity.voxels, tissue.transferSums })
+  for (vtkTextureObject* texture : { tissue.scalars, tissue.normals, tissue.transfer,
+         scene.behind.depth, tissue.coloring.colors, tissue.coloring.scalars, tissue.segment.shares,
+         scene.skipping.presence->leaps(), scene.comparison.cavity.voxels, tissue.transferSums })
   {
     if (texture)
     {
       texture->Deactivate();
     }
   }
+  deactivateField(scene.field);
   if (scene.comparison.reference)
   {
     deactivateTextures(*scene.comparison.reference);

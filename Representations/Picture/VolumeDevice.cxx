@@ -27,6 +27,7 @@ bool VolumeDevice::draw(
   GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation, VolumeRequest request)
 {
   PictureWish& wish = request.wish;
+  gpu.moving = isMovingPicture(wish);
   drawn.renderer->GetTiledSizeAndOrigin(&wish.size.x, &wish.size.y, &wish.origin.x, &wish.origin.y);
   takeOutOfMemory(); // errors of others
   const auto draw = [&] {
@@ -56,8 +57,7 @@ bool VolumeDevice::askForMemory(
   if (request.reference.exists())
   {
     need.reference = referenceBytes(request.reference);
-    gpu.problem = this->Memory.ask(gpu.window, need, request.memoryLimitMiB);
-    if (gpu.problem.empty())
+    if (this->Deformation.askForMemory(gpu, this->Memory, need, request.memoryLimitMiB))
     {
       return true;
     }
@@ -66,8 +66,7 @@ bool VolumeDevice::askForMemory(
     request.reference = SceneReference();
     this->Reference.releaseGraphicsResources(gpu.window);
   }
-  gpu.problem = this->Memory.ask(gpu.window, need, request.memoryLimitMiB);
-  return gpu.problem.empty();
+  return this->Deformation.askForMemory(gpu, this->Memory, need, request.memoryLimitMiB);
 }
 
 bool VolumeDevice::drawTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation,

@@ -48,12 +48,21 @@ struct SceneFrame
   SceneLights lights;
 };
 
+/// What is added to the offset field where a straight line between its nodes is not exact enough,
+/// see Representations/Field/FineCells.h.
+struct SceneCorrections
+{
+  vtkTextureObject* codes = nullptr;  ///< Where a cell's corrections are; null: there are none.
+  vtkTextureObject* values = nullptr; ///< Lattice cells.
+};
+
 /// Offset field and the space that tissue can reach. Filled by restField or bentField
-/// (FieldPlace.h), to which DeviceDeformation::update adds the texture and the hull.
+/// (FieldPlace.h), to which DeviceDeformation::update adds textures and the hull.
 struct SceneField
 {
   vtkTextureObject* offsets = nullptr; ///< Null: the volume carries no deformation.
-  glm::dvec3 fieldFromTexture{ 1.0 };  ///< Texture coordinates of the offset field.
+  SceneCorrections corrections;
+  glm::dvec3 fieldFromTexture{ 1.0 }; ///< Texture coordinates of the offset field.
   glm::dvec3 fieldOfTextureZero{ 0.0 };
   glm::dvec3 texel{ 1.0 };              ///< Step for derivatives, offset field's coordinates.
   glm::dvec3 latticeFromTexture{ 1.0 }; ///< Lattice coordinates: cells.

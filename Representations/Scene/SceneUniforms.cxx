@@ -4,6 +4,7 @@
 #include "Representations/Gpu/Program.h"
 
 #include "vtkShaderProgram.h"
+#include "vtkTextureObject.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -24,9 +25,30 @@ void setTissueUniforms(Program& program, const SceneTissue& tissue, int stepDoub
   program.set("volumeHigh", glm::vec3(tissue.volumeHigh));
 }
 
+namespace
+{
+// Without corrections their samplers are not read; they need some texture nevertheless.
+void setCorrectionUniforms(Program& program, const SceneField& field)
+{
+  vtkTextureObject* offsets = field.offsets;
+  const SceneCorrections& corrections = field.corrections;
+  const bool corrected = corrections.codes && corrections.values;
+  vtkTextureObject* values = corrected ? corrections.values : offsets;
+  program.set("correctedAbove", corrected ? 0.0f : 1e30f);
+  program.set("correctionCodes", corrected ? corrections.codes : offsets);
+  program.set("corrections", values);
+  program.set(
+    "fieldNodes", glm::vec3(offsets->GetWidth(), offsets->GetHeight(), offsets->GetDepth()));
+  program.set("correctionTexel",
+    1.0f / glm::vec3(values->GetWidth(), values->GetHeight(), values->GetDepth()));
+  program.set("textureFromLattice", glm::vec3(1.0 / field.latticeFromTexture));
+}
+}
+
 void setFieldUniforms(Program& program, const SceneField& field)
 {
   program.set("offsets", field.offsets);
+  setCorrectionUniforms(program, field);
   program.set("fieldFromTexture", glm::vec3(field.fieldFromTexture));
   program.set("fieldFromTextureShift", glm::vec3(field.fieldOfTextureZero));
   std::array<glm::vec3, SlabDirections> normals;
@@ -43,6 +65,18 @@ void setFieldUniforms(Program& program, const SceneField& field)
   vtkShaderProgram* shader = program.get();
   shader->SetUniform3fv("movedNormals", SlabDirections, glm::value_ptr(normals[0]));
   shader->SetUniform2fv("movedSpans", SlabDirections, glm::value_ptr(spans[0]));
+}
+
+void deactivateField(const SceneField& field)
+{
+  for (vtkTextureObject* texture :
+    { field.offsets, field.corrections.codes, field.corrections.values })
+  {
+    if (texture)
+    {
+      texture->Deactivate();
+    }
+  }
 }
 
 void setColoringUniforms(Program& program, const SceneColoring& coloring)

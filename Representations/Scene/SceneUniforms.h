@@ -8,6 +8,8 @@
 
 #include "Representations/Scene/RayCastScene.h"
 
+#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
+
 namespace brainshift
 {
 class Program;
@@ -17,7 +19,11 @@ class Program;
 void setTissueUniforms(Program& program, const SceneTissue& tissue, int stepDoublings);
 
 /// What Shaders/Field/field.glsl needs of a volume with a deformation.
-void setFieldUniforms(Program& program, const SceneField& field);
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT void setFieldUniforms(
+  Program& program, const SceneField& field);
+
+/// Ends the use of the field's textures.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT void deactivateField(const SceneField& field);
 
 /// What Shaders/Tissue/components.glsl needs.
 void setColoringUniforms(Program& program, const SceneColoring& coloring);

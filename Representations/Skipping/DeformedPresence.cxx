@@ -46,7 +46,8 @@ bool samePlaces(const PresenceRequest& a, const PresenceRequest& b)
   return a.first == b.first && a.count == b.count && a.restBricks == b.restBricks &&
     a.lowestVoxel == b.lowestVoxel && a.highestVoxel == b.highestVoxel &&
     (a.offsets == nullptr) == (b.offsets == nullptr) && a.voxelsFromOffset == b.voxelsFromOffset &&
-    a.nodesFromVoxel == b.nodesFromVoxel && a.nodesFromVoxelShift == b.nodesFromVoxelShift;
+    a.voxelsFromLattice == b.voxelsFromLattice && a.nodesFromVoxel == b.nodesFromVoxel &&
+    a.nodesFromVoxelShift == b.nodesFromVoxelShift;
 }
 
 // Bricks whose offsets depend on a box of nodes.
@@ -158,6 +159,7 @@ void DeformedPresence::setBricks(Program& program, const PresenceRequest& reques
       glm::ivec3(
         request.offsets->GetWidth(), request.offsets->GetHeight(), request.offsets->GetDepth()));
     program.set("voxelsFromOffset", request.voxelsFromOffset);
+    program.set("voxelsFromLattice", request.voxelsFromLattice);
     program.set("nodesFromVoxel", request.nodesFromVoxel);
     program.set("nodesFromVoxelShift", request.nodesFromVoxelShift);
   }

@@ -39,7 +39,8 @@ struct PresenceRequest
   glm::vec3 highestVoxel{ 0.0f };
   vtkTextureObject* offsets = nullptr; ///< Null: nothing is deformed.
   glm::vec3 voxelsFromOffset{ 1.0f };
-  glm::vec3 nodesFromVoxel{ 1.0f }; ///< node = voxel * nodesFromVoxel + nodesFromVoxelShift
+  glm::vec3 voxelsFromLattice{ 1.0f }; ///< Of the fourth number of an offset.
+  glm::vec3 nodesFromVoxel{ 1.0f };    ///< node = voxel * nodesFromVoxel + nodesFromVoxelShift
   glm::vec3 nodesFromVoxelShift{ 0.0f };
 };
 

@@ -75,15 +75,15 @@ bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, C
       drawTriangles(trianglesOfQuad);
     }
   }
-  for (vtkTextureObject* texture :
-    { tissue.scalars, scene.field.offsets, tissue.transfer, tissue.coloring.colors,
-      tissue.coloring.scalars, scene.reference.place.scalars, scene.reference.cavity.voxels })
+  for (vtkTextureObject* texture : { tissue.scalars, tissue.transfer, tissue.coloring.colors,
+         tissue.coloring.scalars, scene.reference.place.scalars, scene.reference.cavity.voxels })
   {
     if (texture)
     {
       texture->Deactivate();
     }
   }
+  deactivateField(scene.field);
   counters.frames += 1;
   return true;
 }

@@ -35,6 +35,7 @@ PresenceRequest bricksOf(const ValueLayout& layout, const SceneField& field)
     const glm::dvec3 values(layout.dimensions);
     const glm::dvec3 count(offsets->GetWidth(), offsets->GetHeight(), offsets->GetDepth());
     request.voxelsFromOffset = glm::vec3(values);
+    request.voxelsFromLattice = glm::vec3(values / field.latticeFromTexture);
     request.nodesFromVoxel = glm::vec3(field.fieldFromTexture * count / values);
     request.nodesFromVoxelShift =
       glm::vec3((0.5 / values * field.fieldFromTexture + field.fieldOfTextureZero) * count - 0.5);

@@ -55,7 +55,10 @@ def bent(source, amplitude, **lattice):
 
 
 def assert_same(view, display, what, least_share=0.01):
-    """Pictures with skipping and without, and the positions of what they show, are the same."""
+    """Pictures with skipping and without, and the positions of what they show, are the same.
+
+    Returns the share of pixels that show the object.
+    """
     images, positions = [], []
     for skipping in (0, 1):
         display.EmptySpaceSkipping = skipping
@@ -68,3 +71,4 @@ def assert_same(view, display, what, least_share=0.01):
     assert share >= least_share, (what, share)
     assert differing == 0, (what, differing)
     assert positions[0] == positions[1], what
+    return share

@@ -222,9 +222,10 @@ TEST(OffsetField, PutsTissueWhereTheStampSaysAtItsNodes)
   this->RecordProperty("largestMissAtNodesMm", std::to_string(atNodes));
   this->RecordProperty("largestMissBetweenNodesMm", std::to_string(between.back()));
   EXPECT_LT(atNodes, largestErrorMm(VoxelMm));
-  // Between nodes 2.8 mm apart a straight line replaces the curve. So the limit is not met where
-  // the stamp squeezes tissue to 0.4 of its volume. Pictures have this miss, bakes do not. It must
-  // not grow.
+  // Between nodes 2.8 mm apart a straight line replaces the curve. So this field misses by more
+  // than the limit where the stamp squeezes tissue to 0.4 of its volume. Pictures correct it there
+  // (FineCellsTest, FineDrawingTest), and a bake begins from it. The miss must not grow: more of it
+  // makes both slower.
   EXPECT_LT(share, 0.03);
   EXPECT_LT(between.back(), 0.3);
 }

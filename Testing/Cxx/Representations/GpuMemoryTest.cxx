@@ -2,6 +2,7 @@
 // Proves what a deformed volume is said to need of the GPU's memory, and when that is too much.
 #include "Representations/Gpu/GpuMemory.h"
 #include "Representations/Gpu/OpenGL.h"
+#include "Representations/Gpu/ShaderSource.h"
 #include "Testing/Cxx/Representations/TestWindow.h"
 
 #include <gtest/gtest.h>
@@ -42,13 +43,17 @@ TEST(GpuMemory, CountsEachPart)
   EXPECT_EQ(memoryNeed(sizes).field, 12 * MiB);
   sizes.masked = true;
   EXPECT_EQ(memoryNeed(sizes).field, 13 * MiB);
+  EXPECT_EQ(memoryNeed(sizes).corrections, 0);
+  sizes.corrected = true;
+  const std::int64_t corrections = 2 * MiB + CorrectionLayerBytes;
+  EXPECT_EQ(memoryNeed(sizes).corrections, corrections);
   sizes.pixels = { 1024, 1024 };
   EXPECT_EQ(memoryNeed(sizes).images, 19 * MiB);
   MemoryNeed need = memoryNeed(sizes);
-  EXPECT_EQ(need.total(), (16 + 4 + 32 + 8 + 13 + 19) * MiB);
+  EXPECT_EQ(need.total(), (16 + 4 + 32 + 8 + 13 + 19) * MiB + corrections);
   EXPECT_EQ(describeNeed(need).find("reference"), std::string::npos);
   need.reference = 10 * MiB;
-  EXPECT_EQ(need.total(), (16 + 4 + 32 + 8 + 13 + 19 + 10) * MiB);
+  EXPECT_EQ(need.total(), (16 + 4 + 32 + 8 + 13 + 19 + 10) * MiB + corrections);
   EXPECT_NE(describeNeed(need).find("reference 10)"), std::string::npos) << describeNeed(need);
 }
 

@@ -104,11 +104,15 @@ def test_dragging_compiles_and_uploads_nothing_else():
         drawn.filter.Strokes = brainshift.soft(SURFACE, (-0.8 * step, 0, 0), 12)
         look(drawn.view, (0.1 * step, -0.3, -1), MIDDLE, 90)
         drawn.view.SMProxy.InteractiveRender()
-    done = drawn.did()
+    moved = brainshift.counters(drawn.display)
+    assert moved["presenceUpdates"] - drawn.before["presenceUpdates"] == 5, moved
+    assert moved["correctionBytes"] == drawn.before["correctionBytes"], moved
+    done = drawn.did()  # draws a still picture, which is exact
     assert done.pop("latticeUploads") == 5, done
     assert done.pop("bytesUploaded") == 5 * LATTICE_BYTES, done
     assert done.pop("texelsRefined") > 0, done
-    assert done.pop("presenceUpdates") == 5, done
+    assert done.pop("presenceUpdates") == 6, done
+    assert done.pop("correctionBytes") > 0, done
     assert 0 < done.pop("skippingBytes") < 5 * LATTICE_BYTES, done
     done.pop("imageScale", 0)
     assert done == {}, done

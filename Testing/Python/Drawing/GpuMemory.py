@@ -52,6 +52,16 @@ def test_a_limit_is_told_and_kept():
         again = picture(view)
     assert "MiB" not in said.text, said.text
     assert numpy.array_equal(again, deformed)
+    # Corrections are left out first.
+    display.MemoryLimit = total - 1.0
+    with messages() as said:
+        rough = picture(view)
+    assert_says(said.text, "drawn less exactly")
+    off = [numpy.abs(image - deformed).mean() for image in (rough, undeformed)]
+    print(f"  mean difference: without corrections {off[0]:.5f}, undeformed {off[1]:.5f}")
+    assert off[0] < 0.1 * off[1], off
+    display.MemoryLimit = total + 1.0
+    assert numpy.array_equal(picture(view), deformed)
 
 
 def test_images_hold_what_can_be_seen():

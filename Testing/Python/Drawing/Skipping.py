@@ -45,15 +45,20 @@ def test_views():
 
 def test_camera_inside():
     voxels = scattered()
-    within = [float(index) for index in numpy.argwhere(voxels[1:-1, 1:-1, 1:-1])[100][::-1] + 1]
+    tissue = numpy.argwhere(voxels[1:-1, 1:-1, 1:-1])[:, ::-1] + 1.0
+    places = [(MIDDLE, 0.5)] + [(focus.tolist(), distance) for focus in tissue[::60]
+                                for distance in (0.2, 7.0)]
     source = volume(voxels)
     for filter in (bent(source, 2.0), bent(source, 20.0)):
         view = new_view()
         for name in ("translucent", "band"):
             display = show_volume(filter, view, "Deformed Volume", *curves(name))
-            for focus, distance in ((MIDDLE, 0.5), (within, 0.2), (within, 7.0)):
+            seen = 0
+            for focus, distance in places:
                 look(view, OBLIQUE, focus, distance)
-                assert_same(view, display, f"{name}, {distance} mm from {focus}", 0.005)
+                what = f"{name}, {distance} mm from {focus}"
+                seen += assert_same(view, display, what, least_share=0.0) > 0.005
+            assert seen > len(places) / 2, (name, seen)
         Delete(view)
 
 

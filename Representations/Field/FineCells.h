@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief Corrections of the offset field in the cells where a straight line between its nodes is
+ *        not exact enough.
+ *
+ * A *cell* lies between eight neighbouring nodes of the offset field. A *correction* is the exact
+ * offset minus what the field gives at the same place. A cell that needs corrections has them on
+ * nodes 2, 4, 6, 8 or 16 times as dense; between these they are trilinear.
+ */
+#ifndef BrainShift_FineCells_h
+#define BrainShift_FineCells_h
+
+#include "Filters/Deformation/FieldChange.h"
+#include "Filters/Deformation/OffsetField.h"
+#include "Representations/Field/FineSearch.h"
+#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace brainshift
+{
+/// The corrections of one field.
+class VTKBRAINSHIFTREPRESENTATIONS_EXPORT FineCells
+{
+public:
+  /// Forgets everything. `nodes`: those of the offset field.
+  void reset(const FieldNodes& nodes);
+
+  /// Forgets the corrections in a box of cells.
+  void leaveOut(const IndexBox& cells);
+
+  /// Finds the corrections in a box of cells anew. `block`: offsets of the field, at least on
+  /// nodesToRead.
+  void find(const IndexBox& cells, const NodeBlock& block, const Accuracy& accuracy);
+
+  /// Cells that may have other corrections if the offsets of some nodes change.
+  IndexBox cellsAround(const IndexBox& changedNodes) const;
+
+  /// Nodes whose offsets `find` reads for a box of cells.
+  IndexBox nodesToRead(const IndexBox& cells) const;
+
+  /// Whether any cell has corrections.
+  bool any() const { return this->CellsWith > 0; }
+
+  /// Whether the last search left out corrections that are needed: the field bends too much in too
+  /// many cells.
+  bool leftOut() const { return this->LeftOut; }
+
+  /// Whether many slots are free in places that may be too small.
+  bool isScattered() const;
+
+  /// Tells shaders where the corrections of a cell are: CodeOfSlot times its first slot, plus its
+  /// slots a side; 0: there are none. The cell's slots follow each other, x fastest.
+  float code(const glm::ivec3& cell) const
+  {
+    return this->Codes.empty() ? 0.0f : this->Codes[this->index(cell)];
+  }
+
+  /// Those of a box of cells, x fastest.
+  std::vector<float> codes(const IndexBox& cells) const;
+
+  /// For each node of a box, x fastest: the largest correction along any axis in the cells around
+  /// the node, lattice cells.
+  std::vector<float> reaches(const IndexBox& nodes) const;
+
+  /// Layers of the texture of corrections that are in use.
+  int layers() const { return (this->SlotsUsed + SlotsInLayer - 1) / SlotsInLayer; }
+
+  /// Corrections in a box of texels of their texture, x fastest; lattice cells, as four half floats
+  /// each. Where there is no slot they are 0.
+  std::vector<std::uint64_t> texels(const IndexBox& box) const;
+
+  /// First and last slot that were written since the last call; none: last below first.
+  std::array<int, 2> takeWritten();
+
+private:
+  std::size_t index(const glm::ivec3& cell) const
+  {
+    return (static_cast<std::size_t>(cell.z) * this->Nodes.count.y + cell.y) * this->Nodes.count.x +
+      cell.x;
+  }
+  void release(const glm::ivec3& cell);
+  int takeSlots(int side);
+  int slotsLeft() const;
+  bool keep(const glm::ivec3& cell, int side, const FilledSlots& filled);
+  std::vector<NeedingCell> look(
+    const IndexBox& cells, const NodeBlock& block, const Accuracy& accuracy);
+  int mostSlotsASide(const std::vector<NeedingCell>& needing) const;
+  std::size_t fillSome(const std::vector<NeedingCell>& needing, std::size_t first, int most,
+    const std::function<FilledSlots(const NeedingCell&, int side)>& fill);
+
+  FieldNodes Nodes;
+  // One for each node: that of the cell above it along all axes. Empty before the first correction.
+  std::vector<float> Codes;
+  std::vector<float> Reaches;                               // of these cells, lattice cells
+  std::vector<std::uint64_t> Corrections;                   // SlotTexels for each slot, x fastest
+  int SlotsUsed = 0;                                        // those in the free lists, too
+  std::array<std::vector<int>, SlotsASide.back() + 1> Free; // [a side]: first slots of free places
+  std::array<int, 2> Written{ 0, -1 };                      // slots
+  int CellsWith = 0;
+  bool LeftOut = false; // by the last search
+};
+}
+
+#endif
