@@ -84,6 +84,17 @@ def answer_slices(found):
     drawn(found, "slices moved", display, view)
 
 
+def answer_letters(found):
+    """The letters of the sides, and the warning that they are not known."""
+    view = view_along((0, 0, -1), MIDDLE, 80.0, size=2 * SIZE, half_height=16.0)
+    display = show_slices(bent(), view, ("Axial",), MIDDLE, high=300.0, array="RTData")
+    found["no letters"] = picture(view)
+    display.OrientationMarks = 1
+    found["letters not known"] = picture(view)
+    display.WorldAxes = "LPS"
+    found["letters"] = picture(view)
+
+
 def answer_comparison(found):
     compared = simple.CompareVolumes(Input=bent(), Reference=wavelet())
     view = see()
@@ -128,6 +139,7 @@ def answers(folder=None):
     answer_volume(found)
     answer_scene(found)
     answer_slices(found)
+    answer_letters(found)
     answer_comparison(found)
     answer_stock(found)
     answer_traces(found)

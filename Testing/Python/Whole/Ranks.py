@@ -75,6 +75,8 @@ def test_one_process_has_something_to_compare():
         seen = ~numpy.isnan(EXPECTED[name]).any(axis=1)
         assert seen.tolist() == [True, True, True, False], (name, EXPECTED[name])
     assert (EXPECTED["volume"] != EXPECTED["volume after a stroke"]).any()
+    for name in ("letters not known", "letters"):
+        assert (EXPECTED[name] != EXPECTED["no letters"]).any(), name
     assert EXPECTED["uploads"].tolist() == [1, 2], "a stroke sends no voxels"
 
 
