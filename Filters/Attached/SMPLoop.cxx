@@ -26,7 +26,12 @@ bool leftSequential()
 // Static, so that it holds before the first filter runs.
 const struct Chosen
 {
+#ifdef BRAINSHIFT_OWN_THREADS
+  // The thread sanitizer does not see how the threads of a VTK that it was not built for wait.
+  Chosen() { setLoop(loopOnThreads); }
+#else
   Chosen() { setLoop(loopWithSMPTools); }
+#endif
 } chosen;
 }
 
