@@ -93,6 +93,7 @@ bool DeviceDeformation::update(GpuTask& gpu, SceneDeformation& deformation,
   }
   const Grid& lattice = deformation.lattice.grid;
   const glm::vec3 offsetScale(textureFromLattice(values, lattice));
+  const bool corrects = this->Corrects && !gpu.moving;
   if (this->FieldTime != deformation.time || this->OffsetScale != offsetScale)
   {
     if (!this->compute(gpu, deformation, offsetScale))
@@ -100,9 +101,12 @@ bool DeviceDeformation::update(GpuTask& gpu, SceneDeformation& deformation,
       return false;
     }
     change = { this->Field.changed(), this->Field.bent() };
-    this->Field.leaveOutCorrections();
+    if (!corrects)
+    {
+      this->Field.leaveOutCorrections();
+    }
   }
-  if (this->Field.isRough() && this->Corrects && !gpu.moving)
+  if (this->Field.isRough() && corrects)
   {
     this->correct(gpu, deformation, values);
     change.computed = enclosing(change.computed, this->Field.changed());

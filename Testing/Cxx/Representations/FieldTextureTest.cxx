@@ -4,6 +4,7 @@
 #include "Filters/Deformation/Kernels.h"
 #include "Filters/Deformation/MaskWeights.h"
 #include "Testing/Cxx/Deformation/TestLattices.h"
+#include "Testing/Cxx/Representations/TestFieldRequest.h"
 #include "Testing/Cxx/Representations/TestWindow.h"
 
 #include <vtkPixelBufferObject.h>
@@ -91,19 +92,6 @@ float largestDifference(const std::vector<glm::vec3>& left, const std::vector<gl
     result = std::max(result, glm::distance(left[i], right[i]));
   }
   return result;
-}
-
-FieldRequest requestFor(const Lattice& lattice, int samples, Inverse inverse)
-{
-  FieldRequest request;
-  request.dimensions = lattice.grid.dimensions;
-  request.kernel = lattice.kernel;
-  request.samples = samples;
-  request.inverse = inverse;
-  request.mask = lattice.mask;
-  request.inCells = displacementsInCells(lattice);
-  request.nodes = backwardNodes(lattice.grid, request.inCells, samples);
-  return request;
 }
 
 // Kernel, control points a side, samples.

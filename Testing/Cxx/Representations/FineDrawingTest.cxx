@@ -7,6 +7,7 @@
 #include "Representations/Gpu/Program.h"
 #include "Representations/Gpu/VolumePass.h"
 #include "Representations/Scene/SceneUniforms.h"
+#include "Testing/Cxx/Representations/TestFieldRequest.h"
 #include "Testing/Cxx/Representations/TestFineCells.h"
 #include "Testing/Cxx/Representations/TestWindow.h"
 
@@ -48,20 +49,6 @@ ShaderSource askingSource()
   return source;
 }
 
-FieldRequest requestOf(const Lattice& lattice, Inverse inverse)
-{
-  FieldRequest request;
-  request.dimensions = lattice.grid.dimensions;
-  request.kernel = lattice.kernel;
-  request.samples = FineSamples;
-  request.inverse = inverse;
-  request.mask = lattice.mask;
-  request.inCells = displacementsInCells(lattice);
-  request.nodes = backwardNodes(lattice.grid, request.inCells, FineSamples);
-  request.offsetScale = { 0.05f, 0.06f, 0.07f };
-  return request;
-}
-
 // A field on the GPU, as a picture's shaders read it.
 class FineDrawing : public ::testing::Test
 {
@@ -70,7 +57,8 @@ protected:
 
   void update(const Lattice& lattice, Inverse inverse = Inverse::Exact)
   {
-    this->Request = requestOf(lattice, inverse);
+    this->Request = requestFor(lattice, FineSamples, inverse);
+    this->Request.offsetScale = { 0.05f, 0.06f, 0.07f };
     ASSERT_TRUE(this->Field.update(this->Shown.window(), this->Request, this->Count));
   }
 
