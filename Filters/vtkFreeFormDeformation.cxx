@@ -361,9 +361,16 @@ std::string vtkFreeFormDeformation::Bend(
   {
     return problem;
   }
-  const Lattice& bent =
-    state.StrokeReplay.run(start, strokes, { this->GuardFolding, this->Samples });
-  problem = problemOfDisplacements(bent, "the strokes");
+  // CheckAbort would take the output away, and with it the last picture.
+  const Lattice& bent = state.StrokeReplay.run(
+    start, strokes, { this->GuardFolding, this->Samples }, [this](double share) {
+      this->UpdateProgress(share);
+      return !this->GetAbortExecute();
+    });
+  problem = state.StrokeReplay.isWhole()
+    ? problemOfDisplacements(bent, "the strokes")
+    : "Free-Form Deformation was stopped after " + std::to_string(state.StrokeReplay.count()) +
+      " of " + std::to_string(strokes.size()) + " strokes. The next change goes on from there";
   if (!problem.empty())
   {
     return problem;

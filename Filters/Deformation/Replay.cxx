@@ -141,8 +141,20 @@ void Replay::keepCheckpoint(std::size_t count)
   }
 }
 
-const Lattice& Replay::run(
-  const Lattice& base, const std::vector<Stroke>& strokes, const Guarding& guarding)
+void Replay::applyGuarded(const Stroke& stroke)
+{
+  this->apply(stroke, 1.0);
+  const double share = this->Guarded.on ? this->Guard.share(this->BeforeLast, this->Result) : 1.0;
+  if (share < 1.0)
+  {
+    this->Result = between(this->BeforeLast, this->Result, share);
+  }
+  this->Shares.push_back(share);
+  this->Reaches.push_back(reachOf(this->BeforeLast, this->Result, stroke));
+}
+
+const Lattice& Replay::run(const Lattice& base, const std::vector<Stroke>& strokes,
+  const Guarding& guarding, const ReplayProgress& progress)
 {
   if (!this->isFor(base, guarding))
   {
@@ -155,28 +167,27 @@ const Lattice& Replay::run(
   const std::size_t first = this->goBack(same, strokes.size());
   this->Shares.resize(same);
   this->Reaches.resize(same);
-  for (std::size_t next = first; next < strokes.size(); ++next)
+  std::size_t done = first;
+  this->Whole = true;
+  while (done < strokes.size() && this->Whole)
   {
-    if (next < same)
+    if (done < same)
     {
-      this->apply(strokes[next], this->Shares[next]);
+      this->apply(strokes[done], this->Shares[done]);
     }
     else
     {
-      this->apply(strokes[next], 1.0);
-      const double share =
-        this->Guarded.on ? this->Guard.share(this->BeforeLast, this->Result) : 1.0;
-      if (share < 1.0)
-      {
-        this->Result = between(this->BeforeLast, this->Result, share);
-      }
-      this->Shares.push_back(share);
-      this->Reaches.push_back(reachOf(this->BeforeLast, this->Result, strokes[next]));
+      this->applyGuarded(strokes[done]);
     }
-    this->keepCheckpoint(next + 1);
+    this->keepCheckpoint(++done);
+    // Only after a stroke: the lattice before the last one must be known.
+    this->Whole = done == strokes.size() || !progress ||
+      progress(static_cast<double>(done - first) / static_cast<double>(strokes.size() - first));
   }
-  this->Applied = static_cast<int>(strokes.size() - first);
-  this->Strokes = strokes;
+  this->Shares.resize(done);
+  this->Reaches.resize(done);
+  this->Applied = static_cast<int>(done - first);
+  this->Strokes.assign(strokes.begin(), strokes.begin() + static_cast<std::ptrdiff_t>(done));
   return this->Result;
 }
 

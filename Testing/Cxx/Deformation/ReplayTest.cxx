@@ -231,6 +231,54 @@ TEST(LongReplay, GoesOnFromACheckpoint)
   expectAsAnew(0, "none is left");
 }
 
+TEST(LongReplay, CanBeStoppedAndGoesOn)
+{
+  const Guarding guarding{ true, 0 };
+  const std::vector<Stroke> strokes = manyStrokes(40);
+  const Lattice whole = Replay().run(base(), strokes, guarding);
+  Replay running;
+  double last = 0.0;
+  const auto stopAt = [&](int strokeCount) {
+    int heard = 0;
+    last = 0.0;
+    running.run(base(), strokes, guarding, [&](double share) {
+      EXPECT_GT(share, last);
+      EXPECT_LT(share, 1.0);
+      last = share;
+      return ++heard < strokeCount;
+    });
+  };
+  std::size_t count = 0;
+  for (const int more : { 1, 19, 7 })
+  {
+    stopAt(more);
+    count += static_cast<std::size_t>(more);
+    EXPECT_FALSE(running.isWhole());
+    EXPECT_EQ(running.count(), count);
+    EXPECT_EQ(running.shares().size(), count);
+  }
+  stopAt(100);
+  EXPECT_TRUE(running.isWhole());
+  EXPECT_EQ(running.applied(), 13) << "those until the stop are not repeated";
+  EXPECT_EQ(running.run(base(), strokes, guarding).displacements, whole.displacements);
+}
+
+TEST(LongReplay, ANewEditAfterAStopIsAsAnew)
+{
+  const Guarding guarding{ true, 0 };
+  std::vector<Stroke> strokes = manyStrokes(40);
+  Replay running;
+  running.run(base(), strokes, guarding);
+  strokes[30].vector *= 0.5;
+  int heard = 0;
+  running.run(base(), strokes, guarding, [&](double) { return ++heard < 3; });
+  EXPECT_FALSE(running.isWhole());
+  strokes[running.count() - 1].vector *= 0.5;
+  const Lattice whole = Replay().run(base(), strokes, guarding);
+  EXPECT_EQ(running.run(base(), strokes, guarding).displacements, whole.displacements);
+  EXPECT_TRUE(running.isWhole());
+}
+
 TEST(LongReplay, KeepsNoMoreCheckpointsThanFit)
 {
   // 113^3 points take 17 MB: 3 checkpoints fit.
