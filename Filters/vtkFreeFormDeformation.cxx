@@ -323,6 +323,22 @@ std::string vtkFreeFormDeformation::ProblemOfProperties() const
   return {};
 }
 
+// Runs the strokes, with progress. Returns why the result cannot be used; empty if it can.
+std::string vtkFreeFormDeformation::ReplayStrokes(
+  const Lattice& start, const std::vector<Stroke>& strokes)
+{
+  // CheckAbort would take the output away, and with it the last picture.
+  Replay& replay = this->Internal->StrokeReplay;
+  replay.run(start, strokes, { this->GuardFolding, this->Samples }, [this](double share) {
+    this->UpdateProgress(share);
+    return !this->GetAbortExecute();
+  });
+  return replay.isWhole()
+    ? problemOfDisplacements(replay.result(), "the strokes")
+    : "Free-Form Deformation was stopped after " + std::to_string(replay.count()) + " of " +
+      std::to_string(strokes.size()) + " strokes. The next change goes on from there";
+}
+
 std::string vtkFreeFormDeformation::Bend(
   const Grid& volumeGrid, vtkImageData* base, vtkImageData* maskImage, vtkImageData* segments)
 {
@@ -361,23 +377,14 @@ std::string vtkFreeFormDeformation::Bend(
   {
     return problem;
   }
-  // CheckAbort would take the output away, and with it the last picture.
-  const Lattice& bent = state.StrokeReplay.run(
-    start, strokes, { this->GuardFolding, this->Samples }, [this](double share) {
-      this->UpdateProgress(share);
-      return !this->GetAbortExecute();
-    });
-  problem = state.StrokeReplay.isWhole()
-    ? problemOfDisplacements(bent, "the strokes")
-    : "Free-Form Deformation was stopped after " + std::to_string(state.StrokeReplay.count()) +
-      " of " + std::to_string(strokes.size()) + " strokes. The next change goes on from there";
+  problem = this->ReplayStrokes(start, strokes);
   if (!problem.empty())
   {
     return problem;
   }
   segmentation.chosen = segments ? std::vector<int>() : this->MaskLabels;
   state.LastSegmentation = segmentation;
-  Lattice result = bent;
+  Lattice result = state.StrokeReplay.result();
   std::swap(state.LastGood.lattice, result); // all of it or nothing
   state.TooFine = strokesTooFine(strokes, start.grid);
   state.LastGood.samples = this->Samples;

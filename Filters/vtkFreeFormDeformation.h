@@ -36,6 +36,8 @@ class vtkImageData;
 namespace brainshift
 {
 struct Grid;
+struct Lattice;
+struct Stroke;
 }
 
 class VTKBRAINSHIFTFILTERS_EXPORT vtkFreeFormDeformation : public vtkPassInputTypeAlgorithm
@@ -200,6 +202,8 @@ private:
 
   // Bends the lattice as the properties say. Returns one sentence if it cannot, and keeps the last
   // good deformation; empty if it can.
+  std::string ReplayStrokes(
+    const brainshift::Lattice& start, const std::vector<brainshift::Stroke>& strokes);
   std::string Bend(const brainshift::Grid& volumeGrid, vtkImageData* base, vtkImageData* maskImage,
     vtkImageData* segments);
 

@@ -60,6 +60,9 @@ public:
   const Lattice& run(const Lattice& base, const std::vector<Stroke>& strokes,
     const Guarding& guarding = {}, const ReplayProgress& progress = {});
 
+  /** What the last run returned. */
+  const Lattice& result() const { return this->Result; }
+
   /** Whether the last run came to its last stroke. The next run goes on where it ended. */
   bool isWhole() const { return this->Whole; }
 

@@ -8,8 +8,8 @@ closes N views. Before each it does some to warm up, because ParaView and the dr
 loaded once. It prints how much the memory of the process grew, and ends with 1 if that is more than
 the limit. ParaView itself keeps about 0.2 MB for each volume that was shown and 1 MB for each view
 that was closed, an empty one too. So as many volumes and views with its own Volume are measured
-first and subtracted. Mesa keeps compiled shaders in a file that it maps into memory, up to 28 MB for
-40 views; that is not ours, so it is off here.
+first and subtracted. Mesa keeps compiled shaders in a file that it maps into memory, 28 MB after 40
+views. That is not ours, so it is off here.
 """
 import argparse
 import ctypes
