@@ -3,6 +3,7 @@
 
 #include "Interaction/ToolCarrier.h"
 #include "Interaction/Views/SliceMouse.h"
+#include "Plugin/FirstLook.h"
 #include "Plugin/TraceLook.h"
 
 #include <pqActiveObjects.h>
@@ -11,12 +12,9 @@
 #include <pqPipelineSource.h>
 #include <pqServerManagerModel.h>
 
-#include <vtkDataObject.h>
 #include <vtkEventQtSlotConnect.h>
 #include <vtkNew.h>
-#include <vtkSMArrayListDomain.h>
 #include <vtkSMPVRepresentationProxy.h>
-#include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 
 #include <QTimer>
@@ -40,27 +38,6 @@ bool reportsNumbers(vtkSMProxy* filter)
   return std::strcmp(filter->GetXMLName(), "InvertDisplacementField") == 0;
 }
 
-// The first point array, else the first of all.
-void colorByFirstArray(vtkSMPVRepresentationProxy* representation)
-{
-  vtkSMProperty* property = representation->GetProperty("ColorArrayName");
-  auto arrays = property ? property->FindDomain<vtkSMArrayListDomain>() : nullptr;
-  if (!arrays || arrays->GetNumberOfStrings() == 0)
-  {
-    return;
-  }
-  unsigned int chosen = 0;
-  for (unsigned int i = arrays->GetNumberOfStrings(); i-- > 0;)
-  {
-    chosen = arrays->GetFieldAssociation(i) == vtkDataObject::POINT ? i : chosen;
-  }
-  if (representation->SetScalarColoring(
-        arrays->GetString(chosen), arrays->GetFieldAssociation(chosen)))
-  {
-    representation->RescaleTransferFunctionToDataRange(true);
-  }
-}
-
 // A state being loaded says itself how it looks.
 void prepare(pqRepresentation* display)
 {
@@ -71,9 +48,10 @@ void prepare(pqRepresentation* display)
   {
     return;
   }
-  if (!representation->GetUsingScalarColoring())
+  auto data = qobject_cast<pqDataRepresentation*>(display);
+  if (!representation->GetUsingScalarColoring() && data)
   {
-    colorByFirstArray(representation);
+    volume ? brainshift::showFirstLook(data) : brainshift::colorByFirstArray(data);
   }
   if (volume && !display->property(Shaded).toBool()) // once: who then turns it off means it
   {

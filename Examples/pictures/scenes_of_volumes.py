@@ -65,6 +65,22 @@ def _separate_maps(display, colors, opacities):
                       for number in (scalar, share, 0.5, 0.0)]
 
 
+def looks(width):
+    """One head as three looks."""
+    import brainshift
+    side = width // 3
+    head = stage.bend(stage.head(), Segmentation=stage.mask())
+    views = []
+    for name in ("Skin", "Brain", "See-through"):
+        views.append(stage.view(side))
+        display = simple.Show(head, views[-1], "UniformGridRepresentation")
+        display.SetRepresentationType("Deformed Volume")
+        simple.ColorBy(display, ("POINTS", "Intensity"), separate=True)
+        display.SetScalarBarVisibility(views[-1], False)
+        brainshift.look(display, name, views[-1])
+    return stage.side_by_side(views)
+
+
 def deformed_slices(width):
     """Three planes through a bent head in 3D, and the coronal one seen from the front."""
     side = width // 2
@@ -134,7 +150,7 @@ def nifti(width):
 
 VOLUME_SCENES = {
     "brain-before-after": before_after, "head-strength": strength,
-    "representation-deformed-volume": deformed_volume,
+    "representation-deformed-volume": deformed_volume, "looks": looks,
     "representation-deformed-slices": deformed_slices, "filter-free-form-deformation-mask": mask,
     "filter-bake-deformation": bake, "orientation": orientation,
     "filter-nifti-volume-reader": nifti}

@@ -5,7 +5,9 @@
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Views/Flicker.h"
+#include "Panel/Tools/LookChoice.h"
 #include "Panel/Tools/ToolChoice.h"
+#include "Panel/Window/LookMenu.h"
 #include "Panel/Window/StatusLine.h"
 
 #include <pqActiveObjects.h>
@@ -28,6 +30,7 @@ Toolbar::Toolbar(QWidget* mainWindow)
   this->addReset();
   this->addCompare();
   this->addFlicker();
+  this->addLooks();
   for (QAction* action : this->actions()) // buttons are named like actions, for tests to press
   {
     if (!action->isSeparator())
@@ -105,6 +108,18 @@ void Toolbar::addFlicker()
   auto flicker = new Flicker(this);
   this->connect(this->Flickering, &QAction::triggered, flicker, &Flicker::turn);
   this->connect(flicker, &Flicker::turned, this->Flickering, &QAction::setChecked);
+}
+
+void Toolbar::addLooks()
+{
+  QAction* action = (new LookMenu(this))->menuAction();
+  action->setIcon(iconOfLook("Skin"));
+  action->setObjectName("actionBrainShiftLooks");
+  action->setToolTip(
+    tr("Look: show skin, brain, bone or vessels of the volume in the active view."));
+  this->addAction(action);
+  qobject_cast<QToolButton*>(this->widgetForAction(action))
+    ->setPopupMode(QToolButton::InstantPopup);
 }
 
 void Toolbar::followPipeline()

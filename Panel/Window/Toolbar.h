@@ -27,6 +27,7 @@ private:
   void addReset();
   void addCompare();
   void addFlicker();
+  void addLooks();
   void followPipeline();
   void follow(StrokeEditor* editor);
   void refresh();

@@ -15,11 +15,13 @@ Research software, not a medical device.
 
 from .answers import counters, gpu, pick, slice_axes
 from .files import load_field, load_lattice, save_field, save_lattice
+from .looks import look, looks
 from .maps import deformed_from_rest, rest_from_deformed
 from .strokes import MOVE, NUMBERS_PER_STROKE, SOFT, STAMP, move, soft, stamp
 from .views import four_views
 
 __all__ = [
     "MOVE", "NUMBERS_PER_STROKE", "SOFT", "STAMP",
-    "counters", "deformed_from_rest", "four_views", "gpu", "load_field", "load_lattice", "move",
-    "pick", "rest_from_deformed", "save_field", "save_lattice", "slice_axes", "soft", "stamp"]
+    "counters", "deformed_from_rest", "four_views", "gpu", "load_field", "load_lattice", "look",
+    "looks", "move", "pick", "rest_from_deformed", "save_field", "save_lattice", "slice_axes",
+    "soft", "stamp"]

@@ -61,6 +61,20 @@ def answer_volume(found):
     found["filter"] = numpy.array([volume.MinimumJacobian, volume.MaximumDisplacement])
 
 
+def answer_looks(found):
+    """What the histogram of the whole volume says, whichever parts the ranks hold."""
+    import brainshift
+    view = see()
+    display = show_volume(bent(), view, "Deformed Volume", COLORS, OPACITIES, array="RTData",
+                          shade=True)
+    for name in brainshift.looks(display):
+        brainshift.look(display, name, view)
+        found["look " + name] = numpy.array(
+            [*display.LookupTable.RGBPoints, *display.ScalarOpacityFunction.Points,
+             *view.CameraPosition, *view.CameraFocalPoint])
+    simple.Delete(view)
+
+
 def answer_scene(found):
     """A volume, a surface that cuts it, and traced points before and behind tissue."""
     view = see()
@@ -137,6 +151,7 @@ def answers(folder=None):
     """All answers by name: pictures [row, column, colour], picks (mm), numbers of filters."""
     found = {}
     answer_volume(found)
+    answer_looks(found)
     answer_scene(found)
     answer_slices(found)
     answer_letters(found)

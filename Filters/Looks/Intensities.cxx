@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Looks/Intensities.h"
+
+#include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/Segmentation.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkImageData.h"
+#include "vtkMultiProcessController.h"
+#include "vtkPointData.h"
+
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <vector>
+
+namespace brainshift
+{
+namespace
+{
+constexpr int FineBins = 4096;       // to find the ends of the values
+constexpr int Bins = 512;            // between them
+constexpr double RareShare = 0.0005; // of the voxels at each end
+constexpr std::size_t MostLabels = 64;
+constexpr double RowShare = 0.002; // of the fullest row, below which a row counts as noise
+
+void reduce(std::vector<double>& values, int operation)
+{
+  vtkMultiProcessController* processes = vtkMultiProcessController::GetGlobalController();
+  if (processes && processes->GetNumberOfProcesses() > 1)
+  {
+    const std::vector<double> own = values;
+    processes->AllReduce(own.data(), values.data(), static_cast<vtkIdType>(own.size()), operation);
+  }
+}
+
+// An array on this process's part of a volume, read at even distances. Where two parts share a
+// layer of points, the lower part leaves it to the other.
+class Part
+{
+public:
+  Part(vtkImageData* volume, const ArrayChoice& choice)
+  {
+    this->find(volume, choice);
+    this->findWhole();
+    this->Step =
+      static_cast<int>(std::ceil(std::cbrt(std::max(this->wholeCount() / MostVoxelsRead, 1.0))));
+  }
+
+  // On any process.
+  bool exists() const { return this->Anywhere; }
+
+  // Calls visit(index, value) for finite values; the index is in the whole volume.
+  template <typename Visit>
+  void forEach(const Visit& visit) const
+  {
+    if (!this->Array)
+    {
+      return;
+    }
+    const glm::ivec3 size = this->Last - this->First + 1;
+    for (int k = this->start(2); k <= this->end(2); k += this->Step)
+    {
+      for (int j = this->start(1); j <= this->end(1); j += this->Step)
+      {
+        const vtkIdType row =
+          (vtkIdType(k - this->First.z) * size.y + (j - this->First.y)) * size.x;
+        for (int i = this->start(0); i <= this->end(0); i += this->Step)
+        {
+          const double value = this->Array->GetComponent(row + (i - this->First.x), 0);
+          if (std::isfinite(value))
+          {
+            visit(glm::ivec3(i, j, k) - this->WholeFirst, value);
+          }
+        }
+      }
+    }
+  }
+
+  glm::ivec3 wholeSize() const { return this->WholeLast - this->WholeFirst + 1; }
+
+  // World position (mm) of an index in the whole volume.
+  glm::dvec3 world(const glm::dvec3& index) const
+  {
+    return this->Place.worldFromGrid(index + glm::dvec3(this->WholeFirst - this->First));
+  }
+
+  const Grid& place() const { return this->Place; }
+  double value(const glm::ivec3& index) const // in this part
+  {
+    return this->Array->GetComponent(
+      static_cast<vtkIdType>(this->Place.offset(index.x, index.y, index.z)), 0);
+  }
+  bool isHere() const { return this->Array; }
+
+private:
+  void find(vtkImageData* volume, const ArrayChoice& choice)
+  {
+    const bool cells = choice.association == vtkDataObject::CELL;
+    vtkDataSetAttributes* data = !volume ? nullptr
+      : cells                            ? static_cast<vtkDataSetAttributes*>(volume->GetCellData())
+                                         : volume->GetPointData();
+    vtkDataArray* array = data ? data->GetArray(choice.name.c_str()) : nullptr;
+    if (!array || array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() == 0)
+    {
+      return;
+    }
+    this->Array = array;
+    this->Place = gridOf(volume);
+    int extent[6];
+    volume->GetExtent(extent);
+    this->First = { extent[0], extent[2], extent[4] };
+    this->Last = { extent[1], extent[3], extent[5] };
+    if (cells)
+    {
+      this->Last = glm::max(this->Last - 1, this->First);
+      this->Place.origin = this->Place.worldFromGrid(glm::dvec3(0.5));
+    }
+    this->Place.dimensions = this->Last - this->First + 1;
+  }
+
+  // The whole volume's first and last index, over all processes.
+  void findWhole()
+  {
+    constexpr double none = std::numeric_limits<int>::max();
+    std::vector<double> ends(7, -none); // three negated first ones, three last ones, and: any array
+    for (int axis = 0; axis < 3 && this->Array; ++axis)
+    {
+      ends[axis] = -this->First[axis];
+      ends[3 + axis] = this->Last[axis];
+      ends[6] = 1.0;
+    }
+    reduce(ends, vtkCommunicator::MAX_OP);
+    this->Anywhere = ends[6] == 1.0;
+    for (int axis = 0; axis < 3 && this->Anywhere; ++axis)
+    {
+      this->WholeFirst[axis] = -static_cast<int>(ends[axis]);
+      this->WholeLast[axis] = static_cast<int>(ends[3 + axis]);
+    }
+  }
+
+  double wholeCount() const
+  {
+    const glm::dvec3 size(this->wholeSize());
+    return size.x * size.y * size.z;
+  }
+
+  int start(int axis) const
+  {
+    const int beyond = (this->First[axis] - this->WholeFirst[axis]) % this->Step;
+    return this->First[axis] + (beyond ? this->Step - beyond : 0);
+  }
+  int end(int axis) const
+  {
+    return this->Last[axis] < this->WholeLast[axis] ? this->Last[axis] - 1 : this->Last[axis];
+  }
+
+  vtkDataArray* Array = nullptr; // null: none on this process
+  Grid Place;                    // of this part
+  glm::ivec3 First{ 0 };
+  glm::ivec3 Last{ 0 };
+  glm::ivec3 WholeFirst{ 0 };
+  glm::ivec3 WholeLast{ 0 };
+  int Step = 1;
+  bool Anywhere = false;
+};
+
+Histogram countAll(const Part& part, double low, double high, int bins)
+{
+  Histogram histogram = makeHistogram(low, high, bins);
+  part.forEach([&](const glm::ivec3&, double value) { histogram.add(value); });
+  reduce(histogram.counts, vtkCommunicator::SUM_OP);
+  return histogram;
+}
+
+// Finds the smallest and the largest value, and whether all of them are labels.
+void findRange(const Part& part, Intensities& found)
+{
+  std::set<double> different;
+  std::vector<double> ends(3, -std::numeric_limits<double>::max()); // -lowest, highest, not labels
+  part.forEach([&](const glm::ivec3&, double value) {
+    ends[0] = std::max(ends[0], -value);
+    ends[1] = std::max(ends[1], value);
+    if (different.size() <= MostLabels)
+    {
+      different.insert(value);
+    }
+  });
+  const bool whole = std::all_of(
+    different.begin(), different.end(), [](double value) { return value == std::floor(value); });
+  ends[2] = different.size() > MostLabels || !whole ? 1.0 : 0.0;
+  reduce(ends, vtkCommunicator::MAX_OP);
+  found.lowest = -ends[0];
+  found.highest = ends[1];
+  found.areLabels = ends[2] == 0.0;
+}
+
+glm::dvec3 indexOf(const Grid& grid, std::size_t voxel)
+{
+  const auto x = static_cast<std::size_t>(grid.dimensions.x);
+  const auto y = static_cast<std::size_t>(grid.dimensions.y);
+  return { voxel % x, voxel / x % y, voxel / x / y };
+}
+
+// The box around positions (mm, world) that the processes know.
+class BoxFinder
+{
+public:
+  void add(const glm::dvec3& world)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->Ends[2 * axis] = std::max(this->Ends[2 * axis], -world[axis]);
+      this->Ends[2 * axis + 1] = std::max(this->Ends[2 * axis + 1], world[axis]);
+    }
+  }
+
+  Box ofAllProcesses()
+  {
+    reduce(this->Ends, vtkCommunicator::MAX_OP);
+    Box box;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      box.bounds[2 * axis] = -this->Ends[2 * axis];
+      box.bounds[2 * axis + 1] = this->Ends[2 * axis + 1];
+    }
+    return box;
+  }
+
+private:
+  // The smallest ones are negated.
+  std::vector<double> Ends = std::vector<double>(6, -std::numeric_limits<double>::max());
+};
+
+// The values at the middles of the segmentation's voxels.
+Histogram countSegment(const Part& part, vtkImageData* volume, const Histogram& all)
+{
+  Histogram histogram = makeHistogram(all.low, all.high, Bins);
+  const Segmentation segmentation = volume ? readSegmentation(volume) : Segmentation();
+  if (part.isHere() && segmentation.labels)
+  {
+    const Mask mask = segmentOf(segmentation, segmentation.chosen);
+    const double voxels = static_cast<double>(mask.inside.size());
+    const auto step = static_cast<std::size_t>(std::max(voxels / MostVoxelsRead, 1.0));
+    for (std::size_t voxel = 0; voxel < mask.inside.size(); voxel += step)
+    {
+      if (!mask.inside[voxel])
+      {
+        continue;
+      }
+      const glm::dvec3 world = mask.grid.worldFromGrid(indexOf(mask.grid, voxel));
+      const glm::ivec3 index(glm::round(part.place().gridFromWorld(world)));
+      if (glm::all(glm::greaterThanEqual(index, glm::ivec3(0))) &&
+        glm::all(glm::lessThan(index, part.place().dimensions)) && std::isfinite(part.value(index)))
+      {
+        histogram.add(part.value(index));
+      }
+    }
+  }
+  reduce(histogram.counts, vtkCommunicator::SUM_OP);
+  return histogram.total() > 0.0 ? histogram : Histogram();
+}
+
+// The first and the last of the numbered rows that hold more than noise.
+std::array<int, 2> filled(const std::vector<double>& counts, int first, int size)
+{
+  const auto begin = counts.begin() + first;
+  const double most = *std::max_element(begin, begin + size);
+  const auto isFull = [&](double count) { return count > RowShare * most; };
+  const auto low = std::find_if(begin, begin + size, isFull);
+  auto high = begin + size;
+  while (high != low && !isFull(*(high - 1)))
+  {
+    --high;
+  }
+  return { static_cast<int>(low - begin), static_cast<int>(high - begin) - 1 };
+}
+}
+
+Intensities readIntensities(vtkImageData* volume, const ArrayChoice& array)
+{
+  Intensities found;
+  const Part part(volume, array);
+  if (!part.exists())
+  {
+    return found;
+  }
+  findRange(part, found);
+  if (found.lowest > found.highest) // no finite value
+  {
+    return found;
+  }
+  const double width = std::max(found.highest - found.lowest, 1e-300);
+  const Histogram fine = countAll(part, found.lowest, found.lowest + width, FineBins);
+  const double low = percentile(fine, RareShare) - fine.width();
+  const double high = percentile(fine, 1.0 - RareShare) + fine.width();
+  found.all = countAll(part, std::max(low, found.lowest), std::max(high, low + fine.width()), Bins);
+  found.segment = countSegment(part, volume, found.all);
+  return found;
+}
+
+Box boxAbove(vtkImageData* volume, const ArrayChoice& array, double value)
+{
+  Box box;
+  const Part part(volume, array);
+  if (!part.exists())
+  {
+    return box;
+  }
+  const glm::ivec3 size = part.wholeSize();
+  const glm::ivec3 first(0, size.x, size.x + size.y);
+  std::vector<double> counts(static_cast<std::size_t>(first.z) + size.z, 0.0);
+  part.forEach([&](const glm::ivec3& index, double at) {
+    for (int axis = 0; axis < 3 && at > value; ++axis)
+    {
+      counts[static_cast<std::size_t>(first[axis]) + index[axis]] += 1.0;
+    }
+  });
+  reduce(counts, vtkCommunicator::SUM_OP);
+  std::array<std::array<int, 2>, 3> rows;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    rows[axis] = filled(counts, first[axis], size[axis]);
+  }
+  BoxFinder finder;
+  for (int corner = 0; corner < 8 && part.isHere() && rows[0][0] <= rows[0][1]; ++corner)
+  {
+    finder.add(part.world(
+      glm::dvec3(rows[0][corner & 1], rows[1][corner >> 1 & 1], rows[2][corner >> 2 & 1])));
+  }
+  return finder.ofAllProcesses();
+}
+
+Box boxOfSegment(vtkImageData* volume)
+{
+  BoxFinder finder;
+  const Segmentation segmentation = volume ? readSegmentation(volume) : Segmentation();
+  if (segmentation.labels)
+  {
+    const Mask mask = segmentOf(segmentation, segmentation.chosen);
+    for (std::size_t voxel = 0; voxel < mask.inside.size(); ++voxel)
+    {
+      if (mask.inside[voxel])
+      {
+        finder.add(mask.grid.worldFromGrid(indexOf(mask.grid, voxel)));
+      }
+    }
+  }
+  return finder.ofAllProcesses();
+}
+}

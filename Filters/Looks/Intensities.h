@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief What the values of a volume are like, read once. From it looks are made.
+ */
+#ifndef BrainShift_Intensities_h
+#define BrainShift_Intensities_h
+
+#include "Filters/Looks/Histogram.h"
+#include "vtkBrainShiftFiltersModule.h" // for the export macro
+
+#include <string>
+
+class vtkImageData;
+
+namespace brainshift
+{
+/** About as many voxels are read, at even distances; of a smaller volume, all. */
+constexpr double MostVoxelsRead = 4e6;
+
+/** The values of one array. */
+struct Intensities
+{
+  double lowest = 0.0;    ///< smallest finite value
+  double highest = 0.0;   ///< largest finite value
+  Histogram all;          ///< of all voxels but the rarest values at both ends
+  Histogram segment;      ///< of those within the attached segmentation; no bins without one
+  bool areLabels = false; ///< few different values, all of them whole numbers
+
+  bool empty() const { return this->all.counts.empty(); }
+};
+
+/** Which array of a volume. */
+struct ArrayChoice
+{
+  int association = 0; ///< vtkDataObject::POINT or CELL
+  std::string name;
+};
+
+/**
+ * Reads a volume, or the parts of it that the processes of a server hold: all of them must call it,
+ * and all get the same answer. Not finite values do not count.
+ *
+ * @param volume   this process's part; null if it has none
+ * @return empty if there is no such array with one component
+ */
+VTKBRAINSHIFTFILTERS_EXPORT Intensities readIntensities(
+  vtkImageData* volume, const ArrayChoice& array);
+
+/** Smallest and largest x, y and z (mm, world). Not valid (smallest above largest): nothing. */
+struct Box
+{
+  double bounds[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
+};
+
+/**
+ * The box around the voxels above a value. Rows of voxels with hardly any of them, such as noise,
+ * do not count. All processes must call it.
+ */
+VTKBRAINSHIFTFILTERS_EXPORT Box boxAbove(
+  vtkImageData* volume, const ArrayChoice& array, double value);
+
+/** The box around the attached segmentation's chosen labels. All processes must call it. */
+VTKBRAINSHIFTFILTERS_EXPORT Box boxOfSegment(vtkImageData* volume);
+}
+
+#endif

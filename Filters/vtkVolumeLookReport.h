@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkVolumeLookReport
+ * @brief   makes looks for a volume where its data is
+ *
+ * A look is colours, opacities and whether a segmentation is drawn alone, made from the histogram
+ * of an array. The volume may lie on a server, in parts on several processes. This object lives
+ * beside it, and the XML proxy of the same name brings its answers to the client.
+ *
+ * Set what is asked, call Measure in all processes, then read the answers.
+ */
+#ifndef vtkVolumeLookReport_h
+#define vtkVolumeLookReport_h
+
+#include "vtkBrainShiftFiltersModule.h" // for the export macro
+#include "vtkNew.h"                     // for answers
+#include "vtkObject.h"
+#include "vtkWeakPointer.h" // for what is asked
+
+#include <string> // for names
+
+class vtkAlgorithm;
+class vtkDoubleArray;
+
+class VTKBRAINSHIFTFILTERS_EXPORT vtkVolumeLookReport : public vtkObject
+{
+public:
+  static vtkVolumeLookReport* New();
+  vtkTypeMacro(vtkVolumeLookReport, vtkObject);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** The source whose output is the volume. It must be up to date. */
+  void SetSource(vtkAlgorithm* source);
+
+  ///@{
+  /** Which output of the source. Default 0. */
+  vtkSetMacro(Port, int);
+  vtkGetMacro(Port, int);
+  ///@}
+
+  ///@{
+  /** Whether the array has values of points (0, default) or cells (1). */
+  vtkSetMacro(Association, int);
+  vtkGetMacro(Association, int);
+  ///@}
+
+  ///@{
+  /** The array that colours the volume. Default: none. */
+  vtkSetMacro(ArrayName, std::string);
+  vtkGetMacro(ArrayName, std::string);
+  ///@}
+
+  ///@{
+  /** Which look to make. Empty (default): the first of the volume's looks. */
+  vtkSetMacro(Look, std::string);
+  vtkGetMacro(Look, std::string);
+  ///@}
+
+  /** Reads the volume and makes the look. All processes of a server must call it. */
+  void Measure();
+
+  ///@{
+  /** "MR", "CT", "Ultrasound" or "Labels", guessed from the histogram. Empty without a volume. */
+  const char* GetKind() const { return this->Kind.c_str(); }
+  /** Names of the volume's looks, one in each line. */
+  const char* GetNames() const { return this->Names.c_str(); }
+  /** Value, red, green and blue (0 to 1) of each colour, rising. Empty if there is no such look. */
+  vtkDoubleArray* GetColors() { return this->Colors; }
+  /** Value and opacity (0 to 1), rising. */
+  vtkDoubleArray* GetOpacities() { return this->Opacities; }
+  /** Whether the look draws the attached segmentation alone. */
+  bool GetDrawsSegment() const { return this->DrawsSegment; }
+  /** The box (mm, world, rest frame) around what the look shows; smallest above largest: none. */
+  double* GetTissueBounds() VTK_SIZEHINT(6) { return this->TissueBounds; }
+  ///@}
+
+protected:
+  vtkVolumeLookReport();
+  ~vtkVolumeLookReport() override;
+
+private:
+  vtkVolumeLookReport(const vtkVolumeLookReport&) = delete;
+  void operator=(const vtkVolumeLookReport&) = delete;
+
+  void MakeLook();
+
+  vtkWeakPointer<vtkAlgorithm> Source;
+  int Port = 0;
+  int Association = 0;
+  std::string ArrayName;
+  std::string Look;
+  std::string Kind;
+  std::string Names;
+  vtkNew<vtkDoubleArray> Colors;
+  vtkNew<vtkDoubleArray> Opacities;
+  bool DrawsSegment = false;
+  double TissueBounds[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
+};
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Looks of a volume in the window: colours, opacities and a camera that fit its tissue. The process
+/// that has the data makes them (vtkVolumeLookReport).
+#ifndef BrainShift_VolumeLook_h
+#define BrainShift_VolumeLook_h
+
+#include <QString>
+#include <QStringList>
+
+#include <vector>
+
+class pqDataRepresentation;
+class vtkSMProxy;
+class vtkSMRenderViewProxy;
+
+namespace brainshift
+{
+/// What a volume can look like, and one of its looks.
+struct VolumeLook
+{
+  QString kind;                  ///< MR, CT, Ultrasound or Labels; empty without a volume
+  QStringList names;             ///< of all its looks; the first one fits at first sight
+  QString name;                  ///< of this look; empty if there is none
+  std::vector<double> colors;    ///< value, red, green, blue of each colour
+  std::vector<double> opacities; ///< value, opacity
+  bool drawsSegment = false;     ///< draws the attached segmentation alone
+  std::vector<double> bounds;    ///< mm, world: the box around what it shows; see aimAt
+};
+
+/// Reads the volume of a display that has colours, and makes a look for it.
+/// @param name   which one; empty: the first of them
+VolumeLook makeVolumeLook(pqDataRepresentation* display, const QString& name = {});
+
+/// Gives a display these colours and opacities, and shading. It renders nothing.
+void applyLook(pqDataRepresentation* display, const VolumeLook& look);
+
+/// Whether a colour map is as a look made it, and not as the user edited it.
+bool isLook(vtkSMProxy* colors);
+
+/// The look that the user chose last for volumes of this kind; empty if none.
+QString chosenLook(const QString& kind);
+/// Remembers it, also for the next start.
+void rememberLook(const QString& kind, const QString& name);
+
+/// Looks at a box from the patient's right, front and above, so that tissue fills the view.
+/// @param bounds   mm, world: smallest and largest x, y, z; if not valid, the camera stays
+void aimAt(vtkSMRenderViewProxy* view, const std::vector<double>& bounds);
+}
+
+#endif

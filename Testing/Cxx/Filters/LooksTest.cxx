@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Proves that volumes of each kind are told apart, and that their looks leave the background out and
+// show the tissue. The volumes are made here, with noise, and share no number with the looks.
+#include "Filters/Attached/Segmentation.h"
+#include "Filters/Looks/Look.h"
+#include "Testing/Cxx/Filters/TestPipeline.h"
+#include "vtkVolumeLookReport.h"
+
+#include <vtkCellData.h>
+#include <vtkDataObject.h>
+#include <vtkDoubleArray.h>
+#include <vtkTrivialProducer.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace brainshift;
+using namespace brainshift::testing;
+
+namespace
+{
+constexpr int Side = 60;
+const ArrayChoice Values{ vtkDataObject::POINT, "Intensity" };
+
+Grid headGrid()
+{
+  Grid grid = plainGrid(glm::ivec3(Side), glm::dvec3(3.0));
+  grid.origin = { -40.0, 10.0, -90.0 };
+  return grid;
+}
+
+// A ball of skin (outside), bone and brain in the middle. `outside`: voxels from the edge.
+enum class Tissue
+{
+  Air,
+  Skin,
+  Bone,
+  Brain
+};
+
+Tissue tissueAt(vtkIdType voxel)
+{
+  const glm::dvec3 at(voxel % Side, voxel / Side % Side, voxel / Side / Side);
+  const double radius = glm::length(at - 0.5 * (Side - 1));
+  return radius > 26.0 ? Tissue::Air
+    : radius > 22.0    ? Tissue::Skin
+    : radius > 19.0    ? Tissue::Bone
+                       : Tissue::Brain;
+}
+
+using TissueValues = std::array<double, 4>; // air, skin, bone, brain
+
+vtkSmartPointer<vtkImageData> headOf(const TissueValues& means, double noise, double lowest)
+{
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal(0.0, noise);
+  return volumeOn(headGrid(), VTK_FLOAT, [&](vtkIdType voxel) {
+    return std::max(means[static_cast<int>(tissueAt(voxel))] + normal(random), lowest);
+  });
+}
+
+vtkSmartPointer<vtkImageData> ctHead()
+{
+  return headOf({ -1000.0, 20.0, 900.0, 35.0 }, 15.0, -1024.0);
+}
+
+// Echoes in a cone; nothing outside it.
+vtkSmartPointer<vtkImageData> fan()
+{
+  std::mt19937 random(5);
+  std::exponential_distribution<double> echo(1.0 / 30.0);
+  return volumeOn(headGrid(), VTK_UNSIGNED_CHAR, [&](vtkIdType voxel) {
+    const glm::dvec3 at(voxel % Side - 30.0, voxel / Side % Side - 30.0, voxel / Side / Side + 5.0);
+    const bool inside = std::hypot(at.x, at.y) < 0.6 * at.z;
+    return inside ? std::min(1.0 + echo(random), 255.0) : 0.0;
+  });
+}
+
+double opacityAt(const Look& look, double value)
+{
+  double opacity = look.opacities.front()[1];
+  for (std::size_t i = 1; i < look.opacities.size(); ++i)
+  {
+    const auto& low = look.opacities[i - 1];
+    const auto& high = look.opacities[i];
+    if (value >= low[0])
+    {
+      const double within = std::min((value - low[0]) / (high[0] - low[0]), 1.0);
+      opacity = low[1] + within * (high[1] - low[1]);
+    }
+  }
+  return opacity;
+}
+
+// Each look rises, lies within 0 and 1, and reaches over all values.
+void expectDrawable(const Look& look, const Intensities& values, const std::string& name)
+{
+  ASSERT_GE(look.colors.size(), 2u) << name;
+  ASSERT_GE(look.opacities.size(), 2u) << name;
+  EXPECT_EQ(look.colors.front()[0], values.lowest) << name;
+  EXPECT_GE(look.colors.back()[0], values.highest) << name;
+  EXPECT_EQ(look.opacities.front()[0], values.lowest) << name;
+  EXPECT_GE(look.opacities.back()[0], values.highest) << name;
+  for (std::size_t i = 1; i < look.colors.size(); ++i)
+  {
+    EXPECT_GT(look.colors[i][0], look.colors[i - 1][0]) << name;
+  }
+  for (std::size_t i = 0; i < look.opacities.size(); ++i)
+  {
+    EXPECT_TRUE(i == 0 || look.opacities[i][0] > look.opacities[i - 1][0]) << name;
+    EXPECT_TRUE(look.opacities[i][1] >= 0.0 && look.opacities[i][1] <= 1.0) << name;
+  }
+}
+
+void expectAllDrawable(vtkImageData* volume)
+{
+  const Intensities values = readIntensities(volume, Values);
+  for (const std::string& name : looksOf(values))
+  {
+    expectDrawable(makeLook(name, values), values, name);
+  }
+}
+
+void attachBrain(vtkImageData* volume)
+{
+  Segmentation segmentation;
+  segmentation.grid = headGrid();
+  segmentation.labels = arrayOf(VTK_UNSIGNED_CHAR, SegmentationName, Side * Side * Side,
+    [](vtkIdType voxel) { return tissueAt(voxel) == Tissue::Brain ? 1.0 : 0.0; });
+  attachSegmentation(volume, segmentation);
+}
+}
+
+TEST(Looks, FindMRAndItsSkinWhateverItsUnits)
+{
+  for (const double unit : { 0.001, 1.0, 40.0 })
+  {
+    const TissueValues means{ 4.0 * unit, 70.0 * unit, 25.0 * unit, 110.0 * unit };
+    auto head = headOf(means, 4.0 * unit, 0.0);
+    const Intensities values = readIntensities(head, Values);
+    EXPECT_EQ(kindOf(values), VolumeKind::MR) << unit;
+    EXPECT_EQ(looksOf(values), (std::vector<std::string>{ "Skin", "See-through" })) << unit;
+    const Look skin = makeLook("Skin", values);
+    EXPECT_EQ(opacityAt(skin, 12.0 * unit), 0.0) << "air with three times its noise, " << unit;
+    EXPECT_EQ(opacityAt(skin, 62.0 * unit), 1.0) << "skin, less its noise, " << unit;
+    expectAllDrawable(head);
+  }
+}
+
+TEST(Looks, FindCTByItsAir)
+{
+  const Intensities values = readIntensities(ctHead(), Values);
+  EXPECT_EQ(kindOf(values), VolumeKind::CT);
+  EXPECT_EQ(looksOf(values), (std::vector<std::string>{ "Bone", "Brain", "Skin", "Vessels" }));
+  const Look bone = makeLook("Bone", values);
+  EXPECT_EQ(opacityAt(bone, 60.0), 0.0);
+  EXPECT_EQ(opacityAt(bone, 900.0), 1.0);
+  const Look skin = makeLook("Skin", values);
+  EXPECT_EQ(opacityAt(skin, -950.0), 0.0);
+  EXPECT_EQ(opacityAt(skin, 20.0), 1.0);
+  const Look brain = makeLook("Brain", values);
+  EXPECT_EQ(opacityAt(brain, 35.0), 1.0);
+  EXPECT_EQ(opacityAt(brain, 900.0), 0.0);
+  expectAllDrawable(ctHead());
+}
+
+TEST(Looks, FindUltrasoundByItsFan)
+{
+  const Intensities values = readIntensities(fan(), Values);
+  EXPECT_EQ(kindOf(values), VolumeKind::Ultrasound);
+  const Look look = makeLook(looksOf(values).front(), values);
+  EXPECT_EQ(opacityAt(look, 0.0), 0.0) << "outside the fan";
+  EXPECT_GT(opacityAt(look, 120.0), 0.5);
+  expectAllDrawable(fan());
+}
+
+TEST(Looks, OfABrainNeedASegmentationOutsideCT)
+{
+  auto head = headOf({ 4.0, 70.0, 25.0, 110.0 }, 4.0, 0.0);
+  EXPECT_TRUE(makeLook("Brain", readIntensities(head, Values)).colors.empty());
+  attachBrain(head);
+  const Intensities values = readIntensities(head, Values);
+  const Look brain = makeLook("Brain", values);
+  EXPECT_TRUE(brain.drawsSegment);
+  EXPECT_LT(opacityAt(brain, 100.0), 0.2) << "the darkest within the segmentation";
+  EXPECT_EQ(opacityAt(brain, 112.0), 1.0);
+  expectDrawable(brain, values, "Brain");
+}
+
+TEST(Looks, AreNoneForLabelsAndForNothing)
+{
+  auto labels = volumeOn(headGrid(), VTK_DOUBLE,
+    [](vtkIdType voxel) { return 3.0 * static_cast<int>(tissueAt(voxel)); });
+  EXPECT_EQ(kindOf(readIntensities(labels, Values)), VolumeKind::Labels);
+  EXPECT_TRUE(looksOf(readIntensities(labels, Values)).empty());
+  EXPECT_TRUE(looksOf(readIntensities(labels, { vtkDataObject::POINT, "Other" })).empty());
+  EXPECT_TRUE(looksOf(readIntensities(nullptr, Values)).empty());
+  auto nowhere = volumeOn(
+    headGrid(), VTK_FLOAT, [](vtkIdType) { return std::numeric_limits<double>::quiet_NaN(); });
+  EXPECT_TRUE(looksOf(readIntensities(nowhere, Values)).empty());
+}
+
+TEST(Looks, OutliersDoNotMoveThem)
+{
+  auto head = headOf({ 4.0, 70.0, 25.0, 110.0 }, 4.0, 0.0);
+  const Look before = makeLook("Skin", readIntensities(head, Values));
+  vtkDataArray* scalars = head->GetPointData()->GetScalars();
+  scalars->SetTuple1(5, std::numeric_limits<double>::infinity());
+  scalars->SetTuple1(6, std::numeric_limits<double>::quiet_NaN());
+  scalars->SetTuple1(7, 3e4);
+  const Look after = makeLook("Skin", readIntensities(head, Values));
+  EXPECT_NEAR(after.tissue, before.tissue, 0.1 * before.tissue);
+}
+
+TEST(Looks, KnowTheBoxOfTheirTissue)
+{
+  auto head = headOf({ 4.0, 70.0, 25.0, 110.0 }, 4.0, 0.0);
+  attachBrain(head);
+  vtkNew<vtkTrivialProducer> source;
+  source->SetOutput(head);
+  vtkNew<vtkVolumeLookReport> report;
+  report->SetSource(source);
+  report->SetArrayName("Intensity");
+  for (const auto& [look, radius] : { std::pair("Skin", 26.0), std::pair("Brain", 19.0) })
+  {
+    report->SetLook(look);
+    report->Measure();
+    const glm::dvec3 middle = headGrid().worldFromGrid(glm::dvec3(0.5 * (Side - 1)));
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      EXPECT_NEAR(report->GetTissueBounds()[2 * axis], middle[axis] - 3.0 * radius, 4.0) << look;
+      EXPECT_NEAR(report->GetTissueBounds()[2 * axis + 1], middle[axis] + 3.0 * radius, 4.0)
+        << look;
+    }
+  }
+  EXPECT_STREQ(report->GetKind(), "MR");
+  EXPECT_STREQ(report->GetNames(), "Skin\nBrain\nSee-through");
+  report->SetLook("Bone");
+  report->Measure();
+  EXPECT_EQ(report->GetColors()->GetNumberOfValues(), 0);
+  report->SetSource(nullptr);
+  report->Measure();
+  EXPECT_STREQ(report->GetKind(), "");
+}
+
+TEST(Looks, AreTheSameForCells)
+{
+  auto head = headOf({ 4.0, 70.0, 25.0, 110.0 }, 4.0, 0.0);
+  auto cells = imageOn(plainGrid(glm::ivec3(Side + 1), glm::dvec3(3.0)));
+  cells->GetCellData()->SetScalars(head->GetPointData()->GetScalars());
+  const Look ofPoints = makeLook("Skin", readIntensities(head, Values));
+  const Look ofCells =
+    makeLook("Skin", readIntensities(cells, { vtkDataObject::CELL, "Intensity" }));
+  EXPECT_EQ(ofPoints.opacities, ofCells.opacities);
+}
+
+TEST(Histogram, FindsPercentilesAndTheThresholdBetweenTwoPeaks)
+{
+  Histogram histogram = makeHistogram(0.0, 10.0, 100);
+  for (int i = 0; i < 1000; ++i)
+  {
+    histogram.add(i * 0.01);
+  }
+  EXPECT_NEAR(percentile(histogram, 0.25), 2.5, 0.02);
+  EXPECT_NEAR(percentile(histogram, 1.0), 10.0, 0.02);
+  Histogram peaks = makeHistogram(0.0, 10.0, 100);
+  for (int i = -50; i <= 50; ++i)
+  {
+    peaks.add(2.0 + 0.01 * i);
+    peaks.add(7.0 + 0.01 * i);
+  }
+  EXPECT_GE(otsuThreshold(peaks), 2.5);
+  EXPECT_LE(otsuThreshold(peaks), 6.6);
+}
