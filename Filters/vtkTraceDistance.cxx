@@ -113,6 +113,8 @@ struct vtkTraceDistance::State
   // Of the points of all blocks, what was nearest.
   std::vector<Found> Nearest;
   TraceStatistics Statistics;
+  TraceHistogram Histogram;
+  vtkNew<vtkDoubleArray> HistogramNumbers; // as a server sends them
   int SurfacesFound = 0;
 
   bool isRemoved(const glm::dvec3& deformed) const
@@ -211,6 +213,18 @@ double vtkTraceDistance::GetRMS() const
 double vtkTraceDistance::GetPercentile95() const
 {
   return this->Internal->Statistics.percentile95;
+}
+
+vtkDoubleArray* vtkTraceDistance::GetHistogram()
+{
+  vtkDoubleArray* numbers = this->Internal->HistogramNumbers;
+  numbers->Reset();
+  numbers->InsertNextValue(this->Internal->Histogram.width);
+  for (const int count : this->Internal->Histogram.counts)
+  {
+    numbers->InsertNextValue(count);
+  }
+  return numbers;
 }
 
 int vtkTraceDistance::GetSurfacesFound() const
@@ -375,7 +389,9 @@ int vtkTraceDistance::RequestData(
     output->ShallowCopy(input);
     going = this->Measure(vtkPointSet::SafeDownCast(output), distances);
   }
-  state.Statistics = statisticsOf(ofAllProcesses(distances));
+  const std::vector<double> all = ofAllProcesses(distances);
+  state.Statistics = statisticsOf(all);
+  state.Histogram = histogramOf(all);
   addField<vtkIntArray>(output, "Count", this->GetCount());
   addField<vtkDoubleArray>(output, "Mean", state.Statistics.mean);
   addField<vtkDoubleArray>(output, "RMS", state.Statistics.rms);

@@ -31,6 +31,7 @@
 #include <string>
 #include <vector>
 
+class vtkDoubleArray;
 class vtkPointSet;
 
 class VTKBRAINSHIFTFILTERS_EXPORT vtkTraceDistance : public vtkPassInputTypeAlgorithm
@@ -92,6 +93,13 @@ public:
   double GetRMS() const;
   double GetPercentile95() const;
   ///@}
+
+  /**
+   * Histogram of the signed distances of the last execution: the width of its 32 bins (mm), then
+   * how many points lie in each. The bins are symmetric about 0 (TraceStatistics.h). The width is 0
+   * if no point counted.
+   */
+  vtkDoubleArray* GetHistogram();
 
   ///@{
   /**

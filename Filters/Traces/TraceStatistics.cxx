@@ -37,4 +37,38 @@ TraceStatistics statisticsOf(const std::vector<double>& distances)
   statistics.percentile95 = *below + (rank - std::floor(rank)) * (above - *below);
   return statistics;
 }
+
+TraceHistogram histogramOf(const std::vector<double>& distances)
+{
+  constexpr int half = TraceHistogram::Bins / 2;
+  bool any = false;
+  double largest = 0.0;
+  for (const double distance : distances)
+  {
+    if (std::isfinite(distance))
+    {
+      any = true;
+      largest = std::max(largest, std::abs(distance));
+    }
+  }
+  TraceHistogram histogram;
+  if (!any)
+  {
+    return histogram;
+  }
+  histogram.width = TraceHistogram::LeastWidth;
+  while (half * histogram.width < largest)
+  {
+    histogram.width *= 2.0;
+  }
+  for (const double distance : distances)
+  {
+    if (std::isfinite(distance))
+    {
+      const int bin = half + static_cast<int>(std::floor(distance / histogram.width));
+      ++histogram.counts[std::min(bin, TraceHistogram::Bins - 1)]; // the largest lies on the edge
+    }
+  }
+  return histogram;
+}
 }

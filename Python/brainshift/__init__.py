@@ -14,6 +14,7 @@ Research software, not a medical device.
 """
 
 from .answers import counters, gpu, pick, slice_axes
+from .figures import animate, figure
 from .files import load_field, load_lattice, save_field, save_lattice
 from .looks import look, looks
 from .maps import deformed_from_rest, rest_from_deformed
@@ -22,6 +23,6 @@ from .views import four_views
 
 __all__ = [
     "MOVE", "NUMBERS_PER_STROKE", "SOFT", "STAMP",
-    "counters", "deformed_from_rest", "four_views", "gpu", "load_field", "load_lattice", "look",
-    "looks", "move", "pick", "rest_from_deformed", "save_field", "save_lattice", "slice_axes",
-    "soft", "stamp"]
+    "animate", "counters", "deformed_from_rest", "figure", "four_views", "gpu", "load_field",
+    "load_lattice", "look", "looks", "move", "pick", "rest_from_deformed", "save_field",
+    "save_lattice", "slice_axes", "soft", "stamp"]

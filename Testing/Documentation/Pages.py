@@ -46,7 +46,7 @@ def test_properties_have_their_defaults():
 def test_python_reference_has_the_public_functions():
     page = python_reference.page()
     for name in ("move", "soft", "stamp", "deformed_from_rest", "rest_from_deformed", "pick",
-                 "counters", "four_views", "save_field", "load_field"):
+                 "counters", "four_views", "figure", "animate", "save_field", "load_field"):
         assert f"## {name}\n" in page, name
     assert "## _" not in page
 

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What Traces.xml asks ParaView's window, and afterwards whether the trace was measured, shown and
 followed a stamp. The trace lies 2 mm outside a ball, in front of it and behind."""
+import csv
 import json
 import os
+import shutil
 
 import numpy
 from brainshift_testing import ball, object_pixels, picture, show_volume, volume
@@ -66,6 +68,12 @@ def stamp():
     hand.take(hand.NONE)
 
 
+def make_folder():
+    """The dialog takes a folder that is there."""
+    shutil.rmtree(scratch("TracesFigures"), ignore_errors=True)
+    os.makedirs(scratch("TracesFigures"))
+
+
 def look(when):
     """Writes down what panel, filter and view show."""
     import test_hand as hand
@@ -79,6 +87,7 @@ def look(when):
     seen[when] = {
         "panel": {name: hand.label(name) for name in FIGURES},
         "filter": {name: getattr(measure, name) for name in FIGURES},
+        "strength": simple.FindSource("bent").Strength,
         "strokes": len(simple.FindSource("bent").Strokes) // 14,
         "range": [colors.RGBPoints[0], colors.RGBPoints[-4]],
         "title": simple.GetScalarBar(colors, view).Title,
@@ -105,6 +114,17 @@ def main():
     assert opened["range"] == [-3.0, 3.0], opened["range"]
     assert opened["title"] == "Distance to the cortex (mm)" and opened["bar"] == 1, opened
     assert opened["colored"] > 100, "points and scale are coloured, the ball is grey"
+    check_saved_figures(seen)
+
+
+def check_saved_figures(seen):
+    with open(scratch("TracesFigures/numbers.csv"), encoding="utf-8", newline="") as file:
+        saved = {row["name"]: row["value"] for row in csv.DictReader(file)}
+    assert float(saved["Trace RMS before"]) == seen["opened"]["filter"]["RMS"], saved
+    assert float(saved["Trace RMS after"]) == seen["stamped"]["filter"]["RMS"], saved
+    assert seen["saved"]["filter"] == seen["stamped"]["filter"] and seen["saved"]["strength"] == 1
+    files = sorted(os.listdir(scratch("TracesFigures")))
+    assert files == ["after.png", "before.png", "difference.png", "histogram.svg", "numbers.csv"]
 
 
 if __name__ == "__main__":

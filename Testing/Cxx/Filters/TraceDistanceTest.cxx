@@ -18,6 +18,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -199,6 +200,22 @@ TEST(TraceStatistics, OfKnownDistances)
   const TraceStatistics none = statisticsOf({ NaN });
   EXPECT_EQ(none.count, 0u);
   EXPECT_TRUE(std::isnan(none.mean) && std::isnan(none.rms) && std::isnan(none.percentile95));
+}
+
+TEST(TraceHistogram, BinsAreSymmetricAboutTheCortex)
+{
+  const TraceHistogram some = histogramOf({ -3.0, 0.0, 1.0, NaN, 4.0, -4.0, 0.2 });
+  EXPECT_EQ(some.width, 0.25) << "16 bins on each side hold 4 mm";
+  std::array<int, TraceHistogram::Bins> expected{};
+  expected[0] = 1;  // -4
+  expected[4] = 1;  // -3
+  expected[16] = 2; // 0 and 0.2
+  expected[20] = 1; // 1
+  expected[31] = 1; // 4, on the last edge
+  EXPECT_EQ(some.counts, expected);
+  EXPECT_EQ(histogramOf({ 4.01 }).width, 0.5);
+  EXPECT_EQ(histogramOf({ 0.0 }).width, TraceHistogram::LeastWidth);
+  EXPECT_EQ(histogramOf({ NaN }).width, 0.0);
 }
 
 TEST_F(TraceDistance, AStrokeRedoesOnlyWhatItReaches)

@@ -65,6 +65,17 @@ def test_a_csv_file_is_measured():
         assert math.isclose(percentile, 2.0, abs_tol=0.1), percentile
 
 
+def test_the_histogram_is_that_of_the_array():
+    measured = traced(numpy.concatenate((outside(2.0), outside(-1.0), outside(0.4))))
+    shares = distances(measured)
+    measured.SMProxy.UpdatePropertyInformation()
+    width, *counts = measured.Histogram
+    edges = width * numpy.arange(-16, 17)
+    assert len(counts) == 32 and width == 2 ** round(math.log2(width)), (width, counts)
+    assert edges[8] > -numpy.abs(shares).max() >= edges[0], "no bins are wasted"
+    assert counts == numpy.histogram(shares, edges)[0].tolist(), counts
+
+
 def test_numbers_follow_strokes():
     measured = traced(outside(0.0) + (0, 0, -3.0))
     before = numbers(measured)
