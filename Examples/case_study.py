@@ -46,6 +46,9 @@ SLICE_FOCUS = (20.0, 0.0, -35.0)  # from the cavity
 TRACE_HALF_MM = 85.0
 TRACE_FOCUS = (25.0, -5.0, -25.0)  # from the craniotomy
 TRACE_SCALE_MM = 6.0
+#: As the window shows a trace: purple inside, white at the cortex, green outside.
+TRACE_COLORS = (-1, 0.48, 0, 0.75, -0.25, 0.75, 0.35, 1, 0, 1, 1, 1,
+                0.25, 0.2, 0.85, 0.3, 1, 0, 0.5, 0.1)
 TRACE_BALL_MM = 1.4  # radius
 
 # "Inside" is the mask with its voxels' steps smoothed; 0.5 is the cortex.
@@ -288,6 +291,7 @@ def show_trace(bent, measure, size):
     points.TraceRadius = TRACE_BALL_MM
     simple.ColorBy(points, ("POINTS", "DistanceToCortex"))
     color = simple.GetColorTransferFunction("DistanceToCortex")
+    color.ColorSpace, color.RGBPoints = "RGB", TRACE_COLORS
     color.RescaleTransferFunction(-TRACE_SCALE_MM, TRACE_SCALE_MM)
     bar = simple.GetScalarBar(color, view)
     bar.Title, bar.ComponentTitle = "mm above the cortex", ""

@@ -19,6 +19,7 @@
 #include <vtkSMTransferFunctionProxy.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -46,6 +47,19 @@ double largestDistance(pqDataRepresentation* display)
   }
   const double* range = distances->GetComponentRange(0);
   return range[0] <= range[1] ? std::ceil(std::max(std::abs(range[0]), std::abs(range[1]))) : 0.0;
+}
+
+// Saturated purple inside, white at the cortex, saturated green outside: unlike skin, bone, brain
+// and greys, and told apart by the colour-blind. Only what is very near the cortex is pale.
+void colorInsideAndOutside(vtkSMProxy* colors, double largest)
+{
+  const std::array<double, 20> points{ -1.0, 0.48, 0.0, 0.75, -0.25, 0.75, 0.35, 1.0, //
+    0.0, 1.0, 1.0, 1.0,                                                               //
+    0.25, 0.2, 0.85, 0.3, 1.0, 0.0, 0.5, 0.1 };
+  vtkSMPropertyHelper(colors, "RGBPoints").Set(points.data(), points.size());
+  vtkSMPropertyHelper(colors, "ColorSpace").Set("RGB");
+  colors->UpdateVTKObjects();
+  vtkSMTransferFunctionProxy::RescaleTransferFunction(colors, -largest, largest);
 }
 
 void labelScale(vtkSMProxy* colors, vtkSMProxy* view)
@@ -86,8 +100,7 @@ void showByDistance(pqDataRepresentation* display)
   }
   vtkSMProxy* view = display->getView()->getProxy();
   vtkSMProxy* colors = vtkSMPropertyHelper(representation, "LookupTable").GetAsProxy();
-  vtkSMTransferFunctionProxy::ApplyPreset(colors, "Cool to Warm");
-  vtkSMTransferFunctionProxy::RescaleTransferFunction(colors, -largest, largest);
+  colorInsideAndOutside(colors, largest);
   labelScale(colors, view);
   representation->SetScalarBarVisibility(view, true);
   representation->UpdateVTKObjects();

@@ -9,9 +9,9 @@ class pqDataRepresentation;
 
 namespace brainshift
 {
-/// Colours a representation of a Trace Distance by signed distance: white at the cortex, red
-/// outside, blue inside. Hides the traced points that the filter was made of. Other representations
-/// stay as they are.
+/// Colours a representation of a Trace Distance by signed distance: white at the cortex, green
+/// outside, purple inside. Hides the traced points that the filter was made of. Other
+/// representations stay as they are.
 void showByDistance(pqDataRepresentation* display);
 }
 

@@ -21,7 +21,7 @@ vtkTracePointsRepresentation::vtkTracePointsRepresentation()
 {
   this->Actor = vtkSmartPointer<brainshift::TracePoints>::New();
   this->Actor->SetMapper(this->Mapper);
-  this->Mapper->SetScaleFactor(1.0);
+  this->Mapper->SetScaleFactor(0.0);
   this->TellProp();
 }
 

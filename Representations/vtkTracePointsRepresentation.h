@@ -41,12 +41,15 @@ public:
   ///@}
 
   ///@{
-  /** Share of their opacity that faded points keep, 0 to 1. Default 0.25. */
+  /** Share of their opacity that faded points keep, 0 to 1. Default 0.4. */
   void SetHiddenOpacity(double opacity);
   vtkGetMacro(HiddenOpacity, double);
   ///@}
 
-  /** Radius of the balls, mm: what SetSplatSize of Point Gaussian sets. Default 1. */
+  /**
+   * Radius of the balls, mm: what SetSplatSize of Point Gaussian sets. Default 0: a hundredth of
+   * the longest side of the points' box, and at least 4 pixels.
+   */
   double GetSplatSize();
 
   int ProcessViewRequest(
@@ -63,7 +66,7 @@ private:
   void TellProp();
 
   int HiddenPoints = Fade;
-  double HiddenOpacity = 0.25;
+  double HiddenOpacity = 0.4;
 };
 
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Properties/FiguresWidget.h"
 
+#include "Panel/Parts/HistogramPlot.h"
 #include "Panel/Parts/InSight.h"
 
 #include <pqApplicationCore.h>
@@ -20,6 +21,7 @@
 #include <QLabel>
 
 #include <cmath>
+#include <vector>
 
 namespace brainshift
 {
@@ -30,6 +32,18 @@ QString unitOf(vtkSMProperty* property)
   vtkPVXMLElement* hints = property->GetHints();
   vtkPVXMLElement* unit = hints ? hints->FindNestedElementByName("Unit") : nullptr;
   return unit ? QString(" ") + unit->GetAttribute("name") : QString();
+}
+
+bool isHistogram(vtkSMProperty* property)
+{
+  vtkPVXMLElement* hints = property->GetHints();
+  return hints && hints->FindNestedElementByName("Histogram");
+}
+
+QString tipOf(vtkSMProperty* property)
+{
+  vtkSMDocumentation* documentation = property->GetDocumentation();
+  return documentation ? QString(documentation->GetDescription()).simplified() : QString();
 }
 
 QString valueOf(vtkSMProperty* property)
@@ -53,7 +67,15 @@ FiguresWidget::FiguresWidget(vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidg
   form->setVerticalSpacing(pqPropertiesPanel::suggestedVerticalSpacing());
   for (unsigned int index = 0; index < group->GetNumberOfProperties(); ++index)
   {
-    this->addFigure(group, index);
+    vtkSMProperty* property = group->GetProperty(index);
+    if (isHistogram(property))
+    {
+      this->addHistogram(property);
+    }
+    else
+    {
+      this->addFigure(property);
+    }
   }
   new InSight(this);
   auto model = pqApplicationCore::instance()->getServerManagerModel();
@@ -63,21 +85,26 @@ FiguresWidget::FiguresWidget(vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidg
   this->showFigures();
 }
 
-void FiguresWidget::addFigure(vtkSMPropertyGroup* group, unsigned int index)
+void FiguresWidget::addFigure(vtkSMProperty* property)
 {
-  vtkSMProperty* property = group->GetProperty(index);
   auto figure = new QLabel(this);
   figure->setObjectName(property->GetXMLName());
   figure->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
   auto form = static_cast<QFormLayout*>(this->layout());
   form->addRow(property->GetXMLLabel(), figure);
-  const char* tip =
-    property->GetDocumentation() ? property->GetDocumentation()->GetDescription() : nullptr;
   for (QWidget* part : { static_cast<QWidget*>(figure), form->labelForField(figure) })
   {
-    part->setToolTip(QString(tip).simplified());
+    part->setToolTip(tipOf(property));
   }
   this->Figures.append({ property, figure });
+}
+
+void FiguresWidget::addHistogram(vtkSMProperty* property)
+{
+  auto plot = new HistogramPlot(this);
+  plot->setToolTip(tipOf(property));
+  static_cast<QFormLayout*>(this->layout())->addRow(plot);
+  this->Histograms.append({ property, plot });
 }
 
 void FiguresWidget::showFigures()
@@ -86,6 +113,14 @@ void FiguresWidget::showFigures()
   {
     this->proxy()->UpdatePropertyInformation(property);
     figure->setText("<b>" + valueOf(property) + "</b>");
+  }
+  for (const auto& [property, plot] : this->Histograms)
+  {
+    this->proxy()->UpdatePropertyInformation(property);
+    const std::vector<double> numbers = vtkSMPropertyHelper(property).GetDoubleArray();
+    const bool any = !numbers.empty();
+    plot->setHistogram(any ? numbers.front() : 0.0,
+      any ? QList<double>(numbers.begin() + 1, numbers.end()) : QList<double>());
   }
 }
 }

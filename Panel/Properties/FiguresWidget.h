@@ -2,7 +2,8 @@
 /// @file
 /// Panel of the figures that a filter reports: label, value and unit of each property. It follows
 /// the data of the filter. It is for property groups with panel_widget "BrainShiftFigures". A
-/// property may have the hint <Unit name="mm" />.
+/// property may have the hint <Unit name="mm" />. A property with the hint <Histogram /> holds the
+/// width of the bins of a histogram, then their counts, and is drawn below the others.
 #ifndef BrainShift_FiguresWidget_h
 #define BrainShift_FiguresWidget_h
 
@@ -16,6 +17,8 @@ class vtkSMProperty;
 
 namespace brainshift
 {
+class HistogramPlot;
+
 class FiguresWidget : public pqPropertyGroupWidget
 {
   Q_OBJECT
@@ -24,10 +27,12 @@ public:
   FiguresWidget(vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget* parent = nullptr);
 
 private:
-  void addFigure(vtkSMPropertyGroup* group, unsigned int index);
+  void addFigure(vtkSMProperty* property);
+  void addHistogram(vtkSMProperty* property);
   void showFigures();
 
   QList<QPair<vtkSMProperty*, QLabel*>> Figures;
+  QList<QPair<vtkSMProperty*, HistogramPlot*>> Histograms;
 };
 }
 

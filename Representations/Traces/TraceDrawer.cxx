@@ -73,6 +73,7 @@ void TraceDrawer::setUniforms(Program& program, const TraceScene& scene)
   program.set("worldFromPoint", glm::mat4(scene.worldFromPoint));
   program.set("clipFromWorld", glm::mat4(scene.clipFromWorld));
   program.set("radius", static_cast<float>(scene.radius));
+  program.set("leastRadius", static_cast<float>(scene.leastRadius));
   program.set("pixelsForMm", static_cast<float>(0.5 * scene.size.y * glm::length(up)));
   program.set("hiddenOpacity", static_cast<float>(scene.hiddenOpacity));
   program.set("size", glm::vec2(scene.size));

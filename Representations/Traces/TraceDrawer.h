@@ -38,6 +38,7 @@ struct TraceScene
   glm::dmat4 worldFromPoint{ 1.0 };
   glm::dvec3 ahead{ 0.0, 0.0, -1.0 }; ///< Unit vector, the way the camera looks, world.
   double radius = 1.0;                ///< mm.
+  double leastRadius = 1.5;           ///< Pixels, if that is more.
   double hiddenOpacity = 1.0;         ///< Share of the opacity that is left behind tissue.
   std::vector<const FirstHits*> hits; ///< Of the volumes; at most MaxTissues.
 };

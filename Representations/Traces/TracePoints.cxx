@@ -8,6 +8,7 @@
 #include "Representations/Traces/TraceDrawer.h"
 
 #include "vtkAbstractVolumeMapper.h"
+#include "vtkBoundingBox.h"
 #include "vtkCamera.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
@@ -21,6 +22,10 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkVolume.h"
 #include "vtkVolumeCollection.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -54,6 +59,10 @@ TracePoints::~TracePoints() = default;
 
 namespace
 {
+constexpr double LeastRadius = 1.5;    // pixels; smaller balls are lost to the eye
+constexpr double SuitableRadius = 4.0; // pixels, at least, unless the user chose a radius
+constexpr double SuitableShare = 0.01; // of the points' box
+
 std::uint8_t byteOf(double share)
 {
   return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
@@ -127,6 +136,14 @@ std::vector<HitSource*> deformedVolumesIn(vtkRenderer* renderer)
   return sources;
 }
 
+// The radius that suits points when nobody chose one: a hundredth of the longest side of their box,
+// mm.
+double suitableRadius(vtkMapper* mapper)
+{
+  const vtkBoundingBox box(mapper->GetBounds());
+  return box.IsValid() ? SuitableShare * box.GetMaxLength() : 0.0;
+}
+
 TraceScene sceneOf(vtkRenderer* renderer, vtkMatrix4x4* worldFromPoint)
 {
   TraceScene scene;
@@ -193,7 +210,9 @@ bool TracePoints::Draw(vtkRenderer* renderer, const std::vector<HitSource*>& vol
     device.Uploaded = time;
   }
   TraceScene scene = sceneOf(renderer, this->GetMatrix());
-  scene.radius = mapper->GetScaleFactor();
+  const bool automatic = mapper->GetScaleFactor() <= 0.0;
+  scene.radius = automatic ? suitableRadius(mapper) : mapper->GetScaleFactor();
+  scene.leastRadius = automatic ? SuitableRadius : LeastRadius;
   scene.hiddenOpacity = this->HiddenOpacity;
   if (scene.hiddenOpacity < 1.0)
   {
@@ -207,17 +226,32 @@ bool TracePoints::Draw(vtkRenderer* renderer, const std::vector<HitSource*>& vol
   return true;
 }
 
+// mm, as large as the balls are drawn in the middle of the points.
+double TracePoints::SuitableRadiusIn(vtkRenderer* renderer)
+{
+  const glm::dmat4 clip = clipFromWorld(renderer);
+  const double* center = this->GetCenter();
+  const double depth = (clip * glm::dvec4(center[0], center[1], center[2], 1.0)).w;
+  const double rows = 0.5 * renderer->GetSize()[1] * glm::length(glm::dvec3(glm::row(clip, 1)));
+  const double least = depth > 0.0 && rows > 0.0 ? SuitableRadius * depth / rows : 0.0;
+  return std::max(suitableRadius(this->Mapper), least);
+}
+
 // A selection of points keeps the depths of the picture, which are those of the balls. Points that
 // are drawn nearer by a radius are not hidden by their own balls.
 int TracePoints::DrawSelection(vtkRenderer* renderer)
 {
-  const double radius = vtkPointGaussianMapper::SafeDownCast(this->Mapper)->GetScaleFactor();
+  auto* mapper = vtkPointGaussianMapper::SafeDownCast(this->Mapper);
+  const double chosen = mapper->GetScaleFactor();
+  const double radius = chosen > 0.0 ? chosen : this->SuitableRadiusIn(renderer);
+  mapper->SetScaleFactor(radius); // 0 would be points of one pixel
   const double* ahead = renderer->GetActiveCamera()->GetDirectionOfProjection();
   double place[3];
   this->GetPosition(place);
   this->AddPosition(-radius * ahead[0], -radius * ahead[1], -radius * ahead[2]);
   const int drawn = this->Superclass::RenderOpaqueGeometry(renderer);
   this->SetPosition(place);
+  mapper->SetScaleFactor(chosen);
   return drawn;
 }
 

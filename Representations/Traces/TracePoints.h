@@ -6,7 +6,8 @@
  * Points are drawn after the volumes and compared with the first hits of their last pictures. So a
  * change of points or of their colours casts no ray. In a view without a deformed volume, points
  * are drawn together with the surfaces. Positions, colours and selections are those of the prop's
- * mapper, a vtkPointGaussianMapper.
+ * mapper, a vtkPointGaussianMapper. Its scale factor is the radius (mm). If it is 0, the radius is
+ * a hundredth of the points' box, and 4 pixels at least.
  */
 #ifndef BrainShift_TracePoints_h
 #define BrainShift_TracePoints_h
@@ -50,6 +51,7 @@ private:
   bool Draw(vtkRenderer* renderer, const std::vector<HitSource*>& volumes);
   std::vector<const FirstHits*> HitsOf(const std::vector<HitSource*>& volumes, vtkWindow* window);
   int DrawSelection(vtkRenderer* renderer);
+  double SuitableRadiusIn(vtkRenderer* renderer);
   vtkMTimeType LookTime();
 
   std::unique_ptr<State> Internal;

@@ -8,6 +8,7 @@ uniform mat4 worldFromPoint;
 uniform mat4 clipFromWorld;
 uniform vec3 ahead;          // unit vector the way the camera looks, world axes
 uniform float radius;        // mm
+uniform float leastRadius;   // pixels
 uniform float pixelsForMm;   // where the homogeneous w is 1
 uniform float hiddenOpacity; // share of the opacity that points behind tissue keep
 uniform vec2 origin;         // the picture's lower left pixel in the window
@@ -15,8 +16,6 @@ uniform vec2 size;           // of the picture, pixels
 
 flat out vec4 ballColor; // multiplied by opacity
 flat out vec3 ballPlace; // middle in the window, pixels; share of the radius for a pixel
-
-const float LeastRadius = 1.5; // pixels; smaller balls are lost to the eye
 
 #if TISSUES > 0
 // Of each volume's picture: mm ahead on the near and on the far plane, from (1, ndc).
@@ -72,7 +71,7 @@ void main()
   vec4 world = worldFromPoint * vec4(position, 1.0);
   vec4 clip = clipFromWorld * world;
   float scale = pixelsForMm / clip.w;
-  float pixels = max(radius * scale, LeastRadius);
+  float pixels = max(radius * scale, leastRadius);
   vec2 share = 0.5 * clip.xy / clip.w + 0.5;
   bool hidden = isHidden(share, dot(ahead, world.xyz) - pixels / scale);
   float opacity = color.a * (hidden ? hiddenOpacity : 1.0);

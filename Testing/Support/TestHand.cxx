@@ -207,15 +207,19 @@ TEST_HAND_EXPORT int test_hand_click(const char* name)
   return 0;
 }
 
-// The text of a label, by its object name; nothing without one. Holds until the next call.
+// The text of a label, or what another widget tells screen readers, by its object name; nothing
+// without one. Holds until the next call.
 TEST_HAND_EXPORT const char* test_hand_label(const char* name)
 {
   static QByteArray text;
   text.clear();
   for (QWidget* window : QApplication::topLevelWidgets())
   {
-    auto label = window->findChild<QLabel*>(name);
-    text = label ? label->text().toUtf8() : text;
+    const auto widget = window->findChild<QWidget*>(name);
+    const auto label = qobject_cast<QLabel*>(widget);
+    text = label ? label->text().toUtf8()
+      : widget   ? widget->accessibleDescription().toUtf8()
+                 : text;
   }
   return text.constData();
 }

@@ -128,7 +128,7 @@ def click(name):
 
 
 def label(name):
-    """The text of a label of the window."""
+    """The text of a label of the window, or what another widget tells screen readers."""
     return _library.test_hand_label(name.encode()).decode()
 
 

@@ -87,6 +87,8 @@ def look(when):
     seen[when] = {
         "panel": {name: hand.label(name) for name in FIGURES},
         "filter": {name: getattr(measure, name) for name in FIGURES},
+        "histogram": [hand.label("BrainShiftHistogram"), *measure.Histogram],
+        "colors": list(colors.RGBPoints),
         "strength": simple.FindSource("bent").Strength,
         "strokes": len(simple.FindSource("bent").Strokes) // 14,
         "range": [colors.RGBPoints[0], colors.RGBPoints[-4]],
@@ -114,7 +116,46 @@ def main():
     assert opened["range"] == [-3.0, 3.0], opened["range"]
     assert opened["title"] == "Distance to the cortex (mm)" and opened["bar"] == 1, opened
     assert opened["colored"] > 100, "points and scale are coloured, the ball is grey"
+    check_histogram(seen)
+    check_colors(opened["colors"])
     check_saved_figures(seen)
+
+
+def check_histogram(seen):
+    """The panel draws the filter's histogram, and follows the stamp."""
+    told = {when: seen[when]["histogram"] for when in ("opened", "stamped")}
+    for said, width, *counts in told.values():
+        tallest = counts.index(max(counts))
+        edges = [width * (bin - 16) for bin in (tallest, tallest + 1)]
+        words = f"Bins of {width:g} mm. The tallest bin: {edges[0]:g} mm to {edges[1]:g} mm: "
+        assert said.startswith(words + f"{max(counts):g} point"), (said, words)
+        assert sum(counts) == POINTS
+    assert told["opened"] != told["stamped"]
+
+
+def seen_by(kind, colors):
+    """Colours as an eye without red or without green cones takes them (Vienot et al., 1999)."""
+    matrix = numpy.array({"protanope": ((0.11238, 0.88762, 0), (0.11238, 0.88762, 0),
+                                        (0.00401, -0.00401, 1)),
+                          "deuteranope": ((0.29275, 0.70725, 0), (0.29275, 0.70725, 0),
+                                          (-0.02234, 0.02234, 1)),
+                          "anyone": numpy.eye(3)}[kind])
+    return numpy.clip(colors, 0, 1) ** 2.2 @ matrix.T
+
+
+def check_colors(points):
+    """Inside, cortex and outside differ for every eye, and neither side looks like tissue."""
+    inside, pale_inside, cortex, pale_outside, outside = numpy.reshape(points, (-1, 4))[:, 1:]
+    tissue = numpy.array(((0.85, 0.65, 0.52), (0.9, 0.75, 0.7), (0.6, 0.6, 0.6), (0.95, 0.9, 0.8),
+                          (0.23, 0.3, 0.75), (0.7, 0.02, 0.15)))  # skin, cortex, grey, bone, a map
+    for kind in ("anyone", "protanope", "deuteranope"):
+        for left, right in ((inside, outside), (pale_inside, pale_outside), (inside, cortex),
+                            (outside, cortex)):
+            apart = numpy.linalg.norm(seen_by(kind, left) - seen_by(kind, right))
+            assert apart > 0.25, (kind, left, right, apart)
+    for side in (inside, pale_inside, pale_outside, outside):
+        assert numpy.abs(tissue - side).max(axis=1).min() > 0.25, side
+        assert numpy.ptp(side) > 0.4, "saturated"
 
 
 def check_saved_figures(seen):

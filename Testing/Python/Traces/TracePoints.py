@@ -64,7 +64,7 @@ def show_traces(source, view):
     traces = Show(source, view, "GeometryRepresentation")
     traces.SetRepresentationType("Trace Points")
     traces.DiffuseColor = traces.AmbientColor = RED
-    traces.TraceRadius = 0.8
+    traces.TraceRadius, traces.HiddenOpacity = 0.8, 0.25
     return traces
 
 
@@ -117,6 +117,35 @@ def test_translucent_points_are_blended_once():
     scene = Scene(points=[(16 + 0.05 * i, 16, 38 - i) for i in range(5)])
     scene.traces.HiddenPoints, scene.traces.Opacity = "Show", 0.5
     assert_close(scene.colors((16.1, 16, 36)), [mixed(0.5)], "in front of tissue")
+    Delete(scene.view)
+
+
+def test_the_first_radius_suits_any_view():
+    for parallel in (True, False):
+        for distance_factor in (1, 40):
+            scene = Scene(points=[FRONT], parallel=parallel)
+            scene.traces.TraceRadius, scene.volume.Visibility = 0, 0
+            scene.view.CameraParallelScale = HALF_HEIGHT * distance_factor
+            scene.view.CameraViewAngle = 12.0 if distance_factor == 1 else 160.0
+            drawn = (picture(scene.view)[:, :, 0] > 0.3).sum()
+            assert 40 <= drawn <= 60, (drawn, "a ball of 4 pixels")
+            scene.traces.TraceRadius = 0.001
+            assert 4 <= (picture(scene.view)[:, :, 0] > 0.3).sum() <= 12, "a ball of 1.5 pixels"
+            Delete(scene.view)
+
+
+def test_the_first_radius_suits_the_points():
+    wide = [(16 + 200 * x, 16, 16) for x in (-1, 0, 1)]
+    scene = Scene(points=wide, opacities=FAINT)
+    scene.traces.TraceRadius = 0
+    Render(scene.view)  # selecting does, and the first time moves the camera
+    look(scene.view, (0, 0, -1), MIDDLE, DISTANCE)
+    scene.view.CameraParallelScale = 20.0  # a ball of 4 mm, a hundredth of their extent
+    drawn = (picture(scene.view)[:, :, 0] > 0.3).sum()
+    assert abs(drawn - numpy.pi * (4 * SIZE / 40) ** 2) < 40, drawn
+    rim = [SIZE // 2 + 8, SIZE // 2, SIZE // 2 + 9, SIZE // 2 + 1]
+    assert selected(scene, rim) == [1], "the ball is selected at its rim"
+    assert selected(scene, [side + 8 for side in rim]) == [], "beside it"
     Delete(scene.view)
 
 
