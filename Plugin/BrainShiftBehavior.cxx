@@ -2,6 +2,7 @@
 #include "BrainShiftBehavior.h"
 
 #include "Interaction/ToolCarrier.h"
+#include "Interaction/Views/KeptSelection.h"
 #include "Interaction/Views/SliceMouse.h"
 #include "Plugin/FirstLook.h"
 #include "Plugin/TraceLook.h"
@@ -75,6 +76,7 @@ void BrainShiftBehavior::onStartup()
   QObject::connect(
     model, &pqServerManagerModel::sourceAdded, this, &BrainShiftBehavior::watchSource);
   brainshift::SliceMouse::watchViews(this);
+  new brainshift::KeptSelection(this);
   this->Hand = new brainshift::ToolCarrier(this);
 }
 

@@ -12,6 +12,8 @@ namespace
 constexpr double LeastAmount = 0.05;     // mm; less is shown as 0.0
 constexpr double DoubtfulReach = 0.8;    // share of the amount
 constexpr double DoubtfulJacobian = 0.3; // few users want to compress tissue to less than a third
+constexpr double LeastPercent = 0.01;    // less is not shown as 0 %, which folds
+constexpr double Rounding = 0.01;        // percent; the determinant of no stroke is a bound below 1
 
 QString tr(const char* text)
 {
@@ -81,17 +83,25 @@ Grade jacobianGrade(double determinant)
 
 QString jacobianText(double determinant)
 {
-  const QString number = QString::number(determinant, 'f', 2);
-  switch (jacobianGrade(determinant))
+  if (determinant <= 0.0)
   {
-    case Grade::Bad:
-      return tr("%1 (folds)").arg(number);
-    case Grade::Doubtful:
-      return tr("%1 (compressed)").arg(number);
-    case Grade::Good:
-      break;
+    return tr("folds over itself");
   }
-  return tr("%1 (no folding)").arg(number);
+  if (determinant < LeastPercent)
+  {
+    return tr("squeezed to less than 1 %");
+  }
+  const int percent = static_cast<int>(std::floor(100.0 * determinant + Rounding));
+  return percent >= 100 ? tr("not squeezed") : tr("squeezed to %1 %").arg(percent);
+}
+
+QString jacobianTip(double determinant)
+{
+  return tr(
+    "The volume that the most squeezed tissue keeps. 100 %: unchanged. Below 30 %: strongly "
+    "squeezed. 0 % or less: tissue folds over itself. The smallest Jacobian determinant is "
+    "%1.")
+    .arg(determinant, 0, 'f', 3);
 }
 
 QColor gradeColor(Grade grade, const QPalette& palette)

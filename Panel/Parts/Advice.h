@@ -35,8 +35,10 @@ QString guardAdvice(int shortenedStrokes);
 
 /// Grades the smallest Jacobian determinant: 1 keeps the volume of tissue, 0 or less folds it.
 Grade jacobianGrade(double determinant);
-/// The determinant and what it means.
+/// What the determinant means for the most squeezed tissue, with its volume in percent.
 QString jacobianText(double determinant);
+/// What 100 % means, and the determinant itself.
+QString jacobianTip(double determinant);
 
 /// Green, amber or red that is legible on the window colour of a palette, light or dark.
 QColor gradeColor(Grade grade, const QPalette& palette);

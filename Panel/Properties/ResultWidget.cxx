@@ -65,9 +65,7 @@ ResultWidget::ResultWidget(vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget
     "deformation. Strength can be animated."));
   this->Displacement = this->addFigure(form, "BrainShiftDisplacement", tr("Largest displacement"),
     tr("The largest displacement of a control point (mm)"));
-  this->Jacobian = this->addFigure(form, "BrainShiftJacobian", tr("Smallest Jacobian"),
-    tr("The fraction of its volume that the most compressed tissue keeps. 1 means that its volume "
-       "is unchanged. 0 or less means that tissue folds."));
+  this->Jacobian = this->addFigure(form, "BrainShiftJacobian", tr("Tissue"), jacobianTip(1.0));
   this->connectStrength();
   new InSight(this);
   if (proxy->GetProperty("GuardFolding"))
@@ -122,7 +120,8 @@ void ResultWidget::addGuard(QVBoxLayout* column)
   this->Guard = new QCheckBox(tr("Guard against folding"), this);
   this->Guard->setObjectName("BrainShiftGuard");
   this->Guard->setToolTip(
-    tr("Shorten each stroke so that the Jacobian determinant stays at 0.1 or above everywhere."));
+    tr("Shorten each stroke so that all tissue keeps at least 10 % of its volume. (The Jacobian "
+       "determinant stays at 0.1 or above everywhere.)"));
   this->Shortened = new QLabel(this);
   this->Shortened->setObjectName("BrainShiftShortened");
   this->Shortened->setWordWrap(true);
@@ -183,6 +182,7 @@ void ResultWidget::showFigures()
     tr("<b>%1 mm</b>").arg(this->figure("MaximumDisplacement"), 0, 'f', 1));
   const double determinant = this->figure("MinimumJacobian");
   showGraded(this->Jacobian, jacobianText(determinant), jacobianGrade(determinant));
+  this->Jacobian->setToolTip(jacobianTip(determinant));
   if (this->Guard)
   {
     const QString advice = guardAdvice(static_cast<int>(this->figure("ShortenedStrokes")));

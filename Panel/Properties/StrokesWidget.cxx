@@ -3,6 +3,7 @@
 
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Panel/Parts/InSight.h"
+#include "Panel/Parts/RoomyDock.h"
 #include "Panel/Strokes/StrokeList.h"
 #include "Panel/Strokes/StrokeModel.h"
 #include "Panel/Tools/ToolPanel.h"
@@ -65,6 +66,7 @@ StrokesWidget::StrokesWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget
   column->addWidget(new StrokeList(this->Strokes, this));
 
   new InSight(this);
+  new RoomyDock(this);
 
   const StrokeEditor* editor = StrokeEditor::of(this->Source);
   this->connect(editor, &StrokeEditor::changed, this, &StrokesWidget::followStrokes);

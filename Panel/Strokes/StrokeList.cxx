@@ -38,7 +38,7 @@ StrokeList::StrokeList(StrokeModel* model, QWidget* parent)
   for (QToolButton* button : { this->Delete, this->Reset })
   {
     button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-    button->setFocusPolicy(Qt::StrongFocus);
+    button->setFocusPolicy(Qt::TabFocus); // a click leaves the keyboard where it is
     buttons->addWidget(button);
   }
   buttons->addStretch();
@@ -63,7 +63,17 @@ void StrokeList::refresh()
   QPalette palette = this->palette();
   palette.setColor(QPalette::WindowText, gradeColor(Grade::Bad, palette));
   this->Problem->setPalette(palette);
-  this->Delete->setEnabled(!this->Tree->selectedRows().isEmpty());
-  this->Reset->setEnabled(this->Strokes->rowCount() > 0 || !problem.isEmpty());
+  this->enable(this->Delete, !this->Tree->selectedRows().isEmpty());
+  this->enable(this->Reset, this->Strokes->rowCount() > 0 || !problem.isEmpty());
+}
+
+// Qt takes the focus from a button that is disabled to whatever comes next in the panel.
+void StrokeList::enable(QToolButton* button, bool enabled)
+{
+  if (!enabled && button->hasFocus())
+  {
+    this->Tree->setFocus();
+  }
+  button->setEnabled(enabled);
 }
 }

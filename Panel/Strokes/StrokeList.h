@@ -23,6 +23,7 @@ public:
 
 private:
   void refresh();
+  void enable(QToolButton* button, bool enabled);
 
   StrokeModel* const Strokes;
   StrokeTree* const Tree;

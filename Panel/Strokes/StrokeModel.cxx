@@ -36,20 +36,6 @@ QString nameOf(Tool tool)
   return {};
 }
 
-QIcon iconOf(Tool tool)
-{
-  switch (tool)
-  {
-    case Tool::Move:
-      return QIcon(":/BrainShift/move.svg");
-    case Tool::Soft:
-      return QIcon(":/BrainShift/soft.svg");
-    case Tool::Stamp:
-      return QIcon(":/BrainShift/stamp.svg");
-  }
-  return {};
-}
-
 QString textOf(const glm::dvec3& position, int decimals)
 {
   return QString("%1, %2, %3")
@@ -90,6 +76,12 @@ double leastNumber(const Stroke& stroke, int column)
 {
   const bool bothWays = column == StrokeModel::AmountColumn && stroke.tool == Tool::Stamp;
   return bothWays ? -MostLength : LeastLength;
+}
+
+int sideOf(int column)
+{
+  const bool isText = column == StrokeModel::ToolColumn || column == StrokeModel::WhereColumn;
+  return int(isText ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter;
 }
 
 // Unit vector along which the amount is counted. Zero if the stroke has no direction.
@@ -279,15 +271,15 @@ Qt::ItemFlags StrokeModel::flags(const QModelIndex& index) const
 
 QVariant StrokeModel::headerData(int section, Qt::Orientation orientation, int role) const
 {
-  static const char* const titles[ColumnCount] = { QT_TR_NOOP("Stroke"), QT_TR_NOOP("Position"),
-    QT_TR_NOOP("Amount"), QT_TR_NOOP("Reached"), QT_TR_NOOP("Major"), QT_TR_NOOP("Minor") };
+  static const char* const titles[ColumnCount] = { QT_TR_NOOP("Stroke"), QT_TR_NOOP("Amount"),
+    QT_TR_NOOP("Reached"), QT_TR_NOOP("Along"), QT_TR_NOOP("Across"), QT_TR_NOOP("Position") };
   static const char* const tips[ColumnCount] = {
-    QT_TR_NOOP("The tool that made the stroke. The check mark enables the stroke."),
-    QT_TR_NOOP("The position of the stroke: x, y, z (mm, world axes)"),
+    QT_TR_NOOP("The place in the order, and the tool. The check mark enables the stroke."),
     QT_TR_NOOP("The displacement at the centre (mm). A Stamp pulls above 0 and pushes below 0."),
     QT_TR_NOOP("How far the tissue at the centre went (mm), at full Strength"),
-    QT_TR_NOOP("Soft: the radius (mm). Stamp: half the long axis (mm)."),
-    QT_TR_NOOP("Stamp: the radius across the long axis (mm)"),
+    QT_TR_NOOP("Stamp: the reach along the push (mm). Soft: the radius (mm)."),
+    QT_TR_NOOP("Stamp: the reach across the push (mm)"),
+    QT_TR_NOOP("The position of the stroke: x, y, z (mm, world axes)"),
   };
   if (orientation != Qt::Horizontal)
   {
@@ -300,7 +292,7 @@ QVariant StrokeModel::headerData(int section, Qt::Orientation orientation, int r
     case Qt::ToolTipRole:
       return tr(tips[section]);
     case Qt::TextAlignmentRole:
-      return int(section < AmountColumn ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter;
+      return sideOf(section);
     default:
       return {};
   }
@@ -318,23 +310,20 @@ QVariant StrokeModel::data(const QModelIndex& index, int role) const
         const std::optional<double> reached = this->reach(index.row(), stroke);
         return reached ? QString::number(*reached, 'f', 1) : QString();
       }
-      return this->text(stroke, column);
+      return column == ToolColumn ? tr("%1 %2").arg(index.row() + 1).arg(nameOf(stroke.tool))
+                                  : this->text(stroke, column);
     case Qt::EditRole:
       return hasNumber(stroke, column) ? QVariant(numberIn(stroke, column)) : QVariant();
     case Qt::CheckStateRole:
       return column == ToolColumn ? QVariant(stroke.enabled ? Qt::Checked : Qt::Unchecked)
                                   : QVariant();
     case Qt::DecorationRole:
-      if (column == ToolColumn)
-      {
-        return iconOf(stroke.tool);
-      }
       return this->advice(index.row(), column).isEmpty() ? QVariant()
                                                          : QIcon(":/BrainShift/warning.svg");
     case Qt::ToolTipRole:
       return this->toolTip(index.row(), column);
     case Qt::TextAlignmentRole:
-      return int(column < AmountColumn ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter;
+      return sideOf(column);
     case Qt::ForegroundRole:
       return stroke.enabled ? QVariant()
                             : QGuiApplication::palette().brush(QPalette::Disabled, QPalette::Text);
@@ -351,8 +340,6 @@ QString StrokeModel::text(const Stroke& stroke, int column) const
 {
   switch (column)
   {
-    case ToolColumn:
-      return nameOf(stroke.tool);
     case WhereColumn:
       return textOf(stroke.anchor, 0);
     default:
@@ -380,9 +367,9 @@ QString StrokeModel::advice(int row, int column) const
     return guardAdvice(
       number, place < this->AppliedShares.size() ? this->AppliedShares[place] : 1.0);
   }
-  const QString name = column == MinorColumn ? tr("The minor radius")
+  const QString name = column == MinorColumn ? tr("The reach across the push")
     : stroke.tool == Tool::Soft              ? tr("The radius")
-                                             : tr("The major radius");
+                                             : tr("The reach along the push");
   return radiusAdvice(name, number, this->LatticeSpacing);
 }
 
@@ -398,7 +385,7 @@ QString StrokeModel::toolTip(int row, int column) const
                   .arg(nameOf(stroke.tool), textOf(stroke.anchor, 2), textOf(stroke.vector, 2));
   if (stroke.tool != Tool::Move)
   {
-    tip += tr(", sigma %1 of the radius").arg(stroke.sigma);
+    tip += tr(", fullness %1 (sigma)").arg(stroke.sigma);
   }
   return stroke.enabled ? tip : tip + tr(" (disabled)");
 }

@@ -33,12 +33,12 @@ class StrokeModel : public QAbstractTableModel
 public:
   enum Column
   {
-    ToolColumn, ///< With the check box that enables the stroke.
-    WhereColumn,
+    ToolColumn,   ///< Number and tool, with the check box that enables the stroke.
     AmountColumn, ///< mm, editable: what was asked for.
     ReachColumn,  ///< mm: how far the tissue at the anchor went.
     MajorColumn,  ///< mm, editable: radius of Soft, half the long axis of Stamp.
     MinorColumn,  ///< mm, editable: radius of Stamp across its long axis.
+    WhereColumn,  ///< mm: the anchor.
     ColumnCount,
   };
   /// Limits of an editable number, mm.

@@ -57,11 +57,10 @@ StrokeTree::StrokeTree(StrokeModel* model, QWidget* parent)
   this->setTextElideMode(Qt::ElideRight);
   this->softenHighlight();
   QHeaderView* header = this->header();
-  header->setStretchLastSection(false);
+  header->setStretchLastSection(true); // the position
   header->setMinimumSectionSize(this->fontMetrics().averageCharWidth() * 5);
   header->setSectionResizeMode(QHeaderView::ResizeToContents);
   header->setResizeContentsPrecision(50); // rows looked at, of maybe thousands
-  header->setSectionResizeMode(StrokeModel::WhereColumn, QHeaderView::Stretch);
   header->setSectionsMovable(false);
   this->connect(this->selectionModel(), &QItemSelectionModel::selectionChanged, this,
     &StrokeTree::selectedRowsChanged);
@@ -147,7 +146,8 @@ void StrokeTree::resizeEvent(QResizeEvent* event)
   this->showWhereIfRoom();
 }
 
-// A narrow panel must not cut off the numbers to edit. Tool tips show the position as well.
+// A narrow panel must not cut off the numbers to edit. Tool tips show the position as well. If
+// there is no room for the numbers either, a bar moves them; the tool's name comes first.
 void StrokeTree::showWhereIfRoom()
 {
   int others = 0;
@@ -161,8 +161,10 @@ void StrokeTree::showWhereIfRoom()
   const int needed = this->fontMetrics().horizontalAdvance("-300, -300, 300");
   const bool hidden = this->viewport()->width() < others + needed;
   this->setColumnHidden(StrokeModel::WhereColumn, hidden);
+  const bool stretched = hidden && this->viewport()->width() >= others;
   this->header()->setSectionResizeMode(
-    StrokeModel::ToolColumn, hidden ? QHeaderView::Stretch : QHeaderView::ResizeToContents);
+    StrokeModel::ToolColumn, stretched ? QHeaderView::Stretch : QHeaderView::ResizeToContents);
+  this->header()->setStretchLastSection(!hidden);
 }
 
 // Icons would be lost on the strong colour of most themes.

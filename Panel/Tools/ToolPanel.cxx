@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Tools/ToolPanel.h"
 
+#include "Filters/Deformation/Stroke.h"
 #include "Panel/Parts/Advice.h"
+#include "Panel/Parts/ReachDrawing.h"
 #include "Panel/Parts/ValueSlider.h"
 #include "Panel/Tools/MouseHint.h"
 #include "Panel/Tools/ToolChoice.h"
@@ -37,6 +39,24 @@ protected:
     }
   }
 };
+
+// None for Move, which takes single control points.
+Reach reachOf(const ToolSettings& settings)
+{
+  Reach reach;
+  reach.weight = [sigma = settings.sigma()](double distance) { return falloff(distance, sigma); };
+  if (settings.tool() == ToolKind::Soft)
+  {
+    reach.along = reach.across = settings.radius();
+  }
+  else if (settings.tool() == ToolKind::Stamp)
+  {
+    reach.hasAxis = true;
+    reach.along = settings.majorRadius();
+    reach.across = settings.minorRadius();
+  }
+  return reach;
+}
 }
 
 struct ToolPanel::Value
@@ -56,24 +76,30 @@ const QList<ToolPanel::Value>& ToolPanel::values()
 {
   static const QList<Value> all{
     { "BrainShiftRadius", QT_TR_NOOP("Radius"), " mm", 1,
-      QT_TR_NOOP("Tissue within this distance of the cursor follows"), { ToolKind::Soft },
-      &ToolSettings::radius, &ToolSettings::radiusRange, &ToolSettings::setRadius },
-    { "BrainShiftMajorRadius", QT_TR_NOOP("Major radius"), " mm", 1,
+      QT_TR_NOOP("Tissue within this distance of the cursor follows, the less the farther away."),
+      { ToolKind::Soft }, &ToolSettings::radius, &ToolSettings::radiusRange,
+      &ToolSettings::setRadius },
+    { "BrainShiftMajorRadius", QT_TR_NOOP("Reach along"), " mm", 1,
       QT_TR_NOOP(
-        "Half the length of the stamp along its axis, which leads to the point of interest"),
+        "How far the stamp reaches along the push, from its centre to its edge (the major radius). "
+        "The push leads to the point of interest."),
       { ToolKind::Stamp }, &ToolSettings::majorRadius, &ToolSettings::radiusRange,
       &ToolSettings::setMajorRadius },
-    { "BrainShiftMinorRadius", QT_TR_NOOP("Minor radius"), " mm", 1,
-      QT_TR_NOOP("The radius of the stamp across its axis"), { ToolKind::Stamp },
-      &ToolSettings::minorRadius, &ToolSettings::radiusRange, &ToolSettings::setMinorRadius },
-    { "BrainShiftSigma", QT_TR_NOOP("Sigma"), "", 2,
+    { "BrainShiftMinorRadius", QT_TR_NOOP("Reach across"), " mm", 1,
       QT_TR_NOOP(
-        "The width of the Gaussian as a fraction of the radius. A small sigma makes a peak. "
-        "A large sigma moves nearly all tissue within the radius equally far."),
+        "How far the stamp reaches across the push, from its centre to its edge (the minor "
+        "radius)."),
+      { ToolKind::Stamp }, &ToolSettings::minorRadius, &ToolSettings::radiusRange,
+      &ToolSettings::setMinorRadius },
+    { "BrainShiftSigma", QT_TR_NOOP("Fullness"), "", 2,
+      QT_TR_NOOP(
+        "How much of the tissue within reach follows. A small number makes a sharp peak at the "
+        "centre, a large one a broad hill. The edge is always soft. (Sigma: the width of the "
+        "Gaussian as a fraction of the reach.)"),
       { ToolKind::Soft, ToolKind::Stamp }, &ToolSettings::sigma, &ToolSettings::sigmaRange,
       &ToolSettings::setSigma },
     { "BrainShiftMillimetresPerClick", QT_TR_NOOP("Per click"), " mm", 2,
-      QT_TR_NOOP("One click of the mouse wheel pulls or pushes the tissue this far"),
+      QT_TR_NOOP("One click of the mouse wheel pulls or pushes the tissue this far."),
       { ToolKind::Stamp }, &ToolSettings::millimetresPerClick,
       &ToolSettings::millimetresPerClickRange, &ToolSettings::setMillimetresPerClick },
   };
@@ -82,6 +108,7 @@ const QList<ToolPanel::Value>& ToolPanel::values()
 
 ToolPanel::ToolPanel(QWidget* parent)
   : QWidget(parent)
+  , Drawing(new ReachDrawing(this))
   , Hint(new QLabel(this))
   , Warning(new QWidget(this))
   , WarningText(new QLabel(this->Warning))
@@ -94,6 +121,8 @@ ToolPanel::ToolPanel(QWidget* parent)
   this->Hint->setWordWrap(true);
   column->addWidget(this->Hint);
   this->addSliders(column);
+  this->Drawing->setObjectName("BrainShiftReach");
+  column->addWidget(this->Drawing);
   this->addWarning(column);
   this->connect(ToolSettings::instance(), &ToolSettings::changed, this, &ToolPanel::refresh);
   this->refresh();
@@ -190,6 +219,9 @@ void ToolPanel::refresh()
     this->Sliders[i]->setValue((settings.*value.value)());
     this->Sliders[i]->setVisible(value.tools.contains(settings.tool()));
   }
+  const Reach reach = reachOf(settings);
+  this->Drawing->setReach(reach);
+  this->Drawing->setVisible(reach.along > 0.0);
   this->Hint->setText(this->Ready ? mouseHint(settings, ToolSettings::Ground::Volume)
                                   : tr("Press Apply to show the volume. Then choose a tool."));
   const QString warning = this->advice();
@@ -207,9 +239,10 @@ QString ToolPanel::advice() const
     case ToolKind::Stamp:
     {
       const bool minorIsLess = settings.minorRadius() <= settings.majorRadius();
-      return minorIsLess
-        ? radiusAdvice(tr("The minor radius"), settings.minorRadius(), this->LatticeSpacing)
-        : radiusAdvice(tr("The major radius"), settings.majorRadius(), this->LatticeSpacing);
+      return minorIsLess ? radiusAdvice(tr("The reach across the push"), settings.minorRadius(),
+                             this->LatticeSpacing)
+                         : radiusAdvice(tr("The reach along the push"), settings.majorRadius(),
+                             this->LatticeSpacing);
     }
     default:
       return {};

@@ -16,6 +16,7 @@ class QToolButton;
 
 namespace brainshift
 {
+class ReachDrawing;
 class ValueSlider;
 
 class ToolPanel : public QWidget
@@ -43,6 +44,7 @@ private:
 
   QList<QToolButton*> Buttons;
   QList<ValueSlider*> Sliders; ///< In the order of values().
+  ReachDrawing* const Drawing; ///< Of the tool in hand.
   QLabel* const Hint;
   QWidget* const Warning;
   QLabel* const WarningText;

@@ -21,6 +21,8 @@
 #include <QMouseEvent>
 #include <QOpenGLWindow>
 #include <QScreen>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QTest>
 #include <QTimer>
 #include <QWheelEvent>
@@ -222,6 +224,50 @@ TEST_HAND_EXPORT const char* test_hand_label(const char* name)
                  : text;
   }
   return text.constData();
+}
+
+// How many pixels of the panel's contents the dock cuts off at the right; -1 without a panel.
+TEST_HAND_EXPORT int test_hand_cut_off()
+{
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    auto panel = window->findChild<QWidget*>("propertiesPanel");
+    auto area = panel ? panel->findChild<QScrollArea*>("scrollArea") : nullptr;
+    if (area)
+    {
+      return area->horizontalScrollBar()->maximum();
+    }
+  }
+  return -1;
+}
+
+// A click of the mouse on a button, by its object name, while the view has the keyboard's focus.
+// Returns whether the view still has it.
+TEST_HAND_EXPORT int test_hand_keeps_focus(const char* name)
+{
+  QWidget* view = viewWidget();
+  QWidget* window = view ? view->window() : nullptr;
+  auto button = window ? window->findChild<QAbstractButton*>(name) : nullptr;
+  if (!button || !button->isEnabled())
+  {
+    return 0;
+  }
+  window->activateWindow();
+  QApplication::setActiveWindow(window); // without a window manager nobody else does
+  view->setFocus();
+  QTest::mouseClick(button, Qt::LeftButton);
+  return window->focusWidget() == view->focusWidget() ? 1 : 0;
+}
+
+// The window, pixels, as far as the screen has room.
+TEST_HAND_EXPORT void test_hand_resize_window(int width, int height)
+{
+  if (QWidget* widget = viewWidget())
+  {
+    QWidget* window = widget->window();
+    window->resize(QSize(width, height).boundedTo(window->screen()->availableGeometry().size()));
+    QApplication::processEvents();
+  }
 }
 
 TEST_HAND_EXPORT int test_hand_is_there()

@@ -132,6 +132,16 @@ def label(name):
     return _library.test_hand_label(name.encode()).decode()
 
 
+def cut_off():
+    """How many pixels of the panel the dock cuts off at the right."""
+    return _library.test_hand_cut_off()
+
+
+def keeps_focus(name):
+    """Clicks a button of the window with the mouse; whether the view keeps the keyboard."""
+    return bool(_library.test_hand_keeps_focus(name.encode()))
+
+
 def is_there():
     """Whether this Python is that of ParaView's window."""
     return bool(_library.test_hand_is_there())
@@ -140,6 +150,11 @@ def is_there():
 def quit():
     """Closes ParaView when Python is done."""
     _library.test_hand_quit()
+
+
+def resize_window(width, height):
+    _library.test_hand_resize_window(width, height)
+    wait(200)
 
 
 def resize(width, height):

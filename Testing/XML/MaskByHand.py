@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that in ParaView's window, played by MaskByHand.xml, a mask chosen in the panel keeps what
-is outside it still under a stamp that is pressed in the view; that one tick then draws the brain
-alone, where the next stamp finds the cortex; and that the Python trace holds the tick. The window
-imports this file to look from a fixed place and to write down what it sees."""
+is outside it still under a stamp that is pressed in the view, and leaves the filter selected; that
+one tick then draws the brain alone, where the next stamp finds the cortex; and that the Python
+trace holds the tick. The window imports this file to look from a fixed place and to write down what
+it sees."""
 import json
 import os
 
 import numpy
 from brainshift_testing import object_pixels, picture, voxels
-from paraview import simple, smtrace
+from paraview import servermanager, simple, smtrace
 from slices_testing import trilinear
 
 ANCHOR = slice(1, 4)  # of a stroke's numbers
@@ -51,11 +52,19 @@ def inside(mask, positions):
     return trilinear(voxels(mask, name) > 0, grid)[0]
 
 
+def selected():
+    """Names of what is selected in the pipeline browser."""
+    manager = servermanager.ProxyManager().SMProxyManager
+    model = manager.GetSelectionModel("ActiveSources")
+    proxies = [model.GetSelectedProxy(i) for i in range(model.GetNumberOfSelectedProxies())]
+    return [proxy.GetXMLName() for proxy in proxies]
+
+
 def look(step):
     """Writes down the strokes, what of the picture shows something, and what moved where."""
     bent, view = simple.GetActiveSource(), simple.GetActiveView()
     seen = {"strokes": list(bent.Strokes), "shown": float(object_pixels(picture(view)).mean()),
-            "masked": bent.Mask is not None,
+            "selected": selected(), "masked": bent.Mask is not None,
             "labels": list(simple.GetDisplayProperties(bent, view).DrawnLabels)}
     if bent.Mask is not None and len(bent.Strokes):
         baked = simple.BakeDeformation(Input=bent)
@@ -82,6 +91,7 @@ def main():
         print(step, {name: value for name, value in seen[step].items() if name != "strokes"})
     whole, stamped, alone, again = (seen[step] for step in
                                     ("whole", "stamped", "alone", "stamped again"))
+    assert whole["selected"] == ["FreeFormDeformation"], whole["selected"]
     assert whole["masked"] and not whole["strokes"]
     assert len(stamped["strokes"]) == 14, stamped["strokes"]
     assert stamped["moved outside"] == 0, stamped

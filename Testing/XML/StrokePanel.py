@@ -13,6 +13,7 @@ CENTRE = (0.0, 0.0, 0.0)
 STROKES = (brainshift.stamp(ANCHORS[0], CENTRE, -3.0, major=8.0, minor=5.0) +
            brainshift.soft(ANCHORS[1], (0.0, 1.0, 0.0), 6.0) +
            brainshift.move(ANCHORS[2], (0.0, 0.0, 0.5)))
+POINT = (1.23456789012345, 2.0, -3.0)  # mm
 VECTOR_X, MAJOR, ENABLED = 4, 10, 13  # places among a stroke's numbers
 
 
@@ -44,6 +45,20 @@ def record(act):
     with open(record_file()) as file:
         records = json.load(file)
     records.append((act, list(deformation.Strokes), deformation.Strength))
+    with open(record_file(), "w") as file:
+        json.dump(records, file)
+
+
+def set_point():
+    simple.GetActiveSource().PointOfInterest = POINT
+
+
+def record_point(act):
+    """Writes down the point of interest after `act`."""
+    deformation = simple.GetActiveSource()
+    with open(record_file()) as file:
+        records = json.load(file)
+    records.append((act, list(deformation.PointOfInterest), deformation.Strength))
     with open(record_file(), "w") as file:
         json.dump(records, file)
 
@@ -82,6 +97,8 @@ def expected():
         ("after", widened, 1.0),
         ("undo after", widened, 1.0),
         ("reset of nonsense", [], 1.0),
+        ("point typed", [POINT[0], 4.5, POINT[2]], 1.0),
+        ("centre", list(CENTRE), 1.0),
     ]
 
 

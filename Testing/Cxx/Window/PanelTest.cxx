@@ -7,6 +7,7 @@
 #include "Interaction/Commands/Commands.h"
 #include "Panel/Parts/Advice.h"
 #include "Panel/Strokes/StrokeModel.h"
+#include "Panel/Strokes/StrokeTree.h"
 #include "Panel/Window/KeysText.h"
 #include "Testing/Cxx/Window/Application.h"
 
@@ -82,7 +83,7 @@ TEST_F(StrokesInAList, ReadsThePropertyWhenAsked)
 {
   this->set({ stamp(-10.0), soft() });
   EXPECT_EQ(this->Model.rowCount(), 2);
-  EXPECT_EQ(this->at(0, StrokeModel::ToolColumn).toString(), "Stamp");
+  EXPECT_EQ(this->at(0, StrokeModel::ToolColumn).toString(), "1 Stamp");
   EXPECT_EQ(this->at(0, StrokeModel::WhereColumn).toString(), "10, 20, 30");
   EXPECT_EQ(this->at(0, StrokeModel::AmountColumn).toString(), "-10.0");
   EXPECT_EQ(this->at(0, StrokeModel::MinorColumn).toString(), "25.0");
@@ -91,6 +92,27 @@ TEST_F(StrokesInAList, ReadsThePropertyWhenAsked)
   // Without being told: there is no copy to be out of date.
   this->Property->SetElement(1, 11.0);
   EXPECT_EQ(this->at(0, StrokeModel::WhereColumn).toString(), "11, 20, 30");
+}
+
+TEST_F(StrokesInAList, BeginsWithWhatMattersMost)
+{
+  const auto title = [this](int column) {
+    return this->Model.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
+  };
+  EXPECT_EQ(title(0), "Stroke");
+  EXPECT_EQ(title(1), "Amount");
+  EXPECT_EQ(title(2), "Reached");
+  this->set({ stamp(-10.0), soft() });
+  StrokeTree tree(&this->Model);
+  for (const int width : { 120, 260, 600 }) // pixels
+  {
+    tree.resize(width, 200);
+    tree.grab(); // lays it out
+    EXPECT_GE(
+      tree.columnWidth(StrokeModel::ToolColumn), tree.fontMetrics().horizontalAdvance("1 Stamp"))
+      << width;
+    EXPECT_EQ(tree.isColumnHidden(StrokeModel::WhereColumn), width < 600) << width;
+  }
 }
 
 TEST_F(StrokesInAList, FollowsOtherLengths)
@@ -214,6 +236,17 @@ TEST(Advice, GradesTheSmallestJacobian)
   EXPECT_EQ(jacobianGrade(1.0), Grade::Good);
   EXPECT_EQ(jacobianGrade(0.1), Grade::Doubtful);
   EXPECT_EQ(jacobianGrade(0.0), Grade::Bad);
+}
+
+TEST(Advice, SaysHowFarTissueIsSqueezed)
+{
+  EXPECT_EQ(jacobianText(1.0), "not squeezed");
+  EXPECT_EQ(jacobianText(0.9999999), "not squeezed");
+  EXPECT_EQ(jacobianText(0.16), "squeezed to 16 %");
+  EXPECT_EQ(jacobianText(0.004), "squeezed to less than 1 %");
+  EXPECT_EQ(jacobianText(0.0), "folds over itself");
+  EXPECT_EQ(jacobianText(-0.5), "folds over itself");
+  EXPECT_TRUE(jacobianTip(0.16).contains("0.160")); // the determinant
 }
 
 // W3C's contrast of text on a background, 1 to 21; 4.5 is asked of text.

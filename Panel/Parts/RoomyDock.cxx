@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Panel/Parts/RoomyDock.h"
+
+#include <QDockWidget>
+#include <QEvent>
+#include <QMainWindow>
+#include <QScrollArea>
+#include <QScrollBar>
+#include <QTimer>
+
+namespace brainshift
+{
+namespace
+{
+constexpr double MostOfWindow = 0.4;   // of its width; the views need the rest
+constexpr double LeastOfWindow = 0.55; // of its height; the pipeline browser needs the rest
+
+bool isDone = false; // in this session
+
+template <class T>
+T* around(QWidget* widget)
+{
+  while (widget && !qobject_cast<T*>(widget))
+  {
+    widget = widget->parentWidget();
+  }
+  return qobject_cast<T*>(widget);
+}
+}
+
+RoomyDock::RoomyDock(QWidget* part)
+  : QObject(part)
+  , Part(part)
+{
+  part->installEventFilter(this);
+}
+
+bool RoomyDock::eventFilter(QObject* watched, QEvent* event)
+{
+  if (event->type() == QEvent::Show && !this->Panel && !isDone)
+  {
+    this->watch();
+  }
+  return this->QObject::eventFilter(watched, event);
+}
+
+void RoomyDock::watch()
+{
+  this->Panel = around<QScrollArea>(this->Part);
+  if (this->Panel)
+  {
+    // Later: while the panel is being filled, its parts have no sizes of their own yet.
+    this->connect(this->Panel->horizontalScrollBar(), &QScrollBar::rangeChanged, this,
+      [this] { QTimer::singleShot(0, this, &RoomyDock::widen); });
+    QTimer::singleShot(0, this, &RoomyDock::widen);
+  }
+}
+
+void RoomyDock::widen()
+{
+  const int lacking = this->Panel->horizontalScrollBar()->maximum();
+  auto dock = around<QDockWidget>(this->Panel);
+  auto window = dock ? around<QMainWindow>(dock) : nullptr;
+  if (isDone || lacking == 0 || !this->Part->isVisible() || !window || dock->isFloating())
+  {
+    return;
+  }
+  const int width = dock->width() + lacking;
+  if (width <= MostOfWindow * window->width())
+  {
+    isDone = true;
+    window->resizeDocks({ dock }, { width }, Qt::Horizontal);
+    const int height = static_cast<int>(LeastOfWindow * window->height());
+    if (dock->height() < height)
+    {
+      window->resizeDocks({ dock }, { height }, Qt::Vertical);
+    }
+  }
+}
+}

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Panel/Properties/PointWidget.h"
+
+#include "Panel/Parts/InSight.h"
+#include "Panel/Parts/MillimetreField.h"
+
+#include <pqPropertiesPanel.h>
+#include <pqUndoStack.h>
+
+#include <vtkCommand.h>
+#include <vtkEventQtSlotConnect.h>
+#include <vtkSMProperty.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
+#include <vtkSMTrace.h>
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QToolButton>
+
+#include <limits>
+
+namespace brainshift
+{
+PointWidget::PointWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent)
+  : pqPropertyWidget(proxy, parent)
+{
+  this->setProperty(property);
+  this->setShowLabel(false); // the group's title says it, a label would take the room
+  auto row = new QHBoxLayout(this);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(pqPropertiesPanel::suggestedHorizontalSpacing());
+  static const std::array<const char*, 3> axes{ "X", "Y", "Z" };
+  for (std::size_t axis = 0; axis < axes.size(); ++axis)
+  {
+    auto field = new MillimetreField(axes[axis], std::numeric_limits<double>::lowest(), this);
+    auto label = new QLabel(axes[axis], this);
+    label->setBuddy(field);
+    field->setAccessibleName(tr("%1, %2, millimetres").arg(property->GetXMLLabel(), axes[axis]));
+    row->addWidget(label);
+    row->addWidget(field, 1);
+    this->Fields[axis] = field;
+    this->connect(field, &MillimetreField::valueEdited, this, [this, property, axis](double value) {
+      Point point{};
+      vtkSMPropertyHelper(property).Get(point.data(), 3);
+      point[axis] = value;
+      this->write(point);
+    });
+  }
+  auto centre = new QToolButton(this);
+  centre->setObjectName("Centre");
+  centre->setIcon(QIcon(":/pqWidgets/Icons/pqReset.svg"));
+  centre->setToolTip(tr("Take the centre of the volume. This acts at once."));
+  centre->setAccessibleName(tr("Centre of the volume"));
+  row->addWidget(centre);
+  this->connect(centre, &QToolButton::clicked, this, &PointWidget::takeCentre);
+  this->Observers->Connect(property, vtkCommand::ModifiedEvent, this, SLOT(showPoint()));
+  new InSight(this);
+  this->showPoint();
+}
+
+PointWidget::~PointWidget() = default;
+
+void PointWidget::showPoint()
+{
+  Point point{};
+  vtkSMPropertyHelper(this->property()).Get(point.data(), 3);
+  for (std::size_t axis = 0; axis < point.size(); ++axis)
+  {
+    this->Fields[axis]->setValue(point[axis]);
+  }
+}
+
+void PointWidget::takeCentre()
+{
+  SCOPED_UNDO_SET(tr("Point of interest"));
+  SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this->proxy());
+  this->property()->ResetToDomainDefaults();
+  this->proxy()->UpdateVTKObjects();
+}
+
+void PointWidget::write(const Point& point)
+{
+  SCOPED_UNDO_SET(tr("Point of interest"));
+  SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this->proxy());
+  vtkSMPropertyHelper(this->property()).Set(point.data(), 3);
+  this->proxy()->UpdateVTKObjects();
+}
+}
