@@ -164,6 +164,7 @@ class Scene:
         simple.ColorBy(display, ("POINTS", ARRAY))
         display.SetScalarBarVisibility(self.view, False)
         display.Shade = 1
+        display.AmbientOcclusion = 0.0  # as ParaView's own volumes
         display.ScalarOpacityUnitDistance = 1.0
         color = simple.GetColorTransferFunction(ARRAY)
         color.ColorSpace = "RGB"

@@ -186,6 +186,14 @@ void ToolCarrier::refresh()
     }
   }
   this->suggestRanges();
+  this->tellWhatIsShown();
+}
+
+void ToolCarrier::tellWhatIsShown()
+{
+  pqPipelineSource* shown =
+    this->Tool && this->isAlive() ? shownInstead(this->Deformation, this->View) : nullptr;
+  ToolSettings::instance()->setShownInstead(shown ? shown->getSMName() : QString());
 }
 
 void ToolCarrier::suggestRanges()
@@ -211,6 +219,7 @@ void ToolCarrier::followCursor(pqRenderView* view)
     this->refresh();
   }
   ToolSettings::instance()->setGround(groundOf(activeDeformation(view), view));
+  this->tellWhatIsShown();
 }
 
 bool ToolCarrier::handle(const HandEvent& event)

@@ -46,6 +46,7 @@ private:
   void followCursor(pqRenderView* view);
   void refresh(); ///< Adapts to the tool, the view and the filter that are active now.
   void suggestRanges();
+  void tellWhatIsShown(); ///< To the settings, if the view shows another volume.
   void putDown();
   bool handle(const HandEvent& event);
   bool pass(const HandEvent& event);

@@ -11,6 +11,7 @@
 #include "Representations/Window/SoftwareFallback.h"
 
 #include "vtkImageData.h"
+#include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -24,6 +25,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <sstream>
 #include <string>
@@ -167,6 +169,7 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   request.wish.adaptive = this->AdaptiveQuality;
   request.wish.keep = this->KeepPicture || OverVolumes::areVisibleIn(renderer);
   request.wish.countSamples = this->CountSamples;
+  request.wish.occlusion = { this->AmbientOcclusion, this->OcclusionRadiusOn(image, volume) };
   request.wish.rate = window->GetDesiredUpdateRate();
   request.wish.settingsTime = state.SettingsTime;
   GpuTask gpu(window, state.Count);
@@ -221,6 +224,18 @@ double vtkDeformedVolumeMapper::StepOn(const Grid& grid)
     this->TellOnce(remark.str());
   }
   return step;
+}
+
+// mm, world.
+double vtkDeformedVolumeMapper::OcclusionRadiusOn(vtkImageData* image, vtkVolume* volume)
+{
+  if (this->OcclusionRadius > 0.0)
+  {
+    return this->OcclusionRadius;
+  }
+  constexpr double usualShare = 0.02; // of the diagonal: 8 mm for a head
+  const double scale = std::cbrt(std::abs(volume->GetMatrix()->Determinant()));
+  return usualShare * scale * image->GetLength();
 }
 
 // None if the data carries no reference or it is not to be drawn.
@@ -338,5 +353,7 @@ void vtkDeformedVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Comparison: " << this->Comparison << "\n"
      << indent << "ReferenceRange: " << this->ReferenceRange[0] << " " << this->ReferenceRange[1]
      << "\n"
-     << indent << "AgreementDistance: " << this->AgreementDistance << "\n";
+     << indent << "AgreementDistance: " << this->AgreementDistance << "\n"
+     << indent << "AmbientOcclusion: " << this->AmbientOcclusion << "\n"
+     << indent << "OcclusionRadius: " << this->OcclusionRadius << "\n";
 }

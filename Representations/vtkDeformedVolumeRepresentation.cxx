@@ -102,6 +102,16 @@ void vtkDeformedVolumeRepresentation::SetAgreementDistance(double distance)
   this->GetDeformedVolumeMapper()->SetAgreementDistance(distance);
 }
 
+void vtkDeformedVolumeRepresentation::SetAmbientOcclusion(double darkness)
+{
+  this->GetDeformedVolumeMapper()->SetAmbientOcclusion(darkness);
+}
+
+void vtkDeformedVolumeRepresentation::SetOcclusionRadius(double radius)
+{
+  this->GetDeformedVolumeMapper()->SetOcclusionRadius(radius);
+}
+
 void vtkDeformedVolumeRepresentation::SetGlobalIlluminationReach(float reach)
 {
   this->GlobalIlluminationReach = reach;

@@ -63,6 +63,12 @@ public:
   void ClearDrawnLabels();
   ///@}
 
+  ///@{
+  /** How dark grooves are, and how far tissue hides light (mm); see vtkDeformedVolumeMapper. */
+  void SetAmbientOcclusion(double darkness);
+  void SetOcclusionRadius(double radius);
+  ///@}
+
   /** The mapper that draws it in this process. */
   vtkDeformedVolumeMapper* GetDeformedVolumeMapper() const;
 

@@ -130,6 +130,15 @@ void ToolSettings::setGround(Ground ground)
   }
 }
 
+void ToolSettings::setShownInstead(const QString& name)
+{
+  if (name != this->ShownInstead)
+  {
+    this->ShownInstead = name;
+    Q_EMIT this->changed();
+  }
+}
+
 void ToolSettings::keep(const char* name, double& kept, double value, const Range& range)
 {
   if (std::isfinite(value) && clamped(value, range) != kept)

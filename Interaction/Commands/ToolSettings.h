@@ -6,6 +6,7 @@
 #define BrainShift_ToolSettings_h
 
 #include <QObject>
+#include <QString>
 
 namespace brainshift
 {
@@ -63,7 +64,10 @@ public:
   ToolKind tool() const { return this->ToolInHand; }   ///< Default None.
   AxisHold axisHold() const { return this->HeldAxis; } ///< Default None.
   Ground ground() const { return this->GroundNow; }    ///< Default Volume.
-  double radius() const;                               ///< Soft: mm, default 25.
+  /// Name of the volume that the view under the cursor shows, while the tool in hand works on
+  /// another one that this view does not show. Default empty: it works on what the view shows.
+  const QString& shownInstead() const { return this->ShownInstead; }
+  double radius() const;              ///< Soft: mm, default 25.
   double majorRadius() const;         ///< Stamp: half the long axis, mm, default 40.
   double minorRadius() const;         ///< Stamp: across the long axis, mm, default 25.
   double sigma() const;               ///< Width of the Gaussian / radius, default 0.5.
@@ -86,6 +90,7 @@ public Q_SLOTS:
   void setTool(ToolSettings::ToolKind tool);
   void setAxisHold(ToolSettings::AxisHold axis);
   void setGround(ToolSettings::Ground ground);
+  void setShownInstead(const QString& name);
   void setRadius(double millimetres);
   void setMajorRadius(double millimetres);
   void setMinorRadius(double millimetres);
@@ -103,6 +108,7 @@ private:
   ToolKind ToolInHand = ToolKind::None;
   AxisHold HeldAxis = AxisHold::None;
   Ground GroundNow = Ground::Volume;
+  QString ShownInstead;
   double Radius = 25.0;
   double MajorRadius = 40.0;
   double MinorRadius = 25.0;

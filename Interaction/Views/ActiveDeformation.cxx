@@ -12,6 +12,7 @@
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 
+#include <algorithm>
 #include <cstring>
 
 namespace brainshift
@@ -103,6 +104,20 @@ pqPipelineSource* activeDeformation(pqView* view)
     }
   }
   return only;
+}
+
+pqPipelineSource* shownInstead(pqPipelineSource* deformation, pqView* view)
+{
+  if (!deformation || bentDisplay(deformation, view))
+  {
+    return nullptr;
+  }
+  const auto sources =
+    pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>();
+  const auto shown = std::find_if(sources.begin(), sources.end(), [view](pqPipelineSource* source) {
+    return isDeformation(source) && bentDisplay(source, view);
+  });
+  return shown == sources.end() ? nullptr : *shown;
 }
 
 bool showsSlices(pqDataRepresentation* display)

@@ -22,6 +22,8 @@ pqPipelineSource* activeDeformation();
 /// The representation (Deformed Volume or Deformed Slices) with which a view shows a Free-Form
 /// Deformation, or shows what a filter like Compare Volumes made of it. Null if there is none.
 pqDataRepresentation* bentDisplay(pqPipelineSource* deformation, pqView* view);
+/// A Free-Form Deformation that a view shows, if it does not show `deformation`. Otherwise null.
+pqPipelineSource* shownInstead(pqPipelineSource* deformation, pqView* view);
 /// Whether a representation is Deformed Slices.
 bool showsSlices(pqDataRepresentation* display);
 }

@@ -6,39 +6,33 @@
 #include <pqPipelineSource.h>
 #include <pqServerManagerModel.h>
 
+#include <QPointer>
+#include <QTimer>
+
 namespace brainshift
 {
 KeptSelection::KeptSelection(QObject* parent)
   : QObject(parent)
 {
-  using Sources = void (pqServerManagerModel::*)(pqPipelineSource*, pqPipelineSource*, int);
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
-  const auto before = [this](pqPipelineSource*, pqPipelineSource* consumer) {
-    this->remember(consumer);
-  };
-  const auto after = [this](
-                       pqPipelineSource*, pqPipelineSource* consumer) { this->restore(consumer); };
-  this->connect(
-    model, static_cast<Sources>(&pqServerManagerModel::preConnectionAdded), this, before);
-  this->connect(
-    model, static_cast<Sources>(&pqServerManagerModel::preConnectionRemoved), this, before);
-  this->connect(model, static_cast<Sources>(&pqServerManagerModel::connectionAdded), this, after);
-  this->connect(model, static_cast<Sources>(&pqServerManagerModel::connectionRemoved), this, after);
+  const auto keep = [this](pqPipelineSource*, pqPipelineSource* consumer) { this->keep(consumer); };
+  this->connect(model, &pqServerManagerModel::preConnectionAdded, this, keep);
+  this->connect(model, &pqServerManagerModel::preConnectionRemoved, this, keep);
 }
 
-void KeptSelection::remember(pqPipelineSource* consumer)
+// Later, when the pipeline browser has moved the filter. What was selected since then stays.
+void KeptSelection::keep(pqPipelineSource* consumer)
 {
-  const bool isSelected = pqActiveObjects::instance().selection() == pqProxySelection{ consumer };
-  this->Active = isSelected ? consumer : nullptr;
-}
-
-void KeptSelection::restore(pqPipelineSource* consumer)
-{
-  pqActiveObjects& active = pqActiveObjects::instance();
-  if (this->Active == consumer && !active.selection().contains(consumer))
+  if (pqActiveObjects::instance().selection() != pqProxySelection{ consumer })
   {
-    active.setSelection({ consumer }, consumer);
+    return;
   }
-  this->Active = nullptr;
+  QTimer::singleShot(0, this, [kept = QPointer<pqPipelineSource>(consumer)] {
+    pqActiveObjects& active = pqActiveObjects::instance();
+    if (kept && active.selection().isEmpty())
+    {
+      active.setSelection({ kept }, kept);
+    }
+  });
 }
 }

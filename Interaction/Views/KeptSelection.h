@@ -2,12 +2,11 @@
 /// @file
 /// Keeps a filter selected while its inputs change. ParaView's pipeline browser moves a filter that
 /// gets a second input to another place, or back, and loses it from the selection on the way. Then
-/// all filters are greyed out, and the panel is empty.
+/// all filters in menus and toolbars are greyed out.
 #ifndef BrainShift_KeptSelection_h
 #define BrainShift_KeptSelection_h
 
 #include <QObject>
-#include <QPointer>
 
 class pqPipelineSource;
 
@@ -18,14 +17,11 @@ class KeptSelection : public QObject
   Q_OBJECT
 
 public:
-  /// Watches the pipeline from now on. The pipeline browser must be there already.
+  /// Watches the pipeline from now on.
   explicit KeptSelection(QObject* parent);
 
 private:
-  void remember(pqPipelineSource* consumer);
-  void restore(pqPipelineSource* consumer);
-
-  QPointer<pqPipelineSource> Active; ///< The filter whose input changes, if it alone is selected.
+  void keep(pqPipelineSource* consumer);
 };
 }
 

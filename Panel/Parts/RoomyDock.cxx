@@ -3,6 +3,7 @@
 
 #include <QDockWidget>
 #include <QEvent>
+#include <QList>
 #include <QMainWindow>
 #include <QScrollArea>
 #include <QScrollBar>
@@ -12,10 +13,38 @@ namespace brainshift
 {
 namespace
 {
-constexpr double MostOfWindow = 0.4;   // of its width; the views need the rest
-constexpr double LeastOfWindow = 0.55; // of its height; the pipeline browser needs the rest
+constexpr double MostOfWindow = 0.4;  // of its width; the views need the rest
+constexpr double LeastOfWindow = 0.6; // of its height; the pipeline browser needs the rest
 
 bool isDone = false; // in this session
+
+// At the cost of the docks above and below it, which Qt must be told as well.
+void makeHigher(QDockWidget* dock, QMainWindow* window)
+{
+  QList<QDockWidget*> docks;
+  for (QDockWidget* other : window->findChildren<QDockWidget*>())
+  {
+    if (other != dock && other->isVisible() && !other->isFloating() &&
+      window->dockWidgetArea(other) == window->dockWidgetArea(dock) &&
+      !window->tabifiedDockWidgets(dock).contains(other))
+    {
+      docks.append(other);
+    }
+  }
+  const int lacking = static_cast<int>(LeastOfWindow * window->height()) - dock->height();
+  if (lacking <= 0 || docks.isEmpty())
+  {
+    return;
+  }
+  QList<int> heights;
+  for (const QDockWidget* other : docks)
+  {
+    heights.append(other->height() - lacking / static_cast<int>(docks.size()));
+  }
+  docks.append(dock);
+  heights.append(dock->height() + lacking);
+  window->resizeDocks(docks, heights, Qt::Vertical);
+}
 
 template <class T>
 T* around(QWidget* widget)
@@ -70,11 +99,7 @@ void RoomyDock::widen()
   {
     isDone = true;
     window->resizeDocks({ dock }, { width }, Qt::Horizontal);
-    const int height = static_cast<int>(LeastOfWindow * window->height());
-    if (dock->height() < height)
-    {
-      window->resizeDocks({ dock }, { height }, Qt::Vertical);
-    }
+    makeHigher(dock, window);
   }
 }
 }

@@ -5,6 +5,7 @@
 #include "Panel/Strokes/StrokeModel.h"
 #include "Panel/Strokes/StrokeTree.h"
 
+#include <QApplication>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QToolButton>
@@ -40,6 +41,7 @@ StrokeList::StrokeList(StrokeModel* model, QWidget* parent)
     button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     button->setFocusPolicy(Qt::TabFocus); // a click leaves the keyboard where it is
     buttons->addWidget(button);
+    this->connect(button, &QToolButton::pressed, this, &StrokeList::giveFocusBack);
   }
   buttons->addStretch();
   auto column = new QVBoxLayout(this);
@@ -52,6 +54,9 @@ StrokeList::StrokeList(StrokeModel* model, QWidget* parent)
   this->connect(this->Reset, &QToolButton::clicked, model, &StrokeModel::removeAll);
   this->connect(this->Tree, &StrokeTree::selectedRowsChanged, this, &StrokeList::refresh);
   this->connect(model, &StrokeModel::updated, this, &StrokeList::refresh);
+  this->connect(qApp, &QApplication::focusChanged, this, [this](QWidget* before, QWidget* now) {
+    this->FocusBefore = now && now->isAncestorOf(this) ? before : nullptr;
+  });
   this->refresh();
 }
 
@@ -65,6 +70,16 @@ void StrokeList::refresh()
   this->Problem->setPalette(palette);
   this->enable(this->Delete, !this->Tree->selectedRows().isEmpty());
   this->enable(this->Reset, this->Strokes->rowCount() > 0 || !problem.isEmpty());
+}
+
+// Qt offers a click that the button does not want the focus for to the panel around it.
+void StrokeList::giveFocusBack()
+{
+  QWidget* focus = QApplication::focusWidget();
+  if (this->FocusBefore && focus && focus->isAncestorOf(this))
+  {
+    this->FocusBefore->setFocus();
+  }
 }
 
 // Qt takes the focus from a button that is disabled to whatever comes next in the panel.

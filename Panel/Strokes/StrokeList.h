@@ -4,6 +4,7 @@
 #ifndef BrainShift_StrokeList_h
 #define BrainShift_StrokeList_h
 
+#include <QPointer>
 #include <QWidget>
 
 class QLabel;
@@ -23,6 +24,7 @@ public:
 
 private:
   void refresh();
+  void giveFocusBack();
   void enable(QToolButton* button, bool enabled);
 
   StrokeModel* const Strokes;
@@ -30,6 +32,7 @@ private:
   QLabel* const Problem;
   QToolButton* const Delete;
   QToolButton* const Reset;
+  QPointer<QWidget> FocusBefore; ///< What lost the focus to the panel around the list.
 };
 }
 

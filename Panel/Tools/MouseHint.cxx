@@ -93,6 +93,13 @@ QString mouseHint(const ToolSettings& settings, ToolSettings::Ground ground)
 {
   const ToolKind tool = settings.tool();
   QStringList hints;
+  if (tool != ToolKind::None && !settings.shownInstead().isEmpty())
+  {
+    return tr(
+      "%1. This view does not show the volume that is selected. To work on %2, select it in "
+      "the Pipeline Browser.")
+      .arg(nameOf(tool), settings.shownInstead());
+  }
   if (tool != ToolKind::None)
   {
     hints.append(

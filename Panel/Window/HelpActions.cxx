@@ -2,12 +2,14 @@
 #include "Panel/Window/HelpActions.h"
 
 #include "Panel/Window/KeysText.h"
+#include "Panel/Window/Tutorial.h"
 
 #include <pqCoreUtilities.h>
 
 #include <QDialog>
 #include <QDialogButtonBox>
 #include <QLabel>
+#include <QTimer>
 #include <QVBoxLayout>
 
 namespace brainshift
@@ -41,6 +43,14 @@ void showText(const QString& name, const QString& title, const QString& text)
 HelpActions::HelpActions(QObject* parent)
   : QActionGroup(parent)
 {
+  QAction* tutorial = this->addAction(tr("BrainShift Tutorial"));
+  tutorial->setObjectName("actionBrainShiftTutorial");
+  tutorial->setToolTip(tr("Learn the tools in seven steps on a sample head."));
+  this->connect(tutorial, &QAction::triggered, this, &Tutorial::begin);
+  if (qEnvironmentVariableIsSet("BRAINSHIFT_TUTORIAL")) // the launcher asks for it
+  {
+    QTimer::singleShot(0, this, &Tutorial::begin);
+  }
   QAction* shortcuts = this->addAction(tr("BrainShift Mouse and Keys"));
   shortcuts->setObjectName("actionBrainShiftShortcuts");
   this->connect(shortcuts, &QAction::triggered, this, &HelpActions::showShortcuts);

@@ -18,11 +18,12 @@ from .figures import animate, figure
 from .files import load_field, load_lattice, save_field, save_lattice
 from .looks import look, looks
 from .maps import deformed_from_rest, rest_from_deformed
+from .sample import open_sample
 from .strokes import MOVE, NUMBERS_PER_STROKE, SOFT, STAMP, move, soft, stamp
 from .views import four_views
 
 __all__ = [
     "MOVE", "NUMBERS_PER_STROKE", "SOFT", "STAMP",
     "animate", "counters", "deformed_from_rest", "figure", "four_views", "gpu", "load_field",
-    "load_lattice", "look", "looks", "move", "pick", "rest_from_deformed", "save_field",
-    "save_lattice", "slice_axes", "soft", "stamp"]
+    "load_lattice", "look", "looks", "move", "open_sample", "pick", "rest_from_deformed",
+    "save_field", "save_lattice", "slice_axes", "soft", "stamp"]

@@ -7,6 +7,7 @@ import io
 import os
 
 from .drawing import colored_difference, histogram_svg, png, with_scale_bar
+from .version import VERSION
 
 #: Lengths of a scale bar, as multiples of a power of ten.
 ROUND = (1, 2, 5)
@@ -147,12 +148,8 @@ def _versions():
     from paraview import servermanager
     from vtkmodules.vtkCommonCore import vtkVersion
 
-    manager = servermanager.vtkSMProxyManager.GetProxyManager()
-    plugins = manager.GetPluginManager().GetLocalInformation()
-    own = next((plugins.GetPluginVersion(i) for i in range(plugins.GetNumberOfPlugins())
-                if plugins.GetPluginName(i) == "BrainShift"), "unknown")
     paraview = servermanager.vtkSMProxyManager.GetParaViewSourceVersion()
-    return [("BrainShift", own, ""),
+    return [("BrainShift", VERSION, ""),
             ("ParaView", paraview.replace("paraview version", "").strip(), ""),
             ("VTK", vtkVersion.GetVTKVersion(), "")]
 

@@ -61,8 +61,8 @@ MemoryNeed memoryNeed(const DrawnSizes& sizes)
   constexpr std::int64_t NodeBytes = 16;    // four floats
   constexpr std::int64_t WeightBytes = 4;   // of a mask at a node
   // Picture, hits, spans and depth. The first three again for a moving part, at half the size a
-  // side.
-  constexpr std::int64_t PixelBytes = 4 + 4 + 4 + 4 + (4 + 4 + 4) / 4;
+  // side. Both images of occlusion.
+  constexpr std::int64_t PixelBytes = 4 + 4 + 4 + 4 + (4 + 4 + 4) / 4 + (4 + 1);
   const std::int64_t voxels = volumeOf(sizes.voxels);
   MemoryNeed need;
   need.scalars = sizes.scalarBytes * voxels;

@@ -32,6 +32,7 @@
 #include "shader_march.h"
 #include "shader_nodes.h"
 #include "shader_normals_frag.h"
+#include "shader_occlusion_frag.h"
 #include "shader_outline_vert.h"
 #include "shader_pointwise.h"
 #include "shader_presence_frag.h"
@@ -48,6 +49,7 @@
 #include "shader_slice_frag.h"
 #include "shader_slices_frag.h"
 #include "shader_slices_vert.h"
+#include "shader_smooth_occlusion_frag.h"
 #include "shader_tissue.h"
 #include "shader_traces_frag.h"
 #include "shader_traces_over_frag.h"
@@ -226,9 +228,22 @@ ShaderSource rayCastSource(const RayCastVariant& variant)
       loopSource(variant) }) };
 }
 
-ShaderSource compositeSource()
+ShaderSource compositeSource(bool occluded)
 {
-  return { assemble({ shader_fullscreen_vert }), "", assemble({ Outputs, shader_composite_frag }) };
+  return { assemble({ shader_fullscreen_vert }), "",
+    assemble({ Outputs, occluded ? "#define OCCLUDED\n" : "", shader_composite_frag }) };
+}
+
+ShaderSource occlusionSource()
+{
+  return { assemble({ shader_fullscreen_vert }), "",
+    assemble({ Outputs, floatDefine("MOST_PIXELS", MostOcclusionPixels), shader_occlusion_frag }) };
+}
+
+ShaderSource smoothOcclusionSource()
+{
+  return { assemble({ shader_fullscreen_vert }), "",
+    assemble({ Outputs, shader_smooth_occlusion_frag }) };
 }
 
 ShaderSource enlargeSource()
@@ -331,7 +346,9 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
   NamedSources sources{ { "refine", refineSource(false) }, { "refine_masked", refineSource(true) },
     { "invert", invertSource() }, { "normals", normalsSource() }, { "blocks", blocksSource() },
     { "presence_rest", presenceSource(false) }, { "presence_deformed", presenceSource(true) },
-    { "proxy", proxySource() }, { "composite", compositeSource() }, { "enlarge", enlargeSource() },
+    { "proxy", proxySource() }, { "composite", compositeSource(false) },
+    { "composite_occluded", compositeSource(true) }, { "occlusion", occlusionSource() },
+    { "smooth_occlusion", smoothOcclusionSource() }, { "enlarge", enlargeSource() },
     { "cover", coverSource() }, { "traces_over", tracesOverSource() } };
   for (const bool deformed : { false, true })
   {

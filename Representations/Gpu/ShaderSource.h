@@ -46,7 +46,10 @@ constexpr int TransferEntries = 4096;
 constexpr int MostStepDoublings = 2;                ///< Of the step along rays, while moving.
 constexpr int TransferRows = MostStepDoublings + 1; ///< Of the colour map: one for each step.
 constexpr int MaxCorners = 8;                       ///< Of a part of a picture.
-constexpr int MaxTissues = 4;                       ///< Volumes that hide traced points.
+
+/// Pixels from a first hit within which tissue hides light from it.
+constexpr int MostOcclusionPixels = 96;
+constexpr int MaxTissues = 4; ///< Volumes that hide traced points.
 
 /// How the samples of a ray become one colour; numbers as in vtkVolumeMapper::BlendModes.
 enum class Blend
@@ -118,13 +121,16 @@ struct SlicesVariant
 
 ///@{
 /// The program of that name in Shaders/README.md. `masked`: the strokes have a mask. `deformed`:
-/// the volume carries a lattice. `tissues`: volumes that hide points, 0 to MaxTissues.
+/// the volume carries a lattice. `occluded`: grooves are darker. `tissues`: volumes that hide
+/// points, 0 to MaxTissues.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource refineSource(bool masked);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource invertSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource rayCastSource(const RayCastVariant& variant);
-VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource compositeSource();
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource compositeSource(bool occluded);
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource enlargeSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource coverSource();
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource occlusionSource();
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource smoothOcclusionSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource normalsSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource blocksSource();
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT ShaderSource presenceSource(bool deformed);

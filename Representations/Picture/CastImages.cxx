@@ -16,8 +16,6 @@
 
 namespace brainshift
 {
-namespace
-{
 vtkSmartPointer<vtkTextureObject> makeImage(
   vtkOpenGLRenderWindow* window, const glm::ivec2& size, unsigned int format, int filter)
 {
@@ -31,6 +29,8 @@ vtkSmartPointer<vtkTextureObject> makeImage(
   return image->Allocate2D(size.x, size.y, 4, VTK_FLOAT) ? image : nullptr;
 }
 
+namespace
+{
 bool sameSize(vtkTextureObject* image, const glm::ivec2& size)
 {
   return image->GetWidth() == static_cast<unsigned int>(size.x) &&
@@ -167,6 +167,14 @@ glm::dvec2 CastImages::hitFromShare(const RayCastScene& scene) const
   return shareFromShare(this->Hits[false].frustum, frustumOf(scene.frame.clipFromWorld));
 }
 
+void CastImages::trimTile(int margin, const glm::dmat4& clipFromWorld)
+{
+  FirstHits& hits = this->Hits[true];
+  hits.area.picture -= 2 * margin;
+  hits.area.low -= margin;
+  hits.frustum = frustumOf(clipFromWorld);
+}
+
 bool CastImages::prepareCount(vtkOpenGLRenderWindow* window)
 {
   const glm::ivec2& size = this->Area.size;
@@ -219,19 +227,31 @@ bool CastImages::hitAt(vtkOpenGLRenderWindow* window, const glm::dvec2& place, g
   return share >= 0.0f;
 }
 
-bool CastImages::composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origin,
-  const glm::ivec2& size, Counters& counters)
+bool CastImages::composite(vtkOpenGLRenderWindow* window, const PixelBox& rectangle,
+  const PictureShade& shade, Counters& counters)
 {
-  if (!this->CompositeProgram.use(window, compositeSource(), counters))
+  const bool occluded = shade.occlusion != nullptr;
+  Program& program = this->CompositePrograms[occluded];
+  if (!program.use(window, compositeSource(occluded), counters))
   {
     return false;
   }
+  const glm::ivec2 origin = rectangle.low - shade.margin;
+  const glm::ivec2 size = rectangle.size() + 2 * shade.margin;
   vtkOpenGLState* state = window->GetState();
   vtkOpenGLState::ScopedglViewport viewport(state);
   vtkOpenGLState::ScopedglBlendFuncSeparate blendFunction(state);
   vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
   vtkOpenGLState::ScopedglEnableDisable depthTest(state, GL_DEPTH_TEST);
   vtkOpenGLState::ScopedglEnableDisable cull(state, GL_CULL_FACE);
+  vtkOpenGLState::ScopedglScissor scissorBox(state);
+  vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
+  if (shade.margin > 0)
+  {
+    state->vtkglEnable(GL_SCISSOR_TEST);
+    const glm::ivec2 shown = rectangle.size();
+    state->vtkglScissor(rectangle.low.x, rectangle.low.y, shown.x, shown.y);
+  }
   state->vtkglEnable(GL_BLEND);
   state->vtkglBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   state->vtkglDisable(GL_DEPTH_TEST);
@@ -246,13 +266,21 @@ bool CastImages::composite(vtkOpenGLRenderWindow* window, const glm::ivec2& orig
     scale == glm::dvec2(1.0) ? vtkTextureObject::Nearest : vtkTextureObject::Linear;
   this->Image->SetMinificationFilter(filter);
   this->Image->SetMagnificationFilter(filter);
-  this->CompositeProgram.set("image", this->Image.Get());
-  this->CompositeProgram.set("origin", glm::vec2(origin));
-  this->CompositeProgram.set(
-    "textureFromPixel", glm::vec2(this->Area.textureFromShare() / glm::dvec2(size)));
-  this->CompositeProgram.set("textureOfOrigin", glm::vec2(this->Area.textureOfShareZero()));
+  program.set("image", this->Image.Get());
+  program.set("origin", glm::vec2(origin));
+  program.set("textureFromPixel", glm::vec2(this->Area.textureFromShare() / glm::dvec2(size)));
+  program.set("textureOfOrigin", glm::vec2(this->Area.textureOfShareZero()));
+  if (occluded)
+  {
+    program.set("occlusion", shade.occlusion);
+    program.set("darkness", static_cast<float>(shade.darkness));
+  }
   drawTriangles(1);
   this->Image->Deactivate();
+  if (occluded)
+  {
+    shade.occlusion->Deactivate();
+  }
   return true;
 }
 
@@ -295,7 +323,10 @@ void CastImages::releaseGraphicsResources(vtkWindow* window)
     *image = nullptr;
   }
   this->Area = ImageArea();
-  this->CompositeProgram.forget();
+  for (Program& program : this->CompositePrograms)
+  {
+    program.forget();
+  }
   this->EnlargeProgram.forget();
 }
 }

@@ -13,6 +13,7 @@
 
 #include "vtkSmartPointer.h"
 
+#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
@@ -26,6 +27,18 @@ namespace brainshift
 {
 class ImageScope;
 struct RayCastScene;
+
+/// An image of our own, with four channels or fewer, as `format` says. Null if the GPU refuses.
+vtkSmartPointer<vtkTextureObject> makeImage(
+  vtkOpenGLRenderWindow* window, const glm::ivec2& size, unsigned int format, int filter);
+
+/// Light that is laid over a picture.
+struct PictureShade
+{
+  vtkTextureObject* occlusion = nullptr; ///< As large as the image. Null: the picture stays.
+  double darkness = 0.0; ///< Share of the light that the greatest occlusion takes away, 0 to 1.
+  int margin = 0;        ///< Pixels at each side of the picture that are not shown.
+};
 
 /// The images of one window. They hold only that area of the picture where something can be seen.
 class CastImages
@@ -68,8 +81,8 @@ public:
 
   /// Blends the picture over a rectangle (pixels) of the framebuffer that is bound. False if the
   /// shader does not compile.
-  bool composite(vtkOpenGLRenderWindow* window, const glm::ivec2& origin, const glm::ivec2& size,
-    Counters& counters);
+  bool composite(vtkOpenGLRenderWindow* window, const PixelBox& rectangle,
+    const PictureShade& shade, Counters& counters);
 
   /// First hit (mm, world; then its distance from the near plane, mm) of the last whole picture.
   /// `place`: from the lower left corner, 0, to the upper right one, 1. False if no surface was hit
@@ -81,6 +94,10 @@ public:
 
   /// First hits of the last picture, whole or a tile. Null if nothing has been cast yet.
   const FirstHits* drawnHits() const { return this->castHits(this->DrewTile); }
+
+  /// The tile that was cast has a margin: its first hits are those of the tile from now on. The
+  /// camera's matrix is that of the tile.
+  void trimTile(int margin, const glm::dmat4& clipFromWorld);
 
   /// What the images hold of the picture.
   const ImageArea& area() const { return this->Area; }
@@ -116,7 +133,7 @@ private:
   vtkSmartPointer<vtkTextureObject> Image; // colour times opacity, opacity
   vtkSmartPointer<vtkTextureObject> Count; // samples taken and skipped; null unless asked for
   vtkSmartPointer<vtkTextureObject> Spans;
-  Program CompositeProgram;
+  Program CompositePrograms[2]; // [occluded]
   Program EnlargeProgram;
 };
 }

@@ -81,7 +81,8 @@ bool Picture::cast(
     this->Stamp.change(drawn, wish.settingsTime, scene, gpu.counters);
   const bool kept = this->canKeep(change, wish, scene);
   gpu.counters.imageScale = 1;
-  const bool done = kept ? this->castChanged(gpu, wish, scene) : this->castAll(gpu, wish, scene);
+  const bool cast = kept ? this->castChanged(gpu, wish, scene) : this->castAll(gpu, wish, scene);
+  const bool done = cast && this->occlude(gpu, wish, scene);
   if (!done)
   {
     this->forget();
@@ -130,7 +131,29 @@ bool Picture::castAll(GpuTask& gpu, const PictureWish& wish, RayCastScene& scene
   this->Space = { scene.cuts.spaceLow, scene.cuts.spaceHigh };
   this->Mixed = false;
   this->RoughPart = scene.image.jitter ? partOf({ glm::ivec2(0), wish.size }) : PixelPart();
+  this->CastMoving = scene.image.jitter;
+  this->Occlusion.change({ glm::ivec2(0), wish.size });
   return cast;
+}
+
+// A picture that moves has no time for occlusion. The hand would see it come and go if it had some
+// only while few pixels change: so it is off from the first moving picture to the next still one.
+bool Picture::occlude(GpuTask& gpu, const PictureWish& wish, const RayCastScene& scene)
+{
+  this->Shade = PictureShade();
+  this->CastMoving = this->CastMoving && isMovingPicture(wish);
+  const bool wanted = wish.occlusion.darkness > 0.0; // not if it is no number
+  if (!wanted || this->CastMoving || !Occlusion::isFor(scene))
+  {
+    return true;
+  }
+  const FirstHits* hits = this->images().drawnHits();
+  if (!hits || !this->Occlusion.update(gpu, *hits, scene, wish.occlusion.radius))
+  {
+    return false;
+  }
+  this->Shade = { this->Occlusion.texture(), wish.occlusion.darkness, wish.margin };
+  return true;
 }
 
 PixelPart Picture::changedPart(bool moving, const RayCastScene& scene) const
@@ -178,6 +201,8 @@ bool Picture::castChanged(GpuTask& gpu, const PictureWish& wish, RayCastScene& s
   {
     this->RoughPart = PixelPart();
   }
+  this->CastMoving = this->CastMoving || (moving && !part.empty());
+  this->Occlusion.change(part.box);
   this->Bent = FieldTexture::Bent();
   return done;
 }
@@ -230,6 +255,8 @@ std::vector<vtkTextureObject*> Picture::textures() const
   std::vector<vtkTextureObject*> all = this->Whole.images().textures();
   const std::vector<vtkTextureObject*> rough = this->Rough.images().textures();
   all.insert(all.end(), rough.begin(), rough.end());
+  const std::vector<vtkTextureObject*> occlusion = this->Occlusion.textures();
+  all.insert(all.end(), occlusion.begin(), occlusion.end());
   all.push_back(this->Depth.copied());
   return all;
 }
@@ -238,6 +265,7 @@ void Picture::releaseGraphicsResources(vtkWindow* window)
 {
   this->Whole.releaseGraphicsResources(window);
   this->Rough.releaseGraphicsResources(window);
+  this->Occlusion.releaseGraphicsResources(window);
   this->Depth.releaseGraphicsResources(window);
   this->Stamp.forget();
 }

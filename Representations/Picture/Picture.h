@@ -11,6 +11,7 @@
 
 #include "Representations/Field/FieldTexture.h"
 #include "Representations/Picture/MovingQuality.h"
+#include "Representations/Picture/Occlusion.h"
 #include "Representations/Picture/PictureStamp.h"
 #include "Representations/Picture/RayCaster.h"
 #include "Representations/Picture/SeenPixels.h"
@@ -35,6 +36,8 @@ struct PictureWish
   bool keep = false;         ///< Cast nothing that would look the same.
   bool countSamples = false; ///< Counters learn of samples; Composite only.
   double rate = 0.0;         ///< Pictures a second that the window wants.
+  OcclusionWish occlusion;   ///< Of still pictures.
+  int margin = 0;            ///< Pixels at each side that are cast and not shown.
   glm::ivec2 origin{ 0 };    ///< Of the picture in the window, pixels.
   glm::ivec2 size{ 0 };      ///< Of the picture, pixels.
 
@@ -67,6 +70,9 @@ public:
   CastImages& images() { return this->Whole.images(); }
   const CastImages& images() const { return this->Whole.images(); }
 
+  /// The light to lay over the picture that was cast last.
+  const PictureShade& shade() const { return this->Shade; }
+
   /// All textures; some may be null.
   std::vector<vtkTextureObject*> textures() const;
 
@@ -78,6 +84,7 @@ private:
   bool castChanged(GpuTask& gpu, const PictureWish& wish, RayCastScene& scene);
   bool castRoughly(GpuTask& gpu, const PictureWish& wish, const MovingQuality& quality,
     const RayCastScene& scene, const PixelPart& part);
+  bool occlude(GpuTask& gpu, const PictureWish& wish, const RayCastScene& scene);
   PixelPart changedPart(bool moving, const RayCastScene& scene) const;
   bool isBent() const { return this->Bent.all || !this->Bent.corners.empty(); }
   MovingQuality qualityFor(const PictureWish& wish, const PixelPart& part) const;
@@ -93,6 +100,9 @@ private:
   TextureBox Space;        // the space that tissue could reach in any part of what Whole holds
   bool Mixed = false;      // parts of what Whole holds had rays that began elsewhere
   PixelPart RoughPart;     // of what Whole holds: not at full quality
+  brainshift::Occlusion Occlusion;
+  PictureShade Shade;
+  bool CastMoving = false; // some of what Whole holds was cast while something moved
   WindowPace Pace;
   double SecondsPerPixel = 0.0; // of the last one cast, with the usual step; 0: none yet
 };

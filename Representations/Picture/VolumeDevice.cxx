@@ -11,6 +11,8 @@
 #include "vtkVolume.h"
 #include "vtkVolumeMapper.h"
 
+#include <glm/gtc/matrix_transform.hpp>
+
 namespace brainshift
 {
 namespace
@@ -20,6 +22,28 @@ SceneBlending blendingFor(const VolumeRequest& request, const TissueRequest& tis
 {
   return blendingOf(request.mapper, tissue.property, tissue.values.scalars, textures.stored(),
     frame.worldFromTexture);
+}
+}
+
+namespace
+{
+// Tiles of a large picture show light that tissue of their neighbours hides: a margin of it is cast
+// with each of them.
+void widenTile(PictureWish& wish, RayCastScene& scene)
+{
+  const OcclusionWish& occlusion = wish.occlusion;
+  const bool occluded = occlusion.darkness > 0.0 && Occlusion::isFor(scene);
+  if (!scene.frame.tile || !occluded || isMovingPicture(wish))
+  {
+    return;
+  }
+  wish.margin = Occlusion::reach(scene.frame.clipFromWorld, wish.size, occlusion.radius);
+  const glm::ivec2 tile = wish.size;
+  wish.origin -= wish.margin;
+  wish.size += 2 * wish.margin;
+  const glm::dvec2 smaller = glm::dvec2(tile) / glm::dvec2(wish.size);
+  scene.frame.clipFromWorld =
+    glm::scale(glm::dmat4(1.0), glm::dvec3(smaller, 1.0)) * scene.frame.clipFromWorld;
 }
 }
 
@@ -87,13 +111,21 @@ bool VolumeDevice::drawTissue(GpuTask& gpu, const DrawnVolume& drawn, SceneDefor
   {
     this->compare(gpu, drawn, request, scene, referenceScene);
   }
-  const PictureWish& wish = request.wish;
+  PictureWish wish = request.wish;
+  const PixelBox shown{ wish.origin, wish.origin + wish.size };
+  const glm::dmat4 clipFromWorld = scene.frame.clipFromWorld;
+  widenTile(wish, scene);
   if (!this->Picture.cast(gpu, drawn, wish, scene))
   {
     return gpu.fail(
       "The ray caster's shader does not compile or its images cannot be made on this GPU");
   }
-  const bool done = this->images().composite(gpu.window, wish.origin, wish.size, gpu.counters);
+  if (wish.margin > 0)
+  {
+    this->images().trimTile(wish.margin, clipFromWorld);
+  }
+  const bool done =
+    this->images().composite(gpu.window, shown, this->Picture.shade(), gpu.counters);
   this->Picture.end();
   return done;
 }

@@ -66,8 +66,17 @@ void SceneDepth::copy(vtkOpenGLRenderWindow* window, const glm::ivec2& origin,
     GL_DRAW_FRAMEBUFFER, attachment, GL_TEXTURE_2D, this->Copy->GetHandle(), 0);
   framebuffer.drawColors(0);
   state->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<unsigned int>(source));
-  const glm::ivec2& low = part.low;
-  const glm::ivec2& high = part.high;
+  // A margin around a tile may lie outside the window, where nothing is drawn.
+  const glm::ivec2 end(window->GetSize()[0], window->GetSize()[1]);
+  const glm::ivec2 low = glm::max(part.low, -origin);
+  const glm::ivec2 high = glm::min(part.high, end - origin);
+  if (low != part.low || high != part.high)
+  {
+    vtkOpenGLState::ScopedglDepthMask mask(state);
+    state->vtkglDepthMask(GL_TRUE);
+    const float farthest = 1.0f;
+    glClearBufferfv(GL_DEPTH, 0, &farthest);
+  }
   const glm::ivec2 from = origin + low;
   const glm::ivec2 to = origin + high;
   glBlitFramebuffer(

@@ -141,6 +141,7 @@ def show_volume(source, view, kind, colors, opacities, array="Intensity", shade=
     opacity = simple.GetOpacityTransferFunction(array, display, separate=True)
     opacity.Points = opacities
     display.Shade = int(shade)
+    display.AmbientOcclusion = 0.0  # as ParaView's own volumes
     display.ScalarOpacityUnitDistance = unit
     return display
 

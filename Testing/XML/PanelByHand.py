@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that the panel of a Free-Form Deformation is not cut off at the right in windows of usual
-sizes, with each tool; that the filter stays selected when its mask comes and goes; and that Reset
-All leaves the keyboard where it was.
+sizes, with each tool; that the filter stays selected when its mask comes and goes; that Reset All
+leaves the keyboard where it was; and that the status line tells when a view shows another volume
+than the one that the tool in hand works on.
 
 ParaView's window runs this file as a script; what did not hold is written down for the pvpython
 that runs it afterwards."""
@@ -68,6 +69,30 @@ def keeps_the_keyboard():
     assert not window.strokes()
 
 
+def tells_another_volume():
+    """The status line, while the view shows another volume than the one that is selected."""
+    bent, view = window.deformation(), simple.GetActiveView()
+    other = simple.FreeFormDeformation(registrationName="other", Input=simple.Wavelet())
+    simple.Show(other, view)
+    simple.Hide(bent, view)
+    simple.Render(view)
+    hand.take(hand.STAMP)
+    for source, told in ((bent, True), (other, False)):
+        simple.SetActiveSource(source)
+        hand.wait(200)
+        hand.hover([side // 2 for side in view.ViewSize])
+        hand.wait(200)
+        line = hand.label("BrainShiftStatus")
+        assert line.startswith("Stamp"), line
+        assert ("To work on other" in line) == told, line
+    simple.Show(bent, view)
+    simple.SetActiveSource(bent)
+    hand.wait(200)
+    hand.hover([side // 2 for side in view.ViewSize])
+    hand.wait(200)
+    assert "To work on" not in hand.label("BrainShiftStatus"), "both are shown"
+
+
 def play():
     yield (begin,)
     yield (fits, 1280, 800)
@@ -75,6 +100,7 @@ def play():
     yield (stays_selected,)
     yield (other_stays_selected,)
     yield (keeps_the_keyboard,)
+    yield (tells_another_volume,)
 
 
 if __name__ == "__main__":

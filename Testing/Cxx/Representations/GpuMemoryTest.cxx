@@ -48,12 +48,12 @@ TEST(GpuMemory, CountsEachPart)
   const std::int64_t corrections = 2 * MiB + CorrectionLayerBytes;
   EXPECT_EQ(memoryNeed(sizes).corrections, corrections);
   sizes.pixels = { 1024, 1024 };
-  EXPECT_EQ(memoryNeed(sizes).images, 19 * MiB);
+  EXPECT_EQ(memoryNeed(sizes).images, 24 * MiB);
   MemoryNeed need = memoryNeed(sizes);
-  EXPECT_EQ(need.total(), (16 + 4 + 32 + 8 + 13 + 19) * MiB + corrections);
+  EXPECT_EQ(need.total(), (16 + 4 + 32 + 8 + 13 + 24) * MiB + corrections);
   EXPECT_EQ(describeNeed(need).find("reference"), std::string::npos);
   need.reference = 10 * MiB;
-  EXPECT_EQ(need.total(), (16 + 4 + 32 + 8 + 13 + 19 + 10) * MiB + corrections);
+  EXPECT_EQ(need.total(), (16 + 4 + 32 + 8 + 13 + 24 + 10) * MiB + corrections);
   EXPECT_NE(describeNeed(need).find("reference 10)"), std::string::npos) << describeNeed(need);
 }
 

@@ -53,6 +53,8 @@ TEST(Defaults, OfDeformedVolumeLiveInTheMapper)
     { "AgreementDistance", { mapper->GetAgreementDistance() } },
     { "VolumeReferenceRange", { mapper->GetReferenceRange()[0], mapper->GetReferenceRange()[1] } },
     { "AdaptiveQuality", { double(mapper->GetAdaptiveQuality()) } },
+    { "AmbientOcclusion", { mapper->GetAmbientOcclusion() } },
+    { "OcclusionRadius", { mapper->GetOcclusionRadius() } },
     { "KeepPicture", { double(mapper->GetKeepPicture()) } },
     { "CountSamples", { double(mapper->GetCountSamples()) } },
     { "MemoryLimit", { mapper->GetMemoryLimit() } },

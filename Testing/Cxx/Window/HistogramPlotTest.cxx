@@ -56,8 +56,8 @@ TEST_F(Histogram, BarsAreAsTallAsTheirCounts)
   EXPECT_EQ(this->tallOf(0), 0);
   const int most = this->tallOf(1);
   EXPECT_GT(most, this->Plot->height() / 2);
-  EXPECT_NEAR(this->tallOf(2), most / 2, 1);
-  EXPECT_NEAR(this->tallOf(3), most / 4, 1);
+  EXPECT_NEAR(this->tallOf(2), most / 2.0, 1.0);
+  EXPECT_NEAR(this->tallOf(3), most / 4.0, 1.0);
 }
 
 TEST_F(Histogram, FollowsThePalette)

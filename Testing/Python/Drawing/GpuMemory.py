@@ -37,7 +37,7 @@ def test_a_limit_is_told_and_kept():
     assert_says(said.text, "Memory Limit allows 2.5 MiB", "software mapper", "undeformed")
     total, each = parts(said.text)
     expected = {"scalars": 49 ** 3 * 4 / 2 ** 20, "gradients": 49 ** 3 * 4 / 2 ** 20, "colours": 0,
-                "images": 200 * 200 * 19 / 2 ** 20}
+                "images": 200 * 200 * 24 / 2 ** 20}
     for name, size in expected.items():
         assert abs(each[name] - size) < 0.06, (name, each, size)
     assert each["offset field"] >= 2 * 91 ** 3 * 16 / 2 ** 20 - 1, each

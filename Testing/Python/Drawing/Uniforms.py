@@ -85,6 +85,7 @@ def test_blend_modes_and_light():
         drawn = Drawn(source, OPAQUE, first=MINIMUM)
         drawn.draw(None, MAXIMUM)
         drawn.draw("Half resolution", CountSamples=1)
+        drawn.draw("Half resolution", AmbientOcclusion=1.0)
         drawn.close()
 
 

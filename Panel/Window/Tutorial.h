@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// A guided start in seven steps: open, look, stamp, soft, pull, compare, save. Each step says what
+/// to do, waits until it is done, and can be skipped. The window stays usable all the time.
+#ifndef BrainShift_Tutorial_h
+#define BrainShift_Tutorial_h
+
+#include <QDialog>
+#include <QTimer>
+
+class QLabel;
+class QProgressBar;
+class QPushButton;
+
+namespace brainshift
+{
+class Tutorial : public QDialog
+{
+  Q_OBJECT
+
+public:
+  /// Opens it at the first step, or brings the open one to the front.
+  static void begin();
+
+private:
+  explicit Tutorial(QWidget* window);
+
+  void addTexts();
+  void addButtons();
+  void help();
+  void go(int step);
+  void watch();
+  bool isDone() const;
+  void placeInCorner();
+
+  int Step = 0;
+  int StrokesBefore = 0; ///< of the step's tool, when the step began
+  bool Compared = false;
+  bool Saved = false;
+  QProgressBar* Progress = nullptr;
+  QLabel* Title = nullptr;
+  QLabel* Text = nullptr;
+  QPushButton* Help = nullptr; ///< does the step's first part
+  QPushButton* Back = nullptr;
+  QPushButton* Skip = nullptr;
+  QTimer Watch;
+};
+}
+
+#endif

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Proves that the guided start leads a user through its seven steps in ParaView's window: it waits
+for what each asks, goes on when it is done, and can be skipped and left.
+
+ParaView's window runs this file as a script; what did not hold is written down for the pvpython
+that runs it afterwards."""
+
+import os
+
+import brainshift
+import test_hand as hand
+import window_testing as window
+from paraview import simple
+
+os.environ["BRAINSHIFT_DATA"] = os.environ["BRAINSHIFT_TEST_DATA"]
+PATIENCE = 600  # ms; the tutorial looks five times a second
+
+
+def title():
+    hand.wait(PATIENCE)
+    return hand.label("Title")
+
+
+def bent():
+    return simple.FindSource("Bent head")
+
+
+def add(stroke):
+    bent().Strokes = list(bent().Strokes) + list(stroke)
+    bent().UpdatePipeline()
+
+
+def it_opens_at_the_first_step():
+    assert hand.action("actionBrainShiftTutorial")
+    assert "Step 1 of 7: Open" in title(), title()
+
+
+def it_opens_the_sample():
+    assert hand.click("Help")
+    assert bent() is not None
+    assert "Step 2 of 7" in title(), title()
+
+
+def it_waits_for_the_look():
+    assert "Step 2 of 7" in title()
+    assert hand.click("Brain")
+    assert "Step 3 of 7" in title(), title()
+
+
+def it_waits_for_strokes_of_each_tool():
+    anchor = (-340.0, 30.0, 515.0)
+    for step, stroke in (
+            (3, brainshift.stamp(anchor, (-309.0, 22.0, 477.0), -4.0, major=40.0, minor=30.0)),
+            (4, brainshift.soft(anchor, (0.0, 0.0, 3.0), 25.0)),
+            (5, brainshift.move(anchor, (0.0, 2.0, 0.0)))):
+        assert f"Step {step} of 7" in title(), (step, title())
+        assert hand.click("Help")  # takes the tool
+        assert hand.is_checked("actionBrainShift" + ("Stamp", "Soft", "Move")[step - 3])
+        add(stroke)
+        assert f"Step {step + 1} of 7" in title(), (step, title())
+
+
+def it_waits_for_before_and_after():
+    view = simple.GetActiveView()
+    hand.hover([view.ViewSize[0] // 2, view.ViewSize[1] // 2])
+    hand.key_down(ord("O"))
+    assert "Step 6 of 7" in title(), "until the key is let go"
+    hand.key_up(ord("O"))
+    assert "Step 7 of 7" in title(), title()
+
+
+def it_waits_for_the_state_file():
+    file = os.path.join(os.environ["BRAINSHIFT_TEST_TEMP"], "tutorial.pvsm")
+    simple.SaveState(file)
+    os.remove(file)
+    if "Step 7" in title():  # Python's SaveState does not pass the window's menu
+        assert hand.click("Skip")
+    assert "Done" in title(), title()
+
+
+def it_can_be_left_and_skipped():
+    assert hand.click("Leave")
+    hand.wait(PATIENCE)
+    assert hand.action("actionBrainShiftTutorial")
+    assert "Step" in title()
+    before = title()
+    assert hand.click("Skip")
+    assert title() != before
+    assert hand.click("Leave")
+
+
+def play():
+    yield (it_opens_at_the_first_step,)
+    yield (it_opens_the_sample,)
+    yield (it_waits_for_the_look,)
+    yield (it_waits_for_strokes_of_each_tool,)
+    yield (it_waits_for_before_and_after,)
+    yield (it_waits_for_the_state_file,)
+    yield (it_can_be_left_and_skipped,)
+
+
+if __name__ == "__main__":
+    window.main("Tutorial", play())
