@@ -10,6 +10,7 @@
 #include "Representations/Gpu/WindowDevices.h"
 #include "Representations/Picture/MovingQuality.h"
 #include "Representations/Scene/SceneFrame.h"
+#include "Representations/Slices/PlaneColors.h"
 #include "Representations/Slices/SliceComparison.h"
 #include "Representations/Slices/SliceDrawer.h"
 #include "Representations/Slices/SlicePick.h"
@@ -35,6 +36,7 @@
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <string>
@@ -234,6 +236,8 @@ void vtkDeformedSlicesMapper::PlacePlanes(const DrawnValues& values, SliceScene&
   for (int plane = 0; plane < 3; ++plane)
   {
     scene.planes.shown[axes[plane]] = shown[plane];
+    const std::array<double, 3>& color = PlaneColors[plane];
+    scene.crosshairColors[axes[plane]] = glm::vec3(color[0], color[1], color[2]);
   }
   const glm::dvec3 position(this->SlicePosition[0], this->SlicePosition[1], this->SlicePosition[2]);
   scene.planes.position = textureFromWorld(values, position);
@@ -243,6 +247,7 @@ void vtkDeformedSlicesMapper::PlacePlanes(const DrawnValues& values, SliceScene&
   scene.planes.low = glm::min(scene.field.spaceLow, scene.tissue.volumeLow);
   scene.planes.high = glm::max(scene.field.spaceHigh, scene.tissue.volumeHigh);
   scene.voxels = layout.dimensions;
+  scene.crosshair = this->Crosshair;
   scene.cubic = this->Interpolation == Cubic;
   scene.opacity = this->Opacity;
   scene.mapsOpacity = this->MapOpacity;
@@ -357,6 +362,7 @@ void vtkDeformedSlicesMapper::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "ShowAxial: " << this->ShowAxial << "\n"
      << indent << "SlicePosition: " << this->SlicePosition[0] << " " << this->SlicePosition[1]
      << " " << this->SlicePosition[2] << "\n"
+     << indent << "Crosshair: " << this->Crosshair << "\n"
      << indent << "Interpolation: " << this->Interpolation << "\n"
      << indent << "Opacity: " << this->Opacity << "\n"
      << indent << "MapOpacity: " << this->MapOpacity << "\n"

@@ -63,6 +63,13 @@ public:
   vtkGetVector3Macro(SlicePosition, double);
   ///@}
 
+  ///@{
+  /** Whether each plane shows where the other two cut it, by lines in their colours
+   * (Slices/PlaneColors.h). Default false. */
+  vtkSetMacro(Crosshair, bool);
+  vtkGetMacro(Crosshair, bool);
+  ///@}
+
   enum InterpolationType
   {
     Nearest = 0, ///< Numbered as in VTK.
@@ -198,6 +205,7 @@ private:
   bool ShowCoronal = true;
   bool ShowAxial = true;
   double SlicePosition[3] = { 0.0, 0.0, 0.0 };
+  bool Crosshair = false;
   int Interpolation = Linear;
   double Opacity = 1.0;
   bool MapOpacity = false;

@@ -55,27 +55,36 @@ vtkDeformedSlicesMapper* vtkDeformedSlicesRepresentation::GetDeformedSlicesMappe
 void vtkDeformedSlicesRepresentation::SetVisibility(bool visible)
 {
   this->Superclass::SetVisibility(visible);
-  this->Marks->SetVisibility(visible && this->OrientationMarks);
+  this->ShowMarks();
 }
 
 void vtkDeformedSlicesRepresentation::SetShowSagittal(bool show)
 {
   this->GetDeformedSlicesMapper()->SetShowSagittal(show);
+  this->ShowMarks();
 }
 
 void vtkDeformedSlicesRepresentation::SetShowCoronal(bool show)
 {
   this->GetDeformedSlicesMapper()->SetShowCoronal(show);
+  this->ShowMarks();
 }
 
 void vtkDeformedSlicesRepresentation::SetShowAxial(bool show)
 {
   this->GetDeformedSlicesMapper()->SetShowAxial(show);
+  this->ShowMarks();
 }
 
 void vtkDeformedSlicesRepresentation::SetSlicePosition(double x, double y, double z)
 {
   this->GetDeformedSlicesMapper()->SetSlicePosition(x, y, z);
+}
+
+void vtkDeformedSlicesRepresentation::SetCrosshair(bool show)
+{
+  this->GetDeformedSlicesMapper()->SetCrosshair(show);
+  this->ShowMarks();
 }
 
 void vtkDeformedSlicesRepresentation::SetSliceInterpolation(int interpolation)
@@ -121,13 +130,23 @@ void vtkDeformedSlicesRepresentation::SetWipePosition(double x, double y, double
 void vtkDeformedSlicesRepresentation::SetOrientationMarks(bool marks)
 {
   this->OrientationMarks = marks;
-  this->Marks->SetVisibility(marks && this->GetVisibility());
+  this->ShowMarks();
 }
 
 void vtkDeformedSlicesRepresentation::SetWorldAxes(int axes)
 {
   this->WorldAxes = axes;
   this->UpdateMarks();
+}
+
+void vtkDeformedSlicesRepresentation::ShowMarks()
+{
+  vtkDeformedSlicesMapper* slices = this->GetDeformedSlicesMapper();
+  const bool named = slices->GetCrosshair();
+  this->Marks->ShowLetters = this->OrientationMarks;
+  this->Marks->NamedPlanes = { named && slices->GetShowSagittal(),
+    named && slices->GetShowCoronal(), named && slices->GetShowAxial() };
+  this->Marks->SetVisibility(this->GetVisibility() && (this->OrientationMarks || named));
 }
 
 void vtkDeformedSlicesRepresentation::UpdateMarks()

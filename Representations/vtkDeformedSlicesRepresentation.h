@@ -37,6 +37,7 @@ public:
   void SetShowCoronal(bool show);
   void SetShowAxial(bool show);
   void SetSlicePosition(double x, double y, double z);
+  void SetCrosshair(bool show);
   void SetSliceInterpolation(int interpolation);
   void SetOpacity(double opacity);
   void SetMapOpacity(bool map);
@@ -82,6 +83,9 @@ private:
   // The process that shows the picture draws the letters. It may not have the volume: what the
   // volume says of its axes goes there by itself.
   void DeliverAxes(vtkInformationRequestKey* request, vtkInformation* input);
+
+  // Shows the marks that are wanted.
+  void ShowMarks();
 
   // Hands the marks what the user says of the axes, or else what the volume says.
   void UpdateMarks();

@@ -110,6 +110,11 @@ std::vector<CommandRow> viewRows()
   return {
     byKey(Command::ShowAsLoaded, Scope::View, {}, { Qt::Key_O },
       QT_TRANSLATE_NOOP("BrainShift", "Show the volume as loaded while the key is held down.")),
+    byMouse(Command::EnlargeView, Scope::View, {}, Mouse::DoubleClick, {},
+      QT_TRANSLATE_NOOP("BrainShift",
+        "In Four Views, without a tool in hand: make the view as large as the layout. Double-click "
+        "again to see all four."),
+      ""),
     byMouse(Command::StepSlices, Scope::Slices, {}, Mouse::Wheel, {},
       QT_TRANSLATE_NOOP("BrainShift",
         "Step through the slices, one voxel per click. With Stamp in hand, the wheel does this "
@@ -123,8 +128,16 @@ std::vector<CommandRow> viewRows()
       QT_TRANSLATE_NOOP("BrainShift", "bring the other slices to the cursor")),
     byMouse(Command::MoveWipe, Scope::Slices, {}, Mouse::Drag, {},
       QT_TRANSLATE_NOOP("BrainShift", "On the line of a Wipe comparison: move the line."), ""),
+    byMouse(Command::ChangeGreyValues, Scope::Slices, {}, Mouse::RightDrag, {},
+      QT_TRANSLATE_NOOP("BrainShift",
+        "Change the grey values. Drag to the right for a wider window (less contrast), upwards for "
+        "a higher level (darker). Each drag is one edit."),
+      QT_TRANSLATE_NOOP("BrainShift", "window and level")),
     byMouse(Command::Zoom, Scope::Slices, {}, Mouse::Wheel, Qt::ControlModifier,
-      QT_TRANSLATE_NOOP("BrainShift", "Zoom."), QT_TRANSLATE_NOOP("BrainShift", "zoom")),
+      QT_TRANSLATE_NOOP("BrainShift", "Zoom. The slices of Four Views have one zoom."),
+      QT_TRANSLATE_NOOP("BrainShift", "zoom")),
+    byMouse(Command::Zoom, Scope::Slices, {}, Mouse::RightDrag, Qt::ControlModifier,
+      QT_TRANSLATE_NOOP("BrainShift", "Zoom without steps."), ""),
   };
 }
 
@@ -186,8 +199,12 @@ QString mouseText(Mouse mouse)
   {
     case Mouse::Drag:
       return tr("Drag");
+    case Mouse::RightDrag:
+      return tr("Right-drag");
     case Mouse::Click:
       return tr("Click");
+    case Mouse::DoubleClick:
+      return tr("Double-click");
     case Mouse::Wheel:
       return tr("Wheel");
     case Mouse::None:
@@ -294,7 +311,7 @@ QString remarkOn(Scope scope)
       return tr("Alt+1, Alt+2 and Alt+3 take a tool in hand. The same keys put it down.");
     case Scope::Tool:
       return tr("Over a slice, every tool works within the slice. Away from tissue, and with the "
-                "other mouse buttons, the mouse moves the camera.");
+                "other mouse buttons, the mouse works as without a tool.");
     default:
       return {};
   }

@@ -38,7 +38,9 @@ enum class Command
   StepSlices, ///< Keys: forward, backward.
   BringSlices,
   MoveWipe,
+  ChangeGreyValues,
   Zoom, ///< ParaView does it.
+  EnlargeView,
   ToggleStrokes,
   ChooseNumber, ///< Keys: left, right.
   EditNumber,
@@ -59,7 +61,9 @@ enum class Mouse
 {
   None,
   Drag,
+  RightDrag, ///< With the right button.
   Click,
+  DoubleClick,
   Wheel,
 };
 

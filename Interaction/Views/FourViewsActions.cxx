@@ -2,7 +2,9 @@
 #include "Interaction/Views/FourViewsActions.h"
 
 #include <pqActiveObjects.h>
+#include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
+#include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
 
 #include <vtkPVDataInformation.h>
@@ -11,16 +13,41 @@
 
 #include <QAction>
 #include <QIcon>
+#include <QString>
+#include <QTimer>
+#include <QVariant>
+
+#include <cstring>
 
 namespace brainshift
 {
 namespace
 {
+constexpr const char* Unapplied = "BrainShiftUnapplied"; // Qt property of a filter
+
 bool isVolume(pqPipelineSource* source)
 {
   auto proxy = source ? vtkSMSourceProxy::SafeDownCast(source->getProxy()) : nullptr;
   return proxy && proxy->GetOutputPortsCreated() &&
     proxy->GetDataInformation(0)->DataSetTypeIsA("vtkImageData");
+}
+
+// In the window's own Python, with `brainshift` and `simple`.
+void runPython(const QString& statements)
+{
+  const QString imports = "import brainshift\nfrom paraview import simple\n";
+  vtkPythonInterpreter::Initialize();
+  vtkPythonInterpreter::RunSimpleString((imports + statements).toUtf8().constData());
+}
+
+void showComparison(pqPipelineSource* source)
+{
+  SCOPED_UNDO_SET("Show comparison");
+  runPython(QString("for source in list(simple.GetSources().values()):\n"
+                    "    if source.SMProxy.GetGlobalID() == %1:\n"
+                    "        brainshift.show_comparison(source)\n"
+                    "del source\n")
+      .arg(source->getProxy()->GetGlobalID()));
 }
 }
 
@@ -39,14 +66,34 @@ FourViewsActions::FourViewsActions(QObject* parent)
   QObject::connect(&active, &pqActiveObjects::dataUpdated, this,
     [enable] { enable(pqActiveObjects::instance().activeSource()); });
   enable(active.activeSource());
+  QObject::connect(pqApplicationCore::instance()->getServerManagerModel(),
+    &pqServerManagerModel::sourceAdded, this, &FourViewsActions::watchComparison);
 }
 
 void FourViewsActions::layOut()
 {
   SCOPED_UNDO_EXCLUDE();
-  vtkPythonInterpreter::Initialize();
-  vtkPythonInterpreter::RunSimpleString("import brainshift\n"
-                                        "from paraview import simple\n"
-                                        "brainshift.four_views(simple.GetActiveSource())\n");
+  runPython("brainshift.four_views(simple.GetActiveSource())\n");
+}
+
+// When it is applied for the first time, and ParaView has shown it and hidden its input. What a
+// state file or a script makes was never unapplied; it is shown as that says.
+void FourViewsActions::watchComparison(pqPipelineSource* source)
+{
+  if (std::strcmp(source->getProxy()->GetXMLName(), "CompareVolumes") != 0)
+  {
+    return;
+  }
+  QObject::connect(source, &pqPipelineSource::modifiedStateChanged, this, [source] {
+    if (source->modifiedState() == pqProxy::UNINITIALIZED)
+    {
+      source->setProperty(Unapplied, true);
+    }
+    else if (source->modifiedState() == pqProxy::UNMODIFIED && source->property(Unapplied).toBool())
+    {
+      source->setProperty(Unapplied, false);
+      QTimer::singleShot(0, source, [source] { showComparison(source); });
+    }
+  });
 }
 }

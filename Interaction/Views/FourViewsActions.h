@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The toolbar button that lays out four views of the active volume. It calls
-/// brainshift.four_views.
+/// brainshift.four_views. A Compare Volumes that is shown for the first time takes over the look of
+/// its volume, in all four views where they are laid out: brainshift.show_comparison.
 #ifndef BrainShift_FourViewsActions_h
 #define BrainShift_FourViewsActions_h
 
 #include <QActionGroup>
+
+class pqPipelineSource;
 
 namespace brainshift
 {
@@ -18,6 +21,7 @@ public:
 
 private:
   void layOut();
+  void watchComparison(pqPipelineSource* source);
 };
 }
 

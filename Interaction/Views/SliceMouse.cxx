@@ -19,7 +19,10 @@
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMRenderViewProxy.h>
 #include <vtkSMSourceProxy.h>
+#include <vtkSMViewLayoutProxy.h>
 #include <vtkSmartPointer.h>
+
+#include <QScopedValueRollback>
 
 #include <algorithm>
 #include <cmath>
@@ -70,6 +73,24 @@ void clampToInput(vtkSMProxy* display, double position[3])
       position[axis] = std::clamp(position[axis], bounds[2 * axis], bounds[2 * axis + 1]);
     }
   }
+}
+
+bool linkedViewsFollow = false; // while one view tells the others its zoom
+
+bool isFlatWithSlices(pqRenderView* view)
+{
+  const QList<pqRepresentation*> displays = view->getRepresentations();
+  return vtkSMPropertyHelper(view->getProxy(), "InteractionMode").GetAsInt() == Flat &&
+    std::any_of(displays.begin(), displays.end(), showsSlices);
+}
+
+bool hasFlatSlices(vtkSMViewLayoutProxy* layout)
+{
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  const QList<pqRenderView*> views = model->findItems<pqRenderView*>();
+  return std::any_of(views.begin(), views.end(), [layout](pqRenderView* view) {
+    return layout->ContainsView(view->getViewProxy()) && isFlatWithSlices(view);
+  });
 }
 
 // Draws every view of slices, for the position may be linked. Not the others: 3D takes its time.
@@ -143,7 +164,16 @@ SliceMouse::SliceMouse(pqRenderView* view)
   observe(vtkCommand::MouseWheelBackwardEvent, &SliceMouse::onWheel);
   observe(vtkCommand::LeftButtonPressEvent, &SliceMouse::onButton);
   observe(vtkCommand::LeftButtonReleaseEvent, &SliceMouse::onButton);
+  observe(vtkCommand::RightButtonPressEvent, &SliceMouse::onRightButton);
+  observe(vtkCommand::RightButtonReleaseEvent, &SliceMouse::onRightButton);
+  observe(vtkCommand::LeftButtonDoubleClickEvent, &SliceMouse::onDoubleClick);
   observe(vtkCommand::MouseMoveEvent, &SliceMouse::onMove);
+  this->Camera = view->getRenderViewProxy()->GetActiveCamera();
+  this->CameraObserver =
+    this->Camera->AddObserver(vtkCommand::ModifiedEvent, this, &SliceMouse::noticeZoom);
+  this->Sharing.setSingleShot(true);
+  this->Sharing.setInterval(0);
+  QObject::connect(&this->Sharing, &QTimer::timeout, this, &SliceMouse::shareZoom);
 }
 
 SliceMouse::~SliceMouse()
@@ -154,6 +184,10 @@ SliceMouse::~SliceMouse()
     {
       this->Interactor->RemoveObserver(observer);
     }
+  }
+  if (this->Camera)
+  {
+    this->Camera->RemoveObserver(this->CameraObserver);
   }
 }
 
@@ -241,8 +275,96 @@ bool SliceMouse::onButton(vtkObject*, unsigned long event, void*)
   return this->Dragging != Drag::Nothing;
 }
 
+bool SliceMouse::onRightButton(vtkObject*, unsigned long event, void*)
+{
+  if (event == vtkCommand::RightButtonReleaseEvent)
+  {
+    if (this->Dragging != Drag::GreyValues)
+    {
+      return false;
+    }
+    this->Dragging = Drag::Nothing;
+    this->Greys.end();
+    pqApplicationCore::instance()->render(); // the 3D view may share the colour map
+    return true;
+  }
+  const Command command = this->commandOf(Mouse::RightDrag);
+  const Facing slice = command == Command::None ? Facing() : this->facingSlice();
+  if (slice.display && command == Command::Zoom)
+  {
+    this->Interactor->SetControlKey(0); // without it ParaView's right button zooms
+    return false;
+  }
+  if (!slice.display || !this->Greys.begin(slice.display, this->Interactor->GetEventPosition()))
+  {
+    return false;
+  }
+  this->Dragging = Drag::GreyValues;
+  return true;
+}
+
+bool SliceMouse::onDoubleClick(vtkObject*, unsigned long, void*)
+{
+  const bool free = ToolSettings::instance()->tool() == ToolKind::None;
+  const Command command =
+    commandOfMouse(Scope::View, ToolKind::None, Mouse::DoubleClick, false, false);
+  vtkSMViewLayoutProxy* layout = vtkSMViewLayoutProxy::FindLayout(this->View->getViewProxy());
+  if (!free || command != Command::EnlargeView || !layout || !hasFlatSlices(layout))
+  {
+    return false;
+  }
+  SCOPED_UNDO_EXCLUDE();
+  if (layout->GetMaximizedCell() < 0)
+  {
+    layout->MaximizeCell(layout->GetViewLocation(this->View->getViewProxy()));
+  }
+  else
+  {
+    layout->RestoreMaximizedState();
+  }
+  return true;
+}
+
+void SliceMouse::noticeZoom()
+{
+  const double zoom = this->Camera ? this->Camera->GetParallelScale() : this->Zoom;
+  if (zoom != this->Zoom)
+  {
+    this->Zoom = zoom;
+    this->Follows = linkedViewsFollow;
+    this->Sharing.start(); // a camera changes in several steps
+  }
+}
+
+void SliceMouse::shareZoom()
+{
+  vtkSMRenderViewProxy* view = this->View->getRenderViewProxy();
+  if (!view || !this->Camera || !isFlatWithSlices(this->View))
+  {
+    return;
+  }
+  const bool told = vtkSMPropertyHelper(view, "CameraParallelScale").GetAsDouble() == this->Zoom;
+  if (!this->Follows)
+  {
+    SCOPED_UNDO_EXCLUDE();
+    const QScopedValueRollback<bool> others(linkedViewsFollow, true);
+    view->SynchronizeCameraProperties();
+    view->UpdateVTKObjects();
+  }
+  if (this->Follows || told) // else ParaView draws what the mouse does
+  {
+    this->View->render();
+  }
+}
+
 bool SliceMouse::onMove(vtkObject*, unsigned long, void*)
 {
+  if (this->Dragging == Drag::GreyValues)
+  {
+    this->Greys.dragTo(this->Interactor->GetEventPosition());
+    drawSlices();
+    return true;
+  }
   const Facing slice = this->Dragging != Drag::Nothing ? this->facingSlice() : Facing();
   if (!slice.display)
   {

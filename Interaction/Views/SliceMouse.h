@@ -6,14 +6,17 @@
 #define BrainShift_SliceMouse_h
 
 #include "Interaction/Commands/Commands.h"
+#include "Interaction/Views/GreyValues.h"
 
 #include <QObject>
+#include <QTimer>
 
 #include <vtkWeakPointer.h>
 
 #include <vector>
 
 class pqRenderView;
+class vtkCamera;
 class vtkObject;
 class vtkRenderWindowInteractor;
 class vtkSMProxy;
@@ -57,6 +60,10 @@ private:
   /// Observer of the interactor. True: nobody else gets the event.
   bool onButton(vtkObject* interactor, unsigned long event, void* data);
   /// Observer of the interactor. True: nobody else gets the event.
+  bool onRightButton(vtkObject* interactor, unsigned long event, void* data);
+  /// Observer of the interactor. True: nobody else gets the event.
+  bool onDoubleClick(vtkObject* interactor, unsigned long event, void* data);
+  /// Observer of the interactor. True: nobody else gets the event.
   bool onMove(vtkObject* interactor, unsigned long event, void* data);
 
   /// Finds the position under the cursor in the slice (mm).
@@ -74,8 +81,21 @@ private:
     Nothing,
     Planes,
     Wipe,
+    GreyValues,
   };
   Drag Dragging = Drag::Nothing;
+  GreyValues Greys; ///< Under the drag.
+
+  /// Observer of the camera.
+  void noticeZoom();
+  /// Tells ParaView what the zoom is now, so that views which are linked follow, and draws a zoom
+  /// that came from another view.
+  void shareZoom();
+  vtkWeakPointer<vtkCamera> Camera;
+  unsigned long CameraObserver = 0;
+  double Zoom = 0.0;    ///< Half of the height of the view (mm) when it was shared last.
+  bool Follows = false; ///< Another view was zoomed, and this one by its link.
+  QTimer Sharing;
 };
 }
 

@@ -176,9 +176,9 @@ void Tutorial::addTexts()
   this->Progress->setTextVisible(false);
   this->Progress->setMaximumHeight(this->fontMetrics().height() / 2);
   this->Title = new QLabel(this);
-  this->Title->setObjectName("Title");
+  this->Title->setObjectName("TutorialTitle");
   this->Text = new QLabel(this);
-  this->Text->setObjectName("Text");
+  this->Text->setObjectName("TutorialText");
   this->Text->setWordWrap(true);
   this->Text->setFixedWidth(this->fontMetrics().averageCharWidth() * 44);
   for (QWidget* part : std::initializer_list<QWidget*>{ this->Progress, this->Title, this->Text })
@@ -199,11 +199,11 @@ void Tutorial::addButtons()
     row->addWidget(button);
     return button;
   };
-  this->Help = add("Help", QString(), [this] { this->help(); });
+  this->Help = add("TutorialHelp", QString(), [this] { this->help(); });
   row->addStretch();
-  this->Back = add("Back", tr("Back"), [this] { this->go(this->Step - 1); });
-  this->Skip = add("Skip", tr("Skip"), [this] { this->go(this->Step + 1); });
-  add("Leave", tr("Leave"), [this] { this->close(); });
+  this->Back = add("TutorialBack", tr("Back"), [this] { this->go(this->Step - 1); });
+  this->Skip = add("TutorialSkip", tr("Skip"), [this] { this->go(this->Step + 1); });
+  add("TutorialLeave", tr("Leave"), [this] { this->close(); });
 }
 
 void Tutorial::help()

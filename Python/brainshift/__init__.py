@@ -20,10 +20,12 @@ from .looks import look, looks
 from .maps import deformed_from_rest, rest_from_deformed
 from .sample import open_sample
 from .strokes import MOVE, NUMBERS_PER_STROKE, SOFT, STAMP, move, soft, stamp
-from .views import four_views
+from .views import four_views, show_comparison
+from .windows import percentile_window
 
 __all__ = [
     "MOVE", "NUMBERS_PER_STROKE", "SOFT", "STAMP",
     "animate", "counters", "deformed_from_rest", "figure", "four_views", "gpu", "load_field",
-    "load_lattice", "look", "looks", "move", "open_sample", "pick", "rest_from_deformed",
-    "save_field", "save_lattice", "slice_axes", "soft", "stamp"]
+    "load_lattice", "look", "looks", "move", "open_sample", "percentile_window", "pick",
+    "rest_from_deformed", "save_field", "save_lattice", "show_comparison", "slice_axes", "soft",
+    "stamp"]

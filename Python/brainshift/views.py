@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Lays out the classical four views of a volume: axial, 3D, coronal and sagittal."""
 
-import itertools
-
 from .answers import slice_axes
+from .links import link
+from .carried import carry_look, display_of
+from .windows import percentile_window
 
 #: Numbers of the planes, in the order of `slice_axes`.
 SAGITTAL, CORONAL, AXIAL = 0, 1, 2
@@ -30,6 +31,36 @@ LINKED = ("SlicePosition", "SliceComparison", "WipePosition", "WorldAxes")
 
 #: Size of a view as a multiple of the volume's size, so that some space stays around it.
 MARGIN = 1.05
+
+
+def _plane_of(view):
+    """The plane of a flat view that shows one slice of Deformed Slices, or None."""
+    if view.GetXMLName() != "RenderView" or view.InteractionMode != "2D":
+        return None
+    for display in view.Representations:
+        if getattr(display, "Representation", None) == "Deformed Slices":
+            shown = [plane for plane in PLANES if getattr(display, f"Show{plane.capitalize()}")]
+            if len(shown) == 1:
+                return shown[0]
+    return None
+
+
+def views_laid_out():
+    """The four views that were laid out before, as `four_views` returns them, or None.
+
+    The layout of the active view comes first, then all others.
+    """
+    from paraview import simple
+
+    active = simple.GetActiveView()
+    layouts = [simple.GetLayout(active)] if active is not None else []
+    for layout in layouts + list(simple.GetLayouts().values()):
+        views = simple.GetViewsInLayout(layout) if layout is not None else []
+        found = {_plane_of(view) or "volume": view for view in views}
+        if (len(views) == 4 and set(found) == {*PLANES, "volume"}
+                and found["volume"].GetXMLName() == "RenderView"):
+            return {name: found[name] for name in (*PLANES, "volume")}
+    return None
 
 
 def _place():
@@ -81,17 +112,21 @@ def _coloring(source, display):
     return (association, name) if name else _first_array(source)
 
 
-def _show_volume(source, view):
+def _show_volume(source, view, former):
     """Shows the volume in the 3D view and returns its display.
 
-    A volume that the view showed before keeps its representation. Any other becomes a Deformed
-    Volume. A Deformed Volume that has no colours gets those of its first array, and shading.
+    A volume that the view showed before keeps its representation. A comparison of the volume
+    `former` that the view showed looks like that one. Any other becomes a Deformed Volume. A
+    Deformed Volume that has no colours gets those of its first array, and shading.
     """
     from paraview import simple
 
-    was_shown = source in [getattr(display, "Input", None) for display in view.Representations]
+    was_shown = display_of(source, view) is not None
     display = simple.Show(source, view)
-    if not was_shown:
+    shown_before = display_of(former, view) if _is_made_of(source, former) else None
+    if not was_shown and shown_before is not None:
+        carry_look(shown_before, display)
+    elif not was_shown:
         simple.ResetCamera(view)
         display.SetRepresentationType("Deformed Volume")
     if display.Representation == "Deformed Volume" and not display.ColorArrayName[1]:
@@ -99,6 +134,11 @@ def _show_volume(source, view):
         display.SetScalarBarVisibility(view, False)
         display.Shade = 1
     return display
+
+
+def _is_made_of(source, former):
+    """Whether a source is a filter of another one."""
+    return former is not None and getattr(source, "Input", None) == former
 
 
 def _show_slice(source, view, plane, coloring):
@@ -111,7 +151,40 @@ def _show_slice(source, view, plane, coloring):
     for other in PLANES:
         setattr(display, f"Show{other.capitalize()}", int(other == plane))
     display.OrientationMarks = 1
+    display.ShowCrosshair = 1
     return display
+
+
+def _show_slices(source, views, coloring, former):
+    """Shows one slice in each view and returns the displays.
+
+    A comparison of the volume `former` that the views showed looks like that one, and so the views
+    keep their grey values and their position.
+    """
+    from paraview import simple
+
+    carried = _is_made_of(source, former)
+    displays = {}
+    for plane in PLANES:
+        shown_before = display_of(former, views[plane]) if carried else None
+        if shown_before is None:
+            displays[plane] = _show_slice(source, views[plane], plane, coloring)
+            carried = False
+        else:
+            displays[plane] = simple.Show(source, views[plane], "UniformGridRepresentation")
+            carry_look(shown_before, displays[plane])
+            displays[plane].SetScalarBarVisibility(views[plane], False)
+    if not carried:
+        _make_grey(source, list(displays.values()), coloring)
+    return displays
+
+
+def _slices_shown(views, source):
+    """The source whose slices the views show, another one than `source` if possible, or None."""
+    shown = [display.Input for plane in PLANES for display in views[plane].Representations
+             if getattr(display, "Representation", None) == "Deformed Slices"
+             and display.Visibility]
+    return next((other for other in shown if other != source), shown[0] if shown else None)
 
 
 def _world_axes(source):
@@ -137,51 +210,72 @@ def _look(view, plane, convention, sides, bounds):
     view.CameraParallelScale = MARGIN / 2 * max(size)  # one magnification for all views
 
 
-def _make_grey(displays, coloring):
-    """Gives the slices one grey colour map, which the 3D view does not share."""
+def _looks_so(view, plane, convention, sides):
+    """Whether a view looks along its direction already, at any place and zoom."""
+    towards, up = CAMERAS[convention][plane]
+    ahead = [f - p for f, p in zip(view.CameraFocalPoint, view.CameraPosition)]
+    length = sum(part * part for part in ahead) ** 0.5
+
+    def follows(direction, wanted):
+        return sum(d * w for d, w in zip(direction, wanted)) > 0.999
+
+    return (length > 0
+            and follows([part / length for part in ahead],
+                        [towards * part for part in sides[PLANES[plane]]])
+            and follows(view.CameraViewUp, sides[up]))
+
+
+def _look_at_slices(views, displays, convention, world, keeps):
+    """Turns the slice views as the convention asks. `keeps`: a view that lies so keeps its zoom."""
+    for plane, display in displays.items():
+        view, source = views[plane], display.Input
+        if world or not keeps:
+            display.WorldAxes = world or "From the data"
+        view.SMProxy.StillRender()  # the axes are known after that
+        said = str(display.WorldAxes.GetData())
+        known = said if said in WORLDS else _world_axes(source)
+        normals, _ = slice_axes(display)
+        sides = [[sign * part for part in normal]
+                 for sign, normal in zip(WORLDS[known or "RAS"], normals)]
+        if not (keeps and _looks_so(view, plane, convention, sides)):
+            _look(view, plane, convention, sides, source.GetDataInformation().GetBounds())
+
+
+def _make_grey(source, displays, coloring):
+    """Gives the slices one grey colour map, which the 3D view does not share.
+
+    It reaches over the grey values of the tissue, and ParaView does not change it afterwards.
+    """
     from paraview import simple
 
     first, *others = displays
     grey = simple.GetColorTransferFunction(coloring[1], first, separate=True)
     grey.ApplyPreset("Grayscale", True)
     first.RescaleTransferFunctionToDataRange(False, True)
+    window = percentile_window(source, *coloring)
+    if window is not None:
+        grey.RescaleTransferFunction(*window)
+        grey.AutomaticRescaleRangeMode = "Never"
     for display in others:
         display.LookupTable = grey
 
 
-def _link(displays, name):
-    """Keeps a property equal in all displays from now on, also after a view is closed.
+def _new_views():
+    """Lays out four views that show nothing yet but what the active view shows."""
+    active, layout, cells = _place()
+    views = {plane: _slice_view(plane) for plane in PLANES}
+    for view, cell in zip(views.values(), cells):
+        layout.AssignView(cell, view)
+    link(list(views.values()), "views", "CameraParallelScale")
+    return {**views, "volume": active}
 
-    When a view is closed, ParaView's link keeps its display as a null pointer and follows it, and
-    ParaView's window forgets the whole link. So the link is then made again without that display.
-    """
-    from paraview import servermanager
 
-    manager = servermanager.ProxyManager()
-    link = servermanager.vtkSMPropertyLink()
-    link_name = f"{name}{displays[0].SMProxy.GetGlobalIDAsString()}"
-    linked = {manager.GetProxyName("representations", display.SMProxy):
-              display.SMProxy.GetGlobalID() for display in displays}
+def _hide(source, views):
+    from paraview import simple
 
-    def remaining():
-        found = ((manager.SMProxyManager.GetProxy("representations", registered), number)
-                 for registered, number in linked.items())
-        return [proxy for proxy, number in found
-                if proxy is not None and proxy.GetGlobalID() == number]  # a name may be reused
-
-    def relink(*_):
-        link.RemoveAllLinks()
-        proxies = remaining()
-        if len(proxies) < 2:
-            return
-        if manager.SMProxyManager.GetRegisteredLink(link_name) != link:
-            manager.RegisterLink(link_name, link)
-        for proxy, direction in itertools.product(proxies, (link.INPUT, link.OUTPUT)):
-            link.AddLinkedProperty(proxy, name, direction)
-
-    for display in displays:
-        display.SMProxy.AddObserver("DeleteEvent", relink)
-    relink()
+    for view in views.values():
+        if display_of(source, view) is not None:
+            simple.Hide(source, view)
 
 
 def four_views(source, convention="radiological", world=None):
@@ -192,9 +286,14 @@ def four_views(source, convention="radiological", world=None):
     `SliceComparison`, `WipePosition` and `WorldAxes`. Letters mark the sides of the patient where
     the world axes are known. Elsewhere x, y and z mark the edges, and the views lie as for RAS.
 
-    The 3D view shows Deformed Volume, unless it shows the volume in another way already. The active
-    view becomes the 3D view if it is a render view that is alone in its layout.
-    Otherwise a new layout is made.
+    The grey values reach from the 1st to the 99th percentile of the tissue: see
+    `percentile_window`. In each slice lines show where the other two cut it (`ShowCrosshair`). The
+    slices have one zoom (`CameraParallelScale`).
+
+    The 3D view shows Deformed Volume, unless it shows the volume in another way already. Four views
+    that were laid out before are used again: they keep their zoom if the new volume fills the same
+    box. Otherwise the active view becomes the 3D view if it is a render view that is alone in its
+    layout. Otherwise a new layout is made.
 
     - `source`: a ParaView source of image data, for example a Free-Form Deformation.
     - `convention`: `"radiological"`, the default, shows the patient's right on the left of the
@@ -213,24 +312,79 @@ def four_views(source, convention="radiological", world=None):
     if world is not None and world not in WORLDS:
         raise ValueError(f"world is {world}; it must be {' or '.join(WORLDS)}")
     source.UpdatePipeline()
-    signs = WORLDS[world or _world_axes(source) or "RAS"]
-    active, layout, cells = _place()
-    views = {plane: _slice_view(plane) for plane in PLANES}
-    for view, cell in zip(views.values(), cells):
-        layout.AssignView(cell, view)
-    volume = _show_volume(source, active)
-    coloring = _coloring(source, volume)
-    displays = {plane: _show_slice(source, views[plane], plane, coloring) for plane in PLANES}
-    for plane, display in displays.items():
-        view = views[plane]
-        display.WorldAxes = world or "From the data"
-        view.SMProxy.StillRender()  # the axes are known after that
-        normals, _ = slice_axes(display)
-        sides = [[sign * part for part in normal] for sign, normal in zip(signs, normals)]
-        _look(view, plane, convention, sides, source.GetDataInformation().GetBounds())
-    _make_grey(list(displays.values()), coloring)
+    laid_out = views_laid_out()
+    views = laid_out or _new_views()
+    former = _slices_shown(views, source) if laid_out else None
+    displays = _show_again(source, views, former) or _show_both(source, views, former)
+    keeps = former is not None and _bounds(former) == _bounds(source)
+    _look_at_slices(views, displays, convention, world, keeps)
+    simple.SetActiveView(views["volume"])
+    simple.RenderAllViews()
+    return views
+
+
+def _bounds(source):
+    return source.GetDataInformation().GetBounds()
+
+
+def _show_again(source, views, former):
+    """Shows what all four views have shown before, at the same position; None if they have not."""
+    from paraview import simple
+
+    displays = {name: display_of(source, view) for name, view in views.items()}
+    if former is None or None in displays.values():
+        return None
+    for view in views.values():
+        simple.Show(source, view)
+    if former != source:
+        displays["axial"].SlicePosition = display_of(former, views["axial"]).SlicePosition
+        _hide(former, views)
+    return {plane: displays[plane] for plane in PLANES}
+
+
+def _show_both(source, views, former):
+    """Shows the slices and the volume, in place of another volume if there is one."""
+    volume = _show_volume(source, views["volume"], former)
+    displays = _show_slices(source, views, _coloring(source, volume), former)
+    if former is not None:
+        _hide(former, views)
     for name in LINKED:
-        _link([*displays.values(), volume], name)
+        link([*displays.values(), volume], "representations", name)
+    return displays
+
+
+def _view_of_comparison(comparison, view):
+    """Shows a comparison in a view as the view shows its volume, if it does."""
+    former = display_of(comparison.Input, view)
+    display = display_of(comparison, view)
+    if former is not None and display is not None:
+        carry_look(former, display)
+
+
+def show_comparison(comparison):
+    """Show a comparison where its volume is shown, with the same look.
+
+    In the active view the comparison gets the representation, the colours, the opacity and the
+    segments of the volume that it compares. If the active view is one of the four views, slices
+    and 3D show the comparison together, in red and green unless another way was chosen.
+
+    - `comparison`: a Compare Volumes filter that the active view shows.
+    """
+    from paraview import simple
+
+    active = simple.GetActiveView()
+    if active is None:
+        return
+    _view_of_comparison(comparison, active)
+    views = views_laid_out()
+    if views is None or active not in views.values():
+        return
+    if display_of(comparison.Input, views["axial"]) is None:
+        return
+    four_views(comparison)
+    for plane in PLANES:
+        display = display_of(comparison, views[plane])
+        if display.SliceComparison == "None":
+            display.SliceComparison = "Red and green"  # the others follow
     simple.SetActiveView(active)
     simple.RenderAllViews()
-    return {**views, "volume": active}

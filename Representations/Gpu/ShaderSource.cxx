@@ -18,6 +18,7 @@
 #include "shader_compositing_frag.h"
 #include "shader_counting.h"
 #include "shader_cover_frag.h"
+#include "shader_crosshair.h"
 #include "shader_cubic.h"
 #include "shader_cut.h"
 #include "shader_enlarge_frag.h"
@@ -262,9 +263,9 @@ ShaderSource slicesSource(const SlicesVariant& variant)
     coloringDefine(variant.coloring) + (variant.compared ? "#define COMPARED\n" : "") +
     (variant.cavity ? "#define CAVITY\n" : "");
   return { assemble({ shader_slices_vert }), "",
-    assemble(
-      { Outputs, defines, shader_rays, shader_field, shader_gradient, shader_segment, shader_tissue,
-        shader_components, shader_cubic, shader_cavity, shader_comparison, shader_slices_frag }) };
+    assemble({ Outputs, defines, shader_rays, shader_field, shader_gradient, shader_segment,
+      shader_tissue, shader_components, shader_cubic, shader_cavity, shader_comparison,
+      shader_crosshair, shader_slices_frag }) };
 }
 
 ShaderSource tracesSource(int tissues)

@@ -2,6 +2,7 @@
 #include "Representations/Slices/OrientationMarks.h"
 
 #include "Filters/Attached/Guard.h"
+#include "Representations/Slices/PlaneColors.h"
 
 #include "vtkCamera.h"
 #include "vtkCoordinate.h"
@@ -12,6 +13,7 @@
 #include "vtkTextActor.h"
 #include "vtkTextProperty.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -20,7 +22,8 @@ namespace brainshift
 namespace
 {
 constexpr double Follows = 0.9; // cosine between a direction and an axis, at least
-constexpr int FontSize = 18;
+constexpr int FontSize = 22;
+constexpr int NameFontSize = 16;
 constexpr int WarningFontSize = 13;
 const double WarningColor[3] = { 1.0, 0.75, 0.2 }; // amber
 constexpr double Inset = 0.015;                    // from the edge, share of the view
@@ -92,6 +95,11 @@ OrientationMarks::OrientationMarks()
     text->SetJustification(Edges[i].horizontal);
     text->SetVerticalJustification(Edges[i].vertical);
   }
+  this->Name->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+  this->Name->SetPosition(Inset, 1.0 - Inset);
+  this->Name->GetTextProperty()->SetFontSize(NameFontSize);
+  this->Name->GetTextProperty()->SetBold(true);
+  this->Name->GetTextProperty()->SetVerticalJustification(VTK_TEXT_TOP);
   this->Warning->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
   this->Warning->SetPosition(Inset, Inset);
   // The last line is left to the letter of the lower edge.
@@ -127,22 +135,52 @@ std::array<double, 3> OrientationMarks::AlongAxes(const double direction[3]) con
   return cosines;
 }
 
-int OrientationMarks::RenderOpaqueGeometry(vtkViewport* viewport)
+void OrientationMarks::Write(vtkViewport* viewport)
 {
   auto renderer = vtkRenderer::SafeDownCast(viewport);
   vtkMatrix4x4* viewFromWorld = renderer->GetActiveCamera()->GetViewTransformMatrix();
-  return guarded(this, 0, [&] {
-    const std::array<double, 3> right = this->AlongAxes(viewFromWorld->GetData());
-    const std::array<double, 3> up = this->AlongAxes(viewFromWorld->GetData() + 4);
-    const auto letters = edgeLetters(right.data(), up.data(), this->Axes);
-    int drawn = 0;
-    for (std::size_t i = 0; i < letters.size(); ++i)
+  const std::array<double, 3> right = this->AlongAxes(viewFromWorld->GetData());
+  const std::array<double, 3> up = this->AlongAxes(viewFromWorld->GetData() + 4);
+  const std::array<double, 3> back = this->AlongAxes(viewFromWorld->GetData() + 8);
+  auto letters = edgeLetters(right.data(), up.data(), this->Axes);
+  this->Warning->SetVisibility(
+    this->ShowLetters && this->Axes == WorldAxes::Unknown && !letters[0].empty());
+  for (std::size_t i = 0; i < letters.size(); ++i)
+  {
+    this->Letters[i]->SetInput(this->ShowLetters ? letters[i].c_str() : "");
+  }
+  this->Name->SetInput("");
+  for (std::size_t plane = 0; plane < PlaneNames.size(); ++plane)
+  {
+    if (this->NamedPlanes[plane] && std::abs(back[plane]) >= Follows)
     {
-      this->Letters[i]->SetInput(letters[i].c_str());
-      drawn += letters[i].empty() ? 0 : this->Letters[i]->RenderOpaqueGeometry(viewport);
+      const std::array<double, 3>& color = PlaneColors[plane];
+      this->Name->SetInput(PlaneNames[plane]);
+      this->Name->GetTextProperty()->SetColor(color[0], color[1], color[2]);
     }
-    this->Warning->SetVisibility(this->Axes == WorldAxes::Unknown && !letters[0].empty());
-    drawn += this->Warning->GetVisibility() ? this->Warning->RenderOpaqueGeometry(viewport) : 0;
+  }
+}
+
+std::vector<vtkTextActor*> OrientationMarks::Texts() const
+{
+  std::vector<vtkTextActor*> texts{ this->Letters.begin(), this->Letters.end() };
+  texts.push_back(this->Name);
+  texts.push_back(this->Warning);
+  texts.erase(std::remove_if(texts.begin(), texts.end(),
+                [](vtkTextActor* text) { return !text->GetVisibility() || !*text->GetInput(); }),
+    texts.end());
+  return texts;
+}
+
+int OrientationMarks::RenderOpaqueGeometry(vtkViewport* viewport)
+{
+  return guarded(this, 0, [&] {
+    this->Write(viewport);
+    int drawn = 0;
+    for (vtkTextActor* text : this->Texts())
+    {
+      drawn += text->RenderOpaqueGeometry(viewport);
+    }
     return drawn;
   });
 }
@@ -150,10 +188,10 @@ int OrientationMarks::RenderOpaqueGeometry(vtkViewport* viewport)
 int OrientationMarks::RenderOverlay(vtkViewport* viewport)
 {
   return guarded(this, 0, [&] {
-    int drawn = this->Warning->GetVisibility() ? this->Warning->RenderOverlay(viewport) : 0;
-    for (auto& letter : this->Letters)
+    int drawn = 0;
+    for (vtkTextActor* text : this->Texts())
     {
-      drawn += *letter->GetInput() ? letter->RenderOverlay(viewport) : 0;
+      drawn += text->RenderOverlay(viewport);
     }
     return drawn;
   });
@@ -165,6 +203,7 @@ void OrientationMarks::ReleaseGraphicsResources(vtkWindow* window)
   {
     letter->ReleaseGraphicsResources(window);
   }
+  this->Name->ReleaseGraphicsResources(window);
   this->Warning->ReleaseGraphicsResources(window);
   this->Superclass::ReleaseGraphicsResources(window);
 }

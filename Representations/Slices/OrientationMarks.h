@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   OrientationMarks
- * @brief   the letters R L A P S I at the edges of a view
+ * @brief   the letters R L A P S I at the edges of a view, and the name of its plane
  *
  * A letter names the side of the patient towards which its edge lies: right, left, anterior,
  * posterior, superior or inferior. The letters follow from the camera of each picture and from the
  * transform of the volume, so that they are right however both are turned. A view that looks along
  * no axis, within about 25 degrees, shows none. Where nobody has said what the axes mean for the
  * patient, x, y and z stand in place of letters, and a warning says so.
+ *
+ * The name of the plane that a view looks across stands in its upper left corner, in the plane's
+ * colour.
  */
 #ifndef BrainShift_OrientationMarks_h
 #define BrainShift_OrientationMarks_h
@@ -22,6 +25,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 class vtkProp3D;
 class vtkTextActor;
@@ -50,6 +54,13 @@ public:
   /// What the axes of the volume mean for the patient.
   WorldAxes Axes = WorldAxes::Unknown;
 
+  /// Whether the letters are drawn. Default true.
+  bool ShowLetters = true;
+
+  /// Whether a view that looks across the sagittal, the coronal or the axial plane is named for it.
+  /// Default false.
+  std::array<bool, 3> NamedPlanes{};
+
   /// The volume, whose transform turns the axes. Null: they are those of the world.
   vtkWeakPointer<vtkProp3D> Volume;
 
@@ -61,7 +72,14 @@ private:
   // Cosines between a direction (world) and the volume's axes.
   std::array<double, 3> AlongAxes(const double direction[3]) const;
 
+  // Finds the texts for a camera.
+  void Write(vtkViewport* viewport);
+
+  // Those of all texts that have something to say.
+  std::vector<vtkTextActor*> Texts() const;
+
   std::array<vtkNew<vtkTextActor>, 4> Letters;
+  vtkNew<vtkTextActor> Name; // of the plane
   vtkNew<vtkTextActor> Warning;
 };
 }

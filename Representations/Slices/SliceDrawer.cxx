@@ -37,6 +37,9 @@ void setSliceUniforms(Program& program, const SliceScene& scene)
   program.set("opacity", static_cast<float>(scene.opacity));
   program.set("mapsOpacity", scene.mapsOpacity ? 1 : 0);
   program.set("selecting", scene.selecting ? 1 : 0);
+  program.set("crosshair", scene.crosshair && !scene.selecting ? 1 : 0);
+  program.set("crossing", glm::vec3(scene.planes.position));
+  program.set("crosshairColors", scene.crosshairColors);
 }
 }
 
@@ -64,6 +67,7 @@ bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, C
       : wholeQuads(scene.planes);
     for (const SliceQuad& quad : quads)
     {
+      program.set("quadAxis", quad.axis);
       program.set("quadCorner", glm::vec3(quad.corner));
       program.set("quadRight", glm::vec3(quad.right));
       program.set("quadUp", glm::vec3(quad.up));

@@ -12,6 +12,7 @@
 #include "Representations/Slices/SliceComparison.h"
 #include "Representations/Slices/SliceGeometry.h"
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include <map>
@@ -28,12 +29,14 @@ struct SliceScene
   SceneTissue tissue;
   SlicePlanes planes;
   ReferenceScene reference;
-  glm::ivec3 voxels{ 1 };   ///< Of the scalars, a side.
-  bool cubic = false;       ///< Cubic filter; else as the textures filter.
-  double opacity = 1.0;     ///< Of everything, 0 to 1.
-  bool mapsOpacity = false; ///< The opacity map counts, too.
-  bool blended = false;     ///< Blended from back to front, without writing depth.
-  bool selecting = false;   ///< Only depth is drawn, for a selection.
+  glm::ivec3 voxels{ 1 };            ///< Of the scalars, a side.
+  bool cubic = false;                ///< Cubic filter; else as the textures filter.
+  double opacity = 1.0;              ///< Of everything, 0 to 1.
+  bool mapsOpacity = false;          ///< The opacity map counts, too.
+  bool blended = false;              ///< Blended from back to front, without writing depth.
+  bool selecting = false;            ///< Only depth is drawn, for a selection.
+  bool crosshair = false;            ///< The lines where the planes cut each other are drawn.
+  glm::mat3 crosshairColors{ 1.0f }; ///< A column for the plane across each axis of the texture.
 };
 
 /// The programs of one window.

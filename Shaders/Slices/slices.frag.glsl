@@ -1,5 +1,5 @@
 // A plane through the deformed frame. Each fragment reads its tissue at the rest position that it
-// came from, so that a slice is smooth at any zoom. Nothing is drawn outside the tissue.
+// came from, so that a slice is smooth at any zoom. Outside the tissue only the crosshair is drawn.
 
 in vec3 deformed; // texture coordinates
 
@@ -15,7 +15,14 @@ void main()
   bool hasTissue = insideVolume(rest) && !isnan(scalar);
   vec4 tissue = tissueOf(scalar);
   vec4 seen = vec4(colorOf(tissue, rest), tissue.a);
-  if (!compare(hasTissue, scalar, deformed, seen))
+  bool drawn = compare(hasTissue, scalar, deformed, seen);
+  vec3 lineColor;
+  if (onCrosshair(deformed, lineColor))
+  {
+    gl_FragData[0] = vec4(lineColor, 1.0);
+    return;
+  }
+  if (!drawn)
   {
     discard;
   }

@@ -37,6 +37,7 @@
 namespace
 {
 vtkTypeUInt32 viewId = 0; // of the view under the hand; 0: the active one
+Qt::MouseButton button = Qt::LeftButton;
 
 QWidget* viewWidget()
 {
@@ -85,15 +86,21 @@ TEST_HAND_EXPORT void test_hand_over(unsigned int view)
   viewId = view;
 }
 
-// Pixels from the view's upper left corner. `type`: 0 move, 1 press, 2 release of the left button.
-// `held`: whether the left button is down afterwards. `modifiers`: Qt::KeyboardModifiers.
+// The button that is meant from now on: the right one, or the left one.
+TEST_HAND_EXPORT void test_hand_right_button(int right)
+{
+  button = right ? Qt::RightButton : Qt::LeftButton;
+}
+
+// Pixels from the view's upper left corner. `type`: 0 move, 1 press, 2 release, 3 double-click.
+// `held`: whether the button is down afterwards. `modifiers`: Qt::KeyboardModifiers.
 TEST_HAND_EXPORT void test_hand_mouse(int type, int x, int y, int held, int modifiers)
 {
   const QEvent::Type types[] = { QEvent::MouseMove, QEvent::MouseButtonPress,
-    QEvent::MouseButtonRelease };
+    QEvent::MouseButtonRelease, QEvent::MouseButtonDblClick };
   const QPointF at(x, y);
-  QMouseEvent event(types[type], at, onScreen(at), type == 0 ? Qt::NoButton : Qt::LeftButton,
-    held ? Qt::LeftButton : Qt::NoButton, Qt::KeyboardModifiers(modifiers));
+  QMouseEvent event(types[type], at, onScreen(at), type == 0 ? Qt::NoButton : button,
+    held ? button : Qt::NoButton, Qt::KeyboardModifiers(modifiers));
   send(event);
 }
 
@@ -174,13 +181,15 @@ TEST_HAND_EXPORT double test_hand_set(const char* property, double value)
 // Of the window's menus and toolbars, by its object name. Returns whether it could be triggered.
 TEST_HAND_EXPORT int test_hand_action(const char* name)
 {
-  for (QWidget* window : QApplication::topLevelWidgets())
+  for (QWidget* widget : QApplication::allWidgets()) // an action may belong to a group alone
   {
-    auto action = window->findChild<QAction*>(name);
-    if (action && action->isEnabled())
+    for (QAction* action : widget->actions())
     {
-      action->trigger();
-      return 1;
+      if (action->objectName() == name && action->isEnabled())
+      {
+        action->trigger();
+        return 1;
+      }
     }
   }
   return 0;

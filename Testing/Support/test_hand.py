@@ -10,7 +10,7 @@ from paraview import simple
 
 SHIFT, CONTROL = 0x02000000, 0x04000000  # Qt::KeyboardModifiers
 ESCAPE, PAGE_UP, PAGE_DOWN = 0x01000000, 0x01000016, 0x01000017  # Qt::Key; letters: their codes
-_MOVE, _PRESS, _RELEASE = 0, 1, 2
+_MOVE, _PRESS, _RELEASE, _DOUBLE_CLICK = 0, 1, 2, 3
 
 NONE, MOVE, SOFT, STAMP = 0, 1, 2, 3     # ToolSettings::ToolKind
 
@@ -69,6 +69,23 @@ def drag(start, end, steps=5, modifiers=0):
         wait()
     release(end, modifiers)
     wait()
+
+
+def right_drag(start, end, steps=5, modifiers=0):
+    """drag() with the right button."""
+    _library.test_hand_right_button(1)
+    drag(start, end, steps, modifiers)
+    _library.test_hand_right_button(0)
+
+
+def double_click(pixel):
+    """Presses and lets go twice, with the left button."""
+    hover(pixel)
+    press(pixel)
+    release(pixel)
+    _mouse(_DOUBLE_CLICK, pixel, True, 0)
+    release(pixel)
+    wait(100)
 
 
 def wheel(pixel, clicks, modifiers=0):

@@ -43,8 +43,7 @@ def draw_with_script():
     display = simple.Show(deformation, view)
     assert display.Representation == "Deformed Volume", display.Representation
     simple.ColorBy(display, ("POINTS", "Intensity"))
-    display.RescaleTransferFunctionToDataRange(True)
-    display.Shade = 1
+    brainshift.look(display)
     simple.Render(view)
     save_picture(view, "unbent")
     push(deformation)

@@ -18,7 +18,7 @@ PATIENCE = 600  # ms; the tutorial looks five times a second
 
 def title():
     hand.wait(PATIENCE)
-    return hand.label("Title")
+    return hand.label("TutorialTitle")
 
 
 def bent():
@@ -36,7 +36,7 @@ def it_opens_at_the_first_step():
 
 
 def it_opens_the_sample():
-    assert hand.click("Help")
+    assert hand.click("TutorialHelp")
     assert bent() is not None
     assert "Step 2 of 7" in title(), title()
 
@@ -54,7 +54,7 @@ def it_waits_for_strokes_of_each_tool():
             (4, brainshift.soft(anchor, (0.0, 0.0, 3.0), 25.0)),
             (5, brainshift.move(anchor, (0.0, 2.0, 0.0)))):
         assert f"Step {step} of 7" in title(), (step, title())
-        assert hand.click("Help")  # takes the tool
+        assert hand.click("TutorialHelp")  # takes the tool
         assert hand.is_checked("actionBrainShift" + ("Stamp", "Soft", "Move")[step - 3])
         add(stroke)
         assert f"Step {step + 1} of 7" in title(), (step, title())
@@ -74,19 +74,19 @@ def it_waits_for_the_state_file():
     simple.SaveState(file)
     os.remove(file)
     if "Step 7" in title():  # Python's SaveState does not pass the window's menu
-        assert hand.click("Skip")
+        assert hand.click("TutorialSkip")
     assert "Done" in title(), title()
 
 
 def it_can_be_left_and_skipped():
-    assert hand.click("Leave")
+    assert hand.click("TutorialLeave")
     hand.wait(PATIENCE)
     assert hand.action("actionBrainShiftTutorial")
     assert "Step" in title()
     before = title()
-    assert hand.click("Skip")
+    assert hand.click("TutorialSkip")
     assert title() != before
-    assert hand.click("Leave")
+    assert hand.click("TutorialLeave")
 
 
 def play():

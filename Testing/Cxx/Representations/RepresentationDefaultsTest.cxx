@@ -32,16 +32,19 @@ TEST(Defaults, OfDeformedSlicesLiveInTheMapper)
     { "ShowCoronal", { double(mapper->GetShowCoronal()) } },
     { "ShowAxial", { double(mapper->GetShowAxial()) } },
     { "SlicePosition", { position[0], position[1], position[2] } },
+    { "ShowCrosshair", { double(mapper->GetCrosshair()) } },
     { "SliceInterpolation", { double(mapper->GetInterpolation()) } },
     { "MapSliceOpacity", { double(mapper->GetMapOpacity()) } },
     { "OrientationMarks", { double(representation->GetOrientationMarks()) } },
     { "WorldAxes", { double(representation->GetWorldAxes()) } },
-    { "SliceComparison", { double(mapper->GetComparison()) } },
+    { "Opacity", { mapper->GetOpacity() } } };
+  EXPECT_EQ(defaultsIn("Representations/Proxies/DeformedSlices.xml"), expected);
+  const Defaults compared{ { "SliceComparison", { double(mapper->GetComparison()) } },
     { "CheckerSize", { mapper->GetCheckerSize() } },
     { "ReferenceRange", { mapper->GetReferenceRange()[0], mapper->GetReferenceRange()[1] } },
     { "FullGradient", { mapper->GetFullGradient() } },
-    { "WipePosition", { wipe[0], wipe[1], wipe[2] } }, { "Opacity", { mapper->GetOpacity() } } };
-  EXPECT_EQ(defaultsIn("Representations/Proxies/DeformedSlices.xml"), expected);
+    { "WipePosition", { wipe[0], wipe[1], wipe[2] } } };
+  EXPECT_EQ(defaultsIn("Representations/Proxies/DeformedSlicesComparison.xml"), compared);
 }
 
 TEST(Defaults, OfDeformedVolumeLiveInTheMapper)

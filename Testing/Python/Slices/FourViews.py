@@ -61,7 +61,7 @@ def test_the_active_view_becomes_one_of_four():
         shown = {plane: getattr(display, f"Show{plane.capitalize()}") for plane in SLICES}
         assert shown == {plane: int(plane == name) for plane in SLICES}, (name, shown)
         assert views[name].InteractionMode == "2D" and views[name].CameraParallelProjection == 1
-        assert display.OrientationMarks == 1
+        assert display.OrientationMarks == 1 and display.ShowCrosshair == 1
         assert list(display.SlicePosition) == list(MIDDLE), display.SlicePosition
     close(views)
 
@@ -127,7 +127,7 @@ def test_conventions():
                 view = views[name]
                 view.ViewSize = [200, 200]
                 display = GetDisplayProperties(source, view)
-                display.OrientationMarks = 0
+                display.OrientationMarks = display.ShowCrosshair = 0
                 display.LookupTable.RGBPoints = [0, 0, 0, 0, 100, 1, 1, 1]
                 if direction is None:
                     found = spot_at_edges(picture(view))
@@ -151,7 +151,7 @@ def test_an_lps_world_is_turned():
         view.ViewSize = [200, 200]
         display = GetDisplayProperties(source, view)
         assert display.WorldAxes == "LPS", display.WorldAxes
-        display.OrientationMarks = 0
+        display.OrientationMarks = display.ShowCrosshair = 0
         display.LookupTable.RGBPoints = [0, 0, 0, 0, 100, 1, 1, 1]
         found = spot_at_edges(picture(view))
         assert found == expected, (name, found, expected)
@@ -192,6 +192,8 @@ def test_slices_share_a_grey_map():
     grey = displays["axial"].LookupTable
     assert displays["coronal"].LookupTable == displays["sagittal"].LookupTable == grey
     assert displays["volume"].LookupTable != grey
+    for name in SLICES:
+        displays[name].ShowCrosshair = 0
     image = picture(views["coronal"])
     assert (image[:, :, 0] == image[:, :, 2]).all() and image.any(), "grey"
     grey.RGBPoints = [0, 1, 0, 0, 100, 1, 0, 0]

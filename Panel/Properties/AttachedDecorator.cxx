@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Panel/Properties/SegmentationDecorator.h"
-
-#include "Filters/Attached/Segmentation.h"
+#include "Panel/Properties/AttachedDecorator.h"
 
 #include <pqApplicationCore.h>
 #include <pqPropertyWidget.h>
@@ -9,25 +7,27 @@
 
 #include <vtkDataObject.h>
 #include <vtkPVDataInformation.h>
+#include <vtkPVXMLElement.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSourceProxy.h>
 
 namespace brainshift
 {
-SegmentationDecorator::SegmentationDecorator(vtkPVXMLElement* xml, pqPropertyWidget* parent)
+AttachedDecorator::AttachedDecorator(vtkPVXMLElement* xml, pqPropertyWidget* parent)
   : pqPropertyWidgetDecorator(xml, parent)
+  , Array(xml->GetAttributeOrEmpty("array"))
 {
-  // Apply of the filter may give its output a segmentation, or take it away.
+  // Apply of the filter may attach the array, or take it away.
   this->connect(pqApplicationCore::instance()->getServerManagerModel(),
-    &pqServerManagerModel::dataUpdated, this, &SegmentationDecorator::enableStateChanged);
+    &pqServerManagerModel::dataUpdated, this, &AttachedDecorator::enableStateChanged);
 }
 
-bool SegmentationDecorator::enableWidget() const
+bool AttachedDecorator::enableWidget() const
 {
   const vtkSMPropertyHelper input(this->parentWidget()->proxy(), "Input");
   auto source = vtkSMSourceProxy::SafeDownCast(input.GetAsProxy());
   return source &&
     source->GetDataInformation(input.GetOutputPort())
-      ->GetArrayInformation(SegmentationName, vtkDataObject::FIELD);
+      ->GetArrayInformation(this->Array.c_str(), vtkDataObject::FIELD);
 }
 }
