@@ -115,8 +115,8 @@ std::array<double, Size> at(const std::vector<std::array<double, Size>>& points,
   return result;
 }
 
-// The same curve from the lowest to the highest value: ParaView's editors then show both curves over
-// the range of the data.
+// The same curve from the lowest to the highest value: ParaView's editors then show both curves
+// over the range of the data.
 template <std::size_t Size>
 std::vector<std::array<double, Size>> over(
   const Intensities& values, const std::vector<std::array<double, Size>>& points)

@@ -28,15 +28,15 @@ namespace
 const glm::dvec3 FirstDirection = glm::normalize(glm::dvec3(0.62, 0.68, 0.40));
 const glm::dvec3 Up(0.0, 0.0, 1.0);
 constexpr double Filled = 0.92;   // of the view's height or width
-constexpr double BoxShare = 0.15; // of the box's corners in the size of tissue
+constexpr double BoxShare = 0.25; // of the box's corners in the size of tissue
 
 QString textOf(vtkSMProxy* report, const char* property)
 {
   return QString::fromUtf8(vtkSMPropertyHelper(report, property).GetAsString());
 }
 
-// Half the size of tissue along a direction of unit length: a little more than that of the ellipsoid
-// in its box, for a head has a neck.
+// Half the size of tissue along a direction of unit length: a little more than that of the
+// ellipsoid in its box, for a head has a neck.
 double reachOf(const glm::dvec3& half, const glm::dvec3& along)
 {
   const glm::dvec3 parts = glm::abs(half * along);

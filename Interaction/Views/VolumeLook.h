@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Looks of a volume in the window: colours, opacities and a camera that fit its tissue. The process
-/// that has the data makes them (vtkVolumeLookReport).
+/// Looks of a volume in the window: colours, opacities and a camera that fit its tissue. The
+/// process that has the data makes them (vtkVolumeLookReport).
 #ifndef BrainShift_VolumeLook_h
 #define BrainShift_VolumeLook_h
 

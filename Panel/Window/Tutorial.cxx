@@ -239,7 +239,8 @@ void Tutorial::go(int step)
   this->Help->setText(page.help ? tr(page.help) : QString());
   this->Help->setVisible(page.help);
   this->Compared = this->Saved = false;
-  this->StrokesBefore = toolOf(step) ? countStrokes(*toolOf(step)) : 0;
+  const std::optional<Tool> tool = toolOf(step);
+  this->StrokesBefore = tool ? countStrokes(*tool) : 0;
 }
 
 void Tutorial::watch()

@@ -10,7 +10,7 @@ FIRST_DIRECTION = (0.62, 0.68, 0.40)
 FILLED = 0.92
 
 #: Part of the box's corners in the size of the tissue.
-BOX_SHARE = 0.15
+BOX_SHARE = 0.25
 
 
 def _array(representation):
@@ -93,6 +93,8 @@ def look(representation, name=None, view=None):
     Raises `ValueError` if the volume has no look of that name, for example because it is a label
     map.
     """
+    from paraview import simple
+
     _color(representation)
     report = _measured(representation, name or "")
     names = _names(report)
@@ -112,6 +114,7 @@ def look(representation, name=None, view=None):
     if "DrawSegment" in representation.ListProperties():
         representation.DrawSegment = report.GetProperty("DrawsSegment").GetElement(0)
     if view is not None:
+        simple.Render(view)  # ParaView places the camera itself at its first picture
         _aim(view, _numbers(report, "TissueBounds"))
     return name or names[0]
 

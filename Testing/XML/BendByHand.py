@@ -424,8 +424,7 @@ def look_plain(view, bent):
     view.OrientationAxesVisibility = 0
     display = simple.GetDisplayProperties(bent, view)
     simple.ColorBy(display, ("POINTS", "Intensity"))
-    display.RescaleTransferFunctionToDataRange(True)
-    display.Shade = 1
+    brainshift.look(display)
     display.SetScalarBarVisibility(view, False)
     place_camera(view)
 

@@ -94,6 +94,8 @@ def _values(element):
     if element.tag in ("InputProperty", "ProxyProperty"):
         return "optional input" if element.get("null_on_empty") or (
             element.find("Hints/Optional") is not None) else "input"
+    if element.tag == "Property":  # a command, or a panel of buttons
+        return "none"
     entries = [f'"{entry.get("text")}"' for entry in element.iter("Entry")]
     if entries:
         return ", ".join(entries)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that volumes of each kind are told apart, and that their looks leave the background out and
-// show the tissue. The volumes are made here, with noise, and share no number with the looks.
+// Proves that volumes of each kind are told apart, and that their looks leave the background out
+// and show the tissue. The volumes are made here, with noise, and share no number with the looks.
 #include "Filters/Attached/Segmentation.h"
 #include "Filters/Looks/Look.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
@@ -37,6 +37,12 @@ Grid headGrid()
   return grid;
 }
 
+glm::ivec3 indexOf(vtkIdType voxel)
+{
+  const int number = static_cast<int>(voxel);
+  return { number % Side, number / Side % Side, number / Side / Side };
+}
+
 // A ball of skin (outside), bone and brain in the middle. `outside`: voxels from the edge.
 enum class Tissue
 {
@@ -48,8 +54,7 @@ enum class Tissue
 
 Tissue tissueAt(vtkIdType voxel)
 {
-  const glm::dvec3 at(voxel % Side, voxel / Side % Side, voxel / Side / Side);
-  const double radius = glm::length(at - 0.5 * (Side - 1));
+  const double radius = glm::length(glm::dvec3(indexOf(voxel)) - 0.5 * (Side - 1));
   return radius > 26.0 ? Tissue::Air
     : radius > 22.0    ? Tissue::Skin
     : radius > 19.0    ? Tissue::Bone
@@ -78,7 +83,7 @@ vtkSmartPointer<vtkImageData> fan()
   std::mt19937 random(5);
   std::exponential_distribution<double> echo(1.0 / 30.0);
   return volumeOn(headGrid(), VTK_UNSIGNED_CHAR, [&](vtkIdType voxel) {
-    const glm::dvec3 at(voxel % Side - 30.0, voxel / Side % Side - 30.0, voxel / Side / Side + 5.0);
+    const glm::dvec3 at = glm::dvec3(indexOf(voxel)) + glm::dvec3(-30.0, -30.0, 5.0);
     const bool inside = std::hypot(at.x, at.y) < 0.6 * at.z;
     return inside ? std::min(1.0 + echo(random), 255.0) : 0.0;
   });
