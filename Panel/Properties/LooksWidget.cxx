@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Properties/LooksWidget.h"
 
+#include "Filters/Attached/Segmentation.h"
 #include "Interaction/Views/VolumeLook.h"
 #include "Panel/Tools/LookChoice.h"
 
@@ -9,7 +10,12 @@
 #include <pqPipelineSource.h>
 #include <pqServerManagerModel.h>
 
+#include <vtkDataObject.h>
+#include <vtkPVArrayInformation.h>
+#include <vtkPVDataInformation.h>
+#include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
+#include <vtkSMSourceProxy.h>
 
 #include <QGridLayout>
 #include <QLabel>
@@ -51,8 +57,38 @@ pqDataRepresentation* LooksWidget::display() const
     this->proxy());
 }
 
+// What tells volumes apart without reading them: every stroke makes new data of the same volume.
+QString LooksWidget::volume() const
+{
+  const vtkSMPropertyHelper input(this->proxy(), "Input");
+  const vtkSMPropertyHelper colors(this->proxy(), "ColorArrayName", true);
+  auto source = vtkSMSourceProxy::SafeDownCast(input.GetAsProxy());
+  const char* name = colors.GetInputArrayNameToProcess();
+  if (!source || !name)
+  {
+    return {};
+  }
+  vtkPVDataInformation* data = source->GetDataInformation(input.GetOutputPort());
+  vtkPVArrayInformation* array = data->GetArrayInformation(name, colors.GetInputArrayAssociation());
+  const bool hasSegment =
+    data->GetArrayInformation(SegmentationName, vtkDataObject::FIELD) != nullptr;
+  const double* range = array ? array->GetComponentRange(0) : nullptr;
+  return QString("%1 %2 %3 %4 %5")
+    .arg(name)
+    .arg(data->GetNumberOfPoints())
+    .arg(hasSegment)
+    .arg(range ? range[0] : 0.0)
+    .arg(range ? range[1] : 0.0);
+}
+
 void LooksWidget::offerLooks()
 {
+  const QString volume = this->volume();
+  if (volume == this->Read)
+  {
+    return;
+  }
+  this->Read = volume;
   pqDataRepresentation* display = this->display();
   const QStringList names = display ? makeVolumeLook(display).names : QStringList();
   if (names == this->Offered)

@@ -8,6 +8,7 @@
 
 #include <pqPropertyWidget.h>
 
+#include <QString>
 #include <QStringList>
 
 class pqDataRepresentation;
@@ -24,11 +25,13 @@ public:
 
 private:
   void offerLooks();
+  QString volume() const;
   void addButton(const QString& name);
   void choose(const QString& name);
   pqDataRepresentation* display() const;
 
   QLabel* Without; ///< says that there is no look
+  QString Read;    ///< the volume that the looks were offered for
   QStringList Offered;
 };
 }

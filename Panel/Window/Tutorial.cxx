@@ -28,6 +28,7 @@
 #include <array>
 #include <cstring>
 #include <optional>
+#include <vector>
 
 namespace brainshift
 {
@@ -62,7 +63,8 @@ constexpr std::array<Page, StepCount> Pages{ {
     "Open the sample" },
   { "Choose a look",
     "Press the button <b>Look</b> in the toolbar, the small head, and choose <b>Brain</b>. You see "
-    "the cortex without skin and skull. Drag in the view to turn it.",
+    "the cortex without skin and skull. Without a segmentation, choose another look. Drag in the "
+    "view to turn it.",
     nullptr },
   { "Push with the stamp",
     "Press <b>Take the stamp</b>. Move the mouse over the cortex until you see the ellipse. Turn "
@@ -120,13 +122,14 @@ int countStrokes(Tool tool)
     strokes.begin(), strokes.end(), [&](const Stroke& stroke) { return stroke.tool == tool; }));
 }
 
-// With a segmentation the look Brain draws it alone. Without one any look will do.
-bool showsALook()
+// The colours that the volume is shown in; empty if it is not.
+std::vector<double> shownColors()
 {
   pqPipelineSource* bent = activeDeformation();
   pqDataRepresentation* display =
     bent ? bentDisplay(bent, pqActiveObjects::instance().activeView()) : nullptr;
-  return display && vtkSMPropertyHelper(display->getProxy(), "DrawSegment", true).GetAsInt() != 0;
+  vtkSMProxy* colors = display ? display->getLookupTableProxy() : nullptr;
+  return colors ? vtkSMPropertyHelper(colors, "RGBPoints").GetDoubleArray() : std::vector<double>();
 }
 
 // ParaView's own window of welcome waits for an answer and would lock this one.
@@ -239,6 +242,7 @@ void Tutorial::go(int step)
   this->Help->setText(page.help ? tr(page.help) : QString());
   this->Help->setVisible(page.help);
   this->Compared = this->Saved = false;
+  this->ColorsBefore = shownColors();
   const std::optional<Tool> tool = toolOf(step);
   this->StrokesBefore = tool ? countStrokes(*tool) : 0;
 }
@@ -246,6 +250,10 @@ void Tutorial::go(int step)
 void Tutorial::watch()
 {
   closeWelcome();
+  if (this->ColorsBefore.empty())
+  {
+    this->ColorsBefore = shownColors(); // the volume may be shown later than the step
+  }
   this->Compared = this->Compared || (editor() && editor()->showsBefore());
   if (this->Step < StepCount && this->isDone())
   {
@@ -264,7 +272,7 @@ bool Tutorial::isDone() const
     case OpenStep:
       return editor() != nullptr;
     case LookStep:
-      return showsALook();
+      return shownColors() != this->ColorsBefore;
     case CompareStep: // until it is let go
       return this->Compared && !editor()->showsBefore();
     default:

@@ -8,6 +8,8 @@
 #include <QDialog>
 #include <QTimer>
 
+#include <vector>
+
 class QLabel;
 class QProgressBar;
 class QPushButton;
@@ -34,7 +36,8 @@ private:
   void placeInCorner();
 
   int Step = 0;
-  int StrokesBefore = 0; ///< of the step's tool, when the step began
+  int StrokesBefore = 0;            ///< of the step's tool, when the step began
+  std::vector<double> ColorsBefore; ///< of the volume, when the step began
   bool Compared = false;
   bool Saved = false;
   QProgressBar* Progress = nullptr;
