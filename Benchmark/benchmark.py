@@ -44,7 +44,7 @@ import numpy  # noqa: E402
 from comparison import measure_comparison  # noqa: E402
 from measure import Side, Times, interleaved  # noqa: E402
 from report import Report, header  # noqa: E402
-from scene import OPACITIES, Scene, load_plugin, mean_difference  # noqa: E402
+from scene import OCCLUSION, OPACITIES, Scene, load_plugin, mean_difference  # noqa: E402
 from session import measure_session  # noqa: E402
 from slices import measure_slices  # noqa: E402
 from traces import measure_traces  # noqa: E402
@@ -58,6 +58,7 @@ OURS, SAME_STEP = "ours, bent", "stock, same step, as loaded"
 COARSE = "stock, one-voxel step, as loaded"
 TIMES_FOR_FIELD = 7  # times as many rounds, because times of some milliseconds vary most
 FULL, DRAGGING = "ours, full quality", "ours, as while dragging"
+OCCLUDED = "ours, full quality, ambient occlusion"
 RESLICED = "vtkImageReslice, vtkBSplineTransform, upload, stock"
 BAKE, RESLICE = "Bake Deformation", "vtkImageReslice, vtkBSplineTransform"
 FILTER = "ours: stroke, lattice (filter alone)"
@@ -183,17 +184,36 @@ class Benchmark:
             scene.edit_coefficients()
             scene.frame()
 
-        sides = [Side(FULL, ours, lambda: scene.show("ours")),
-                 Side(DRAGGING, dragging, lambda: scene.show("ours")),
+        sides = [self._with_occlusion(FULL, ours, 0.0),
+                 self._with_occlusion(OCCLUDED, ours, OCCLUSION),
+                 self._with_occlusion(DRAGGING, dragging, OCCLUSION),
                  Side(RESLICED, stock, lambda: scene.show("stock resliced"), warm=False)]
         rows = self._measure("edit to picture, opaque", window, sides)
+        scene.ours.AmbientOcclusion = 0.0
         self._count_an_edit(ours, dragging)
         if window == self.options.windows[0]:
-            self._target("edit", rows[FULL]["median"], rows[FULL]["quiet"], window)
+            for key, side in (("edit", FULL), ("edit occluded", OCCLUDED)):
+                self._target(key, rows[side]["median"], rows[side]["quiet"], window)
         if window == self.options.windows[-1]:
             self._target("edit ratio", *ratio_of(rows, FULL, RESLICED), window=window)
             self._target("drag", *(1000.0 / max(rows[DRAGGING][time], 1e-9)
                                    for time in ("median", "quiet")), window=window)
+
+    def _with_occlusion(self, text, work, darkness):
+        def prepare():
+            self.scene.ours.AmbientOcclusion = darkness
+            self.scene.show("ours")
+
+        return Side(text, work, prepare)
+
+    def occlusion(self, window):
+        """What ambient occlusion, which is on by default, adds to a whole picture."""
+        for opacities in OPACITIES:
+            self.scene.use(opacities, window)
+            self._measure(f"steady frame, ambient occlusion, {opacities}", window,
+                          [self._with_occlusion("off", self.scene.frame, 0.0),
+                           self._with_occlusion("on", self.scene.frame, OCCLUSION)])
+        self.scene.ours.AmbientOcclusion = 0.0
 
     def _count_an_edit(self, ours, dragging):
         self.scene.show("ours")
@@ -294,6 +314,7 @@ def reference(benchmark, windows, quick):
         for opacities in OPACITIES:
             benchmark.frames(opacities, window, window == windows[0] and not quick)
         benchmark.edits(window)
+    benchmark.occlusion(windows[0])
     benchmark.resampling(windows[0])
     benchmark.skipping(windows[0])
     for measure in (measure_slices, measure_comparison, measure_traces, measure_session):

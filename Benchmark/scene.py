@@ -29,6 +29,8 @@ OPACITIES = {"opaque": (0, 0, AIR, 0, 3 * AIR, 1, 255, 1),
              "translucent": (0, 0, AIR, 0, AIR + 5, 0.02, 255, 0.02)}
 COLORS = (0, 0.35, 0.20, 0.15, 40, 0.75, 0.50, 0.40, 130, 0.95, 0.78, 0.65, 255, 1.0, 0.95, 0.9)
 
+OCCLUSION = 0.5  # the default of our representation; off unless a side says so
+
 TOWARDS_EYE = (0.55, 0.70, 0.45)  # from the head's middle
 VIEW_ANGLE = 24.0                 # degrees
 

@@ -31,6 +31,8 @@ TARGETS = {
     "coarse opaque": Target("steady frame, opaque", COARSE, "x", 2, 5),
     "coarse translucent": Target("steady frame, translucent", COARSE, "x", 1.3, 3),
     "edit": Target("edit to picture, full quality", "a hand", "ms", 120, 40, small_is_good=True),
+    "edit occluded": Target("the same with ambient occlusion", "a hand", "ms", 120, 40,
+                            small_is_good=True),
     "edit ratio": Target("edit to picture, full quality", RESLICE, "x", 15, 40),
     "drag": Target("edit to picture while dragging", "an eye", "/s", 15, 30),
     "bake": Target("bake", "vtkImageReslice, vtkBSplineTransform", "x", 5, 15),
