@@ -7,7 +7,7 @@
 #include "Filters/Attached/HostMemory.h"
 #include "Filters/Attached/Portions.h"
 #include "Filters/Attached/WholeExtent.h"
-#include "Filters/Files/FieldImage.h"
+#include "Filters/Fields/FieldImage.h"
 
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"

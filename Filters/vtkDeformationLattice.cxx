@@ -4,7 +4,7 @@
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/Guard.h"
 #include "Filters/Attached/WholeExtent.h"
-#include "Filters/Files/FieldImage.h"
+#include "Filters/Fields/FieldImage.h"
 
 #include "vtkFieldData.h"
 #include "vtkImageData.h"

@@ -2,8 +2,8 @@
 #include "vtkDisplacementFieldReader.h"
 
 #include "Filters/Attached/Guard.h"
-#include "Filters/Files/FieldFile.h"
-#include "Filters/Files/FieldImage.h"
+#include "Filters/Fields/FieldFile.h"
+#include "Filters/Fields/FieldImage.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"

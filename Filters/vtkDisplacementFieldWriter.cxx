@@ -3,8 +3,8 @@
 
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/Guard.h"
-#include "Filters/Files/FieldFile.h"
-#include "Filters/Files/FieldImage.h"
+#include "Filters/Fields/FieldFile.h"
+#include "Filters/Fields/FieldImage.h"
 
 #include "vtkErrorCode.h"
 #include "vtkImageData.h"

@@ -11,7 +11,7 @@
 #include "Filters/Deformation/LatticeExtremes.h"
 #include "Filters/Deformation/OffsetField.h"
 #include "Filters/Deformation/Replay.h"
-#include "Filters/Files/FieldImage.h"
+#include "Filters/Fields/FieldImage.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

@@ -8,7 +8,7 @@
 #include "Filters/Attached/WholeExtent.h"
 #include "Filters/Deformation/Inversion.h"
 #include "Filters/Deformation/OffsetField.h"
-#include "Filters/Files/FieldImage.h"
+#include "Filters/Fields/FieldImage.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that displacement fields keep their place, their vectors and their direction through every
 // format, byte for byte as ITK, Slicer and NiftyReg mean them; and that damaged files are named.
-#include "Filters/Files/FieldFile.h"
+#include "Filters/Fields/FieldFile.h"
 #include "Filters/Attached/FieldDirection.h"
 #include "Testing/Cxx/Filters/NIFTITestFile.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"

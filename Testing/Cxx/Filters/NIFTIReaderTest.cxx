@@ -2,7 +2,6 @@
 // Proves that vtkNIFTIVolumeReader puts every voxel where the file's affine says, with the value
 // the file says.
 #include "Filters/Attached/WorldAxes.h"
-#include "Filters/Files/NIFTIGeometry.h"
 #include "Testing/Cxx/Filters/NIFTITestFile.h"
 #include "Testing/Cxx/Filters/NIFTITestReading.h"
 
@@ -453,35 +452,6 @@ TEST(NIFTIReader, RealHeadLiesWhereItsHeaderSays)
     brainVoxels += mask.scalars()->GetTuple1(point) == 1.0 ? 1 : 0;
   }
   EXPECT_EQ(brainVoxels, 1822964);
-}
-
-TEST(NIFTIGeometry, TiesKeepTheFilesOrder)
-{
-  const glm::dmat4 diagonal =
-    glm::rotate(glm::dmat4(1.0), glm::radians(45.0), glm::dvec3(0.0, 0.0, 1.0));
-  const brainshift::NIFTIGrid found = brainshift::nearestRasGrid(diagonal, glm::ivec3(4, 3, 5));
-  EXPECT_EQ(found.voxelAxis, (std::array<int, 3>{ 0, 1, 2 }));
-  EXPECT_EQ(found.reversed, (std::array<bool, 3>{}));
-}
-
-// Every rotation and reflection leaves a rotation after permuting and flipping, and costs nothing.
-TEST(NIFTIGeometry, AnyOrthogonalAffineIsLossless)
-{
-  for (int i = 0; i < 500; ++i)
-  {
-    const glm::dvec3 axis(std::sin(1.0 + i), std::cos(3.0 * i), std::sin(7.0 * i + 2.0));
-    glm::dmat4 affine = glm::rotate(glm::dmat4(1.0), 0.1 * i, glm::normalize(axis));
-    affine[i % 3] *= i % 2 == 0 ? -2.5 : 0.5;
-    const brainshift::NIFTIGrid found =
-      brainshift::nearestRasGrid(affine, glm::ivec3(256, 200, 180));
-    EXPECT_LT(found.largestErrorMm, 1e-9);
-    EXPECT_NEAR(glm::determinant(found.grid.direction), 1.0, 1e-12);
-    for (int a = 0; a < 3; ++a)
-    {
-      EXPECT_GT(found.grid.direction[a][a], 0.0);
-      EXPECT_GT(found.grid.spacing[a], 0.0);
-    }
-  }
 }
 
 TEST(NIFTIReader, NamesTheSidesOnlyIfTheFileDoes)

@@ -7,7 +7,7 @@
 #ifndef BrainShift_TextHeaderField_h
 #define BrainShift_TextHeaderField_h
 
-#include "Filters/Files/DirectedField.h"
+#include "Filters/Fields/DirectedField.h"
 
 #include <string>
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Where the voxels of a NIfTI file lie: from the numbers of the header to a grid along the
- *        RAS axes.
+ * @brief Where the voxels of a NIfTI file lie: from the numbers of the header to an affine.
  *
  * World is RAS: x to the patient's right, y to the front, z to the head, in mm. Names such as
  * `srow_x` are those of the NIfTI-1 standard (nifti1.h).
@@ -10,7 +9,6 @@
 #ifndef BrainShift_NIFTIGeometry_h
 #define BrainShift_NIFTIGeometry_h
 
-#include "Filters/Deformation/Grid.h"
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 
 #include <glm/mat4x4.hpp>
@@ -18,17 +16,9 @@
 #include <glm/vec4.hpp>
 
 #include <array>
-#include <string>
 
 namespace brainshift
 {
-/**
- * A cosine between two axes above this is reported as shear. Axes of a rotation are perpendicular:
- * headers in float32 stay below 1e-6. A cosine of 1e-4 moves no voxel of a head by more than
- * 0.03 mm.
- */
-constexpr double LargestUnreportedShear = 1e-4;
-
 /** The numbers of the header that place voxels, as they are stored. */
 struct NIFTIPlacement
 {
@@ -54,29 +44,6 @@ VTKBRAINSHIFTFILTERS_EXPORT double secondsPerNIFTIUnit(int xyztUnits);
  * 3, 2 and 1 of the standard.
  */
 VTKBRAINSHIFTFILTERS_EXPORT glm::dmat4 worldFromVoxel(const NIFTIPlacement& placement);
-
-/** Why an affine cannot place voxels (not finite, singular): part of a sentence, or empty. */
-VTKBRAINSHIFTFILTERS_EXPORT std::string affineProblem(const glm::dmat4& worldFromVoxel);
-
-/** Voxels that are permuted and flipped so that each grid axis runs along the nearest RAS axis. */
-struct NIFTIGrid
-{
-  Grid grid; ///< mm, RAS; its direction is the rotation that is left, often the identity
-  std::array<int, 3> voxelAxis{ 0, 1, 2 }; ///< the file's axis that runs along each grid axis
-  std::array<bool, 3> reversed{};          ///< whether that axis runs the other way
-  double shear = 0.0;                      ///< largest cosine between two of the file's axes
-  double largestErrorMm = 0.0;             ///< farthest distance of a corner from its true place
-};
-
-/**
- * The grid of an affine. Nothing is lost unless the affine is sheared. Then the grid keeps spacing
- * and centre and takes the nearest rotation.
- *
- * @param worldFromVoxel   an affine without an affineProblem
- * @param dimensions       voxels along each axis, in the file's order
- */
-VTKBRAINSHIFTFILTERS_EXPORT NIFTIGrid nearestRasGrid(
-  const glm::dmat4& worldFromVoxel, const glm::ivec3& dimensions);
 }
 
 #endif

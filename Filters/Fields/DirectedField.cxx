@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/Files/DirectedField.h"
+#include "Filters/Fields/DirectedField.h"
 
 namespace brainshift
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/Files/TextHeaderField.h"
+#include "Filters/Fields/TextHeaderField.h"
 
 #include "Filters/Attached/HostMemory.h"
 #include "Filters/Files/PlainFile.h"

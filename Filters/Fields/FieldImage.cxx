@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/Files/FieldImage.h"
+#include "Filters/Fields/FieldImage.h"
 
 #include "Filters/Attached/DeformableVolume.h"
 

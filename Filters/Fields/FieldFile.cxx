@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/Files/FieldFile.h"
+#include "Filters/Fields/FieldFile.h"
 
-#include "Filters/Files/NIFTIField.h"
-#include "Filters/Files/TextHeaderField.h"
+#include "Filters/Fields/NIFTIField.h"
+#include "Filters/Fields/TextHeaderField.h"
 
 #include <algorithm>
 #include <cctype>

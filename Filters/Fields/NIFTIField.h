@@ -13,7 +13,7 @@
 #ifndef BrainShift_NIFTIField_h
 #define BrainShift_NIFTIField_h
 
-#include "Filters/Files/DirectedField.h"
+#include "Filters/Fields/DirectedField.h"
 
 #include <string>
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/Files/NIFTIField.h"
+#include "Filters/Fields/NIFTIField.h"
 
-#include "Filters/Files/FieldImage.h"
+#include "Filters/Fields/FieldImage.h"
 #include "Filters/Files/NIFTIFileCheck.h"
-#include "Filters/Files/NIFTIVolume.h"
 #include "Filters/Files/WholeFile.h"
+#include "Filters/Volumes/NIFTIVolume.h"
+#include "Filters/Volumes/PlacedVolume.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
@@ -22,6 +23,7 @@
 
 #include <glm/matrix.hpp>
 
+#include <memory>
 #include <vector>
 
 namespace brainshift
@@ -94,29 +96,27 @@ std::string intentProblem(const Intent& intent)
 // Reads the grid and the vectors as the file has them.
 std::string readVectors(const std::string& fileName, DirectedField& field)
 {
-  NIFTIVolume file;
+  PlacedVolume file(std::make_unique<NIFTIVolume>());
   std::string problem = file.readHeader(fileName);
   if (!problem.empty())
   {
     return problem;
   }
-  const std::string warning = file.shearWarning();
-  if (!warning.empty())
+  for (const std::string& warning : file.warnings())
   {
     vtkGenericWarningMacro(<< warning << ".");
   }
-  if (file.components() != 3)
+  if (file.header().components != 3)
   {
-    return "NIfTI file " + fileName + " has " + std::to_string(file.components()) +
+    return "NIfTI file " + fileName + " has " + std::to_string(file.header().components) +
       " components per voxel; it must have 3";
   }
   const glm::ivec3 last = file.geometry().grid.dimensions - 1;
   const int extent[6] = { 0, last.x, 0, last.y, 0, last.z };
   vtkNew<vtkImageData> image;
-  problem = file.load(image, extent);
+  problem = file.read(0, extent, [](double) { return true; }, image);
   if (problem.empty())
   {
-    file.fill(image, 0);
     field.grid = file.geometry().grid;
     field.displacements = vectorsOf(image->GetPointData()->GetScalars());
   }

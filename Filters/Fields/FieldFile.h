@@ -15,7 +15,7 @@
 #ifndef BrainShift_FieldFile_h
 #define BrainShift_FieldFile_h
 
-#include "Filters/Files/DirectedField.h"
+#include "Filters/Fields/DirectedField.h"
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 
 #include <string>

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkVolumeFileReader.h"
+
+#include "Filters/Attached/Guard.h"
+#include "Filters/Attached/WorldAxes.h"
+#include "Filters/Fields/FieldImage.h"
+#include "Filters/Volumes/PlacedVolume.h"
+
+#include "vtkDataArray.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkPointData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace
+{
+constexpr const char* ScalarsName = "Intensity";
+
+std::size_t nearestIndex(const std::vector<double>& times, double time)
+{
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < times.size(); ++i)
+  {
+    if (std::abs(times[i] - time) < std::abs(times[nearest] - time))
+    {
+      nearest = i;
+    }
+  }
+  return nearest;
+}
+
+void announceTimes(vtkInformation* output, const std::vector<double>& times)
+{
+  output->Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+  output->Remove(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
+  if (times.size() > 1)
+  {
+    const double range[2] = { times.front(), times.back() };
+    output->Set(
+      vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
+    output->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
+  }
+}
+}
+
+brainshiftGuardRequestsMacro(vtkVolumeFileReader);
+
+vtkVolumeFileReader::vtkVolumeFileReader(std::unique_ptr<brainshift::VolumeFile> file)
+  : Stored(std::make_unique<brainshift::PlacedVolume>(std::move(file)))
+{
+  this->SetNumberOfInputPorts(0);
+}
+
+vtkVolumeFileReader::~vtkVolumeFileReader()
+{
+  this->SetFileName(nullptr);
+}
+
+void vtkVolumeFileReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+}
+
+int vtkVolumeFileReader::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  const std::string problem = this->Stored->readHeader(this->FileName ? this->FileName : "");
+  if (!problem.empty())
+  {
+    vtkErrorMacro(<< problem << ".");
+    return 0;
+  }
+  for (const std::string& warning : this->Stored->warnings())
+  {
+    vtkWarningMacro(<< warning << ".");
+  }
+  vtkInformation* output = outputs->GetInformationObject(0);
+  brainshift::announce(output, this->Stored->geometry().grid);
+  output->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
+  vtkDataObject::SetPointDataActiveScalarInfo(
+    output, this->Stored->scalarType(), this->Stored->header().components);
+  announceTimes(output, this->Stored->header().times);
+  return 1;
+}
+
+int vtkVolumeFileReader::RequestData(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  // ParaView asks for data even after RequestInformation failed; that has been reported.
+  if (!this->Stored->isPlaced())
+  {
+    return 0;
+  }
+  vtkInformation* information = outputs->GetInformationObject(0);
+  vtkImageData* shown = vtkImageData::GetData(information);
+  const std::vector<double>& times = this->Stored->header().times;
+  std::size_t volume = 0;
+  if (times.size() > 1 && information->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
+  {
+    volume =
+      nearestIndex(times, information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()));
+    shown->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), times[volume]);
+  }
+  const auto progress = [this](double share) {
+    this->UpdateProgress(share);
+    return !this->GetAbortExecute();
+  };
+  const std::string problem = this->Stored->read(
+    volume, information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()), progress, shown);
+  if (!problem.empty())
+  {
+    vtkErrorMacro(<< problem << ".");
+    return 0;
+  }
+  vtkDataArray* scalars = shown->GetPointData()->GetScalars();
+  if (!scalars)
+  {
+    return 0; // stopped
+  }
+  scalars->SetName(ScalarsName);
+  brainshift::nameWorldAxes(shown,
+    this->Stored->header().knowsSides ? brainshift::WorldAxes::RAS
+                                      : brainshift::WorldAxes::Unknown);
+  return 1;
+}

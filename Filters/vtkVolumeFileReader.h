@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkVolumeFileReader
+ * @brief   reads volumes of one format into RAS millimetres: what the readers of all formats share
+ *
+ * World is RAS: x to the patient's right, y to the front, z to the head.
+ *
+ * Voxels are permuted and flipped, never resampled, so that the axes of the image run along the
+ * nearest RAS axes. The rotation that is left (an oblique scan) becomes the direction matrix of the
+ * image. For scans along the axes that matrix is exactly the identity, so filters that ignore
+ * directions are right too. No image can hold sheared axes: they give a warning that names the
+ * error in mm.
+ *
+ * Output: vtkImageData with the point scalars "Intensity". Their type is the type in the file, or
+ * float32 if the file rescales them. A time series has time steps, in seconds. The field array
+ * WorldAxes says RAS if the file knows the patient's sides (WorldAxes.h). After an error the output
+ * stays as it was, or is empty.
+ */
+#ifndef vtkVolumeFileReader_h
+#define vtkVolumeFileReader_h
+
+#include "vtkBrainShiftFiltersModule.h" // for the export macro
+#include "vtkImageAlgorithm.h"
+
+#include <memory> // for the private part
+
+namespace brainshift
+{
+class PlacedVolume;
+class VolumeFile;
+}
+
+class VTKBRAINSHIFTFILTERS_EXPORT vtkVolumeFileReader : public vtkImageAlgorithm
+{
+public:
+  vtkAbstractTypeMacro(vtkVolumeFileReader, vtkImageAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+  ///@{
+  /** The file to read. Default: none, which is an error. */
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+  /** 1 if the file exists and begins like a file of this format, else 0. */
+  virtual int CanReadFile(VTK_FILEPATH const char* fileName) = 0;
+
+protected:
+  explicit vtkVolumeFileReader(std::unique_ptr<brainshift::VolumeFile> file);
+  ~vtkVolumeFileReader() override;
+
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkVolumeFileReader(const vtkVolumeFileReader&) = delete;
+  void operator=(const vtkVolumeFileReader&) = delete;
+
+  char* FileName = nullptr;
+  std::unique_ptr<brainshift::PlacedVolume> Stored;
+};
+
+#endif
