@@ -246,7 +246,7 @@ def show_red_green(compare, plane, towards_eye, size):
     display.SlicePosition = CAVITY_CENTRE
     display.OrientationMarks = 1
     display.WorldAxes = "RAS"  # as in the head's file; what makes the cavity drops the word
-    display.SliceComparison = "Red and green"
+    display.SliceComparison = "Two colours"
     color = simple.GetColorTransferFunction("Brain", display, separate=True)
     color.ColorSpace = "RGB"
     color.RGBPoints = (0, 0, 0, 0, WHITE, 1, 1, 1)

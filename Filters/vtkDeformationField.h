@@ -51,7 +51,10 @@ public:
   };
 
   ///@{
-  /** Forward: where tissue goes. Backward: which tissue is seen. Default Forward. */
+  /**
+   * Forward: where tissue goes, for moving points. Backward: which tissue is seen, for resampling
+   * images. Default Backward.
+   */
   vtkSetClampMacro(Direction, int, Forward, Backward);
   vtkGetMacro(Direction, int);
   ///@}
@@ -98,7 +101,7 @@ private:
   // The grid to sample on. If it cannot be used, `problem` becomes a sentence.
   brainshift::Grid SamplesOver(const brainshift::Grid& volume, std::string& problem) const;
 
-  int Direction = Forward;
+  int Direction = Backward;
   int SampleGrid = Volume;
   int Dimensions[3] = { 64, 64, 64 };
   double Spacing[3] = { 4.0, 4.0, 4.0 };

@@ -12,6 +12,7 @@
 #include "Filters/Deformation/OffsetField.h"
 #include "Filters/Deformation/Replay.h"
 #include "Filters/Fields/FieldImage.h"
+#include "Filters/Traces/StrokeMarks.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -22,7 +23,6 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
@@ -51,6 +51,8 @@ struct vtkFreeFormDeformation::State
   MaskSource Masks;
   SegmentationSource Segmentations;
   Segmentation LastSegmentation;
+  StrokeMarker Marker;
+  StrokeMarks LastMarks;
   std::string TooFine; // strokes for the lattice: a sentence
   std::vector<std::string> Warned;
   bool WarnedOfMask = false; // that it holds strokes back
@@ -58,27 +60,6 @@ struct vtkFreeFormDeformation::State
 
 namespace
 {
-// The grid of the whole volume. `image` may be the piece of one process.
-Grid wholeGrid(vtkImageData* image, vtkInformation* info)
-{
-  if (image->GetNumberOfPoints() == 0) // a reader gave this process nothing, not even a place
-  {
-    return wholeGridOf(info);
-  }
-  int whole[6];
-  info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
-  int extent[6];
-  image->GetExtent(extent);
-  Grid grid = gridOf(image);
-  const glm::dvec3 toWholeStart(whole[0] - extent[0], whole[2] - extent[2], whole[4] - extent[4]);
-  grid.origin = grid.worldFromGrid(toWholeStart);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    grid.dimensions[axis] = whole[2 * axis + 1] - whole[2 * axis] + 1;
-  }
-  return grid;
-}
-
 std::string decimal(double number)
 {
   std::ostringstream text;
@@ -258,7 +239,7 @@ int vtkFreeFormDeformation::RequestData(
     vtkErrorMacro(<< BentAlready << ".");
     return 1;
   }
-  const Grid volumeGrid = wholeGrid(volume, inputs[0]->GetInformationObject(0));
+  const Grid volumeGrid = wholeGridOf(volume, inputs[0]->GetInformationObject(0));
   std::string problem = problemOf(volumeGrid);
   if (!problem.empty())
   {
@@ -284,6 +265,7 @@ int vtkFreeFormDeformation::RequestData(
   state.CellArrays.share(output->GetCellData());
   attach(output, state.LastGood);
   attachSegmentation(output, state.LastSegmentation);
+  attachMarks(output, state.LastMarks);
   return 1;
 }
 
@@ -358,10 +340,7 @@ std::string vtkFreeFormDeformation::Bend(
   }
   const std::vector<Stroke> strokes = strokesFromNumbers(state.StrokeNumbers, problem);
   Lattice start = makeLattice(withDimensions(volumeGrid, sides), this->Kernel != 0);
-  if (problem.empty())
-  {
-    problem = addBase(start, base);
-  }
+  problem = problem.empty() ? addBase(start, base) : problem;
   if (problem.empty())
   {
     problem = state.Masks.find({ maskImage, this->MaskLabels, this->MaskGrowth, this->Feather,
@@ -391,6 +370,9 @@ std::string vtkFreeFormDeformation::Bend(
   state.LastGood.inverse =
     this->Inverse ? brainshift::Inverse::Negated : brainshift::Inverse::Exact;
   state.LastGood.strength = this->Strength;
+  const std::vector<double> settings{ double(this->GuardFolding), double(this->Samples),
+    double(this->Inverse), this->Strength };
+  state.LastMarks = state.Marker.marksOf(start, settings, state.StrokeNumbers);
   state.MinimumJacobianKnown = false;
   // The guard's proof is for the full strength.
   state.IsProved =

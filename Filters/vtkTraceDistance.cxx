@@ -8,6 +8,8 @@
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Attached/WholeExtent.h"
 #include "Filters/Traces/DeformedSurface.h"
+#include "Filters/Traces/StrokeCurve.h"
+#include "Filters/Traces/StrokeMarks.h"
 #include "Filters/Traces/TraceStatistics.h"
 
 #include "vtkCompositeDataIterator.h"
@@ -31,6 +33,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -115,6 +118,8 @@ struct vtkTraceDistance::State
   TraceStatistics Statistics;
   TraceHistogram Histogram;
   vtkNew<vtkDoubleArray> HistogramNumbers; // as a server sends them
+  StrokeCurve Curve;                       // RMS, mm
+  vtkNew<vtkDoubleArray> CurveNumbers;
   int SurfacesFound = 0;
 
   bool isRemoved(const glm::dvec3& deformed) const
@@ -223,6 +228,17 @@ vtkDoubleArray* vtkTraceDistance::GetHistogram()
   for (const int count : this->Internal->Histogram.counts)
   {
     numbers->InsertNextValue(count);
+  }
+  return numbers;
+}
+
+vtkDoubleArray* vtkTraceDistance::GetRMSAfterStrokes()
+{
+  vtkDoubleArray* numbers = this->Internal->CurveNumbers;
+  numbers->Reset();
+  for (const double rms : this->Internal->Curve.values())
+  {
+    numbers->InsertNextValue(rms);
   }
   return numbers;
 }
@@ -354,6 +370,18 @@ bool vtkTraceDistance::Measure(vtkPointSet* points, std::vector<double>& all)
   });
 }
 
+void vtkTraceDistance::NoteRMS(vtkDataObject* points, vtkDataObject* volume)
+{
+  State& state = *this->Internal;
+  const auto timeOf = [](vtkDataArray* array) { return array ? array->GetMTime() : 0; };
+  std::uint64_t level = 0; // its bits
+  std::memcpy(&level, &state.Level, sizeof(level));
+  std::uint64_t how = mixed(mixed(points->GetMTime(), state.ScalarsTime), level);
+  how = mixed(mixed(how, state.By), timeOf(state.Cavity.voxels));
+  how = mixed(how, timeOf(state.ReferencesCavity.voxels));
+  state.Curve.note(readMarks(volume), how, state.Statistics.rms);
+}
+
 int vtkTraceDistance::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -392,6 +420,10 @@ int vtkTraceDistance::RequestData(
   const std::vector<double> all = ofAllProcesses(distances);
   state.Statistics = statisticsOf(all);
   state.Histogram = histogramOf(all);
+  if (going)
+  {
+    this->NoteRMS(input, vtkDataObject::GetData(inputs[DeformationPort]));
+  }
   addField<vtkIntArray>(output, "Count", this->GetCount());
   addField<vtkDoubleArray>(output, "Mean", state.Statistics.mean);
   addField<vtkDoubleArray>(output, "RMS", state.Statistics.rms);

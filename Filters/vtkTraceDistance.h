@@ -101,6 +101,12 @@ public:
    */
   vtkDoubleArray* GetHistogram();
 
+  /**
+   * RMS (mm) after none, one, and so on, to all strokes, as far as this filter measured it with the
+   * same points and settings; NaN where it did not. Empty if the volume does not say its strokes.
+   */
+  vtkDoubleArray* GetRMSAfterStrokes();
+
   ///@{
   /**
    * What the filter had to do: how many surfaces it found so far, and how many points of the
@@ -133,6 +139,8 @@ private:
   std::string FindCortex(vtkInformationVector** inputs);
   // Adds the array to points. False if the user aborts.
   bool Measure(vtkPointSet* points, std::vector<double>& all);
+  // Notes the RMS among those after other strokes.
+  void NoteRMS(vtkDataObject* points, vtkDataObject* volume);
 
   struct State;
   std::unique_ptr<State> Internal;

@@ -2,6 +2,8 @@
 #include "vtkVolumeLookReport.h"
 
 #include "Filters/Attached/Guard.h"
+#include "Filters/Looks/FirstCamera.h"
+#include "Filters/Looks/Histogram.h"
 #include "Filters/Looks/Intensities.h"
 #include "Filters/Looks/Look.h"
 
@@ -11,12 +13,18 @@
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <vector>
 
 using namespace brainshift;
 
 namespace
 {
+constexpr int WindowBins = 65536; // one for each value of 16 bits
+
+std::atomic<int> Readings{ 0 };
+
 template <typename Points>
 void fill(vtkDoubleArray* array, const Points& points)
 {
@@ -46,12 +54,66 @@ void vtkVolumeLookReport::Measure()
   guarded(this, [this] { this->MakeLook(); });
 }
 
-void vtkVolumeLookReport::MakeLook()
+void vtkVolumeLookReport::MeasureWindow()
 {
+  guarded(this, [this] { this->FindWindow(); });
+}
+
+int vtkVolumeLookReport::GetReadings()
+{
+  return Readings;
+}
+
+vtkImageData* vtkVolumeLookReport::ReadVolume() const
+{
+  ++Readings;
   const bool hasPort =
     this->Source && this->Port >= 0 && this->Port < this->Source->GetNumberOfOutputPorts();
-  auto volume =
-    vtkImageData::SafeDownCast(hasPort ? this->Source->GetOutputDataObject(this->Port) : nullptr);
+  return vtkImageData::SafeDownCast(
+    hasPort ? this->Source->GetOutputDataObject(this->Port) : nullptr);
+}
+
+void vtkVolumeLookReport::FindWindow()
+{
+  this->Window->Reset();
+  const Histogram all =
+    readHistogram(this->ReadVolume(), { this->Association, this->ArrayName }, WindowBins);
+  if (all.counts.empty())
+  {
+    return;
+  }
+  const Histogram tissue = withoutBackground(all);
+  const double low = percentile(tissue, this->Percentiles[0] / 100.0);
+  const double high = percentile(tissue, this->Percentiles[1] / 100.0);
+  if (low < high)
+  {
+    fill(this->Window, std::vector{ std::array{ low, high } });
+  }
+}
+
+vtkDoubleArray* vtkVolumeLookReport::GetCamera()
+{
+  this->Camera->Reset();
+  Box box;
+  std::copy_n(this->TissueBounds, 6, box.bounds);
+  if (box.bounds[0] <= box.bounds[1])
+  {
+    const FirstCamera camera = firstCamera(box, this->ViewAspect, this->ViewAngle);
+    for (const glm::dvec3& vector : { camera.position, camera.focalPoint, camera.up })
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        this->Camera->InsertNextValue(vector[axis]);
+      }
+    }
+    this->Camera->InsertNextValue(camera.parallelScale);
+  }
+  return this->Camera;
+}
+
+void vtkVolumeLookReport::MakeLook()
+{
+  vtkImageData* volume = this->ReadVolume();
   const ArrayChoice array{ this->Association, this->ArrayName };
   const Intensities values = readIntensities(volume, array);
   const std::vector<std::string> names = looksOf(values);

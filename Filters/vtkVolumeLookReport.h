@@ -7,7 +7,7 @@
  * of an array. The volume may lie on a server, in parts on several processes. This object lives
  * beside it, and the XML proxy of the same name brings its answers to the client.
  *
- * Set what is asked, call Measure in all processes, then read the answers.
+ * Set what is asked, call Measure or MeasureWindow in all processes, then read the answers.
  */
 #ifndef vtkVolumeLookReport_h
 #define vtkVolumeLookReport_h
@@ -21,6 +21,7 @@
 
 class vtkAlgorithm;
 class vtkDoubleArray;
+class vtkImageData;
 
 class VTKBRAINSHIFTFILTERS_EXPORT vtkVolumeLookReport : public vtkObject
 {
@@ -56,8 +57,27 @@ public:
   vtkGetMacro(Look, std::string);
   ///@}
 
+  ///@{
+  /** Shares (%) of the tissue that are darker than the ends of Window, 0 to 100. Default 1, 99. */
+  vtkSetVector2Macro(Percentiles, double);
+  vtkGetVector2Macro(Percentiles, double);
+  ///@}
+
+  ///@{
+  /** Width of the view for Camera as a share of its height. Default 1. */
+  vtkSetMacro(ViewAspect, double);
+  vtkGetMacro(ViewAspect, double);
+  /** Angle of the height of the view for Camera, degrees. Default 30. */
+  vtkSetMacro(ViewAngle, double);
+  vtkGetMacro(ViewAngle, double);
+  ///@}
+
+  ///@{
   /** Reads the volume and makes the look. All processes of a server must call it. */
   void Measure();
+  /** Reads the volume and finds Window, nothing else. All processes of a server must call it. */
+  void MeasureWindow();
+  ///@}
 
   ///@{
   /** "MR", "CT", "Ultrasound" or "Labels", guessed from the histogram. Empty without a volume. */
@@ -72,7 +92,20 @@ public:
   bool GetDrawsSegment() const { return this->DrawsSegment; }
   /** The box (mm, world, rest frame) around what the look shows; smallest above largest: none. */
   double* GetTissueBounds() VTK_SIZEHINT(6) { return this->TissueBounds; }
+  /**
+   * A camera at which the tissue fills a view of ViewAspect: position, focal point, up (mm, world)
+   * and parallel scale (mm). Empty if the look shows nothing.
+   */
+  vtkDoubleArray* GetCamera();
+  /**
+   * The values between which the tissue lies, without a dark background: see Percentiles. Empty if
+   * the array has no two such values.
+   */
+  vtkDoubleArray* GetWindow() { return this->Window; }
   ///@}
+
+  /** How often this process read a volume so far, for tests. */
+  static int GetReadings();
 
 protected:
   vtkVolumeLookReport();
@@ -82,7 +115,9 @@ private:
   vtkVolumeLookReport(const vtkVolumeLookReport&) = delete;
   void operator=(const vtkVolumeLookReport&) = delete;
 
+  vtkImageData* ReadVolume() const;
   void MakeLook();
+  void FindWindow();
 
   vtkWeakPointer<vtkAlgorithm> Source;
   int Port = 0;
@@ -93,6 +128,11 @@ private:
   std::string Names;
   vtkNew<vtkDoubleArray> Colors;
   vtkNew<vtkDoubleArray> Opacities;
+  vtkNew<vtkDoubleArray> Window;
+  vtkNew<vtkDoubleArray> Camera;
+  double Percentiles[2] = { 1.0, 99.0 };
+  double ViewAspect = 1.0;
+  double ViewAngle = 30.0;
   bool DrawsSegment = false;
   double TissueBounds[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
 };

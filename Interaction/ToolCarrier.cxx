@@ -16,16 +16,18 @@
 #include <pqServerManagerModel.h>
 
 #include <vtkLatticeRepresentation.h>
+#include <vtkRenderWindowInteractor.h>
 #include <vtkSMPropertyHelper.h>
+#include <vtkSMRenderViewProxy.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <QApplication>
-#include <QKeyEvent>
 #include <QWidget>
 
 #include <algorithm>
+#include <cmath>
 
 namespace brainshift
 {
@@ -46,18 +48,12 @@ ToolSettings::Ground groundOf(pqPipelineSource* deformation, pqRenderView* view)
     ? ToolSettings::Ground::FlatSlices
     : ToolSettings::Ground::Slices;
 }
-
-// Where a person types, keys are letters.
-bool isTyping()
-{
-  QWidget* focus = QApplication::focusWidget();
-  return focus && focus->testAttribute(Qt::WA_InputMethodEnabled);
-}
 }
 
 ToolCarrier::ToolCarrier(QObject* parent)
   : QObject(parent)
   , Cursor(this)
+  , Resting(this)
 {
   this->Refresh.setSingleShot(true);
   this->Refresh.setInterval(0);
@@ -71,6 +67,8 @@ ToolCarrier::ToolCarrier(QObject* parent)
       this->Tool->settle();
     }
   });
+  QObject::connect(&this->Cursor, &CursorWatch::moved, this, &ToolCarrier::followCursor);
+  QObject::connect(&this->Resting, &RestingCursor::sees, this, &ToolCarrier::hoverAgain);
   this->followApplication();
   // Later, parts of the window that hear of changes are gone already.
   QObject::connect(qApp, &QCoreApplication::aboutToQuit, this, [this] {
@@ -86,11 +84,12 @@ void ToolCarrier::followApplication()
   const auto soon = [this] { this->Refresh.start(); };
   pqActiveObjects* active = &pqActiveObjects::instance();
   QObject::connect(ToolSettings::instance(), &ToolSettings::changed, this, soon);
+  QObject::connect(
+    ToolSettings::instance(), &ToolSettings::switchWanted, this, [this] { this->Other.take(); });
   QObject::connect(active, &pqActiveObjects::viewChanged, this, [this](pqView* view) {
     this->Under = qobject_cast<pqRenderView*>(view);
     this->Refresh.start();
   });
-  QObject::connect(&this->Cursor, &CursorWatch::moved, this, &ToolCarrier::followCursor);
   QObject::connect(active, &pqActiveObjects::sourceChanged, this, soon);
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
   QObject::connect(model, &pqServerManagerModel::sourceAdded, this, soon);
@@ -143,7 +142,10 @@ void ToolCarrier::putDown()
     this->Tool->settle();
   }
   this->Holding = false;
+  this->Dropped = false;
   this->Zooming = false;
+  this->ByKeys = false;
+  this->HasCursor = false;
   this->Settle.stop();
   this->Tool.reset();
   this->Probe.reset();
@@ -151,6 +153,8 @@ void ToolCarrier::putDown()
   this->Editor = nullptr;
   this->Deformation = nullptr;
   this->View = nullptr;
+  this->Other.follow(nullptr, nullptr);
+  this->Resting.follow(nullptr, nullptr);
   this->ToolInHand = ToolKind::None;
 }
 
@@ -179,21 +183,32 @@ void ToolCarrier::refresh()
       this->Editor = StrokeEditor::of(deformation);
       this->ToolInHand = tool;
       this->Widget = std::make_unique<WidgetInView>(
-        view, [this](const HandEvent& event) { return this->handle(event); });
+        view, [this](const HandEvent& event) { return this->hearMouse(event); });
       this->Probe = std::make_unique<ViewProbe>(deformation, view, this->Kept);
       this->Tool =
         makeTool(tool, { *this->Probe, *this->Editor, *settings, *this->Widget->representation() });
+      this->Other.follow(deformation, view);
+      this->Resting.follow(deformation, view);
     }
   }
   this->suggestRanges();
-  this->tellWhatIsShown();
+  this->Other.tell();
 }
 
-void ToolCarrier::tellWhatIsShown()
+void ToolCarrier::hoverAgain()
 {
-  pqPipelineSource* shown =
-    this->Tool && this->isAlive() ? shownInstead(this->Deformation, this->View) : nullptr;
-  ToolSettings::instance()->setShownInstead(shown ? shown->getSMName() : QString());
+  const bool rests = this->Tool && this->isAlive() && this->Cursor.view() == this->View &&
+    !this->Holding && !this->Editor->isEditing() && !this->ShowingBefore && !this->Other.shown();
+  if (rests)
+  {
+    const int* at = this->View->getRenderViewProxy()->GetInteractor()->GetEventPosition();
+    HandEvent event;
+    event.x = at[0];
+    event.y = at[1];
+    const vtkMTimeType before = this->Widget->representation()->GetMTime();
+    this->Tool->hover(event);
+    this->drawIfChanged(before);
+  }
 }
 
 void ToolCarrier::suggestRanges()
@@ -219,7 +234,24 @@ void ToolCarrier::followCursor(pqRenderView* view)
     this->refresh();
   }
   ToolSettings::instance()->setGround(groundOf(activeDeformation(view), view));
-  this->tellWhatIsShown();
+  this->Other.tell();
+}
+
+// Keys take the mouse along, as far as the system lets them; that must not end their work.
+bool ToolCarrier::hearMouse(const HandEvent& event)
+{
+  constexpr int rounding = 2; // pixels
+  const bool goneAlong =
+    (event.kind == HandEvent::Kind::Move && std::abs(event.x - this->CursorX) <= rounding &&
+      std::abs(event.y - this->CursorY) <= rounding) ||
+    event.kind == HandEvent::Kind::Leave;
+  if (this->ByKeys && goneAlong)
+  {
+    return false;
+  }
+  this->ByKeys = false;
+  this->HasCursor = event.kind != HandEvent::Kind::Leave;
+  return this->handle(event);
 }
 
 bool ToolCarrier::handle(const HandEvent& event)
@@ -230,12 +262,9 @@ bool ToolCarrier::handle(const HandEvent& event)
   {
     return false;
   }
-  const auto before = this->Widget->representation()->GetMTime();
+  const vtkMTimeType before = this->Widget->representation()->GetMTime();
   const bool taken = this->pass(event);
-  if (this->Widget && this->Widget->representation()->GetMTime() != before)
-  {
-    this->drawSoon();
-  }
+  this->drawIfChanged(before);
   return taken;
 }
 
@@ -246,7 +275,12 @@ bool ToolCarrier::pass(const HandEvent& event)
     case HandEvent::Kind::Press:
       this->Settle.stop();
       this->Tool->settle();
-      this->Holding = this->Tool->press(event);
+      // Move would take control points of a volume that is not seen.
+      this->Holding = !this->Other.shown() && this->Tool->press(event);
+      if (!this->Holding && !event.shift && !event.control)
+      {
+        this->Other.press({ event.x, event.y });
+      }
       return this->Holding;
     case HandEvent::Kind::Move:
       if (this->Holding)
@@ -255,7 +289,11 @@ bool ToolCarrier::pass(const HandEvent& event)
         return true;
       }
       this->Zooming = false;
-      if (QApplication::mouseButtons() == Qt::NoButton) // else the camera has the mouse
+      if (this->Other.shown())
+      {
+        this->outlineNothing();
+      }
+      else if (this->Dropped || QApplication::mouseButtons() == Qt::NoButton) // else the camera's
       {
         this->Tool->hover(event);
       }
@@ -263,6 +301,9 @@ bool ToolCarrier::pass(const HandEvent& event)
     case HandEvent::Kind::Release:
       if (!this->Holding)
       {
+        this->Dropped = false;
+        this->Other.release({ event.x, event.y });
+        this->Resting.look();
         return false;
       }
       this->Holding = false;
@@ -288,6 +329,23 @@ bool ToolCarrier::pass(const HandEvent& event)
   return false;
 }
 
+// Clears only once: each change is a picture.
+void ToolCarrier::outlineNothing()
+{
+  if (this->Widget->representation()->GetBounds())
+  {
+    this->Widget->representation()->Clear();
+  }
+}
+
+void ToolCarrier::drawIfChanged(vtkMTimeType before)
+{
+  if (this->Widget && this->Widget->representation()->GetMTime() != before)
+  {
+    this->drawSoon();
+  }
+}
+
 // While something is under the hand, its editor draws.
 void ToolCarrier::drawSoon()
 {
@@ -301,134 +359,13 @@ void ToolCarrier::cancel()
 {
   if (this->Tool && this->isAlive())
   {
+    this->Dropped = this->Holding;
     this->Holding = false;
     this->Tool->cancel();
     this->Widget->widget()->LetGo();
     ToolSettings::instance()->setAxisHold(ToolSettings::AxisHold::None);
+    this->Resting.lookAtNext();
     this->drawSoon();
   }
-}
-
-void ToolCarrier::holdAxis(ToolSettings::AxisHold axis)
-{
-  ToolSettings* settings = ToolSettings::instance();
-  settings->setAxisHold(settings->axisHold() == axis ? ToolSettings::AxisHold::None : axis);
-  HandEvent event;
-  event.x = this->CursorX;
-  event.y = this->CursorY;
-  this->handle(event);
-}
-
-void ToolCarrier::setInterest()
-{
-  if (const auto spot = this->Probe->spotAt({ this->CursorX, this->CursorY }))
-  {
-    this->Probe->setPointOfInterest(spot->position);
-    this->Widget->representation()->Clear();
-    this->drawSoon();
-  }
-}
-
-StrokeEditor* ToolCarrier::editorUnderCursor() const
-{
-  pqPipelineSource* deformation = activeDeformation(this->Cursor.view());
-  const bool applied = deformation && deformation->modifiedState() != pqProxy::UNINITIALIZED;
-  return applied ? StrokeEditor::of(deformation) : nullptr;
-}
-
-bool ToolCarrier::canDo(Command command) const
-{
-  const bool inHand = this->Tool && this->isAlive();
-  const bool overView = this->Cursor.view() && !this->Holding && !isTyping();
-  switch (command)
-  {
-    case Command::HoldAxis:
-      return this->Holding;
-    case Command::Cancel:
-      return inHand && (this->Holding || this->Editor->isEditing());
-    case Command::SetPointOfInterest:
-      return inHand && overView && this->ToolInHand == ToolKind::Stamp;
-    case Command::ShowAsLoaded:
-      return overView && this->editorUnderCursor();
-    case Command::StepSlices:
-      return overView && ToolSettings::instance()->ground() == ToolSettings::Ground::FlatSlices;
-    default:
-      return false;
-  }
-}
-
-void ToolCarrier::stepSlices(int voxels)
-{
-  if (this->Tool && this->isAlive())
-  {
-    this->Tool->turnAway();
-  }
-  if (SliceMouse* slices = SliceMouse::of(this->Cursor.view()))
-  {
-    slices->step(voxels);
-  }
-}
-
-void ToolCarrier::act(const KeyCommand& found)
-{
-  constexpr int firstAxis = static_cast<int>(ToolSettings::AxisHold::X);
-  switch (found.command)
-  {
-    case Command::HoldAxis:
-      this->holdAxis(static_cast<ToolSettings::AxisHold>(firstAxis + found.place));
-      break;
-    case Command::Cancel:
-      this->cancel();
-      break;
-    case Command::SetPointOfInterest:
-      this->setInterest();
-      break;
-    case Command::ShowAsLoaded:
-      this->ShowingBefore = this->editorUnderCursor();
-      this->ShowingBefore->showBefore(true);
-      break;
-    case Command::StepSlices:
-      this->stepSlices(found.place == 0 ? 1 : -1);
-      break;
-    default:
-      break;
-  }
-}
-
-bool ToolCarrier::eventFilter(QObject* watched, QEvent* event)
-{
-  const QEvent::Type type = event->type();
-  if (type == QEvent::ApplicationDeactivate)
-  {
-    this->stopShowingBefore(); // another window hears of the key's release
-  }
-  if (type != QEvent::KeyPress && type != QEvent::KeyRelease && type != QEvent::ShortcutOverride)
-  {
-    return QObject::eventFilter(watched, event);
-  }
-  auto key = static_cast<QKeyEvent*>(event);
-  const KeyCommand found = commandOfKey({ Scope::Tool, Scope::View, Scope::Slices }, key->key());
-  if (type == QEvent::KeyRelease && found.command == Command::ShowAsLoaded &&
-    !key->isAutoRepeat() && this->ShowingBefore)
-  {
-    this->stopShowingBefore();
-    return true;
-  }
-  if (key->modifiers() != Qt::NoModifier || !this->canDo(found.command))
-  {
-    return QObject::eventFilter(watched, event);
-  }
-  if (type == QEvent::ShortcutOverride)
-  {
-    event->accept(); // or a shortcut of the window comes first
-    return true;
-  }
-  // A key that is held goes on through the slices, and does nothing else again.
-  const bool repeats = found.command == Command::StepSlices;
-  if (type == QEvent::KeyPress && (repeats || !key->isAutoRepeat()))
-  {
-    this->act(found);
-  }
-  return true;
 }
 }

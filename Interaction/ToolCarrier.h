@@ -10,10 +10,14 @@
 #include "Interaction/Commands/ToolSettings.h"
 #include "Interaction/Views/CursorWatch.h"
 #include "Interaction/Views/KeptPictures.h"
+#include "Interaction/Views/OtherVolume.h"
+#include "Interaction/Views/RestingCursor.h"
 
 #include <QObject>
 #include <QPointer>
 #include <QTimer>
+
+#include <vtkType.h>
 
 #include <memory>
 
@@ -46,22 +50,30 @@ private:
   void followCursor(pqRenderView* view);
   void refresh(); ///< Adapts to the tool, the view and the filter that are active now.
   void suggestRanges();
-  void tellWhatIsShown(); ///< To the settings, if the view shows another volume.
+  void hoverAgain(); ///< As if the cursor came to where it is.
   void putDown();
+  bool hearMouse(const HandEvent& event);
   bool handle(const HandEvent& event);
   bool pass(const HandEvent& event);
   bool canDo(Command command) const;
   void act(const KeyCommand& found);
   void holdAxis(ToolSettings::AxisHold axis);
   void setInterest();
+  void moveCursor(int way); ///< See Command::MoveCursor.
+  void stampByKey(int clicks);
+  bool viewHasKeys() const; ///< The view of the tool has the keyboard.
   void stepSlices(int voxels);
   StrokeEditor* editorUnderCursor() const; ///< Null if nothing can be deformed there.
   void stopShowingBefore();
   void cancel();
   void drawSoon();
+  void outlineNothing();
+  void drawIfChanged(vtkMTimeType before);
   bool isAlive() const;
 
   CursorWatch Cursor;
+  RestingCursor Resting;
+  OtherVolume Other;
   QPointer<pqRenderView> Under; ///< The view that the tool belongs to.
   KeptPictures Kept;            ///< As long as a tool is in hand.
   QPointer<pqPipelineSource> Deformation;
@@ -75,8 +87,11 @@ private:
   QTimer Refresh; ///< Merges events that may have changed something.
   QTimer Settle;  ///< Ends a burst of wheel clicks.
   bool Holding = false;
-  bool Zooming = false; ///< A burst of wheel clicks began away from tissue.
-  int CursorX = 0;      ///< Pixels from the view's lower left corner.
+  bool Dropped = false;   ///< The button is still down after Escape.
+  bool Zooming = false;   ///< A burst of wheel clicks began away from tissue.
+  bool ByKeys = false;    ///< Keys moved the cursor last, and not the mouse.
+  bool HasCursor = false; ///< CursorX and CursorY are a place in the view.
+  int CursorX = 0;        ///< Pixels from the view's lower left corner.
   int CursorY = 0;
 };
 }

@@ -4,7 +4,9 @@
 #include "Interaction/ToolCarrier.h"
 #include "Interaction/Views/KeptSelection.h"
 #include "Interaction/Views/SliceMouse.h"
+#include "Plugin/ComparisonLegend.h"
 #include "Plugin/FirstLook.h"
+#include "Plugin/QuietLinks.h"
 #include "Plugin/TraceLook.h"
 
 #include <pqActiveObjects.h>
@@ -57,6 +59,10 @@ void prepare(pqRepresentation* display)
   if (volume && !display->property(Shaded).toBool()) // once: who then turns it off means it
   {
     display->setProperty(Shaded, true);
+    if (representation->GetUsingScalarColoring() && data)
+    {
+      brainshift::joinLook(data);
+    }
     vtkSMPropertyHelper(representation, "Shade", /*quiet*/ true).Set(1);
   }
   representation->UpdateVTKObjects();
@@ -77,6 +83,8 @@ void BrainShiftBehavior::onStartup()
     model, &pqServerManagerModel::sourceAdded, this, &BrainShiftBehavior::watchSource);
   brainshift::SliceMouse::watchViews(this);
   new brainshift::KeptSelection(this);
+  new brainshift::QuietLinks(this);
+  new brainshift::ComparisonLegend(this);
   this->Hand = new brainshift::ToolCarrier(this);
 }
 

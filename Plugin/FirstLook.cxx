@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Plugin/FirstLook.h"
 
-#include "Interaction/Views/VolumeLook.h"
+#include "Interaction/Displays/LabelMaps.h"
+#include "Interaction/Displays/VolumeLook.h"
 
 #include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
@@ -9,6 +10,7 @@
 #include <pqPipelineFilter.h>
 #include <pqPipelineSource.h>
 #include <pqServerManagerModel.h>
+#include <pqUndoStack.h>
 #include <pqView.h>
 
 #include <vtkDataObject.h>
@@ -18,12 +20,15 @@
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMRenderViewProxy.h>
 #include <vtkSMSessionProxyManager.h>
+#include <vtkSMTransferFunctionProxy.h>
 
 #include <QList>
+#include <QPointer>
 #include <QTimer>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 namespace brainshift
@@ -85,12 +90,20 @@ bool isUnturned(vtkSMProxy* view)
     std::abs(from[1] - to[1]) <= 1e-6 * distance && up[1] == 1.0;
 }
 
-bool isAlone(pqDataRepresentation* display)
+bool isShownVolume(pqRepresentation* display)
+{
+  vtkSMProperty* type = display->getProxy()->GetProperty("Representation");
+  const char* name = type ? vtkSMPropertyHelper(type).GetAsString() : nullptr;
+  return display->isVisible() && name && std::strcmp(name, "Deformed Volume") == 0;
+}
+
+// Of several volumes that are opened at once, the camera turns to the first. Outlines of masks do
+// not count.
+bool isFirstVolume(pqDataRepresentation* display)
 {
   const QList<pqRepresentation*> all = display->getView()->getRepresentations();
-  return std::none_of(all.begin(), all.end(), [&](pqRepresentation* other) {
-    return other != display && other->isVisible() && qobject_cast<pqDataRepresentation*>(other);
-  });
+  const auto first = std::find_if(all.begin(), all.end(), isShownVolume);
+  return first != all.end() && *first == display;
 }
 
 // Turns the camera to the tissue, and takes the scale of colours away, which natural colours do not
@@ -106,11 +119,22 @@ void finishLater(pqDataRepresentation* display, const std::vector<double>& bound
     }
     vtkSMPVRepresentationProxy::SafeDownCast(display->getProxy())
       ->SetScalarBarVisibility(view, false);
-    if (display->isVisible() && isAlone(display) && isUnturned(view))
+    if (display->isVisible() && isFirstVolume(display) && isUnturned(view))
     {
       aimAt(view, bounds);
     }
     display->getView()->render();
+  });
+}
+
+bool isScaleShown(vtkSMProxy* colors)
+{
+  auto model = pqApplicationCore::instance()->getServerManagerModel();
+  const QList<pqView*> views = model->findItems<pqView*>();
+  return std::any_of(views.begin(), views.end(), [&](pqView* view) {
+    vtkSMProxy* scale =
+      vtkSMTransferFunctionProxy::FindScalarBarRepresentation(colors, view->getProxy());
+    return scale && vtkSMPropertyHelper(scale, "Visibility").GetAsInt() != 0;
   });
 }
 
@@ -170,6 +194,7 @@ void giveLook(pqDataRepresentation* display)
   if (look.kind == "Labels" && isOfReader(display))
   {
     outline(display);
+    noteLabelMap(sourceOf(display));
   }
   if (!look.name.isEmpty())
   {
@@ -202,5 +227,71 @@ void showFirstLook(pqDataRepresentation* display)
   {
     giveLook(display);
   }
+}
+
+namespace
+{
+// A display of what a source is made of that has colours of its own, not those of the array's name.
+pqDataRepresentation* ownColoredInput(pqDataRepresentation* display)
+{
+  auto model = pqApplicationCore::instance()->getServerManagerModel();
+  for (auto other : model->findItems<pqDataRepresentation*>())
+  {
+    if (other != display && other->getLookupTableProxy() &&
+      vtkSMPropertyHelper(other->getProxy(), "UseSeparateColorMap", true).GetAsInt() != 0 &&
+      isMadeOf(sourceOf(display), sourceOf(other)))
+    {
+      return other;
+    }
+  }
+  return nullptr;
+}
+
+void shareColors(pqDataRepresentation* display, pqDataRepresentation* from)
+{
+  vtkSMProxy* to = display->getProxy();
+  vtkSMPropertyHelper(to, "UseSeparateColorMap").Set(1);
+  for (const char* map : { "LookupTable", "ScalarOpacityFunction" })
+  {
+    vtkSMPropertyHelper(to, map).Set(vtkSMPropertyHelper(from->getProxy(), map).GetAsProxy());
+  }
+  to->UpdateVTKObjects();
+}
+
+void hideScale(pqDataRepresentation* display)
+{
+  vtkSMPVRepresentationProxy::SafeDownCast(display->getProxy())
+    ->SetScalarBarVisibility(display->getView()->getProxy(), false);
+}
+}
+
+void joinLook(pqDataRepresentation* display)
+{
+  pqDataRepresentation* input = ownColoredInput(display);
+  vtkSMProxy* colors = (input ? input : display)->getLookupTableProxy();
+  if (!colors || (!input && !isLook(colors)))
+  {
+    return;
+  }
+  const bool hides = isLook(colors) && !isScaleShown(colors);
+  // Later: ParaView still sets the colours of the array's name when it registers a display.
+  const QPointer<pqDataRepresentation> from = input;
+  QTimer::singleShot(0, display, [display, from, hides] {
+    SCOPED_UNDO_EXCLUDE(); // it belongs to Apply
+    const bool isShown = display->getView();
+    if (hides && isShown)
+    {
+      hideScale(display); // that of the array's name
+    }
+    if (from && from->getLookupTableProxy() != display->getLookupTableProxy())
+    {
+      shareColors(display, from);
+    }
+    if (hides && isShown)
+    {
+      hideScale(display);
+    }
+    display->renderViewEventually();
+  });
 }
 }

@@ -16,6 +16,11 @@ namespace brainshift
 /// A label map has no look. Its reader's first picture is its outline, so that it covers nothing.
 void showFirstLook(pqDataRepresentation* display);
 
+/// Gives a filter's volume the look of what it is made of. ParaView colours it by its array's name,
+/// which may mean the colours of another volume. The scale of colours is hidden unless the user
+/// asked for it before.
+void joinLook(pqDataRepresentation* display);
+
 /// The first point array of a volume, else the first of all, becomes the one to colour by.
 void colorByFirstArray(pqDataRepresentation* display);
 }

@@ -4,6 +4,7 @@
 #include "Filters/Attached/Guard.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Representations/Field/SceneDeformation.h"
+#include "Representations/Field/TissueFacts.h"
 #include "Representations/Gpu/GpuMemory.h"
 #include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/TextureMemory.h"
@@ -38,6 +39,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -70,16 +72,6 @@ struct vtkDeformedSlicesMapper::State
   std::set<std::string> Told;                 // remarks
   vtkWeakPointer<vtkVolumeProperty> Property; // drawn with last
 };
-
-namespace
-{
-// Texture coordinates. A plane on the very face of the box must not come and go with rounding.
-glm::dvec3 roundingOf(const ValueLayout& layout)
-{
-  constexpr double roundingVoxels = 1e-3;
-  return roundingVoxels / glm::dvec3(layout.dimensions);
-}
-}
 
 vtkStandardNewMacro(vtkDeformedSlicesMapper);
 
@@ -216,6 +208,7 @@ bool vtkDeformedSlicesMapper::UploadReference(
   }
   ComparisonChoice choice;
   choice.comparison = this->Comparison;
+  choice.colors = colorPair(static_cast<brainshift::ComparisonColors>(this->ComparisonColors));
   choice.checkerSizeMm = this->CheckerSize;
   choice.fullGradient = this->FullGradient;
   choice.wipePosition = { this->WipePosition[0], this->WipePosition[1], this->WipePosition[2] };
@@ -271,18 +264,12 @@ bool vtkDeformedSlicesMapper::IsSeenAt(const glm::dvec3& texture)
     rest = textureFromWorld(
       values, state.Deformation.map().restFromDeformed(values.grid.worldFromGrid(place)));
   }
-  const glm::dvec3 rounding = roundingOf(layout);
-  if (glm::any(glm::lessThan(rest, layout.low - rounding)) ||
-    glm::any(glm::greaterThan(rest, layout.high + rounding)))
+  const std::optional<long long> index = nearestValue(layout, rest, roundingOf(layout));
+  if (!index)
   {
     return false;
   }
-  const glm::ivec3 voxel = glm::clamp(glm::ivec3(glm::floor(rest * glm::dvec3(layout.dimensions))),
-    glm::ivec3(0), layout.dimensions - 1);
-  const vtkIdType index =
-    (static_cast<vtkIdType>(voxel.z) * layout.dimensions.y + voxel.y) * layout.dimensions.x +
-    voxel.x;
-  const double value = values.scalars->GetComponent(index, 0);
+  const double value = values.scalars->GetComponent(*index, 0);
   const bool seenThrough = this->MapOpacity && state.Property &&
     state.Property->GetScalarOpacity()->GetValue(value) <= 0.0;
   return !std::isnan(value) && !seenThrough;
@@ -306,6 +293,27 @@ bool vtkDeformedSlicesMapper::Pick(
     }
   }
   return false;
+}
+
+void vtkDeformedSlicesMapper::DescribeTissue(const double deformedMm[3], TissueFacts& facts)
+{
+  if (auto image = vtkImageData::SafeDownCast(this->GetDataSetInput()))
+  {
+    this->UpdateDeformation(image);
+    facts = factsAt(image, drawnValuesOf(this, image), this->Internal->Deformation,
+      { deformedMm[0], deformedMm[1], deformedMm[2] });
+  }
+}
+
+void vtkDeformedSlicesMapper::FindSameTissue(const double place[3], bool toRest, double found[3])
+{
+  if (auto image = vtkImageData::SafeDownCast(this->GetDataSetInput()))
+  {
+    this->UpdateDeformation(image);
+  }
+  const glm::dvec3 same =
+    sameTissue(this->Internal->Deformation, { place[0], place[1], place[2] }, toRest);
+  std::copy_n(&same[0], 3, found);
 }
 
 void vtkDeformedSlicesMapper::GetNormals(double normals[9])
@@ -367,6 +375,7 @@ void vtkDeformedSlicesMapper::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Opacity: " << this->Opacity << "\n"
      << indent << "MapOpacity: " << this->MapOpacity << "\n"
      << indent << "Comparison: " << this->Comparison << "\n"
+     << indent << "ComparisonColors: " << this->ComparisonColors << "\n"
      << indent << "CheckerSize: " << this->CheckerSize << "\n"
      << indent << "ReferenceRange: " << this->ReferenceRange[0] << " " << this->ReferenceRange[1]
      << "\n"

@@ -33,6 +33,7 @@ struct DrawnValues;
 struct DrawnVolume;
 struct GpuTask;
 struct SliceScene;
+struct TissueFacts;
 struct TissueRequest;
 }
 
@@ -98,10 +99,10 @@ public:
   enum ComparisonType
   {
     NoComparison = 0,
-    RedGreen = 1,     ///< Volume red, reference green, agreement yellow.
+    TwoColors = 1,    ///< Each in its colour, agreement in the sum of both.
     Checkerboard = 2, ///< Fields of volume and reference in turn, with the colour map.
     Difference = 3,   ///< Volume minus reference; agreement is grey.
-    Gradient = 4,     ///< The reference's gradient, green, over the volume in grey.
+    Gradient = 4,     ///< The reference's gradient, in its colour, over the volume in grey.
     Wipe = 5,         ///< The volume on one side of a line, the reference on the other.
   };
 
@@ -113,6 +114,16 @@ public:
    */
   vtkSetClampMacro(Comparison, int, NoComparison, Wipe);
   vtkGetMacro(Comparison, int);
+  ///@}
+
+  ///@{
+  /**
+   * Colours of the volume and of the reference, as brainshift::ComparisonColors numbers them: red
+   * and green, which add up to yellow, or blue and orange, which add up to grey. Default red and
+   * green.
+   */
+  vtkSetClampMacro(ComparisonColors, int, 0, 1);
+  vtkGetMacro(ComparisonColors, int);
   ///@}
 
   ///@{
@@ -130,7 +141,7 @@ public:
 
   ///@{
   /**
-   * Change of the reference within one mm at which Gradient is fully green, as a share of the
+   * Change of the reference within one mm at which Gradient has its full colour, as a share of the
    * colour map's range. Default 0.3.
    */
   vtkSetClampMacro(FullGradient, double, 1e-6, VTK_DOUBLE_MAX);
@@ -175,6 +186,14 @@ public:
    */
   bool Pick(vtkRenderer* renderer, int x, int y, double position[3], double normal[3]);
 
+  /** What is known of the tissue at a place of the deformed frame: mm, before the transform of the
+   * vtkVolume. */
+  void DescribeTissue(const double deformedMm[3], brainshift::TissueFacts& facts);
+
+  /** Where tissue that is drawn at a place lies at rest, or, if `toRest` is false, where tissue of
+   * a rest place is drawn. Both mm, before the transform of the vtkVolume. */
+  void FindSameTissue(const double place[3], bool toRest, double found[3]);
+
   /** What the mapper did since it was made, and what it holds on the GPU now. */
   const brainshift::Counters& GetCounters();
 
@@ -210,6 +229,7 @@ private:
   double Opacity = 1.0;
   bool MapOpacity = false;
   int Comparison = NoComparison;
+  int ComparisonColors = 0;
   double CheckerSize = 20.0;
   double ReferenceRange[2] = { 0.0, 0.0 };
   double FullGradient = 0.3;

@@ -107,6 +107,11 @@ void vtkDeformedSlicesRepresentation::SetComparison(int comparison)
   this->GetDeformedSlicesMapper()->SetComparison(comparison);
 }
 
+void vtkDeformedSlicesRepresentation::SetComparisonColors(int colors)
+{
+  this->GetDeformedSlicesMapper()->SetComparisonColors(colors);
+}
+
 void vtkDeformedSlicesRepresentation::SetCheckerSize(double size)
 {
   this->GetDeformedSlicesMapper()->SetCheckerSize(size);

@@ -42,6 +42,7 @@ public:
   void SetOpacity(double opacity);
   void SetMapOpacity(bool map);
   void SetComparison(int comparison);
+  void SetComparisonColors(int colors);
   void SetCheckerSize(double size);
   void SetReferenceRange(double black, double white);
   void SetFullGradient(double share);

@@ -3,6 +3,7 @@
 
 #include "Filters/Attached/Guard.h"
 #include "Representations/Field/SceneDeformation.h"
+#include "Representations/Field/TissueFacts.h"
 #include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/WindowDevices.h"
 #include "Representations/Picture/SelectionCover.h"
@@ -165,6 +166,7 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   request.mapper = this;
   request.tissue = this->TissueOf(image, volume->GetProperty(), values);
   request.reference = this->ReferenceOf(image, request.tissue);
+  this->ComparePlainly(request);
   request.memoryLimitMiB = this->MemoryLimit;
   request.wish.adaptive = this->AdaptiveQuality;
   request.wish.keep = this->KeepPicture || OverVolumes::areVisibleIn(renderer);
@@ -195,6 +197,9 @@ TissueRequest vtkDeformedVolumeMapper::TissueOf(
   tissue.values = values;
   tissue.stepMm = this->StepOn(values.grid);
   tissue.blend = blendOf(this, property);
+  tissue.opacity = opacityOf(this, property, values.scalars);
+  values.scalars->GetFiniteRange(
+    &tissue.range[0], drawnComponents(property, values.scalars).scalar);
   tissue.gradients = static_cast<GradientSource>(this->NormalTexture);
   tissue.nearest = property->GetInterpolationType() == VTK_NEAREST_INTERPOLATION;
   tissue.skips = this->EmptySpaceSkipping;
@@ -249,6 +254,7 @@ SceneReference vtkDeformedVolumeMapper::ReferenceOf(
   reference.agreementMm = this->AgreementDistance > 0.0
     ? this->AgreementDistance
     : usualVoxels * std::min({ side.x, side.y, side.z });
+  reference.colors = colorPair(static_cast<brainshift::ComparisonColors>(this->ComparisonColors));
   if (!reference.exists() || reference.show == ReferenceShow::Reference)
   {
     return reference;
@@ -256,9 +262,24 @@ SceneReference vtkDeformedVolumeMapper::ReferenceOf(
   const bool compared = reference.show == ReferenceShow::Both && this->Comparison != NoComparison;
   if (compared && tissue.blend != Blend::Composite)
   {
-    this->TellOnce("Red and green need blend mode Composite: the volume is drawn alone");
+    this->TellOnce(
+      "A comparison in two colours needs blend mode Composite: the volume is drawn alone");
   }
   return compared && tissue.blend == Blend::Composite ? reference : SceneReference();
+}
+
+// The two colours of a comparison have no colours of their own to look up with gradients.
+void vtkDeformedVolumeMapper::ComparePlainly(VolumeRequest& request)
+{
+  if (!request.reference.exists() || request.reference.isAlone() ||
+    request.tissue.opacity == Opacity::Scalar)
+  {
+    return;
+  }
+  this->TellOnce("A comparison shows neither gradient opacity nor a 2D transfer function: they use "
+                 "the opacity curve");
+  request.tissue.opacity = Opacity::Scalar;
+  request.reference.tissue.opacity = Opacity::Scalar;
 }
 
 void vtkDeformedVolumeMapper::TellOnce(const std::string& sentence)
@@ -287,6 +308,27 @@ bool vtkDeformedVolumeMapper::Pick(vtkRenderer* renderer, int x, int y, double p
   }
   std::copy_n(&hit[0], 3, position);
   return true;
+}
+
+void vtkDeformedVolumeMapper::DescribeTissue(const double deformedMm[3], TissueFacts& facts)
+{
+  if (auto image = vtkImageData::SafeDownCast(this->GetDataSetInput()))
+  {
+    this->UpdateDeformation(image);
+    facts = factsAt(image, drawnValuesOf(this, image), this->Internal->Deformation,
+      { deformedMm[0], deformedMm[1], deformedMm[2] });
+  }
+}
+
+void vtkDeformedVolumeMapper::FindSameTissue(const double place[3], bool toRest, double found[3])
+{
+  if (auto image = vtkImageData::SafeDownCast(this->GetDataSetInput()))
+  {
+    this->UpdateDeformation(image);
+  }
+  const glm::dvec3 same =
+    sameTissue(this->Internal->Deformation, { place[0], place[1], place[2] }, toRest);
+  std::copy_n(&same[0], 3, found);
 }
 
 const FirstHits* vtkDeformedVolumeMapper::GetHits(vtkWindow* window)
@@ -351,6 +393,7 @@ void vtkDeformedVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "MemoryLimit: " << this->MemoryLimit << "\n"
      << indent << "NormalTexture: " << this->NormalTexture << "\n"
      << indent << "Comparison: " << this->Comparison << "\n"
+     << indent << "ComparisonColors: " << this->ComparisonColors << "\n"
      << indent << "ReferenceRange: " << this->ReferenceRange[0] << " " << this->ReferenceRange[1]
      << "\n"
      << indent << "AgreementDistance: " << this->AgreementDistance << "\n"

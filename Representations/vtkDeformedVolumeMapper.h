@@ -38,7 +38,9 @@ struct Counters;
 struct DrawnValues;
 struct Grid;
 struct SceneReference;
+struct TissueFacts;
 struct TissueRequest;
+struct VolumeRequest;
 }
 
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkDeformedVolumeMapper
@@ -133,13 +135,23 @@ public:
   enum ComparisonType
   {
     NoComparison = 0,
-    RedGreen = 1, ///< Volume red, reference green, agreement yellow.
+    TwoColors = 1, ///< Each in its colour, agreement in the sum of both.
   };
 
   ///@{
-  /** How the reference that Compare Volumes attached is shown. Default red and green. */
-  vtkSetClampMacro(Comparison, int, NoComparison, RedGreen);
+  /** How the reference that Compare Volumes attached is shown. Default two colours. */
+  vtkSetClampMacro(Comparison, int, NoComparison, TwoColors);
   vtkGetMacro(Comparison, int);
+  ///@}
+
+  ///@{
+  /**
+   * Colours of the volume and of the reference, as brainshift::ComparisonColors numbers them: red
+   * and green, which add up to yellow, or blue and orange, which add up to grey. Default red and
+   * green.
+   */
+  vtkSetClampMacro(ComparisonColors, int, 0, 1);
+  vtkGetMacro(ComparisonColors, int);
   ///@}
 
   ///@{
@@ -209,6 +221,14 @@ public:
    */
   void CoverSelection(vtkRenderer* renderer);
 
+  /** What is known of the tissue at a place of the deformed frame: mm, before the transform of the
+   * vtkVolume. */
+  void DescribeTissue(const double deformedMm[3], brainshift::TissueFacts& facts);
+
+  /** Where tissue that is drawn at a place lies at rest, or, if `toRest` is false, where tissue of
+   * a rest place is drawn. Both mm, before the transform of the vtkVolume. */
+  void FindSameTissue(const double place[3], bool toRest, double found[3]);
+
   /** What the mapper did since it was made, and what it holds on the GPU now. */
   const brainshift::Counters& GetCounters();
 
@@ -230,6 +250,7 @@ private:
   // What is to be drawn, as the settings say.
   brainshift::TissueRequest TissueOf(
     vtkImageData* image, vtkVolumeProperty* property, const brainshift::DrawnValues& values);
+  void ComparePlainly(brainshift::VolumeRequest& request);
   brainshift::SceneReference ReferenceOf(
     vtkImageData* image, const brainshift::TissueRequest& tissue);
   double StepOn(const brainshift::Grid& grid);
@@ -246,7 +267,8 @@ private:
   double MemoryLimit = 0.0;
   bool DrawSegment = false;
   std::vector<int> DrawnLabels;
-  int Comparison = RedGreen;
+  int Comparison = TwoColors;
+  int ComparisonColors = 0;
   double ReferenceRange[2] = { 0.0, 0.0 };
   double AgreementDistance = 0.0;
   double AmbientOcclusion = 0.5;

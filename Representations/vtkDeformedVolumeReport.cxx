@@ -2,14 +2,20 @@
 #include "vtkDeformedVolumeReport.h"
 
 #include "Filters/Attached/Guard.h"
+#include "Representations/Field/TissueFacts.h"
 #include "Representations/Gpu/Counters.h"
 #include "vtkDeformedSlicesMapper.h"
 #include "vtkDeformedSlicesRepresentation.h"
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkDeformedVolumeRepresentation.h"
 
+#include "vtkCamera.h"
 #include "vtkCompositeRepresentation.h"
+#include "vtkMath.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPVLODVolume.h"
 #include "vtkPVRenderView.h"
 #include "vtkRenderer.h"
 
@@ -89,6 +95,68 @@ double* vtkDeformedVolumeReport::GetTissue()
   return this->Tissue;
 }
 
+double* vtkDeformedVolumeReport::GetFacts()
+{
+  std::fill_n(this->Facts, 17, 0.0);
+  auto whole = vtkWholeVolumeRepresentation::SafeDownCast(this->ActiveRepresentation());
+  vtkDeformedVolumeMapper* mapper = this->Mapper();
+  vtkDeformedSlicesMapper* slices = this->Slices();
+  const double* tissue = this->GetTissue();
+  if (tissue[3] == 0.0 || !whole || !(mapper || slices))
+  {
+    return this->Facts;
+  }
+  brainshift::guarded(this, [&] {
+    vtkNew<vtkMatrix4x4> volumeFromWorld;
+    vtkMatrix4x4::Invert(whole->GetActor()->GetMatrix(), volumeFromWorld);
+    const double world[4] = { tissue[0], tissue[1], tissue[2], 1.0 };
+    double place[4];
+    volumeFromWorld->MultiplyPoint(world, place);
+    brainshift::TissueFacts facts;
+    mapper ? mapper->DescribeTissue(place, facts) : slices->DescribeTissue(place, facts);
+    this->TakeFacts(facts);
+    vtkCamera* camera = this->View->GetRenderer()->GetActiveCamera();
+    double fromEye[3];
+    vtkMath::Subtract(tissue, camera->GetPosition(), fromEye);
+    this->Facts[16] = vtkMath::Dot(fromEye, camera->GetDirectionOfProjection());
+  });
+  return this->Facts;
+}
+
+void vtkDeformedVolumeReport::TakeFacts(const brainshift::TissueFacts& facts)
+{
+  double* next = this->Facts;
+  *next++ = 1.0;
+  next = std::copy_n(&facts.deformed[0], 3, next);
+  next = std::copy_n(&facts.rest[0], 3, next);
+  *next++ = facts.bent ? 1.0 : 0.0;
+  *next++ = facts.volumeShare;
+  for (const auto& known : { facts.value, facts.reference, facts.label })
+  {
+    *next++ = known ? 1.0 : 0.0;
+    *next++ = known.value_or(0.0);
+  }
+  *next = static_cast<double>(facts.axes);
+}
+
+double* vtkDeformedVolumeReport::GetSameTissue()
+{
+  std::copy_n(this->Place, 3, this->SameTissue);
+  vtkDeformedVolumeMapper* mapper = this->Mapper();
+  vtkDeformedSlicesMapper* slices = this->Slices();
+  brainshift::guarded(this, [&] {
+    if (mapper)
+    {
+      mapper->FindSameTissue(this->Place, this->ToRest, this->SameTissue);
+    }
+    else if (slices)
+    {
+      slices->FindSameTissue(this->Place, this->ToRest, this->SameTissue);
+    }
+  });
+  return this->SameTissue;
+}
+
 const char* vtkDeformedVolumeReport::GetCounters()
 {
   vtkDeformedVolumeMapper* mapper = this->Mapper();
@@ -116,5 +184,8 @@ const char* vtkDeformedVolumeReport::GetCounters()
 void vtkDeformedVolumeReport::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Pixel: " << this->Pixel[0] << " " << this->Pixel[1] << "\n";
+  os << indent << "Pixel: " << this->Pixel[0] << " " << this->Pixel[1] << "\n"
+     << indent << "Place: " << this->Place[0] << " " << this->Place[1] << " " << this->Place[2]
+     << "\n"
+     << indent << "ToRest: " << this->ToRest << "\n";
 }

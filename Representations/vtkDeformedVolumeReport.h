@@ -19,6 +19,10 @@ class vtkDeformedSlicesMapper;
 class vtkDeformedVolumeMapper;
 class vtkPVDataRepresentation;
 class vtkPVRenderView;
+namespace brainshift
+{
+struct TissueFacts;
+}
 
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkDeformedVolumeReport : public vtkObject
 {
@@ -47,6 +51,40 @@ public:
   double* GetTissue() VTK_SIZEHINT(7);
 
   /**
+   * Seventeen numbers about the tissue at the pixel of the last picture. Positions are mm in the
+   * volume's own axes, before the transform of the representation.
+   *
+   *     0       1, or 0 if no surface was hit: then all numbers are 0
+   *     1 - 3   position, deformed frame
+   *     4 - 6   position, rest frame
+   *     7, 8    1 if a deformation places the tissue, or 0; Jacobian determinant (1: no change)
+   *     9, 10   1, or 0 if unknown; the value of the nearest voxel of the drawn array
+   *     11, 12  1, or 0 if unknown; the value of the nearest voxel of the reference
+   *     13, 14  1, or 0 if unknown; the label of the nearest voxel of the segmentation
+   *     15      what the data says about its axes: 0 nothing, 1 RAS, 2 LPS
+   *     16      distance from the camera along the direction of view, mm
+   *
+   * Nothing is drawn.
+   */
+  double* GetFacts() VTK_SIZEHINT(17);
+
+  ///@{
+  /** Place (mm, the volume's own axes) that GetSameTissue starts from. Default 0 0 0. */
+  vtkSetVector3Macro(Place, double);
+  vtkGetVector3Macro(Place, double);
+  ///@}
+
+  ///@{
+  /** Whether Place is in the deformed frame and GetSameTissue in the rest frame, or the other way
+   * round. Default true. */
+  vtkSetMacro(ToRest, bool);
+  vtkGetMacro(ToRest, bool);
+  ///@}
+
+  /** Where the tissue at Place lies in the other frame, mm. Place itself if nothing bends it. */
+  double* GetSameTissue() VTK_SIZEHINT(3);
+
+  /**
    * What the renderer did since it was made, and what it holds on the GPU (Gpu/Counters.h): lines
    * of a name, a space and a number.
    */
@@ -66,6 +104,7 @@ private:
   vtkDeformedVolumeReport(const vtkDeformedVolumeReport&) = delete;
   void operator=(const vtkDeformedVolumeReport&) = delete;
 
+  void TakeFacts(const brainshift::TissueFacts& facts);
   vtkPVDataRepresentation* ActiveRepresentation() const;
   vtkDeformedVolumeMapper* Mapper() const; // null if there is none
   vtkDeformedSlicesMapper* Slices() const; // null if there is none
@@ -73,7 +112,11 @@ private:
   vtkWeakPointer<vtkPVDataRepresentation> Representation;
   vtkWeakPointer<vtkPVRenderView> View;
   int Pixel[2] = { -1, -1 };
+  double Place[3] = {};
+  bool ToRest = true;
   double Tissue[7] = {};
+  double Facts[17] = {};
+  double SameTissue[3] = {};
   double SliceNormals[9] = {};
   double VoxelSteps[3] = {};
   std::string Counters;

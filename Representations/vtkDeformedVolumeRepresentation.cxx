@@ -10,8 +10,12 @@
 #include "vtkCommand.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVRenderView.h"
+#include "vtkPiecewiseFunction.h"
 #include "vtkRenderer.h"
 #include "vtkSmartVolumeMapper.h"
+#include "vtkVolumeProperty.h"
+
+#include <cmath>
 
 vtkStandardNewMacro(vtkDeformedVolumeRepresentation);
 
@@ -92,6 +96,11 @@ void vtkDeformedVolumeRepresentation::SetComparison(int comparison)
   this->GetDeformedVolumeMapper()->SetComparison(comparison);
 }
 
+void vtkDeformedVolumeRepresentation::SetComparisonColors(int colors)
+{
+  this->GetDeformedVolumeMapper()->SetComparisonColors(colors);
+}
+
 void vtkDeformedVolumeRepresentation::SetReferenceRange(double low, double high)
 {
   this->GetDeformedVolumeMapper()->SetReferenceRange(low, high);
@@ -110,6 +119,24 @@ void vtkDeformedVolumeRepresentation::SetAmbientOcclusion(double darkness)
 void vtkDeformedVolumeRepresentation::SetOcclusionRadius(double radius)
 {
   this->GetDeformedVolumeMapper()->SetOcclusionRadius(radius);
+}
+
+void vtkDeformedVolumeRepresentation::AddGradientOpacity(double gradient, double factor)
+{
+  if (!std::isfinite(gradient) || !(factor >= 0.0 && factor <= 1.0))
+  {
+    vtkErrorMacro("GradientOpacity: the pair "
+      << gradient << " " << factor << " is left out; it needs a number and a factor of 0 to 1.");
+    return;
+  }
+  this->GradientFactors->AddPoint(gradient, factor);
+  this->Property->SetGradientOpacity(this->GradientFactors);
+}
+
+void vtkDeformedVolumeRepresentation::ClearGradientOpacity()
+{
+  this->GradientFactors->RemoveAllPoints();
+  this->Property->SetGradientOpacity(nullptr);
 }
 
 void vtkDeformedVolumeRepresentation::SetGlobalIlluminationReach(float reach)
@@ -144,6 +171,11 @@ void vtkDeformedVolumeRepresentation::UpdateMapperParameters()
     "GlobalIlluminationReach is above 0; Deformed Volume draws no shadows");
   this->TellOnce(this->VolumetricScatteringBlending > 0.0f,
     "VolumetricScatteringBlending is above 0; Deformed Volume draws no scattered light");
+  this->TellOnce(
+    this->UseTransfer2D && !this->UseGradientForTransfer2D && !this->ColorArray2Name.empty(),
+    "UseGradientForTransfer2D is off; Deformed Volume looks a 2D transfer function up by scalar "
+    "and "
+    "gradient, not by a second array");
   this->TellOnce(this->RequestedRenderMode == vtkSmartVolumeMapper::RayCastRenderMode ||
       this->RequestedRenderMode == vtkSmartVolumeMapper::OSPRayRenderMode,
     "VolumeRenderingMode asks for software or OSPRay; Deformed Volume draws on the GPU");

@@ -19,6 +19,7 @@
 #include <string> // for its sentences
 
 class vtkDeformedVolumeMapper;
+class vtkPiecewiseFunction;
 class vtkVolumeOrder;
 
 namespace brainshift
@@ -69,6 +70,15 @@ public:
   void SetOcclusionRadius(double radius);
   ///@}
 
+  ///@{
+  /**
+   * Factor on opacity, 0 to 1, for a gradient: how much the scalar changes over a mean voxel side.
+   * Linear between those that were added. None (default): opacity depends on the scalar alone.
+   */
+  void AddGradientOpacity(double gradient, double factor);
+  void ClearGradientOpacity();
+  ///@}
+
   /** The mapper that draws it in this process. */
   vtkDeformedVolumeMapper* GetDeformedVolumeMapper() const;
 
@@ -78,6 +88,7 @@ public:
   ///@{
   /** How a reference that the data carries is shown; see vtkDeformedVolumeMapper. */
   void SetComparison(int comparison);
+  void SetComparisonColors(int colors);
   void SetReferenceRange(double low, double high);
   void SetAgreementDistance(double distance);
   ///@}
@@ -106,6 +117,7 @@ private:
   void CoverPointSelection(vtkObject* caller, unsigned long, void*);
 
   vtkNew<vtkVolumeOrder> Order;
+  vtkNew<vtkPiecewiseFunction> GradientFactors;
   std::unique_ptr<brainshift::EdgeSmoothing> Smoothing;
   std::unique_ptr<brainshift::MovingWindow> Moving;
   unsigned long RenderStart = 0; // observer of the view's renderer

@@ -8,19 +8,43 @@
 #include "Representations/Window/LostServer.h"
 
 #include "vtkCommunicator.h"
+#include "vtkCoordinate.h"
 #include "vtkImageData.h"
 #include "vtkMath.h"
 #include "vtkMultiProcessController.h"
 #include "vtkOutlineSource.h"
 #include "vtkPVLODVolume.h"
+#include "vtkPVRenderView.h"
 #include "vtkPVView.h"
+#include "vtkRenderer.h"
+#include "vtkTextActor.h"
+#include "vtkTextProperty.h"
 #include "vtkVolumeMapper.h"
 
 brainshiftGuardRequestsMacro(vtkWholeVolumeRepresentation);
 
+namespace
+{
+constexpr int LegendFontSize = 14;
+// From the left edge and from the lower one, shares of the view. Above lie a slice's name and the
+// letter of the upper edge.
+constexpr double LegendInset = 0.015;
+constexpr double LegendTop = 0.89;
+}
+
 vtkWholeVolumeRepresentation::vtkWholeVolumeRepresentation()
   : Gathered(std::make_unique<brainshift::GatheredVolume>())
 {
+  this->Legend->PickableOff();
+  this->Legend->UseBoundsOff();
+  this->Legend->VisibilityOff();
+  this->Legend->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
+  this->Legend->SetPosition(LegendInset, LegendTop);
+  vtkTextProperty* text = this->Legend->GetTextProperty();
+  text->SetFontSize(LegendFontSize);
+  text->SetBold(true);
+  text->SetShadow(true); // the background may be bright
+  text->SetVerticalJustification(VTK_TEXT_TOP);
 }
 
 vtkWholeVolumeRepresentation::~vtkWholeVolumeRepresentation() = default;
@@ -99,10 +123,36 @@ void vtkWholeVolumeRepresentation::GatherParts()
   this->WidenBounds();
 }
 
+void vtkWholeVolumeRepresentation::SetVisibility(bool visible)
+{
+  this->Superclass::SetVisibility(visible);
+  const char* text = this->Legend->GetInput();
+  this->Legend->SetVisibility(visible && text && *text);
+}
+
+void vtkWholeVolumeRepresentation::SetLegend(const char* text)
+{
+  this->Legend->SetInput(text ? text : "");
+  this->Legend->SetVisibility(this->GetVisibility() && text && *text);
+}
+
 bool vtkWholeVolumeRepresentation::AddToView(vtkView* view)
 {
   brainshift::watchServer();
+  if (auto renderView = vtkPVRenderView::SafeDownCast(view))
+  {
+    renderView->GetNonCompositedRenderer()->AddViewProp(this->Legend);
+  }
   return this->Superclass::AddToView(view);
+}
+
+bool vtkWholeVolumeRepresentation::RemoveFromView(vtkView* view)
+{
+  if (auto renderView = vtkPVRenderView::SafeDownCast(view))
+  {
+    renderView->GetNonCompositedRenderer()->RemoveViewProp(this->Legend);
+  }
+  return this->Superclass::RemoveFromView(view);
 }
 
 void vtkWholeVolumeRepresentation::UpdateMapperParameters()
@@ -117,5 +167,7 @@ void vtkWholeVolumeRepresentation::UpdateMapperParameters()
 void vtkWholeVolumeRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  const char* legend = this->Legend->GetInput();
+  os << indent << "Legend: " << (legend ? legend : "") << "\n";
   os << indent << "IsDrawnElsewhere: " << this->IsDrawnElsewhere << "\n";
 }

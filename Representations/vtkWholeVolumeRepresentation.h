@@ -13,10 +13,13 @@
 
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 #include "vtkImageVolumeRepresentation.h"
+#include "vtkNew.h" // for the legend
 
 #include <memory> // for what is gathered
 
 class vtkImageData;
+class vtkTextActor;
+class vtkTextActor;
 
 namespace brainshift
 {
@@ -32,6 +35,13 @@ public:
   vtkTypeBool ProcessRequest(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
+  /** Shown or not, and the legend with it. */
+  void SetVisibility(bool visible) override;
+
+  /** Text in the upper left corner of the view, for example which of two volumes has which colour.
+   * Empty (default) or null: none. */
+  void SetLegend(const char* text);
+
   int ProcessViewRequest(
     vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output) override;
 
@@ -43,6 +53,7 @@ protected:
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
   bool AddToView(vtkView* view) override;
+  bool RemoveFromView(vtkView* view) override;
   void UpdateMapperParameters() override;
 
 private:
@@ -52,6 +63,7 @@ private:
   void GatherParts();
   void WidenBounds();
 
+  vtkNew<vtkTextActor> Legend;
   std::unique_ptr<brainshift::GatheredVolume> Gathered;
   vtkSmartPointer<vtkImageData> Part; // of this process
   bool IsNew = false;                 // the part, since parts were gathered

@@ -2,6 +2,7 @@
 #include "vtkLatticeRepresentation.h"
 
 #include "Filters/Attached/Guard.h"
+#include "Filters/ScreenScale.h"
 
 #include "vtkActor.h"
 #include "vtkBoundingBox.h"
@@ -13,6 +14,7 @@
 #include "vtkPolyDataMapper.h"
 #include "vtkPropCollection.h"
 #include "vtkProperty.h"
+#include "vtkViewport.h"
 
 #include <array>
 
@@ -26,6 +28,7 @@ struct Drawing
   vtkNew<vtkPolyData> Shape;
   vtkNew<vtkPolyDataMapper> Mapper;
   vtkNew<vtkActor> Actor;
+  double Pixels = 1.0;         // on a usual screen: width of lines, diameter of points
   std::vector<Polyline> Lines; // those that are shown: most stay as they are throughout a drag
 
   Drawing()
@@ -43,8 +46,14 @@ struct Drawing
     vtkProperty* property = this->Actor->GetProperty();
     property->SetColor(color[0], color[1], color[2]);
     property->SetOpacity(opacity);
-    property->SetLineWidth(static_cast<float>(pixels));
-    property->SetPointSize(static_cast<float>(pixels));
+    this->Pixels = pixels;
+  }
+
+  void scaleTo(vtkWindow* window)
+  {
+    const auto pixels = static_cast<float>(this->Pixels * screenScale(window));
+    this->Actor->GetProperty()->SetLineWidth(pixels);
+    this->Actor->GetProperty()->SetPointSize(pixels);
   }
 
   void clear()
@@ -270,6 +279,7 @@ int vtkLatticeRepresentation::RenderOpaqueGeometry(vtkViewport* viewport)
     int rendered = 0;
     for (Drawing* drawing : this->Internal->all())
     {
+      drawing->scaleTo(viewport->GetVTKWindow());
       rendered +=
         drawing->Actor->GetVisibility() ? drawing->Actor->RenderOpaqueGeometry(viewport) : 0;
     }

@@ -10,7 +10,7 @@ import stage
 
 HALF_MM = 55.0
 FOCUS = (8.0, 0.0, -18.0)  # mm from the cavity
-WAYS = ("Red and green", "Checkerboard", "Difference", "Gradient")
+WAYS = ("Two colours", "Checkerboard", "Difference", "Gradient")
 
 
 def patient(stamped=False):

@@ -122,7 +122,8 @@ def deformation_field(width):
     first = _slice_of(bent, side)
     _arrows(bent, first, "Backward")
     second = _slice_of(stage.bend(stage.head()), side)
-    field = simple.DeformationField(Input=bent, SampleGrid="Given Spacing", Spacing=[1.5, 1.5, 1.5])
+    field = simple.DeformationField(Input=bent, Direction="Forward", SampleGrid="Given Spacing",
+                                    Spacing=[1.5, 1.5, 1.5])
     cut = simple.Slice(Input=field)
     cut.SliceType.Origin, cut.SliceType.Normal = stage.CORTEX, (0, 1, 0)
     display = stage.color_by(_moved_forward(cut), second, "JacobianDeterminant", "Jacobian", 0.6,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Attached/WholeExtent.h"
 
+#include "Filters/Attached/DeformableVolume.h"
+
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -63,6 +65,26 @@ Grid wholeGridOf(vtkInformation* info)
     }
   }
   grid.origin = grid.worldFromGrid({ whole[0], whole[2], whole[4] });
+  return grid;
+}
+
+Grid wholeGridOf(vtkImageData* image, vtkInformation* info)
+{
+  if (image->GetNumberOfPoints() == 0) // a reader gave this process nothing, not even a place
+  {
+    return wholeGridOf(info);
+  }
+  int whole[6];
+  info->Get(Pipeline::WHOLE_EXTENT(), whole);
+  int extent[6];
+  image->GetExtent(extent);
+  Grid grid = gridOf(image);
+  const glm::dvec3 toWholeStart(whole[0] - extent[0], whole[2] - extent[2], whole[4] - extent[4]);
+  grid.origin = grid.worldFromGrid(toWholeStart);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    grid.dimensions[axis] = whole[2 * axis + 1] - whole[2 * axis] + 1;
+  }
   return grid;
 }
 

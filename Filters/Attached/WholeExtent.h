@@ -28,6 +28,9 @@ void updateWholeExtent(vtkInformation* image);
 /// The grid of all of an image (mm, world), as the pipeline knows it before there is data.
 Grid wholeGridOf(vtkInformation* information);
 
+/// The grid of all of an image of which this process may have a piece.
+Grid wholeGridOf(vtkImageData* piece, vtkInformation* information);
+
 /**
  * What an image lacks of its whole extent: a sentence without its end, or empty if it is whole. A
  * source that knows no pieces may deliver less than it was asked for.

@@ -70,4 +70,18 @@ double otsuThreshold(const Histogram& histogram, double top)
   }
   return threshold;
 }
+
+Histogram withoutBackground(const Histogram& histogram)
+{
+  Histogram tissue = histogram;
+  const auto most = std::max_element(tissue.counts.begin(), tissue.counts.end());
+  const double commonest = tissue.middle(static_cast<std::size_t>(most - tissue.counts.begin()));
+  const double threshold = otsuThreshold(histogram);
+  const double end = commonest < threshold ? 0.5 * (commonest + threshold) : histogram.low;
+  for (std::size_t bin = 0; bin < tissue.counts.size() && tissue.middle(bin) <= end; ++bin)
+  {
+    tissue.counts[bin] = 0.0;
+  }
+  return tissue;
+}
 }

@@ -47,6 +47,12 @@ VTKBRAINSHIFTFILTERS_EXPORT double percentile(const Histogram& histogram, double
  * percentile count as that, so that a few bright voxels do not raise it.
  */
 VTKBRAINSHIFTFILTERS_EXPORT double otsuThreshold(const Histogram& histogram, double top = 0.995);
+
+/**
+ * The counts of all but a dark background: the many values about the commonest one, up to half-way
+ * to Otsu's threshold, which alone would take the dark fluid of the brain for background.
+ */
+VTKBRAINSHIFTFILTERS_EXPORT Histogram withoutBackground(const Histogram& histogram);
 }
 
 #endif

@@ -306,6 +306,18 @@ Intensities readIntensities(vtkImageData* volume, const ArrayChoice& array)
   return found;
 }
 
+Histogram readHistogram(vtkImageData* volume, const ArrayChoice& array, int bins)
+{
+  const Part part(volume, array);
+  Intensities found;
+  if (part.exists())
+  {
+    findRange(part, found);
+  }
+  return found.lowest < found.highest ? countAll(part, found.lowest, found.highest, bins)
+                                      : Histogram();
+}
+
 Box boxAbove(vtkImageData* volume, const ArrayChoice& array, double value)
 {
   Box box;

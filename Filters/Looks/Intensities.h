@@ -47,6 +47,13 @@ struct ArrayChoice
 VTKBRAINSHIFTFILTERS_EXPORT Intensities readIntensities(
   vtkImageData* volume, const ArrayChoice& array);
 
+/**
+ * Counts all values of an array in bins between the smallest and the largest one. Else like
+ * readIntensities. It has no bins if the array has no two different values.
+ */
+VTKBRAINSHIFTFILTERS_EXPORT Histogram readHistogram(
+  vtkImageData* volume, const ArrayChoice& array, int bins);
+
 /** Smallest and largest x, y and z (mm, world). Not valid (smallest above largest): nothing. */
 struct Box
 {

@@ -97,11 +97,26 @@ std::vector<CommandRow> stampRows()
     byMouse(Command::ChangeMajorRadius, Scope::Tool, { ToolKind::Stamp }, Mouse::Wheel,
       Qt::ShiftModifier, QT_TRANSLATE_NOOP("BrainShift", "Change the reach along the push."),
       QT_TRANSLATE_NOOP("BrainShift", "change the reach along the push")),
+    byKey(Command::StampByKey, Scope::Tool, { ToolKind::Stamp }, { Qt::Key_Plus, Qt::Key_Minus },
+      QT_TRANSLATE_NOOP("BrainShift",
+        "Pull or push the tissue under the cursor, as a click of the wheel does. The view must "
+        "have "
+        "the keyboard: Alt+3 gives it to the active view.")),
+    byKey(Command::MoveCursor, Scope::Tool, {},
+      { Qt::Key_Left, Qt::Key_Right, Qt::Key_Up, Qt::Key_Down },
+      QT_TRANSLATE_NOOP("BrainShift",
+        "Move the cursor over the view. If it is elsewhere, it comes to the middle of the view "
+        "first.")),
     byKey(Command::SetPointOfInterest, Scope::Tool, { ToolKind::Stamp }, { Qt::Key_I },
       QT_TRANSLATE_NOOP("BrainShift", "Set the point of interest to the tissue under the cursor."),
       QT_TRANSLATE_NOOP("BrainShift", "set the point of interest")),
     byKey(Command::Cancel, Scope::Tool, {}, { Qt::Key_Escape },
       QT_TRANSLATE_NOOP("BrainShift", "Cancel the stroke that is being made.")),
+    byMouse(Command::SwitchVolume, Scope::Tool, {}, Mouse::Click, {},
+      QT_TRANSLATE_NOOP("BrainShift",
+        "Over another volume than the selected one: work on that volume. The click makes no "
+        "stroke."),
+      ""),
   };
 }
 

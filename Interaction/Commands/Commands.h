@@ -30,10 +30,13 @@ enum class Command
   ChangeRadius,
   StampByClick,
   StampByDrag,
+  StampByKey, ///< Keys: forward, backward.
+  MoveCursor, ///< Keys: left, right, up, down.
   ChangeMajorRadius,
   SetPointOfInterest,
   HoldAxis, ///< Keys: X, Y, Z.
   Cancel,
+  SwitchVolume,
   ShowAsLoaded,
   StepSlices, ///< Keys: forward, backward.
   BringSlices,

@@ -99,6 +99,8 @@ public Q_SLOTS:
 
 Q_SIGNALS:
   void changed();
+  /// The user wants the tool to work on the volume of shownInstead().
+  void switchWanted();
 
 private:
   ToolSettings();

@@ -24,6 +24,7 @@
 #include <QSignalBlocker>
 #include <QWidget>
 
+#include <cstddef>
 #include <string>
 
 namespace brainshift
@@ -207,6 +208,25 @@ void StrokeEditor::replaceAll(const Strokes& strokes, const QString& label)
   drawFully(this->Source);
 }
 
+void StrokeEditor::walkThrough(const std::function<void()>& measure)
+{
+  this->cancel();
+  vtkSMProxy* proxy = this->Source->getProxy();
+  const Strokes all = this->strokes();
+  if (all.empty())
+  {
+    return; // or they are numbers that are no strokes: they are not lost
+  }
+  SCOPED_UNDO_EXCLUDE();
+  const QSignalBlocker silent(this);
+  for (std::size_t count = 0; count <= all.size(); ++count)
+  {
+    this->write(Strokes(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count)));
+    proxy->UpdateVTKObjects();
+    measure();
+  }
+}
+
 void StrokeEditor::showBefore(bool on)
 {
   if (on == this->ShowsBefore)
@@ -217,6 +237,7 @@ void StrokeEditor::showBefore(bool on)
   vtkSMPropertyHelper strength(this->Source->getProxy(), "Strength");
   this->StrengthAfter = on ? strength.GetAsDouble() : this->StrengthAfter;
   this->ShowsBefore = on;
+  this->TimesBefore += on ? 1 : 0;
   strength.Set(on ? 0.0 : this->StrengthAfter);
   this->Source->getProxy()->UpdateVTKObjects();
   drawFully(this->Source);

@@ -15,6 +15,7 @@
 #include <vtkEventQtSlotConnect.h>
 #include <vtkNew.h>
 
+#include <functional>
 #include <vector>
 
 class pqPipelineSource;
@@ -57,9 +58,15 @@ public:
   /// Replaces all strokes in one undo step, as the list of strokes does.
   void replaceAll(const Strokes& strokes, const QString& label);
 
+  /// Calls `measure` after none of the strokes, after the first one, and so on, to all of them. It
+  /// draws nothing, and the undo stack sees nothing.
+  void walkThrough(const std::function<void()>& measure);
+
   /// On: shows the volume as loaded. Off: restores Strength. The undo stack sees neither.
   void showBefore(bool on);
   bool showsBefore() const { return this->ShowsBefore; }
+  /// How often it was on, in this window.
+  int timesBefore() const { return this->TimesBefore; }
 
   /// Changes Strength (0 to 1) during a drag of its slider.
   void changeStrength(double strength);
@@ -96,6 +103,7 @@ private:
   bool Editing = false;
   bool Writing = false; ///< This editor changes the property right now.
   bool ShowsBefore = false;
+  int TimesBefore = 0;
   bool ChangesStrength = false;
   double StrengthBefore = 1.0; ///< During a drag of Strength.
   double StrengthAfter = 1.0;  ///< While the volume is shown as loaded.

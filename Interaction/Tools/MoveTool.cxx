@@ -45,7 +45,7 @@ void MoveTool::find(const glm::dvec2& pixel)
   }
   else
   {
-    this->Near = probe.controlPointsUnder(pixel, ReachPixels);
+    this->Near = probe.controlPointsUnder(pixel, ReachPixels * probe.screenScale());
   }
   // What was selected may have moved since.
   for (ControlPoint& selected : this->Selected)
@@ -68,7 +68,7 @@ const ControlPoint* MoveTool::controlPointUnder(const glm::dvec2& pixel) const
     const double depth = this->Tissue ? glm::distance(point.drawn, this->Tissue->position) : 0.0;
     const double strangeness =
       distance + DepthWeight * depth / probe.millimetresPerPixel(point.drawn);
-    if (distance < ReachPixels && strangeness < least)
+    if (distance < ReachPixels * probe.screenScale() && strangeness < least)
     {
       least = strangeness;
       nearest = &point;

@@ -19,6 +19,7 @@ void SoftTool::hover(const HandEvent& event)
     return;
   }
   this->showStroke(this->strokeAt(spot->position, Tool::Soft), spot->slice);
+  this->Bench.drawing.SetLines(vtkLatticeRepresentation::Mark, {}); // of a drag that was cancelled
   this->Bench.drawing.SetHighlights({ spot->position });
 }
 

@@ -15,26 +15,32 @@ constexpr double CrossShare = 0.15;     // of the major radius
 }
 
 // The stamp over the tissue at a pixel. False where there is none.
-bool StampTool::take(const glm::dvec2& pixel)
+bool StampTool::outline(const glm::dvec2& pixel)
 {
   const std::optional<Spot> spot = this->Bench.probe.spotAt(pixel);
   if (!spot)
   {
     return false;
   }
-  const glm::dvec3 interest = this->interestFrom(*spot);
+  const glm::dvec3 way = this->interestFrom(*spot) - spot->position;
   constexpr double nearest = 1e-3; // mm; a nearer point gives no direction
-  if (glm::distance(interest, spot->position) < nearest)
-  {
-    return false;
-  }
+  this->Aims = glm::length(way) >= nearest;
+  // Without a direction the ellipsoid stays as it was, so that it does not vanish under the cursor.
+  const bool hadAxis = glm::length(this->Latest.axis) > 0.0;
+  const glm::dvec3 axis = hadAxis ? this->Latest.axis : this->Bench.probe.ahead();
   this->Slice = spot->slice;
   this->Latest = this->strokeAt(spot->position, Tool::Stamp);
-  this->Latest.axis = glm::normalize(interest - spot->position);
+  this->Latest.axis = this->Aims ? glm::normalize(way) : axis;
   this->Amount = 0.0;
   this->Made = false;
   this->TakenAt = pixel;
   return true;
+}
+
+// The stamp over the tissue at a pixel. False where there is no tissue, or no way to push it.
+bool StampTool::take(const glm::dvec2& pixel)
+{
+  return this->outline(pixel) && this->Aims;
 }
 
 // The point of interest; in a slice the nearest point of the slice to it. So what is matched in a
@@ -48,7 +54,7 @@ glm::dvec3 StampTool::interestFrom(const Spot& spot)
 
 bool StampTool::isAtLastStroke(const glm::dvec2& pixel) const
 {
-  if (glm::distance(pixel, this->TakenAt) > SamePlacePixels)
+  if (glm::distance(pixel, this->TakenAt) > SamePlacePixels * this->Bench.probe.screenScale())
   {
     return false;
   }
@@ -87,7 +93,7 @@ void StampTool::hover(const HandEvent& event)
   {
     return;
   }
-  if (this->take(pixelOf(event)))
+  if (this->outline(pixelOf(event)))
   {
     this->show(this->Latest, 0.0);
   }
@@ -219,6 +225,5 @@ void StampTool::cancel()
   HandTool::cancel();
   this->Amount = 0.0;
   this->Made = false;
-  this->Bench.drawing.Clear();
 }
 }

@@ -23,6 +23,7 @@ public:
   void cancel() override;
 
 private:
+  bool outline(const glm::dvec2& pixel);
   bool take(const glm::dvec2& pixel);
   glm::dvec3 interestFrom(const Spot& spot);
   bool isAtLastStroke(const glm::dvec2& pixel) const;
@@ -31,10 +32,11 @@ private:
   void clickWheel(const HandEvent& event);
   void changeRadius(const HandEvent& event);
 
-  Stroke Latest;                   ///< The stroke under the hand, or made last.
+  Stroke Latest;                   ///< The stroke that is outlined, under the hand or made last.
   std::optional<glm::dvec3> Slice; ///< Normal of its slice.
   double Amount = 0.0;             ///< Displacement (mm). Pull is positive.
   bool Made = false;               ///< The last stroke of the list is Latest.
+  bool Aims = false;               ///< Latest has an axis: the point of interest is not there.
   glm::dvec2 TakenAt{ 0.0 };       ///< Pixel.
   glm::dvec2 PullOnScreen{ 0.0 };  ///< During a drag: mm per pixel of the screen.
 };

@@ -19,18 +19,23 @@ namespace brainshift
 {
 namespace
 {
-// The next sources along the pipeline: first what a source is made of, then what is made of it.
-QList<pqPipelineSource*> neighboursOf(pqPipelineSource* source)
+QList<pqPipelineSource*> inputsOf(pqPipelineSource* source)
 {
-  QList<pqPipelineSource*> neighbours;
+  QList<pqPipelineSource*> inputs;
   if (auto filter = qobject_cast<pqPipelineFilter*>(source))
   {
     for (pqOutputPort* input : filter->getAllInputs())
     {
-      neighbours.append(input->getSource());
+      inputs.append(input->getSource());
     }
   }
-  return neighbours + source->getAllConsumers();
+  return inputs;
+}
+
+// The next sources along the pipeline: first what a source is made of, then what is made of it.
+QList<pqPipelineSource*> neighboursOf(pqPipelineSource* source)
+{
+  return inputsOf(source) + source->getAllConsumers();
 }
 
 bool isShown(pqPipelineSource* source, pqView* view)
@@ -106,6 +111,20 @@ pqPipelineSource* activeDeformation(pqView* view)
   return only;
 }
 
+pqPipelineSource* deformationUpstream(pqPipelineSource* source)
+{
+  QList<pqPipelineSource*> reached = inputsOf(source);
+  for (int next = 0; next < reached.size(); ++next)
+  {
+    if (isDeformation(reached[next]))
+    {
+      return reached[next];
+    }
+    reached += inputsOf(reached[next]);
+  }
+  return nullptr;
+}
+
 pqPipelineSource* shownInstead(pqPipelineSource* deformation, pqView* view)
 {
   if (!deformation || bentDisplay(deformation, view))
@@ -125,6 +144,11 @@ bool showsSlices(pqDataRepresentation* display)
   return isShownAs(display, "Deformed Slices");
 }
 
+bool showsVolume(pqDataRepresentation* display)
+{
+  return isShownAs(display, "Deformed Volume");
+}
+
 pqDataRepresentation* bentDisplay(pqPipelineSource* deformation, pqView* view)
 {
   QList<pqPipelineSource*> reached;
@@ -135,8 +159,7 @@ pqDataRepresentation* bentDisplay(pqPipelineSource* deformation, pqView* view)
   for (int next = 0; next < reached.size(); ++next)
   {
     pqDataRepresentation* display = reached[next]->getRepresentation(view);
-    if (display && display->isVisible() &&
-      (isShownAs(display, "Deformed Volume") || showsSlices(display)))
+    if (display && display->isVisible() && (showsVolume(display) || showsSlices(display)))
     {
       return display;
     }

@@ -19,6 +19,9 @@ pqPipelineSource* activeDeformation(pqView* view);
 /// activeDeformation of the active view.
 pqPipelineSource* activeDeformation();
 
+/// The nearest Free-Form Deformation among what a source is made of. Null if there is none.
+pqPipelineSource* deformationUpstream(pqPipelineSource* source);
+
 /// The representation (Deformed Volume or Deformed Slices) with which a view shows a Free-Form
 /// Deformation, or shows what a filter like Compare Volumes made of it. Null if there is none.
 pqDataRepresentation* bentDisplay(pqPipelineSource* deformation, pqView* view);
@@ -26,6 +29,8 @@ pqDataRepresentation* bentDisplay(pqPipelineSource* deformation, pqView* view);
 pqPipelineSource* shownInstead(pqPipelineSource* deformation, pqView* view);
 /// Whether a representation is Deformed Slices.
 bool showsSlices(pqDataRepresentation* display);
+/// Whether a representation is Deformed Volume.
+bool showsVolume(pqDataRepresentation* display);
 }
 
 #endif

@@ -68,6 +68,7 @@ void CursorWatch::leave(vtkObject* interactor)
   if (this->Over == this->Views.value(interactor))
   {
     this->Over = nullptr;
+    Q_EMIT this->left();
   }
 }
 }

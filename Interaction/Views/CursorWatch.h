@@ -31,6 +31,8 @@ public:
 Q_SIGNALS:
   /// The cursor moved within a view, or came to it.
   void moved(pqRenderView* view);
+  /// The cursor left the view under it.
+  void left();
 
 private Q_SLOTS:
   void enter(vtkObject* interactor);

@@ -41,16 +41,25 @@ bool GreyValues::begin(vtkSMProxy* display, const int pixel[2])
   return true;
 }
 
-void GreyValues::dragTo(const int pixel[2])
+void GreyValues::dragTo(const int pixel[2], double scale)
 {
   if (!this->Colors)
   {
     return;
   }
+  if (pixel[0] == this->Start[0] && pixel[1] == this->Start[1])
+  {
+    this->Now = this->Before; // to the bit: back at the start is no edit
+    SCOPED_UNDO_EXCLUDE();
+    this->set(this->Now);
+    return;
+  }
   const double low = this->Before.front();
   const double window = this->Before[this->Before.size() - PointNumbers] - low;
-  const double wider = std::exp2((pixel[0] - this->Start[0]) / PixelsToDoubleWindow);
-  const double level = low + window / 2.0 + (pixel[1] - this->Start[1]) * window / PixelsOfWindow;
+  const double right = (pixel[0] - this->Start[0]) / scale;
+  const double upwards = (pixel[1] - this->Start[1]) / scale;
+  const double wider = std::exp2(right / PixelsToDoubleWindow);
+  const double level = low + window / 2.0 + upwards * window / PixelsOfWindow;
   for (std::size_t i = 0; i < this->Now.size(); i += PointNumbers)
   {
     const double share = (this->Before[i] - low) / window;

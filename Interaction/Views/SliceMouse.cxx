@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Views/SliceMouse.h"
 
+#include "Filters/ScreenScale.h"
 #include "Interaction/Views/Reports.h"
+#include "Interaction/Views/SameTissue.h"
 
 #include <pqApplicationCore.h>
+#include <pqDataRepresentation.h>
 #include <pqRenderView.h>
 #include <pqRepresentation.h>
 #include <pqServerManagerModel.h>
@@ -13,6 +16,7 @@
 #include <vtkCommand.h>
 #include <vtkMath.h>
 #include <vtkPVDataInformation.h>
+#include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
 #include <vtkSMProperty.h>
@@ -114,6 +118,10 @@ void setPosition(vtkSMProxy* display, const char* name, double position[3])
   clampToInput(display, position);
   vtkSMPropertyHelper(display, name).Set(position, 3);
   display->UpdateVTKObjects();
+  if (std::strcmp(name, "SlicePosition") == 0)
+  {
+    followInOtherViews(display);
+  }
   drawSlices();
 }
 
@@ -361,7 +369,8 @@ bool SliceMouse::onMove(vtkObject*, unsigned long, void*)
 {
   if (this->Dragging == Drag::GreyValues)
   {
-    this->Greys.dragTo(this->Interactor->GetEventPosition());
+    this->Greys.dragTo(
+      this->Interactor->GetEventPosition(), screenScale(this->Interactor->GetRenderWindow()));
     drawSlices();
     return true;
   }
@@ -423,7 +432,7 @@ bool SliceMouse::isOnWipe(const Facing& slice) const
   const double pixelMm =
     2.0 * renderer->GetActiveCamera()->GetParallelScale() / renderer->GetSize()[1];
   return std::abs(beyondWipe(slice.display, cursor, acrossWipe(slice.normals, slice.plane))) <=
-    GripPixels * pixelMm;
+    GripPixels * screenScale(renderer->GetVTKWindow()) * pixelMm;
 }
 
 void SliceMouse::bringWipeToCursor(const Facing& slice)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Views/ViewProbe.h"
 
+#include "Filters/ScreenScale.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Views/KeptPictures.h"
 #include "Interaction/Views/Reports.h"
@@ -8,14 +9,12 @@
 #include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
-#include <pqUndoStack.h>
 
 #include <vtkCamera.h>
 #include <vtkRenderer.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
 #include <vtkSMRenderViewProxy.h>
-#include <vtkSMTrace.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -140,15 +139,6 @@ glm::dvec3 ViewProbe::pointOfInterest()
   return inside ? set : grid->worldFromGrid(end / 2.0);
 }
 
-void ViewProbe::setPointOfInterest(const glm::dvec3& position)
-{
-  vtkSMProxy* filter = this->Deformation->getProxy();
-  SCOPED_UNDO_SET("Point of interest");
-  SM_SCOPED_TRACE(PropertiesModified).arg("proxy", filter);
-  vtkSMPropertyHelper(filter, "PointOfInterest").Set(&position[0], 3);
-  filter->UpdateVTKObjects();
-}
-
 glm::dvec3 ViewProbe::ahead() const
 {
   const double* direction = this->renderer()->GetActiveCamera()->GetDirectionOfProjection();
@@ -170,6 +160,11 @@ glm::dvec2 ViewProbe::pixelOf(const glm::dvec3& position) const
   renderer->WorldToDisplay();
   const double* display = renderer->GetDisplayPoint();
   return { display[0], display[1] };
+}
+
+double ViewProbe::screenScale() const
+{
+  return brainshift::screenScale(this->renderer()->GetVTKWindow());
 }
 
 double ViewProbe::millimetresPerPixel(const glm::dvec3& position) const

@@ -58,8 +58,6 @@ public:
 
   /// The property PointOfInterest of the filter, or the centre of the volume if it was never set.
   glm::dvec3 pointOfInterest();
-  /// Sets the property in one undo step.
-  void setPointOfInterest(const glm::dvec3& position);
 
   /// The direction of view, unit length.
   glm::dvec3 ahead() const;
@@ -68,6 +66,8 @@ public:
     const glm::dvec2& pixel, const glm::dvec3& depth, const glm::dvec3& normal) const;
   glm::dvec2 pixelOf(const glm::dvec3& position) const;
   double millimetresPerPixel(const glm::dvec3& position) const;
+  /// See Filters/ScreenScale.h.
+  double screenScale() const;
   struct Ray
   {
     glm::dvec3 origin;

@@ -104,9 +104,17 @@ QString jacobianTip(double determinant)
     .arg(determinant, 0, 'f', 3);
 }
 
-QColor gradeColor(Grade grade, const QPalette& palette)
+QColor gradeColor(Grade grade, const QPalette& palette, bool blueAndOrange)
 {
   const bool dark = palette.color(QPalette::Window).lightness() < 128;
+  if (blueAndOrange)
+  {
+    const QColor blue = dark ? QColor(130, 190, 255) : QColor(0, 70, 160);
+    const QColor orange = dark ? QColor(255, 160, 60) : QColor(150, 65, 0);
+    return grade == Grade::Good ? blue
+      : grade == Grade::Bad     ? orange
+                                : palette.color(QPalette::WindowText);
+  }
   switch (grade)
   {
     case Grade::Bad:

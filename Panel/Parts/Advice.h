@@ -40,8 +40,9 @@ QString jacobianText(double determinant);
 /// What 100 % means, and the determinant itself.
 QString jacobianTip(double determinant);
 
-/// Green, amber or red that is legible on the window colour of a palette, light or dark.
-QColor gradeColor(Grade grade, const QPalette& palette);
+/// A colour that is legible on the window colour of a palette, light or dark: green, amber or red,
+/// or else blue, the colour of text, or orange.
+QColor gradeColor(Grade grade, const QPalette& palette, bool blueAndOrange);
 }
 
 #endif

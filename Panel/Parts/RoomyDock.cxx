@@ -16,7 +16,7 @@ namespace
 constexpr double MostOfWindow = 0.4;  // of its width; the views need the rest
 constexpr double LeastOfWindow = 0.6; // of its height; the pipeline browser needs the rest
 
-bool isDone = false; // in this session
+int given = 0; // width of the dock, pixels; 0: as ParaView made it
 
 // At the cost of the docks above and below it, which Qt must be told as well.
 void makeHigher(QDockWidget* dock, QMainWindow* window)
@@ -66,7 +66,7 @@ RoomyDock::RoomyDock(QWidget* part)
 
 bool RoomyDock::eventFilter(QObject* watched, QEvent* event)
 {
-  if (event->type() == QEvent::Show && !this->Panel && !isDone)
+  if (event->type() == QEvent::Show && !this->Panel)
   {
     this->watch();
   }
@@ -90,16 +90,21 @@ void RoomyDock::widen()
   const int lacking = this->Panel->horizontalScrollBar()->maximum();
   auto dock = around<QDockWidget>(this->Panel);
   auto window = dock ? around<QMainWindow>(dock) : nullptr;
-  if (isDone || lacking == 0 || !this->Part->isVisible() || !window || dock->isFloating())
+  const bool isUsers = dock && given > 0 && dock->width() != given; // who made it narrower
+  if (isUsers || lacking == 0 || !this->Part->isVisible() || !window || dock->isFloating())
   {
     return;
   }
   const int width = dock->width() + lacking;
   if (width <= MostOfWindow * window->width())
   {
-    isDone = true;
+    const bool isFirst = given == 0;
+    given = width;
     window->resizeDocks({ dock }, { width }, Qt::Horizontal);
-    makeHigher(dock, window);
+    if (isFirst)
+    {
+      makeHigher(dock, window);
+    }
   }
 }
 }

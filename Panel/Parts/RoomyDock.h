@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Makes the dock of ParaView's panel larger once: wider by what the panel's contents lack, and
-/// higher where the window is low. ParaView's own editor of colours is wider than the dock at
-/// first, and a bar would hide its last buttons.
+/// Makes the dock of ParaView's panel larger: wider by what the panel's contents lack, until the
+/// user resizes it, and once higher where the window is low. ParaView's own editor of colours is
+/// wider than the dock at first, and a bar would hide its last buttons.
 #ifndef BrainShift_RoomyDock_h
 #define BrainShift_RoomyDock_h
 
@@ -18,8 +18,8 @@ class RoomyDock : public QObject
   Q_OBJECT
 
 public:
-  /// Watches the panel that `part` is a part of, from when it is shown. Once for each session: who
-  /// makes the dock narrower later means it.
+  /// Watches the panel that `part` is a part of, from when it is shown. Who makes the dock narrower
+  /// later means it.
   explicit RoomyDock(QWidget* part);
 
 protected:

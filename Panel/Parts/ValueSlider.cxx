@@ -17,8 +17,7 @@ namespace
 constexpr int Steps = 1000; // of the slider: finer than its pixels
 }
 
-ValueSlider::ValueSlider(
-  const QString& name, const QString& label, const QString& unit, int decimals, QWidget* parent)
+ValueSlider::ValueSlider(const QString& name, const QString& label, int decimals, QWidget* parent)
   : QWidget(parent)
   , Label(new QLabel(label, this))
   , Slider(new QSlider(Qt::Horizontal, this))
@@ -26,6 +25,7 @@ ValueSlider::ValueSlider(
 {
   this->setObjectName(name + "Row");
   this->Slider->setObjectName(name);
+  this->Slider->setAccessibleName(label);
   this->Slider->setRange(0, Steps);
   this->Slider->setMinimumWidth(40); // panels are narrow
   this->Slider->setPageStep(Steps / 10);
@@ -33,9 +33,8 @@ ValueSlider::ValueSlider(
   this->SpinBox->setObjectName(name + "SpinBox");
   this->SpinBox->setDecimals(decimals);
   this->SpinBox->setSingleStep(std::pow(10.0, -decimals));
-  this->SpinBox->setSuffix(unit);
   // Wide enough for any of its kind, so that those below each other align.
-  this->SpinBox->setMinimumWidth(this->fontMetrics().horizontalAdvance("000.0 mm") + 40);
+  this->SpinBox->setMinimumWidth(this->fontMetrics().horizontalAdvance("000.00") + 40);
   this->SpinBox->setKeyboardTracking(false); // "12" is not 1 first
   this->Label->setBuddy(this->SpinBox);
   for (QWidget* control :

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// A number with a name, a slider, and a spin box that shows its unit.
+/// A number with a name, a slider and a spin box.
 #ifndef BrainShift_ValueSlider_h
 #define BrainShift_ValueSlider_h
 
@@ -18,9 +18,8 @@ class ValueSlider : public QWidget
 
 public:
   /// Object names: the slider is `name`, the spin box is `name`SpinBox, the row of both is
-  /// `name`Row.
-  ValueSlider(const QString& name, const QString& label, const QString& unit, int decimals,
-    QWidget* parent = nullptr);
+  /// `name`Row. The label says the unit.
+  ValueSlider(const QString& name, const QString& label, int decimals, QWidget* parent = nullptr);
 
   double value() const;
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Properties/FiguresWidget.h"
 
+#include "Interaction/Edits/QuietUpdates.h"
+#include "Interaction/Edits/StrokeEditor.h"
+#include "Interaction/Views/ActiveDeformation.h"
+#include "Panel/Parts/CurvePlot.h"
 #include "Panel/Parts/HistogramPlot.h"
 #include "Panel/Parts/InSight.h"
 
@@ -16,10 +20,13 @@
 #include <vtkSMPropertyGroup.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
+#include <vtkSMSourceProxy.h>
 
 #include <QFormLayout>
 #include <QLabel>
+#include <QPushButton>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -34,10 +41,15 @@ QString unitOf(vtkSMProperty* property)
   return unit ? QString(" ") + unit->GetAttribute("name") : QString();
 }
 
-bool isHistogram(vtkSMProperty* property)
+bool hasHint(vtkSMProperty* property, const char* name)
 {
   vtkPVXMLElement* hints = property->GetHints();
-  return hints && hints->FindNestedElementByName("Histogram");
+  return hints && hints->FindNestedElementByName(name);
+}
+
+pqPipelineSource* sourceOf(vtkSMProxy* proxy)
+{
+  return pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineSource*>(proxy);
 }
 
 QString tipOf(vtkSMProperty* property)
@@ -68,9 +80,13 @@ FiguresWidget::FiguresWidget(vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidg
   for (unsigned int index = 0; index < group->GetNumberOfProperties(); ++index)
   {
     vtkSMProperty* property = group->GetProperty(index);
-    if (isHistogram(property))
+    if (hasHint(property, "Histogram"))
     {
       this->addHistogram(property);
+    }
+    else if (hasHint(property, "Curve"))
+    {
+      this->addCurve(property);
     }
     else
     {
@@ -78,9 +94,7 @@ FiguresWidget::FiguresWidget(vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidg
     }
   }
   new InSight(this);
-  auto model = pqApplicationCore::instance()->getServerManagerModel();
-  this->connect(model->findItem<pqPipelineSource*>(proxy),
-    qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
+  this->connect(sourceOf(proxy), qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
     [this] { this->showFigures(); });
   this->showFigures();
 }
@@ -107,6 +121,44 @@ void FiguresWidget::addHistogram(vtkSMProperty* property)
   this->Histograms.append({ property, plot });
 }
 
+void FiguresWidget::addCurve(vtkSMProperty* property)
+{
+  this->Curve = property;
+  this->Plot = new CurvePlot(this);
+  this->Plot->setToolTip(tipOf(property));
+  this->Missing = new QPushButton(tr("Measure After Each Stroke"), this);
+  this->Missing->setObjectName("BrainShiftMeasureStrokes");
+  this->Missing->setToolTip(
+    tr("Apply the strokes one after the other and measure after each one that the curve lacks, for "
+       "example strokes that a state file brought. At the end all strokes are as before."));
+  auto form = static_cast<QFormLayout*>(this->layout());
+  form->addRow(this->Plot);
+  form->addRow(this->Missing);
+  this->connect(this->Missing, &QPushButton::clicked, this, &FiguresWidget::measureStrokes);
+}
+
+void FiguresWidget::showCurve()
+{
+  this->proxy()->UpdatePropertyInformation(this->Curve);
+  const std::vector<double> lengths = vtkSMPropertyHelper(this->Curve).GetDoubleArray();
+  this->Plot->setLengths(QList<double>(lengths.begin(), lengths.end()));
+  this->Missing->setVisible(
+    std::any_of(lengths.begin(), lengths.end(), [](double length) { return std::isnan(length); }));
+}
+
+void FiguresWidget::measureStrokes()
+{
+  StrokeEditor* editor = StrokeEditor::of(deformationUpstream(sourceOf(this->proxy())));
+  auto measure = vtkSMSourceProxy::SafeDownCast(this->proxy());
+  if (editor && measure)
+  {
+    QuietUpdates quiet; // panels need not follow each stroke
+    quiet.add(measure);
+    editor->walkThrough([measure] { measure->UpdatePipeline(); });
+  }
+  this->showFigures();
+}
+
 void FiguresWidget::showFigures()
 {
   for (const auto& [property, figure] : this->Figures)
@@ -121,6 +173,10 @@ void FiguresWidget::showFigures()
     const bool any = !numbers.empty();
     plot->setHistogram(any ? numbers.front() : 0.0,
       any ? QList<double>(numbers.begin() + 1, numbers.end()) : QList<double>());
+  }
+  if (this->Curve)
+  {
+    this->showCurve();
   }
 }
 }

@@ -18,6 +18,7 @@ LabelsWidget::LabelsWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* 
 {
   this->setChangeAvailableAsChangeFinished(false);
   this->Line->setObjectName("Line");
+  this->Line->setAccessibleName(property->GetXMLLabel());
   this->Line->setValidator(
     new QRegularExpressionValidator(QRegularExpression("[-0-9, ]*"), this->Line));
   vtkPVXMLElement* hints = property->GetHints();

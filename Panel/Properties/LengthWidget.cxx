@@ -9,7 +9,6 @@
 #include <vtkSMProperty.h>
 
 #include <QHBoxLayout>
-#include <QLabel>
 
 #include <limits>
 
@@ -34,7 +33,6 @@ LengthWidget::LengthWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* 
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(pqPropertiesPanel::suggestedHorizontalSpacing());
   row->addWidget(this->Field, 1);
-  row->addWidget(new QLabel(tr("mm"), this));
   this->Field->setAccessibleName(tr("%1, millimetres").arg(property->GetXMLLabel()));
   this->connect(this->Field, &MillimetreField::valueEdited, this, &LengthWidget::lengthChanged);
   this->addPropertyLink(this, "length", SIGNAL(lengthChanged()), property);

@@ -2,7 +2,7 @@
 #include "Panel/Properties/LooksWidget.h"
 
 #include "Filters/Attached/Segmentation.h"
-#include "Interaction/Views/VolumeLook.h"
+#include "Interaction/Displays/LabelMaps.h"
 #include "Panel/Tools/LookChoice.h"
 
 #include <pqApplicationCore.h>
@@ -10,7 +10,9 @@
 #include <pqPipelineSource.h>
 #include <pqServerManagerModel.h>
 
+#include <vtkCommand.h>
 #include <vtkDataObject.h>
+#include <vtkEventQtSlotConnect.h>
 #include <vtkPVArrayInformation.h>
 #include <vtkPVDataInformation.h>
 #include <vtkSMPropertyHelper.h>
@@ -48,7 +50,18 @@ LooksWidget::LooksWidget(vtkSMProxy* proxy, vtkSMProperty*, QWidget* parent)
         this->offerLooks();
       }
     });
-  QTimer::singleShot(0, this, &LooksWidget::offerLooks); // the panel appears first
+  // Another array has looks of its own.
+  this->Observers->Connect(
+    proxy->GetProperty("ColorArrayName"), vtkCommand::ModifiedEvent, this, SLOT(offerLooksSoon()));
+  this->offerLooksSoon();
+}
+
+LooksWidget::~LooksWidget() = default;
+
+// The panel appears first, and a change of the property is complete.
+void LooksWidget::offerLooksSoon()
+{
+  QTimer::singleShot(0, this, &LooksWidget::offerLooks);
 }
 
 pqDataRepresentation* LooksWidget::display() const
@@ -73,12 +86,14 @@ QString LooksWidget::volume() const
   const bool hasSegment =
     data->GetArrayInformation(SegmentationName, vtkDataObject::FIELD) != nullptr;
   const double* range = array ? array->GetComponentRange(0) : nullptr;
-  return QString("%1 %2 %3 %4 %5")
+  const qsizetype labelMaps = this->display() ? labelMapsFor(this->display()).size() : 0;
+  return QString("%1 %2 %3 %4 %5 %6")
     .arg(name)
     .arg(data->GetNumberOfPoints())
     .arg(hasSegment)
     .arg(range ? range[0] : 0.0)
-    .arg(range ? range[1] : 0.0);
+    .arg(range ? range[1] : 0.0)
+    .arg(labelMaps);
 }
 
 void LooksWidget::offerLooks()
@@ -90,7 +105,7 @@ void LooksWidget::offerLooks()
   }
   this->Read = volume;
   pqDataRepresentation* display = this->display();
-  const QStringList names = display ? makeVolumeLook(display).names : QStringList();
+  const QStringList names = display ? looksOf(display) : QStringList();
   if (names == this->Offered)
   {
     return;

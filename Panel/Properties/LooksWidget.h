@@ -8,11 +8,14 @@
 
 #include <pqPropertyWidget.h>
 
+#include <vtkNew.h>
+
 #include <QString>
 #include <QStringList>
 
 class pqDataRepresentation;
 class QLabel;
+class vtkEventQtSlotConnect;
 
 namespace brainshift
 {
@@ -22,6 +25,10 @@ class LooksWidget : public pqPropertyWidget
 
 public:
   LooksWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent = nullptr);
+  ~LooksWidget() override;
+
+private Q_SLOTS:
+  void offerLooksSoon();
 
 private:
   void offerLooks();
@@ -33,6 +40,7 @@ private:
   QLabel* Without; ///< says that there is no look
   QString Read;    ///< the volume that the looks were offered for
   QStringList Offered;
+  vtkNew<vtkEventQtSlotConnect> Observers;
 };
 }
 

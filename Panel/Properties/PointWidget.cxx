@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Properties/PointWidget.h"
 
+#include "Interaction/Edits/PointOfInterest.h"
 #include "Panel/Parts/InSight.h"
 #include "Panel/Parts/MillimetreField.h"
 
 #include <pqPropertiesPanel.h>
-#include <pqUndoStack.h>
 
 #include <vtkCommand.h>
 #include <vtkEventQtSlotConnect.h>
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
-#include <vtkSMProxy.h>
-#include <vtkSMTrace.h>
 
 #include <QHBoxLayout>
 #include <QLabel>
@@ -41,10 +39,10 @@ PointWidget::PointWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* pa
     row->addWidget(field, 1);
     this->Fields[axis] = field;
     this->connect(field, &MillimetreField::valueEdited, this, [this, property, axis](double value) {
-      Point point{};
-      vtkSMPropertyHelper(property).Get(point.data(), 3);
-      point[axis] = value;
-      this->write(point);
+      glm::dvec3 point(0.0);
+      vtkSMPropertyHelper(property).Get(&point[0], 3);
+      point[static_cast<int>(axis)] = value;
+      setPointOfInterest(this->proxy(), point);
     });
   }
   auto centre = new QToolButton(this);
@@ -53,7 +51,8 @@ PointWidget::PointWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* pa
   centre->setToolTip(tr("Take the centre of the volume. This acts at once."));
   centre->setAccessibleName(tr("Centre of the volume"));
   row->addWidget(centre);
-  this->connect(centre, &QToolButton::clicked, this, &PointWidget::takeCentre);
+  this->connect(
+    centre, &QToolButton::clicked, this, [this] { centrePointOfInterest(this->proxy()); });
   this->Observers->Connect(property, vtkCommand::ModifiedEvent, this, SLOT(showPoint()));
   new InSight(this);
   this->showPoint();
@@ -63,27 +62,11 @@ PointWidget::~PointWidget() = default;
 
 void PointWidget::showPoint()
 {
-  Point point{};
+  std::array<double, 3> point{};
   vtkSMPropertyHelper(this->property()).Get(point.data(), 3);
   for (std::size_t axis = 0; axis < point.size(); ++axis)
   {
     this->Fields[axis]->setValue(point[axis]);
   }
-}
-
-void PointWidget::takeCentre()
-{
-  SCOPED_UNDO_SET(tr("Point of interest"));
-  SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this->proxy());
-  this->property()->ResetToDomainDefaults();
-  this->proxy()->UpdateVTKObjects();
-}
-
-void PointWidget::write(const Point& point)
-{
-  SCOPED_UNDO_SET(tr("Point of interest"));
-  SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this->proxy());
-  vtkSMPropertyHelper(this->property()).Set(point.data(), 3);
-  this->proxy()->UpdateVTKObjects();
 }
 }

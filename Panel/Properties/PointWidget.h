@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Panel of a point in mm: X, Y and Z, and a button for the centre of the volume. It acts at once,
-/// without Apply, and each change is one undo step. It is for double properties of three elements
-/// with panel_widget "BrainShiftPoint".
+/// Panel of the point of interest: X, Y and Z in mm, and a button for the centre of the volume. It
+/// acts at once, without Apply, and each change is one undo step. The key I does the same in a
+/// view. It is for the property PointOfInterest with panel_widget "BrainShiftPoint".
 #ifndef BrainShift_PointWidget_h
 #define BrainShift_PointWidget_h
 
@@ -30,11 +30,6 @@ private Q_SLOTS:
   void showPoint();
 
 private:
-  using Point = std::array<double, 3>; ///< x, y, z; mm.
-
-  void write(const Point& point);
-  void takeCentre();
-
   std::array<MillimetreField*, 3> Fields{};
   vtkNew<vtkEventQtSlotConnect> Observers;
 };

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Properties/ResultWidget.h"
 
+#include "Interaction/Displays/SharedSettings.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Panel/Parts/Advice.h"
 #include "Panel/Parts/InSight.h"
-#include "Panel/Parts/ValueSlider.h"
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
@@ -21,7 +21,6 @@
 #include <QEvent>
 #include <QFormLayout>
 #include <QLabel>
-#include <QPointer>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -40,7 +39,7 @@ pqPipelineSource* sourceOf(vtkSMProxy* proxy)
 
 void showGraded(QLabel* label, const QString& text, Grade grade)
 {
-  const QColor color = gradeColor(grade, label->palette());
+  const QColor color = gradeColor(grade, label->palette(), wantsBlueAndOrange());
   label->setText(QString("<b style=\"color:%1\">%2</b>").arg(color.name(), text.toHtmlEscaped()));
 }
 }
@@ -48,31 +47,29 @@ void showGraded(QLabel* label, const QString& text, Grade grade)
 ResultWidget::ResultWidget(vtkSMProxy* proxy, vtkSMPropertyGroup* group, QWidget* parent)
   : pqPropertyGroupWidget(proxy, group, parent)
   , Source(sourceOf(proxy))
-  , Strength(new ValueSlider("BrainShiftStrength", tr("Strength"), QString(), 2, this))
 {
   auto column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(pqPropertiesPanel::suggestedVerticalSpacing());
-  column->addWidget(this->Strength);
   auto form = new QFormLayout;
   column->addLayout(form);
   form->setHorizontalSpacing(2 * pqPropertiesPanel::suggestedHorizontalSpacing());
   form->setVerticalSpacing(pqPropertiesPanel::suggestedVerticalSpacing());
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-  this->Strength->setRange(0.0, 1.0);
-  this->Strength->setToolTip(tr(
-    "The fraction of the deformation that is shown. 0 shows the volume as loaded, 1 shows the full "
-    "deformation. Strength can be animated."));
   this->Displacement = this->addFigure(form, "BrainShiftDisplacement", tr("Largest displacement"),
     tr("The largest displacement of a control point (mm)"));
   this->Jacobian = this->addFigure(form, "BrainShiftJacobian", tr("Tissue"), jacobianTip(1.0));
-  this->connectStrength();
   new InSight(this);
   if (proxy->GetProperty("GuardFolding"))
   {
     this->addGuard(column);
   }
 
+  if (vtkSMProxy* settings = sharedSettings())
+  {
+    this->Observers->Connect(settings->GetProperty("ComparisonColors"), vtkCommand::ModifiedEvent,
+      this, SLOT(showFigures()));
+  }
   this->FiguresSoon.setSingleShot(true);
   this->connect(&this->FiguresSoon, &QTimer::timeout, this, &ResultWidget::showFigures);
   this->connect(this->Source, qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
@@ -93,26 +90,6 @@ QLabel* ResultWidget::addFigure(
   form->addRow(title, figure);
   form->labelForField(figure)->setToolTip(tip);
   return figure;
-}
-
-void ResultWidget::connectStrength()
-{
-  const QPointer<StrokeEditor> editor = StrokeEditor::of(this->Source);
-  this->connect(this->Strength, &ValueSlider::valueEdited, this, [editor](double strength) {
-    if (editor)
-    {
-      editor->changeStrength(strength);
-    }
-  });
-  this->connect(this->Strength, &ValueSlider::editingFinished, this, [editor] {
-    if (editor)
-    {
-      editor->commitStrength();
-    }
-  });
-  this->Observers->Connect(
-    this->proxy()->GetProperty("Strength"), vtkCommand::ModifiedEvent, this, SLOT(showStrength()));
-  this->showStrength();
 }
 
 void ResultWidget::addGuard(QVBoxLayout* column)
@@ -147,11 +124,6 @@ void ResultWidget::setGuard(bool on)
 void ResultWidget::showGuard()
 {
   this->Guard->setChecked(vtkSMPropertyHelper(this->proxy(), "GuardFolding").GetAsInt() != 0);
-}
-
-void ResultWidget::showStrength()
-{
-  this->Strength->setValue(vtkSMPropertyHelper(this->proxy(), "Strength").GetAsDouble());
 }
 
 double ResultWidget::figure(const char* property)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Panel of the result of all strokes: Strength, the largest displacement, the smallest Jacobian
-/// determinant, and the guard against folding. It acts at once. It is for property groups with
-/// panel_widget "BrainShiftResult".
+/// Panel of the result of all strokes: the largest displacement, the smallest Jacobian determinant,
+/// and the guard against folding. It acts at once. It is for property groups with panel_widget
+/// "BrainShiftResult".
 #ifndef BrainShift_ResultWidget_h
 #define BrainShift_ResultWidget_h
 
@@ -22,8 +22,6 @@ class vtkEventQtSlotConnect;
 
 namespace brainshift
 {
-class ValueSlider;
-
 class ResultWidget : public pqPropertyGroupWidget
 {
   Q_OBJECT
@@ -37,20 +35,17 @@ protected:
   void showEvent(QShowEvent* event) override;
 
 private Q_SLOTS:
-  void showStrength();
   void showGuard();
   void showFigures();
 
 private:
   QLabel* addFigure(QFormLayout* form, const char* name, const QString& title, const QString& tip);
-  void connectStrength();
   void addGuard(QVBoxLayout* column);
   void setGuard(bool on);
   void showFiguresSoon();
   double figure(const char* property);
 
   pqPipelineSource* const Source;
-  ValueSlider* const Strength;
   QLabel* Displacement = nullptr;
   QLabel* Jacobian = nullptr;
   QCheckBox* Guard = nullptr; ///< Null where the filter has no guard.

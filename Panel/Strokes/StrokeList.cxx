@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Strokes/StrokeList.h"
 
+#include "Interaction/Displays/SharedSettings.h"
 #include "Panel/Parts/Advice.h"
 #include "Panel/Strokes/StrokeModel.h"
 #include "Panel/Strokes/StrokeTree.h"
@@ -23,6 +24,7 @@ StrokeList::StrokeList(StrokeModel* model, QWidget* parent)
 {
   this->setObjectName("List");
   this->Tree->setObjectName("BrainShiftStrokes");
+  this->Tree->setAccessibleName(tr("Strokes"));
   this->Problem->setObjectName("BrainShiftProblem");
   this->Problem->setWordWrap(true);
   this->Delete->setObjectName("BrainShiftDelete");
@@ -66,7 +68,7 @@ void StrokeList::refresh()
   this->Problem->setText(problem);
   this->Problem->setVisible(!problem.isEmpty());
   QPalette palette = this->palette();
-  palette.setColor(QPalette::WindowText, gradeColor(Grade::Bad, palette));
+  palette.setColor(QPalette::WindowText, gradeColor(Grade::Bad, palette, wantsBlueAndOrange()));
   this->Problem->setPalette(palette);
   this->enable(this->Delete, !this->Tree->selectedRows().isEmpty());
   this->enable(this->Reset, this->Strokes->rowCount() > 0 || !problem.isEmpty());

@@ -6,6 +6,7 @@
 
 #include <QIcon>
 #include <QString>
+#include <QStringList>
 
 class pqDataRepresentation;
 
@@ -17,7 +18,12 @@ QIcon iconOfLook(const QString& name);
 /// What a look shows, one sentence.
 QString tipOfLook(const QString& name);
 
-/// Gives a display a look, as one step to undo, and remembers it for volumes of its kind.
+/// The looks that a display can have. "Brain" is one of them also where a mask or label map is open
+/// that is not yet the Segmentation; its name follows if there are several: "Brain: tumour.nii".
+QStringList looksOf(pqDataRepresentation* display);
+
+/// Gives a display a look, as one step to undo, and remembers it for volumes of its kind. A look of
+/// a label map that is open makes it the Segmentation.
 void chooseLook(pqDataRepresentation* display, const QString& name);
 }
 

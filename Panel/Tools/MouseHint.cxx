@@ -96,8 +96,8 @@ QString mouseHint(const ToolSettings& settings, ToolSettings::Ground ground)
   if (tool != ToolKind::None && !settings.shownInstead().isEmpty())
   {
     return tr(
-      "%1. This view does not show the volume that is selected. To work on %2, select it in "
-      "the Pipeline Browser.")
+      "%1. This view shows %2, not the volume that is selected. Click in the view to work on "
+      "%2.")
       .arg(nameOf(tool), settings.shownInstead());
   }
   if (tool != ToolKind::None)

@@ -63,7 +63,6 @@ struct ToolPanel::Value
 {
   const char* name; // of the slider
   const char* label;
-  const char* unit;
   int decimals;
   const char* tip;
   QList<ToolKind> tools; // that use it
@@ -75,30 +74,30 @@ struct ToolPanel::Value
 const QList<ToolPanel::Value>& ToolPanel::values()
 {
   static const QList<Value> all{
-    { "BrainShiftRadius", QT_TR_NOOP("Radius"), " mm", 1,
+    { "BrainShiftRadius", QT_TR_NOOP("Radius (mm)"), 1,
       QT_TR_NOOP("Tissue within this distance of the cursor follows, the less the farther away."),
       { ToolKind::Soft }, &ToolSettings::radius, &ToolSettings::radiusRange,
       &ToolSettings::setRadius },
-    { "BrainShiftMajorRadius", QT_TR_NOOP("Reach along"), " mm", 1,
+    { "BrainShiftMajorRadius", QT_TR_NOOP("Reach along (mm)"), 1,
       QT_TR_NOOP(
         "How far the stamp reaches along the push, from its centre to its edge (the major radius). "
         "The push leads to the point of interest."),
       { ToolKind::Stamp }, &ToolSettings::majorRadius, &ToolSettings::radiusRange,
       &ToolSettings::setMajorRadius },
-    { "BrainShiftMinorRadius", QT_TR_NOOP("Reach across"), " mm", 1,
+    { "BrainShiftMinorRadius", QT_TR_NOOP("Reach across (mm)"), 1,
       QT_TR_NOOP(
         "How far the stamp reaches across the push, from its centre to its edge (the minor "
         "radius)."),
       { ToolKind::Stamp }, &ToolSettings::minorRadius, &ToolSettings::radiusRange,
       &ToolSettings::setMinorRadius },
-    { "BrainShiftSigma", QT_TR_NOOP("Fullness"), "", 2,
+    { "BrainShiftSigma", QT_TR_NOOP("Fullness (\u00d7 reach)"), 2,
       QT_TR_NOOP(
         "How much of the tissue within reach follows. A small number makes a sharp peak at the "
         "centre, a large one a broad hill. The edge is always soft. (Sigma: the width of the "
         "Gaussian as a fraction of the reach.)"),
       { ToolKind::Soft, ToolKind::Stamp }, &ToolSettings::sigma, &ToolSettings::sigmaRange,
       &ToolSettings::setSigma },
-    { "BrainShiftMillimetresPerClick", QT_TR_NOOP("Per click"), " mm", 2,
+    { "BrainShiftMillimetresPerClick", QT_TR_NOOP("Per click (mm)"), 2,
       QT_TR_NOOP("One click of the mouse wheel pulls or pushes the tissue this far."),
       { ToolKind::Stamp }, &ToolSettings::millimetresPerClick,
       &ToolSettings::millimetresPerClickRange, &ToolSettings::setMillimetresPerClick },
@@ -117,13 +116,13 @@ ToolPanel::ToolPanel(QWidget* parent)
   auto column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   this->addButtons(column);
-  this->Hint->setObjectName("BrainShiftHint");
-  this->Hint->setWordWrap(true);
-  column->addWidget(this->Hint);
   this->addSliders(column);
   this->Drawing->setObjectName("BrainShiftReach");
   column->addWidget(this->Drawing);
   this->addWarning(column);
+  this->Hint->setObjectName("BrainShiftHint"); // last: the status line shows these words as well
+  this->Hint->setWordWrap(true);
+  column->addWidget(this->Hint);
   this->connect(ToolSettings::instance(), &ToolSettings::changed, this, &ToolPanel::refresh);
   this->refresh();
 }
@@ -139,7 +138,7 @@ void ToolPanel::addButtons(QBoxLayout* column)
     button->setIcon(QIcon(choice.icon));
     button->setIconSize({ 24, 24 });
     button->setToolTip(choice.tip);
-    button->setToolButtonStyle(Qt::ToolButtonTextUnderIcon);
+    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     button->setFocusPolicy(Qt::StrongFocus);
     button->setCheckable(true);
@@ -157,7 +156,7 @@ void ToolPanel::addSliders(QBoxLayout* column)
   int labelWidth = 0;
   for (const Value& value : values())
   {
-    auto slider = new ValueSlider(value.name, tr(value.label), value.unit, value.decimals, this);
+    auto slider = new ValueSlider(value.name, tr(value.label), value.decimals, this);
     slider->setToolTip(tr(value.tip));
     this->connect(slider, &ValueSlider::valueEdited, this,
       [set = value.set](double number) { (ToolSettings::instance()->*set)(number); });

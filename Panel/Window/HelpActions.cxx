@@ -3,6 +3,7 @@
 
 #include "Panel/Window/KeysText.h"
 #include "Panel/Window/Tutorial.h"
+#include "Panel/Window/Welcome.h"
 
 #include <pqCoreUtilities.h>
 
@@ -47,7 +48,11 @@ HelpActions::HelpActions(QObject* parent)
   tutorial->setObjectName("actionBrainShiftTutorial");
   tutorial->setToolTip(tr("Learn the tools in seven steps on a sample head."));
   this->connect(tutorial, &QAction::triggered, this, &Tutorial::begin);
-  if (qEnvironmentVariableIsSet("BRAINSHIFT_TUTORIAL")) // the launcher asks for it
+  if (qEnvironmentVariableIsSet("BRAINSHIFT_NO_WELCOME")) // the launcher asks for both
+  {
+    keepWelcomeAway(this);
+  }
+  if (qEnvironmentVariableIsSet("BRAINSHIFT_TUTORIAL"))
   {
     QTimer::singleShot(0, this, &Tutorial::begin);
   }

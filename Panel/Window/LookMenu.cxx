@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Window/LookMenu.h"
 
-#include "Interaction/Views/VolumeLook.h"
 #include "Panel/Tools/LookChoice.h"
 
 #include <pqActiveObjects.h>
@@ -60,7 +59,7 @@ void LookMenu::offer()
 {
   this->clear();
   const QPointer<pqDataRepresentation> display = shownVolume();
-  const QStringList names = display ? makeVolumeLook(display).names : QStringList();
+  const QStringList names = display ? looksOf(display) : QStringList();
   for (const QString& name : names)
   {
     QAction* action = this->addAction(iconOfLook(name), name);

@@ -7,6 +7,7 @@
 #include "Interaction/Views/Flicker.h"
 #include "Panel/Tools/LookChoice.h"
 #include "Panel/Tools/ToolChoice.h"
+#include "Panel/Window/CursorLine.h"
 #include "Panel/Window/LookMenu.h"
 #include "Panel/Window/StatusLine.h"
 
@@ -14,6 +15,7 @@
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
 #include <pqServerManagerModel.h>
+#include <pqView.h>
 
 #include <QMainWindow>
 #include <QStatusBar>
@@ -45,6 +47,7 @@ Toolbar::Toolbar(QWidget* mainWindow)
   if (auto window = qobject_cast<QMainWindow*>(mainWindow))
   {
     window->statusBar()->addWidget(new StatusLine(window), 1);
+    window->statusBar()->addWidget(new CursorLine(window));
   }
 }
 
@@ -59,6 +62,11 @@ void Toolbar::addTools()
     action->setCheckable(true);
     this->connect(action, &QAction::triggered, this, [tool = choice.tool](bool on) {
       ToolSettings::instance()->setTool(on ? tool : ToolKind::None);
+      pqView* view = pqActiveObjects::instance().activeView();
+      if (on && view && view->widget())
+      {
+        view->widget()->setFocus(); // for the keys of the tool
+      }
     });
     this->Tools.append(action);
   }

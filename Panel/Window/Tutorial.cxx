@@ -4,6 +4,7 @@
 #include "Interaction/Commands/ToolSettings.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
+#include "Panel/Window/Welcome.h"
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
@@ -17,7 +18,6 @@
 #include <vtkSMProxy.h>
 
 #include <QAction>
-#include <QApplication>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QProgressBar>
@@ -26,7 +26,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <optional>
 #include <vector>
 
@@ -131,16 +130,6 @@ std::vector<double> shownColors()
   vtkSMProxy* colors = display ? display->getLookupTableProxy() : nullptr;
   return colors ? vtkSMPropertyHelper(colors, "RGBPoints").GetDoubleArray() : std::vector<double>();
 }
-
-// ParaView's own window of welcome waits for an answer and would lock this one.
-void closeWelcome()
-{
-  QWidget* modal = QApplication::activeModalWidget();
-  if (modal && std::strcmp(modal->metaObject()->className(), "pqWelcomeDialog") == 0)
-  {
-    modal->close();
-  }
-}
 }
 
 void Tutorial::begin()
@@ -184,6 +173,14 @@ void Tutorial::addTexts()
   this->Text->setObjectName("TutorialText");
   this->Text->setWordWrap(true);
   this->Text->setFixedWidth(this->fontMetrics().averageCharWidth() * 44);
+  this->Text->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  int tallest = 0; // a window that is too small would cut the longer pages off
+  for (const Page& page : Pages)
+  {
+    this->Text->setText(tr(page.text));
+    tallest = std::max(tallest, this->Text->heightForWidth(this->Text->width()));
+  }
+  this->Text->setMinimumHeight(tallest);
   for (QWidget* part : std::initializer_list<QWidget*>{ this->Progress, this->Title, this->Text })
   {
     this->layout()->addWidget(part);
@@ -241,7 +238,8 @@ void Tutorial::go(int step)
   this->Text->setText(tr(page.text));
   this->Help->setText(page.help ? tr(page.help) : QString());
   this->Help->setVisible(page.help);
-  this->Compared = this->Saved = false;
+  this->ComparedBefore = editor() ? editor()->timesBefore() : 0;
+  this->Saved = false;
   this->ColorsBefore = shownColors();
   const std::optional<Tool> tool = toolOf(step);
   this->StrokesBefore = tool ? countStrokes(*tool) : 0;
@@ -254,7 +252,6 @@ void Tutorial::watch()
   {
     this->ColorsBefore = shownColors(); // the volume may be shown later than the step
   }
-  this->Compared = this->Compared || (editor() && editor()->showsBefore());
   if (this->Step < StepCount && this->isDone())
   {
     this->go(this->Step + 1);
@@ -274,7 +271,7 @@ bool Tutorial::isDone() const
     case LookStep:
       return shownColors() != this->ColorsBefore;
     case CompareStep: // until it is let go
-      return this->Compared && !editor()->showsBefore();
+      return editor() && editor()->timesBefore() > this->ComparedBefore && !editor()->showsBefore();
     default:
       return this->Saved;
   }

@@ -38,7 +38,7 @@ private:
   int Step = 0;
   int StrokesBefore = 0;            ///< of the step's tool, when the step began
   std::vector<double> ColorsBefore; ///< of the volume, when the step began
-  bool Compared = false;
+  int ComparedBefore = 0;           ///< how often the volume was shown as loaded, when it began
   bool Saved = false;
   QProgressBar* Progress = nullptr;
   QLabel* Title = nullptr;

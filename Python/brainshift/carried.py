@@ -5,11 +5,12 @@
 LOOK = (
     "ColorArrayName", "UseSeparateColorMap", "LookupTable",
     "ScalarOpacityFunction", "Opacity", "Shade", "Ambient", "Diffuse", "Specular", "SpecularPower",
-    "ScalarOpacityUnitDistance", "DrawSegment", "DrawnLabels", "SampleDistance",
+    "ScalarOpacityUnitDistance", "GradientOpacity", "TransferFunction2D", "UseTransfer2D",
+    "DrawSegment", "DrawnLabels", "SampleDistance",
     "VolumeNormalTexture", "Translation", "Orientation", "Scale",
     "ShowSagittal", "ShowCoronal", "ShowAxial", "SlicePosition", "ShowCrosshair",
     "SliceInterpolation", "MapSliceOpacity", "OrientationMarks", "WorldAxes", "SliceComparison",
-    "WipePosition")
+    "ComparisonColors", "WipePosition")
 
 
 def display_of(source, view):

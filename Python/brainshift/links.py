@@ -3,6 +3,10 @@
 
 import itertools
 
+#: Of the names of links. ParaView's window keeps links so named out of its link manager, which
+#: would empty the undo stack when one goes: see Plugin/QuietLinks.h.
+PREFIX = "BrainShift "
+
 
 def link(proxies, group, name):
     """Keeps a property equal in all proxies from now on, also after a view is closed.
@@ -17,7 +21,7 @@ def link(proxies, group, name):
 
     manager = servermanager.ProxyManager()
     made = servermanager.vtkSMPropertyLink()
-    link_name = f"{name}{proxies[0].SMProxy.GetGlobalIDAsString()}"
+    link_name = f"{PREFIX}{name}{proxies[0].SMProxy.GetGlobalIDAsString()}"
     linked = {manager.GetProxyName(group, proxy.SMProxy): proxy.SMProxy.GetGlobalID()
               for proxy in proxies}
 

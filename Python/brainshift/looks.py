@@ -1,16 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Shows a volume at its best at once: colours, opacities and a camera that fit its tissue."""
 
-import math
-
-#: From the middle of the tissue to the camera at first: from the patient's right, front and above.
-FIRST_DIRECTION = (0.62, 0.68, 0.40)
-
-#: The tissue fills this part of the view's width or height.
-FILLED = 0.92
-
-#: Part of the box's corners in the size of the tissue.
-BOX_SHARE = 0.25
+from .reports import measure, numbers, report_on
 
 
 def _array(representation):
@@ -24,24 +15,12 @@ def _measured(representation, name=""):
     input_property = representation.SMProxy.GetProperty("Input")
     source = input_property.GetProxy(0)
     source.UpdatePipeline()
-    report = representation.SMProxy.GetSessionProxyManager().NewProxy("misc", "VolumeLookReport")
-    report.UnRegister(None)  # Python holds it
-    report.PrototypeOn()  # a question is no step to undo
     association, array = _array(representation)
-    report.GetProperty("Source").AddProxy(source)
-    report.GetProperty("Port").SetElement(0, input_property.GetOutputPortForConnection(0))
-    report.GetProperty("Association").SetElement(0, association)
-    report.GetProperty("ArrayName").SetElement(0, array or "")
+    report = report_on(
+        source, input_property.GetOutputPortForConnection(0), association, array or "")
     report.GetProperty("Look").SetElement(0, name)
-    report.UpdateVTKObjects()
-    report.InvokeCommand("Measure")
-    report.UpdatePropertyInformation()
+    measure(report)
     return report
-
-
-def _numbers(report, name):
-    answer = report.GetProperty(name)
-    return [answer.GetElement(i) for i in range(answer.GetNumberOfElements())]
 
 
 def _names(report):
@@ -104,50 +83,30 @@ def look(representation, name=None, view=None):
     colors, opacities = representation.LookupTable, representation.ScalarOpacityFunction
     colors.AutomaticRescaleRangeMode = "Never"  # the values mean tissue
     colors.ColorSpace = "RGB"
-    colors.RGBPoints = _numbers(report, "Colors")
+    colors.RGBPoints = numbers(report, "Colors")
     colors.ScalarRangeInitialized = 1
-    curve = _numbers(report, "Opacities")
-    opacities.Points = [number for value, opacity in zip(curve[0::2], curve[1::2])
-                        for number in (value, opacity, 0.5, 0.0)]
+    curve = numbers(report, "Opacities")
+    opacities.Points = [part for value, opacity in zip(curve[0::2], curve[1::2])
+                        for part in (value, opacity, 0.5, 0.0)]
     opacities.ScalarRangeInitialized = 1
     representation.Shade = 1
     if "DrawSegment" in representation.ListProperties():
         representation.DrawSegment = report.GetProperty("DrawsSegment").GetElement(0)
     if view is not None:
         simple.Render(view)  # ParaView places the camera itself at its first picture
-        _aim(view, _numbers(report, "TissueBounds"))
+        _aim(view, report)
     return name or names[0]
 
 
-def _dot(one, other):
-    return sum(a * b for a, b in zip(one, other))
-
-
-def _reach(half, along):
-    """Half the size of tissue in a box along a unit direction.
-
-    It is a little more than that of the ellipsoid in the box, for a head has a neck.
-    """
-    parts = [abs(h * a) for h, a in zip(half, along)]
-    return BOX_SHARE * sum(parts) + (1.0 - BOX_SHARE) * math.sqrt(_dot(parts, parts))
-
-
-def _aim(view, bounds):
-    """Looks at a box (mm, world) from the first direction, so that tissue fills the view."""
-    if bounds[0] > bounds[1]:
+def _aim(view, report):
+    """Looks at what a look shows, so that it fills the view."""
+    report.GetProperty("ViewAspect").SetElement(0, view.ViewSize[0] / view.ViewSize[1])
+    report.GetProperty("ViewAngle").SetElement(0, view.CameraViewAngle)
+    report.UpdateVTKObjects()
+    report.UpdatePropertyInformation()
+    camera = numbers(report, "Camera")
+    if not camera:
         return  # nothing is seen
-    length = math.sqrt(_dot(FIRST_DIRECTION, FIRST_DIRECTION))
-    towards = x, y, z = [part / length for part in FIRST_DIRECTION]
-    level = math.hypot(x, y)
-    right = [-y / level, x / level, 0.0]
-    up = [-x * z / level, -y * z / level, level]
-    middle = [(low + high) / 2 for low, high in zip(bounds[0::2], bounds[1::2])]
-    half = [max(high - low, 1e-9) / 2 for low, high in zip(bounds[0::2], bounds[1::2])]
-    wide = view.ViewSize[0] / view.ViewSize[1]
-    scale = max(_reach(half, up), _reach(half, right) / wide) / FILLED
-    distance = (scale / math.tan(math.radians(view.CameraViewAngle / 2))
-                + BOX_SHARE * _reach(half, towards))
-    view.CameraFocalPoint = view.CenterOfRotation = middle
-    view.CameraPosition = [m + distance * part for m, part in zip(middle, towards)]
-    view.CameraViewUp = [0.0, 0.0, 1.0]
-    view.CameraParallelScale = scale
+    view.CameraPosition, view.CameraViewUp = camera[:3], camera[6:9]
+    view.CameraFocalPoint = view.CenterOfRotation = camera[3:6]
+    view.CameraParallelScale = camera[9]

@@ -27,7 +27,7 @@ CAMERAS = {
 WORLDS = {"RAS": (1, 1, 1), "LPS": (-1, -1, 1)}
 
 #: Properties that have one value for all four views.
-LINKED = ("SlicePosition", "SliceComparison", "WipePosition", "WorldAxes")
+LINKED = ("SlicePosition", "SliceComparison", "ComparisonColors", "WipePosition", "WorldAxes")
 
 #: Size of a view as a multiple of the volume's size, so that some space stays around it.
 MARGIN = 1.05
@@ -283,8 +283,9 @@ def four_views(source, convention="radiological", world=None):
 
     The three slice views are 2D views of Deformed Slices. They share a grey colour map and one
     slice position: set `SlicePosition` (mm) of one display, and the others follow. They also share
-    `SliceComparison`, `WipePosition` and `WorldAxes`. Letters mark the sides of the patient where
-    the world axes are known. Elsewhere x, y and z mark the edges, and the views lie as for RAS.
+    `SliceComparison`, `ComparisonColors`, `WipePosition` and `WorldAxes`. Letters mark the sides of
+    the patient where the world axes are known. Elsewhere x, y and z mark the edges, and the views
+    lie as for RAS.
 
     The grey values reach from the 1st to the 99th percentile of the tissue: see
     `percentile_window`. In each slice lines show where the other two cut it (`ShowCrosshair`). The
@@ -366,7 +367,7 @@ def show_comparison(comparison):
 
     In the active view the comparison gets the representation, the colours, the opacity and the
     segments of the volume that it compares. If the active view is one of the four views, slices
-    and 3D show the comparison together, in red and green unless another way was chosen.
+    and 3D show the comparison together, in two colours unless another way was chosen.
 
     - `comparison`: a Compare Volumes filter that the active view shows.
     """
@@ -385,6 +386,6 @@ def show_comparison(comparison):
     for plane in PLANES:
         display = display_of(comparison, views[plane])
         if display.SliceComparison == "None":
-            display.SliceComparison = "Red and green"  # the others follow
+            display.SliceComparison = "Two colours"  # the others follow
     simple.SetActiveView(active)
     simple.RenderAllViews()

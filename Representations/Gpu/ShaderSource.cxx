@@ -42,7 +42,6 @@
 #include "shader_proxy_vert.h"
 #include "shader_raycast.h"
 #include "shader_rays.h"
-#include "shader_red_green_frag.h"
 #include "shader_reference.h"
 #include "shader_refine_frag.h"
 #include "shader_segment.h"
@@ -51,10 +50,12 @@
 #include "shader_slices_frag.h"
 #include "shader_slices_vert.h"
 #include "shader_smooth_occlusion_frag.h"
+#include "shader_steepness.h"
 #include "shader_tissue.h"
 #include "shader_traces_frag.h"
 #include "shader_traces_over_frag.h"
 #include "shader_traces_vert.h"
+#include "shader_two_colors_frag.h"
 #include "shader_two_samples.h"
 #include "shader_volume_pass.h"
 #include "shader_volume_pass_geom.h"
@@ -115,12 +116,12 @@ std::string loopSource(const RayCastVariant& variant)
   if (variant.compared)
   {
     return std::string(shader_cavity) + shader_reference + shader_layers + shader_both_paths +
-      shader_red_green_frag;
+      shader_two_colors_frag;
   }
   switch (variant.blend)
   {
     case Blend::Composite:
-      return std::string(shader_compositing) +
+      return std::string(shader_steepness) + shader_compositing +
         (variant.averaged ? shader_averaged : shader_pointwise) + shader_two_samples +
         shader_compositing_frag;
     case Blend::Isosurface:
@@ -144,6 +145,12 @@ std::string coloringDefine(Coloring coloring)
                                         : "";
 }
 
+std::string opacityDefines(Opacity opacity)
+{
+  return std::string(opacity != Opacity::Scalar ? "#define STEEPNESS\n" : "") +
+    (opacity == Opacity::Table ? "#define STEEPNESS_TABLE\n" : "");
+}
+
 std::string segmentDefines()
 {
   return "#define SEGMENTED\n#define LEAST_SHARE " + std::to_string(LeastShare) + "\n";
@@ -157,12 +164,14 @@ std::string nameOf(const RayCastVariant& variant)
   static const char* const blends[BlendCount] = { "", "_maximum", "_minimum", "_average",
     "_additive", "_isosurface", "_slice" };
   static const char* const colorings[] = { "", "_direct", "_other_scalar" };
+  static const char* const opacities[] = { "", "_gradient_opacity", "_table" };
   return std::string("raycast") + (variant.deformed ? "_deformed" : "_rest") +
     LightNames[variant.light] + blends[static_cast<int>(variant.blend)] +
     colorings[static_cast<int>(variant.coloring)] + (variant.regions ? "_regions" : "") +
     (variant.segmented ? "_segment" : "") + (variant.counted ? "_counted" : "") +
     (variant.sharedLight ? "_shared_light" : "") + (variant.averaged ? "_averaged" : "") +
-    (variant.compared ? "_compared" : "") + (variant.cavity ? "_cavity" : "");
+    (variant.compared ? "_compared" : "") + (variant.cavity ? "_cavity" : "") +
+    opacities[static_cast<int>(variant.opacity)];
 }
 }
 
@@ -222,6 +231,7 @@ ShaderSource rayCastSource(const RayCastVariant& variant)
   defines += "#define TRANSFER_ENTRIES " + std::to_string(TransferEntries) + "\n";
   defines += variant.compared ? "#define COMPARED\n" : "";
   defines += variant.cavity ? "#define CAVITY\n" : "";
+  defines += opacityDefines(variant.opacity);
   return { outlineStage(), "",
     assemble({ Outputs, defines, shader_rays, shader_skipping, shader_clipping, shader_field,
       shader_gradient, shader_segment, shader_tissue, shader_cut, shader_components, shader_light,
@@ -264,8 +274,8 @@ ShaderSource slicesSource(const SlicesVariant& variant)
     (variant.cavity ? "#define CAVITY\n" : "");
   return { assemble({ shader_slices_vert }), "",
     assemble({ Outputs, defines, shader_rays, shader_field, shader_gradient, shader_segment,
-      shader_tissue, shader_components, shader_cubic, shader_cavity, shader_comparison,
-      shader_crosshair, shader_slices_frag }) };
+      shader_tissue, shader_components, shader_cubic, shader_cavity, shader_crosshair,
+      shader_comparison, shader_slices_frag }) };
 }
 
 ShaderSource tracesSource(int tissues)
@@ -328,6 +338,27 @@ void addAlone(NamedSources& sources, bool deformed)
   }
 }
 
+// The ray caster of a volume whose opacity depends on gradients, too.
+void addSteep(NamedSources& sources, bool deformed)
+{
+  for (const Opacity opacity : { Opacity::Gradient, Opacity::Table })
+  {
+    for (const auto light : { RayCastVariant::Unshaded, RayCastVariant::GradientsOnTheFly })
+    {
+      RayCastVariant steep{ deformed, light };
+      steep.opacity = opacity;
+      add(sources, steep);
+      steep.averaged = opacity == Opacity::Gradient;
+      steep.segmented = true;
+      add(sources, steep);
+    }
+    RayCastVariant shared{ deformed, RayCastVariant::GradientsOnTheFly };
+    shared.opacity = opacity;
+    shared.sharedLight = true;
+    add(sources, shared);
+  }
+}
+
 // The ray caster of a volume and a reference.
 void addCompared(NamedSources& sources, bool deformed)
 {
@@ -354,6 +385,7 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
   for (const bool deformed : { false, true })
   {
     addAlone(sources, deformed);
+    addSteep(sources, deformed);
     addCompared(sources, deformed);
   }
   sources.emplace_back("traces", tracesSource(0));

@@ -72,6 +72,14 @@ enum class Coloring
   OtherScalar = 2, ///< The colour map at another number of the voxel.
 };
 
+/// What the opacity of a sample depends on.
+enum class Opacity
+{
+  Scalar = 0,   ///< The opacity curve at the scalar.
+  Gradient = 1, ///< That, times gradient opacity.
+  Table = 2,    ///< A 2D transfer function of scalar and gradient, which gives the colour, too.
+};
+
 /// Variants of the ray caster. Each combination is a program of its own.
 struct RayCastVariant
 {
@@ -85,20 +93,21 @@ struct RayCastVariant
   } light = Unshaded;
   Blend blend = Blend::Composite;
   Coloring coloring = Coloring::Mapped;
-  bool regions = false;     ///< Cropping keeps other regions than the middle one.
-  bool segmented = false;   ///< A segment is drawn alone.
-  bool counted = false;     ///< A third target counts samples; Composite only.
-  bool sharedLight = false; ///< Two samples share their light; Composite and shaded only.
-  bool averaged = false;    ///< Samples take averages of the colour map; Composite only.
-  bool compared = false;    ///< Drawn with a reference, red and green; Composite only.
-  bool cavity = false;      ///< The comparison ignores a cavity.
+  bool regions = false;              ///< Cropping keeps other regions than the middle one.
+  bool segmented = false;            ///< A segment is drawn alone.
+  bool counted = false;              ///< A third target counts samples; Composite only.
+  bool sharedLight = false;          ///< Two samples share their light; Composite and shaded only.
+  bool averaged = false;             ///< Samples take averages of the colour map; Composite only.
+  bool compared = false;             ///< Drawn with a reference, in two colours; Composite only.
+  bool cavity = false;               ///< The comparison ignores a cavity.
+  Opacity opacity = Opacity::Scalar; ///< Others: Composite only, not compared, no GradientTexture.
 
   bool operator<(const RayCastVariant& other) const
   {
     const auto key = [](const RayCastVariant& variant) {
       return std::make_tuple(variant.deformed, variant.light, variant.blend, variant.coloring,
         variant.regions, variant.segmented, variant.counted, variant.sharedLight, variant.averaged,
-        variant.compared, variant.cavity);
+        variant.compared, variant.cavity, variant.opacity);
     };
     return key(*this) < key(other);
   }

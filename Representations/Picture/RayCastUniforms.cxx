@@ -126,6 +126,23 @@ void setSegmentUniforms(Program& program, const SceneSegment& segment)
   }
 }
 
+void setSteepnessUniforms(Program& program, const SceneSteepness& steepness, double stepMm)
+{
+  if (steepness.opacity == Opacity::Scalar)
+  {
+    return;
+  }
+  program.set("steepness", steepness.entries);
+  program.set("steepStep", glm::vec3(steepness.step));
+  program.set("steepFromGradient", glm::vec3(steepness.fromGradient));
+  program.set("entryFromSteepness", glm::vec2(steepness.entryFromSteepness));
+  program.set("opacitySteps", static_cast<float>(stepMm / steepness.stepMm));
+  if (steepness.opacity == Opacity::Table)
+  {
+    program.set("entryFromScalar", glm::vec2(steepness.entryFromScalar));
+  }
+}
+
 glm::mat3 worldFromGradient(const SceneFrame& frame)
 {
   const glm::dmat3 worldFromTexture(frame.worldFromTexture);
@@ -195,6 +212,7 @@ void setComparisonUniforms(Program& program, const RayCastScene& scene)
   {
     setReferenceLightUniforms(program, reference);
   }
+  setComparisonColors(program, comparison.colors);
   setCavityUniforms(program, comparison.cavity);
 }
 }
@@ -219,8 +237,13 @@ void setRayCastUniforms(
   if (scene.tissue.shaded)
   {
     setLightUniforms(program, scene.frame, scene.tissue);
+  }
+  const bool steep = scene.tissue.steepness.opacity != Opacity::Scalar;
+  if (scene.tissue.shaded || steep)
+  {
     program.set("fieldTexel", glm::vec3(scene.field.texel));
   }
+  setSteepnessUniforms(program, scene.tissue.steepness, scene.stepMm());
   setCutUniforms(program, scene.cuts);
   setBlendingUniforms(program, scene.tissue.blend, scene.blending);
   setSegmentUniforms(program, scene.tissue.segment);
@@ -234,9 +257,10 @@ void setRayCastUniforms(
 void deactivateTextures(const RayCastScene& scene)
 {
   const SceneTissue& tissue = scene.tissue;
-  for (vtkTextureObject* texture : { tissue.scalars, tissue.normals, tissue.transfer,
-         scene.behind.depth, tissue.coloring.colors, tissue.coloring.scalars, tissue.segment.shares,
-         scene.skipping.presence->leaps(), scene.comparison.cavity.voxels, tissue.transferSums })
+  for (vtkTextureObject* texture :
+    { tissue.scalars, tissue.normals, tissue.transfer, scene.behind.depth, tissue.coloring.colors,
+      tissue.coloring.scalars, tissue.segment.shares, scene.skipping.presence->leaps(),
+      scene.comparison.cavity.voxels, tissue.transferSums, tissue.steepness.entries })
   {
     if (texture)
     {

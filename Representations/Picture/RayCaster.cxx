@@ -32,6 +32,7 @@ RayCastVariant variantOf(const RayCastScene& scene)
   variant.segmented = tissue.segment.shares != nullptr;
   variant.counted = scene.image.countSamples && variant.blend == Blend::Composite;
   variant.averaged = tissue.transferSums && variant.blend == Blend::Composite && !variant.compared;
+  variant.opacity = variant.compared ? Opacity::Scalar : tissue.steepness.opacity;
   variant.sharedLight =
     tissue.shaded && !variant.averaged && !variant.compared && tissue.raysEndSoon();
   return variant;

@@ -24,6 +24,12 @@ void setReferencePlace(Program& program, const PlacedReference& reference)
   program.set("referenceHigh", glm::vec3(reference.high));
 }
 
+void setComparisonColors(Program& program, const ColorPair& colors)
+{
+  program.set("ownColor", colors.own);
+  program.set("referenceColor", colors.reference);
+}
+
 void setCavityUniforms(Program& program, const PlacedCavity& cavity)
 {
   if (cavity.voxels)

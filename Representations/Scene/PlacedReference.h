@@ -7,6 +7,8 @@
 #ifndef BrainShift_PlacedReference_h
 #define BrainShift_PlacedReference_h
 
+#include "Representations/Scene/ComparisonColors.h"
+
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
@@ -48,6 +50,9 @@ struct VolumePlace
 
 /// Sets the uniforms of a reference, see Shaders/Tissue/reference.glsl.
 void setReferencePlace(Program& program, const PlacedReference& reference);
+
+/// Sets the colours in which both volumes are drawn.
+void setComparisonColors(Program& program, const ColorPair& colors);
 
 /// Sets the uniforms of Shaders/Tissue/cavity.glsl, if there is a cavity.
 void setCavityUniforms(Program& program, const PlacedCavity& cavity);

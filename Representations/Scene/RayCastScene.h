@@ -12,6 +12,7 @@
 
 #include "Filters/Deformation/FieldChange.h"
 #include "Representations/Gpu/ShaderSource.h"
+#include "Representations/Scene/ComparisonColors.h"
 #include "Representations/Scene/ImageArea.h"
 #include "Representations/Scene/PlacedReference.h"
 
@@ -89,6 +90,18 @@ struct SceneSegment
   glm::dvec2 cutGradient{ 1.0, 0.0 }; ///< Stored scalar to the weight of the edge in light.
 };
 
+/// What makes opacity depend on gradients. Steepness: see Tissue/SteepnessTexture.h.
+struct SceneSteepness
+{
+  Opacity opacity = Opacity::Scalar;
+  vtkTextureObject* entries = nullptr;       ///< Null for Opacity::Scalar.
+  glm::dvec3 step{ 1.0 };                    ///< One voxel as VTK counts it, texture coordinates.
+  glm::dvec3 fromGradient{ 1.0 };            ///< Factors on a gradient of stored scalars.
+  glm::dvec2 entryFromScalar{ 1.0, 0.0 };    ///< Stored scalar to column: scale, shift.
+  glm::dvec2 entryFromSteepness{ 1.0, 0.0 }; ///< Steepness to row: scale, shift.
+  double stepMm = 1.0;                       ///< Step that the opacities hold for.
+};
+
 /// What rays look up in the volume at rest. Filled by TissueTextures::update.
 struct SceneTissue
 {
@@ -108,6 +121,7 @@ struct SceneTissue
   glm::dvec4 material{ 0.0, 1.0, 0.0, 1.0 }; ///< Ambient, diffuse, specular, specular power.
   SceneColoring coloring;
   SceneSegment segment;
+  SceneSteepness steepness;
 
   /// Whether rays end inside the tissue, soon after its surface.
   bool raysEndSoon() const { return this->opaque && this->blend == Blend::Composite; }
@@ -176,6 +190,7 @@ struct SceneComparison
   RayCastScene* reference = nullptr; ///< As if drawn alone. Null: there is no comparison.
   double agreementMm = 1.0;          ///< Surfaces half as far apart count as one.
   PlacedCavity cavity;               ///< What the colours ignore.
+  ColorPair colors;
 };
 
 /// Everything that one picture depends on.

@@ -12,6 +12,7 @@
 #include "vtkRenderer.h"
 
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace brainshift
 {
@@ -25,6 +26,26 @@ ValueLayout layoutOf(const glm::ivec3& points, bool cells)
   layout.low = layout.textureOfGridZero;
   layout.high = glm::dvec3(points - 1) * layout.textureFromGrid + layout.textureOfGridZero;
   return layout;
+}
+
+glm::dvec3 roundingOf(const ValueLayout& layout)
+{
+  constexpr double roundingVoxels = 1e-3;
+  return roundingVoxels / glm::dvec3(layout.dimensions);
+}
+
+std::optional<long long> nearestValue(
+  const ValueLayout& layout, const glm::dvec3& texture, const glm::dvec3& margin)
+{
+  if (glm::any(glm::lessThan(texture, layout.low - margin)) ||
+    glm::any(glm::greaterThan(texture, layout.high + margin)))
+  {
+    return {};
+  }
+  const glm::ivec3& side = layout.dimensions;
+  const glm::ivec3 value =
+    glm::clamp(glm::ivec3(glm::floor(texture * glm::dvec3(side))), glm::ivec3(0), side - 1);
+  return (static_cast<long long>(value.z) * side.y + value.y) * side.x + value.x;
 }
 
 DrawnValues drawnValuesOf(vtkAbstractVolumeMapper* mapper, vtkImageData* image)

@@ -14,6 +14,8 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include <optional>
+
 class vtkAbstractVolumeMapper;
 class vtkDataArray;
 class vtkImageData;
@@ -34,6 +36,15 @@ struct ValueLayout
 
 /// Layout of values on `points` points a side, or in the cells between them.
 ValueLayout layoutOf(const glm::ivec3& points, bool cells);
+
+/// How far beyond the volume's box (texture coordinates) a place still counts as inside: a plane on
+/// the very face of the box must not come and go with rounding.
+glm::dvec3 roundingOf(const ValueLayout& layout);
+
+/// Number of the value nearest to a place (texture coordinates). None farther than `margin` outside
+/// the volume's box (texture coordinates along each axis).
+std::optional<long long> nearestValue(
+  const ValueLayout& layout, const glm::dvec3& texture, const glm::dvec3& margin);
 
 /// The values of an image that are drawn, and where they lie.
 struct DrawnValues

@@ -17,8 +17,9 @@ void setTissueUniforms(Program& program, const SceneTissue& tissue, int stepDoub
 {
   program.set("scalars", tissue.scalars);
   program.set("transfer", tissue.transfer);
-  program.set(
-    "transferRow", (static_cast<float>(stepDoublings) + 0.5f) / static_cast<float>(TransferRows));
+  // With gradients, opacities of one step are put together after the gradient had its say.
+  const int row = tissue.steepness.opacity == Opacity::Scalar ? stepDoublings : 0;
+  program.set("transferRow", (static_cast<float>(row) + 0.5f) / static_cast<float>(TransferRows));
   program.set("transferFromScalar", glm::vec2(tissue.transferFromScalar));
   program.set("visibleScalars", glm::vec2(tissue.visibleScalars));
   program.set("volumeLow", glm::vec3(tissue.volumeLow));

@@ -98,12 +98,42 @@ SceneBlending blendingOf(vtkVolumeMapper* mapper, vtkVolumeProperty* property,
 
 namespace
 {
-// VTK's own mappers make a function that is 1 everywhere where there was none.
-bool dependsOnGradient(vtkVolumeProperty* property)
+bool wantsTable(vtkVolumeProperty* property)
 {
-  return property->HasGradientOpacity() &&
-    std::strcmp(property->GetGradientOpacity()->GetType(), "Constant") != 0;
+  return property->GetTransferFunctionMode() == vtkVolumeProperty::TF_2D;
 }
+
+// VTK's own mappers make a function that is 1 everywhere where there was none.
+bool wantsGradient(vtkVolumeProperty* property)
+{
+  if (wantsTable(property) || !property->HasGradientOpacity())
+  {
+    return false;
+  }
+  vtkPiecewiseFunction* factor = property->GetGradientOpacity();
+  return std::strcmp(factor->GetType(), "Constant") != 0 || factor->GetValue(0.0) < 1.0;
+}
+
+// Why a 2D transfer function is not drawn; empty if it is.
+std::string tableProblem(
+  vtkVolumeMapper* mapper, vtkVolumeProperty* property, vtkDataArray* scalars)
+{
+  return blendOf(mapper, property) != Blend::Composite ? "it needs blend mode Composite"
+    : drawnComponents(property, scalars).coloring != Coloring::Mapped
+    ? "the array brings colours along"
+    : !property->GetTransferFunction2D() ? "the volume has no 2D transfer function"
+                                         : "";
+}
+}
+
+Opacity opacityOf(vtkVolumeMapper* mapper, vtkVolumeProperty* property, vtkDataArray* scalars)
+{
+  if (wantsTable(property))
+  {
+    return tableProblem(mapper, property, scalars).empty() ? Opacity::Table : Opacity::Scalar;
+  }
+  const bool composite = blendOf(mapper, property) == Blend::Composite;
+  return wantsGradient(property) && composite ? Opacity::Gradient : Opacity::Scalar;
 }
 
 std::vector<std::string> unsupportedChoices(
@@ -117,12 +147,12 @@ std::vector<std::string> unsupportedChoices(
     }
   };
   const int components = scalars->GetNumberOfComponents();
-  const bool twoDimensional = property->GetTransferFunctionMode() == vtkVolumeProperty::TF_2D;
-  say(twoDimensional,
-    "Use 2D Transfer Function (UseTransfer2D) is on, which Deformed Volume does not draw: it uses "
-    "the colour map and the opacity curve");
-  say(!twoDimensional && dependsOnGradient(property),
-    "Gradient opacity is on, which Deformed Volume does not draw: it uses the scalar's opacity");
+  const std::string problem = tableProblem(mapper, property, scalars);
+  say(wantsTable(property) && !problem.empty(),
+    "Use 2D Transfer Function (UseTransfer2D) is on, but " + problem +
+      ": Deformed Volume uses the colour map and the opacity curve");
+  say(wantsGradient(property) && opacityOf(mapper, property, scalars) == Opacity::Scalar,
+    "Gradient opacity needs blend mode Composite: Deformed Volume uses the scalar's opacity");
   say(
     !property->GetIndependentComponents() && components != 1 && components != 2 && components != 4,
     "Colours and opacity given directly (MapScalars off, or MultiComponentsMapping) need 2 or 4 "

@@ -50,6 +50,9 @@ DrawnComponents drawnComponents(vtkVolumeProperty* property, vtkDataArray* scala
 /// The blend mode. Composite if the chosen one cannot be drawn.
 Blend blendOf(vtkVolumeMapper* mapper, vtkVolumeProperty* property);
 
+/// What opacity depends on. Scalar if the other choice cannot be drawn.
+Opacity opacityOf(vtkVolumeMapper* mapper, vtkVolumeProperty* property, vtkDataArray* scalars);
+
 /// Isosurface values in ascending order, at most MaxIsovalues.
 std::vector<double> isovaluesOf(vtkVolumeProperty* property);
 

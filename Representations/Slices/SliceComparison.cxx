@@ -77,8 +77,9 @@ bool ReferenceTextures::update(GpuTask& gpu, const ReferenceVolume& reference,
   scene.transferFromShare = { scale,
     volume.transferFromStored.y - scene.shareFromScalar.y * scale };
   scene.comparison = reference.show == ReferenceShow::Reference ? 0 : choice.comparison;
+  scene.colors = choice.colors;
   scene.checkersFromTexture = mmFromTexture(volume.grid, volume.layout) / choice.checkerSizeMm;
-  scene.greenFromGradient =
+  scene.fullFromGradient =
     scene.shareFromReference.x / mmFromTexture(reference.grid, layout) / choice.fullGradient;
   scene.wipes = wipePlanes(volume.grid, volume.layout, choice.wipePosition);
   return this->Cavity.update(gpu, reference.cavity, place, scene.cavity);
@@ -103,9 +104,10 @@ void setReferenceUniforms(Program& program, const ReferenceScene& scene)
   program.set("shareFromReference", glm::vec2(scene.shareFromReference));
   program.set("shareFromScalar", glm::vec2(scene.shareFromScalar));
   program.set("transferFromShare", glm::vec2(scene.transferFromShare));
+  setComparisonColors(program, scene.colors);
   program.set("comparison", scene.comparison);
   program.set("checkersFromTexture", glm::vec3(scene.checkersFromTexture));
-  program.set("greenFromGradient", glm::vec3(scene.greenFromGradient));
+  program.set("fullFromGradient", glm::vec3(scene.fullFromGradient));
 }
 
 void setWipeUniforms(Program& program, const ReferenceScene& scene, int axis)

@@ -8,6 +8,7 @@
 #define BrainShift_SliceComparison_h
 
 #include "Filters/Attached/ReferenceVolume.h"
+#include "Representations/Scene/ComparisonColors.h"
 #include "Representations/Scene/PlacedReference.h"
 #include "Representations/Scene/SceneGeometry.h"
 #include "Representations/Scene/VolumeChoices.h"
@@ -32,8 +33,9 @@ class Program;
 struct ComparisonChoice
 {
   int comparison = 0;             ///< As numbered there.
+  ColorPair colors;               ///< For two colours, and for the gradient.
   double checkerSizeMm = 1.0;     ///< Side of a field.
-  double fullGradient = 1.0;      ///< Share of the range of greys per mm that is fully green.
+  double fullGradient = 1.0;      ///< Share of the range of greys per mm of full colour.
   glm::dvec3 wipePosition{ 0.0 }; ///< mm, world.
 };
 
@@ -66,9 +68,10 @@ struct ReferenceScene
   glm::dvec2 shareFromScalar{ 1.0, 0.0 }; ///< The volume's stored scalar to its share of the greys.
   glm::dvec2 transferFromShare{ 1.0, 0.0 }; ///< Coordinate of the colour map from that share.
   int comparison = 0;                       ///< 0: the reference alone.
-  glm::dvec3 checkersFromTexture{ 1.0 };    ///< Checker fields for a texture unit.
-  glm::dvec3 greenFromGradient{ 1.0 }; ///< Gradient (stored scalar per texture unit) to full green.
-  std::array<WipePlane, 3> wipes;      ///< For the slices across each axis of the texture.
+  ColorPair colors;
+  glm::dvec3 checkersFromTexture{ 1.0 }; ///< Checker fields for a texture unit.
+  glm::dvec3 fullFromGradient{ 1.0 }; ///< Gradient (stored scalar per texture unit) to full colour.
+  std::array<WipePlane, 3> wipes;     ///< For the slices across each axis of the texture.
 };
 
 /// The planes that divide the slices across each axis. Slices across the volume's axis nearest to

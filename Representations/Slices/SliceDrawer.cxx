@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Slices/SliceDrawer.h"
 
+#include "Filters/ScreenScale.h"
 #include "Representations/Gpu/OpenGL.h"
 #include "Representations/Gpu/SceneScope.h"
 #include "Representations/Scene/SceneUniforms.h"
@@ -22,7 +23,7 @@ glm::dmat4 clipFromTexture(const SceneFrame& frame)
   return frame.clipFromWorld * frame.worldFromTexture;
 }
 
-void setSliceUniforms(Program& program, const SliceScene& scene)
+void setSliceUniforms(Program& program, const SliceScene& scene, double scale)
 {
   constexpr int noDoublings = 0;
   setTissueUniforms(program, scene.tissue, noDoublings);
@@ -40,6 +41,7 @@ void setSliceUniforms(Program& program, const SliceScene& scene)
   program.set("crosshair", scene.crosshair && !scene.selecting ? 1 : 0);
   program.set("crossing", glm::vec3(scene.planes.position));
   program.set("crosshairColors", scene.crosshairColors);
+  program.set("screenScale", static_cast<float>(scale));
 }
 }
 
@@ -53,7 +55,7 @@ bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, C
   {
     return false;
   }
-  setSliceUniforms(program, scene);
+  setSliceUniforms(program, scene, screenScale(window));
   if (variant.compared)
   {
     setReferenceUniforms(program, scene.reference);

@@ -34,6 +34,7 @@ bool DeviceReference::compare(GpuTask& gpu, const DrawnVolume& drawn,
   }
   scene.comparison.reference = &alone;
   scene.comparison.agreementMm = reference.agreementMm;
+  scene.comparison.colors = reference.colors;
   return true;
 }
 

@@ -8,6 +8,7 @@
 #define BrainShift_SceneReference_h
 
 #include "Filters/Attached/ReferenceVolume.h"
+#include "Representations/Scene/ComparisonColors.h"
 #include "Representations/Tissue/TissueTextures.h"
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 
@@ -27,6 +28,7 @@ struct SceneReference
   PlacedVoxels cavity;  ///< What the colours ignore.
   ReferenceShow show = ReferenceShow::Both;
   double agreementMm = 1.0; ///< Surfaces half as far apart count as one.
+  ColorPair colors;         ///< Of the volume and of the reference.
 
   bool exists() const { return this->tissue.values.scalars != nullptr; }
   bool isAlone() const { return this->exists() && this->show == ReferenceShow::Reference; }

@@ -9,9 +9,11 @@
 #include "vtkTextureObject.h"
 #include "vtkVolumeProperty.h"
 
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace brainshift
 {
@@ -29,6 +31,21 @@ bool isLit(Blend blend)
 glm::dvec2 transferFromStored(const TransferTexture& transfer, const StoredScalar& stored)
 {
   return { stored.scale * transfer.scale(), stored.shift * transfer.scale() + transfer.shift() };
+}
+
+// mm. How far apart VTK's mapper takes samples of a picture that does not move: half the mean voxel
+// side, and less in small volumes. Opacities of a 2D transfer function are for such a step.
+double stockStepOn(const Grid& grid)
+{
+  const glm::dvec3 cells(grid.dimensions - 1);
+  const double side = std::pow(cells.x * cells.y * cells.z, 0.333);
+  const double share = side < 100.0 ? 0.01 + 0.99 * side / 100.0 : 1.0;
+  return share * (grid.spacing.x + grid.spacing.y + grid.spacing.z) / 6.0;
+}
+
+double opacityStepOf(const TissueRequest& request)
+{
+  return request.opacity == Opacity::Table ? stockStepOn(request.values.grid) : request.stepMm;
 }
 
 // Nearest: voxels are drawn as they are. Else neighbours are blended.
@@ -56,8 +73,11 @@ bool TissueTextures::update(GpuTask& gpu, const TissueRequest& request, SceneTis
   {
     return false;
   }
-  const bool newColours =
-    this->Transfer.update(gpu, request.property, request.stepMm, request.blend, drawn.coloring);
+  if (!this->Steepness.update(gpu, request.property, request.opacity, request.range))
+  {
+    return gpu.fail("The GPU refused a texture for the 2D transfer function or gradient opacity");
+  }
+  const bool newColours = this->updateTransfer(gpu, request, drawn.coloring);
   this->noteVisibility(request, newColours || uploads != gpu.counters.volumeUploads);
   if (!this->updateColors(gpu, request, tissue.coloring) ||
     !this->updateSegment(gpu, request, tissue) || !this->updateGradients(gpu, request, tissue))
@@ -73,6 +93,14 @@ bool TissueTextures::update(GpuTask& gpu, const TissueRequest& request, SceneTis
   setFilter(tissue.normals, request.nearest && request.gradients == GradientSource::FullResolution);
   this->describe(request, tissue);
   return true;
+}
+
+// The colour map, or what a 2D transfer function makes visible.
+bool TissueTextures::updateTransfer(GpuTask& gpu, const TissueRequest& request, Coloring coloring)
+{
+  return request.opacity == Opacity::Table
+    ? this->Transfer.update(gpu, this->Steepness.columns(), request.stepMm / opacityStepOf(request))
+    : this->Transfer.update(gpu, request.property, request.stepMm, request.blend, coloring);
 }
 
 // Remembers which scalars can be seen, and whether that changed.
@@ -110,6 +138,26 @@ void TissueTextures::describe(const TissueRequest& request, SceneTissue& tissue)
   const double scale = CutWeight * (tissue.normals ? this->Normals.scale() : 1.0);
   tissue.segment.cutGradient = { scale, -scale * least };
   tissue.segment.voxel = layout.textureFromGrid;
+  tissue.steepness = this->steepnessFor(request);
+}
+
+// VTK takes differences over N / (N - 1) voxels, N along that axis, as if these were one.
+SceneSteepness TissueTextures::steepnessFor(const TissueRequest& request) const
+{
+  SceneSteepness steepness;
+  steepness.opacity = request.opacity;
+  steepness.entries = this->Steepness.texture();
+  steepness.stepMm = opacityStepOf(request);
+  const glm::dvec3& side = request.values.grid.spacing;
+  const double width = request.range.y > request.range.x ? request.range.y - request.range.x : 1.0;
+  steepness.step = 1.0 / glm::dvec3(glm::max(request.values.layout.dimensions - 1, 1));
+  steepness.fromGradient = steepness.step * (side.x + side.y + side.z) / (3.0 * side) *
+    this->Stored.scale / (SteepestShare * width);
+  const glm::dvec2 entry = this->Steepness.entryFromShare();
+  steepness.entryFromScalar = { this->Stored.scale / width * entry.x,
+    (this->Stored.shift - request.range.x) / width * entry.x + entry.y };
+  steepness.entryFromSteepness = this->Steepness.entryFromSteepness();
+  return steepness;
 }
 
 // Colours that do not come from the drawn scalar.
@@ -160,7 +208,9 @@ bool TissueTextures::updateGradients(
   tissue.shaded = property->GetShade() != 0 && isLit(request.blend);
   tissue.material = glm::dvec4(property->GetAmbient(), property->GetDiffuse(),
     property->GetSpecular(), property->GetSpecularPower());
-  if (!tissue.shaded || request.gradients == GradientSource::OnTheFly)
+  // Gradients that opacities need serve light, too.
+  if (!tissue.shaded || request.gradients == GradientSource::OnTheFly ||
+    request.opacity != Opacity::Scalar)
   {
     return true;
   }
@@ -209,7 +259,8 @@ std::vector<float> TissueTextures::summedVisibility() const
 std::vector<vtkTextureObject*> TissueTextures::otherTextures() const
 {
   return { this->ColorScalars.texture(), this->Colors.texture(), this->Transfer.texture(),
-    this->Transfer.sums(), this->Normals.texture(), this->Segment.texture() };
+    this->Transfer.sums(), this->Normals.texture(), this->Segment.texture(),
+    this->Steepness.texture() };
 }
 
 bool TissueTextures::skippingIsExact(Blend blend) const
@@ -234,6 +285,7 @@ void TissueTextures::releaseGraphicsResources(vtkWindow* window)
   this->ColorScalars.releaseGraphicsResources(window);
   this->Colors.releaseGraphicsResources(window);
   this->Transfer.releaseGraphicsResources(window);
+  this->Steepness.releaseGraphicsResources(window);
   this->Normals.releaseGraphicsResources(window);
   this->Segment.releaseGraphicsResources(window);
 }
@@ -249,7 +301,7 @@ void addTissueSizes(const TissueRequest& request, DrawnSizes& sizes)
     : drawn.coloring == Coloring::OtherScalar           ? ScalarTexture::bytesOf(scalars, 0)
                                                         : 0;
   sizes.gradients = request.property->GetShade() != 0 && isLit(request.blend) &&
-    request.gradients != GradientSource::OnTheFly;
+    request.gradients != GradientSource::OnTheFly && request.opacity == Opacity::Scalar;
   sizes.segmentBytes = request.segment.segmentation.labels ? SegmentTexture::bytesOfVoxel() : 0;
   sizes.halfResolution = request.gradients == GradientSource::HalfResolution;
 }

@@ -16,8 +16,10 @@
 #include "Representations/Tissue/NormalTexture.h"
 #include "Representations/Tissue/ScalarTexture.h"
 #include "Representations/Tissue/SegmentTexture.h"
+#include "Representations/Tissue/SteepnessTexture.h"
 #include "Representations/Tissue/TransferTexture.h"
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <utility>
@@ -50,7 +52,9 @@ struct TissueRequest
   bool nearest = false; ///< Voxels are drawn as they are, not blended.
   bool skips = true;    ///< Leap over empty space if the picture stays the same.
   SegmentRequest segment;
-  StoredScalar mapped; ///< Value for colours and opacities: scalar * scale + shift.
+  Opacity opacity = Opacity::Scalar;
+  glm::dvec2 range{ 0.0, 1.0 }; ///< Values that steepness and 2D transfer functions count by.
+  StoredScalar mapped;          ///< Value for colours and opacities: scalar * scale + shift.
 };
 
 /// The textures of one volume in one window.
@@ -88,15 +92,18 @@ public:
 
 private:
   void noteVisibility(const TissueRequest& request, bool uploaded);
+  bool updateTransfer(GpuTask& gpu, const TissueRequest& request, Coloring coloring);
   bool updateColors(GpuTask& gpu, const TissueRequest& request, SceneColoring& coloring);
   bool updateSegment(GpuTask& gpu, const TissueRequest& request, SceneTissue& tissue);
   bool updateGradients(GpuTask& gpu, const TissueRequest& request, SceneTissue& tissue);
   void describe(const TissueRequest& request, SceneTissue& tissue) const;
+  SceneSteepness steepnessFor(const TissueRequest& request) const;
 
   ScalarTexture Scalars;
   ScalarTexture ColorScalars; // where another number of the voxel gives the colour
   ColorTexture Colors;        // where the voxel brings its colour along
   TransferTexture Transfer;
+  SteepnessTexture Steepness;
   NormalTexture Normals;
   SegmentTexture Segment;
   StoredScalar Stored;

@@ -3,6 +3,7 @@
 
 #include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/OpenGL.h"
+#include "Representations/Tissue/SteepnessTexture.h"
 
 #include "vtkColorTransferFunction.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -88,7 +89,7 @@ bool TransferTexture::update(
   vtkColorTransferFunction* color = property->GetRGBTransferFunction();
   vtkPiecewiseFunction* opacity = property->GetScalarOpacity();
   const double unitMm = property->GetScalarOpacityUnitDistance();
-  if (this->Texture && this->ColorTime == color->GetMTime() &&
+  if (this->Texture && this->ColumnsTime == 0 && this->ColorTime == color->GetMTime() &&
     this->OpacityTime == opacity->GetMTime() && this->StepMm == stepMm && this->UnitMm == unitMm &&
     this->Blending == blend && this->ColorSource == coloring)
   {
@@ -107,23 +108,19 @@ bool TransferTexture::update(
   color->GetTable(this->Range[0], this->Range[1], Entries, colors.data());
   opacity->GetTable(this->Range[0], this->Range[1], Entries, opacities.data());
   std::vector<float> texels(4 * Entries * TransferRows);
-  this->VisibleBefore.assign(Entries + 1, 0);
-  this->LargestOpacity = 0.0f;
   for (int i = 0; i < Entries; ++i)
   {
     std::copy_n(&colors[3 * i], 3, &texels[4 * i]);
     texels[4 * i + 3] = opacityOfSample(opacities[i], stepMm / unitMm, blend);
-    this->LargestOpacity = std::max(this->LargestOpacity, texels[4 * i + 3]);
-    this->VisibleBefore[i + 1] = this->VisibleBefore[i] + (texels[4 * i + 3] > 0.0f ? 1 : 0);
   }
   for (std::size_t i = 4 * Entries; i < texels.size(); ++i)
   {
     const float above = texels[i - 4 * Entries];
     texels[i] = i % 4 == 3 ? above * (2.0f - above) : above; // what two such steps hide
   }
-  this->Texture = makeTable(gpu.window, texels, gpu.counters);
+  this->upload(gpu, texels);
   this->makeSums(gpu.window, texels, gpu.counters);
-  gpu.counters.transferUploads += 1;
+  this->ColumnsTime = 0;
   this->ColorTime = color->GetMTime();
   this->OpacityTime = opacity->GetMTime();
   this->StepMm = stepMm;
@@ -131,6 +128,50 @@ bool TransferTexture::update(
   this->Blending = blend;
   this->ColorSource = coloring;
   return true;
+}
+
+bool TransferTexture::update(GpuTask& gpu, const VisibleColumns& columns, double steps)
+{
+  if (this->Texture && this->ColumnsTime == columns.time && this->StepMm == steps)
+  {
+    return false;
+  }
+  this->Range[0] = columns.range.x;
+  this->Range[1] = columns.range.y > columns.range.x ? columns.range.y : columns.range.x + 1.0;
+  // An entry stands for the scalars around it, and the table is blended between two columns.
+  const int count = static_cast<int>(columns.visible.size());
+  std::vector<float> texels(4 * Entries * TransferRows, 0.0f);
+  for (int i = 0; i < Entries * TransferRows; ++i)
+  {
+    const double entry = i % Entries;
+    const double column = (count - 1) / (Entries - 1.0);
+    const int first = std::max(static_cast<int>(std::floor((entry - 1.0) * column)) - 1, 0);
+    const int last = std::min(static_cast<int>(std::ceil((entry + 1.0) * column)) + 1, count - 1);
+    const auto from = columns.visible.begin() + first;
+    const bool visible = std::find(from, columns.visible.begin() + last + 1, true) !=
+      columns.visible.begin() + last + 1;
+    texels[4 * static_cast<std::size_t>(i) + 3] = visible ? 1.0f : 0.0f;
+  }
+  this->upload(gpu, texels);
+  this->Sums = nullptr;
+  this->LargestOpacity = opacityOfSample(columns.largest, steps, Blend::Composite);
+  this->ColumnsTime = columns.time;
+  this->StepMm = steps;
+  return true;
+}
+
+// Of the first row it also finds what is visible.
+void TransferTexture::upload(GpuTask& gpu, std::vector<float>& texels)
+{
+  this->VisibleBefore.assign(Entries + 1, 0);
+  this->LargestOpacity = 0.0f;
+  for (int i = 0; i < Entries; ++i)
+  {
+    this->LargestOpacity = std::max(this->LargestOpacity, texels[4 * i + 3]);
+    this->VisibleBefore[i + 1] = this->VisibleBefore[i] + (texels[4 * i + 3] > 0.0f ? 1 : 0);
+  }
+  this->Texture = makeTable(gpu.window, texels, gpu.counters);
+  gpu.counters.transferUploads += 1;
 }
 
 void TransferTexture::makeSums(

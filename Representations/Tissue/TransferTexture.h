@@ -22,6 +22,7 @@ class vtkWindow;
 namespace brainshift
 {
 struct GpuTask;
+struct VisibleColumns;
 
 /// TransferRows rows of TransferEntries colours. The opacities of the first row hold for the step
 /// that was asked for, those of each further row for twice the step of the row before.
@@ -36,6 +37,11 @@ public:
   /// given. With Coloring::Direct all entries go to the opacity curve.
   bool update(
     GpuTask& gpu, vtkVolumeProperty* property, double stepMm, Blend blend, Coloring coloring);
+
+  /// Holds, in place of the maps, opacity 1 for each scalar that a 2D transfer function
+  /// makes visible, and 0 for the others. `steps`: as many of the table's as a sample is long. True
+  /// if it uploaded anything.
+  bool update(GpuTask& gpu, const VisibleColumns& columns, double steps);
 
   ///@{
   /// Texture coordinate = scalar * scale + shift. Beyond the ends the end colours hold.
@@ -66,6 +72,7 @@ public:
 private:
   static constexpr float OpaqueStep = 0.9f;
 
+  void upload(GpuTask& gpu, std::vector<float>& texels);
   void makeSums(
     vtkOpenGLRenderWindow* window, const std::vector<float>& texels, Counters& counters);
 
@@ -77,7 +84,8 @@ private:
   double UnitMm = 0.0;
   Blend Blending = Blend::Composite;
   Coloring ColorSource = Coloring::Mapped;
-  std::vector<int> VisibleBefore; // visible entries with lower indices; one more than entries
+  unsigned long long ColumnsTime = 0; // 0: it holds the maps
+  std::vector<int> VisibleBefore;     // visible entries with lower indices; one more than entries
   float LargestOpacity = 0.0f;
   double Range[2] = { 0.0, 1.0 }; // scalars of the first and the last texel
 };

@@ -2,6 +2,7 @@
 #include "Representations/Traces/TracePoints.h"
 
 #include "Filters/Attached/Guard.h"
+#include "Filters/ScreenScale.h"
 #include "Representations/Gpu/WindowDevices.h"
 #include "Representations/Scene/HitSource.h"
 #include "Representations/Scene/SceneGeometry.h"
@@ -212,7 +213,7 @@ bool TracePoints::Draw(vtkRenderer* renderer, const std::vector<HitSource*>& vol
   TraceScene scene = sceneOf(renderer, this->GetMatrix());
   const bool automatic = mapper->GetScaleFactor() <= 0.0;
   scene.radius = automatic ? suitableRadius(mapper) : mapper->GetScaleFactor();
-  scene.leastRadius = automatic ? SuitableRadius : LeastRadius;
+  scene.leastRadius = screenScale(window) * (automatic ? SuitableRadius : LeastRadius);
   scene.hiddenOpacity = this->HiddenOpacity;
   if (scene.hiddenOpacity < 1.0)
   {
@@ -233,7 +234,9 @@ double TracePoints::SuitableRadiusIn(vtkRenderer* renderer)
   const double* center = this->GetCenter();
   const double depth = (clip * glm::dvec4(center[0], center[1], center[2], 1.0)).w;
   const double rows = 0.5 * renderer->GetSize()[1] * glm::length(glm::dvec3(glm::row(clip, 1)));
-  const double least = depth > 0.0 && rows > 0.0 ? SuitableRadius * depth / rows : 0.0;
+  const double least = depth > 0.0 && rows > 0.0
+    ? screenScale(renderer->GetVTKWindow()) * SuitableRadius * depth / rows
+    : 0.0;
   return std::max(suitableRadius(this->Mapper), least);
 }
 

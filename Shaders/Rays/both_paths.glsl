@@ -117,7 +117,8 @@ void see(inout Seen seen, Path path, mat3 turn, mat3 slopes, float number, vec3 
     other = lightOf(gradient, path.towardsEye, deformed);
   }
   vec2 light = shares * vec2(own.x, other.x);
-  seen.light += ignored ? vec3(0.5 * (light.x + light.y)) : vec3(light, 0.0);
+  seen.light += ignored ? vec3(0.5 * (light.x + light.y))
+                        : light.x * ownColor + light.y * referenceColor;
   join(seen.own, opacities.x, own.y, number);
   join(seen.other, opacities.y, other.y, number);
 }

@@ -52,13 +52,66 @@ struct Pair
   vec3 twoRest;
   float oneScalar;
   float twoScalar;
+#ifdef STEEPNESS
+  vec3 oneGradient; // rest frame; zero for an invisible sample
+  vec3 twoGradient;
+#endif
 };
+
+// Makes opacities depend on gradients, too. Returns whether a sample is left to see. Light uses the
+// same gradients.
+#ifdef STEEPNESS
+bool steepen(inout Pair pair, mat3 slopes, inout vec4 one, inout vec4 two)
+{
+  pair.oneGradient = one.a > 0.0 ? steepGradientAt(pair.oneRest) : vec3(0.0);
+  pair.twoGradient = two.a > 0.0 ? steepGradientAt(pair.twoRest) : vec3(0.0);
+  one = steepened(one, pair.oneScalar, deformedGradientFromRest(slopes, pair.oneGradient));
+  two = steepened(two, pair.twoScalar, deformedGradientFromRest(slopes, pair.twoGradient));
+  return max(one.a, two.a) > 0.0;
+}
+
+vec3 gradientOfOne(Pair pair)
+{
+  return litGradient(pair.oneRest, pair.oneGradient);
+}
+
+vec3 gradientOfTwo(Pair pair)
+{
+  return litGradient(pair.twoRest, pair.twoGradient);
+}
+
+vec3 gradientBetween(Pair pair, float way)
+{
+  return litGradient(
+    mix(pair.oneRest, pair.twoRest, way), mix(pair.oneGradient, pair.twoGradient, way));
+}
+#else
+bool steepen(Pair pair, mat3 slopes, vec4 one, vec4 two)
+{
+  return true;
+}
+
+vec3 gradientOfOne(Pair pair)
+{
+  return litGradientAt(pair.oneRest);
+}
+
+vec3 gradientOfTwo(Pair pair)
+{
+  return litGradientAt(pair.twoRest);
+}
+
+vec3 gradientBetween(Pair pair, float way)
+{
+  return litGradientAt(mix(pair.oneRest, pair.twoRest, way));
+}
+#endif
 
 // Light at a share of the way from the first to the second sample.
 Shine shineBetween(Path path, Pair pair, mat3 slopes, mat3 turn, float way)
 {
-  return shineAt(mix(pair.oneDeformed, pair.twoDeformed, way),
-    mix(pair.oneRest, pair.twoRest, way), slopes, turn, path.towardsEye);
+  return shineOf(mix(pair.oneDeformed, pair.twoDeformed, way), gradientBetween(pair, way), slopes,
+    turn, path.towardsEye);
 }
 
 struct Seen

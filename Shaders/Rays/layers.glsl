@@ -1,10 +1,12 @@
 // What a ray meets of two volumes, and how they hide each other (paper, section 3: the bent volume
 // is red, the reference green). Each volume hides what lies behind its own surface. It hides the
 // other volume only where it lies clearly in front: surfaces that are closer than the agreement
-// count as one, and red and green add up to yellow. Volumes with equal opacities are each as bright
-// as alone.
+// count as one, and their colours add up: red and green to yellow, blue and orange to grey. Volumes
+// with equal opacities are each as bright as alone.
 
 uniform float agreementSamples; // samples from one surface to the other at which half is hidden
+uniform vec3 ownColor;          // of the bent volume
+uniform vec3 referenceColor;    // of the reference
 
 const float LeastFacing = 0.35; // surfaces that are seen more from the side count as this
 const vec3 Luminance = vec3(0.2126, 0.7152, 0.0722);

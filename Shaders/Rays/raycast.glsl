@@ -48,15 +48,21 @@ vec4 hitAt(float t)
   return vec4(t / rayOfPixel(ndc).lengthMm * hitFromShare.x + hitFromShare.y);
 }
 
-// What light does at a position. `slopes`: of the offsets near it; `turn`: worldFromGradient.
-Shine shineAt(vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
+// What light does at a position with a gradient in the rest frame. `slopes`: of the offsets near
+// it; `turn`: worldFromGradient.
+Shine shineOf(vec3 deformed, vec3 restGradient, mat3 slopes, mat3 turn, vec3 towardsEye)
 {
 #ifdef SHADED
-  vec3 gradient = turn * deformedGradientFromRest(slopes, litGradientAt(rest));
+  vec3 gradient = turn * deformedGradientFromRest(slopes, restGradient);
   float steepness = length(gradient);
   vec3 normal = steepness > 0.0 ? gradient / steepness : vec3(0.0);
   return shineOn(normal, towardsEye, worldFromDeformed(deformed));
 #else
   return Shine(vec3(1.0), vec3(0.0));
 #endif
+}
+
+Shine shineAt(vec3 deformed, vec3 rest, mat3 slopes, mat3 turn, vec3 towardsEye)
+{
+  return shineOf(deformed, litGradientAt(rest), slopes, turn, towardsEye);
 }

@@ -37,7 +37,10 @@ bool takeTwo(Path path, TissueTable table, mat3 turn, float i, inout Seen seen)
     {
       slopes = offsetSlopes(positionOf(path.field, i) + 0.5 * path.field.stride);
     }
-    seeTwo(path, pair, slopes, turn, i, one, two, seen);
+    if (steepen(pair, slopes, one, two))
+    {
+      seeTwo(path, pair, slopes, turn, i, one, two, seen);
+    }
   }
   return visible;
 }

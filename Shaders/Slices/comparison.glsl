@@ -12,12 +12,14 @@ uniform vec2 shareFromScalar;     // the volume's stored scalar to that share: s
 uniform vec2 transferFromShare;   // share to the colour map's coordinate: scale, shift
 uniform int comparison;           // as vtkDeformedSlicesMapper numbers them; 0: the reference alone
 uniform vec3 checkersFromTexture; // checker fields for a texture unit
-uniform vec3 greenFromGradient;   // stored scalar per texture unit to share of full green
+uniform vec3 fullFromGradient;    // stored scalar per texture unit to share of its full colour
+uniform vec3 ownColor;            // of the volume
+uniform vec3 referenceColor;      // of the reference; both add up to that of agreement
 uniform vec3 wipeNormal;          // mm beyond the wipe's line, on the reference's side of it
 uniform float wipeShift;
 
 const int ReferenceAlone = 0;
-const int RedGreen = 1;
+const int TwoColors = 1;
 const int Checkerboard = 2;
 const int Difference = 3;
 const int Gradient = 4;
@@ -49,12 +51,12 @@ bool inEvenField(vec3 deformed)
   return ((field.x + field.y + field.z) & 1) == 0;
 }
 
-// How green the reference's gradient is.
-float gradientGreen(Referenced other)
+// How much of its colour the reference's gradient has.
+float gradientShare(Referenced other)
 {
   vec3 gradient = centralDifferences(reference, other.place, 1.0 / referenceVoxels);
-  float green = length(gradient * greenFromGradient);
-  return other.known && !isnan(green) ? min(green, 1.0) : 0.0;
+  float full = length(gradient * fullFromGradient);
+  return other.known && !isnan(full) ? min(full, 1.0) : 0.0;
 }
 
 // Both volumes in one colour. The cavity does not count and is grey. `color`: of the volume, from
@@ -63,15 +65,15 @@ vec3 compared(vec3 color, float own, Referenced other, vec3 alone, vec3 deformed
 {
   switch (comparison)
   {
-    case RedGreen:
-      return isRemoved(deformed) ? vec3(own) : vec3(own, other.share, 0.0);
+    case TwoColors:
+      return isRemoved(deformed) ? vec3(own) : own * ownColor + other.share * referenceColor;
     case Checkerboard:
       return other.known && !inEvenField(deformed) ? alone : color;
     case Difference:
       return vec3(
         other.known && !isRemoved(deformed) ? 0.5 + 0.5 * (own - other.share) : 0.5);
     case Gradient:
-      return mix(vec3(own), vec3(0.0, 1.0, 0.0), isRemoved(deformed) ? 0.0 : gradientGreen(other));
+      return mix(vec3(own), referenceColor, isRemoved(deformed) ? 0.0 : gradientShare(other));
     default:
       return color;
   }
@@ -95,7 +97,7 @@ bool compare(bool hasTissue, float scalar, vec3 deformed, inout vec4 seen)
   {
     seen.rgb = compared(seen.rgb, own, other, alone.rgb, deformed);
   }
-  if (comparison == Wipe && abs(beyondMm) < HalfLinePixels * pixelMm)
+  if (comparison == Wipe && abs(beyondMm) < HalfLinePixels * screenScale * pixelMm)
   {
     seen.rgb = WipeColor;
   }

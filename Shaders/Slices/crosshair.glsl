@@ -5,6 +5,7 @@ uniform int crosshair;        // 1: the lines are drawn
 uniform int quadAxis;         // the slice lies across this axis of the texture
 uniform vec3 crossing;        // where the planes meet, texture coordinates
 uniform mat3 crosshairColors; // a column for the plane across each axis of the texture
+uniform float screenScale;    // pixels for one of a usual screen, along a side
 
 const float HalfCrosshairPixels = 1.0; // thinner lines fade where edges are smoothed
 const float GapPixels = 9.0; // to either side
@@ -13,7 +14,7 @@ const float GapPixels = 9.0; // to either side
 bool onCrosshair(vec3 deformed, out vec3 color)
 {
   vec3 distance = abs(deformed - crossing);
-  vec3 pixel = max(fwidth(deformed), vec3(1e-12));
+  vec3 pixel = screenScale * max(fwidth(deformed), vec3(1e-12));
   for (int turn = 1; turn < 3; ++turn)
   {
     int axis = (quadAxis + turn) % 3;

@@ -15,13 +15,14 @@ vec3 segmentSlope(vec3 rest)
   return vec3(a - b - c + d, c + d - a - b, b + d - a - c) / (4.0 * step);
 }
 
+// The gradient that light uses, from the gradient of the scalars at a position.
+//
 // Where the edge cuts through tissue, the gradient of the scalars has nothing to do with the
 // surface that is seen. So light uses the gradient of scalars that fall across the edge to the
 // least visible one. If the tissue's own gradient points the other way, only its part within the
 // cut counts: else the two would cancel out.
-vec3 litGradientAt(vec3 rest)
+vec3 litGradient(vec3 rest, vec3 gradient)
 {
-  vec3 gradient = gradientAt(rest);
   if (segmentShareAt(rest) > 0.999)
   {
     return gradient;
@@ -32,8 +33,17 @@ vec3 litGradientAt(vec3 rest)
   return gradient + (1.0 - min(along, 0.0)) * fall;
 }
 #else
-vec3 litGradientAt(vec3 rest)
+vec3 litGradient(vec3 rest, vec3 gradient)
 {
-  return gradientAt(rest);
+  return gradient;
 }
 #endif
+
+vec3 litGradientAt(vec3 rest)
+{
+#ifdef SHADED
+  return litGradient(rest, gradientAt(rest));
+#else
+  return vec3(0.0);
+#endif
+}

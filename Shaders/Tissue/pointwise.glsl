@@ -26,8 +26,10 @@ void seeTwo(Path path, Pair pair, mat3 slopes, mat3 turn, float i, vec4 one, vec
   Shine oneShine = shineBetween(path, pair, slopes, turn, way);
   Shine twoShine = oneShine;
 #else
-  Shine oneShine = shineAt(pair.oneDeformed, pair.oneRest, slopes, turn, path.towardsEye);
-  Shine twoShine = shineAt(pair.twoDeformed, pair.twoRest, slopes, turn, path.towardsEye);
+  Shine oneShine =
+    shineOf(pair.oneDeformed, gradientOfOne(pair), slopes, turn, path.towardsEye);
+  Shine twoShine =
+    shineOf(pair.twoDeformed, gradientOfTwo(pair), slopes, turn, path.towardsEye);
 #endif
   see(seen, litTissue(one, pair.oneRest, oneShine), i - 0.5);
   see(seen, litTissue(two, pair.twoRest, twoShine), i + 0.5);

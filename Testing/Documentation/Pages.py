@@ -37,10 +37,24 @@ def test_properties_have_their_defaults():
     tables = {proxy.name: property_reference.table(proxy)
               for proxy in property_reference.public_proxies()}
     deformation = tables["FreeFormDeformation"]
-    assert "| `LatticeDimensions` | 3 × integer, 4 to 257 | 19 19 19 |" in deformation
+    assert "| `LatticeDimensions` | 3 × integer (points), 4 to 257 | 19 19 19 |" in deformation
+    assert "| `Feather` | number (mm), at least 0 | 10 |" in deformation
     assert '| `Kernel` | "Catmull-Rom", "B-Spline" | "Catmull-Rom" |' in deformation
     assert "| `Mask` | optional input |" in deformation  # from the extension of the filter
     assert "| `TraceRadius` |" in tables["TracePointsRepresentation"]  # exposed by that name
+
+
+def test_numbers_of_the_panel_say_their_unit():
+    elsewhere = {"Strokes", "Strength", "PointOfInterest",    # their widget or group says it
+                 "MaximumDisplacement", "MinimumJacobian"}
+    for proxy in property_reference.public_proxies():
+        for element in proxy.properties:
+            if (element.tag == "DoubleVectorProperty" and element.get("name") not in elsewhere
+                    and element.get("panel_visibility") != "never"
+                    and not (element.get("information_only")
+                             and element.get("panel_visibility") is None)
+                    and element.get("si_class") != "vtkSIDataArrayProperty"):
+                assert property_reference.unit(element), (proxy.name, element.get("name"))
 
 
 def test_python_reference_has_the_public_functions():

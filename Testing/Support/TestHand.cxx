@@ -13,13 +13,21 @@
 #include <vtkSMProxy.h>
 
 #include <QAbstractButton>
+#include <QAbstractItemView>
+#include <QAbstractSlider>
+#include <QAbstractSpinBox>
+#include <QAccessible>
 #include <QAction>
 #include <QApplication>
+#include <QComboBox>
 #include <QElapsedTimer>
+#include <QHeaderView>
 #include <QKeyEvent>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMouseEvent>
 #include <QOpenGLWindow>
+#include <QPalette>
 #include <QScreen>
 #include <QScrollArea>
 #include <QScrollBar>
@@ -73,6 +81,13 @@ void send(QEvent& event)
   }
 }
 
+// Qt counts in logical pixels, of which a screen at 200 % has half as many a side.
+QPointF logical(int x, int y)
+{
+  QWidget* widget = viewWidget();
+  return QPointF(x, y) / (widget ? widget->devicePixelRatioF() : 1.0);
+}
+
 QPointF onScreen(const QPointF& inView)
 {
   QWidget* widget = viewWidget();
@@ -92,13 +107,14 @@ TEST_HAND_EXPORT void test_hand_right_button(int right)
   button = right ? Qt::RightButton : Qt::LeftButton;
 }
 
-// Pixels from the view's upper left corner. `type`: 0 move, 1 press, 2 release, 3 double-click.
-// `held`: whether the button is down afterwards. `modifiers`: Qt::KeyboardModifiers.
+// Pixels of the screen from the view's upper left corner. `type`: 0 move, 1 press, 2 release,
+// 3 double-click. `held`: whether the button is down afterwards. `modifiers`:
+// Qt::KeyboardModifiers.
 TEST_HAND_EXPORT void test_hand_mouse(int type, int x, int y, int held, int modifiers)
 {
   const QEvent::Type types[] = { QEvent::MouseMove, QEvent::MouseButtonPress,
     QEvent::MouseButtonRelease, QEvent::MouseButtonDblClick };
-  const QPointF at(x, y);
+  const QPointF at = logical(x, y);
   QMouseEvent event(types[type], at, onScreen(at), type == 0 ? Qt::NoButton : button,
     held ? button : Qt::NoButton, Qt::KeyboardModifiers(modifiers));
   send(event);
@@ -108,7 +124,7 @@ TEST_HAND_EXPORT void test_hand_mouse(int type, int x, int y, int held, int modi
 TEST_HAND_EXPORT void test_hand_wheel(int x, int y, int clicks, int modifiers)
 {
   constexpr int eighthsOfDegree = 120; // of a click
-  const QPointF at(x, y);
+  const QPointF at = logical(x, y);
   QWheelEvent event(at, onScreen(at), QPoint(), QPoint(0, clicks * eighthsOfDegree), Qt::NoButton,
     Qt::KeyboardModifiers(modifiers), Qt::NoScrollPhase, false);
   send(event);
@@ -218,6 +234,20 @@ TEST_HAND_EXPORT int test_hand_click(const char* name)
   return 0;
 }
 
+// Whether a widget of the window is shown, by its object name.
+TEST_HAND_EXPORT int test_hand_is_visible(const char* name)
+{
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    const auto widget = window->findChild<QWidget*>(name);
+    if (widget && widget->isVisible())
+    {
+      return 1;
+    }
+  }
+  return 0;
+}
+
 // The text of a label, or what another widget tells screen readers, by its object name; nothing
 // without one. Holds until the next call.
 TEST_HAND_EXPORT const char* test_hand_label(const char* name)
@@ -250,6 +280,34 @@ TEST_HAND_EXPORT int test_hand_cut_off()
   return -1;
 }
 
+// Whether a widget, by its object name, is seen whole: nothing scrolled a part of it away.
+TEST_HAND_EXPORT int test_hand_in_sight(const char* name)
+{
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    auto widget = window->findChild<QWidget*>(name);
+    if (widget && widget->isVisible())
+    {
+      return widget->visibleRegion().boundingRect() == widget->rect() ? 1 : 0;
+    }
+  }
+  return 0;
+}
+
+// Whether a widget of the properties panel is enabled; -1: there is none of this name.
+TEST_HAND_EXPORT int test_hand_is_enabled(const char* name)
+{
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    auto panel = window->findChild<QWidget*>("propertiesPanel");
+    if (auto widget = panel ? panel->findChild<QWidget*>(name) : nullptr)
+    {
+      return widget->isEnabled() ? 1 : 0;
+    }
+  }
+  return -1;
+}
+
 // A click of the mouse on a button, by its object name, while the view has the keyboard's focus.
 // Returns whether the view still has it.
 TEST_HAND_EXPORT int test_hand_keeps_focus(const char* name)
@@ -277,6 +335,88 @@ TEST_HAND_EXPORT void test_hand_resize_window(int width, int height)
     window->resize(QSize(width, height).boundedTo(window->screen()->availableGeometry().size()));
     QApplication::processEvents();
   }
+}
+
+// What can be operated inside a widget that is seen, in the order of the Tab key: a line for each
+// with its class, its object name, what it tells screen readers, whether Tab reaches it, and the
+// height of its middle in the widget. Holds until the next call.
+TEST_HAND_EXPORT const char* test_hand_controls(const char* name)
+{
+  static QByteArray lines;
+  lines.clear();
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    auto root = window->findChild<QWidget*>(name);
+    for (QWidget* at = root ? root->nextInFocusChain() : nullptr; at && at != root;
+      at = at->nextInFocusChain())
+    {
+      const bool operates = qobject_cast<QAbstractButton*>(at) ||
+        qobject_cast<QAbstractSlider*>(at) || qobject_cast<QAbstractSpinBox*>(at) ||
+        qobject_cast<QAbstractItemView*>(at) || qobject_cast<QComboBox*>(at) ||
+        (qobject_cast<QLineEdit*>(at) && !qobject_cast<QAbstractSpinBox*>(at->parentWidget()));
+      const bool shown = root->isAncestorOf(at) && at->isVisible() && at->isEnabled() &&
+        !qobject_cast<QScrollBar*>(at) && !qobject_cast<QHeaderView*>(at);
+      if (operates && shown)
+      {
+        QAccessibleInterface* told = QAccessible::queryAccessibleInterface(at);
+        const QStringList line{ at->metaObject()->className(), at->objectName(),
+          told ? told->text(QAccessible::Name).simplified() : QString(),
+          at->focusPolicy() & Qt::TabFocus ? "1" : "0",
+          QString::number(at->mapTo(root, at->rect().center()).y()) };
+        lines += line.join('\t').toUtf8() + '\n';
+      }
+    }
+  }
+  return lines.constData();
+}
+
+// Whether a label has room for its text, by its object name.
+TEST_HAND_EXPORT int test_hand_shows_all(const char* name)
+{
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    if (auto label = window->findChild<QLabel*>(name))
+    {
+      const int needed =
+        label->wordWrap() ? label->heightForWidth(label->width()) : label->sizeHint().height();
+      return label->height() >= needed ? 1 : 0;
+    }
+  }
+  return 0;
+}
+
+// Gives all widgets the colours of a dark theme, or those they had.
+TEST_HAND_EXPORT void test_hand_dark(int dark)
+{
+  static const QPalette before = QApplication::palette();
+  QPalette palette(QColor(49, 54, 59), QColor(35, 38, 41)); // Qt makes the others of these
+  palette.setColor(QPalette::Highlight, QColor(61, 174, 233));
+  palette.setColor(QPalette::Link, QColor(61, 174, 233));
+  QApplication::setPalette(dark ? palette : before);
+}
+
+// How many pixels of the screen a logical pixel of the view has along a side.
+TEST_HAND_EXPORT double test_hand_scale()
+{
+  QWidget* widget = viewWidget();
+  return widget ? widget->devicePixelRatioF() : 1.0;
+}
+
+// Writes a widget as a picture, by its object name, or the whole screen. Returns whether it did.
+TEST_HAND_EXPORT int test_hand_picture(const char* name, const char* file)
+{
+  if (qstrcmp(name, "") == 0)
+  {
+    return QGuiApplication::primaryScreen()->grabWindow(0).save(file) ? 1 : 0;
+  }
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    if (auto widget = window->findChild<QWidget*>(name))
+    {
+      return widget->grab().save(file) ? 1 : 0;
+    }
+  }
+  return 0;
 }
 
 TEST_HAND_EXPORT int test_hand_is_there()

@@ -15,8 +15,10 @@ _MOVE, _PRESS, _RELEASE, _DOUBLE_CLICK = 0, 1, 2, 3
 NONE, MOVE, SOFT, STAMP = 0, 1, 2, 3     # ToolSettings::ToolKind
 
 _library = ctypes.CDLL(os.environ["BRAINSHIFT_TEST_HAND"])
+_library.test_hand_scale.restype = ctypes.c_double
 _library.test_hand_set.restype = ctypes.c_double
 _library.test_hand_label.restype = ctypes.c_char_p
+_library.test_hand_controls.restype = ctypes.c_char_p
 _library.test_hand_set.argtypes = [ctypes.c_char_p, ctypes.c_double]
 
 
@@ -144,6 +146,16 @@ def click(name):
     return bool(_library.test_hand_click(name.encode()))
 
 
+def in_sight(name):
+    """Whether a widget of the window is seen whole."""
+    return bool(_library.test_hand_in_sight(name.encode()))
+
+
+def is_visible(name):
+    """Whether the window shows a widget."""
+    return bool(_library.test_hand_is_visible(name.encode()))
+
+
 def label(name):
     """The text of a label of the window, or what another widget tells screen readers."""
     return _library.test_hand_label(name.encode()).decode()
@@ -154,9 +166,44 @@ def cut_off():
     return _library.test_hand_cut_off()
 
 
+def is_enabled(name):
+    """Whether the panel lets one edit a property; None if the panel does not show it."""
+    enabled = _library.test_hand_is_enabled(name.encode())
+    return None if enabled < 0 else bool(enabled)
+
+
 def keeps_focus(name):
     """Clicks a button of the window with the mouse; whether the view keeps the keyboard."""
     return bool(_library.test_hand_keeps_focus(name.encode()))
+
+
+def controls(name):
+    """What can be operated inside a widget, in the order of the Tab key: class, object name, what
+    screen readers are told, whether Tab reaches it, and its height in the widget (pixels)."""
+    lines = _library.test_hand_controls(name.encode()).decode().splitlines()
+    found = [line.split("\t") for line in lines]
+    return [(kind, own, told, tab == "1", int(y)) for kind, own, told, tab, y in found]
+
+
+def shows_all(name):
+    """Whether a label of the window has room for all of its text."""
+    return bool(_library.test_hand_shows_all(name.encode()))
+
+
+def dark(is_dark):
+    """Gives the window the colours of a dark theme, or those it had."""
+    _library.test_hand_dark(int(is_dark))
+    wait(100)
+
+
+def scale():
+    """Pixels of the screen for a logical pixel of the view, along a side."""
+    return _library.test_hand_scale()
+
+
+def save_picture(file, name=""):
+    """Writes a widget, by its object name, or the whole screen as a picture."""
+    return bool(_library.test_hand_picture(name.encode(), os.fspath(file).encode()))
 
 
 def is_there():

@@ -75,6 +75,20 @@ def drag(bent, view, display, tool, kind):
     window.edit("Undo")
 
 
+def what_lies_under_the_cursor():
+    hand.take(hand.NONE)
+    view = simple.GetActiveView()
+    display = simple.GetDisplayProperties(window.deformation(), view)
+    pixel = [side // 2 + 9 for side in view.ViewSize]
+    for offset in (1, 0):
+        hand.hover([pixel[0] + offset, pixel[1]])
+        hand.wait(250)
+    tissue = brainshift.pick(display, view, *pixel)
+    said = hand.label("BrainShiftCursor")
+    place = "x {:.1f} y {:.1f} z {:.1f} mm".format(*tissue)
+    assert said.startswith(place) and "intensity" in said and "moved" in said, (said, place)
+
+
 def turn_the_wheel():
     hand.take(hand.STAMP)
     view = simple.GetActiveView()
@@ -103,6 +117,7 @@ def play():
     with server(server_finds_plugin()) as (port, _):
         yield connect, port
         yield drag_with_each_tool,
+        yield what_lies_under_the_cursor,
         yield turn_the_wheel,
         yield lose_the_server,
 

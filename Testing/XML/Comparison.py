@@ -80,10 +80,11 @@ def look(name):
     compare = simple.FindSource("compared")
     shown = {"show": str(compare.Show.GetData()),
              "flickers": hand.is_checked("actionBrainShiftFlicker"),
-             "ways": [], "pictures": []}
+             "ways": [], "colors": [], "pictures": []}
     for view in simple.GetRenderViews():
         display = simple.GetDisplayProperties(compare, view)
         shown["ways"].append(str(display.SliceComparison.GetData()))
+        shown["colors"].append(str(display.ComparisonColors.GetData()))
         shown["pictures"].append(on_screen(view).tolist())
     seen = {}
     if os.path.exists(seen_file()):
@@ -98,15 +99,23 @@ def main():
         seen = json.load(file)
     told = {name: (shown["show"], shown["flickers"]) for name, shown in seen.items()}
     assert told == {"plain": ("Both", False), "compared": ("Both", False),
+                    "blue and orange": ("Both", False), "red and green": ("Both", False),
                     "flickering": ("Reference", True), "after": ("Both", False),
                     "undone": ("Both", False)}, told
     pictures = {name: [numpy.array(p) for p in shown["pictures"]] for name, shown in seen.items()}
-    assert sorted(seen["compared"]["ways"]) == ["None", "Red and green"], seen["compared"]["ways"]
-    compared = seen["compared"]["ways"].index("Red and green")
+    assert sorted(seen["compared"]["ways"]) == ["None", "Two colours"], seen["compared"]["ways"]
+    compared = seen["compared"]["ways"].index("Two colours")
     both = pictures["compared"][compared]
     assert both[:, :, 0].max() > 200 and both[:, :, 1].max() > 200
     assert (numpy.abs(both[:, :, 0] - both[:, :, 1]) > 25).mean() > 0.1, "they differ"
     assert (pictures["plain"][compared] != both).any()
+    other = pictures["blue and orange"][compared]
+    colors = {name: shown["colors"][compared] for name, shown in seen.items()}
+    assert colors["blue and orange"] == "Blue and orange", colors
+    assert colors["red and green"] == "Red and green", colors
+    blue = [(image[:, :, 2] > image[:, :, 0].astype(float) + 25).mean() for image in (both, other)]
+    assert blue[1] > blue[0] + 0.05, blue
+    assert (pictures["red and green"][compared] == both).all()
     for view in (0, 1):
         flickered = pictures["flickering"][view] != pictures["compared"][view]
         assert flickered.any(axis=2).mean() > 0.1, "the reference in all views"

@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves what the window shows of a volume at once: no background, tissue that fills the view,
 natural colours. Filters of a volume share its colours, a stranger with an array of the same name
-does not, and a user's colours stay. Buttons of looks act at once and can be undone. A mask covers
-nothing.
+does not, and a user's colours stay. Buttons of looks act at once and can be undone. They follow the
+array that colours the volume, and a stroke reads no volume for them. A mask covers nothing.
 
 ParaView's window runs this file as a script; what did not hold is written down for the pvpython
 that runs it afterwards."""
 
 import os
 
+import brainshift
 import numpy
 import test_hand as hand
 import window_testing as window
+from brainshift.reports import report_on
 from brainshift_testing import picture, volume
 from paraview import simple
 
@@ -160,11 +162,65 @@ def the_next_volume_looks_as_the_last_choice():
     assert hand.click("Skin")  # for the other steps
 
 
+def buttons_follow_the_array():
+    """A volume with two arrays has the looks of the one that colours it."""
+    view = begin()
+    k, j, i = numpy.mgrid[:20, :20, :20]
+    radius = numpy.sqrt((i - 9.5) ** 2 + (j - 9.5) ** 2 + (k - 9.5) ** 2)
+    noise = numpy.random.default_rng(2).normal(0.0, 10.0, radius.shape)
+    ct = numpy.where(radius < 8, numpy.where(radius < 6, 40.0, 800.0), -1000.0) + noise
+    both = simple.Calculator(Input=volume(ct), ResultArrayName="MR",
+                             Function="abs(Intensity - 300) + 50")
+    bent = simple.FreeFormDeformation(registrationName="bent", Input=both)
+    display = simple.Show(bent, view)
+    simple.SetActiveSource(bent)
+    for array, has, lacks in (("Intensity", "Bone", "See-through"),
+                              ("MR", "See-through", "Bone"), ("Intensity", "Bone", "See-through")):
+        simple.ColorBy(display, ("POINTS", array))
+        hand.wait(300)
+        assert hand.label(has) and not hand.label(lacks), (array, hand.label(has))
+
+
+def readings(source):
+    """How often a volume was read for a look so far."""
+    report = report_on(source.SMProxy, 0, 0, "")
+    report.UpdatePropertyInformation()
+    return report.GetProperty("Readings").GetElement(0)
+
+
+def a_stroke_reads_nothing():
+    view, reader, _ = a_head_is_seen_at_once()
+    bent = simple.FreeFormDeformation(registrationName="bent", Input=reader)
+    simple.Hide(reader, view)
+    display = simple.Show(bent, view)
+    simple.SetActiveSource(bent)
+    hand.wait(300)
+    assert hand.click("Skin"), "the panel offers looks"
+    hand.wait(100)
+    before = readings(bent)
+    assert before > 0
+    hand.take(hand.STAMP)
+    for strokes in (1, 2, 3):
+        hand.wheel([side // 2 for side in view.ViewSize], 2)
+        window.settle("Stamp: pull")
+        assert len(window.strokes()) == 2 * strokes - 1
+        corner = display.Input.GetDataInformation().GetBounds()[::2]
+        bent.Strokes = [*bent.Strokes, *brainshift.soft(corner, (0.0, 1.0, 0.0), 20.0)]
+        simple.Render(view)
+        hand.wait(300)
+    hand.take(hand.NONE)
+    assert readings(bent) == before, (before, readings(bent))
+    assert hand.click("Skin")
+    assert readings(bent) == before + 1, "what reads is counted"
+
+
 def play():
     yield (a_head_is_seen_at_once,)
     yield (a_filter_shares_the_look,)
     yield (a_stranger_gets_colours_of_its_own,)
     yield (a_mask_covers_nothing,)
+    yield (buttons_follow_the_array,)
+    yield (a_stroke_reads_nothing,)
     yield (buttons_choose_a_look,)
     yield (the_next_volume_looks_as_the_last_choice,)
     yield (a_users_colours_stay,)  # for good

@@ -13,6 +13,7 @@ from brainshift_testing import on_screen
 from paraview import simple
 
 SLICES = ("axial", "coronal", "sagittal")
+MOST_WAITS = 50  # of 0.1 s; on a busy machine a picture takes long
 
 
 scenes = []
@@ -76,9 +77,13 @@ def right_button_changes_grey_values():
         assert numpy.isclose(numpy.diff(higher), numpy.diff(wider)), "the window stays"
         assert higher.mean() > wider.mean() + 0.05 * numpy.diff(wider), (name, higher, wider)
         assert scene.zooms() == zooms, "the right button does not zoom"
-        hand.wait(100)
-        for other, picture in scene.on_screen().items():
-            assert (picture != seen[other]).mean() > 0.05, (name, other, "all three follow")
+        for _ in range(MOST_WAITS):
+            hand.wait(100)
+            changed = {other: (picture != seen[other]).mean()
+                       for other, picture in scene.on_screen().items()}
+            if min(changed.values()) > 0.05:
+                break
+        assert min(changed.values()) > 0.05, (name, changed, "all three follow")
         labels = window.undo_labels()
         assert labels.count("Window and level") == 2, ("each drag is one step", labels)
         window.action("Undo")

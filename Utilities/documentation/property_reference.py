@@ -89,6 +89,15 @@ def _range(domain):
                     [f"{least[0]} to {greatest[0]}"] if least else [])
 
 
+def unit(element):
+    """The unit in the label of a property, or beside its value, if the XML says one."""
+    for decorator in element.iter("PropertyWidgetDecorator"):
+        if decorator.get("type") == "BrainShiftUnit":
+            return decorator.get("unit")
+    beside = element.find("Hints/Unit")
+    return "" if beside is None else beside.get("name")
+
+
 def _values(element):
     """What the property takes."""
     if element.tag in ("InputProperty", "ProxyProperty"):
@@ -103,9 +112,10 @@ def _values(element):
         return "0 or 1"
     kind = {"Int": "integer", "Double": "number", "String": "text"}[
         element.tag.removesuffix("VectorProperty")]
-    for domain in element:
-        if domain.tag.endswith("RangeDomain") and _range(domain):
-            kind += ", " + _range(domain)
+    ranges = [_range(domain) for domain in element if domain.tag.endswith("RangeDomain")]
+    if unit(element) and unit(element) not in ranges:
+        kind += f" ({unit(element)})"
+    kind = ", ".join([kind, *filter(None, ranges)])
     count = element.get("number_of_elements")
     if element.get("repeat_command"):
         return f"list: {kind}"

@@ -256,6 +256,67 @@ TEST(Looks, KnowTheBoxOfTheirTissue)
   EXPECT_STREQ(report->GetKind(), "");
 }
 
+TEST(Looks, ACameraLetsTheirTissueFillTheView)
+{
+  auto head = headOf({ 4.0, 70.0, 25.0, 110.0 }, 4.0, 0.0);
+  vtkNew<vtkTrivialProducer> source;
+  source->SetOutput(head);
+  vtkNew<vtkVolumeLookReport> report;
+  EXPECT_EQ(report->GetCamera()->GetNumberOfValues(), 0) << "nothing was measured";
+  report->SetSource(source);
+  report->SetArrayName("Intensity");
+  report->Measure();
+  const double* bounds = report->GetTissueBounds();
+  const glm::dvec3 middle(
+    0.5 * (bounds[0] + bounds[1]), 0.5 * (bounds[2] + bounds[3]), 0.5 * (bounds[4] + bounds[5]));
+  const double radius = 0.5 * (bounds[1] - bounds[0]);
+  for (const auto& [aspect, angle] : { std::pair(2.0, 30.0), std::pair(0.5, 50.0) })
+  {
+    report->SetViewAspect(aspect);
+    report->SetViewAngle(angle);
+    vtkDoubleArray* camera = report->GetCamera();
+    ASSERT_EQ(camera->GetNumberOfValues(), 10);
+    const double* numbers = camera->GetPointer(0);
+    const glm::dvec3 position(numbers[0], numbers[1], numbers[2]);
+    const glm::dvec3 away = position - middle;
+    EXPECT_EQ(glm::dvec3(numbers[3], numbers[4], numbers[5]), middle);
+    EXPECT_EQ(glm::dvec3(numbers[6], numbers[7], numbers[8]), glm::dvec3(0.0, 0.0, 1.0));
+    EXPECT_TRUE(away.x > 0.0 && away.y > 0.0 && away.z > 0.0) << "right, front and above";
+    // Half of the view's shorter side, where the ball is seen: most of it is tissue.
+    const double half =
+      glm::length(away) * std::tan(0.5 * angle * std::acos(-1.0) / 180.0) * std::min(aspect, 1.0);
+    EXPECT_GT(radius / half, 0.7) << aspect;
+    EXPECT_LT(radius / half, 1.0) << aspect;
+    EXPECT_GT(numbers[9] * std::min(aspect, 1.0), radius);
+    EXPECT_LT(numbers[9] * std::min(aspect, 1.0), radius / 0.7);
+  }
+}
+
+TEST(Looks, AReportFindsTheWindowOfTissue)
+{
+  auto head = headOf({ 4.0, 70.0, 25.0, 110.0 }, 4.0, 0.0);
+  vtkNew<vtkTrivialProducer> source;
+  source->SetOutput(head);
+  vtkNew<vtkVolumeLookReport> report;
+  report->SetSource(source);
+  report->SetArrayName("Intensity");
+  const int before = vtkVolumeLookReport::GetReadings();
+  report->MeasureWindow();
+  EXPECT_EQ(vtkVolumeLookReport::GetReadings(), before + 1);
+  ASSERT_EQ(report->GetWindow()->GetNumberOfValues(), 2);
+  const double low = report->GetWindow()->GetValue(0);
+  const double high = report->GetWindow()->GetValue(1);
+  EXPECT_GT(low, 8.0) << "above the air, which is 4";
+  EXPECT_NEAR(high, 110.0, 15.0);
+  report->SetPercentiles(40.0, 60.0);
+  report->MeasureWindow();
+  EXPECT_GT(report->GetWindow()->GetValue(0), low);
+  EXPECT_LT(report->GetWindow()->GetValue(1), high);
+  report->SetArrayName("Nothing");
+  report->MeasureWindow();
+  EXPECT_EQ(report->GetWindow()->GetNumberOfValues(), 0);
+}
+
 TEST(Looks, AreTheSameForCells)
 {
   auto head = headOf({ 4.0, 70.0, 25.0, 110.0 }, 4.0, 0.0);

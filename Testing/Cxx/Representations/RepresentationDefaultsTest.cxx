@@ -18,7 +18,9 @@ TEST(Defaults, OfDeformedVolumeReportLiveInTheClass)
 {
   vtkNew<vtkDeformedVolumeReport> report;
   const int* pixel = report->GetPixel();
-  const Defaults expected{ { "Pixel", { double(pixel[0]), double(pixel[1]) } } };
+  const double* place = report->GetPlace();
+  const Defaults expected{ { "Pixel", { double(pixel[0]), double(pixel[1]) } },
+    { "Place", { place[0], place[1], place[2] } }, { "ToRest", { double(report->GetToRest()) } } };
   EXPECT_EQ(defaultsIn("Representations/Proxies/DeformedVolumeReport.xml"), expected);
 }
 
@@ -40,6 +42,7 @@ TEST(Defaults, OfDeformedSlicesLiveInTheMapper)
     { "Opacity", { mapper->GetOpacity() } } };
   EXPECT_EQ(defaultsIn("Representations/Proxies/DeformedSlices.xml"), expected);
   const Defaults compared{ { "SliceComparison", { double(mapper->GetComparison()) } },
+    { "ComparisonColors", { double(mapper->GetComparisonColors()) } },
     { "CheckerSize", { mapper->GetCheckerSize() } },
     { "ReferenceRange", { mapper->GetReferenceRange()[0], mapper->GetReferenceRange()[1] } },
     { "FullGradient", { mapper->GetFullGradient() } },
@@ -52,9 +55,6 @@ TEST(Defaults, OfDeformedVolumeLiveInTheMapper)
   vtkNew<vtkDeformedVolumeMapper> mapper;
   const Defaults expected{ { "SampleDistance", { mapper->GetSampleDistance() } },
     { "EmptySpaceSkipping", { double(mapper->GetEmptySpaceSkipping()) } },
-    { "VolumeComparison", { double(mapper->GetComparison()) } },
-    { "AgreementDistance", { mapper->GetAgreementDistance() } },
-    { "VolumeReferenceRange", { mapper->GetReferenceRange()[0], mapper->GetReferenceRange()[1] } },
     { "AdaptiveQuality", { double(mapper->GetAdaptiveQuality()) } },
     { "AmbientOcclusion", { mapper->GetAmbientOcclusion() } },
     { "OcclusionRadius", { mapper->GetOcclusionRadius() } },
@@ -63,6 +63,12 @@ TEST(Defaults, OfDeformedVolumeLiveInTheMapper)
     { "MemoryLimit", { mapper->GetMemoryLimit() } },
     { "VolumeNormalTexture", { double(mapper->GetNormalTexture()) } } };
   EXPECT_EQ(defaultsIn("Representations/Proxies/DeformedVolume.xml"), expected);
+  const Defaults compared{ { "VolumeComparison", { double(mapper->GetComparison()) } },
+    { "ComparisonColors", { double(mapper->GetComparisonColors()) } },
+    { "AgreementDistance", { mapper->GetAgreementDistance() } },
+    { "VolumeReferenceRange",
+      { mapper->GetReferenceRange()[0], mapper->GetReferenceRange()[1] } } };
+  EXPECT_EQ(defaultsIn("Representations/Proxies/DeformedVolumeComparison.xml"), compared);
   const Defaults ofSegment{ { "DrawSegment", { double(mapper->GetDrawSegment()) } } };
   EXPECT_EQ(defaultsIn("Representations/Proxies/DeformedVolumeSegment.xml"), ofSegment);
 }

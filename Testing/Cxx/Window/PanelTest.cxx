@@ -264,13 +264,35 @@ TEST(Advice, ColoursReadOnLightAndDark)
   {
     QPalette palette;
     palette.setColor(QPalette::Window, background);
+    palette.setColor(QPalette::WindowText, background.lightness() < 128 ? Qt::white : Qt::black);
     for (const Grade grade : { Grade::Good, Grade::Doubtful, Grade::Bad })
     {
-      const double text = luminance(gradeColor(grade, palette)) + 0.05;
-      const double behind = luminance(background) + 0.05;
-      EXPECT_GT(std::max(text, behind) / std::min(text, behind), 4.5)
-        << background.name().toStdString() << " " << static_cast<int>(grade);
+      for (const bool blueAndOrange : { false, true })
+      {
+        const QColor color = gradeColor(grade, palette, blueAndOrange);
+        const double text = luminance(color) + 0.05;
+        const double behind = luminance(background) + 0.05;
+        EXPECT_GT(std::max(text, behind) / std::min(text, behind), 4.5)
+          << background.name().toStdString() << " " << color.name().toStdString();
+      }
     }
+  }
+}
+
+// All of the colour-blind tell blue from yellow, or from orange. Green and red differ for others.
+TEST(Advice, ColoursOfTheColourBlindDifferInBlue)
+{
+  for (const QColor& background : { QColor(239, 239, 239), QColor(53, 53, 53) })
+  {
+    QPalette palette;
+    palette.setColor(QPalette::Window, background);
+    const auto blueness = [&](Grade grade, bool blueAndOrange) {
+      const QColor color = gradeColor(grade, palette, blueAndOrange);
+      return color.blueF() - (color.redF() + color.greenF()) / 2.0;
+    };
+    EXPECT_GT(blueness(Grade::Good, true), 0.25);
+    EXPECT_LT(blueness(Grade::Bad, true), -0.25);
+    EXPECT_LT(std::abs(blueness(Grade::Good, false) - blueness(Grade::Bad, false)), 0.25);
   }
 }
 

@@ -96,18 +96,6 @@ def test_three_numbers_are_told():
     assert image.any() and numpy.array_equal(image, mapped)
 
 
-def test_two_dimensional_functions_are_told():
-    source = volume(smooth())
-    plain = shown_picture(source, "Deformed Volume", lambda display, view: None)
-
-    def two_dimensional(display, view):
-        display.UseTransfer2D = 1
-    with messages() as said:
-        image = shown_picture(source, "Deformed Volume", two_dimensional)
-    assert_says(said.text, "UseTransfer2D", "colour map and the opacity curve")
-    assert numpy.array_equal(image, plain)
-
-
 def test_other_choices_are_told_once_and_only_when_shown():
     view = view_along((0, 0, -1), MIDDLE, 140.0, size=60)
     display = show_volume(volume(smooth()), view, "Volume", COLORS, OPACITIES)

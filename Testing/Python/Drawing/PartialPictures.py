@@ -81,8 +81,11 @@ def check_strokes(scene, draw):
 
 
 def test_a_stroke_casts_what_it_moves():
-    for opacities, lit in ((SURFACE, True), (FOG, False)):
-        check_strokes(Scene(opacities, lit), lambda: None)
+    for opacities, lit, factors in ((SURFACE, True, []), (FOG, False, []),
+                                    (FOG, True, [0, 0, 4, 0, 12, 1])):
+        scene = Scene(opacities, lit)
+        scene.display.GradientOpacity = factors
+        check_strokes(scene, lambda: None)
 
 
 def test_a_drag_leaves_nothing_rough_behind():

@@ -16,6 +16,7 @@ from paraview.simple import (  # noqa: E402
     ClearSelection, CompareVolumes, Delete, FreeFormDeformation, PolyPointSource,
     SelectSurfaceCells, Show, Sphere)
 from slices_testing import show_slices  # noqa: E402
+from steepness_testing import grid_of_table, table_of  # noqa: E402
 from stock_testing import prop_of  # noqa: E402
 from vtkmodules.vtkCommonDataModel import vtkPlane  # noqa: E402
 
@@ -98,6 +99,27 @@ def test_colours_of_voxels():
             drawn.draw("Half resolution", **named)
             drawn.draw(None, MAXIMUM, regions=True)
             drawn.close()
+
+
+def draw_steep(source, opacities, largest, **segment):
+    """Draws with gradient opacity, and with a 2D transfer function of that largest opacity."""
+    scalar, steep = grid_of_table()
+    table = table_of(scalar, steep, scalar, numpy.where(scalar > 0.2, largest, 0.0))
+    for light in (None, "On the fly"):
+        drawn = Drawn(source, opacities)
+        drawn.draw(light, GradientOpacity=[0, 0, 5, 1], **segment)
+        prop_of(drawn.view).GetProperty().SetTransferFunction2D(table)
+        drawn.draw(light, UseTransfer2D=1, **segment)
+        drawn.close()
+
+
+def test_opacity_by_gradients():
+    for source in bent_and_not(volume(ball())):
+        draw_steep(source, FAINT, 0.1)
+        draw_steep(source, OPAQUE, 1.0)
+    labels = volume((ball() > 50).astype(numpy.uint8))
+    source = FreeFormDeformation(Input=volume(ball()), Segmentation=labels, Strokes=STROKE)
+    draw_steep(source, STEEP, 0.1, DrawSegment=1)
 
 
 def test_segment():

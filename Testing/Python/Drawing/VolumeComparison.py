@@ -268,7 +268,7 @@ def test_without_a_reference_nothing_is_added():
     for name, source in (("alone", own), ("off", CompareVolumes(Input=own, Reference=own))):
         view = new_view()
         display = shown(source, view)
-        display.VolumeComparison = "Red and green" if name == "alone" else "Off"
+        display.VolumeComparison = "Two colours" if name == "alone" else "Off"
         picture(view)
         counted[name] = {**brainshift.counters(display), **brainshift.gpu(display)}
         counted[name].pop("gpuFieldMicroseconds")
@@ -326,12 +326,12 @@ def test_one_of_them_alone():
     for choice, source in (("Deformed", own), ("Reference", reference)):
         compare.Show = choice
         expected = drawn(source, colors=colors)
-        for setting in ("Red and green", "Off"):
+        for setting in ("Two colours", "Off"):
             display.VolumeComparison = setting
             apart = numpy.abs(picture(view) - expected).max()
             assert apart <= 1.01 * LEVEL, (choice, setting, apart)
     uploads = brainshift.counters(display)["volumeUploads"]
-    compare.Show, display.VolumeComparison = "Both", "Red and green"
+    compare.Show, display.VolumeComparison = "Both", "Two colours"
     assert (picture(view) == both).all()
     assert brainshift.counters(display)["volumeUploads"] == uploads == 2, "flicker sends nothing"
     Delete(view)
@@ -367,7 +367,7 @@ def test_too_little_memory_leaves_the_volume():
     both = picture(view)
     display.VolumeComparison = "Off"
     alone = picture(view)
-    display.VolumeComparison = "Red and green"
+    display.VolumeComparison = "Two colours"
     display.MemoryLimit = 0.1
     with messages() as said:
         picture(view)

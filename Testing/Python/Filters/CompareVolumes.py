@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that Compare Volumes and "Deformed Slices" show a volume with a reference on any grid: in
-# red and green, in a checkerboard, and subtracted. A stroke uploads only the lattice.
+# two colours, in a checkerboard, and subtracted. A stroke uploads only the lattice.
 import numpy
 from brainshift_testing import (assert_says, ball, field, load_plugin, messages, output, picture,
                                 run_tests, show_volume, volume)
@@ -22,7 +22,7 @@ def test_a_volume_agrees_with_itself():
     compare = CompareVolumes(Input=bent, Reference=source)
     for strength in (0.0, 1.0):
         bent.Strength = strength
-        both = compared_picture(compare, "Red and green")
+        both = compared_picture(compare, "Two colours")
         apart = numpy.abs(both[:, :, 0] - both[:, :, 1])
         difference = compared_picture(compare, "Difference")
         off_grey = numpy.abs(difference - 0.5).max(axis=2)
@@ -37,7 +37,7 @@ def test_a_turned_reference_of_another_grid():
     pair = Pair()
     share, inside = pair.expected()
     assert 0.5 < inside.mean() < 0.98, inside.mean()
-    both = compared_picture(pair.compare, "Red and green")
+    both = compared_picture(pair.compare, "Two colours")
     plain = compared_picture(pair.bent, "None")
     assert numpy.abs(both[:, :, 0] - plain[:, :, 0]).max() <= ENOUGH, "red is the volume"
     assert numpy.abs(both[:, :, 1] - share)[inside].max() < 2.5 / 255, "green is the reference"
@@ -46,7 +46,7 @@ def test_a_turned_reference_of_another_grid():
     difference = compared_picture(pair.compare, "Difference")[:, :, 0]
     expected = 0.5 + 0.5 * (plain[:, :, 0] - share)
     assert numpy.abs(difference - expected)[inside].max() < 2.5 / 255
-    shown = compared_picture(pair.compare, "Red and green", ReferenceRange=[500.0, 1000.0])
+    shown = compared_picture(pair.compare, "Two colours", ReferenceRange=[500.0, 1000.0])
     wanted = numpy.clip(share * (pair.voxels.max() - pair.voxels.min())
                         + pair.voxels.min() - 500.0, 0, 500) / 500
     assert numpy.abs(shown[:, :, 1] - wanted)[inside].max() < 2.5 / 255, "a range of its own"
@@ -96,7 +96,7 @@ def test_a_stroke_uploads_the_lattice_only():
     pair = Pair()
     view = flat_view(2, MIDDLE, HALF)
     display = show_slices(pair.compare, view, ("Axial",), MIDDLE)
-    display.SliceComparison = "Red and green"
+    display.SliceComparison = "Two colours"
     first = picture(view)
     before = brainshift.counters(display)
     assert before["volumeUploads"] == 2, before

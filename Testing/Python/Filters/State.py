@@ -12,6 +12,7 @@ STROKES = (brainshift.stamp((3, 2, 8), (0, 0, 0), 4.0, major=12.0, minor=9.0)
            + brainshift.move((-5, 1, 6), (0.25, -1.5, 2.0))
            + brainshift.soft((0, -6, 4), (1.0, 1.0, 1.0 / 3.0), 7.0))
 COLORS = [40, 0, 0, 0.2, 150, 0.9, 0.5, 0.3, 280, 1, 1, 1]
+FACTORS = [0, 0.5, 20, 1]
 OPACITIES = [40, 0, 0.5, 0, 120, 0, 0.5, 0, 280, 0.7, 0.5, 0]
 
 
@@ -25,8 +26,9 @@ def make_scene():
     view = view_along((0.3, -0.4, -1), (0, 0, 0), 60)
     # A unit of 1.0 would be missing in the Python state. ParaView writes no value that equals the
     # default in the XML, although Show then sets another value.
-    show_volume(filter, view, "Deformed Volume", COLORS, OPACITIES, array="RTData", shade=True,
-                unit=1.5)
+    display = show_volume(filter, view, "Deformed Volume", COLORS, OPACITIES, array="RTData",
+                          shade=True, unit=1.5)
+    display.GradientOpacity = FACTORS
     return view
 
 
@@ -43,6 +45,7 @@ def expect_scene(before, load):
     assert filter.Strength == 0.75
     assert filter.Kernel == "B-Spline"
     view = simple.GetActiveViewOrCreate("RenderView")
+    assert list(simple.GetDisplayProperties(filter, view).GradientOpacity) == FACTORS
     after = picture(view)
     assert simple.GetDisplayProperties(filter, view).Representation == "Deformed Volume"
     assert after.shape == before.shape, (after.shape, before.shape)

@@ -16,7 +16,7 @@ LATTICE_BYTES = 19 ** 3 * 3 * 4
 ENOUGH = 2.5 / 255.0
 BAKED = 0.01  # mean difference from a baked volume, of full scale
 LARGEST = 10  # of that: a bake is exact, and slices read the offset field, which is trilinear
-WAYS = ("Red and green", "Checkerboard", "Difference", "Gradient", "Wipe")
+WAYS = ("Two colours", "Checkerboard", "Difference", "Gradient", "Wipe")
 PIXEL_MM = 2 * HALF / 300
 
 
@@ -52,7 +52,7 @@ def test_other_ways_show_the_baked_volume():
     pair = Pair()
     own = pair.baked_share()
     share, inside = pair.expected()
-    both = compared_picture(pair.compare, "Red and green")
+    both = compared_picture(pair.compare, "Two colours")
     assert_like(both[:, :, 0], own, inside)
     assert_like(both[:, :, 1], share, inside)
     difference = compared_picture(pair.compare, "Difference")
@@ -135,7 +135,7 @@ def test_the_cavity_is_ignored():
     removed, kept = removed & ~unsure, ~removed & ~unsure
     assert 0.02 < removed.mean() < 0.5, removed.mean()
     own = compared_picture(pair.bent, "None")[:, :, 0]
-    cases = {"Red and green": own, "Gradient": own, "Difference": numpy.full_like(own, 0.5)}
+    cases = {"Two colours": own, "Gradient": own, "Difference": numpy.full_like(own, 0.5)}
     for way, grey in cases.items():
         image = compared_picture(pair.compare, way)
         pair.compare.Cavity = None
@@ -145,9 +145,9 @@ def test_the_cavity_is_ignored():
         assert numpy.abs(image[:, :, 0] - grey)[removed].max() <= ENOUGH, way
         assert (image == without)[kept].all(), way
         assert (image != without)[removed].any(axis=1).mean() > 0.5, way
-    image = compared_picture(pair.compare, "Red and green")
+    image = compared_picture(pair.compare, "Two colours")
     pair.compare.CavityLabels = [3, 7]
-    assert (compared_picture(pair.compare, "Red and green") == image).all()
+    assert (compared_picture(pair.compare, "Two colours") == image).all()
     for way in ("Checkerboard", "Wipe"):
         image = compared_picture(pair.compare, way)
         pair.compare.Cavity = None
@@ -175,7 +175,7 @@ def test_colours_of_the_map():
     pair = Pair()
     share, inside = pair.expected()
     grey = {way: compared_picture(pair.compare, way)
-            for way in ("Red and green", "Difference", "Gradient")}
+            for way in ("Two colours", "Difference", "Gradient")}
     view = flat_view(2, MIDDLE, HALF)
     display = show_slices(pair.compare, view, ("Axial",), MIDDLE)
     colors = simple.GetColorTransferFunction("Intensity", display, separate=True)
@@ -199,7 +199,7 @@ def test_the_reference_alone_needs_no_tissue():
     other = smooth(3)
     compare = CompareVolumes(Input=volume(holed), Reference=volume(other))
     share = trilinear(other, pixel_positions((1, 0, 0), (0, 1, 0), MIDDLE, HALF))[0] / 100
-    assert not compared_picture(compare, "Red and green")[140, 140].any(), "no tissue, nothing"
+    assert not compared_picture(compare, "Two colours")[140, 140].any(), "no tissue, nothing"
     compare.Show = "Reference"
     assert numpy.abs(compared_picture(compare, "None")[:, :, 0] - share).max() < ENOUGH
 
@@ -220,7 +220,7 @@ def test_show_sends_no_voxel():
     pair = WithCavity()
     view = flat_view(2, MIDDLE, HALF)
     display = show_slices(pair.compare, view, ("Axial",), MIDDLE)
-    display.SliceComparison = "Red and green"
+    display.SliceComparison = "Two colours"
     pictures = {"Both": picture(view)}
     assert brainshift.counters(display)["volumeUploads"] == 3, "volume, reference, cavity"
     for show in ("Reference", "Deformed"):

@@ -80,6 +80,22 @@ def test_lines_lie_at_the_position():
             assert not near.any(), "the tissue where the lines meet is seen"
 
 
+def test_lines_are_as_wide_on_any_screen():
+    """A screen at 200 % has twice the pixels in the same place."""
+    widths = {}
+    for dots in (72, 144):
+        view = flat_view(2, MIDDLE, HALF, size=SIZE)
+        view.PPI = dots
+        display = show_slices(volume(numpy.zeros((33, 33, 33))), view, ("Axial",), POSITION)
+        assert not picture(view).any()
+        display.ShowCrosshair = 1
+        lines = picture(view).any(axis=2)[SIZE // 4:SIZE // 2, :SIZE // 3]  # the level one
+        upright = picture(view).any(axis=2)[SIZE // 4 - 20:SIZE // 4, SIZE // 4:3 * SIZE // 4]
+        widths[dots] = (lines.sum(axis=0).max(), upright.sum(axis=1).max())
+        Delete(view)
+    assert max(widths[72]) == 2 and max(widths[144]) == 4, widths
+
+
 def test_the_colour_blind_can_tell_the_planes():
     planes = numpy.array(colors())
     linear = numpy.where(planes <= 0.04045, planes / 12.92, ((planes + 0.055) / 1.055) ** 2.4)

@@ -134,7 +134,7 @@ def test_a_comparison_is_seen_in_all_four_views():
         compared = {name: GetDisplayProperties(compare, view) for name, view in views.items()}
         for name in SLICES:
             assert compared[name].Representation == "Deformed Slices", name
-            assert compared[name].SliceComparison == "Red and green", name
+            assert compared[name].SliceComparison == "Two colours", name
             assert list(compared[name].SlicePosition) == POSITION, name
             assert compared[name].LookupTable == displays[name].LookupTable, name
             assert compared[name].ShowCrosshair == 1

@@ -129,6 +129,10 @@ def test_the_first_radius_suits_any_view():
             scene.view.CameraViewAngle = 12.0 if distance_factor == 1 else 160.0
             drawn = (picture(scene.view)[:, :, 0] > 0.3).sum()
             assert 40 <= drawn <= 60, (drawn, "a ball of 4 pixels")
+            scene.view.PPI = 144  # a screen at 200 %
+            drawn = (picture(scene.view)[:, :, 0] > 0.3).sum()
+            assert 170 <= drawn <= 230, (drawn, "a ball of 8 pixels")
+            scene.view.PPI = 72
             scene.traces.TraceRadius = 0.001
             assert 4 <= (picture(scene.view)[:, :, 0] > 0.3).sum() <= 12, "a ball of 1.5 pixels"
             Delete(scene.view)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Interaction/Views/FourViewsActions.h"
+#include "Interaction/Displays/FourViewsActions.h"
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>

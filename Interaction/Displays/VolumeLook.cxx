@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Interaction/Views/VolumeLook.h"
+#include "Interaction/Displays/VolumeLook.h"
 
+#include "Filters/Looks/FirstCamera.h"
 #include "Interaction/Views/Reports.h"
 
 #include <pqApplicationCore.h>
@@ -14,33 +15,15 @@
 
 #include <QMap>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
-#include <glm/vec3.hpp>
-
 #include <algorithm>
 
 namespace brainshift
 {
 namespace
 {
-const glm::dvec3 FirstDirection = glm::normalize(glm::dvec3(0.62, 0.68, 0.40));
-const glm::dvec3 Up(0.0, 0.0, 1.0);
-constexpr double Filled = 0.92;   // of the view's height or width
-constexpr double BoxShare = 0.25; // of the box's corners in the size of tissue
-
 QString textOf(vtkSMProxy* report, const char* property)
 {
   return QString::fromUtf8(vtkSMPropertyHelper(report, property).GetAsString());
-}
-
-// Half the size of tissue along a direction of unit length: a little more than that of the
-// ellipsoid in its box, for a head has a neck.
-double reachOf(const glm::dvec3& half, const glm::dvec3& along)
-{
-  const glm::dvec3 parts = glm::abs(half * along);
-  return glm::mix(glm::length(parts), parts.x + parts.y + parts.z, BoxShare);
 }
 
 // The colours that looks gave, by the number of the colour map.
@@ -140,27 +123,18 @@ void aimAt(vtkSMRenderViewProxy* view, const std::vector<double>& bounds)
   {
     return;
   }
-  const glm::dvec3 low(bounds[0], bounds[2], bounds[4]);
-  const glm::dvec3 high(bounds[1], bounds[3], bounds[5]);
-  const glm::dvec3 middle = 0.5 * (low + high);
-  const glm::dvec3 half = glm::max(0.5 * (high - low), glm::dvec3(1e-9));
-  const glm::dvec3 right = glm::normalize(glm::cross(Up, FirstDirection));
+  Box box;
+  std::copy_n(bounds.begin(), 6, box.bounds);
   const std::vector<int> size = vtkSMPropertyHelper(view, "ViewSize").GetIntArray();
-  const double wide =
+  const double aspect =
     size.size() == 2 && size[1] > 0 ? static_cast<double>(size[0]) / size[1] : 1.0;
-  // Half the height of the picture at the tissue's middle.
-  const double scale =
-    std::max(reachOf(half, glm::cross(FirstDirection, right)), reachOf(half, right) / wide) /
-    Filled;
-  const double angle = vtkSMPropertyHelper(view, "CameraViewAngle").GetAsDouble();
-  const double distance =
-    scale / glm::tan(glm::radians(0.5 * angle)) + BoxShare * reachOf(half, FirstDirection);
-  const glm::dvec3 position = middle + distance * FirstDirection;
-  vtkSMPropertyHelper(view, "CameraFocalPoint").Set(&middle.x, 3);
-  vtkSMPropertyHelper(view, "CameraPosition").Set(&position.x, 3);
-  vtkSMPropertyHelper(view, "CameraViewUp").Set(&Up.x, 3);
-  vtkSMPropertyHelper(view, "CameraParallelScale").Set(scale);
-  vtkSMPropertyHelper(view, "CenterOfRotation").Set(&middle.x, 3);
+  const FirstCamera camera =
+    firstCamera(box, aspect, vtkSMPropertyHelper(view, "CameraViewAngle").GetAsDouble());
+  vtkSMPropertyHelper(view, "CameraFocalPoint").Set(&camera.focalPoint.x, 3);
+  vtkSMPropertyHelper(view, "CameraPosition").Set(&camera.position.x, 3);
+  vtkSMPropertyHelper(view, "CameraViewUp").Set(&camera.up.x, 3);
+  vtkSMPropertyHelper(view, "CameraParallelScale").Set(camera.parallelScale);
+  vtkSMPropertyHelper(view, "CenterOfRotation").Set(&camera.focalPoint.x, 3);
   view->UpdateVTKObjects();
 }
 }

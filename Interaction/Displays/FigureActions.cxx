@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Interaction/Views/FigureActions.h"
+#include "Interaction/Displays/FigureActions.h"
 
 #include "Interaction/Views/ActiveDeformation.h"
 

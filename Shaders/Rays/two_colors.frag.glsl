@@ -1,4 +1,4 @@
-// Composite blending of a bent volume, red, and a reference, green, along one ray.
+// Composite blending of a bent volume and a reference, each in its colour, along one ray.
 
 // Takes the samples i and i + 1. Returns whether one of them is visible.
 bool takeTwo(Path path, TissueTable table, TissueTable referenceTable, mat3 turn, float i,

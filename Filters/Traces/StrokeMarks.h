@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief Tells the beginnings of a list of strokes apart, so that what was measured after some
+ *        strokes is known again when undo comes back to them.
+ *
+ * A deformable volume that Free-Form Deformation made carries
+ *
+ *     FFDStrokeMarks  uint64, one more than there are strokes: number k stands for the deformation
+ *                     after the first k strokes. Two deformations with the same mark are the same.
+ */
+#ifndef BrainShift_StrokeMarks_h
+#define BrainShift_StrokeMarks_h
+
+#include "Filters/Deformation/Lattice.h"
+#include "vtkBrainShiftFiltersModule.h" // for the export macro
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+class vtkDataObject;
+
+namespace brainshift
+{
+/** One mark for each beginning of a list of strokes, from none of them to all. */
+using StrokeMarks = std::vector<std::uint64_t>;
+
+/** A mark that depends on another one and on a number. */
+VTKBRAINSHIFTFILTERS_EXPORT std::uint64_t mixed(std::uint64_t mark, std::uint64_t number);
+
+/** Makes marks. It remembers the part of the mask, which has the most numbers. */
+class VTKBRAINSHIFTFILTERS_EXPORT StrokeMarker
+{
+public:
+  /**
+   * The marks of a list of strokes.
+   *
+   * @param start      the lattice before all strokes
+   * @param settings   numbers that the deformation depends on besides
+   * @param strokes    NumbersPerStroke numbers for each stroke
+   */
+  StrokeMarks marksOf(
+    const Lattice& start, const std::vector<double>& settings, const std::vector<double>& strokes);
+
+private:
+  std::shared_ptr<const NodeWeights> Mask;
+  std::uint64_t MaskMark = 0;
+};
+
+/** Attaches the marks to a data set. */
+VTKBRAINSHIFTFILTERS_EXPORT void attachMarks(vtkDataObject* volume, const StrokeMarks& marks);
+
+/** Reads what attachMarks wrote; empty if there are none. */
+VTKBRAINSHIFTFILTERS_EXPORT StrokeMarks readMarks(vtkDataObject* volume);
+}
+
+#endif

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Representations/Field/TissueFacts.h"
+
+#include "Filters/Attached/ReferenceVolume.h"
+#include "Filters/Attached/Segmentation.h"
+#include "Representations/Field/SceneDeformation.h"
+#include "Representations/Scene/SceneGeometry.h"
+
+#include "vtkDataArray.h"
+#include "vtkImageData.h"
+#include "vtkTextureObject.h" // for the pointers of what is included
+
+#include <glm/matrix.hpp>
+
+#include <cmath>
+
+namespace brainshift
+{
+namespace
+{
+std::optional<double> numberAt(
+  vtkDataArray* numbers, const Grid& grid, const ValueLayout& layout, const glm::dvec3& place)
+{
+  if (!numbers || numbers->GetNumberOfComponents() != 1)
+  {
+    return {};
+  }
+  const glm::dvec3 texture =
+    grid.gridFromWorld(place) * layout.textureFromGrid + layout.textureOfGridZero;
+  // A voxel is the box around its value. A ray meets the face of the volume a little before it.
+  const glm::dvec3 halfVoxel = 0.5 / glm::dvec3(layout.dimensions);
+  const std::optional<long long> index = nearestValue(layout, texture, halfVoxel);
+  const double number = index ? numbers->GetComponent(*index, 0) : std::nan("");
+  return std::isnan(number) ? std::nullopt : std::optional<double>(number);
+}
+
+std::optional<double> numberAt(vtkDataArray* numbers, const Grid& grid, const glm::dvec3& place)
+{
+  return numberAt(numbers, grid, layoutOf(grid.dimensions, /*cells*/ false), place);
+}
+}
+
+TissueFacts factsAt(vtkImageData* image, const DrawnValues& values, SceneDeformation& deformation,
+  const glm::dvec3& deformedMm)
+{
+  TissueFacts facts;
+  facts.axes = worldAxesOf(image);
+  facts.deformed = facts.rest = deformedMm;
+  const ReferenceVolume reference = readReference(image);
+  if (reference.show != ReferenceShow::Deformed)
+  {
+    facts.reference = numberAt(reference.voxels, reference.grid, deformedMm);
+  }
+  if (reference.voxels && reference.show == ReferenceShow::Reference)
+  {
+    return facts;
+  }
+  if (deformation.deformed)
+  {
+    facts.bent = true;
+    facts.rest = deformation.map().restFromDeformed(deformedMm);
+    facts.volumeShare = glm::determinant(deformation.map().jacobian(facts.rest));
+  }
+  facts.value = numberAt(values.scalars, values.grid, values.layout, facts.rest);
+  const Segmentation segmentation = readSegmentation(image);
+  facts.label = numberAt(segmentation.labels, segmentation.grid, facts.rest);
+  return facts;
+}
+
+glm::dvec3 sameTissue(SceneDeformation& deformation, const glm::dvec3& place, bool toRest)
+{
+  if (!deformation.deformed)
+  {
+    return place;
+  }
+  const PointMap& map = deformation.map();
+  return toRest ? map.restFromDeformed(place) : map.deformedFromRest(place);
+}
+}

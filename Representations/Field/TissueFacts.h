@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief What is known of the tissue at one place of a drawn volume.
+ */
+#ifndef BrainShift_TissueFacts_h
+#define BrainShift_TissueFacts_h
+
+#include "Filters/Attached/WorldAxes.h"
+
+#include <glm/vec3.hpp>
+
+#include <optional>
+
+class vtkImageData;
+
+namespace brainshift
+{
+struct DrawnValues;
+struct SceneDeformation;
+
+/// Positions are mm in the volume's own axes, before the transform of the vtkVolume.
+struct TissueFacts
+{
+  glm::dvec3 deformed{ 0.0 };  ///< Where the tissue is drawn.
+  glm::dvec3 rest{ 0.0 };      ///< Where it was in the volume as loaded.
+  bool bent = false;           ///< Whether a deformation places the tissue. Else rest = deformed.
+  double volumeShare = 1.0;    ///< Jacobian determinant of deformedFromRest. 1: size is kept.
+  std::optional<double> value; ///< Of the voxel that is nearest at rest, in the drawn array.
+  std::optional<double> reference;     ///< Of the nearest voxel of a reference that is shown.
+  std::optional<double> label;         ///< Of the nearest voxel of an attached segmentation.
+  WorldAxes axes = WorldAxes::Unknown; ///< What the data says about its axes.
+};
+
+/// The facts about a place in the deformed frame. A number that nobody knows is left out: outside
+/// the volume, without a value, or of an array with several components. If the reference is shown
+/// alone, the facts are about the reference, which is not bent.
+TissueFacts factsAt(vtkImageData* image, const DrawnValues& values, SceneDeformation& deformation,
+  const glm::dvec3& deformedMm);
+
+/// Maps a place (mm) of the bent volume to the same tissue at rest, or back if `toRest` is false.
+glm::dvec3 sameTissue(SceneDeformation& deformation, const glm::dvec3& place, bool toRest);
+}
+
+#endif

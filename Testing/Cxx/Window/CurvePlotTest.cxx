@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Proves that the curve of the panel lies as high as its lengths in the colours of the palette,
+// marks the last point, says in words what it shows, and tells the point under the cursor.
+#include "Panel/Parts/CurvePlot.h"
+#include "Testing/Cxx/Window/Application.h"
+
+#include <QHelpEvent>
+#include <QImage>
+#include <QPalette>
+#include <QToolTip>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <memory>
+
+using namespace brainshift;
+
+namespace
+{
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+class Curve : public testing::Test
+{
+protected:
+  Curve()
+  {
+    application();
+    QPalette palette;
+    palette.setColor(QPalette::Window, Qt::black);
+    palette.setColor(QPalette::WindowText, Qt::white);
+    palette.setColor(QPalette::Highlight, Qt::red);
+    this->Plot = std::make_unique<CurvePlot>();
+    this->Plot->setPalette(palette);
+    this->Plot->resize(300, this->Plot->minimumSizeHint().height());
+  }
+
+  QColor colorAt(const QPointF& place) const
+  {
+    return this->Plot->grab().toImage().pixelColor(place.toPoint());
+  }
+
+  std::unique_ptr<CurvePlot> Plot;
+};
+}
+
+TEST_F(Curve, LiesAsHighAsItsLengths)
+{
+  this->Plot->setLengths({ 4.0, 2.0, 1.0 });
+  const double floor = 2.0 * this->Plot->placeOf(1).y() - this->Plot->placeOf(0).y();
+  EXPECT_NEAR(
+    floor - this->Plot->placeOf(2).y(), 0.25 * (floor - this->Plot->placeOf(0).y()), 1e-9);
+  for (const int strokes : { 0, 1, 2 })
+  {
+    EXPECT_EQ(this->colorAt(this->Plot->placeOf(strokes)), QColor(Qt::red)) << strokes;
+  }
+  EXPECT_EQ(this->Plot->placeOf(1).x(), 150.0);
+}
+
+TEST_F(Curve, MarksTheLastPointOnly)
+{
+  this->Plot->setLengths({ 4.0, 2.0, 1.0 });
+  const auto ringAt = [&](int strokes) {
+    const QImage image = this->Plot->grab().toImage();
+    const QPoint place = this->Plot->placeOf(strokes).toPoint();
+    int bright = 0;
+    for (int x = -6; x <= 6; ++x)
+    {
+      bright += image.pixelColor(place + QPoint(x, 0)).green() > 100 ? 1 : 0;
+    }
+    return bright;
+  };
+  EXPECT_EQ(ringAt(1), 0);
+  EXPECT_GE(ringAt(2), 2) << "left and right of the point";
+}
+
+TEST_F(Curve, LeavesAGapWhereItWasNotMeasured)
+{
+  const auto redAlong = [&] {
+    const QImage image = this->Plot->grab().toImage();
+    int red = 0;
+    for (int x = 0; x < image.width(); ++x)
+    {
+      bool any = false;
+      for (int y = 0; y < image.height(); ++y)
+      {
+        any = any || image.pixelColor(x, y).red() > image.pixelColor(x, y).green() + 100;
+      }
+      red += any ? 1 : 0;
+    }
+    return red;
+  };
+  this->Plot->setLengths({ 4.0, 3.0, 2.0 });
+  const int whole = redAlong();
+  this->Plot->setLengths({ 4.0, NaN, 2.0 });
+  EXPECT_LT(redAlong(), 0.85 * whole) << "dotted";
+  EXPECT_TRUE(this->Plot->textOf(1).endsWith("not measured"));
+}
+
+TEST_F(Curve, FollowsThePalette)
+{
+  this->Plot->setLengths({ 4.0, 2.0 });
+  QPalette palette = this->Plot->palette();
+  palette.setColor(QPalette::Highlight, Qt::blue);
+  this->Plot->setPalette(palette);
+  EXPECT_EQ(this->colorAt(this->Plot->placeOf(0)), QColor(Qt::blue));
+}
+
+TEST_F(Curve, SaysWhatItShows)
+{
+  EXPECT_EQ(this->Plot->accessibleName(), "RMS distance over the strokes");
+  EXPECT_EQ(this->Plot->accessibleDescription(), "no strokes");
+  this->Plot->setLengths({ 4.894, 2.0, 1.83 });
+  EXPECT_EQ(this->Plot->accessibleDescription(),
+    "before the first stroke: RMS 4.89 mm; after stroke 2: RMS 1.83 mm");
+}
+
+TEST_F(Curve, TellsThePointUnderTheCursor)
+{
+  EXPECT_EQ(this->Plot->pointAt({ 5.0, 5.0 }), -1) << "there are none";
+  this->Plot->setLengths({ 4.0, 2.0, 1.83 });
+  for (const int strokes : { 0, 1, 2 })
+  {
+    EXPECT_EQ(this->Plot->pointAt(this->Plot->placeOf(strokes)), strokes);
+  }
+  EXPECT_EQ(this->Plot->textOf(2), "after stroke 2: RMS 1.83 mm");
+  this->Plot->show();
+  const QPoint place = this->Plot->placeOf(2).toPoint();
+  QHelpEvent hover(QEvent::ToolTip, place, this->Plot->mapToGlobal(place));
+  QApplication::sendEvent(this->Plot.get(), &hover);
+  EXPECT_EQ(QToolTip::text(), "after stroke 2: RMS 1.83 mm");
+}

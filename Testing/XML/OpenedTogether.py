@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Proves what the window shows of a head and its brain mask that were opened together, the mask
+first: the camera turns to the head, a filter keeps the head's colours and shows no scale of them,
+and one click on Brain shows the brain by the open mask. One undo takes that back.
+
+ParaView's window runs this file as a script; what did not hold is written down for the pvpython
+that runs it afterwards."""
+
+import os
+
+import test_hand as hand
+import window_testing as window
+from paraview import simple
+
+HEAD = os.path.join(os.environ["BRAINSHIFT_TEST_DATA"], "seg3d-utah", "seg3d_mr_t1.nii.gz")
+MASK = os.path.join(os.environ["BRAINSHIFT_TEST_DATA"], "seg3d-utah", "seg3d_brainmask.nii.gz")
+
+
+MOST_WAITS = 200  # of 100 ms; what takes longer never comes
+
+
+def comes(condition):
+    """Whether a condition comes true."""
+    for _ in range(MOST_WAITS):
+        if condition():
+            return True
+        hand.wait(100)
+    return False
+
+
+class Opened:
+    """What the steps share."""
+
+
+def opens_both():
+    hand.take(hand.NONE)
+    for source in list(simple.GetSources().values()):
+        simple.Delete(source)
+    view = Opened.view = simple.GetActiveViewOrCreate("RenderView")
+    view.CameraPosition, view.CameraFocalPoint = [0, 0, 1], [0, 0, 0]
+    view.CameraViewUp = [0, 1, 0]
+    Opened.mask, Opened.head = simple.OpenDataFile(MASK), simple.OpenDataFile(HEAD)
+    Opened.of_mask = simple.Show(Opened.mask, view)
+    Opened.of_head = simple.Show(Opened.head, view)
+    simple.ResetCamera(view)
+    simple.SetActiveSource(Opened.head)
+    hand.wait(500)
+
+
+def the_camera_turns_to_the_head():
+    opens_both()
+    assert Opened.of_mask.Representation == "Outline"
+    assert Opened.of_head.Representation == "Deformed Volume"
+    assert comes(lambda: list(Opened.view.CameraViewUp) == [0, 0, 1])
+
+
+def a_filter_keeps_the_heads_colours():
+    hand.create_filter("FreeFormDeformation")
+    hand.wait(300)
+    assert hand.click("Accept")
+    assert comes(lambda: simple.GetActiveSource() != Opened.head)
+    hand.wait(500)
+    Opened.bent = simple.GetActiveSource()
+    display = Opened.of_bent = simple.GetDisplayProperties(Opened.bent, Opened.view)
+    assert Opened.bent.Input == Opened.head
+    assert Opened.of_head.LookupTable != Opened.of_mask.LookupTable
+    assert comes(lambda: display.LookupTable == Opened.of_head.LookupTable)
+    assert display.ScalarOpacityFunction == Opened.of_head.ScalarOpacityFunction
+    assert not display.IsScalarBarVisible(Opened.view.SMProxy)
+    assert Opened.of_mask.Visibility == 1
+
+
+def one_click_shows_the_brain():
+    assert comes(lambda: hand.click("Brain"))
+    hand.wait(300)
+    assert Opened.bent.Segmentation == Opened.mask
+    assert Opened.of_bent.DrawSegment == 1
+    assert Opened.of_mask.Visibility == 0, "its outline is in the way"
+    assert window.undo_labels()[0] == "Look: Brain", window.undo_labels()
+
+
+def one_undo_takes_it_back():
+    window.action("Undo")
+    hand.wait(300)
+    assert Opened.bent.Segmentation is None
+    assert Opened.of_bent.DrawSegment == 0
+    assert Opened.of_mask.Visibility == 1
+    assert hand.click("Skin")  # for the next start
+
+
+def play():
+    yield (the_camera_turns_to_the_head,)
+    yield (a_filter_keeps_the_heads_colours,)
+    yield (one_click_shows_the_brain,)
+    yield (one_undo_takes_it_back,)
+
+
+if __name__ == "__main__":
+    window.main("OpenedTogether", play())

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Proves that the stamp works without a mouse: the arrow keys move the cursor over the view, + and
+- pull and push what lies under it, I sets the point of interest, and each place is one stroke.
+
+ParaView's window runs this file as a script; what did not hold is written down for the pvpython
+that runs it afterwards."""
+import math
+
+import brainshift
+import test_hand as hand
+import window_testing as window
+from paraview import simple
+
+LEFT, UP, RIGHT, DOWN = 0x01000012, 0x01000013, 0x01000014, 0x01000015  # Qt::Key
+STEP = 8  # pixels
+NEAR = 0.5  # mm: a pick finds a surface to half a step along the ray, the tool to a hair
+
+
+def begin():
+    simple.Wavelet()
+    hand.create_filter("FreeFormDeformation")
+    hand.wait(100)
+    assert hand.click("Accept")
+    hand.wait(500)
+    bent = simple.GetActiveSource()
+    simple.RenameSource("bent", bent)
+    view = simple.GetActiveView()
+    display = simple.Show(bent, view)
+    display.SetRepresentationType("Deformed Volume")
+    simple.ColorBy(display, ("POINTS", "RTData"))
+    opacity = simple.GetOpacityTransferFunction("RTData")
+    opacity.Points = [37.0, 1.0, 0.5, 0.0, 277.0, 1.0, 0.5, 0.0]
+    view.CameraPosition, view.CameraFocalPoint = (20.0, 30.0, 70.0), (0.0, 0.0, 0.0)
+    simple.Render(view)
+    hand.wait(300)
+
+
+def picked(right=0, up=0):
+    """What lies so many pixels from the middle of the view."""
+    view = simple.GetActiveView()
+    display = simple.GetDisplayProperties(window.deformation(), view)
+    simple.Render(view)  # without the stroke before
+    x, y = (side // 2 for side in view.ViewSize)
+    return list(brainshift.pick(display, view, x + right, y + up))[:3]
+
+
+def amount(stroke):
+    """mm, pull positive: a stamp's vector against its axis."""
+    return -sum(a * b for a, b in zip(stroke[4:7], stroke[7:10]))
+
+
+def type_key(key):
+    hand.tap(key if isinstance(key, int) else ord(key))
+    hand.wait(50)
+
+
+def plus_does_nothing_elsewhere():
+    assert hand.action("actionBrainShiftStamp")
+    hand.wait(200)
+    type_key("+")
+    assert not window.strokes(), "the cursor is not over the view"
+
+
+def the_first_arrow_brings_the_cursor():
+    under = picked()
+    type_key(RIGHT)
+    for clicks in (1, 2, 3):
+        type_key("+")
+        assert len(window.strokes()) == 1, window.strokes()
+    window.settle("Stamp: pull")
+    stroke, = window.strokes()
+    per_click = hand.setting("millimetresPerClick")
+    assert math.dist(stroke[1:4], under) < NEAR, (stroke[1:4], under)
+    assert math.isclose(amount(stroke), 3 * per_click, rel_tol=1e-6), (amount(stroke), per_click)
+
+
+def arrows_move_it():
+    window.edit("Undo")
+    right = up = 0
+    for key, x, y in ((RIGHT, 1, 0), (UP, 0, 1), (UP, 0, 1), (LEFT, -1, 0), (DOWN, 0, -1)):
+        right, up = right + x * STEP, up + y * STEP
+        under = picked(right, up)
+        type_key(key)
+        type_key("-")
+        window.settle("Stamp: push")
+        stroke, = window.strokes()
+        assert math.dist(stroke[1:4], under) < NEAR, (key, stroke[1:4], under)
+        assert amount(stroke) < 0.0, amount(stroke)
+        window.edit("Undo")
+
+
+def i_sets_the_point():
+    under = picked(0, STEP)
+    type_key("I")
+    hand.wait(100)
+    point = list(window.deformation().PointOfInterest)
+    assert math.dist(point, under) < NEAR, (point, under)
+
+
+def play():
+    yield (begin,)
+    yield (plus_does_nothing_elsewhere,)
+    yield (the_first_arrow_brings_the_cursor,)
+    yield (arrows_move_it,)
+    yield (i_sets_the_point,)
+
+
+if __name__ == "__main__":
+    window.main("StampByKeys", play())
