@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scenes of the documentation that show volumes and slices as they are drawn."""
 
+import os
+
 from paraview import simple
 
 import demo
@@ -148,9 +150,23 @@ def nifti(width):
     return stage.side_by_side(views)
 
 
+def dicom(width):
+    """Three planes of a phantom in a multi-frame DICOM file, each seen along its axis."""
+    side = width // 3
+    file = os.path.join(demo.DATA, "dcm-qa-enh", "IM_0027_fMAP.dcm")
+    volume = stage.once("dicom", lambda: simple.DICOMVolumeReader(FileName=file))
+    views = []
+    for plane in ("Axial", "Coronal", "Sagittal"):
+        made = stage.flat_view(side, (1.0, -6.0, 24.0), 125.0, plane)
+        display = stage.show_slices(volume, made, (plane,), position=(1, 5, 24), white=1600.0)
+        display.OrientationMarks = 1
+        views.append(made)
+    return stage.side_by_side(views)
+
+
 VOLUME_SCENES = {
     "brain-before-after": before_after, "head-strength": strength,
     "representation-deformed-volume": deformed_volume, "looks": looks,
     "representation-deformed-slices": deformed_slices, "filter-free-form-deformation-mask": mask,
     "filter-bake-deformation": bake, "orientation": orientation,
-    "filter-nifti-volume-reader": nifti}
+    "filter-dicom-volume-reader": dicom, "filter-nifti-volume-reader": nifti}

@@ -1,145 +1,150 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Fields/TextHeaderField.h"
 
+#include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/HostMemory.h"
-#include "Filters/Files/PlainFile.h"
-#include "Filters/Files/TextHeader.h"
+#include "Filters/Files/TextHeaderFile.h"
 #include "Filters/Files/WholeFile.h"
 
-#include "vtk_zlib.h"
+#include <glm/geometric.hpp>
 
-#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <optional>
 #include <sstream>
 
 namespace brainshift
 {
 namespace
 {
-constexpr int DetectZlibOrGzip = 15 + 32; // zlib's window bits
+// The Comment of a MetaImage names the direction.
+constexpr const char* ForwardComment = "displacement field, mm, forward";
+constexpr const char* BackwardComment = "displacement field, mm, backward";
 
-bool thisMachineIsBigEndian()
+constexpr double LargestSkew = 1e-3; // cosine between two axes
+constexpr int LongestSide = 65535;
+
+// Sides, and the steps from one point to the next.
+std::string place(const TextHeader& header, Grid& grid)
 {
-  const int one = 1;
-  char first;
-  std::memcpy(&first, &one, 1);
-  return first == 0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const HeaderAxis& along = header.axes[static_cast<std::size_t>(axis) + 1];
+    if (along.count > LongestSide)
+    {
+      return "has a side of " + std::to_string(along.count) + " points; it must have at most " +
+        std::to_string(LongestSide);
+    }
+    grid.dimensions[axis] = static_cast<int>(along.count);
+    grid.origin[axis] = header.origin[axis];
+    const glm::dvec3 step = along.step.value_or(glm::dvec3(0.0));
+    grid.spacing[axis] = glm::length(step);
+    grid.direction[axis] = step / grid.spacing[axis];
+    if (!std::isfinite(grid.origin[axis]) || !(grid.spacing[axis] > 0.0) ||
+      !std::isfinite(grid.spacing[axis]))
+    {
+      return "has an origin that is not finite, or a spacing that is 0 or not finite";
+    }
+  }
+  const std::string wrong = problemOfGrid(grid);
+  if (!wrong.empty())
+  {
+    return "lies where no field can: its " + wrong;
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double skew = glm::dot(grid.direction[axis], grid.direction[(axis + 1) % 3]);
+    if (std::abs(skew) > LargestSkew)
+    {
+      return "has axes that are not at right angles: the cosine between two is " +
+        std::to_string(skew) + "; the limit is " + std::to_string(LargestSkew);
+    }
+  }
+  return {};
 }
 
-// Unpacks into `to`, whole; false if the packed bytes are damaged or unpack to fewer.
-bool unpack(const std::vector<char>& packed, std::vector<char>& to)
+// Why the numbers of a header are no field; empty if they are one.
+std::string fieldProblem(const TextHeader& header)
 {
-  z_stream stream{};
-  if (inflateInit2(&stream, DetectZlibOrGzip) != Z_OK)
+  const bool areVectors = header.axes.size() == 4 && !header.axes[0].step;
+  if (!areVectors || header.axes[0].count != 3)
   {
-    return false;
+    return "holds " + std::to_string(areVectors ? header.axes[0].count : 1) +
+      " components per point; a field must have 3";
   }
-  // zlib counts in 32 bits, so both sides go in pieces.
-  constexpr std::size_t Piece = 1u << 30;
-  std::size_t in = 0;
-  std::size_t out = 0;
-  int status = Z_OK;
-  while (status == Z_OK && out < to.size())
+  if (header.spatialAxes() != 3 || !header.hasOrigin)
   {
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + in));
-    stream.avail_in = static_cast<uInt>(std::min(Piece, packed.size() - in));
-    stream.next_out = reinterpret_cast<Bytef*>(to.data() + out);
-    stream.avail_out = static_cast<uInt>(std::min(Piece, to.size() - out));
-    const uInt inBefore = stream.avail_in;
-    const uInt outBefore = stream.avail_out;
-    status = inflate(&stream, Z_NO_FLUSH);
-    in += inBefore - stream.avail_in;
-    out += outBefore - stream.avail_out;
+    return "does not place points in 3 dimensions";
   }
-  if (status == Z_OK) // what follows the numbers is their checksum
+  if (header.numberType != VTK_FLOAT && header.numberType != VTK_DOUBLE)
   {
-    Bytef more = 0;
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + in));
-    stream.avail_in = static_cast<uInt>(std::min(Piece, packed.size() - in));
-    stream.next_out = &more;
-    stream.avail_out = 1;
-    status = inflate(&stream, Z_NO_FLUSH);
+    return "has the type " + header.typeName + "; a field must have float or double";
   }
-  inflateEnd(&stream);
-  return out == to.size() && status != Z_DATA_ERROR;
+  if (header.encoding == Encoding::Text)
+  {
+    return "holds its numbers as text; those of a field must be binary";
+  }
+  if (header.slope != 1.0 || header.intercept != 0.0)
+  {
+    return "rescales its numbers; a field must hold mm";
+  }
+  if (header.space != HeaderSpace::LPS)
+  {
+    return "does not lie in the space left-posterior-superior; a field must";
+  }
+  return {};
+}
+
+std::optional<Direction> directionOf(const HeaderText& text)
+{
+  const std::string said =
+    text.isNRRD ? text.keyed("displacement field type") : text.valueOf({ "Comment" });
+  if (said == (text.isNRRD ? "modeling" : ForwardComment))
+  {
+    return Direction::Forward;
+  }
+  return said == (text.isNRRD ? "resampling" : BackwardComment)
+    ? std::optional<Direction>(Direction::Backward)
+    : std::nullopt;
+}
+
+std::string readFieldHeader(const std::string& fileName, TextHeader& header, Grid& grid)
+{
+  std::string problem = readTextHeader(fileName, header);
+  problem = problem.empty() ? fieldProblem(header) : problem;
+  return shownWords(problem.empty() ? place(header, grid) : problem);
 }
 
 // Why there is too little memory for the field; the end of a sentence, empty if there is enough.
-std::string memoryProblemOf(const TextHeader& header, std::size_t storedBytes)
+std::string memoryProblemOf(const TextHeader& header, const Grid& grid)
 {
-  const double bytes = static_cast<double>(header.dataBytes()) +
-    static_cast<double>(header.grid.count() * sizeof(glm::vec3)) +
-    (header.isPacked ? static_cast<double>(storedBytes) : 0.0);
-  const std::string problem = hostMemoryProblem(
-    "a field of " + sizeText(glm::dvec3(header.grid.dimensions)) + " points", bytes);
+  const double bytes = header.dataBytes() + static_cast<double>(grid.count() * sizeof(glm::vec3));
+  const std::string problem =
+    hostMemoryProblem("a field of " + sizeText(glm::dvec3(grid.dimensions)) + " points", bytes);
   return problem.empty() ? problem : "cannot be read: " + problem;
 }
 
-std::string readData(const std::string& fileName, const TextHeader& header, std::vector<char>& data)
+std::string readData(const TextHeader& header, const Grid& grid, std::vector<char>& data)
 {
-  const std::string dataFile = header.dataFile.empty()
-    ? fileName
-    : (std::filesystem::path(fileName).parent_path() / header.dataFile).string();
-  const std::string problem = plainFileProblem(dataFile);
+  std::string problem = numbersProblem(header);
+  problem = problem.empty() ? memoryProblemOf(header, grid) : problem;
   if (!problem.empty())
   {
-    return "names the file " + shownWords(dataFile) + ", which " + problem;
+    return problem;
   }
-  std::ifstream file(dataFile, std::ios::binary);
-  if (!file)
-  {
-    return "names the file " + shownWords(dataFile) + ", which cannot be opened";
-  }
-  file.seekg(0, std::ios::end);
-  const auto size = static_cast<std::size_t>(file.tellg());
-  const std::size_t bytes = size - std::min(header.headerBytes, size);
-  if (!header.isPacked && bytes < header.dataBytes())
-  {
-    return "has " + std::to_string(bytes) + " bytes of numbers where the header announces " +
-      std::to_string(header.dataBytes());
-  }
-  // No stream unpacks to more than some thousand times its size: a damaged header asks for more.
-  if (header.isPacked && header.dataBytes() / 1100 > bytes)
-  {
-    return "has " + std::to_string(bytes) + " packed bytes where the header announces " +
-      std::to_string(header.dataBytes()) + " bytes of numbers";
-  }
-  const std::string tooLarge = memoryProblemOf(header, bytes);
-  if (!tooLarge.empty())
-  {
-    return tooLarge;
-  }
-  std::vector<char> stored(header.isPacked ? bytes : header.dataBytes());
-  file.seekg(static_cast<std::streamoff>(header.headerBytes));
-  if (!file.read(stored.data(), static_cast<std::streamsize>(stored.size())))
-  {
-    return "has only " + std::to_string(file.gcount()) + " readable bytes of numbers";
-  }
-  if (!header.isPacked)
-  {
-    data = std::move(stored);
-    return {};
-  }
-  data.resize(header.dataBytes());
-  return unpack(stored, data) ? std::string() : "has packed numbers that are damaged or too few";
+  data.resize(static_cast<std::size_t>(header.dataBytes()));
+  return readNumbers(header, data.data(), [](double) { return true; });
 }
 
 template <typename Number>
-void copyNumbers(std::vector<char>& data, bool swap, std::vector<glm::vec3>& vectors)
+void copyNumbers(const std::vector<char>& data, std::vector<glm::vec3>& vectors)
 {
   for (std::size_t i = 0; i < 3 * vectors.size(); ++i)
   {
-    char* bytes = data.data() + i * sizeof(Number);
-    if (swap)
-    {
-      std::reverse(bytes, bytes + sizeof(Number));
-    }
     Number number;
-    std::memcpy(&number, bytes, sizeof(Number));
+    std::memcpy(&number, data.data() + i * sizeof(Number), sizeof(Number));
     vectors[i / 3][static_cast<int>(i % 3)] = static_cast<float>(number);
   }
 }
@@ -175,30 +180,29 @@ std::string write(
 bool isTextHeaderField(const std::string& fileName)
 {
   TextHeader header;
-  return readTextHeader(fileName, header).empty();
+  Grid grid;
+  return readFieldHeader(fileName, header, grid).empty();
 }
 
 std::string readTextHeaderField(const std::string& fileName, DirectedField& field)
 {
   TextHeader header;
   std::vector<char> data;
-  std::string problem = readTextHeader(fileName, header);
-  problem = problem.empty() ? readData(fileName, header, data) : problem;
+  std::string problem = readFieldHeader(fileName, header, field.grid);
+  problem = problem.empty() ? readData(header, field.grid, data) : problem;
   if (!problem.empty())
   {
     return "File " + fileName + " " + problem;
   }
-  field.grid = header.grid;
-  field.direction = header.direction;
-  field.displacements.resize(header.grid.count());
-  const bool swap = header.isBigEndian != thisMachineIsBigEndian();
-  if (header.isDouble)
+  field.direction = directionOf(header.text);
+  field.displacements.resize(field.grid.count());
+  if (header.numberType == VTK_DOUBLE)
   {
-    copyNumbers<double>(data, swap, field.displacements);
+    copyNumbers<double>(data, field.displacements);
   }
   else
   {
-    copyNumbers<float>(data, swap, field.displacements);
+    copyNumbers<float>(data, field.displacements);
   }
   reverseXY(field);
   return {};

@@ -1,53 +1,94 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Reads the headers of MetaImage ("key = value") and NRRD ("key: value") files, as far as
- *        they describe a field of three numbers at each point.
+ * @brief What the header of a MetaImage or NRRD file says about its numbers: how many there are,
+ *        where they are stored, and where they lie.
  */
 #ifndef BrainShift_TextHeader_h
 #define BrainShift_TextHeader_h
 
-#include "Filters/Attached/DirectedMap.h"
-#include "Filters/Deformation/Grid.h"
+#include "Filters/Files/HeaderText.h"
+
+#include "vtkType.h"
+
+#include <glm/vec3.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace brainshift
 {
-/** The Comment of a MetaImage whose field leads forward. */
-constexpr const char* ForwardComment = "displacement field, mm, forward";
-
-/** The Comment of a MetaImage whose field leads backward. */
-constexpr const char* BackwardComment = "displacement field, mm, backward";
-
-/** What a header says. */
-struct TextHeader
+/** How numbers are stored. */
+enum class Encoding
 {
-  Grid grid;                          ///< mm, LPS
-  bool isDouble = false;              ///< true: 8 bytes a number; false: 4
-  bool isBigEndian = false;           ///< the order of the bytes of a number
-  bool isPacked = false;              ///< with zlib or gzip
-  std::optional<Direction> direction; ///< none if the header does not name it
-  std::string dataFile;               ///< the file with the numbers; empty: they follow the header
-  std::size_t headerBytes = 0;        ///< of the file with the numbers: where they begin
-
-  /** Bytes of one number. */
-  std::size_t numberBytes() const { return this->isDouble ? 8 : 4; }
-
-  /** Bytes of all numbers, unpacked. */
-  std::size_t dataBytes() const { return this->grid.count() * 3 * this->numberBytes(); }
+  Raw,
+  Packed, ///< with zlib or gzip
+  Text,   ///< as decimal numbers between spaces or commas
 };
 
-/** Words of a file as an error may show them: printable, and not too many. */
-std::string shownWords(const std::string& words);
+/** Where x and y of the header's space point. z points to the head. */
+enum class HeaderSpace
+{
+  RAS, ///< to the right and to the front
+  LAS, ///< to the left and to the front
+  LPS, ///< to the left and to the back
+};
+
+/** One axis of the numbers. */
+struct HeaderAxis
+{
+  std::int64_t count = 0;         ///< numbers along it
+  std::optional<glm::dvec3> step; ///< mm, header's space; none: it is no axis of space
+  std::string kind;               ///< NRRD's word for what it is; may be empty
+  double spacing = 0.0;           ///< of an axis that is none of space; 0: not known
+};
+
+/** A header. */
+struct TextHeader
+{
+  HeaderText text;
+  std::vector<HeaderAxis> axes; ///< the fastest first
+  int numberType = VTK_VOID;    ///< VTK's number of the type of a number
+  std::string typeName;         ///< as the file spells it
+  Encoding encoding = Encoding::Raw;
+  bool isBigEndian = false; ///< the order of the bytes of a number
+  double slope = 1.0;       ///< value = slope * number + intercept
+  double intercept = 0.0;
+
+  HeaderSpace space = HeaderSpace::LPS;
+  bool knowsSides = false;  ///< the file says where the axes of its space point
+  glm::dvec3 origin{ 0.0 }; ///< of the first number, mm, header's space
+  bool hasOrigin = false;   ///< the file says so
+
+  std::vector<std::string> dataFiles; ///< the files with the numbers, in equal parts
+  bool isLocal = false;               ///< they follow the header, in its own file
+  std::uint64_t lineSkip = 0;         ///< lines of a data file before its numbers
+  std::uint64_t fileSkip = 0;         ///< bytes after these lines
+  std::uint64_t unpackedSkip = 0;     ///< unpacked bytes before them
+  bool isAtEnd = false;               ///< the numbers end with the file; nothing else is skipped
+
+  std::vector<std::string> warnings; ///< ends of sentences, after the name of the file
+
+  /** All numbers. It may be more than any file has. */
+  double numberCount() const;
+
+  /** Bytes of all numbers, unpacked and not as text. */
+  double dataBytes() const;
+
+  /** Axes of space. */
+  int spatialAxes() const;
+};
 
 /**
- * Reads the header of a file. Returns the end of a sentence, after the name of the file, on why the
- * file is no field; empty if it is one.
+ * Files with numbers, from the words that name them: "LOCAL", one name, a pattern such as
+ * "slice%03d.raw 1 90 1", or "LIST", after which lines name them. A name is relative to the folder
+ * of the header. Returns the end of a sentence on what is wrong, or nothing.
  */
-std::string readTextHeader(const std::string& fileName, TextHeader& header);
+std::string nameDataFiles(
+  const std::string& fileName, const std::string& words, TextHeader& header);
 }
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "Filters/Files/NIFTIFileCheck.h"
 #include "Filters/Volumes/NIFTIGeometry.h"
+#include "Filters/Volumes/NIFTILabels.h"
 
 #include "vtkCommand.h"
 #include "vtkExecutive.h"
@@ -135,6 +136,7 @@ std::string NIFTIVolume::readHeader(const std::string& fileName, VolumeHeader& h
     header.worldFromVoxel = header.worldFromVoxel * voxelFromReversedSlices(header.dimensions.z);
   }
   header.knowsSides = stored->GetSFormCode() > 0 || stored->GetQFormCode() > 0;
+  header.labels = niftiLabels(fileName);
   return {};
 }
 

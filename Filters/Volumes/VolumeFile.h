@@ -7,6 +7,7 @@
 #ifndef BrainShift_VolumeFile_h
 #define BrainShift_VolumeFile_h
 
+#include "Filters/Attached/LabelTable.h"
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
@@ -45,6 +46,7 @@ struct VolumeHeader
   /// stand for right, anterior and superior, which may be wrong.
   bool knowsSides = true;
   std::vector<std::string> warnings; ///< ends of sentences, after the name of the file
+  std::vector<Label> labels;         ///< names of values, where the file names them
 };
 
 /** Voxels in the file's order: the extent of the image begins at 0. */

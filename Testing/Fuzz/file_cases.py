@@ -9,6 +9,7 @@ import os
 import nifti_oracle
 import numpy
 import text_oracle
+import volume_oracle
 from mutation import spoiled_file
 from nifti_oracle import Open, Wrong
 
@@ -16,7 +17,7 @@ from nifti_oracle import Open, Wrong
 PLACE, ROUNDING = 0.1, 1e-5
 
 
-def _image_of(proxy, name):
+def image_of(proxy, name):
     """Where the points of an image lie and the numbers there; None if there is no image."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     image = proxy.GetClientSideObject().GetOutputDataObject(0)
@@ -36,7 +37,7 @@ def read(proxy_name, file, array):
     proxy = getattr(simple, proxy_name)(FileName=file)
     try:
         proxy.UpdatePipeline()
-        return _image_of(proxy, array)
+        return image_of(proxy, array)
     finally:
         simple.Delete(proxy)
 
@@ -68,21 +69,30 @@ def misplaced(random, image, world, values):
     return None
 
 
-def _answer(ending, data, as_field):
+#: The reader of BrainShift, by its label, and the second reader for a name.
+READERS = {"volume.mha": ("MetaImageVolumeReader", volume_oracle.meta_image),
+           "volume.nrrd": ("NRRDVolumeReader", volume_oracle.nrrd),
+           "volume.mgh": ("FreeSurferVolumeReader", volume_oracle.mgh)}
+
+
+def _answer(name, data, as_field):
     """Where voxels lie and what they hold, by the second reader."""
-    if ending.startswith(".nii"):
+    if name.startswith("case.nii"):
         volume = nifti_oracle.Volume(data)
         if as_field:
             return volume.world, volume.as_field()
         return volume.world, volume.values[:, :, :, 0, :]
-    field = text_oracle.meta_image(data) if ending == ".mha" else text_oracle.nrrd(data)
+    if not as_field:
+        volume = READERS[name.removesuffix(".gz")][1](data)
+        return volume.world, volume.values
+    field = text_oracle.meta_image(data) if name == "field.mha" else text_oracle.nrrd(data)
     return field.world, field.values
 
 
-def _compare(random, ending, data, image, as_field):
+def _compare(random, name, data, image, as_field):
     with numpy.errstate(all="ignore"):
         try:
-            world, values = _answer(ending, data, as_field)
+            world, values = _answer(name, data, as_field)
         except Open:
             return "open"
         except Wrong as error:
@@ -102,17 +112,20 @@ class Cases:
     def run(self, random):
         """What became of one file: a word, and a sentence if it is a finding."""
         from brainshift_testing import messages
-        ending, data = spoiled_file(random)
-        name = os.path.join(self.folder, f"case{ending}")
+        kind, data = spoiled_file(random)
+        name = os.path.join(self.folder, kind)
         with open(name, "wb") as file:
             file.write(data)
-        as_field = not ending.startswith(".nii") or random.random() < 0.5
-        reader = ("DisplacementFieldReader", "Displacement") if as_field else (
-            "NIFTIVolumeReader", "Intensity")
+        as_field = kind.startswith("field") or (
+            kind.startswith("case") and random.random() < 0.5)
+        reader = ("DisplacementFieldReader", "Displacement")
+        if not as_field:
+            named = READERS.get(kind.removesuffix(".gz"))
+            reader = (named[0] if named else "NIFTIVolumeReader", "Intensity")
         with messages() as said:
             image = read(reader[0], name, reader[1])
         if image is None:
             return "refused" if "error" in said.text.lower() else "misplaced: no image and no error"
         if "is sheared" in said.text:
             return "sheared"
-        return _compare(random, ending, data, image, as_field)
+        return _compare(random, kind, data, image, as_field)

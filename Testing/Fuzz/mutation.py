@@ -115,6 +115,66 @@ def nrrd(random):
     return text + data, len(text)
 
 
+def meta_volume(random):
+    """A good volume in a MetaImage."""
+    sides = [random.randrange(1, 5) for _ in range(3)]
+    channels = random.choice([1, 1, 3])
+    msb, packed = random.random() < 0.5, random.random() < 0.3
+    kind, name = random.choice([("u1", "UCHAR"), ("i2", "SHORT"), ("u2", "USHORT"), ("i4", "INT"),
+                                ("f4", "FLOAT"), ("f8", "DOUBLE")])
+    data = _numbers(random, channels * int(numpy.prod(sides)), (">" if msb else "<") + kind)
+    data = zlib.compress(data) if packed else data
+    words = [" ".join(map(repr, map(float, values))) for values in (
+        rotation(random).ravel(), [random.uniform(-90, 90) for _ in range(3)],
+        [random.choice([0.5, 1.0, 2.5]) for _ in range(3)])]
+    lines = ["ObjectType = Image", "NDims = 3", "BinaryData = True",
+             f"BinaryDataByteOrderMSB = {msb}", f"CompressedData = {packed}",
+             f"TransformMatrix = {words[0]}", f"Offset = {words[1]}",
+             f"AnatomicalOrientation = {random.choice(['RAI', 'LPS', '???'])}",
+             f"ElementSpacing = {words[2]}", f"DimSize = {sides[0]} {sides[1]} {sides[2]}",
+             f"ElementNumberOfChannels = {channels}", f"ElementType = MET_{name}",
+             "ElementDataFile = LOCAL"]
+    text = ("\n".join(lines) + "\n").encode()
+    return text + data, len(text)
+
+
+def nrrd_volume(random):
+    """A good volume in an NRRD."""
+    sides = [random.randrange(1, 5) for _ in range(3)]
+    vectors = random.random() < 0.3
+    order, packed = random.choice(["little", "big"]), random.random() < 0.3
+    kind, name = random.choice([("u1", "uchar"), ("i2", "short"), ("u2", "ushort"), ("i4", "int"),
+                                ("f4", "float"), ("f8", "double")])
+    count = (3 if vectors else 1) * int(numpy.prod(sides))
+    data = _numbers(random, count, ("<" if order == "little" else ">") + kind)
+    data = gzip.compress(data) if packed else data
+    steps = rotation(random) * random.choice([0.5, 1.0, 2.5])
+    places = [",".join(map(repr, map(float, step))) for step in steps]
+    origin = ",".join(repr(random.uniform(-90, 90)) for _ in range(3))
+    space = random.choice(["left-posterior-superior", "RAS", "left-anterior-superior"])
+    lines = ["NRRD0005", f"type: {name}", f"dimension: {4 if vectors else 3}", f"space: {space}",
+             f"sizes: {'3 ' if vectors else ''}{sides[0]} {sides[1]} {sides[2]}",
+             f"space directions: {'none ' if vectors else ''}"
+             + " ".join(f"({place})" for place in places),
+             f"kinds: {'vector ' if vectors else ''}domain domain domain", f"endian: {order}",
+             f"encoding: {'gzip' if packed else 'raw'}", f"space origin: ({origin})", ""]
+    text = ("\n".join(lines) + "\n").encode()
+    return text + data, len(text)
+
+
+def mgh(random):
+    """A good volume of FreeSurfer."""
+    sides = [random.randrange(1, 6) for _ in range(3)]
+    frames = random.choice([1, 1, 2])
+    kind, code = random.choice([("u1", 0), ("i4", 1), ("f4", 3), ("i2", 4), ("u2", 10)])
+    header = struct.pack(">7ih", 1, *sides, frames, code, 0, random.choice([1, 1, 1, 0]))
+    steps = [random.choice([0.5, 1.0, 2.5]) for _ in range(3)]
+    header += struct.pack(">15f", *steps, *rotation(random).T.ravel(),
+                          *(random.uniform(-90, 90) for _ in range(3)))
+    data = _numbers(random, frames * int(numpy.prod(sides)), ">" + kind)
+    return header.ljust(284, b"\0") + data + struct.pack(">4f", 2000.0, 0.0, 0.0, 0.0), 90
+
+
 def _flip(random, data, end):
     place = random.randrange(max(1, min(end, len(data))))
     return data[:place] + bytes([random.randrange(256)]) + data[place + 1:]
@@ -158,22 +218,41 @@ def _word(random, data, end):
     return b"\n".join(lines) + data[end:]
 
 
-#: By the ending of a file: what makes it, and what spoils it.
-FORMATS = {".nii": (nifti, [_flip, _cut, _field, _field, _field]),
-           ".mha": (meta_image, [_flip, _cut, _word, _word, _word]),
-           ".nrrd": (nrrd, [_flip, _cut, _word, _word, _word])}
+#: Offset, kind and number of the fields of a FreeSurfer header.
+MGH_FIELDS = [(0, "i", 1), (4, "i", 3), (16, "i", 1), (20, "i", 1), (28, "h", 1), (30, "f", 3),
+              (42, "f", 9), (78, "f", 3)]
+
+
+def _mgh_field(random, data, end):
+    offset, kind, count = random.choice(MGH_FIELDS)
+    place = offset + random.randrange(count) * struct.calcsize(kind)
+    if place + 4 > len(data):
+        return data
+    spoiled = bytearray(data)
+    value = random.choice(SINGLES) if kind == "f" else random.choice(INTEGERS)
+    struct.pack_into(">" + kind, spoiled, place, value)
+    return bytes(spoiled)
+
+
+#: By the name of a file: what makes it, and what spoils it.
+FORMATS = {"case.nii": (nifti, [_flip, _cut, _field, _field, _field]),
+           "field.mha": (meta_image, [_flip, _cut, _word, _word, _word]),
+           "field.nrrd": (nrrd, [_flip, _cut, _word, _word, _word]),
+           "volume.mha": (meta_volume, [_flip, _cut, _word, _word, _word]),
+           "volume.nrrd": (nrrd_volume, [_flip, _cut, _word, _word, _word]),
+           "volume.mgh": (mgh, [_flip, _cut, _mgh_field, _mgh_field, _mgh_field])}
 
 
 def spoiled_file(random):
-    """The ending and the bytes of a file in which up to three things are spoiled."""
-    ending = random.choice([".nii", ".nii", ".mha", ".nrrd"])
-    make, changes = FORMATS[ending]
+    """The name and the bytes of a file in which up to three things are spoiled."""
+    name = random.choice(["case.nii", *FORMATS])
+    make, changes = FORMATS[name]
     data, end = make(random)
     for _ in range(random.choice([0, 1, 1, 1, 2, 3])):
         data = random.choice(changes)(random, data, end)
-    if ending == ".nii" and random.random() < 0.3:
+    if name in ("case.nii", "volume.mgh") and random.random() < 0.3:
         data = gzip.compress(data)
-        ending = ".nii.gz"
+        name += ".gz"
         if random.random() < 0.3:
             data = random.choice([_flip, _cut])(random, data, len(data))
-    return ending, data
+    return name, data

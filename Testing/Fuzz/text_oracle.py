@@ -66,9 +66,10 @@ class Field:
         return self.flip * (self.origin + self.steps @ numpy.asarray(index, float))
 
 
-def _values(raw, sides, kind, packed):
+def numbers_of(raw, shape, kind, packed):
+    """All numbers of a file; the first index runs fastest."""
     dtype = numpy.dtype(kind)
-    count = 3 * int(numpy.prod(sides, dtype=float))
+    count = int(numpy.prod(shape, dtype=float))
     if packed:
         stream = zlib.decompressobj(47)
         try:
@@ -77,11 +78,15 @@ def _values(raw, sides, kind, packed):
             raise Wrong(f"packed: {error}") from error
     if len(raw) < count * dtype.itemsize:
         raise Wrong("truncated")
-    flat = numpy.frombuffer(raw, dtype, count).astype(float)
-    return flat.reshape([3, *sides], order="F").transpose(1, 2, 3, 0)
+    return numpy.frombuffer(raw, dtype, count).astype(float).reshape(shape, order="F")
 
 
-def _first(lines, *keys, default=None):
+def _values(raw, sides, kind, packed):
+    return numbers_of(raw, [3, *sides], kind, packed).transpose(1, 2, 3, 0)
+
+
+def first_of(lines, *keys, default=None):
+    """The value of the one of some keys that a header has."""
     present = [key for key in keys if key in lines]
     if len(present) > 1 and default is None:
         raise Open(f"{present} together")
@@ -108,10 +113,10 @@ def meta_image(raw):
         raise Open("type")
     if lines.get("NDims", "3") != "3":
         raise Open("dimensions")
-    sides = sides_of(numbers(_first(lines, "DimSize"), 3))
-    origin = numbers(_first(lines, "Offset", "Position", "Origin"), 3)
-    spacing = numbers(_first(lines, "ElementSpacing", "ElementSize", default="1 1 1"), 3)
-    rows = numbers(_first(lines, "TransformMatrix", "Rotation", "Orientation",
+    sides = sides_of(numbers(first_of(lines, "DimSize"), 3))
+    origin = numbers(first_of(lines, "Offset", "Position", "Origin"), 3)
+    spacing = numbers(first_of(lines, "ElementSpacing", "ElementSize", default="1 1 1"), 3)
+    rows = numbers(first_of(lines, "TransformMatrix", "Rotation", "Orientation",
                           default="1 0 0 0 1 0 0 0 1"), 9).reshape(3, 3)
     order = ">" if flags["BinaryDataByteOrderMSB"] else "<"
     return Field(origin, (rows * spacing[:, None]).T,
@@ -129,7 +134,7 @@ def nrrd(raw):
         raise Open("numbers elsewhere")
     if lines.get("dimension") != "4":
         raise Open("dimensions")
-    sides = sides_of(numbers(_first(lines, "sizes"), 4))
+    sides = sides_of(numbers(first_of(lines, "sizes"), 4))
     kind = {"float": "f4", "double": "f8"}.get(lines.get("type"))
     order = {"little": "<", "big": ">"}.get(lines.get("endian"))
     packed = {"raw": False, "gzip": True, "gz": True}.get(lines.get("encoding"))

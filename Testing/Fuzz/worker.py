@@ -9,7 +9,8 @@ import sys
 
 from brainshift_testing import load_plugin
 
-KINDS = {"files": "file_cases", "properties": "property_cases", "fields": "field_cases"}
+KINDS = {"files": "file_cases", "dicom": "dicom_cases", "properties": "property_cases",
+         "fields": "field_cases"}
 
 
 def main(kind, seed, first, end, folder):

@@ -325,10 +325,12 @@ TEST(FieldFile, WhatIsNoFieldIsNamed)
   EXPECT_FALSE(isFieldFile(scratch("missing.mha")));
   expectSays(writeFieldFile("/nowhere/field.mha", someField(Direction::Forward)), "/nowhere");
   expectSays(writeFieldFile("/nowhere/field.nii", someField(Direction::Forward)), "/nowhere");
-  std::ofstream(scratch("wrong.nrrd")) << "NRRD0004\ntype: short\ndimension: 4\nsizes: 3 2 2 2\n\n";
+  std::ofstream(scratch("wrong.nrrd"))
+    << "NRRD0004\ntype: short\ndimension: 4\nsizes: 3 2 2 2\nencoding: raw\nendian: little\n"
+       "space: LPS\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n\n";
   expectSays(problemOf(scratch("wrong.nrrd")), "type short; a field must have float or double");
-  std::ofstream(scratch("skip.mhd")) << "HeaderSize = 128\nElementNumberOfChannels = 3\n";
-  expectSays(problemOf(scratch("skip.mhd")), "has HeaderSize 128 before its numbers");
-  std::ofstream(scratch("wrong.mha")) << "DimSize = 2 2 2\nElementNumberOfChannels = 1\n";
+  std::ofstream(scratch("wrong.mha"))
+    << "DimSize = 2 2 2\nElementNumberOfChannels = 1\nElementType = MET_FLOAT\n"
+       "ElementDataFile = LOCAL\n";
   expectSays(problemOf(scratch("wrong.mha")), "holds 1 components");
 }

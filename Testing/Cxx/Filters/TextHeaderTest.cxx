@@ -69,7 +69,7 @@ TEST(TextHeader, HasAnEndWithinItsBounds)
   // 1 GB of nothing that takes no room on the disk, in one line.
   for (const char* name : { "endless.nrrd", "endless.mha" })
   {
-    expectProblem(name, name[8] == 'n' ? "NRRD0005\n" : "ObjectType = Image\n", "a field must");
+    expectProblem(name, name[8] == 'n' ? "NRRD0005\n" : "ObjectType = Image\n", "it must have 3");
     fs::resize_file(scratch(name), std::uintmax_t(1) << 30);
     DirectedField field;
     const std::string problem = readFieldFile(scratch(name), field);
@@ -99,13 +99,23 @@ TEST(TextHeader, FoldersAndPipesAreNoFiles)
 #endif
 }
 
-TEST(TextHeader, NothingIsSkippedInSilence)
+TEST(TextHeader, LinesAndBytesBeforeTheNumbersAreSkipped)
 {
-  const std::string skips = "endian: little\nbyte skip: 0\nline skip: 3\n\n";
-  expectProblem("skip.nrrd", Nrrd + skips + numbers(false), "has line skip 3");
-  expectProblem(
-    "skip.nrrd", Nrrd + "endian: little\nbyte skip: -1\n\n" + numbers(false), "has byte skip -1");
+  const std::string skips = "endian: little\nline skip: 2\nbyte skip: 3\n\n";
   DirectedField field;
+  ASSERT_EQ(problemOf("skip.nrrd", Nrrd + skips + "a\nb\nxyz" + numbers(false), field), "");
+  EXPECT_EQ(field.displacements[1], glm::vec3(-3, -4, 5));
+  const std::string atEnd = Nrrd + "endian: little\nbyte skip: -1\n\nanything";
+  ASSERT_EQ(problemOf("end.nrrd", atEnd + numbers(false), field), "");
+  EXPECT_EQ(field.displacements[1], glm::vec3(-3, -4, 5));
+  ASSERT_EQ(problemOf("end.mha",
+              Meta + "HeaderSize = -1\nElementDataFile = LOCAL\nanything" + numbers(false), field),
+    "");
+  EXPECT_EQ(field.displacements[1], glm::vec3(-3, -4, 5));
+  expectProblem("few.nrrd", Nrrd + "endian: little\nline skip: 99\n\n" + numbers(false),
+    "has fewer lines than the header skips, 99");
+  expectProblem("minus.nrrd", Nrrd + "endian: little\nbyte skip: -2\n\n" + numbers(false),
+    "has byte skip -2; it must be a whole number, -1 or more");
   EXPECT_EQ(problemOf("noskip.nrrd",
               Nrrd + "endian: little\nbyte skip: 0\nline skip: 0\n\n" + numbers(false), field),
     "");
@@ -202,5 +212,5 @@ TEST(TextHeader, WordsSpelledOtherwiseAreReadOrRefused)
   expectProblem("no_endian.nrrd", Nrrd + "\n" + numbers(true), "must be little or big");
   std::string half = Meta;
   half.replace(half.find("2 2 2"), 5, "2.5 2 2");
-  expectProblem("half.mha", half + end, "a whole number from 1 to 65535");
+  expectProblem("half.mha", half + end, "a whole number from 1 to 2147483647");
 }

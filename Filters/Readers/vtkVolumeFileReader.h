@@ -13,8 +13,9 @@
  *
  * Output: vtkImageData with the point scalars "Intensity". Their type is the type in the file, or
  * float32 if the file rescales them. A time series has time steps, in seconds. The field array
- * WorldAxes says RAS if the file knows the patient's sides (WorldAxes.h). After an error the output
- * stays as it was, or is empty.
+ * WorldAxes says RAS if the file knows the patient's sides (WorldAxes.h). Names and colours of
+ * labels are attached where the file has them (LabelTable.h). After an error the output stays as it
+ * was, or is empty.
  */
 #ifndef vtkVolumeFileReader_h
 #define vtkVolumeFileReader_h

@@ -2,6 +2,7 @@
 #include "vtkVolumeFileReader.h"
 
 #include "Filters/Attached/Guard.h"
+#include "Filters/Attached/LabelTable.h"
 #include "Filters/Attached/WorldAxes.h"
 #include "Filters/Fields/FieldImage.h"
 #include "Filters/Volumes/PlacedVolume.h"
@@ -124,6 +125,7 @@ int vtkVolumeFileReader::RequestData(
     return 0; // stopped
   }
   scalars->SetName(ScalarsName);
+  brainshift::attachLabels(shown, this->Stored->header().labels);
   brainshift::nameWorldAxes(shown,
     this->Stored->header().knowsSides ? brainshift::WorldAxes::RAS
                                       : brainshift::WorldAxes::Unknown);

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Volumes/TextHeaderVolume.h"
+
+#include "Filters/Files/TextHeaderFile.h"
+#include "Filters/Volumes/SegmentTable.h"
+
+#include "vtkImageData.h"
+#include "vtkPointData.h"
+
+#include <cmath>
+
+namespace brainshift
+{
+namespace
+{
+constexpr std::int64_t MostSteps = 65536; // and numbers for a voxel: each takes memory
+constexpr std::int64_t MostColors = 4;    // components of an axis that has no kind
+
+// RAS from the space of a header.
+glm::dvec3 rasSigns(HeaderSpace space)
+{
+  switch (space)
+  {
+    case HeaderSpace::LPS:
+      return glm::dvec3(-1.0, -1.0, 1.0);
+    case HeaderSpace::LAS:
+      return glm::dvec3(-1.0, 1.0, 1.0);
+    default:
+      return glm::dvec3(1.0);
+  }
+}
+
+std::vector<double> timesOf(std::size_t steps, double spacing)
+{
+  const double step = std::isfinite(spacing) && spacing > 0.0 ? spacing : 1.0;
+  std::vector<double> times;
+  times.reserve(steps);
+  for (std::size_t i = 0; i < steps; ++i)
+  {
+    times.push_back(static_cast<double>(i) * step);
+  }
+  return times;
+}
+
+// Whether the axis before those of space holds one volume after the other.
+bool isSeries(const HeaderAxis& axis)
+{
+  const bool hasKind = !axis.kind.empty() && axis.kind != "???" && axis.kind != "none";
+  return hasKind ? axis.kind == "time" || axis.kind == "list" : axis.count > MostColors;
+}
+
+std::string joined(const std::vector<std::string>& names)
+{
+  constexpr std::size_t Most = 5;
+  std::string text;
+  for (std::size_t i = 0; i < names.size() && i < Most; ++i)
+  {
+    text += (i > 0 ? ", " : "") + names[i];
+  }
+  return shownWords(text) + (names.size() > Most ? " and others" : "");
+}
+}
+
+bool isTextHeaderVolume(const std::string& fileName, TextFormat format)
+{
+  HeaderText text;
+  if (!readHeaderText(fileName, text).empty() || text.isNRRD != (format == TextFormat::NRRD))
+  {
+    return false;
+  }
+  const std::string dimensionsText = text.valueOf({ text.isNRRD ? "dimension" : "NDims" });
+  const std::vector<double> dimensions = numbersIn(dimensionsText);
+  const bool hasVoxels = text.fields.count(text.isNRRD ? "sizes" : "DimSize") > 0;
+  return hasVoxels && (dimensionsText.empty() || !(dimensions[0] < 3.0));
+}
+
+TextHeaderVolume::TextHeaderVolume(TextFormat format)
+  : Format(format)
+{
+}
+
+std::string TextHeaderVolume::noun() const
+{
+  return this->Format == TextFormat::NRRD ? "NRRD file" : "MetaImage";
+}
+
+std::string TextHeaderVolume::readHeader(const std::string& fileName, VolumeHeader& header)
+{
+  this->Numbers = nullptr; // the file may have changed under its name
+  std::string problem = readTextHeader(fileName, this->Stored);
+  const bool isOpen = problem.empty() || this->Stored.text.bytes > 0;
+  if (isOpen && this->Stored.text.isNRRD != (this->Format == TextFormat::NRRD))
+  {
+    problem =
+      this->Stored.text.isNRRD ? "is an NRRD file and no MetaImage" : "does not begin with NRRD";
+  }
+  problem = problem.empty() ? this->arrange(header) : problem;
+  problem = problem.empty() ? numbersProblem(this->Stored) : problem;
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  const glm::dvec3 signs = rasSigns(this->Stored.space);
+  int axis = 0;
+  for (const HeaderAxis& along : this->Stored.axes)
+  {
+    if (along.step)
+    {
+      header.worldFromVoxel[axis++] = glm::dvec4(signs * *along.step, 0.0);
+    }
+  }
+  header.worldFromVoxel[3] = glm::dvec4(signs * this->Stored.origin, 1.0);
+  header.knowsSides = this->Stored.knowsSides;
+  header.storedType = this->Stored.numberType;
+  header.rescaling = { this->Stored.slope, this->Stored.intercept };
+  header.warnings = this->Stored.warnings;
+  this->takeSegments(header);
+  return {};
+}
+
+std::string TextHeaderVolume::arrange(VolumeHeader& header)
+{
+  const std::vector<HeaderAxis>& axes = this->Stored.axes;
+  if (this->Stored.spatialAxes() != 3)
+  {
+    return "has " + std::to_string(this->Stored.spatialAxes()) +
+      " axes in space; a volume must have 3";
+  }
+  const std::size_t first = axes[0].step ? 0 : 1;
+  const bool isRow = axes.size() >= first + 3 && axes.size() <= first + 4 && axes[first].step &&
+    axes[first + 1].step && axes[first + 2].step;
+  if (!isRow)
+  {
+    return "has " + std::to_string(axes.size()) +
+      " axes; a volume must have 3 in space, with at most one before and one after them";
+  }
+  const bool hasSteps = axes.size() == first + 4;
+  for (const HeaderAxis& axis : axes)
+  {
+    if (!axis.step && axis.count > MostSteps)
+    {
+      return "has " + std::to_string(axis.count) +
+        " numbers along an axis that is none of space; it may have " + std::to_string(MostSteps);
+    }
+  }
+  this->Dimensions = glm::ivec3(axes[first].count, axes[first + 1].count, axes[first + 2].count);
+  if (this->Dimensions == glm::ivec3(1))
+  {
+    return "has 1 voxel; it must have at least 2";
+  }
+  this->Tuple = first == 1 ? static_cast<std::size_t>(axes[0].count) : 1;
+  this->Steps = hasSteps ? static_cast<std::size_t>(axes.back().count) : 1;
+  this->TupleIsTime = first == 1 && !hasSteps && isSeries(axes[0]);
+  header.dimensions = this->Dimensions;
+  header.components = this->TupleIsTime ? 1 : static_cast<int>(this->Tuple);
+  header.times = this->TupleIsTime ? timesOf(this->Tuple, axes[0].spacing)
+                                   : timesOf(this->Steps, hasSteps ? axes.back().spacing : 1.0);
+  return {};
+}
+
+// The first layer of a segmentation, with its labels.
+void TextHeaderVolume::takeSegments(VolumeHeader& header)
+{
+  const SegmentTable segments = segmentsOf(this->Stored.text);
+  header.labels = segments.labels;
+  if (!segments.isSegmentation() || this->Tuple == 1 || this->Steps > 1)
+  {
+    return;
+  }
+  header.components = 1;
+  header.times = { 0.0 };
+  std::string warning = "has " + std::to_string(this->Tuple) +
+    " layers of segments that overlap; only the first layer is shown";
+  warning += segments.leftOut.empty() ? "" : ", without " + joined(segments.leftOut);
+  header.warnings.push_back(warning);
+}
+
+double TextHeaderVolume::storedBytes(const VolumeHeader&) const
+{
+  return this->Numbers ? 0.0 : this->Stored.dataBytes();
+}
+
+std::string TextHeaderVolume::readAll(const Progress& progress, bool& stopped)
+{
+  auto numbers =
+    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Stored.numberType));
+  numbers->SetNumberOfComponents(static_cast<int>(this->Tuple));
+  numbers->SetNumberOfTuples(
+    static_cast<vtkIdType>(this->Stored.numberCount()) / static_cast<vtkIdType>(this->Tuple));
+  const ShareDone hear = [&](double share) {
+    stopped = stopped || !progress(share);
+    return !stopped;
+  };
+  std::string problem =
+    readNumbers(this->Stored, static_cast<char*>(numbers->GetVoidPointer(0)), hear);
+  if (problem.empty() && !stopped)
+  {
+    this->Numbers = numbers;
+  }
+  return problem;
+}
+
+std::string TextHeaderVolume::load(
+  std::size_t volume, const Progress& progress, StoredVoxels& voxels)
+{
+  bool stopped = false;
+  std::string problem = this->Numbers ? std::string() : this->readAll(progress, stopped);
+  if (!problem.empty() || stopped)
+  {
+    return problem;
+  }
+  vtkSmartPointer<vtkDataArray> shown = this->Numbers;
+  if (this->Steps > 1)
+  {
+    const vtkIdType count = shown->GetNumberOfValues() / static_cast<vtkIdType>(this->Steps);
+    shown =
+      vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Stored.numberType));
+    shown->SetNumberOfComponents(static_cast<int>(this->Tuple));
+    constexpr int OwnedByNumbers = 1;
+    shown->SetVoidArray(
+      this->Numbers->GetVoidPointer(static_cast<vtkIdType>(volume) * count), count, OwnedByNumbers);
+  }
+  voxels.image = vtkSmartPointer<vtkImageData>::New();
+  voxels.image->SetDimensions(this->Dimensions.x, this->Dimensions.y, this->Dimensions.z);
+  voxels.image->GetPointData()->SetScalars(shown);
+  voxels.firstComponent = this->TupleIsTime ? static_cast<int>(volume) : 0;
+  const bool isSeries = this->Steps > 1 || (this->TupleIsTime && this->Tuple > 1);
+  if (!isSeries)
+  {
+    this->Numbers = nullptr; // a series is kept: its next step comes from it
+  }
+  return {};
+}
+}

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief Volumes in MetaImage (.mha, .mhd) and NRRD (.nrrd, .nhdr) files.
+ *
+ * Three axes must be axes of space. One axis before them is the components of a voxel, or time, or
+ * the layers of a segmentation; one after them is time.
+ */
+#ifndef BrainShift_TextHeaderVolume_h
+#define BrainShift_TextHeaderVolume_h
+
+#include "Filters/Files/TextHeader.h"
+#include "Filters/Volumes/VolumeFile.h"
+
+#include "vtkDataArray.h" // for its smart pointer
+
+#include <cstddef>
+#include <string>
+
+namespace brainshift
+{
+/** The two formats. */
+enum class TextFormat
+{
+  MetaImage,
+  NRRD,
+};
+
+/** Whether a file begins like a volume of one of the formats, and no image of two dimensions. */
+bool isTextHeaderVolume(const std::string& fileName, TextFormat format);
+
+/** See VolumeFile. */
+class TextHeaderVolume : public VolumeFile
+{
+public:
+  explicit TextHeaderVolume(TextFormat format);
+
+  std::string noun() const override;
+  std::string readHeader(const std::string& fileName, VolumeHeader& header) override;
+  double storedBytes(const VolumeHeader& header) const override;
+  std::string load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
+
+private:
+  // How the axes of the file are used.
+  std::string arrange(VolumeHeader& header);
+  void takeSegments(VolumeHeader& header);
+  std::string readAll(const Progress& progress, bool& stopped);
+
+  TextFormat Format;
+  TextHeader Stored;
+  glm::ivec3 Dimensions{ 0 };
+  std::size_t Tuple = 1;    // numbers of the axis before those of space
+  bool TupleIsTime = false; // its numbers are volumes
+  std::size_t Steps = 1;    // volumes along the axis after those of space
+  // All numbers, kept for the other volumes of a series.
+  vtkSmartPointer<vtkDataArray> Numbers;
+};
+}
+
+#endif

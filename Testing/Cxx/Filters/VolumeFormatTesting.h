@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs a reader of volumes on a file of the test's scratch folder and keeps what it says.
+#ifndef BrainShift_VolumeFormatTesting_h
+#define BrainShift_VolumeFormatTesting_h
+
+#include "Testing/Cxx/Filters/TestPipeline.h"
+
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace brainshift::testing
+{
+inline std::string scratchFile(const std::string& name)
+{
+  return std::string(BRAINSHIFT_TEST_TEMP) + "/VolumeFormats-" + name;
+}
+
+inline void writeFile(const std::string& name, const std::string& bytes)
+{
+  std::ofstream(scratchFile(name), std::ios::binary) << bytes;
+}
+
+// What a reader makes of a file.
+template <typename Reader>
+struct FormatReading
+{
+  explicit FormatReading(const std::string& name)
+    : Heard(this->reader)
+  {
+    this->reader->SetFileName(scratchFile(name).c_str());
+    this->reader->Update();
+  }
+
+  vtkImageData* image() { return this->reader->GetOutput(); }
+
+  std::vector<double> values()
+  {
+    vtkDataArray* scalars = this->image()->GetPointData()->GetScalars();
+    std::vector<double> numbers;
+    for (vtkIdType i = 0; scalars && i < scalars->GetNumberOfValues(); ++i)
+    {
+      const int components = scalars->GetNumberOfComponents();
+      numbers.push_back(scalars->GetComponent(i / components, static_cast<int>(i % components)));
+    }
+    return numbers;
+  }
+
+  std::string said() { return this->Heard.take(); }
+
+  vtkNew<Reader> reader;
+
+private:
+  Errors Heard;
+};
+
+// A file is refused in a sentence with these words, and leaves no voxels.
+template <typename Reader>
+void expectRefused(const std::string& name, const std::string& words)
+{
+  FormatReading<Reader> reading(name);
+  const std::string said = reading.said();
+  EXPECT_NE(said.find(words), std::string::npos) << words << ": " << said;
+  EXPECT_EQ(reading.image()->GetNumberOfPoints(), 0) << words;
+}
+
+template <typename Reader>
+void expectRefused(const std::string& name, const std::string& bytes, const std::string& words)
+{
+  writeFile(name, bytes);
+  expectRefused<Reader>(name, words);
+}
+}
+
+#endif

@@ -1,0 +1,315 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves that ParaView opens DICOM folders and slices with our reader, that each series of a folder
+# can be chosen, that points in time become time steps, that what cannot be read is refused with a
+# sentence, and that the patient's name goes nowhere.
+import os
+import shutil
+import subprocess
+
+import numpy
+import pydicom
+from brainshift_testing import assert_says, data, load_plugin, messages, output, run_tests, scratch
+from dicom_testing import (AXIAL, CORONAL, NUMBER, assert_placed, folder, numbered, plain_header,
+                           read_again, scalars, write_slices)
+
+load_plugin()
+from paraview import servermanager  # noqa: E402 after the plugin
+from paraview.simple import (  # noqa: E402
+    Delete, DICOMVolumeReader, OpenDataFile, SaveState)
+from vtkmodules.vtkCommonCore import vtkCommand  # noqa: E402
+
+
+def read(path, **properties):
+    """The reader, and what it told."""
+    with messages() as told:
+        reader = DICOMVolumeReader(FileName=path, **properties)
+        reader.UpdatePipeline()
+    return reader, told.text
+
+
+def names(reader):
+    return list(reader.GetProperty("SeriesList"))
+
+
+def opened(path):
+    reader = OpenDataFile(path)
+    assert reader is not None, "no reader for " + path
+    name = reader.GetClientSideObject().GetClassName()
+    assert name == "vtkDICOMVolumeReader", name
+    reader.UpdatePipeline()
+    return reader
+
+
+def test_paraview_opens_a_folder_and_any_slice_with_our_reader():
+    path = write_slices(folder("open"), numbered())
+    right = read_again(path)
+    os.rename(os.path.join(path, "IM0001.dcm"), os.path.join(path, "IM0001"))
+    os.rename(os.path.join(path, "IM0003.dcm"), os.path.join(path, "1.2.840.3"))
+    os.rename(os.path.join(path, "IM0004.dcm"), os.path.join(path, "0004.IMA"))
+    for name in ("", "IM0001", "IM0002.dcm", "1.2.840.3", "0004.IMA"):
+        assert_placed(opened(os.path.join(path, name) if name else path), *right)
+    assert_placed(opened(path + "/"), *right)
+
+
+def test_other_files_and_folders_go_to_others():
+    factory = servermanager.vtkSMProxyManager.GetProxyManager().GetReaderFactory()
+    session = servermanager.ActiveConnection.Session
+    for path in (folder("empty"), data("seg3d-utah"), data("seg3d-utah", "seg3d_mr_t1.nii.gz")):
+        assert not factory.CanReadFile(path, "sources", "DICOMFileReader", session), path
+    assert factory.CanReadFile(write_slices(folder("some"), numbered()), "sources",
+                               "DICOMFileReader", session)
+    head = OpenDataFile(data("seg3d-utah", "seg3d_mr_t1.nii.gz"))
+    assert head.GetXMLName() == "NIFTIVolumeReader", head.GetXMLName()
+
+
+def two_series():
+    """A head, three slices of a localizer in the same series, and another series."""
+    path = write_slices(folder("two"), numbered(6))
+
+    def localizer(image, index):
+        image.ImageType = ["ORIGINAL", "PRIMARY", "LOCALIZER"]
+        image.InstanceNumber = 100 + index
+
+    def other(image, _):
+        image.SeriesInstanceUID = "1.2.3.4.6"
+        image.SeriesNumber = 2
+        image.SeriesDescription = "Neck"
+
+    write_slices(path, numbered(3, start=1000), axes=CORONAL, change=localizer, start=100)
+    write_slices(path, numbered(4, start=2000), change=other, start=200)
+    return path
+
+
+def part_of(path, numbers):
+    """A folder of its own with some of the files."""
+    part = folder("part")
+    for number in numbers:
+        shutil.copy(os.path.join(path, f"IM{number:04d}.dcm"), part)
+    return read_again(part)
+
+
+SERIES = {"3, Test head, CT, 6 x 5 x 6, 2024-02-29": range(1, 7),
+          "3, Test head, CT, 6 x 5 x 3, 2024-02-29": range(100, 103),
+          "2, Neck, CT, 6 x 5 x 4, 2024-02-29": range(200, 204)}
+
+
+def test_each_series_can_be_chosen():
+    path = two_series()
+    reader, told = read(path)
+    assert not told, told
+    assert set(names(reader)) == set(SERIES), names(reader)
+    assert names(reader)[0] == next(iter(SERIES)), "the largest is first"
+    assert list(reader.GetProperty("Series").Available) == names(reader)
+    assert_placed(reader, *part_of(path, next(iter(SERIES.values()))))
+    for name, numbers in SERIES.items():
+        reader.Series = name
+        assert_placed(reader, *part_of(path, numbers))
+    for number, name in ((2, 0), (101, 1), (203, 2)):
+        reader, told = read(os.path.join(path, f"IM{number:04d}.dcm"))
+        assert not told, told
+        assert names(reader)[0] == list(SERIES)[name], "that of the file is first"
+        assert_placed(reader, *part_of(path, list(SERIES.values())[name]))
+    reader, told = read(path, Series="17, Foot")
+    assert_says(told, 'has no series "17, Foot"', "it has 3")
+
+
+def test_types_part_a_series_only_where_they_share_places():
+    path = folder("types")
+
+    def typed(image, index):
+        image.ImageType = ["ORIGINAL", "PRIMARY", "AXIAL"] + (["ADD"] if index % 2 else [])
+
+    def phase(image, _):
+        image.ImageType = ["ORIGINAL", "PRIMARY", "AXIAL", "PHASE"]
+
+    write_slices(path, numbered(), change=typed)
+    reader, told = read(path)
+    assert not told, told
+    assert len(names(reader)) == 1, names(reader)
+    assert_placed(reader, *read_again(path))
+    write_slices(path, numbered(start=1000), change=phase, start=50)
+    reader, told = read(path)
+    assert not told, told
+    assert len(names(reader)) == 2, names(reader)
+    assert any(name.endswith("ORIGINAL PRIMARY AXIAL PHASE") for name in names(reader))
+    assert_placed(reader, *part_of(path, range(1, 5)))
+
+
+def test_the_folder_is_read_once():
+    reader = DICOMVolumeReader(FileName=write_slices(folder("once"), numbered()))
+    source = reader.GetClientSideObject()
+    heard = []
+    source.AddObserver(vtkCommand.ProgressEvent, lambda *_: heard.append(source.GetProgress()))
+    reader.UpdatePipeline()
+    assert reader.Series == names(reader)[0], "ParaView writes it into the property"
+    assert heard.count(0.0) <= 2, heard
+
+
+def test_points_in_time_become_time_steps():
+    voxels = numbered(12).reshape(3, 4, 5, 6)
+
+    def trigger(image, index):
+        image.TriggerTime = str(40.0 * times.index(image.InstanceNumber // 100))
+
+    def acquired(image, index):
+        image.AcquisitionDate, image.AcquisitionTime = "20240229", (
+            f"10{15 + times.index(image.InstanceNumber // 100):02d}{index:02d}.5")
+
+    def echo(image, index):
+        image.EchoNumbers = times.index(image.InstanceNumber // 100) + 1
+
+    times = [2, 0, 1]  # not in the order of their numbers
+    for change, right in ((trigger, (0.0, 0.04, 0.08)), (acquired, (0.0, 60.0, 120.0)),
+                          (echo, (0.0, 1.0, 2.0))):
+        path = folder("times")
+        for t, number in enumerate(times):
+            write_slices(path, voxels[t], change=change, start=100 * number)
+        reader, told = read(path)
+        assert not told, told
+        numpy.testing.assert_allclose(reader.TimestepValues, right)
+        assert "6 x 5 x 4, 3 times" in names(reader)[0], names(reader)
+        for t, number in enumerate(times):
+            reader.UpdatePipeline(right[t])
+            numpy.testing.assert_array_equal(
+                numpy.unique(scalars_now(reader)), numpy.unique(voxels[t]))
+
+
+def scalars_now(reader):
+    image = reader.GetClientSideObject().GetOutputDataObject(0)
+    array = image.GetPointData().GetScalars()
+    return numpy.array([array.GetTuple1(i) for i in range(array.GetNumberOfTuples())])
+
+
+def test_an_unfinished_last_volume_is_left_out():
+    path = folder("unfinished")
+
+    def position(image, _):
+        image.TemporalPositionIdentifier = image.InstanceNumber // 100 + 1
+
+    for t in range(3):
+        write_slices(path, numbered(4 if t < 2 else 2, start=1000 * t), change=position,
+                     start=100 * t)
+    reader, told = read(path)
+    assert_says(told, "2 images at places where others lie")
+    assert len(reader.TimestepValues) == 2
+
+
+def refused(change, *words, voxels=None):
+    path = write_slices(folder("refused"), numbered() if voxels is None else voxels, change=change)
+    reader, told = read(path)
+    assert_says(told, path, *words)
+    assert output(reader).GetNumberOfPoints() == 0
+
+
+def test_what_cannot_be_read_is_named():
+    def inverted(image, _):
+        image.PhotometricInterpretation = "MONOCHROME1"
+
+    def coloured(image, _):
+        image.PhotometricInterpretation, image.SamplesPerPixel = "RGB", 3
+        image.PlanarConfiguration = 0
+        image.PixelData = image.PixelData * 3
+
+    def palette(image, _):
+        image.PhotometricInterpretation = "PALETTE COLOR"
+
+    def mosaic(image, _):
+        image.ImageType = ["ORIGINAL", "PRIMARY", "M", "MOSAIC"]
+
+    def frames(image, _):
+        image.NumberOfFrames = 2
+        image.PixelData = image.PixelData * 2
+
+    refused(inverted, "MONOCHROME1", "MONOCHROME2")
+    refused(coloured, "RGB with 3 samples")
+    refused(palette, "PALETTE COLOR")
+    refused(mosaic, "MOSAIC")
+    refused(frames, "has 2 frames and does not say where they lie")
+
+
+def test_reports_are_no_slices():
+    path = write_slices(folder("report"), numbered())
+    right = read_again(path)
+    report = plain_header("1.2.840.10008.5.1.4.1.1.88.11")
+    report.save_as(os.path.join(path, "report.dcm"), write_like_original=False)
+    with open(os.path.join(path, "notes.txt"), "w") as notes:
+        notes.write("no DICOM")
+    reader, told = read(path)
+    assert not told, told
+    assert_placed(reader, *right)
+    reader, told = read(os.path.join(folder("none"), "absent.dcm"))
+    assert_says(told, "absent.dcm does not exist")
+    alone = folder("alone")
+    shutil.copy(os.path.join(path, "report.dcm"), alone)
+    reader, told = read(alone)
+    assert_says(told, "neither a DICOM image nor a folder")
+
+
+def test_short_slices_are_refused_and_damaged_ones_told():
+    path = write_slices(folder("short"), numbered())
+    name = os.path.join(path, "IM0002.dcm")
+    whole = open(name, "rb").read()
+    with open(name, "wb") as file:
+        file.write(whole[:-20])
+    reader, told = read(path)
+    assert_says(told, "IM0002.dcm has 40 bytes of pixel data", "6 x 5 pixels of 16 bits", "60")
+    assert output(reader).GetNumberOfPoints() == 0
+
+    def lie(image, index):
+        image.Rows = 60000 if index == 1 else image.Rows
+
+    path = write_slices(folder("lie"), numbered(1), change=lambda image, _: lie(image, 1))
+    reader, told = read(path)
+    assert_says(told, "6 x 60000 pixels", "need 720000")
+
+
+def test_subfolders_and_directories_of_media():
+    path = folder("media")
+    os.makedirs(os.path.join(path, "PATIENT", "STUDY"))
+    write_slices(os.path.join(path, "PATIENT", "STUDY"), numbered())
+    right = read_again(os.path.join(path, "PATIENT", "STUDY"))
+    for name in os.listdir(os.path.join(path, "PATIENT", "STUDY")):
+        old = os.path.join(path, "PATIENT", "STUDY", name)
+        os.rename(old, old.replace(".dcm", ""))
+    assert_placed(opened(path), *right)
+    made = subprocess.run(
+        ["gdcmgendir", "-r", "-i", path, "-o", os.path.join(path, "DICOMDIR")],
+        capture_output=True, text=True)
+    assert made.returncode == 0, made.stderr
+    assert_placed(opened(os.path.join(path, "DICOMDIR")), *right)
+
+
+def test_cancel_leaves_no_image_and_progress_is_told():
+    path = write_slices(folder("cancel"), numbered(80))
+    reader = DICOMVolumeReader(FileName=path)
+    heard = []
+    source = reader.GetClientSideObject()
+    source.AddObserver(vtkCommand.ProgressEvent, lambda *_: heard.append(source.GetProgress()))
+    reader.UpdatePipeline()
+    assert len(heard) > 4 and max(heard) == 1.0, heard
+    del reader
+
+    reader = DICOMVolumeReader(FileName=path)
+    source = reader.GetClientSideObject()
+    source.UpdateInformation()
+    source.AddObserver(vtkCommand.ProgressEvent,
+                       lambda *_: source.SetAbortExecute(int(source.GetProgress() > 0.1)))
+    source.Update()
+    assert source.GetOutputDataObject(0).GetPointData().GetScalars() is None
+
+
+def test_the_patient_is_not_in_the_state():
+    reader = opened(write_slices(folder("state"), numbered()))
+    name = scratch("dicom.pvsm")
+    SaveState(name)
+    text = open(name, encoding="utf-8").read()
+    assert "DICOM-state" in text
+    image = output(reader)
+    told = str(image) + "".join(str(image.GetFieldData().GetAbstractArray(i))
+                                for i in range(image.GetFieldData().GetNumberOfArrays()))
+    for secret in ("Secret", NUMBER):
+        assert secret not in text + told + " ".join(names(reader))
+    Delete(reader)
+
+
+run_tests(globals())

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves that MINC2 volumes lie where nibabel puts them, in 48 orders of axes and tilted, that
+# slices are rescaled as nibabel rescales them, and that time, labels and errors are told.
+import minc_files
+import nibabel
+import numpy
+import volume_files
+from brainshift_testing import (
+    data, field, load_plugin, messages, output, run_tests, scratch, voxels)
+from volume_places import assert_same_head, assert_same_places, matrix, opened, places
+
+load_plugin()
+from paraview import simple  # noqa: E402 after the plugin
+
+SHAPE = (4, 5, 3)
+AFFINE = list(volume_files.turns())[7]  # each axis leads along its axis of the world
+READER = "MINCVolumeReader"
+
+
+def test_minc_lies_where_nibabel_puts_it():
+    farthest = 0.0
+    for affine in volume_files.affines():
+        name = minc_files.write(
+            scratch("turned.mnc"), volume_files.numbered(SHAPE, "float32"), affine)
+        judged = nibabel.load(name)
+        assert numpy.abs(judged.affine - affine).max() < 1e-6, (judged.affine, affine)
+        farthest = max(farthest, assert_same_places(name, READER, judged))
+    print(f"MINC: farthest voxel {farthest} mm")
+
+
+def test_slices_are_rescaled():
+    """Whole numbers over the range of their type, by the least and largest value of their slice."""
+    for kind in ("uint8", "int16", "uint16", "int32"):
+        stored = volume_files.numbered(SHAPE, kind)
+        ranges = [(-1.0, 2.0), (0.0, 100.0), (5.0, 6.0), (-1000.0, 0.0)]
+        name = minc_files.write(scratch("scaled.mnc"), stored, numpy.eye(4), slice_ranges=ranges)
+        limits = numpy.iinfo(kind)
+        shares = (stored.astype(float) - limits.min) / (float(limits.max) - limits.min)
+        low, high = (numpy.array(side).reshape(-1, 1, 1) for side in zip(*ranges))
+        known = low + shares * (high - low)
+        judged = numpy.asarray(nibabel.load(name).dataobj)
+        assert numpy.allclose(judged, known, rtol=1e-6, atol=1e-6), kind
+        source = opened(name, READER)
+        shown = voxels(source).transpose(2, 1, 0)
+        assert shown.dtype == numpy.float32
+        assert numpy.allclose(shown, known, rtol=1e-5, atol=1e-4), (kind, shown, known)
+        simple.Delete(source)
+
+
+def test_types_of_whole_numbers_stay():
+    for kind in ("int8", "uint8", "int16", "uint16", "int32", "uint32"):
+        name = minc_files.write(scratch("whole.mnc"), volume_files.numbered(SHAPE, kind), AFFINE,
+                                kind=minc_files.INTEGER)
+        source = opened(name, READER)
+        assert voxels(source).dtype == numpy.dtype(kind)
+        assert sorted(voxels(source).ravel()) == list(range(1, 61))
+        simple.Delete(source)
+
+
+def test_time_becomes_steps():
+    series = numpy.stack([volume_files.numbered(SHAPE, "float32") + 100 * i for i in range(3)])
+    name = minc_files.write(scratch("series.mnc"), series, AFFINE, times=(2.0, 2.5))
+    source = opened(name, READER)
+    source.UpdatePipelineInformation()
+    assert list(source.TimestepValues) == [2.0, 4.5, 7.0]
+    for step, time in enumerate((2.0, 4.5, 7.0)):
+        source.UpdatePipeline(time)
+        image = source.GetClientSideObject().GetOutputDataObject(0)
+        found = image.GetPointData().GetArray("Intensity").GetRange()
+        assert found == (1.0 + 100 * step, 60.0 + 100 * step), found
+
+
+def test_labels_are_named():
+    name = minc_files.write(scratch("labels.mnc"), volume_files.numbered(SHAPE, "uint8"), AFFINE,
+                            kind=minc_files.LABEL, labels=((3, "putamen"), (7, "thalamus")))
+    source = opened(name, READER)
+    assert field(source, "LabelValues").tolist() == [3, 7]
+    names = output(source).GetFieldData().GetAbstractArray("LabelNames")
+    assert [names.GetValue(i) for i in range(2)] == ["putamen", "thalamus"]
+
+
+def test_the_same_head():
+    first = opened(data("seg3d-utah", "seg3d_mr_t1.nii.gz"), "NIFTIVolumeReader")
+    values = voxels(first).astype(numpy.float32).transpose(2, 1, 0)
+    name = minc_files.write(scratch("head.mnc"), values, matrix(output(first)))
+    assert_same_head(opened(name, READER), first)
+
+
+def test_what_cannot_be_read_is_named():
+    good = minc_files.write(scratch("good.mnc"), volume_files.numbered(SHAPE), AFFINE,
+                            kind=minc_files.INTEGER)
+    with open(good, "rb") as file:
+        content = file.read()
+    for name, bad, words in (("minc1", b"CDF\x01" + bytes(100), "is a MINC1 file"),
+                             ("other", b"no MINC at all", "does not begin like an HDF5 file"),
+                             ("cut", content[:len(content) // 2], "libminc cannot open it")):
+        bad_file = volume_files.write(scratch(f"{name}.mnc"), bad)
+        with messages() as said:
+            source = simple.MINCVolumeReader(FileName=bad_file)
+            source.UpdatePipeline()
+        assert words in said.text, (name, said.text)
+        assert output(source).GetNumberOfPoints() == 0
+        simple.Delete(source)
+    source = opened(good, READER)
+    assert len(places(voxels(source).transpose(2, 1, 0), matrix(output(source)))) == 60
+
+
+run_tests(globals())

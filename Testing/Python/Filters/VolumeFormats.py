@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves with readers of others that volumes of every format lie where their files say: 48 orders of
+# axes and a tilted scan, judged by ITK (through elastix) and nibabel, and one head in all formats.
+import os
+import subprocess
+
+import nibabel
+import numpy
+import volume_files
+from brainshift_testing import (
+    data, field, load_plugin, messages, output, run_tests, scratch, voxels)
+from volume_places import (
+    LARGEST_MM, assert_has_ras_axes, assert_same_head, assert_same_places, matrix, opened, places)
+
+load_plugin()
+from paraview import simple  # noqa: E402 after the plugin
+
+TRANSFORMIX = os.environ["BRAINSHIFT_TRANSFORMIX"]
+SHAPE = (4, 5, 3)
+HEAD = data("seg3d-utah", "seg3d_mr_t1.nii.gz")
+
+
+def by_itk(name, image):
+    """The file as ITK reads it, resampled onto the grid of an image by linear interpolation. A
+    place that is wrong by 0.001 mm shows in the numbers."""
+    lps = numpy.diag([-1.0, -1.0, 1.0, 1.0]) @ matrix(image)
+    spacing = numpy.linalg.norm(lps[:3, :3], axis=0)
+    parameters = volume_files.write(scratch("identity.txt"), "\n".join((
+        '(Transform "TranslationTransform")', "(NumberOfParameters 3)",
+        "(TransformParameters 0 0 0)", '(InitialTransformParametersFileName "NoInitialTransform")',
+        '(HowToCombineTransforms "Compose")', "(FixedImageDimension 3)", "(MovingImageDimension 3)",
+        '(FixedInternalImagePixelType "float")', '(MovingInternalImagePixelType "float")',
+        "(Size " + " ".join(map(str, image.GetDimensions())) + ")", "(Index 0 0 0)",
+        "(Spacing " + volume_files.words(spacing) + ")",
+        "(Origin " + volume_files.words(lps[:3, 3]) + ")",
+        "(Direction " + volume_files.words((lps[:3, :3] / spacing).T) + ")",
+        '(UseDirectionCosines "true")', '(ResampleInterpolator "FinalLinearInterpolator")',
+        '(Resampler "DefaultResampler")', "(DefaultPixelValue -1000)",
+        '(ResultImageFormat "nii")', '(ResultImagePixelType "float")', "")).encode())
+    folder = scratch("by_itk")
+    os.makedirs(folder, exist_ok=True)
+    run = subprocess.run([TRANSFORMIX, "-in", name, "-tp", parameters, "-out", folder],
+                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    assert run.returncode == 0, run.stdout[-2000:]
+    return nibabel.load(os.path.join(folder, "result.nii"))
+
+
+def assert_itk_agrees(name, proxy_name):
+    """ITK finds at the places of our voxels the numbers that we show there."""
+    source = opened(name, proxy_name)
+    judged = by_itk(name, output(source))
+    assert numpy.abs(judged.affine - matrix(output(source))).max() < 1e-4, judged.affine
+    difference = numpy.abs(numpy.asarray(judged.dataobj).T - voxels(source)).max()
+    # From one voxel to the next the numbers differ by 1 or more, and voxels lie 2.25 mm apart.
+    assert difference < LARGEST_MM / 2.25, (name, difference)
+    assert_has_ras_axes(source, name)
+    simple.Delete(source)
+    return difference
+
+
+def test_nrrd_and_meta_image_lie_where_itk_puts_them():
+    for ending, make, proxy_name in (("nrrd", volume_files.nrrd, "NRRDVolumeReader"),
+                                     ("mha", volume_files.meta_image, "MHAVolumeReader")):
+        largest = 0.0
+        for affine in volume_files.affines():
+            name = volume_files.write(
+                scratch(f"turned.{ending}"), make(volume_files.numbered(SHAPE), affine))
+            largest = max(largest, assert_itk_agrees(name, proxy_name))
+        print(f"{ending}: largest difference of numbers that differ by 1 a voxel: {largest}")
+
+
+def test_freesurfer_lies_where_nibabel_puts_it():
+    farthest = 0.0
+    for i, affine in enumerate(volume_files.affines()):
+        name = scratch(f"turned.{'mgz' if i % 2 else 'mgh'}")
+        nibabel.MGHImage(volume_files.numbered(SHAPE), affine).to_filename(name)
+        farthest = max(farthest, assert_same_places(name, "MGHVolumeReader", nibabel.load(name)))
+    print(f"FreeSurfer: farthest corner {farthest} mm")
+
+
+def test_spaces_of_nrrd():
+    affine = volume_files.tilted(next(volume_files.turns()))
+    expected = places(volume_files.numbered(SHAPE), affine)
+    for space in ("right-anterior-superior", "left-anterior-superior", "left-posterior-superior",
+                  "scanner-xyz"):
+        name = volume_files.write(scratch("space.nrrd"), volume_files.nrrd(
+            volume_files.numbered(SHAPE), affine, space))
+        source = opened(name, "NRRDVolumeReader")
+        found = places(voxels(source).transpose(2, 1, 0), matrix(output(source)))
+        assert numpy.abs(found - expected).max() < LARGEST_MM, space
+        known = output(source).GetFieldData().GetAbstractArray("WorldAxes") is not None
+        assert known == (space != "scanner-xyz"), space
+
+
+def head_in(kind):
+    """The test's head in another format, as float32, its slices in another order."""
+    image = nibabel.load(HEAD)
+    voxels_of_head = numpy.asarray(image.dataobj).astype(numpy.float32)
+    flipped = voxels_of_head.transpose(2, 0, 1)[::-1]
+    order = numpy.zeros((4, 4))
+    order[0, 1] = order[1, 2] = order[3, 3] = 1.0
+    order[2, 0], order[2, 3] = -1.0, voxels_of_head.shape[2] - 1.0
+    affine = image.affine @ order
+    name = scratch(f"head.{kind}")
+    if kind == "mgz":
+        nibabel.MGHImage(flipped, affine).to_filename(name)
+        return name
+    make = volume_files.nrrd if kind == "nrrd" else volume_files.meta_image
+    return volume_files.write(name, make(flipped, affine))
+
+
+def test_the_same_head_in_all_formats():
+    first = opened(HEAD, "NIFTIVolumeReader")
+    for kind, proxy_name in (("nrrd", "NRRDVolumeReader"), ("mha", "MHAVolumeReader"),
+                             ("mgz", "MGHVolumeReader")):
+        source = opened(head_in(kind), proxy_name)
+        assert_same_head(source, first)
+        simple.Delete(source)
+        os.remove(scratch(f"head.{kind}"))
+
+
+def test_a_field_opens_as_a_field():
+    import brainshift
+    bent = simple.FreeFormDeformation(Input=opened(HEAD, "NIFTIVolumeReader"),
+                                      Strokes=brainshift.soft((-300, 20, 480), (5, 0, 0), 30.0))
+    for ending in ("mha", "nrrd"):
+        name = scratch(f"a_field.{ending}")
+        brainshift.save_field(bent, name)
+        opened(name, "DisplacementFieldReader")
+        os.remove(name)
+
+
+def test_segments_of_slicer():
+    """Names and colours as Slicer writes them, kept by Free-Form Deformation."""
+    labels = numpy.zeros(SHAPE, "uint8")
+    labels[1:3, 1:4, 1] = 7
+    more = ["Segment0_ID:=Segment_1", "Segment0_Name:=tumour", "Segment0_LabelValue:=7",
+            "Segment0_Color:=1 0.5 0", "Segment0_Layer:=0", "Segment0_Extent:=1 2 1 3 1 1",
+            "Segment1_ID:=Segment_2", "Segment1_LabelValue:=9", "Segment1_Layer:=0"]
+    name = volume_files.write(scratch("made.seg.nrrd"), volume_files.nrrd(
+        labels, next(volume_files.turns()), more=more))
+    source = opened(name, "NRRDVolumeReader")
+    bent = simple.FreeFormDeformation(Input=source)
+    for proxy in (source, bent):
+        assert field(proxy, "LabelValues").tolist() == [7, 9]
+        assert field(proxy, "LabelColors").tolist() == [[255, 128, 0], [255, 255, 255]]
+        names = output(proxy).GetFieldData().GetAbstractArray("LabelNames")
+        assert [names.GetValue(i) for i in range(2)] == ["tumour", "Segment_2"]
+    assert set(numpy.unique(voxels(source))) == {0, 7}
+
+
+def test_layers_of_slicer():
+    """Of two layers, the first is shown, and a warning names what is left out."""
+    layers = numpy.stack([numpy.full(SHAPE, 1, "uint8"), numpy.full(SHAPE, 2, "uint8")])
+    lines = volume_files.nrrd(layers[0], next(volume_files.turns()), more=[
+        "Segment0_ID:=a", "Segment0_Layer:=0", "Segment1_ID:=b", "Segment1_Name:=vessel",
+        "Segment1_Layer:=1"])
+    header = lines[:lines.index(b"\n\n")].decode()
+    for old, new in (("dimension: 3", "dimension: 4"), ("sizes: ", "sizes: 2 "),
+                     ("directions: ", "directions: none "), ("kinds: ", "kinds: list ")):
+        header = header.replace(old, new)
+    name = volume_files.write(scratch("layers.seg.nrrd"),
+                              header.encode() + b"\n\n" + layers.tobytes(order="F"))
+    with messages() as said:
+        source = opened(name, "NRRDVolumeReader")
+        assert set(numpy.unique(voxels(source))) == {1}, said.text
+    assert "2 layers of segments" in said.text and "without vessel" in said.text, said.text
+    assert voxels(source).ndim == 3
+    assert field(source, "LabelValues").tolist() == [1]
+
+
+run_tests(globals())
