@@ -5,6 +5,7 @@
 #include "Filters/Attached/Guard.h"
 #include "Filters/Fields/FieldFile.h"
 #include "Filters/Fields/FieldImage.h"
+#include "Filters/Volumes/WrittenVolume.h"
 
 #include "vtkErrorCode.h"
 #include "vtkImageData.h"
@@ -26,7 +27,11 @@ void vtkDisplacementFieldWriter::WriteData()
 {
   auto* image = vtkImageData::SafeDownCast(this->GetInput());
   vtkDataArray* array = fieldOf(image);
-  if (array)
+  if (array && !isFieldImage(image))
+  {
+    this->Problem = this->WriteVolume(image);
+  }
+  else if (array)
   {
     DirectedField field{ gridOf(image), vectorsOf(array), directionOf(image) };
     if (this->World == LPS)
@@ -44,6 +49,21 @@ void vtkDisplacementFieldWriter::WriteData()
     vtkErrorMacro(<< this->Problem << ".");
     this->SetErrorCode(vtkErrorCode::UnknownError);
   }
+}
+
+std::string vtkDisplacementFieldWriter::WriteVolume(vtkImageData* image)
+{
+  const WorldAxes world = this->World == LPS ? WorldAxes::LPS : WorldAxes::Unknown;
+  OutgoingVolume volume;
+  std::string warning;
+  std::string problem = takeOut(image, "", world, volume, warning);
+  problem =
+    problem.empty() ? writeVolume(this->FileName, volume, [](double) { return true; }) : problem;
+  if (problem.empty() && !warning.empty())
+  {
+    vtkWarningMacro(<< "File " << this->FileName << ": " << warning << ".");
+  }
+  return problem;
 }
 
 void vtkDisplacementFieldWriter::PrintSelf(ostream& os, vtkIndent indent)

@@ -6,6 +6,9 @@
  * Input: an image with displacements (mm, world axes), such as the output of Deformation Field. The
  * ending of the file's name chooses the format. FieldFile.h lists the formats and where each of
  * them names the direction. ITK expects fields that lead backward.
+ *
+ * ParaView chooses this writer for every image with an array of three components. An image whose
+ * scalars are something else, such as intensities or colours, is written as the volume that it is.
  */
 #ifndef vtkDisplacementFieldWriter_h
 #define vtkDisplacementFieldWriter_h
@@ -14,6 +17,8 @@
 #include "vtkWriter.h"
 
 #include <string>
+
+class vtkImageData;
 
 class VTKBRAINSHIFTFILTERS_EXPORT vtkDisplacementFieldWriter : public vtkWriter
 {
@@ -58,6 +63,8 @@ protected:
 private:
   vtkDisplacementFieldWriter(const vtkDisplacementFieldWriter&) = delete;
   void operator=(const vtkDisplacementFieldWriter&) = delete;
+
+  std::string WriteVolume(vtkImageData* image);
 
   std::string FileName;
   int World = RAS;

@@ -11,6 +11,7 @@ import stage
 FOCUS = (-325.0, 30.0, 500.0)
 HALF_MM = 52.0
 ARROWS_MM = 7.0  # between arrows
+LANDMARKS_MM = 14.0  # between landmarks
 IN_FRONT_MM = 8.0  # of a slice, so that what lies in its plane is seen
 LARGEST_MM = 12.0
 BEHIND = (-310.0, -15.0, 475.0)  # the control points that move
@@ -156,6 +157,29 @@ def field_files(width):
         return stage.side_by_side(views)
 
 
+def landmark_files(width):
+    """Landmarks of a table over the slice as loaded; those of the mapped file over it as bent."""
+    import brainshift
+    side = width // 2
+    bent = stage.bend(stage.head(), _push())
+    steps = [step * LANDMARKS_MM for step in range(-3, 4)]
+    places = [(FOCUS[0] + x, stage.CORTEX[1], FOCUS[2] + z) for x in steps for z in steps]
+    with tempfile.TemporaryDirectory() as folder:
+        files = os.path.join(folder, "rest.csv"), os.path.join(folder, "bent.mrk.json")
+        with open(files[0], "w", encoding="utf-8") as table:
+            print("x,y,z", *(f"{x},{y},{z}" for x, y, z in places), sep="\n", file=table)
+        brainshift.map_points(*files, bent)
+        views = []
+        for file, shown in zip(files, (stage.bend(stage.head()), bent)):
+            views.append(_slice_of(shown, side))
+            balls = simple.Glyph(Input=_moved_forward(simple.LandmarkReader(FileName=file)),
+                                 GlyphType="Sphere", GlyphMode="All Points",
+                                 ScaleArray=["POINTS", "No scale array"])
+            balls.ScaleFactor = 3.0
+            stage.show_surface(balls, views[-1], stage.CYAN)
+        return stage.side_by_side(views)
+
+
 def deform_geometry(width):
     """A mesh of the brain as loaded, and moved along, coloured by how far, before a slice."""
     side = width // 2
@@ -176,4 +200,5 @@ FIELD_SCENES = {
     "filter-deformation-field": deformation_field,
     "filter-invert-displacement-field": invert,
     "filter-displacement-field-files": field_files,
+    "filter-landmark-files": landmark_files,
     "filter-deform-geometry": deform_geometry}

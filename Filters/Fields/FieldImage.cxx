@@ -68,6 +68,18 @@ vtkDataArray* fieldOf(vtkImageData* image)
   return nullptr;
 }
 
+bool isFieldImage(vtkImageData* image)
+{
+  if (directionOf(image) || image->GetPointData()->GetArray(DisplacementName))
+  {
+    return true;
+  }
+  vtkDataArray* scalars = image->GetPointData()->GetScalars();
+  return !scalars ||
+    (scalars->GetNumberOfComponents() == 3 &&
+      (scalars->GetDataType() == VTK_FLOAT || scalars->GetDataType() == VTK_DOUBLE));
+}
+
 std::vector<glm::vec3> vectorsOf(vtkDataArray* array)
 {
   std::vector<glm::vec3> vectors(array->GetNumberOfTuples());

@@ -41,6 +41,12 @@ VTKBRAINSHIFTFILTERS_EXPORT void setField(vtkImageData* image, const Grid& grid,
  */
 VTKBRAINSHIFTFILTERS_EXPORT vtkDataArray* fieldOf(vtkImageData* image);
 
+/**
+ * Whether an image is meant as a field: it names a direction, has a point array Displacement, or
+ * has no scalars other than three floating numbers. Otherwise its vectors stand beside what it is.
+ */
+VTKBRAINSHIFTFILTERS_EXPORT bool isFieldImage(vtkImageData* image);
+
 /** The tuples of an array of three components. */
 VTKBRAINSHIFTFILTERS_EXPORT std::vector<glm::vec3> vectorsOf(vtkDataArray* array);
 }

@@ -4,6 +4,7 @@
 #include "Filters/Files/NIFTIFileCheck.h"
 #include "Filters/Volumes/NIFTIGeometry.h"
 #include "Filters/Volumes/NIFTILabels.h"
+#include "Filters/Volumes/OutgoingVolume.h"
 
 #include "vtkCommand.h"
 #include "vtkExecutive.h"
@@ -131,13 +132,20 @@ std::string NIFTIVolume::readHeader(const std::string& fileName, VolumeHeader& h
   header.worldFromVoxel = worldFromVoxel(placementOf(stored));
   const int* extent = this->Voxels->GetDataExtent();
   header.dimensions = glm::ivec3(extent[1] + 1, extent[3] + 1, extent[5] + 1);
-  if (this->Voxels->GetQFac() < 0.0)
+  if (this->reversesSlices())
   {
     header.worldFromVoxel = header.worldFromVoxel * voxelFromReversedSlices(header.dimensions.z);
   }
-  header.knowsSides = stored->GetSFormCode() > 0 || stored->GetQFormCode() > 0;
+  const char* note = stored->GetDescrip();
+  const bool saysUnknown = note && std::string(note).find(UnknownSidesNote) != std::string::npos;
+  header.knowsSides = !saysUnknown && (stored->GetSFormCode() > 0 || stored->GetQFormCode() > 0);
   header.labels = niftiLabels(fileName);
   return {};
+}
+
+bool NIFTIVolume::reversesSlices() const
+{
+  return this->Voxels->GetQFac() < 0.0;
 }
 
 double NIFTIVolume::storedBytes(const VolumeHeader& header) const

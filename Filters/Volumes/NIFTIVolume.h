@@ -31,6 +31,9 @@ public:
   double storedBytes(const VolumeHeader& header) const override;
   std::string load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
 
+  /** Whether VTK reads the slices of the last file from the last to the first. */
+  bool reversesSlices() const;
+
 private:
   std::string Error; // of Voxels
   vtkNew<vtkCallbackCommand> KeepError;

@@ -15,17 +15,20 @@ Research software, not a medical device.
 
 from .answers import counters, gpu, pick, slice_axes
 from .figures import animate, figure
-from .files import load_field, load_lattice, save_field, save_lattice
+from .files import load_field, load_lattice, save_dicom, save_field, save_lattice, save_volume
 from .looks import look, looks
 from .maps import deformed_from_rest, rest_from_deformed
+from .points import map_points, read_points
 from .sample import open_sample
 from .strokes import MOVE, NUMBERS_PER_STROKE, SOFT, STAMP, move, soft, stamp
+from .transforms import Transform, apply_transform, read_transform, save_transform
 from .views import four_views, show_comparison
 from .windows import percentile_window
 
 __all__ = [
-    "MOVE", "NUMBERS_PER_STROKE", "SOFT", "STAMP",
-    "animate", "counters", "deformed_from_rest", "figure", "four_views", "gpu", "load_field",
-    "load_lattice", "look", "looks", "move", "open_sample", "percentile_window", "pick",
-    "rest_from_deformed", "save_field", "save_lattice", "show_comparison", "slice_axes", "soft",
-    "stamp"]
+    "MOVE", "NUMBERS_PER_STROKE", "SOFT", "STAMP", "Transform",
+    "animate", "apply_transform", "counters", "deformed_from_rest", "figure", "four_views", "gpu",
+    "load_field", "load_lattice", "look", "looks", "map_points", "move", "open_sample",
+    "percentile_window", "pick", "read_points", "read_transform", "rest_from_deformed",
+    "save_dicom", "save_field", "save_lattice", "save_transform", "save_volume",
+    "show_comparison", "slice_axes", "soft", "stamp"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Saves and loads lattices and displacement fields."""
+"""Saves volumes; saves and loads lattices and displacement fields."""
 
 from .arguments import vector
 
@@ -11,6 +11,13 @@ def _write(writer, name):
     problem = writer.GetPropertyValue("Problem")
     if problem:
         raise OSError(f"{name} was not written: {problem}. ParaView's output window says more")
+
+
+def _world(world):
+    """The word of the writers' property for "RAS", "LPS" or None; another raises an error."""
+    if world not in (None, "RAS", "LPS"):
+        raise ValueError(f"world is {world!r}; it must be \"RAS\", \"LPS\" or None")
+    return world or "As The Volume Says"
 
 
 def save_lattice(filter, name):
@@ -110,3 +117,55 @@ def load_field(name, direction="As Stored In The File", world="RAS"):
     if leads.GetStringValue(0) == "forward":
         return reader
     return simple.InvertDisplacementField(Input=reader)
+
+
+def save_volume(source, name, array=None, world=None):
+    """Save a volume for another program, with its place, its axes and its type of numbers.
+
+    - `source`: a ParaView source of an image, such as Bake Deformation. A Free-Form Deformation
+      is saved as it was loaded; bake it to save it bent.
+    - `name`: path of the file to write, on the machine that computes. It ends in `.nii`,
+      `.nii.gz`, `.mha`, `.mhd` or `.nrrd`.
+    - `array`: name of the point array to write. The default, `None`, takes the active scalars.
+    - `world`: `"RAS"` or `"LPS"`, the world axes of the volume. The default, `None`, takes what
+      the volume says. If it says nothing, a warning does, and the volume is written as RAS.
+
+    Whole numbers of 8 bytes become those of 4 if these hold them. The new file takes the place of
+    an old one only when the disk holds all of it.
+
+    Raises `OSError` with the reason if the file is not written, and `ValueError` if `world` is
+    another word.
+    """
+    from paraview import servermanager
+
+    writer = servermanager.writers.MedicalVolumeWriter(
+        Input=source, FileName=name, PointArray=array or "", World=_world(world))
+    _write(writer, name)
+
+
+def save_dicom(source, folder, like, array=None, world=None):
+    """Save a volume as a DICOM series of its own, one file for each slice.
+
+    The series belongs to the study of the patient's scan and keeps its frame of reference, so
+    navigation shows both at the same place. Its images are marked as derived, and the description
+    says: research, not for clinical use.
+
+    - `source`: a ParaView source of an image with one component, such as Bake Deformation.
+    - `folder`: path of the folder to make, on the machine that computes. It must be new or empty.
+    - `like`: path of a DICOM file of the patient's scan, or of a folder with one. The series takes
+      its patient, study, frame of reference and modality.
+    - `array`: name of the point array to write. The default, `None`, takes the active scalars.
+    - `world`: `"RAS"` or `"LPS"`, the world axes of the volume. The default, `None`, takes what
+      the volume says; if it says nothing, nothing is written.
+
+    Numbers that are not whole, or do not fit into 16 bits, are rounded to 65536 steps between the
+    lowest and the highest. The folder is written whole or not at all.
+
+    Raises `OSError` with the reason if it is not written, and `ValueError` if `world` is another
+    word.
+    """
+    from paraview import servermanager
+
+    writer = servermanager.writers.MedicalSeriesWriter(
+        Input=source, FileName=folder, Like=like, PointArray=array or "", World=_world(world))
+    _write(writer, folder)

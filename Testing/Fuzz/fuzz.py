@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Feeds BrainShift spoiled files, properties and fields, and counts what goes wrong.
 
-    ./brainshift fuzz [--count N] [--seed S] [--kind files|dicom|properties|fields]
-                      [--limit SECONDS]
+    ./brainshift fuzz [--count N] [--seed S] [--kind KIND] [--limit SECONDS]
 
 N cases of each kind run in processes of their own: a crash costs one case. It exits with 1 if a
 case ended its process, ran out of time, moved a voxel without a word or left a wrong picture
@@ -20,7 +19,7 @@ import tempfile
 import threading
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-KINDS = ("files", "dicom", "properties", "fields")
+KINDS = ("files", "dicom", "properties", "fields", "points", "transforms")
 #: What a case must not do. A worker names the last two itself.
 FAULTS = ("crash", "hang", "misplaced", "stuck")
 STARTS_WITHIN = 300.0  # seconds for ParaView to start, whatever the limit of a case

@@ -10,7 +10,7 @@ import sys
 from brainshift_testing import load_plugin
 
 KINDS = {"files": "file_cases", "dicom": "dicom_cases", "properties": "property_cases",
-         "fields": "field_cases"}
+         "fields": "field_cases", "points": "point_cases", "transforms": "transform_cases"}
 
 
 def main(kind, seed, first, end, folder):

@@ -17,8 +17,8 @@ from tree import Tree
 #: Names such as numberIn are no words.
 JOINED_WORDS = r"\w*[a-z][A-Z]\w*"
 
-#: GLSL's inout, ParaView's level of detail, and the target registration error.
-OUR_WORDS = "inout,lod,tre"
+#: GLSL's inout, ParaView's level of detail, the target registration error, and a name of ITK's.
+OUR_WORDS = "inout,lod,tranform,tre"
 
 
 #: The major version of LLVM whose answers count, and how ctest hears of a test that is skipped.

@@ -145,6 +145,7 @@ def answer_files(found, folder):
         Input=simple.DeformationField(Input=bent(), Direction="Forward"))
     for name, proxy in made.items():
         simple.SaveData(os.path.join(folder, name + ".pvti"), proxy)
+    simple.SaveData(os.path.join(folder, "bake.nii"), made["bake"], World="RAS")
 
 
 def answers(folder=None):

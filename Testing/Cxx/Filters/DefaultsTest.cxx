@@ -8,7 +8,11 @@
 #include "vtkDisplacementFieldReader.h"
 #include "vtkDisplacementFieldWriter.h"
 #include "vtkFreeFormDeformation.h"
+#include "vtkLandmarkReader.h"
+#include "vtkLandmarkWriter.h"
 #include "vtkTraceDistance.h"
+#include "vtkTransformReader.h"
+#include "vtkVolumeFileWriter.h"
 
 #include <vtkNew.h>
 
@@ -97,4 +101,39 @@ TEST(Defaults, OfDisplacementFieldFilesLiveInTheClasses)
   vtkNew<vtkDisplacementFieldWriter> writer;
   const Defaults ofWriter{ { "World", { double(writer->GetWorld()) } } };
   EXPECT_EQ(defaultsIn("Filters/Proxies/DisplacementFieldWriter.xml"), ofWriter);
+}
+
+TEST(Defaults, OfLandmarkFilesLiveInTheClasses)
+{
+  vtkNew<vtkLandmarkReader> reader;
+  const Defaults ofReader{
+    { "TableAxes", { double(reader->GetTableAxes()) } },
+    { "Volume", { double(reader->GetVolume()) } },
+  };
+  EXPECT_EQ(defaultsIn("Filters/Proxies/LandmarkReader.xml"), ofReader);
+  vtkNew<vtkLandmarkWriter> writer;
+  const Defaults ofWriter{ { "FileAxes", { double(writer->GetFileAxes()) } } };
+  EXPECT_EQ(defaultsIn("Filters/Proxies/LandmarkWriter.xml"), ofWriter);
+}
+
+TEST(Defaults, OfVolumeFilesLiveInTheClass)
+{
+  vtkNew<vtkVolumeFileWriter> writer;
+  const Defaults expected{ { "World", { double(writer->GetWorld()) } } };
+  EXPECT_EQ(defaultsIn("Filters/Proxies/MedicalVolumeWriter.xml"), expected);
+  EXPECT_EQ(defaultsIn("Filters/Proxies/MedicalSeriesWriter.xml"), expected);
+}
+
+TEST(Defaults, OfTransformReaderLiveInTheClass)
+{
+  vtkNew<vtkTransformReader> reader;
+  const int* sides = reader->GetLatticeDimensions();
+  const Defaults expected{
+    { "Direction", { double(reader->GetDirection()) } },
+    { "Kernel", { double(reader->GetKernel()) } },
+    { "LatticeDimensions", { double(sides[0]), double(sides[1]), double(sides[2]) } },
+    { "OutputDirection", { double(reader->GetOutputDirection()) } },
+    { "World", { double(reader->GetWorld()) } },
+  };
+  EXPECT_EQ(defaultsIn("Filters/Proxies/TransformReader.xml"), expected);
 }

@@ -15,7 +15,7 @@ from targets import TARGETS  # noqa: E402
 
 REFERENCE, SIZE, LATTICE, WINDOWS = [24, 24, 20], 16, 5, [32, 48]
 PER_WINDOW = {"frame opaque", "frame translucent", "coarse opaque", "coarse translucent"}
-EDIT = {"ours, full quality", "ours, as while dragging",
+EDIT = {"ours, full quality", "ours, full quality, ambient occlusion", "ours, as while dragging",
         "vtkImageReslice, vtkBSplineTransform, upload, stock"}
 SAME_STEP = {"ours, bent", "stock, same step, as loaded"}
 COARSE = SAME_STEP | {"stock, one-voxel step, as loaded"}
@@ -61,6 +61,7 @@ def test_every_comparison_is_there():
         assert set(rows_of(f"steady frame, {opacities}", window=WINDOWS[1])) == COARSE
         assert set(rows_of(f"steady frame, {opacities}", [SIZE] * 3)) == SAME_STEP
         assert len(rows_of(f"skipping, {opacities}")) == 2
+        assert set(rows_of(f"steady frame, ambient occlusion, {opacities}")) == {"off", "on"}
         assert len(rows_of(f"normals, {opacities}")) == 3
     for kind in ("slices, steady", "slices, moved", "slices, edited"):
         assert set(rows_of(kind)) == SLICES

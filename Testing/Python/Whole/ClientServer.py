@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that a server that draws sends the picture of the built-in session, pixel by pixel, and
 # that brainshift.pick, counters and gpu answer for what the server drew. This holds for Deformed
-# Slices too. A server survives requests that no memory holds.
+# Slices too. A server survives requests that no memory holds, and writes volumes.
 import os
 
 import numpy
-from brainshift_testing import (data, load_plugin, look, on_server, picture, run_tests,
-                                server_finds_plugin, show_volume, view_along)
+from brainshift_testing import (assert_says, data, load_plugin, look, messages, on_server, picture,
+                                run_tests, scratch, server_finds_plugin, show_volume, view_along)
 from slices_testing import show_slices
 
 load_plugin()
@@ -79,9 +79,24 @@ def slices():
     return drawn, brainshift.slice_axes(display), brainshift.counters(display)
 
 
+def written(name):
+    """Writes a bake, here or on the server. Returns why it cannot, where it cannot."""
+    bent = FreeFormDeformation(
+        Input=Wavelet(WholeExtent=[-15, 15, -15, 15, -15, 15]), Strokes=STROKE)
+    baked = BakeDeformation(Input=bent)
+    brainshift.save_volume(baked, scratch(name), world="RAS")
+    try:
+        brainshift.save_volume(baked, scratch("no_folder/" + name), world="RAS")
+    except OSError as error:
+        return str(error)
+    return ""
+
+
 SERVER_FINDS_PLUGIN = server_finds_plugin()
 EXPECTED = Shown().all_answers()
 EXPECTED_SLICES = slices()  # while there is a session
+with messages():
+    EXPECTED_REASON = written("of_session.nii")
 
 
 def assert_same(found):
@@ -159,6 +174,17 @@ def test_a_server_survives_what_no_memory_holds():
     refused, first_bake, made, bake = on_server(refused_and_made, **SERVER_FINDS_PLUGIN)
     assert (refused, made, bake) == (0, 5 * 6 * 7, 31 ** 3), (refused, made, bake)
     assert first_bake in (0, 31 ** 3), first_bake  # as much as the machine has memory
+
+
+def test_a_server_writes_volumes_and_says_why_it_does_not():
+    said = on_server(lambda: written("of_server.nii"), **SERVER_FINDS_PLUGIN)
+    assert_says(said, "no_folder/of_server.nii cannot be written", "No such file")
+    assert said == EXPECTED_REASON.replace("of_session", "of_server"), said
+    files = []
+    for name in ("of_server.nii", "of_session.nii"):
+        with open(scratch(name), "rb") as file:
+            files.append(file.read())
+    assert len(files[0]) == 352 + 4 * 31 ** 3 and files[0] == files[1]
 
 
 run_tests(globals())

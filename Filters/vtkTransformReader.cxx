@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkTransformReader.h"
+
+#include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/Guard.h"
+#include "Filters/Attached/HostMemory.h"
+#include "Filters/Attached/Portions.h"
+#include "Filters/Attached/WholeExtent.h"
+#include "Filters/Fields/FieldImage.h"
+#include "Filters/Transforms/TransformFile.h"
+#include "Filters/Transforms/TransformLattice.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+#include <optional>
+#include <vector>
+
+using namespace brainshift;
+
+namespace
+{
+constexpr vtkIdType PointsAtLeast = 256; // for a thread: about 0.1 ms
+
+// Displacements of a map at the points of a grid; false if the user aborts.
+bool sample(vtkAlgorithm* filter, const DirectedTransform& transform, brainshift::Direction wanted,
+  const Grid& grid, std::vector<glm::vec3>& displacements)
+{
+  displacements.resize(grid.count());
+  const auto points = static_cast<vtkIdType>(grid.count());
+  return forPortions(filter, 0.0, 1.0, points, PointsAtLeast, [&](vtkIdType from, vtkIdType to) {
+    for (vtkIdType point = from; point < to; ++point)
+    {
+      const vtkIdType row = point / grid.dimensions.x;
+      const glm::dvec3 index(
+        point % grid.dimensions.x, row % grid.dimensions.y, row / grid.dimensions.y);
+      const glm::dvec3 position = grid.worldFromGrid(index);
+      displacements[point] = glm::vec3(transform.towards(wanted, position) - position);
+    }
+  });
+}
+
+// The lattice over a volume. Returns what is wrong with it.
+std::string latticeGridOf(vtkInformation* volume, const glm::ivec3& sides, Grid& grid)
+{
+  if (glm::any(glm::lessThan(sides, glm::ivec3(SmallestLatticeSide))) ||
+    glm::any(glm::greaterThan(sides, glm::ivec3(LargestLatticeSide))))
+  {
+    return "LatticeDimensions is " + sizeText(glm::dvec3(sides)) + "; each side must have from " +
+      std::to_string(SmallestLatticeSide) + " to " + std::to_string(LargestLatticeSide) + " points";
+  }
+  grid = withDimensions(wholeGridOf(volume), sides);
+  return {};
+}
+}
+
+struct vtkTransformReader::State
+{
+  std::vector<std::string> Later;
+  std::vector<glm::dvec3> Points;
+  PointTransform Chain;
+  std::string Problem;
+  vtkMTimeType ReadAt = 0; // the time of the properties that Chain and Problem belong to
+  Grid OutputGrid;
+  bool Good = false; // OutputGrid is known
+  vtkNew<vtkDoubleArray> Mapped;
+  vtkNew<vtkDoubleArray> Rows;
+};
+
+vtkStandardNewMacro(vtkTransformReader);
+brainshiftGuardRequestsMacro(vtkTransformReader);
+
+vtkTransformReader::vtkTransformReader()
+  : Internal(std::make_unique<State>())
+{
+  this->SetNumberOfInputPorts(1);
+}
+
+vtkTransformReader::~vtkTransformReader() = default;
+
+int vtkTransformReader::CanReadFile(const char* fileName)
+{
+  return fileName && isTransformFile(fileName) ? 1 : 0;
+}
+
+void vtkTransformReader::AddLaterFileName(const char* fileName)
+{
+  if (fileName && *fileName)
+  {
+    this->Internal->Later.emplace_back(fileName);
+    this->Modified();
+  }
+}
+
+void vtkTransformReader::ClearLaterFileNames()
+{
+  this->Internal->Later.clear();
+  this->Modified();
+}
+
+void vtkTransformReader::AddPoint(double x, double y, double z)
+{
+  this->Internal->Points.emplace_back(x, y, z);
+}
+
+void vtkTransformReader::ClearPoints()
+{
+  this->Internal->Points.clear();
+}
+
+const std::string& vtkTransformReader::Load()
+{
+  State& state = *this->Internal;
+  if (state.ReadAt == this->GetMTime())
+  {
+    return state.Problem;
+  }
+  TransformFiles files{ { this->FileName }, this->FixedImage, this->MovingImage };
+  files.names.insert(files.names.end(), state.Later.begin(), state.Later.end());
+  state.Chain = {};
+  const std::string thrown = thrownBy([&] {
+    state.Problem = this->FileName.empty()
+      ? std::string("FileName is empty; it must name a transform")
+      : readTransformFiles(files, state.Chain);
+  });
+  state.Problem = thrown.empty() ? state.Problem : "Transform Reader " + thrown;
+  if (this->World == LPS)
+  {
+    reverseXY(state.Chain);
+  }
+  state.ReadAt = this->GetMTime();
+  return state.Problem;
+}
+
+std::string vtkTransformReader::GetProblem()
+{
+  return this->Load();
+}
+
+std::string vtkTransformReader::GetKind()
+{
+  return this->Load().empty() ? kindOf(this->Internal->Chain) : std::string();
+}
+
+vtkDoubleArray* vtkTransformReader::GetMatrix()
+{
+  State& state = *this->Internal;
+  state.Rows->SetNumberOfValues(0);
+  const std::optional<AffineLink> affine =
+    this->Load().empty() ? affineOf(state.Chain) : std::nullopt;
+  for (int row = 0; affine && row < 4; ++row)
+  {
+    for (int column = 0; column < 4; ++column)
+    {
+      const double last = column == 3 ? 1.0 : 0.0;
+      const double number = column == 3 ? affine->offset[row % 3] : affine->linear[column][row % 3];
+      state.Rows->InsertNextValue(row == 3 ? last : number);
+    }
+  }
+  return state.Rows;
+}
+
+vtkDoubleArray* vtkTransformReader::GetMappedPoints()
+{
+  State& state = *this->Internal;
+  const auto points = this->Load().empty() ? static_cast<vtkIdType>(state.Points.size()) : 0;
+  state.Mapped->SetNumberOfValues(3 * points);
+  double* const to = state.Mapped->GetPointer(0);
+  parallelFor(0, points, PointsAtLeast, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      const glm::dvec3 point = mapped(state.Chain, state.Points[i]);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        to[3 * i + axis] = point[axis];
+      }
+    }
+  });
+  return state.Mapped;
+}
+
+int vtkTransformReader::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
+}
+
+int vtkTransformReader::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  State& state = *this->Internal;
+  const glm::ivec3 sides(
+    this->LatticeDimensions[0], this->LatticeDimensions[1], this->LatticeDimensions[2]);
+  std::string problem = this->Load();
+  vtkInformation* volume = inputs[0]->GetInformationObject(0);
+  if (problem.empty() && volume)
+  {
+    problem = latticeGridOf(volume, sides, state.OutputGrid);
+  }
+  else if (problem.empty())
+  {
+    const std::optional<Grid> own = ownGridOf(state.Chain);
+    state.OutputGrid = own.value_or(Grid());
+    problem = own ? std::string()
+                  : "Transform file " + this->FileName + " is " + kindOf(state.Chain) +
+        " and has no points of its own: name the Volume to bend";
+  }
+  problem = problem.empty() ? problemOfGrid(state.OutputGrid) : problem;
+  state.Good = problem.empty();
+  if (!state.Good)
+  {
+    vtkErrorMacro(<< problem << ".");
+    return 0;
+  }
+  announce(outputs->GetInformationObject(0), state.OutputGrid);
+  return 1;
+}
+
+int vtkTransformReader::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
+{
+  updateWholeExtent(inputs[0]->GetInformationObject(0)); // the output's would not fit it
+  return 1;
+}
+
+int vtkTransformReader::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const State& state = *this->Internal;
+  if (!state.Good)
+  {
+    return 0; // RequestInformation has reported why
+  }
+  const auto wanted = static_cast<brainshift::Direction>(this->OutputDirection);
+  const DirectedTransform transform{ state.Chain,
+    static_cast<brainshift::Direction>(this->Direction) };
+  const std::string problem =
+    hostMemoryProblem("a field of " + sizeText(glm::dvec3(state.OutputGrid.dimensions)) + " points",
+      2.0 * sizeof(glm::vec3) * static_cast<double>(state.OutputGrid.count()));
+  if (!problem.empty())
+  {
+    vtkErrorMacro(<< problem << ".");
+    return 0;
+  }
+  Lattice lattice;
+  lattice.grid = state.OutputGrid;
+  lattice.kernel = this->Kernel;
+  if (!sample(this, transform, wanted, lattice.grid, lattice.displacements))
+  {
+    return 1;
+  }
+  this->LargestError = 0.0;
+  if (inputs[0]->GetInformationObject(0) && this->OutputDirection == Forward)
+  {
+    interpolateAtPoints(lattice);
+    this->LargestError = largestErrorOf(lattice, transform);
+  }
+  setField(vtkImageData::GetData(outputs), lattice.grid, lattice.displacements, wanted);
+  return 1;
+}
+
+void vtkTransformReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << this->FileName << "\n"
+     << indent << "FixedImage: " << this->FixedImage << "\n"
+     << indent << "MovingImage: " << this->MovingImage << "\n"
+     << indent << "World: " << (this->World == RAS ? "RAS" : "LPS") << "\n"
+     << indent << "Direction: " << (this->Direction == Forward ? "Forward" : "Backward") << "\n"
+     << indent << "OutputDirection: " << (this->OutputDirection == Forward ? "Forward" : "Backward")
+     << "\n"
+     << indent << "Kernel: " << this->Kernel << "\n"
+     << indent << "LargestError: " << this->LargestError << "\n";
+}

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkTransformReader
+ * @brief   reads the transforms of ITK, ANTs, elastix, NiftyReg and FSL as displacement fields
+ *
+ * TransformFile.h lists the formats. Output: an image with the point array Displacement as its
+ * vectors (float32 x 3, mm, world axes) and a field array that names the direction.
+ *
+ * Input (optional): the volume to bend. With it, the points of the output are the control points of
+ * a lattice over the volume. Without it, they are those of the file's own B-spline or field.
+ *
+ * Kind, Matrix and MappedPoints need no pipeline: they read the files by themselves.
+ */
+#ifndef vtkTransformReader_h
+#define vtkTransformReader_h
+
+#include "vtkBrainShiftFiltersModule.h" // for the export macro
+#include "vtkImageAlgorithm.h"
+
+#include <memory> // for the private part
+#include <string>
+
+class vtkDoubleArray;
+
+class VTKBRAINSHIFTFILTERS_EXPORT vtkTransformReader : public vtkImageAlgorithm
+{
+public:
+  static vtkTransformReader* New();
+  vtkTypeMacro(vtkTransformReader, vtkImageAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+  enum WorldType
+  {
+    RAS = 0, ///< x to the right, y to the front: the world of NIFTI Volume Reader
+    LPS = 1, ///< x to the left, y to the back: the world of ITK and of ParaView's own readers
+  };
+
+  enum DirectionType
+  {
+    Forward = 0,  ///< deformedFromRest: where tissue goes
+    Backward = 1, ///< restFromDeformed: which tissue is seen
+  };
+
+  ///@{
+  /** The file. Default: none, which is an error. */
+  vtkSetMacro(FileName, std::string);
+  vtkGetMacro(FileName, std::string);
+  ///@}
+
+  ///@{
+  /** Files that points of the fixed image pass after FileName. Default: none. */
+  void AddLaterFileName(const char* fileName);
+  void ClearLaterFileNames();
+  ///@}
+
+  ///@{
+  /** The NIfTI files that FSL's flirt was given. Only its matrices need them. Default: none. */
+  vtkSetMacro(FixedImage, std::string);
+  vtkGetMacro(FixedImage, std::string);
+  vtkSetMacro(MovingImage, std::string);
+  vtkGetMacro(MovingImage, std::string);
+  ///@}
+
+  ///@{
+  /** The world in which the volumes to bend lie: RAS (default) or LPS. */
+  vtkSetClampMacro(World, int, RAS, LPS);
+  vtkGetMacro(World, int);
+  ///@}
+
+  ///@{
+  /**
+   * What the file's map from the fixed to the moving image is to the volume. Backward (default):
+   * the volume was the moving image. Forward: it was the fixed image.
+   */
+  vtkSetClampMacro(Direction, int, Forward, Backward);
+  vtkGetMacro(Direction, int);
+  ///@}
+
+  ///@{
+  /** The direction of the output. Default Forward, which Free-Form Deformation needs. */
+  vtkSetClampMacro(OutputDirection, int, Forward, Backward);
+  vtkGetMacro(OutputDirection, int);
+  ///@}
+
+  ///@{
+  /** With an input: control points along each axis, 4 to 257. Default 19 19 19. */
+  vtkSetVector3Macro(LatticeDimensions, int);
+  vtkGetVector3Macro(LatticeDimensions, int);
+  ///@}
+
+  ///@{
+  /**
+   * With an input, and forward: the kernel of the Free-Form Deformation (Kernels.h). For B-spline
+   * the output holds coefficients whose cubic passes through the displacements. Default 0.
+   */
+  vtkSetClampMacro(Kernel, int, 0, 1);
+  vtkGetMacro(Kernel, int);
+  ///@}
+
+  ///@{
+  /** Points (mm, world) for GetMappedPoints. */
+  void AddPoint(double x, double y, double z);
+  void ClearPoints();
+  ///@}
+
+  /** Where the file's own map takes the points (mm, world): three numbers each. Owned by this. */
+  vtkDoubleArray* GetMappedPoints();
+
+  /** "identity", "rigid", "affine" or "nonlinear"; empty after a problem. */
+  std::string GetKind();
+
+  /**
+   * The rows of the 4 x 4 matrix that takes points of the fixed image to the moving one (mm,
+   * world); empty if the map bends. Owned by this.
+   */
+  vtkDoubleArray* GetMatrix();
+
+  /** Why the files cannot be read: one sentence, without a full stop. Empty if they can. */
+  std::string GetProblem();
+
+  /**
+   * With an input, and forward: the largest distance (mm) between the lattice and the transform at
+   * the middles of up to 20 x 20 x 20 cells, as of the last run. Else 0.
+   */
+  vtkGetMacro(LargestError, double);
+
+  /** 1 if the file is a transform that is no displacement field. */
+  static int CanReadFile(const char* fileName);
+
+protected:
+  vtkTransformReader();
+  ~vtkTransformReader() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestUpdateExtent(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkTransformReader(const vtkTransformReader&) = delete;
+  void operator=(const vtkTransformReader&) = delete;
+
+  // Reads the files again if a property has changed since. Returns why it cannot.
+  const std::string& Load();
+
+  std::string FileName;
+  std::string FixedImage;
+  std::string MovingImage;
+  int World = RAS;
+  int Direction = Backward;
+  int OutputDirection = Forward;
+  int LatticeDimensions[3] = { 19, 19, 19 };
+  int Kernel = 0;
+  double LargestError = 0.0;
+  struct State; // the transform as read
+  std::unique_ptr<State> Internal;
+};
+
+#endif

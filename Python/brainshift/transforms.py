@@ -1,0 +1,293 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Transforms of registration programs: read, used and written."""
+
+import math
+import os
+
+from .files import save_field
+
+#: Reverses x and y: from LPS, in which ITK's files are, to RAS and back.
+_LPS = (-1.0, -1.0, 1.0, 1.0)
+_DIRECTIONS = ("backward", "forward")
+
+
+def _direction(direction):
+    if str(direction).lower() not in _DIRECTIONS:
+        raise ValueError(f"direction is {direction!r}; it must be 'backward' or 'forward'")
+    return str(direction).lower()
+
+
+def _names(files):
+    names = [files] if isinstance(files, (str, os.PathLike)) else list(files)
+    if not names:
+        raise ValueError("files is empty; it must name a transform")
+    return [os.fspath(name) for name in names]
+
+
+def _report(files, world, fixed_image, moving_image):
+    """The proxy that answers for files, in the process that reads them."""
+    from paraview import simple
+    manager = simple.servermanager.ProxyManager().SMProxyManager
+    report = manager.NewProxy("misc", "TransformReport")
+    report.UnRegister(None)  # Python holds it
+    report.PrototypeOn()  # a question is no step to undo
+    report.GetProperty("FileName").SetElement(0, files[0])
+    for i, name in enumerate(files[1:]):
+        report.GetProperty("LaterFileNames").SetElement(i, name)
+    report.GetProperty("FixedImage").SetElement(0, os.fspath(fixed_image or ""))
+    report.GetProperty("MovingImage").SetElement(0, os.fspath(moving_image or ""))
+    report.GetProperty("World").SetElement(0, ("RAS", "LPS").index(world))
+    report.UpdateVTKObjects()
+    report.UpdatePropertyInformation()
+    problem = report.GetProperty("Problem").GetElement(0)
+    if problem:
+        raise OSError(problem)
+    return report
+
+
+def _answer(report, name):
+    import numpy
+    answer = report.GetProperty(name)
+    return numpy.array([answer.GetElement(i) for i in range(answer.GetNumberOfElements())])
+
+
+class Transform:
+    """What `read_transform` found.
+
+    - `kind`: `"identity"`, `"rigid"`, `"affine"` or `"nonlinear"`.
+    - `moving_from_fixed`: a 4 x 4 array that takes points of the fixed image to the moving image
+      (mm, world axes), or `None` if the transform is nonlinear.
+    """
+
+    def __init__(self, report):
+        self._report = report
+        self.kind = report.GetProperty("Kind").GetElement(0)
+        rows = _answer(report, "Matrix")
+        self.moving_from_fixed = rows.reshape(4, 4) if len(rows) else None
+
+    def map(self, points):
+        """Take points of the fixed image to the moving one.
+
+        - `points`: an N x 3 array of positions in mm, world axes.
+
+        Returns an N x 3 array of positions in mm, world axes. A point outside a B-spline or a field
+        stays where it is, as in ITK.
+        """
+        import numpy
+        points = numpy.asarray(points, float)
+        if points.ndim != 2 or points.shape[1] != 3:
+            raise ValueError(f"points has the shape {points.shape}; it must be N x 3")
+        numbers = points.ravel().tolist()
+        if not numbers:
+            return points.copy()
+        self._report.GetProperty("Points").SetNumberOfElements(len(numbers))
+        self._report.GetProperty("Points").SetElements(numbers)
+        self._report.UpdateVTKObjects()
+        self._report.UpdatePropertyInformation()
+        return _answer(self._report, "MappedPoints").reshape(-1, 3)
+
+
+def read_transform(files, world="RAS", fixed_image=None, moving_image=None):
+    """Read a transform of ITK, Slicer, ANTs, elastix, NiftyReg or FSL.
+
+    Such a transform takes points of the fixed image to the moving one. Images are resampled with
+    it.
+
+    - `files`: path of a file, or a list of paths. Points of the fixed image pass them in order, as
+      with the options `-t` of `antsApplyTransforms`: `["1Warp.nii.gz", "0GenericAffine.mat"]`. The
+      files are read where the volumes are.
+    - `world`: `"RAS"`, the default, or `"LPS"`, the world axes of your points and volumes.
+    - `fixed_image`, `moving_image`: the NIfTI files of the options `-ref` and `-in` of FSL's
+      `flirt`. Its matrices mean nothing without them. No other file needs them.
+
+    Returns a `Transform` with `kind`, `moving_from_fixed` and `map(points)`.
+
+    Raises `OSError` with the reason if a file cannot be read.
+    """
+    return Transform(_report(_names(files), world, fixed_image, moving_image))
+
+
+def _rotation_degrees(turn):
+    """Angles about x, then y, then z of a rotation."""
+    y = math.asin(max(-1.0, min(1.0, -turn[2, 0])))
+    if abs(turn[2, 0]) < 1.0 - 1e-12:
+        x, z = math.atan2(turn[2, 1], turn[2, 2]), math.atan2(turn[1, 0], turn[0, 0])
+    else:  # x and z turn about the same axis
+        x, z = math.atan2(-turn[1, 2], turn[1, 1]), 0.0
+    return [math.degrees(angle) for angle in (x, y, z)]
+
+
+def _middle(source):
+    import numpy
+    source.UpdatePipeline()
+    bounds = source.GetDataInformation().GetBounds()
+    return numpy.array([(bounds[i] + bounds[i + 1]) / 2.0 for i in (0, 2, 4)])
+
+
+def _move_reference(compare, transform, direction):
+    """Sets the rigid motion of a Compare Volumes."""
+    import numpy
+    if transform.kind not in ("identity", "rigid"):
+        raise ValueError(f"the transform is {transform.kind}; Compare Volumes moves its reference "
+                         "rigidly, so it must be rigid. Free-Form Deformation takes any transform")
+    matrix = transform.moving_from_fixed
+    drawn_from_loaded = matrix if direction == "forward" else numpy.linalg.inv(matrix)
+    left, _, right = numpy.linalg.svd(drawn_from_loaded[:3, :3])
+    turn, middle = left @ right, _middle(compare.Reference)
+    compare.ReferenceRotation = _rotation_degrees(turn)
+    compare.ReferenceTranslation = list(
+        drawn_from_loaded[:3, :3] @ middle + drawn_from_loaded[:3, 3] - middle)
+
+
+def _bend(bent, files, options):
+    """Makes a transform the base lattice of a Free-Form Deformation; returns the error in mm."""
+    from paraview import simple
+    active = simple.GetActiveSource()
+    reader = simple.TransformReader(
+        Volume=bent.Input, FileName=files[0], LaterFileNames=files[1:],
+        LatticeDimensions=bent.LatticeDimensions, Kernel=bent.Kernel, **options)
+    reader.UpdatePipeline()
+    bent.Lattice = reader
+    simple.SetActiveSource(active)
+    reader.SMProxy.UpdatePropertyInformation()
+    return reader.SMProxy.GetProperty("LargestError").GetElement(0)
+
+
+def apply_transform(filter, files, direction="backward", world="RAS", fixed_image=None,
+                    moving_image=None):
+    """Bend a volume, or move a reference, with a transform of a registration program.
+
+    - `filter`: a Free-Form Deformation or a Compare Volumes. A Free-Form Deformation gets the
+      transform as its `Lattice`, for its present `LatticeDimensions` and `Kernel`; strokes add to
+      it. A Compare Volumes moves its reference; the transform must be rigid.
+    - `files`, `world`, `fixed_image`, `moving_image`: as in `read_transform`.
+    - `direction`: `"backward"`, the default: what is bent or moved was the moving image. The
+      transform takes points of the picture to points of the volume as loaded. `"forward"`: it was
+      the fixed image. The transform takes points of the volume as loaded to where they are drawn.
+
+    Returns the largest distance in mm between the lattice and the transform, measured between
+    control points, and 0 for Compare Volumes. More `LatticeDimensions` make it smaller.
+
+    Raises `OSError` with the reason if a file cannot be read, and `ValueError` if the filter cannot
+    use the transform.
+    """
+    direction, files = _direction(direction), _names(files)
+    kind = filter.SMProxy.GetXMLName()
+    if kind not in ("FreeFormDeformation", "CompareVolumes"):
+        raise ValueError(f"filter is a {kind}; it must be a Free-Form Deformation or a Compare "
+                         "Volumes")
+    transform = read_transform(files, world, fixed_image, moving_image)
+    if kind == "CompareVolumes":
+        _move_reference(filter, transform, direction)
+        return 0.0
+    return _bend(filter, files, {
+        "Direction": direction.capitalize(), "World": world,
+        "FixedImage": os.fspath(fixed_image or ""), "MovingImage": os.fspath(moving_image or "")})
+
+
+def _write_itk(name, kind, parameters, fixed):
+    """Writes an ITK transform file as text. An old file is replaced by a whole new one only."""
+    beside = f"{name}.part"
+    with open(beside, "w", encoding="ascii") as file:
+        file.write("#Insight Transform File V1.0\n#Transform 0\n"
+                   f"Transform: {kind}_double_3_3\n")
+        for key, numbers in (("Parameters", parameters), ("FixedParameters", fixed)):
+            file.write(f"{key}: " + " ".join(repr(float(number)) for number in numbers) + "\n")
+        file.flush()
+        os.fsync(file.fileno())
+    os.replace(beside, name)
+
+
+def _signs(world):
+    import numpy
+    return numpy.array(_LPS if world == "RAS" else (1.0, 1.0, 1.0, 1.0))
+
+
+def _save_rigid(compare, name, direction, world):
+    """The motion of a reference as an affine transform."""
+    import numpy
+    x, y, z = (math.radians(angle) for angle in compare.ReferenceRotation)
+    (cx, sx), (cy, sy), (cz, sz) = ((math.cos(angle), math.sin(angle)) for angle in (x, y, z))
+    turn = (numpy.array(((cz, -sz, 0), (sz, cz, 0), (0, 0, 1)))
+            @ numpy.array(((cy, 0, sy), (0, 1, 0), (-sy, 0, cy)))
+            @ numpy.array(((1, 0, 0), (0, cx, -sx), (0, sx, cx))))
+    middle = _middle(compare.Reference)
+    matrix = numpy.eye(4)
+    matrix[:3, :3] = turn
+    matrix[:3, 3] = middle - turn @ middle + numpy.array(list(compare.ReferenceTranslation))
+    if direction == "backward":
+        matrix = numpy.linalg.inv(matrix)
+    signs = _signs(world)
+    matrix = signs[:, None] * matrix * signs
+    _write_itk(name, "AffineTransform",
+               [*matrix[:3, :3].ravel(), *matrix[:3, 3]], (0.0, 0.0, 0.0))
+
+
+def _problem_of_spline(bent, direction):
+    """Why a deformation is no B-spline of ITK, or None."""
+    if direction != "forward":
+        return "the backward map of a lattice is no B-spline"
+    if bent.Kernel != "B-Spline":
+        return f"the kernel is {bent.Kernel}; ITK's is B-Spline"
+    bent.UpdatePipeline()
+    fields = bent.GetDataInformation().GetFieldDataInformation()
+    return "a mask cuts the cubic" if fields.GetArrayInformation("FFDMaskWeights") else None
+
+
+def _save_spline(bent, name, world):
+    """The lattice as ITK's B-spline: its control points, and those beside them once more."""
+    import numpy
+    from paraview import servermanager, simple
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    source = simple.DeformationLattice(Input=bent)
+    try:
+        image = servermanager.Fetch(source)
+        sides = image.GetDimensions()
+        points = vtk_to_numpy(image.GetPointData().GetArray("Displacement")).astype(float)
+        spacing = numpy.array(image.GetSpacing())
+        matrix = image.GetDirectionMatrix()
+        axes = numpy.array([[matrix.GetElement(i, j) for j in range(3)] for i in range(3)])
+        origin = numpy.array(image.GetOrigin()) - axes @ spacing
+    finally:
+        simple.Delete(source)
+    signs = _signs(world)[:3]
+    lattice = numpy.pad(points.reshape(*reversed(sides), 3),
+                        ((1, 1), (1, 1), (1, 1), (0, 0)), mode="edge") * signs
+    fixed = [*(side + 2 for side in sides), *(signs * origin), *spacing,
+             *(signs[:, None] * axes).ravel()]
+    _write_itk(name, "BSplineTransform", numpy.moveaxis(lattice, 3, 0).ravel(), fixed)
+
+
+def save_transform(filter, name, direction="backward", spacing=None, world="RAS"):
+    """Save a deformation, or the motion of a reference, for ITK, ANTs, elastix or Slicer.
+
+    - `filter`: a Free-Form Deformation or a Compare Volumes.
+    - `name`: path of the file to write. A Compare Volumes goes into `.tfm` or `.txt`, as an affine
+      transform. A Free-Form Deformation goes into `.nii`, `.nii.gz`, `.mha`, `.mhd` or `.nrrd`, as
+      a displacement field; or into `.tfm` or `.txt`, as a cubic B-spline, where that is exact:
+      forward, with the kernel B-Spline and without a mask. ITK's B-spline ends at the lattice. Text
+      files are written where Python runs.
+    - `direction`: `"backward"`, the default, takes points of the picture to points of the volume as
+      loaded. Images are resampled with it. `"forward"` leads the other way.
+    - `spacing`: distances in mm between the samples of a displacement field, as in `save_field`.
+    - `world`: `"RAS"`, the default, or `"LPS"`, the world axes of the volume.
+
+    Raises `ValueError` if the file cannot hold the map exactly, and `OSError` with the reason if it
+    is not written.
+    """
+    direction, name = _direction(direction), os.fspath(name)
+    kind = filter.SMProxy.GetXMLName()
+    is_text = name.lower().endswith((".tfm", ".txt"))
+    if kind == "CompareVolumes" and is_text:
+        _save_rigid(filter, name, direction, world)
+    elif kind == "FreeFormDeformation" and is_text:
+        problem = _problem_of_spline(filter, direction)
+        if problem:
+            raise ValueError(f"{name} cannot hold this deformation exactly: {problem}. Save a "
+                             "displacement field (.nii.gz, .mha, .nrrd) instead")
+        _save_spline(filter, name, world)
+    elif kind == "FreeFormDeformation":
+        save_field(filter, name, direction.capitalize(), spacing, world)
+    else:
+        raise ValueError(f"a {kind} does not go into {name}; a Compare Volumes goes into .tfm or "
+                         ".txt, a Free-Form Deformation also into files of displacement fields")

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Proves what outside programs cannot say: that maps turn back, where they end, that a lattice gets
+// the coefficients of a B-spline back, and that damaged files end in a sentence.
+#include "Filters/Deformation/Kernels.h"
+#include "Filters/Transforms/PointTransform.h"
+#include "Filters/Transforms/TransformFile.h"
+#include "Filters/Transforms/TransformLattice.h"
+#include "vtkTransformReader.h"
+
+#include <vtkDoubleArray.h>
+#include <vtkNew.h>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <fstream>
+#include <random>
+#include <string>
+#include <vector>
+
+using namespace brainshift;
+
+namespace
+{
+LinkGrid gridOf(const glm::ivec3& sides)
+{
+  LinkGrid grid;
+  grid.dimensions = sides;
+  grid.origin = { -12.0, 5.0, 9.0 };
+  const double turn = 0.3;
+  grid.worldFromGrid = glm::dmat3({ 10 * std::cos(turn), 10 * std::sin(turn), 0 },
+    { -11 * std::sin(turn), 11 * std::cos(turn), 0 }, { 0, 0, 12 });
+  grid.gridFromWorld = glm::inverse(grid.worldFromGrid);
+  return grid;
+}
+
+SplineLink randomSpline()
+{
+  SplineLink spline;
+  spline.grid = gridOf({ 9, 8, 7 });
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> mm(-2.0, 2.0);
+  spline.coefficients.resize(spline.grid.count());
+  for (glm::dvec3& coefficient : spline.coefficients)
+  {
+    coefficient = { mm(random), mm(random), mm(random) };
+  }
+  return spline;
+}
+
+std::string written(const std::string& name, const std::string& text)
+{
+  const std::string path = std::string(BRAINSHIFT_TEST_TEMP) + "/" + name;
+  std::ofstream(path, std::ios::binary) << text;
+  return path;
+}
+
+std::string problemOf(const std::string& name, const std::string& text)
+{
+  PointTransform transform;
+  return readTransformFiles({ { written(name, text) }, "", "" }, transform);
+}
+}
+
+TEST(PointTransform, OfNoLinksIsTheIdentity)
+{
+  const glm::dvec3 point(3.0, -4.0, 5.0);
+  EXPECT_EQ(mapped({}, point), point);
+  EXPECT_EQ(mappedBack({}, point), point);
+  EXPECT_EQ(kindOf({}), "identity");
+}
+
+TEST(PointTransform, TurnsBack)
+{
+  const SplineLink spline = randomSpline();
+  const PointTransform transform{ { AffineLink{ glm::dmat3(1.1), { 2.0, -3.0, 1.0 } }, spline } };
+  for (double share = 2.2; share < 4.5; share += 0.13)
+  {
+    const glm::dvec3 at(share, 0.9 * share + 0.4, 0.7 * share + 0.5);
+    const glm::dvec3 to = spline.grid.origin + spline.grid.worldFromGrid * at;
+    EXPECT_LT(glm::distance(mapped(transform, mappedBack(transform, to)), to), 1e-5);
+  }
+}
+
+TEST(PointTransform, StaysOutsideASplineAndAField)
+{
+  const SplineLink spline = randomSpline();
+  const auto place = [&](double x) {
+    return spline.grid.origin + spline.grid.worldFromGrid * glm::dvec3(x, 3.0, 3.0);
+  };
+  EXPECT_NE(mapped({ { spline } }, place(1.001)), place(1.001));
+  EXPECT_EQ(mapped({ { spline } }, place(0.999)), place(0.999));
+  EXPECT_NE(mapped({ { spline } }, place(6.999)), place(6.999));
+  EXPECT_EQ(mapped({ { spline } }, place(7.001)), place(7.001));
+  FieldLink field{ spline.grid, std::vector<glm::vec3>(spline.grid.count(), glm::vec3(1.0f)) };
+  EXPECT_NE(mapped({ { field } }, place(-0.499)), place(-0.499));
+  EXPECT_EQ(mapped({ { field } }, place(-0.501)), place(-0.501));
+  EXPECT_EQ(mapped({ { field } }, place(8.501)), place(8.501));
+}
+
+TEST(PointTransform, ReversedOnBothSidesMapsReversedPoints)
+{
+  const SplineLink spline = randomSpline();
+  PointTransform lps{ { AffineLink{ glm::dmat3(0.9), { 2.0, -3.0, 1.0 } }, spline } };
+  PointTransform ras = lps;
+  reverseXY(ras);
+  const glm::dvec3 flip(-1.0, -1.0, 1.0);
+  const glm::dvec3 point = spline.grid.origin + spline.grid.worldFromGrid * glm::dvec3(3.0);
+  EXPECT_GT(glm::distance(mapped(lps, point), point), 0.5);
+  EXPECT_LT(glm::distance(flip * mapped(ras, flip * point), mapped(lps, point)), 1e-9);
+}
+
+TEST(TransformLattice, GivesTheCoefficientsOfASplineBack)
+{
+  Lattice lattice =
+    makeLattice({ { 7, 6, 5 }, { 1.0, 2.0, 3.0 }, { 4.0, 5.0, 6.0 } }, KernelBSpline);
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> mm(-3.0f, 3.0f);
+  for (glm::vec3& displacement : lattice.displacements)
+  {
+    displacement = { mm(random), mm(random), mm(random) };
+  }
+  Lattice sampled = lattice;
+  for (std::size_t i = 0; i < lattice.displacements.size(); ++i)
+  {
+    const auto row = i / 7;
+    const glm::dvec3 at(i % 7, row % 6, row / 6);
+    sampled.displacements[i] =
+      cubicDisplacement(lattice.grid.dimensions, lattice.kernel, lattice.displacements.data(), at);
+  }
+  interpolateAtPoints(sampled);
+  for (std::size_t i = 0; i < lattice.displacements.size(); ++i)
+  {
+    EXPECT_LT(glm::distance(sampled.displacements[i], lattice.displacements[i]), 1e-4f);
+  }
+}
+
+TEST(TransformFile, DamagedFilesEndInASentence)
+{
+  std::string matlab(20, '\0');
+  matlab[4] = matlab[8] = '\x7f'; // 127 x 127 numbers
+  matlab[16] = '\x03';
+  const auto says = [](const std::string& problem, const char* words) {
+    return problem.find(words) != std::string::npos;
+  };
+  EXPECT_TRUE(says(problemOf("t.mat", matlab), "ends within a variable"));
+  EXPECT_TRUE(says(problemOf("t.mat", matlab.substr(0, 10)), "ends within a variable"));
+  EXPECT_TRUE(says(problemOf("t.mat", std::string(20, '\x01')), "is no MATLAB file"));
+  EXPECT_TRUE(says(problemOf("t.h5", "\x89HDF\r\n\x1a\n damaged"), "is damaged"));
+  EXPECT_TRUE(says(problemOf("t.txt", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0.5 1"), "last row"));
+  EXPECT_FALSE(isTransformFile(written("t.csv", "x,y,z\n1,2,3\n")));
+  EXPECT_FALSE(isTransformFile(std::string(BRAINSHIFT_TEST_TEMP)));
+}
+
+TEST(TransformReader, AnswersWithoutAPipelineAndSaysWhatIsWrong)
+{
+  vtkNew<vtkTransformReader> reader;
+  EXPECT_EQ(reader->GetProblem(), "FileName is empty; it must name a transform");
+  EXPECT_EQ(reader->GetKind(), "");
+  reader->SetFileName(written("t.txt", "1 0 0 4  0 1 0 5  0 0 1 6  0 0 0 1"));
+  EXPECT_EQ(reader->GetProblem(), "");
+  EXPECT_EQ(reader->GetKind(), "rigid");
+  ASSERT_EQ(reader->GetMatrix()->GetNumberOfValues(), 16);
+  EXPECT_EQ(reader->GetMatrix()->GetValue(7), 5.0);
+  reader->AddPoint(1.0, 2.0, 3.0);
+  ASSERT_EQ(reader->GetMappedPoints()->GetNumberOfValues(), 3);
+  EXPECT_EQ(reader->GetMappedPoints()->GetValue(0), 5.0);
+}

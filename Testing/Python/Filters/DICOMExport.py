@@ -1,0 +1,259 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves that a volume leaves as a DICOM series of the patient's study: pydicom and GDCM find each
+# voxel within 1e-3 mm of where it lay, with its value, in images that are new and marked.
+import os
+import resource
+import shutil
+import signal
+import subprocess
+
+import numpy
+import pydicom
+from brainshift_testing import (assert_says, load_plugin, messages, output, run_tests, scratch,
+                                volume)
+from pydicom.dataset import FileDataset, FileMetaDataset
+from vtkmodules.vtkCommonCore import vtkStringArray
+
+load_plugin()
+import brainshift  # noqa: E402 after the plugin
+from paraview.simple import SaveData  # noqa: E402
+
+OBLIQUE = numpy.array(((0.8, -0.36, 0.48), (0.6, 0.48, -0.64), (0.0, 0.8, 0.6)))
+DIRECTIONS = {"along": numpy.eye(3), "oblique": OBLIQUE,
+              "mirrored": OBLIQUE @ numpy.diag((1.0, -1.0, 1.0)),
+              "turned": numpy.diag((1.0, -1.0, -1.0))}
+SHAPE = (4, 5, 7)
+STORED = {"CT": "1.2.840.10008.5.1.4.1.1.2", "MR": "1.2.840.10008.5.1.4.1.1.4"}
+FRAME = "1.2.3.4.5.6"
+NOTICE = "research, not for clinical use"
+
+
+def like(modality="MR", implicit=False):
+    """A file of the patient's scan."""
+    meta = FileMetaDataset()
+    meta.MediaStorageSOPClassUID = STORED[modality]
+    meta.MediaStorageSOPInstanceUID = "1.2.3.9"
+    meta.TransferSyntaxUID = (pydicom.uid.ImplicitVRLittleEndian if implicit
+                              else pydicom.uid.ExplicitVRLittleEndian)
+    scan = FileDataset(None, {}, file_meta=meta, preamble=b"\0" * 128)
+    scan.is_little_endian, scan.is_implicit_VR = True, implicit
+    scan.SOPClassUID, scan.SOPInstanceUID = STORED[modality], "1.2.3.9"
+    scan.SpecificCharacterSet = "ISO_IR 192"
+    scan.PatientName, scan.PatientID = "Müller^Anna", "4711"
+    scan.PatientBirthDate, scan.PatientSex = "19700131", "F"
+    scan.StudyInstanceUID, scan.StudyID, scan.StudyDate = "1.2.3.4", "7", "20240229"
+    scan.SeriesInstanceUID, scan.SeriesNumber = "1.2.3.4.5", 3
+    scan.SeriesDescription = "T1 head"
+    scan.FrameOfReferenceUID, scan.Modality = FRAME, modality
+    name = scratch(f"like-{modality}-{implicit}.dcm")
+    scan.save_as(name, write_like_original=False)
+    return name
+
+
+def source_of(array, direction=OBLIQUE, world="RAS"):
+    source = volume(array, origin=(-90.5, 12.25, -300.75), spacing=(0.7, 1.1, 2.5),
+                    direction=direction.ravel())
+    if world:
+        word = vtkStringArray()
+        word.SetName("WorldAxes")
+        word.InsertNextValue(world)
+        output(source).GetFieldData().AddArray(word)
+        source.MarkModified(source.SMProxy)
+        source.UpdatePipeline()
+    return source
+
+
+def fresh(name):
+    path = scratch("export-" + name)
+    shutil.rmtree(path, ignore_errors=True)
+    return path
+
+
+def numbers(dtype):
+    top = 250 if dtype == numpy.uint8 else 65535 if dtype == numpy.uint16 else 32000
+    low = -32000 if numpy.dtype(dtype).kind in "if" else 0
+    values = numpy.linspace(low, top, int(numpy.prod(SHAPE))).reshape(SHAPE)
+    return (values if dtype == numpy.float32 else numpy.rint(values)).astype(dtype)
+
+
+def slices_of(folder):
+    names = sorted(os.listdir(folder))
+    return [pydicom.dcmread(os.path.join(folder, name)) for name in names]
+
+
+def points_and_values(images):
+    """World positions, mm, RAS, and values of all pixels, from the words of the standard."""
+    points, values = [], []
+    for image in images:
+        place = numpy.asarray(image.ImagePositionPatient, float)
+        across, down = numpy.asarray(image.ImageOrientationPatient, float).reshape(2, 3)
+        between_rows, between_columns = (float(number) for number in image.PixelSpacing)
+        row, column = numpy.mgrid[0:image.Rows, 0:image.Columns]
+        points.append(place + (column.ravel() * between_columns)[:, None] * across
+                      + (row.ravel() * between_rows)[:, None] * down)
+        values.append(image.pixel_array.ravel() * float(image.RescaleSlope)
+                      + float(image.RescaleIntercept))
+    return numpy.concatenate(points) * (-1, -1, 1), numpy.concatenate(values)
+
+
+def assert_placed(images, source, array, most, case):
+    """Each pixel lies on a voxel of its own, within 1e-3 mm, and has its value, within `most`."""
+    points, values = points_and_values(images)
+    matrix = output(source).GetIndexToPhysicalMatrix()
+    affine = numpy.array([[matrix.GetElement(i, j) for j in range(4)] for i in range(4)])
+    index = numpy.linalg.solve(affine, numpy.c_[points, numpy.ones(len(points))].T)[:3]
+    nearest = numpy.rint(index).astype(int)
+    error = numpy.linalg.norm(affine[:3, :3] @ (index - nearest), axis=0).max()
+    assert error <= 1e-3, (case, error)
+    assert len({tuple(voxel) for voxel in nearest.T}) == array.size, case
+    right = array[nearest[2], nearest[1], nearest[0]].astype(float)
+    assert numpy.abs(values - right).max() <= most, (case, numpy.abs(values - right).max())
+
+
+def test_pydicom_finds_the_same_voxels_at_the_same_places():
+    scan = like()
+    for kind, direction in DIRECTIONS.items():
+        for dtype in (numpy.uint8, numpy.int16, numpy.uint16, numpy.float32):
+            array = numbers(dtype)
+            source = source_of(array, direction)
+            folder = fresh("places")
+            brainshift.save_dicom(source, folder, scan)
+            images = slices_of(folder)
+            assert len(images) == SHAPE[0]
+            step = 64000 / 65535 if dtype == numpy.float32 else 0.0
+            assert_placed(images, source, array, 0.51 * step, (kind, dtype))
+            if kind == "along":
+                assert images[0].ImageOrientationPatient == [1, 0, 0, 0, 1, 0], "as stations show"
+
+
+def test_coronal_slices_have_the_head_on_top():
+    folder = fresh("coronal")
+    to_the_head = numpy.array(((1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0)))
+    source = source_of(numbers(numpy.int16), to_the_head)
+    brainshift.save_dicom(source, folder, like())
+    assert slices_of(folder)[0].ImageOrientationPatient == [1, 0, 0, 0, 0, -1]
+    assert_placed(slices_of(folder), source, numbers(numpy.int16), 0.0, "coronal")
+
+
+def test_volumes_of_the_lps_world():
+    array = numbers(numpy.int16)
+    folders = fresh("lps"), fresh("ras")
+    half_turn = numpy.diag((-1.0, -1.0, 1.0))
+    brainshift.save_dicom(source_of(array, world="LPS"), folders[0], like())
+    brainshift.save_dicom(source_of(array, world=""), folders[1], like(), world="LPS")
+    right = source_of(array)
+    for folder in folders:
+        points, _ = points_and_values(slices_of(folder))
+        center = numpy.array(output(right).GetCenter()) @ half_turn
+        assert numpy.allclose(points.mean(axis=0), center, atol=1e-3)
+
+
+def test_gdcm_reads_the_series():
+    folder = fresh("gdcm")
+    source = source_of(numbers(numpy.int16))
+    brainshift.save_dicom(source, folder, like())
+    name = os.path.join(folder, "IM00002.dcm")
+    said = subprocess.run([os.environ["BRAINSHIFT_GDCMINFO"], name], capture_output=True, text=True,
+                          check=True).stdout
+    place = pydicom.dcmread(name).ImagePositionPatient
+    line = next(line for line in said.splitlines() if line.startswith("Origin"))
+    found = [float(number) for number in line.split("(")[1].rstrip(")").split(",")]
+    assert numpy.allclose(found, numpy.asarray(place, float), atol=1e-3), (found, place)
+    assert_says(said, "MR Image Storage", "Dimensions: (7,5,1)", "ScalarType found   :INT16")
+
+
+def test_patient_and_study_stay_and_the_series_is_new():
+    for modality in STORED:
+        for implicit in (False, True):
+            folders = fresh("one"), fresh("two")
+            for folder in folders:
+                brainshift.save_dicom(source_of(numbers(numpy.int16)), folder,
+                                      like(modality, implicit))
+            one, two = (slices_of(folder) for folder in folders)
+            for image in one:
+                assert str(image.PatientName) == "Müller^Anna" and image.PatientID == "4711"
+                assert image.PatientBirthDate == "19700131" and image.PatientSex == "F"
+                assert image.StudyInstanceUID == "1.2.3.4" and image.StudyDate == "20240229"
+                assert image.FrameOfReferenceUID == FRAME and image.Modality == modality
+                assert image.SOPClassUID == STORED[modality]
+                assert image.file_meta.MediaStorageSOPInstanceUID == image.SOPInstanceUID
+                assert image.ImageType[:2] == ["DERIVED", "SECONDARY"]
+                assert image.SeriesDescription == NOTICE + ": T1 head"
+                assert image.SeriesNumber == 1003 and image.SpacingBetweenSlices == 2.5
+                assert image.BitsAllocated == 16 and image.BurnedInAnnotation == "NO"
+            assert [image.InstanceNumber for image in one] == [1, 2, 3, 4]
+            assert len({image.SeriesInstanceUID for image in one}) == 1
+            assert len({image.SOPInstanceUID for image in one + two} | {"1.2.3.9"}) == 9
+            assert len({"1.2.3.4.5", one[0].SeriesInstanceUID, two[0].SeriesInstanceUID}) == 3
+
+
+def test_save_data_writes_a_folder_and_like_may_be_one():
+    scans = fresh("scans")
+    os.makedirs(scans)
+    with open(os.path.join(scans, "A.txt"), "w", encoding="utf-8") as file:
+        file.write("no image")
+    shutil.copy(like("CT"), os.path.join(scans, "B.dcm"))
+    folder = fresh("save_data")
+    array = numbers(numpy.int16)
+    source = source_of(array)
+    SaveData(folder + ".dcm", proxy=source, Like=scans)
+    assert_placed(slices_of(folder), source, array, 0.0, "Save Data")
+
+
+def assert_fails(save, *words):
+    with messages() as said:
+        try:
+            save()
+        except OSError as error:
+            assert_says(str(error), *words)
+        else:
+            raise AssertionError(f"it must fail with {words}")
+    assert said.text
+
+
+def test_what_cannot_be_written_says_so_and_leaves_nothing():
+    array = numbers(numpy.int16)
+    folder = fresh("refused")
+    scan = like()
+
+    def save(changed=array, world="RAS", where=folder, as_in=scan):
+        return lambda: brainshift.save_dicom(source_of(changed, world=world), where, as_in)
+
+    spoiled = array.astype(numpy.float32)
+    spoiled[1, 2, 3] = numpy.nan
+    assert_fails(save(spoiled), "not finite")
+    assert_fails(save(numpy.stack([array] * 3, axis=-1)), "3 components", "must have 1")
+    assert_fails(save(world=""), "does not know the sides", "set World")
+    assert_fails(save(as_in=__file__), "Like is ", "DICOMExport.py", "no DICOM image")
+    assert_fails(save(where=folder + ".dcm", as_in=""), "Like is missing")
+    assert_fails(save(where=os.path.join(folder, "deeper")), "deeper cannot be written: ",
+                 "No such file")
+    assert not os.path.exists(folder)
+    brainshift.save_dicom(source_of(array), folder, scan)
+    before = sorted(os.listdir(folder))
+    assert_fails(save(), "holds files already")
+    assert sorted(os.listdir(folder)) == before
+
+
+def test_a_full_disk_leaves_no_series():
+    # Where a process may write no more than so many bytes, every disk is full.
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    folder = fresh("full")
+    scan = like()
+    source = source_of(numbers(numpy.int16))
+    brainshift.save_dicom(source, folder, scan)
+    size = os.path.getsize(os.path.join(folder, "IM00001.dcm"))
+    folder = fresh("full")
+    for limit in (200, size - 1):
+        resource.setrlimit(resource.RLIMIT_FSIZE, (limit, before[1]))
+        try:
+            assert_fails(lambda: brainshift.save_dicom(source, folder, scan), "cannot be written: ")
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, before)
+        assert not os.path.exists(folder), limit
+    left = [name for name in os.listdir(os.path.dirname(folder)) if name.startswith(".part-")]
+    assert not left, left
+
+
+run_tests(globals())
