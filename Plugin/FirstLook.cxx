@@ -3,6 +3,7 @@
 
 #include "Interaction/Displays/LabelMaps.h"
 #include "Interaction/Displays/VolumeLook.h"
+#include "Interaction/Views/ActiveDeformation.h"
 
 #include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
@@ -28,7 +29,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 namespace brainshift
@@ -92,9 +92,8 @@ bool isUnturned(vtkSMProxy* view)
 
 bool isShownVolume(pqRepresentation* display)
 {
-  vtkSMProperty* type = display->getProxy()->GetProperty("Representation");
-  const char* name = type ? vtkSMPropertyHelper(type).GetAsString() : nullptr;
-  return display->isVisible() && name && std::strcmp(name, "Deformed Volume") == 0;
+  auto data = qobject_cast<pqDataRepresentation*>(display);
+  return data && data->isVisible() && showsVolume(data);
 }
 
 // Of several volumes that are opened at once, the camera turns to the first. Outlines of masks do

@@ -1,47 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Window/LookMenu.h"
 
+#include "Interaction/Views/ActiveDeformation.h"
 #include "Panel/Tools/LookChoice.h"
 
 #include <pqActiveObjects.h>
 #include <pqDataRepresentation.h>
 #include <pqView.h>
 
-#include <vtkSMPropertyHelper.h>
-#include <vtkSMProxy.h>
-
 #include <QAction>
 #include <QPointer>
-
-#include <cstring>
 
 namespace brainshift
 {
 namespace
 {
-bool isShownVolume(pqRepresentation* display)
+bool isShownVolume(pqDataRepresentation* display)
 {
-  vtkSMProxy* proxy = display->getProxy();
-  const char* type = proxy->GetProperty("Representation")
-    ? vtkSMPropertyHelper(proxy, "Representation").GetAsString()
-    : nullptr;
-  return display->isVisible() && type && std::strcmp(type, "Deformed Volume") == 0;
+  return display && display->isVisible() && showsVolume(display);
 }
 
 // The Deformed Volume of the active source, else the first one of the active view.
 pqDataRepresentation* shownVolume()
 {
   pqDataRepresentation* active = pqActiveObjects::instance().activeRepresentation();
-  if (active && isShownVolume(active))
+  if (isShownVolume(active))
   {
     return active;
   }
   pqView* view = pqActiveObjects::instance().activeView();
   for (pqRepresentation* display : view ? view->getRepresentations() : QList<pqRepresentation*>())
   {
-    if (isShownVolume(display))
+    auto data = qobject_cast<pqDataRepresentation*>(display);
+    if (isShownVolume(data))
     {
-      return qobject_cast<pqDataRepresentation*>(display);
+      return data;
     }
   }
   return nullptr;
