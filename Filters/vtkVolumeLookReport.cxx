@@ -94,11 +94,9 @@ void vtkVolumeLookReport::FindWindow()
 vtkDoubleArray* vtkVolumeLookReport::GetCamera()
 {
   this->Camera->Reset();
-  Box box;
-  std::copy_n(this->TissueBounds, 6, box.bounds);
-  if (box.bounds[0] <= box.bounds[1])
+  if (!this->Tissue.empty())
   {
-    const FirstCamera camera = firstCamera(box, this->ViewAspect, this->ViewAngle);
+    const FirstCamera camera = firstCamera(this->Tissue, this->ViewAspect, this->ViewAngle);
     for (const glm::dvec3& vector : { camera.position, camera.focalPoint, camera.up })
     {
       for (int axis = 0; axis < 3; ++axis)
@@ -128,10 +126,16 @@ void vtkVolumeLookReport::MakeLook()
   fill(this->Colors, look.colors);
   fill(this->Opacities, look.opacities);
   this->DrawsSegment = look.drawsSegment;
-  const Box box = look.colors.empty() ? Box()
-    : look.drawsSegment               ? boxOfSegment(volume)
-                                      : boxAbove(volume, array, look.tissue);
-  std::copy_n(box.bounds, 6, this->TissueBounds);
+  this->Tissue = look.colors.empty() ? std::vector<glm::dvec3>()
+    : look.drawsSegment              ? farPointsOfSegment(volume)
+                                     : farPointsAbove(volume, array, look.tissue);
+  this->TissuePoints->Reset();
+  for (const glm::dvec3& point : this->Tissue)
+  {
+    this->TissuePoints->InsertNextValue(point.x);
+    this->TissuePoints->InsertNextValue(point.y);
+    this->TissuePoints->InsertNextValue(point.z);
+  }
 }
 
 void vtkVolumeLookReport::PrintSelf(ostream& os, vtkIndent indent)

@@ -17,7 +17,10 @@
 #include "vtkObject.h"
 #include "vtkWeakPointer.h" // for what is asked
 
+#include <glm/vec3.hpp> // for points
+
 #include <string> // for names
+#include <vector> // for points
 
 class vtkAlgorithm;
 class vtkDoubleArray;
@@ -90,8 +93,8 @@ public:
   vtkDoubleArray* GetOpacities() { return this->Opacities; }
   /** Whether the look draws the attached segmentation alone. */
   bool GetDrawsSegment() const { return this->DrawsSegment; }
-  /** The box (mm, world, rest frame) around what the look shows; smallest above largest: none. */
-  double* GetTissueBounds() VTK_SIZEHINT(6) { return this->TissueBounds; }
+  /** x, y, z (mm, world, rest frame) of what the look shows farthest out. Empty: nothing. */
+  vtkDoubleArray* GetTissuePoints() { return this->TissuePoints; }
   /**
    * A camera at which the tissue fills a view of ViewAspect: position, focal point, up (mm, world)
    * and parallel scale (mm). Empty if the look shows nothing.
@@ -130,11 +133,12 @@ private:
   vtkNew<vtkDoubleArray> Opacities;
   vtkNew<vtkDoubleArray> Window;
   vtkNew<vtkDoubleArray> Camera;
+  vtkNew<vtkDoubleArray> TissuePoints;
   double Percentiles[2] = { 1.0, 99.0 };
   double ViewAspect = 1.0;
   double ViewAngle = 30.0;
   bool DrawsSegment = false;
-  double TissueBounds[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
+  std::vector<glm::dvec3> Tissue; // mm, world, rest frame: its farthest points
 };
 
 #endif

@@ -107,9 +107,9 @@ bool isFirstVolume(pqDataRepresentation* display)
 
 // Turns the camera to the tissue, and takes the scale of colours away, which natural colours do not
 // need. Both later: then the display has a view, and ParaView has placed the camera.
-void finishLater(pqDataRepresentation* display, const std::vector<double>& bounds)
+void finishLater(pqDataRepresentation* display, const std::vector<double>& tissue)
 {
-  QTimer::singleShot(0, display, [display, bounds] {
+  QTimer::singleShot(0, display, [display, tissue] {
     auto view = vtkSMRenderViewProxy::SafeDownCast(
       display->getView() ? display->getView()->getProxy() : nullptr);
     if (!view)
@@ -120,7 +120,7 @@ void finishLater(pqDataRepresentation* display, const std::vector<double>& bound
       ->SetScalarBarVisibility(view, false);
     if (display->isVisible() && isFirstVolume(display) && isUnturned(view))
     {
-      aimAt(view, bounds);
+      aimAt(view, tissue);
     }
     display->getView()->render();
   });
@@ -198,7 +198,7 @@ void giveLook(pqDataRepresentation* display)
   if (!look.name.isEmpty())
   {
     applyLook(display, look);
-    finishLater(display, look.bounds);
+    finishLater(display, look.tissue);
   }
 }
 

@@ -6,10 +6,11 @@
 #ifndef BrainShift_FirstCamera_h
 #define BrainShift_FirstCamera_h
 
-#include "Filters/Looks/Intensities.h"
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 
 #include <glm/vec3.hpp>
+
+#include <vector>
 
 namespace brainshift
 {
@@ -23,14 +24,15 @@ struct FirstCamera
 };
 
 /**
- * Looks at the tissue in a box from the patient's right, front and above.
+ * Looks at tissue from the patient's right, front and above. All its points are seen; those
+ * farthest apart stand a little inside two opposite edges of the view.
  *
- * @param box         mm, world; it must be valid
+ * @param tissue      mm, world; at least one: see FarPoints
  * @param aspect      width of the view as a share of its height
  * @param viewAngle   of the picture's height, degrees
  */
 VTKBRAINSHIFTFILTERS_EXPORT FirstCamera firstCamera(
-  const Box& box, double aspect, double viewAngle);
+  const std::vector<glm::dvec3>& tissue, double aspect, double viewAngle);
 }
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/Segmentation.h"
+#include "Filters/Looks/FarPoints.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -99,6 +100,7 @@ public:
       static_cast<vtkIdType>(this->Place.offset(index.x, index.y, index.z)), 0);
   }
   bool isHere() const { return this->Array; }
+  int step() const { return this->Step; }
 
 private:
   void find(vtkImageData* volume, const ArrayChoice& choice)
@@ -209,36 +211,6 @@ glm::dvec3 indexOf(const Grid& grid, std::size_t voxel)
   return { voxel % x, voxel / x % y, voxel / x / y };
 }
 
-// The box around positions (mm, world) that the processes know.
-class BoxFinder
-{
-public:
-  void add(const glm::dvec3& world)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->Ends[2 * axis] = std::max(this->Ends[2 * axis], -world[axis]);
-      this->Ends[2 * axis + 1] = std::max(this->Ends[2 * axis + 1], world[axis]);
-    }
-  }
-
-  Box ofAllProcesses()
-  {
-    reduce(this->Ends, vtkCommunicator::MAX_OP);
-    Box box;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      box.bounds[2 * axis] = -this->Ends[2 * axis];
-      box.bounds[2 * axis + 1] = this->Ends[2 * axis + 1];
-    }
-    return box;
-  }
-
-private:
-  // The smallest ones are negated.
-  std::vector<double> Ends = std::vector<double>(6, -std::numeric_limits<double>::max());
-};
-
 // The values at the middles of the segmentation's voxels.
 Histogram countSegment(const Part& part, vtkImageData* volume, const Histogram& all)
 {
@@ -282,6 +254,71 @@ std::array<int, 2> filled(const std::vector<double>& counts, int first, int size
   }
   return { static_cast<int>(low - begin), static_cast<int>(high - begin) - 1 };
 }
+
+// The first and the last voxel of rows along i, where only these can lie farthest out. Only runs of
+// a few neighbours count: lone voxels are noise.
+class RunEnds
+{
+public:
+  explicit RunEnds(int step)
+    : Step(step)
+  {
+  }
+
+  // Indices with k slowest and i fastest, each one rising.
+  void add(const glm::ivec3& index)
+  {
+    const bool sameRow = index.y == this->Last.y && index.z == this->Last.z;
+    const bool follows = sameRow && index.x == this->Last.x + this->Step;
+    this->Run = follows ? this->Run + 1 : 1;
+    this->Last = index;
+    if (!sameRow)
+    {
+      this->Found = false;
+    }
+    if (this->Run < ShortestRun)
+    {
+      return;
+    }
+    if (!this->Found)
+    {
+      this->Ends.push_back(index - glm::ivec3((ShortestRun - 1) * this->Step, 0, 0));
+      this->Ends.push_back(index);
+      this->Found = true;
+    }
+    this->Ends.back() = index;
+  }
+
+  const std::vector<glm::ivec3>& all() const { return this->Ends; }
+
+private:
+  static constexpr int ShortestRun = 3;
+  int Step;
+  int Run = 0;
+  bool Found = false; // in this row
+  glm::ivec3 Last{ -1 };
+  std::vector<glm::ivec3> Ends;
+};
+
+// The first and the last voxel inside, from `begin` to before `end`; none: nothing.
+std::vector<std::size_t> endsOf(const std::vector<char>& inside, std::size_t begin, std::size_t end)
+{
+  const auto from = inside.begin() + static_cast<std::ptrdiff_t>(begin);
+  const auto to = inside.begin() + static_cast<std::ptrdiff_t>(end);
+  const auto isInside = [](char value) { return value != 0; };
+  const auto first = std::find_if(from, to, isInside);
+  if (first == to)
+  {
+    return {};
+  }
+  auto last = to - 1;
+  while (!*last)
+  {
+    --last;
+  }
+  return { static_cast<std::size_t>(first - inside.begin()),
+    static_cast<std::size_t>(last - inside.begin()) };
+}
 }
 
 Intensities readIntensities(vtkImageData* volume, const ArrayChoice& array)
@@ -318,53 +355,63 @@ Histogram readHistogram(vtkImageData* volume, const ArrayChoice& array, int bins
                                       : Histogram();
 }
 
-Box boxAbove(vtkImageData* volume, const ArrayChoice& array, double value)
+std::vector<glm::dvec3> farPointsAbove(vtkImageData* volume, const ArrayChoice& array, double value)
 {
-  Box box;
   const Part part(volume, array);
   if (!part.exists())
   {
-    return box;
+    return {};
   }
   const glm::ivec3 size = part.wholeSize();
   const glm::ivec3 first(0, size.x, size.x + size.y);
   std::vector<double> counts(static_cast<std::size_t>(first.z) + size.z, 0.0);
+  RunEnds ends(part.step());
   part.forEach([&](const glm::ivec3& index, double at) {
-    for (int axis = 0; axis < 3 && at > value; ++axis)
+    if (at > value)
     {
-      counts[static_cast<std::size_t>(first[axis]) + index[axis]] += 1.0;
+      ends.add(index);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        counts[static_cast<std::size_t>(first[axis]) + index[axis]] += 1.0;
+      }
     }
   });
   reduce(counts, vtkCommunicator::SUM_OP);
-  std::array<std::array<int, 2>, 3> rows;
+  glm::ivec3 low;
+  glm::ivec3 high;
   for (int axis = 0; axis < 3; ++axis)
   {
-    rows[axis] = filled(counts, first[axis], size[axis]);
+    const std::array<int, 2> rows = filled(counts, first[axis], size[axis]);
+    low[axis] = rows[0];
+    high[axis] = rows[1];
   }
-  BoxFinder finder;
-  for (int corner = 0; corner < 8 && part.isHere() && rows[0][0] <= rows[0][1]; ++corner)
+  FarPoints points;
+  for (const glm::ivec3& index : ends.all())
   {
-    finder.add(part.world(
-      glm::dvec3(rows[0][corner & 1], rows[1][corner >> 1 & 1], rows[2][corner >> 2 & 1])));
+    if (glm::all(glm::greaterThanEqual(index, low)) && glm::all(glm::lessThanEqual(index, high)))
+    {
+      points.add(part.world(glm::dvec3(index)));
+    }
   }
-  return finder.ofAllProcesses();
+  return points.ofAllProcesses();
 }
 
-Box boxOfSegment(vtkImageData* volume)
+std::vector<glm::dvec3> farPointsOfSegment(vtkImageData* volume)
 {
-  BoxFinder finder;
+  FarPoints points;
   const Segmentation segmentation = volume ? readSegmentation(volume) : Segmentation();
   if (segmentation.labels)
   {
     const Mask mask = segmentOf(segmentation, segmentation.chosen);
-    for (std::size_t voxel = 0; voxel < mask.inside.size(); ++voxel)
+    const auto row = static_cast<std::size_t>(mask.grid.dimensions.x);
+    for (std::size_t begin = 0; begin < mask.inside.size(); begin += row)
     {
-      if (mask.inside[voxel])
+      for (const std::size_t voxel : endsOf(mask.inside, begin, begin + row))
       {
-        finder.add(mask.grid.worldFromGrid(indexOf(mask.grid, voxel)));
+        points.add(mask.grid.worldFromGrid(indexOf(mask.grid, voxel)));
       }
     }
   }
-  return finder.ofAllProcesses();
+  return points.ofAllProcesses();
 }
 }

@@ -9,7 +9,10 @@
 #include "Filters/Looks/Histogram.h"
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 
+#include <glm/vec3.hpp>
+
 #include <string>
+#include <vector>
 
 class vtkImageData;
 
@@ -54,21 +57,15 @@ VTKBRAINSHIFTFILTERS_EXPORT Intensities readIntensities(
 VTKBRAINSHIFTFILTERS_EXPORT Histogram readHistogram(
   vtkImageData* volume, const ArrayChoice& array, int bins);
 
-/** Smallest and largest x, y and z (mm, world). Not valid (smallest above largest): nothing. */
-struct Box
-{
-  double bounds[6] = { 1.0, -1.0, 1.0, -1.0, 1.0, -1.0 };
-};
-
 /**
- * The box around the voxels above a value. Rows of voxels with hardly any of them, such as noise,
- * do not count. All processes must call it.
+ * The farthest of the voxels above a value, mm, world. Rows of voxels with hardly any of them, and
+ * lone voxels, are noise and do not count. All processes must call it and get the same.
  */
-VTKBRAINSHIFTFILTERS_EXPORT Box boxAbove(
+VTKBRAINSHIFTFILTERS_EXPORT std::vector<glm::dvec3> farPointsAbove(
   vtkImageData* volume, const ArrayChoice& array, double value);
 
-/** The box around the attached segmentation's chosen labels. All processes must call it. */
-VTKBRAINSHIFTFILTERS_EXPORT Box boxOfSegment(vtkImageData* volume);
+/** The farthest voxels of the attached segmentation's chosen labels, in the same way. */
+VTKBRAINSHIFTFILTERS_EXPORT std::vector<glm::dvec3> farPointsOfSegment(vtkImageData* volume);
 }
 
 #endif

@@ -15,8 +15,6 @@
 
 #include <QMap>
 
-#include <algorithm>
-
 namespace brainshift
 {
 namespace
@@ -66,7 +64,7 @@ VolumeLook makeVolumeLook(pqDataRepresentation* display, const QString& name)
   look.colors = vtkSMPropertyHelper(report, "Colors").GetDoubleArray();
   look.opacities = vtkSMPropertyHelper(report, "Opacities").GetDoubleArray();
   look.drawsSegment = vtkSMPropertyHelper(report, "DrawsSegment").GetAsInt() != 0;
-  look.bounds = vtkSMPropertyHelper(report, "TissueBounds").GetDoubleArray();
+  look.tissue = vtkSMPropertyHelper(report, "TissuePoints").GetDoubleArray();
   look.name = look.colors.empty() ? QString() : name.isEmpty() ? look.names.value(0) : name;
   return look;
 }
@@ -117,19 +115,22 @@ void rememberLook(const QString& kind, const QString& name)
   pqApplicationCore::instance()->settings()->setValue("BrainShift/Look/" + kind, name);
 }
 
-void aimAt(vtkSMRenderViewProxy* view, const std::vector<double>& bounds)
+void aimAt(vtkSMRenderViewProxy* view, const std::vector<double>& tissue)
 {
-  if (bounds.size() != 6 || bounds[0] > bounds[1])
+  std::vector<glm::dvec3> points;
+  for (std::size_t i = 0; i + 2 < tissue.size(); i += 3)
+  {
+    points.emplace_back(tissue[i], tissue[i + 1], tissue[i + 2]);
+  }
+  if (points.empty())
   {
     return;
   }
-  Box box;
-  std::copy_n(bounds.begin(), 6, box.bounds);
   const std::vector<int> size = vtkSMPropertyHelper(view, "ViewSize").GetIntArray();
   const double aspect =
     size.size() == 2 && size[1] > 0 ? static_cast<double>(size[0]) / size[1] : 1.0;
   const FirstCamera camera =
-    firstCamera(box, aspect, vtkSMPropertyHelper(view, "CameraViewAngle").GetAsDouble());
+    firstCamera(points, aspect, vtkSMPropertyHelper(view, "CameraViewAngle").GetAsDouble());
   vtkSMPropertyHelper(view, "CameraFocalPoint").Set(&camera.focalPoint.x, 3);
   vtkSMPropertyHelper(view, "CameraPosition").Set(&camera.position.x, 3);
   vtkSMPropertyHelper(view, "CameraViewUp").Set(&camera.up.x, 3);

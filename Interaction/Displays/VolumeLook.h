@@ -25,7 +25,7 @@ struct VolumeLook
   std::vector<double> colors;    ///< value, red, green, blue of each colour
   std::vector<double> opacities; ///< value, opacity
   bool drawsSegment = false;     ///< draws the attached segmentation alone
-  std::vector<double> bounds;    ///< mm, world: the box around what it shows; see aimAt
+  std::vector<double> tissue;    ///< mm, world: x, y, z of what it shows farthest out; see aimAt
 };
 
 /// Reads the volume of a display that has colours, and makes a look for it.
@@ -43,9 +43,9 @@ QString chosenLook(const QString& kind);
 /// Remembers it, also for the next start.
 void rememberLook(const QString& kind, const QString& name);
 
-/// Looks at a box from the patient's right, front and above, so that tissue fills the view.
-/// @param bounds   mm, world: smallest and largest x, y, z; if not valid, the camera stays
-void aimAt(vtkSMRenderViewProxy* view, const std::vector<double>& bounds);
+/// Looks from the patient's right, front and above, so that tissue fills the view.
+/// @param tissue   mm, world: x, y, z of its farthest points; if there are none, the camera stays
+void aimAt(vtkSMRenderViewProxy* view, const std::vector<double>& tissue);
 }
 
 #endif

@@ -66,11 +66,10 @@ def a_head_is_seen_at_once():
     tissue = seen(view)
     height, width = tissue.shape
     rows, columns = tissue.any(axis=1).sum() / height, tissue.any(axis=0).sum() / width
-    assert 0.75 < max(rows, columns) < 1.0, (
+    assert 0.85 < max(rows, columns) < 0.97, (
         rows, columns, list(view.CameraPosition), list(view.CameraFocalPoint), tissue.shape)
+    assert not tissue[[0, -1]].any() and not tissue[:, [0, -1]].any(), "an edge cuts the head"
     assert tissue[height // 2 - 5:height // 2 + 5, width // 2 - 5:width // 2 + 5].all()
-    corners = tissue[[0, 0, -1, -1], [0, -1, 0, -1]]
-    assert not corners.any(), "the background is seen"
     red, green, blue = picture(view)[tissue].mean(axis=0)
     assert red > green > blue, "skin is warm"
     return view, reader, display
