@@ -105,6 +105,15 @@ bool isFirstVolume(pqDataRepresentation* display)
   return first != all.end() && *first == display;
 }
 
+void hideScale(pqDataRepresentation* display)
+{
+  if (display->getView())
+  {
+    vtkSMPVRepresentationProxy::SafeDownCast(display->getProxy())
+      ->SetScalarBarVisibility(display->getView()->getProxy(), false);
+  }
+}
+
 // Turns the camera to the tissue, and takes the scale of colours away, which natural colours do not
 // need. Both later: then the display has a view, and ParaView has placed the camera.
 void finishLater(pqDataRepresentation* display, const std::vector<double>& tissue)
@@ -116,8 +125,7 @@ void finishLater(pqDataRepresentation* display, const std::vector<double>& tissu
     {
       return;
     }
-    vtkSMPVRepresentationProxy::SafeDownCast(display->getProxy())
-      ->SetScalarBarVisibility(view, false);
+    hideScale(display);
     if (display->isVisible() && isFirstVolume(display) && isUnturned(view))
     {
       aimAt(view, tissue);
@@ -194,6 +202,8 @@ void giveLook(pqDataRepresentation* display)
   {
     outline(display);
     noteLabelMap(sourceOf(display));
+    // Later: ParaView shows the scale of an outline, too.
+    QTimer::singleShot(0, display, [display] { hideScale(display); });
   }
   if (!look.name.isEmpty())
   {
@@ -219,8 +229,15 @@ void showFirstLook(pqDataRepresentation* display)
   const Users users = colors && !isNew ? usersOf(colors, display) : Users::None;
   if (users == Users::Strangers)
   {
-    // Later: ParaView still sets the colours of the array's name when it registers a display.
-    QTimer::singleShot(0, display, [display] { takeOwnColors(display); });
+    // Later: ParaView still sets the colours of the array's name when it registers a display, and
+    // shows their scale.
+    QTimer::singleShot(0, display, [display, wasShown = isScaleShown(colors)] {
+      if (!wasShown)
+      {
+        hideScale(display);
+      }
+      takeOwnColors(display);
+    });
   }
   else if (colors && users == Users::None && (isNew || isLook(colors)))
   {
@@ -256,12 +273,6 @@ void shareColors(pqDataRepresentation* display, pqDataRepresentation* from)
   }
   to->UpdateVTKObjects();
 }
-
-void hideScale(pqDataRepresentation* display)
-{
-  vtkSMPVRepresentationProxy::SafeDownCast(display->getProxy())
-    ->SetScalarBarVisibility(display->getView()->getProxy(), false);
-}
 }
 
 void joinLook(pqDataRepresentation* display)
@@ -277,8 +288,7 @@ void joinLook(pqDataRepresentation* display)
   const QPointer<pqDataRepresentation> from = input;
   QTimer::singleShot(0, display, [display, from, hides] {
     SCOPED_UNDO_EXCLUDE(); // it belongs to Apply
-    const bool isShown = display->getView();
-    if (hides && isShown)
+    if (hides)
     {
       hideScale(display); // that of the array's name
     }
@@ -286,7 +296,7 @@ void joinLook(pqDataRepresentation* display)
     {
       shareColors(display, from);
     }
-    if (hides && isShown)
+    if (hides)
     {
       hideScale(display);
     }

@@ -5,6 +5,7 @@
 #include <QVTKOpenGLStereoWidget.h>
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
+#include <pqLoadDataReaction.h>
 #include <pqObjectBuilder.h>
 #include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
@@ -217,6 +218,12 @@ TEST_HAND_EXPORT void test_hand_create_filter(const char* name)
   SCOPED_UNDO_SET("Create filter");
   pqApplicationCore::instance()->getObjectBuilder()->createFilter(
     "filters", name, pqActiveObjects::instance().activeSource());
+}
+
+// As File > Open does, before Apply. One path.
+TEST_HAND_EXPORT void test_hand_open(const char* path)
+{
+  pqLoadDataReaction::loadData(QStringList{ QString::fromUtf8(path) });
 }
 
 // A button, by its object name. Returns whether it could be pressed.

@@ -141,6 +141,11 @@ def create_filter(name):
     _library.test_hand_create_filter(name.encode())
 
 
+def open_file(path):
+    """Opens a file as File > Open does; click("Accept") applies it."""
+    _library.test_hand_open(path.encode())
+
+
 def click(name):
     """Presses a button of the window; False if there is none or it is disabled."""
     return bool(_library.test_hand_click(name.encode()))

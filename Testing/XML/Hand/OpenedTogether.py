@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves what the window shows of a head and its brain mask that were opened together, the mask
-first: the camera turns to the head, a filter keeps the head's colours and shows no scale of them,
+first: the camera turns to the head, no scale of colours is shown, a filter keeps the head's colours,
 and one click on Brain shows the brain by the open mask. One undo takes that back.
 
 ParaView's window runs this file as a script; what did not hold is written down for the pvpython
@@ -28,6 +28,11 @@ def comes(condition):
     return False
 
 
+def scales_of_colours():
+    return [part for part in Opened.view.Representations
+            if part.GetXMLName() == "ScalarBarWidgetRepresentation" and part.Visibility]
+
+
 class Opened:
     """What the steps share."""
 
@@ -39,12 +44,15 @@ def opens_both():
     view = Opened.view = simple.GetActiveViewOrCreate("RenderView")
     view.CameraPosition, view.CameraFocalPoint = [0, 0, 1], [0, 0, 0]
     view.CameraViewUp = [0, 1, 0]
-    Opened.mask, Opened.head = simple.OpenDataFile(MASK), simple.OpenDataFile(HEAD)
-    Opened.of_mask = simple.Show(Opened.mask, view)
-    Opened.of_head = simple.Show(Opened.head, view)
-    simple.ResetCamera(view)
-    simple.SetActiveSource(Opened.head)
+    hand.open_file(MASK)
+    Opened.mask = simple.GetActiveSource()
+    hand.open_file(HEAD)
+    Opened.head = simple.GetActiveSource()
+    hand.wait(300)
+    assert hand.click("Accept")
     hand.wait(500)
+    Opened.of_mask = simple.GetDisplayProperties(Opened.mask, view)
+    Opened.of_head = simple.GetDisplayProperties(Opened.head, view)
 
 
 def the_camera_turns_to_the_head():
@@ -52,6 +60,7 @@ def the_camera_turns_to_the_head():
     assert Opened.of_mask.Representation == "Outline"
     assert Opened.of_head.Representation == "Deformed Volume"
     assert comes(lambda: list(Opened.view.CameraViewUp) == [0, 0, 1])
+    assert not scales_of_colours(), "skin needs none"
 
 
 def a_filter_keeps_the_heads_colours():
