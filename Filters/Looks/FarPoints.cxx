@@ -64,7 +64,7 @@ std::vector<glm::dvec3> FarPoints::ofAllProcesses() const
   {
     all.resize(this->Found.size() * static_cast<std::size_t>(processes->GetNumberOfProcesses()));
     processes->AllGather(
-      &this->Found[0].reach, &all[0].reach, static_cast<vtkIdType>(4 * this->Found.size()));
+      &this->Found[0].reach, &all[0].reach, 4 * static_cast<vtkIdType>(this->Found.size()));
   }
   FarPoints farthest;
   for (const Farthest& found : all)

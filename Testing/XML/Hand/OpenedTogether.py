@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves what the window shows of a head and its brain mask that were opened together, the mask
-first: the camera turns to the head, no scale of colours is shown, a filter keeps the head's colours,
-and one click on Brain shows the brain by the open mask. One undo takes that back.
+first: the camera turns to the head, and no scale of colours is shown. A filter keeps the head's
+colours. One click on Brain shows the brain by the open mask. One undo takes that back.
 
 ParaView's window runs this file as a script; what did not hold is written down for the pvpython
 that runs it afterwards."""
