@@ -22,7 +22,7 @@ NEARER_MM = 9.0
 # RAS mm: the middle of the brain, and a place on the cortex, left of the midline.
 CENTRE = (-309.0, 22.0, 477.0)
 CORTEX = (-340.0, 30.0, 515.0)
-BRAIN_FOCUS, BRAIN_EYE, BRAIN_ANGLE = (-310, 24, 478), (-170, 480, 90), 16
+BRAIN_FOCUS, BRAIN_EYE, BRAIN_ANGLE = (-310, 24, 468), (-170, 480, 90), 16.5
 HEAD_FOCUS, HEAD_EYE, HEAD_ANGLE = (-309, 28, 476), (-550, 350, 250), 19
 
 _kept, _kept_sources = {}, []
