@@ -142,6 +142,7 @@ void ToolCarrier::putDown()
     this->Tool->settle();
   }
   this->Holding = false;
+  this->HeldByKey = false;
   this->Dropped = false;
   this->Zooming = false;
   this->ByKeys = false;
@@ -251,6 +252,7 @@ bool ToolCarrier::hearMouse(const HandEvent& event)
   }
   this->ByKeys = false;
   this->HasCursor = event.kind != HandEvent::Kind::Leave;
+  this->HeldByKey = this->HeldByKey && event.kind == HandEvent::Kind::Move; // a button ends it
   return this->handle(event);
 }
 
@@ -359,8 +361,9 @@ void ToolCarrier::cancel()
 {
   if (this->Tool && this->isAlive())
   {
-    this->Dropped = this->Holding;
+    this->Dropped = this->Holding && !this->HeldByKey;
     this->Holding = false;
+    this->HeldByKey = false;
     this->Tool->cancel();
     this->Widget->widget()->LetGo();
     ToolSettings::instance()->setAxisHold(ToolSettings::AxisHold::None);

@@ -56,12 +56,13 @@ private:
   bool handle(const HandEvent& event);
   bool pass(const HandEvent& event);
   bool canDo(Command command) const;
-  void act(const KeyCommand& found);
+  void act(const KeyCommand& found, bool shift);
   void holdAxis(ToolSettings::AxisHold axis);
   void setInterest();
   void moveCursor(int way); ///< See Command::MoveCursor.
   void stampByKey(int clicks);
-  bool viewHasKeys() const; ///< The view of the tool has the keyboard.
+  void holdByKey(bool shift); ///< See Command::TakeHold.
+  bool viewHasKeys() const;   ///< The view of the tool has the keyboard.
   void stepSlices(int voxels);
   StrokeEditor* editorUnderCursor() const; ///< Null if nothing can be deformed there.
   void stopShowingBefore();
@@ -87,6 +88,7 @@ private:
   QTimer Refresh; ///< Merges events that may have changed something.
   QTimer Settle;  ///< Ends a burst of wheel clicks.
   bool Holding = false;
+  bool HeldByKey = false; ///< And not by a mouse button.
   bool Dropped = false;   ///< The button is still down after Escape.
   bool Zooming = false;   ///< A burst of wheel clicks began away from tissue.
   bool ByKeys = false;    ///< Keys moved the cursor last, and not the mouse.

@@ -67,7 +67,10 @@ void ToolCarrier::moveCursor(int way)
   }
   const HandEvent event = steppedByKey(this->View, from, way);
   this->ByKeys = this->HasCursor = true;
-  this->Tool->settle();
+  if (!this->Holding)
+  {
+    this->Tool->settle();
+  }
   this->handle(event);
   takeMouseAlong(this->View, event); // the tool does not need it
 }
@@ -80,6 +83,21 @@ void ToolCarrier::stampByKey(int clicks)
   event.y = this->CursorY;
   event.clicks = clicks;
   this->handle(event);
+}
+
+void ToolCarrier::holdByKey(bool shift)
+{
+  HandEvent event;
+  event.kind = this->Holding ? HandEvent::Kind::Release : HandEvent::Kind::Press;
+  event.x = this->CursorX;
+  event.y = this->CursorY;
+  event.shift = shift;
+  this->handle(event);
+  this->HeldByKey = this->Holding;
+  if (this->Holding && shift) // it selects, and takes no hold
+  {
+    this->holdByKey(false);
+  }
 }
 
 StrokeEditor* ToolCarrier::editorUnderCursor() const
@@ -103,7 +121,10 @@ bool ToolCarrier::canDo(Command command) const
       return inHand && this->ToolInHand == ToolKind::Stamp &&
         (overView || (this->ByKeys && this->viewHasKeys()));
     case Command::MoveCursor:
-      return inHand && !this->Holding && this->viewHasKeys();
+      return inHand && (!this->Holding || this->HeldByKey) && this->viewHasKeys();
+    case Command::TakeHold:
+      return inHand && (!this->Holding || this->HeldByKey) && this->HasCursor &&
+        this->viewHasKeys();
     case Command::StampByKey:
       return inHand && !this->Holding && this->ToolInHand == ToolKind::Stamp && this->HasCursor &&
         this->viewHasKeys();
@@ -129,7 +150,7 @@ void ToolCarrier::stepSlices(int voxels)
   }
 }
 
-void ToolCarrier::act(const KeyCommand& found)
+void ToolCarrier::act(const KeyCommand& found, bool shift)
 {
   constexpr int firstAxis = static_cast<int>(ToolSettings::AxisHold::X);
   switch (found.command)
@@ -148,6 +169,9 @@ void ToolCarrier::act(const KeyCommand& found)
       break;
     case Command::StampByKey:
       this->stampByKey(found.place == 0 ? 1 : -1);
+      break;
+    case Command::TakeHold:
+      this->holdByKey(shift);
       break;
     case Command::ShowAsLoaded:
       this->ShowingBefore = this->editorUnderCursor();
@@ -181,7 +205,9 @@ bool ToolCarrier::eventFilter(QObject* watched, QEvent* event)
     return true;
   }
   Qt::KeyboardModifiers free = Qt::KeypadModifier;
-  free.setFlag(Qt::ShiftModifier, found.command == Command::StampByKey); // many type + with it
+  free.setFlag(Qt::ShiftModifier,
+    found.command == Command::StampByKey || // many type + with it
+      (found.command == Command::TakeHold && this->ToolInHand == ToolKind::Move));
   if ((key->modifiers() & ~free) != Qt::NoModifier || !this->canDo(found.command))
   {
     return QObject::eventFilter(watched, event);
@@ -197,7 +223,7 @@ bool ToolCarrier::eventFilter(QObject* watched, QEvent* event)
     found.command == Command::MoveCursor || found.command == Command::StampByKey;
   if (type == QEvent::KeyPress && (repeats || !key->isAutoRepeat()))
   {
-    this->act(found);
+    this->act(found, key->modifiers().testFlag(Qt::ShiftModifier));
   }
   return true;
 }

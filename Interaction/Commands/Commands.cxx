@@ -98,18 +98,29 @@ std::vector<CommandRow> stampRows()
       Qt::ShiftModifier, QT_TRANSLATE_NOOP("BrainShift", "Change the reach along the push."),
       QT_TRANSLATE_NOOP("BrainShift", "change the reach along the push")),
     byKey(Command::StampByKey, Scope::Tool, { ToolKind::Stamp }, { Qt::Key_Plus, Qt::Key_Minus },
-      QT_TRANSLATE_NOOP("BrainShift",
-        "Pull or push the tissue under the cursor, as a click of the wheel does. The view must "
-        "have "
-        "the keyboard: Alt+3 gives it to the active view.")),
+      QT_TRANSLATE_NOOP(
+        "BrainShift", "Pull or push the tissue under the cursor, as a click of the wheel does.")),
+    byKey(Command::SetPointOfInterest, Scope::Tool, { ToolKind::Stamp }, { Qt::Key_I },
+      QT_TRANSLATE_NOOP("BrainShift", "Set the point of interest to the tissue under the cursor."),
+      QT_TRANSLATE_NOOP("BrainShift", "set the point of interest")),
+  };
+}
+
+std::vector<CommandRow> handRows()
+{
+  return {
     byKey(Command::MoveCursor, Scope::Tool, {},
       { Qt::Key_Left, Qt::Key_Right, Qt::Key_Up, Qt::Key_Down },
       QT_TRANSLATE_NOOP("BrainShift",
         "Move the cursor over the view. If it is elsewhere, it comes to the middle of the view "
-        "first.")),
-    byKey(Command::SetPointOfInterest, Scope::Tool, { ToolKind::Stamp }, { Qt::Key_I },
-      QT_TRANSLATE_NOOP("BrainShift", "Set the point of interest to the tissue under the cursor."),
-      QT_TRANSLATE_NOOP("BrainShift", "set the point of interest")),
+        "first. The view must have the keyboard: taking a tool gives it to the active view.")),
+    byKey(Command::TakeHold, Scope::Tool, {}, { Qt::Key_Space },
+      QT_TRANSLATE_NOOP("BrainShift",
+        "Take hold of what lies under the cursor, as a mouse button does. Drag it with Left, "
+        "Right, Up and Down. Press the key again to let go.")),
+    byKey(Command::SelectByKey, Scope::Tool, { ToolKind::Move }, { Qt::SHIFT | Qt::Key_Space },
+      QT_TRANSLATE_NOOP(
+        "BrainShift", "Select one more control point, or deselect a selected control point.")),
     byKey(Command::Cancel, Scope::Tool, {}, { Qt::Key_Escape },
       QT_TRANSLATE_NOOP("BrainShift", "Cancel the stroke that is being made.")),
     byMouse(Command::SwitchVolume, Scope::Tool, {}, Mouse::Click, {},
@@ -234,7 +245,7 @@ const std::vector<CommandRow>& commandTable()
   static const std::vector<CommandRow> table = [] {
     std::vector<CommandRow> all;
     for (const auto& rows :
-      { windowRows(), moveAndSoftRows(), stampRows(), viewRows(), listRows() })
+      { windowRows(), moveAndSoftRows(), stampRows(), handRows(), viewRows(), listRows() })
     {
       all.insert(all.end(), rows.begin(), rows.end());
     }

@@ -32,6 +32,8 @@ enum class Command
   StampByDrag,
   StampByKey, ///< Keys: forward, backward.
   MoveCursor, ///< Keys: left, right, up, down.
+  TakeHold,   ///< Key: drags without a mouse. With Shift: SelectByKey.
+  SelectByKey,
   ChangeMajorRadius,
   SetPointOfInterest,
   HoldAxis, ///< Keys: X, Y, Z.

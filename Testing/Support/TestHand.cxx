@@ -132,14 +132,15 @@ TEST_HAND_EXPORT void test_hand_wheel(int x, int y, int clicks, int modifiers)
 }
 
 // `key`: Qt::Key. As Qt does, asks first whether a shortcut may have it.
-TEST_HAND_EXPORT void test_hand_key(int key, int press)
+TEST_HAND_EXPORT void test_hand_key(int key, int press, int modifiers)
 {
+  const Qt::KeyboardModifiers held(modifiers);
   if (press)
   {
-    QKeyEvent ask(QEvent::ShortcutOverride, key, Qt::NoModifier);
+    QKeyEvent ask(QEvent::ShortcutOverride, key, held);
     send(ask);
   }
-  QKeyEvent event(press ? QEvent::KeyPress : QEvent::KeyRelease, key, Qt::NoModifier);
+  QKeyEvent event(press ? QEvent::KeyPress : QEvent::KeyRelease, key, held);
   send(event);
 }
 

@@ -97,17 +97,17 @@ def wheel(pixel, clicks, modifiers=0):
             int(pixel[0]), _from_top(pixel[1]), 1 if clicks > 0 else -1, modifiers)
 
 
-def key_down(key):
-    _library.test_hand_key(key if isinstance(key, int) else ord(key.upper()), 1)
+def key_down(key, modifiers=0):
+    _library.test_hand_key(key if isinstance(key, int) else ord(key.upper()), 1, modifiers)
 
 
-def key_up(key):
-    _library.test_hand_key(key if isinstance(key, int) else ord(key.upper()), 0)
+def key_up(key, modifiers=0):
+    _library.test_hand_key(key if isinstance(key, int) else ord(key.upper()), 0, modifiers)
 
 
-def tap(key):
-    key_down(key)
-    key_up(key)
+def tap(key, modifiers=0):
+    key_down(key, modifiers)
+    key_up(key, modifiers)
 
 
 def shortcut(letter):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Proves that the stamp works without a mouse: the arrow keys move the cursor over the view, + and
-- pull and push what lies under it, I sets the point of interest, and each place is one stroke.
+"""Proves that tools work without a mouse: the arrow keys move the cursor over the view. With the
+stamp, + and - pull and push what lies under it, I sets the point of interest, and each place is one
+stroke. Space takes hold of tissue or of control points and lets go of them, as a mouse button does;
+Escape drops what is held.
 
 ParaView's window runs this file as a script; what did not hold is written down for the pvpython
 that runs it afterwards."""
@@ -97,12 +99,73 @@ def i_sets_the_point():
     assert math.dist(point, under) < NEAR, (point, under)
 
 
+def dragged_by(keys, pixels, tool):
+    """The strokes of a drag by keys, and of the same drag by the mouse, each one undone."""
+    made = []
+    middle = [side // 2 for side in simple.GetActiveView().ViewSize]
+    for by_keys in (True, False):
+        hand.take(hand.NONE)
+        hand.take(tool)
+        hand.wait(200)
+        if by_keys:
+            for key in (RIGHT, " ", *keys, " "):
+                type_key(key)
+        else:
+            end = [at + moved for at, moved in zip(middle, pixels)]
+            hand.drag(middle, end)
+        hand.wait(300)
+        made.append(window.strokes())
+        window.edit("Undo")
+        hand.wait(200)
+        assert not window.strokes(), "the drag is one undo step"
+    return made
+
+
+def space_takes_hold():
+    for tool in (hand.SOFT, hand.MOVE, hand.STAMP):
+        by_keys, by_mouse = dragged_by((UP, UP, RIGHT, UP), (STEP, 3 * STEP), tool)
+        assert len(by_keys) == len(by_mouse) == 1, (tool, by_keys, by_mouse)
+        for got, wanted in zip(by_keys[0], by_mouse[0]):
+            assert math.isclose(got, wanted, abs_tol=1e-3), (tool, by_keys, by_mouse)
+
+
+def escape_drops_what_is_held():
+    hand.take(hand.NONE)
+    hand.take(hand.SOFT)
+    hand.wait(200)
+    for key in (RIGHT, " ", UP, hand.ESCAPE, UP, UP):
+        type_key(key)
+    hand.wait(300)
+    assert not window.strokes(), "Escape dropped it, and the arrows move the cursor again"
+
+
+def shift_selects_several():
+    """Two control points, and a drag of both."""
+    hand.take(hand.NONE)
+    hand.take(hand.MOVE)
+    hand.wait(200)
+    type_key(RIGHT)
+    hand.tap(" ", hand.SHIFT)
+    for _ in range(12):
+        type_key(RIGHT)
+    hand.tap(" ", hand.SHIFT)
+    assert not window.strokes(), "selecting moves nothing"
+    for key in (" ", UP, " "):
+        type_key(key)
+    hand.wait(300)
+    assert len(window.strokes()) == 2, window.strokes()
+    window.edit("Undo")
+
+
 def play():
     yield (begin,)
     yield (plus_does_nothing_elsewhere,)
     yield (the_first_arrow_brings_the_cursor,)
     yield (arrows_move_it,)
     yield (i_sets_the_point,)
+    yield (space_takes_hold,)
+    yield (escape_drops_what_is_held,)
+    yield (shift_selects_several,)
 
 
 if __name__ == "__main__":
