@@ -252,7 +252,7 @@ bool ToolCarrier::hearMouse(const HandEvent& event)
   }
   this->ByKeys = false;
   this->HasCursor = event.kind != HandEvent::Kind::Leave;
-  this->HeldByKey = this->HeldByKey && event.kind == HandEvent::Kind::Move; // a button ends it
+  this->HeldByKey = this->HeldByKey && event.kind != HandEvent::Kind::Press;
   return this->handle(event);
 }
 
