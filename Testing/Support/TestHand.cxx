@@ -316,6 +316,26 @@ TEST_HAND_EXPORT int test_hand_is_enabled(const char* name)
   return -1;
 }
 
+// Chooses an entry in the list of a property that the properties panel shows. Returns whether it
+// could.
+TEST_HAND_EXPORT int test_hand_choose(const char* property, const char* entry)
+{
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    auto panel = window->findChild<QWidget*>("propertiesPanel");
+    auto widget = panel ? panel->findChild<QWidget*>(property) : nullptr;
+    auto list = widget ? widget->findChild<QComboBox*>() : nullptr;
+    const int index = list && list->isEnabled() ? list->findText(QString::fromUtf8(entry)) : -1;
+    if (index >= 0)
+    {
+      list->setCurrentIndex(index);
+      Q_EMIT list->activated(index);
+      return 1;
+    }
+  }
+  return 0;
+}
+
 // A click of the mouse on a button, by its object name, while the view has the keyboard's focus.
 // Returns whether the view still has it.
 TEST_HAND_EXPORT int test_hand_keeps_focus(const char* name)

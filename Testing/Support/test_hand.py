@@ -177,6 +177,13 @@ def is_enabled(name):
     return None if enabled < 0 else bool(enabled)
 
 
+def choose(name, entry):
+    """Chooses in the list of a property that the panel shows; False if there is none."""
+    chosen = bool(_library.test_hand_choose(name.encode(), entry.encode()))
+    wait(100)
+    return chosen
+
+
 def keeps_focus(name):
     """Clicks a button of the window with the mouse; whether the view keeps the keyboard."""
     return bool(_library.test_hand_keeps_focus(name.encode()))
