@@ -98,6 +98,7 @@ double* vtkDeformedVolumeReport::GetTissue()
 double* vtkDeformedVolumeReport::GetFacts()
 {
   std::fill_n(this->Facts, 17, 0.0);
+  this->LabelName.clear();
   auto whole = vtkWholeVolumeRepresentation::SafeDownCast(this->ActiveRepresentation());
   vtkDeformedVolumeMapper* mapper = this->Mapper();
   vtkDeformedSlicesMapper* slices = this->Slices();
@@ -137,6 +138,7 @@ void vtkDeformedVolumeReport::TakeFacts(const brainshift::TissueFacts& facts)
     *next++ = known.value_or(0.0);
   }
   *next = static_cast<double>(facts.axes);
+  this->LabelName = facts.labelName;
 }
 
 double* vtkDeformedVolumeReport::GetSameTissue()

@@ -13,7 +13,7 @@
 #include "vtkObject.h"
 #include "vtkWeakPointer.h" // for what is asked
 
-#include <string> // for the counters' text
+#include <string> // for texts
 
 class vtkDeformedSlicesMapper;
 class vtkDeformedVolumeMapper;
@@ -60,13 +60,16 @@ public:
    *     7, 8    1 if a deformation places the tissue, or 0; Jacobian determinant (1: no change)
    *     9, 10   1, or 0 if unknown; the value of the nearest voxel of the drawn array
    *     11, 12  1, or 0 if unknown; the value of the nearest voxel of the reference
-   *     13, 14  1, or 0 if unknown; the label of the nearest voxel of the segmentation
+   *     13, 14  1, or 0 if unknown; the label of the nearest voxel: TissueFacts.h
    *     15      what the data says about its axes: 0 nothing, 1 RAS, 2 LPS
    *     16      distance from the camera along the direction of view, mm
    *
    * Nothing is drawn.
    */
   double* GetFacts() VTK_SIZEHINT(17);
+
+  /** What the data calls the label that GetFacts told last. Empty: it has no name. */
+  const char* GetLabelName() { return this->LabelName.c_str(); }
 
   ///@{
   /** Place (mm, the volume's own axes) that GetSameTissue starts from. Default 0 0 0. */
@@ -116,6 +119,7 @@ private:
   bool ToRest = true;
   double Tissue[7] = {};
   double Facts[17] = {};
+  std::string LabelName;
   double SameTissue[3] = {};
   double SliceNormals[9] = {};
   double VoxelSteps[3] = {};

@@ -12,17 +12,42 @@ namespace brainshift
 {
 namespace
 {
-constexpr const char* ValuesName = "LabelValues";
-constexpr const char* NamesName = "LabelNames";
-constexpr const char* ColorsName = "LabelColors";
+// The arrays of a table; all null if one is missing or has another length.
+struct Table
+{
+  vtkIntArray* values = nullptr;
+  vtkStringArray* names = nullptr;
+  vtkUnsignedCharArray* colors = nullptr;
+};
+
+Table tableOf(vtkDataObject* volume, const std::string& word)
+{
+  vtkFieldData* fields = volume ? volume->GetFieldData() : nullptr;
+  if (!fields)
+  {
+    return {};
+  }
+  const auto array = [&](const char* what) {
+    return fields->GetAbstractArray((word + what).c_str());
+  };
+  Table table;
+  table.values = vtkIntArray::SafeDownCast(array("Values"));
+  table.names = vtkStringArray::SafeDownCast(array("Names"));
+  table.colors = vtkUnsignedCharArray::SafeDownCast(array("Colors"));
+  const bool isWhole = table.values && table.names && table.colors &&
+    table.values->GetNumberOfComponents() == 1 && table.colors->GetNumberOfComponents() == 3 &&
+    table.names->GetNumberOfTuples() == table.values->GetNumberOfTuples() &&
+    table.colors->GetNumberOfTuples() == table.values->GetNumberOfTuples();
+  return isWhole ? table : Table();
+}
 }
 
-void attachLabels(vtkDataObject* volume, const std::vector<Label>& labels)
+void attachLabels(vtkDataObject* volume, const std::vector<Label>& labels, const std::string& word)
 {
   vtkFieldData* fields = volume->GetFieldData();
-  for (const char* name : { ValuesName, NamesName, ColorsName })
+  for (const char* what : { "Values", "Names", "Colors" })
   {
-    fields->RemoveArray(name);
+    fields->RemoveArray((word + what).c_str());
   }
   if (labels.empty())
   {
@@ -31,9 +56,9 @@ void attachLabels(vtkDataObject* volume, const std::vector<Label>& labels)
   vtkNew<vtkIntArray> values;
   vtkNew<vtkStringArray> names;
   vtkNew<vtkUnsignedCharArray> colors;
-  values->SetName(ValuesName);
-  names->SetName(NamesName);
-  colors->SetName(ColorsName);
+  values->SetName((word + "Values").c_str());
+  names->SetName((word + "Names").c_str());
+  colors->SetName((word + "Colors").c_str());
   colors->SetNumberOfComponents(3);
   for (const Label& label : labels)
   {
@@ -46,30 +71,32 @@ void attachLabels(vtkDataObject* volume, const std::vector<Label>& labels)
   fields->AddArray(colors);
 }
 
-std::vector<Label> labelsOf(vtkDataObject* volume)
+std::vector<Label> attachedLabels(vtkDataObject* volume, const std::string& word)
 {
-  vtkFieldData* fields = volume ? volume->GetFieldData() : nullptr;
-  if (!fields)
-  {
-    return {};
-  }
-  auto* values = vtkIntArray::SafeDownCast(fields->GetAbstractArray(ValuesName));
-  auto* names = vtkStringArray::SafeDownCast(fields->GetAbstractArray(NamesName));
-  auto* colors = vtkUnsignedCharArray::SafeDownCast(fields->GetAbstractArray(ColorsName));
-  if (!values || !names || !colors || colors->GetNumberOfComponents() != 3 ||
-    names->GetNumberOfTuples() != values->GetNumberOfTuples() ||
-    colors->GetNumberOfTuples() != values->GetNumberOfTuples())
-  {
-    return {};
-  }
-  std::vector<Label> labels(static_cast<std::size_t>(values->GetNumberOfTuples()));
-  for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+  const Table table = tableOf(volume, word);
+  const vtkIdType count = table.values ? table.values->GetNumberOfTuples() : 0;
+  std::vector<Label> labels(static_cast<std::size_t>(count));
+  for (vtkIdType i = 0; i < count; ++i)
   {
     Label& label = labels[static_cast<std::size_t>(i)];
-    label.value = values->GetValue(i);
-    label.name = names->GetValue(i);
-    colors->GetTypedTuple(i, label.color.data());
+    label.value = table.values->GetValue(i);
+    label.name = table.names->GetValue(i);
+    table.colors->GetTypedTuple(i, label.color.data());
   }
   return labels;
+}
+
+std::string labelName(vtkDataObject* volume, double value, const std::string& word)
+{
+  const Table table = tableOf(volume, word);
+  const vtkIdType count = table.values ? table.values->GetNumberOfTuples() : 0;
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    if (table.values->GetValue(i) == value)
+    {
+      return table.names->GetValue(i);
+    }
+  }
+  return {};
 }
 }

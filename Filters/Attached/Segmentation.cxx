@@ -26,6 +26,8 @@ void attachSegmentation(vtkDataObject* volume, const Segmentation& segmentation)
   {
     fields->RemoveArray(name);
   }
+  attachLabels(
+    volume, segmentation.labels ? segmentation.names : std::vector<Label>(), SegmentationLabels);
   if (!segmentation.labels)
   {
     return;
@@ -92,6 +94,7 @@ std::string SegmentationSource::find(
   }
   segmentation.labels = this->Labels;
   segmentation.grid = found.grid;
+  segmentation.names = attachedLabels(image);
   return {};
 }
 }

@@ -9,10 +9,13 @@
  *     FFDSegmentationGrid    see GridArray.h
  *     FFDSegmentationLabels  int: the labels that are drawn if the user chooses none; absent: all
  *                            above 0
+ *     FFDSegmentationValues  ... Names, ... Colors: as LabelTable.h says, where the labels have
+ *                            names
  */
 #ifndef BrainShift_Segmentation_h
 #define BrainShift_Segmentation_h
 
+#include "Filters/Attached/LabelTable.h"
 #include "Filters/Deformation/Grid.h"
 #include "Filters/Deformation/MaskWeights.h"
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
@@ -31,12 +34,16 @@ namespace brainshift
 /** Name of the field array of the labels. */
 constexpr const char* SegmentationName = "FFDSegmentation";
 
+/** First word of the arrays that name the labels: see LabelTable.h. */
+constexpr const char* SegmentationLabels = SegmentationName;
+
 /** What the arrays hold. */
 struct Segmentation
 {
   vtkSmartPointer<vtkDataArray> labels; ///< null: none
   Grid grid;                            ///< of the labels
   std::vector<int> chosen;              ///< drawn if the user chooses none; empty: all above 0
+  std::vector<Label> names;             ///< of labels that have one; readSegmentation leaves it
 };
 
 /**

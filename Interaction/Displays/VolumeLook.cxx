@@ -19,11 +19,6 @@ namespace brainshift
 {
 namespace
 {
-QString textOf(vtkSMProxy* report, const char* property)
-{
-  return QString::fromUtf8(vtkSMPropertyHelper(report, property).GetAsString());
-}
-
 // The colours that looks gave, by the number of the colour map.
 QMap<vtkTypeUInt32, std::vector<double>>& given()
 {

@@ -30,7 +30,7 @@ std::optional<double> knownAt(const std::vector<double>& numbers, std::size_t fi
   return numbers[first] == 0.0 ? std::nullopt : std::optional<double>(numbers[first + 1]);
 }
 
-// What a colour map of categories calls a value; empty without such a name.
+// What a colour map of categories calls a value; empty without a name.
 QString nameOf(double value, vtkSMProxy* display)
 {
   vtkSMProxy* colors = vtkSMPropertyHelper(display, "LookupTable", /*quiet*/ true).GetAsProxy();
@@ -49,14 +49,27 @@ QString nameOf(double value, vtkSMProxy* display)
   return {};
 }
 
-// A segment's label. Zero is the background, and a mask of fractions has no labels.
-QString numberOf(const std::optional<double>& label)
+// A label by what the data calls it, and its number. Zero is the background, by whatever name, and
+// a mask of fractions has no labels.
+QString labelText(double label, const QString& name)
 {
-  const bool isLabel = label && *label > 0.0 && *label == std::floor(*label);
-  return isLabel ? QString::number(*label, 'f', 0) : QString();
+  constexpr int Longest = 60; // letters; a file may hold any
+  const QString words = name.simplified();
+  if (label == 0.0 || label != std::floor(label) || (words.isEmpty() && label < 0.0))
+  {
+    return {};
+  }
+  const QString number = QString::number(label, 'f', 0);
+  if (words.isEmpty())
+  {
+    return number;
+  }
+  const QString shown = words.size() > Longest ? words.left(Longest) + QChar(0x2026) : words;
+  return QString("%1 (%2)").arg(shown, number);
 }
 
-CursorTissue tissueOf(const std::vector<double>& facts, vtkSMProxy* display)
+CursorTissue tissueOf(
+  const std::vector<double>& facts, const QString& labelName, vtkSMProxy* display)
 {
   CursorTissue tissue;
   tissue.deformed = tripleAt(facts, 1);
@@ -66,7 +79,8 @@ CursorTissue tissueOf(const std::vector<double>& facts, vtkSMProxy* display)
   tissue.intensity = knownAt(facts, 9);
   tissue.reference = knownAt(facts, 11);
   tissue.label = tissue.intensity ? nameOf(*tissue.intensity, display) : QString();
-  tissue.label = tissue.label.isEmpty() ? numberOf(knownAt(facts, 13)) : tissue.label;
+  const std::optional<double> label = knownAt(facts, 13);
+  tissue.label = tissue.label.isEmpty() && label ? labelText(*label, labelName) : tissue.label;
   const int chosen = vtkSMPropertyHelper(display, "WorldAxes", true).GetAsInt();
   tissue.axes = static_cast<WorldAxes>(chosen ? chosen : static_cast<int>(facts[15]));
   return tissue;
@@ -106,7 +120,8 @@ std::optional<CursorTissue> CursorProbe::tissueAt(pqRenderView* view, int x, int
     const std::vector<double> facts = answerOf(this->Report, "Facts");
     if (facts.size() == Numbers && facts[0] != 0.0 && (!nearest || facts[16] < nearestMm))
     {
-      nearest = tissueOf(facts, display->getProxy());
+      const QString name = facts[13] != 0.0 ? textOf(this->Report, "LabelName") : QString();
+      nearest = tissueOf(facts, name, display->getProxy());
       nearestMm = facts[16];
     }
   }

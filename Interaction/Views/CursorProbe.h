@@ -31,7 +31,9 @@ struct CursorTissue
   double volumeShare = 1.0;        ///< Jacobian determinant. 1: the tissue keeps its size.
   std::optional<double> intensity; ///< Of the nearest voxel, in the array that is shown.
   std::optional<double> reference; ///< Of the nearest voxel of a reference that is shown.
-  QString label;                   ///< Name or number of its segment. Empty: none.
+  /// Its label: as the colour map calls it; else as the data calls it, with its number; else the
+  /// number. Empty: none.
+  QString label;
   WorldAxes axes = WorldAxes::Unknown;
 };
 

@@ -28,10 +28,23 @@ void pointAt(vtkSMProxy* report, const char* property, vtkSMProxy* about)
   }
 }
 
-std::vector<double> answerOf(vtkSMProxy* report, const char* property)
+namespace
+{
+vtkSMPropertyHelper askedAnew(vtkSMProxy* report, const char* property)
 {
   report->UpdateVTKObjects();
   report->UpdatePropertyInformation(report->GetProperty(property));
-  return vtkSMPropertyHelper(report, property).GetDoubleArray();
+  return vtkSMPropertyHelper(report, property);
+}
+}
+
+std::vector<double> answerOf(vtkSMProxy* report, const char* property)
+{
+  return askedAnew(report, property).GetDoubleArray();
+}
+
+QString textOf(vtkSMProxy* report, const char* property)
+{
+  return QString::fromUtf8(askedAnew(report, property).GetAsString());
 }
 }

@@ -7,6 +7,8 @@
 
 #include <vtkSmartPointer.h>
 
+#include <QString>
+
 #include <vector>
 
 class vtkSMProxy;
@@ -21,6 +23,9 @@ void pointAt(vtkSMProxy* report, const char* property, vtkSMProxy* about);
 
 /// The numbers of an information property, asked anew.
 std::vector<double> answerOf(vtkSMProxy* report, const char* property);
+
+/// The text of an information property, asked anew.
+QString textOf(vtkSMProxy* report, const char* property);
 }
 
 #endif

@@ -102,9 +102,11 @@ CursorLine::CursorLine(QWidget* parent)
 {
   this->setObjectName("BrainShiftCursor");
   this->setContentsMargins(6, 0, 6, 0);
+  this->setTextFormat(Qt::PlainText); // names come from files
   this->setToolTip(
     tr("What lies under the cursor: its position (mm), the position before it was bent, the value "
-       "of the nearest voxel, how far it moved, and its volume now (100 %: unchanged)."));
+       "and the label of the nearest voxel, how far it moved, and its volume now (100 %: "
+       "unchanged)."));
   this->Asking.setSingleShot(true);
   this->Asking.setInterval(AskEachMs);
   this->connect(&this->Asking, &QTimer::timeout, this, &CursorLine::ask);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Field/TissueFacts.h"
 
+#include "Filters/Attached/LabelTable.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Attached/Segmentation.h"
 #include "Representations/Field/SceneDeformation.h"
@@ -62,8 +63,16 @@ TissueFacts factsAt(vtkImageData* image, const DrawnValues& values, SceneDeforma
     facts.volumeShare = glm::determinant(deformation.map().jacobian(facts.rest));
   }
   facts.value = numberAt(values.scalars, values.grid, values.layout, facts.rest);
+  facts.labelName = facts.value ? labelName(image, *facts.value) : std::string();
+  if (!facts.labelName.empty())
+  {
+    facts.label = facts.value;
+    return facts;
+  }
   const Segmentation segmentation = readSegmentation(image);
   facts.label = numberAt(segmentation.labels, segmentation.grid, facts.rest);
+  facts.labelName =
+    facts.label ? labelName(image, *facts.label, SegmentationLabels) : std::string();
   return facts;
 }
 

@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include <optional>
+#include <string>
 
 class vtkImageData;
 
@@ -27,8 +28,11 @@ struct TissueFacts
   bool bent = false;           ///< Whether a deformation places the tissue. Else rest = deformed.
   double volumeShare = 1.0;    ///< Jacobian determinant of deformedFromRest. 1: size is kept.
   std::optional<double> value; ///< Of the voxel that is nearest at rest, in the drawn array.
-  std::optional<double> reference;     ///< Of the nearest voxel of a reference that is shown.
-  std::optional<double> label;         ///< Of the nearest voxel of an attached segmentation.
+  std::optional<double> reference; ///< Of the nearest voxel of a reference that is shown.
+  /// Of the nearest voxel: the value, where the volume names its own values; else the label of an
+  /// attached segmentation.
+  std::optional<double> label;
+  std::string labelName;               ///< What the data calls the label. Empty: no name.
   WorldAxes axes = WorldAxes::Unknown; ///< What the data says about its axes.
 };
 

@@ -46,7 +46,7 @@ void expectLabels(const std::string& name)
 {
   Reading reading(name);
   EXPECT_EQ(reading.errors, "");
-  const std::vector<Label> labels = labelsOf(reading.image());
+  const std::vector<Label> labels = attachedLabels(reading.image());
   ASSERT_EQ(labels.size(), 3u);
   EXPECT_EQ(labels[1].value, 7);
   EXPECT_EQ(labels[1].name, "LEFT <PUTAMEN>");
@@ -77,6 +77,6 @@ TEST(NIFTILabels, OtherAndDamagedExtensionsAreLeftOut)
     Reading reading(temporary("other.nii"));
     EXPECT_EQ(reading.errors, "");
     EXPECT_GT(reading.image()->GetNumberOfPoints(), 0);
-    EXPECT_TRUE(labelsOf(reading.image()).empty()) << code << " " << sizeError;
+    EXPECT_TRUE(attachedLabels(reading.image()).empty()) << code << " " << sizeError;
   }
 }

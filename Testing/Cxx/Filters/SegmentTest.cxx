@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that a segmentation travels with a volume as the same array object.
+// Proves that a segmentation travels with a volume as the same array object, with names of labels.
 #include "Filters/Attached/Segmentation.h"
 #include "Filters/Deformation/ControlPoints.h"
 #include "Testing/Cxx/Deformation/TestBall.h"
@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 using namespace brainshift;
 using namespace brainshift::testing;
@@ -83,6 +84,36 @@ TEST_F(SegmentedFilter, PassesTheSameArrayAgain)
   const Segmentation changed = this->attached();
   EXPECT_NE(changed.labels, first.labels);
   EXPECT_EQ(changed.labels->GetTuple1(0), 5.0);
+}
+
+TEST_F(SegmentedFilter, CarriesTheNamesOfTheLabels)
+{
+  const auto volume = volumeOn(VolumeGrid, VTK_FLOAT, [](vtkIdType) { return 1.0; });
+  attachLabels(volume, { { 1, "the volume's own", { 1, 2, 3 } } });
+  this->Filter->SetInputDataObject(0, volume);
+  const auto named = labelsOn(VolumeGrid);
+  attachLabels(named, { { 3, "sulcus", { 4, 5, 6 } }, { -5, "below", { 7, 8, 9 } } });
+  for (const int port : { 2, 3 }) // mask or segmentation
+  {
+    this->Filter->SetInputDataObject(port, named);
+    vtkImageData* output = this->output();
+    const std::vector<Label> labels = attachedLabels(output, SegmentationLabels);
+    ASSERT_EQ(labels.size(), 2u);
+    EXPECT_EQ(labels[1].value, -5);
+    EXPECT_EQ(labels[1].color, (std::array<unsigned char, 3>{ 7, 8, 9 }));
+    EXPECT_EQ(labelName(output, 3.0, SegmentationLabels), "sulcus");
+    EXPECT_EQ(labelName(output, -5.0, SegmentationLabels), "below");
+    for (const double nameless : { 1.0, 3.5 })
+    {
+      EXPECT_EQ(labelName(output, nameless, SegmentationLabels), "");
+    }
+    EXPECT_EQ(labelName(output, 1.0), "the volume's own");
+    EXPECT_EQ(labelName(output, 3.0), "");
+    this->Filter->SetInputDataObject(port, nullptr);
+    EXPECT_TRUE(attachedLabels(this->output(), SegmentationLabels).empty());
+  }
+  output()->GetFieldData()->RemoveArray("LabelColors");
+  EXPECT_EQ(labelName(output(), 1.0), "") << "a table that is not whole";
 }
 
 TEST_F(SegmentedFilter, ReadsNoLabelForAStroke)

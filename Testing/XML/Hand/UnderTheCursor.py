@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that the status line says what lies under the cursor, in slices and in 3D, in four views
-and in a view of its own: the position in both frames, the value of the nearest voxel, the label,
-how far the tissue moved and how its volume changed, each as DeformGeometry and the voxels say; the
-letters of the patient's sides where the axes are known; and nothing where nothing is known. And
-that slices of the volume as loaded follow those of the bent one to the same tissue, and back.
+and in a view of its own: the position in both frames, the value of the nearest voxel, the label and
+its name, how far the tissue moved and how its volume changed, each as DeformGeometry and the voxels
+say; the letters of the patient's sides where the axes are known; and nothing where nothing is
+known. And that slices of the volume as loaded follow those of the bent one to the same tissue, and
+back.
 
 ParaView's window runs this file as a script; what did not hold is written down for the pvpython
 that runs it afterwards."""
@@ -12,8 +13,9 @@ import re
 import brainshift
 import numpy
 import test_hand as hand
+import volume_files
 import window_testing as window
-from brainshift_testing import volume
+from brainshift_testing import scratch, volume
 from paraview import simple
 
 MIDDLE = numpy.array((20.0, 30.0, 24.0))
@@ -184,6 +186,60 @@ def labels():
     hand.over()
 
 
+def label_at(up):
+    """What the line says of the label, above the middle of the sagittal slice."""
+    text = line_at(middle_of(scene["views"]["sagittal"], 0, up))
+    assert text, "tissue is there"
+    return [part for part in text.split(" \u00b7 ") if part.startswith("label")]
+
+
+def named(voxels, name, *segments):
+    """A file of labels as 3D Slicer names them; voxels: z, y, x."""
+    lines = [f"Segment{i}_{key}:={value}" for i, (number, words) in enumerate(segments)
+             for key, value in (("ID", f"S{i}"), ("Name", words), ("LabelValue", number))]
+    affine = numpy.eye(4)
+    affine[:3, 3] = AWAY
+    file = volume_files.write(scratch(name), volume_files.nrrd(voxels.T, affine, more=lines))
+    return simple.NRRDVolumeReader(FileName=file)
+
+
+def names_of_a_segmentation():
+    """Long names are cut, and the background has no name."""
+    view = scene["views"]["sagittal"]
+    labels = halves()
+    labels[-8:] = 9
+    hand.over(view)
+    long = "left \u00e4rea " + 80 * "x"
+    for words, told_as in (("<b>gyrus</b>  of &amp;", "<b>gyrus</b> of &amp;"),
+                           (long, long[:60] + "\u2026")):
+        scene["bent"].Segmentation = named(labels, "named.seg.nrrd", (0, "nothing"), (3, words))
+        simple.RenderAllViews()
+        hand.wait(100)
+        assert label_at(-60) == [f"label {told_as} (3)"], label_at(-60)
+    assert label_at(30) == [], "the background"
+    nameless = [label_at(up) for up in range(60, 200, 10) if line_at(middle_of(view, 0, up))]
+    assert ["label 9"] in nameless, nameless
+    scene["bent"].Segmentation = None
+    simple.RenderAllViews()
+    hand.over()
+
+
+def names_of_a_label_map():
+    """The volume itself names its values, which count before those of a segmentation."""
+    source = named(halves(), "map.seg.nrrd", (3, "gyrus"))
+    before = scene["bent"].Input
+    scene["bent"].Input = source
+    scene["bent"].Segmentation = named(halves() + 2, "other.seg.nrrd", (2, "air"), (5, "head"))
+    simple.RenderAllViews()
+    hand.wait(100)
+    hand.over(scene["views"]["sagittal"])
+    assert (label_at(-60), label_at(60)) == (["label gyrus (3)"], ["label air (2)"])
+    hand.over()
+    scene["bent"].Segmentation = None
+    scene["bent"].Input = before
+    simple.RenderAllViews()
+
+
 def never_stale():
     view = scene["views"]["coronal"]
     pixel = middle_of(view, 5, 9)
@@ -258,5 +314,6 @@ def not_bent():
 
 
 window.main("UnderTheCursor", [
-    (set_up,), (in_3d,), (four_views,), (letters_where_known,), (labels,), (never_stale,),
+    (set_up,), (in_3d,), (four_views,), (letters_where_known,), (labels,),
+    (names_of_a_segmentation,), (names_of_a_label_map,), (never_stale,),
     (same_tissue_in_the_unbent_volume,), (not_bent,)])
