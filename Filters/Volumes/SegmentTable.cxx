@@ -33,33 +33,65 @@ int wholeIn(const std::string& text, int otherwise)
     ? static_cast<int>(numbers[0])
     : otherwise;
 }
+
+template <typename Predicate>
+std::string namesWhere(const std::vector<Segment>& segments, const Predicate& isMeant)
+{
+  constexpr std::size_t Most = 5;
+  std::size_t count = 0;
+  std::string text;
+  for (const Segment& segment : segments)
+  {
+    if (isMeant(segment) && ++count <= Most)
+    {
+      text += (count > 1 ? ", " : "") + segment.label.name;
+    }
+  }
+  return shownWords(text) + (count > Most ? " and others" : "");
+}
 }
 
-SegmentTable segmentsOf(const HeaderText& text)
+std::vector<Segment> segmentsOf(const HeaderText& text)
 {
-  SegmentTable table;
+  std::vector<Segment> segments;
   for (int i = 0; i < MostSegments; ++i)
   {
-    const std::string segment = "Segment" + std::to_string(i) + "_";
-    const std::string id = text.keyed(segment + "ID");
+    const std::string prefix = "Segment" + std::to_string(i) + "_";
+    const std::string id = text.keyed(prefix + "ID");
     if (id.empty())
     {
       break;
     }
     Label label;
-    const std::string name = text.keyed(segment + "Name");
+    const std::string name = text.keyed(prefix + "Name");
     label.name = name.empty() ? id : name;
-    label.value = wholeIn(text.keyed(segment + "LabelValue"), 1);
-    label.color = colorIn(text.keyed(segment + "Color"));
-    if (wholeIn(text.keyed(segment + "Layer"), 0) == 0)
+    label.value = wholeIn(text.keyed(prefix + "LabelValue"), 1);
+    label.color = colorIn(text.keyed(prefix + "Color"));
+    segments.push_back({ label, wholeIn(text.keyed(prefix + "Layer"), 0) });
+  }
+  return segments;
+}
+
+std::vector<Label> labelsIn(const std::vector<Segment>& segments, int layer)
+{
+  std::vector<Label> labels;
+  for (const Segment& segment : segments)
+  {
+    if (segment.layer == layer)
     {
-      table.labels.push_back(label);
-    }
-    else
-    {
-      table.leftOut.push_back(label.name);
+      labels.push_back(segment.label);
     }
   }
-  return table;
+  return labels;
+}
+
+std::string namesIn(const std::vector<Segment>& segments, int layer)
+{
+  return namesWhere(segments, [&](const Segment& segment) { return segment.layer == layer; });
+}
+
+std::string namesOutside(const std::vector<Segment>& segments, int layer)
+{
+  return namesWhere(segments, [&](const Segment& segment) { return segment.layer != layer; });
 }
 }

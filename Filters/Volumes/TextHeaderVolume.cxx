@@ -49,15 +49,12 @@ bool isSeries(const HeaderAxis& axis)
   return hasKind ? axis.kind == "time" || axis.kind == "list" : axis.count > MostColors;
 }
 
-std::string joined(const std::vector<std::string>& names)
+// The layer that a text means, such as "2: vessels" or "2"; 0-based. Below 0: none of `count`.
+int layerIn(const std::string& text, int count)
 {
-  constexpr std::size_t Most = 5;
-  std::string text;
-  for (std::size_t i = 0; i < names.size() && i < Most; ++i)
-  {
-    text += (i > 0 ? ", " : "") + names[i];
-  }
-  return shownWords(text) + (names.size() > Most ? " and others" : "");
+  const std::vector<double> numbers = numbersIn(text.substr(0, text.find(':')));
+  return numbers.size() == 1 && isWhole(numbers[0], 1, count) ? static_cast<int>(numbers[0]) - 1
+                                                              : -1;
 }
 }
 
@@ -87,6 +84,7 @@ std::string TextHeaderVolume::noun() const
 std::string TextHeaderVolume::readHeader(const std::string& fileName, VolumeHeader& header)
 {
   this->Numbers = nullptr; // the file may have changed under its name
+  this->LayerNames.clear();
   std::string problem = readTextHeader(fileName, this->Stored);
   const bool isOpen = problem.empty() || this->Stored.text.bytes > 0;
   if (isOpen && this->Stored.text.isNRRD != (this->Format == TextFormat::NRRD))
@@ -114,8 +112,7 @@ std::string TextHeaderVolume::readHeader(const std::string& fileName, VolumeHead
   header.storedType = this->Stored.numberType;
   header.rescaling = { this->Stored.slope, this->Stored.intercept };
   header.warnings = this->Stored.warnings;
-  this->takeSegments(header);
-  return {};
+  return this->takeSegments(header);
 }
 
 std::string TextHeaderVolume::arrange(VolumeHeader& header)
@@ -158,21 +155,39 @@ std::string TextHeaderVolume::arrange(VolumeHeader& header)
   return {};
 }
 
-// The first layer of a segmentation, with its labels.
-void TextHeaderVolume::takeSegments(VolumeHeader& header)
+std::string TextHeaderVolume::takeSegments(VolumeHeader& header)
 {
-  const SegmentTable segments = segmentsOf(this->Stored.text);
-  header.labels = segments.labels;
-  if (!segments.isSegmentation() || this->Tuple == 1 || this->Steps > 1)
+  this->ShownLayer = 0;
+  const std::vector<Segment> segments = segmentsOf(this->Stored.text);
+  const bool hasLayers = !segments.empty() && this->Tuple > 1 && this->Steps == 1;
+  const int count = hasLayers ? static_cast<int>(this->Tuple) : 0;
+  for (int i = 0; i < count; ++i)
   {
-    return;
+    const std::string names = namesIn(segments, i);
+    this->LayerNames.push_back(
+      std::to_string(i + 1) + (names.empty() ? ": no segment" : ": " + names));
   }
-  header.components = 1;
-  header.times = { 0.0 };
-  std::string warning = "has " + std::to_string(this->Tuple) +
-    " layers of segments that overlap; only the first layer is shown";
-  warning += segments.leftOut.empty() ? "" : ", without " + joined(segments.leftOut);
-  header.warnings.push_back(warning);
+  if (hasLayers)
+  {
+    this->TupleIsTime = false;
+    header.components = 1;
+    header.times = { 0.0 };
+    this->ShownLayer = this->Layer.empty() ? 0 : layerIn(this->Layer, count);
+  }
+  if (this->ShownLayer < 0)
+  {
+    return "has " + std::to_string(count) + " layers of segments; Layer is '" +
+      shownWords(this->Layer) + "', which is none of them";
+  }
+  header.labels = labelsIn(segments, this->ShownLayer);
+  if (hasLayers && this->Layer.empty())
+  {
+    const std::string leftOut = namesOutside(segments, 0);
+    header.warnings.push_back("has " + std::to_string(count) +
+      " layers of segments that overlap; layer 1 is shown" +
+      (leftOut.empty() ? "" : ", without " + leftOut) + "; Layer chooses another one");
+  }
+  return {};
 }
 
 double TextHeaderVolume::storedBytes(const VolumeHeader&) const
@@ -223,7 +238,7 @@ std::string TextHeaderVolume::load(
   voxels.image = vtkSmartPointer<vtkImageData>::New();
   voxels.image->SetDimensions(this->Dimensions.x, this->Dimensions.y, this->Dimensions.z);
   voxels.image->GetPointData()->SetScalars(shown);
-  voxels.firstComponent = this->TupleIsTime ? static_cast<int>(volume) : 0;
+  voxels.firstComponent = this->TupleIsTime ? static_cast<int>(volume) : this->ShownLayer;
   const bool isSeries = this->Steps > 1 || (this->TupleIsTime && this->Tuple > 1);
   if (!isSeries)
   {

@@ -16,6 +16,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace brainshift
 {
@@ -40,13 +41,29 @@ public:
   double storedBytes(const VolumeHeader& header) const override;
   std::string load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
 
+  /**
+   * Which layer of a segmentation the next readHeader takes: a name of layerNames, or its number.
+   * Default: empty, the first, with a warning. Other volumes have no layers to choose from.
+   */
+  void setLayer(const std::string& name) { this->Layer = name; }
+
+  /**
+   * The layers that the last readHeader found, such as "2: vessel, tumour". None if segments cannot
+   * overlap.
+   */
+  const std::vector<std::string>& layerNames() const { return this->LayerNames; }
+
 private:
   // How the axes of the file are used.
   std::string arrange(VolumeHeader& header);
-  void takeSegments(VolumeHeader& header);
+  // One layer of a segmentation, with its labels.
+  std::string takeSegments(VolumeHeader& header);
   std::string readAll(const Progress& progress, bool& stopped);
 
   TextFormat Format;
+  std::string Layer;
+  std::vector<std::string> LayerNames;
+  int ShownLayer = 0;
   TextHeader Stored;
   glm::ivec3 Dimensions{ 0 };
   std::size_t Tuple = 1;    // numbers of the axis before those of space

@@ -76,6 +76,19 @@ def nrrd(voxels, affine, space="left-posterior-superior", order="<", encoding="r
     return "\n".join(lines).encode() + raw
 
 
+def segmentation(layers, affine, segments):
+    """The bytes of an NRRD of segments that overlap, as 3D Slicer writes it. `layers`: indexed
+    [layer, i, j, k]; `segments`: what Slicer says of each, such as {"Name": "skull"}."""
+    more = [f"Segment{i}_{key}:={value}" for i, segment in enumerate(segments)
+            for key, value in segment.items()]
+    lines = nrrd(layers[0], affine, more=more)
+    header = lines[:lines.index(b"\n\n")].decode()
+    for old, new in (("dimension: 3", "dimension: 4"), ("sizes: ", f"sizes: {len(layers)} "),
+                     ("directions: ", "directions: none "), ("kinds: ", "kinds: list ")):
+        header = header.replace(old, new)
+    return header.encode() + b"\n\n" + layers.tobytes(order="F")
+
+
 def meta_image(voxels, affine, order="<", packed=False, more=()):
     """The bytes of a MetaImage."""
     lps = TO_LPS @ affine

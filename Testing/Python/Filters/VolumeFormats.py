@@ -149,24 +149,79 @@ def test_segments_of_slicer():
     assert set(numpy.unique(voxels(source))) == {0, 7}
 
 
+SEGMENTS = ({"ID": "a", "Name": "skull", "LabelValue": 1, "Layer": 0},
+            {"ID": "b", "Name": "vessel", "LabelValue": 1, "Layer": 2},
+            {"ID": "c", "LabelValue": 4, "Layer": 2})
+
+
+def overlapping():
+    """A file of three layers, the second without a segment, and its layers."""
+    layers = numpy.zeros((3, *SHAPE), "uint8")
+    layers[0, 1:, :, :] = 1
+    layers[2, :, 2:, :] = 1
+    layers[2, :, :, 0] = 4
+    return volume_files.write(scratch("layers.seg.nrrd"), volume_files.segmentation(
+        layers, next(volume_files.turns()), SEGMENTS)), layers
+
+
+def shown_layer(source):
+    return voxels(source).transpose(2, 1, 0)
+
+
 def test_layers_of_slicer():
-    """Of two layers, the first is shown, and a warning names what is left out."""
-    layers = numpy.stack([numpy.full(SHAPE, 1, "uint8"), numpy.full(SHAPE, 2, "uint8")])
-    lines = volume_files.nrrd(layers[0], next(volume_files.turns()), more=[
-        "Segment0_ID:=a", "Segment0_Layer:=0", "Segment1_ID:=b", "Segment1_Name:=vessel",
-        "Segment1_Layer:=1"])
-    header = lines[:lines.index(b"\n\n")].decode()
-    for old, new in (("dimension: 3", "dimension: 4"), ("sizes: ", "sizes: 2 "),
-                     ("directions: ", "directions: none "), ("kinds: ", "kinds: list ")):
-        header = header.replace(old, new)
-    name = volume_files.write(scratch("layers.seg.nrrd"),
-                              header.encode() + b"\n\n" + layers.tobytes(order="F"))
+    """Nobody has chosen: the first is shown, and a warning names what is left out."""
+    name, layers = overlapping()
     with messages() as said:
         source = opened(name, "NRRDVolumeReader")
-        assert set(numpy.unique(voxels(source))) == {1}, said.text
-    assert "2 layers of segments" in said.text and "without vessel" in said.text, said.text
-    assert voxels(source).ndim == 3
+        assert (shown_layer(source) == layers[0]).all(), said.text
+    assert "3 layers of segments" in said.text and "without vessel, c" in said.text, said.text
     assert field(source, "LabelValues").tolist() == [1]
+    offered = ["1: skull", "2: no segment", "3: vessel, c"]
+    assert list(source.GetProperty("LayerList")) == offered
+    assert list(source.GetProperty("Layer").GetAvailable()) == offered
+
+
+def test_a_chosen_layer():
+    """By its name in the list, or by its number; with its own labels, and without a warning."""
+    name, layers = overlapping()
+    source = simple.NRRDVolumeReader(FileName=name)  # ParaView asks for the layers, and is warned
+    with messages() as said:
+        source.Layer = "3: vessel, c"
+        assert (shown_layer(source) == layers[2]).all()
+        assert field(source, "LabelValues").tolist() == [1, 4]
+        names = output(source).GetFieldData().GetAbstractArray("LabelNames")
+        assert [names.GetValue(i) for i in range(2)] == ["vessel", "c"]
+        for layer in ("1", "2", "3: renamed since", "1: skull"):
+            source.Layer = layer
+            assert (shown_layer(source) == layers[int(layer[0]) - 1]).all(), layer
+        source.Layer = "2"
+        assert output(source).GetFieldData().GetAbstractArray("LabelNames") is None
+    assert said.text == "", said.text
+
+
+def test_a_layer_that_is_none():
+    """It is refused by name, and what was shown stays until another one is chosen."""
+    name, layers = overlapping()
+    source = simple.NRRDVolumeReader(FileName=name, Layer="3")
+    source.UpdatePipeline()
+    for layer in ("4", "0", "-1", "1.5", "skull"):
+        with messages() as said:
+            source.Layer = layer
+            source.UpdatePipeline()
+        assert f"has 3 layers of segments; Layer is '{layer}'" in said.text, said.text
+    source.Layer = "1"
+    assert (shown_layer(source) == layers[0]).all()
+
+
+def test_a_volume_without_layers_ignores_the_layer():
+    numbered = volume_files.numbered((3, 4, 5))
+    name = volume_files.write(scratch("plain.nrrd"), volume_files.nrrd(
+        numbered, next(volume_files.turns())))
+    with messages() as said:
+        source = simple.NRRDVolumeReader(FileName=name, Layer="9")
+        assert sorted(voxels(source).ravel()) == list(range(1, 61))
+    assert said.text == "", said.text
+    assert len(source.GetProperty("LayerList")) == 0
 
 
 run_tests(globals())
