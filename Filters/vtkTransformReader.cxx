@@ -144,6 +144,12 @@ std::string vtkTransformReader::GetProblem()
   return this->Load();
 }
 
+const PointTransform& vtkTransformReader::GetChain()
+{
+  static const PointTransform identity;
+  return this->Load().empty() ? this->Internal->Chain : identity;
+}
+
 std::string vtkTransformReader::GetKind()
 {
   return this->Load().empty() ? kindOf(this->Internal->Chain) : std::string();

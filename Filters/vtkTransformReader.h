@@ -22,6 +22,11 @@
 
 class vtkDoubleArray;
 
+namespace brainshift
+{
+struct PointTransform;
+}
+
 class VTKBRAINSHIFTFILTERS_EXPORT vtkTransformReader : public vtkImageAlgorithm
 {
 public:
@@ -107,6 +112,9 @@ public:
 
   /** Where the file's own map takes the points (mm, world): three numbers each. Owned by this. */
   vtkDoubleArray* GetMappedPoints();
+
+  /** The file's own map (mm, world); the identity after a problem. */
+  const brainshift::PointTransform& GetChain();
 
   /** "identity", "rigid", "affine" or "nonlinear"; empty after a problem. */
   std::string GetKind();

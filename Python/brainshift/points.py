@@ -4,6 +4,7 @@
 import collections
 
 from .files import _write
+from .transforms import Transform, read_transform
 
 _DIRECTIONS = {"forward": "Forward", "backward": "Backward"}
 
@@ -65,50 +66,88 @@ def read_points(name, volume=1, table_axes="RAS"):
         simple.SetActiveSource(active)
 
 
+def _moved_by(filter, points, direction):
+    """The points of a source, moved by a Free-Form Deformation."""
+    from paraview import simple
+
+    moved = simple.DeformGeometry(Input=points, Deformation=filter, Direction=direction)
+    moved.UpdatePipeline()
+    count = points.GetDataInformation().GetNumberOfPoints()
+    if moved.GetDataInformation().GetNumberOfPoints() != count:
+        simple.Delete(moved)
+        raise ValueError("filter attaches no deformation; it must be a Free-Form Deformation")
+    return moved
+
+
+def _taken_by(transform, points, direction):
+    """The points of a source, taken along by a transform, in the process that has them."""
+    from paraview import servermanager
+
+    report = transform._report
+    if report.GetProperty("World").GetElement(0) != 0:
+        raise ValueError("transform was read with world='LPS'; the points are RAS, so read it with "
+                         "world='RAS'")
+    moved = servermanager.misc.TransformPoints(Input=points, Direction=direction)
+    moved.SMProxy.GetProperty("Transform").SetProxy(0, report)
+    moved.SMProxy.UpdateVTKObjects()
+    moved.UpdatePipeline()
+    return moved
+
+
 def map_points(file_in, file_out, filter=None, direction="forward", volume=1, table_axes="RAS",
-               file_axes="Of The Format"):
+               file_axes="Of The Format", transform=None):
     """Map the points of a file and write them to another file, labels and all.
 
     - `file_in`: path of the file to read, in a format of `read_points`.
     - `file_out`: path of the file to write, in a format of `read_points`. Its ending chooses the
       format. Times and deviations are kept by `.csv` and `.tsv` only.
     - `filter`: a Free-Form Deformation. The default, `None`, leaves the points where they are and
-      only changes the format.
-    - `direction`: `"forward"`, the default, maps points at rest to where they go. `"backward"`
-      maps points in the deformed volume to the tissue that is seen there.
+      only changes the format, unless there is a `transform`.
+    - `direction`: with a `filter`, `"forward"`, the default, maps points at rest to where they go,
+      and `"backward"` maps points in the deformed volume to the tissue that is seen there. With a
+      `transform`, `"forward"` takes points of the fixed image to the moving image, as the files do,
+      and `"backward"` takes points of the moving image to the fixed image.
     - `volume`: 1, the default, or 2, the volume of an MNI tag file whose points are read.
     - `table_axes`: `"RAS"`, the default, or `"LPS"`, the axes of a table whose columns are called
       x, y and z.
     - `file_axes`: `"RAS"` or `"LPS"`, the axes in the file to write, which names them. The
       default, `"Of The Format"`, writes LPS to files of Slicer and RAS to all others.
+    - `transform`: instead of a `filter`, a transform of a registration program: the `files` of
+      `read_transform`, in its order, or what it returned. Points outside a B-spline or a field stay
+      where they are, as in ITK.
 
-    Both files lie on the machine that has the volume. The new file takes the place of an old one
+    All files lie on the machine that has the volume. The new file takes the place of an old one
     only when the disk holds all of it.
 
     Returns the number of points.
 
-    Raises `ValueError` if `direction` is another word, `file_in` cannot be read or `filter`
-    attaches no deformation, and `OSError` with the reason if `file_out` is not written.
+    Raises `ValueError` if `direction` is another word, `file_in` cannot be read, `filter` attaches
+    no deformation, or there are a `filter` and a `transform`. Raises `OSError` with the reason if
+    the transform cannot be read or `file_out` is not written.
     """
     from paraview import servermanager, simple
 
-    if str(direction).lower() not in _DIRECTIONS:
+    way = _DIRECTIONS.get(str(direction).lower())
+    if way is None:
         raise ValueError(f'direction is {direction!r}; it must be "forward" or "backward"')
+    if filter is not None and transform is not None:
+        raise ValueError("filter and transform are both given; name one of them")
+    if transform is not None and not isinstance(transform, Transform):
+        transform = read_transform(transform)
     active = simple.GetActiveSource()
-    made = [_reader(file_in, volume, table_axes)]
+    points = _reader(file_in, volume, table_axes)
+    moved = None
     try:
         if filter is not None:
-            made.append(simple.DeformGeometry(Input=made[0], Deformation=filter,
-                                              Direction=_DIRECTIONS[str(direction).lower()]))
-            made[1].UpdatePipeline()
-        count = made[0].GetDataInformation().GetNumberOfPoints()
-        if made[-1].GetDataInformation().GetNumberOfPoints() != count:
-            raise ValueError("filter attaches no deformation; it must be a Free-Form Deformation")
+            moved = _moved_by(filter, points, way)
+        elif transform is not None:
+            moved = _taken_by(transform, points, way)
         writer = servermanager.writers.LandmarkWriter(
-            Input=made[-1], FileName=file_out, FileAxes=file_axes)
+            Input=moved or points, FileName=file_out, FileAxes=file_axes)
         _write(writer, file_out)
-        return count
+        return points.GetDataInformation().GetNumberOfPoints()
     finally:
-        for proxy in reversed(made):
-            simple.Delete(proxy)
+        if filter is not None and moved is not None:
+            simple.Delete(moved)
+        simple.Delete(points)
         simple.SetActiveSource(active)

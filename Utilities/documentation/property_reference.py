@@ -79,7 +79,8 @@ def proxies():
 
 def public_proxies():
     """What users choose: filters, readers, writers, representations."""
-    return [proxy for proxy in proxies().values() if proxy.kind in PUBLIC]
+    return [proxy for proxy in proxies().values()
+            if proxy.kind in PUBLIC and proxy.group != "misc"]
 
 
 def _range(domain):

@@ -11,6 +11,7 @@
 #include "vtkLandmarkReader.h"
 #include "vtkLandmarkWriter.h"
 #include "vtkTraceDistance.h"
+#include "vtkTransformPoints.h"
 #include "vtkTransformReader.h"
 #include "vtkVolumeFileWriter.h"
 
@@ -122,6 +123,13 @@ TEST(Defaults, OfVolumeFilesLiveInTheClass)
   const Defaults expected{ { "World", { double(writer->GetWorld()) } } };
   EXPECT_EQ(defaultsIn("Filters/Proxies/MedicalVolumeWriter.xml"), expected);
   EXPECT_EQ(defaultsIn("Filters/Proxies/MedicalSeriesWriter.xml"), expected);
+}
+
+TEST(Defaults, OfTransformPointsLiveInTheClass)
+{
+  vtkNew<vtkTransformPoints> filter;
+  const Defaults expected{ { "Direction", { double(filter->GetDirection()) } } };
+  EXPECT_EQ(defaultsIn("Filters/Proxies/TransformPoints.xml"), expected);
 }
 
 TEST(Defaults, OfTransformReaderLiveInTheClass)

@@ -5,10 +5,15 @@
 #include "Filters/Transforms/PointTransform.h"
 #include "Filters/Transforms/TransformFile.h"
 #include "Filters/Transforms/TransformLattice.h"
+#include "Testing/Cxx/Filters/TestPipeline.h"
+#include "vtkTransformPoints.h"
 #include "vtkTransformReader.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -169,4 +174,78 @@ TEST(TransformReader, AnswersWithoutAPipelineAndSaysWhatIsWrong)
   reader->AddPoint(1.0, 2.0, 3.0);
   ASSERT_EQ(reader->GetMappedPoints()->GetNumberOfValues(), 3);
   EXPECT_EQ(reader->GetMappedPoints()->GetValue(0), 5.0);
+}
+
+namespace
+{
+// Some points with a number each.
+vtkSmartPointer<vtkPolyData> somePoints()
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkDoubleArray> numbers;
+  numbers->SetName("Number");
+  for (int i = 0; i < 5; ++i)
+  {
+    points->InsertNextPoint(3.0 * i, 7.0 - i, 2.0);
+    numbers->InsertNextValue(i);
+  }
+  data->SetPoints(points);
+  data->GetPointData()->AddArray(numbers);
+  return data;
+}
+
+glm::dvec3 pointOf(vtkTransformPoints* filter, vtkIdType index)
+{
+  glm::dvec3 point;
+  filter->GetOutput()->GetPoint(index, &point.x);
+  return point;
+}
+
+const std::string Shift =
+  "#Insight Transform File V1.0\nTransform: TranslationTransform_double_3_3\n"
+  "Parameters: 1 2 3\nFixedParameters:\n";
+}
+
+TEST(TransformPoints, MovesPointsAlongTheMapAndBackAndKeepsTheirArrays)
+{
+  vtkNew<vtkTransformReader> reader;
+  reader->SetWorld(vtkTransformReader::LPS);
+  reader->SetFileName(written("shift.tfm", Shift));
+  vtkNew<vtkTransformPoints> filter;
+  filter->SetInputData(somePoints());
+  filter->SetTransform(reader);
+  for (const int direction : { vtkTransformPoints::Forward, vtkTransformPoints::Backward })
+  {
+    filter->SetDirection(direction);
+    filter->Update();
+    const double sign = direction == vtkTransformPoints::Forward ? 1.0 : -1.0;
+    const glm::dvec3 expected = glm::dvec3(9.0, 4.0, 2.0) + sign * glm::dvec3(1.0, 2.0, 3.0);
+    EXPECT_LT(glm::distance(pointOf(filter, 3), expected), 1e-9);
+    EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("Number")->GetTuple1(3), 3.0);
+  }
+  // Another file of the same reader moves them anew.
+  reader->SetFileName(written("identity.tfm",
+    "#Insight Transform File V1.0\n"
+    "Transform: TranslationTransform_double_3_3\n"
+    "Parameters: 0 0 0\nFixedParameters:\n"));
+  filter->Update();
+  EXPECT_EQ(pointOf(filter, 3), glm::dvec3(9.0, 4.0, 2.0)) << "the identity";
+  filter->SetInputData(vtkSmartPointer<vtkPolyData>::New());
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+TEST(TransformPoints, SaysWhatIsWrong)
+{
+  vtkNew<vtkTransformPoints> filter;
+  brainshift::testing::Errors heard(filter);
+  filter->SetInputData(somePoints());
+  filter->Update();
+  EXPECT_NE(heard.take().find("Transform is not set"), std::string::npos);
+  vtkNew<vtkTransformReader> reader;
+  reader->SetFileName(written("bad.tfm", "hello"));
+  filter->SetTransform(reader);
+  filter->Update();
+  EXPECT_NE(heard.take().find("is no transform"), std::string::npos);
 }

@@ -223,6 +223,42 @@ def test_matrix_of_fsl_needs_both_images():
     assert away < 1e-4, away  # the files hold single precision
 
 
+def test_files_of_points_go_through_transforms_and_back():
+    """As transformix takes them; labels go along, and the file has axes of its own."""
+    warp, affine, _, field = files_of_ants()
+    name = write("grid.tfm", itk_text(spline()))
+    table = write("before.csv", "label,r,a,s\n" + "".join(
+        f"p{i},{','.join(repr(float(x)) for x in point)}\n" for i, point in enumerate(INNER)))
+    for transform, members in (
+            (affine, (LINEAR[0][:3],)), (name, (spline(),)),
+            ((warp, affine), (field, LINEAR[0][:3])),
+            (brainshift.read_transform(name), (spline(),))):
+        there, back = scratch("there.mrk.json"), scratch("back.csv")
+        count = brainshift.map_points(table, there, transform=transform)
+        assert count == len(INNER)
+        found, right = brainshift.read_points(there), mapped_outside(INNER, *members)
+        assert largest(right, INNER) > 1.0
+        assert largest(found.positions, right) < NEAR, (transform, largest(found.positions, right))
+        assert found.labels[:2] == ["p0", "p1"] and len(found.labels) == count
+        brainshift.map_points(there, back, transform=transform, direction="backward")
+        again = brainshift.read_points(back)
+        assert largest(again.positions, INNER) < NEAR, (transform, largest(again.positions, INNER))
+        assert again.labels == found.labels
+
+
+def test_points_and_transforms_that_do_not_fit():
+    name = write("linear.tfm", itk_text(LINEAR[0][:3]))
+    table = write("before.csv", "label,r,a,s\np,1,2,3\n")
+    out = scratch("never.csv")
+    bent = FreeFormDeformation(Input=BOX)
+    raises(ValueError, "both given", brainshift.map_points, table, out, bent, transform=name)
+    raises(OSError, "does not exist", brainshift.map_points, table, out, transform="none.tfm")
+    raises(ValueError, "files is empty", brainshift.map_points, table, out, transform=[])
+    lps = brainshift.read_transform(name, world="LPS")
+    raises(ValueError, "world='LPS'", brainshift.map_points, table, out, transform=lps)
+    assert not os.path.exists(out)
+
+
 def test_rigid_goes_into_a_comparison_and_out():
     name = write("rigid.tfm", itk_text(RIGID[:3]))
     right = mapped_outside(POINTS, RIGID[:3])
