@@ -7,7 +7,8 @@ import os
 import re
 
 import numpy
-from brainshift_testing import load_plugin, run_tests, scratch, volume
+from brainshift_testing import (
+    load_plugin, on_server, run_tests, scratch, server_finds_plugin, volume)
 from outside_testing import (
     FLIP, itk_text, mapped_by_parameters, mapped_outside, numbers, of_itk_text, parameter_file, run,
     write, write_hdf5, write_image, write_matlab)
@@ -371,6 +372,18 @@ def test_bad_files_end_in_a_sentence():
     name = write("linear.tfm", good)
     raises(ValueError, "direction is", brainshift.apply_transform, BOX, name, "sideways")
     raises(ValueError, "must be a Free-Form Deformation", brainshift.apply_transform, BOX, name)
+
+
+def test_points_go_through_transforms_on_a_server():
+    """Last, for it ends the session that the others use."""
+    name = write("grid.tfm", itk_text(spline()))
+    table, there = write("before.csv", "label,r,a,s\np,-30,5,30\n"), scratch("there.tag")
+    right = mapped_outside(numpy.array([(-30.0, 5.0, 30.0)]), spline())
+
+    def mapped():
+        brainshift.map_points(table, there, transform=name)
+        return brainshift.read_points(there).positions
+    assert largest(on_server(mapped, **server_finds_plugin()), right) < NEAR
 
 
 run_tests(globals())
