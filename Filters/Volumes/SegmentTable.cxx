@@ -34,6 +34,23 @@ int wholeIn(const std::string& text, int otherwise)
     : otherwise;
 }
 
+// Names as a list may show them: on one line, and not too long. Letters beyond ASCII stay whole.
+std::string shownNames(std::string names)
+{
+  constexpr std::size_t Most = 200; // bytes
+  const bool isLong = names.size() > Most;
+  std::size_t end = isLong ? Most : names.size();
+  const auto byteAt = [&](std::size_t i) { return static_cast<unsigned char>(names[i]); };
+  while (isLong && end > 0 && (byteAt(end) & 0xc0) == 0x80) // inside a letter of UTF-8
+  {
+    --end;
+  }
+  names.resize(end);
+  std::replace_if(
+    names.begin(), names.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
+  return isLong ? names + "..." : names;
+}
+
 template <typename Predicate>
 std::string namesWhere(const std::vector<Segment>& segments, const Predicate& isMeant)
 {
@@ -47,7 +64,7 @@ std::string namesWhere(const std::vector<Segment>& segments, const Predicate& is
       text += (count > 1 ? ", " : "") + segment.label.name;
     }
   }
-  return shownWords(text) + (count > Most ? " and others" : "");
+  return shownNames(text) + (count > Most ? " and others" : "");
 }
 }
 

@@ -149,8 +149,9 @@ def test_segments_of_slicer():
     assert set(numpy.unique(voxels(source))) == {0, 7}
 
 
+VESSEL = "Gef\u00e4\u00df"
 SEGMENTS = ({"ID": "a", "Name": "skull", "LabelValue": 1, "Layer": 0},
-            {"ID": "b", "Name": "vessel", "LabelValue": 1, "Layer": 2},
+            {"ID": "b", "Name": VESSEL, "LabelValue": 1, "Layer": 2},
             {"ID": "c", "LabelValue": 4, "Layer": 2})
 
 
@@ -174,11 +175,23 @@ def test_layers_of_slicer():
     with messages() as said:
         source = opened(name, "NRRDVolumeReader")
         assert (shown_layer(source) == layers[0]).all(), said.text
-    assert "3 layers of segments" in said.text and "without vessel, c" in said.text, said.text
+    assert "3 layers of segments" in said.text and f"without {VESSEL}, c" in said.text, said.text
     assert field(source, "LabelValues").tolist() == [1]
-    offered = ["1: skull", "2: no segment", "3: vessel, c"]
+    offered = ["1: skull", "2: no segment", f"3: {VESSEL}, c"]
     assert list(source.GetProperty("LayerList")) == offered
     assert list(source.GetProperty("Layer").GetAvailable()) == offered
+
+
+def test_names_of_a_layer_fit_a_list():
+    """Of many names the first five, cut between letters."""
+    long = 70 * "\u00e4"
+    segments = [{"ID": "a", "Name": "a", "Layer": 0}] + [
+        {"ID": f"b{i}", "Name": long, "LabelValue": i, "Layer": 1} for i in range(1, 8)]
+    name = volume_files.write(scratch("long.seg.nrrd"), volume_files.segmentation(
+        numpy.zeros((2, *SHAPE), "uint8"), next(volume_files.turns()), segments))
+    source = opened(name, "NRRDVolumeReader")
+    shown = source.GetProperty("LayerList")[1]
+    assert shown == f"2: {long}, {29 * chr(0xe4)}... and others", shown
 
 
 def test_a_chosen_layer():
@@ -186,11 +199,11 @@ def test_a_chosen_layer():
     name, layers = overlapping()
     source = simple.NRRDVolumeReader(FileName=name)  # ParaView asks for the layers, and is warned
     with messages() as said:
-        source.Layer = "3: vessel, c"
+        source.Layer = f"3: {VESSEL}, c"
         assert (shown_layer(source) == layers[2]).all()
         assert field(source, "LabelValues").tolist() == [1, 4]
         names = output(source).GetFieldData().GetAbstractArray("LabelNames")
-        assert [names.GetValue(i) for i in range(2)] == ["vessel", "c"]
+        assert [names.GetValue(i) for i in range(2)] == [VESSEL, "c"]
         for layer in ("1", "2", "3: renamed since", "1: skull"):
             source.Layer = layer
             assert (shown_layer(source) == layers[int(layer[0]) - 1]).all(), layer
