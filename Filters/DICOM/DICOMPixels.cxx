@@ -3,20 +3,14 @@
 
 #include "Filters/DICOM/DICOMAttributes.h"
 #include "Filters/DICOM/DICOMDataSet.h"
-#include "Filters/DICOM/DICOMRunLengths.h"
-
-#include <gdcmDataElement.h>
-#include <gdcmFragment.h>
-#include <gdcmImage.h>
-#include <gdcmPixelFormat.h>
-#include <gdcmSequenceOfFragments.h>
-#include <gdcmSmartPointer.h>
-#include <gdcmTrace.h>
-#include <gdcmTransferSyntax.h>
+#include "Filters/PackedFrames/JPEG2000Frame.h"
+#include "Filters/PackedFrames/JPEGFrame.h"
+#include "Filters/PackedFrames/JPEGLSFrame.h"
+#include "Filters/PackedFrames/RunLengths.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <mutex>
+#include <map>
 #include <sstream>
 #include <system_error>
 #include <type_traits>
@@ -46,6 +40,18 @@ void keepStoredBits(const DICOMPixelFormat& pixels, T* numbers, std::size_t coun
     const auto bits = static_cast<std::make_unsigned_t<T>>(numbers[i]);
     numbers[i] = static_cast<T>(
       static_cast<T>(static_cast<std::make_unsigned_t<T>>(bits << unusedAbove)) >> unused);
+  }
+}
+
+// A lossy frame may hold more than the brightest stored number, which must not become dark.
+template <typename T>
+void clampToStoredBits(const DICOMPixelFormat& pixels, T* numbers, std::size_t count)
+{
+  if (!pixels.isSigned && pixels.highBit + 1 < pixels.bitsAllocated)
+  {
+    const T most = static_cast<T>((std::uint32_t(1) << (pixels.highBit + 1)) - 1);
+    std::transform(
+      numbers, numbers + count, numbers, [most](T number) { return std::min(number, most); });
   }
 }
 
@@ -108,17 +114,6 @@ void withStoredType(int type, const Use& use)
   }
 }
 
-// GDCM writes to the console what the reader says itself.
-void silenceGDCM()
-{
-  static std::once_flag once;
-  std::call_once(once, [] {
-    gdcm::Trace::DebugOff();
-    gdcm::Trace::WarningOff();
-    gdcm::Trace::ErrorOff();
-  });
-}
-
 template <typename T>
 void swapBytes(T* numbers, std::size_t count)
 {
@@ -166,141 +161,40 @@ std::string readPlain(const DICOMFile& file, const std::vector<DICOMTarget>& tar
   return {};
 }
 
-int decodedTypeOf(const gdcm::PixelFormat& format)
+struct Packing
 {
-  switch (format.GetScalarType())
-  {
-    case gdcm::PixelFormat::UINT8:
-      return VTK_UNSIGNED_CHAR;
-    case gdcm::PixelFormat::INT8:
-      return VTK_SIGNED_CHAR;
-    case gdcm::PixelFormat::UINT12: // unpacked to 16 bits
-    case gdcm::PixelFormat::UINT16:
-      return VTK_UNSIGNED_SHORT;
-    case gdcm::PixelFormat::INT12:
-    case gdcm::PixelFormat::INT16:
-      return VTK_SHORT;
-    case gdcm::PixelFormat::UINT32:
-      return VTK_UNSIGNED_INT;
-    case gdcm::PixelFormat::INT32:
-      return VTK_INT;
-    default:
-      return VTK_VOID;
-  }
-}
+  UnpackedFrame (*unpack)(const std::string& packed, const FrameShape& shape) = nullptr;
+  bool mayLose = false;
+};
 
-// Whether a JPEG or JPEG-LS frame holds what the header of the file says. GDCM ends the program at
-// some that do not. JPEG 2000 begins in another way.
-bool isFrameOf(const DICOMFile& file, const std::string& packed)
+// How frames of a transfer syntax are unpacked. Not named: the multi-component parts of JPEG 2000,
+// videos, and syntaxes that the standard has withdrawn.
+Packing packingOf(const std::string& transferSyntax)
 {
-  const auto at = [&packed](std::size_t i) { return static_cast<unsigned char>(packed[i]); };
-  std::size_t offset = 2; // behind the marker that begins a frame
-  while (offset + 10 <= packed.size() && at(offset) == 0xff)
-  {
-    const int marker = at(offset + 1);
-    // Sequential, lossless, and JPEG-LS.
-    const bool isFrame = marker == 0xc0 || marker == 0xc1 || marker == 0xc3 || marker == 0xf7;
-    if (isFrame)
-    {
-      const int bits = at(offset + 4);
-      return bits >= 2 && bits <= file.pixels.bitsAllocated &&
-        (at(offset + 5) << 8 | at(offset + 6)) == file.rows &&
-        (at(offset + 7) << 8 | at(offset + 8)) == file.columns && at(offset + 9) == 1;
-    }
-    offset += 2 + (at(offset + 2) << 8 | at(offset + 3));
-  }
-  return false;
-}
-
-gdcm::SmartPointer<gdcm::SequenceOfFragments> fragmentOf(const std::string& packed)
-{
-  gdcm::Fragment fragment;
-  fragment.SetByteValue(packed.data(), static_cast<std::uint32_t>(packed.size()));
-  gdcm::SmartPointer<gdcm::SequenceOfFragments> fragments = new gdcm::SequenceOfFragments;
-  fragments->AddFragment(fragment);
-  return fragments;
-}
-
-// One frame, unpacked by GDCM. It is handed the fragment alone: Debian's GDCM ends the program at
-// some files whose headers are damaged.
-std::string unpack(const DICOMFile& file, const gdcm::TransferSyntax& syntax,
-  const std::string& packed, const DICOMTarget& target, int type)
-{
-  const bool isJPEG = packed.compare(0, 2, "\xff\xd8") == 0;
-  if (!isJPEG && packed.compare(0, 2, "\xff\x4f") != 0 &&
-    packed.compare(0, 4, "\0\0\0\x0c", 4) != 0)
-  {
-    return file.path + " is damaged: a frame begins neither as JPEG nor as JPEG 2000";
-  }
-  if (isJPEG && !isFrameOf(file, packed))
-  {
-    return file.path + " is damaged: a frame has another size than the file";
-  }
-  const DICOMPixelFormat& format = file.pixels;
-  const auto whole = [](int number) { return static_cast<unsigned short>(number); };
-  gdcm::Image image;
-  image.SetNumberOfDimensions(2);
-  image.SetDimension(0, static_cast<unsigned int>(file.columns));
-  image.SetDimension(1, static_cast<unsigned int>(file.rows));
-  image.SetPhotometricInterpretation(gdcm::PhotometricInterpretation::MONOCHROME2);
-  image.SetPixelFormat(gdcm::PixelFormat(1, whole(format.bitsAllocated), whole(format.bitsStored),
-    whole(format.highBit), format.isSigned ? 1 : 0));
-  image.SetTransferSyntax(syntax);
-  gdcm::DataElement pixels(gdcm::Tag(0x7fe0, 0x0010));
-  pixels.SetVR(gdcm::VR::OB);
-  pixels.SetValue(*fragmentOf(packed));
-  image.SetDataElement(pixels);
-  const std::size_t count = pixelsOf(file);
-  const std::size_t length = image.GetBufferLength();
-  std::vector<char> buffer(length);
-  const bool isUnpacked = length > 0 && image.GetBuffer(buffer.data());
-  const int decoded = decodedTypeOf(image.GetPixelFormat());
-  if (!isUnpacked || decoded == VTK_VOID)
-  {
-    return file.path + " is damaged: GDCM cannot unpack its pixels";
-  }
-  std::string problem;
-  withStoredType(decoded, [&](auto* none) {
-    const auto* numbers = reinterpret_cast<decltype(none)>(buffer.data());
-    if (count * sizeof(*numbers) > length)
-    {
-      problem = file.path + " is damaged: its pixels unpack to another size";
-      return;
-    }
-    convert(numbers, count, target, type);
-  });
-  return problem;
-}
-
-std::string unpackRuns(
-  const DICOMFile& file, const std::string& packed, const DICOMTarget& target, int type)
-{
-  const std::size_t count = pixelsOf(file);
-  std::string plain =
-    unpackRunLengths(packed, count, static_cast<std::size_t>(file.pixels.bitsAllocated) / 8);
-  if (plain.empty())
-  {
-    return file.path + " is damaged: its run lengths do not make up its pixels";
-  }
-  withStoredType(storedTypeOf(file.pixels), [&](auto* none) {
-    auto* numbers = reinterpret_cast<decltype(none)>(plain.data());
-    keepStoredBits(file.pixels, numbers, count);
-    convert(numbers, count, target, type);
-  });
-  return {};
+  static const std::map<std::string, Packing> known = {
+    { "1.2.840.10008.1.2.4.50", { unpackJPEG, true } },      // baseline
+    { "1.2.840.10008.1.2.4.51", { unpackJPEG, true } },      // extended, 12 bits
+    { "1.2.840.10008.1.2.4.57", { unpackJPEG, false } },     // lossless
+    { "1.2.840.10008.1.2.4.70", { unpackJPEG, false } },     // lossless, first-order prediction
+    { "1.2.840.10008.1.2.4.80", { unpackJPEGLS, false } },   // lossless
+    { "1.2.840.10008.1.2.4.81", { unpackJPEGLS, true } },    // near-lossless
+    { "1.2.840.10008.1.2.4.90", { unpackJPEG2000, false } }, // lossless
+    { "1.2.840.10008.1.2.4.91", { unpackJPEG2000, true } },
+    { "1.2.840.10008.1.2.5", { unpackRunLengths, false } },
+  };
+  const auto found = known.find(transferSyntax);
+  return found == known.end() ? Packing() : found->second;
 }
 
 std::string decode(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type)
 {
-  silenceGDCM();
   DICOMBytes bytes(file.path);
   DICOMContent content;
   const bool isRead = parseDICOM(bytes, content) && content.isPacked;
-  const gdcm::TransferSyntax::TSType syntax =
-    gdcm::TransferSyntax::GetTSType(content.transferSyntax.c_str());
-  if (!isRead || syntax == gdcm::TransferSyntax::TS_END)
+  const Packing packing = isRead ? packingOf(content.transferSyntax) : Packing();
+  if (!packing.unpack)
   {
-    return file.path + " is packed in a way that GDCM does not know, " +
+    return file.path + " is packed in a way that BrainShift does not know, " +
       plainText(content.transferSyntax);
   }
   const std::vector<std::string> packed = packedFrames(bytes, content, file.frames.size());
@@ -309,16 +203,23 @@ std::string decode(const DICOMFile& file, const std::vector<DICOMTarget>& target
     return file.path + " is damaged: its fragments do not make up " +
       std::to_string(file.frames.size()) + " frames";
   }
+  const FrameShape shape{ file.columns, file.rows, file.pixels.bitsAllocated };
   for (const DICOMTarget& target : targets)
   {
-    const std::string& frame = packed[target.frame->frame];
-    const std::string problem = syntax == gdcm::TransferSyntax::RLELossless
-      ? unpackRuns(file, frame, target, type)
-      : unpack(file, syntax, frame, target, type);
-    if (!problem.empty())
+    UnpackedFrame frame = packing.unpack(packed[target.frame->frame], shape);
+    if (!frame.problem.empty())
     {
-      return problem;
+      return file.path + " cannot be read: " + frame.problem;
     }
+    withStoredType(storedTypeOf(file.pixels), [&](auto* none) {
+      auto* numbers = reinterpret_cast<decltype(none)>(frame.numbers.data());
+      if (packing.mayLose)
+      {
+        clampToStoredBits(file.pixels, numbers, shape.count());
+      }
+      keepStoredBits(file.pixels, numbers, shape.count());
+      convert(numbers, shape.count(), target, type);
+    });
   }
   return {};
 }

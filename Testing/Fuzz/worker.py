@@ -9,8 +9,9 @@ import sys
 
 from brainshift_testing import load_plugin
 
-KINDS = {"files": "file_cases", "dicom": "dicom_cases", "properties": "property_cases",
-         "fields": "field_cases", "points": "point_cases", "transforms": "transform_cases"}
+KINDS = {"files": "file_cases", "dicom": "dicom_cases", "frames": "frame_cases",
+         "properties": "property_cases", "fields": "field_cases", "points": "point_cases",
+         "transforms": "transform_cases"}
 
 
 def main(kind, seed, first, end, folder):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/DICOM/DICOMRunLengths.h"
+#include "Filters/PackedFrames/RunLengths.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -52,14 +52,16 @@ bool unpackSegment(const std::string& packed, std::size_t offset, std::string& p
 }
 }
 
-std::string unpackRunLengths(
-  const std::string& packed, std::size_t count, std::size_t bytesOfNumber)
+UnpackedFrame unpackRunLengths(const std::string& packed, const FrameShape& shape)
 {
+  const std::size_t bytesOfNumber = shape.bytesOfNumber();
+  const UnpackedFrame damaged{ {},
+    "a frame is damaged: its run lengths do not make up its pixels" };
   if (packed.size() < HeaderBytes || headerNumber(packed, 0) != bytesOfNumber)
   {
-    return {};
+    return damaged;
   }
-  std::string plain(count * bytesOfNumber, '\0');
+  std::string plain(shape.count() * bytesOfNumber, '\0');
   for (std::size_t segment = 0; segment < bytesOfNumber; ++segment)
   {
     const std::size_t offset = headerNumber(packed, 1 + segment);
@@ -67,9 +69,9 @@ std::string unpackRunLengths(
     if (offset < HeaderBytes ||
       !unpackSegment(packed, offset, plain, bytesOfNumber - 1 - segment, bytesOfNumber))
     {
-      return {};
+      return damaged;
     }
   }
-  return plain;
+  return { plain, {} };
 }
 }
