@@ -8,6 +8,7 @@ room, of the rooms named in its row, and of every room that those stand on.
 STANDS_ON = {
     "Filters/Deformation": [],
     "Filters/Attached": ["Filters/Deformation"],
+    "Filters/Fit": ["Filters/Deformation"],
     "Filters/Files": ["Filters/Attached"],
     "Filters/Landmarks": ["Filters/Files"],
     "Filters/Looks": ["Filters/Attached"],
@@ -19,7 +20,7 @@ STANDS_ON = {
     "Filters/Readers": ["Filters/Fields", "Filters/DICOM"],
     "Filters/Transforms": ["Filters/Fields"],
     "Filters": [
-        "Filters/Landmarks", "Filters/Looks", "Filters/Readers", "Filters/Traces",
+        "Filters/Fit", "Filters/Landmarks", "Filters/Looks", "Filters/Readers", "Filters/Traces",
         "Filters/Transforms"],
     "Representations/Gpu": ["Filters"],
     "Representations/Scene": ["Representations/Gpu"],
@@ -51,6 +52,7 @@ STANDS_ON = {
 #: Libraries that a room and the rooms inside it must not include. Each has a pattern below.
 KEEPS_OUT = {
     "Filters/Deformation": ["VTK"],
+    "Filters/Fit": ["VTK"],
     "Filters": ["OpenGL", "Qt"],
     "Representations": ["Qt"],
     "Widgets": ["Qt"],

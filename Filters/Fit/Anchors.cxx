@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Fit/Anchors.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace brainshift
+{
+namespace
+{
+constexpr int MostTries = 24;  // halvings of the range of cell sizes
+constexpr double Enough = 0.1; // share of the wanted number by which the choice may miss it
+constexpr double SmallestMm = 0.5;
+
+using Cell = std::tuple<double, double, double>;
+
+// The number of the point of each cell that lies nearest to its middle.
+std::vector<std::size_t> nearestToMiddles(const std::vector<SurfacePoint>& points, double cellMm)
+{
+  std::map<Cell, std::pair<double, std::size_t>> best;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const glm::dvec3 cell = glm::floor(points[i].position / cellMm);
+    const double away = glm::distance(points[i].position, (cell + 0.5) * cellMm);
+    const auto [at, isNew] = best.try_emplace({ cell.x, cell.y, cell.z }, away, i);
+    if (!isNew && away < at->second.first)
+    {
+      at->second = { away, i };
+    }
+  }
+  std::vector<std::size_t> result;
+  for (const auto& [cell, found] : best)
+  {
+    result.push_back(found.second);
+  }
+  return result;
+}
+
+std::vector<SurfacePoint> picked(
+  const std::vector<SurfacePoint>& points, const std::vector<std::size_t>& numbers)
+{
+  std::vector<SurfacePoint> result;
+  result.reserve(numbers.size());
+  for (const std::size_t number : numbers)
+  {
+    result.push_back(points[number]);
+  }
+  return result;
+}
+}
+
+OpeningBall ballAround(const std::vector<glm::dvec3>& positions)
+{
+  OpeningBall ball;
+  for (const glm::dvec3& position : positions)
+  {
+    ball.centre += position / static_cast<double>(positions.size());
+  }
+  for (const glm::dvec3& position : positions)
+  {
+    ball.radiusMm = std::max(ball.radiusMm, glm::distance(position, ball.centre));
+  }
+  return ball;
+}
+
+std::vector<SurfacePoint> chooseAnchors(const std::vector<SurfacePoint>& surface,
+  const std::function<bool(const glm::dvec3&)>& isOpen, std::size_t wanted)
+{
+  std::vector<SurfacePoint> closed;
+  std::copy_if(surface.begin(), surface.end(), std::back_inserter(closed),
+    [&](const SurfacePoint& point) { return !isOpen(point.position); });
+  if (closed.size() <= wanted)
+  {
+    return closed;
+  }
+  glm::dvec3 low = closed.front().position;
+  glm::dvec3 high = low;
+  for (const SurfacePoint& point : closed)
+  {
+    low = glm::min(low, point.position);
+    high = glm::max(high, point.position);
+  }
+  // Thinned once, so that the search for the size is quick.
+  double small = std::max(SmallestMm, glm::distance(low, high) / 200.0);
+  double large = glm::distance(low, high);
+  const std::vector<SurfacePoint> thinned = picked(closed, nearestToMiddles(closed, small));
+  const auto target = static_cast<double>(wanted);
+  std::vector<std::size_t> numbers;
+  for (int i = 0; i < MostTries; ++i)
+  {
+    const double middle = 0.5 * (small + large);
+    numbers = nearestToMiddles(thinned, middle);
+    const auto found = static_cast<double>(numbers.size());
+    if (std::abs(found - target) <= Enough * target)
+    {
+      break;
+    }
+    (found > target ? small : large) = middle;
+  }
+  return picked(thinned, numbers);
+}
+}

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Fit/Fit.h"
+
+#include "Filters/Deformation/Parallel.h"
+#include "Filters/Fit/TraceRows.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace brainshift
+{
+namespace
+{
+constexpr std::int64_t DeviationsAtLeast = 4; // for a thread
+constexpr int MostMotions = 50;
+constexpr double MotionTolerance = 1e-12; // mm and rad
+constexpr double LeastSpreadMm = 1.0;     // around a line, to know the turn around it
+constexpr double PriorPairs = 8.0;        // that the deviations before any pair stand for
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+// Adds three rows that measure all of a displacement. Returns the number of the first.
+std::size_t addVector(
+  std::vector<Row>& rows, const glm::dvec3& at, const glm::dvec3& value, double variance)
+{
+  const std::size_t first = rows.size();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    glm::dvec3 unit(0.0);
+    unit[axis] = 1.0;
+    rows.push_back({ at, unit, value[axis], variance });
+  }
+  return first;
+}
+
+// Adds pairs that are switched on. Returns their first rows.
+std::vector<std::optional<std::size_t>> addPairs(
+  std::vector<Row>& rows, const std::vector<PointPair>& pairs, double deviation)
+{
+  std::vector<std::optional<std::size_t>> firsts;
+  for (const PointPair& pair : pairs)
+  {
+    firsts.emplace_back();
+    if (pair.weight > 0.0)
+    {
+      firsts.back() =
+        addVector(rows, pair.rest, pair.measured - pair.rest, deviation * deviation / pair.weight);
+    }
+  }
+  return firsts;
+}
+
+double squared(double value)
+{
+  return value * value;
+}
+}
+
+Fit::Fit()
+  : Field(Matern())
+{
+}
+
+std::string Fit::solve(
+  const Measurements& measured, const FitSettings& settings, const RestSurface& surface)
+{
+  std::string problem = problemOf(measured);
+  problem = problem.empty() ? problemOf(settings) : problem;
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  this->Rigid = {};
+  this->Steps = 0;
+  this->TraceResiduals.assign(measured.traces.size(), NaN);
+  problem = bendsOnly(measured) ? this->solveBend(measured, settings, surface)
+                                : this->solveRigid(measured, settings);
+  if (problem.empty())
+  {
+    this->judge(measured);
+  }
+  return problem;
+}
+
+std::string Fit::solveRigid(const Measurements& measured, const FitSettings& settings)
+{
+  std::vector<glm::dvec3> from;
+  std::vector<glm::dvec3> to;
+  std::vector<double> weights;
+  for (const PointPair& pair : measured.landmarks)
+  {
+    if (pair.weight > 0.0)
+    {
+      from.push_back(pair.rest);
+      to.push_back(pair.measured);
+      weights.push_back(pair.weight);
+    }
+  }
+  std::vector<Row> rows;
+  this->PullRows.clear();
+  this->LandmarkRows =
+    addPairs(rows, measured.landmarks, settings.landmarkDeviation * settings.relaxation);
+  const bool isFree =
+    from.size() >= settings.pairsWithoutPrior && spreadAroundLine(from, weights) >= LeastSpreadMm;
+  const RigidMean mean{ weightedMean(from, weights),
+    isFree ? 0.0 : 1.0 / squared(glm::radians(settings.rotationPriorDegrees)) };
+  this->Field = Process(settings.landmarkKernel);
+  const std::string problem = this->Field.setRows(rows, mean);
+  if (!problem.empty() || from.empty())
+  {
+    return problem;
+  }
+  const glm::dvec3 shift = weightedMean(to, weights) - mean.centre;
+  this->Rigid =
+    turnedAround(mean.centre, isFree ? nearestRotation(from, to, weights) : glm::dmat3(1.0), shift);
+  for (int i = 0; i < MostMotions; ++i)
+  {
+    std::vector<double> values;
+    for (std::size_t j = 0; j < from.size(); ++j)
+    {
+      const glm::dvec3 left = this->Rigid.applyInverse(to[j]) - from[j];
+      values.insert(values.end(), { left.x, left.y, left.z });
+    }
+    this->Field.setValues(values);
+    const SmallMotion motion = this->Field.remainingMotion(vectorFrom(this->Rigid.rotation));
+    const RigidMotion step =
+      turnedAround(mean.centre, rotationFrom(motion.rotation), motion.translation);
+    if (glm::length(motion.translation) + glm::length(motion.rotation) < MotionTolerance)
+    {
+      break;
+    }
+    this->Rigid = { this->Rigid.rotation * step.rotation, this->Rigid.apply(step.translation) };
+  }
+  return {};
+}
+
+std::string Fit::solveBend(
+  const Measurements& measured, const FitSettings& settings, const RestSurface& surface)
+{
+  const double deviation = settings.surfaceDeviation * settings.relaxation;
+  std::vector<Row> rows;
+  this->LandmarkRows = addPairs(rows, measured.landmarks, deviation);
+  this->PullRows = addPairs(rows, measured.pulls, deviation);
+  for (const glm::dvec3& pin : measured.pins)
+  {
+    addVector(rows, pin, glm::dvec3(0.0), squared(settings.pinDeviation));
+  }
+  for (const SurfacePoint& anchor : measured.anchors)
+  {
+    rows.push_back({ anchor.position, anchor.normal, 0.0, squared(settings.anchorDeviation) });
+  }
+  this->Field = Process(settings.surfaceKernel);
+  if (measured.traces.empty() || !surface)
+  {
+    return this->Field.setRows(rows);
+  }
+  TraceProjection projection(measured.traces, surface);
+  const TraceBins bins(measured.traces, settings, deviation);
+  for (this->Steps = 0; this->Steps < settings.steps; ++this->Steps)
+  {
+    const double moved = projection.project(this->Field);
+    if (this->Steps > 1 && moved <= settings.stepToleranceMm)
+    {
+      break;
+    }
+    std::vector<Row> all = rows;
+    const std::vector<Row> traced = bins.rows(projection.feet());
+    all.insert(all.end(), traced.begin(), traced.end());
+    const std::string problem = this->Field.setRows(all);
+    if (!problem.empty())
+    {
+      return problem;
+    }
+  }
+  projection.project(this->Field);
+  for (std::size_t i = 0; i < measured.traces.size(); ++i)
+  {
+    const TraceFoot& trace = projection.feet()[i];
+    if (trace.counts)
+    {
+      this->TraceResiduals[i] =
+        trace.value - glm::dot(trace.normal, this->Field.displacement(trace.foot));
+    }
+  }
+  return {};
+}
+
+void Fit::judge(const Measurements& measured)
+{
+  this->LeaveOneOut.assign(measured.landmarks.size(), NaN);
+  double sum = PriorPairs;
+  double count = PriorPairs;
+  const auto leaveOut = [&](const std::optional<std::size_t>& first) {
+    if (!first)
+    {
+      return NaN;
+    }
+    const LeftOut left = this->Field.leftOut(*first);
+    sum += glm::dot(left.error, glm::inverse(left.covariance) * left.error) / 3.0;
+    ++count;
+    return glm::length(left.error);
+  };
+  // One pair alone says all of the rigid part: without it, there is nothing to leave it out of.
+  const auto used = std::count_if(this->LandmarkRows.begin(), this->LandmarkRows.end(),
+    [](const std::optional<std::size_t>& first) { return first.has_value(); });
+  if (used > 1 || bendsOnly(measured))
+  {
+    std::transform(
+      this->LandmarkRows.begin(), this->LandmarkRows.end(), this->LeaveOneOut.begin(), leaveOut);
+    std::for_each(this->PullRows.begin(), this->PullRows.end(), leaveOut);
+  }
+  this->Calibration = std::sqrt(sum / count);
+}
+
+void Fit::movePull(std::size_t pull, const glm::dvec3& measured)
+{
+  const std::optional<std::size_t> first =
+    pull < this->PullRows.size() ? this->PullRows[pull] : std::nullopt;
+  if (!first)
+  {
+    return;
+  }
+  std::vector<double> values;
+  for (const Row& row : this->Field.rows())
+  {
+    values.push_back(row.value);
+  }
+  const glm::dvec3 value = measured - this->Field.rows()[*first].point;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    values[*first + axis] = value[axis];
+  }
+  this->Field.setValues(values);
+}
+
+double Fit::deviation(const glm::dvec3& rest) const
+{
+  const glm::dmat3 covariance = this->Field.covariance(rest);
+  const double third = (covariance[0][0] + covariance[1][1] + covariance[2][2]) / 3.0;
+  return this->Calibration * std::sqrt(std::max(0.0, third));
+}
+
+std::vector<double> Fit::deviations(const std::vector<glm::dvec3>& rest) const
+{
+  std::vector<double> result(rest.size());
+  parallelFor(0, static_cast<std::int64_t>(rest.size()), DeviationsAtLeast,
+    [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        result[i] = this->deviation(rest[i]);
+      }
+    });
+  return result;
+}
+}

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief Finds how the volume lies and bends from what was measured, and how far that can be
+ *        believed.
+ *
+ * measuredFromRest is the bend, then a rigid motion. All measurements are solved together, so their
+ * order does not matter.
+ */
+#ifndef BrainShift_Fit_h
+#define BrainShift_Fit_h
+
+#include "Filters/Deformation/Export.h"
+#include "Filters/Fit/Measurements.h"
+#include "Filters/Fit/Process.h"
+#include "Filters/Fit/RigidMotion.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace brainshift
+{
+/** A ball with this many deviations as its radius holds 95 % of a normal distribution in space. */
+constexpr double DeviationsOfBall95 = 2.7954834829151074;
+
+class BRAINSHIFT_DEFORMATION_EXPORT Fit
+{
+public:
+  Fit();
+
+  /**
+   * Solves. Without any measurement the volume stays as it is.
+   *
+   * @param surface   the cortex at rest; without it traces do not count
+   * @return one sentence without a full stop if it cannot; the last result is then void
+   */
+  std::string solve(
+    const Measurements& measured, const FitSettings& settings, const RestSurface& surface = {});
+
+  /**
+   * Takes another measured end (mm, measured frame) for one pull. Traced points are not projected
+   * again and nothing is factored, so this is fast enough for a hand. It does nothing for a pull
+   * that is switched off.
+   *
+   * @param pull   its number, from 0 on
+   */
+  void movePull(std::size_t pull, const glm::dvec3& measured);
+
+  /** The rigid part: measured from rest. The identity if the volume only bends. */
+  const RigidMotion& rigid() const { return this->Rigid; }
+
+  /** How far (mm) tissue at a rest position bends before the rigid part moves it. */
+  glm::dvec3 bend(const glm::dvec3& rest) const { return this->Field.displacement(rest); }
+
+  /** Where tissue at rest was or would be measured (mm): rigid part and bend. */
+  glm::dvec3 measuredFromRest(const glm::dvec3& rest) const
+  {
+    return this->Rigid.apply(rest + this->bend(rest));
+  }
+
+  /**
+   * Standard deviation (mm) of measuredFromRest along each axis. A ball of DeviationsOfBall95 times
+   * it holds the tissue with 95 %, as calibrated by leaving pairs out.
+   */
+  double deviation(const glm::dvec3& rest) const;
+
+  /** deviation() of many positions, on all cores. */
+  std::vector<double> deviations(const std::vector<glm::dvec3>& rest) const;
+
+  /**
+   * For each landmark, how far (mm) a fit without it puts its tissue from where it was measured, in
+   * closed form. NaN for a landmark that is switched off.
+   */
+  const std::vector<double>& leaveOneOut() const { return this->LeaveOneOut; }
+
+  /** Factor on deviations that makes them agree with what leaving pairs out showed. */
+  double calibration() const { return this->Calibration; }
+
+  /** How traced points lie to the bent cortex: see TraceRows.h. One for each trace. */
+  double traceResidual(std::size_t trace) const { return this->TraceResiduals[trace]; }
+
+  /** How often the traced points were projected. */
+  int steps() const { return this->Steps; }
+
+  /** The field that bends. */
+  const Process& field() const { return this->Field; }
+
+private:
+  std::string solveRigid(const Measurements& measured, const FitSettings& settings);
+  std::string solveBend(
+    const Measurements& measured, const FitSettings& settings, const RestSurface& surface);
+  void judge(const Measurements& measured);
+
+  Process Field;
+  RigidMotion Rigid;
+  std::vector<std::optional<std::size_t>> LandmarkRows; // the first of the three
+  std::vector<std::optional<std::size_t>> PullRows;
+  std::vector<double> LeaveOneOut;
+  std::vector<double> TraceResiduals; // mm, NaN: no cortex
+  double Calibration = 1.0;
+  int Steps = 0;
+};
+}
+
+#endif

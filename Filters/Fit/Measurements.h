@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief What was measured, and how far it is trusted: the input of a fit.
+ *
+ * The *rest frame* is the volume as loaded. The *measured frame* is that of the tracker or of the
+ * reference. Both are mm.
+ */
+#ifndef BrainShift_Measurements_h
+#define BrainShift_Measurements_h
+
+#include "Filters/Deformation/Export.h"
+#include "Filters/Fit/Matern.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace brainshift
+{
+/** A piece of tissue that was found at rest and where it was measured: a landmark, or a pull. */
+struct PointPair
+{
+  glm::dvec3 rest{ 0.0 };     ///< mm, rest frame
+  glm::dvec3 measured{ 0.0 }; ///< mm, measured frame
+  double weight = 1.0;        ///< divides the variance; 0: the pair is switched off
+};
+
+/** A place on a surface. */
+struct SurfacePoint
+{
+  glm::dvec3 position{ 0.0 }; ///< mm, rest frame
+  glm::dvec3 normal{ 0.0 };   ///< unit vector that points out of the tissue
+};
+
+/**
+ * The nearest point of the cortex at rest to a position (mm, rest frame). Nothing if there is no
+ * surface. Several threads ask at once.
+ *
+ * @param trace   number of the traced point that asks. The next answer to it lies close by.
+ */
+using RestSurface =
+  std::function<std::optional<SurfacePoint>(const glm::dvec3& rest, std::size_t trace)>;
+
+/** Each of the lists may be empty. */
+struct Measurements
+{
+  std::vector<PointPair> landmarks;
+  std::vector<PointPair> pulls;      ///< tissue that a hand put somewhere
+  std::vector<glm::dvec3> pins;      ///< mm, rest frame: tissue that stays
+  std::vector<glm::dvec3> traces;    ///< mm, measured frame: points on the bent cortex
+  std::vector<SurfacePoint> anchors; ///< cortex that may slide, and that neither sinks nor rises
+};
+
+/**
+ * How far measurements are trusted. Deviations are standard deviations in mm along each axis.
+ *
+ * Landmarks alone are near-rigid: the fit takes a rigid motion out of them and bends little. With
+ * traces, pulls or pins the volume is taken to lie right already, and bends much.
+ */
+struct FitSettings
+{
+  Matern landmarkKernel{ 40.0, 1.0 };
+  double landmarkDeviation = 0.7;    ///< of a landmark of weight 1, when there are landmarks only
+  double rotationPriorDegrees = 3.0; ///< standard deviation of a turn around each axis ...
+  std::size_t pairsWithoutPrior = 7; ///< ... which so many pairs that span a plane do not need
+  Matern surfaceKernel{ 60.0, 8.0 };
+  double surfaceDeviation = 0.7; ///< of a trace, a pull, and a landmark beside them
+  double anchorDeviation = 1.0;
+  double pinDeviation = 0.1;
+  double relaxation = 1.0;             ///< factor on the deviations of what was measured
+  std::size_t tracesWithoutBins = 500; ///< more traced points than these are averaged in bins
+  double binMm = 6.0;                  ///< edge of a bin
+  double binFloorMm = 0.5;             ///< deviation of a bin however many points it averages
+  int steps = 6;                       ///< most times that traced points are projected
+  double stepToleranceMm = 0.01;       ///< ... unless none of them moved by more than this
+};
+
+/** Whether the measurements say nothing about a rigid motion: see FitSettings. */
+inline bool bendsOnly(const Measurements& measured)
+{
+  return !measured.traces.empty() || !measured.pulls.empty() || !measured.pins.empty();
+}
+
+/**
+ * One sentence without a full stop on a number that is not finite, a coordinate beyond 1 km or a
+ * weight below 0. It is empty if there is none.
+ */
+BRAINSHIFT_DEFORMATION_EXPORT std::string problemOf(const Measurements& measured);
+
+/** One sentence on a setting that is out of its range; empty if there is none. */
+BRAINSHIFT_DEFORMATION_EXPORT std::string problemOf(const FitSettings& settings);
+}
+
+#endif

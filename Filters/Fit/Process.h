@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief A Gaussian process for displacements: the smoothest field through measurements, and how
+ *        far it can be believed.
+ *
+ * Each component of the displacement u is a Gaussian process with the same covariance. A row
+ * measures one component along an axis at one point: axis . u(point) = value, give or take. Three
+ * rows at one point measure all of it. With the covariance matrix A of all rows, their noise added,
+ * the field is u(x) = sum over rows of k(x, point) axis w, and A w = values.
+ *
+ * Everything is double precision. A is factored once (Cholesky); other values for the same rows
+ * need no new factor.
+ */
+#ifndef BrainShift_Process_h
+#define BrainShift_Process_h
+
+#include "Filters/Deformation/Export.h"
+#include "Filters/Fit/Matern.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace brainshift
+{
+/** Most rows of a process: the matrix takes 288 MB and the factor about 20 s. */
+constexpr std::size_t MostRows = 6000;
+
+/** One number that was measured: axis . u(point) = value, give or take sqrt(variance). */
+struct Row
+{
+  glm::dvec3 point{ 0.0 }; ///< mm, rest frame
+  glm::dvec3 axis{ 0.0 };  ///< unit vector
+  double value = 0.0;      ///< mm
+  double variance = 1.0;   ///< mm^2, above 0
+};
+
+/**
+ * A small motion that the process takes for granted: tissue moves as a whole and turns around
+ * `centre` before it bends. The translation is free.
+ */
+struct RigidMean
+{
+  glm::dvec3 centre{ 0.0 };       ///< mm, rest frame
+  double rotationPrecision = 0.0; ///< 1 / rad^2: one over the variance of a turn; 0: free
+};
+
+/** Translation (mm), then rotation (rad) around the mean's centre. */
+struct SmallMotion
+{
+  glm::dvec3 translation{ 0.0 };
+  glm::dvec3 rotation{ 0.0 };
+};
+
+/** An error that is left at rows which were not used for it, and its expected square. */
+struct LeftOut
+{
+  glm::dvec3 error{ 0.0 };      ///< mm, along the axes of the three rows
+  glm::dmat3 covariance{ 0.0 }; ///< mm^2, of that error
+};
+
+class BRAINSHIFT_DEFORMATION_EXPORT Process
+{
+public:
+  explicit Process(const Matern& kernel);
+  ~Process();
+  Process(Process&& other) noexcept;
+  Process& operator=(Process&& other) noexcept;
+
+  /**
+   * Takes other rows and factors their covariance.
+   *
+   * @return one sentence without a full stop if there are too many rows or they contradict each
+   *         other beyond what numbers can hold; else empty
+   */
+  std::string setRows(std::vector<Row> rows, const std::optional<RigidMean>& mean = {});
+
+  /** Takes other values for the same rows. There is no new factor. */
+  void setValues(const std::vector<double>& values);
+
+  const std::vector<Row>& rows() const;
+
+  /** How often a matrix was factored. */
+  int factors() const;
+
+  /**
+   * The rigid motion that the values still hold, to first order. Take it out of the values, and the
+   * field is what is left.
+   *
+   * @param taken   rotation (rad) that was taken out of the values before; the precision draws the
+   *                sum of both to 0
+   */
+  SmallMotion remainingMotion(const glm::dvec3& taken) const;
+
+  /** Displacement (mm) at a position (mm, rest frame). The rigid mean has no part in it. */
+  glm::dvec3 displacement(const glm::dvec3& rest) const;
+
+  /** Displacements (mm) at many positions, on all cores. */
+  std::vector<glm::dvec3> displacements(const std::vector<glm::dvec3>& rest) const;
+
+  /** Derivatives of the displacement: column a is du / d(rest_a). */
+  glm::dmat3 gradient(const glm::dvec3& rest) const;
+
+  /** Covariance (mm^2) of the displacement that is left, that of the rigid mean included. */
+  glm::dmat3 covariance(const glm::dvec3& rest) const;
+
+  /**
+   * What a process without three rows would miss them by, in closed form. The values must hold no
+   * rigid motion any more.
+   *
+   * @param first   number of the first of the three rows
+   */
+  LeftOut leftOut(std::size_t first) const;
+
+private:
+  struct State;
+  std::unique_ptr<State> Internal;
+};
+}
+
+#endif

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief Rotation and translation: the part of a fit that bends nothing.
+ */
+#ifndef BrainShift_RigidMotion_h
+#define BrainShift_RigidMotion_h
+
+#include "Filters/Deformation/Export.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+namespace brainshift
+{
+/** Turns around the origin, then shifts. */
+struct RigidMotion
+{
+  glm::dmat3 rotation{ 1.0 };
+  glm::dvec3 translation{ 0.0 }; ///< mm
+
+  glm::dvec3 apply(const glm::dvec3& point) const
+  {
+    return this->rotation * point + this->translation;
+  }
+  glm::dvec3 applyInverse(const glm::dvec3& point) const
+  {
+    return glm::transpose(this->rotation) * (point - this->translation);
+  }
+};
+
+/** A motion that turns around a centre (mm) and then shifts by a vector (mm). */
+BRAINSHIFT_DEFORMATION_EXPORT RigidMotion turnedAround(
+  const glm::dvec3& centre, const glm::dmat3& rotation, const glm::dvec3& shift);
+
+/** The rotation around a vector by its length (rad). */
+BRAINSHIFT_DEFORMATION_EXPORT glm::dmat3 rotationFrom(const glm::dvec3& vector);
+
+/** The vector whose direction is a rotation's axis and whose length is its angle (0 to pi rad). */
+BRAINSHIFT_DEFORMATION_EXPORT glm::dvec3 vectorFrom(const glm::dmat3& rotation);
+
+/**
+ * The rotation that takes points nearest to others, both counted from their weighted means: it has
+ * the least weighted sum of squared distances. The identity if the points do not span a plane.
+ */
+BRAINSHIFT_DEFORMATION_EXPORT glm::dmat3 nearestRotation(const std::vector<glm::dvec3>& from,
+  const std::vector<glm::dvec3>& to, const std::vector<double>& weights);
+
+/** The weighted mean of points (mm); 0 without weight. */
+BRAINSHIFT_DEFORMATION_EXPORT glm::dvec3 weightedMean(
+  const std::vector<glm::dvec3>& points, const std::vector<double>& weights);
+
+/**
+ * Root mean square distance (mm) of points from the line that lies nearest to them; 0 if they lie
+ * on one line or in one place, so that they do not say how they turned around it.
+ */
+BRAINSHIFT_DEFORMATION_EXPORT double spreadAroundLine(
+  const std::vector<glm::dvec3>& points, const std::vector<double>& weights);
+}
+
+#endif

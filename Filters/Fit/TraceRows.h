@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief Traced points as rows of a process: each holds the cortex at its distance along the normal
+ *        and lets it slide.
+ */
+#ifndef BrainShift_TraceRows_h
+#define BrainShift_TraceRows_h
+
+#include "Filters/Deformation/Export.h"
+#include "Filters/Fit/Measurements.h"
+#include "Filters/Fit/Process.h"
+
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+namespace brainshift
+{
+/** Where a traced point meets the cortex, as far as the field is known. */
+struct TraceFoot
+{
+  glm::dvec3 tissue{ 0.0 }; ///< mm, rest frame: what the field puts at the traced point
+  glm::dvec3 foot{ 0.0 };   ///< mm, rest frame: the nearest point of the cortex to that
+  glm::dvec3 normal{ 0.0 }; ///< unit vector out of the bent cortex at the foot
+  double value = 0.0;       ///< mm: along the normal, how far the foot must go to be at the point
+  bool counts = false;      ///< false: there is no cortex
+};
+
+/** Projects traced points on the cortex. It makes one Newton step for `tissue` in each call. */
+class BRAINSHIFT_DEFORMATION_EXPORT TraceProjection
+{
+public:
+  /**
+   * @param traces    mm, in the frame in which the bent volume lies
+   * @param surface   the cortex at rest; it must outlive this
+   */
+  TraceProjection(std::vector<glm::dvec3> traces, const RestSurface& surface);
+
+  /** Projects with a field. Returns how far (mm) the point moved that moved most. */
+  double project(const Process& field);
+
+  const std::vector<TraceFoot>& feet() const { return this->Feet; }
+
+private:
+  std::vector<glm::dvec3> Traces;
+  const RestSurface& Surface;
+  std::vector<TraceFoot> Feet;
+};
+
+/** Which traced points are averaged into one row. */
+class BRAINSHIFT_DEFORMATION_EXPORT TraceBins
+{
+public:
+  /** One bin for each point if they are few; else cubes. `deviation`: mm, of one point. */
+  TraceBins(const std::vector<glm::dvec3>& traces, const FitSettings& settings, double deviation);
+
+  /** A row for each bin with a point that counts. */
+  std::vector<Row> rows(const std::vector<TraceFoot>& feet) const;
+
+private:
+  std::vector<std::vector<std::size_t>> Members;
+  double Variance; // mm^2, of one point
+  double Floor;    // mm^2, of a bin
+};
+}
+
+#endif

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Proves that the cubic between the control points has the field's values at them with both kernels
+// and comes near to it between them, and that a field that folds is shortened.
+#include "Filters/Fit/FitLattice.h"
+#include "Filters/Deformation/Kernels.h"
+#include "Filters/Deformation/LatticeExtremes.h"
+#include "Filters/Deformation/PointMap.h"
+#include "Testing/Cxx/Fit/DenseReference.h"
+
+#include <gtest/gtest.h>
+
+using namespace brainshift;
+using namespace brainshift::testing;
+
+namespace
+{
+Grid boxGrid()
+{
+  Grid grid;
+  grid.dimensions = { 19, 17, 15 };
+  grid.origin = { -90.0, -80.0, -70.0 };
+  grid.spacing = { 10.0, 9.0, 11.0 };
+  return grid;
+}
+
+// One pull of so many millimetres.
+Process pulled(double byMm, double lengthMm)
+{
+  Process process({ lengthMm, 8.0 });
+  std::vector<Row> rows = probe({ 5.0, 3.0, -2.0 });
+  rows[2].value = byMm;
+  rows[0].variance = rows[1].variance = rows[2].variance = 0.01;
+  process.setRows(rows);
+  return process;
+}
+}
+
+class FitLatticeOfKernel : public ::testing::TestWithParam<int>
+{
+};
+
+TEST_P(FitLatticeOfKernel, PassesThroughTheField)
+{
+  Lattice lattice = makeLattice(boxGrid(), GetParam());
+  const Process field = pulled(10.0, 60.0);
+  sampleField(lattice, field);
+  const PointMap map(lattice);
+  for (const glm::dvec3 index :
+    { glm::dvec3(0, 0, 0), glm::dvec3(9, 8, 7), glm::dvec3(18, 3, 14), glm::dvec3(4, 16, 9) })
+  {
+    const glm::dvec3 at = lattice.grid.worldFromGrid(index);
+    EXPECT_LT(glm::distance(map.deformedFromRest(at), at + field.displacement(at)), 1e-4);
+  }
+  Scatter scatter(21);
+  for (int i = 0; i < 100; ++i)
+  {
+    const glm::dvec3 at = scatter.point(60.0);
+    EXPECT_LT(glm::distance(map.deformedFromRest(at), at + field.displacement(at)), 0.1);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+  Kernels, FitLatticeOfKernel, ::testing::Values(KernelCatmullRom, KernelBSpline));
+
+TEST(FitLattice, AFoldIsShortened)
+{
+  Lattice lattice = makeLattice(boxGrid(), KernelCatmullRom);
+  sampleField(lattice, pulled(10.0, 60.0));
+  EXPECT_EQ(shareWithoutFolds(lattice, 4), 1.0);
+  sampleField(lattice, pulled(40.0, 25.0));
+  ASSERT_LT(minimumJacobian(lattice), 0.0);
+  const double share = shareWithoutFolds(lattice, 4);
+  EXPECT_GT(share, 0.2);
+  EXPECT_LT(share, 0.95);
+  for (glm::vec3& displacement : lattice.displacements)
+  {
+    displacement *= static_cast<float>(share);
+  }
+  EXPECT_GT(minimumJacobian(lattice), 0.09);
+}

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Proves that traced points bring the cortex to themselves along its normal, let it slide, and are
+// averaged where they are many; that anchors hold the cortex elsewhere; and that the steps end
+// where the equations hold. The brain is a ball of 70 mm.
+#include "Filters/Fit/Anchors.h"
+#include "Filters/Fit/Fit.h"
+#include "Filters/Fit/TraceRows.h"
+#include "Testing/Cxx/Fit/DenseReference.h"
+
+#include <glm/matrix.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+using namespace brainshift;
+using namespace brainshift::testing;
+
+namespace
+{
+constexpr double Radius = 70.0;
+
+std::optional<SurfacePoint> onBall(const glm::dvec3& rest, std::size_t)
+{
+  const glm::dvec3 normal = glm::normalize(rest);
+  return SurfacePoint{ Radius * normal, normal };
+}
+
+// Points all over the ball.
+std::vector<SurfacePoint> ballPoints(int count)
+{
+  std::vector<SurfacePoint> points;
+  for (int i = 0; i < count; ++i)
+  {
+    const double z = 1.0 - (2.0 * i + 1.0) / count;
+    const double turn = 2.399963229728653 * i; // the golden angle
+    const double flat = std::sqrt(1.0 - z * z);
+    const glm::dvec3 normal(flat * std::cos(turn), flat * std::sin(turn), z);
+    points.push_back({ Radius * normal, normal });
+  }
+  return points;
+}
+
+const OpeningBall Opening{ { 0.0, 0.0, Radius }, 35.0 };
+
+bool isNearOpening(const glm::dvec3& rest)
+{
+  return glm::distance(rest, Opening.centre) < Opening.radiusMm + AnchorMarginMm;
+}
+
+// How the ball sags: 8 mm at the top, nothing beyond the opening.
+glm::dvec3 sag(const glm::dvec3& rest)
+{
+  const double away = std::min(1.0, glm::distance(rest, Opening.centre) / 48.0);
+  return { 0.0, 0.0, -8.0 * std::pow(1.0 - away * away, 2) };
+}
+
+// Points of the sagged cortex under the opening.
+std::vector<glm::dvec3> tracesOf(std::size_t count)
+{
+  std::vector<glm::dvec3> traces;
+  for (const SurfacePoint& point : ballPoints(static_cast<int>(16 * count)))
+  {
+    if (glm::distance(point.position, Opening.centre) < Opening.radiusMm && traces.size() < count)
+    {
+      traces.push_back(point.position + sag(point.position));
+    }
+  }
+  return traces;
+}
+
+Measurements sagged(std::size_t count)
+{
+  Measurements measured;
+  measured.traces = tracesOf(count);
+  measured.anchors = chooseAnchors(ballPoints(5000), isNearOpening);
+  return measured;
+}
+
+// Distance (mm) along the normal between the fitted cortex and the true one.
+double missAt(const Fit& fit, const SurfacePoint& at)
+{
+  return std::abs(glm::dot(at.normal, fit.bend(at.position) - sag(at.position)));
+}
+}
+
+TEST(TraceFit, BringsTheCortexToTheTraces)
+{
+  const Measurements measured = sagged(300);
+  ASSERT_EQ(measured.traces.size(), 300u);
+  Fit fit;
+  ASSERT_EQ(fit.solve(measured, {}, onBall), "");
+  EXPECT_GE(fit.steps(), 2);
+  double squares = 0.0;
+  for (std::size_t i = 0; i < measured.traces.size(); ++i)
+  {
+    squares += std::pow(fit.traceResidual(i), 2) / 300.0;
+  }
+  EXPECT_LT(std::sqrt(squares), 0.3);
+  for (const SurfacePoint& point : ballPoints(500))
+  {
+    const double away = glm::distance(point.position, Opening.centre);
+    if (away < 30.0)
+    {
+      EXPECT_LT(missAt(fit, point), 0.6) << away;
+    }
+    else if (away > 60.0)
+    {
+      EXPECT_LT(missAt(fit, point), 0.5) << away;
+    }
+  }
+}
+
+TEST(TraceFit, AnchorsHoldTheCortexElsewhere)
+{
+  Measurements measured = sagged(300);
+  const auto farMiss = [&] {
+    Fit fit;
+    EXPECT_EQ(fit.solve(measured, {}, onBall), "");
+    double most = 0.0;
+    for (const SurfacePoint& point : ballPoints(500))
+    {
+      const bool isFar = glm::distance(point.position, Opening.centre) > 60.0;
+      most = isFar ? std::max(most, missAt(fit, point)) : most;
+    }
+    return most;
+  };
+  EXPECT_LT(farMiss(), 0.5);
+  measured.anchors.clear();
+  EXPECT_GT(farMiss(), 1.5);
+}
+
+TEST(TraceFit, EndsWhereTheEquationsHold)
+{
+  const Measurements measured = sagged(60);
+  FitSettings settings;
+  settings.steps = 60;
+  settings.stepToleranceMm = 1e-12;
+  Fit fit;
+  ASSERT_EQ(fit.solve(measured, settings, onBall), "");
+  // Rows that are made from the result give the result again.
+  TraceProjection projection(measured.traces, onBall);
+  for (int i = 0; i < 40; ++i)
+  {
+    projection.project(fit.field());
+  }
+  std::vector<Row> rows(fit.field().rows().begin(),
+    fit.field().rows().begin() + static_cast<std::ptrdiff_t>(measured.anchors.size()));
+  for (const TraceFoot& foot : projection.feet())
+  {
+    rows.push_back({ foot.foot, foot.normal, foot.value, 0.49 });
+  }
+  for (const glm::dvec3 at : { glm::dvec3(0, 0, 70), glm::dvec3(20, 5, 60), glm::dvec3(0, 40, 0) })
+  {
+    const glm::dvec3 wanted = answerOf(settings.surfaceKernel, rows, at).displacement;
+    EXPECT_LT(glm::distance(fit.bend(at), wanted), 1e-6);
+  }
+}
+
+TEST(TraceFit, NormalsAreThoseOfTheBentCortex)
+{
+  Measurements measured;
+  measured.pulls = { { { 0, 0, 70 }, { 0, 5, 55 } }, { { 30, 0, 60 }, { 30, 0, 62 } } };
+  Fit fit;
+  ASSERT_EQ(fit.solve(measured, {}), "");
+  const glm::dvec3 foot = Radius * glm::normalize(glm::dvec3(0.3, 0.1, 1.0));
+  const auto bent = [&](const glm::dvec3& rest) { return rest + fit.bend(rest); };
+  TraceProjection projection({ bent(foot) }, onBall);
+  for (int i = 0; i < 30; ++i)
+  {
+    projection.project(fit.field());
+  }
+  const TraceFoot& found = projection.feet().front();
+  ASSERT_LT(glm::distance(found.foot, foot), 1e-9);
+  EXPECT_LT(glm::dot(found.normal, glm::normalize(foot)), 0.99); // it did turn
+  for (const glm::dvec3 aside : { glm::dvec3(1, 0, -0.3), glm::dvec3(0, 1, -0.1) })
+  {
+    const double step = 1e-4; // along the ball
+    const glm::dvec3 slope = glm::normalize(bent(foot + step * aside) - bent(foot - step * aside));
+    EXPECT_NEAR(glm::dot(found.normal, slope), 0.0, 1e-6);
+  }
+}
+
+TEST(TraceFit, FewStepsAreEnough)
+{
+  const Measurements measured = sagged(300);
+  Fit quick;
+  ASSERT_EQ(quick.solve(measured, {}, onBall), "");
+  FitSettings settings;
+  settings.steps = 40;
+  settings.stepToleranceMm = 1e-9;
+  Fit thorough;
+  ASSERT_EQ(thorough.solve(measured, settings, onBall), "");
+  for (const SurfacePoint& point : ballPoints(200))
+  {
+    EXPECT_LT(glm::distance(quick.bend(point.position), thorough.bend(point.position)), 0.05);
+  }
+}
+
+TEST(TraceFit, ManyTracesAreAveraged)
+{
+  const Measurements few = sagged(450);
+  const Measurements many = sagged(3000);
+  Fit one;
+  Fit other;
+  ASSERT_EQ(one.solve(few, {}, onBall), "");
+  ASSERT_EQ(other.solve(many, {}, onBall), "");
+  EXPECT_LT(other.field().rows().size(), one.field().rows().size());
+  for (const SurfacePoint& point : ballPoints(300))
+  {
+    EXPECT_LT(glm::distance(one.bend(point.position), other.bend(point.position)), 0.5);
+  }
+}
+
+TEST(TraceFit, ABinHasTheVarianceOfItsMeanAndAFloor)
+{
+  FitSettings settings;
+  settings.tracesWithoutBins = 1;
+  const std::vector<glm::dvec3> traces{ { 1, 1, 70 }, { 2, 1, 72 }, { 1, 2, 71 }, { 8, 1, 70 } };
+  const TraceBins bins(traces, settings, 0.7);
+  std::vector<TraceFoot> feet(4);
+  for (std::size_t i = 0; i < feet.size(); ++i)
+  {
+    feet[i] = { traces[i], traces[i], { 0, 0, 1 }, 1.0 + static_cast<double>(i), i != 1 };
+  }
+  const std::vector<Row> rows = bins.rows(feet);
+  ASSERT_EQ(rows.size(), 2u); // the second point does not count
+  EXPECT_NEAR(rows[0].value, 2.0, 1e-12);
+  EXPECT_NEAR(rows[0].variance, 0.49 / 2.0 + 0.25, 1e-12);
+  EXPECT_NEAR(rows[1].variance, 0.49 + 0.25, 1e-12);
+  EXPECT_NEAR(rows[1].value, 4.0, 1e-12);
+}
+
+TEST(TraceFit, OrderDoesNotMatter)
+{
+  Measurements measured = sagged(700); // in bins
+  measured.pulls = { { { 0, 0, 60 }, { 1, 0, 55 } }, { { 10, 0, 60 }, { 10, 2, 56 } } };
+  Fit one;
+  ASSERT_EQ(one.solve(measured, {}, onBall), "");
+  std::reverse(measured.traces.begin(), measured.traces.end());
+  std::reverse(measured.pulls.begin(), measured.pulls.end());
+  std::reverse(measured.anchors.begin(), measured.anchors.end());
+  Fit other;
+  ASSERT_EQ(other.solve(measured, {}, onBall), "");
+  for (const SurfacePoint& point : ballPoints(50))
+  {
+    EXPECT_LT(glm::distance(one.bend(point.position), other.bend(point.position)), 1e-8);
+  }
+}
+
+TEST(TraceFit, TracesWithoutACortexDoNotCount)
+{
+  Measurements measured;
+  measured.traces = { { 1, 2, 3 }, { 4, 5, 6 } };
+  Fit fit;
+  ASSERT_EQ(fit.solve(measured, {}), "");
+  EXPECT_TRUE(std::isnan(fit.traceResidual(1)));
+  const auto nothing = [](const glm::dvec3&, std::size_t) -> std::optional<SurfacePoint> {
+    return {};
+  };
+  ASSERT_EQ(fit.solve(measured, {}, nothing), "");
+  EXPECT_TRUE(std::isnan(fit.traceResidual(0)));
+  EXPECT_EQ(fit.bend({ 1, 2, 3 }), glm::dvec3(0.0));
+}
+
+TEST(Anchors, AreSpreadBeyondTheOpening)
+{
+  const std::vector<SurfacePoint> anchors = chooseAnchors(ballPoints(20000), isNearOpening);
+  EXPECT_NEAR(static_cast<double>(anchors.size()), 250.0, 26.0);
+  double nearest = Radius;
+  for (const SurfacePoint& one : anchors)
+  {
+    EXPECT_FALSE(isNearOpening(one.position));
+  }
+  // From each place beyond the opening the next anchor is near.
+  for (const SurfacePoint& place : ballPoints(300))
+  {
+    nearest = Radius;
+    for (const SurfacePoint& one : anchors)
+    {
+      nearest = std::min(nearest, glm::distance(one.position, place.position));
+    }
+    if (!isNearOpening(place.position))
+    {
+      EXPECT_LT(nearest, 20.0);
+    }
+  }
+  EXPECT_TRUE(chooseAnchors({}, isNearOpening).empty());
+  EXPECT_EQ(chooseAnchors(ballPoints(20), [](const glm::dvec3&) { return false; }).size(), 20u);
+}
+
+TEST(Anchors, BallHoldsPositions)
+{
+  const OpeningBall ball = ballAround({ { 0, 0, 0 }, { 10, 0, 0 } });
+  EXPECT_EQ(ball.centre, glm::dvec3(5, 0, 0));
+  EXPECT_EQ(ball.radiusMm, 5.0);
+  EXPECT_LT(ballAround({}).radiusMm, 0.0);
+}
