@@ -4,7 +4,9 @@
 import os
 import tempfile
 
+import numpy
 from paraview import simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import stage
 
@@ -180,6 +182,41 @@ def landmark_files(width):
         return stage.side_by_side(views)
 
 
+def _write_as_freesurfer(mesh, name):
+    """A mesh of RAS mm as FreeSurfer keeps it: in tkRAS of a conformed volume whose middle is the
+    brain's, with the geometry of that volume behind the triangles."""
+    data = simple.servermanager.Fetch(mesh)
+    points = vtk_to_numpy(data.GetPoints().GetData()) - numpy.array(stage.CENTRE)
+    triangles = vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    middle = " ".join(map(str, stage.CENTRE))
+    with open(name, "wb") as file:
+        file.write(b"\xff\xff\xfecreated for a picture\n\n")
+        file.write(numpy.array([len(points), len(triangles)], ">i4").tobytes())
+        file.write(points.astype(">f4").tobytes() + triangles.astype(">i4").tobytes())
+        file.write(numpy.array([2, 0, 20], ">i4").tobytes())
+        file.write(b"valid = 1  # volume info valid\nfilename = orig.mgz\nvolume = 256 256 256\n"
+                   b"voxelsize = 1 1 1\nxras = -1 0 0\nyras = 0 0 -1\nzras = 0 1 0\n")
+        file.write(f"cras = {middle}\n".encode())
+
+
+def surfaces(width):
+    """The outline of a surface from a FreeSurfer file, over the slice as loaded and as bent."""
+    side = width // 2
+    bent = stage.bend(stage.head(), _push())
+    with tempfile.TemporaryDirectory() as folder:
+        name = os.path.join(folder, "lh.pial")
+        _write_as_freesurfer(simple.Triangulate(Input=stage.cortex(stage.brain())), name)
+        surface = simple.SurfaceReader(FileName=name)
+        moved = simple.DeformGeometry(Input=surface, Deformation=bent)
+        views = []
+        for shown, volume in ((surface, stage.bend(stage.head())), (moved, bent)):
+            views.append(_slice_of(volume, side))
+            cut = simple.Slice(Input=shown, SliceType="Plane")
+            cut.SliceType.Origin, cut.SliceType.Normal = stage.CORTEX, (0.0, 1.0, 0.0)
+            stage.show_surface(_moved_forward(cut), views[-1], stage.YELLOW, LineWidth=1.5)
+        return stage.side_by_side(views)
+
+
 def deform_geometry(width):
     """A mesh of the brain as loaded, and moved along, coloured by how far, before a slice."""
     side = width // 2
@@ -201,4 +238,5 @@ FIELD_SCENES = {
     "filter-invert-displacement-field": invert,
     "filter-displacement-field-files": field_files,
     "filter-landmark-files": landmark_files,
+    "filter-surfaces-and-tracts": surfaces,
     "filter-deform-geometry": deform_geometry}

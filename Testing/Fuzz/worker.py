@@ -11,6 +11,7 @@ from brainshift_testing import load_plugin
 
 KINDS = {"files": "file_cases", "dicom": "dicom_cases", "frames": "frame_cases",
          "properties": "property_cases", "fields": "field_cases", "points": "point_cases",
+         "surfaces": "surface_cases",
          "transforms": "transform_cases"}
 
 

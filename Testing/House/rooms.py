@@ -18,10 +18,11 @@ STANDS_ON = {
     "Filters/DICOM": ["Filters/PackedFrames", "Filters/Volumes"],
     "Filters/Fields": ["Filters/Volumes"],
     "Filters/Readers": ["Filters/Fields", "Filters/DICOM"],
+    "Filters/Surfaces": ["Filters/Volumes"],
     "Filters/Transforms": ["Filters/Fields"],
     "Filters": [
-        "Filters/Fit", "Filters/Landmarks", "Filters/Looks", "Filters/Readers", "Filters/Traces",
-        "Filters/Transforms"],
+        "Filters/Fit", "Filters/Landmarks", "Filters/Looks", "Filters/Readers", "Filters/Surfaces",
+        "Filters/Traces", "Filters/Transforms"],
     "Representations/Gpu": ["Filters"],
     "Representations/Scene": ["Representations/Gpu"],
     "Representations/Field": ["Representations/Scene"],

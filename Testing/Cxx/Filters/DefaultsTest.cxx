@@ -10,6 +10,7 @@
 #include "vtkFreeFormDeformation.h"
 #include "vtkLandmarkReader.h"
 #include "vtkLandmarkWriter.h"
+#include "vtkSurfaceReader.h"
 #include "vtkTraceDistance.h"
 #include "vtkTransformPoints.h"
 #include "vtkTransformReader.h"
@@ -115,6 +116,15 @@ TEST(Defaults, OfLandmarkFilesLiveInTheClasses)
   vtkNew<vtkLandmarkWriter> writer;
   const Defaults ofWriter{ { "FileAxes", { double(writer->GetFileAxes()) } } };
   EXPECT_EQ(defaultsIn("Filters/Proxies/LandmarkWriter.xml"), ofWriter);
+}
+
+TEST(Defaults, OfSurfaceFilesLiveInTheClasses)
+{
+  vtkNew<vtkSurfaceReader> surface;
+  const double* center = surface->GetVolumeCenter();
+  const Defaults ofSurface{ { "VolumeCenter", { center[0], center[1], center[2] } } };
+  EXPECT_EQ(defaultsIn("Filters/Proxies/SurfaceReader.xml"), ofSurface);
+  EXPECT_EQ(defaultsIn("Filters/Proxies/TractReader.xml"), Defaults());
 }
 
 TEST(Defaults, OfVolumeFilesLiveInTheClass)
