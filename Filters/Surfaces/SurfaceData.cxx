@@ -69,7 +69,7 @@ void setLines(vtkPolyData* data, const std::vector<std::int64_t>& firsts)
   points->SetNumberOfValues(static_cast<vtkIdType>(firsts.back()));
   std::iota(points->GetPointer(0), points->GetPointer(0) + firsts.back(), 0);
   vtkNew<vtkCellArray> lines;
-  lines->SetData(offsets, points);
+  lines->SetData(offsets.Get(), points.Get());
   data->SetLines(lines);
 }
 }
