@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that a volume leaves as a DICOM series of the patient's study: pydicom and GDCM find each
-# voxel within 1e-3 mm of where it lay, with its value, in images that are new and marked.
+# Proves that a volume leaves as a DICOM series of the patient's study: pydicom, GDCM and our reader
+# find each voxel within 1e-3 mm of where it lay, with its value, in images that are new and marked.
 import os
 import resource
 import shutil
@@ -10,18 +10,23 @@ import subprocess
 import numpy
 import pydicom
 from brainshift_testing import (assert_says, load_plugin, messages, output, run_tests, scratch,
-                                volume)
+                                volume, voxels)
+from dicom_testing import assert_placed as assert_read
 from pydicom.dataset import FileDataset, FileMetaDataset
 from vtkmodules.vtkCommonCore import vtkStringArray
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
-from paraview.simple import SaveData  # noqa: E402
+from paraview.simple import (  # noqa: E402
+    BakeDeformation, Delete, FreeFormDeformation, OpenDataFile, SaveData)
 
 OBLIQUE = numpy.array(((0.8, -0.36, 0.48), (0.6, 0.48, -0.64), (0.0, 0.8, 0.6)))
 DIRECTIONS = {"along": numpy.eye(3), "oblique": OBLIQUE,
               "mirrored": OBLIQUE @ numpy.diag((1.0, -1.0, 1.0)),
-              "turned": numpy.diag((1.0, -1.0, -1.0))}
+              "turned": numpy.diag((1.0, -1.0, -1.0)),
+              "sagittal": numpy.array(((0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, -1.0, 0.0))),
+              "sagittal and oblique": OBLIQUE[:, (1, 2, 0)],
+              "coronal and mirrored": OBLIQUE[:, (0, 2, 1)]}
 SHAPE = (4, 5, 7)
 STORED = {"CT": "1.2.840.10008.5.1.4.1.1.2", "MR": "1.2.840.10008.5.1.4.1.1.4"}
 FRAME = "1.2.3.4.5.6"
@@ -96,11 +101,15 @@ def points_and_values(images):
     return numpy.concatenate(points) * (-1, -1, 1), numpy.concatenate(values)
 
 
+def affine_of(source):
+    matrix = output(source).GetIndexToPhysicalMatrix()
+    return numpy.array([[matrix.GetElement(i, j) for j in range(4)] for i in range(4)])
+
+
 def assert_placed(images, source, array, most, case):
     """Each pixel lies on a voxel of its own, within 1e-3 mm, and has its value, within `most`."""
     points, values = points_and_values(images)
-    matrix = output(source).GetIndexToPhysicalMatrix()
-    affine = numpy.array([[matrix.GetElement(i, j) for j in range(4)] for i in range(4)])
+    affine = affine_of(source)
     index = numpy.linalg.solve(affine, numpy.c_[points, numpy.ones(len(points))].T)[:3]
     nearest = numpy.rint(index).astype(int)
     error = numpy.linalg.norm(affine[:3, :3] @ (index - nearest), axis=0).max()
@@ -124,6 +133,45 @@ def test_pydicom_finds_the_same_voxels_at_the_same_places():
             assert_placed(images, source, array, 0.51 * step, (kind, dtype))
             if kind == "along":
                 assert images[0].ImageOrientationPatient == [1, 0, 0, 0, 1, 0], "as stations show"
+
+
+def assert_our_reader_finds(source, array, most):
+    """Writes a series; our reader, which reads it without a word, has the voxels in place."""
+    folder = fresh("ours")
+    brainshift.save_dicom(source, folder, like())
+    with messages() as said:
+        reader = OpenDataFile(folder)
+        reader.UpdatePipeline()
+    assert not said.text, said.text
+    assert reader.GetXMLName() == "DICOMFileReader", reader.GetXMLName()
+    assert_read(reader, affine_of(source), array, most=most)
+    assert output(reader).GetFieldData().GetAbstractArray("WorldAxes").GetValue(0) == "RAS"
+    names = list(reader.GetProperty("SeriesList"))
+    assert len(names) == 1, names
+    assert_says(names[0], "1003, " + NOTICE, "T1 head", "MR")
+    Delete(reader)
+
+
+def test_our_reader_finds_the_same_voxels_at_the_same_places():
+    for kind, direction in DIRECTIONS.items():
+        for dtype in (numpy.uint8, numpy.int16, numpy.uint16, numpy.float32):
+            print(kind, dtype, flush=True)
+            array = numbers(dtype)
+            step = 64000 / 65535 if dtype == numpy.float32 else 0.0
+            assert_our_reader_finds(source_of(array, direction), array, 0.51 * step + 1e-6)
+
+
+def test_our_reader_finds_a_bent_volume():
+    for direction in (DIRECTIONS["oblique"], DIRECTIONS["sagittal"]):
+        array = numpy.random.default_rng(11).uniform(-50, 900, (14, 15, 16)).astype(numpy.float32)
+        source = source_of(array, direction)
+        bent = FreeFormDeformation(Input=source, Strokes=brainshift.soft(
+            output(source).GetCenter(), (2.0, 1.5, -1.0), 12.0))
+        baked = BakeDeformation(Input=bent)
+        changed = voxels(baked)
+        assert (numpy.abs(changed - array) > 10.0).mean() > 0.2, "it was bent"
+        step = (changed.max() - changed.min()) / 65535
+        assert_our_reader_finds(baked, changed, 0.51 * step)
 
 
 def test_coronal_slices_have_the_head_on_top():
