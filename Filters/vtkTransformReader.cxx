@@ -16,6 +16,7 @@
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
@@ -245,6 +246,11 @@ int vtkTransformReader::RequestData(
   {
     return 0; // RequestInformation has reported why
   }
+  vtkInformation* information = outputs->GetInformationObject(0);
+  if (information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+  {
+    return 1; // the first piece has all points; others would repeat them on their MPI ranks
+  }
   const auto wanted = static_cast<brainshift::Direction>(this->OutputDirection);
   const DirectedTransform transform{ state.Chain,
     static_cast<brainshift::Direction>(this->Direction) };
@@ -269,7 +275,7 @@ int vtkTransformReader::RequestData(
     interpolateAtPoints(lattice);
     this->LargestError = largestErrorOf(lattice, transform);
   }
-  setField(vtkImageData::GetData(outputs), lattice.grid, lattice.displacements, wanted);
+  setField(vtkImageData::GetData(information), lattice.grid, lattice.displacements, wanted);
   return 1;
 }
 

@@ -9,22 +9,12 @@
 #include "vtkErrorCode.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
-#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 
 using namespace brainshift;
 
 vtkStandardNewMacro(vtkVolumeFileWriter);
 brainshiftGuardRequestsMacro(vtkVolumeFileWriter);
-
-namespace
-{
-bool isFirstRank()
-{
-  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
-  return !ranks || ranks->GetLocalProcessId() == 0;
-}
-}
 
 int vtkVolumeFileWriter::FillInputPortInformation(int, vtkInformation* info)
 {

@@ -6,6 +6,7 @@
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
+#include "vtkMultiProcessController.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
@@ -102,5 +103,11 @@ std::string problemOfPart(vtkImageData* image, vtkInformation* information)
   return isWhole ? std::string()
                  : "The input holds " + sidesOf(extent) + " points; it must hold the " +
       sidesOf(whole) + " points of the whole image";
+}
+
+bool isFirstRank()
+{
+  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
+  return !ranks || ranks->GetLocalProcessId() == 0;
 }
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Asks the pipeline for all of an image, for filters that read it everywhere.
+ * @brief Asks the pipeline for all of an image, for filters that read it everywhere, and knows the
+ *        rank that speaks for all.
  */
 #ifndef BrainShift_WholeExtent_h
 #define BrainShift_WholeExtent_h
@@ -39,6 +40,9 @@ Grid wholeGridOf(vtkImageData* piece, vtkInformation* information);
  * @param information   pipeline information of that input
  */
 std::string problemOfPart(vtkImageData* image, vtkInformation* information);
+
+/// Whether this process is the first of several MPI ranks, or the only one.
+bool isFirstRank();
 }
 
 #endif

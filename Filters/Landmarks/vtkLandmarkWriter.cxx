@@ -2,12 +2,12 @@
 #include "vtkLandmarkWriter.h"
 
 #include "Filters/Attached/Guard.h"
+#include "Filters/Attached/WholeExtent.h"
 #include "Filters/Landmarks/LandmarkFile.h"
 #include "Filters/Landmarks/LandmarkPoints.h"
 
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
-#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
 
@@ -24,8 +24,7 @@ int vtkLandmarkWriter::FillInputPortInformation(int, vtkInformation* info)
 
 void vtkLandmarkWriter::WriteData()
 {
-  vtkMultiProcessController* processes = vtkMultiProcessController::GetGlobalController();
-  if (processes && processes->GetLocalProcessId() > 0)
+  if (!brainshift::isFirstRank())
   {
     this->Problem.clear();
     return; // the first process has what Landmark Reader read

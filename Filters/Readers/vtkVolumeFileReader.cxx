@@ -3,6 +3,7 @@
 
 #include "Filters/Attached/Guard.h"
 #include "Filters/Attached/LabelTable.h"
+#include "Filters/Attached/WholeExtent.h"
 #include "Filters/Attached/WorldAxes.h"
 #include "Filters/Fields/FieldImage.h"
 #include "Filters/Volumes/PlacedVolume.h"
@@ -77,7 +78,9 @@ int vtkVolumeFileReader::RequestInformation(
     vtkErrorMacro(<< problem << ".");
     return 0;
   }
-  for (const std::string& warning : this->Stored->warnings())
+  // Every MPI rank reads the same header.
+  const bool speaks = brainshift::isFirstRank();
+  for (const std::string& warning : speaks ? this->Stored->warnings() : std::vector<std::string>())
   {
     vtkWarningMacro(<< warning << ".");
   }

@@ -164,11 +164,12 @@ def answers(folder=None):
     return found
 
 
-def answers_of_batch(ranks, folder):
-    """What pvbatch answers on that many ranks."""
+def batch(ranks, folder, script=__file__):
+    """What pvbatch answers on that many ranks, and what it says. The script is a module like this
+    one."""
     os.makedirs(folder, exist_ok=True)
     name = scratch(f"ranks{ranks}.npz")
-    command = [*MPI, str(ranks), os.environ["BRAINSHIFT_PVBATCH"], __file__, name, folder]
+    command = [*MPI, str(ranks), os.environ["BRAINSHIFT_PVBATCH"], script, name, folder]
     ended = subprocess.run(command, text=True, capture_output=True, timeout=600)
     said = ended.stdout + ended.stderr
     assert ended.returncode == 0, f"pvbatch ended with {ended.returncode}: {said}"
@@ -176,7 +177,11 @@ def answers_of_batch(ranks, folder):
               if "ERR|" in line and "No plugin loaded yet" not in line]  # it was loaded already
     assert not errors, errors
     with numpy.load(name) as saved:
-        return dict(saved)
+        return dict(saved), said
+
+
+def answers_of_batch(ranks, folder):
+    return batch(ranks, folder)[0]
 
 
 if __name__ == "__main__":
