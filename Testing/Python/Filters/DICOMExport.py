@@ -2,9 +2,7 @@
 # Proves that a volume leaves as a DICOM series of the patient's study: pydicom, GDCM and our reader
 # find each voxel within 1e-3 mm of where it lay, with its value, in images that are new and marked.
 import os
-import resource
 import shutil
-import signal
 import subprocess
 
 import numpy
@@ -13,6 +11,7 @@ from brainshift_testing import (assert_says, load_plugin, messages, output, run_
                                 volume, voxels)
 from dicom_testing import assert_placed as assert_read
 from pydicom.dataset import FileDataset, FileMetaDataset
+from saving_testing import assert_fails, assert_nothing_left, full_disk
 from vtkmodules.vtkCommonCore import vtkStringArray
 
 load_plugin()
@@ -248,17 +247,6 @@ def test_save_data_writes_a_folder_and_like_may_be_one():
     assert_placed(slices_of(folder), source, array, 0.0, "Save Data")
 
 
-def assert_fails(save, *words):
-    with messages() as said:
-        try:
-            save()
-        except OSError as error:
-            assert_says(str(error), *words)
-        else:
-            raise AssertionError(f"it must fail with {words}")
-    assert said.text
-
-
 def test_what_cannot_be_written_says_so_and_leaves_nothing():
     array = numbers(numpy.int16)
     folder = fresh("refused")
@@ -284,9 +272,6 @@ def test_what_cannot_be_written_says_so_and_leaves_nothing():
 
 
 def test_a_full_disk_leaves_no_series():
-    # Where a process may write no more than so many bytes, every disk is full.
-    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    before = resource.getrlimit(resource.RLIMIT_FSIZE)
     folder = fresh("full")
     scan = like()
     source = source_of(numbers(numpy.int16))
@@ -294,14 +279,10 @@ def test_a_full_disk_leaves_no_series():
     size = os.path.getsize(os.path.join(folder, "IM00001.dcm"))
     folder = fresh("full")
     for limit in (200, size - 1):
-        resource.setrlimit(resource.RLIMIT_FSIZE, (limit, before[1]))
-        try:
+        with full_disk(limit):
             assert_fails(lambda: brainshift.save_dicom(source, folder, scan), "cannot be written: ")
-        finally:
-            resource.setrlimit(resource.RLIMIT_FSIZE, before)
         assert not os.path.exists(folder), limit
-    left = [name for name in os.listdir(os.path.dirname(folder)) if name.startswith(".part-")]
-    assert not left, left
+    assert_nothing_left(folder)
 
 
 run_tests(globals())

@@ -2,12 +2,11 @@
 # Proves that files keep lattices and dense fields, that File > Save Data has their formats, and
 # that a field that is read back bends a volume as the strokes did.
 import os
-import resource
-import signal
 
 import numpy
 from brainshift_testing import (assert_says, ball, load_plugin, messages, output, run_tests,
                                 scratch, volume, voxels)
+from saving_testing import assert_fails, assert_nothing_left, full_disk
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
@@ -92,29 +91,18 @@ def test_the_world_of_a_saved_field_is_the_one_asked_for():
 
 
 def test_a_full_disk_keeps_the_old_file_and_says_so():
-    # Where a process may write no more than so many bytes, every disk is full.
-    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    before = resource.getrlimit(resource.RLIMIT_FSIZE)
     for ending in FORMATS:
         name = scratch(f"kept{ending}")
         brainshift.save_field(bent(), name, "Forward")
         with open(name, "rb") as file:
             old = file.read()
-        resource.setrlimit(resource.RLIMIT_FSIZE, (2000, before[1]))
-        try:
-            with messages() as said:
-                brainshift.save_field(bent(), name, "Backward")
-        except OSError as error:
-            assert_says(str(error), f"kept{ending} was not written", "cannot be written: ")
-        else:
-            raise AssertionError(f"a part of kept{ending} passed for all of it")
-        finally:
-            resource.setrlimit(resource.RLIMIT_FSIZE, before)
-        assert_says(said.text, f"kept{ending} cannot be written")
+        with full_disk(2000):
+            told = assert_fails(lambda: brainshift.save_field(bent(), name, "Backward"),
+                                f"kept{ending} was not written", "cannot be written: ")
+        assert_says(told, f"kept{ending} cannot be written")
         with open(name, "rb") as file:
             assert file.read() == old, ending
-    left = [file for file in os.listdir(os.path.dirname(name)) if file.startswith(".part-")]
-    assert not left, left
+    assert_nothing_left(name)
 
 
 def test_save_data_of_the_window_has_the_formats():

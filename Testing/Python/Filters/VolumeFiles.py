@@ -2,14 +2,13 @@
 # Proves that volumes leave for other programs with their places, axes, types and numbers: nibabel
 # and ITK find each voxel within 1e-3 mm of where it lay, and our reader finds the same image.
 import os
-import resource
-import signal
 import subprocess
 
 import nibabel
 import numpy
 from brainshift_testing import (assert_says, ball, load_plugin, messages, output, run_tests,
                                 scratch, volume, voxels)
+from saving_testing import assert_fails, assert_nothing_left, full_disk
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkStringArray
 
@@ -244,21 +243,7 @@ def test_long_numbers_are_shortened_or_refused():
     assert_fails(lambda: brainshift.save_volume(source_of(array), name), "long long", "1.09951e+12")
 
 
-def assert_fails(save, *words):
-    with messages() as said:
-        try:
-            save()
-        except OSError as error:
-            assert_says(str(error), *words)
-        else:
-            raise AssertionError(f"it must fail with {words}")
-    assert said.text
-
-
 def test_what_cannot_be_written_says_so_and_keeps_the_old_file():
-    # Where a process may write no more than so many bytes, every disk is full.
-    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    before = resource.getrlimit(resource.RLIMIT_FSIZE)
     noise = numpy.random.default_rng(7).random((16, 16, 16)).astype(numpy.float32)
     for ending in FORMATS:
         name = scratch("kept_volume" + ending)
@@ -266,16 +251,12 @@ def test_what_cannot_be_written_says_so_and_keeps_the_old_file():
         with open(name, "rb") as file:
             old = file.read()
         for limit in (100, len(old) - 1):
-            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, before[1]))
-            try:
+            with full_disk(limit):
                 assert_fails(lambda: brainshift.save_volume(source_of(noise), name),
                              "kept_volume" + ending, "cannot be written: ")
-            finally:
-                resource.setrlimit(resource.RLIMIT_FSIZE, before)
             with open(name, "rb") as file:
                 assert file.read() == old, (ending, limit)
-    left = [file for file in os.listdir(os.path.dirname(name)) if file.startswith(".part-")]
-    assert not left, left
+    assert_nothing_left(name)
     assert_fails(lambda: brainshift.save_volume(source_of(noise), scratch("no_folder/a.nrrd")),
                  "no_folder/a.nrrd cannot be written: ", "No such file")
     assert_fails(lambda: brainshift.save_volume(source_of(noise), scratch("a.img")),
