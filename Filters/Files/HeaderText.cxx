@@ -48,8 +48,13 @@ bool announcesList(const HeaderText& text)
 // Puts a line under its key. False if it is the last one of a header.
 bool takeLine(const std::string& line, HeaderText& text)
 {
+  const bool isComment = line[0] == '#';
+  if (isComment && text.isNRRD)
+  {
+    text.comments += line + "\n";
+  }
   const std::size_t mark = line.find(text.isNRRD ? ':' : '=');
-  if (mark == std::string::npos || line[0] == '#')
+  if (mark == std::string::npos || isComment)
   {
     return true;
   }

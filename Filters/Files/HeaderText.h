@@ -21,6 +21,7 @@ struct HeaderText
   std::map<std::string, std::string> fields; ///< what the format defines
   std::map<std::string, std::string> keys;   ///< NRRD's "key:=value", which anybody may add
   std::vector<std::string> listed;           ///< the lines after a list of files is announced
+  std::string comments;                      ///< NRRD's lines that begin with #
   std::size_t bytes = 0;                     ///< of the header
 
   /** Value of the first of some fields that the header has; empty if it has none. */

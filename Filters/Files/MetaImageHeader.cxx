@@ -89,7 +89,9 @@ std::string readPlace(std::size_t dimensions, TextHeader& header)
   const std::string turnText =
     header.text.valueOf({ "TransformMatrix", "Rotation", "Orientation" });
   std::vector<double> turn = numbersIn(turnText);
-  header.knowsSides = !turnText.empty();
+  // MetaIO writes question marks for axes whose sides its caller did not name.
+  header.knowsSides =
+    !turnText.empty() && header.text.valueOf({ "AnatomicalOrientation" }) != "???";
   if (turnText.empty())
   {
     turn.assign(dimensions * dimensions, 0.0);

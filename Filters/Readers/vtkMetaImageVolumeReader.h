@@ -6,7 +6,8 @@
  * Files: .mha and .mhd. vtkVolumeFileReader says what the output is.
  *
  * The world of the file is LPS, as in ITK. The TransformMatrix counts, not the
- * AnatomicalOrientation; without that matrix the patient's sides are not known.
+ * AnatomicalOrientation; without that matrix, and with the letters ???, the patient's sides
+ * are not known.
  * CanReadFile leaves files with a displacement field to vtkDisplacementFieldReader.
  */
 #ifndef vtkMetaImageVolumeReader_h

@@ -23,8 +23,8 @@ namespace brainshift
 {
 /**
  * What a file says of itself if nobody knew the sides of the patient: NIfTI in its description,
- * MetaImage and NRRD in a comment. The voxels of such a file lie where they lay, as if the world
- * were RAS.
+ * MetaImage and NRRD in a comment. Readers honour it. The voxels of such a file lie where they lay,
+ * as if the world were RAS.
  */
 constexpr const char* UnknownSidesNote = "sides of the patient not known";
 

@@ -2,6 +2,7 @@
 #include "Filters/Volumes/TextHeaderVolume.h"
 
 #include "Filters/Files/TextHeaderFile.h"
+#include "Filters/Volumes/OutgoingVolume.h"
 #include "Filters/Volumes/SegmentTable.h"
 
 #include "vtkImageData.h"
@@ -28,6 +29,13 @@ glm::dvec3 rasSigns(HeaderSpace space)
     default:
       return glm::dvec3(1.0);
   }
+}
+
+// Whether BrainShift wrote the file for a volume whose sides nobody knew.
+bool deniesSides(const HeaderText& text)
+{
+  const std::string note = text.isNRRD ? text.comments : text.valueOf({ "Comment" });
+  return note.find(UnknownSidesNote) != std::string::npos;
 }
 
 std::vector<double> timesOf(std::size_t steps, double spacing)
@@ -108,7 +116,7 @@ std::string TextHeaderVolume::readHeader(const std::string& fileName, VolumeHead
     }
   }
   header.worldFromVoxel[3] = glm::dvec4(signs * this->Stored.origin, 1.0);
-  header.knowsSides = this->Stored.knowsSides;
+  header.knowsSides = this->Stored.knowsSides && !deniesSides(this->Stored.text);
   header.storedType = this->Stored.numberType;
   header.rescaling = { this->Stored.slope, this->Stored.intercept };
   header.warnings = this->Stored.warnings;

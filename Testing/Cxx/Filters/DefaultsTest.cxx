@@ -3,6 +3,7 @@
 #include "Testing/Cxx/Filters/TestDefaults.h"
 #include "vtkBakeDeformation.h"
 #include "vtkCompareVolumes.h"
+#include "vtkDICOMVolumeReader.h"
 #include "vtkDeformGeometry.h"
 #include "vtkDeformationField.h"
 #include "vtkDisplacementFieldReader.h"
@@ -90,6 +91,14 @@ TEST(Defaults, OfTraceDistanceLiveInTheClass)
     { "Threshold", { filter->GetThreshold() } },
   };
   EXPECT_EQ(defaultsIn("Filters/Proxies/TraceDistance.xml"), expected);
+}
+
+TEST(Defaults, OfDICOMReaderLiveInTheClass)
+{
+  vtkNew<vtkDICOMVolumeReader> reader;
+  EXPECT_STREQ(reader->GetSeries(), "");
+  const Defaults expected{ { "ResampleSlices", { double(reader->GetResampleSlices()) } } };
+  EXPECT_EQ(defaultsIn("Filters/Proxies/DICOMVolumeReader.xml"), expected);
 }
 
 TEST(Defaults, OfDisplacementFieldFilesLiveInTheClasses)

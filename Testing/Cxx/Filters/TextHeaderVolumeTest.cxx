@@ -221,6 +221,43 @@ TEST(TextHeaderVolume, SidesAreKnownOnlyWhereTheFileSaysSo)
   EXPECT_EQ(brainshift::worldAxesOf(noMatrix.image()), WorldAxes::Unknown);
 }
 
+namespace
+{
+brainshift::WorldAxes axesOfMeta(const std::string& lines)
+{
+  writeFile("said.mha",
+    "NDims = 3\nBinaryData = True\nTransformMatrix = 1 0 0 0 1 0 0 0 1\n" + lines + MetaBytes +
+      "ElementDataFile = LOCAL\n" + numbers(8));
+  return brainshift::worldAxesOf(FormatReading<Meta>("said.mha").image());
+}
+
+brainshift::WorldAxes axesOfNRRD(const std::string& space)
+{
+  writeFile("said.nrrd",
+    "NRRD0005\n" + space + "type: uint8\ndimension: 3\nsizes: 2 2 2\nencoding: raw\n" +
+      "space directions: (1,0,0) (0,1,0) (0,0,1)\n\n" + numbers(8));
+  return brainshift::worldAxesOf(FormatReading<NRRD>("said.nrrd").image());
+}
+}
+
+// Programs write a matrix for volumes whose sides they do not know: the rest of the header says so.
+TEST(TextHeaderVolume, AFileMaySayThatSidesAreNotKnown)
+{
+  using brainshift::WorldAxes;
+  EXPECT_EQ(axesOfMeta("AnatomicalOrientation = RAI\n"), WorldAxes::RAS);
+  EXPECT_EQ(axesOfMeta("AnatomicalOrientation = ???\n"), WorldAxes::Unknown);
+  EXPECT_EQ(axesOfMeta("Comment = sides of the patient not known\n"), WorldAxes::Unknown);
+  EXPECT_EQ(axesOfMeta("Comment = a head\n"), WorldAxes::RAS);
+  EXPECT_EQ(axesOfNRRD("space: LPS\n"), WorldAxes::RAS);
+  EXPECT_EQ(axesOfNRRD("# sides of the patient not known\nspace: LPS\n"), WorldAxes::Unknown);
+  EXPECT_EQ(axesOfNRRD("# a head\nspace: LPS\n"), WorldAxes::RAS);
+  for (const char* space : { "", "space dimension: 3\n", "space: scanner-xyz\n",
+         "space: 3D-right-handed\n", "space: 3D-left-handed\n" })
+  {
+    EXPECT_EQ(axesOfNRRD(space), WorldAxes::Unknown) << space;
+  }
+}
+
 TEST(TextHeaderVolume, UnitsScaleAndSlopesRescale)
 {
   writeFile(

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that packed frames unpack to what was packed, or for lossy ones to what is near it or what
-# Pillow unpacks, and that damaged ones end in a sentence that names the file: Debian's GDCM, whose decoders
-# end the program at some of them, is not asked.
+# Pillow unpacks, and that damaged ones end in a sentence that names the file: no decoder of GDCM,
+# which ends the program at some of them, is asked.
 import io
 import os
 import subprocess
