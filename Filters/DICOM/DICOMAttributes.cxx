@@ -93,6 +93,14 @@ std::string textOf(const DICOMDataSet& set, DICOMTag tag)
   return trimmed(bytesOf(set, tag));
 }
 
+std::string dateOf(const DICOMDataSet& set, DICOMTag tag)
+{
+  const std::string date = textOf(set, tag);
+  const bool isDate = date.size() == 8 && date.find_first_not_of("0123456789") == std::string::npos;
+  return isDate ? date.substr(0, 4) + "-" + date.substr(4, 2) + "-" + date.substr(6)
+                : std::string();
+}
+
 std::string plainText(const std::string& text)
 {
   std::string plain = text;

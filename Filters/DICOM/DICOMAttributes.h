@@ -34,6 +34,9 @@ double doubleOf(const DICOMDataSet& set, DICOMTag tag, double missing);
 /** The first number of 2 bytes (VR US) or of 4 bytes (VR UL), or `missing`. */
 double wholeOf(const DICOMDataSet& set, DICOMTag tag, double missing);
 
+/** A date (VR DA) as 2026-11-23; empty if it is none. */
+std::string dateOf(const DICOMDataSet& set, DICOMTag tag);
+
 /** Seconds since 1970 of a date (VR DA) and a time (VR TM), or `missing`. */
 double secondsOf(const std::string& date, const std::string& time, double missing);
 

@@ -49,8 +49,9 @@ std::uint32_t number(const unsigned char* bytes, int count, bool isBig)
 class Parser
 {
 public:
-  explicit Parser(DICOMBytes& bytes)
+  explicit Parser(DICOMBytes& bytes, PatientGroup patient = PatientGroup::Skipped)
     : Bytes(bytes)
+    , Patient(patient)
   {
   }
 
@@ -127,7 +128,8 @@ private:
     {
       return false;
     }
-    const bool isKept = (head.tag >> 16) % 2 == 0 && head.tag >> 16 != 0x0010;
+    const DICOMTag group = head.tag >> 16;
+    const bool isKept = group % 2 == 0 && (group != 0x0010 || this->Patient == PatientGroup::Kept);
     DICOMElement element;
     if (this->isSequence(offset, form, head))
     {
@@ -201,6 +203,7 @@ private:
   }
 
   DICOMBytes& Bytes;
+  PatientGroup Patient;
 };
 
 std::string withoutPadding(const std::string& text)
@@ -238,7 +241,7 @@ bool readMeta(DICOMBytes& bytes, std::uint64_t& offset, DICOMContent& content)
 }
 }
 
-bool parseDICOM(DICOMBytes& bytes, DICOMContent& content)
+bool parseDICOM(DICOMBytes& bytes, DICOMContent& content, PatientGroup patient)
 {
   std::uint64_t offset = 0;
   if (!readMeta(bytes, offset, content) ||
@@ -249,7 +252,7 @@ bool parseDICOM(DICOMBytes& bytes, DICOMContent& content)
   Form form;
   form.isExplicit = content.transferSyntax != Implicit;
   form.isBig = content.transferSyntax == BigEndian;
-  Parser parser(bytes);
+  Parser parser(bytes, patient);
   if (!parser.readSet(offset, bytes.size(), form, 0, content.set))
   {
     return false;

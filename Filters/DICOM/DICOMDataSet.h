@@ -3,8 +3,8 @@
  * @file
  * @brief The attributes of a DICOM file up to its pixels.
  *
- * Parsed here and not by GDCM: Debian's GDCM ends the program at some damaged files. Values of the
- * patient's group (0010) and of private groups are skipped.
+ * Parsed here and not by GDCM: Debian's GDCM ends the program at some damaged files. Values of
+ * private groups are skipped, and those of the patient's group (0010) unless a user asked for them.
  */
 #ifndef BrainShift_DICOMDataSet_h
 #define BrainShift_DICOMDataSet_h
@@ -47,11 +47,19 @@ struct DICOMContent
   bool isPacked = false;         ///< the pixels come in fragments
 };
 
+/** What becomes of the patient's group (0010). */
+enum class PatientGroup
+{
+  Skipped,
+  Kept
+};
+
 /**
  * Reads up to the pixels. Bytes that are deflated are inflated in `bytes`. False if the file is
  * damaged: if a length leads behind the end of what holds it, for example.
  */
-bool parseDICOM(DICOMBytes& bytes, DICOMContent& content);
+bool parseDICOM(
+  DICOMBytes& bytes, DICOMContent& content, PatientGroup patient = PatientGroup::Skipped);
 
 /**
  * The packed frames of a file: each of one fragment, or of several by the offset table. Empty if

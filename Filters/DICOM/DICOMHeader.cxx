@@ -61,14 +61,14 @@ void readPixelFormat(const DICOMDataSet& set, DICOMPixelFormat& pixels)
   pixels.isSigned = whole(0x0103, 0) == 1;
 }
 
-std::string dateOf(const DICOMDataSet& set)
+std::string seriesDateOf(const DICOMDataSet& set)
 {
   for (const DICOMTag tag : { 0x00080021, 0x00080022, 0x00080023, 0x00080020 }) // to study
   {
-    const std::string date = textOf(set, tag);
-    if (date.size() == 8 && date.find_first_not_of("0123456789") == std::string::npos)
+    const std::string date = dateOf(set, tag);
+    if (!date.empty())
     {
-      return date.substr(0, 4) + "-" + date.substr(4, 2) + "-" + date.substr(6);
+      return date;
     }
   }
   return {};
@@ -80,7 +80,7 @@ void readFacts(const DICOMDataSet& set, DICOMFile& file)
   file.instance = textOf(set, 0x00080018);
   file.description = shownTextOf(set, 0x0008103e);
   file.modality = shownTextOf(set, 0x00080060);
-  file.date = dateOf(set);
+  file.date = seriesDateOf(set);
   const double number = decimalOf(set, 0x00200011, 0.0);
   file.seriesNumber = std::abs(number) < 1e9 ? static_cast<int>(number) : 0;
 }

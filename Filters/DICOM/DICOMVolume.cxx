@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <map>
 #include <system_error>
+#include <utility>
 
 namespace brainshift
 {
@@ -66,20 +67,29 @@ std::vector<std::string> DICOMVolume::seriesNames() const
   return names;
 }
 
+std::string DICOMVolume::firstFile() const
+{
+  const bool hasImage = !this->Stack.volumes.empty() && !this->Stack.volumes.front().empty();
+  const std::size_t file = hasImage ? this->Stack.volumes.front().front().file : 0;
+  return hasImage && file < this->Folder.files.size() ? this->Folder.files[file].path
+                                                      : std::string();
+}
+
 std::string DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
 {
-  this->Folder = DICOMFolder();
   std::error_code error;
   if (!std::filesystem::exists(fileName, error))
   {
+    this->Folder = DICOMFolder();
     return "does not exist";
   }
-  this->Folder = readDICOMFolder(
+  DICOMFolder folder = readDICOMFolder(
     fileName, this->ScanProgress ? this->ScanProgress : [](double) { return true; });
-  if (this->Folder.isStopped)
+  if (folder.isStopped)
   {
     return "was not read to its end: reading was stopped";
   }
+  this->Folder = std::move(folder);
   const std::vector<DICOMSeries>& all = this->Folder.series;
   if (all.empty())
   {

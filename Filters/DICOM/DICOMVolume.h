@@ -37,6 +37,9 @@ public:
   /** The series that the last readHeader found. The first is shown if nobody chooses. */
   std::vector<std::string> seriesNames() const;
 
+  /** Path of the first image of what the last readHeader took; empty if there is none. */
+  std::string firstFile() const;
+
 private:
   // Chooses the type of the numbers.
   void decideType(VolumeHeader& header);

@@ -71,6 +71,11 @@ void vtkDICOMVolumeReader::SetResampleSlices(bool resample)
   }
 }
 
+std::string vtkDICOMVolumeReader::GetShownFile() const
+{
+  return this->Volume->firstFile();
+}
+
 vtkStringArray* vtkDICOMVolumeReader::GetSeriesList()
 {
   this->SeriesList->Initialize();

@@ -46,6 +46,9 @@ public:
   const char* GetSeries() const { return this->Series.c_str(); }
   ///@}
 
+  /** Path of the first image of the series; empty before its header is read. */
+  std::string GetShownFile() const;
+
   /**
    * The series of the folder by number, description, modality, size and date. They are known after
    * UpdateInformation. The first is shown by default.

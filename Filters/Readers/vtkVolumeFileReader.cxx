@@ -12,6 +12,7 @@
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMatrix3x3.h"
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
@@ -69,10 +70,60 @@ void vtkVolumeFileReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
 }
 
+void vtkVolumeFileReader::announceLast(vtkInformation* output)
+{
+  vtkImageData* image = this->Last.image;
+  output->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), this->Last.wholeExtent, 6);
+  output->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), this->Last.wholeExtent, 6);
+  announceTimes(output, this->Last.times);
+  if (image)
+  {
+    output->Set(vtkDataObject::SPACING(), image->GetSpacing(), 3);
+    output->Set(vtkDataObject::ORIGIN(), image->GetOrigin(), 3);
+    output->Set(vtkDataObject::DIRECTION(), image->GetDirectionMatrix()->GetData(), 9);
+    vtkDataObject::SetPointDataActiveScalarInfo(
+      output, image->GetScalarType(), image->GetNumberOfScalarComponents());
+  }
+}
+
+void vtkVolumeFileReader::rememberLast(vtkInformation* output)
+{
+  this->Last.image = vtkSmartPointer<vtkImageData>::New();
+  this->Last.image->ShallowCopy(vtkImageData::GetData(output));
+  output->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), this->Last.wholeExtent);
+  this->Last.times = this->Stored->header().times;
+  this->Last.isOfHeader = true;
+}
+
+void vtkVolumeFileReader::keepLast(vtkInformation* output)
+{
+  this->announceLast(output);
+  vtkImageData* shown = vtkImageData::GetData(output);
+  shown->Initialize();
+  if (this->Last.image)
+  {
+    shown->ShallowCopy(this->Last.image);
+  }
+  if (output->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
+  {
+    // The step counts as read: it must not be read again at the next picture.
+    shown->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(),
+      output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()));
+  }
+}
+
 int vtkVolumeFileReader::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
+  vtkInformation* output = outputs->GetInformationObject(0);
   const std::string problem = this->Stored->readHeader(this->FileName ? this->FileName : "");
+  this->Last.isOfHeader = false;
+  this->IsStopped = !problem.empty() && this->GetAbortExecute();
+  if (this->IsStopped)
+  {
+    this->announceLast(output);
+    return 1; // RequestData says the rest
+  }
   if (!problem.empty())
   {
     vtkErrorMacro(<< problem << ".");
@@ -84,7 +135,6 @@ int vtkVolumeFileReader::RequestInformation(
   {
     vtkWarningMacro(<< warning << ".");
   }
-  vtkInformation* output = outputs->GetInformationObject(0);
   brainshift::announce(output, this->Stored->geometry().grid);
   output->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
   vtkDataObject::SetPointDataActiveScalarInfo(
@@ -96,13 +146,37 @@ int vtkVolumeFileReader::RequestInformation(
 int vtkVolumeFileReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
+  vtkInformation* information = outputs->GetInformationObject(0);
+  if (!this->IsStopped)
+  {
+    const int result = this->readVolume(information);
+    if (!this->GetAbortExecute())
+    {
+      return result;
+    }
+    this->IsStopped = !this->Last.isOfHeader;
+  }
+  this->keepLast(information);
+  if (this->GetAbortExecute())
+  {
+    // Nobody else takes the request back, and SetAbortExecute would have all read again.
+    this->AbortExecute = 0;
+    vtkWarningMacro(<< "Reading " << (this->FileName ? this->FileName : "") << " was stopped. "
+                    << (this->Last.image ? "What was read before" : "Nothing")
+                    << " is shown. Change a property or reload the file to read it.");
+  }
+  return 1;
+}
+
+int vtkVolumeFileReader::readVolume(vtkInformation* information)
+{
   // ParaView asks for data even after RequestInformation failed; that has been reported.
   if (!this->Stored->isPlaced())
   {
     return 0;
   }
-  vtkInformation* information = outputs->GetInformationObject(0);
   vtkImageData* shown = vtkImageData::GetData(information);
+  shown->Initialize(); // the pipeline leaves the old numbers in it
   const std::vector<double>& times = this->Stored->header().times;
   std::size_t volume = 0;
   if (times.size() > 1 && information->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
@@ -132,5 +206,6 @@ int vtkVolumeFileReader::RequestData(
   brainshift::nameWorldAxes(shown,
     this->Stored->header().knowsSides ? brainshift::WorldAxes::RAS
                                       : brainshift::WorldAxes::Unknown);
+  this->rememberLast(information);
   return 1;
 }

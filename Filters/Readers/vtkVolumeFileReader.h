@@ -16,20 +16,27 @@
  * WorldAxes says RAS if the file knows the patient's sides (WorldAxes.h). Names and colours of
  * labels are attached where the file has them (LabelTable.h). After an error the output stays as it
  * was, or is empty.
+ *
+ * Reading can be aborted. Then the output is the volume that was last read to its end, or empty, a
+ * warning says so, and nothing is read again before the reader is modified.
  */
 #ifndef vtkVolumeFileReader_h
 #define vtkVolumeFileReader_h
 
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 #include "vtkImageAlgorithm.h"
+#include "vtkSmartPointer.h"
 
 #include <memory> // for the private part
+#include <vector>
 
 namespace brainshift
 {
 class PlacedVolume;
 class VolumeFile;
 }
+
+class vtkImageData;
 
 class VTKBRAINSHIFTFILTERS_EXPORT vtkVolumeFileReader : public vtkImageAlgorithm
 {
@@ -61,7 +68,26 @@ private:
   vtkVolumeFileReader(const vtkVolumeFileReader&) = delete;
   void operator=(const vtkVolumeFileReader&) = delete;
 
+  // Fills the output with the volume of the time that is asked for.
+  int readVolume(vtkInformation* output);
+  // Tells the pipeline what was last read to its end.
+  void announceLast(vtkInformation* output);
+  // Keeps what is read; keepLast shows it again, after the user stopped the next one.
+  void rememberLast(vtkInformation* output);
+  void keepLast(vtkInformation* output);
+
+  // The volume that was last read to its end, and what was announced of it.
+  struct Shown
+  {
+    vtkSmartPointer<vtkImageData> image; // null: none
+    int wholeExtent[6] = { 0, -1, 0, -1, 0, -1 };
+    std::vector<double> times;
+    bool isOfHeader = false; // of the header that was read last
+  };
+
   char* FileName = nullptr;
+  Shown Last;
+  bool IsStopped = false; // the header that was read last is not what is shown
   std::unique_ptr<brainshift::PlacedVolume> Stored;
 };
 

@@ -15,7 +15,8 @@ Research software, not a medical device.
 
 from .answers import counters, gpu, pick, slice_axes
 from .figures import animate, figure
-from .files import load_field, load_lattice, save_dicom, save_field, save_lattice, save_volume
+from .files import (
+    dicom_patient, load_field, load_lattice, save_dicom, save_field, save_lattice, save_volume)
 from .looks import look, looks
 from .maps import deformed_from_rest, rest_from_deformed
 from .points import map_points, read_points
@@ -27,8 +28,8 @@ from .windows import percentile_window
 
 __all__ = [
     "MOVE", "NUMBERS_PER_STROKE", "SOFT", "STAMP", "Transform",
-    "animate", "apply_transform", "counters", "deformed_from_rest", "figure", "four_views", "gpu",
-    "load_field", "load_lattice", "look", "looks", "map_points", "move", "open_sample",
-    "percentile_window", "pick", "read_points", "read_transform", "rest_from_deformed",
-    "save_dicom", "save_field", "save_lattice", "save_transform", "save_volume",
-    "show_comparison", "slice_axes", "soft", "stamp"]
+    "animate", "apply_transform", "counters", "deformed_from_rest", "dicom_patient", "figure",
+    "four_views", "gpu", "load_field", "load_lattice", "look", "looks", "map_points", "move",
+    "open_sample", "percentile_window", "pick", "read_points", "read_transform",
+    "rest_from_deformed", "save_dicom", "save_field", "save_lattice", "save_transform",
+    "save_volume", "show_comparison", "slice_axes", "soft", "stamp"]

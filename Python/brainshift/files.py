@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Saves volumes; saves and loads lattices and displacement fields."""
+"""Saves volumes, saves and loads lattices and displacement fields, says whom a series shows."""
 
 from .arguments import vector
 
@@ -141,6 +141,32 @@ def save_volume(source, name, array=None, world=None):
     writer = servermanager.writers.MedicalVolumeWriter(
         Input=source, FileName=name, PointArray=array or "", World=_world(world))
     _write(writer, name)
+
+
+def dicom_patient(reader):
+    """Say whom a DICOM series shows.
+
+    BrainShift shows the patient nowhere else, and no state, trace, volume or picture holds what
+    this returns. It reads the first file of the series again, on the machine that has it.
+
+    - `reader`: a DICOM Volume Reader.
+
+    Returns a dictionary of texts: `name` (family and given name with `^` between, as in the file),
+    `number`, `birth_date` (as 1970-01-31) and `sex` (M, F or O). A text is empty where the file
+    says nothing. Raises `TypeError` if `reader` is no DICOM Volume Reader.
+    """
+    if reader.SMProxy.GetXMLName() not in ("DICOMVolumeReader", "DICOMFileReader"):
+        raise TypeError(f"reader is a {reader.SMProxy.GetXMLName()}, and no DICOM Volume Reader")
+    reader.UpdatePipelineInformation()
+    report = reader.SMProxy.GetSessionProxyManager().NewProxy("misc", "DICOMPatientReport")
+    report.UnRegister(None)  # Python holds it, and no state knows it
+    report.PrototypeOn()  # a question is no step to undo
+    report.GetProperty("Source").AddProxy(reader.SMProxy)
+    report.UpdateVTKObjects()
+    report.InvokeCommand("Read")
+    report.UpdatePropertyInformation()
+    return {key: report.GetProperty(name).GetElement(0) or "" for key, name in (
+        ("name", "Name"), ("number", "Number"), ("birth_date", "BirthDate"), ("sex", "Sex"))}
 
 
 def save_dicom(source, folder, like, array=None, world=None):

@@ -13,9 +13,11 @@ from dicom_testing import (AXIAL, CORONAL, NUMBER, assert_placed, folder, number
                            read_again, scalars, write_slices)
 
 load_plugin()
-from paraview import servermanager  # noqa: E402 after the plugin
+import brainshift  # noqa: E402 after the plugin
+from paraview import servermanager, simple, smtrace  # noqa: E402
 from paraview.simple import (  # noqa: E402
     Delete, DICOMVolumeReader, OpenDataFile, SaveState)
+from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
 from vtkmodules.vtkCommonCore import vtkCommand  # noqa: E402
 
 
@@ -279,23 +281,140 @@ def test_subfolders_and_directories_of_media():
     assert_placed(opened(os.path.join(path, "DICOMDIR")), *right)
 
 
-def test_cancel_leaves_no_image_and_progress_is_told():
-    path = write_slices(folder("cancel"), numbered(80))
-    reader = DICOMVolumeReader(FileName=path)
-    heard = []
-    source = reader.GetClientSideObject()
-    source.AddObserver(vtkCommand.ProgressEvent, lambda *_: heard.append(source.GetProgress()))
-    reader.UpdatePipeline()
-    assert len(heard) > 4 and max(heard) == 1.0, heard
-    del reader
+def two_sizes(name, slices):
+    """A folder with two series of other sizes, and the path of it."""
+    path = write_slices(folder(name), numbered(slices))
 
-    reader = DICOMVolumeReader(FileName=path)
+    def other(image, _):
+        image.SeriesInstanceUID, image.SeriesNumber = "1.2.3.4.6", 4
+
+    return write_slices(path, numbered(slices, 7, 8), change=other, start=slices + 1)
+
+
+class Canceller:
+    """Hears the progress of a reader, and stops it once above a share."""
+
+    def __init__(self, source):
+        self.source, self.heard, self.above = source, [], None
+        source.AddObserver(vtkCommand.ProgressEvent, self._hear)
+
+    def _hear(self, *_):
+        self.heard.append(self.source.GetProgress())
+        if self.above is not None and self.heard[-1] > self.above:
+            self.above = None  # as a button that is pressed once
+            self.source.SetAbortExecuteAndUpdateTime()
+
+    def reads(self):
+        """Whether the last update read slices, and did not only begin and end."""
+        return any(0.0 < share < 1.0 for share in self.heard)
+
+    def updated(self, above):
+        """What is told while the reader is updated and stopped above a share; None: not stopped."""
+        self.heard, self.above = [], above
+        with messages() as told:
+            self.source.Update()
+        self.above = None
+        return told.text
+
+
+def test_progress_is_told_from_the_first_header_to_the_last_slice():
+    reader = DICOMVolumeReader(FileName=two_sizes("progress", 80))
+    canceller = Canceller(reader.GetClientSideObject())
+    canceller.source.Modified()  # the headers were read when the reader was made
+    canceller.source.UpdateInformation()
+    assert len(canceller.heard) > 1 and max(canceller.heard) > 0.3, canceller.heard
+    assert not canceller.updated(None)
+    assert len(canceller.heard) > 4 and max(canceller.heard) == 1.0, canceller.heard
+
+
+def test_cancel_of_the_first_series_shows_nothing_until_it_is_wanted_again():
+    reader = DICOMVolumeReader(FileName=two_sizes("cancel", 80))
     source = reader.GetClientSideObject()
+    canceller = Canceller(source)
     source.UpdateInformation()
-    source.AddObserver(vtkCommand.ProgressEvent,
-                       lambda *_: source.SetAbortExecute(int(source.GetProgress() > 0.1)))
-    source.Update()
-    assert source.GetOutputDataObject(0).GetPointData().GetScalars() is None
+    assert_says(canceller.updated(0.1), "was stopped. Nothing is shown")
+    assert source.GetOutputDataObject(0).GetNumberOfPoints() == 0
+    assert canceller.updated(None) == "" and not canceller.reads(), canceller.heard
+    source.Modified()
+    assert not canceller.updated(None)
+    assert source.GetOutputDataObject(0).GetNumberOfPoints() == 80 * 7 * 8
+
+
+def test_cancel_of_another_series_keeps_the_one_that_is_shown():
+    for above_header in (False, True):
+        reader = DICOMVolumeReader(FileName=two_sizes("cancel-other", 80))
+        canceller = Canceller(reader.GetClientSideObject())
+        assert not canceller.updated(None)
+        shown = output(reader).NewInstance()
+        shown.DeepCopy(output(reader))
+        first, second = names(reader)
+        reader.Series = second
+        if above_header:
+            canceller.source.UpdateInformation()
+        assert_says(canceller.updated(0.1), "was stopped. What was read before is shown")
+        for _ in range(2):
+            image = canceller.source.GetOutputDataObject(0)
+            assert image.GetDimensions() == shown.GetDimensions()
+            assert image.GetOrigin() == shown.GetOrigin()
+            same = vtk_to_numpy(image.GetPointData().GetScalars())
+            assert (same == vtk_to_numpy(shown.GetPointData().GetScalars())).all()
+            assert canceller.updated(None) == "" and not canceller.reads(), canceller.heard
+        assert names(reader) == [first, second]
+        canceller.source.Modified()
+        assert not canceller.updated(None)
+        assert canceller.source.GetOutputDataObject(0).GetDimensions() != shown.GetDimensions()
+
+
+def test_the_patient_is_told_on_request_and_stays_nowhere():
+    def more(image, _):
+        image.PatientBirthDate, image.PatientSex = "19700131", "F"
+
+    view = simple.CreateView("RenderView")
+    smtrace.start_trace()
+    reader = opened(write_slices(folder("patient"), numbered(), change=more))
+    asked = brainshift.dicom_patient(reader)
+    assert asked == {"name": "Secret^Patient", "number": NUMBER, "birth_date": "1970-01-31",
+                     "sex": "F"}, asked
+    simple.Show(reader, view)
+    simple.Render(view)
+    trace = smtrace.stop_trace()
+    assert "DICOMVolumeReader" in trace, trace
+    name, script = scratch("patient.pvsm"), scratch("patient.py")
+    SaveState(name)
+    SaveState(script)
+    image = output(reader)
+    kept = trace + str(image) + str(reader.GetClientSideObject()) + " ".join(names(reader))
+    for file in (name, script):
+        with open(file, encoding="utf-8") as text:
+            kept += text.read()
+    for index in range(image.GetFieldData().GetNumberOfArrays()):
+        kept += str(image.GetFieldData().GetAbstractArray(index).GetValue(0))
+    assert "DICOM-patient" in kept
+    for secret in ("Secret", NUMBER, "1970-01-31", "19700131"):
+        assert secret not in kept, secret
+    try:
+        brainshift.dicom_patient(simple.Sphere())
+    except TypeError as error:
+        assert_says(str(error), "SphereSource", "no DICOM Volume Reader")
+    else:
+        raise AssertionError("a sphere has no patient")
+
+
+def test_the_patient_of_the_series_that_is_shown_is_told():
+    path = folder("patients")
+    for number, name in ((3, "One^A"), (4, "Two^B")):
+        def change(image, _, number=number, name=name):
+            image.SeriesNumber, image.SeriesInstanceUID = number, f"1.2.3.{number}"
+            image.PatientName = name
+            del image.PatientID
+
+        write_slices(path, numbered(), change=change, start=10 * number)
+    reader = opened(path)
+    for series in names(reader):
+        reader.Series = series
+        asked = brainshift.dicom_patient(reader)
+        assert asked["name"] == ("One^A" if series.startswith("3") else "Two^B"), asked
+        assert asked["number"] == asked["birth_date"] == asked["sex"] == "", asked
 
 
 def test_the_patient_is_not_in_the_state():
