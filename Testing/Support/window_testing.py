@@ -47,6 +47,31 @@ def start_anew():
         deformation().Strokes = []
 
 
+def bend():
+    """Makes a Free-Form Deformation of the active source, as the menu Filters and Apply do, and
+    calls it "bent"."""
+    hand.create_filter("FreeFormDeformation")
+    hand.wait(100)
+    assert hand.click("Accept")
+    hand.wait(500)
+    bent = simple.GetActiveSource()
+    simple.RenameSource("bent", bent)
+    return bent
+
+
+def show_bent_wavelet():
+    """A wavelet, bent in the window, as a Deformed Volume that rays hardly enter. Returns filter
+    and view."""
+    simple.Wavelet()
+    bent, view = bend(), simple.GetActiveView()
+    display = simple.Show(bent, view)
+    display.SetRepresentationType("Deformed Volume")
+    simple.ColorBy(display, ("POINTS", "RTData"))
+    opacity = simple.GetOpacityTransferFunction("RTData")
+    opacity.Points = [37.0, 1.0, 0.5, 0.0, 277.0, 1.0, 0.5, 0.0]
+    return bent, view
+
+
 def deformation():
     return simple.FindSource("bent")
 

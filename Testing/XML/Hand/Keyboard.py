@@ -14,11 +14,7 @@ STROKES = brainshift.stamp((8.0, 0.0, 0.0), (0.0, 0.0, 0.0), -3.0, major=8.0, mi
 
 def begin():
     simple.Wavelet()
-    hand.create_filter("FreeFormDeformation")
-    hand.wait(100)
-    assert hand.click("Accept")
-    hand.wait(500)
-    simple.RenameSource("bent", simple.GetActiveSource())
+    window.bend()
     window.deformation().Strokes = STROKES
     hand.wait(300)
 

@@ -18,20 +18,8 @@ STRONG = 4.0  # pixels, of the stamp's outline; 2 at 100 %
 
 
 def begin():
-    simple.Wavelet()
-    hand.create_filter("FreeFormDeformation")
-    hand.wait(100)
-    assert hand.click("Accept")
-    hand.wait(500)
-    bent = simple.GetActiveSource()
-    simple.RenameSource("bent", bent)
+    bent, view = window.show_bent_wavelet()
     bent.PointOfInterest = CENTRE
-    view = simple.GetActiveView()
-    display = simple.Show(bent, view)
-    display.SetRepresentationType("Deformed Volume")
-    simple.ColorBy(display, ("POINTS", "RTData"))
-    opacity = simple.GetOpacityTransferFunction("RTData")
-    opacity.Points = [37.0, 1.0, 0.5, 0.0, 277.0, 1.0, 0.5, 0.0]
     simple.ResetCamera(view)
     simple.Render(view)
     hand.wait(300)

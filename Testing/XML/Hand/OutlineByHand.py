@@ -20,13 +20,7 @@ def begin():
     """A block of 41 x 61 x 49 mm that rays do not enter, applied as in the window."""
     simple.UpdatePipeline(
         proxy=simple.Wavelet(WholeExtent=[0, 40, 0, 60, 0, 48], Center=CENTRE))
-    hand.create_filter("FreeFormDeformation")
-    hand.wait(100)
-    assert hand.click("Accept")
-    hand.wait(500)
-    bent = simple.GetActiveSource()
-    simple.RenameSource("bent", bent)
-    display = simple.GetDisplayProperties(bent)
+    display = simple.GetDisplayProperties(window.bend())
     display.SetRepresentationType("Deformed Volume")
     simple.ColorBy(display, ("POINTS", "RTData"))
     simple.GetOpacityTransferFunction("RTData").Points = [0, 1, 0.5, 0, 300, 1, 0.5, 0]

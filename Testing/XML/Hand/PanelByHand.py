@@ -20,11 +20,7 @@ STROKES = (brainshift.stamp((8.0, 0.0, 0.0), CENTRE, -123.4, major=80.0, minor=4
 
 def begin():
     simple.Wavelet()
-    hand.create_filter("FreeFormDeformation")
-    hand.wait(100)
-    assert hand.click("Accept")
-    hand.wait(500)
-    simple.RenameSource("bent", simple.GetActiveSource())
+    window.bend()
 
 
 def fits(width, height):

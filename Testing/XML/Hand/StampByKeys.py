@@ -19,19 +19,7 @@ NEAR = 0.5  # mm: a pick finds a surface to half a step along the ray, the tool 
 
 
 def begin():
-    simple.Wavelet()
-    hand.create_filter("FreeFormDeformation")
-    hand.wait(100)
-    assert hand.click("Accept")
-    hand.wait(500)
-    bent = simple.GetActiveSource()
-    simple.RenameSource("bent", bent)
-    view = simple.GetActiveView()
-    display = simple.Show(bent, view)
-    display.SetRepresentationType("Deformed Volume")
-    simple.ColorBy(display, ("POINTS", "RTData"))
-    opacity = simple.GetOpacityTransferFunction("RTData")
-    opacity.Points = [37.0, 1.0, 0.5, 0.0, 277.0, 1.0, 0.5, 0.0]
+    _, view = window.show_bent_wavelet()
     view.CameraPosition, view.CameraFocalPoint = (20.0, 30.0, 70.0), (0.0, 0.0, 0.0)
     simple.Render(view)
     hand.wait(300)

@@ -21,15 +21,11 @@ OPAQUE = [0, 0, 0.5, 0, 0.4, 0, 0.5, 0, 0.6, 1, 0.5, 0, 1, 1, 0.5, 0]
 def begin():
     source = volume(ball(inside=1.0, edge=2.0, radius=RADIUS))
     simple.SetActiveSource(source)
-    hand.create_filter("FreeFormDeformation")
-    hand.click("Accept")
-    hand.wait(500)
-    simple.RenameSource("bent", simple.GetActiveSource())
-    view = simple.GetActiveView()
-    show_volume(window.deformation(), view, "Deformed Volume", GREY, OPAQUE)
+    bent, view = window.bend(), simple.GetActiveView()
+    show_volume(bent, view, "Deformed Volume", GREY, OPAQUE)
     trace = simple.Sphere(Center=MIDDLE, Radius=RADIUS + 2.0, ThetaResolution=16, PhiResolution=16)
     measure = simple.TraceDistance(
-        registrationName="measure", Input=trace, Deformation=window.deformation())
+        registrationName="measure", Input=trace, Deformation=bent)
     simple.Show(measure, view)
     view.CameraFocalPoint = MIDDLE
     view.CameraPosition = MIDDLE + (0, 0, 80)
