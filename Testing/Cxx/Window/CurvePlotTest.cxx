@@ -2,17 +2,16 @@
 // Proves that the curve of the panel lies as high as its lengths in the colours of the palette,
 // marks the last point, says in words what it shows, and tells the point under the cursor.
 #include "Panel/Parts/CurvePlot.h"
-#include "Testing/Cxx/Window/Application.h"
+#include "Testing/Cxx/Window/PlotTesting.h"
 
+#include <QApplication>
 #include <QHelpEvent>
 #include <QImage>
-#include <QPalette>
 #include <QToolTip>
 
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <memory>
 
 using namespace brainshift;
 
@@ -20,27 +19,15 @@ namespace
 {
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
-class Curve : public testing::Test
+class Curve : public PlotTest<CurvePlot>
 {
 protected:
   Curve()
+    : PlotTest(300)
   {
-    application();
-    QPalette palette;
-    palette.setColor(QPalette::Window, Qt::black);
-    palette.setColor(QPalette::WindowText, Qt::white);
-    palette.setColor(QPalette::Highlight, Qt::red);
-    this->Plot = std::make_unique<CurvePlot>();
-    this->Plot->setPalette(palette);
-    this->Plot->resize(300, this->Plot->minimumSizeHint().height());
   }
 
-  QColor colorAt(const QPointF& place) const
-  {
-    return this->Plot->grab().toImage().pixelColor(place.toPoint());
-  }
-
-  std::unique_ptr<CurvePlot> Plot;
+  QColor colorAt(const QPointF& place) const { return this->drawn().pixelColor(place.toPoint()); }
 };
 }
 
@@ -61,7 +48,7 @@ TEST_F(Curve, MarksTheLastPointOnly)
 {
   this->Plot->setLengths({ 4.0, 2.0, 1.0 });
   const auto ringAt = [&](int strokes) {
-    const QImage image = this->Plot->grab().toImage();
+    const QImage image = this->drawn();
     const QPoint place = this->Plot->placeOf(strokes).toPoint();
     int bright = 0;
     for (int x = -6; x <= 6; ++x)
@@ -77,7 +64,7 @@ TEST_F(Curve, MarksTheLastPointOnly)
 TEST_F(Curve, LeavesAGapWhereItWasNotMeasured)
 {
   const auto redAlong = [&] {
-    const QImage image = this->Plot->grab().toImage();
+    const QImage image = this->drawn();
     int red = 0;
     for (int x = 0; x < image.width(); ++x)
     {
@@ -100,9 +87,7 @@ TEST_F(Curve, LeavesAGapWhereItWasNotMeasured)
 TEST_F(Curve, FollowsThePalette)
 {
   this->Plot->setLengths({ 4.0, 2.0 });
-  QPalette palette = this->Plot->palette();
-  palette.setColor(QPalette::Highlight, Qt::blue);
-  this->Plot->setPalette(palette);
+  this->highlight(Qt::blue);
   EXPECT_EQ(this->colorAt(this->Plot->placeOf(0)), QColor(Qt::blue));
 }
 

@@ -2,14 +2,11 @@
 // Proves that the histogram of the panel draws bars as tall as its counts in the colours of the
 // palette, says in words what it shows, and tells what lies under the cursor.
 #include "Panel/Parts/HistogramPlot.h"
-#include "Testing/Cxx/Window/Application.h"
+#include "Testing/Cxx/Window/PlotTesting.h"
 
 #include <QImage>
-#include <QPalette>
 
 #include <gtest/gtest.h>
-
-#include <memory>
 
 using namespace brainshift;
 
@@ -17,22 +14,13 @@ namespace
 {
 constexpr int BinPixels = 20;
 
-class Histogram : public testing::Test
+class Histogram : public PlotTest<HistogramPlot>
 {
 protected:
   Histogram()
+    : PlotTest(4 * BinPixels)
   {
-    application();
-    QPalette palette;
-    palette.setColor(QPalette::Window, Qt::black);
-    palette.setColor(QPalette::WindowText, Qt::white);
-    palette.setColor(QPalette::Highlight, Qt::red);
-    this->Plot = std::make_unique<HistogramPlot>();
-    this->Plot->setPalette(palette);
-    this->Plot->resize(4 * BinPixels, this->Plot->minimumSizeHint().height());
   }
-
-  QImage drawn() const { return this->Plot->grab().toImage(); }
 
   // Pixels of the highlight's colour in the middle of a bin.
   int tallOf(int bin) const
@@ -45,8 +33,6 @@ protected:
     }
     return tall;
   }
-
-  std::unique_ptr<HistogramPlot> Plot;
 };
 }
 
@@ -63,9 +49,7 @@ TEST_F(Histogram, BarsAreAsTallAsTheirCounts)
 TEST_F(Histogram, FollowsThePalette)
 {
   this->Plot->setHistogram(0.5, { 0.0, 4.0, 2.0, 1.0 });
-  QPalette palette = this->Plot->palette();
-  palette.setColor(QPalette::Highlight, Qt::blue);
-  this->Plot->setPalette(palette);
+  this->highlight(Qt::blue);
   EXPECT_EQ(this->tallOf(1), 0) << "no red any more";
   EXPECT_EQ(this->drawn().pixelColor(BinPixels + 5, 10), QColor(Qt::blue));
 }
