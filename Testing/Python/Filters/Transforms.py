@@ -147,7 +147,8 @@ def test_hdf5_of_elastix():
     """A B-spline that elastix found, in its own text and in HDF5 with ITK's names.
 
     Debian 13's elastix also writes ITK's files itself, but for the reason in outside_testing.py
-    with the numbers of a new B-spline: 4 x 4 x 4 zeros. They prove that ITK's layout is read."""
+    with the numbers of a new B-spline: 4 x 4 x 4 zeros. They prove that ITK's layout is read. Where
+    that is mended they take points to the same places."""
     z, y, x = numpy.mgrid[:16, :16, :16] * 8.0
     images = [write_image(f"elastix_{i}.mha",
                           100.0 * numpy.exp(-((x - at) ** 2 + (y - 60) ** 2 + (z - 58) ** 2) / 900),
@@ -183,7 +184,9 @@ def test_hdf5_of_elastix():
         assert largest(brainshift.read_transform(name).map(POINTS), right) < NEAR, name
     for name in found:
         transform = brainshift.read_transform(name)
-        assert transform.kind == "nonlinear" and largest(transform.map(POINTS), POINTS) < 1e-9, name
+        there = transform.map(POINTS)
+        away = min(largest(there, POINTS), largest(there, right))
+        assert transform.kind == "nonlinear" and away < NEAR, (name, transform.kind, away)
 
 
 def test_matrix_of_niftyreg_is_ras():
