@@ -112,11 +112,24 @@ void vtkVolumeFileReader::keepLast(vtkInformation* output)
   }
 }
 
+std::string vtkVolumeFileReader::reading(const std::function<std::string()>& read)
+{
+  struct Scope
+  {
+    bool& isReading;
+    ~Scope() { this->isReading = false; }
+  };
+  this->IsReading = true;
+  const Scope scope{ this->IsReading };
+  return read();
+}
+
 int vtkVolumeFileReader::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
   vtkInformation* output = outputs->GetInformationObject(0);
-  const std::string problem = this->Stored->readHeader(this->FileName ? this->FileName : "");
+  const std::string problem = this->reading(
+    [this] { return this->Stored->readHeader(this->FileName ? this->FileName : ""); });
   this->Last.isOfHeader = false;
   this->IsStopped = !problem.empty() && this->GetAbortExecute();
   if (this->IsStopped)
@@ -189,8 +202,10 @@ int vtkVolumeFileReader::readVolume(vtkInformation* information)
     this->UpdateProgress(share);
     return !this->GetAbortExecute();
   };
-  const std::string problem = this->Stored->read(
-    volume, information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()), progress, shown);
+  const std::string problem = this->reading([&] {
+    return this->Stored->read(
+      volume, information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()), progress, shown);
+  });
   if (!problem.empty())
   {
     vtkErrorMacro(<< problem << ".");

@@ -27,7 +27,9 @@
 #include "vtkImageAlgorithm.h"
 #include "vtkSmartPointer.h"
 
-#include <memory> // for the private part
+#include <functional> // for the private part
+#include <memory>
+#include <string>
 #include <vector>
 
 namespace brainshift
@@ -52,6 +54,9 @@ public:
   vtkGetFilePathMacro(FileName);
   ///@}
 
+  /** Whether the reader reads a header or voxels at this moment. */
+  bool GetIsReading() const { return this->IsReading; }
+
   /** 1 if the file exists and begins like a file of this format, else 0. */
   virtual int CanReadFile(VTK_FILEPATH const char* fileName) = 0;
 
@@ -68,6 +73,8 @@ private:
   vtkVolumeFileReader(const vtkVolumeFileReader&) = delete;
   void operator=(const vtkVolumeFileReader&) = delete;
 
+  // What `read` returns. IsReading holds meanwhile.
+  std::string reading(const std::function<std::string()>& read);
   // Fills the output with the volume of the time that is asked for.
   int readVolume(vtkInformation* output);
   // Tells the pipeline what was last read to its end.
@@ -87,6 +94,7 @@ private:
 
   char* FileName = nullptr;
   Shown Last;
+  bool IsReading = false;
   bool IsStopped = false; // the header that was read last is not what is shown
   std::unique_ptr<brainshift::PlacedVolume> Stored;
 };

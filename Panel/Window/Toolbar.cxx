@@ -10,6 +10,7 @@
 #include "Panel/Window/CursorLine.h"
 #include "Panel/Window/LookMenu.h"
 #include "Panel/Window/StatusLine.h"
+#include "Panel/Window/StopReading.h"
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
@@ -48,6 +49,7 @@ Toolbar::Toolbar(QWidget* mainWindow)
   {
     window->statusBar()->addWidget(new StatusLine(window), 1);
     window->statusBar()->addWidget(new CursorLine(window));
+    new StopReading(window); // lives as long as the window
   }
 }
 

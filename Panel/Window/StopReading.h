@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// The cross beside the progress bar, while one of our readers reads on this machine: it stops the
+/// reader. ParaView has this itself from 6.1 on, and before that never enables the cross.
+#ifndef BrainShift_StopReading_h
+#define BrainShift_StopReading_h
+
+#include <QObject>
+
+class pqProgressManager;
+class QEvent;
+
+namespace brainshift
+{
+class StopReading : public QObject
+{
+  Q_OBJECT
+
+public:
+  explicit StopReading(QObject* parent);
+
+  /// Lets through what the window needs to show itself and to press the cross.
+  bool eventFilter(QObject* object, QEvent* event) override;
+
+private:
+  void hear();
+  void stop() const;
+
+  pqProgressManager* Manager;
+  bool IsHearing = false;
+};
+}
+
+#endif
