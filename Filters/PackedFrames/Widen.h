@@ -14,19 +14,29 @@
 
 namespace brainshift
 {
+/** The bytes of samples that became numbers of another type. */
+template <typename Number, typename Sample>
+std::string bytesAs(const std::vector<Sample>& samples)
+{
+  const std::vector<Number> numbers(samples.begin(), samples.end());
+  std::string bytes(numbers.size() * sizeof(Number), '\0');
+  std::memcpy(bytes.data(), numbers.data(), bytes.size());
+  return bytes;
+}
+
 /** Numbers of 1, 2 or 4 bytes with the lower bits of the samples; signs are kept. */
 template <typename Sample>
 std::string widened(const std::vector<Sample>& samples, std::size_t bytesOfNumber)
 {
-  const auto as = [&samples](auto none) {
-    const std::vector<decltype(none)> numbers(samples.begin(), samples.end());
-    std::string bytes(numbers.size() * sizeof(none), '\0');
-    std::memcpy(bytes.data(), numbers.data(), bytes.size());
-    return bytes;
-  };
-  return bytesOfNumber == 1 ? as(std::uint8_t())
-    : bytesOfNumber == 2    ? as(std::uint16_t())
-                            : as(std::uint32_t());
+  switch (bytesOfNumber)
+  {
+    case 1:
+      return bytesAs<std::uint8_t>(samples);
+    case 2:
+      return bytesAs<std::uint16_t>(samples);
+    default:
+      return bytesAs<std::uint32_t>(samples);
+  }
 }
 }
 
