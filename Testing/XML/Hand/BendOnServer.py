@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that the tools bend a volume that a pvserver holds and draws: ParaView's window, connected
-to it, drags with each tool in 3D and in a slice, live, and takes back what it did.
+to it, drags with each tool in 3D and in a slice, live, and takes back what it did. The panel offers
+the series of a DICOM folder of the server.
 
 ParaView's window runs this file as a script; what did not hold is written down for the pvpython
 that runs it afterwards."""
@@ -9,7 +10,7 @@ import brainshift
 import numpy
 import test_hand as hand
 import window_testing as window
-from brainshift_testing import server, server_finds_plugin
+from brainshift_testing import data, server, server_finds_plugin
 from paraview import simple
 from window_testing import strokes
 
@@ -20,6 +21,23 @@ def connect(port):
     simple.Connect("localhost", port)
     hand.wait(200)
     assert simple.servermanager.ActiveConnection.IsRemote()
+
+
+def choose_a_series():
+    reader = simple.OpenDataFile(data("dcm-qa-enh"))
+    simple.SetActiveSource(reader)
+    hand.wait(300)
+    assert hand.is_visible("Series"), "the panel shows no choice of series"
+    kinds = [kind for kind, *_ in hand.controls("Series")]
+    assert "QComboBox" in kinds, kinds
+    magnitude, field = reader.GetProperty("Series").Available
+    assert magnitude.endswith("MAGNITUDE") and field.endswith("REAL"), (magnitude, field)
+    assert reader.PointData["Intensity"].GetRange()[0] >= 0.0
+    reader.Series = field
+    reader.UpdatePipeline()
+    assert reader.PointData["Intensity"].GetRange()[0] < -400.0
+    simple.Delete(reader)
+    hand.wait(100)
 
 
 def show():
@@ -116,6 +134,7 @@ def lose_the_server():
 def play():
     with server(server_finds_plugin()) as (port, _):
         yield connect, port
+        yield choose_a_series,
         yield drag_with_each_tool,
         yield what_lies_under_the_cursor,
         yield turn_the_wheel,
