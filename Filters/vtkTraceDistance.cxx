@@ -47,17 +47,6 @@ constexpr int SegmentationPort = 2;
 constexpr int CavityPort = 3;
 constexpr vtkIdType PointsAtLeast = 32; // for a thread: about 0.1 ms
 
-// The scalars of an image under a name; the active ones, or the first, if there are none of it.
-vtkDataArray* scalarsOf(vtkImageData* image, const std::string& name)
-{
-  vtkPointData* arrays = image->GetPointData();
-  if (vtkDataArray* named = name.empty() ? nullptr : arrays->GetArray(name.c_str()))
-  {
-    return named;
-  }
-  return arrays->GetScalars() ? arrays->GetScalars() : arrays->GetArray(0);
-}
-
 // The numbers of all processes, on each of them.
 std::vector<double> ofAllProcesses(const std::vector<double>& own)
 {

@@ -72,6 +72,19 @@ def trace_distance(width):
     return numpy.hstack(pictures)
 
 
+def fit_deformation(width):
+    """The trace by its distance from the cortex, before and after a fit of its points."""
+    import brainshift
+    side = width // 2
+    case = patient()
+    pictures = [stage.pixels(case_study.show_trace(case.bent, case.measure, side))]
+    brainshift.fit(case.bent, traces=case_study.points_of(case.measure.Input), threshold=0.5,
+                   array="Inside", cavity=case.measure.Cavity)
+    pictures.append(stage.pixels(case_study.show_trace(case.bent, case.measure, side)))
+    case.bent.Lattice = None
+    return numpy.hstack(pictures)
+
+
 def trace_points(width):
     """Points behind the tissue: faded, hidden, shown."""
     side = width // 3
@@ -109,5 +122,6 @@ def case_after(width):
 
 COMPARISON_SCENES = {
     "filter-compare-volumes": compare_volumes, "tool-flicker": flicker,
+    "filter-fit-deformation": fit_deformation,
     "filter-trace-distance": trace_distance, "representation-trace-points": trace_points,
     "case-study-before": case_before, "case-study-after": case_after}

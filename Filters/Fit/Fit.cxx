@@ -129,7 +129,7 @@ std::string Fit::solveRigid(const Measurements& measured, const FitSettings& set
     }
     this->Field.setValues(values);
     const SmallMotion motion = this->Field.remainingMotion(vectorFrom(this->Rigid.rotation));
-    const RigidMotion step =
+    const RigidPose step =
       turnedAround(mean.centre, rotationFrom(motion.rotation), motion.translation);
     if (glm::length(motion.translation) + glm::length(motion.rotation) < MotionTolerance)
     {

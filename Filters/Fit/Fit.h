@@ -13,7 +13,7 @@
 #include "Filters/Deformation/Export.h"
 #include "Filters/Fit/Measurements.h"
 #include "Filters/Fit/Process.h"
-#include "Filters/Fit/RigidMotion.h"
+#include "Filters/Fit/RigidPose.h"
 
 #include <glm/vec3.hpp>
 
@@ -51,7 +51,7 @@ public:
   void movePull(std::size_t pull, const glm::dvec3& measured);
 
   /** The rigid part: measured from rest. The identity if the volume only bends. */
-  const RigidMotion& rigid() const { return this->Rigid; }
+  const RigidPose& rigid() const { return this->Rigid; }
 
   /** How far (mm) tissue at a rest position bends before the rigid part moves it. */
   glm::dvec3 bend(const glm::dvec3& rest) const { return this->Field.displacement(rest); }
@@ -96,7 +96,7 @@ private:
   void judge(const Measurements& measured);
 
   Process Field;
-  RigidMotion Rigid;
+  RigidPose Rigid;
   std::vector<std::optional<std::size_t>> LandmarkRows; // the first of the three
   std::vector<std::optional<std::size_t>> PullRows;
   std::vector<double> LeaveOneOut;

@@ -41,6 +41,16 @@ bool TissueRegion::contains(const glm::dvec3& rest) const
   return sum >= this->level;
 }
 
+vtkDataArray* scalarsOf(vtkImageData* image, const std::string& name)
+{
+  vtkPointData* arrays = image->GetPointData();
+  if (vtkDataArray* named = name.empty() ? nullptr : arrays->GetArray(name.c_str()))
+  {
+    return named;
+  }
+  return arrays->GetScalars() ? arrays->GetScalars() : arrays->GetArray(0);
+}
+
 vtkSmartPointer<vtkDataArray> maskOfLabel(vtkDataArray* labels, int label)
 {
   auto mask = vtkSmartPointer<vtkUnsignedCharArray>::New();

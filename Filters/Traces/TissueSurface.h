@@ -14,9 +14,11 @@
 
 #include <glm/vec3.hpp>
 
+#include <string>
 #include <vector>
 
 class vtkDataArray;
+class vtkImageData;
 
 namespace brainshift
 {
@@ -37,6 +39,9 @@ struct VTKBRAINSHIFTFILTERS_EXPORT TissueRegion
   /** Whether a rest position is in the region. Scalars are trilinear; outside the grid: false. */
   bool contains(const glm::dvec3& rest) const;
 };
+
+/** The scalars of an image of this name; its active ones, or its first, if there are none of it. */
+VTKBRAINSHIFTFILTERS_EXPORT vtkDataArray* scalarsOf(vtkImageData* image, const std::string& name);
 
 /** 1 where the labels are `label`, else 0: the scalars of a TissueRegion with level 0.5. */
 VTKBRAINSHIFTFILTERS_EXPORT vtkSmartPointer<vtkDataArray> maskOfLabel(

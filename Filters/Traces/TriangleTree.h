@@ -57,6 +57,9 @@ public:
    */
   Nearest nearestAfterMove(const glm::dvec3& position, int before) const;
 
+  /** The numbers of the points of a triangle that nearest() found. */
+  const glm::ivec3& corners(int triangle) const { return this->Triangles[triangle]; }
+
   /** How often the triangles were fitted. */
   int fits() const { return this->Fits; }
 

@@ -17,6 +17,7 @@ from .answers import counters, gpu, pick, slice_axes
 from .figures import animate, figure
 from .files import (
     dicom_patient, load_field, load_lattice, save_dicom, save_field, save_lattice, save_volume)
+from .fitting import Fit, fit
 from .looks import look, looks
 from .maps import deformed_from_rest, rest_from_deformed
 from .points import map_points, read_points
@@ -27,9 +28,9 @@ from .views import four_views, show_comparison
 from .windows import percentile_window
 
 __all__ = [
-    "MOVE", "NUMBERS_PER_STROKE", "SOFT", "STAMP", "Transform",
+    "Fit", "MOVE", "NUMBERS_PER_STROKE", "SOFT", "STAMP", "Transform",
     "animate", "apply_transform", "counters", "deformed_from_rest", "dicom_patient", "figure",
-    "four_views", "gpu", "load_field", "load_lattice", "look", "looks", "map_points", "move",
-    "open_sample", "percentile_window", "pick", "read_points", "read_transform",
+    "fit", "four_views", "gpu", "load_field", "load_lattice", "look", "looks", "map_points",
+    "move", "open_sample", "percentile_window", "pick", "read_points", "read_transform",
     "rest_from_deformed", "save_dicom", "save_field", "save_lattice", "save_transform",
     "save_volume", "show_comparison", "slice_axes", "soft", "stamp"]

@@ -20,9 +20,10 @@ STANDS_ON = {
     "Filters/Readers": ["Filters/Fields", "Filters/DICOM"],
     "Filters/Surfaces": ["Filters/Volumes"],
     "Filters/Transforms": ["Filters/Fields"],
+    "Filters/Measured": ["Filters/Fields", "Filters/Fit", "Filters/Traces"],
     "Filters": [
-        "Filters/Fit", "Filters/Landmarks", "Filters/Looks", "Filters/Readers", "Filters/Surfaces",
-        "Filters/Traces", "Filters/Transforms"],
+        "Filters/Landmarks", "Filters/Looks", "Filters/Measured", "Filters/Readers",
+        "Filters/Surfaces", "Filters/Transforms"],
     "Representations/Gpu": ["Filters"],
     "Representations/Scene": ["Representations/Gpu"],
     "Representations/Field": ["Representations/Scene"],

@@ -8,6 +8,7 @@
 #include "vtkDeformationField.h"
 #include "vtkDisplacementFieldReader.h"
 #include "vtkDisplacementFieldWriter.h"
+#include "vtkFitDeformation.h"
 #include "vtkFreeFormDeformation.h"
 #include "vtkLandmarkReader.h"
 #include "vtkLandmarkWriter.h"
@@ -99,6 +100,31 @@ TEST(Defaults, OfDICOMReaderLiveInTheClass)
   EXPECT_STREQ(reader->GetSeries(), "");
   const Defaults expected{ { "ResampleSlices", { double(reader->GetResampleSlices()) } } };
   EXPECT_EQ(defaultsIn("Filters/Proxies/DICOMVolumeReader.xml"), expected);
+}
+
+TEST(Defaults, OfFitDeformationLiveInTheClass)
+{
+  vtkNew<vtkFitDeformation> filter;
+  const int* sides = filter->GetLatticeDimensions();
+  const Defaults expected{
+    { "Feather", { filter->GetFeather() } },
+    { "GuardFolding", { double(filter->GetGuardFolding()) } },
+    { "Kernel", { double(filter->GetKernel()) } },
+    { "LatticeDimensions", { double(sides[0]), double(sides[1]), double(sides[2]) } },
+    { "MaskGrowth", { filter->GetMaskGrowth() } },
+    { "Samples", { double(filter->GetSamples()) } },
+  };
+  EXPECT_EQ(defaultsIn("Filters/Proxies/FitDeformation.xml"), expected);
+  const double* centre = filter->GetOpeningCentre();
+  const Defaults ofCortex{
+    { "Anchors", { double(filter->GetAnchors()) } },
+    { "Label", { double(filter->GetLabel()) } },
+    { "OpeningCentre", { centre[0], centre[1], centre[2] } },
+    { "OpeningRadius", { filter->GetOpeningRadius() } },
+    { "SurfaceBy", { double(filter->GetSurfaceBy()) } },
+    { "Threshold", { filter->GetThreshold() } },
+  };
+  EXPECT_EQ(defaultsIn("Filters/Proxies/FitDeformationCortex.xml"), ofCortex);
 }
 
 TEST(Defaults, OfDisplacementFieldFilesLiveInTheClasses)

@@ -22,7 +22,7 @@ namespace
 constexpr double Tolerance = 1e-6; // mm
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
-const RigidMotion Turned =
+const RigidPose Turned =
   turnedAround({ 10.0, -20.0, 30.0 }, rotationFrom({ 0.15, -0.1, 0.2 }), { 4.0, -6.0, 8.0 });
 
 // Landmarks that were moved rigidly and then missed by up to `missMm` along each axis.
@@ -49,7 +49,7 @@ double largest(const glm::dmat3& m)
 }
 
 // The fit's own rows, with what is left after its rigid motion.
-std::vector<Row> rowsAfter(const RigidMotion& rigid, const Measurements& measured)
+std::vector<Row> rowsAfter(const RigidPose& rigid, const Measurements& measured)
 {
   std::vector<Row> rows;
   for (const PointPair& pair : measured.landmarks)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/Fit/RigidMotion.h"
+#include "Filters/Fit/RigidPose.h"
 
 #include <glm/geometric.hpp>
 
@@ -52,7 +52,7 @@ Eigen::Matrix3d products(const std::vector<glm::dvec3>& from, const std::vector<
 }
 }
 
-RigidMotion turnedAround(
+RigidPose turnedAround(
   const glm::dvec3& centre, const glm::dmat3& rotation, const glm::dvec3& shift)
 {
   return { rotation, centre + shift - rotation * centre };

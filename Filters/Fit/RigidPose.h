@@ -3,8 +3,8 @@
  * @file
  * @brief Rotation and translation: the part of a fit that bends nothing.
  */
-#ifndef BrainShift_RigidMotion_h
-#define BrainShift_RigidMotion_h
+#ifndef BrainShift_RigidPose_h
+#define BrainShift_RigidPose_h
 
 #include "Filters/Deformation/Export.h"
 
@@ -17,7 +17,7 @@
 namespace brainshift
 {
 /** Turns around the origin, then shifts. */
-struct RigidMotion
+struct RigidPose
 {
   glm::dmat3 rotation{ 1.0 };
   glm::dvec3 translation{ 0.0 }; ///< mm
@@ -33,7 +33,7 @@ struct RigidMotion
 };
 
 /** A motion that turns around a centre (mm) and then shifts by a vector (mm). */
-BRAINSHIFT_DEFORMATION_EXPORT RigidMotion turnedAround(
+BRAINSHIFT_DEFORMATION_EXPORT RigidPose turnedAround(
   const glm::dvec3& centre, const glm::dmat3& rotation, const glm::dvec3& shift);
 
 /** The rotation around a vector by its length (rad). */

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Fit/FittedLattice.h"
+
+#include "Filters/Fit/FitLattice.h"
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace brainshift
+{
+namespace
+{
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string FittedLattice::solveWith(
+  double relaxation, const Measurements& measured, const RestSurface& surface)
+{
+  FitSettings settings;
+  settings.relaxation = relaxation;
+  this->Relaxation = relaxation;
+  const std::string problem = this->Result.solve(measured, settings, surface);
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  sampleField(this->Bent, this->Result.field());
+  return problemOfDisplacements(this->Bent, "the fit");
+}
+
+std::string FittedLattice::solve(const Measurements& measured, const RestSurface& surface,
+  const Lattice& lattice, int samples, bool guards)
+{
+  this->Map.reset();
+  this->Bent = lattice;
+  this->Share = 1.0;
+  std::string problem = this->solveWith(1.0, measured, surface);
+  if (problem.empty() && guards && shareWithoutFolds(this->Bent, samples) < 1.0)
+  {
+    problem = this->solveWith(Relaxed, measured, surface);
+    this->Share = problem.empty() ? shareWithoutFolds(this->Bent, samples) : 1.0;
+    for (glm::vec3& displacement : this->Bent.displacements)
+    {
+      displacement *= static_cast<float>(this->Share);
+    }
+  }
+  if (problem.empty())
+  {
+    this->Map.emplace(this->Bent);
+  }
+  return problem;
+}
+
+glm::dvec3 FittedLattice::measuredFromRest(const glm::dvec3& rest) const
+{
+  return this->Result.rigid().apply(this->Map->deformedFromRest(rest));
+}
+
+std::vector<double> FittedLattice::residuals(const std::vector<PointPair>& pairs) const
+{
+  std::vector<double> result;
+  for (const PointPair& pair : pairs)
+  {
+    const double miss = glm::distance(this->measuredFromRest(pair.rest), pair.measured);
+    result.push_back(pair.weight > 0.0 ? miss : NaN);
+  }
+  return result;
+}
+
+std::vector<double> FittedLattice::traceResiduals(
+  const std::vector<glm::dvec3>& traces, const RestSurface& surface) const
+{
+  std::vector<double> result(traces.size(), NaN);
+  for (std::size_t i = 0; surface && i < traces.size(); ++i)
+  {
+    const auto foot = surface(this->Map->restFromDeformed(traces[i]), i);
+    if (foot)
+    {
+      const glm::dmat3 turn = glm::transpose(glm::inverse(this->Map->jacobian(foot->position)));
+      result[i] = glm::dot(glm::normalize(turn * foot->normal),
+        traces[i] - this->Map->deformedFromRest(foot->position));
+    }
+  }
+  return result;
+}
+
+double rootMeanSquare(const std::vector<double>& numbers)
+{
+  double squares = 0.0;
+  double count = 0.0;
+  for (const double number : numbers)
+  {
+    squares += std::isfinite(number) ? number * number : 0.0;
+    count += std::isfinite(number) ? 1.0 : 0.0;
+  }
+  return count > 0.0 ? std::sqrt(squares / count) : NaN;
+}
+}

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Measured/RestCortex.h"
+
+#include "Filters/Attached/DeformableVolume.h"
+
+#include "vtkDataArray.h"
+#include "vtkImageData.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace brainshift
+{
+namespace
+{
+constexpr int Smoothings = 10;     // about three voxels far
+constexpr std::size_t Asked = 500; // points that say which side is out
+constexpr double AsideVoxels = 0.5;
+
+// Shares of the corners a, b and c in the point of a triangle that is nearest to a position: walks
+// through the regions of the corners, then the edges, then the face.
+glm::dvec3 sharesOfNearest(
+  const glm::dvec3& position, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
+{
+  const glm::dvec3 ab = b - a;
+  const glm::dvec3 ac = c - a;
+  const double abA = glm::dot(ab, position - a);
+  const double acA = glm::dot(ac, position - a);
+  const double abB = glm::dot(ab, position - b);
+  const double acB = glm::dot(ac, position - b);
+  const double abC = glm::dot(ab, position - c);
+  const double acC = glm::dot(ac, position - c);
+  if (abA <= 0.0 && acA <= 0.0)
+  {
+    return { 1.0, 0.0, 0.0 };
+  }
+  if (abB >= 0.0 && acB <= abB)
+  {
+    return { 0.0, 1.0, 0.0 };
+  }
+  if (acC >= 0.0 && abC <= acC)
+  {
+    return { 0.0, 0.0, 1.0 };
+  }
+  // Areas of the triangles between the foot and each edge, times a factor.
+  const double ofC = abA * acB - abB * acA;
+  const double ofB = abC * acA - abA * acC;
+  const double ofA = abB * acC - abC * acB;
+  if (ofC <= 0.0 && abA >= 0.0 && abB <= 0.0)
+  {
+    const double along = abA / (abA - abB);
+    return { 1.0 - along, along, 0.0 };
+  }
+  if (ofB <= 0.0 && acA >= 0.0 && acC <= 0.0)
+  {
+    const double along = acA / (acA - acC);
+    return { 1.0 - along, 0.0, along };
+  }
+  if (ofA <= 0.0)
+  {
+    const double along = (acB - abB) / ((acB - abB) + (abC - acC));
+    return { 0.0, 1.0 - along, along };
+  }
+  return glm::dvec3(ofA, ofB, ofC) / (ofA + ofB + ofC);
+}
+
+glm::dvec3 unit(const glm::dvec3& vector)
+{
+  const double length = glm::length(vector);
+  return length > 0.0 ? vector / length : glm::dvec3(0.0, 0.0, 1.0);
+}
+}
+
+RestCortex::RestCortex(const TissueRegion& tissue)
+  : Mesh(surfaceOf(tissue))
+  , Tree(this->Mesh)
+{
+  this->findNormals(tissue);
+}
+
+void RestCortex::findNormals(const TissueRegion& tissue)
+{
+  const std::vector<glm::dvec3>& points = this->Mesh.points;
+  this->Normals.assign(points.size(), glm::dvec3(0.0));
+  for (const glm::ivec3& t : this->Mesh.triangles)
+  {
+    const glm::dvec3 area =
+      glm::cross(points[t.y] - points[t.x], points[t.z] - points[t.x]); // twice
+    this->Normals[t.x] += area;
+    this->Normals[t.y] += area;
+    this->Normals[t.z] += area;
+  }
+  std::transform(this->Normals.begin(), this->Normals.end(), this->Normals.begin(), unit);
+  for (int i = 0; i < Smoothings; ++i)
+  {
+    std::vector<glm::dvec3> sums = this->Normals;
+    for (const glm::ivec3& t : this->Mesh.triangles)
+    {
+      const glm::dvec3 sum = this->Normals[t.x] + this->Normals[t.y] + this->Normals[t.z];
+      sums[t.x] += sum;
+      sums[t.y] += sum;
+      sums[t.z] += sum;
+    }
+    std::transform(sums.begin(), sums.end(), this->Normals.begin(), unit);
+  }
+  // Which way triangles turn depends on the grid's axes and on the tissue's side of the level.
+  const glm::dvec3& spacing = tissue.grid.spacing;
+  const double aside = AsideVoxels * glm::min(spacing.x, glm::min(spacing.y, spacing.z));
+  int inwards = 0;
+  for (std::size_t i = 0; i < points.size(); i += points.size() / Asked + 1)
+  {
+    inwards += tissue.contains(points[i] + aside * this->Normals[i]) ? 1 : -1;
+    inwards += tissue.contains(points[i] - aside * this->Normals[i]) ? -1 : 1;
+  }
+  if (inwards > 0)
+  {
+    std::transform(this->Normals.begin(), this->Normals.end(), this->Normals.begin(),
+      [](const glm::dvec3& normal) { return -normal; });
+  }
+}
+
+std::optional<SurfacePoint> RestCortex::nearest(const glm::dvec3& rest, int& hint) const
+{
+  hint = this->Tree.nearest(rest, hint).triangle;
+  if (hint < 0)
+  {
+    return {};
+  }
+  const glm::ivec3& corners = this->Tree.corners(hint);
+  const std::vector<glm::dvec3>& points = this->Mesh.points;
+  const glm::dvec3 share =
+    sharesOfNearest(rest, points[corners.x], points[corners.y], points[corners.z]);
+  const auto mixed = [&](const std::vector<glm::dvec3>& values) {
+    return share.x * values[corners.x] + share.y * values[corners.y] + share.z * values[corners.z];
+  };
+  return SurfacePoint{ mixed(points), unit(mixed(this->Normals)) };
+}
+
+std::vector<SurfacePoint> RestCortex::points() const
+{
+  std::vector<SurfacePoint> result;
+  result.reserve(this->Mesh.points.size());
+  for (std::size_t i = 0; i < this->Mesh.points.size(); ++i)
+  {
+    result.push_back({ this->Mesh.points[i], this->Normals[i] });
+  }
+  return result;
+}
+
+std::string CortexSource::find(const Request& request)
+{
+  vtkDataArray* scalars = scalarsOf(request.image, request.array);
+  if (!scalars || scalars->GetNumberOfComponents() != 1)
+  {
+    return "The " + request.where + " has no point array of one component to find the cortex in";
+  }
+  const Grid grid = gridOf(request.image);
+  if (scalars != this->Scalars || scalars->GetMTime() != this->ScalarsTime ||
+    grid != this->ScalarsGrid || request.isLabel != this->IsLabel || request.level != this->Level)
+  {
+    this->Cortex = RestCortex(request.isLabel
+        ? TissueRegion{ grid, maskOfLabel(scalars, static_cast<int>(request.level)), 0.5 }
+        : TissueRegion{ grid, scalars, request.level });
+    this->Scalars = scalars;
+    this->ScalarsTime = scalars->GetMTime();
+    this->ScalarsGrid = grid;
+    this->IsLabel = request.isLabel;
+    this->Level = request.level;
+  }
+  if (!this->Cortex.isEmpty())
+  {
+    return {};
+  }
+  const double* range = scalars->GetRange(0);
+  return (request.isLabel ? "Label is " : "Threshold is ") + std::to_string(request.level) +
+    " and gives no cortex; the scalars of the " + request.where + " go from " +
+    std::to_string(range[0]) + " to " + std::to_string(range[1]);
+}
+}

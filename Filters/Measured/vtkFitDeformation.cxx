@@ -1,0 +1,471 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkFitDeformation.h"
+
+#include "Filters/Attached/CavityMask.h"
+#include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/Guard.h"
+#include "Filters/Attached/MaskImage.h"
+#include "Filters/Attached/WholeExtent.h"
+#include "Filters/Fields/FieldImage.h"
+#include "Filters/Fit/Anchors.h"
+#include "Filters/Fit/FittedLattice.h"
+#include "Filters/Measured/MeasuredPoints.h"
+#include "Filters/Measured/RestCortex.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointSet.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace brainshift;
+
+namespace
+{
+constexpr int RestPort = 1;
+constexpr int MeasuredPort = 2;
+constexpr int TracesPort = 3;
+constexpr int SegmentationPort = 4;
+constexpr int CavityPort = 5;
+constexpr int OpeningPort = 6;
+constexpr int MaskPort = 7;
+constexpr int Ports = 8;
+
+constexpr std::size_t NumbersPerPull = 7;
+constexpr std::size_t NumbersPerPin = 4;
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+vtkDoubleArray* filled(vtkDoubleArray* array, const std::vector<double>& values)
+{
+  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  return array;
+}
+
+}
+
+struct vtkFitDeformation::State
+{
+  CortexSource Cortex;
+  CavitySource CavityInput;
+  MaskSource Masks;
+  Measurements Measured;
+  std::vector<std::size_t> TraceNumbers; // of the traces that count, in the input
+  FittedLattice Fitted;
+  std::vector<double> LandmarkResiduals;
+  std::vector<double> PullResiduals;
+  std::vector<double> TraceResiduals; // of all traces of the input
+  std::string Problem;
+  std::string Unmatched;
+  std::string WarnedOf;
+  vtkNew<vtkDoubleArray> Numbers[5]; // as a server sends them
+
+  // What a fit asks for the cortex. It must not outlive this object's next change.
+  RestSurface surface()
+  {
+    if (this->Measured.traces.empty())
+    {
+      return {};
+    }
+    this->Hints.assign(this->Measured.traces.size(), -1);
+    return [this](const glm::dvec3& rest, std::size_t trace) {
+      return this->Cortex.cortex().nearest(rest, this->Hints[trace]);
+    };
+  }
+
+private:
+  std::vector<int> Hints; // a triangle for each trace
+};
+
+vtkStandardNewMacro(vtkFitDeformation);
+brainshiftGuardRequestsMacro(vtkFitDeformation);
+
+vtkFitDeformation::vtkFitDeformation()
+  : Internal(std::make_unique<State>())
+{
+  this->SetNumberOfInputPorts(Ports);
+}
+
+vtkFitDeformation::~vtkFitDeformation() = default;
+
+int vtkFitDeformation::FillInputPortInformation(int port, vtkInformation* info)
+{
+  const bool isPoints = port >= RestPort && port <= TracesPort;
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), isPoints ? "vtkPointSet" : "vtkImageData");
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port != 0);
+  return 1;
+}
+
+int vtkFitDeformation::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const glm::ivec3 sides(
+    this->LatticeDimensions[0], this->LatticeDimensions[1], this->LatticeDimensions[2]);
+  announce(outputs->GetInformationObject(0),
+    withDimensions(wholeGridOf(inputs[0]->GetInformationObject(0)),
+      glm::clamp(sides, SmallestLatticeSide, LargestLatticeSide)));
+  outputs->GetInformationObject(0)->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
+  return 1;
+}
+
+int vtkFitDeformation::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
+{
+  for (const int port : { 0, SegmentationPort, CavityPort, OpeningPort, MaskPort })
+  {
+    updateWholeExtent(inputs[port]->GetInformationObject(0));
+  }
+  return 1;
+}
+
+std::string vtkFitDeformation::ProblemOfProperties() const
+{
+  for (const int side : this->LatticeDimensions)
+  {
+    if (side < SmallestLatticeSide || side > LargestLatticeSide)
+    {
+      return "LatticeDimensions has " + std::to_string(side) + "; each side must have from " +
+        std::to_string(SmallestLatticeSide) + " to " + std::to_string(LargestLatticeSide) +
+        " points";
+    }
+  }
+  if (this->Pulls.size() % NumbersPerPull || this->Pins.size() % NumbersPerPin)
+  {
+    return "Pulls has " + std::to_string(this->Pulls.size()) + " numbers and Pins " +
+      std::to_string(this->Pins.size()) + "; a pull has 7 and a pin 4";
+  }
+  for (const auto& [name, mm] :
+    { std::pair("Feather", this->Feather), std::pair("MaskGrowth", this->MaskGrowth),
+      std::pair("OpeningRadius", this->OpeningRadius) })
+  {
+    if (!(mm >= 0.0 && std::isfinite(mm)))
+    {
+      return name + (" is " + std::to_string(mm)) + " mm; it must be 0 or more, and finite";
+    }
+  }
+  return {};
+}
+
+std::string vtkFitDeformation::ReadMeasurements(vtkInformationVector** inputs)
+{
+  State& state = *this->Internal;
+  state.Measured = {};
+  state.Measured.landmarks = landmarkPairs(vtkPointSet::GetData(inputs[RestPort]),
+    vtkPointSet::GetData(inputs[MeasuredPort]), state.Unmatched);
+  for (std::size_t i = 0; i < this->Pulls.size(); i += NumbersPerPull)
+  {
+    const double* n = &this->Pulls[i];
+    state.Measured.pulls.push_back({ { n[0], n[1], n[2] }, { n[3], n[4], n[5] }, n[6] });
+  }
+  for (std::size_t i = 0; i < this->Pins.size(); i += NumbersPerPin)
+  {
+    const double* n = &this->Pins[i];
+    if (n[3] != 0.0)
+    {
+      state.Measured.pins.emplace_back(n[0], n[1], n[2]);
+    }
+  }
+  std::string problem;
+  const PlacedVoxels cavity = state.CavityInput.find(vtkImageData::GetData(inputs[CavityPort]), {},
+    gridOf(vtkImageData::GetData(inputs[0])), "volume", problem);
+  const std::vector<glm::dvec3> traces = positionsOf(vtkPointSet::GetData(inputs[TracesPort]));
+  state.TraceResiduals.assign(traces.size(), NaN);
+  state.TraceNumbers.clear();
+  for (std::size_t i = 0; i < traces.size(); ++i)
+  {
+    if (!isRemoved(cavity, traces[i]))
+    {
+      state.TraceNumbers.push_back(i);
+      state.Measured.traces.push_back(traces[i]);
+    }
+  }
+  // Before anything is searched for where a point lies.
+  return problem.empty() ? problemOf(state.Measured) : problem;
+}
+
+std::string vtkFitDeformation::FindCortex(vtkInformationVector** inputs)
+{
+  vtkImageData* segmentation = vtkImageData::GetData(inputs[SegmentationPort]);
+  vtkImageData* image = segmentation ? segmentation : vtkImageData::GetData(inputs[0]);
+  const bool byLabel = this->SurfaceBy != 0;
+  return this->Internal->Cortex.find({ image, segmentation ? "segmentation" : "volume",
+    this->SurfaceArray, byLabel, byLabel ? this->Label : this->Threshold });
+}
+
+std::string vtkFitDeformation::FindAnchors(vtkInformationVector** inputs)
+{
+  State& state = *this->Internal;
+  Measurements& measured = state.Measured;
+  vtkImageData* openingImage = vtkImageData::GetData(inputs[OpeningPort]);
+  const bool isGiven = openingImage || this->OpeningRadius > 0.0;
+  if (measured.traces.empty() && !(this->Anchors && isGiven && bendsOnly(measured)))
+  {
+    return {};
+  }
+  std::string problem = this->FindCortex(inputs);
+  if (!problem.empty() || !this->Anchors)
+  {
+    return problem;
+  }
+  const std::vector<SurfacePoint> surface = state.Cortex.cortex().points();
+  if (openingImage)
+  {
+    Mask opening;
+    problem = readMask(openingImage, {}, gridOf(vtkImageData::GetData(inputs[0])), opening,
+      { "opening", "volume", "labels" });
+    if (problem.empty())
+    {
+      growMask(opening, AnchorMarginMm);
+      measured.anchors =
+        chooseAnchors(surface, [&](const glm::dvec3& rest) { return holds(opening, rest); });
+    }
+    return problem;
+  }
+  OpeningBall ball{ { this->OpeningCentre[0], this->OpeningCentre[1], this->OpeningCentre[2] },
+    this->OpeningRadius };
+  if (!isGiven)
+  {
+    std::vector<glm::dvec3> open = measured.traces;
+    std::transform(measured.pulls.begin(), measured.pulls.end(), std::back_inserter(open),
+      [](const PointPair& pull) { return pull.rest; });
+    ball = ballAround(open);
+  }
+  measured.anchors = chooseAnchors(surface, [&](const glm::dvec3& rest) {
+    return glm::distance(rest, ball.centre) < ball.radiusMm + AnchorMarginMm;
+  });
+  return {};
+}
+
+std::string vtkFitDeformation::Solve(vtkInformationVector** inputs)
+{
+  State& state = *this->Internal;
+  const Grid volume = gridOf(vtkImageData::GetData(inputs[0]));
+  const glm::ivec3 sides(
+    this->LatticeDimensions[0], this->LatticeDimensions[1], this->LatticeDimensions[2]);
+  Lattice lattice = makeLattice(withDimensions(volume, sides), this->Kernel);
+  std::string problem =
+    state.Masks.find({ vtkImageData::GetData(inputs[MaskPort]), this->MaskLabels, this->MaskGrowth,
+                       this->Feather, volume, lattice.grid, this->Samples },
+      lattice.mask);
+  const RestSurface surface = state.surface();
+  if (problem.empty())
+  {
+    problem =
+      state.Fitted.solve(state.Measured, surface, lattice, this->Samples, this->GuardFolding);
+  }
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  state.LandmarkResiduals = state.Fitted.residuals(state.Measured.landmarks);
+  state.PullResiduals = state.Fitted.residuals(state.Measured.pulls);
+  const std::vector<double> residuals = state.Fitted.traceResiduals(state.Measured.traces, surface);
+  for (std::size_t i = 0; i < residuals.size(); ++i)
+  {
+    state.TraceResiduals[state.TraceNumbers[i]] = residuals[i];
+  }
+  return {};
+}
+
+int vtkFitDeformation::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  State& state = *this->Internal;
+  const auto either = [](std::string problem, const auto& next) {
+    return problem.empty() ? next() : problem;
+  };
+  vtkImageData* volume = vtkImageData::GetData(inputs[0]);
+  std::string problem = problemOfGrid(gridOf(volume));
+  problem = problem.empty() ? problem : "The volume's " + problem;
+  problem = either(problem, [&] { return this->ProblemOfProperties(); });
+  problem = either(problem, [&] { return this->ReadMeasurements(inputs); });
+  problem = either(problem, [&] { return this->FindAnchors(inputs); });
+  problem = either(problem, [&] { return this->Solve(inputs); });
+  state.Problem = problem;
+  if (!problem.empty())
+  {
+    state.Fitted = {};
+    vtkErrorMacro(<< problem << ".");
+    return 0;
+  }
+  std::string warning = state.Unmatched.empty() ? "" : "Without a partner: " + state.Unmatched;
+  if (state.Fitted.share() < 1.0)
+  {
+    warning += (warning.empty() ? "" : ". ") +
+      ("The fold guard applied " + std::to_string(state.Fitted.share()) + " of the bend");
+  }
+  if (warning != state.WarnedOf && !warning.empty())
+  {
+    vtkWarningMacro(<< warning << ".");
+  }
+  state.WarnedOf = warning; // it is repeated only after it was gone
+  vtkImageData* output = vtkImageData::GetData(outputs);
+  const Lattice& bent = state.Fitted.lattice();
+  setField(output, bent.grid, bent.displacements, Direction::Forward);
+  output->Crop(
+    outputs->GetInformationObject(0)->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()));
+  return 1;
+}
+
+void vtkFitDeformation::AddMaskLabel(int label)
+{
+  this->MaskLabels.push_back(label);
+  this->Modified();
+}
+
+void vtkFitDeformation::ClearMaskLabels()
+{
+  this->MaskLabels.clear();
+  this->Modified();
+}
+
+void vtkFitDeformation::AddPull(double number)
+{
+  this->Pulls.push_back(number);
+  this->Modified();
+}
+
+void vtkFitDeformation::ClearPulls()
+{
+  this->Pulls.clear();
+  this->Modified();
+}
+
+void vtkFitDeformation::AddPin(double number)
+{
+  this->Pins.push_back(number);
+  this->Modified();
+}
+
+void vtkFitDeformation::ClearPins()
+{
+  this->Pins.clear();
+  this->Modified();
+}
+
+double vtkFitDeformation::GetShare() const
+{
+  return this->Internal->Fitted.share();
+}
+
+double vtkFitDeformation::GetRelaxation() const
+{
+  return this->Internal->Fitted.relaxation();
+}
+
+double vtkFitDeformation::GetTraceRMS() const
+{
+  return rootMeanSquare(this->Internal->TraceResiduals);
+}
+
+double vtkFitDeformation::GetCalibration() const
+{
+  return this->Internal->Fitted.fit().calibration();
+}
+
+int vtkFitDeformation::GetSteps() const
+{
+  return this->Internal->Fitted.fit().steps();
+}
+
+int vtkFitDeformation::GetAnchorCount() const
+{
+  return static_cast<int>(this->Internal->Measured.anchors.size());
+}
+
+vtkDoubleArray* vtkFitDeformation::GetRigid()
+{
+  const RigidPose& rigid = this->Internal->Fitted.fit().rigid();
+  std::vector<double> rows;
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      rows.push_back(rigid.rotation[column][row]);
+    }
+    rows.push_back(rigid.translation[row]);
+  }
+  rows.insert(rows.end(), { 0.0, 0.0, 0.0, 1.0 });
+  return filled(this->Internal->Numbers[0], rows);
+}
+
+vtkDoubleArray* vtkFitDeformation::GetLandmarkResiduals()
+{
+  return filled(this->Internal->Numbers[1], this->Internal->LandmarkResiduals);
+}
+
+vtkDoubleArray* vtkFitDeformation::GetPullResiduals()
+{
+  return filled(this->Internal->Numbers[2], this->Internal->PullResiduals);
+}
+
+vtkDoubleArray* vtkFitDeformation::GetTraceResiduals()
+{
+  return filled(this->Internal->Numbers[3], this->Internal->TraceResiduals);
+}
+
+vtkDoubleArray* vtkFitDeformation::GetLeaveOneOut()
+{
+  return filled(this->Internal->Numbers[4], this->Internal->Fitted.fit().leaveOneOut());
+}
+
+const char* vtkFitDeformation::GetProblem() const
+{
+  return this->Internal->Problem.c_str();
+}
+
+const char* vtkFitDeformation::GetUnmatched() const
+{
+  return this->Internal->Unmatched.c_str();
+}
+
+std::vector<double> vtkFitDeformation::MeasuredFromRest(const std::vector<double>& rest)
+{
+  std::vector<double> result;
+  for (std::size_t i = 0; this->Internal->Fitted.isKnown() && i + 2 < rest.size(); i += 3)
+  {
+    const glm::dvec3 at =
+      this->Internal->Fitted.measuredFromRest({ rest[i], rest[i + 1], rest[i + 2] });
+    result.insert(result.end(), { at.x, at.y, at.z });
+  }
+  return result;
+}
+
+std::vector<double> vtkFitDeformation::Deviations(const std::vector<double>& rest)
+{
+  std::vector<glm::dvec3> places;
+  for (std::size_t i = 0; this->Internal->Fitted.isKnown() && i + 2 < rest.size(); i += 3)
+  {
+    places.emplace_back(rest[i], rest[i + 1], rest[i + 2]);
+  }
+  return this->Internal->Fitted.fit().deviations(places);
+}
+
+void vtkFitDeformation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "LatticeDimensions: " << this->LatticeDimensions[0] << " "
+     << this->LatticeDimensions[1] << " " << this->LatticeDimensions[2] << "\n"
+     << indent << "Kernel: " << (this->Kernel ? "B-Spline" : "Catmull-Rom") << "\n"
+     << indent << "Samples: " << this->Samples << "\n"
+     << indent << "GuardFolding: " << this->GuardFolding << "\n"
+     << indent << "SurfaceArray: " << this->SurfaceArray << "\n"
+     << indent << "SurfaceBy: " << (this->SurfaceBy ? "Label" : "Threshold") << "\n"
+     << indent << "Threshold: " << this->Threshold << "\n"
+     << indent << "Label: " << this->Label << "\n"
+     << indent << "Anchors: " << this->Anchors << "\n"
+     << indent << "OpeningRadius: " << this->OpeningRadius << "\n"
+     << indent << "Feather: " << this->Feather << "\n"
+     << indent << "MaskGrowth: " << this->MaskGrowth << "\n"
+     << indent << "Pulls: " << this->Pulls.size() / NumbersPerPull << "\n"
+     << indent << "Pins: " << this->Pins.size() / NumbersPerPin << "\n";
+}

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkFitDeformation
+ * @brief   bends a volume by what was measured, with the uncertainty
+ *
+ * Output: a lattice, an image with the point array Displacement (float32 x 3, mm, world axes,
+ * forward), to be the Lattice of a Free-Form Deformation with the same LatticeDimensions, Kernel,
+ * Samples and mask. The rigid part is kept apart: GetRigid belongs into the pose of the tracker or
+ * of the reference. All measurements are solved together (Filters/Fit/Fit.h).
+ *
+ * - Input 0: the volume at rest. Only its grid counts, and its scalars if they show the cortex.
+ * - Input 1, 2 (optional): landmarks at rest and measured, points with an optional array Label.
+ *   They match by label, else by order. An array Weight of the landmarks at rest divides their
+ *   variance; 0 switches a landmark off.
+ * - Input 3 (optional): points traced on the cortex, measured frame.
+ * - Input 4 (optional): a segmentation at rest; the cortex is taken from it, not the volume.
+ * - Input 5 (optional): a cavity, measured frame. Traced points in it do not count.
+ * - Input 6 (optional): a mask of the opening of the skull, rest frame.
+ * - Input 7 (optional): the mask of the Free-Form Deformation.
+ *
+ * If the bend would fold tissue, the measurements are trusted less (factor 1.5 on their deviations)
+ * and, if that is not enough, a share of the bend is taken.
+ */
+#ifndef vtkFitDeformation_h
+#define vtkFitDeformation_h
+
+#include "vtkBrainShiftFiltersModule.h" // for the export macro
+#include "vtkImageAlgorithm.h"
+
+#include <memory> // for the private part
+#include <string>
+#include <vector>
+
+class vtkDoubleArray;
+
+class VTKBRAINSHIFTFILTERS_EXPORT vtkFitDeformation : public vtkImageAlgorithm
+{
+public:
+  static vtkFitDeformation* New();
+  vtkTypeMacro(vtkFitDeformation, vtkImageAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+  ///@{
+  /** Control points along each axis of the volume, 4 to 257. Default 19 19 19. */
+  vtkSetVector3Macro(LatticeDimensions, int);
+  vtkGetVector3Macro(LatticeDimensions, int);
+  ///@}
+
+  ///@{
+  /** 0: Catmull-Rom (default); 1: uniform cubic B-spline. */
+  vtkSetClampMacro(Kernel, int, 0, 1);
+  vtkGetMacro(Kernel, int);
+  ///@}
+
+  ///@{
+  /** Nodes between two control points that the lattice is drawn with, 0 to 16. Default 4. */
+  vtkSetClampMacro(Samples, int, 0, 16);
+  vtkGetMacro(Samples, int);
+  ///@}
+
+  ///@{
+  /** Whether the fold guard may shorten the bend. Default on. */
+  vtkSetMacro(GuardFolding, bool);
+  vtkGetMacro(GuardFolding, bool);
+  vtkBooleanMacro(GuardFolding, bool);
+  ///@}
+
+  ///@{
+  /** Name of the array in which to find the cortex. Empty (default): the active scalars. */
+  vtkSetMacro(SurfaceArray, std::string);
+  vtkGetMacro(SurfaceArray, std::string);
+  ///@}
+
+  ///@{
+  /** How tissue is found. 0: scalars at or above Threshold (default); 1: scalars equal to Label. */
+  vtkSetClampMacro(SurfaceBy, int, 0, 1);
+  vtkGetMacro(SurfaceBy, int);
+  ///@}
+
+  ///@{
+  /** Smallest scalar of tissue. Default 0.5: the edge of a mask of 0 and 1. */
+  vtkSetMacro(Threshold, double);
+  vtkGetMacro(Threshold, double);
+  ///@}
+
+  ///@{
+  /** Label of the tissue. Default 1. */
+  vtkSetMacro(Label, int);
+  vtkGetMacro(Label, int);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the cortex is held beyond 15 mm of the opening. Default on. It is held when there are
+   * traces, and beside pulls if the opening is given.
+   */
+  vtkSetMacro(Anchors, bool);
+  vtkGetMacro(Anchors, bool);
+  vtkBooleanMacro(Anchors, bool);
+  ///@}
+
+  ///@{
+  /**
+   * The opening as a ball: centre (mm, rest frame) and radius (mm). Default radius 0: the ball that
+   * holds what was traced and pulled. A mask of the opening (input 6) counts instead.
+   */
+  vtkSetVector3Macro(OpeningCentre, double);
+  vtkGetVector3Macro(OpeningCentre, double);
+  vtkSetMacro(OpeningRadius, double);
+  vtkGetMacro(OpeningRadius, double);
+  ///@}
+
+  ///@{
+  /** Distance (mm) over which displacements rise from 0 inside the mask; 0 or more. Default 10. */
+  vtkSetMacro(Feather, double);
+  vtkGetMacro(Feather, double);
+  ///@}
+
+  ///@{
+  /** Distance (mm) by which the mask grows first; 0 or more. Default 0. */
+  vtkSetMacro(MaskGrowth, double);
+  vtkGetMacro(MaskGrowth, double);
+  ///@}
+
+  ///@{
+  /** The labels of the mask that are inside. Default: none, which means every value above 0. */
+  void AddMaskLabel(int label);
+  void ClearMaskLabels();
+  ///@}
+
+  ///@{
+  /**
+   * Pulls: 7 numbers each, where tissue was (mm, rest frame), where it was put (mm) and its weight
+   * (0: switched off).
+   */
+  void AddPull(double number);
+  void ClearPulls();
+  ///@}
+
+  ///@{
+  /** Pins: 4 numbers each, tissue that stays (mm, rest frame) and 1 or 0 (switched off). */
+  void AddPin(double number);
+  void ClearPins();
+  ///@}
+
+  ///@{
+  /**
+   * Figures of the last execution. Share: of the bend that the fold guard left, 0 to 1. Relaxation:
+   * factor on the deviations, 1 or 1.5. TraceRMS: root mean square distance (mm) of traced points
+   * from the bent cortex, NaN without any.
+   */
+  double GetShare() const;
+  double GetRelaxation() const;
+  double GetTraceRMS() const;
+  ///@}
+
+  /** Factor on all deviations that makes them agree with what leaving pairs out showed. */
+  double GetCalibration() const;
+
+  /** How often traced points were projected, and how many anchors held the cortex. */
+  int GetSteps() const;
+  int GetAnchorCount() const;
+
+  /** The rigid part, measured from rest: a matrix of 4 x 4 numbers (mm), row after row. */
+  vtkDoubleArray* GetRigid();
+
+  ///@{
+  /**
+   * How far (mm) from its measured end each matched landmark and each pull comes to lie, and how
+   * far (mm) each traced point lies outside the bent cortex. NaN for one that does not count.
+   */
+  vtkDoubleArray* GetLandmarkResiduals();
+  vtkDoubleArray* GetPullResiduals();
+  vtkDoubleArray* GetTraceResiduals();
+  ///@}
+
+  /** For each matched landmark, its error (mm) if it is left out of the fit. */
+  vtkDoubleArray* GetLeaveOneOut();
+
+  /** Why the last execution failed, a sentence without a full stop; empty if it did not. */
+  const char* GetProblem() const;
+
+  /** The landmarks without a partner, with commas between them; empty if there are none. */
+  const char* GetUnmatched() const;
+
+  ///@{
+  /**
+   * Answers for positions (mm, rest frame), three numbers each: where their tissue was measured or
+   * would be, by lattice and rigid part; and its standard deviation (mm) along each axis.
+   */
+  std::vector<double> MeasuredFromRest(const std::vector<double>& rest);
+  std::vector<double> Deviations(const std::vector<double>& rest);
+  ///@}
+
+protected:
+  vtkFitDeformation();
+  ~vtkFitDeformation() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestUpdateExtent(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkFitDeformation(const vtkFitDeformation&) = delete;
+  void operator=(const vtkFitDeformation&) = delete;
+
+  int LatticeDimensions[3] = { 19, 19, 19 };
+  int Kernel = 0;
+  int Samples = 4;
+  bool GuardFolding = true;
+  std::string SurfaceArray;
+  int SurfaceBy = 0;
+  double Threshold = 0.5;
+  int Label = 1;
+  bool Anchors = true;
+  double OpeningCentre[3] = { 0.0, 0.0, 0.0 };
+  double OpeningRadius = 0.0;
+  double Feather = 10.0;
+  double MaskGrowth = 0.0;
+  std::vector<int> MaskLabels;
+  std::vector<double> Pulls;
+  std::vector<double> Pins;
+
+  // Each returns one sentence if it cannot; empty if it can.
+  std::string ProblemOfProperties() const;
+  std::string ReadMeasurements(vtkInformationVector** inputs);
+  std::string FindCortex(vtkInformationVector** inputs);
+  std::string FindAnchors(vtkInformationVector** inputs);
+  std::string Solve(vtkInformationVector** inputs);
+
+  struct State;
+  std::unique_ptr<State> Internal;
+};
+
+#endif

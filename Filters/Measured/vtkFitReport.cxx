@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkFitReport.h"
+
+#include "Filters/Attached/Guard.h"
+#include "vtkFitDeformation.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkObjectFactory.h"
+
+#include <algorithm>
+
+using namespace brainshift;
+
+vtkStandardNewMacro(vtkFitReport);
+
+namespace
+{
+void fill(vtkDoubleArray* array, const std::vector<double>& values)
+{
+  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+}
+}
+
+vtkFitReport::vtkFitReport() = default;
+vtkFitReport::~vtkFitReport() = default;
+
+void vtkFitReport::SetFilter(vtkObject* filter)
+{
+  this->Filter = vtkFitDeformation::SafeDownCast(filter);
+}
+
+void vtkFitReport::AddPoint(double x, double y, double z)
+{
+  this->Points.insert(this->Points.end(), { x, y, z });
+}
+
+void vtkFitReport::ClearPoints()
+{
+  this->Points.clear();
+}
+
+vtkDoubleArray* vtkFitReport::GetMeasured()
+{
+  this->Measured->Reset();
+  if (this->Filter)
+  {
+    guarded(this, [&] { fill(this->Measured, this->Filter->MeasuredFromRest(this->Points)); });
+  }
+  return this->Measured;
+}
+
+vtkDoubleArray* vtkFitReport::GetDeviations()
+{
+  this->Deviations->Reset();
+  if (this->Filter)
+  {
+    guarded(this, [&] { fill(this->Deviations, this->Filter->Deviations(this->Points)); });
+  }
+  return this->Deviations;
+}
+
+void vtkFitReport::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Points: " << this->Points.size() / 3 << "\n";
+}

@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves that measured points bend a volume: landmarks rigidly and a little, pulls and pins at once,
+# traces under a craniotomy with the rest of the cortex held; that the fold guard says what it left;
+# that figures, errors and states are those of the fit.
+import numpy
+from brainshift_testing import (assert_says, ball, load_plugin, messages, output, run_tests,
+                                scratch, volume)
+
+load_plugin()
+import brainshift  # noqa: E402 after the plugin
+from paraview import simple  # noqa: E402
+
+SIDE = 61
+SPACING = 2.5  # mm
+MIDDLE = (SIDE - 1) / 2 * SPACING
+RADIUS = 60.0  # mm, of a brain of 12 cm
+TOP = numpy.array((MIDDLE, MIDDLE, MIDDLE + RADIUS))
+OPENING = 30.0  # mm, radius of the craniotomy
+SAG = 8.0  # mm
+
+
+def deformation(**properties):
+    voxels = ball(side=SIDE, radius=RADIUS / SPACING)
+    return simple.FreeFormDeformation(
+        Input=volume(voxels, spacing=(SPACING,) * 3), **properties)
+
+
+def scattered(count, seed=1, size=40.0):
+    return MIDDLE + numpy.random.default_rng(seed).uniform(-size, size, (count, 3))
+
+
+def turned(points):
+    """A rigid motion of 7 degrees around z with a shift, as a tracker that was placed badly."""
+    c, s = numpy.cos(numpy.radians(7)), numpy.sin(numpy.radians(7))
+    matrix = numpy.array(((c, -s, 0, 3.0), (s, c, 0, -5.0), (0, 0, 1, 2.0), (0, 0, 0, 1)))
+    return points @ matrix[:3, :3].T + matrix[:3, 3], matrix
+
+
+def on_ball(count):
+    """Points all over the brain."""
+    z = 1 - (2 * numpy.arange(count) + 1) / count
+    turn = 2.399963229728653 * numpy.arange(count)
+    flat = numpy.sqrt(1 - z * z)
+    normals = numpy.stack((flat * numpy.cos(turn), flat * numpy.sin(turn), z), axis=1)
+    return MIDDLE + RADIUS * normals
+
+
+def sunk(points):
+    """Where the brain sags to: most under the middle of the opening, and nothing beyond 45 mm."""
+    away = numpy.minimum(1.0, numpy.linalg.norm(points - TOP, axis=1) / 45.0)
+    return points - SAG * ((1 - away ** 2) ** 2)[:, None] * (0, 0, 1)
+
+
+def normal_miss(bent, points):
+    """How far (mm) the bent cortex lies from the sunk one, along the normal."""
+    normals = (points - MIDDLE) / RADIUS
+    off = brainshift.deformed_from_rest(bent, points) - sunk(points)
+    return numpy.abs((off * normals).sum(axis=1))
+
+
+def test_landmarks_give_the_rigid_part_and_leave_the_volume():
+    bent = deformation()
+    rest = scattered(12)
+    measured, matrix = turned(rest)
+    fit = brainshift.fit(bent, rest=rest, measured=measured)
+    assert numpy.allclose(fit.rigid, matrix, atol=1e-4), fit.rigid
+    probe = scattered(5, seed=2)
+    assert numpy.allclose(fit.measured_from_rest(probe), turned(probe)[0], atol=1e-3)
+    assert numpy.allclose(brainshift.deformed_from_rest(bent, probe), probe, atol=1e-3)
+    assert fit.residuals.shape == (12,) and fit.residuals.max() < 1e-3, fit.residuals
+    assert fit.leave_one_out.shape == (12,) and fit.leave_one_out.max() < 1e-2
+    assert fit.share == 1.0 and bent.Lattice == fit.filter
+
+
+def test_deviations_grow_away_from_what_was_measured():
+    rest = scattered(12)
+    wrong = numpy.random.default_rng(3).normal(0, 1.0, rest.shape)
+    fit = brainshift.fit(deformation(), rest=rest, measured=rest + wrong)
+    near, far = fit.deviation([rest.mean(axis=0), rest.mean(axis=0) + (0, 0, 300.0)])
+    assert 0.1 < near < far, (near, far)
+    assert 0.3 < numpy.mean(fit.residuals) < numpy.mean(fit.leave_one_out)
+
+
+def test_pulls_and_pins_are_solved_together():
+    bent = deformation()
+    start, held = MIDDLE + numpy.array((0.0, 0, 20)), MIDDLE - numpy.array((0.0, 0, 30))
+    end = start + (0, 3.0, -6.0)
+    other = MIDDLE + numpy.array((20.0, 0, 0))
+    pulls = [(start, end), (other, other + (0, 2.0, 0))]
+    fit = brainshift.fit(bent, pulls=pulls, pins=[held])
+    assert numpy.allclose(fit.rigid, numpy.eye(4))
+    moved, stayed = brainshift.deformed_from_rest(bent, [start, held])
+    assert numpy.linalg.norm(moved - end) < 0.5 and numpy.linalg.norm(stayed - held) < 0.2
+    assert numpy.allclose(fit.pull_residuals[0], numpy.linalg.norm(moved - end), atol=1e-3)
+    again = brainshift.fit(deformation(), pulls=pulls[::-1], pins=[held])
+    probe = scattered(20)
+    assert numpy.allclose(again.measured_from_rest(probe), fit.measured_from_rest(probe), atol=1e-4)
+
+
+def test_traces_under_a_craniotomy():
+    """300 traces with two bands left out: the cortex in the bands and beyond the opening."""
+    bent = deformation()
+    points = on_ball(12000)
+    under = numpy.linalg.norm(points - TOP, axis=1) < OPENING
+    band = numpy.abs(numpy.abs(points[:, 0] - MIDDLE) - 9.0) < 4.0
+    traced, left_out = points[under & ~band], points[under & band]
+    traced = traced[numpy.linspace(0, len(traced) - 1, 300).astype(int)]
+    fit = brainshift.fit(bent, traces=sunk(traced), threshold=50.0, opening=(TOP, OPENING))
+    assert fit.trace_residuals.shape == (300,)
+    rms = numpy.sqrt(numpy.mean(fit.trace_residuals ** 2))
+    before = numpy.sqrt(numpy.mean((sunk(traced)[:, 2] - traced[:, 2]) ** 2))
+    assert rms < 0.4 < 3.0 < before, (rms, before)
+    assert normal_miss(bent, left_out).mean() < 0.9, normal_miss(bent, left_out).mean()
+    far = points[numpy.linalg.norm(points - TOP, axis=1) > 60.0]
+    assert normal_miss(bent, far).max() < 0.5, normal_miss(bent, far).max()
+    bent.UpdatePipeline()
+    bent.SMProxy.UpdatePropertyInformation()
+    assert bent.MinimumJacobian > 0.5, bent.MinimumJacobian
+    assert fit.filter.GetPropertyValue("AnchorCount") > 100
+    # Without anchors the cortex elsewhere moves.
+    fit.filter.Anchors = 0
+    assert normal_miss(bent, far).max() > 0.7, normal_miss(bent, far).max()
+
+
+def test_a_bend_that_folds_is_shortened_and_said():
+    bent = deformation()
+    start = numpy.array((MIDDLE,) * 3)
+    pulls = [(start, start + (0, 0, 30.0)), (start + (0, 0, 8.0), start - (0, 0, 30.0))]
+    with messages() as said:
+        fit = brainshift.fit(bent, pulls=pulls)
+    assert_says(said.text, "The fold guard applied")
+    assert 0.0 < fit.share < 1.0 and fit.relaxation == 1.5, (fit.share, fit.relaxation)
+    assert fit.residuals.max() > 5.0
+    bent.UpdatePipeline()
+    bent.SMProxy.UpdatePropertyInformation()
+    assert bent.MinimumJacobian > 0.09, bent.MinimumJacobian
+
+
+def test_strokes_replay_on_top_and_a_later_fit_takes_the_place():
+    start = numpy.array((MIDDLE,) * 3)
+    bent = deformation(Strokes=brainshift.soft(start, (0, 0, 4.0), 40.0))
+    sources = len(simple.GetSources())
+    first = brainshift.fit(bent, pulls=[(start, start + (5.0, 0, 0))])
+    moved, = brainshift.deformed_from_rest(bent, [start])
+    assert numpy.allclose(moved - start, (5.0, 0, 4.0), atol=0.5), moved - start
+    brainshift.fit(bent, rest=scattered(8), measured=scattered(8))
+    assert len(simple.GetSources()) == sources + 3, simple.GetSources()
+    again = brainshift.fit(bent, pulls=[(start, start + (5.0, 0, 0))])
+    assert len(simple.GetSources()) == sources + 1 and again.share == first.share == 1.0
+
+
+def test_labels_match_and_those_without_a_partner_are_named():
+    rest = scattered(8)
+    names = [f"{x},{y},{z},mark {i}" for i, (x, y, z) in enumerate(rest)]
+
+    def file_of(name, rows):
+        with open(scratch(name), "w", encoding="utf-8") as file:
+            file.write("\n".join(["x,y,z,label", *rows]) + "\n")
+        return simple.LandmarkReader(FileName=scratch(name))
+    fit = simple.FitDeformation(
+        Input=deformation().Input, RestLandmarks=file_of("rest.csv", names),
+        MeasuredLandmarks=file_of("measured.csv", [*names[::-1][:-1], "1,2,3,stray"]))
+    with messages() as said:
+        output(fit)
+    assert_says(said.text, "Without a partner: landmark mark 0 at rest, measured landmark stray")
+    residuals = brainshift.Fit(fit).landmark_residuals
+    assert len(residuals) == 7 and residuals.max() < 1e-3, residuals
+
+
+def fails(*words, **arguments):
+    with messages():
+        try:
+            brainshift.fit(deformation(), **arguments)
+        except ValueError as error:
+            assert all(word in str(error) for word in words), error
+        else:
+            raise AssertionError(f"no error for {arguments}")
+
+
+def test_errors_name_what_is_wrong():
+    fails("rest has 2 points and measured 1", rest=scattered(2), measured=scattered(1))
+    fails("traces has the shape", traces=[1.0, 2.0])
+    fails("not finite", pins=[(1.0, numpy.nan, 0.0)])
+    fails("Threshold is 1000", "gives no cortex", traces=scattered(4), threshold=1000.0)
+    fails("threshold and label", traces=scattered(4), threshold=1.0, label=1)
+    fails("pulls has the shape", pulls=[(1.0, 2.0, 3.0)])
+
+
+def test_nothing_measured_bends_nothing():
+    fit = brainshift.fit(deformation())
+    probe = scattered(3)
+    assert numpy.allclose(fit.measured_from_rest(probe), probe, atol=1e-6)
+    assert numpy.allclose(fit.rigid, numpy.eye(4)) and len(fit.residuals) == 0
+
+
+run_tests(globals())
