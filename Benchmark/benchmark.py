@@ -42,6 +42,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import drag  # noqa: E402
 import numpy  # noqa: E402
 from comparison import measure_comparison  # noqa: E402
+from fits import measure_fits  # noqa: E402
 from measure import Side, Times, interleaved  # noqa: E402
 from report import Report, header  # noqa: E402
 from scene import OCCLUSION, OPACITIES, Scene, load_plugin, mean_difference  # noqa: E402
@@ -317,7 +318,8 @@ def reference(benchmark, windows, quick):
     benchmark.occlusion(windows[0])
     benchmark.resampling(windows[0])
     benchmark.skipping(windows[0])
-    for measure in (measure_slices, measure_comparison, measure_traces, measure_session):
+    for measure in (measure_slices, measure_comparison, measure_traces, measure_session,
+                    measure_fits):
         measure(benchmark.scene, benchmark.report, benchmark.options, benchmark.about)
     if not quick:
         for opacities in OPACITIES:

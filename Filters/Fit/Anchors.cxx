@@ -14,7 +14,6 @@ namespace
 {
 constexpr int MostTries = 24;  // halvings of the range of cell sizes
 constexpr double Enough = 0.1; // share of the wanted number by which the choice may miss it
-constexpr double SmallestMm = 0.5;
 
 using Cell = std::tuple<double, double, double>;
 
@@ -33,6 +32,7 @@ std::vector<std::size_t> nearestToMiddles(const std::vector<SurfacePoint>& point
     }
   }
   std::vector<std::size_t> result;
+  result.reserve(best.size());
   for (const auto& [cell, found] : best)
   {
     result.push_back(found.second);
@@ -67,6 +67,11 @@ OpeningBall ballAround(const std::vector<glm::dvec3>& positions)
   return ball;
 }
 
+std::vector<SurfacePoint> thinnedPoints(const std::vector<SurfacePoint>& surface, double cellMm)
+{
+  return picked(surface, nearestToMiddles(surface, cellMm));
+}
+
 std::vector<SurfacePoint> chooseAnchors(const std::vector<SurfacePoint>& surface,
   const std::function<bool(const glm::dvec3&)>& isOpen, std::size_t wanted)
 {
@@ -84,16 +89,14 @@ std::vector<SurfacePoint> chooseAnchors(const std::vector<SurfacePoint>& surface
     low = glm::min(low, point.position);
     high = glm::max(high, point.position);
   }
-  // Thinned once, so that the search for the size is quick.
-  double small = std::max(SmallestMm, glm::distance(low, high) / 200.0);
+  double small = 0.0;
   double large = glm::distance(low, high);
-  const std::vector<SurfacePoint> thinned = picked(closed, nearestToMiddles(closed, small));
   const auto target = static_cast<double>(wanted);
   std::vector<std::size_t> numbers;
   for (int i = 0; i < MostTries; ++i)
   {
     const double middle = 0.5 * (small + large);
-    numbers = nearestToMiddles(thinned, middle);
+    numbers = nearestToMiddles(closed, middle);
     const auto found = static_cast<double>(numbers.size());
     if (std::abs(found - target) <= Enough * target)
     {
@@ -101,6 +104,6 @@ std::vector<SurfacePoint> chooseAnchors(const std::vector<SurfacePoint>& surface
     }
     (found > target ? small : large) = middle;
   }
-  return picked(thinned, numbers);
+  return picked(closed, numbers);
 }
 }

@@ -35,6 +35,10 @@ constexpr std::size_t AnchorsWanted = 250;
 /** The ball around the mean of positions that holds all of them; closed if there are none. */
 BRAINSHIFT_DEFORMATION_EXPORT OpeningBall ballAround(const std::vector<glm::dvec3>& positions);
 
+/** One point for each cell of a grid with this edge (mm): the one nearest to the cell's middle. */
+BRAINSHIFT_DEFORMATION_EXPORT std::vector<SurfacePoint> thinnedPoints(
+  const std::vector<SurfacePoint>& surface, double cellMm);
+
 /**
  * Chooses anchors that are spread evenly: of the points in each cell of a grid the one that lies
  * nearest to its middle.

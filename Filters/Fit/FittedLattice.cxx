@@ -58,7 +58,7 @@ std::string FittedLattice::solve(const Measurements& measured, const RestSurface
 
 glm::dvec3 FittedLattice::measuredFromRest(const glm::dvec3& rest) const
 {
-  return this->Result.rigid().apply(this->Map->deformedFromRest(rest));
+  return this->Result.rigid().apply(this->Map ? this->Map->deformedFromRest(rest) : rest);
 }
 
 std::vector<double> FittedLattice::residuals(const std::vector<PointPair>& pairs) const
@@ -76,14 +76,19 @@ std::vector<double> FittedLattice::traceResiduals(
   const std::vector<glm::dvec3>& traces, const RestSurface& surface) const
 {
   std::vector<double> result(traces.size(), NaN);
-  for (std::size_t i = 0; surface && i < traces.size(); ++i)
+  if (!this->Map || !surface)
   {
-    const auto foot = surface(this->Map->restFromDeformed(traces[i]), i);
+    return result;
+  }
+  const PointMap& map = *this->Map;
+  for (std::size_t i = 0; i < traces.size(); ++i)
+  {
+    const auto foot = surface(map.restFromDeformed(traces[i]), i);
     if (foot)
     {
-      const glm::dmat3 turn = glm::transpose(glm::inverse(this->Map->jacobian(foot->position)));
-      result[i] = glm::dot(glm::normalize(turn * foot->normal),
-        traces[i] - this->Map->deformedFromRest(foot->position));
+      const glm::dmat3 turn = glm::transpose(glm::inverse(map.jacobian(foot->position)));
+      result[i] = glm::dot(
+        glm::normalize(turn * foot->normal), traces[i] - map.deformedFromRest(foot->position));
     }
   }
   return result;

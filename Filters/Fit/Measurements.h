@@ -76,8 +76,8 @@ struct FitSettings
   std::size_t tracesWithoutBins = 500; ///< more traced points than these are averaged in bins
   double binMm = 6.0;                  ///< edge of a bin
   double binFloorMm = 0.5;             ///< deviation of a bin however many points it averages
-  int steps = 6;                       ///< most times that traced points are projected
-  double stepToleranceMm = 0.01;       ///< ... unless none of them moved by more than this
+  int steps = 5;                       ///< most times that traced points are projected
+  double stepToleranceMm = 0.05;       ///< ... unless none of them moved by more than this
 };
 
 /** Whether the measurements say nothing about a rigid motion: see FitSettings. */

@@ -134,7 +134,7 @@ struct Process::State
     return right;
   }
 
-  void factorMean()
+  void factorMean(const RigidMean& mean)
   {
     const auto count = static_cast<Eigen::Index>(this->Rows.size());
     this->Basis.resize(count, 6);
@@ -142,11 +142,11 @@ struct Process::State
     {
       const Row& row = this->Rows[i];
       const Eigen::RowVector3d axis(row.axis.x, row.axis.y, row.axis.z);
-      this->Basis.row(i) = axis * meanAt(row.point - this->Mean->centre);
+      this->Basis.row(i) = axis * meanAt(row.point - mean.centre);
     }
     this->Solved = this->solve(this->Basis);
     Eigen::Matrix<double, 6, 6> precision = this->Basis.transpose() * this->Solved;
-    precision.bottomRightCorner<3, 3>().diagonal().array() += this->Mean->rotationPrecision;
+    precision.bottomRightCorner<3, 3>().diagonal().array() += mean.rotationPrecision;
     this->Motion.compute(precision);
   }
 
@@ -202,7 +202,7 @@ std::string Process::setRows(std::vector<Row> rows, const std::optional<RigidMea
   }
   if (mean && !state.Rows.empty())
   {
-    state.factorMean();
+    state.factorMean(*mean);
     if (state.Motion.info() != Eigen::Success)
     {
       return "The measurements do not say how the volume turned";
@@ -266,16 +266,19 @@ std::vector<glm::dvec3> Process::displacements(const std::vector<glm::dvec3>& re
   return result;
 }
 
-glm::dmat3 Process::gradient(const glm::dvec3& rest) const
+FieldValue Process::valueAt(const glm::dvec3& rest) const
 {
   const State& state = *this->Internal;
-  Eigen::ArrayXd slope;
-  state.scaledDistances(rest, slope);
+  Eigen::ArrayXd scaled;
+  state.scaledDistances(rest, scaled);
   const double scale = state.Kernel.scale();
-  slope = -state.Kernel.variance() * scale * scale / 3.0 * (1.0 + slope) * (-slope).exp();
-  Eigen::ArrayX3d towards(state.X.size(), 3);
-  towards << slope * (rest.x - state.X), slope * (rest.y - state.Y), slope * (rest.z - state.Z);
-  return glmFrom(state.Pulls.matrix().transpose() * towards.matrix());
+  const Eigen::ArrayXd decay = state.Kernel.variance() * (-scaled).exp();
+  const Eigen::ArrayXd slope = -scale * scale / 3.0 * (1.0 + scaled) * decay;
+  Eigen::ArrayX4d weights(state.X.size(), 4);
+  weights << (1.0 + scaled + scaled.square() / 3.0) * decay, slope * (rest.x - state.X),
+    slope * (rest.y - state.Y), slope * (rest.z - state.Z);
+  const Eigen::Matrix<double, 3, 4> sums = state.Pulls.matrix().transpose() * weights.matrix();
+  return { { sums(0, 0), sums(1, 0), sums(2, 0) }, glmFrom(sums.rightCols<3>()) };
 }
 
 glm::dmat3 Process::covariance(const glm::dvec3& rest) const

@@ -66,6 +66,13 @@ struct LeftOut
   glm::dmat3 covariance{ 0.0 }; ///< mm^2, of that error
 };
 
+/** A field at one position. */
+struct FieldValue
+{
+  glm::dvec3 displacement{ 0.0 }; ///< mm
+  glm::dmat3 gradient{ 0.0 };     ///< column a is the derivative along axis a
+};
+
 class BRAINSHIFT_DEFORMATION_EXPORT Process
 {
 public:
@@ -106,7 +113,10 @@ public:
   std::vector<glm::dvec3> displacements(const std::vector<glm::dvec3>& rest) const;
 
   /** Derivatives of the displacement: column a is du / d(rest_a). */
-  glm::dmat3 gradient(const glm::dvec3& rest) const;
+  glm::dmat3 gradient(const glm::dvec3& rest) const { return this->valueAt(rest).gradient; }
+
+  /** Displacement and derivatives at once, in the time of one of them. */
+  FieldValue valueAt(const glm::dvec3& rest) const;
 
   /** Covariance (mm^2) of the displacement that is left, that of the rigid mean included. */
   glm::dmat3 covariance(const glm::dvec3& rest) const;

@@ -92,7 +92,7 @@ glm::dmat3 nearestRotation(const std::vector<glm::dvec3>& from, const std::vecto
 {
   const Eigen::JacobiSVD<Eigen::Matrix3d> parts(
     products(from, to, weights), Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Vector3d sizes = parts.singularValues();
+  const auto& sizes = parts.singularValues();
   if (sizes[1] <= Flat * sizes[0])
   {
     return glm::dmat3(1.0);
@@ -111,7 +111,7 @@ double spreadAroundLine(const std::vector<glm::dvec3>& points, const std::vector
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(
     products(points, points, weights) / all, Eigen::EigenvaluesOnly);
-  const Eigen::Vector3d squares = axes.eigenvalues(); // the largest one is along the line
+  const auto& squares = axes.eigenvalues(); // the largest one is along the line
   return std::sqrt(std::max(0.0, squares[0]) + std::max(0.0, squares[1]));
 }
 }

@@ -24,9 +24,9 @@ constexpr double FlatDeterminant = 0.05;   // below it a Newton step leads nowhe
 constexpr double OpposedNormals = 0.1;     // length of their mean: both banks of a groove
 
 // The derivatives of the map, or the identity where it folds.
-glm::dmat3 jacobianOf(const Process& field, const glm::dvec3& rest)
+glm::dmat3 jacobianOf(const FieldValue& value)
 {
-  const glm::dmat3 jacobian = glm::dmat3(1.0) + field.gradient(rest);
+  const glm::dmat3 jacobian = glm::dmat3(1.0) + value.gradient;
   return glm::determinant(jacobian) > FlatDeterminant ? jacobian : glm::dmat3(1.0);
 }
 }
@@ -56,8 +56,9 @@ double TraceProjection::project(const Process& field)
       glm::dmat3 jacobian(1.0);
       if (bends)
       {
-        jacobian = jacobianOf(field, before);
-        trace.tissue -= glm::inverse(jacobian) * (before + field.displacement(before) - at);
+        const FieldValue value = field.valueAt(before);
+        jacobian = jacobianOf(value);
+        trace.tissue -= glm::inverse(jacobian) * (before + value.displacement - at);
       }
       const std::optional<SurfacePoint> foot = this->Surface(trace.tissue, i);
       trace.counts = foot.has_value();

@@ -2,6 +2,7 @@
 #include "Filters/Measured/RestCortex.h"
 
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Fit/Anchors.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
@@ -18,6 +19,7 @@ namespace
 {
 constexpr int Smoothings = 10;     // about three voxels far
 constexpr std::size_t Asked = 500; // points that say which side is out
+constexpr double SpreadMm = 3.0;   // anchors are further apart
 constexpr double AsideVoxels = 0.5;
 
 // Shares of the corners a, b and c in the point of a triangle that is nearest to a position: walks
@@ -79,6 +81,13 @@ RestCortex::RestCortex(const TissueRegion& tissue)
   , Tree(this->Mesh)
 {
   this->findNormals(tissue);
+  std::vector<SurfacePoint> all;
+  all.reserve(this->Mesh.points.size());
+  for (std::size_t i = 0; i < this->Mesh.points.size(); ++i)
+  {
+    all.push_back({ this->Mesh.points[i], this->Normals[i] });
+  }
+  this->Spread = thinnedPoints(all, SpreadMm);
 }
 
 void RestCortex::findNormals(const TissueRegion& tissue)
@@ -137,17 +146,6 @@ std::optional<SurfacePoint> RestCortex::nearest(const glm::dvec3& rest, int& hin
     return share.x * values[corners.x] + share.y * values[corners.y] + share.z * values[corners.z];
   };
   return SurfacePoint{ mixed(points), unit(mixed(this->Normals)) };
-}
-
-std::vector<SurfacePoint> RestCortex::points() const
-{
-  std::vector<SurfacePoint> result;
-  result.reserve(this->Mesh.points.size());
-  for (std::size_t i = 0; i < this->Mesh.points.size(); ++i)
-  {
-    result.push_back({ this->Mesh.points[i], this->Normals[i] });
-  }
-  return result;
 }
 
 std::string CortexSource::find(const Request& request)

@@ -44,14 +44,15 @@ public:
    */
   std::optional<SurfacePoint> nearest(const glm::dvec3& rest, int& hint) const;
 
-  /** All points of the surface. */
-  std::vector<SurfacePoint> points() const;
+  /** Some points of the surface, about 3 mm apart. */
+  const std::vector<SurfacePoint>& points() const { return this->Spread; }
 
 private:
   void findNormals(const TissueRegion& tissue);
 
   TriangleMesh Mesh;
   std::vector<glm::dvec3> Normals; // of the points, unit vectors out of the tissue
+  std::vector<SurfacePoint> Spread;
   TriangleTree Tree;
 };
 

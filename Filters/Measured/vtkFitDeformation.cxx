@@ -216,7 +216,7 @@ std::string vtkFitDeformation::FindAnchors(vtkInformationVector** inputs)
   {
     return problem;
   }
-  const std::vector<SurfacePoint> surface = state.Cortex.cortex().points();
+  const std::vector<SurfacePoint>& surface = state.Cortex.cortex().points();
   if (openingImage)
   {
     Mask opening;
@@ -280,7 +280,7 @@ int vtkFitDeformation::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   State& state = *this->Internal;
-  const auto either = [](std::string problem, const auto& next) {
+  const auto either = [](const std::string& problem, const auto& next) {
     return problem.empty() ? next() : problem;
   };
   vtkImageData* volume = vtkImageData::GetData(inputs[0]);
