@@ -54,14 +54,12 @@ StopReading::StopReading(QObject* parent)
   : QObject(parent)
   , Manager(pqApplicationCore::instance()->getProgressManager())
 {
-  if (PARAVIEW_VERSION_MAJOR > 6 || (PARAVIEW_VERSION_MAJOR == 6 && PARAVIEW_VERSION_MINOR >= 1))
-  {
-    return;
-  }
+#if PARAVIEW_VERSION_MAJOR < 6 || (PARAVIEW_VERSION_MAJOR == 6 && PARAVIEW_VERSION_MINOR < 1)
   this->connect(this->Manager, &pqProgressManager::progress, this, &StopReading::hear);
   this->connect(this->Manager, &pqProgressManager::abort, this, &StopReading::stop);
   this->connect(this->Manager, &pqProgressManager::progressEndEvent, this,
     [this] { this->Manager->setEnableAbort(false); });
+#endif
 }
 
 void StopReading::hear()
