@@ -251,7 +251,7 @@ bool ToolCarrier::hearMouse(const HandEvent& event)
     return false;
   }
   this->ByKeys = false;
-  this->HasCursor = event.kind != HandEvent::Kind::Leave;
+  this->HasCursor = event.kind != HandEvent::Kind::Leave || this->HeldByKey;
   this->HeldByKey = this->HeldByKey && event.kind != HandEvent::Kind::Press;
   return this->handle(event);
 }

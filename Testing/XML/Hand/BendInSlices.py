@@ -204,8 +204,12 @@ def next_slice_next_stroke(scene):
     window.settle("Stamp: pull")
     assert len(strokes()) == 1, strokes()
     hand.wheel(pixel, 1)
+    before = scene.tissue("axial", pixel)[2]
     hand.tap(hand.PAGE_UP)  # before that has settled
-    hand.wait(50)
+    for _ in range(100):  # until the next slice is seen
+        hand.wait(10)
+        if abs(scene.tissue("axial", pixel)[2] - before) > 0.5:
+            break
     hand.wheel(pixel, 1)
     window.settle("Stamp: pull")
     first, second = strokes()

@@ -4,6 +4,8 @@ the series which was shown before stays, and that the cross is for nothing else.
 
 ParaView's window runs this file as a script; what did not hold is written down for the pvpython
 that runs it afterwards."""
+import time
+
 import test_hand as hand
 import window_testing as window
 from dicom_testing import folder, numbered, write_slices
@@ -37,7 +39,8 @@ def the_cross_stops_a_reader():
     source = reader.GetClientSideObject()
 
     def press(*_):
-        if not pressed and source.GetProgress() > 0.3 and hand.click("AbortButton"):
+        time.sleep(0.02)  # ParaView tells its window of progress a few times in a second
+        if source.GetProgress() > 0.3 and hand.click("AbortButton"):
             pressed.append(source.GetProgress())
 
     observer = source.AddObserver(vtkCommand.ProgressEvent, press)

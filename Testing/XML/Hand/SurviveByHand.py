@@ -229,6 +229,14 @@ def undo_past_creation():
     go_on(view)
 
 
+def around_the_middle(view):
+    """Pixels 12 apart, row by row: the camera may stand anywhere after the steps before."""
+    width, height = (side // 24 for side in view.ViewSize)
+    for up in sorted(range(-height, height + 1), key=abs):
+        for right in range(-width, width + 1):
+            yield middle(view, 12 * right, 12 * up)
+
+
 def two_filters():
     # The tools act on the active one, and O on the same.
     bent, view = begin()
@@ -242,7 +250,7 @@ def two_filters():
         simple.SetActiveSource(active)
         hand.take(hand.MOVE)
         display = simple.GetDisplayProperties(active, view)
-        pixel = next(pixel for pixel in (middle(view, 8 * i, 0) for i in range(-40, 40))
+        pixel = next(pixel for pixel in around_the_middle(view)
                      if brainshift.pick(display, view, *pixel))
         hand.take(hand.SOFT)
         kept = list(resting.Strokes)
