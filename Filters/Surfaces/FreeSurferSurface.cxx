@@ -23,6 +23,7 @@ constexpr std::string_view TriangleMagic = "\xFF\xFF\xFE";
 constexpr std::string_view ValueMagic = "\xFF\xFF\xFF"; // also of surfaces of old quadrangles
 constexpr std::string_view QuadrangleMagic = "\xFF\xFF\xFD";
 constexpr std::size_t LongestLine = 1 << 16; // bytes
+constexpr double SmallestCosine = 0.9;       // of nearly the same direction
 constexpr double MostDifferentMm = 0.01;     // between two geometries, before it is told
 
 // FreeSurfer's numbers of what may follow the triangles.
@@ -224,6 +225,15 @@ double differenceMm(const Surface& surface, const glm::dmat4& one, const glm::dm
   }
   return largest;
 }
+
+// Whether the axes of a volume are nearly those that FreeSurfer gives its own.
+bool isConformed(const VolumeFrame& frame)
+{
+  const VolumeFrame own;
+  return glm::dot(frame.xRas, own.xRas) > SmallestCosine &&
+    glm::dot(frame.yRas, own.yRas) > SmallestCosine &&
+    glm::dot(frame.zRas, own.zRas) > SmallestCosine;
+}
 }
 
 bool isFreeSurferSurface(const std::string& fileName)
@@ -255,7 +265,7 @@ std::string placeByVolume(
   problem = affineProblem(surface.worldFromStored);
   if (!problem.empty())
   {
-    return "The volume geometry in the file cannot place points: " + problem;
+    return "its volume geometry is wrong: " + problem;
   }
   const bool isGiven = !given.fileName.empty() || given.cRas != glm::dvec3(0.0);
   if (own && isGiven)
@@ -268,6 +278,13 @@ std::string placeByVolume(
     {
       surface.notes.push_back(note.str());
     }
+  }
+  if (!own && !given.fileName.empty() && !isConformed(frame))
+  {
+    surface.notes.emplace_back(
+      "is placed by a volume whose axes are not those of FreeSurfer's own volumes (left, down, "
+      "front), so the surface may be mirrored or turned. Volume must be orig.mgz or T1.mgz of the "
+      "subject's folder, not the scan");
   }
   surface.knowsWorld = own || isGiven;
   if (!surface.knowsWorld)

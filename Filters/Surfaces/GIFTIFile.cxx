@@ -20,6 +20,7 @@ namespace
 constexpr std::size_t Piece = 1 << 20;     // bytes that expat parses at a time
 constexpr std::size_t DeepestElement = 16; // the format needs 6
 constexpr std::size_t MostLabels = 1 << 20;
+constexpr std::size_t LongestMatrix = 4096;    // letters
 constexpr std::size_t LongestBeginning = 4096; // bytes by which a file is known
 
 // What expat tells of the file as it goes along.
@@ -118,6 +119,12 @@ private:
     }
     else if (name == "MatrixData")
     {
+      if (this->Text.size() > LongestMatrix)
+      {
+        this->stop("has a matrix of " + std::to_string(this->Text.size()) +
+          " letters; it must be 16 numbers in 4096 letters or fewer");
+        return;
+      }
       this->Transform.numbers = numbersIn(this->Text);
     }
     else if (name == "CoordinateSystemTransformMatrix")
@@ -136,7 +143,7 @@ private:
       array.bytes.empty() ? readGIFTINumbers(this->Text, array) : "has two elements Data";
     if (!problem.empty())
     {
-      this->stop("array " + std::to_string(this->File.arrays.size()) + " " + problem);
+      this->stop(problem + " in array " + std::to_string(this->File.arrays.size()));
     }
   }
 

@@ -13,8 +13,11 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace brainshift
 {
@@ -158,24 +161,53 @@ std::string nameOf(const GIFTIArray& array)
 }
 
 // Vectors of points turn with them.
+template <typename T>
 void turnVectors(const glm::dmat4& worldFromStored, GIFTIArray& vectors)
 {
   const glm::dmat3 turn(worldFromStored);
   for (std::size_t row = 0; row < vectors.rows; ++row)
   {
-    float* const at = reinterpret_cast<float*>(vectors.bytes.data()) + 3 * row;
+    T* const at = reinterpret_cast<T*>(vectors.bytes.data()) + 3 * row;
     const glm::dvec3 turned = turn * glm::dvec3(at[0], at[1], at[2]);
     for (int axis = 0; axis < 3; ++axis)
     {
-      at[axis] = static_cast<float>(turned[axis]);
+      at[axis] = static_cast<T>(turned[axis]);
     }
   }
+}
+
+// Adds names of values, unless a file before gave one of the values another name.
+void takeLabels(const std::vector<Label>& labels, Surface& surface)
+{
+  std::map<int, std::string> known;
+  for (const Label& label : surface.labels)
+  {
+    known.emplace(label.value, label.name);
+  }
+  std::vector<Label> added;
+  for (const Label& label : labels)
+  {
+    const auto found = known.find(label.value);
+    if (found == known.end())
+    {
+      added.push_back(label);
+    }
+    else if (found->second != label.name)
+    {
+      surface.notes.push_back("names the label " + std::to_string(label.value) + " \"" +
+        shownWords(label.name) + "\", which is \"" + shownWords(found->second) +
+        "\" in a file before; its names of labels are left out");
+      return;
+    }
+  }
+  surface.labels.insert(surface.labels.end(), added.begin(), added.end());
 }
 
 // Takes the arrays that belong to the points.
 void takeNumbers(GIFTIFile& file, Surface& surface)
 {
   std::size_t others = 0;
+  std::size_t taken = 0;
   for (GIFTIArray& array : file.arrays)
   {
     const std::string intent = array.attribute("Intent");
@@ -188,18 +220,28 @@ void takeNumbers(GIFTIFile& file, Surface& surface)
       ++others;
       continue;
     }
-    if (intent == "NIFTI_INTENT_VECTOR" && array.columns == 3 && array.type == NumberType::Float32)
+    const bool isVector = intent == "NIFTI_INTENT_VECTOR" && array.columns == 3;
+    if (isVector && array.type == NumberType::Float32)
     {
-      turnVectors(surface.worldFromStored, array);
+      turnVectors<float>(surface.worldFromStored, array);
     }
-    addNamed(surface.numbers, { nameOf(array), array.type, array.columns, std::move(array.bytes) });
+    if (isVector && array.type == NumberType::Float64)
+    {
+      turnVectors<double>(surface.worldFromStored, array);
+    }
+    surface.numbers.push_back(
+      { surface.names.own(nameOf(array)), array.type, array.columns, std::move(array.bytes) });
+    ++taken;
   }
   if (others > 0)
   {
     surface.notes.push_back("has " + counted(others, "array") + " with other than " +
       std::to_string(surface.points.size()) + " rows, the number of points; left out");
   }
-  surface.labels.insert(surface.labels.end(), file.labels.begin(), file.labels.end());
+  if (taken > 0)
+  {
+    takeLabels(file.labels, surface);
+  }
 }
 
 void takePoints(const GIFTIArray& array, Surface& surface)

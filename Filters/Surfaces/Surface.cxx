@@ -30,16 +30,16 @@ std::size_t bytesOf(NumberType type)
   }
 }
 
-void addNamed(std::vector<NamedNumbers>& list, NamedNumbers numbers)
+std::string OwnNames::own(const std::string& name)
 {
-  const std::string name = numbers.name;
-  for (int next = 2; std::any_of(list.begin(), list.end(),
-         [&](const NamedNumbers& other) { return other.name == numbers.name; });
-    ++next)
+  std::string found = name;
+  while (!this->Taken.insert(found).second)
   {
-    numbers.name = name + " " + std::to_string(next);
+    int& next = this->Next.emplace(name, 2).first->second;
+    found = name + " " + std::to_string(next);
+    ++next;
   }
-  list.push_back(std::move(numbers));
+  return found;
 }
 
 std::string placeProblem(const glm::dvec3& point, const std::string& what)

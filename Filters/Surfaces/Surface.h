@@ -14,6 +14,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -43,8 +45,17 @@ struct NamedNumbers
   std::vector<char> bytes;    ///< the numbers, in the order of this machine
 };
 
-/** Adds numbers under a name of their own: the second "a" becomes "a 2". */
-void addNamed(std::vector<NamedNumbers>& list, NamedNumbers numbers);
+/** Gives each array a name of its own: the second "a" becomes "a 2". */
+class OwnNames
+{
+public:
+  /** The name, or the name with the first number that makes it another than those before. */
+  std::string own(const std::string& name);
+
+private:
+  std::set<std::string> Taken;
+  std::map<std::string, int> Next; // number to try for the next array of a name
+};
 
 /** Triangles. */
 struct Surface
@@ -52,6 +63,7 @@ struct Surface
   std::vector<glm::dvec3> points;    ///< mm, in the frame of the file until it is placed
   std::vector<glm::ivec3> triangles; ///< indices of points, counter-clockwise from outside
   std::vector<NamedNumbers> numbers; ///< of the points
+  OwnNames names;                    ///< of the numbers
   std::vector<Label> labels;         ///< names of the values of a map of labels
   glm::dmat4 worldFromStored{ 1.0 }; ///< mm, RAS
   bool knowsWorld = true;            ///< false: the file does not say where it lies

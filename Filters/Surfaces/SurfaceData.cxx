@@ -67,7 +67,8 @@ void setLines(vtkPolyData* data, const std::vector<std::int64_t>& firsts)
   offsets->SetNumberOfValues(static_cast<vtkIdType>(firsts.size()));
   std::copy(firsts.begin(), firsts.end(), offsets->GetPointer(0));
   points->SetNumberOfValues(static_cast<vtkIdType>(firsts.back()));
-  std::iota(points->GetPointer(0), points->GetPointer(0) + firsts.back(), 0);
+  std::iota(
+    points->GetPointer(0), points->GetPointer(0) + firsts.back(), typename ArrayType::ValueType(0));
   vtkNew<vtkCellArray> lines;
   lines->SetData(offsets.Get(), points.Get());
   data->SetLines(lines);

@@ -62,8 +62,8 @@ std::string addValues(
     }
     else if (problem.empty())
     {
-      numbers.name = nameOfValues(fileName);
-      addNamed(surface.numbers, std::move(numbers));
+      numbers.name = surface.names.own(nameOfValues(fileName));
+      surface.numbers.push_back(std::move(numbers));
     }
   }
   else

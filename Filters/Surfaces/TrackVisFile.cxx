@@ -27,6 +27,7 @@ constexpr std::string_view Magic = "TRACK";
 constexpr std::size_t NameBytes = 20;
 constexpr int MostNames = 10;          // as the header has room for
 constexpr double SmallestCosine = 0.1; // of an axis with the direction that its letter names
+constexpr double EqualCosines = 1e-3;  // that differ by no more
 
 // The names are those of the format.
 struct TrackHeader
@@ -47,7 +48,11 @@ struct TrackHeader
   int scalars() const { return this->at<std::int16_t>(36); }
   int properties() const { return this->at<std::int16_t>(238); }
   std::string name(std::size_t offset) const { return { this->bytes + offset, NameBytes }; }
-  bool hasMatrix() const { return this->at<float>(440 + 4 * 15) != 0.0f; }
+  int version() const { return this->at<std::int32_t>(992); }
+  bool hasMatrix() const // which the format has since version 2
+  {
+    return this->version() >= 2 && this->at<float>(440 + 4 * 15) != 0.0f;
+  }
   glm::dmat4 voxToRas() const
   {
     glm::dmat4 matrix(1.0);
@@ -76,7 +81,7 @@ std::string readHeader(const std::vector<char>& bytes, TrackHeader& header)
   header.isBigEndian = true;
   header.isBigEndian = header.at<std::int32_t>(996) == static_cast<std::int32_t>(HeaderBytes);
   const auto size = header.at<std::int32_t>(996);
-  const auto version = header.at<std::int32_t>(992);
+  const int version = header.version();
   if (size != static_cast<std::int32_t>(HeaderBytes) || version < 1 || version > 3)
   {
     return "has the version " + std::to_string(version) + " and the header size " +
@@ -84,7 +89,7 @@ std::string readHeader(const std::vector<char>& bytes, TrackHeader& header)
   }
   for (const int numbers : { header.scalars(), header.properties() })
   {
-    if (numbers < 0 || numbers > 32767)
+    if (numbers < 0)
     {
       return "has " + std::to_string(numbers) + " numbers for each point or streamline";
     }
@@ -112,11 +117,36 @@ std::string voxelFromStored(const TrackHeader& header, glm::dmat4& voxel)
   return {};
 }
 
+// Whether another order of the letters brings each axis that it changes nearer to its direction.
+// `along` has the axes of a volume, `directions` which of R, A and S each letter names.
+bool isOtherOrder(const glm::dmat3& along, const std::array<int, 3>& directions)
+{
+  std::array<int, 3> other{ 0, 1, 2 };
+  do
+  {
+    bool isNearer = other != directions;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const glm::dvec3& axisOf = along[static_cast<int>(axis)];
+      isNearer = isNearer &&
+        (other[axis] == directions[axis] ||
+          std::abs(axisOf[other[axis]]) > std::abs(axisOf[directions[axis]]) + EqualCosines);
+    }
+    if (isNearer)
+    {
+      return true;
+    }
+  } while (std::next_permutation(other.begin(), other.end()));
+  return false;
+}
+
 // Turns the axes around whose letters name the direction against that of the matrix.
 std::string turnAxes(const TrackHeader& header, const glm::dmat4& world, glm::dmat4& voxel)
 {
   constexpr std::string_view Letters = "RLAPSI";
   const std::string order = header.voxelOrder();
+  glm::dmat3 axes(1.0);
+  std::array<int, 3> directions{};
   for (int axis = 0; axis < 3; ++axis)
   {
     const char letter = order[static_cast<std::size_t>(axis)];
@@ -126,11 +156,18 @@ std::string turnAxes(const TrackHeader& header, const glm::dmat4& world, glm::dm
       return "has the voxel order " + shownWords(order) + "; it must be 3 of the letters RLAPSI";
     }
     const glm::dvec3 along = glm::normalize(glm::dvec3(world[axis]));
+    axes[axis] = along;
+    directions[static_cast<std::size_t>(axis)] = static_cast<int>(place / 2);
     const double cosine = along[static_cast<int>(place / 2)] * (place % 2 == 0 ? 1.0 : -1.0);
     if (std::abs(cosine) < SmallestCosine)
     {
       return "has the voxel order " + shownWords(order) + ", and axis " + std::to_string(axis) +
         " of vox_to_ras does not run along " + letter;
+    }
+    if (cosine < 0.0 && header.dim(axis) < 1)
+    {
+      return "has a volume of " + std::to_string(header.dim(axis)) + " voxels along axis " +
+        std::to_string(axis) + ", which its voxel order turns around; it must be 1 or more";
     }
     if (cosine < 0.0)
     {
@@ -140,6 +177,13 @@ std::string turnAxes(const TrackHeader& header, const glm::dmat4& world, glm::dm
       }
       voxel[3][axis] += header.dim(axis) - 1.0;
     }
+  }
+  const bool isEach = directions[0] != directions[1] && directions[1] != directions[2] &&
+    directions[2] != directions[0];
+  if (!isEach || isOtherOrder(axes, directions))
+  {
+    return "has the voxel order " + shownWords(order) +
+      ", and the axes of vox_to_ras run along these letters in another order";
   }
   return {};
 }
@@ -297,10 +341,11 @@ std::vector<NamedNumbers> emptyNumbers(
   const std::vector<std::pair<std::string, std::size_t>>& names, std::size_t tuples)
 {
   std::vector<NamedNumbers> list;
+  OwnNames own;
   for (const auto& [name, components] : names)
   {
-    addNamed(
-      list, { name, NumberType::Float32, components, std::vector<char>(4 * components * tuples) });
+    list.push_back({ own.own(name), NumberType::Float32, components,
+      std::vector<char>(4 * components * tuples) });
   }
   return list;
 }
@@ -385,7 +430,10 @@ std::string readTrackVis(std::vector<char>& bytes, const std::string& volumeName
       {
         const std::int64_t found =
           takeStreamline(bytes, records, static_cast<std::size_t>(i), world, tracts);
-        nowhere = found < 0 ? nowhere.load() : found;
+        if (found >= 0)
+        {
+          nowhere = found; // writing what was read would lose that of another thread
+        }
       }
     });
     if (!shareDone(static_cast<double>(last) / static_cast<double>(records.places.size())))

@@ -47,8 +47,9 @@ public:
 
   ///@{
   /**
-   * The volume from which FreeSurfer made the surface: .mgz, .mgh or NIfTI. Only files that do not
-   * name its geometry need it. Default: none.
+   * The volume from which FreeSurfer made the surface: orig.mgz or T1.mgz of the subject's folder
+   * (.mgz, .mgh or NIfTI), not the scan, whose axes would mirror the surface. Only files that do
+   * not name its geometry need it. Default: none.
    */
   vtkSetMacro(Volume, std::string);
   vtkGetMacro(Volume, std::string);

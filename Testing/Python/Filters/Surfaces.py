@@ -82,7 +82,8 @@ def test_freesurfer_without_a_geometry_takes_that_of_a_volume():
             saved = nibabel.Nifti1Image(numpy.zeros(image.shape, numpy.uint8), image.affine)
             saved = saved if ending == ".nii.gz" else image
             nibabel.save(saved, scratch("orig" + ending))
-            assert_at(read(name, Volume=scratch("orig" + ending)), expected)
+            words = [] if i == 0 else ["orig.mgz or T1.mgz", "not the scan"]
+            assert_at(read(name, words, Volume=scratch("orig" + ending)), expected)
         assert_at(read(name, ["does not say where its volume lies", "Set Volume"]), POINTS, None)
         center = read(name, VolumeCenter=[1.5, -20.0, 7.25])
         assert_at(center, POINTS + [1.5, -20.0, 7.25])
@@ -238,6 +239,47 @@ def test_gifti_keeps_numbers_and_labels():
     assert vtk_to_numpy(fields.GetArray("LabelColors")).tolist() == [[0, 0, 0], [255, 128, 0]]
 
 
+def labelled(name, rows, **names):
+    """A file of values: `rows` of them, and names of the labels k0, k1, ..."""
+    table = gifti.GiftiLabelTable()
+    for key, word in names.items():
+        label = gifti.GiftiLabel(int(key[1:]), 1.0, 0.0, 0.0, 1.0)
+        label.label = word
+        table.labels.append(label)
+    arrays = [data_array(numpy.zeros(rows, numpy.int32), "NIFTI_INTENT_LABEL")]
+    return write_gifti(scratch(name), arrays, labeltable=table)
+
+
+def test_names_of_labels_of_several_files_do_not_mix():
+    name = write_surface(scratch("lh.pial"), geometry(next(volumes())))
+    one = labelled("one.gii", 4, k1="left", k2="right")
+    same = labelled("same.gii", 4, k2="right", k3="middle")
+    other = labelled("other.gii", 4, k2="up", k4="down")
+    short = labelled("short.gii", 3, k5="none")
+
+    def known(data):
+        fields = data.GetFieldData()
+        names = fields.GetAbstractArray("LabelNames")
+        return dict(zip(vtk_to_numpy(fields.GetArray("LabelValues")).tolist(),
+                        [names.GetValue(i) for i in range(names.GetNumberOfValues())]))
+    right = {1: "left", 2: "right", 3: "middle"}
+    assert known(read(name, ValueFileNames=[one, same])) == right
+    data = read(name, ["names the label 2", "up", "right", "left out"],
+                ValueFileNames=[one, same, other])
+    assert known(data) == right
+    assert data.GetPointData().GetNumberOfArrays() == 3
+    assert known(read(name, ["with other than 4 rows"], ValueFileNames=[one, short])) == \
+        {1: "left", 2: "right"}
+
+
+def test_vectors_of_doubles_turn_too():
+    matrix = scanner_from_surface(list(volumes())[2])
+    arrays = gifti_arrays(system(UNKNOWN, SCANNER, matrix))
+    arrays.append(data_array(POINTS / 50, "NIFTI_INTENT_VECTOR", datatype="NIFTI_TYPE_FLOAT64"))
+    points = read(write_gifti(scratch("wide.gii"), arrays)).GetPointData()
+    assert numpy.allclose(vtk_to_numpy(points.GetArray("VECTOR")), POINTS / 50 @ matrix[:3, :3].T)
+
+
 def test_deform_geometry_moves_a_surface():
     image = list(volumes())[1]
     points = numpy.random.default_rng(3).uniform(4.0, 28.0, (60, 3))
@@ -289,7 +331,7 @@ def test_damaged_surfaces_end_in_one_sentence():
         (lambda data: data.replace(b"xras", b"yras"), "damaged volume geometry"),
         (lambda data: data.replace(b"valid = 1", b"valid = 7"), "damaged volume geometry"),
         (lambda data: data[:data.find(b"xras")] + b"xras = 0 0 0\n" +
-         data[data.find(b"yras"):], "cannot place points"),
+         data[data.find(b"yras"):], "cannot be placed: its volume geometry is wrong"),
         (lambda data: data[:end] + b"\0\0\0\3" + b"\x7f" * 8, "damaged tag 3"),
     ]
     for change, words in cases:
@@ -329,11 +371,13 @@ def test_damaged_gifti_ends_in_one_sentence():
         (name, lambda data: data.replace(b"40.5", b"4o.5"), "in place of a number"),
         (packed, lambda data: data.replace(b"LittleEndian", b"Middle"), 'Endian "Middle"'),
         (packed, lambda data: data.replace(b"<Data>eJ", b"<Data>eK"), "packed numbers that are"),
-        (packed, lambda data: data.replace(b"<Data>e", b"<Data>!"), "no base64"),
+        (packed, lambda data: data.replace(b"<Data>e", b"<Data>!"), "no base64 in array 1"),
         (packed, lambda data: data.replace(b'Dim0="4"', b'Dim0="3"'), "too few or too many"),
         (packed, lambda data: data.replace(b'Dim0="4"', b'Dim0="5"'), "has 48 bytes"),
         (matrix, lambda data: data.replace(b"<MatrixData>", b"<MatrixData>x "), "16 numbers"),
         (matrix, lambda data: data.replace(b"1.0", b"0.0"), "last row"),
+        (matrix, lambda data: data.replace(b"<MatrixData>", b"<MatrixData>" + b"1 " * 4096),
+         "4096 letters or fewer"),
     ]
     for source, change, words in cases:
         with open(source, "rb") as file:

@@ -136,6 +136,34 @@ def test_trackvis_without_a_matrix_takes_that_of_a_volume():
         assert_says(refusal(old, Volume=scratch("wrong.mgz")), "wrong.mgz has 2 x 3 x 4")
 
 
+def test_trackvis_letters_in_another_order_are_refused():
+    angle = numpy.deg2rad(20)
+    affine = numpy.eye(4)
+    affine[:3, :3] = ((numpy.cos(angle), -numpy.sin(angle), 0.2),
+                      (numpy.sin(angle), numpy.cos(angle), 0.2), (-0.2, -0.2, 1))
+    image = nibabel.MGHImage(numpy.zeros((8, 8, 8), numpy.uint8), affine)
+    data = bytes_of(write_tracts(scratch("tilted.trk"), LINES, image))
+    assert data[948:951] == b"RAS"
+    for order in (b"ARS", b"ASR", b"RRS"):
+        data[948:951] = order
+        assert_says(refusal(written("order.trk", data)), "in another order" if order != b"RRS"
+                    else "voxel order RRS")
+
+
+def test_trackvis_axes_turn_around_within_a_volume():
+    name = write_tracts(scratch("turned.trk"), LINES, next(volumes()))
+    data = bytes_of(name)
+    data[948:949] = b"R" if data[948:949] == b"L" else b"L"
+    data[6:8] = bytes(2)
+    assert_says(refusal(written("turned.trk", data)), "0 voxels along axis 0")
+
+
+def test_trackvis_has_a_matrix_since_version_2():
+    data = bytes_of(write_tracts(scratch("first.trk"), LINES, next(volumes())))
+    data[992:996] = struct.pack("<i", 1)
+    read(written("first.trk", data), ["no vox_to_ras", "Set Volume"])
+
+
 def test_mrtrix_in_every_type():
     image = next(volumes())
     name = write_tracts(scratch("a.tck"), LINES, image)
