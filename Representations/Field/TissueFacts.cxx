@@ -63,16 +63,22 @@ TissueFacts factsAt(vtkImageData* image, const DrawnValues& values, SceneDeforma
     facts.volumeShare = glm::determinant(deformation.map().jacobian(facts.rest));
   }
   facts.value = numberAt(values.scalars, values.grid, values.layout, facts.rest);
-  facts.labelName = facts.value ? labelName(image, *facts.value) : std::string();
-  if (!facts.labelName.empty())
+  const std::string own = facts.value ? labelName(image, *facts.value) : std::string();
+  if (!own.empty() && *facts.value != 0.0)
   {
     facts.label = facts.value;
+    facts.labelName = own;
     return facts;
   }
   const Segmentation segmentation = readSegmentation(image);
   facts.label = numberAt(segmentation.labels, segmentation.grid, facts.rest);
   facts.labelName =
     facts.label ? labelName(image, *facts.label, SegmentationLabels) : std::string();
+  if (!own.empty() && (!facts.label || *facts.label == 0.0)) // 0 is what is no tissue
+  {
+    facts.label = facts.value;
+    facts.labelName = own;
+  }
   return facts;
 }
 
