@@ -11,11 +11,11 @@ namespace brainshift
 namespace
 {
 constexpr std::uint64_t WindowBytes = 16384;
-constexpr std::uint64_t MostInflated = std::uint64_t(1) << 31; // a slice has half a megabyte
 }
 
-DICOMBytes::DICOMBytes(const std::string& path)
+DICOMBytes::DICOMBytes(const std::string& path, std::uint64_t mostInflated)
   : Stream(path, std::ios::binary | std::ios::ate)
+  , Kept(mostInflated)
 {
   this->Size = this->Stream ? static_cast<std::uint64_t>(this->Stream.tellg()) : 0;
 }
@@ -28,6 +28,10 @@ bool DICOMBytes::read(std::uint64_t offset, std::uint64_t count, void* to)
   }
   if (this->IsInflated)
   {
+    if (offset + count > this->Inflated.size())
+    {
+      return false;
+    }
     std::memcpy(to, this->Inflated.data() + offset, count);
     return true;
   }
@@ -42,7 +46,8 @@ const unsigned char* DICOMBytes::at(std::uint64_t offset, std::size_t count)
     offset >= this->WindowOffset && offset + count <= this->WindowOffset + this->Window.size();
   if (!isThere)
   {
-    const std::uint64_t rest = offset < this->Size ? this->Size - offset : 0;
+    const std::uint64_t end = this->IsInflated ? this->Inflated.size() : this->Size;
+    const std::uint64_t rest = offset < end ? end - offset : 0;
     this->Window.resize(std::min(rest, std::max<std::uint64_t>(WindowBytes, count)));
     this->WindowOffset = offset;
     if (this->Window.size() < count ||
@@ -73,7 +78,7 @@ bool DICOMBytes::inflateFrom(std::uint64_t offset)
   stream.avail_in = static_cast<uInt>(packed.size());
   std::vector<char> piece(1 << 16);
   int result = Z_OK;
-  while (result == Z_OK && unpacked.size() < MostInflated)
+  while (result == Z_OK && unpacked.size() < this->Kept)
   {
     stream.next_out = reinterpret_cast<Bytef*>(piece.data());
     stream.avail_out = static_cast<uInt>(piece.size());
@@ -83,8 +88,10 @@ bool DICOMBytes::inflateFrom(std::uint64_t offset)
   inflateEnd(&stream);
   this->Inflated = std::move(unpacked);
   this->IsInflated = true;
-  this->Size = this->Inflated.size();
+  const bool isWhole = result == Z_STREAM_END;
+  const bool isCut = result == Z_OK && this->Kept < MostInflated;
+  this->Size = isCut ? MostInflated : this->Inflated.size();
   this->Window.clear();
-  return result == Z_STREAM_END;
+  return isWhole || isCut;
 }
 }

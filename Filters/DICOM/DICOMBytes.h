@@ -17,9 +17,14 @@ namespace brainshift
 class DICOMBytes
 {
 public:
-  explicit DICOMBytes(const std::string& path);
+  /** What is inflated is kept up to `mostInflated` bytes; bytes behind them cannot be read. */
+  explicit DICOMBytes(const std::string& path, std::uint64_t mostInflated = MostInflated);
 
-  /** Bytes that there are. */
+  /** More than any file has, and what a header has. */
+  static constexpr std::uint64_t MostInflated = std::uint64_t(1) << 31;
+  static constexpr std::uint64_t MostOfHeader = std::uint64_t(1) << 26;
+
+  /** Bytes that there are; MostInflated if more is deflated than is kept. */
   std::uint64_t size() const { return this->Size; }
 
   /** Copies bytes. False if there are not as many. */
@@ -28,12 +33,16 @@ public:
   /** A few bytes, kept until the next call; null if there are not as many. */
   const unsigned char* at(std::uint64_t offset, std::size_t count);
 
-  /** Unpacks all from an offset on, which then follows what is before it. False if it cannot. */
+  /**
+   * Unpacks what is kept from an offset on, which then follows what is before it. False if it
+   * cannot.
+   */
   bool inflateFrom(std::uint64_t offset);
 
 private:
   std::ifstream Stream;
   std::uint64_t Size = 0;
+  std::uint64_t Kept = MostInflated;
   std::string Inflated; // all bytes, if some were deflated
   bool IsInflated = false;
   std::vector<unsigned char> Window;

@@ -75,7 +75,7 @@ fs::path listedFile(const fs::path& folder, const std::string& name)
 std::vector<std::string> listedFiles(const fs::path& directory)
 {
   std::vector<std::string> files;
-  DICOMBytes bytes(directory.string());
+  DICOMBytes bytes(directory.string(), DICOMBytes::MostOfHeader);
   DICOMContent content;
   if (!isDICOMFile(directory.string()) || !parseDICOM(bytes, content))
   {

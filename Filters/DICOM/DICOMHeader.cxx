@@ -90,7 +90,7 @@ DICOMFile readDICOMHeader(const std::string& path)
 {
   DICOMFile file;
   file.path = path;
-  DICOMBytes bytes(path);
+  DICOMBytes bytes(path, DICOMBytes::MostOfHeader);
   DICOMContent content;
   if (!parseDICOM(bytes, content))
   {

@@ -8,7 +8,7 @@ namespace brainshift
 {
 DICOMPatient readDICOMPatient(const std::string& path)
 {
-  DICOMBytes bytes(path);
+  DICOMBytes bytes(path, DICOMBytes::MostOfHeader);
   DICOMContent content;
   if (!parseDICOM(bytes, content, PatientGroup::Kept))
   {

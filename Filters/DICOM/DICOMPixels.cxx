@@ -43,15 +43,30 @@ void keepStoredBits(const DICOMPixelFormat& pixels, T* numbers, std::size_t coun
   }
 }
 
+// Where the numbers of a frame lie that has so many bits: a frame of fewer than the file says has
+// them at the lower end, with its own highest bit as the sign.
+DICOMPixelFormat formatOf(const DICOMPixelFormat& pixels, const UnpackedFrame& frame)
+{
+  DICOMPixelFormat format = pixels;
+  if (frame.bits > 0 && !frame.isSigned && frame.bits <= pixels.bitsStored)
+  {
+    format.bitsStored = frame.bits;
+    format.highBit = frame.bits - 1;
+  }
+  return format;
+}
+
 // A lossy frame may hold more than the brightest stored number, which must not become dark.
 template <typename T>
 void clampToStoredBits(const DICOMPixelFormat& pixels, T* numbers, std::size_t count)
 {
-  if (!pixels.isSigned && pixels.highBit + 1 < pixels.bitsAllocated)
+  if (pixels.highBit + 1 < pixels.bitsAllocated)
   {
-    const T most = static_cast<T>((std::uint32_t(1) << (pixels.highBit + 1)) - 1);
-    std::transform(
-      numbers, numbers + count, numbers, [most](T number) { return std::min(number, most); });
+    const int bits = pixels.isSigned ? pixels.highBit : pixels.highBit + 1;
+    const T most = static_cast<T>((std::uint32_t(1) << bits) - 1);
+    const T least = static_cast<T>(pixels.isSigned ? -1 - static_cast<std::int64_t>(most) : 0);
+    std::transform(numbers, numbers + count, numbers,
+      [least, most](T number) { return std::clamp(number, least, most); });
   }
 }
 
@@ -190,8 +205,13 @@ std::string decode(const DICOMFile& file, const std::vector<DICOMTarget>& target
 {
   DICOMBytes bytes(file.path);
   DICOMContent content;
-  const bool isRead = parseDICOM(bytes, content) && content.isPacked;
+  const bool isRead = parseDICOM(bytes, content);
   const Packing packing = isRead ? packingOf(content.transferSyntax) : Packing();
+  if (packing.unpack && !content.isPacked)
+  {
+    return file.path + " is damaged: its packed pixels do not come in fragments (" +
+      plainText(content.transferSyntax) + ")";
+  }
   if (!packing.unpack)
   {
     return file.path + " is packed in a way that BrainShift does not know, " +
@@ -211,13 +231,20 @@ std::string decode(const DICOMFile& file, const std::vector<DICOMTarget>& target
     {
       return file.path + " cannot be read: " + frame.problem;
     }
+    if (frame.isSigned && !file.pixels.isSigned)
+    {
+      return file.path +
+        " cannot be read: a frame has signed numbers; the file says that they are "
+        "not signed (Pixel Representation 0)";
+    }
+    const DICOMPixelFormat format = formatOf(file.pixels, frame);
     withStoredType(storedTypeOf(file.pixels), [&](auto* none) {
       auto* numbers = reinterpret_cast<decltype(none)>(frame.numbers.data());
-      if (packing.mayLose)
+      if (packing.mayLose && frame.isSigned == file.pixels.isSigned) // else: two's complement
       {
-        clampToStoredBits(file.pixels, numbers, shape.count());
+        clampToStoredBits(format, numbers, shape.count());
       }
-      keepStoredBits(file.pixels, numbers, shape.count());
+      keepStoredBits(format, numbers, shape.count());
       convert(numbers, shape.count(), target, type);
     });
   }

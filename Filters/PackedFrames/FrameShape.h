@@ -28,8 +28,10 @@ struct FrameShape
 /** Numbers of `bitsAllocated` bits in the machine's order of bytes, or why there are none. */
 struct UnpackedFrame
 {
-  std::string numbers; ///< rows of columns; empty if there is a problem
-  std::string problem; ///< a sentence without a full stop; empty if there is none
+  std::string numbers;   ///< rows of columns; empty if there is a problem
+  std::string problem;   ///< a sentence without a full stop; empty if there is none
+  int bits = 0;          ///< of a number, as the frame says; 0: it says nothing
+  bool isSigned = false; ///< whether the frame says that numbers are signed
 };
 
 /** Says that a frame has another size than its file. `what` is what the frame has. */

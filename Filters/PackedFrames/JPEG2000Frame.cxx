@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/PackedFrames/JPEG2000Frame.h"
 
+#include "Filters/PackedFrames/JPEG2000Header.h"
 #include "Filters/PackedFrames/Widen.h"
 
 #include <openjpeg.h>
@@ -106,6 +107,11 @@ std::size_t sizeWithoutFilling(const std::string& packed)
 
 UnpackedFrame unpackJPEG2000(const std::string& packed, const FrameShape& shape)
 {
+  std::string problem = jpeg2000Problem(packed, shape);
+  if (!problem.empty())
+  {
+    return { {}, problem };
+  }
   const bool isFile = packed.compare(0, 4, "\0\0\0\x0c", 4) == 0;
   Memory memory{ packed.data(), sizeWithoutFilling(packed), 0 };
   const Stream stream = streamOf(memory);
@@ -121,19 +127,28 @@ UnpackedFrame unpackJPEG2000(const std::string& packed, const FrameShape& shape)
   {
     return { {}, Damaged };
   }
-  const std::string problem = shapeProblem(*image, shape);
+  problem = shapeProblem(*image, shape);
   if (!problem.empty())
   {
     return { {}, problem };
   }
-  if (opj_decode(codec.get(), stream.get(), image.get()) != OPJ_TRUE || image->numcomps != 1 ||
-    image->comps[0].w != static_cast<OPJ_UINT32>(shape.columns) ||
-    image->comps[0].h != static_cast<OPJ_UINT32>(shape.rows) || !image->comps[0].data)
+  if (opj_decode(codec.get(), stream.get(), image.get()) != OPJ_TRUE)
   {
     return { {}, Damaged };
   }
-  const OPJ_INT32* samples = image->comps[0].data;
-  return { widened(std::vector<OPJ_INT32>(samples, samples + shape.count()), shape.bytesOfNumber()),
-    {} };
+  problem = shapeProblem(*image, shape); // a palette may have changed it
+  if (!problem.empty())
+  {
+    return { {}, problem };
+  }
+  const opj_image_comp_t& component = image->comps[0];
+  if (component.w != static_cast<OPJ_UINT32>(shape.columns) ||
+    component.h != static_cast<OPJ_UINT32>(shape.rows) || !component.data)
+  {
+    return { {}, Damaged };
+  }
+  const std::vector<OPJ_INT32> samples(component.data, component.data + shape.count());
+  return { widened(samples, shape.bytesOfNumber()), {}, static_cast<int>(component.prec),
+    component.sgnd != 0 };
 }
 }

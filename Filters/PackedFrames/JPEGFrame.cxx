@@ -50,6 +50,11 @@ public:
   bool restart()
   {
     this->fill();
+    while (this->Offset + 2 < this->Size && this->Bytes[this->Offset] == 0xff &&
+      this->Bytes[this->Offset + 1] == 0xff)
+    {
+      ++this->Offset; // markers may be filled up
+    }
     const int left = this->Count - 8 * this->Missing; // bits that fill the last byte
     if (left < 0 || left >= 8 || this->Offset + 2 > this->Size)
     {
@@ -313,6 +318,6 @@ UnpackedFrame unpackJPEG(const std::string& packed, const FrameShape& shape)
   {
     return { {}, "a JPEG frame is damaged: its codes do not make up its pixels" };
   }
-  return { widened(samples, shape.bytesOfNumber()), {} };
+  return { widened(samples, shape.bytesOfNumber()), {}, header.bits, false };
 }
 }

@@ -41,7 +41,7 @@ UnpackedFrame unpackJPEGLS(const std::string& packed, const FrameShape& shape)
     }
     return { frame.bits_per_sample <= 8 ? decoded<std::uint8_t>(decoder, shape)
                                         : decoded<std::uint16_t>(decoder, shape),
-      {} };
+      {}, static_cast<int>(frame.bits_per_sample), false };
   }
   catch (const std::exception& problem)
   {

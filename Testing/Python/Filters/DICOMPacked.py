@@ -21,6 +21,7 @@ EXTENDED = "1.2.840.10008.1.2.4.51"
 LOSSLESS = "1.2.840.10008.1.2.4.57"
 JPEG_LS = "1.2.840.10008.1.2.4.80"
 JPEG_2000 = "1.2.840.10008.1.2.4.90"
+LOSSY_2000 = "1.2.840.10008.1.2.4.91"
 
 
 def head(rows=33, columns=41, most=4095):
@@ -190,6 +191,77 @@ def test_frames_of_fewer_bits_than_the_file_says_are_read_and_of_more_refused():
         numbers, told = read(many)
         assert numbers is None, option
         assert_says(told, "in 16 bits; the file says 41 x 33 pixels of 1 sample in up to 8 bits")
+
+
+def test_the_highest_bit_of_the_frame_is_the_sign():
+    signed = head().astype(numpy.int16) - 2048
+    frame = encode((signed & 0xfff).astype(numpy.uint16), 12)
+    assert_exact(with_frame("sign-of-12", signed, frame, LOSSLESS), signed)
+    assert_exact(with_frame("sign-of-2000", signed, frame_of(signed, "--j2k"), JPEG_2000), signed)
+    numbers, told = read(with_frame("no-sign", signed.astype(numpy.uint16),
+                                    frame_of(signed, "--j2k"), JPEG_2000))
+    assert numbers is None
+    assert_says(told, "a frame has signed numbers", "Pixel Representation 0")
+
+
+def test_lossy_signed_numbers_end_at_the_darkest_and_brightest():
+    def twelve(image):
+        image.BitsStored, image.HighBit = 12, 11
+
+    signed = head().astype(numpy.int16) * 2 - 4096
+    numbers, told = read(with_frame("clamped", signed, frame_of(signed, "--j2k"), LOSSY_2000,
+                                    twelve))
+    assert not told, told
+    numpy.testing.assert_array_equal(numbers, numpy.clip(signed, -2048, 2047))
+
+
+def in_tiles(pixels, side):
+    packed = io.BytesIO()
+    Image.fromarray(pixels).save(packed, "JPEG2000", tile_size=(side, side), no_jp2=True)
+    return packed.getvalue()
+
+
+def test_jpeg_2000_has_all_tiles():
+    pixels = head(64, 64, 255).astype(numpy.uint8)
+    frame = in_tiles(pixels, 32)
+    assert_exact(with_frame("tiles", pixels, frame, JPEG_2000), pixels)
+    file = io.BytesIO()
+    Image.fromarray(pixels).save(file, "JPEG2000")
+    assert_exact(with_frame("jp2", pixels, file.getvalue(), JPEG_2000), pixels)
+    last = frame.rindex(b"\xff\x90\0\x0a\0\3")
+    one = frame[:8 + 16] + (1).to_bytes(4, "big") * 2 + frame[8 + 24:]
+    huge = frame[:8] + b"\x7f" * 8 + frame[16:]
+    for damaged, words in ((frame[:last] + b"\xff\xd9", "it has 3 of its 4 tiles"),
+                           (one, "it has 4 of its 4096 tiles"),
+                           (frame[:24] + bytes(8) + frame[32:], "it announces 0 x 0 tiles"),
+                           (huge, "2139062143 x 2139062143 pixels"),
+                           (frame[:40] + b"\x40\0" + frame[42:], "16384 samples"),
+                           (frame[:2] + frame[60:], "does not begin with its size")):
+        numbers, told = read(with_frame("tiles", pixels, damaged, JPEG_2000))
+        assert numbers is None, words
+        assert_says(told, words)
+
+
+def test_markers_of_restart_may_be_filled_up():
+    pixels = head()
+    frame = encode(pixels, 16, restart_rows=4)
+    filled = frame.replace(b"\xff\xd1", b"\xff\xff\xff\xd1")
+    assert filled != frame
+    assert_exact(with_frame("filled", pixels, filled, LOSSLESS), pixels)
+
+
+def test_packed_pixels_come_in_fragments():
+    pixels = head()
+    path = with_frame("plain", pixels, encode(pixels, 16), LOSSLESS)
+    with open(path, "rb") as file:
+        data = file.read()
+    begin = data.index(b"\xe0\x7f\x10\0OB\0\0\xff\xff\xff\xff")
+    with open(path, "wb") as file:
+        file.write(data[:begin + 8] + (len(data) - begin - 12).to_bytes(4, "little") +
+                   data[begin + 12:])
+    numbers, told = read(path)
+    assert numbers is None
+    assert_says(told, "its packed pixels do not come in fragments")
 
 
 def test_damaged_frames_of_the_libraries_end_in_a_sentence():
