@@ -341,6 +341,7 @@ std::vector<NamedNumbers> emptyNumbers(
   const std::vector<std::pair<std::string, std::size_t>>& names, std::size_t tuples)
 {
   std::vector<NamedNumbers> list;
+  list.reserve(names.size());
   OwnNames own;
   for (const auto& [name, components] : names)
   {

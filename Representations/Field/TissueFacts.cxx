@@ -64,7 +64,7 @@ TissueFacts factsAt(vtkImageData* image, const DrawnValues& values, SceneDeforma
   }
   facts.value = numberAt(values.scalars, values.grid, values.layout, facts.rest);
   const std::string own = facts.value ? labelName(image, *facts.value) : std::string();
-  if (!own.empty() && *facts.value != 0.0)
+  if (!own.empty() && facts.value.value_or(0.0) != 0.0)
   {
     facts.label = facts.value;
     facts.labelName = own;
