@@ -20,9 +20,11 @@ namespace
 {
 constexpr std::int64_t DeviationsAtLeast = 4; // for a thread
 constexpr int MostMotions = 50;
-constexpr double MotionTolerance = 1e-12; // mm and rad
-constexpr double LeastSpreadMm = 1.0;     // around a line, to know the turn around it
-constexpr double PriorPairs = 8.0;        // that the deviations before any pair stand for
+constexpr double MotionTolerance = 1e-12;     // mm and rad
+constexpr double MotionUnsettled = 1e-6;      // mm and rad: more than rounding moves
+constexpr double LeastSpreadMm = 1.0;         // around a line, to know the turn around it
+constexpr double PriorPairs = 8.0;            // that the deviations before any pair stand for
+constexpr double FarthestDeviationMm = 100.0; // of a pair that is left out: beyond it is unknown
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
 // Adds three rows that measure all of a displacement. Returns the number of the first.
@@ -60,6 +62,17 @@ double squared(double value)
 {
   return value * value;
 }
+
+// Whether the other measurements say where a pair would come to lie. Where they leave a turn or
+// a shift open, the covariance is singular or huge.
+bool isDetermined(const glm::dmat3& covariance)
+{
+  const double minor = covariance[0][0] * covariance[1][1] - covariance[1][0] * covariance[0][1];
+  const double trace = covariance[0][0] + covariance[1][1] + covariance[2][2];
+  // A comparison with NaN is false.
+  return covariance[0][0] > 0.0 && minor > 0.0 && glm::determinant(covariance) > 0.0 &&
+    trace <= squared(FarthestDeviationMm);
+}
 }
 
 Fit::Fit()
@@ -78,6 +91,7 @@ std::string Fit::solve(
   }
   this->Rigid = {};
   this->Steps = 0;
+  this->ExpectsSmallTurn = false;
   this->TraceResiduals.assign(measured.traces.size(), NaN);
   problem = bendsOnly(measured) ? this->solveBend(measured, settings, surface)
                                 : this->solveRigid(measured, settings);
@@ -106,8 +120,9 @@ std::string Fit::solveRigid(const Measurements& measured, const FitSettings& set
   this->PullRows.clear();
   this->LandmarkRows =
     addPairs(rows, measured.landmarks, settings.landmarkDeviation * settings.relaxation);
-  const bool isFree =
-    from.size() >= settings.pairsWithoutPrior && spreadAroundLine(from, weights) >= LeastSpreadMm;
+  const bool saysTurn = spreadAroundLine(from, weights) >= LeastSpreadMm;
+  this->ExpectsSmallTurn = !(from.size() >= settings.pairsWithoutPrior && saysTurn);
+  const bool isFree = !this->ExpectsSmallTurn;
   const RigidMean mean{ weightedMean(from, weights),
     isFree ? 0.0 : 1.0 / squared(glm::radians(settings.rotationPriorDegrees)) };
   this->Field = Process(settings.landmarkKernel);
@@ -117,8 +132,9 @@ std::string Fit::solveRigid(const Measurements& measured, const FitSettings& set
     return problem;
   }
   const glm::dvec3 shift = weightedMean(to, weights) - mean.centre;
-  this->Rigid =
-    turnedAround(mean.centre, isFree ? nearestRotation(from, to, weights) : glm::dmat3(1.0), shift);
+  this->Rigid = turnedAround(
+    mean.centre, saysTurn ? nearestRotation(from, to, weights) : glm::dmat3(1.0), shift);
+  double moved = 0.0;
   for (int i = 0; i < MostMotions; ++i)
   {
     std::vector<double> values;
@@ -131,13 +147,15 @@ std::string Fit::solveRigid(const Measurements& measured, const FitSettings& set
     const SmallMotion motion = this->Field.remainingMotion(vectorFrom(this->Rigid.rotation));
     const RigidPose step =
       turnedAround(mean.centre, rotationFrom(motion.rotation), motion.translation);
-    if (glm::length(motion.translation) + glm::length(motion.rotation) < MotionTolerance)
+    moved = glm::length(motion.translation) + glm::length(motion.rotation);
+    if (moved < MotionTolerance)
     {
       break;
     }
     this->Rigid = { this->Rigid.rotation * step.rotation, this->Rigid.apply(step.translation) };
   }
-  return {};
+  // A comparison with NaN is false.
+  return moved < MotionUnsettled ? std::string() : "The landmarks do not say how the volume turned";
 }
 
 std::string Fit::solveBend(
@@ -202,6 +220,10 @@ void Fit::judge(const Measurements& measured)
       return NaN;
     }
     const LeftOut left = this->Field.leftOut(*first);
+    if (!isDetermined(left.covariance))
+    {
+      return NaN;
+    }
     sum += glm::dot(left.error, glm::inverse(left.covariance) * left.error) / 3.0;
     ++count;
     return glm::length(left.error);
@@ -241,6 +263,10 @@ void Fit::movePull(std::size_t pull, const glm::dvec3& measured)
 
 double Fit::deviation(const glm::dvec3& rest) const
 {
+  if (this->Field.rows().empty())
+  {
+    return std::numeric_limits<double>::infinity();
+  }
   const glm::dmat3 covariance = this->Field.covariance(rest);
   const double third = (covariance[0][0] + covariance[1][1] + covariance[2][2]) / 3.0;
   return this->Calibration * std::sqrt(std::max(0.0, third));

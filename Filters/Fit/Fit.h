@@ -53,6 +53,9 @@ public:
   /** The rigid part: measured from rest. The identity if the volume only bends. */
   const RigidPose& rigid() const { return this->Rigid; }
 
+  /** Whether the pairs were too few, or too near to a line, to believe any turn: see FitSettings. */
+  bool isTurnExpectedSmall() const { return this->ExpectsSmallTurn; }
+
   /** How far (mm) tissue at a rest position bends before the rigid part moves it. */
   glm::dvec3 bend(const glm::dvec3& rest) const { return this->Field.displacement(rest); }
 
@@ -63,8 +66,11 @@ public:
   }
 
   /**
-   * Standard deviation (mm) of measuredFromRest along each axis. A ball of DeviationsOfBall95 times
-   * it holds the tissue with 95 %, as calibrated by leaving pairs out.
+   * Standard deviation (mm) of measuredFromRest along each axis, as calibrated by leaving pairs
+   * out. Infinity if nothing was measured. It is that of where the tissue lies. A ball with the
+   * radius DeviationsOfBall95 times it holds the tissue with 95 %. Where the tissue is measured
+   * also has the error of a measurement: there the radius is DeviationsOfBall95 times the root of
+   * deviation^2 + (landmarkDeviation * calibration)^2.
    */
   double deviation(const glm::dvec3& rest) const;
 
@@ -73,7 +79,8 @@ public:
 
   /**
    * For each landmark, how far (mm) a fit without it puts its tissue from where it was measured, in
-   * closed form. NaN for a landmark that is switched off.
+   * closed form. NaN for a landmark that is switched off, and for one that the others say nothing
+   * about: its deviation without it is beyond 100 mm.
    */
   const std::vector<double>& leaveOneOut() const { return this->LeaveOneOut; }
 
@@ -103,6 +110,7 @@ private:
   std::vector<double> TraceResiduals; // mm, NaN: no cortex
   double Calibration = 1.0;
   int Steps = 0;
+  bool ExpectsSmallTurn = false;
 };
 }
 

@@ -61,6 +61,19 @@ glm::dvec3 FittedLattice::measuredFromRest(const glm::dvec3& rest) const
   return this->Result.rigid().apply(this->Map ? this->Map->deformedFromRest(rest) : rest);
 }
 
+std::vector<double> FittedLattice::deviations(const std::vector<glm::dvec3>& rest) const
+{
+  std::vector<double> result = this->Result.deviations(rest);
+  const std::vector<glm::dvec3> bends = this->Result.field().displacements(rest);
+  for (std::size_t i = 0; i < rest.size(); ++i)
+  {
+    const double away = glm::distance(
+      this->measuredFromRest(rest[i]), this->Result.rigid().apply(rest[i] + bends[i]));
+    result[i] = std::hypot(result[i], away / std::sqrt(3.0));
+  }
+  return result;
+}
+
 std::vector<double> FittedLattice::residuals(const std::vector<PointPair>& pairs) const
 {
   std::vector<double> result;

@@ -47,6 +47,13 @@ public:
   /** Where the lattice and then the rigid part take tissue at rest (mm). */
   glm::dvec3 measuredFromRest(const glm::dvec3& rest) const;
 
+  /**
+   * Standard deviations (mm) of measuredFromRest along each axis. Where the guard, the mask or the
+   * control points keep the lattice away from the fit, that distance counts too: the root of
+   * deviation^2 + distance^2 / 3. Infinity if nothing was measured.
+   */
+  std::vector<double> deviations(const std::vector<glm::dvec3>& rest) const;
+
   /** How far (mm) pairs miss their measured ends; NaN for a pair that is switched off. */
   std::vector<double> residuals(const std::vector<PointPair>& pairs) const;
 

@@ -14,6 +14,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -80,10 +81,20 @@ struct FitSettings
   double stepToleranceMm = 0.05;       ///< ... unless none of them moved by more than this
 };
 
-/** Whether the measurements say nothing about a rigid motion: see FitSettings. */
+/** Whether a pair counts: its weight is above 0. */
+inline bool isOn(const PointPair& pair)
+{
+  return pair.weight > 0.0;
+}
+
+/**
+ * Whether the measurements say nothing about a rigid motion: see FitSettings. Pulls that are
+ * switched off do not count.
+ */
 inline bool bendsOnly(const Measurements& measured)
 {
-  return !measured.traces.empty() || !measured.pulls.empty() || !measured.pins.empty();
+  return !measured.traces.empty() || !measured.pins.empty() ||
+    std::any_of(measured.pulls.begin(), measured.pulls.end(), isOn);
 }
 
 /**

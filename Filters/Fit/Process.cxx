@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -288,7 +289,8 @@ glm::dmat3 Process::covariance(const glm::dvec3& rest) const
   Eigen::Matrix3d result = state.Kernel.variance() * Eigen::Matrix3d::Identity();
   if (count == 0)
   {
-    return glmFrom(result);
+    // Nothing holds the free translation of a mean.
+    return state.Mean ? glm::dmat3(std::numeric_limits<double>::infinity()) : glmFrom(result);
   }
   Eigen::ArrayXd scratch;
   Eigen::ArrayXd covariance;

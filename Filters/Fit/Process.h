@@ -118,7 +118,10 @@ public:
   /** Displacement and derivatives at once, in the time of one of them. */
   FieldValue valueAt(const glm::dvec3& rest) const;
 
-  /** Covariance (mm^2) of the displacement that is left, that of the rigid mean included. */
+  /**
+   * Covariance (mm^2) of the displacement that is left, that of the rigid mean included. Without
+   * rows it is infinite along each axis if there is a mean, else that of the kernel.
+   */
   glm::dmat3 covariance(const glm::dvec3& rest) const;
 
   /**

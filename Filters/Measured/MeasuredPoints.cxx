@@ -10,7 +10,7 @@
 #include "vtkVariant.h"
 
 #include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
+#include <glm/geometric.hpp>
 
 #include <cstddef>
 
@@ -18,6 +18,8 @@ namespace brainshift
 {
 namespace
 {
+constexpr std::size_t MostNamed = 10; // a message must stay readable
+
 std::vector<std::string> labelsOfPoints(vtkPointSet* points)
 {
   std::vector<std::string> labels(points ? points->GetNumberOfPoints() : 0);
@@ -32,11 +34,13 @@ std::vector<std::string> labelsOfPoints(vtkPointSet* points)
 std::string joined(const std::vector<std::string>& words)
 {
   std::string text;
-  for (const std::string& word : words)
+  for (std::size_t i = 0; i < words.size() && i < MostNamed; ++i)
   {
-    text += (text.empty() ? "" : ", ") + word;
+    text += (text.empty() ? "" : ", ") + words[i];
   }
-  return text;
+  return words.size() <= MostNamed
+    ? text
+    : text + " and " + std::to_string(words.size() - MostNamed) + " more";
 }
 }
 
@@ -67,15 +71,53 @@ std::vector<PointPair> landmarkPairs(
   return pairs;
 }
 
-bool holds(const Mask& mask, const glm::dvec3& position)
+NearMask::NearMask(const Mask& mask, double byMm)
+  : Voxels(mask)
+  , ByMm(byMm)
+  , First(mask.grid.dimensions)
 {
-  const glm::dvec3 nearest = glm::floor(mask.grid.gridFromWorld(position) + 0.5);
-  if (!glm::all(glm::greaterThanEqual(nearest, glm::dvec3(0.0))) ||
-    !glm::all(glm::lessThan(nearest, glm::dvec3(mask.grid.dimensions))))
+  const glm::ivec3& sides = mask.grid.dimensions;
+  for (int z = 0; z < sides.z; ++z)
   {
-    return false;
+    for (int y = 0; y < sides.y; ++y)
+    {
+      for (int x = 0; x < sides.x; ++x)
+      {
+        if (mask.inside[mask.grid.offset(x, y, z)])
+        {
+          this->First = glm::min(this->First, glm::ivec3(x, y, z));
+          this->Behind = glm::max(this->Behind, glm::ivec3(x, y, z) + 1);
+        }
+      }
+    }
   }
-  const glm::ivec3 at(nearest);
-  return mask.inside[mask.grid.offset(at.x, at.y, at.z)] != 0;
+}
+
+bool NearMask::holds(const glm::dvec3& position) const
+{
+  const Grid& grid = this->Voxels.grid;
+  const glm::dvec3 at = grid.gridFromWorld(position);
+  const glm::dvec3 reach = this->ByMm / grid.spacing;
+  // Clamped as doubles: a far position is no int.
+  const glm::dvec3 least(this->First);
+  const glm::dvec3 most(this->Behind);
+  const glm::ivec3 begin(glm::clamp(glm::ceil(at - reach), least, glm::max(least, most)));
+  const glm::ivec3 end(glm::clamp(glm::floor(at + reach) + 1.0, glm::min(least, most), most));
+  for (int z = begin.z; z < end.z; ++z)
+  {
+    for (int y = begin.y; y < end.y; ++y)
+    {
+      for (int x = begin.x; x < end.x; ++x)
+      {
+        const glm::dvec3 away = (glm::dvec3(x, y, z) - at) * grid.spacing;
+        if (this->Voxels.inside[grid.offset(x, y, z)] &&
+          glm::dot(away, away) <= this->ByMm * this->ByMm)
+        {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
 }
 }

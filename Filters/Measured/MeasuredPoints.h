@@ -9,6 +9,7 @@
 #include "Filters/Deformation/MaskWeights.h"
 #include "Filters/Fit/Measurements.h"
 
+#include <glm/ext/vector_int3.hpp>
 #include <glm/vec3.hpp>
 
 #include <string>
@@ -25,13 +26,27 @@ std::vector<glm::dvec3> positionsOf(vtkPointSet* points);
  * The pairs of landmarks at rest and measured. They match by the point array Label, else by order;
  * the point array Weight of those at rest gives weights. Both may be null.
  *
- * @param unmatched   set to those without a partner, with commas between them
+ * @param unmatched   set to those without a partner, with commas between them; at most ten are named
  */
 std::vector<PointPair> landmarkPairs(
   vtkPointSet* rest, vtkPointSet* measured, std::string& unmatched);
 
-/** Whether a mask holds the voxel nearest to a position (mm, world). */
-bool holds(const Mask& mask, const glm::dvec3& position);
+/** The space within a distance of a mask, beyond the mask's own image too. It takes no memory. */
+class NearMask
+{
+public:
+  /** Keeps a reference to the mask. `byMm`: distance, 0 or more. */
+  NearMask(const Mask& mask, double byMm);
+
+  /** Whether the middle of a voxel that is inside lies within the distance of a position. */
+  bool holds(const glm::dvec3& position) const;
+
+private:
+  const Mask& Voxels;
+  double ByMm;
+  glm::ivec3 First{ 0 };  // of the voxels that are inside
+  glm::ivec3 Behind{ 0 }; // one more than the last of them; none are inside if both are equal
+};
 }
 
 #endif

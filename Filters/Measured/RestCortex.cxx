@@ -6,6 +6,7 @@
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
+#include "vtkPointData.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -81,11 +82,20 @@ RestCortex::RestCortex(const TissueRegion& tissue)
   , Tree(this->Mesh)
 {
   this->findNormals(tissue);
+  // Beside voxels that are no number, points are left that no triangle has.
+  std::vector<char> isUsed(this->Mesh.points.size(), 0);
+  for (const glm::ivec3& t : this->Mesh.triangles)
+  {
+    isUsed[t.x] = isUsed[t.y] = isUsed[t.z] = 1;
+  }
   std::vector<SurfacePoint> all;
   all.reserve(this->Mesh.points.size());
   for (std::size_t i = 0; i < this->Mesh.points.size(); ++i)
   {
-    all.push_back({ this->Mesh.points[i], this->Normals[i] });
+    if (isUsed[i])
+    {
+      all.push_back({ this->Mesh.points[i], this->Normals[i] });
+    }
   }
   this->Spread = thinnedPoints(all, SpreadMm);
 }
@@ -150,6 +160,11 @@ std::optional<SurfacePoint> RestCortex::nearest(const glm::dvec3& rest, int& hin
 
 std::string CortexSource::find(const Request& request)
 {
+  if (request.mustHaveArray && !request.array.empty() &&
+    !request.image->GetPointData()->HasArray(request.array.c_str()))
+  {
+    return "The " + request.where + " has no point array " + request.array;
+  }
   vtkDataArray* scalars = scalarsOf(request.image, request.array);
   if (!scalars || scalars->GetNumberOfComponents() != 1)
   {

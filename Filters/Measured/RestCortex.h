@@ -64,8 +64,9 @@ public:
   struct Request
   {
     vtkImageData* image = nullptr;
-    std::string where;    ///< what messages call the image
-    std::string array;    ///< name of its array; see scalarsOf()
+    std::string where;          ///< what messages call the image
+    std::string array;          ///< name of its array; empty: as scalarsOf() says
+    bool mustHaveArray = false; ///< whether it is an error if there is none of this name
     bool isLabel = false; ///< whether tissue is where scalars equal the level, or are not below it
     double level = 0.0;   ///< a threshold or a label
   };

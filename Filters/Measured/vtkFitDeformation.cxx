@@ -22,6 +22,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -43,6 +44,8 @@ constexpr int Ports = 8;
 constexpr std::size_t NumbersPerPull = 7;
 constexpr std::size_t NumbersPerPin = 4;
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double FarTurnDegrees = 10.0; // more than this is rather a wrong pair
+constexpr const char* NotRun = "The fit has not run";
 
 vtkDoubleArray* filled(vtkDoubleArray* array, const std::vector<double>& values)
 {
@@ -64,10 +67,57 @@ struct vtkFitDeformation::State
   std::vector<double> LandmarkResiduals;
   std::vector<double> PullResiduals;
   std::vector<double> TraceResiduals; // of all traces of the input
-  std::string Problem;
+  std::string Problem = NotRun;
   std::string Unmatched;
   std::string WarnedOf;
   vtkNew<vtkDoubleArray> Numbers[5]; // as a server sends them
+
+  // Leaves nothing of the last fit.
+  void forget(const std::string& problem)
+  {
+    this->Problem = problem;
+    this->Measured = {};
+    this->Fitted = {};
+    this->LandmarkResiduals.clear();
+    this->PullResiduals.clear();
+    this->TraceResiduals.clear();
+    this->Unmatched.clear();
+  }
+
+  // What a result says about itself; empty if nothing is to be said. With full stops between.
+  std::string warning() const
+  {
+    std::vector<std::string> words;
+    if (!this->Unmatched.empty())
+    {
+      words.push_back("Without a partner: " + this->Unmatched);
+    }
+    if (!this->TraceResiduals.empty() && this->TraceNumbers.empty())
+    {
+      words.emplace_back("All traced points lie in the cavity and do not count");
+    }
+    const double turn = glm::degrees(glm::length(vectorFrom(this->Fitted.fit().rigid().rotation)));
+    if (turn > FarTurnDegrees && this->Fitted.fit().isTurnExpectedSmall())
+    {
+      words.push_back("The volume turned by " + std::to_string(turn) +
+        " degrees, more than so few pairs can prove; check that the pairs match");
+    }
+    if (this->Fitted.share() < 1.0)
+    {
+      words.push_back(
+        "The fold guard applied " + std::to_string(this->Fitted.share()) + " of the bend");
+    }
+    else if (this->Fitted.relaxation() > 1.0)
+    {
+      words.emplace_back("The fold guard trusted what was measured less, so that no tissue folds");
+    }
+    std::string text;
+    for (const std::string& word : words)
+    {
+      text += (text.empty() ? "" : ". ") + word;
+    }
+    return text;
+  }
 
   // What a fit asks for the cortex. It must not outlive this object's next change.
   RestSurface surface()
@@ -120,6 +170,8 @@ int vtkFitDeformation::RequestInformation(
 int vtkFitDeformation::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
 {
+  // If something upstream fails, RequestData is never called.
+  this->Internal->Problem = NotRun;
   for (const int port : { 0, SegmentationPort, CavityPort, OpeningPort, MaskPort })
   {
     updateWholeExtent(inputs[port]->GetInformationObject(0));
@@ -198,7 +250,7 @@ std::string vtkFitDeformation::FindCortex(vtkInformationVector** inputs)
   vtkImageData* image = segmentation ? segmentation : vtkImageData::GetData(inputs[0]);
   const bool byLabel = this->SurfaceBy != 0;
   return this->Internal->Cortex.find({ image, segmentation ? "segmentation" : "volume",
-    this->SurfaceArray, byLabel, byLabel ? this->Label : this->Threshold });
+    this->SurfaceArray, !segmentation, byLabel, byLabel ? this->Label : this->Threshold });
 }
 
 std::string vtkFitDeformation::FindAnchors(vtkInformationVector** inputs)
@@ -224,9 +276,9 @@ std::string vtkFitDeformation::FindAnchors(vtkInformationVector** inputs)
       { "opening", "volume", "labels" });
     if (problem.empty())
     {
-      growMask(opening, AnchorMarginMm);
+      const NearMask near(opening, AnchorMarginMm);
       measured.anchors =
-        chooseAnchors(surface, [&](const glm::dvec3& rest) { return holds(opening, rest); });
+        chooseAnchors(surface, [&](const glm::dvec3& rest) { return near.holds(rest); });
     }
     return problem;
   }
@@ -235,8 +287,13 @@ std::string vtkFitDeformation::FindAnchors(vtkInformationVector** inputs)
   if (!isGiven)
   {
     std::vector<glm::dvec3> open = measured.traces;
-    std::transform(measured.pulls.begin(), measured.pulls.end(), std::back_inserter(open),
-      [](const PointPair& pull) { return pull.rest; });
+    for (const PointPair& pull : measured.pulls)
+    {
+      if (isOn(pull))
+      {
+        open.push_back(pull.rest);
+      }
+    }
     ball = ballAround(open);
   }
   measured.anchors = chooseAnchors(surface, [&](const glm::dvec3& rest) {
@@ -280,6 +337,7 @@ int vtkFitDeformation::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   State& state = *this->Internal;
+  state.forget(NotRun); // if memory runs out, this stays
   const auto either = [](const std::string& problem, const auto& next) {
     return problem.empty() ? next() : problem;
   };
@@ -293,16 +351,11 @@ int vtkFitDeformation::RequestData(
   state.Problem = problem;
   if (!problem.empty())
   {
-    state.Fitted = {};
+    state.forget(problem);
     vtkErrorMacro(<< problem << ".");
     return 0;
   }
-  std::string warning = state.Unmatched.empty() ? "" : "Without a partner: " + state.Unmatched;
-  if (state.Fitted.share() < 1.0)
-  {
-    warning += (warning.empty() ? "" : ". ") +
-      ("The fold guard applied " + std::to_string(state.Fitted.share()) + " of the bend");
-  }
+  const std::string warning = state.warning();
   if (warning != state.WarnedOf && !warning.empty())
   {
     vtkWarningMacro(<< warning << ".");
@@ -447,7 +500,7 @@ std::vector<double> vtkFitDeformation::Deviations(const std::vector<double>& res
   {
     places.emplace_back(rest[i], rest[i + 1], rest[i + 2]);
   }
-  return this->Internal->Fitted.fit().deviations(places);
+  return this->Internal->Fitted.deviations(places);
 }
 
 void vtkFitDeformation::PrintSelf(ostream& os, vtkIndent indent)

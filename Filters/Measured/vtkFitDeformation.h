@@ -5,7 +5,7 @@
  *
  * Output: a lattice, an image with the point array Displacement (float32 x 3, mm, world axes,
  * forward), to be the Lattice of a Free-Form Deformation with the same LatticeDimensions, Kernel,
- * Samples and mask. The rigid part is kept apart: GetRigid belongs into the pose of the tracker or
+ * Samples and mask. The rigid part is kept apart: GetRigid belongs in the pose of the tracker or
  * of the reference. All measurements are solved together (Filters/Fit/Fit.h).
  *
  * - Input 0: the volume at rest. Only its grid counts, and its scalars if they show the cortex.
@@ -68,7 +68,10 @@ public:
   ///@}
 
   ///@{
-  /** Name of the array in which to find the cortex. Empty (default): the active scalars. */
+  /**
+   * Name of the array in which to find the cortex. Empty (default): the active scalars. It is an
+   * error if the volume has none of this name; a segmentation then gives its active scalars.
+   */
   vtkSetMacro(SurfaceArray, std::string);
   vtkGetMacro(SurfaceArray, std::string);
   ///@}
@@ -179,7 +182,7 @@ public:
   /** For each matched landmark, its error (mm) if it is left out of the fit. */
   vtkDoubleArray* GetLeaveOneOut();
 
-  /** Why the last execution failed, a sentence without a full stop; empty if it did not. */
+  /** Why there is no result, a sentence without a full stop; empty if the last execution gave one. */
   const char* GetProblem() const;
 
   /** The landmarks without a partner, with commas between them; empty if there are none. */
@@ -188,7 +191,8 @@ public:
   ///@{
   /**
    * Answers for positions (mm, rest frame), three numbers each: where their tissue was measured or
-   * would be, by lattice and rigid part; and its standard deviation (mm) along each axis.
+   * would be, by lattice and rigid part; and its standard deviation (mm) along each axis. Deviations
+   * are infinite if nothing was measured, and count what guard, mask and control points changed.
    */
   std::vector<double> MeasuredFromRest(const std::vector<double>& rest);
   std::vector<double> Deviations(const std::vector<double>& rest);

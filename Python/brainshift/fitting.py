@@ -6,6 +6,9 @@ from .reports import numbers
 #: What the fit must share with the Free-Form Deformation that takes its lattice.
 _SHARED = ("LatticeDimensions", "Kernel", "Samples", "Mask", "MaskLabels", "MaskGrowth", "Feather")
 
+#: The annotation of sources that `fit` made.
+_MADE = "BrainShiftFit"
+
 #: The inputs that are made of arrays, and what the pipeline calls them.
 _INPUTS = {"RestLandmarks": "Landmarks At Rest", "MeasuredLandmarks": "Measured Landmarks",
            "Traces": "Traced Points"}
@@ -46,7 +49,8 @@ class Fit:
       landmarks, then the pulls, then the signed distances of the traced points from the cortex,
       positive outside. NaN for a point that does not count.
     - `landmark_residuals`, `pull_residuals`, `trace_residuals`: each part of it
-    - `leave_one_out`: for each landmark, how far a fit without it misses it
+    - `leave_one_out`: for each landmark, how far a fit without it misses it, before the fold guard
+      and the mask change the bend. NaN for a landmark that the others say nothing about.
     - `share`: the share of the bend that was applied, 0 to 1. The fold guard may leave less than 1.
     - `relaxation`: 1, or 1.5 if the guard had to trust what was measured less
     - `calibration`: the factor on deviations that leaving out landmarks showed
@@ -87,7 +91,11 @@ class Fit:
             asked.SetElement(i, float(number))
         report.UpdateVTKObjects()
         report.UpdatePropertyInformation(report.GetProperty(name))
-        return numpy.array(numbers(report, name), float)
+        answers = numpy.array(numbers(report, name), float)
+        if len(answers) != len(points) * (3 if name == "Measured" else 1):
+            raise RuntimeError("The fit gives no answers: it failed or was changed since; see the "
+                               "messages, and call fit again")
+        return answers
 
     def measured_from_rest(self, points):
         """Find where tissue was measured or would be: bend and rigid part together.
@@ -103,8 +111,11 @@ class Fit:
 
         - `points`: an N x 3 array of positions in the rest frame.
 
-        Returns N standard deviations along each axis. A ball with 2.8 times the deviation as its
-        radius holds the tissue with 95 %.
+        Returns N standard deviations along each axis: infinity if nothing was measured. What the
+        fold guard, the mask and the control points changed counts too. A ball with 2.8 times the
+        deviation as its radius holds the tissue with 95 %. Where a landmark is measured also has
+        the error of a measurement: there the radius is 2.8 times the root of deviation² plus
+        (0.7 mm × `calibration`)².
         """
         return self._answers(points, "Deviations")
 
@@ -150,18 +161,34 @@ def _is(source, kind):
     return bool(source) and source.SMProxy.GetXMLName() == kind
 
 
-def _forget(deformation):
-    """Deletes the fit that a deformation has, and the points that a call of `fit` made for it."""
+def _own(source):
+    """Marks a source as one that `fit` made. State files keep the mark."""
+    source.SMProxy.SetAnnotation(_MADE, "1")
+    return source
+
+
+def _is_free(source, former):
+    """Whether `fit` made a source, and nothing but the former fit takes it."""
+    proxy = source.SMProxy
+    takers = [proxy.GetConsumerProxy(i).GetTrueParentProxy()
+              for i in range(proxy.GetNumberOfConsumers())]
+    return proxy.HasAnnotation(_MADE) and not any(
+        taker is not former.SMProxy and taker.IsA("vtkSMSourceProxy")
+        and not taker.IsA("vtkSMRepresentationProxy")
+        for taker in takers)
+
+
+def _forget(former):
+    """Deletes a former fit and its points, as far as `fit` made them and nothing takes them."""
     from paraview import simple
 
-    former = deformation.Lattice
-    if _is(former, "FitDeformation"):
-        deformation.Lattice = None
-        points = [getattr(former, name) for name in _INPUTS]
-        simple.Delete(former)
-        for source in points:
-            if _is(source, "PolyPointSource"):
-                simple.Delete(source)
+    if not _is(former, "FitDeformation") or not _is_free(former, former):
+        return
+    points = [getattr(former, name) for name in _INPUTS]
+    simple.Delete(former)
+    for source in points:
+        if source and _is_free(source, former):
+            simple.Delete(source)
 
 
 def _solved(deformation, arrays, pulls, pins, values):
@@ -171,12 +198,12 @@ def _solved(deformation, arrays, pulls, pins, values):
     made = []
     for name, points in zip(_INPUTS, arrays):
         if len(points):
-            made.append(simple.PolyPointSource(registrationName=_INPUTS[name],
-                                               Points=points.ravel().tolist()))
+            made.append(_own(simple.PolyPointSource(registrationName=_INPUTS[name],
+                                                    Points=points.ravel().tolist())))
             values[name] = made[-1]
-    source = simple.FitDeformation(
+    source = _own(simple.FitDeformation(
         Input=deformation.Input, Pulls=[float(n) for pull in pulls for n in (*pull.ravel(), 1.0)],
-        Pins=[float(n) for pin in pins for n in (*pin, 1.0)], **values)
+        Pins=[float(n) for pin in pins for n in (*pin, 1.0)], **values))
     source.UpdatePipeline()
     source.SMProxy.UpdatePropertyInformation()
     problem = source.GetPropertyValue("Problem")
@@ -193,7 +220,8 @@ def fit(filter, rest=None, measured=None, traces=None, pulls=None, pins=None, th
 
     All measurements are solved together. With landmarks alone the fit takes a rigid motion out
     and bends little. With traces, pulls or pins the volume is taken to lie right already.
-    A later call for the same deformation takes the place of the former one.
+    A later call for the same deformation takes the place of the former one. If it fails, the
+    former one stays.
 
     - `filter`: a Free-Form Deformation. Its `Lattice` becomes the fit; its strokes stay on top.
     - `rest`, `measured`: N x 3 arrays in mm, landmarks in the rest frame and where they were
@@ -202,7 +230,8 @@ def fit(filter, rest=None, measured=None, traces=None, pulls=None, pins=None, th
     - `pulls`: an N x 2 x 3 array in mm: where tissue was, and where it was put.
     - `pins`: an N x 3 array in mm, tissue that stays.
     - `threshold` or `label`: how scalars show the cortex. The default is a threshold of 0.5.
-    - `array`: name of the scalars. The default, `None`, takes the active ones.
+    - `array`: name of the scalars; the volume must have them. The default, `None`, takes the
+      active ones.
     - `segmentation`: a ParaView source whose scalars show the cortex. The default, `None`, takes
       those of the volume.
     - `opening`: where the skull is open: a ParaView source of a mask, or centre and radius in mm.
@@ -219,17 +248,19 @@ def fit(filter, rest=None, measured=None, traces=None, pulls=None, pins=None, th
     rest, measured = _points("rest", rest), _points("measured", measured)
     if len(rest) != len(measured):
         raise ValueError(f"rest has {len(rest)} points and measured {len(measured)}; "
-                         "they must be as many")
+                         "they must have the same number")
     traces, pulls, pins = _points("traces", traces), _pulls(pulls), _points("pins", pins)
     values = {**_shared(filter), **_opening(opening),
               **_cortex(threshold, label, array, segmentation)}
     if cavity is not None:
         values["Cavity"] = cavity
     active = simple.GetActiveSource()
-    _forget(filter)
     try:
         source = _solved(filter, (rest, measured, traces), pulls, pins, values)
     finally:
         simple.SetActiveSource(active)
+    former = filter.Lattice
     filter.Lattice = source
+    _forget(former)
+    simple.SetActiveSource(active)
     return Fit(source)

@@ -5,9 +5,13 @@
 #include "Filters/Deformation/Kernels.h"
 #include "Filters/Deformation/LatticeExtremes.h"
 #include "Filters/Deformation/PointMap.h"
+#include "Filters/Fit/FittedLattice.h"
 #include "Testing/Cxx/Fit/DenseReference.h"
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 using namespace brainshift;
 using namespace brainshift::testing;
@@ -77,4 +81,20 @@ TEST(FitLattice, AFoldIsShortened)
     displacement *= static_cast<float>(share);
   }
   EXPECT_GT(minimumJacobian(lattice), 0.09);
+}
+
+// Two pulls against each other, of which the guard leaves a share.
+TEST(FitLattice, DeviationsCountWhatTheGuardTook)
+{
+  Measurements measured;
+  measured.pulls = { { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 30.0 } },
+    { { 0.0, 0.0, 8.0 }, { 0.0, 0.0, -30.0 } } };
+  FittedLattice fitted;
+  ASSERT_EQ(fitted.solve(measured, {}, makeLattice(boxGrid(), KernelCatmullRom), 4, true), "");
+  ASSERT_LT(fitted.share(), 1.0);
+  const glm::dvec3 at(0.0);
+  const double away = glm::distance(fitted.measuredFromRest(at), fitted.fit().measuredFromRest(at));
+  ASSERT_GT(away, 2.0);
+  EXPECT_NEAR(fitted.deviations({ at }).front(),
+    std::sqrt(std::pow(fitted.fit().deviation(at), 2) + away * away / 3.0), 1e-6);
 }

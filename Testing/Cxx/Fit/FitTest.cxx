@@ -164,6 +164,51 @@ TEST(Fit, APairThatIsSwitchedOffIsNotThere)
   EXPECT_TRUE(std::isnan(one.leaveOneOut()[9]));
 }
 
+TEST(Fit, APullThatIsSwitchedOffLeavesTheMotion)
+{
+  Measurements measured = landmarksOf(10, 0.0);
+  measured.pulls = { { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 10.0 }, 0.0 } };
+  Fit fit;
+  ASSERT_EQ(fit.solve(measured, {}), "");
+  EXPECT_LT(largest(fit.rigid().rotation - Turned.rotation), 1e-9);
+}
+
+// All but the last lie on a line, so that the others do not say how far it turned around the line.
+TEST(Fit, APairThatTheOthersSayNothingAboutIsNotJudged)
+{
+  Measurements measured;
+  for (int i = 0; i < 9; ++i)
+  {
+    const glm::dvec3 rest(10.0 * i, i == 8 ? 60.0 : 0.0, 0.0);
+    measured.landmarks.push_back({ rest, Turned.apply(rest) + glm::dvec3(i % 3) });
+  }
+  Fit fit;
+  ASSERT_EQ(fit.solve(measured, {}), "");
+  EXPECT_TRUE(std::isnan(fit.leaveOneOut()[8]));
+  EXPECT_LT(fit.leaveOneOut()[4], 5.0);
+  EXPECT_TRUE(std::isfinite(fit.calibration()));
+}
+
+// Three pairs that turned by half a turn, from where no small steps lead there.
+TEST(Fit, FewPairsThatTurnedFarAreFound)
+{
+  for (const double angle : { 0.5, 1.5, 2.5, 3.1 })
+  {
+    const RigidPose far = turnedAround({ 10.0, 0.0, 0.0 }, rotationFrom({ 0.0, 0.0, angle }), {});
+    Measurements measured;
+    for (const glm::dvec3& rest :
+      { glm::dvec3(0, 0, 0), glm::dvec3(80, 0, 0), glm::dvec3(0, 90, 0), glm::dvec3(10, 20, 70) })
+    {
+      measured.landmarks.push_back({ rest, far.apply(rest) });
+    }
+    Fit fit;
+    ASSERT_EQ(fit.solve(measured, {}), "");
+    EXPECT_TRUE(fit.isTurnExpectedSmall());
+    EXPECT_LT(glm::distance(fit.measuredFromRest({ 80, 0, 0 }), far.apply({ 80, 0, 0 })), 10.0)
+      << angle;
+  }
+}
+
 TEST(Fit, OrderDoesNotMatter)
 {
   Measurements measured = landmarksOf(12, 1.0);
@@ -233,6 +278,11 @@ TEST(Fit, FewOrFlatPairsGiveAResult)
   Fit fit;
   ASSERT_EQ(fit.solve(none, {}), "");
   EXPECT_EQ(fit.measuredFromRest({ 1.0, 2.0, 3.0 }), glm::dvec3(1.0, 2.0, 3.0));
+  EXPECT_TRUE(std::isinf(fit.deviation({ 1.0, 2.0, 3.0 })));
+  EXPECT_TRUE(std::isinf(fit.field().covariance({ 1.0, 2.0, 3.0 })[0][0]));
+  none.traces = { { 1.0, 2.0, 3.0 } }; // it bends, but there is no cortex
+  ASSERT_EQ(fit.solve(none, {}), "");
+  EXPECT_TRUE(std::isinf(fit.deviation({ 1.0, 2.0, 3.0 })));
   Measurements one = landmarksOf(1, 1.0);
   ASSERT_EQ(fit.solve(one, {}), "");
   EXPECT_LT(

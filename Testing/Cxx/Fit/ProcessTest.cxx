@@ -8,6 +8,8 @@
 #include <glm/matrix.hpp>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -118,6 +120,8 @@ TEST(Process, WithoutRowsNothingMovesAndNothingIsKnown)
   ASSERT_EQ(process.setRows({}, RigidMean()), "");
   EXPECT_EQ(process.displacement({ 1.0, 2.0, 3.0 }), glm::dvec3(0.0));
   EXPECT_EQ(process.gradient({ 1.0, 2.0, 3.0 }), glm::dmat3(0.0));
+  EXPECT_TRUE(std::isinf(process.covariance({ 1.0, 2.0, 3.0 })[2][2])); // the shift is free
+  ASSERT_EQ(process.setRows({}), "");
   EXPECT_EQ(process.covariance({ 1.0, 2.0, 3.0 })[2][2], 9.0);
 }
 

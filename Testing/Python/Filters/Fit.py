@@ -131,6 +131,10 @@ def test_a_bend_that_folds_is_shortened_and_said():
     assert_says(said.text, "The fold guard applied")
     assert 0.0 < fit.share < 1.0 and fit.relaxation == 1.5, (fit.share, fit.relaxation)
     assert fit.residuals.max() > 5.0
+    # What the guard took away is part of the deviation.
+    end = numpy.array((pulls[0][1],))
+    miss = numpy.linalg.norm(fit.measured_from_rest([start]) - end)
+    assert fit.deviation([start])[0] > 0.5 * miss / numpy.sqrt(3), (fit.deviation([start]), miss)
     bent.UpdatePipeline()
     bent.SMProxy.UpdatePropertyInformation()
     assert bent.MinimumJacobian > 0.09, bent.MinimumJacobian
@@ -184,6 +188,110 @@ def test_errors_name_what_is_wrong():
     fails("Threshold is 1000", "gives no cortex", traces=scattered(4), threshold=1000.0)
     fails("threshold and label", traces=scattered(4), threshold=1.0, label=1)
     fails("pulls has the shape", pulls=[(1.0, 2.0, 3.0)])
+    fails("The volume has no point array missing", traces=scattered(4), array="missing")
+    broken = simple.FitDeformation(Input=deformation().Input, Threshold=1000.0,
+                                   Traces=simple.PolyPointSource(Points=[MIDDLE] * 3))
+    fails("The fit has not run", traces=scattered(4), opening=broken)
+
+
+def test_a_fit_that_fails_leaves_the_former_one_and_nothing_of_its_own():
+    bent = deformation()
+    start = numpy.array((MIDDLE,) * 3)
+    first = brainshift.fit(bent, pulls=[(start, start + (5.0, 0, 0))])
+    with messages():
+        try:
+            brainshift.fit(bent, traces=scattered(4), threshold=1000.0)
+        except ValueError:
+            pass
+    assert bent.Lattice == first.filter
+    sources = len(simple.GetSources())
+    # What a person made, or what something else takes, is not deleted.
+    taker = simple.ImageClip(Input=first.filter) if hasattr(simple, "ImageClip") else \
+        simple.Calculator(Input=first.filter)
+    second = brainshift.fit(bent, rest=scattered(8), measured=scattered(8))
+    assert len(simple.GetSources()) == sources + 4 and taker.Input == first.filter
+    points = simple.PolyPointSource(Points=scattered(2).ravel().tolist())
+    second.filter.Traces = points
+    brainshift.fit(bent, pulls=[(start, start)])
+    assert points in simple.GetSources().values() and bent.Lattice != second.filter
+    own = simple.FitDeformation(Input=bent.Input)
+    bent.Lattice = own
+    brainshift.fit(bent, pulls=[(start, start)])
+    assert own in simple.GetSources().values()
+
+
+def test_a_fit_that_was_spoiled_gives_no_answers():
+    fit = brainshift.fit(deformation(), traces=on_ball(50), threshold=50.0)
+    assert len(fit.measured_from_rest(scattered(2))) == 2
+    fit.filter.Threshold = 1000.0
+    with messages():
+        fit.filter.UpdatePipeline()
+    try:
+        fit.deviation(scattered(2))
+    except RuntimeError as error:
+        assert "no answers" in str(error), error
+    else:
+        raise AssertionError("a fit that failed answers")
+    assert len(brainshift.Fit(fit.filter).trace_residuals) == 0
+
+
+def test_a_pull_that_is_switched_off_does_not_count():
+    rest = scattered(12)
+    measured, matrix = turned(rest)
+    off = [MIDDLE] * 3 + [MIDDLE + 20.0] * 3 + [0.0]
+    fit = brainshift.fit(deformation(), rest=rest, measured=measured)
+    fit.filter.Pulls = off
+    fit.filter.UpdatePipeline()
+    again = brainshift.Fit(fit.filter)
+    assert numpy.allclose(again.rigid, matrix, atol=1e-4), again.rigid
+    assert len(again.pull_residuals) == 1 and numpy.isnan(again.pull_residuals).all()
+    # The opening found from traces does not reach to it.
+    under = on_ball(3000)
+    under = under[numpy.linalg.norm(under - TOP, axis=1) < 15.0]
+    fit = brainshift.fit(deformation(), traces=under, threshold=50.0)
+    count = fit.filter.GetPropertyValue("AnchorCount")
+    fit.filter.Pulls = off[:2] + [MIDDLE - RADIUS] + off[3:]
+    fit.filter.UpdatePipeline()
+    fit.filter.SMProxy.UpdatePropertyInformation()
+    assert fit.filter.GetPropertyValue("AnchorCount") == count > 0
+
+
+def test_traces_that_all_lie_in_the_cavity_are_said():
+    everything = volume(numpy.ones((SIDE,) * 3, numpy.uint8), spacing=(SPACING,) * 3)
+    with messages() as said:
+        brainshift.fit(deformation(), traces=on_ball(20), cavity=everything, threshold=50.0)
+    assert_says(said.text, "All traced points lie in the cavity")
+
+
+def test_few_landmarks_that_turned_far_are_said():
+    rest = scattered(5)
+    with messages() as said:
+        brainshift.fit(deformation(), rest=rest, measured=2 * MIDDLE - rest * (1, 1, -1))
+    assert_says(said.text, "The volume turned by", "check that the pairs match")
+
+
+def test_an_opening_that_is_cropped_has_its_margin():
+    top = int(MIDDLE / SPACING + RADIUS / SPACING)
+
+    box = (slice(top - 4, top + 4), slice(26, 35), slice(26, 35))
+    whole = numpy.zeros((SIDE,) * 3, numpy.uint8)
+    whole[box] = 1
+
+    def anchors(voxels, first=(0, 0, 0)):
+        mask = volume(voxels, origin=[SPACING * i for i in first], spacing=(SPACING,) * 3)
+        fit = brainshift.fit(deformation(), traces=[TOP], threshold=50.0, opening=mask)
+        return fit.filter.GetPropertyValue("AnchorCount")
+    counts = anchors(whole[box], (26, 26, top - 4)), anchors(whole)
+    assert counts[0] == counts[1] > 100, counts
+
+
+def test_voxels_that_are_no_number_hold_no_cortex():
+    voxels = ball(side=SIDE, radius=RADIUS / SPACING)
+    voxels[:20] = numpy.nan
+    bent = simple.FreeFormDeformation(Input=volume(voxels, spacing=(SPACING,) * 3))
+    fit = brainshift.fit(bent, traces=sunk(on_ball(300)[:10]), threshold=50.0)
+    assert numpy.isfinite(fit.trace_residuals).all(), fit.trace_residuals
+    assert numpy.isfinite(fit.measured_from_rest(scattered(5))).all()
 
 
 def test_nothing_measured_bends_nothing():
@@ -191,6 +299,7 @@ def test_nothing_measured_bends_nothing():
     probe = scattered(3)
     assert numpy.allclose(fit.measured_from_rest(probe), probe, atol=1e-6)
     assert numpy.allclose(fit.rigid, numpy.eye(4)) and len(fit.residuals) == 0
+    assert numpy.isposinf(fit.deviation(probe)).all(), fit.deviation(probe)
 
 
 run_tests(globals())
