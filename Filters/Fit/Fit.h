@@ -53,7 +53,7 @@ public:
   /** The rigid part: measured from rest. The identity if the volume only bends. */
   const RigidPose& rigid() const { return this->Rigid; }
 
-  /** Whether the pairs were too few, or too near to a line, to believe any turn: see FitSettings. */
+  /** Whether the pairs are too few, or too near to a line, to believe any turn: FitSettings. */
   bool isTurnExpectedSmall() const { return this->ExpectsSmallTurn; }
 
   /** How far (mm) tissue at a rest position bends before the rigid part moves it. */

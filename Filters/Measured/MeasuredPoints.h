@@ -26,7 +26,7 @@ std::vector<glm::dvec3> positionsOf(vtkPointSet* points);
  * The pairs of landmarks at rest and measured. They match by the point array Label, else by order;
  * the point array Weight of those at rest gives weights. Both may be null.
  *
- * @param unmatched   set to those without a partner, with commas between them; at most ten are named
+ * @param unmatched   set to those without a partner, with commas between them; at most ten
  */
 std::vector<PointPair> landmarkPairs(
   vtkPointSet* rest, vtkPointSet* measured, std::string& unmatched);

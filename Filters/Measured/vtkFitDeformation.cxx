@@ -9,6 +9,7 @@
 #include "Filters/Fields/FieldImage.h"
 #include "Filters/Fit/Anchors.h"
 #include "Filters/Fit/FittedLattice.h"
+#include "Filters/Measured/FitWords.h"
 #include "Filters/Measured/MeasuredPoints.h"
 #include "Filters/Measured/RestCortex.h"
 
@@ -22,7 +23,6 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,6 @@ constexpr int Ports = 8;
 constexpr std::size_t NumbersPerPull = 7;
 constexpr std::size_t NumbersPerPin = 4;
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double FarTurnDegrees = 10.0; // more than this is rather a wrong pair
 constexpr const char* NotRun = "The fit has not run";
 
 vtkDoubleArray* filled(vtkDoubleArray* array, const std::vector<double>& values)
@@ -53,7 +52,6 @@ vtkDoubleArray* filled(vtkDoubleArray* array, const std::vector<double>& values)
   std::copy(values.begin(), values.end(), array->GetPointer(0));
   return array;
 }
-
 }
 
 struct vtkFitDeformation::State
@@ -84,39 +82,10 @@ struct vtkFitDeformation::State
     this->Unmatched.clear();
   }
 
-  // What a result says about itself; empty if nothing is to be said. With full stops between.
   std::string warning() const
   {
-    std::vector<std::string> words;
-    if (!this->Unmatched.empty())
-    {
-      words.push_back("Without a partner: " + this->Unmatched);
-    }
-    if (!this->TraceResiduals.empty() && this->TraceNumbers.empty())
-    {
-      words.emplace_back("All traced points lie in the cavity and do not count");
-    }
-    const double turn = glm::degrees(glm::length(vectorFrom(this->Fitted.fit().rigid().rotation)));
-    if (turn > FarTurnDegrees && this->Fitted.fit().isTurnExpectedSmall())
-    {
-      words.push_back("The volume turned by " + std::to_string(turn) +
-        " degrees, more than so few pairs can prove; check that the pairs match");
-    }
-    if (this->Fitted.share() < 1.0)
-    {
-      words.push_back(
-        "The fold guard applied " + std::to_string(this->Fitted.share()) + " of the bend");
-    }
-    else if (this->Fitted.relaxation() > 1.0)
-    {
-      words.emplace_back("The fold guard trusted what was measured less, so that no tissue folds");
-    }
-    std::string text;
-    for (const std::string& word : words)
-    {
-      text += (text.empty() ? "" : ". ") + word;
-    }
-    return text;
+    return wordsOnFit(
+      this->Fitted, this->Unmatched, !this->TraceResiduals.empty() && this->TraceNumbers.empty());
   }
 
   // What a fit asks for the cortex. It must not outlive this object's next change.

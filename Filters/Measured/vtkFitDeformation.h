@@ -182,7 +182,7 @@ public:
   /** For each matched landmark, its error (mm) if it is left out of the fit. */
   vtkDoubleArray* GetLeaveOneOut();
 
-  /** Why there is no result, a sentence without a full stop; empty if the last execution gave one. */
+  /** Why there is no result, a sentence without a full stop; empty if there is one. */
   const char* GetProblem() const;
 
   /** The landmarks without a partner, with commas between them; empty if there are none. */
@@ -191,8 +191,9 @@ public:
   ///@{
   /**
    * Answers for positions (mm, rest frame), three numbers each: where their tissue was measured or
-   * would be, by lattice and rigid part; and its standard deviation (mm) along each axis. Deviations
-   * are infinite if nothing was measured, and count what guard, mask and control points changed.
+   * would be, by lattice and rigid part; and its standard deviation (mm) along each axis.
+   * Deviations are infinite if nothing was measured, and count what guard, mask and control
+   * points changed.
    */
   std::vector<double> MeasuredFromRest(const std::vector<double>& rest);
   std::vector<double> Deviations(const std::vector<double>& rest);

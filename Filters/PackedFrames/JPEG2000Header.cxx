@@ -10,7 +10,7 @@ namespace
 {
 const std::string Damaged = "a JPEG 2000 frame is damaged: ";
 constexpr std::uint64_t StartOfCodes = 0xff4f;
-constexpr std::uint64_t Size = 0xff51; // SIZ of the standard
+constexpr std::uint64_t Size = 0xff51; // the marker of the size
 constexpr std::uint64_t StartOfTile = 0xff90;
 constexpr std::uint64_t CodesBox = 0x6a703263; // "jp2c"
 constexpr std::size_t SizeBytes = 45;          // with the first marker, and one component

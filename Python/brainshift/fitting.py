@@ -170,8 +170,8 @@ def _own(source):
 def _is_free(source, former):
     """Whether `fit` made a source, and nothing but the former fit takes it."""
     proxy = source.SMProxy
-    takers = [proxy.GetConsumerProxy(i).GetTrueParentProxy()
-              for i in range(proxy.GetNumberOfConsumers())]
+    consumers = [proxy.GetConsumerProxy(i) for i in range(proxy.GetNumberOfConsumers())]
+    takers = [consumer.GetTrueParentProxy() for consumer in consumers if consumer]  # or is gone
     return proxy.HasAnnotation(_MADE) and not any(
         taker is not former.SMProxy and taker.IsA("vtkSMSourceProxy")
         and not taker.IsA("vtkSMRepresentationProxy")
