@@ -375,7 +375,7 @@ def test_damaged_gifti_ends_in_one_sentence():
         (packed, lambda data: data.replace(b'Dim0="4"', b'Dim0="3"'), "too few or too many"),
         (packed, lambda data: data.replace(b'Dim0="4"', b'Dim0="5"'), "has 48 bytes"),
         (matrix, lambda data: data.replace(b"<MatrixData>", b"<MatrixData>x "), "16 numbers"),
-        (matrix, lambda data: data.replace(b"1.0", b"0.0"), "last row"),
+        (matrix, lambda data: data.replace(b" 1.000000", b" 0.000000"), "last row"),
         (matrix, lambda data: data.replace(b"<MatrixData>", b"<MatrixData>" + b"1 " * 4096),
          "4096 letters or fewer"),
     ]
