@@ -31,9 +31,9 @@ glm::dmat3 jacobianOf(const FieldValue& value)
 }
 }
 
-TraceProjection::TraceProjection(std::vector<glm::dvec3> traces, const RestSurface& surface)
+TraceProjection::TraceProjection(std::vector<glm::dvec3> traces, RestSurface surface)
   : Traces(std::move(traces))
-  , Surface(surface)
+  , Surface(std::move(surface))
   , Feet(this->Traces.size())
 {
   for (std::size_t i = 0; i < this->Traces.size(); ++i)

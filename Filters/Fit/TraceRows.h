@@ -35,7 +35,7 @@ public:
    * @param traces    mm, in the frame in which the bent volume lies
    * @param surface   the cortex at rest; it must outlive this
    */
-  TraceProjection(std::vector<glm::dvec3> traces, const RestSurface& surface);
+  TraceProjection(std::vector<glm::dvec3> traces, RestSurface surface);
 
   /** Projects with a field. Returns how far (mm) the point moved that moved most. */
   double project(const Process& field);
@@ -44,7 +44,7 @@ public:
 
 private:
   std::vector<glm::dvec3> Traces;
-  const RestSurface& Surface;
+  RestSurface Surface;
   std::vector<TraceFoot> Feet;
 };
 
