@@ -92,7 +92,6 @@ std::string Fit::solve(
   this->Rigid = {};
   this->Steps = 0;
   this->ExpectsSmallTurn = false;
-  this->TraceResiduals.assign(measured.traces.size(), NaN);
   problem = bendsOnly(measured) ? this->solveBend(measured, settings, surface)
                                 : this->solveRigid(measured, settings);
   if (problem.empty())
@@ -194,16 +193,6 @@ std::string Fit::solveBend(
     if (!problem.empty())
     {
       return problem;
-    }
-  }
-  projection.project(this->Field);
-  for (std::size_t i = 0; i < measured.traces.size(); ++i)
-  {
-    const TraceFoot& trace = projection.feet()[i];
-    if (trace.counts)
-    {
-      this->TraceResiduals[i] =
-        trace.value - glm::dot(trace.normal, this->Field.displacement(trace.foot));
     }
   }
   return {};

@@ -87,9 +87,6 @@ public:
   /** Factor on deviations that makes them agree with what leaving pairs out showed. */
   double calibration() const { return this->Calibration; }
 
-  /** How traced points lie to the bent cortex: see TraceRows.h. One for each trace. */
-  double traceResidual(std::size_t trace) const { return this->TraceResiduals[trace]; }
-
   /** How often the traced points were projected. */
   int steps() const { return this->Steps; }
 
@@ -107,7 +104,6 @@ private:
   std::vector<std::optional<std::size_t>> LandmarkRows; // the first of the three
   std::vector<std::optional<std::size_t>> PullRows;
   std::vector<double> LeaveOneOut;
-  std::vector<double> TraceResiduals; // mm, NaN: no cortex
   double Calibration = 1.0;
   int Steps = 0;
   bool ExpectsSmallTurn = false;

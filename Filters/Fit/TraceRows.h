@@ -33,7 +33,7 @@ class BRAINSHIFT_DEFORMATION_EXPORT TraceProjection
 public:
   /**
    * @param traces    mm, in the frame in which the bent volume lies
-   * @param surface   the cortex at rest; it must outlive this
+   * @param surface   the cortex at rest
    */
   TraceProjection(std::vector<glm::dvec3> traces, RestSurface surface);
 

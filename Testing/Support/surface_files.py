@@ -6,6 +6,7 @@ Where tkRAS lies in the scanner's RAS is nibabel's answer: vox2ras and vox2ras_t
 
 import nibabel
 import numpy
+from brainshift_testing import assert_says, messages, output
 from nibabel import gifti, streamlines
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -101,3 +102,22 @@ def lines_of(data):
     ids = vtk_to_numpy(data.GetLines().GetConnectivityArray())
     points = points_of(data)
     return [points[ids[first:end]] for first, end in zip(ends, ends[1:])]
+
+
+def read_by(reader, name, words=(), **named):
+    """What a reader makes of a file, and says: all of the words, or nothing."""
+    with messages() as said:
+        data = output(reader(FileName=name, **named))
+    assert_says(said.text, *words)
+    assert words or not said.text, said.text
+    return data
+
+
+def refusal_by(reader, name, **named):
+    """The one sentence with which a reader refuses a file. Nothing comes out."""
+    with messages() as said:
+        data = output(reader(FileName=name, **named))
+    assert data.GetNumberOfPoints() == 0 and "ERROR" in said.text, (name, said.text)
+    sentence = said.text.split("): ", 1)[1].splitlines()[0]
+    assert sentence.endswith(".") and len(sentence) < 600, said.text
+    return sentence

@@ -6,12 +6,12 @@ import os
 
 import nibabel
 import numpy
-from brainshift_testing import (assert_says, ball, load_plugin, messages, output, run_tests,
+from brainshift_testing import (assert_says, ball, load_plugin, output, run_tests,
                                 scratch, volume)
 from nibabel import gifti
 from surface_files import (POINTS, TRIANGLES, data_array, geometry, gifti_arrays, moved,
-                           points_of, scanner_from_surface, triangles_of, volumes, write_gifti,
-                           write_surface)
+                           points_of, read_by, refusal_by, scanner_from_surface, triangles_of,
+                           volumes, write_gifti, write_surface)
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 load_plugin()
@@ -24,22 +24,11 @@ UNKNOWN, TALAIRACH = "NIFTI_XFORM_UNKNOWN", "NIFTI_XFORM_TALAIRACH"
 
 
 def read(name, words=(), **named):
-    """What the reader makes of a file, and says: all of the words, or nothing."""
-    with messages() as said:
-        data = output(simple.SurfaceReader(FileName=name, **named))
-    assert_says(said.text, *words)
-    assert words or not said.text, said.text
-    return data
+    return read_by(simple.SurfaceReader, name, words, **named)
 
 
 def refusal(name, **named):
-    """The one sentence with which a file is refused. Nothing comes out."""
-    with messages() as said:
-        data = output(simple.SurfaceReader(FileName=name, **named))
-    assert data.GetNumberOfPoints() == 0 and "ERROR" in said.text, (name, said.text)
-    sentence = said.text.split("): ", 1)[1].splitlines()[0]
-    assert sentence.endswith(".") and len(sentence) < 600, said.text
-    return sentence
+    return refusal_by(simple.SurfaceReader, name, **named)
 
 
 def axes_of(data):

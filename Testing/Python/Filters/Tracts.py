@@ -8,7 +8,8 @@ import nibabel
 import numpy
 from brainshift_testing import (assert_says, ball, load_plugin, messages, output, run_tests,
                                 scratch, volume)
-from surface_files import lines_of, points_of, volumes, write_tracts
+from surface_files import (lines_of, points_of, read_by, refusal_by, volumes,
+                           write_tracts)
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 load_plugin()
@@ -21,22 +22,11 @@ LINES = [RANDOM.uniform(-80, 80, (count, 3)).astype(numpy.float32) for count in 
 
 
 def read(name, words=(), **named):
-    """What the reader makes of a file, and says: all of the words, or nothing."""
-    with messages() as said:
-        data = output(simple.TractReader(FileName=name, **named))
-    assert_says(said.text, *words)
-    assert words or not said.text, said.text
-    return data
+    return read_by(simple.TractReader, name, words, **named)
 
 
 def refusal(name, **named):
-    """The one sentence with which a file is refused. Nothing comes out."""
-    with messages() as said:
-        data = output(simple.TractReader(FileName=name, **named))
-    assert data.GetNumberOfPoints() == 0 and "ERROR" in said.text, (name, said.text)
-    sentence = said.text.split("): ", 1)[1].splitlines()[0]
-    assert sentence.endswith(".") and len(sentence) < 600, said.text
-    return sentence
+    return refusal_by(simple.TractReader, name, **named)
 
 
 def bytes_of(name):
