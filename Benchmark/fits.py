@@ -2,7 +2,7 @@
 """Measures Fit Deformation after a measured point has moved: from the new numbers to the lattice.
 
 Landmarks and pulls lie all over the volume. Traced points lie on the skin under an opening of 35 mm
-and are moved by 5 mm, as if it sagged; about 250 anchors hold the rest. The fold guard is included.
+and sag by 5 mm in the middle; about 250 anchors hold the rest. The fold guard is included.
 """
 
 import numpy
@@ -15,7 +15,16 @@ OPENING_MM = 35.0
 SAG_MM = 5.0
 LANDMARKS, PULLS, TRACES, MANY = 16, 30, 300, 10_000
 NAMES = {"fit landmarks": f"{LANDMARKS} landmarks", "fit pulls": f"one of {PULLS} pulls moved",
-         "fit traces": f"{TRACES} traces, 250 anchors", "fit many traces": f"{MANY} traces"}
+         "fit traces": f"{TRACES} traces, 250 anchors",
+         "fit live": f"{TRACES} traces, 250 anchors, a pull held by a hand",
+         "fit many traces": f"{MANY} traces"}
+
+
+def _outermost(points):
+    """The highest point of each column of 2 mm: what lies below is the skull or the brain."""
+    order = points[:, 2].argsort()[::-1]
+    columns = numpy.floor(points[order, :2] / 2.0)
+    return points[order[numpy.unique(columns, axis=0, return_index=True)[1]]]
 
 
 def _skin(scene):
@@ -36,7 +45,7 @@ class Fits:
         rest = self.random.uniform(0.2, 0.8, (LANDMARKS, 3)) * size
         skin = _skin(scene)
         self.top = skin[skin[:, 2].argmax()]
-        under = skin[numpy.linalg.norm(skin - self.top, axis=1) < OPENING_MM]
+        under = _outermost(skin[numpy.linalg.norm(skin - self.top, axis=1) < OPENING_MM])
         starts = self.random.uniform(0.2, 0.8, (PULLS, 3)) * size
         self.pulls = numpy.hstack([starts, starts + self.random.normal(0.0, 2.0, starts.shape),
                                    numpy.ones((PULLS, 1))])
@@ -46,6 +55,7 @@ class Fits:
                 MeasuredLandmarks=self.points(rest + self.random.normal(0.0, 1.0, rest.shape))),
             "fit pulls": self.fit(Pulls=self.pulls.ravel().tolist()),
             "fit traces": self.trace_fit(under, TRACES),
+            "fit live": self.trace_fit(under, TRACES, Live=1, Pulls=self.pulls[0].tolist()),
             "fit many traces": self.trace_fit(under, MANY)}
 
     def points(self, positions):
@@ -58,18 +68,20 @@ class Fits:
         self.made.insert(0, made)  # deleted before its inputs
         return made
 
-    def trace_fit(self, under, count):
-        chosen = under[self.random.integers(0, len(under), count)] - (0.0, 0.0, SAG_MM)
+    def trace_fit(self, under, count, **properties):
+        chosen = under[self.random.integers(0, len(under), count)]
+        away = numpy.linalg.norm(chosen - self.top, axis=1) / (1.2 * OPENING_MM)
+        chosen[:, 2] -= SAG_MM * (1.0 - numpy.minimum(1.0, away) ** 2) ** 2
         chosen += self.random.normal(0.0, 0.3, chosen.shape)
         return self.fit(Traces=self.points(chosen), OpeningCentre=self.top.tolist(),
-                        OpeningRadius=OPENING_MM)
+                        OpeningRadius=OPENING_MM, **properties)
 
     def move(self, key):
         """Moves the first pull, or the first point of an input, by a little. Not timed."""
         fit = self.fits[key]
-        if key == "fit pulls":
+        if key in ("fit pulls", "fit live"):
             self.pulls[0, 3] += 0.01
-            fit.Pulls = self.pulls.ravel().tolist()
+            fit.Pulls = (self.pulls[:1] if key == "fit live" else self.pulls).ravel().tolist()
         else:
             source = fit.MeasuredLandmarks if key == "fit landmarks" else fit.Traces
             numbers = list(source.Points)

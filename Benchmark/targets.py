@@ -41,6 +41,7 @@ TARGETS = {
     "fit pulls": Target("fit, one of 30 pulls moved", "a hand", "ms", 30, 15, small_is_good=True),
     "fit traces": Target("fit, 300 traces and 250 anchors", "-", "ms", 100, 50,
                          small_is_good=True),
+    "fit live": Target("fit, a pull beside 300 traces", "a hand", "ms", 30, 15, small_is_good=True),
     "fit many traces": Target("fit, 10 000 traces", "-", "ms", 300, 150, small_is_good=True),
     "memory": Target("GPU memory beyond the scalars", "the volume as float", "x", 2, 1,
                      small_is_good=True),

@@ -12,6 +12,7 @@
 #include "Filters/Deformation/OffsetField.h"
 #include "Filters/Deformation/Replay.h"
 #include "Filters/Fields/FieldImage.h"
+#include "Filters/Fields/FittedFor.h"
 #include "Filters/Traces/StrokeMarks.h"
 
 #include "vtkCellData.h"
@@ -53,7 +54,8 @@ struct vtkFreeFormDeformation::State
   Segmentation LastSegmentation;
   StrokeMarker Marker;
   StrokeMarks LastMarks;
-  std::string TooFine; // strokes for the lattice: a sentence
+  std::string TooFine;  // strokes for the lattice: a sentence
+  std::string OtherFit; // the base lattice was fitted for another deformation: a sentence
   std::vector<std::string> Warned;
   bool WarnedOfMask = false; // that it holds strokes back
 };
@@ -366,6 +368,7 @@ std::string vtkFreeFormDeformation::Bend(
   Lattice result = state.StrokeReplay.result();
   std::swap(state.LastGood.lattice, result); // all of it or nothing
   state.TooFine = strokesTooFine(strokes, start.grid);
+  state.OtherFit = wordsOnFittedFor(base, start, this->Samples);
   state.LastGood.samples = this->Samples;
   state.LastGood.inverse =
     this->Inverse ? brainshift::Inverse::Negated : brainshift::Inverse::Exact;
@@ -396,9 +399,12 @@ void vtkFreeFormDeformation::TellWarnings()
     warnings.push_back("The mask leaves nothing to move: it is nowhere wider than two nodes of the "
                        "refined field. Raise LatticeDimensions or Samples");
   }
-  if (!state.TooFine.empty())
+  for (const std::string& words : { state.OtherFit, state.TooFine })
   {
-    warnings.push_back(state.TooFine);
+    if (!words.empty())
+    {
+      warnings.push_back(words);
+    }
   }
   for (const std::string& warning : warnings)
   {

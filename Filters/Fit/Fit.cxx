@@ -20,6 +20,7 @@ namespace
 {
 constexpr std::int64_t DeviationsAtLeast = 4; // for a thread
 constexpr int MostMotions = 50;
+constexpr int ProjectionsOfStart = 2;         // each halves what is left of a bend many times over
 constexpr double MotionTolerance = 1e-12;     // mm and rad
 constexpr double MotionUnsettled = 1e-6;      // mm and rad: more than rounding moves
 constexpr double LeastSpreadMm = 1.0;         // around a line, to know the turn around it
@@ -80,8 +81,8 @@ Fit::Fit()
 {
 }
 
-std::string Fit::solve(
-  const Measurements& measured, const FitSettings& settings, const RestSurface& surface)
+std::string Fit::solve(const Measurements& measured, const FitSettings& settings,
+  const RestSurface& surface, const Process* start)
 {
   std::string problem = problemOf(measured);
   problem = problem.empty() ? problemOf(settings) : problem;
@@ -92,7 +93,7 @@ std::string Fit::solve(
   this->Rigid = {};
   this->Steps = 0;
   this->ExpectsSmallTurn = false;
-  problem = bendsOnly(measured) ? this->solveBend(measured, settings, surface)
+  problem = bendsOnly(measured) ? this->solveBend(measured, settings, surface, start)
                                 : this->solveRigid(measured, settings);
   if (problem.empty())
   {
@@ -157,8 +158,8 @@ std::string Fit::solveRigid(const Measurements& measured, const FitSettings& set
   return moved < MotionUnsettled ? std::string() : "The landmarks do not say how the volume turned";
 }
 
-std::string Fit::solveBend(
-  const Measurements& measured, const FitSettings& settings, const RestSurface& surface)
+std::string Fit::solveBend(const Measurements& measured, const FitSettings& settings,
+  const RestSurface& surface, const Process* start)
 {
   const double deviation = settings.surfaceDeviation * settings.relaxation;
   std::vector<Row> rows;
@@ -179,9 +180,14 @@ std::string Fit::solveBend(
   }
   TraceProjection projection(measured.traces, surface);
   const TraceBins bins(measured.traces, settings, deviation);
-  for (this->Steps = 0; this->Steps < settings.steps; ++this->Steps)
+  const int steps = start ? 1 : settings.steps;
+  for (int i = 0; start && i < ProjectionsOfStart; ++i)
   {
-    const double moved = projection.project(this->Field);
+    projection.project(*start);
+  }
+  for (this->Steps = 0; this->Steps < steps; ++this->Steps)
+  {
+    const double moved = start ? 0.0 : projection.project(this->Field);
     if (this->Steps > 1 && moved <= settings.stepToleranceMm)
     {
       break;
@@ -227,27 +233,6 @@ void Fit::judge(const Measurements& measured)
     std::for_each(this->PullRows.begin(), this->PullRows.end(), leaveOut);
   }
   this->Calibration = std::sqrt(sum / count);
-}
-
-void Fit::movePull(std::size_t pull, const glm::dvec3& measured)
-{
-  const std::optional<std::size_t> first =
-    pull < this->PullRows.size() ? this->PullRows[pull] : std::nullopt;
-  if (!first)
-  {
-    return;
-  }
-  std::vector<double> values;
-  for (const Row& row : this->Field.rows())
-  {
-    values.push_back(row.value);
-  }
-  const glm::dvec3 value = measured - this->Field.rows()[*first].point;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    values[*first + axis] = value[axis];
-  }
-  this->Field.setValues(values);
 }
 
 double Fit::deviation(const glm::dvec3& rest) const

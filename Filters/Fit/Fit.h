@@ -36,19 +36,13 @@ public:
    * Solves. Without any measurement the volume stays as it is.
    *
    * @param surface   the cortex at rest; without it traces do not count
+   * @param start     a field close to the answer, say that of a moment ago. Traced points are then
+   *                  projected with it, and the equations are solved once. This is for a hand that
+   *                  moves: the result depends a little on the start.
    * @return one sentence without a full stop if it cannot; the last result is then void
    */
-  std::string solve(
-    const Measurements& measured, const FitSettings& settings, const RestSurface& surface = {});
-
-  /**
-   * Takes another measured end (mm, measured frame) for one pull. Traced points are not projected
-   * again and nothing is factored, so this is fast enough for a hand. It does nothing for a pull
-   * that is switched off.
-   *
-   * @param pull   its number, from 0 on
-   */
-  void movePull(std::size_t pull, const glm::dvec3& measured);
+  std::string solve(const Measurements& measured, const FitSettings& settings,
+    const RestSurface& surface = {}, const Process* start = nullptr);
 
   /** The rigid part: measured from rest. The identity if the volume only bends. */
   const RigidPose& rigid() const { return this->Rigid; }
@@ -95,8 +89,8 @@ public:
 
 private:
   std::string solveRigid(const Measurements& measured, const FitSettings& settings);
-  std::string solveBend(
-    const Measurements& measured, const FitSettings& settings, const RestSurface& surface);
+  std::string solveBend(const Measurements& measured, const FitSettings& settings,
+    const RestSurface& surface, const Process* start);
   void judge(const Measurements& measured);
 
   Process Field;

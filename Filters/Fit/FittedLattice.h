@@ -18,6 +18,14 @@
 
 namespace brainshift
 {
+/** How a fit is put on control points. */
+struct LatticeFitChoices
+{
+  int samples = 4;                ///< nodes between two control points as it is drawn, 0 to 16
+  bool guards = true;             ///< false: the bend is taken as it is
+  const Process* start = nullptr; ///< a field close to the answer: see Fit::solve
+};
+
 class BRAINSHIFT_DEFORMATION_EXPORT FittedLattice
 {
 public:
@@ -29,12 +37,10 @@ public:
    * times larger, and then takes the largest share of the bend that does not fold.
    *
    * @param lattice   where the control points lie, their kernel and mask; displacements are ignored
-   * @param samples   nodes between two control points that it is drawn with, 0 to 16
-   * @param guards    false: the bend is taken as it is
    * @return one sentence without a full stop if it cannot; nothing is then known
    */
   std::string solve(const Measurements& measured, const RestSurface& surface,
-    const Lattice& lattice, int samples, bool guards);
+    const Lattice& lattice, const LatticeFitChoices& choices);
 
   /** Whether the last solve succeeded. */
   bool isKnown() const { return this->Map.has_value(); }
@@ -62,8 +68,8 @@ public:
     const std::vector<glm::dvec3>& traces, const RestSurface& surface) const;
 
 private:
-  std::string solveWith(
-    double relaxation, const Measurements& measured, const RestSurface& surface);
+  std::string solveWith(double relaxation, const Measurements& measured, const RestSurface& surface,
+    const Process* start);
 
   Fit Result;
   Lattice Bent;

@@ -4,14 +4,23 @@
 #include "Filters/Fit/LandmarkMatch.h"
 
 #include "vtkAbstractArray.h"
+#include "vtkAppendFilter.h"
 #include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkUnstructuredGrid.h"
 #include "vtkVariant.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cstddef>
 
 namespace brainshift
@@ -19,6 +28,20 @@ namespace brainshift
 namespace
 {
 constexpr std::size_t MostNamed = 10; // a message must stay readable
+
+// The points with their arrays, without cells.
+vtkSmartPointer<vtkPolyData> withPointsOnly(vtkPointSet* points)
+{
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->SetPoints(points->GetPoints());
+  result->GetPointData()->ShallowCopy(points->GetPointData());
+  return result;
+}
+
+bool isSame(vtkPointSet* one, vtkPointSet* other)
+{
+  return positionsOf(one) == positionsOf(other);
+}
 
 std::vector<std::string> labelsOfPoints(vtkPointSet* points)
 {
@@ -69,6 +92,43 @@ std::vector<PointPair> landmarkPairs(
   }
   unmatched = joined(match.unmatched);
   return pairs;
+}
+
+void askForOwnPoints(vtkInformation* points)
+{
+  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
+  if (points && ranks)
+  {
+    using Pipeline = vtkStreamingDemandDrivenPipeline;
+    points->Set(Pipeline::UPDATE_PIECE_NUMBER(), ranks->GetLocalProcessId());
+    points->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), ranks->GetNumberOfProcesses());
+    points->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  }
+}
+
+vtkSmartPointer<vtkPointSet> pointsOfAllRanks(vtkPointSet* own)
+{
+  vtkMultiProcessController* ranks = vtkMultiProcessController::GetGlobalController();
+  if (!own || !ranks || ranks->GetNumberOfProcesses() == 1)
+  {
+    return own;
+  }
+  std::vector<vtkSmartPointer<vtkDataObject>> parts;
+  ranks->AllGather(withPointsOnly(own), parts);
+  const bool isCopied = std::all_of(parts.begin(), parts.end(), [&](vtkDataObject* part) {
+    return isSame(vtkPointSet::SafeDownCast(part), vtkPointSet::SafeDownCast(parts.front()));
+  });
+  if (isCopied)
+  {
+    return own;
+  }
+  vtkNew<vtkAppendFilter> append; // an array counts if all parts with points have it
+  for (vtkDataObject* part : parts)
+  {
+    append->AddInputData(part);
+  }
+  append->Update();
+  return append->GetOutput();
 }
 
 NearMask::NearMask(const Mask& mask, double byMm)

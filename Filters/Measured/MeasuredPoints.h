@@ -9,12 +9,15 @@
 #include "Filters/Deformation/MaskWeights.h"
 #include "Filters/Fit/Measurements.h"
 
+#include "vtkSmartPointer.h" // for what a function returns
+
 #include <glm/ext/vector_int3.hpp>
 #include <glm/vec3.hpp>
 
 #include <string>
 #include <vector>
 
+class vtkInformation;
 class vtkPointSet;
 
 namespace brainshift
@@ -30,6 +33,20 @@ std::vector<glm::dvec3> positionsOf(vtkPointSet* points);
  */
 std::vector<PointPair> landmarkPairs(
   vtkPointSet* rest, vtkPointSet* measured, std::string& unmatched);
+
+/**
+ * Asks for the part of a point set that is this MPI rank's. Call it in RequestUpdateExtent. Most
+ * sources of points know no parts: the first rank gets all, and keeps it for all who ask.
+ *
+ * @param points   pipeline information of an input; null does nothing
+ */
+void askForOwnPoints(vtkInformation* points);
+
+/**
+ * The points of all MPI ranks, in the order of the ranks, on each of them. If all ranks have the
+ * same points, these are copies of each other and count once. All ranks must call it, or none.
+ */
+vtkSmartPointer<vtkPointSet> pointsOfAllRanks(vtkPointSet* own);
 
 /** The space within a distance of a mask, beyond the mask's own image too. It takes no memory. */
 class NearMask

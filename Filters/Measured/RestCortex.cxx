@@ -24,7 +24,8 @@ constexpr double SpreadMm = 3.0;   // anchors are further apart
 constexpr double AsideVoxels = 0.5;
 
 // Shares of the corners a, b and c in the point of a triangle that is nearest to a position: walks
-// through the regions of the corners, then the edges, then the face.
+// through the regions of the corners, then the edges, then the face. A triangle may have no area,
+// and edges without length: where a voxel has just the level, corners meet.
 glm::dvec3 sharesOfNearest(
   const glm::dvec3& position, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 {
@@ -52,22 +53,24 @@ glm::dvec3 sharesOfNearest(
   const double ofC = abA * acB - abB * acA;
   const double ofB = abC * acA - abA * acC;
   const double ofA = abB * acC - abC * acB;
-  if (ofC <= 0.0 && abA >= 0.0 && abB <= 0.0)
+  if (ofC <= 0.0 && abA >= 0.0 && abB <= 0.0 && abA > abB)
   {
     const double along = abA / (abA - abB);
     return { 1.0 - along, along, 0.0 };
   }
-  if (ofB <= 0.0 && acA >= 0.0 && acC <= 0.0)
+  if (ofB <= 0.0 && acA >= 0.0 && acC <= 0.0 && acA > acC)
   {
     const double along = acA / (acA - acC);
     return { 1.0 - along, 0.0, along };
   }
-  if (ofA <= 0.0)
+  const double bc = (acB - abB) + (abC - acC); // length, squared
+  if (ofA <= 0.0 && bc > 0.0)
   {
-    const double along = (acB - abB) / ((acB - abB) + (abC - acC));
+    const double along = (acB - abB) / bc;
     return { 0.0, 1.0 - along, along };
   }
-  return glm::dvec3(ofA, ofB, ofC) / (ofA + ofB + ofC);
+  const double area = ofA + ofB + ofC; // with the same factor
+  return area > 0.0 ? glm::dvec3(ofA, ofB, ofC) / area : glm::dvec3(1.0, 0.0, 0.0);
 }
 
 glm::dvec3 unit(const glm::dvec3& vector)

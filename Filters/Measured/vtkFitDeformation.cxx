@@ -7,6 +7,7 @@
 #include "Filters/Attached/MaskImage.h"
 #include "Filters/Attached/WholeExtent.h"
 #include "Filters/Fields/FieldImage.h"
+#include "Filters/Fields/FittedFor.h"
 #include "Filters/Fit/Anchors.h"
 #include "Filters/Fit/FittedLattice.h"
 #include "Filters/Measured/FitWords.h"
@@ -27,6 +28,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 using namespace brainshift;
 
@@ -45,6 +47,11 @@ constexpr std::size_t NumbersPerPull = 7;
 constexpr std::size_t NumbersPerPin = 4;
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* NotRun = "The fit has not run";
+
+bool isOfPoints(int port)
+{
+  return port >= RestPort && port <= TracesPort;
+}
 
 vtkDoubleArray* filled(vtkDoubleArray* array, const std::vector<double>& values)
 {
@@ -118,8 +125,8 @@ vtkFitDeformation::~vtkFitDeformation() = default;
 
 int vtkFitDeformation::FillInputPortInformation(int port, vtkInformation* info)
 {
-  const bool isPoints = port >= RestPort && port <= TracesPort;
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), isPoints ? "vtkPointSet" : "vtkImageData");
+  info->Set(
+    vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), isOfPoints(port) ? "vtkPointSet" : "vtkImageData");
   info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port != 0);
   return 1;
 }
@@ -141,9 +148,16 @@ int vtkFitDeformation::RequestUpdateExtent(
 {
   // If something upstream fails, RequestData is never called.
   this->Internal->Problem = NotRun;
-  for (const int port : { 0, SegmentationPort, CavityPort, OpeningPort, MaskPort })
+  for (int port = 0; port < Ports; ++port)
   {
-    updateWholeExtent(inputs[port]->GetInformationObject(0));
+    if (isOfPoints(port))
+    {
+      askForOwnPoints(inputs[port]->GetInformationObject(0));
+    }
+    else
+    {
+      updateWholeExtent(inputs[port]->GetInformationObject(0));
+    }
   }
   return 1;
 }
@@ -180,8 +194,9 @@ std::string vtkFitDeformation::ReadMeasurements(vtkInformationVector** inputs)
 {
   State& state = *this->Internal;
   state.Measured = {};
-  state.Measured.landmarks = landmarkPairs(vtkPointSet::GetData(inputs[RestPort]),
-    vtkPointSet::GetData(inputs[MeasuredPort]), state.Unmatched);
+  const auto points = [&](
+                        int port) { return pointsOfAllRanks(vtkPointSet::GetData(inputs[port])); };
+  state.Measured.landmarks = landmarkPairs(points(RestPort), points(MeasuredPort), state.Unmatched);
   for (std::size_t i = 0; i < this->Pulls.size(); i += NumbersPerPull)
   {
     const double* n = &this->Pulls[i];
@@ -198,7 +213,7 @@ std::string vtkFitDeformation::ReadMeasurements(vtkInformationVector** inputs)
   std::string problem;
   const PlacedVoxels cavity = state.CavityInput.find(vtkImageData::GetData(inputs[CavityPort]), {},
     gridOf(vtkImageData::GetData(inputs[0])), "volume", problem);
-  const std::vector<glm::dvec3> traces = positionsOf(vtkPointSet::GetData(inputs[TracesPort]));
+  const std::vector<glm::dvec3> traces = positionsOf(points(TracesPort));
   state.TraceResiduals.assign(traces.size(), NaN);
   state.TraceNumbers.clear();
   for (std::size_t i = 0; i < traces.size(); ++i)
@@ -271,7 +286,7 @@ std::string vtkFitDeformation::FindAnchors(vtkInformationVector** inputs)
   return {};
 }
 
-std::string vtkFitDeformation::Solve(vtkInformationVector** inputs)
+std::string vtkFitDeformation::Solve(vtkInformationVector** inputs, const Process* start)
 {
   State& state = *this->Internal;
   const Grid volume = gridOf(vtkImageData::GetData(inputs[0]));
@@ -285,8 +300,8 @@ std::string vtkFitDeformation::Solve(vtkInformationVector** inputs)
   const RestSurface surface = state.surface();
   if (problem.empty())
   {
-    problem =
-      state.Fitted.solve(state.Measured, surface, lattice, this->Samples, this->GuardFolding);
+    problem = state.Fitted.solve(
+      state.Measured, surface, lattice, { this->Samples, this->GuardFolding, start });
   }
   if (!problem.empty())
   {
@@ -306,6 +321,7 @@ int vtkFitDeformation::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   State& state = *this->Internal;
+  const FittedLattice before = std::move(state.Fitted);
   state.forget(NotRun); // if memory runs out, this stays
   const auto either = [](const std::string& problem, const auto& next) {
     return problem.empty() ? next() : problem;
@@ -316,7 +332,9 @@ int vtkFitDeformation::RequestData(
   problem = either(problem, [&] { return this->ProblemOfProperties(); });
   problem = either(problem, [&] { return this->ReadMeasurements(inputs); });
   problem = either(problem, [&] { return this->FindAnchors(inputs); });
-  problem = either(problem, [&] { return this->Solve(inputs); });
+  problem = either(problem, [&] {
+    return this->Solve(inputs, this->Live && before.isKnown() ? &before.fit().field() : nullptr);
+  });
   state.Problem = problem;
   if (!problem.empty())
   {
@@ -333,6 +351,7 @@ int vtkFitDeformation::RequestData(
   vtkImageData* output = vtkImageData::GetData(outputs);
   const Lattice& bent = state.Fitted.lattice();
   setField(output, bent.grid, bent.displacements, Direction::Forward);
+  nameFittedFor(output, bent, this->Samples);
   output->Crop(
     outputs->GetInformationObject(0)->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()));
   return 1;
@@ -480,6 +499,7 @@ void vtkFitDeformation::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Kernel: " << (this->Kernel ? "B-Spline" : "Catmull-Rom") << "\n"
      << indent << "Samples: " << this->Samples << "\n"
      << indent << "GuardFolding: " << this->GuardFolding << "\n"
+     << indent << "Live: " << this->Live << "\n"
      << indent << "SurfaceArray: " << this->SurfaceArray << "\n"
      << indent << "SurfaceBy: " << (this->SurfaceBy ? "Label" : "Threshold") << "\n"
      << indent << "Threshold: " << this->Threshold << "\n"

@@ -33,6 +33,11 @@
 
 class vtkDoubleArray;
 
+namespace brainshift
+{
+class Process;
+}
+
 class VTKBRAINSHIFTFILTERS_EXPORT vtkFitDeformation : public vtkImageAlgorithm
 {
 public:
@@ -65,6 +70,17 @@ public:
   vtkSetMacro(GuardFolding, bool);
   vtkGetMacro(GuardFolding, bool);
   vtkBooleanMacro(GuardFolding, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether a hand moves what was measured at this moment. Default off. If on, traced points are
+   * projected with the last fit and the equations are solved once. Beside traces the bend then
+   * trails the hand by about a third of its last step. Switch it off when the hand lets go.
+   */
+  vtkSetMacro(Live, bool);
+  vtkGetMacro(Live, bool);
+  vtkBooleanMacro(Live, bool);
   ///@}
 
   ///@{
@@ -219,6 +235,7 @@ private:
   int Kernel = 0;
   int Samples = 4;
   bool GuardFolding = true;
+  bool Live = false;
   std::string SurfaceArray;
   int SurfaceBy = 0;
   double Threshold = 0.5;
@@ -237,7 +254,7 @@ private:
   std::string ReadMeasurements(vtkInformationVector** inputs);
   std::string FindCortex(vtkInformationVector** inputs);
   std::string FindAnchors(vtkInformationVector** inputs);
-  std::string Solve(vtkInformationVector** inputs);
+  std::string Solve(vtkInformationVector** inputs, const brainshift::Process* start);
 
   struct State;
   std::unique_ptr<State> Internal;

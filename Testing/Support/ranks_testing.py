@@ -19,6 +19,20 @@ OPACITIES = [0, 0, 0.5, 0, 150, 0.02, 0.5, 0, 300, 0.3, 0.5, 0]
 PIXELS = [(SIZE // 2, SIZE // 2), (45, 68), (75, 52), (2, 2)]
 NOWHERE = (numpy.nan,) * 3
 
+# Points of a ball, shared out among the ranks in order.
+PARTS = """
+import numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+ranks = vtkMultiProcessController.GetGlobalController()
+places = numpy.random.default_rng(8).normal(size=(200, 3))
+places *= 6.0 / numpy.linalg.norm(places, axis=1)[:, None]
+points = vtkPoints()
+for place in numpy.array_split(places, ranks.GetNumberOfProcesses())[ranks.GetLocalProcessId()]:
+    points.InsertNextPoint(place)
+self.GetPolyDataOutput().SetPoints(points)
+"""
+
 #: How a program starts on several ranks of one machine, whatever its cores and its user.
 MPI = [os.environ.get("BRAINSHIFT_MPIEXEC", "mpirun"), "--oversubscribe", "--allow-run-as-root",
        "-np"]
@@ -137,6 +151,32 @@ def answer_traces(found):
         [result.GetPoint(i) for i in range(result.GetNumberOfPoints())])
 
 
+def answer_fit(found):
+    """A fit of landmarks, which the first rank has, and one of traces, of which each rank has a
+    part."""
+    from brainshift.reports import numbers
+    rest = numpy.random.default_rng(5).uniform(-9, 9, (10, 3))
+    landmarks = [simple.PolyPointSource(Points=places.ravel().tolist())
+                 for places in (rest, rest + (1.0, -2.0, 0.5))]
+    near = simple.FitDeformation(Input=wavelet(), RestLandmarks=landmarks[0],
+                                 MeasuredLandmarks=landmarks[1])
+    bends = simple.FitDeformation(
+        Input=wavelet(), Threshold=200.0, Pulls=[0, 0, 3, 0, 1, 5, 1], Pins=[-8, 0, 0, 1],
+        Traces=simple.ProgrammableSource(OutputDataSetType="vtkPolyData", Script=PARTS))
+    for name, fit in (("landmarks", near), ("bend", bends)):
+        fit.UpdatePipeline()
+        fit.SMProxy.UpdatePropertyInformation()
+        found["fit of " + name] = numpy.array(
+            [fit.GetPropertyValue(figure) for figure in ("Share", "TraceRMS", "AnchorCount")]
+            + numbers(fit.SMProxy, "Rigid") + numbers(fit.SMProxy, "TraceResiduals"), float)
+        moved = simple.DeformGeometry(
+            Input=landmarks[0],
+            Deformation=simple.FreeFormDeformation(Input=wavelet(), Lattice=fit))
+        result = servermanager.Fetch(moved)
+        found["points moved by the fit of " + name] = numpy.array(
+            [result.GetPoint(i) for i in range(result.GetNumberOfPoints())])
+
+
 def answer_files(found, folder):
     """Images are written in pieces; the test reads the files."""
     made = {"bake": simple.BakeDeformation(Input=bent()),
@@ -159,6 +199,7 @@ def answers(folder=None):
     answer_comparison(found)
     answer_stock(found)
     answer_traces(found)
+    answer_fit(found)
     if folder:
         answer_files(found, folder)
     return found

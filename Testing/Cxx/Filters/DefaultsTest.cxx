@@ -110,6 +110,7 @@ TEST(Defaults, OfFitDeformationLiveInTheClass)
     { "Feather", { filter->GetFeather() } },
     { "GuardFolding", { double(filter->GetGuardFolding()) } },
     { "Kernel", { double(filter->GetKernel()) } },
+    { "Live", { double(filter->GetLive()) } },
     { "LatticeDimensions", { double(sides[0]), double(sides[1]), double(sides[2]) } },
     { "MaskGrowth", { filter->GetMaskGrowth() } },
     { "Samples", { double(filter->GetSamples()) } },

@@ -90,7 +90,7 @@ TEST(FitLattice, DeviationsCountWhatTheGuardTook)
   measured.pulls = { { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 30.0 } },
     { { 0.0, 0.0, 8.0 }, { 0.0, 0.0, -30.0 } } };
   FittedLattice fitted;
-  ASSERT_EQ(fitted.solve(measured, {}, makeLattice(boxGrid(), KernelCatmullRom), 4, true), "");
+  ASSERT_EQ(fitted.solve(measured, {}, makeLattice(boxGrid(), KernelCatmullRom), {}), "");
   ASSERT_LT(fitted.share(), 1.0);
   const glm::dvec3 at(0.0);
   const double away = glm::distance(fitted.measuredFromRest(at), fitted.fit().measuredFromRest(at));

@@ -248,29 +248,6 @@ TEST(Fit, PullsMoveTissueAndPinsHoldIt)
   EXPECT_GT(fit.deviation({ 0.0, 300.0, 0.0 }), 6.0);
 }
 
-TEST(Fit, APullIsMovedWithoutAFactor)
-{
-  Scatter scatter(13);
-  Measurements measured;
-  for (int i = 0; i < 30; ++i)
-  {
-    const glm::dvec3 rest = scatter.point(60.0);
-    measured.pulls.push_back({ rest, rest + scatter.point(5.0) });
-  }
-  measured.pulls[4].weight = 0.0; // rows and numbers of pulls differ from there on
-  Fit moved;
-  ASSERT_EQ(moved.solve(measured, {}), "");
-  const int factors = moved.field().factors();
-  measured.pulls[17].measured += glm::dvec3(3.0, -2.0, 1.0);
-  moved.movePull(17, measured.pulls[17].measured);
-  moved.movePull(4, { 1e3, 0.0, 0.0 });
-  EXPECT_EQ(moved.field().factors(), factors);
-  Fit anew;
-  ASSERT_EQ(anew.solve(measured, {}), "");
-  const glm::dvec3 at(3.0, 4.0, 5.0);
-  EXPECT_LT(glm::length(anew.bend(at) - moved.bend(at)), 1e-10);
-}
-
 // None, one and two pairs, and pairs on a line or in one place, do not say all of a motion.
 TEST(Fit, FewOrFlatPairsGiveAResult)
 {

@@ -119,6 +119,36 @@ TEST(TraceFit, BringsTheCortexToTheTraces)
   }
 }
 
+// A hand that moves a pull beside traces: one set of equations, and nearly the same answer.
+TEST(TraceFit, AStartNearbyNeedsOneStep)
+{
+  Measurements measured = sagged(300);
+  measured.pulls = { { { 0.0, 0.0, 40.0 }, { 0.0, 0.0, 38.0 } } };
+  Fit before;
+  ASSERT_EQ(before.solve(measured, {}, onBall), "");
+  measured.pulls[0].measured += glm::dvec3(2.0, 0.0, -1.0);
+  Fit whole;
+  ASSERT_EQ(whole.solve(measured, {}, onBall), "");
+  const auto apart = [](const Fit& one, const Fit& other) {
+    double most = 0.0;
+    for (const SurfacePoint& point : ballPoints(500))
+    {
+      most = std::max(most, glm::distance(one.bend(point.position), other.bend(point.position)));
+    }
+    return most;
+  };
+  const double change = apart(whole, before);
+  EXPECT_GT(change, 0.8);
+  Fit live;
+  ASSERT_EQ(live.solve(measured, {}, onBall, &before.field()), "");
+  EXPECT_EQ(live.steps(), 1);
+  EXPECT_GT(whole.steps(), 2);
+  EXPECT_LT(apart(whole, live), 0.5 * change);
+  Fit next; // the hand goes on
+  ASSERT_EQ(next.solve(measured, {}, onBall, &live.field()), "");
+  EXPECT_LT(apart(whole, next), 0.5 * apart(whole, live));
+}
+
 TEST(TraceFit, AnchorsHoldTheCortexElsewhere)
 {
   Measurements measured = sagged(300);

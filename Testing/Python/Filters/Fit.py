@@ -153,6 +153,31 @@ def test_strokes_replay_on_top_and_a_later_fit_takes_the_place():
     assert len(simple.GetSources()) == sources + 1 and again.share == first.share == 1.0
 
 
+def test_a_deformation_unlike_the_one_that_was_fitted_says_so():
+    bent = deformation()
+    start = numpy.array((MIDDLE,) * 3)
+    fit = brainshift.fit(bent, pulls=[(start, start + (0, 0, 5.0))])
+    with messages() as said:
+        bent.UpdatePipeline()
+    assert "fitted for" not in said.text, said.text
+    mask = volume(ball(side=SIDE, radius=40.0 / SPACING), spacing=(SPACING,) * 3)
+    for change, words in (({"Kernel": "B-Spline"}, "kernel B-Spline, Samples 4, no mask"),
+                          ({"Kernel": "Catmull-Rom", "LatticeDimensions": [17, 19, 19]},
+                           "17 x 19 x 19 control points"),
+                          ({"LatticeDimensions": [19, 19, 19], "Mask": mask}, "a mask that lets"),
+                          ({"Mask": None, "Samples": 6}, "Samples 6")):
+        with messages() as said:
+            for name, value in change.items():
+                setattr(bent, name, value)
+            bent.UpdatePipeline()
+        assert_says(said.text, "was fitted for 19 x 19 x 19 control points, kernel Catmull-Rom")
+        assert_says(said.text, words)
+    fit.filter.Samples = 6
+    with messages() as said:
+        bent.UpdatePipeline()
+    assert "fitted for" not in said.text, said.text
+
+
 def test_labels_match_and_those_without_a_partner_are_named():
     rest = scattered(8)
     names = [f"{x},{y},{z},mark {i}" for i, (x, y, z) in enumerate(rest)]

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that a state file, in XML or Python, brings back the same strokes and the same picture to
-# the bit.
+# Proves that a state file, in XML or Python, brings back the same strokes, the same fit and the
+# same picture to the bit.
 import numpy
 from brainshift_testing import load_plugin, picture, run_tests, scratch, show_volume, view_along
 from paraview import simple, smstate
 
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
+from brainshift.reports import numbers  # noqa: E402
 
 STROKES = (brainshift.stamp((3, 2, 8), (0, 0, 0), 4.0, major=12.0, minor=9.0)
            + brainshift.move((-5, 1, 6), (0.25, -1.5, 2.0))
@@ -76,6 +77,40 @@ def test_python_state_file():
     with open(name, encoding="utf-8") as file:
         script = compile(file.read(), name, "exec")
     expect_scene(before, lambda: exec(script, {"__name__": "state"}))
+
+
+PULLS = [(0, 0, 4), (1, 0, 6.5)], [(4, 0, 0), (4, 3, 0)]
+
+
+def fitted_scene():
+    """Where points lie under a fit with a stroke on top, and what the fit says."""
+    bent, probe = simple.FindSource("Fitted"), [(0, 0, 4), (2, -3, 1), (-6, 5, 2)]
+    fit = bent.Lattice
+    fit.UpdatePipeline()
+    fit.SMProxy.UpdatePropertyInformation()
+    return (numpy.array(brainshift.deformed_from_rest(bent, probe)),
+            numpy.array(numbers(fit.SMProxy, "PullResiduals")), list(fit.Pins))
+
+
+def test_a_fit_comes_back():
+    for ending in ("pvsm", "py"):
+        simple.ResetSession()
+        load_plugin()
+        bent = simple.FreeFormDeformation(registrationName="Fitted", Input=simple.Wavelet())
+        brainshift.fit(bent, pulls=PULLS, pins=[(-6, 0, 0)])
+        bent.Strokes = STROKES
+        before = fitted_scene()
+        name = scratch("Fitted." + ending)
+        script = smstate.get_state()
+        simple.SaveState(name)
+        simple.ResetSession()
+        load_plugin()
+        if ending == "pvsm":
+            simple.LoadState(name)
+        else:
+            exec(compile(script, name, "exec"), {"__name__": "state"})
+        for found, expected in zip(fitted_scene(), before):
+            assert len(expected) and numpy.array_equal(found, expected), (ending, found, expected)
 
 
 run_tests(globals())
