@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/ToolCarrier.h"
 
+#include "Interaction/Edits/FitEditor.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Tools/ToolFactory.h"
 #include "Interaction/Views/ActiveDeformation.h"
@@ -93,6 +94,8 @@ void ToolCarrier::followApplication()
   QObject::connect(active, &pqActiveObjects::sourceChanged, this, soon);
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
   QObject::connect(model, &pqServerManagerModel::sourceAdded, this, soon);
+  QObject::connect(model, &pqServerManagerModel::sourceAdded, this,
+    [](pqPipelineSource* source) { FitEditor::of(source); }); // a fit follows its settings
   QObject::connect(model, &pqServerManagerModel::dataUpdated, this, soon);
   // Before a source or view is gone, nothing of it may stay in hand.
   QObject::connect(model, &pqServerManagerModel::preSourceRemoved, this, [this](auto* source) {

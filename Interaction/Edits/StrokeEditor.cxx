@@ -1,28 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Edits/StrokeEditor.h"
 
-#include "Interaction/Edits/QuietUpdates.h"
+#include "Interaction/Edits/LivePicture.h"
 #include "Interaction/Views/ActiveDeformation.h"
-#include "Interaction/Views/ShowingViews.h"
 
 #include <pqApplicationCore.h>
-#include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>
-#include <pqProgressManager.h>
 #include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
-#include <pqView.h>
 
 #include <vtkCommand.h>
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
-#include <vtkSMSession.h>
 #include <vtkSMSourceProxy.h>
 #include <vtkSMTrace.h>
-#include <vtkSMViewProxy.h>
 
 #include <QSignalBlocker>
-#include <QWidget>
 
 #include <cstddef>
 #include <string>
@@ -31,38 +24,6 @@ namespace brainshift
 {
 namespace
 {
-// The picture for now; the one at full quality follows when the stroke is done.
-void drawRoughly(pqView* view)
-{
-  vtkSMViewProxy* proxy = view->getViewProxy();
-  if (proxy && !proxy->GetSession()->GetPendingProgress() && proxy->GetRenderWindow() &&
-    view->widget()->isVisible())
-  {
-    view->cancelPendingRenders();
-    // The bar of progress would make the window lay out and paint itself anew, and at the end of a
-    // picture ParaView asks for the sizes of all that is shown.
-    pqProgressManager* progress = pqApplicationCore::instance()->getProgressManager();
-    progress->lockProgress(view);
-    {
-      const QSignalBlocker quiet(view);
-      proxy->InteractiveRender();
-    }
-    progress->unlockProgress(view);
-  }
-  else
-  {
-    view->render();
-  }
-}
-
-void drawFully(pqPipelineSource* source)
-{
-  for (pqView* view : viewsShowing(source))
-  {
-    view->render();
-  }
-}
-
 StrokeEditor::Strokes joined(StrokeEditor::Strokes first, const StrokeEditor::Strokes& second)
 {
   first.insert(first.end(), second.begin(), second.end());
@@ -316,20 +277,7 @@ void StrokeEditor::drawSoon()
 
 void StrokeEditor::draw()
 {
-  {
-    SCOPED_UNDO_EXCLUDE();
-    QuietUpdates quiet;
-    quiet.add(this->Source->getProxy());
-    this->Source->getProxy()->UpdateVTKObjects();
-    for (pqView* view : viewsShowing(this->Source))
-    {
-      if (pqDataRepresentation* display = this->Source->getRepresentation(view))
-      {
-        quiet.add(display->getProxy());
-      }
-      drawRoughly(view);
-    }
-  }
+  drawMoving(this->Source);
   Q_EMIT this->drawn();
 }
 }

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Interaction/Edits/FitEditor.h"
+
+#include "Interaction/Edits/LivePicture.h"
+#include "Interaction/Views/ActiveDeformation.h"
+
+#include <pqApplicationCore.h>
+#include <pqPipelineSource.h>
+#include <pqServerManagerModel.h>
+#include <pqUndoStack.h>
+
+#include <vtkCommand.h>
+#include <vtkSMParaViewPipelineController.h>
+#include <vtkSMProperty.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMSessionProxyManager.h>
+#include <vtkSMSourceProxy.h>
+#include <vtkSMTrace.h>
+
+#include <QScopedValueRollback>
+
+#include <cstring>
+
+namespace brainshift
+{
+namespace
+{
+// As in brainshift.fit of Python: sources that are BrainShift's own, and what they must share.
+constexpr const char* MadeByUs = "BrainShiftFit";
+constexpr const char* Shared[] = { "Input", "LatticeDimensions", "Kernel", "Samples", "Mask",
+  "MaskLabels", "MaskGrowth", "Feather" };
+
+vtkSMProxy* latticeOf(vtkSMProxy* deformation)
+{
+  return vtkSMPropertyHelper(deformation, "Lattice", /*quiet*/ true).GetAsProxy();
+}
+
+void share(vtkSMProxy* deformation, vtkSMProxy* fit)
+{
+  for (const char* name : Shared)
+  {
+    fit->GetProperty(name)->Copy(deformation->GetProperty(name));
+  }
+}
+
+void setNumbers(vtkSMProxy* fit, const std::string& list, const FitEditor::Numbers& numbers)
+{
+  vtkSMPropertyHelper property(fit, list.c_str());
+  if (numbers.empty())
+  {
+    property.SetNumberOfElements(0);
+  }
+  else
+  {
+    property.Set(numbers.data(), static_cast<unsigned int>(numbers.size()));
+  }
+}
+}
+
+vtkSMSourceProxy* fitOf(pqPipelineSource* deformation)
+{
+  vtkSMProxy* lattice = isDeformation(deformation) ? latticeOf(deformation->getProxy()) : nullptr;
+  const bool isFit = lattice && std::strcmp(lattice->GetXMLName(), "FitDeformation") == 0;
+  return isFit ? vtkSMSourceProxy::SafeDownCast(lattice) : nullptr;
+}
+
+FitEditor* FitEditor::of(pqPipelineSource* source)
+{
+  if (!isDeformation(source))
+  {
+    return nullptr;
+  }
+  auto editor = source->findChild<FitEditor*>(QString(), Qt::FindDirectChildrenOnly);
+  return editor ? editor : new FitEditor(source);
+}
+
+FitEditor::FitEditor(pqPipelineSource* source)
+  : QObject(source)
+  , Source(source)
+{
+  this->Redraw.setSingleShot(true);
+  this->Redraw.setInterval(0);
+  QObject::connect(&this->Redraw, &QTimer::timeout, this, &FitEditor::draw);
+  vtkSMProxy* proxy = source->getProxy();
+  this->OfSource->Connect(
+    proxy->GetProperty("Lattice"), vtkCommand::ModifiedEvent, this, SLOT(noticeLattice()));
+  this->OfSource->Connect(proxy, vtkCommand::UpdateEvent, this, SLOT(shareSettings()));
+  this->noticeLattice();
+}
+
+QString FitEditor::refusal() const
+{
+  vtkSMProxy* lattice = latticeOf(this->Source->getProxy());
+  if (!lattice || this->fit())
+  {
+    return {};
+  }
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  auto* item = model->findItem<pqPipelineSource*>(lattice);
+  return tr("The Lattice of %1 is already %2, which is no Fit Deformation. Set Lattice to None "
+            "first.")
+    .arg(this->Source->getSMName(), item ? item->getSMName() : QString(lattice->GetXMLLabel()));
+}
+
+FitEditor::Numbers FitEditor::numbers(const char* list) const
+{
+  vtkSMProxy* proxy = this->fit();
+  return proxy ? vtkSMPropertyHelper(proxy, list).GetDoubleArray() : Numbers();
+}
+
+vtkSmartPointer<vtkSMProxy> FitEditor::prepare() const
+{
+  vtkSMProxy* deformation = this->Source->getProxy();
+  vtkSmartPointer<vtkSMProxy> made;
+  made.TakeReference(deformation->GetSessionProxyManager()->NewProxy("filters", "FitDeformation"));
+  vtkNew<vtkSMParaViewPipelineController> controller;
+  controller->PreInitializeProxy(made);
+  share(deformation, made);
+  controller->PostInitializeProxy(made);
+  made->SetAnnotation(MadeByUs, "1");
+  made->UpdateVTKObjects();
+  return made;
+}
+
+// Not by the controller, which would make the fit the active source.
+void FitEditor::enter(vtkSMProxy* made)
+{
+  made->SetLogName(made->GetSessionProxyManager()->RegisterProxy("sources", made).c_str());
+}
+
+void FitEditor::setLattice(vtkSMProxy* lattice)
+{
+  const QScopedValueRollback<bool> writing(this->Writing, true);
+  vtkSMPropertyHelper property(this->Source->getProxy(), "Lattice");
+  if (lattice)
+  {
+    property.Set(lattice);
+  }
+  else
+  {
+    property.RemoveAllValues();
+  }
+  this->Source->getProxy()->UpdateVTKObjects();
+}
+
+void FitEditor::make()
+{
+  const vtkSmartPointer<vtkSMProxy> made = this->prepare();
+  {
+    SM_SCOPED_TRACE(RegisterPipelineProxy).arg("proxy", made);
+    FitEditor::enter(made);
+  }
+  SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this->Source->getProxy());
+  this->setLattice(made);
+}
+
+void FitEditor::remove()
+{
+  const vtkSmartPointer<vtkSMProxy> made = this->fit();
+  this->setLattice(nullptr);
+  made->GetSessionProxyManager()->UnRegisterProxy(made);
+}
+
+bool FitEditor::edit(const QString& label, const std::function<void(vtkSMProxy*)>& change)
+{
+  this->cancel();
+  if (!this->refusal().isEmpty())
+  {
+    return false;
+  }
+  {
+    SCOPED_UNDO_SET(label);
+    if (!this->fit())
+    {
+      this->make();
+    }
+    vtkSMProxy* proxy = this->fit();
+    SM_SCOPED_TRACE(PropertiesModified).arg("proxy", proxy);
+    change(proxy);
+    proxy->UpdateVTKObjects();
+  }
+  drawFully(this->Source);
+  return true;
+}
+
+bool FitEditor::replace(const char* list, const Numbers& numbers, const QString& label)
+{
+  this->cancel();
+  if (numbers == this->numbers(list))
+  {
+    return this->refusal().isEmpty();
+  }
+  return this->edit(label, [&](vtkSMProxy* fit) { setNumbers(fit, list, numbers); });
+}
+
+bool FitEditor::begin(const char* list, const Numbers& underHand)
+{
+  this->cancel();
+  if (!this->refusal().isEmpty())
+  {
+    return false;
+  }
+  this->List = list;
+  this->Before = this->numbers(list);
+  this->Made = !this->fit();
+  if (this->Made)
+  {
+    SCOPED_UNDO_EXCLUDE(); // nor does a trace record what is there for now
+    const vtkSmartPointer<vtkSMProxy> made = this->prepare();
+    FitEditor::enter(made);
+    this->setLattice(made);
+  }
+  this->Editing = true;
+  Q_EMIT this->editing(true);
+  this->change(underHand);
+  return true;
+}
+
+void FitEditor::change(const Numbers& underHand)
+{
+  if (this->Editing)
+  {
+    this->write(underHand);
+    if (!this->Redraw.isActive())
+    {
+      this->Redraw.start();
+    }
+  }
+}
+
+void FitEditor::commit(const QString& label)
+{
+  if (!this->Editing)
+  {
+    return;
+  }
+  const Numbers after = this->numbers(this->List.c_str());
+  // What undo comes back to is what the session saw last, so it sees the beginning once more.
+  this->restore();
+  this->stopEditing();
+  this->replace(this->List.c_str(), after, label);
+  drawFully(this->Source);
+}
+
+void FitEditor::cancel()
+{
+  if (this->Editing)
+  {
+    this->restore();
+    this->stopEditing();
+    drawFully(this->Source);
+  }
+}
+
+void FitEditor::restore()
+{
+  SCOPED_UNDO_EXCLUDE();
+  if (this->Made)
+  {
+    this->remove();
+    return;
+  }
+  this->write(this->Before);
+  this->fit()->UpdateVTKObjects();
+}
+
+void FitEditor::stopEditing()
+{
+  this->Redraw.stop();
+  this->Editing = false;
+  Q_EMIT this->editing(false);
+  Q_EMIT this->changed();
+}
+
+void FitEditor::write(const Numbers& numbers)
+{
+  const QScopedValueRollback<bool> writing(this->Writing, true);
+  setNumbers(this->fit(), this->List, numbers);
+}
+
+void FitEditor::noticeLattice()
+{
+  this->OfFit->Disconnect();
+  if (vtkSMProxy* proxy = this->fit())
+  {
+    this->OfFit->Connect(proxy, vtkCommand::PropertyModifiedEvent, this,
+      SLOT(noticeFit(vtkObject*, unsigned long, void*, void*)));
+  }
+  if (this->Editing && !this->Writing)
+  {
+    this->stopEditing(); // undo, a script or the panel came first: what they want stands
+  }
+  Q_EMIT this->changed();
+}
+
+void FitEditor::noticeFit(vtkObject* fit, unsigned long, void*, void* name)
+{
+  const char* property = static_cast<const char*>(name);
+  if (vtkSMProxy::SafeDownCast(fit)->GetProperty(property)->GetInformationOnly())
+  {
+    return;
+  }
+  if (this->Editing && !this->Writing && this->List == property)
+  {
+    this->stopEditing();
+  }
+  Q_EMIT this->changed();
+}
+
+// A fit that the user made and set up is left alone.
+void FitEditor::shareSettings()
+{
+  vtkSMProxy* proxy = this->fit();
+  if (proxy && proxy->HasAnnotation(MadeByUs))
+  {
+    share(this->Source->getProxy(), proxy);
+    proxy->UpdateVTKObjects();
+  }
+}
+
+void FitEditor::draw()
+{
+  drawMoving(this->Source, this->fit());
+  Q_EMIT this->drawn();
+}
+}
