@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkLatticeReport.h"
 
+#include "Filters/Attached/DirectedMap.h"
 #include "Filters/Attached/Guard.h"
 #include "Filters/Deformation/ControlPoints.h"
 
@@ -13,6 +14,8 @@
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
+#include <optional>
+#include <string>
 
 using namespace brainshift;
 
@@ -130,6 +133,37 @@ void vtkLatticeReport::ListControlPoints(vtkFloatArray* displacements, DrawnLatt
       static_cast<double>(index.z), rest.x, rest.y, rest.z, drawn.x, drawn.y, drawn.z };
     this->ControlPoints->InsertNextTuple(tuple);
   }
+}
+
+void vtkLatticeReport::AddPlace(double x, double y, double z)
+{
+  this->Places.insert(this->Places.end(), { x, y, z });
+}
+
+void vtkLatticeReport::ClearPlaces()
+{
+  this->Places.clear();
+}
+
+vtkDoubleArray* vtkLatticeReport::GetDrawnPlaces()
+{
+  this->DrawnPlaces->Reset();
+  vtkDataObject* output = this->Filter ? this->Filter->GetOutputDataObject(0) : nullptr;
+  guarded(this, [&] {
+    std::string problem; // before the first execution there is no deformation: no answer says so
+    const std::optional<DirectedMap> map = output && !this->Places.empty()
+      ? directedMapOf(output, Direction::Forward, problem)
+      : std::nullopt;
+    for (std::size_t i = 0; map && i + 2 < this->Places.size(); i += 3)
+    {
+      const glm::dvec3 at =
+        map->position({ this->Places[i], this->Places[i + 1], this->Places[i + 2] });
+      this->DrawnPlaces->InsertNextValue(at.x);
+      this->DrawnPlaces->InsertNextValue(at.y);
+      this->DrawnPlaces->InsertNextValue(at.z);
+    }
+  });
+  return this->DrawnPlaces;
 }
 
 vtkDoubleArray* vtkLatticeReport::GetGeometry()

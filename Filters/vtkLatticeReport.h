@@ -18,6 +18,8 @@
 #include "vtkObject.h"
 #include "vtkWeakPointer.h" // for what is asked
 
+#include <vector>
+
 class vtkAlgorithm;
 class vtkDoubleArray;
 class vtkFloatArray;
@@ -74,6 +76,15 @@ public:
    */
   vtkDoubleArray* GetControlPoints();
 
+  ///@{
+  /** Asks where tissue went: positions at rest, as many as are added. Default: none. */
+  void AddPlace(double x, double y, double z);
+  void ClearPlaces();
+  ///@}
+
+  /** Where the tissue of each place is drawn, three numbers each. Empty without a deformation. */
+  vtkDoubleArray* GetDrawnPlaces();
+
   /**
    * The lattice as 18 numbers: points along each axis, position of the first one, spacing,
    * direction matrix row by row. Empty if the filter's output carries no lattice.
@@ -102,6 +113,8 @@ private:
   double Farthest = 0.0; // mm
   vtkNew<vtkDoubleArray> ControlPoints;
   vtkNew<vtkDoubleArray> Geometry;
+  std::vector<double> Places;
+  vtkNew<vtkDoubleArray> DrawnPlaces;
 };
 
 #endif

@@ -77,21 +77,22 @@ std::vector<glm::dvec3> positionsOf(vtkPointSet* points)
   return positions;
 }
 
-std::vector<PointPair> landmarkPairs(
-  vtkPointSet* rest, vtkPointSet* measured, std::string& unmatched)
+NamedPairs landmarkPairs(vtkPointSet* rest, vtkPointSet* measured)
 {
   const std::vector<glm::dvec3> from = positionsOf(rest);
   const std::vector<glm::dvec3> to = positionsOf(measured);
+  const std::vector<std::string> labels = labelsOfPoints(rest);
   vtkDataArray* weights = rest ? rest->GetPointData()->GetArray("Weight") : nullptr;
-  const LandmarkMatch match = matchLandmarks(labelsOfPoints(rest), labelsOfPoints(measured));
-  std::vector<PointPair> pairs;
+  const LandmarkMatch match = matchLandmarks(labels, labelsOfPoints(measured));
+  NamedPairs named;
   for (const auto& [i, partner] : match.pairs)
   {
     const double weight = weights ? weights->GetComponent(static_cast<vtkIdType>(i), 0) : 1.0;
-    pairs.push_back({ from[i], to[partner], weight });
+    named.pairs.push_back({ from[i], to[partner], weight });
+    named.names.push_back(labels[i].empty() ? std::to_string(i + 1) : labels[i]);
   }
-  unmatched = joined(match.unmatched);
-  return pairs;
+  named.unmatched = joined(match.unmatched);
+  return named;
 }
 
 void askForOwnPoints(vtkInformation* points)

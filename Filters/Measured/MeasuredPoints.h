@@ -25,14 +25,20 @@ namespace brainshift
 /** Positions (mm, world) of all points; none without points. */
 std::vector<glm::dvec3> positionsOf(vtkPointSet* points);
 
+/** Pairs of landmarks, and what they are called. */
+struct NamedPairs
+{
+  std::vector<PointPair> pairs;
+  std::vector<std::string> names; ///< as many as pairs
+  std::string unmatched;          ///< those without a partner, with commas between; at most ten
+};
+
 /**
  * The pairs of landmarks at rest and measured. They match by the point array Label, else by order;
- * the point array Weight of those at rest gives weights. Both may be null.
- *
- * @param unmatched   set to those without a partner, with commas between them; at most ten
+ * the point array Weight of those at rest gives weights. Both may be null. A pair is called by its
+ * label at rest, or by its number among those at rest, from 1 on.
  */
-std::vector<PointPair> landmarkPairs(
-  vtkPointSet* rest, vtkPointSet* measured, std::string& unmatched);
+NamedPairs landmarkPairs(vtkPointSet* rest, vtkPointSet* measured);
 
 /**
  * Asks for the part of a point set that is this MPI rank's. Call it in RequestUpdateExtent. Most

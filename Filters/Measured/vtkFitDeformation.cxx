@@ -10,6 +10,7 @@
 #include "Filters/Fields/FittedFor.h"
 #include "Filters/Fit/Anchors.h"
 #include "Filters/Fit/FittedLattice.h"
+#include "Filters/Measured/FitLandmarks.h"
 #include "Filters/Measured/FitWords.h"
 #include "Filters/Measured/MeasuredPoints.h"
 #include "Filters/Measured/RestCortex.h"
@@ -116,7 +117,8 @@ vtkStandardNewMacro(vtkFitDeformation);
 brainshiftGuardRequestsMacro(vtkFitDeformation);
 
 vtkFitDeformation::vtkFitDeformation()
-  : Internal(std::make_unique<State>())
+  : Landmarks(std::make_unique<FitLandmarks>())
+  , Internal(std::make_unique<State>())
 {
   this->SetNumberOfInputPorts(Ports);
 }
@@ -178,6 +180,11 @@ std::string vtkFitDeformation::ProblemOfProperties() const
     return "Pulls has " + std::to_string(this->Pulls.size()) + " numbers and Pins " +
       std::to_string(this->Pins.size()) + "; a pull has 7 and a pin 4";
   }
+  if (this->Landmarks->Numbers.size() % FitLandmarks::NumbersPerPair)
+  {
+    return "LandmarkPairs has " + std::to_string(this->Landmarks->Numbers.size()) +
+      " numbers; a pair has 7";
+  }
   for (const auto& [name, mm] :
     { std::pair("Feather", this->Feather), std::pair("MaskGrowth", this->MaskGrowth),
       std::pair("OpeningRadius", this->OpeningRadius) })
@@ -196,7 +203,8 @@ std::string vtkFitDeformation::ReadMeasurements(vtkInformationVector** inputs)
   state.Measured = {};
   const auto points = [&](
                         int port) { return pointsOfAllRanks(vtkPointSet::GetData(inputs[port])); };
-  state.Measured.landmarks = landmarkPairs(points(RestPort), points(MeasuredPort), state.Unmatched);
+  state.Measured.landmarks =
+    this->Landmarks->read(points(RestPort), points(MeasuredPort), state.Unmatched);
   for (std::size_t i = 0; i < this->Pulls.size(); i += NumbersPerPull)
   {
     const double* n = &this->Pulls[i];
@@ -339,6 +347,7 @@ int vtkFitDeformation::RequestData(
   if (!problem.empty())
   {
     state.forget(problem);
+    this->Landmarks->Names->Reset();
     vtkErrorMacro(<< problem << ".");
     return 0;
   }
@@ -355,42 +364,6 @@ int vtkFitDeformation::RequestData(
   output->Crop(
     outputs->GetInformationObject(0)->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()));
   return 1;
-}
-
-void vtkFitDeformation::AddMaskLabel(int label)
-{
-  this->MaskLabels.push_back(label);
-  this->Modified();
-}
-
-void vtkFitDeformation::ClearMaskLabels()
-{
-  this->MaskLabels.clear();
-  this->Modified();
-}
-
-void vtkFitDeformation::AddPull(double number)
-{
-  this->Pulls.push_back(number);
-  this->Modified();
-}
-
-void vtkFitDeformation::ClearPulls()
-{
-  this->Pulls.clear();
-  this->Modified();
-}
-
-void vtkFitDeformation::AddPin(double number)
-{
-  this->Pins.push_back(number);
-  this->Modified();
-}
-
-void vtkFitDeformation::ClearPins()
-{
-  this->Pins.clear();
-  this->Modified();
 }
 
 double vtkFitDeformation::GetShare() const
@@ -456,7 +429,14 @@ vtkDoubleArray* vtkFitDeformation::GetTraceResiduals()
 
 vtkDoubleArray* vtkFitDeformation::GetLeaveOneOut()
 {
-  return filled(this->Internal->Numbers[4], this->Internal->Fitted.fit().leaveOneOut());
+  return filled(this->Internal->Numbers[4],
+    leaveOneOut(this->Internal->Fitted, this->Internal->Measured.landmarks));
+}
+
+vtkDoubleArray* vtkFitDeformation::GetLandmarkPlaces()
+{
+  this->Landmarks->place(this->Internal->Fitted, this->Internal->Measured.landmarks);
+  return this->Landmarks->Places;
 }
 
 const char* vtkFitDeformation::GetProblem() const
@@ -508,6 +488,8 @@ void vtkFitDeformation::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "OpeningRadius: " << this->OpeningRadius << "\n"
      << indent << "Feather: " << this->Feather << "\n"
      << indent << "MaskGrowth: " << this->MaskGrowth << "\n"
+     << indent
+     << "LandmarkPairs: " << this->Landmarks->Numbers.size() / FitLandmarks::NumbersPerPair << "\n"
      << indent << "Pulls: " << this->Pulls.size() / NumbersPerPull << "\n"
      << indent << "Pins: " << this->Pins.size() / NumbersPerPin << "\n";
 }

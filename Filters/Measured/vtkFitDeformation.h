@@ -32,6 +32,11 @@
 #include <vector>
 
 class vtkDoubleArray;
+class vtkStringArray;
+namespace brainshift
+{
+class FitLandmarks;
+}
 
 namespace brainshift
 {
@@ -151,6 +156,21 @@ public:
 
   ///@{
   /**
+   * Pairs of landmarks besides those of the inputs: 7 numbers each, where the landmark was (mm,
+   * rest frame), where it was measured (mm) and its weight (0: switched off). Default: none.
+   */
+  void AddLandmarkPair(double number);
+  void ClearLandmarkPairs();
+  ///@}
+
+  ///@{
+  /** Names of landmarks of the inputs that are off: see GetLandmarkNames. Default: none. */
+  void AddLandmarkOff(const char* name);
+  void ClearLandmarksOff();
+  ///@}
+
+  ///@{
+  /**
    * Pulls: 7 numbers each, where tissue was (mm, rest frame), where it was put (mm) and its weight
    * (0: switched off).
    */
@@ -195,8 +215,22 @@ public:
   vtkDoubleArray* GetTraceResiduals();
   ///@}
 
-  /** For each matched landmark, its error (mm) if it is left out of the fit. */
+  /**
+   * For each matched landmark, its error (mm) if it is left out of the fit. For one that is
+   * switched off, how far the fit misses it. The fold guard and the mask are not counted.
+   */
   vtkDoubleArray* GetLeaveOneOut();
+
+  ///@{
+  /**
+   * The matched landmarks in the order of all figures: first those of the inputs, then those of
+   * AddLandmarkPair. Their names: the label at rest, or the number at rest from 1 on, or "Pair 1".
+   * Their places, 10 numbers each: at rest, measured, where the fit puts it (mm, measured frame),
+   * and its weight (0: switched off).
+   */
+  vtkStringArray* GetLandmarkNames();
+  vtkDoubleArray* GetLandmarkPlaces();
+  ///@}
 
   /** Why there is no result, a sentence without a full stop; empty if there is one. */
   const char* GetProblem() const;
@@ -248,6 +282,7 @@ private:
   std::vector<int> MaskLabels;
   std::vector<double> Pulls;
   std::vector<double> Pins;
+  const std::unique_ptr<brainshift::FitLandmarks> Landmarks;
 
   // Each returns one sentence if it cannot; empty if it can.
   std::string ProblemOfProperties() const;

@@ -46,7 +46,7 @@ def test_properties_have_their_defaults():
 
 def test_numbers_of_the_panel_say_their_unit():
     elsewhere = {"Strokes", "Strength", "PointOfInterest",    # their widget or group says it
-                 "MaximumDisplacement", "MinimumJacobian"}
+                 "LandmarkPairs", "MaximumDisplacement", "MinimumJacobian"}
     for proxy in property_reference.public_proxies():
         for element in proxy.properties:
             if (element.tag == "DoubleVectorProperty" and element.get("name") not in elsewhere

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Measured/FitLandmarks.h"
+
+#include "Filters/Measured/MeasuredPoints.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace brainshift
+{
+std::vector<PointPair> FitLandmarks::read(
+  vtkPointSet* rest, vtkPointSet* measured, std::string& unmatched)
+{
+  NamedPairs named = landmarkPairs(rest, measured);
+  unmatched = named.unmatched;
+  for (std::size_t i = 0; i < named.pairs.size(); ++i)
+  {
+    const bool isOff = std::find(this->SwitchedOff.begin(), this->SwitchedOff.end(),
+                         named.names[i]) != this->SwitchedOff.end();
+    named.pairs[i].weight = isOff ? 0.0 : named.pairs[i].weight;
+  }
+  for (std::size_t i = 0; i + NumbersPerPair <= this->Numbers.size(); i += NumbersPerPair)
+  {
+    const double* n = &this->Numbers[i];
+    named.pairs.push_back({ { n[0], n[1], n[2] }, { n[3], n[4], n[5] }, n[6] });
+    named.names.push_back("Pair " + std::to_string(i / NumbersPerPair + 1));
+  }
+  this->Names->Reset();
+  for (const std::string& name : named.names)
+  {
+    this->Names->InsertNextValue(name);
+  }
+  return named.pairs;
+}
+
+void FitLandmarks::place(const FittedLattice& fitted, const std::vector<PointPair>& pairs)
+{
+  this->Places->Reset();
+  this->Places->SetNumberOfComponents(NumbersPerPlace);
+  for (std::size_t i = 0; fitted.isKnown() && i < pairs.size(); ++i)
+  {
+    const auto& [rest, measured, weight] = pairs[i];
+    const glm::dvec3 at = fitted.measuredFromRest(rest);
+    const double tuple[NumbersPerPlace] = { rest.x, rest.y, rest.z, measured.x, measured.y,
+      measured.z, at.x, at.y, at.z, weight };
+    this->Places->InsertNextTuple(tuple);
+  }
+}
+
+std::vector<double> leaveOneOut(const FittedLattice& fitted, const std::vector<PointPair>& pairs)
+{
+  std::vector<double> errors = fitted.fit().leaveOneOut();
+  for (std::size_t i = 0; i < errors.size() && i < pairs.size(); ++i)
+  {
+    const bool isKnown = std::isfinite(fitted.fit().deviation(pairs[i].rest));
+    if (!isOn(pairs[i]) && isKnown)
+    {
+      errors[i] = glm::distance(fitted.fit().measuredFromRest(pairs[i].rest), pairs[i].measured);
+    }
+  }
+  return errors;
+}
+}

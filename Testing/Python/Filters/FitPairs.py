@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves that pairs of landmarks in the property LandmarkPairs count like pairs in the inputs, that
+# names switch off landmarks of the inputs, that names, places and figures come in one order, that
+# a pair that is switched off says how far the fit misses it, and that states keep it all.
+import numpy
+from brainshift_testing import (assert_says, ball, load_plugin, messages, run_tests, scratch,
+                                volume)
+
+load_plugin()
+import brainshift  # noqa: E402 after the plugin
+from brainshift.reports import numbers  # noqa: E402
+from paraview import simple  # noqa: E402
+
+SIDE = 41
+MIDDLE = (SIDE - 1) / 2 * 4.0  # mm
+
+
+def head():
+    return volume(ball(side=SIDE, radius=16), spacing=(4.0,) * 3)
+
+
+def measured_pairs(count, seed=5):
+    """Landmarks, and where they went: a shift, a bend and an error of measurement."""
+    random = numpy.random.default_rng(seed)
+    rest = MIDDLE + random.uniform(-45, 45, (count, 3))
+    bend = 3.0 * numpy.exp(-((rest - MIDDLE) ** 2).sum(axis=1) / 40.0 ** 2)
+    measured = rest + (2.0, -1.0, 0.5) + bend[:, None] * (0, 0, 1)
+    return rest, measured + random.normal(0, 0.4, rest.shape)
+
+
+def points(positions, labels=None, name="points.csv"):
+    rows = ["x,y,z,label"] + [
+        ",".join([*(repr(float(number)) for number in position), label])
+        for position, label in zip(positions, labels or [""] * len(positions))]
+    with open(scratch(name), "w", encoding="utf-8") as file:
+        file.write("\n".join(rows) + "\n")
+    return simple.LandmarkReader(FileName=scratch(name))
+
+
+def by_ports(rest, measured, labels=None, **properties):
+    return simple.FitDeformation(
+        RestLandmarks=points(rest, labels, "rest.csv"),
+        MeasuredLandmarks=points(measured, labels, "measured.csv"), **properties)
+
+
+def pairs(rest, measured, weights=None):
+    weights = [1.0] * len(rest) if weights is None else weights
+    return [float(n) for a, b, weight in zip(rest, measured, weights) for n in (*a, *b, weight)]
+
+
+def figures(fit):
+    fit.UpdatePipeline()
+    return brainshift.Fit(fit)
+
+
+def told(fit, name):
+    fit.SMProxy.UpdatePropertyInformation(fit.SMProxy.GetProperty(name))
+    return list(numbers(fit.SMProxy, name))
+
+
+def names(fit):
+    wanted = fit.SMProxy.GetProperty("LandmarkNames")
+    fit.SMProxy.UpdatePropertyInformation(wanted)
+    return [wanted.GetElement(i) for i in range(wanted.GetNumberOfElements())]
+
+
+def assert_same(one, other):
+    probe = MIDDLE + numpy.random.default_rng(9).uniform(-60, 60, (30, 3))
+    assert numpy.allclose(
+        one.measured_from_rest(probe), other.measured_from_rest(probe), rtol=0, atol=1e-9)
+    assert numpy.allclose(one.rigid, other.rigid, rtol=0, atol=1e-9)
+    for name in ("landmark_residuals", "leave_one_out"):
+        assert numpy.allclose(getattr(one, name), getattr(other, name), rtol=0, atol=1e-9,
+                              equal_nan=True), name
+
+
+def test_pairs_of_the_property_are_those_of_the_inputs():
+    rest, measured = measured_pairs(12)
+    source = head()
+    ports = figures(by_ports(rest, measured, Input=source))
+    own = figures(simple.FitDeformation(Input=source, LandmarkPairs=pairs(rest, measured)))
+    assert len(own.landmark_residuals) == len(own.leave_one_out) == 12
+    assert 0.1 < own.landmark_residuals.mean() < own.leave_one_out.mean()
+    assert_same(own, ports)
+    both = figures(by_ports(rest[:5], measured[:5], Input=source,
+                            LandmarkPairs=pairs(rest[5:], measured[5:])))
+    assert_same(both, ports)
+
+
+def test_names_switch_off_landmarks_of_the_inputs():
+    rest, measured = measured_pairs(10)
+    labels = [f"mark {i}" for i in range(10)]
+    source = head()
+    fit = by_ports(rest, measured, labels, Input=source, LandmarksOff=["mark 3", "nobody"])
+    kept = [i for i in range(10) if i != 3]
+    off, without = figures(fit), figures(by_ports(rest[kept], measured[kept], Input=source))
+    assert numpy.isnan(off.landmark_residuals[3]) and off.landmark_residuals.shape == (10,)
+    assert numpy.allclose(off.landmark_residuals[kept], without.landmark_residuals, atol=1e-9)
+    assert numpy.allclose(off.leave_one_out[kept], without.leave_one_out, atol=1e-9)
+    # A landmark that is off was left out: its figure is how far this fit misses it.
+    fit.LandmarksOff = []
+    on = figures(fit)
+    assert numpy.isfinite(on.landmark_residuals[3])
+    assert abs(off.leave_one_out[3] - on.leave_one_out[3]) < 0.15, (off.leave_one_out[3],
+                                                                    on.leave_one_out[3])
+    # The order of files does not matter: names do.
+    fit = by_ports(rest[::-1], measured[::-1], labels[::-1], Input=source, LandmarksOff=["mark 3"])
+    assert list(numpy.flatnonzero(numpy.isnan(figures(fit).landmark_residuals))) == [6]
+
+
+def test_a_pair_of_weight_0_is_off_and_says_how_far_it_is_missed():
+    rest, measured = measured_pairs(9)
+    measured[4] += (0, 12.0, 0)
+    source = head()
+    weights = [float(i != 4) for i in range(9)]
+    fit = simple.FitDeformation(Input=source, LandmarkPairs=pairs(rest, measured, weights))
+    found = figures(fit)
+    kept = [i for i in range(9) if i != 4]
+    without = figures(
+        simple.FitDeformation(Input=source, LandmarkPairs=pairs(rest[kept], measured[kept])))
+    miss = numpy.linalg.norm(without.measured_from_rest(rest[[4]])[0] - measured[4])
+    assert numpy.isnan(found.landmark_residuals[4]) and miss > 9.0
+    assert abs(found.leave_one_out[4] - miss) < 0.05, (found.leave_one_out[4], miss)
+    assert numpy.allclose(found.leave_one_out[kept], without.leave_one_out, atol=1e-9)
+    assert found.calibration == without.calibration
+    fit.LandmarkPairs = pairs(rest[:2], measured[:2], [0.0, 0.0])
+    assert numpy.isnan(figures(fit).leave_one_out).all(), "nothing is known"
+
+
+def test_names_and_places_stand_in_the_order_of_the_figures():
+    rest, measured = measured_pairs(8)
+    fit = by_ports(rest[:3], measured[:3], ["tip", "", "tip 2"], Input=head(),
+                   LandmarkPairs=pairs(rest[4:], measured[4:], [1, 0, 2, 1]))
+    found = figures(fit)
+    assert names(fit) == ["tip", "tip 2", "Pair 1", "Pair 2", "Pair 3", "Pair 4"], names(fit)
+    places = numpy.reshape(told(fit, "LandmarkPlaces"), (-1, 10))
+    order = [0, 2, 4, 5, 6, 7]
+    assert numpy.allclose(places[:, :3], rest[order], atol=1e-9)
+    assert numpy.allclose(places[:, 3:6], measured[order], atol=1e-9)
+    assert numpy.allclose(places[:, 6:9], found.measured_from_rest(rest[order]), atol=1e-9)
+    assert list(places[:, 9]) == [1, 1, 1, 0, 2, 1]
+    misses = numpy.linalg.norm(places[:, 6:9] - places[:, 3:6], axis=1)
+    assert numpy.allclose(misses[places[:, 9] > 0],
+                          found.landmark_residuals[places[:, 9] > 0], atol=1e-9)
+    fit = by_ports(rest[:2], measured[:2], Input=fit.Input)
+    figures(fit)
+    assert names(fit) == ["1", "2"], "without labels they have numbers"
+
+
+def test_numbers_that_are_no_pairs_are_an_error():
+    rest, measured = measured_pairs(3)
+    fit = simple.FitDeformation(Input=head(), LandmarkPairs=pairs(rest, measured)[:-1])
+    with messages() as said:
+        fit.UpdatePipeline()
+    assert_says(said.text, "LandmarkPairs has 20 numbers", "a pair has 7")
+    assert not names(fit) and not told(fit, "LandmarkPlaces")
+
+
+def test_a_lattice_report_says_where_tissue_is_drawn():
+    bent = simple.FreeFormDeformation(
+        Input=head(), Strokes=brainshift.soft((MIDDLE,) * 3, (0, 0, 6.0), 40.0))
+    bent.UpdatePipeline()
+    places = MIDDLE + numpy.random.default_rng(1).uniform(-30, 30, (5, 3))
+    report = bent.SMProxy.GetSessionProxyManager().NewProxy("misc", "LatticeReport")
+    report.UnRegister(None)
+    report.GetProperty("Filter").AddProxy(bent.SMProxy)
+    wanted = report.GetProperty("Places")
+    wanted.SetNumberOfElements(15)
+    for i, number in enumerate(places.ravel()):
+        wanted.SetElement(i, float(number))
+    report.UpdateVTKObjects()
+    report.UpdatePropertyInformation(report.GetProperty("DrawnPlaces"))
+    drawn = numpy.reshape(list(numbers(report, "DrawnPlaces")), (-1, 3))
+    expected = brainshift.deformed_from_rest(bent, places)
+    assert numpy.abs(expected - places).max() > 1.0
+    assert numpy.allclose(drawn, expected, atol=1e-5), drawn - expected
+
+
+def test_states_keep_pairs_and_what_is_off():
+    rest, measured = measured_pairs(8)
+    source = simple.Wavelet(WholeExtent=[0, 160, 0, 160, 0, 160])  # a state can bring it back
+    fit = by_ports(rest[:4], measured[:4], Input=source, LandmarksOff=["2"],
+                   LandmarkPairs=pairs(rest[4:], measured[4:]), registrationName="to keep")
+    before = figures(fit)
+    simple.SaveState(scratch("pairs.pvsm"))
+    simple.Delete(fit)
+    assert simple.FindSource("to keep") is None
+    simple.LoadState(scratch("pairs.pvsm"))
+    again = simple.FindSource("to keep")
+    assert list(again.LandmarksOff) == ["2"] and len(again.LandmarkPairs) == 28
+    after = figures(again)
+    assert numpy.allclose(after.leave_one_out, before.leave_one_out)
+    assert numpy.isnan(after.landmark_residuals[1])
+
+
+run_tests(globals())
