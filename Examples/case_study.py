@@ -4,14 +4,16 @@
     pvpython case_study.py [FOLDER]   prints the figures, draws into FOLDER (demo-output)
 
 The "post-operative" volume is synthetic. It is the pre-operative MR, bent by a known sag of soft
-strokes on a denser lattice, with a cavity. Ten stamps are found from 300 noisy points that a
-pointer traced on the exposed cortex. Nothing else is used to find them. The known sag serves to
-measure the error that is left. If the plugin is not loaded yet, BRAINSHIFT_PLUGIN gives its path.
+strokes on a denser lattice, with a cavity. Ten stamps, four and nine pulls, and a fit are found
+from 300 noisy points that a pointer traced on the exposed cortex. Nothing else is used to find
+them. The known sag serves to measure the error that is left. If the plugin is not loaded
+yet, BRAINSHIFT_PLUGIN gives its path.
 Research software, not a medical device.
 """
 
 import os
 import sys
+import time
 
 import numpy
 from paraview import servermanager, simple
@@ -37,6 +39,11 @@ STAMPS = 10
 # From coarse to fine: what all of the trace says first, then smaller regions of it.
 REGIONS_MM = numpy.geomspace(EXPOSED_MM, 10.0, STAMPS)  # radii
 STAMP_PER_REGION = 2.0  # a stamp falls to one half at about 0.6 of its radius
+
+PULLS = (4, 9)
+
+COLUMNS = ("trace mean", "RMS", "95th percentile", "TRE mean", "TRE largest",
+           "smallest determinant")
 
 # What the pictures show: half their height (mm), what is in the middle, the ends of the colours.
 WHITE = 330.0  # scalar of the MR
@@ -183,6 +190,45 @@ def stamp_to_trace(bent, measure):
         bent.Strokes = tuple(bent.Strokes) + stamp
 
 
+def regions_of(points, count):
+    """The number of a region for each point: compact parts of about the same size (k-means)."""
+    middles = points[:1]
+    while len(middles) < count:  # each start lies farthest from those before it
+        apart = numpy.linalg.norm(points[:, None] - middles[None], axis=2).min(axis=1)
+        middles = numpy.vstack((middles, points[apart.argmax()]))
+    for _ in range(20):
+        region = numpy.linalg.norm(points[:, None] - middles[None], axis=2).argmin(axis=1)
+        middles = numpy.array([points[region == i].mean(axis=0) for i in range(count)])
+    return region
+
+
+def pulls_to_trace(points, distances, point_of_interest, count):
+    """Pulls as a hand makes them: in each region, tissue of the cortex to the trace over it."""
+    region = regions_of(points, count)
+    pulls = []
+    for i in range(count):
+        traced, distance = points[region == i].mean(axis=0), distances[region == i].mean()
+        outwards = (traced - point_of_interest) / numpy.linalg.norm(traced - point_of_interest)
+        pulls.append((traced - distance * outwards, traced))
+    return pulls
+
+
+def pull_to_trace(case, count):
+    """Bends by that many pulls; the cortex beyond the opening is held."""
+    import brainshift
+    pulls = pulls_to_trace(*measured_distances(case.measure),
+                           numpy.array(case.bent.PointOfInterest), count)
+    return brainshift.fit(case.bent, pulls=pulls, array="Inside", threshold=0.5,
+                          opening=(CRANIOTOMY, EXPOSED_MM))
+
+
+def fit_to_trace(case):
+    """Bends by all of the trace at once."""
+    import brainshift
+    return brainshift.fit(case.bent, traces=points_of(case.trace), array="Inside", threshold=0.5,
+                          opening=(CRANIOTOMY, EXPOSED_MM), cavity=case.cavity)
+
+
 # Figures and pictures -----------------------------------------------------------------------------
 
 
@@ -198,23 +244,30 @@ class Case:
         self.trace = pointer_trace(self.after_surgery, random)
         self.landmarks = landmarks(self.brain, self.sag, random)
         self.bent = simple.FreeFormDeformation(Input=self.brain)
-        cavity = postoperative(sunken, "Cavity")
+        self.cavity = postoperative(sunken, "Cavity")
         self.measure = simple.TraceDistance(
-            Input=self.trace, Deformation=self.bent, Cavity=cavity,
+            Input=self.trace, Deformation=self.bent, Cavity=self.cavity,
             SurfaceArray="Inside", Threshold=0.5)
         self.compare = simple.CompareVolumes(Input=self.bent, Reference=self.after_surgery,
-                                             Cavity=cavity)
+                                             Cavity=self.cavity)
+
+    def straighten(self):
+        """Leaves the volume as it was at rest."""
+        self.bent.Strokes, self.bent.Lattice = (), None
 
     def figures(self):
-        """Trace distance and target registration error (TRE), mm."""
+        """Trace distance and target registration error (TRE), mm; the smallest determinant."""
         import brainshift
         self.measure.UpdatePipeline()
         self.measure.UpdatePropertyInformation()
+        self.bent.UpdatePipeline()
+        self.bent.UpdatePropertyInformation()
         error = numpy.linalg.norm(brainshift.deformed_from_rest(self.bent, self.landmarks)
                                   - brainshift.deformed_from_rest(self.sag, self.landmarks), axis=1)
         return {"count": self.measure.Count, "trace mean": self.measure.Mean,
                 "RMS": self.measure.RMS, "95th percentile": self.measure.Percentile95,
-                "TRE mean": float(error.mean()), "TRE largest": float(error.max())}
+                "TRE mean": float(error.mean()), "TRE largest": float(error.max()),
+                "smallest determinant": self.bent.MinimumJacobian}
 
 
 def parallel_view(towards_eye, focus, half_height, size):
@@ -318,21 +371,40 @@ def draw(case, file, size=450):
     simple.Delete(layout)
 
 
-def report_and_draw(case, title, folder):
-    count, *lengths = case.figures().items()
-    print(f"{title}: {count[1]} of {TRACE_POINTS} trace points count;",
-          ", ".join(f"{name} {value:.2f} mm" for name, value in lengths))
-    file = os.path.join(folder, f"case-study-{title}.png")
-    draw(case, file)
-    print(file)
+def report(case, title, seconds=0.0):
+    """Prints one row. Seconds are those that the machine needed to find the bend."""
+    figures = case.figures()
+    print(f"{title:10}", *(f"{figures[name]:{len(name)}.2f}" for name in COLUMNS),
+          f"{seconds:7.2f}", sep="  ")
+
+
+def report_and_draw(case, title, folder, seconds=0.0):
+    report(case, title, seconds)
+    draw(case, os.path.join(folder, f"case-study-{title}.png"))
+
+
+def timed(bend, *arguments):
+    """How long (s) a bend takes to be found and applied."""
+    start = time.perf_counter()
+    bend(*arguments)
+    return time.perf_counter() - start
 
 
 def main(folder):
     os.makedirs(folder, exist_ok=True)
     case = Case()
+    counted = case.figures()["count"]
+    print(f"{counted} of {TRACE_POINTS} traced points count; lengths in mm; pictures in {folder}")
+    print(f"{'':10}", *COLUMNS, "seconds", sep="  ")
     report_and_draw(case, "before", folder)
-    stamp_to_trace(case.bent, case.measure)
-    report_and_draw(case, "after", folder)
+    seconds = timed(stamp_to_trace, case.bent, case.measure)
+    report_and_draw(case, "after", folder, seconds)
+    for count in PULLS:
+        case.straighten()
+        report(case, f"{count} pulls", timed(pull_to_trace, case, count))
+    case.straighten()
+    seconds = timed(fit_to_trace, case)
+    report_and_draw(case, "fit", folder, seconds)
 
 
 load_plugin()

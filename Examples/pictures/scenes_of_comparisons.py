@@ -74,14 +74,12 @@ def trace_distance(width):
 
 def fit_deformation(width):
     """The trace by its distance from the cortex, before and after a fit of its points."""
-    import brainshift
     side = width // 2
     case = patient()
     pictures = [stage.pixels(case_study.show_trace(case.bent, case.measure, side))]
-    brainshift.fit(case.bent, traces=case_study.points_of(case.measure.Input), threshold=0.5,
-                   array="Inside", cavity=case.measure.Cavity)
+    case_study.fit_to_trace(case)
     pictures.append(stage.pixels(case_study.show_trace(case.bent, case.measure, side)))
-    case.bent.Lattice = None
+    case.straighten()
     return numpy.hstack(pictures)
 
 
@@ -120,8 +118,18 @@ def case_after(width):
     return _case(patient(stamped=True), width)
 
 
+def case_fit(width):
+    """Slices, cortex and trace after a fit to the same trace."""
+    case = patient()
+    case_study.fit_to_trace(case)
+    made = _case(case, width)
+    case.straighten()
+    return made
+
+
 COMPARISON_SCENES = {
     "filter-compare-volumes": compare_volumes, "tool-flicker": flicker,
     "filter-fit-deformation": fit_deformation,
     "filter-trace-distance": trace_distance, "representation-trace-points": trace_points,
-    "case-study-before": case_before, "case-study-after": case_after}
+    "case-study-before": case_before, "case-study-after": case_after,
+    "case-study-fit": case_fit}

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Proves that the case study in Examples brings a brain to what a pointer traced. Ten stamps,
-# found from the trace alone, reduce the trace distance and the target registration error, and the
-# pictures agree better.
+# Proves that the case study in Examples brings a brain to what a pointer traced. Ten stamps, four
+# and nine pulls, and a fit, found from the trace alone, reduce the trace distance and the target
+# registration error, and the pictures agree better.
 import os
 import sys
 
@@ -67,6 +67,41 @@ def test_ten_stamps_reduce_every_error():
     assert after["TRE mean"] < before["TRE mean"] / 1.6
     assert apart_after < apart_before / 1.3
     assert 1.0 - agreed_after < (1.0 - agreed_before) / 3
+
+
+def test_regions_are_compact_and_whole():
+    spots = numpy.array([(x, y, 0.0) for x in (0.0, 50.0) for y in (0.0, 50.0)])
+    points = numpy.vstack([spot + numpy.random.default_rng(1).normal(0, 2.0, (20, 3))
+                           for spot in spots])
+    region = case_study.regions_of(points, 4)
+    assert len({tuple(region[20 * i:20 * i + 20]) for i in range(4)}) == 4
+    assert all(len(set(region[20 * i:20 * i + 20])) == 1 for i in range(4)), region
+
+
+def test_pulls_and_a_fit_reduce_every_error():
+    case = case_study.Case()
+    before, found = case.figures(), {}
+    for count in case_study.PULLS:
+        case_study.pull_to_trace(case, count)
+        assert len(case.bent.Lattice.Pulls) == 7 * count
+        found[count] = case.figures()
+        case.straighten()
+        assert case.figures() == before
+    fit = case_study.fit_to_trace(case)
+    found["fit"] = case.figures()
+    print(f"  {before}\n  {found}")
+    for figures in found.values():
+        assert figures["count"] == before["count"]
+        assert figures["RMS"] < before["RMS"] / 3
+        assert figures["TRE mean"] < before["TRE mean"]
+        assert figures["TRE largest"] < before["TRE largest"]
+        assert figures["smallest determinant"] > 0.5
+    assert found[9]["RMS"] < found[4]["RMS"]
+    assert found["fit"]["RMS"] < before["RMS"] / 8
+    assert found["fit"]["TRE mean"] < before["TRE mean"] / 1.8
+    assert found["fit"]["TRE largest"] < before["TRE largest"] / 2.5
+    counts = numpy.isfinite(fit.trace_residuals)
+    assert counts.sum() == before["count"], "points in the cavity do not count"
 
 
 run_tests(globals())
