@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkLatticeReport.h"
 
-#include "Filters/Attached/DirectedMap.h"
+#include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/Guard.h"
 #include "Filters/Deformation/ControlPoints.h"
+#include "Filters/Deformation/PointMap.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataArray.h"
@@ -14,7 +15,6 @@
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
-#include <optional>
 #include <string>
 
 using namespace brainshift;
@@ -135,37 +135,6 @@ void vtkLatticeReport::ListControlPoints(vtkFloatArray* displacements, DrawnLatt
   }
 }
 
-void vtkLatticeReport::AddPlace(double x, double y, double z)
-{
-  this->Places.insert(this->Places.end(), { x, y, z });
-}
-
-void vtkLatticeReport::ClearPlaces()
-{
-  this->Places.clear();
-}
-
-vtkDoubleArray* vtkLatticeReport::GetDrawnPlaces()
-{
-  this->DrawnPlaces->Reset();
-  vtkDataObject* output = this->Filter ? this->Filter->GetOutputDataObject(0) : nullptr;
-  guarded(this, [&] {
-    std::string problem; // before the first execution there is no deformation: no answer says so
-    const std::optional<DirectedMap> map = output && !this->Places.empty()
-      ? directedMapOf(output, Direction::Forward, problem)
-      : std::nullopt;
-    for (std::size_t i = 0; map && i + 2 < this->Places.size(); i += 3)
-    {
-      const glm::dvec3 at =
-        map->position({ this->Places[i], this->Places[i + 1], this->Places[i + 2] });
-      this->DrawnPlaces->InsertNextValue(at.x);
-      this->DrawnPlaces->InsertNextValue(at.y);
-      this->DrawnPlaces->InsertNextValue(at.z);
-    }
-  });
-  return this->DrawnPlaces;
-}
-
 vtkDoubleArray* vtkLatticeReport::GetGeometry()
 {
   this->Geometry->Reset();
@@ -188,10 +157,55 @@ vtkDoubleArray* vtkLatticeReport::GetGeometry()
   return this->Geometry;
 }
 
+void vtkLatticeReport::AddPlace(double x, double y, double z)
+{
+  this->Places.insert(this->Places.end(), { x, y, z });
+}
+
+void vtkLatticeReport::ClearPlaces()
+{
+  this->Places.clear();
+}
+
+vtkDoubleArray* vtkLatticeReport::GetSameTissue()
+{
+  this->SameTissue->Reset();
+  guarded(this, [&] { this->FindSameTissue(); });
+  return this->SameTissue;
+}
+
+void vtkLatticeReport::FindSameTissue()
+{
+  vtkDataObject* output = this->Filter ? this->Filter->GetOutputDataObject(0) : nullptr;
+  const unsigned long long time = carriesDeformation(output) ? deformationTime(output) : 0;
+  if (time != this->MapTime)
+  {
+    Deformation deformation;
+    std::string error;
+    const bool isRead = time != 0 && readDeformation(output, deformation, error);
+    this->Map = isRead
+      ? std::make_unique<PointMap>(effectiveLattice(deformation), deformation.inverse)
+      : nullptr;
+    this->MapTime = time;
+  }
+  for (std::size_t i = 0; this->Map && i + 2 < this->Places.size(); i += 3)
+  {
+    const glm::dvec3 place(this->Places[i], this->Places[i + 1], this->Places[i + 2]);
+    const glm::dvec3 same =
+      this->ToRest ? this->Map->restFromDeformed(place) : this->Map->deformedFromRest(place);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->SameTissue->InsertNextValue(same[axis]);
+    }
+  }
+}
+
 void vtkLatticeReport::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Ball: " << this->Ball[0] << " " << this->Ball[1] << " " << this->Ball[2] << " "
      << this->Ball[3] << "\n"
-     << indent << "MovedWithin: " << this->MovedWithin << "\n";
+     << indent << "MovedWithin: " << this->MovedWithin << "\n"
+     << indent << "Places: " << this->Places.size() / 3 << "\n"
+     << indent << "ToRest: " << this->ToRest << "\n";
 }

@@ -8,7 +8,7 @@
  * brings its answers to the client. It reads the filter's output, so the answers are what is drawn.
  *
  * Positions and lengths are mm, world. Nothing is kept between two questions but the longest
- * displacement.
+ * displacement and the map of the tissue.
  */
 #ifndef vtkLatticeReport_h
 #define vtkLatticeReport_h
@@ -18,6 +18,7 @@
 #include "vtkObject.h"
 #include "vtkWeakPointer.h" // for what is asked
 
+#include <memory> // for the map
 #include <vector>
 
 class vtkAlgorithm;
@@ -26,6 +27,7 @@ class vtkFloatArray;
 namespace brainshift
 {
 struct DrawnLattice;
+class PointMap;
 }
 
 class VTKBRAINSHIFTFILTERS_EXPORT vtkLatticeReport : public vtkObject
@@ -77,13 +79,18 @@ public:
   vtkDoubleArray* GetControlPoints();
 
   ///@{
-  /** Asks where tissue went: positions at rest, as many as are added. Default: none. */
+  /**
+   * Asks where the tissue at these places lies in the other frame. ToRest: the places are in the
+   * deformed frame and the answers in the rest frame (default), or else the other way round.
+   */
   void AddPlace(double x, double y, double z);
   void ClearPlaces();
+  vtkSetMacro(ToRest, bool);
+  vtkGetMacro(ToRest, bool);
   ///@}
 
-  /** Where the tissue of each place is drawn, three numbers each. Empty without a deformation. */
-  vtkDoubleArray* GetDrawnPlaces();
+  /** For each place, the tissue's position in the other frame. Empty without a deformation. */
+  vtkDoubleArray* GetSameTissue();
 
   /**
    * The lattice as 18 numbers: points along each axis, position of the first one, spacing,
@@ -97,6 +104,7 @@ protected:
 
 private:
   void ListControlPoints(vtkFloatArray* displacements, brainshift::DrawnLattice& lattice);
+  void FindSameTissue();
   void FindFarthest(vtkFloatArray* displacements, brainshift::DrawnLattice& lattice);
 
   vtkLatticeReport(const vtkLatticeReport&) = delete;
@@ -114,7 +122,10 @@ private:
   vtkNew<vtkDoubleArray> ControlPoints;
   vtkNew<vtkDoubleArray> Geometry;
   std::vector<double> Places;
-  vtkNew<vtkDoubleArray> DrawnPlaces;
+  bool ToRest = true;
+  std::unique_ptr<brainshift::PointMap> Map; // a mask makes it slow to build
+  unsigned long long MapTime = 0;
+  vtkNew<vtkDoubleArray> SameTissue;
 };
 
 #endif

@@ -126,7 +126,12 @@ ToolCarrier::~ToolCarrier()
 
 bool ToolCarrier::isAlive() const
 {
-  return this->Deformation && this->View && this->Editor;
+  return this->Deformation && this->View && this->Editor && this->Fit;
+}
+
+bool ToolCarrier::isEditing() const
+{
+  return this->Editor->isEditing() || this->Fit->isEditing();
 }
 
 void ToolCarrier::stopShowingBefore()
@@ -155,6 +160,7 @@ void ToolCarrier::putDown()
   this->Probe.reset();
   this->Widget.reset();
   this->Editor = nullptr;
+  this->Fit = nullptr;
   this->Deformation = nullptr;
   this->View = nullptr;
   this->Other.follow(nullptr, nullptr);
@@ -185,16 +191,20 @@ void ToolCarrier::refresh()
       this->Deformation = deformation;
       this->View = view;
       this->Editor = StrokeEditor::of(deformation);
+      this->Fit = FitEditor::of(deformation);
       this->ToolInHand = tool;
       this->Widget = std::make_unique<WidgetInView>(
         view, [this](const HandEvent& event) { return this->hearMouse(event); });
       this->Probe = std::make_unique<ViewProbe>(deformation, view, this->Kept);
-      this->Tool =
-        makeTool(tool, { *this->Probe, *this->Editor, *settings, *this->Widget->representation() });
+      this->Tool = makeTool(tool,
+        { *this->Probe, *this->Editor, *this->Fit, *settings, *this->Widget->representation() });
+      this->Tool->idle();
+      this->drawSoon();
       this->Other.follow(deformation, view);
       this->Resting.follow(deformation, view);
     }
   }
+  settings->setObstacle(tool == ToolKind::Pull ? this->Fit->refusal() : QString());
   this->suggestRanges();
   this->Other.tell();
 }
@@ -202,7 +212,7 @@ void ToolCarrier::refresh()
 void ToolCarrier::hoverAgain()
 {
   const bool rests = this->Tool && this->isAlive() && this->Cursor.view() == this->View &&
-    !this->Holding && !this->Editor->isEditing() && !this->ShowingBefore && !this->Other.shown();
+    !this->Holding && !this->isEditing() && !this->ShowingBefore && !this->Other.shown();
   if (rests)
   {
     const int* at = this->View->getRenderViewProxy()->GetInteractor()->GetEventPosition();
@@ -327,7 +337,7 @@ bool ToolCarrier::pass(const HandEvent& event)
       if (!this->Holding)
       {
         this->Tool->settle();
-        this->Widget->representation()->Clear();
+        this->Tool->idle();
       }
       return false;
   }
@@ -354,7 +364,7 @@ void ToolCarrier::drawIfChanged(vtkMTimeType before)
 // While something is under the hand, its editor draws.
 void ToolCarrier::drawSoon()
 {
-  if (this->isAlive() && !this->Editor->isEditing())
+  if (this->isAlive() && !this->isEditing())
   {
     this->View->render();
   }

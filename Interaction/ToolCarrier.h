@@ -27,6 +27,7 @@ class pqRenderView;
 
 namespace brainshift
 {
+class FitEditor;
 class StrokeEditor;
 class ViewProbe;
 class HandTool;
@@ -71,6 +72,7 @@ private:
   void outlineNothing();
   void drawIfChanged(vtkMTimeType before);
   bool isAlive() const;
+  bool isEditing() const; ///< Something is under the hand. The tool must be alive.
 
   CursorWatch Cursor;
   RestingCursor Resting;
@@ -80,6 +82,7 @@ private:
   QPointer<pqPipelineSource> Deformation;
   QPointer<pqRenderView> View;
   QPointer<StrokeEditor> Editor;
+  QPointer<FitEditor> Fit;
   QPointer<StrokeEditor> ShowingBefore;
   std::unique_ptr<WidgetInView> Widget;
   std::unique_ptr<ViewProbe> Probe;

@@ -116,7 +116,7 @@ bool ToolCarrier::canDo(Command command) const
     case Command::HoldAxis:
       return this->Holding;
     case Command::Cancel:
-      return inHand && (this->Holding || this->Editor->isEditing());
+      return inHand && (this->Holding || this->isEditing());
     case Command::SetPointOfInterest:
       return inHand && this->ToolInHand == ToolKind::Stamp &&
         (overView || (this->ByKeys && this->viewHasKeys()));
@@ -207,7 +207,8 @@ bool ToolCarrier::eventFilter(QObject* watched, QEvent* event)
   Qt::KeyboardModifiers free = Qt::KeypadModifier;
   free.setFlag(Qt::ShiftModifier,
     found.command == Command::StampByKey || // many type + with it
-      (found.command == Command::TakeHold && this->ToolInHand == ToolKind::Move));
+      (found.command == Command::TakeHold &&
+        (this->ToolInHand == ToolKind::Move || this->ToolInHand == ToolKind::Pull)));
   if ((key->modifiers() & ~free) != Qt::NoModifier || !this->canDo(found.command))
   {
     return QObject::eventFilter(watched, event);

@@ -112,4 +112,28 @@ std::vector<Polyline> cross(const glm::dvec3& centre, double size)
   }
   return lines;
 }
+
+std::vector<Polyline> arrow(
+  const glm::dvec3& from, const glm::dvec3& to, double size, const glm::dvec3& ahead)
+{
+  const double length = glm::distance(from, to);
+  if (length == 0.0)
+  {
+    return {};
+  }
+  const glm::dvec3 along = (to - from) / length;
+  constexpr double leastSine = 1e-6; // between arrow and view
+  const glm::dvec3 aside = glm::cross(along, ahead);
+  const glm::dvec3 side = glm::length(aside) < leastSine ? across(along) : glm::normalize(aside);
+  const double head = std::min(size, length / 2.0);
+  constexpr double slim = 0.5; // half the head's width / its length
+  const glm::dvec3 behind = to - head * along;
+  return { { from, to }, { behind + slim * head * side, to, behind - slim * head * side } };
+}
+
+Polyline ring(const glm::dvec3& centre, double radius, const glm::dvec3& ahead)
+{
+  const glm::dvec3 first = across(ahead);
+  return ellipse(centre, radius * first, radius * glm::cross(ahead, first));
+}
 }

@@ -41,6 +41,15 @@ VTKBRAINSHIFTWIDGETS_EXPORT double shareOfHalfWeight(double sigma);
 
 /// Three lines along the world axes through a centre, `size` mm each way.
 VTKBRAINSHIFTWIDGETS_EXPORT std::vector<Polyline> cross(const glm::dvec3& centre, double size);
+
+/// An arrow whose head faces a view along the unit vector `ahead`. Its head is `size` mm long, and
+/// at most half as long as the arrow. No lines if both ends are one point.
+VTKBRAINSHIFTWIDGETS_EXPORT std::vector<Polyline> arrow(
+  const glm::dvec3& from, const glm::dvec3& to, double size, const glm::dvec3& ahead);
+
+/// A circle around a centre that faces a view along the unit vector `ahead`.
+VTKBRAINSHIFTWIDGETS_EXPORT Polyline ring(
+  const glm::dvec3& centre, double radius, const glm::dvec3& ahead);
 }
 
 #endif

@@ -114,6 +114,7 @@ constexpr std::array<double, 3> Yellow{ 1.0, 0.85, 0.2 };
 constexpr std::array<double, 3> White{ 0.95, 0.95, 0.95 };
 constexpr std::array<double, 3> Orange{ 1.0, 0.45, 0.05 };
 constexpr std::array<double, 3> Cyan{ 0.2, 0.9, 1.0 };
+constexpr std::array<double, 3> Green{ 0.3, 0.95, 0.35 };
 constexpr double PointPixels = 7.0; // below 5, users of trackpads miss it
 constexpr double HighlightPixels = 12.0;
 constexpr double FaintPixels = 3.0;
@@ -125,6 +126,7 @@ struct vtkLatticeRepresentation::Parts
   Drawing Edges;
   Drawing Faint;
   Drawing Points;
+  Drawing Dots;
   Drawing Highlights;
   std::array<Drawing, NumberOfPens> Lines;
 
@@ -136,6 +138,7 @@ struct vtkLatticeRepresentation::Parts
       drawings.push_back(&lines);
     }
     drawings.push_back(&this->Points);
+    drawings.push_back(&this->Dots);
     drawings.push_back(&this->Highlights);
     return drawings;
   }
@@ -151,11 +154,14 @@ vtkLatticeRepresentation::vtkLatticeRepresentation()
   parts.Faint.look(White, 0.5, FaintPixels);
   parts.Points.look(White, 1.0, PointPixels);
   parts.Points.Actor->GetProperty()->RenderPointsAsSpheresOn();
+  parts.Dots.look(White, 1.0, PointPixels);
+  parts.Dots.Actor->GetProperty()->RenderPointsAsSpheresOn();
   parts.Highlights.look(Orange, 1.0, HighlightPixels);
   parts.Highlights.Actor->GetProperty()->RenderPointsAsSpheresOn();
   parts.Lines[Strong].look(Yellow, 1.0, 2.0);
   parts.Lines[Weak].look(Yellow, 0.4, 1.0);
   parts.Lines[Mark].look(Cyan, 1.0, 2.0);
+  parts.Lines[Hold].look(Green, 1.0, 2.5);
 }
 
 vtkLatticeRepresentation::~vtkLatticeRepresentation() = default;
@@ -199,6 +205,12 @@ void vtkLatticeRepresentation::SetHighlights(const std::vector<glm::dvec3>& posi
   this->Modified();
 }
 
+void vtkLatticeRepresentation::SetDots(const std::vector<glm::dvec3>& positions)
+{
+  this->Internal->Dots.show(positions);
+  this->Modified();
+}
+
 void vtkLatticeRepresentation::SetLines(Pen pen, const std::vector<Polyline>& lines)
 {
   this->Internal->Lines[pen].show(lines);
@@ -228,6 +240,11 @@ int vtkLatticeRepresentation::GetNumberOfFaint() const
 int vtkLatticeRepresentation::GetNumberOfHighlights() const
 {
   return static_cast<int>(this->Internal->Highlights.Shape->GetNumberOfPoints());
+}
+
+int vtkLatticeRepresentation::GetNumberOfDots() const
+{
+  return static_cast<int>(this->Internal->Dots.Shape->GetNumberOfPoints());
 }
 
 int vtkLatticeRepresentation::GetNumberOfLines(int pen) const
@@ -306,5 +323,7 @@ void vtkLatticeRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ControlPoints: " << this->GetNumberOfControlPoints() << "\n"
      << indent << "Faint: " << this->GetNumberOfFaint() << "\n"
-     << indent << "Highlights: " << this->GetNumberOfHighlights() << "\n";
+     << indent << "Highlights: " << this->GetNumberOfHighlights() << "\n"
+     << indent << "Dots: " << this->GetNumberOfDots() << "\n"
+     << indent << "Held: " << this->GetNumberOfLines(Hold) << "\n";
 }

@@ -29,7 +29,8 @@ public:
   {
     Strong, ///< The edge of a tool.
     Weak,   ///< Within a tool.
-    Mark,   ///< The point of interest.
+    Mark,   ///< The point of interest, or the way of a pull.
+    Hold,   ///< What stays.
     NumberOfPens,
   };
 
@@ -43,6 +44,9 @@ public:
   /** Highlighted positions: selected, or under the cursor. */
   void SetHighlights(const std::vector<glm::dvec3>& positions);
 
+  /** Positions drawn as small white balls: the tissue of pulls and pins. */
+  void SetDots(const std::vector<glm::dvec3>& positions);
+
   /** Lines drawn with a pen. */
   void SetLines(Pen pen, const std::vector<brainshift::Polyline>& lines);
 
@@ -54,6 +58,7 @@ public:
   int GetNumberOfControlPoints() const;
   int GetNumberOfFaint() const;
   int GetNumberOfHighlights() const;
+  int GetNumberOfDots() const;
   int GetNumberOfLines(int pen) const;
   ///@}
 

@@ -41,6 +41,10 @@ std::vector<CommandRow> windowRows()
       QT_TRANSLATE_NOOP("BrainShift", "Drag all tissue within a radius.")),
     byKey(Command::TakeTool, Scope::Window, { ToolKind::Stamp }, { Qt::ALT | Qt::Key_3 },
       QT_TRANSLATE_NOOP("BrainShift", "Pull or push an ellipsoid of tissue with the wheel.")),
+    byKey(Command::TakeTool, Scope::Window, { ToolKind::Pull }, { Qt::ALT | Qt::Key_4 },
+      QT_TRANSLATE_NOOP("BrainShift",
+        "Drag tissue to where it belongs, and pin tissue that stays. All pulls and pins, and all "
+        "that was measured, bend the volume together.")),
     byKey(Command::Flicker, Scope::Window, {}, { Qt::Key_K },
       QT_TRANSLATE_NOOP("BrainShift",
         "Show the deformed volume and the reference of Compare Volumes in turn. Press the key "
@@ -72,7 +76,7 @@ std::vector<CommandRow> moveAndSoftRows()
     byMouse(Command::ChangeRadius, Scope::Tool, { ToolKind::Soft }, Mouse::Wheel, Qt::ShiftModifier,
       QT_TRANSLATE_NOOP("BrainShift", "Change the radius."),
       QT_TRANSLATE_NOOP("BrainShift", "change the radius")),
-    byKey(Command::HoldAxis, Scope::Tool, { ToolKind::Move, ToolKind::Soft },
+    byKey(Command::HoldAxis, Scope::Tool, { ToolKind::Move, ToolKind::Soft, ToolKind::Pull },
       { Qt::Key_X, Qt::Key_Y, Qt::Key_Z },
       QT_TRANSLATE_NOOP("BrainShift",
         "During a drag: hold the drag to that world axis. Press the key again to release it."),
@@ -103,6 +107,24 @@ std::vector<CommandRow> stampRows()
     byKey(Command::SetPointOfInterest, Scope::Tool, { ToolKind::Stamp }, { Qt::Key_I },
       QT_TRANSLATE_NOOP("BrainShift", "Set the point of interest to the tissue under the cursor."),
       QT_TRANSLATE_NOOP("BrainShift", "set the point of interest")),
+  };
+}
+
+std::vector<CommandRow> pullRows()
+{
+  return {
+    byMouse(Command::PullTissue, Scope::Tool, { ToolKind::Pull }, Mouse::Drag, {},
+      QT_TRANSLATE_NOOP("BrainShift",
+        "Pull the tissue under the cursor to where it belongs. Neighbours follow as tissue does. A "
+        "drag of tissue that has a pull already moves that pull."),
+      QT_TRANSLATE_NOOP("BrainShift", "pull the tissue")),
+    byMouse(Command::PinTissue, Scope::Tool, { ToolKind::Pull }, Mouse::Click, Qt::ShiftModifier,
+      QT_TRANSLATE_NOOP("BrainShift",
+        "Pin the tissue under the cursor: it stays where the volume as loaded has it. A click on a "
+        "pin removes the pin."),
+      QT_TRANSLATE_NOOP("BrainShift", "pin what must stay")),
+    byKey(Command::PinByKey, Scope::Tool, { ToolKind::Pull }, { Qt::SHIFT | Qt::Key_Space },
+      QT_TRANSLATE_NOOP("BrainShift", "Pin the tissue under the cursor, or remove its pin.")),
   };
 }
 
@@ -244,8 +266,8 @@ const std::vector<CommandRow>& commandTable()
 {
   static const std::vector<CommandRow> table = [] {
     std::vector<CommandRow> all;
-    for (const auto& rows :
-      { windowRows(), moveAndSoftRows(), stampRows(), handRows(), viewRows(), listRows() })
+    for (const auto& rows : { windowRows(), moveAndSoftRows(), stampRows(), handRows(), pullRows(),
+           viewRows(), listRows() })
     {
       all.insert(all.end(), rows.begin(), rows.end());
     }
@@ -334,7 +356,7 @@ QString remarkOn(Scope scope)
   switch (scope)
   {
     case Scope::Window:
-      return tr("Alt+1, Alt+2 and Alt+3 take a tool in hand. The same keys put it down.");
+      return tr("Alt+1 to Alt+4 take a tool in hand. The same keys put it down.");
     case Scope::Tool:
       return tr("Over a slice, every tool works within the slice. Away from tissue, and with the "
                 "other mouse buttons, the mouse works as without a tool.");
@@ -353,6 +375,8 @@ QString nameOf(ToolKind tool)
       return tr("Soft");
     case ToolKind::Stamp:
       return tr("Stamp");
+    case ToolKind::Pull:
+      return tr("Pull");
     case ToolKind::None:
       break;
   }

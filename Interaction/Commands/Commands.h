@@ -32,9 +32,12 @@ enum class Command
   StampByDrag,
   StampByKey, ///< Keys: forward, backward.
   MoveCursor, ///< Keys: left, right, up, down.
-  TakeHold,   ///< Key: drags without a mouse. With Shift: SelectByKey.
+  TakeHold,   ///< Key: drags without a mouse. With Shift: SelectByKey, PinByKey.
   SelectByKey,
   ChangeMajorRadius,
+  PullTissue,
+  PinTissue,
+  PinByKey,
   SetPointOfInterest,
   HoldAxis, ///< Keys: X, Y, Z.
   Cancel,

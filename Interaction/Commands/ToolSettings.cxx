@@ -139,6 +139,15 @@ void ToolSettings::setShownInstead(const QString& name)
   }
 }
 
+void ToolSettings::setObstacle(const QString& sentence)
+{
+  if (sentence != this->Obstacle)
+  {
+    this->Obstacle = sentence;
+    Q_EMIT this->changed();
+  }
+}
+
 void ToolSettings::keep(const char* name, double& kept, double value, const Range& range)
 {
   if (std::isfinite(value) && clamped(value, range) != kept)

@@ -30,6 +30,7 @@ public:
     Move,
     Soft,
     Stamp,
+    Pull,
   };
   Q_ENUM(ToolKind)
 
@@ -67,6 +68,8 @@ public:
   /// Name of the volume that the view under the cursor shows, while the tool in hand works on
   /// another one that this view does not show. Default empty: it works on what the view shows.
   const QString& shownInstead() const { return this->ShownInstead; }
+  /// Why the tool in hand cannot work, a sentence. Default empty: it can.
+  const QString& obstacle() const { return this->Obstacle; }
   double radius() const;              ///< Soft: mm, default 25.
   double majorRadius() const;         ///< Stamp: half the long axis, mm, default 40.
   double minorRadius() const;         ///< Stamp: across the long axis, mm, default 25.
@@ -91,6 +94,7 @@ public Q_SLOTS:
   void setAxisHold(ToolSettings::AxisHold axis);
   void setGround(ToolSettings::Ground ground);
   void setShownInstead(const QString& name);
+  void setObstacle(const QString& sentence);
   void setRadius(double millimetres);
   void setMajorRadius(double millimetres);
   void setMinorRadius(double millimetres);
@@ -111,6 +115,7 @@ private:
   AxisHold HeldAxis = AxisHold::None;
   Ground GroundNow = Ground::Volume;
   QString ShownInstead;
+  QString Obstacle;
   double Radius = 25.0;
   double MajorRadius = 40.0;
   double MinorRadius = 25.0;

@@ -19,6 +19,11 @@ bool HandTool::wheel(const HandEvent&)
   return false;
 }
 
+void HandTool::idle()
+{
+  this->Bench.drawing.Clear();
+}
+
 void HandTool::release()
 {
   this->settle();

@@ -7,6 +7,7 @@
 
 #include "Interaction/Commands/Commands.h"
 #include "Interaction/Commands/ToolSettings.h"
+#include "Interaction/Edits/FitEditor.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ViewProbe.h"
 
@@ -22,6 +23,7 @@ struct ToolBench
 {
   ViewProbe& probe;
   StrokeEditor& editor;
+  FitEditor& fit;
   ToolSettings& settings;
   vtkLatticeRepresentation& drawing;
 };
@@ -41,6 +43,8 @@ public:
 
   /// Outlines what the cursor would act on. Changes nothing.
   virtual void hover(const HandEvent& event) = 0;
+  /// Shows what is seen while the cursor is away from tissue or elsewhere. By default nothing.
+  virtual void idle();
   /// A mouse button goes down. True if the tool takes the event; otherwise the camera gets it.
   virtual bool press(const HandEvent& event) = 0;
   /// The wheel turns. True if the tool takes the event.

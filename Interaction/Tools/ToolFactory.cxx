@@ -2,6 +2,7 @@
 #include "Interaction/Tools/ToolFactory.h"
 
 #include "Interaction/Tools/MoveTool.h"
+#include "Interaction/Tools/PullTool.h"
 #include "Interaction/Tools/SoftTool.h"
 #include "Interaction/Tools/StampTool.h"
 
@@ -17,6 +18,8 @@ std::unique_ptr<HandTool> makeTool(ToolKind kind, const ToolBench& bench)
       return std::make_unique<SoftTool>(bench);
     case ToolKind::Stamp:
       return std::make_unique<StampTool>(bench);
+    case ToolKind::Pull:
+      return std::make_unique<PullTool>(bench);
     case ToolKind::None:
       break;
   }

@@ -29,7 +29,10 @@ void KeptSelection::keep(pqPipelineSource* consumer)
   }
   QTimer::singleShot(0, this, [kept = QPointer<pqPipelineSource>(consumer)] {
     pqActiveObjects& active = pqActiveObjects::instance();
-    if (kept && active.selection().isEmpty())
+    // The filter can be selected and yet not be the active source.
+    const bool isActive = active.activeSource() == kept;
+    const bool isAlone = active.selection() == pqProxySelection{ kept.data() };
+    if (kept && (active.selection().isEmpty() || (isAlone && !isActive)))
     {
       active.setSelection({ kept }, kept);
     }

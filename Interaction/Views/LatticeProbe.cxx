@@ -68,6 +68,24 @@ std::vector<ControlPoint> LatticeProbe::within(const Cone& cone)
   return this->ask();
 }
 
+std::vector<glm::dvec3> LatticeProbe::sameTissue(const std::vector<glm::dvec3>& places, bool toRest)
+{
+  if (places.empty())
+  {
+    return {};
+  }
+  vtkSMPropertyHelper(this->Report, "Places")
+    .Set(&places.front().x, static_cast<unsigned int>(3 * places.size()));
+  vtkSMPropertyHelper(this->Report, "ToRest").Set(toRest ? 1 : 0);
+  const std::vector<double> numbers = answerOf(this->Report, "SameTissue");
+  std::vector<glm::dvec3> same;
+  for (std::size_t first = 0; first + 2 < numbers.size(); first += 3)
+  {
+    same.push_back(tripleAt(numbers, first));
+  }
+  return same;
+}
+
 std::vector<ControlPoint> LatticeProbe::ask()
 {
   constexpr std::size_t numbersPerPoint = 9;

@@ -49,6 +49,10 @@ public:
   /// Control points drawn within a cone.
   std::vector<ControlPoint> within(const Cone& cone);
 
+  /// Where the tissue at places lies at rest, or, if not `toRest`, where tissue at rest is drawn.
+  /// Empty before the filter was applied.
+  std::vector<glm::dvec3> sameTissue(const std::vector<glm::dvec3>& places, bool toRest);
+
 private:
   std::vector<ControlPoint> ask();
 

@@ -111,6 +111,17 @@ std::vector<ControlPoint> ViewProbe::controlPointsUnder(const glm::dvec2& pixel,
   return this->Points.within({ ray.origin, ray.direction, radius, farther / ahead });
 }
 
+std::optional<glm::dvec3> ViewProbe::restOf(const glm::dvec3& position)
+{
+  const std::vector<glm::dvec3> rest = this->Points.sameTissue({ position }, /*toRest*/ true);
+  return rest.empty() ? std::nullopt : std::optional(rest.front());
+}
+
+std::vector<glm::dvec3> ViewProbe::drawnAt(const std::vector<glm::dvec3>& rest)
+{
+  return this->Points.sameTissue(rest, /*toRest*/ false);
+}
+
 std::optional<Grid> ViewProbe::lattice()
 {
   return this->Points.lattice();

@@ -51,6 +51,11 @@ public:
   /// Control points within `pixels` of the line of sight through a pixel. None in views of slices.
   std::vector<ControlPoint> controlPointsUnder(const glm::dvec2& pixel, double pixels);
 
+  /// Where tissue that is drawn somewhere lies at rest. None before the filter was applied.
+  std::optional<glm::dvec3> restOf(const glm::dvec3& position);
+  /// Where tissue at rest is drawn. As many as `rest`, or none before the filter was applied.
+  std::vector<glm::dvec3> drawnAt(const std::vector<glm::dvec3>& rest);
+
   /// The grid of the control points in the rest frame. None before the filter was applied.
   std::optional<Grid> lattice();
   /// The property Strength of the filter.

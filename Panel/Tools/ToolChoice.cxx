@@ -30,6 +30,7 @@ const QList<ToolChoice>& toolChoices()
     choice(ToolKind::Move, "Move"),
     choice(ToolKind::Soft, "Soft"),
     choice(ToolKind::Stamp, "Stamp"),
+    choice(ToolKind::Pull, "Pull"),
   };
   return choices;
 }

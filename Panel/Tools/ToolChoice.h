@@ -23,7 +23,7 @@ struct ToolChoice
   QString tip;           ///< What the tool is for, its shortcut, and how to put it down.
 };
 
-/// Move, Soft, Stamp.
+/// Move, Soft, Stamp, Pull.
 const QList<ToolChoice>& toolChoices();
 }
 

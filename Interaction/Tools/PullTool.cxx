@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Interaction/Tools/PullTool.h"
+
+#include "Interaction/Views/Reports.h"
+
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMSourceProxy.h>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace brainshift
+{
+namespace
+{
+constexpr double GripPixels = 12.0; // a pull or a pin is taken from this far
+constexpr double LeastPixels = 2.0; // a click is no drag
+constexpr double HeadPixels = 12.0; // of an arrow
+constexpr double RingPixels = 8.0;  // radius of the ring around a pin
+constexpr double SliceMm = 3.0;     // in a slice, marks at most this far from it are drawn
+constexpr double SeenMm = 0.5;      // a shorter rest of the way is not drawn
+
+// Where the fit alone takes tissue at rest: strokes lie on top of it.
+glm::dvec3 fittedPlace(vtkSMProxy* fit, const glm::dvec3& rest)
+{
+  if (!fit)
+  {
+    return rest;
+  }
+  const vtkSmartPointer<vtkSMProxy> report = makeReport(fit, "FitReport");
+  pointAt(report, "Filter", fit);
+  vtkSMPropertyHelper(report, "Points").Set(&rest.x, 3);
+  const std::vector<double> measured = answerOf(report, "Measured");
+  return measured.size() == 3 ? glm::dvec3(measured[0], measured[1], measured[2]) : rest;
+}
+}
+
+double PullTool::gripRadius(const glm::dvec3& position) const
+{
+  const ViewProbe& probe = this->Bench.probe;
+  return GripPixels * probe.screenScale() * probe.millimetresPerPixel(position);
+}
+
+void PullTool::find()
+{
+  this->Marks.clear();
+  std::vector<glm::dvec3> rest;
+  for (const Pull& pull : this->pulls())
+  {
+    if (pull.weight > 0.0)
+    {
+      const glm::dvec3 asked = this->Bench.probe.strength() * (pull.target - pull.rest);
+      this->Marks.push_back({ pull.rest, pull.rest, pull.rest + asked, false });
+    }
+  }
+  for (const Pin& pin : pinsFrom(this->Bench.fit.numbers("Pins")))
+  {
+    if (pin.enabled)
+    {
+      this->Marks.push_back({ pin.rest, pin.rest, pin.rest, true });
+    }
+  }
+  rest.reserve(this->Marks.size());
+  for (const Shown& mark : this->Marks)
+  {
+    rest.push_back(mark.rest);
+  }
+  const std::vector<glm::dvec3> drawn = this->Bench.probe.drawnAt(rest);
+  for (std::size_t i = 0; i < drawn.size() && i < this->Marks.size(); ++i)
+  {
+    this->Marks[i].now = drawn[i];
+  }
+}
+
+// A flat view shows one slice, and a mark elsewhere would seem to lie in it.
+bool PullTool::isSeen(const Shown& mark) const
+{
+  if (this->Bench.settings.ground() != ToolSettings::Ground::FlatSlices)
+  {
+    return true;
+  }
+  return this->Last && this->Last->slice &&
+    std::abs(glm::dot(mark.now - this->Last->position, *this->Last->slice)) <= SliceMm;
+}
+
+void PullTool::show(const std::optional<glm::dvec3>& highlight)
+{
+  const ViewProbe& probe = this->Bench.probe;
+  const glm::dvec3 ahead = probe.ahead();
+  std::vector<Polyline> ways;
+  std::vector<Polyline> rings;
+  std::vector<Polyline> missing;
+  std::vector<glm::dvec3> dots;
+  const bool isFitAlone = this->Bench.editor.strokes().empty();
+  for (const Shown& mark : this->Marks)
+  {
+    if (!this->isSeen(mark))
+    {
+      continue;
+    }
+    const double pixel = probe.screenScale() * probe.millimetresPerPixel(mark.now);
+    dots.push_back(mark.now);
+    if (isFitAlone && glm::distance(mark.now, mark.target) > SeenMm)
+    {
+      missing.push_back({ mark.now, mark.target });
+    }
+    if (mark.isPin)
+    {
+      rings.push_back(ring(mark.now, RingPixels * pixel, ahead));
+    }
+    else if (glm::distance(mark.rest, mark.now) > SeenMm)
+    {
+      const auto lines = arrow(mark.rest, mark.now, HeadPixels * pixel, ahead);
+      ways.insert(ways.end(), lines.begin(), lines.end());
+    }
+  }
+  vtkLatticeRepresentation& drawing = this->Bench.drawing;
+  drawing.SetLines(vtkLatticeRepresentation::Mark, ways);
+  drawing.SetLines(vtkLatticeRepresentation::Strong, missing);
+  drawing.SetLines(vtkLatticeRepresentation::Hold, rings);
+  drawing.SetDots(dots);
+  drawing.SetHighlights(
+    highlight ? std::vector<glm::dvec3>{ *highlight } : std::vector<glm::dvec3>());
+}
+
+void PullTool::hover(const HandEvent& event)
+{
+  const std::optional<Spot> spot = this->Bench.probe.spotAt(pixelOf(event));
+  this->Last = spot ? spot : this->Last;
+  this->find();
+  if (!spot)
+  {
+    this->show({});
+    return;
+  }
+  glm::dvec3 held = spot->position;
+  double least = this->gripRadius(held);
+  for (const Shown& mark : this->Marks)
+  {
+    const double distance = glm::distance(mark.now, spot->position);
+    if (distance < least)
+    {
+      least = distance;
+      held = mark.now; // what a press would take
+    }
+  }
+  this->show(held);
+}
+
+void PullTool::idle()
+{
+  this->find();
+  this->show({});
+}
+
+void PullTool::pin(const glm::dvec3& rest, double radius)
+{
+  std::vector<Pin> pins = pinsFrom(this->Bench.fit.numbers("Pins"));
+  const std::size_t place = nearest(pins, rest, radius);
+  const bool isThere = place < pins.size();
+  if (isThere)
+  {
+    pins.erase(pins.begin() + static_cast<std::ptrdiff_t>(place));
+  }
+  else
+  {
+    pins.push_back({ rest, true });
+  }
+  this->Bench.fit.replace("Pins", numbersFrom(pins), isThere ? "Remove pin" : "Pin tissue");
+}
+
+bool PullTool::press(const HandEvent& event)
+{
+  const std::optional<Spot> spot = this->Bench.probe.spotAt(pixelOf(event));
+  const std::optional<glm::dvec3> rest =
+    spot ? this->Bench.probe.restOf(spot->position) : std::nullopt;
+  if (!rest || !this->Bench.fit.refusal().isEmpty())
+  {
+    return false;
+  }
+  this->Last = spot;
+  const double radius = this->gripRadius(spot->position);
+  if (commandOf(ToolKind::Pull, Mouse::Click, event) == Command::PinTissue)
+  {
+    this->Held.reset();
+    this->pin(*rest, radius);
+    return true;
+  }
+  this->find();
+  this->List = this->pulls();
+  this->Place = nearest(this->List, *rest, radius);
+  if (this->Place == this->List.size())
+  {
+    this->List.push_back({ *rest, fittedPlace(this->Bench.fit.fit(), *rest), 1.0 });
+  }
+  Pull& pull = this->List[this->Place];
+  pull.weight = pull.weight > 0.0 ? pull.weight : 1.0;
+  this->From = pull.target;
+  this->Held = { *spot, pixelOf(event) };
+  return true;
+}
+
+void PullTool::drag(const HandEvent& event)
+{
+  FitEditor& fit = this->Bench.fit;
+  if (!this->Held ||
+    (!fit.isEditing() &&
+      glm::distance(pixelOf(event), this->Held->pixel) <
+        LeastPixels * this->Bench.probe.screenScale()))
+  {
+    return;
+  }
+  const glm::dvec3 moved = this->pulled(*this->Held, pixelOf(event));
+  Pull& pull = this->List[this->Place];
+  pull.target = this->From + this->beforeStrength(moved);
+  // The server is not asked where tissue came: that under the hand follows it.
+  const auto mark = std::find_if(this->Marks.begin(), this->Marks.end(),
+    [&](const Shown& shown) { return !shown.isPin && shown.rest == pull.rest; });
+  const glm::dvec3 now = this->Held->spot.position + moved;
+  if (mark == this->Marks.end())
+  {
+    this->Marks.push_back({ pull.rest, now, now, false });
+  }
+  else
+  {
+    mark->now = mark->target = now;
+  }
+  this->show(now);
+  const std::vector<double> numbers = numbersFrom(this->List);
+  if (fit.isEditing())
+  {
+    fit.change(numbers);
+  }
+  else
+  {
+    fit.begin("Pulls", numbers);
+  }
+}
+
+void PullTool::release()
+{
+  this->settle();
+  this->Held.reset();
+}
+
+void PullTool::settle()
+{
+  if (this->Bench.fit.isEditing())
+  {
+    this->Bench.fit.commit("Pull tissue");
+  }
+}
+
+void PullTool::cancel()
+{
+  this->Held.reset();
+  this->Bench.fit.cancel();
+  this->idle();
+}
+}
