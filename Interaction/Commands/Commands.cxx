@@ -76,11 +76,6 @@ std::vector<CommandRow> moveAndSoftRows()
     byMouse(Command::ChangeRadius, Scope::Tool, { ToolKind::Soft }, Mouse::Wheel, Qt::ShiftModifier,
       QT_TRANSLATE_NOOP("BrainShift", "Change the radius."),
       QT_TRANSLATE_NOOP("BrainShift", "change the radius")),
-    byKey(Command::HoldAxis, Scope::Tool, { ToolKind::Move, ToolKind::Soft, ToolKind::Pull },
-      { Qt::Key_X, Qt::Key_Y, Qt::Key_Z },
-      QT_TRANSLATE_NOOP("BrainShift",
-        "During a drag: hold the drag to that world axis. Press the key again to release it."),
-      QT_TRANSLATE_NOOP("BrainShift", "hold the drag to an axis")),
   };
 }
 
@@ -131,6 +126,11 @@ std::vector<CommandRow> pullRows()
 std::vector<CommandRow> handRows()
 {
   return {
+    byKey(Command::HoldAxis, Scope::Tool, { ToolKind::Move, ToolKind::Soft, ToolKind::Pull },
+      { Qt::Key_X, Qt::Key_Y, Qt::Key_Z },
+      QT_TRANSLATE_NOOP("BrainShift",
+        "During a drag: hold the drag to that world axis. Press the key again to release it."),
+      QT_TRANSLATE_NOOP("BrainShift", "hold the drag to an axis")),
     byKey(Command::MoveCursor, Scope::Tool, {},
       { Qt::Key_Left, Qt::Key_Right, Qt::Key_Up, Qt::Key_Down },
       QT_TRANSLATE_NOOP("BrainShift",
@@ -266,7 +266,7 @@ const std::vector<CommandRow>& commandTable()
 {
   static const std::vector<CommandRow> table = [] {
     std::vector<CommandRow> all;
-    for (const auto& rows : { windowRows(), moveAndSoftRows(), stampRows(), handRows(), pullRows(),
+    for (const auto& rows : { windowRows(), moveAndSoftRows(), stampRows(), pullRows(), handRows(),
            viewRows(), listRows() })
     {
       all.insert(all.end(), rows.begin(), rows.end());

@@ -3,6 +3,7 @@
 
 #include "Interaction/Edits/LivePicture.h"
 #include "Interaction/Views/ActiveDeformation.h"
+#include "Interaction/Views/Reports.h"
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
@@ -19,6 +20,7 @@
 
 #include <QScopedValueRollback>
 
+#include <cstddef>
 #include <cstring>
 
 namespace brainshift
@@ -40,19 +42,6 @@ void share(vtkSMProxy* deformation, vtkSMProxy* fit)
   for (const char* name : Shared)
   {
     fit->GetProperty(name)->Copy(deformation->GetProperty(name));
-  }
-}
-
-void setNumbers(vtkSMProxy* fit, const std::string& list, const FitEditor::Numbers& numbers)
-{
-  vtkSMPropertyHelper property(fit, list.c_str());
-  if (numbers.empty())
-  {
-    property.SetNumberOfElements(0);
-  }
-  else
-  {
-    property.Set(numbers.data(), static_cast<unsigned int>(numbers.size()));
   }
 }
 }
@@ -106,6 +95,39 @@ FitEditor::Numbers FitEditor::numbers(const char* list) const
 {
   vtkSMProxy* proxy = this->fit();
   return proxy ? vtkSMPropertyHelper(proxy, list).GetDoubleArray() : Numbers();
+}
+
+std::vector<glm::dvec3> FitEditor::fittedPlaces(const std::vector<glm::dvec3>& rest) const
+{
+  vtkSMProxy* proxy = this->fit();
+  if (!proxy || rest.empty())
+  {
+    return {};
+  }
+  const vtkSmartPointer<vtkSMProxy> report = makeReport(proxy, "FitReport");
+  pointAt(report, "Filter", proxy);
+  vtkSMPropertyHelper(report, "Points")
+    .Set(&rest.front().x, static_cast<unsigned int>(3 * rest.size()));
+  const std::vector<double> numbers = answerOf(report, "Measured");
+  std::vector<glm::dvec3> places;
+  for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+  {
+    places.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+  }
+  return places;
+}
+
+void FitEditor::setNumbers(vtkSMProxy* fit, const char* list, const Numbers& numbers)
+{
+  vtkSMPropertyHelper property(fit, list);
+  if (numbers.empty())
+  {
+    property.SetNumberOfElements(0);
+  }
+  else
+  {
+    property.Set(numbers.data(), static_cast<unsigned int>(numbers.size()));
+  }
 }
 
 vtkSmartPointer<vtkSMProxy> FitEditor::prepare() const
@@ -190,7 +212,7 @@ bool FitEditor::replace(const char* list, const Numbers& numbers, const QString&
   {
     return this->refusal().isEmpty();
   }
-  return this->edit(label, [&](vtkSMProxy* fit) { setNumbers(fit, list, numbers); });
+  return this->edit(label, [&](vtkSMProxy* fit) { FitEditor::setNumbers(fit, list, numbers); });
 }
 
 bool FitEditor::begin(const char* list, const Numbers& underHand)
@@ -275,7 +297,7 @@ void FitEditor::stopEditing()
 void FitEditor::write(const Numbers& numbers)
 {
   const QScopedValueRollback<bool> writing(this->Writing, true);
-  setNumbers(this->fit(), this->List, numbers);
+  FitEditor::setNumbers(this->fit(), this->List.c_str(), numbers);
 }
 
 void FitEditor::noticeLattice()

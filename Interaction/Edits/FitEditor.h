@@ -14,6 +14,8 @@
 #include <QString>
 #include <QTimer>
 
+#include <glm/vec3.hpp>
+
 #include <functional>
 #include <string>
 #include <vector>
@@ -46,6 +48,12 @@ public:
   /// The numbers of a list of the fit, such as "Pulls" or "Pins". None if there is no fit.
   Numbers numbers(const char* list) const;
 
+  /// Where the fit takes tissue at rest (mm), before strokes. As many as `rest`; none if there is
+  /// no fit or it failed. It asks the server.
+  std::vector<glm::dvec3> fittedPlaces(const std::vector<glm::dvec3>& rest) const;
+
+  /// Sets a list of a fit, within edit().
+  static void setNumbers(vtkSMProxy* fit, const char* list, const Numbers& numbers);
   /// One undo step that makes the fit, if there is none, and calls `change` to set its properties.
   /// False, and nothing happens, if there can be no fit.
   bool edit(const QString& label, const std::function<void(vtkSMProxy*)>& change);

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Tools/PullTool.h"
 
-#include "Interaction/Views/Reports.h"
-
-#include <vtkSMPropertyHelper.h>
-#include <vtkSMSourceProxy.h>
-
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -21,20 +16,6 @@ constexpr double HeadPixels = 12.0; // of an arrow
 constexpr double RingPixels = 8.0;  // radius of the ring around a pin
 constexpr double SliceMm = 3.0;     // in a slice, marks at most this far from it are drawn
 constexpr double SeenMm = 0.5;      // a shorter rest of the way is not drawn
-
-// Where the fit alone takes tissue at rest: strokes lie on top of it.
-glm::dvec3 fittedPlace(vtkSMProxy* fit, const glm::dvec3& rest)
-{
-  if (!fit)
-  {
-    return rest;
-  }
-  const vtkSmartPointer<vtkSMProxy> report = makeReport(fit, "FitReport");
-  pointAt(report, "Filter", fit);
-  vtkSMPropertyHelper(report, "Points").Set(&rest.x, 3);
-  const std::vector<double> measured = answerOf(report, "Measured");
-  return measured.size() == 3 ? glm::dvec3(measured[0], measured[1], measured[2]) : rest;
-}
 }
 
 double PullTool::gripRadius(const glm::dvec3& position) const
@@ -193,7 +174,8 @@ bool PullTool::press(const HandEvent& event)
   this->Place = nearest(this->List, *rest, radius);
   if (this->Place == this->List.size())
   {
-    this->List.push_back({ *rest, fittedPlace(this->Bench.fit.fit(), *rest), 1.0 });
+    const std::vector<glm::dvec3> fitted = this->Bench.fit.fittedPlaces({ *rest });
+    this->List.push_back({ *rest, fitted.empty() ? *rest : fitted.front(), 1.0 }); // strokes on top
   }
   Pull& pull = this->List[this->Place];
   pull.weight = pull.weight > 0.0 ? pull.weight : 1.0;

@@ -2,6 +2,7 @@
 #include "Panel/Properties/StrokesWidget.h"
 
 #include "Interaction/Edits/StrokeEditor.h"
+#include "Panel/Measured/PullsPane.h"
 #include "Panel/Parts/InSight.h"
 #include "Panel/Parts/RoomyDock.h"
 #include "Panel/Strokes/StrokeList.h"
@@ -64,6 +65,7 @@ StrokesWidget::StrokesWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget
   column->addWidget(this->Tools);
   column->addWidget(pqProxyWidget::newGroupLabelWidget(tr("Strokes (mm)"), this));
   column->addWidget(new StrokeList(this->Strokes, this));
+  column->addWidget(new PullsPane(this->Source, this));
 
   new InSight(this);
   new RoomyDock(this);

@@ -2,6 +2,7 @@
 #include "Panel/Strokes/StrokeModel.h"
 
 #include "Panel/Parts/Advice.h"
+#include "Panel/Parts/NumberDelegate.h"
 
 #include <vtkSMDoubleVectorProperty.h>
 
@@ -327,9 +328,9 @@ QVariant StrokeModel::data(const QModelIndex& index, int role) const
     case Qt::ForegroundRole:
       return stroke.enabled ? QVariant()
                             : QGuiApplication::palette().brush(QPalette::Disabled, QPalette::Text);
-    case LeastRole:
+    case NumberDelegate::LeastRole:
       return leastNumber(stroke, column);
-    case MostRole:
+    case NumberDelegate::MostRole:
       return MostLength;
     default:
       return {};

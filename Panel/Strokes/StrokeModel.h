@@ -41,13 +41,6 @@ public:
     WhereColumn,  ///< mm: the anchor.
     ColumnCount,
   };
-  /// Limits of an editable number, mm.
-  enum Role
-  {
-    LeastRole = Qt::UserRole,
-    MostRole,
-  };
-
   /// Replaces all strokes. The text names the edit on the undo stack.
   using Write = std::function<void(const std::vector<Stroke>&, const QString&)>;
 

@@ -2,15 +2,14 @@
 #include "Panel/Strokes/StrokeTree.h"
 
 #include "Interaction/Commands/Commands.h"
+#include "Panel/Parts/NumberDelegate.h"
+#include "Panel/Parts/SoftHighlight.h"
 #include "Panel/Strokes/StrokeModel.h"
 
-#include <QDoubleSpinBox>
 #include <QEvent>
-#include <QGuiApplication>
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QPainter>
-#include <QStyledItemDelegate>
 
 #include <algorithm>
 
@@ -20,24 +19,6 @@ namespace
 {
 constexpr int FewestRows = 4; // seen at once
 constexpr int MostRows = 9;
-
-class NumberDelegate : public QStyledItemDelegate
-{
-public:
-  using QStyledItemDelegate::QStyledItemDelegate;
-
-  QWidget* createEditor(
-    QWidget* parent, const QStyleOptionViewItem&, const QModelIndex& index) const override
-  {
-    auto editor = new QDoubleSpinBox(parent);
-    editor->setFrame(false);
-    editor->setButtonSymbols(QAbstractSpinBox::NoButtons); // the cell is narrow
-    editor->setDecimals(2);
-    editor->setRange(
-      index.data(StrokeModel::LeastRole).toDouble(), index.data(StrokeModel::MostRole).toDouble());
-    return editor;
-  }
-};
 }
 
 StrokeTree::StrokeTree(StrokeModel* model, QWidget* parent)
@@ -55,7 +36,7 @@ StrokeTree::StrokeTree(StrokeModel* model, QWidget* parent)
   this->setTabKeyNavigation(false); // Tab leaves the list
   this->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   this->setTextElideMode(Qt::ElideRight);
-  this->softenHighlight();
+  softenHighlight(this);
   QHeaderView* header = this->header();
   header->setStretchLastSection(true); // the position
   header->setMinimumSectionSize(this->fontMetrics().averageCharWidth() * 5);
@@ -167,28 +148,12 @@ void StrokeTree::showWhereIfRoom()
   this->header()->setStretchLastSection(!hidden);
 }
 
-// Icons would be lost on the strong colour of most themes.
-void StrokeTree::softenHighlight()
-{
-  constexpr double share = 0.35; // of the theme's highlight
-  const QPalette theme = QGuiApplication::palette();
-  const QColor strong = theme.color(QPalette::Highlight);
-  const QColor base = theme.color(QPalette::Base);
-  const auto mixed = [](int part, int rest) { return int(share * part + (1.0 - share) * rest); };
-  QPalette soft;
-  soft.setColor(QPalette::Highlight,
-    QColor(mixed(strong.red(), base.red()), mixed(strong.green(), base.green()),
-      mixed(strong.blue(), base.blue())));
-  soft.setColor(QPalette::HighlightedText, theme.color(QPalette::Text));
-  this->setPalette(soft);
-}
-
 void StrokeTree::changeEvent(QEvent* event)
 {
   this->QTreeView::changeEvent(event);
   if (event->type() == QEvent::PaletteChange) // our own one, equal to the last, changes nothing
   {
-    this->softenHighlight();
+    softenHighlight(this);
   }
 }
 

@@ -38,7 +38,6 @@ private:
   void toggleSelected();
   void moveColumn(int by);
   void showWhereIfRoom();
-  void softenHighlight();
   int heightOfRows(int rows) const;
 
   StrokeModel* const Strokes;

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 TEST(LatticeReport, NamesTheControlPointsThatTheFilterAttached)
@@ -46,4 +47,43 @@ TEST(LatticeReport, NamesTheControlPointsThatTheFilterAttached)
   {
     EXPECT_DOUBLE_EQ(geometry->GetValue(i), lattice[i]) << i;
   }
+}
+
+TEST(LatticeReport, FindsTheSameTissueInBothFrames)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(10, 10, 10);
+  image->SetSpacing(2.0, 2.0, 2.0);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 1);
+  vtkNew<vtkFreeFormDeformation> filter;
+  filter->SetInputData(image);
+  filter->SetLatticeDimensions(4, 4, 4);
+  filter->SetStrokeNumbers({ 0, 6, 6, 6, 1, 2, 0.5, 0, 0, 0, 0, 0, 0.5, 1 });
+  vtkNew<vtkLatticeReport> report;
+  report->SetFilter(filter);
+  report->AddPlace(6.0, 6.0, 6.0);
+  report->AddPlace(7.0, 5.0, 8.0);
+  report->SetToRest(false);
+  EXPECT_EQ(report->GetSameTissue()->GetNumberOfValues(), 0); // not executed yet
+  filter->Update();
+  const std::vector<double> expected{ 7.0, 8.0, 6.5 };
+  vtkDoubleArray* drawn = report->GetSameTissue();
+  ASSERT_EQ(drawn->GetNumberOfValues(), 6);
+  std::vector<double> places;
+  for (int i = 0; i < 6; ++i)
+  {
+    places.push_back(drawn->GetValue(i));
+    EXPECT_TRUE(i >= 3 || std::abs(places[i] - expected[i]) < 1e-5) << i << ": " << places[i];
+  }
+  report->ClearPlaces();
+  report->AddPlace(places[3], places[4], places[5]);
+  report->SetToRest(true);
+  vtkDoubleArray* rest = report->GetSameTissue();
+  ASSERT_EQ(rest->GetNumberOfValues(), 3);
+  EXPECT_NEAR(rest->GetValue(0), 7.0, 1e-3);
+  EXPECT_NEAR(rest->GetValue(1), 5.0, 1e-3);
+  EXPECT_NEAR(rest->GetValue(2), 8.0, 1e-3);
+  filter->SetStrength(0.0); // a new result is asked anew
+  filter->Update();
+  EXPECT_NEAR(report->GetSameTissue()->GetValue(0), places[3], 1e-6);
 }

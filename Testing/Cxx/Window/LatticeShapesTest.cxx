@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 using namespace brainshift;
 
@@ -147,4 +148,36 @@ TEST(LatticeShapes, TheRepresentationMakesWhatStaysOnce)
   EXPECT_EQ(size(), 0.0);
   EXPECT_EQ(mark(first), 2.0) << "cleared, then the same again";
 }
+}
+
+TEST(LatticeShapes, AnArrowPointsToItsEndAndFacesTheView)
+{
+  const glm::dvec3 ahead(0.0, 0.0, -1.0);
+  const std::vector<Polyline> lines = arrow({ 1.0, 2.0, 3.0 }, { 11.0, 2.0, 3.0 }, 4.0, ahead);
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(lines[0].front(), glm::dvec3(1.0, 2.0, 3.0));
+  EXPECT_EQ(lines[0].back(), glm::dvec3(11.0, 2.0, 3.0));
+  ASSERT_EQ(lines[1].size(), 3U);
+  EXPECT_EQ(lines[1][1], glm::dvec3(11.0, 2.0, 3.0));
+  for (const glm::dvec3& barb : { lines[1].front(), lines[1].back() })
+  {
+    EXPECT_DOUBLE_EQ(barb.x, 7.0);
+    EXPECT_DOUBLE_EQ(std::abs(barb.y - 2.0), 2.0);
+    EXPECT_DOUBLE_EQ(barb.z, 3.0);
+  }
+  // A short one has a short head, and one along the view has a head, too.
+  EXPECT_DOUBLE_EQ(arrow({}, { 2.0, 0.0, 0.0 }, 4.0, ahead)[1].front().x, 1.0);
+  EXPECT_GT(glm::distance(arrow({}, ahead, 4.0, ahead)[1].front(), ahead), 0.5);
+  EXPECT_TRUE(arrow(ahead, ahead, 4.0, ahead).empty());
+}
+
+TEST(LatticeShapes, ARingFacesTheView)
+{
+  const glm::dvec3 centre(1.0, 2.0, 3.0);
+  const glm::dvec3 ahead = glm::normalize(glm::dvec3(1.0, 2.0, -3.0));
+  for (const glm::dvec3& point : ring(centre, 5.0, ahead))
+  {
+    EXPECT_NEAR(glm::distance(point, centre), 5.0, 1e-12);
+    EXPECT_NEAR(glm::dot(point - centre, ahead), 0.0, 1e-12);
+  }
 }

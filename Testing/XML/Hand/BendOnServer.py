@@ -93,6 +93,42 @@ def drag(bent, view, display, tool, kind):
     window.edit("Undo")
 
 
+def pull_and_pin():
+    # The server solves the fit, live.
+    window.deformation().Strokes = []
+    bent, view = window.deformation(), simple.GetActiveView()
+    display = simple.GetDisplayProperties(bent, view)
+    display.SetRepresentationType("Deformed Volume")
+    simple.Render(view)
+    hand.wait(100)
+    hand.take(hand.PULL)
+    start = [side // 2 + 25 for side in view.ViewSize]
+    drawn = brainshift.counters(display)["latticeUploads"]
+    hand.hover(start)
+    hand.press(start)
+    for step in (5, 10, 15):
+        hand.drag_to([start[0] + step, start[1] + step])
+        hand.wait(50)
+    assert brainshift.counters(display)["latticeUploads"] > drawn, "the server draws it meanwhile"
+    hand.release([start[0] + 15, start[1] + 15])
+    hand.wait(300)
+    pull = numpy.array(bent.Lattice.Pulls)
+    assert len(pull) == 7 and bent.MaximumDisplacement > 0, pull
+    place = brainshift.deformed_from_rest(bent, [pull[:3].tolist()])[0]
+    asked = numpy.linalg.norm(pull[3:6] - pull[:3])
+    assert numpy.linalg.norm(place - pull[3:6]) < 0.2 * asked, (place, pull)
+    assert hand.is_visible("BrainShiftPulls")
+    other = [side // 2 - 25 for side in view.ViewSize]
+    hand.hover(other, hand.SHIFT)
+    hand.press(other, hand.SHIFT)
+    hand.release(other, hand.SHIFT)
+    hand.wait(200)
+    assert len(bent.Lattice.Pins) == 4, bent.Lattice.Pins
+    bent.Lattice = None
+    simple.Render(view)
+    hand.wait(100)
+
+
 def what_lies_under_the_cursor():
     hand.take(hand.NONE)
     view = simple.GetActiveView()
@@ -138,6 +174,7 @@ def play():
         yield drag_with_each_tool,
         yield what_lies_under_the_cursor,
         yield turn_the_wheel,
+        yield pull_and_pin,
         yield lose_the_server,
 
 

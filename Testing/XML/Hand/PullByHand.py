@@ -125,6 +125,7 @@ def sees(pixel, place):
 
 
 def tissue_follows_the_hand():
+    assert not hand.is_visible("BrainShiftPulls")
     # No Apply, no other active source, nothing but the edit to undo.
     hand.take(hand.PULL)
     undo, sources = undo_labels(), len(simple.GetSources())
@@ -234,6 +235,20 @@ def a_stroke_stays_on_top():
     assert len(pulls()) == 2, pulls()
 
 
+def the_list_edits():
+    # The mouse and the keys of the list itself are those of the list of strokes.
+    assert hand.is_visible("BrainShiftPulls") and not hand.label("BrainShiftProblem")
+    was, held = pulls(), pins()
+    assert len(was) == 2 and len(held) == 1, (was, held)
+    assert hand.click("BrainShiftClearPulls")
+    hand.wait(200)
+    assert not len(pulls()) and not len(pins()), (pulls(), pins())
+    assert not lattice().any(), numpy.abs(lattice()).max()
+    assert undo_labels()[0] == "Clear All Pulls", undo_labels()
+    window.action("Undo")
+    assert (pulls() == was).all() and (pins() == held).all(), (pulls(), pins())
+
+
 def settings_are_shared():
     # As Apply in the panel does: one step, which takes the fit along.
     simple.SetActiveSource(deformation())
@@ -243,6 +258,34 @@ def settings_are_shared():
     deformation().LatticeDimensions = [19, 19, 19]
     hand.wait(200)
     assert list(fit().LatticeDimensions) == [19, 19, 19], fit().LatticeDimensions
+
+
+def slices_are_pulled_within():
+    # In a slice, the pull lies in the slice's plane.
+    display = simple.GetDisplayProperties(deformation())
+    display.SetRepresentationType("Deformed Slices")
+    simple.Render()
+    hand.wait(200)
+    before = len(pulls())
+    pull((0.02, 0.06), 20, 10)
+    assert len(pulls()) == before + 1, pulls()
+    moved = pulls()[-1, 3:6] - drawn_by_fit(pulls()[-1, :3])
+    assert numpy.linalg.norm(moved) < NEAR, moved
+    window.action("Undo")
+    display.SetRepresentationType("Deformed Volume")
+    simple.Render()
+    hand.wait(200)
+    assert len(pulls()) == before, pulls()
+
+
+def drawn_by_fit(rest):
+    """Where the fit takes tissue at rest, without strokes."""
+    kept = list(deformation().Strokes)
+    with unrecorded():
+        deformation().Strokes = []
+        place = drawn(rest)
+        deformation().Strokes = kept
+    return place
 
 
 def a_state_keeps_it():
@@ -292,5 +335,6 @@ def another_lattice_is_kept():
 window.main("PullByHand", [
     (open_head,), (tissue_follows_the_hand,), (the_first_pull_is_one_step,),
     (a_second_drag_moves_the_pull,), (escape_drops_it,), (a_pin_holds,),
-    (the_order_does_not_matter,), (a_stroke_stays_on_top,), (settings_are_shared,),
-    (a_state_keeps_it,), (nothing_measured_bends_nothing,), (another_lattice_is_kept,)])
+    (the_order_does_not_matter,), (a_stroke_stays_on_top,), (the_list_edits,),
+    (settings_are_shared,), (slices_are_pulled_within,), (a_state_keeps_it,),
+    (nothing_measured_bends_nothing,), (another_lattice_is_kept,)])
