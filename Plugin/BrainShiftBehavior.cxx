@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BrainShiftBehavior.h"
 
+#include "Interaction/Landmarks/LandmarkMarks.h"
 #include "Interaction/ToolCarrier.h"
 #include "Interaction/Views/KeptSelection.h"
 #include "Interaction/Views/SliceMouse.h"
@@ -83,6 +84,7 @@ void BrainShiftBehavior::onStartup()
     model, &pqServerManagerModel::sourceAdded, this, &BrainShiftBehavior::watchSource);
   brainshift::SliceMouse::watchViews(this);
   new brainshift::KeptSelection(this);
+  new brainshift::LandmarkMarks(this);
   new brainshift::QuietLinks(this);
   new brainshift::ComparisonLegend(this);
   this->Hand = new brainshift::ToolCarrier(this);

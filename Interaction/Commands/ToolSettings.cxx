@@ -148,6 +148,15 @@ void ToolSettings::setObstacle(const QString& sentence)
   }
 }
 
+void ToolSettings::setRequest(const QString& request)
+{
+  if (request != this->Request)
+  {
+    this->Request = request;
+    Q_EMIT this->changed();
+  }
+}
+
 void ToolSettings::keep(const char* name, double& kept, double value, const Range& range)
 {
   if (std::isfinite(value) && clamped(value, range) != kept)

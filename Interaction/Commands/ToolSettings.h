@@ -70,6 +70,8 @@ public:
   const QString& shownInstead() const { return this->ShownInstead; }
   /// Why the tool in hand cannot work, a sentence. Default empty: it can.
   const QString& obstacle() const { return this->Obstacle; }
+  /// What the window asks the hand to do next, a whole sentence. Default empty: nothing.
+  const QString& request() const { return this->Request; }
   double radius() const;              ///< Soft: mm, default 25.
   double majorRadius() const;         ///< Stamp: half the long axis, mm, default 40.
   double minorRadius() const;         ///< Stamp: across the long axis, mm, default 25.
@@ -95,6 +97,7 @@ public Q_SLOTS:
   void setGround(ToolSettings::Ground ground);
   void setShownInstead(const QString& name);
   void setObstacle(const QString& sentence);
+  void setRequest(const QString& request);
   void setRadius(double millimetres);
   void setMajorRadius(double millimetres);
   void setMinorRadius(double millimetres);
@@ -116,6 +119,7 @@ private:
   Ground GroundNow = Ground::Volume;
   QString ShownInstead;
   QString Obstacle;
+  QString Request;
   double Radius = 25.0;
   double MajorRadius = 40.0;
   double MinorRadius = 25.0;

@@ -93,7 +93,8 @@ void CursorProbe::forget()
   this->View = nullptr;
 }
 
-std::optional<CursorTissue> CursorProbe::tissueAt(pqRenderView* view, int x, int y)
+std::optional<CursorTissue> CursorProbe::tissueAt(
+  pqRenderView* view, int x, int y, const std::function<bool(pqDataRepresentation*)>& counts)
 {
   if (view != this->View || !this->Report)
   {
@@ -112,7 +113,8 @@ std::optional<CursorTissue> CursorProbe::tissueAt(pqRenderView* view, int x, int
   for (pqRepresentation* representation : view->getRepresentations())
   {
     auto display = qobject_cast<pqDataRepresentation*>(representation);
-    if (!display || !display->isVisible() || !(showsSlices(display) || showsVolume(display)))
+    if (!display || !display->isVisible() || !(showsSlices(display) || showsVolume(display)) ||
+      (counts && !counts(display)))
     {
       continue;
     }

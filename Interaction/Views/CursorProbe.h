@@ -15,8 +15,10 @@
 
 #include <glm/vec3.hpp>
 
+#include <functional>
 #include <optional>
 
+class pqDataRepresentation;
 class pqRenderView;
 class vtkSMProxy;
 
@@ -43,7 +45,9 @@ public:
   /// The tissue that the last picture shows at a pixel, from the lower left corner of the view. Of
   /// several volumes, the one in front. Draws nothing. None where no Deformed Volume or Deformed
   /// Slices is hit, and while the picture is older than the data.
-  std::optional<CursorTissue> tissueAt(pqRenderView* view, int x, int y);
+  /// `counts`: says which displays are asked; without it, all are.
+  std::optional<CursorTissue> tissueAt(pqRenderView* view, int x, int y,
+    const std::function<bool(pqDataRepresentation*)>& counts = {});
 
   /// Lets go of view and volumes.
   void forget();

@@ -143,6 +143,12 @@ double beyondWipe(vtkSMProxy* display, const double place[3], const double acros
 }
 }
 
+void bringSlicesTo(vtkSMProxy* display, const double position[3])
+{
+  double place[3] = { position[0], position[1], position[2] };
+  setPosition(display, "SlicePosition", place);
+}
+
 void SliceMouse::watchViews(QObject* context)
 {
   const auto watch = [](pqView* added) {

@@ -23,6 +23,10 @@ class vtkSMProxy;
 
 namespace brainshift
 {
+/// Brings Deformed Slices to a position (mm), and those of the same volume in other views to the
+/// same tissue. It is no step to undo.
+void bringSlicesTo(vtkSMProxy* display, const double position[3]);
+
 /// Belongs to one view and ends with it.
 class SliceMouse : public QObject
 {

@@ -2,6 +2,8 @@
 #include "Panel/Properties/StrokesWidget.h"
 
 #include "Interaction/Edits/StrokeEditor.h"
+#include "Interaction/Landmarks/LandmarkList.h"
+#include "Panel/Landmarks/LandmarkTable.h"
 #include "Panel/Measured/PullsPane.h"
 #include "Panel/Parts/InSight.h"
 #include "Panel/Parts/RoomyDock.h"
@@ -66,6 +68,8 @@ StrokesWidget::StrokesWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget
   column->addWidget(pqProxyWidget::newGroupLabelWidget(tr("Strokes (mm)"), this));
   column->addWidget(new StrokeList(this->Strokes, this));
   column->addWidget(new PullsPane(this->Source, this));
+  column->addWidget(pqProxyWidget::newGroupLabelWidget(tr("Landmarks (mm)"), this));
+  column->addWidget(new LandmarkTable(LandmarkList::of(this->Source), this));
 
   new InSight(this);
   new RoomyDock(this);

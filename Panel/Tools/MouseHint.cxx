@@ -93,6 +93,10 @@ QString mouseHint(const ToolSettings& settings, ToolSettings::Ground ground)
 {
   const ToolKind tool = settings.tool();
   QStringList hints;
+  if (!settings.request().isEmpty())
+  {
+    return settings.request();
+  }
   if (tool != ToolKind::None && !settings.shownInstead().isEmpty())
   {
     return tr(

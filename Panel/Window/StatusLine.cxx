@@ -37,7 +37,8 @@ void StatusLine::refresh()
   const ToolSettings& settings = *ToolSettings::instance();
   const bool inHand = settings.tool() != ToolKind::None;
   // Without a tool the mouse does what it always does, but for slices.
-  const bool isOurs = inHand || settings.ground() == ToolSettings::Ground::FlatSlices;
+  const bool isOurs = inHand || !settings.request().isEmpty() ||
+    settings.ground() == ToolSettings::Ground::FlatSlices;
   this->Line->setText(isOurs ? mouseHint(settings, settings.ground()) : QString());
   this->Line->setToolTip(this->Line->text());
   this->Switch->setText(tr("Work on %1").arg(settings.shownInstead()));

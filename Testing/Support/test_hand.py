@@ -18,6 +18,7 @@ _library = ctypes.CDLL(os.environ["BRAINSHIFT_TEST_HAND"])
 _library.test_hand_scale.restype = ctypes.c_double
 _library.test_hand_set.restype = ctypes.c_double
 _library.test_hand_label.restype = ctypes.c_char_p
+_library.test_hand_cell.restype = ctypes.c_char_p
 _library.test_hand_controls.restype = ctypes.c_char_p
 _library.test_hand_set.argtypes = [ctypes.c_char_p, ctypes.c_double]
 
@@ -195,6 +196,21 @@ def controls(name):
     lines = _library.test_hand_controls(name.encode()).decode().splitlines()
     found = [line.split("\t") for line in lines]
     return [(kind, own, told, tab == "1", int(y)) for kind, own, told, tab, y in found]
+
+
+def cell(name, row, column):
+    """A cell of a list: whether it is checked (None: it has no check box), is bold, has a sign, and
+    its text. None without such a row."""
+    told = _library.test_hand_cell(name.encode(), row, column).decode()
+    if not told:
+        return None
+    check, bold, sign, text = told.split("\t")
+    return {"1": True, "0": False}.get(check), bold == "1", sign == "1", text
+
+
+def click_cell(name, row, column=0, check=False):
+    """Clicks a cell of a list with the mouse, on its check box or on its middle."""
+    return bool(_library.test_hand_click_cell(name.encode(), row, column, int(check)))
 
 
 def shows_all(name):

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Interaction/Landmarks/LandmarkList.h"
+
+#include "Interaction/Edits/FitEditor.h"
+#include "Interaction/Edits/StrokeEditor.h"
+#include "Interaction/Views/ActiveDeformation.h"
+#include "Interaction/Views/Reports.h"
+
+#include <pqApplicationCore.h>
+#include <pqPipelineSource.h>
+#include <pqServerManagerModel.h>
+
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMSourceProxy.h>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <QScopedValueRollback>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace brainshift
+{
+namespace
+{
+constexpr std::size_t NumbersPerPair = 7;   // of LandmarkPairs: rest, measured, weight
+constexpr std::size_t NumbersPerPlace = 10; // of LandmarkPlaces: rest, measured, fitted, weight
+constexpr int FewestToJudge = 3;            // of two pairs, both are wrong alike
+
+glm::dvec3 tripleAt(const std::vector<double>& numbers, std::size_t first)
+{
+  return { numbers[first], numbers[first + 1], numbers[first + 2] };
+}
+
+std::vector<std::string> textsOf(vtkSMProxy* proxy, const char* property)
+{
+  const vtkSMPropertyHelper helper(proxy, property);
+  std::vector<std::string> texts(helper.GetNumberOfElements());
+  for (unsigned int i = 0; i < texts.size(); ++i)
+  {
+    texts[i] = helper.GetAsString(i);
+  }
+  return texts;
+}
+
+void setNumbers(vtkSMProxy* proxy, const char* property, const std::vector<double>& numbers)
+{
+  vtkSMPropertyHelper helper(proxy, property);
+  if (numbers.empty())
+  {
+    helper.SetNumberOfElements(0);
+  }
+  else
+  {
+    helper.Set(numbers.data(), static_cast<unsigned int>(numbers.size()));
+  }
+}
+
+void setTexts(vtkSMProxy* proxy, const char* property, const std::vector<std::string>& texts)
+{
+  vtkSMPropertyHelper helper(proxy, property);
+  helper.SetNumberOfElements(static_cast<unsigned int>(texts.size()));
+  for (unsigned int i = 0; i < texts.size(); ++i)
+  {
+    helper.Set(i, texts[i].c_str());
+  }
+}
+}
+
+LandmarkList* LandmarkList::of(pqPipelineSource* deformation)
+{
+  if (!isDeformation(deformation))
+  {
+    return nullptr;
+  }
+  auto list = deformation->findChild<LandmarkList*>(QString(), Qt::FindDirectChildrenOnly);
+  return list ? list : new LandmarkList(deformation);
+}
+
+LandmarkList::LandmarkList(pqPipelineSource* source)
+  : QObject(source)
+  , Source(source)
+  , Editor(FitEditor::of(source))
+{
+  this->Soon.setSingleShot(true);
+  this->Soon.setInterval(0);
+  this->connect(&this->Soon, &QTimer::timeout, this, &LandmarkList::refresh);
+  this->connect(this->Editor, &FitEditor::changed, this, [this] { this->refreshSoon(true); });
+  this->connect(this->Editor, &FitEditor::drawn, this, [this] { this->refreshSoon(false); });
+  this->connect(StrokeEditor::of(source), &StrokeEditor::drawn, this, [this] {
+    if (!this->Rows.empty())
+    {
+      this->refreshSoon(false);
+    }
+  });
+  this->connect(pqApplicationCore::instance()->getServerManagerModel(),
+    &pqServerManagerModel::dataUpdated, this, [this](pqPipelineSource* updated) {
+      if (updated == this->Source || updated->getProxy() == this->Editor->fit())
+      {
+        this->refreshSoon(false);
+      }
+    });
+  this->refreshSoon(true);
+}
+
+QString LandmarkList::problem() const
+{
+  return this->Problem.isEmpty() ? this->Editor->refusal() : this->Problem;
+}
+
+bool LandmarkList::isOpen() const
+{
+  return this->Source->modifiedState() != pqProxy::UNINITIALIZED &&
+    this->Editor->refusal().isEmpty();
+}
+
+void LandmarkList::showMarks(bool on)
+{
+  if (on != this->ShowMarks)
+  {
+    this->ShowMarks = on;
+    Q_EMIT this->changed();
+  }
+}
+
+void LandmarkList::refreshSoon(bool runs)
+{
+  if (!this->Refreshing)
+  {
+    this->Runs = this->Runs || runs;
+    this->Soon.start();
+  }
+}
+
+void LandmarkList::refresh()
+{
+  const QScopedValueRollback<bool> refreshing(this->Refreshing, true);
+  this->Rows.clear();
+  this->Figures = {};
+  this->Problem.clear();
+  const vtkSmartPointer<vtkSMSourceProxy> fit = this->Editor->fit();
+  const bool isApplied = this->Source->modifiedState() != pqProxy::UNINITIALIZED;
+  if (fit && isApplied)
+  {
+    if (this->Runs && !this->Editor->isEditing())
+    {
+      fit->UpdatePipeline(); // who hides the volume wants the figures, too
+    }
+    fit->UpdatePropertyInformation();
+    this->readInputs(fit);
+    this->readPicked(fit);
+    this->readFigures(fit);
+    this->findDrawn();
+  }
+  this->Runs = false;
+  Q_EMIT this->changed();
+}
+
+// The rows that the fit tells about, in its order.
+void LandmarkList::readInputs(vtkSMProxy* fit)
+{
+  const std::vector<std::string> names = textsOf(fit, "LandmarkNames");
+  const std::vector<double> places = vtkSMPropertyHelper(fit, "LandmarkPlaces").GetDoubleArray();
+  const std::vector<double> residuals =
+    vtkSMPropertyHelper(fit, "LandmarkResiduals").GetDoubleArray();
+  const std::vector<double> leftOut = vtkSMPropertyHelper(fit, "LeaveOneOut").GetDoubleArray();
+  this->Problem = QString::fromUtf8(vtkSMPropertyHelper(fit, "Problem").GetAsString());
+  if (places.size() != NumbersPerPlace * names.size() || residuals.size() != names.size() ||
+    leftOut.size() != names.size())
+  {
+    return; // it failed, or has not run
+  }
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    LandmarkRow row;
+    row.name = QString::fromStdString(names[i]);
+    row.rest = tripleAt(places, NumbersPerPlace * i);
+    row.measured = tripleAt(places, NumbersPerPlace * i + 3);
+    row.fitted = tripleAt(places, NumbersPerPlace * i + 6);
+    row.on = places[NumbersPerPlace * i + 9] > 0.0;
+    row.residual = residuals[i];
+    row.leftOut = leftOut[i];
+    this->Rows.push_back(row);
+  }
+}
+
+// The last rows are the pairs that were picked. Without a result they are all that is known.
+void LandmarkList::readPicked(vtkSMProxy* fit)
+{
+  const std::vector<double> numbers = vtkSMPropertyHelper(fit, "LandmarkPairs").GetDoubleArray();
+  const std::size_t count = numbers.size() / NumbersPerPair;
+  if (this->Rows.size() < count)
+  {
+    this->Rows.assign(count, {});
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    LandmarkRow& row = this->Rows[this->Rows.size() - count + i];
+    row.name.clear();
+    row.place = static_cast<int>(i);
+    row.rest = tripleAt(numbers, NumbersPerPair * i);
+    row.measured = tripleAt(numbers, NumbersPerPair * i + 3);
+    row.on = numbers[NumbersPerPair * i + 6] > 0.0;
+  }
+}
+
+void LandmarkList::readFigures(vtkSMProxy* fit)
+{
+  double sum = 0.0;
+  int count = 0;
+  glm::dvec3 middle(0.0);
+  int counting = 0;
+  for (std::size_t i = 0; i < this->Rows.size(); ++i)
+  {
+    const LandmarkRow& row = this->Rows[i];
+    if (!row.on)
+    {
+      continue;
+    }
+    middle += row.rest;
+    ++counting;
+    if (std::isfinite(row.leftOut))
+    {
+      sum += row.leftOut;
+      ++count;
+      const int worst = this->Figures.worst;
+      this->Figures.worst =
+        worst < 0 || row.leftOut > this->Rows[worst].leftOut ? static_cast<int>(i) : worst;
+    }
+  }
+  this->Figures.worst = count < FewestToJudge ? -1 : this->Figures.worst;
+  this->Figures.meanLeftOut = count ? sum / count : LandmarkRow::Unknown;
+  this->Figures.share = vtkSMPropertyHelper(fit, "Share").GetAsDouble();
+  const std::vector<double> rigid = vtkSMPropertyHelper(fit, "Rigid").GetDoubleArray();
+  if (rigid.size() == 16 && counting > 0)
+  {
+    middle /= counting;
+    const glm::dvec3 rows[3] = { tripleAt(rigid, 0), tripleAt(rigid, 4), tripleAt(rigid, 8) };
+    glm::dvec3 moved(0.0);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      moved[axis] = glm::dot(rows[axis], middle) + rigid[4 * axis + 3];
+    }
+    this->Figures.shift = glm::distance(moved, middle);
+    const double cosine = (rows[0].x + rows[1].y + rows[2].z - 1.0) / 2.0;
+    this->Figures.turnDegrees = glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0)));
+  }
+}
+
+void LandmarkList::findDrawn()
+{
+  std::vector<double> places;
+  for (const LandmarkRow& row : this->Rows)
+  {
+    places.insert(places.end(), { row.rest.x, row.rest.y, row.rest.z });
+  }
+  if (places.empty())
+  {
+    return;
+  }
+  if (!this->Report)
+  {
+    this->Report = makeReport(this->Source->getProxy(), "LatticeReport");
+    pointAt(this->Report, "Filter", this->Source->getProxy());
+    setNumbers(this->Report, "ToRest", { 0.0 });
+  }
+  setNumbers(this->Report, "Places", places);
+  const std::vector<double> drawn = answerOf(this->Report, "SameTissue");
+  for (std::size_t i = 0; 3 * i + 2 < drawn.size() && i < this->Rows.size(); ++i)
+  {
+    this->Rows[i].drawn = tripleAt(drawn, 3 * i);
+  }
+}
+
+void LandmarkList::add(const glm::dvec3& rest, const glm::dvec3& measured)
+{
+  FitEditor::Numbers numbers = this->Editor->numbers("LandmarkPairs");
+  numbers.insert(
+    numbers.end(), { rest.x, rest.y, rest.z, measured.x, measured.y, measured.z, 1.0 });
+  this->Editor->replace("LandmarkPairs", numbers, tr("Add Landmark Pair"));
+}
+
+void LandmarkList::setOn(const QList<int>& rows, bool on)
+{
+  if (!this->Editor->fit())
+  {
+    return; // gone since the rows were read
+  }
+  FitEditor::Numbers numbers = this->Editor->numbers("LandmarkPairs");
+  std::vector<std::string> off = textsOf(this->Editor->fit(), "LandmarksOff");
+  for (const int i : rows)
+  {
+    const LandmarkRow& row = this->Rows.at(i);
+    const std::size_t weight = NumbersPerPair * row.place + NumbersPerPair - 1;
+    const std::string name = row.name.toStdString();
+    if (row.isPicked() && row.on != on && weight < numbers.size())
+    {
+      numbers[weight] = on ? 1.0 : 0.0;
+    }
+    else if (!row.isPicked())
+    {
+      off.erase(std::remove(off.begin(), off.end(), name), off.end());
+      if (!on)
+      {
+        off.push_back(name);
+      }
+    }
+  }
+  this->Editor->edit(on ? tr("Enable Landmarks") : tr("Disable Landmarks"), [&](vtkSMProxy* fit) {
+    setNumbers(fit, "LandmarkPairs", numbers);
+    setTexts(fit, "LandmarksOff", off);
+  });
+}
+
+void LandmarkList::remove(const QList<int>& rows)
+{
+  const FitEditor::Numbers before = this->Editor->numbers("LandmarkPairs");
+  FitEditor::Numbers numbers;
+  for (std::size_t i = 0; i + NumbersPerPair <= before.size(); i += NumbersPerPair)
+  {
+    const bool goes = std::any_of(rows.begin(), rows.end(),
+      [&](int row) { return this->Rows.at(row).place == static_cast<int>(i / NumbersPerPair); });
+    if (!goes)
+    {
+      numbers.insert(numbers.end(), before.begin() + i, before.begin() + i + NumbersPerPair);
+    }
+  }
+  this->Editor->replace("LandmarkPairs", numbers, tr("Delete Landmark Pairs"));
+}
+}

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// The pairs of landmarks of a Free-Form Deformation, with what the fit says of them. First come
+/// those of the inputs of the Fit Deformation, then those that were picked in the window. Positions
+/// and lengths: mm.
+#ifndef BrainShift_LandmarkList_h
+#define BrainShift_LandmarkList_h
+
+#include <vtkSmartPointer.h>
+
+#include <QList>
+#include <QObject>
+#include <QString>
+#include <QTimer>
+
+#include <glm/vec3.hpp>
+
+#include <limits>
+#include <vector>
+
+class pqPipelineSource;
+class vtkSMProxy;
+class vtkSMSourceProxy;
+
+namespace brainshift
+{
+class FitEditor;
+
+/// A pair. Numbers that are not known are NaN.
+struct LandmarkRow
+{
+  static constexpr double Unknown = std::numeric_limits<double>::quiet_NaN();
+
+  QString name;              ///< Of a landmark of the inputs. Empty for a pair that was picked.
+  int place = -1;            ///< Among the pairs that were picked. Below 0 for one of the inputs.
+  bool on = true;            ///< Whether it counts.
+  double residual = Unknown; ///< How far the fit misses it.
+  double leftOut = Unknown;  ///< How far a fit without it misses it.
+  glm::dvec3 rest{ Unknown };
+  glm::dvec3 measured{ Unknown };
+  glm::dvec3 fitted{ Unknown }; ///< Where the fit puts it, measured frame.
+  glm::dvec3 drawn{ Unknown };  ///< Where its tissue is drawn, strokes included.
+
+  bool isPicked() const { return this->place >= 0; }
+};
+
+/// What the fit as a whole says.
+struct LandmarkFigures
+{
+  double meanLeftOut = LandmarkRow::Unknown; ///< Of the pairs that count.
+  double shift = 0.0;       ///< Of the middle of the landmarks by the rigid motion, mm.
+  double turnDegrees = 0.0; ///< Of the rigid motion.
+  double share = 1.0;       ///< Of the bend that the fold guard left, 0 to 1.
+  int worst = -1;           ///< The row with the largest leftOut. Below 0: fewer than 3 are known.
+};
+
+class LandmarkList : public QObject
+{
+  Q_OBJECT
+
+public:
+  /// The list of a Free-Form Deformation; it lives as long as the source. Null for any other
+  /// source.
+  static LandmarkList* of(pqPipelineSource* deformation);
+
+  const std::vector<LandmarkRow>& rows() const { return this->Rows; }
+  const LandmarkFigures& figures() const { return this->Figures; }
+  /// Why there are no figures: what the fit says, or why there can be no fit. Empty: nothing is
+  /// wrong.
+  QString problem() const;
+  /// Whether pairs can be added.
+  bool isOpen() const;
+  pqPipelineSource* source() const { return this->Source; }
+
+  /// Whether views mark the landmarks. Default on.
+  bool areMarksShown() const { return this->ShowMarks; }
+  void showMarks(bool on);
+
+  /// Adds a pair: one undo step.
+  void add(const glm::dvec3& rest, const glm::dvec3& measured);
+  /// Lets pairs count, or not: one undo step.
+  void setOn(const QList<int>& rows, bool on);
+  /// Deletes pairs that were picked: one undo step. Those of the inputs stay.
+  void remove(const QList<int>& rows);
+
+Q_SIGNALS:
+  /// Rows or figures may have changed.
+  void changed();
+
+private:
+  explicit LandmarkList(pqPipelineSource* source);
+
+  void refreshSoon(bool runs);
+  void refresh();
+  void readPicked(vtkSMProxy* fit);
+  void readInputs(vtkSMProxy* fit);
+  void readFigures(vtkSMProxy* fit);
+  void findDrawn();
+
+  pqPipelineSource* const Source;
+  FitEditor* const Editor;
+  vtkSmartPointer<vtkSMProxy> Report; ///< A LatticeReport of the source.
+  std::vector<LandmarkRow> Rows;
+  LandmarkFigures Figures;
+  QString Problem;
+  QTimer Soon;
+  bool Runs = false;       ///< The next refresh lets the fit run first.
+  bool Refreshing = false; ///< What changes now, this list caused.
+  bool ShowMarks = true;
+};
+}
+
+#endif

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Panel/Landmarks/LandmarkTable.h"
+
+#include "Interaction/Commands/ToolSettings.h"
+#include "Interaction/Displays/SharedSettings.h"
+#include "Interaction/Landmarks/LandmarkList.h"
+#include "Interaction/Landmarks/LandmarkPicker.h"
+#include "Interaction/Landmarks/SharedCrosshair.h"
+#include "Panel/Landmarks/LandmarkModel.h"
+#include "Panel/Parts/Advice.h"
+
+#include <pqPipelineSource.h>
+
+#include <QCheckBox>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QToolButton>
+#include <QTreeView>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace brainshift
+{
+namespace
+{
+constexpr int FewestRows = 3; // seen at once
+constexpr int MostRows = 9;
+
+class LandmarkTree : public QTreeView
+{
+public:
+  LandmarkTree(QWidget* parent, std::function<void()> remove)
+    : QTreeView(parent)
+    , Remove(std::move(remove))
+  {
+    this->setRootIsDecorated(false);
+    this->setUniformRowHeights(true);
+    this->setAlternatingRowColors(true);
+    this->setSelectionMode(QAbstractItemView::ExtendedSelection);
+    this->setTabKeyNavigation(false); // Tab leaves the table
+    this->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+  }
+
+  QSize sizeHint() const override
+  {
+    const int rows =
+      this->model() ? std::clamp(this->model()->rowCount(), FewestRows, MostRows) : FewestRows;
+    const int row = std::max(this->sizeHintForRow(0), this->fontMetrics().height() + 4);
+    return { this->QTreeView::sizeHint().width(),
+      rows * row + this->header()->sizeHint().height() + 2 * this->frameWidth() };
+  }
+  QSize minimumSizeHint() const override { return { 0, this->sizeHint().height() }; }
+
+protected:
+  void keyPressEvent(QKeyEvent* event) override
+  {
+    event->key() == Qt::Key_Delete ? this->Remove() : this->QTreeView::keyPressEvent(event);
+  }
+
+private:
+  const std::function<void()> Remove;
+};
+
+QString bold(const QString& text)
+{
+  return "<b>" + text + "</b>";
+}
+}
+
+LandmarkTable::LandmarkTable(LandmarkList* list, QWidget* parent)
+  : QWidget(parent)
+  , Landmarks(list)
+  , Model(new LandmarkModel(list, this))
+  , Tree(new LandmarkTree(this, [this] { this->removeSelected(); }))
+  , Problem(new QLabel(this))
+  , Request(new QLabel(this))
+  , Figures(new QLabel(this))
+  , Pick(this->addButton("BrainShiftPickPairs", tr("Pick Pairs"),
+      tr("Pick pairs of landmarks: click a place in the bent volume, then the same place in the "
+         "reference. Drags and the wheel work as ever. Press again, or Escape, to stop.")))
+  , GoTo(this->addButton("BrainShiftGoTo", tr("Go To"),
+      tr("Bring the slices of all views to the selected landmark (double-click)")))
+  , Delete(this->addButton("BrainShiftLandmarkDelete", tr("Delete"),
+      tr("Delete the selected pairs that were picked (Delete key). Those of files stay; switch "
+         "them off by their check mark.")))
+  , Marks(new QCheckBox(tr("Marks"), this))
+{
+  this->Tree->setObjectName("BrainShiftLandmarks");
+  this->Tree->setAccessibleName(tr("Landmarks"));
+  this->Tree->setModel(this->Model);
+  this->Tree->header()->setStretchLastSection(false);
+  this->Tree->header()->setSectionsMovable(false);
+  this->Tree->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  this->Tree->header()->setSectionResizeMode(LandmarkModel::NameColumn, QHeaderView::Stretch);
+  this->Problem->setObjectName("BrainShiftLandmarkProblem");
+  this->Request->setObjectName("BrainShiftLandmarkRequest");
+  this->Figures->setObjectName("BrainShiftLandmarkFigures");
+  this->Figures->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  for (QLabel* label : { this->Problem, this->Request, this->Figures })
+  {
+    label->setWordWrap(true);
+  }
+  this->Pick->setCheckable(true);
+  this->Marks->setObjectName("BrainShiftLandmarkMarks");
+  this->Marks->setToolTip(
+    tr("Mark the landmarks in the views: a ring where the tissue is drawn, a cross where it was "
+       "measured, a line from the cross to where the fit puts it. In a 2D view, those within 2.5 "
+       "mm of the slice."));
+  this->layOut();
+  this->connect(this->Pick, &QToolButton::clicked, this, &LandmarkTable::pick);
+  this->connect(this->GoTo, &QToolButton::clicked, this, &LandmarkTable::goTo);
+  this->connect(this->Delete, &QToolButton::clicked, this, &LandmarkTable::removeSelected);
+  this->connect(this->Tree, &QTreeView::doubleClicked, this, &LandmarkTable::goTo);
+  this->connect(this->Marks, &QCheckBox::clicked, list, &LandmarkList::showMarks);
+  this->connect(this->Tree->selectionModel(), &QItemSelectionModel::selectionChanged, this,
+    &LandmarkTable::refresh);
+  this->connect(list, &LandmarkList::changed, this, &LandmarkTable::refresh);
+  this->connect(list->source(), &pqProxy::modifiedStateChanged, this, &LandmarkTable::refresh);
+  this->connect(
+    LandmarkPicker::instance(), &LandmarkPicker::changed, this, &LandmarkTable::refresh);
+  this->connect(ToolSettings::instance(), &ToolSettings::changed, this, &LandmarkTable::refresh);
+  this->refresh();
+}
+
+void LandmarkTable::layOut()
+{
+  auto buttons = new QHBoxLayout;
+  for (QWidget* widget : { static_cast<QWidget*>(this->Pick), static_cast<QWidget*>(this->GoTo),
+         static_cast<QWidget*>(this->Delete), static_cast<QWidget*>(this->Marks) })
+  {
+    buttons->addWidget(widget);
+  }
+  buttons->addStretch();
+  auto column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(this->Problem);
+  column->addWidget(this->Tree);
+  column->addWidget(this->Figures);
+  column->addLayout(buttons);
+  column->addWidget(this->Request);
+}
+
+QToolButton* LandmarkTable::addButton(const char* name, const QString& text, const QString& tip)
+{
+  auto button = new QToolButton(this);
+  button->setObjectName(name);
+  button->setText(text);
+  button->setToolTip(tip);
+  button->setFocusPolicy(Qt::TabFocus); // a click leaves the keyboard where it is
+  return button;
+}
+
+QList<int> LandmarkTable::selectedRows() const
+{
+  QList<int> rows;
+  for (const QModelIndex& index : this->Tree->selectionModel()->selectedRows())
+  {
+    rows.append(index.row());
+  }
+  return rows;
+}
+
+void LandmarkTable::pick(bool on)
+{
+  if (on && this->Landmarks)
+  {
+    LandmarkPicker::instance()->start(this->Landmarks->source());
+  }
+  else
+  {
+    LandmarkPicker::instance()->stop();
+  }
+}
+
+void LandmarkTable::goTo()
+{
+  const QList<int> rows = this->selectedRows();
+  if (this->Landmarks && !rows.isEmpty())
+  {
+    const LandmarkRow& row = this->Landmarks->rows().at(rows.front());
+    bringCrosshairTo(this->Landmarks->source(), std::isfinite(row.drawn.x) ? row.drawn : row.rest);
+  }
+}
+
+void LandmarkTable::removeSelected()
+{
+  const QList<int> rows = this->selectedRows();
+  if (this->Landmarks && !rows.isEmpty())
+  {
+    this->Tree->clearSelection(); // rows keep their number, not their pair
+    this->Landmarks->remove(rows);
+  }
+}
+
+QString LandmarkTable::figuresText() const
+{
+  const LandmarkFigures& figures = this->Landmarks->figures();
+  QStringList lines;
+  if (std::isfinite(figures.meanLeftOut))
+  {
+    lines.append(
+      tr("Mean of left out: %1").arg(bold(tr("%1 mm").arg(figures.meanLeftOut, 0, 'f', 2))));
+  }
+  lines.append(tr("Rigid motion taken out: %1")
+      .arg(
+        bold(tr("%1 mm, %2°").arg(figures.shift, 0, 'f', 1).arg(figures.turnDegrees, 0, 'f', 1))));
+  if (figures.share < 1.0)
+  {
+    lines.append(tr("The fold guard applied %1 of the bend")
+        .arg(bold(tr("%1 %").arg(100.0 * figures.share, 0, 'f', 0))));
+  }
+  if (figures.worst >= 0)
+  {
+    lines.append(tr("Landmark %1 fits worst").arg(bold(QString::number(figures.worst + 1))));
+  }
+  return lines.join("<br>");
+}
+
+void LandmarkTable::refresh()
+{
+  if (!this->Landmarks)
+  {
+    return;
+  }
+  const std::vector<LandmarkRow>& all = this->Landmarks->rows();
+  const QList<int> rows = this->selectedRows();
+  const bool isPicking = LandmarkPicker::instance()->deformation() == this->Landmarks->source();
+  const QString problem = this->Landmarks->problem();
+  QPalette palette = this->palette();
+  palette.setColor(QPalette::WindowText, gradeColor(Grade::Bad, palette, wantsBlueAndOrange()));
+  this->Problem->setPalette(palette);
+  this->Problem->setText(problem);
+  this->Problem->setVisible(!problem.isEmpty());
+  this->Tree->setVisible(!all.empty());
+  this->Tree->updateGeometry();
+  this->Figures->setText(all.empty() ? QString() : this->figuresText());
+  this->Figures->setVisible(!all.empty() && problem.isEmpty());
+  this->Request->setText(isPicking ? ToolSettings::instance()->request() : QString());
+  this->Request->setVisible(isPicking);
+  this->Pick->setChecked(isPicking);
+  this->Pick->setEnabled(this->Landmarks->isOpen());
+  this->GoTo->setEnabled(rows.size() == 1);
+  this->Delete->setEnabled(std::any_of(rows.begin(), rows.end(),
+    [&](int row) { return row < static_cast<int>(all.size()) && all[row].isPicked(); }));
+  for (QWidget* widget : { static_cast<QWidget*>(this->GoTo), static_cast<QWidget*>(this->Delete),
+         static_cast<QWidget*>(this->Marks) })
+  {
+    widget->setVisible(!all.empty());
+  }
+  this->Marks->setChecked(this->Landmarks->areMarksShown());
+}
+}
