@@ -50,7 +50,8 @@ class Fit:
       positive outside. NaN for a point that does not count.
     - `landmark_residuals`, `pull_residuals`, `trace_residuals`: each part of it
     - `leave_one_out`: for each landmark, how far a fit without it misses it, before the fold guard
-      and the mask change the bend. NaN for a landmark that the others say nothing about.
+      and the mask change the bend. NaN for a landmark that the others say nothing about. For one
+      that is switched off, how far this fit misses it.
     - `share`: the share of the bend that was applied, 0 to 1. The fold guard may leave less than 1.
     - `relaxation`: 1, or 1.5 if the guard had to trust what was measured less
     - `calibration`: the factor on deviations that leaving out landmarks showed
