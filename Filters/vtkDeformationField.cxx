@@ -19,9 +19,14 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/common.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <glm/vector_relational.hpp>
 
 #include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace brainshift;
 using Pipeline = vtkStreamingDemandDrivenPipeline;
@@ -53,7 +58,28 @@ void place(vtkImageData* image, const Grid& samples, const int extent[6])
   image->SetDirectionMatrix(&rows[0][0]);
 }
 
-// Both arrays, on an image that lies on `samples`. False if the user aborts.
+// A map, and how far it can be believed.
+struct Source
+{
+  std::optional<DirectedMap> map;
+  Grid lattice;
+  std::vector<float> deviations; // at the control points; empty: unknown
+};
+
+Source sourceOf(vtkImageData* volume, Direction direction, std::string& problem)
+{
+  Deformation deformation;
+  Source source;
+  if (readDeformation(volume, deformation, problem))
+  {
+    source.lattice = deformation.lattice.grid;
+    source.deviations = std::move(deformation.deviations);
+    source.map = directedMapOf(volume, direction, problem);
+  }
+  return source;
+}
+
+// The map's arrays, on an image that lies on `samples`. False if the user aborts.
 bool fill(vtkAlgorithm* filter, vtkImageData* image, const Grid& samples, const DirectedMap& map)
 {
   const auto displacements = addArray(image, DisplacementName, 3);
@@ -81,16 +107,45 @@ bool fill(vtkAlgorithm* filter, vtkImageData* image, const Grid& samples, const 
   return forPortions(filter, 0.0, 1.0, static_cast<vtkIdType>(count.y) * count.z, 1, fillRows);
 }
 
+// How far places of an image with displacements to or from tissue at rest can be believed. False if
+// the user aborts.
+bool fillDeviations(
+  vtkAlgorithm* filter, vtkImageData* image, const Source& source, Direction direction)
+{
+  if (source.deviations.empty())
+  {
+    return true;
+  }
+  const auto deviations = addArray(image, DeviationName, 1);
+  const auto displacements =
+    vtkFloatArray::FastDownCast(image->GetPointData()->GetArray(DisplacementName));
+  const auto fillPoints = [&](vtkIdType first, vtkIdType end) {
+    for (vtkIdType point = first; point < end; ++point)
+    {
+      glm::dvec3 rest;
+      image->GetPoint(point, &rest.x);
+      if (direction == Direction::Backward)
+      {
+        rest += glm::make_vec3(displacements->GetPointer(3 * point));
+      }
+      deviations->SetValue(
+        point, static_cast<float>(deviationAt(source.lattice, source.deviations, rest)));
+    }
+  };
+  constexpr vtkIdType atLeast = 1024;
+  return forPortions(filter, 1.0, 1.0, image->GetNumberOfPoints(), atLeast, fillPoints);
+}
+
 std::string triple(const glm::dvec3& numbers)
 {
   return std::to_string(numbers.x) + " x " + std::to_string(numbers.y) + " x " +
     std::to_string(numbers.z);
 }
 
-// Why there is too little memory for both arrays; empty if there is enough.
+// Why there is too little memory for the arrays; empty if there is enough.
 std::string memoryProblemOf(const int extent[6])
 {
-  constexpr double BytesPerPoint = 4.0 * sizeof(float);
+  constexpr double BytesPerPoint = 5.0 * sizeof(float);
   const glm::dvec3 sides =
     glm::dvec3(extent[1], extent[3], extent[5]) - glm::dvec3(extent[0], extent[2], extent[4]) + 1.0;
   return hostMemoryProblem(
@@ -167,13 +222,12 @@ int vtkDeformationField::RequestData(
   vtkImageData* output = vtkImageData::GetData(outputs);
   const auto direction = static_cast<brainshift::Direction>(this->Direction);
   std::string problem = problemOfPart(input, inputs[0]->GetInformationObject(0));
-  const std::optional<DirectedMap> map =
-    problem.empty() ? directedMapOf(input, direction, problem) : std::nullopt;
+  const Source source = problem.empty() ? sourceOf(input, direction, problem) : Source();
   const Grid samples = this->SamplesOver(gridOf(input), problem);
   int extent[6];
   outputs->GetInformationObject(0)->Get(Pipeline::UPDATE_EXTENT(), extent);
   problem = problem.empty() ? memoryProblemOf(extent) : problem;
-  if (!map || !problem.empty())
+  if (!source.map || !problem.empty())
   {
     vtkErrorMacro(<< problem << ".");
     return 0;
@@ -181,7 +235,7 @@ int vtkDeformationField::RequestData(
   place(output, samples, extent);
   detach(output);
   nameDirection(output, direction);
-  if (!fill(this, output, samples, *map))
+  if (!fill(this, output, samples, *source.map) || !fillDeviations(this, output, source, direction))
   {
     output->Initialize();
   }

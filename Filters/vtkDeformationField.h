@@ -11,8 +11,11 @@
  *                          point itself
  *     JacobianDeterminant  float32: the factor by which the map changes a small volume; 1 keeps it,
  *                          0 or less folds tissue
+ *     Deviation            float32 (mm), only of a fit with Evidence: one standard deviation along
+ *                          an axis of the place of the tissue, infinity where nothing was measured
  *
- * Both come from the cubic itself, as PointMap evaluates it. The filter runs on all cores, reports
+ * The first two come from the cubic itself, as PointMap evaluates it; Deviation is trilinear
+ * between control points at rest. The filter runs on all cores, reports
  * progress and can be aborted.
  */
 #ifndef vtkDeformationField_h

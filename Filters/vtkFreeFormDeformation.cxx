@@ -13,6 +13,7 @@
 #include "Filters/Deformation/Replay.h"
 #include "Filters/Fields/FieldImage.h"
 #include "Filters/Fields/FittedFor.h"
+#include "Filters/Measured/EvidenceArray.h"
 #include "Filters/Traces/StrokeMarks.h"
 
 #include "vtkCellData.h"
@@ -373,6 +374,7 @@ std::string vtkFreeFormDeformation::Bend(
   state.LastGood.inverse =
     this->Inverse ? brainshift::Inverse::Negated : brainshift::Inverse::Exact;
   state.LastGood.strength = this->Strength;
+  state.LastGood.deviations = drawnDeviations(base, start, state.LastGood);
   const std::vector<double> settings{ double(this->GuardFolding), double(this->Samples),
     double(this->Inverse), this->Strength };
   state.LastMarks = state.Marker.marksOf(start, settings, state.StrokeNumbers);

@@ -12,7 +12,8 @@
  *   carries a deformation already is passed on as it is, with an error.
  * - Input 1 (optional): a base lattice or a dense displacement field, vtkImageData with a point
  *   array of three components (mm, world axes, forward). It is read at the control points, and
- *   strokes add to it.
+ *   strokes add to it. An array Deviation of a lattice with the same control points is attached,
+ *   too, and counts how far strokes and Strength put tissue from where that lattice has it.
  * - Input 2 (optional): a mask, vtkImageData on any grid with labels or scalars. Only tissue inside
  *   it moves (MaskWeights.h).
  * - Input 3 (optional): a segmentation, vtkImageData on any grid with labels or scalars. It bends

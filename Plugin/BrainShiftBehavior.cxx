@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BrainShiftBehavior.h"
 
+#include "Interaction/Displays/EvidenceSwitch.h"
 #include "Interaction/Landmarks/LandmarkMarks.h"
 #include "Interaction/ToolCarrier.h"
 #include "Interaction/Views/KeptSelection.h"
@@ -87,6 +88,7 @@ void BrainShiftBehavior::onStartup()
   new brainshift::LandmarkMarks(this);
   new brainshift::QuietLinks(this);
   new brainshift::ComparisonLegend(this);
+  new brainshift::EvidenceSwitch(this);
   this->Hand = new brainshift::ToolCarrier(this);
 }
 

@@ -3,6 +3,7 @@
 
 #include "Filters/Attached/Guard.h"
 #include "Filters/Attached/ReferenceVolume.h"
+#include "Representations/Field/EvidenceTexture.h"
 #include "Representations/Field/SceneDeformation.h"
 #include "Representations/Field/TissueFacts.h"
 #include "Representations/Gpu/GpuMemory.h"
@@ -50,6 +51,7 @@ struct vtkDeformedSlicesMapper::Device
   TissueTextures Tissue;
   ReferenceTextures Reference;
   DeviceDeformation Deformation;
+  EvidenceTexture Evidence;
   SliceDrawer Drawer;
   GpuMemory Memory;
   DrawnSlices Drawn;
@@ -59,6 +61,7 @@ struct vtkDeformedSlicesMapper::Device
     this->Tissue.releaseGraphicsResources(window);
     this->Reference.releaseGraphicsResources(window);
     this->Deformation.releaseGraphicsResources(window);
+    this->Evidence.releaseGraphicsResources(window);
     this->Drawer.releaseGraphicsResources();
   }
 };
@@ -183,6 +186,11 @@ bool vtkDeformedSlicesMapper::DrawPlanes(
   if (!device.Tissue.update(gpu, tissue, scene.tissue) ||
     !device.Deformation.update(gpu, state.Deformation, tissue.values, scene.field, change) ||
     !this->UploadReference(gpu, device, tissue, scene))
+  {
+    return false;
+  }
+  if (this->ShowEvidence &&
+    !device.Evidence.update(gpu, state.Deformation, tissue.values, scene.evidence))
   {
     return false;
   }
@@ -355,8 +363,9 @@ const Counters& vtkDeformedSlicesMapper::GetCounters()
   count.gpuOtherBytes = 0;
   this->Internal->Devices.visit([&](Device& device) {
     count.gpuScalarBytes += textureBytes(device.Tissue.scalars());
-    count.gpuOtherBytes += textureBytes({ device.Reference.textures(),
-      device.Tissue.otherTextures(), device.Deformation.field().textures() });
+    count.gpuOtherBytes +=
+      textureBytes({ device.Reference.textures(), device.Tissue.otherTextures(),
+        device.Deformation.field().textures(), { device.Evidence.texture() } });
     device.Deformation.askTime(count.gpuFieldMicroseconds);
   });
   return count;
@@ -372,6 +381,7 @@ void vtkDeformedSlicesMapper::PrintSelf(ostream& os, vtkIndent indent)
      << " " << this->SlicePosition[2] << "\n"
      << indent << "Crosshair: " << this->Crosshair << "\n"
      << indent << "Interpolation: " << this->Interpolation << "\n"
+     << indent << "ShowEvidence: " << this->ShowEvidence << "\n"
      << indent << "Opacity: " << this->Opacity << "\n"
      << indent << "MapOpacity: " << this->MapOpacity << "\n"
      << indent << "Comparison: " << this->Comparison << "\n"

@@ -85,6 +85,13 @@ public:
   ///@}
 
   ///@{
+  /** Whether tissue shows how far its place can be believed, as in vtkDeformedVolumeMapper. In two
+   * colours, differences and gradients stripes show it. Default false. */
+  vtkSetMacro(ShowEvidence, bool);
+  vtkGetMacro(ShowEvidence, bool);
+  ///@}
+
+  ///@{
   /** Opacity of all planes, 0 to 1. Default 1. */
   vtkSetClampMacro(Opacity, double, 0.0, 1.0);
   vtkGetMacro(Opacity, double);
@@ -225,6 +232,7 @@ private:
   bool ShowAxial = true;
   double SlicePosition[3] = { 0.0, 0.0, 0.0 };
   bool Crosshair = false;
+  bool ShowEvidence = false;
   int Interpolation = Linear;
   double Opacity = 1.0;
   bool MapOpacity = false;

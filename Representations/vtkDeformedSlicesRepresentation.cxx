@@ -87,6 +87,22 @@ void vtkDeformedSlicesRepresentation::SetCrosshair(bool show)
   this->ShowMarks();
 }
 
+void vtkDeformedSlicesRepresentation::SetShowEvidence(bool show)
+{
+  this->Superclass::SetShowEvidence(show);
+  this->GetDeformedSlicesMapper()->SetShowEvidence(show);
+}
+
+bool vtkDeformedSlicesRepresentation::ComparesInColors() const
+{
+  using Mapper = vtkDeformedSlicesMapper;
+  Mapper* slices = this->GetDeformedSlicesMapper();
+  const int comparison = slices->GetComparison();
+  return (comparison == Mapper::TwoColors || comparison == Mapper::Difference ||
+           comparison == Mapper::Gradient) &&
+    this->CarriesComparison();
+}
+
 void vtkDeformedSlicesRepresentation::SetSliceInterpolation(int interpolation)
 {
   this->GetDeformedSlicesMapper()->SetInterpolation(interpolation);

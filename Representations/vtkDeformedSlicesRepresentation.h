@@ -64,6 +64,9 @@ public:
   vtkGetMacro(WorldAxes, int);
   ///@}
 
+  /** Shows how far the place of tissue can be believed; see vtkDeformedSlicesMapper. */
+  void SetShowEvidence(bool show) override;
+
   /** The mapper that draws it in this process. */
   vtkDeformedSlicesMapper* GetDeformedSlicesMapper() const;
 
@@ -84,6 +87,8 @@ private:
   // The process that shows the picture draws the letters. It may not have the volume: what the
   // volume says of its axes goes there by itself.
   void DeliverAxes(vtkInformationRequestKey* request, vtkInformation* input);
+
+  bool ComparesInColors() const override;
 
   // Shows the marks that are wanted.
   void ShowMarks();

@@ -167,6 +167,7 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   request.tissue = this->TissueOf(image, volume->GetProperty(), values);
   request.reference = this->ReferenceOf(image, request.tissue);
   this->ComparePlainly(request);
+  request.showsEvidence = this->DrawsEvidence(request.tissue.blend);
   request.memoryLimitMiB = this->MemoryLimit;
   request.wish.adaptive = this->AdaptiveQuality;
   request.wish.keep = this->KeepPicture || OverVolumes::areVisibleIn(renderer);
@@ -183,6 +184,19 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   }
   problem = gpu.problem;
   return drawn;
+}
+
+// A pixel of other blend modes shows no single place.
+bool vtkDeformedVolumeMapper::DrawsEvidence(Blend blend)
+{
+  const bool draws =
+    blend == Blend::Composite || blend == Blend::Isosurface || blend == Blend::Slice;
+  if (this->ShowEvidence && !draws)
+  {
+    this->TellOnce(
+      "Show Evidence needs blend mode Composite, Isosurface or Slice: nothing is marked");
+  }
+  return this->ShowEvidence && draws;
 }
 
 TissueRequest vtkDeformedVolumeMapper::TissueOf(
@@ -389,6 +403,7 @@ void vtkDeformedVolumeMapper::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "KeepPicture: " << this->KeepPicture << "\n"
      << indent << "CountSamples: " << this->CountSamples << "\n"
      << indent << "DrawSegment: " << this->DrawSegment << "\n"
+     << indent << "ShowEvidence: " << this->ShowEvidence << "\n"
      << indent << "DrawnLabels: " << this->DrawnLabels.size() << "\n"
      << indent << "MemoryLimit: " << this->MemoryLimit << "\n"
      << indent << "NormalTexture: " << this->NormalTexture << "\n"

@@ -41,6 +41,7 @@ struct SceneReference;
 struct TissueFacts;
 struct TissueRequest;
 struct VolumeRequest;
+enum class Blend;
 }
 
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkDeformedVolumeMapper
@@ -124,6 +125,17 @@ public:
    */
   vtkSetMacro(DrawSegment, bool);
   vtkGetMacro(DrawSegment, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether tissue shows by tints how far its place can be believed (Scene/EvidenceClasses.h): at
+   * each sample, the deviation where it rests. A comparison in two colours shows stripes. It needs
+   * blend mode Composite, Isosurface or Slice, and a volume with deviations (DeformableVolume.h).
+   * Default false.
+   */
+  vtkSetMacro(ShowEvidence, bool);
+  vtkGetMacro(ShowEvidence, bool);
   ///@}
 
   ///@{
@@ -250,6 +262,7 @@ private:
   // What is to be drawn, as the settings say.
   brainshift::TissueRequest TissueOf(
     vtkImageData* image, vtkVolumeProperty* property, const brainshift::DrawnValues& values);
+  bool DrawsEvidence(brainshift::Blend blend);
   void ComparePlainly(brainshift::VolumeRequest& request);
   brainshift::SceneReference ReferenceOf(
     vtkImageData* image, const brainshift::TissueRequest& tissue);
@@ -266,6 +279,7 @@ private:
   bool KeepPicture = false;
   double MemoryLimit = 0.0;
   bool DrawSegment = false;
+  bool ShowEvidence = false;
   std::vector<int> DrawnLabels;
   int Comparison = TwoColors;
   int ComparisonColors = 0;

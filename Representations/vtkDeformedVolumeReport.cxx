@@ -97,7 +97,7 @@ double* vtkDeformedVolumeReport::GetTissue()
 
 double* vtkDeformedVolumeReport::GetFacts()
 {
-  std::fill_n(this->Facts, 17, 0.0);
+  std::fill_n(this->Facts, 19, 0.0);
   this->LabelName.clear();
   auto whole = vtkWholeVolumeRepresentation::SafeDownCast(this->ActiveRepresentation());
   vtkDeformedVolumeMapper* mapper = this->Mapper();
@@ -138,6 +138,8 @@ void vtkDeformedVolumeReport::TakeFacts(const brainshift::TissueFacts& facts)
     *next++ = known.value_or(0.0);
   }
   *next = static_cast<double>(facts.axes);
+  this->Facts[17] = facts.deviation ? 1.0 : 0.0;
+  this->Facts[18] = facts.deviation.value_or(0.0);
   this->LabelName = facts.labelName;
 }
 
@@ -171,14 +173,14 @@ const char* vtkDeformedVolumeReport::GetCounters()
   std::ostringstream text;
   text << "frames " << count.frames << "\npixelsCast " << count.pixelsCast << "\nvolumeUploads "
        << count.volumeUploads << "\nlatticeUploads " << count.latticeUploads << "\ntransferUploads "
-       << count.transferUploads << "\nsegmentUploads " << count.segmentUploads << "\nbytesUploaded "
-       << count.bytesUploaded << "\ntexelsRefined " << count.texelsRefined << "\npresenceUpdates "
-       << count.presenceUpdates << "\nskippingBytes " << count.skippingBytes << "\ncorrectionBytes "
-       << count.correctionBytes << "\nsamplesTaken " << count.samplesTaken << "\nsamplesSkipped "
-       << count.samplesSkipped << "\nimageScale " << count.imageScale << "\nprogramsCompiled "
-       << count.programsCompiled << "\ngpuScalarBytes " << count.gpuScalarBytes
-       << "\ngpuOtherBytes " << count.gpuOtherBytes << "\ngpuFieldMicroseconds "
-       << count.gpuFieldMicroseconds;
+       << count.transferUploads << "\nsegmentUploads " << count.segmentUploads
+       << "\nevidenceUploads " << count.evidenceUploads << "\nbytesUploaded " << count.bytesUploaded
+       << "\ntexelsRefined " << count.texelsRefined << "\npresenceUpdates " << count.presenceUpdates
+       << "\nskippingBytes " << count.skippingBytes << "\ncorrectionBytes " << count.correctionBytes
+       << "\nsamplesTaken " << count.samplesTaken << "\nsamplesSkipped " << count.samplesSkipped
+       << "\nimageScale " << count.imageScale << "\nprogramsCompiled " << count.programsCompiled
+       << "\ngpuScalarBytes " << count.gpuScalarBytes << "\ngpuOtherBytes " << count.gpuOtherBytes
+       << "\ngpuFieldMicroseconds " << count.gpuFieldMicroseconds;
   this->Counters = text.str();
   return this->Counters.c_str();
 }

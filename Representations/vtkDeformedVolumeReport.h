@@ -51,7 +51,7 @@ public:
   double* GetTissue() VTK_SIZEHINT(7);
 
   /**
-   * Seventeen numbers about the tissue at the pixel of the last picture. Positions are mm in the
+   * Nineteen numbers about the tissue at the pixel of the last picture. Positions are mm in the
    * volume's own axes, before the transform of the representation.
    *
    *     0       1, or 0 if no surface was hit: then all numbers are 0
@@ -63,10 +63,12 @@ public:
    *     13, 14  1, or 0 if unknown; the label of the nearest voxel: TissueFacts.h
    *     15      what the data says about its axes: 0 nothing, 1 RAS, 2 LPS
    *     16      distance from the camera along the direction of view, mm
+   *     17, 18  1, or 0 if unknown; how far the place can be believed: one standard deviation along
+   *             an axis, mm, infinity where nothing was measured
    *
    * Nothing is drawn.
    */
-  double* GetFacts() VTK_SIZEHINT(17);
+  double* GetFacts() VTK_SIZEHINT(19);
 
   /** What the data calls the label that GetFacts told last. Empty: it has no name. */
   const char* GetLabelName() { return this->LabelName.c_str(); }
@@ -118,7 +120,7 @@ private:
   double Place[3] = {};
   bool ToRest = true;
   double Tissue[7] = {};
-  double Facts[17] = {};
+  double Facts[19] = {};
   std::string LabelName;
   double SameTissue[3] = {};
   double SliceNormals[9] = {};

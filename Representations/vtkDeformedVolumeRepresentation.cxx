@@ -71,6 +71,18 @@ void vtkDeformedVolumeRepresentation::SetDrawSegment(bool segment)
   this->GetDeformedVolumeMapper()->SetDrawSegment(segment);
 }
 
+void vtkDeformedVolumeRepresentation::SetShowEvidence(bool show)
+{
+  this->Superclass::SetShowEvidence(show);
+  this->GetDeformedVolumeMapper()->SetShowEvidence(show);
+}
+
+bool vtkDeformedVolumeRepresentation::ComparesInColors() const
+{
+  vtkDeformedVolumeMapper* mapper = this->GetDeformedVolumeMapper();
+  return mapper->GetComparison() == vtkDeformedVolumeMapper::TwoColors && this->CarriesComparison();
+}
+
 void vtkDeformedVolumeRepresentation::AddDrawnLabel(int label)
 {
   this->GetDeformedVolumeMapper()->AddDrawnLabel(label);

@@ -64,6 +64,9 @@ public:
   void ClearDrawnLabels();
   ///@}
 
+  /** Shows how far the place of tissue can be believed; see vtkDeformedVolumeMapper. */
+  void SetShowEvidence(bool show) override;
+
   ///@{
   /** How dark grooves are, and how far tissue hides light (mm); see vtkDeformedVolumeMapper. */
   void SetAmbientOcclusion(double darkness);
@@ -113,6 +116,7 @@ private:
   vtkDeformedVolumeRepresentation(const vtkDeformedVolumeRepresentation&) = delete;
   void operator=(const vtkDeformedVolumeRepresentation&) = delete;
 
+  bool ComparesInColors() const override;
   void TellOnce(bool unsupported, const std::string& sentence);
   void CoverPointSelection(vtkObject* caller, unsigned long, void*);
 

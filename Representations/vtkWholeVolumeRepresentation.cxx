@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkWholeVolumeRepresentation.h"
 
+#include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/Guard.h"
+#include "Filters/Attached/ReferenceVolume.h"
+#include "Representations/Window/EvidenceLegend.h"
 #include "Representations/Window/FailedUpdate.h"
 #include "Representations/Window/GatheredVolume.h"
 #include "Representations/Window/InteractiveDelivery.h"
@@ -45,9 +48,22 @@ vtkWholeVolumeRepresentation::vtkWholeVolumeRepresentation()
   text->SetBold(true);
   text->SetShadow(true); // the background may be bright
   text->SetVerticalJustification(VTK_TEXT_TOP);
+  this->Evidence = vtk::TakeSmartPointer(brainshift::EvidenceLegend::New());
+  this->Evidence->VisibilityOff();
+  this->Evidence->Ask = [this] {
+    using Shown = brainshift::EvidenceLegend::Shown;
+    vtkDataSet* drawn = this->VolumeMapper->GetDataSetInput(); // null where a server draws
+    return drawn && !brainshift::carriesDeviations(drawn) ? Shown::Nothing
+      : this->ComparesInColors()                          ? Shown::Stripes
+                                                          : Shown::Tints;
+  };
 }
 
-vtkWholeVolumeRepresentation::~vtkWholeVolumeRepresentation() = default;
+// Whoever still holds the legend must not ask.
+vtkWholeVolumeRepresentation::~vtkWholeVolumeRepresentation()
+{
+  this->Evidence->Ask = nullptr;
+}
 
 int vtkWholeVolumeRepresentation::ProcessViewRequest(
   vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output)
@@ -128,6 +144,13 @@ void vtkWholeVolumeRepresentation::SetVisibility(bool visible)
   this->Superclass::SetVisibility(visible);
   const char* text = this->Legend->GetInput();
   this->Legend->SetVisibility(visible && text && *text);
+  this->Evidence->SetVisibility(visible && this->ShowEvidence);
+}
+
+void vtkWholeVolumeRepresentation::SetShowEvidence(bool show)
+{
+  this->ShowEvidence = show;
+  this->Evidence->SetVisibility(this->GetVisibility() && show);
 }
 
 void vtkWholeVolumeRepresentation::SetLegend(const char* text)
@@ -136,12 +159,21 @@ void vtkWholeVolumeRepresentation::SetLegend(const char* text)
   this->Legend->SetVisibility(this->GetVisibility() && text && *text);
 }
 
+bool vtkWholeVolumeRepresentation::CarriesComparison() const
+{
+  vtkDataSet* drawn = this->VolumeMapper->GetDataSetInput();
+  const brainshift::ReferenceVolume reference =
+    drawn ? brainshift::readReference(drawn) : brainshift::ReferenceVolume();
+  return reference.voxels && reference.show == brainshift::ReferenceShow::Both;
+}
+
 bool vtkWholeVolumeRepresentation::AddToView(vtkView* view)
 {
   brainshift::watchServer();
   if (auto renderView = vtkPVRenderView::SafeDownCast(view))
   {
     renderView->GetNonCompositedRenderer()->AddViewProp(this->Legend);
+    renderView->GetNonCompositedRenderer()->AddViewProp(this->Evidence);
   }
   return this->Superclass::AddToView(view);
 }
@@ -151,6 +183,7 @@ bool vtkWholeVolumeRepresentation::RemoveFromView(vtkView* view)
   if (auto renderView = vtkPVRenderView::SafeDownCast(view))
   {
     renderView->GetNonCompositedRenderer()->RemoveViewProp(this->Legend);
+    renderView->GetNonCompositedRenderer()->RemoveViewProp(this->Evidence);
   }
   return this->Superclass::RemoveFromView(view);
 }
@@ -169,5 +202,6 @@ void vtkWholeVolumeRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   const char* legend = this->Legend->GetInput();
   os << indent << "Legend: " << (legend ? legend : "") << "\n";
+  os << indent << "ShowEvidence: " << this->ShowEvidence << "\n";
   os << indent << "IsDrawnElsewhere: " << this->IsDrawnElsewhere << "\n";
 }

@@ -19,10 +19,10 @@
 
 class vtkImageData;
 class vtkTextActor;
-class vtkTextActor;
 
 namespace brainshift
 {
+class EvidenceLegend;
 class GatheredVolume;
 }
 
@@ -42,6 +42,10 @@ public:
    * Empty (default) or null: none. */
   void SetLegend(const char* text);
 
+  /** Whether tissue shows how far its place can be believed, with a legend in the upper right
+   * corner of the view. Default false. */
+  virtual void SetShowEvidence(bool show);
+
   int ProcessViewRequest(
     vtkInformationRequestKey* request, vtkInformation* input, vtkInformation* output) override;
 
@@ -56,14 +60,22 @@ protected:
   bool RemoveFromView(vtkView* view) override;
   void UpdateMapperParameters() override;
 
+  /** Whether the data carries a reference that is shown beside the volume. */
+  bool CarriesComparison() const;
+
 private:
   vtkWholeVolumeRepresentation(const vtkWholeVolumeRepresentation&) = delete;
   void operator=(const vtkWholeVolumeRepresentation&) = delete;
+
+  /** Whether colours tell a volume and a reference apart, so that stripes show evidence. */
+  virtual bool ComparesInColors() const = 0;
 
   void GatherParts();
   void WidenBounds();
 
   vtkNew<vtkTextActor> Legend;
+  vtkSmartPointer<brainshift::EvidenceLegend> Evidence;
+  bool ShowEvidence = false;
   std::unique_ptr<brainshift::GatheredVolume> Gathered;
   vtkSmartPointer<vtkImageData> Part; // of this process
   bool IsNew = false;                 // the part, since parts were gathered

@@ -13,6 +13,7 @@
 #include "vtkMatrix3x3.h"
 #include "vtkNew.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -33,8 +34,9 @@ constexpr const char* SamplesName = "FFDSamples";
 constexpr const char* InverseName = "FFDInverse";
 constexpr const char* StrengthName = "FFDStrength";
 constexpr const char* MaskName = "FFDMaskWeights";
+constexpr const char* DeviationsName = "FFDDeviations";
 constexpr const char* AllNames[] = { DisplacementsName, DimensionsName, BoxName, KernelName,
-  SamplesName, InverseName, StrengthName, MaskName };
+  SamplesName, InverseName, StrengthName, MaskName, DeviationsName };
 
 // One tuple of numbers under a name.
 template <typename ArrayType>
@@ -58,17 +60,18 @@ void attachDisplacements(vtkFieldData* fields, const Lattice& lattice)
   fields->AddArray(array);
 }
 
-void attachMask(vtkFieldData* fields, const Lattice& lattice)
+// One number each. None: removes those of a deformation before this one.
+void attachNumbers(vtkFieldData* fields, const char* name, const std::vector<float>& numbers)
 {
-  if (!lattice.mask)
+  if (numbers.empty())
   {
-    fields->RemoveArray(MaskName); // that of a deformation before this one
+    fields->RemoveArray(name);
     return;
   }
   vtkNew<vtkFloatArray> array;
-  array->SetName(MaskName);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(lattice.mask->values.size()));
-  std::copy(lattice.mask->values.begin(), lattice.mask->values.end(), array->GetPointer(0));
+  array->SetName(name);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(numbers.size()));
+  std::copy(numbers.begin(), numbers.end(), array->GetPointer(0));
   fields->AddArray(array);
 }
 
@@ -148,6 +151,33 @@ bool readMask(vtkFieldData* fields, int samples, Lattice& lattice, std::string& 
   }
   lattice.mask = std::make_shared<const NodeWeights>(
     NodeWeights{ nodes.perCell, std::vector<float>(first, first + count) });
+  return true;
+}
+
+// How far places can be believed, if that is known; false, with `error` set, if it cannot be.
+bool readDeviations(
+  vtkFieldData* fields, std::size_t count, std::vector<float>& deviations, std::string& error)
+{
+  deviations.clear();
+  if (!fields->HasArray(DeviationsName))
+  {
+    return true;
+  }
+  auto array = vtkFloatArray::FastDownCast(fields->GetArray(DeviationsName));
+  if (!array || array->GetNumberOfValues() != static_cast<vtkIdType>(count))
+  {
+    error = std::string("Field array ") + DeviationsName + " must hold " + std::to_string(count) +
+      " numbers of type float";
+    return false;
+  }
+  deviations.assign(array->GetPointer(0), array->GetPointer(0) + count);
+  // A comparison with NaN is false.
+  if (!std::all_of(deviations.begin(), deviations.end(), [](float mm) { return mm >= 0.0f; }))
+  {
+    error = std::string("Field array ") + DeviationsName +
+      " holds a number that is not 0 or more; deviations must be";
+    return false;
+  }
   return true;
 }
 
@@ -246,7 +276,9 @@ void attach(vtkDataObject* volume, const Deformation& deformation)
   }
   forgetDirection(volume);
   attachDisplacements(fields, deformation.lattice);
-  attachMask(fields, deformation.lattice);
+  const auto& mask = deformation.lattice.mask;
+  attachNumbers(fields, MaskName, mask ? mask->values : std::vector<float>());
+  attachNumbers(fields, DeviationsName, deformation.deviations);
   attachTuple<vtkIntArray>(fields, DimensionsName,
     { double(grid.dimensions.x), double(grid.dimensions.y), double(grid.dimensions.z) });
   attachTuple<vtkDoubleArray>(fields, BoxName, box);
@@ -289,7 +321,8 @@ bool readDeformation(vtkDataObject* volume, Deformation& deformation, std::strin
     !readInteger(
       fields, SamplesName, SmallestSamples, LargestSamples, deformation.samples, error) ||
     !readInteger(fields, InverseName, 0, 1, inverse, error) ||
-    !readMask(fields, deformation.samples, lattice, error))
+    !readMask(fields, deformation.samples, lattice, error) ||
+    !readDeviations(fields, lattice.grid.count(), deformation.deviations, error))
   {
     return false;
   }
@@ -329,6 +362,32 @@ Lattice effectiveLattice(const Deformation& deformation)
     displacement *= static_cast<float>(deformation.strength);
   }
   return lattice;
+}
+
+bool carriesDeviations(vtkDataObject* volume)
+{
+  return carriesDeformation(volume) && volume->GetFieldData()->HasArray(DeviationsName);
+}
+
+double deviationAt(
+  const Grid& lattice, const std::vector<float>& deviations, const glm::dvec3& rest)
+{
+  const glm::ivec3 last = lattice.dimensions - 1;
+  const glm::dvec3 position =
+    glm::clamp(lattice.gridFromWorld(rest), glm::dvec3(0.0), glm::dvec3(last));
+  const glm::ivec3 low(position);
+  const glm::dvec3 within = position - glm::dvec3(low);
+  double sum = 0.0;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+    const glm::dvec3 share = glm::mix(1.0 - within, within, glm::dvec3(side));
+    const double weight = share.x * share.y * share.z;
+    const glm::ivec3 at = glm::min(low + side, last);
+    // 0 times infinity is not a number.
+    sum += weight > 0.0 ? weight * deviations[lattice.offset(at.x, at.y, at.z)] : 0.0;
+  }
+  return sum;
 }
 
 unsigned long long deformationTime(vtkDataObject* volume)

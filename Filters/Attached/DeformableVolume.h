@@ -18,6 +18,9 @@
  *     FFDMaskWeights    float32, only with a mask: share of the displacement, 0 to 1, at each node
  *                       of the refined field, (points - 1) * (FFDSamples + 1) + 1 along each axis,
  *                       x fastest; the field is trilinear between the nodes
+ *     FFDDeviations     float32, only of a fit with Evidence: how far the place of each control
+ *                       point can be believed, mm, one standard deviation along an axis; 0 or more,
+ *                       infinity where nothing was measured; trilinear in between
  */
 #ifndef BrainShift_DeformableVolume_h
 #define BrainShift_DeformableVolume_h
@@ -27,6 +30,7 @@
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 
 #include <string>
+#include <vector>
 
 class vtkDataObject;
 class vtkImageData;
@@ -42,7 +46,10 @@ constexpr double LongestSpacing = 1e9;
 /** What the arrays hold. */
 struct Deformation
 {
-  Lattice lattice;                  ///< before Strength
+  Lattice lattice; ///< before Strength
+  /// How far the place of each control point, as drawn, can be believed: mm, one standard deviation
+  /// along an axis, infinity without evidence. Empty: nobody knows.
+  std::vector<float> deviations;
   int samples = 4;                  ///< nodes between two control points, 0 to 16
   Inverse inverse = Inverse::Exact; ///< how pictures find tissue
   double strength = 1.0;            ///< factor on all displacements, 0 to 1
@@ -85,6 +92,16 @@ VTKBRAINSHIFTFILTERS_EXPORT bool readDeformation(
 
 /** The lattice with Strength applied, as it is drawn. */
 VTKBRAINSHIFTFILTERS_EXPORT Lattice effectiveLattice(const Deformation& deformation);
+
+/** Whether a data set carries deviations. False for null. */
+VTKBRAINSHIFTFILTERS_EXPORT bool carriesDeviations(vtkDataObject* volume);
+
+/**
+ * The deviation (mm) of tissue at a rest position (mm): trilinear between control points, that of
+ * the nearest one outside the lattice. Infinity if a neighbour has it. There must be deviations.
+ */
+VTKBRAINSHIFTFILTERS_EXPORT double deviationAt(
+  const Grid& lattice, const std::vector<float>& deviations, const glm::dvec3& rest);
 
 /** The latest modification time of the attached arrays; 0 if there are none. */
 VTKBRAINSHIFTFILTERS_EXPORT unsigned long long deformationTime(vtkDataObject* volume);

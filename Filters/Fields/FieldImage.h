@@ -24,6 +24,12 @@ namespace brainshift
 constexpr const char* DisplacementName = "Displacement";
 
 /**
+ * Name of the point array that says how far a place can be believed: float32, mm, one standard
+ * deviation along an axis; infinity where nothing was measured.
+ */
+constexpr const char* DeviationName = "Deviation";
+
+/**
  * Tells the pipeline where an output will lie: on all of a grid. Call it in RequestInformation.
  */
 VTKBRAINSHIFTFILTERS_EXPORT void announce(vtkInformation* output, const Grid& grid);

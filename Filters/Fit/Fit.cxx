@@ -242,8 +242,13 @@ double Fit::deviation(const glm::dvec3& rest) const
     return std::numeric_limits<double>::infinity();
   }
   const glm::dmat3 covariance = this->Field.covariance(rest);
-  const double third = (covariance[0][0] + covariance[1][1] + covariance[2][2]) / 3.0;
-  return this->Calibration * std::sqrt(std::max(0.0, third));
+  return this->deviationOf((covariance[0][0] + covariance[1][1] + covariance[2][2]) / 3.0);
+}
+
+double Fit::deviationOf(double variance) const
+{
+  return this->Field.rows().empty() ? std::numeric_limits<double>::infinity()
+                                    : this->Calibration * std::sqrt(std::max(0.0, variance));
 }
 
 std::vector<double> Fit::deviations(const std::vector<glm::dvec3>& rest) const

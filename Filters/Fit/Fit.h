@@ -71,6 +71,9 @@ public:
   /** deviation() of many positions, on all cores. */
   std::vector<double> deviations(const std::vector<glm::dvec3>& rest) const;
 
+  /** deviation() where the process has this variance (Process::variances). */
+  double deviationOf(double variance) const;
+
   /**
    * For each landmark, how far (mm) a fit without it puts its tissue from where it was measured, in
    * closed form. NaN for a landmark that is switched off, and for one that the others say nothing

@@ -8,9 +8,11 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 
 namespace brainshift
@@ -67,14 +69,35 @@ glm::dvec3 FittedLattice::measuredFromRest(const glm::dvec3& rest) const
 std::vector<double> FittedLattice::deviations(const std::vector<glm::dvec3>& rest) const
 {
   std::vector<double> result = this->Result.deviations(rest);
+  this->countWhatIsAway(rest, result);
+  return result;
+}
+
+std::vector<double> FittedLattice::deviations(
+  const std::vector<glm::dvec3>& rest, const std::vector<double>& variances) const
+{
+  std::vector<double> result;
+  std::transform(variances.begin(), variances.end(), std::back_inserter(result),
+    [this](double variance) { return this->Result.deviationOf(variance); });
+  this->countWhatIsAway(rest, result);
+  return result;
+}
+
+void FittedLattice::countWhatIsAway(
+  const std::vector<glm::dvec3>& rest, std::vector<double>& deviations) const
+{
   const std::vector<glm::dvec3> bends = this->Result.field().displacements(rest);
   for (std::size_t i = 0; i < rest.size(); ++i)
   {
     const double away = glm::distance(
       this->measuredFromRest(rest[i]), this->Result.rigid().apply(rest[i] + bends[i]));
-    result[i] = std::hypot(result[i], away / std::sqrt(3.0));
+    deviations[i] = withDistance(deviations[i], away);
   }
-  return result;
+}
+
+double withDistance(double deviation, double distance)
+{
+  return std::hypot(deviation, distance / std::sqrt(3.0));
 }
 
 std::vector<double> FittedLattice::residuals(const std::vector<PointPair>& pairs) const

@@ -60,6 +60,10 @@ public:
    */
   std::vector<double> deviations(const std::vector<glm::dvec3>& rest) const;
 
+  /** deviations() where the process has these variances (Process::variances). */
+  std::vector<double> deviations(
+    const std::vector<glm::dvec3>& rest, const std::vector<double>& variances) const;
+
   /** How far (mm) pairs miss their measured ends; NaN for a pair that is switched off. */
   std::vector<double> residuals(const std::vector<PointPair>& pairs) const;
 
@@ -68,6 +72,7 @@ public:
     const std::vector<glm::dvec3>& traces, const RestSurface& surface) const;
 
 private:
+  void countWhatIsAway(const std::vector<glm::dvec3>& rest, std::vector<double>& deviations) const;
   std::string solveWith(double relaxation, const Measurements& measured, const RestSurface& surface,
     const Process* start);
 
@@ -77,6 +82,12 @@ private:
   double Share = 1.0;
   double Relaxation = 1.0;
 };
+
+/**
+ * Deviation (mm) along each axis of tissue that was put `distance` (mm) away from where a fit with
+ * this deviation has it.
+ */
+BRAINSHIFT_DEFORMATION_EXPORT double withDistance(double deviation, double distance);
 
 /** Root mean square of the numbers that are finite; NaN if there are none. */
 BRAINSHIFT_DEFORMATION_EXPORT double rootMeanSquare(const std::vector<double>& numbers);

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -22,6 +23,7 @@ namespace
 {
 constexpr std::int64_t ColumnsAtLeast = 48; // for a thread: about 0.1 ms
 constexpr std::int64_t PointsAtLeast = 64;
+constexpr std::int64_t PointsTogether = 64; // as columns of one matrix, which the cache holds
 
 // Rows of a rigid mean: displacement of a point by a unit of each of its six numbers.
 Eigen::Matrix<double, 3, 6> meanAt(const glm::dvec3& fromCentre)
@@ -33,6 +35,14 @@ Eigen::Matrix<double, 3, 6> meanAt(const glm::dvec3& fromCentre)
     0, 0, 1, p.y, -p.x, 0;
   return basis;
 }
+
+// What explains variance at any position, for rows at shared centres: with the covariances k of a
+// position with the centres, the trace of what the rows explain is |factor^T k|^2.
+struct Explained
+{
+  Eigen::MatrixXd factor; // lower triangle
+  Eigen::MatrixXd away;   // of a mean: 18 numbers for each centre, see meanAt
+};
 
 glm::dmat3 glmFrom(const Eigen::Matrix3d& m)
 {
@@ -149,6 +159,53 @@ struct Process::State
     Eigen::Matrix<double, 6, 6> precision = this->Basis.transpose() * this->Solved;
     precision.bottomRightCorner<3, 3>().diagonal().array() += mean.rotationPrecision;
     this->Motion.compute(precision);
+  }
+
+  // The rows' inverse covariance, times how alike their axes are, summed over rows that share a
+  // centre. It is positive definite, as both factors are where they must be (Schur).
+  Explained explained() const
+  {
+    const auto count = static_cast<Eigen::Index>(this->Rows.size());
+    Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(count, count);
+    this->Lower.triangularView<Eigen::Lower>().solveInPlace(inverse);
+    inverse = (inverse.transpose() * inverse).eval();
+    Explained result;
+    result.factor.setZero(this->X.size(), this->X.size());
+    for (Eigen::Index j = 0; j < count; ++j)
+    {
+      for (Eigen::Index i = 0; i < count; ++i)
+      {
+        result.factor(this->CentreOf[i], this->CentreOf[j]) +=
+          inverse(i, j) * glm::dot(this->Rows[i].axis, this->Rows[j].axis);
+      }
+    }
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(result.factor); // in place
+    if (this->Mean)
+    {
+      result.away.setZero(18, this->X.size());
+      for (Eigen::Index i = 0; i < count; ++i)
+      {
+        const glm::dvec3& axis = this->Rows[i].axis;
+        const Eigen::Matrix<double, 3, 6> part =
+          Eigen::Vector3d(axis.x, axis.y, axis.z) * this->Solved.row(i);
+        result.away.col(this->CentreOf[i]) += part.reshaped();
+      }
+    }
+    return result;
+  }
+
+  // A third of the trace of what a mean leaves open; 0 without a mean.
+  double openVariance(
+    const glm::dvec3& rest, const Eigen::MatrixXd& away, const Eigen::VectorXd& covariance) const
+  {
+    if (!this->Mean)
+    {
+      return 0.0;
+    }
+    const Eigen::Matrix<double, 18, 1> held = away * covariance;
+    const Eigen::Matrix<double, 3, 6> open =
+      meanAt(rest - this->Mean->centre) - held.reshaped(3, 6);
+    return (open * this->Motion.solve(open.transpose())).trace() / 3.0;
   }
 
   void solveWeights()
@@ -313,6 +370,60 @@ glm::dmat3 Process::covariance(const glm::dvec3& rest) const
     result += away * state.Motion.solve(away.transpose());
   }
   return glmFrom(result);
+}
+
+std::vector<double> Process::variances(const std::vector<glm::dvec3>& rest) const
+{
+  const State& state = *this->Internal;
+  std::vector<double> result(rest.size(), state.Kernel.variance());
+  const auto count = static_cast<Eigen::Index>(state.Rows.size());
+  if (count == 0)
+  {
+    const double open = std::numeric_limits<double>::infinity();
+    std::fill(result.begin(), result.end(), state.Mean ? open : state.Kernel.variance());
+    return result;
+  }
+  const Explained explained = state.explained();
+  parallelFor(0, static_cast<std::int64_t>(rest.size()), PointsTogether,
+    [&](std::int64_t begin, std::int64_t end) {
+      Eigen::ArrayXd scratch;
+      Eigen::ArrayXd covariance;
+      Eigen::MatrixXd shared(state.X.size(), PointsTogether);
+      for (std::int64_t first = begin; first < end; first += PointsTogether)
+      {
+        const std::int64_t columns = std::min(PointsTogether, end - first);
+        for (std::int64_t i = 0; i < columns; ++i)
+        {
+          state.covariances(rest[first + i], scratch, covariance);
+          shared.col(i) = covariance;
+        }
+        const Eigen::MatrixXd part =
+          explained.factor.triangularView<Eigen::Lower>().transpose() * shared.leftCols(columns);
+        for (std::int64_t i = 0; i < columns; ++i)
+        {
+          result[first + i] -= part.col(i).squaredNorm() / 3.0;
+          result[first + i] += state.openVariance(rest[first + i], explained.away, shared.col(i));
+        }
+      }
+    });
+  return result;
+}
+
+std::vector<double> Process::covarianceKey() const
+{
+  const State& state = *this->Internal;
+  std::vector<double> key{ state.Kernel.lengthMm, state.Kernel.deviationMm };
+  if (state.Mean)
+  {
+    const glm::dvec3& centre = state.Mean->centre;
+    key.insert(key.end(), { centre.x, centre.y, centre.z, state.Mean->rotationPrecision });
+  }
+  for (const Row& row : state.Rows)
+  {
+    key.insert(key.end(),
+      { row.point.x, row.point.y, row.point.z, row.axis.x, row.axis.y, row.axis.z, row.variance });
+  }
+  return key;
 }
 
 LeftOut Process::leftOut(std::size_t first) const

@@ -125,6 +125,15 @@ public:
   glm::dmat3 covariance(const glm::dvec3& rest) const;
 
   /**
+   * A third of the trace (mm^2) of covariance() at many positions, on all cores. It pays for more
+   * positions than there are rows: it solves once for all of them.
+   */
+  std::vector<double> variances(const std::vector<glm::dvec3>& rest) const;
+
+  /** All numbers that covariance() depends on. Values of the rows are not among them. */
+  std::vector<double> covarianceKey() const;
+
+  /**
    * What a process without three rows would miss them by, in closed form. The values must hold no
    * rigid motion any more.
    *

@@ -10,6 +10,8 @@
 #include "Filters/Fields/FittedFor.h"
 #include "Filters/Fit/Anchors.h"
 #include "Filters/Fit/FittedLattice.h"
+#include "Filters/Fit/LatticeEvidence.h"
+#include "Filters/Measured/EvidenceArray.h"
 #include "Filters/Measured/FitLandmarks.h"
 #include "Filters/Measured/FitWords.h"
 #include "Filters/Measured/MeasuredPoints.h"
@@ -70,6 +72,7 @@ struct vtkFitDeformation::State
   Measurements Measured;
   std::vector<std::size_t> TraceNumbers; // of the traces that count, in the input
   FittedLattice Fitted;
+  LatticeEvidence Evidence;
   std::vector<double> LandmarkResiduals;
   std::vector<double> PullResiduals;
   std::vector<double> TraceResiduals; // of all traces of the input
@@ -351,16 +354,18 @@ int vtkFitDeformation::RequestData(
     vtkErrorMacro(<< problem << ".");
     return 0;
   }
-  const std::string warning = state.warning();
+  vtkImageData* output = vtkImageData::GetData(outputs);
+  const Lattice& bent = state.Fitted.lattice();
+  setField(output, bent.grid, bent.displacements, Direction::Forward);
+  nameFittedFor(output, bent, this->Samples);
+  std::string warning =
+    this->Evidence ? addEvidence(output, state.Fitted, state.Evidence) : std::string();
+  warning = warning.empty() ? state.warning() : warning;
   if (warning != state.WarnedOf && !warning.empty())
   {
     vtkWarningMacro(<< warning << ".");
   }
   state.WarnedOf = warning; // it is repeated only after it was gone
-  vtkImageData* output = vtkImageData::GetData(outputs);
-  const Lattice& bent = state.Fitted.lattice();
-  setField(output, bent.grid, bent.displacements, Direction::Forward);
-  nameFittedFor(output, bent, this->Samples);
   output->Crop(
     outputs->GetInformationObject(0)->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()));
   return 1;
@@ -486,6 +491,7 @@ void vtkFitDeformation::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Label: " << this->Label << "\n"
      << indent << "Anchors: " << this->Anchors << "\n"
      << indent << "OpeningRadius: " << this->OpeningRadius << "\n"
+     << indent << "Evidence: " << this->Evidence << "\n"
      << indent << "Feather: " << this->Feather << "\n"
      << indent << "MaskGrowth: " << this->MaskGrowth << "\n"
      << indent

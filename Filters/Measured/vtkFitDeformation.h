@@ -5,8 +5,9 @@
  *
  * Output: a lattice, an image with the point array Displacement (float32 x 3, mm, world axes,
  * forward), to be the Lattice of a Free-Form Deformation with the same LatticeDimensions, Kernel,
- * Samples and mask. The rigid part is kept apart: GetRigid belongs in the pose of the tracker or
- * of the reference. All measurements are solved together (Filters/Fit/Fit.h).
+ * Samples and mask; with Evidence also Deviation. The rigid part is kept apart: GetRigid belongs in
+ * the pose of the tracker or of the reference. All measurements are solved together
+ * (Filters/Fit/Fit.h).
  *
  * - Input 0: the volume at rest. Only its grid counts, and its scalars if they show the cortex.
  * - Input 1, 2 (optional): landmarks at rest and measured, points with an optional array Label.
@@ -134,6 +135,16 @@ public:
   vtkGetVector3Macro(OpeningCentre, double);
   vtkSetMacro(OpeningRadius, double);
   vtkGetMacro(OpeningRadius, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the lattice tells how far it can be believed: a point array Deviation (float32, mm),
+   * what Deviations() answers at the control points. It takes time. Default off.
+   */
+  vtkSetMacro(Evidence, bool);
+  vtkGetMacro(Evidence, bool);
+  vtkBooleanMacro(Evidence, bool);
   ///@}
 
   ///@{
@@ -277,6 +288,7 @@ private:
   bool Anchors = true;
   double OpeningCentre[3] = { 0.0, 0.0, 0.0 };
   double OpeningRadius = 0.0;
+  bool Evidence = false;
   double Feather = 10.0;
   double MaskGrowth = 0.0;
   std::vector<int> MaskLabels;

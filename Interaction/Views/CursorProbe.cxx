@@ -18,7 +18,7 @@ namespace brainshift
 {
 namespace
 {
-constexpr std::size_t Numbers = 17; // see vtkDeformedVolumeReport::GetFacts
+constexpr std::size_t Numbers = 19; // see vtkDeformedVolumeReport::GetFacts
 
 glm::dvec3 tripleAt(const std::vector<double>& numbers, std::size_t first)
 {
@@ -78,6 +78,7 @@ CursorTissue tissueOf(
   tissue.volumeShare = facts[8];
   tissue.intensity = knownAt(facts, 9);
   tissue.reference = knownAt(facts, 11);
+  tissue.deviation = knownAt(facts, 17);
   tissue.label = tissue.intensity ? nameOf(*tissue.intensity, display) : QString();
   const std::optional<double> label = knownAt(facts, 13);
   tissue.label = tissue.label.isEmpty() && label ? labelText(*label, labelName) : tissue.label;

@@ -36,6 +36,9 @@ struct CursorTissue
   /// Its label: as the colour map calls it; else as the data calls it, with its number; else the
   /// number. Empty: none.
   QString label;
+  /// How far its place can be believed: mm, one standard deviation along an axis, infinity where
+  /// nothing was measured. None: nobody knows.
+  std::optional<double> deviation;
   WorldAxes axes = WorldAxes::Unknown;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Window/CursorLine.h"
 
+#include "Filters/Fit/Fit.h"
+
 #include <pqApplicationCore.h>
 #include <pqRenderView.h>
 #include <pqServerManagerModel.h>
@@ -65,6 +67,19 @@ QString numberText(double number)
 }
 }
 
+namespace
+{
+// How far the place of tissue can be believed, as pictures class it.
+QString evidenceText(double deviation)
+{
+  constexpr double unknownMm = 4.0; // from here on pictures show no evidence
+  return deviation < unknownMm ? CursorLine::tr("evidence: \u00b1 %1 mm (95 %: %2 mm)")
+                                   .arg(deviation, 0, 'f', 1)
+                                   .arg(DeviationsOfBall95 * deviation, 0, 'f', 1)
+                               : CursorLine::tr("no evidence");
+}
+}
+
 QString cursorText(const CursorTissue& tissue)
 {
   QStringList parts;
@@ -93,6 +108,10 @@ QString cursorText(const CursorTissue& tissue)
         ? CursorLine::tr("volume %1 %").arg(100.0 * tissue.volumeShare, 0, 'f', 0)
         : CursorLine::tr("folded"));
   }
+  if (tissue.deviation)
+  {
+    parts.append(evidenceText(*tissue.deviation));
+  }
   return parts.join(QStringLiteral(" \u00b7 "));
 }
 
@@ -105,8 +124,9 @@ CursorLine::CursorLine(QWidget* parent)
   this->setTextFormat(Qt::PlainText); // names come from files
   this->setToolTip(
     tr("What lies under the cursor: its position (mm), the position before it was bent, the value "
-       "and the label of the nearest voxel, how far it moved, and its volume now (100 %: "
-       "unchanged)."));
+       "and the label of the nearest voxel, how far it moved, its volume now (100 %: "
+       "unchanged), and how far its place can be believed: one standard deviation along an axis, "
+       "and the radius of the ball that holds it with 95 %."));
   this->Asking.setSingleShot(true);
   this->Asking.setInterval(AskEachMs);
   this->connect(&this->Asking, &QTimer::timeout, this, &CursorLine::ask);

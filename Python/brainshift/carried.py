@@ -6,7 +6,7 @@ LOOK = (
     "ColorArrayName", "UseSeparateColorMap", "LookupTable",
     "ScalarOpacityFunction", "Opacity", "Shade", "Ambient", "Diffuse", "Specular", "SpecularPower",
     "ScalarOpacityUnitDistance", "GradientOpacity", "TransferFunction2D", "UseTransfer2D",
-    "DrawSegment", "DrawnLabels", "SampleDistance",
+    "DrawSegment", "DrawnLabels", "ShowEvidence", "SampleDistance",
     "VolumeNormalTexture", "Translation", "Orientation", "Scale",
     "ShowSagittal", "ShowCoronal", "ShowAxial", "SlicePosition", "ShowCrosshair",
     "SliceInterpolation", "MapSliceOpacity", "OrientationMarks", "WorldAxes", "SliceComparison",

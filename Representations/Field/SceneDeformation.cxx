@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 namespace brainshift
 {
@@ -30,6 +31,7 @@ bool SceneDeformation::update(vtkImageData* image, std::string& problem)
     return problem.empty();
   }
   this->lattice = effectiveLattice(source);
+  this->deviations = std::move(source.deviations);
   problem = offsetFieldProblem(this->lattice, source.samples);
   if (!problem.empty())
   {

@@ -22,6 +22,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 class vtkImageData;
 class vtkWindow;
@@ -33,8 +34,9 @@ struct GpuTask;
 /// The deformation as all windows share it.
 struct SceneDeformation
 {
-  bool deformed = false; ///< Else all tissue stays.
-  Lattice lattice;       ///< With Strength applied (effectiveLattice).
+  bool deformed = false;         ///< Else all tissue stays.
+  Lattice lattice;               ///< With Strength applied (effectiveLattice).
+  std::vector<float> deviations; ///< See Deformation.
   FieldRequest request;
   SlabHull moved; ///< Where tissue may have moved, lattice coordinates.
 

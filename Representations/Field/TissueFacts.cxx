@@ -61,6 +61,10 @@ TissueFacts factsAt(vtkImageData* image, const DrawnValues& values, SceneDeforma
     facts.bent = true;
     facts.rest = deformation.map().restFromDeformed(deformedMm);
     facts.volumeShare = glm::determinant(deformation.map().jacobian(facts.rest));
+    if (!deformation.deviations.empty())
+    {
+      facts.deviation = deviationAt(deformation.lattice.grid, deformation.deviations, facts.rest);
+    }
   }
   facts.value = numberAt(values.scalars, values.grid, values.layout, facts.rest);
   const std::string own = facts.value ? labelName(image, *facts.value) : std::string();

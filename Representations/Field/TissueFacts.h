@@ -32,7 +32,10 @@ struct TissueFacts
   /// Of the nearest voxel: the value, where the volume names its own values; else the label of an
   /// attached segmentation.
   std::optional<double> label;
-  std::string labelName;               ///< What the data calls the label. Empty: no name.
+  std::string labelName; ///< What the data calls the label. Empty: no name.
+  /// How far its place can be believed: mm, one standard deviation along an axis, infinity where
+  /// nothing was measured.
+  std::optional<double> deviation;
   WorldAxes axes = WorldAxes::Unknown; ///< What the data says about its axes.
 };
 

@@ -20,8 +20,9 @@ struct Counters
   std::int64_t latticeUploads = 0;  ///< Times that control points were sent to the GPU.
   std::int64_t transferUploads = 0; ///< Times that colour and opacity maps were sent to the GPU.
   std::int64_t segmentUploads = 0; ///< Times that a segment was sent to the GPU, to be drawn alone.
-  std::int64_t bytesUploaded = 0;  ///< Bytes of all these uploads.
-  std::int64_t texelsRefined = 0;  ///< Nodes of the offset field that were computed.
+  std::int64_t evidenceUploads = 0;  ///< Times that evidence was sent to the GPU.
+  std::int64_t bytesUploaded = 0;    ///< Bytes of all these uploads.
+  std::int64_t texelsRefined = 0;    ///< Nodes of the offset field that were computed.
   std::int64_t presenceUpdates = 0;  ///< Times that the deformed presence map was computed.
   std::int64_t skippingBytes = 0;    ///< Faces and leaps sent back; not part of bytesUploaded.
   std::int64_t correctionBytes = 0;  ///< Corrections of the offset field; not in bytesUploaded.

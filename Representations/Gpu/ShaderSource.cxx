@@ -22,6 +22,7 @@
 #include "shader_cubic.h"
 #include "shader_cut.h"
 #include "shader_enlarge_frag.h"
+#include "shader_evidence.h"
 #include "shader_field.h"
 #include "shader_fullscreen_vert.h"
 #include "shader_gradient.h"
@@ -171,7 +172,7 @@ std::string nameOf(const RayCastVariant& variant)
     (variant.segmented ? "_segment" : "") + (variant.counted ? "_counted" : "") +
     (variant.sharedLight ? "_shared_light" : "") + (variant.averaged ? "_averaged" : "") +
     (variant.compared ? "_compared" : "") + (variant.cavity ? "_cavity" : "") +
-    opacities[static_cast<int>(variant.opacity)];
+    opacities[static_cast<int>(variant.opacity)] + (variant.evidence ? "_evidence" : "");
 }
 }
 
@@ -232,11 +233,12 @@ ShaderSource rayCastSource(const RayCastVariant& variant)
   defines += variant.compared ? "#define COMPARED\n" : "";
   defines += variant.cavity ? "#define CAVITY\n" : "";
   defines += opacityDefines(variant.opacity);
+  defines += variant.evidence ? "#define EVIDENCE\n" : "";
   return { outlineStage(), "",
     assemble({ Outputs, defines, shader_rays, shader_skipping, shader_clipping, shader_field,
-      shader_gradient, shader_segment, shader_tissue, shader_cut, shader_components, shader_light,
-      variant.counted ? std::string(shader_counting) : NotCounted, shader_raycast,
-      loopSource(variant) }) };
+      shader_gradient, shader_segment, shader_tissue, shader_cut, shader_components,
+      shader_evidence, shader_light, variant.counted ? std::string(shader_counting) : NotCounted,
+      shader_raycast, loopSource(variant) }) };
 }
 
 ShaderSource compositeSource(bool occluded)
@@ -271,11 +273,11 @@ ShaderSource slicesSource(const SlicesVariant& variant)
 {
   const std::string defines = fieldDefines() + (variant.deformed ? "#define DEFORMED\n" : "") +
     coloringDefine(variant.coloring) + (variant.compared ? "#define COMPARED\n" : "") +
-    (variant.cavity ? "#define CAVITY\n" : "");
+    (variant.cavity ? "#define CAVITY\n" : "") + (variant.evidence ? "#define EVIDENCE\n" : "");
   return { assemble({ shader_slices_vert }), "",
     assemble({ Outputs, defines, shader_rays, shader_field, shader_gradient, shader_segment,
-      shader_tissue, shader_components, shader_cubic, shader_cavity, shader_crosshair,
-      shader_comparison, shader_slices_frag }) };
+      shader_tissue, shader_components, shader_evidence, shader_cubic, shader_cavity,
+      shader_crosshair, shader_comparison, shader_slices_frag }) };
 }
 
 ShaderSource tracesSource(int tissues)
@@ -359,6 +361,23 @@ void addSteep(NamedSources& sources, bool deformed)
   }
 }
 
+// The ray caster of a volume whose fit says how far it can be believed.
+void addEvidence(NamedSources& sources)
+{
+  for (const Blend blend : { Blend::Composite, Blend::Isosurface, Blend::Slice })
+  {
+    RayCastVariant variant{ true, RayCastVariant::GradientTexture, blend };
+    variant.evidence = true;
+    add(sources, variant);
+  }
+  RayCastVariant averaged{ true, RayCastVariant::GradientTexture };
+  averaged.averaged = averaged.evidence = true;
+  add(sources, averaged);
+  RayCastVariant compared{ true, RayCastVariant::GradientTexture };
+  compared.compared = compared.evidence = true;
+  add(sources, compared);
+}
+
 // The ray caster of a volume and a reference.
 void addCompared(NamedSources& sources, bool deformed)
 {
@@ -388,6 +407,7 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
     addSteep(sources, deformed);
     addCompared(sources, deformed);
   }
+  addEvidence(sources);
   sources.emplace_back("traces", tracesSource(0));
   sources.emplace_back("traces_hidden", tracesSource(MaxTissues));
   sources.emplace_back("slices_rest", slicesSource({}));
@@ -395,6 +415,10 @@ std::vector<std::pair<std::string, ShaderSource>> allSources()
   sources.emplace_back("slices_direct", slicesSource({ true, Coloring::Direct }));
   sources.emplace_back("slices_compared", slicesSource({ true, Coloring::OtherScalar, true }));
   sources.emplace_back("slices_cavity", slicesSource({ true, Coloring::Mapped, true, true }));
+  sources.emplace_back(
+    "slices_evidence", slicesSource({ true, Coloring::Mapped, false, false, true }));
+  sources.emplace_back(
+    "slices_compared_evidence", slicesSource({ true, Coloring::Mapped, true, false, true }));
   return sources;
 }
 }

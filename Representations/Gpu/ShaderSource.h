@@ -101,13 +101,14 @@ struct RayCastVariant
   bool compared = false;             ///< Drawn with a reference, in two colours; Composite only.
   bool cavity = false;               ///< The comparison ignores a cavity.
   Opacity opacity = Opacity::Scalar; ///< Others: Composite only, not compared, no GradientTexture.
+  bool evidence = false;             ///< Evidence is shown; Composite, Isosurface and Slice only.
 
   bool operator<(const RayCastVariant& other) const
   {
     const auto key = [](const RayCastVariant& variant) {
       return std::make_tuple(variant.deformed, variant.light, variant.blend, variant.coloring,
         variant.regions, variant.segmented, variant.counted, variant.sharedLight, variant.averaged,
-        variant.compared, variant.cavity, variant.opacity);
+        variant.compared, variant.cavity, variant.opacity, variant.evidence);
     };
     return key(*this) < key(other);
   }
@@ -120,11 +121,12 @@ struct SlicesVariant
   Coloring coloring = Coloring::Mapped;
   bool compared = false; ///< Drawn with a reference.
   bool cavity = false;   ///< The comparison ignores a cavity.
+  bool evidence = false; ///< Evidence is shown.
 
   bool operator<(const SlicesVariant& other) const
   {
-    return std::tie(this->deformed, this->coloring, this->compared, this->cavity) <
-      std::tie(other.deformed, other.coloring, other.compared, other.cavity);
+    return std::tie(this->deformed, this->coloring, this->compared, this->cavity, this->evidence) <
+      std::tie(other.deformed, other.coloring, other.compared, other.cavity, other.evidence);
   }
 };
 

@@ -147,7 +147,9 @@ PictureStamp::Change PictureStamp::change(const DrawnVolume& drawn, unsigned lon
 {
   Numbers now;
   addView(now, scene);
-  add(now, { counters.volumeUploads, counters.transferUploads, counters.segmentUploads });
+  add(now,
+    { counters.volumeUploads, counters.transferUploads, counters.segmentUploads,
+      counters.evidenceUploads, scene.evidence.deviations ? 1 : 0 });
   addProps(now, drawn, scene);
   // Not the volume's own time: ParaView poses it for each picture anew.
   now.push_back(static_cast<double>(settingsTime));

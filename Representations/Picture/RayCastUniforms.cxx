@@ -248,6 +248,7 @@ void setRayCastUniforms(
   setBlendingUniforms(program, scene.tissue.blend, scene.blending);
   setSegmentUniforms(program, scene.tissue.segment);
   setColoringUniforms(program, scene.tissue.coloring);
+  setEvidenceUniforms(program, scene.evidence);
   if (scene.comparison.reference)
   {
     setComparisonUniforms(program, scene);
@@ -257,10 +258,10 @@ void setRayCastUniforms(
 void deactivateTextures(const RayCastScene& scene)
 {
   const SceneTissue& tissue = scene.tissue;
-  for (vtkTextureObject* texture :
-    { tissue.scalars, tissue.normals, tissue.transfer, scene.behind.depth, tissue.coloring.colors,
-      tissue.coloring.scalars, tissue.segment.shares, scene.skipping.presence->leaps(),
-      scene.comparison.cavity.voxels, tissue.transferSums, tissue.steepness.entries })
+  for (vtkTextureObject* texture : { tissue.scalars, tissue.normals, tissue.transfer,
+         scene.behind.depth, tissue.coloring.colors, tissue.coloring.scalars, tissue.segment.shares,
+         scene.skipping.presence->leaps(), scene.comparison.cavity.voxels, tissue.transferSums,
+         tissue.steepness.entries, scene.evidence.deviations })
   {
     if (texture)
     {

@@ -33,6 +33,7 @@ RayCastVariant variantOf(const RayCastScene& scene)
   variant.counted = scene.image.countSamples && variant.blend == Blend::Composite;
   variant.averaged = tissue.transferSums && variant.blend == Blend::Composite && !variant.compared;
   variant.opacity = variant.compared ? Opacity::Scalar : tissue.steepness.opacity;
+  variant.evidence = scene.evidence.deviations != nullptr;
   variant.sharedLight =
     tissue.shaded && !variant.averaged && !variant.compared && tissue.raysEndSoon();
   return variant;

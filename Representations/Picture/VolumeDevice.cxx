@@ -146,6 +146,11 @@ bool VolumeDevice::uploadVolume(GpuTask& gpu, const DrawnVolume& drawn,
   {
     return false;
   }
+  if (request.showsEvidence &&
+    !this->Evidence.update(gpu, deformation, tissue.values, scene.evidence))
+  {
+    return false;
+  }
   scene.frame = frameOf(drawn, tissue.values);
   scene.cuts = cutsOf(request.mapper, tissue.values, scene.frame, scene.field);
   scene.blending = blendingFor(request, tissue, this->Tissue.Textures, scene.frame);
@@ -197,7 +202,8 @@ void VolumeDevice::addHeldBytes(Counters& counters)
 {
   counters.gpuScalarBytes += textureBytes(this->Tissue.Textures.scalars());
   counters.gpuOtherBytes += this->Tissue.otherBytes() + this->Reference.bytes() +
-    textureBytes({ this->Deformation.field().textures(), this->Picture.textures() });
+    textureBytes({ this->Deformation.field().textures(), this->Picture.textures(),
+      { this->Evidence.texture() } });
   this->Deformation.askTime(counters.gpuFieldMicroseconds);
 }
 
@@ -206,6 +212,7 @@ void VolumeDevice::Release(vtkWindow* window)
   this->Tissue.releaseGraphicsResources(window);
   this->Reference.releaseGraphicsResources(window);
   this->Deformation.releaseGraphicsResources(window);
+  this->Evidence.releaseGraphicsResources(window);
   this->Picture.releaseGraphicsResources(window);
   this->Cover.releaseGraphicsResources();
 }

@@ -6,6 +6,7 @@
 #ifndef BrainShift_VolumeDevice_h
 #define BrainShift_VolumeDevice_h
 
+#include "Representations/Field/EvidenceTexture.h"
 #include "Representations/Field/SceneDeformation.h"
 #include "Representations/Gpu/GpuMemory.h"
 #include "Representations/Picture/Picture.h"
@@ -28,6 +29,7 @@ struct VolumeRequest
   vtkVolumeMapper* mapper = nullptr; ///< Gives blend mode, clipping and cropping.
   TissueRequest tissue;
   SceneReference reference;
+  bool showsEvidence = false;
   double memoryLimitMiB = 0.0; ///< 0: all that the driver gives.
   PictureWish wish;            ///< Place and size are filled in by draw.
 };
@@ -65,6 +67,7 @@ private:
   DeviceTissue Tissue;
   DeviceReference Reference;
   DeviceDeformation Deformation;
+  EvidenceTexture Evidence;
   brainshift::Picture Picture;
   SelectionCover Cover;
   GpuMemory Memory;

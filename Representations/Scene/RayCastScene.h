@@ -193,6 +193,15 @@ struct SceneComparison
   ColorPair colors;
 };
 
+/// How far each place can be believed. Filled by EvidenceTexture::update.
+struct SceneEvidence
+{
+  vtkTextureObject* deviations = nullptr; ///< mm, at control points. Null: it is not shown.
+  glm::dvec3 deviationFromTexture{ 1.0 }; ///< Texture coordinates of the deviations.
+  glm::dvec3 deviationOfTextureZero{ 0.0 };
+  glm::dvec3 stripesFromTexture{ 1.0 }; ///< Stripes for a texture unit.
+};
+
 /// Everything that one picture depends on.
 struct RayCastScene
 {
@@ -205,6 +214,7 @@ struct RayCastScene
   SceneImage image;
   SceneBehind behind;
   SceneComparison comparison;
+  SceneEvidence evidence;
 
   /// Step along the ray, mm.
   double stepMm() const { return this->tissue.stepMm * (1 << this->image.stepDoublings); }

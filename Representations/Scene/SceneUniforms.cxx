@@ -2,6 +2,7 @@
 #include "Representations/Scene/SceneUniforms.h"
 
 #include "Representations/Gpu/Program.h"
+#include "Representations/Scene/EvidenceClasses.h"
 
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
@@ -77,6 +78,19 @@ void deactivateField(const SceneField& field)
     {
       texture->Deactivate();
     }
+  }
+}
+
+void setEvidenceUniforms(Program& program, const SceneEvidence& evidence)
+{
+  if (evidence.deviations)
+  {
+    program.set("deviations", evidence.deviations);
+    program.set("deviationFromTexture", glm::vec3(evidence.deviationFromTexture));
+    program.set("deviationFromTextureShift", glm::vec3(evidence.deviationOfTextureZero));
+    program.set("evidenceLimits", EvidenceLimits);
+    program.set("evidenceTints", EvidenceTints);
+    program.set("stripesFromTexture", glm::vec3(evidence.stripesFromTexture));
   }
 }
 

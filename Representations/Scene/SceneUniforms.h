@@ -25,6 +25,9 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT void setFieldUniforms(
 /// Ends the use of the field's textures.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT void deactivateField(const SceneField& field);
 
+/// What Shaders/Tissue/evidence.glsl needs. Nothing if evidence is not shown.
+void setEvidenceUniforms(Program& program, const SceneEvidence& evidence);
+
 /// What Shaders/Tissue/components.glsl needs.
 void setColoringUniforms(Program& program, const SceneColoring& coloring);
 }

@@ -32,6 +32,7 @@ void setSliceUniforms(Program& program, const SliceScene& scene, double scale)
     setFieldUniforms(program, scene.field);
   }
   setColoringUniforms(program, scene.tissue.coloring);
+  setEvidenceUniforms(program, scene.evidence);
   program.set("clipFromTexture", glm::mat4(clipFromTexture(scene.frame)));
   program.set("voxels", glm::vec3(scene.voxels));
   program.set("cubic", scene.cubic ? 1 : 0);
@@ -49,7 +50,8 @@ bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, C
 {
   const SceneTissue& tissue = scene.tissue;
   const SlicesVariant variant{ scene.field.offsets != nullptr, tissue.coloring.source,
-    scene.reference.place.scalars != nullptr, scene.reference.cavity.voxels != nullptr };
+    scene.reference.place.scalars != nullptr, scene.reference.cavity.voxels != nullptr,
+    scene.evidence.deviations != nullptr };
   Program& program = this->Programs[variant];
   if (!program.use(window, slicesSource(variant), counters))
   {
@@ -81,8 +83,9 @@ bool SliceDrawer::draw(vtkOpenGLRenderWindow* window, const SliceScene& scene, C
       drawTriangles(trianglesOfQuad);
     }
   }
-  for (vtkTextureObject* texture : { tissue.scalars, tissue.transfer, tissue.coloring.colors,
-         tissue.coloring.scalars, scene.reference.place.scalars, scene.reference.cavity.voxels })
+  for (vtkTextureObject* texture :
+    { tissue.scalars, tissue.transfer, tissue.coloring.colors, tissue.coloring.scalars,
+      scene.reference.place.scalars, scene.reference.cavity.voxels, scene.evidence.deviations })
   {
     if (texture)
     {

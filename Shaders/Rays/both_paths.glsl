@@ -50,8 +50,8 @@ Path pathOf(Ray ray)
   path.field = fieldTrack(path.deformed);
   path.reference = referenceTrack(path.deformed);
   path.bricks = deformedBricks(path.deformed);
-  path.referenceBricks = brickTrack(
-    Track(path.reference.first * brickFromReference + brickOfReferenceZero,
+  path.referenceBricks =
+    brickTrack(Track(path.reference.first * brickFromReference + brickOfReferenceZero,
       path.reference.stride * brickFromReference));
   path.towardsEye = -normalize(worldFromTexture * ray.direction);
   return path;
@@ -94,15 +94,16 @@ vec2 referenceOpacities(TissueTable table, vec3 one, vec3 two, vec2 numbers, flo
 }
 
 // Adds a sample of both. `opacities`: of the bent volume and of the reference.
-void see(inout Seen seen, Path path, mat3 turn, mat3 slopes, float number, vec3 rest,
-  vec2 opacities)
+void see(
+  inout Seen seen, Path path, mat3 turn, mat3 slopes, float number, vec3 rest, vec2 opacities)
 {
   vec3 deformed = positionOf(path.deformed, number);
   bool ignored = isRemoved(deformed);
   float behindBoth = (1.0 - seen.own.opacity) * (1.0 - seen.other.opacity);
-  vec2 shares = opacities * (ignored
-    ? behindBoth * vec2(1.0, 1.0 - opacities.x) // nothing agrees there: each hides the other
-    : vec2(seenShare(seen.own, seen.other, number), seenShare(seen.other, seen.own, number)));
+  vec2 shares = opacities *
+    (ignored
+        ? behindBoth * vec2(1.0, 1.0 - opacities.x) // nothing agrees there: each hides the other
+        : vec2(seenShare(seen.own, seen.other, number), seenShare(seen.other, seen.own, number)));
   vec2 own = vec2(0.0);
   vec2 other = vec2(0.0);
   if (opacities.x > 0.0 && 1.0 - seen.own.opacity > Negligible)
@@ -112,13 +113,13 @@ void see(inout Seen seen, Path path, mat3 turn, mat3 slopes, float number, vec3 
   }
   if (opacities.y > 0.0 && 1.0 - seen.other.opacity > Negligible)
   {
-    vec3 gradient = worldFromReferenceGradient *
-      referenceGradientAt(positionOf(path.reference, number));
+    vec3 gradient =
+      worldFromReferenceGradient * referenceGradientAt(positionOf(path.reference, number));
     other = lightOf(gradient, path.towardsEye, deformed);
   }
   vec2 light = shares * vec2(own.x, other.x);
   seen.light += ignored ? vec3(0.5 * (light.x + light.y))
-                        : light.x * ownColor + light.y * referenceColor;
+                        : light.x * evidentStripes(ownColor, rest) + light.y * referenceColor;
   join(seen.own, opacities.x, own.y, number);
   join(seen.other, opacities.y, other.y, number);
 }

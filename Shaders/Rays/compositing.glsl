@@ -3,16 +3,16 @@
 // Colour times opacity, and opacity, of a sample.
 vec4 litTissue(vec4 tissue, vec3 rest, Shine shine)
 {
-  vec3 color = shone(shine, colorOf(tissue, rest));
+  vec3 color = shone(shine, evident(colorOf(tissue, rest), rest));
   return tissue.a > 0.0 ? vec4(color * tissue.a, tissue.a) : vec4(0.0);
 }
 
 // A ray's way through the space that tissue can reach.
 struct Path
 {
-  vec2 span;       // first and last t, mm
-  vec2 samples;    // first, and one past the last, that may be visible
-  vec2 moved;      // first, and one past the last, where tissue may have moved
+  vec2 span;    // first and last t, mm
+  vec2 samples; // first, and one past the last, that may be visible
+  vec2 moved;   // first, and one past the last, where tissue may have moved
   Track deformed;
   Track field;
   BrickTrack bricks;

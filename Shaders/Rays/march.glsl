@@ -4,12 +4,12 @@
 struct March
 {
   Ray ray;
-  vec2 span;         // first and last t in the space that tissue can reach, mm
-  vec2 samples;      // first, and one past the last
-  vec2 moved;        // first, and one past the last, where tissue may have moved
-  vec3 first;        // position of sample 0
-  vec3 stride;       // from a sample to the next
-  vec3 towardsEye;   // world axes
+  vec2 span;       // first and last t in the space that tissue can reach, mm
+  vec2 samples;    // first, and one past the last
+  vec2 moved;      // first, and one past the last, where tissue may have moved
+  vec3 first;      // position of sample 0
+  vec3 stride;     // from a sample to the next
+  vec3 towardsEye; // world axes
 };
 
 // `before`: samples wanted before the first that may be visible.
@@ -56,7 +56,7 @@ vec3 shadeAlone(March march, vec3 color, vec3 deformed, vec3 rest)
     slopes = offsetSlopesAt(deformed);
   }
   Shine shine = shineAt(deformed, rest, slopes, worldFromGradient, march.towardsEye);
-  return shone(shine, color);
+  return shone(shine, evident(color, rest));
 }
 
 // The second target: where a surface was hit. `number` below 0: no surface was hit.

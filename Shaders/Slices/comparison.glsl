@@ -1,6 +1,12 @@
 // A reference volume beside the bent one, in one picture. The reference is not bent: it is read at
 // the place of the fragment, and not at the rest position.
 
+struct Place
+{
+  vec3 deformed;
+  vec3 rest;
+};
+
 #ifdef COMPARED
 uniform sampler3D reference;       // red: the scalar, as stored
 uniform mat4 referenceFromTexture; // its texture coordinates from the volume's
@@ -61,27 +67,34 @@ float gradientShare(Referenced other)
 
 // Both volumes in one colour. The cavity does not count and is grey. `color`: of the volume, from
 // its colour map. `own`: the volume's share of the range of greys.
-vec3 compared(vec3 color, float own, Referenced other, vec3 alone, vec3 deformed)
+vec3 compared(vec3 color, float own, Referenced other, vec3 alone, Place place)
 {
+  vec3 deformed = place.deformed;
   switch (comparison)
   {
     case TwoColors:
-      return isRemoved(deformed) ? vec3(own) : own * ownColor + other.share * referenceColor;
+      return evidentStripes(
+        isRemoved(deformed) ? vec3(own) : own * ownColor + other.share * referenceColor,
+        place.rest);
     case Checkerboard:
-      return other.known && !inEvenField(deformed) ? alone : color;
+      return other.known && !inEvenField(deformed) ? alone : evident(color, place.rest);
     case Difference:
-      return vec3(
-        other.known && !isRemoved(deformed) ? 0.5 + 0.5 * (own - other.share) : 0.5);
+      return evidentStripes(
+        vec3(other.known && !isRemoved(deformed) ? 0.5 + 0.5 * (own - other.share) : 0.5),
+        place.rest);
     case Gradient:
-      return mix(vec3(own), referenceColor, isRemoved(deformed) ? 0.0 : gradientShare(other));
+      return evidentStripes(
+        mix(vec3(own), referenceColor, isRemoved(deformed) ? 0.0 : gradientShare(other)),
+        place.rest);
     default:
-      return color;
+      return evident(color, place.rest);
   }
 }
 
 // What is seen of the colour and opacity of tissue and reference. Returns false if nothing is.
-bool compare(bool hasTissue, float scalar, vec3 deformed, inout vec4 seen)
+bool compare(bool hasTissue, float scalar, Place place, inout vec4 seen)
 {
+  vec3 deformed = place.deformed;
   Referenced other = referenceAt(deformed);
   float entry = other.share * transferFromShare.x + transferFromShare.y;
   vec4 alone = textureLod(transfer, vec2(entry, transferRow), 0.0);
@@ -95,7 +108,7 @@ bool compare(bool hasTissue, float scalar, vec3 deformed, inout vec4 seen)
   }
   else if (hasTissue)
   {
-    seen.rgb = compared(seen.rgb, own, other, alone.rgb, deformed);
+    seen.rgb = compared(seen.rgb, own, other, alone.rgb, place);
   }
   if (comparison == Wipe && abs(beyondMm) < HalfLinePixels * screenScale * pixelMm)
   {
@@ -104,8 +117,9 @@ bool compare(bool hasTissue, float scalar, vec3 deformed, inout vec4 seen)
   return hasTissue;
 }
 #else
-bool compare(bool hasTissue, float scalar, vec3 deformed, inout vec4 seen)
+bool compare(bool hasTissue, float scalar, Place place, inout vec4 seen)
 {
+  seen.rgb = evident(seen.rgb, place.rest);
   return hasTissue;
 }
 #endif

@@ -15,7 +15,7 @@ void main()
   bool hasTissue = insideVolume(rest) && !isnan(scalar);
   vec4 tissue = tissueOf(scalar);
   vec4 seen = vec4(colorOf(tissue, rest), tissue.a);
-  bool drawn = compare(hasTissue, scalar, deformed, seen);
+  bool drawn = compare(hasTissue, scalar, Place(deformed, rest), seen);
   vec3 lineColor;
   if (onCrosshair(deformed, lineColor))
   {

@@ -107,6 +107,7 @@ TEST(Defaults, OfFitDeformationLiveInTheClass)
   vtkNew<vtkFitDeformation> filter;
   const int* sides = filter->GetLatticeDimensions();
   const Defaults expected{
+    { "Evidence", { double(filter->GetEvidence()) } },
     { "Feather", { filter->GetFeather() } },
     { "GuardFolding", { double(filter->GetGuardFolding()) } },
     { "Kernel", { double(filter->GetKernel()) } },

@@ -2,10 +2,12 @@
 // Proves that the cubic between the control points has the field's values at them with both kernels
 // and comes near to it between them, and that a field that folds is shortened.
 #include "Filters/Fit/FitLattice.h"
+#include "Filters/Deformation/IndexLoop.h"
 #include "Filters/Deformation/Kernels.h"
 #include "Filters/Deformation/LatticeExtremes.h"
 #include "Filters/Deformation/PointMap.h"
 #include "Filters/Fit/FittedLattice.h"
+#include "Filters/Fit/LatticeEvidence.h"
 #include "Testing/Cxx/Fit/DenseReference.h"
 
 #include <glm/geometric.hpp>
@@ -37,6 +39,71 @@ Process pulled(double byMm, double lengthMm)
   process.setRows(rows);
   return process;
 }
+}
+
+// Landmarks alone have a rigid mean; a pull beside them has none. One pair and the pins share no
+// place with others.
+class EvidenceOf : public ::testing::TestWithParam<bool>
+{
+};
+
+TEST_P(EvidenceOf, TheLatticeIsThatOfEachControlPoint)
+{
+  Scatter scatter(7);
+  Measurements measured;
+  for (int i = 0; i < 9; ++i)
+  {
+    const glm::dvec3 rest = scatter.point(60.0);
+    measured.landmarks.push_back({ rest, rest + 0.05 * scatter.point(20.0), 1.0 + i % 2 });
+  }
+  const glm::dvec3 start(10.0, 20.0, -5.0);
+  if (GetParam())
+  {
+    measured.pulls.push_back({ start, start + glm::dvec3(0.0, 2.0, 0.0), 1.0 });
+    measured.pins.emplace_back(-30.0, 4.0, 8.0);
+  }
+  FittedLattice fitted;
+  const Lattice lattice = makeLattice(boxGrid(), 0);
+  ASSERT_EQ(fitted.solve(measured, {}, lattice, 4, true), "");
+  LatticeEvidence evidence;
+  std::string problem;
+  const std::vector<float> found = evidence.deviations(fitted, problem);
+  ASSERT_EQ(found.size(), boxGrid().count());
+  std::size_t point = 0;
+  forEachIndex(glm::ivec3(0), boxGrid().dimensions - 1, [&](const glm::ivec3& index) {
+    const glm::dvec3 rest = boxGrid().worldFromGrid(glm::dvec3(index));
+    if (point % 97 == 0)
+    {
+      const double single = fitted.deviations({ rest }).front();
+      EXPECT_NEAR(found[point], single, 1e-6 * (1.0 + single)) << point;
+    }
+    ++point;
+  });
+  if (GetParam())
+  {
+    // A pull that goes on says nothing new of where is measured.
+    measured.pulls[0].measured.y += 1.0;
+    ASSERT_EQ(fitted.solve(measured, {}, lattice, 4, true), "");
+    EXPECT_EQ(evidence.deviations(fitted, problem).size(), found.size());
+    EXPECT_EQ(evidence.solutions(), 1);
+    measured.pulls[0].rest.y += 1.0;
+    ASSERT_EQ(fitted.solve(measured, {}, lattice, 4, true), "");
+    evidence.deviations(fitted, problem);
+    EXPECT_EQ(evidence.solutions(), 2);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Fits, EvidenceOf, ::testing::Bool());
+
+TEST(Evidence, IsRefusedForVeryManyControlPoints)
+{
+  Grid grid = boxGrid();
+  grid.dimensions = { 66, 66, 66 };
+  FittedLattice fitted;
+  ASSERT_EQ(fitted.solve({}, {}, makeLattice(grid, 0), 4, true), "");
+  std::string problem;
+  EXPECT_TRUE(LatticeEvidence().deviations(fitted, problem).empty());
+  EXPECT_NE(problem.find("287496"), std::string::npos) << problem;
 }
 
 class FitLatticeOfKernel : public ::testing::TestWithParam<int>

@@ -71,6 +71,8 @@ TEST(Defaults, OfDeformedVolumeLiveInTheMapper)
   EXPECT_EQ(defaultsIn("Representations/Proxies/DeformedVolumeComparison.xml"), compared);
   const Defaults ofSegment{ { "DrawSegment", { double(mapper->GetDrawSegment()) } } };
   EXPECT_EQ(defaultsIn("Representations/Proxies/DeformedVolumeSegment.xml"), ofSegment);
+  const Defaults ofEvidence{ { "ShowEvidence", { double(mapper->GetShowEvidence()) } } };
+  EXPECT_EQ(defaultsIn("Representations/Proxies/ShowEvidence.xml"), ofEvidence);
 }
 
 TEST(Defaults, OfTracePointsLiveInTheClass)

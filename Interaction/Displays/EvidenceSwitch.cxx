@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Interaction/Displays/EvidenceSwitch.h"
+
+#include <pqApplicationCore.h>
+#include <pqDataRepresentation.h>
+#include <pqRepresentation.h>
+#include <pqServerManagerModel.h>
+#include <pqUndoStack.h>
+
+#include <vtkCommand.h>
+#include <vtkSMProperty.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
+
+#include <cstring>
+
+namespace brainshift
+{
+namespace
+{
+vtkSMProxy* inputOf(vtkSMProxy* source, const char* name)
+{
+  return vtkSMPropertyHelper(source, name, /*quiet*/ true).GetAsProxy();
+}
+
+bool is(vtkSMProxy* proxy, const char* name)
+{
+  return std::strcmp(proxy->GetXMLName(), name) == 0;
+}
+
+// The fit that bends what a display shows; null if none does.
+vtkSMProxy* fitOf(vtkSMProxy* display)
+{
+  vtkSMProxy* source = inputOf(display, "Input");
+  while (source && !is(source, "FreeFormDeformation"))
+  {
+    source = inputOf(source, "Input");
+  }
+  vtkSMProxy* lattice = source ? inputOf(source, "Lattice") : nullptr;
+  return lattice && is(lattice, "FitDeformation") ? lattice : nullptr;
+}
+}
+
+EvidenceSwitch::EvidenceSwitch(QObject* parent)
+  : QObject(parent)
+{
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  QObject::connect(model, &pqServerManagerModel::representationAdded, this, &EvidenceSwitch::watch);
+}
+
+void EvidenceSwitch::watch(pqRepresentation* display)
+{
+  if (vtkSMProperty* property = display->getProxy()->GetProperty("ShowEvidence"))
+  {
+    this->Connector->Connect(property, vtkCommand::ModifiedEvent, this, SLOT(follow(vtkObject*)));
+  }
+}
+
+// An undo or a state says itself what the fit does.
+void EvidenceSwitch::follow(vtkObject* object)
+{
+  auto property = vtkSMProperty::SafeDownCast(object);
+  pqApplicationCore* core = pqApplicationCore::instance();
+  pqUndoStack* undo = core->getUndoStack();
+  if (!property || vtkSMPropertyHelper(property).GetAsInt() == 0 || core->isLoadingState() ||
+    (undo && (undo->getInUndo() || undo->getInRedo())))
+  {
+    return;
+  }
+  vtkSMProxy* fit = fitOf(property->GetParent());
+  if (fit && vtkSMPropertyHelper(fit, "Evidence").GetAsInt() == 0)
+  {
+    vtkSMPropertyHelper(fit, "Evidence").Set(1);
+    fit->UpdateVTKObjects();
+  }
+}
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief Says in the upper right corner of a view what the tints of evidence mean.
+ *
+ * The upper left corner belongs to the legend of a comparison.
+ */
+#ifndef BrainShift_EvidenceLegend_h
+#define BrainShift_EvidenceLegend_h
+
+#include "vtkNew.h"
+#include "vtkProp.h"
+#include "vtkTextActor.h" // for its smart pointer
+
+#include <array>
+#include <functional>
+
+namespace brainshift
+{
+class EvidenceLegend : public vtkProp
+{
+public:
+  static EvidenceLegend* New();
+  vtkTypeMacro(EvidenceLegend, vtkProp);
+
+  /// What is shown. Stripes stand for tints where colours tell volumes apart.
+  enum class Shown
+  {
+    Nothing, ///< The volume carries no evidence.
+    Tints,
+    Stripes,
+  };
+
+  /// Asked before each picture. Null: tints.
+  std::function<Shown()> Ask;
+
+  int RenderOpaqueGeometry(vtkViewport* viewport) override;
+  int RenderOverlay(vtkViewport* viewport) override;
+  void ReleaseGraphicsResources(vtkWindow* window) override;
+
+protected:
+  EvidenceLegend();
+  ~EvidenceLegend() override;
+
+private:
+  EvidenceLegend(const EvidenceLegend&) = delete;
+  void operator=(const EvidenceLegend&) = delete;
+
+  void Write(vtkViewport* viewport);
+
+  std::array<vtkNew<vtkTextActor>, 5> Lines; // a heading, then the classes
+};
+}
+
+#endif
