@@ -143,13 +143,13 @@ std::string triple(const glm::dvec3& numbers)
 }
 
 // Why there is too little memory for the arrays; empty if there is enough.
-std::string memoryProblemOf(const int extent[6])
+std::string memoryProblemOf(const int extent[6], bool hasDeviations)
 {
-  constexpr double BytesPerPoint = 5.0 * sizeof(float);
+  const double bytesPerPoint = (hasDeviations ? 5.0 : 4.0) * sizeof(float);
   const glm::dvec3 sides =
     glm::dvec3(extent[1], extent[3], extent[5]) - glm::dvec3(extent[0], extent[2], extent[4]) + 1.0;
   return hostMemoryProblem(
-    "A field of " + sizeText(sides) + " points", BytesPerPoint * sides.x * sides.y * sides.z);
+    "A field of " + sizeText(sides) + " points", bytesPerPoint * sides.x * sides.y * sides.z);
 }
 
 // Points along an axis so that they lie no further apart than asked for, but stay in the box.
@@ -226,7 +226,7 @@ int vtkDeformationField::RequestData(
   const Grid samples = this->SamplesOver(gridOf(input), problem);
   int extent[6];
   outputs->GetInformationObject(0)->Get(Pipeline::UPDATE_EXTENT(), extent);
-  problem = problem.empty() ? memoryProblemOf(extent) : problem;
+  problem = problem.empty() ? memoryProblemOf(extent, !source.deviations.empty()) : problem;
   if (!source.map || !problem.empty())
   {
     vtkErrorMacro(<< problem << ".");

@@ -233,6 +233,11 @@ TEST_HAND_EXPORT int test_hand_click(const char* name)
   for (QWidget* window : QApplication::topLevelWidgets())
   {
     auto button = window->findChild<QAbstractButton*>(name);
+    auto panel = button ? nullptr : window->findChild<QWidget*>("propertiesPanel");
+    if (auto property = panel ? panel->findChild<QWidget*>(name) : nullptr)
+    {
+      button = property->findChild<QAbstractButton*>(); // its box to tick
+    }
     if (button && button->isEnabled())
     {
       button->click();

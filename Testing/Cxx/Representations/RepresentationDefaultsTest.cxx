@@ -71,7 +71,9 @@ TEST(Defaults, OfDeformedVolumeLiveInTheMapper)
   EXPECT_EQ(defaultsIn("Representations/Proxies/DeformedVolumeComparison.xml"), compared);
   const Defaults ofSegment{ { "DrawSegment", { double(mapper->GetDrawSegment()) } } };
   EXPECT_EQ(defaultsIn("Representations/Proxies/DeformedVolumeSegment.xml"), ofSegment);
-  const Defaults ofEvidence{ { "ShowEvidence", { double(mapper->GetShowEvidence()) } } };
+  vtkNew<vtkDeformedSlicesMapper> slices;
+  const Defaults ofEvidence{ { "ShowEvidence",
+    { double(mapper->GetShowEvidence()), double(slices->GetShowEvidence()) } } };
   EXPECT_EQ(defaultsIn("Representations/Proxies/ShowEvidence.xml"), ofEvidence);
 }
 

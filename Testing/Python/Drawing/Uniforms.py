@@ -181,6 +181,27 @@ def test_slices():
         Delete(view)
 
 
+def test_evidence():
+    bent = FreeFormDeformation(Input=volume(ball()))
+    fit = brainshift.fit(bent, pulls=[(MIDDLE, (16.0, 16.0, 18.0))])
+    fit.filter.Evidence = 1
+    both = CompareVolumes(Input=bent, Reference=volume(ball(radius=7.0)))
+    for source, opacities in ((bent, FAINT), (bent, STEEP), (both, FAINT)):
+        drawn = Drawn(source, opacities)
+        for mode in (COMPOSITE, ISOSURFACE, SLICE):
+            drawn.draw("Half resolution", mode, ShowEvidence=1)
+        drawn.close()
+    for source in (bent, both):
+        view = view_along((0.3, 0.2, -1), MIDDLE, 90.0, size=40)
+        display = show_slices(source, view, ("Axial",), MIDDLE)
+        display.ShowEvidence = 1
+        if source is both:
+            display.SliceComparison = "Difference"
+        for _ in range(2):
+            picture(view)
+        Delete(view)
+
+
 def test_moving_picture():
     # While a stroke changes, a part of the picture is drawn with fewer pixels and enlarged.
     filter = FreeFormDeformation(Input=volume(ball()), Strokes=STROKE)
