@@ -50,24 +50,33 @@ EvidenceSwitch::EvidenceSwitch(QObject* parent)
 
 void EvidenceSwitch::watch(pqRepresentation* display)
 {
-  if (vtkSMProperty* property = display->getProxy()->GetProperty("ShowEvidence"))
+  vtkSMProxy* proxy = display->getProxy();
+  if (vtkSMProperty* property = proxy->GetProperty("ShowEvidence"))
   {
-    this->Connector->Connect(property, vtkCommand::ModifiedEvent, this, SLOT(follow(vtkObject*)));
+    this->Connector->Connect(property, vtkCommand::ModifiedEvent, this,
+      SLOT(note(vtkObject*, unsigned long, void*)), proxy);
+    this->Connector->Connect(proxy, vtkCommand::UpdateEvent, this, SLOT(follow(vtkObject*)));
   }
+}
+
+void EvidenceSwitch::note(vtkObject*, unsigned long, void* display)
+{
+  this->Changed.insert(display);
 }
 
 // An undo or a state says itself what the fit does.
 void EvidenceSwitch::follow(vtkObject* object)
 {
-  auto property = vtkSMProperty::SafeDownCast(object);
+  auto display = vtkSMProxy::SafeDownCast(object);
   pqApplicationCore* core = pqApplicationCore::instance();
   pqUndoStack* undo = core->getUndoStack();
-  if (!property || vtkSMPropertyHelper(property).GetAsInt() == 0 || core->isLoadingState() ||
+  if (!display || !this->Changed.remove(object) || core->isLoadingState() ||
+    vtkSMPropertyHelper(display, "ShowEvidence").GetAsInt() == 0 ||
     (undo && (undo->getInUndo() || undo->getInRedo())))
   {
     return;
   }
-  vtkSMProxy* fit = fitOf(property->GetParent());
+  vtkSMProxy* fit = fitOf(display);
   if (fit && vtkSMPropertyHelper(fit, "Evidence").GetAsInt() == 0)
   {
     vtkSMPropertyHelper(fit, "Evidence").Set(1);

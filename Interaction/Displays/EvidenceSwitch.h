@@ -8,6 +8,7 @@
 #include <vtkNew.h>
 
 #include <QObject>
+#include <QSet>
 
 class pqRepresentation;
 class vtkObject;
@@ -22,13 +23,17 @@ public:
   explicit EvidenceSwitch(QObject* parent);
 
 private Q_SLOTS:
-  /// Of a display's ShowEvidence.
-  void follow(vtkObject* property);
+  /// Of a display that takes over its properties: then ParaView records a step of undo.
+  void follow(vtkObject* display);
+
+  /// Of a display's ShowEvidence, of which nobody has heard yet.
+  void note(vtkObject* property, unsigned long event, void* display);
 
 private:
   void watch(pqRepresentation* display);
 
   vtkNew<vtkEventQtSlotConnect> Connector;
+  QSet<void*> Changed; // displays
 };
 }
 

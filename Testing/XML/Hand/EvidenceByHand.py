@@ -89,18 +89,20 @@ def another_click():
     off = picture(scene["view"])
     assert scene["display"].ShowEvidence == 0
     assert (off == scene["before"]).all(), "tints or legend are left"
+    scene["display"].ShowEvidence = 1
+
+
+def both():
+    return int(scene["display"].ShowEvidence), int(scene["fit"].filter.Evidence)
 
 
 def undo_of_both():
     window.action("Undo")
     hand.wait(200)
-    assert scene["display"].ShowEvidence == 1
-    window.action("Undo")
-    hand.wait(200)
-    assert scene["display"].ShowEvidence == 0 and scene["fit"].filter.Evidence == 0
+    assert both() == (0, 0), (both(), window.undo_labels())
     window.action("Redo")
     hand.wait(200)
-    assert scene["display"].ShowEvidence == 1 and scene["fit"].filter.Evidence == 1
+    assert both() == (1, 1), both()
 
 
 def legend_in_3d():
@@ -111,5 +113,5 @@ def legend_in_3d():
     assert (corner(picture(scene["view"])) != shown).any()
 
 
-window.main("EvidenceByHand", [(set_up,), (one_click,), (words_under_the_cursor,),
-                               (another_click,), (undo_of_both,), (legend_in_3d,)])
+window.main("EvidenceByHand", [(set_up,), (one_click,), (undo_of_both,),
+                               (words_under_the_cursor,), (another_click,), (legend_in_3d,)])
