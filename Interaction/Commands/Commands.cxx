@@ -49,6 +49,9 @@ std::vector<CommandRow> windowRows()
       QT_TRANSLATE_NOOP("BrainShift",
         "Show the deformed volume and the reference of Compare Volumes in turn. Press the key "
         "again to stop.")),
+    byKey(Command::RecordTrace, Scope::Window, {}, { Qt::Key_T },
+      QT_TRANSLATE_NOOP("BrainShift",
+        "While a pointer is connected: record a trace as long as the key is held down.")),
     byKey(Command::Undo, Scope::Window, {}, { Qt::CTRL | Qt::Key_Z },
       QT_TRANSLATE_NOOP("BrainShift", "Undo the last edit. Each stroke is one edit.")),
     byKey(Command::Redo, Scope::Window, {}, { Qt::CTRL | Qt::Key_Y },

@@ -24,6 +24,7 @@ enum class Command
   Flicker,
   Undo, ///< ParaView does it.
   Redo, ///< ParaView does it.
+  RecordTrace,
   MoveControlPoints,
   SelectControlPoint,
   MoveTissue,

@@ -18,6 +18,7 @@
 #include <pqServerManagerModel.h>
 #include <pqView.h>
 
+#include <QDockWidget>
 #include <QMainWindow>
 #include <QStatusBar>
 #include <QToolButton>
@@ -34,6 +35,7 @@ Toolbar::Toolbar(QWidget* mainWindow)
   this->addCompare();
   this->addFlicker();
   this->addLooks();
+  this->addPointer();
   for (QAction* action : this->actions()) // buttons are named like actions, for tests to press
   {
     if (!action->isSeparator())
@@ -130,6 +132,21 @@ void Toolbar::addLooks()
   this->addAction(action);
   qobject_cast<QToolButton*>(this->widgetForAction(action))
     ->setPopupMode(QToolButton::InstantPopup);
+}
+
+void Toolbar::addPointer()
+{
+  QAction* action = this->addAction(QIcon(":/BrainShift/pointer.svg"), tr("Live Pointer"));
+  action->setObjectName("actionBrainShiftPointer");
+  action->setToolTip(tr("Live Pointer: show or hide the dock that connects a tracked pointer."));
+  this->connect(action, &QAction::triggered, this, [this] {
+    // Found when it is wanted: ParaView makes docks after toolbars.
+    if (auto dock = this->window()->findChild<QDockWidget*>("BrainShiftPointerDock"))
+    {
+      dock->setVisible(!dock->isVisible());
+      dock->raise();
+    }
+  });
 }
 
 void Toolbar::followPipeline()

@@ -35,6 +35,7 @@ STANDS_ON = {
     "Representations/Window": [
         "Representations/Picture", "Representations/Slices", "Representations/Traces"],
     "Representations": ["Representations/Window"],
+    "Tracking": [],
     "Widgets": ["Filters"],
     "Interaction/Commands": [],
     "Interaction/Views": ["Interaction/Commands", "Widgets"],
@@ -42,14 +43,17 @@ STANDS_ON = {
     "Interaction/Landmarks": ["Interaction/Edits"],
     "Interaction/Tools": ["Interaction/Edits"],
     "Interaction/Displays": ["Interaction/Views"],
-    "Interaction": ["Interaction/Displays", "Interaction/Landmarks", "Interaction/Tools"],
+    "Interaction/Pointer": ["Interaction/Edits", "Tracking"],
+    "Interaction": [
+        "Interaction/Displays", "Interaction/Landmarks", "Interaction/Pointer", "Interaction/Tools"],
     "Panel/Parts": [],
     "Panel/Landmarks": ["Panel/Parts", "Interaction"],
     "Panel/Measured": ["Panel/Parts", "Interaction"],
+    "Panel/Pointer": ["Panel/Parts", "Interaction"],
     "Panel/Strokes": ["Panel/Parts", "Interaction"],
     "Panel/Tools": ["Panel/Parts", "Interaction"],
     "Panel/Properties": ["Panel/Landmarks", "Panel/Measured", "Panel/Strokes", "Panel/Tools"],
-    "Panel/Window": ["Panel/Properties"],
+    "Panel/Window": ["Panel/Pointer", "Panel/Properties"],
     "Panel": ["Panel/Window"],
     "Plugin": ["Panel", "Representations"],
 }
@@ -60,6 +64,7 @@ KEEPS_OUT = {
     "Filters/Fit": ["VTK"],
     "Filters": ["OpenGL", "Qt"],
     "Representations": ["Qt"],
+    "Tracking": ["OpenGL", "Qt", "VTK"],
     "Widgets": ["Qt"],
 }
 

@@ -341,6 +341,25 @@ TEST_HAND_EXPORT int test_hand_choose(const char* property, const char* entry)
   return 0;
 }
 
+// Types into a field, by its object name, in place of what it holds.
+TEST_HAND_EXPORT int test_hand_type(const char* name, const char* text)
+{
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    auto field = window->findChild<QWidget*>(name);
+    auto box = qobject_cast<QAbstractSpinBox*>(field);
+    auto line = box ? box->findChild<QLineEdit*>() : qobject_cast<QLineEdit*>(field);
+    if (line && line->isEnabled())
+    {
+      line->selectAll();
+      QTest::keyClicks(line, QString::fromUtf8(text));
+      QTest::keyClick(box ? static_cast<QWidget*>(box) : line, Qt::Key_Return);
+      return 1;
+    }
+  }
+  return 0;
+}
+
 // A click of the mouse on a button, by its object name, while the view has the keyboard's focus.
 // Returns whether the view still has it.
 TEST_HAND_EXPORT int test_hand_keeps_focus(const char* name)

@@ -185,6 +185,11 @@ def choose(name, entry):
     return chosen
 
 
+def type_into(name, text):
+    """Types into a field of the window, in place of what it holds; False if there is none."""
+    return bool(_library.test_hand_type(name.encode(), str(text).encode()))
+
+
 def keeps_focus(name):
     """Clicks a button of the window with the mouse; whether the view keeps the keyboard."""
     return bool(_library.test_hand_keeps_focus(name.encode()))

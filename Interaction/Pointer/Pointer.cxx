@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Interaction/Pointer/Pointer.h"
+
+#include "Interaction/Commands/Commands.h"
+#include "Interaction/Views/ActiveDeformation.h"
+#include "Tracking/Replay.h"
+
+#include <pqApplicationCore.h>
+#include <pqPipelineSource.h>
+#include <pqRenderView.h>
+#include <pqServerManagerModel.h>
+
+#include <QApplication>
+#include <QKeyEvent>
+#include <QPointer>
+#include <QWidget>
+
+#include <glm/geometric.hpp>
+
+#include <utility>
+
+namespace brainshift
+{
+namespace
+{
+constexpr int DrainEachMs = 10; // trackers send up to 100 poses a second, most of them 60
+constexpr int DrawEachMs = 30;  // leaves time for the rest of the window
+constexpr int BendEachMs = 100; // a solve of a long trace takes about that long
+constexpr double TouchSeconds = 0.5;
+constexpr double StillMm = 2.0; // a hand at rest on a landmark
+constexpr int LeastTouches = 5;
+
+// Where a person types, keys are letters.
+bool isTyping()
+{
+  QWidget* focus = QApplication::focusWidget();
+  return focus && focus->testAttribute(Qt::WA_InputMethodEnabled);
+}
+}
+
+Pointer* Pointer::instance()
+{
+  static QPointer<Pointer> pointer = new Pointer(qApp);
+  return pointer;
+}
+
+Pointer::Pointer(QObject* parent)
+  : QObject(parent)
+{
+  this->State.phase = SourceState::Phase::Ended;
+  this->Draining.setTimerType(Qt::PreciseTimer);
+  this->Draining.setInterval(DrainEachMs);
+  QObject::connect(&this->Draining, &QTimer::timeout, this, &Pointer::drain);
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  // Nothing of a source or a view may stay in hand when it goes.
+  QObject::connect(model, &pqServerManagerModel::preSourceRemoved, this, &Pointer::forget);
+  QObject::connect(model, &pqServerManagerModel::preServerRemoved, this, [this] { this->close(); });
+  QObject::connect(model, &pqServerManagerModel::preViewRemoved, this, [this](pqView* view) {
+    if (auto render = qobject_cast<pqRenderView*>(view))
+    {
+      this->Drawing.leave(render);
+    }
+  });
+  QObject::connect(qApp, &QCoreApplication::aboutToQuit, this, [this] { this->close(); });
+}
+
+Pointer::~Pointer() = default;
+
+void Pointer::forget(pqPipelineSource* source)
+{
+  if (isDeformation(source) && this->Trace.isRecording())
+  {
+    this->record(false);
+  }
+  this->Cortex.forget();
+}
+
+void Pointer::open(const TrackerOptions& options)
+{
+  this->start(std::make_unique<TrackerClient>(options));
+}
+
+QString Pointer::replay(const QString& path)
+{
+  Session session;
+  const std::string problem = readSession(path.toStdString(), session);
+  if (!problem.empty())
+  {
+    return QString::fromStdString(problem) + ".";
+  }
+  if (session.placement)
+  {
+    this->Registration.take({ session.placement->rotation, session.placement->translation });
+  }
+  this->start(std::make_unique<Replay>(std::move(session)));
+  this->Replayed = true;
+  return {};
+}
+
+void Pointer::start(std::unique_ptr<PoseSource> source)
+{
+  this->close();
+  this->Source = std::move(source);
+  this->State = this->Source->state();
+  this->Replayed = false;
+  this->Recorded = {};
+  this->Draining.start();
+  qApp->installEventFilter(this);
+  Q_EMIT this->changed();
+}
+
+void Pointer::close()
+{
+  qApp->removeEventFilter(this);
+  this->record(false);
+  this->Draining.stop();
+  this->Source.reset();
+  this->Newest.reset();
+  this->Tip.reset();
+  this->Distance.reset();
+  this->State = {};
+  this->State.phase = SourceState::Phase::Ended;
+  this->Drawing.leaveAll();
+  this->Cortex.forget();
+  Q_EMIT this->changed();
+}
+
+std::optional<double> Pointer::age() const
+{
+  return this->Source && this->State.lastSeconds >= 0.0
+    ? std::optional<double>(this->Source->now() - this->State.lastSeconds)
+    : std::nullopt;
+}
+
+double Pointer::threshold() const
+{
+  pqPipelineSource* deformation = activeDeformation();
+  return this->Threshold ? *this->Threshold : deformation ? halfwayThreshold(deformation) : 0.5;
+}
+
+bool Pointer::needsThreshold() const
+{
+  pqPipelineSource* deformation = activeDeformation();
+  return deformation && !cortexOf(deformation);
+}
+
+void Pointer::drain()
+{
+  if (!this->Source)
+  {
+    return;
+  }
+  const std::vector<Pose> poses = this->Source->take();
+  this->State = this->Source->state();
+  const RigidPose& placed = this->Registration.imageFromTracker();
+  for (const Pose& pose : poses)
+  {
+    if (this->Trace.isRecording())
+    {
+      this->Trace.add(placed.apply(pose.tip));
+    }
+    if (this->Recorded.poses.size() < MostPoses)
+    {
+      this->Recorded.poses.push_back(pose);
+    }
+    this->Newest = pose;
+  }
+  if (!this->SinceDrawn.isValid() || this->SinceDrawn.elapsed() >= DrawEachMs)
+  {
+    this->show();
+    this->SinceDrawn.start();
+  }
+  if (this->State.phase == SourceState::Phase::Ended)
+  {
+    // The sentence and the recorded poses stay.
+    this->Draining.stop();
+    this->record(false);
+    qApp->removeEventFilter(this);
+    this->show();
+  }
+}
+
+void Pointer::place()
+{
+  if (!this->Newest || !this->State.visible || !this->isOpen())
+  {
+    this->Tip.reset();
+    this->Distance.reset();
+    this->Drawing.hide();
+    return;
+  }
+  const RigidPose& placed = this->Registration.imageFromTracker();
+  const glm::dvec3 tip = placed.apply(this->Newest->tip);
+  this->Tip = tip;
+  pqPipelineSource* deformation = activeDeformation();
+  const bool applied = deformation && deformation->modifiedState() != pqProxy::UNINITIALIZED;
+  this->Distance = applied ? this->Cortex.of(deformation, tip, this->threshold()) : std::nullopt;
+  // Nothing but the drawing of the shaft depends on this axis.
+  this->Drawing.show(tip, glm::normalize(placed.rotation * this->Newest->rotation[2]));
+}
+
+void Pointer::show()
+{
+  if (this->Trace.isRecording() &&
+    (!this->SinceBent.isValid() || this->SinceBent.elapsed() >= BendEachMs))
+  {
+    this->Trace.bend();
+    this->Drawing.setTrace(this->Trace.points());
+    this->SinceBent.start();
+  }
+  this->place();
+  Q_EMIT this->changed();
+}
+
+QString Pointer::touch()
+{
+  glm::dvec3 mean(0.0);
+  std::vector<glm::dvec3> tips;
+  const std::vector<Pose>& poses = this->Recorded.poses;
+  for (auto pose = poses.rbegin(); pose != poses.rend() && this->Source; ++pose)
+  {
+    if (pose->seconds < this->Source->now() - TouchSeconds)
+    {
+      break;
+    }
+    tips.push_back(pose->tip);
+    mean += pose->tip;
+  }
+  if (tips.size() < LeastTouches || !this->State.visible)
+  {
+    return tr("The tool was not seen for half a second.");
+  }
+  mean /= static_cast<double>(tips.size());
+  for (const glm::dvec3& tip : tips)
+  {
+    if (glm::distance(tip, mean) > StillMm)
+    {
+      return tr("The tip moved more than %1 mm. Hold it still for half a second.").arg(StillMm);
+    }
+  }
+  this->Registration.touch(mean);
+  Q_EMIT this->changed();
+  return {};
+}
+
+QString Pointer::record(bool on)
+{
+  if (on == this->Trace.isRecording())
+  {
+    return {};
+  }
+  QString problem;
+  if (on)
+  {
+    pqPipelineSource* deformation = activeDeformation();
+    problem = !this->isOpen() ? tr("Connect a pointer first.")
+      : !deformation          ? tr("Select a Free-Form Deformation to bend.")
+                              : this->Trace.begin(deformation, this->threshold());
+  }
+  else
+  {
+    this->Trace.end();
+    this->Drawing.setTrace({}); // its source is shown now
+  }
+  Q_EMIT this->changed();
+  return problem;
+}
+
+QString Pointer::saveSession(const QString& path) const
+{
+  Session session = this->Recorded;
+  if (this->Registration.isRegistered())
+  {
+    const RigidPose& placed = this->Registration.imageFromTracker();
+    session.placement = Placement{ placed.rotation, placed.translation };
+  }
+  const std::string problem = writeSession(path.toStdString(), session);
+  return problem.empty() ? QString() : QString::fromStdString(problem) + ".";
+}
+
+bool Pointer::eventFilter(QObject* watched, QEvent* event)
+{
+  const QEvent::Type type = event->type();
+  if (type == QEvent::ApplicationDeactivate)
+  {
+    this->record(false); // another window hears of the key's release
+  }
+  if (type != QEvent::KeyPress && type != QEvent::KeyRelease && type != QEvent::ShortcutOverride)
+  {
+    return QObject::eventFilter(watched, event);
+  }
+  auto key = static_cast<QKeyEvent*>(event);
+  const KeyCommand found = commandOfKey({ Scope::Window }, key->key());
+  const bool held = key->modifiers() == Qt::NoModifier && !isTyping();
+  if (found.command != Command::RecordTrace || !(held || this->Trace.isRecording()))
+  {
+    return QObject::eventFilter(watched, event);
+  }
+  if (type == QEvent::ShortcutOverride)
+  {
+    event->accept(); // or a shortcut of the window comes first
+  }
+  else if (!key->isAutoRepeat())
+  {
+    this->record(type == QEvent::KeyPress);
+  }
+  return true;
+}
+}

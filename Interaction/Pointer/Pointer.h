@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file The live pointer of the window: takes the poses of a tool from a server or a recorded
+/// session, places them in the image, draws the tip, asks its distance to the bent cortex and
+/// records traces. There is one hand with a pointer, so there is one object.
+#ifndef BrainShift_Pointer_h
+#define BrainShift_Pointer_h
+
+#include "Interaction/Pointer/PointerTrace.h"
+#include "Interaction/Pointer/TipDistance.h"
+#include "Interaction/Pointer/TipDrawing.h"
+#include "Interaction/Pointer/TrackerRegistration.h"
+#include "Tracking/SessionFile.h"
+#include "Tracking/TrackerClient.h"
+
+#include <QElapsedTimer>
+#include <QObject>
+#include <QTimer>
+
+#include <memory>
+#include <optional>
+
+class pqPipelineSource;
+
+namespace brainshift
+{
+class Pointer : public QObject
+{
+  Q_OBJECT
+
+public:
+  /// The pointer of this window; it goes when the application quits.
+  static Pointer* instance();
+  ~Pointer() override;
+
+  /// Begins to hear a server. It takes no time; state() tells how it goes.
+  void open(const TrackerOptions& options);
+  /// Plays a recorded session. Returns one sentence if the file cannot be read.
+  QString replay(const QString& path);
+  /// Ends hearing or playing. What was recorded can still be saved.
+  void close();
+  /// Whether a server is heard, or tried again, or a session plays.
+  bool isOpen() const { return this->Source && this->State.phase != SourceState::Phase::Ended; }
+  bool isReplay() const { return this->Replayed; }
+  const SourceState& state() const { return this->State; }
+  /// Seconds since the last pose. None before the first.
+  std::optional<double> age() const;
+
+  /// The tip (mm, world) while the tool is seen. Without a registration the tracker's frame is
+  /// taken as the image's.
+  const std::optional<glm::dvec3>& tip() const { return this->Tip; }
+  /// Signed distance of the tip to the bent cortex (mm, positive outside).
+  const std::optional<double>& distance() const { return this->Distance; }
+  const QString& distanceProblem() const { return this->Cortex.problem(); }
+
+  /// Where scalars pass this there is the cortex, unless a Trace Distance or a fit says it.
+  void setThreshold(double threshold) { this->Threshold = threshold; }
+  double threshold() const;
+  /// Whether setThreshold() counts.
+  bool needsThreshold() const;
+
+  TrackerRegistration& registration() { return this->Registration; }
+  /// Adds the mean of the tips of the last 0.5 s as a touched landmark. Returns one sentence if the
+  /// tool was not seen, or did not rest.
+  QString touch();
+
+  /// Begins or ends a trace. Returns one sentence if it cannot begin.
+  QString record(bool on);
+  const PointerTrace& trace() const { return this->Trace; }
+
+  /// All poses since it was opened, as a file. Returns one sentence if it cannot be written.
+  QString saveSession(const QString& path) const;
+  bool hasSession() const { return !this->Recorded.poses.empty(); }
+
+  /// Hears the key that records as long as it is held.
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+Q_SIGNALS:
+  /// Something that the panel shows is new.
+  void changed();
+
+private:
+  explicit Pointer(QObject* parent);
+
+  void start(std::unique_ptr<PoseSource> source);
+  void forget(pqPipelineSource* source);
+  void drain();
+  void place();
+  void show();
+
+  std::unique_ptr<PoseSource> Source;
+  bool Replayed = false;
+  SourceState State;
+  Session Recorded; // poses of the tracker
+  std::optional<Pose> Newest;
+  std::optional<glm::dvec3> Tip;
+  std::optional<double> Distance;
+  std::optional<double> Threshold;
+  TrackerRegistration Registration;
+  PointerTrace Trace;
+  TipDistance Cortex;
+  TipDrawing Drawing;
+  QTimer Draining;
+  QElapsedTimer SinceDrawn;
+  QElapsedTimer SinceBent;
+};
+}
+
+#endif

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Interaction/Pointer/TrackerRegistration.h"
+
+#include <QCoreApplication>
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace brainshift
+{
+namespace
+{
+constexpr std::size_t LeastPairs = 3;
+constexpr double LeastSpreadMm = 3.0; // from a line; closer points leave a turn around it open
+constexpr double Unknown = std::numeric_limits<double>::quiet_NaN();
+
+QString tr(const char* text)
+{
+  return QCoreApplication::translate("BrainShift", text);
+}
+}
+
+void TrackerRegistration::touch(const glm::dvec3& tracker)
+{
+  this->Pairs.push_back({ tracker, std::nullopt, Unknown });
+  this->solve();
+}
+
+void TrackerRegistration::mark(int row, const glm::dvec3& image)
+{
+  if (row >= 0 && row < static_cast<int>(this->Pairs.size()))
+  {
+    this->Pairs[row].image = image;
+    this->solve();
+  }
+}
+
+void TrackerRegistration::remove(int row)
+{
+  if (row >= 0 && row < static_cast<int>(this->Pairs.size()))
+  {
+    this->Pairs.erase(this->Pairs.begin() + row);
+    this->solve();
+  }
+}
+
+void TrackerRegistration::take(const RigidPose& imageFromTracker)
+{
+  this->Pairs.clear();
+  this->Solved = imageFromTracker;
+  this->Registered = true;
+  this->Error = Unknown;
+  this->Problem.clear();
+}
+
+void TrackerRegistration::solve()
+{
+  this->Solved = {};
+  this->Registered = false;
+  this->Error = Unknown;
+  this->Problem.clear();
+  std::vector<glm::dvec3> tracker;
+  std::vector<glm::dvec3> image;
+  for (Pair& pair : this->Pairs)
+  {
+    pair.residual = Unknown;
+    if (pair.image)
+    {
+      tracker.push_back(pair.tracker);
+      image.push_back(*pair.image);
+    }
+  }
+  const std::vector<double> weights(tracker.size(), 1.0);
+  if (tracker.size() < LeastPairs)
+  {
+    this->Problem = this->Pairs.empty()
+      ? QString()
+      : tr("%1 of %2 pairs that a registration needs.").arg(tracker.size()).arg(LeastPairs);
+    return;
+  }
+  if (std::min(spreadAroundLine(tracker, weights), spreadAroundLine(image, weights)) <
+    LeastSpreadMm)
+  {
+    this->Problem = tr("The points lie on one line. Touch one that lies beside it.");
+    return;
+  }
+  const glm::dmat3 rotation = nearestRotation(tracker, image, weights);
+  this->Solved = { rotation,
+    weightedMean(image, weights) - rotation * weightedMean(tracker, weights) };
+  this->Registered = true;
+  double squares = 0.0;
+  for (Pair& pair : this->Pairs)
+  {
+    if (pair.image)
+    {
+      pair.residual = glm::distance(this->Solved.apply(pair.tracker), *pair.image);
+      squares += pair.residual * pair.residual;
+    }
+  }
+  this->Error = std::sqrt(squares / static_cast<double>(tracker.size()));
+}
+}

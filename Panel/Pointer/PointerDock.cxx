@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Panel/Pointer/PointerDock.h"
+
+#include "Interaction/Commands/Commands.h"
+#include "Interaction/Pointer/Pointer.h"
+#include "Panel/Parts/Advice.h"
+#include "Panel/Pointer/PointerText.h"
+#include "Panel/Pointer/RegistrationTable.h"
+
+#include <pqApplicationCore.h>
+#include <pqSettings.h>
+
+#include <QCheckBox>
+#include <QDoubleSpinBox>
+#include <QFileDialog>
+#include <QFormLayout>
+#include <QGroupBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QSignalBlocker>
+#include <QSpinBox>
+#include <QVBoxLayout>
+
+namespace brainshift
+{
+namespace
+{
+constexpr int ShowEachMs = 100; // faster than one can read
+constexpr int DefaultPort = 18944;
+
+// A heading, and what stands under it.
+QVBoxLayout* addGroup(QVBoxLayout* layout, const QString& title)
+{
+  auto group = new QGroupBox(title);
+  layout->addWidget(group);
+  return new QVBoxLayout(group);
+}
+
+QLabel* wrapped(const QString& name)
+{
+  auto label = new QLabel;
+  label->setObjectName(name);
+  label->setWordWrap(true);
+  label->setTextFormat(Qt::PlainText); // names come from a server
+  return label;
+}
+
+void paint(QLabel* label, bool warns)
+{
+  QPalette palette = label->parentWidget()->palette();
+  if (warns)
+  {
+    palette.setColor(QPalette::WindowText, gradeColor(Grade::Bad, palette, false));
+  }
+  label->setPalette(palette);
+}
+
+pqSettings* settings()
+{
+  return pqApplicationCore::instance()->settings();
+}
+}
+
+PointerDock::PointerDock(QWidget* parent)
+  : QDockWidget(tr("Live Pointer"), parent)
+{
+  this->setObjectName("BrainShiftPointerDock");
+  auto content = new QWidget;
+  auto layout = new QVBoxLayout(content);
+  this->addConnection(layout);
+  this->addTip(layout);
+  this->Registration = new RegistrationTable;
+  addGroup(layout, tr("Tracker in the image"))->addWidget(this->Registration);
+  this->connect(this->Registration, &RegistrationTable::problem, this,
+    [this](const QString& problem) { this->tell(problem); });
+  this->addSession(layout);
+  layout->addStretch(1);
+  auto scroll = new QScrollArea;
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setWidget(content);
+  this->setWidget(scroll);
+  this->Soon.setSingleShot(true);
+  this->Soon.setInterval(ShowEachMs);
+  this->connect(&this->Soon, &QTimer::timeout, this, &PointerDock::showState);
+  this->connect(Pointer::instance(), &Pointer::changed, this, [this] {
+    if (!this->Soon.isActive())
+    {
+      this->Soon.start();
+    }
+  });
+  this->connect(this, &QDockWidget::visibilityChanged, this, &PointerDock::showState);
+  // The window of who has no pointer stays as it is. ParaView shows each dock that it is given.
+  QTimer::singleShot(0, this, &QWidget::hide);
+  this->showState();
+}
+
+void PointerDock::addLine(
+  QFormLayout* form, const QString& name, QWidget* field, const QString& tip)
+{
+  field->setToolTip(tip);
+  form->addRow(name, field);
+}
+
+void PointerDock::addConnection(QVBoxLayout* layout)
+{
+  QVBoxLayout* group = addGroup(layout, tr("OpenIGTLink server"));
+  this->Server = new QWidget;
+  group->addWidget(this->Server);
+  auto form = new QFormLayout(this->Server);
+  form->setContentsMargins(0, 0, 0, 0);
+  this->Host = new QLineEdit(settings()->value("BrainShift/Pointer/Host", "127.0.0.1").toString());
+  this->Host->setObjectName("BrainShiftPointerHost");
+  this->addLine(form, tr("Host"), this->Host,
+    tr("Name or number of the computer that runs the server, such as PLUS or 3D Slicer. "
+       "127.0.0.1 is this computer."));
+  this->Port = new QSpinBox;
+  this->Port->setObjectName("BrainShiftPointerPort");
+  this->Port->setRange(1, 65535);
+  this->Port->setValue(settings()->value("BrainShift/Pointer/Port", DefaultPort).toInt());
+  this->addLine(form, tr("Port"), this->Port, tr("Port of the server. OpenIGTLink uses 18944."));
+  this->Device = new QLineEdit(settings()->value("BrainShift/Pointer/Device").toString());
+  this->Device->setObjectName("BrainShiftPointerDevice");
+  this->Device->setPlaceholderText("StylusToReference");
+  this->addLine(form, tr("Device"), this->Device,
+    tr("Name under which the server sends the tip. If it is empty: StylusToReference, else "
+       "StylusTipToReference, else the first device that the server names."));
+  this->Reconnect = new QCheckBox(tr("Connect again when the connection ends"));
+  this->Reconnect->setObjectName("BrainShiftPointerReconnect");
+  form->addRow(this->Reconnect);
+  this->Connect = new QPushButton;
+  this->Connect->setObjectName("BrainShiftPointerConnect");
+  this->connect(this->Connect, &QPushButton::clicked, this, &PointerDock::turn);
+  this->Connect->setDefault(true);
+  group->addWidget(this->Connect);
+  this->Status = wrapped("BrainShiftPointerStatus");
+  group->addWidget(this->Status);
+}
+
+void PointerDock::addTip(QVBoxLayout* layout)
+{
+  QVBoxLayout* group = addGroup(layout, tr("Tip"));
+  this->Distance = wrapped("BrainShiftPointerDistance");
+  QFont large = this->Distance->font();
+  large.setPointSizeF(1.6 * large.pointSizeF());
+  large.setBold(true);
+  this->Distance->setFont(large);
+  this->Distance->setToolTip(tr("Distance (mm) of the tip to the bent cortex."));
+  group->addWidget(this->Distance);
+  this->Place = wrapped("BrainShiftPointerPlace");
+  this->Place->setToolTip(tr("Position of the tip (mm, world axes)."));
+  group->addWidget(this->Place);
+  auto row = new QHBoxLayout;
+  this->ThresholdName = new QLabel(tr("Cortex at intensity"));
+  this->Threshold = new QDoubleSpinBox;
+  this->Threshold->setObjectName("BrainShiftPointerThreshold");
+  this->Threshold->setRange(-1e9, 1e9);
+  this->Threshold->setDecimals(2);
+  this->Threshold->setToolTip(
+    tr("Lowest intensity of the brain. A Trace Distance or a Fit Deformation of the volume, if "
+       "there is one, says it instead."));
+  this->connect(this->Threshold, &QDoubleSpinBox::valueChanged, this,
+    [](double value) { Pointer::instance()->setThreshold(value); });
+  row->addWidget(this->ThresholdName);
+  row->addWidget(this->Threshold, 1);
+  group->addLayout(row);
+  this->Record = new QPushButton;
+  this->Record->setObjectName("BrainShiftPointerRecord");
+  this->Record->setCheckable(true);
+  this->Record->setText(tr("Record Trace (hold %1)").arg(keysText(rowOf(Command::RecordTrace))));
+  this->Record->setToolTip(
+    tr("Record where the tip goes on the cortex. The brain bends to the trace at once. The key, "
+       "also that of a foot switch, records as long as it is held."));
+  this->connect(this->Record, &QPushButton::clicked, this,
+    [this](bool on) { this->tell(Pointer::instance()->record(on)); });
+  group->addWidget(this->Record);
+  this->Recorded = wrapped("BrainShiftPointerRecorded");
+  group->addWidget(this->Recorded);
+}
+
+void PointerDock::addSession(QVBoxLayout* layout)
+{
+  auto row = new QHBoxLayout;
+  layout->addLayout(row);
+  this->Save = new QPushButton(tr("Save Session..."));
+  this->Save->setObjectName("BrainShiftPointerSave");
+  this->Save->setToolTip(tr("Save all poses since the pointer was connected, with their times."));
+  this->connect(this->Save, &QPushButton::clicked, this, &PointerDock::save);
+  row->addWidget(this->Save);
+  this->Play = new QPushButton(tr("Replay..."));
+  this->Play->setObjectName("BrainShiftPointerReplay");
+  this->Play->setToolTip(tr("Play a saved session as if its pointer moved again."));
+  this->connect(this->Play, &QPushButton::clicked, this, &PointerDock::replay);
+  row->addWidget(this->Play);
+  this->Problem = wrapped("BrainShiftPointerProblem");
+  layout->addWidget(this->Problem);
+  auto note = wrapped("BrainShiftPointerNote");
+  note->setText(tr("Research software, not a medical device: never guide surgery with it."));
+  note->setEnabled(false);
+  layout->addWidget(note);
+}
+
+void PointerDock::tell(const QString& problem)
+{
+  this->Problem->setText(problem);
+  this->Problem->setVisible(!problem.isEmpty());
+  paint(this->Problem, true);
+  this->showState();
+}
+
+void PointerDock::turn()
+{
+  Pointer* pointer = Pointer::instance();
+  if (pointer->isOpen())
+  {
+    pointer->close();
+  }
+  else
+  {
+    TrackerOptions options;
+    options.host = this->Host->text().trimmed().toStdString();
+    options.port = this->Port->value();
+    options.device = this->Device->text().trimmed().toStdString();
+    options.reconnect = this->Reconnect->isChecked();
+    settings()->setValue("BrainShift/Pointer/Host", this->Host->text().trimmed());
+    settings()->setValue("BrainShift/Pointer/Port", this->Port->value());
+    settings()->setValue("BrainShift/Pointer/Device", this->Device->text().trimmed());
+    pointer->open(options);
+  }
+  this->tell({});
+}
+
+void PointerDock::save()
+{
+  QString path =
+    QFileDialog::getSaveFileName(this, tr("Save Session"), {}, tr("Pointer sessions (*.txt)"));
+  if (!path.isEmpty())
+  {
+    path += path.endsWith(".txt") ? "" : ".txt";
+    this->tell(Pointer::instance()->saveSession(path));
+  }
+}
+
+void PointerDock::replay()
+{
+  const QString path = QFileDialog::getOpenFileName(
+    this, tr("Replay Session"), {}, tr("Pointer sessions (*.txt);;All files (*)"));
+  if (!path.isEmpty())
+  {
+    this->tell(Pointer::instance()->replay(path));
+  }
+}
+
+void PointerDock::showState()
+{
+  this->Problem->setVisible(!this->Problem->text().isEmpty());
+  this->showConnection();
+  this->showTip();
+  this->Registration->showState();
+}
+
+void PointerDock::showConnection()
+{
+  const Pointer* pointer = Pointer::instance();
+  const bool open = pointer->isOpen();
+  this->Connect->setText(!open ? tr("Connect")
+      : pointer->isReplay()    ? tr("Stop Replay")
+                               : tr("Disconnect"));
+  this->Server->setEnabled(!open);
+  this->Status->setText(connectionText(*pointer));
+  paint(this->Status, warnsOf(*pointer));
+  this->Save->setEnabled(pointer->hasSession());
+}
+
+void PointerDock::showTip()
+{
+  const Pointer* pointer = Pointer::instance();
+  this->Distance->setText(distanceText(*pointer));
+  this->Place->setText(placeText(*pointer));
+  const bool asks = pointer->needsThreshold();
+  this->ThresholdName->setVisible(asks);
+  this->Threshold->setVisible(asks);
+  if (asks && !this->Threshold->hasFocus())
+  {
+    const QSignalBlocker quiet(this->Threshold);
+    this->Threshold->setValue(pointer->threshold());
+  }
+  const PointerTrace& trace = pointer->trace();
+  this->Record->setEnabled(pointer->isOpen());
+  this->Record->setChecked(trace.isRecording());
+  this->Recorded->setVisible(trace.isRecording() || !trace.points().empty());
+  this->Recorded->setText(trace.isRecording()
+      ? tr("Recording: %1 points", nullptr).arg(trace.added())
+      : tr("Last trace: %1 points").arg(trace.added()));
+}
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief Messages of OpenIGTLink: the header, TRANSFORM and TDATA.
+ *
+ * The library libOpenIGTLink turns the numbers and checks the sum; sizes are checked here, before
+ * it sees a byte.
+ */
+#ifndef BrainShift_Message_h
+#define BrainShift_Message_h
+
+#include "Tracking/Pose.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace brainshift
+{
+constexpr std::size_t HeaderBytes = 58;
+
+/** Largest body of a message that is read and dropped. */
+constexpr std::uint64_t LargestBody = 256ULL << 20;
+
+/** Largest body of a message that is kept: 14000 tools. */
+constexpr std::uint64_t LargestKeptBody = 1ULL << 20;
+
+struct MessageHeader
+{
+  int version = 0;
+  std::string type;   ///< "TRANSFORM"
+  std::string device; ///< printable characters
+  std::uint64_t bodyBytes = 0;
+  std::uint64_t checksum = 0;
+
+  /** Whether the body may hold poses. */
+  bool hasPoses() const { return this->type == "TRANSFORM" || this->type == "TDATA"; }
+};
+
+/** Reads a header. Returns one sentence without a full stop if the stream cannot be followed any
+ * more: version or size are not believable. */
+std::string readHeader(const std::array<unsigned char, HeaderBytes>& bytes, MessageHeader& header);
+
+/** What a body says about tools. */
+struct MessagePoses
+{
+  bool damaged = false;             ///< The checksum is wrong.
+  std::string problem;              ///< One sentence if its size is wrong.
+  std::vector<Pose> poses;          ///< Of visible tools. Times are 0.
+  std::vector<std::string> unseen;  ///< Tools that the tracker does not see.
+  std::vector<std::string> refused; ///< Tools whose numbers are no pose.
+};
+
+/** Reads a body that belongs to a header with hasPoses(). */
+MessagePoses readBody(const MessageHeader& header, std::vector<unsigned char> body);
+}
+
+#endif

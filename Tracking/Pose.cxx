@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Tracking/Pose.h"
+
+#include <glm/matrix.hpp>
+
+#include <cmath>
+
+namespace brainshift
+{
+namespace
+{
+constexpr double FarthestMm = 1e6;
+constexpr double RotationTolerance = 1e-2; // trackers send float32, some of them rounded
+}
+
+std::string problemOf(const Pose& pose)
+{
+  const glm::dmat3 product = glm::transpose(pose.rotation) * pose.rotation;
+  for (int i = 0; i < 3; ++i)
+  {
+    if (!std::isfinite(pose.tip[i]))
+    {
+      return "The pose has a number that is not finite";
+    }
+    if (std::abs(pose.tip[i]) > FarthestMm)
+    {
+      return "The tip is farther than 1000000 mm";
+    }
+    for (int j = 0; j < 3; ++j)
+    {
+      // Not "greater than": NaN is no rotation either.
+      if (!(std::abs(product[i][j] - (i == j ? 1.0 : 0.0)) <= RotationTolerance))
+      {
+        return "The matrix of the pose is no rotation";
+      }
+    }
+  }
+  return glm::determinant(pose.rotation) > 0.0 ? "" : "The matrix of the pose is a mirror";
+}
+
+bool isIdentity(const Pose& pose)
+{
+  return pose.tip == glm::dvec3(0.0) && pose.rotation == glm::dmat3(1.0);
+}
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief Where a tracked tool was, and where poses come from.
+ */
+#ifndef BrainShift_Pose_h
+#define BrainShift_Pose_h
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace brainshift
+{
+/** One pose of a tool: it takes points of the tool to the tracker's frame. The tool's origin is its
+ * tip. */
+struct Pose
+{
+  double seconds = 0.0;       ///< when it came, counted from the start of its source
+  std::string device;         ///< "StylusToReference"
+  glm::dmat3 rotation{ 1.0 }; ///< trackerFromTool, a rotation
+  glm::dvec3 tip{ 0.0 };      ///< mm, tracker's frame
+};
+
+/** Why numbers are no pose: not finite, no rotation, beyond 1 000 000 mm. Empty if they are. */
+std::string problemOf(const Pose& pose);
+
+/** Whether a pose is exactly the identity, which trackers send for a tool that they do not see. */
+bool isIdentity(const Pose& pose);
+
+/** What is known of a source of poses. */
+struct SourceState
+{
+  enum class Phase
+  {
+    Connecting, ///< or waiting to try again
+    Running,
+    Ended,
+  };
+
+  Phase phase = Phase::Connecting;
+  std::string problem; ///< Why it ended or does not run: one sentence without a full stop, or none.
+  std::string device;  ///< That the poses belong to. Empty before the first one.
+  bool visible = false;      ///< Whether the last message had a pose of the tool.
+  double lastSeconds = -1.0; ///< When the last pose came; below 0: none came.
+  double rate = 0.0;         ///< Poses in the last second.
+  std::int64_t poses = 0;
+  std::int64_t badChecksums = 0; ///< Messages that were damaged on their way.
+  std::int64_t refused = 0;      ///< Messages whose numbers are no pose.
+  std::int64_t overrun = 0;      ///< Poses that were left out because nobody took them.
+};
+
+/** Poses of one tool, from a server or from a file. */
+class PoseSource
+{
+public:
+  virtual ~PoseSource() = default;
+
+  /** The poses that came since the last call, oldest first, 4096 at most. Never waits. */
+  virtual std::vector<Pose> take() = 0;
+
+  virtual SourceState state() const = 0;
+
+  /** Seconds since the source was started: the age of a pose is now() - seconds. */
+  virtual double now() const = 0;
+};
+}
+
+#endif

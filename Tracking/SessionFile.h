@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief A recorded session of a pointer as a text file. Documentation/tools/pointer.md describes
+ * it.
+ */
+#ifndef BrainShift_SessionFile_h
+#define BrainShift_SessionFile_h
+
+#include "Tracking/Pose.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace brainshift
+{
+/** How the tracker's frame lies in the image. */
+struct Placement
+{
+  glm::dmat3 rotation{ 1.0 };    ///< imageFromTracker
+  glm::dvec3 translation{ 0.0 }; ///< mm
+};
+
+struct Session
+{
+  std::vector<Pose> poses;            ///< In the order of their times.
+  std::optional<Placement> placement; ///< Nothing: the pointer was not registered.
+};
+
+/** Most poses of a session: 4 hours at 60 a second. */
+constexpr std::size_t MostPoses = 1'000'000;
+
+/** Writes a session. The file is replaced only when all of it is on the disk. Returns one sentence
+ * without a full stop if it cannot be written. */
+std::string writeSession(const std::string& path, const Session& session);
+
+/** Reads a session. Returns one sentence without a full stop if the file is damaged; it then leaves
+ * `session` as it was. */
+std::string readSession(const std::string& path, Session& session);
+}
+
+#endif
