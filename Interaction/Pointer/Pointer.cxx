@@ -17,6 +17,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace brainshift
@@ -202,11 +203,13 @@ void Pointer::place()
 void Pointer::show()
 {
   if (this->Trace.isRecording() &&
-    (!this->SinceBent.isValid() || this->SinceBent.elapsed() >= BendEachMs))
+    (!this->SinceBent.isValid() || this->SinceBent.elapsed() >= this->BendAfterMs))
   {
+    this->SinceBent.start();
     this->Trace.bend();
     this->Drawing.setTrace(this->Trace.points());
-    this->SinceBent.start();
+    // On a slow machine, half the time is left for the tip.
+    this->BendAfterMs = std::max<qint64>(BendEachMs, 2 * this->SinceBent.elapsed());
   }
   this->place();
   Q_EMIT this->changed();

@@ -101,7 +101,8 @@ private:
   TipDrawing Drawing;
   QTimer Draining;
   QElapsedTimer SinceDrawn;
-  QElapsedTimer SinceBent;
+  QElapsedTimer SinceBent; ///< Since the last bend began.
+  qint64 BendAfterMs = 0;  ///< From the begin of one bend to that of the next, at least.
 };
 }
 

@@ -22,6 +22,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <functional>
 
 namespace brainshift
 {
@@ -49,11 +50,18 @@ vtkPVArrayInformation* arrayOf(vtkSMSourceProxy* image, const char* name)
   return found || arrays->GetNumberOfArrays() == 0 ? found : arrays->GetArrayInformation(0);
 }
 
-vtkSmartPointer<vtkSMProxy> hidden(vtkSMProxy* beside, const char* group, const char* name)
+vtkSmartPointer<vtkSMProxy> hidden(vtkSMProxy* beside, const char* group, const char* name,
+  const std::function<void(vtkSMProxy*)>& connect = {})
 {
   auto made = vtk::TakeSmartPointer(beside->GetSessionProxyManager()->NewProxy(group, name));
   vtkNew<vtkSMParaViewPipelineController> controller;
-  controller->InitializeProxy(made);
+  controller->PreInitializeProxy(made);
+  if (connect)
+  {
+    connect(made);
+  }
+  controller->PostInitializeProxy(made);
+  made->UpdateVTKObjects();
   made->PrototypeOn(); // a question is no step to undo
   return made;
 }
@@ -109,9 +117,11 @@ void TipDistance::make(pqPipelineSource* deformation)
   this->forget();
   vtkSMProxy* volume = deformation->getProxy();
   this->Point = hidden(volume, "sources", "PolyPointSource");
-  this->Filter = vtkSMSourceProxy::SafeDownCast(hidden(volume, "filters", "TraceDistance"));
-  vtkSMPropertyHelper(this->Filter, "Input").Set(this->Point, 0);
-  vtkSMPropertyHelper(this->Filter, "Deformation").Set(volume, 0);
+  this->Filter = vtkSMSourceProxy::SafeDownCast(
+    hidden(volume, "filters", "TraceDistance", [&](vtkSMProxy* filter) {
+      vtkSMPropertyHelper(filter, "Input").Set(this->Point, 0);
+      vtkSMPropertyHelper(filter, "Deformation").Set(volume, 0);
+    }));
   this->Deformation = deformation;
 }
 
@@ -124,6 +134,11 @@ bool TipDistance::hasSurface(vtkSMProxy* from, double threshold)
     vtkSMSourceProxy::SafeDownCast(segmentation ? segmentation : this->Deformation->getProxy());
   const char* name = from ? vtkSMPropertyHelper(from, "SurfaceArray").GetAsString() : nullptr;
   vtkPVArrayInformation* array = image->GetOutputPortsCreated() ? arrayOf(image, name) : nullptr;
+  if (segmentation && !array) // nobody has shown it
+  {
+    image->UpdatePipeline();
+    array = arrayOf(image, name);
+  }
   const bool byLabel = from && vtkSMPropertyHelper(from, "SurfaceBy").GetAsInt() != ByThreshold;
   const double level = !from ? threshold
     : byLabel                ? vtkSMPropertyHelper(from, "Label").GetAsInt()

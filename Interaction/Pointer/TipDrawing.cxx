@@ -25,6 +25,8 @@
 #include <vtkSphereSource.h>
 #include <vtkTubeFilter.h>
 
+#include <glm/geometric.hpp>
+
 #include <array>
 #include <cstddef>
 
@@ -35,6 +37,7 @@ namespace
 constexpr double TipRadiusMm = 1.5;
 constexpr double ShaftRadiusMm = 0.6;
 constexpr double ShaftLengthMm = 60.0;
+constexpr double StillMm = 0.02; // less than a pixel
 constexpr float TracePixels = 5.0F;
 constexpr std::array<double, 3> TipColor{ 1.0, 0.85, 0.2 };
 constexpr std::array<double, 3> ShaftColor{ 0.9, 0.9, 0.9 };
@@ -66,6 +69,9 @@ struct TipDrawing::Parts
   vtkNew<vtkTubeFilter> Tube;
   vtkNew<vtkPolyData> Trace;
   std::array<vtkNew<vtkActor>, 3> Actors; // tip, shaft, trace
+  glm::dvec3 Tip{ 0.0 };
+  glm::dvec3 End{ 0.0 }; // of the shaft
+  bool TraceChanged = false;
   QList<QPointer<pqRenderView>> Views;
   QList<QPointer<pqDataRepresentation>> Kept;
 
@@ -116,6 +122,14 @@ void TipDrawing::show(const glm::dvec3& tip, const glm::dvec3& shaft)
 {
   Parts& parts = *this->Internal;
   const glm::dvec3 end = tip + ShaftLengthMm * shaft;
+  if (this->Shown && !parts.TraceChanged && glm::distance(tip, parts.Tip) < StillMm &&
+    glm::distance(end, parts.End) < StillMm)
+  {
+    return; // a tip at rest needs no pictures
+  }
+  parts.Tip = tip;
+  parts.End = end;
+  parts.TraceChanged = false;
   parts.Ball->SetCenter(tip.x, tip.y, tip.z);
   parts.Line->SetPoint1(tip.x, tip.y, tip.z);
   parts.Line->SetPoint2(end.x, end.y, end.z);
@@ -149,6 +163,7 @@ void TipDrawing::setTrace(const std::vector<double>& points)
   this->Internal->Trace->SetPoints(places);
   this->Internal->Trace->SetVerts(vertices);
   this->Internal->Trace->Modified();
+  this->Internal->TraceChanged = true;
   this->Internal->Actors[2]->SetVisibility(places->GetNumberOfPoints() > 0);
 }
 

@@ -79,7 +79,7 @@ void TrackerRegistration::solve()
   {
     this->Problem = this->Pairs.empty()
       ? QString()
-      : tr("%1 of %2 pairs that a registration needs.").arg(tracker.size()).arg(LeastPairs);
+      : tr("It needs %1 pairs; there are %2.").arg(LeastPairs).arg(tracker.size());
     return;
   }
   if (std::min(spreadAroundLine(tracker, weights), spreadAroundLine(image, weights)) <

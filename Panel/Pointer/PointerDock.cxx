@@ -29,6 +29,7 @@ namespace brainshift
 namespace
 {
 constexpr int ShowEachMs = 100; // faster than one can read
+constexpr int LeastWidth = 330; // pixels: two points of the table beside each other
 constexpr int DefaultPort = 18944;
 
 // A heading, and what stands under it.
@@ -82,6 +83,8 @@ PointerDock::PointerDock(QWidget* parent)
   scroll->setWidgetResizable(true);
   scroll->setFrameShape(QFrame::NoFrame);
   scroll->setWidget(content);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setMinimumWidth(LeastWidth);
   this->setWidget(scroll);
   this->Soon.setSingleShot(true);
   this->Soon.setInterval(ShowEachMs);
@@ -292,8 +295,7 @@ void PointerDock::showTip()
   this->Record->setEnabled(pointer->isOpen());
   this->Record->setChecked(trace.isRecording());
   this->Recorded->setVisible(trace.isRecording() || !trace.points().empty());
-  this->Recorded->setText(trace.isRecording()
-      ? tr("Recording: %1 points", nullptr).arg(trace.added())
-      : tr("Last trace: %1 points").arg(trace.added()));
+  this->Recorded->setText(trace.isRecording() ? tr("Recording: %1 points").arg(trace.added())
+                                              : tr("Last trace: %1 points").arg(trace.added()));
 }
 }

@@ -65,10 +65,7 @@ QString runningText(const Pointer& pointer)
   {
     return tr("No news of %1. Last pose %2 s ago.").arg(device).arg(*age, 0, 'f', 1);
   }
-  return tr("%1: %2 Hz, last pose %3 s ago")
-    .arg(device)
-    .arg(state.rate, 0, 'f', 0)
-    .arg(*age, 0, 'f', 2);
+  return tr("%1: %2 Hz, %3 s old").arg(device).arg(state.rate, 0, 'f', 0).arg(*age, 0, 'f', 2);
 }
 }
 

@@ -92,14 +92,15 @@ RegistrationTable::RegistrationTable(QWidget* parent)
   this->State->setWordWrap(true);
   this->Table->setObjectName("BrainShiftPointerPairs");
   this->Table->setHorizontalHeaderLabels({ tr("Touched"), tr("In the image"), tr("Off by") });
-  this->Table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  this->Table->horizontalHeader()->setStretchLastSection(true);
+  this->Table->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+  this->Table->horizontalHeader()->setSectionResizeMode(
+    ResidualColumn, QHeaderView::ResizeToContents);
   this->Table->setSelectionBehavior(QAbstractItemView::SelectRows);
   this->Table->setSelectionMode(QAbstractItemView::SingleSelection);
   this->Table->setToolTip(
     tr("Landmarks: where the tip touched them (mm, tracker), where they are in the image (mm, "
        "world axes; double-click to type it), and what the registration leaves (mm)."));
-  constexpr int rows = 5;
+  constexpr int rows = 4;
   this->Table->setFixedHeight(
     (rows + 1) * this->Table->verticalHeader()->defaultSectionSize() + rows);
   this->Touch->setObjectName("BrainShiftPointerTouch");

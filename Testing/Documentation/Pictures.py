@@ -16,6 +16,7 @@ SMALL = 240  # pixels of a picture's width
 LEAST_CONTRAST = 10.0  # standard deviation of the brightness, of 255
 FROM_THE_WINDOW = {
     "stamp-strip", "window",  # Examples/stamp_strip.py, Examples/demo.py
+    "tool-pointer",  # by hand: the dock beside a brain, with a server of poses
     "first-bend-head", "first-bend-brain", "first-bend-bent"}  # by hand, as first-bend.md says
 LARGEST_BYTES, LARGEST_WIDTH = 200_000, 900
 

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Paired points give back the motion that made them; too few points, or those of one line, give a
+// sentence and no motion.
+#include "Interaction/Pointer/TrackerRegistration.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+using namespace brainshift;
+
+namespace
+{
+const RigidPose True{ rotationFrom({ 0.3, -0.9, 0.5 }), { 12.0, -70.0, 33.0 } };
+
+void add(TrackerRegistration& registration, const glm::dvec3& tracker, const glm::dvec3& error = {})
+{
+  registration.touch(tracker);
+  registration.mark(static_cast<int>(registration.pairs().size()) - 1, True.apply(tracker) + error);
+}
+}
+
+TEST(TrackerRegistration, FindsTheMotion)
+{
+  TrackerRegistration registration;
+  EXPECT_FALSE(registration.isRegistered());
+  EXPECT_EQ(registration.imageFromTracker().apply({ 1, 2, 3 }), glm::dvec3(1, 2, 3));
+  add(registration, { 100, 0, 0 });
+  add(registration, { 0, 80, 0 });
+  EXPECT_EQ(registration.problem(), "It needs 3 pairs; there are 2.");
+  add(registration, { 0, 0, 90 });
+  ASSERT_TRUE(registration.isRegistered());
+  EXPECT_EQ(registration.problem(), "");
+  EXPECT_LT(registration.error(), 1e-9);
+  const glm::dvec3 other(5, -6, 7);
+  EXPECT_LT(glm::distance(registration.imageFromTracker().apply(other), True.apply(other)), 1e-9);
+  registration.remove(1);
+  EXPECT_FALSE(registration.isRegistered());
+}
+
+TEST(TrackerRegistration, TellsEachResidual)
+{
+  TrackerRegistration registration;
+  add(registration, { 100, 0, 0 });
+  add(registration, { -100, 0, 0 });
+  add(registration, { 0, 100, 0 });
+  add(registration, { 0, -100, 0 }, { 4, 0, 0 });
+  double squares = 0.0;
+  for (const TrackerRegistration::Pair& pair : registration.pairs())
+  {
+    EXPECT_NEAR(pair.residual,
+      glm::distance(registration.imageFromTracker().apply(pair.tracker), *pair.image), 1e-12);
+    squares += pair.residual * pair.residual;
+  }
+  EXPECT_GT(registration.error(), 0.5);
+  EXPECT_NEAR(registration.error(), std::sqrt(squares / 4.0), 1e-12);
+}
+
+TEST(TrackerRegistration, RefusesPointsOfOneLine)
+{
+  TrackerRegistration registration;
+  for (const double at : { 0.0, 30.0, 50.0, 90.0 })
+  {
+    add(registration, { at, 2.0 * at, -at });
+  }
+  EXPECT_FALSE(registration.isRegistered());
+  EXPECT_NE(registration.problem().indexOf("one line"), -1);
+  EXPECT_TRUE(std::isnan(registration.error()));
+  add(registration, { 0, 0, 60 });
+  EXPECT_TRUE(registration.isRegistered());
+}
+
+TEST(TrackerRegistration, PointWithoutPartnerDoesNotCount)
+{
+  TrackerRegistration registration;
+  add(registration, { 100, 0, 0 });
+  add(registration, { 0, 80, 0 });
+  registration.touch({ 0, 0, 90 });
+  EXPECT_FALSE(registration.isRegistered());
+  registration.mark(2, True.apply({ 0, 0, 90 }));
+  EXPECT_TRUE(registration.isRegistered());
+}
