@@ -18,6 +18,7 @@ STANDS_ON = {
     "Filters/DICOM": ["Filters/PackedFrames", "Filters/Volumes"],
     "Filters/Fields": ["Filters/Volumes"],
     "Filters/Readers": ["Filters/Fields", "Filters/DICOM"],
+    "Filters/Register": ["Filters/Fit"],
     "Filters/Surfaces": ["Filters/Volumes"],
     "Filters/Transforms": ["Filters/Fields"],
     "Filters/Measured": ["Filters/Fields", "Filters/Fit", "Filters/Traces"],
@@ -62,6 +63,7 @@ STANDS_ON = {
 KEEPS_OUT = {
     "Filters/Deformation": ["VTK"],
     "Filters/Fit": ["VTK"],
+    "Filters/Register": ["VTK"],
     "Filters": ["OpenGL", "Qt"],
     "Representations": ["Qt"],
     "Tracking": ["OpenGL", "Qt", "VTK"],

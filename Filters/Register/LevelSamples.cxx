@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Register/LevelSamples.h"
+
+#include "Filters/Deformation/Parallel.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+
+namespace brainshift
+{
+namespace
+{
+// The weight of a lattice's mask at a position (lattice coordinates), trilinear between its nodes.
+float freedomAt(const Lattice& lattice, const glm::vec3& at)
+{
+  const int perCell = lattice.mask->perCell;
+  const glm::ivec3 nodes = (lattice.grid.dimensions - 1) * perCell + 1;
+  const glm::vec3 node =
+    glm::clamp(at * static_cast<float>(perCell), glm::vec3(0.0f), glm::vec3(nodes - 1));
+  return trilinear(lattice.mask->values.data(), neighboursOf(nodes, node)).value;
+}
+}
+
+LevelSamples::LevelSamples(const LevelVolumes& level, const Lattice& lattice)
+  : rows(lattice, level.rest.grid)
+  , referenceWeights(level.referenceWeights)
+  , weights(level.restWeights.values)
+  , stepsPerMm(1.0 / level.rest.grid.spacing)
+{
+  const Grid& grid = level.rest.grid;
+  if (lattice.mask)
+  {
+    this->freedom.resize(grid.count());
+  }
+  this->stretches.resize(static_cast<std::size_t>(grid.dimensions.y) * grid.dimensions.z);
+  const glm::vec3 controlsPerStep(grid.spacing / lattice.grid.spacing);
+  parallelFor(0, grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (int k = static_cast<int>(begin); k < end; ++k)
+    {
+      for (int j = 0; j < grid.dimensions.y; ++j)
+      {
+        Stretch& stretch = this->stretches[static_cast<std::size_t>(k) * grid.dimensions.y + j];
+        stretch = { grid.dimensions.x, 0 };
+        for (int i = 0; i < grid.dimensions.x; ++i)
+        {
+          const std::size_t number = grid.offset(i, j, k);
+          if (lattice.mask)
+          {
+            this->freedom[number] =
+              freedomAt(lattice, this->rows.position(i, j, k) * controlsPerStep);
+            this->weights[number] *= this->freedom[number] > 0.0f ? 1.0f : 0.0f;
+          }
+          if (this->weights[number] > 0.0f)
+          {
+            stretch = { std::min(stretch.first, i), i + 1 };
+          }
+        }
+      }
+    }
+  });
+}
+
+std::vector<float> LevelSamples::read(const std::vector<float>& values, int numbers) const
+{
+  const Grid& grid = this->rows.samples();
+  std::vector<float> result(values.size());
+  const glm::vec3 last(grid.dimensions - 1);
+  parallelFor(0, grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (int k = static_cast<int>(begin); k < end; ++k)
+    {
+      for (int j = 0; j < grid.dimensions.y; ++j)
+      {
+        for (int i = 0; i < grid.dimensions.x; ++i)
+        {
+          const Neighbours at = neighboursOf(
+            grid.dimensions, glm::clamp(this->rows.position(i, j, k), glm::vec3(0.0f), last));
+          float* to = &result[grid.offset(i, j, k) * numbers];
+          for (int corner = 0; corner < 8; ++corner)
+          {
+            const glm::bvec3 upper(corner & 1, corner & 2, corner & 4);
+            const glm::vec3 shares = glm::mix(1.0f - at.within, at.within, upper);
+            const float weight = shares.x * shares.y * shares.z;
+            const std::size_t from = at.first + (upper.x ? at.next[0] : 0) +
+              (upper.y ? at.next[1] : 0) + (upper.z ? at.next[2] : 0);
+            for (int n = 0; n < numbers; ++n)
+            {
+              to[n] += weight * values[from * numbers + n];
+            }
+          }
+        }
+      }
+    }
+  });
+  return result;
+}
+
+Agreement averaged(
+  const std::vector<double>& rowSums, const std::vector<double>& rowWeights, ControlForces forces)
+{
+  Agreement result;
+  result.samples = std::accumulate(rowWeights.begin(), rowWeights.end(), 0.0);
+  if (result.samples > 0.0)
+  {
+    result.disagreement = std::accumulate(rowSums.begin(), rowSums.end(), 0.0) / result.samples;
+    const float share = static_cast<float>(1.0 / result.samples);
+    for (float& force : forces)
+    {
+      force *= share;
+    }
+  }
+  result.forces = std::move(forces);
+  return result;
+}
+}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief Bends a lattice until a volume agrees with a reference, one step for each call.
+ *
+ * It begins with the lattice as it is, for example as a hand bent it, on a coarse level, and ends
+ * on the finest. A step is that of Gauss and Newton on the control points, at most 1.5 points of
+ * its level long and halved until the energy falls. The energy is the disagreement (Similarity.h)
+ * plus the stiffness (Stiffness.h) of what differs from the beginning. The fold guard shortens each
+ * step. A new level begins with the better of the last result and the beginning, so that the result
+ * never has more energy than the beginning.
+ */
+#ifndef BrainShift_Refinement_h
+#define BrainShift_Refinement_h
+
+#include "Filters/Deformation/Export.h"
+#include "Filters/Deformation/FoldGuard.h"
+#include "Filters/Deformation/Lattice.h"
+#include "Filters/Register/RegisteredPair.h"
+#include "Filters/Register/Similarity.h"
+#include "Filters/Register/Stiffness.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace brainshift
+{
+struct RefinementSettings
+{
+  SimilarityKind similarity = SimilarityKind::SelfSimilarity;
+  double stiffness = 1.0;                   ///< factor on the stiffness; above 0
+  std::vector<double> levelsMm{ 4.0, 2.0 }; ///< spacing of the samples, from coarse to fine
+  int mostSteps = 15;                       ///< on each level
+  int samples = 4;                          ///< nodes between two control points, 0 to 16
+  bool guards = true;                       ///< whether the fold guard shortens steps
+};
+
+/** What is known after a step. */
+struct RefinementProgress
+{
+  int level = 0;                    ///< from 0 on, the coarsest
+  int steps = 0;                    ///< on all levels
+  double disagreement = 0.0;        ///< of this level; 0: both volumes agree
+  double disagreementAtStart = 0.0; ///< of the lattice as it began, on the same level
+  double movedMm = 0.0;             ///< largest way of a control point in the last step
+  double share = 1.0;               ///< smallest share of a step that the fold guard left
+  double comparedShare = 0.0;       ///< of the samples at rest, how many have a partner
+  bool isFinished = false;
+};
+
+class BRAINSHIFT_DEFORMATION_EXPORT Refinement
+{
+public:
+  /**
+   * @param start   over the volume's box, with its mask
+   */
+  Refinement(RegisteredPair pair, const Lattice& start, const RefinementSettings& settings);
+
+  /** Takes one step; the first of a level also prepares the level. Nothing once it is finished. */
+  const RefinementProgress& step();
+
+  const RefinementProgress& progress() const { return this->Progress; }
+
+  /** The lattice after the last step. */
+  const Lattice& lattice() const { return this->Bent; }
+
+  /** Bytes that a refinement takes beside the volumes themselves. */
+  static double bytes(const Grid& rest, const Grid& reference, const Grid& lattice,
+    const RefinementSettings& settings);
+
+private:
+  void prepareLevel();
+  bool improve();
+  double energyOf(const std::vector<glm::vec3>& controls, const Agreement& agreement) const;
+  std::vector<glm::vec3> bendOf(const std::vector<glm::vec3>& controls) const;
+  Lattice latticeOf(const std::vector<glm::vec3>& controls) const;
+  void take(const Lattice& lattice, Agreement agreement, double energy);
+  void finishLevel();
+
+  RegisteredPair Pair;
+  RefinementSettings Settings;
+  Lattice Start;
+  Lattice Bent;
+  FoldGuard Guard;
+  Stiffness Stiff;
+  std::vector<glm::vec3> StartControls; // mm along the grid's axes, as all controls here
+  std::vector<glm::vec3> Controls;
+  Similarity Compare; // empty: the level is not prepared
+  double LongestStepMm = 0.0;
+  double SamplesAtRest = 1.0;
+  Agreement Known; // of Controls
+  double Energy = 0.0;
+  double Stride = 1.0; // factor on the next step
+  int StepsOfLevel = 0;
+  RefinementProgress Progress;
+};
+}
+
+#endif

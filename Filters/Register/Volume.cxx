@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Register/Volume.h"
+
+#include "Filters/Deformation/Parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace brainshift
+{
+namespace
+{
+// Of a Gaussian, in points of the finer grid for each point of the coarser one. Below 0.6 points
+// its samples would no longer lie around their middle.
+constexpr double DeviationPerFactor = 0.45;
+constexpr double LeastDeviation = 0.6;
+constexpr double ReachInDeviations = 3.0;
+
+constexpr float CutOffShare = 0.001f;
+constexpr std::size_t MostSorted = 200000; // values that stand for all when a range is found
+
+// Runs `work` on every line of values along an axis: its first value and the step to the next.
+template <typename Work>
+void forEachLine(const glm::ivec3& sides, int axis, const Work& work)
+{
+  const std::size_t steps[3] = { 1, static_cast<std::size_t>(sides.x),
+    static_cast<std::size_t>(sides.x) * sides.y };
+  const int inner = axis == 0 ? 1 : 0;
+  const int outer = axis == 2 ? 1 : 2;
+  parallelFor(0, sides[outer], 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t b = begin; b < end; ++b)
+    {
+      work(b * steps[outer], steps[inner], sides[inner], steps[axis]);
+    }
+  });
+}
+
+std::vector<float> gaussian(double deviation)
+{
+  const int reach = static_cast<int>(std::ceil(ReachInDeviations * deviation));
+  std::vector<float> weights(2 * reach + 1);
+  float sum = 0.0f;
+  for (int i = -reach; i <= reach; ++i)
+  {
+    weights[i + reach] = static_cast<float>(std::exp(-0.5 * i * i / (deviation * deviation)));
+    sum += weights[i + reach];
+  }
+  for (float& weight : weights)
+  {
+    weight /= sum;
+  }
+  return weights;
+}
+
+// Beside each other lie `lines` lines, so that one weight serves a whole row of values.
+void smoothAlong(Volume& volume, int axis, const std::vector<float>& weights)
+{
+  const glm::ivec3 sides = volume.grid.dimensions;
+  const int count = sides[axis];
+  const int reach = static_cast<int>(weights.size() / 2);
+  forEachLine(sides, axis, [&](std::size_t first, std::size_t beside, int lines, std::size_t step) {
+    std::vector<float> before(static_cast<std::size_t>(count) * lines);
+    float* values = volume.values.data() + first;
+    for (int i = 0; i < count; ++i)
+    {
+      for (int line = 0; line < lines; ++line)
+      {
+        before[static_cast<std::size_t>(i) * lines + line] = values[i * step + line * beside];
+      }
+    }
+    std::vector<float> sums(lines);
+    for (int i = 0; i < count; ++i)
+    {
+      std::fill(sums.begin(), sums.end(), 0.0f);
+      for (int k = -reach; k <= reach; ++k)
+      {
+        const int from = std::clamp(i + k, 0, count - 1);
+        const float* row = &before[static_cast<std::size_t>(from) * lines];
+        const float weight = weights[k + reach];
+        for (int line = 0; line < lines; ++line)
+        {
+          sums[line] += weight * row[line];
+        }
+      }
+      for (int line = 0; line < lines; ++line)
+      {
+        values[i * step + line * beside] = sums[line];
+      }
+    }
+  });
+}
+
+void sumAlong(Volume& volume, int axis, int radius)
+{
+  const glm::ivec3 sides = volume.grid.dimensions;
+  const int count = sides[axis];
+  forEachLine(sides, axis, [&](std::size_t first, std::size_t beside, int lines, std::size_t step) {
+    std::vector<float> before(static_cast<std::size_t>(count) * lines);
+    float* values = volume.values.data() + first;
+    for (int i = 0; i < count; ++i)
+    {
+      for (int line = 0; line < lines; ++line)
+      {
+        before[static_cast<std::size_t>(i) * lines + line] = values[i * step + line * beside];
+      }
+    }
+    const auto row = [&](int i) { return &before[static_cast<std::size_t>(i) * lines]; };
+    std::vector<float> sums(lines, 0.0f);
+    const auto add = [&](int i, float sign) {
+      for (int line = 0; i >= 0 && i < count && line < lines; ++line)
+      {
+        sums[line] += sign * row(i)[line];
+      }
+    };
+    for (int i = 0; i < radius; ++i)
+    {
+      add(i, 1.0f);
+    }
+    for (int i = 0; i < count; ++i)
+    {
+      add(i + radius, 1.0f);
+      add(i - radius - 1, -1.0f);
+      for (int line = 0; line < lines; ++line)
+      {
+        values[i * step + line * beside] = sums[line];
+      }
+    }
+  });
+}
+
+// Whether the voxel nearest to a position is inside.
+bool holds(const Mask& mask, const glm::dvec3& world)
+{
+  const glm::ivec3 index = glm::ivec3(glm::floor(mask.grid.gridFromWorld(world) + 0.5));
+  const glm::ivec3 sides = mask.grid.dimensions;
+  return index.x >= 0 && index.y >= 0 && index.z >= 0 && index.x < sides.x && index.y < sides.y &&
+    index.z < sides.z && mask.inside[mask.grid.offset(index.x, index.y, index.z)] != 0;
+}
+
+bool holds(const Grid& grid, const glm::dvec3& world)
+{
+  constexpr double Rounding = 1e-6; // points
+  const glm::dvec3 at = grid.gridFromWorld(world) + Rounding;
+  const glm::dvec3 last = glm::dvec3(grid.dimensions - 1) + 2.0 * Rounding;
+  return at.x >= 0.0 && at.y >= 0.0 && at.z >= 0.0 && at.x <= last.x && at.y <= last.y &&
+    at.z <= last.z;
+}
+
+// Calls visit(number, world position) for each point of a grid.
+template <typename Visit>
+void forEachPoint(const Grid& grid, const Visit& visit)
+{
+  parallelFor(0, grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (int k = static_cast<int>(begin); k < end; ++k)
+    {
+      for (int j = 0; j < grid.dimensions.y; ++j)
+      {
+        std::size_t number = grid.offset(0, j, k);
+        for (int i = 0; i < grid.dimensions.x; ++i)
+        {
+          visit(number++, grid.worldFromGrid({ i, j, k }));
+        }
+      }
+    }
+  });
+}
+}
+
+Grid coarseGrid(const Grid& source, double spacingMm)
+{
+  Grid result = source;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    result.spacing[axis] = std::max(source.spacing[axis], spacingMm);
+    const double length = source.spacing[axis] * (source.dimensions[axis] - 1);
+    // A last point that rounding would push out still counts.
+    result.dimensions[axis] =
+      std::max(2, static_cast<int>(std::floor(length / result.spacing[axis] + 1e-6)) + 1);
+  }
+  return result;
+}
+
+Volume smoothed(const Volume& source, double spacingMm)
+{
+  Volume result = source;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double factor = spacingMm / source.grid.spacing[axis];
+    if (factor > 1.0)
+    {
+      smoothAlong(result, axis, gaussian(std::max(LeastDeviation, DeviationPerFactor * factor)));
+    }
+  }
+  return result;
+}
+
+Volume resampled(const Volume& source, const Grid& to)
+{
+  Volume result{ to, std::vector<float>(to.count()) };
+  const glm::dvec3 last(source.grid.dimensions - 1);
+  forEachPoint(to, [&](std::size_t number, const glm::dvec3& world) {
+    const glm::dvec3 at = glm::clamp(source.grid.gridFromWorld(world), glm::dvec3(0.0), last);
+    result.values[number] =
+      trilinear(source.values.data(), neighboursOf(source.grid.dimensions, glm::vec3(at))).value;
+  });
+  return result;
+}
+
+void boxSum(Volume& volume, const glm::ivec3& radii)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    sumAlong(volume, axis, radii[axis]);
+  }
+}
+
+Volume weightsOf(const Grid& grid, const Region& region, const Reach& reach)
+{
+  Volume missing{ grid, std::vector<float>(grid.count()) };
+  // What is not there is counted, so that the border of the grid itself shrinks nothing.
+  forEachPoint(grid, [&](std::size_t number, const glm::dvec3& world) {
+    const bool counts = (!region.grid || holds(*region.grid, world)) &&
+      (!region.inside || holds(*region.inside, world)) &&
+      !(region.outside && holds(*region.outside, world));
+    missing.values[number] = counts ? 0.0f : 1.0f;
+  });
+  Volume result{ grid, std::vector<float>(grid.count(), 1.0f) };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    glm::ivec3 radii(reach.across);
+    radii[axis] = reach.along;
+    Volume reached = missing;
+    boxSum(reached, radii);
+    for (std::size_t i = 0; i < result.values.size(); ++i)
+    {
+      result.values[i] = reached.values[i] < 0.5f ? result.values[i] : 0.0f;
+    }
+  }
+  return result;
+}
+
+Range rangeOf(const std::vector<float>& values)
+{
+  std::vector<float> some;
+  const std::size_t step = 1 + values.size() / MostSorted;
+  for (std::size_t i = 0; i < values.size(); i += step)
+  {
+    if (std::isfinite(values[i]))
+    {
+      some.push_back(values[i]);
+    }
+  }
+  if (some.empty())
+  {
+    return {};
+  }
+  std::sort(some.begin(), some.end());
+  const std::size_t cut = static_cast<std::size_t>(CutOffShare * some.size());
+  const Range found{ some[cut], some[some.size() - 1 - cut] };
+  return found.high > found.low ? found : Range{ found.low, found.low + 1.0f };
+}
+}

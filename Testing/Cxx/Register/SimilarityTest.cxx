@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Proves that forces are derivatives of the disagreement, that contrast does not count where it
+// must not, and that a cavity does not count.
+#include "Filters/Register/Similarity.h"
+#include "Filters/Register/SelfSimilarity.h"
+#include "Testing/Cxx/Register/Synthetic.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace brainshift;
+using namespace brainshift::testing;
+
+namespace
+{
+const glm::dvec3 ShiftMm(1.1, -0.7, 0.9);
+
+LevelVolumes level(double contrast = 1.0)
+{
+  const Grid grid = smallGrid(28);
+  LevelVolumes result;
+  result.rest = filled(grid, tissue);
+  result.reference =
+    filled(grid, [&](const glm::dvec3& at) { return contrast * tissue(at - ShiftMm) + 10.0; });
+  result.restWeights = weightsOf(grid, {}, {});
+  result.referenceWeights = result.restWeights;
+  return result;
+}
+
+std::vector<glm::vec3> alongAxes(const Lattice& lattice)
+{
+  std::vector<glm::vec3> result;
+  for (const glm::vec3& d : lattice.displacements)
+  {
+    result.push_back(glm::vec3(glm::transpose(lattice.grid.direction) * glm::dvec3(d)));
+  }
+  return result;
+}
+}
+
+TEST(LatticeRows, ReadWhatTheCubicIs)
+{
+  const Grid grid = smallGrid(20);
+  for (const int kernel : { KernelCatmullRom, KernelBSpline })
+  {
+    const Lattice lattice = bulge(grid, 5.0, kernel);
+    const LatticeRows rows(lattice, grid);
+    const std::vector<glm::vec3> controls = alongAxes(lattice);
+    const ControlForces forces = rows.visitRows(controls, [&](const SampleRow& row) {
+      for (int i = 0; i < grid.dimensions.x; ++i)
+      {
+        const glm::vec3 at = rows.position(i, row.j, row.k);
+        const Taps taps = rows.tapsAt(0, at.x);
+        const glm::vec3 cubic = cubicDisplacement(lattice.grid.dimensions, kernel, controls.data(),
+          glm::dvec3(at) * grid.spacing / lattice.grid.spacing);
+        const bool isEqual = glm::length(LatticeRows::displacement(row, taps) - cubic) < 1e-4f;
+        const float ones[ForceNumbers] = { 1.0f, 0.0f, isEqual ? 0.0f : 1.0f };
+        LatticeRows::add(row, taps, ones);
+      }
+      return true;
+    });
+    double all = 0.0;
+    double wrong = 0.0;
+    for (std::size_t i = 0; i < forces.size(); i += ForceNumbers)
+    {
+      all += forces[i];
+      wrong += std::abs(forces[i + 2]);
+    }
+    EXPECT_NEAR(all, static_cast<double>(grid.count()), 1e-3 * grid.count());
+    EXPECT_EQ(wrong, 0.0);
+  }
+}
+
+TEST(SelfSimilarity, DoesNotChangeWithContrast)
+{
+  const Volume volume = filled(smallGrid(16), tissue);
+  const std::vector<float> numbers = selfSimilarity(volume);
+  for (const float factor : { -1.0f, 3.0f })
+  {
+    Volume other = volume;
+    for (float& value : other.values)
+    {
+      value = 500.0f + factor * value;
+    }
+    const std::vector<float> others = selfSimilarity(other);
+    float apart = 0.0f;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+    {
+      apart = std::max(apart, std::abs(numbers[i] - others[i]));
+    }
+    EXPECT_LT(apart, 1e-3f);
+  }
+  EXPECT_GT(*std::max_element(numbers.begin(), numbers.end()) -
+      *std::min_element(numbers.begin(), numbers.end()),
+    0.5f)
+    << "the numbers tell places apart";
+}
+
+class SimilarityOfKind : public ::testing::TestWithParam<SimilarityKind>
+{
+};
+
+// A step of every control point along a smooth way changes the disagreement by what the forces say.
+TEST_P(SimilarityOfKind, ForcesAreDerivatives)
+{
+  const LevelVolumes volumes = level();
+  const Lattice lattice = bulge(volumes.rest.grid, 2.0);
+  const Similarity compare = makeSimilarity(GetParam(), volumes, lattice);
+  const std::vector<glm::vec3> at = alongAxes(lattice);
+  const Agreement here = compare(at);
+  ASSERT_GT(here.disagreement, 0.0);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    std::vector<glm::vec3> way(at.size(), glm::vec3(0.0f));
+    double expected = 0.0;
+    for (std::size_t i = 0; i < at.size(); ++i)
+    {
+      // The border stays, so that no sample leaves the reference.
+      way[i][axis] = glm::length(at[i]) > 0.3f ? at[i].x : 0.0f;
+      expected -= 2.0 * way[i][axis] * here.forces[i * ForceNumbers + axis];
+    }
+    const auto moved = [&](float by) {
+      std::vector<glm::vec3> result = at;
+      for (std::size_t i = 0; i < at.size(); ++i)
+      {
+        result[i] += by * way[i];
+      }
+      return compare(result).disagreement;
+    };
+    const float by = 0.01f;
+    const double found = (moved(by) - moved(-by)) / (2.0 * by);
+    EXPECT_GT(std::abs(found), 1e-4);
+    EXPECT_NEAR(expected, found, 0.03 * std::abs(found) + 1e-5);
+  }
+}
+
+TEST_P(SimilarityOfKind, IsLeastWhereBothAgree)
+{
+  const LevelVolumes volumes = level();
+  const Lattice lattice = makeLattice(withDimensions(volumes.rest.grid, { 6, 6, 6 }), 0);
+  const Similarity compare = makeSimilarity(GetParam(), volumes, lattice);
+  const auto at = [&](double share) {
+    return compare(std::vector<glm::vec3>(lattice.displacements.size(),
+                     glm::vec3(glm::transpose(lattice.grid.direction) * (share * ShiftMm))))
+      .disagreement;
+  };
+  EXPECT_LT(at(1.0), 0.5 * at(0.0));
+  EXPECT_LT(at(1.0), at(0.8));
+  EXPECT_LT(at(1.0), at(1.2));
+}
+
+// What the cavity holds makes no difference, neither to the disagreement nor to any force.
+TEST_P(SimilarityOfKind, ACavityDoesNotCount)
+{
+  LevelVolumes volumes = level();
+  const Grid& grid = volumes.rest.grid;
+  const Mask removed = ball(grid, middle(grid), 9.0);
+  volumes.referenceWeights = weightsOf(grid, { nullptr, nullptr, &removed }, reachOf(GetParam()));
+  LevelVolumes changed = volumes;
+  for (std::size_t i = 0; i < removed.inside.size(); ++i)
+  {
+    // Of the same size, so that the range and the noise of the reference stay.
+    changed.reference.values[i] = removed.inside[i] ? 110.0f : changed.reference.values[i];
+  }
+  const Lattice lattice = bulge(grid, 3.0);
+  const Agreement a = makeSimilarity(GetParam(), volumes, lattice)(alongAxes(lattice));
+  const Agreement b = makeSimilarity(GetParam(), changed, lattice)(alongAxes(lattice));
+  EXPECT_EQ(a.samples, b.samples);
+  EXPECT_NEAR(a.disagreement, b.disagreement, 0.002 * a.disagreement);
+  changed.referenceWeights = weightsOf(grid, {}, {});
+  volumes.referenceWeights = changed.referenceWeights;
+  const Agreement c = makeSimilarity(GetParam(), volumes, lattice)(alongAxes(lattice));
+  const Agreement d = makeSimilarity(GetParam(), changed, lattice)(alongAxes(lattice));
+  EXPECT_GT(std::abs(c.disagreement - d.disagreement), 0.02 * c.disagreement)
+    << "without the mask it does";
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, SimilarityOfKind,
+  ::testing::Values(SimilarityKind::SelfSimilarity, SimilarityKind::LocalCorrelation,
+    SimilarityKind::LinearCombination));
+
+TEST(Similarity, InvertedContrastAgrees)
+{
+  const Lattice lattice = bulge(smallGrid(28), 2.0);
+  for (const auto kind : { SimilarityKind::SelfSimilarity, SimilarityKind::LocalCorrelation })
+  {
+    const double plain = makeSimilarity(kind, level(), lattice)(alongAxes(lattice)).disagreement;
+    const double inverted =
+      makeSimilarity(kind, level(-1.0), lattice)(alongAxes(lattice)).disagreement;
+    EXPECT_NEAR(plain, inverted, 0.01 * plain);
+  }
+}
+
+// Ultrasound shows edges. The slope of the volume explains them; its values do not.
+TEST(Similarity, TheSlopeExplainsEdges)
+{
+  LevelVolumes volumes = level();
+  const Grid& grid = volumes.rest.grid;
+  volumes.reference = filled(grid, [](const glm::dvec3& at) {
+    glm::dvec3 slope;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      glm::dvec3 step(0.0);
+      step[axis] = 2.0;
+      slope[axis] = tissue(at + step) - tissue(at - step);
+    }
+    return glm::length(slope);
+  });
+  const Lattice lattice = makeLattice(withDimensions(grid, { 6, 6, 6 }), 0);
+  const std::vector<glm::vec3> still(lattice.displacements.size(), glm::vec3(0.0f));
+  const double alone =
+    makeSimilarity(SimilarityKind::LocalCorrelation, volumes, lattice)(still).disagreement;
+  const double both =
+    makeSimilarity(SimilarityKind::LinearCombination, volumes, lattice)(still).disagreement;
+  EXPECT_LT(both, 0.5 * alone);
+}
+
+TEST(Similarity, AMaskOfTheLatticeHoldsSamples)
+{
+  const LevelVolumes volumes = level();
+  Lattice lattice = bulge(volumes.rest.grid, 2.0);
+  const Mask half = ball(volumes.rest.grid, middle(volumes.rest.grid), 15.0);
+  lattice.mask = maskWeights(lattice.grid, 4, half, 5.0);
+  const Similarity compare = makeSimilarity(SimilarityKind::LocalCorrelation, volumes, lattice);
+  const Agreement masked = compare(alongAxes(lattice));
+  lattice.mask = nullptr;
+  const Agreement whole =
+    makeSimilarity(SimilarityKind::LocalCorrelation, volumes, lattice)(alongAxes(lattice));
+  EXPECT_LT(masked.samples, 0.5 * whole.samples);
+  EXPECT_EQ(masked.forces[3], 0.0f) << "nothing moves in the corner";
+}

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Proves that the stiffness is an energy, what costs nothing, and that a Newton step solves its
+// equations.
+#include "Filters/Register/Stiffness.h"
+#include "Filters/Register/LatticeRows.h"
+#include "Testing/Cxx/Register/Synthetic.h"
+
+#include <glm/mat3x3.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace brainshift;
+using namespace brainshift::testing;
+
+namespace
+{
+Grid controlGrid()
+{
+  Grid grid;
+  grid.dimensions = { 7, 6, 8 };
+  grid.spacing = { 9.0, 10.0, 12.0 };
+  return grid;
+}
+
+std::vector<glm::vec3> scattered(std::size_t count, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::normal_distribution<float> normal;
+  std::vector<glm::vec3> result(count);
+  for (glm::vec3& vector : result)
+  {
+    vector = { normal(random), normal(random), normal(random) };
+  }
+  return result;
+}
+
+std::vector<glm::vec3> affine(const Grid& grid, const glm::dmat3& by)
+{
+  std::vector<glm::vec3> result(grid.count());
+  for (int k = 0; k < grid.dimensions.z; ++k)
+  {
+    for (int j = 0; j < grid.dimensions.y; ++j)
+    {
+      for (int i = 0; i < grid.dimensions.x; ++i)
+      {
+        result[grid.offset(i, j, k)] = glm::vec3(by * (grid.spacing * glm::dvec3(i, j, k)) + 1.0);
+      }
+    }
+  }
+  return result;
+}
+}
+
+TEST(Stiffness, IsSymmetricAndNeverNegative)
+{
+  const Grid grid = controlGrid();
+  const Stiffness stiffness(grid, 2.0);
+  const auto a = scattered(grid.count(), 1);
+  const auto b = scattered(grid.count(), 2);
+  const double ab = dot(a, stiffness.times(b));
+  EXPECT_NEAR(ab, dot(b, stiffness.times(a)), 1e-6 + 1e-5 * std::abs(ab));
+  EXPECT_GT(dot(a, stiffness.times(a)), 0.0);
+  EXPECT_NEAR(dot(a, Stiffness(grid, 4.0).times(a)), 2.0 * dot(a, stiffness.times(a)), 1e-6);
+}
+
+TEST(Stiffness, AStretchCostsItsElasticEnergy)
+{
+  const Grid grid = controlGrid();
+  const Stiffness stiffness(grid, 1.0);
+  const double cells = 6.0 * 5.0 * 7.0 / grid.count();
+  const auto energy = [&](const glm::dmat3& by) {
+    const auto d = affine(grid, by);
+    return dot(d, stiffness.times(d));
+  };
+  EXPECT_NEAR(energy(glm::dmat3(0.0)), 0.0, 1e-9) << "a shift";
+  EXPECT_NEAR(energy(glm::dmat3(0, 0.01, 0, -0.01, 0, 0, 0, 0, 0)), 0.0, 1e-9) << "a turn";
+  // Of a stretch by e along x: 2 * shear * e^2 + compression * e^2.
+  EXPECT_NEAR(energy(glm::dmat3(0.01, 0, 0, 0, 0, 0, 0, 0, 0)), cells * 1.25e-4, 1e-7);
+}
+
+TEST(Stiffness, NewtonStepSolvesItsEquations)
+{
+  const Grid grid = controlGrid();
+  const Stiffness stiffness(grid, 0.3);
+  const auto bend = scattered(grid.count(), 3);
+  const auto pushes = scattered(grid.count(), 4);
+  std::vector<float> forces;
+  for (std::size_t i = 0; i < grid.count(); ++i)
+  {
+    // A third of the control points has no sample.
+    const float h = i % 3 ? 1e-4f : 0.0f;
+    const glm::vec3 f = h * pushes[i];
+    forces.insert(forces.end(), { f.x, f.y, f.z, h, 2 * h, 3 * h, 0.5f * h, 0.1f * h, -0.2f * h });
+  }
+  const auto step = newtonStep(stiffness, forces, bend);
+  auto sum = bend;
+  for (std::size_t i = 0; i < sum.size(); ++i)
+  {
+    sum[i] += step[i];
+  }
+  const auto pull = stiffness.times(sum);
+  double squares = 0.0;
+  double all = 0.0;
+  const auto before = stiffness.times(bend);
+  for (std::size_t i = 0; i < grid.count(); ++i)
+  {
+    const float* f = &forces[i * ForceNumbers];
+    const glm::mat3 h(f[3], f[6], f[7], f[6], f[4], f[8], f[7], f[8], f[5]);
+    const glm::vec3 force(f[0], f[1], f[2]);
+    squares += std::pow(glm::length(h * step[i] + pull[i] - force), 2);
+    all += std::pow(glm::length(before[i] - force), 2);
+  }
+  EXPECT_LT(std::sqrt(squares / all), 0.01);
+}
