@@ -23,10 +23,6 @@
 
 namespace brainshift
 {
-/** Farther than this nobody has tested that the right place is found. */
-constexpr double TestedShiftMm = 20.0;
-constexpr double TestedTurnDegrees = 15.0;
-
 struct AlignmentSettings
 {
   std::vector<double> levelsMm{ 8.0, 4.0, 2.0 }; ///< spacing of the samples, coarse to fine

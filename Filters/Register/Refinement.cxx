@@ -14,6 +14,10 @@ namespace
 {
 constexpr double LongestStepPoints = 1.5;
 constexpr int MostHalvings = 4;
+
+// How often a step that would fold is sought again by a stiffer volume, and how much stiffer.
+constexpr int MostStiffenings = 3;
+constexpr double Stiffening = 1.5;
 // The lumped Hessian is larger than the true one, so that longer steps often help.
 constexpr double LongestStride = 2.0;
 constexpr double StrideGrowth = 1.2;
@@ -72,6 +76,7 @@ Refinement::Refinement(
   // Cells that fold by themselves at the start are left alone.
   this->Guard.setBase(start, settings.samples);
   this->Progress.isFinished = settings.levelsMm.empty();
+  this->Progress.stiffness = settings.stiffness;
 }
 
 std::vector<glm::vec3> Refinement::bendOf(const std::vector<glm::vec3>& controls) const
@@ -134,14 +139,27 @@ void Refinement::prepareLevel()
   }
 }
 
+// A fold in one place would hold the step everywhere. A stiffer volume folds nowhere.
+void Refinement::stiffen()
+{
+  this->Progress.stiffness *= Stiffening;
+  this->Stiff = Stiffness(this->Start.grid, this->Progress.stiffness);
+  this->Energy = this->energyOf(this->Controls, this->Known);
+}
+
 bool Refinement::improve()
 {
-  const std::vector<glm::vec3> step =
-    newtonStep(this->Stiff, this->Known.forces, this->bendOf(this->Controls));
-  const double length = longest(step);
-  const double longestShare = length > 0.0 ? this->LongestStepMm / length : 1.0;
-  double share = std::min(this->Stride, longestShare);
-  for (int attempt = 0; attempt <= MostHalvings; ++attempt, share *= 0.5)
+  std::vector<glm::vec3> step;
+  double length = 0.0;
+  double share = 0.0;
+  const auto findStep = [&] {
+    step = newtonStep(this->Stiff, this->Known.forces, this->bendOf(this->Controls));
+    length = longest(step);
+    share = std::min(this->Stride, length > 0.0 ? this->LongestStepMm / length : 1.0);
+  };
+  findStep();
+  int stiffenings = 0;
+  for (int attempt = 0; attempt <= MostHalvings + MostStiffenings; ++attempt, share *= 0.5)
   {
     std::vector<glm::vec3> controls = this->Controls;
     for (std::size_t i = 0; i < controls.size(); ++i)
@@ -153,6 +171,13 @@ bool Refinement::improve()
     if (this->Settings.guards)
     {
       kept = this->Guard.share(this->Bent, candidate);
+      if (kept < 1.0 && stiffenings++ < MostStiffenings)
+      {
+        this->stiffen();
+        findStep();
+        share *= 2.0; // what the loop halves
+        continue;
+      }
       if (kept < 1.0)
       {
         candidate = between(this->Bent, candidate, kept);

@@ -6,9 +6,10 @@
  * It begins with the lattice as it is, for example as a hand bent it, on a coarse level, and ends
  * on the finest. A step is that of Gauss and Newton on the control points, at most 1.5 points of
  * its level long and halved until the energy falls. The energy is the disagreement (Similarity.h)
- * plus the stiffness (Stiffness.h) of what differs from the beginning. The fold guard shortens each
- * step. A new level begins with the better of the last result and the beginning, so that the result
- * never has more energy than the beginning.
+ * plus the stiffness (Stiffness.h) of what differs from the beginning. Where a step would fold, the
+ * volume is made stiffer; if that is not enough, the fold guard shortens the step. A new level
+ * begins with the better of the last result and the beginning, so that the result never has more
+ * energy than the beginning.
  */
 #ifndef BrainShift_Refinement_h
 #define BrainShift_Refinement_h
@@ -45,6 +46,7 @@ struct RefinementProgress
   double movedMm = 0.0;             ///< largest way of a control point in the last step
   double share = 1.0;               ///< smallest share of a step that the fold guard left
   double comparedShare = 0.0;       ///< of the samples at rest, how many have a partner
+  double stiffness = 1.0; ///< what was used; larger than asked for where tissue would have folded
   bool isFinished = false;
 };
 
@@ -70,6 +72,7 @@ public:
 
 private:
   void prepareLevel();
+  void stiffen();
   bool improve();
   double energyOf(const std::vector<glm::vec3>& controls, const Agreement& agreement) const;
   std::vector<glm::vec3> bendOf(const std::vector<glm::vec3>& controls) const;

@@ -158,11 +158,12 @@ def _opening(opening):
     return {"OpeningCentre": [float(x) for x in centre], "OpeningRadius": float(radius)}
 
 
-def _is(source, kind):
+def is_kind(source, kind):
+    """Whether it is a source, and of that proxy."""
     return bool(source) and source.SMProxy.GetXMLName() == kind
 
 
-def _own(source):
+def own(source):
     """Marks a source as one that `fit` made. State files keep the mark."""
     source.SMProxy.SetAnnotation(_MADE, "1")
     return source
@@ -179,13 +180,15 @@ def _is_free(source, former):
         for taker in takers)
 
 
-def _forget(former):
-    """Deletes a former fit and its points, as far as `fit` made them and nothing takes them."""
+def forget_former(former):
+    """Deletes a former fit with its points, or a former refinement, as far as `fit` or `refine`
+    made them and nothing takes them."""
     from paraview import simple
 
-    if not _is(former, "FitDeformation") or not _is_free(former, former):
+    is_fit = is_kind(former, "FitDeformation")
+    if not (is_fit or is_kind(former, "RefinedLattice")) or not _is_free(former, former):
         return
-    points = [getattr(former, name) for name in _INPUTS]
+    points = [getattr(former, name) for name in _INPUTS] if is_fit else []
     simple.Delete(former)
     for source in points:
         if source and _is_free(source, former):
@@ -199,10 +202,10 @@ def _solved(deformation, arrays, pulls, pins, values):
     made = []
     for name, points in zip(_INPUTS, arrays):
         if len(points):
-            made.append(_own(simple.PolyPointSource(registrationName=_INPUTS[name],
+            made.append(own(simple.PolyPointSource(registrationName=_INPUTS[name],
                                                     Points=points.ravel().tolist())))
             values[name] = made[-1]
-    source = _own(simple.FitDeformation(
+    source = own(simple.FitDeformation(
         Input=deformation.Input, Pulls=[float(n) for pull in pulls for n in (*pull.ravel(), 1.0)],
         Pins=[float(n) for pin in pins for n in (*pin, 1.0)], **values))
     source.UpdatePipeline()
@@ -262,6 +265,6 @@ def fit(filter, rest=None, measured=None, traces=None, pulls=None, pins=None, th
         simple.SetActiveSource(active)
     former = filter.Lattice
     filter.Lattice = source
-    _forget(former)
+    forget_former(former)
     simple.SetActiveSource(active)
     return Fit(source)

@@ -12,6 +12,8 @@
 #include "vtkFreeFormDeformation.h"
 #include "vtkLandmarkReader.h"
 #include "vtkLandmarkWriter.h"
+#include "vtkRefinedLattice.h"
+#include "vtkRegistrationRun.h"
 #include "vtkSurfaceReader.h"
 #include "vtkTraceDistance.h"
 #include "vtkTransformPoints.h"
@@ -127,6 +129,19 @@ TEST(Defaults, OfFitDeformationLiveInTheClass)
     { "Threshold", { filter->GetThreshold() } },
   };
   EXPECT_EQ(defaultsIn("Filters/Proxies/FitDeformationCortex.xml"), ofCortex);
+}
+
+TEST(Defaults, OfRegistrationLiveInTheClasses)
+{
+  vtkNew<vtkRefinedLattice> lattice;
+  const int* sides = lattice->GetLatticeDimensions();
+  const Defaults ofLattice{ { "LatticeDimensions",
+    { double(sides[0]), double(sides[1]), double(sides[2]) } } };
+  EXPECT_EQ(defaultsIn("Filters/Proxies/RefinedLattice.xml"), ofLattice);
+  vtkNew<vtkRegistrationRun> run;
+  const Defaults ofRun{ { "Similarity", { double(run->GetSimilarity()) } },
+    { "Stiffness", { run->GetStiffness() } } };
+  EXPECT_EQ(defaultsIn("Filters/Proxies/RegistrationRun.xml"), ofRun);
 }
 
 TEST(Defaults, OfDisplacementFieldFilesLiveInTheClasses)

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkRefinedLattice.h"
+
+#include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/Guard.h"
+#include "Filters/Attached/WholeExtent.h"
+#include "Filters/Fields/FieldImage.h"
+
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <string>
+
+using namespace brainshift;
+
+vtkStandardNewMacro(vtkRefinedLattice);
+brainshiftGuardRequestsMacro(vtkRefinedLattice);
+
+void vtkRefinedLattice::AddControlPoint(double x, double y, double z)
+{
+  this->ControlPoints.insert(this->ControlPoints.end(), { x, y, z });
+  this->Modified();
+}
+
+void vtkRefinedLattice::ClearControlPoints()
+{
+  this->ControlPoints.clear();
+  this->Modified();
+}
+
+int vtkRefinedLattice::RequestInformation(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const glm::ivec3 sides(
+    this->LatticeDimensions[0], this->LatticeDimensions[1], this->LatticeDimensions[2]);
+  announce(outputs->GetInformationObject(0),
+    withDimensions(wholeGridOf(inputs[0]->GetInformationObject(0)),
+      glm::clamp(sides, SmallestLatticeSide, LargestLatticeSide)));
+  outputs->GetInformationObject(0)->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
+  return 1;
+}
+
+int vtkRefinedLattice::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*)
+{
+  updateWholeExtent(inputs[0]->GetInformationObject(0));
+  return 1;
+}
+
+int vtkRefinedLattice::RequestData(
+  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
+{
+  const glm::ivec3 sides(
+    this->LatticeDimensions[0], this->LatticeDimensions[1], this->LatticeDimensions[2]);
+  Lattice lattice = makeLattice(withDimensions(gridOf(vtkImageData::GetData(inputs[0])),
+                                  glm::clamp(sides, SmallestLatticeSide, LargestLatticeSide)),
+    0);
+  const std::size_t expected = 3 * lattice.displacements.size();
+  if (!this->ControlPoints.empty() && this->ControlPoints.size() != expected)
+  {
+    vtkErrorMacro(<< "ControlPoints has " << this->ControlPoints.size() << " numbers; " << sides.x
+                  << " x " << sides.y << " x " << sides.z << " control points need " << expected
+                  << ".");
+    return 0;
+  }
+  for (std::size_t i = 0; i < this->ControlPoints.size(); i += 3)
+  {
+    lattice.displacements[i / 3] = { this->ControlPoints[i], this->ControlPoints[i + 1],
+      this->ControlPoints[i + 2] };
+  }
+  const std::string problem = problemOfDisplacements(lattice, "ControlPoints");
+  if (!problem.empty())
+  {
+    vtkErrorMacro(<< problem << ".");
+    return 0;
+  }
+  vtkImageData* output = vtkImageData::GetData(outputs);
+  setField(output, lattice.grid, lattice.displacements, Direction::Forward);
+  output->Crop(
+    outputs->GetInformationObject(0)->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()));
+  return 1;
+}
+
+void vtkRefinedLattice::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "LatticeDimensions: " << this->LatticeDimensions[0] << " "
+     << this->LatticeDimensions[1] << " " << this->LatticeDimensions[2] << "\n"
+     << indent << "ControlPoints: " << this->ControlPoints.size() / 3 << "\n";
+}

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkRefinedLattice
+ * @brief   holds the control points that a refinement found
+ *
+ * Output: a lattice over the box of the input, an image with the point array Displacement (float32
+ * x 3, mm, world axes, forward), to be the Lattice of a Free-Form Deformation with the same
+ * LatticeDimensions and Kernel. The numbers are a property, so that a state file brings the result
+ * back without running the refinement again.
+ */
+#ifndef vtkRefinedLattice_h
+#define vtkRefinedLattice_h
+
+#include "vtkBrainShiftFiltersModule.h" // for the export macro
+#include "vtkImageAlgorithm.h"
+
+#include <vector>
+
+class VTKBRAINSHIFTFILTERS_EXPORT vtkRefinedLattice : public vtkImageAlgorithm
+{
+public:
+  static vtkRefinedLattice* New();
+  vtkTypeMacro(vtkRefinedLattice, vtkImageAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+  ///@{
+  /** Control points along each axis of the volume, 4 to 257. Default 19 19 19. */
+  vtkSetVector3Macro(LatticeDimensions, int);
+  vtkGetVector3Macro(LatticeDimensions, int);
+  ///@}
+
+  ///@{
+  /**
+   * Displacements of the control points: 3 numbers each (mm, world axes), x fastest. Default: none,
+   * which means that none is moved. Another wrong number of them is an error.
+   */
+  void AddControlPoint(double x, double y, double z);
+  void ClearControlPoints();
+  ///@}
+
+protected:
+  vtkRefinedLattice() = default;
+  ~vtkRefinedLattice() override = default;
+
+  int RequestInformation(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestUpdateExtent(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkRefinedLattice(const vtkRefinedLattice&) = delete;
+  void operator=(const vtkRefinedLattice&) = delete;
+
+  int LatticeDimensions[3] = { 19, 19, 19 };
+  std::vector<double> ControlPoints;
+};
+
+#endif

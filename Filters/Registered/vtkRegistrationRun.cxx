@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkRegistrationRun.h"
+
+#include "Filters/Attached/Guard.h"
+#include "Filters/Attached/HostMemory.h"
+#include "Filters/Register/Alignment.h"
+#include "Filters/Register/Refinement.h"
+#include "Filters/Registered/RegisteredSource.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkObjectFactory.h"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+using namespace brainshift;
+
+struct vtkRegistrationRun::Running
+{
+  std::optional<Alignment> Rigid;
+  std::optional<Refinement> Elastic;
+};
+
+vtkStandardNewMacro(vtkRegistrationRun);
+
+namespace
+{
+void fill(vtkDoubleArray* array, const std::vector<double>& values)
+{
+  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+}
+
+// Why a refinement cannot begin with this bend; empty if it can.
+std::string problemOf(const std::optional<Deformation>& bent)
+{
+  if (!bent)
+  {
+    return "The volume carries no deformation; Free-Form Deformation attaches one";
+  }
+  if (bent->strength != 1.0)
+  {
+    return "Strength is " + std::to_string(bent->strength) + "; a refinement needs 1";
+  }
+  return bent->inverse == Inverse::Exact
+    ? ""
+    : "The deformation has the negated inverse; a refinement needs the exact one";
+}
+}
+
+vtkRegistrationRun::vtkRegistrationRun()
+  : Internal(std::make_unique<Running>())
+{
+}
+
+vtkRegistrationRun::~vtkRegistrationRun() = default;
+
+void vtkRegistrationRun::SetSource(vtkAlgorithm* source)
+{
+  this->Source = source;
+}
+
+std::string vtkRegistrationRun::Begin(bool bends)
+{
+  *this->Internal = {};
+  vtkImageData* image =
+    vtkImageData::SafeDownCast(this->Source ? this->Source->GetOutputDataObject(0) : nullptr);
+  RegisteredGrids grids;
+  std::string problem = findGrids(image, grids);
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  if (!(this->Stiffness > 0.0))
+  {
+    return "Stiffness is " + std::to_string(this->Stiffness) + "; it must be above 0";
+  }
+  RefinementSettings settings;
+  settings.similarity = static_cast<SimilarityKind>(this->Similarity);
+  settings.stiffness = this->Stiffness;
+  // The lattice takes little beside the volumes.
+  const double voxels =
+    sizeof(float) * static_cast<double>(grids.rest.count() + grids.reference.count());
+  problem = hostMemoryProblem("The registration of " + sizeText(grids.rest.dimensions) + " voxels",
+    voxels +
+      (bends ? Refinement::bytes(grids.rest, grids.reference, {}, settings)
+             : Alignment::bytes(grids.rest, grids.reference)));
+  RegisteredSource source;
+  problem = problem.empty() ? readSource(image, source) : problem;
+  if (problem.empty() && bends)
+  {
+    problem = problemOf(source.bent);
+  }
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  if (bends)
+  {
+    settings.samples = source.bent->samples;
+    this->Internal->Elastic.emplace(std::move(source.pair), source.bent->lattice, settings);
+  }
+  else
+  {
+    const std::optional<Lattice> bent =
+      source.bent ? std::optional<Lattice>(effectiveLattice(*source.bent)) : std::nullopt;
+    this->Internal->Rigid.emplace(std::move(source.pair), bent ? &*bent : nullptr);
+  }
+  return {};
+}
+
+void vtkRegistrationRun::BeginAlignment()
+{
+  this->Problem = "Memory ran out"; // unless it gets to its end
+  guarded(this, [this] { this->Problem = this->Begin(false); });
+}
+
+void vtkRegistrationRun::BeginRefinement()
+{
+  this->Problem = "Memory ran out";
+  guarded(this, [this] { this->Problem = this->Begin(true); });
+}
+
+void vtkRegistrationRun::Step()
+{
+  guarded(this, [this] {
+    if (this->Internal->Rigid)
+    {
+      this->Internal->Rigid->step();
+    }
+    if (this->Internal->Elastic)
+    {
+      this->Internal->Elastic->step();
+    }
+  });
+}
+
+vtkDoubleArray* vtkRegistrationRun::GetFigures()
+{
+  std::vector<double> figures;
+  if (this->Internal->Rigid)
+  {
+    const Alignment& rigid = *this->Internal->Rigid;
+    const AlignmentProgress& at = rigid.progress();
+    figures = { double(at.isFinished), double(at.steps), double(at.level), at.comparedShare,
+      at.information, at.informationAtStart, rigid.shiftMm(), rigid.turnDegrees() };
+  }
+  else if (this->Internal->Elastic)
+  {
+    const RefinementProgress& at = this->Internal->Elastic->progress();
+    figures = { double(at.isFinished), double(at.steps), double(at.level), at.comparedShare,
+      at.disagreement, at.disagreementAtStart, at.movedMm, at.share };
+  }
+  fill(this->Figures, figures);
+  return this->Figures;
+}
+
+vtkDoubleArray* vtkRegistrationRun::GetMotion()
+{
+  std::vector<double> rows;
+  if (this->Internal->Rigid)
+  {
+    const RigidPose motion = this->Internal->Rigid->motion();
+    for (int row = 0; row < 3; ++row)
+    {
+      for (int column = 0; column < 3; ++column)
+      {
+        rows.push_back(motion.rotation[column][row]);
+      }
+      rows.push_back(motion.translation[row]);
+    }
+    rows.insert(rows.end(), { 0.0, 0.0, 0.0, 1.0 });
+  }
+  fill(this->Motion, rows);
+  return this->Motion;
+}
+
+vtkDoubleArray* vtkRegistrationRun::GetControlPoints()
+{
+  std::vector<double> numbers;
+  if (this->Internal->Elastic)
+  {
+    for (const glm::vec3& d : this->Internal->Elastic->lattice().displacements)
+    {
+      numbers.insert(numbers.end(), { d.x, d.y, d.z });
+    }
+  }
+  fill(this->ControlPoints, numbers);
+  return this->ControlPoints;
+}
+
+void vtkRegistrationRun::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Similarity: " << this->Similarity << "\n"
+     << indent << "Stiffness: " << this->Stiffness << "\n"
+     << indent << "Problem: " << this->Problem << "\n";
+}

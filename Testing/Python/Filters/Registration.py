@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves that align finds a known motion and refine a known bend, from what the hand made; that a
+# callback stops them; that a state file and later strokes follow; that errors leave all as it was.
+import numpy
+from brainshift_testing import (
+    assert_says, load_plugin, messages, run_tests, scratch, volume)
+
+load_plugin()
+import brainshift  # noqa: E402 after the plugin
+from paraview import simple  # noqa: E402
+
+SIDE = 48
+SPACING = (2.0, 2.0, 2.2)
+MIDDLE = 0.5 * (SIDE - 1) * numpy.array(SPACING)
+
+
+def tissue(x, y, z):
+    """Folds within an ellipsoid, and one bright ball, so that no turn looks like another."""
+    folds = (numpy.sin(0.31 * x + 0.1 * y) + numpy.sin(0.27 * y - 0.12 * z)
+             + numpy.sin(0.29 * z + 0.08 * x) + numpy.sin(0.11 * (x + y + z)))
+    away = numpy.sqrt(((x - MIDDLE[0]) / 38) ** 2 + ((y - MIDDLE[1]) / 42) ** 2
+                      + ((z - MIDDLE[2]) / 40) ** 2)
+    ball = (x - 60) ** 2 + (y - 40) ** 2 + (z - 50) ** 2 < 144
+    return (100 + 20 * folds + 60 * ball) * numpy.clip(8 * (1 - away), 0, 1)
+
+
+def places():
+    k, j, i = numpy.indices((SIDE, SIDE, SIDE))
+    return [step * index for step, index in zip(SPACING, (i, j, k))]
+
+
+def rest_volume():
+    return volume(tissue(*places()).astype(numpy.float32), spacing=SPACING)
+
+
+def known_bend(rest, name="Known"):
+    strokes = brainshift.soft(MIDDLE, (3.0, -2.5, 3.0), 50.0)
+    return simple.FreeFormDeformation(Input=rest, Strokes=strokes, registrationName=name)
+
+
+def bent_reference(rest):
+    """The volume as it is bent, inverted."""
+    baked = simple.BakeDeformation(Input=known_bend(rest), Interpolation="Cubic")
+    baked.UpdatePipeline()
+    name = baked.PointData.GetArray(0).Name
+    return simple.Calculator(Input=baked, Function=f'200 - "{name}"', ResultArrayName="Inverted")
+
+
+def error(bent, rest):
+    """Mean distance (mm) from the known bend around the middle."""
+    points = MIDDLE + numpy.random.default_rng(3).uniform(-20, 20, (100, 3))
+    truth = known_bend(rest, "Truth")
+    apart = (brainshift.deformed_from_rest(bent, points)
+             - brainshift.deformed_from_rest(truth, points))
+    simple.Delete(truth)
+    return numpy.linalg.norm(apart, axis=1).mean()
+
+
+def test_align_finds_a_known_motion():
+    rest = rest_volume()
+    moved = volume((200 - tissue(*places())).astype(numpy.float32), spacing=SPACING)
+    compare = simple.CompareVolumes(Input=rest, Reference=moved, ReferenceRotation=(5, -4, 3),
+                                    ReferenceTranslation=(6, -3, 2))
+    seen = []
+    found = brainshift.align(compare, callback=lambda progress: seen.append(progress.steps))
+    assert seen == list(range(1, found.steps + 1)), seen
+    assert numpy.abs(compare.ReferenceRotation).max() < 0.3, compare.ReferenceRotation
+    assert numpy.abs(compare.ReferenceTranslation).max() < 0.2, compare.ReferenceTranslation
+    assert found.finished and found.information > 1.5 * found.information_before
+    assert 5 < found.turn < 10 and 5 < found.shift < 9 and found.compared > 0.8
+    assert numpy.allclose(found.rotation, compare.ReferenceRotation)
+
+
+def test_a_callback_stops_align():
+    rest = rest_volume()
+    compare = simple.CompareVolumes(Input=rest, Reference=rest, ReferenceTranslation=(6, -3, 2))
+    found = brainshift.align(compare, callback=lambda progress: progress.steps < 2)
+    assert found.steps == 2 and not found.finished
+    assert numpy.linalg.norm(compare.ReferenceTranslation) < 7.0
+
+
+def test_refine_finds_a_known_bend():
+    rest = rest_volume()
+    bent = simple.FreeFormDeformation(Input=rest)
+    before = error(bent, rest)
+    found = brainshift.refine(bent, bent_reference(rest))
+    assert before > 1.5 and error(bent, rest) < 0.4, (before, error(bent, rest))
+    assert bent.Lattice is not None and found.filter.SMProxy is bent.Lattice.SMProxy
+    assert found.disagreement < 0.5 * found.disagreement_before
+    assert found.largest_change > 3.0 > found.mean_change > 0.0
+    assert found.smallest_determinant > 0.1 and found.share == 1.0 and found.compared > 0.8
+    assert found.finished and found.level == 1
+
+
+def test_it_begins_with_the_hand_and_strokes_follow():
+    simple.ResetSession()
+    load_plugin()
+    rest = rest_volume()
+    bent = simple.FreeFormDeformation(Input=rest)
+    bent.Strokes = brainshift.soft(MIDDLE, (1.5, -1.0, 1.5), 50.0)
+    hand = tuple(bent.Strokes)
+    half = error(bent, rest)
+    reference = bent_reference(rest)
+    found = brainshift.refine(bent, reference, callback=lambda progress: False)
+    assert found.steps == 1 and not found.finished and found.strokes == hand
+    assert len(bent.Strokes) == 0 and error(bent, rest) < half
+    again = brainshift.refine(bent, reference)
+    assert error(bent, rest) < 0.4
+    made = [name for name in simple.GetSources() if name[0].startswith("RefinedLattice")]
+    assert len(made) == 1, made
+    point = numpy.array([MIDDLE])
+    refined = brainshift.deformed_from_rest(bent, point)
+    bent.Strokes = brainshift.soft(refined[0], (0, 0, 2.0), 30.0)
+    moved = brainshift.deformed_from_rest(bent, point) - refined
+    assert numpy.allclose(moved, (0, 0, 2.0), atol=0.1), moved
+    assert again.filter.SMProxy is bent.Lattice.SMProxy
+
+
+def test_a_state_brings_it_back():
+    simple.ResetSession()
+    load_plugin()
+    rest = simple.Wavelet(WholeExtent=[0, 40] * 3)
+    strokes = brainshift.soft((20, 20, 20), (2, 1, -1), 25.0)
+    reference = simple.BakeDeformation(
+        Input=simple.FreeFormDeformation(Input=rest, Strokes=strokes))
+    bent = simple.FreeFormDeformation(Input=rest, registrationName="Bent")
+    brainshift.refine(bent, reference, callback=lambda progress: progress.steps < 4)
+    points = numpy.random.default_rng(4).uniform(5, 35, (20, 3))
+    expected = brainshift.deformed_from_rest(bent, points)
+    assert numpy.abs(expected - points).max() > 0.3
+    state = scratch("refined.pvsm")
+    simple.SaveState(state)
+    with open(state, encoding="utf-8") as file:
+        assert "RegistrationRun" not in file.read(), "a run is no part of a state"
+    simple.ResetSession()
+    load_plugin()
+    simple.LoadState(state)
+    again = simple.FindSource("Bent")
+    assert again.Lattice.SMProxy.GetXMLName() == "RefinedLattice"
+    assert numpy.allclose(brainshift.deformed_from_rest(again, points), expected, atol=1e-5)
+
+
+def test_errors_leave_all_as_it_was():
+    rest = rest_volume()
+    bent = simple.FreeFormDeformation(Input=rest, Strength=0.5)
+    bent.Strokes = brainshift.soft(MIDDLE, (1.5, -1.0, 1.5), 50.0)
+    hand = tuple(bent.Strokes)
+    compare = simple.CompareVolumes(Input=rest, Reference=rest)
+    for call, words in (
+            (lambda: brainshift.refine(bent, rest), "Strength is 0.5"),
+            (lambda: brainshift.refine(bent, compare), "carries no deformation"),
+            (lambda: brainshift.refine(bent, rest, similarity="best"), "similarity is 'best'"),
+            (lambda: brainshift.refine(bent, rest, stiffness=0.0), "Stiffness is 0"),
+            (lambda: brainshift.refine(bent, compare, cavity=rest), "has its own"),
+            (lambda: brainshift.align(rest), "carries no reference")):
+        try:
+            call()
+        except ValueError as said:
+            assert words in str(said), said
+        else:
+            raise AssertionError(f"no error: {words}")
+    assert tuple(bent.Strokes) == hand and bent.Lattice is None
+
+
+def test_a_lattice_of_the_wrong_size_is_an_error():
+    rest = rest_volume()
+    lattice = simple.RefinedLattice(Input=rest, ControlPoints=[1.0, 2.0, 3.0])
+    with messages() as said:
+        lattice.UpdatePipeline()
+    assert_says(said.text, "ControlPoints has 3 numbers")
+
+
+run_tests(globals())
