@@ -96,7 +96,7 @@ std::string readSource(vtkImageData* image, RegisteredSource& source)
       return problem;
     }
     source.pair.inside = maskOf(bent.lattice);
-    source.bent = bent;
+    source.bent = std::make_unique<const Deformation>(bent);
   }
   const ReferenceVolume reference = readReference(image);
   source.pair.rest = { gridOf(image), floatsOf(scalarsOf(image)) };

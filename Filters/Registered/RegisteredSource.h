@@ -9,7 +9,7 @@
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Register/RegisteredPair.h"
 
-#include <optional>
+#include <memory>
 #include <string>
 
 class vtkImageData;
@@ -20,7 +20,7 @@ namespace brainshift
 struct RegisteredSource
 {
   RegisteredPair pair;
-  std::optional<Deformation> bent; ///< empty: the volume carries no deformation
+  std::unique_ptr<const Deformation> bent; ///< null: the volume carries no deformation
 };
 
 /** Grids of what would be read; no voxel is copied. */

@@ -12,7 +12,7 @@
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
 
-#include <optional>
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -20,8 +20,8 @@ using namespace brainshift;
 
 struct vtkRegistrationRun::Running
 {
-  std::optional<Alignment> Rigid;
-  std::optional<Refinement> Elastic;
+  std::unique_ptr<Alignment> Rigid;
+  std::unique_ptr<Refinement> Elastic;
 };
 
 vtkStandardNewMacro(vtkRegistrationRun);
@@ -35,7 +35,7 @@ void fill(vtkDoubleArray* array, const std::vector<double>& values)
 }
 
 // Why a refinement cannot begin with this bend; empty if it can.
-std::string problemOf(const std::optional<Deformation>& bent)
+std::string problemOf(const Deformation* bent)
 {
   if (!bent)
   {
@@ -92,7 +92,7 @@ std::string vtkRegistrationRun::Begin(bool bends)
   problem = problem.empty() ? readSource(image, source) : problem;
   if (problem.empty() && bends)
   {
-    problem = problemOf(source.bent);
+    problem = problemOf(source.bent.get());
   }
   if (!problem.empty())
   {
@@ -101,14 +101,13 @@ std::string vtkRegistrationRun::Begin(bool bends)
   if (bends)
   {
     settings.samples = source.bent->samples;
-    this->Internal->Elastic.emplace(std::move(source.pair), source.bent->lattice, settings);
+    this->Internal->Elastic =
+      std::make_unique<Refinement>(std::move(source.pair), source.bent->lattice, settings);
+    return {};
   }
-  else
-  {
-    const std::optional<Lattice> bent =
-      source.bent ? std::optional<Lattice>(effectiveLattice(*source.bent)) : std::nullopt;
-    this->Internal->Rigid.emplace(std::move(source.pair), bent ? &*bent : nullptr);
-  }
+  const Lattice bent = source.bent ? effectiveLattice(*source.bent) : Lattice{};
+  this->Internal->Rigid =
+    std::make_unique<Alignment>(std::move(source.pair), source.bent ? &bent : nullptr);
   return {};
 }
 
