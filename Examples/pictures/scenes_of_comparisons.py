@@ -72,17 +72,6 @@ def trace_distance(width):
     return numpy.hstack(pictures)
 
 
-def fit_deformation(width):
-    """The trace by its distance from the cortex, before and after a fit of its points."""
-    side = width // 2
-    case = patient()
-    pictures = [stage.pixels(case_study.show_trace(case.bent, case.measure, side))]
-    case_study.fit_to_trace(case)
-    pictures.append(stage.pixels(case_study.show_trace(case.bent, case.measure, side)))
-    case.straighten()
-    return numpy.hstack(pictures)
-
-
 def trace_points(width):
     """Points behind the tissue: faded, hidden, shown."""
     side = width // 3
@@ -129,7 +118,6 @@ def case_fit(width):
 
 COMPARISON_SCENES = {
     "filter-compare-volumes": compare_volumes, "tool-flicker": flicker,
-    "filter-fit-deformation": fit_deformation,
     "filter-trace-distance": trace_distance, "representation-trace-points": trace_points,
     "case-study-before": case_before, "case-study-after": case_after,
     "case-study-fit": case_fit}

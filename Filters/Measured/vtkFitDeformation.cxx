@@ -475,27 +475,3 @@ std::vector<double> vtkFitDeformation::Deviations(const std::vector<double>& res
   }
   return this->Internal->Fitted.deviations(places);
 }
-
-void vtkFitDeformation::PrintSelf(ostream& os, vtkIndent indent)
-{
-  this->Superclass::PrintSelf(os, indent);
-  os << indent << "LatticeDimensions: " << this->LatticeDimensions[0] << " "
-     << this->LatticeDimensions[1] << " " << this->LatticeDimensions[2] << "\n"
-     << indent << "Kernel: " << (this->Kernel ? "B-Spline" : "Catmull-Rom") << "\n"
-     << indent << "Samples: " << this->Samples << "\n"
-     << indent << "GuardFolding: " << this->GuardFolding << "\n"
-     << indent << "Live: " << this->Live << "\n"
-     << indent << "SurfaceArray: " << this->SurfaceArray << "\n"
-     << indent << "SurfaceBy: " << (this->SurfaceBy ? "Label" : "Threshold") << "\n"
-     << indent << "Threshold: " << this->Threshold << "\n"
-     << indent << "Label: " << this->Label << "\n"
-     << indent << "Anchors: " << this->Anchors << "\n"
-     << indent << "OpeningRadius: " << this->OpeningRadius << "\n"
-     << indent << "Evidence: " << this->Evidence << "\n"
-     << indent << "Feather: " << this->Feather << "\n"
-     << indent << "MaskGrowth: " << this->MaskGrowth << "\n"
-     << indent
-     << "LandmarkPairs: " << this->Landmarks->Numbers.size() / FitLandmarks::NumbersPerPair << "\n"
-     << indent << "Pulls: " << this->Pulls.size() / NumbersPerPull << "\n"
-     << indent << "Pins: " << this->Pins.size() / NumbersPerPin << "\n";
-}

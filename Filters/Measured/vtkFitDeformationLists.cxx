@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The properties of a fit that are lists.
+// The properties of a fit that are lists, and what it prints.
 #include "vtkFitDeformation.h"
 
 #include "Filters/Measured/FitLandmarks.h"
+
+using namespace brainshift;
 
 void vtkFitDeformation::AddMaskLabel(int label)
 {
@@ -67,4 +69,28 @@ void vtkFitDeformation::ClearLandmarksOff()
 vtkStringArray* vtkFitDeformation::GetLandmarkNames()
 {
   return this->Landmarks->Names;
+}
+
+void vtkFitDeformation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "LatticeDimensions: " << this->LatticeDimensions[0] << " "
+     << this->LatticeDimensions[1] << " " << this->LatticeDimensions[2] << "\n"
+     << indent << "Kernel: " << (this->Kernel ? "B-Spline" : "Catmull-Rom") << "\n"
+     << indent << "Samples: " << this->Samples << "\n"
+     << indent << "GuardFolding: " << this->GuardFolding << "\n"
+     << indent << "Live: " << this->Live << "\n"
+     << indent << "SurfaceArray: " << this->SurfaceArray << "\n"
+     << indent << "SurfaceBy: " << (this->SurfaceBy ? "Label" : "Threshold") << "\n"
+     << indent << "Threshold: " << this->Threshold << "\n"
+     << indent << "Label: " << this->Label << "\n"
+     << indent << "Anchors: " << this->Anchors << "\n"
+     << indent << "OpeningRadius: " << this->OpeningRadius << "\n"
+     << indent << "Evidence: " << this->Evidence << "\n"
+     << indent << "Feather: " << this->Feather << "\n"
+     << indent << "MaskGrowth: " << this->MaskGrowth << "\n"
+     << indent
+     << "LandmarkPairs: " << this->Landmarks->Numbers.size() / FitLandmarks::NumbersPerPair << "\n"
+     << indent << "Pulls: " << this->Pulls.size() / 7 << "\n"
+     << indent << "Pins: " << this->Pins.size() / 4 << "\n";
 }

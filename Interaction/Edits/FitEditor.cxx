@@ -130,6 +130,16 @@ void FitEditor::setNumbers(vtkSMProxy* fit, const char* list, const Numbers& num
   }
 }
 
+void FitEditor::setLive(vtkSMProxy* fit, bool on)
+{
+  if (fit && vtkSMPropertyHelper(fit, "Live").GetAsInt() != int(on))
+  {
+    SCOPED_UNDO_EXCLUDE();
+    vtkSMPropertyHelper(fit, "Live").Set(int(on));
+    fit->UpdateVTKObjects();
+  }
+}
+
 vtkSmartPointer<vtkSMProxy> FitEditor::prepare() const
 {
   vtkSMProxy* deformation = this->Source->getProxy();
@@ -233,6 +243,7 @@ bool FitEditor::begin(const char* list, const Numbers& underHand)
     this->setLattice(made);
   }
   this->Editing = true;
+  FitEditor::setLive(this->fit(), true);
   Q_EMIT this->editing(true);
   this->change(underHand);
   return true;
@@ -290,6 +301,7 @@ void FitEditor::stopEditing()
 {
   this->Redraw.stop();
   this->Editing = false;
+  FitEditor::setLive(this->fit(), false);
   Q_EMIT this->editing(false);
   Q_EMIT this->changed();
 }

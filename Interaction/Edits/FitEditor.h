@@ -54,6 +54,9 @@ public:
 
   /// Sets a list of a fit, within edit().
   static void setNumbers(vtkSMProxy* fit, const char* list, const Numbers& numbers);
+  /// Says that a hand moves what was measured (null: nothing), or that it let go. Undo does not see
+  /// it.
+  static void setLive(vtkSMProxy* fit, bool on);
   /// One undo step that makes the fit, if there is none, and calls `change` to set its properties.
   /// False, and nothing happens, if there can be no fit.
   bool edit(const QString& label, const std::function<void(vtkSMProxy*)>& change);

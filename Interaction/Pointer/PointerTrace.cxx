@@ -171,6 +171,7 @@ void PointerTrace::bend()
   if (const vtkSmartPointer<vtkSMProxy> source = this->traces())
   {
     setPoints(source, this->Points);
+    FitEditor::setLive(fitOf(this->Deformation), true);
     drawMoving(this->Deformation, fitOf(this->Deformation));
   }
   else
@@ -212,6 +213,7 @@ void PointerTrace::end()
     return;
   }
   this->Recording = false;
+  FitEditor::setLive(this->Deformation ? fitOf(this->Deformation) : nullptr, false);
   if (this->Deformation && this->Points.size() > this->Before.size())
   {
     this->restore();

@@ -46,8 +46,8 @@ STANDS_ON = {
     "Interaction/Tools": ["Interaction/Edits"],
     "Interaction/Displays": ["Interaction/Views"],
     "Interaction/Pointer": ["Interaction/Edits", "Tracking"],
-    "Interaction": [
-        "Interaction/Displays", "Interaction/Landmarks", "Interaction/Pointer", "Interaction/Tools"],
+    "Interaction": ["Interaction/Displays", "Interaction/Landmarks", "Interaction/Pointer",
+                    "Interaction/Tools"],
     "Panel/Parts": [],
     "Panel/Landmarks": ["Panel/Parts", "Interaction"],
     "Panel/Measured": ["Panel/Parts", "Interaction"],

@@ -64,7 +64,7 @@ TEST_P(EvidenceOf, TheLatticeIsThatOfEachControlPoint)
   }
   FittedLattice fitted;
   const Lattice lattice = makeLattice(boxGrid(), 0);
-  ASSERT_EQ(fitted.solve(measured, {}, lattice, 4, true), "");
+  ASSERT_EQ(fitted.solve(measured, {}, lattice, {}), "");
   LatticeEvidence evidence;
   std::string problem;
   const std::vector<float> found = evidence.deviations(fitted, problem);
@@ -83,11 +83,11 @@ TEST_P(EvidenceOf, TheLatticeIsThatOfEachControlPoint)
   {
     // A pull that goes on says nothing new of where is measured.
     measured.pulls[0].measured.y += 1.0;
-    ASSERT_EQ(fitted.solve(measured, {}, lattice, 4, true), "");
+    ASSERT_EQ(fitted.solve(measured, {}, lattice, {}), "");
     EXPECT_EQ(evidence.deviations(fitted, problem).size(), found.size());
     EXPECT_EQ(evidence.solutions(), 1);
     measured.pulls[0].rest.y += 1.0;
-    ASSERT_EQ(fitted.solve(measured, {}, lattice, 4, true), "");
+    ASSERT_EQ(fitted.solve(measured, {}, lattice, {}), "");
     evidence.deviations(fitted, problem);
     EXPECT_EQ(evidence.solutions(), 2);
   }
@@ -100,7 +100,7 @@ TEST(Evidence, IsRefusedForVeryManyControlPoints)
   Grid grid = boxGrid();
   grid.dimensions = { 66, 66, 66 };
   FittedLattice fitted;
-  ASSERT_EQ(fitted.solve({}, {}, makeLattice(grid, 0), 4, true), "");
+  ASSERT_EQ(fitted.solve({}, {}, makeLattice(grid, 0), {}), "");
   std::string problem;
   EXPECT_TRUE(LatticeEvidence().deviations(fitted, problem).empty());
   EXPECT_NE(problem.find("287496"), std::string::npos) << problem;
