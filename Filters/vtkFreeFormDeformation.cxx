@@ -59,6 +59,14 @@ struct vtkFreeFormDeformation::State
   std::string OtherFit; // the base lattice was fitted for another deformation: a sentence
   std::vector<std::string> Warned;
   bool WarnedOfMask = false; // that it holds strokes back
+
+  // A fit for other settings says nothing about this bend.
+  void judgeBase(vtkImageData* base, const Lattice& start)
+  {
+    this->OtherFit = wordsOnFittedFor(base, start, this->LastGood.samples);
+    this->LastGood.deviations =
+      drawnDeviations(this->OtherFit.empty() ? base : nullptr, start, this->LastGood);
+  }
 };
 
 namespace
@@ -369,12 +377,11 @@ std::string vtkFreeFormDeformation::Bend(
   Lattice result = state.StrokeReplay.result();
   std::swap(state.LastGood.lattice, result); // all of it or nothing
   state.TooFine = strokesTooFine(strokes, start.grid);
-  state.OtherFit = wordsOnFittedFor(base, start, this->Samples);
   state.LastGood.samples = this->Samples;
   state.LastGood.inverse =
     this->Inverse ? brainshift::Inverse::Negated : brainshift::Inverse::Exact;
   state.LastGood.strength = this->Strength;
-  state.LastGood.deviations = drawnDeviations(base, start, state.LastGood);
+  state.judgeBase(base, start);
   const std::vector<double> settings{ double(this->GuardFolding), double(this->Samples),
     double(this->Inverse), this->Strength };
   state.LastMarks = state.Marker.marksOf(start, settings, state.StrokeNumbers);

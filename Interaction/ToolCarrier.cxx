@@ -101,6 +101,7 @@ void ToolCarrier::followApplication()
   QObject::connect(model, &pqServerManagerModel::preSourceRemoved, this, [this](auto* source) {
     if (source == this->Deformation)
     {
+      this->cancel(); // nothing may be made for what goes
       this->putDown();
       this->Kept.letGo();
     }

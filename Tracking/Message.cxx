@@ -195,7 +195,8 @@ std::string readHeader(const std::array<unsigned char, HeaderBytes>& bytes, Mess
   igtl_header raw;
   std::memcpy(&raw, bytes.data(), sizeof(raw));
   igtl_header_convert_byte_order(&raw);
-  header.version = raw.version;
+  // OpenIGTLink 1.11 and 3.0 call the field differently.
+  header.version = static_cast<int>(bigEndian(bytes.data(), sizeof(igtl_uint16)));
   header.type = nameFrom(raw.name, sizeof(raw.name));
   header.device = nameFrom(raw.device_name, sizeof(raw.device_name));
   header.bodyBytes = raw.body_size;

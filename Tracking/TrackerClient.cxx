@@ -203,6 +203,10 @@ void TrackerClient::note(const MessagePoses& found, bool wholeSet)
   {
     return;
   }
+  // The tool that is wanted most may be the last one of the message, and one that is seen comes
+  // first.
+  std::for_each(found.poses.begin(), found.poses.end(),
+    [&isWanted](const Pose& pose) { isWanted(pose.device); });
   const bool refused = std::any_of(found.refused.begin(), found.refused.end(), isWanted);
   this->Counter.state.refused += refused ? 1 : 0;
   const bool unseen = std::any_of(found.unseen.begin(), found.unseen.end(), isWanted);
@@ -210,15 +214,13 @@ void TrackerClient::note(const MessagePoses& found, bool wholeSet)
   {
     this->Counter.state.visible = false;
   }
-  // The tool that is wanted most may be the last one of the message.
-  std::for_each(found.poses.begin(), found.poses.end(),
-    [&isWanted](const Pose& pose) { isWanted(pose.device); });
   for (Pose pose : found.poses)
   {
     if (this->wants(pose.device))
     {
       pose.seconds = now;
       this->Counter.add(pose);
+      break; // a message has one pose of a tool
     }
   }
 }

@@ -19,7 +19,8 @@ std::vector<float> LatticeEvidence::deviations(const FittedLattice& fitted, std:
   forEachIndex(glm::ivec3(0), grid.dimensions - 1,
     [&](const glm::ivec3& index) { places.push_back(grid.worldFromGrid(glm::dvec3(index))); });
   std::vector<double> key = fitted.fit().field().covarianceKey();
-  if (this->Variances.empty() || key != this->Key || !(grid == this->Points))
+  const bool isKnown = !this->Variances.empty() && grid == this->Points;
+  if (!isKnown || (!this->Live && key != this->Key))
   {
     this->Variances = fitted.fit().field().variances(places);
     this->Key = std::move(key);

@@ -34,6 +34,12 @@ public:
    */
   std::vector<float> deviations(const FittedLattice& fitted, std::string& problem);
 
+  /**
+   * While a hand moves what was measured, variances of a moment ago are good enough: it moves
+   * traced places by little, and a place that is added makes them smaller. Default: off.
+   */
+  void setLive(bool on) { this->Live = on; }
+
   /** How often variances were found. */
   int solutions() const { return this->Solutions; }
 
@@ -42,6 +48,7 @@ private:
   std::vector<double> Key; // Process::covarianceKey
   std::vector<double> Variances;
   int Solutions = 0;
+  bool Live = false;
 };
 }
 

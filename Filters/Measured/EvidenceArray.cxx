@@ -57,7 +57,12 @@ std::vector<float> drawnDeviations(
 {
   auto array =
     base ? vtkFloatArray::FastDownCast(base->GetPointData()->GetArray(DeviationName)) : nullptr;
-  if (!array || !(gridOf(base) == start.grid))
+  // Whoever else made an array of this name may have meant something else by it.
+  const auto isDeviation = [](float mm) { return mm >= 0.0f; }; // false for NaN
+  if (!array || drawn.inverse != Inverse::Exact || array->GetNumberOfComponents() != 1 ||
+    !(gridOf(base) == start.grid) ||
+    !std::all_of(
+      array->GetPointer(0), array->GetPointer(0) + array->GetNumberOfValues(), isDeviation))
   {
     return {};
   }

@@ -8,14 +8,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 namespace brainshift
 {
+namespace
+{
+// Gives each landmark a name of its own: of several F, the second is "F (2)".
+void nameApart(std::vector<std::string>& names)
+{
+  std::map<std::string, int> seen;
+  std::set<std::string> taken(names.begin(), names.end());
+  for (std::string& name : names)
+  {
+    const std::string label = name;
+    for (int number = ++seen[label]; number > 1; ++number)
+    {
+      name = label + " (" + std::to_string(number) + ")";
+      if (taken.insert(name).second)
+      {
+        break;
+      }
+    }
+  }
+}
+}
+
 std::vector<PointPair> FitLandmarks::read(
   vtkPointSet* rest, vtkPointSet* measured, std::string& unmatched)
 {
   NamedPairs named = landmarkPairs(rest, measured);
   unmatched = named.unmatched;
+  nameApart(named.names);
   for (std::size_t i = 0; i < named.pairs.size(); ++i)
   {
     const bool isOff = std::find(this->SwitchedOff.begin(), this->SwitchedOff.end(),

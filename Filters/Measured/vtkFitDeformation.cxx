@@ -358,9 +358,11 @@ int vtkFitDeformation::RequestData(
   const Lattice& bent = state.Fitted.lattice();
   setField(output, bent.grid, bent.displacements, Direction::Forward);
   nameFittedFor(output, bent, this->Samples);
+  state.Evidence.setLive(this->Live);
   std::string warning =
     this->Evidence ? addEvidence(output, state.Fitted, state.Evidence) : std::string();
-  warning = warning.empty() ? state.warning() : warning;
+  const std::string more = state.warning();
+  warning += warning.empty() || more.empty() ? more : ". " + more;
   if (warning != state.WarnedOf && !warning.empty())
   {
     vtkWarningMacro(<< warning << ".");

@@ -201,9 +201,15 @@ void Alignment::prepareLevel()
   this->Rounds = 0;
   this->BestGain = 0.0;
   this->Loss = this->loss(this->Best);
+  const double start = this->loss({});
+  if (start < this->Loss) // a coarser level went astray
+  {
+    this->Best = {};
+    this->Loss = start;
+  }
   this->RoundStart = this->Best;
   this->RoundStartLoss = this->Loss;
-  this->Progress.informationAtStart = -this->loss({});
+  this->Progress.informationAtStart = -start;
   this->IsPrepared = true;
 }
 

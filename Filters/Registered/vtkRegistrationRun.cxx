@@ -3,6 +3,7 @@
 
 #include "Filters/Attached/Guard.h"
 #include "Filters/Attached/HostMemory.h"
+#include "Filters/Attached/WholeExtent.h"
 #include "Filters/Register/Alignment.h"
 #include "Filters/Register/Refinement.h"
 #include "Filters/Registered/RegisteredSource.h"
@@ -11,6 +12,9 @@
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
+
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -28,6 +32,8 @@ vtkStandardNewMacro(vtkRegistrationRun);
 
 namespace
 {
+constexpr double PlaceTolerance = 1e-3; // voxels
+
 void fill(vtkDoubleArray* array, const std::vector<double>& values)
 {
   array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
@@ -48,6 +54,19 @@ std::string problemOf(const Deformation* bent)
   return bent->inverse == Inverse::Exact
     ? ""
     : "The deformation has the negated inverse; a refinement needs the exact one";
+}
+
+// Why a refinement cannot begin with a lattice that lies elsewhere than the volume; or empty.
+std::string problemOfPlace(const Grid& lattice, const Grid& rest)
+{
+  const glm::dvec3 first = rest.gridFromWorld(lattice.origin);
+  const glm::dvec3 last = rest.gridFromWorld(lattice.worldFromGrid(lattice.dimensions - 1));
+  const bool isSame = glm::all(glm::lessThan(glm::abs(first), glm::dvec3(PlaceTolerance))) &&
+    glm::all(
+      glm::lessThan(glm::abs(last - glm::dvec3(rest.dimensions - 1)), glm::dvec3(PlaceTolerance)));
+  return isSame
+    ? ""
+    : "The volume was cropped or resampled after it was bent; a refinement needs all of it";
 }
 }
 
@@ -70,6 +89,8 @@ std::string vtkRegistrationRun::Begin(bool bends)
     vtkImageData::SafeDownCast(this->Source ? this->Source->GetOutputDataObject(0) : nullptr);
   RegisteredGrids grids;
   std::string problem = findGrids(image, grids);
+  // On several MPI ranks each has a part of the volume, and nobody would see that it is one.
+  problem = problem.empty() ? problemOfPart(image, this->Source->GetOutputInformation(0)) : problem;
   if (!problem.empty())
   {
     return problem;
@@ -81,7 +102,6 @@ std::string vtkRegistrationRun::Begin(bool bends)
   RefinementSettings settings;
   settings.similarity = static_cast<SimilarityKind>(this->Similarity);
   settings.stiffness = this->Stiffness;
-  // The lattice takes little beside the volumes.
   const double voxels =
     sizeof(float) * static_cast<double>(grids.rest.count() + grids.reference.count());
   problem = hostMemoryProblem("The registration of " + sizeText(grids.rest.dimensions) + " voxels",
@@ -93,6 +113,14 @@ std::string vtkRegistrationRun::Begin(bool bends)
   if (problem.empty() && bends)
   {
     problem = problemOf(source.bent.get());
+    problem = problem.empty() ? problemOfPlace(source.bent->lattice.grid, grids.rest) : problem;
+  }
+  if (problem.empty() && bends)
+  {
+    const Grid& lattice = source.bent->lattice.grid;
+    problem =
+      hostMemoryProblem("The refinement of " + sizeText(lattice.dimensions) + " control points",
+        Refinement::bytes(grids.rest, grids.reference, lattice, settings));
   }
   if (!problem.empty())
   {
@@ -125,7 +153,7 @@ void vtkRegistrationRun::BeginRefinement()
 
 void vtkRegistrationRun::Step()
 {
-  guarded(this, [this] {
+  const bool isDone = guarded(this, false, [this] {
     if (this->Internal->Rigid)
     {
       this->Internal->Rigid->step();
@@ -134,7 +162,12 @@ void vtkRegistrationRun::Step()
     {
       this->Internal->Elastic->step();
     }
+    return true;
   });
+  if (!isDone)
+  {
+    *this->Internal = {}; // without figures, a caller sees that it stopped
+  }
 }
 
 vtkDoubleArray* vtkRegistrationRun::GetFigures()

@@ -20,6 +20,11 @@
 
 #include <QScopedValueRollback>
 
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+
 #include <cstddef>
 #include <cstring>
 
@@ -35,6 +40,14 @@ constexpr const char* Shared[] = { "Input", "LatticeDimensions", "Kernel", "Samp
 vtkSMProxy* latticeOf(vtkSMProxy* deformation)
 {
   return vtkSMPropertyHelper(deformation, "Lattice", /*quiet*/ true).GetAsProxy();
+}
+
+// The rigid part of a fit: measured from rest, mm.
+glm::dmat4 rigidOf(vtkSMProxy* fit)
+{
+  fit->UpdatePropertyInformation(fit->GetProperty("Rigid"));
+  const std::vector<double> rows = vtkSMPropertyHelper(fit, "Rigid").GetDoubleArray();
+  return rows.size() == 16 ? glm::transpose(glm::make_mat4(rows.data())) : glm::dmat4(1.0);
 }
 
 void share(vtkSMProxy* deformation, vtkSMProxy* fit)
@@ -74,6 +87,8 @@ FitEditor::FitEditor(pqPipelineSource* source)
   this->OfSource->Connect(
     proxy->GetProperty("Lattice"), vtkCommand::ModifiedEvent, this, SLOT(noticeLattice()));
   this->OfSource->Connect(proxy, vtkCommand::UpdateEvent, this, SLOT(shareSettings()));
+  QObject::connect(pqApplicationCore::instance(), &pqApplicationCore::aboutToWriteState, this,
+    [this] { FitEditor::setLive(this->fit(), false); });
   this->noticeLattice();
 }
 
@@ -109,10 +124,13 @@ std::vector<glm::dvec3> FitEditor::fittedPlaces(const std::vector<glm::dvec3>& r
   vtkSMPropertyHelper(report, "Points")
     .Set(&rest.front().x, static_cast<unsigned int>(3 * rest.size()));
   const std::vector<double> numbers = answerOf(report, "Measured");
+  const glm::dmat4 rigid = rigidOf(proxy);
+  const glm::dmat3 turnedBack = glm::transpose(glm::dmat3(rigid));
   std::vector<glm::dvec3> places;
   for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
   {
-    places.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+    const glm::dvec3 measured(numbers[i], numbers[i + 1], numbers[i + 2]);
+    places.push_back(turnedBack * (measured - glm::dvec3(rigid[3])));
   }
   return places;
 }
@@ -189,6 +207,10 @@ void FitEditor::make()
 void FitEditor::remove()
 {
   const vtkSmartPointer<vtkSMProxy> made = this->fit();
+  if (!made)
+  {
+    return;
+  }
   this->setLattice(nullptr);
   made->GetSessionProxyManager()->UnRegisterProxy(made);
 }
@@ -200,6 +222,7 @@ bool FitEditor::edit(const QString& label, const std::function<void(vtkSMProxy*)
   {
     return false;
   }
+  FitEditor::setLive(this->fit(), false); // no step of undo remembers a hand
   {
     SCOPED_UNDO_SET(label);
     if (!this->fit())
@@ -243,7 +266,8 @@ bool FitEditor::begin(const char* list, const Numbers& underHand)
     this->setLattice(made);
   }
   this->Editing = true;
-  FitEditor::setLive(this->fit(), true);
+  this->UnderHand = this->fit();
+  FitEditor::setLive(this->UnderHand, true);
   Q_EMIT this->editing(true);
   this->change(underHand);
   return true;
@@ -301,7 +325,8 @@ void FitEditor::stopEditing()
 {
   this->Redraw.stop();
   this->Editing = false;
-  FitEditor::setLive(this->fit(), false);
+  FitEditor::setLive(this->UnderHand, false);
+  this->UnderHand = nullptr;
   Q_EMIT this->editing(false);
   Q_EMIT this->changed();
 }

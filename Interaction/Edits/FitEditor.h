@@ -9,6 +9,7 @@
 #include <vtkEventQtSlotConnect.h>
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
+#include <vtkWeakPointer.h>
 
 #include <QObject>
 #include <QString>
@@ -48,7 +49,8 @@ public:
   /// The numbers of a list of the fit, such as "Pulls" or "Pins". None if there is no fit.
   Numbers numbers(const char* list) const;
 
-  /// Where the fit takes tissue at rest (mm), before strokes. As many as `rest`; none if there is
+  /// Where the fit's lattice draws tissue at rest (mm), before strokes and without the rigid part,
+  /// which pulls are measured against as well. As many as `rest`; none if there is
   /// no fit or it failed. It asks the server.
   std::vector<glm::dvec3> fittedPlaces(const std::vector<glm::dvec3>& rest) const;
 
@@ -105,10 +107,11 @@ private:
   pqPipelineSource* Source;
   vtkNew<vtkEventQtSlotConnect> OfSource;
   vtkNew<vtkEventQtSlotConnect> OfFit;
-  QTimer Redraw;     ///< Merges the events of one turn of the event loop.
-  std::string List;  ///< During an edit: the property.
-  Numbers Before;    ///< During an edit: cancel and undo restore them.
-  bool Made = false; ///< During an edit: there was no fit before it.
+  QTimer Redraw;                        ///< Merges the events of one turn of the event loop.
+  std::string List;                     ///< During an edit: the property.
+  Numbers Before;                       ///< During an edit: cancel and undo restore them.
+  vtkWeakPointer<vtkSMProxy> UnderHand; ///< During an edit: the fit.
+  bool Made = false;                    ///< During an edit: there was no fit before it.
   bool Editing = false;
   bool Writing = false; ///< This editor changes something right now.
 };

@@ -90,7 +90,12 @@ LandmarkList::LandmarkList(pqPipelineSource* source)
   this->Soon.setInterval(0);
   this->connect(&this->Soon, &QTimer::timeout, this, &LandmarkList::refresh);
   this->connect(this->Editor, &FitEditor::changed, this, [this] { this->refreshSoon(true); });
-  this->connect(this->Editor, &FitEditor::drawn, this, [this] { this->refreshSoon(false); });
+  this->connect(this->Editor, &FitEditor::drawn, this, [this] {
+    if (!this->Rows.empty())
+    {
+      this->refreshSoon(false);
+    }
+  });
   this->connect(StrokeEditor::of(source), &StrokeEditor::drawn, this, [this] {
     if (!this->Rows.empty())
     {
@@ -276,12 +281,12 @@ void LandmarkList::findDrawn()
   }
 }
 
-void LandmarkList::add(const glm::dvec3& rest, const glm::dvec3& measured)
+bool LandmarkList::add(const glm::dvec3& rest, const glm::dvec3& measured)
 {
   FitEditor::Numbers numbers = this->Editor->numbers("LandmarkPairs");
   numbers.insert(
     numbers.end(), { rest.x, rest.y, rest.z, measured.x, measured.y, measured.z, 1.0 });
-  this->Editor->replace("LandmarkPairs", numbers, tr("Add Landmark Pair"));
+  return this->Editor->replace("LandmarkPairs", numbers, tr("Add Landmark Pair"));
 }
 
 void LandmarkList::setOn(const QList<int>& rows, bool on)

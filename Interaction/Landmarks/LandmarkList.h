@@ -77,7 +77,7 @@ public:
   void showMarks(bool on);
 
   /// Adds a pair: one undo step.
-  void add(const glm::dvec3& rest, const glm::dvec3& measured);
+  bool add(const glm::dvec3& rest, const glm::dvec3& measured);
   /// Lets pairs count, or not: one undo step.
   void setOn(const QList<int>& rows, bool on);
   /// Deletes pairs that were picked: one undo step. Those of the inputs stay.

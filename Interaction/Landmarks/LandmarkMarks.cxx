@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Landmarks/LandmarkMarks.h"
 
+#include "Interaction/Edits/FitEditor.h"
+#include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Landmarks/LandmarkList.h"
 #include "Interaction/Landmarks/LandmarkPicker.h"
 #include "Interaction/Views/ActiveDeformation.h"
@@ -20,6 +22,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -38,6 +41,14 @@ vtkRenderer* rendererOf(pqRenderView* view)
 {
   auto shown = vtkPVRenderView::SafeDownCast(view->getViewProxy()->GetClientSideView());
   return shown ? shown->GetNonCompositedRenderer() : nullptr;
+}
+
+// Whether its editor draws what changes: a picture at full quality would stop the hand.
+bool isUnderHand(pqPipelineSource* source)
+{
+  const StrokeEditor* strokes = StrokeEditor::of(source);
+  const FitEditor* fit = FitEditor::of(source);
+  return (strokes && strokes->isEditing()) || (fit && fit->isEditing());
 }
 
 // The slice that a 2D view shows. In other views everything is near.
@@ -204,6 +215,8 @@ void LandmarkMarks::place(pqRenderView* view)
 void LandmarkMarks::refresh()
 {
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  const QList<pqPipelineSource*> sources = model->findItems<pqPipelineSource*>();
+  const bool underHand = std::any_of(sources.begin(), sources.end(), isUnderHand);
   for (pqRenderView* view : model->findItems<pqRenderView*>())
   {
     const auto timeOf = [&] {
@@ -212,7 +225,7 @@ void LandmarkMarks::refresh()
     };
     const vtkMTimeType before = timeOf();
     this->place(view);
-    if (timeOf() != before)
+    if (timeOf() != before && !underHand)
     {
       view->render();
     }

@@ -9,6 +9,8 @@
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
 #include <pqServerManagerModel.h>
+#include <vtkSMProxy.h>
+#include <vtkSMSession.h>
 
 #include <QApplication>
 #include <QKeyEvent>
@@ -37,6 +39,12 @@ bool isTyping()
   QWidget* focus = QApplication::focusWidget();
   return focus && focus->testAttribute(Qt::WA_InputMethodEnabled);
 }
+
+// Whether the pipeline runs right now. ParaView 6.1 lets timers run meanwhile.
+bool isExecuting(pqPipelineSource* source)
+{
+  return source && source->getProxy()->GetSession()->GetPendingProgress();
+}
 }
 
 Pointer* Pointer::instance()
@@ -55,7 +63,9 @@ Pointer::Pointer(QObject* parent)
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
   // Nothing of a source or a view may stay in hand when it goes.
   QObject::connect(model, &pqServerManagerModel::preSourceRemoved, this, &Pointer::forget);
-  QObject::connect(model, &pqServerManagerModel::preServerRemoved, this, [this] { this->close(); });
+  // Before any proxy goes: a trace that ends makes some.
+  QObject::connect(
+    model, &pqServerManagerModel::aboutToRemoveServer, this, [this] { this->close(); });
   QObject::connect(model, &pqServerManagerModel::preViewRemoved, this, [this](pqView* view) {
     if (auto render = qobject_cast<pqRenderView*>(view))
     {
@@ -69,9 +79,10 @@ Pointer::~Pointer() = default;
 
 void Pointer::forget(pqPipelineSource* source)
 {
-  if (isDeformation(source) && this->Trace.isRecording())
+  if (this->Trace.isRecording() && source == this->Trace.deformation())
   {
-    this->record(false);
+    this->Trace.abandon(); // nothing may be made for what goes
+    this->Drawing.setTrace({});
   }
   this->Cortex.forget();
 }
@@ -89,12 +100,15 @@ QString Pointer::replay(const QString& path)
   {
     return QString::fromStdString(problem) + ".";
   }
-  if (session.placement)
-  {
-    this->Registration.take({ session.placement->rotation, session.placement->translation });
-  }
+  const std::optional<Placement> placement = session.placement;
   this->start(std::make_unique<Replay>(std::move(session)));
   this->Replayed = true;
+  this->Recorded.placement = placement;
+  this->Own = std::exchange(this->Registration, {}); // the live tracker gets it back
+  if (placement)
+  {
+    this->Registration.take({ placement->rotation, placement->translation });
+  }
   return {};
 }
 
@@ -105,6 +119,7 @@ void Pointer::start(std::unique_ptr<PoseSource> source)
   this->State = this->Source->state();
   this->Replayed = false;
   this->Recorded = {};
+  this->Last.clear();
   this->Draining.start();
   qApp->installEventFilter(this);
   Q_EMIT this->changed();
@@ -160,11 +175,20 @@ void Pointer::drain()
     {
       this->Trace.add(placed.apply(pose.tip));
     }
+    this->Last.push_back(pose);
+    while (this->Last.front().seconds < pose.seconds - TouchSeconds)
+    {
+      this->Last.pop_front();
+    }
     if (this->Recorded.poses.size() < MostPoses)
     {
       this->Recorded.poses.push_back(pose);
     }
     this->Newest = pose;
+  }
+  if (isExecuting(activeDeformation()))
+  {
+    return; // the poses are kept, and the next turn draws
   }
   if (!this->SinceDrawn.isValid() || this->SinceDrawn.elapsed() >= DrawEachMs)
   {
@@ -178,12 +202,15 @@ void Pointer::drain()
     this->record(false);
     qApp->removeEventFilter(this);
     this->show();
+    this->Drawing.leaveAll();
+    this->Cortex.forget();
   }
 }
 
 void Pointer::place()
 {
-  if (!this->Newest || !this->State.visible || !this->isOpen())
+  if (!this->Newest || !this->State.visible || !this->isOpen() ||
+    this->age().value_or(0.0) > OldSeconds)
   {
     this->Tip.reset();
     this->Distance.reset();
@@ -219,8 +246,7 @@ QString Pointer::touch()
 {
   glm::dvec3 mean(0.0);
   std::vector<glm::dvec3> tips;
-  const std::vector<Pose>& poses = this->Recorded.poses;
-  for (auto pose = poses.rbegin(); pose != poses.rend() && this->Source; ++pose)
+  for (auto pose = this->Last.rbegin(); pose != this->Last.rend() && this->Source; ++pose)
   {
     if (pose->seconds < this->Source->now() - TouchSeconds)
     {
@@ -272,7 +298,7 @@ QString Pointer::record(bool on)
 QString Pointer::saveSession(const QString& path) const
 {
   Session session = this->Recorded;
-  if (this->Registration.isRegistered())
+  if (!this->Replayed && this->Registration.isRegistered())
   {
     const RigidPose& placed = this->Registration.imageFromTracker();
     session.placement = Placement{ placed.rotation, placed.translation };
@@ -305,7 +331,7 @@ bool Pointer::eventFilter(QObject* watched, QEvent* event)
   }
   else if (!key->isAutoRepeat())
   {
-    this->record(type == QEvent::KeyPress);
+    Q_EMIT this->told(this->record(type == QEvent::KeyPress));
   }
   return true;
 }

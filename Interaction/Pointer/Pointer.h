@@ -16,6 +16,7 @@
 #include <QObject>
 #include <QTimer>
 
+#include <deque>
 #include <memory>
 #include <optional>
 
@@ -28,6 +29,9 @@ class Pointer : public QObject
   Q_OBJECT
 
 public:
+  /// After so many seconds a pose is old: trackers send 20 a second or more. No tip is shown then.
+  static constexpr double OldSeconds = 0.5;
+
   /// The pointer of this window; it goes when the application quits.
   static Pointer* instance();
   ~Pointer() override;
@@ -77,6 +81,8 @@ public:
 Q_SIGNALS:
   /// Something that the panel shows is new.
   void changed();
+  /// What the key that records did: one sentence if it could not, else empty.
+  void told(const QString& problem);
 
 private:
   explicit Pointer(QObject* parent);
@@ -96,6 +102,8 @@ private:
   std::optional<double> Distance;
   std::optional<double> Threshold;
   TrackerRegistration Registration;
+  std::optional<TrackerRegistration> Own; ///< During a replay: that of the live tracker.
+  std::deque<Pose> Last;                  ///< Those that a touch takes the mean of.
   PointerTrace Trace;
   TipDistance Cortex;
   TipDrawing Drawing;

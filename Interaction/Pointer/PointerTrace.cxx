@@ -136,8 +136,9 @@ void PointerTrace::add(const glm::dvec3& tip)
   }
 }
 
-// Makes what is missing, and sets the points.
-void PointerTrace::write(const QString& label)
+// Makes what is missing, and sets the points. `forNow`: the fit that the trace made for a while; a
+// hand may have pulled and pinned on it.
+void PointerTrace::write(const QString& label, vtkSMProxy* forNow)
 {
   const vtkSmartPointer<vtkSMProxy> source = this->traces();
   FitEditor::of(this->Deformation)->edit(label, [&](vtkSMProxy* fit) {
@@ -146,7 +147,11 @@ void PointerTrace::write(const QString& label)
       setPoints(source, this->Points);
       return;
     }
-    if (!this->HadFit)
+    if (forNow)
+    {
+      fit->Copy(forNow);
+    }
+    else if (!this->HadFit)
     {
       vtkSMProxy* from = cortexOf(this->Deformation);
       setCortex(fit, from == fit ? nullptr : from, this->Threshold);
@@ -206,6 +211,17 @@ void PointerTrace::restore()
   source->GetSessionProxyManager()->UnRegisterProxy(source);
 }
 
+pqPipelineSource* PointerTrace::deformation() const
+{
+  return this->Deformation;
+}
+
+void PointerTrace::abandon()
+{
+  this->Recording = false;
+  FitEditor::setLive(this->Deformation ? fitOf(this->Deformation) : nullptr, false);
+}
+
 void PointerTrace::end()
 {
   if (!this->Recording)
@@ -216,8 +232,9 @@ void PointerTrace::end()
   FitEditor::setLive(this->Deformation ? fitOf(this->Deformation) : nullptr, false);
   if (this->Deformation && this->Points.size() > this->Before.size())
   {
+    const vtkSmartPointer<vtkSMProxy> forNow = this->HadFit ? nullptr : fitOf(this->Deformation);
     this->restore();
-    this->write(tr("Record Trace"));
+    this->write(tr("Record Trace"), forNow);
   }
 }
 }

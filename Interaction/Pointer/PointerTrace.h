@@ -32,6 +32,11 @@ public:
   /// Ends the trace. Without a point nothing changes.
   void end();
 
+  /// Ends the trace and changes nothing: its deformation goes.
+  void abandon();
+
+  /// What the trace bends; null if it is gone.
+  pqPipelineSource* deformation() const;
   bool isRecording() const { return this->Recording; }
   /// All points, three numbers each, those of before included.
   const std::vector<double>& points() const { return this->Points; }
@@ -39,7 +44,7 @@ public:
 
 private:
   vtkSmartPointer<vtkSMProxy> traces() const; // the point source; null if there is none
-  void write(const QString& label);
+  void write(const QString& label, vtkSMProxy* forNow = nullptr);
   void restore();
 
   QPointer<pqPipelineSource> Deformation;

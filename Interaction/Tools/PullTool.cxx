@@ -140,10 +140,15 @@ void PullTool::pin(const glm::dvec3& rest, double radius)
 {
   std::vector<Pin> pins = pinsFrom(this->Bench.fit.numbers("Pins"));
   const std::size_t place = nearest(pins, rest, radius);
-  const bool isThere = place < pins.size();
+  const bool isNear = place < pins.size();
+  const bool isThere = isNear && pins[place].enabled;
   if (isThere)
   {
     pins.erase(pins.begin() + static_cast<std::ptrdiff_t>(place));
+  }
+  else if (isNear) // switched off: nobody sees it
+  {
+    pins[place] = { rest, true };
   }
   else
   {
@@ -178,8 +183,13 @@ bool PullTool::press(const HandEvent& event)
     this->List.push_back({ *rest, fitted.empty() ? *rest : fitted.front(), 1.0 }); // strokes on top
   }
   Pull& pull = this->List[this->Place];
-  pull.weight = pull.weight > 0.0 ? pull.weight : 1.0;
+  if (!(pull.weight > 0.0)) // switched off: the tissue lies where the others put it
+  {
+    const std::vector<glm::dvec3> fitted = this->Bench.fit.fittedPlaces({ pull.rest });
+    pull = { pull.rest, fitted.empty() ? pull.rest : fitted.front(), 1.0 };
+  }
   this->From = pull.target;
+  this->Begun = false;
   this->Held = { *spot, pixelOf(event) };
   return true;
 }
@@ -192,6 +202,11 @@ void PullTool::drag(const HandEvent& event)
       glm::distance(pixelOf(event), this->Held->pixel) <
         LeastPixels * this->Bench.probe.screenScale()))
   {
+    return;
+  }
+  if (this->Begun && !fit.isEditing())
+  {
+    this->Held.reset(); // undo or a script came first: what they want stands
     return;
   }
   const glm::dvec3 moved = this->pulled(*this->Held, pixelOf(event));
@@ -217,7 +232,7 @@ void PullTool::drag(const HandEvent& event)
   }
   else
   {
-    fit.begin("Pulls", numbers);
+    this->Begun = fit.begin("Pulls", numbers);
   }
 }
 

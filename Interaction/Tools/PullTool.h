@@ -45,6 +45,7 @@ private:
   std::optional<Grip> Held; ///< During a drag: in the deformed frame, before it.
   std::vector<Pull> List;   ///< During a drag: all pulls.
   std::size_t Place = 0;    ///< During a drag: that under the hand.
+  bool Begun = false;       ///< During a drag: the fit is being edited.
   glm::dvec3 From{ 0.0 };   ///< During a drag: its target before it.
 };
 }

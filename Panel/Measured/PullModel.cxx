@@ -169,8 +169,7 @@ QVariant PullModel::headerData(int section, Qt::Orientation orientation, int rol
   static const char* const tips[ColumnCount] = {
     QT_TR_NOOP("A pull or a pin. The check mark switches it on."),
     QT_TR_NOOP("How far the hand took the tissue from where it was in the scan (mm)"),
-    QT_TR_NOOP("How far from there the fit leaves the tissue (mm). Pulls, pins and all that was "
-               "measured are solved together, so that none is met to the last tenth."),
+    QT_TR_NOOP("How far from there the fit leaves the tissue (mm). All is solved together."),
     QT_TR_NOOP("How far the pull is trusted: 1 as usual, 4 twice as closely"),
     QT_TR_NOOP("Where the tissue was in the scan: x, y, z (mm, world axes)"),
   };

@@ -96,6 +96,10 @@ void PullsPane::update()
   {
     this->Pulls->show(
       { pullsFrom(this->Editor->numbers("Pulls")), pinsFrom(this->Editor->numbers("Pins")) });
+    if (this->Editor->isEditing())
+    {
+      this->Pulls->setPlaces({}); // those of a moment ago: nothing is missed by that
+    }
     this->refresh();
   }
 }

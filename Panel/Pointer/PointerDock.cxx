@@ -89,6 +89,7 @@ PointerDock::PointerDock(QWidget* parent)
   this->Soon.setSingleShot(true);
   this->Soon.setInterval(ShowEachMs);
   this->connect(&this->Soon, &QTimer::timeout, this, &PointerDock::showState);
+  this->connect(Pointer::instance(), &Pointer::told, this, &PointerDock::tell);
   this->connect(Pointer::instance(), &Pointer::changed, this, [this] {
     if (!this->Soon.isActive())
     {
@@ -238,12 +239,12 @@ void PointerDock::turn()
 
 void PointerDock::save()
 {
-  QString path =
-    QFileDialog::getSaveFileName(this, tr("Save Session"), {}, tr("Pointer sessions (*.txt)"));
-  if (!path.isEmpty())
+  QFileDialog dialog(this, tr("Save Session"), {}, tr("Pointer sessions (*.txt)"));
+  dialog.setAcceptMode(QFileDialog::AcceptSave); // it asks before it replaces a file
+  dialog.setDefaultSuffix(QStringLiteral("txt"));
+  if (dialog.exec() == QDialog::Accepted)
   {
-    path += path.endsWith(".txt") ? "" : ".txt";
-    this->tell(Pointer::instance()->saveSession(path));
+    this->tell(Pointer::instance()->saveSession(dialog.selectedFiles().front()));
   }
 }
 

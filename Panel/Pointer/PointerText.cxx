@@ -12,7 +12,6 @@ namespace brainshift
 {
 namespace
 {
-constexpr double OldSeconds = 0.5; // trackers send 20 poses a second or more
 
 QString tr(const char* text)
 {
@@ -21,7 +20,7 @@ QString tr(const char* text)
 
 bool isOld(const Pointer& pointer)
 {
-  return pointer.age().value_or(0.0) > OldSeconds;
+  return pointer.age().value_or(0.0) > Pointer::OldSeconds;
 }
 
 QString sentence(const std::string& problem)
@@ -105,7 +104,7 @@ QString distanceText(const Pointer& pointer)
   {
     return pointer.distanceProblem().isEmpty() ? tr("no cortex here") : pointer.distanceProblem();
   }
-  const double distance = *pointer.distance();
+  const double distance = pointer.distance().value_or(0.0);
   return tr(distance < 0.0 ? "%1 mm inside" : "%1 mm outside").arg(std::abs(distance), 0, 'f', 1);
 }
 
@@ -115,7 +114,7 @@ QString placeText(const Pointer& pointer)
   {
     return {};
   }
-  const glm::dvec3& tip = *pointer.tip();
+  const glm::dvec3 tip = pointer.tip().value_or(glm::dvec3(0.0));
   return tr("Tip at %1 %2 %3 mm").arg(tip.x, 0, 'f', 1).arg(tip.y, 0, 'f', 1).arg(tip.z, 0, 'f', 1);
 }
 }

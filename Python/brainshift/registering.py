@@ -11,6 +11,7 @@ _SIMILARITIES = ("auto", "same contrast", "ultrasound")
 #: middle of what is compared then moves a little farther than that of the reference.
 _FARTHEST_SHIFT = 24.0  # mm
 _FARTHEST_TURN = 17.0  # degrees
+_LEAST_OVERLAP = 0.25  # of the volume within the reference, as in Filters/Register/Alignment.cxx
 
 
 class _Run:
@@ -154,6 +155,9 @@ def align(compare, callback=None):
     result = Alignment()
     run.steps(result, callback)
     result.matrix = numpy.array(run.answer("Motion")).reshape(4, 4)
+    if result.compared < _LEAST_OVERLAP:
+        raise ValueError(f"{100 * result.compared:.0f} % of the volume lies within the reference; "
+                         "at least 25 % must. Move the reference closer first")
     _place(compare, result.matrix)
     result.rotation = numpy.array(compare.ReferenceRotation)
     result.translation = numpy.array(compare.ReferenceTranslation)
@@ -164,6 +168,14 @@ def align(compare, callback=None):
     return result
 
 
+def _shows(compare, bent):
+    """Whether a source is made from another one, through any number of filters."""
+    source = compare
+    while source is not None and source.SMProxy is not bent.SMProxy:
+        source = getattr(source, "Input", None)
+    return source is not None
+
+
 def _compared(bent, reference, cavity):
     """A Compare Volumes of the two, and whether it was made for this."""
     from paraview import simple
@@ -171,6 +183,8 @@ def _compared(bent, reference, cavity):
     if is_kind(reference, "CompareVolumes"):
         if cavity is not None:
             raise ValueError("cavity is given, but the Compare Volumes has its own; set it there")
+        if not _shows(reference, bent):
+            raise ValueError("the Compare Volumes does not show this deformation")
         return reference, False
     values = {} if cavity is None else {"Cavity": cavity}
     return simple.CompareVolumes(Input=bent, Reference=reference, **values), True
@@ -237,6 +251,8 @@ def refine(filter, reference, similarity="auto", stiffness=1.0, cavity=None, cal
         if made:
             simple.Delete(compare)
         simple.SetActiveSource(active)
+    if result.compared == 0.0:
+        raise ValueError("the volumes have nothing in common to compare; nothing was changed")
     changes = numpy.linalg.norm(after - before, axis=1)
     result.largest_change, result.mean_change = float(changes.max()), float(changes.mean())
     result.strokes = tuple(filter.Strokes)

@@ -22,7 +22,8 @@ constexpr float UnknownMm = 1e4f;
 
 constexpr const char* NoEvidence =
   "Show Evidence is on, but the volume carries no evidence: its Lattice must be a Fit Deformation "
-  "that has Evidence on and the same LatticeDimensions. Nothing is marked";
+  "that has Evidence on and the same LatticeDimensions, Kernel, Samples and mask. Nothing is "
+  "marked";
 }
 
 bool EvidenceTexture::update(GpuTask& gpu, const SceneDeformation& deformation,

@@ -32,6 +32,7 @@ LevelVolumes level(double contrast = 1.0)
 std::vector<glm::vec3> alongAxes(const Lattice& lattice)
 {
   std::vector<glm::vec3> result;
+  result.reserve(lattice.displacements.size());
   for (const glm::vec3& d : lattice.displacements)
   {
     result.push_back(glm::vec3(glm::transpose(lattice.grid.direction) * glm::dvec3(d)));

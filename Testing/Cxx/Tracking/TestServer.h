@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -181,8 +182,11 @@ public:
     address.sin_family = AF_INET;
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     socklen_t size = sizeof(address);
-    bind(this->Listening, reinterpret_cast<sockaddr*>(&address), size);
-    listen(this->Listening, 4);
+    const int bound = bind(this->Listening, reinterpret_cast<sockaddr*>(&address), size);
+    if (bound != 0 || listen(this->Listening, 4) != 0)
+    {
+      throw std::runtime_error("No port is free on the loopback");
+    }
     getsockname(this->Listening, reinterpret_cast<sockaddr*>(&address), &size);
     this->Port = ntohs(address.sin_port);
     this->Thread = std::thread([this] { this->run(); });
