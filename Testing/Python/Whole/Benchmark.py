@@ -73,7 +73,8 @@ def test_every_comparison_is_there():
     assert set(rows_of("traces, points change", window=WINDOWS[1])) == TRACES
     assert set(rows_of("traces, distances", window=WINDOWS[1])) == {"Trace Distance after a stroke"}
     assert set(rows_of("fit")) == {"16 landmarks", "one of 30 pulls moved",
-                                   "300 traces, 250 anchors", "10000 traces"}
+                                   "300 traces, 250 anchors", "10000 traces",
+                                   "300 traces, 250 anchors, a pull held by a hand"}
     assert set(rows_of("long session")) == {
         "a stroke is added", "the last stroke is taken back", "the tenth last stroke is changed",
         "the last stroke is taken back, replay alone"}
