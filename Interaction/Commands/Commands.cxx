@@ -121,8 +121,6 @@ std::vector<CommandRow> pullRows()
         "Pin the tissue under the cursor: it stays where the volume as loaded has it. A click on a "
         "pin removes the pin."),
       QT_TRANSLATE_NOOP("BrainShift", "pin what must stay")),
-    byKey(Command::PinByKey, Scope::Tool, { ToolKind::Pull }, { Qt::SHIFT | Qt::Key_Space },
-      QT_TRANSLATE_NOOP("BrainShift", "Pin the tissue under the cursor, or remove its pin.")),
   };
 }
 
@@ -143,6 +141,8 @@ std::vector<CommandRow> handRows()
       QT_TRANSLATE_NOOP("BrainShift",
         "Take hold of what lies under the cursor, as a mouse button does. Drag it with Left, "
         "Right, Up and Down. Press the key again to let go.")),
+    byKey(Command::PinByKey, Scope::Tool, { ToolKind::Pull }, { Qt::SHIFT | Qt::Key_Space },
+      QT_TRANSLATE_NOOP("BrainShift", "Pin the tissue under the cursor, or remove its pin.")),
     byKey(Command::SelectByKey, Scope::Tool, { ToolKind::Move }, { Qt::SHIFT | Qt::Key_Space },
       QT_TRANSLATE_NOOP(
         "BrainShift", "Select one more control point, or deselect a selected control point.")),

@@ -271,7 +271,7 @@ void LandmarkList::findDrawn()
   {
     this->Report = makeReport(this->Source->getProxy(), "LatticeReport");
     pointAt(this->Report, "Filter", this->Source->getProxy());
-    setNumbers(this->Report, "ToRest", { 0.0 });
+    vtkSMPropertyHelper(this->Report, "ToRest").Set(0);
   }
   setNumbers(this->Report, "Places", places);
   const std::vector<double> drawn = answerOf(this->Report, "SameTissue");
