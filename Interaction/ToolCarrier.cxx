@@ -84,7 +84,10 @@ void ToolCarrier::followApplication()
 {
   const auto soon = [this] { this->Refresh.start(); };
   pqActiveObjects* active = &pqActiveObjects::instance();
-  QObject::connect(ToolSettings::instance(), &ToolSettings::changed, this, soon);
+  QObject::connect(ToolSettings::instance(), &ToolSettings::changed, this, [this, soon] {
+    // A press that follows a key at once must find the tool that the key took.
+    ToolSettings::instance()->tool() != this->Wanted ? this->refresh() : soon();
+  });
   QObject::connect(
     ToolSettings::instance(), &ToolSettings::switchWanted, this, [this] { this->Other.take(); });
   QObject::connect(active, &pqActiveObjects::viewChanged, this, [this](pqView* view) {
@@ -172,6 +175,7 @@ void ToolCarrier::putDown()
 void ToolCarrier::refresh()
 {
   ToolSettings* settings = ToolSettings::instance();
+  this->Wanted = settings->tool();
   pqRenderView* view = this->Under
     ? this->Under.data()
     : qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());

@@ -88,8 +88,9 @@ private:
   std::unique_ptr<ViewProbe> Probe;
   std::unique_ptr<HandTool> Tool;
   ToolKind ToolInHand = ToolKind::None;
-  QTimer Refresh; ///< Merges events that may have changed something.
-  QTimer Settle;  ///< Ends a burst of wheel clicks.
+  ToolKind Wanted = ToolKind::None; ///< Chosen; without a deformation it is not in hand.
+  QTimer Refresh;                   ///< Merges events that may have changed something.
+  QTimer Settle;                    ///< Ends a burst of wheel clicks.
   bool Holding = false;
   bool HeldByKey = false; ///< And not by a mouse button.
   bool Dropped = false;   ///< The button is still down after Escape.

@@ -3,6 +3,7 @@
 "bent", its strokes, steps of undo, and a file for what did not hold."""
 import json
 import os
+import time
 import traceback
 
 import brainshift
@@ -97,6 +98,14 @@ def edit(name, *tools):
     """Undo or Redo; then there are strokes of these tools."""
     action(name)
     assert [stroke[0] for stroke in strokes()] == list(tools), strokes()
+
+
+def until(holds, what):
+    """Lets the window work until something holds, for 30 seconds at most."""
+    end = time.monotonic() + 30.0
+    while not holds():
+        assert time.monotonic() < end, f"never: {what}"
+        hand.wait(20)
 
 
 def settle(label):

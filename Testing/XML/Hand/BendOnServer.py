@@ -84,13 +84,14 @@ def drag(bent, view, display, tool, kind):
         hand.drag_to([start[0] + step, start[1] + step])
         hand.wait(50)
     assert len(strokes()) == 1 and strokes()[0][0] == number, (tool, kind, strokes())
-    assert brainshift.counters(display)["latticeUploads"] > drawn, "the server draws it meanwhile"
+    window.until(lambda: brainshift.counters(display)["latticeUploads"] > drawn,
+                 f"the server draws {kind} while tool {tool} drags")
     hand.release([start[0] + 15, start[1] + 15])
-    hand.wait(100)
     if kind == "Deformed Slices":
         assert abs(strokes()[0][6]) < 1e-5, strokes()
-    assert bent.MaximumDisplacement > 0, bent.MaximumDisplacement
+    window.until(lambda: bent.MaximumDisplacement > 0, f"tool {tool} bends {kind}: {strokes()}")
     window.edit("Undo")
+    window.until(lambda: bent.MaximumDisplacement == 0, f"undo of tool {tool} in {kind}")
 
 
 def pull_and_pin():
@@ -109,21 +110,22 @@ def pull_and_pin():
     for step in (5, 10, 15):
         hand.drag_to([start[0] + step, start[1] + step])
         hand.wait(50)
-    assert brainshift.counters(display)["latticeUploads"] > drawn, "the server draws it meanwhile"
+    window.until(lambda: brainshift.counters(display)["latticeUploads"] > drawn,
+                 "the server draws the pull meanwhile")
     hand.release([start[0] + 15, start[1] + 15])
-    hand.wait(300)
     pull = numpy.array(bent.Lattice.Pulls)
-    assert len(pull) == 7 and bent.MaximumDisplacement > 0, pull
-    place = brainshift.deformed_from_rest(bent, [pull[:3].tolist()])[0]
+    assert len(pull) == 7, pull
     asked = numpy.linalg.norm(pull[3:6] - pull[:3])
-    assert numpy.linalg.norm(place - pull[3:6]) < 0.2 * asked, (place, pull)
-    assert hand.is_visible("BrainShiftPulls")
+
+    def missed():
+        return brainshift.deformed_from_rest(bent, [pull[:3].tolist()])[0] - pull[3:6]
+    window.until(lambda: numpy.linalg.norm(missed()) < 0.2 * asked, f"tissue follows {pull}")
+    window.until(lambda: hand.is_visible("BrainShiftPulls"), "the panel lists the pull")
     other = [side // 2 - 25 for side in view.ViewSize]
     hand.hover(other, hand.SHIFT)
     hand.press(other, hand.SHIFT)
     hand.release(other, hand.SHIFT)
-    hand.wait(200)
-    assert len(bent.Lattice.Pins) == 4, bent.Lattice.Pins
+    window.until(lambda: len(bent.Lattice.Pins) == 4, "Shift+click pins")
     bent.Lattice = None
     simple.Render(view)
     hand.wait(100)
