@@ -177,6 +177,7 @@ std::string CortexSource::find(const Request& request)
   if (scalars != this->Scalars || scalars->GetMTime() != this->ScalarsTime ||
     grid != this->ScalarsGrid || request.isLabel != this->IsLabel || request.level != this->Level)
   {
+    ++this->Version;
     this->Cortex = RestCortex(request.isLabel
         ? TissueRegion{ grid, maskOfLabel(scalars, static_cast<int>(request.level)), 0.5 }
         : TissueRegion{ grid, scalars, request.level });

@@ -17,6 +17,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -77,8 +78,12 @@ public:
   /** Without a cortex it is empty. */
   const RestCortex& cortex() const { return this->Cortex; }
 
+  /** Counts the cortices that were found: another number is another cortex. */
+  std::uint64_t version() const { return this->Version; }
+
 private:
   RestCortex Cortex;
+  std::uint64_t Version = 0;
   vtkSmartPointer<vtkDataArray> Scalars; // that the cortex was found in, as of ScalarsTime
   unsigned long long ScalarsTime = 0;
   Grid ScalarsGrid;

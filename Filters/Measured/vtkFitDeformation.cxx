@@ -11,6 +11,7 @@
 #include "Filters/Fit/Anchors.h"
 #include "Filters/Fit/FittedLattice.h"
 #include "Filters/Fit/LatticeEvidence.h"
+#include "Filters/Measured/AnchorChoice.h"
 #include "Filters/Measured/EvidenceArray.h"
 #include "Filters/Measured/FitLandmarks.h"
 #include "Filters/Measured/FitWords.h"
@@ -67,6 +68,7 @@ vtkDoubleArray* filled(vtkDoubleArray* array, const std::vector<double>& values)
 struct vtkFitDeformation::State
 {
   CortexSource Cortex;
+  AnchorChoice Chosen;
   CavitySource CavityInput;
   MaskSource Masks;
   Measurements Measured;
@@ -263,7 +265,6 @@ std::string vtkFitDeformation::FindAnchors(vtkInformationVector** inputs)
   {
     return problem;
   }
-  const std::vector<SurfacePoint>& surface = state.Cortex.cortex().points();
   if (openingImage)
   {
     Mask opening;
@@ -271,9 +272,11 @@ std::string vtkFitDeformation::FindAnchors(vtkInformationVector** inputs)
       { "opening", "volume", "labels" });
     if (problem.empty())
     {
-      const NearMask near(opening, AnchorMarginMm);
-      measured.anchors =
-        chooseAnchors(surface, [&](const glm::dvec3& rest) { return near.holds(rest); });
+      const auto makeIsOpen = [&opening]() -> AnchorChoice::IsOpen {
+        return [near = NearMask(opening, AnchorMarginMm)](
+                 const glm::dvec3& rest) { return near.holds(rest); };
+      };
+      measured.anchors = state.Chosen.beside(openingImage->GetMTime(), makeIsOpen, state.Cortex);
     }
     return problem;
   }
@@ -291,9 +294,7 @@ std::string vtkFitDeformation::FindAnchors(vtkInformationVector** inputs)
     }
     ball = ballAround(open);
   }
-  measured.anchors = chooseAnchors(surface, [&](const glm::dvec3& rest) {
-    return glm::distance(rest, ball.centre) < ball.radiusMm + AnchorMarginMm;
-  });
+  measured.anchors = state.Chosen.beside(ball, state.Cortex);
   return {};
 }
 

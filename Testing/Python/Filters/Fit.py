@@ -9,6 +9,7 @@ from brainshift_testing import (assert_says, ball, load_plugin, messages, output
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from paraview import simple  # noqa: E402
+from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
 
 SIDE = 61
 SPACING = 2.5  # mm
@@ -308,6 +309,40 @@ def test_an_opening_that_is_cropped_has_its_margin():
         return fit.filter.GetPropertyValue("AnchorCount")
     counts = anchors(whole[box], (26, 26, top - 4)), anchors(whole)
     assert counts[0] == counts[1] > 100, counts
+
+
+def test_anchors_follow_cortex_and_opening():
+    """A filter that was changed has the lattice of one that never had other settings."""
+    mask = numpy.zeros((SIDE,) * 3, numpy.uint8)
+    mask[44:54, 20:40, 20:40] = 1
+    first = volume(mask, spacing=(SPACING,) * 3)
+    other = volume(numpy.roll(mask, 10, axis=1), spacing=(SPACING,) * 3)
+    under = on_ball(3000)
+    under = under[numpy.linalg.norm(under - TOP, axis=1) < OPENING]
+    voxels = ball(side=SIDE, radius=RADIUS / SPACING) + 0.2 * ball(side=SIDE, radius=20.0)
+    bent = simple.FreeFormDeformation(Input=volume(voxels, spacing=(SPACING,) * 3))
+
+    def fitted():
+        return brainshift.fit(bent, traces=sunk(under), threshold=50.0).filter
+
+    def lattice(of):
+        of.UpdatePipeline()
+        return vtk_to_numpy(output(of).GetPointData().GetArray(0)).copy()
+    changed, seen = fitted(), []
+    settings = {}
+    for more in ({}, {"OpeningCentre": list(TOP), "OpeningRadius": 50.0}, {"OpeningRadius": 35.0},
+                 {"OpeningCentre": list(TOP + 20.0)}, {"Opening": first}, {"Opening": other},
+                 {"Threshold": 110.0}):
+        settings.update(more)
+        fresh = fitted()
+        for name, value in more.items():
+            setattr(changed, name, value)
+        for name, value in settings.items():
+            setattr(fresh, name, value)
+        seen.append(lattice(changed))
+        assert numpy.array_equal(seen[-1], lattice(fresh)), more
+    for before, after in zip(seen, seen[1:]):
+        assert abs(after - before).max() > 0.001, "a setting of this test changes nothing"
 
 
 def test_voxels_that_are_no_number_hold_no_cortex():
