@@ -116,8 +116,25 @@ def case_fit(width):
     return made
 
 
+def evidence(width):
+    """How far a fit of the trace can be believed, in a slice and on the cortex."""
+    side = width // 2
+    case = patient()
+    case_study.fit_to_trace(case).filter.Evidence = 1
+    flat = stage.flat_view(side, case_study.CAVITY_CENTRE + FOCUS, 75.0)
+    stage.show_slices(case.bent, flat, array="Brain", position=case_study.CAVITY_CENTRE,
+                      white=case_study.WHITE).ShowEvidence = 1
+    cortex = case_study.show_trace(case.bent, case.measure, side)
+    simple.GetDisplayProperties(case.measure, cortex).SetScalarBarVisibility(cortex, False)
+    simple.Hide(case.measure, cortex)
+    simple.GetDisplayProperties(case.bent, cortex).ShowEvidence = 1
+    made = stage.side_by_side([flat, cortex])
+    case.straighten()
+    return made
+
+
 COMPARISON_SCENES = {
     "filter-compare-volumes": compare_volumes, "tool-flicker": flicker,
     "filter-trace-distance": trace_distance, "representation-trace-points": trace_points,
     "case-study-before": case_before, "case-study-after": case_after,
-    "case-study-fit": case_fit}
+    "case-study-fit": case_fit, "filter-fit-deformation-evidence": evidence}

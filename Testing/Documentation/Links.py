@@ -33,7 +33,7 @@ def test_the_check_sees_a_broken_link():
 def test_every_picture_is_shown():
     shown = {(document.parent / link).resolve()
              for document in documents() for link in links_of(document) if link.endswith(".png")}
-    pictures = set((PAGES / "pictures").glob("*.png"))
+    pictures = set((PAGES / "pictures").rglob("*.png"))
     assert pictures <= shown, f"shown nowhere: {sorted(pictures - shown)}"
 
 
