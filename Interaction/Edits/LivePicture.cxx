@@ -19,8 +19,6 @@
 
 namespace brainshift
 {
-namespace
-{
 // The picture for now; the one at full quality follows when the stroke is done.
 void drawRoughly(pqView* view)
 {
@@ -43,7 +41,6 @@ void drawRoughly(pqView* view)
   {
     view->render();
   }
-}
 }
 
 void drawMoving(pqPipelineSource* source, vtkSMProxy* measured)

@@ -5,6 +5,7 @@
 #define BrainShift_LivePicture_h
 
 class pqPipelineSource;
+class pqView;
 class vtkSMProxy;
 
 namespace brainshift
@@ -12,6 +13,9 @@ namespace brainshift
 /// Draws all views that show a source, at the quality of a moving picture. The source's proxy and
 /// `measured` (null: none) announce no new data. The undo stack sees nothing.
 void drawMoving(pqPipelineSource* source, vtkSMProxy* measured = nullptr);
+
+/// Draws a view at the quality of a moving picture. What the last picture holds is not cast anew.
+void drawRoughly(pqView* view);
 
 /// Lets all views that show a source draw it soon, at full quality.
 void drawFully(pqPipelineSource* source);

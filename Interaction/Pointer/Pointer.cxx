@@ -223,6 +223,7 @@ void Pointer::place()
   pqPipelineSource* deformation = activeDeformation();
   const bool applied = deformation && deformation->modifiedState() != pqProxy::UNINITIALIZED;
   this->Distance = applied ? this->Cortex.of(deformation, tip, this->threshold()) : std::nullopt;
+  this->Drawing.setBending(this->Trace.isRecording());
   // Nothing but the drawing of the shaft depends on this axis.
   this->Drawing.show(tip, glm::normalize(placed.rotation * this->Newest->rotation[2]));
 }
@@ -235,8 +236,8 @@ void Pointer::show()
     this->SinceBent.start();
     this->Trace.bend();
     this->Drawing.setTrace(this->Trace.points());
-    // On a slow machine, half the time is left for the tip.
-    this->BendAfterMs = std::max<qint64>(BendEachMs, 2 * this->SinceBent.elapsed());
+    // On a slow machine, two thirds of the time are left for the tip.
+    this->BendAfterMs = std::max<qint64>(BendEachMs, 3 * this->SinceBent.elapsed());
   }
   this->place();
   Q_EMIT this->changed();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Pointer/TipDrawing.h"
 
+#include "Interaction/Edits/LivePicture.h"
 #include "Interaction/Views/ActiveDeformation.h"
 
 #include <pqApplicationCore.h>
@@ -199,7 +200,11 @@ void TipDrawing::draw()
 {
   for (const QPointer<pqRenderView>& view : this->Internal->Views)
   {
-    if (view)
+    if (view && this->Bending)
+    {
+      drawRoughly(view);
+    }
+    else if (view)
     {
       view->render();
     }

@@ -33,6 +33,8 @@ public:
   void hide();
   /// The recorded points (mm, world). They are drawn with the next tip.
   void setTrace(const std::vector<double>& points);
+  /// While the tissue bends, pictures are those of a moving hand: still ones cast all rays anew.
+  void setBending(bool bends) { this->Bending = bends; }
   bool isShown() const { return this->Shown; }
   /// Leaves a view that goes away.
   void leave(pqRenderView* view);
@@ -46,6 +48,7 @@ private:
   struct Parts;
   std::unique_ptr<Parts> Internal;
   bool Shown = false;
+  bool Bending = false;
 };
 }
 

@@ -200,12 +200,18 @@ def spiral(count=40):
     return MIDDLE - (0, 0, 2) + RADIUS * directions
 
 
+def casts_and_bends():
+    counters = brainshift.counters(
+        simple.GetDisplayProperties(window.deformation(), simple.GetActiveView()))
+    return numpy.array((counters["frames"], counters["latticeUploads"]))
+
+
 def records_while_the_key_is_down():
     bent, points = window.deformation(), spiral()
     window.server.go(points[0])
     window.before = rms(points)
     assert window.before > 1.0, window.before
-    steps = window.undo_labels()
+    steps, before = window.undo_labels(), casts_and_bends()
     hand.hover([50, 50])
     hand.key_down(KEY_T)
     until(lambda: "Recording" in hand.label("BrainShiftPointerRecorded"), "recording")
@@ -215,6 +221,8 @@ def records_while_the_key_is_down():
     until(lambda: bent.Lattice is not None, "a fit while the key is down")
     until(lambda: displacement() > 0.5, "a bend while the key is down")
     assert window.undo_labels() == steps, "no step to undo while the key is down"
+    casts, bends = casts_and_bends() - before
+    assert casts <= bends + 2, ("rays were cast for the tip, too", casts, bends)
     hand.key_up(KEY_T)
     hand.wait(300)
     assert "Last trace" in hand.label("BrainShiftPointerRecorded")
