@@ -214,6 +214,14 @@ void Refinement::finishLevel()
   }
 }
 
+void Refinement::tellDone()
+{
+  const double levels = static_cast<double>(this->Settings.levelsMm.size());
+  const double ofLevel =
+    this->Compare ? static_cast<double>(this->StepsOfLevel) / this->Settings.mostSteps : 0.0;
+  this->Progress.done = this->Progress.isFinished ? 1.0 : (this->Progress.level + ofLevel) / levels;
+}
+
 const RefinementProgress& Refinement::step()
 {
   if (this->Progress.isFinished)
@@ -230,6 +238,7 @@ const RefinementProgress& Refinement::step()
   {
     this->finishLevel();
   }
+  this->tellDone();
   return this->Progress;
 }
 

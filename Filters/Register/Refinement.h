@@ -47,6 +47,7 @@ struct RefinementProgress
   double share = 1.0;               ///< smallest share of a step that the fold guard left
   double comparedShare = 0.0;       ///< of the samples at rest, how many have a partner
   double stiffness = 1.0; ///< what was used; larger than asked for where tissue would have folded
+  double done = 0.0;      ///< share of the most steps there may be, 0 to 1; 1 once it is finished
   bool isFinished = false;
 };
 
@@ -79,6 +80,7 @@ private:
   Lattice latticeOf(const std::vector<glm::vec3>& controls) const;
   void take(const Lattice& lattice, Agreement agreement, double energy);
   void finishLevel();
+  void tellDone();
 
   RegisteredPair Pair;
   RefinementSettings Settings;

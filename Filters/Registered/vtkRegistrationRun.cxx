@@ -178,13 +178,14 @@ vtkDoubleArray* vtkRegistrationRun::GetFigures()
     const Alignment& rigid = *this->Internal->Rigid;
     const AlignmentProgress& at = rigid.progress();
     figures = { double(at.isFinished), double(at.steps), double(at.level), at.comparedShare,
-      at.information, at.informationAtStart, rigid.shiftMm(), rigid.turnDegrees() };
+      at.information, at.informationAtStart, rigid.shiftMm(), rigid.turnDegrees(),
+      double(at.isFinished) };
   }
   else if (this->Internal->Elastic)
   {
     const RefinementProgress& at = this->Internal->Elastic->progress();
     figures = { double(at.isFinished), double(at.steps), double(at.level), at.comparedShare,
-      at.disagreement, at.disagreementAtStart, at.movedMm, at.share };
+      at.disagreement, at.disagreementAtStart, at.movedMm, at.share, at.done };
   }
   fill(this->Figures, figures);
   return this->Figures;

@@ -60,7 +60,7 @@ public:
   const char* GetProblem() const { return this->Problem.c_str(); }
 
   /**
-   * Eight figures after the last step:
+   * Nine figures after the last step:
    * 0. 1 if it is finished, else 0
    * 1. steps taken
    * 2. level, from 0 on
@@ -69,6 +69,7 @@ public:
    * 5. the same at the beginning, on the same level
    * 6. alignment: shift so far (mm); refinement: longest way of a control point in the step (mm)
    * 7. alignment: turn so far (degrees); refinement: smallest share that the fold guard left
+   * 8. refinement: share of the most steps there may be, 0 to 1; alignment: 0 until it is finished
    */
   vtkDoubleArray* GetFigures();
 

@@ -7,6 +7,7 @@
 #include "Panel/Measured/PullsPane.h"
 #include "Panel/Parts/InSight.h"
 #include "Panel/Parts/RoomyDock.h"
+#include "Panel/Registered/RefinePane.h"
 #include "Panel/Strokes/StrokeList.h"
 #include "Panel/Strokes/StrokeModel.h"
 #include "Panel/Tools/ToolPanel.h"
@@ -70,6 +71,7 @@ StrokesWidget::StrokesWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget
   column->addWidget(new PullsPane(this->Source, this));
   column->addWidget(pqProxyWidget::newGroupLabelWidget(tr("Landmarks (mm)"), this));
   column->addWidget(new LandmarkTable(LandmarkList::of(this->Source), this));
+  column->addWidget(new RefinePane(this->Source, this));
 
   new InSight(this);
   new RoomyDock(this);

@@ -69,7 +69,7 @@ class Alignment:
 
     def take(self, figures):
         (_, steps, level, self.compared, self.information, self.information_before, self.shift,
-         self.turn) = figures
+         self.turn, _) = figures
         self.steps, self.level = int(steps), int(level)
 
 
@@ -93,7 +93,7 @@ class Refinement:
 
     def take(self, figures):
         (_, steps, level, self.compared, self.disagreement, self.disagreement_before, self.moved,
-         self.share) = figures
+         self.share, _) = figures
         self.steps, self.level = int(steps), int(level)
 
 

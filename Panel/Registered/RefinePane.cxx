@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Panel/Registered/RefinePane.h"
+
+#include "Interaction/Displays/SharedSettings.h"
+#include "Interaction/Edits/RefineEditor.h"
+#include "Panel/Parts/Advice.h"
+#include "Panel/Registered/DisagreementPlot.h"
+#include "Panel/Registered/RefineText.h"
+
+#include <pqApplicationCore.h>
+#include <pqOutputPort.h>
+#include <pqPipelineSource.h>
+#include <pqServerManagerModel.h>
+
+#include <vtkPVDataInformation.h>
+#include <vtkSMProxy.h>
+#include <vtkType.h>
+
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cstring>
+
+namespace brainshift
+{
+namespace
+{
+constexpr int LeastLetters = 10; // of a list: the panel is narrow
+constexpr int WholeProgress = 100;
+
+bool isKind(pqPipelineSource* source, const char* kind)
+{
+  return std::strcmp(source->getProxy()->GetXMLName(), kind) == 0;
+}
+
+bool isImage(pqPipelineSource* source)
+{
+  return source->modifiedState() != pqProxy::UNINITIALIZED &&
+    source->getNumberOfOutputPorts() > 0 &&
+    source->getOutputPort(0)->getDataInformation()->GetDataSetType() == VTK_IMAGE_DATA;
+}
+
+// Volumes that a deformation may be compared with: not itself, nor what is made of it.
+QList<pqPipelineSource*> volumesBeside(pqPipelineSource* deformation)
+{
+  QList<pqPipelineSource*> made{ deformation };
+  for (int next = 0; next < made.size(); ++next)
+  {
+    for (pqPipelineSource* consumer : made[next]->getAllConsumers())
+    {
+      if (!made.contains(consumer))
+      {
+        made.append(consumer);
+      }
+    }
+  }
+  QList<pqPipelineSource*> volumes;
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  for (pqPipelineSource* source : model->findItems<pqPipelineSource*>(deformation->getServer()))
+  {
+    if (!made.contains(source) && !source->getAllConsumers().contains(deformation) &&
+      !isComparison(source) && !isKind(source, "FitDeformation") &&
+      !isKind(source, "RefinedLattice") && !isKind(source, "DeformationLattice") && isImage(source))
+    {
+      volumes.append(source);
+    }
+  }
+  return volumes;
+}
+
+// Fills a list, and keeps what is chosen as far as it is still there.
+void fill(QComboBox* list, const QString& none, const QList<pqPipelineSource*>& sources)
+{
+  const QVariant before = list->currentData();
+  const bool isFirst = list->count() == 0 || !before.toUInt();
+  list->clear();
+  if (!none.isEmpty())
+  {
+    list->addItem(none, 0u);
+  }
+  for (pqPipelineSource* source : sources)
+  {
+    list->addItem(source->getSMName(), source->getProxy()->GetGlobalID());
+  }
+  list->setCurrentIndex(isFirst ? 0 : std::max(0, list->findData(before)));
+}
+
+// In a widget of its own, by whose name a list is found as that of a property is.
+QWidget* wrapped(QWidget* part, const char* name, const QString& tip)
+{
+  auto wrap = new QWidget;
+  wrap->setObjectName(name);
+  wrap->setToolTip(tip);
+  auto row = new QHBoxLayout(wrap);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(part);
+  return wrap;
+}
+
+QComboBox* makeList(const QString& said)
+{
+  auto list = new QComboBox;
+  list->setAccessibleName(said);
+  list->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  list->setMinimumContentsLength(LeastLetters);
+  list->setFocusPolicy(Qt::StrongFocus);
+  return list;
+}
+
+QToolButton* makeButton(const char* name, const QString& text, const QString& tip)
+{
+  auto button = new QToolButton;
+  button->setObjectName(name);
+  button->setText(text);
+  button->setToolTip(tip);
+  button->setFocusPolicy(Qt::TabFocus); // a click leaves the keyboard where it is
+  return button;
+}
+
+QLabel* makeText(const char* name)
+{
+  auto text = new QLabel;
+  text->setObjectName(name);
+  text->setWordWrap(true);
+  text->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  text->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Minimum);
+  return text;
+}
+}
+
+RefinePane::RefinePane(pqPipelineSource* deformation, QWidget* parent)
+  : QWidget(parent)
+  , Deformation(deformation)
+  , Editor(RefineEditor::of(deformation))
+  , Opener(makeButton("BrainShiftRefineOpen", tr("Refine"),
+      tr("Let the machine bend the volume further until it agrees with a reference.")))
+  , Body(new QWidget(this))
+{
+  this->setObjectName("BrainShiftRefinePane");
+  this->Opener->setCheckable(true);
+  this->Opener->setAutoRaise(true);
+  this->Opener->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  QFont bold = this->Opener->font();
+  bold.setBold(true);
+  this->Opener->setFont(bold);
+  auto column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(this->Opener);
+  column->addWidget(this->Body);
+  auto body = new QVBoxLayout(this->Body);
+  body->setContentsMargins(0, 0, 0, 0);
+  this->addChoices(body);
+  this->addButtons(body);
+  this->addProgress(body);
+  this->followApplication();
+  this->open(this->Editor->isActive());
+  this->refresh();
+}
+
+void RefinePane::addChoices(QVBoxLayout* column)
+{
+  this->Choices = new QWidget;
+  auto form = new QFormLayout(this->Choices);
+  form->setContentsMargins(0, 0, 0, 0);
+  this->Reference = makeList(tr("Reference"));
+  form->addRow(tr("Reference"),
+    wrapped(this->Reference, "BrainShiftRefineReference",
+      tr("What the volume should agree with. A Compare Volumes of this deformation brings its "
+         "reference where it lies, with its cavity.")));
+  this->Cavity = makeList(tr("Cavity"));
+  this->CavityRow = wrapped(this->Cavity, "BrainShiftRefineCavity",
+    tr("A mask of tissue that the reference lacks. What it holds does not count."));
+  form->addRow(tr("Cavity"), this->CavityRow);
+  this->Similarity = makeList(tr("Similarity"));
+  this->Similarity->addItems({ tr("Auto (any contrast)"), tr("Same contrast"), tr("Ultrasound") });
+  form->addRow(tr("Similarity"),
+    wrapped(this->Similarity, "BrainShiftRefineSimilarity",
+      tr("Auto compares self-similarity (SSC), for volumes of any contrast. Same contrast compares "
+         "by local correlation (NCC), for two scans of one kind. Ultrasound compares by LC2.")));
+  this->Stiffness = new QDoubleSpinBox;
+  this->Stiffness->setObjectName("BrainShiftRefineStiffness");
+  this->Stiffness->setAccessibleName(tr("Stiffness"));
+  this->Stiffness->setRange(0.01, 100.0);
+  this->Stiffness->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+  this->Stiffness->setValue(1.0);
+  this->Stiffness->setFocusPolicy(Qt::StrongFocus);
+  this->Stiffness->setToolTip(
+    tr("Factor on what bending costs. Above 1 the volume bends less, below 1 it bends more."));
+  form->addRow(tr("Stiffness"), this->Stiffness);
+  column->addWidget(this->Choices);
+  this->connect(this->Reference, &QComboBox::currentIndexChanged, this, &RefinePane::refresh);
+}
+
+void RefinePane::addButtons(QVBoxLayout* column)
+{
+  this->Refine = makeButton("BrainShiftRefine", tr("Refine"),
+    tr("Bend the volume step by step, from how it is bent now. The result takes the place of "
+       "strokes and lattice; Ctrl+Z brings them back."));
+  this->Pause = makeButton("BrainShiftRefinePause", tr("Go On"), tr("Take no step for now."));
+  this->Pause->setMinimumWidth(this->Pause->sizeHint().width()); // of the longer text
+  this->Pause->setText(tr("Pause"));
+  this->Stop = makeButton("BrainShiftRefineStop", tr("Stop"),
+    tr("Keep what is reached, as one step to undo. Escape instead puts everything back."));
+  auto row = new QHBoxLayout;
+  for (QToolButton* button : { this->Refine, this->Pause, this->Stop })
+  {
+    row->addWidget(button);
+  }
+  row->addStretch();
+  column->addLayout(row);
+  this->connect(this->Refine, &QToolButton::clicked, this, &RefinePane::refine);
+  this->connect(this->Pause, &QToolButton::clicked, this->Editor,
+    [this] { this->Editor->pause(this->Editor->state() == RefineEditor::State::Running); });
+  this->connect(this->Stop, &QToolButton::clicked, this->Editor, &RefineEditor::stop);
+}
+
+void RefinePane::addProgress(QVBoxLayout* column)
+{
+  this->Progress = new QProgressBar;
+  this->Progress->setObjectName("BrainShiftRefineProgress");
+  this->Progress->setAccessibleName(tr("Progress of the refinement"));
+  this->Progress->setRange(0, WholeProgress);
+  this->Plot = new DisagreementPlot;
+  this->Plot->setObjectName("BrainShiftRefineCurve");
+  this->Said = makeText("BrainShiftRefineSaid");
+  this->Warning = makeText("BrainShiftRefineWarning");
+  for (QWidget* part : { static_cast<QWidget*>(this->Progress), static_cast<QWidget*>(this->Plot),
+         static_cast<QWidget*>(this->Said), static_cast<QWidget*>(this->Warning) })
+  {
+    column->addWidget(part);
+  }
+}
+
+void RefinePane::followApplication()
+{
+  this->Soon.setSingleShot(true);
+  this->Soon.setInterval(0);
+  this->connect(&this->Soon, &QTimer::timeout, this, &RefinePane::listSources);
+  this->connect(this->Opener, &QToolButton::toggled, this, &RefinePane::open);
+  this->connect(this->Editor, &RefineEditor::changed, this, &RefinePane::refresh);
+  const auto soon = [this] {
+    if (this->Opener->isChecked())
+    {
+      this->Soon.start();
+    }
+  };
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  this->connect(model, &pqServerManagerModel::sourceAdded, this, soon);
+  this->connect(model, &pqServerManagerModel::sourceRemoved, this, soon);
+  this->connect(model, &pqServerManagerModel::nameChanged, this, soon);
+  this->connect(model, &pqServerManagerModel::dataUpdated, this, soon);
+  using Connection = void (pqServerManagerModel::*)(pqPipelineSource*, pqPipelineSource*, int);
+  this->connect(model, static_cast<Connection>(&pqServerManagerModel::connectionAdded), this, soon);
+}
+
+void RefinePane::open(bool on)
+{
+  this->Opener->setChecked(on);
+  this->Opener->setArrowType(on ? Qt::DownArrow : Qt::RightArrow);
+  this->Body->setVisible(on);
+  if (on)
+  {
+    this->listSources();
+  }
+}
+
+void RefinePane::listSources()
+{
+  if (this->Deformation)
+  {
+    const QList<pqPipelineSource*> volumes = volumesBeside(this->Deformation);
+    fill(this->Reference, {}, comparisonsOf(this->Deformation) + volumes);
+    fill(this->Cavity, tr("None"), volumes);
+    this->refresh();
+  }
+}
+
+pqPipelineSource* RefinePane::chosen(const QComboBox* list) const
+{
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  const unsigned int id = list->currentData().toUInt();
+  for (pqPipelineSource* source : model->findItems<pqPipelineSource*>())
+  {
+    if (id != 0 && source->getProxy()->GetGlobalID() == id)
+    {
+      return source;
+    }
+  }
+  return nullptr;
+}
+
+void RefinePane::refine()
+{
+  if (!this->Editor)
+  {
+    return;
+  }
+  RefineSettings settings;
+  settings.reference = this->chosen(this->Reference);
+  settings.cavity = isComparison(settings.reference) ? nullptr : this->chosen(this->Cavity);
+  settings.similarity = this->Similarity->currentIndex();
+  settings.stiffness = this->Stiffness->value();
+  this->Editor->begin(settings);
+}
+
+void RefinePane::refresh()
+{
+  if (!this->Editor)
+  {
+    return;
+  }
+  const bool active = this->Editor->isActive();
+  const bool paused = this->Editor->state() == RefineEditor::State::Paused;
+  const bool ran = active || !this->Editor->shares().isEmpty();
+  this->Choices->setEnabled(!active);
+  // A Compare Volumes brings its own.
+  this->CavityRow->setEnabled(!isComparison(this->chosen(this->Reference)));
+  this->Refine->setEnabled(!active);
+  this->Pause->setEnabled(active);
+  this->Pause->setText(paused ? tr("Go On") : tr("Pause"));
+  this->Pause->setToolTip(paused ? tr("Take the next steps.") : tr("Take no step for now."));
+  this->Stop->setEnabled(active);
+  this->Progress->setVisible(active);
+  this->Progress->setValue(static_cast<int>(WholeProgress * this->Editor->figures().done));
+  this->Plot->setVisible(ran && this->Editor->state() != RefineEditor::State::Idle);
+  this->Plot->setShares(this->Editor->shares());
+  this->say();
+}
+
+void RefinePane::say()
+{
+  const RefineFigures& figures = this->Editor->figures();
+  QString said;
+  QString warning = this->Editor->problem();
+  switch (this->Editor->state())
+  {
+    case RefineEditor::State::Running:
+    case RefineEditor::State::Paused:
+      said = figures.steps > 0 ? refineProgress(figures) : tr("Preparing the first step ...");
+      break;
+    case RefineEditor::State::Kept:
+    case RefineEditor::State::Finished:
+      said = figures.steps > 0
+        ? refineResult(
+            this->Editor->state() == RefineEditor::State::Kept ? tr("Stopped") : tr("Finished"),
+            figures)
+        : tr("Stopped before the first step; nothing has changed.");
+      warning += (warning.isEmpty() || figures.steps == 0 ? "" : " ") +
+        (figures.steps > 0 ? refineWarning(figures) : QString());
+      break;
+    case RefineEditor::State::Idle:
+      break;
+  }
+  this->Said->setText(said);
+  this->Said->setVisible(!said.isEmpty());
+  this->Warning->setText(warning);
+  this->Warning->setVisible(!warning.trimmed().isEmpty());
+  QPalette palette = this->palette();
+  palette.setColor(
+    QPalette::WindowText, gradeColor(Grade::Bad, this->palette(), wantsBlueAndOrange()));
+  this->Warning->setPalette(palette);
+}
+}

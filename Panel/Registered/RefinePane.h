@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// The section "Refine" of the panel of a Free-Form Deformation, closed until it is wanted: what to
+/// compare with, buttons, progress, and what was reached.
+#ifndef BrainShift_RefinePane_h
+#define BrainShift_RefinePane_h
+
+#include <QPointer>
+#include <QTimer>
+#include <QWidget>
+
+class QComboBox;
+class QDoubleSpinBox;
+class QLabel;
+class QProgressBar;
+class QToolButton;
+class QVBoxLayout;
+class pqPipelineSource;
+
+namespace brainshift
+{
+class DisagreementPlot;
+class RefineEditor;
+
+class RefinePane : public QWidget
+{
+  Q_OBJECT
+
+public:
+  RefinePane(pqPipelineSource* deformation, QWidget* parent = nullptr);
+
+private:
+  void addChoices(QVBoxLayout* column);
+  void addButtons(QVBoxLayout* column);
+  void addProgress(QVBoxLayout* column);
+  void followApplication();
+  void open(bool on);
+  void listSources();
+  void refine();
+  void refresh();
+  void say();
+  pqPipelineSource* chosen(const QComboBox* list) const; ///< Null: none.
+
+  const QPointer<pqPipelineSource> Deformation; ///< It may go before its panel does.
+  const QPointer<RefineEditor> Editor;
+  QToolButton* const Opener;
+  QWidget* const Body;
+  QComboBox* Reference = nullptr;
+  QComboBox* Cavity = nullptr;
+  QComboBox* Similarity = nullptr;
+  QDoubleSpinBox* Stiffness = nullptr;
+  QWidget* Choices = nullptr;
+  QWidget* CavityRow = nullptr;
+  QToolButton* Refine = nullptr;
+  QToolButton* Pause = nullptr;
+  QToolButton* Stop = nullptr;
+  QProgressBar* Progress = nullptr;
+  DisagreementPlot* Plot = nullptr;
+  QLabel* Said = nullptr;
+  QLabel* Warning = nullptr;
+  QTimer Soon; ///< Merges the events that change the lists.
+};
+}
+
+#endif

@@ -1,0 +1,324 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Proves that the panel's section Refine bends a volume step by step with a picture after each;
+that Pause holds it, Stop keeps what is reached as one step to undo, and Escape puts base and
+strokes back without one; that a state has the result; that a hand comes first; and that it ends
+with a sentence when something is missing or goes away.
+
+ParaView's window runs this file as a script; what did not hold is written down for the pvpython
+that runs it afterwards."""
+import contextlib
+import os
+import re
+
+import brainshift
+import numpy
+import test_hand as hand
+import window_testing as window
+from brainshift_testing import scratch
+from paraview import servermanager, simple
+from window_testing import deformation, undo_labels
+
+SIDE = 60  # voxels and mm
+POINTS = numpy.random.default_rng(5).uniform(10, SIDE - 10, (40, 3))
+HAND = tuple(brainshift.soft((30, 30, 30), (0.3, 0.2, -0.2), 40.0))
+FILE = scratch("after.vti")
+kept = {}
+
+
+@contextlib.contextmanager
+def unrecorded():
+    """What a script does here is nothing to undo."""
+    builder = servermanager.vtkSMProxyManager.GetProxyManager().GetUndoStackBuilder()
+    before = builder.GetIgnoreAllChanges()
+    builder.SetIgnoreAllChanges(True)
+    try:
+        yield
+    finally:
+        builder.SetIgnoreAllChanges(before)
+
+
+def field():
+    with unrecorded():
+        deformation().UpdatePipeline()
+        return numpy.array(brainshift.deformed_from_rest(deformation(), POINTS))
+
+
+def lattices():
+    return [name for name, _ in simple.GetSources() if name.startswith("RefinedLattice")]
+
+
+def what_is():
+    """All that Escape must bring back."""
+    lattice = deformation().Lattice
+    return (tuple(deformation().Strokes), lattice and lattice.SMProxy.GetGlobalID(),
+            lattice and tuple(lattice.ControlPoints), sorted(simple.GetSources()), undo_labels())
+
+
+def said():
+    return hand.label("BrainShiftRefineSaid")
+
+
+def step():
+    """How many steps the run has taken, as the panel says."""
+    found = re.match(r"Step (\d+)", said())
+    return int(found.group(1)) if found else 0
+
+
+def uploads():
+    display = simple.GetRepresentation(deformation(), simple.GetActiveView())
+    return brainshift.counters(display)["latticeUploads"]
+
+
+def begin():
+    """Starts it and waits for two steps."""
+    assert hand.click("BrainShiftRefine"), "Refine is disabled"
+    window.until(lambda: step() >= 2, "two steps")
+
+
+def write_reference():
+    """The wavelet as known strokes bend it. A file, for each filter here would have a panel."""
+    strokes = brainshift.soft((30, 30, 30), (1.5, -1.2, 1.5), 40.0)
+    bent = simple.FreeFormDeformation(Input=simple.FindSource("rest"), Strokes=strokes)
+    baked = simple.BakeDeformation(Input=bent)
+    baked.UpdatePipeline()
+    kept["truth"] = numpy.array(brainshift.deformed_from_rest(bent, POINTS))
+    simple.SaveData(FILE, proxy=baked)
+    simple.Delete(baked)
+    simple.Delete(bent)
+
+
+def open_reference():
+    simple.OpenDataFile(FILE, registrationName="after").UpdatePipeline()
+
+
+def set_up():
+    rest = simple.Wavelet(registrationName="rest", WholeExtent=[0, SIDE] * 3,
+                          XFreq=20, YFreq=17, ZFreq=23)  # waves longer than the bend
+    view = simple.GetActiveViewOrCreate("RenderView")
+    write_reference()
+    open_reference()
+    bent = simple.FreeFormDeformation(registrationName="bent", Input=rest, Strokes=HAND)
+    display = simple.Show(bent, view)
+    display.SetRepresentationType("Deformed Volume")
+    simple.ColorBy(display, ("POINTS", "RTData"))
+    simple.GetOpacityTransferFunction("RTData").Points = [37, 1, 0.5, 0, 277, 1, 0.5, 0]
+    simple.SetActiveSource(bent)
+    simple.ResetCamera(view)
+    simple.Render(view)
+    hand.wait(300)
+    kept["rest"] = field()
+
+
+def closed_until_it_is_wanted():
+    assert hand.is_visible("BrainShiftRefineOpen")
+    assert not hand.is_visible("BrainShiftRefine")
+    assert hand.click("BrainShiftRefineOpen")
+    hand.wait()
+    assert hand.is_visible("BrainShiftRefine") and not hand.is_visible("BrainShiftRefineProgress")
+    assert hand.choose("BrainShiftRefineReference", "after")
+    assert not hand.choose("BrainShiftRefineReference", "bent"), "compared with itself"
+    assert not hand.click("BrainShiftRefinePause") and not hand.click("BrainShiftRefineStop")
+
+
+def the_picture_follows():
+    undo, before = undo_labels(), uploads()
+    begin()
+    assert hand.is_visible("BrainShiftRefineProgress") and hand.is_visible("BrainShiftRefineCurve")
+    assert hand.click("BrainShiftRefinePause")
+    taken, sent = step(), uploads() - before
+    assert sent >= taken >= 2, (sent, taken)
+    assert undo_labels() == undo, undo_labels()
+    assert numpy.abs(field() - kept["rest"]).max() > 0.1, "nothing bends"
+    kept["undo"] = undo
+
+
+def pause_holds_it():
+    taken = step()
+    for _ in range(50):
+        hand.wait()
+    assert step() == taken, (step(), taken)
+    assert hand.click("BrainShiftRefinePause")
+    window.until(lambda: step() > taken or not step(), "a step after Go On")
+    assert step() > taken, said()
+
+
+def stop_keeps_it():
+    assert hand.click("BrainShiftRefineStop")
+    assert said().startswith("Stopped after "), said()
+    for words in ("Disagreement: ", " mm at most", "Jacobian", "guard"):
+        assert words in said(), (words, said())
+    assert not hand.label("BrainShiftRefineWarning"), hand.label("BrainShiftRefineWarning")
+    assert undo_labels() == (["Refine"] + kept["undo"])[:10], undo_labels()
+    assert len(lattices()) == 1 and not list(deformation().Strokes), what_is()[3]
+    window.until(lambda: simple.GetActiveSource() == deformation(), "the selection is kept")
+    assert not hand.click("Accept"), "there is something to apply"
+    kept["refined"] = field()
+    assert numpy.abs(kept["refined"] - kept["rest"]).max() > 0.1
+
+
+def it_is_one_step():
+    window.action("Undo")
+    assert not deformation().Lattice and not lattices(), lattices()
+    assert tuple(deformation().Strokes) == HAND
+    assert numpy.allclose(field(), kept["rest"], atol=1e-5)
+    window.action("Redo")
+    assert deformation().Lattice and not list(deformation().Strokes)
+    assert numpy.allclose(field(), kept["refined"], atol=1e-5)
+
+
+def escape_puts_all_back():
+    before = what_is()
+    begin()
+    hand.tap(hand.ESCAPE)
+    hand.wait()
+    assert what_is() == before, "something is left"
+    assert numpy.allclose(field(), kept["refined"], atol=1e-5)
+    assert hand.click("BrainShiftRefine"), "it runs on"
+    assert hand.click("BrainShiftRefineStop")  # before the first step
+    assert what_is() == before and "before the first step" in said(), said()
+    # And with strokes, without a base.
+    window.action("Undo")
+    before = what_is()
+    begin()
+    hand.tap(hand.ESCAPE)
+    hand.wait()
+    assert what_is() == before and tuple(deformation().Strokes) == HAND
+    window.action("Redo")
+
+
+def it_ends_by_itself():
+    was, undo = tuple(deformation().Lattice.ControlPoints), undo_labels()
+    with unrecorded():
+        simple.CompareVolumes(registrationName="compared", Input=deformation(),
+                              Reference=simple.FindSource("after"))
+        simple.SetActiveSource(deformation())
+    hand.wait(100)
+    assert hand.choose("BrainShiftRefineReference", "compared")
+    begin()
+    window.until(lambda: said().startswith("Finished"), f"an end: {said()}")
+    assert undo_labels() == (["Refine"] + undo)[:10], undo_labels()
+    assert len(lattices()) == 1, lattices()
+    apart = [numpy.linalg.norm(place - kept["truth"], axis=1).mean()
+             for place in (kept["rest"], field())]
+    assert apart[1] < 0.8 * apart[0], apart
+    window.action("Undo")
+    assert tuple(deformation().Lattice.ControlPoints) == was, "not the earlier result"
+    window.action("Redo")
+    assert tuple(deformation().Lattice.ControlPoints) != was
+
+
+def a_state_keeps_it():
+    now = field()
+    file = scratch("state.pvsm")
+    simple.SaveState(file)
+    hand.take(hand.NONE)
+    simple.ResetSession()
+    hand.wait(200)
+    simple.LoadState(file)
+    os.remove(file)
+    hand.wait(500)
+    assert numpy.allclose(field(), now, atol=1e-5), "another field"
+    assert len(lattices()) == 1, lattices()
+
+
+def open_again():
+    """As it was before all refinements, with the section open."""
+    with unrecorded():
+        deformation().Lattice = None
+        deformation().Strokes = HAND
+        for name in lattices():
+            simple.Delete(simple.FindSource(name))
+    simple.SetActiveSource(deformation())
+    hand.wait(200)
+    if not hand.is_visible("BrainShiftRefine"):
+        assert hand.click("BrainShiftRefineOpen")
+    hand.wait(100)
+
+
+def a_hand_comes_first():
+    open_again()
+    begin()
+    assert hand.click("BrainShiftRefinePause")
+    middle = [length // 2 for length in simple.GetActiveView().ViewSize]
+    hand.take(hand.SOFT)
+    hand.drag(middle, [middle[0] + 20, middle[1]])
+    hand.take(hand.NONE)
+    # The stroke follows what was reached.
+    assert undo_labels()[:2] == ["Soft stroke", "Refine"], undo_labels()
+    assert said().startswith("Stopped"), said()
+    assert len(window.strokes()) == 1 and len(lattices()) == 1, window.strokes()
+
+
+def others_have_their_way():
+    # As Apply in the panel does.
+    open_again()
+    begin()
+    deformation().LatticeDimensions = [15, 15, 15]
+    hand.wait(100)
+    told = hand.label("BrainShiftRefineWarning")
+    assert "LatticeDimensions of bent was changed" in told, told
+    assert hand.click("BrainShiftRefine"), "it runs on"
+    hand.tap(hand.ESCAPE)
+    deformation().LatticeDimensions = [19, 19, 19]
+    hand.wait(100)
+
+
+def what_is_wrong_is_said():
+    before = deformation().Strength
+    deformation().Strength = 0.5
+    was = what_is()
+    assert hand.click("BrainShiftRefine")
+    told = hand.label("BrainShiftRefineWarning")
+    assert "Strength is 0.5" in told and told.endswith("."), told
+    assert what_is() == was, "something has changed"
+    deformation().Strength = before
+
+
+def a_reference_may_go():
+    open_again()
+    begin()
+    simple.Delete(simple.FindSource("compared"))
+    window.until(lambda: "was deleted" in hand.label("BrainShiftRefineWarning"), "a sentence")
+    assert said().startswith("Stopped after"), said()
+    for name in ("after", "after.vti"):  # a state calls a reader as its file
+        if simple.FindSource(name):
+            simple.Delete(simple.FindSource(name))
+    hand.wait(100)
+    assert hand.click("BrainShiftRefine")
+    told = hand.label("BrainShiftRefineWarning")
+    assert told.startswith("There is no reference"), told
+
+
+def the_deformation_may_go():
+    with unrecorded():
+        open_reference()
+    open_again()
+    begin()
+    view = simple.GetActiveView()
+    bent = deformation()
+    simple.Delete(bent)
+    for _ in range(20):
+        hand.wait()
+    assert not deformation() and view, "it is still there"
+
+
+def the_session_may_go():
+    simple.ResetSession()
+    hand.wait(200)
+    simple.GetActiveViewOrCreate("RenderView")
+    set_up()
+    open_again()
+    begin()
+    simple.ResetSession()
+    for _ in range(20):
+        hand.wait()
+    assert not simple.GetSources(), simple.GetSources()
+    os.remove(FILE)
+
+
+window.main("RefineByHand", [
+    (set_up,), (closed_until_it_is_wanted,), (the_picture_follows,), (pause_holds_it,),
+    (stop_keeps_it,), (it_is_one_step,), (escape_puts_all_back,), (it_ends_by_itself,),
+    (a_state_keeps_it,), (a_hand_comes_first,), (others_have_their_way,),
+    (what_is_wrong_is_said,), (a_reference_may_go,), (the_deformation_may_go,),
+    (the_session_may_go,)])
