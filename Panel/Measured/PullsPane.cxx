@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Measured/PullsPane.h"
 
+#include "Interaction/Commands/ToolSettings.h"
 #include "Interaction/Edits/FitEditor.h"
 #include "Panel/Measured/PullModel.h"
 #include "Panel/Measured/PullTree.h"
@@ -76,6 +77,7 @@ PullsPane::PullsPane(pqPipelineSource* deformation, QWidget* parent)
   this->connect(this->Clear, &QToolButton::clicked, this->Pulls, &PullModel::removeAll);
   this->connect(this->Tree, &PullTree::selectedRowsChanged, this, &PullsPane::refresh);
   this->connect(this->Editor, &FitEditor::changed, this, &PullsPane::followPulls);
+  this->connect(ToolSettings::instance(), &ToolSettings::changed, this, &PullsPane::refresh);
   this->connect(deformation, qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
     &PullsPane::followResult);
   this->update();
@@ -121,7 +123,10 @@ void PullsPane::followResult()
 
 void PullsPane::refresh()
 {
-  this->setVisible(this->Editor && this->Editor->fit());
+  // A fit of landmarks or traces alone needs no empty list.
+  const bool wanted =
+    this->Pulls->rowCount() > 0 || ToolSettings::instance()->tool() == ToolKind::Pull;
+  this->setVisible(wanted && this->Editor && this->Editor->fit());
   this->Delete->setEnabled(!this->Tree->selectedRows().isEmpty());
   this->Clear->setEnabled(this->Pulls->rowCount() > 0);
 }

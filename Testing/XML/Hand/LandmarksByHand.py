@@ -188,6 +188,7 @@ def clicks_make_pairs():
     hand.click("BrainShiftPickPairs")
     assert "Landmark" not in request()
     wait_for(lambda: len(rows()) == len(PLACES), "the rows")
+    assert not hand.is_visible("BrainShiftPulls"), "a list without pulls and pins"
 
 
 def text_of(value):
