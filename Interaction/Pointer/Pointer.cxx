@@ -236,8 +236,8 @@ void Pointer::show()
     this->SinceBent.start();
     this->Trace.bend();
     this->Drawing.setTrace(this->Trace.points());
-    // On a slow machine, two thirds of the time are left for the tip.
-    this->BendAfterMs = std::max<qint64>(BendEachMs, 3 * this->SinceBent.elapsed());
+    // On a slow machine, three quarters of the time are left for the tip.
+    this->BendAfterMs = std::max<qint64>(BendEachMs, 4 * this->SinceBent.elapsed());
   }
   this->place();
   Q_EMIT this->changed();
