@@ -10,10 +10,13 @@
 #include "vtkNew.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <glm/common.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace brainshift
 {
@@ -42,6 +45,18 @@ PlacedVoxels readPlaced(vtkFieldData* fields, const char* name, const char* grid
   const bool fits = voxels->GetNumberOfTuples() == static_cast<vtkIdType>(placed.grid.count());
   placed.voxels = fits ? voxels : nullptr;
   return placed;
+}
+
+glm::dmat3 turnOf(const glm::dvec3& degrees)
+{
+  glm::dmat4 turn(1.0);
+  for (int axis = 2; axis >= 0; --axis)
+  {
+    glm::dvec3 about(0.0);
+    about[axis] = 1.0;
+    turn = glm::rotate(turn, glm::radians(degrees[axis]), about);
+  }
+  return glm::dmat3(turn);
 }
 }
 
@@ -100,17 +115,21 @@ glm::dvec3 middleOf(const Grid& grid)
 
 Grid movedRigidly(const Grid& grid, const RigidMotion& motion)
 {
-  glm::dmat4 turn(1.0);
-  for (int axis = 2; axis >= 0; --axis)
-  {
-    glm::dvec3 about(0.0);
-    about[axis] = 1.0;
-    turn = glm::rotate(turn, glm::radians(motion.rotation[axis]), about);
-  }
+  const glm::dmat3 turn = turnOf(motion.rotation);
   Grid moved = grid;
-  moved.direction = glm::dmat3(turn) * grid.direction;
-  moved.origin =
-    motion.middle + glm::dmat3(turn) * (grid.origin - motion.middle) + motion.translation;
+  moved.direction = turn * grid.direction;
+  moved.origin = motion.middle + turn * (grid.origin - motion.middle) + motion.translation;
   return moved;
+}
+
+RigidMotion followedBy(const RigidMotion& motion, const glm::dmat3& turn, const glm::dvec3& shift)
+{
+  const glm::dmat3 whole = turn * turnOf(motion.rotation);
+  RigidMotion result = motion;
+  // [column][row] of the turn about x, then y, then z.
+  result.rotation = glm::degrees(glm::dvec3(std::atan2(whole[1][2], whole[2][2]),
+    -std::asin(glm::clamp(whole[0][2], -1.0, 1.0)), std::atan2(whole[0][1], whole[0][0])));
+  result.translation = turn * (motion.middle + motion.translation) + shift - motion.middle;
+  return result;
 }
 }

@@ -25,6 +25,9 @@
 #include "vtkDataArray.h" // for its smart pointer
 #include "vtkSmartPointer.h"
 
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
 class vtkDataObject;
 
 namespace brainshift
@@ -80,6 +83,13 @@ VTKBRAINSHIFTFILTERS_EXPORT glm::dvec3 middleOf(const Grid& grid);
 
 /** The grid after the motion. */
 VTKBRAINSHIFTFILTERS_EXPORT Grid movedRigidly(const Grid& grid, const RigidMotion& motion);
+
+/**
+ * The motion about the same middle that does what `motion` does and then turns by `turn` about the
+ * world's origin and shifts by `shift` (mm).
+ */
+VTKBRAINSHIFTFILTERS_EXPORT RigidMotion followedBy(
+  const RigidMotion& motion, const glm::dmat3& turn, const glm::dvec3& shift);
 }
 
 #endif

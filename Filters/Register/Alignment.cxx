@@ -302,7 +302,16 @@ const AlignmentProgress& Alignment::step()
   {
     this->endRound();
   }
+  this->tellDone();
   return this->Progress;
+}
+
+void Alignment::tellDone()
+{
+  const double levels = static_cast<double>(this->Settings.levelsMm.size());
+  const double ofLevel =
+    this->IsPrepared ? static_cast<double>(this->Rounds) / this->Settings.mostRounds : 0.0;
+  this->Progress.done = this->Progress.isFinished ? 1.0 : (this->Progress.level + ofLevel) / levels;
 }
 
 double Alignment::shiftMm() const

@@ -38,6 +38,7 @@ struct AlignmentProgress
   double information = 0.0;        ///< nats; more is better
   double informationAtStart = 0.0; ///< of the reference where it was, on the same level
   double comparedShare = 0.0;      ///< of the samples, how many lie within the reference
+  double done = 0.0; ///< share of the most rounds there may be, 0 to 1; 1 once it is finished
   bool isFinished = false;
 };
 
@@ -83,6 +84,7 @@ private:
   double searchLine(const Parameters& direction);
   void endRound();
   void finishLevel();
+  void tellDone();
 
   AlignmentSettings Settings;
   Mask Cavity;

@@ -178,8 +178,7 @@ vtkDoubleArray* vtkRegistrationRun::GetFigures()
     const Alignment& rigid = *this->Internal->Rigid;
     const AlignmentProgress& at = rigid.progress();
     figures = { double(at.isFinished), double(at.steps), double(at.level), at.comparedShare,
-      at.information, at.informationAtStart, rigid.shiftMm(), rigid.turnDegrees(),
-      double(at.isFinished) };
+      at.information, at.informationAtStart, rigid.shiftMm(), rigid.turnDegrees(), at.done };
   }
   else if (this->Internal->Elastic)
   {

@@ -5,6 +5,7 @@
 #include "Interaction/Edits/RefineEditor.h"
 #include "Panel/Parts/Advice.h"
 #include "Panel/Registered/DisagreementPlot.h"
+#include "Panel/Registered/PaneParts.h"
 #include "Panel/Registered/RefineText.h"
 
 #include <pqApplicationCore.h>
@@ -112,26 +113,6 @@ QComboBox* makeList(const QString& said)
   list->setMinimumContentsLength(LeastLetters);
   list->setFocusPolicy(Qt::StrongFocus);
   return list;
-}
-
-QToolButton* makeButton(const char* name, const QString& text, const QString& tip)
-{
-  auto button = new QToolButton;
-  button->setObjectName(name);
-  button->setText(text);
-  button->setToolTip(tip);
-  button->setFocusPolicy(Qt::TabFocus); // a click leaves the keyboard where it is
-  return button;
-}
-
-QLabel* makeText(const char* name)
-{
-  auto text = new QLabel;
-  text->setObjectName(name);
-  text->setWordWrap(true);
-  text->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
-  text->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Minimum);
-  return text;
 }
 }
 

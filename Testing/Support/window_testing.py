@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What scripts share that ParaView's window plays with test_hand: a Free-Form Deformation called
 "bent", its strokes, steps of undo, and a file for what did not hold."""
+import contextlib
 import json
 import os
 import time
@@ -86,6 +87,18 @@ def strokes():
 def undo_labels():
     stack = servermanager.vtkSMProxyManager.GetProxyManager().GetUndoStackBuilder().GetUndoStack()
     return [stack.GetUndoSetLabel(i) for i in range(stack.GetNumberOfUndoSets())]
+
+
+@contextlib.contextmanager
+def unrecorded():
+    """What a script does here is nothing to undo."""
+    builder = servermanager.vtkSMProxyManager.GetProxyManager().GetUndoStackBuilder()
+    before = builder.GetIgnoreAllChanges()
+    builder.SetIgnoreAllChanges(True)
+    try:
+        yield
+    finally:
+        builder.SetIgnoreAllChanges(before)
 
 
 def action(name):

@@ -145,6 +145,23 @@ TEST(MovedRigidly, TurnsAboutXThenYThenZ)
   EXPECT_LT(glm::distance(moved.direction * glm::dvec3(1, 0, 0), glm::dvec3(0, 0, -1)), 1e-12);
 }
 
+TEST(FollowedBy, MovesTwice)
+{
+  Grid grid = plainGrid(glm::ivec3(4), glm::dvec3(1.0, 2.0, 1.5));
+  grid.origin = { 3.0, -40.0, 12.0 };
+  const RigidMotion first{ middleOf(grid), { 20.0, -50.0, 110.0 }, { 4.0, -6.0, 9.0 } };
+  const RigidMotion second{ glm::dvec3(0.0), { -7.0, 12.0, 31.0 }, { -5.0, 1.0, 2.0 } };
+  const Grid expected = movedRigidly(movedRigidly(grid, first), second);
+  const glm::dmat3 turn = movedRigidly(plainGrid(glm::ivec3(2), glm::dvec3(1.0)), second).direction;
+  const RigidMotion both = followedBy(first, turn, second.translation);
+  EXPECT_EQ(both.middle, first.middle);
+  const Grid moved = movedRigidly(grid, both);
+  for (const glm::dvec3& corner : { glm::dvec3(0.0), glm::dvec3(3.0, 1.0, 2.0) })
+  {
+    EXPECT_LT(glm::distance(moved.worldFromGrid(corner), expected.worldFromGrid(corner)), 1e-9);
+  }
+}
+
 TEST_F(CompareVolumes, WithoutACavityThatOfAnEarlierOneIsGone)
 {
   this->Filter->SetInputData(2, twoLabels(this->ReferenceGrid));

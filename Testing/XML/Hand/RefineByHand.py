@@ -6,7 +6,6 @@ with a sentence when something is missing or goes away.
 
 ParaView's window runs this file as a script; what did not hold is written down for the pvpython
 that runs it afterwards."""
-import contextlib
 import os
 import re
 
@@ -15,7 +14,7 @@ import numpy
 import test_hand as hand
 import window_testing as window
 from brainshift_testing import scratch
-from paraview import servermanager, simple
+from paraview import simple
 from window_testing import deformation, undo_labels
 
 SIDE = 60  # voxels and mm
@@ -25,20 +24,8 @@ FILE = scratch("after.vti")
 kept = {}
 
 
-@contextlib.contextmanager
-def unrecorded():
-    """What a script does here is nothing to undo."""
-    builder = servermanager.vtkSMProxyManager.GetProxyManager().GetUndoStackBuilder()
-    before = builder.GetIgnoreAllChanges()
-    builder.SetIgnoreAllChanges(True)
-    try:
-        yield
-    finally:
-        builder.SetIgnoreAllChanges(before)
-
-
 def field():
-    with unrecorded():
+    with window.unrecorded():
         deformation().UpdatePipeline()
         return numpy.array(brainshift.deformed_from_rest(deformation(), POINTS))
 
@@ -196,7 +183,7 @@ def escape_puts_all_back():
 
 def it_ends_by_itself():
     was, undo = tuple(deformation().Lattice.ControlPoints), undo_labels()
-    with unrecorded():
+    with window.unrecorded():
         simple.CompareVolumes(registrationName="compared", Input=deformation(),
                               Reference=simple.FindSource("after"))
         simple.SetActiveSource(deformation())
@@ -232,7 +219,7 @@ def a_state_keeps_it():
 
 def open_again():
     """As it was before all refinements, with the section open."""
-    with unrecorded():
+    with window.unrecorded():
         deformation().Lattice = None
         deformation().Strokes = HAND
         for name in lattices():
@@ -299,7 +286,7 @@ def a_reference_may_go():
 
 
 def the_deformation_may_go():
-    with unrecorded():
+    with window.unrecorded():
         open_reference()
     open_again()
     begin()

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Panel/Registered/AlignPane.h"
+
+#include "Interaction/Displays/SharedSettings.h"
+#include "Interaction/Edits/AlignEditor.h"
+#include "Panel/Parts/Advice.h"
+#include "Panel/Registered/AlignText.h"
+#include "Panel/Registered/PaneParts.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+namespace brainshift
+{
+namespace
+{
+constexpr int WholeProgress = 100;
+}
+
+AlignPane::AlignPane(pqPipelineSource* compare, QWidget* parent)
+  : QWidget(parent)
+  , Editor(AlignEditor::of(compare))
+  , Align(makeButton("BrainShiftAlign", tr("Align"),
+      tr("Move the reference to where it says most about the volume, by mutual information, from "
+         "where it lies now. Both are compared as they are drawn; the cavity does not count.")))
+  , Stop(makeButton("BrainShiftAlignStop", tr("Stop"),
+      tr("Keep where the reference lies now, as one step to undo. Escape instead moves it back.")))
+  , Progress(new QProgressBar)
+  , Said(makeText("BrainShiftAlignSaid"))
+  , Warning(makeText("BrainShiftAlignWarning"))
+{
+  this->setObjectName("BrainShiftAlignPane");
+  this->Progress->setObjectName("BrainShiftAlignProgress");
+  this->Progress->setAccessibleName(tr("Progress of the alignment"));
+  this->Progress->setRange(0, WholeProgress);
+  auto column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  auto row = new QHBoxLayout;
+  row->addWidget(this->Align);
+  row->addWidget(this->Stop);
+  row->addStretch();
+  column->addLayout(row);
+  for (QWidget* part : { static_cast<QWidget*>(this->Progress), static_cast<QWidget*>(this->Said),
+         static_cast<QWidget*>(this->Warning) })
+  {
+    column->addWidget(part);
+  }
+  if (this->Editor)
+  {
+    this->connect(this->Align, &QToolButton::clicked, this->Editor, &AlignEditor::begin);
+    this->connect(this->Stop, &QToolButton::clicked, this->Editor, &AlignEditor::stop);
+    this->connect(this->Editor, &AlignEditor::changed, this, &AlignPane::refresh);
+  }
+  this->refresh();
+}
+
+void AlignPane::refresh()
+{
+  if (!this->Editor)
+  {
+    return;
+  }
+  const bool active = this->Editor->isActive();
+  this->Align->setEnabled(!active);
+  this->Stop->setEnabled(active);
+  this->Progress->setVisible(active);
+  this->Progress->setValue(static_cast<int>(WholeProgress * this->Editor->figures().done));
+  this->say();
+}
+
+void AlignPane::say()
+{
+  const AlignFigures& figures = this->Editor->figures();
+  QString said;
+  QString warning = this->Editor->problem();
+  switch (this->Editor->state())
+  {
+    case AlignEditor::State::Running:
+      said = figures.lines > 0 ? alignProgress(figures) : tr("Preparing the search ...");
+      break;
+    case AlignEditor::State::Kept:
+    case AlignEditor::State::Finished:
+      if (figures.lines == 0)
+      {
+        said = tr("Stopped before the first step; nothing has changed.");
+        break;
+      }
+      said = alignResult(
+        this->Editor->state() == AlignEditor::State::Kept ? tr("Stopped") : tr("Finished"),
+        figures);
+      warning = alignWarning(figures);
+      break;
+    case AlignEditor::State::Idle:
+      break;
+  }
+  this->Said->setText(said);
+  this->Said->setVisible(!said.isEmpty());
+  this->Warning->setText(warning);
+  this->Warning->setVisible(!warning.isEmpty());
+  QPalette palette = this->palette();
+  palette.setColor(
+    QPalette::WindowText, gradeColor(Grade::Bad, this->palette(), wantsBlueAndOrange()));
+  this->Warning->setPalette(palette);
+}
+}
