@@ -33,7 +33,7 @@ namespace brainshift
 {
 namespace
 {
-constexpr qint64 SearchMs = 100; // between two pictures: Stop is answered soon after
+constexpr qint64 SearchMs = 40; // between two pictures: Stop is answered soon after
 
 // As in brainshift.align of Python and in Filters/Register/Alignment.cxx.
 constexpr double LeastCompared = 0.25;

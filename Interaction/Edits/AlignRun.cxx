@@ -13,6 +13,7 @@
 
 #include <QCoreApplication>
 
+#include <glm/common.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
@@ -26,6 +27,9 @@ namespace
 {
 constexpr std::size_t NumberOfFigures = 9; // of vtkRegistrationRun
 constexpr std::size_t NumbersOfMotion = 16;
+
+// Fields of the panel hold these digits of mm and degrees; it is below what an alignment can tell.
+constexpr double Digits = 1e4;
 
 QString tr(const char* text)
 {
@@ -99,6 +103,9 @@ RigidMotion AlignRun::motion() const
     return this->Start;
   }
   const glm::dmat4 further = glm::transpose(glm::make_mat4(rows.data()));
-  return followedBy(this->Start, glm::dmat3(further), glm::dvec3(further[3]));
+  RigidMotion motion = followedBy(this->Start, glm::dmat3(further), glm::dvec3(further[3]));
+  motion.rotation = glm::round(motion.rotation * Digits) / Digits;
+  motion.translation = glm::round(motion.translation * Digits) / Digits;
+  return motion;
 }
 }

@@ -44,7 +44,7 @@ public:
 
   /// How the reference was moved at the beginning.
   const RigidMotion& start() const { return this->Start; }
-  /// How it must be moved to lie where the search has come to.
+  /// How it must be moved to lie where the search has come to, rounded for the panel.
   RigidMotion motion() const;
   const AlignFigures& figures() const { return this->Figures; }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Properties/AlignWidget.h"
 
+#include "Panel/Parts/RoomyDock.h"
 #include "Panel/Registered/AlignPane.h"
 
 #include <pqApplicationCore.h>
@@ -24,5 +25,6 @@ AlignWidget::AlignWidget(vtkSMProxy* proxy, vtkSMProperty* /*property*/, QWidget
   {
     column->addWidget(new AlignPane(source, this));
   }
+  new RoomyDock(this);
 }
 }
