@@ -56,6 +56,15 @@ def error(bent, rest):
     return numpy.linalg.norm(apart, axis=1).mean()
 
 
+def refuses(call, words):
+    try:
+        call()
+    except ValueError as said:
+        assert words in str(said), said
+    else:
+        raise AssertionError(f"no error: {words}")
+
+
 def test_align_finds_a_known_motion():
     rest = rest_volume()
     moved = volume((200 - tissue(*places())).astype(numpy.float32), spacing=SPACING)
@@ -153,13 +162,23 @@ def test_errors_leave_all_as_it_was():
             (lambda: brainshift.refine(bent, rest, stiffness=0.0), "Stiffness is 0"),
             (lambda: brainshift.refine(bent, compare, cavity=rest), "has its own"),
             (lambda: brainshift.align(rest), "carries no reference")):
-        try:
-            call()
-        except ValueError as said:
-            assert words in str(said), said
-        else:
-            raise AssertionError(f"no error: {words}")
+        refuses(call, words)
     assert tuple(bent.Strokes) == hand and bent.Lattice is None
+
+
+def test_without_overlap_nothing_changes():
+    rest = rest_volume()
+    away = volume(tissue(*places()).astype(numpy.float32), origin=(500.0, 0.0, 0.0),
+                  spacing=SPACING)
+    strokes = tuple(brainshift.soft(MIDDLE, (2, 0, 0), 30.0))
+    bent = simple.FreeFormDeformation(Input=rest, Strokes=strokes)
+    before = sorted(simple.GetSources())
+    refuses(lambda: brainshift.refine(bent, away), "nothing in common")
+    assert tuple(bent.Strokes) == strokes and not bent.Lattice, bent.Lattice
+    assert sorted(simple.GetSources()) == before, simple.GetSources()
+    compare = simple.CompareVolumes(Input=bent, Reference=away)
+    refuses(lambda: brainshift.align(compare), "at least 25 % must")
+    assert list(compare.ReferenceTranslation) == [0.0, 0.0, 0.0], compare.ReferenceTranslation
 
 
 def test_a_lattice_of_the_wrong_size_is_an_error():
