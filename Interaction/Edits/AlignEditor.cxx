@@ -15,8 +15,6 @@
 
 #include <vtkCommand.h>
 #include <vtkSMPropertyHelper.h>
-#include <vtkSMSession.h>
-#include <vtkSMSourceProxy.h>
 #include <vtkSMTrace.h>
 
 #include <QApplication>
