@@ -7,9 +7,11 @@ Rigid: the volume (NIfTI; without one, that of the tests) against itself, invert
 another grid, from 20 random starts up to 20 mm and 15 degrees away. The error is the largest one
 at eight corners of a head.
 
-Elastic: the case study's sag with its cavity, and the 50 landmarks of Examples/case_study.py.
+Elastic: the case study's sag with its cavity, and the 50 landmarks of Examples/case_study.py; then
+a sag 2.5 times as large. Speed: steps on the finest level, and the longest call.
 """
 
+import contextlib
 import os
 import pathlib
 import sys
@@ -31,6 +33,7 @@ FARTHEST_MM = 20.0
 FARTHEST_DEGREES = 15.0
 NOISE = 0.05  # of the largest value, standard deviation
 CORNERS_MM = 70.0  # from the middle, along each axis
+LARGE_SAG = 2.5  # times the sag of the case study
 
 # Another contrast: `mode` names it. Values above `top` are few.
 CHANGED = """
@@ -108,34 +111,70 @@ def rigid(name):
           f"largest {max(seconds):.1f} s")
 
 
-def elastic():
-    case = case_study.Case()
-    cavity = case.compare.Cavity
-    points = case.landmarks
-    truth = brainshift.deformed_from_rest(case.sag, points)
+class Landmarks:
+    """How far a bend moves the landmarks of a case from where its sag moves them."""
 
-    def error(bent):
-        apart = numpy.linalg.norm(brainshift.deformed_from_rest(bent, points) - truth, axis=1)
+    def __init__(self, case):
+        self.points = case.landmarks
+        self.truth = brainshift.deformed_from_rest(case.sag, self.points)
+
+    def error(self, bent):
+        found = brainshift.deformed_from_rest(bent, self.points)
+        apart = numpy.linalg.norm(found - self.truth, axis=1)
         return f"{apart.mean():.2f} / {apart.max():.2f} mm"
-    print(f"elastic, before: {error(case.bent)}")
-    for mode, similarity in (("inverted", "auto"), ("bias noise", "auto"),
-                             ("inverted bias noise", "auto"), ("same", "same contrast"),
-                             ("bias noise", "same contrast")):
+
+
+def refine_each(title, case, cases):
+    """Refines an unbent volume once for each contrast and similarity, and prints what is left."""
+    landmarks = Landmarks(case)
+    print(f"{title}, before: {landmarks.error(case.bent)}")
+    for mode, similarity in cases:
         bent = simple.FreeFormDeformation(Input=case.brain)
         reference = changed(case.after_surgery, mode)
         before = time.process_time(), time.monotonic()
-        found = brainshift.refine(bent, reference, similarity=similarity, cavity=cavity)
+        found = brainshift.refine(bent, reference, similarity=similarity,
+                                  cavity=case.compare.Cavity)
         took = time.process_time() - before[0], time.monotonic() - before[1]
-        print(f"elastic, {mode}, {similarity}: {error(bent)}, {found.steps} steps, "
+        print(f"{title}, {mode}, {similarity}: {landmarks.error(bent)}, {found.steps} steps, "
               f"CPU {took[0]:.1f} s, {took[1]:.1f} s, determinant {found.smallest_determinant:.2f}")
+
+
+def elastic():
+    case = case_study.Case()
+    refine_each("elastic", case, (
+        ("inverted", "auto"), ("bias noise", "auto"), ("inverted bias noise", "auto"),
+        ("same", "same contrast"), ("bias noise", "same contrast")))
     case_study.stamp_to_trace(case.bent, case.measure)
-    by_hand = error(case.bent)
-    brainshift.refine(case.bent, changed(case.after_surgery, "inverted"), cavity=cavity)
-    print(f"elastic, inverted, auto: ten stamps {by_hand}, refined from there {error(case.bent)}")
+    landmarks = Landmarks(case)
+    by_hand = landmarks.error(case.bent)
+    brainshift.refine(case.bent, changed(case.after_surgery, "inverted"),
+                      cavity=case.compare.Cavity)
+    print(f"elastic, inverted, auto: ten stamps {by_hand}, refined from there "
+          f"{landmarks.error(case.bent)}")
+    refine_each(f"sag times {LARGE_SAG}", case_study.Case(LARGE_SAG), (
+        ("inverted", "auto"), ("bias noise", "auto"), ("same", "same contrast")))
+
+
+@contextlib.contextmanager
+def every_call(note):
+    """Calls note(run, figures) after each call of a run, whether or not it took a step."""
+    from brainshift import registering
+    answer = registering._Run.answer
+
+    def noted(run, name):
+        figures = answer(run, name)
+        if name == "Figures":
+            note(run, figures)
+        return figures
+    registering._Run.answer = noted
+    try:
+        yield
+    finally:
+        registering._Run.answer = answer
 
 
 def speed():
-    """Time of a step at 256 x 256 x 150 voxels, on the finest level."""
+    """Time of a step at 256 x 256 x 150 voxels, on the finest level, and of the longest call."""
     head = simple.NIFTIVolumeReader(FileName=str(HEAD))
     big = simple.ResampleToImage(Input=head, SamplingDimensions=(256, 256, 150))
     image = servermanager.Fetch(big)
@@ -157,19 +196,20 @@ executive.GetOutputInformation(0).Set(vtkDataObject.SPACING(), 1.0, 1.0, 1.0)
         Input=simple.FreeFormDeformation(Input=placed, Strokes=strokes))
     for similarity in ("auto", "same contrast", "ultrasound"):
         bent = simple.FreeFormDeformation(Input=placed)
-        times = []
+        times = []  # of each call: level, steps, clock and processor time
 
-        def note(progress, times=times):
-            times.append((progress.level, time.monotonic(), time.process_time()))
-        before = time.monotonic()
-        found = brainshift.refine(bent, baked, similarity=similarity, callback=note)
-        whole = time.monotonic() - before
-        fine = numpy.array([(b[1] - a[1], b[2] - a[2]) for a, b in zip(times, times[1:])
-                            if a[0] == b[0] == 1])
-        step, cpu = 1000 * numpy.median(fine[1:], axis=0)
-        print(f"speed, 256 x 256 x 150, {similarity}: {step:.0f} ms a "
-              f"step on the finest level (CPU {cpu:.0f} ms), {found.steps} steps, "
-              f"{whole:.1f} s in all, {os.cpu_count()} cores")
+        def note(run, figures, times=times):
+            times.append((figures[2], figures[1], time.monotonic(), time.process_time()))
+        with every_call(note):
+            note(None, (0, 0, 0))
+            found = brainshift.refine(bent, baked, similarity=similarity)
+        whole = times[-1][2] - times[0][2]
+        calls = numpy.diff(times, axis=0)
+        fine = (calls[:, 1] == 1) & (numpy.array(times)[1:, 0] == found.level)
+        step, cpu = 1000 * numpy.median(calls[fine, 2:], axis=0)
+        print(f"speed, 256 x 256 x 150, {similarity}: {step:.0f} ms a step on the finest level "
+              f"(CPU {cpu:.0f} ms), longest call {1000 * calls[1:, 2].max():.0f} ms, "
+              f"{found.steps} steps, {whole:.1f} s in all, {os.cpu_count()} cores")
 
 
 if __name__ == "__main__":

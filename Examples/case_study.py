@@ -109,12 +109,14 @@ def preoperative_brain():
     return brain
 
 
-def known_sag(brain):
-    """What happened, hidden from the tool: a deep sag, more of it in front, less beside."""
+def known_sag(brain, scale=1.0):
+    """What happened, hidden from the tool: a deep sag, more of it in front, less beside. `scale`
+    multiplies all of it."""
     import brainshift
-    strokes = (brainshift.soft(CRANIOTOMY, 6.5 * GRAVITY, 90.0)
-               + brainshift.soft(CRANIOTOMY + (-5, 25, -10), 2.5 * GRAVITY, 45.0)
-               + brainshift.soft(CRANIOTOMY + (0, -30, -15), (0.5, -1.0, 0.5), 40.0))
+    beside = scale * numpy.array((0.5, -1.0, 0.5))
+    strokes = (brainshift.soft(CRANIOTOMY, 6.5 * scale * GRAVITY, 90.0)
+               + brainshift.soft(CRANIOTOMY + (-5, 25, -10), 2.5 * scale * GRAVITY, 45.0)
+               + brainshift.soft(CRANIOTOMY + (0, -30, -15), beside, 40.0))
     return simple.FreeFormDeformation(Input=brain, Strokes=strokes,
                                       LatticeDimensions=[31, 31, 31])
 
@@ -233,12 +235,15 @@ def fit_to_trace(case):
 
 
 class Case:
-    """The patient before and after surgery, the volume to bend, and what is measured of it."""
+    """The patient before and after surgery, the volume to bend, and what is measured of it.
 
-    def __init__(self):
+    `scale` multiplies the sag.
+    """
+
+    def __init__(self, scale=1.0):
         random = numpy.random.default_rng(SEED)
         self.brain = preoperative_brain()
-        self.sag = known_sag(self.brain)
+        self.sag = known_sag(self.brain, scale)
         sunken = simple.BakeDeformation(Input=self.sag, Interpolation="Cubic")
         self.after_surgery = postoperative(sunken, "Brain")
         self.trace = pointer_trace(self.after_surgery, random)

@@ -100,7 +100,8 @@ float forceOf(
 DescriptorSimilarity::DescriptorSimilarity(const LevelVolumes& level, const Lattice& lattice)
   : Samples(level, lattice)
   , Rest(Samples.read(selfSimilarity(level.rest), Channels))
-  , Reference(selfSimilarity(level.reference))
+  , Reference(
+      level.referenceNumbers.empty() ? selfSimilarity(level.reference) : level.referenceNumbers)
 {
 }
 
@@ -130,6 +131,8 @@ Agreement DescriptorSimilarity::compare(const std::vector<glm::vec3>& displaceme
     });
     return stretch.first < stretch.last;
   });
-  return averaged(rowSums, rowWeights, std::move(forces));
+  Agreement result = averaged(rowSums, rowWeights, std::move(forces));
+  result.possible = samples.possible;
+  return result;
 }
 }

@@ -35,32 +35,43 @@ LevelSamples::LevelSamples(const LevelVolumes& level, const Lattice& lattice)
   {
     this->freedom.resize(grid.count());
   }
-  this->stretches.resize(static_cast<std::size_t>(grid.dimensions.y) * grid.dimensions.z);
   const glm::vec3 controlsPerStep(grid.spacing / lattice.grid.spacing);
-  parallelFor(0, grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
-    for (int k = static_cast<int>(begin); k < end; ++k)
-    {
-      for (int j = 0; j < grid.dimensions.y; ++j)
+  parallelFor(
+    0, lattice.mask ? grid.dimensions.z : 0, 1, [&](std::int64_t begin, std::int64_t end) {
+      for (int k = static_cast<int>(begin); k < end; ++k)
       {
-        Stretch& stretch = this->stretches[static_cast<std::size_t>(k) * grid.dimensions.y + j];
-        stretch = { grid.dimensions.x, 0 };
-        for (int i = 0; i < grid.dimensions.x; ++i)
+        for (int j = 0; j < grid.dimensions.y; ++j)
         {
-          const std::size_t number = grid.offset(i, j, k);
-          if (lattice.mask)
+          for (int i = 0; i < grid.dimensions.x; ++i)
           {
+            const std::size_t number = grid.offset(i, j, k);
             this->freedom[number] =
               freedomAt(lattice, this->rows.position(i, j, k) * controlsPerStep);
             this->weights[number] *= this->freedom[number] > 0.0f ? 1.0f : 0.0f;
           }
-          if (this->weights[number] > 0.0f)
-          {
-            stretch = { std::min(stretch.first, i), i + 1 };
-          }
         }
       }
+    });
+  this->findStretches();
+}
+
+void LevelSamples::findStretches()
+{
+  const int count = this->rows.samples().dimensions.x;
+  this->stretches.clear();
+  for (std::size_t row = 0; row < this->weights.size(); row += count)
+  {
+    Stretch stretch{ count, 0 };
+    for (int i = 0; i < count; ++i)
+    {
+      if (this->weights[row + i] > 0.0f)
+      {
+        stretch = { std::min(stretch.first, i), i + 1 };
+      }
     }
-  });
+    this->stretches.push_back(stretch);
+  }
+  this->possible = std::accumulate(this->weights.begin(), this->weights.end(), 0.0);
 }
 
 std::vector<float> LevelSamples::read(const std::vector<float>& values, int numbers) const

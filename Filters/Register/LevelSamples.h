@@ -20,20 +20,23 @@
 
 namespace brainshift
 {
-/** The two volumes of one level. All four have the same grid, that of the level. */
+/** The two volumes of one level. All have the same grid, that of the level. */
 struct LevelVolumes
 {
   Volume rest;
   Volume reference;
   Volume restWeights;      ///< 1 where the volume counts, else 0
   Volume referenceWeights; ///< 1 where the reference counts, else 0
+  /** SelfSimilarity.h of `reference`; empty: whoever needs it computes it. */
+  std::vector<float> referenceNumbers;
 };
 
 /** How well both agree, and half of the way down from there. */
 struct Agreement
 {
   double disagreement = 0.0; ///< mean over all samples that count; 0: they agree perfectly
-  double samples = 0.0;      ///< how many count
+  double samples = 0.0;      ///< how many of them have a partner in the reference
+  double possible = 0.0;     ///< how many could have one
   /** Minus half the derivative of `disagreement` by each control point, and its Hessian. */
   ControlForces forces;
 };
@@ -56,6 +59,11 @@ struct LevelSamples
   std::vector<float> freedom;     ///< 0 to 1, from the lattice's mask; empty: 1 everywhere
   std::vector<Stretch> stretches; ///< for each row
   glm::vec3 stepsPerMm{ 1.0f };
+
+  double possible = 0.0; ///< how many samples count
+
+  /** Finds `stretches` and `possible` from the weights. */
+  void findStretches();
 
   /** Where a sample that counts is compared. */
   struct Place

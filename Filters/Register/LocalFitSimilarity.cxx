@@ -97,28 +97,38 @@ std::vector<float> gradientLength(const Volume& volume)
   return result;
 }
 
-// The variance of what counts in the window around each point.
-std::vector<float> windowVariances(
-  const std::vector<float>& values, const Volume& weights, int radius)
+// The variance of what counts in each window.
+std::vector<float> windowVariances(const std::vector<float>& values, const Volume& weights)
 {
-  Volume means = weights;
-  Volume squares = weights;
-  Volume counts = weights;
-  for (std::size_t i = 0; i < values.size(); ++i)
+  constexpr int Numbers = 3;
+  const glm::ivec3 sides = weights.grid.dimensions;
+  Block rows({ windowsAlong(sides.x), sides.y, sides.z }, Numbers);
+  parallelFor(0, sides.z, 1, [&](std::int64_t begin, std::int64_t end) {
+    std::vector<float> points(static_cast<std::size_t>(sides.x) * Numbers);
+    for (int k = static_cast<int>(begin); k < end; ++k)
+    {
+      for (int j = 0; j < sides.y; ++j)
+      {
+        std::size_t n = weights.grid.offset(0, j, k);
+        for (std::size_t i = 0; i < points.size(); i += Numbers, ++n)
+        {
+          points[i] = weights.values[n];
+          points[i + 1] = points[i] * values[n];
+          points[i + 2] = points[i + 1] * values[n];
+        }
+        gatherRow(points.data(), sides.x, Numbers, rows.row(j, k));
+      }
+    }
+  });
+  const Block windows = gathered(rows);
+  std::vector<float> variances;
+  for (std::size_t n = 0; n < windows.values.size(); n += Numbers)
   {
-    means.values[i] *= values[i];
-    squares.values[i] *= values[i] * values[i];
+    const float count = std::max(1.0f, windows.values[n]);
+    const float mean = windows.values[n + 1] / count;
+    variances.push_back(std::max(0.0f, windows.values[n + 2] / count - mean * mean));
   }
-  boxSum(means, glm::ivec3(radius));
-  boxSum(squares, glm::ivec3(radius));
-  boxSum(counts, glm::ivec3(radius));
-  for (std::size_t i = 0; i < values.size(); ++i)
-  {
-    const float count = std::max(1.0f, counts.values[i]);
-    const float mean = means.values[i] / count;
-    squares.values[i] = std::max(0.0f, squares.values[i] / count - mean * mean);
-  }
-  return squares.values;
+  return variances;
 }
 
 // A variance below which a window is taken for flat.
@@ -129,23 +139,33 @@ float leastVariance(const std::vector<float>& variances)
 }
 }
 
+// What a comparison works with, sample by sample and window by window.
 struct LocalFitSimilarity::Work
 {
-  explicit Work(const Grid& grid, int sums)
+  Work(const Grid& grid, int sums)
     : value(grid.count())
     , weight(grid.count(), 0.0f)
     , slope(grid.count())
-    , sums(sums, Volume{ grid, std::vector<float>(grid.count(), 0.0f) })
+    , rows({ windowsAlong(grid.dimensions.x), grid.dimensions.y, grid.dimensions.z }, sums)
   {
+  }
+
+  void clear()
+  {
+    std::fill(this->weight.begin(), this->weight.end(), 0.0f);
+    std::fill(this->rows.values.begin(), this->rows.values.end(), 0.0f);
   }
 
   std::vector<float> value;     // of the reference at the samples
   std::vector<float> weight;    // of the samples; 0: not compared
   std::vector<glm::vec3> slope; // of the reference for each mm that the controls move
-  std::vector<Volume> sums;
+  Block rows;                   // Sum, gathered along x alone
+  Block windows;                // Sum, then Left
   std::vector<double> slabSums; // of the windows' disagreement
   std::vector<double> slabCounts;
 };
+
+LocalFitSimilarity::~LocalFitSimilarity() = default;
 
 LocalFitSimilarity::LocalFitSimilarity(
   const LevelVolumes& level, const Lattice& lattice, bool withSlope)
@@ -157,8 +177,8 @@ LocalFitSimilarity::LocalFitSimilarity(
   toShares(this->Rest, level.restWeights.values);
   toShares(this->Reference.values, level.referenceWeights.values);
   this->LeastVariance =
-    leastVariance(windowVariances(this->Reference.values, level.referenceWeights, WindowRadius));
-  const std::vector<float> variances = windowVariances(this->Rest, level.restWeights, WindowRadius);
+    leastVariance(windowVariances(this->Reference.values, level.referenceWeights));
+  const std::vector<float> variances = windowVariances(this->Rest, level.restWeights);
   const float least = leastVariance(variances);
   for (const float variance : variances)
   {
@@ -171,76 +191,101 @@ LocalFitSimilarity::LocalFitSimilarity(
     this->Slope = this->Samples.read(this->Slope, 1);
   }
   this->Rest = this->Samples.read(this->Rest, 1);
+  this->leaveOutIdleSamples();
+}
+
+// Samples that no window needs do not count: the air around a head is most of many volumes.
+void LocalFitSimilarity::leaveOutIdleSamples()
+{
+  const glm::ivec3 sides = this->Samples.rows.samples().dimensions;
+  Block windows({ windowsAlong(sides.x), windowsAlong(sides.y), windowsAlong(sides.z) }, 1);
+  std::copy(this->Says.begin(), this->Says.end(), windows.values.begin());
+  const Block rows = spread(windows, sides);
+  std::vector<float> needed(sides.x);
+  for (int k = 0; k < sides.z; ++k)
+  {
+    for (int j = 0; j < sides.y; ++j)
+    {
+      spreadRow(rows.row(j, k), sides.x, 1, needed.data());
+      float* weights = &this->Samples.weights[this->Samples.rows.samples().offset(0, j, k)];
+      for (int i = 0; i < sides.x; ++i)
+      {
+        weights[i] = needed[i] > 0.0f ? weights[i] : 0.0f;
+      }
+    }
+  }
+  this->Samples.findStretches();
+}
+
+void LocalFitSimilarity::takeSample(const LevelSamples::Place& place, float* sums, Work& work) const
+{
+  const float w =
+    place.weight * trilinear(this->Samples.referenceWeights.values.data(), place.at).value;
+  if (w <= 0.0f)
+  {
+    return;
+  }
+  const std::size_t n = place.number;
+  const ValueAndSlope found = trilinear(this->Reference.values.data(), place.at);
+  const float p = this->Rest[n];
+  const float v = found.value;
+  work.weight[n] = w;
+  work.value[n] = v;
+  work.slope[n] = found.slope * this->Samples.stepsPerMm * place.freedom;
+  const float numbers[SumsWithoutSlope] = { w, w * p, w * p * p, w * v, w * v * v, w * v * p };
+  std::copy(numbers, numbers + SumsWithoutSlope, sums);
+  if (this->WithSlope)
+  {
+    const float g = this->Slope[n];
+    const float more[Sums - G] = { w * g, w * g * g, w * p * g, w * v * g };
+    std::copy(more, more + (Sums - G), sums + G);
+  }
 }
 
 void LocalFitSimilarity::takeSamples(const std::vector<glm::vec3>& displacements, Work& work) const
 {
   const LevelSamples& samples = this->Samples;
-  const int rowsInSlab = samples.rows.samples().dimensions.y;
+  const glm::ivec3 sides = samples.rows.samples().dimensions;
+  const int numbers = work.rows.numbers;
   samples.rows.visitRows(displacements, [&](const SampleRow& row) {
-    samples.visitStretch(row,
-      samples.stretches[static_cast<std::size_t>(row.k) * rowsInSlab + row.j],
-      [&](const LevelSamples::Place& place) {
-        const float w =
-          place.weight * trilinear(samples.referenceWeights.values.data(), place.at).value;
-        if (w <= 0.0f)
-        {
-          return;
-        }
-        const std::size_t n = place.number;
-        const ValueAndSlope found = trilinear(this->Reference.values.data(), place.at);
-        const float p = this->Rest[n];
-        const float v = found.value;
-        work.weight[n] = w;
-        work.value[n] = v;
-        work.slope[n] = found.slope * samples.stepsPerMm * place.freedom;
-        const float numbers[SumsWithoutSlope] = { 1.0f, p, p * p, v, v * v, v * p };
-        for (int s = 0; s < SumsWithoutSlope; ++s)
-        {
-          work.sums[s].values[n] = w * numbers[s];
-        }
-        if (this->WithSlope)
-        {
-          const float g = this->Slope[n];
-          const float more[Sums - G] = { g, g * g, p * g, v * g };
-          for (int s = G; s < Sums; ++s)
-          {
-            work.sums[s].values[n] = w * more[s - G];
-          }
-        }
-      });
+    const std::size_t first = samples.rows.samples().offset(0, row.j, row.k);
+    std::vector<float> sums(static_cast<std::size_t>(sides.x) * numbers, 0.0f);
+    const LevelSamples::Stretch& stretch =
+      samples.stretches[static_cast<std::size_t>(row.k) * sides.y + row.j];
+    samples.visitStretch(row, stretch, [&](const LevelSamples::Place& place) {
+      this->takeSample(place, &sums[(place.number - first) * numbers], work);
+    });
+    if (stretch.first < stretch.last)
+    {
+      gatherRow(sums.data(), sides.x, numbers, work.rows.row(row.j, row.k));
+    }
     return false;
   });
-  for (Volume& sum : work.sums)
-  {
-    boxSum(sum, glm::ivec3(WindowRadius));
-  }
+  work.windows = gathered(work.rows);
 }
 
-void LocalFitSimilarity::fitWindow(Work& work, std::size_t number, double& sum, double& count) const
+void LocalFitSimilarity::fitWindow(float* numbers, bool counts, double& sum, double& windows) const
 {
-  const auto at = [&](int s) -> float& { return work.sums[s].values[number]; };
-  const float samples = at(Count);
+  const float samples = numbers[Count];
   const float side = 2 * WindowRadius + 1;
   float left[Lefts] = {};
-  if (this->Says[number] && work.weight[number] > 0.0f &&
-    samples > LeastWindow * side * side * side)
+  if (counts && samples > LeastWindow * side * side * side)
   {
-    const float p = at(P) / samples;
-    const float v = at(V) / samples;
-    const float pp = at(PP) / samples - p * p + Ridge;
-    const float vp = at(VP) / samples - v * p;
-    const float vv = std::max(0.0f, at(VV) / samples - v * v);
+    const float p = numbers[P] / samples;
+    const float v = numbers[V] / samples;
+    const float pp = numbers[PP] / samples - p * p + Ridge;
+    const float vp = numbers[VP] / samples - v * p;
+    const float vv = std::max(0.0f, numbers[VV] / samples - v * v);
     float a = vp / pp;
     float b = 0.0f;
     float g = 0.0f;
     float explained = a * vp;
     if (this->WithSlope)
     {
-      g = at(G) / samples;
-      const float gg = at(GG) / samples - g * g + Ridge;
-      const float pg = at(PG) / samples - p * g;
-      const float vg = at(VG) / samples - v * g;
+      g = numbers[G] / samples;
+      const float gg = numbers[GG] / samples - g * g + Ridge;
+      const float pg = numbers[PG] / samples - p * g;
+      const float vg = numbers[VG] / samples - v * g;
       const float determinant = pp * gg - pg * pg; // above 0 by the ridges
       a = (vp * gg - vg * pg) / determinant;
       b = (vg * pp - vp * pg) / determinant;
@@ -250,7 +295,7 @@ void LocalFitSimilarity::fitWindow(Work& work, std::size_t number, double& sum, 
     const float all = vv + this->LeastVariance;
     const float unexplained = std::max(0.0f, all - explained);
     sum += unexplained / all;
-    count += 1.0;
+    windows += 1.0;
     left[Scale] = 1.0f / (all * samples);
     left[ScaleA] = left[Scale] * a;
     left[ScaleB] = left[Scale] * b;
@@ -258,34 +303,32 @@ void LocalFitSimilarity::fitWindow(Work& work, std::size_t number, double& sum, 
     left[Loss] = left[Scale] * unexplained / all;
     left[LossMean] = left[Loss] * v;
   }
-  for (int l = 0; l < Lefts; ++l)
-  {
-    at(l) = left[l];
-  }
+  std::copy(left, left + Lefts, numbers);
 }
 
 void LocalFitSimilarity::fitWindows(Work& work) const
 {
   const Grid& grid = this->Samples.rows.samples();
-  work.slabSums.assign(grid.dimensions.z, 0.0);
-  work.slabCounts.assign(grid.dimensions.z, 0.0);
-  const std::size_t slab = grid.offset(0, 0, 1);
-  parallelFor(0, grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t k = begin; k < end; ++k)
+  const glm::ivec3 sides = work.windows.dimensions;
+  work.slabSums.assign(sides.z, 0.0);
+  work.slabCounts.assign(sides.z, 0.0);
+  parallelFor(0, sides.z, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (int k = static_cast<int>(begin); k < end; ++k)
     {
-      for (std::size_t n = slab * k; n < slab * (k + 1); ++n)
+      for (int j = 0; j < sides.y; ++j)
       {
-        this->fitWindow(work, n, work.slabSums[k], work.slabCounts[k]);
+        float* numbers = work.windows.row(j, k);
+        const std::size_t middle = grid.offset(0, WindowStride * j, WindowStride * k);
+        const char* says = &this->Says[(static_cast<std::size_t>(k) * sides.y + j) * sides.x];
+        for (int i = 0; i < sides.x; ++i, numbers += work.windows.numbers)
+        {
+          this->fitWindow(numbers, says[i] && work.weight[middle + WindowStride * i] > 0.0f,
+            work.slabSums[k], work.slabCounts[k]);
+        }
       }
     }
   });
-  for (int l = 0; l < Lefts; ++l)
-  {
-    if (l != ScaleB || this->WithSlope)
-    {
-      boxSum(work.sums[l], glm::ivec3(WindowRadius));
-    }
-  }
+  work.windows = spread(work.windows, grid.dimensions);
 }
 
 ControlForces LocalFitSimilarity::takeForces(
@@ -293,9 +336,16 @@ ControlForces LocalFitSimilarity::takeForces(
 {
   const LevelSamples& samples = this->Samples;
   const Grid& grid = samples.rows.samples();
+  const int numbers = work.windows.numbers;
   return samples.rows.visitRows(displacements, [&](const SampleRow& row) {
     const LevelSamples::Stretch stretch =
       samples.stretches[static_cast<std::size_t>(row.k) * grid.dimensions.y + row.j];
+    if (stretch.first >= stretch.last)
+    {
+      return false;
+    }
+    std::vector<float> lefts(static_cast<std::size_t>(grid.dimensions.x) * numbers);
+    spreadRow(work.windows.row(row.j, row.k), grid.dimensions.x, numbers, lefts.data());
     for (int i = stretch.first; i < stretch.last; ++i)
     {
       const std::size_t n = grid.offset(i, row.j, row.k);
@@ -304,12 +354,12 @@ ControlForces LocalFitSimilarity::takeForces(
       {
         continue;
       }
-      const auto left = [&](int l) { return work.sums[l].values[n]; };
-      const float slopePart = this->WithSlope ? left(ScaleB) * this->Slope[n] : 0.0f;
+      const float* left = &lefts[static_cast<std::size_t>(i) * numbers];
+      const float slopePart = this->WithSlope ? left[ScaleB] * this->Slope[n] : 0.0f;
       const float down = -weight *
-        ((left(Scale) - left(Loss)) * work.value[n] - left(ScaleA) * this->Rest[n] - slopePart -
-          left(ScaleC) + left(LossMean));
-      const float curve = weight * left(Scale);
+        ((left[Scale] - left[Loss]) * work.value[n] - left[ScaleA] * this->Rest[n] - slopePart -
+          left[ScaleC] + left[LossMean]);
+      const float curve = weight * left[Scale];
       const glm::vec3& s = work.slope[n];
       const float force[ForceNumbers] = { down * s.x, down * s.y, down * s.z, curve * s.x * s.x,
         curve * s.y * s.y, curve * s.z * s.z, curve * s.x * s.y, curve * s.x * s.z,
@@ -317,15 +367,25 @@ ControlForces LocalFitSimilarity::takeForces(
       LatticeRows::add(
         row, samples.rows.tapsAt(0, samples.rows.position(i, row.j, row.k).x), force);
     }
-    return stretch.first < stretch.last;
+    return true;
   });
 }
 
-Agreement LocalFitSimilarity::compare(const std::vector<glm::vec3>& displacements) const
+Agreement LocalFitSimilarity::compare(const std::vector<glm::vec3>& displacements)
 {
-  Work work(this->Samples.rows.samples(), this->WithSlope ? Sums : SumsWithoutSlope);
+  if (!this->Known)
+  {
+    const int sums = this->WithSlope ? Sums : SumsWithoutSlope;
+    this->Known = std::make_unique<Work>(this->Samples.rows.samples(), sums);
+  }
+  Work& work = *this->Known;
+  work.clear();
   this->takeSamples(displacements, work);
   this->fitWindows(work);
-  return averaged(work.slabSums, work.slabCounts, this->takeForces(displacements, work));
+  Agreement result =
+    averaged(work.slabSums, work.slabCounts, this->takeForces(displacements, work));
+  result.samples = std::accumulate(work.weight.begin(), work.weight.end(), 0.0);
+  result.possible = this->Samples.possible;
+  return result;
 }
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/Refinement.h"
 
+#include "Filters/Register/SelfSimilarity.h"
+
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace brainshift
@@ -13,6 +14,17 @@ namespace brainshift
 namespace
 {
 constexpr double LongestStepPoints = 1.5;
+
+// So that a step stays short and memory small: of samples of tissue on a level that may be left
+// out. Air costs little. A level that is not finer than the last one by this factor in volume says
+// nothing new.
+constexpr double MostSamples = 0.95e6;
+constexpr double LeastTissue = 0.25; // share of a volume that is taken for tissue
+constexpr float Air = 0.05f;         // share of the range of values
+constexpr double FinerVolume = 0.8;
+
+// A correlation that begins below 0.8 in the mean has another cause than place: the contrast.
+constexpr double MostDisagreement = 0.2;
 constexpr int MostHalvings = 4;
 
 // How often a step that would fold is sought again by a stiffer volume, and how much stiffer.
@@ -40,16 +52,30 @@ const Mask* orNull(const Mask& mask)
   return mask.inside.empty() ? nullptr : &mask;
 }
 
-LevelVolumes levelOf(const RegisteredPair& pair, double spacingMm, const Reach& reach)
+// The spacing of a stage: as fine as it asks for and the number of its samples allows.
+double spacingOf(const RefinementStage& stage, const Grid& rest, double tissueShare)
 {
-  const Grid grid = coarseGrid(pair.rest.grid, spacingMm);
-  LevelVolumes level;
-  level.rest = resampled(smoothed(pair.rest, spacingMm), grid);
-  level.reference = resampled(smoothed(pair.reference, spacingMm), grid);
-  level.restWeights = weightsOf(grid, { nullptr, orNull(pair.inside), nullptr }, reach);
-  level.referenceWeights =
-    weightsOf(grid, { &pair.reference.grid, nullptr, orNull(pair.cavity) }, reach);
-  return level;
+  constexpr double Coarser = 1.02;
+  double spacingMm = stage.spacingMm;
+  while (stage.mostDisagreement < 1.0 &&
+    tissueShare * static_cast<double>(coarseGrid(rest, spacingMm).count()) > MostSamples)
+  {
+    spacingMm *= Coarser;
+  }
+  return spacingMm;
+}
+
+double tissueShareOf(const std::vector<float>& values)
+{
+  const Range range = rangeOf(values);
+  const auto isTissue = [&](float value) { return range.share(value) > Air; };
+  const double count = static_cast<double>(std::count_if(values.begin(), values.end(), isTissue));
+  return std::max(LeastTissue, count / std::max<std::size_t>(1, values.size()));
+}
+
+double pointVolume(const Grid& grid)
+{
+  return grid.spacing.x * grid.spacing.y * grid.spacing.z;
 }
 
 double longest(const std::vector<glm::vec3>& vectors)
@@ -63,10 +89,22 @@ double longest(const std::vector<glm::vec3>& vectors)
 }
 }
 
+std::vector<RefinementStage> stagesOf(SimilarityKind kind)
+{
+  std::vector<RefinementStage> stages{ { kind, 4.0 }, { kind, 2.0 } };
+  if (kind != SimilarityKind::LinearCombination)
+  {
+    // Where the volumes correlate once they lie right, correlation places them more exactly.
+    stages.push_back({ SimilarityKind::LocalCorrelation, 1.3, MostDisagreement });
+  }
+  return stages;
+}
+
 Refinement::Refinement(
   RegisteredPair pair, const Lattice& start, const RefinementSettings& settings)
   : Pair(std::move(pair))
   , Settings(settings)
+  , TissueShare(tissueShareOf(Pair.rest.values))
   , Start(start)
   , Bent(start)
   , Stiff(start.grid, settings.stiffness)
@@ -75,7 +113,7 @@ Refinement::Refinement(
 {
   // Cells that fold by themselves at the start are left alone.
   this->Guard.setBase(start, settings.samples);
-  this->Progress.isFinished = settings.levelsMm.empty();
+  this->Progress.isFinished = settings.stages.empty();
   this->Progress.stiffness = settings.stiffness;
 }
 
@@ -110,23 +148,92 @@ void Refinement::take(const Lattice& lattice, Agreement agreement, double energy
   this->Known = std::move(agreement);
   this->Energy = energy;
   this->Progress.disagreement = this->Known.disagreement;
-  this->Progress.comparedShare = this->Known.samples / this->SamplesAtRest;
+  // Of the first similarity alone: another one reaches farther, and shares would not compare.
+  if (this->stage().similarity == this->Settings.stages.front().similarity)
+  {
+    this->Progress.comparedShare = this->Known.samples / std::max(1.0, this->Known.possible);
+  }
 }
 
+const RefinementStage& Refinement::stage() const
+{
+  return this->Settings.stages[this->Progress.level];
+}
+
+// Each part takes about as long as a step, so that whoever calls can do other things in between.
 void Refinement::prepareLevel()
 {
-  const double spacingMm = this->Settings.levelsMm[this->Progress.level];
-  const LevelVolumes level = levelOf(this->Pair, spacingMm, reachOf(this->Settings.similarity));
-  this->Compare = makeSimilarity(this->Settings.similarity, level, this->Start);
-  const glm::dvec3& spacing = level.rest.grid.spacing;
+  const double spacingMm = spacingOf(this->stage(), this->Pair.rest.grid, this->TissueShare);
+  const Grid grid = coarseGrid(this->Pair.rest.grid, spacingMm);
+  const Reach reach = reachOf(this->stage().similarity);
+  LevelVolumes& level = this->Level;
+  switch (this->PreparedParts++)
+  {
+    case 0:
+      level.rest = resampled(smoothed(this->Pair.rest, spacingMm), grid);
+      break;
+    case 1:
+      level.reference = resampled(smoothed(this->Pair.reference, spacingMm), grid);
+      break;
+    case 2:
+      level.restWeights = weightsOf(grid, { nullptr, orNull(this->Pair.inside), nullptr }, reach);
+      break;
+    case 3:
+      level.referenceWeights =
+        weightsOf(grid, { &this->Pair.reference.grid, nullptr, orNull(this->Pair.cavity) }, reach);
+      break;
+    case 4:
+      if (this->stage().similarity == SimilarityKind::SelfSimilarity)
+      {
+        level.referenceNumbers = selfSimilarity(level.reference);
+      }
+      break;
+    case 5:
+      this->Compare = makeSimilarity(this->stage().similarity, level, this->Start);
+      break;
+    case 6:
+      this->compareHere();
+      break;
+    default:
+      this->IsPrepared = true;
+      this->beginLevel();
+  }
+}
+
+bool Refinement::isWorthIt(const Agreement& here) const
+{
+  if (this->Progress.level == 0 || this->stage().mostDisagreement >= 1.0)
+  {
+    return true;
+  }
+  const Grid& rest = this->Pair.rest.grid;
+  const RefinementStage& former = this->Settings.stages[this->Progress.level - 1];
+  const Grid coarser = coarseGrid(rest, spacingOf(former, rest, this->TissueShare));
+  return here.disagreement <= this->stage().mostDisagreement &&
+    pointVolume(this->Level.rest.grid) < FinerVolume * pointVolume(coarser);
+}
+
+// Ends the level where it is not worth it.
+void Refinement::compareHere()
+{
+  this->Here = this->Compare(this->Controls);
+  if (!this->isWorthIt(this->Here))
+  {
+    this->finishLevel();
+    this->Progress.level -= this->Progress.isFinished ? 1 : 0; // of the last one that was used
+    return;
+  }
+  const glm::dvec3& spacing = this->Level.rest.grid.spacing;
   this->LongestStepMm = LongestStepPoints * std::max(spacing.x, std::max(spacing.y, spacing.z));
-  const std::vector<float>& weights = level.restWeights.values;
-  this->SamplesAtRest = std::max(1.0, std::accumulate(weights.begin(), weights.end(), 0.0));
-  this->StepsOfLevel = 0;
+  this->Level = {};
+}
+
+void Refinement::beginLevel()
+{
+  Agreement& here = this->Here;
   this->Stride = 1.0;
   Agreement atStart = this->Compare(this->StartControls);
   this->Progress.disagreementAtStart = atStart.disagreement;
-  Agreement here = this->Compare(this->Controls);
   const double energy = this->energyOf(this->Controls, here);
   if (energy > atStart.disagreement)
   {
@@ -203,9 +310,13 @@ bool Refinement::improve()
 void Refinement::finishLevel()
 {
   this->Compare = {};
-  if (this->Progress.level + 1 < static_cast<int>(this->Settings.levelsMm.size()))
+  this->Level = {};
+  this->PreparedParts = 0;
+  this->IsPrepared = false;
+  this->StepsOfLevel = 0;
+  if (++this->LevelsDone < static_cast<int>(this->Settings.stages.size()))
   {
-    ++this->Progress.level;
+    this->Progress.level = this->LevelsDone;
   }
   else
   {
@@ -216,9 +327,8 @@ void Refinement::finishLevel()
 
 void Refinement::tellDone()
 {
-  const double levels = static_cast<double>(this->Settings.levelsMm.size());
-  const double ofLevel =
-    this->Compare ? static_cast<double>(this->StepsOfLevel) / this->Settings.mostSteps : 0.0;
+  const double levels = static_cast<double>(this->Settings.stages.size());
+  const double ofLevel = static_cast<double>(this->StepsOfLevel) / this->Settings.mostSteps;
   this->Progress.done = this->Progress.isFinished ? 1.0 : (this->Progress.level + ofLevel) / levels;
 }
 
@@ -228,15 +338,18 @@ const RefinementProgress& Refinement::step()
   {
     return this->Progress;
   }
-  if (!this->Compare)
+  if (!this->IsPrepared)
   {
     this->prepareLevel();
   }
-  ++this->Progress.steps;
-  ++this->StepsOfLevel;
-  if (!this->improve() || this->StepsOfLevel >= this->Settings.mostSteps)
+  else
   {
-    this->finishLevel();
+    ++this->Progress.steps;
+    ++this->StepsOfLevel;
+    if (!this->improve() || this->StepsOfLevel >= this->Settings.mostSteps)
+    {
+      this->finishLevel();
+    }
   }
   this->tellDone();
   return this->Progress;
@@ -246,14 +359,14 @@ double Refinement::bytes(
   const Grid& rest, const Grid& reference, const Grid& lattice, const RefinementSettings& settings)
 {
   double most = 0.0;
-  for (const double spacingMm : settings.levelsMm)
+  for (const RefinementStage& stage : settings.stages)
   {
-    const Grid level = coarseGrid(rest, spacingMm);
+    const Grid level = coarseGrid(rest, spacingOf(stage, rest, LeastTissue));
     // One of the two is smoothed at a time, with the lines that are smoothed beside it.
     const double smoothing = sizeof(float) * 2.0 * std::max(rest.count(), reference.count());
     const double points = static_cast<double>(level.count());
     most = std::max(most,
-      smoothing + similarityBytes(settings.similarity, points) + 4.0 * sizeof(float) * points +
+      smoothing + similarityBytes(stage.similarity, points) + 4.0 * sizeof(float) * points +
         LatticeRows::bytes(lattice.dimensions, level.dimensions));
   }
   return most + 40.0 * sizeof(float) * 3.0 * static_cast<double>(lattice.count());

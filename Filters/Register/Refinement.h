@@ -26,14 +26,25 @@
 
 namespace brainshift
 {
-struct RefinementSettings
+/** One level of a refinement: what is compared there, and how finely. */
+struct RefinementStage
 {
   SimilarityKind similarity = SimilarityKind::SelfSimilarity;
-  double stiffness = 1.0;                   ///< factor on the stiffness; above 0
-  std::vector<double> levelsMm{ 4.0, 2.0 }; ///< spacing of the samples, from coarse to fine
-  int mostSteps = 15;                       ///< on each level
-  int samples = 4;                          ///< nodes between two control points, 0 to 16
-  bool guards = true;                       ///< whether the fold guard shortens steps
+  double spacingMm = 2.0; ///< of the samples; larger where the volume is coarser or too large
+  /** The level is left out where it begins with more disagreement: it might lead astray. */
+  double mostDisagreement = 1.0;
+};
+
+/** The levels for what a user calls a similarity, from coarse to fine. */
+BRAINSHIFT_DEFORMATION_EXPORT std::vector<RefinementStage> stagesOf(SimilarityKind kind);
+
+struct RefinementSettings
+{
+  std::vector<RefinementStage> stages = stagesOf(SimilarityKind::SelfSimilarity);
+  double stiffness = 1.0; ///< factor on the stiffness; above 0
+  int mostSteps = 15;     ///< on each level
+  int samples = 4;        ///< nodes between two control points, 0 to 16
+  bool guards = true;     ///< whether the fold guard shortens steps
 };
 
 /** What is known after a step. */
@@ -45,7 +56,8 @@ struct RefinementProgress
   double disagreementAtStart = 0.0; ///< of the lattice as it began, on the same level
   double movedMm = 0.0;             ///< largest way of a control point in the last step
   double share = 1.0;               ///< smallest share of a step that the fold guard left
-  double comparedShare = 0.0;       ///< of the samples at rest, how many have a partner
+  /** Of the samples at rest, how many have a partner: on the levels of the first similarity. */
+  double comparedShare = 0.0;
   double stiffness = 1.0; ///< what was used; larger than asked for where tissue would have folded
   double done = 0.0;      ///< share of the most steps there may be, 0 to 1; 1 once it is finished
   bool isFinished = false;
@@ -59,7 +71,10 @@ public:
    */
   Refinement(RegisteredPair pair, const Lattice& start, const RefinementSettings& settings);
 
-  /** Takes one step; the first of a level also prepares the level. Nothing once it is finished. */
+  /**
+   * Takes one step, or prepares a part of the next level, which takes about as long. Nothing once
+   * it is finished.
+   */
   const RefinementProgress& step();
 
   const RefinementProgress& progress() const { return this->Progress; }
@@ -72,7 +87,12 @@ public:
     const RefinementSettings& settings);
 
 private:
+  const RefinementStage& stage() const;
   void prepareLevel();
+  /** Whether a level that may be left out is finer than the last one, and agrees well enough. */
+  bool isWorthIt(const Agreement& here) const;
+  void compareHere();
+  void beginLevel();
   void stiffen();
   bool improve();
   double energyOf(const std::vector<glm::vec3>& controls, const Agreement& agreement) const;
@@ -84,15 +104,20 @@ private:
 
   RegisteredPair Pair;
   RefinementSettings Settings;
+  double TissueShare; // of the volume's voxels
   Lattice Start;
   Lattice Bent;
   FoldGuard Guard;
   Stiffness Stiff;
   std::vector<glm::vec3> StartControls; // mm along the grid's axes, as all controls here
   std::vector<glm::vec3> Controls;
-  Similarity Compare; // empty: the level is not prepared
+  LevelVolumes Level; // while it is prepared
+  Agreement Here;     // the same
+  int PreparedParts = 0;
+  bool IsPrepared = false;
+  int LevelsDone = 0;
+  Similarity Compare;
   double LongestStepMm = 0.0;
-  double SamplesAtRest = 1.0;
   Agreement Known; // of Controls
   double Energy = 0.0;
   double Stride = 1.0; // factor on the next step

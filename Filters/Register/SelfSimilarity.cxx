@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 
 namespace brainshift
 {
@@ -76,7 +77,8 @@ std::vector<float> selfSimilarity(const Volume& volume)
   const std::int64_t count = static_cast<std::int64_t>(volume.values.size());
   std::vector<float> result(volume.values.size() * SelfSimilarityNumbers);
   Volume sums{ volume.grid, std::vector<float>(volume.values.size()) };
-  double all = 0.0;
+  const std::int64_t slab = static_cast<std::int64_t>(volume.grid.offset(0, 0, 1));
+  std::vector<double> slabSums(volume.grid.dimensions.z, 0.0);
   int pair = 0;
   for (int a = 0; a < 6; ++a)
   {
@@ -87,14 +89,20 @@ std::vector<float> selfSimilarity(const Volume& volume)
         continue; // across the middle: it would compare with itself where the volume is symmetric
       }
       compare(volume, neighbour(a), neighbour(b), sums);
-      for (std::int64_t i = 0; i < count; ++i)
-      {
-        result[i * SelfSimilarityNumbers + pair] = sums.values[i];
-        all += sums.values[i];
-      }
+      parallelFor(0, volume.grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t k = begin; k < end; ++k)
+        {
+          for (std::int64_t i = k * slab; i < (k + 1) * slab; ++i)
+          {
+            result[i * SelfSimilarityNumbers + pair] = sums.values[i];
+            slabSums[k] += sums.values[i];
+          }
+        }
+      });
       ++pair;
     }
   }
+  const double all = std::accumulate(slabSums.begin(), slabSums.end(), 0.0);
   const float meanNoise = static_cast<float>(all / result.size());
   parallelFor(0, count, 1000, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i)

@@ -14,7 +14,7 @@ namespace
 template <typename Kind, typename... More>
 Similarity made(const LevelVolumes& level, const Lattice& lattice, More... more)
 {
-  const auto kind = std::make_shared<const Kind>(level, lattice, more...);
+  const auto kind = std::make_shared<Kind>(level, lattice, more...);
   return
     [kind](const std::vector<glm::vec3>& displacements) { return kind->compare(displacements); };
 }

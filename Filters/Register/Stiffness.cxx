@@ -22,7 +22,7 @@ constexpr float Shear = 0.5f;
 constexpr float Compression = 0.25f;
 constexpr float Bending = 0.25f;
 
-constexpr float Converged = 1e-6f; // of the squared residual that a Newton step begins with
+constexpr float Converged = 1e-4f; // of the squared residual that a Newton step begins with
 constexpr int MostSolverSteps = 40;
 
 // Which two axes each of the six second derivatives is taken along.

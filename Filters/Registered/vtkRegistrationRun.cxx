@@ -100,7 +100,7 @@ std::string vtkRegistrationRun::Begin(bool bends)
     return "Stiffness is " + std::to_string(this->Stiffness) + "; it must be above 0";
   }
   RefinementSettings settings;
-  settings.similarity = static_cast<SimilarityKind>(this->Similarity);
+  settings.stages = stagesOf(static_cast<SimilarityKind>(this->Similarity));
   settings.stiffness = this->Stiffness;
   const double voxels =
     sizeof(float) * static_cast<double>(grids.rest.count() + grids.reference.count());

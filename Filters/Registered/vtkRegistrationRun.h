@@ -53,7 +53,10 @@ public:
   void BeginRefinement();
   ///@}
 
-  /** Takes one step. Nothing once it is finished, or without a beginning. */
+  /**
+   * Takes one step; a refinement may prepare a part of its next level instead. Nothing once it is
+   * finished, or without a beginning.
+   */
   void Step();
 
   /** Why it could not begin: a sentence without a full stop. Empty if it could. */

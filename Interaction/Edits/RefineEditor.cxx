@@ -225,8 +225,10 @@ void RefineEditor::step()
     this->abandon(tr("The lattice of the refinement is gone, so it ended."));
     return;
   }
+  const int taken = this->figures().steps;
   const bool worked = this->Run.step();
-  if (worked)
+  const bool isMoved = worked && this->figures().steps > taken; // else it prepared a level
+  if (isMoved)
   {
     this->show(this->Run.points());
   }
@@ -235,7 +237,7 @@ void RefineEditor::step()
     this->cancel();
     this->Problem = tr("The refinement failed, see the messages. All is as it was before.");
   }
-  else if (this->figures().compared <= 0.0)
+  else if (isMoved && this->figures().compared <= 0.0)
   {
     const QString reference = this->Reference ? this->Reference->getSMName() : QString();
     this->cancel();

@@ -144,14 +144,19 @@ bool RefineRun::step()
     return false;
   }
   RefineFigures& at = this->Figures;
+  const bool isMoved = static_cast<int>(numbers[1]) > at.steps; // else it prepared a level
   at.steps = static_cast<int>(numbers[1]);
   at.compared = numbers[3];
   at.disagreement = numbers[4];
   at.disagreementBefore = numbers[5];
   at.share = numbers[7];
   at.done = numbers[8];
-  this->Shares.append(at.disagreementBefore > 0.0 ? at.disagreement / at.disagreementBefore : 1.0);
-  this->measureChange();
+  if (isMoved)
+  {
+    this->Shares.append(
+      at.disagreementBefore > 0.0 ? at.disagreement / at.disagreementBefore : 1.0);
+    this->measureChange();
+  }
   return true;
 }
 

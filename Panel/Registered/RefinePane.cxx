@@ -163,8 +163,9 @@ void RefinePane::addChoices(QVBoxLayout* column)
   this->Similarity->addItems({ tr("Auto (any contrast)"), tr("Same contrast"), tr("Ultrasound") });
   form->addRow(tr("Similarity"),
     wrapped(this->Similarity, "BrainShiftRefineSimilarity",
-      tr("Auto compares self-similarity (SSC), for volumes of any contrast. Same contrast compares "
-         "by local correlation (NCC), for two scans of one kind. Ultrasound compares by LC2.")));
+      tr("Auto compares self-similarity (SSC), for volumes of any contrast, and at the end local "
+         "correlation (NCC) if the volumes correlate. Same contrast compares by local correlation "
+         "alone, for two scans of one kind. Ultrasound compares by LC2.")));
   this->Stiffness = new QDoubleSpinBox;
   this->Stiffness->setObjectName("BrainShiftRefineStiffness");
   this->Stiffness->setAccessibleName(tr("Stiffness"));

@@ -38,13 +38,16 @@ class _Run:
 
     def steps(self, result, callback):
         """Steps until it is finished or the callback returns False."""
+        taken = 0
         while True:
             self.proxy.InvokeCommand("Step")
             figures = self.answer("Figures")
             if not figures:
                 raise RuntimeError("The registration stopped; see the messages")
             result.take(figures)
-            stop = callback is not None and callback(result) is False
+            # A call may only have prepared a level.
+            stop = (callback is not None and result.steps > taken and callback(result) is False)
+            taken = result.steps
             if stop or figures[0]:
                 result.finished = bool(figures[0])
                 return

@@ -58,6 +58,17 @@ Lattice still()
   return makeLattice(withDimensions(smallGrid(), { 9, 9, 9 }), KernelCatmullRom);
 }
 
+// One step, and before it what prepares its level.
+double takeStep(Refinement& refinement)
+{
+  const int taken = refinement.progress().steps;
+  while (refinement.progress().steps == taken && !refinement.progress().isFinished)
+  {
+    refinement.step();
+  }
+  return refinement.progress().movedMm;
+}
+
 void run(Refinement& refinement)
 {
   while (!refinement.progress().isFinished)
@@ -85,7 +96,7 @@ TEST_P(RefinementOf, FindsAKnownBend)
   start.kernel = GetParam().kernel;
   ASSERT_GT(apart(start, truth), 1.5);
   RefinementSettings settings;
-  settings.similarity = GetParam().kind;
+  settings.stages = stagesOf(GetParam().kind);
   Refinement refinement(pairBentBy(truth, GetParam().contrast), start, settings);
   run(refinement);
   EXPECT_LT(apart(refinement.lattice(), truth), 0.35);
@@ -93,6 +104,55 @@ TEST_P(RefinementOf, FindsAKnownBend)
   EXPECT_EQ(refinement.progress().level, 1);
   EXPECT_EQ(refinement.progress().share, 1.0);
   EXPECT_GT(refinement.progress().comparedShare, 0.85) << "samples at the border may lie beyond it";
+}
+
+// Finer correlation follows self-similarity where both correlate.
+TEST(Refinement, WhatCorrelatesIsPlacedMoreExactly)
+{
+  Grid fine = smallGrid(70);
+  fine.spacing = glm::dvec3(1.2);
+  const auto texture = [](const glm::dvec3& at) { return tissue(2.0 * at); };
+  const Lattice truth = bulge(fine, 3.0);
+  const PointMap map(truth);
+  RegisteredPair pair;
+  pair.rest = filled(fine, texture);
+  pair.reference =
+    filled(fine, [&](const glm::dvec3& at) { return 300.0 - texture(map.restFromDeformed(at)); });
+  const Lattice start = makeLattice(withDimensions(fine, { 9, 9, 9 }), KernelCatmullRom);
+  RefinementSettings settings;
+  Refinement whole(pair, start, settings);
+  settings.stages.pop_back();
+  Refinement without(pair, start, settings);
+  run(whole);
+  run(without);
+  EXPECT_EQ(whole.progress().level, 2);
+  EXPECT_LT(apart(whole.lattice(), truth), 0.8 * apart(without.lattice(), truth));
+  EXPECT_EQ(whole.progress().comparedShare, without.progress().comparedShare)
+    << "another similarity reaches farther";
+}
+
+TEST(Refinement, ALevelThatMightLeadAstrayIsLeftOut)
+{
+  RegisteredPair pair = pairBentBy(bulge(smallGrid(), 5.0), 1.0);
+  RefinementSettings settings;
+  settings.stages = { { SimilarityKind::SelfSimilarity, 4.0 },
+    { SimilarityKind::LocalCorrelation, 2.0, 0.0 } };
+  Refinement astray(pair, still(), settings);
+  settings.stages = { { SimilarityKind::SelfSimilarity, 4.0 },
+    { SimilarityKind::LocalCorrelation, 4.0, 1.0 - 1e-6 } };
+  Refinement notFiner(pair, still(), settings);
+  settings.stages.pop_back();
+  Refinement one(pair, still(), settings);
+  run(astray);
+  run(notFiner);
+  run(one);
+  for (const Refinement* left : { &astray, &notFiner })
+  {
+    EXPECT_EQ(left->lattice().displacements, one.lattice().displacements);
+    EXPECT_EQ(left->progress().steps, one.progress().steps);
+    EXPECT_EQ(left->progress().level, 0);
+    EXPECT_EQ(left->progress().disagreement, one.progress().disagreement);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, RefinementOf,
@@ -109,13 +169,13 @@ TEST(Refinement, BeginsWithWhatTheHandMade)
   EXPECT_LT(apart(refinement.lattice(), truth), 0.15);
 }
 
-TEST(Refinement, OneCallIsOneStep)
+TEST(Refinement, OneCallIsOneStepOnceItIsPrepared)
 {
   const Lattice truth = bulge(smallGrid(), 5.0);
   Refinement refinement(pairBentBy(truth, 1.0), still(), {});
   EXPECT_EQ(refinement.progress().steps, 0);
   EXPECT_EQ(refinement.lattice().displacements, still().displacements);
-  double moved = refinement.step().movedMm;
+  const double moved = takeStep(refinement);
   EXPECT_EQ(refinement.progress().steps, 1);
   EXPECT_GT(moved, 0.1);
   EXPECT_LE(moved, 1.5 * 4.0 + 1e-3) << "1.5 points of 4 mm";
@@ -127,6 +187,7 @@ TEST(Refinement, OneCallIsOneStep)
   EXPECT_NEAR(longest, moved, 1e-3);
   double before = refinement.progress().disagreement;
   refinement.step();
+  EXPECT_EQ(refinement.progress().steps, 2);
   EXPECT_LT(refinement.progress().disagreement, before);
 }
 
@@ -193,7 +254,7 @@ TEST(Refinement, ACavityIsIgnored)
     pair.reference.values[i] = removed.inside[i] ? 0.0f : pair.reference.values[i];
   }
   RefinementSettings settings;
-  settings.similarity = SimilarityKind::LocalCorrelation;
+  settings.stages = stagesOf(SimilarityKind::LocalCorrelation);
   Refinement misled(pair, still(), settings);
   pair.cavity = ball(grid, centre, 11.0);
   Refinement told(pair, still(), settings);
@@ -227,7 +288,7 @@ TEST(Refinement, MemoryGrowsWithTheFinestLevel)
   const Lattice lattice = still();
   RefinementSettings settings;
   const double coarse = Refinement::bytes(grid, grid, lattice.grid, settings);
-  settings.levelsMm = { 1.0 };
+  settings.stages = { { SimilarityKind::SelfSimilarity, 1.0 } };
   EXPECT_GT(Refinement::bytes(grid, grid, lattice.grid, settings), coarse);
   EXPECT_GT(coarse, 2.0 * sizeof(float) * grid.count());
 }
