@@ -44,6 +44,7 @@ LatticeRows::LatticeRows(const Lattice& lattice, const Grid& samples)
   : Samples(samples)
   , Controls(lattice.grid.dimensions)
   , ControlsPerStep(samples.spacing / lattice.grid.spacing)
+  , AtFirst(lattice.grid.gridFromWorld(samples.origin))
   , Kernel(lattice.kernel)
 {
 }

@@ -56,7 +56,7 @@ public:
 
   /**
    * @param lattice   over the volume's box; its displacements do not count
-   * @param samples   a grid with the same origin and axes as the lattice
+   * @param samples   a grid with the same axes as the lattice, within its box
    */
   LatticeRows(const Lattice& lattice, const Grid& samples);
 
@@ -76,12 +76,19 @@ public:
     return glm::vec3(i, j, k) + this->shift(i, j, k);
   }
 
+  /** A position (points of the samples' grid) in coordinates of the lattice. */
+  glm::vec3 latticePosition(const glm::vec3& position) const
+  {
+    return this->AtFirst + position * this->ControlsPerStep;
+  }
+
   /** The control points around a position (points of the samples' grid) along an axis. */
   Taps tapsAt(int axis, float position) const
   {
     const int last = this->Controls[axis] - 1;
     const float at =
-      glm::clamp(position * this->ControlsPerStep[axis], 0.0f, static_cast<float>(last));
+      glm::clamp(this->AtFirst[axis] + position * this->ControlsPerStep[axis], 0.0f,
+      static_cast<float>(last));
     const int cell = std::min(static_cast<int>(at), last - 1);
     return { cell, kernelWeights(this->Kernel, at - static_cast<float>(cell)) };
   }
@@ -155,6 +162,7 @@ private:
   Grid Samples;
   glm::ivec3 Controls{ 0 };
   glm::vec3 ControlsPerStep{ 1.0f };
+  glm::vec3 AtFirst{ 0.0f }; // of the first sample's grid point, in the lattice
   int Kernel = 0;
 };
 }

@@ -35,7 +35,6 @@ LevelSamples::LevelSamples(const LevelVolumes& level, const Lattice& lattice)
   {
     this->freedom.resize(grid.count());
   }
-  const glm::vec3 controlsPerStep(grid.spacing / lattice.grid.spacing);
   parallelFor(
     0, lattice.mask ? grid.dimensions.z : 0, 1, [&](std::int64_t begin, std::int64_t end) {
       for (int k = static_cast<int>(begin); k < end; ++k)
@@ -46,7 +45,7 @@ LevelSamples::LevelSamples(const LevelVolumes& level, const Lattice& lattice)
           {
             const std::size_t number = grid.offset(i, j, k);
             this->freedom[number] =
-              freedomAt(lattice, this->rows.position(i, j, k) * controlsPerStep);
+              freedomAt(lattice, this->rows.latticePosition(this->rows.position(i, j, k)));
             this->weights[number] *= this->freedom[number] > 0.0f ? 1.0f : 0.0f;
           }
         }

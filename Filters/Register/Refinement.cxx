@@ -2,6 +2,7 @@
 #include "Filters/Register/Refinement.h"
 
 #include "Filters/Register/SelfSimilarity.h"
+#include "Filters/Register/Sweep.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -20,6 +21,8 @@ constexpr double LongestStepPoints = 1.5;
 // nothing new.
 constexpr double MostSamples = 0.95e6;
 constexpr double LeastTissue = 0.25; // share of a volume that is taken for tissue
+// Around an ultrasound sweep: tissue farther away than this is not compared.
+constexpr double FarthestMm = 10.0;
 constexpr float Air = 0.05f;         // share of the range of values
 constexpr double FinerVolume = 0.8;
 
@@ -91,13 +94,15 @@ double longest(const std::vector<glm::vec3>& vectors)
 
 std::vector<RefinementStage> stagesOf(SimilarityKind kind)
 {
-  std::vector<RefinementStage> stages{ { kind, 4.0 }, { kind, 2.0 } };
-  if (kind != SimilarityKind::LinearCombination)
+  if (kind == SimilarityKind::LinearCombination)
   {
-    // Where the volumes correlate once they lie right, correlation places them more exactly.
-    stages.push_back({ SimilarityKind::LocalCorrelation, 1.3, MostDisagreement });
+    // Self-similarity reaches farther; the linear combination places more exactly.
+    return { { SimilarityKind::SelfSimilarity, 4.0 }, { SimilarityKind::SelfSimilarity, 2.0 },
+      { kind, 1.0 } };
   }
-  return stages;
+  // Where the volumes correlate once they lie right, correlation places them more exactly.
+  return { { kind, 4.0 }, { kind, 2.0 },
+    { SimilarityKind::LocalCorrelation, 1.3, MostDisagreement } };
 }
 
 Refinement::Refinement(
@@ -160,11 +165,29 @@ const RefinementStage& Refinement::stage() const
   return this->Settings.stages[this->Progress.level];
 }
 
+bool Refinement::isUltrasound() const
+{
+  return this->Settings.stages.back().similarity == SimilarityKind::LinearCombination;
+}
+
+// The samples of a stage. A probe sees a part of a head, so that the rest need not be kept.
+Grid Refinement::gridOf(const RefinementStage& stage) const
+{
+  const Grid& rest = this->Pair.rest.grid;
+  const Grid grid = coarseGrid(rest, spacingOf(stage, rest, this->TissueShare));
+  return this->isUltrasound() ? croppedTo(grid, this->Swept, FarthestMm) : grid;
+}
+
 // Each part takes about as long as a step, so that whoever calls can do other things in between.
 void Refinement::prepareLevel()
 {
+  if (this->isUltrasound() && this->Swept.inside.empty())
+  {
+    this->Swept = sweptRegion(this->Pair.reference);
+    return;
+  }
   const double spacingMm = spacingOf(this->stage(), this->Pair.rest.grid, this->TissueShare);
-  const Grid grid = coarseGrid(this->Pair.rest.grid, spacingMm);
+  const Grid grid = this->gridOf(this->stage());
   const Reach reach = reachOf(this->stage().similarity);
   LevelVolumes& level = this->Level;
   switch (this->PreparedParts++)
@@ -180,7 +203,7 @@ void Refinement::prepareLevel()
       break;
     case 3:
       level.referenceWeights =
-        weightsOf(grid, { &this->Pair.reference.grid, nullptr, orNull(this->Pair.cavity) }, reach);
+        weightsOf(grid, { &this->Pair.reference.grid, orNull(this->Swept), orNull(this->Pair.cavity) }, reach);
       break;
     case 4:
       if (this->stage().similarity == SimilarityKind::SelfSimilarity)

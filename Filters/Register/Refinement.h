@@ -88,6 +88,8 @@ public:
 
 private:
   const RefinementStage& stage() const;
+  bool isUltrasound() const;
+  Grid gridOf(const RefinementStage& stage) const;
   void prepareLevel();
   /** Whether a level that may be left out is finer than the last one, and agrees well enough. */
   bool isWorthIt(const Agreement& here) const;
@@ -105,6 +107,7 @@ private:
   RegisteredPair Pair;
   RefinementSettings Settings;
   double TissueShare; // of the volume's voxels
+  Mask Swept;         // of an ultrasound reference: what it shows
   Lattice Start;
   Lattice Bent;
   FoldGuard Guard;
