@@ -86,9 +86,8 @@ public:
   Taps tapsAt(int axis, float position) const
   {
     const int last = this->Controls[axis] - 1;
-    const float at =
-      glm::clamp(this->AtFirst[axis] + position * this->ControlsPerStep[axis], 0.0f,
-      static_cast<float>(last));
+    const float at = glm::clamp(
+      this->AtFirst[axis] + position * this->ControlsPerStep[axis], 0.0f, static_cast<float>(last));
     const int cell = std::min(static_cast<int>(at), last - 1);
     return { cell, kernelWeights(this->Kernel, at - static_cast<float>(cell)) };
   }

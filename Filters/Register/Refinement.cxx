@@ -23,7 +23,7 @@ constexpr double MostSamples = 0.95e6;
 constexpr double LeastTissue = 0.25; // share of a volume that is taken for tissue
 // Around an ultrasound sweep: tissue farther away than this is not compared.
 constexpr double FarthestMm = 10.0;
-constexpr float Air = 0.05f;         // share of the range of values
+constexpr float Air = 0.05f; // share of the range of values
 constexpr double FinerVolume = 0.8;
 
 // A correlation that begins below 0.8 in the mean has another cause than place: the contrast.
@@ -202,8 +202,8 @@ void Refinement::prepareLevel()
       level.restWeights = weightsOf(grid, { nullptr, orNull(this->Pair.inside), nullptr }, reach);
       break;
     case 3:
-      level.referenceWeights =
-        weightsOf(grid, { &this->Pair.reference.grid, orNull(this->Swept), orNull(this->Pair.cavity) }, reach);
+      level.referenceWeights = weightsOf(grid,
+        { &this->Pair.reference.grid, orNull(this->Swept), orNull(this->Pair.cavity) }, reach);
       break;
     case 4:
       if (this->stage().similarity == SimilarityKind::SelfSimilarity)

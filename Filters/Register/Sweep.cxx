@@ -166,8 +166,7 @@ Grid croppedTo(const Grid& grid, const Mask& region, double marginMm)
       }
       for (const char* end : { first, last })
       {
-        const glm::dvec3 at =
-          grid.gridFromWorld(region.grid.worldFromGrid({ end - row, j, k }));
+        const glm::dvec3 at = grid.gridFromWorld(region.grid.worldFromGrid({ end - row, j, k }));
         low = glm::min(low, at);
         high = glm::max(high, at);
       }

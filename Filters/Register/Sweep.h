@@ -27,8 +27,7 @@ BRAINSHIFT_DEFORMATION_EXPORT Mask sweptRegion(const Volume& ultrasound);
  * The part of a grid within `marginMm` of a region, with two points or more along each axis. All of
  * the grid where they lie apart.
  */
-BRAINSHIFT_DEFORMATION_EXPORT Grid croppedTo(
-  const Grid& grid, const Mask& region, double marginMm);
+BRAINSHIFT_DEFORMATION_EXPORT Grid croppedTo(const Grid& grid, const Mask& region, double marginMm);
 }
 
 #endif
