@@ -99,7 +99,8 @@ float forceOf(
 
 DescriptorSimilarity::DescriptorSimilarity(const LevelVolumes& level, const Lattice& lattice)
   : Samples(level, lattice)
-  , Rest(Samples.read(selfSimilarity(level.rest), Channels))
+  , Rest(Samples.read(
+      level.restNumbers.empty() ? selfSimilarity(level.rest) : level.restNumbers, Channels))
   , Reference(
       level.referenceNumbers.empty() ? selfSimilarity(level.reference) : level.referenceNumbers)
 {

@@ -18,8 +18,8 @@ namespace brainshift
 class BRAINSHIFT_DEFORMATION_EXPORT DescriptorSimilarity
 {
 public:
-  /** For each point of a level: three times 12 numbers while it is made, and weights. */
-  static constexpr double BytesPerPoint = 160.0;
+  /** For each point of a level: four times 12 numbers while it is made, and weights. */
+  static constexpr double BytesPerPoint = 208.0;
 
   DescriptorSimilarity(const LevelVolumes& level, const Lattice& lattice);
 

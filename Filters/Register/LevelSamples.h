@@ -27,7 +27,8 @@ struct LevelVolumes
   Volume reference;
   Volume restWeights;      ///< 1 where the volume counts, else 0
   Volume referenceWeights; ///< 1 where the reference counts, else 0
-  /** SelfSimilarity.h of `reference`; empty: whoever needs it computes it. */
+  /** SelfSimilarity.h of both; empty: whoever needs it computes it. */
+  std::vector<float> restNumbers;
   std::vector<float> referenceNumbers;
 };
 

@@ -189,6 +189,8 @@ void Refinement::prepareLevel()
   const double spacingMm = spacingOf(this->stage(), this->Pair.rest.grid, this->TissueShare);
   const Grid grid = this->gridOf(this->stage());
   const Reach reach = reachOf(this->stage().similarity);
+  const bool isDescribed = this->stage().similarity == SimilarityKind::SelfSimilarity;
+  using Numbers = std::vector<float>;
   LevelVolumes& level = this->Level;
   switch (this->PreparedParts++)
   {
@@ -206,15 +208,15 @@ void Refinement::prepareLevel()
         { &this->Pair.reference.grid, orNull(this->Swept), orNull(this->Pair.cavity) }, reach);
       break;
     case 4:
-      if (this->stage().similarity == SimilarityKind::SelfSimilarity)
-      {
-        level.referenceNumbers = selfSimilarity(level.reference);
-      }
+      level.referenceNumbers = isDescribed ? selfSimilarity(level.reference) : Numbers();
       break;
     case 5:
-      this->Compare = makeSimilarity(this->stage().similarity, level, this->Start);
+      level.restNumbers = isDescribed ? selfSimilarity(level.rest) : Numbers();
       break;
     case 6:
+      this->Compare = makeSimilarity(this->stage().similarity, level, this->Start);
+      break;
+    case 7:
       this->compareHere();
       break;
     default:
@@ -277,57 +279,67 @@ void Refinement::stiffen()
   this->Energy = this->energyOf(this->Controls, this->Known);
 }
 
-bool Refinement::improve()
+void Refinement::findStep(Trial& trial) const
 {
-  std::vector<glm::vec3> step;
-  double length = 0.0;
-  double share = 0.0;
-  const auto findStep = [&] {
-    step = newtonStep(this->Stiff, this->Known.forces, this->bendOf(this->Controls));
-    length = longest(step);
-    share = std::min(this->Stride, length > 0.0 ? this->LongestStepMm / length : 1.0);
-  };
-  findStep();
-  int stiffenings = 0;
-  for (int attempt = 0; attempt <= MostHalvings + MostStiffenings; ++attempt, share *= 0.5)
+  trial.step = newtonStep(this->Stiff, this->Known.forces, this->bendOf(this->Controls));
+  trial.lengthMm = longest(trial.step);
+  trial.share =
+    std::min(this->Stride, trial.lengthMm > 0.0 ? this->LongestStepMm / trial.lengthMm : 1.0);
+}
+
+// Compares once at most, so that a call stays short however often a step is halved.
+Refinement::Outcome Refinement::tryStep()
+{
+  if (!this->Trying)
   {
-    std::vector<glm::vec3> controls = this->Controls;
-    for (std::size_t i = 0; i < controls.size(); ++i)
-    {
-      controls[i] += static_cast<float>(share) * step[i];
-    }
-    Lattice candidate = this->latticeOf(controls);
-    double kept = 1.0;
-    if (this->Settings.guards)
-    {
-      kept = this->Guard.share(this->Bent, candidate);
-      if (kept < 1.0 && stiffenings++ < MostStiffenings)
-      {
-        this->stiffen();
-        findStep();
-        share *= 2.0; // what the loop halves
-        continue;
-      }
-      if (kept < 1.0)
-      {
-        candidate = between(this->Bent, candidate, kept);
-        controls = turned(candidate.displacements, glm::transpose(candidate.grid.direction));
-      }
-    }
-    Agreement agreement = this->Compare(controls);
-    const double energy = this->energyOf(controls, agreement);
-    if (energy < this->Energy)
-    {
-      const double gain = this->Energy - energy;
-      this->Progress.movedMm = share * kept * length;
-      this->Progress.share = std::min(this->Progress.share, kept);
-      this->take(candidate, std::move(agreement), energy);
-      this->Stride = std::min(LongestStride, StrideGrowth * std::max(1.0, share));
-      return gain > Converged * energy;
-    }
+    this->findStep(this->Trying.emplace());
   }
-  this->Progress.movedMm = 0.0;
-  return false;
+  Outcome outcome = this->tryStep(*this->Trying);
+  if (outcome == Outcome::Open && ++this->Trying->attempts > MostHalvings + MostStiffenings)
+  {
+    this->Progress.movedMm = 0.0;
+    outcome = Outcome::Settled;
+  }
+  if (outcome != Outcome::Open)
+  {
+    this->Trying.reset();
+  }
+  return outcome;
+}
+
+Refinement::Outcome Refinement::tryStep(Trial& trial)
+{
+  std::vector<glm::vec3> controls = this->Controls;
+  for (std::size_t i = 0; i < controls.size(); ++i)
+  {
+    controls[i] += static_cast<float>(trial.share) * trial.step[i];
+  }
+  Lattice candidate = this->latticeOf(controls);
+  const double kept = this->Settings.guards ? this->Guard.share(this->Bent, candidate) : 1.0;
+  if (kept < 1.0 && trial.stiffenings++ < MostStiffenings)
+  {
+    this->stiffen();
+    this->findStep(trial);
+    return Outcome::Open;
+  }
+  if (kept < 1.0)
+  {
+    candidate = between(this->Bent, candidate, kept);
+    controls = turned(candidate.displacements, glm::transpose(candidate.grid.direction));
+  }
+  Agreement agreement = this->Compare(controls);
+  const double energy = this->energyOf(controls, agreement);
+  if (energy >= this->Energy)
+  {
+    trial.share *= 0.5;
+    return Outcome::Open;
+  }
+  const double gain = this->Energy - energy;
+  this->Progress.movedMm = trial.share * kept * trial.lengthMm;
+  this->Progress.share = std::min(this->Progress.share, kept);
+  this->take(candidate, std::move(agreement), energy);
+  this->Stride = std::min(LongestStride, StrideGrowth * std::max(1.0, trial.share));
+  return gain > Converged * energy ? Outcome::Improved : Outcome::Settled;
 }
 
 void Refinement::finishLevel()
@@ -365,11 +377,11 @@ const RefinementProgress& Refinement::step()
   {
     this->prepareLevel();
   }
-  else
+  else if (const Outcome outcome = this->tryStep(); outcome != Outcome::Open)
   {
     ++this->Progress.steps;
     ++this->StepsOfLevel;
-    if (!this->improve() || this->StepsOfLevel >= this->Settings.mostSteps)
+    if (outcome == Outcome::Settled || this->StepsOfLevel >= this->Settings.mostSteps)
     {
       this->finishLevel();
     }

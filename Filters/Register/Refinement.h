@@ -22,6 +22,7 @@
 #include "Filters/Register/Stiffness.h"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace brainshift
@@ -72,8 +73,8 @@ public:
   Refinement(RegisteredPair pair, const Lattice& start, const RefinementSettings& settings);
 
   /**
-   * Takes one step, or prepares a part of the next level, which takes about as long. Nothing once
-   * it is finished.
+   * Tries one length of a step, or prepares a part of the next level, which takes about as long. A
+   * step is taken once one of its lengths succeeds. Nothing once it is finished.
    */
   const RefinementProgress& step();
 
@@ -96,7 +97,24 @@ private:
   void compareHere();
   void beginLevel();
   void stiffen();
-  bool improve();
+  /** A step that is sought: each call tries one length of it. */
+  struct Trial
+  {
+    std::vector<glm::vec3> step; // mm along the grid's axes
+    double lengthMm = 0.0;       // of the longest of them
+    double share = 0.0;          // that is tried next
+    int attempts = 0;
+    int stiffenings = 0;
+  };
+  enum class Outcome
+  {
+    Open,     // try again
+    Improved, // a step was taken
+    Settled   // there is nothing more to gain on this level
+  };
+  void findStep(Trial& trial) const;
+  Outcome tryStep();
+  Outcome tryStep(Trial& trial);
   double energyOf(const std::vector<glm::vec3>& controls, const Agreement& agreement) const;
   std::vector<glm::vec3> bendOf(const std::vector<glm::vec3>& controls) const;
   Lattice latticeOf(const std::vector<glm::vec3>& controls) const;
@@ -124,6 +142,7 @@ private:
   Agreement Known; // of Controls
   double Energy = 0.0;
   double Stride = 1.0; // factor on the next step
+  std::optional<Trial> Trying;
   int StepsOfLevel = 0;
   RefinementProgress Progress;
 };

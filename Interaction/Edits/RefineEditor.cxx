@@ -158,6 +158,7 @@ void RefineEditor::begin(const RefineSettings& settings)
     return;
   }
   this->Reference = settings.reference;
+  this->IsDrawn = true;
   this->Unselected.leaveOut(this->Source);
   this->hold();
   this->Now = State::Running;
@@ -207,10 +208,11 @@ void RefineEditor::putIn(vtkSMProxy* lattice, const std::vector<double>& control
   deformation->UpdateVTKObjects();
 }
 
-void RefineEditor::show(const std::vector<double>& controlPoints)
+void RefineEditor::show()
 {
+  this->IsDrawn = true;
   const QScopedValueRollback<bool> writing(this->Writing, true);
-  setNumbers(this->Held, "ControlPoints", controlPoints);
+  setNumbers(this->Held, "ControlPoints", this->Run.points());
   drawMoving(this->Source, this->Held);
 }
 
@@ -225,13 +227,19 @@ void RefineEditor::step()
     this->abandon(tr("The lattice of the refinement is gone, so it ended."));
     return;
   }
+  if (!this->IsDrawn) // a turn of its own, so that Stop waits for a step or a picture, not for both
+  {
+    this->show();
+    if (this->Now == State::Running) // a picture may have let something else happen
+    {
+      this->Next.start();
+    }
+    return;
+  }
   const int taken = this->figures().steps;
   const bool worked = this->Run.step();
-  const bool isMoved = worked && this->figures().steps > taken; // else it prepared a level
-  if (isMoved)
-  {
-    this->show(this->Run.points());
-  }
+  const bool isMoved = worked && this->figures().steps > taken; // else it tried, or prepared a level
+  this->IsDrawn = !isMoved;
   if (!worked)
   {
     this->cancel();
@@ -249,7 +257,7 @@ void RefineEditor::step()
     this->keep(State::Finished);
     return;
   }
-  else if (this->Now == State::Running) // a picture may have let something else happen
+  else
   {
     this->Next.start();
   }
@@ -264,6 +272,10 @@ void RefineEditor::pause(bool on)
   }
   this->Now = on ? State::Paused : State::Running;
   on ? this->Next.stop() : this->Next.start();
+  if (on && !this->IsDrawn)
+  {
+    this->show();
+  }
   if (on)
   {
     drawFully(this->Source);

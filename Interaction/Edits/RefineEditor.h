@@ -80,7 +80,7 @@ private:
   void followApplication();
   void hold();
   void step();
-  void show(const std::vector<double>& controlPoints);
+  void show();
   void keep(State end);
   void putIn(vtkSMProxy* lattice, const std::vector<double>& controlPoints);
   void restore();   ///< What was there before, and nothing of the run.
@@ -103,6 +103,7 @@ private:
   vtkSmartPointer<vtkSMProxy> Base;     ///< The Lattice from before; null: none.
   std::vector<double> Strokes;          ///< Those from before.
   QPointer<pqPipelineSource> Reference; ///< It ends when this goes.
+  bool IsDrawn = true;                  ///< The last step.
   EmptySelections Unselected;
   bool Writing = false; ///< This editor changes something right now.
 };
