@@ -209,7 +209,6 @@ void ToolCarrier::refresh()
       this->Resting.follow(deformation, view);
     }
   }
-  settings->setObstacle(tool == ToolKind::Pull ? this->Fit->refusal() : QString());
   this->suggestRanges();
   this->Other.tell();
 }

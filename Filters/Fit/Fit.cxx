@@ -19,6 +19,7 @@ namespace brainshift
 namespace
 {
 constexpr std::int64_t DeviationsAtLeast = 4; // for a thread
+constexpr std::int64_t BendsAtLeast = 256;    // the same
 constexpr int MostMotions = 50;
 constexpr int ProjectionsOfStart = 2;         // each halves what is left of a bend many times over
 constexpr double MotionTolerance = 1e-12;     // mm and rad
@@ -42,9 +43,9 @@ std::size_t addVector(
   return first;
 }
 
-// Adds pairs that are switched on. Returns their first rows.
-std::vector<std::optional<std::size_t>> addPairs(
-  std::vector<Row>& rows, const std::vector<PointPair>& pairs, double deviation)
+// Adds what pairs that are switched on say beyond the base. Returns their first rows.
+std::vector<std::optional<std::size_t>> addPairs(std::vector<Row>& rows,
+  const std::vector<PointPair>& pairs, double deviation, const FitBase* base = nullptr)
 {
   std::vector<std::optional<std::size_t>> firsts;
   for (const PointPair& pair : pairs)
@@ -52,8 +53,9 @@ std::vector<std::optional<std::size_t>> addPairs(
     firsts.emplace_back();
     if (pair.weight > 0.0)
     {
+      const glm::dvec3 before = base ? base->map.deformedFromRest(pair.rest) : pair.rest;
       firsts.back() =
-        addVector(rows, pair.rest, pair.measured - pair.rest, deviation * deviation / pair.weight);
+        addVector(rows, pair.rest, pair.measured - before, deviation * deviation / pair.weight);
     }
   }
   return firsts;
@@ -91,6 +93,7 @@ std::string Fit::solve(const Measurements& measured, const FitSettings& settings
     return problem;
   }
   this->Rigid = {};
+  this->Base = measured.base;
   this->Steps = 0;
   this->ExpectsSmallTurn = false;
   problem = bendsOnly(measured) ? this->solveBend(measured, settings, surface, start)
@@ -163,8 +166,8 @@ std::string Fit::solveBend(const Measurements& measured, const FitSettings& sett
 {
   const double deviation = settings.surfaceDeviation * settings.relaxation;
   std::vector<Row> rows;
-  this->LandmarkRows = addPairs(rows, measured.landmarks, deviation);
-  this->PullRows = addPairs(rows, measured.pulls, deviation);
+  this->LandmarkRows = addPairs(rows, measured.landmarks, deviation, this->Base.get());
+  this->PullRows = addPairs(rows, measured.pulls, deviation, this->Base.get());
   for (const glm::dvec3& pin : measured.pins)
   {
     addVector(rows, pin, glm::dvec3(0.0), squared(settings.pinDeviation));
@@ -178,7 +181,7 @@ std::string Fit::solveBend(const Measurements& measured, const FitSettings& sett
   {
     return this->Field.setRows(rows);
   }
-  TraceProjection projection(measured.traces, surface);
+  TraceProjection projection(measured.traces, surface, this->Base);
   const TraceBins bins(measured.traces, settings, deviation);
   const int steps = start ? 1 : settings.steps;
   for (int i = 0; start && i < ProjectionsOfStart; ++i)
@@ -249,6 +252,19 @@ double Fit::deviationOf(double variance) const
 {
   return this->Field.rows().empty() ? std::numeric_limits<double>::infinity()
                                     : this->Calibration * std::sqrt(std::max(0.0, variance));
+}
+
+std::vector<glm::dvec3> Fit::bends(const std::vector<glm::dvec3>& rest) const
+{
+  std::vector<glm::dvec3> result = this->Field.displacements(rest);
+  const auto count = static_cast<std::int64_t>(this->Base ? rest.size() : 0);
+  parallelFor(0, count, BendsAtLeast, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      result[i] += this->Base->displacement(rest[i]);
+    }
+  });
+  return result;
 }
 
 std::vector<double> Fit::deviations(const std::vector<glm::dvec3>& rest) const

@@ -4,8 +4,8 @@
  * @brief Finds how the volume lies and bends from what was measured, and how far that can be
  *        believed.
  *
- * measuredFromRest is the bend, then a rigid motion. All measurements are solved together, so their
- * order does not matter.
+ * measuredFromRest is the bend, then a rigid motion. The bend is that of the base, and a field on
+ * top of it. All measurements are solved together, so their order does not matter.
  */
 #ifndef BrainShift_Fit_h
 #define BrainShift_Fit_h
@@ -18,6 +18,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,7 +52,14 @@ public:
   bool isTurnExpectedSmall() const { return this->ExpectsSmallTurn; }
 
   /** How far (mm) tissue at a rest position bends before the rigid part moves it. */
-  glm::dvec3 bend(const glm::dvec3& rest) const { return this->Field.displacement(rest); }
+  glm::dvec3 bend(const glm::dvec3& rest) const
+  {
+    return this->Field.displacement(rest) +
+      (this->Base ? this->Base->displacement(rest) : glm::dvec3(0.0));
+  }
+
+  /** bend() of many positions, on all cores. */
+  std::vector<glm::dvec3> bends(const std::vector<glm::dvec3>& rest) const;
 
   /** Where tissue at rest was or would be measured (mm): rigid part and bend. */
   glm::dvec3 measuredFromRest(const glm::dvec3& rest) const
@@ -87,7 +95,7 @@ public:
   /** How often the traced points were projected. */
   int steps() const { return this->Steps; }
 
-  /** The field that bends. */
+  /** The field that bends on top of the base. */
   const Process& field() const { return this->Field; }
 
 private:
@@ -97,6 +105,7 @@ private:
   void judge(const Measurements& measured);
 
   Process Field;
+  std::shared_ptr<const FitBase> Base;
   RigidPose Rigid;
   std::vector<std::optional<std::size_t>> LandmarkRows; // the first of the three
   std::vector<std::optional<std::size_t>> PullRows;

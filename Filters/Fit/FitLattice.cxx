@@ -55,7 +55,7 @@ void toCoefficients(const Grid& grid, std::vector<glm::dvec3>& values)
 }
 }
 
-void sampleField(Lattice& lattice, const Process& field)
+void addField(Lattice& lattice, const Process& field)
 {
   const Grid& grid = lattice.grid;
   std::vector<glm::dvec3> places;
@@ -67,15 +67,16 @@ void sampleField(Lattice& lattice, const Process& field)
   {
     toCoefficients(grid, values);
   }
-  lattice.displacements.assign(values.begin(), values.end());
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    lattice.displacements[i] += glm::vec3(values[i]);
+  }
 }
 
-double shareWithoutFolds(const Lattice& lattice, int samples)
+double shareWithoutFolds(const Lattice& start, const Lattice& end, int samples)
 {
-  Lattice still = makeLattice(lattice.grid, lattice.kernel);
-  still.mask = lattice.mask;
   FoldGuard guard;
-  guard.setBase(still, samples);
-  return guard.share(still, lattice);
+  guard.setBase(start, samples);
+  return guard.share(start, end);
 }
 }

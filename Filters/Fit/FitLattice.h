@@ -13,18 +13,19 @@
 namespace brainshift
 {
 /**
- * Sets the displacements so that the cubic between the control points has the field's values at
- * them. With Catmull-Rom these are the values themselves; a B-spline takes coefficients.
+ * Adds to the displacements so that the cubic between the control points gains the field's values
+ * at them. With Catmull-Rom these are the values themselves; a B-spline takes coefficients.
  */
-BRAINSHIFT_DEFORMATION_EXPORT void sampleField(Lattice& lattice, const Process& field);
+BRAINSHIFT_DEFORMATION_EXPORT void addField(Lattice& lattice, const Process& field);
 
 /**
- * The largest share of the displacements, 0 to 1, that keeps the Jacobian determinant at 0.1 or
- * above everywhere (FoldGuard.h). Of a lattice that keeps it, the share is 1.
+ * The largest share, 0 to 1, of the way from one lattice to another that keeps the Jacobian
+ * determinant at 0.1 or above (FoldGuard.h). Cells that fold at the start are left alone.
  *
  * @param samples   nodes between two control points that the lattice is drawn with, 0 to 16
  */
-BRAINSHIFT_DEFORMATION_EXPORT double shareWithoutFolds(const Lattice& lattice, int samples);
+BRAINSHIFT_DEFORMATION_EXPORT double shareWithoutFolds(
+  const Lattice& start, const Lattice& end, int samples);
 }
 
 #endif

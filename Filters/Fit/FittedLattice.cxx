@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Fit/FittedLattice.h"
 
+#include "Filters/Deformation/FoldGuard.h"
 #include "Filters/Deformation/Parallel.h"
 #include "Filters/Fit/FitLattice.h"
 
@@ -34,7 +35,8 @@ std::string FittedLattice::solveWith(
   {
     return problem;
   }
-  sampleField(this->Bent, this->Result.field());
+  this->Bent = this->Start;
+  addField(this->Bent, this->Result.field());
   return problemOfDisplacements(this->Bent, "the fit");
 }
 
@@ -42,17 +44,16 @@ std::string FittedLattice::solve(const Measurements& measured, const RestSurface
   const Lattice& lattice, const LatticeFitChoices& choices)
 {
   this->Map.reset();
-  this->Bent = lattice;
+  this->Start = measured.base ? measured.base->lattice : makeLattice(lattice.grid, lattice.kernel);
+  this->Start.mask = lattice.mask;
   this->Share = 1.0;
+  const auto findShare = [&] { return shareWithoutFolds(this->Start, this->Bent, choices.samples); };
   std::string problem = this->solveWith(1.0, measured, surface, choices.start);
-  if (problem.empty() && choices.guards && shareWithoutFolds(this->Bent, choices.samples) < 1.0)
+  if (problem.empty() && choices.guards && findShare() < 1.0)
   {
     problem = this->solveWith(Relaxed, measured, surface, choices.start);
-    this->Share = problem.empty() ? shareWithoutFolds(this->Bent, choices.samples) : 1.0;
-    for (glm::vec3& displacement : this->Bent.displacements)
-    {
-      displacement *= static_cast<float>(this->Share);
-    }
+    this->Share = problem.empty() ? findShare() : 1.0;
+    this->Bent = between(this->Start, this->Bent, this->Share);
   }
   if (problem.empty())
   {
@@ -86,7 +87,7 @@ std::vector<double> FittedLattice::deviations(
 void FittedLattice::countWhatIsAway(
   const std::vector<glm::dvec3>& rest, std::vector<double>& deviations) const
 {
-  const std::vector<glm::dvec3> bends = this->Result.field().displacements(rest);
+  const std::vector<glm::dvec3> bends = this->Result.bends(rest);
   for (std::size_t i = 0; i < rest.size(); ++i)
   {
     const double away = glm::distance(

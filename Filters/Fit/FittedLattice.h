@@ -34,9 +34,11 @@ public:
 
   /**
    * Solves and samples. If the bend folds, it solves once more with deviations that are `Relaxed`
-   * times larger, and then takes the largest share of the bend that does not fold.
+   * times larger, and then takes the largest share of the bend that does not fold. What the base
+   * bends is not shortened.
    *
-   * @param lattice   where the control points lie, their kernel and mask; displacements are ignored
+   * @param lattice   where the control points lie, their kernel and mask; displacements are
+   *                  ignored. The base's lattice must have the same.
    * @return one sentence without a full stop if it cannot; nothing is then known
    */
   std::string solve(const Measurements& measured, const RestSurface& surface,
@@ -47,7 +49,7 @@ public:
 
   const Fit& fit() const { return this->Result; }
   const Lattice& lattice() const { return this->Bent; }
-  double share() const { return this->Share; }           ///< of the bend, 0 to 1
+  double share() const { return this->Share; }           ///< of the bend beyond the base, 0 to 1
   double relaxation() const { return this->Relaxation; } ///< 1 or Relaxed
 
   /** Where the lattice and then the rigid part take tissue at rest (mm). */
@@ -77,6 +79,7 @@ private:
     const Process* start);
 
   Fit Result;
+  Lattice Start; // the base, or nothing moved
   Lattice Bent;
   std::optional<PointMap> Map;
   double Share = 1.0;

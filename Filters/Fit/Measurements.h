@@ -10,6 +10,7 @@
 #define BrainShift_Measurements_h
 
 #include "Filters/Deformation/Export.h"
+#include "Filters/Fit/FitBase.h"
 #include "Filters/Fit/Matern.h"
 
 #include <glm/vec3.hpp>
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,13 +57,15 @@ struct Measurements
   std::vector<glm::dvec3> pins;      ///< mm, rest frame: tissue that stays
   std::vector<glm::dvec3> traces;    ///< mm, measured frame: points on the bent cortex
   std::vector<SurfacePoint> anchors; ///< cortex that may slide, and that neither sinks nor rises
+  /** How the volume is bent before; null: not at all. Pins and anchors hold it as the base has it. */
+  std::shared_ptr<const FitBase> base;
 };
 
 /**
  * How far measurements are trusted. Deviations are standard deviations in mm along each axis.
  *
  * Landmarks alone are near-rigid: the fit takes a rigid motion out of them and bends little. With
- * traces, pulls or pins the volume is taken to lie right already, and bends much.
+ * traces, pulls, pins or a base the volume is taken to lie right already, and bends much.
  */
 struct FitSettings
 {
@@ -93,7 +97,7 @@ inline bool isOn(const PointPair& pair)
  */
 inline bool bendsOnly(const Measurements& measured)
 {
-  return !measured.traces.empty() || !measured.pins.empty() ||
+  return measured.base || !measured.traces.empty() || !measured.pins.empty() ||
     std::any_of(measured.pulls.begin(), measured.pulls.end(), isOn);
 }
 

@@ -23,22 +23,35 @@ constexpr std::int64_t TracesAtLeast = 32; // for a thread: about 0.1 ms
 constexpr double FlatDeterminant = 0.05;   // below it a Newton step leads nowhere
 constexpr double OpposedNormals = 0.1;     // length of their mean: both banks of a groove
 
-// The derivatives of the map, or the identity where it folds.
-glm::dmat3 jacobianOf(const FieldValue& value)
+// Where the bend takes tissue at rest, and the derivatives of that.
+struct BentPoint
 {
-  const glm::dmat3 jacobian = glm::dmat3(1.0) + value.gradient;
-  return glm::determinant(jacobian) > FlatDeterminant ? jacobian : glm::dmat3(1.0);
+  glm::dvec3 position;
+  glm::dmat3 jacobian; // the identity where the bend folds
+};
+
+BentPoint bentPoint(const Process& field, const FitBase* base, const glm::dvec3& rest)
+{
+  const FieldValue value = field.valueAt(rest);
+  const glm::dvec3 before = base ? base->map.deformedFromRest(rest) : rest;
+  const glm::dmat3 jacobian =
+    (base ? base->map.jacobian(rest) : glm::dmat3(1.0)) + value.gradient;
+  return { before + value.displacement,
+    glm::determinant(jacobian) > FlatDeterminant ? jacobian : glm::dmat3(1.0) };
 }
 }
 
-TraceProjection::TraceProjection(std::vector<glm::dvec3> traces, RestSurface surface)
+TraceProjection::TraceProjection(std::vector<glm::dvec3> traces, RestSurface surface,
+  std::shared_ptr<const FitBase> base)
   : Traces(std::move(traces))
   , Surface(std::move(surface))
+  , Base(std::move(base))
   , Feet(this->Traces.size())
 {
   for (std::size_t i = 0; i < this->Traces.size(); ++i)
   {
-    this->Feet[i].tissue = this->Traces[i];
+    const glm::dvec3& at = this->Traces[i];
+    this->Feet[i].tissue = this->Base ? this->Base->map.restFromDeformed(at) : at;
   }
 }
 
@@ -46,7 +59,7 @@ double TraceProjection::project(const Process& field)
 {
   const auto count = static_cast<std::int64_t>(this->Traces.size());
   std::vector<double> moved(this->Traces.size(), 0.0);
-  const bool bends = !field.rows().empty();
+  const bool bends = !field.rows().empty() || this->Base;
   parallelFor(0, count, TracesAtLeast, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i)
     {
@@ -56,9 +69,9 @@ double TraceProjection::project(const Process& field)
       glm::dmat3 jacobian(1.0);
       if (bends)
       {
-        const FieldValue value = field.valueAt(before);
-        jacobian = jacobianOf(value);
-        trace.tissue -= glm::inverse(jacobian) * (before + value.displacement - at);
+        const BentPoint bent = bentPoint(field, this->Base.get(), before);
+        jacobian = bent.jacobian;
+        trace.tissue -= glm::inverse(jacobian) * (bent.position - at);
       }
       const std::optional<SurfacePoint> foot = this->Surface(trace.tissue, i);
       trace.counts = foot.has_value();
@@ -68,7 +81,8 @@ double TraceProjection::project(const Process& field)
         trace.foot = foot->position;
         // A normal turns with the inverse, transposed.
         trace.normal = glm::normalize(glm::transpose(glm::inverse(jacobian)) * foot->normal);
-        trace.value = glm::dot(trace.normal, at - trace.foot);
+        trace.value = glm::dot(trace.normal,
+          at - (this->Base ? this->Base->map.deformedFromRest(trace.foot) : trace.foot));
       }
     }
   });

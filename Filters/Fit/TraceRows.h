@@ -13,6 +13,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <memory>
 #include <vector>
 
 namespace brainshift
@@ -20,10 +21,10 @@ namespace brainshift
 /** Where a traced point meets the cortex, as far as the field is known. */
 struct TraceFoot
 {
-  glm::dvec3 tissue{ 0.0 }; ///< mm, rest frame: what the field puts at the traced point
+  glm::dvec3 tissue{ 0.0 }; ///< mm, rest frame: what base and field put at the traced point
   glm::dvec3 foot{ 0.0 };   ///< mm, rest frame: the nearest point of the cortex to that
   glm::dvec3 normal{ 0.0 }; ///< unit vector out of the bent cortex at the foot
-  double value = 0.0;       ///< mm: along the normal, how far the foot must go to be at the point
+  double value = 0.0;       ///< mm: along the normal, how far the field must take the foot
   bool counts = false;      ///< false: there is no cortex
 };
 
@@ -34,8 +35,10 @@ public:
   /**
    * @param traces    mm, in the frame in which the bent volume lies
    * @param surface   the cortex at rest
+   * @param base      bends before the field does; null: nothing does
    */
-  TraceProjection(std::vector<glm::dvec3> traces, RestSurface surface);
+  TraceProjection(std::vector<glm::dvec3> traces, RestSurface surface,
+    std::shared_ptr<const FitBase> base = nullptr);
 
   /** Projects with a field. Returns how far (mm) the point moved that moved most. */
   double project(const Process& field);
@@ -45,6 +48,7 @@ public:
 private:
   std::vector<glm::dvec3> Traces;
   RestSurface Surface;
+  std::shared_ptr<const FitBase> Base;
   std::vector<TraceFoot> Feet;
 };
 

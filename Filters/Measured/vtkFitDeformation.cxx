@@ -6,6 +6,7 @@
 #include "Filters/Attached/Guard.h"
 #include "Filters/Attached/MaskImage.h"
 #include "Filters/Attached/WholeExtent.h"
+#include "Filters/Fields/BaseLattice.h"
 #include "Filters/Fields/FieldImage.h"
 #include "Filters/Fields/FittedFor.h"
 #include "Filters/Fit/Anchors.h"
@@ -45,7 +46,8 @@ constexpr int SegmentationPort = 4;
 constexpr int CavityPort = 5;
 constexpr int OpeningPort = 6;
 constexpr int MaskPort = 7;
-constexpr int Ports = 8;
+constexpr int BasePort = 8;
+constexpr int Ports = 9;
 
 constexpr std::size_t NumbersPerPull = 7;
 constexpr std::size_t NumbersPerPin = 4;
@@ -71,6 +73,7 @@ struct vtkFitDeformation::State
   AnchorChoice Chosen;
   CavitySource CavityInput;
   MaskSource Masks;
+  Lattice Still; // its control points, with the mask
   Measurements Measured;
   std::vector<std::size_t> TraceNumbers; // of the traces that count, in the input
   FittedLattice Fitted;
@@ -298,23 +301,33 @@ std::string vtkFitDeformation::FindAnchors(vtkInformationVector** inputs)
   return {};
 }
 
-std::string vtkFitDeformation::Solve(vtkInformationVector** inputs, const Process* start)
+std::string vtkFitDeformation::FindBase(vtkInformationVector** inputs)
 {
   State& state = *this->Internal;
   const Grid volume = gridOf(vtkImageData::GetData(inputs[0]));
   const glm::ivec3 sides(
     this->LatticeDimensions[0], this->LatticeDimensions[1], this->LatticeDimensions[2]);
-  Lattice lattice = makeLattice(withDimensions(volume, sides), this->Kernel);
-  std::string problem =
+  state.Still = makeLattice(withDimensions(volume, sides), this->Kernel);
+  const std::string problem =
     state.Masks.find({ vtkImageData::GetData(inputs[MaskPort]), this->MaskLabels, this->MaskGrowth,
-                       this->Feather, volume, lattice.grid, this->Samples },
-      lattice.mask);
-  const RestSurface surface = state.surface();
-  if (problem.empty())
+                       this->Feather, volume, state.Still.grid, this->Samples },
+      state.Still.mask);
+  if (!problem.empty())
   {
-    problem = state.Fitted.solve(
-      state.Measured, surface, lattice, { this->Samples, this->GuardFolding, start });
+    return problem;
   }
+  Lattice bent = state.Still;
+  const std::string problemOfBase = addBase(bent, vtkImageData::GetData(inputs[BasePort]));
+  state.Measured.base = problemOfBase.empty() ? baseOf(bent) : nullptr;
+  return problemOfBase;
+}
+
+std::string vtkFitDeformation::Solve(const Process* start)
+{
+  State& state = *this->Internal;
+  const RestSurface surface = state.surface();
+  const std::string problem = state.Fitted.solve(
+    state.Measured, surface, state.Still, { this->Samples, this->GuardFolding, start });
   if (!problem.empty())
   {
     return problem;
@@ -343,9 +356,10 @@ int vtkFitDeformation::RequestData(
   problem = problem.empty() ? problem : "The volume's " + problem;
   problem = either(problem, [&] { return this->ProblemOfProperties(); });
   problem = either(problem, [&] { return this->ReadMeasurements(inputs); });
+  problem = either(problem, [&] { return this->FindBase(inputs); });
   problem = either(problem, [&] { return this->FindAnchors(inputs); });
   problem = either(problem, [&] {
-    return this->Solve(inputs, this->Live && before.isKnown() ? &before.fit().field() : nullptr);
+    return this->Solve(this->Live && before.isKnown() ? &before.fit().field() : nullptr);
   });
   state.Problem = problem;
   if (!problem.empty())

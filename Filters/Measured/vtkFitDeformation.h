@@ -18,6 +18,8 @@
  * - Input 5 (optional): a cavity, measured frame. Traced points in it do not count.
  * - Input 6 (optional): a mask of the opening of the skull, rest frame.
  * - Input 7 (optional): the mask of the Free-Form Deformation.
+ * - Input 8 (optional): the base, a forward field on any grid (mm), say of a refinement. What was
+ *   measured bends the volume from there. The rigid part is then the identity.
  *
  * If the bend would fold tissue, the measurements are trusted less (factor 1.5 on their deviations)
  * and, if that is not enough, a share of the bend is taken.
@@ -301,7 +303,8 @@ private:
   std::string ReadMeasurements(vtkInformationVector** inputs);
   std::string FindCortex(vtkInformationVector** inputs);
   std::string FindAnchors(vtkInformationVector** inputs);
-  std::string Solve(vtkInformationVector** inputs, const brainshift::Process* start);
+  std::string FindBase(vtkInformationVector** inputs);
+  std::string Solve(const brainshift::Process* start);
 
   struct State;
   std::unique_ptr<State> Internal;

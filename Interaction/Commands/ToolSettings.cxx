@@ -139,15 +139,6 @@ void ToolSettings::setShownInstead(const QString& name)
   }
 }
 
-void ToolSettings::setObstacle(const QString& sentence)
-{
-  if (sentence != this->Obstacle)
-  {
-    this->Obstacle = sentence;
-    Q_EMIT this->changed();
-  }
-}
-
 void ToolSettings::setRequest(const QString& request)
 {
   if (request != this->Request)

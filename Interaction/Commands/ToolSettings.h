@@ -68,8 +68,6 @@ public:
   /// Name of the volume that the view under the cursor shows, while the tool in hand works on
   /// another one that this view does not show. Default empty: it works on what the view shows.
   const QString& shownInstead() const { return this->ShownInstead; }
-  /// Why the tool in hand cannot work, a sentence. Default empty: it can.
-  const QString& obstacle() const { return this->Obstacle; }
   /// What the window asks the hand to do next, a whole sentence. Default empty: nothing.
   const QString& request() const { return this->Request; }
   double radius() const;              ///< Soft: mm, default 25.
@@ -96,7 +94,6 @@ public Q_SLOTS:
   void setAxisHold(ToolSettings::AxisHold axis);
   void setGround(ToolSettings::Ground ground);
   void setShownInstead(const QString& name);
-  void setObstacle(const QString& sentence);
   void setRequest(const QString& request);
   void setRadius(double millimetres);
   void setMajorRadius(double millimetres);
@@ -118,7 +115,6 @@ private:
   AxisHold HeldAxis = AxisHold::None;
   Ground GroundNow = Ground::Volume;
   QString ShownInstead;
-  QString Obstacle;
   QString Request;
   double Radius = 25.0;
   double MajorRadius = 40.0;

@@ -7,7 +7,6 @@
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
-#include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
 
 #include <vtkCommand.h>
@@ -50,6 +49,29 @@ glm::dmat4 rigidOf(vtkSMProxy* fit)
   return rows.size() == 16 ? glm::transpose(glm::make_mat4(rows.data())) : glm::dmat4(1.0);
 }
 
+// Where a fit takes tissue at rest (mm), without its rigid part. As many as `rest`, or none.
+std::vector<glm::dvec3> placesBy(vtkSMProxy* fit, const std::vector<glm::dvec3>& rest)
+{
+  if (rest.empty())
+  {
+    return {};
+  }
+  const vtkSmartPointer<vtkSMProxy> report = makeReport(fit, "FitReport");
+  pointAt(report, "Filter", fit);
+  vtkSMPropertyHelper(report, "Points")
+    .Set(&rest.front().x, static_cast<unsigned int>(3 * rest.size()));
+  const std::vector<double> numbers = answerOf(report, "Measured");
+  const glm::dmat4 rigid = rigidOf(fit);
+  const glm::dmat3 turnedBack = glm::transpose(glm::dmat3(rigid));
+  std::vector<glm::dvec3> places;
+  for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+  {
+    const glm::dvec3 measured(numbers[i], numbers[i + 1], numbers[i + 2]);
+    places.push_back(turnedBack * (measured - glm::dvec3(rigid[3])));
+  }
+  return places;
+}
+
 void share(vtkSMProxy* deformation, vtkSMProxy* fit)
 {
   for (const char* name : Shared)
@@ -89,21 +111,9 @@ FitEditor::FitEditor(pqPipelineSource* source)
   this->OfSource->Connect(proxy, vtkCommand::UpdateEvent, this, SLOT(shareSettings()));
   QObject::connect(pqApplicationCore::instance(), &pqApplicationCore::aboutToWriteState, this,
     [this] { FitEditor::setLive(this->fit(), false); });
+  QObject::connect(source, qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
+    [this] { this->BaseAnswer.clear(); });
   this->noticeLattice();
-}
-
-QString FitEditor::refusal() const
-{
-  vtkSMProxy* lattice = latticeOf(this->Source->getProxy());
-  if (!lattice || this->fit())
-  {
-    return {};
-  }
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
-  auto* item = model->findItem<pqPipelineSource*>(lattice);
-  return tr("The Lattice of %1 is already %2, which is no Fit Deformation. Set Lattice to None "
-            "first.")
-    .arg(this->Source->getSMName(), item ? item->getSMName() : QString(lattice->GetXMLLabel()));
 }
 
 FitEditor::Numbers FitEditor::numbers(const char* list) const
@@ -115,24 +125,36 @@ FitEditor::Numbers FitEditor::numbers(const char* list) const
 std::vector<glm::dvec3> FitEditor::fittedPlaces(const std::vector<glm::dvec3>& rest) const
 {
   vtkSMProxy* proxy = this->fit();
-  if (!proxy || rest.empty())
+  if (!proxy)
   {
-    return {};
+    return this->base() ? this->basePlaces(rest) : std::vector<glm::dvec3>();
   }
-  const vtkSmartPointer<vtkSMProxy> report = makeReport(proxy, "FitReport");
-  pointAt(report, "Filter", proxy);
-  vtkSMPropertyHelper(report, "Points")
-    .Set(&rest.front().x, static_cast<unsigned int>(3 * rest.size()));
-  const std::vector<double> numbers = answerOf(report, "Measured");
-  const glm::dmat4 rigid = rigidOf(proxy);
-  const glm::dmat3 turnedBack = glm::transpose(glm::dmat3(rigid));
-  std::vector<glm::dvec3> places;
-  for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+  return placesBy(proxy, rest);
+}
+
+std::vector<glm::dvec3> FitEditor::basePlaces(const std::vector<glm::dvec3>& rest) const
+{
+  if (rest.empty() || !this->base())
   {
-    const glm::dvec3 measured(numbers[i], numbers[i + 1], numbers[i + 2]);
-    places.push_back(turnedBack * (measured - glm::dvec3(rigid[3])));
+    return rest;
   }
-  return places;
+  if (this->BaseAnswer.empty() || this->AskedBase != rest)
+  {
+    SCOPED_UNDO_EXCLUDE();
+    // Without measurements a fit is its base.
+    const vtkSmartPointer<vtkSMProxy> alone = this->prepare();
+    vtkSMSourceProxy::SafeDownCast(alone)->UpdatePipeline();
+    this->AskedBase = rest;
+    this->BaseAnswer = placesBy(alone, rest);
+  }
+  return this->BaseAnswer.size() == rest.size() ? this->BaseAnswer : rest;
+}
+
+vtkSmartPointer<vtkSMProxy> FitEditor::base() const
+{
+  vtkSMProxy* made = this->fit();
+  return made ? vtkSMPropertyHelper(made, "Base").GetAsProxy()
+              : latticeOf(this->Source->getProxy());
 }
 
 void FitEditor::setNumbers(vtkSMProxy* fit, const char* list, const Numbers& numbers)
@@ -166,6 +188,10 @@ vtkSmartPointer<vtkSMProxy> FitEditor::prepare() const
   vtkNew<vtkSMParaViewPipelineController> controller;
   controller->PreInitializeProxy(made);
   share(deformation, made);
+  if (const vtkSmartPointer<vtkSMProxy> base = this->base())
+  {
+    vtkSMPropertyHelper(made, "Base").Set(base);
+  }
   controller->PostInitializeProxy(made);
   made->SetAnnotation(MadeByUs, "1");
   made->UpdateVTKObjects();
@@ -211,17 +237,13 @@ void FitEditor::remove()
   {
     return;
   }
-  this->setLattice(nullptr);
+  this->setLattice(vtkSMPropertyHelper(made, "Base").GetAsProxy());
   made->GetSessionProxyManager()->UnRegisterProxy(made);
 }
 
-bool FitEditor::edit(const QString& label, const std::function<void(vtkSMProxy*)>& change)
+void FitEditor::edit(const QString& label, const std::function<void(vtkSMProxy*)>& change)
 {
   this->cancel();
-  if (!this->refusal().isEmpty())
-  {
-    return false;
-  }
   FitEditor::setLive(this->fit(), false); // no step of undo remembers a hand
   {
     SCOPED_UNDO_SET(label);
@@ -235,26 +257,20 @@ bool FitEditor::edit(const QString& label, const std::function<void(vtkSMProxy*)
     proxy->UpdateVTKObjects();
   }
   drawFully(this->Source);
-  return true;
 }
 
-bool FitEditor::replace(const char* list, const Numbers& numbers, const QString& label)
+void FitEditor::replace(const char* list, const Numbers& numbers, const QString& label)
 {
   this->cancel();
-  if (numbers == this->numbers(list))
+  if (numbers != this->numbers(list))
   {
-    return this->refusal().isEmpty();
+    this->edit(label, [&](vtkSMProxy* fit) { FitEditor::setNumbers(fit, list, numbers); });
   }
-  return this->edit(label, [&](vtkSMProxy* fit) { FitEditor::setNumbers(fit, list, numbers); });
 }
 
-bool FitEditor::begin(const char* list, const Numbers& underHand)
+void FitEditor::begin(const char* list, const Numbers& underHand)
 {
   this->cancel();
-  if (!this->refusal().isEmpty())
-  {
-    return false;
-  }
   this->List = list;
   this->Before = this->numbers(list);
   this->Made = !this->fit();
@@ -270,7 +286,6 @@ bool FitEditor::begin(const char* list, const Numbers& underHand)
   FitEditor::setLive(this->UnderHand, true);
   Q_EMIT this->editing(true);
   this->change(underHand);
-  return true;
 }
 
 void FitEditor::change(const Numbers& underHand)
@@ -339,6 +354,7 @@ void FitEditor::write(const Numbers& numbers)
 
 void FitEditor::noticeLattice()
 {
+  this->BaseAnswer.clear();
   this->OfFit->Disconnect();
   if (vtkSMProxy* proxy = this->fit())
   {

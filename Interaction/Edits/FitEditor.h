@@ -2,7 +2,8 @@
 /// @file
 /// Edits what was measured for a Free-Form Deformation, with undo: the lists of the Fit Deformation
 /// that is its Lattice. There need not be a fit yet: the first edit makes it, in the same undo
-/// step, and the Free-Form Deformation stays the active source.
+/// step, and the Free-Form Deformation stays the active source. Another Lattice, say of a
+/// refinement, becomes the base of the fit.
 #ifndef BrainShift_FitEditor_h
 #define BrainShift_FitEditor_h
 
@@ -44,15 +45,17 @@ public:
 
   /// The fit, also the one that an edit under the hand made for now. Null if there is none.
   vtkSMSourceProxy* fit() const { return fitOf(this->Source); }
-  /// Why there can be no fit: a sentence that names what the Lattice is. Empty if there can be one.
-  QString refusal() const;
   /// The numbers of a list of the fit, such as "Pulls" or "Pins". None if there is no fit.
   Numbers numbers(const char* list) const;
 
-  /// Where the fit's lattice draws tissue at rest (mm), before strokes and without the rigid part,
-  /// which pulls are measured against as well. As many as `rest`; none if there is
-  /// no fit or it failed. It asks the server.
+  /// Where the Lattice draws tissue at rest (mm), before strokes and without the rigid part of a
+  /// fit, which pulls are measured against as well. As many as `rest`; none if there is no
+  /// Lattice or it failed. It asks the server.
   std::vector<glm::dvec3> fittedPlaces(const std::vector<glm::dvec3>& rest) const;
+
+  /// Where the base of the fit draws tissue at rest (mm), and so where pins hold it. `rest` itself
+  /// without a base, or if it failed. It asks the server after a change alone.
+  std::vector<glm::dvec3> basePlaces(const std::vector<glm::dvec3>& rest) const;
 
   /// Sets a list of a fit, within edit().
   static void setNumbers(vtkSMProxy* fit, const char* list, const Numbers& numbers);
@@ -60,15 +63,15 @@ public:
   /// it.
   static void setLive(vtkSMProxy* fit, bool on);
   /// One undo step that makes the fit, if there is none, and calls `change` to set its properties.
-  /// False, and nothing happens, if there can be no fit.
-  bool edit(const QString& label, const std::function<void(vtkSMProxy*)>& change);
-  /// Replaces a list in one undo step. False if there can be no fit.
-  bool replace(const char* list, const Numbers& numbers, const QString& label);
+  void edit(const QString& label, const std::function<void(vtkSMProxy*)>& change);
+  /// Replaces a list in one undo step.
+  void replace(const char* list, const Numbers& numbers, const QString& label);
+  /// Takes the fit away. Its base is the Lattice again.
+  void remove();
 
   /// Begins an edit of a list. Views draw it at once, at the quality of a moving picture, and the
-  /// undo stack does not see it. An edit that runs already is cancelled first. False if there can
-  /// be no fit.
-  bool begin(const char* list, const Numbers& underHand);
+  /// undo stack does not see it. An edit that runs already is cancelled first.
+  void begin(const char* list, const Numbers& underHand);
   /// Replaces the list under the hand.
   void change(const Numbers& underHand);
   /// Ends the edit: one step on ParaView's undo stack (none if nothing changed), then a picture at
@@ -94,17 +97,20 @@ private Q_SLOTS:
 private:
   explicit FitEditor(pqPipelineSource* source);
 
-  vtkSmartPointer<vtkSMProxy> prepare() const; ///< A fit with the settings of the deformation.
+  vtkSmartPointer<vtkSMProxy> base() const; ///< Of the fit, or of the one to be made.
+  /// A fit with the settings of the deformation, on its base.
+  vtkSmartPointer<vtkSMProxy> prepare() const;
   static void enter(vtkSMProxy* made);         ///< Shows it in the pipeline.
   void setLattice(vtkSMProxy* lattice);        ///< Null: none.
   void make();
-  void remove();
   void restore(); ///< What was there before the edit.
   void stopEditing();
   void write(const Numbers& numbers);
   void draw();
 
   pqPipelineSource* Source;
+  mutable std::vector<glm::dvec3> AskedBase; ///< What basePlaces() was asked last ...
+  mutable std::vector<glm::dvec3> BaseAnswer; ///< ... and its answer. None: to be asked again.
   vtkNew<vtkEventQtSlotConnect> OfSource;
   vtkNew<vtkEventQtSlotConnect> OfFit;
   QTimer Redraw;                        ///< Merges the events of one turn of the event loop.

@@ -112,15 +112,9 @@ LandmarkList::LandmarkList(pqPipelineSource* source)
   this->refreshSoon(true);
 }
 
-QString LandmarkList::problem() const
-{
-  return this->Problem.isEmpty() ? this->Editor->refusal() : this->Problem;
-}
-
 bool LandmarkList::isOpen() const
 {
-  return this->Source->modifiedState() != pqProxy::UNINITIALIZED &&
-    this->Editor->refusal().isEmpty();
+  return this->Source->modifiedState() != pqProxy::UNINITIALIZED;
 }
 
 void LandmarkList::showMarks(bool on)
@@ -281,12 +275,12 @@ void LandmarkList::findDrawn()
   }
 }
 
-bool LandmarkList::add(const glm::dvec3& rest, const glm::dvec3& measured)
+void LandmarkList::add(const glm::dvec3& rest, const glm::dvec3& measured)
 {
   FitEditor::Numbers numbers = this->Editor->numbers("LandmarkPairs");
   numbers.insert(
     numbers.end(), { rest.x, rest.y, rest.z, measured.x, measured.y, measured.z, 1.0 });
-  return this->Editor->replace("LandmarkPairs", numbers, tr("Add Landmark Pair"));
+  this->Editor->replace("LandmarkPairs", numbers, tr("Add Landmark Pair"));
 }
 
 void LandmarkList::setOn(const QList<int>& rows, bool on)

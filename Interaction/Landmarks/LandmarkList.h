@@ -65,9 +65,8 @@ public:
 
   const std::vector<LandmarkRow>& rows() const { return this->Rows; }
   const LandmarkFigures& figures() const { return this->Figures; }
-  /// Why there are no figures: what the fit says, or why there can be no fit. Empty: nothing is
-  /// wrong.
-  QString problem() const;
+  /// Why the fit has no figures. Empty: nothing is wrong.
+  const QString& problem() const { return this->Problem; }
   /// Whether pairs can be added.
   bool isOpen() const;
   pqPipelineSource* source() const { return this->Source; }
@@ -77,7 +76,7 @@ public:
   void showMarks(bool on);
 
   /// Adds a pair: one undo step.
-  bool add(const glm::dvec3& rest, const glm::dvec3& measured);
+  void add(const glm::dvec3& rest, const glm::dvec3& measured);
   /// Lets pairs count, or not: one undo step.
   void setOn(const QList<int>& rows, bool on);
   /// Deletes pairs that were picked: one undo step. Those of the inputs stay.

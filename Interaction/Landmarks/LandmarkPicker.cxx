@@ -249,8 +249,8 @@ void LandmarkPicker::pick(pqRenderView* view, const glm::ivec2& pixel)
   }
   const glm::dvec3 rest = this->Picked->rest;
   this->Picked.reset();
-  const bool isAdded = LandmarkList::of(deformation)->add(rest, found->deformed);
-  this->ask(isAdded ? QString() : tr("The Lattice is no fit any more: the pair is not kept. "));
+  LandmarkList::of(deformation)->add(rest, found->deformed);
+  this->ask();
   Q_EMIT this->changed();
 }
 

@@ -97,10 +97,6 @@ QString PointerTrace::begin(pqPipelineSource* deformation, double threshold)
   {
     return tr("There is no Free-Form Deformation to bend.");
   }
-  if (!editor->refusal().isEmpty())
-  {
-    return editor->refusal();
-  }
   this->Deformation = deformation;
   this->Threshold = threshold;
   const vtkSmartPointer<vtkSMProxy> source = this->traces();
@@ -204,9 +200,7 @@ void PointerTrace::restore()
   fit->UpdateVTKObjects();
   if (!this->HadFit)
   {
-    vtkSMPropertyHelper(this->Deformation->getProxy(), "Lattice").RemoveAllValues();
-    this->Deformation->getProxy()->UpdateVTKObjects();
-    fit->GetSessionProxyManager()->UnRegisterProxy(fit);
+    FitEditor::of(this->Deformation)->remove();
   }
   source->GetSessionProxyManager()->UnRegisterProxy(source);
 }

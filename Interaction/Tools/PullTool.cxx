@@ -36,12 +36,19 @@ void PullTool::find()
       this->Marks.push_back({ pull.rest, pull.rest, pull.rest + asked, false });
     }
   }
+  std::vector<glm::dvec3> pinned;
   for (const Pin& pin : pinsFrom(this->Bench.fit.numbers("Pins")))
   {
     if (pin.enabled)
     {
-      this->Marks.push_back({ pin.rest, pin.rest, pin.rest, true });
+      pinned.push_back(pin.rest);
     }
+  }
+  const std::vector<glm::dvec3> held = this->Bench.fit.basePlaces(pinned);
+  for (std::size_t i = 0; i < pinned.size(); ++i)
+  {
+    const glm::dvec3 asked = this->Bench.probe.strength() * (held[i] - pinned[i]);
+    this->Marks.push_back({ pinned[i], pinned[i], pinned[i] + asked, true });
   }
   rest.reserve(this->Marks.size());
   for (const Shown& mark : this->Marks)
@@ -162,7 +169,7 @@ bool PullTool::press(const HandEvent& event)
   const std::optional<Spot> spot = this->Bench.probe.spotAt(pixelOf(event));
   const std::optional<glm::dvec3> rest =
     spot ? this->Bench.probe.restOf(spot->position) : std::nullopt;
-  if (!rest || !this->Bench.fit.refusal().isEmpty())
+  if (!rest)
   {
     return false;
   }
@@ -232,7 +239,8 @@ void PullTool::drag(const HandEvent& event)
   }
   else
   {
-    this->Begun = fit.begin("Pulls", numbers);
+    fit.begin("Pulls", numbers);
+    this->Begun = true;
   }
 }
 

@@ -233,10 +233,7 @@ void LandmarkTable::refresh()
   const bool isPicking = LandmarkPicker::instance()->deformation() == this->Landmarks->source();
   const QString problem = this->Landmarks->problem();
   QPalette palette = this->palette();
-  if (this->Landmarks->isOpen()) // else it says why there are none, and nothing is wrong
-  {
-    palette.setColor(QPalette::WindowText, gradeColor(Grade::Bad, palette, wantsBlueAndOrange()));
-  }
+  palette.setColor(QPalette::WindowText, gradeColor(Grade::Bad, palette, wantsBlueAndOrange()));
   this->Problem->setPalette(palette);
   this->Problem->setText(problem);
   this->Problem->setVisible(!problem.isEmpty());

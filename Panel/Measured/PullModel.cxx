@@ -78,9 +78,11 @@ void PullModel::show(const Pulled& pulled)
   }
 }
 
-void PullModel::setPlaces(const std::vector<glm::dvec3>& places)
+void PullModel::setPlaces(
+  const std::vector<glm::dvec3>& places, const std::vector<glm::dvec3>& held)
 {
   this->Places = places;
+  this->Held = held;
   if (this->rowCount() > 0)
   {
     Q_EMIT this->dataChanged(
@@ -190,6 +192,17 @@ QVariant PullModel::headerData(int section, Qt::Orientation orientation, int rol
   }
 }
 
+// Where the tissue of a row should be, mm.
+glm::dvec3 PullModel::target(int row) const
+{
+  if (this->isPull(row))
+  {
+    return this->pull(row).target;
+  }
+  const std::size_t place = static_cast<std::size_t>(row) - this->Now.pulls.size();
+  return place < this->Held.size() ? this->Held[place] : this->pin(row).rest;
+}
+
 QString PullModel::text(int row, int column) const
 {
   const std::size_t place = static_cast<std::size_t>(row);
@@ -204,9 +217,8 @@ QString PullModel::text(int row, int column) const
       return this->isPull(row) ? QString::number(askedOf(this->pull(row)), 'f', 1) : tr("stays");
     case MissedColumn:
     {
-      const glm::dvec3& target = this->isPull(row) ? this->pull(row).target : rest;
       return this->isOn(row) && place < this->Places.size()
-        ? QString::number(glm::distance(this->Places[place], target), 'f', 1)
+        ? QString::number(glm::distance(this->Places[place], this->target(row)), 'f', 1)
         : QString();
     }
     case WeightColumn:

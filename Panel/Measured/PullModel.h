@@ -44,8 +44,10 @@ public:
 
   /// Shows what the fit has now.
   void show(const Pulled& pulled);
-  /// Where the fit takes the tissue of each row. Empty: not known.
-  void setPlaces(const std::vector<glm::dvec3>& places);
+  /// Where the fit takes the tissue of each row (mm); empty: not known. `held`: where each pin
+  /// should hold its tissue (mm); empty: where it was at rest.
+  void setPlaces(
+    const std::vector<glm::dvec3>& places, const std::vector<glm::dvec3>& held = {});
 
   const Pulled& pulled() const { return this->Now; }
   bool isOn(int row) const;
@@ -68,12 +70,14 @@ private:
   bool isPull(int row) const { return row < static_cast<int>(this->Now.pulls.size()); }
   const Pull& pull(int row) const { return this->Now.pulls[static_cast<std::size_t>(row)]; }
   const Pin& pin(int row) const;
+  glm::dvec3 target(int row) const;
   QString text(int row, int column) const;
   QString toolTip(int row) const;
 
   const Write WritePulled;
   Pulled Now;
   std::vector<glm::dvec3> Places;
+  std::vector<glm::dvec3> Held; // of the pins
 };
 }
 

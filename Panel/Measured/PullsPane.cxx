@@ -109,16 +109,22 @@ void PullsPane::update()
 void PullsPane::followResult()
 {
   this->update();
+  if (!this->Editor)
+  {
+    return;
+  }
   std::vector<glm::dvec3> rest;
+  std::vector<glm::dvec3> pinned;
   for (const Pull& pull : this->Pulls->pulled().pulls)
   {
     rest.push_back(pull.rest);
   }
   for (const Pin& pin : this->Pulls->pulled().pins)
   {
-    rest.push_back(pin.rest);
+    pinned.push_back(pin.rest);
   }
-  this->Pulls->setPlaces(this->Editor ? this->Editor->fittedPlaces(rest) : rest);
+  rest.insert(rest.end(), pinned.begin(), pinned.end());
+  this->Pulls->setPlaces(this->Editor->fittedPlaces(rest), this->Editor->basePlaces(pinned));
 }
 
 void PullsPane::refresh()

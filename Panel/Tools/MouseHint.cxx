@@ -104,10 +104,6 @@ QString mouseHint(const ToolSettings& settings, ToolSettings::Ground ground)
       "%2.")
       .arg(nameOf(tool), settings.shownInstead());
   }
-  if (tool != ToolKind::None && !settings.obstacle().isEmpty())
-  {
-    return tr("%1. %2").arg(nameOf(tool), settings.obstacle());
-  }
   if (tool != ToolKind::None)
   {
     hints.append(

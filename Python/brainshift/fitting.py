@@ -205,6 +205,10 @@ def _solved(deformation, arrays, pulls, pins, values):
             made.append(own(simple.PolyPointSource(registrationName=_INPUTS[name],
                                                     Points=points.ravel().tolist())))
             values[name] = made[-1]
+    former = deformation.Lattice
+    base = former.Base if is_kind(former, "FitDeformation") else former
+    if base:
+        values["Base"] = base
     source = own(simple.FitDeformation(
         Input=deformation.Input, Pulls=[float(n) for pull in pulls for n in (*pull.ravel(), 1.0)],
         Pins=[float(n) for pin in pins for n in (*pin, 1.0)], **values))
@@ -225,7 +229,8 @@ def fit(filter, rest=None, measured=None, traces=None, pulls=None, pins=None, th
     All measurements are solved together. With landmarks alone the fit takes a rigid motion out
     and bends little. With traces, pulls or pins the volume is taken to lie right already.
     A later call for the same deformation takes the place of the former one. If it fails, the
-    former one stays.
+    former one stays. Any other `Lattice`, such as a refinement, becomes the `Base` of the fit: the
+    bend from which it begins. The volume is then taken to lie right, too.
 
     - `filter`: a Free-Form Deformation. Its `Lattice` becomes the fit; its strokes stay on top.
     - `rest`, `measured`: N x 3 arrays in mm, landmarks in the rest frame and where they were

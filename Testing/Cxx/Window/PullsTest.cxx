@@ -75,6 +75,10 @@ TEST_F(PullsInAList, TellWhatWasAskedAndMissed)
   EXPECT_EQ(this->at(0, PullModel::MissedColumn), "1.5");
   EXPECT_EQ(this->at(1, PullModel::MissedColumn), ""); // switched off
   EXPECT_EQ(this->at(2, PullModel::MissedColumn), "2.0");
+  // A pin that a base holds elsewhere.
+  this->Model.setPlaces(
+    { { 4.0, 6.0, 4.5 }, { 0.0, 0.0, 0.0 }, { 5.0, 8.0, 7.0 } }, { { 5.0, 8.0, 7.5 } });
+  EXPECT_EQ(this->at(2, PullModel::MissedColumn), "0.5");
   EXPECT_EQ(this->at(1, PullModel::KindColumn, Qt::CheckStateRole).toInt(), Qt::Unchecked);
   EXPECT_EQ(this->at(2, PullModel::KindColumn, Qt::CheckStateRole).toInt(), Qt::Checked);
 }

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that align finds a known motion and refine a known bend, from what the hand made; that a
 # callback stops them; that a state file and later strokes follow; that errors leave all as it was.
+import warnings
+
 import numpy
 from brainshift_testing import (
     assert_says, load_plugin, messages, run_tests, scratch, volume)
@@ -80,6 +82,20 @@ def test_align_finds_a_known_motion():
     assert numpy.allclose(found.rotation, compare.ReferenceRotation)
 
 
+def test_align_warns_beyond_what_was_tested():
+    rest = rest_volume()
+    compare = simple.CompareVolumes(Input=rest, Reference=rest, ReferenceTranslation=(22, -12, 8))
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        found = brainshift.align(compare)
+    assert found.shift > 24, found.shift
+    assert any("Nobody has tested this" in str(one.message) for one in said), said
+    compare = simple.CompareVolumes(Input=rest, Reference=rest, ReferenceTranslation=(6, 0, 0))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        brainshift.align(compare)
+
+
 def test_a_callback_stops_align():
     rest = rest_volume()
     compare = simple.CompareVolumes(Input=rest, Reference=rest, ReferenceTranslation=(6, -3, 2))
@@ -125,6 +141,40 @@ def test_it_begins_with_the_hand_and_strokes_follow():
     assert again.filter.SMProxy is bent.Lattice.SMProxy
 
 
+def test_pulls_and_fits_follow_a_refinement():
+    simple.ResetSession()
+    load_plugin()
+    rest = rest_volume()
+    bent = simple.FreeFormDeformation(Input=rest)
+    reference = bent_reference(rest)
+    refined = brainshift.refine(bent, reference).filter
+    near = error(bent, rest)
+    asked, still = numpy.array(MIDDLE), numpy.array(MIDDLE) + (0, 0, 40.0)
+    was = brainshift.deformed_from_rest(bent, [asked, still])
+    found = brainshift.fit(bent, pulls=[(asked, was[0] + (0, 3.0, 0))], pins=[still])
+    assert bent.Lattice == found.filter and found.filter.Base == refined, found.filter.Base
+    assert refined in simple.GetSources().values()
+    now = brainshift.deformed_from_rest(bent, [asked, still])
+    assert numpy.allclose(now - was, [(0, 3.0, 0), (0, 0, 0)], atol=0.2), now - was
+    assert numpy.allclose(found.measured_from_rest([asked, still]), now, atol=1e-3)
+    # A later fit has the same base, not the former fit; landmarks alone take no motion out.
+    places = numpy.random.default_rng(8).normal(MIDDLE, 15.0, (12, 3))
+    shifted = brainshift.fit(bent, rest=places, measured=refined_places(bent, refined, places)
+                             + (2.0, 0, 0))
+    assert shifted.filter.Base == refined and numpy.allclose(shifted.rigid, numpy.eye(4))
+    assert shifted.residuals.max() < 0.2, shifted.residuals
+    # Another refinement begins with both.
+    again = brainshift.refine(bent, reference)
+    assert bent.Lattice == again.filter and again.disagreement <= again.disagreement_before
+    assert error(bent, rest) < near + 0.1, (near, error(bent, rest))
+
+
+def refined_places(bent, refined, places):
+    """Where the refinement alone puts tissue."""
+    alone = simple.FreeFormDeformation(Input=bent.Input, Lattice=refined)
+    return brainshift.deformed_from_rest(alone, places)
+
+
 def test_a_state_brings_it_back():
     simple.ResetSession()
     load_plugin()
@@ -135,6 +185,8 @@ def test_a_state_brings_it_back():
     bent = simple.FreeFormDeformation(Input=rest, registrationName="Bent")
     brainshift.refine(bent, reference, callback=lambda progress: progress.steps < 4)
     points = numpy.random.default_rng(4).uniform(5, 35, (20, 3))
+    pulled = brainshift.deformed_from_rest(bent, [(20, 20, 20)])[0] + (0, 0, 2.0)
+    brainshift.fit(bent, pulls=[((20, 20, 20), pulled)])
     expected = brainshift.deformed_from_rest(bent, points)
     assert numpy.abs(expected - points).max() > 0.3
     state = scratch("refined.pvsm")
@@ -145,7 +197,8 @@ def test_a_state_brings_it_back():
     load_plugin()
     simple.LoadState(state)
     again = simple.FindSource("Bent")
-    assert again.Lattice.SMProxy.GetXMLName() == "RefinedLattice"
+    assert again.Lattice.SMProxy.GetXMLName() == "FitDeformation"
+    assert again.Lattice.Base.SMProxy.GetXMLName() == "RefinedLattice"
     assert numpy.allclose(brainshift.deformed_from_rest(again, points), expected, atol=1e-5)
 
 

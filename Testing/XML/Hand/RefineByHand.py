@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that the panel's section Refine bends a volume step by step with a picture after each;
 that Pause holds it, Stop keeps what is reached as one step to undo, and Escape puts base and
-strokes back without one; that a state has the result; that a hand comes first; and that it ends
+strokes back without one; that a state has the result; that a hand comes first; that a pull follows; and that it ends
 with a sentence when something is missing or goes away.
 
 ParaView's window runs this file as a script; what did not hold is written down for the pvpython
@@ -245,6 +245,47 @@ def a_hand_comes_first():
     assert len(window.strokes()) == 1 and len(lattices()) == 1, window.strokes()
 
 
+def a_pull_follows_it():
+    """The first pull makes a fit whose base is the refinement."""
+    open_again()
+    begin()
+    assert hand.click("BrainShiftRefineStop")
+    refined, before = field(), deformation().Lattice
+    middle = [length // 2 for length in simple.GetActiveView().ViewSize]
+    hand.take(hand.PULL)
+    hand.drag(middle, [middle[0] + 25, middle[1]])
+    hand.take(hand.NONE)
+    fit = deformation().Lattice
+    assert undo_labels()[0] == "Pull tissue" and fit.Base == before, (undo_labels(), fit)
+    pulled = field()
+    way = numpy.linalg.norm(pulled - refined, axis=1)
+    assert 1.0 < way.max() < 15.0, way  # from where the refinement put it, not from rest
+    pull = numpy.array(list(fit.Pulls)[:7])
+    with window.unrecorded():
+        alone = simple.FreeFormDeformation(Input=simple.FindSource("rest"), Lattice=before)
+        was = brainshift.deformed_from_rest(alone, [pull[:3]])[0]
+        simple.Delete(alone)
+        simple.SetActiveSource(deformation())
+    assert 1.0 < numpy.linalg.norm(pull[3:6] - was) < 15.0, (pull, was)
+    window.action("Undo")
+    assert deformation().Lattice == before and numpy.allclose(field(), refined, atol=1e-5)
+    window.action("Redo")
+    assert numpy.allclose(field(), pulled, atol=1e-5)
+    # Another refinement begins with both.
+    begin()
+    hand.tap(hand.ESCAPE)
+    hand.wait()
+    assert deformation().Lattice == fit and numpy.allclose(field(), pulled, atol=1e-5)
+    begin()
+    assert hand.click("BrainShiftRefineStop")
+    assert deformation().Lattice not in (fit, before), deformation().Lattice
+    window.action("Undo")
+    assert deformation().Lattice == fit and numpy.allclose(field(), pulled, atol=1e-5)
+    with window.unrecorded():
+        deformation().Lattice = None
+        simple.Delete(fit)
+
+
 def others_have_their_way():
     # As Apply in the panel does.
     open_again()
@@ -315,6 +356,6 @@ def the_session_may_go():
 window.main("RefineByHand", [
     (set_up,), (closed_until_it_is_wanted,), (the_picture_follows,), (pause_holds_it,),
     (stop_keeps_it,), (it_is_one_step,), (escape_puts_all_back,), (it_ends_by_itself,),
-    (a_state_keeps_it,), (a_hand_comes_first,), (others_have_their_way,),
+    (a_state_keeps_it,), (a_hand_comes_first,), (a_pull_follows_it,), (others_have_their_way,),
     (what_is_wrong_is_said,), (a_reference_may_go,), (the_deformation_may_go,),
     (the_session_may_go,)])
