@@ -23,6 +23,8 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QProgressBar>
+#include <QResizeEvent>
+#include <QScrollArea>
 #include <QToolButton>
 #include <QVBoxLayout>
 
@@ -348,5 +350,31 @@ void RefinePane::say()
   palette.setColor(
     QPalette::WindowText, gradeColor(Grade::Bad, this->palette(), wantsBlueAndOrange()));
   this->Warning->setPalette(palette);
+}
+
+// What a run says often appears below the panel's lower edge. Who has scrolled away is left alone.
+void RefinePane::resizeEvent(QResizeEvent* event)
+{
+  QWidget::resizeEvent(event);
+  const bool hasMore = event->size().height() > event->oldSize().height() && this->Editor &&
+    this->Editor->state() != RefineEditor::State::Idle;
+  if (hasMore && !this->Opener->visibleRegion().isEmpty())
+  {
+    QTimer::singleShot(0, this, &RefinePane::bringIntoSight);
+  }
+}
+
+void RefinePane::bringIntoSight()
+{
+  QWidget* above = this->parentWidget();
+  while (above && !qobject_cast<QScrollArea*>(above))
+  {
+    above = above->parentWidget();
+  }
+  if (auto panel = qobject_cast<QScrollArea*>(above))
+  {
+    const QPoint end = this->mapTo(panel->widget(), QPoint(0, this->height()));
+    panel->ensureVisible(-panel->widget()->x(), end.y(), 0, 0);
+  }
 }
 }

@@ -29,6 +29,9 @@ class RefinePane : public QWidget
 public:
   RefinePane(pqPipelineSource* deformation, QWidget* parent = nullptr);
 
+protected:
+  void resizeEvent(QResizeEvent* event) override;
+
 private:
   void addChoices(QVBoxLayout* column);
   void addButtons(QVBoxLayout* column);
@@ -39,6 +42,7 @@ private:
   void refine();
   void refresh();
   void say();
+  void bringIntoSight();
   pqPipelineSource* chosen(const QComboBox* list) const; ///< Null: none.
 
   const QPointer<pqPipelineSource> Deformation; ///< It may go before its panel does.

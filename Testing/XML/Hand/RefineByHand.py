@@ -112,6 +112,8 @@ def the_picture_follows():
     begin()
     assert hand.is_visible("BrainShiftRefineProgress") and hand.is_visible("BrainShiftRefineCurve")
     assert hand.click("BrainShiftRefinePause")
+    hand.wait()
+    assert hand.in_sight("BrainShiftRefineSaid"), "the user must scroll to see what it does"
     taken, sent = step(), uploads() - before
     assert sent >= taken >= 2, (sent, taken)
     assert undo_labels() == undo, undo_labels()
@@ -139,6 +141,9 @@ def panel_stays():
 def stop_keeps_it():
     assert hand.click("BrainShiftRefineStop")
     assert said().startswith("Stopped after "), said()
+    for _ in range(20):
+        hand.wait(20)
+    assert hand.in_sight("BrainShiftRefineSaid"), "the user must scroll to see what came out"
     for words in ("Disagreement: ", " mm at most", "Jacobian", "guard"):
         assert words in said(), (words, said())
     assert not hand.label("BrainShiftRefineWarning"), hand.label("BrainShiftRefineWarning")
