@@ -4,10 +4,10 @@
 #include "Filters/Register/SelfSimilarity.h"
 #include "Filters/Register/Sweep.h"
 
-#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace brainshift
@@ -28,15 +28,16 @@ constexpr double FinerVolume = 0.8;
 
 // A correlation that begins below 0.8 in the mean has another cause than place: the contrast.
 constexpr double MostDisagreement = 0.2;
-constexpr int MostHalvings = 4;
+constexpr int PartsBeforeComparison = 7; // that prepare a level
 
-// How often a step that would fold is sought again by a stiffer volume, and how much stiffer.
-constexpr int MostStiffenings = 3;
-constexpr double Stiffening = 1.5;
-// The lumped Hessian is larger than the true one, so that longer steps often help.
-constexpr double LongestStride = 2.0;
-constexpr double StrideGrowth = 1.2;
-constexpr double Converged = 1e-4; // share of the energy that a step must gain
+// Speckle makes the Hessian many times too large, so that rigid steps begin longer.
+constexpr double FirstRigidStride = 4.0;
+constexpr int RigidStepsPerStep = 3;
+
+// By ultrasound: speckle can be fitted better by bends that are not there. Of what was seen there
+// are so many samples at most, so that a step stays short.
+constexpr double SpeckleStiffness = 5.0;
+constexpr double MostSeenSamples = 0.25e6;
 
 std::vector<glm::vec3> turned(const std::vector<glm::vec3>& vectors, const glm::dmat3& by)
 {
@@ -81,14 +82,16 @@ double pointVolume(const Grid& grid)
   return grid.spacing.x * grid.spacing.y * grid.spacing.z;
 }
 
-double longest(const std::vector<glm::vec3>& vectors)
+double boxVolume(const Grid& grid)
 {
-  float result = 0.0f;
-  for (const glm::vec3& vector : vectors)
-  {
-    result = std::max(result, glm::length(vector));
-  }
-  return result;
+  const glm::dvec3 sides = grid.spacing * glm::dvec3(grid.dimensions - 1);
+  return sides.x * sides.y * sides.z;
+}
+
+bool compareAlike(const RefinementStage& a, const RefinementStage& b)
+{
+  return a.similarity == b.similarity && a.spacingMm == b.spacingMm &&
+    a.mostDisagreement == b.mostDisagreement;
 }
 }
 
@@ -96,9 +99,8 @@ std::vector<RefinementStage> stagesOf(SimilarityKind kind)
 {
   if (kind == SimilarityKind::LinearCombination)
   {
-    // Self-similarity reaches farther; the linear combination places more exactly.
-    return { { SimilarityKind::SelfSimilarity, 4.0 }, { SimilarityKind::SelfSimilarity, 2.0 },
-      { kind, 1.0 } };
+    // Speckle misleads each place on its own, but not all of them together.
+    return { { kind, 2.0, 1.0, true }, { kind, 1.0, 1.0, true }, { kind, 1.0 } };
   }
   // Where the volumes correlate once they lie right, correlation places them more exactly.
   return { { kind, 4.0 }, { kind, 2.0 },
@@ -113,7 +115,8 @@ Refinement::Refinement(
   , Start(start)
   , Bent(start)
   , Stiff(start.grid, settings.stiffness)
-  , StartControls(turned(start.displacements, glm::transpose(start.grid.direction)))
+  , StartControls(controlsOf(start))
+  , Unbent(StartControls)
   , Controls(StartControls)
 {
   // Cells that fold by themselves at the start are left alone.
@@ -127,7 +130,7 @@ std::vector<glm::vec3> Refinement::bendOf(const std::vector<glm::vec3>& controls
   std::vector<glm::vec3> bend = controls;
   for (std::size_t i = 0; i < bend.size(); ++i)
   {
-    bend[i] -= this->StartControls[i];
+    bend[i] -= this->Unbent[i];
   }
   return bend;
 }
@@ -146,10 +149,15 @@ Lattice Refinement::latticeOf(const std::vector<glm::vec3>& controls) const
   return result;
 }
 
+std::vector<glm::vec3> Refinement::controlsOf(const Lattice& lattice)
+{
+  return turned(lattice.displacements, glm::transpose(lattice.grid.direction));
+}
+
 void Refinement::take(const Lattice& lattice, Agreement agreement, double energy)
 {
   this->Bent = lattice;
-  this->Controls = turned(lattice.displacements, glm::transpose(lattice.grid.direction));
+  this->Controls = controlsOf(lattice);
   this->Known = std::move(agreement);
   this->Energy = energy;
   this->Progress.disagreement = this->Known.disagreement;
@@ -174,8 +182,38 @@ bool Refinement::isUltrasound() const
 Grid Refinement::gridOf(const RefinementStage& stage) const
 {
   const Grid& rest = this->Pair.rest.grid;
-  const Grid grid = coarseGrid(rest, spacingOf(stage, rest, this->TissueShare));
+  const Grid grid = coarseGrid(rest, this->spacingMmOf(stage));
   return this->isUltrasound() ? croppedTo(grid, this->Swept, FarthestMm) : grid;
+}
+
+double Refinement::spacingMmOf(const RefinementStage& stage) const
+{
+  return this->isUltrasound()
+    ? std::max(stage.spacingMm, std::cbrt(this->SeenMm3 / MostSeenSamples))
+    : spacingOf(stage, this->Pair.rest.grid, this->TissueShare);
+}
+
+void Refinement::findSwept()
+{
+  this->Swept = sweptRegion(this->Pair.reference);
+  const double seen = static_cast<double>(
+    std::count(this->Swept.inside.begin(), this->Swept.inside.end(), static_cast<char>(1)));
+  this->SeenMm3 = std::min(pointVolume(this->Swept.grid) * seen, boxVolume(this->Start.grid));
+  this->Stiff = Stiffness(this->Start.grid, this->stiffnessFactor() * this->Progress.stiffness);
+}
+
+// The stiffness is a mean over the lattice, and the disagreement one over what a sweep saw. Without
+// the factor, a volume would be the softer the less of it was seen.
+double Refinement::stiffnessFactor() const
+{
+  return this->isUltrasound()
+    ? SpeckleStiffness * boxVolume(this->Start.grid) / std::max(1.0, this->SeenMm3)
+    : 1.0;
+}
+
+int Refinement::mostStepsOfLevel() const
+{
+  return this->Settings.mostSteps * (this->stage().isRigid ? RigidStepsPerStep : 1);
 }
 
 // Each part takes about as long as a step, so that whoever calls can do other things in between.
@@ -183,10 +221,10 @@ void Refinement::prepareLevel()
 {
   if (this->isUltrasound() && this->Swept.inside.empty())
   {
-    this->Swept = sweptRegion(this->Pair.reference);
+    this->findSwept();
     return;
   }
-  const double spacingMm = spacingOf(this->stage(), this->Pair.rest.grid, this->TissueShare);
+  const double spacingMm = this->spacingMmOf(this->stage());
   const Grid grid = this->gridOf(this->stage());
   const Reach reach = reachOf(this->stage().similarity);
   const bool isDescribed = this->stage().similarity == SimilarityKind::SelfSimilarity;
@@ -216,7 +254,7 @@ void Refinement::prepareLevel()
     case 6:
       this->Compare = makeSimilarity(this->stage().similarity, level, this->Start);
       break;
-    case 7:
+    case PartsBeforeComparison:
       this->compareHere();
       break;
     default:
@@ -233,9 +271,9 @@ bool Refinement::isWorthIt(const Agreement& here) const
   }
   const Grid& rest = this->Pair.rest.grid;
   const RefinementStage& former = this->Settings.stages[this->Progress.level - 1];
-  const Grid coarser = coarseGrid(rest, spacingOf(former, rest, this->TissueShare));
+  const Grid coarser = coarseGrid(rest, this->spacingMmOf(former));
   return here.disagreement <= this->stage().mostDisagreement &&
-    pointVolume(this->Level.rest.grid) < FinerVolume * pointVolume(coarser);
+    pointVolume(this->gridOf(this->stage())) < FinerVolume * pointVolume(coarser);
 }
 
 // Ends the level where it is not worth it.
@@ -248,7 +286,7 @@ void Refinement::compareHere()
     this->Progress.level -= this->Progress.isFinished ? 1 : 0; // of the last one that was used
     return;
   }
-  const glm::dvec3& spacing = this->Level.rest.grid.spacing;
+  const glm::dvec3 spacing = this->gridOf(this->stage()).spacing;
   this->LongestStepMm = LongestStepPoints * std::max(spacing.x, std::max(spacing.y, spacing.z));
   this->Level = {};
 }
@@ -256,13 +294,14 @@ void Refinement::compareHere()
 void Refinement::beginLevel()
 {
   Agreement& here = this->Here;
-  this->Stride = 1.0;
+  this->Stride = this->stage().isRigid ? FirstRigidStride : 1.0;
   Agreement atStart = this->Compare(this->StartControls);
   this->Progress.disagreementAtStart = atStart.disagreement;
   const double energy = this->energyOf(this->Controls, here);
   if (energy > atStart.disagreement)
   {
     const double startEnergy = atStart.disagreement;
+    this->Unbent = this->StartControls;
     this->take(this->Start, std::move(atStart), startEnergy);
   }
   else
@@ -271,85 +310,19 @@ void Refinement::beginLevel()
   }
 }
 
-// A fold in one place would hold the step everywhere. A stiffer volume folds nowhere.
-void Refinement::stiffen()
-{
-  this->Progress.stiffness *= Stiffening;
-  this->Stiff = Stiffness(this->Start.grid, this->Progress.stiffness);
-  this->Energy = this->energyOf(this->Controls, this->Known);
-}
-
-void Refinement::findStep(Trial& trial) const
-{
-  trial.step = newtonStep(this->Stiff, this->Known.forces, this->bendOf(this->Controls));
-  trial.lengthMm = longest(trial.step);
-  trial.share =
-    std::min(this->Stride, trial.lengthMm > 0.0 ? this->LongestStepMm / trial.lengthMm : 1.0);
-}
-
-// Compares once at most, so that a call stays short however often a step is halved.
-Refinement::Outcome Refinement::tryStep()
-{
-  if (!this->Trying)
-  {
-    this->findStep(this->Trying.emplace());
-  }
-  Outcome outcome = this->tryStep(*this->Trying);
-  if (outcome == Outcome::Open && ++this->Trying->attempts > MostHalvings + MostStiffenings)
-  {
-    this->Progress.movedMm = 0.0;
-    outcome = Outcome::Settled;
-  }
-  if (outcome != Outcome::Open)
-  {
-    this->Trying.reset();
-  }
-  return outcome;
-}
-
-Refinement::Outcome Refinement::tryStep(Trial& trial)
-{
-  std::vector<glm::vec3> controls = this->Controls;
-  for (std::size_t i = 0; i < controls.size(); ++i)
-  {
-    controls[i] += static_cast<float>(trial.share) * trial.step[i];
-  }
-  Lattice candidate = this->latticeOf(controls);
-  const double kept = this->Settings.guards ? this->Guard.share(this->Bent, candidate) : 1.0;
-  if (kept < 1.0 && trial.stiffenings++ < MostStiffenings)
-  {
-    this->stiffen();
-    this->findStep(trial);
-    return Outcome::Open;
-  }
-  if (kept < 1.0)
-  {
-    candidate = between(this->Bent, candidate, kept);
-    controls = turned(candidate.displacements, glm::transpose(candidate.grid.direction));
-  }
-  Agreement agreement = this->Compare(controls);
-  const double energy = this->energyOf(controls, agreement);
-  if (energy >= this->Energy)
-  {
-    trial.share *= 0.5;
-    return Outcome::Open;
-  }
-  const double gain = this->Energy - energy;
-  this->Progress.movedMm = trial.share * kept * trial.lengthMm;
-  this->Progress.share = std::min(this->Progress.share, kept);
-  this->take(candidate, std::move(agreement), energy);
-  this->Stride = std::min(LongestStride, StrideGrowth * std::max(1.0, trial.share));
-  return gain > Converged * energy ? Outcome::Improved : Outcome::Settled;
-}
-
 void Refinement::finishLevel()
 {
-  this->Compare = {};
+  const RefinementStage& done = this->stage();
+  const bool isLast = this->LevelsDone + 1 == static_cast<int>(this->Settings.stages.size());
+  // What compares alike need not be prepared again.
+  const bool isKept = !isLast && compareAlike(done, this->Settings.stages[this->LevelsDone + 1]);
+  this->Compare = isKept ? std::move(this->Compare) : Similarity{};
   this->Level = {};
-  this->PreparedParts = 0;
+  this->PreparedParts = isKept ? PartsBeforeComparison : 0;
   this->IsPrepared = false;
   this->StepsOfLevel = 0;
-  if (++this->LevelsDone < static_cast<int>(this->Settings.stages.size()))
+  ++this->LevelsDone;
+  if (!isLast)
   {
     this->Progress.level = this->LevelsDone;
   }
@@ -363,7 +336,7 @@ void Refinement::finishLevel()
 void Refinement::tellDone()
 {
   const double levels = static_cast<double>(this->Settings.stages.size());
-  const double ofLevel = static_cast<double>(this->StepsOfLevel) / this->Settings.mostSteps;
+  const double ofLevel = static_cast<double>(this->StepsOfLevel) / this->mostStepsOfLevel();
   this->Progress.done = this->Progress.isFinished ? 1.0 : (this->Progress.level + ofLevel) / levels;
 }
 
@@ -377,11 +350,12 @@ const RefinementProgress& Refinement::step()
   {
     this->prepareLevel();
   }
-  else if (const Outcome outcome = this->tryStep(); outcome != Outcome::Open)
+  else if (const Outcome outcome = this->stage().isRigid ? this->moveRigidly() : this->tryStep();
+           outcome != Outcome::Open)
   {
     ++this->Progress.steps;
     ++this->StepsOfLevel;
-    if (outcome == Outcome::Settled || this->StepsOfLevel >= this->Settings.mostSteps)
+    if (outcome == Outcome::Settled || this->StepsOfLevel >= this->mostStepsOfLevel())
     {
       this->finishLevel();
     }

@@ -6,8 +6,9 @@
  * It begins with the lattice as it is, for example as a hand bent it, on a coarse level, and ends
  * on the finest. A step is that of Gauss and Newton on the control points, at most 1.5 points of
  * its level long and halved until the energy falls. The energy is the disagreement (Similarity.h)
- * plus the stiffness (Stiffness.h) of what differs from the beginning. Where a step would fold, the
- * volume is made stiffer; if that is not enough, the fold guard shortens the step. A new level
+ * plus the stiffness (Stiffness.h) of what differs from the beginning. By ultrasound the volume
+ * first moves rigidly, which costs no energy, and then bends from there. Where a step would fold,
+ * the volume is made stiffer; if that is not enough, the fold guard shortens the step. A new level
  * begins with the better of the last result and the beginning, so that the result never has more
  * energy than the beginning.
  */
@@ -34,6 +35,8 @@ struct RefinementStage
   double spacingMm = 2.0; ///< of the samples; larger where the volume is coarser or too large
   /** The level is left out where it begins with more disagreement: it might lead astray. */
   double mostDisagreement = 1.0;
+  /** The volume moves as a whole, in up to three times as many steps; else it bends. */
+  bool isRigid = false;
 };
 
 /** The levels for what a user calls a similarity, from coarse to fine. */
@@ -43,7 +46,7 @@ struct RefinementSettings
 {
   std::vector<RefinementStage> stages = stagesOf(SimilarityKind::SelfSimilarity);
   double stiffness = 1.0; ///< factor on the stiffness; above 0
-  int mostSteps = 15;     ///< on each level
+  int mostSteps = 15;     ///< on each level where it bends
   int samples = 4;        ///< nodes between two control points, 0 to 16
   bool guards = true;     ///< whether the fold guard shortens steps
 };
@@ -90,13 +93,25 @@ public:
 private:
   const RefinementStage& stage() const;
   bool isUltrasound() const;
+  double spacingMmOf(const RefinementStage& stage) const;
   Grid gridOf(const RefinementStage& stage) const;
+  void findSwept();
   void prepareLevel();
   /** Whether a level that may be left out is finer than the last one, and agrees well enough. */
   bool isWorthIt(const Agreement& here) const;
   void compareHere();
   void beginLevel();
   void stiffen();
+  /** What the stiffness is multiplied with: 1, and more where a sweep saw a part of the volume. */
+  double stiffnessFactor() const;
+  int mostStepsOfLevel() const;
+  /** Where a step would lead, as far as the guard lets it. */
+  struct Candidate
+  {
+    Lattice lattice;
+    std::vector<glm::vec3> controls; // mm along the grid's axes
+    double kept = 1.0;               // share of the step
+  };
   /** A step that is sought: each call tries one length of it. */
   struct Trial
   {
@@ -109,28 +124,34 @@ private:
   enum class Outcome
   {
     Open,     // try again
-    Improved, // a step was taken
+    Improved, // the level goes on
     Settled   // there is nothing more to gain on this level
   };
+  Candidate candidateAt(const std::vector<glm::vec3>& step, double share) const;
   void findStep(Trial& trial) const;
   Outcome tryStep();
   Outcome tryStep(Trial& trial);
+  /** One rigid step. Where it is too long, nothing moves, and the next one is shorter. */
+  Outcome moveRigidly();
   double energyOf(const std::vector<glm::vec3>& controls, const Agreement& agreement) const;
   std::vector<glm::vec3> bendOf(const std::vector<glm::vec3>& controls) const;
   Lattice latticeOf(const std::vector<glm::vec3>& controls) const;
+  static std::vector<glm::vec3> controlsOf(const Lattice& lattice);
   void take(const Lattice& lattice, Agreement agreement, double energy);
   void finishLevel();
   void tellDone();
 
   RegisteredPair Pair;
   RefinementSettings Settings;
-  double TissueShare; // of the volume's voxels
-  Mask Swept;         // of an ultrasound reference: what it shows
+  double TissueShare;   // of the volume's voxels
+  Mask Swept;           // of an ultrasound reference: what it shows
+  double SeenMm3 = 0.0; // of the volume's box, at most
   Lattice Start;
   Lattice Bent;
   FoldGuard Guard;
   Stiffness Stiff;
   std::vector<glm::vec3> StartControls; // mm along the grid's axes, as all controls here
+  std::vector<glm::vec3> Unbent;        // what the stiffness counts from: the start, moved rigidly
   std::vector<glm::vec3> Controls;
   LevelVolumes Level; // while it is prepared
   Agreement Here;     // the same
