@@ -21,7 +21,7 @@ import case_study  # noqa: E402
 SIDE = 300  # pixels of one picture
 HALF_MM = 55.0
 FOCUS = (8.0, 0.0, -18.0)  # mm from the cavity
-WAYS = ("Two colours", "Difference", "Gradient", "Checkerboard", "Wipe")
+WAYS = ("Two colours", "Difference", "Gradient", "Checkerboard", "Wipe", "Local similarity")
 
 
 def pixels_of(view):

@@ -219,6 +219,7 @@ bool vtkDeformedSlicesMapper::UploadReference(
   choice.colors = colorPair(static_cast<brainshift::ComparisonColors>(this->ComparisonColors));
   choice.checkerSizeMm = this->CheckerSize;
   choice.fullGradient = this->FullGradient;
+  choice.windowMm = this->SimilarityWindow;
   choice.wipePosition = { this->WipePosition[0], this->WipePosition[1], this->WipePosition[2] };
   const double* range = tissue.property->GetRGBTransferFunction()->GetRange();
   const ComparedVolume volume{ tissue.values.grid, tissue.values.layout, { range[0], range[1] },
@@ -390,6 +391,7 @@ void vtkDeformedSlicesMapper::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "ReferenceRange: " << this->ReferenceRange[0] << " " << this->ReferenceRange[1]
      << "\n"
      << indent << "FullGradient: " << this->FullGradient << "\n"
+     << indent << "SimilarityWindow: " << this->SimilarityWindow << "\n"
      << indent << "WipePosition: " << this->WipePosition[0] << " " << this->WipePosition[1] << " "
      << this->WipePosition[2] << "\n";
 }

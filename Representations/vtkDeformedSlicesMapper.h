@@ -106,11 +106,12 @@ public:
   enum ComparisonType
   {
     NoComparison = 0,
-    TwoColors = 1,    ///< Each in its colour, agreement in the sum of both.
-    Checkerboard = 2, ///< Fields of volume and reference in turn, with the colour map.
-    Difference = 3,   ///< Volume minus reference; agreement is grey.
-    Gradient = 4,     ///< The reference's gradient, in its colour, over the volume in grey.
-    Wipe = 5,         ///< The volume on one side of a line, the reference on the other.
+    TwoColors = 1,       ///< Each in its colour, agreement in the sum of both.
+    Checkerboard = 2,    ///< Fields of volume and reference in turn, with the colour map.
+    Difference = 3,      ///< Volume minus reference; agreement is grey.
+    Gradient = 4,        ///< The reference's gradient, in its colour, over the volume in grey.
+    Wipe = 5,            ///< The volume on one side of a line, the reference on the other.
+    LocalSimilarity = 6, ///< The volume in grey, in its colour where the reference disagrees.
   };
 
   ///@{
@@ -119,7 +120,7 @@ public:
    * difference ignore its cavity. If Compare Volumes says that one of the two volumes is shown
    * alone, that one is drawn with the colour map, whatever the comparison.
    */
-  vtkSetClampMacro(Comparison, int, NoComparison, Wipe);
+  vtkSetClampMacro(Comparison, int, NoComparison, LocalSimilarity);
   vtkGetMacro(Comparison, int);
   ///@}
 
@@ -153,6 +154,15 @@ public:
    */
   vtkSetClampMacro(FullGradient, double, 1e-6, VTK_DOUBLE_MAX);
   vtkGetMacro(FullGradient, double);
+  ///@}
+
+  ///@{
+  /**
+   * Diameter of the window within which LocalSimilarity compares both volumes, in the plane of a
+   * slice, mm. Weights fall to 0 at its edge. Default 12, at least 0.01.
+   */
+  vtkSetClampMacro(SimilarityWindow, double, 0.01, VTK_DOUBLE_MAX);
+  vtkGetMacro(SimilarityWindow, double);
   ///@}
 
   ///@{
@@ -241,6 +251,7 @@ private:
   double CheckerSize = 20.0;
   double ReferenceRange[2] = { 0.0, 0.0 };
   double FullGradient = 0.3;
+  double SimilarityWindow = 12.0;
   double WipePosition[3] = { 0.0, 0.0, 0.0 };
 
   std::unique_ptr<State> Internal;

@@ -143,6 +143,11 @@ void vtkDeformedSlicesRepresentation::SetFullGradient(double share)
   this->GetDeformedSlicesMapper()->SetFullGradient(share);
 }
 
+void vtkDeformedSlicesRepresentation::SetSimilarityWindow(double mm)
+{
+  this->GetDeformedSlicesMapper()->SetSimilarityWindow(mm);
+}
+
 void vtkDeformedSlicesRepresentation::SetWipePosition(double x, double y, double z)
 {
   this->GetDeformedSlicesMapper()->SetWipePosition(x, y, z);

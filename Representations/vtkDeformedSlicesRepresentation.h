@@ -46,6 +46,7 @@ public:
   void SetCheckerSize(double size);
   void SetReferenceRange(double black, double white);
   void SetFullGradient(double share);
+  void SetSimilarityWindow(double mm);
   void SetWipePosition(double x, double y, double z);
   ///@}
 

@@ -51,6 +51,17 @@ def compare_volumes(width):
     return numpy.vstack([numpy.hstack(views[:2]), numpy.hstack(views[2:])])
 
 
+def local_similarity(width):
+    """Where volume and reference disagree, before and after ten stamps."""
+    side = width // 2
+    pictures = []
+    for stamped in (False, True):
+        made, display = _coronal(patient(stamped).compare, side)
+        display.SliceComparison = "Local similarity"
+        pictures.append(stage.pixels(made))
+    return numpy.hstack(pictures)
+
+
 def flicker(width):
     """What flicker shows in turn: the volume as bent, and the reference."""
     side = width // 2
@@ -134,7 +145,8 @@ def evidence(width):
 
 
 COMPARISON_SCENES = {
-    "filter-compare-volumes": compare_volumes, "tool-flicker": flicker,
+    "filter-compare-volumes": compare_volumes, "filter-local-similarity": local_similarity,
+    "tool-flicker": flicker,
     "filter-trace-distance": trace_distance, "representation-trace-points": trace_points,
     "case-study-before": case_before, "case-study-after": case_after,
     "case-study-fit": case_fit, "filter-fit-deformation-evidence": evidence}

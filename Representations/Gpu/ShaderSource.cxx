@@ -46,6 +46,7 @@
 #include "shader_reference.h"
 #include "shader_refine_frag.h"
 #include "shader_segment.h"
+#include "shader_similarity.h"
 #include "shader_skipping.h"
 #include "shader_slice_frag.h"
 #include "shader_slices_frag.h"
@@ -277,7 +278,7 @@ ShaderSource slicesSource(const SlicesVariant& variant)
   return { assemble({ shader_slices_vert }), "",
     assemble({ Outputs, defines, shader_rays, shader_field, shader_gradient, shader_segment,
       shader_tissue, shader_components, shader_evidence, shader_cubic, shader_cavity,
-      shader_crosshair, shader_comparison, shader_slices_frag }) };
+      shader_crosshair, shader_comparison, shader_similarity, shader_slices_frag }) };
 }
 
 ShaderSource tracesSource(int tissues)

@@ -81,6 +81,7 @@ bool ReferenceTextures::update(GpuTask& gpu, const ReferenceVolume& reference,
   scene.checkersFromTexture = mmFromTexture(volume.grid, volume.layout) / choice.checkerSizeMm;
   scene.fullFromGradient =
     scene.shareFromReference.x / mmFromTexture(reference.grid, layout) / choice.fullGradient;
+  scene.windowRadius = 0.5 * choice.windowMm / mmFromTexture(volume.grid, volume.layout);
   scene.wipes = wipePlanes(volume.grid, volume.layout, choice.wipePosition);
   return this->Cavity.update(gpu, reference.cavity, place, scene.cavity);
 }
@@ -108,6 +109,7 @@ void setReferenceUniforms(Program& program, const ReferenceScene& scene)
   program.set("comparison", scene.comparison);
   program.set("checkersFromTexture", glm::vec3(scene.checkersFromTexture));
   program.set("fullFromGradient", glm::vec3(scene.fullFromGradient));
+  program.set("windowRadius", glm::vec3(scene.windowRadius));
 }
 
 void setWipeUniforms(Program& program, const ReferenceScene& scene, int axis)

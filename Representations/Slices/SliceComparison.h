@@ -33,9 +33,10 @@ class Program;
 struct ComparisonChoice
 {
   int comparison = 0;             ///< As numbered there.
-  ColorPair colors;               ///< For two colours, and for the gradient.
+  ColorPair colors;               ///< For two colours, gradient and similarity.
   double checkerSizeMm = 1.0;     ///< Side of a field.
   double fullGradient = 1.0;      ///< Share of the range of greys per mm of full colour.
+  double windowMm = 12.0;         ///< Diameter of the window of local similarity.
   glm::dvec3 wipePosition{ 0.0 }; ///< mm, world.
 };
 
@@ -71,6 +72,7 @@ struct ReferenceScene
   ColorPair colors;
   glm::dvec3 checkersFromTexture{ 1.0 }; ///< Checker fields for a texture unit.
   glm::dvec3 fullFromGradient{ 1.0 }; ///< Gradient (stored scalar per texture unit) to full colour.
+  glm::dvec3 windowRadius{ 1.0 };     ///< Of local similarity, texture units.
   std::array<WipePlane, 3> wipes;     ///< For the slices across each axis of the texture.
 };
 

@@ -30,6 +30,8 @@ const int Checkerboard = 2;
 const int Difference = 3;
 const int Gradient = 4;
 const int Wipe = 5;
+const int LocalSimilarity = 6;
+const float DisagreementTint = 0.7; // of its colour at most: tissue stays to be seen
 const vec3 WipeColor = vec3(0.91, 0.51, 0.12);
 const float HalfLinePixels = 0.75;
 
@@ -41,14 +43,25 @@ struct Referenced
   float share;
 };
 
-Referenced referenceAt(vec3 deformed)
+float disagreementAt(vec3 deformed); // similarity.glsl
+
+float ownShare(float scalar)
 {
-  vec3 place = (referenceFromTexture * vec4(deformed, 1.0)).xyz;
-  float scalar = filteredAt(reference, place, referenceVoxels);
+  return clamp(scalar * shareFromScalar.x + shareFromScalar.y, 0.0, 1.0);
+}
+
+Referenced referenced(vec3 place, float scalar)
+{
   bool known = all(greaterThanEqual(place, referenceLow)) &&
     all(lessThanEqual(place, referenceHigh)) && !isnan(scalar);
   float share = clamp(scalar * shareFromReference.x + shareFromReference.y, 0.0, 1.0);
   return Referenced(place, known, known ? share : 0.0);
+}
+
+Referenced referenceAt(vec3 deformed)
+{
+  vec3 place = (referenceFromTexture * vec4(deformed, 1.0)).xyz;
+  return referenced(place, filteredAt(reference, place, referenceVoxels));
 }
 
 bool inEvenField(vec3 deformed)
@@ -86,6 +99,11 @@ vec3 compared(vec3 color, float own, Referenced other, vec3 alone, Place place)
       return evidentStripes(
         mix(vec3(own), referenceColor, isRemoved(deformed) ? 0.0 : gradientShare(other)),
         place.rest);
+    case LocalSimilarity:
+      return evidentStripes(
+        mix(vec3(own), ownColor,
+          isRemoved(deformed) || !other.known ? 0.0 : DisagreementTint * disagreementAt(deformed)),
+        place.rest);
     default:
       return evident(color, place.rest);
   }
@@ -98,7 +116,7 @@ bool compare(bool hasTissue, float scalar, Place place, inout vec4 seen)
   Referenced other = referenceAt(deformed);
   float entry = other.share * transferFromShare.x + transferFromShare.y;
   vec4 alone = textureLod(transfer, vec2(entry, transferRow), 0.0);
-  float own = clamp(scalar * shareFromScalar.x + shareFromScalar.y, 0.0, 1.0);
+  float own = ownShare(scalar);
   float beyondMm = dot(wipeNormal, deformed) + wipeShift;
   float pixelMm = fwidth(beyondMm);
   if (comparison == ReferenceAlone || (comparison == Wipe && beyondMm > 0.0))

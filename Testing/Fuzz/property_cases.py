@@ -18,9 +18,10 @@ DISPLAYED = {"SampleDistance", "EmptySpaceSkipping", "VolumeNormalTexture", "Ada
              "AmbientOcclusion", "OcclusionRadius", "GradientOpacity", "Comparison",
              "ReferenceRange", "AgreementDistance", "SlicePosition", "ShowSagittal",
              "ShowCoronal", "ShowAxial", "CheckerSize", "WipePosition", "FullGradient",
-             "MapSliceOpacity", "OrientationMarks", "SliceInterpolation", "SliceComparison",
-             "BlendMode", "Shade", "ScalarOpacityUnitDistance", "IsosurfaceValues",
-             "InterpolationType", "Opacity", "SpecularPower", "Specular", "Ambient", "Diffuse"}
+             "SimilarityWindow", "MapSliceOpacity", "OrientationMarks", "SliceInterpolation",
+             "SliceComparison", "BlendMode", "Shade", "ScalarOpacityUnitDistance",
+             "IsosurfaceValues", "InterpolationType", "Opacity", "SpecularPower", "Specular",
+             "Ambient", "Diffuse"}
 
 
 def vectors_of(proxy, names=None):

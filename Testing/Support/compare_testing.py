@@ -53,14 +53,15 @@ class Pair:
                                       ReferenceRotation=[0, 0, self.turn],
                                       ReferenceTranslation=self.move)
 
-    def unturned(self):
-        """Where the pixels lie to the reference, had it not been moved: mm."""
-        pixels = pixel_positions((1, 0, 0), (0, 1, 0), MIDDLE, HALF)
+    def unturned(self, places=None):
+        """Where places, or the pixels, lie to the reference, had it not been moved: mm."""
+        if places is None:
+            places = pixel_positions((1, 0, 0), (0, 1, 0), MIDDLE, HALF)
         angle = math.radians(self.turn)
         turned = numpy.array([[math.cos(angle), -math.sin(angle), 0],
                               [math.sin(angle), math.cos(angle), 0], [0, 0, 1]])
         middle = self.origin + self.spacing * 20
-        return (pixels - middle - self.move) @ turned + middle
+        return (places - middle - self.move) @ turned + middle
 
     def baked_share(self):
         """The bent volume's share of 0 to 100 where each pixel lies, from the baked one."""

@@ -46,6 +46,7 @@ TEST(Defaults, OfDeformedSlicesLiveInTheMapper)
     { "CheckerSize", { mapper->GetCheckerSize() } },
     { "ReferenceRange", { mapper->GetReferenceRange()[0], mapper->GetReferenceRange()[1] } },
     { "FullGradient", { mapper->GetFullGradient() } },
+    { "SimilarityWindow", { mapper->GetSimilarityWindow() } },
     { "WipePosition", { wipe[0], wipe[1], wipe[2] } } };
   EXPECT_EQ(defaultsIn("Representations/Proxies/DeformedSlicesComparison.xml"), compared);
 }

@@ -16,7 +16,7 @@ LATTICE_BYTES = 19 ** 3 * 3 * 4
 ENOUGH = 2.5 / 255.0
 BAKED = 0.01  # mean difference from a baked volume, of full scale
 LARGEST = 10  # of that: a bake is exact, and slices read the offset field, which is trilinear
-WAYS = ("Two colours", "Checkerboard", "Difference", "Gradient", "Wipe")
+WAYS = ("Two colours", "Checkerboard", "Difference", "Gradient", "Wipe", "Local similarity")
 PIXEL_MM = 2 * HALF / 300
 
 
