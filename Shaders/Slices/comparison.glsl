@@ -32,6 +32,7 @@ const int Gradient = 4;
 const int Wipe = 5;
 const int LocalSimilarity = 6;
 const float DisagreementTint = 0.7; // of its colour at most: tissue stays to be seen
+const float AloneBrightness = 0.5;  // of grey tissue where there is no reference
 const vec3 WipeColor = vec3(0.91, 0.51, 0.12);
 const float HalfLinePixels = 0.75;
 
@@ -101,7 +102,7 @@ vec3 compared(vec3 color, float own, Referenced other, vec3 alone, Place place)
         place.rest);
     case LocalSimilarity:
       return evidentStripes(
-        mix(vec3(own), ownColor,
+        mix(vec3(other.known ? own : AloneBrightness * own), ownColor,
           isRemoved(deformed) || !other.known ? 0.0 : DisagreementTint * disagreementAt(deformed)),
         place.rest);
     default:
