@@ -105,7 +105,8 @@ QString legendOf(int way, const ColorWords& colors, const QString& volume, const
     case 5:
       return Legend::tr("on the sides of the line:\n%1\n%2").arg(volume, reference);
     case 6:
-      return Legend::tr("grey: %1\n%2: %3 disagrees\ndark: outside %3").arg(volume, colors.volume, reference);
+      return Legend::tr("grey: %1\n%2: %3 disagrees\ndark: outside %3")
+        .arg(volume, colors.volume, reference);
     default:
       return {};
   }

@@ -47,7 +47,9 @@ std::string FittedLattice::solve(const Measurements& measured, const RestSurface
   this->Start = measured.base ? measured.base->lattice : makeLattice(lattice.grid, lattice.kernel);
   this->Start.mask = lattice.mask;
   this->Share = 1.0;
-  const auto findShare = [&] { return shareWithoutFolds(this->Start, this->Bent, choices.samples); };
+  const auto findShare = [&] {
+    return shareWithoutFolds(this->Start, this->Bent, choices.samples);
+  };
   std::string problem = this->solveWith(1.0, measured, surface, choices.start);
   if (problem.empty() && choices.guards && findShare() < 1.0)
   {

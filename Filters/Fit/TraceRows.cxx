@@ -34,15 +34,14 @@ BentPoint bentPoint(const Process& field, const FitBase* base, const glm::dvec3&
 {
   const FieldValue value = field.valueAt(rest);
   const glm::dvec3 before = base ? base->map.deformedFromRest(rest) : rest;
-  const glm::dmat3 jacobian =
-    (base ? base->map.jacobian(rest) : glm::dmat3(1.0)) + value.gradient;
+  const glm::dmat3 jacobian = (base ? base->map.jacobian(rest) : glm::dmat3(1.0)) + value.gradient;
   return { before + value.displacement,
     glm::determinant(jacobian) > FlatDeterminant ? jacobian : glm::dmat3(1.0) };
 }
 }
 
-TraceProjection::TraceProjection(std::vector<glm::dvec3> traces, RestSurface surface,
-  std::shared_ptr<const FitBase> base)
+TraceProjection::TraceProjection(
+  std::vector<glm::dvec3> traces, RestSurface surface, std::shared_ptr<const FitBase> base)
   : Traces(std::move(traces))
   , Surface(std::move(surface))
   , Base(std::move(base))

@@ -358,9 +358,8 @@ int vtkFitDeformation::RequestData(
   problem = either(problem, [&] { return this->ReadMeasurements(inputs); });
   problem = either(problem, [&] { return this->FindBase(inputs); });
   problem = either(problem, [&] { return this->FindAnchors(inputs); });
-  problem = either(problem, [&] {
-    return this->Solve(this->Live && before.isKnown() ? &before.fit().field() : nullptr);
-  });
+  problem = either(problem,
+    [&] { return this->Solve(this->Live && before.isKnown() ? &before.fit().field() : nullptr); });
   state.Problem = problem;
   if (!problem.empty())
   {

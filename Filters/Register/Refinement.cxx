@@ -351,7 +351,7 @@ const RefinementProgress& Refinement::step()
     this->prepareLevel();
   }
   else if (const Outcome outcome = this->stage().isRigid ? this->moveRigidly() : this->tryStep();
-           outcome != Outcome::Open)
+    outcome != Outcome::Open)
   {
     ++this->Progress.steps;
     ++this->StepsOfLevel;

@@ -100,8 +100,8 @@ private:
   vtkSmartPointer<vtkSMProxy> base() const; ///< Of the fit, or of the one to be made.
   /// A fit with the settings of the deformation, on its base.
   vtkSmartPointer<vtkSMProxy> prepare() const;
-  static void enter(vtkSMProxy* made);         ///< Shows it in the pipeline.
-  void setLattice(vtkSMProxy* lattice);        ///< Null: none.
+  static void enter(vtkSMProxy* made);  ///< Shows it in the pipeline.
+  void setLattice(vtkSMProxy* lattice); ///< Null: none.
   void make();
   void restore(); ///< What was there before the edit.
   void stopEditing();
@@ -109,7 +109,7 @@ private:
   void draw();
 
   pqPipelineSource* Source;
-  mutable std::vector<glm::dvec3> AskedBase; ///< What basePlaces() was asked last ...
+  mutable std::vector<glm::dvec3> AskedBase;  ///< What basePlaces() was asked last ...
   mutable std::vector<glm::dvec3> BaseAnswer; ///< ... and its answer. None: to be asked again.
   vtkNew<vtkEventQtSlotConnect> OfSource;
   vtkNew<vtkEventQtSlotConnect> OfFit;

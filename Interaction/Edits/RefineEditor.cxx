@@ -238,7 +238,8 @@ void RefineEditor::step()
   }
   const int taken = this->figures().steps;
   const bool worked = this->Run.step();
-  const bool isMoved = worked && this->figures().steps > taken; // else it tried, or prepared a level
+  const bool isMoved =
+    worked && this->figures().steps > taken; // else it tried, or prepared a level
   this->IsDrawn = !isMoved;
   if (!worked)
   {

@@ -46,8 +46,7 @@ public:
   void show(const Pulled& pulled);
   /// Where the fit takes the tissue of each row (mm); empty: not known. `held`: where each pin
   /// should hold its tissue (mm); empty: where it was at rest.
-  void setPlaces(
-    const std::vector<glm::dvec3>& places, const std::vector<glm::dvec3>& held = {});
+  void setPlaces(const std::vector<glm::dvec3>& places, const std::vector<glm::dvec3>& held = {});
 
   const Pulled& pulled() const { return this->Now; }
   bool isOn(int row) const;

@@ -191,7 +191,8 @@ TEST_P(FitBaseOfKernel, TheGuardLeavesTheBase)
   Lattice whole = this->Bent;
   addField(whole, this->Fitted.fit().field());
   const std::size_t point = whole.grid.offset(9, 9, 9);
-  const glm::vec3 added = this->Fitted.lattice().displacements[point] - this->Bent.displacements[point];
+  const glm::vec3 added =
+    this->Fitted.lattice().displacements[point] - this->Bent.displacements[point];
   const glm::vec3 asked = whole.displacements[point] - this->Bent.displacements[point];
   EXPECT_LT(glm::distance(added, static_cast<float>(this->Fitted.share()) * asked), 1e-3f);
   const glm::dvec3 at(0.0);
