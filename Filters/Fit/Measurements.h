@@ -57,7 +57,7 @@ struct Measurements
   std::vector<glm::dvec3> pins;      ///< mm, rest frame: tissue that stays
   std::vector<glm::dvec3> traces;    ///< mm, measured frame: points on the bent cortex
   std::vector<SurfacePoint> anchors; ///< cortex that may slide, and that neither sinks nor rises
-  /** How the volume is bent before; null: not at all. Pins and anchors hold it as the base has it. */
+  /** How the volume is bent before; null: not at all. Pins and anchors hold it where it is then. */
   std::shared_ptr<const FitBase> base;
 };
 

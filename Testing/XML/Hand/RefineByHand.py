@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that the panel's section Refine bends a volume step by step with a picture after each;
 that Pause holds it, Stop keeps what is reached as one step to undo, and Escape puts base and
-strokes back without one; that a state has the result; that a hand comes first; that a pull follows; and that it ends
-with a sentence when something is missing or goes away.
+strokes back without one; that a state has the result; that a hand comes first; that a pull follows;
+and that it ends with a sentence when something is missing or goes away.
 
 ParaView's window runs this file as a script; what did not hold is written down for the pvpython
 that runs it afterwards."""

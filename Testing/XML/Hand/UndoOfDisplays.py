@@ -41,7 +41,16 @@ def two_choices(kind, name, none, way):
     scene["display"].SetRepresentationType(kind)
     simple.Render()
     hand.wait(300)
+    settle()
     choose_and_undo(name, none, way)
+
+
+def settle():
+    """Waits until the dock, which grows with its panel, leaves the views their size."""
+    sizes = []
+    while len(sizes) < 10 or sizes[-10:] != sizes[-1:] * 10:
+        hand.wait(50)
+        sizes.append([tuple(view.ViewSize) for view in simple.GetRenderViews()])
 
 
 def choose_and_undo(name, none, way):
@@ -74,6 +83,7 @@ def in_four_views():
     simple.SetActiveSource(scene["compared"])
     simple.SetActiveView(views["axial"])
     hand.wait(300)
+    settle()
     choose_and_undo("SliceComparison", "None", "Two colours")
 
 
