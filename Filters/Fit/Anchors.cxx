@@ -67,6 +67,23 @@ OpeningBall ballAround(const std::vector<glm::dvec3>& positions)
   return ball;
 }
 
+OpeningBall openingOf(const Measurements& measured)
+{
+  std::vector<glm::dvec3> open;
+  for (const glm::dvec3& trace : measured.traces)
+  {
+    open.push_back(measured.base ? measured.base->map.restFromDeformed(trace) : trace);
+  }
+  for (const PointPair& pull : measured.pulls)
+  {
+    if (isOn(pull))
+    {
+      open.push_back(pull.rest);
+    }
+  }
+  return ballAround(open);
+}
+
 std::vector<SurfacePoint> thinnedPoints(const std::vector<SurfacePoint>& surface, double cellMm)
 {
   return picked(surface, nearestToMiddles(surface, cellMm));

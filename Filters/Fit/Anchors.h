@@ -35,6 +35,9 @@ constexpr std::size_t AnchorsWanted = 250;
 /** The ball around the mean of positions that holds all of them; closed if there are none. */
 BRAINSHIFT_DEFORMATION_EXPORT OpeningBall ballAround(const std::vector<glm::dvec3>& positions);
 
+/** The ball around the tissue at rest that was traced and pulled, as the base knows it. */
+BRAINSHIFT_DEFORMATION_EXPORT OpeningBall openingOf(const Measurements& measured);
+
 /** One point for each cell of a grid with this edge (mm): the one nearest to the cell's middle. */
 BRAINSHIFT_DEFORMATION_EXPORT std::vector<SurfacePoint> thinnedPoints(
   const std::vector<SurfacePoint>& surface, double cellMm);

@@ -11,8 +11,6 @@
 
 #include <glm/vec3.hpp>
 
-#include <algorithm>
-#include <memory>
 #include <utility>
 
 namespace brainshift
@@ -35,14 +33,6 @@ struct FitBase
     return this->map.deformedFromRest(rest) - rest;
   }
 };
-
-/** The base of a lattice; null if none of its control points is moved. */
-inline std::shared_ptr<const FitBase> baseOf(const Lattice& lattice)
-{
-  const bool moves = std::any_of(lattice.displacements.begin(), lattice.displacements.end(),
-    [](const glm::vec3& d) { return d != glm::vec3(0.0f); });
-  return moves ? std::make_shared<const FitBase>(lattice) : nullptr;
-}
 }
 
 #endif

@@ -283,20 +283,10 @@ std::string vtkFitDeformation::FindAnchors(vtkInformationVector** inputs)
     }
     return problem;
   }
-  OpeningBall ball{ { this->OpeningCentre[0], this->OpeningCentre[1], this->OpeningCentre[2] },
-    this->OpeningRadius };
-  if (!isGiven)
-  {
-    std::vector<glm::dvec3> open = measured.traces;
-    for (const PointPair& pull : measured.pulls)
-    {
-      if (isOn(pull))
-      {
-        open.push_back(pull.rest);
-      }
-    }
-    ball = ballAround(open);
-  }
+  const OpeningBall given{
+    { this->OpeningCentre[0], this->OpeningCentre[1], this->OpeningCentre[2] }, this->OpeningRadius
+  };
+  const OpeningBall ball = isGiven ? given : openingOf(measured);
   measured.anchors = state.Chosen.beside(ball, state.Cortex);
   return {};
 }
@@ -316,9 +306,17 @@ std::string vtkFitDeformation::FindBase(vtkInformationVector** inputs)
   {
     return problem;
   }
+  vtkImageData* base = vtkImageData::GetData(inputs[BasePort]);
+  if (!base || base->GetNumberOfPoints() == 0)
+  {
+    return {};
+  }
   Lattice bent = state.Still;
-  const std::string problemOfBase = addBase(bent, vtkImageData::GetData(inputs[BasePort]));
-  state.Measured.base = problemOfBase.empty() ? baseOf(bent) : nullptr;
+  const std::string problemOfBase = addBase(bent, base);
+  if (problemOfBase.empty())
+  {
+    state.Measured.base = std::make_shared<const FitBase>(bent); // also one that moves nothing
+  }
   return problemOfBase;
 }
 

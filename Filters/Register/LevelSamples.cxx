@@ -112,6 +112,7 @@ Agreement averaged(
 {
   Agreement result;
   result.samples = std::accumulate(rowWeights.begin(), rowWeights.end(), 0.0);
+  result.disagreement = 1.0; // what meets nothing does not agree
   if (result.samples > 0.0)
   {
     result.disagreement = std::accumulate(rowSums.begin(), rowSums.end(), 0.0) / result.samples;

@@ -35,7 +35,7 @@ struct LevelVolumes
 /** How well both agree, and half of the way down from there. */
 struct Agreement
 {
-  double disagreement = 0.0; ///< mean over all samples that count; 0: they agree perfectly
+  double disagreement = 0.0; ///< mean over all samples that count; 0: they agree; none counts: 1
   double samples = 0.0;      ///< how many of them have a partner in the reference
   double possible = 0.0;     ///< how many could have one
   /** Minus half the derivative of `disagreement` by each control point, and its Hessian. */

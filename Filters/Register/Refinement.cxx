@@ -161,8 +161,13 @@ void Refinement::take(const Lattice& lattice, Agreement agreement, double energy
   this->Known = std::move(agreement);
   this->Energy = energy;
   this->Progress.disagreement = this->Known.disagreement;
+  if (this->isUltrasound())
+  {
+    const double comparedMm3 = this->Known.samples * this->PointMm3;
+    this->Progress.comparedShare = std::min(1.0, comparedMm3 / std::max(1.0, this->SeenMm3));
+  }
   // Of the first similarity alone: another one reaches farther, and shares would not compare.
-  if (this->stage().similarity == this->Settings.stages.front().similarity)
+  else if (this->stage().similarity == this->Settings.stages.front().similarity)
   {
     this->Progress.comparedShare = this->Known.samples / std::max(1.0, this->Known.possible);
   }
@@ -287,6 +292,7 @@ void Refinement::compareHere()
     return;
   }
   const glm::dvec3 spacing = this->gridOf(this->stage()).spacing;
+  this->PointMm3 = spacing.x * spacing.y * spacing.z;
   this->LongestStepMm = LongestStepPoints * std::max(spacing.x, std::max(spacing.y, spacing.z));
   this->Level = {};
 }
@@ -297,6 +303,7 @@ void Refinement::beginLevel()
   this->Stride = this->stage().isRigid ? FirstRigidStride : 1.0;
   Agreement atStart = this->Compare(this->StartControls);
   this->Progress.disagreementAtStart = atStart.disagreement;
+  this->SamplesAtStart = atStart.samples;
   const double energy = this->energyOf(this->Controls, here);
   if (energy > atStart.disagreement)
   {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Bends a lattice until a volume agrees with a reference, one step for each call.
+ * @brief Bends a lattice until a volume agrees with a reference, a part of a step for each call.
  *
  * It begins with the lattice as it is, for example as a hand bent it, on a coarse level, and ends
  * on the finest. A step is that of Gauss and Newton on the control points, at most 1.5 points of
@@ -60,7 +60,10 @@ struct RefinementProgress
   double disagreementAtStart = 0.0; ///< of the lattice as it began, on the same level
   double movedMm = 0.0;             ///< largest way of a control point in the last step
   double share = 1.0;               ///< smallest share of a step that the fold guard left
-  /** Of the samples at rest, how many have a partner: on the levels of the first similarity. */
+  /**
+   * Of the samples at rest, how many have a partner: on the levels of the first similarity. By
+   * ultrasound: the share of what the sweep saw that is compared.
+   */
   double comparedShare = 0.0;
   double stiffness = 1.0; ///< what was used; larger than asked for where tissue would have folded
   double done = 0.0;      ///< share of the most steps there may be, 0 to 1; 1 once it is finished
@@ -160,7 +163,9 @@ private:
   int LevelsDone = 0;
   Similarity Compare;
   double LongestStepMm = 0.0;
-  Agreement Known; // of Controls
+  double SamplesAtStart = 0.0; // that were compared on this level
+  double PointMm3 = 0.0;       // of a sample of this level
+  Agreement Known;             // of Controls
   double Energy = 0.0;
   double Stride = 1.0; // factor on the next step
   std::optional<Trial> Trying;

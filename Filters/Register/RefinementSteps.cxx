@@ -30,6 +30,7 @@ constexpr double LongestRigidStride = 16.0;
 constexpr double RigidStrideGrowth = 2.0;
 constexpr double RigidStrideLoss = 0.25;
 constexpr double LeastRigidStepMm = 0.02;
+constexpr double LeastInSight = 0.75; // of the samples that were compared at the start
 
 double longest(const std::vector<glm::vec3>& vectors)
 {
@@ -108,14 +109,14 @@ Refinement::Outcome Refinement::tryStep(Trial& trial)
   }
   Agreement agreement = this->Compare(candidate.controls);
   const double energy = this->energyOf(candidate.controls, agreement);
-  if (energy >= this->Energy)
+  this->Progress.share = std::min(this->Progress.share, candidate.kept);
+  if (!(energy < this->Energy)) // nor is no number
   {
     trial.share *= 0.5;
     return Outcome::Open;
   }
   const double gain = this->Energy - energy;
   this->Progress.movedMm = trial.share * candidate.kept * trial.lengthMm;
-  this->Progress.share = std::min(this->Progress.share, candidate.kept);
   this->take(candidate.lattice, std::move(agreement), energy);
   this->Stride = std::min(LongestStride, StrideGrowth * std::max(1.0, trial.share));
   return gain > Converged * energy ? Outcome::Improved : Outcome::Settled;
@@ -128,18 +129,20 @@ Refinement::Outcome Refinement::moveRigidly()
   const Candidate candidate = this->candidateAt(step.steps, share); // only a mask's edge can fold
   Agreement agreement = this->Compare(candidate.controls);
   const double gain = this->Known.disagreement - agreement.disagreement; // the bend costs the same
+  // A mean gets better, too, where what disagrees moves out of sight.
+  const bool staysInSight = agreement.samples >= LeastInSight * this->SamplesAtStart;
   this->Progress.movedMm = 0.0;
-  if (!(gain > 0.0))
+  this->Progress.share = std::min(this->Progress.share, candidate.kept);
+  if (!(gain > 0.0) || !staysInSight)
   {
     this->Stride = RigidStrideLoss * share;
-    return this->Stride * step.lengthMm > LeastRigidStepMm ? Outcome::Improved : Outcome::Settled;
+    return this->Stride * step.lengthMm > LeastRigidStepMm ? Outcome::Open : Outcome::Settled;
   }
   for (std::size_t i = 0; i < this->Unbent.size(); ++i)
   {
     this->Unbent[i] += candidate.controls[i] - this->Controls[i];
   }
   this->Progress.movedMm = share * candidate.kept * step.lengthMm;
-  this->Progress.share = std::min(this->Progress.share, candidate.kept);
   this->take(candidate.lattice, std::move(agreement), this->Energy - gain);
   this->Stride = std::min(LongestRigidStride, RigidStrideGrowth * share);
   return gain > Converged * this->Energy ? Outcome::Improved : Outcome::Settled;

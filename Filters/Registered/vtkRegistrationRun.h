@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkRegistrationRun
- * @brief   aligns a reference or refines a bend, one step for each call
+ * @brief   aligns a reference or refines a bend, a short part for each call
  *
  * The volumes may lie on a server. This object lives beside them, and the XML proxy of the same
  * name brings its figures to the client. It changes nothing in the pipeline: whoever runs it sets
@@ -54,8 +54,8 @@ public:
   ///@}
 
   /**
-   * Takes one step; a refinement may prepare a part of its next level instead. Nothing once it is
-   * finished, or without a beginning.
+   * Takes one step; a refinement may try a length of it, or prepare a part of its next level.
+   * Nothing once it is finished, or without a beginning.
    */
   void Step();
 
@@ -67,7 +67,8 @@ public:
    * 0. 1 if it is finished, else 0
    * 1. steps taken
    * 2. level, from 0 on
-   * 3. share of the volume that has a partner in the reference, 0 to 1
+   * 3. share of the volume that has a partner in the reference, 0 to 1; by ultrasound, the share of
+   *    what the sweep saw that is compared
    * 4. alignment: mutual information (nats); refinement: disagreement, 0 or more
    * 5. the same at the beginning, on the same level
    * 6. alignment: shift so far (mm); refinement: longest way of a control point in the step (mm)

@@ -112,7 +112,7 @@ FitEditor::FitEditor(pqPipelineSource* source)
   QObject::connect(pqApplicationCore::instance(), &pqApplicationCore::aboutToWriteState, this,
     [this] { FitEditor::setLive(this->fit(), false); });
   QObject::connect(source, qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
-    [this] { this->BaseAnswer.clear(); });
+    [this] { this->BaseAnswer.reset(); });
   this->noticeLattice();
 }
 
@@ -125,20 +125,22 @@ FitEditor::Numbers FitEditor::numbers(const char* list) const
 std::vector<glm::dvec3> FitEditor::fittedPlaces(const std::vector<glm::dvec3>& rest) const
 {
   vtkSMProxy* proxy = this->fit();
-  if (!proxy)
-  {
-    return this->base() ? this->basePlaces(rest) : std::vector<glm::dvec3>();
-  }
-  return placesBy(proxy, rest);
+  return proxy ? placesBy(proxy, rest) : this->askBase(rest);
 }
 
 std::vector<glm::dvec3> FitEditor::basePlaces(const std::vector<glm::dvec3>& rest) const
 {
+  const std::vector<glm::dvec3> places = this->askBase(rest);
+  return places.size() == rest.size() ? places : rest;
+}
+
+std::vector<glm::dvec3> FitEditor::askBase(const std::vector<glm::dvec3>& rest) const
+{
   if (rest.empty() || !this->base())
   {
-    return rest;
+    return {};
   }
-  if (this->BaseAnswer.empty() || this->AskedBase != rest)
+  if (!this->BaseAnswer || this->AskedBase != rest)
   {
     SCOPED_UNDO_EXCLUDE();
     // Without measurements a fit is its base.
@@ -147,7 +149,7 @@ std::vector<glm::dvec3> FitEditor::basePlaces(const std::vector<glm::dvec3>& res
     this->AskedBase = rest;
     this->BaseAnswer = placesBy(alone, rest);
   }
-  return this->BaseAnswer.size() == rest.size() ? this->BaseAnswer : rest;
+  return *this->BaseAnswer;
 }
 
 vtkSmartPointer<vtkSMProxy> FitEditor::base() const
@@ -354,7 +356,7 @@ void FitEditor::write(const Numbers& numbers)
 
 void FitEditor::noticeLattice()
 {
-  this->BaseAnswer.clear();
+  this->BaseAnswer.reset();
   this->OfFit->Disconnect();
   if (vtkSMProxy* proxy = this->fit())
   {
@@ -378,6 +380,10 @@ void FitEditor::noticeFit(vtkObject* fit, unsigned long, void*, void* name)
   if (this->Editing && !this->Writing && this->List == property)
   {
     this->stopEditing();
+  }
+  if (std::strcmp(property, "Base") == 0)
+  {
+    this->BaseAnswer.reset();
   }
   Q_EMIT this->changed();
 }

@@ -19,6 +19,7 @@
 #include <glm/vec3.hpp>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -98,6 +99,8 @@ private:
   explicit FitEditor(pqPipelineSource* source);
 
   vtkSmartPointer<vtkSMProxy> base() const; ///< Of the fit, or of the one to be made.
+  /// As basePlaces(); none without a base, or if it failed.
+  std::vector<glm::dvec3> askBase(const std::vector<glm::dvec3>& rest) const;
   /// A fit with the settings of the deformation, on its base.
   vtkSmartPointer<vtkSMProxy> prepare() const;
   static void enter(vtkSMProxy* made);  ///< Shows it in the pipeline.
@@ -109,8 +112,9 @@ private:
   void draw();
 
   pqPipelineSource* Source;
-  mutable std::vector<glm::dvec3> AskedBase;  ///< What basePlaces() was asked last ...
-  mutable std::vector<glm::dvec3> BaseAnswer; ///< ... and its answer. None: to be asked again.
+  mutable std::vector<glm::dvec3> AskedBase; ///< What basePlaces() was asked last ...
+  /// ... and the answer, none of them if it failed. Null: to be asked again.
+  mutable std::optional<std::vector<glm::dvec3>> BaseAnswer;
   vtkNew<vtkEventQtSlotConnect> OfSource;
   vtkNew<vtkEventQtSlotConnect> OfFit;
   QTimer Redraw;                        ///< Merges the events of one turn of the event loop.

@@ -62,6 +62,21 @@ bool isRefined(vtkSMProxy* lattice)
   return lattice && std::strcmp(lattice->GetXMLName(), "RefinedLattice") == 0;
 }
 
+// Whether another source takes a lattice, too: a fit as its base, say.
+bool isTakenByOthers(vtkSMProxy* lattice, vtkSMProxy* deformation)
+{
+  for (unsigned int i = 0; i < lattice->GetNumberOfConsumers(); ++i)
+  {
+    vtkSMProxy* taker = lattice->GetConsumerProxy(i);
+    taker = taker ? taker->GetTrueParentProxy() : nullptr;
+    if (taker && taker != deformation && taker->IsA("vtkSMSourceProxy") &&
+      !taker->IsA("vtkSMRepresentationProxy"))
+    {
+      return true;
+    }
+  }
+  return false;
+}
 }
 
 RefineEditor* RefineEditor::of(pqPipelineSource* source)
@@ -299,7 +314,8 @@ void RefineEditor::keep(State end)
     vtkSMProxy* deformation = this->Source->getProxy();
     SCOPED_UNDO_SET(tr("Refine"));
     vtkSmartPointer<vtkSMProxy> lattice = this->lattice();
-    if (isRefined(lattice)) // one of an earlier refinement
+    // One of an earlier refinement. Who else takes it keeps it.
+    if (isRefined(lattice) && !isTakenByOthers(lattice, deformation))
     {
       for (const char* name : Shared)
       {

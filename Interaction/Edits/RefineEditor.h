@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Bends a Free-Form Deformation until its volume agrees with a reference: one step for each turn
-/// of the event loop, beside the data, with a picture after each. It begins with what is there,
-/// base and strokes. The undo stack sees nothing of it until the result is kept, as one step.
+/// Bends a Free-Form Deformation until its volume agrees with a reference: a part of a step for
+/// each turn of the event loop, beside the data, with a picture after each step. It begins with
+/// what is there, base and strokes. The undo stack sees nothing of it until the result is kept, as
+/// one step.
 #ifndef BrainShift_RefineEditor_h
 #define BrainShift_RefineEditor_h
 

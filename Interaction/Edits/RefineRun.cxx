@@ -23,6 +23,8 @@ namespace brainshift
 {
 namespace
 {
+constexpr int Ultrasound = 2; // of the property Similarity
+
 constexpr std::size_t NumberOfFigures = 9; // of vtkRegistrationRun
 
 QString tr(const char* text)
@@ -121,6 +123,7 @@ QString RefineRun::begin(pqPipelineSource* deformation, const RefineSettings& se
   this->Proxy = makeReport(deformation->getProxy(), "RegistrationRun");
   pointAt(this->Proxy, "Source", compared);
   vtkSMPropertyHelper(this->Proxy, "Similarity").Set(settings.similarity);
+  this->Figures.isBySweep = settings.similarity == Ultrasound;
   vtkSMPropertyHelper(this->Proxy, "Stiffness").Set(settings.stiffness);
   this->Proxy->UpdateVTKObjects();
   this->Proxy->InvokeCommand("BeginRefinement");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// A refinement beside the data, which may lie on a server: one step for each call, and what is
-/// known after it. It changes nothing in the pipeline.
+/// A refinement beside the data, which may lie on a server: a part of a step for each call, and
+/// what is known after it. It changes nothing in the pipeline.
 #ifndef BrainShift_RefineRun_h
 #define BrainShift_RefineRun_h
 
@@ -31,8 +31,11 @@ struct RefineSettings
 struct RefineFigures
 {
   int steps = 0;
-  double done = 0.0;     ///< share of the most steps there may be, 0 to 1
-  double compared = 0.0; ///< share of the volume that has a partner in the reference, 0 to 1
+  double done = 0.0; ///< share of the most steps there may be, 0 to 1
+  /// Share of the volume that has a partner in the reference, 0 to 1; by ultrasound, the share of
+  /// what the sweep saw that is compared.
+  double compared = 0.0;
+  bool isBySweep = false; ///< By ultrasound.
   double disagreement = 0.0;
   double disagreementBefore = 0.0; ///< of the beginning
   double share = 1.0;              ///< smallest share of a step that the fold guard left, 0 to 1
@@ -53,7 +56,7 @@ public:
   /// Reads both volumes and begins from how the volume is bent. Returns why it cannot: a sentence;
   /// empty if it can.
   QString begin(pqPipelineSource* deformation, const RefineSettings& settings);
-  /// Takes one step. False if it failed or the server is gone.
+  /// Takes one step, or a part of one. False if it failed or the server is gone.
   bool step();
   /// Lets go of the volumes. Figures stay.
   void end() { this->Proxy = nullptr; }

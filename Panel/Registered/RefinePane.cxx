@@ -167,8 +167,8 @@ void RefinePane::addChoices(QVBoxLayout* column)
     wrapped(this->Similarity, "BrainShiftRefineSimilarity",
       tr("Auto compares self-similarity (SSC), for volumes of any contrast, and at the end local "
          "correlation (NCC) if the volumes correlate. Same contrast compares by local correlation "
-         "alone, for two scans of one kind. Ultrasound compares by LC2; the volume moves as a whole "
-         "before it bends.")));
+         "alone, for two scans of one kind. Ultrasound compares by LC2; the volume moves as a "
+         "whole before it bends.")));
   this->Stiffness = new QDoubleSpinBox;
   this->Stiffness->setObjectName("BrainShiftRefineStiffness");
   this->Stiffness->setAccessibleName(tr("Stiffness"));

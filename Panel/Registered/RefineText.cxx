@@ -26,14 +26,20 @@ QString percent(double share)
 {
   return figure(100.0 * share, 0);
 }
+
+// Of what `compared` is a share.
+QString whole(const RefineFigures& figures)
+{
+  return figures.isBySweep ? said("what ultrasound saw") : said("the volume");
+}
 }
 
 QString refineProgress(const RefineFigures& figures)
 {
-  return said("Step %1: control points moved %2 mm at most, %3 mm on average. %4 % of the volume "
-              "is compared.")
+  return said("Step %1: control points moved %2 mm at most, %3 mm on average. %4 % of %5 is "
+              "compared.")
     .arg(QString::number(figures.steps), figure(figures.largestChange), figure(figures.meanChange),
-      percent(figures.compared));
+      percent(figures.compared), whole(figures));
 }
 
 QString refineResult(const QString& ended, const RefineFigures& figures)
@@ -53,7 +59,7 @@ QString refineResult(const QString& ended, const RefineFigures& figures)
     ? said("The guard against folding shortened steps, one of them to %1 %.")
         .arg(percent(figures.share))
     : said("The guard against folding shortened no step.");
-  lines += said("%1 % of the volume was compared.").arg(percent(figures.compared));
+  lines += said("%1 % of %2 was compared.").arg(percent(figures.compared), whole(figures));
   return lines.join(' ');
 }
 
@@ -73,8 +79,8 @@ QString refineWarning(const RefineFigures& figures)
   }
   if (figures.compared < LeastCompared)
   {
-    lines += said("Only %1 % of the volume lies within the reference; at least 25 % should.")
-               .arg(percent(figures.compared));
+    lines += said("Only %1 % of %2 has a partner; at least 25 % should.")
+               .arg(percent(figures.compared), whole(figures));
   }
   return lines.join(' ');
 }

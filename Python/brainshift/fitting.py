@@ -52,7 +52,8 @@ class Fit:
     - `leave_one_out`: for each landmark, how far a fit without it misses it, before the fold guard
       and the mask change the bend. NaN for a landmark that the others say nothing about. For one
       that is switched off, how far this fit misses it.
-    - `share`: the share of the bend that was applied, 0 to 1. The fold guard may leave less than 1.
+    - `share`: the share of the bend beyond the base that was applied, 0 to 1. The fold guard may
+      leave less than 1.
     - `relaxation`: 1, or 1.5 if the guard had to trust what was measured less
     - `calibration`: the factor on deviations that leaving out landmarks showed
     """
@@ -229,15 +230,16 @@ def fit(filter, rest=None, measured=None, traces=None, pulls=None, pins=None, th
     All measurements are solved together. With landmarks alone the fit takes a rigid motion out
     and bends little. With traces, pulls or pins the volume is taken to lie right already.
     A later call for the same deformation takes the place of the former one. If it fails, the
-    former one stays. Any other `Lattice`, such as a refinement, becomes the `Base` of the fit: the
-    bend from which it begins. The volume is then taken to lie right, too.
+    former one stays. A fit that a refinement replaced is not deleted. Any other `Lattice`, such as
+    a refinement, becomes the `Base` of the fit: the bend from which it begins. The volume is then
+    taken to lie right, too.
 
     - `filter`: a Free-Form Deformation. Its `Lattice` becomes the fit; its strokes stay on top.
     - `rest`, `measured`: N x 3 arrays in mm, landmarks in the rest frame and where they were
       measured, in the same order.
     - `traces`: an N x 3 array in mm, points that were traced on the cortex.
     - `pulls`: an N x 2 x 3 array in mm: where tissue was, and where it was put.
-    - `pins`: an N x 3 array in mm, tissue that stays.
+    - `pins`: an N x 3 array in mm, tissue that stays: where the base puts it, or at rest.
     - `threshold` or `label`: how scalars show the cortex. The default is a threshold of 0.5.
     - `array`: name of the scalars; the volume must have them. The default, `None`, takes the
       active ones.

@@ -45,7 +45,7 @@ class _Run:
             if not figures:
                 raise RuntimeError("The registration stopped; see the messages")
             result.take(figures)
-            # A call may only have prepared a level.
+            # A call may only have tried a length of a step, or prepared a level.
             stop = (callback is not None and result.steps > taken and callback(result) is False)
             taken = result.steps
             if stop or figures[0]:
@@ -86,7 +86,8 @@ class Refinement:
     - `largest_change`, `mean_change`: how far control points moved
     - `smallest_determinant`: the smallest Jacobian determinant of the result
     - `share`: the smallest share of a step that the fold guard left, 0 to 1
-    - `compared`: the share of the volume that has a partner in the reference, 0 to 1
+    - `compared`: the share of the volume that has a partner in the reference, 0 to 1; by
+      ultrasound, the share of what the sweep saw that is compared
     - `moved`: the longest way of a control point in the last step
     - `steps`, `level`: steps that were taken, and the level of the pyramid, from 0 on
     - `finished`: False if the callback stopped it

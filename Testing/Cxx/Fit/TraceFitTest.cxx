@@ -332,4 +332,16 @@ TEST(Anchors, BallHoldsPositions)
   EXPECT_EQ(ball.centre, glm::dvec3(5, 0, 0));
   EXPECT_EQ(ball.radiusMm, 5.0);
   EXPECT_LT(ballAround({}).radiusMm, 0.0);
+  Measurements measured;
+  measured.traces = { { 0, 0, 0 }, { 10, 0, 0 } };
+  measured.pulls = { { { 90, 0, 0 }, { 91, 0, 0 }, 0.0 } }; // off
+  EXPECT_EQ(openingOf(measured).centre, ball.centre);
+  Grid grid;
+  grid.origin = glm::dvec3(-40.0);
+  grid.spacing = glm::dvec3(10.0);
+  grid.dimensions = glm::ivec3(9);
+  Lattice moved = makeLattice(grid, 0);
+  std::fill(moved.displacements.begin(), moved.displacements.end(), glm::vec3(0.0f, 0.0f, 7.0f));
+  measured.base = std::make_shared<const FitBase>(moved);
+  EXPECT_LT(glm::distance(openingOf(measured).centre, glm::dvec3(5, 0, -7)), 1e-3);
 }

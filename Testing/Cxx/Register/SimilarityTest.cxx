@@ -153,6 +153,17 @@ TEST_P(SimilarityOfKind, IsLeastWhereBothAgree)
 }
 
 // What the cavity holds makes no difference, neither to the disagreement nor to any force.
+// Else a volume would agree best where it meets nothing.
+TEST_P(SimilarityOfKind, WhatMeetsNothingDoesNotAgree)
+{
+  const LevelVolumes volumes = level();
+  const Lattice lattice = makeLattice(bulge(volumes.rest.grid, 0.0).grid, 0);
+  const std::vector<glm::vec3> away(lattice.displacements.size(), glm::vec3(1e4f, 0.0f, 0.0f));
+  const Agreement found = makeSimilarity(this->GetParam(), volumes, lattice)(away);
+  EXPECT_EQ(found.samples, 0.0);
+  EXPECT_EQ(found.disagreement, 1.0);
+}
+
 TEST_P(SimilarityOfKind, ACavityDoesNotCount)
 {
   LevelVolumes volumes = level();
