@@ -18,6 +18,7 @@ FROM_THE_WINDOW = {  # in the folder "window"
     "stamp-strip", "window",  # Examples/stamp_strip.py, Examples/demo.py
     "tool-pointer",  # by hand: the dock beside a brain, with a server of poses
     "tool-pull",  # by hand, while the third pull is dragged
+    "refine",  # by hand, paused at the fifth step, with the case study's volumes
     "first-bend-head", "first-bend-brain", "first-bend-bent"}  # by hand, as first-bend.md says
 LARGEST_BYTES, LARGEST_WIDTH = 200_000, 900
 
