@@ -70,6 +70,7 @@ OpeningBall ballAround(const std::vector<glm::dvec3>& positions)
 OpeningBall openingOf(const Measurements& measured)
 {
   std::vector<glm::dvec3> open;
+  open.reserve(measured.traces.size() + measured.pulls.size());
   for (const glm::dvec3& trace : measured.traces)
   {
     open.push_back(measured.base ? measured.base->map.restFromDeformed(trace) : trace);

@@ -70,6 +70,16 @@ struct RefinementProgress
   bool isFinished = false;
 };
 
+/** A step that is sought: each call tries one length of it. */
+struct RefinementTrial
+{
+  std::vector<glm::vec3> step; ///< mm along the grid's axes
+  double lengthMm = 0.0;       ///< of the longest of them
+  double share = 0.0;          ///< that is tried next
+  int attempts = 0;
+  int stiffenings = 0;
+};
+
 class BRAINSHIFT_DEFORMATION_EXPORT Refinement
 {
 public:
@@ -115,15 +125,6 @@ private:
     std::vector<glm::vec3> controls; // mm along the grid's axes
     double kept = 1.0;               // share of the step
   };
-  /** A step that is sought: each call tries one length of it. */
-  struct Trial
-  {
-    std::vector<glm::vec3> step; // mm along the grid's axes
-    double lengthMm = 0.0;       // of the longest of them
-    double share = 0.0;          // that is tried next
-    int attempts = 0;
-    int stiffenings = 0;
-  };
   enum class Outcome
   {
     Open,     // try again
@@ -131,9 +132,9 @@ private:
     Settled   // there is nothing more to gain on this level
   };
   Candidate candidateAt(const std::vector<glm::vec3>& step, double share) const;
-  void findStep(Trial& trial) const;
+  void findStep(RefinementTrial& trial) const;
   Outcome tryStep();
-  Outcome tryStep(Trial& trial);
+  Outcome tryStep(RefinementTrial& trial);
   /** One rigid step. Where it is too long, nothing moves, and the next one is shorter. */
   Outcome moveRigidly();
   double energyOf(const std::vector<glm::vec3>& controls, const Agreement& agreement) const;
@@ -168,7 +169,7 @@ private:
   Agreement Known;             // of Controls
   double Energy = 0.0;
   double Stride = 1.0; // factor on the next step
-  std::optional<Trial> Trying;
+  std::optional<RefinementTrial> Trying;
   int StepsOfLevel = 0;
   RefinementProgress Progress;
 };

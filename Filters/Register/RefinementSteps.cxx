@@ -70,7 +70,7 @@ Refinement::Candidate Refinement::candidateAt(
   return found;
 }
 
-void Refinement::findStep(Trial& trial) const
+void Refinement::findStep(RefinementTrial& trial) const
 {
   trial.step = newtonStep(this->Stiff, this->Known.forces, this->bendOf(this->Controls));
   trial.lengthMm = longest(trial.step);
@@ -98,7 +98,7 @@ Refinement::Outcome Refinement::tryStep()
   return outcome;
 }
 
-Refinement::Outcome Refinement::tryStep(Trial& trial)
+Refinement::Outcome Refinement::tryStep(RefinementTrial& trial)
 {
   const Candidate candidate = this->candidateAt(trial.step, trial.share);
   if (candidate.kept < 1.0 && trial.stiffenings++ < MostStiffenings)

@@ -129,7 +129,8 @@ TEST_P(FitBaseOfKernel, WhatAgreesWithItChangesNothing)
   for (const glm::dvec3 at : { glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 3), glm::dvec3(-1, 2, 4) })
   {
     this->Measured.traces.push_back(map.deformedFromRest(Radius * glm::normalize(at)));
-    this->Measured.anchors.push_back(*onBall(-at, 0));
+    const glm::dvec3 opposite = -glm::normalize(at);
+    this->Measured.anchors.push_back({ Radius * opposite, opposite });
   }
   this->solve(onBall);
   EXPECT_LT(this->change(), 1e-3);
