@@ -27,6 +27,13 @@ struct FitBase
   {
   }
 
+  /** Whether it is the base of such a lattice, with the same mask. */
+  bool isOf(const Lattice& other) const
+  {
+    return this->lattice.grid == other.grid && this->lattice.kernel == other.kernel &&
+      this->lattice.mask == other.mask && this->lattice.displacements == other.displacements;
+  }
+
   /** How far (mm) it moves tissue at rest. */
   glm::dvec3 displacement(const glm::dvec3& rest) const
   {

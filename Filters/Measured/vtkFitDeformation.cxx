@@ -74,6 +74,7 @@ struct vtkFitDeformation::State
   CavitySource CavityInput;
   MaskSource Masks;
   Lattice Still; // its control points, with the mask
+  std::shared_ptr<const FitBase> Base;
   Measurements Measured;
   std::vector<std::size_t> TraceNumbers; // of the traces that count, in the input
   FittedLattice Fitted;
@@ -315,7 +316,12 @@ std::string vtkFitDeformation::FindBase(vtkInformationVector** inputs)
   const std::string problemOfBase = addBase(bent, base);
   if (problemOfBase.empty())
   {
-    state.Measured.base = std::make_shared<const FitBase>(bent); // also one that moves nothing
+    // A hand that drags leaves the base as it is, and with a mask its map takes long.
+    if (!state.Base || !state.Base->isOf(bent))
+    {
+      state.Base = std::make_shared<const FitBase>(bent);
+    }
+    state.Measured.base = state.Base; // also one that moves nothing
   }
   return problemOfBase;
 }

@@ -30,9 +30,7 @@ constexpr double FinerVolume = 0.8;
 constexpr double MostDisagreement = 0.2;
 constexpr int PartsBeforeComparison = 7; // that prepare a level
 
-// Speckle makes the Hessian many times too large, so that rigid steps begin longer.
-constexpr double FirstRigidStride = 4.0;
-constexpr int RigidStepsPerStep = 3;
+constexpr int RigidStepsPerStep = 3; // on a level where the volume moves as a whole
 
 // By ultrasound: speckle can be fitted better by bends that are not there. Of what was seen there
 // are so many samples at most, so that a step stays short.
@@ -300,7 +298,7 @@ void Refinement::compareHere()
 void Refinement::beginLevel()
 {
   Agreement& here = this->Here;
-  this->Stride = this->stage().isRigid ? FirstRigidStride : 1.0;
+  this->Stride = this->firstStride();
   Agreement atStart = this->Compare(this->StartControls);
   this->Progress.disagreementAtStart = atStart.disagreement;
   this->SamplesAtStart = atStart.samples;

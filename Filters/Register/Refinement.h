@@ -118,6 +118,7 @@ private:
   /** What the stiffness is multiplied with: 1, and more where a sweep saw a part of the volume. */
   double stiffnessFactor() const;
   int mostStepsOfLevel() const;
+  double firstStride() const; // of a level
   /** Where a step would lead, as far as the guard lets it. */
   struct Candidate
   {

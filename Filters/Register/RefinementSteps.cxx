@@ -25,7 +25,8 @@ constexpr double StrideGrowth = 1.2;
 constexpr double Converged = 1e-4; // share of the energy that a step must gain
 
 // Speckle makes the reference's slopes, and with them the Hessian, many times too large. So rigid
-// steps grow fast.
+// steps begin longer and grow fast.
+constexpr double FirstRigidStride = 4.0;
 constexpr double LongestRigidStride = 16.0;
 constexpr double RigidStrideGrowth = 2.0;
 constexpr double RigidStrideLoss = 0.25;
@@ -49,6 +50,11 @@ void Refinement::stiffen()
   this->Progress.stiffness *= Stiffening;
   this->Stiff = Stiffness(this->Start.grid, this->stiffnessFactor() * this->Progress.stiffness);
   this->Energy = this->energyOf(this->Controls, this->Known);
+}
+
+double Refinement::firstStride() const
+{
+  return this->stage().isRigid ? FirstRigidStride : 1.0;
 }
 
 Refinement::Candidate Refinement::candidateAt(

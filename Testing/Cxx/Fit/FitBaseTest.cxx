@@ -110,6 +110,15 @@ TEST(FitBase, ABaseAtRestLeavesNoRigidPart)
   EXPECT_LT(rootMeanSquare(fitted.residuals(measured.landmarks)), 0.1);
 }
 
+TEST_P(FitBaseOfKernel, KnowsItsLattice)
+{
+  EXPECT_TRUE(this->Measured.base->isOf(this->Bent));
+  EXPECT_FALSE(this->Measured.base->isOf(this->Still));
+  Lattice masked = this->Bent;
+  masked.mask = std::make_shared<const NodeWeights>();
+  EXPECT_FALSE(this->Measured.base->isOf(masked));
+}
+
 TEST_P(FitBaseOfKernel, WithoutMeasurementsTheFitIsTheBase)
 {
   this->solve();
