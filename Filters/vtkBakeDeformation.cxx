@@ -2,11 +2,12 @@
 #include "vtkBakeDeformation.h"
 
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Attached/Guard.h"
-#include "Filters/Attached/HostMemory.h"
+#include "Common/Guard.h"
+#include "Common/HostMemory.h"
+#include "Filters/Attached/FieldMemory.h"
 #include "Filters/Attached/Resample.h"
-#include "Filters/Attached/WholeExtent.h"
-#include "Filters/Attached/WorldAxes.h"
+#include "Common/ImageGrid.h"
+#include "Common/WorldAxes.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

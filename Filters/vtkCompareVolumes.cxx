@@ -3,10 +3,10 @@
 
 #include "Filters/Attached/CavityMask.h"
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Attached/Guard.h"
+#include "Common/Guard.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Attached/SharedArray.h"
-#include "Filters/Attached/WholeExtent.h"
+#include "Common/ImageGrid.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

@@ -2,8 +2,8 @@
 #include "vtkDeformGeometry.h"
 
 #include "Filters/Attached/DirectedMap.h"
-#include "Filters/Attached/Guard.h"
-#include "Filters/Attached/Portions.h"
+#include "Common/Guard.h"
+#include "Common/Portions.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

@@ -3,11 +3,11 @@
 
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/DirectedMap.h"
-#include "Filters/Attached/Guard.h"
-#include "Filters/Attached/HostMemory.h"
-#include "Filters/Attached/Portions.h"
-#include "Filters/Attached/WholeExtent.h"
-#include "Filters/Fields/FieldImage.h"
+#include "Common/Guard.h"
+#include "Common/HostMemory.h"
+#include "Common/Portions.h"
+#include "Common/ImageGrid.h"
+#include "Formats/Fields/FieldImage.h"
 
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"

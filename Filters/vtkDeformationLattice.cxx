@@ -2,9 +2,9 @@
 #include "vtkDeformationLattice.h"
 
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Attached/Guard.h"
-#include "Filters/Attached/WholeExtent.h"
-#include "Filters/Fields/FieldImage.h"
+#include "Common/Guard.h"
+#include "Common/ImageGrid.h"
+#include "Formats/Fields/FieldImage.h"
 
 #include "vtkFieldData.h"
 #include "vtkImageData.h"

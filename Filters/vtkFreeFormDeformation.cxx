@@ -2,11 +2,11 @@
 #include "vtkFreeFormDeformation.h"
 
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Attached/Guard.h"
+#include "Common/Guard.h"
 #include "Filters/Attached/MaskImage.h"
 #include "Filters/Attached/Segmentation.h"
 #include "Filters/Attached/SharedArray.h"
-#include "Filters/Attached/WholeExtent.h"
+#include "Common/ImageGrid.h"
 #include "Filters/Deformation/LatticeExtremes.h"
 #include "Filters/Deformation/OffsetField.h"
 #include "Filters/Deformation/Replay.h"

@@ -2,13 +2,13 @@
 #include "vtkInvertDisplacementField.h"
 
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Attached/Guard.h"
-#include "Filters/Attached/HostMemory.h"
-#include "Filters/Attached/Portions.h"
-#include "Filters/Attached/WholeExtent.h"
+#include "Common/Guard.h"
+#include "Common/HostMemory.h"
+#include "Common/Portions.h"
+#include "Common/ImageGrid.h"
 #include "Filters/Deformation/Inversion.h"
 #include "Filters/Deformation/OffsetField.h"
-#include "Filters/Fields/FieldImage.h"
+#include "Formats/Fields/FieldImage.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"

@@ -2,7 +2,7 @@
 #include "vtkLatticeReport.h"
 
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Attached/Guard.h"
+#include "Common/Guard.h"
 #include "Filters/Deformation/ControlPoints.h"
 #include "Filters/Deformation/PointMap.h"
 

@@ -3,10 +3,10 @@
 
 #include "Filters/Attached/CavityMask.h"
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Attached/Guard.h"
-#include "Filters/Attached/Portions.h"
+#include "Common/Guard.h"
+#include "Common/Portions.h"
 #include "Filters/Attached/ReferenceVolume.h"
-#include "Filters/Attached/WholeExtent.h"
+#include "Common/ImageGrid.h"
 #include "Filters/Traces/DeformedSurface.h"
 #include "Filters/Traces/StrokeCurve.h"
 #include "Filters/Traces/StrokeMarks.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransformPoints.h"
 
-#include "Filters/Attached/Guard.h"
-#include "Filters/Attached/Portions.h"
-#include "Filters/Transforms/PointTransform.h"
+#include "Common/Guard.h"
+#include "Common/Portions.h"
+#include "Formats/Transforms/PointTransform.h"
 #include "vtkTransformReader.h"
 
 #include "vtkInformation.h"

@@ -2,12 +2,12 @@
 #include "vtkTransformReader.h"
 
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Attached/Guard.h"
-#include "Filters/Attached/HostMemory.h"
-#include "Filters/Attached/Portions.h"
-#include "Filters/Attached/WholeExtent.h"
-#include "Filters/Fields/FieldImage.h"
-#include "Filters/Transforms/TransformFile.h"
+#include "Common/Guard.h"
+#include "Common/HostMemory.h"
+#include "Common/Portions.h"
+#include "Common/ImageGrid.h"
+#include "Formats/Fields/FieldImage.h"
+#include "Formats/Transforms/TransformFile.h"
 #include "Filters/Transforms/TransformLattice.h"
 
 #include "vtkDoubleArray.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkVolumeLookReport.h"
 
-#include "Filters/Attached/Guard.h"
+#include "Common/Guard.h"
 #include "Filters/Looks/FirstCamera.h"
 #include "Filters/Looks/Histogram.h"
 #include "Filters/Looks/Intensities.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedSlicesMapper.h"
 
-#include "Filters/Attached/Guard.h"
+#include "Common/Guard.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Representations/Field/EvidenceTexture.h"
 #include "Representations/Field/SceneDeformation.h"

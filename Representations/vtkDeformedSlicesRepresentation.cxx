@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedSlicesRepresentation.h"
 
-#include "Filters/Attached/Guard.h"
-#include "Filters/Attached/WorldAxes.h"
+#include "Common/Guard.h"
+#include "Common/WorldAxes.h"
 #include "Representations/Slices/OrientationMarks.h"
 #include "Representations/Slices/SlicesProp.h"
 #include "vtkDeformedSlicesMapper.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedVolumeMapper.h"
 
-#include "Filters/Attached/Guard.h"
+#include "Common/Guard.h"
 #include "Representations/Field/SceneDeformation.h"
 #include "Representations/Field/TissueFacts.h"
 #include "Representations/Gpu/GpuTask.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedVolumeReport.h"
 
-#include "Filters/Attached/Guard.h"
+#include "Common/Guard.h"
 #include "Representations/Field/TissueFacts.h"
 #include "Representations/Gpu/Counters.h"
 #include "vtkDeformedSlicesMapper.h"

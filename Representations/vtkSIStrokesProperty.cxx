@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSIStrokesProperty.h"
 
-#include "Filters/Attached/Guard.h"
+#include "Common/Guard.h"
 #include "vtkFreeFormDeformation.h"
 
 #include "vtkObjectFactory.h"

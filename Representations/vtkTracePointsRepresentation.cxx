@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTracePointsRepresentation.h"
 
-#include "Filters/Attached/Guard.h"
+#include "Common/Guard.h"
 #include "Representations/Traces/TracePoints.h"
 #include "Representations/Window/FailedUpdate.h"
 

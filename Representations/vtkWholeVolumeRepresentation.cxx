@@ -2,7 +2,7 @@
 #include "vtkWholeVolumeRepresentation.h"
 
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Attached/Guard.h"
+#include "Common/Guard.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Representations/Window/EvidenceLegend.h"
 #include "Representations/Window/FailedUpdate.h"

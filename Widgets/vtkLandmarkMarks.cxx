@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkLandmarkMarks.h"
 
-#include "Filters/Attached/Guard.h"
-#include "Filters/ScreenScale.h"
+#include "Common/Guard.h"
+#include "Common/ScreenScale.h"
 
 #include "vtkActor2D.h"
 #include "vtkCellArray.h"

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Attached/DeformableVolume.h"
 
-#include "Filters/Attached/FieldDirection.h"
+#include "Common/FieldDirection.h"
+#include "Common/FieldWord.h"
+#include "Common/ImageGrid.h"
 #include "Filters/Deformation/OffsetField.h"
 
 #include "vtkDataArray.h"
@@ -25,7 +27,6 @@ namespace brainshift
 {
 namespace
 {
-constexpr const char* Prefix = "FFD"; // of each array that is attached
 constexpr const char* DisplacementsName = "FFDDisplacements";
 constexpr const char* DimensionsName = "FFDDimensions";
 constexpr const char* BoxName = "FFDBox";
@@ -213,54 +214,6 @@ bool readGrid(vtkFieldData* fields, Grid& grid, std::string& error)
 }
 }
 
-Grid gridOf(vtkImageData* image)
-{
-  Grid grid;
-  int extent[6];
-  image->GetExtent(extent);
-  vtkMatrix3x3* direction = image->GetDirectionMatrix();
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    grid.dimensions[axis] = extent[2 * axis + 1] - extent[2 * axis] + 1;
-    grid.origin[axis] = image->GetOrigin()[axis];
-    grid.spacing[axis] = image->GetSpacing()[axis];
-    for (int column = 0; column < 3; ++column)
-    {
-      grid.direction[column][axis] = direction->GetElement(axis, column);
-    }
-  }
-  grid.origin = grid.worldFromGrid(glm::dvec3(extent[0], extent[2], extent[4]));
-  return grid;
-}
-
-std::string problemOfGrid(const Grid& grid)
-{
-  const auto isFinite = [](const glm::dvec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-  };
-  const auto isSpacing = [](double mm) { return mm >= ShortestSpacing && mm <= LongestSpacing; };
-  const glm::dvec3& spacing = grid.spacing;
-  const glm::dvec3& origin = grid.origin;
-  std::ostringstream problem;
-  if (!isSpacing(spacing.x) || !isSpacing(spacing.y) || !isSpacing(spacing.z))
-  {
-    problem << "spacing is " << spacing.x << " " << spacing.y << " " << spacing.z
-            << " mm; it must be from " << ShortestSpacing << " to " << LongestSpacing << " mm";
-  }
-  else if (!grid.placesItsPoints())
-  {
-    problem << "origin is " << origin.x << " " << origin.y << " " << origin.z
-            << " mm; it must be finite and at most " << FarthestOriginSpacings
-            << " spacings away from 0";
-  }
-  else if (!isFinite(grid.direction[0]) || !isFinite(grid.direction[1]) ||
-    !isFinite(grid.direction[2]))
-  {
-    problem << "direction holds a number that is not finite";
-  }
-  return problem.str();
-}
-
 void attach(vtkDataObject* volume, const Deformation& deformation)
 {
   vtkFieldData* fields = volume->GetFieldData();
@@ -290,15 +243,7 @@ void attach(vtkDataObject* volume, const Deformation& deformation)
 
 void detach(vtkDataObject* volume)
 {
-  vtkFieldData* fields = volume->GetFieldData();
-  for (int i = fields->GetNumberOfArrays() - 1; i >= 0; --i)
-  {
-    const char* const name = fields->GetArrayName(i);
-    if (name && std::strncmp(name, Prefix, std::strlen(Prefix)) == 0)
-    {
-      fields->RemoveArray(i);
-    }
-  }
+  removeFieldArrays(volume, DeformationPrefix);
 }
 
 bool carriesDeformation(vtkDataObject* volume)

@@ -37,12 +37,6 @@ class vtkImageData;
 
 namespace brainshift
 {
-///@{
-/** Limits of the spacing (mm) between neighbours of a grid: floats hold their squares. */
-constexpr double ShortestSpacing = 1e-9;
-constexpr double LongestSpacing = 1e9;
-///@}
-
 /** What the arrays hold. */
 struct Deformation
 {
@@ -54,16 +48,6 @@ struct Deformation
   Inverse inverse = Inverse::Exact; ///< how pictures find tissue
   double strength = 1.0;            ///< factor on all displacements, 0 to 1
 };
-
-/** The grid of an image's points, in world space. */
-VTKBRAINSHIFTFILTERS_EXPORT Grid gridOf(vtkImageData* image);
-
-/**
- * What is wrong with the place of a grid, as the end of a sentence about it, without a full stop:
- * its spacing must be from ShortestSpacing to LongestSpacing, its origin at most
- * FarthestOriginSpacings away from 0, its other numbers finite. It is empty if nothing is wrong.
- */
-VTKBRAINSHIFTFILTERS_EXPORT std::string problemOfGrid(const Grid& grid);
 
 /**
  * Attaches the arrays to a data set. Arrays of an earlier deformation are replaced. A displacement

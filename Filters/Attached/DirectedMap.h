@@ -6,7 +6,7 @@
 #ifndef BrainShift_DirectedMap_h
 #define BrainShift_DirectedMap_h
 
-#include "Filters/Attached/FieldDirection.h"
+#include "Common/FieldDirection.h"
 #include "Filters/Deformation/PointMap.h"
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 

@@ -9,7 +9,7 @@
 #ifndef BrainShift_GridArray_h
 #define BrainShift_GridArray_h
 
-#include "Filters/Deformation/Grid.h"
+#include "Common/Grid.h"
 
 class vtkFieldData;
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Attached/MaskImage.h"
 
+#include "Common/ImageGrid.h"
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Attached/HostMemory.h"
-#include "Filters/Deformation/Parallel.h"
+#include "Common/HostMemory.h"
+#include "Common/Parallel.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

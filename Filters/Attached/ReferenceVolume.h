@@ -18,7 +18,7 @@
 #ifndef BrainShift_ReferenceVolume_h
 #define BrainShift_ReferenceVolume_h
 
-#include "Filters/Deformation/Grid.h"
+#include "Common/Grid.h"
 #include "Filters/Deformation/MaskWeights.h"
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 

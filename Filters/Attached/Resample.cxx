@@ -2,7 +2,7 @@
 #include "Filters/Attached/Resample.h"
 
 #include "Filters/Deformation/Kernels.h"
-#include "Filters/Deformation/Parallel.h"
+#include "Common/Parallel.h"
 
 #include "vtkDataArray.h"
 

@@ -6,7 +6,7 @@
 #ifndef BrainShift_Resample_h
 #define BrainShift_Resample_h
 
-#include "Filters/Deformation/Grid.h"
+#include "Common/Grid.h"
 #include "Filters/Deformation/OffsetField.h"
 #include "Filters/Deformation/PointMap.h"
 

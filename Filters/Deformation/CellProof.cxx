@@ -2,7 +2,7 @@
 #include "Filters/Deformation/CellProof.h"
 
 #include "Filters/Deformation/Kernels.h"
-#include "Filters/Deformation/Parallel.h"
+#include "Common/Parallel.h"
 
 #include <algorithm>
 

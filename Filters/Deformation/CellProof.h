@@ -6,7 +6,7 @@
 #ifndef BrainShift_CellProof_h
 #define BrainShift_CellProof_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Deformation/JacobianBound.h"
 #include "Filters/Deformation/Lattice.h"
 

@@ -8,8 +8,8 @@
 #ifndef BrainShift_ControlPoints_h
 #define BrainShift_ControlPoints_h
 
-#include "Filters/Deformation/Export.h"
-#include "Filters/Deformation/Grid.h"
+#include "Common/Export.h"
+#include "Common/Grid.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>

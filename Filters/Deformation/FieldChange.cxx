@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/FieldChange.h"
 
-#include "Filters/Deformation/IndexLoop.h"
+#include "Common/Grid.h"
 
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>

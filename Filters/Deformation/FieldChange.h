@@ -10,7 +10,7 @@
 #ifndef BrainShift_FieldChange_h
 #define BrainShift_FieldChange_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Deformation/OffsetField.h"
 
 #include <glm/common.hpp>

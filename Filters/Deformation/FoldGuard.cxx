@@ -2,7 +2,7 @@
 #include "Filters/Deformation/FoldGuard.h"
 
 #include "Filters/Deformation/FieldChange.h"
-#include "Filters/Deformation/Parallel.h"
+#include "Common/Parallel.h"
 
 #include <glm/common.hpp>
 

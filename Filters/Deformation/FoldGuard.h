@@ -15,7 +15,7 @@
 #define BrainShift_FoldGuard_h
 
 #include "Filters/Deformation/CellProof.h"
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Deformation/Lattice.h"
 
 #include <vector>

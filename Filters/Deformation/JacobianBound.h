@@ -14,7 +14,7 @@
 #ifndef BrainShift_JacobianBound_h
 #define BrainShift_JacobianBound_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>

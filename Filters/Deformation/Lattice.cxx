@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/Lattice.h"
 
-#include "Filters/Deformation/IndexLoop.h"
+#include "Common/Grid.h"
 #include "Filters/Deformation/Inversion.h"
 #include "Filters/Deformation/Kernels.h"
-#include "Filters/Deformation/Parallel.h"
+#include "Common/Parallel.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -9,8 +9,8 @@
 #ifndef BrainShift_Lattice_h
 #define BrainShift_Lattice_h
 
-#include "Filters/Deformation/Export.h"
-#include "Filters/Deformation/Grid.h"
+#include "Common/Export.h"
+#include "Common/Grid.h"
 #include "Filters/Deformation/Stroke.h"
 
 #include <glm/mat3x3.hpp>

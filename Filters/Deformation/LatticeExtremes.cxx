@@ -3,7 +3,7 @@
 
 #include "Filters/Deformation/JacobianBound.h"
 #include "Filters/Deformation/OffsetField.h"
-#include "Filters/Deformation/Parallel.h"
+#include "Common/Parallel.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -7,7 +7,7 @@
 #ifndef BrainShift_LatticeExtremes_h
 #define BrainShift_LatticeExtremes_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Deformation/Lattice.h"
 
 namespace brainshift

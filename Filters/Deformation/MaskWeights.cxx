@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/MaskWeights.h"
 
-#include "Filters/Deformation/IndexLoop.h"
-#include "Filters/Deformation/Parallel.h"
+#include "Common/Grid.h"
+#include "Common/Parallel.h"
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>

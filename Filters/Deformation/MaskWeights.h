@@ -15,7 +15,7 @@
 #ifndef BrainShift_MaskWeights_h
 #define BrainShift_MaskWeights_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Deformation/Lattice.h"
 
 #include <memory>

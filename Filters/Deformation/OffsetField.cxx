@@ -3,7 +3,7 @@
 
 #include "Filters/Deformation/Inversion.h"
 #include "Filters/Deformation/Kernels.h"
-#include "Filters/Deformation/Parallel.h"
+#include "Common/Parallel.h"
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>

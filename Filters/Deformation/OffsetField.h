@@ -10,7 +10,7 @@
 #ifndef BrainShift_OffsetField_h
 #define BrainShift_OffsetField_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Deformation/Lattice.h"
 
 #include <glm/mat3x3.hpp>

@@ -9,7 +9,7 @@
 #ifndef BrainShift_PointMap_h
 #define BrainShift_PointMap_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Deformation/Lattice.h"
 #include "Filters/Deformation/OffsetField.h"
 

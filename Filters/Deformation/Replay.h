@@ -10,7 +10,7 @@
 #ifndef BrainShift_Replay_h
 #define BrainShift_Replay_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Deformation/FoldGuard.h"
 #include "Filters/Deformation/Lattice.h"
 #include "Filters/Deformation/Stroke.h"

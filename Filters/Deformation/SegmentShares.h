@@ -13,7 +13,7 @@
 #ifndef BrainShift_SegmentShares_h
 #define BrainShift_SegmentShares_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Deformation/MaskWeights.h"
 
 #include <cstdint>

@@ -8,7 +8,7 @@
 #ifndef BrainShift_Stroke_h
 #define BrainShift_Stroke_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 
 #include <glm/vec3.hpp>
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Fields/BaseLattice.h"
 
+#include "Common/ImageGrid.h"
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Attached/FieldDirection.h"
-#include "Filters/Deformation/IndexLoop.h"
+#include "Common/FieldDirection.h"
+#include "Common/Grid.h"
 #include "Filters/Deformation/Lattice.h"
-#include "Filters/Fields/FieldImage.h"
+#include "Formats/Fields/FieldImage.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"

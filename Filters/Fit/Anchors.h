@@ -8,7 +8,7 @@
 #ifndef BrainShift_Anchors_h
 #define BrainShift_Anchors_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Fit/Measurements.h"
 
 #include <glm/vec3.hpp>

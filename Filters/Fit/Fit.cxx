@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Fit/Fit.h"
 
-#include "Filters/Deformation/Parallel.h"
+#include "Common/Parallel.h"
 #include "Filters/Fit/TraceRows.h"
 
 #include <glm/geometric.hpp>

@@ -10,7 +10,7 @@
 #ifndef BrainShift_Fit_h
 #define BrainShift_Fit_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Fit/Measurements.h"
 #include "Filters/Fit/Process.h"
 #include "Filters/Fit/RigidPose.h"

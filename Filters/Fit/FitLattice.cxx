@@ -2,7 +2,7 @@
 #include "Filters/Fit/FitLattice.h"
 
 #include "Filters/Deformation/FoldGuard.h"
-#include "Filters/Deformation/IndexLoop.h"
+#include "Common/Grid.h"
 #include "Filters/Deformation/Kernels.h"
 
 #include <cstddef>

@@ -6,7 +6,7 @@
 #ifndef BrainShift_FitLattice_h
 #define BrainShift_FitLattice_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Deformation/Lattice.h"
 #include "Filters/Fit/Process.h"
 

@@ -2,7 +2,7 @@
 #include "Filters/Fit/FittedLattice.h"
 
 #include "Filters/Deformation/FoldGuard.h"
-#include "Filters/Deformation/Parallel.h"
+#include "Common/Parallel.h"
 #include "Filters/Fit/FitLattice.h"
 
 #include <glm/geometric.hpp>

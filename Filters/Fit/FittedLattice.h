@@ -7,7 +7,7 @@
 #ifndef BrainShift_FittedLattice_h
 #define BrainShift_FittedLattice_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Deformation/Lattice.h"
 #include "Filters/Deformation/PointMap.h"
 #include "Filters/Fit/Fit.h"

@@ -6,7 +6,7 @@
 #ifndef BrainShift_LandmarkMatch_h
 #define BrainShift_LandmarkMatch_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 
 #include <cstddef>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Fit/LatticeEvidence.h"
 
-#include "Filters/Deformation/IndexLoop.h"
+#include "Common/Grid.h"
 #include "Filters/Fit/FittedLattice.h"
 
 namespace brainshift

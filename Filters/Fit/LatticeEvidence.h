@@ -6,8 +6,8 @@
 #ifndef BrainShift_LatticeEvidence_h
 #define BrainShift_LatticeEvidence_h
 
-#include "Filters/Deformation/Export.h"
-#include "Filters/Deformation/Grid.h"
+#include "Common/Export.h"
+#include "Common/Grid.h"
 
 #include <string>
 #include <vector>

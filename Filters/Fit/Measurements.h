@@ -9,7 +9,7 @@
 #ifndef BrainShift_Measurements_h
 #define BrainShift_Measurements_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Fit/FitBase.h"
 #include "Filters/Fit/Matern.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Fit/Process.h"
 
-#include "Filters/Deformation/Parallel.h"
+#include "Common/Parallel.h"
 
 #include <glm/geometric.hpp>
 

@@ -15,7 +15,7 @@
 #ifndef BrainShift_Process_h
 #define BrainShift_Process_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Fit/Matern.h"
 
 #include <glm/mat3x3.hpp>

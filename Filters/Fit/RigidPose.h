@@ -6,7 +6,7 @@
 #ifndef BrainShift_RigidPose_h
 #define BrainShift_RigidPose_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>

@@ -7,7 +7,7 @@
 #ifndef BrainShift_TraceRows_h
 #define BrainShift_TraceRows_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Fit/Measurements.h"
 #include "Filters/Fit/Process.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Looks/Intensities.h"
 
+#include "Common/ImageGrid.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/Segmentation.h"
 #include "Filters/Looks/FarPoints.h"

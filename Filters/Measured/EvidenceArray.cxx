@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Measured/EvidenceArray.h"
 
+#include "Common/ImageGrid.h"
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Deformation/IndexLoop.h"
+#include "Common/Grid.h"
 #include "Filters/Deformation/PointMap.h"
-#include "Filters/Fields/FieldImage.h"
+#include "Formats/Fields/FieldImage.h"
 #include "Filters/Fit/FittedLattice.h"
 #include "Filters/Fit/LatticeEvidence.h"
 

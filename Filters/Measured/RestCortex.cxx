@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Measured/RestCortex.h"
 
+#include "Common/ImageGrid.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Fit/Anchors.h"
 

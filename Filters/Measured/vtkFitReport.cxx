@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkFitReport.h"
 
-#include "Filters/Attached/Guard.h"
+#include "Common/Guard.h"
 #include "vtkFitDeformation.h"
 
 #include "vtkDoubleArray.h"

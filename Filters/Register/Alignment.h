@@ -10,7 +10,7 @@
 #ifndef BrainShift_Alignment_h
 #define BrainShift_Alignment_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Deformation/Lattice.h"
 #include "Filters/Fit/RigidPose.h"
 #include "Filters/Register/RegisteredPair.h"

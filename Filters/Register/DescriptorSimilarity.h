@@ -6,7 +6,7 @@
 #ifndef BrainShift_DescriptorSimilarity_h
 #define BrainShift_DescriptorSimilarity_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Register/LevelSamples.h"
 
 #include <glm/vec3.hpp>

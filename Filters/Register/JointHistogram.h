@@ -6,7 +6,7 @@
 #ifndef BrainShift_JointHistogram_h
 #define BrainShift_JointHistogram_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 
 #include <vector>
 

@@ -12,10 +12,10 @@
 #ifndef BrainShift_LatticeRows_h
 #define BrainShift_LatticeRows_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Deformation/Kernels.h"
 #include "Filters/Deformation/Lattice.h"
-#include "Filters/Deformation/Parallel.h"
+#include "Common/Parallel.h"
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>

@@ -9,7 +9,7 @@
 #ifndef BrainShift_LevelSamples_h
 #define BrainShift_LevelSamples_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Deformation/Lattice.h"
 #include "Filters/Register/LatticeRows.h"
 #include "Filters/Register/Volume.h"

@@ -6,7 +6,7 @@
 #ifndef BrainShift_LineSearch_h
 #define BrainShift_LineSearch_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 
 #include <functional>
 

@@ -11,7 +11,7 @@
 #ifndef BrainShift_LocalFitSimilarity_h
 #define BrainShift_LocalFitSimilarity_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Register/LevelSamples.h"
 #include "Filters/Register/Windows.h"
 

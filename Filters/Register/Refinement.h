@@ -15,7 +15,7 @@
 #ifndef BrainShift_Refinement_h
 #define BrainShift_Refinement_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Deformation/FoldGuard.h"
 #include "Filters/Deformation/Lattice.h"
 #include "Filters/Register/RegisteredPair.h"

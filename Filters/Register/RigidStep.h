@@ -9,8 +9,8 @@
 #ifndef BrainShift_RigidStep_h
 #define BrainShift_RigidStep_h
 
-#include "Filters/Deformation/Export.h"
-#include "Filters/Deformation/Grid.h"
+#include "Common/Export.h"
+#include "Common/Grid.h"
 #include "Filters/Register/LatticeRows.h"
 
 #include <glm/vec3.hpp>

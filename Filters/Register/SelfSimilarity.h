@@ -10,7 +10,7 @@
 #ifndef BrainShift_SelfSimilarity_h
 #define BrainShift_SelfSimilarity_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Register/Volume.h"
 
 #include <vector>

@@ -6,7 +6,7 @@
 #ifndef BrainShift_Similarity_h
 #define BrainShift_Similarity_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 #include "Filters/Deformation/Lattice.h"
 #include "Filters/Register/LevelSamples.h"
 

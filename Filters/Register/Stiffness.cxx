@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/Stiffness.h"
 
-#include "Filters/Deformation/Parallel.h"
+#include "Common/Parallel.h"
 #include "Filters/Register/LatticeRows.h"
 
 #include <glm/geometric.hpp>

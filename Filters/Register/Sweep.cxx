@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/Sweep.h"
 
-#include "Filters/Deformation/Parallel.h"
+#include "Common/Parallel.h"
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>

@@ -9,8 +9,8 @@
 #ifndef BrainShift_Sweep_h
 #define BrainShift_Sweep_h
 
-#include "Filters/Deformation/Export.h"
-#include "Filters/Deformation/Grid.h"
+#include "Common/Export.h"
+#include "Common/Grid.h"
 #include "Filters/Deformation/MaskWeights.h"
 #include "Filters/Register/Volume.h"
 

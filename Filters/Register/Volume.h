@@ -6,8 +6,8 @@
 #ifndef BrainShift_Volume_h
 #define BrainShift_Volume_h
 
-#include "Filters/Deformation/Export.h"
-#include "Filters/Deformation/Grid.h"
+#include "Common/Export.h"
+#include "Common/Grid.h"
 #include "Filters/Deformation/MaskWeights.h"
 
 #include <glm/vec3.hpp>

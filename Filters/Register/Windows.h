@@ -10,7 +10,7 @@
 #ifndef BrainShift_Windows_h
 #define BrainShift_Windows_h
 
-#include "Filters/Deformation/Export.h"
+#include "Common/Export.h"
 
 #include <glm/vec3.hpp>
 

@@ -2,9 +2,9 @@
 #include "vtkRefinedLattice.h"
 
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Attached/Guard.h"
-#include "Filters/Attached/WholeExtent.h"
-#include "Filters/Fields/FieldImage.h"
+#include "Common/Guard.h"
+#include "Common/ImageGrid.h"
+#include "Formats/Fields/FieldImage.h"
 
 #include "vtkImageData.h"
 #include "vtkInformation.h"

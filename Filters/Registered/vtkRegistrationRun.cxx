@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRegistrationRun.h"
 
-#include "Filters/Attached/Guard.h"
-#include "Filters/Attached/HostMemory.h"
-#include "Filters/Attached/WholeExtent.h"
+#include "Common/Guard.h"
+#include "Common/HostMemory.h"
+#include "Common/ImageGrid.h"
 #include "Filters/Register/Alignment.h"
 #include "Filters/Register/Refinement.h"
 #include "Filters/Registered/RegisteredSource.h"

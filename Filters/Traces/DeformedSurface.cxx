@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Traces/DeformedSurface.h"
 
-#include "Filters/Deformation/Parallel.h"
+#include "Common/Parallel.h"
 #include "Filters/Deformation/PointMap.h"
 
 #include <glm/common.hpp>

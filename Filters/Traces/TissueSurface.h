@@ -7,7 +7,7 @@
 #ifndef BrainShift_TissueSurface_h
 #define BrainShift_TissueSurface_h
 
-#include "Filters/Deformation/Grid.h"
+#include "Common/Grid.h"
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 
 #include "vtkSmartPointer.h"

@@ -7,7 +7,7 @@
 #define BrainShift_TransformLattice_h
 
 #include "Filters/Deformation/Lattice.h"
-#include "Filters/Transforms/PointTransform.h"
+#include "Formats/Transforms/PointTransform.h"
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 
 namespace brainshift

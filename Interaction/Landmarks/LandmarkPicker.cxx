@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Landmarks/LandmarkPicker.h"
 
-#include "Filters/ScreenScale.h"
+#include "Common/ScreenScale.h"
 #include "Interaction/Commands/ToolSettings.h"
 #include "Interaction/Landmarks/LandmarkList.h"
 #include "Interaction/Landmarks/SharedCrosshair.h"

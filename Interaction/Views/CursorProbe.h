@@ -6,7 +6,7 @@
 #ifndef BrainShift_CursorProbe_h
 #define BrainShift_CursorProbe_h
 
-#include "Filters/Attached/WorldAxes.h"
+#include "Common/WorldAxes.h"
 
 #include <vtkSmartPointer.h>
 

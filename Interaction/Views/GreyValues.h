@@ -20,7 +20,7 @@ public:
   /// Takes the colour map of a display. False if it has none that reaches over a range of values.
   bool begin(vtkSMProxy* display, const int pixel[2]);
   /// To the right the window becomes wider, upwards the level becomes higher. Nothing is drawn.
-  /// `scale`: see Filters/ScreenScale.h.
+  /// `scale`: see Common/ScreenScale.h.
   void dragTo(const int pixel[2], double scale);
   /// Makes one step to undo of the whole drag. From now on ParaView leaves the range as it is when
   /// a filter is applied.

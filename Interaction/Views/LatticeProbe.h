@@ -5,7 +5,7 @@
 #ifndef BrainShift_LatticeProbe_h
 #define BrainShift_LatticeProbe_h
 
-#include "Filters/Deformation/Grid.h"
+#include "Common/Grid.h"
 #include "Widgets/LatticeShapes.h"
 
 #include <vtkSmartPointer.h>

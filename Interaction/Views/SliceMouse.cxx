@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Views/SliceMouse.h"
 
-#include "Filters/ScreenScale.h"
+#include "Common/ScreenScale.h"
 #include "Interaction/Views/Reports.h"
 #include "Interaction/Views/SameTissue.h"
 

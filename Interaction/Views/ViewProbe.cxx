@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Views/ViewProbe.h"
 
-#include "Filters/ScreenScale.h"
+#include "Common/ScreenScale.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Views/KeptPictures.h"
 #include "Interaction/Views/Reports.h"

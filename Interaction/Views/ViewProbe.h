@@ -71,7 +71,7 @@ public:
     const glm::dvec2& pixel, const glm::dvec3& depth, const glm::dvec3& normal) const;
   glm::dvec2 pixelOf(const glm::dvec3& position) const;
   double millimetresPerPixel(const glm::dvec3& position) const;
-  /// See Filters/ScreenScale.h.
+  /// See Common/ScreenScale.h.
   double screenScale() const;
   struct Ray
   {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Window/StopReading.h"
 
-#include "Filters/Readers/vtkVolumeFileReader.h"
+#include "Formats/Volumes/vtkVolumeFileReader.h"
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Field/FineCells.h"
 
-#include "Filters/Deformation/IndexLoop.h"
-#include "Filters/Deformation/Parallel.h"
+#include "Common/Grid.h"
+#include "Common/Parallel.h"
 
 #include <glm/common.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Field/FineSearch.h"
 
-#include "Filters/Deformation/IndexLoop.h"
+#include "Common/Grid.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Field/FineTextures.h"
 
-#include "Filters/Deformation/IndexLoop.h"
+#include "Common/Grid.h"
 #include "Representations/Gpu/OpenGL.h"
 #include "Representations/Gpu/VolumePass.h"
 

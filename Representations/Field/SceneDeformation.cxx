@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Field/SceneDeformation.h"
 
-#include "Filters/Attached/HostMemory.h"
+#include "Filters/Attached/FieldMemory.h"
 #include "Representations/Gpu/GpuTask.h"
 #include "Representations/Scene/FieldPlace.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Field/TissueFacts.h"
 
-#include "Filters/Attached/LabelTable.h"
+#include "Common/LabelTable.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Attached/Segmentation.h"
 #include "Representations/Field/SceneDeformation.h"

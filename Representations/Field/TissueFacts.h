@@ -6,7 +6,7 @@
 #ifndef BrainShift_TissueFacts_h
 #define BrainShift_TissueFacts_h
 
-#include "Filters/Attached/WorldAxes.h"
+#include "Common/WorldAxes.h"
 
 #include <glm/vec3.hpp>
 

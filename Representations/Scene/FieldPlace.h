@@ -6,7 +6,7 @@
 #ifndef BrainShift_FieldPlace_h
 #define BrainShift_FieldPlace_h
 
-#include "Filters/Deformation/Grid.h"
+#include "Common/Grid.h"
 #include "Filters/Deformation/OffsetField.h"
 #include "Representations/Scene/RayCastScene.h"
 #include "Representations/Scene/SceneGeometry.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Scene/SceneGeometry.h"
 
+#include "Common/ImageGrid.h"
 #include "Filters/Attached/DeformableVolume.h"
 
 #include "vtkAbstractVolumeMapper.h"

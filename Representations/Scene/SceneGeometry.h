@@ -9,7 +9,7 @@
 #ifndef BrainShift_SceneGeometry_h
 #define BrainShift_SceneGeometry_h
 
-#include "Filters/Deformation/Grid.h"
+#include "Common/Grid.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Skipping/RestPresence.h"
 
-#include "Filters/Deformation/Parallel.h"
+#include "Common/Parallel.h"
 
 #include <array>
 #include <cstddef>

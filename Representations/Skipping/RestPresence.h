@@ -8,7 +8,7 @@
 #ifndef BrainShift_RestPresence_h
 #define BrainShift_RestPresence_h
 
-#include "Filters/Deformation/Parallel.h"
+#include "Common/Parallel.h"
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 
 #include "vtkType.h" // for vtkIdType

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Slices/OrientationMarks.h"
 
-#include "Filters/Attached/Guard.h"
+#include "Common/Guard.h"
 #include "Representations/Slices/PlaneColors.h"
 
 #include "vtkCamera.h"

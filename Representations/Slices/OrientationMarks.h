@@ -17,7 +17,7 @@
 
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 
-#include "Filters/Attached/WorldAxes.h"
+#include "Common/WorldAxes.h"
 
 #include "vtkNew.h"
 #include "vtkProp.h"

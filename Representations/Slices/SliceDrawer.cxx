@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Slices/SliceDrawer.h"
 
-#include "Filters/ScreenScale.h"
+#include "Common/ScreenScale.h"
 #include "Representations/Gpu/OpenGL.h"
 #include "Representations/Gpu/SceneScope.h"
 #include "Representations/Scene/SceneUniforms.h"

@@ -9,7 +9,7 @@
 #ifndef BrainShift_SliceGeometry_h
 #define BrainShift_SliceGeometry_h
 
-#include "Filters/Deformation/Grid.h"
+#include "Common/Grid.h"
 
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Slices/SlicesProp.h"
 
-#include "Filters/Attached/Guard.h"
+#include "Common/Guard.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkRenderer.h"

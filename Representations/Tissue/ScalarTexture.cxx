@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Tissue/ScalarTexture.h"
 
-#include "Filters/Deformation/Parallel.h"
+#include "Common/Parallel.h"
 #include "Representations/Gpu/GpuMemory.h"
 #include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/OpenGL.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Traces/TracePoints.h"
 
-#include "Filters/Attached/Guard.h"
-#include "Filters/ScreenScale.h"
+#include "Common/Guard.h"
+#include "Common/ScreenScale.h"
 #include "Representations/Gpu/WindowDevices.h"
 #include "Representations/Scene/HitSource.h"
 #include "Representations/Scene/SceneGeometry.h"

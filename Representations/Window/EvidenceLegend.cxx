@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Window/EvidenceLegend.h"
 
-#include "Filters/Attached/Guard.h"
+#include "Common/Guard.h"
 #include "Representations/Scene/EvidenceClasses.h"
 
 #include "vtkCoordinate.h"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Checks that no C++ exception can leave our code for VTK, which would end ParaView or its server.
 
-Filters/Attached/Guard.h is the guard. Requests of the pipeline pass it in ProcessRequest, one line
+Common/Guard.h is the guard. Requests of the pipeline pass it in ProcessRequest, one line
 for a class; what draws calls it itself.
 """
 

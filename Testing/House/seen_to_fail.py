@@ -75,7 +75,7 @@ BREAKS = [
     ("no_include_runs_upwards", "Representations/Gpu/Pass.cxx", '#include "vtkDraw.h"\n',
      "Representations/vtkDraw.h"),
     ("no_include_runs_upwards", "Filters/Cellar/Deep.h", header("Deep"), None),
-    ("no_library_where_it_is_kept_out", "Filters/Deformation/Grid.h",
+    ("no_library_where_it_is_kept_out", "Common/Grid.h",
      header("Grid", "#include <vtkImageData.h>"), None),
     ("no_library_where_it_is_kept_out", "Filters/vtkShow.cxx", "#include <QWidget>\n", None),
     ("no_library_where_it_is_kept_out", "Filters/vtkShow.cxx",

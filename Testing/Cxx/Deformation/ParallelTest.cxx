@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that the core's own loop takes many threads, does every step once, hands on what a piece
-// throws, and can be replaced.
-#include "Filters/Deformation/Parallel.h"
+// Proves that the loop without VTK takes many threads, does every step once and hands on what a piece
+// throws.
+#include "Common/Parallel.h"
 
 #include <gtest/gtest.h>
 
@@ -26,14 +26,6 @@ std::vector<int> timesDone(std::int64_t first, std::int64_t last, std::int64_t g
     }
   });
   return { times.begin(), times.end() };
-}
-
-int timesReplaced = 0;
-
-void replacement(std::int64_t first, std::int64_t last, const LoopBody& body)
-{
-  ++timesReplaced;
-  body(first, last);
 }
 }
 
@@ -88,15 +80,4 @@ TEST(ParallelFor, HandsOnWhatAPieceThrows)
   };
   EXPECT_THROW(parallelFor(0, 1000, 1, failsLate), std::runtime_error);
   EXPECT_EQ(timesDone(0, 1000, 1), std::vector<int>(1000, 1)) << "and works again";
-}
-
-TEST(ParallelFor, RunsAnotherLoopWhereOneIsSet)
-{
-  setLoop(replacement);
-  EXPECT_EQ(timesDone(0, 1000, 1), std::vector<int>(1000, 1));
-  EXPECT_EQ(timesReplaced, 1);
-  EXPECT_EQ(timesDone(0, 1000, 1000), std::vector<int>(1000, 1));
-  EXPECT_EQ(timesReplaced, 1) << "little work needs no loop";
-  setLoop(nullptr);
-  EXPECT_EQ(currentLoop(), &loopOnThreads);
 }

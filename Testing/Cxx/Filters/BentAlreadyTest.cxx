@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that a deformation is never dropped without a word: a volume that carries one is not bent
 // again, and a displacement field carries none.
-#include "Filters/Attached/FieldDirection.h"
+#include "Common/FieldDirection.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include "Testing/Cxx/Filters/TestDefaults.h"
 #include "vtkBakeDeformation.h"
 #include "vtkCompareVolumes.h"
-#include "vtkDICOMVolumeReader.h"
+#include "Formats/Volumes/vtkVolumeFileReader.h"
 #include "vtkDeformGeometry.h"
 #include "vtkDeformationField.h"
 #include "vtkDisplacementFieldReader.h"
@@ -98,10 +98,10 @@ TEST(Defaults, OfTraceDistanceLiveInTheClass)
 
 TEST(Defaults, OfDICOMReaderLiveInTheClass)
 {
-  vtkNew<vtkDICOMVolumeReader> reader;
-  EXPECT_STREQ(reader->GetSeries(), "");
+  vtkNew<vtkVolumeFileReader> reader;
+  EXPECT_STREQ(reader->GetChoice(), "");
   const Defaults expected{ { "ResampleSlices", { double(reader->GetResampleSlices()) } } };
-  EXPECT_EQ(defaultsIn("Filters/Proxies/DICOMVolumeReader.xml"), expected);
+  EXPECT_EQ(defaultsIn("Formats/DICOM/DICOMVolumeReader.xml"), expected);
 }
 
 TEST(Defaults, OfFitDeformationLiveInTheClass)
@@ -151,10 +151,10 @@ TEST(Defaults, OfDisplacementFieldFilesLiveInTheClasses)
     { "Direction", { double(reader->GetDirection()) } },
     { "World", { double(reader->GetWorld()) } },
   };
-  EXPECT_EQ(defaultsIn("Filters/Proxies/DisplacementFieldReader.xml"), ofReader);
+  EXPECT_EQ(defaultsIn("Formats/Fields/DisplacementFieldReader.xml"), ofReader);
   vtkNew<vtkDisplacementFieldWriter> writer;
   const Defaults ofWriter{ { "World", { double(writer->GetWorld()) } } };
-  EXPECT_EQ(defaultsIn("Filters/Proxies/DisplacementFieldWriter.xml"), ofWriter);
+  EXPECT_EQ(defaultsIn("Formats/Writers/DisplacementFieldWriter.xml"), ofWriter);
 }
 
 TEST(Defaults, OfLandmarkFilesLiveInTheClasses)
@@ -164,10 +164,10 @@ TEST(Defaults, OfLandmarkFilesLiveInTheClasses)
     { "TableAxes", { double(reader->GetTableAxes()) } },
     { "Volume", { double(reader->GetVolume()) } },
   };
-  EXPECT_EQ(defaultsIn("Filters/Proxies/LandmarkReader.xml"), ofReader);
+  EXPECT_EQ(defaultsIn("Formats/Landmarks/LandmarkReader.xml"), ofReader);
   vtkNew<vtkLandmarkWriter> writer;
   const Defaults ofWriter{ { "FileAxes", { double(writer->GetFileAxes()) } } };
-  EXPECT_EQ(defaultsIn("Filters/Proxies/LandmarkWriter.xml"), ofWriter);
+  EXPECT_EQ(defaultsIn("Formats/Landmarks/LandmarkWriter.xml"), ofWriter);
 }
 
 TEST(Defaults, OfSurfaceFilesLiveInTheClasses)
@@ -175,23 +175,23 @@ TEST(Defaults, OfSurfaceFilesLiveInTheClasses)
   vtkNew<vtkSurfaceReader> surface;
   const double* center = surface->GetVolumeCenter();
   const Defaults ofSurface{ { "VolumeCenter", { center[0], center[1], center[2] } } };
-  EXPECT_EQ(defaultsIn("Filters/Proxies/SurfaceReader.xml"), ofSurface);
-  EXPECT_EQ(defaultsIn("Filters/Proxies/TractReader.xml"), Defaults());
+  EXPECT_EQ(defaultsIn("Formats/Surfaces/SurfaceReader.xml"), ofSurface);
+  EXPECT_EQ(defaultsIn("Formats/Surfaces/TractReader.xml"), Defaults());
 }
 
 TEST(Defaults, OfVolumeFilesLiveInTheClass)
 {
   vtkNew<vtkVolumeFileWriter> writer;
   const Defaults expected{ { "World", { double(writer->GetWorld()) } } };
-  EXPECT_EQ(defaultsIn("Filters/Proxies/MedicalVolumeWriter.xml"), expected);
-  EXPECT_EQ(defaultsIn("Filters/Proxies/MedicalSeriesWriter.xml"), expected);
+  EXPECT_EQ(defaultsIn("Formats/Writers/MedicalVolumeWriter.xml"), expected);
+  EXPECT_EQ(defaultsIn("Formats/Writers/MedicalSeriesWriter.xml"), expected);
 }
 
 TEST(Defaults, OfTransformPointsLiveInTheClass)
 {
   vtkNew<vtkTransformPoints> filter;
   const Defaults expected{ { "Direction", { double(filter->GetDirection()) } } };
-  EXPECT_EQ(defaultsIn("Filters/Proxies/TransformPoints.xml"), expected);
+  EXPECT_EQ(defaultsIn("Formats/Transforms/TransformPoints.xml"), expected);
 }
 
 TEST(Defaults, OfTransformReaderLiveInTheClass)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that Deformation Field holds PointMap's displacements and determinants, both ways, on
 // every kind of grid, rotated ones included; and that it refuses grids it cannot make.
-#include "Filters/Attached/FieldDirection.h"
+#include "Common/FieldDirection.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
 #include "vtkDeformationField.h"
 #include "vtkInvertDisplacementField.h"

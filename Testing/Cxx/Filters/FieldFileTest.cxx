@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that displacement fields keep their place, their vectors and their direction through every
 // format, byte for byte as ITK, Slicer and NiftyReg mean them; and that damaged files are named.
-#include "Filters/Fields/FieldFile.h"
-#include "Filters/Attached/FieldDirection.h"
+#include "Formats/Fields/FieldFile.h"
+#include "Common/FieldDirection.h"
 #include "Testing/Cxx/Filters/NIFTITestFile.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
 #include "vtkDisplacementFieldReader.h"

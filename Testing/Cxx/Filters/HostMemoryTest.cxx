@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that filters ask for memory before they take it: what does not fit is refused with a
 // sentence that names its size and what is left, and the next thing that fits is made.
-#include "Filters/Attached/HostMemory.h"
+#include "Common/HostMemory.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
 #include "vtkDeformationField.h"
 

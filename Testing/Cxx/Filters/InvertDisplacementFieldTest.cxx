@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that inverting a field gives the field that undoes it, that a backward field so becomes a
 // base lattice that draws what the field means, and that folds and wrong directions are told.
-#include "Filters/Attached/FieldDirection.h"
+#include "Common/FieldDirection.h"
 #include "Filters/Deformation/OffsetField.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
 #include "vtkDeformationField.h"

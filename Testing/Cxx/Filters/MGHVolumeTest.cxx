@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that FreeSurfer volumes are read in every type, packed or not, with frames as time steps,
 // and that damaged headers are named. Python.VolumeFormats proves where voxels lie.
-#include "Filters/Attached/WorldAxes.h"
+#include "Common/WorldAxes.h"
 #include "Testing/Cxx/Filters/VolumeFormatTesting.h"
-#include "vtkMGHVolumeReader.h"
 
 #include <vtk_zlib.h>
 
@@ -18,7 +17,6 @@ using namespace brainshift::testing;
 
 namespace
 {
-using MGH = vtkMGHVolumeReader;
 
 template <typename T>
 std::string bigEndian(T number)
@@ -150,7 +148,7 @@ TEST(MGHVolume, HeadersThatCannotBe)
   const std::string bytes = MGHTestFile().bytes();
   expectRefused<MGH>(
     "no.mgh", bytes.substr(0, 290), "has 6 bytes of numbers where the header announces 12");
-  vtkNew<MGH> reader;
+  MGH reader;
   writeFile("can.mgh", bytes);
   EXPECT_EQ(reader->CanReadFile(scratchFile("can.mgh").c_str()), 1);
   EXPECT_EQ(reader->CanReadFile(scratchFile("missing.mgh").c_str()), 0);

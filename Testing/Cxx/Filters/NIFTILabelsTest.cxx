@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that names and colours of labels are read from the extension that Connectome Workbench
 // writes, in both byte orders, packed or not, and that damaged ones are left out.
-#include "Filters/Attached/LabelTable.h"
+#include "Common/LabelTable.h"
 #include "Testing/Cxx/Filters/NIFTITestFile.h"
 #include "Testing/Cxx/Filters/NIFTITestReading.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that vtkNIFTIVolumeReader lets no damaged file through, says what is wrong with it, and
+// Proves that the reader of NIfTI lets no damaged file through, says what is wrong with it, and
 // works again with the next good one.
 #include "Testing/Cxx/Filters/NIFTITestFile.h"
 #include "Testing/Cxx/Filters/NIFTITestReading.h"
@@ -129,7 +129,7 @@ TEST(NIFTIReaderErrors, PipesAreNoFiles)
 {
   std::filesystem::remove(temporary("pipe.nii"));
   ASSERT_EQ(mkfifo(temporary("pipe.nii").c_str(), 0600), 0);
-  vtkNew<vtkNIFTIVolumeReader> reader;
+  NIFTI reader;
   EXPECT_EQ(reader->CanReadFile(temporary("pipe.nii").c_str()), 0);
   expectFailure(temporary("pipe.nii"), "is a pipe or a device");
   NIFTITestFile pair;
@@ -198,7 +198,7 @@ TEST(NIFTIReaderErrors, CanReadFileLooksInside)
 {
   writePlain(temporary("can.nii"), NIFTITestFile().bytes());
   writePlain(temporary("cannot.nii"), std::vector<char>(1000, 'x'));
-  vtkNew<vtkNIFTIVolumeReader> reader;
+  NIFTI reader;
   EXPECT_EQ(reader->CanReadFile(temporary("can.nii").c_str()), 1);
   EXPECT_EQ(reader->CanReadFile(temporary("cannot.nii").c_str()), 0);
   EXPECT_EQ(reader->CanReadFile(temporary("missing.nii").c_str()), 0);
@@ -207,7 +207,7 @@ TEST(NIFTIReaderErrors, CanReadFileLooksInside)
 
 TEST(NIFTIReaderErrors, TheSameNameDoesNotModify)
 {
-  vtkNew<vtkNIFTIVolumeReader> reader;
+  NIFTI reader;
   reader->SetFileName("a.nii");
   const vtkMTimeType before = reader->GetMTime();
   reader->SetFileName("a.nii");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that vtkNIFTIVolumeReader puts every voxel where the file's affine says, with the value
+// Proves that the reader of NIfTI puts every voxel where the file's affine says, with the value
 // the file says.
-#include "Filters/Attached/WorldAxes.h"
+#include "Common/WorldAxes.h"
 #include "Testing/Cxx/Filters/NIFTITestFile.h"
 #include "Testing/Cxx/Filters/NIFTITestReading.h"
 
@@ -355,7 +355,7 @@ TEST(NIFTIReader, PiecesAreParts)
   vtkIdType cells = 0;
   for (int piece = 0; piece < 2; ++piece)
   {
-    vtkNew<vtkNIFTIVolumeReader> reader;
+    NIFTI reader;
     reader->SetFileName(temporary("pieces.nii").c_str());
     reader->UpdatePiece(piece, 2, 0);
     vtkImageData* part = reader->GetOutput();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs vtkNIFTIVolumeReader on a file of the test's scratch folder and keeps what it says.
+// Runs the reader of NIfTI on a file of the test's scratch folder and keeps what it says.
 #ifndef BrainShift_NIFTITestReading_h
 #define BrainShift_NIFTITestReading_h
 
-#include "vtkNIFTIVolumeReader.h"
+#include "Testing/Cxx/Filters/VolumeFormatTesting.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
@@ -45,7 +45,7 @@ public:
   vtkImageData* image() { return this->reader->GetOutput(); }
   vtkDataArray* scalars() { return this->image()->GetPointData()->GetScalars(); }
 
-  vtkNew<vtkNIFTIVolumeReader> reader;
+  NIFTI reader;
   std::string errors;
   std::string warnings;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that the grid along the nearest RAS axes loses nothing of an affine without shear.
-#include "Filters/Volumes/RasGrid.h"
+#include "Formats/Volumes/RasGrid.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>

@@ -2,7 +2,7 @@
 // Proves that the text headers of fields are read within bounds and by their formats' rules: a file
 // without an end of lines, a folder or a pipe in place of a file, bytes to skip, a spacing under
 // its other name, and words that are spelled otherwise.
-#include "Filters/Fields/FieldFile.h"
+#include "Formats/Fields/FieldFile.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that MetaImage and NRRD volumes are read in every type, byte order and encoding, from one
 // file or many, with time and components, and that damaged headers are named.
-#include "Filters/Attached/WorldAxes.h"
+#include "Common/WorldAxes.h"
 #include "Testing/Cxx/Filters/VolumeFormatTesting.h"
-#include "vtkMetaImageVolumeReader.h"
-#include "vtkNRRDVolumeReader.h"
 
 #include <vtkInformation.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
@@ -18,8 +16,6 @@ using namespace brainshift::testing;
 
 namespace
 {
-using NRRD = vtkNRRDVolumeReader;
-using Meta = vtkMetaImageVolumeReader;
 
 const std::string NRRDBegin = "NRRD0005\ndimension: 3\nsizes: 2 2 2\nspace: RAS\n"
                               "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n";
@@ -342,8 +338,8 @@ TEST(TextHeaderVolume, PackedNumbersMustBeWhole)
 
 TEST(TextHeaderVolume, CanReadFileLeavesFieldsAndPicturesToOthers)
 {
-  vtkNew<NRRD> nrrd;
-  vtkNew<Meta> meta;
+  NRRD nrrd;
+  Meta meta;
   const auto canRead = [](auto& reader, const std::string& name, const std::string& bytes) {
     writeFile(name, bytes);
     return reader->CanReadFile(scratchFile(name).c_str());

@@ -3,6 +3,7 @@
 #ifndef BrainShift_VolumeFormatTesting_h
 #define BrainShift_VolumeFormatTesting_h
 
+#include "Formats/Volumes/vtkVolumeFileReader.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
 
 #include <vtkDataArray.h>
@@ -27,6 +28,25 @@ inline void writeFile(const std::string& name, const std::string& bytes)
 {
   std::ofstream(scratchFile(name), std::ios::binary) << bytes;
 }
+
+// A reader of one format only.
+template <const char* const& FormatName>
+struct ReaderOf : vtkNew<vtkVolumeFileReader>
+{
+  ReaderOf() { (*this)->SetFormat(FormatName); }
+};
+
+///@{
+// Readers of the formats.
+constexpr const char* MGHName = "MGH";
+constexpr const char* MetaImageName = "MetaImage";
+constexpr const char* NIFTIName = "NIFTI";
+constexpr const char* NRRDName = "NRRD";
+using MGH = ReaderOf<MGHName>;
+using Meta = ReaderOf<MetaImageName>;
+using NIFTI = ReaderOf<NIFTIName>;
+using NRRD = ReaderOf<NRRDName>;
+///@}
 
 // What a reader makes of a file.
 template <typename Reader>
@@ -55,7 +75,7 @@ struct FormatReading
 
   std::string said() { return this->Heard.take(); }
 
-  vtkNew<Reader> reader;
+  Reader reader;
 
 private:
   Errors Heard;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that a field file is replaced whole or not at all: on a full disk the old file keeps its
 // bytes, nothing is left beside it, and the writer names the file and the reason.
-#include "Filters/Fields/FieldFile.h"
+#include "Formats/Fields/FieldFile.h"
 #include "Testing/Cxx/Deformation/TestLattices.h"
 
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 #define BrainShift_TestFineCells_h
 
 #include "Filters/Deformation/FieldChange.h"
-#include "Filters/Deformation/IndexLoop.h"
+#include "Common/Grid.h"
 #include "Filters/Deformation/LatticeExtremes.h"
 #include "Representations/Field/FineCells.h"
 #include "Testing/Cxx/Deformation/TestLattices.h"

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief Field arrays of a data object: one word in an array of one string, and arrays by prefix.
+ */
+#ifndef BrainShift_FieldWord_h
+#define BrainShift_FieldWord_h
+
+#include "vtkDataObject.h"
+#include "vtkFieldData.h"
+#include "vtkNew.h"
+#include "vtkStringArray.h"
+
+#include <string>
+
+namespace brainshift
+{
+/** Attaches a word under a name. It replaces the one before. An empty word removes the array. */
+inline void setFieldWord(vtkDataObject* data, const char* name, const std::string& word)
+{
+  data->GetFieldData()->RemoveArray(name);
+  if (!word.empty())
+  {
+    vtkNew<vtkStringArray> array;
+    array->SetName(name);
+    array->InsertNextValue(word);
+    data->GetFieldData()->AddArray(array);
+  }
+}
+
+/** The word under a name; empty without one, and for null. */
+inline std::string fieldWordOf(vtkDataObject* data, const char* name)
+{
+  auto* array =
+    data ? vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray(name)) : nullptr;
+  return array && array->GetNumberOfValues() > 0 ? array->GetValue(0) : "";
+}
+
+/** Removes every field array whose name begins with a prefix. */
+inline void removeFieldArrays(vtkDataObject* data, const std::string& prefix)
+{
+  vtkFieldData* fields = data->GetFieldData();
+  for (int i = fields->GetNumberOfArrays() - 1; i >= 0; --i)
+  {
+    const char* const name = fields->GetArrayName(i);
+    if (name && std::string(name).compare(0, prefix.size(), prefix) == 0)
+    {
+      fields->RemoveArray(i);
+    }
+  }
+}
+}
+
+#endif

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief Geometry of a regular grid in world space, as a small value, and the loop over its indices.
+ */
+#ifndef BrainShift_Grid_h
+#define BrainShift_Grid_h
+
+#include <glm/common.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+
+namespace brainshift
+{
+/**
+ * A grid's origin lies at most so many spacings from 0. Double precision still places its points.
+ */
+constexpr double FarthestOriginSpacings = 1e9;
+
+/**
+ * Points in rows along three axes. Grid coordinates count points from the first one along the
+ * grid's own axes. World coordinates are mm.
+ */
+struct Grid
+{
+  glm::ivec3 dimensions{ 0 };  ///< number of points along each axis
+  glm::dvec3 origin{ 0.0 };    ///< mm, world position of point (0, 0, 0)
+  glm::dvec3 spacing{ 1.0 };   ///< mm between neighbours along the grid's own axes; above 0
+  glm::dmat3 direction{ 1.0 }; ///< columns: the grid's axes in world space; a rotation
+
+  /** Whether the origin is near enough for the points to have places of their own. */
+  bool placesItsPoints() const
+  {
+    const double spacing = glm::min(this->spacing.x, glm::min(this->spacing.y, this->spacing.z));
+    const glm::dvec3 away = glm::abs(this->origin);
+    return away.x <= FarthestOriginSpacings * spacing &&
+      away.y <= FarthestOriginSpacings * spacing && away.z <= FarthestOriginSpacings * spacing;
+  }
+
+  /** Number of points. */
+  std::size_t count() const
+  {
+    return static_cast<std::size_t>(this->dimensions.x) * this->dimensions.y * this->dimensions.z;
+  }
+
+  /** Number of a point in an array of all points, x fastest. */
+  std::size_t offset(int i, int j, int k) const
+  {
+    return (static_cast<std::size_t>(k) * this->dimensions.y + j) * this->dimensions.x + i;
+  }
+
+  /** World position (mm) of a position in grid coordinates. */
+  glm::dvec3 worldFromGrid(const glm::dvec3& position) const
+  {
+    return this->origin + this->direction * (this->spacing * position);
+  }
+
+  /** Grid coordinates of a world position (mm). */
+  glm::dvec3 gridFromWorld(const glm::dvec3& world) const
+  {
+    return glm::transpose(this->direction) * (world - this->origin) / this->spacing;
+  }
+
+  /** World displacement (mm) of a displacement in grid cells. The origin does not count. */
+  glm::dvec3 worldVectorFromGrid(const glm::dvec3& vector) const
+  {
+    return this->direction * (this->spacing * vector);
+  }
+
+  /** Displacement in grid cells of a world displacement (mm). The origin does not count. */
+  glm::dvec3 gridVectorFromWorld(const glm::dvec3& vector) const
+  {
+    return glm::transpose(this->direction) * vector / this->spacing;
+  }
+
+  bool operator==(const Grid& other) const
+  {
+    return this->dimensions == other.dimensions && this->origin == other.origin &&
+      this->spacing == other.spacing && this->direction == other.direction;
+  }
+  bool operator!=(const Grid& other) const { return !(*this == other); }
+};
+
+/**
+ * A grid over the same box with other numbers of points. A side that has one point counts as one
+ * cell long.
+ */
+inline Grid withDimensions(const Grid& grid, const glm::ivec3& dimensions)
+{
+  Grid result = grid;
+  result.dimensions = dimensions;
+  const glm::dvec3 extent = grid.spacing * glm::dvec3(glm::max(grid.dimensions - 1, glm::ivec3(1)));
+  result.spacing = extent / glm::dvec3(glm::max(dimensions - 1, glm::ivec3(1)));
+  return result;
+}
+
+/**
+ * Calls visit(index) for each index from `first` to `last`, both included, x fastest. It visits
+ * nothing if `last` is below `first` along an axis.
+ */
+template <typename Visit>
+void forEachIndex(const glm::ivec3& first, const glm::ivec3& last, Visit&& visit)
+{
+  glm::ivec3 index;
+  for (index.z = first.z; index.z <= last.z; ++index.z)
+  {
+    for (index.y = first.y; index.y <= last.y; ++index.y)
+    {
+      for (index.x = first.x; index.x <= last.x; ++index.x)
+      {
+        visit(static_cast<const glm::ivec3&>(index));
+      }
+    }
+  }
+}
+}
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Common/Guard.h"
+
+#include "vtkExecutive.h"
+#include "vtkInformation.h"
+#include "vtkInformationExecutivePortVectorKey.h"
+#include "vtkInformationVector.h"
+#include "vtkObject.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <exception>
+#include <new>
+#include <stdexcept>
+
+namespace brainshift
+{
+std::string thrownReason()
+{
+  try
+  {
+    throw;
+  }
+  catch (const std::bad_alloc&)
+  {
+    return "needs more memory than this machine has left";
+  }
+  catch (const std::length_error&)
+  {
+    return "needs more memory than any machine has";
+  }
+  catch (const std::exception& thrown)
+  {
+    return std::string("failed: ") + thrown.what();
+  }
+  catch (...)
+  {
+    return "failed for a reason it does not know";
+  }
+}
+
+void reportThrown(vtkObject* object)
+{
+  vtkErrorWithObjectMacro(object, << object->GetClassName() << " " << thrownReason() << ".");
+}
+
+void forgetExtents(vtkInformationVector* outputs)
+{
+  for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
+  {
+    vtkInformation* info = outputs->GetInformationObject(port);
+    info->Remove(vtkStreamingDemandDrivenPipeline::COMBINED_UPDATE_EXTENT());
+    // What reads this output keeps its request, too.
+    vtkExecutive** const readers = vtkExecutive::CONSUMERS()->GetExecutives(info);
+    for (int reader = 0; reader < vtkExecutive::CONSUMERS()->Length(info); ++reader)
+    {
+      forgetExtents(readers[reader]->GetOutputInformation());
+    }
+  }
+}
+}

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Common/HostMemory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#ifdef __linux__
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
+
+namespace brainshift
+{
+namespace
+{
+constexpr double AlwaysThere = 256e6; // bytes; too few to ask for
+constexpr double Unlimited = std::numeric_limits<double>::infinity();
+
+// The number after a word at the beginning of a line.
+double numberAfter(const char* fileName, const std::string& word)
+{
+  std::ifstream file(fileName);
+  double number = Unlimited;
+  for (std::string line; std::getline(file, line);)
+  {
+    if (line.compare(0, word.size(), word) == 0)
+    {
+      std::istringstream(line.substr(word.size())) >> number;
+      break;
+    }
+  }
+  return number;
+}
+
+#ifdef __linux__
+// What the address space of this process may still grow by.
+double freeAddresses()
+{
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+  {
+    return Unlimited;
+  }
+  const double taken =
+    numberAfter("/proc/self/statm", "") * static_cast<double>(sysconf(_SC_PAGESIZE));
+  return std::max(static_cast<double>(limit.rlim_cur) - taken, 0.0);
+}
+
+// What the group of processes may still take: a container, or a job of a cluster.
+double freeOfGroup()
+{
+  const double most = numberAfter("/sys/fs/cgroup/memory.max", "");
+  const double taken = numberAfter("/sys/fs/cgroup/memory.current", "");
+  const double files = numberAfter("/sys/fs/cgroup/memory.stat", "inactive_file "); // can be freed
+  const bool known = std::isfinite(most) && std::isfinite(taken) && most > 0.0;
+  return known ? std::max(most - taken + (std::isfinite(files) ? files : 0.0), 0.0) : Unlimited;
+}
+#endif
+
+// Three digits, but all of those before the point.
+std::string gigabytes(double bytes)
+{
+  std::ostringstream text;
+  text.precision(bytes < 1e12 ? 3 : 15);
+  text << (bytes < 1e12 ? bytes / 1e9 : std::round(bytes / 1e9)) << " GB";
+  return text.str();
+}
+
+}
+
+std::string sizeText(const glm::dvec3& sides)
+{
+  std::ostringstream text;
+  text.precision(10);
+  text << sides.x << " x " << sides.y << " x " << sides.z;
+  return text.str();
+}
+
+double freeHostMemory()
+{
+#ifdef __linux__
+  constexpr double KiB = 1024.0;
+  const double ofMachine = numberAfter("/proc/meminfo", "MemAvailable:") * KiB;
+  return std::min({ ofMachine, freeAddresses(), freeOfGroup() });
+#else
+  return Unlimited;
+#endif
+}
+
+std::string hostMemoryProblem(const std::string& what, double bytes)
+{
+  const double left = bytes <= AlwaysThere ? Unlimited : freeHostMemory();
+  return bytes <= left
+    ? std::string()
+    : what + " needs " + gigabytes(bytes) + " of memory; " + gigabytes(left) + " are left";
+}
+
+}

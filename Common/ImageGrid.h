@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief The grid of an image, whole or in pieces: its limits, and how a filter asks the pipeline
+ *        for all of it.
+ */
+#ifndef BrainShift_ImageGrid_h
+#define BrainShift_ImageGrid_h
+
+#include "Common/Grid.h"
+#include "vtkBrainShiftCommonModule.h" // for the export macro
+
+#include <string>
+
+class vtkImageData;
+class vtkInformation;
+
+namespace brainshift
+{
+///@{
+/** Limits of the spacing (mm) between neighbours of a grid: floats hold their squares. */
+constexpr double ShortestSpacing = 1e-9;
+constexpr double LongestSpacing = 1e9;
+///@}
+
+/** The grid of an image's points, in world space. */
+VTKBRAINSHIFTCOMMON_EXPORT Grid gridOf(vtkImageData* image);
+
+/**
+ * What is wrong with the place of a grid, as the end of a sentence about it, without a full stop:
+ * its spacing must be from ShortestSpacing to LongestSpacing, its origin at most
+ * FarthestOriginSpacings away from 0, its other numbers finite. It is empty if nothing is wrong.
+ */
+VTKBRAINSHIFTCOMMON_EXPORT std::string problemOfGrid(const Grid& grid);
+
+/**
+ * Asks for all of an image, in one piece. Call it in RequestUpdateExtent. On several MPI ranks,
+ * each rank then gets all of it. An extent alone would not do: a reader still splits the extent
+ * into the pieces of the ranks.
+ *
+ * @param image   pipeline information of an input; null, for an optional input that is not
+ *                connected, does nothing
+ */
+VTKBRAINSHIFTCOMMON_EXPORT void updateWholeExtent(vtkInformation* image);
+
+/// The grid of all of an image (mm, world), as the pipeline knows it before there is data.
+VTKBRAINSHIFTCOMMON_EXPORT Grid wholeGridOf(vtkInformation* information);
+
+/// The grid of all of an image of which this process may have a piece.
+VTKBRAINSHIFTCOMMON_EXPORT Grid wholeGridOf(vtkImageData* piece, vtkInformation* information);
+
+/**
+ * What an image lacks of its whole extent: a sentence without its end, or empty if it is whole. A
+ * source that knows no pieces may deliver less than it was asked for.
+ *
+ * @param image         the data
+ * @param information   pipeline information of that input
+ */
+VTKBRAINSHIFTCOMMON_EXPORT std::string problemOfPart(vtkImageData* image, vtkInformation* information);
+
+/// Whether this process is the first of several MPI ranks, or the only one.
+VTKBRAINSHIFTCOMMON_EXPORT bool isFirstRank();
+}
+
+#endif

@@ -1,0 +1,59 @@
+# brainshift_add_room(NAME [SOURCES file…] [CLASSES class…] [XMLS file…])
+#
+# Adds a folder of this module. SOURCES are C++ files, CLASSES are classes of VTK, each a pair of
+# files, XMLS describe proxies.
+function (brainshift_add_room name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;CLASSES;XMLS")
+  if (arg_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "brainshift_add_room does not know ${arg_UNPARSED_ARGUMENTS}")
+  endif ()
+  foreach (list IN ITEMS SOURCES CLASSES XMLS)
+    list(TRANSFORM arg_${list} PREPEND "${name}/")
+    set_property(GLOBAL APPEND PROPERTY brainshift_formats_${list} ${arg_${list}})
+  endforeach ()
+  set_property(GLOBAL APPEND PROPERTY brainshift_formats_ROOMS "${name}")
+endfunction ()
+
+# brainshift_add_format(NAME KINDS kind… [FOLDER folder] [SOURCES …] [CLASSES …] [XMLS …])
+#
+# Adds a format, whose folder has its name unless FOLDER says another. KINDS are what its files hold:
+# Volumes, Fields, Surfaces or Tracts. For each of them the format defines one constant of that kind,
+# such as `extern const VolumeFormat VolumesOfNRRD{ … };`, and readers of that kind ask it. Formats
+# are asked in the order in which they are added.
+function (brainshift_add_format name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "FOLDER" "KINDS;SOURCES;CLASSES;XMLS")
+  if (NOT arg_FOLDER)
+    set(arg_FOLDER "${name}")
+  endif ()
+  foreach (kind IN LISTS arg_KINDS)
+    if (NOT kind MATCHES "^(Volumes|Fields|Surfaces|Tracts)$")
+      message(FATAL_ERROR "brainshift_add_format knows no files of ${kind}")
+    endif ()
+    set_property(GLOBAL APPEND PROPERTY brainshift_formats_OF_${kind} "${kind}Of${name}")
+  endforeach ()
+  if (arg_SOURCES OR arg_CLASSES OR arg_XMLS)
+    brainshift_add_room("${arg_FOLDER}"
+      SOURCES ${arg_SOURCES} CLASSES ${arg_CLASSES} XMLS ${arg_XMLS})
+  endif ()
+endfunction ()
+
+# brainshift_write_formats(FILE): the lists of formats as C++.
+function (brainshift_write_formats file)
+  set(text "// Written by AddFormat.cmake: the formats of each kind.\n")
+  string(APPEND text "#include \"Formats/Fields/FieldFile.h\"\n"
+    "#include \"Formats/Surfaces/SurfaceFile.h\"\n#include \"Formats/Volumes/VolumeFile.h\"\n\n"
+    "namespace brainshift\n{\n")
+  foreach (kind IN ITEMS Volume Field Surface Tract)
+    get_property(formats GLOBAL PROPERTY "brainshift_formats_OF_${kind}s")
+    string(TOLOWER "${kind}" word)
+    foreach (format IN LISTS formats)
+      string(APPEND text "extern const ${kind}Format ${format};\n")
+    endforeach ()
+    list(TRANSFORM formats PREPEND "&")
+    list(JOIN formats ", " formats)
+    string(APPEND text "const std::vector<const ${kind}Format*>& ${word}Formats()\n{\n"
+      "  static const std::vector<const ${kind}Format*> all{ ${formats} };\n  return all;\n}\n\n")
+  endforeach ()
+  string(APPEND text "}\n")
+  file(CONFIGURE OUTPUT "${file}" CONTENT "${text}" @ONLY)
+endfunction ()

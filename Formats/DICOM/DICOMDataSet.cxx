@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/DICOM/DICOMDataSet.h"
+
+#include <cstring>
+#include <set>
+#include <utility>
+
+namespace brainshift
+{
+namespace
+{
+constexpr int DeepestSequence = 16;             // enhanced files have 3 levels
+constexpr std::uint32_t LongestValue = 1 << 20; // bytes that are kept
+constexpr std::uint32_t Undefined = 0xffffffff;
+constexpr DICOMTag Item = 0xfffee000;
+constexpr DICOMTag EndOfItem = 0xfffee00d;
+constexpr DICOMTag EndOfSequence = 0xfffee0dd;
+constexpr DICOMTag PixelData = 0x7fe00010;
+constexpr DICOMTag TransferSyntax = 0x00020010;
+const std::string Implicit = "1.2.840.10008.1.2";
+const std::string BigEndian = "1.2.840.10008.1.2.2";
+const std::string Deflated = "1.2.840.10008.1.2.1.99";
+
+// How elements are written.
+struct Form
+{
+  bool isExplicit = true;
+  bool isBig = false;
+};
+
+struct Head
+{
+  DICOMTag tag = 0;
+  char vr[2] = { 0, 0 };
+  std::uint32_t length = 0;
+  std::uint64_t value = 0; // its offset
+};
+
+std::uint32_t number(const unsigned char* bytes, int count, bool isBig)
+{
+  std::uint32_t result = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    result |= static_cast<std::uint32_t>(bytes[isBig ? count - 1 - i : i]) << (8 * i);
+  }
+  return result;
+}
+
+class Parser
+{
+public:
+  explicit Parser(DICOMBytes& bytes, PatientGroup patient = PatientGroup::Skipped)
+    : Bytes(bytes)
+    , Patient(patient)
+  {
+  }
+
+  bool head(std::uint64_t offset, const Form& form, Head& head)
+  {
+    const unsigned char* bytes = this->Bytes.at(offset, 8);
+    if (!bytes)
+    {
+      return false;
+    }
+    head.tag = (number(bytes, 2, form.isBig) << 16) | number(bytes + 2, 2, form.isBig);
+    head.value = offset + 8;
+    head.vr[0] = head.vr[1] = 0;
+    if (!form.isExplicit || head.tag >> 16 == 0xfffe)
+    {
+      head.length = number(bytes + 4, 4, form.isBig);
+      return true;
+    }
+    std::memcpy(head.vr, bytes + 4, 2);
+    if (head.vr[0] < 'A' || head.vr[0] > 'Z' || head.vr[1] < 'A' || head.vr[1] > 'Z')
+    {
+      return false;
+    }
+    static const std::set<std::string> Long{ "OB", "OD", "OF", "OL", "OV", "OW", "SQ", "SV", "UC",
+      "UN", "UR", "UT", "UV" };
+    head.length = number(bytes + 6, 2, form.isBig);
+    if (Long.count(std::string(head.vr, 2)) > 0)
+    {
+      bytes = this->Bytes.at(offset, 12);
+      head.length = bytes ? number(bytes + 8, 4, form.isBig) : 0;
+      head.value = offset + 12;
+    }
+    return bytes != nullptr;
+  }
+
+  // Reads attributes until `end`, the end of an item, or the pixels; moves `offset` there.
+  bool readSet(
+    std::uint64_t& offset, std::uint64_t end, const Form& form, int depth, DICOMDataSet& set)
+  {
+    set.isBigEndian = form.isBig;
+    while (offset < end)
+    {
+      Head found;
+      if (!this->head(offset, form, found))
+      {
+        return false;
+      }
+      if (found.tag == EndOfItem)
+      {
+        offset = found.value;
+        return true;
+      }
+      if (found.tag == PixelData && depth == 0)
+      {
+        this->Pixels = found;
+        return true;
+      }
+      offset = found.value;
+      if (!this->readElement(offset, end, form, depth, found, set))
+      {
+        return false;
+      }
+    }
+    return offset == end;
+  }
+
+  Head Pixels;
+
+private:
+  bool readElement(std::uint64_t& offset, std::uint64_t end, const Form& form, int depth,
+    const Head& head, DICOMDataSet& set)
+  {
+    if (head.length != Undefined && head.length > end - offset)
+    {
+      return false;
+    }
+    const DICOMTag group = head.tag >> 16;
+    const bool isKept = group % 2 == 0 && (group != 0x0010 || this->Patient == PatientGroup::Kept);
+    DICOMElement element;
+    if (this->isSequence(offset, form, head))
+    {
+      Form inside = form;
+      inside.isExplicit = form.isExplicit && std::strncmp(head.vr, "UN", 2) != 0;
+      const std::uint64_t last = head.length == Undefined ? end : offset + head.length;
+      if (depth >= DeepestSequence ||
+        !this->readItems(offset, last, inside, depth + 1, head.length, element))
+      {
+        return false;
+      }
+    }
+    else
+    {
+      if (isKept && head.length <= LongestValue)
+      {
+        element.bytes.resize(head.length);
+        if (!this->Bytes.read(offset, head.length, element.bytes.data()))
+        {
+          return false;
+        }
+      }
+      offset += head.length;
+    }
+    if (isKept)
+    {
+      set.elements[head.tag] = std::move(element);
+    }
+    return true;
+  }
+
+  bool isSequence(std::uint64_t offset, const Form& form, const Head& head)
+  {
+    if (head.length == Undefined || std::strncmp(head.vr, "SQ", 2) == 0)
+    {
+      return true;
+    }
+    const unsigned char* first =
+      form.isExplicit || head.length < 8 ? nullptr : this->Bytes.at(offset, 4);
+    return first && number(first, 2, form.isBig) == 0xfffe &&
+      number(first + 2, 2, form.isBig) == 0xe000;
+  }
+
+  bool readItems(std::uint64_t& offset, std::uint64_t end, const Form& form, int depth,
+    std::uint32_t length, DICOMElement& element)
+  {
+    while (offset < end)
+    {
+      Head found;
+      if (!this->head(offset, form, found))
+      {
+        return false;
+      }
+      offset = found.value;
+      if (found.tag == EndOfSequence)
+      {
+        return true;
+      }
+      if (found.tag != Item || (found.length != Undefined && found.length > end - offset))
+      {
+        return false;
+      }
+      element.items.emplace_back();
+      const std::uint64_t last = found.length == Undefined ? end : offset + found.length;
+      if (!this->readSet(offset, last, form, depth, element.items.back()))
+      {
+        return false;
+      }
+    }
+    return length != Undefined && offset == end;
+  }
+
+  DICOMBytes& Bytes;
+  PatientGroup Patient;
+};
+
+std::string withoutPadding(const std::string& text)
+{
+  return text.substr(0, text.find_last_not_of(std::string(" \0", 2)) + 1);
+}
+
+// The group of the file itself, which says how all others are written. Old files have none.
+bool readMeta(DICOMBytes& bytes, std::uint64_t& offset, DICOMContent& content)
+{
+  Parser parser(bytes);
+  const unsigned char* letters = bytes.at(128, 4);
+  offset = letters && std::memcmp(letters, "DICM", 4) == 0 ? 132 : 0;
+  Head found;
+  while (parser.head(offset, Form(), found) && found.tag >> 16 == 0x0002)
+  {
+    if (found.length > bytes.size() - found.value)
+    {
+      return false;
+    }
+    if (found.tag == TransferSyntax && found.length <= 64)
+    {
+      content.transferSyntax.resize(found.length);
+      bytes.read(found.value, found.length, content.transferSyntax.data());
+      content.transferSyntax = withoutPadding(content.transferSyntax);
+    }
+    offset = found.value + found.length;
+  }
+  if (content.transferSyntax.empty()) // as old files were written
+  {
+    const bool isExplicit = parser.head(offset, Form(), found);
+    content.transferSyntax = isExplicit ? "1.2.840.10008.1.2.1" : Implicit;
+  }
+  return true;
+}
+}
+
+bool parseDICOM(DICOMBytes& bytes, DICOMContent& content, PatientGroup patient)
+{
+  std::uint64_t offset = 0;
+  if (!readMeta(bytes, offset, content) ||
+    (content.transferSyntax == Deflated && !bytes.inflateFrom(offset)))
+  {
+    return false;
+  }
+  Form form;
+  form.isExplicit = content.transferSyntax != Implicit;
+  form.isBig = content.transferSyntax == BigEndian;
+  Parser parser(bytes, patient);
+  if (!parser.readSet(offset, bytes.size(), form, 0, content.set))
+  {
+    return false;
+  }
+  content.pixelOffset = parser.Pixels.value;
+  content.isPacked = content.pixelOffset > 0 && parser.Pixels.length == Undefined;
+  content.pixelLength = content.isPacked ? 0 : parser.Pixels.length;
+  return true;
+}
+
+std::vector<std::string> packedFrames(
+  DICOMBytes& bytes, const DICOMContent& content, std::size_t frames)
+{
+  Parser parser(bytes);
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> fragments; // offset and length
+  Head found;
+  std::uint64_t offset = content.pixelOffset;
+  while (parser.head(offset, Form(), found) && found.tag == Item &&
+    found.length <= bytes.size() - found.value)
+  {
+    fragments.emplace_back(found.value, found.length);
+    offset = found.value + found.length;
+  }
+  if (fragments.size() < 1 + frames || found.tag != EndOfSequence)
+  {
+    return {};
+  }
+  const auto [table, tableLength] = fragments.front();
+  fragments.erase(fragments.begin());
+  std::set<std::uint64_t> begins; // of frames, where their first item begins
+  for (std::uint32_t entry = 0; entry + 4 <= tableLength; entry += 4)
+  {
+    const unsigned char* stored = bytes.at(table + entry, 4);
+    begins.insert(table + tableLength + (stored ? number(stored, 4, false) : 0));
+  }
+  const bool isEach = fragments.size() == frames;
+  std::vector<std::string> packed;
+  for (const auto& [place, length] : fragments)
+  {
+    if (packed.empty() || isEach || begins.count(place - 8) > 0)
+    {
+      packed.emplace_back();
+    }
+    std::string& frame = packed.back();
+    frame.resize(frame.size() + length);
+    bytes.read(place, length, frame.data() + frame.size() - length);
+  }
+  return packed.size() == frames ? packed : std::vector<std::string>();
+}
+}

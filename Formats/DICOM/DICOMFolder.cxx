@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/DICOM/DICOMFolder.h"
+
+#include "Formats/DICOM/DICOMAttributes.h"
+#include "Formats/DICOM/DICOMDirectory.h"
+#include "Formats/DICOM/DICOMHeader.h"
+#include "Formats/DICOM/DICOMPlaces.h"
+#include "Common/Parallel.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <tuple>
+
+namespace brainshift
+{
+namespace
+{
+constexpr std::int64_t FilesAtOnce = 64;     // between two calls of progress
+constexpr double LargestCosineChange = 1e-3; // of the axes of one stack
+constexpr double LargestSpacingChange = 1e-3;
+
+bool isSameStack(const DICOMFrame& a, const DICOMFrame& b)
+{
+  const glm::dvec3 turned =
+    glm::max(glm::abs(a.alongRow - b.alongRow), glm::abs(a.alongColumn - b.alongColumn));
+  const glm::dvec2 resized = glm::abs(a.spacingMm - b.spacingMm);
+  return a.isPlaced == b.isPlaced &&
+    std::max({ turned.x, turned.y, turned.z }) <= LargestCosineChange &&
+    resized.x <= LargestSpacingChange * a.spacingMm.x &&
+    resized.y <= LargestSpacingChange * a.spacingMm.y;
+}
+
+// What the images of one stack have in common, apart from numbers that are rounded.
+using Kind = std::tuple<std::string, int, int, std::string, std::string>;
+
+Kind kindOf(const DICOMFile& file, const DICOMFrame& frame)
+{
+  return { file.series, file.columns, file.rows, frame.type, file.problem };
+}
+
+std::vector<DICOMSeries> stacksOf(const std::vector<DICOMFile>& files)
+{
+  std::vector<DICOMSeries> series;
+  std::map<Kind, std::vector<std::size_t>> ofKind; // indices of series
+  for (const DICOMFile& file : files)
+  {
+    for (const DICOMFrame& frame : file.frames)
+    {
+      std::vector<std::size_t>& candidates = ofKind[kindOf(file, frame)];
+      const auto same = std::find_if(candidates.begin(), candidates.end(),
+        [&](std::size_t index) { return isSameStack(series[index].frames.front(), frame); });
+      if (same == candidates.end())
+      {
+        candidates.push_back(series.size());
+        series.push_back({ {}, { frame } });
+      }
+      else
+      {
+        series[*same].frames.push_back(frame);
+      }
+    }
+  }
+  return series;
+}
+
+// Original or derived, primary or secondary, and whether it is a localizer, a phase, and so on.
+std::string mainType(const DICOMFrame& frame)
+{
+  std::size_t end = 0;
+  for (int part = 0; part < 3 && end != std::string::npos; ++part)
+  {
+    end = frame.type.find('\\', end == 0 ? 0 : end + 1);
+  }
+  return frame.type.substr(0, end);
+}
+
+bool shareNoPlace(const DICOMSeries& a, const DICOMSeries& b)
+{
+  const std::vector<double> placesA = placesOf(a.frames);
+  const std::vector<double> placesB = placesOf(b.frames);
+  const double nearMm = 1e-2 * std::min(a.frames.front().spacingMm.x, 1.0);
+  return std::none_of(placesA.begin(), placesA.end(), [&](double place) {
+    const auto next = std::lower_bound(placesB.begin(), placesB.end(), place - nearMm);
+    return next != placesB.end() && *next <= place + nearMm;
+  });
+}
+
+// Some scanners write slices of one volume with details of the type that differ.
+void joinParts(const std::vector<DICOMFile>& files, std::vector<DICOMSeries>& series)
+{
+  std::map<Kind, std::vector<std::size_t>> ofKind;
+  std::vector<DICOMSeries> joined;
+  for (DICOMSeries& part : series)
+  {
+    DICOMFrame first = part.frames.front();
+    first.type = mainType(first);
+    std::vector<std::size_t>& candidates = ofKind[kindOf(files[first.file], first)];
+    const auto whole =
+      std::find_if(candidates.begin(), candidates.end(), [&](std::size_t candidate) {
+        return isSameStack(joined[candidate].frames.front(), first) && first.isPlaced &&
+          shareNoPlace(joined[candidate], part);
+      });
+    if (whole == candidates.end())
+    {
+      candidates.push_back(joined.size());
+      joined.push_back(std::move(part));
+    }
+    else
+    {
+      std::vector<DICOMFrame>& frames = joined[*whole].frames;
+      frames.insert(frames.end(), part.frames.begin(), part.frames.end());
+    }
+  }
+  series = std::move(joined);
+}
+
+std::string nameOf(const DICOMFile& file, const std::vector<DICOMFrame>& frames)
+{
+  const std::size_t places = frames.front().isPlaced ? placesOf(frames).size() : frames.size();
+  const std::size_t times = frames.size() / places;
+  std::string name = std::to_string(file.seriesNumber);
+  for (const std::string& part : { file.description, file.modality,
+         std::to_string(file.columns) + " x " + std::to_string(file.rows) + " x " +
+           std::to_string(places),
+         times > 1 ? std::to_string(times) + " times" : std::string(), file.date })
+  {
+    name += part.empty() ? "" : ", " + part;
+  }
+  return name;
+}
+
+// Names that are alike get the type of their images, or a number.
+void nameAll(const std::vector<DICOMFile>& files, std::vector<DICOMSeries>& series)
+{
+  std::map<std::string, int> count;
+  for (DICOMSeries& one : series)
+  {
+    one.name = nameOf(files[one.frames.front().file], one.frames);
+    ++count[one.name];
+  }
+  std::set<std::string> taken;
+  for (DICOMSeries& one : series)
+  {
+    std::string type = plainText(one.frames.front().type);
+    std::replace(type.begin(), type.end(), '\\', ' ');
+    one.name += count[one.name] > 1 && !type.empty() ? ", " + type : "";
+    const std::string base = one.name;
+    for (int number = 2; !taken.insert(one.name).second; ++number)
+    {
+      one.name = base + " (" + std::to_string(number) + ")";
+    }
+  }
+}
+
+double voxelsOf(const std::vector<DICOMFile>& files, const DICOMSeries& series)
+{
+  const DICOMFile& file = files[series.frames.front().file];
+  return file.problem.empty() ? static_cast<double>(series.frames.size()) * file.columns * file.rows
+                              : 0.0;
+}
+
+// Brings the series to the front that is shown if nobody chooses.
+void sortSeries(
+  const std::string& path, const std::vector<DICOMFile>& files, std::vector<DICOMSeries>& series)
+{
+  std::stable_sort(
+    series.begin(), series.end(), [&files](const DICOMSeries& a, const DICOMSeries& b) {
+      return files[a.frames.front().file].seriesNumber < files[b.frames.front().file].seriesNumber;
+    });
+  const auto rank = [&](const DICOMSeries& one) {
+    const bool hasFile = std::any_of(one.frames.begin(), one.frames.end(),
+      [&](const DICOMFrame& frame) { return files[frame.file].path == path; });
+    return std::make_pair(hasFile, voxelsOf(files, one));
+  };
+  auto first = series.begin();
+  for (auto one = series.begin(); one != series.end(); ++one)
+  {
+    first = rank(*first) < rank(*one) ? one : first;
+  }
+  if (first != series.end())
+  {
+    std::rotate(series.begin(), first, first + 1);
+  }
+}
+}
+
+DICOMFolder readDICOMFolder(const std::string& path, const Progress& progress)
+{
+  DICOMFolder folder;
+  const std::string whole = std::filesystem::absolute(path).lexically_normal().string();
+  const std::vector<std::string> paths = filesBeside(whole);
+  const auto count = static_cast<std::int64_t>(paths.size());
+  std::vector<DICOMFile> read(paths.size());
+  for (std::int64_t first = 0; first < count; first += FilesAtOnce)
+  {
+    parallelFor(
+      first, std::min(first + FilesAtOnce, count), 1, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t i = begin; i < end; ++i)
+        {
+          read[i] = readDICOMHeader(paths[i]);
+        }
+      });
+    if (!progress(static_cast<double>(first) / static_cast<double>(count)))
+    {
+      folder.isStopped = true;
+      return folder;
+    }
+  }
+  for (DICOMFile& file : read)
+  {
+    folder.damaged += file.isDamaged ? 1 : 0;
+    if (!file.frames.empty())
+    {
+      for (DICOMFrame& frame : file.frames)
+      {
+        frame.file = folder.files.size();
+      }
+      folder.files.push_back(std::move(file));
+    }
+  }
+  folder.series = stacksOf(folder.files);
+  joinParts(folder.files, folder.series);
+  sortSeries(whole, folder.files, folder.series);
+  nameAll(folder.files, folder.series);
+  return folder;
+}
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief The DICOM files of a folder, and the series that their images make up.
+ */
+#ifndef BrainShift_DICOMFolder_h
+#define BrainShift_DICOMFolder_h
+
+#include "Formats/DICOM/DICOMFile.h"
+
+#include <string>
+#include <vector>
+
+namespace brainshift
+{
+/** Images of one series, orientation, size and type: one volume, or one for each time. */
+struct DICOMSeries
+{
+  /// What the user chooses by: number, description, modality, size and date. No two are alike.
+  std::string name;
+  std::vector<DICOMFrame> frames;
+};
+
+/** What lies in a folder. */
+struct DICOMFolder
+{
+  std::vector<DICOMFile> files; ///< those that hold images
+  std::vector<DICOMSeries> series;
+  int damaged = 0;        ///< files whose headers cannot be read
+  bool isStopped = false; ///< the user did not wait: files and series are not complete
+};
+
+/**
+ * Reads all headers of a folder, on all cores. `path` names a folder, one of its files, or a
+ * DICOMDIR. Of a folder without DICOM the subfolders are read, down to the fourth level.
+ *
+ * The first series is the one to show if nobody chooses: that of the file, else the one with the
+ * most voxels. The others follow by their number.
+ */
+DICOMFolder readDICOMFolder(const std::string& path, const Progress& progress);
+}
+
+#endif

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief Reads the header of one DICOM file, up to its pixels.
+ */
+#ifndef BrainShift_DICOMHeader_h
+#define BrainShift_DICOMHeader_h
+
+#include "Formats/DICOM/DICOMFile.h"
+
+#include <string>
+
+namespace brainshift
+{
+/** The header of a file. It has no frames if the file is damaged or holds no image. */
+DICOMFile readDICOMHeader(const std::string& path);
+}
+
+#endif

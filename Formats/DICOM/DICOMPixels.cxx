@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/DICOM/DICOMPixels.h"
+
+#include "Formats/DICOM/DICOMAttributes.h"
+#include "Formats/DICOM/DICOMDataSet.h"
+#include "Formats/PackedFrames/JPEG2000Frame.h"
+#include "Formats/PackedFrames/JPEGFrame.h"
+#include "Formats/PackedFrames/JPEGLSFrame.h"
+#include "Formats/PackedFrames/RunLengths.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <sstream>
+#include <system_error>
+#include <type_traits>
+
+namespace brainshift
+{
+namespace
+{
+std::size_t pixelsOf(const DICOMFile& file)
+{
+  return static_cast<std::size_t>(file.rows) * static_cast<std::size_t>(file.columns);
+}
+
+// Brings the stored bits to the lower end, with the sign of the highest. Other bits may hold
+// drawings over the picture.
+template <typename T>
+void keepStoredBits(const DICOMPixelFormat& pixels, T* numbers, std::size_t count)
+{
+  if (pixels.bitsStored == pixels.bitsAllocated)
+  {
+    return;
+  }
+  const int unusedAbove = pixels.bitsAllocated - 1 - pixels.highBit;
+  const int unused = pixels.bitsAllocated - pixels.bitsStored;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const auto bits = static_cast<std::make_unsigned_t<T>>(numbers[i]);
+    numbers[i] = static_cast<T>(
+      static_cast<T>(static_cast<std::make_unsigned_t<T>>(bits << unusedAbove)) >> unused);
+  }
+}
+
+// Where the numbers of a frame lie that has so many bits: a frame of fewer than the file says has
+// them at the lower end, with its own highest bit as the sign.
+DICOMPixelFormat formatOf(const DICOMPixelFormat& pixels, const UnpackedFrame& frame)
+{
+  DICOMPixelFormat format = pixels;
+  if (frame.bits > 0 && !frame.isSigned && frame.bits <= pixels.bitsStored)
+  {
+    format.bitsStored = frame.bits;
+    format.highBit = frame.bits - 1;
+  }
+  return format;
+}
+
+// A lossy frame may hold more than the brightest stored number, which must not become dark.
+template <typename T>
+void clampToStoredBits(const DICOMPixelFormat& pixels, T* numbers, std::size_t count)
+{
+  if (pixels.highBit + 1 < pixels.bitsAllocated)
+  {
+    const int bits = pixels.isSigned ? pixels.highBit : pixels.highBit + 1;
+    const T most = static_cast<T>((std::uint32_t(1) << bits) - 1);
+    const T least = static_cast<T>(pixels.isSigned ? -1 - static_cast<std::int64_t>(most) : 0);
+    std::transform(numbers, numbers + count, numbers,
+      [least, most](T number) { return std::clamp(number, least, most); });
+  }
+}
+
+template <typename From>
+void convert(const From* from, std::size_t count, const DICOMTarget& target, int type)
+{
+  if (type == VTK_FLOAT)
+  {
+    const Rescaling& rescaling = target.frame->rescaling;
+    auto* to = static_cast<float*>(target.numbers);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      to[i] =
+        static_cast<float>(rescaling.slope * static_cast<double>(from[i]) + rescaling.intercept);
+    }
+    return;
+  }
+  const auto copyTo = [&](auto* to) {
+    using To = std::remove_reference_t<decltype(*to)>;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      to[i] = static_cast<To>(static_cast<std::int64_t>(static_cast<double>(from[i])));
+    }
+  };
+  switch (type)
+  {
+    case VTK_UNSIGNED_CHAR:
+      return copyTo(static_cast<unsigned char*>(target.numbers));
+    case VTK_SIGNED_CHAR:
+      return copyTo(static_cast<signed char*>(target.numbers));
+    case VTK_UNSIGNED_SHORT:
+      return copyTo(static_cast<unsigned short*>(target.numbers));
+    case VTK_SHORT:
+      return copyTo(static_cast<short*>(target.numbers));
+    case VTK_UNSIGNED_INT:
+      return copyTo(static_cast<unsigned int*>(target.numbers));
+    default:
+      return copyTo(static_cast<int*>(target.numbers));
+  }
+}
+
+// Calls use(null pointer to T), T being the type with a number of VTK.
+template <typename Use>
+void withStoredType(int type, const Use& use)
+{
+  switch (type)
+  {
+    case VTK_UNSIGNED_CHAR:
+      return use(static_cast<unsigned char*>(nullptr));
+    case VTK_SIGNED_CHAR:
+      return use(static_cast<signed char*>(nullptr));
+    case VTK_UNSIGNED_SHORT:
+      return use(static_cast<unsigned short*>(nullptr));
+    case VTK_SHORT:
+      return use(static_cast<short*>(nullptr));
+    case VTK_UNSIGNED_INT:
+      return use(static_cast<unsigned int*>(nullptr));
+    default:
+      return use(static_cast<int*>(nullptr));
+  }
+}
+
+template <typename T>
+void swapBytes(T* numbers, std::size_t count)
+{
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    auto* bytes = reinterpret_cast<unsigned char*>(numbers + i);
+    std::reverse(bytes, bytes + sizeof(T));
+  }
+}
+
+// Frames whose bytes follow each other go straight to their place.
+std::string readPlain(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type)
+{
+  DICOMBytes stream(file.path);
+  DICOMContent content;
+  if (file.pixels.isDeflated && !parseDICOM(stream, content))
+  {
+    return file.path + " is damaged: it cannot be inflated";
+  }
+  const std::size_t count = pixelsOf(file);
+  const std::uint64_t bytes = count * (file.pixels.bitsAllocated / 8);
+  const int stored = storedTypeOf(file.pixels);
+  std::vector<char> buffer(type == stored ? 0 : bytes);
+  for (const DICOMTarget& target : targets)
+  {
+    const std::uint64_t begin = bytes * target.frame->frame;
+    char* to = buffer.empty() ? static_cast<char*>(target.numbers) : buffer.data();
+    if (!stream.read(file.pixels.offset + begin, bytes, to))
+    {
+      return file.path + " ended while it was read";
+    }
+    withStoredType(stored, [&](auto* none) {
+      auto* numbers = reinterpret_cast<decltype(none)>(to);
+      if (file.pixels.isBigEndian)
+      {
+        swapBytes(numbers, count);
+      }
+      keepStoredBits(file.pixels, numbers, count);
+      if (!buffer.empty())
+      {
+        convert(numbers, count, target, type);
+      }
+    });
+  }
+  return {};
+}
+
+struct Packing
+{
+  UnpackedFrame (*unpack)(const std::string& packed, const FrameShape& shape) = nullptr;
+  bool mayLose = false;
+};
+
+// How frames of a transfer syntax are unpacked. Not named: the multi-component parts of JPEG 2000,
+// videos, and syntaxes that the standard has withdrawn.
+Packing packingOf(const std::string& transferSyntax)
+{
+  static const std::map<std::string, Packing> known = {
+    { "1.2.840.10008.1.2.4.50", { unpackJPEG, true } },      // baseline
+    { "1.2.840.10008.1.2.4.51", { unpackJPEG, true } },      // extended, 12 bits
+    { "1.2.840.10008.1.2.4.57", { unpackJPEG, false } },     // lossless
+    { "1.2.840.10008.1.2.4.70", { unpackJPEG, false } },     // lossless, first-order prediction
+    { "1.2.840.10008.1.2.4.80", { unpackJPEGLS, false } },   // lossless
+    { "1.2.840.10008.1.2.4.81", { unpackJPEGLS, true } },    // near-lossless
+    { "1.2.840.10008.1.2.4.90", { unpackJPEG2000, false } }, // lossless
+    { "1.2.840.10008.1.2.4.91", { unpackJPEG2000, true } },
+    { "1.2.840.10008.1.2.5", { unpackRunLengths, false } },
+  };
+  const auto found = known.find(transferSyntax);
+  return found == known.end() ? Packing() : found->second;
+}
+
+std::string decode(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type)
+{
+  DICOMBytes bytes(file.path);
+  DICOMContent content;
+  const bool isRead = parseDICOM(bytes, content);
+  const Packing packing = isRead ? packingOf(content.transferSyntax) : Packing();
+  if (packing.unpack && !content.isPacked)
+  {
+    return file.path + " is damaged: its packed pixels do not come in fragments (" +
+      plainText(content.transferSyntax) + ")";
+  }
+  if (!packing.unpack)
+  {
+    return file.path + " is packed in a way that BrainShift does not know, " +
+      plainText(content.transferSyntax);
+  }
+  const std::vector<std::string> packed = packedFrames(bytes, content, file.frames.size());
+  if (packed.empty())
+  {
+    return file.path + " is damaged: its fragments do not make up " +
+      std::to_string(file.frames.size()) + " frames";
+  }
+  const FrameShape shape{ file.columns, file.rows, file.pixels.bitsAllocated };
+  for (const DICOMTarget& target : targets)
+  {
+    UnpackedFrame frame = packing.unpack(packed[target.frame->frame], shape);
+    if (!frame.problem.empty())
+    {
+      return file.path + " cannot be read: " + frame.problem;
+    }
+    if (frame.isSigned && !file.pixels.isSigned)
+    {
+      return file.path +
+        " cannot be read: a frame has signed numbers; the file says that they are "
+        "not signed (Pixel Representation 0)";
+    }
+    const DICOMPixelFormat format = formatOf(file.pixels, frame);
+    withStoredType(storedTypeOf(file.pixels), [&](auto* none) {
+      auto* numbers = reinterpret_cast<decltype(none)>(frame.numbers.data());
+      if (packing.mayLose && frame.isSigned == file.pixels.isSigned) // else: two's complement
+      {
+        clampToStoredBits(format, numbers, shape.count());
+      }
+      keepStoredBits(format, numbers, shape.count());
+      convert(numbers, shape.count(), target, type);
+    });
+  }
+  return {};
+}
+}
+
+int storedTypeOf(const DICOMPixelFormat& pixels)
+{
+  switch (pixels.bitsAllocated)
+  {
+    case 8:
+      return pixels.isSigned ? VTK_SIGNED_CHAR : VTK_UNSIGNED_CHAR;
+    case 32:
+      return pixels.isSigned ? VTK_INT : VTK_UNSIGNED_INT;
+    default: // 12 bits, too
+      return pixels.isSigned ? VTK_SHORT : VTK_UNSIGNED_SHORT;
+  }
+}
+
+std::string pixelDataProblem(const DICOMFile& file)
+{
+  const std::uint64_t need =
+    file.pixels.isPlain ? pixelsOf(file) * (file.pixels.bitsAllocated / 8) * file.frames.size() : 0;
+  std::error_code error;
+  const std::uintmax_t size = need > 0 ? std::filesystem::file_size(file.path, error) : 0;
+  std::uint64_t rest = size > file.pixels.offset ? size - file.pixels.offset : 0;
+  rest = file.pixels.isDeflated ? file.pixels.length : rest;
+  const std::uint64_t has = std::min<std::uint64_t>(rest, file.pixels.length);
+  if (has >= need)
+  {
+    return {};
+  }
+  std::ostringstream text;
+  text << file.path << " has " << has << " bytes of pixel data; " << file.columns << " x "
+       << file.rows << " pixels of " << file.pixels.bitsAllocated << " bits in "
+       << file.frames.size() << " frames need " << need;
+  return text.str();
+}
+
+std::string readDICOMPixels(
+  const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type)
+{
+  return file.pixels.isPlain ? readPlain(file, targets, type) : decode(file, targets, type);
+}
+}

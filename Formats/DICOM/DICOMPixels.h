@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief The numbers of DICOM images, packed or not.
+ */
+#ifndef BrainShift_DICOMPixels_h
+#define BrainShift_DICOMPixels_h
+
+#include "Formats/DICOM/DICOMFile.h"
+
+#include <string>
+#include <vector>
+
+namespace brainshift
+{
+/** VTK's number of the type of a stored number. */
+int storedTypeOf(const DICOMPixelFormat& pixels);
+
+/** Why a file is too short for the images that its header announces; empty if it is not. */
+std::string pixelDataProblem(const DICOMFile& file);
+
+/** Where the numbers of a frame go. */
+struct DICOMTarget
+{
+  const DICOMFrame* frame = nullptr;
+  void* numbers = nullptr; ///< room for rows times columns
+};
+
+/**
+ * Reads frames of one file. Returns why it cannot: the end of a sentence, empty if it can.
+ *
+ * @param type     VTK's number of the type that targets have. If it is VTK_FLOAT, numbers are
+ *                 rescaled; if not, it is the stored type
+ */
+std::string readDICOMPixels(
+  const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type);
+}
+
+#endif

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/DICOM/DICOMStack.h"
+
+#include "Formats/DICOM/DICOMPlaces.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace brainshift
+{
+namespace
+{
+constexpr double MostSlices = 65535.0;     // that resampling may make
+constexpr double FarthestDriftMm = 5000.0; // of slices that resampling may make room for
+constexpr double MissingSteps = 1.5;       // a gap of so many steps lacks a slice
+
+std::string counted(std::size_t count, const std::string& one, const std::string& many)
+{
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+// Positions of the images of the first volume. All volumes have the same.
+std::vector<glm::dvec3> positionsOf(const std::vector<DICOMFrame>& volume)
+{
+  std::vector<glm::dvec3> positions;
+  positions.reserve(volume.size());
+  for (const DICOMFrame& frame : volume)
+  {
+    positions.push_back(frame.position);
+  }
+  return positions;
+}
+
+// Steps from slice to slice along the normal, mm.
+std::vector<double> stepsOf(const std::vector<glm::dvec3>& positions, const glm::dvec3& normal)
+{
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < positions.size(); ++i)
+  {
+    steps.push_back(glm::dot(positions[i] - positions[i - 1], normal));
+  }
+  return steps;
+}
+
+double medianOf(std::vector<double> numbers)
+{
+  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+  std::nth_element(numbers.begin(), middle, numbers.end());
+  return *middle;
+}
+
+// How far slices lie at most from places that are evenly spaced from the first to the last.
+double largestShift(const std::vector<glm::dvec3>& positions)
+{
+  double largest = 0.0;
+  for (std::size_t i = 0; i < positions.size(); ++i)
+  {
+    const double share = static_cast<double>(i) / static_cast<double>(positions.size() - 1);
+    largest = std::max(
+      largest, glm::distance(positions[i], glm::mix(positions.front(), positions.back(), share)));
+  }
+  return largest;
+}
+
+// How far the last slice lies from where the normal of the first leads.
+double driftOf(const std::vector<glm::dvec3>& positions, const glm::dvec3& normal)
+{
+  const glm::dvec3 range = positions.back() - positions.front();
+  return glm::length(range - glm::dot(range, normal) * normal);
+}
+
+std::string unevenSentence(
+  const std::vector<double>& steps, double shiftMm, double usualMm, bool resamples)
+{
+  double missing = 0.0;
+  for (const double step : steps)
+  {
+    missing += step > MissingSteps * usualMm ? std::round(step / usualMm) - 1.0 : 0.0;
+  }
+  std::ostringstream text;
+  text << "has uneven slices";
+  if (missing > 0.0)
+  {
+    text << ", as if " << missing << (missing == 1.0 ? " slice were" : " slices were")
+         << " missing";
+  }
+  text << ": they are from " << *std::min_element(steps.begin(), steps.end()) << " to "
+       << *std::max_element(steps.begin(), steps.end()) << " mm apart, and up to " << shiftMm
+       << " mm from even places. They are ";
+  text << (resamples ? "interpolated there"
+                     : "shown as if they were even; ResampleSlices interpolates them");
+  return text.str();
+}
+
+std::string tiltSentence(double driftMm, bool resamples)
+{
+  std::ostringstream text;
+  text << "has tilted slices: the last is " << driftMm << " mm beside the normal of the first. "
+       << (resamples ? "They are interpolated on an upright grid"
+                     : "ResampleSlices interpolates them on an upright grid");
+  return text.str();
+}
+
+glm::dvec3 rasFromLps(const glm::dvec3& lps)
+{
+  return { -lps.x, -lps.y, lps.z };
+}
+
+void placeVoxels(const DICOMFrame& first, const glm::dvec3& step, glm::dmat4& worldFromVoxel)
+{
+  worldFromVoxel[0] = glm::dvec4(rasFromLps(first.spacingMm.x * first.alongRow), 0.0);
+  worldFromVoxel[1] = glm::dvec4(rasFromLps(first.spacingMm.y * first.alongColumn), 0.0);
+  worldFromVoxel[2] = glm::dvec4(rasFromLps(step), 0.0);
+  worldFromVoxel[3] = glm::dvec4(rasFromLps(first.position), 1.0);
+}
+
+// The slice of an upright grid at a distance from the first image.
+DICOMSlice sliceAt(double distanceMm, const std::vector<double>& steps)
+{
+  DICOMSlice slice;
+  double belowMm = 0.0;
+  while (slice.lower + 1 < steps.size() && belowMm + steps[slice.lower] <= distanceMm)
+  {
+    belowMm += steps[slice.lower++];
+  }
+  slice.lowerWeight = 1.0 - glm::clamp((distanceMm - belowMm) / steps[slice.lower], 0.0, 1.0);
+  return slice;
+}
+
+// Where each image lies on a grid that holds them all; moves `origin` to its first voxel.
+void shiftImages(const std::vector<DICOMFrame>& volume, const DICOMFile& file,
+  DICOMResampling& resampling, glm::dvec3& origin)
+{
+  const DICOMFrame& first = volume.front();
+  glm::dvec2 least(0.0);
+  glm::dvec2 most(0.0);
+  std::vector<glm::dvec2> shifts;
+  for (const DICOMFrame& frame : volume)
+  {
+    const glm::dvec3 away = frame.position - first.position;
+    shifts.push_back(glm::dvec2(glm::dot(away, first.alongRow), glm::dot(away, first.alongColumn)) /
+      first.spacingMm);
+    least = glm::min(least, shifts.back());
+    most = glm::max(most, shifts.back());
+  }
+  for (const glm::dvec2& shift : shifts)
+  {
+    resampling.shifts.push_back({ shift.x - least.x, shift.y - least.y });
+  }
+  constexpr double Rounding = 1e-6; // pixels; a drift of less needs no room
+  resampling.columns = file.columns + static_cast<int>(std::ceil(most.x - least.x - Rounding));
+  resampling.rows = file.rows + static_cast<int>(std::ceil(most.y - least.y - Rounding));
+  origin +=
+    least.x * first.spacingMm.x * first.alongRow + least.y * first.spacingMm.y * first.alongColumn;
+}
+
+// Places the slices of the volumes, on an upright grid if that is wanted, needed and possible.
+void placeSlices(DICOMStack& stack, const DICOMFile& file, bool resamples)
+{
+  const std::vector<DICOMFrame>& volume = stack.volumes.front();
+  DICOMFrame first = volume.front();
+  const glm::dvec3 normal = glm::normalize(glm::cross(first.alongRow, first.alongColumn));
+  const std::vector<glm::dvec3> positions = positionsOf(volume);
+  if (positions.size() == 1)
+  {
+    placeVoxels(first, first.sliceStepMm * normal, stack.worldFromVoxel);
+    return;
+  }
+  const glm::dvec3 range = positions.back() - positions.front();
+  const double heightMm = glm::dot(range, normal);
+  const std::vector<double> steps = stepsOf(positions, normal);
+  const double usualMm = medianOf(steps);
+  const double shiftMm = largestShift(positions);
+  const double driftMm = driftOf(positions, normal);
+  const bool isUneven = shiftMm > LargestUnreportedShiftMm;
+  const bool isTilted = driftMm > std::max(LargestUnreportedShiftMm, 1e-4 * heightMm);
+  const double count = std::round(heightMm / usualMm) + 1.0;
+  const bool isPossible = count >= 2.0 && count <= MostSlices && driftMm < FarthestDriftMm;
+  const bool isResampled = resamples && (isUneven || isTilted) && isPossible;
+  if (isUneven)
+  {
+    stack.warnings.push_back(unevenSentence(steps, shiftMm, usualMm, isResampled));
+  }
+  if (isTilted)
+  {
+    stack.warnings.push_back(tiltSentence(driftMm, isResampled));
+  }
+  glm::dvec3 step = range / static_cast<double>(positions.size() - 1);
+  if (isResampled)
+  {
+    step = heightMm / (count - 1.0) * normal;
+    shiftImages(volume, file, stack.resampling, first.position);
+    for (double slice = 0.0; slice < count; slice += 1.0)
+    {
+      stack.resampling.slices.push_back(sliceAt(slice * heightMm / (count - 1.0), steps));
+    }
+  }
+  placeVoxels(first, step, stack.worldFromVoxel);
+}
+
+// Images without places: one after the other by their number, as far apart as the header says.
+void placeByNumber(std::vector<DICOMFrame>& images)
+{
+  std::stable_sort(images.begin(), images.end(),
+    [](const DICOMFrame& a, const DICOMFrame& b) { return a.moment.instance < b.moment.instance; });
+  double z = 0.0;
+  for (DICOMFrame& image : images)
+  {
+    image.position = glm::dvec3(0.0, 0.0, z);
+    image.alongRow = glm::dvec3(-1.0, 0.0, 0.0); // to the right in RAS
+    image.alongColumn = glm::dvec3(0.0, -1.0, 0.0);
+    z += image.sliceStepMm;
+  }
+}
+}
+
+DICOMStack stackOf(
+  const std::vector<DICOMFile>& files, const std::vector<DICOMFrame>& images, bool resamples)
+{
+  DICOMStack stack;
+  std::vector<DICOMFrame> placed = images;
+  stack.knowsSides = images.front().isPlaced;
+  if (!stack.knowsSides)
+  {
+    placeByNumber(placed);
+    stack.warnings.emplace_back("does not say where its images lie; they are shown in the order "
+                                "of their numbers, and left and right may be exchanged");
+  }
+  const DICOMPlaces places = sortedByPlace(files, placed);
+  stack.volumes = places.volumes;
+  stack.times = places.times;
+  if (places.copies > 0)
+  {
+    stack.warnings.push_back("has " +
+      counted(places.copies, "duplicate image, which is", "duplicate images, which are") +
+      " left out");
+  }
+  if (places.leftOver > 0)
+  {
+    stack.warnings.push_back("has " + counted(places.leftOver, "image", "images") +
+      " at places where others lie, without one for each other place: left out");
+  }
+  placeSlices(stack, files[stack.volumes.front().front().file], resamples);
+  return stack;
+}
+}

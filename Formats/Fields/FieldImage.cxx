@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/Fields/FieldImage.h"
+
+#include "Common/FieldWord.h"
+
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <glm/matrix.hpp>
+
+#include <cstring>
+
+namespace brainshift
+{
+void announce(vtkInformation* output, const Grid& grid)
+{
+  const glm::ivec3 last = grid.dimensions - 1;
+  const int whole[6] = { 0, last.x, 0, last.y, 0, last.z };
+  const glm::dmat3 rows = glm::transpose(grid.direction);
+  output->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole, 6);
+  output->Set(vtkDataObject::ORIGIN(), &grid.origin.x, 3);
+  output->Set(vtkDataObject::SPACING(), &grid.spacing.x, 3);
+  output->Set(vtkDataObject::DIRECTION(), &rows[0][0], 9);
+}
+
+void setField(vtkImageData* image, const Grid& grid, const std::vector<glm::vec3>& displacements,
+  Direction direction)
+{
+  const glm::dmat3 rows = glm::transpose(grid.direction);
+  image->SetDimensions(grid.dimensions.x, grid.dimensions.y, grid.dimensions.z);
+  image->SetOrigin(grid.origin.x, grid.origin.y, grid.origin.z);
+  image->SetSpacing(grid.spacing.x, grid.spacing.y, grid.spacing.z);
+  image->SetDirectionMatrix(&rows[0][0]);
+  vtkNew<vtkFloatArray> array;
+  array->SetName(DisplacementName);
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(displacements.size()));
+  std::memcpy(array->GetPointer(0), displacements.data(), displacements.size() * sizeof(glm::vec3));
+  image->GetPointData()->SetVectors(array);
+  removeFieldArrays(image, DeformationPrefix);
+  nameDirection(image, direction);
+}
+
+vtkDataArray* fieldOf(vtkImageData* image)
+{
+  const auto isField = [](vtkDataArray* array) {
+    return array && array->GetNumberOfComponents() == 3;
+  };
+  vtkPointData* arrays = image->GetPointData();
+  for (vtkDataArray* likely : { arrays->GetArray(DisplacementName), arrays->GetVectors() })
+  {
+    if (isField(likely))
+    {
+      return likely;
+    }
+  }
+  for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
+  {
+    if (isField(arrays->GetArray(i)))
+    {
+      return arrays->GetArray(i);
+    }
+  }
+  return nullptr;
+}
+
+bool isFieldImage(vtkImageData* image)
+{
+  if (directionOf(image) || image->GetPointData()->GetArray(DisplacementName))
+  {
+    return true;
+  }
+  vtkDataArray* scalars = image->GetPointData()->GetScalars();
+  return !scalars ||
+    (scalars->GetNumberOfComponents() == 3 &&
+      (scalars->GetDataType() == VTK_FLOAT || scalars->GetDataType() == VTK_DOUBLE));
+}
+
+std::vector<glm::vec3> vectorsOf(vtkDataArray* array)
+{
+  std::vector<glm::vec3> vectors(array->GetNumberOfTuples());
+  for (std::size_t i = 0; i < vectors.size(); ++i)
+  {
+    double tuple[3];
+    array->GetTuple(static_cast<vtkIdType>(i), tuple);
+    vectors[i] = glm::vec3(tuple[0], tuple[1], tuple[2]);
+  }
+  return vectors;
+}
+}

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief Displacement fields as images: what readers, inversion and lattices hand to the pipeline.
+ */
+#ifndef BrainShift_FieldImage_h
+#define BrainShift_FieldImage_h
+
+#include "Common/FieldDirection.h"
+#include "Common/Grid.h"
+#include "vtkBrainShiftFormatsModule.h" // for the export macro
+
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+class vtkDataArray;
+class vtkImageData;
+class vtkInformation;
+
+namespace brainshift
+{
+/** Name of the point array of displacements. */
+constexpr const char* DisplacementName = "Displacement";
+
+/**
+ * Name of the point array that says how far a place can be believed: float32, mm, one standard
+ * deviation along an axis; infinity where nothing was measured.
+ */
+constexpr const char* DeviationName = "Deviation";
+
+/**
+ * Tells the pipeline where an output will lie: on all of a grid. Call it in RequestInformation.
+ */
+VTKBRAINSHIFTFORMATS_EXPORT void announce(vtkInformation* output, const Grid& grid);
+
+/**
+ * Makes an image of a field: it lies on the whole grid and has the point array Displacement
+ * (float32 x 3, mm, world axes) as its vectors and a field array that names the direction.
+ */
+VTKBRAINSHIFTFORMATS_EXPORT void setField(vtkImageData* image, const Grid& grid,
+  const std::vector<glm::vec3>& displacements, Direction direction);
+
+/**
+ * The displacements of an image: its point array Displacement, else its vectors, else its first
+ * point array of three components; null if there is none.
+ */
+VTKBRAINSHIFTFORMATS_EXPORT vtkDataArray* fieldOf(vtkImageData* image);
+
+/**
+ * Whether an image is meant as a field: it names a direction, has a point array Displacement, or
+ * has no scalars other than three floating numbers. Otherwise its vectors stand beside what it is.
+ */
+VTKBRAINSHIFTFORMATS_EXPORT bool isFieldImage(vtkImageData* image);
+
+/** The tuples of an array of three components. */
+VTKBRAINSHIFTFORMATS_EXPORT std::vector<glm::vec3> vectorsOf(vtkDataArray* array);
+}
+
+#endif

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/Files/PackedBytes.h"
+
+#include "vtk_zlib.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <vector>
+
+namespace brainshift
+{
+namespace
+{
+constexpr int DetectZlibOrGzip = 15 + 32;      // zlib's window bits
+constexpr std::size_t Piece = 1 << 20;         // bytes at a time
+constexpr double LargestDeflateRatio = 1100.0; // no zlib stream unpacks to more times its size
+
+// Unpacks a file piece by piece.
+class Unpacker
+{
+public:
+  explicit Unpacker(std::ifstream& packed)
+    : Packed(packed)
+    , In(Piece)
+  {
+    this->Good = inflateInit2(&this->Stream, DetectZlibOrGzip) == Z_OK;
+  }
+  ~Unpacker() { inflateEnd(&this->Stream); }
+  Unpacker(const Unpacker&) = delete;
+  Unpacker& operator=(const Unpacker&) = delete;
+
+  // Unpacks up to `count` bytes; fewer at the end, or if the packed ones are damaged.
+  std::size_t unpack(char* to, std::size_t count)
+  {
+    this->Stream.next_out = reinterpret_cast<Bytef*>(to);
+    this->Stream.avail_out = static_cast<uInt>(count);
+    while (this->Good && !this->Ended && this->Stream.avail_out > 0)
+    {
+      const bool hasMore = this->fill();
+      const int status = inflate(&this->Stream, Z_NO_FLUSH); // what it keeps needs no more bytes
+      this->Good = status == Z_OK || status == Z_STREAM_END || status == Z_BUF_ERROR;
+      this->Ended =
+        (status == Z_STREAM_END && !this->beginsAnother()) || (status == Z_BUF_ERROR && !hasMore);
+    }
+    return count - this->Stream.avail_out;
+  }
+
+  bool isGood() const { return this->Good; }
+
+private:
+  // False at the end of the file.
+  bool fill()
+  {
+    if (this->Stream.avail_in == 0)
+    {
+      this->Packed.read(this->In.data(), static_cast<std::streamsize>(this->In.size()));
+      this->Stream.next_in = reinterpret_cast<Bytef*>(this->In.data());
+      this->Stream.avail_in = static_cast<uInt>(this->Packed.gcount());
+    }
+    return this->Stream.avail_in > 0;
+  }
+
+  // Files of gzip may follow one another; what else follows is not read.
+  bool beginsAnother()
+  {
+    constexpr Bytef GzipsFirst = 0x1f;
+    return this->fill() && *this->Stream.next_in == GzipsFirst &&
+      inflateReset(&this->Stream) == Z_OK;
+  }
+
+  std::ifstream& Packed;
+  std::vector<char> In;
+  z_stream Stream{};
+  bool Good = false;
+  bool Ended = false;
+};
+
+std::string unpackAll(std::ifstream& file, const StoredBytes& from, char* to, std::size_t count,
+  const ShareDone& shareDone)
+{
+  const std::string damaged = "has packed numbers that are damaged or too few";
+  Unpacker unpacker(file);
+  std::vector<char> unwanted(std::min<std::uint64_t>(from.unpackedSkip, Piece));
+  for (std::uint64_t left = from.unpackedSkip; left > 0;)
+  {
+    const std::size_t wanted = std::min<std::uint64_t>(left, Piece);
+    if (unpacker.unpack(unwanted.data(), wanted) < wanted)
+    {
+      return damaged;
+    }
+    left -= wanted;
+  }
+  for (std::size_t done = 0; done < count;)
+  {
+    const std::size_t wanted = std::min(count - done, Piece);
+    if (unpacker.unpack(to + done, wanted) < wanted)
+    {
+      return damaged;
+    }
+    done += wanted;
+    if (!shareDone(static_cast<double>(done) / static_cast<double>(count)))
+    {
+      return {};
+    }
+  }
+  unwanted.resize(Piece); // what follows the numbers is no more than this, and their checksum
+  unpacker.unpack(unwanted.data(), unwanted.size());
+  return unpacker.isGood() ? std::string() : damaged;
+}
+
+std::string readAll(std::ifstream& file, char* to, std::size_t count, const ShareDone& shareDone)
+{
+  for (std::size_t done = 0; done < count;)
+  {
+    const std::size_t wanted = std::min(count - done, 16 * Piece);
+    if (!file.read(to + done, static_cast<std::streamsize>(wanted)))
+    {
+      return "has only " + std::to_string(done + static_cast<std::size_t>(file.gcount())) +
+        " readable bytes of numbers";
+    }
+    done += wanted;
+    if (!shareDone(static_cast<double>(done) / static_cast<double>(count)))
+    {
+      return {};
+    }
+  }
+  return {};
+}
+}
+
+bool beginsLikeGzip(const std::string& fileName)
+{
+  std::ifstream file(fileName, std::ios::binary);
+  char first[2] = {};
+  return file.read(first, 2) && first[0] == '\x1f' && first[1] == '\x8b';
+}
+
+bool thisMachineIsBigEndian()
+{
+  const int one = 1;
+  char first;
+  std::memcpy(&first, &one, 1);
+  return first == 0;
+}
+
+void reverseBytes(char* numbers, std::size_t count, std::size_t size)
+{
+  for (std::size_t i = 0; size > 1 && i < count; ++i)
+  {
+    std::reverse(numbers + i * size, numbers + (i + 1) * size);
+  }
+}
+
+std::string bytesProblem(const StoredBytes& from, double count)
+{
+  std::error_code error;
+  const auto size = static_cast<double>(std::filesystem::file_size(from.fileName, error));
+  if (error)
+  {
+    return "has an unknown size";
+  }
+  const double bytes = std::max(size - static_cast<double>(from.offset), 0.0);
+  const double wanted = count + (from.isPacked ? static_cast<double>(from.unpackedSkip) : 0.0);
+  // A damaged header asks for more than any file can hold.
+  if (bytes * (from.isPacked ? LargestDeflateRatio : 1.0) >= wanted)
+  {
+    return {};
+  }
+  std::ostringstream problem;
+  problem.precision(15);
+  problem << "has " << bytes << (from.isPacked ? " packed bytes" : " bytes of numbers")
+          << " where the header announces " << wanted << (from.isPacked ? " bytes of numbers" : "");
+  return problem.str();
+}
+
+std::string readBytes(
+  const StoredBytes& from, char* to, std::size_t count, const ShareDone& shareDone)
+{
+  std::ifstream file(from.fileName, std::ios::binary);
+  if (!file)
+  {
+    return "cannot be opened";
+  }
+  file.seekg(static_cast<std::streamoff>(from.offset));
+  return from.isPacked ? unpackAll(file, from, to, count, shareDone)
+                       : readAll(file, to, count, shareDone);
+}
+}

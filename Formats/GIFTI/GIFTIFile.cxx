@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/GIFTI/GIFTIFile.h"
+
+#include "Formats/Files/HeaderText.h"
+#include "Formats/Files/PlainFile.h"
+#include "Formats/GIFTI/GIFTINumbers.h"
+
+#include "vtk_expat.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <string_view>
+#include <utility>
+
+namespace brainshift
+{
+namespace
+{
+constexpr std::size_t Piece = 1 << 20;     // bytes that expat parses at a time
+constexpr std::size_t DeepestElement = 16; // the format needs 6
+constexpr std::size_t MostLabels = 1 << 20;
+constexpr std::size_t LongestMatrix = 4096;    // letters
+constexpr std::size_t LongestBeginning = 4096; // bytes by which a file is known
+
+// What expat tells of the file as it goes along.
+class Listener
+{
+public:
+  Listener(XML_Parser parser, GIFTIFile& file)
+    : Parser(parser)
+    , File(file)
+  {
+  }
+
+  std::string problem() const { return this->Problem; }
+  bool hasRoot() const { return this->IsGIFTI; }
+
+  void begin(const std::string& name, const XML_Char** attributes)
+  {
+    this->Open.push_back(name);
+    this->Text.clear();
+    this->IsGIFTI = this->IsGIFTI || (this->Open.size() == 1 && name == "GIFTI");
+    if (!this->IsGIFTI || this->Open.size() > DeepestElement)
+    {
+      this->stop(this->IsGIFTI ? "has elements inside each other, deeper than 16"
+                               : "is no GIFTI file: its first element is " + shownWords(name));
+      return;
+    }
+    if (name == "DataArray")
+    {
+      this->File.arrays.emplace_back();
+    }
+    this->Transform =
+      name == "CoordinateSystemTransformMatrix" ? GIFTITransform() : this->Transform;
+    this->Attributes.clear();
+    for (; *attributes; attributes += 2)
+    {
+      this->Attributes[attributes[0]] = attributes[1];
+    }
+    if (name == "DataArray")
+    {
+      this->File.arrays.back().attributes = this->Attributes;
+    }
+  }
+
+  void letters(const XML_Char* text, int length) { this->Text.append(text, length); }
+
+  void end(const std::string& name)
+  {
+    if (name == "Label")
+    {
+      this->addLabel();
+    }
+    if (!this->File.arrays.empty() && this->isInside("DataArray"))
+    {
+      this->endInArray(name, this->File.arrays.back());
+    }
+    this->Open.pop_back();
+    this->Text.clear();
+  }
+
+  void stop(const std::string& problem)
+  {
+    this->Problem = this->Problem.empty() ? problem : this->Problem;
+    XML_StopParser(this->Parser, XML_FALSE);
+  }
+
+private:
+  bool isInside(const std::string& name) const
+  {
+    return std::find(this->Open.begin(), this->Open.end(), name) != this->Open.end();
+  }
+
+  std::string trimmedText() const
+  {
+    const std::size_t first = this->Text.find_first_not_of(" \t\r\n");
+    const std::size_t last = this->Text.find_last_not_of(" \t\r\n");
+    return first == std::string::npos ? "" : this->Text.substr(first, last - first + 1);
+  }
+
+  void endInArray(const std::string& name, GIFTIArray& array)
+  {
+    if (name == "Name")
+    {
+      this->MetaName = this->trimmedText();
+    }
+    else if (name == "Value")
+    {
+      array.meta[this->MetaName] = this->trimmedText();
+    }
+    else if (name == "DataSpace")
+    {
+      this->Transform.from = this->trimmedText();
+    }
+    else if (name == "TransformedSpace")
+    {
+      this->Transform.to = this->trimmedText();
+    }
+    else if (name == "MatrixData")
+    {
+      if (this->Text.size() > LongestMatrix)
+      {
+        this->stop("has a matrix of " + std::to_string(this->Text.size()) +
+          " letters; it must be 16 numbers in 4096 letters or fewer");
+        return;
+      }
+      this->Transform.numbers = numbersIn(this->Text);
+    }
+    else if (name == "CoordinateSystemTransformMatrix")
+    {
+      array.transforms.push_back(this->Transform);
+    }
+    else if (name == "Data")
+    {
+      this->readData(array);
+    }
+  }
+
+  void readData(GIFTIArray& array)
+  {
+    std::string problem =
+      array.bytes.empty() ? readGIFTINumbers(this->Text, array) : "has two elements Data";
+    if (!problem.empty())
+    {
+      this->stop(problem + " in array " + std::to_string(this->File.arrays.size()));
+    }
+  }
+
+  void addLabel()
+  {
+    Label label;
+    const std::vector<double> key = numbersIn(
+      this->Attributes.count("Key") ? this->Attributes["Key"] : this->Attributes["Index"]);
+    if (key.size() != 1 || !isWhole(key[0], -2147483648.0, 2147483647.0) ||
+      this->File.labels.size() >= MostLabels)
+    {
+      this->stop("has a label without a whole number as its Key, or more than 1048576 labels");
+      return;
+    }
+    label.value = static_cast<int>(key[0]);
+    label.name = this->trimmedText();
+    const char* const names[3] = { "Red", "Green", "Blue" };
+    for (int i = 0; i < 3; ++i)
+    {
+      const std::vector<double> share = numbersIn(this->Attributes[names[i]]);
+      const bool isShare = share.size() == 1 && share[0] >= 0.0 && share[0] <= 1.0;
+      label.color[static_cast<std::size_t>(i)] =
+        isShare ? static_cast<unsigned char>(std::lround(255.0 * share[0])) : 255;
+    }
+    this->File.labels.push_back(label);
+  }
+
+  XML_Parser Parser;
+  GIFTIFile& File;
+  std::string Problem;
+  std::string Text; // of the element that is open
+  std::vector<std::string> Open;
+  std::map<std::string, std::string> Attributes; // of the last element that began
+  std::string MetaName;
+  GIFTITransform Transform;
+  bool IsGIFTI = false;
+};
+
+// Expat is C: it must meet no exception.
+template <typename Step>
+void heard(void* user, const Step& step)
+{
+  auto& listener = *static_cast<Listener*>(user);
+  try
+  {
+    step(listener);
+  }
+  catch (const std::exception&)
+  {
+    listener.stop("needs more memory than this machine has left");
+  }
+}
+
+void beginElement(void* user, const XML_Char* name, const XML_Char** attributes)
+{
+  heard(user, [&](Listener& listener) { listener.begin(name, attributes); });
+}
+
+void endElement(void* user, const XML_Char* name)
+{
+  heard(user, [&](Listener& listener) { listener.end(name); });
+}
+
+void hearLetters(void* user, const XML_Char* text, int length)
+{
+  heard(user, [&](Listener& listener) { listener.letters(text, length); });
+}
+
+// Entities can make a small file a large one.
+void hearEntity(void* user, const XML_Char*, int, const XML_Char*, int, const XML_Char*,
+  const XML_Char*, const XML_Char*, const XML_Char*)
+{
+  heard(user, [](Listener& listener) { listener.stop("declares an entity, which is not read"); });
+}
+
+struct FreeParser
+{
+  void operator()(XML_Parser parser) const { XML_ParserFree(parser); }
+};
+}
+
+bool beginsLikeGIFTI(const std::vector<char>& text)
+{
+  const std::string_view begin(text.data(), std::min(text.size(), LongestBeginning));
+  return begin.find("<GIFTI") != std::string_view::npos;
+}
+
+bool isGIFTIFile(const std::string& fileName)
+{
+  std::vector<char> text;
+  if (plainFileProblem(fileName).empty())
+  {
+    std::ifstream file(fileName, std::ios::binary);
+    text.resize(LongestBeginning);
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
+  }
+  return beginsLikeGIFTI(text);
+}
+
+std::string readGIFTIFile(const std::vector<char>& text, GIFTIFile& file)
+{
+  const std::unique_ptr<std::remove_pointer_t<XML_Parser>, FreeParser> parser(
+    XML_ParserCreate(nullptr));
+  if (!parser)
+  {
+    return "needs more memory than this machine has left";
+  }
+  Listener listener(parser.get(), file);
+  XML_SetUserData(parser.get(), &listener);
+  XML_SetElementHandler(parser.get(), beginElement, endElement);
+  XML_SetCharacterDataHandler(parser.get(), hearLetters);
+  XML_SetEntityDeclHandler(parser.get(), hearEntity);
+  for (std::size_t place = 0, step = 0; place <= text.size(); place += step)
+  {
+    step = std::min(text.size() - place, Piece);
+    const bool isLast = place + step == text.size();
+    const XML_Status status =
+      XML_Parse(parser.get(), text.data() + place, static_cast<int>(step), isLast ? 1 : 0);
+    if (!listener.problem().empty())
+    {
+      return listener.problem();
+    }
+    if (status != XML_STATUS_OK)
+    {
+      return "is not good XML in line " + std::to_string(XML_GetCurrentLineNumber(parser.get())) +
+        ": " + XML_ErrorString(XML_GetErrorCode(parser.get()));
+    }
+    if (isLast)
+    {
+      break;
+    }
+  }
+  return {};
+}
+}

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/GIFTI/GIFTINumbers.h"
+
+#include "Common/HostMemory.h"
+#include "Formats/Files/HeaderText.h"
+#include "Formats/Files/PackedBytes.h"
+
+#include "vtk_zlib.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+namespace brainshift
+{
+namespace
+{
+constexpr double LargestDeflateRatio = 1100.0; // no zlib stream unpacks to more times its size
+constexpr int MostDimensions = 6;              // as the format has it
+constexpr double MostRows = 2147483647.0;      // indices of points are 32-bit integers
+
+const std::map<std::string, NumberType> Types{
+  { "NIFTI_TYPE_UINT8", NumberType::UInt8 },
+  { "NIFTI_TYPE_INT32", NumberType::Int32 },
+  { "NIFTI_TYPE_FLOAT32", NumberType::Float32 },
+  { "NIFTI_TYPE_FLOAT64", NumberType::Float64 },
+};
+
+// The value of a letter of base64; -1 for a space, -2 for all others.
+std::array<int, 256> lettersOfBase64()
+{
+  constexpr std::string_view Letters =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::array<int, 256> values;
+  values.fill(-2);
+  for (const char space : { ' ', '\t', '\r', '\n' })
+  {
+    values[static_cast<unsigned char>(space)] = -1;
+  }
+  for (std::size_t i = 0; i < Letters.size(); ++i)
+  {
+    values[static_cast<unsigned char>(Letters[i])] = static_cast<int>(i);
+  }
+  return values;
+}
+
+// None if the text is no base64. What follows the first "=" must be "=" or space.
+std::optional<std::vector<char>> fromBase64(const std::string& text)
+{
+  static const std::array<int, 256> Values = lettersOfBase64();
+  std::vector<char> bytes;
+  bytes.reserve(text.size() / 4 * 3 + 3);
+  std::uint32_t bits = 0;
+  int count = 0; // bits that are waiting
+  std::size_t i = 0;
+  for (; i < text.size() && text[i] != '='; ++i)
+  {
+    const int value = Values[static_cast<unsigned char>(text[i])];
+    if (value == -2)
+    {
+      return std::nullopt;
+    }
+    if (value >= 0)
+    {
+      bits = (bits << 6) | static_cast<std::uint32_t>(value);
+      count += 6;
+    }
+    if (count >= 8)
+    {
+      count -= 8;
+      bytes.push_back(static_cast<char>((bits >> count) & 0xFF));
+    }
+  }
+  const bool isEnd = std::all_of(text.begin() + static_cast<std::ptrdiff_t>(i), text.end(),
+    [](char letter) { return letter == '=' || Values[static_cast<unsigned char>(letter)] == -1; });
+  return isEnd ? std::optional(std::move(bytes)) : std::nullopt;
+}
+
+template <typename T>
+std::string readASCII(const std::string& text, std::vector<char>& bytes)
+{
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  const auto skipSpace = [&] {
+    at = std::find_if(at, end, [](char letter) {
+      return letter != ' ' && letter != '\t' && letter != '\r' && letter != '\n';
+    });
+  };
+  const std::size_t wanted = bytes.size() / sizeof(T);
+  std::size_t count = 0;
+  for (skipSpace(); at != end; skipSpace(), ++count)
+  {
+    double number = 0.0;
+    T narrow{};
+    const bool isWholeType = std::is_integral_v<T>;
+    const std::from_chars_result found = isWholeType
+      ? std::from_chars(at, end, narrow)
+      : std::from_chars(*at == '+' ? at + 1 : at, end, number);
+    if (found.ec != std::errc() || found.ptr == at)
+    {
+      const std::string_view rest(at, std::min<std::size_t>(end - at, 40));
+      return "has \"" + shownWords(std::string(rest.substr(0, rest.find_first_of(" \t\r\n")))) +
+        "\" in place of a number";
+    }
+    narrow = isWholeType ? narrow : static_cast<T>(number);
+    if (count < wanted)
+    {
+      std::memcpy(&bytes[count * sizeof(T)], &narrow, sizeof(T));
+    }
+    at = found.ptr;
+  }
+  return count == wanted ? std::string()
+                         : "has " + std::to_string(count) + " numbers; its dimensions announce " +
+      std::to_string(wanted);
+}
+
+std::string readASCIIOf(NumberType type, const std::string& text, std::vector<char>& bytes)
+{
+  switch (type)
+  {
+    case NumberType::UInt8:
+      return readASCII<unsigned char>(text, bytes);
+    case NumberType::Int32:
+      return readASCII<std::int32_t>(text, bytes);
+    case NumberType::Float64:
+      return readASCII<double>(text, bytes);
+    default:
+      return readASCII<float>(text, bytes);
+  }
+}
+
+std::string fewerBytes(std::size_t found, std::size_t wanted)
+{
+  return "has " + std::to_string(found) + " bytes; its dimensions announce " +
+    std::to_string(wanted);
+}
+
+// Fills `bytes`, whose size is what the dimensions announce.
+std::string readBase64(const std::string& text, bool isPacked, std::vector<char>& bytes)
+{
+  const std::optional<std::vector<char>> stored = fromBase64(text);
+  if (!stored)
+  {
+    return "has letters that are no base64";
+  }
+  if (!isPacked)
+  {
+    if (stored->size() != bytes.size())
+    {
+      return fewerBytes(stored->size(), bytes.size());
+    }
+    std::copy(stored->begin(), stored->end(), bytes.begin());
+    return {};
+  }
+  uLongf size = static_cast<uLongf>(bytes.size());
+  const int status = uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size,
+    reinterpret_cast<const Bytef*>(stored->data()), static_cast<uLong>(stored->size()));
+  if (status == Z_OK && size != bytes.size())
+  {
+    return fewerBytes(size, bytes.size());
+  }
+  return status == Z_OK ? "" : "has packed numbers that are damaged, too few or too many";
+}
+
+// Columns of the file become rows, as they are in memory.
+void transpose(GIFTIArray& array)
+{
+  const std::size_t size = bytesOf(array.type);
+  const std::vector<char> stored = array.bytes;
+  for (std::size_t row = 0; row < array.rows; ++row)
+  {
+    for (std::size_t column = 0; column < array.columns; ++column)
+    {
+      std::memcpy(&array.bytes[(row * array.columns + column) * size],
+        &stored[(column * array.rows + row) * size], size);
+    }
+  }
+}
+
+std::string readDimensions(GIFTIArray& array)
+{
+  const std::string said = array.attribute("Dimensionality");
+  const std::vector<double> dimensions = numbersIn(said);
+  if (dimensions.size() != 1 || !isWhole(dimensions[0], 1, MostDimensions))
+  {
+    return "has the Dimensionality \"" + shownWords(said) + "\"; it must be 1 to 6";
+  }
+  double columns = 1.0;
+  for (int i = 0; i < static_cast<int>(dimensions[0]); ++i)
+  {
+    const std::string name = "Dim" + std::to_string(i);
+    const std::vector<double> side = numbersIn(array.attribute(name));
+    if (side.size() != 1 || !isWhole(side[0], 1, MostRows))
+    {
+      return "has the " + name + " \"" + shownWords(array.attribute(name)) +
+        "\"; it must be 1 to 2147483647";
+    }
+    columns *= i == 0 ? 1.0 : side[0];
+    array.rows = i == 0 ? static_cast<std::size_t>(side[0]) : array.rows;
+  }
+  array.columns = static_cast<std::size_t>(std::min(columns, MostRows));
+  return columns <= MostRows ? "" : "has more than 2147483647 numbers in a row";
+}
+
+// Why the numbers cannot be in the text, or in memory.
+std::string sizeProblem(const GIFTIArray& array, const std::string& encoding, std::size_t letters)
+{
+  const double numbers = static_cast<double>(array.rows) * static_cast<double>(array.columns);
+  const double bytes = numbers * static_cast<double>(bytesOf(array.type));
+  const auto length = static_cast<double>(letters);
+  const double most = encoding == "ASCII" ? (length + 1.0) / 2.0 * bytes / numbers
+    : encoding == "Base64Binary"          ? length
+                                          : length * LargestDeflateRatio;
+  if (bytes > most)
+  {
+    return "has " + std::to_string(letters) + " letters of numbers; its dimensions announce " +
+      std::to_string(static_cast<std::uint64_t>(numbers)) + " numbers";
+  }
+  return hostMemoryProblem("it", bytes);
+}
+}
+
+std::string readGIFTINumbers(const std::string& text, GIFTIArray& array)
+{
+  const auto type = Types.find(array.attribute("DataType"));
+  if (type == Types.end())
+  {
+    return "has the DataType \"" + shownWords(array.attribute("DataType")) +
+      "\"; BrainShift reads NIFTI_TYPE_UINT8, INT32, FLOAT32 and FLOAT64";
+  }
+  array.type = type->second;
+  const std::string encoding = array.attribute("Encoding");
+  const bool isASCII = encoding == "ASCII";
+  const bool isPacked = encoding == "GZipBase64Binary";
+  if (!isASCII && !isPacked && encoding != "Base64Binary")
+  {
+    return "has the Encoding \"" + shownWords(encoding) +
+      "\"; BrainShift reads ASCII, Base64Binary and GZipBase64Binary";
+  }
+  const std::string endian = array.attribute("Endian");
+  if (!isASCII && endian != "BigEndian" && endian != "LittleEndian")
+  {
+    return "has the Endian \"" + shownWords(endian) + "\"; it must be BigEndian or LittleEndian";
+  }
+  std::string problem = readDimensions(array);
+  problem = problem.empty() ? sizeProblem(array, encoding, text.size()) : problem;
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  array.bytes.resize(array.rows * array.columns * bytesOf(array.type));
+  problem =
+    isASCII ? readASCIIOf(array.type, text, array.bytes) : readBase64(text, isPacked, array.bytes);
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  if (!isASCII && (endian == "BigEndian") != thisMachineIsBigEndian())
+  {
+    reverseBytes(array.bytes.data(), array.rows * array.columns, bytesOf(array.type));
+  }
+  const std::string order = array.attribute("ArrayIndexingOrder");
+  if (order == "ColumnMajorOrder")
+  {
+    transpose(array);
+  }
+  return order == "ColumnMajorOrder" || order == "RowMajorOrder" ? ""
+                                                                 : "has the ArrayIndexingOrder \"" +
+      shownWords(order) + "\"; it must be RowMajorOrder or ColumnMajorOrder";
+}
+}

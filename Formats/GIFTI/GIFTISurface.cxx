@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/GIFTI/GIFTISurface.h"
+
+#include "Formats/GIFTI/GIFTIFile.h"
+#include "Formats/Surfaces/ScannerFrame.h"
+#include "Formats/Volumes/RasGrid.h"
+
+#include "Formats/Files/HeaderText.h"
+
+#include <glm/mat3x3.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace brainshift
+{
+namespace
+{
+constexpr const char* PointIntent = "NIFTI_INTENT_POINTSET";
+constexpr const char* TriangleIntent = "NIFTI_INTENT_TRIANGLE";
+constexpr const char* Scanner = "NIFTI_XFORM_SCANNER_ANAT";
+constexpr const char* Aligned = "NIFTI_XFORM_ALIGNED_ANAT";
+constexpr const char* Unknown = "NIFTI_XFORM_UNKNOWN";
+
+template <typename T>
+T numberIn(const GIFTIArray& array, std::size_t index)
+{
+  T number;
+  std::memcpy(&number, &array.bytes[index * sizeof(T)], sizeof(T));
+  return number;
+}
+
+double realIn(const GIFTIArray& array, std::size_t index)
+{
+  return array.type == NumberType::Float64 ? numberIn<double>(array, index)
+                                           : numberIn<float>(array, index);
+}
+
+std::string shapeProblem(const GIFTIArray& array, const std::string& what, bool isWhole)
+{
+  if (array.bytes.empty())
+  {
+    return "has " + what + " without an element Data";
+  }
+  const bool hasType = isWhole
+    ? array.type == NumberType::Int32
+    : array.type == NumberType::Float32 || array.type == NumberType::Float64;
+  return hasType && array.columns == 3 ? std::string()
+                                       : "has " + what + " of " + std::to_string(array.columns) +
+      " columns of " + array.attribute("DataType") + "; it must be 3 columns of NIFTI_TYPE_" +
+      (isWhole ? "INT32" : "FLOAT32 or FLOAT64");
+}
+
+// FreeSurfer's geometry of the volume, which its mris_convert keeps as text.
+std::optional<VolumeFrame> keptFrame(const GIFTIArray& points)
+{
+  VolumeFrame frame;
+  const std::array<std::pair<char, glm::dvec3*>, 4> vectors{ { { 'X', &frame.xRas },
+    { 'Y', &frame.yRas }, { 'Z', &frame.zRas }, { 'C', &frame.cRas } } };
+  for (const auto& [letter, vector] : vectors)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const auto found = points.meta.find(std::string("VolGeom") + letter + "_" + "RAS"[axis]);
+      const std::vector<double> number =
+        found == points.meta.end() ? std::vector<double>() : numbersIn(found->second);
+      if (number.size() != 1)
+      {
+        return std::nullopt;
+      }
+      (*vector)[axis] = number[0];
+    }
+  }
+  return frame;
+}
+
+glm::dmat4 matrixOf(const GIFTITransform& transform)
+{
+  glm::dmat4 matrix(1.0);
+  for (int i = 0; i < 16; ++i)
+  {
+    matrix[i % 4][i / 4] = transform.numbers[static_cast<std::size_t>(i)];
+  }
+  return matrix;
+}
+
+const GIFTITransform* transformTo(const std::string& space, const GIFTIArray& points)
+{
+  const auto found = std::find_if(points.transforms.begin(), points.transforms.end(),
+    [&](const GIFTITransform& transform) { return transform.to == space; });
+  return found == points.transforms.end() ? nullptr : &*found;
+}
+
+void noteUnknown(const GIFTIArray& points, Surface& surface)
+{
+  surface.knowsWorld = false;
+  std::string note = "does not name the space of its points; they are shown as they are";
+  const std::string to = points.transforms.empty() ? Unknown : points.transforms[0].to;
+  note += to.empty() || to == Unknown
+    ? ""
+    : ", and the file's matrix to " + shownWords(to) + " is not used";
+  surface.notes.push_back(note);
+}
+
+// The rule of the header. Returns the end of a sentence.
+std::string findPlace(const GIFTIArray& points, Surface& surface)
+{
+  const std::string from = points.transforms.empty() ? Unknown : points.transforms[0].from;
+  if (from == Scanner)
+  {
+    return {};
+  }
+  const GIFTITransform* transform = transformTo(Scanner, points);
+  transform = transform || from == Aligned ? transform : transformTo(Aligned, points);
+  const std::optional<VolumeFrame> frame = keptFrame(points);
+  if (transform)
+  {
+    const bool isAffine = transform->numbers.size() == 16 && transform->numbers[12] == 0.0 &&
+      transform->numbers[13] == 0.0 && transform->numbers[14] == 0.0 &&
+      transform->numbers[15] == 1.0;
+    if (!isAffine)
+    {
+      return "has a matrix to " + shownWords(transform->to) +
+        " that is not 16 numbers with the last row 0 0 0 1";
+    }
+    surface.worldFromStored = matrixOf(*transform);
+  }
+  else if (!from.empty() && from != Unknown)
+  {
+    return {};
+  }
+  else if (frame)
+  {
+    surface.worldFromStored = scannerFromSurface(*frame);
+  }
+  else
+  {
+    noteUnknown(points, surface);
+  }
+  const std::string problem = affineProblem(surface.worldFromStored);
+  return problem.empty() ? problem : "cannot be placed: " + problem;
+}
+
+std::string nameOf(const GIFTIArray& array)
+{
+  const auto named = array.meta.find("Name");
+  if (named != array.meta.end() && !named->second.empty())
+  {
+    return named->second;
+  }
+  const std::string intent = array.attribute("Intent");
+  constexpr const char* Prefix = "NIFTI_INTENT_";
+  return intent.rfind(Prefix, 0) == 0 ? intent.substr(std::strlen(Prefix)) : intent;
+}
+
+// Vectors of points turn with them.
+template <typename T>
+void turnVectors(const glm::dmat4& worldFromStored, GIFTIArray& vectors)
+{
+  const glm::dmat3 turn(worldFromStored);
+  for (std::size_t row = 0; row < vectors.rows; ++row)
+  {
+    T* const at = reinterpret_cast<T*>(vectors.bytes.data()) + 3 * row;
+    const glm::dvec3 turned = turn * glm::dvec3(at[0], at[1], at[2]);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      at[axis] = static_cast<T>(turned[axis]);
+    }
+  }
+}
+
+// Adds names of values, unless a file before gave one of the values another name.
+void takeLabels(const std::vector<Label>& labels, Surface& surface)
+{
+  std::map<int, std::string> known;
+  for (const Label& label : surface.labels)
+  {
+    known.emplace(label.value, label.name);
+  }
+  std::vector<Label> added;
+  for (const Label& label : labels)
+  {
+    const auto found = known.find(label.value);
+    if (found == known.end())
+    {
+      added.push_back(label);
+    }
+    else if (found->second != label.name)
+    {
+      surface.notes.push_back("names the label " + std::to_string(label.value) + " \"" +
+        shownWords(label.name) + "\", which is \"" + shownWords(found->second) +
+        "\" in a file before; its names of labels are left out");
+      return;
+    }
+  }
+  surface.labels.insert(surface.labels.end(), added.begin(), added.end());
+}
+
+// Takes the arrays that belong to the points.
+void takeNumbers(GIFTIFile& file, Surface& surface)
+{
+  std::size_t others = 0;
+  std::size_t taken = 0;
+  for (GIFTIArray& array : file.arrays)
+  {
+    const std::string intent = array.attribute("Intent");
+    if (intent == PointIntent || intent == TriangleIntent || array.bytes.empty())
+    {
+      continue;
+    }
+    if (array.rows != surface.points.size())
+    {
+      ++others;
+      continue;
+    }
+    const bool isVector = intent == "NIFTI_INTENT_VECTOR" && array.columns == 3;
+    if (isVector && array.type == NumberType::Float32)
+    {
+      turnVectors<float>(surface.worldFromStored, array);
+    }
+    if (isVector && array.type == NumberType::Float64)
+    {
+      turnVectors<double>(surface.worldFromStored, array);
+    }
+    surface.numbers.push_back(
+      { surface.names.own(nameOf(array)), array.type, array.columns, std::move(array.bytes) });
+    ++taken;
+  }
+  if (others > 0)
+  {
+    surface.notes.push_back("has " + counted(others, "array") + " with other than " +
+      std::to_string(surface.points.size()) + " rows, the number of points; left out");
+  }
+  if (taken > 0)
+  {
+    takeLabels(file.labels, surface);
+  }
+}
+
+void takePoints(const GIFTIArray& array, Surface& surface)
+{
+  surface.points.resize(array.rows);
+  for (std::size_t i = 0; i < array.rows; ++i)
+  {
+    surface.points[i] =
+      glm::dvec3(realIn(array, 3 * i), realIn(array, 3 * i + 1), realIn(array, 3 * i + 2));
+  }
+}
+
+void takeTriangles(const GIFTIArray& array, Surface& surface)
+{
+  surface.triangles.resize(array.rows);
+  for (std::size_t i = 0; i < array.rows; ++i)
+  {
+    surface.triangles[i] = glm::ivec3(numberIn<std::int32_t>(array, 3 * i),
+      numberIn<std::int32_t>(array, 3 * i + 1), numberIn<std::int32_t>(array, 3 * i + 2));
+  }
+}
+
+// The first array of an intent; null without one. Notes if there are more.
+const GIFTIArray* firstOf(const GIFTIFile& file, const std::string& intent, Surface& surface)
+{
+  const GIFTIArray* first = nullptr;
+  std::size_t count = 0;
+  for (const GIFTIArray& array : file.arrays)
+  {
+    const bool isOne = array.attribute("Intent") == intent;
+    first = isOne && !first ? &array : first;
+    count += isOne ? 1 : 0;
+  }
+  if (count > 1)
+  {
+    surface.notes.push_back(
+      "has " + std::to_string(count) + " arrays " + intent + "; the first is shown");
+  }
+  return first;
+}
+}
+
+std::string readGIFTISurface(const std::vector<char>& text, Surface& surface)
+{
+  GIFTIFile file;
+  std::string problem = readGIFTIFile(text, file);
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  const GIFTIArray* const points = firstOf(file, PointIntent, surface);
+  const GIFTIArray* const triangles = firstOf(file, TriangleIntent, surface);
+  if (!points || !triangles)
+  {
+    return std::string("has no array ") + (points ? TriangleIntent : PointIntent) +
+      "; open the file of the surface, and name this file as one of its ValueFileNames";
+  }
+  problem = shapeProblem(*points, "points", false);
+  problem = problem.empty() ? shapeProblem(*triangles, "triangles", true) : problem;
+  problem = problem.empty() ? findPlace(*points, surface) : problem;
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  takePoints(*points, surface);
+  takeTriangles(*triangles, surface);
+  takeNumbers(file, surface);
+  return {};
+}
+
+std::string addGIFTINumbers(const std::vector<char>& text, Surface& surface)
+{
+  GIFTIFile file;
+  const std::string problem = readGIFTIFile(text, file);
+  if (problem.empty())
+  {
+    takeNumbers(file, surface);
+  }
+  return problem;
+}
+
+extern const SurfaceFormat SurfacesOfGIFTI{ isGIFTIFile,
+  [](const std::vector<char>& bytes, const GivenVolume&, Surface& surface) {
+    return readGIFTISurface(bytes, surface);
+  },
+  [](const std::vector<char>& bytes, const std::string&, Surface& surface) {
+    return addGIFTINumbers(bytes, surface);
+  },
+  beginsLikeGIFTI, "GIFTI file" };
+}

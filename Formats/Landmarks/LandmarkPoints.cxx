@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/Landmarks/LandmarkPoints.h"
+
+#include "Common/WorldAxes.h"
+
+#include "vtkAbstractArray.h"
+#include "vtkCellArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+#include "vtkVariant.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace brainshift
+{
+namespace
+{
+constexpr const char* LabelName = "Label";
+
+using NumberMember = std::pair<const char*, double Landmark::*>;
+constexpr std::array<NumberMember, 3> Numbers{ {
+  { "Number", &Landmark::number },
+  { "Time", &Landmark::time },
+  { "Deviation", &Landmark::deviation },
+} };
+
+void addLabels(vtkPolyData* points, const LandmarkList& list)
+{
+  if (std::all_of(list.points.begin(), list.points.end(),
+        [](const Landmark& point) { return point.label.empty(); }))
+  {
+    return;
+  }
+  vtkNew<vtkStringArray> labels;
+  labels->SetName(LabelName);
+  labels->SetNumberOfValues(static_cast<vtkIdType>(list.points.size()));
+  for (std::size_t i = 0; i < list.points.size(); ++i)
+  {
+    labels->SetValue(static_cast<vtkIdType>(i), list.points[i].label);
+  }
+  points->GetPointData()->AddArray(labels);
+}
+
+void addNumbers(vtkPolyData* points, const LandmarkList& list, const NumberMember& member)
+{
+  if (std::all_of(list.points.begin(), list.points.end(),
+        [&](const Landmark& point) { return std::isnan(point.*member.second); }))
+  {
+    return;
+  }
+  vtkNew<vtkDoubleArray> numbers;
+  numbers->SetName(member.first);
+  numbers->SetNumberOfValues(static_cast<vtkIdType>(list.points.size()));
+  for (std::size_t i = 0; i < list.points.size(); ++i)
+  {
+    numbers->SetValue(static_cast<vtkIdType>(i), list.points[i].*member.second);
+  }
+  points->GetPointData()->AddArray(numbers);
+}
+}
+
+void setLandmarks(vtkPolyData* points, const LandmarkList& list)
+{
+  const auto count = static_cast<vtkIdType>(list.points.size());
+  vtkNew<vtkPoints> positions;
+  positions->SetDataTypeToDouble();
+  positions->SetNumberOfPoints(count);
+  vtkNew<vtkCellArray> vertices;
+  vertices->AllocateExact(count, count);
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    const glm::dvec3& position = list.points[static_cast<std::size_t>(i)].position;
+    positions->SetPoint(i, position.x, position.y, position.z);
+    vertices->InsertNextCell(1, &i);
+  }
+  points->Initialize();
+  points->SetPoints(positions);
+  points->SetVerts(vertices);
+  addLabels(points, list);
+  for (const NumberMember& member : Numbers)
+  {
+    addNumbers(points, list, member);
+  }
+  nameWorldAxes(points, WorldAxes::RAS);
+}
+
+LandmarkList landmarksOf(vtkPointSet* points)
+{
+  LandmarkList list;
+  const FileAxes axes = worldAxesOf(points) == WorldAxes::LPS ? FileAxes::LPS : FileAxes::RAS;
+  list.points.resize(static_cast<std::size_t>(points->GetNumberOfPoints()));
+  vtkPointData* arrays = points->GetPointData();
+  vtkAbstractArray* labels = arrays->GetAbstractArray(LabelName);
+  for (std::size_t i = 0; i < list.points.size(); ++i)
+  {
+    const auto id = static_cast<vtkIdType>(i);
+    glm::dvec3 position(0.0);
+    points->GetPoint(id, &position.x);
+    list.points[i].position = inAxes(axes, position);
+    if (labels && labels->GetNumberOfComponents() == 1)
+    {
+      list.points[i].label = labels->GetVariantValue(id).ToString();
+    }
+    for (const NumberMember& member : Numbers)
+    {
+      vtkDataArray* numbers = arrays->GetArray(member.first);
+      if (numbers && numbers->GetNumberOfComponents() == 1)
+      {
+        list.points[i].*member.second = numbers->GetComponent(id, 0);
+      }
+    }
+  }
+  return list;
+}
+}

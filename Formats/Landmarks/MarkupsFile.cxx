@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/Landmarks/MarkupsFile.h"
+
+#include "Formats/Files/TextHeader.h"
+#include "Formats/Landmarks/PlainText.h"
+
+#include "vtk_nlohmannjson.h"
+#include VTK_NLOHMANN_JSON(json.hpp)
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <vector>
+
+namespace brainshift
+{
+namespace
+{
+constexpr const char* Schema =
+  "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/"
+  "Schema/markups-schema-v1.0.3.json#";
+
+// A word, a number, or neither: true, false and null.
+struct Value
+{
+  const std::string* word = nullptr;
+  const double* number = nullptr;
+  bool isNull = false;
+};
+
+// Hears what the parser finds, and keeps only what makes points: a large file needs no more memory
+// than they do. The public names are those that the parser calls; each returns whether to go on.
+class MarkupsHandler
+{
+public:
+  explicit MarkupsHandler(LandmarkList& list)
+    : List(list)
+  {
+  }
+
+  // What is wrong after the parser has ended; empty if nothing is.
+  std::string finish()
+  {
+    if (this->Problem.empty() && !this->HasMarkups)
+    {
+      return "has no array \"markups\"; it is no markups file of Slicer";
+    }
+    noteSkipped(this->List, this->Skipped);
+    return this->Problem;
+  }
+
+  bool null() { return this->take({ nullptr, nullptr, true }); }
+  bool boolean(bool) { return this->take({}); }
+  bool number_integer(std::int64_t number) { return this->takeNumber(static_cast<double>(number)); }
+  bool number_unsigned(std::uint64_t number)
+  {
+    return this->takeNumber(static_cast<double>(number));
+  }
+  bool number_float(double number, const std::string&) { return this->takeNumber(number); }
+  bool string(const std::string& word) { return this->take({ &word, nullptr, false }); }
+  bool binary(const nlohmann::json::binary_t&) { return true; } // JSON has none
+
+  bool key(const std::string& name)
+  {
+    this->Key = name;
+    return true;
+  }
+
+  bool start_object(std::size_t) { return this->open(false); }
+  bool start_array(std::size_t) { return this->open(true); }
+  bool end_array() { return this->close(); }
+  bool end_object() { return this->close(); }
+
+  bool parse_error(std::size_t, const std::string&, const std::exception& error)
+  {
+    const std::string said = error.what(); // "[json.exception.parse_error.101] parse error at ..."
+    return this->fail("is not good JSON: " + shownWords(said.substr(said.find(' ') + 1)));
+  }
+
+private:
+  enum class Place // inside of what
+  {
+    Root,
+    Markups,
+    Markup,
+    Units,
+    Controls,
+    Control,
+    Position,
+    Other,
+  };
+
+  LandmarkList& List;
+  std::string Problem;
+  std::vector<Place> Places; // from the outside to the inside
+  std::string Key;
+  bool HasMarkups = false;
+  std::size_t Read = 0;
+  std::size_t Skipped = 0;
+  // Of the list that is being read.
+  FileAxes Axes = FileAxes::LPS;
+  std::size_t First = 0;
+  // Of the control point that is being read.
+  Landmark Point;
+  std::vector<double> Position;
+  bool IsPlaced = true;
+
+  bool fail(const std::string& problem)
+  {
+    this->Problem = problem;
+    return problem.empty();
+  }
+
+  bool failPoint(const std::string& problem)
+  {
+    return this->fail(problemAt("control point " + std::to_string(this->Read), problem));
+  }
+
+  bool takeNumber(double number) { return this->take({ nullptr, &number, false }); }
+
+  bool take(const Value& value)
+  {
+    switch (this->Places.empty() ? Place::Other : this->Places.back())
+    {
+      case Place::Markups:
+        return this->fail("has a list of markups that is no object");
+      case Place::Markup:
+        return this->takeOfMarkup(value);
+      case Place::Units:
+        return this->takeUnit(value);
+      case Place::Controls:
+        ++this->Read;
+        return this->failPoint("is no object");
+      case Place::Control:
+        return this->takeOfControl(value);
+      case Place::Position:
+        this->Position.push_back(value.number ? *value.number : 0.0);
+        return value.number || this->failPoint("has a position that is not 3 numbers");
+      default:
+        return true;
+    }
+  }
+
+  bool takeUnit(const Value& value)
+  {
+    const bool isGood = value.isNull || (value.word && *value.word == "mm");
+    return isGood || this->fail("has coordinateUnits other than mm");
+  }
+
+  bool takeOfMarkup(const Value& value)
+  {
+    if (this->Key == "coordinateUnits")
+    {
+      return this->takeUnit(value);
+    }
+    if (this->Key == "coordinateSystem" && !value.isNull)
+    {
+      const std::string word = value.word ? *value.word
+        : value.number                    ? numberText(*value.number)
+                                          : "";
+      return this->fail(axesFrom(word, this->Axes));
+    }
+    return this->Key != "controlPoints" || value.isNull ||
+      this->fail("has controlPoints that are no array");
+  }
+
+  bool takeOfControl(const Value& value)
+  {
+    if (this->Key == "label" && value.word)
+    {
+      this->Point.label = *value.word;
+    }
+    else if (this->Key == "positionStatus" && value.word)
+    {
+      this->IsPlaced = *value.word == "defined";
+    }
+    return this->Key != "position" || value.isNull ||
+      this->failPoint("has a position that is not 3 numbers");
+  }
+
+  bool open(bool isArray)
+  {
+    const Place outside = this->Places.empty() ? Place::Other : this->Places.back();
+    const bool isRoot = this->Places.empty();
+    this->Places.push_back(Place::Other);
+    switch (outside)
+    {
+      case Place::Root:
+        return this->Key != "markups" || !isArray || this->enterMarkups();
+      case Place::Markups:
+        return isArray ? this->fail("has a list of markups that is no object")
+                       : this->enterMarkup();
+      case Place::Markup:
+        return this->openInMarkup(isArray);
+      case Place::Controls:
+        ++this->Read;
+        return isArray ? this->failPoint("is no object") : this->enterControl();
+      case Place::Control:
+        return this->Key != "position" || this->enterPosition(isArray);
+      case Place::Position:
+        return this->failPoint("has a position that is not 3 numbers");
+      default:
+        this->Places.back() = isRoot && !isArray ? Place::Root : Place::Other;
+        return true;
+    }
+  }
+
+  bool openInMarkup(bool isArray)
+  {
+    if (this->Key == "controlPoints")
+    {
+      this->Places.back() = Place::Controls;
+      return isArray || this->fail("has controlPoints that are no array");
+    }
+    if (this->Key == "coordinateUnits")
+    {
+      this->Places.back() = Place::Units;
+      return isArray || this->fail("has coordinateUnits other than mm");
+    }
+    return this->Key != "coordinateSystem" || this->fail(axesFrom("", this->Axes));
+  }
+
+  bool enterMarkups()
+  {
+    this->Places.back() = Place::Markups;
+    this->HasMarkups = true;
+    return true;
+  }
+
+  bool enterMarkup()
+  {
+    this->Places.back() = Place::Markup;
+    this->Axes = FileAxes::LPS;
+    this->First = this->List.points.size();
+    return true;
+  }
+
+  bool enterControl()
+  {
+    this->Places.back() = Place::Control;
+    this->Point = Landmark();
+    this->Point.number = static_cast<double>(this->Read);
+    this->Position.clear();
+    this->IsPlaced = true;
+    return true;
+  }
+
+  bool enterPosition(bool isArray)
+  {
+    this->Places.back() = Place::Position;
+    this->Position.clear();
+    return isArray || this->failPoint("has a position that is not 3 numbers");
+  }
+
+  bool close()
+  {
+    const Place place = this->Places.back();
+    this->Places.pop_back();
+    if (place == Place::Markup) // its axes may be named after its points
+    {
+      for (std::size_t i = this->First; i < this->List.points.size(); ++i)
+      {
+        this->List.points[i].position = inAxes(this->Axes, this->List.points[i].position);
+      }
+    }
+    return place != Place::Control || this->addPoint();
+  }
+
+  bool addPoint()
+  {
+    if (!this->IsPlaced || this->Position.empty())
+    {
+      ++this->Skipped;
+      return true;
+    }
+    if (this->Position.size() != 3)
+    {
+      return this->failPoint("has a position that is not 3 numbers");
+    }
+    this->Point.position = { this->Position[0], this->Position[1], this->Position[2] };
+    return this->fail(
+      addLandmark(this->List, this->Point, "control point " + std::to_string(this->Read)));
+  }
+};
+}
+
+std::string readMarkups(const std::string& text, LandmarkList& list)
+{
+  MarkupsHandler handler(list);
+  nlohmann::json::sax_parse(text, &handler);
+  return handler.finish();
+}
+
+bool looksLikeMarkups(const std::string& beginning)
+{
+  const std::string text = trimmed(beginning);
+  return !text.empty() && text[0] == '{' && text.find("\"markups\"") != std::string::npos;
+}
+
+namespace
+{
+std::string jsonWord(const std::string& word)
+{
+  std::string quoted = "\"";
+  for (const char letter : validUtf8(word))
+  {
+    if (letter == '"' || letter == '\\')
+    {
+      quoted += '\\';
+      quoted += letter;
+    }
+    else if (letter >= 0 && letter < ' ')
+    {
+      constexpr const char* Digits = "0123456789abcdef";
+      quoted += "\\u00";
+      quoted += Digits[letter / 16];
+      quoted += Digits[letter % 16];
+    }
+    else
+    {
+      quoted += letter;
+    }
+  }
+  return quoted + '"';
+}
+}
+
+void writeMarkups(std::ostream& file, FileAxes axes, const LandmarkList& list)
+{
+  file << "{\n  \"@schema\": \"" << Schema << "\",\n  \"markups\": [\n    {\n"
+       << "      \"type\": \"Fiducial\",\n"
+       << "      \"coordinateSystem\": \"" << (axes == FileAxes::RAS ? "RAS" : "LPS") << "\",\n"
+       << "      \"coordinateUnits\": \"mm\",\n      \"controlPoints\": [";
+  for (std::size_t i = 0; i < list.points.size(); ++i)
+  {
+    const glm::dvec3 position = inAxes(axes, list.points[i].position);
+    file << (i > 0 ? ",\n" : "\n") << "        { \"id\": \"" << std::to_string(i + 1)
+         << "\", \"label\": " << jsonWord(list.points[i].label)
+         << ", \"description\": \"\", \"associatedNodeID\": \"\", \"position\": ["
+         << numberText(position.x) << ", " << numberText(position.y) << ", "
+         << numberText(position.z)
+         << "], \"orientation\": [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0], "
+            "\"selected\": true, \"locked\": false, \"visibility\": true, "
+            "\"positionStatus\": \"defined\" }";
+  }
+  file << "\n      ]\n    }\n  ]\n}\n";
+}
+}

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkLandmarkReader.h"
+
+#include "Common/Guard.h"
+#include "Formats/Landmarks/LandmarkFile.h"
+#include "Formats/Landmarks/LandmarkPoints.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+using namespace brainshift;
+
+vtkStandardNewMacro(vtkLandmarkReader);
+brainshiftGuardRequestsMacro(vtkLandmarkReader);
+
+vtkLandmarkReader::vtkLandmarkReader()
+{
+  this->SetNumberOfInputPorts(0);
+}
+
+int vtkLandmarkReader::CanReadFile(const char* fileName)
+{
+  bool isOne = false;
+  const std::string thrown = thrownBy([&] { isOne = fileName && isLandmarkFile(fileName); });
+  return thrown.empty() && isOne ? 1 : 0;
+}
+
+int vtkLandmarkReader::RequestData(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  vtkInformation* information = outputs->GetInformationObject(0);
+  if (information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()) > 0)
+  {
+    return 1; // the first piece has all points
+  }
+  LandmarkList list;
+  this->Problem = "The file needs more memory than there is"; // what holds if this throws
+  this->Problem = this->FileName.empty()
+    ? std::string("FileName is empty; it must name a file of landmarks")
+    : readLandmarkFile(
+        this->FileName, this->Volume, this->TableAxes == LPS ? FileAxes::LPS : FileAxes::RAS, list);
+  if (!this->Problem.empty())
+  {
+    vtkErrorMacro(<< this->Problem << ".");
+    return 0;
+  }
+  for (const std::string& note : list.notes)
+  {
+    vtkWarningMacro("Landmark file " << this->FileName << " " << note << ".");
+  }
+  setLandmarks(vtkPolyData::GetData(information), list);
+  return 1;
+}
+
+void vtkLandmarkReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << this->FileName << "\n"
+     << indent << "Volume: " << this->Volume << "\n"
+     << indent << "TableAxes: " << (this->TableAxes == RAS ? "RAS" : "LPS") << "\n";
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkLandmarkReader
+ * @brief   reads landmarks and traced points of Slicer, MNI tools and tables into RAS millimetres
+ *
+ * LandmarkFile.h lists the formats. Output: vertices (double precision, mm, RAS) with those of
+ * these point arrays for which the file says something: Label (string, UTF-8), Number (place in the
+ * file, from 1 on; of a table its column), Time and Deviation (double, in the unit of the file, NaN
+ * where it says none). The field array WorldAxes says RAS. Trace Distance and Deform Geometry take
+ * it as it is. Points without a position are left out with a warning. On several processes the
+ * first one has all points. After an error the output is empty.
+ */
+#ifndef vtkLandmarkReader_h
+#define vtkLandmarkReader_h
+
+#include "vtkBrainShiftFormatsModule.h" // for the export macro
+#include "vtkPolyDataAlgorithm.h"
+
+#include <string>
+
+class VTKBRAINSHIFTFORMATS_EXPORT vtkLandmarkReader : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkLandmarkReader* New();
+  vtkTypeMacro(vtkLandmarkReader, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+  enum TableAxesType
+  {
+    RAS = 0, ///< x to the right, y to the front, z to the head
+    LPS = 1, ///< x to the left, y to the back, z to the head
+  };
+
+  ///@{
+  /** The file: .mrk.json, .json, .fcsv, .tag, .csv or .tsv. Default: none, which is an error. */
+  vtkSetMacro(FileName, std::string);
+  vtkGetMacro(FileName, std::string);
+  ///@}
+
+  ///@{
+  /** The volume of a .tag file whose points are read: 1 (default) or 2. */
+  vtkSetClampMacro(Volume, int, 1, 2);
+  vtkGetMacro(Volume, int);
+  ///@}
+
+  ///@{
+  /** The axes of a table whose columns are called x, y and z: RAS (default) or LPS. */
+  vtkSetClampMacro(TableAxes, int, RAS, LPS);
+  vtkGetMacro(TableAxes, int);
+  ///@}
+
+  /** Why the last run read no points: one sentence, without a full stop. Empty if it read them. */
+  vtkGetMacro(Problem, std::string);
+
+  /** 1 if the file begins like one of the formats; a table must name its columns. Else 0. */
+  static int CanReadFile(const char* fileName);
+
+protected:
+  vtkLandmarkReader();
+  ~vtkLandmarkReader() override = default;
+
+  int RequestData(
+    vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkLandmarkReader(const vtkLandmarkReader&) = delete;
+  void operator=(const vtkLandmarkReader&) = delete;
+
+  std::string FileName;
+  int Volume = 1;
+  int TableAxes = RAS;
+  std::string Problem = "Nothing was read";
+};
+
+#endif

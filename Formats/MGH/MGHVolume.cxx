@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/MGH/MGHVolume.h"
+
+#include "Formats/Files/PlainFile.h"
+
+#include "vtkImageData.h"
+#include "vtkPointData.h"
+
+#include <glm/mat3x3.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <map>
+
+namespace brainshift
+{
+namespace
+{
+constexpr std::size_t HeaderBytes = 284; // voxels follow
+constexpr int Version = 1;
+constexpr int MostFrames = 65536; // each takes memory for its time
+
+// VTK's types by the numbers of the format.
+const std::map<int, int> Types{ { 0, VTK_UNSIGNED_CHAR }, { 1, VTK_INT }, { 3, VTK_FLOAT },
+  { 4, VTK_SHORT }, { 10, VTK_UNSIGNED_SHORT } };
+
+// Big-endian numbers at places of a text of bytes.
+template <typename T>
+T numberAt(const char* bytes, std::size_t offset)
+{
+  std::array<char, sizeof(T)> raw;
+  std::copy_n(bytes + offset, sizeof(T), raw.begin());
+  if (!thisMachineIsBigEndian())
+  {
+    std::reverse(raw.begin(), raw.end());
+  }
+  T number;
+  std::memcpy(&number, raw.data(), sizeof(T));
+  return number;
+}
+
+glm::dvec3 vectorAt(const char* bytes, std::size_t offset)
+{
+  return glm::dvec3(numberAt<float>(bytes, offset), numberAt<float>(bytes, offset + 4),
+    numberAt<float>(bytes, offset + 8));
+}
+
+// The names are those of the format.
+struct MGHHeader
+{
+  std::array<char, HeaderBytes> bytes{};
+
+  int version() const { return numberAt<std::int32_t>(this->bytes.data(), 0); }
+  // Columns, rows, slices, frames.
+  int side(int axis) const
+  {
+    return numberAt<std::int32_t>(this->bytes.data(), 4 + 4 * static_cast<std::size_t>(axis));
+  }
+  int type() const { return numberAt<std::int32_t>(this->bytes.data(), 20); }
+  bool goodRASFlag() const { return numberAt<std::int16_t>(this->bytes.data(), 28) > 0; }
+  glm::dvec3 spacing() const { return vectorAt(this->bytes.data(), 30); }
+  // Of one axis.
+  glm::dvec3 direction(int axis) const
+  {
+    return vectorAt(this->bytes.data(), 42 + 12 * static_cast<std::size_t>(axis));
+  }
+  // Of the voxel in the middle, at half the sides.
+  glm::dvec3 centre() const { return vectorAt(this->bytes.data(), 78); }
+};
+
+std::string readBegin(const std::string& fileName, MGHHeader& header)
+{
+  const std::string notPlain = plainFileProblem(fileName);
+  if (!notPlain.empty())
+  {
+    return notPlain;
+  }
+  const StoredBytes from{ fileName, 0, beginsLikeGzip(fileName), 0 };
+  const std::string problem =
+    readBytes(from, header.bytes.data(), HeaderBytes, [](double) { return false; });
+  return problem.empty()
+    ? problem
+    : "has no whole header, which has " + std::to_string(HeaderBytes) + " bytes: it " + problem;
+}
+
+std::string headerProblem(const MGHHeader& header)
+{
+  if (header.version() != Version)
+  {
+    return "has the version " + std::to_string(header.version()) + "; it must have 1";
+  }
+  bool oneVoxel = true;
+  for (int axis = 0; axis < 4; ++axis)
+  {
+    const int side = header.side(axis);
+    oneVoxel = oneVoxel && (side == 1 || axis == 3);
+    if (side < 1 || (axis == 3 && side > MostFrames))
+    {
+      return "has " + std::to_string(side) + (axis == 3 ? " frames" : " voxels along axis ") +
+        (axis == 3 ? "" : std::to_string(axis)) + "; it must have 1 or more" +
+        (axis == 3 ? ", up to " + std::to_string(MostFrames) : "");
+    }
+  }
+  if (oneVoxel)
+  {
+    return "has 1 voxel; it must have at least 2";
+  }
+  return Types.count(header.type()) > 0 ? std::string()
+                                        : "has the type " + std::to_string(header.type()) +
+      "; BrainShift reads 0 (uchar), 1 (int), " + "3 (float), 4 (short) and 10 (ushort)";
+}
+
+glm::dmat4 worldFromVoxel(const MGHHeader& header)
+{
+  glm::dmat4 world(1.0);
+  // FreeSurfer's default: coronal slices, from right to left and from the head down.
+  glm::dmat3 steps(
+    glm::dvec3(-1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, -1.0), glm::dvec3(0.0, 1.0, 0.0));
+  glm::dvec3 corner(0.0);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (header.goodRASFlag())
+    {
+      steps[axis] = header.direction(axis) * header.spacing()[axis];
+    }
+    corner -= 0.5 * header.side(axis) * steps[axis];
+    world[axis] = glm::dvec4(steps[axis], 0.0);
+  }
+  world[3] = glm::dvec4(corner + (header.goodRASFlag() ? header.centre() : glm::dvec3(0.0)), 1.0);
+  return world;
+}
+
+// Seconds between two frames: the repetition time, which follows the voxels; 1 if it is not there.
+double secondsOf(StoredBytes from, double bytes)
+{
+  from.unpackedSkip += from.isPacked ? static_cast<std::uint64_t>(bytes) : 0;
+  from.offset += from.isPacked ? 0 : static_cast<std::uint64_t>(bytes);
+  std::array<char, 4> raw{};
+  const std::string problem = readBytes(from, raw.data(), 4, [](double) { return false; });
+  const double milliseconds = problem.empty() ? numberAt<float>(raw.data(), 0) : 0.0;
+  return std::isfinite(milliseconds) && milliseconds > 0.0 ? milliseconds * 1e-3 : 1.0;
+}
+}
+
+bool isMGHFile(const std::string& fileName)
+{
+  MGHHeader header;
+  return readBegin(fileName, header).empty() && header.version() == Version &&
+    Types.count(header.type()) > 0;
+}
+
+std::string MGHVolume::readHeader(const std::string& fileName, VolumeHeader& header)
+{
+  this->Numbers = nullptr; // the file may have changed under its name
+  MGHHeader stored;
+  std::string problem = readBegin(fileName, stored);
+  problem = problem.empty() ? headerProblem(stored) : problem;
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  const bool isPacked = beginsLikeGzip(fileName);
+  this->From = { fileName, isPacked ? 0 : HeaderBytes, isPacked, isPacked ? HeaderBytes : 0 };
+  this->Dimensions = glm::ivec3(stored.side(0), stored.side(1), stored.side(2));
+  this->Frames = stored.side(3);
+  this->Type = Types.at(stored.type());
+  header.dimensions = this->Dimensions;
+  header.storedType = this->Type;
+  const double bytes = this->Frames * VolumeFile::storedBytes(header);
+  problem = bytesProblem(this->From, bytes);
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  header.worldFromVoxel = worldFromVoxel(stored);
+  header.knowsSides = stored.goodRASFlag();
+  if (!header.knowsSides)
+  {
+    header.warnings.push_back("does not say where its voxels lie (goodRASFlag is 0); they are shown"
+                              " as coronal slices of 1 mm, and their sides are not known");
+  }
+  const double seconds = this->Frames > 1 ? secondsOf(this->From, bytes) : 1.0;
+  header.times.clear();
+  for (int i = 0; i < this->Frames; ++i)
+  {
+    header.times.push_back(i * seconds);
+  }
+  return {};
+}
+
+double MGHVolume::storedBytes(const VolumeHeader& header) const
+{
+  return this->Numbers ? 0.0 : this->Frames * VolumeFile::storedBytes(header);
+}
+
+std::string MGHVolume::load(std::size_t volume, const Progress& progress, StoredVoxels& voxels)
+{
+  const vtkIdType count = vtkIdType(this->Dimensions.x) * this->Dimensions.y * this->Dimensions.z;
+  if (!this->Numbers)
+  {
+    auto numbers = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));
+    numbers->SetNumberOfTuples(count * this->Frames);
+    auto* const to = static_cast<char*>(numbers->GetVoidPointer(0));
+    const auto size = static_cast<std::size_t>(numbers->GetDataTypeSize());
+    const auto all = static_cast<std::size_t>(count * this->Frames);
+    bool stopped = false;
+    const std::string problem = readBytes(this->From, to, all * size, [&](double share) {
+      stopped = !progress(share);
+      return !stopped;
+    });
+    if (!problem.empty() || stopped)
+    {
+      return problem;
+    }
+    if (!thisMachineIsBigEndian())
+    {
+      reverseBytes(to, all, size);
+    }
+    this->Numbers = numbers;
+  }
+  auto frame = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));
+  constexpr int OwnedByNumbers = 1;
+  frame->SetVoidArray(
+    this->Numbers->GetVoidPointer(static_cast<vtkIdType>(volume) * count), count, OwnedByNumbers);
+  voxels.image = vtkSmartPointer<vtkImageData>::New();
+  voxels.image->SetDimensions(this->Dimensions.x, this->Dimensions.y, this->Dimensions.z);
+  voxels.image->GetPointData()->SetScalars(this->Frames > 1 ? frame : this->Numbers);
+  if (this->Frames == 1)
+  {
+    this->Numbers = nullptr; // frames are kept: the next one comes from them
+  }
+  return {};
+}
+
+extern const VolumeFormat VolumesOfMGH{ "MGH", isMGHFile, makeVolumeFile<MGHVolume> };
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief Volumes of FreeSurfer: .mgh, and .mgz or .mgh.gz packed with gzip.
+ *
+ * Their world is the scanner's RAS, in mm; FreeSurfer's tkRAS is not used. All numbers are big
+ * endian. Frames become time steps.
+ */
+#ifndef BrainShift_MGHVolume_h
+#define BrainShift_MGHVolume_h
+
+#include "Formats/Files/PackedBytes.h"
+#include "Formats/Volumes/VolumeFile.h"
+
+#include "vtkDataArray.h" // for its smart pointer
+
+#include <cstddef>
+#include <string>
+
+namespace brainshift
+{
+/** Whether a file exists and begins like a volume of FreeSurfer. */
+VTKBRAINSHIFTFORMATS_EXPORT bool isMGHFile(const std::string& fileName);
+
+/** See VolumeFile. */
+class MGHVolume : public VolumeFile
+{
+public:
+  std::string noun() const override { return "FreeSurfer volume"; }
+  std::string readHeader(const std::string& fileName, VolumeHeader& header) override;
+  double storedBytes(const VolumeHeader& header) const override;
+  std::string load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
+
+private:
+  StoredBytes From; // the voxels of all frames
+  glm::ivec3 Dimensions{ 0 };
+  int Frames = 1;
+  int Type = VTK_VOID;
+  vtkSmartPointer<vtkDataArray> Numbers; // all frames, kept for the next one
+};
+}
+
+#endif

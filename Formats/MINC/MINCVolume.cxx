@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/MINC/MINCVolume.h"
+
+#include "Formats/Files/PlainFile.h"
+
+#include "vtkDataArray.h"
+#include "vtkImageData.h"
+#include "vtkPointData.h"
+
+#include <minc2.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <map>
+
+namespace brainshift
+{
+namespace
+{
+constexpr std::uint64_t MostSteps = 65536;        // and numbers for a voxel: each takes memory
+constexpr std::uint64_t LongestSide = 2147483647; // of VTK
+constexpr int MostAxes = 5;
+
+// VTK's types by those of libminc.
+const std::map<int, int> Types{ { MI_TYPE_BYTE, VTK_SIGNED_CHAR },
+  { MI_TYPE_UBYTE, VTK_UNSIGNED_CHAR }, { MI_TYPE_SHORT, VTK_SHORT },
+  { MI_TYPE_USHORT, VTK_UNSIGNED_SHORT }, { MI_TYPE_INT, VTK_INT },
+  { MI_TYPE_UINT, VTK_UNSIGNED_INT }, { MI_TYPE_FLOAT, VTK_FLOAT },
+  { MI_TYPE_DOUBLE, VTK_DOUBLE } };
+
+std::string firstBytes(const std::string& fileName)
+{
+  std::string bytes(4, '\0');
+  std::ifstream file(fileName, std::ios::binary);
+  file.read(&bytes[0], 4);
+  return bytes;
+}
+
+bool beginsLikeHDF5(const std::string& fileName)
+{
+  return firstBytes(fileName) == "\x89HDF";
+}
+
+bool beginsLikeNetCDF(const std::string& fileName)
+{
+  return firstBytes(fileName).compare(0, 3, "CDF") == 0;
+}
+
+// A file that is closed when it is no longer needed.
+class OpenVolume
+{
+public:
+  explicit OpenVolume(const std::string& fileName)
+    : Good(miopen_volume(fileName.c_str(), MI2_OPEN_READ, &this->Handle) == MI_NOERROR)
+  {
+  }
+  ~OpenVolume()
+  {
+    if (this->Good)
+    {
+      miclose_volume(this->Handle);
+    }
+  }
+  OpenVolume(const OpenVolume&) = delete;
+  OpenVolume& operator=(const OpenVolume&) = delete;
+
+  bool isGood() const { return this->Good; }
+  mihandle_t get() const { return this->Handle; }
+
+private:
+  mihandle_t Handle = nullptr;
+  bool Good;
+};
+
+// What libminc says about one axis.
+struct StoredAxis
+{
+  std::string name;
+  midimclass_t kind = MI_DIMCLASS_ANY;
+  misize_t count = 0;
+  double start = 0.0; // mm along the axis
+  double step = 1.0;
+  glm::dvec3 cosines{ 0.0 };
+  bool isEven = true;
+};
+
+bool describe(midimhandle_t dimension, StoredAxis& axis)
+{
+  char* name = nullptr;
+  miboolean_t isUneven = 0;
+  const bool isGood = miget_dimension_name(dimension, &name) == MI_NOERROR &&
+    miget_dimension_class(dimension, &axis.kind) == MI_NOERROR &&
+    miget_dimension_size(dimension, &axis.count) == MI_NOERROR &&
+    miget_dimension_start(dimension, MI_ORDER_FILE, &axis.start) == MI_NOERROR &&
+    miget_dimension_separation(dimension, MI_ORDER_FILE, &axis.step) == MI_NOERROR;
+  if (name)
+  {
+    axis.name = name;
+    mifree_name(name);
+  }
+  if (miget_dimension_sampling_flag(dimension, &isUneven) == MI_NOERROR)
+  {
+    axis.isEven = isUneven == 0;
+  }
+  return isGood &&
+    (axis.kind != MI_DIMCLASS_SPATIAL ||
+      miget_dimension_cosines(dimension, &axis.cosines.x) == MI_NOERROR);
+}
+
+std::string axesOf(mihandle_t volume, std::vector<StoredAxis>& axes)
+{
+  int count = 0;
+  const bool isCounted =
+    miget_volume_dimension_count(volume, MI_DIMCLASS_ANY, MI_DIMATTR_ALL, &count) == MI_NOERROR;
+  if (!isCounted || count < 3 || count > MostAxes)
+  {
+    return "has " + std::to_string(count) + " dimensions; it must have from 3 to " +
+      std::to_string(MostAxes);
+  }
+  std::array<midimhandle_t, MostAxes> handles{};
+  const int found = miget_volume_dimensions(
+    volume, MI_DIMCLASS_ANY, MI_DIMATTR_ALL, MI_DIMORDER_FILE, count, handles.data());
+  for (int i = 0; i < count; ++i)
+  {
+    StoredAxis axis;
+    if (found == MI_ERROR || !describe(handles[static_cast<std::size_t>(i)], axis))
+    {
+      return "does not describe its dimension " + std::to_string(i);
+    }
+    axes.push_back(axis);
+  }
+  return {};
+}
+
+// The type that voxels are handed out in, and whether libminc scales them.
+std::string readType(mihandle_t volume, VolumeHeader& header, bool& areRealValues)
+{
+  mitype_t type = MI_TYPE_UNKNOWN;
+  miclass_t kind = MI_CLASS_REAL;
+  if (miget_data_type(volume, &type) != MI_NOERROR || miget_data_class(volume, &kind) != MI_NOERROR)
+  {
+    return "does not say the type of its voxels";
+  }
+  const auto known = Types.find(type);
+  const bool isNumber = kind == MI_CLASS_REAL || kind == MI_CLASS_INT || kind == MI_CLASS_LABEL;
+  if (known == Types.end() || !isNumber)
+  {
+    return "has voxels of the MINC type " + std::to_string(type) + ", class " +
+      std::to_string(kind) + "; BrainShift reads whole and real numbers";
+  }
+  areRealValues = kind == MI_CLASS_REAL;
+  header.storedType = areRealValues && type != MI_TYPE_DOUBLE ? VTK_FLOAT : known->second;
+  return {};
+}
+
+std::vector<Label> labelsIn(mihandle_t volume)
+{
+  miclass_t kind = MI_CLASS_REAL;
+  int count = 0;
+  std::vector<Label> labels;
+  if (miget_data_class(volume, &kind) != MI_NOERROR || kind != MI_CLASS_LABEL ||
+    miget_number_of_defined_labels(volume, &count) != MI_NOERROR)
+  {
+    return labels;
+  }
+  for (int i = 0; i < count && i < static_cast<int>(MostSteps); ++i)
+  {
+    Label label;
+    char* name = nullptr;
+    if (miget_label_value_by_index(volume, i, &label.value) == MI_NOERROR &&
+      miget_label_name(volume, label.value, &name) == MI_NOERROR && name)
+    {
+      label.name = name;
+      mifree_name(name);
+      labels.push_back(label);
+    }
+  }
+  return labels;
+}
+
+std::vector<double> timesOf(const StoredAxis& axis)
+{
+  const double step = std::isfinite(axis.step) && axis.step > 0.0 ? axis.step : 1.0;
+  const double start = std::isfinite(axis.start) ? axis.start : 0.0;
+  std::vector<double> times;
+  times.reserve(axis.count);
+  for (misize_t i = 0; i < axis.count; ++i)
+  {
+    times.push_back(start + static_cast<double>(i) * step);
+  }
+  return times;
+}
+
+// What the axes are for, and where they put voxels. Space counts from the fastest axis on.
+std::string arrange(
+  const std::vector<StoredAxis>& stored, std::vector<MINCVolume::Axis>& axes, VolumeHeader& header)
+{
+  int along = 2;
+  header.worldFromVoxel[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);
+  for (const StoredAxis& axis : stored)
+  {
+    const bool isSpace = axis.kind == MI_DIMCLASS_SPATIAL;
+    const bool isLast = &axis == &stored.back();
+    const std::uint64_t limit = isSpace ? LongestSide : MostSteps;
+    if (axis.count < 1 || axis.count > limit)
+    {
+      return "has " + std::to_string(axis.count) + " entries along " + axis.name +
+        "; it must have from 1 to " + std::to_string(limit);
+    }
+    if (!isSpace && axis.kind != MI_DIMCLASS_TIME && !isLast)
+    {
+      return "has the dimension " + axis.name + ", which is none of space or time; only the last " +
+        "one may be";
+    }
+    axes.push_back({ isSpace            ? MINCVolume::AxisUse::Space
+        : axis.kind == MI_DIMCLASS_TIME ? MINCVolume::AxisUse::Time
+                                        : MINCVolume::AxisUse::Components,
+      axis.count });
+    if (!axis.isEven)
+    {
+      header.warnings.push_back("has an uneven spacing along " + axis.name +
+        "; it is shown with the even spacing " + std::to_string(axis.step));
+    }
+    if (isSpace && along >= 0)
+    {
+      header.worldFromVoxel[along] = glm::dvec4(axis.step * axis.cosines, 0.0);
+      header.worldFromVoxel[3] += glm::dvec4(axis.start * axis.cosines, 0.0);
+      header.dimensions[along] = static_cast<int>(axis.count);
+    }
+    along -= isSpace ? 1 : 0;
+    if (axis.kind == MI_DIMCLASS_TIME)
+    {
+      header.times = timesOf(axis);
+    }
+    header.components = axes.back().use == MINCVolume::AxisUse::Components
+      ? static_cast<int>(axis.count)
+      : header.components;
+  }
+  return along == -1 ? std::string()
+                     : "has " + std::to_string(2 - along) + " axes in space; it must have 3";
+}
+
+// Reads some slices along the slowest axis of space.
+bool readSlices(mihandle_t volume, const std::vector<misize_t>& start,
+  const std::vector<misize_t>& count, bool areRealValues, vtkDataArray* to, vtkIdType firstValue)
+{
+  void* const place = to->GetVoidPointer(firstValue);
+  const auto isType = [&](const auto& known) { return known.second == to->GetDataType(); };
+  const auto type = std::find_if(Types.begin(), Types.end(), isType);
+  const auto wanted = static_cast<mitype_t>(type->first);
+  const int status = areRealValues
+    ? miget_real_value_hyperslab(volume, wanted, start.data(), count.data(), place)
+    : miget_voxel_value_hyperslab(volume, wanted, start.data(), count.data(), place);
+  return status == MI_NOERROR;
+}
+}
+
+bool isMINCFile(const std::string& fileName)
+{
+  return plainFileProblem(fileName).empty() &&
+    (beginsLikeHDF5(fileName) || beginsLikeNetCDF(fileName));
+}
+
+std::string MINCVolume::readHeader(const std::string& fileName, VolumeHeader& header)
+{
+  this->FileName = fileName;
+  this->Axes.clear();
+  const std::string notPlain = plainFileProblem(fileName);
+  if (!notPlain.empty())
+  {
+    return notPlain;
+  }
+  if (beginsLikeNetCDF(fileName))
+  {
+    return "is a MINC1 file; BrainShift reads MINC2, which mincconvert -2 makes of it";
+  }
+  if (!beginsLikeHDF5(fileName))
+  {
+    return "is not MINC2: it does not begin like an HDF5 file";
+  }
+  const OpenVolume volume(fileName);
+  if (!volume.isGood())
+  {
+    return "is not MINC2, or is damaged: libminc cannot open it";
+  }
+  std::vector<StoredAxis> stored;
+  std::string problem = axesOf(volume.get(), stored);
+  problem = problem.empty() ? readType(volume.get(), header, this->AreRealValues) : problem;
+  problem = problem.empty() ? arrange(stored, this->Axes, header) : problem;
+  if (problem.empty() && header.dimensions == glm::ivec3(1))
+  {
+    problem = "has 1 voxel; it must have at least 2";
+  }
+  header.labels = problem.empty() ? labelsIn(volume.get()) : std::vector<Label>();
+  this->Header = header;
+  return problem;
+}
+
+std::string MINCVolume::load(std::size_t volume, const Progress& progress, StoredVoxels& voxels)
+{
+  constexpr misize_t Slices = 32; // a block of compressed voxels has as many
+  const OpenVolume file(this->FileName);
+  if (!file.isGood())
+  {
+    return "libminc cannot open it any more";
+  }
+  const glm::ivec3& sides = this->Header.dimensions;
+  auto numbers =
+    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Header.storedType));
+  numbers->SetNumberOfComponents(this->Header.components);
+  numbers->SetNumberOfTuples(vtkIdType(sides.x) * sides.y * sides.z);
+  std::vector<misize_t> start(this->Axes.size(), 0);
+  std::vector<misize_t> count(this->Axes.size(), 1);
+  std::size_t slowest = this->Axes.size();
+  for (std::size_t i = 0; i < this->Axes.size(); ++i)
+  {
+    const bool isTime = this->Axes[i].use == AxisUse::Time;
+    start[i] = isTime ? volume : 0;
+    count[i] = isTime ? 1 : this->Axes[i].count;
+    slowest = this->Axes[i].use == AxisUse::Space ? std::min(slowest, i) : slowest;
+  }
+  const misize_t slices = count[slowest];
+  const vtkIdType sliceValues = vtkIdType(sides.x) * sides.y * this->Header.components;
+  for (misize_t slice = 0; slice < slices; slice += Slices)
+  {
+    start[slowest] = slice;
+    count[slowest] = std::min(Slices, slices - slice);
+    if (!readSlices(file.get(), start, count, this->AreRealValues, numbers,
+          static_cast<vtkIdType>(slice) * sliceValues))
+    {
+      return "libminc cannot read its slices from " + std::to_string(slice) + " on";
+    }
+    if (!progress(static_cast<double>(slice + count[slowest]) / static_cast<double>(slices)))
+    {
+      return {};
+    }
+  }
+  voxels.image = vtkSmartPointer<vtkImageData>::New();
+  voxels.image->SetDimensions(sides.x, sides.y, sides.z);
+  voxels.image->GetPointData()->SetScalars(numbers);
+  return {};
+}
+
+extern const VolumeFormat VolumesOfMINC{ "MINC", isMINCFile, makeVolumeFile<MINCVolume> };
+}

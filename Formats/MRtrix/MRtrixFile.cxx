@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/MRtrix/MRtrixFile.h"
+
+#include "Formats/Files/HeaderText.h"
+#include "Formats/Files/PlainFile.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <string_view>
+
+namespace brainshift
+{
+namespace
+{
+constexpr std::string_view Magic = "mrtrix tracks";
+constexpr std::size_t LongestHeader = 1 << 20; // bytes
+
+// What the lines of the header say of the numbers.
+struct TrackText
+{
+  std::size_t offset = 0; // of the first number
+  std::size_t size = 4;   // bytes of a number
+  bool isBigEndian = false;
+  double count = 0.0; // of streamlines; 0: not said
+};
+
+// The value of a line without the spaces around it.
+std::string valueIn(std::string_view line)
+{
+  const std::size_t first = line.find_first_not_of(" \t\r");
+  const std::size_t last = line.find_last_not_of(" \t\r");
+  return first == std::string_view::npos ? "" : std::string(line.substr(first, last - first + 1));
+}
+
+// The keys up to END. False if it does not come.
+bool readKeys(std::string_view text, std::map<std::string, std::string>& keys)
+{
+  for (std::size_t place = 0; place < text.size();)
+  {
+    const std::size_t end = std::min(text.find('\n', place), text.size());
+    const std::string_view line = text.substr(place, end - place);
+    if (valueIn(line) == "END")
+    {
+      return end < text.size();
+    }
+    const std::size_t colon = line.find(':');
+    if (colon != std::string_view::npos)
+    {
+      keys[valueIn(line.substr(0, colon))] = valueIn(line.substr(colon + 1));
+    }
+    place = end + 1;
+  }
+  return false;
+}
+
+std::string readHeader(const std::vector<char>& bytes, TrackText& header)
+{
+  const std::string_view text(bytes.data(), std::min(bytes.size(), LongestHeader));
+  std::map<std::string, std::string> keys;
+  if (text.substr(0, Magic.size()) != Magic || !readKeys(text, keys))
+  {
+    return text.substr(0, Magic.size()) != Magic ? "begins neither with TRACK, as TrackVis does, "
+                                                   "nor with \"mrtrix tracks\""
+                                                 : "has no line END within its first 1048576 bytes";
+  }
+  const std::vector<std::string> where = wordsIn(keys["file"]);
+  const std::vector<double> offset = where.size() == 2 ? numbersIn(where[1]) : numbersIn("");
+  if (offset.size() != 1 || where[0] != "." ||
+    !isWhole(offset[0], static_cast<double>(Magic.size()), static_cast<double>(bytes.size())))
+  {
+    return "has the line \"file: " + shownWords(keys["file"]) +
+      "\"; it must be a point and the place of the first number, up to " +
+      std::to_string(bytes.size());
+  }
+  header.offset = static_cast<std::size_t>(offset[0]);
+  const std::string type = keys["datatype"];
+  header.size = type.rfind("Float64", 0) == 0 ? 8 : 4;
+  header.isBigEndian = type == "Float32BE" || type == "Float64BE";
+  if (!header.isBigEndian && type != "Float32LE" && type != "Float64LE")
+  {
+    return "has the datatype " + shownWords(type) +
+      "; it must be Float32LE, Float32BE, Float64LE or Float64BE";
+  }
+  const std::vector<double> count = numbersIn(keys["count"]);
+  header.count = count.size() == 1 && isWhole(count[0], 0, 1e15) ? count[0] : 0.0;
+  return {};
+}
+
+// Points of a file, whose numbers are in the order of this machine.
+template <typename T>
+class Triples
+{
+public:
+  Triples(const std::vector<char>& bytes, std::size_t offset)
+    : First(bytes.data() + offset)
+    , Count((bytes.size() - offset) / (3 * sizeof(T)))
+  {
+  }
+
+  std::size_t count() const { return this->Count; }
+
+  std::array<T, 3> at(std::size_t index) const
+  {
+    std::array<T, 3> triple;
+    std::memcpy(triple.data(), this->First + index * sizeof(triple), sizeof(triple));
+    return triple;
+  }
+
+private:
+  const char* First;
+  std::size_t Count;
+};
+
+template <typename T>
+bool isAll(const std::array<T, 3>& triple, bool (*holds)(T))
+{
+  return holds(triple[0]) && holds(triple[1]) && holds(triple[2]);
+}
+
+// Ends a streamline, if it has points.
+void endStreamline(Tracts& tracts, std::size_t& empty)
+{
+  const auto points = static_cast<std::int64_t>(tracts.points.size());
+  if (points > tracts.firsts.back())
+  {
+    tracts.firsts.push_back(points);
+  }
+  else
+  {
+    ++empty;
+  }
+}
+
+// Where the triples end; their number if they do not.
+template <typename T>
+std::size_t takeTriples(const Triples<T>& triples, const ShareDone& shareDone, Tracts& tracts,
+  std::string& problem, std::size_t& empty)
+{
+  constexpr std::size_t Block = 1 << 18; // triples between two reports of progress
+  const auto limit = static_cast<T>(FarthestPoint);
+  tracts.points.reserve(triples.count());
+  for (std::size_t i = 0; i < triples.count(); ++i)
+  {
+    const std::array<T, 3> triple = triples.at(i);
+    if (std::abs(triple[0]) <= limit && std::abs(triple[1]) <= limit &&
+      std::abs(triple[2]) <= limit)
+    {
+      tracts.points.emplace_back(triple[0], triple[1], triple[2]);
+    }
+    else if (isAll<T>(triple, [](T number) { return std::isnan(number); }))
+    {
+      endStreamline(tracts, empty);
+    }
+    else if (isAll<T>(triple, [](T number) { return std::isinf(number); }))
+    {
+      return i;
+    }
+    else
+    {
+      problem = placeProblem(glm::dvec3(triple[0], triple[1], triple[2]),
+        "point " + std::to_string(tracts.points.size()));
+      return i;
+    }
+    if (i % Block == 0 && !shareDone(static_cast<double>(i) / static_cast<double>(triples.count())))
+    {
+      tracts = Tracts();
+      return i;
+    }
+  }
+  problem = "ends before the three infinite numbers that end such a file";
+  return triples.count();
+}
+
+template <typename T>
+std::string readTriples(
+  std::vector<char>& bytes, const TrackText& header, const ShareDone& shareDone, Tracts& tracts)
+{
+  if (header.isBigEndian != thisMachineIsBigEndian())
+  {
+    reverseBytes(
+      bytes.data() + header.offset, (bytes.size() - header.offset) / sizeof(T), sizeof(T));
+  }
+  bool isStopped = false;
+  std::string problem;
+  std::size_t empty = 0;
+  takeTriples<T>(
+    Triples<T>(bytes, header.offset),
+    [&](double share) {
+      isStopped = !shareDone(share);
+      return !isStopped;
+    },
+    tracts, problem, empty);
+  if (!problem.empty() || isStopped)
+  {
+    return problem;
+  }
+  if (static_cast<std::int64_t>(tracts.points.size()) > tracts.firsts.back())
+  {
+    tracts.firsts.push_back(static_cast<std::int64_t>(tracts.points.size()));
+  }
+  if (empty > 0)
+  {
+    tracts.notes.push_back("has " + counted(empty, "streamline") + " without points; left out");
+  }
+  const std::size_t found = tracts.firsts.size() - 1 + empty;
+  if (header.count > 0.0 && header.count != static_cast<double>(found))
+  {
+    tracts.notes.push_back("announces " +
+      counted(static_cast<std::size_t>(header.count), "streamline") + " and has " +
+      std::to_string(found));
+  }
+  return {};
+}
+}
+
+bool isMRtrixFile(const std::string& fileName)
+{
+  std::array<char, Magic.size()> begin{};
+  std::ifstream file;
+  if (plainFileProblem(fileName).empty())
+  {
+    file.open(fileName, std::ios::binary);
+  }
+  return file.is_open() && file.read(begin.data(), begin.size()) &&
+    std::string_view(begin.data(), begin.size()) == Magic;
+}
+
+std::string readMRtrix(std::vector<char>& bytes, const ShareDone& shareDone, Tracts& tracts)
+{
+  TrackText header;
+  const std::string problem = readHeader(bytes, header);
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  return header.size == 8 ? readTriples<double>(bytes, header, shareDone, tracts)
+                          : readTriples<float>(bytes, header, shareDone, tracts);
+}
+
+extern const TractFormat TractsOfMRtrix{ isMRtrixFile,
+  [](std::vector<char>& bytes, const std::string&, const ShareDone& shareDone, Tracts& tracts) {
+    return readMRtrix(bytes, shareDone, tracts);
+  } };
+}

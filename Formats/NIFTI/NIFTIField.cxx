@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/NIFTI/NIFTIField.h"
+
+#include "Formats/Fields/FieldImage.h"
+#include "Formats/NIFTI/NIFTIFileCheck.h"
+#include "Formats/Files/WholeFile.h"
+#include "Formats/NIFTI/NIFTIVolume.h"
+#include "Formats/Volumes/PlacedVolume.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCommand.h"
+#include "vtkDataArray.h"
+#include "vtkErrorCode.h"
+#include "vtkExecutive.h"
+#include "vtkImageData.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNIFTIImageHeader.h"
+#include "vtkNIFTIImageReader.h"
+#include "vtkNIFTIImageWriter.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtk_zlib.h"
+
+#include <glm/matrix.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace brainshift
+{
+namespace
+{
+constexpr int SmallestNIFTIHeader = 348; // bytes
+constexpr const char* NiftyRegName = "NREG_TRANS";
+constexpr int NiftyRegPositions = 0;     // intent_p1: where a point goes
+constexpr int NiftyRegDisplacements = 1; // how far
+constexpr const char* ForwardName = "forward";
+constexpr const char* BackwardName = "backward";
+
+// What a header says about the vectors.
+struct Intent
+{
+  int code = 0;
+  std::string name;
+  double p1 = 0.0;
+  bool isVectors = false; // three components
+};
+
+Intent intentOf(const std::string& fileName)
+{
+  Intent intent;
+  if (!niftiFileProblem(fileName).empty())
+  {
+    return intent;
+  }
+  vtkNew<vtkNIFTIImageReader> reader;
+  reader->SetFileName(fileName.c_str());
+  vtkNew<vtkCallbackCommand> silent; // the reader of the voxels reports problems
+  silent->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  reader->AddObserver(vtkCommand::WarningEvent, silent);
+  reader->AddObserver(vtkCommand::ErrorEvent, silent);
+  reader->UpdateInformation();
+  if (vtkNIFTIImageHeader* header = reader->GetNIFTIHeader())
+  {
+    intent.code = header->GetIntentCode();
+    intent.name = header->GetIntentName() ? header->GetIntentName() : "";
+    intent.p1 = header->GetIntentP1();
+    intent.isVectors = header->GetDim(0) >= 5 && header->GetDim(4) <= 1 && header->GetDim(5) == 3;
+  }
+  return intent;
+}
+
+// Whether a file is of vectors; one sentence if it is not, or if its vectors cannot be used.
+std::string intentProblem(const Intent& intent)
+{
+  if (!intent.isVectors)
+  {
+    return "does not have 3 components per voxel (in dim[5])";
+  }
+  if (intent.code != vtkNIFTIImageHeader::IntentDispVect &&
+    intent.code != vtkNIFTIImageHeader::IntentVector)
+  {
+    return "has the intent " + std::to_string(intent.code) +
+      "; a displacement field must have 1006 (DISPVECT) or 1007 (VECTOR)";
+  }
+  if (intent.name == NiftyRegName && intent.p1 != NiftyRegPositions &&
+    intent.p1 != NiftyRegDisplacements)
+  {
+    return "is a NiftyReg transformation of type " + std::to_string(static_cast<int>(intent.p1)) +
+      "; it must be 0 (deformation field) or 1 (displacement field). NiftyReg's reg_transform "
+      "makes one";
+  }
+  return {};
+}
+
+// Reads the grid and the vectors as the file has them.
+std::string readVectors(const std::string& fileName, DirectedField& field)
+{
+  PlacedVolume file(std::make_unique<NIFTIVolume>());
+  std::string problem = file.readHeader(fileName);
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  for (const std::string& warning : file.warnings())
+  {
+    vtkGenericWarningMacro(<< warning << ".");
+  }
+  if (file.header().components != 3)
+  {
+    return "NIfTI file " + fileName + " has " + std::to_string(file.header().components) +
+      " components per voxel; it must have 3";
+  }
+  const glm::ivec3 last = file.geometry().grid.dimensions - 1;
+  const int extent[6] = { 0, last.x, 0, last.y, 0, last.z };
+  vtkNew<vtkImageData> image;
+  problem = file.read(0, extent, [](double) { return true; }, image);
+  if (problem.empty())
+  {
+    field.grid = file.geometry().grid;
+    field.displacements = vectorsOf(image->GetPointData()->GetScalars());
+  }
+  return problem;
+}
+
+// From where points go to how far they go.
+void subtractPositions(DirectedField& field)
+{
+  const glm::ivec3& n = field.grid.dimensions;
+  for (std::size_t i = 0; i < field.displacements.size(); ++i)
+  {
+    const auto row = i / n.x;
+    const glm::dvec3 index(i % n.x, row % n.y, row / n.y);
+    field.displacements[i] =
+      glm::vec3(glm::dvec3(field.displacements[i]) - field.grid.worldFromGrid(index));
+  }
+}
+
+// vtkNIFTIImageWriter does not see that its last bytes found no place.
+std::string storageProblem(const std::string& fileName, double bytesOfVectors)
+{
+  gzFile file = gzopen(fileName.c_str(), "rb");
+  double found = -static_cast<double>(SmallestNIFTIHeader);
+  std::vector<char> piece(1 << 20);
+  int read = 0;
+  while (file && (read = gzread(file, piece.data(), static_cast<unsigned>(piece.size()))) > 0)
+  {
+    found += read;
+  }
+  const bool whole = file && gzclose(file) == Z_OK && read == 0 && found >= bytesOfVectors;
+  return whole ? std::string() : "the disk took a part of its bytes only";
+}
+
+void reverseVectorsXY(DirectedField& field)
+{
+  for (glm::vec3& displacement : field.displacements)
+  {
+    displacement *= glm::vec3(-1.0f, -1.0f, 1.0f);
+  }
+}
+}
+
+bool isNIFTIField(const std::string& fileName)
+{
+  const Intent intent = intentOf(fileName);
+  return intent.isVectors &&
+    (intent.code == vtkNIFTIImageHeader::IntentDispVect ||
+      intent.code == vtkNIFTIImageHeader::IntentVector);
+}
+
+std::string readNIFTIField(const std::string& fileName, DirectedField& field)
+{
+  std::string problem = niftiFileProblem(fileName);
+  const Intent intent = problem.empty() ? intentOf(fileName) : Intent();
+  problem = problem.empty() ? intentProblem(intent) : problem;
+  if (!problem.empty())
+  {
+    return "NIfTI file " + fileName + " " + problem;
+  }
+  problem = readVectors(fileName, field);
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  field.direction.reset();
+  if (intent.name == NiftyRegName)
+  {
+    field.direction = Direction::Backward;
+    if (intent.p1 == NiftyRegPositions)
+    {
+      subtractPositions(field);
+    }
+  }
+  else if (intent.code == vtkNIFTIImageHeader::IntentVector)
+  {
+    reverseVectorsXY(field); // ITK stores its LPS vectors as they are
+  }
+  else if (intent.name == ForwardName || intent.name == BackwardName)
+  {
+    field.direction = intent.name == ForwardName ? Direction::Forward : Direction::Backward;
+  }
+  return {};
+}
+
+std::string writeNIFTIField(const std::string& fileName, const DirectedField& field)
+{
+  const Grid& grid = field.grid;
+  const Direction direction = field.direction.value_or(Direction::Backward);
+  Grid unplaced; // the affine goes by the header
+  unplaced.dimensions = grid.dimensions;
+  unplaced.spacing = grid.spacing;
+  vtkNew<vtkImageData> image;
+  setField(image, unplaced, field.displacements, direction);
+  image->GetPointData()->SetActiveScalars(DisplacementName);
+
+  vtkNew<vtkMatrix4x4> worldFromRotated; // spacing comes with the image
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      worldFromRotated->SetElement(row, column, grid.direction[column][row]);
+    }
+    worldFromRotated->SetElement(row, 3, grid.origin[row]);
+  }
+  vtkNew<vtkNIFTIImageHeader> header;
+  header->SetIntentCode(vtkNIFTIImageHeader::IntentDispVect);
+  header->SetIntentName(direction == Direction::Forward ? ForwardName : BackwardName);
+  vtkNew<vtkNIFTIImageWriter> writer;
+  writer->SetInputData(image);
+  writer->SetNIFTIHeader(header);
+  writer->SetDescription("BrainShift displacement field, mm");
+  if (glm::determinant(grid.direction) > 0.0)
+  {
+    writer->SetQFormMatrix(worldFromRotated); // a rotation: a mirror has none
+  }
+  writer->SetSFormMatrix(worldFromRotated);
+  vtkNew<vtkCallbackCommand> silent; // the error code says enough
+  silent->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  writer->AddObserver(vtkCommand::ErrorEvent, silent);
+  const double bytes = 12.0 * static_cast<double>(grid.count());
+  return writeWhole(fileName, [&](const std::string& beside) {
+    writer->SetFileName(beside.c_str());
+    writer->Write();
+    const int error = writer->GetErrorCode();
+    return error == vtkErrorCode::NoError ? storageProblem(beside, bytes)
+                                          : vtkErrorCode::GetStringFromErrorCode(error);
+  });
+}
+
+extern const FieldFormat FieldsOfNIFTI{
+  []() -> std::vector<std::string> {
+    return { ".nii", ".nii.gz" };
+  },
+  isNIFTIField, readNIFTIField, writeNIFTIField };
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief Surfaces and streamlines as data of VTK, with their numbers as arrays, and the field array
+ *        WorldAxes if the file says where they lie.
+ */
+#ifndef BrainShift_SurfaceData_h
+#define BrainShift_SurfaceData_h
+
+#include "Formats/Surfaces/Surface.h"
+
+class vtkPolyData;
+
+namespace brainshift
+{
+/** Triangles with double precision points and point arrays. */
+void setSurface(vtkPolyData* data, const Surface& surface);
+
+/** Lines with single precision points, and arrays of points and lines. */
+void setTracts(vtkPolyData* data, const Tracts& tracts);
+}
+
+#endif

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/TextHeaders/MetaImageHeader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace brainshift
+{
+namespace
+{
+constexpr double LongestSide = 2147483647.0;
+constexpr double MostDimensions = 4.0;
+constexpr double MostChannels = 65536.0;
+
+// By the end of an ElementType, after "MET_".
+const std::map<std::string, int> Types{ { "CHAR", VTK_SIGNED_CHAR }, { "UCHAR", VTK_UNSIGNED_CHAR },
+  { "SHORT", VTK_SHORT }, { "USHORT", VTK_UNSIGNED_SHORT }, { "INT", VTK_INT },
+  { "UINT", VTK_UNSIGNED_INT }, { "LONG", VTK_INT }, { "ULONG", VTK_UNSIGNED_INT },
+  { "LONG_LONG", VTK_LONG_LONG }, { "ULONG_LONG", VTK_UNSIGNED_LONG_LONG }, { "FLOAT", VTK_FLOAT },
+  { "DOUBLE", VTK_DOUBLE } };
+
+// As in ITK, the first letter decides.
+bool isTrue(const std::string& value)
+{
+  return !value.empty() && (value[0] == 'T' || value[0] == 't' || value[0] == '1');
+}
+
+std::string readType(TextHeader& header)
+{
+  header.typeName = header.text.valueOf({ "ElementType" });
+  std::string name = header.typeName;
+  const std::string array = "_ARRAY"; // of the channels of a voxel
+  if (name.size() > array.size() && name.substr(name.size() - array.size()) == array)
+  {
+    name.erase(name.size() - array.size());
+  }
+  const auto type = name.compare(0, 4, "MET_") == 0 ? Types.find(name.substr(4)) : Types.end();
+  if (type == Types.end())
+  {
+    return "has the ElementType " + header.typeName + "; BrainShift reads MET_CHAR, MET_SHORT, " +
+      "MET_INT, MET_LONG, MET_LONG_LONG, each of them unsigned as well, MET_FLOAT and MET_DOUBLE";
+  }
+  header.numberType = type->second;
+  return {};
+}
+
+// The axes: channels first if there are several, then those of space, then time.
+std::string readAxes(std::size_t dimensions, TextHeader& header)
+{
+  const std::string channelsText = header.text.valueOf({ "ElementNumberOfChannels" });
+  const std::vector<double> channels = numbersIn(channelsText.empty() ? "1" : channelsText);
+  if (channels.size() != 1 || !isWhole(channels[0], 1.0, MostChannels))
+  {
+    return "has the ElementNumberOfChannels " + channelsText +
+      "; it must be a whole number from 1 to 65536";
+  }
+  if (channels[0] > 1.0)
+  {
+    header.axes.emplace_back();
+    header.axes.back().count = static_cast<std::int64_t>(channels[0]);
+    header.axes.back().kind = "vector";
+  }
+  const std::string sidesText = header.text.valueOf({ "DimSize" });
+  const std::vector<double> sides = numbersIn(sidesText);
+  if (sides.size() != dimensions)
+  {
+    return "has the DimSize '" + sidesText + "'; it must have " + std::to_string(dimensions) +
+      " numbers";
+  }
+  for (const double side : sides)
+  {
+    if (!isWhole(side, 1.0, LongestSide))
+    {
+      return "has the DimSize " + sidesText + "; each must be a whole number from 1 to 2147483647";
+    }
+    header.axes.emplace_back();
+    header.axes.back().count = static_cast<std::int64_t>(side);
+  }
+  return {};
+}
+
+// The steps of the axes of space. The file names the direction of one axis after the other.
+std::string readPlace(std::size_t dimensions, TextHeader& header)
+{
+  const std::string spacingText = header.text.valueOf({ "ElementSpacing", "ElementSize" });
+  std::vector<double> spacing = numbersIn(spacingText);
+  spacing = spacingText.empty() ? std::vector<double>(dimensions, 1.0) : spacing;
+  const std::string turnText =
+    header.text.valueOf({ "TransformMatrix", "Rotation", "Orientation" });
+  std::vector<double> turn = numbersIn(turnText);
+  // MetaIO writes question marks for axes whose sides its caller did not name.
+  header.knowsSides =
+    !turnText.empty() && header.text.valueOf({ "AnatomicalOrientation" }) != "???";
+  if (turnText.empty())
+  {
+    turn.assign(dimensions * dimensions, 0.0);
+    for (std::size_t i = 0; i < dimensions; ++i)
+    {
+      turn[i * dimensions + i] = 1.0;
+    }
+  }
+  const std::string originText = header.text.valueOf({ "Offset", "Position", "Origin" });
+  std::vector<double> origin = numbersIn(originText);
+  header.hasOrigin = !originText.empty();
+  origin = originText.empty() ? std::vector<double>(dimensions, 0.0) : origin;
+  const std::string wanted = "; it must have " + std::to_string(dimensions) + " numbers (mm)";
+  if (spacing.size() != dimensions)
+  {
+    return "has the spacing " + spacingText + wanted;
+  }
+  if (origin.size() != dimensions)
+  {
+    return "has the Offset " + originText + wanted;
+  }
+  if (turn.size() != dimensions * dimensions)
+  {
+    return "has the TransformMatrix " + turnText + "; it must have " +
+      std::to_string(dimensions * dimensions) + " numbers";
+  }
+  const std::size_t first = header.axes.size() - dimensions;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double* const unit = &turn[axis * dimensions];
+    header.axes[first + axis].step = glm::dvec3(unit[0], unit[1], unit[2]) * spacing[axis];
+  }
+  if (dimensions == 4)
+  {
+    header.axes.back().kind = "time";
+    header.axes.back().spacing = spacing[3];
+  }
+  header.origin = glm::dvec3(origin[0], origin[1], origin[2]);
+  return {};
+}
+
+// The letters of the sides that the axes come from (as ITK names them) or lead to.
+std::string lettersOf(const TextHeader& header, bool leadTo)
+{
+  std::string letters;
+  for (const HeaderAxis& axis : header.axes)
+  {
+    if (!axis.step)
+    {
+      continue;
+    }
+    int largest = 0;
+    for (int i = 1; i < 3; ++i)
+    {
+      largest = std::abs((*axis.step)[i]) > std::abs((*axis.step)[largest]) ? i : largest;
+    }
+    const bool isForward = (*axis.step)[largest] > 0.0;
+    letters += (isForward == leadTo ? "LPS" : "RAI")[largest];
+  }
+  return letters;
+}
+
+// AnatomicalOrientation repeats what the matrix says, in letters that programs choose in two ways.
+void compareOrientation(TextHeader& header)
+{
+  const std::string said = header.text.valueOf({ "AnatomicalOrientation" });
+  const bool isNamed = said.size() == 3 && said.find_first_not_of("RLAPIS") == std::string::npos;
+  if (!isNamed || said == lettersOf(header, false) || said == lettersOf(header, true))
+  {
+    return;
+  }
+  header.warnings.push_back(header.knowsSides
+      ? "has the AnatomicalOrientation " + said + ", but its TransformMatrix means " +
+        lettersOf(header, false) + " (from where the axes come); the matrix counts"
+      : "has the AnatomicalOrientation " + said +
+        " but no TransformMatrix; the letters alone are ambiguous and do not count");
+}
+
+std::string readScale(TextHeader& header)
+{
+  for (const auto& [name, number] :
+    { std::pair<const char*, double*>{ "ElementToIntensityFunctionSlope", &header.slope },
+      { "ElementToIntensityFunctionOffset", &header.intercept } })
+  {
+    const std::string text = header.text.valueOf({ name });
+    const std::vector<double> found = numbersIn(text);
+    if (!text.empty() && (found.size() != 1 || !std::isfinite(found[0])))
+    {
+      return std::string("has the ") + name + " " + text + "; it must be a finite number";
+    }
+    *number = text.empty() ? *number : found[0];
+  }
+  return {};
+}
+
+std::string readStorage(const std::string& fileName, TextHeader& header)
+{
+  header.isBigEndian =
+    isTrue(header.text.valueOf({ "BinaryDataByteOrderMSB", "ElementByteOrderMSB" }));
+  const bool isPacked = isTrue(header.text.valueOf({ "CompressedData" }));
+  header.encoding = !isTrue(header.text.valueOf({ "BinaryData" })) ? Encoding::Text
+    : isPacked                                                     ? Encoding::Packed
+                                                                   : Encoding::Raw;
+  const std::string skipText = header.text.valueOf({ "HeaderSize" });
+  const std::vector<double> skip = numbersIn(skipText.empty() ? "0" : skipText);
+  if (skip.size() != 1 || !isWhole(skip[0], -1.0, 1e15))
+  {
+    return "has the HeaderSize " + skipText + "; it must be a whole number, -1 or more";
+  }
+  const std::string dataFile = header.text.valueOf({ "ElementDataFile" });
+  if (dataFile.empty())
+  {
+    return "names no ElementDataFile";
+  }
+  header.isAtEnd = skip[0] < 0.0;
+  header.fileSkip = header.isAtEnd ? 0 : static_cast<std::uint64_t>(skip[0]);
+  if (header.isAtEnd && header.encoding != Encoding::Raw)
+  {
+    return "has the HeaderSize -1 before numbers that are packed or text; they must be raw";
+  }
+  return nameDataFiles(fileName, dataFile, header);
+}
+}
+
+std::string fromMetaImage(const std::string& fileName, TextHeader& header)
+{
+  const std::string dimensionsText = header.text.valueOf({ "NDims" });
+  const std::vector<double> dimensions = numbersIn(dimensionsText.empty() ? "3" : dimensionsText);
+  if (dimensions.size() != 1 || !isWhole(dimensions[0], 3.0, MostDimensions))
+  {
+    return "has the NDims " + dimensionsText + "; it must be 3, or 4 with time";
+  }
+  const auto count = static_cast<std::size_t>(dimensions[0]);
+  header.space = HeaderSpace::LPS;
+  std::string problem = readAxes(count, header);
+  problem = problem.empty() ? readType(header) : problem;
+  problem = problem.empty() ? readPlace(count, header) : problem;
+  problem = problem.empty() ? readScale(header) : problem;
+  problem = problem.empty() ? readStorage(fileName, header) : problem;
+  if (problem.empty())
+  {
+    compareOrientation(header);
+  }
+  return problem;
+}
+}

@@ -1,0 +1,453 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/TrackVis/TrackVisFile.h"
+
+#include "Common/Parallel.h"
+#include "Formats/Files/HeaderText.h"
+#include "Formats/Files/PlainFile.h"
+#include "Formats/Surfaces/ScannerFrame.h"
+#include "Formats/Surfaces/StoredNumbers.h"
+#include "Formats/Volumes/RasGrid.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <fstream>
+#include <string_view>
+#include <utility>
+
+namespace brainshift
+{
+namespace
+{
+constexpr std::size_t HeaderBytes = 1000;
+constexpr std::string_view Magic = "TRACK";
+constexpr std::size_t NameBytes = 20;
+constexpr int MostNames = 10;          // as the header has room for
+constexpr double SmallestCosine = 0.1; // of an axis with the direction that its letter names
+constexpr double EqualCosines = 1e-3;  // that differ by no more
+
+// The names are those of the format.
+struct TrackHeader
+{
+  const char* bytes = nullptr;
+  bool isBigEndian = false;
+
+  template <typename T>
+  T at(std::size_t offset) const
+  {
+    return storedNumber<T>(this->bytes + offset, this->isBigEndian);
+  }
+  int dim(int axis) const { return this->at<std::int16_t>(6 + 2 * static_cast<std::size_t>(axis)); }
+  double voxelSize(int axis) const
+  {
+    return this->at<float>(12 + 4 * static_cast<std::size_t>(axis));
+  }
+  int scalars() const { return this->at<std::int16_t>(36); }
+  int properties() const { return this->at<std::int16_t>(238); }
+  std::string name(std::size_t offset) const { return { this->bytes + offset, NameBytes }; }
+  int version() const { return this->at<std::int32_t>(992); }
+  bool hasMatrix() const // which the format has since version 2
+  {
+    return this->version() >= 2 && this->at<float>(440 + 4 * 15) != 0.0f;
+  }
+  glm::dmat4 voxToRas() const
+  {
+    glm::dmat4 matrix(1.0);
+    for (int i = 0; i < 12; ++i)
+    {
+      matrix[i % 4][i / 4] = this->at<float>(440 + 4 * static_cast<std::size_t>(i));
+    }
+    return matrix;
+  }
+  std::string voxelOrder() const
+  {
+    const std::string letters(this->bytes + 948, 3);
+    return letters[0] == '\0' || letters[0] == ' ' ? "LPS" : letters; // the format's default
+  }
+  int count() const { return this->at<std::int32_t>(988); }
+};
+
+std::string readHeader(const std::vector<char>& bytes, TrackHeader& header)
+{
+  if (bytes.size() < HeaderBytes || std::string_view(bytes.data(), Magic.size()) != Magic)
+  {
+    return bytes.size() < HeaderBytes ? "has no whole header, which has 1000 bytes"
+                                      : "does not begin with TRACK";
+  }
+  header.bytes = bytes.data();
+  header.isBigEndian = true;
+  header.isBigEndian = header.at<std::int32_t>(996) == static_cast<std::int32_t>(HeaderBytes);
+  const auto size = header.at<std::int32_t>(996);
+  const int version = header.version();
+  if (size != static_cast<std::int32_t>(HeaderBytes) || version < 1 || version > 3)
+  {
+    return "has the version " + std::to_string(version) + " and the header size " +
+      std::to_string(size) + "; they must be 1 to 3 and 1000";
+  }
+  for (const int numbers : { header.scalars(), header.properties() })
+  {
+    if (numbers < 0)
+    {
+      return "has " + std::to_string(numbers) + " numbers for each point or streamline";
+    }
+  }
+  return header.count() < 0
+    ? "announces " + std::to_string(header.count()) + " streamlines; it must be 0 or more"
+    : std::string();
+}
+
+// Half a voxel less, then voxels, for points in mm from the corner of the first voxel.
+std::string voxelFromStored(const TrackHeader& header, glm::dmat4& voxel)
+{
+  voxel = glm::dmat4(1.0);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double size = header.voxelSize(axis);
+    if (!(size > 0.0 && size < FarthestPoint))
+    {
+      return "has voxels of " + std::to_string(size) + " mm along axis " + std::to_string(axis) +
+        "; it must be more than 0";
+    }
+    voxel[axis][axis] = 1.0 / size;
+    voxel[3][axis] = -0.5;
+  }
+  return {};
+}
+
+// Whether another order of the letters brings each axis that it changes nearer to its direction.
+// `along` has the axes of a volume, `directions` which of R, A and S each letter names.
+bool isOtherOrder(const glm::dmat3& along, const std::array<int, 3>& directions)
+{
+  std::array<int, 3> other{ 0, 1, 2 };
+  do
+  {
+    bool isNearer = other != directions;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const glm::dvec3& axisOf = along[static_cast<int>(axis)];
+      isNearer = isNearer &&
+        (other[axis] == directions[axis] ||
+          std::abs(axisOf[other[axis]]) > std::abs(axisOf[directions[axis]]) + EqualCosines);
+    }
+    if (isNearer)
+    {
+      return true;
+    }
+  } while (std::next_permutation(other.begin(), other.end()));
+  return false;
+}
+
+// Turns the axes around whose letters name the direction against that of the matrix.
+std::string turnAxes(const TrackHeader& header, const glm::dmat4& world, glm::dmat4& voxel)
+{
+  constexpr std::string_view Letters = "RLAPSI";
+  const std::string order = header.voxelOrder();
+  glm::dmat3 axes(1.0);
+  std::array<int, 3> directions{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const char letter = order[static_cast<std::size_t>(axis)];
+    const std::size_t place = Letters.find(letter >= 'a' ? static_cast<char>(letter - 32) : letter);
+    if (place == std::string_view::npos)
+    {
+      return "has the voxel order " + shownWords(order) + "; it must be 3 of the letters RLAPSI";
+    }
+    const glm::dvec3 along = glm::normalize(glm::dvec3(world[axis]));
+    axes[axis] = along;
+    directions[static_cast<std::size_t>(axis)] = static_cast<int>(place / 2);
+    const double cosine = along[static_cast<int>(place / 2)] * (place % 2 == 0 ? 1.0 : -1.0);
+    if (std::abs(cosine) < SmallestCosine)
+    {
+      return "has the voxel order " + shownWords(order) + ", and axis " + std::to_string(axis) +
+        " of vox_to_ras does not run along " + letter;
+    }
+    if (cosine < 0.0 && header.dim(axis) < 1)
+    {
+      return "has a volume of " + std::to_string(header.dim(axis)) + " voxels along axis " +
+        std::to_string(axis) + ", which its voxel order turns around; it must be 1 or more";
+    }
+    if (cosine < 0.0)
+    {
+      for (int column = 0; column < 4; ++column)
+      {
+        voxel[column][axis] = -voxel[column][axis];
+      }
+      voxel[3][axis] += header.dim(axis) - 1.0;
+    }
+  }
+  const bool isEach = directions[0] != directions[1] && directions[1] != directions[2] &&
+    directions[2] != directions[0];
+  if (!isEach || isOtherOrder(axes, directions))
+  {
+    return "has the voxel order " + shownWords(order) +
+      ", and the axes of vox_to_ras run along these letters in another order";
+  }
+  return {};
+}
+
+// Which voxels the streamlines were made in, where the header does not say it.
+std::string givenMatrix(const TrackHeader& header, const std::string& volumeName, glm::dmat4& world)
+{
+  VolumeGrid grid;
+  const std::string problem = readVolumeGrid(volumeName, grid);
+  if (!problem.empty())
+  {
+    return "has no vox_to_ras, and its volume cannot be read: " + problem;
+  }
+  const glm::ivec3 sides(header.dim(0), header.dim(1), header.dim(2));
+  if (sides != grid.dimensions)
+  {
+    return "was made in a volume of " + std::to_string(sides.x) + " x " + std::to_string(sides.y) +
+      " x " + std::to_string(sides.z) + " voxels; " + volumeName + " has " +
+      std::to_string(grid.dimensions.x) + " x " + std::to_string(grid.dimensions.y) + " x " +
+      std::to_string(grid.dimensions.z);
+  }
+  world = grid.worldFromVoxel;
+  return {};
+}
+
+std::string findPlace(const TrackHeader& header, const std::string& volumeName, Tracts& tracts,
+  glm::dmat4& worldFromStored)
+{
+  glm::dmat4 voxel(1.0);
+  std::string problem = voxelFromStored(header, voxel);
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  glm::dmat4 world = header.voxToRas();
+  if (!header.hasMatrix() && volumeName.empty())
+  {
+    tracts.knowsWorld = false;
+    tracts.notes.emplace_back("does not say where its volume lies (no vox_to_ras): it is shown as "
+                              "if the first voxel lay at 0, 0, 0 with axes along x, y and z. Set "
+                              "Volume to the volume it was made in");
+    worldFromStored[3] = glm::dvec4(
+      -0.5 * glm::dvec3(header.voxelSize(0), header.voxelSize(1), header.voxelSize(2)), 1.0);
+    return {};
+  }
+  problem = header.hasMatrix() ? problem : givenMatrix(header, volumeName, world);
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  problem = affineProblem(world);
+  if (!problem.empty())
+  {
+    return "cannot be placed: " + problem;
+  }
+  problem = turnAxes(header, world, voxel);
+  worldFromStored = world * voxel;
+  return problem;
+}
+
+// Where the records of the streamlines lie, each with its number of points.
+struct Records
+{
+  std::size_t pointBytes = 12;
+  std::size_t propertyBytes = 0;
+  std::vector<std::size_t> places; // of the first point
+};
+
+std::string findRecords(
+  const std::vector<char>& bytes, const TrackHeader& header, Records& records, Tracts& tracts)
+{
+  records.pointBytes = 4 * (3 + static_cast<std::size_t>(header.scalars()));
+  records.propertyBytes = 4 * static_cast<std::size_t>(header.properties());
+  const auto announced = static_cast<std::size_t>(header.count());
+  std::size_t place = HeaderBytes;
+  std::size_t empty = 0;
+  std::size_t count = 0;
+  for (; place < bytes.size() && (announced == 0 || count < announced); ++count)
+  {
+    const std::size_t left = bytes.size() - place;
+    const auto points = left < 4 ? -1 : header.at<std::int32_t>(place);
+    if (points < 0 ||
+      static_cast<double>(left) - 4.0 - static_cast<double>(records.propertyBytes) <
+        static_cast<double>(points) * static_cast<double>(records.pointBytes))
+    {
+      return "has a damaged streamline " + std::to_string(count) + " of " +
+        (left < 4 ? "an unknown number of" : std::to_string(points)) +
+        " points: " + std::to_string(left) + " bytes follow";
+    }
+    if (points > 0)
+    {
+      records.places.push_back(place + 4);
+      tracts.firsts.push_back(tracts.firsts.back() + points);
+    }
+    empty += points == 0 ? 1 : 0;
+    place += 4 + static_cast<std::size_t>(points) * records.pointBytes + records.propertyBytes;
+  }
+  if (count < announced)
+  {
+    return "announces " + counted(announced, "streamline") + " and has " + std::to_string(count);
+  }
+  if (place < bytes.size())
+  {
+    tracts.notes.push_back("has " + counted(bytes.size() - place, "byte") + " after its " +
+      counted(count, "streamline") + "; left out");
+  }
+  if (empty > 0)
+  {
+    tracts.notes.push_back("has " + counted(empty, "streamline") + " without points; left out");
+  }
+  return {};
+}
+
+// Text in UTF-8 of bytes that may be anything.
+std::string plainName(const std::string& name)
+{
+  std::string plain;
+  for (const char letter : name)
+  {
+    plain += letter >= ' ' && letter <= '~' ? letter : '_';
+  }
+  return plain;
+}
+
+// Names, and how many numbers each has: nibabel writes that after a byte 0. The rest has `rest`.
+std::vector<std::pair<std::string, std::size_t>> namesAt(
+  const TrackHeader& header, std::size_t offset, int total, const std::string& rest)
+{
+  std::vector<std::pair<std::string, std::size_t>> names;
+  auto left = static_cast<std::size_t>(total);
+  for (std::size_t i = 0; i < MostNames && left > 0; ++i)
+  {
+    const std::string stored = header.name(offset + NameBytes * i);
+    const std::size_t end = std::min(stored.find('\0'), stored.size());
+    if (end == 0)
+    {
+      continue;
+    }
+    const std::string after = stored.substr(std::min(end + 1, stored.size()));
+    const std::vector<double> count = numbersIn(after.substr(0, after.find('\0')));
+    const std::size_t taken = count.size() == 1 && isWhole(count[0], 1, static_cast<double>(left))
+      ? static_cast<std::size_t>(count[0])
+      : 1;
+    names.emplace_back(plainName(stored.substr(0, end)), taken);
+    left -= taken;
+  }
+  if (left > 0)
+  {
+    names.emplace_back(rest, left);
+  }
+  return names;
+}
+
+std::vector<NamedNumbers> emptyNumbers(
+  const std::vector<std::pair<std::string, std::size_t>>& names, std::size_t tuples)
+{
+  std::vector<NamedNumbers> list;
+  list.reserve(names.size());
+  OwnNames own;
+  for (const auto& [name, components] : names)
+  {
+    list.push_back({ own.own(name), NumberType::Float32, components,
+      std::vector<char>(4 * components * tuples) });
+  }
+  return list;
+}
+
+// Numbers that lie side by side in the file, to the tuple of each array.
+void takeNumbers(const char* from, std::size_t tuple, std::vector<NamedNumbers>& list)
+{
+  for (NamedNumbers& numbers : list)
+  {
+    const std::size_t size = 4 * numbers.components;
+    std::copy_n(from, size, &numbers.bytes[tuple * size]);
+    from += size;
+  }
+}
+
+// One streamline, of numbers in this machine's order. Returns a point that lies nowhere, or -1.
+std::int64_t takeStreamline(const std::vector<char>& bytes, const Records& records, std::size_t i,
+  const glm::dmat4& worldFromStored, Tracts& tracts)
+{
+  const char* from = bytes.data() + records.places[i];
+  std::int64_t nowhere = -1;
+  for (std::int64_t point = tracts.firsts[i]; point < tracts.firsts[i + 1]; ++point)
+  {
+    glm::vec3 stored;
+    std::memcpy(&stored, from, sizeof(stored));
+    const glm::dvec3 placed(worldFromStored * glm::dvec4(stored, 1.0));
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      nowhere = std::abs(placed[axis]) <= FarthestPoint ? nowhere : point;
+    }
+    const auto index = static_cast<std::size_t>(point);
+    tracts.points[index] = glm::vec3(placed);
+    takeNumbers(from + sizeof(stored), index, tracts.ofPoints);
+    from += records.pointBytes;
+  }
+  takeNumbers(from, i, tracts.ofStreamlines);
+  return nowhere;
+}
+}
+
+bool isTrackVisFile(const std::string& fileName)
+{
+  std::array<char, Magic.size()> begin{};
+  std::ifstream file;
+  if (plainFileProblem(fileName).empty())
+  {
+    file.open(fileName, std::ios::binary);
+  }
+  return file.is_open() && file.read(begin.data(), begin.size()) &&
+    std::string_view(begin.data(), begin.size()) == Magic;
+}
+
+std::string readTrackVis(std::vector<char>& bytes, const std::string& volumeName,
+  const ShareDone& shareDone, Tracts& tracts)
+{
+  TrackHeader header;
+  Records records;
+  glm::dmat4 world(1.0);
+  std::string problem = readHeader(bytes, header);
+  problem = problem.empty() ? findPlace(header, volumeName, tracts, world) : problem;
+  problem = problem.empty() ? findRecords(bytes, header, records, tracts) : problem;
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  const auto points = static_cast<std::size_t>(tracts.firsts.back());
+  tracts.ofPoints = emptyNumbers(namesAt(header, 38, header.scalars(), "scalars"), points);
+  tracts.ofStreamlines =
+    emptyNumbers(namesAt(header, 240, header.properties(), "properties"), records.places.size());
+  tracts.points.resize(points);
+  if (header.isBigEndian != thisMachineIsBigEndian())
+  {
+    reverseBytes(bytes.data() + HeaderBytes, (bytes.size() - HeaderBytes) / 4, 4);
+  }
+  std::atomic<std::int64_t> nowhere{ -1 };
+  constexpr std::size_t Block = 1 << 14; // streamlines between two reports of progress
+  for (std::size_t first = 0; first < records.places.size(); first += Block)
+  {
+    const std::size_t last = std::min(first + Block, records.places.size());
+    parallelFor(first, last, 256, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        const std::int64_t found =
+          takeStreamline(bytes, records, static_cast<std::size_t>(i), world, tracts);
+        if (found >= 0)
+        {
+          nowhere = found; // writing what was read would lose that of another thread
+        }
+      }
+    });
+    if (!shareDone(static_cast<double>(last) / static_cast<double>(records.places.size())))
+    {
+      tracts = Tracts();
+      return {};
+    }
+  }
+  const std::int64_t point = nowhere;
+  return point < 0 ? std::string()
+                   : placeProblem(glm::dvec3(tracts.points[static_cast<std::size_t>(point)]),
+                       "point " + std::to_string(point));
+}
+
+extern const TractFormat TractsOfTrackVis{ isTrackVisFile, readTrackVis };
+}

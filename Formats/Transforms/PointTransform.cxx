@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/Transforms/PointTransform.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace brainshift
+{
+namespace
+{
+constexpr double Stretch = 1e-4;           // of a rigid map: 0.01 mm in 100 mm
+constexpr double EdgeOfSpline = 1e-6;      // cells; ITK's own rounding is smaller
+constexpr double MissOfInverse = 1e-6;     // mm
+constexpr int StepsOfInverse = 60;         // Newton needs 4 to 6 where nothing folds
+constexpr double DifferenceOfSlope = 0.01; // mm
+constexpr int SamplesOfCell = 4;
+constexpr int LongestSide = 256;
+
+glm::dvec4 splineWeights(double t)
+{
+  const double s = 1.0 - t;
+  return glm::dvec4(
+           s * s * s, 4.0 + t * t * (3.0 * t - 6.0), 4.0 + s * s * (3.0 * s - 6.0), t * t * t) /
+    6.0;
+}
+
+glm::dvec3 mappedBy(const AffineLink& link, const glm::dvec3& from)
+{
+  return link.linear * from + link.offset;
+}
+
+glm::dvec3 mappedBy(const SplineLink& link, const glm::dvec3& from)
+{
+  const glm::ivec3& sides = link.grid.dimensions;
+  const glm::dvec3 at = link.grid.at(from);
+  glm::ivec3 first;
+  glm::dvec4 weights[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (!(at[axis] >= 1.0 - EdgeOfSpline && at[axis] <= sides[axis] - 2.0 + EdgeOfSpline))
+    {
+      return from;
+    }
+    const int cell = std::clamp(static_cast<int>(std::floor(at[axis])), 1, sides[axis] - 3);
+    first[axis] = cell - 1;
+    weights[axis] = splineWeights(at[axis] - cell);
+  }
+  glm::dvec3 sum(0.0);
+  for (int k = 0; k < 4; ++k)
+  {
+    for (int j = 0; j < 4; ++j)
+    {
+      const std::size_t row =
+        (static_cast<std::size_t>(first.z + k) * sides.y + first.y + j) * sides.x + first.x;
+      const double weight = weights[2][k] * weights[1][j];
+      for (int i = 0; i < 4; ++i)
+      {
+        sum += weight * weights[0][i] * link.coefficients[row + i];
+      }
+    }
+  }
+  return from + sum;
+}
+
+glm::dvec3 mappedBy(const FieldLink& link, const glm::dvec3& from)
+{
+  const glm::ivec3 last = link.grid.dimensions - 1;
+  glm::dvec3 at = link.grid.at(from);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (!(at[axis] >= -0.5 && at[axis] < last[axis] + 0.5))
+    {
+      return from;
+    }
+  }
+  at = glm::clamp(link.isNearest ? glm::floor(at + 0.5) : at, glm::dvec3(0.0), glm::dvec3(last));
+  const glm::ivec3 low(at);
+  const glm::dvec3 within = at - glm::dvec3(low);
+  glm::dvec3 sum(0.0);
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+    const glm::dvec3 weight = glm::mix(1.0 - within, within, glm::dvec3(side));
+    const glm::ivec3 point = glm::min(low + side, last);
+    const std::size_t offset =
+      (static_cast<std::size_t>(point.z) * link.grid.dimensions.y + point.y) *
+        link.grid.dimensions.x +
+      point.x;
+    sum += weight.x * weight.y * weight.z * glm::dvec3(link.displacements[offset]);
+  }
+  return from + sum;
+}
+
+// Derivatives of a link that bends: column a is d(to) / d(from_a).
+template <typename Link>
+glm::dmat3 slopesOf(const Link& link, const glm::dvec3& from)
+{
+  glm::dmat3 slopes;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    glm::dvec3 step(0.0);
+    step[axis] = DifferenceOfSlope;
+    slopes[axis] =
+      (mappedBy(link, from + step) - mappedBy(link, from - step)) / (2.0 * DifferenceOfSlope);
+  }
+  return slopes;
+}
+
+glm::dvec3 mappedBackBy(const AffineLink& link, const glm::dvec3& to)
+{
+  return glm::inverse(link.linear) * (to - link.offset);
+}
+
+// Newton's method. A step that makes the miss longer is halved.
+template <typename Link>
+glm::dvec3 mappedBackBy(const Link& link, const glm::dvec3& to)
+{
+  glm::dvec3 best = to;
+  glm::dvec3 miss = mappedBy(link, best) - to;
+  for (int step = 0; step < StepsOfInverse && glm::length(miss) > MissOfInverse; ++step)
+  {
+    const glm::dmat3 slopes = slopesOf(link, best);
+    const bool isSteep = std::abs(glm::determinant(slopes)) > 1e-6;
+    const glm::dvec3 move = isSteep ? glm::inverse(slopes) * miss : miss;
+    double share = 1.0;
+    glm::dvec3 tried = best - move;
+    glm::dvec3 left = mappedBy(link, tried) - to;
+    while (!(glm::length(left) < glm::length(miss)) && share > 1e-3)
+    {
+      share *= 0.5;
+      tried = best - share * move;
+      left = mappedBy(link, tried) - to;
+    }
+    if (!(glm::length(left) < glm::length(miss)))
+    {
+      return best;
+    }
+    best = tried;
+    miss = left;
+  }
+  return best;
+}
+
+void reverseGrid(LinkGrid& grid)
+{
+  const glm::dvec3 signs(-1.0, -1.0, 1.0);
+  grid.origin *= signs;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    grid.worldFromGrid[axis] *= signs;
+  }
+  grid.gridFromWorld = glm::inverse(grid.worldFromGrid);
+}
+
+void reverseLink(AffineLink& link)
+{
+  const glm::dmat3 signs(glm::dvec3(-1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, 1));
+  link.linear = signs * link.linear * signs;
+  link.offset = signs * link.offset;
+}
+
+void reverseLink(SplineLink& link)
+{
+  reverseGrid(link.grid);
+  for (glm::dvec3& coefficient : link.coefficients)
+  {
+    coefficient *= glm::dvec3(-1.0, -1.0, 1.0);
+  }
+}
+
+void reverseLink(FieldLink& link)
+{
+  reverseGrid(link.grid);
+  for (glm::vec3& displacement : link.displacements)
+  {
+    displacement *= glm::vec3(-1.0f, -1.0f, 1.0f);
+  }
+}
+
+bool isIdentity(const AffineLink& link)
+{
+  return link.linear == glm::dmat3(1.0) && link.offset == glm::dvec3(0.0);
+}
+
+bool isRigid(const AffineLink& link)
+{
+  const glm::dmat3 square = glm::transpose(link.linear) * link.linear - glm::dmat3(1.0);
+  double most = 0.0;
+  for (int column = 0; column < 3; ++column)
+  {
+    const glm::dvec3 away = glm::abs(square[column]);
+    most = std::max({ most, away.x, away.y, away.z });
+  }
+  return most <= Stretch && glm::determinant(link.linear) > 0.0;
+}
+
+// `perCell` samples in each cell of a part of a grid; the third axis keeps it right-handed.
+Grid samplesOf(const LinkGrid& link, const glm::dvec3& first, const glm::dvec3& cells, int perCell)
+{
+  Grid grid;
+  glm::dmat3 steps = link.worldFromGrid;
+  glm::dvec3 start = link.origin + steps * first;
+  if (glm::determinant(steps) < 0.0)
+  {
+    start += steps[2] * cells.z;
+    steps[2] = -steps[2];
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int fitting = std::clamp(static_cast<int>((LongestSide - 1) / cells[axis]), 1, perCell);
+    const double length = glm::length(steps[axis]);
+    grid.dimensions[axis] = static_cast<int>(cells[axis]) * fitting + 1;
+    grid.spacing[axis] = length / fitting;
+    grid.direction[axis] = steps[axis] / length;
+  }
+  grid.origin = start;
+  return grid;
+}
+}
+
+glm::dvec3 mapped(const PointTransform& transform, const glm::dvec3& from)
+{
+  glm::dvec3 point = from;
+  for (const TransformLink& link : transform.links)
+  {
+    point = std::visit([&](const auto& kind) { return mappedBy(kind, point); }, link);
+  }
+  return point;
+}
+
+glm::dvec3 mappedBack(const PointTransform& transform, const glm::dvec3& to)
+{
+  glm::dvec3 point = to;
+  for (auto link = transform.links.rbegin(); link != transform.links.rend(); ++link)
+  {
+    point = std::visit([&](const auto& kind) { return mappedBackBy(kind, point); }, *link);
+  }
+  return point;
+}
+
+void reverseXY(PointTransform& transform)
+{
+  for (TransformLink& link : transform.links)
+  {
+    std::visit([](auto& kind) { reverseLink(kind); }, link);
+  }
+}
+
+std::optional<AffineLink> affineOf(const PointTransform& transform)
+{
+  AffineLink all;
+  for (const TransformLink& link : transform.links)
+  {
+    const auto* affine = std::get_if<AffineLink>(&link);
+    if (!affine)
+    {
+      return {};
+    }
+    all = { affine->linear * all.linear, affine->linear * all.offset + affine->offset };
+  }
+  return all;
+}
+
+std::string kindOf(const PointTransform& transform)
+{
+  const std::optional<AffineLink> affine = affineOf(transform);
+  if (!affine)
+  {
+    return "nonlinear";
+  }
+  if (isIdentity(*affine))
+  {
+    return "identity";
+  }
+  return isRigid(*affine) ? "rigid" : "affine";
+}
+
+std::optional<Grid> ownGridOf(const PointTransform& transform)
+{
+  for (const TransformLink& link : transform.links)
+  {
+    if (const auto* spline = std::get_if<SplineLink>(&link))
+    {
+      const glm::dvec3 cells(spline->grid.dimensions - 3);
+      return samplesOf(spline->grid, glm::dvec3(1.0), cells, SamplesOfCell);
+    }
+    if (const auto* field = std::get_if<FieldLink>(&link))
+    {
+      return samplesOf(field->grid, glm::dvec3(0.0), glm::dvec3(field->grid.dimensions - 1), 1);
+    }
+  }
+  return {};
+}
+}

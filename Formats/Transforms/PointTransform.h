@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief What registration programs store: a chain of maps of points, from the fixed image to the
+ *        moving one.
+ *
+ * ITK, ANTs and elastix map points of LPS. After reverseXY the chain maps points of RAS.
+ */
+#ifndef BrainShift_PointTransform_h
+#define BrainShift_PointTransform_h
+
+#include "Common/FieldDirection.h"
+#include "Common/Grid.h"
+#include "vtkBrainShiftFormatsModule.h" // for the export macro
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace brainshift
+{
+/** to = linear * from + offset; mm. */
+struct AffineLink
+{
+  glm::dmat3 linear{ 1.0 };
+  glm::dvec3 offset{ 0.0 };
+};
+
+/** Where the numbers of a link lie. Its axes need not be a rotation. */
+struct LinkGrid
+{
+  glm::ivec3 dimensions{ 0 };      ///< points along each axis
+  glm::dvec3 origin{ 0.0 };        ///< mm, of point (0, 0, 0)
+  glm::dmat3 worldFromGrid{ 1.0 }; ///< columns: the steps between neighbours, mm
+  glm::dmat3 gridFromWorld{ 1.0 }; ///< its inverse
+
+  /** Grid coordinates of a position (mm). */
+  glm::dvec3 at(const glm::dvec3& world) const
+  {
+    return this->gridFromWorld * (world - this->origin);
+  }
+
+  /** Number of points. */
+  std::size_t count() const
+  {
+    return static_cast<std::size_t>(this->dimensions.x) * this->dimensions.y * this->dimensions.z;
+  }
+};
+
+/**
+ * ITK's BSplineTransform of order 3: uniform cubic B-splines. One cell inside the outermost
+ * coefficients it ends; beyond, points stay.
+ */
+struct SplineLink
+{
+  LinkGrid grid;
+  std::vector<glm::dvec3> coefficients; ///< mm, one for each point, x fastest
+};
+
+/** ITK's DisplacementFieldTransform: beyond half a cell outside its points, points stay. */
+struct FieldLink
+{
+  LinkGrid grid;
+  std::vector<glm::vec3> displacements; ///< mm, one for each point, x fastest
+  bool isNearest = false;               ///< true: elastix with interpolation order 0
+};
+
+using TransformLink = std::variant<AffineLink, SplineLink, FieldLink>;
+
+/** Maps in the order in which points pass through them. An empty chain is the identity. */
+struct PointTransform
+{
+  std::vector<TransformLink> links;
+};
+
+/** Where the chain takes a point (mm). */
+VTKBRAINSHIFTFORMATS_EXPORT glm::dvec3 mapped(
+  const PointTransform& transform, const glm::dvec3& from);
+
+/**
+ * The point that the chain takes to `to`, to 1e-6 mm where the chain does not fold and does not
+ * jump; elsewhere the best one that was found.
+ */
+VTKBRAINSHIFTFORMATS_EXPORT glm::dvec3 mappedBack(
+  const PointTransform& transform, const glm::dvec3& to);
+
+/** Reverses x and y on both sides: this leads from LPS to RAS and back. */
+VTKBRAINSHIFTFORMATS_EXPORT void reverseXY(PointTransform& transform);
+
+/** The chain as one affine map; none if a link bends. */
+VTKBRAINSHIFTFORMATS_EXPORT std::optional<AffineLink> affineOf(const PointTransform& transform);
+
+/**
+ * "identity", "rigid", "affine" or "nonlinear". A rigid map turns, without a mirror and without a
+ * stretch of 1e-4.
+ */
+VTKBRAINSHIFTFORMATS_EXPORT std::string kindOf(const PointTransform& transform);
+
+/**
+ * The points of the first link that bends, as a grid to sample the chain on: four samples in each
+ * cell of a B-spline, fewer if they would be more than 256 along an axis. None without such a link.
+ */
+VTKBRAINSHIFTFORMATS_EXPORT std::optional<Grid> ownGridOf(const PointTransform& transform);
+
+/** A chain, and the direction in which it leads between the frames of a deformed volume. */
+struct DirectedTransform
+{
+  PointTransform chain;
+  Direction direction = Direction::Backward;
+
+  /** Where the map of one of the two directions takes a point (mm). */
+  glm::dvec3 towards(Direction wanted, const glm::dvec3& from) const
+  {
+    return wanted == this->direction ? mapped(this->chain, from) : mappedBack(this->chain, from);
+  }
+};
+}
+
+#endif

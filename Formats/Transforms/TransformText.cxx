@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/Transforms/TransformText.h"
+
+#include "Formats/Files/TextHeader.h"
+
+#include <charconv>
+#include <cstddef>
+#include <filesystem>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+
+namespace brainshift
+{
+namespace
+{
+using Words = std::vector<std::string>;
+using Entries = std::map<std::string, Words>; // of a parameter file, by name
+
+bool readNumber(std::string_view word, double& number)
+{
+  const char* const end = word.data() + word.size();
+  const char* const begin = word.data() + (!word.empty() && word.front() == '+' ? 1 : 0);
+  const auto read = std::from_chars(begin, end, number);
+  return read.ec == std::errc() && read.ptr == end;
+}
+
+// The numbers between spaces; false if something else stands there.
+bool readNumbers(std::string_view text, std::vector<double>& numbers)
+{
+  constexpr const char* Spaces = " \t\r\n";
+  std::size_t from = text.find_first_not_of(Spaces);
+  while (from != std::string_view::npos)
+  {
+    const std::size_t to = std::min(text.find_first_of(Spaces, from), text.size());
+    double number;
+    if (!readNumber(text.substr(from, to - from), number))
+    {
+      return false;
+    }
+    numbers.push_back(number);
+    from = text.find_first_not_of(Spaces, to);
+  }
+  return true;
+}
+
+std::string readITKLine(const std::string& line, std::vector<TransformRecord>& records)
+{
+  const auto follows = [&line](const std::string& key, std::string_view& value) {
+    const bool found = line.rfind(key, 0) == 0;
+    value = std::string_view(line).substr(found ? key.size() : 0);
+    return found;
+  };
+  std::string_view value;
+  if (follows("Transform:", value))
+  {
+    std::istringstream type{ std::string(value) };
+    records.emplace_back();
+    type >> records.back().type;
+    return {};
+  }
+  const bool isFixed = follows("FixedParameters:", value);
+  if (!isFixed && !follows("Parameters:", value))
+  {
+    return {};
+  }
+  if (records.empty())
+  {
+    return "has parameters before its first transform";
+  }
+  TransformRecord& record = records.back();
+  return readNumbers(value, isFixed ? record.fixed : record.parameters)
+    ? std::string()
+    : "has parameters of " + shownWords(record.type) + " that are no numbers";
+}
+
+// One line of a parameter file: (Name value value "word").
+void readEntry(const std::string& line, Entries& entries)
+{
+  const std::size_t open = line.find_first_not_of(" \t");
+  const std::size_t close = line.rfind(')');
+  if (open == std::string::npos || line[open] != '(' || close == std::string::npos)
+  {
+    return;
+  }
+  std::size_t at = open + 1;
+  Words words;
+  while (at < close)
+  {
+    const bool isQuoted = line[at] == '"';
+    const std::size_t from = at + (isQuoted ? 1 : 0);
+    const std::size_t to = std::min(line.find_first_of(isQuoted ? "\"" : " \t", from), close);
+    if (isQuoted || to > from)
+    {
+      words.push_back(line.substr(from, to - from));
+    }
+    at = to + 1;
+  }
+  if (!words.empty())
+  {
+    entries[words.front()] = Words(words.begin() + 1, words.end());
+  }
+}
+
+Entries entriesOf(const std::string& text)
+{
+  Entries entries;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+  {
+    readEntry(line, entries);
+  }
+  return entries;
+}
+
+std::string wordOf(const Entries& entries, const std::string& name, const std::string& otherwise)
+{
+  const auto entry = entries.find(name);
+  return entry == entries.end() || entry->second.empty() ? otherwise : entry->second.front();
+}
+
+std::vector<double> numbersOf(const Entries& entries, const std::string& name)
+{
+  std::vector<double> numbers;
+  const auto entry = entries.find(name);
+  for (const std::string& word : entry == entries.end() ? Words() : entry->second)
+  {
+    double number = 0.0;
+    if (!readNumber(word, number))
+    {
+      return {};
+    }
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+// A name as it stands if there is such a file; else beside the file that names it.
+std::string namedFile(const std::string& name, const std::string& fileName)
+{
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path beside = fs::path(fileName).parent_path() / fs::path(name).filename();
+  return fs::exists(name, error) ? name : beside.string();
+}
+
+// The grid of a B-spline in ITK's order: elastix writes the direction by columns.
+std::vector<double> splineGrid(const Entries& entries)
+{
+  std::vector<double> fixed;
+  for (const char* name : { "GridSize", "GridOrigin", "GridSpacing" })
+  {
+    const std::vector<double> numbers = numbersOf(entries, name);
+    fixed.insert(fixed.end(), numbers.begin(), numbers.end());
+  }
+  std::vector<double> columns = numbersOf(entries, "GridDirection");
+  if (columns.size() != 9)
+  {
+    columns = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+  }
+  for (int row = 0; row < 3; ++row)
+  {
+    fixed.insert(fixed.end(), { columns[row], columns[3 + row], columns[6 + row] });
+  }
+  return fixed;
+}
+
+// What elastix can do and BrainShift does not.
+std::string elastixProblem(const Entries& entries)
+{
+  const std::string sides = wordOf(entries, "FixedImageDimension", "3") + " and " +
+    wordOf(entries, "MovingImageDimension", "3");
+  if (sides != "3 and 3")
+  {
+    return "is for images of " + shownWords(sides) + " dimensions; it must be for 3";
+  }
+  if (wordOf(entries, "UseCyclicTransform", "false") == "true")
+  {
+    return "holds a cyclic B-spline, which BrainShift does not know";
+  }
+  const std::string order = wordOf(entries, "BSplineTransformSplineOrder", "3");
+  return order == "3" ? std::string()
+                      : "holds a B-spline of order " + shownWords(order) + "; it must be 3";
+}
+
+std::string addElastixOwn(const Entries& entries, const std::string& fileName,
+  const AddFile& addFile, PointTransform& transform)
+{
+  static const std::map<std::string, std::string> typesOfITK{
+    { "AffineTransform", "AffineTransform" },
+    { "BSplineTransform", "BSplineTransform" },
+    { "EulerTransform", "Euler3DTransform" },
+    { "RecursiveBSplineTransform", "BSplineTransform" },
+    { "SimilarityTransform", "Similarity3DTransform" },
+    { "TranslationTransform", "TranslationTransform" },
+  };
+  const std::string name = wordOf(entries, "Transform", "");
+  if (name == "DeformationFieldTransform")
+  {
+    const std::string file = wordOf(entries, "DeformationFieldFileName", "");
+    const std::string problem = addFile(namedFile(file, fileName), transform);
+    auto* field =
+      transform.links.empty() ? nullptr : std::get_if<FieldLink>(&transform.links.back());
+    if (problem.empty() && field)
+    {
+      field->isNearest = wordOf(entries, "DeformationFieldInterpolationOrder", "0") == "0";
+    }
+    return problem;
+  }
+  const auto type = typesOfITK.find(name);
+  if (type == typesOfITK.end())
+  {
+    return "holds elastix' transform " + shownWords(name) + ", which BrainShift does not know";
+  }
+  TransformRecord record{ type->second + "_double_3_3", numbersOf(entries, "TransformParameters"),
+    {} };
+  if (type->second == "BSplineTransform")
+  {
+    record.fixed = splineGrid(entries);
+  }
+  else if (name != "TranslationTransform")
+  {
+    record.fixed = numbersOf(entries, "CenterOfRotationPoint");
+    if (name == "EulerTransform" && wordOf(entries, "ComputeZYX", "false") == "true")
+    {
+      record.fixed.resize(4, 1.0);
+    }
+  }
+  return addRecords({ record }, transform);
+}
+}
+
+std::string readITKText(const std::string& text, std::vector<TransformRecord>& records)
+{
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+  {
+    const std::string problem = readITKLine(line, records);
+    if (!problem.empty())
+    {
+      return problem;
+    }
+  }
+  return {};
+}
+
+std::optional<std::vector<double>> matrixText(const std::string& text)
+{
+  constexpr std::size_t LongestText = 4096;
+  std::vector<double> numbers;
+  if (text.size() > LongestText || !readNumbers(text, numbers) || numbers.size() != 16)
+  {
+    return {};
+  }
+  return numbers;
+}
+
+bool isElastixText(const std::string& text)
+{
+  return text.find("(Transform \"") != std::string::npos;
+}
+
+std::string addElastixText(const std::string& text, const std::string& fileName,
+  const AddFile& addFile, PointTransform& transform)
+{
+  const Entries entries = entriesOf(text);
+  std::string problem = elastixProblem(entries);
+  const std::string nothing = "NoInitialTransform";
+  std::string initial = wordOf(entries, "InitialTransformParameterFileName", nothing);
+  initial = wordOf(entries, "InitialTransformParametersFileName", initial); // before elastix 5.1
+  if (problem.empty() && initial != nothing)
+  {
+    const std::string how = wordOf(entries, "HowToCombineTransforms", "Compose");
+    problem = how == "Compose"
+      ? addFile(namedFile(initial, fileName), transform)
+      : "combines its transforms by " + shownWords(how) + "; BrainShift knows Compose";
+  }
+  return problem.empty() ? addElastixOwn(entries, fileName, addFile, transform) : problem;
+}
+}

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/Volumes/OutgoingVolume.h"
+
+#include "Common/ImageGrid.h"
+
+#include "vtkDataArray.h"
+#include "vtkImageData.h"
+#include "vtkPointData.h"
+
+#include <glm/matrix.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <sstream>
+
+namespace brainshift
+{
+namespace
+{
+// Axes of a rotation have cosines of 0 between them. Above this a corner of a head moves by more
+// than 0.03 mm where a file can hold rotations only.
+constexpr double LargestCosine = 1e-4;
+
+vtkDataArray* arrayOf(vtkImageData* image, const std::string& name)
+{
+  vtkPointData* arrays = image->GetPointData();
+  if (!name.empty())
+  {
+    return arrays->GetArray(name.c_str());
+  }
+  for (int i = 0; !arrays->GetScalars() && i < arrays->GetNumberOfArrays(); ++i)
+  {
+    if (arrays->GetArray(i))
+    {
+      return arrays->GetArray(i);
+    }
+  }
+  return arrays->GetScalars();
+}
+
+std::string missingArray(vtkImageData* image, const std::string& name)
+{
+  std::string names;
+  for (int i = 0; i < image->GetPointData()->GetNumberOfArrays(); ++i)
+  {
+    const char* other = image->GetPointData()->GetArrayName(i);
+    names += (names.empty() ? "" : ", ") + std::string(other ? other : "(no name)");
+  }
+  if (names.empty())
+  {
+    return "The input has no point array to write";
+  }
+  return "The input has no point array " + name + " of numbers; it has " + names;
+}
+
+std::string directionProblem(const Grid& grid)
+{
+  const glm::dmat3 product = glm::transpose(grid.direction) * grid.direction;
+  double worst = 0.0;
+  for (int i = 0; i < 9; ++i)
+  {
+    worst = std::max(worst, std::abs(product[i / 3][i % 3] - (i / 3 == i % 3 ? 1.0 : 0.0)));
+  }
+  if (worst <= LargestCosine)
+  {
+    return {};
+  }
+  std::ostringstream problem;
+  problem << "The direction matrix of the input is off a rotation by " << worst
+          << "; it must be at most " << LargestCosine;
+  return problem.str();
+}
+
+bool isUnsigned(int type)
+{
+  switch (type)
+  {
+    case VTK_CHAR:
+      return !std::numeric_limits<char>::is_signed;
+    case VTK_UNSIGNED_CHAR:
+    case VTK_UNSIGNED_SHORT:
+    case VTK_UNSIGNED_INT:
+    case VTK_UNSIGNED_LONG:
+    case VTK_UNSIGNED_LONG_LONG:
+      return true;
+    default:
+      return false;
+  }
+}
+
+NumberType typeOf(vtkDataArray* array)
+{
+  const int type = array->GetDataType();
+  const bool isFloating = type == VTK_FLOAT || type == VTK_DOUBLE;
+  return { isFloating    ? NumberType::Kind::Floating
+      : isUnsigned(type) ? NumberType::Kind::Unsigned
+                         : NumberType::Kind::Signed,
+    array->GetDataTypeSize() };
+}
+
+std::string copyAs(int type, vtkDataArray* array, vtkSmartPointer<vtkDataArray>& copy)
+{
+  copy = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
+  copy->DeepCopy(array);
+  return {};
+}
+
+// Whole numbers of 8 bytes, which most readers of medical files do not know, become those of 4.
+std::string shorten(vtkDataArray* array, OutgoingVolume& volume, std::string& warning)
+{
+  const bool isPositive = volume.type.kind == NumberType::Kind::Unsigned;
+  const double least = isPositive ? 0.0 : std::numeric_limits<vtkTypeInt32>::min();
+  const double most = isPositive ? double(std::numeric_limits<vtkTypeUInt32>::max())
+                                 : double(std::numeric_limits<vtkTypeInt32>::max());
+  for (int i = 0; i < array->GetNumberOfComponents(); ++i)
+  {
+    double range[2];
+    array->GetRange(range, i);
+    if (range[0] < least || range[1] > most)
+    {
+      std::ostringstream problem;
+      problem << "The input is of the type " << array->GetDataTypeAsString()
+              << ", which is written with 4 bytes a number; its numbers go from " << range[0]
+              << " to " << range[1] << " and must be from " << least << " to " << most;
+      return problem.str();
+    }
+  }
+  volume.type.bytes = 4;
+  warning = std::string("The input is of the type ") + array->GetDataTypeAsString() +
+    "; the file has whole numbers of 4 bytes, which hold its values";
+  return copyAs(isPositive ? VTK_UNSIGNED_INT : VTK_INT, array, volume.numbers);
+}
+
+std::string takeNumbers(vtkDataArray* array, OutgoingVolume& volume, std::string& warning)
+{
+  if (array->GetDataType() == VTK_BIT)
+  {
+    return "The input is of the type bit, which no file of volumes holds; it must be of whole "
+           "numbers of 1 to 8 bytes, float or double";
+  }
+  volume.type = typeOf(array);
+  if (volume.type.bytes > 4 && volume.type.kind != NumberType::Kind::Floating)
+  {
+    return shorten(array, volume, warning);
+  }
+  volume.numbers = array;
+  // Files want the components of a voxel side by side.
+  return array->HasStandardMemoryLayout() ? std::string()
+                                          : copyAs(array->GetDataType(), array, volume.numbers);
+}
+}
+
+int OutgoingVolume::components() const
+{
+  return this->numbers->GetNumberOfComponents();
+}
+
+const char* OutgoingVolume::bytes() const
+{
+  return static_cast<const char*>(this->numbers->GetVoidPointer(0));
+}
+
+std::size_t OutgoingVolume::bytesOfVoxel() const
+{
+  return static_cast<std::size_t>(this->components()) * this->type.bytes;
+}
+
+std::size_t OutgoingVolume::bytesOfVolume() const
+{
+  return this->grid.count() * this->bytesOfVoxel();
+}
+
+std::string takeOut(vtkImageData* image, const std::string& arrayName, WorldAxes world,
+  OutgoingVolume& volume, std::string& warning)
+{
+  vtkDataArray* array = arrayOf(image, arrayName);
+  if (!array)
+  {
+    return missingArray(image, arrayName);
+  }
+  if (array->GetNumberOfTuples() == 0)
+  {
+    return "The input has no voxels";
+  }
+  volume.grid = gridOf(image);
+  std::string problem = problemOfGrid(volume.grid);
+  problem = problem.empty() ? directionProblem(volume.grid) : "The input's " + problem;
+  problem = problem.empty() ? takeNumbers(array, volume, warning) : problem;
+  const WorldAxes axes = world == WorldAxes::Unknown ? worldAxesOf(image) : world;
+  volume.knowsSides = axes != WorldAxes::Unknown;
+  if (axes == WorldAxes::LPS)
+  {
+    volume.grid = withReversedXY(volume.grid);
+  }
+  if (!volume.knowsSides)
+  {
+    warning += std::string(warning.empty() ? "" : ". ") +
+      "The input does not know the sides of the patient: the file is written as if its world were "
+      "RAS, and says so. Set World if you know better";
+  }
+  return problem;
+}
+
+Grid withReversedXY(const Grid& grid)
+{
+  const glm::dvec3 signs(-1.0, -1.0, 1.0);
+  Grid reversed = grid;
+  reversed.origin *= signs;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    reversed.direction[axis] *= signs;
+  }
+  return reversed;
+}
+
+bool thisMachineStoresHighBytesFirst()
+{
+  const int one = 1;
+  char first;
+  std::memcpy(&first, &one, 1);
+  return first == 0;
+}
+}

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief A volume on its way into a file: one point array of an image, placed in RAS millimetres.
+ *
+ * The one road out, as PlacedVolume is the one road in. Formats take what is here and say nothing
+ * of images, worlds and types that no file holds.
+ */
+#ifndef BrainShift_OutgoingVolume_h
+#define BrainShift_OutgoingVolume_h
+
+#include "Common/WorldAxes.h"
+#include "Common/Grid.h"
+#include "vtkBrainShiftFormatsModule.h" // for the export macro
+#include "vtkSmartPointer.h"
+
+#include <string>
+
+class vtkDataArray;
+class vtkImageData;
+
+namespace brainshift
+{
+/**
+ * What a file says of itself if nobody knew the sides of the patient: NIfTI in its description,
+ * MetaImage and NRRD in a comment. Readers honour it. The voxels of such a file lie where they lay,
+ * as if the world were RAS.
+ */
+constexpr const char* UnknownSidesNote = "sides of the patient not known";
+
+/** A number of a voxel as files know it. */
+struct NumberType
+{
+  enum class Kind
+  {
+    Unsigned,
+    Signed,
+    Floating
+  };
+  Kind kind = Kind::Floating;
+  int bytes = 4; ///< 1, 2 or 4; floating: 4 or 8
+};
+
+/** What a file gets. */
+struct OutgoingVolume
+{
+  Grid grid;              ///< mm, RAS; its direction may be a mirrored rotation
+  bool knowsSides = true; ///< false: RAS is a guess
+  NumberType type;
+  vtkSmartPointer<vtkDataArray> numbers; ///< x fastest, components side by side in memory
+
+  int components() const;
+  const char* bytes() const;         ///< of all numbers
+  std::size_t bytesOfVoxel() const;  ///< all components
+  std::size_t bytesOfVolume() const; ///< all voxels
+};
+
+/**
+ * Takes a point array of an image.
+ *
+ * @param arrayName   empty: the active scalars, else the first array of numbers
+ * @param world       what the user says of the world; Unknown: what the image says (WorldAxes.h)
+ * @param warning     one sentence, without a full stop, on what the user must know; may stay empty
+ * @return one sentence, without a full stop, on why the image cannot be written; empty if it can
+ */
+VTKBRAINSHIFTFORMATS_EXPORT std::string takeOut(vtkImageData* image, const std::string& arrayName,
+  WorldAxes world, OutgoingVolume& volume, std::string& warning);
+
+/** The same grid with x and y reversed: this leads from RAS to LPS and back. */
+Grid withReversedXY(const Grid& grid);
+
+/** Bytes of a number are stored in the order of this machine. */
+bool thisMachineStoresHighBytesFirst();
+}
+
+#endif

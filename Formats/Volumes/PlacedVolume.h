@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief A volume of any format, placed in RAS millimetres.
+ *
+ * Voxels are permuted and flipped, never resampled, so that the axes of the image run along the
+ * nearest RAS axes (RasGrid.h). Numbers keep the file's type, or become float32 where they are
+ * rescaled.
+ */
+#ifndef BrainShift_PlacedVolume_h
+#define BrainShift_PlacedVolume_h
+
+#include "Formats/Volumes/RasGrid.h"
+#include "Formats/Volumes/VolumeFile.h"
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkImageData;
+
+namespace brainshift
+{
+/** Reads through a VolumeFile: first the header, then voxels. */
+class PlacedVolume
+{
+public:
+  explicit PlacedVolume(std::unique_ptr<VolumeFile> file);
+
+  /**
+   * Reads the header of a file. Returns one sentence, without a full stop, on why the file cannot
+   * be read; empty if it can.
+   */
+  std::string readHeader(const std::string& fileName);
+
+  /** Whether the last header was good. All that follows is of that file. */
+  bool isPlaced() const { return this->Placed; }
+
+  /** Sentences, without full stops, on what the user must know, such as shear. */
+  std::vector<std::string> warnings() const;
+
+  /** What the file says. */
+  const VolumeHeader& header() const { return this->Header; }
+
+  /** Where the voxels lie. */
+  const RasGrid& geometry() const { return this->Geometry; }
+
+  /** VTK's number of the type that the voxels are handed out in. */
+  int scalarType() const;
+
+  /**
+   * Fills an image over `extent` with one volume; `volume` is an index of the header's times.
+   * Returns one sentence, without a full stop, on why it cannot; empty if it can, or if `progress`
+   * says stop: then the image keeps what it had.
+   */
+  std::string read(
+    std::size_t volume, const int extent[6], const Progress& progress, vtkImageData* image);
+
+private:
+  // Why there is too little memory for the voxels; empty if there is enough.
+  std::string memoryProblem(const int extent[6]) const;
+  std::string sentence(const std::string& end) const;
+  std::string shearWarning() const;
+
+  std::unique_ptr<VolumeFile> File;
+  std::string FileName;
+  bool Placed = false;
+  VolumeHeader Header;
+  RasGrid Geometry;
+};
+}
+
+#endif

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief From an affine that places voxels in RAS mm to a grid along the nearest RAS axes.
+ *
+ * World is RAS: x to the patient's right, y to the front, z to the head, in mm. All volumes take
+ * this road, whatever their file.
+ */
+#ifndef BrainShift_RasGrid_h
+#define BrainShift_RasGrid_h
+
+#include "Common/Grid.h"
+#include "vtkBrainShiftFormatsModule.h" // for the export macro
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <string>
+
+namespace brainshift
+{
+/**
+ * A cosine between two axes above this is reported as shear. Axes of a rotation are perpendicular:
+ * headers in float32 stay below 1e-6. A cosine of 1e-4 moves no voxel of a head by more than
+ * 0.03 mm.
+ */
+constexpr double LargestUnreportedShear = 1e-4;
+
+/** Why an affine cannot place voxels (not finite, singular): part of a sentence, or empty. */
+VTKBRAINSHIFTFORMATS_EXPORT std::string affineProblem(const glm::dmat4& worldFromVoxel);
+
+/** Voxels that are permuted and flipped so that each grid axis runs along the nearest RAS axis. */
+struct RasGrid
+{
+  Grid grid; ///< mm, RAS; its direction is the rotation that is left, often the identity
+  std::array<int, 3> voxelAxis{ 0, 1, 2 }; ///< the file's axis that runs along each grid axis
+  std::array<bool, 3> reversed{};          ///< whether that axis runs the other way
+  double shear = 0.0;                      ///< largest cosine between two of the file's axes
+  double largestErrorMm = 0.0;             ///< farthest distance of a corner from its true place
+};
+
+/**
+ * The grid of an affine. Nothing is lost unless the affine is sheared. Then the grid keeps spacing
+ * and centre and takes the nearest rotation.
+ *
+ * @param worldFromVoxel   an affine without an affineProblem
+ * @param dimensions       voxels along each axis, in the file's order
+ */
+VTKBRAINSHIFTFORMATS_EXPORT RasGrid nearestRasGrid(
+  const glm::dmat4& worldFromVoxel, const glm::ivec3& dimensions);
+}
+
+#endif

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief What a format of volumes has to implement: where its voxels lie, and their numbers as the
+ *        file orders them. PlacedVolume does the rest for all formats alike.
+ */
+#ifndef BrainShift_VolumeFile_h
+#define BrainShift_VolumeFile_h
+
+#include "Common/LabelTable.h"
+#include "vtkBrainShiftFormatsModule.h" // for the export macro
+#include "vtkSmartPointer.h"
+#include "vtkType.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+class vtkImageData;
+
+namespace brainshift
+{
+/** value = slope * stored + intercept */
+struct Rescaling
+{
+  double slope = 1.0;
+  double intercept = 0.0;
+
+  bool isNeeded() const { return this->slope != 1.0 || this->intercept != 0.0; }
+};
+
+/** What the header of a file says. */
+struct VolumeHeader
+{
+  glm::dmat4 worldFromVoxel{ 1.0 }; ///< mm, RAS, from a voxel's index in the file's order
+  glm::ivec3 dimensions{ 0 };       ///< voxels along each axis, in the file's order
+  int storedType = VTK_VOID;        ///< VTK's number of the type of a stored number
+  int components = 1;               ///< numbers at each voxel of one volume
+  Rescaling rescaling;              ///< numbers become float32 if it is needed
+  std::vector<double> times{ 0.0 }; ///< of the volumes, s; at least one
+  /// Whether the file says where the sides of the patient are. Otherwise the axes of the voxels
+  /// stand for right, anterior and superior, which may be wrong.
+  bool knowsSides = true;
+  std::vector<std::string> warnings; ///< ends of sentences, after the name of the file
+  std::vector<Label> labels;         ///< names of values, where the file names them
+};
+
+/** Voxels in the file's order: the extent of the image begins at 0. */
+struct StoredVoxels
+{
+  vtkSmartPointer<vtkImageData> image;
+  int firstComponent = 0; ///< of the volume that was asked for
+};
+
+/** Hears which share is done, 0 to 1. Returns false if the work is to stop. */
+using Progress = std::function<bool(double share)>;
+
+/** One file, or one series of files, at a time: first its header, then its voxels. */
+class VTKBRAINSHIFTFORMATS_EXPORT VolumeFile
+{
+public:
+  VolumeFile() = default;
+  virtual ~VolumeFile() = default;
+  VolumeFile(const VolumeFile&) = delete;
+  VolumeFile& operator=(const VolumeFile&) = delete;
+
+  /** What stands before a name in a sentence, such as "NIfTI file". */
+  virtual std::string noun() const = 0;
+
+  /**
+   * Reads the header. Returns the end of a sentence, after the name and without a full stop, on why
+   * it cannot; empty if it can. It may not have been read before, or have changed since.
+   */
+  virtual std::string readHeader(const std::string& fileName, VolumeHeader& header) = 0;
+
+  /** Bytes that `load` takes beside the output. 0 if the voxels are in memory already. */
+  virtual double storedBytes(const VolumeHeader& header) const;
+
+  /**
+   * Reads the voxels of one of the header's times. Returns the end of a sentence, as readHeader
+   * does. If `progress` says stop, it returns the empty text, and the voxels have no image.
+   */
+  virtual std::string load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) = 0;
+
+  ///@{
+  /**
+   * For files with several volumes, such as the series of a folder or the layers of a segmentation:
+   * their names as the last readHeader found them, and which of them the next readHeader takes.
+   * Default: empty, the first.
+   */
+  virtual std::vector<std::string> choices() const { return {}; }
+  virtual void choose(const std::string& /*name*/) {}
+  ///@}
+
+  /** Whether uneven or tilted slices are interpolated on an upright grid. Default: false. */
+  virtual void setResamples(bool /*resamples*/) {}
+
+  /** Receives the fraction of the headers that readHeader has read. Default: no progress. */
+  virtual void setScanProgress(const Progress& /*progress*/) {}
+
+  /** Path of the first file of what the last readHeader took; empty if it is the file itself. */
+  virtual std::string firstFile() const { return {}; }
+};
+
+/** A format of volumes, for the readers. Formats/README.md has the recipe for a new one. */
+struct VolumeFormat
+{
+  const char* name;                           ///< such as "NRRD"
+  bool (*isOne)(const std::string& fileName); ///< whether a file is there and begins like one
+  std::unique_ptr<VolumeFile> (*make)();
+};
+
+/** For VolumeFormat::make. */
+template <typename File>
+std::unique_ptr<VolumeFile> makeVolumeFile()
+{
+  return std::make_unique<File>();
+}
+
+/** All formats of volumes. brainshift_add_format writes this list. */
+VTKBRAINSHIFTFORMATS_EXPORT const std::vector<const VolumeFormat*>& volumeFormats();
+}
+
+#endif

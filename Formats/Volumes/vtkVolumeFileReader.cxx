@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkVolumeFileReader.h"
+
+#include "Common/Guard.h"
+#include "Common/LabelTable.h"
+#include "Common/ImageGrid.h"
+#include "Common/WorldAxes.h"
+#include "Formats/Fields/FieldImage.h"
+#include "Formats/Volumes/PlacedVolume.h"
+
+#include "vtkDataArray.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMatrix3x3.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStringArray.h"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace
+{
+constexpr const char* ScalarsName = "Intensity";
+
+const brainshift::VolumeFormat* formatNamed(const std::string& name)
+{
+  for (const brainshift::VolumeFormat* format : brainshift::volumeFormats())
+  {
+    if (name == format->name)
+    {
+      return format;
+    }
+  }
+  return nullptr;
+}
+
+// The first format, or the only one that is allowed, whose file this is. Null: none.
+const brainshift::VolumeFormat* formatOf(const std::string& fileName, const std::string& allowed)
+{
+  for (const brainshift::VolumeFormat* format : brainshift::volumeFormats())
+  {
+    if ((allowed.empty() || allowed == format->name) && format->isOne(fileName))
+    {
+      return format;
+    }
+  }
+  return nullptr;
+}
+
+std::string formatNames()
+{
+  std::string names;
+  for (const brainshift::VolumeFormat* format : brainshift::volumeFormats())
+  {
+    names.append(names.empty() ? "" : ", ").append(format->name);
+  }
+  return names;
+}
+
+std::size_t nearestIndex(const std::vector<double>& times, double time)
+{
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < times.size(); ++i)
+  {
+    if (std::abs(times[i] - time) < std::abs(times[nearest] - time))
+    {
+      nearest = i;
+    }
+  }
+  return nearest;
+}
+
+void announceTimes(vtkInformation* output, const std::vector<double>& times)
+{
+  output->Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+  output->Remove(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
+  if (times.size() > 1)
+  {
+    const double range[2] = { times.front(), times.back() };
+    output->Set(
+      vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
+    output->Set(vtkStreamingDemandDrivenPipeline::TIME_RANGE(), range, 2);
+  }
+}
+}
+
+vtkStandardNewMacro(vtkVolumeFileReader);
+brainshiftGuardRequestsMacro(vtkVolumeFileReader);
+
+vtkVolumeFileReader::vtkVolumeFileReader()
+{
+  this->SetNumberOfInputPorts(0);
+}
+
+vtkVolumeFileReader::~vtkVolumeFileReader()
+{
+  this->SetFileName(nullptr);
+}
+
+void vtkVolumeFileReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "Format: " << this->Format << "\n";
+  os << indent << "Choice: " << this->Choice << "\n";
+  os << indent << "ResampleSlices: " << this->ResampleSlices << "\n";
+}
+
+void vtkVolumeFileReader::SetFormat(const char* name)
+{
+  const std::string format = name ? name : "";
+  if (format != this->Format)
+  {
+    this->Format = format;
+    this->Modified();
+  }
+}
+
+void vtkVolumeFileReader::SetChoice(const char* name)
+{
+  const std::string choice = name ? name : "";
+  if (choice == this->Choice)
+  {
+    return;
+  }
+  // ParaView writes the name of what is shown into the property. Nothing need be read again then.
+  const std::vector<std::string> names =
+    this->File ? this->File->choices() : std::vector<std::string>();
+  const bool isShown = this->Choice.empty() && !names.empty() && names.front() == choice;
+  this->Choice = choice;
+  if (this->File)
+  {
+    this->File->choose(choice);
+  }
+  if (!isShown)
+  {
+    this->Modified();
+  }
+}
+
+vtkStringArray* vtkVolumeFileReader::GetChoiceList()
+{
+  this->ChoiceList->Initialize();
+  for (const std::string& name : this->File ? this->File->choices() : std::vector<std::string>())
+  {
+    this->ChoiceList->InsertNextValue(name);
+  }
+  return this->ChoiceList;
+}
+
+void vtkVolumeFileReader::SetResampleSlices(bool resample)
+{
+  if (resample != this->ResampleSlices)
+  {
+    this->ResampleSlices = resample;
+    this->Modified();
+  }
+}
+
+std::string vtkVolumeFileReader::GetShownFile() const
+{
+  return this->File ? this->File->firstFile() : std::string();
+}
+
+int vtkVolumeFileReader::CanReadFile(const char* fileName)
+{
+  return fileName && formatOf(fileName, this->Format) ? 1 : 0;
+}
+
+std::string vtkVolumeFileReader::takeFormat()
+{
+  const std::string fileName = this->FileName ? this->FileName : "";
+  // A file that is damaged at its very beginning still gets the sentence of the format that was
+  // chosen for it.
+  const brainshift::VolumeFormat* format =
+    this->Format.empty() ? formatOf(fileName, this->Format) : formatNamed(this->Format);
+  if (!format && !this->Format.empty())
+  {
+    return "Format is '" + this->Format + "'; it must be one of " + formatNames();
+  }
+  if (!format)
+  {
+    return "File " + fileName + " is no volume of a format that BrainShift reads: " + formatNames();
+  }
+  if (format != this->Taken)
+  {
+    std::unique_ptr<brainshift::VolumeFile> file = format->make();
+    this->File = file.get();
+    this->Stored = std::make_unique<brainshift::PlacedVolume>(std::move(file));
+    this->Taken = format;
+    this->File->setScanProgress([this](double fraction) {
+      this->UpdateProgress(fraction);
+      return !this->GetAbortExecute();
+    });
+  }
+  this->File->choose(this->Choice);
+  this->File->setResamples(this->ResampleSlices);
+  return {};
+}
+
+void vtkVolumeFileReader::announceLast(vtkInformation* output)
+{
+  vtkImageData* image = this->Last.image;
+  output->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), this->Last.wholeExtent, 6);
+  output->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), this->Last.wholeExtent, 6);
+  announceTimes(output, this->Last.times);
+  if (image)
+  {
+    output->Set(vtkDataObject::SPACING(), image->GetSpacing(), 3);
+    output->Set(vtkDataObject::ORIGIN(), image->GetOrigin(), 3);
+    output->Set(vtkDataObject::DIRECTION(), image->GetDirectionMatrix()->GetData(), 9);
+    vtkDataObject::SetPointDataActiveScalarInfo(
+      output, image->GetScalarType(), image->GetNumberOfScalarComponents());
+  }
+}
+
+void vtkVolumeFileReader::rememberLast(vtkInformation* output)
+{
+  this->Last.image = vtkSmartPointer<vtkImageData>::New();
+  this->Last.image->ShallowCopy(vtkImageData::GetData(output));
+  output->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), this->Last.wholeExtent);
+  this->Last.times = this->Stored->header().times;
+  this->Last.isOfHeader = true;
+}
+
+void vtkVolumeFileReader::keepLast(vtkInformation* output)
+{
+  this->announceLast(output);
+  vtkImageData* shown = vtkImageData::GetData(output);
+  shown->Initialize();
+  if (this->Last.image)
+  {
+    shown->ShallowCopy(this->Last.image);
+  }
+  if (output->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
+  {
+    // The step counts as read: it must not be read again at the next picture.
+    shown->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(),
+      output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()));
+  }
+}
+
+std::string vtkVolumeFileReader::reading(const std::function<std::string()>& read)
+{
+  struct Scope
+  {
+    bool& isReading;
+    ~Scope() { this->isReading = false; }
+  };
+  this->IsReading = true;
+  const Scope scope{ this->IsReading };
+  return read();
+}
+
+int vtkVolumeFileReader::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  vtkInformation* output = outputs->GetInformationObject(0);
+  const std::string unknown = this->takeFormat();
+  if (!unknown.empty())
+  {
+    this->Stored.reset();
+    this->File = nullptr;
+    this->Taken = nullptr;
+    vtkErrorMacro(<< unknown << ".");
+    return 0;
+  }
+  const std::string problem = this->reading(
+    [this] { return this->Stored->readHeader(this->FileName ? this->FileName : ""); });
+  this->Last.isOfHeader = false;
+  this->IsStopped = !problem.empty() && this->GetAbortExecute();
+  if (this->IsStopped)
+  {
+    this->announceLast(output);
+    return 1; // RequestData says the rest
+  }
+  if (!problem.empty())
+  {
+    vtkErrorMacro(<< problem << ".");
+    return 0;
+  }
+  // Every MPI rank reads the same header.
+  const bool speaks = brainshift::isFirstRank();
+  for (const std::string& warning : speaks ? this->Stored->warnings() : std::vector<std::string>())
+  {
+    vtkWarningMacro(<< warning << ".");
+  }
+  brainshift::announce(output, this->Stored->geometry().grid);
+  output->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
+  vtkDataObject::SetPointDataActiveScalarInfo(
+    output, this->Stored->scalarType(), this->Stored->header().components);
+  announceTimes(output, this->Stored->header().times);
+  return 1;
+}
+
+int vtkVolumeFileReader::RequestData(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
+{
+  vtkInformation* information = outputs->GetInformationObject(0);
+  if (!this->IsStopped)
+  {
+    const int result = this->readVolume(information);
+    if (!this->GetAbortExecute())
+    {
+      return result;
+    }
+    this->IsStopped = !this->Last.isOfHeader;
+  }
+  this->keepLast(information);
+  if (this->GetAbortExecute())
+  {
+    // Nobody else takes the request back, and SetAbortExecute would have all read again.
+    this->AbortExecute = 0;
+    vtkWarningMacro(<< "Reading " << (this->FileName ? this->FileName : "") << " was stopped. "
+                    << (this->Last.image ? "What was read before" : "Nothing")
+                    << " is shown. Change a property or reload the file to read it.");
+  }
+  return 1;
+}
+
+int vtkVolumeFileReader::readVolume(vtkInformation* information)
+{
+  // ParaView asks for data even after RequestInformation failed; that has been reported.
+  if (!this->Stored || !this->Stored->isPlaced())
+  {
+    return 0;
+  }
+  vtkImageData* shown = vtkImageData::GetData(information);
+  shown->Initialize(); // the pipeline leaves the old numbers in it
+  const std::vector<double>& times = this->Stored->header().times;
+  std::size_t volume = 0;
+  if (times.size() > 1 && information->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()))
+  {
+    volume =
+      nearestIndex(times, information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()));
+    shown->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), times[volume]);
+  }
+  const auto progress = [this](double share) {
+    this->UpdateProgress(share);
+    return !this->GetAbortExecute();
+  };
+  const std::string problem = this->reading([&] {
+    return this->Stored->read(
+      volume, information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()), progress, shown);
+  });
+  if (!problem.empty())
+  {
+    vtkErrorMacro(<< problem << ".");
+    return 0;
+  }
+  vtkDataArray* scalars = shown->GetPointData()->GetScalars();
+  if (!scalars)
+  {
+    return 0; // stopped
+  }
+  scalars->SetName(ScalarsName);
+  brainshift::attachLabels(shown, this->Stored->header().labels);
+  brainshift::nameWorldAxes(shown,
+    this->Stored->header().knowsSides ? brainshift::WorldAxes::RAS
+                                      : brainshift::WorldAxes::Unknown);
+  this->rememberLast(information);
+  return 1;
+}

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkVolumeFileReader
+ * @brief   reads volumes of all registered formats into RAS millimetres
+ *
+ * World is RAS: x to the patient's right, y to the front, z to the head. The first of volumeFormats
+ * (VolumeFile.h) that recognises the file reads it. Each format has a proxy of its own, which sets
+ * Format, so that File > Open offers it by its ending.
+ *
+ * Voxels are permuted and flipped, never resampled, so that the axes of the image run along the
+ * nearest RAS axes. The rotation that is left (an oblique scan) becomes the direction matrix of the
+ * image. For scans along the axes that matrix is exactly the identity, so filters that ignore
+ * directions are right too. No image can hold sheared axes: they give a warning that names the
+ * error in mm.
+ *
+ * Output: vtkImageData with the point scalars "Intensity". Their type is the type in the file, or
+ * float32 if the file rescales them. A time series has time steps, in seconds. The field array
+ * WorldAxes says RAS if the file knows the patient's sides (WorldAxes.h). Names and colours of
+ * labels are attached where the file has them (LabelTable.h). After an error the output stays as it
+ * was, or is empty.
+ *
+ * Reading can be aborted. Then the output is the volume that was last read to its end, or empty, a
+ * warning says so, and nothing is read again before the reader is modified.
+ */
+#ifndef vtkVolumeFileReader_h
+#define vtkVolumeFileReader_h
+
+#include "vtkBrainShiftFormatsModule.h" // for the export macro
+#include "vtkImageAlgorithm.h"
+#include "vtkNew.h"         // for the private part
+#include "vtkSmartPointer.h"
+
+#include <functional> // for the private part
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace brainshift
+{
+class PlacedVolume;
+class VolumeFile;
+struct VolumeFormat;
+}
+
+class vtkImageData;
+class vtkStringArray;
+
+class VTKBRAINSHIFTFORMATS_EXPORT vtkVolumeFileReader : public vtkImageAlgorithm
+{
+public:
+  static vtkVolumeFileReader* New();
+  vtkTypeMacro(vtkVolumeFileReader, vtkImageAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+  vtkTypeBool ProcessRequest(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+  ///@{
+  /** The file to read. Default: none, which is an error. */
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+  ///@{
+  /** The name of the only format that is tried, such as "NRRD". Default: empty, all of them. */
+  void SetFormat(const char* name);
+  const char* GetFormat() const { return this->Format.c_str(); }
+  ///@}
+
+  ///@{
+  /**
+   * Which volume of a file with several to read: the series of a DICOM folder or the layer of a
+   * segmentation, one of GetChoiceList, which is filled when the header is read. Default: empty,
+   * the first.
+   */
+  void SetChoice(const char* name);
+  const char* GetChoice() const { return this->Choice.c_str(); }
+  vtkStringArray* GetChoiceList();
+  ///@}
+
+  ///@{
+  /**
+   * Whether slices of a DICOM series that are not evenly spaced, or that a tilted gantry shifts, are
+   * interpolated on an upright grid. Default: false; a warning names the error in mm.
+   */
+  void SetResampleSlices(bool resample);
+  bool GetResampleSlices() const { return this->ResampleSlices; }
+  ///@}
+
+  /** Path of the first file of the volume that is shown; empty if there is none. */
+  std::string GetShownFile() const;
+
+  /** Whether the reader reads a header or voxels at this moment. */
+  bool GetIsReading() const { return this->IsReading; }
+
+  /** 1 if the file exists and begins like a file of Format, else 0. */
+  int CanReadFile(VTK_FILEPATH const char* fileName);
+
+protected:
+  vtkVolumeFileReader();
+  ~vtkVolumeFileReader() override;
+
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
+
+private:
+  vtkVolumeFileReader(const vtkVolumeFileReader&) = delete;
+  void operator=(const vtkVolumeFileReader&) = delete;
+
+  // Finds the format of the file. Returns a sentence without a full stop if there is none.
+  std::string takeFormat();
+  // What `read` returns. IsReading holds meanwhile.
+  std::string reading(const std::function<std::string()>& read);
+  // Fills the output with the volume of the time that is asked for.
+  int readVolume(vtkInformation* output);
+  // Tells the pipeline what was last read to its end.
+  void announceLast(vtkInformation* output);
+  // Keeps what is read; keepLast shows it again, after the user stopped the next one.
+  void rememberLast(vtkInformation* output);
+  void keepLast(vtkInformation* output);
+
+  // The volume that was last read to its end, and what was announced of it.
+  struct Shown
+  {
+    vtkSmartPointer<vtkImageData> image; // null: none
+    int wholeExtent[6] = { 0, -1, 0, -1, 0, -1 };
+    std::vector<double> times;
+    bool isOfHeader = false; // of the header that was read last
+  };
+
+  char* FileName = nullptr;
+  std::string Format;
+  std::string Choice;
+  vtkNew<vtkStringArray> ChoiceList;
+  bool ResampleSlices = false;
+  Shown Last;
+  bool IsReading = false;
+  bool IsStopped = false; // the header that was read last is not what is shown
+  const brainshift::VolumeFormat* Taken = nullptr; // of File
+  brainshift::VolumeFile* File = nullptr;          // held by Stored; null: no format yet
+  std::unique_ptr<brainshift::PlacedVolume> Stored;
+};
+
+#endif

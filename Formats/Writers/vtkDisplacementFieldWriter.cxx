@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDisplacementFieldWriter.h"
+
+#include "Common/ImageGrid.h"
+#include "Common/Guard.h"
+#include "Formats/Fields/FieldFile.h"
+#include "Formats/Fields/FieldImage.h"
+#include "Formats/Writers/WrittenVolume.h"
+
+#include "vtkErrorCode.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkObjectFactory.h"
+
+using namespace brainshift;
+
+vtkStandardNewMacro(vtkDisplacementFieldWriter);
+brainshiftGuardRequestsMacro(vtkDisplacementFieldWriter);
+
+int vtkDisplacementFieldWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  return 1;
+}
+
+void vtkDisplacementFieldWriter::WriteData()
+{
+  auto* image = vtkImageData::SafeDownCast(this->GetInput());
+  vtkDataArray* array = fieldOf(image);
+  if (array && !isFieldImage(image))
+  {
+    this->Problem = this->WriteVolume(image);
+  }
+  else if (array)
+  {
+    DirectedField field{ gridOf(image), vectorsOf(array), directionOf(image) };
+    if (this->World == LPS)
+    {
+      reverseXY(field);
+    }
+    this->Problem = writeFieldFile(this->FileName, field);
+  }
+  else
+  {
+    this->Problem = "The input has no point array of 3 components (mm)";
+  }
+  if (!this->Problem.empty())
+  {
+    vtkErrorMacro(<< this->Problem << ".");
+    this->SetErrorCode(vtkErrorCode::UnknownError);
+  }
+}
+
+std::string vtkDisplacementFieldWriter::WriteVolume(vtkImageData* image)
+{
+  const WorldAxes world = this->World == LPS ? WorldAxes::LPS : WorldAxes::Unknown;
+  OutgoingVolume volume;
+  std::string warning;
+  std::string problem = takeOut(image, "", world, volume, warning);
+  problem =
+    problem.empty() ? writeVolume(this->FileName, volume, [](double) { return true; }) : problem;
+  if (problem.empty() && !warning.empty())
+  {
+    vtkWarningMacro(<< "File " << this->FileName << ": " << warning << ".");
+  }
+  return problem;
+}
+
+void vtkDisplacementFieldWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << this->FileName << "\n"
+     << indent << "World: " << (this->World == RAS ? "RAS" : "LPS") << "\n";
+}
