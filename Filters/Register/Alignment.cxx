@@ -19,8 +19,7 @@ namespace brainshift
 {
 namespace
 {
-constexpr int Pieces = 8; // of the samples; each has a histogram of its own
-constexpr double LeastOverlap = 0.25;
+constexpr int Pieces = 8;          // of the samples; each has a histogram of its own
 constexpr double Tolerance = 0.01; // of the level's spacing: where a line's lowest place is known
 constexpr double Converged = 1e-4; // share of the information that a round must gain
 
@@ -76,6 +75,8 @@ double scattered(std::uint32_t index, std::uint32_t salt)
   return x / 4294967296.0;
 }
 }
+
+const double Alignment::LeastOverlap = 0.25;
 
 Alignment::Alignment(RegisteredPair pair, const Lattice* bent, const AlignmentSettings& settings)
   : Settings(settings)
@@ -233,8 +234,7 @@ double Alignment::searchLine(const Parameters& direction)
   return gain;
 }
 
-// Powell: the way of the whole round takes the place of the direction that gained most, if the
-// round went far.
+// Powell (1964): the displacement of the whole round replaces the direction that gained most.
 void Alignment::endRound()
 {
   const double gain = this->RoundStartLoss - this->Loss;

@@ -107,15 +107,15 @@ std::vector<float> LevelSamples::read(const std::vector<float>& values, int numb
   return result;
 }
 
-Agreement averaged(
+CostAndForces averaged(
   const std::vector<double>& rowSums, const std::vector<double>& rowWeights, ControlForces forces)
 {
-  Agreement result;
+  CostAndForces result;
   result.samples = std::accumulate(rowWeights.begin(), rowWeights.end(), 0.0);
-  result.disagreement = 1.0; // what meets nothing does not agree
+  result.cost = 1.0; // without a partner, volumes do not agree
   if (result.samples > 0.0)
   {
-    result.disagreement = std::accumulate(rowSums.begin(), rowSums.end(), 0.0) / result.samples;
+    result.cost = std::accumulate(rowSums.begin(), rowSums.end(), 0.0) / result.samples;
     const float share = static_cast<float>(1.0 / result.samples);
     for (float& force : forces)
     {

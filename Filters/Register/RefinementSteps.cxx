@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The steps of a refinement: rigid ones, and those that bend.
-#include "Filters/Register/Refinement.h"
+#include "Filters/Register/RefinementSteps.h"
 
 #include "Filters/Register/RigidStep.h"
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 namespace brainshift
@@ -15,25 +14,18 @@ namespace brainshift
 namespace
 {
 constexpr int MostHalvings = 4;
+constexpr double Halving = 0.5;
 
 // How often a step that would fold is sought again by a stiffer volume, and how much stiffer.
 constexpr int MostStiffenings = 3;
 constexpr double Stiffening = 1.5;
-// The lumped Hessian is larger than the true one, so that longer steps often help.
-constexpr double LongestStride = 2.0;
-constexpr double StrideGrowth = 1.2;
-constexpr double Converged = 1e-4; // share of the energy that a step must gain
+constexpr double Converged = 1e-4; // fraction of the energy that a step must gain
 
-// Speckle makes the reference's slopes, and with them the Hessian, many times too large. So rigid
-// steps begin longer and grow fast.
-constexpr double FirstRigidStride = 4.0;
-constexpr double LongestRigidStride = 16.0;
-constexpr double RigidStrideGrowth = 2.0;
-constexpr double RigidStrideLoss = 0.25;
+constexpr double RigidShortening = 0.25;
 constexpr double LeastRigidStepMm = 0.02;
 constexpr double LeastInSight = 0.75; // of the samples that were compared at the start
 
-double longest(const std::vector<glm::vec3>& vectors)
+double longest(const Controls& vectors)
 {
   float result = 0.0f;
   for (const glm::vec3& vector : vectors)
@@ -44,113 +36,83 @@ double longest(const std::vector<glm::vec3>& vectors)
 }
 }
 
-// A fold in one place would hold the step everywhere. A stiffer volume folds nowhere.
-void Refinement::stiffen()
+void BendStep::find(Trial& trial, const RefinementState& state) const
 {
-  this->Progress.stiffness *= Stiffening;
-  this->Stiff = Stiffness(this->Start.grid, this->stiffnessFactor() * this->Progress.stiffness);
-  this->Energy = this->energyOf(this->Controls, this->Known);
-}
-
-double Refinement::firstStride() const
-{
-  return this->stage().isRigid ? FirstRigidStride : 1.0;
-}
-
-Refinement::Candidate Refinement::candidateAt(
-  const std::vector<glm::vec3>& step, double share) const
-{
-  Candidate found;
-  found.controls = this->Controls;
-  for (std::size_t i = 0; i < step.size(); ++i)
-  {
-    found.controls[i] += static_cast<float>(share) * step[i];
-  }
-  found.lattice = this->latticeOf(found.controls);
-  found.kept = this->Settings.guards ? this->Guard.share(this->Bent, found.lattice) : 1.0;
-  if (found.kept < 1.0)
-  {
-    found.lattice = between(this->Bent, found.lattice, found.kept);
-    found.controls = this->controlsOf(found.lattice);
-  }
-  return found;
-}
-
-void Refinement::findStep(RefinementTrial& trial) const
-{
-  trial.step = newtonStep(this->Stiff, this->Known.forces, this->bendOf(this->Controls));
+  trial.step = newtonStep(state.stiffness, state.known.forces, state.bendOf(state.controls));
   trial.lengthMm = longest(trial.step);
-  trial.share =
-    std::min(this->Stride, trial.lengthMm > 0.0 ? this->LongestStepMm / trial.lengthMm : 1.0);
+  trial.fraction =
+    std::min(this->Stride, trial.lengthMm > 0.0 ? this->LongestMm / trial.lengthMm : 1.0);
 }
 
-// Compares once at most, so that a call stays short however often a step is halved.
-Refinement::Outcome Refinement::tryStep()
+StepOutcome BendStep::attempt(RefinementState& state, PyramidLevel& level)
 {
   if (!this->Trying)
   {
-    this->findStep(this->Trying.emplace());
+    this->find(this->Trying.emplace(), state);
   }
-  Outcome outcome = this->tryStep(*this->Trying);
-  if (outcome == Outcome::Open && ++this->Trying->attempts > MostHalvings + MostStiffenings)
+  StepOutcome outcome = this->attempt(*this->Trying, state, level);
+  if (outcome == StepOutcome::Open && ++this->Trying->attempts > MostHalvings + MostStiffenings)
   {
-    this->Progress.movedMm = 0.0;
-    outcome = Outcome::Settled;
+    state.progress.movedMm = 0.0;
+    outcome = StepOutcome::Settled;
   }
-  if (outcome != Outcome::Open)
+  if (outcome != StepOutcome::Open)
   {
     this->Trying.reset();
   }
   return outcome;
 }
 
-Refinement::Outcome Refinement::tryStep(RefinementTrial& trial)
+StepOutcome BendStep::attempt(Trial& trial, RefinementState& state, PyramidLevel& level)
 {
-  const Candidate candidate = this->candidateAt(trial.step, trial.share);
-  if (candidate.kept < 1.0 && trial.stiffenings++ < MostStiffenings)
+  const RefinementState::Candidate candidate = state.candidateAt(trial.step, trial.fraction);
+  if (candidate.fraction < 1.0 && trial.stiffenings++ < MostStiffenings)
   {
-    this->stiffen();
-    this->findStep(trial);
-    return Outcome::Open;
+    state.stiffen(Stiffening);
+    this->find(trial, state);
+    return StepOutcome::Open;
   }
-  Agreement agreement = this->Compare(candidate.controls);
-  const double energy = this->energyOf(candidate.controls, agreement);
-  this->Progress.share = std::min(this->Progress.share, candidate.kept);
-  if (!(energy < this->Energy)) // nor is no number
+  CostAndForces compared = level.compare(candidate.controls);
+  const double energy = state.energyOf(candidate.controls, compared);
+  state.progress.stepFraction = std::min(state.progress.stepFraction, candidate.fraction);
+  if (!(energy < state.energy)) // also rejects NaN
   {
-    trial.share *= 0.5;
-    return Outcome::Open;
+    trial.fraction *= Halving;
+    return StepOutcome::Open;
   }
-  const double gain = this->Energy - energy;
-  this->Progress.movedMm = trial.share * candidate.kept * trial.lengthMm;
-  this->take(candidate.lattice, std::move(agreement), energy);
-  this->Stride = std::min(LongestStride, StrideGrowth * std::max(1.0, trial.share));
-  return gain > Converged * energy ? Outcome::Improved : Outcome::Settled;
+  const double gain = state.energy - energy;
+  state.progress.movedMm = trial.fraction * candidate.fraction * trial.lengthMm;
+  state.take(candidate.lattice, std::move(compared), energy);
+  this->Stride =
+    std::min(this->Growth.longest, this->Growth.growth * std::max(1.0, trial.fraction));
+  return gain > Converged * energy ? StepOutcome::Improved : StepOutcome::Settled;
 }
 
-Refinement::Outcome Refinement::moveRigidly()
+StepOutcome RigidMove::attempt(RefinementState& state, PyramidLevel& level)
 {
-  const RigidStep step = rigidStep(this->Start.grid, this->Controls, this->Known.forces);
-  const double share = std::min(this->Stride, this->LongestStepMm / std::max(1e-9, step.lengthMm));
-  const Candidate candidate = this->candidateAt(step.steps, share); // only a mask's edge can fold
-  Agreement agreement = this->Compare(candidate.controls);
-  const double gain = this->Known.disagreement - agreement.disagreement; // the bend costs the same
-  // A mean gets better, too, where what disagrees moves out of sight.
-  const bool staysInSight = agreement.samples >= LeastInSight * this->SamplesAtStart;
-  this->Progress.movedMm = 0.0;
-  this->Progress.share = std::min(this->Progress.share, candidate.kept);
+  const RigidStep step = rigidStep(state.start.grid, state.controls, state.known.forces);
+  const double fraction = std::min(this->Stride, this->LongestMm / std::max(1e-9, step.lengthMm));
+  // Only the edge of a mask can fold.
+  const RefinementState::Candidate candidate = state.candidateAt(step.steps, fraction);
+  CostAndForces compared = level.compare(candidate.controls);
+  const double gain = state.known.cost - compared.cost; // the bend costs the same
+  // A mean also falls where tissue that disagrees leaves the fan.
+  const bool staysInSight = compared.samples >= LeastInSight * state.samplesAtStart;
+  state.progress.movedMm = 0.0;
+  state.progress.stepFraction = std::min(state.progress.stepFraction, candidate.fraction);
   if (!(gain > 0.0) || !staysInSight)
   {
-    this->Stride = RigidStrideLoss * share;
-    return this->Stride * step.lengthMm > LeastRigidStepMm ? Outcome::Open : Outcome::Settled;
+    this->Stride = RigidShortening * fraction;
+    return this->Stride * step.lengthMm > LeastRigidStepMm ? StepOutcome::Open
+                                                           : StepOutcome::Settled;
   }
-  for (std::size_t i = 0; i < this->Unbent.size(); ++i)
+  for (std::size_t i = 0; i < state.unbent.size(); ++i)
   {
-    this->Unbent[i] += candidate.controls[i] - this->Controls[i];
+    state.unbent[i] += candidate.controls[i] - state.controls[i];
   }
-  this->Progress.movedMm = share * candidate.kept * step.lengthMm;
-  this->take(candidate.lattice, std::move(agreement), this->Energy - gain);
-  this->Stride = std::min(LongestRigidStride, RigidStrideGrowth * share);
-  return gain > Converged * this->Energy ? Outcome::Improved : Outcome::Settled;
+  state.progress.movedMm = fraction * candidate.fraction * step.lengthMm;
+  state.take(candidate.lattice, std::move(compared), state.energy - gain);
+  this->Stride = std::min(this->Growth.longest, this->Growth.growth * fraction);
+  return gain > Converged * state.energy ? StepOutcome::Improved : StepOutcome::Settled;
 }
 }

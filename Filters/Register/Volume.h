@@ -90,6 +90,12 @@ inline ValueAndSlope trilinear(const float* values, const Neighbours& at)
 /** The grid with neighbours `spacingMm` apart, or as far apart as in the source if that is more. */
 BRAINSHIFT_DEFORMATION_EXPORT Grid coarseGrid(const Grid& source, double spacingMm);
 
+/** Volume of the box around one point (mm³). */
+inline double pointVolume(const Grid& grid)
+{
+  return grid.spacing.x * grid.spacing.y * grid.spacing.z;
+}
+
 /**
  * The volume as a grid of that spacing may sample it: smoothed by a Gaussian along each axis whose
  * points are nearer than `spacingMm`.

@@ -139,8 +139,14 @@ TEST(Defaults, OfRegistrationLiveInTheClasses)
     { double(sides[0]), double(sides[1]), double(sides[2]) } } };
   EXPECT_EQ(defaultsIn("Filters/Proxies/RefinedLattice.xml"), ofLattice);
   vtkNew<vtkRegistrationRun> run;
-  const Defaults ofRun{ { "Similarity", { double(run->GetSimilarity()) } },
-    { "Stiffness", { run->GetStiffness() } } };
+  const double* rotation = run->GetStartRotation();
+  const double* translation = run->GetStartTranslation();
+  const Defaults ofRun{
+    { "Similarity", { double(run->GetSimilarity()) } },
+    { "StartRotation", { rotation[0], rotation[1], rotation[2] } },
+    { "StartTranslation", { translation[0], translation[1], translation[2] } },
+    { "Stiffness", { run->GetStiffness() } },
+  };
   EXPECT_EQ(defaultsIn("Filters/Proxies/RegistrationRun.xml"), ofRun);
 }
 

@@ -89,7 +89,7 @@ def test_align_warns_beyond_what_was_tested():
         warnings.simplefilter("always")
         found = brainshift.align(compare)
     assert found.shift > 24, found.shift
-    assert any("Nobody has tested this" in str(one.message) for one in said), said
+    assert any("Align is tested only from" in str(one.message) for one in said), said
     compare = simple.CompareVolumes(Input=rest, Reference=rest, ReferenceTranslation=(6, 0, 0))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -102,6 +102,12 @@ def test_a_callback_stops_align():
     found = brainshift.align(compare, callback=lambda progress: progress.steps < 2)
     assert found.steps == 2 and not found.finished
     assert numpy.linalg.norm(compare.ReferenceTranslation) < 7.0
+
+
+def test_names_of_similarities_come_from_the_server():
+    known = brainshift.similarities()
+    assert list(known)[:3] == ["auto", "same contrast", "ultrasound"], known
+    assert all(text.endswith(".") for text in known.values()), known
 
 
 def test_refine_finds_a_known_bend():
@@ -226,7 +232,7 @@ def test_without_overlap_nothing_changes():
     strokes = tuple(brainshift.soft(MIDDLE, (2, 0, 0), 30.0))
     bent = simple.FreeFormDeformation(Input=rest, Strokes=strokes)
     before = sorted(simple.GetSources())
-    refuses(lambda: brainshift.refine(bent, away), "nothing in common")
+    refuses(lambda: brainshift.refine(bent, away), "do not overlap")
     assert tuple(bent.Strokes) == strokes and not bent.Lattice, bent.Lattice
     assert sorted(simple.GetSources()) == before, simple.GetSources()
     compare = simple.CompareVolumes(Input=bent, Reference=away)

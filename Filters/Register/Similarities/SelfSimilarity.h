@@ -4,8 +4,8 @@
  * @brief How the surroundings of a point resemble each other: 12 numbers that do not change with
  *        contrast, brightness or inversion.
  *
- * Method: the self-similarity context of Heinrich et al., MICCAI 2013. Each number compares two of
- * the six neighbours at `SelfSimilarityDistance`.
+ * Method: the self-similarity context (SSC) of Heinrich et al., MICCAI 2013. Each number compares
+ * two of the six neighbours at `SelfSimilarityDistance`.
  */
 #ifndef BrainShift_SelfSimilarity_h
 #define BrainShift_SelfSimilarity_h

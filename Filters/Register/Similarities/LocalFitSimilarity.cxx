@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/Register/LocalFitSimilarity.h"
+#include "Filters/Register/Similarities/LocalFitSimilarity.h"
 
 #include "Filters/Deformation/Parallel.h"
 
@@ -37,7 +37,7 @@ enum Sum
 constexpr int SumsWithoutSlope = G;
 
 // A sample's force is (Scale V - ScaleA P - ScaleB G - ScaleC - Loss V + LossMean) times the
-// reference's slope: the derivative of the disagreements of all windows that hold it.
+// reference's slope: the derivative of the costs of all windows that hold it.
 enum Left
 {
   Scale,
@@ -161,7 +161,7 @@ struct LocalFitSimilarity::Work
   std::vector<glm::vec3> slope; // of the reference for each mm that the controls move
   Block rows;                   // Sum, gathered along x alone
   Block windows;                // Sum, then Left
-  std::vector<double> slabSums; // of the windows' disagreement
+  std::vector<double> slabSums; // of the windows' cost
   std::vector<double> slabCounts;
 };
 
@@ -291,7 +291,7 @@ void LocalFitSimilarity::fitWindow(float* numbers, bool counts, double& sum, dou
       b = (vg * pp - vp * pg) / determinant;
       explained = a * vp + b * vg;
     }
-    // A window without variance says nothing: its disagreement is 1, whatever moves.
+    // A window without variance says nothing: its cost is 1, whatever moves.
     const float all = vv + this->LeastVariance;
     const float unexplained = std::max(0.0f, all - explained);
     sum += unexplained / all;
@@ -371,7 +371,7 @@ ControlForces LocalFitSimilarity::takeForces(
   });
 }
 
-Agreement LocalFitSimilarity::compare(const std::vector<glm::vec3>& displacements)
+CostAndForces LocalFitSimilarity::compare(const std::vector<glm::vec3>& displacements)
 {
   if (!this->Known)
   {
@@ -382,10 +382,26 @@ Agreement LocalFitSimilarity::compare(const std::vector<glm::vec3>& displacement
   work.clear();
   this->takeSamples(displacements, work);
   this->fitWindows(work);
-  Agreement result =
+  CostAndForces result =
     averaged(work.slabSums, work.slabCounts, this->takeForces(displacements, work));
   result.samples = std::accumulate(work.weight.begin(), work.weight.end(), 0.0);
   result.possible = this->Samples.possible;
   return result;
+}
+
+namespace
+{
+template <bool WithSlope>
+std::unique_ptr<Comparison> made(LevelVolumes level, const Lattice& lattice)
+{
+  return std::make_unique<LocalFitSimilarity>(level, lattice, WithSlope);
+}
+}
+
+Metric localFitMetric(bool withSlope)
+{
+  // A position between points is read from all of them.
+  const Reach support{ 1, 1 };
+  return { support, LocalFitSimilarity::BytesPerPoint, withSlope ? &made<true> : &made<false> };
 }
 }

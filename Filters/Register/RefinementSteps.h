@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief The two kinds of steps of a refinement: one bends the volume, one moves it rigidly.
+ *
+ * Both follow Gauss and Newton (Nocedal and Wright, Numerical Optimization, 2nd ed., section 10.3).
+ */
+#ifndef BrainShift_RefinementSteps_h
+#define BrainShift_RefinementSteps_h
+
+#include "Filters/Register/PyramidLevel.h"
+#include "Filters/Register/RefinementState.h"
+
+#include <optional>
+
+namespace brainshift
+{
+enum class StepOutcome
+{
+  Open,     ///< try again
+  Improved, ///< the level goes on
+  Settled   ///< there is nothing more to gain on this level
+};
+
+/** The steps of one level. */
+class RefinementStep
+{
+public:
+  /** @param longestMm   of a control point in one step */
+  RefinementStep(const StepGrowth& growth, double longestMm)
+    : Growth(growth)
+    , LongestMm(longestMm)
+    , Stride(growth.first)
+  {
+  }
+  virtual ~RefinementStep() = default;
+
+  /** Compares once at most, so that a call stays short. */
+  virtual StepOutcome attempt(RefinementState& state, PyramidLevel& level) = 0;
+
+protected:
+  StepGrowth Growth;
+  double LongestMm;
+  double Stride; // factor on the next step
+};
+
+/**
+ * A step is halved until the energy falls. Where it would fold tissue, a stiffer volume is tried
+ * first, so that a fold in one position does not shorten the step everywhere.
+ */
+class BendStep : public RefinementStep
+{
+public:
+  using RefinementStep::RefinementStep;
+
+  StepOutcome attempt(RefinementState& state, PyramidLevel& level) override;
+
+private:
+  struct Trial
+  {
+    Controls step;
+    double lengthMm = 0.0; // of the longest of them
+    double fraction = 0.0; // that is tried next
+    int attempts = 0;
+    int stiffenings = 0;
+  };
+  void find(Trial& trial, const RefinementState& state) const;
+  StepOutcome attempt(Trial& trial, RefinementState& state, PyramidLevel& level);
+
+  std::optional<Trial> Trying;
+};
+
+/** Where a step is too long, nothing moves, and the next one is shorter. It costs no energy. */
+class RigidMove : public RefinementStep
+{
+public:
+  using RefinementStep::RefinementStep;
+
+  StepOutcome attempt(RefinementState& state, PyramidLevel& level) override;
+};
+}
+
+#endif
