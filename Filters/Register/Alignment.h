@@ -38,7 +38,7 @@ struct AlignmentProgress
   int steps = 0;                   ///< lines searched, on all levels
   double information = 0.0;        ///< nats; more is better
   double informationAtStart = 0.0; ///< of the reference where it was, on the same level
-  double comparedShare = 0.0;      ///< of the samples, how many lie within the reference
+  double overlap = 0.0;            ///< of the samples, how many lie within the reference
   double done = 0.0; ///< fraction of the most rounds there may be, 0 to 1; 1 once it is finished
   bool isFinished = false;
 };
@@ -46,7 +46,7 @@ struct AlignmentProgress
 class BRAINSHIFT_DEFORMATION_EXPORT Alignment
 {
 public:
-  /** With a smaller overlap (AlignmentProgress::comparedShare) nothing is found. */
+  /** With a smaller overlap (AlignmentProgress::overlap) nothing is found. */
   static const double LeastOverlap;
 
   /**
@@ -66,14 +66,14 @@ public:
   /** How far (mm) the motion moves the middle of what is compared. */
   double shiftMm() const;
 
-  /** By how many degrees the motion turns. */
+  /** Angle of the rotation (degrees). */
   double turnDegrees() const;
 
   /** Bytes that an alignment takes beside the volumes themselves. */
   static double bytes(const Grid& rest, const Grid& reference);
 
 private:
-  // Shift (mm), then turn about the middle of the samples, in mm at its radius.
+  // Shift (mm), then rotation about the middle of the samples, in mm at its radius.
   using Parameters = std::array<double, 6>;
 
   struct Sample
@@ -84,7 +84,7 @@ private:
 
   void prepareLevel();
   RigidPose motionOf(const Parameters& at) const;
-  double loss(const Parameters& at, double* comparedShare = nullptr) const;
+  double loss(const Parameters& at, double* overlap = nullptr) const;
   double searchLine(const Parameters& direction);
   void endRound();
   void finishLevel();

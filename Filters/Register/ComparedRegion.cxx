@@ -33,7 +33,7 @@ double spacingOf(const RefinementLevel& level, const Grid& rest, double tissueFr
 double tissueFractionOf(const std::vector<float>& values)
 {
   const Range range = rangeOf(values);
-  const auto isTissue = [&](float value) { return range.share(value) > Air; };
+  const auto isTissue = [&](float value) { return range.fraction(value) > Air; };
   const double count = static_cast<double>(std::count_if(values.begin(), values.end(), isTissue));
   return std::max(LeastTissue, count / std::max<std::size_t>(1, values.size()));
 }

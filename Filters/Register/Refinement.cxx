@@ -92,7 +92,7 @@ void Refinement::prepareLevel()
     this->Level->prepare();
     return;
   }
-  this->Here = this->Level->compare(this->State.controls);
+  this->Here = std::make_unique<CostAndForces>(this->Level->compare(this->State.controls));
   if (!this->isWorthIt(this->Here->cost))
   {
     this->finishLevel();
@@ -147,7 +147,7 @@ void Refinement::finishLevel()
   const std::vector<RefinementLevel>& levels = this->Settings.plan.levels;
   const std::size_t next = static_cast<std::size_t>(this->Index) + 1;
   this->Step = nullptr;
-  this->Here.reset();
+  this->Here = nullptr;
   this->StepsOfLevel = 0;
   if (next == levels.size())
   {

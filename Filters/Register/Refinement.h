@@ -19,7 +19,6 @@
 #include "Filters/Register/RefinementSteps.h"
 
 #include <memory>
-#include <optional>
 
 namespace brainshift
 {
@@ -65,7 +64,7 @@ private:
   int LastUsed = 0; // the last level that was not left out
   int StepsOfLevel = 0;
   std::unique_ptr<PyramidLevel> Level;
-  std::optional<CostAndForces> Here; // where the level would begin
+  std::unique_ptr<CostAndForces> Here; // where the level would begin
   std::unique_ptr<RefinementStep> Step;
 };
 }

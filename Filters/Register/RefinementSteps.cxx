@@ -36,7 +36,7 @@ double longest(const Controls& vectors)
 }
 }
 
-void BendStep::find(Trial& trial, const RefinementState& state) const
+void BendStep::find(BendTrial& trial, const RefinementState& state) const
 {
   trial.step = newtonStep(state.stiffness, state.known.forces, state.bendOf(state.controls));
   trial.lengthMm = longest(trial.step);
@@ -48,7 +48,8 @@ StepOutcome BendStep::attempt(RefinementState& state, PyramidLevel& level)
 {
   if (!this->Trying)
   {
-    this->find(this->Trying.emplace(), state);
+    this->Trying = std::make_unique<BendTrial>();
+    this->find(*this->Trying, state);
   }
   StepOutcome outcome = this->attempt(*this->Trying, state, level);
   if (outcome == StepOutcome::Open && ++this->Trying->attempts > MostHalvings + MostStiffenings)
@@ -58,12 +59,12 @@ StepOutcome BendStep::attempt(RefinementState& state, PyramidLevel& level)
   }
   if (outcome != StepOutcome::Open)
   {
-    this->Trying.reset();
+    this->Trying = nullptr;
   }
   return outcome;
 }
 
-StepOutcome BendStep::attempt(Trial& trial, RefinementState& state, PyramidLevel& level)
+StepOutcome BendStep::attempt(BendTrial& trial, RefinementState& state, PyramidLevel& level)
 {
   const RefinementState::Candidate candidate = state.candidateAt(trial.step, trial.fraction);
   if (candidate.fraction < 1.0 && trial.stiffenings++ < MostStiffenings)

@@ -11,7 +11,7 @@
 #include "Filters/Register/PyramidLevel.h"
 #include "Filters/Register/RefinementState.h"
 
-#include <optional>
+#include <memory>
 
 namespace brainshift
 {
@@ -44,6 +44,16 @@ protected:
   double Stride; // factor on the next step
 };
 
+/** A step that bends, of which each call tries one length. */
+struct BendTrial
+{
+  Controls step;
+  double lengthMm = 0.0; ///< of the longest of them
+  double fraction = 0.0; ///< that is tried next
+  int attempts = 0;
+  int stiffenings = 0;
+};
+
 /**
  * A step is halved until the energy falls. Where it would fold tissue, a stiffer volume is tried
  * first, so that a fold in one position does not shorten the step everywhere.
@@ -56,18 +66,10 @@ public:
   StepOutcome attempt(RefinementState& state, PyramidLevel& level) override;
 
 private:
-  struct Trial
-  {
-    Controls step;
-    double lengthMm = 0.0; // of the longest of them
-    double fraction = 0.0; // that is tried next
-    int attempts = 0;
-    int stiffenings = 0;
-  };
-  void find(Trial& trial, const RefinementState& state) const;
-  StepOutcome attempt(Trial& trial, RefinementState& state, PyramidLevel& level);
+  void find(BendTrial& trial, const RefinementState& state) const;
+  StepOutcome attempt(BendTrial& trial, RefinementState& state, PyramidLevel& level);
 
-  std::optional<Trial> Trying;
+  std::unique_ptr<BendTrial> Trying;
 };
 
 /** Where a step is too long, nothing moves, and the next one is shorter. It costs no energy. */

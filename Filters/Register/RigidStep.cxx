@@ -12,9 +12,9 @@ namespace brainshift
 {
 namespace
 {
-constexpr int Numbers = 6; // a shift along three axes, then a turn around them
+constexpr int Numbers = 6; // a shift along three axes, then a rotation around them
 
-// Of the Hessian's diagonal: a turn that nothing holds stays small.
+// Of the Hessian's diagonal: a rotation that nothing holds stays small.
 constexpr double Damping = 1e-3;
 
 double weightOf(const float* force)
@@ -107,10 +107,10 @@ RigidStep rigidStep(
   }
   const Eigen::Matrix<double, Numbers, 1> motion = factor.solve(equations.right);
   const glm::dvec3 shift(motion(0), motion(1), motion(2));
-  const glm::dvec3 turn(motion(3), motion(4), motion(5));
+  const glm::dvec3 rotation(motion(3), motion(4), motion(5));
   for (std::size_t i = 0; i < arms.size(); ++i)
   {
-    const glm::dvec3 step = shift + glm::cross(turn, arms[i]);
+    const glm::dvec3 step = shift + glm::cross(rotation, arms[i]);
     result.steps[i] = glm::vec3(step);
     const bool isHeld = weightOf(&forces[i * ForceNumbers]) > 0.0;
     result.lengthMm = std::max(result.lengthMm, isHeld ? glm::length(step) : 0.0);

@@ -27,7 +27,7 @@ struct RigidStep
 };
 
 /**
- * The step of Gauss and Newton of a shift and a small turn of the bent lattice.
+ * The step of Gauss and Newton of a shift and a small rotation of the bent lattice.
  *
  * @param displacements   of the control points, mm along the grid's axes
  * @param forces          ForceNumbers for each control point (LatticeRows.h)

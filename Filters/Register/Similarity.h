@@ -38,7 +38,7 @@ public:
 /** A way to compare. */
 struct Metric
 {
-  Reach support;              ///< points around a position that its comparison depends on
+  Support support;            ///< points around a position that its comparison depends on
   double bytesPerPoint = 0.0; ///< of a level's grid, while a comparison is made and used
 
   /**

@@ -117,15 +117,15 @@ struct Region
 };
 
 /** On which points around it something depends: those of three boxes, one along each axis. */
-struct Reach
+struct Support
 {
   int along = 0;  ///< points along the axis, each way
   int across = 0; ///< points along the other two; not above `along`
 };
 
-/** The weights of a grid's points. What reaches a point with weight 0 gets weight 0 too. */
+/** The weights of a grid's points. A point whose support holds weight 0 gets weight 0 too. */
 BRAINSHIFT_DEFORMATION_EXPORT Volume weightsOf(
-  const Grid& grid, const Region& region, const Reach& reach);
+  const Grid& grid, const Region& region, const Support& support);
 
 /** Where smaller and larger values are cut off, so that a few of them do not count for all. */
 struct Range
@@ -134,7 +134,7 @@ struct Range
   float high = 1.0f; ///< above low
 
   /** 0 at the low end, 1 at the high one. */
-  float share(float value) const
+  float fraction(float value) const
   {
     return glm::clamp((value - this->low) / (this->high - this->low), 0.0f, 1.0f);
   }

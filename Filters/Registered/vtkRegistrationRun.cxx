@@ -247,7 +247,7 @@ void vtkRegistrationRun::ReportAlignment()
   this->Steps = at.steps;
   this->Level = at.level;
   this->Done = at.done;
-  this->Overlap = at.comparedShare;
+  this->Overlap = at.overlap;
   this->Information = at.information;
   this->InformationBefore = at.informationAtStart;
   this->Shift = rigid.shiftMm();

@@ -28,7 +28,7 @@ public:
   /** For each point of a level: the windows' sums along rows, the sample as read, and weights. */
   static constexpr double BytesPerPoint = 80.0;
 
-  LocalFitSimilarity(const LevelVolumes& level, const Lattice& lattice, bool withSlope);
+  LocalFitSimilarity(LevelVolumes level, const Lattice& lattice, bool withSlope);
 
   ~LocalFitSimilarity() override;
 

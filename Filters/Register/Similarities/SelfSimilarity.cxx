@@ -283,7 +283,7 @@ CostAndForces SelfSimilarity::compare(const std::vector<glm::vec3>& displacement
 
 const Metric SelfSimilarityMetric{
   // A position between points is read from all of them.
-  { SelfSimilarityReach.along + 1, SelfSimilarityReach.across + 1 },
+  { SelfSimilaritySupport.along + 1, SelfSimilaritySupport.across + 1 },
   SelfSimilarity::BytesPerPoint,
   [](LevelVolumes level, const Lattice& lattice) -> std::unique_ptr<Comparison> {
     return std::make_unique<SelfSimilarity>(std::move(level), lattice);

@@ -22,7 +22,7 @@ constexpr int SelfSimilarityDistance = 2; ///< points between the middle and its
 constexpr int SelfSimilarityRadius = 1;   ///< points, of the boxes that are compared
 
 /** Points around a point that its numbers depend on. */
-constexpr Reach SelfSimilarityReach{ SelfSimilarityDistance + SelfSimilarityRadius,
+constexpr Support SelfSimilaritySupport{ SelfSimilarityDistance + SelfSimilarityRadius,
   SelfSimilarityRadius };
 
 /** The 12 numbers (0 to 1) of each point, beside each other. */
