@@ -24,6 +24,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
 using namespace brainshift::testing;
 
 TEST(Defaults, OfFreeFormDeformationLiveInTheClass)
@@ -148,6 +151,20 @@ TEST(Defaults, OfRegistrationLiveInTheClasses)
     { "Stiffness", { run->GetStiffness() } },
   };
   EXPECT_EQ(defaultsIn("Filters/Proxies/RegistrationRun.xml"), ofRun);
+}
+
+// Scripts set a similarity by its number.
+TEST(RegistrationRun, TakesTheNearestSimilarity)
+{
+  vtkNew<vtkRegistrationRun> run;
+  const std::string names = run->GetSimilarityNames();
+  EXPECT_EQ(names.rfind("auto\nsame contrast\nultrasound", 0), 0u) << names;
+  const auto last = static_cast<int>(std::count(names.begin(), names.end(), '\n'));
+  for (const int number : { -1, 0, 2, last, last + 1 })
+  {
+    run->SetSimilarity(number);
+    EXPECT_EQ(run->GetSimilarity(), std::clamp(number, 0, last));
+  }
 }
 
 TEST(Defaults, OfDisplacementFieldFilesLiveInTheClasses)

@@ -240,6 +240,19 @@ def test_without_overlap_nothing_changes():
     assert list(compare.ReferenceTranslation) == [0.0, 0.0, 0.0], compare.ReferenceTranslation
 
 
+def test_little_overlap_is_warned_of():
+    rest = rest_volume()
+    aside = volume(tissue(*places()).astype(numpy.float32), spacing=SPACING,
+                   origin=(0.55 * SIDE * SPACING[0], 0.0, 0.55 * SIDE * SPACING[2]))
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        found = brainshift.refine(simple.FreeFormDeformation(Input=rest), aside,
+                                  callback=lambda progress: False)
+    assert 0.0 < found.compared < 0.25, found.compared
+    expected = f"Only {100 * found.compared:.0f} % of the volume has a partner"
+    assert any(expected in str(one.message) for one in said), [str(one.message) for one in said]
+
+
 def test_a_lattice_of_the_wrong_size_is_an_error():
     rest = rest_volume()
     lattice = simple.RefinedLattice(Input=rest, ControlPoints=[1.0, 2.0, 3.0])
