@@ -51,10 +51,10 @@ AlignPane::AlignPane(pqPipelineSource* compare, QWidget* parent)
   : QWidget(parent)
   , Editor(AlignEditor::of(compare))
   , Align(makeButton("BrainShiftAlign", tr("Align"),
-      tr("Move the reference to where it says most about the volume, by mutual information, from "
-         "where it lies now. Both are compared as they are drawn; the cavity does not count.")))
+      tr("Register the reference rigidly, from where it is now: maximise its mutual information "
+         "with the volume. Both are compared as they are drawn; the cavity does not count.")))
   , Stop(makeButton("BrainShiftAlignStop", tr("Stop"),
-      tr("Keep where the reference lies now, as one step to undo. Escape instead moves it back.")))
+      tr("Keep the reference where it is now, as one step to undo. Escape instead moves it back.")))
   , Progress(new QProgressBar)
   , Said(makeText("BrainShiftAlignSaid"))
   , Warning(makeText("BrainShiftAlignWarning"))

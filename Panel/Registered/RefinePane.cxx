@@ -213,8 +213,8 @@ void RefinePane::addChoices(QVBoxLayout* column)
   this->Reference = makeList(tr("Reference"));
   form->addRow(tr("Reference"),
     wrapped(this->Reference, "BrainShiftRefineReference",
-      tr("What the volume should agree with. A Compare Volumes of this deformation brings its "
-         "reference where it lies, with its cavity.")));
+      tr("The volume to match. A Compare Volumes of this deformation brings its reference where it "
+         "is, with its cavity.")));
   this->Cavity = makeList(tr("Cavity"));
   this->CavityRow = wrapped(this->Cavity, "BrainShiftRefineCavity",
     tr("A mask of tissue that the reference lacks. What it holds does not count."));
@@ -413,7 +413,8 @@ void RefinePane::say()
   this->Warning->setPalette(palette);
 }
 
-// What a run says often appears below the panel's lower edge. Who has scrolled away is left alone.
+// The figures of a run often appear below the panel's lower edge. If the user has scrolled away, the
+// panel stays.
 void RefinePane::resizeEvent(QResizeEvent* event)
 {
   QWidget::resizeEvent(event);
