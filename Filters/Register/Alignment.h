@@ -14,7 +14,7 @@
 #include "Filters/Deformation/Export.h"
 #include "Filters/Deformation/Lattice.h"
 #include "Filters/Fit/RigidPose.h"
-#include "Filters/Register/RegisteredPair.h"
+#include "Filters/Register/Volume.h"
 
 #include <glm/vec3.hpp>
 

@@ -13,7 +13,6 @@
 #ifndef BrainShift_Refinement_h
 #define BrainShift_Refinement_h
 
-#include "Filters/Register/ComparedRegion.h"
 #include "Filters/Register/PyramidLevel.h"
 #include "Filters/Register/RefinementState.h"
 #include "Filters/Register/RefinementSteps.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/RefinementSteps.h"
 
-#include "Filters/Register/RigidStep.h"
-
+#include <Eigen/Cholesky>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -25,6 +25,81 @@ constexpr double RigidShortening = 0.25;
 constexpr double LeastRigidStepMm = 0.02;
 constexpr double LeastInSight = 0.75; // of the samples that were compared at the start
 
+constexpr int Numbers = 6; // a shift along three axes, then a rotation around them
+
+// Of the Hessian's diagonal: a rotation that nothing holds stays small.
+constexpr double Damping = 1e-3;
+
+double weightOf(const float* force)
+{
+  return static_cast<double>(force[3]) + force[4] + force[5];
+}
+
+glm::dmat3 hessianOf(const float* force)
+{
+  return { force[3], force[6], force[7], force[6], force[4], force[8], force[7], force[8],
+    force[5] };
+}
+
+// How a control point that lies at `arm` from the middle moves by each of the six numbers.
+void motionsOf(const glm::dvec3& arm, glm::dvec3* motions)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    glm::dvec3 unit(0.0);
+    unit[axis] = 1.0;
+    motions[axis] = unit;
+    motions[3 + axis] = glm::cross(unit, arm);
+  }
+}
+
+// The normal equations of a motion.
+struct Equations
+{
+  Eigen::Matrix<double, Numbers, Numbers> matrix = Eigen::Matrix<double, Numbers, Numbers>::Zero();
+  Eigen::Matrix<double, Numbers, 1> right = Eigen::Matrix<double, Numbers, 1>::Zero();
+
+  void add(const glm::dvec3& arm, const float* force)
+  {
+    glm::dvec3 motions[Numbers];
+    motionsOf(arm, motions);
+    const glm::dmat3 hessian = hessianOf(force);
+    for (int row = 0; row < Numbers; ++row)
+    {
+      const glm::dvec3 image = hessian * motions[row];
+      for (int column = 0; column < Numbers; ++column)
+      {
+        this->matrix(row, column) += glm::dot(image, motions[column]);
+      }
+      this->right(row) += glm::dot(motions[row], glm::dvec3(force[0], force[1], force[2]));
+    }
+  }
+};
+
+// Where control points lie (mm along the grid's axes), from where the forces act on the whole.
+std::vector<glm::dvec3> armsOf(
+  const Grid& lattice, const std::vector<glm::vec3>& displacements, const ControlForces& forces)
+{
+  std::vector<glm::dvec3> arms(displacements.size());
+  glm::dvec3 middle(0.0);
+  double weights = 0.0;
+  for (std::size_t i = 0; i < arms.size(); ++i)
+  {
+    const int row = static_cast<int>(i) / lattice.dimensions.x;
+    const glm::ivec3 index(static_cast<int>(i) % lattice.dimensions.x, row % lattice.dimensions.y,
+      row / lattice.dimensions.y);
+    arms[i] = lattice.spacing * glm::dvec3(index) + glm::dvec3(displacements[i]);
+    const double weight = weightOf(&forces[i * ForceNumbers]);
+    middle += weight * arms[i];
+    weights += weight;
+  }
+  for (glm::dvec3& arm : arms)
+  {
+    arm -= weights > 0.0 ? middle / weights : glm::dvec3(0.0);
+  }
+  return arms;
+}
+
 double longest(const Controls& vectors)
 {
   float result = 0.0f;
@@ -34,6 +109,36 @@ double longest(const Controls& vectors)
   }
   return result;
 }
+}
+
+RigidStep rigidStep(
+  const Grid& lattice, const std::vector<glm::vec3>& displacements, const ControlForces& forces)
+{
+  RigidStep result;
+  result.steps.resize(displacements.size(), glm::vec3(0.0f));
+  const std::vector<glm::dvec3> arms = armsOf(lattice, displacements, forces);
+  Equations equations;
+  for (std::size_t i = 0; i < arms.size(); ++i)
+  {
+    equations.add(arms[i], &forces[i * ForceNumbers]);
+  }
+  equations.matrix.diagonal() *= 1.0 + Damping;
+  const Eigen::LLT<Eigen::Matrix<double, Numbers, Numbers>> factor(equations.matrix);
+  if (factor.info() != Eigen::Success)
+  {
+    return result; // nothing asks for a motion
+  }
+  const Eigen::Matrix<double, Numbers, 1> motion = factor.solve(equations.right);
+  const glm::dvec3 shift(motion(0), motion(1), motion(2));
+  const glm::dvec3 rotation(motion(3), motion(4), motion(5));
+  for (std::size_t i = 0; i < arms.size(); ++i)
+  {
+    const glm::dvec3 step = shift + glm::cross(rotation, arms[i]);
+    result.steps[i] = glm::vec3(step);
+    const bool isHeld = weightOf(&forces[i * ForceNumbers]) > 0.0;
+    result.lengthMm = std::max(result.lengthMm, isHeld ? glm::length(step) : 0.0);
+  }
+  return result;
 }
 
 void BendStep::find(BendTrial& trial, const RefinementState& state) const

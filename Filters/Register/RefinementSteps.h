@@ -4,14 +4,22 @@
  * @brief The two kinds of steps of a refinement: one bends the volume, one moves it rigidly.
  *
  * Both follow Gauss and Newton (Nocedal and Wright, Numerical Optimization, 2nd ed., section 10.3).
+ *
+ * A rigid step has six numbers instead of three for each control point, so that the random forces
+ * of speckle average out.
  */
 #ifndef BrainShift_RefinementSteps_h
 #define BrainShift_RefinementSteps_h
 
+#include "Filters/Deformation/Export.h"
+#include "Filters/Register/LatticeRows.h"
 #include "Filters/Register/PyramidLevel.h"
 #include "Filters/Register/RefinementState.h"
 
+#include <glm/vec3.hpp>
+
 #include <memory>
+#include <vector>
 
 namespace brainshift
 {
@@ -21,6 +29,22 @@ enum class StepOutcome
   Improved, ///< the level goes on
   Settled   ///< there is nothing more to gain on this level
 };
+
+/** A step of all control points. */
+struct RigidStep
+{
+  std::vector<glm::vec3> steps; ///< mm along the grid's axes
+  double lengthMm = 0.0;        ///< the longest of those on which forces act
+};
+
+/**
+ * The step of Gauss and Newton of a shift and a small rotation of the bent lattice.
+ *
+ * @param displacements   of the control points, mm along the grid's axes
+ * @param forces          ForceNumbers for each control point (LatticeRows.h)
+ */
+BRAINSHIFT_DEFORMATION_EXPORT RigidStep rigidStep(
+  const Grid& lattice, const std::vector<glm::vec3>& displacements, const ControlForces& forces);
 
 /** The steps of one level. */
 class RefinementStep

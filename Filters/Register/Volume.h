@@ -24,6 +24,15 @@ struct Volume
   std::vector<float> values;
 };
 
+/** The two volumes of a registration and what of them counts. */
+struct RegisteredPair
+{
+  Volume rest;      ///< the volume as loaded
+  Volume reference; ///< on any grid, where it lies in the world
+  Mask inside;      ///< of the rest frame: what is compared; without voxels: all
+  Mask cavity;      ///< where the reference lacks tissue; without voxels: nowhere
+};
+
 /** Where a position lies between eight neighbours of a grid, and how much each of them counts. */
 struct Neighbours
 {

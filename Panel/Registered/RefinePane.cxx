@@ -413,8 +413,8 @@ void RefinePane::say()
   this->Warning->setPalette(palette);
 }
 
-// The figures of a run often appear below the panel's lower edge. If the user has scrolled away, the
-// panel stays.
+// The figures of a run often appear below the panel's lower edge. If the user has scrolled away,
+// the panel stays.
 void RefinePane::resizeEvent(QResizeEvent* event)
 {
   QWidget::resizeEvent(event);

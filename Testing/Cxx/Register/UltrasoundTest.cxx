@@ -3,7 +3,7 @@
 // moves as a whole at no cost.
 #include "Filters/Deformation/PointMap.h"
 #include "Filters/Register/Refinement.h"
-#include "Filters/Register/RigidStep.h"
+#include "Filters/Register/RefinementSteps.h"
 #include "Testing/Cxx/Register/Synthetic.h"
 
 #include <glm/geometric.hpp>
