@@ -10,6 +10,7 @@ PAGES = CHECKOUT / "Documentation"
 sys.path.insert(0, str(CHECKOUT / "Utilities" / "documentation"))
 import property_reference  # noqa: E402
 import python_reference  # noqa: E402
+import similarity_reference  # noqa: E402
 
 #: Pages that the site generates; they are no files.
 GENERATED = {PAGES / "reference" / "python.md": python_reference.page,

@@ -19,6 +19,7 @@ STANDS_ON = {
     "Filters/Fields": ["Filters/Volumes"],
     "Filters/Readers": ["Filters/Fields", "Filters/DICOM"],
     "Filters/Register": ["Filters/Fit"],
+    "Filters/Register/Similarities": ["Filters/Register"],
     "Filters/Registered": ["Filters/Fields", "Filters/Register"],
     "Filters/Surfaces": ["Filters/Volumes"],
     "Filters/Transforms": ["Filters/Fields"],

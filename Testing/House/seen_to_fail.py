@@ -33,8 +33,11 @@ def house():
         "BrainShift_Bend_h", "vtkBend_h")
     files["Filters/vtkBend.cxx"] = (
         "brainshiftGuardRequestsMacro(vtkBend);\nint vtkBend::RequestData(int) { return 1; }\n")
+    files["Filters/Register/Similarities/Waves.cxx"] = (
+        'Similarity describeWaves()\n{\n  result.name = "waves";\n}\n')
     files["Filters/Bend.xml"] = "<ServerManagerConfiguration/>\n"
-    files["Filters/CMakeLists.txt"] = "set(classes vtkBend Deformation/Lattice.cxx Bend.xml)\n"
+    files["Filters/CMakeLists.txt"] = (
+        "set(classes vtkBend Deformation/Lattice.cxx Register/Similarities/Waves.cxx Bend.xml)\n")
     files["Representations/vtkDraw.cxx"] = '#include "vtkBend.h"\nvoid draw(int a, int b) {}\n'
     files["Representations/CMakeLists.txt"] = "set(classes vtkDraw)\nset(shaders Rays/rays.frag)\n"
     files["Shaders/Rays/rays.frag.glsl"] = "void main() {}\n"
@@ -105,6 +108,10 @@ BREAKS = [
     ("every_header_opens", "Filters/Deformation/Lattice.h", header("Matrix"), None),
     ("every_header_opens", "Filters/Deformation/Lattice.h",
      header("Lattice").replace(LICENCE, ""), None),
+    ("no_similarity_is_named_elsewhere", "Representations/vtkDraw.cxx",
+     "enum class Similarity\n{\n  Waves\n};\n", None),
+    ("no_similarity_is_named_elsewhere", "Python/brainshift/registering.py",
+     'def refine(similarity="waves"):\n    pass\n', None),
     ("every_room_says_what_it_is_for", "Filters/Traces/README.md", None, None),
 ]
 

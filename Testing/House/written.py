@@ -18,7 +18,7 @@ from tree import Tree
 JOINED_WORDS = r"\w*[a-z][A-Z]\w*"
 
 #: GLSL's inout, ParaView's level of detail, the target registration error, and a name of ITK's.
-OUR_WORDS = "inout,lod,tranform,tre"
+OUR_WORDS = "inout,lod,tranform,tre,unser"
 
 
 #: The major version of LLVM whose answers count, and how ctest hears of a test that is skipped.

@@ -114,7 +114,7 @@ TEST(Alignment, FindsAKnownMotion)
   const AlignmentProgress& progress = alignment.progress();
   EXPECT_GT(progress.information, 1.5 * progress.informationAtStart);
   EXPECT_EQ(progress.level, 2);
-  EXPECT_GT(progress.comparedShare, 0.8);
+  EXPECT_GT(progress.overlap, 0.8);
 }
 
 TEST(Alignment, OneCallIsOneLine)
@@ -195,6 +195,6 @@ TEST(Alignment, NothingIsFoundWithoutOverlap)
   Alignment alignment(pairMovedBy(there), nullptr);
   run(alignment);
   EXPECT_EQ(alignment.progress().information, 0.0);
-  EXPECT_EQ(alignment.progress().comparedShare, 0.0);
+  EXPECT_EQ(alignment.progress().overlap, 0.0);
   EXPECT_EQ(alignment.shiftMm(), 0.0) << "nothing says where to go";
 }

@@ -144,7 +144,7 @@ def stop_keeps_it():
     for _ in range(20):
         hand.wait(20)
     assert hand.in_sight("BrainShiftRefineSaid"), "the user must scroll to see what came out"
-    for words in ("Disagreement: ", " mm at most", "Jacobian", "guard"):
+    for words in ("Cost: ", " mm at most", "Jacobian", "guard"):
         assert words in said(), (words, said())
     assert not hand.label("BrainShiftRefineWarning"), hand.label("BrainShiftRefineWarning")
     assert undo_labels() == (["Refine"] + kept["undo"])[:10], undo_labels()

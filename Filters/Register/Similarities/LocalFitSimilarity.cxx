@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/Register/LocalFitSimilarity.h"
+#include "Filters/Register/Similarities/LocalFitSimilarity.h"
 
 #include "Filters/Deformation/Parallel.h"
 
@@ -15,9 +15,9 @@ namespace brainshift
 {
 namespace
 {
-constexpr float LeastWindow = 0.3f;         // share of its samples that a window must have
-constexpr float LeastVarianceShare = 0.02f; // of the mean variance of a volume's windows
-constexpr float Ridge = 1e-4f;              // variance (range 0 to 1) of a volume that is flat
+constexpr float LeastWindow = 0.3f;            // fraction of its samples that a window must have
+constexpr float LeastVarianceFraction = 0.02f; // of the mean variance of a volume's windows
+constexpr float Ridge = 1e-4f;                 // variance (range 0 to 1) of a volume that is flat
 
 // Sums over a window, and what each window then leaves for its samples.
 enum Sum
@@ -37,7 +37,7 @@ enum Sum
 constexpr int SumsWithoutSlope = G;
 
 // A sample's force is (Scale V - ScaleA P - ScaleB G - ScaleC - Loss V + LossMean) times the
-// reference's slope: the derivative of the disagreements of all windows that hold it.
+// reference's slope: the derivative of the costs of all windows that hold it.
 enum Left
 {
   Scale,
@@ -50,7 +50,7 @@ enum Left
 };
 
 // `weights`: which values say what the range is; 1 or 0.
-void toShares(std::vector<float>& values, const std::vector<float>& weights)
+void toFractions(std::vector<float>& values, const std::vector<float>& weights)
 {
   std::vector<float> counting;
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -63,7 +63,7 @@ void toShares(std::vector<float>& values, const std::vector<float>& weights)
   const Range range = rangeOf(counting);
   for (float& value : values)
   {
-    value = range.share(value);
+    value = range.fraction(value);
   }
 }
 
@@ -135,7 +135,7 @@ std::vector<float> windowVariances(const std::vector<float>& values, const Volum
 float leastVariance(const std::vector<float>& variances)
 {
   const double sum = std::accumulate(variances.begin(), variances.end(), 0.0);
-  return std::max(Ridge, static_cast<float>(LeastVarianceShare * sum / variances.size()));
+  return std::max(Ridge, static_cast<float>(LeastVarianceFraction * sum / variances.size()));
 }
 }
 
@@ -161,21 +161,20 @@ struct LocalFitSimilarity::Work
   std::vector<glm::vec3> slope; // of the reference for each mm that the controls move
   Block rows;                   // Sum, gathered along x alone
   Block windows;                // Sum, then Left
-  std::vector<double> slabSums; // of the windows' disagreement
+  std::vector<double> slabSums; // of the windows' cost
   std::vector<double> slabCounts;
 };
 
 LocalFitSimilarity::~LocalFitSimilarity() = default;
 
-LocalFitSimilarity::LocalFitSimilarity(
-  const LevelVolumes& level, const Lattice& lattice, bool withSlope)
+LocalFitSimilarity::LocalFitSimilarity(LevelVolumes level, const Lattice& lattice, bool withSlope)
   : WithSlope(withSlope)
   , Samples(level, lattice)
-  , Rest(level.rest.values)
-  , Reference(level.reference)
+  , Rest(std::move(level.rest.values))
+  , Reference(std::move(level.reference))
 {
-  toShares(this->Rest, level.restWeights.values);
-  toShares(this->Reference.values, level.referenceWeights.values);
+  toFractions(this->Rest, level.restWeights.values);
+  toFractions(this->Reference.values, level.referenceWeights.values);
   this->LeastVariance =
     leastVariance(windowVariances(this->Reference.values, level.referenceWeights));
   const std::vector<float> variances = windowVariances(this->Rest, level.restWeights);
@@ -187,7 +186,7 @@ LocalFitSimilarity::LocalFitSimilarity(
   if (withSlope)
   {
     this->Slope = gradientLength({ level.rest.grid, this->Rest });
-    toShares(this->Slope, level.restWeights.values);
+    toFractions(this->Slope, level.restWeights.values);
     this->Slope = this->Samples.read(this->Slope, 1);
   }
   this->Rest = this->Samples.read(this->Rest, 1);
@@ -291,7 +290,7 @@ void LocalFitSimilarity::fitWindow(float* numbers, bool counts, double& sum, dou
       b = (vg * pp - vp * pg) / determinant;
       explained = a * vp + b * vg;
     }
-    // A window without variance says nothing: its disagreement is 1, whatever moves.
+    // A window without variance says nothing: its cost is 1, whatever moves.
     const float all = vv + this->LeastVariance;
     const float unexplained = std::max(0.0f, all - explained);
     sum += unexplained / all;
@@ -371,7 +370,7 @@ ControlForces LocalFitSimilarity::takeForces(
   });
 }
 
-Agreement LocalFitSimilarity::compare(const std::vector<glm::vec3>& displacements)
+CostAndForces LocalFitSimilarity::compare(const std::vector<glm::vec3>& displacements)
 {
   if (!this->Known)
   {
@@ -382,10 +381,26 @@ Agreement LocalFitSimilarity::compare(const std::vector<glm::vec3>& displacement
   work.clear();
   this->takeSamples(displacements, work);
   this->fitWindows(work);
-  Agreement result =
+  CostAndForces result =
     averaged(work.slabSums, work.slabCounts, this->takeForces(displacements, work));
   result.samples = std::accumulate(work.weight.begin(), work.weight.end(), 0.0);
   result.possible = this->Samples.possible;
   return result;
+}
+
+namespace
+{
+template <bool WithSlope>
+std::unique_ptr<Comparison> made(LevelVolumes level, const Lattice& lattice)
+{
+  return std::make_unique<LocalFitSimilarity>(std::move(level), lattice, WithSlope);
+}
+}
+
+Metric localFitMetric(bool withSlope)
+{
+  // A position between points is read from all of them.
+  const Support support{ 1, 1 };
+  return { support, LocalFitSimilarity::BytesPerPoint, withSlope ? &made<true> : &made<false> };
 }
 }

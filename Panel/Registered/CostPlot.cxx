@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Panel/Registered/DisagreementPlot.h"
+#include "Panel/Registered/CostPlot.h"
 
 #include <QPainter>
 #include <QPolygonF>
@@ -16,67 +16,67 @@ constexpr double LineWidth = 1.5;     // pixels
 constexpr double PointRadius = 3.0;   // pixels
 constexpr double Margin = 4.0;        // pixels around the curve
 
-QString percent(double share)
+QString percent(double fraction)
 {
-  return DisagreementPlot::tr("%1 %").arg(std::lround(100.0 * share));
+  return CostPlot::tr("%1 %").arg(std::lround(100.0 * fraction));
 }
 }
 
-DisagreementPlot::DisagreementPlot(QWidget* parent)
+CostPlot::CostPlot(QWidget* parent)
   : QWidget(parent)
 {
-  this->setAccessibleName(tr("Disagreement over the steps"));
-  this->setToolTip(tr("How far the volumes still disagree by the chosen similarity, after each "
-                      "step. 100 % is the disagreement at the beginning, 0 % means that they "
-                      "agree. The curve may jump where a finer level begins."));
+  this->setAccessibleName(tr("Cost over the steps"));
+  this->setToolTip(tr(
+    "Cost of the chosen similarity after each step. 100 % is the cost at the "
+    "beginning, 0 % means that the volumes agree. The curve may jump where a finer level begins."));
   this->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-  this->setShares({});
+  this->setCosts({});
 }
 
-void DisagreementPlot::setShares(const QList<double>& shares)
+void CostPlot::setCosts(const QList<double>& costs)
 {
-  this->Shares = QList<double>{ 1.0 } + shares;
-  const int steps = static_cast<int>(shares.size());
+  this->Costs = QList<double>{ 1.0 } + costs;
+  const int steps = static_cast<int>(costs.size());
   this->setAccessibleDescription(steps == 0
       ? tr("no steps")
-      : tr("after %n step(s): %1", nullptr, steps).arg(percent(shares.back())));
+      : tr("after %n step(s): %1", nullptr, steps).arg(percent(costs.back())));
   this->update();
 }
 
-QRectF DisagreementPlot::area() const
+QRectF CostPlot::area() const
 {
   const double line = this->fontMetrics().height();
   return QRectF(this->rect()).adjusted(Margin, line + Margin, -Margin, -line - Margin);
 }
 
-QSize DisagreementPlot::minimumSizeHint() const
+QSize CostPlot::minimumSizeHint() const
 {
   const QFontMetrics metrics = this->fontMetrics();
   return { metrics.averageCharWidth() * 16, static_cast<int>(metrics.height() * HeightInLines) };
 }
 
-void DisagreementPlot::paintEvent(QPaintEvent* /*event*/)
+void CostPlot::paintEvent(QPaintEvent* /*event*/)
 {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   const QRectF area = this->area();
-  const double most = std::max(1.0, *std::max_element(this->Shares.begin(), this->Shares.end()));
-  const auto last = static_cast<double>(std::max<qsizetype>(this->Shares.size() - 1, 1));
+  const double most = std::max(1.0, *std::max_element(this->Costs.begin(), this->Costs.end()));
+  const auto last = static_cast<double>(std::max<qsizetype>(this->Costs.size() - 1, 1));
   QPolygonF curve;
-  for (qsizetype step = 0; step < this->Shares.size(); ++step)
+  for (qsizetype step = 0; step < this->Costs.size(); ++step)
   {
     curve.append({ area.left() + area.width() * static_cast<double>(step) / last,
-      area.bottom() - area.height() * this->Shares[step] / most });
+      area.bottom() - area.height() * this->Costs[step] / most });
   }
   const QColor ink = this->palette().color(QPalette::WindowText);
   painter.setPen(ink);
   painter.drawLine(area.bottomLeft(), area.bottomRight());
-  painter.drawText(this->rect(), Qt::AlignLeft | Qt::AlignTop,
-    tr("Disagreement: %1").arg(percent(this->Shares.back())));
+  painter.drawText(
+    this->rect(), Qt::AlignLeft | Qt::AlignTop, tr("Cost: %1").arg(percent(this->Costs.back())));
   painter.drawText(this->rect(), Qt::AlignLeft | Qt::AlignBottom, "0");
   painter.drawText(this->rect(), Qt::AlignHCenter | Qt::AlignBottom, tr("steps"));
   painter.drawText(
-    this->rect(), Qt::AlignRight | Qt::AlignBottom, QString::number(this->Shares.size() - 1));
+    this->rect(), Qt::AlignRight | Qt::AlignBottom, QString::number(this->Costs.size() - 1));
   const QColor color = this->palette().color(QPalette::Highlight);
   painter.setPen(QPen(color, LineWidth));
   painter.drawPolyline(curve);
