@@ -9,7 +9,8 @@
 #include "Filters/Deformation/MaskWeights.h"
 #include "Filters/Fit/Measurements.h"
 
-#include "vtkSmartPointer.h" // for what a function returns
+#include "vtkBrainShiftFiltersModule.h" // for the export macro
+#include "vtkSmartPointer.h"            // for what a function returns
 
 #include <glm/ext/vector_int3.hpp>
 #include <glm/vec3.hpp>
@@ -55,7 +56,7 @@ void askForOwnPoints(vtkInformation* points);
 vtkSmartPointer<vtkPointSet> pointsOfAllRanks(vtkPointSet* own);
 
 /** The space within a distance of a mask, beyond the mask's own image too. It takes no memory. */
-class NearMask
+class VTKBRAINSHIFTFILTERS_EXPORT NearMask
 {
 public:
   /** Keeps a reference to the mask. `byMm`: distance, 0 or more. */

@@ -266,6 +266,14 @@ TEST(TextHeaderVolume, UnitsScaleAndSlopesRescale)
   EXPECT_NE(units.said().find("unit 'furlong', which counts as mm"), std::string::npos);
   EXPECT_DOUBLE_EQ(units.image()->GetSpacing()[0], 10.0);
   EXPECT_DOUBLE_EQ(units.image()->GetSpacing()[1], 0.001);
+  std::string placed = NRRDBegin + Bytes + "space units: \"cm\" \"um\" \"m\"\n\n" + numbers(8);
+  placed.replace(placed.find("(0,0,0)"), 7, "(1.5,-200,0.003)");
+  writeFile("placed.nrrd", placed);
+  FormatReading<NRRD> origin("placed.nrrd");
+  EXPECT_EQ(origin.said(), "");
+  EXPECT_DOUBLE_EQ(origin.image()->GetOrigin()[0], 15.0);
+  EXPECT_DOUBLE_EQ(origin.image()->GetOrigin()[1], -0.2);
+  EXPECT_DOUBLE_EQ(origin.image()->GetOrigin()[2], 3.0);
   writeFile("slope.mha",
     MetaBegin + MetaBytes + "ElementToIntensityFunctionSlope = 0.5\n" +
       "ElementToIntensityFunctionOffset = -1\nElementDataFile = LOCAL\n" + numbers(8));

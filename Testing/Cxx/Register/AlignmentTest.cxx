@@ -198,3 +198,21 @@ TEST(Alignment, NothingIsFoundWithoutOverlap)
   EXPECT_EQ(alignment.progress().comparedShare, 0.0);
   EXPECT_EQ(alignment.shiftMm(), 0.0) << "nothing says where to go";
 }
+
+// A few samples at a border agree by chance: below a quarter of them, nothing is found.
+TEST(Alignment, TooFewSamplesSayNothing)
+{
+  const Grid grid = smallGrid();
+  const double widthMm = grid.spacing.x * (grid.dimensions.x - 1);
+  AlignmentSettings settings;
+  settings.levelsMm = { 4.0 };
+  for (const double overlap : { 0.1, 0.2, 0.3, 0.5 })
+  {
+    RegisteredPair pair;
+    pair.rest = filled(grid, tissue);
+    pair.reference = pair.rest;
+    pair.reference.grid.origin += (1.0 - overlap) * widthMm * grid.direction[0];
+    const double information = Alignment(pair, nullptr, settings).step().informationAtStart;
+    EXPECT_EQ(information > 0.0, overlap > 0.25) << overlap;
+  }
+}
