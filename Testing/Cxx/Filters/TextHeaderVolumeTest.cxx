@@ -274,6 +274,13 @@ TEST(TextHeaderVolume, UnitsScaleAndSlopesRescale)
   EXPECT_DOUBLE_EQ(origin.image()->GetOrigin()[0], 15.0);
   EXPECT_DOUBLE_EQ(origin.image()->GetOrigin()[1], -0.2);
   EXPECT_DOUBLE_EQ(origin.image()->GetOrigin()[2], 3.0);
+  writeFile("spacings.nrrd", // without directions
+    "NRRD0005\ndimension: 3\nsizes: 2 2 2\nspacings: 1 2 3\nunits: \"cm\" \"mm\" \"um\"\n" + Bytes +
+      "\n" + numbers(8));
+  FormatReading<NRRD> spacings("spacings.nrrd");
+  EXPECT_DOUBLE_EQ(spacings.image()->GetSpacing()[0], 10.0);
+  EXPECT_DOUBLE_EQ(spacings.image()->GetSpacing()[1], 2.0);
+  EXPECT_DOUBLE_EQ(spacings.image()->GetSpacing()[2], 0.003);
   writeFile("slope.mha",
     MetaBegin + MetaBytes + "ElementToIntensityFunctionSlope = 0.5\n" +
       "ElementToIntensityFunctionOffset = -1\nElementDataFile = LOCAL\n" + numbers(8));

@@ -104,6 +104,7 @@ TEST(PointTransform, StaysOutsideASplineAndAField)
   FieldLink field{ spline.grid, std::vector<glm::vec3>(spline.grid.count(), glm::vec3(1.0f)) };
   EXPECT_NE(mapped({ { field } }, place(-0.499)), place(-0.499));
   EXPECT_EQ(mapped({ { field } }, place(-0.501)), place(-0.501));
+  EXPECT_NE(mapped({ { field } }, place(8.499)), place(8.499));
   EXPECT_EQ(mapped({ { field } }, place(8.501)), place(8.501));
 }
 

@@ -128,6 +128,21 @@ TEST(Alignment, OneCallIsOneLine)
   EXPECT_FALSE(alignment.progress().isFinished);
 }
 
+TEST(Alignment, AFinerLevelBeginsWhereTheCoarserEnded)
+{
+  const RigidPose there = awayBy(9.0, 11.0);
+  Alignment alignment(pairMovedBy(there), nullptr);
+  ASSERT_GT(apart({}, there), 5.0);
+  while (alignment.progress().level == 0)
+  {
+    alignment.step();
+  }
+  EXPECT_LT(apart(alignment.motion(), there), 2.0);
+  alignment.step();
+  EXPECT_EQ(alignment.progress().level, 1);
+  EXPECT_LT(apart(alignment.motion(), there), 2.0);
+}
+
 // The volume is compared as it is bent: unbent, the same search ends elsewhere.
 TEST(Alignment, ComparesTheVolumeAsItIsBent)
 {

@@ -260,9 +260,9 @@ TEST(TrackerClient, NumbersThatAreNoPoseAreRefused)
   scaled[1] = 2.0F;
   std::array<float, 12> mirrored = poseNumbers(1, 2, 3);
   mirrored[8] = -1.0F;
-  for (const auto& numbers :
-    { poseNumbers(nan, 0, 0), poseNumbers(0, std::numeric_limits<float>::infinity(), 0),
-      poseNumbers(2e6F, 0, 0), turned, scaled, mirrored })
+  for (const auto& numbers : { poseNumbers(nan, 0, 0),
+         poseNumbers(0, std::numeric_limits<float>::infinity(), 0), poseNumbers(2e6F, 0, 0),
+         poseNumbers(0, -2e6F, 0), poseNumbers(0, 0, -2e6F), turned, scaled, mirrored })
   {
     TestMessage message;
     message.body = bodyOf(numbers);
