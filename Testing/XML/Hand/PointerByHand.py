@@ -183,7 +183,7 @@ def touches_only_what_is_held_still():
     assert hand.click("BrainShiftPointerTouch")
     assert not hand.label("BrainShiftPointerProblem"), hand.label("BrainShiftPointerProblem")
     assert hand.cell("BrainShiftPointerPairs", 0, 0)[3], "what was touched"
-    for step in range(14):  # to and fro by 10 mm
+    for step in range(14):  # up and down by 10 mm
         window.server.tip = MIDDLE + (1, 2, 14 + 10 * (step % 2))
         hand.wait(50)
     assert hand.click("BrainShiftPointerTouch")
