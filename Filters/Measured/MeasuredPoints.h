@@ -39,7 +39,7 @@ struct NamedPairs
  * the point array Weight of those at rest gives weights. Both may be null. A pair is called by its
  * label at rest, or by its number among those at rest, from 1 on.
  */
-NamedPairs landmarkPairs(vtkPointSet* rest, vtkPointSet* measured);
+VTKBRAINSHIFTFILTERS_EXPORT NamedPairs landmarkPairs(vtkPointSet* rest, vtkPointSet* measured);
 
 /**
  * Asks for the part of a point set that is this MPI rank's. Call it in RequestUpdateExtent. Most

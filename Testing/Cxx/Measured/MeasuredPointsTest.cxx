@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that the distance to a mask is in mm, whatever the spacing and the direction of its voxels
-// are, and that it counts beyond the mask's own image.
+// Proves that pairs of landmarks are called by their labels or by their numbers from 1 on; that the
+// distance to a mask is in mm, whatever the spacing and the direction of its voxels are, and that it
+// counts beyond the mask's own image.
 #include "Filters/Measured/MeasuredPoints.h"
+
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 using namespace brainshift;
@@ -35,6 +43,46 @@ Mask maskOf(const std::vector<glm::ivec3>& voxels)
   }
   return mask;
 }
+
+vtkSmartPointer<vtkPolyData> landmarks(
+  const std::vector<std::string>& labels, const glm::dvec3& first, const glm::dvec3& step)
+{
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkStringArray> names;
+  names->SetName("Label");
+  for (std::size_t i = 0; i < labels.size(); ++i)
+  {
+    const glm::dvec3 place = first + static_cast<double>(i) * step;
+    points->InsertNextPoint(&place.x);
+    names->InsertNextValue(labels[i]);
+  }
+  result->SetPoints(points);
+  result->GetPointData()->AddArray(names);
+  return result;
+}
+}
+
+TEST(LandmarkPairs, AreCalledByTheirLabelsOrNumbers)
+{
+  const auto rest = landmarks({ "", "", "" }, { 1.0, 2.0, 3.0 }, { 10.0, 0.0, 0.0 });
+  const auto measured = landmarks({ "", "" }, { 1.5, 2.0, 3.0 }, { 10.0, 0.0, 0.0 });
+  const NamedPairs byOrder = landmarkPairs(rest, measured);
+  EXPECT_EQ(byOrder.names, (std::vector<std::string>{ "1", "2" }));
+  ASSERT_EQ(byOrder.pairs.size(), 2U);
+  EXPECT_EQ(byOrder.pairs[1].rest, glm::dvec3(11.0, 2.0, 3.0));
+  EXPECT_EQ(byOrder.pairs[1].measured, glm::dvec3(11.5, 2.0, 3.0));
+  EXPECT_EQ(byOrder.pairs[1].weight, 1.0);
+  EXPECT_NE(byOrder.unmatched.find("landmark 3 at rest"), std::string::npos) << byOrder.unmatched;
+  const auto named = landmarks({ "sulcus", "vein", "tumour" }, glm::dvec3(0.0), glm::dvec3(1.0));
+  const auto other = landmarks({ "tumour", "sulcus" }, glm::dvec3(5.0), glm::dvec3(1.0));
+  const NamedPairs byLabel = landmarkPairs(named, other);
+  EXPECT_EQ(byLabel.names, (std::vector<std::string>{ "sulcus", "tumour" }));
+  ASSERT_EQ(byLabel.pairs.size(), 2U);
+  EXPECT_EQ(byLabel.pairs[0].measured, glm::dvec3(6.0));
+  EXPECT_EQ(byLabel.pairs[1].measured, glm::dvec3(5.0));
+  EXPECT_TRUE(landmarkPairs(nullptr, nullptr).pairs.empty());
 }
 
 TEST(NearMask, MeasuresInMmAlongEachAxis)
