@@ -122,7 +122,9 @@ def stamp():
     settle()
     first_is(3.0)
     has(brainshift.STAMP)
-    hand.wheel(middle(), 2)
+    beside = [middle()[0] + 2, middle()[1] + 1]  # a resting hand trembles
+    hand.hover(beside)
+    hand.wheel(beside, 2)
     settle()
     first_is(5.0)
     has(brainshift.STAMP)
@@ -140,6 +142,7 @@ def stamp():
     edit("Redo", brainshift.STAMP, brainshift.STAMP)
     first_is(5.0)
     another_radius_is_another_stroke()
+    radii_stay_within_their_range()
 
 
 def another_radius_is_another_stroke():
@@ -250,6 +253,20 @@ def widen_with_shift():
     after = hand.setting(name)
     assert math.isclose(after, before * 1.21, rel_tol=1e-9), (before, after)
     assert strokes() == were, strokes()
+
+
+def radii_stay_within_their_range():
+    """At least half the largest spacing of the control points, at most half the box's diagonal."""
+    bounds = deformation().GetDataInformation().GetBounds()
+    sides = [bounds[2 * axis + 1] - bounds[2 * axis] for axis in range(3)]
+    spacing = max(side / (count - 1)
+                  for side, count in zip(sides, deformation().LatticeDimensions))
+    for name in ("radius", "majorRadius", "minorRadius"):
+        before = hand.setting(name)
+        least, most = hand.setting(name, 0.001), hand.setting(name, 1e6)
+        hand.setting(name, before)
+        assert math.isclose(least, spacing / 2, rel_tol=1e-6), (name, least, spacing)
+        assert math.isclose(most, math.hypot(*sides) / 2, rel_tol=1e-6), (name, most, sides)
 
 
 def pixel_of(position):
