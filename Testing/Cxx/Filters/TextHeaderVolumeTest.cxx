@@ -131,6 +131,9 @@ TEST(TextHeaderVolume, NumbersInOtherFiles)
   expectCounted<NRRD>(
     "list.nhdr", nhdr + "data file: LIST\n" + files + "half0.raw\n" + files + "half1.raw\n");
   expectCounted<NRRD>("pattern.nhdr", nhdr + "data file: " + files + "half%d.raw 0 1 1\n");
+  writeFile("part008.raw", numbers(4)); // padded
+  writeFile("part009.raw", numbers(8).substr(4));
+  expectCounted<NRRD>("padded.nhdr", nhdr + "data file: " + files + "part%03d.raw 8 9 1\n");
   const std::string mhd = MetaBegin + MetaBytes;
   expectCounted<Meta>(
     "one.mhd", mhd + "HeaderSize = 3\nElementDataFile = " + files + "whole.raw\n");

@@ -91,6 +91,22 @@ TEST(PointTransform, TurnsBack)
   }
 }
 
+TEST(PointTransform, ReadsTheNearestPointOfAField)
+{
+  const SplineLink spline = randomSpline();
+  FieldLink field{ spline.grid, {}, /*isNearest*/ true };
+  for (std::size_t point = 0; point < spline.grid.count(); ++point)
+  {
+    field.displacements.emplace_back(point % spline.grid.dimensions.x, 0.0f, 0.0f);
+  }
+  for (const double x : { 3.0, 3.4, 3.6, 4.4 })
+  {
+    const glm::dvec3 from =
+      spline.grid.origin + spline.grid.worldFromGrid * glm::dvec3(x, 3.0, 3.0);
+    EXPECT_NEAR(mapped({ { field } }, from).x - from.x, std::round(x), 1e-9) << x;
+  }
+}
+
 TEST(PointTransform, StaysOutsideASplineAndAField)
 {
   const SplineLink spline = randomSpline();
