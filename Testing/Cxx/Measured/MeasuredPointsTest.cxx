@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that pairs of landmarks are called by their labels or by their numbers from 1 on; that the
-// distance to a mask is in mm, whatever the spacing and the direction of its voxels are, and that it
-// counts beyond the mask's own image.
+// distance to a mask is in mm, whatever the spacing and the direction of its voxels are, and that
+// it counts beyond the mask's own image.
 #include "Filters/Measured/MeasuredPoints.h"
 
 #include "vtkNew.h"
