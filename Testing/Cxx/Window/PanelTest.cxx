@@ -247,6 +247,7 @@ TEST(Advice, SaysHowFarTissueIsSqueezed)
   EXPECT_EQ(jacobianText(0.0), "folds over itself");
   EXPECT_EQ(jacobianText(-0.5), "folds over itself");
   EXPECT_TRUE(jacobianTip(0.16).contains("0.160")); // the determinant
+  EXPECT_EQ(jacobianText(0.998), "squeezed to 99 %") << "not rounded up";
 }
 
 // W3C's contrast of text on a background, 1 to 21; 4.5 is asked of text.

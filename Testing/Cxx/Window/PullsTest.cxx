@@ -114,3 +114,11 @@ TEST_F(PullsInAList, AreSwitchedOffAndDeleted)
   this->Model.removeAll();
   EXPECT_EQ(this->Model.rowCount(), 0);
 }
+
+TEST_F(PullsInAList, KeepTheirWeightWhereTheyAreOn)
+{
+  ASSERT_TRUE(this->edit(0, PullModel::WeightColumn, 4.0));
+  this->Model.setOn({ 0, 1 }, true);
+  EXPECT_EQ(this->Written.back().pulls[0].weight, 4.0);
+  EXPECT_EQ(this->Written.back().pulls[1].weight, 1.0);
+}

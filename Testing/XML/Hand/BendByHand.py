@@ -122,7 +122,9 @@ def stamp():
     settle()
     first_is(3.0)
     has(brainshift.STAMP)
-    hand.wheel(middle(), 2)
+    beside = [middle()[0] + 2, middle()[1] + 1]  # a resting hand trembles
+    hand.hover(beside)
+    hand.wheel(beside, 2)
     settle()
     first_is(5.0)
     has(brainshift.STAMP)

@@ -128,6 +128,28 @@ def in_3d():
     assert line_at((2, 2)) == "", "no tissue there"
 
 
+def nearest_of_two_volumes():
+    """Of two volumes under the cursor, the line describes the one that is nearer to the camera."""
+    view, bent = scene["views"]["alone"], scene["bent"]
+    before, focus = numpy.array(view.CameraPosition), numpy.array(view.CameraFocalPoint)
+    nearer = (before - focus) / numpy.linalg.norm(before - focus)
+    view.CameraPosition = focus + 300 * nearer
+    for way, expected in ((90, True), (-90, False)):
+        other = volume(pattern() + 300000, origin=AWAY + way * nearer)
+        display = simple.Show(other, view, "UniformGridRepresentation")
+        display.SetRepresentationType("Deformed Volume")
+        simple.ColorBy(display, ("POINTS", "Intensity"))
+        simple.SetActiveSource(bent)
+        simple.Render(view)
+        pixel = middle_of(view, 8, 11)
+        assert brainshift.pick(display, view, *pixel), "the cursor is over this one"
+        numbers = told(line_at(pixel))
+        assert (numbers["intensity"] > 3e5) == expected, (way, numbers)
+        simple.Delete(other)
+    view.CameraPosition = before
+    simple.Render(view)
+
+
 def four_views():
     scene["views"] = brainshift.four_views(scene["bent"])
     display = simple.GetDisplayProperties(scene["bent"], scene["views"]["axial"])
@@ -314,6 +336,6 @@ def not_bent():
 
 
 window.main("UnderTheCursor", [
-    (set_up,), (in_3d,), (four_views,), (letters_where_known,), (labels,),
-    (names_of_a_segmentation,), (names_of_a_label_map,), (never_stale,),
+    (set_up,), (in_3d,), (nearest_of_two_volumes,), (four_views,), (letters_where_known,),
+    (labels,), (names_of_a_segmentation,), (names_of_a_label_map,), (never_stale,),
     (same_tissue_in_the_unbent_volume,), (not_bent,)])
