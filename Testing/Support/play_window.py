@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plays a test in ParaView's window and judges it: python3 play_window.py NAME [--judge PROGRAM SCRIPT] --
-WINDOW…
+"""Plays a test in ParaView's window and judges it:
+
+    python3 play_window.py NAME [--judge PROGRAM SCRIPT] -- WINDOW…
 
 WINDOW is the command that plays, and BRAINSHIFT_TEST_TEMP the test's own folder, which is emptied
 first. The test fails if the window ends with an error, if NAME.json says that a step did not hold
