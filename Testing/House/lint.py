@@ -32,7 +32,8 @@ def scripts(checkout, build):
 def passes(name, commands):
     """Whether all scripts of a check pass. One that is skipped says why, and passes."""
     start = time.monotonic()
-    ended = [subprocess.run([sys.executable, "-B", HERE / script, *arguments], check=False).returncode
+    python = [sys.executable, "-B"]
+    ended = [subprocess.run([*python, HERE / script, *arguments], check=False).returncode
              for script, *arguments in commands]
     result = "failed" if any(code not in (0, SKIPPED) for code in ended) else (
         "skipped" if SKIPPED in ended else "passed")
