@@ -89,11 +89,11 @@ def test_direction_matrix_and_odd_geometry():
         middle + (4, 6, -7), (-8, 7, 9), 18.0)
     filter = FreeFormDeformation(Input=source, Strokes=strokes)
     assert output(filter).GetDirectionMatrix().GetElement(0, 1) == -0.48
+    view = new_view(focus=middle, distance=90.0)
     for name in OPACITIES:
-        view = new_view(focus=middle, distance=90.0)
         display = show_volume(filter, view, "Deformed Volume", *curves(name), shade=True)
         assert_same(view, display, name)
-        Delete(view)
+    Delete(view)
 
 
 def test_a_surface_inside():
