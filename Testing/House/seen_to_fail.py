@@ -205,8 +205,10 @@ class Packed(unittest.TestCase):
         self.assertEqual(tidy.packed("abcd", names.get), [["a", "c", "d"], ["b"]])
 
     def test_a_group_has_an_end(self):
-        sizes = [len(group) for group in tidy.packed(range(60), lambda path: set())]
-        self.assertEqual(sizes, [24, 24, 12])
+        for folder, expected in (("Filters", [24, 24, 2]), ("Testing/Cxx", [8] * 6 + [2])):
+            paths = [f"{folder}/{number}.cxx" for number in range(50)]
+            sizes = [len(group) for group in tidy.packed(paths, lambda path: set())]
+            self.assertEqual(sizes, expected)
 
 
 class Functions(unittest.TestCase):

@@ -26,6 +26,7 @@ from tree import Tree, without_comments
 from written import skip_other_versions
 
 FILES_TOGETHER = 24
+TESTS_TOGETHER = 8  # tests say `using namespace`, so that more names meet
 
 #: What a file may define for itself alone, at the start of a line.
 OWN_NAME = re.compile(
@@ -83,11 +84,12 @@ def own_names(text):
 
 def packed(paths, names_of):
     """Groups of files that share no name, filled in the order of the files."""
+    most = TESTS_TOGETHER if paths[0].startswith("Testing/") else FILES_TOGETHER
     groups = []
     for path in paths:
         names = names_of(path)
         for group, taken in groups:
-            if len(group) < FILES_TOGETHER and taken.isdisjoint(names):
+            if len(group) < most and taken.isdisjoint(names):
                 group.append(path)
                 taken |= names
                 break
