@@ -46,7 +46,7 @@ def test_views():
 def test_camera_inside():
     voxels = scattered()
     tissue = numpy.argwhere(voxels[1:-1, 1:-1, 1:-1])[:, ::-1] + 1.0
-    places = [(MIDDLE, 0.5)] + [(focus.tolist(), distance) for focus in tissue[::60]
+    places = [(MIDDLE, 0.5)] + [(focus.tolist(), distance) for focus in tissue[::120]
                                 for distance in (0.2, 7.0)]
     source = volume(voxels)
     for filter in (bent(source, 2.0), bent(source, 20.0)):
