@@ -27,8 +27,14 @@ LLVM_VERSION = 19
 SKIPPED = 77
 
 
+def require(program):
+    if shutil.which(program) is None:
+        sys.exit(f"This check needs {program}, which is not installed")
+
+
 def skip_other_versions(program):
     """Ends the check as skipped if the program is of another version of LLVM."""
+    require(program)
     said = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
     version = int(re.search(r"version (\d+)", said).group(1))
     if version != LLVM_VERSION:
@@ -46,8 +52,7 @@ def command_of(tree, check, program):
 
 def main():
     checkout, check, program = sys.argv[1:4]
-    if shutil.which(program) is None:
-        sys.exit(f"{check} needs {program}, which is not installed")
+    require(program)
     tree = Tree(checkout)
     result = subprocess.run(command_of(tree, check, program), cwd=tree.root, check=False)
     sys.exit(result.returncode)
