@@ -59,6 +59,7 @@ refuses "nothing"
 
 # .ci/run with a launcher whose tests and lint end as they are told.
 cp "$source_folder/.ci/run" "$folder/checkout/.ci"
+# shellcheck disable=SC2016 # the launcher expands them
 printf '#!/bin/sh\ncase $1 in test) exit $tests ;; lint) echo linted; exit $lint ;; esac\n' >"$launcher"
 
 # server TESTS LINT STATUS LAST: with which status .ci/run ends, and its last line.
