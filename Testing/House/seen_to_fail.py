@@ -6,12 +6,14 @@ same checkout with one thing broken, where it must name the broken file.
 """
 
 import pathlib
+import subprocess
 import tempfile
 import unittest
 
 import check_house
 import forms
 import rooms
+import tidy
 from functions import functions_of
 from tree import Tree
 
@@ -156,6 +158,64 @@ class SeenToFail(unittest.TestCase):
     def test_every_check_is_broken_once(self):
         self.assertEqual({check for check, *_ in BREAKS} | {"no_folder_is_crowded"},
                          set(check_house.CHECKS))
+
+
+class Tracked(unittest.TestCase):
+    """Where git knows the files, scratch beside them is no part of the tree."""
+
+    def git(self, folder, *arguments):
+        subprocess.run(["git", "-C", folder, "-c", "user.name=a", "-c", "user.email=a@b",
+                        *arguments], check=True, capture_output=True)
+
+    def checkout(self, folder):
+        """A checkout of one tracked file, with scratch beside it."""
+        self.git(folder, "init")
+        pathlib.Path(folder, "kept.py").write_text("VALUE = 1\n", encoding="utf-8")
+        self.git(folder, "add", "kept.py")
+        self.git(folder, "commit", "-m", "one")
+        pathlib.Path(folder, "scratch.py").write_text("x" * 200, encoding="utf-8")
+
+    def test_scratch_is_left_out(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.checkout(folder)
+            self.assertEqual(Tree(folder).files, ["kept.py"])
+            pathlib.Path(folder, "kept.py").unlink()
+            self.assertEqual(Tree(folder).files, [], "what is gone has nothing to check")
+
+    def test_a_worktree_has_tracked_files_too(self):
+        with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as beside:
+            self.checkout(folder)
+            worktree = pathlib.Path(beside, "worktree")
+            self.git(folder, "worktree", "add", str(worktree))
+            (worktree / "scratch.py").write_text("", encoding="utf-8")
+            self.assertTrue((worktree / ".git").is_file())
+            self.assertEqual(Tree(worktree).files, ["kept.py"])
+
+    def test_without_git_all_files_count(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "scratch.py").write_text("", encoding="utf-8")
+            self.assertEqual(Tree(folder).files, ["scratch.py"])
+
+
+class Packed(unittest.TestCase):
+    """clang-tidy looks at files together only if they share no name of their own."""
+
+    FIRST = "namespace\n{\nconstexpr int Limit = 3;\nQString tr(const char* text)\n{\n}\n}\n"
+    SECOND = "using namespace a;\nclass Later;\nstruct Limit\n{\n};\nvoid f::tr2()\n{\n}\n"
+
+    def test_own_names(self):
+        self.assertEqual(tidy.own_names(self.FIRST), {"Limit", "tr"})
+        self.assertEqual(tidy.own_names(self.SECOND), {"Limit"})
+
+    def test_files_that_share_a_name_stay_apart(self):
+        names = {"a": {"x"}, "b": {"x", "y"}, "c": {"z"}, "d": {"y"}}
+        self.assertEqual(tidy.packed("abcd", names.get), [["a", "c", "d"], ["b"]])
+
+    def test_a_group_has_an_end(self):
+        for folder, expected in (("Filters", [24, 24, 2]), ("Testing/Cxx", [8] * 6 + [2])):
+            paths = [f"{folder}/{number}.cxx" for number in range(50)]
+            sizes = [len(group) for group in tidy.packed(paths, lambda path: set())]
+            self.assertEqual(sizes, expected)
 
 
 class Functions(unittest.TestCase):

@@ -4,8 +4,7 @@ server on loopback, draws the tip over a picture that is not cast anew, and tell
 Trace Distance tells. Held down, the key T records a trace that bends the brain, as one undo step.
 A server that dies gives one sentence.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import math
 import socket
 import struct

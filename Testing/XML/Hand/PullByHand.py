@@ -3,8 +3,7 @@
 the order does not matter, strokes stay on top, and each edit is one step of undo, the first one
 together with the fit that it makes. The list in the panel and a state file keep all of it.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import contextlib
 import os
 

@@ -4,8 +4,7 @@ that Pause holds it, Stop keeps what is reached as one step to undo, and Escape 
 strokes back without one; that a state has the result; that a hand comes first; that a pull follows;
 and that it ends with a sentence when something is missing or goes away.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import os
 import re
 

@@ -4,8 +4,7 @@ stamp, + and - pull and push what lies under it, I sets the point of interest, a
 stroke. Space takes hold of tissue or of control points and lets go of them, as a mouse button does;
 Escape drops what is held.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import math
 
 import brainshift

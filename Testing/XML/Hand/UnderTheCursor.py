@@ -6,8 +6,7 @@ say; the letters of the patient's sides where the axes are known; and nothing wh
 known. And that slices of the volume as loaded follow those of the bent one to the same tissue, and
 back.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import re
 
 import brainshift
