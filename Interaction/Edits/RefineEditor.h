@@ -7,8 +7,8 @@
 #ifndef BrainShift_RefineEditor_h
 #define BrainShift_RefineEditor_h
 
-#include "Interaction/Edits/EmptySelections.h"
 #include "Interaction/Edits/RefineRun.h"
+#include "Interaction/Workarounds/EmptySelections.h"
 
 #include <vtkEventQtSlotConnect.h>
 #include <vtkNew.h>

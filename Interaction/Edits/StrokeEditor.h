@@ -7,7 +7,7 @@
 #define BrainShift_StrokeEditor_h
 
 #include "Filters/Deformation/Stroke.h"
-#include "Interaction/Edits/EmptySelections.h"
+#include "Interaction/Workarounds/EmptySelections.h"
 
 #include <QObject>
 #include <QTimer>

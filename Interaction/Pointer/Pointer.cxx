@@ -33,13 +33,6 @@ constexpr double TouchSeconds = 0.5;
 constexpr double StillMm = 2.0; // a hand at rest on a landmark
 constexpr int LeastTouches = 5;
 
-// Where a person types, keys are letters.
-bool isTyping()
-{
-  QWidget* focus = QApplication::focusWidget();
-  return focus && focus->testAttribute(Qt::WA_InputMethodEnabled);
-}
-
 // Whether the pipeline runs right now. ParaView 6.1 lets timers run meanwhile.
 bool isExecuting(pqPipelineSource* source)
 {

@@ -3,8 +3,8 @@
 
 #include "Interaction/Displays/SharedSettings.h"
 #include "Interaction/Edits/StrokeEditor.h"
+#include "Interaction/Workarounds/InSight.h"
 #include "Panel/Parts/Advice.h"
-#include "Panel/Parts/InSight.h"
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>

@@ -12,10 +12,11 @@ import forms
 import guards
 import includes
 import listed
+import named_tools
 import sizes
 from tree import Tree
 
-CHECKS = {check.__name__: check for module in (includes, sizes, listed, forms, guards)
+CHECKS = {check.__name__: check for module in (includes, sizes, listed, forms, guards, named_tools)
           for check in module.CHECKS}
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Representations/Window/FailedUpdate.h"
+#include "Representations/Workarounds/FailedUpdate.h"
 
 #include "vtkCommand.h"
 #include "vtkInformationRequestKey.h"

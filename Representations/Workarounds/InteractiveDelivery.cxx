@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Representations/Window/InteractiveDelivery.h"
+#include "Representations/Workarounds/InteractiveDelivery.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationRequestKey.h"

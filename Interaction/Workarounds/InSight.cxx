@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Panel/Parts/InSight.h"
+#include "Interaction/Workarounds/InSight.h"
 
 #include <QEvent>
 #include <QLayout>

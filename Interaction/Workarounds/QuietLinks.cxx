@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Plugin/QuietLinks.h"
+#include "Interaction/Workarounds/QuietLinks.h"
 
 #include <pqApplicationCore.h>
 #include <pqServer.h>

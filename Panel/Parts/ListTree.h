@@ -1,23 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// View of a StrokeModel. The keyboard alone is enough to use it: the table of commands lists its
-/// keys under Scope::List.
-#ifndef BrainShift_StrokeTree_h
-#define BrainShift_StrokeTree_h
+/// View of a list of strokes, pulls or landmarks. The keyboard alone is enough to use it: the table
+/// of commands lists its keys under Scope::List.
+#ifndef BrainShift_ListTree_h
+#define BrainShift_ListTree_h
 
 #include <QList>
 #include <QTreeView>
 
 namespace brainshift
 {
-class StrokeModel;
+class ListModel;
 
-class StrokeTree : public QTreeView
+class ListTree : public QTreeView
 {
   Q_OBJECT
 
 public:
-  StrokeTree(StrokeModel* model, QWidget* parent = nullptr);
+  /// How many rows are seen at once, and what stands in the view while there are none.
+  struct Room
+  {
+    int fewestRows;
+    int mostRows;
+    QString empty;
+  };
+
+  ListTree(ListModel* model, const Room& room, QWidget* parent = nullptr);
 
   QList<int> selectedRows() const;
   void removeSelected();
@@ -35,12 +43,14 @@ protected:
   void paintEvent(QPaintEvent* event) override;
 
 private:
+  void softenHighlight();
   void toggleSelected();
   void moveColumn(int by);
   void showWhereIfRoom();
   int heightOfRows(int rows) const;
 
-  StrokeModel* const Strokes;
+  ListModel* const Rows;
+  const Room Space;
 };
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Interaction/Views/KeptSelection.h"
+#include "Interaction/Workarounds/KeptSelection.h"
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Panel/Parts/RoomyDock.h"
+#include "Interaction/Workarounds/RoomyDock.h"
 
 #include <QDockWidget>
 #include <QEvent>

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Interaction/Edits/EmptySelections.h"
-
-#include "Interaction/Views/ShowingViews.h"
+#include "Interaction/Workarounds/EmptySelections.h"
 
 #include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>
@@ -44,7 +42,7 @@ void EmptySelections::leaveOut(pqPipelineSource* source)
     return;
   }
   SCOPED_UNDO_EXCLUDE();
-  for (pqView* view : viewsShowing(source))
+  for (pqView* view : source->getViews())
   {
     pqDataRepresentation* display = source->getRepresentation(view);
     vtkSMProxy* proxy = display ? display->getProxy() : nullptr;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Panel/Strokes/StrokeTree.h"
+#include "Panel/Parts/ListTree.h"
 
 #include "Interaction/Commands/Commands.h"
-#include "Panel/Parts/NumberDelegate.h"
-#include "Panel/Parts/SoftHighlight.h"
-#include "Panel/Strokes/StrokeModel.h"
+#include "Panel/Parts/ListModel.h"
 
+#include <QDoubleSpinBox>
 #include <QEvent>
+#include <QGuiApplication>
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QPainter>
+#include <QStyledItemDelegate>
 
 #include <algorithm>
 
@@ -17,13 +18,30 @@ namespace brainshift
 {
 namespace
 {
-constexpr int FewestRows = 4; // seen at once
-constexpr int MostRows = 9;
+// Edits numbers with 2 decimals, within their limits.
+class NumberDelegate : public QStyledItemDelegate
+{
+public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+
+  QWidget* createEditor(
+    QWidget* parent, const QStyleOptionViewItem&, const QModelIndex& index) const override
+  {
+    auto editor = new QDoubleSpinBox(parent);
+    editor->setFrame(false);
+    editor->setButtonSymbols(QAbstractSpinBox::NoButtons); // the cell is narrow
+    editor->setDecimals(2);
+    editor->setRange(
+      index.data(ListModel::LeastRole).toDouble(), index.data(ListModel::MostRole).toDouble());
+    return editor;
+  }
+};
 }
 
-StrokeTree::StrokeTree(StrokeModel* model, QWidget* parent)
+ListTree::ListTree(ListModel* model, const Room& room, QWidget* parent)
   : QTreeView(parent)
-  , Strokes(model)
+  , Rows(model)
+  , Space(room)
 {
   this->setModel(model);
   this->setItemDelegate(new NumberDelegate(this));
@@ -36,7 +54,7 @@ StrokeTree::StrokeTree(StrokeModel* model, QWidget* parent)
   this->setTabKeyNavigation(false); // Tab leaves the list
   this->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
   this->setTextElideMode(Qt::ElideRight);
-  softenHighlight(this);
+  this->softenHighlight();
   QHeaderView* header = this->header();
   header->setStretchLastSection(true); // the position
   header->setMinimumSectionSize(this->fontMetrics().averageCharWidth() * 5);
@@ -44,7 +62,7 @@ StrokeTree::StrokeTree(StrokeModel* model, QWidget* parent)
   header->setResizeContentsPrecision(50); // rows looked at, of maybe thousands
   header->setSectionsMovable(false);
   this->connect(this->selectionModel(), &QItemSelectionModel::selectionChanged, this,
-    &StrokeTree::selectedRowsChanged);
+    &ListTree::selectedRowsChanged);
   const auto fit = [this] {
     this->updateGeometry();
     this->showWhereIfRoom();
@@ -53,7 +71,7 @@ StrokeTree::StrokeTree(StrokeModel* model, QWidget* parent)
   this->connect(model, &QAbstractItemModel::rowsRemoved, this, fit);
 }
 
-QList<int> StrokeTree::selectedRows() const
+QList<int> ListTree::selectedRows() const
 {
   QList<int> rows;
   for (const QModelIndex& index : this->selectionModel()->selectedRows())
@@ -63,26 +81,26 @@ QList<int> StrokeTree::selectedRows() const
   return rows;
 }
 
-void StrokeTree::removeSelected()
+void ListTree::removeSelected()
 {
   const QList<int> rows = this->selectedRows();
   if (!rows.isEmpty())
   {
-    this->clearSelection(); // rows keep their number, not their stroke
-    this->Strokes->removeRowsOf(rows);
+    this->clearSelection(); // rows keep their number, not their content
+    this->Rows->removeRowsOf(rows);
   }
 }
 
-void StrokeTree::toggleSelected()
+void ListTree::toggleSelected()
 {
   const QList<int> rows = this->selectedRows();
   if (!rows.isEmpty())
   {
-    this->Strokes->setEnabled(rows, !this->Strokes->stroke(rows.front()).enabled);
+    this->Rows->setOn(rows, !this->Rows->isOn(rows.front()));
   }
 }
 
-void StrokeTree::moveColumn(int by)
+void ListTree::moveColumn(int by)
 {
   const QModelIndex current = this->currentIndex();
   QModelIndex next = current.siblingAtColumn(current.column() + by);
@@ -96,7 +114,7 @@ void StrokeTree::moveColumn(int by)
   }
 }
 
-void StrokeTree::keyPressEvent(QKeyEvent* event)
+void ListTree::keyPressEvent(QKeyEvent* event)
 {
   const KeyCommand found = commandOfKey({ Scope::List }, event->key());
   switch (found.command)
@@ -121,69 +139,89 @@ void StrokeTree::keyPressEvent(QKeyEvent* event)
   }
 }
 
-void StrokeTree::resizeEvent(QResizeEvent* event)
+void ListTree::resizeEvent(QResizeEvent* event)
 {
   this->QTreeView::resizeEvent(event);
   this->showWhereIfRoom();
 }
 
 // A narrow panel must not cut off the numbers to edit. Tool tips show the position as well. If
-// there is no room for the numbers either, a bar moves them; the tool's name comes first.
-void StrokeTree::showWhereIfRoom()
+// there is no room for the numbers either, a bar moves them; the first column stays whole.
+void ListTree::showWhereIfRoom()
 {
+  const int where = this->Rows->whereColumn();
   int others = 0;
-  for (int column = 0; column < StrokeModel::ColumnCount; ++column)
+  for (int column = 0; column < this->Rows->columnCount(); ++column)
   {
-    if (column != StrokeModel::WhereColumn)
+    if (column != where)
     {
       others += std::max(this->sizeHintForColumn(column), this->header()->sectionSizeHint(column));
     }
   }
   const int needed = this->fontMetrics().horizontalAdvance("-300, -300, 300");
-  const bool hidden = this->viewport()->width() < others + needed;
-  this->setColumnHidden(StrokeModel::WhereColumn, hidden);
-  const bool stretched = hidden && this->viewport()->width() >= others;
+  const bool isShown = where >= 0 && this->viewport()->width() >= others + needed;
+  if (where >= 0)
+  {
+    this->setColumnHidden(where, !isShown);
+  }
+  const bool stretched = !isShown && this->viewport()->width() >= others;
   this->header()->setSectionResizeMode(
-    StrokeModel::ToolColumn, stretched ? QHeaderView::Stretch : QHeaderView::ResizeToContents);
-  this->header()->setStretchLastSection(!hidden);
+    0, stretched ? QHeaderView::Stretch : QHeaderView::ResizeToContents);
+  this->header()->setStretchLastSection(isShown);
 }
 
-void StrokeTree::changeEvent(QEvent* event)
+// Icons would be lost on the strong highlight of most themes.
+void ListTree::softenHighlight()
+{
+  constexpr double part = 0.35; // of the theme's highlight
+  const QPalette theme = QGuiApplication::palette();
+  const QColor strong = theme.color(QPalette::Highlight);
+  const QColor base = theme.color(QPalette::Base);
+  const auto mixed = [](int some, int rest) { return int(part * some + (1.0 - part) * rest); };
+  QPalette soft;
+  soft.setColor(QPalette::Highlight,
+    QColor(mixed(strong.red(), base.red()), mixed(strong.green(), base.green()),
+      mixed(strong.blue(), base.blue())));
+  soft.setColor(QPalette::HighlightedText, theme.color(QPalette::Text));
+  this->setPalette(soft);
+}
+
+void ListTree::changeEvent(QEvent* event)
 {
   this->QTreeView::changeEvent(event);
   if (event->type() == QEvent::PaletteChange) // our own one, equal to the last, changes nothing
   {
-    softenHighlight(this);
+    this->softenHighlight();
   }
 }
 
-void StrokeTree::paintEvent(QPaintEvent* event)
+void ListTree::paintEvent(QPaintEvent* event)
 {
   this->QTreeView::paintEvent(event);
-  if (this->Strokes->rowCount() == 0)
+  if (this->Rows->rowCount() == 0)
   {
     QPainter painter(this->viewport());
     painter.setPen(this->palette().color(QPalette::PlaceholderText));
     painter.drawText(this->viewport()->rect().adjusted(8, 0, -8, 0),
-      Qt::AlignCenter | Qt::TextWordWrap,
-      tr("There are no strokes yet. Choose a tool, then work on the volume in the view."));
+      Qt::AlignCenter | Qt::TextWordWrap, this->Space.empty);
   }
 }
 
-int StrokeTree::heightOfRows(int rows) const
+int ListTree::heightOfRows(int rows) const
 {
   const int row = std::max(this->sizeHintForRow(0), this->fontMetrics().height() + 4);
   return rows * row + this->header()->sizeHint().height() + 2 * this->frameWidth();
 }
 
-QSize StrokeTree::sizeHint() const
+QSize ListTree::sizeHint() const
 {
-  const int rows = std::clamp(this->Strokes->rowCount() + 1, FewestRows, MostRows);
+  const int rows =
+    std::clamp(this->Rows->rowCount() + 1, this->Space.fewestRows, this->Space.mostRows);
   return { this->QTreeView::sizeHint().width(), this->heightOfRows(rows) };
 }
 
-QSize StrokeTree::minimumSizeHint() const
+QSize ListTree::minimumSizeHint() const
 {
-  return { 0, this->heightOfRows(FewestRows) };
+  return { 0, this->heightOfRows(this->Space.fewestRows) };
 }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Panel/Properties/ShortListDecorator.h"
+#include "Interaction/Workarounds/ShortListDecorator.h"
 
 #include <pqPropertyWidget.h>
 

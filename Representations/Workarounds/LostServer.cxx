@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Representations/Window/LostServer.h"
+#include "Representations/Workarounds/LostServer.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkNew.h"

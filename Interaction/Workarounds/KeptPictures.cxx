@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Interaction/Views/KeptPictures.h"
+#include "Interaction/Workarounds/KeptPictures.h"
 
 #include <pqUndoStack.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Panel/Window/StopReading.h"
+#include "Interaction/Workarounds/StopReading.h"
 
 #include "Filters/Readers/vtkVolumeFileReader.h"
 
