@@ -59,7 +59,7 @@ void prepare(pqRepresentation* display)
   {
     volume ? brainshift::showFirstLook(data) : brainshift::colorByFirstArray(data);
   }
-  if (volume && !display->property(Shaded).toBool()) // once: who then turns it off means it
+  if (volume && !display->property(Shaded).toBool()) // once: the user may turn it off
   {
     display->setProperty(Shaded, true);
     if (representation->GetUsingScalarColoring() && data)

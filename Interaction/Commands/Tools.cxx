@@ -15,7 +15,12 @@ ToolRow pullTool();
 
 const std::vector<ToolRow>& toolTable()
 {
-  static const std::vector<ToolRow> table{ moveTool(), softTool(), stampTool(), pullTool() };
+  static const std::vector<ToolRow> table{
+    moveTool(),
+    softTool(),
+    stampTool(),
+    pullTool(),
+  };
   return table;
 }
 

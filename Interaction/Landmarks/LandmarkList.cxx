@@ -147,7 +147,7 @@ void LandmarkList::refresh()
   {
     if (this->Runs && !this->Editor->isEditing())
     {
-      fit->UpdatePipeline(); // who hides the volume wants the figures, too
+      fit->UpdatePipeline(); // a hidden volume does not update it
     }
     fit->UpdatePropertyInformation();
     this->readInputs(fit);
@@ -159,7 +159,7 @@ void LandmarkList::refresh()
   Q_EMIT this->changed();
 }
 
-// The rows that the fit tells about, in its order.
+// The rows that the fit reports, in its order.
 void LandmarkList::readInputs(vtkSMProxy* fit)
 {
   const std::vector<std::string> names = textsOf(fit, "LandmarkNames");

@@ -195,7 +195,7 @@ void PullTool::pin(const glm::dvec3& rest, double radius)
   {
     pins.erase(pins.begin() + static_cast<std::ptrdiff_t>(place));
   }
-  else if (isNear) // switched off: nobody sees it
+  else if (isNear) // switched off: it is not drawn
   {
     pins[place] = { rest, true };
   }

@@ -28,7 +28,7 @@ public:
 
 private:
   void watch(pqServer* server);
-  /// Observer of what is registered. True: nobody else hears of it.
+  /// Observer of what is registered. True: no other observer gets it.
   bool onRegister(vtkObject* manager, unsigned long event, void* information);
 
   std::vector<std::pair<vtkWeakPointer<vtkSMSessionProxyManager>, unsigned long>> Observers;

@@ -90,7 +90,7 @@ void RoomyDock::widen()
   const int lacking = this->Panel->horizontalScrollBar()->maximum();
   auto dock = around<QDockWidget>(this->Panel);
   auto window = dock ? around<QMainWindow>(dock) : nullptr;
-  const bool isUsers = dock && given > 0 && dock->width() != given; // who made it narrower
+  const bool isUsers = dock && given > 0 && dock->width() != given; // the user made it narrower
   if (isUsers || lacking == 0 || !this->Part->isVisible() || !window || dock->isFloating())
   {
     return;

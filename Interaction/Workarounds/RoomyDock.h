@@ -18,8 +18,8 @@ class RoomyDock : public QObject
   Q_OBJECT
 
 public:
-  /// Watches the panel that `part` is a part of, from when it is shown. Who makes the dock narrower
-  /// later means it.
+  /// Watches the panel that `part` is a part of, from when it is shown. If the user narrows the
+  /// dock later, it stays narrow.
   explicit RoomyDock(QWidget* part);
 
 protected:

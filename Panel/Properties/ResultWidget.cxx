@@ -29,7 +29,7 @@ namespace brainshift
 {
 namespace
 {
-constexpr qint64 FiguresMs = 250; // at least, from one update to the next: nobody reads faster
+constexpr qint64 FiguresMs = 250; // at least, from one update to the next: faster cannot be read
 
 pqPipelineSource* sourceOf(vtkSMProxy* proxy)
 {

@@ -44,7 +44,7 @@ public:
 
   StrokeModel(vtkSMDoubleVectorProperty* strokes, Write write, QObject* parent = nullptr);
 
-  /// Must be called after the property changed, whoever changed it.
+  /// Must be called after each change of the property.
   void update();
 
   /// Why the numbers of the property are not valid strokes. Empty if they are. While they are not,

@@ -4,11 +4,13 @@
 // given on the right side of its limits; that each key and gesture means one command; and that
 // Documentation/keys.md says what the table of commands says. With BRAINSHIFT_WRITE_KEYS set, the
 // test writes that file.
+#include "Filters/Looks/Look.h"
 #include "Interaction/Commands/Commands.h"
 #include "Interaction/Commands/Tools.h"
 #include "Panel/Parts/Advice.h"
 #include "Panel/Parts/ListTree.h"
 #include "Panel/Strokes/StrokeModel.h"
+#include "Panel/Tools/LookChoice.h"
 #include "Panel/Window/KeysText.h"
 #include "Testing/Cxx/Window/Application.h"
 
@@ -339,6 +341,17 @@ TEST(Tools, HaveAllThatARowNeeds)
   }
   EXPECT_EQ(static_cast<std::size_t>(keys.size()), KnownTools.size());
   EXPECT_FALSE(toolRow(Tool::None).make);
+}
+
+TEST(Looks, HaveAnIconAndATip)
+{
+  for (const LookRow& look : lookTable())
+  {
+    EXPECT_FALSE(iconOfLook(look.name).pixmap(16, 16).isNull()) << look.name;
+    EXPECT_TRUE(tipOfLook(QString(look.name) + ": labels.nii").endsWith('.')) << look.name;
+  }
+  EXPECT_TRUE(tipOfLook("Nothing").isEmpty());
+  EXPECT_TRUE(iconOfLook("Nothing").pixmap(16, 16).isNull());
 }
 
 TEST(Commands, AreFoundByKey)
