@@ -26,7 +26,6 @@
 #include <glm/geometric.hpp>
 
 #include <QApplication>
-#include <QWidget>
 
 #include <algorithm>
 #include <cmath>

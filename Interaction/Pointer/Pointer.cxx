@@ -15,7 +15,6 @@
 #include <QApplication>
 #include <QKeyEvent>
 #include <QPointer>
-#include <QWidget>
 
 #include <glm/geometric.hpp>
 
