@@ -5,9 +5,9 @@
 #ifndef BrainShift_RefineEditor_h
 #define BrainShift_RefineEditor_h
 
-#include "Interaction/Edits/EmptySelections.h"
 #include "Interaction/Edits/LiveRun.h"
 #include "Interaction/Edits/RefineChoices.h"
+#include "Interaction/Workarounds/EmptySelections.h"
 
 #include <vtkWeakPointer.h>
 

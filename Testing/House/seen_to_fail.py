@@ -94,6 +94,10 @@ BREAKS = [
     ("no_file_is_long", "Representations/vtkDraw.cxx", "int a;\n" * 501, None),
     ("no_file_is_long", "Shaders/Rays/rays.frag.glsl", "int a;\n" * 151, None),
     ("no_file_is_long", "Filters/Bend.xml", "<a/>\n" * 251, None),
+    ("no_file_names_a_tool_of_another", "Interaction/Tools/TwistTool.cxx",
+     "int f() { return int(Tool::Twist) + int(Tool::Stamp); }\n", None),
+    ("no_file_names_a_tool_of_another", "Panel/Tools/Buttons.cxx",
+     "bool f(Tool tool) { return tool == Tool::Twist; }\n", None),
     ("no_function_is_long", "Filters/Deformation/Lattice.cxx", "void f()\n" + LONG_BODY, None),
     ("no_function_is_long", "Testing/Support/helper.py",
      "def f():\n" + "    pass\n" * 60, None),
@@ -149,6 +153,27 @@ class SeenToFail(unittest.TestCase):
         self.assertEqual(found_in("no_folder_is_crowded", files), [])
         files["Panel/one-more.svg"] = ""
         self.assertTrue(found_in("no_folder_is_crowded", files)[0].startswith("Panel: has 36"))
+
+    def test_a_new_tool(self):
+        """What CONTRIBUTING.md names for a new tool passes every check, and is at most 9 files."""
+        files = house()
+        new = {
+            "Filters/Deformation/Stroke.h": header("Stroke", "enum class Tool { None, Twist };"),
+            "Interaction/Tools/TwistTool.cxx": "int twistTool() { return int(Tool::Twist); }\n",
+            "Interaction/Commands/Tools.cxx": "int twistTool();\nint all = twistTool();\n",
+            "Interaction/CMakeLists.txt":
+                "set(sources Commands/Tools.cxx Tools/TwistTool.cxx)\n",
+            "Panel/Icons/twist.svg": "<svg/>\n",
+            "Panel/Panel.qrc": "<file>Icons/twist.svg</file>\n",
+            "Documentation/tools/twist.md": "# Twist\n",
+            "mkdocs.yml": "- Twist: tools/twist.md\n",
+            "Testing/Python/Drawing/Pick.py": "TWIST = 4\n",
+        }
+        self.assertLessEqual(len(new), 9)
+        files.update(new)
+        for check in check_house.CHECKS:
+            with self.subTest(check):
+                self.assertEqual(found_in(check, files), [])
 
     def test_every_check_runs(self):
         listed = pathlib.Path(__file__).with_name("CMakeLists.txt").read_text(encoding="utf-8")
