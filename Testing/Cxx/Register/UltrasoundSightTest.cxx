@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that a volume that moves rigidly by ultrasound keeps tissue in the sweep: the mean
-// disagreement would fall where tissue that disagrees leaves.
+// cost would fall where tissue that does not match leaves.
 #include "Filters/Deformation/PointMap.h"
 #include "Filters/Register/Refinement.h"
+#include "Filters/Register/Similarity.h"
 #include "Testing/Cxx/Register/Synthetic.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 using namespace brainshift;
 using namespace brainshift::testing;
@@ -53,18 +56,20 @@ struct Found
 Found foundFor(double shiftMm)
 {
   RefinementSettings settings;
-  settings.stages = { { SimilarityKind::LinearCombination, 2.0, 1.0, true } };
+  const auto isUltrasound = [](const Similarity& one) { return one.plan.fan.has_value(); };
+  settings.plan = std::find_if(similarities().begin(), similarities().end(), isUltrasound)->plan;
+  settings.plan.levels.resize(1); // rigid, 2 mm
   const Lattice start = makeLattice(withDimensions(restGrid(), { 8, 8, 8 }), KernelCatmullRom);
   Refinement refinement(pairShiftedBy(shiftMm), start, settings);
   double atStart = 0.0;
   while (!refinement.progress().isFinished)
   {
     refinement.step();
-    atStart = atStart == 0.0 ? refinement.progress().comparedShare : atStart;
+    atStart = atStart == 0.0 ? refinement.progress().overlap : atStart;
   }
   const glm::dvec3 from(0.5 * SeenMm, 28.0, 26.0);
   return { PointMap(refinement.lattice()).deformedFromRest(from).x - from.x,
-    refinement.progress().comparedShare / atStart };
+    refinement.progress().overlap / atStart };
 }
 }
 
