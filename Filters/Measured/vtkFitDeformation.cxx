@@ -8,10 +8,12 @@
 #include "Common/ImageGrid.h"
 #include "Filters/Fields/BaseLattice.h"
 #include "Formats/Fields/FieldImage.h"
+#include "Filters/Fields/FilledArray.h"
 #include "Filters/Fields/FittedFor.h"
 #include "Filters/Fit/Anchors.h"
 #include "Filters/Fit/FittedLattice.h"
 #include "Filters/Fit/LatticeEvidence.h"
+#include "Filters/Fit/PackedTables.h"
 #include "Filters/Measured/AnchorChoice.h"
 #include "Filters/Measured/EvidenceArray.h"
 #include "Filters/Measured/FitLandmarks.h"
@@ -49,21 +51,12 @@ constexpr int MaskPort = 7;
 constexpr int BasePort = 8;
 constexpr int Ports = 9;
 
-constexpr std::size_t NumbersPerPull = 7;
-constexpr std::size_t NumbersPerPin = 4;
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* NotRun = "The fit has not run";
 
 bool isOfPoints(int port)
 {
   return port >= RestPort && port <= TracesPort;
-}
-
-vtkDoubleArray* filled(vtkDoubleArray* array, const std::vector<double>& values)
-{
-  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  return array;
 }
 }
 
@@ -184,12 +177,12 @@ std::string vtkFitDeformation::ProblemOfProperties() const
         " points";
     }
   }
-  if (this->Pulls.size() % NumbersPerPull || this->Pins.size() % NumbersPerPin)
+  if (this->Pulls.size() % Packed<Pull>::Numbers || this->Pins.size() % Packed<Pin>::Numbers)
   {
     return "Pulls has " + std::to_string(this->Pulls.size()) + " numbers and Pins " +
       std::to_string(this->Pins.size()) + "; a pull has 7 and a pin 4";
   }
-  if (this->Landmarks->Numbers.size() % FitLandmarks::NumbersPerPair)
+  if (this->Landmarks->Numbers.size() % Packed<PointPair>::Numbers)
   {
     return "LandmarkPairs has " + std::to_string(this->Landmarks->Numbers.size()) +
       " numbers; a pair has 7";
@@ -214,17 +207,12 @@ std::string vtkFitDeformation::ReadMeasurements(vtkInformationVector** inputs)
                         int port) { return pointsOfAllRanks(vtkPointSet::GetData(inputs[port])); };
   state.Measured.landmarks =
     this->Landmarks->read(points(RestPort), points(MeasuredPort), state.Unmatched);
-  for (std::size_t i = 0; i < this->Pulls.size(); i += NumbersPerPull)
+  state.Measured.pulls = rowsFrom<Pull>(this->Pulls);
+  for (const Pin& pin : rowsFrom<Pin>(this->Pins))
   {
-    const double* n = &this->Pulls[i];
-    state.Measured.pulls.push_back({ { n[0], n[1], n[2] }, { n[3], n[4], n[5] }, n[6] });
-  }
-  for (std::size_t i = 0; i < this->Pins.size(); i += NumbersPerPin)
-  {
-    const double* n = &this->Pins[i];
-    if (n[3] != 0.0)
+    if (pin.enabled)
     {
-      state.Measured.pins.emplace_back(n[0], n[1], n[2]);
+      state.Measured.pins.push_back(pin.rest);
     }
   }
   std::string problem;

@@ -2,6 +2,7 @@
 // The properties of a fit that are lists, and what it prints.
 #include "vtkFitDeformation.h"
 
+#include "Filters/Fit/PackedTables.h"
 #include "Filters/Measured/FitLandmarks.h"
 
 using namespace brainshift;
@@ -89,8 +90,8 @@ void vtkFitDeformation::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Evidence: " << this->Evidence << "\n"
      << indent << "Feather: " << this->Feather << "\n"
      << indent << "MaskGrowth: " << this->MaskGrowth << "\n"
-     << indent
-     << "LandmarkPairs: " << this->Landmarks->Numbers.size() / FitLandmarks::NumbersPerPair << "\n"
-     << indent << "Pulls: " << this->Pulls.size() / 7 << "\n"
-     << indent << "Pins: " << this->Pins.size() / 4 << "\n";
+     << indent << "LandmarkPairs: " << this->Landmarks->Numbers.size() / Packed<PointPair>::Numbers
+     << "\n"
+     << indent << "Pulls: " << this->Pulls.size() / Packed<Pull>::Numbers << "\n"
+     << indent << "Pins: " << this->Pins.size() / Packed<Pin>::Numbers << "\n";
 }
