@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Geometry of a regular grid in world space, as a small value, and the loop over its indices.
+ * @brief Geometry of a regular grid in world space, as a small value, and the loop over its
+ *        indices.
  */
 #ifndef BrainShift_Grid_h
 #define BrainShift_Grid_h

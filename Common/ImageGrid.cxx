@@ -8,6 +8,8 @@
 #include "vtkMultiProcessController.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <glm/matrix.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -76,6 +78,17 @@ std::string problemOfGrid(const Grid& grid)
     problem << "direction holds a number that is not finite";
   }
   return problem.str();
+}
+
+void announce(vtkInformation* output, const Grid& grid)
+{
+  const glm::ivec3 last = grid.dimensions - 1;
+  const int whole[6] = { 0, last.x, 0, last.y, 0, last.z };
+  const glm::dmat3 rows = glm::transpose(grid.direction);
+  output->Set(Pipeline::WHOLE_EXTENT(), whole, 6);
+  output->Set(vtkDataObject::ORIGIN(), &grid.origin.x, 3);
+  output->Set(vtkDataObject::SPACING(), &grid.spacing.x, 3);
+  output->Set(vtkDataObject::DIRECTION(), &rows[0][0], 9);
 }
 
 void updateWholeExtent(vtkInformation* image)

@@ -34,6 +34,11 @@ VTKBRAINSHIFTCOMMON_EXPORT Grid gridOf(vtkImageData* image);
 VTKBRAINSHIFTCOMMON_EXPORT std::string problemOfGrid(const Grid& grid);
 
 /**
+ * Tells the pipeline where an output will lie: on all of a grid. Call it in RequestInformation.
+ */
+VTKBRAINSHIFTCOMMON_EXPORT void announce(vtkInformation* output, const Grid& grid);
+
+/**
  * Asks for all of an image, in one piece. Call it in RequestUpdateExtent. On several MPI ranks,
  * each rank then gets all of it. An extent alone would not do: a reader still splits the extent
  * into the pieces of the ranks.
@@ -56,7 +61,8 @@ VTKBRAINSHIFTCOMMON_EXPORT Grid wholeGridOf(vtkImageData* piece, vtkInformation*
  * @param image         the data
  * @param information   pipeline information of that input
  */
-VTKBRAINSHIFTCOMMON_EXPORT std::string problemOfPart(vtkImageData* image, vtkInformation* information);
+VTKBRAINSHIFTCOMMON_EXPORT std::string problemOfPart(
+  vtkImageData* image, vtkInformation* information);
 
 /// Whether this process is the first of several MPI ranks, or the only one.
 VTKBRAINSHIFTCOMMON_EXPORT bool isFirstRank();

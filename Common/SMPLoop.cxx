@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The parallel loop on vtkSMPTools. VTK_SMP_BACKEND_IN_USE names the back end, as it does for VTK's
-// own filters, and VTK_SMP_MAX_THREADS limits the threads. Debian's ParaView 5.13 leaves vtkSMPTools
-// on one core unless the user names a back end. Our loops take threads there all the same.
+// own filters, and VTK_SMP_MAX_THREADS limits the threads. Debian's ParaView 5.13 leaves
+// vtkSMPTools on one core unless the user names a back end. Our loops take threads there all the
+// same.
 #include "Common/PieceRunner.h"
 
 #include "vtkSMP.h"

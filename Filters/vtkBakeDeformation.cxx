@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkBakeDeformation.h"
 
-#include "Filters/Attached/DeformableVolume.h"
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
-#include "Filters/Attached/FieldMemory.h"
-#include "Filters/Attached/Resample.h"
 #include "Common/ImageGrid.h"
 #include "Common/WorldAxes.h"
+#include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/FieldMemory.h"
+#include "Filters/Attached/Resample.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkCompareVolumes.h"
 
+#include "Common/Guard.h"
+#include "Common/ImageGrid.h"
 #include "Filters/Attached/CavityMask.h"
 #include "Filters/Attached/DeformableVolume.h"
-#include "Common/Guard.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Attached/SharedArray.h"
-#include "Common/ImageGrid.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformGeometry.h"
 
-#include "Filters/Attached/DirectedMap.h"
 #include "Common/Guard.h"
 #include "Common/Portions.h"
+#include "Filters/Attached/DirectedMap.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformationField.h"
 
-#include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Attached/DirectedMap.h"
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
-#include "Common/Portions.h"
 #include "Common/ImageGrid.h"
+#include "Common/Portions.h"
+#include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/DirectedMap.h"
 #include "Formats/Fields/FieldImage.h"
 
 #include "vtkFloatArray.h"

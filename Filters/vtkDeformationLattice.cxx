@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformationLattice.h"
 
-#include "Filters/Attached/DeformableVolume.h"
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
+#include "Filters/Attached/DeformableVolume.h"
 #include "Formats/Fields/FieldImage.h"
 
 #include "vtkFieldData.h"

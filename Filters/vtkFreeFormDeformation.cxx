@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkFreeFormDeformation.h"
 
-#include "Filters/Attached/DeformableVolume.h"
 #include "Common/Guard.h"
+#include "Common/ImageGrid.h"
+#include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/MaskImage.h"
 #include "Filters/Attached/Segmentation.h"
 #include "Filters/Attached/SharedArray.h"
-#include "Common/ImageGrid.h"
 #include "Filters/Deformation/LatticeExtremes.h"
 #include "Filters/Deformation/OffsetField.h"
 #include "Filters/Deformation/Replay.h"

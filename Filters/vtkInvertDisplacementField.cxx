@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkInvertDisplacementField.h"
 
-#include "Filters/Attached/DeformableVolume.h"
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
-#include "Common/Portions.h"
 #include "Common/ImageGrid.h"
+#include "Common/Portions.h"
+#include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Deformation/Inversion.h"
 #include "Filters/Deformation/OffsetField.h"
 #include "Formats/Fields/FieldImage.h"

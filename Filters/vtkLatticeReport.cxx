@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkLatticeReport.h"
 
-#include "Filters/Attached/DeformableVolume.h"
 #include "Common/Guard.h"
+#include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Deformation/ControlPoints.h"
 #include "Filters/Deformation/PointMap.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTraceDistance.h"
 
+#include "Common/Guard.h"
+#include "Common/ImageGrid.h"
+#include "Common/Portions.h"
 #include "Filters/Attached/CavityMask.h"
 #include "Filters/Attached/DeformableVolume.h"
-#include "Common/Guard.h"
-#include "Common/Portions.h"
 #include "Filters/Attached/ReferenceVolume.h"
-#include "Common/ImageGrid.h"
 #include "Filters/Traces/DeformedSurface.h"
 #include "Filters/Traces/StrokeCurve.h"
 #include "Filters/Traces/StrokeMarks.h"

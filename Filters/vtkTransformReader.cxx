@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTransformReader.h"
 
-#include "Filters/Attached/DeformableVolume.h"
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
-#include "Common/Portions.h"
 #include "Common/ImageGrid.h"
+#include "Common/Portions.h"
+#include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Transforms/TransformLattice.h"
 #include "Formats/Fields/FieldImage.h"
 #include "Formats/Transforms/TransformFile.h"
-#include "Filters/Transforms/TransformLattice.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"

@@ -16,10 +16,10 @@ endfunction ()
 
 # brainshift_add_format(NAME KINDS kind… [FOLDER folder] [SOURCES …] [CLASSES …] [XMLS …])
 #
-# Adds a format, whose folder has its name unless FOLDER says another. KINDS are what its files hold:
-# Volumes, Fields, Surfaces or Tracts. For each of them the format defines one constant of that kind,
-# such as `extern const VolumeFormat VolumesOfNRRD{ … };`, and readers of that kind ask it. Formats
-# are asked in the order in which they are added.
+# Adds a format, whose folder has its name unless FOLDER says another. KINDS are what its files
+# hold: Volumes, Fields, Surfaces or Tracts. For each of them the format defines one constant of
+# that kind, such as `extern const VolumeFormat VolumesOfNRRD{ … };`, and readers of that kind ask
+# it. Formats are asked in the order in which they are added.
 function (brainshift_add_format name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "FOLDER" "KINDS;SOURCES;CLASSES;XMLS")
   if (NOT arg_FOLDER)

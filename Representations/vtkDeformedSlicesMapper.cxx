@@ -2,6 +2,7 @@
 #include "vtkDeformedSlicesMapper.h"
 
 #include "Common/Guard.h"
+#include "Common/ImageGrid.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Representations/Field/EvidenceTexture.h"
 #include "Representations/Field/SceneDeformation.h"

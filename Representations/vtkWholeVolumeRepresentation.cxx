@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkWholeVolumeRepresentation.h"
 
-#include "Filters/Attached/DeformableVolume.h"
 #include "Common/Guard.h"
+#include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Representations/Window/EvidenceLegend.h"
 #include "Representations/Window/GatheredVolume.h"

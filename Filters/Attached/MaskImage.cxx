@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Attached/MaskImage.h"
 
-#include "Common/ImageGrid.h"
-#include "Filters/Attached/DeformableVolume.h"
 #include "Common/HostMemory.h"
+#include "Common/ImageGrid.h"
 #include "Common/Parallel.h"
+#include "Filters/Attached/DeformableVolume.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

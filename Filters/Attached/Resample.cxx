@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Attached/Resample.h"
 
-#include "Filters/Deformation/Kernels.h"
 #include "Common/Parallel.h"
+#include "Filters/Deformation/Kernels.h"
 
 #include "vtkDataArray.h"
 

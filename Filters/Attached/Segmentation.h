@@ -15,8 +15,8 @@
 #ifndef BrainShift_Segmentation_h
 #define BrainShift_Segmentation_h
 
-#include "Common/LabelTable.h"
 #include "Common/Grid.h"
+#include "Common/LabelTable.h"
 #include "Filters/Deformation/MaskWeights.h"
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/FoldGuard.h"
 
-#include "Filters/Deformation/FieldChange.h"
 #include "Common/Parallel.h"
+#include "Filters/Deformation/FieldChange.h"
 
 #include <glm/common.hpp>
 

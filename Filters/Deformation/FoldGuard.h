@@ -14,8 +14,8 @@
 #ifndef BrainShift_FoldGuard_h
 #define BrainShift_FoldGuard_h
 
-#include "Filters/Deformation/CellProof.h"
 #include "Common/Export.h"
+#include "Filters/Deformation/CellProof.h"
 #include "Filters/Deformation/Lattice.h"
 
 #include <vector>

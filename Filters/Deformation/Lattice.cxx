@@ -2,9 +2,9 @@
 #include "Filters/Deformation/Lattice.h"
 
 #include "Common/Grid.h"
+#include "Common/Parallel.h"
 #include "Filters/Deformation/Inversion.h"
 #include "Filters/Deformation/Kernels.h"
-#include "Common/Parallel.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

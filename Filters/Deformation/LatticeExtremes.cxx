@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/LatticeExtremes.h"
 
+#include "Common/Parallel.h"
 #include "Filters/Deformation/JacobianBound.h"
 #include "Filters/Deformation/OffsetField.h"
-#include "Common/Parallel.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/OffsetField.h"
 
+#include "Common/Parallel.h"
 #include "Filters/Deformation/Inversion.h"
 #include "Filters/Deformation/Kernels.h"
-#include "Common/Parallel.h"
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Fields/BaseLattice.h"
 
-#include "Common/ImageGrid.h"
-#include "Filters/Attached/DeformableVolume.h"
 #include "Common/FieldDirection.h"
 #include "Common/Grid.h"
+#include "Common/ImageGrid.h"
+#include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Deformation/Lattice.h"
 #include "Formats/Fields/FieldImage.h"
 

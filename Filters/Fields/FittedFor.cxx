@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Fields/FittedFor.h"
 
+#include "Common/FieldWord.h"
 #include "Common/ImageGrid.h"
 #include "Filters/Attached/DeformableVolume.h"
-#include "Common/FieldWord.h"
 #include "Filters/Deformation/Kernels.h"
 #include "Filters/Deformation/Lattice.h"
 

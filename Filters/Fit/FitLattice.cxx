@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Fit/FitLattice.h"
 
-#include "Filters/Deformation/FoldGuard.h"
 #include "Common/Grid.h"
+#include "Filters/Deformation/FoldGuard.h"
 #include "Filters/Deformation/Kernels.h"
 
 #include <cstddef>

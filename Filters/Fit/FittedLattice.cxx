@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Fit/FittedLattice.h"
 
-#include "Filters/Deformation/FoldGuard.h"
 #include "Common/Parallel.h"
+#include "Filters/Deformation/FoldGuard.h"
 #include "Filters/Fit/FitLattice.h"
 
 #include <glm/geometric.hpp>

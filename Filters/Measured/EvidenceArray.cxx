@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Measured/EvidenceArray.h"
 
+#include "Common/Grid.h"
 #include "Common/ImageGrid.h"
 #include "Filters/Attached/DeformableVolume.h"
-#include "Common/Grid.h"
 #include "Filters/Deformation/PointMap.h"
-#include "Formats/Fields/FieldImage.h"
 #include "Filters/Fit/FittedLattice.h"
 #include "Filters/Fit/LatticeEvidence.h"
+#include "Formats/Fields/FieldImage.h"
 
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkFitDeformation.h"
 
+#include "Common/Guard.h"
+#include "Common/ImageGrid.h"
 #include "Filters/Attached/CavityMask.h"
 #include "Filters/Attached/DeformableVolume.h"
-#include "Common/Guard.h"
 #include "Filters/Attached/MaskImage.h"
-#include "Common/ImageGrid.h"
 #include "Filters/Fields/BaseLattice.h"
-#include "Formats/Fields/FieldImage.h"
 #include "Filters/Fields/FilledArray.h"
 #include "Filters/Fields/FittedFor.h"
 #include "Filters/Fit/Anchors.h"
@@ -20,6 +19,7 @@
 #include "Filters/Measured/FitWords.h"
 #include "Filters/Measured/MeasuredPoints.h"
 #include "Filters/Measured/RestCortex.h"
+#include "Formats/Fields/FieldImage.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"

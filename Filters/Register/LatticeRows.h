@@ -13,9 +13,9 @@
 #define BrainShift_LatticeRows_h
 
 #include "Common/Export.h"
+#include "Common/Parallel.h"
 #include "Filters/Deformation/Kernels.h"
 #include "Filters/Deformation/Lattice.h"
-#include "Common/Parallel.h"
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Registered/RegisteredSource.h"
 
+#include "Common/ImageGrid.h"
 #include "Filters/Attached/ReferenceVolume.h"
 
 #include "vtkDataArray.h"

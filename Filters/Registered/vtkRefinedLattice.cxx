@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRefinedLattice.h"
 
-#include "Filters/Attached/DeformableVolume.h"
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
+#include "Filters/Attached/DeformableVolume.h"
 #include "Formats/Fields/FieldImage.h"
 
 #include "vtkImageData.h"

@@ -3,8 +3,8 @@
 
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
-#include "Filters/Attached/ReferenceVolume.h"
 #include "Common/ImageGrid.h"
+#include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Register/Alignment.h"
 #include "Filters/Register/Refinement.h"
 #include "Filters/Register/Similarity.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/DICOM/DICOMFolder.h"
 
+#include "Common/Parallel.h"
 #include "Formats/DICOM/DICOMAttributes.h"
 #include "Formats/DICOM/DICOMDirectory.h"
 #include "Formats/DICOM/DICOMHeader.h"
 #include "Formats/DICOM/DICOMPlaces.h"
-#include "Common/Parallel.h"
 
 #include <glm/common.hpp>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/DICOM/DICOMVolume.h"
 
+#include "Common/Parallel.h"
 #include "Formats/DICOM/DICOMDirectory.h"
 #include "Formats/DICOM/DICOMPixels.h"
 #include "Formats/DICOM/DICOMUpright.h"
-#include "Common/Parallel.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"

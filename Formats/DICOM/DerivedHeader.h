@@ -9,7 +9,7 @@
 
 #include "Formats/DICOM/DICOMDataSet.h"
 #include "Formats/DICOM/DerivedPixels.h"
-#include "Filters/DICOM/DerivedSet.h"
+#include "Formats/DICOM/DerivedSet.h"
 
 #include <string>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/DICOM/DerivedSet.h"
+#include "Formats/DICOM/DerivedSet.h"
 
 #include <algorithm>
 #include <array>

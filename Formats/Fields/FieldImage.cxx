@@ -5,10 +5,8 @@
 
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
-#include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/matrix.hpp>
 
@@ -16,17 +14,6 @@
 
 namespace brainshift
 {
-void announce(vtkInformation* output, const Grid& grid)
-{
-  const glm::ivec3 last = grid.dimensions - 1;
-  const int whole[6] = { 0, last.x, 0, last.y, 0, last.z };
-  const glm::dmat3 rows = glm::transpose(grid.direction);
-  output->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole, 6);
-  output->Set(vtkDataObject::ORIGIN(), &grid.origin.x, 3);
-  output->Set(vtkDataObject::SPACING(), &grid.spacing.x, 3);
-  output->Set(vtkDataObject::DIRECTION(), &rows[0][0], 9);
-}
-
 void setField(vtkImageData* image, const Grid& grid, const std::vector<glm::vec3>& displacements,
   Direction direction)
 {

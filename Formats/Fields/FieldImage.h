@@ -7,7 +7,7 @@
 #define BrainShift_FieldImage_h
 
 #include "Common/FieldDirection.h"
-#include "Common/Grid.h"
+#include "Common/ImageGrid.h"
 #include "vtkBrainShiftFormatsModule.h" // for the export macro
 
 #include <glm/vec3.hpp>
@@ -16,7 +16,6 @@
 
 class vtkDataArray;
 class vtkImageData;
-class vtkInformation;
 
 namespace brainshift
 {
@@ -28,11 +27,6 @@ constexpr const char* DisplacementName = "Displacement";
  * deviation along an axis; infinity where nothing was measured.
  */
 constexpr const char* DeviationName = "Deviation";
-
-/**
- * Tells the pipeline where an output will lie: on all of a grid. Call it in RequestInformation.
- */
-VTKBRAINSHIFTFORMATS_EXPORT void announce(vtkInformation* output, const Grid& grid);
 
 /**
  * Makes an image of a field: it lies on the whole grid and has the point array Displacement

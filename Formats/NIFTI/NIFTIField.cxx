@@ -2,8 +2,8 @@
 #include "Formats/NIFTI/NIFTIField.h"
 
 #include "Formats/Fields/FieldImage.h"
-#include "Formats/NIFTI/NIFTIFileCheck.h"
 #include "Formats/Files/WholeFile.h"
+#include "Formats/NIFTI/NIFTIFileCheck.h"
 #include "Formats/NIFTI/NIFTIVolume.h"
 #include "Formats/Volumes/PlacedVolume.h"
 
@@ -247,9 +247,8 @@ std::string writeNIFTIField(const std::string& fileName, const DirectedField& fi
   });
 }
 
-extern const FieldFormat FieldsOfNIFTI{
-  []() -> std::vector<std::string> {
-    return { ".nii", ".nii.gz" };
-  },
+extern const FieldFormat FieldsOfNIFTI{ []() -> std::vector<std::string> {
+                                         return { ".nii", ".nii.gz" };
+                                       },
   isNIFTIField, readNIFTIField, writeNIFTIField };
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Surfaces/ScannerFrame.h"
 
-#include "Formats/NIFTI/NIFTIFileCheck.h"
 #include "Formats/MGH/MGHVolume.h"
+#include "Formats/NIFTI/NIFTIFileCheck.h"
 #include "Formats/NIFTI/NIFTIVolume.h"
 #include "Formats/Volumes/RasGrid.h"
 #include "Formats/Volumes/VolumeFile.h"

@@ -61,8 +61,8 @@ std::string noValues()
 template <typename Format>
 bool isOneOf(const std::vector<const Format*>& formats, const std::string& fileName)
 {
-  return std::any_of(formats.begin(), formats.end(),
-    [&](const Format* format) { return format->isOne(fileName); });
+  return std::any_of(
+    formats.begin(), formats.end(), [&](const Format* format) { return format->isOne(fileName); });
 }
 
 // The first of the formats whose file this is. Of a file that none recognises, the last one says
@@ -70,8 +70,8 @@ bool isOneOf(const std::vector<const Format*>& formats, const std::string& fileN
 template <typename Format>
 const Format* formatOf(const std::string& fileName, const std::vector<const Format*>& formats)
 {
-  const auto found = std::find_if(formats.begin(), formats.end(),
-    [&](const Format* format) { return format->isOne(fileName); });
+  const auto found = std::find_if(
+    formats.begin(), formats.end(), [&](const Format* format) { return format->isOne(fileName); });
   return found == formats.end() ? formats.back() : *found;
 }
 
@@ -88,8 +88,7 @@ std::string addValues(
   }
   const std::size_t notes = surface.notes.size();
   const SurfaceFormat* format = formatOfValues(file.bytes);
-  problem = format ? format->addValues(file.bytes, nameOfValues(fileName), surface)
-                   : noValues();
+  problem = format ? format->addValues(file.bytes, nameOfValues(fileName), surface) : noValues();
   const std::vector<std::string> found(
     surface.notes.begin() + static_cast<std::ptrdiff_t>(notes), surface.notes.end());
   surface.notes.resize(notes);

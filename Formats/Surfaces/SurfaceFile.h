@@ -20,8 +20,7 @@ struct SurfaceFormat
   bool (*isOne)(const std::string& fileName); ///< whether a file begins like a surface
   ///@{
   /** Return the end of a sentence, after the name of the file, on what is wrong; else empty. */
-  std::string (*read)(
-    const std::vector<char>& bytes, const GivenVolume& volume, Surface& surface);
+  std::string (*read)(const std::vector<char>& bytes, const GivenVolume& volume, Surface& surface);
   /** Adds a map of values, called `name` if the file does not name it. It was recognised. */
   std::string (*addValues)(
     const std::vector<char>& bytes, const std::string& name, Surface& surface);

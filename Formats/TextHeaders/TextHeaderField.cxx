@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/TextHeaders/TextHeaderField.h"
 
-#include "Common/ImageGrid.h"
 #include "Common/HostMemory.h"
-#include "Formats/TextHeaders/TextHeaderFile.h"
+#include "Common/ImageGrid.h"
 #include "Formats/Files/WholeFile.h"
+#include "Formats/TextHeaders/TextHeaderFile.h"
 
 #include <glm/geometric.hpp>
 
@@ -247,15 +247,13 @@ std::string writeNRRDField(const std::string& fileName, const DirectedField& ras
   return write(fileName, header.str(), field);
 }
 
-extern const FieldFormat FieldsOfMetaImage{
-  []() -> std::vector<std::string> {
-    return { ".mha", ".mhd" };
-  },
+extern const FieldFormat FieldsOfMetaImage{ []() -> std::vector<std::string> {
+                                             return { ".mha", ".mhd" };
+                                           },
   isTextHeaderField, readTextHeaderField, writeMetaImageField };
 
-extern const FieldFormat FieldsOfNRRD{
-  []() -> std::vector<std::string> {
-    return { ".nrrd", ".nhdr" };
-  },
+extern const FieldFormat FieldsOfNRRD{ []() -> std::vector<std::string> {
+                                        return { ".nrrd", ".nhdr" };
+                                      },
   isTextHeaderField, readTextHeaderField, writeNRRDField };
 }

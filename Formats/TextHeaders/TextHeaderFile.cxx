@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/TextHeaders/TextHeaderFile.h"
 
+#include "Formats/Files/PlainFile.h"
 #include "Formats/TextHeaders/MetaImageHeader.h"
 #include "Formats/TextHeaders/NRRDHeader.h"
-#include "Formats/Files/PlainFile.h"
 
 #include "vtkDataArray.h"
 #include "vtkSetGet.h" // for vtkTemplateMacro

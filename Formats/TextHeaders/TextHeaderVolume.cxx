@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/TextHeaders/TextHeaderVolume.h"
 
+#include "Formats/TextHeaders/SegmentTable.h"
 #include "Formats/TextHeaders/TextHeaderField.h"
 #include "Formats/TextHeaders/TextHeaderFile.h"
 #include "Formats/Volumes/OutgoingVolume.h"
-#include "Formats/TextHeaders/SegmentTable.h"
 
 #include "vtkImageData.h"
 #include "vtkPointData.h"

@@ -4,9 +4,9 @@
 #include "Common/HostMemory.h"
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Files/PlainFile.h"
+#include "Formats/NIFTI/NIFTIVolume.h"
 #include "Formats/Transforms/TransformBinary.h"
 #include "Formats/Transforms/TransformText.h"
-#include "Formats/NIFTI/NIFTIVolume.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>

@@ -9,8 +9,8 @@
 #ifndef BrainShift_OutgoingVolume_h
 #define BrainShift_OutgoingVolume_h
 
-#include "Common/WorldAxes.h"
 #include "Common/Grid.h"
+#include "Common/WorldAxes.h"
 #include "vtkBrainShiftFormatsModule.h" // for the export macro
 #include "vtkSmartPointer.h"
 

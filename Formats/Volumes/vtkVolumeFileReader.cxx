@@ -2,10 +2,9 @@
 #include "vtkVolumeFileReader.h"
 
 #include "Common/Guard.h"
-#include "Common/LabelTable.h"
 #include "Common/ImageGrid.h"
+#include "Common/LabelTable.h"
 #include "Common/WorldAxes.h"
-#include "Formats/Fields/FieldImage.h"
 #include "Formats/Volumes/PlacedVolume.h"
 
 #include "vtkDataArray.h"

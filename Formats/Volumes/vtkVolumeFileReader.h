@@ -27,7 +27,7 @@
 
 #include "vtkBrainShiftFormatsModule.h" // for the export macro
 #include "vtkImageAlgorithm.h"
-#include "vtkNew.h"         // for the private part
+#include "vtkNew.h" // for the private part
 #include "vtkSmartPointer.h"
 
 #include <functional> // for the private part
@@ -79,8 +79,8 @@ public:
 
   ///@{
   /**
-   * Whether slices of a DICOM series that are not evenly spaced, or that a tilted gantry shifts, are
-   * interpolated on an upright grid. Default: false; a warning names the error in mm.
+   * Whether slices of a DICOM series that are not evenly spaced, or that a tilted gantry shifts,
+   * are interpolated on an upright grid. Default: false; a warning names the error in mm.
    */
   void SetResampleSlices(bool resample);
   bool GetResampleSlices() const { return this->ResampleSlices; }

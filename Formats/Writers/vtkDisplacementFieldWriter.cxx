@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDisplacementFieldWriter.h"
 
-#include "Common/ImageGrid.h"
 #include "Common/Guard.h"
+#include "Common/ImageGrid.h"
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Fields/FieldImage.h"
 #include "Formats/Writers/WrittenVolume.h"

@@ -15,7 +15,8 @@ REQUESTS = {"RequestData", "RequestInformation", "RequestUpdateExtent", "Request
 DRAWS = {"Render", "RenderOpaqueGeometry", "RenderTranslucentPolygonalGeometry",
          "RenderVolumetricGeometry", "RenderOverlay", "ProcessViewRequest"}
 
-ROOMS = ("Filters", "Representations", "Widgets", "Interaction", "Panel", "Plugin")
+ROOMS = ("Common", "Formats", "Filters", "Representations", "Widgets", "Interaction", "Panel",
+         "Plugin")
 
 
 def every_boundary_is_guarded(tree):

@@ -6,7 +6,8 @@ import re
 
 from tree import folder_of
 
-BUILT = ("Filters", "Representations", "Widgets", "Interaction", "Panel", "Plugin", "Testing/Cxx")
+BUILT = ("Common", "Formats", "Filters", "Representations", "Widgets", "Interaction", "Panel",
+         "Plugin", "Testing/Cxx")
 
 
 def _named_paths(tree):
@@ -54,7 +55,7 @@ def every_script_runs(tree):
 
 def every_proxy_is_loaded(tree):
     """Every .xml of proxies is named by the CMakeLists.txt of its module."""
-    proxies = tree.below("Filters", "Representations", "Plugin", suffixes=(".xml",))
+    proxies = tree.below("Formats", "Filters", "Representations", "Plugin", suffixes=(".xml",))
     for path in _unnamed(tree, proxies):
         yield f"{path}: no CMakeLists.txt names it, so ParaView does not load it"
 

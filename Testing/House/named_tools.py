@@ -5,7 +5,8 @@ import re
 
 from tree import without_comments
 
-PRODUCT = ("Filters", "Representations", "Widgets", "Interaction", "Panel", "Plugin")
+PRODUCT = ("Common", "Formats", "Filters", "Representations", "Widgets", "Interaction", "Panel",
+           "Plugin")
 
 #: The enum of all tools with what strokes need of each, and the list of their rows.
 TABLES = {"Filters/Deformation/Stroke.h", "Interaction/Commands/Tools.cxx"}

@@ -80,8 +80,8 @@ BREAKS = [
     ("no_include_runs_upwards", "Representations/Gpu/Pass.cxx", '#include "vtkDraw.h"\n',
      "Representations/vtkDraw.h"),
     ("no_include_runs_upwards", "Filters/Cellar/Deep.h", header("Deep"), None),
-    ("no_library_where_it_is_kept_out", "Common/Grid.h",
-     header("Grid", "#include <vtkImageData.h>"), None),
+    ("no_library_where_it_is_kept_out", "Filters/Deformation/Kernels.h",
+     header("Kernels", "#include <vtkImageData.h>"), None),
     ("no_library_where_it_is_kept_out", "Filters/vtkShow.cxx", "#include <QWidget>\n", None),
     ("no_library_where_it_is_kept_out", "Filters/vtkShow.cxx",
      '#include "vtkOpenGLState.h"\n', None),
@@ -91,9 +91,9 @@ BREAKS = [
      '#include "Filters/Deformation/Stroke.h"\n', "Filters/Deformation/Stroke.h"),
     ("no_circle_between_files", "Testing/Support/helper.py",
      "def f():\n    import Pick\n", None),
-    ("no_file_is_long", "Representations/vtkDraw.cxx", "int a;\n" * 501, None),
+    ("no_file_is_long", "Representations/vtkDraw.cxx", "int a;\n" * 701, None),
     ("no_file_is_long", "Shaders/Rays/rays.frag.glsl", "int a;\n" * 151, None),
-    ("no_file_is_long", "Filters/Bend.xml", "<a/>\n" * 251, None),
+    ("no_file_is_long", "Filters/Bend.xml", "<a/>\n" * 701, None),
     ("no_file_names_a_tool_of_another", "Interaction/Tools/TwistTool.cxx",
      "int f() { return int(Tool::Twist) + int(Tool::Stamp); }\n", None),
     ("no_file_names_a_tool_of_another", "Panel/Tools/Buttons.cxx",
@@ -147,13 +147,6 @@ class SeenToFail(unittest.TestCase):
                 if path != "Filters/CMakeLists.txt":
                     self.assertTrue(any(name in sentence for sentence in found), found)
 
-    def test_crowded_folder(self):
-        files = house()
-        files.update({f"Panel/{number}.svg": "" for number in range(34)})
-        self.assertEqual(found_in("no_folder_is_crowded", files), [])
-        files["Panel/one-more.svg"] = ""
-        self.assertTrue(found_in("no_folder_is_crowded", files)[0].startswith("Panel: has 36"))
-
     def test_a_new_tool(self):
         """What CONTRIBUTING.md names for a new tool passes every check, and is at most 9 files."""
         files = house()
@@ -181,8 +174,7 @@ class SeenToFail(unittest.TestCase):
             self.assertIn(f"  {check}\n", listed.replace(")", "\n"))
 
     def test_every_check_is_broken_once(self):
-        self.assertEqual({check for check, *_ in BREAKS} | {"no_folder_is_crowded"},
-                         set(check_house.CHECKS))
+        self.assertEqual({check for check, *_ in BREAKS}, set(check_house.CHECKS))
 
 
 class Tracked(unittest.TestCase):

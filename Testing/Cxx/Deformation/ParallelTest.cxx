@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that the loop without VTK takes many threads, does every step once and hands on what a piece
-// throws.
+// Proves that the loop without VTK takes many threads, does every step once and hands on what a
+// piece throws.
 #include "Common/Parallel.h"
 
 #include <gtest/gtest.h>

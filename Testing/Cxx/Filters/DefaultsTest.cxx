@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that a default in the XML is the class's own: it is written twice but lives once.
+#include "Formats/Volumes/vtkVolumeFileReader.h"
 #include "Testing/Cxx/Filters/TestDefaults.h"
 #include "vtkBakeDeformation.h"
 #include "vtkCompareVolumes.h"
-#include "Formats/Volumes/vtkVolumeFileReader.h"
 #include "vtkDeformGeometry.h"
 #include "vtkDeformationField.h"
 #include "vtkDisplacementFieldReader.h"

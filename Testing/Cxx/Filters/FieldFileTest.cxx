@@ -113,11 +113,11 @@ std::string writeVectors(const char* name, int intent, const char* intentName, f
 }
 }
 
-class FieldFormat : public ::testing::TestWithParam<const char*>
+class FieldFileFormat : public ::testing::TestWithParam<const char*>
 {
 };
 
-TEST_P(FieldFormat, KeepsPlaceVectorsAndDirection)
+TEST_P(FieldFileFormat, KeepsPlaceVectorsAndDirection)
 {
   const std::string fileName = scratch(std::string("field") + GetParam());
   for (const Direction direction : { Direction::Forward, Direction::Backward })
@@ -132,7 +132,7 @@ TEST_P(FieldFormat, KeepsPlaceVectorsAndDirection)
   }
 }
 
-TEST_P(FieldFormat, ReaderAndWriterMeanTheSameWorld)
+TEST_P(FieldFileFormat, ReaderAndWriterMeanTheSameWorld)
 {
   const std::string fileName = scratch(std::string("world") + GetParam());
   const DirectedField field = someField(Direction::Backward);
@@ -168,7 +168,7 @@ TEST_P(FieldFormat, ReaderAndWriterMeanTheSameWorld)
   EXPECT_EQ(directionOf(reader->GetOutput()), Direction::Forward) << "the user knows better";
 }
 
-TEST_P(FieldFormat, TruncatedFilesAreNamed)
+TEST_P(FieldFileFormat, TruncatedFilesAreNamed)
 {
   const std::string fileName = scratch(std::string("short") + GetParam());
   ASSERT_EQ(writeFieldFile(fileName, someField(Direction::Backward)), "");
@@ -183,7 +183,7 @@ TEST_P(FieldFormat, TruncatedFilesAreNamed)
 }
 
 INSTANTIATE_TEST_SUITE_P(
-  All, FieldFormat, ::testing::Values(".nii", ".nii.gz", ".mha", ".mhd", ".nrrd"));
+  All, FieldFileFormat, ::testing::Values(".nii", ".nii.gz", ".mha", ".mhd", ".nrrd"));
 
 TEST(FieldFile, NIFTISaysDisplacementAndDirection)
 {

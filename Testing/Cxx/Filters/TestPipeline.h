@@ -3,6 +3,7 @@
 #ifndef BrainShift_TestPipeline_h
 #define BrainShift_TestPipeline_h
 
+#include "Common/ImageGrid.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Deformation/Stroke.h"
 #include "Testing/Cxx/Deformation/TestLattices.h"

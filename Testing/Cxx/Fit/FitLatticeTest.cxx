@@ -2,8 +2,8 @@
 // Proves that the cubic between the control points has the field's values at them with both kernels
 // and comes near to it between them, and that a field that folds is shortened.
 #include "Filters/Fit/FitLattice.h"
-#include "Filters/Deformation/ControlPoints.h"
 #include "Common/Grid.h"
+#include "Filters/Deformation/ControlPoints.h"
 #include "Filters/Deformation/Kernels.h"
 #include "Filters/Deformation/LatticeExtremes.h"
 #include "Filters/Deformation/PointMap.h"

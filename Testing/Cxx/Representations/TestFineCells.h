@@ -4,8 +4,8 @@
 #ifndef BrainShift_TestFineCells_h
 #define BrainShift_TestFineCells_h
 
-#include "Filters/Deformation/FieldChange.h"
 #include "Common/Grid.h"
+#include "Filters/Deformation/FieldChange.h"
 #include "Filters/Deformation/LatticeExtremes.h"
 #include "Representations/Field/FineCells.h"
 #include "Testing/Cxx/Deformation/TestLattices.h"
