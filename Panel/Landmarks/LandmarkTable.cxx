@@ -39,12 +39,12 @@ LandmarkTable::LandmarkTable(LandmarkList* list, QWidget* parent)
   , Problem(new QLabel(this))
   , Request(new QLabel(this))
   , Figures(new QLabel(this))
-  , Pick(this->addButton("BrainShiftPickPairs", tr("Pick Pairs"),
+  , Pick(makeListButton(this, "BrainShiftPickPairs", tr("Pick Pairs"),
       tr("Pick pairs of landmarks: click a position in the deformed volume, then the same position "
          "in the reference. Drags and the wheel work as usual. Press again, or Escape, to stop.")))
-  , GoTo(this->addButton("BrainShiftGoTo", tr("Go To"),
+  , GoTo(makeListButton(this, "BrainShiftGoTo", tr("Go To"),
       tr("Bring the slices of all views to the selected landmark (double-click)")))
-  , Delete(this->addButton("BrainShiftLandmarkDelete", tr("Delete"),
+  , Delete(makeListButton(this, "BrainShiftLandmarkDelete", tr("Delete"),
       tr("Delete the selected pairs that were picked (Delete key). Those of files stay; switch "
          "them off by their check mark.")))
   , Marks(new QCheckBox(tr("Marks"), this))
@@ -96,16 +96,6 @@ void LandmarkTable::layOut()
   column->addWidget(this->Figures);
   column->addLayout(buttons);
   column->addWidget(this->Request);
-}
-
-QToolButton* LandmarkTable::addButton(const char* name, const QString& text, const QString& tip)
-{
-  auto button = new QToolButton(this);
-  button->setObjectName(name);
-  button->setText(text);
-  button->setToolTip(tip);
-  button->setFocusPolicy(Qt::TabFocus); // a click leaves the keyboard where it is
-  return button;
 }
 
 void LandmarkTable::pick(bool on)

@@ -27,7 +27,6 @@ public:
   LandmarkTable(LandmarkList* list, QWidget* parent = nullptr);
 
 private:
-  QToolButton* addButton(const char* name, const QString& text, const QString& tip);
   void layOut();
   void pick(bool on);
   void goTo();

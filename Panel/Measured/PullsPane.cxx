@@ -42,28 +42,18 @@ PullsPane::PullsPane(pqPipelineSource* deformation, QWidget* parent)
   , Editor(FitEditor::of(deformation))
   , Pulls(makeModel(this->Editor, this))
   , Tree(new ListTree(this->Pulls, { 2, 7, tr("There are no pulls or pins.") }, this))
-  , Delete(new QToolButton(this))
-  , Clear(new QToolButton(this))
+  , Delete(makeListButton(this, "BrainShiftDeletePulls", tr("Delete"),
+      tr("Delete the selected pulls and pins (Delete key). Ctrl+Z brings them back."),
+      ":/BrainShift/delete.svg"))
+  , Clear(makeListButton(this, "BrainShiftClearPulls", tr("Clear All"),
+      tr("Delete all pulls and pins. Ctrl+Z brings them back."), ":/BrainShift/reset.svg"))
 {
   this->setObjectName("Pulls");
   this->Tree->setObjectName("BrainShiftPulls");
   this->Tree->setAccessibleName(tr("Pulls and pins"));
-  this->Delete->setObjectName("BrainShiftDeletePulls");
-  this->Delete->setText(tr("Delete"));
-  this->Delete->setIcon(QIcon(":/BrainShift/delete.svg"));
-  this->Delete->setToolTip(
-    tr("Delete the selected pulls and pins (Delete key). Ctrl+Z brings them back."));
-  this->Clear->setObjectName("BrainShiftClearPulls");
-  this->Clear->setText(tr("Clear All"));
-  this->Clear->setIcon(QIcon(":/BrainShift/reset.svg"));
-  this->Clear->setToolTip(tr("Delete all pulls and pins. Ctrl+Z brings them back."));
   auto buttons = new QHBoxLayout;
-  for (QToolButton* button : { this->Delete, this->Clear })
-  {
-    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-    button->setFocusPolicy(Qt::TabFocus); // a click leaves the keyboard where it is
-    buttons->addWidget(button);
-  }
+  buttons->addWidget(this->Delete);
+  buttons->addWidget(this->Clear);
   buttons->addStretch();
   auto column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);

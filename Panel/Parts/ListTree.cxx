@@ -8,9 +8,11 @@
 #include <QEvent>
 #include <QGuiApplication>
 #include <QHeaderView>
+#include <QIcon>
 #include <QKeyEvent>
 #include <QPainter>
 #include <QStyledItemDelegate>
+#include <QToolButton>
 
 #include <algorithm>
 
@@ -36,6 +38,22 @@ public:
     return editor;
   }
 };
+}
+
+QToolButton* makeListButton(
+  QWidget* parent, const char* name, const QString& text, const QString& tip, const char* icon)
+{
+  auto button = new QToolButton(parent);
+  button->setObjectName(name);
+  button->setText(text);
+  button->setToolTip(tip);
+  button->setFocusPolicy(Qt::TabFocus);
+  if (icon)
+  {
+    button->setIcon(QIcon(icon));
+    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  }
+  return button;
 }
 
 ListTree::ListTree(ListModel* model, const Room& room, QWidget* parent)

@@ -8,9 +8,15 @@
 #include <QList>
 #include <QTreeView>
 
+class QToolButton;
+
 namespace brainshift
 {
 class ListModel;
+
+/// A button below a list. A click leaves the keyboard where it is.
+QToolButton* makeListButton(QWidget* parent, const char* name, const QString& text,
+  const QString& tip, const char* icon = nullptr);
 
 class ListTree : public QTreeView
 {

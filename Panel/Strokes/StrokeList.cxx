@@ -21,29 +21,21 @@ StrokeList::StrokeList(StrokeModel* model, QWidget* parent)
       { 4, 9, tr("There are no strokes yet. Choose a tool, then work on the volume in the view.") },
       this))
   , Problem(new QLabel(this))
-  , Delete(new QToolButton(this))
-  , Reset(new QToolButton(this))
+  , Delete(makeListButton(this, "BrainShiftDelete", tr("Delete"),
+      tr("Delete the selected strokes (Delete key). Ctrl+Z brings them back."),
+      ":/BrainShift/delete.svg"))
+  , Reset(makeListButton(this, "BrainShiftReset", tr("Reset All"),
+      tr("Delete all strokes. Ctrl+Z brings them back."), ":/BrainShift/reset.svg"))
 {
   this->setObjectName("List");
   this->Tree->setObjectName("BrainShiftStrokes");
   this->Tree->setAccessibleName(tr("Strokes"));
   this->Problem->setObjectName("BrainShiftProblem");
   this->Problem->setWordWrap(true);
-  this->Delete->setObjectName("BrainShiftDelete");
-  this->Delete->setText(tr("Delete"));
-  this->Delete->setIcon(QIcon(":/BrainShift/delete.svg"));
-  this->Delete->setToolTip(
-    tr("Delete the selected strokes (Delete key). Ctrl+Z brings them back."));
-  this->Reset->setObjectName("BrainShiftReset");
-  this->Reset->setText(tr("Reset All"));
-  this->Reset->setIcon(QIcon(":/BrainShift/reset.svg"));
-  this->Reset->setToolTip(tr("Delete all strokes. Ctrl+Z brings them back."));
 
   auto buttons = new QHBoxLayout;
   for (QToolButton* button : { this->Delete, this->Reset })
   {
-    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-    button->setFocusPolicy(Qt::TabFocus); // a click leaves the keyboard where it is
     buttons->addWidget(button);
     this->connect(button, &QToolButton::pressed, this, &StrokeList::giveFocusBack);
   }
