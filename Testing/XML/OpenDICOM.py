@@ -30,7 +30,7 @@ def main():
         with open(record_file(name), encoding="utf-8") as file:
             told = json.load(file)
         os.remove(record_file(name))
-        assert told["class"] == "vtkDICOMVolumeReader", told
+        assert told["class"] == "vtkVolumeFileReader", told
         assert told["series"].endswith(series), told
         assert abs(told["range"][0] - lowest) < 0.1, told
         assert max(abs(a - b) for a, b in zip(told["bounds"], bounds)) < 0.02, told

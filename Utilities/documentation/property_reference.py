@@ -6,7 +6,7 @@ import pathlib
 import xml.etree.ElementTree as ElementTree
 
 CHECKOUT = pathlib.Path(__file__).resolve().parents[2]
-FOLDERS = ("Filters", "Representations", "Widgets")
+FOLDERS = ("Formats", "Filters", "Representations", "Widgets")
 PROXIES = ("SourceProxy", "WriterProxy", "RepresentationProxy", "Proxy",
            "NewWidgetRepresentationProxy")
 PUBLIC = PROXIES[:3]

@@ -103,7 +103,8 @@ TEST(Defaults, OfDICOMReaderLiveInTheClass)
 {
   vtkNew<vtkVolumeFileReader> reader;
   EXPECT_STREQ(reader->GetChoice(), "");
-  const Defaults expected{ { "ResampleSlices", { double(reader->GetResampleSlices()) } } };
+  const Defaults expected{ { "Format", {} }, // the text "DICOM"
+    { "ResampleSlices", { double(reader->GetResampleSlices()) } } };
   EXPECT_EQ(defaultsIn("Formats/DICOM/DICOMVolumeReader.xml"), expected);
 }
 
@@ -214,7 +215,7 @@ TEST(Defaults, OfTransformPointsLiveInTheClass)
 {
   vtkNew<vtkTransformPoints> filter;
   const Defaults expected{ { "Direction", { double(filter->GetDirection()) } } };
-  EXPECT_EQ(defaultsIn("Formats/Transforms/TransformPoints.xml"), expected);
+  EXPECT_EQ(defaultsIn("Filters/Proxies/TransformPoints.xml"), expected);
 }
 
 TEST(Defaults, OfTransformReaderLiveInTheClass)

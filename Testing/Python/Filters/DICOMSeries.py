@@ -37,7 +37,7 @@ def opened(path):
     reader = OpenDataFile(path)
     assert reader is not None, "no reader for " + path
     name = reader.GetClientSideObject().GetClassName()
-    assert name == "vtkDICOMVolumeReader", name
+    assert (name, reader.Format) == ("vtkVolumeFileReader", "DICOM"), (name, reader)
     reader.UpdatePipeline()
     return reader
 
