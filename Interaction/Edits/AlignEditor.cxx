@@ -39,9 +39,9 @@ constexpr double LeastCompared = 0.25;
 constexpr const char* Motion[] = { "ReferenceRotation", "ReferenceTranslation" };
 // What an alignment stands on. Whoever changes one of these in the meantime ends it.
 constexpr const char* Ground[] = { "Input", "Reference", "Cavity", "CavityLabels" };
+// Beside the settings of the lattice.
 constexpr const char* GroundOfDeformation[] = { "Input", "Lattice", "Strokes", "Strength",
-  "Inverse", "LatticeDimensions", "Kernel", "Samples", "Mask", "MaskLabels", "MaskGrowth",
-  "Feather" };
+  "Inverse" };
 
 template <std::size_t Count>
 bool isAmong(const char* const (&names)[Count], const char* name)
@@ -244,7 +244,9 @@ void AlignEditor::notice(vtkObject* proxy, unsigned long, void*, void* name)
   const auto* property = static_cast<const char*>(name);
   const bool isOwn = proxy == this->Source->getProxy();
   const bool isMotion = isOwn && isAmong(Motion, property);
-  const bool isGround = isOwn ? isAmong(Ground, property) : isAmong(GroundOfDeformation, property);
+  const bool isGround = isOwn ? isAmong(Ground, property)
+                              : isAmong(GroundOfDeformation, property) ||
+      isLatticeSetting(vtkSMProxy::SafeDownCast(proxy), property);
   if (!this->isActive() || this->Writing || (!isMotion && !isGround))
   {
     return;

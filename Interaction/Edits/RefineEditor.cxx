@@ -38,11 +38,10 @@ namespace
 {
 // As in brainshift.fit and brainshift.refine of Python: sources that are BrainShift's own.
 constexpr const char* MadeByUs = "BrainShiftFit";
-constexpr const char* Shared[] = { "Input", "LatticeDimensions" };
 
-// What a refinement stands on. Whoever changes one of these in the meantime ends it.
-constexpr const char* Ground[] = { "Input", "Lattice", "Strokes", "Strength", "LatticeDimensions",
-  "Kernel", "Samples", "Mask", "MaskLabels", "MaskGrowth", "Feather" };
+// What a refinement stands on, beside the settings of the lattice. Whoever changes one of these in
+// the meantime ends it.
+constexpr const char* Ground[] = { "Input", "Lattice", "Strokes", "Strength" };
 
 void setNumbers(vtkSMProxy* proxy, const char* name, const std::vector<double>& numbers)
 {
@@ -189,10 +188,7 @@ vtkSmartPointer<vtkSMProxy> RefineEditor::makeLattice() const
     deformation->GetSessionProxyManager()->NewProxy("filters", "RefinedLattice"));
   vtkNew<vtkSMParaViewPipelineController> controller;
   controller->PreInitializeProxy(made);
-  for (const char* name : Shared)
-  {
-    made->GetProperty(name)->Copy(deformation->GetProperty(name));
-  }
+  shareLattice(deformation, made);
   controller->PostInitializeProxy(made);
   made->SetAnnotation(MadeByUs, "1");
   made->UpdateVTKObjects();
@@ -317,10 +313,7 @@ void RefineEditor::keep(State end)
     // One of an earlier refinement. Who else takes it keeps it.
     if (isRefined(lattice) && !isTakenByOthers(lattice, deformation))
     {
-      for (const char* name : Shared)
-      {
-        lattice->GetProperty(name)->Copy(deformation->GetProperty(name));
-      }
+      shareLattice(deformation, lattice);
     }
     else
     {
@@ -427,7 +420,8 @@ void RefineEditor::notice(vtkObject*, unsigned long, void*, void* name)
     return std::strcmp(property, static_cast<const char*>(name)) == 0;
   };
   if (this->isActive() && !this->Writing &&
-    std::any_of(std::begin(Ground), std::end(Ground), isChanged))
+    (std::any_of(std::begin(Ground), std::end(Ground), isChanged) ||
+      isLatticeSetting(this->Source->getProxy(), static_cast<const char*>(name))))
   {
     this->abandon(tr("%1 of %2 was changed, so the refinement ended.")
         .arg(QString(static_cast<const char*>(name)), this->Source->getSMName()));
