@@ -11,12 +11,11 @@
 #include "vtkImageData.h"
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/type_ptr.hpp>
 #include <glm/vector_relational.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <regex>
@@ -34,11 +33,12 @@ constexpr double BoxTolerance = 1e-6; // of a cell
 constexpr double WeightTolerance = 1e-6;
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
+// The numbers of the array, in this order.
 struct FittedFor
 {
-  glm::ivec3 dimensions{ 0 };
-  int kernel = 0;
-  int samples = 0;
+  glm::dvec3 dimensions{ 0.0 };
+  double kernel = 0.0;
+  double samples = 0.0;
   glm::dvec3 first{ 0.0 };   // mm, corners of the box
   glm::dvec3 last{ 0.0 };    // mm
   glm::dvec3 weights{ NaN }; // sums over the mask; NaN: no mask. Old files: the plain sum alone
@@ -46,10 +46,11 @@ struct FittedFor
   bool hasMask() const { return !std::isnan(this->weights.x); }
   double nodes() const
   {
-    const glm::dvec3 sides((this->dimensions - 1) * (this->samples + 1) + 1);
+    const glm::dvec3 sides = (this->dimensions - 1.0) * (this->samples + 1.0) + 1.0;
     return sides.x * sides.y * sides.z;
   }
 };
+static_assert(sizeof(FittedFor) == NumberOfNumbers * sizeof(double));
 
 // 1 and two numbers from -1 to 1 that look random (splitmix64 by Steele et al., 2014). Sums with
 // them are equal, but for rounding, only if all weights are.
@@ -63,26 +64,22 @@ glm::dvec3 factorsOf(std::uint64_t node)
   return { 1.0, double(bits & 0xffffffffU) / Half - 1.0, double(bits >> 32) / Half - 1.0 };
 }
 
-void setCorners(FittedFor& fitted, const Grid& grid)
+FittedFor fittedFor(const Grid& grid, int kernel, int samples)
 {
-  fitted.first = grid.origin;
-  fitted.last = grid.worldFromGrid(glm::dvec3(grid.dimensions - 1));
+  return { glm::dvec3(grid.dimensions), double(kernel), double(samples), grid.origin,
+    grid.worldFromGrid(glm::dvec3(grid.dimensions - 1)) };
 }
 
 FittedFor fittedFor(const Lattice& lattice, int samples)
 {
-  FittedFor result{ lattice.grid.dimensions, lattice.kernel, samples };
-  setCorners(result, lattice.grid);
+  FittedFor result = fittedFor(lattice.grid, lattice.kernel, samples);
   if (lattice.mask && !lattice.mask->values.empty())
   {
     result.weights = glm::dvec3(0.0);
-    const std::vector<float>& values = lattice.mask->values;
-    for (std::size_t node = 0; node < values.size(); ++node)
+    std::uint64_t node = 0;
+    for (const float weight : lattice.mask->values)
     {
-      if (values[node] != 0.0f)
-      {
-        result.weights += static_cast<double>(values[node]) * factorsOf(node);
-      }
+      result.weights += double(weight) * factorsOf(node++);
     }
   }
   return result;
@@ -102,11 +99,9 @@ std::optional<FittedFor> oldFittedFor(vtkDataObject* base)
   {
     return {};
   }
-  FittedFor fitted;
+  FittedFor fitted = fittedFor(
+    gridOf(image), parts[4] == "B-Spline" ? KernelBSpline : KernelCatmullRom, std::stoi(parts[5]));
   fitted.dimensions = { std::stoi(parts[1]), std::stoi(parts[2]), std::stoi(parts[3]) };
-  fitted.kernel = parts[4] == "B-Spline" ? KernelBSpline : KernelCatmullRom;
-  fitted.samples = std::stoi(parts[5]);
-  setCorners(fitted, gridOf(image));
   if (parts[7].matched)
   {
     fitted.weights = { std::stod(parts[7]) / 100.0 * fitted.nodes(), NaN, NaN };
@@ -123,19 +118,17 @@ std::optional<FittedFor> fittedForOf(vtkDataObject* base)
   {
     return oldFittedFor(base);
   }
-  const double* numbers = array->GetPointer(0);
-  return FittedFor{ glm::ivec3(glm::make_vec3(numbers)), static_cast<int>(numbers[3]),
-    static_cast<int>(numbers[4]), glm::make_vec3(numbers + 5), glm::make_vec3(numbers + 8),
-    glm::make_vec3(numbers + 11) };
+  FittedFor fitted;
+  std::memcpy(&fitted, array->GetPointer(0), sizeof(fitted));
+  return fitted;
 }
 
 // To rounding: on several MPI ranks each knows the box from its own piece.
-bool coversSameBox(const FittedFor& one, const FittedFor& other)
+bool coversSameBox(const FittedFor& one, const FittedFor& two)
 {
-  const double cell = glm::distance(other.first, other.last) /
-    std::max(1, *std::max_element(&other.dimensions.x, &other.dimensions.x + 3));
-  return glm::distance(one.first, other.first) <= BoxTolerance * cell &&
-    glm::distance(one.last, other.last) <= BoxTolerance * cell;
+  const double tolerance = BoxTolerance * glm::length((two.last - two.first) / two.dimensions);
+  return glm::distance(one.first, two.first) <= tolerance &&
+    glm::distance(one.last, two.last) <= tolerance;
 }
 
 // Of lattices with the same nodes.
@@ -151,19 +144,43 @@ bool hasSameMask(const FittedFor& one, const FittedFor& other)
       glm::all(glm::lessThanEqual(away, glm::dvec3(WeightTolerance * std::sqrt(one.nodes())))));
 }
 
-std::string wordsOnMask(const FittedFor& fitted)
+template <typename... Parts>
+std::string joined(const Parts&... parts)
 {
   std::ostringstream words;
-  words << "a mask that lets " << 100.0 * fitted.weights.x / fitted.nodes() << " % move";
-  return fitted.hasMask() ? words.str() : "no mask";
+  (words << ... << parts);
+  return words.str();
+}
+
+std::string wordsOnSides(const FittedFor& fitted)
+{
+  const glm::dvec3& sides = fitted.dimensions;
+  return joined("LatticeDimensions ", sides.x, " x ", sides.y, " x ", sides.z);
+}
+
+std::string wordsOnKernel(const FittedFor& fitted)
+{
+  return joined("Kernel ", fitted.kernel == KernelCatmullRom ? "Catmull-Rom" : "B-Spline");
+}
+
+std::string wordsOnSamples(const FittedFor& fitted)
+{
+  return joined("Samples ", fitted.samples);
+}
+
+std::string wordsOnMask(const FittedFor& fitted)
+{
+  return fitted.hasMask()
+    ? joined("a mask that lets ", 100.0 * fitted.weights.x / fitted.nodes(), " % move")
+    : "no mask";
 }
 
 std::string wordsOnBox(const FittedFor& fitted)
 {
-  std::ostringstream words;
-  words << "the box from " << fitted.first.x << " " << fitted.first.y << " " << fitted.first.z
-        << " to " << fitted.last.x << " " << fitted.last.y << " " << fitted.last.z << " mm";
-  return words.str();
+  const glm::dvec3& from = fitted.first;
+  const glm::dvec3& to = fitted.last;
+  return joined(
+    "the box from ", from.x, " ", from.y, " ", from.z, " to ", to.x, " ", to.y, " ", to.z, " mm");
 }
 
 // The settings that differ, with the value of either side.
@@ -171,55 +188,29 @@ struct Differences
 {
   std::string fitted;
   std::string wanted;
-
-  void add(const std::string& one, const std::string& other)
-  {
-    this->fitted += (this->fitted.empty() ? "" : ", ") + one;
-    this->wanted += (this->wanted.empty() ? "" : ", ") + other;
-  }
 };
-
-std::string wordsOnSides(const FittedFor& fitted)
-{
-  return "LatticeDimensions " + std::to_string(fitted.dimensions.x) + " x " +
-    std::to_string(fitted.dimensions.y) + " x " + std::to_string(fitted.dimensions.z);
-}
-
-std::string wordsOnKernel(const FittedFor& fitted)
-{
-  return std::string("Kernel ") + (fitted.kernel == KernelCatmullRom ? "Catmull-Rom" : "B-Spline");
-}
 
 Differences differencesOf(const FittedFor& fitted, const FittedFor& wanted)
 {
   Differences found;
-  if (fitted.dimensions != wanted.dimensions)
-  {
-    found.add(wordsOnSides(fitted), wordsOnSides(wanted));
-  }
-  if (fitted.kernel != wanted.kernel)
-  {
-    found.add(wordsOnKernel(fitted), wordsOnKernel(wanted));
-  }
-  if (fitted.samples != wanted.samples)
-  {
-    found.add(
-      "Samples " + std::to_string(fitted.samples), "Samples " + std::to_string(wanted.samples));
-  }
+  const auto add = [&](bool differs, std::string (*wordsOn)(const FittedFor&)) {
+    if (differs)
+    {
+      const char* comma = found.fitted.empty() ? "" : ", ";
+      const std::string here = wordsOn(wanted);
+      found.fitted += comma + wordsOn(fitted);
+      found.wanted += comma + (here == wordsOn(fitted) ? "another " + here.substr(2) : here);
+    }
+  };
+  add(fitted.dimensions != wanted.dimensions, wordsOnSides);
+  add(fitted.kernel != wanted.kernel, wordsOnKernel);
+  add(fitted.samples != wanted.samples, wordsOnSamples);
   // Weights can be compared only at the same nodes.
-  const bool hasSameNodes =
+  const bool areComparable =
     fitted.dimensions == wanted.dimensions && fitted.samples == wanted.samples;
-  if (hasSameNodes ? !hasSameMask(fitted, wanted) : fitted.hasMask() != wanted.hasMask())
-  {
-    const std::string one = wordsOnMask(fitted);
-    const std::string other = wordsOnMask(wanted);
-    found.add(
-      one, other == one ? "another mask" + other.substr(std::string("a mask").size()) : other);
-  }
-  if (!coversSameBox(fitted, wanted))
-  {
-    found.add(wordsOnBox(fitted), wordsOnBox(wanted));
-  }
+  add(areComparable ? !hasSameMask(fitted, wanted) : fitted.hasMask() != wanted.hasMask(),
+    wordsOnMask);
+  add(!coversSameBox(fitted, wanted), wordsOnBox);
   return found;
 }
 }
@@ -229,18 +220,8 @@ void attachFittedFor(vtkDataObject* image, const Lattice& lattice, int samples)
   const FittedFor fitted = fittedFor(lattice, samples);
   vtkNew<vtkDoubleArray> array;
   array->SetName(ArrayName);
-  const auto add = [&array](const glm::dvec3& numbers) {
-    for (int i = 0; i < 3; ++i)
-    {
-      array->InsertNextValue(numbers[i]);
-    }
-  };
-  add(fitted.dimensions);
-  array->InsertNextValue(fitted.kernel);
-  array->InsertNextValue(fitted.samples);
-  add(fitted.first);
-  add(fitted.last);
-  add(fitted.weights);
+  array->SetNumberOfValues(NumberOfNumbers);
+  std::memcpy(array->GetPointer(0), &fitted, sizeof(fitted));
   image->GetFieldData()->AddArray(array);
 }
 

@@ -34,18 +34,6 @@ void vtkLatticeAlgorithm::SetMaskConnection(vtkAlgorithmOutput* mask)
   this->SetInputConnection(MaskPort, mask);
 }
 
-void vtkLatticeAlgorithm::AddMaskLabel(int label)
-{
-  this->MaskLabels.push_back(label);
-  this->Modified();
-}
-
-void vtkLatticeAlgorithm::ClearMaskLabels()
-{
-  this->MaskLabels.clear();
-  this->Modified();
-}
-
 int vtkLatticeAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");

@@ -58,8 +58,8 @@ public:
 
   ///@{
   /** The labels of the mask that are inside. Default: none, which means every value above 0. */
-  void AddMaskLabel(int label);
-  void ClearMaskLabels();
+  void AddMaskLabel(int label) { this->Append(this->MaskLabels, label); }
+  void ClearMaskLabels() { this->Clear(this->MaskLabels); }
   ///@}
 
   ///@{
@@ -88,6 +88,22 @@ protected:
 
   static constexpr int BasePort = 1;
   static constexpr int MaskPort = 2;
+
+  ///@{
+  /** Changes a property that is a list. */
+  template <typename List, typename Item>
+  void Append(List& list, const Item& item)
+  {
+    list.push_back(item);
+    this->Modified();
+  }
+  template <typename List>
+  void Clear(List& list)
+  {
+    list.clear();
+    this->Modified();
+  }
+  ///@}
 
   /** Input 0 is required, all others are optional. All are vtkImageData. */
   int FillInputPortInformation(int port, vtkInformation* info) override;

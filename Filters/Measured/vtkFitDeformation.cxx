@@ -132,52 +132,24 @@ vtkFitDeformation::vtkFitDeformation()
 
 vtkFitDeformation::~vtkFitDeformation() = default;
 
-void vtkFitDeformation::AddPull(double number)
-{
-  this->Pulls.push_back(number);
-  this->Modified();
-}
-
-void vtkFitDeformation::ClearPulls()
-{
-  this->Pulls.clear();
-  this->Modified();
-}
-
-void vtkFitDeformation::AddPin(double number)
-{
-  this->Pins.push_back(number);
-  this->Modified();
-}
-
-void vtkFitDeformation::ClearPins()
-{
-  this->Pins.clear();
-  this->Modified();
-}
-
 void vtkFitDeformation::AddLandmarkPair(double number)
 {
-  this->Landmarks->Numbers.push_back(number);
-  this->Modified();
+  this->Append(this->Landmarks->Numbers, number);
 }
 
 void vtkFitDeformation::ClearLandmarkPairs()
 {
-  this->Landmarks->Numbers.clear();
-  this->Modified();
+  this->Clear(this->Landmarks->Numbers);
 }
 
 void vtkFitDeformation::AddLandmarkOff(const char* name)
 {
-  this->Landmarks->SwitchedOff.emplace_back(name ? name : "");
-  this->Modified();
+  this->Append(this->Landmarks->SwitchedOff, std::string(name ? name : ""));
 }
 
 void vtkFitDeformation::ClearLandmarksOff()
 {
-  this->Landmarks->SwitchedOff.clear();
-  this->Modified();
+  this->Clear(this->Landmarks->SwitchedOff);
 }
 
 int vtkFitDeformation::FillInputPortInformation(int port, vtkInformation* info)
@@ -528,17 +500,16 @@ void vtkFitDeformation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "GuardFolding: " << this->GuardFolding << "\n"
-            << indent << "Live: " << this->Live << "\n"
-            << indent << "SurfaceArray: " << this->SurfaceArray << "\n"
-            << indent << "SurfaceBy: " << (this->SurfaceBy ? "Label" : "Threshold") << "\n"
-            << indent << "Threshold: " << this->Threshold << "\n"
-            << indent << "Label: " << this->Label << "\n"
-            << indent << "Anchors: " << this->Anchors << "\n"
-            << indent << "OpeningRadius: " << this->OpeningRadius << "\n"
-            << indent << "Evidence: " << this->Evidence << "\n"
-            << indent
-            << "LandmarkPairs: " << this->Landmarks->Numbers.size() / FitLandmarks::NumbersPerPair
-            << "\n"
-            << indent << "Pulls: " << this->Pulls.size() / NumbersPerPull << "\n"
-            << indent << "Pins: " << this->Pins.size() / NumbersPerPin << "\n";
+     << indent << "Live: " << this->Live << "\n"
+     << indent << "SurfaceArray: " << this->SurfaceArray << "\n"
+     << indent << "SurfaceBy: " << (this->SurfaceBy ? "Label" : "Threshold") << "\n"
+     << indent << "Threshold: " << this->Threshold << "\n"
+     << indent << "Label: " << this->Label << "\n"
+     << indent << "Anchors: " << this->Anchors << "\n"
+     << indent << "OpeningRadius: " << this->OpeningRadius << "\n"
+     << indent << "Evidence: " << this->Evidence << "\n"
+     << indent
+     << "LandmarkPairs: " << this->Landmarks->Numbers.size() / FitLandmarks::NumbersPerPair << "\n"
+     << indent << "Pulls: " << this->Pulls.size() / NumbersPerPull << "\n"
+     << indent << "Pins: " << this->Pins.size() / NumbersPerPin << "\n";
 }

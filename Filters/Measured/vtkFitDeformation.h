@@ -147,14 +147,14 @@ public:
    * Pulls: 7 numbers each, where tissue was (mm, rest frame), where it was put (mm) and its weight
    * (0: switched off).
    */
-  void AddPull(double number);
-  void ClearPulls();
+  void AddPull(double number) { this->Append(this->Pulls, number); }
+  void ClearPulls() { this->Clear(this->Pulls); }
   ///@}
 
   ///@{
   /** Pins: 4 numbers each, tissue that stays (mm, rest frame) and 1 or 0 (switched off). */
-  void AddPin(double number);
-  void ClearPins();
+  void AddPin(double number) { this->Append(this->Pins, number); }
+  void ClearPins() { this->Clear(this->Pins); }
   ///@}
 
   ///@{

@@ -32,8 +32,7 @@ void vtkRefinedLattice::AddControlPoint(double x, double y, double z)
 
 void vtkRefinedLattice::ClearControlPoints()
 {
-  this->ControlPoints.clear();
-  this->Modified();
+  this->Clear(this->ControlPoints);
 }
 
 int vtkRefinedLattice::RequestInformation(
