@@ -9,6 +9,7 @@
 #include "Filters/Deformation/LatticeExtremes.h"
 #include "Filters/Deformation/Replay.h"
 #include "Filters/Fields/BaseLattice.h"
+#include "Filters/Fields/FilledArray.h"
 #include "Filters/Fields/FittedFor.h"
 #include "Filters/Measured/EvidenceArray.h"
 #include "Filters/Traces/StrokeMarks.h"
@@ -79,14 +80,6 @@ std::string triple(const glm::ivec3& numbers)
 {
   return std::to_string(numbers.x) + " x " + std::to_string(numbers.y) + " x " +
     std::to_string(numbers.z);
-}
-
-// An array with these values.
-vtkDoubleArray* filled(vtkDoubleArray* array, const std::vector<double>& values)
-{
-  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  return array;
 }
 
 // What keeps this volume from being deformed; empty if nothing does.

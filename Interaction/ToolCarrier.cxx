@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/ToolCarrier.h"
 
+#include "Interaction/Commands/Tools.h"
 #include "Interaction/Edits/FitEditor.h"
 #include "Interaction/Edits/StrokeEditor.h"
-#include "Interaction/Tools/ToolFactory.h"
+#include "Interaction/Tools/HandTool.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Views/SliceMouse.h"
 #include "Interaction/Views/ViewProbe.h"
@@ -25,7 +26,6 @@
 #include <glm/geometric.hpp>
 
 #include <QApplication>
-#include <QWidget>
 
 #include <algorithm>
 #include <cmath>
@@ -62,10 +62,10 @@ ToolCarrier::ToolCarrier(QObject* parent)
   this->Settle.setSingleShot(true);
   this->Settle.setInterval(SettleMs);
   QObject::connect(&this->Settle, &QTimer::timeout, this, [this] {
-    this->Zooming = false;
-    if (this->Tool && this->isAlive() && !this->Holding)
+    this->HandNow = this->HandNow == Hand::Zooming ? Hand::Hovering : this->HandNow;
+    if (this->tool() && !this->isHolding())
     {
-      this->Tool->settle();
+      this->Held->settle();
     }
   });
   QObject::connect(&this->Cursor, &CursorWatch::moved, this, &ToolCarrier::followCursor);
@@ -73,11 +73,10 @@ ToolCarrier::ToolCarrier(QObject* parent)
   this->followApplication();
   // Later, parts of the window that hear of changes are gone already.
   QObject::connect(qApp, &QCoreApplication::aboutToQuit, this, [this] {
-    this->stopShowingBefore();
+    this->showBefore(nullptr);
     this->putDown();
     this->Kept.letGo();
   });
-  qApp->installEventFilter(this);
 }
 
 void ToolCarrier::followApplication()
@@ -133,34 +132,49 @@ bool ToolCarrier::isAlive() const
   return this->Deformation && this->View && this->Editor && this->Fit;
 }
 
+pqPipelineSource* ToolCarrier::deformation() const
+{
+  return this->Deformation;
+}
+
+pqRenderView* ToolCarrier::view() const
+{
+  return this->View;
+}
+
 bool ToolCarrier::isEditing() const
 {
   return this->Editor->isEditing() || this->Fit->isEditing();
 }
 
-void ToolCarrier::stopShowingBefore()
+bool ToolCarrier::isHolding() const
+{
+  return this->HandNow == Hand::HoldingByButton || this->HandNow == Hand::HoldingByKey;
+}
+
+void ToolCarrier::showBefore(StrokeEditor* editor)
 {
   if (this->ShowingBefore)
   {
     this->ShowingBefore->showBefore(false);
-    this->ShowingBefore = nullptr;
+  }
+  this->ShowingBefore = editor;
+  if (editor)
+  {
+    editor->showBefore(true);
   }
 }
 
 void ToolCarrier::putDown()
 {
-  if (this->Tool && this->isAlive())
+  if (HandTool* tool = this->tool())
   {
-    this->Tool->settle();
+    tool->settle();
   }
-  this->Holding = false;
-  this->HeldByKey = false;
-  this->Dropped = false;
-  this->Zooming = false;
+  this->HandNow = Hand::Away;
   this->ByKeys = false;
-  this->HasCursor = false;
   this->Settle.stop();
-  this->Tool.reset();
+  this->Held.reset();
   this->Probe.reset();
   this->Widget.reset();
   this->Editor = nullptr;
@@ -169,7 +183,7 @@ void ToolCarrier::putDown()
   this->View = nullptr;
   this->Other.follow(nullptr, nullptr);
   this->Resting.follow(nullptr, nullptr);
-  this->ToolInHand = ToolKind::None;
+  this->ToolInHand = Tool::None;
 }
 
 void ToolCarrier::refresh()
@@ -181,42 +195,47 @@ void ToolCarrier::refresh()
     : qobject_cast<pqRenderView*>(pqActiveObjects::instance().activeView());
   pqPipelineSource* deformation = activeDeformation(view);
   const bool both = deformation && view && deformation->getServer() == view->getServer();
-  const ToolKind tool = both ? settings->tool() : ToolKind::None;
+  const Tool tool = both ? settings->tool() : Tool::None;
   if (!this->isAlive() || tool != this->ToolInHand || deformation != this->Deformation ||
     view != this->View)
   {
     const bool sameVolume = deformation == this->Deformation;
     this->putDown();
-    if (tool == ToolKind::None || !sameVolume)
+    if (tool == Tool::None || !sameVolume)
     {
       this->Kept.letGo();
     }
-    if (tool != ToolKind::None)
+    if (tool != Tool::None)
     {
-      this->Deformation = deformation;
-      this->View = view;
-      this->Editor = StrokeEditor::of(deformation);
-      this->Fit = FitEditor::of(deformation);
-      this->ToolInHand = tool;
-      this->Widget = std::make_unique<WidgetInView>(
-        view, [this](const HandEvent& event) { return this->hearMouse(event); });
-      this->Probe = std::make_unique<ViewProbe>(deformation, view, this->Kept);
-      this->Tool = makeTool(tool,
-        { *this->Probe, *this->Editor, *this->Fit, *settings, *this->Widget->representation() });
-      this->Tool->idle();
-      this->drawSoon();
-      this->Other.follow(deformation, view);
-      this->Resting.follow(deformation, view);
+      this->take(deformation, view, tool);
     }
   }
   this->suggestRanges();
   this->Other.tell();
 }
 
+void ToolCarrier::take(pqPipelineSource* deformation, pqRenderView* view, Tool tool)
+{
+  this->Deformation = deformation;
+  this->View = view;
+  this->Editor = StrokeEditor::of(deformation);
+  this->Fit = FitEditor::of(deformation);
+  this->ToolInHand = tool;
+  this->Widget = std::make_unique<WidgetInView>(
+    view, [this](const HandEvent& event) { return this->hearMouse(event); });
+  this->Probe = std::make_unique<ViewProbe>(deformation, view, this->Kept);
+  this->Held = toolRow(tool).make({ *this->Probe, *this->Editor, *this->Fit,
+    *ToolSettings::instance(), *this->Widget->representation() });
+  this->Held->idle();
+  this->drawSoon();
+  this->Other.follow(deformation, view);
+  this->Resting.follow(deformation, view);
+}
+
 void ToolCarrier::hoverAgain()
 {
-  const bool rests = this->Tool && this->isAlive() && this->Cursor.view() == this->View &&
-    !this->Holding && !this->isEditing() && !this->ShowingBefore && !this->Other.shown();
+  const bool rests = this->tool() && this->Cursor.view() == this->View && !this->isHolding() &&
+    !this->isEditing() && !this->ShowingBefore && !this->Other.shown();
   if (rests)
   {
     const int* at = this->View->getRenderViewProxy()->GetInteractor()->GetEventPosition();
@@ -224,7 +243,7 @@ void ToolCarrier::hoverAgain()
     event.x = at[0];
     event.y = at[1];
     const vtkMTimeType before = this->Widget->representation()->GetMTime();
-    this->Tool->hover(event);
+    this->Held->hover(event);
     this->drawIfChanged(before);
   }
 }
@@ -242,7 +261,7 @@ void ToolCarrier::suggestRanges()
 
 void ToolCarrier::followCursor(pqRenderView* view)
 {
-  if (this->Holding)
+  if (this->isHolding())
   {
     return;
   }
@@ -260,24 +279,48 @@ bool ToolCarrier::hearMouse(const HandEvent& event)
 {
   constexpr int rounding = 2; // pixels
   const bool goneAlong =
-    (event.kind == HandEvent::Kind::Move && std::abs(event.x - this->CursorX) <= rounding &&
-      std::abs(event.y - this->CursorY) <= rounding) ||
+    (event.kind == HandEvent::Kind::Move && std::abs(event.x - this->Pixel.x) <= rounding &&
+      std::abs(event.y - this->Pixel.y) <= rounding) ||
     event.kind == HandEvent::Kind::Leave;
   if (this->ByKeys && goneAlong)
   {
     return false;
   }
   this->ByKeys = false;
-  this->HasCursor = event.kind != HandEvent::Kind::Leave || this->HeldByKey;
-  this->HeldByKey = this->HeldByKey && event.kind != HandEvent::Kind::Press;
   return this->handle(event);
+}
+
+void ToolCarrier::moveTo(const glm::ivec2& pixel)
+{
+  HandEvent event;
+  event.x = pixel.x;
+  event.y = pixel.y;
+  this->ByKeys = true;
+  if (!this->isHolding())
+  {
+    this->Held->settle();
+  }
+  this->handle(event);
+}
+
+void ToolCarrier::handleByKey(const HandEvent& event)
+{
+  this->handle(event);
+  this->HandNow = this->isHolding() ? Hand::HoldingByKey : this->HandNow;
 }
 
 bool ToolCarrier::handle(const HandEvent& event)
 {
-  this->CursorX = event.x;
-  this->CursorY = event.y;
-  if (!this->Tool || !this->isAlive() || this->ShowingBefore)
+  this->Pixel = { event.x, event.y };
+  if (event.kind != HandEvent::Kind::Leave)
+  {
+    this->HandNow = this->HandNow == Hand::Away ? Hand::Hovering : this->HandNow;
+  }
+  else if (!this->isHolding())
+  {
+    this->HandNow = Hand::Away;
+  }
+  if (!this->tool() || this->ShowingBefore)
   {
     return false;
   }
@@ -292,60 +335,83 @@ bool ToolCarrier::pass(const HandEvent& event)
   switch (event.kind)
   {
     case HandEvent::Kind::Press:
-      this->Settle.stop();
-      this->Tool->settle();
-      // Move would take control points of a volume that is not seen.
-      this->Holding = !this->Other.shown() && this->Tool->press(event);
-      if (!this->Holding && !event.shift && !event.control)
-      {
-        this->Other.press({ event.x, event.y });
-      }
-      return this->Holding;
+      return this->press(event);
     case HandEvent::Kind::Move:
-      if (this->Holding)
-      {
-        this->Tool->drag(event);
-        return true;
-      }
-      this->Zooming = false;
-      if (this->Other.shown())
-      {
-        this->outlineNothing();
-      }
-      else if (this->Dropped || QApplication::mouseButtons() == Qt::NoButton) // else the camera's
-      {
-        this->Tool->hover(event);
-      }
-      return false;
+      return this->move(event);
     case HandEvent::Kind::Release:
-      if (!this->Holding)
-      {
-        this->Dropped = false;
-        this->Other.release({ event.x, event.y });
-        this->Resting.look();
-        return false;
-      }
-      this->Holding = false;
-      this->Tool->release();
-      ToolSettings::instance()->setAxisHold(ToolSettings::AxisHold::None);
-      return true;
+      return this->release(event);
     case HandEvent::Kind::Wheel:
-      this->Settle.start();
-      this->Zooming = this->Zooming || !this->Tool->wheel(event);
-      if (this->Zooming && !this->Holding)
-      {
-        this->Tool->turnAway();
-      }
-      return !this->Zooming;
+      return this->turnWheel(event);
     case HandEvent::Kind::Leave:
-      if (!this->Holding)
+      if (!this->isHolding())
       {
-        this->Tool->settle();
-        this->Tool->idle();
+        this->Held->settle();
+        this->Held->idle();
       }
       return false;
   }
   return false;
+}
+
+bool ToolCarrier::press(const HandEvent& event)
+{
+  this->Settle.stop();
+  this->Held->settle();
+  // Move would take control points of a volume that is not seen.
+  const bool taken = !this->Other.shown() && this->Held->press(event);
+  this->HandNow = taken ? Hand::HoldingByButton : Hand::Hovering;
+  if (!taken && !event.shift && !event.control)
+  {
+    this->Other.press({ event.x, event.y });
+  }
+  return taken;
+}
+
+bool ToolCarrier::move(const HandEvent& event)
+{
+  if (this->isHolding())
+  {
+    this->Held->drag(event);
+    return true;
+  }
+  const bool isDropped = this->HandNow == Hand::Dropped;
+  this->HandNow = isDropped ? Hand::Dropped : Hand::Hovering;
+  if (this->Other.shown())
+  {
+    this->outlineNothing();
+  }
+  else if (isDropped || QApplication::mouseButtons() == Qt::NoButton) // else the camera's
+  {
+    this->Held->hover(event);
+  }
+  return false;
+}
+
+bool ToolCarrier::release(const HandEvent& event)
+{
+  const bool wasHolding = this->isHolding();
+  this->HandNow = Hand::Hovering;
+  if (!wasHolding)
+  {
+    this->Other.release({ event.x, event.y });
+    this->Resting.look();
+    return false;
+  }
+  this->Held->release();
+  ToolSettings::instance()->setAxisHold(ToolSettings::AxisHold::None);
+  return true;
+}
+
+bool ToolCarrier::turnWheel(const HandEvent& event)
+{
+  this->Settle.start();
+  const bool taken = this->HandNow != Hand::Zooming && this->Held->wheel(event);
+  if (!taken && !this->isHolding())
+  {
+    this->HandNow = Hand::Zooming;
+    this->Held->turnAway();
+  }
+  return taken;
 }
 
 // Clears only once: each change is a picture.
@@ -374,14 +440,28 @@ void ToolCarrier::drawSoon()
   }
 }
 
+void ToolCarrier::stepSlices(int voxels)
+{
+  if (HandTool* tool = this->tool())
+  {
+    tool->turnAway();
+  }
+  if (SliceMouse* slices = SliceMouse::of(this->Cursor.view()))
+  {
+    this->Resting.lookAtNext();
+    slices->step(voxels);
+  }
+}
+
 void ToolCarrier::cancel()
 {
-  if (this->Tool && this->isAlive())
+  if (HandTool* tool = this->tool())
   {
-    this->Dropped = this->Holding && !this->HeldByKey;
-    this->Holding = false;
-    this->HeldByKey = false;
-    this->Tool->cancel();
+    if (this->isHolding() || this->HandNow == Hand::Dropped)
+    {
+      this->HandNow = this->HandNow == Hand::HoldingByButton ? Hand::Dropped : Hand::Hovering;
+    }
+    tool->cancel();
     this->Widget->widget()->LetGo();
     ToolSettings::instance()->setAxisHold(ToolSettings::AxisHold::None);
     this->Resting.lookAtNext();

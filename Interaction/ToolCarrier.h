@@ -2,16 +2,14 @@
 /// @file
 /// Carries the tool in hand from view to view. The tool belongs to the view that the cursor entered
 /// last, or to a view that was made active since then. There is one hand, so there is one carrier.
-/// It also hears the keys of the table of commands that work in views.
 #ifndef BrainShift_ToolCarrier_h
 #define BrainShift_ToolCarrier_h
 
-#include "Interaction/Commands/Commands.h"
 #include "Interaction/Commands/ToolSettings.h"
 #include "Interaction/Views/CursorWatch.h"
-#include "Interaction/Views/KeptPictures.h"
 #include "Interaction/Views/OtherVolume.h"
 #include "Interaction/Views/RestingCursor.h"
+#include "Interaction/Workarounds/KeptPictures.h"
 
 #include <QObject>
 #include <QPointer>
@@ -19,9 +17,10 @@
 
 #include <vtkType.h>
 
+#include <glm/vec2.hpp>
+
 #include <memory>
 
-class QKeyEvent;
 class pqPipelineSource;
 class pqRenderView;
 
@@ -34,6 +33,17 @@ class HandTool;
 class WidgetInView;
 struct HandEvent;
 
+/// What the hand does in the view of its tool.
+enum class Hand
+{
+  Away, ///< It has no cursor there.
+  Hovering,
+  HoldingByButton,
+  HoldingByKey, ///< See Command::TakeHold.
+  Dropped,      ///< The button is still down after Escape.
+  Zooming,      ///< A burst of wheel clicks began away from tissue.
+};
+
 class ToolCarrier : public QObject
 {
   Q_OBJECT
@@ -42,37 +52,49 @@ public:
   explicit ToolCarrier(QObject* parent);
   ~ToolCarrier() override;
 
-  /// Keys are heard before ParaView's shortcuts, but only while the cursor is over a view and no
-  /// text is typed. The table of commands says what they do.
-  bool eventFilter(QObject* watched, QEvent* event) override;
+  /// The tool in hand; null while there is none, or nothing that it could work on.
+  HandTool* tool() const { return this->isAlive() ? this->Held.get() : nullptr; }
+  Tool kind() const { return this->ToolInHand; }
+  Hand hand() const { return this->HandNow; }
+  bool isHolding() const;
+  bool isEditing() const; ///< Something is under the hand. There must be a tool.
+  ViewProbe* probe() const { return this->Probe.get(); }
+  pqPipelineSource* deformation() const;
+  pqRenderView* view() const; ///< Of the tool.
+  pqRenderView* viewUnderCursor() const { return this->Cursor.view(); }
+  const glm::ivec2& pixel() const { return this->Pixel; } ///< Of the cursor in the view.
+  bool isMovedByKeys() const { return this->ByKeys; }
+
+  /// An event of the hand in the view. True: the camera must not get it.
+  bool handle(const HandEvent& event);
+  /// Presses or releases without a button.
+  void handleByKey(const HandEvent& event);
+  /// Brings the cursor to a pixel without the mouse.
+  void moveTo(const glm::ivec2& pixel);
+  void hoverAgain(); ///< As if the cursor came to where it is.
+  void stepSlices(int voxels);
+  void cancel();
+  /// Shows a volume as loaded, until it is called with null.
+  void showBefore(StrokeEditor* editor);
+  bool showsBefore() const { return !this->ShowingBefore.isNull(); }
 
 private:
   void followApplication(); ///< Connects the signals of ParaView.
   void followCursor(pqRenderView* view);
   void refresh(); ///< Adapts to the tool, the view and the filter that are active now.
+  void take(pqPipelineSource* deformation, pqRenderView* view, Tool tool);
   void suggestRanges();
-  void hoverAgain(); ///< As if the cursor came to where it is.
   void putDown();
   bool hearMouse(const HandEvent& event);
-  bool handle(const HandEvent& event);
   bool pass(const HandEvent& event);
-  bool canDo(Command command) const;
-  void act(const KeyCommand& found, bool shift);
-  void holdAxis(ToolSettings::AxisHold axis);
-  void setInterest();
-  void moveCursor(int way); ///< See Command::MoveCursor.
-  void stampByKey(int clicks);
-  void holdByKey(bool shift); ///< See Command::TakeHold.
-  bool viewHasKeys() const;   ///< The view of the tool has the keyboard.
-  void stepSlices(int voxels);
-  StrokeEditor* editorUnderCursor() const; ///< Null if nothing can be deformed there.
-  void stopShowingBefore();
-  void cancel();
+  bool press(const HandEvent& event);
+  bool move(const HandEvent& event);
+  bool release(const HandEvent& event);
+  bool turnWheel(const HandEvent& event);
   void drawSoon();
   void outlineNothing();
   void drawIfChanged(vtkMTimeType before);
   bool isAlive() const;
-  bool isEditing() const; ///< Something is under the hand. The tool must be alive.
 
   CursorWatch Cursor;
   RestingCursor Resting;
@@ -86,19 +108,14 @@ private:
   QPointer<StrokeEditor> ShowingBefore;
   std::unique_ptr<WidgetInView> Widget;
   std::unique_ptr<ViewProbe> Probe;
-  std::unique_ptr<HandTool> Tool;
-  ToolKind ToolInHand = ToolKind::None;
-  ToolKind Wanted = ToolKind::None; ///< Chosen; without a deformation it is not in hand.
-  QTimer Refresh;                   ///< Merges events that may have changed something.
-  QTimer Settle;                    ///< Ends a burst of wheel clicks.
-  bool Holding = false;
-  bool HeldByKey = false; ///< And not by a mouse button.
-  bool Dropped = false;   ///< The button is still down after Escape.
-  bool Zooming = false;   ///< A burst of wheel clicks began away from tissue.
-  bool ByKeys = false;    ///< Keys moved the cursor last, and not the mouse.
-  bool HasCursor = false; ///< CursorX and CursorY are a place in the view.
-  int CursorX = 0;        ///< Pixels from the view's lower left corner.
-  int CursorY = 0;
+  std::unique_ptr<HandTool> Held;
+  Tool ToolInHand = Tool::None;
+  Tool Wanted = Tool::None; ///< Chosen; without a deformation it is not in hand.
+  QTimer Refresh;           ///< Merges events that may have changed something.
+  QTimer Settle;            ///< Ends a burst of wheel clicks.
+  Hand HandNow = Hand::Away;
+  bool ByKeys = false;   ///< Keys moved the cursor last, and not the mouse.
+  glm::ivec2 Pixel{ 0 }; ///< From the view's lower left corner. Without meaning if Away.
 };
 }
 

@@ -4,11 +4,12 @@
 #include "Interaction/Displays/EvidenceSwitch.h"
 #include "Interaction/Landmarks/LandmarkMarks.h"
 #include "Interaction/ToolCarrier.h"
-#include "Interaction/Views/KeptSelection.h"
+#include "Interaction/ToolKeys.h"
 #include "Interaction/Views/SliceMouse.h"
+#include "Interaction/Workarounds/KeptSelection.h"
+#include "Interaction/Workarounds/QuietLinks.h"
 #include "Plugin/ComparisonLegend.h"
 #include "Plugin/FirstLook.h"
-#include "Plugin/QuietLinks.h"
 #include "Plugin/TraceLook.h"
 
 #include <pqActiveObjects.h>
@@ -58,7 +59,7 @@ void prepare(pqRepresentation* display)
   {
     volume ? brainshift::showFirstLook(data) : brainshift::colorByFirstArray(data);
   }
-  if (volume && !display->property(Shaded).toBool()) // once: who then turns it off means it
+  if (volume && !display->property(Shaded).toBool()) // once: the user may turn it off
   {
     display->setProperty(Shaded, true);
     if (representation->GetUsingScalarColoring() && data)
@@ -90,6 +91,7 @@ void BrainShiftBehavior::onStartup()
   new brainshift::ComparisonLegend(this);
   new brainshift::EvidenceSwitch(this);
   this->Hand = new brainshift::ToolCarrier(this);
+  new brainshift::ToolKeys(this->Hand);
 }
 
 void BrainShiftBehavior::onShutdown()

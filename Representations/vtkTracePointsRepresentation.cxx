@@ -3,7 +3,7 @@
 
 #include "Filters/Attached/Guard.h"
 #include "Representations/Traces/TracePoints.h"
-#include "Representations/Window/FailedUpdate.h"
+#include "Representations/Workarounds/FailedUpdate.h"
 
 #include "vtkInformation.h"
 #include "vtkNew.h"

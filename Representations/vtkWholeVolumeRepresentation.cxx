@@ -5,10 +5,10 @@
 #include "Filters/Attached/Guard.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Representations/Window/EvidenceLegend.h"
-#include "Representations/Window/FailedUpdate.h"
 #include "Representations/Window/GatheredVolume.h"
-#include "Representations/Window/InteractiveDelivery.h"
-#include "Representations/Window/LostServer.h"
+#include "Representations/Workarounds/FailedUpdate.h"
+#include "Representations/Workarounds/InteractiveDelivery.h"
+#include "Representations/Workarounds/LostServer.h"
 
 #include "vtkCommunicator.h"
 #include "vtkCoordinate.h"

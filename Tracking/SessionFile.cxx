@@ -63,10 +63,16 @@ std::vector<std::string_view> partsOf(std::string_view line)
   }
 }
 
+std::string lineOf(const std::string& path, std::size_t number)
+{
+  return "Line " + std::to_string(number) + " of " + path + " ";
+}
+
 bool readNumber(std::string_view text, double& number)
 {
-  const char* end = text.data() + text.size();
-  const auto [last, error] = std::from_chars(text.data(), end, number);
+  const char* begin = text.data();
+  const char* end = begin + text.size();
+  const auto [last, error] = std::from_chars(begin, end, number);
   return error == std::errc() && last == end && std::isfinite(number);
 }
 
@@ -214,13 +220,12 @@ std::string readSession(const std::string& path, Session& session)
     problem = readLine(line, read);
     if (!problem.empty())
     {
-      return "Line " + std::to_string(number) + " of " + path + " " + problem;
+      return lineOf(path, number) + problem;
     }
   }
   if (!in.eof() || !line.empty())
   {
-    return "Line " + std::to_string(number + 1) + " of " + path +
-      " is not whole or longer than 1023 characters";
+    return lineOf(path, number + 1) + "is not whole or longer than 1023 characters";
   }
   if (read.poses.empty())
   {

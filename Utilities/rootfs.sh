@@ -96,11 +96,23 @@ is_system_folder() {
     $1 =~ ^/(dev|etc|proc|sys|usr/(bin|lib|sbin|share))(/|$) ]]
 }
 
+# Where git keeps the files of a worktree: its .git is a file that names a folder elsewhere.
+git_folder() {
+  local folder common
+  [[ -f $checkout/.git ]] || return 0
+  folder=$(sed -n 's/^gitdir: //p' "$checkout/.git")
+  [[ $folder == /* ]] || folder=$checkout/$folder
+  common=$(cat "$folder/commondir" 2>/dev/null || echo .)
+  [[ $common == /* ]] || common=$folder/$common
+  [[ ! -d $common ]] || echo "$(realpath "$common")/"
+}
+
 # visible_folders ARGUMENT…: where the arguments that are paths lie, parents first, none twice.
 visible_folders() {
   local argument folder previous=//
   {
     printf '%s/\n' "$checkout" "$cache" "$PWD"
+    git_folder
     for argument; do
       [[ -e $argument ]] || argument=${argument#-*=} # --output=PATH
       [[ -e $argument || $argument == */* && $argument != *$'\n'* ]] || continue

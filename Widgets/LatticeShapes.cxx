@@ -64,7 +64,7 @@ std::vector<std::pair<int, int>> edgesBetween(const std::vector<ControlPoint>& p
 
 std::vector<Polyline> outlineOf(const Stroke& stroke, double share)
 {
-  const bool isSphere = stroke.tool == Tool::Soft;
+  const bool isSphere = shapeOf(stroke.tool) == StrokeShape::Sphere;
   const glm::dvec3 axis = isSphere ? glm::dvec3(0, 0, 1) : glm::normalize(stroke.axis);
   const double along = share * stroke.major;
   const double wide = share * (isSphere ? stroke.major : stroke.minor);
@@ -77,7 +77,7 @@ std::vector<Polyline> outlineOf(const Stroke& stroke, double share)
 
 Polyline sectionOf(const Stroke& stroke, double share, const glm::dvec3& normal)
 {
-  const bool isSphere = stroke.tool == Tool::Soft;
+  const bool isSphere = shapeOf(stroke.tool) == StrokeShape::Sphere;
   const glm::dvec3 axis = isSphere ? normal : glm::normalize(stroke.axis);
   const double minor = isSphere ? stroke.major : stroke.minor;
   const glm::dvec3 inPlane = axis - glm::dot(axis, normal) * normal;

@@ -131,6 +131,7 @@ private:
     const DICOMTag group = head.tag >> 16;
     const bool isKept = group % 2 == 0 && (group != 0x0010 || this->Patient == PatientGroup::Kept);
     DICOMElement element;
+    element.length = head.length;
     if (this->isSequence(offset, form, head))
     {
       Form inside = form;
@@ -243,7 +244,7 @@ bool readMeta(DICOMBytes& bytes, std::uint64_t& offset, DICOMContent& content)
 
 bool parseDICOM(DICOMBytes& bytes, DICOMContent& content, PatientGroup patient)
 {
-  std::uint64_t offset = 0;
+  std::uint64_t& offset = content.end;
   if (!readMeta(bytes, offset, content) ||
     (content.transferSyntax == Deflated && !bytes.inflateFrom(offset)))
   {

@@ -3,8 +3,8 @@
  * @file
  * @brief The attributes of a DICOM file up to its pixels.
  *
- * Parsed here and not by GDCM: Debian's GDCM ends the program at some damaged files. Values of
- * private groups are skipped, and those of the patient's group (0010) unless a user asked for them.
+ * Values of private groups are skipped, and those of the patient's group (0010) unless a user asked
+ * for them.
  */
 #ifndef BrainShift_DICOMDataSet_h
 #define BrainShift_DICOMDataSet_h
@@ -33,6 +33,7 @@ struct DICOMDataSet
 /** A value as it is stored, or the items of a sequence. */
 struct DICOMElement
 {
+  std::uint32_t length = 0; ///< bytes in the file; of more than 1 MiB none are kept
   std::string bytes;
   std::vector<DICOMDataSet> items;
 };
@@ -42,6 +43,7 @@ struct DICOMContent
 {
   std::string transferSyntax; ///< its UID
   DICOMDataSet set;
+  std::uint64_t end = 0;         ///< offset where the attributes end, or are damaged, bytes
   std::uint64_t pixelOffset = 0; ///< 0: there are no pixels
   std::uint64_t pixelLength = 0; ///< bytes, unless it is packed
   bool isPacked = false;         ///< the pixels come in fragments

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Reads the header of one DICOM file, up to its pixels.
+ * @brief Reads the header of one DICOM file, up to its pixels: the image of a slice file, or the
+ *        frames of a multi-frame file with their functional groups.
  */
 #ifndef BrainShift_DICOMHeader_h
 #define BrainShift_DICOMHeader_h

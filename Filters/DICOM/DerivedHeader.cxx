@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/DICOM/DerivedHeader.h"
 
+#include "Filters/DICOM/DICOMAttributes.h"
+#include "Filters/DICOM/DICOMFile.h"
 #include "Filters/Files/PlainFile.h"
 
-#include <gdcmDataSetHelper.h>
-#include <gdcmReader.h>
-#include <gdcmUIDGenerator.h>
-
 #include <algorithm>
-#include <cstdlib>
+#include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <set>
 #include <system_error>
-#include <vector>
+#include <utility>
 
 namespace brainshift
 {
@@ -27,86 +25,49 @@ constexpr const char* PETStorage = "1.2.840.10008.5.1.4.1.1.128";
 constexpr const char* SecondaryCapture = "1.2.840.10008.5.1.4.1.1.7";
 constexpr std::size_t LongestText = 64; // of VR LO
 constexpr int FirstNumber = 1000;       // added to the number of the source's series
+constexpr int LastNumber = 2000000000;  // VR IS ends at 2147483647
 
-const gdcm::Tag Modality(0x0008, 0x0060);
-const gdcm::Tag SeriesDescription(0x0008, 0x103e);
-const gdcm::Tag SeriesNumber(0x0020, 0x0011);
-const gdcm::Tag StudyUID(0x0020, 0x000d);
-const gdcm::Tag FrameOfReferenceUID(0x0020, 0x0052);
-const gdcm::Tag ScanningSequence(0x0018, 0x0020);
-const gdcm::Tag SequenceVariant(0x0018, 0x0021);
-const gdcm::Tag Pixels(0x7fe0, 0x0010);
+constexpr DICOMTag Modality = 0x00080060;
+constexpr DICOMTag SeriesDescription = 0x0008103e;
+constexpr DICOMTag SeriesNumber = 0x00200011;
+constexpr DICOMTag StudyUID = 0x0020000d;
+constexpr DICOMTag FrameOfReferenceUID = 0x00200052;
+constexpr DICOMTag ScanningSequence = 0x00180020;
+constexpr DICOMTag SequenceVariant = 0x00180021;
 
-// What is kept of the source: patient, study, frame of reference, and how the image was taken.
-const gdcm::Tag Kept[] = {
-  { 0x0008, 0x0005 }, // characters
-  { 0x0008, 0x0020 }, { 0x0008, 0x0030 }, { 0x0008, 0x0050 }, { 0x0008, 0x0060 },
-  { 0x0008, 0x0090 }, { 0x0008, 0x1030 }, // study, modality
-  { 0x0010, 0x0010 }, { 0x0010, 0x0020 }, { 0x0010, 0x0021 }, { 0x0010, 0x0030 },
-  { 0x0010, 0x0032 }, { 0x0010, 0x0040 }, { 0x0010, 0x1010 }, { 0x0010, 0x1020 },
-  { 0x0010, 0x1030 }, // patient
-  { 0x0018, 0x0015 }, { 0x0018, 0x0020 }, { 0x0018, 0x0021 }, { 0x0018, 0x0022 },
-  { 0x0018, 0x0023 }, { 0x0018, 0x0060 }, { 0x0018, 0x0080 }, { 0x0018, 0x0081 },
-  { 0x0018, 0x0082 }, { 0x0018, 0x0087 }, { 0x0018, 0x0091 }, { 0x0018, 0x5100 },
-  { 0x0020, 0x000d }, { 0x0020, 0x0010 }, { 0x0020, 0x0052 }, { 0x0020, 0x0060 },
-  { 0x0020, 0x1040 },                     // study, frame of reference
-  { 0x0028, 0x1050 }, { 0x0028, 0x1051 }, // grey values that are shown
+// What is kept of the source: patient, study, frame of reference, and how the image was taken. All
+// of it is text, which no order of bytes changes. Types are those of the standard's dictionary:
+// files with implicit types, or with the type UN, leave them to it.
+const std::pair<DICOMTag, const char*> Kept[] = {
+  { 0x00080005, "CS" }, // characters
+  { 0x00080020, "DA" }, { 0x00080030, "TM" }, { 0x00080050, "SH" }, { 0x00080060, "CS" },
+  { 0x00080090, "PN" }, { 0x00081030, "LO" }, // study, modality
+  { 0x00100010, "PN" }, { 0x00100020, "LO" }, { 0x00100021, "LO" }, { 0x00100030, "DA" },
+  { 0x00100032, "TM" }, { 0x00100040, "CS" }, { 0x00101010, "AS" }, { 0x00101020, "DS" },
+  { 0x00101030, "DS" }, // patient
+  { 0x00180015, "CS" }, { 0x00180020, "CS" }, { 0x00180021, "CS" }, { 0x00180022, "CS" },
+  { 0x00180023, "CS" }, { 0x00180060, "DS" }, { 0x00180080, "DS" }, { 0x00180081, "DS" },
+  { 0x00180082, "DS" }, { 0x00180087, "DS" }, { 0x00180091, "IS" },
+  { 0x00185100, "CS" }, // how it was taken
+  { 0x0020000d, "UI" }, { 0x00200010, "SH" }, { 0x00200052, "UI" }, { 0x00200060, "CS" },
+  { 0x00201040, "LO" },                       // study, frame of reference
+  { 0x00281050, "DS" }, { 0x00281051, "DS" }, // grey values that are shown
 };
 
 // What must stand there, empty if nobody knows it (type 2 of the standard).
-const std::pair<gdcm::Tag, gdcm::VR::VRType> Required[] = {
-  { { 0x0008, 0x0020 }, gdcm::VR::DA },
-  { { 0x0008, 0x0030 }, gdcm::VR::TM },
-  { { 0x0008, 0x0050 }, gdcm::VR::SH },
-  { { 0x0008, 0x0090 }, gdcm::VR::PN },
-  { { 0x0010, 0x0010 }, gdcm::VR::PN },
-  { { 0x0010, 0x0020 }, gdcm::VR::LO },
-  { { 0x0010, 0x0030 }, gdcm::VR::DA },
-  { { 0x0010, 0x0040 }, gdcm::VR::CS },
-  { { 0x0020, 0x0010 }, gdcm::VR::SH },
-  { { 0x0020, 0x0012 }, gdcm::VR::IS },
-  { { 0x0020, 0x1040 }, gdcm::VR::LO },
+const std::pair<DICOMTag, const char*> Required[] = {
+  { 0x00080020, "DA" },
+  { 0x00080030, "TM" },
+  { 0x00080050, "SH" },
+  { 0x00080090, "PN" },
+  { 0x00100010, "PN" },
+  { 0x00100020, "LO" },
+  { 0x00100030, "DA" },
+  { 0x00100040, "CS" },
+  { 0x00200010, "SH" },
+  { 0x00200012, "IS" },
+  { 0x00201040, "LO" },
 };
-
-std::string textOf(const gdcm::DataSet& set, const gdcm::Tag& tag)
-{
-  const gdcm::ByteValue* bytes =
-    set.FindDataElement(tag) ? set.GetDataElement(tag).GetByteValue() : nullptr;
-  std::string text =
-    bytes && bytes->GetLength() > 0 ? std::string(bytes->GetPointer(), bytes->GetLength()) : "";
-  text.erase(std::min(text.find_last_not_of(std::string(" \0", 2)) + 1, text.size()));
-  return text;
-}
-
-void setText(
-  gdcm::DataSet& set, const gdcm::Tag& tag, gdcm::VR::VRType type, const std::string& text)
-{
-  std::string padded = text;
-  if (padded.size() % 2 == 1)
-  {
-    padded += type == gdcm::VR::UI ? '\0' : ' ';
-  }
-  gdcm::DataElement element(tag);
-  element.SetVR(type);
-  element.SetByteValue(padded.data(), gdcm::VL(static_cast<std::uint32_t>(padded.size())));
-  set.Replace(element);
-}
-
-void setWhole(gdcm::DataSet& set, const gdcm::Tag& tag, int number)
-{
-  const auto bits = static_cast<std::uint16_t>(number);
-  const char bytes[2] = { static_cast<char>(bits & 255), static_cast<char>(bits >> 8) };
-  gdcm::DataElement element(tag);
-  element.SetVR(gdcm::VR::US);
-  element.SetByteValue(bytes, 2);
-  set.Replace(element);
-}
-
-std::string newUID()
-{
-  gdcm::UIDGenerator generator;
-  return generator.Generate();
-}
 
 // Multi-frame images become slices of the same kind.
 std::string storageOf(const std::string& modality)
@@ -117,26 +78,86 @@ std::string storageOf(const std::string& modality)
                           : SecondaryCapture;
 }
 
-bool readImage(const std::string& fileName, gdcm::DataSet& source)
+// An attribute as the standard names it: (0020,000D).
+std::string nameOf(DICOMTag tag)
 {
-  gdcm::Reader reader;
-  reader.SetFileName(fileName.c_str());
-  if (!plainFileProblem(fileName).empty() || !reader.ReadUpToTag(Pixels))
-  {
-    return false;
-  }
-  source.Clear();
-  const gdcm::DataSet& read = reader.GetFile().GetDataSet();
-  for (const gdcm::DataElement& element : read.GetDES())
-  {
-    gdcm::DataElement typed = element; // implicit syntaxes leave types to the dictionary
-    typed.SetVR(gdcm::DataSetHelper::ComputeVR(reader.GetFile(), read, element.GetTag()));
-    source.Insert(typed);
-  }
-  return !textOf(source, StudyUID).empty() && !textOf(source, Modality).empty();
+  char name[16];
+  std::snprintf(name, sizeof(name), "(%04X,%04X)", tag >> 16, tag & 0xffff);
+  return name;
 }
 
-void setNow(gdcm::DataSet& set)
+// Texts for people may be in any characters; programs read all others, which have ASCII alone.
+bool isForPeople(const std::string& type)
+{
+  return type == "LO" || type == "PN" || type == "SH";
+}
+
+// Why a value cannot be kept: the end of a sentence. Empty if it can.
+std::string valueProblem(DICOMTag tag, const std::string& type, const DICOMElement& element)
+{
+  if (!element.items.empty())
+  {
+    return "has a sequence as its attribute " + nameOf(tag) + ", which must be a text (" + type +
+      ")";
+  }
+  if (element.length > MostTextBytes)
+  {
+    return "has " + std::to_string(element.length) + " bytes in its attribute " + nameOf(tag) +
+      "; DICOM allows at most " + std::to_string(MostTextBytes);
+  }
+  const std::string text = element.bytes.substr(0, element.bytes.find_last_not_of('\0') + 1);
+  const auto wrong = std::find_if(
+    text.begin(), text.end(), [](char letter) { return letter < ' ' || letter > '~'; });
+  if (!isForPeople(type) && wrong != text.end())
+  {
+    return "has the byte " + std::to_string(static_cast<unsigned char>(*wrong)) +
+      " in its attribute " + nameOf(tag) + ", which must be text in ASCII (" + type + ")";
+  }
+  return {};
+}
+
+std::string problemOf(const DICOMDataSet& set)
+{
+  for (const auto& [tag, type] : Kept)
+  {
+    const auto found = set.elements.find(tag);
+    const std::string problem =
+      found == set.elements.end() ? std::string() : valueProblem(tag, type, found->second);
+    if (!problem.empty())
+    {
+      return problem;
+    }
+  }
+  for (const DICOMTag tag : { StudyUID, Modality })
+  {
+    if (textOf(set, tag).empty())
+    {
+      return std::string("has no ") + (tag == StudyUID ? "study " : "modality ") + nameOf(tag);
+    }
+  }
+  return {};
+}
+
+// Why a file cannot be taken: the end of a sentence, after its name. Empty if it was read.
+std::string readImage(const std::string& fileName, DICOMDataSet& source)
+{
+  const std::string problem = plainFileProblem(fileName);
+  if (!problem.empty() || !isDICOMFile(fileName))
+  {
+    return problem.empty() ? "is no DICOM image" : problem;
+  }
+  DICOMBytes bytes(fileName, DICOMBytes::MostOfHeader);
+  DICOMContent content;
+  if (!parseDICOM(bytes, content, PatientGroup::Kept))
+  {
+    return "is damaged at byte " + std::to_string(content.end) + " of " +
+      std::to_string(bytes.size()) + ": no attribute is there, or its length is wrong";
+  }
+  source = std::move(content.set);
+  return problemOf(source);
+}
+
+void setNow(DerivedSet& set)
 {
   const std::time_t now = std::time(nullptr);
   std::tm parts{};
@@ -149,30 +170,28 @@ void setNow(gdcm::DataSet& set)
   char time[16];
   std::strftime(date, sizeof(date), "%Y%m%d", &parts);
   std::strftime(time, sizeof(time), "%H%M%S", &parts);
-  for (const std::uint16_t element : { 0x0012, 0x0021, 0x0023 }) // instance, series, content
+  for (const DICOMTag tag : { 0x00080012, 0x00080021, 0x00080023 }) // instance, series, content
   {
-    setText(set, { 0x0008, element }, gdcm::VR::DA, date);
-    setText(set, { 0x0008, static_cast<std::uint16_t>(element == 0x0012 ? 0x0013 : element + 16) },
-      gdcm::VR::TM, time);
+    setText(set, tag, "DA", date);
+    setText(set, tag == 0x00080012 ? 0x00080013 : tag + 16, "TM", time);
   }
 }
 
-void setSeries(const gdcm::DataSet& source, gdcm::DataSet& set)
+void setSeries(const DICOMDataSet& source, DerivedSet& set)
 {
   const std::string modality = textOf(source, Modality);
-  setText(set, { 0x0008, 0x0016 }, gdcm::VR::UI, storageOf(modality));
-  setText(set, { 0x0008, 0x0008 }, gdcm::VR::CS, "DERIVED\\SECONDARY\\OTHER");
-  setText(set, { 0x0008, 0x0070 }, gdcm::VR::LO, "BrainShift");
-  setText(set, { 0x0008, 0x2111 }, gdcm::VR::ST,
-    std::string("Volume of BrainShift: ") + NotForClinicalUse);
+  setText(set, 0x00080016, "UI", storageOf(modality));
+  setText(set, 0x00080008, "CS", "DERIVED\\SECONDARY\\OTHER");
+  setText(set, 0x00080070, "LO", "BrainShift");
+  setText(set, 0x00082111, "ST", std::string("Volume of BrainShift: ") + NotForClinicalUse);
   if (storageOf(modality) == SecondaryCapture)
   {
-    setText(set, { 0x0008, 0x0064 }, gdcm::VR::CS, "WSD"); // made at a workstation
+    setText(set, 0x00080064, "CS", "WSD"); // made at a workstation
   }
   if (modality == "MR" && textOf(source, ScanningSequence).empty())
   {
-    setText(set, ScanningSequence, gdcm::VR::CS, "RM"); // research mode
-    setText(set, SequenceVariant, gdcm::VR::CS, "NONE");
+    setText(set, ScanningSequence, "CS", "RM"); // research mode
+    setText(set, SequenceVariant, "CS", "NONE");
   }
   // What the user must see comes first: stations cut long descriptions.
   std::string description = NotForClinicalUse;
@@ -181,44 +200,45 @@ void setSeries(const gdcm::DataSet& source, gdcm::DataSet& set)
   {
     description += ": " + old;
   }
-  setText(set, SeriesDescription, gdcm::VR::LO, description);
-  const int number = std::atoi(textOf(source, SeriesNumber).c_str());
-  setText(set, SeriesNumber, gdcm::VR::IS, std::to_string(FirstNumber + std::max(number, 0)));
-  setText(set, { 0x0020, 0x000e }, gdcm::VR::UI, newUID());
-  if (textOf(set, FrameOfReferenceUID).empty())
+  setText(set, SeriesDescription, "LO", description);
+  const double number = decimalOf(source, SeriesNumber, 0.0);
+  const bool isNumber = number > 0.0 && number <= LastNumber;
+  setText(set, SeriesNumber, "IS",
+    std::to_string(FirstNumber + (isNumber ? static_cast<int>(number) : 0)));
+  setText(set, 0x0020000e, "UI", newUID());
+  if (textOf(source, FrameOfReferenceUID).empty())
   {
-    setText(set, FrameOfReferenceUID, gdcm::VR::UI, newUID());
+    setText(set, FrameOfReferenceUID, "UI", newUID());
   }
 }
 
-void setPixelFormat(const DerivedPixels& pixels, gdcm::DataSet& set)
+void setPixelFormat(const DerivedPixels& pixels, DerivedSet& set)
 {
   const Grid& grid = pixels.grid;
-  setWhole(set, { 0x0028, 0x0002 }, 1); // samples of a pixel
-  setText(set, { 0x0028, 0x0004 }, gdcm::VR::CS, "MONOCHROME2");
-  setWhole(set, { 0x0028, 0x0010 }, grid.dimensions.y);
-  setWhole(set, { 0x0028, 0x0011 }, grid.dimensions.x);
-  setText(set, { 0x0028, 0x0030 }, gdcm::VR::DS,
-    decimalText(grid.spacing.y) + "\\" + decimalText(grid.spacing.x));
-  setWhole(set, { 0x0028, 0x0100 }, 16);
-  setWhole(set, { 0x0028, 0x0101 }, 16);
-  setWhole(set, { 0x0028, 0x0102 }, 15);
-  setWhole(set, { 0x0028, 0x0103 }, pixels.isSigned ? 1 : 0);
-  setText(set, { 0x0028, 0x0301 }, gdcm::VR::CS, "NO"); // nothing is burned in
-  setText(set, { 0x0028, 0x1052 }, gdcm::VR::DS, decimalText(pixels.rescaling.intercept));
-  setText(set, { 0x0028, 0x1053 }, gdcm::VR::DS, decimalText(pixels.rescaling.slope));
-  setText(set, { 0x0018, 0x0050 }, gdcm::VR::DS, decimalText(grid.spacing.z));
-  setText(set, { 0x0018, 0x0088 }, gdcm::VR::DS, decimalText(grid.spacing.z));
+  setWhole(set, 0x00280002, 1); // samples of a pixel
+  setText(set, 0x00280004, "CS", "MONOCHROME2");
+  setWhole(set, 0x00280010, grid.dimensions.y);
+  setWhole(set, 0x00280011, grid.dimensions.x);
+  setText(set, 0x00280030, "DS", decimalText(grid.spacing.y) + "\\" + decimalText(grid.spacing.x));
+  setWhole(set, 0x00280100, 16);
+  setWhole(set, 0x00280101, 16);
+  setWhole(set, 0x00280102, 15);
+  setWhole(set, 0x00280103, pixels.isSigned ? 1 : 0);
+  setText(set, 0x00280301, "CS", "NO"); // nothing is burned in
+  setText(set, 0x00281052, "DS", decimalText(pixels.rescaling.intercept));
+  setText(set, 0x00281053, "DS", decimalText(pixels.rescaling.slope));
+  setText(set, 0x00180050, "DS", decimalText(grid.spacing.z));
+  setText(set, 0x00180088, "DS", decimalText(grid.spacing.z));
   std::string orientation;
   for (int i = 0; i < 6; ++i)
   {
     orientation += (i > 0 ? "\\" : "") + decimalText(grid.direction[i / 3][i % 3]);
   }
-  setText(set, { 0x0020, 0x0037 }, gdcm::VR::DS, orientation);
+  setText(set, 0x00200037, "DS", orientation);
 }
 }
 
-std::string readLike(const std::string& like, gdcm::DataSet& source)
+std::string readLike(const std::string& like, DICOMDataSet& source)
 {
   if (like.empty())
   {
@@ -226,41 +246,39 @@ std::string readLike(const std::string& like, gdcm::DataSet& source)
            "series takes";
   }
   std::error_code error;
-  std::set<std::string> names{ like };
-  if (fs::is_directory(like, error))
+  if (!fs::is_directory(like, error))
   {
-    names.clear();
-    for (fs::directory_iterator next(like, error), end; next != end && !error;
-      next.increment(error))
-    {
-      names.insert(next->path().string());
-    }
+    const std::string problem = readImage(like, source);
+    return problem.empty()
+      ? problem
+      : "Like is " + like + ", which " + problem + "; choose another image of the patient's scan";
   }
-  for (const std::string& name : names)
+  std::set<std::string> names;
+  for (fs::directory_iterator next(like, error), end; next != end && !error; next.increment(error))
   {
-    if (readImage(name, source))
-    {
-      return {};
-    }
+    names.insert(next->path().string());
   }
-  return "Like is " + like + ", where no DICOM image with a study and a modality can be read";
+  const bool isFound = std::any_of(names.begin(), names.end(),
+    [&source](const std::string& name) { return readImage(name, source).empty(); });
+  return isFound ? std::string()
+                 : "Like is " + like + ", a folder with " + std::to_string(names.size()) +
+      " entries and no DICOM image that can be read and has a study and a modality; choose an "
+      "image of the patient's scan";
 }
 
-gdcm::DataSet sharedHeader(const gdcm::DataSet& source, const DerivedPixels& pixels)
+DerivedSet sharedHeader(const DICOMDataSet& source, const DerivedPixels& pixels)
 {
-  gdcm::DataSet set;
-  for (const gdcm::Tag& tag : Kept)
-  {
-    if (source.FindDataElement(tag))
-    {
-      set.Replace(source.GetDataElement(tag));
-    }
-  }
+  DerivedSet set;
   for (const auto& [tag, type] : Required)
   {
-    if (!set.FindDataElement(tag))
+    setText(set, tag, type, "");
+  }
+  for (const auto& [tag, type] : Kept)
+  {
+    const auto found = source.elements.find(tag);
+    if (found != source.elements.end())
     {
-      setText(set, tag, type, "");
+      setText(set, tag, type, found->second.bytes);
     }
   }
   setNow(set);
@@ -269,12 +287,12 @@ gdcm::DataSet sharedHeader(const gdcm::DataSet& source, const DerivedPixels& pix
   return set;
 }
 
-void setSlice(const DerivedPixels& pixels, int slice, gdcm::DataSet& header)
+void setSlice(const DerivedPixels& pixels, int slice, DerivedSet& header)
 {
   const glm::dvec3 place = pixels.grid.worldFromGrid({ 0.0, 0.0, static_cast<double>(slice) });
-  setText(header, { 0x0008, 0x0018 }, gdcm::VR::UI, newUID());
-  setText(header, { 0x0020, 0x0013 }, gdcm::VR::IS, std::to_string(slice + 1));
-  setText(header, { 0x0020, 0x0032 }, gdcm::VR::DS,
+  setText(header, 0x00080018, "UI", newUID());
+  setText(header, 0x00200013, "IS", std::to_string(slice + 1));
+  setText(header, 0x00200032, "DS",
     decimalText(place.x) + "\\" + decimalText(place.y) + "\\" + decimalText(place.z));
 }
 }

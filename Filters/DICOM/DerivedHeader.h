@@ -7,9 +7,9 @@
 #ifndef BrainShift_DerivedHeader_h
 #define BrainShift_DerivedHeader_h
 
+#include "Filters/DICOM/DICOMDataSet.h"
 #include "Filters/DICOM/DerivedPixels.h"
-
-#include <gdcmDataSet.h>
+#include "Filters/DICOM/DerivedSet.h"
 
 #include <string>
 
@@ -24,13 +24,13 @@ constexpr const char* NotForClinicalUse = "research, not for clinical use";
  * @param like   a DICOM file, or a folder whose first DICOM file is taken
  * @return one sentence, without a full stop, on why there is none; empty if it was read
  */
-std::string readLike(const std::string& like, gdcm::DataSet& source);
+std::string readLike(const std::string& like, DICOMDataSet& source);
 
 /** What all slices share. The series gets a new number of its own (UID). */
-gdcm::DataSet sharedHeader(const gdcm::DataSet& source, const DerivedPixels& pixels);
+DerivedSet sharedHeader(const DICOMDataSet& source, const DerivedPixels& pixels);
 
 /** Sets what belongs to one slice: its place, its number, its own UID. */
-void setSlice(const DerivedPixels& pixels, int slice, gdcm::DataSet& header);
+void setSlice(const DerivedPixels& pixels, int slice, DerivedSet& header);
 }
 
 #endif

@@ -18,6 +18,7 @@ namespace
 constexpr double Lowest = -32768.0; // of 16 bits with a sign
 constexpr double Highest = 32767.0;
 constexpr double HighestUnsigned = 65535.0;
+constexpr double MostPixels = 2147483647.0; // of a slice, whose bytes are counted in 32 bits
 
 // Lowest and highest number, and whether all are whole.
 struct Range
@@ -99,10 +100,10 @@ std::string derivedPixels(const OutgoingVolume& volume, DerivedPixels& pixels)
       " components at each voxel; a DICOM series must have 1";
   }
   const glm::ivec3& sides = volume.grid.dimensions;
-  if (std::max(sides.x, sides.y) > HighestUnsigned)
+  if (std::max(sides.x, sides.y) > HighestUnsigned || double(sides.x) * sides.y > MostPixels)
   {
     return "The input has slices of " + std::to_string(sides.x) + " x " + std::to_string(sides.y) +
-      " voxels; DICOM holds at most 65535 on each side";
+      " voxels; DICOM holds at most 65535 on each side and 2147483647 in a slice";
   }
   const Range range = rangeOf(volume.numbers);
   if (!range.isFinite)

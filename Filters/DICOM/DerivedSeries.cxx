@@ -5,11 +5,10 @@
 #include "Filters/DICOM/DerivedPixels.h"
 #include "Filters/Files/WholeFile.h"
 
-#include <gdcmWriter.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <random>
 #include <system_error>
 
@@ -44,44 +43,26 @@ std::string nameOf(int slice)
   return name;
 }
 
-// The numbers of a file: DICOM's explicit syntax has the low byte first.
-void setPixels(const std::vector<std::uint16_t>& bits, gdcm::DataSet& set)
-{
-  std::vector<char> bytes;
-  bytes.reserve(2 * bits.size());
-  for (const std::uint16_t pixel : bits)
-  {
-    bytes.push_back(static_cast<char>(pixel & 255));
-    bytes.push_back(static_cast<char>(pixel >> 8));
-  }
-  gdcm::DataElement element(gdcm::Tag(0x7fe0, 0x0010));
-  element.SetVR(gdcm::VR::OW);
-  element.SetByteValue(bytes.data(), gdcm::VL(static_cast<std::uint32_t>(bytes.size())));
-  set.Replace(element);
-}
-
-std::string writeSlice(const std::string& fileName, const gdcm::DataSet& set)
+std::string writeSlice(const std::string& fileName, const std::string& bytes)
 {
   return writeWhole(fileName, [&](const std::string& beside) {
-    gdcm::Writer writer;
-    writer.GetFile().SetDataSet(set);
-    writer.GetFile().GetHeader().SetDataSetTransferSyntax(
-      gdcm::TransferSyntax::ExplicitVRLittleEndian);
-    writer.SetFileName(beside.c_str());
     errno = 0;
-    return writer.Write() ? std::string() : lastSystemError();
+    std::ofstream file(beside, std::ios::binary);
+    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    file.close();
+    return file ? std::string() : lastSystemError();
   });
 }
 
-std::string writeSlices(const fs::path& folder, gdcm::DataSet header, const OutgoingVolume& volume,
+std::string writeSlices(const fs::path& folder, DerivedSet header, const OutgoingVolume& volume,
   const DerivedPixels& pixels, const Progress& progress)
 {
   const int slices = pixels.grid.dimensions.z;
   for (int slice = 0; slice < slices; ++slice)
   {
     setSlice(pixels, slice, header);
-    setPixels(derivedSlice(volume, pixels, slice), header);
-    const std::string problem = writeSlice((folder / nameOf(slice)).string(), header);
+    const std::string bytes = fileOf(header, derivedSlice(volume, pixels, slice));
+    const std::string problem = writeSlice((folder / nameOf(slice)).string(), bytes);
     if (!problem.empty())
     {
       return problem;
@@ -105,7 +86,7 @@ std::string writeSeries(const std::string& name, const std::string& like,
 {
   fs::path folder = isSeriesName(name) ? fs::path(name).replace_extension() : fs::path(name);
   folder = folder.has_filename() ? folder : folder.parent_path(); // a slash at the end
-  gdcm::DataSet source;
+  DICOMDataSet source;
   DerivedPixels pixels;
   std::string problem = volume.knowsSides
     ? readLike(like, source)

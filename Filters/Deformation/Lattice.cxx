@@ -290,11 +290,11 @@ double shareAtAnchor(const Lattice& lattice, const Stroke& stroke)
   return share;
 }
 
-// The vector that the control points of a stroke follow by their weights. With Soft it is longer
+// The vector that the control points of a stroke follow by their weights. In a sphere it is longer
 // than the stroke's, so that the tissue at the anchor follows the hand all the way.
 glm::dvec3 vectorOfPoints(const Lattice& lattice, const Stroke& stroke)
 {
-  return stroke.tool == Tool::Soft
+  return shapeOf(stroke.tool) == StrokeShape::Sphere
     ? stroke.vector / std::clamp(shareAtAnchor(lattice, stroke), SmallestSoftShare, 1.0)
     : stroke.vector;
 }
@@ -354,7 +354,7 @@ void applyStroke(Lattice& lattice, const Stroke& stroke)
   {
     return;
   }
-  if (stroke.tool == Tool::Move)
+  if (shapeOf(stroke.tool) == StrokeShape::Point)
   {
     applyMove(lattice, stroke);
   }
@@ -389,7 +389,7 @@ double reachOf(const Lattice& before, const Lattice& after, const Stroke& stroke
     return 0.0;
   }
   glm::dvec3 rest;
-  if (stroke.tool == Tool::Move)
+  if (shapeOf(stroke.tool) == StrokeShape::Point)
   {
     const MadeAt madeAt(before.grid, stroke);
     rest = before.grid.worldFromGrid(madeAt.point * madeAt.ratio);

@@ -18,8 +18,9 @@ constexpr double FullReach = 0.8; // of a stroke's length; less of it is worth a
 // How finely a stroke bends, mm; 0 if it takes whatever the lattice has.
 double finestRadius(const Stroke& stroke)
 {
-  // Move: the spacing it was made at.
-  return stroke.tool == Tool::Stamp ? std::min(stroke.major, stroke.minor) : stroke.major;
+  // A point: the spacing it was made at.
+  return shapeOf(stroke.tool) == StrokeShape::Ellipsoid ? std::min(stroke.major, stroke.minor)
+                                                        : stroke.major;
 }
 
 // Whether a mask leaves the tissue at a position (mm, world) less than its whole displacement. The

@@ -26,6 +26,29 @@ Stroke strokeFromNumbers(const double* numbers)
   return stroke;
 }
 
+bool isToolOfStrokes(double number)
+{
+  return std::any_of(KnownTools.begin(), KnownTools.end(), [number](const ToolTraits& traits) {
+    return traits.shape != StrokeShape::None && number == static_cast<int>(traits.tool);
+  });
+}
+
+// "0 (Move), 1 (Soft) or 2 (Stamp)"
+std::string toolsOfStrokes()
+{
+  std::string text;
+  for (const ToolTraits& traits : KnownTools)
+  {
+    if (traits.shape != StrokeShape::None)
+    {
+      text += (text.empty() ? "" : ", ") + std::to_string(static_cast<int>(traits.tool)) + " (" +
+        traits.name + ")";
+    }
+  }
+  const std::size_t last = text.rfind(", ");
+  return last == std::string::npos ? text : text.replace(last, 2, " or ");
+}
+
 void requireRadius(std::ostream& problem, const char* name, double value)
 {
   if (value <= 0.0)
@@ -46,9 +69,9 @@ std::string problemOf(const double* numbers)
             << -LargestStrokeNumber << " to " << LargestStrokeNumber;
     return problem.str();
   }
-  if (numbers[0] != 0.0 && numbers[0] != 1.0 && numbers[0] != 2.0)
+  if (!isToolOfStrokes(numbers[0]))
   {
-    problem << "its tool is " << numbers[0] << "; it must be 0 (Move), 1 (Soft) or 2 (Stamp)";
+    problem << "its tool is " << numbers[0] << "; it must be " << toolsOfStrokes();
     return problem.str();
   }
   const Stroke stroke = strokeFromNumbers(numbers);
@@ -57,15 +80,15 @@ std::string problemOf(const double* numbers)
     problem << "its radii are " << stroke.major << " and " << stroke.minor
             << " mm; they must not be below 0 mm";
   }
-  else if (stroke.tool != Tool::Move && stroke.sigma < SmallestSigma)
+  else if (shapeOf(stroke.tool) != StrokeShape::Point && stroke.sigma < SmallestSigma)
   {
     problem << "its sigma is " << stroke.sigma << "; it must be at least " << SmallestSigma;
   }
-  else if (stroke.tool == Tool::Soft)
+  else if (shapeOf(stroke.tool) == StrokeShape::Sphere)
   {
     requireRadius(problem, "radius", stroke.major);
   }
-  else if (stroke.tool == Tool::Stamp)
+  else if (shapeOf(stroke.tool) == StrokeShape::Ellipsoid)
   {
     requireRadius(problem, "major radius", stroke.major);
     if (problem.str().empty())
@@ -144,7 +167,7 @@ double falloff(double distance, double sigma)
 double normalisedDistance(const Stroke& stroke, const glm::dvec3& position)
 {
   const glm::dvec3 fromAnchor = position - stroke.anchor;
-  if (stroke.tool == Tool::Soft)
+  if (shapeOf(stroke.tool) == StrokeShape::Sphere)
   {
     return glm::length(fromAnchor) / stroke.major;
   }

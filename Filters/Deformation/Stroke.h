@@ -12,22 +12,69 @@
 
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <string>
 #include <vector>
 
 namespace brainshift
 {
-/** Which control points a stroke moves. */
+/** The tools. A stroke holds the number of the tool that made it. */
 enum class Tool
 {
-  Move = 0, ///< the one nearest to the anchor, measured in the rest frame
-  Soft = 1, ///< all within a sphere around the anchor, measured in the deformed frame
+  None = -1, ///< no tool
+  Move = 0,
+  Soft = 1,
+  Stamp = 2,
+  Pull = 3,
+};
+
+/** Which control points the strokes of a tool move. */
+enum class StrokeShape
+{
+  None,   ///< the tool makes no strokes
+  Point,  ///< the one nearest to the anchor, measured in the rest frame
+  Sphere, ///< all within a sphere around the anchor, measured in the deformed frame
   /**
-   * All within an ellipsoid of revolution around the anchor, measured in the deformed frame.
+   * All within an ellipsoid of revolution around the anchor, measured in the deformed frame. The
+   * strokes go along its long axis.
    * Source: van der Steen et al., SPIE 7169 (2009), section 2.
    */
-  Stamp = 2,
+  Ellipsoid,
 };
+
+/** What strokes need to know of a tool. Interaction/Commands/Tools.h says the rest. */
+struct ToolTraits
+{
+  Tool tool;
+  const char* name; ///< as the user reads it, before translation
+  StrokeShape shape;
+};
+
+/** All tools, in the order of their buttons. */
+constexpr std::array<ToolTraits, 4> KnownTools{ {
+  { Tool::Move, "Move", StrokeShape::Point },
+  { Tool::Soft, "Soft", StrokeShape::Sphere },
+  { Tool::Stamp, "Stamp", StrokeShape::Ellipsoid },
+  { Tool::Pull, "Pull", StrokeShape::None },
+} };
+
+/** The traits of a tool; those of no tool have an empty name. */
+constexpr ToolTraits traitsOf(Tool tool)
+{
+  for (const ToolTraits& traits : KnownTools)
+  {
+    if (traits.tool == tool)
+    {
+      return traits;
+    }
+  }
+  return { Tool::None, "", StrokeShape::None };
+}
+
+constexpr StrokeShape shapeOf(Tool tool)
+{
+  return traitsOf(tool).shape;
+}
 
 /**
  * One edit. As a list of 14 numbers: tool, anchor xyz, vector xyz, axis xyz, major, minor, sigma,
@@ -40,19 +87,21 @@ struct Stroke
   glm::dvec3 vector{ 0.0 }; ///< mm, world axes: displacement where the weight is 1
 
   /**
-   * Stamp: direction of the long axis, of any length above 0. Move: spacing (mm) of the lattice the
-   * stroke was made at, along each lattice axis; 0 0 0 leaves it to `major`. Soft: unused.
+   * Ellipsoid: direction of the long axis, of any length above 0. Point: spacing (mm) of the
+   * lattice the stroke was made at, along each lattice axis; 0 0 0 leaves it to `major`. Sphere:
+   * unused.
    */
   glm::dvec3 axis{ 0.0 };
 
   /**
-   * mm. Stamp: half the length of the long axis. Soft: radius. Move: spacing of the lattice the
-   * stroke was made at, if `axis` does not give it; 0: the spacing of the lattice it is applied to.
+   * mm. Ellipsoid: half the length of the long axis. Sphere: radius. Point: spacing of the lattice
+   * the stroke was made at, if `axis` does not give it; 0: the spacing of the lattice it is applied
+   * to.
    */
   double major = 0.0;
 
-  double minor = 0.0;  ///< mm. Stamp: radius across the long axis. Others: unused
-  double sigma = 0.5;  ///< width of the Gaussian, as a share of the radius. Move: unused
+  double minor = 0.0;  ///< mm. Ellipsoid: radius across the long axis. Others: unused
+  double sigma = 0.5;  ///< width of the Gaussian, as a fraction of the radius. Point: unused
   bool enabled = true; ///< false: the stroke is kept but moves nothing
 
   /** Whether all 14 numbers are equal. */
@@ -66,7 +115,7 @@ constexpr int NumbersPerStroke = 14;
 /** Each number of a stroke lies between this and its negative. */
 constexpr double LargestStrokeNumber = 1e9;
 
-/** Least sigma of Soft and Stamp: half the weight is lost at a thousandth of the radius. */
+/** Least sigma: half the weight is lost at a thousandth of the radius. A Point has none. */
 constexpr double SmallestSigma = 0.001;
 
 /**
@@ -87,14 +136,14 @@ BRAINSHIFT_DEFORMATION_EXPORT std::vector<double> numbersFromStrokes(
  * Weight, 0 to 1, at a distance from the anchor: a Gaussian whose value and slope fall to 0 at
  * distance 1.
  *
- * @param distance   as a share of the radius
- * @param sigma      width of the Gaussian, as a share of the radius
+ * @param distance   as a fraction of the radius
+ * @param sigma      width of the Gaussian, as a fraction of the radius
  */
 BRAINSHIFT_DEFORMATION_EXPORT double falloff(double distance, double sigma);
 
 /**
- * Distance from the anchor as a share of the radius: 1 on the sphere of a Soft stroke or on the
- * ellipsoid of a Stamp. It has no meaning for Move.
+ * Distance from the anchor as a fraction of the radius: 1 on the sphere or on the ellipsoid of a
+ * stroke. It has no meaning for a Point.
  *
  * @param position   mm, deformed frame
  */

@@ -160,9 +160,18 @@ Look glass(const Intensities& values)
     low + 0.1 * reach);
 }
 
+Look inHounsfield(const Intensities& values, const Colors& colors, const Opacities& opacities)
+{
+  return made(values, colors, opacities, 0.5 * (opacities[0][0] + opacities[1][0]));
+}
+
 // Fluid between the gyri is darker than nearly all tissue: it stays open.
 Look brain(const Intensities& values)
 {
+  if (values.segment.counts.empty()) // of a CT
+  {
+    return inHounsfield(values, between(BrainColors, 5.0, 60.0), CTBrainOpacities);
+  }
   const double low = percentile(values.segment, 0.07);
   const double full = std::max(percentile(values.segment, 0.25), low + values.segment.width());
   const double top = std::max(percentile(values.segment, 0.99), full + (full - low));
@@ -184,9 +193,22 @@ Look ultrasound(const Intensities& values)
     { { low, 0.0 }, { 0.5 * (low + full), 0.08 }, { full, 0.6 }, { top, 0.9 } }, low);
 }
 
-Look inHounsfield(const Intensities& values, const Colors& colors, const Opacities& opacities)
+std::vector<const LookRow*> rowsFor(const Intensities& values)
 {
-  return made(values, colors, opacities, 0.5 * (opacities[0][0] + opacities[1][0]));
+  std::vector<const LookRow*> rows;
+  if (values.empty() || values.areLabels)
+  {
+    return rows;
+  }
+  const VolumeKind kind = kindOf(values);
+  for (const LookRow& row : lookTable())
+  {
+    if (row.fits(kind, values))
+    {
+      rows.push_back(&row);
+    }
+  }
+  return rows;
 }
 }
 
@@ -216,63 +238,55 @@ std::string nameOf(VolumeKind kind)
   }
 }
 
+const std::vector<LookRow>& lookTable()
+{
+  using Values = const Intensities&;
+  constexpr const char* aboutSkin = "Show the outer surface without the background.";
+  static const std::vector<LookRow> table{
+    { "Skin", aboutSkin, false, [](VolumeKind kind, Values) { return kind == VolumeKind::MR; },
+      skin },
+    { "Bone", "Show bone: 150 HU and above.", false,
+      [](VolumeKind kind, Values) { return kind == VolumeKind::CT; },
+      [](Values values) { return inHounsfield(values, BoneColors, BoneOpacities); } },
+    { "Ultrasound", "Show bright echoes. Dark ones are transparent.", false,
+      [](VolumeKind kind, Values) { return kind == VolumeKind::Ultrasound; }, ultrasound },
+    { "Brain", "Show the brain. Outside CT, this needs a segmentation.", true,
+      [](VolumeKind kind, Values values) {
+        return kind == VolumeKind::CT || !values.segment.counts.empty();
+      },
+      brain },
+    { "Skin", aboutSkin, false, [](VolumeKind kind, Values) { return kind == VolumeKind::CT; },
+      [](Values values) { return inHounsfield(values, CTSkinColors, CTSkinOpacities); } },
+    { "Skin", aboutSkin, false,
+      [](VolumeKind kind, Values) { return kind == VolumeKind::Ultrasound; }, skin },
+    { "Vessels", "Show vessels with contrast agent: 120 HU and above.", false,
+      [](VolumeKind kind, Values) { return kind == VolumeKind::CT; },
+      [](Values values) { return inHounsfield(values, VesselColors, VesselOpacities); } },
+    { "See-through", "Show the inside through a faint surface.", false,
+      [](VolumeKind kind, Values) { return kind == VolumeKind::MR; }, glass },
+  };
+  return table;
+}
+
 std::vector<std::string> looksOf(const Intensities& values)
 {
-  if (values.empty() || values.areLabels)
-  {
-    return {};
-  }
   std::vector<std::string> names;
-  const VolumeKind kind = kindOf(values);
-  if (kind == VolumeKind::CT)
+  for (const LookRow* row : rowsFor(values))
   {
-    names = { "Bone", "Skin", "Vessels" };
-  }
-  else if (kind == VolumeKind::Ultrasound)
-  {
-    names = { "Ultrasound", "Skin" };
-  }
-  else
-  {
-    names = { "Skin", "See-through" };
-  }
-  if (!values.segment.counts.empty() || kind == VolumeKind::CT)
-  {
-    names.insert(names.begin() + 1, "Brain");
+    names.emplace_back(row->name);
   }
   return names;
 }
 
 Look makeLook(const std::string& name, const Intensities& values)
 {
-  const std::vector<std::string> names = looksOf(values);
-  if (std::find(names.begin(), names.end(), name) == names.end())
+  for (const LookRow* row : rowsFor(values))
   {
-    return {};
+    if (name == row->name)
+    {
+      return row->make(values);
+    }
   }
-  const bool isCT = kindOf(values) == VolumeKind::CT;
-  if (name == "Brain")
-  {
-    return values.segment.counts.empty()
-      ? inHounsfield(values, between(BrainColors, 5.0, 60.0), CTBrainOpacities)
-      : brain(values);
-  }
-  if (name == "Bone")
-  {
-    return inHounsfield(values, BoneColors, BoneOpacities);
-  }
-  if (name == "Vessels")
-  {
-    return inHounsfield(values, VesselColors, VesselOpacities);
-  }
-  if (name == "Ultrasound")
-  {
-    return ultrasound(values);
-  }
-  if (name == "See-through")
-  {
-    return glass(values);
-  }
-  return isCT ? inHounsfield(values, CTSkinColors, CTSkinOpacities) : skin(values);
+  return {};
 }
 }

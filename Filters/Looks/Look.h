@@ -42,6 +42,19 @@ VTKBRAINSHIFTFILTERS_EXPORT VolumeKind kindOf(const Intensities& values);
 /** "MR", "CT", "Ultrasound" or "Labels". */
 VTKBRAINSHIFTFILTERS_EXPORT std::string nameOf(VolumeKind kind);
 
+/** A look (preset) of one kind of volume, or of several. A name may have a row for each kind. */
+struct LookRow
+{
+  const char* name; ///< also of its icon: look-see-through.png
+  const char* tip;  ///< what it shows, one sentence
+  bool ofSegment;   ///< shows the segmentation alone, where there is one
+  bool (*fits)(VolumeKind kind, const Intensities& values);
+  Look (*make)(const Intensities& values);
+};
+
+/** All looks. A volume gets the first one that fits, and offers the others in this order. */
+VTKBRAINSHIFTFILTERS_EXPORT const std::vector<LookRow>& lookTable();
+
 /** Names of the looks of a volume. The first one is what it gets at first. */
 VTKBRAINSHIFTFILTERS_EXPORT std::vector<std::string> looksOf(const Intensities& values);
 

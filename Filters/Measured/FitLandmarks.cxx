@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Measured/FitLandmarks.h"
 
+#include "Filters/Fit/PackedTables.h"
+
 #include "Filters/Measured/MeasuredPoints.h"
 
 #include <glm/geometric.hpp>
@@ -47,11 +49,11 @@ std::vector<PointPair> FitLandmarks::read(
                          named.names[i]) != this->SwitchedOff.end();
     named.pairs[i].weight = isOff ? 0.0 : named.pairs[i].weight;
   }
-  for (std::size_t i = 0; i + NumbersPerPair <= this->Numbers.size(); i += NumbersPerPair)
+  const std::vector<PointPair> listed = rowsFrom<PointPair>(this->Numbers);
+  for (std::size_t i = 0; i < listed.size(); ++i)
   {
-    const double* n = &this->Numbers[i];
-    named.pairs.push_back({ { n[0], n[1], n[2] }, { n[3], n[4], n[5] }, n[6] });
-    named.names.push_back("Pair " + std::to_string(i / NumbersPerPair + 1));
+    named.pairs.push_back(listed[i]);
+    named.names.push_back("Pair " + std::to_string(i + 1));
   }
   this->Names->Reset();
   for (const std::string& name : named.names)

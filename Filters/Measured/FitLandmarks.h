@@ -26,7 +26,6 @@ namespace brainshift
 class FitLandmarks
 {
 public:
-  static constexpr std::size_t NumbersPerPair = 7;
   static constexpr int NumbersPerPlace = 10;
 
   std::vector<double> Numbers;          ///< of the list: see vtkFitDeformation::AddLandmarkPair

@@ -9,7 +9,8 @@
 #include "Filters/Deformation/MaskWeights.h"
 #include "Filters/Fit/Measurements.h"
 
-#include "vtkSmartPointer.h" // for what a function returns
+#include "vtkBrainShiftFiltersModule.h" // for the export macro
+#include "vtkSmartPointer.h"            // for what a function returns
 
 #include <glm/ext/vector_int3.hpp>
 #include <glm/vec3.hpp>
@@ -38,7 +39,7 @@ struct NamedPairs
  * the point array Weight of those at rest gives weights. Both may be null. A pair is called by its
  * label at rest, or by its number among those at rest, from 1 on.
  */
-NamedPairs landmarkPairs(vtkPointSet* rest, vtkPointSet* measured);
+VTKBRAINSHIFTFILTERS_EXPORT NamedPairs landmarkPairs(vtkPointSet* rest, vtkPointSet* measured);
 
 /**
  * Asks for the part of a point set that is this MPI rank's. Call it in RequestUpdateExtent. Most
@@ -55,7 +56,7 @@ void askForOwnPoints(vtkInformation* points);
 vtkSmartPointer<vtkPointSet> pointsOfAllRanks(vtkPointSet* own);
 
 /** The space within a distance of a mask, beyond the mask's own image too. It takes no memory. */
-class NearMask
+class VTKBRAINSHIFTFILTERS_EXPORT NearMask
 {
 public:
   /** Keeps a reference to the mask. `byMm`: distance, 0 or more. */

@@ -8,10 +8,12 @@
 #include "Filters/Attached/WholeExtent.h"
 #include "Filters/Fields/BaseLattice.h"
 #include "Filters/Fields/FieldImage.h"
+#include "Filters/Fields/FilledArray.h"
 #include "Filters/Fields/FittedFor.h"
 #include "Filters/Fit/Anchors.h"
 #include "Filters/Fit/FittedLattice.h"
 #include "Filters/Fit/LatticeEvidence.h"
+#include "Filters/Fit/PackedTables.h"
 #include "Filters/Measured/AnchorChoice.h"
 #include "Filters/Measured/EvidenceArray.h"
 #include "Filters/Measured/FitLandmarks.h"
@@ -48,21 +50,12 @@ constexpr int CavityPort = 7;
 constexpr int OpeningPort = 8;
 constexpr int Ports = 9;
 
-constexpr std::size_t NumbersPerPull = 7;
-constexpr std::size_t NumbersPerPin = 4;
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* NotRun = "The fit has not run";
 
 bool isOfPoints(int port)
 {
   return port >= RestPort && port <= TracesPort;
-}
-
-vtkDoubleArray* filled(vtkDoubleArray* array, const std::vector<double>& values)
-{
-  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  return array;
 }
 }
 
@@ -189,12 +182,12 @@ int vtkFitDeformation::RequestUpdateExtent(
 
 std::string vtkFitDeformation::ProblemOfProperties() const
 {
-  if (this->Pulls.size() % NumbersPerPull || this->Pins.size() % NumbersPerPin)
+  if (this->Pulls.size() % Packed<Pull>::Numbers || this->Pins.size() % Packed<Pin>::Numbers)
   {
     return "Pulls has " + std::to_string(this->Pulls.size()) + " numbers and Pins " +
       std::to_string(this->Pins.size()) + "; a pull has 7 and a pin 4";
   }
-  if (this->Landmarks->Numbers.size() % FitLandmarks::NumbersPerPair)
+  if (this->Landmarks->Numbers.size() % Packed<PointPair>::Numbers)
   {
     return "LandmarkPairs has " + std::to_string(this->Landmarks->Numbers.size()) +
       " numbers; a pair has 7";
@@ -215,17 +208,12 @@ std::string vtkFitDeformation::ReadMeasurements(vtkInformationVector** inputs)
                         int port) { return pointsOfAllRanks(vtkPointSet::GetData(inputs[port])); };
   state.Measured.landmarks =
     this->Landmarks->read(points(RestPort), points(MeasuredPort), state.Unmatched);
-  for (std::size_t i = 0; i < this->Pulls.size(); i += NumbersPerPull)
+  state.Measured.pulls = rowsFrom<Pull>(this->Pulls);
+  for (const Pin& pin : rowsFrom<Pin>(this->Pins))
   {
-    const double* n = &this->Pulls[i];
-    state.Measured.pulls.push_back({ { n[0], n[1], n[2] }, { n[3], n[4], n[5] }, n[6] });
-  }
-  for (std::size_t i = 0; i < this->Pins.size(); i += NumbersPerPin)
-  {
-    const double* n = &this->Pins[i];
-    if (n[3] != 0.0)
+    if (pin.enabled)
     {
-      state.Measured.pins.emplace_back(n[0], n[1], n[2]);
+      state.Measured.pins.push_back(pin.rest);
     }
   }
   std::string problem;
@@ -508,8 +496,8 @@ void vtkFitDeformation::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Anchors: " << this->Anchors << "\n"
      << indent << "OpeningRadius: " << this->OpeningRadius << "\n"
      << indent << "Evidence: " << this->Evidence << "\n"
-     << indent
-     << "LandmarkPairs: " << this->Landmarks->Numbers.size() / FitLandmarks::NumbersPerPair << "\n"
-     << indent << "Pulls: " << this->Pulls.size() / NumbersPerPull << "\n"
-     << indent << "Pins: " << this->Pins.size() / NumbersPerPin << "\n";
+     << indent << "LandmarkPairs: " << this->Landmarks->Numbers.size() / Packed<PointPair>::Numbers
+     << "\n"
+     << indent << "Pulls: " << this->Pulls.size() / Packed<Pull>::Numbers << "\n"
+     << indent << "Pins: " << this->Pins.size() / Packed<Pin>::Numbers << "\n";
 }

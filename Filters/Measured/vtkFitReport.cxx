@@ -2,25 +2,15 @@
 #include "vtkFitReport.h"
 
 #include "Filters/Attached/Guard.h"
+#include "Filters/Fields/FilledArray.h"
 #include "vtkFitDeformation.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkObjectFactory.h"
 
-#include <algorithm>
-
 using namespace brainshift;
 
 vtkStandardNewMacro(vtkFitReport);
-
-namespace
-{
-void fill(vtkDoubleArray* array, const std::vector<double>& values)
-{
-  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-}
-}
 
 vtkFitReport::vtkFitReport() = default;
 vtkFitReport::~vtkFitReport() = default;
@@ -45,7 +35,7 @@ vtkDoubleArray* vtkFitReport::GetMeasured()
   this->Measured->Reset();
   if (this->Filter)
   {
-    guarded(this, [&] { fill(this->Measured, this->Filter->MeasuredFromRest(this->Points)); });
+    guarded(this, [&] { filled(this->Measured, this->Filter->MeasuredFromRest(this->Points)); });
   }
   return this->Measured;
 }
@@ -55,7 +45,7 @@ vtkDoubleArray* vtkFitReport::GetDeviations()
   this->Deviations->Reset();
   if (this->Filter)
   {
-    guarded(this, [&] { fill(this->Deviations, this->Filter->Deviations(this->Points)); });
+    guarded(this, [&] { filled(this->Deviations, this->Filter->Deviations(this->Points)); });
   }
   return this->Deviations;
 }

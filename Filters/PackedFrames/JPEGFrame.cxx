@@ -14,11 +14,11 @@ namespace
 constexpr double Pi = 3.14159265358979323846;
 constexpr int Side = 8; // of a block
 
-// The bits behind the header. Behind their end come zeros; isWhole then says no.
-class Bits
+// The entropy-coded data. Behind its end come zeros; isWhole then says no.
+class EntropyData
 {
 public:
-  Bits(const std::string& packed, std::size_t offset)
+  EntropyData(const std::string& packed, std::size_t offset)
     : Bytes(reinterpret_cast<const unsigned char*>(packed.data()))
     , Size(packed.size())
     , Offset(offset)
@@ -28,25 +28,29 @@ public:
   // Whether all bits that were taken were there, and each code was in its table.
   bool isWhole() const { return this->IsCode && 8 * this->Missing <= this->Count; }
 
+  // The value of the next Huffman code (DECODE, F.2.2.3).
   int symbol(const HuffmanTable& table)
   {
-    this->fill();
+    if (this->Count < 32) // a code and the number behind it have 31 bits at most
+    {
+      this->fill();
+    }
     const HuffmanCode code = table[this->Window >> 48];
     this->IsCode = this->IsCode && code.bits > 0;
     this->drop(code.bits);
     return code.symbol;
   }
 
-  // A number of so many bits, from 1 to 15; the lower half of them stands for negative numbers.
+  // A number of so many bits, from 1 to 15, right behind its symbol; the lower half of them stands
+  // for negative numbers (RECEIVE and EXTEND, F.2.2.1).
   int number(int bits)
   {
-    this->fill();
     const int value = static_cast<int>(this->Window >> (64 - bits));
     this->drop(bits);
     return value < 1 << (bits - 1) ? value - (1 << bits) + 1 : value;
   }
 
-  // Goes behind a marker of restart, which must be next.
+  // Goes behind a restart marker, which must be next.
   bool restart()
   {
     this->fill();
@@ -76,9 +80,33 @@ private:
     this->Count -= bits;
   }
 
+  // Takes 4 bytes at once where none of them can begin a marker.
+  bool fillFour()
+  {
+    if (this->Count > 32 || this->Size - this->Offset < 4)
+    {
+      return false;
+    }
+    std::uint64_t four = 0;
+    bool isPlain = true;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      const unsigned char byte = this->Bytes[this->Offset + i];
+      four = four << 8 | byte;
+      isPlain = isPlain && byte != 0xff;
+    }
+    if (isPlain)
+    {
+      this->Window |= four << (32 - this->Count);
+      this->Count += 32;
+      this->Offset += 4;
+    }
+    return isPlain;
+  }
+
   void fill()
   {
-    while (this->Count <= 48)
+    while (this->Count <= 48 && !this->fillFour())
     {
       std::uint64_t byte = 0;
       const bool isEscape = this->Offset < this->Size && this->Bytes[this->Offset] == 0xff;
@@ -131,150 +159,159 @@ int predicted(int predictor, int left, int above, int corner)
 }
 
 // `above` is null in the first row, and in the first behind a restart.
-bool readRow(
-  const JPEGHeader& header, const std::uint16_t* above, std::uint16_t* row, int columns, Bits& bits)
+bool readRow(const JPEGHeader& header, const std::uint16_t* above, std::uint16_t* row, int columns,
+  EntropyData& data)
 {
-  const int middle = 1 << (header.bits - header.droppedBits - 1);
+  const int middle = 1 << (header.bits - header.pointTransform - 1);
   for (int x = 0; x < columns; ++x)
   {
     const int left = x > 0 ? row[x - 1] : above ? above[0] : middle;
     const bool isInside = above && x > 0;
     const int guess = isInside ? predicted(header.predictor, left, above[x], above[x - 1]) : left;
-    const int length = bits.symbol(header.first);
+    const int length = data.symbol(header.dcTable);
     if (length > 16)
     {
       return false;
     }
-    const int difference = length == 16 ? 32768 : length > 0 ? bits.number(length) : 0;
+    const int difference = length == 16 ? 32768 : length > 0 ? data.number(length) : 0;
     row[x] = static_cast<std::uint16_t>(guess + difference); // modulo 65536, as the standard says
   }
-  return bits.isWhole();
+  return data.isWhole();
 }
 
-bool readLossless(const JPEGHeader& header, const FrameShape& shape, Bits& bits,
+bool readLossless(const JPEGHeader& header, const FrameShape& shape, EntropyData& data,
   std::vector<std::uint16_t>& samples)
 {
-  const int interval = header.restartInterval;
-  if (interval % shape.columns != 0)
-  {
-    return false; // the standard lets restarts be at the beginning of rows only
-  }
-  const int rows = interval / shape.columns; // between restarts
+  const int rows = header.restartInterval / shape.columns; // between restarts
   const std::size_t columns = static_cast<std::size_t>(shape.columns);
   for (int y = 0; y < shape.rows; ++y)
   {
     const bool restarts = rows > 0 && y > 0 && y % rows == 0;
     std::uint16_t* row = samples.data() + columns * static_cast<std::size_t>(y);
-    if ((restarts && !bits.restart()) ||
-      !readRow(header, y == 0 || restarts ? nullptr : row - columns, row, shape.columns, bits))
+    if ((restarts && !data.restart()) ||
+      !readRow(header, y == 0 || restarts ? nullptr : row - columns, row, shape.columns, data))
     {
       return false;
     }
   }
   for (std::uint16_t& sample : samples)
   {
-    sample = static_cast<std::uint16_t>(sample << header.droppedBits);
+    sample = static_cast<std::uint16_t>(sample << header.pointTransform);
   }
   return true;
 }
 
-using Block = std::array<double, 64>;
+using Block = std::array<float, 64>; // row by row
 
-bool readBlock(const JPEGHeader& header, Bits& bits, double& first, Block& block)
+bool readBlock(const JPEGHeader& header, EntropyData& data, std::int64_t& dc, Block& block)
 {
-  block.fill(0.0);
-  const int length = bits.symbol(header.first);
+  block.fill(0.0F);
+  const int length = data.symbol(header.dcTable);
   if (length > 15)
   {
     return false;
   }
-  first += length > 0 ? bits.number(length) : 0;
-  block[0] = first * header.quantization[0];
+  dc += length > 0 ? data.number(length) : 0;
+  block[0] = static_cast<float>(dc * header.quantization[0]);
   for (std::size_t i = 1; i < block.size(); ++i)
   {
-    const int symbol = bits.symbol(header.others);
-    const int zeros = symbol >> 4;
+    const int symbol = data.symbol(header.acTable);
+    const int run = symbol >> 4; // of zero coefficients
     const int size = symbol & 15;
-    if (size == 0 && zeros < 15)
+    if (size == 0 && run < 15)
     {
-      break; // all others are zero
+      break; // end of block: all others are zero
     }
-    i += static_cast<std::size_t>(zeros);
+    i += static_cast<std::size_t>(run);
     if (i >= block.size())
     {
       return false;
     }
-    const std::size_t place = PlaceOfCoefficient[i];
-    block[place] = size > 0 ? double(bits.number(size)) * header.quantization[place] : 0.0;
+    const std::size_t place = ZigZag[i];
+    block[place] =
+      size > 0 ? static_cast<float>(data.number(size) * header.quantization[place]) : 0.0F;
   }
-  return bits.isWhole();
+  return data.isWhole();
 }
 
-// waves[u][x]: the cosine of frequency u at x, scaled so that the transform keeps lengths.
-std::array<std::array<double, Side>, Side> makeWaves()
+// basis[u][x]: the cosine of frequency u at x, scaled so that the transform keeps lengths (A.3.3).
+std::array<std::array<float, Side>, Side> makeBasis()
 {
-  std::array<std::array<double, Side>, Side> waves{};
+  std::array<std::array<float, Side>, Side> basis{};
   for (int u = 0; u < Side; ++u)
   {
     for (int x = 0; x < Side; ++x)
     {
-      waves[u][x] = (u == 0 ? std::sqrt(0.125) : 0.5) * std::cos((2 * x + 1) * u * Pi / 16.0);
+      basis[u][x] = static_cast<float>(
+        (u == 0 ? std::sqrt(0.125) : 0.5) * std::cos((2 * x + 1) * u * Pi / 16.0));
     }
   }
-  return waves;
+  return basis;
 }
 
-// The inverse cosine transform: columns, then rows.
-void invertTransform(Block& block)
+// The inverse DCT along the first index, of all 8 columns at once. Even frequencies are symmetric
+// about the middle, odd ones antisymmetric: each sum serves two samples.
+Block invertedColumns(const Block& from)
 {
-  static const auto waves = makeWaves();
-  Block half{};
-  for (int v = 0; v < Side; ++v)
+  static const auto basis = makeBasis();
+  Block to;
+  for (int y = 0; y < Side / 2; ++y)
   {
-    for (int u = 0; u < Side; ++u)
+    for (int x = 0; x < Side; ++x)
     {
-      const double coefficient = block[Side * v + u];
-      for (int y = 0; coefficient != 0.0 && y < Side; ++y)
-      {
-        half[Side * y + u] += coefficient * waves[v][y];
-      }
+      const float even = basis[0][y] * from[x] + basis[2][y] * from[2 * Side + x] +
+        basis[4][y] * from[4 * Side + x] + basis[6][y] * from[6 * Side + x];
+      const float odd = basis[1][y] * from[Side + x] + basis[3][y] * from[3 * Side + x] +
+        basis[5][y] * from[5 * Side + x] + basis[7][y] * from[7 * Side + x];
+      to[Side * y + x] = even + odd;
+      to[Side * (Side - 1 - y) + x] = even - odd;
     }
   }
+  return to;
+}
+
+Block transposed(const Block& block)
+{
+  Block result;
   for (int y = 0; y < Side; ++y)
   {
     for (int x = 0; x < Side; ++x)
     {
-      double sum = 0.0;
-      for (int u = 0; u < Side; ++u)
-      {
-        sum += half[Side * y + u] * waves[u][x];
-      }
-      block[Side * y + x] = sum;
+      result[Side * x + y] = block[Side * y + x];
     }
   }
+  return result;
+}
+
+// The inverse DCT of a block.
+void invertDCT(Block& block)
+{
+  block = transposed(invertedColumns(transposed(invertedColumns(block))));
 }
 
 // Blocks at the right and lower rim stand over it.
 void store(const Block& block, int bits, const FrameShape& shape, int left, int top,
   std::vector<std::uint16_t>& samples)
 {
-  const double most = (1 << bits) - 1;
-  const double middle = 1 << (bits - 1);
+  const float most = static_cast<float>((1 << bits) - 1);
+  const float shift = static_cast<float>(1 << (bits - 1)) + 0.5F; // level shift, and rounding
+  const int columns = std::min(Side, shape.columns - left);
   for (int y = 0; y < std::min(Side, shape.rows - top); ++y)
   {
-    for (int x = 0; x < std::min(Side, shape.columns - left); ++x)
+    std::uint16_t* row = samples.data() +
+      static_cast<std::size_t>(top + y) * static_cast<std::size_t>(shape.columns) + left;
+    for (int x = 0; x < columns; ++x)
     {
-      const double value = std::clamp(std::round(block[Side * y + x] + middle), 0.0, most);
-      samples[static_cast<std::size_t>(top + y) * static_cast<std::size_t>(shape.columns) +
-        static_cast<std::size_t>(left + x)] = static_cast<std::uint16_t>(value);
+      row[x] = static_cast<std::uint16_t>(
+        static_cast<int>(std::clamp(block[Side * y + x] + shift, 0.0F, most)));
     }
   }
 }
 
-bool readTransformed(const JPEGHeader& header, const FrameShape& shape, Bits& bits,
+bool readDCT(const JPEGHeader& header, const FrameShape& shape, EntropyData& data,
   std::vector<std::uint16_t>& samples)
 {
-  double first = 0.0; // coefficient of the last block
+  std::int64_t dc = 0; // DC coefficient of the last block
   std::int64_t index = 0;
   Block block{};
   for (int top = 0; top < shape.rows; top += Side)
@@ -283,17 +320,17 @@ bool readTransformed(const JPEGHeader& header, const FrameShape& shape, Bits& bi
     {
       if (header.restartInterval > 0 && index > 0 && index % header.restartInterval == 0)
       {
-        first = 0.0;
-        if (!bits.restart())
+        dc = 0;
+        if (!data.restart())
         {
           return false;
         }
       }
-      if (!readBlock(header, bits, first, block))
+      if (!readBlock(header, data, dc, block))
       {
         return false;
       }
-      invertTransform(block);
+      invertDCT(block);
       store(block, header.bits, shape, left, top, samples);
     }
   }
@@ -311,12 +348,13 @@ UnpackedFrame unpackJPEG(const std::string& packed, const FrameShape& shape)
     return { {}, problem };
   }
   std::vector<std::uint16_t> samples(shape.count());
-  Bits bits(packed, header.begin);
-  const bool isRead = header.isLossless ? readLossless(header, shape, bits, samples)
-                                        : readTransformed(header, shape, bits, samples);
+  EntropyData data(packed, header.begin);
+  const bool isRead = header.isLossless ? readLossless(header, shape, data, samples)
+                                        : readDCT(header, shape, data, samples);
   if (!isRead)
   {
-    return { {}, "a JPEG frame is damaged: its codes do not make up its pixels" };
+    return { {},
+      "a JPEG frame is damaged: its Huffman data ends or is invalid before the last pixel" };
   }
   return { widened(samples, shape.bytesOfNumber()), {}, header.bits, false };
 }

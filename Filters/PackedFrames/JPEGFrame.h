@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Unpacks JPEG frames: baseline, extended to 12 bits, and lossless, with Huffman's codes.
+ * @brief Unpacks JPEG frames: baseline, extended to 12 bits, and lossless, with Huffman codes
+ *        (ITU-T T.81).
  */
 #ifndef BrainShift_JPEGFrame_h
 #define BrainShift_JPEGFrame_h

@@ -55,11 +55,11 @@ bool unpackSegment(const std::string& packed, std::size_t offset, std::string& p
 UnpackedFrame unpackRunLengths(const std::string& packed, const FrameShape& shape)
 {
   const std::size_t bytesOfNumber = shape.bytesOfNumber();
-  const UnpackedFrame damaged{ {},
-    "a frame is damaged: its run lengths do not make up its pixels" };
   if (packed.size() < HeaderBytes || headerNumber(packed, 0) != bytesOfNumber)
   {
-    return damaged;
+    return { {},
+      "an RLE frame is damaged: its header does not announce " + std::to_string(bytesOfNumber) +
+        " segments, one for each byte of a number" };
   }
   std::string plain(shape.count() * bytesOfNumber, '\0');
   for (std::size_t segment = 0; segment < bytesOfNumber; ++segment)
@@ -69,7 +69,7 @@ UnpackedFrame unpackRunLengths(const std::string& packed, const FrameShape& shap
     if (offset < HeaderBytes ||
       !unpackSegment(packed, offset, plain, bytesOfNumber - 1 - segment, bytesOfNumber))
     {
-      return damaged;
+      return { {}, "an RLE frame is damaged: its data ends before the last pixel" };
     }
   }
   return { plain, {} };

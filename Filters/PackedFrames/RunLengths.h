@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Unpacks frames in RLE, DICOM's run lengths. GDCM's decoder writes behind its buffer if a
- *        frame is damaged.
+ * @brief Unpacks frames in RLE, DICOM's run-length encoding (part 5, annex G).
  */
 #ifndef BrainShift_RunLengths_h
 #define BrainShift_RunLengths_h

@@ -19,10 +19,9 @@ namespace brainshift
 {
 namespace
 {
-constexpr int Pieces = 8; // of the samples; each has a histogram of its own
-constexpr double LeastOverlap = 0.25;
+constexpr int Pieces = 8;          // of the samples; each has a histogram of its own
 constexpr double Tolerance = 0.01; // of the level's spacing: where a line's lowest place is known
-constexpr double Converged = 1e-4; // share of the information that a round must gain
+constexpr double Converged = 1e-4; // fraction of the information that a round must gain
 
 // The volume for each level, from coarse to fine. A coarser one is made from the next finer one.
 std::vector<Volume> pyramid(const Volume& volume, const std::vector<double>& levelsMm)
@@ -40,7 +39,7 @@ std::vector<Volume> pyramid(const Volume& volume, const std::vector<double>& lev
   {
     for (float& value : level.values)
     {
-      value = range.share(value);
+      value = range.fraction(value);
     }
   }
   return levels;
@@ -50,17 +49,20 @@ std::vector<Volume> pyramid(const Volume& volume, const std::vector<double>& lev
 struct GridFromWorld
 {
   explicit GridFromWorld(const Grid& grid)
-    : turn(glm::transpose(grid.direction))
-    , origin(turn * grid.origin / grid.spacing)
+    : rotation(glm::transpose(grid.direction))
+    , origin(rotation * grid.origin / grid.spacing)
   {
     for (int column = 0; column < 3; ++column)
     {
-      this->turn[column] /= grid.spacing;
+      this->rotation[column] /= grid.spacing;
     }
   }
-  glm::dvec3 operator()(const glm::dvec3& world) const { return this->turn * world - this->origin; }
+  glm::dvec3 operator()(const glm::dvec3& world) const
+  {
+    return this->rotation * world - this->origin;
+  }
 
-  glm::dmat3 turn;
+  glm::dmat3 rotation;
   glm::dvec3 origin;
 };
 
@@ -76,6 +78,8 @@ double scattered(std::uint32_t index, std::uint32_t salt)
   return x / 4294967296.0;
 }
 }
+
+const double Alignment::LeastOverlap = 0.25;
 
 Alignment::Alignment(RegisteredPair pair, const Lattice* bent, const AlignmentSettings& settings)
   : Settings(settings)
@@ -93,7 +97,7 @@ Alignment::Alignment(RegisteredPair pair, const Lattice* bent, const AlignmentSe
     const Mask* inside = pair.inside.inside.empty() ? nullptr : &pair.inside;
     const Volume weights = weightsOf(level.grid, { nullptr, inside, nullptr }, {});
     const double all = std::count(weights.values.begin(), weights.values.end(), 1.0f);
-    const double share = static_cast<double>(this->Settings.mostSamples) / std::max(1.0, all);
+    const double fraction = static_cast<double>(this->Settings.mostSamples) / std::max(1.0, all);
     std::vector<Sample> samples;
     std::uint32_t number = 0;
     const glm::dvec3 last(level.grid.dimensions - 1);
@@ -103,7 +107,7 @@ Alignment::Alignment(RegisteredPair pair, const Lattice* bent, const AlignmentSe
       {
         for (int i = 0; i < level.grid.dimensions.x; ++i, ++number)
         {
-          if (weights.values[number] <= 0.0f || scattered(number, 0) > share)
+          if (weights.values[number] <= 0.0f || scattered(number, 0) > fraction)
           {
             continue;
           }
@@ -136,11 +140,11 @@ Alignment::Alignment(RegisteredPair pair, const Lattice* bent, const AlignmentSe
 
 RigidPose Alignment::motionOf(const Parameters& at) const
 {
-  const glm::dvec3 turn = glm::dvec3(at[3], at[4], at[5]) / this->RadiusMm;
-  return turnedAround(this->Middle, rotationFrom(turn), { at[0], at[1], at[2] });
+  const glm::dvec3 rotation = glm::dvec3(at[3], at[4], at[5]) / this->RadiusMm;
+  return turnedAround(this->Middle, rotationFrom(rotation), { at[0], at[1], at[2] });
 }
 
-double Alignment::loss(const Parameters& at, double* comparedShare) const
+double Alignment::loss(const Parameters& at, double* overlap) const
 {
   const Volume& reference = this->References[this->Progress.level];
   const std::vector<Sample>& samples = this->Samples[this->Progress.level];
@@ -182,12 +186,12 @@ double Alignment::loss(const Parameters& at, double* comparedShare) const
     parts[0].add(parts[piece]);
     all += within[piece];
   }
-  const double share = all / std::max(1.0, static_cast<double>(samples.size()));
-  if (comparedShare)
+  const double found = all / std::max(1.0, static_cast<double>(samples.size()));
+  if (overlap)
   {
-    *comparedShare = share;
+    *overlap = found;
   }
-  return share < LeastOverlap ? 0.0 : -parts[0].information();
+  return found < LeastOverlap ? 0.0 : -parts[0].information();
 }
 
 void Alignment::prepareLevel()
@@ -233,8 +237,7 @@ double Alignment::searchLine(const Parameters& direction)
   return gain;
 }
 
-// Powell: the way of the whole round takes the place of the direction that gained most, if the
-// round went far.
+// Powell (1964): the displacement of the whole round replaces the direction that gained most.
 void Alignment::endRound()
 {
   const double gain = this->RoundStartLoss - this->Loss;
@@ -297,7 +300,7 @@ const AlignmentProgress& Alignment::step()
     this->BestLine = this->Line;
   }
   ++this->Progress.steps;
-  this->Progress.information = -this->loss(this->Best, &this->Progress.comparedShare);
+  this->Progress.information = -this->loss(this->Best, &this->Progress.overlap);
   if (++this->Line == static_cast<int>(this->Directions.size()))
   {
     this->endRound();

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Moves a reference rigidly to where it says most about a volume, one line at a time.
+ * @brief Registers a reference rigidly with a volume, one line of the search at a time.
  *
- * The measure is mutual information (Viola and Wells 1997; Maes et al. 1997), which asks for no
- * common contrast. Samples of the volume are read in the reference, where they do not lie on a
- * raster. Directions are searched as Powell (1964) does, from coarse to fine levels.
+ * It maximises mutual information (Viola and Wells 1997; Maes et al. 1997), which needs no common
+ * contrast. Samples of the volume are read in the reference, off its raster. Directions are
+ * searched as by Powell (The Computer Journal 7, 1964, pages 155 to 162), from coarse to fine
+ * levels.
  */
 #ifndef BrainShift_Alignment_h
 #define BrainShift_Alignment_h
@@ -13,7 +14,7 @@
 #include "Filters/Deformation/Export.h"
 #include "Filters/Deformation/Lattice.h"
 #include "Filters/Fit/RigidPose.h"
-#include "Filters/Register/RegisteredPair.h"
+#include "Filters/Register/Volume.h"
 
 #include <glm/vec3.hpp>
 
@@ -37,14 +38,17 @@ struct AlignmentProgress
   int steps = 0;                   ///< lines searched, on all levels
   double information = 0.0;        ///< nats; more is better
   double informationAtStart = 0.0; ///< of the reference where it was, on the same level
-  double comparedShare = 0.0;      ///< of the samples, how many lie within the reference
-  double done = 0.0; ///< share of the most rounds there may be, 0 to 1; 1 once it is finished
+  double overlap = 0.0;            ///< of the samples, how many lie within the reference
+  double done = 0.0; ///< fraction of the most rounds there may be, 0 to 1; 1 once it is finished
   bool isFinished = false;
 };
 
 class BRAINSHIFT_DEFORMATION_EXPORT Alignment
 {
 public:
+  /** With a smaller overlap (AlignmentProgress::overlap) nothing is found. */
+  static const double LeastOverlap;
+
   /**
    * @param pair   both where they lie now
    * @param bent   how the volume is bent; null: not at all
@@ -62,14 +66,14 @@ public:
   /** How far (mm) the motion moves the middle of what is compared. */
   double shiftMm() const;
 
-  /** By how many degrees the motion turns. */
+  /** Angle of the rotation (degrees). */
   double turnDegrees() const;
 
   /** Bytes that an alignment takes beside the volumes themselves. */
   static double bytes(const Grid& rest, const Grid& reference);
 
 private:
-  // Shift (mm), then turn about the middle of the samples, in mm at its radius.
+  // Shift (mm), then rotation about the middle of the samples, in mm at its radius.
   using Parameters = std::array<double, 6>;
 
   struct Sample
@@ -80,7 +84,7 @@ private:
 
   void prepareLevel();
   RigidPose motionOf(const Parameters& at) const;
-  double loss(const Parameters& at, double* comparedShare = nullptr) const;
+  double loss(const Parameters& at, double* overlap = nullptr) const;
   double searchLine(const Parameters& direction);
   void endRound();
   void finishLevel();

@@ -14,8 +14,8 @@ double entropy(const std::vector<double>& counts, double all)
   double sum = 0.0;
   for (const double count : counts)
   {
-    const double share = count / all;
-    sum -= share > 0.0 ? share * std::log(share) : 0.0;
+    const double fraction = count / all;
+    sum -= fraction > 0.0 ? fraction * std::log(fraction) : 0.0;
   }
   return sum;
 }
@@ -32,13 +32,13 @@ void JointHistogram::add(float a, float b)
   const float atB = std::clamp(b, 0.0f, 1.0f) * (Bins - 1);
   const int lowA = std::min(static_cast<int>(atA), Bins - 2);
   const int lowB = std::min(static_cast<int>(atB), Bins - 2);
-  const double shareA = atA - static_cast<float>(lowA);
-  const double shareB = atB - static_cast<float>(lowB);
+  const double fractionA = atA - static_cast<float>(lowA);
+  const double fractionB = atB - static_cast<float>(lowB);
   double* cell = &this->Cells[static_cast<std::size_t>(lowA) * Bins + lowB];
-  cell[0] += (1.0 - shareA) * (1.0 - shareB);
-  cell[1] += (1.0 - shareA) * shareB;
-  cell[Bins] += shareA * (1.0 - shareB);
-  cell[Bins + 1] += shareA * shareB;
+  cell[0] += (1.0 - fractionA) * (1.0 - fractionB);
+  cell[1] += (1.0 - fractionA) * fractionB;
+  cell[Bins] += fractionA * (1.0 - fractionB);
+  cell[Bins + 1] += fractionA * fractionB;
   this->Count += 1.0;
 }
 

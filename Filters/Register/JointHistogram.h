@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief How much two volumes say about each other, whatever their contrast.
+ * @brief Mutual information of two volumes from their joint histogram.
+ *
+ * The bins are filled with a linear Parzen window, as Thévenaz and Unser do with a B-spline (IEEE
+ * Transactions on Image Processing 9, 2000).
  */
 #ifndef BrainShift_JointHistogram_h
 #define BrainShift_JointHistogram_h

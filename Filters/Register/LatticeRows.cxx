@@ -9,27 +9,27 @@ namespace brainshift
 namespace
 {
 // Weights for the force and, lumped, for its Hessian.
-struct Shares
+struct TapWeights
 {
   float own;
   float lumped;
 };
 
-Shares sharesOf(const Taps& taps, int tap)
+TapWeights tapWeights(const Taps& taps, int tap)
 {
   const glm::vec4 sizes = glm::abs(taps.weights);
   return { taps.weights[tap], sizes[tap] * (sizes.x + sizes.y + sizes.z + sizes.w) };
 }
 
-void addForce(float* to, const float* force, const Shares& shares)
+void addForce(float* to, const float* force, const TapWeights& weights)
 {
   for (int n = 0; n < 3; ++n)
   {
-    to[n] += shares.own * force[n];
+    to[n] += weights.own * force[n];
   }
   for (int n = 3; n < ForceNumbers; ++n)
   {
-    to[n] += shares.lumped * force[n];
+    to[n] += weights.lumped * force[n];
   }
 }
 
@@ -54,7 +54,7 @@ void LatticeRows::add(const SampleRow& row, const Taps& taps, const float* force
   for (int tap = 0; tap < 4; ++tap)
   {
     addForce(row.sums + static_cast<std::size_t>(taps.first + tap) * ForceNumbers, force,
-      sharesOf(taps, tap));
+      tapWeights(taps, tap));
   }
 }
 
@@ -104,12 +104,12 @@ void LatticeRows::addRow(std::vector<float>& sums, int j, int k, float* slabSums
   const Taps taps = this->tapsAt(1, this->position(0, j, k).y);
   for (int tap = 0; tap < 4; ++tap)
   {
-    const Shares shares = sharesOf(taps, tap);
+    const TapWeights weights = tapWeights(taps, tap);
     float* to = slabSums +
       static_cast<std::size_t>(count) * controlOf(taps, tap, this->Controls.y) * ForceNumbers;
     for (int i = 0; i < count; ++i)
     {
-      addForce(to + i * ForceNumbers, &sums[(i + 1) * ForceNumbers], shares);
+      addForce(to + i * ForceNumbers, &sums[(i + 1) * ForceNumbers], weights);
     }
   }
 }
@@ -126,11 +126,11 @@ ControlForces LatticeRows::addSlabs(const std::vector<float>& slabs) const
       const Taps taps = this->tapsAt(2, this->position(0, 0, k).z);
       for (int tap = 0; tap < 4; ++tap)
       {
-        const Shares shares = sharesOf(taps, tap);
+        const TapWeights weights = tapWeights(taps, tap);
         float* to = &result[size * controlOf(taps, tap, this->Controls.z)];
         for (std::int64_t i = begin; i < end; ++i)
         {
-          addForce(to + i * ForceNumbers, &slabs[size * k + i * ForceNumbers], shares);
+          addForce(to + i * ForceNumbers, &slabs[size * k + i * ForceNumbers], weights);
         }
       }
     }

@@ -101,8 +101,9 @@ public:
   }
 
   /**
-   * Adds ForceNumbers numbers of a sample to its row. The Hessian is lumped: a control point takes
-   * what it would have if all others moved with it, so that a step never overshoots by coupling.
+   * Adds ForceNumbers numbers of a sample to its row. The Hessian is lumped by sums of its rows, as
+   * mass matrices of finite elements are: a control point takes what it would have if all others
+   * moved with it, so that a step never overshoots by coupling.
    */
   static void add(const SampleRow& row, const Taps& taps, const float* force);
 

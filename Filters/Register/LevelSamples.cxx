@@ -91,8 +91,8 @@ std::vector<float> LevelSamples::read(const std::vector<float>& values, int numb
           for (int corner = 0; corner < 8; ++corner)
           {
             const glm::bvec3 upper(corner & 1, corner & 2, corner & 4);
-            const glm::vec3 shares = glm::mix(1.0f - at.within, at.within, upper);
-            const float weight = shares.x * shares.y * shares.z;
+            const glm::vec3 fractions = glm::mix(1.0f - at.within, at.within, upper);
+            const float weight = fractions.x * fractions.y * fractions.z;
             const std::size_t from = at.first + (upper.x ? at.next[0] : 0) +
               (upper.y ? at.next[1] : 0) + (upper.z ? at.next[2] : 0);
             for (int n = 0; n < numbers; ++n)
@@ -107,19 +107,19 @@ std::vector<float> LevelSamples::read(const std::vector<float>& values, int numb
   return result;
 }
 
-Agreement averaged(
+CostAndForces averaged(
   const std::vector<double>& rowSums, const std::vector<double>& rowWeights, ControlForces forces)
 {
-  Agreement result;
+  CostAndForces result;
   result.samples = std::accumulate(rowWeights.begin(), rowWeights.end(), 0.0);
-  result.disagreement = 1.0; // what meets nothing does not agree
+  result.cost = 1.0; // without a partner, volumes do not agree
   if (result.samples > 0.0)
   {
-    result.disagreement = std::accumulate(rowSums.begin(), rowSums.end(), 0.0) / result.samples;
-    const float share = static_cast<float>(1.0 / result.samples);
+    result.cost = std::accumulate(rowSums.begin(), rowSums.end(), 0.0) / result.samples;
+    const float perSample = static_cast<float>(1.0 / result.samples);
     for (float& force : forces)
     {
-      force *= share;
+      force *= perSample;
     }
   }
   result.forces = std::move(forces);

@@ -20,25 +20,22 @@
 
 namespace brainshift
 {
-/** The two volumes of one level. All have the same grid, that of the level. */
+/** The two volumes of one level, on the grid of the level. */
 struct LevelVolumes
 {
   Volume rest;
   Volume reference;
   Volume restWeights;      ///< 1 where the volume counts, else 0
   Volume referenceWeights; ///< 1 where the reference counts, else 0
-  /** SelfSimilarity.h of both; empty: whoever needs it computes it. */
-  std::vector<float> restNumbers;
-  std::vector<float> referenceNumbers;
 };
 
-/** How well both agree, and half of the way down from there. */
-struct Agreement
+/** The cost of a displacement, and its derivatives. */
+struct CostAndForces
 {
-  double disagreement = 0.0; ///< mean over all samples that count; 0: they agree; none counts: 1
-  double samples = 0.0;      ///< how many of them have a partner in the reference
-  double possible = 0.0;     ///< how many could have one
-  /** Minus half the derivative of `disagreement` by each control point, and its Hessian. */
+  double cost = 0.0;     ///< mean over all samples that count; 0: both agree; without samples: 1
+  double samples = 0.0;  ///< how many of them have a partner in the reference
+  double possible = 0.0; ///< how many could have one
+  /** Minus half the derivative of `cost` by each control point, and half its lumped Hessian. */
   ControlForces forces;
 };
 
@@ -107,7 +104,7 @@ struct LevelSamples
 };
 
 /** Divides forces by the number of samples, so that levels compare. */
-BRAINSHIFT_DEFORMATION_EXPORT Agreement averaged(
+BRAINSHIFT_DEFORMATION_EXPORT CostAndForces averaged(
   const std::vector<double>& rowSums, const std::vector<double>& rowWeights, ControlForces forces);
 }
 

@@ -21,7 +21,8 @@ struct LinePoint
 
 /**
  * Goes downhill from 0 with growing steps, then narrows the valley that it found by parabolas and
- * golden sections. The answer is never above the value at 0.
+ * golden sections (Brent, Algorithms for Minimization without Derivatives, 1973, chapter 5). The
+ * answer is never above the value at 0.
  *
  * @param valueAtZero   the function at 0
  * @param stride        the first step, either way; above 0

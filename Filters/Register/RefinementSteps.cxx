@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The steps of a refinement: rigid ones, and those that bend.
-#include "Filters/Register/Refinement.h"
+#include "Filters/Register/RefinementSteps.h"
 
-#include "Filters/Register/RigidStep.h"
-
+#include <Eigen/Cholesky>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
+#include <glm/mat3x3.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 namespace brainshift
@@ -15,25 +14,93 @@ namespace brainshift
 namespace
 {
 constexpr int MostHalvings = 4;
+constexpr double Halving = 0.5;
 
 // How often a step that would fold is sought again by a stiffer volume, and how much stiffer.
 constexpr int MostStiffenings = 3;
 constexpr double Stiffening = 1.5;
-// The lumped Hessian is larger than the true one, so that longer steps often help.
-constexpr double LongestStride = 2.0;
-constexpr double StrideGrowth = 1.2;
-constexpr double Converged = 1e-4; // share of the energy that a step must gain
+constexpr double Converged = 1e-4; // fraction of the energy that a step must gain
 
-// Speckle makes the reference's slopes, and with them the Hessian, many times too large. So rigid
-// steps begin longer and grow fast.
-constexpr double FirstRigidStride = 4.0;
-constexpr double LongestRigidStride = 16.0;
-constexpr double RigidStrideGrowth = 2.0;
-constexpr double RigidStrideLoss = 0.25;
+constexpr double RigidShortening = 0.25;
 constexpr double LeastRigidStepMm = 0.02;
 constexpr double LeastInSight = 0.75; // of the samples that were compared at the start
 
-double longest(const std::vector<glm::vec3>& vectors)
+constexpr int Numbers = 6; // a shift along three axes, then a rotation around them
+
+// Of the Hessian's diagonal: a rotation that nothing holds stays small.
+constexpr double Damping = 1e-3;
+
+double weightOf(const float* force)
+{
+  return static_cast<double>(force[3]) + force[4] + force[5];
+}
+
+glm::dmat3 hessianOf(const float* force)
+{
+  return { force[3], force[6], force[7], force[6], force[4], force[8], force[7], force[8],
+    force[5] };
+}
+
+// How a control point that lies at `arm` from the middle moves by each of the six numbers.
+void motionsOf(const glm::dvec3& arm, glm::dvec3* motions)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    glm::dvec3 unit(0.0);
+    unit[axis] = 1.0;
+    motions[axis] = unit;
+    motions[3 + axis] = glm::cross(unit, arm);
+  }
+}
+
+// The normal equations of a motion.
+struct Equations
+{
+  Eigen::Matrix<double, Numbers, Numbers> matrix = Eigen::Matrix<double, Numbers, Numbers>::Zero();
+  Eigen::Matrix<double, Numbers, 1> right = Eigen::Matrix<double, Numbers, 1>::Zero();
+
+  void add(const glm::dvec3& arm, const float* force)
+  {
+    glm::dvec3 motions[Numbers];
+    motionsOf(arm, motions);
+    const glm::dmat3 hessian = hessianOf(force);
+    for (int row = 0; row < Numbers; ++row)
+    {
+      const glm::dvec3 image = hessian * motions[row];
+      for (int column = 0; column < Numbers; ++column)
+      {
+        this->matrix(row, column) += glm::dot(image, motions[column]);
+      }
+      this->right(row) += glm::dot(motions[row], glm::dvec3(force[0], force[1], force[2]));
+    }
+  }
+};
+
+// Where control points lie (mm along the grid's axes), from where the forces act on the whole.
+std::vector<glm::dvec3> armsOf(
+  const Grid& lattice, const std::vector<glm::vec3>& displacements, const ControlForces& forces)
+{
+  std::vector<glm::dvec3> arms(displacements.size());
+  glm::dvec3 middle(0.0);
+  double weights = 0.0;
+  for (std::size_t i = 0; i < arms.size(); ++i)
+  {
+    const int row = static_cast<int>(i) / lattice.dimensions.x;
+    const glm::ivec3 index(static_cast<int>(i) % lattice.dimensions.x, row % lattice.dimensions.y,
+      row / lattice.dimensions.y);
+    arms[i] = lattice.spacing * glm::dvec3(index) + glm::dvec3(displacements[i]);
+    const double weight = weightOf(&forces[i * ForceNumbers]);
+    middle += weight * arms[i];
+    weights += weight;
+  }
+  for (glm::dvec3& arm : arms)
+  {
+    arm -= weights > 0.0 ? middle / weights : glm::dvec3(0.0);
+  }
+  return arms;
+}
+
+double longest(const Controls& vectors)
 {
   float result = 0.0f;
   for (const glm::vec3& vector : vectors)
@@ -44,113 +111,114 @@ double longest(const std::vector<glm::vec3>& vectors)
 }
 }
 
-// A fold in one place would hold the step everywhere. A stiffer volume folds nowhere.
-void Refinement::stiffen()
+RigidStep rigidStep(
+  const Grid& lattice, const std::vector<glm::vec3>& displacements, const ControlForces& forces)
 {
-  this->Progress.stiffness *= Stiffening;
-  this->Stiff = Stiffness(this->Start.grid, this->stiffnessFactor() * this->Progress.stiffness);
-  this->Energy = this->energyOf(this->Controls, this->Known);
-}
-
-double Refinement::firstStride() const
-{
-  return this->stage().isRigid ? FirstRigidStride : 1.0;
-}
-
-Refinement::Candidate Refinement::candidateAt(
-  const std::vector<glm::vec3>& step, double share) const
-{
-  Candidate found;
-  found.controls = this->Controls;
-  for (std::size_t i = 0; i < step.size(); ++i)
+  RigidStep result;
+  result.steps.resize(displacements.size(), glm::vec3(0.0f));
+  const std::vector<glm::dvec3> arms = armsOf(lattice, displacements, forces);
+  Equations equations;
+  for (std::size_t i = 0; i < arms.size(); ++i)
   {
-    found.controls[i] += static_cast<float>(share) * step[i];
+    equations.add(arms[i], &forces[i * ForceNumbers]);
   }
-  found.lattice = this->latticeOf(found.controls);
-  found.kept = this->Settings.guards ? this->Guard.share(this->Bent, found.lattice) : 1.0;
-  if (found.kept < 1.0)
+  equations.matrix.diagonal() *= 1.0 + Damping;
+  const Eigen::LLT<Eigen::Matrix<double, Numbers, Numbers>> factor(equations.matrix);
+  if (factor.info() != Eigen::Success)
   {
-    found.lattice = between(this->Bent, found.lattice, found.kept);
-    found.controls = this->controlsOf(found.lattice);
+    return result; // nothing asks for a motion
   }
-  return found;
+  const Eigen::Matrix<double, Numbers, 1> motion = factor.solve(equations.right);
+  const glm::dvec3 shift(motion(0), motion(1), motion(2));
+  const glm::dvec3 rotation(motion(3), motion(4), motion(5));
+  for (std::size_t i = 0; i < arms.size(); ++i)
+  {
+    const glm::dvec3 step = shift + glm::cross(rotation, arms[i]);
+    result.steps[i] = glm::vec3(step);
+    const bool isHeld = weightOf(&forces[i * ForceNumbers]) > 0.0;
+    result.lengthMm = std::max(result.lengthMm, isHeld ? glm::length(step) : 0.0);
+  }
+  return result;
 }
 
-void Refinement::findStep(RefinementTrial& trial) const
+void BendStep::find(BendTrial& trial, const RefinementState& state) const
 {
-  trial.step = newtonStep(this->Stiff, this->Known.forces, this->bendOf(this->Controls));
+  trial.step = newtonStep(state.stiffness, state.known.forces, state.bendOf(state.controls));
   trial.lengthMm = longest(trial.step);
-  trial.share =
-    std::min(this->Stride, trial.lengthMm > 0.0 ? this->LongestStepMm / trial.lengthMm : 1.0);
+  trial.fraction =
+    std::min(this->Stride, trial.lengthMm > 0.0 ? this->LongestMm / trial.lengthMm : 1.0);
 }
 
-// Compares once at most, so that a call stays short however often a step is halved.
-Refinement::Outcome Refinement::tryStep()
+StepOutcome BendStep::attempt(RefinementState& state, PyramidLevel& level)
 {
   if (!this->Trying)
   {
-    this->findStep(this->Trying.emplace());
+    this->Trying = std::make_unique<BendTrial>();
+    this->find(*this->Trying, state);
   }
-  Outcome outcome = this->tryStep(*this->Trying);
-  if (outcome == Outcome::Open && ++this->Trying->attempts > MostHalvings + MostStiffenings)
+  StepOutcome outcome = this->attempt(*this->Trying, state, level);
+  if (outcome == StepOutcome::Open && ++this->Trying->attempts > MostHalvings + MostStiffenings)
   {
-    this->Progress.movedMm = 0.0;
-    outcome = Outcome::Settled;
+    state.progress.movedMm = 0.0;
+    outcome = StepOutcome::Settled;
   }
-  if (outcome != Outcome::Open)
+  if (outcome != StepOutcome::Open)
   {
-    this->Trying.reset();
+    this->Trying = nullptr;
   }
   return outcome;
 }
 
-Refinement::Outcome Refinement::tryStep(RefinementTrial& trial)
+StepOutcome BendStep::attempt(BendTrial& trial, RefinementState& state, PyramidLevel& level)
 {
-  const Candidate candidate = this->candidateAt(trial.step, trial.share);
-  if (candidate.kept < 1.0 && trial.stiffenings++ < MostStiffenings)
+  const RefinementState::Candidate candidate = state.candidateAt(trial.step, trial.fraction);
+  if (candidate.fraction < 1.0 && trial.stiffenings++ < MostStiffenings)
   {
-    this->stiffen();
-    this->findStep(trial);
-    return Outcome::Open;
+    state.stiffen(Stiffening);
+    this->find(trial, state);
+    return StepOutcome::Open;
   }
-  Agreement agreement = this->Compare(candidate.controls);
-  const double energy = this->energyOf(candidate.controls, agreement);
-  this->Progress.share = std::min(this->Progress.share, candidate.kept);
-  if (!(energy < this->Energy)) // nor is no number
+  CostAndForces compared = level.compare(candidate.controls);
+  const double energy = state.energyOf(candidate.controls, compared);
+  state.progress.stepFraction = std::min(state.progress.stepFraction, candidate.fraction);
+  if (!(energy < state.energy)) // also rejects NaN
   {
-    trial.share *= 0.5;
-    return Outcome::Open;
+    trial.fraction *= Halving;
+    return StepOutcome::Open;
   }
-  const double gain = this->Energy - energy;
-  this->Progress.movedMm = trial.share * candidate.kept * trial.lengthMm;
-  this->take(candidate.lattice, std::move(agreement), energy);
-  this->Stride = std::min(LongestStride, StrideGrowth * std::max(1.0, trial.share));
-  return gain > Converged * energy ? Outcome::Improved : Outcome::Settled;
+  const double gain = state.energy - energy;
+  state.progress.movedMm = trial.fraction * candidate.fraction * trial.lengthMm;
+  state.take(candidate.lattice, std::move(compared), energy);
+  this->Stride =
+    std::min(this->Growth.longest, this->Growth.growth * std::max(1.0, trial.fraction));
+  return gain > Converged * energy ? StepOutcome::Improved : StepOutcome::Settled;
 }
 
-Refinement::Outcome Refinement::moveRigidly()
+StepOutcome RigidMove::attempt(RefinementState& state, PyramidLevel& level)
 {
-  const RigidStep step = rigidStep(this->Start.grid, this->Controls, this->Known.forces);
-  const double share = std::min(this->Stride, this->LongestStepMm / std::max(1e-9, step.lengthMm));
-  const Candidate candidate = this->candidateAt(step.steps, share); // only a mask's edge can fold
-  Agreement agreement = this->Compare(candidate.controls);
-  const double gain = this->Known.disagreement - agreement.disagreement; // the bend costs the same
-  // A mean gets better, too, where what disagrees moves out of sight.
-  const bool staysInSight = agreement.samples >= LeastInSight * this->SamplesAtStart;
-  this->Progress.movedMm = 0.0;
-  this->Progress.share = std::min(this->Progress.share, candidate.kept);
+  const RigidStep step = rigidStep(state.start.grid, state.controls, state.known.forces);
+  const double fraction = std::min(this->Stride, this->LongestMm / std::max(1e-9, step.lengthMm));
+  // Only the edge of a mask can fold.
+  const RefinementState::Candidate candidate = state.candidateAt(step.steps, fraction);
+  CostAndForces compared = level.compare(candidate.controls);
+  const double gain = state.known.cost - compared.cost; // the bend costs the same
+  // A mean also falls where tissue that disagrees leaves the fan.
+  const bool staysInSight = compared.samples >= LeastInSight * state.samplesAtStart;
+  state.progress.movedMm = 0.0;
+  state.progress.stepFraction = std::min(state.progress.stepFraction, candidate.fraction);
   if (!(gain > 0.0) || !staysInSight)
   {
-    this->Stride = RigidStrideLoss * share;
-    return this->Stride * step.lengthMm > LeastRigidStepMm ? Outcome::Open : Outcome::Settled;
+    this->Stride = RigidShortening * fraction;
+    return this->Stride * step.lengthMm > LeastRigidStepMm ? StepOutcome::Open
+                                                           : StepOutcome::Settled;
   }
-  for (std::size_t i = 0; i < this->Unbent.size(); ++i)
+  for (std::size_t i = 0; i < state.unbent.size(); ++i)
   {
-    this->Unbent[i] += candidate.controls[i] - this->Controls[i];
+    state.unbent[i] += candidate.controls[i] - state.controls[i];
   }
-  this->Progress.movedMm = share * candidate.kept * step.lengthMm;
-  this->take(candidate.lattice, std::move(agreement), this->Energy - gain);
-  this->Stride = std::min(LongestRigidStride, RigidStrideGrowth * share);
-  return gain > Converged * this->Energy ? Outcome::Improved : Outcome::Settled;
+  state.progress.movedMm = fraction * candidate.fraction * step.lengthMm;
+  state.take(candidate.lattice, std::move(compared), state.energy - gain);
+  this->Stride = std::min(this->Growth.longest, this->Growth.growth * fraction);
+  return gain > Converged * state.energy ? StepOutcome::Improved : StepOutcome::Settled;
 }
 }

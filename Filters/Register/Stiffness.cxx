@@ -17,7 +17,7 @@ namespace brainshift
 {
 namespace
 {
-// Shares of the energy: that of shear and of volume (Lame's constants), and that of bending.
+// Factors of the energy: that of shear and of volume (Lame's constants), and that of bending.
 constexpr float Shear = 0.5f;
 constexpr float Compression = 0.25f;
 constexpr float Bending = 0.25f;
@@ -257,11 +257,11 @@ std::vector<glm::vec3> newtonStep(
     {
       break;
     }
-    const float share = static_cast<float>(size / curve);
+    const float length = static_cast<float>(size / curve);
     for (std::size_t i = 0; i < count; ++i)
     {
-      step[i] += share * along[i];
-      residual[i] -= share * image[i];
+      step[i] += length * along[i];
+      residual[i] -= length * image[i];
     }
   }
   return step;

@@ -46,8 +46,10 @@ BRAINSHIFT_DEFORMATION_EXPORT double dot(
   const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b);
 
 /**
- * The step of Gauss and Newton: (H + R) step = forces - R bend, where H is the Hessian of the
- * forces (3 x 3 for each control point). By conjugate gradients with the blocks as preconditioner.
+ * The step of Gauss and Newton: (H + R) step = forces - R bend, where H is the lumped Hessian of
+ * the forces (3 x 3 for each control point). By conjugate gradients with the blocks as
+ * preconditioner (Nocedal and Wright, Numerical Optimization, 2nd ed., section 10.3 and algorithm
+ * 5.3).
  *
  * @param forces   ForceNumbers for each control point (LatticeRows.h)
  * @param bend     displacements that the stiffness pulls back (mm along the grid's axes)

@@ -15,7 +15,7 @@ namespace
 // its samples would no longer lie around their middle.
 constexpr double DeviationPerFactor = 0.45;
 constexpr double LeastDeviation = 0.6;
-constexpr double ReachInDeviations = 3.0;
+constexpr double RadiusInDeviations = 3.0;
 
 constexpr float CutOffShare = 0.001f;
 constexpr std::size_t MostSorted = 200000; // values that stand for all when a range is found
@@ -38,13 +38,13 @@ void forEachLine(const glm::ivec3& sides, int axis, const Work& work)
 
 std::vector<float> gaussian(double deviation)
 {
-  const int reach = static_cast<int>(std::ceil(ReachInDeviations * deviation));
-  std::vector<float> weights(2 * reach + 1);
+  const int radius = static_cast<int>(std::ceil(RadiusInDeviations * deviation));
+  std::vector<float> weights(2 * radius + 1);
   float sum = 0.0f;
-  for (int i = -reach; i <= reach; ++i)
+  for (int i = -radius; i <= radius; ++i)
   {
-    weights[i + reach] = static_cast<float>(std::exp(-0.5 * i * i / (deviation * deviation)));
-    sum += weights[i + reach];
+    weights[i + radius] = static_cast<float>(std::exp(-0.5 * i * i / (deviation * deviation)));
+    sum += weights[i + radius];
   }
   for (float& weight : weights)
   {
@@ -58,7 +58,7 @@ void smoothAlong(Volume& volume, int axis, const std::vector<float>& weights)
 {
   const glm::ivec3 sides = volume.grid.dimensions;
   const int count = sides[axis];
-  const int reach = static_cast<int>(weights.size() / 2);
+  const int radius = static_cast<int>(weights.size() / 2);
   forEachLine(sides, axis, [&](std::size_t first, std::size_t beside, int lines, std::size_t step) {
     std::vector<float> before(static_cast<std::size_t>(count) * lines);
     float* values = volume.values.data() + first;
@@ -73,11 +73,11 @@ void smoothAlong(Volume& volume, int axis, const std::vector<float>& weights)
     for (int i = 0; i < count; ++i)
     {
       std::fill(sums.begin(), sums.end(), 0.0f);
-      for (int k = -reach; k <= reach; ++k)
+      for (int k = -radius; k <= radius; ++k)
       {
         const int from = std::clamp(i + k, 0, count - 1);
         const float* row = &before[static_cast<std::size_t>(from) * lines];
-        const float weight = weights[k + reach];
+        const float weight = weights[k + radius];
         for (int line = 0; line < lines; ++line)
         {
           sums[line] += weight * row[line];
@@ -215,7 +215,7 @@ void boxSum(Volume& volume, const glm::ivec3& radii)
   }
 }
 
-Volume weightsOf(const Grid& grid, const Region& region, const Reach& reach)
+Volume weightsOf(const Grid& grid, const Region& region, const Support& support)
 {
   Volume missing{ grid, std::vector<float>(grid.count()) };
   // What is not there is counted, so that the border of the grid itself shrinks nothing.
@@ -228,8 +228,8 @@ Volume weightsOf(const Grid& grid, const Region& region, const Reach& reach)
   Volume result{ grid, std::vector<float>(grid.count(), 1.0f) };
   for (int axis = 0; axis < 3; ++axis)
   {
-    glm::ivec3 radii(reach.across);
-    radii[axis] = reach.along;
+    glm::ivec3 radii(support.across);
+    radii[axis] = support.along;
     Volume reached = missing;
     boxSum(reached, radii);
     for (std::size_t i = 0; i < result.values.size(); ++i)

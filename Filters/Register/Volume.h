@@ -24,6 +24,15 @@ struct Volume
   std::vector<float> values;
 };
 
+/** The two volumes of a registration and what of them counts. */
+struct RegisteredPair
+{
+  Volume rest;      ///< the volume as loaded
+  Volume reference; ///< on any grid, where it lies in the world
+  Mask inside;      ///< of the rest frame: what is compared; without voxels: all
+  Mask cavity;      ///< where the reference lacks tissue; without voxels: nowhere
+};
+
 /** Where a position lies between eight neighbours of a grid, and how much each of them counts. */
 struct Neighbours
 {
@@ -90,6 +99,12 @@ inline ValueAndSlope trilinear(const float* values, const Neighbours& at)
 /** The grid with neighbours `spacingMm` apart, or as far apart as in the source if that is more. */
 BRAINSHIFT_DEFORMATION_EXPORT Grid coarseGrid(const Grid& source, double spacingMm);
 
+/** Volume of the box around one point (mm³). */
+inline double pointVolume(const Grid& grid)
+{
+  return grid.spacing.x * grid.spacing.y * grid.spacing.z;
+}
+
 /**
  * The volume as a grid of that spacing may sample it: smoothed by a Gaussian along each axis whose
  * points are nearer than `spacingMm`.
@@ -111,15 +126,15 @@ struct Region
 };
 
 /** On which points around it something depends: those of three boxes, one along each axis. */
-struct Reach
+struct Support
 {
   int along = 0;  ///< points along the axis, each way
   int across = 0; ///< points along the other two; not above `along`
 };
 
-/** The weights of a grid's points. What reaches a point with weight 0 gets weight 0 too. */
+/** The weights of a grid's points. A point whose support holds weight 0 gets weight 0 too. */
 BRAINSHIFT_DEFORMATION_EXPORT Volume weightsOf(
-  const Grid& grid, const Region& region, const Reach& reach);
+  const Grid& grid, const Region& region, const Support& support);
 
 /** Where smaller and larger values are cut off, so that a few of them do not count for all. */
 struct Range
@@ -128,7 +143,7 @@ struct Range
   float high = 1.0f; ///< above low
 
   /** 0 at the low end, 1 at the high one. */
-  float share(float value) const
+  float fraction(float value) const
   {
     return glm::clamp((value - this->low) / (this->high - this->low), 0.0f, 1.0f);
   }

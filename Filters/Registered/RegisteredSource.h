@@ -7,7 +7,7 @@
 #define BrainShift_RegisteredSource_h
 
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Register/RegisteredPair.h"
+#include "Filters/Register/Volume.h"
 
 #include <memory>
 #include <string>

@@ -4,9 +4,9 @@
  * @brief   aligns a reference or refines a bend, a short part for each call
  *
  * The volumes may lie on a server. This object lives beside them, and the XML proxy of the same
- * name brings its figures to the client. It changes nothing in the pipeline: whoever runs it sets
- * what it found. Begin with BeginAlignment or BeginRefinement, then call Step until it is finished
- * or enough. All numbers are mm.
+ * name brings its figures to the client. It changes nothing in the pipeline: the client sets what
+ * it found. Begin with BeginAlignment or BeginRefinement, then call Step until it is finished or
+ * enough.
  */
 #ifndef vtkRegistrationRun_h
 #define vtkRegistrationRun_h
@@ -34,11 +34,18 @@ public:
 
   ///@{
   /**
-   * What agreement means for a refinement. 0: self-similarity, for any contrast (default); 1: local
-   * correlation, for the same contrast; 2: LC2, for ultrasound.
+   * How a refinement compares: the place of a similarity in the lists below, from 0 on. Default 0.
+   * A number beyond the list is taken for the nearest one.
    */
-  vtkSetClampMacro(Similarity, int, 0, 2);
+  void SetSimilarity(int similarity);
   vtkGetMacro(Similarity, int);
+  ///@}
+
+  ///@{
+  /** All similarities, one in each line: names for scripts, labels and tooltips for panels. */
+  const char* GetSimilarityNames() const { return this->SimilarityNames.c_str(); }
+  const char* GetSimilarityLabels() const { return this->SimilarityLabels.c_str(); }
+  const char* GetSimilarityTooltips() const { return this->SimilarityTooltips.c_str(); }
   ///@}
 
   ///@{
@@ -59,28 +66,67 @@ public:
    */
   void Step();
 
-  /** Why it could not begin: a sentence without a full stop. Empty if it could. */
+  ///@{
+  /**
+   * How the reference is moved where an alignment begins, as its Compare Volumes has it: degrees
+   * about x, then y, then z, and mm. Default 0 0 0.
+   */
+  vtkSetVector3Macro(StartRotation, double);
+  vtkGetVector3Macro(StartRotation, double);
+  vtkSetVector3Macro(StartTranslation, double);
+  vtkGetVector3Macro(StartTranslation, double);
+  ///@}
+
+  /**
+   * Why it could not begin, or why it ended early: a sentence without a full stop. Empty if neither
+   * happened.
+   */
   const char* GetProblem() const { return this->Problem.c_str(); }
 
   /**
-   * Nine figures after the last step:
-   * 0. 1 if it is finished, else 0
-   * 1. steps taken
-   * 2. level, from 0 on
-   * 3. share of the volume that has a partner in the reference, 0 to 1; by ultrasound, the share of
-   *    what the sweep saw that is compared
-   * 4. alignment: mutual information (nats); refinement: disagreement, 0 or more
-   * 5. the same at the beginning, on the same level
-   * 6. alignment: shift so far (mm); refinement: longest way of a control point in the step (mm)
-   * 7. alignment: turn so far (degrees); refinement: smallest share that the fold guard left
-   * 8. refinement: share of the most steps there may be, 0 to 1; alignment: 0 until it is finished
+   * Why the result must not be kept: a sentence without a full stop. Empty if it may. An alignment
+   * needs 25 % of the volume inside the reference, a refinement any part of it.
    */
-  vtkDoubleArray* GetFigures();
+  const char* GetRefusal() const { return this->Refusal.c_str(); }
 
-  /** How to move the reference from where it was: 4 x 4 numbers (mm), row after row. */
+  /** What the user must check in the result: sentences. Empty if there is nothing. */
+  const char* GetWarning() const { return this->Warning.c_str(); }
+
+  ///@{
+  /** After the last step, of both kinds of run. */
+  vtkGetMacro(Finished, int);   ///< 1 at its end, else 0
+  vtkGetMacro(Steps, int);      ///< that were taken; of an alignment: lines searched
+  vtkGetMacro(Level, int);      ///< of the pyramid, from 0 on, the coarsest
+  vtkGetMacro(Done, double);    ///< fraction of the most steps there may be, 0 to 1
+  vtkGetMacro(Overlap, double); ///< fraction of OverlapOf that has a partner in the reference
+  const char* GetOverlapOf() const { return this->OverlapOf.c_str(); } ///< "the volume"
+  ///@}
+
+  ///@{
+  /** After the last step of an alignment. */
+  vtkGetMacro(Information, double);       ///< mutual information, nats; more is better
+  vtkGetMacro(InformationBefore, double); ///< at the start, on the same level
+  vtkGetMacro(Shift, double);             ///< of the middle of what is compared, mm
+  vtkGetMacro(Rotation, double);          ///< degrees, 0 or more
+  ///@}
+
+  ///@{
+  /** After the last step of a refinement. */
+  vtkGetMacro(Cost, double);          ///< of this level, 0 or more; 0: the volumes agree
+  vtkGetMacro(CostBefore, double);    ///< at the start, on the same level
+  vtkGetMacro(LongestMove, double);   ///< of a control point in the last step, mm
+  vtkGetMacro(StepFraction, double);  ///< smallest one that the fold guard allowed, 0 to 1
+  vtkGetMacro(LargestChange, double); ///< of a control point since the start, mm
+  vtkGetMacro(MeanChange, double);    ///< of the control points since the start, mm
+  ///@}
+
+  /** The motion of the reference since the start: 4 x 4 numbers (mm, world axes), by rows. */
   vtkDoubleArray* GetMotion();
 
-  /** The control points of the bend: 3 numbers each (mm, world axes), x fastest. */
+  /** Rotation (degrees about x, y, z) and translation (mm) that the Compare Volumes needs. */
+  vtkDoubleArray* GetPlacement();
+
+  /** The control points: 3 numbers each (mm, world axes), x fastest. */
   vtkDoubleArray* GetControlPoints();
 
 protected:
@@ -92,13 +138,40 @@ private:
   void operator=(const vtkRegistrationRun&) = delete;
 
   std::string Begin(bool bends);
+  void Report();
+  void ReportAlignment();
+  void ReportRefinement();
 
   vtkWeakPointer<vtkAlgorithm> Source;
   int Similarity = 0;
   double Stiffness = 1.0;
+  double StartRotation[3] = { 0.0, 0.0, 0.0 };
+  double StartTranslation[3] = { 0.0, 0.0, 0.0 };
+
+  std::string SimilarityNames;
+  std::string SimilarityLabels;
+  std::string SimilarityTooltips;
   std::string Problem;
-  vtkNew<vtkDoubleArray> Figures;
+  std::string Refusal;
+  std::string Warning;
+  std::string OverlapOf = "the volume";
+  int Finished = 0;
+  int Steps = 0;
+  int Level = 0;
+  double Done = 0.0;
+  double Overlap = 0.0;
+  double Information = 0.0;
+  double InformationBefore = 0.0;
+  double Shift = 0.0;
+  double Rotation = 0.0;
+  double Cost = 0.0;
+  double CostBefore = 0.0;
+  double LongestMove = 0.0;
+  double StepFraction = 1.0;
+  double LargestChange = 0.0;
+  double MeanChange = 0.0;
   vtkNew<vtkDoubleArray> Motion;
+  vtkNew<vtkDoubleArray> Placement;
   vtkNew<vtkDoubleArray> ControlPoints;
 
   struct Running;

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Commands/Commands.h"
 
-#include <QCoreApplication>
+#include "Interaction/Commands/Tools.h"
+#include "Interaction/Commands/Translated.h"
+
+#include <QApplication>
 #include <QStringList>
+#include <QWidget>
 
 #include <algorithm>
 #include <array>
@@ -12,12 +16,7 @@ namespace brainshift
 {
 namespace
 {
-QString tr(const char* text)
-{
-  return QCoreApplication::translate("BrainShift", text);
-}
-
-using Tools = std::vector<ToolKind>;
+using Tools = std::vector<Tool>;
 using Keys = std::vector<QKeyCombination>;
 
 CommandRow byMouse(Command command, Scope scope, const Tools& tools, Mouse mouse,
@@ -35,16 +34,6 @@ CommandRow byKey(Command command, Scope scope, const Tools& tools, const Keys& k
 std::vector<CommandRow> windowRows()
 {
   return {
-    byKey(Command::TakeTool, Scope::Window, { ToolKind::Move }, { Qt::ALT | Qt::Key_1 },
-      QT_TRANSLATE_NOOP("BrainShift", "Move single control points.")),
-    byKey(Command::TakeTool, Scope::Window, { ToolKind::Soft }, { Qt::ALT | Qt::Key_2 },
-      QT_TRANSLATE_NOOP("BrainShift", "Drag all tissue within a radius.")),
-    byKey(Command::TakeTool, Scope::Window, { ToolKind::Stamp }, { Qt::ALT | Qt::Key_3 },
-      QT_TRANSLATE_NOOP("BrainShift", "Pull or push an ellipsoid of tissue with the wheel.")),
-    byKey(Command::TakeTool, Scope::Window, { ToolKind::Pull }, { Qt::ALT | Qt::Key_4 },
-      QT_TRANSLATE_NOOP("BrainShift",
-        "Drag tissue to where it belongs, and pin tissue that stays. All pulls and pins, and all "
-        "that was measured, bend the volume together.")),
     byKey(Command::Flicker, Scope::Window, {}, { Qt::Key_K },
       QT_TRANSLATE_NOOP("BrainShift",
         "Show the deformed volume and the reference of Compare Volumes in turn. Press the key "
@@ -59,76 +48,52 @@ std::vector<CommandRow> windowRows()
   };
 }
 
-std::vector<CommandRow> moveAndSoftRows()
+// What each tool does, as its own file says. Keys are found in order: those of SelectByKey are also
+// those of TakeHold, and come after it.
+std::vector<CommandRow> toolRows(bool selectsByKey)
 {
-  return {
-    byMouse(Command::MoveControlPoints, Scope::Tool, { ToolKind::Move }, Mouse::Drag, {},
-      QT_TRANSLATE_NOOP("BrainShift",
-        "Move the control point under the cursor. All selected control points move with it."),
-      QT_TRANSLATE_NOOP("BrainShift", "move a control point")),
-    byMouse(Command::SelectControlPoint, Scope::Tool, { ToolKind::Move }, Mouse::Click,
-      Qt::ShiftModifier,
-      QT_TRANSLATE_NOOP(
-        "BrainShift", "Select one more control point, or deselect a selected control point."),
-      QT_TRANSLATE_NOOP("BrainShift", "select several")),
-    byMouse(Command::MoveTissue, Scope::Tool, { ToolKind::Soft }, Mouse::Drag, {},
-      QT_TRANSLATE_NOOP("BrainShift",
-        "Move the tissue under the cursor. Tissue within the radius follows, less and less towards "
-        "the edge."),
-      QT_TRANSLATE_NOOP("BrainShift", "move the tissue within %1")),
-    byMouse(Command::ChangeRadius, Scope::Tool, { ToolKind::Soft }, Mouse::Wheel, Qt::ShiftModifier,
-      QT_TRANSLATE_NOOP("BrainShift", "Change the radius."),
-      QT_TRANSLATE_NOOP("BrainShift", "change the radius")),
-  };
+  std::vector<CommandRow> rows;
+  for (const ToolRow& tool : toolTable())
+  {
+    for (CommandRow row : tool.gestures)
+    {
+      row.tools = { tool.tool };
+      if ((row.command == Command::SelectByKey) == selectsByKey)
+      {
+        rows.push_back(row);
+      }
+    }
+  }
+  return rows;
 }
 
-std::vector<CommandRow> stampRows()
+std::vector<CommandRow> takeToolRows()
 {
-  return {
-    byMouse(Command::StampByClick, Scope::Tool, { ToolKind::Stamp }, Mouse::Wheel, {},
-      QT_TRANSLATE_NOOP("BrainShift",
-        "Over tissue: pull the tissue away from the point of interest (forward) or push it towards "
-        "the point (backward). Each click moves it by the distance under Per click. Clicks at one "
-        "place are one stroke."),
-      QT_TRANSLATE_NOOP("BrainShift", "pull or push the tissue by %1 per click")),
-    byMouse(Command::StampByDrag, Scope::Tool, { ToolKind::Stamp }, Mouse::Drag, {},
-      QT_TRANSLATE_NOOP("BrainShift",
-        "Pull or push without steps. Drag along the blue line. Where the line points at you, drag "
-        "up or down."),
-      QT_TRANSLATE_NOOP("BrainShift", "pull or push without steps")),
-    byMouse(Command::ChangeMajorRadius, Scope::Tool, { ToolKind::Stamp }, Mouse::Wheel,
-      Qt::ShiftModifier, QT_TRANSLATE_NOOP("BrainShift", "Change the reach along the push."),
-      QT_TRANSLATE_NOOP("BrainShift", "change the reach along the push")),
-    byKey(Command::StampByKey, Scope::Tool, { ToolKind::Stamp }, { Qt::Key_Plus, Qt::Key_Minus },
-      QT_TRANSLATE_NOOP(
-        "BrainShift", "Pull or push the tissue under the cursor, as a click of the wheel does.")),
-    byKey(Command::SetPointOfInterest, Scope::Tool, { ToolKind::Stamp }, { Qt::Key_I },
-      QT_TRANSLATE_NOOP("BrainShift", "Set the point of interest to the tissue under the cursor."),
-      QT_TRANSLATE_NOOP("BrainShift", "set the point of interest")),
-  };
+  std::vector<CommandRow> rows;
+  for (const ToolRow& tool : toolTable())
+  {
+    rows.push_back(byKey(Command::TakeTool, Scope::Window, { tool.tool }, { tool.key }, tool.what));
+  }
+  return rows;
 }
 
-std::vector<CommandRow> pullRows()
+Tools toolsWithAxes()
 {
-  return {
-    byMouse(Command::PullTissue, Scope::Tool, { ToolKind::Pull }, Mouse::Drag, {},
-      QT_TRANSLATE_NOOP("BrainShift",
-        "Pull the tissue under the cursor to where it belongs. Neighbours follow as tissue does. A "
-        "drag of tissue that has a pull already moves that pull."),
-      QT_TRANSLATE_NOOP("BrainShift", "pull the tissue")),
-    byMouse(Command::PinTissue, Scope::Tool, { ToolKind::Pull }, Mouse::Click, Qt::ShiftModifier,
-      QT_TRANSLATE_NOOP("BrainShift",
-        "Pin the tissue under the cursor: it stays where the volume as loaded has it. A click on a "
-        "pin removes the pin."),
-      QT_TRANSLATE_NOOP("BrainShift", "pin what must stay")),
-  };
+  Tools tools;
+  for (const ToolRow& tool : toolTable())
+  {
+    if (tool.holdsAxes)
+    {
+      tools.push_back(tool.tool);
+    }
+  }
+  return tools;
 }
 
 std::vector<CommandRow> handRows()
 {
   return {
-    byKey(Command::HoldAxis, Scope::Tool, { ToolKind::Move, ToolKind::Soft, ToolKind::Pull },
-      { Qt::Key_X, Qt::Key_Y, Qt::Key_Z },
+    byKey(Command::HoldAxis, Scope::Tool, toolsWithAxes(), { Qt::Key_X, Qt::Key_Y, Qt::Key_Z },
       QT_TRANSLATE_NOOP("BrainShift",
         "During a drag: hold the drag to that world axis. Press the key again to release it."),
       QT_TRANSLATE_NOOP("BrainShift", "hold the drag to an axis")),
@@ -139,13 +104,9 @@ std::vector<CommandRow> handRows()
         "first. The view must have the keyboard: taking a tool gives it to the active view.")),
     byKey(Command::TakeHold, Scope::Tool, {}, { Qt::Key_Space },
       QT_TRANSLATE_NOOP("BrainShift",
-        "Take hold of what lies under the cursor, as a mouse button does. Drag it with Left, "
-        "Right, Up and Down. Press the key again to let go.")),
-    byKey(Command::PinByKey, Scope::Tool, { ToolKind::Pull }, { Qt::SHIFT | Qt::Key_Space },
-      QT_TRANSLATE_NOOP("BrainShift", "Pin the tissue under the cursor, or remove its pin.")),
-    byKey(Command::SelectByKey, Scope::Tool, { ToolKind::Move }, { Qt::SHIFT | Qt::Key_Space },
-      QT_TRANSLATE_NOOP(
-        "BrainShift", "Select one more control point, or deselect a selected control point.")),
+        "Take hold of the tissue or control point under the cursor, as a mouse button does. Drag "
+        "it "
+        "with Left, Right, Up and Down. Press the key again to let go.")),
     byKey(Command::Cancel, Scope::Tool, {}, { Qt::Key_Escape },
       QT_TRANSLATE_NOOP("BrainShift", "Cancel the stroke that is being made.")),
     byMouse(Command::SwitchVolume, Scope::Tool, {}, Mouse::Click, {},
@@ -168,8 +129,8 @@ std::vector<CommandRow> viewRows()
       ""),
     byMouse(Command::StepSlices, Scope::Slices, {}, Mouse::Wheel, {},
       QT_TRANSLATE_NOOP("BrainShift",
-        "Step through the slices, one voxel per click. With Stamp in hand, the wheel does this "
-        "only away from tissue."),
+        "Step through the slices, one voxel per click. If the tool in hand uses the wheel, "
+        "the wheel does this only away from tissue."),
       QT_TRANSLATE_NOOP("BrainShift", "next slice")),
     byKey(Command::StepSlices, Scope::Slices, {}, { Qt::Key_PageUp, Qt::Key_PageDown },
       QT_TRANSLATE_NOOP("BrainShift", "Step through the slices, one voxel each time."),
@@ -206,17 +167,18 @@ std::vector<CommandRow> listRows()
   };
 }
 
-bool works(const CommandRow& row, ToolKind tool)
+bool worksWith(const CommandRow& row, Tool tool)
 {
   return row.tools.empty() ||
     std::find(row.tools.begin(), row.tools.end(), tool) != row.tools.end();
 }
 
-Command commandOfGesture(Scope scope, ToolKind tool, Mouse mouse, Qt::KeyboardModifiers modifiers)
+Command commandOfGesture(Scope scope, Tool tool, Mouse mouse, Qt::KeyboardModifiers modifiers)
 {
   for (const CommandRow& row : commandTable())
   {
-    if (row.scope == scope && row.mouse == mouse && row.modifiers == modifiers && works(row, tool))
+    if (row.scope == scope && row.mouse == mouse && row.modifiers == modifiers &&
+      worksWith(row, tool))
     {
       return row.command;
     }
@@ -269,8 +231,8 @@ const std::vector<CommandRow>& commandTable()
 {
   static const std::vector<CommandRow> table = [] {
     std::vector<CommandRow> all;
-    for (const auto& rows : { windowRows(), moveAndSoftRows(), stampRows(), pullRows(), handRows(),
-           viewRows(), listRows() })
+    for (const auto& rows : { takeToolRows(), windowRows(), toolRows(false), handRows(),
+           toolRows(true), viewRows(), listRows() })
     {
       all.insert(all.end(), rows.begin(), rows.end());
     }
@@ -279,14 +241,27 @@ const std::vector<CommandRow>& commandTable()
   return table;
 }
 
-const CommandRow& rowOf(Command command, ToolKind tool)
+const CommandRow& rowOf(Command command, Tool tool)
 {
   const std::vector<CommandRow>& table = commandTable();
   static const CommandRow nothing;
   const auto found = std::find_if(table.begin(), table.end(), [=](const CommandRow& row) {
-    return row.command == command && (tool == ToolKind::None || works(row, tool));
+    return row.command == command && (tool == Tool::None || worksWith(row, tool));
   });
   return found == table.end() ? nothing : *found;
+}
+
+bool isTyping()
+{
+  QWidget* focus = QApplication::focusWidget();
+  return focus && focus->testAttribute(Qt::WA_InputMethodEnabled);
+}
+
+bool works(Command command, Tool tool)
+{
+  const std::vector<CommandRow>& table = commandTable();
+  return std::any_of(table.begin(), table.end(),
+    [=](const CommandRow& row) { return row.command == command && worksWith(row, tool); });
 }
 
 KeyCommand commandOfKey(std::initializer_list<Scope> scopes, int key)
@@ -304,7 +279,7 @@ KeyCommand commandOfKey(std::initializer_list<Scope> scopes, int key)
   return {};
 }
 
-Command commandOfMouse(Scope scope, ToolKind tool, Mouse mouse, bool shift, bool control)
+Command commandOfMouse(Scope scope, Tool tool, Mouse mouse, bool shift, bool control)
 {
   const Qt::KeyboardModifiers without = control ? Qt::ControlModifier : Qt::NoModifier;
   const Command exact =
@@ -312,7 +287,7 @@ Command commandOfMouse(Scope scope, ToolKind tool, Mouse mouse, bool shift, bool
   return exact == Command::None ? commandOfGesture(scope, tool, mouse, without) : exact;
 }
 
-QKeySequence shortcutOf(Command command, ToolKind tool)
+QKeySequence shortcutOf(Command command, Tool tool)
 {
   const CommandRow& row = rowOf(command, tool);
   return row.keys.empty() ? QKeySequence() : QKeySequence(row.keys.front());
@@ -359,30 +334,13 @@ QString remarkOn(Scope scope)
   switch (scope)
   {
     case Scope::Window:
-      return tr("Alt+1 to Alt+4 take a tool in hand. The same keys put it down.");
+      return tr("%1 to %2 take a tool in hand. The same keys put it down.")
+        .arg(keyText(toolTable().front().key), keyText(toolTable().back().key));
     case Scope::Tool:
       return tr("Over a slice, every tool works within the slice. Away from tissue, and with the "
                 "other mouse buttons, the mouse works as without a tool.");
     default:
       return {};
   }
-}
-
-QString nameOf(ToolKind tool)
-{
-  switch (tool)
-  {
-    case ToolKind::Move:
-      return tr("Move");
-    case ToolKind::Soft:
-      return tr("Soft");
-    case ToolKind::Stamp:
-      return tr("Stamp");
-    case ToolKind::Pull:
-      return tr("Pull");
-    case ToolKind::None:
-      break;
-  }
-  return {};
 }
 }

@@ -102,7 +102,7 @@ void ToolSettings::suggestRanges(double diagonal, double spacing)
   }
 }
 
-void ToolSettings::setTool(ToolKind tool)
+void ToolSettings::setTool(Tool tool)
 {
   if (tool != this->ToolInHand)
   {

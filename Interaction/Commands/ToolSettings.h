@@ -5,6 +5,8 @@
 #ifndef BrainShift_ToolSettings_h
 #define BrainShift_ToolSettings_h
 
+#include "Filters/Deformation/Stroke.h"
+
 #include <QObject>
 #include <QString>
 
@@ -13,7 +15,7 @@ namespace brainshift
 class ToolSettings : public QObject
 {
   Q_OBJECT
-  Q_PROPERTY(ToolKind tool READ tool WRITE setTool NOTIFY changed)
+  Q_PROPERTY(brainshift::Tool tool READ tool WRITE setTool NOTIFY changed)
   Q_PROPERTY(AxisHold axisHold READ axisHold WRITE setAxisHold NOTIFY changed)
   Q_PROPERTY(double radius READ radius WRITE setRadius NOTIFY changed)
   Q_PROPERTY(double majorRadius READ majorRadius WRITE setMajorRadius NOTIFY changed)
@@ -23,17 +25,6 @@ class ToolSettings : public QObject
     double millimetresPerClick READ millimetresPerClick WRITE setMillimetresPerClick NOTIFY changed)
 
 public:
-  /// Which tool the hand holds. (brainshift::Tool is the tool that made a stroke.)
-  enum class ToolKind
-  {
-    None, ///< The mouse moves the camera.
-    Move,
-    Soft,
-    Stamp,
-    Pull,
-  };
-  Q_ENUM(ToolKind)
-
   /// The world axis that a drag is held to.
   enum class AxisHold
   {
@@ -62,7 +53,7 @@ public:
 
   static ToolSettings* instance();
 
-  ToolKind tool() const { return this->ToolInHand; }   ///< Default None.
+  Tool tool() const { return this->ToolInHand; }       ///< Default None.
   AxisHold axisHold() const { return this->HeldAxis; } ///< Default None.
   Ground ground() const { return this->GroundNow; }    ///< Default Volume.
   /// Name of the volume that the view under the cursor shows, while the tool in hand works on
@@ -90,7 +81,7 @@ public:
 
 public Q_SLOTS:
   /// Slots clamp numbers to their range.
-  void setTool(ToolSettings::ToolKind tool);
+  void setTool(brainshift::Tool tool);
   void setAxisHold(ToolSettings::AxisHold axis);
   void setGround(ToolSettings::Ground ground);
   void setShownInstead(const QString& name);
@@ -111,7 +102,7 @@ private:
 
   void keep(const char* name, double& kept, double value, const Range& range);
 
-  ToolKind ToolInHand = ToolKind::None;
+  Tool ToolInHand = Tool::None;
   AxisHold HeldAxis = AxisHold::None;
   Ground GroundNow = Ground::Volume;
   QString ShownInstead;
@@ -124,8 +115,6 @@ private:
   double Diagonal = 350.0; ///< mm; of a head.
   double Spacing = 12.0;   ///< mm; of 19 control points along a head.
 };
-
-using ToolKind = ToolSettings::ToolKind;
 }
 
 #endif

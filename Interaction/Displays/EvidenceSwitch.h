@@ -26,7 +26,7 @@ private Q_SLOTS:
   /// Of a display that takes over its properties: then ParaView records a step of undo.
   void follow(vtkObject* display);
 
-  /// Of a display's ShowEvidence, of which nobody has heard yet.
+  /// Of a display's ShowEvidence that no signal has announced yet.
   void note(vtkObject* property, unsigned long event, void* display);
 
 private:

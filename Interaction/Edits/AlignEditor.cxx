@@ -7,20 +7,19 @@
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
 
-#include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
-#include <pqServer.h>
-#include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
 
 #include <vtkCommand.h>
 #include <vtkSMPropertyHelper.h>
+#include <vtkSMSourceProxy.h>
 #include <vtkSMTrace.h>
 
-#include <QApplication>
 #include <QElapsedTimer>
-#include <QKeyEvent>
 #include <QScopedValueRollback>
+
+#include <glm/common.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -31,13 +30,15 @@ namespace brainshift
 {
 namespace
 {
+constexpr std::size_t NumbersOfPlacement = 6;
+
+// Fields of the panel hold these digits of mm and degrees; an alignment is less exact.
+constexpr double Digits = 1e4;
+
 constexpr qint64 SearchMs = 40; // between two pictures: Stop is answered soon after
 
-// As in brainshift.align of Python and in Filters/Register/Alignment.cxx.
-constexpr double LeastCompared = 0.25;
-
 constexpr const char* Motion[] = { "ReferenceRotation", "ReferenceTranslation" };
-// What an alignment stands on. Whoever changes one of these in the meantime ends it.
+// What an alignment depends on. A change of one of these in the meantime ends it.
 constexpr const char* Ground[] = { "Input", "Reference", "Cavity", "CavityLabels" };
 // Beside the settings of the lattice.
 constexpr const char* GroundOfDeformation[] = { "Input", "Lattice", "Strokes", "Strength",
@@ -62,37 +63,19 @@ AlignEditor* AlignEditor::of(pqPipelineSource* source)
 }
 
 AlignEditor::AlignEditor(pqPipelineSource* source)
-  : QObject(source)
-  , Source(source)
+  : LiveRun(source)
 {
-  this->Next.setSingleShot(true);
-  this->Next.setInterval(0);
-  this->connect(&this->Next, &QTimer::timeout, this, &AlignEditor::step);
-  this->OfSource->Connect(source->getProxy(), vtkCommand::PropertyModifiedEvent, this,
-    SLOT(notice(vtkObject*, unsigned long, void*, void*)));
-  this->followApplication();
 }
 
-void AlignEditor::followApplication()
+void AlignEditor::followRemoval(pqPipelineSource* source)
 {
-  this->connect(qApp, &QCoreApplication::aboutToQuit, this, [this] { this->end(State::Idle, {}); });
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
-  this->connect(model, &pqServerManagerModel::preSourceRemoved, this, [this](auto* source) {
-    if (this->isActive() && source == this->Source)
-    {
-      this->cancel(); // undo brings it back as it was before
-    }
-  });
-  this->connect(model, &pqServerManagerModel::preServerRemoved, this, [this](pqServer* server) {
-    if (server == this->Source->getServer())
-    {
-      this->end(State::Idle, {}); // all proxies go
-    }
-  });
+  if (source == this->Source)
+  {
+    this->cancel(); // undo brings it back as it was before
+  }
 }
 
-// What is compared lies where the bend puts it. A hand that begins in the meantime has its way, and
-// what was reached is kept.
+// The volume is compared as it is bent. If the user edits meanwhile, what was reached is kept.
 void AlignEditor::followDeformation()
 {
   pqPipelineSource* bent = deformationUpstream(this->Source);
@@ -100,14 +83,9 @@ void AlignEditor::followDeformation()
   {
     return;
   }
-  const auto giveWay = [this](bool begins) {
-    if (begins)
-    {
-      this->stop();
-    }
-  };
-  this->Hands = { this->connect(StrokeEditor::of(bent), &StrokeEditor::editing, this, giveWay),
-    this->connect(FitEditor::of(bent), &FitEditor::editing, this, giveWay) };
+  this->Hands = { this->connect(
+                    StrokeEditor::of(bent), &StrokeEditor::editing, this, &AlignEditor::giveWay),
+    this->connect(FitEditor::of(bent), &FitEditor::editing, this, &AlignEditor::giveWay) };
   this->OfDeformation->Connect(bent->getProxy(), vtkCommand::PropertyModifiedEvent, this,
     SLOT(notice(vtkObject*, unsigned long, void*, void*)));
 }
@@ -121,57 +99,100 @@ void AlignEditor::begin()
     FitEditor::of(bent)->cancel();
     RefineEditor::of(bent)->stop();
   }
-  const QString problem = this->Run.begin(this->Source);
+  this->Figures = {};
+  const QString problem = this->beginAlignment();
   if (!problem.isEmpty())
   {
     this->end(State::Idle, problem);
     return;
   }
-  this->Problem = QString();
   this->followDeformation();
-  this->Now = State::Running;
-  qApp->installEventFilter(this);
-  this->Next.start();
-  Q_EMIT this->changed();
+  this->start();
 }
 
-void AlignEditor::put(const RigidMotion& motion)
+QString AlignEditor::beginAlignment()
+{
+  if (this->Source->modifiedState() == pqProxy::UNINITIALIZED)
+  {
+    return tr("%1 was not applied yet. Press Apply first.").arg(this->Source->getSMName());
+  }
+  SCOPED_UNDO_EXCLUDE();
+  vtkSMProxy* compare = this->Source->getProxy();
+  vtkSMSourceProxy::SafeDownCast(compare)->UpdatePipeline();
+  this->Start = this->now();
+  vtkSMProxy* run = this->makeRun(compare);
+  vtkSMPropertyHelper(run, "StartRotation").Set(&this->Start.rotation[0], 3);
+  vtkSMPropertyHelper(run, "StartTranslation").Set(&this->Start.translation[0], 3);
+  return this->beginRun("BeginAlignment");
+}
+
+AlignEditor::ReferencePlacement AlignEditor::now() const
+{
+  ReferencePlacement placement;
+  vtkSMPropertyHelper(this->Source->getProxy(), Motion[0]).Get(&placement.rotation[0], 3);
+  vtkSMPropertyHelper(this->Source->getProxy(), Motion[1]).Get(&placement.translation[0], 3);
+  return placement;
+}
+
+AlignEditor::ReferencePlacement AlignEditor::found() const
+{
+  const std::vector<double> numbers = this->numbers("Placement");
+  if (numbers.size() != NumbersOfPlacement)
+  {
+    return this->Start;
+  }
+  ReferencePlacement placement;
+  placement.rotation = glm::round(glm::make_vec3(numbers.data()) * Digits) / Digits;
+  placement.translation = glm::round(glm::make_vec3(&numbers[3]) * Digits) / Digits;
+  return placement;
+}
+
+void AlignEditor::put(const ReferencePlacement& placement)
 {
   const QScopedValueRollback<bool> writing(this->Writing, true);
   vtkSMProxy* compare = this->Source->getProxy();
-  vtkSMPropertyHelper(compare, Motion[0]).Set(&motion.rotation[0], 3);
-  vtkSMPropertyHelper(compare, Motion[1]).Set(&motion.translation[0], 3);
+  vtkSMPropertyHelper(compare, Motion[0]).Set(&placement.rotation[0], 3);
+  vtkSMPropertyHelper(compare, Motion[1]).Set(&placement.translation[0], 3);
   compare->UpdateVTKObjects();
 }
 
-void AlignEditor::step()
+void AlignEditor::readFigures()
 {
-  if (!this->isActive())
-  {
-    return;
-  }
+  AlignFigures& at = this->Figures;
+  at.lines = static_cast<int>(this->figure("Steps"));
+  at.done = this->figure("Done");
+  at.overlap = this->figure("Overlap");
+  at.information = this->figure("Information");
+  at.informationBefore = this->figure("InformationBefore");
+  at.shift = this->figure("Shift");
+  at.rotation = this->figure("Rotation");
+  at.refusal = this->text("Refusal");
+  at.warning = this->text("Warning");
+}
+
+void AlignEditor::takeStep()
+{
   QElapsedTimer since;
   since.start();
   do
   {
-    if (!this->Run.step())
+    if (!this->advance())
     {
-      this->cancel();
-      this->Problem = tr("Align failed, see the messages. The reference lies where it lay before.");
-      Q_EMIT this->changed();
+      this->cancel(tr("Align failed, see the messages. The reference is where it was before."));
       return;
     }
-  } while (this->figures().done < 1.0 && since.elapsed() < SearchMs);
+    this->readFigures();
+  } while (this->Figures.done < 1.0 && since.elapsed() < SearchMs);
   {
     SCOPED_UNDO_EXCLUDE();
-    this->put(this->Run.motion());
+    this->put(this->found());
   }
   drawMoving(this->Source);
   if (!this->isActive())
   {
     return; // a picture may have let something else happen
   }
-  if (this->figures().done >= 1.0)
+  if (this->Figures.done >= 1.0)
   {
     this->keep(State::Finished);
     return;
@@ -182,28 +203,17 @@ void AlignEditor::step()
 
 void AlignEditor::keep(State end)
 {
-  if (!this->isActive())
+  const bool hasBegun = this->Figures.lines > 0;
+  const ReferencePlacement found = hasBegun ? this->found() : this->Start;
+  // What undo comes back to is what the session saw last, so it sees the beginning once more.
+  this->restore();
+  const QString refusal = this->Figures.refusal;
+  if (!refusal.isEmpty())
   {
+    this->end(State::Idle, tr("%1. The reference is where it was before.").arg(refusal));
     return;
   }
-  const RigidMotion before = this->Run.start();
-  const bool hasBegun = this->figures().lines > 0;
-  const RigidMotion found = hasBegun ? this->Run.motion() : before;
-  {
-    // What undo comes back to is what the session saw last, so it sees the beginning once more.
-    SCOPED_UNDO_EXCLUDE();
-    this->put(before);
-  }
-  if (hasBegun && this->figures().compared < LeastCompared)
-  {
-    this->end(State::Idle,
-      tr("%1 % of the volume lies within the reference; at least %2 % must. The reference lies "
-         "where it lay before. Move it closer first.")
-        .arg(100.0 * this->figures().compared, 0, 'f', 0)
-        .arg(100.0 * LeastCompared, 0, 'f', 0));
-    return;
-  }
-  if (found.rotation != before.rotation || found.translation != before.translation)
+  if (found.rotation != this->Start.rotation || found.translation != this->Start.translation)
   {
     SCOPED_UNDO_SET(tr("Align"));
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this->Source->getProxy());
@@ -212,76 +222,42 @@ void AlignEditor::keep(State end)
   this->end(end, {});
 }
 
-void AlignEditor::cancel()
+void AlignEditor::restore()
 {
-  if (this->isActive())
-  {
-    SCOPED_UNDO_EXCLUDE();
-    this->put(this->Run.start());
-    this->end(State::Idle, {});
-  }
+  SCOPED_UNDO_EXCLUDE();
+  this->put(this->Start);
 }
 
-void AlignEditor::end(State end, const QString& problem)
+void AlignEditor::release()
 {
-  qApp->removeEventFilter(this);
-  this->Next.stop();
   this->OfDeformation->Disconnect();
   for (const QMetaObject::Connection& hand : this->Hands)
   {
     QObject::disconnect(hand);
   }
   this->Hands.clear();
-  this->Run.end();
-  this->Now = end;
-  this->Problem = problem;
-  drawFully(this->Source);
-  Q_EMIT this->changed();
 }
 
-void AlignEditor::notice(vtkObject* proxy, unsigned long, void*, void* name)
+void AlignEditor::followChange(vtkObject* proxy, const char* property)
 {
-  const auto* property = static_cast<const char*>(name);
   const bool isOwn = proxy == this->Source->getProxy();
-  const bool isMotion = isOwn && isAmong(Motion, property);
-  const bool isGround = isOwn ? isAmong(Ground, property)
-                              : isAmong(GroundOfDeformation, property) ||
-      isLatticeSetting(vtkSMProxy::SafeDownCast(proxy), property);
-  if (!this->isActive() || this->Writing || (!isMotion && !isGround))
+  if (isOwn && isAmong(Motion, property))
   {
-    return;
-  }
-  if (isMotion)
-  {
-    // What somebody else wants stands; the other of the two goes back.
+    // The value that another one has set stays; the other of the two goes back.
     SCOPED_UNDO_EXCLUDE();
-    RigidMotion wanted = this->Run.start();
-    const RigidMotion now = motionOf(this->Source->getProxy());
+    ReferencePlacement wanted = this->Start;
+    const ReferencePlacement now = this->now();
     (std::strcmp(property, Motion[0]) == 0 ? wanted.rotation : wanted.translation) =
       std::strcmp(property, Motion[0]) == 0 ? now.rotation : now.translation;
     this->put(wanted);
     this->end(State::Idle, tr("%1 was changed, so Align ended.").arg(QString(property)));
-    return;
   }
-  this->cancel();
-  this->Problem = tr("%1 was changed, so Align ended. The reference lies where it lay before.")
-                    .arg(QString(property));
-  Q_EMIT this->changed();
-}
-
-bool AlignEditor::eventFilter(QObject* watched, QEvent* event)
-{
-  const bool isKey = event->type() == QEvent::ShortcutOverride || event->type() == QEvent::KeyPress;
-  if (isKey && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape && this->isActive() &&
-    !QApplication::activeModalWidget() && !QApplication::activePopupWidget())
+  else if (isOwn ? isAmong(Ground, property)
+                 : isAmong(GroundOfDeformation, property) ||
+        isLatticeSetting(vtkSMProxy::SafeDownCast(proxy), property))
   {
-    if (event->type() == QEvent::KeyPress)
-    {
-      this->cancel();
-    }
-    event->accept(); // or a shortcut of the window comes first
-    return true;
+    this->cancel(tr("%1 was changed, so Align ended. The reference is where it was before.")
+        .arg(QString(property)));
   }
-  return QObject::eventFilter(watched, event);
 }
 }

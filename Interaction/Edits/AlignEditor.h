@@ -1,82 +1,72 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Moves the reference of a Compare Volumes to where it says most about the volume: a few lines of
-/// the search for each turn of the event loop, beside the data, with a picture after each. The undo
-/// stack sees nothing of it until the result is kept, as one step.
+/// Registers the reference of a Compare Volumes rigidly: a few lines of the search, then a picture.
 #ifndef BrainShift_AlignEditor_h
 #define BrainShift_AlignEditor_h
 
-#include "Interaction/Edits/AlignRun.h"
-
-#include <vtkEventQtSlotConnect.h>
-#include <vtkNew.h>
+#include "Interaction/Edits/LiveRun.h"
 
 #include <QList>
-#include <QObject>
-#include <QString>
-#include <QTimer>
 
-class pqPipelineSource;
-class vtkObject;
+#include <glm/vec3.hpp>
 
 namespace brainshift
 {
-class AlignEditor : public QObject
+/// What is known after a line was searched.
+struct AlignFigures
+{
+  int lines = 0;                  ///< searched so far
+  double done = 0.0;              ///< fraction of the most rounds there may be, 0 to 1
+  double overlap = 0.0;           ///< fraction of the volume inside the reference, 0 to 1
+  double information = 0.0;       ///< mutual information on this level, nats; more is better
+  double informationBefore = 0.0; ///< of the reference where it was, on the same level
+  double shift = 0.0;             ///< of the middle of what is compared, mm
+  double rotation = 0.0;          ///< degrees, 0 or more
+  QString refusal;                ///< Why the result must not be kept; empty if it may.
+  QString warning;                ///< What the user must check; empty if there is nothing.
+};
+
+class AlignEditor : public LiveRun
 {
   Q_OBJECT
 
 public:
-  enum class State
-  {
-    Idle,    ///< Nothing ran yet, or the reference lies where it lay before.
-    Running, ///< The timer searches.
-    Kept,    ///< It was stopped, and what it had reached was kept.
-    Finished ///< It came to its end.
-  };
-
   /// The editor of a Compare Volumes; it lives as long as the source. Null for any other source.
   static AlignEditor* of(pqPipelineSource* source);
 
   /// Begins an alignment. If it cannot, problem() says why and nothing has changed.
   void begin();
-  /// Ends it and keeps what was reached: one undo step, none if nothing has changed.
-  void stop() { this->keep(State::Kept); }
-  /// Ends it and moves the reference back. The undo stack sees nothing.
-  void cancel();
 
-  State state() const { return this->Now; }
-  bool isActive() const { return this->Now == State::Running; }
-  const AlignFigures& figures() const { return this->Run.figures(); }
-  /// Why it could not begin or why it ended early: a sentence. Empty if neither happened.
-  const QString& problem() const { return this->Problem; }
+  const AlignFigures& figures() const { return this->Figures; }
 
-  /// While it runs, Escape moves the reference back, wherever the keyboard is.
-  bool eventFilter(QObject* watched, QEvent* event) override;
-
-Q_SIGNALS:
-  /// State, figures or problem changed.
-  void changed();
-
-private Q_SLOTS:
-  void notice(vtkObject* proxy, unsigned long event, void* clientData, void* name);
+protected:
+  void takeStep() override;
+  void keep(State end) override;
+  void restore() override; ///< The reference goes back to where it was.
+  void release() override;
+  void followChange(vtkObject* proxy, const char* property) override;
+  void followRemoval(pqPipelineSource* source) override;
 
 private:
   explicit AlignEditor(pqPipelineSource* source);
 
-  void followApplication();
-  void followDeformation();
-  void step();
-  void put(const RigidMotion& motion);
-  void keep(State end);
-  void end(State end, const QString& problem);
+  /// The two properties of a Compare Volumes.
+  struct ReferencePlacement
+  {
+    glm::dvec3 rotation{ 0.0 };    ///< degrees about x, then y, then z
+    glm::dvec3 translation{ 0.0 }; ///< mm, world axes
+  };
 
-  pqPipelineSource* Source;
-  vtkNew<vtkEventQtSlotConnect> OfSource;
-  QTimer Next; ///< Searches on.
-  State Now = State::Idle;
-  AlignRun Run;
-  QString Problem;
-  bool Writing = false; ///< This editor changes something right now.
+  QString beginAlignment();
+  void followDeformation();
+  void readFigures();
+  ReferencePlacement now() const;
+  /// What the search has reached, rounded for the panel.
+  ReferencePlacement found() const;
+  void put(const ReferencePlacement& placement);
+
+  AlignFigures Figures;
+  ReferencePlacement Start;
 
   // While it is active:
   vtkNew<vtkEventQtSlotConnect> OfDeformation;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Edits/LivePicture.h"
 
-#include "Interaction/Edits/QuietUpdates.h"
 #include "Interaction/Views/ShowingViews.h"
+#include "Interaction/Workarounds/QuietUpdates.h"
 
 #include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>

@@ -5,16 +5,12 @@
 #include "Interaction/Edits/LivePicture.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
-#include "Interaction/Views/Reports.h"
 
 #include <pqApplicationCore.h>
-#include <pqOutputPort.h>
 #include <pqPipelineSource.h>
-#include <pqServer.h>
 #include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
 
-#include <vtkCommand.h>
 #include <vtkSMParaViewPipelineController.h>
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
@@ -23,14 +19,12 @@
 #include <vtkSMSourceProxy.h>
 #include <vtkSMTrace.h>
 
-#include <QApplication>
-#include <QKeyEvent>
+#include <QCoreApplication>
 #include <QScopedValueRollback>
 
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <cstring>
+#include <iterator>
 
 namespace brainshift
 {
@@ -39,8 +33,8 @@ namespace
 // As in brainshift.fit and brainshift.refine of Python: sources that are BrainShift's own.
 constexpr const char* MadeByUs = "BrainShiftFit";
 
-// What a refinement stands on, beside the settings of the lattice. Whoever changes one of these in
-// the meantime ends it.
+// What a refinement depends on, beside the settings of the lattice. A change of one of these in the
+// meantime ends it.
 constexpr const char* Ground[] = { "Input", "Lattice", "Strokes", "Strength" };
 
 void setNumbers(vtkSMProxy* proxy, const char* name, const std::vector<double>& numbers)
@@ -89,68 +83,43 @@ RefineEditor* RefineEditor::of(pqPipelineSource* source)
 }
 
 RefineEditor::RefineEditor(pqPipelineSource* source)
-  : QObject(source)
-  , Source(source)
+  : LiveRun(source)
 {
-  this->Next.setSingleShot(true);
-  this->Next.setInterval(0);
-  this->connect(&this->Next, &QTimer::timeout, this, &RefineEditor::step);
-  this->OfSource->Connect(source->getProxy(), vtkCommand::PropertyModifiedEvent, this,
-    SLOT(notice(vtkObject*, unsigned long, void*, void*)));
-  this->followApplication();
+  // If the user edits in the meantime, the edit follows what was reached.
+  this->connect(StrokeEditor::of(source), &StrokeEditor::editing, this, &RefineEditor::giveWay);
+  this->connect(FitEditor::of(source), &FitEditor::editing, this, &RefineEditor::giveWay);
+  this->connect(pqApplicationCore::instance(), &pqApplicationCore::aboutToWriteState, this,
+    [this] { this->Unselected.putBack(); });
 }
 
-void RefineEditor::followApplication()
+void RefineEditor::followRemoval(pqPipelineSource* source)
 {
-  // A hand that begins in the meantime has its way from what was reached.
-  const auto giveWay = [this](bool begins) {
-    if (begins)
+  if (source->getProxy() == this->Held.Get())
+  {
+    this->abandon({}); // all goes
+  }
+  else if (source == this->Source)
+  {
+    this->putBack(); // undo brings it back as it was before
+    this->leaveHeld();
+    this->end(State::Idle, {});
+  }
+  else if (source == this->Reference)
+  {
+    this->followReference(source->getSMName());
+  }
+}
+
+// Later: what deletes the reference is an undo step of its own.
+void RefineEditor::followReference(const QString& name)
+{
+  this->Next.stop();
+  QTimer::singleShot(0, this, [this, name] {
+    if (this->isActive())
     {
       this->stop();
-    }
-  };
-  this->connect(StrokeEditor::of(this->Source), &StrokeEditor::editing, this, giveWay);
-  this->connect(FitEditor::of(this->Source), &FitEditor::editing, this, giveWay);
-  pqApplicationCore* core = pqApplicationCore::instance();
-  this->connect(
-    core, &pqApplicationCore::aboutToWriteState, this, [this] { this->Unselected.putBack(); });
-  this->connect(qApp, &QCoreApplication::aboutToQuit, this, [this] { this->abandon({}); });
-  pqServerManagerModel* model = core->getServerManagerModel();
-  this->connect(model, &pqServerManagerModel::preSourceRemoved, this, [this](auto* source) {
-    if (!this->isActive())
-    {
-      return;
-    }
-    if (source->getProxy() == this->Held.Get())
-    {
-      this->abandon({}); // all goes
-    }
-    else if (source == this->Source)
-    {
-      this->putBack(); // undo brings it back as it was before
-      this->leaveHeld();
-      this->forget(State::Idle);
-    }
-    else if (source == this->Reference)
-    {
-      const QString name = source->getSMName();
-      // Later: what deletes the reference is an undo step of its own.
-      QTimer::singleShot(0, this, [this, name] {
-        if (!this->isActive())
-        {
-          return;
-        }
-        this->stop();
-        this->Problem = tr("%1 was deleted. What was reached until then is kept.").arg(name);
-        Q_EMIT this->changed();
-      });
-      this->Next.stop();
-    }
-  });
-  this->connect(model, &pqServerManagerModel::preServerRemoved, this, [this](pqServer* server) {
-    if (server == this->Source->getServer())
-    {
-      this->abandon({}); // all proxies go
+      this->Problem = tr("%1 was deleted. What was reached until then is kept.").arg(name);
+      Q_EMIT this->changed();
     }
   });
 }
@@ -165,20 +134,61 @@ void RefineEditor::begin(const RefineSettings& settings)
   this->cancel();
   StrokeEditor::of(this->Source)->cancel();
   FitEditor::of(this->Source)->cancel();
-  this->Problem = this->Run.begin(this->Source, settings);
-  if (!this->Problem.isEmpty())
+  this->Figures = {};
+  this->Costs.clear();
+  const QString problem = this->beginRefinement(settings);
+  if (!problem.isEmpty())
   {
-    this->forget(State::Idle);
+    this->end(State::Idle, problem);
     return;
   }
   this->Reference = settings.reference;
   this->IsDrawn = true;
   this->Unselected.leaveOut(this->Source);
   this->hold();
-  this->Now = State::Running;
-  qApp->installEventFilter(this);
-  this->Next.start();
-  Q_EMIT this->changed();
+  this->start();
+}
+
+QString RefineEditor::beginRefinement(const RefineSettings& settings)
+{
+  const QString refused = whyNot(this->Source, settings);
+  if (!refused.isEmpty())
+  {
+    return refused;
+  }
+  SCOPED_UNDO_EXCLUDE();
+  const vtkSmartPointer<vtkSMProxy> compared = comparisonFor(this->Source, settings);
+  vtkSMSourceProxy::SafeDownCast(compared)->UpdatePipeline();
+  vtkSMProxy* run = this->makeRun(compared);
+  vtkSMPropertyHelper(run, "Similarity").Set(settings.similarity);
+  vtkSMPropertyHelper(run, "Stiffness").Set(settings.stiffness);
+  const QString problem = this->beginRun("BeginRefinement");
+  this->Start = this->numbers("ControlPoints");
+  this->Points = this->Start;
+  return problem;
+}
+
+void RefineEditor::readFigures()
+{
+  RefineFigures& at = this->Figures;
+  const int former = at.steps;
+  at.steps = static_cast<int>(this->figure("Steps"));
+  at.done = this->figure("Done");
+  at.overlap = this->figure("Overlap");
+  at.overlapOf = this->text("OverlapOf");
+  at.cost = this->figure("Cost");
+  at.costBefore = this->figure("CostBefore");
+  at.stepFraction = this->figure("StepFraction");
+  at.largestChange = this->figure("LargestChange");
+  at.meanChange = this->figure("MeanChange");
+  at.refusal = this->text("Refusal");
+  at.warning = this->text("Warning");
+  this->Points = this->numbers("ControlPoints");
+  if (at.steps > former) // else it tried a step, or prepared a level
+  {
+    this->IsDrawn = false;
+    this->Costs.append(at.costBefore > 0.0 ? at.cost / at.costBefore : 1.0);
+  }
 }
 
 vtkSmartPointer<vtkSMProxy> RefineEditor::makeLattice() const
@@ -204,7 +214,7 @@ void RefineEditor::hold()
   const vtkSmartPointer<vtkSMProxy> made = this->makeLattice();
   made->SetLogName(made->GetSessionProxyManager()->RegisterProxy("sources", made).c_str());
   this->Held = made;
-  this->putIn(made, this->Run.start());
+  this->putIn(made, this->Start);
 }
 
 // The lattice holds what base and strokes did, so it takes the place of both.
@@ -223,16 +233,12 @@ void RefineEditor::show()
 {
   this->IsDrawn = true;
   const QScopedValueRollback<bool> writing(this->Writing, true);
-  setNumbers(this->Held, "ControlPoints", this->Run.points());
+  setNumbers(this->Held, "ControlPoints", this->Points);
   drawMoving(this->Source, this->Held);
 }
 
-void RefineEditor::step()
+void RefineEditor::takeStep()
 {
-  if (this->Now != State::Running)
-  {
-    return;
-  }
   if (!this->Held || !this->Held->GetSession()->GetIsAlive())
   {
     this->abandon(tr("The lattice of the refinement is gone, so it ended."));
@@ -247,33 +253,25 @@ void RefineEditor::step()
     }
     return;
   }
-  const int taken = this->figures().steps;
-  const bool worked = this->Run.step();
-  const bool isMoved =
-    worked && this->figures().steps > taken; // else it tried, or prepared a level
-  this->IsDrawn = !isMoved;
-  if (!worked)
+  if (!this->advance())
   {
-    this->cancel();
-    this->Problem = tr("The refinement failed, see the messages. All is as it was before.");
+    this->cancel(tr("The refinement failed, see the messages. Nothing was changed."));
+    return;
   }
-  else if (isMoved && this->figures().compared <= 0.0)
+  this->readFigures();
+  if (!this->Figures.refusal.isEmpty())
   {
-    const QString reference = this->Reference ? this->Reference->getSMName() : QString();
-    this->cancel();
-    this->Problem = tr("0 % of %1 lies within %2; some of it must. All is as it was before.")
-                      .arg(this->Source->getSMName(), reference);
+    this->cancel(tr("%1. Nothing was changed.").arg(this->Figures.refusal));
   }
-  else if (this->figures().done >= 1.0)
+  else if (this->Figures.done >= 1.0)
   {
     this->keep(State::Finished);
-    return;
   }
   else
   {
     this->Next.start();
+    Q_EMIT this->changed();
   }
-  Q_EMIT this->changed();
 }
 
 void RefineEditor::pause(bool on)
@@ -297,12 +295,8 @@ void RefineEditor::pause(bool on)
 
 void RefineEditor::keep(State end)
 {
-  if (!this->isActive())
-  {
-    return;
-  }
-  const std::vector<double> found = this->Run.points();
-  const bool hasChanged = found != this->Run.start();
+  const std::vector<double> found = this->Points;
+  const bool hasChanged = found != this->Start;
   // What undo comes back to is what the session saw last, so it sees the beginning once more.
   this->restore();
   if (hasChanged)
@@ -328,18 +322,8 @@ void RefineEditor::keep(State end)
   vtkSMProxy* proxy = this->Source->getProxy();
   vtkSMSourceProxy::SafeDownCast(proxy)->UpdatePipeline();
   proxy->UpdatePropertyInformation(proxy->GetProperty("MinimumJacobian"));
-  this->Run.figures().smallestDeterminant =
-    vtkSMPropertyHelper(proxy, "MinimumJacobian").GetAsDouble();
-  this->forget(end);
-}
-
-void RefineEditor::cancel()
-{
-  if (this->isActive())
-  {
-    this->restore();
-    this->forget(State::Idle);
-  }
+  this->Figures.smallestDeterminant = vtkSMPropertyHelper(proxy, "MinimumJacobian").GetAsDouble();
+  this->end(end, {});
 }
 
 void RefineEditor::restore()
@@ -384,63 +368,32 @@ void RefineEditor::leaveHeld()
   });
 }
 
-void RefineEditor::forget(State end)
+void RefineEditor::release()
 {
-  qApp->removeEventFilter(this);
-  this->Next.stop();
   this->Unselected.putBack();
-  this->Run.end();
   this->Held = nullptr;
   this->Base = nullptr;
   this->Reference = nullptr;
   this->Strokes = {};
-  this->Now = end;
-  drawFully(this->Source);
-  Q_EMIT this->changed();
 }
 
-// What others want stands. The lattice goes, unless they want it.
 void RefineEditor::abandon(const QString& problem)
 {
-  if (!this->isActive())
-  {
-    return;
-  }
-  this->Problem = problem;
   if (this->Held && this->lattice() != this->Held.Get())
   {
     this->leaveHeld();
   }
-  this->forget(State::Idle);
+  this->end(State::Idle, problem);
 }
 
-void RefineEditor::notice(vtkObject*, unsigned long, void*, void* name)
+void RefineEditor::followChange(vtkObject*, const char* property)
 {
-  const auto isChanged = [name](const char* property) {
-    return std::strcmp(property, static_cast<const char*>(name)) == 0;
-  };
-  if (this->isActive() && !this->Writing &&
-    (std::any_of(std::begin(Ground), std::end(Ground), isChanged) ||
-      isLatticeSetting(this->Source->getProxy(), static_cast<const char*>(name))))
+  const auto isChanged = [property](const char* name) { return std::strcmp(property, name) == 0; };
+  if (std::any_of(std::begin(Ground), std::end(Ground), isChanged) ||
+    isLatticeSetting(this->Source->getProxy(), property))
   {
     this->abandon(tr("%1 of %2 was changed, so the refinement ended.")
-        .arg(QString(static_cast<const char*>(name)), this->Source->getSMName()));
+        .arg(QString(property), this->Source->getSMName()));
   }
-}
-
-bool RefineEditor::eventFilter(QObject* watched, QEvent* event)
-{
-  const bool isKey = event->type() == QEvent::ShortcutOverride || event->type() == QEvent::KeyPress;
-  if (isKey && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape && this->isActive() &&
-    !QApplication::activeModalWidget() && !QApplication::activePopupWidget())
-  {
-    if (event->type() == QEvent::KeyPress)
-    {
-      this->cancel();
-    }
-    event->accept(); // or a shortcut of the window comes first
-    return true;
-  }
-  return QObject::eventFilter(watched, event);
 }
 }

@@ -1,49 +1,45 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Bends a Free-Form Deformation until its volume agrees with a reference: a part of a step for
-/// each turn of the event loop, beside the data, with a picture after each step. It begins with
-/// what is there, base and strokes. The undo stack sees nothing of it until the result is kept, as
-/// one step.
+/// Refines a Free-Form Deformation until its volume agrees with a reference, with a picture after
+/// each step. It begins with what is there, base and strokes.
 #ifndef BrainShift_RefineEditor_h
 #define BrainShift_RefineEditor_h
 
-#include "Interaction/Edits/EmptySelections.h"
-#include "Interaction/Edits/RefineRun.h"
+#include "Interaction/Edits/LiveRun.h"
+#include "Interaction/Edits/RefineChoices.h"
+#include "Interaction/Workarounds/EmptySelections.h"
 
-#include <vtkEventQtSlotConnect.h>
-#include <vtkNew.h>
-#include <vtkSmartPointer.h>
 #include <vtkWeakPointer.h>
 
 #include <QList>
-#include <QObject>
 #include <QPointer>
-#include <QString>
-#include <QTimer>
 
-#include <vector>
-
-class pqPipelineSource;
-class pqServer;
-class vtkObject;
-class vtkSMProxy;
+#include <optional>
 
 namespace brainshift
 {
-class RefineEditor : public QObject
+/// What is known after a step. Costs are those of the level; 0: both volumes agree.
+struct RefineFigures
+{
+  int steps = 0;
+  double done = 0.0;    ///< fraction of the most steps there may be, 0 to 1
+  double overlap = 0.0; ///< fraction of `overlapOf` that has a partner in the reference, 0 to 1
+  QString overlapOf;    ///< in words
+  double cost = 0.0;
+  double costBefore = 0.0;    ///< of the beginning
+  double stepFraction = 1.0;  ///< smallest fraction of a step that the fold guard allowed, 0 to 1
+  double largestChange = 0.0; ///< of a control point since the beginning, mm
+  double meanChange = 0.0;    ///< mm
+  QString refusal;            ///< Why the result must not be kept; empty if it may.
+  QString warning;            ///< What the user must check; empty if there is nothing.
+  std::optional<double> smallestDeterminant; ///< Jacobian; known once the result was kept
+};
+
+class RefineEditor : public LiveRun
 {
   Q_OBJECT
 
 public:
-  enum class State
-  {
-    Idle,    ///< Nothing ran yet, or the volume is as it was before.
-    Running, ///< The timer takes steps.
-    Paused,
-    Kept,    ///< It was stopped, and what it had reached was kept.
-    Finished ///< It came to its end.
-  };
-
   /// The editor of a Free-Form Deformation; it lives as long as the source. Null for any other
   /// source.
   static RefineEditor* of(pqPipelineSource* source);
@@ -52,52 +48,39 @@ public:
   void begin(const RefineSettings& settings);
   /// Takes no step until it is called with false.
   void pause(bool on);
-  /// Ends it and keeps what was reached: one undo step, none if nothing has changed.
-  void stop() { this->keep(State::Kept); }
-  /// Ends it and restores base and strokes. The undo stack sees nothing.
-  void cancel();
 
-  State state() const { return this->Now; }
-  bool isActive() const { return this->Now == State::Running || this->Now == State::Paused; }
-  const RefineFigures& figures() const { return this->Run.figures(); }
-  /// The disagreement after each step, as a share of that of the beginning on the same level.
-  const QList<double>& shares() const { return this->Run.shares(); }
-  /// Why it could not begin or why it ended early: a sentence. Empty if neither happened.
-  const QString& problem() const { return this->Problem; }
+  const RefineFigures& figures() const { return this->Figures; }
+  /// The cost after each step, as a fraction of that of the beginning on the same level.
+  const QList<double>& costs() const { return this->Costs; }
 
-  /// While it runs, Escape restores what was there before, wherever the keyboard is.
-  bool eventFilter(QObject* watched, QEvent* event) override;
-
-Q_SIGNALS:
-  /// State, figures or problem changed.
-  void changed();
-
-private Q_SLOTS:
-  void notice(vtkObject* proxy, unsigned long event, void* clientData, void* name);
+protected:
+  void takeStep() override;
+  void keep(State end) override;
+  void restore() override;
+  void release() override;
+  void followChange(vtkObject* proxy, const char* property) override;
+  void followRemoval(pqPipelineSource* source) override;
+  /// The lattice goes, unless others use it.
+  void abandon(const QString& problem) override;
 
 private:
   explicit RefineEditor(pqPipelineSource* source);
 
-  void followApplication();
+  QString beginRefinement(const RefineSettings& settings);
+  void readFigures();
   void hold();
-  void step();
   void show();
-  void keep(State end);
   void putIn(vtkSMProxy* lattice, const std::vector<double>& controlPoints);
-  void restore();   ///< What was there before, and nothing of the run.
   void putBack();   ///< Base and strokes.
-  void leaveHeld(); ///< The lattice for now goes soon.
-  void forget(State end);
-  void abandon(const QString& problem);
+  void leaveHeld(); ///< Releases the temporary lattice; it is deleted later.
+  void followReference(const QString& name);
   vtkSmartPointer<vtkSMProxy> makeLattice() const;
   vtkSmartPointer<vtkSMProxy> lattice() const;
 
-  pqPipelineSource* Source;
-  vtkNew<vtkEventQtSlotConnect> OfSource;
-  QTimer Next; ///< Takes the next step.
-  State Now = State::Idle;
-  RefineRun Run;
-  QString Problem;
+  RefineFigures Figures;
+  QList<double> Costs;
+  std::vector<double> Start;  ///< Control points: 3 numbers each (mm, world axes), x fastest.
+  std::vector<double> Points; ///< The same, after the last step.
 
   // While it is active:
   vtkWeakPointer<vtkSMProxy> Held;      ///< The Refined Lattice that is drawn for now.
@@ -106,7 +89,6 @@ private:
   QPointer<pqPipelineSource> Reference; ///< It ends when this goes.
   bool IsDrawn = true;                  ///< The last step.
   EmptySelections Unselected;
-  bool Writing = false; ///< This editor changes something right now.
 };
 }
 

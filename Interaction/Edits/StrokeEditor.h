@@ -7,7 +7,7 @@
 #define BrainShift_StrokeEditor_h
 
 #include "Filters/Deformation/Stroke.h"
-#include "Interaction/Edits/EmptySelections.h"
+#include "Interaction/Workarounds/EmptySelections.h"
 
 #include <QObject>
 #include <QTimer>
@@ -74,7 +74,7 @@ public:
   void commitStrength();
 
 Q_SIGNALS:
-  /// The strokes of the property changed, whoever changed them.
+  /// The strokes of the property changed, by this editor or by any other.
   void changed();
   /// An edit began or ended.
   void editing(bool on);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Landmarks/LandmarkList.h"
 
+#include "Filters/Fit/PackedTables.h"
 #include "Interaction/Edits/FitEditor.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
@@ -27,7 +28,6 @@ namespace brainshift
 {
 namespace
 {
-constexpr std::size_t NumbersPerPair = 7;   // of LandmarkPairs: rest, measured, weight
 constexpr std::size_t NumbersPerPlace = 10; // of LandmarkPlaces: rest, measured, fitted, weight
 constexpr int FewestToJudge = 3;            // of two pairs, both are wrong alike
 
@@ -147,7 +147,7 @@ void LandmarkList::refresh()
   {
     if (this->Runs && !this->Editor->isEditing())
     {
-      fit->UpdatePipeline(); // who hides the volume wants the figures, too
+      fit->UpdatePipeline(); // a hidden volume does not update it
     }
     fit->UpdatePropertyInformation();
     this->readInputs(fit);
@@ -159,7 +159,7 @@ void LandmarkList::refresh()
   Q_EMIT this->changed();
 }
 
-// The rows that the fit tells about, in its order.
+// The rows that the fit reports, in its order.
 void LandmarkList::readInputs(vtkSMProxy* fit)
 {
   const std::vector<std::string> names = textsOf(fit, "LandmarkNames");
@@ -190,8 +190,9 @@ void LandmarkList::readInputs(vtkSMProxy* fit)
 // The last rows are the pairs that were picked. Without a result they are all that is known.
 void LandmarkList::readPicked(vtkSMProxy* fit)
 {
-  const std::vector<double> numbers = vtkSMPropertyHelper(fit, "LandmarkPairs").GetDoubleArray();
-  const std::size_t count = numbers.size() / NumbersPerPair;
+  const std::vector<PointPair> pairs =
+    rowsFrom<PointPair>(vtkSMPropertyHelper(fit, "LandmarkPairs").GetDoubleArray());
+  const std::size_t count = pairs.size();
   if (this->Rows.size() < count)
   {
     this->Rows.assign(count, {});
@@ -201,9 +202,9 @@ void LandmarkList::readPicked(vtkSMProxy* fit)
     LandmarkRow& row = this->Rows[this->Rows.size() - count + i];
     row.name.clear();
     row.place = static_cast<int>(i);
-    row.rest = tripleAt(numbers, NumbersPerPair * i);
-    row.measured = tripleAt(numbers, NumbersPerPair * i + 3);
-    row.on = numbers[NumbersPerPair * i + 6] > 0.0;
+    row.rest = pairs[i].rest;
+    row.measured = pairs[i].measured;
+    row.on = pairs[i].weight > 0.0;
   }
 }
 
@@ -275,12 +276,16 @@ void LandmarkList::findDrawn()
   }
 }
 
+std::vector<PointPair> LandmarkList::picked() const
+{
+  return rowsFrom<PointPair>(this->Editor->numbers("LandmarkPairs"));
+}
+
 void LandmarkList::add(const glm::dvec3& rest, const glm::dvec3& measured)
 {
-  FitEditor::Numbers numbers = this->Editor->numbers("LandmarkPairs");
-  numbers.insert(
-    numbers.end(), { rest.x, rest.y, rest.z, measured.x, measured.y, measured.z, 1.0 });
-  this->Editor->replace("LandmarkPairs", numbers, tr("Add Landmark Pair"));
+  std::vector<PointPair> pairs = this->picked();
+  pairs.push_back({ rest, measured, 1.0 });
+  this->Editor->replace("LandmarkPairs", numbersFrom(pairs), tr("Add Landmark Pair"));
 }
 
 void LandmarkList::setOn(const QList<int>& rows, bool on)
@@ -289,16 +294,15 @@ void LandmarkList::setOn(const QList<int>& rows, bool on)
   {
     return; // gone since the rows were read
   }
-  FitEditor::Numbers numbers = this->Editor->numbers("LandmarkPairs");
+  std::vector<PointPair> pairs = this->picked();
   std::vector<std::string> off = textsOf(this->Editor->fit(), "LandmarksOff");
   for (const int i : rows)
   {
     const LandmarkRow& row = this->Rows.at(i);
-    const std::size_t weight = NumbersPerPair * row.place + NumbersPerPair - 1;
     const std::string name = row.name.toStdString();
-    if (row.isPicked() && row.on != on && weight < numbers.size())
+    if (row.isPicked() && row.on != on && row.place < static_cast<int>(pairs.size()))
     {
-      numbers[weight] = on ? 1.0 : 0.0;
+      pairs[row.place].weight = on ? 1.0 : 0.0;
     }
     else if (!row.isPicked())
     {
@@ -310,24 +314,24 @@ void LandmarkList::setOn(const QList<int>& rows, bool on)
     }
   }
   this->Editor->edit(on ? tr("Enable Landmarks") : tr("Disable Landmarks"), [&](vtkSMProxy* fit) {
-    setNumbers(fit, "LandmarkPairs", numbers);
+    setNumbers(fit, "LandmarkPairs", numbersFrom(pairs));
     setTexts(fit, "LandmarksOff", off);
   });
 }
 
 void LandmarkList::remove(const QList<int>& rows)
 {
-  const FitEditor::Numbers before = this->Editor->numbers("LandmarkPairs");
-  FitEditor::Numbers numbers;
-  for (std::size_t i = 0; i + NumbersPerPair <= before.size(); i += NumbersPerPair)
+  const std::vector<PointPair> before = this->picked();
+  std::vector<PointPair> left;
+  for (std::size_t i = 0; i < before.size(); ++i)
   {
     const bool goes = std::any_of(rows.begin(), rows.end(),
-      [&](int row) { return this->Rows.at(row).place == static_cast<int>(i / NumbersPerPair); });
+      [&](int row) { return this->Rows.at(row).place == static_cast<int>(i); });
     if (!goes)
     {
-      numbers.insert(numbers.end(), before.begin() + i, before.begin() + i + NumbersPerPair);
+      left.push_back(before[i]);
     }
   }
-  this->Editor->replace("LandmarkPairs", numbers, tr("Delete Landmark Pairs"));
+  this->Editor->replace("LandmarkPairs", numbersFrom(left), tr("Delete Landmark Pairs"));
 }
 }

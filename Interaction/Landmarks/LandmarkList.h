@@ -25,6 +25,7 @@ class vtkSMSourceProxy;
 namespace brainshift
 {
 class FitEditor;
+struct PointPair;
 
 /// A pair. Numbers that are not known are NaN.
 struct LandmarkRow
@@ -95,6 +96,7 @@ private:
   void readInputs(vtkSMProxy* fit);
   void readFigures(vtkSMProxy* fit);
   void findDrawn();
+  std::vector<PointPair> picked() const; ///< Pairs as the fit has them now.
 
   pqPipelineSource* const Source;
   FitEditor* const Editor;

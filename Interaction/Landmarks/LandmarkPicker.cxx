@@ -84,7 +84,7 @@ LandmarkPicker::LandmarkPicker(QObject* parent)
     }
   });
   this->connect(ToolSettings::instance(), &ToolSettings::changed, this, [this] {
-    if (this->Deformation && ToolSettings::instance()->tool() != ToolKind::None)
+    if (this->Deformation && ToolSettings::instance()->tool() != Tool::None)
     {
       this->stop(); // the hand took a tool
     }
@@ -100,7 +100,7 @@ pqPipelineSource* LandmarkPicker::deformation() const
 void LandmarkPicker::start(pqPipelineSource* deformation)
 {
   this->stop();
-  ToolSettings::instance()->setTool(ToolKind::None);
+  ToolSettings::instance()->setTool(Tool::None);
   this->Deformation = deformation;
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
   for (pqRenderView* view : model->findItems<pqRenderView*>())
@@ -235,7 +235,7 @@ void LandmarkPicker::pick(pqRenderView* view, const glm::ivec2& pixel)
       bringCrosshairTo(deformation, found->deformed);
     }
     this->ask(found ? QString()
-                    : tr("There is no tissue of %1 at that place. ").arg(deformation->getSMName()));
+                    : tr("No tissue of %1 is at that position. ").arg(deformation->getSMName()));
     Q_EMIT this->changed();
     return;
   }
@@ -244,7 +244,7 @@ void LandmarkPicker::pick(pqRenderView* view, const glm::ivec2& pixel)
   found = reference ? reference : found;
   if (!found)
   {
-    this->ask(tr("No volume is hit at that place. "));
+    this->ask(tr("No volume is at that position. "));
     return;
   }
   const glm::dvec3 rest = this->Picked->rest;

@@ -62,11 +62,11 @@ private:
   void watch(pqRenderView* view);
   void forgetViews();
 
-  /// Observer of an interactor. True: nobody else gets the event.
+  /// Observer of an interactor. True: the event ends here.
   bool onPress(vtkObject* interactor, unsigned long event, void* data);
-  /// Observer of an interactor. True: nobody else gets the event.
+  /// Observer of an interactor. True: the event ends here.
   bool onMove(vtkObject* interactor, unsigned long event, void* data);
-  /// Observer of an interactor. True: nobody else gets the event.
+  /// Observer of an interactor. True: the event ends here.
   bool onRelease(vtkObject* interactor, unsigned long event, void* data);
 
   void pick(pqRenderView* view, const glm::ivec2& pixel);

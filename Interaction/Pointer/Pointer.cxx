@@ -15,7 +15,6 @@
 #include <QApplication>
 #include <QKeyEvent>
 #include <QPointer>
-#include <QWidget>
 
 #include <glm/geometric.hpp>
 
@@ -32,13 +31,6 @@ constexpr int BendEachMs = 100; // a solve of a long trace takes about that long
 constexpr double TouchSeconds = 0.5;
 constexpr double StillMm = 2.0; // a hand at rest on a landmark
 constexpr int LeastTouches = 5;
-
-// Where a person types, keys are letters.
-bool isTyping()
-{
-  QWidget* focus = QApplication::focusWidget();
-  return focus && focus->testAttribute(Qt::WA_InputMethodEnabled);
-}
 
 // Whether the pipeline runs right now. ParaView 6.1 lets timers run meanwhile.
 bool isExecuting(pqPipelineSource* source)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Pointer/PointerTrace.h"
 
+#include "Interaction/Commands/Translated.h"
 #include "Interaction/Edits/FitEditor.h"
 #include "Interaction/Edits/LivePicture.h"
 #include "Interaction/Pointer/TipDistance.h"
@@ -16,8 +17,6 @@
 #include <vtkSMSourceProxy.h>
 #include <vtkSMViewProxy.h>
 
-#include <QCoreApplication>
-
 #include <glm/geometric.hpp>
 
 #include <array>
@@ -31,11 +30,6 @@ constexpr double SpacingMm = 0.5;
 constexpr std::size_t MostPoints = 100'000;
 constexpr double PointPixels = 6.0;
 constexpr std::array<double, 3> Orange{ 1.0, 0.45, 0.05 };
-
-QString tr(const char* text)
-{
-  return QCoreApplication::translate("BrainShift", text);
-}
 
 void setPoints(vtkSMProxy* source, const std::vector<double>& points)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Pointer/TrackerRegistration.h"
 
-#include <QCoreApplication>
+#include "Interaction/Commands/Translated.h"
 
 #include <glm/geometric.hpp>
 
@@ -17,11 +17,6 @@ namespace
 constexpr std::size_t LeastPairs = 3;
 constexpr double LeastSpreadMm = 3.0; // from a line; closer points leave a turn around it open
 constexpr double Unknown = std::numeric_limits<double>::quiet_NaN();
-
-QString tr(const char* text)
-{
-  return QCoreApplication::translate("BrainShift", text);
-}
 }
 
 void TrackerRegistration::touch(const glm::dvec3& tracker)

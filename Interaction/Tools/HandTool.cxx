@@ -47,8 +47,9 @@ Stroke HandTool::strokeAt(const glm::dvec3& anchor, Tool tool) const
   Stroke stroke;
   stroke.tool = tool;
   stroke.anchor = anchor;
-  stroke.major = tool == Tool::Soft ? settings.radius() : settings.majorRadius();
-  stroke.minor = tool == Tool::Soft ? 0.0 : settings.minorRadius();
+  const bool isSphere = shapeOf(tool) == StrokeShape::Sphere;
+  stroke.major = isSphere ? settings.radius() : settings.majorRadius();
+  stroke.minor = isSphere ? 0.0 : settings.minorRadius();
   stroke.sigma = settings.sigma();
   return stroke;
 }

@@ -14,6 +14,7 @@
 #include <vtkLatticeRepresentation.h>
 #include <vtkLatticeWidget.h>
 
+#include <memory>
 #include <optional>
 
 namespace brainshift
@@ -78,7 +79,7 @@ protected:
     return event.shift && spot.slice;
   }
   /// What a gesture means to a tool.
-  static Command commandOf(ToolKind tool, Mouse mouse, const HandEvent& event)
+  static Command commandOf(Tool tool, Mouse mouse, const HandEvent& event)
   {
     return commandOfMouse(Scope::Tool, tool, mouse, event.shift, event.control);
   }
@@ -90,6 +91,13 @@ protected:
 private:
   glm::dvec3 pulledInPlane(const Grip& grip, const glm::dvec2& pixel);
 };
+
+/// How the row of a tool makes it.
+template <class OneTool>
+std::unique_ptr<HandTool> make(const ToolBench& bench)
+{
+  return std::make_unique<OneTool>(bench);
+}
 
 inline glm::dvec2 pixelOf(const HandEvent& event)
 {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Interaction/Tools/MoveTool.h"
+// The Move tool: drags the control point under the cursor, or all selected control points.
+#include "Interaction/Commands/Tools.h"
+#include "Interaction/Tools/HandTool.h"
 
 #include <glm/geometric.hpp>
 
@@ -20,7 +22,31 @@ double widest(const Grid& grid)
 {
   return std::max({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
 }
-}
+
+class MoveTool final : public HandTool
+{
+public:
+  using HandTool::HandTool;
+
+  void hover(const HandEvent& event) override;
+  bool press(const HandEvent& event) override;
+  void drag(const HandEvent& event) override;
+  void settle() override;
+  void cancel() override;
+
+private:
+  const ControlPoint* controlPointUnder(const glm::dvec2& pixel) const;
+  bool isSelected(const ControlPoint& point) const;
+  void select(const ControlPoint& point, bool extend);
+  void highlight(const ControlPoint* under, const glm::dvec3& moved);
+  void find(const glm::dvec2& pixel);
+
+  std::vector<ControlPoint> Near;     ///< Within reach.
+  std::vector<ControlPoint> Faint;    ///< Moved ones a little farther away.
+  std::optional<Spot> Tissue;         ///< Under the cursor.
+  std::vector<ControlPoint> Selected; ///< A drag moves all of them.
+  Grip Held;
+};
 
 void MoveTool::find(const glm::dvec2& pixel)
 {
@@ -149,8 +175,7 @@ bool MoveTool::press(const HandEvent& event)
   this->Held = { { under->drawn, this->Tissue ? this->Tissue->slice : std::nullopt },
     pixelOf(event) };
   this->select(ControlPoint(*under),
-    commandOfMouse(Scope::Tool, ToolKind::Move, Mouse::Click, event.shift, false) ==
-      Command::SelectControlPoint);
+    commandOfMouse(Scope::Tool, Tool::Move, Mouse::Click, event.shift, false) == Command::Select);
   this->highlight(nullptr, glm::dvec3(0.0));
   return true;
 }
@@ -198,5 +223,34 @@ void MoveTool::cancel()
 {
   HandTool::cancel();
   this->highlight(nullptr, glm::dvec3(0.0));
+}
+}
+
+ToolRow moveTool()
+{
+  ToolRow row;
+  row.tool = Tool::Move;
+  row.key = Qt::ALT | Qt::Key_1;
+  row.what = QT_TRANSLATE_NOOP("BrainShift", "Move single control points.");
+  row.page = "tools/move.md";
+  row.gestures = {
+    byMouse(Command::DragTissue, Mouse::Drag, {},
+      QT_TRANSLATE_NOOP("BrainShift",
+        "Move the control point under the cursor. All selected control points move with it."),
+      QT_TRANSLATE_NOOP("BrainShift", "move a control point")),
+    byMouse(Command::Select, Mouse::Click, Qt::ShiftModifier,
+      QT_TRANSLATE_NOOP(
+        "BrainShift", "Select one more control point, or deselect a selected control point."),
+      QT_TRANSLATE_NOOP("BrainShift", "select several")),
+    byKey(Command::SelectByKey, { Qt::SHIFT | Qt::Key_Space },
+      QT_TRANSLATE_NOOP(
+        "BrainShift", "Select one more control point, or deselect a selected control point.")),
+  };
+  row.lesson = Lesson{ "Pull one control point",
+    "Press <b>Take Move</b>. Move the mouse over the cortex. Press on a control point, a small "
+    "ball, and drag it. Only the tissue around this point goes along.",
+    "Take Move" };
+  row.make = make<MoveTool>;
+  return row;
 }
 }

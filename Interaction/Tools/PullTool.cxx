@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Interaction/Tools/PullTool.h"
+// The Pull tool: drags tissue to where it belongs and pins tissue that stays. It writes the pulls
+// and pins of the Fit Deformation that is the Lattice, so strokes stay on top.
+#include "Filters/Fit/PackedTables.h"
+#include "Interaction/Commands/Tools.h"
+#include "Interaction/Tools/HandTool.h"
 
 #include <glm/geometric.hpp>
 
@@ -16,7 +20,45 @@ constexpr double HeadPixels = 12.0; // of an arrow
 constexpr double RingPixels = 8.0;  // radius of the ring around a pin
 constexpr double SliceMm = 3.0;     // in a slice, marks at most this far from it are drawn
 constexpr double SeenMm = 0.5;      // a shorter rest of the way is not drawn
-}
+
+class PullTool final : public HandTool
+{
+public:
+  using HandTool::HandTool;
+
+  void hover(const HandEvent& event) override;
+  void idle() override;
+  bool press(const HandEvent& event) override;
+  void drag(const HandEvent& event) override;
+  void release() override;
+  void cancel() override;
+  void settle() override;
+
+private:
+  /// A pull or a pin as it is drawn.
+  struct Shown
+  {
+    glm::dvec3 rest{ 0.0 };
+    glm::dvec3 now{ 0.0 };    ///< Where the tissue is drawn.
+    glm::dvec3 target{ 0.0 }; ///< Where it should be drawn, without strokes.
+    bool isPin = false;
+  };
+
+  void find();
+  void show(const std::optional<glm::dvec3>& highlight);
+  bool isSeen(const Shown& mark) const;
+  double gripRadius(const glm::dvec3& position) const;
+  void pin(const glm::dvec3& rest, double radius);
+  std::vector<Pull> pulls() const { return rowsFrom<Pull>(this->Bench.fit.numbers("Pulls")); }
+
+  std::vector<Shown> Marks; ///< Those that count.
+  std::optional<Spot> Last; ///< Under the cursor.
+  std::optional<Grip> Held; ///< During a drag: in the deformed frame, before it.
+  std::vector<Pull> List;   ///< During a drag: all pulls.
+  std::size_t Place = 0;    ///< During a drag: that under the hand.
+  bool Begun = false;       ///< During a drag: the fit is being edited.
+  glm::dvec3 From{ 0.0 };   ///< During a drag: its target before it.
+};
 
 double PullTool::gripRadius(const glm::dvec3& position) const
 {
@@ -32,12 +74,12 @@ void PullTool::find()
   {
     if (pull.weight > 0.0)
     {
-      const glm::dvec3 asked = this->Bench.probe.strength() * (pull.target - pull.rest);
+      const glm::dvec3 asked = this->Bench.probe.strength() * (pull.measured - pull.rest);
       this->Marks.push_back({ pull.rest, pull.rest, pull.rest + asked, false });
     }
   }
   std::vector<glm::dvec3> pinned;
-  for (const Pin& pin : pinsFrom(this->Bench.fit.numbers("Pins")))
+  for (const Pin& pin : rowsFrom<Pin>(this->Bench.fit.numbers("Pins")))
   {
     if (pin.enabled)
     {
@@ -145,7 +187,7 @@ void PullTool::idle()
 
 void PullTool::pin(const glm::dvec3& rest, double radius)
 {
-  std::vector<Pin> pins = pinsFrom(this->Bench.fit.numbers("Pins"));
+  std::vector<Pin> pins = rowsFrom<Pin>(this->Bench.fit.numbers("Pins"));
   const std::size_t place = nearest(pins, rest, radius);
   const bool isNear = place < pins.size();
   const bool isThere = isNear && pins[place].enabled;
@@ -153,7 +195,7 @@ void PullTool::pin(const glm::dvec3& rest, double radius)
   {
     pins.erase(pins.begin() + static_cast<std::ptrdiff_t>(place));
   }
-  else if (isNear) // switched off: nobody sees it
+  else if (isNear) // switched off: it is not drawn
   {
     pins[place] = { rest, true };
   }
@@ -175,7 +217,7 @@ bool PullTool::press(const HandEvent& event)
   }
   this->Last = spot;
   const double radius = this->gripRadius(spot->position);
-  if (commandOf(ToolKind::Pull, Mouse::Click, event) == Command::PinTissue)
+  if (commandOf(Tool::Pull, Mouse::Click, event) == Command::Select)
   {
     this->Held.reset();
     this->pin(*rest, radius);
@@ -195,7 +237,7 @@ bool PullTool::press(const HandEvent& event)
     const std::vector<glm::dvec3> fitted = this->Bench.fit.fittedPlaces({ pull.rest });
     pull = { pull.rest, fitted.empty() ? pull.rest : fitted.front(), 1.0 };
   }
-  this->From = pull.target;
+  this->From = pull.measured;
   this->Begun = false;
   this->Held = { *spot, pixelOf(event) };
   return true;
@@ -218,7 +260,7 @@ void PullTool::drag(const HandEvent& event)
   }
   const glm::dvec3 moved = this->pulled(*this->Held, pixelOf(event));
   Pull& pull = this->List[this->Place];
-  pull.target = this->From + this->beforeStrength(moved);
+  pull.measured = this->From + this->beforeStrength(moved);
   // The server is not asked where tissue came: that under the hand follows it.
   const auto mark = std::find_if(this->Marks.begin(), this->Marks.end(),
     [&](const Shown& shown) { return !shown.isPin && shown.rest == pull.rest; });
@@ -263,5 +305,33 @@ void PullTool::cancel()
   this->Held.reset();
   this->Bench.fit.cancel();
   this->idle();
+}
+}
+
+ToolRow pullTool()
+{
+  ToolRow row;
+  row.tool = Tool::Pull;
+  row.key = Qt::ALT | Qt::Key_4;
+  row.what = QT_TRANSLATE_NOOP("BrainShift",
+    "Drag tissue to where it belongs, and pin tissue that stays. All pulls, pins and measurements "
+    "bend the volume together.");
+  row.page = "tools/pull.md";
+  row.gestures = {
+    byMouse(Command::DragTissue, Mouse::Drag, {},
+      QT_TRANSLATE_NOOP("BrainShift",
+        "Pull the tissue under the cursor to where it belongs. Neighbours follow as tissue does. "
+        "If the tissue already has a pull, dragging moves that pull."),
+      QT_TRANSLATE_NOOP("BrainShift", "pull the tissue")),
+    byMouse(Command::Select, Mouse::Click, Qt::ShiftModifier,
+      QT_TRANSLATE_NOOP("BrainShift",
+        "Pin the tissue under the cursor: it stays at its position in the volume as loaded. A "
+        "click on a pin removes the pin."),
+      QT_TRANSLATE_NOOP("BrainShift", "pin the tissue")),
+    byKey(Command::SelectByKey, { Qt::SHIFT | Qt::Key_Space },
+      QT_TRANSLATE_NOOP("BrainShift", "Pin the tissue under the cursor, or remove its pin.")),
+  };
+  row.make = make<PullTool>;
+  return row;
 }
 }

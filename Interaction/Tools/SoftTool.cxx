@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Interaction/Tools/SoftTool.h"
+// The Soft tool: drags the tissue under the cursor. Tissue within the radius follows, less and
+// less towards the edge.
+#include "Interaction/Commands/Tools.h"
+#include "Interaction/Tools/HandTool.h"
 
 #include <cmath>
 
@@ -8,7 +11,23 @@ namespace brainshift
 namespace
 {
 constexpr double GrowthPerClick = 1.1; // of the radius, of the wheel with Shift
-}
+
+class SoftTool final : public HandTool
+{
+public:
+  using HandTool::HandTool;
+
+  void hover(const HandEvent& event) override;
+  bool press(const HandEvent& event) override;
+  void drag(const HandEvent& event) override;
+  bool wheel(const HandEvent& event) override;
+  void settle() override;
+
+private:
+  void pullTo(const glm::dvec2& pixel);
+
+  Grip Held; ///< In the deformed frame, before the stroke.
+};
 
 void SoftTool::hover(const HandEvent& event)
 {
@@ -60,7 +79,7 @@ void SoftTool::drag(const HandEvent& event)
 
 bool SoftTool::wheel(const HandEvent& event)
 {
-  const bool acts = commandOf(ToolKind::Soft, Mouse::Wheel, event) == Command::ChangeRadius &&
+  const bool acts = commandOf(Tool::Soft, Mouse::Wheel, event) == Command::ChangeRadius &&
     (this->isDragging() || this->Bench.probe.spotAt(pixelOf(event)));
   if (acts)
   {
@@ -85,5 +104,33 @@ void SoftTool::settle()
     this->Bench.editor.commit("Soft stroke");
     this->Bench.drawing.SetLines(vtkLatticeRepresentation::Mark, {});
   }
+}
+}
+
+ToolRow softTool()
+{
+  ToolRow row;
+  row.tool = Tool::Soft;
+  row.key = Qt::ALT | Qt::Key_2;
+  row.what = QT_TRANSLATE_NOOP("BrainShift", "Drag all tissue within a radius.");
+  row.page = "tools/soft.md";
+  row.gestures = {
+    byMouse(Command::DragTissue, Mouse::Drag, {},
+      QT_TRANSLATE_NOOP("BrainShift",
+        "Move the tissue under the cursor. Tissue within the radius follows, less and less towards "
+        "the edge."),
+      QT_TRANSLATE_NOOP("BrainShift", "move the tissue within %1")),
+    byMouse(Command::ChangeRadius, Mouse::Wheel, Qt::ShiftModifier,
+      QT_TRANSLATE_NOOP("BrainShift", "Change the radius."),
+      QT_TRANSLATE_NOOP("BrainShift", "change the radius")),
+  };
+  row.gestures.front().number = &ToolSettings::radius;
+  row.numbers = { &ToolSettings::radius, &ToolSettings::sigma };
+  row.lesson = Lesson{ "Drag softly",
+    "Press <b>Take Soft</b>. Press on the cortex and drag: tissue near the mouse goes along, less "
+    "and less with the distance.",
+    "Take Soft" };
+  row.make = make<SoftTool>;
+  return row;
 }
 }

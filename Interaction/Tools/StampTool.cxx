@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Interaction/Tools/StampTool.h"
+// The Stamp tool: pulls tissue away from the point of interest or pushes it towards that point.
+// Wheel clicks do it in steps, a drag does it without.
+#include "Interaction/Commands/Tools.h"
+#include "Interaction/Tools/HandTool.h"
 
 #include <glm/geometric.hpp>
 
@@ -12,7 +15,38 @@ namespace
 constexpr double GrowthPerClick = 1.1;  // of the major radius, of the wheel with Shift
 constexpr double SamePlacePixels = 4.0; // a resting hand trembles less
 constexpr double CrossShare = 0.15;     // of the major radius
-}
+
+class StampTool final : public HandTool
+{
+public:
+  using HandTool::HandTool;
+
+  void hover(const HandEvent& event) override;
+  bool press(const HandEvent& event) override;
+  void drag(const HandEvent& event) override;
+  bool wheel(const HandEvent& event) override;
+  void settle() override;
+  void turnAway() override;
+  void cancel() override;
+
+private:
+  bool outline(const glm::dvec2& pixel);
+  bool take(const glm::dvec2& pixel);
+  glm::dvec3 interestFrom(const Spot& spot);
+  bool isAtLastStroke(const glm::dvec2& pixel) const;
+  void show(const Stroke& stroke, double amount);
+  void apply(double amount);
+  void clickWheel(const HandEvent& event);
+  void changeRadius(const HandEvent& event);
+
+  Stroke Latest;                   ///< The stroke that is outlined, under the hand or made last.
+  std::optional<glm::dvec3> Slice; ///< Normal of its slice.
+  double Amount = 0.0;             ///< Displacement (mm). Pull is positive.
+  bool Made = false;               ///< The last stroke of the list is Latest.
+  bool Aims = false;               ///< Latest has an axis: the point of interest is not there.
+  glm::dvec2 TakenAt{ 0.0 };       ///< Pixel.
+  glm::dvec2 PullOnScreen{ 0.0 };  ///< During a drag: mm per pixel of the screen.
+};
 
 // The stamp over the tissue at a pixel. False where there is none.
 bool StampTool::outline(const glm::dvec2& pixel)
@@ -191,10 +225,10 @@ void StampTool::changeRadius(const HandEvent& event)
 
 bool StampTool::wheel(const HandEvent& event)
 {
-  const Command command = commandOf(ToolKind::Stamp, Mouse::Wheel, event);
+  const Command command = commandOf(Tool::Stamp, Mouse::Wheel, event);
   const bool acts = command != Command::None && !event.alt &&
     (this->isAtLastStroke(pixelOf(event)) || this->Bench.probe.spotAt(pixelOf(event)));
-  if (acts && command == Command::ChangeMajorRadius)
+  if (acts && command == Command::ChangeRadius)
   {
     this->changeRadius(event);
   }
@@ -225,5 +259,47 @@ void StampTool::cancel()
   HandTool::cancel();
   this->Amount = 0.0;
   this->Made = false;
+}
+}
+
+ToolRow stampTool()
+{
+  ToolRow row;
+  row.tool = Tool::Stamp;
+  row.key = Qt::ALT | Qt::Key_3;
+  row.what = QT_TRANSLATE_NOOP("BrainShift", "Pull or push an ellipsoid of tissue with the wheel.");
+  row.page = "tools/stamp.md";
+  row.gestures = {
+    byMouse(Command::StepByWheel, Mouse::Wheel, {},
+      QT_TRANSLATE_NOOP("BrainShift",
+        "Over tissue: pull the tissue away from the point of interest (forward) or push it towards "
+        "the point (backward). Each click moves it by the distance under Per click. Clicks at one "
+        "position are one stroke."),
+      QT_TRANSLATE_NOOP("BrainShift", "pull or push the tissue by %1 per click")),
+    byMouse(Command::DragTissue, Mouse::Drag, {},
+      QT_TRANSLATE_NOOP("BrainShift",
+        "Pull or push without steps. Drag along the blue line. Where the line points at you, drag "
+        "up or down."),
+      QT_TRANSLATE_NOOP("BrainShift", "pull or push without steps")),
+    byMouse(Command::ChangeRadius, Mouse::Wheel, Qt::ShiftModifier,
+      QT_TRANSLATE_NOOP("BrainShift", "Change the reach along the push."),
+      QT_TRANSLATE_NOOP("BrainShift", "change the reach along the push")),
+    byKey(Command::StepByKey, { Qt::Key_Plus, Qt::Key_Minus },
+      QT_TRANSLATE_NOOP(
+        "BrainShift", "Pull or push the tissue under the cursor, as a click of the wheel does.")),
+    byKey(Command::SetPointOfInterest, { Qt::Key_I },
+      QT_TRANSLATE_NOOP("BrainShift", "Set the point of interest to the tissue under the cursor."),
+      QT_TRANSLATE_NOOP("BrainShift", "set the point of interest")),
+  };
+  row.gestures.front().number = &ToolSettings::millimetresPerClick;
+  row.holdsAxes = false; // its axis leads to the point of interest
+  row.numbers = { &ToolSettings::majorRadius, &ToolSettings::minorRadius, &ToolSettings::sigma,
+    &ToolSettings::millimetresPerClick };
+  row.lesson = Lesson{ "Push with the stamp",
+    "Press <b>Take the stamp</b>. Move the mouse over the cortex until you see the ellipse. Turn "
+    "the wheel: the tissue goes in or comes out. Shift and wheel change the radius.",
+    "Take the stamp" };
+  row.make = make<StampTool>;
+  return row;
 }
 }

@@ -37,7 +37,7 @@ struct CursorTissue
   /// number. Empty: none.
   QString label;
   /// How far its place can be believed: mm, one standard deviation along an axis, infinity where
-  /// nothing was measured. None: nobody knows.
+  /// nothing was measured. None: unknown.
   std::optional<double> deviation;
   WorldAxes axes = WorldAxes::Unknown;
 };

@@ -260,7 +260,7 @@ bool SliceMouse::step(int voxels)
 
 Command SliceMouse::commandOf(Mouse mouse) const
 {
-  return commandOfMouse(Scope::Slices, ToolKind::None, mouse, this->Interactor->GetShiftKey() != 0,
+  return commandOfMouse(Scope::Slices, Tool::None, mouse, this->Interactor->GetShiftKey() != 0,
     this->Interactor->GetControlKey() != 0);
 }
 
@@ -319,9 +319,8 @@ bool SliceMouse::onRightButton(vtkObject*, unsigned long event, void*)
 
 bool SliceMouse::onDoubleClick(vtkObject*, unsigned long, void*)
 {
-  const bool free = ToolSettings::instance()->tool() == ToolKind::None;
-  const Command command =
-    commandOfMouse(Scope::View, ToolKind::None, Mouse::DoubleClick, false, false);
+  const bool free = ToolSettings::instance()->tool() == Tool::None;
+  const Command command = commandOfMouse(Scope::View, Tool::None, Mouse::DoubleClick, false, false);
   vtkSMViewLayoutProxy* layout = vtkSMViewLayoutProxy::FindLayout(this->View->getViewProxy());
   if (!free || command != Command::EnlargeView || !layout || !hasFlatSlices(layout))
   {

@@ -59,15 +59,15 @@ private:
 
   Command commandOf(Mouse mouse) const; ///< With the modifiers held now.
 
-  /// Observer of the interactor. True: nobody else gets the event.
+  /// Observer of the interactor. True: the event ends here.
   bool onWheel(vtkObject* interactor, unsigned long event, void* data);
-  /// Observer of the interactor. True: nobody else gets the event.
+  /// Observer of the interactor. True: the event ends here.
   bool onButton(vtkObject* interactor, unsigned long event, void* data);
-  /// Observer of the interactor. True: nobody else gets the event.
+  /// Observer of the interactor. True: the event ends here.
   bool onRightButton(vtkObject* interactor, unsigned long event, void* data);
-  /// Observer of the interactor. True: nobody else gets the event.
+  /// Observer of the interactor. True: the event ends here.
   bool onDoubleClick(vtkObject* interactor, unsigned long event, void* data);
-  /// Observer of the interactor. True: nobody else gets the event.
+  /// Observer of the interactor. True: the event ends here.
   bool onMove(vtkObject* interactor, unsigned long event, void* data);
 
   /// Finds the position under the cursor in the slice (mm).

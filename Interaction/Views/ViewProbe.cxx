@@ -3,8 +3,8 @@
 
 #include "Filters/ScreenScale.h"
 #include "Interaction/Views/ActiveDeformation.h"
-#include "Interaction/Views/KeptPictures.h"
 #include "Interaction/Views/Reports.h"
+#include "Interaction/Workarounds/KeptPictures.h"
 
 #include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>

@@ -5,15 +5,15 @@
 #ifndef BrainShift_LandmarkModel_h
 #define BrainShift_LandmarkModel_h
 
-#include <QAbstractTableModel>
+#include "Panel/Parts/ListModel.h"
+
 #include <QPointer>
 
 namespace brainshift
 {
 class LandmarkList;
-struct LandmarkRow;
 
-class LandmarkModel : public QAbstractTableModel
+class LandmarkModel : public ListModel
 {
   Q_OBJECT
 
@@ -28,21 +28,20 @@ public:
 
   LandmarkModel(LandmarkList* list, QObject* parent);
 
-  int rowCount(const QModelIndex& parent = {}) const override;
-  int columnCount(const QModelIndex& parent = {}) const override;
-  Qt::ItemFlags flags(const QModelIndex& index) const override;
-  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
-  QVariant data(const QModelIndex& index, int role) const override;
-  bool setData(const QModelIndex& index, const QVariant& value, int role) override;
+  bool isOn(int row) const override;
+  void setOn(const QList<int>& rows, bool on) override;
+  /// Pairs of files stay.
+  void removeRowsOf(const QList<int>& rows) override;
+
+protected:
+  int count() const override;
+  QString text(int row, int column) const override;
+  QString toolTip(int row, int column) const override;
+  QString warning(int row, int column) const override;
+  bool isBold(int row) const override;
 
 private:
-  void update();
-  bool isWorst(int row) const;
-  QString text(int row, int column) const;
-  QString toolTip(int row, int column) const;
-
   const QPointer<LandmarkList> List; ///< Its source may go before the panel does.
-  int Rows = 0;                      ///< As announced to views.
 };
 }
 

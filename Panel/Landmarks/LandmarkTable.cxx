@@ -8,65 +8,23 @@
 #include "Interaction/Landmarks/SharedCrosshair.h"
 #include "Panel/Landmarks/LandmarkModel.h"
 #include "Panel/Parts/Advice.h"
+#include "Panel/Parts/ListTree.h"
 
 #include <pqPipelineSource.h>
 
 #include <QCheckBox>
 #include <QHBoxLayout>
-#include <QHeaderView>
-#include <QKeyEvent>
 #include <QLabel>
 #include <QToolButton>
-#include <QTreeView>
 #include <QVBoxLayout>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <utility>
 
 namespace brainshift
 {
 namespace
 {
-constexpr int FewestRows = 3; // seen at once
-constexpr int MostRows = 9;
-
-class LandmarkTree : public QTreeView
-{
-public:
-  LandmarkTree(QWidget* parent, std::function<void()> remove)
-    : QTreeView(parent)
-    , Remove(std::move(remove))
-  {
-    this->setRootIsDecorated(false);
-    this->setUniformRowHeights(true);
-    this->setAlternatingRowColors(true);
-    this->setSelectionMode(QAbstractItemView::ExtendedSelection);
-    this->setTabKeyNavigation(false); // Tab leaves the table
-    this->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
-  }
-
-  QSize sizeHint() const override
-  {
-    const int rows =
-      this->model() ? std::clamp(this->model()->rowCount(), FewestRows, MostRows) : FewestRows;
-    const int row = std::max(this->sizeHintForRow(0), this->fontMetrics().height() + 4);
-    return { this->QTreeView::sizeHint().width(),
-      rows * row + this->header()->sizeHint().height() + 2 * this->frameWidth() };
-  }
-  QSize minimumSizeHint() const override { return { 0, this->sizeHint().height() }; }
-
-protected:
-  void keyPressEvent(QKeyEvent* event) override
-  {
-    event->key() == Qt::Key_Delete ? this->Remove() : this->QTreeView::keyPressEvent(event);
-  }
-
-private:
-  const std::function<void()> Remove;
-};
-
 QString bold(const QString& text)
 {
   return "<b>" + text + "</b>";
@@ -77,13 +35,13 @@ LandmarkTable::LandmarkTable(LandmarkList* list, QWidget* parent)
   : QWidget(parent)
   , Landmarks(list)
   , Model(new LandmarkModel(list, this))
-  , Tree(new LandmarkTree(this, [this] { this->removeSelected(); }))
+  , Tree(new ListTree(this->Model, { 3, 9, {} }, this))
   , Problem(new QLabel(this))
   , Request(new QLabel(this))
   , Figures(new QLabel(this))
   , Pick(this->addButton("BrainShiftPickPairs", tr("Pick Pairs"),
-      tr("Pick pairs of landmarks: click a place in the bent volume, then the same place in the "
-         "reference. Drags and the wheel work as ever. Press again, or Escape, to stop.")))
+      tr("Pick pairs of landmarks: click a position in the deformed volume, then the same position "
+         "in the reference. Drags and the wheel work as usual. Press again, or Escape, to stop.")))
   , GoTo(this->addButton("BrainShiftGoTo", tr("Go To"),
       tr("Bring the slices of all views to the selected landmark (double-click)")))
   , Delete(this->addButton("BrainShiftLandmarkDelete", tr("Delete"),
@@ -93,11 +51,6 @@ LandmarkTable::LandmarkTable(LandmarkList* list, QWidget* parent)
 {
   this->Tree->setObjectName("BrainShiftLandmarks");
   this->Tree->setAccessibleName(tr("Landmarks"));
-  this->Tree->setModel(this->Model);
-  this->Tree->header()->setStretchLastSection(false);
-  this->Tree->header()->setSectionsMovable(false);
-  this->Tree->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  this->Tree->header()->setSectionResizeMode(LandmarkModel::NameColumn, QHeaderView::Stretch);
   this->Problem->setObjectName("BrainShiftLandmarkProblem");
   this->Request->setObjectName("BrainShiftLandmarkRequest");
   this->Figures->setObjectName("BrainShiftLandmarkFigures");
@@ -115,11 +68,10 @@ LandmarkTable::LandmarkTable(LandmarkList* list, QWidget* parent)
   this->layOut();
   this->connect(this->Pick, &QToolButton::clicked, this, &LandmarkTable::pick);
   this->connect(this->GoTo, &QToolButton::clicked, this, &LandmarkTable::goTo);
-  this->connect(this->Delete, &QToolButton::clicked, this, &LandmarkTable::removeSelected);
-  this->connect(this->Tree, &QTreeView::doubleClicked, this, &LandmarkTable::goTo);
+  this->connect(this->Delete, &QToolButton::clicked, this->Tree, &ListTree::removeSelected);
+  this->connect(this->Tree, &ListTree::doubleClicked, this, &LandmarkTable::goTo);
   this->connect(this->Marks, &QCheckBox::clicked, list, &LandmarkList::showMarks);
-  this->connect(this->Tree->selectionModel(), &QItemSelectionModel::selectionChanged, this,
-    &LandmarkTable::refresh);
+  this->connect(this->Tree, &ListTree::selectedRowsChanged, this, &LandmarkTable::refresh);
   this->connect(list, &LandmarkList::changed, this, &LandmarkTable::refresh);
   this->connect(list->source(), &pqProxy::modifiedStateChanged, this, &LandmarkTable::refresh);
   this->connect(
@@ -156,16 +108,6 @@ QToolButton* LandmarkTable::addButton(const char* name, const QString& text, con
   return button;
 }
 
-QList<int> LandmarkTable::selectedRows() const
-{
-  QList<int> rows;
-  for (const QModelIndex& index : this->Tree->selectionModel()->selectedRows())
-  {
-    rows.append(index.row());
-  }
-  return rows;
-}
-
 void LandmarkTable::pick(bool on)
 {
   if (on && this->Landmarks)
@@ -180,21 +122,11 @@ void LandmarkTable::pick(bool on)
 
 void LandmarkTable::goTo()
 {
-  const QList<int> rows = this->selectedRows();
+  const QList<int> rows = this->Tree->selectedRows();
   if (this->Landmarks && !rows.isEmpty())
   {
     const LandmarkRow& row = this->Landmarks->rows().at(rows.front());
     bringCrosshairTo(this->Landmarks->source(), std::isfinite(row.drawn.x) ? row.drawn : row.rest);
-  }
-}
-
-void LandmarkTable::removeSelected()
-{
-  const QList<int> rows = this->selectedRows();
-  if (this->Landmarks && !rows.isEmpty())
-  {
-    this->Tree->clearSelection(); // rows keep their number, not their pair
-    this->Landmarks->remove(rows);
   }
 }
 
@@ -212,7 +144,7 @@ QString LandmarkTable::figuresText() const
         bold(tr("%1 mm, %2°").arg(figures.shift, 0, 'f', 1).arg(figures.turnDegrees, 0, 'f', 1))));
   if (figures.share < 1.0)
   {
-    lines.append(tr("The fold guard applied %1 of the bend")
+    lines.append(tr("The fold guard applied %1 of the deformation")
         .arg(bold(tr("%1 %").arg(100.0 * figures.share, 0, 'f', 0))));
   }
   if (figures.worst >= 0)
@@ -229,7 +161,7 @@ void LandmarkTable::refresh()
     return;
   }
   const std::vector<LandmarkRow>& all = this->Landmarks->rows();
-  const QList<int> rows = this->selectedRows();
+  const QList<int> rows = this->Tree->selectedRows();
   const bool isPicking = LandmarkPicker::instance()->deformation() == this->Landmarks->source();
   const QString problem = this->Landmarks->problem();
   QPalette palette = this->palette();

@@ -12,12 +12,12 @@
 class QCheckBox;
 class QLabel;
 class QToolButton;
-class QTreeView;
 
 namespace brainshift
 {
 class LandmarkList;
 class LandmarkModel;
+class ListTree;
 
 class LandmarkTable : public QWidget
 {
@@ -29,16 +29,14 @@ public:
 private:
   QToolButton* addButton(const char* name, const QString& text, const QString& tip);
   void layOut();
-  QList<int> selectedRows() const;
   void pick(bool on);
   void goTo();
-  void removeSelected();
   void refresh();
   QString figuresText() const;
 
   const QPointer<LandmarkList> Landmarks; ///< Its source may go before the panel does.
   LandmarkModel* const Model;
-  QTreeView* const Tree;
+  ListTree* const Tree;
   QLabel* const Problem;
   QLabel* const Request;
   QLabel* const Figures;

@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Measured/PullModel.h"
 
-#include "Panel/Parts/NumberDelegate.h"
-
-#include <QGuiApplication>
-#include <QPalette>
-
 #include <glm/geometric.hpp>
 
-#include <algorithm>
 #include <utility>
 
 namespace brainshift
@@ -20,28 +14,25 @@ constexpr double MostAsked = 1000.0;
 constexpr double LeastWeight = 0.01; // at 0 a pull is switched off
 constexpr double MostWeight = 100.0;
 
-QString textOf(const glm::dvec3& position, int decimals)
-{
-  return QString("%1, %2, %3")
-    .arg(position.x, 0, 'f', decimals)
-    .arg(position.y, 0, 'f', decimals)
-    .arg(position.z, 0, 'f', decimals);
-}
-
 double askedOf(const Pull& pull)
 {
-  return glm::distance(pull.rest, pull.target);
-}
-
-int sideOf(int column)
-{
-  const bool isText = column == PullModel::KindColumn || column == PullModel::WhereColumn;
-  return int(isText ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter;
+  return glm::distance(pull.rest, pull.measured);
 }
 }
 
 PullModel::PullModel(Write write, QObject* parent)
-  : QAbstractTableModel(parent)
+  : ListModel(
+      {
+        { tr("Tissue"), tr("A pull or a pin. The check mark switches it on."), true },
+        { tr("Asked"), tr("Distance from the position in the scan to the target (mm)") },
+        { tr("Missed by"),
+          tr("Distance from the target to the position after the fit (mm). All pulls and pins are "
+             "solved together.") },
+        { tr("Weight"), tr("Confidence in the pull: 1 is usual, 4 is fitted twice as closely") },
+        { tr("Position"), tr("Position of the tissue in the scan: x, y, z (mm, world axes)"),
+          true },
+      },
+      parent)
   , WritePulled(std::move(write))
 {
 }
@@ -53,29 +44,13 @@ const Pin& PullModel::pin(int row) const
 
 void PullModel::show(const Pulled& pulled)
 {
-  const int before = this->rowCount();
-  const int rows = static_cast<int>(pulled.pulls.size() + pulled.pins.size());
-  if (rows > before)
-  {
-    this->beginInsertRows({}, before, rows - 1);
-    this->Now = pulled;
-    this->endInsertRows();
-  }
-  else if (rows < before)
-  {
-    this->beginRemoveRows({}, rows, before - 1);
-    this->Now = pulled;
-    this->endRemoveRows();
-  }
+  const int before = this->count();
   this->Now = pulled;
-  if (rows != before)
+  if (this->count() != before)
   {
     this->Places.clear();
   }
-  if (rows > 0)
-  {
-    Q_EMIT this->dataChanged(this->index(0, 0), this->index(rows - 1, ColumnCount - 1));
-  }
+  this->announce();
 }
 
 void PullModel::setPlaces(
@@ -83,11 +58,7 @@ void PullModel::setPlaces(
 {
   this->Places = places;
   this->Held = held;
-  if (this->rowCount() > 0)
-  {
-    Q_EMIT this->dataChanged(
-      this->index(0, MissedColumn), this->index(this->rowCount() - 1, MissedColumn));
-  }
+  this->announceColumn(MissedColumn);
 }
 
 bool PullModel::isOn(int row) const
@@ -115,7 +86,7 @@ void PullModel::setOn(const QList<int>& rows, bool on)
 void PullModel::removeRowsOf(const QList<int>& rows)
 {
   Pulled left;
-  for (int row = 0; row < this->rowCount(); ++row)
+  for (int row = 0; row < this->count(); ++row)
   {
     if (rows.contains(row))
     {
@@ -138,58 +109,40 @@ void PullModel::removeAll()
   this->WritePulled({}, tr("Clear All Pulls"));
 }
 
-int PullModel::rowCount(const QModelIndex& parent) const
+int PullModel::count() const
 {
-  return parent.isValid() ? 0 : static_cast<int>(this->Now.pulls.size() + this->Now.pins.size());
+  return static_cast<int>(this->Now.pulls.size() + this->Now.pins.size());
 }
 
-int PullModel::columnCount(const QModelIndex& parent) const
+std::optional<ListModel::Number> PullModel::number(int row, int column) const
 {
-  return parent.isValid() ? 0 : ColumnCount;
+  if (!this->isPull(row))
+  {
+    return std::nullopt;
+  }
+  if (column == WeightColumn)
+  {
+    return Number{ this->pull(row).weight, LeastWeight, MostWeight };
+  }
+  const double asked = askedOf(this->pull(row));
+  return column == AskedColumn && asked > 0.0
+    ? std::optional<Number>({ asked, LeastAsked, MostAsked })
+    : std::nullopt;
 }
 
-Qt::ItemFlags PullModel::flags(const QModelIndex& index) const
+void PullModel::change(int row, int column, double number)
 {
-  Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemNeverHasChildren;
-  if (index.column() == KindColumn)
+  Pulled changed = this->Now;
+  Pull& pull = changed.pulls.at(static_cast<std::size_t>(row));
+  if (column == WeightColumn)
   {
-    flags |= Qt::ItemIsUserCheckable;
+    pull.weight = number;
   }
-  const bool isNumber = index.column() == AskedColumn || index.column() == WeightColumn;
-  if (isNumber && this->isPull(index.row()) &&
-    (index.column() == WeightColumn || askedOf(this->pull(index.row())) > 0.0))
+  else
   {
-    flags |= Qt::ItemIsEditable;
+    pull.measured = pull.rest + number * glm::normalize(pull.measured - pull.rest);
   }
-  return flags;
-}
-
-QVariant PullModel::headerData(int section, Qt::Orientation orientation, int role) const
-{
-  static const char* const titles[ColumnCount] = { QT_TR_NOOP("Tissue"), QT_TR_NOOP("Asked"),
-    QT_TR_NOOP("Missed by"), QT_TR_NOOP("Weight"), QT_TR_NOOP("Position") };
-  static const char* const tips[ColumnCount] = {
-    QT_TR_NOOP("A pull or a pin. The check mark switches it on."),
-    QT_TR_NOOP("How far the hand took the tissue from where it was in the scan (mm)"),
-    QT_TR_NOOP("How far from there the fit leaves the tissue (mm). All is solved together."),
-    QT_TR_NOOP("How far the pull is trusted: 1 as usual, 4 twice as closely"),
-    QT_TR_NOOP("Where the tissue was in the scan: x, y, z (mm, world axes)"),
-  };
-  if (orientation != Qt::Horizontal)
-  {
-    return {};
-  }
-  switch (role)
-  {
-    case Qt::DisplayRole:
-      return tr(titles[section]);
-    case Qt::ToolTipRole:
-      return tr(tips[section]);
-    case Qt::TextAlignmentRole:
-      return sideOf(section);
-    default:
-      return {};
-  }
+  this->WritePulled(changed, tr("Change Pull"));
 }
 
 // Where the tissue of a row should be, mm.
@@ -197,7 +150,7 @@ glm::dvec3 PullModel::target(int row) const
 {
   if (this->isPull(row))
   {
-    return this->pull(row).target;
+    return this->pull(row).measured;
   }
   const std::size_t place = static_cast<std::size_t>(row) - this->Now.pulls.size();
   return place < this->Held.size() ? this->Held[place] : this->pin(row).rest;
@@ -224,89 +177,16 @@ QString PullModel::text(int row, int column) const
     case WeightColumn:
       return this->isPull(row) ? QString::number(this->pull(row).weight) : QString();
     default:
-      return textOf(rest, 0);
+      return positionText(rest, 0);
   }
 }
 
-QString PullModel::toolTip(int row) const
+QString PullModel::toolTip(int row, int) const
 {
   const QString tip = this->isPull(row)
     ? tr("Pull from %1 to %2 mm")
-        .arg(textOf(this->pull(row).rest, 2), textOf(this->pull(row).target, 2))
-    : tr("Pin at %1 mm").arg(textOf(this->pin(row).rest, 2));
+        .arg(positionText(this->pull(row).rest, 2), positionText(this->pull(row).measured, 2))
+    : tr("Pin at %1 mm").arg(positionText(this->pin(row).rest, 2));
   return this->isOn(row) ? tip : tip + tr(" (switched off)");
-}
-
-QVariant PullModel::data(const QModelIndex& index, int role) const
-{
-  const int row = index.row();
-  const int column = index.column();
-  if (!this->checkIndex(index, CheckIndexOption::IndexIsValid))
-  {
-    return {};
-  }
-  const bool isAsked = column == AskedColumn;
-  switch (role)
-  {
-    case Qt::DisplayRole:
-      return this->text(row, column);
-    case Qt::EditRole:
-      return !(this->flags(index) & Qt::ItemIsEditable)
-        ? QVariant()
-        : QVariant(isAsked ? askedOf(this->pull(row)) : this->pull(row).weight);
-    case Qt::CheckStateRole:
-      return column == KindColumn ? QVariant(this->isOn(row) ? Qt::Checked : Qt::Unchecked)
-                                  : QVariant();
-    case Qt::ToolTipRole:
-      return this->toolTip(row);
-    case Qt::TextAlignmentRole:
-      return sideOf(column);
-    case Qt::ForegroundRole:
-      return this->isOn(row) ? QVariant()
-                             : QGuiApplication::palette().brush(QPalette::Disabled, QPalette::Text);
-    case NumberDelegate::LeastRole:
-      return isAsked ? LeastAsked : LeastWeight;
-    case NumberDelegate::MostRole:
-      return isAsked ? MostAsked : MostWeight;
-    default:
-      return {};
-  }
-}
-
-bool PullModel::setData(const QModelIndex& index, const QVariant& value, int role)
-{
-  if (!this->checkIndex(index, CheckIndexOption::IndexIsValid))
-  {
-    return false;
-  }
-  if (role == Qt::CheckStateRole && index.column() == KindColumn)
-  {
-    this->setOn({ index.row() }, value.toInt() == Qt::Checked);
-    return true;
-  }
-  bool isNumber = false;
-  const double number = value.toDouble(&isNumber);
-  if (role != Qt::EditRole || !isNumber || !(this->flags(index) & Qt::ItemIsEditable) ||
-    !(number >= this->data(index, NumberDelegate::LeastRole).toDouble() &&
-      number <= this->data(index, NumberDelegate::MostRole).toDouble()))
-  {
-    return false;
-  }
-  if (number == this->data(index, Qt::EditRole).toDouble())
-  {
-    return true; // an editor that was opened and closed is no edit
-  }
-  Pulled changed = this->Now;
-  Pull& pull = changed.pulls.at(static_cast<std::size_t>(index.row()));
-  if (index.column() == WeightColumn)
-  {
-    pull.weight = number;
-  }
-  else
-  {
-    pull.target = pull.rest + number * glm::normalize(pull.target - pull.rest);
-  }
-  this->WritePulled(changed, tr("Change Pull"));
-  return true;
 }
 }

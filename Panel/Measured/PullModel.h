@@ -5,10 +5,8 @@
 #ifndef BrainShift_PullModel_h
 #define BrainShift_PullModel_h
 
-#include "Interaction/Edits/PullList.h"
-
-#include <QAbstractTableModel>
-#include <QList>
+#include "Filters/Fit/PackedTables.h"
+#include "Panel/Parts/ListModel.h"
 
 #include <functional>
 #include <vector>
@@ -22,7 +20,7 @@ struct Pulled
   std::vector<Pin> pins;
 };
 
-class PullModel : public QAbstractTableModel
+class PullModel : public ListModel
 {
   Q_OBJECT
 
@@ -49,29 +47,26 @@ public:
   void setPlaces(const std::vector<glm::dvec3>& places, const std::vector<glm::dvec3>& held = {});
 
   const Pulled& pulled() const { return this->Now; }
-  bool isOn(int row) const;
 
-  /// Switches rows on or off: one edit. A pull that is switched on again has the weight 1.
-  void setOn(const QList<int>& rows, bool on);
-  /// Deletes rows: one edit.
-  void removeRowsOf(const QList<int>& rows);
+  bool isOn(int row) const override;
+  /// A pull that is switched on again has the weight 1.
+  void setOn(const QList<int>& rows, bool on) override;
+  void removeRowsOf(const QList<int>& rows) override;
   /// Deletes all rows: one edit.
   void removeAll();
 
-  int rowCount(const QModelIndex& parent = {}) const override;
-  int columnCount(const QModelIndex& parent = {}) const override;
-  Qt::ItemFlags flags(const QModelIndex& index) const override;
-  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
-  QVariant data(const QModelIndex& index, int role) const override;
-  bool setData(const QModelIndex& index, const QVariant& value, int role) override;
+protected:
+  int count() const override;
+  QString text(int row, int column) const override;
+  QString toolTip(int row, int column) const override;
+  std::optional<Number> number(int row, int column) const override;
+  void change(int row, int column, double number) override;
 
 private:
   bool isPull(int row) const { return row < static_cast<int>(this->Now.pulls.size()); }
   const Pull& pull(int row) const { return this->Now.pulls[static_cast<std::size_t>(row)]; }
   const Pin& pin(int row) const;
   glm::dvec3 target(int row) const;
-  QString text(int row, int column) const;
-  QString toolTip(int row) const;
 
   const Write WritePulled;
   Pulled Now;

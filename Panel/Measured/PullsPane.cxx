@@ -4,7 +4,7 @@
 #include "Interaction/Commands/ToolSettings.h"
 #include "Interaction/Edits/FitEditor.h"
 #include "Panel/Measured/PullModel.h"
-#include "Panel/Measured/PullTree.h"
+#include "Panel/Parts/ListTree.h"
 
 #include <pqPipelineSource.h>
 #include <pqProxyWidget.h>
@@ -41,7 +41,7 @@ PullsPane::PullsPane(pqPipelineSource* deformation, QWidget* parent)
   : QWidget(parent)
   , Editor(FitEditor::of(deformation))
   , Pulls(makeModel(this->Editor, this))
-  , Tree(new PullTree(this->Pulls, this))
+  , Tree(new ListTree(this->Pulls, { 2, 7, tr("There are no pulls or pins.") }, this))
   , Delete(new QToolButton(this))
   , Clear(new QToolButton(this))
 {
@@ -73,9 +73,9 @@ PullsPane::PullsPane(pqPipelineSource* deformation, QWidget* parent)
 
   this->Soon.setSingleShot(true);
   this->connect(&this->Soon, &QTimer::timeout, this, &PullsPane::update);
-  this->connect(this->Delete, &QToolButton::clicked, this->Tree, &PullTree::removeSelected);
+  this->connect(this->Delete, &QToolButton::clicked, this->Tree, &ListTree::removeSelected);
   this->connect(this->Clear, &QToolButton::clicked, this->Pulls, &PullModel::removeAll);
-  this->connect(this->Tree, &PullTree::selectedRowsChanged, this, &PullsPane::refresh);
+  this->connect(this->Tree, &ListTree::selectedRowsChanged, this, &PullsPane::refresh);
   this->connect(this->Editor, &FitEditor::changed, this, &PullsPane::followPulls);
   this->connect(ToolSettings::instance(), &ToolSettings::changed, this, &PullsPane::refresh);
   this->connect(deformation, qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
@@ -96,8 +96,8 @@ void PullsPane::update()
 {
   if (this->Editor)
   {
-    this->Pulls->show(
-      { pullsFrom(this->Editor->numbers("Pulls")), pinsFrom(this->Editor->numbers("Pins")) });
+    this->Pulls->show({ rowsFrom<Pull>(this->Editor->numbers("Pulls")),
+      rowsFrom<Pin>(this->Editor->numbers("Pins")) });
     if (this->Editor->isEditing())
     {
       this->Pulls->setPlaces({}); // those of a moment ago: nothing is missed by that
@@ -130,8 +130,9 @@ void PullsPane::followResult()
 void PullsPane::refresh()
 {
   // A fit of landmarks or traces alone needs no empty list.
-  const bool wanted =
-    this->Pulls->rowCount() > 0 || ToolSettings::instance()->tool() == ToolKind::Pull;
+  const Tool tool = ToolSettings::instance()->tool();
+  const bool makesPulls = tool != Tool::None && shapeOf(tool) == StrokeShape::None;
+  const bool wanted = this->Pulls->rowCount() > 0 || makesPulls;
   this->setVisible(wanted && this->Editor && this->Editor->fit());
   this->Delete->setEnabled(!this->Tree->selectedRows().isEmpty());
   this->Clear->setEnabled(this->Pulls->rowCount() > 0);

@@ -15,8 +15,8 @@ class pqPipelineSource;
 namespace brainshift
 {
 class FitEditor;
+class ListTree;
 class PullModel;
-class PullTree;
 
 class PullsPane : public QWidget
 {
@@ -33,7 +33,7 @@ private:
 
   const QPointer<FitEditor> Editor; ///< The source may go before its panel does.
   PullModel* const Pulls;
-  PullTree* const Tree;
+  ListTree* const Tree;
   QToolButton* const Delete;
   QToolButton* const Clear;
   QTimer Soon;

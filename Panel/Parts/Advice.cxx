@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Parts/Advice.h"
 
-#include <QCoreApplication>
+#include "Interaction/Commands/Translated.h"
 
 #include <cmath>
 
@@ -10,15 +10,10 @@ namespace brainshift
 namespace
 {
 constexpr double LeastAmount = 0.05;     // mm; less is shown as 0.0
-constexpr double DoubtfulReach = 0.8;    // share of the amount
+constexpr double DoubtfulReach = 0.8;    // fraction of the amount
 constexpr double DoubtfulJacobian = 0.3; // few users want to compress tissue to less than a third
 constexpr double LeastPercent = 0.01;    // less is not shown as 0 %, which folds
 constexpr double Rounding = 0.01;        // percent; the determinant of no stroke is a bound below 1
-
-QString tr(const char* text)
-{
-  return QCoreApplication::translate("BrainShift", text);
-}
 }
 
 QString radiusAdvice(const QString& name, double radius, double spacing)

@@ -22,8 +22,8 @@ enum class Grade
 /// if they can. The sentence begins with `name`, the name of the radius.
 QString radiusAdvice(const QString& name, double radius, double spacing);
 
-/// Notes that the guard against folding applies only a share (0 to 1) of a stroke of `amount` mm.
-/// Empty if it applies the whole stroke.
+/// Notes that the guard against folding applies only a fraction (0 to 1) of a stroke of `amount`
+/// mm. Empty if it applies the whole stroke.
 QString guardAdvice(double amount, double share);
 
 /// Warns that the tissue at the centre of a stroke of `amount` mm went less than 80 % of that.

@@ -24,7 +24,7 @@ public:
   /// How many strokes the nearest point of the curve follows, for a place of the widget (pixels);
   /// below 0 if there is none.
   int pointAt(const QPointF& place) const;
-  /// Where the point after so many strokes lies (pixels), if it was measured.
+  /// Position of the point after so many strokes (pixels), if it was measured.
   QPointF placeOf(int strokes) const;
   /// What the point after so many strokes says, in words.
   QString textOf(int strokes) const;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Parts/ReachDrawing.h"
 
-#include <QCoreApplication>
+#include "Interaction/Commands/Translated.h"
+
 #include <QPainter>
 #include <QPainterPath>
 #include <QRadialGradient>
@@ -18,11 +19,6 @@ constexpr int Stops = 24;          // of the shade, from the centre to the edge
 constexpr double FullShade = 0.75; // opacity where tissue follows the whole stroke
 constexpr double Margin = 3.0;     // pixels
 constexpr double ArrowHead = 4.0;  // pixels
-
-QString tr(const char* text)
-{
-  return QCoreApplication::translate("BrainShift", text);
-}
 
 QString millimetres(double value)
 {

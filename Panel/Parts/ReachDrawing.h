@@ -17,15 +17,15 @@ struct Reach
   double along = 0.0;   ///< mm from the centre to the edge along the push; 0 draws nothing.
   double across = 0.0;  ///< mm from the centre to the edge across the push.
   bool hasAxis = false; ///< Whether tissue moves along one axis only. If not, a circle is drawn.
-  /// The share (0 to 1) of the stroke that tissue follows, for its distance from the centre as a
-  /// share of the reach (0 to 1). It is 1 at 0 and must not rise.
+  /// The fraction (0 to 1) of the stroke that tissue follows, for its distance from the centre as
+  /// a fraction of the reach (0 to 1). It is 1 at 0 and must not rise.
   std::function<double(double)> weight;
 };
 
-/// The distance, as a share of the reach, at which tissue follows half of the stroke.
+/// The distance, as a fraction of the reach, at which tissue follows half of the stroke.
 double halfDistance(const Reach& reach);
 
-/// The drawing in words, for a tool tip and for who does not see it.
+/// The drawing in words, for a tool tip and for screen readers.
 QString describe(const Reach& reach);
 
 class ReachDrawing : public QWidget

@@ -97,7 +97,7 @@ PointerDock::PointerDock(QWidget* parent)
     }
   });
   this->connect(this, &QDockWidget::visibilityChanged, this, &PointerDock::showState);
-  // The window of who has no pointer stays as it is. ParaView shows each dock that it is given.
+  // ParaView shows each dock that it is given; without a pointer it would only take room.
   QTimer::singleShot(0, this, &QWidget::hide);
   this->showState();
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Pointer/PointerText.h"
 
+#include "Interaction/Commands/Translated.h"
 #include "Interaction/Pointer/Pointer.h"
 
-#include <QCoreApplication>
 #include <QStringList>
 
 #include <cmath>
@@ -12,11 +12,6 @@ namespace brainshift
 {
 namespace
 {
-
-QString tr(const char* text)
-{
-  return QCoreApplication::translate("BrainShift", text);
-}
 
 bool isOld(const Pointer& pointer)
 {

@@ -98,8 +98,8 @@ RegistrationTable::RegistrationTable(QWidget* parent)
   this->Table->setSelectionBehavior(QAbstractItemView::SelectRows);
   this->Table->setSelectionMode(QAbstractItemView::SingleSelection);
   this->Table->setToolTip(
-    tr("Landmarks: where the tip touched them (mm, tracker), where they are in the image (mm, "
-       "world axes; double-click to type it), and what the registration leaves (mm)."));
+    tr("Landmarks: position of the touch (mm, tracker), position in the image (mm, world axes; "
+       "double-click to type it), and residual after the registration (mm)."));
   constexpr int rows = 4;
   this->Table->setFixedHeight(
     (rows + 1) * this->Table->verticalHeader()->defaultSectionSize() + rows);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Properties/FiguresWidget.h"
 
-#include "Interaction/Edits/QuietUpdates.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
+#include "Interaction/Workarounds/InSight.h"
+#include "Interaction/Workarounds/QuietUpdates.h"
 #include "Panel/Parts/CurvePlot.h"
 #include "Panel/Parts/HistogramPlot.h"
-#include "Panel/Parts/InSight.h"
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>

@@ -3,8 +3,8 @@
 
 #include "Interaction/Edits/FitEditor.h"
 #include "Interaction/Landmarks/LandmarkList.h"
+#include "Interaction/Workarounds/InSight.h"
 #include "Panel/Landmarks/LandmarkTable.h"
-#include "Panel/Parts/InSight.h"
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>

@@ -3,8 +3,8 @@
 
 #include "Interaction/Displays/SharedSettings.h"
 #include "Interaction/Edits/StrokeEditor.h"
+#include "Interaction/Workarounds/InSight.h"
 #include "Panel/Parts/Advice.h"
-#include "Panel/Parts/InSight.h"
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
@@ -29,7 +29,7 @@ namespace brainshift
 {
 namespace
 {
-constexpr qint64 FiguresMs = 250; // at least, from one update to the next: nobody reads faster
+constexpr qint64 FiguresMs = 250; // at least, from one update to the next: faster cannot be read
 
 pqPipelineSource* sourceOf(vtkSMProxy* proxy)
 {

@@ -3,10 +3,10 @@
 
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Landmarks/LandmarkList.h"
+#include "Interaction/Workarounds/InSight.h"
+#include "Interaction/Workarounds/RoomyDock.h"
 #include "Panel/Landmarks/LandmarkTable.h"
 #include "Panel/Measured/PullsPane.h"
-#include "Panel/Parts/InSight.h"
-#include "Panel/Parts/RoomyDock.h"
 #include "Panel/Registered/RefinePane.h"
 #include "Panel/Strokes/StrokeList.h"
 #include "Panel/Strokes/StrokeModel.h"

@@ -4,7 +4,6 @@
 #include "Interaction/Displays/SharedSettings.h"
 #include "Interaction/Edits/AlignEditor.h"
 #include "Panel/Parts/Advice.h"
-#include "Panel/Registered/AlignText.h"
 #include "Panel/Registered/PaneParts.h"
 
 #include <QHBoxLayout>
@@ -18,16 +17,44 @@ namespace brainshift
 namespace
 {
 constexpr int WholeProgress = 100;
+
+QString figure(double value, int digits = 2)
+{
+  return QString::number(value, 'f', digits);
+}
+
+QString moved(const AlignFigures& figures)
+{
+  return AlignPane::tr(
+    "The reference moved by %1 mm and %2 degrees. %3 % of the volume is inside it.")
+    .arg(figure(figures.shift, 2), figure(figures.rotation, 2), figure(100.0 * figures.overlap, 0));
+}
+
+QString alignProgress(const AlignFigures& figures)
+{
+  return AlignPane::tr("Step %1: mutual information %2 nats. ")
+           .arg(QString::number(figures.lines), figure(figures.information, 3)) +
+    moved(figures);
+}
+
+QString alignResult(const QString& ended, const AlignFigures& figures)
+{
+  return AlignPane::tr(
+           "%1 after %2 steps. Mutual information: %3 nats before, %4 now (more is better). ")
+           .arg(ended, QString::number(figures.lines), figure(figures.informationBefore, 3),
+             figure(figures.information, 3)) +
+    moved(figures);
+}
 }
 
 AlignPane::AlignPane(pqPipelineSource* compare, QWidget* parent)
   : QWidget(parent)
   , Editor(AlignEditor::of(compare))
   , Align(makeButton("BrainShiftAlign", tr("Align"),
-      tr("Move the reference to where it says most about the volume, by mutual information, from "
-         "where it lies now. Both are compared as they are drawn; the cavity does not count.")))
+      tr("Register the reference rigidly, from where it is now: maximise its mutual information "
+         "with the volume. Both are compared as they are drawn; the cavity does not count.")))
   , Stop(makeButton("BrainShiftAlignStop", tr("Stop"),
-      tr("Keep where the reference lies now, as one step to undo. Escape instead moves it back.")))
+      tr("Keep the reference where it is now, as one step to undo. Escape instead moves it back.")))
   , Progress(new QProgressBar)
   , Said(makeText("BrainShiftAlignSaid"))
   , Warning(makeText("BrainShiftAlignWarning"))
@@ -79,6 +106,7 @@ void AlignPane::say()
   switch (this->Editor->state())
   {
     case AlignEditor::State::Running:
+    case AlignEditor::State::Paused:
       said = figures.lines > 0 ? alignProgress(figures) : tr("Preparing the search ...");
       break;
     case AlignEditor::State::Kept:
@@ -91,7 +119,7 @@ void AlignPane::say()
       said = alignResult(
         this->Editor->state() == AlignEditor::State::Kept ? tr("Stopped") : tr("Finished"),
         figures);
-      warning = alignWarning(figures);
+      warning = figures.warning;
       break;
     case AlignEditor::State::Idle:
       break;

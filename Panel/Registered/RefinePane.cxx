@@ -4,9 +4,8 @@
 #include "Interaction/Displays/SharedSettings.h"
 #include "Interaction/Edits/RefineEditor.h"
 #include "Panel/Parts/Advice.h"
-#include "Panel/Registered/DisagreementPlot.h"
+#include "Panel/Registered/CostPlot.h"
 #include "Panel/Registered/PaneParts.h"
-#include "Panel/Registered/RefineText.h"
 
 #include <pqApplicationCore.h>
 #include <pqOutputPort.h>
@@ -25,6 +24,7 @@
 #include <QProgressBar>
 #include <QResizeEvent>
 #include <QScrollArea>
+#include <QStringList>
 #include <QToolButton>
 #include <QVBoxLayout>
 
@@ -116,6 +116,64 @@ QComboBox* makeList(const QString& said)
   list->setFocusPolicy(Qt::StrongFocus);
   return list;
 }
+
+QString figure(double value, int digits = 2)
+{
+  return QString::number(value, 'f', digits);
+}
+
+QString percent(double fraction)
+{
+  return figure(100.0 * fraction, 0);
+}
+
+QString refineProgress(const RefineFigures& figures)
+{
+  return RefinePane::tr(
+    "Step %1: control points moved %2 mm at most, %3 mm on average. %4 % of %5 is "
+    "compared.")
+    .arg(QString::number(figures.steps), figure(figures.largestChange), figure(figures.meanChange),
+      percent(figures.overlap), figures.overlapOf);
+}
+
+QString refineResult(const QString& ended, const RefineFigures& figures)
+{
+  QStringList lines;
+  lines += RefinePane::tr("%1 after %2 steps. Cost: %3 before, %4 now (0: the volumes agree).")
+             .arg(ended, QString::number(figures.steps), figure(figures.costBefore, 3),
+               figure(figures.cost, 3));
+  lines += RefinePane::tr("Control points moved %1 mm at most, %2 mm on average.")
+             .arg(figure(figures.largestChange), figure(figures.meanChange));
+  if (figures.smallestDeterminant)
+  {
+    lines += RefinePane::tr("Smallest Jacobian determinant: %1 (0 or less: folded).")
+               .arg(figure(*figures.smallestDeterminant));
+  }
+  lines += figures.stepFraction < 1.0
+    ? RefinePane::tr("The guard against folding shortened steps, one of them to %1 %.")
+        .arg(percent(figures.stepFraction))
+    : RefinePane::tr("The guard against folding shortened no step.");
+  lines +=
+    RefinePane::tr("%1 % of %2 was compared.").arg(percent(figures.overlap), figures.overlapOf);
+  return lines.join(' ');
+}
+
+QString refineWarning(const RefineFigures& figures)
+{
+  QStringList lines;
+  if (!figures.warning.isEmpty())
+  {
+    lines += figures.warning;
+  }
+  if (figures.smallestDeterminant && *figures.smallestDeterminant <= 0.0)
+  {
+    lines += RefinePane::tr(
+      "Tissue is folded: the smallest Jacobian determinant is %1, and it must be above "
+      "0.")
+               .arg(figure(*figures.smallestDeterminant));
+  }
+  return lines.join(' ');
+}
 }
 
 RefinePane::RefinePane(pqPipelineSource* deformation, QWidget* parent)
@@ -123,7 +181,7 @@ RefinePane::RefinePane(pqPipelineSource* deformation, QWidget* parent)
   , Deformation(deformation)
   , Editor(RefineEditor::of(deformation))
   , Opener(makeButton("BrainShiftRefineOpen", tr("Refine"),
-      tr("Let the machine bend the volume further until it agrees with a reference.")))
+      tr("Refine the deformation automatically so that the volume matches a reference.")))
   , Body(new QWidget(this))
 {
   this->setObjectName("BrainShiftRefinePane");
@@ -155,20 +213,22 @@ void RefinePane::addChoices(QVBoxLayout* column)
   this->Reference = makeList(tr("Reference"));
   form->addRow(tr("Reference"),
     wrapped(this->Reference, "BrainShiftRefineReference",
-      tr("What the volume should agree with. A Compare Volumes of this deformation brings its "
-         "reference where it lies, with its cavity.")));
+      tr("The volume to match. A Compare Volumes of this deformation brings its reference where it "
+         "is, with its cavity.")));
   this->Cavity = makeList(tr("Cavity"));
   this->CavityRow = wrapped(this->Cavity, "BrainShiftRefineCavity",
     tr("A mask of tissue that the reference lacks. What it holds does not count."));
   form->addRow(tr("Cavity"), this->CavityRow);
   this->Similarity = makeList(tr("Similarity"));
-  this->Similarity->addItems({ tr("Auto (any contrast)"), tr("Same contrast"), tr("Ultrasound") });
-  form->addRow(tr("Similarity"),
-    wrapped(this->Similarity, "BrainShiftRefineSimilarity",
-      tr("Auto compares self-similarity (SSC), for volumes of any contrast, and at the end local "
-         "correlation (NCC) if the volumes correlate. Same contrast compares by local correlation "
-         "alone, for two scans of one kind. Ultrasound compares by LC2; the volume moves as a "
-         "whole before it bends.")));
+  QStringList tips;
+  for (const SimilarityChoice& choice : similaritiesFor(this->Deformation))
+  {
+    this->Similarity->addItem(choice.label);
+    this->Similarity->setItemData(this->Similarity->count() - 1, choice.tooltip, Qt::ToolTipRole);
+    tips += tr("%1: %2").arg(choice.label, choice.tooltip);
+  }
+  form->addRow(
+    tr("Similarity"), wrapped(this->Similarity, "BrainShiftRefineSimilarity", tips.join('\n')));
   this->Stiffness = new QDoubleSpinBox;
   this->Stiffness->setObjectName("BrainShiftRefineStiffness");
   this->Stiffness->setAccessibleName(tr("Stiffness"));
@@ -212,7 +272,7 @@ void RefinePane::addProgress(QVBoxLayout* column)
   this->Progress->setObjectName("BrainShiftRefineProgress");
   this->Progress->setAccessibleName(tr("Progress of the refinement"));
   this->Progress->setRange(0, WholeProgress);
-  this->Plot = new DisagreementPlot;
+  this->Plot = new CostPlot;
   this->Plot->setObjectName("BrainShiftRefineCurve");
   this->Said = makeText("BrainShiftRefineSaid");
   this->Warning = makeText("BrainShiftRefineWarning");
@@ -303,7 +363,7 @@ void RefinePane::refresh()
   }
   const bool active = this->Editor->isActive();
   const bool paused = this->Editor->state() == RefineEditor::State::Paused;
-  const bool ran = active || !this->Editor->shares().isEmpty();
+  const bool ran = active || !this->Editor->costs().isEmpty();
   this->Choices->setEnabled(!active);
   // A Compare Volumes brings its own.
   this->CavityRow->setEnabled(!isComparison(this->chosen(this->Reference)));
@@ -315,7 +375,7 @@ void RefinePane::refresh()
   this->Progress->setVisible(active);
   this->Progress->setValue(static_cast<int>(WholeProgress * this->Editor->figures().done));
   this->Plot->setVisible(ran && this->Editor->state() != RefineEditor::State::Idle);
-  this->Plot->setShares(this->Editor->shares());
+  this->Plot->setCosts(this->Editor->costs());
   this->say();
 }
 
@@ -353,7 +413,8 @@ void RefinePane::say()
   this->Warning->setPalette(palette);
 }
 
-// What a run says often appears below the panel's lower edge. Who has scrolled away is left alone.
+// The figures of a run often appear below the panel's lower edge. If the user has scrolled away,
+// the panel stays.
 void RefinePane::resizeEvent(QResizeEvent* event)
 {
   QWidget::resizeEvent(event);

@@ -19,7 +19,7 @@ class pqPipelineSource;
 
 namespace brainshift
 {
-class DisagreementPlot;
+class CostPlot;
 class RefineEditor;
 
 class RefinePane : public QWidget
@@ -59,7 +59,7 @@ private:
   QToolButton* Pause = nullptr;
   QToolButton* Stop = nullptr;
   QProgressBar* Progress = nullptr;
-  DisagreementPlot* Plot = nullptr;
+  CostPlot* Plot = nullptr;
   QLabel* Said = nullptr;
   QLabel* Warning = nullptr;
   QTimer Soon; ///< Merges the events that change the lists.

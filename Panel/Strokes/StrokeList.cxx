@@ -3,8 +3,8 @@
 
 #include "Interaction/Displays/SharedSettings.h"
 #include "Panel/Parts/Advice.h"
+#include "Panel/Parts/ListTree.h"
 #include "Panel/Strokes/StrokeModel.h"
-#include "Panel/Strokes/StrokeTree.h"
 
 #include <QApplication>
 #include <QHBoxLayout>
@@ -17,7 +17,9 @@ namespace brainshift
 StrokeList::StrokeList(StrokeModel* model, QWidget* parent)
   : QWidget(parent)
   , Strokes(model)
-  , Tree(new StrokeTree(model, this))
+  , Tree(new ListTree(model,
+      { 4, 9, tr("There are no strokes yet. Choose a tool, then work on the volume in the view.") },
+      this))
   , Problem(new QLabel(this))
   , Delete(new QToolButton(this))
   , Reset(new QToolButton(this))
@@ -52,9 +54,9 @@ StrokeList::StrokeList(StrokeModel* model, QWidget* parent)
   column->addWidget(this->Tree);
   column->addLayout(buttons);
 
-  this->connect(this->Delete, &QToolButton::clicked, this->Tree, &StrokeTree::removeSelected);
+  this->connect(this->Delete, &QToolButton::clicked, this->Tree, &ListTree::removeSelected);
   this->connect(this->Reset, &QToolButton::clicked, model, &StrokeModel::removeAll);
-  this->connect(this->Tree, &StrokeTree::selectedRowsChanged, this, &StrokeList::refresh);
+  this->connect(this->Tree, &ListTree::selectedRowsChanged, this, &StrokeList::refresh);
   this->connect(model, &StrokeModel::updated, this, &StrokeList::refresh);
   this->connect(qApp, &QApplication::focusChanged, this, [this](QWidget* before, QWidget* now) {
     this->FocusBefore = now && now->isAncestorOf(this) ? before : nullptr;

@@ -12,8 +12,8 @@ class QToolButton;
 
 namespace brainshift
 {
+class ListTree;
 class StrokeModel;
-class StrokeTree;
 
 class StrokeList : public QWidget
 {
@@ -28,7 +28,7 @@ private:
   void enable(QToolButton* button, bool enabled);
 
   StrokeModel* const Strokes;
-  StrokeTree* const Tree;
+  ListTree* const Tree;
   QLabel* const Problem;
   QToolButton* const Delete;
   QToolButton* const Reset;

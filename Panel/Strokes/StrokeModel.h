@@ -6,9 +6,7 @@
 #define BrainShift_StrokeModel_h
 
 #include "Filters/Deformation/Stroke.h"
-
-#include <QAbstractTableModel>
-#include <QList>
+#include "Panel/Parts/ListModel.h"
 
 #include <functional>
 #include <optional>
@@ -26,7 +24,7 @@ double amountOf(const Stroke& stroke);
 /// The stroke with another amount in its own direction. A stroke without direction stays unchanged.
 Stroke withAmount(Stroke stroke, double amount);
 
-class StrokeModel : public QAbstractTableModel
+class StrokeModel : public ListModel
 {
   Q_OBJECT
 
@@ -46,7 +44,7 @@ public:
 
   StrokeModel(vtkSMDoubleVectorProperty* strokes, Write write, QObject* parent = nullptr);
 
-  /// Must be called after the property changed, whoever changed it.
+  /// Must be called after each change of the property.
   void update();
 
   /// Why the numbers of the property are not valid strokes. Empty if they are. While they are not,
@@ -56,46 +54,43 @@ public:
   /// Largest spacing of control points, mm. Smaller radii get a warning.
   void setLatticeSpacing(double spacing);
 
-  /// The share of each stroke (0 to 1) that the guard against folding applies. Strokes without a
-  /// share are applied whole.
+  /// The fraction of each stroke (0 to 1) that the guard against folding applies. Strokes without a
+  /// fraction are applied whole.
   void setAppliedShares(const std::vector<double>& shares);
 
   /// How far (mm) each stroke took the tissue at its anchor along its vector. Strokes without a
   /// reach show none.
   void setReaches(const std::vector<double>& reaches);
 
-  /// Enables or disables strokes: one edit.
-  void setEnabled(const QList<int>& rows, bool enabled);
-  /// Deletes strokes: one edit.
-  void removeRowsOf(const QList<int>& rows);
+  bool isOn(int row) const override { return this->stroke(row).enabled; }
+  void setOn(const QList<int>& rows, bool on) override;
+  void removeRowsOf(const QList<int>& rows) override;
   /// Deletes all strokes: one edit.
   void removeAll();
 
   /// The stroke of a row, read from the property.
   Stroke stroke(int row) const;
 
-  int rowCount(const QModelIndex& parent = {}) const override;
-  int columnCount(const QModelIndex& parent = {}) const override;
-  Qt::ItemFlags flags(const QModelIndex& index) const override;
-  QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
-  QVariant data(const QModelIndex& index, int role) const override;
-  bool setData(const QModelIndex& index, const QVariant& value, int role) override;
-
 Q_SIGNALS:
   void updated(); ///< Rows and cells have followed the property.
+
+protected:
+  int count() const override { return this->Strokes; }
+  QString text(int row, int column) const override;
+  QString toolTip(int row, int column) const override;
+  QString warning(int row, int column) const override;
+  std::optional<Number> number(int row, int column) const override;
+  void change(int row, int column, double number) override;
 
 private:
   std::vector<Stroke> strokes(std::string& problem) const;
   void write(const std::function<void(std::vector<Stroke>&)>& edit, const QString& label);
-  QString text(const Stroke& stroke, int column) const;
-  QString advice(int row, int column) const;
-  QString toolTip(int row, int column) const;
   std::optional<double> reach(int row, const Stroke& stroke) const;
 
   vtkSMDoubleVectorProperty* const Property; ///< Outlives the model.
   const Write WriteStrokes;
   QString Problem;
-  int Rows = 0; ///< As announced to views.
+  int Strokes = 0; ///< Of the property, when it was last read.
   double LatticeSpacing = 0.0;
   std::vector<double> AppliedShares;
   std::vector<double> Reaches;

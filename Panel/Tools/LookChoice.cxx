@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Tools/LookChoice.h"
 
+#include "Filters/Looks/Look.h"
 #include "Interaction/Displays/LabelMaps.h"
 #include "Interaction/Displays/VolumeLook.h"
 
@@ -9,18 +10,21 @@
 #include <pqUndoStack.h>
 
 #include <QList>
-#include <QMap>
 #include <QObject>
+
+#include <algorithm>
 
 namespace brainshift
 {
 namespace
 {
-constexpr const char* Brain = "Brain";
-
+// The look of a label map that is open.
 QString nameOf(pqPipelineSource* labels, int count)
 {
-  return count == 1 ? QString(Brain) : QString("%1: %2").arg(Brain, labels->getSMName());
+  const auto row = std::find_if(
+    lookTable().begin(), lookTable().end(), [](const LookRow& look) { return look.ofSegment; });
+  const QString name = row->name;
+  return count == 1 ? name : QString("%1: %2").arg(name, labels->getSMName());
 }
 
 QString withoutLabels(const QString& name)
@@ -49,15 +53,9 @@ QIcon iconOfLook(const QString& name)
 
 QString tipOfLook(const QString& name)
 {
-  static const QMap<QString, QString> tips{
-    { "Skin", QObject::tr("Show the outer surface without the background.") },
-    { "See-through", QObject::tr("Show the inside through a faint surface.") },
-    { "Brain", QObject::tr("Show the brain. Outside CT, this needs a segmentation.") },
-    { "Bone", QObject::tr("Show bone: 150 HU and above.") },
-    { "Vessels", QObject::tr("Show vessels with contrast agent: 120 HU and above.") },
-    { "Ultrasound", QObject::tr("Show bright echoes. Dark ones are transparent.") },
-  };
-  return tips.value(withoutLabels(name));
+  const auto row = std::find_if(lookTable().begin(), lookTable().end(),
+    [name = withoutLabels(name)](const LookRow& look) { return name == look.name; });
+  return row == lookTable().end() ? QString() : QObject::tr(row->tip);
 }
 
 QStringList looksOf(pqDataRepresentation* display)

@@ -2,8 +2,9 @@
 #include "Panel/Tools/MouseHint.h"
 
 #include "Interaction/Commands/Commands.h"
+#include "Interaction/Commands/Tools.h"
+#include "Interaction/Commands/Translated.h"
 
-#include <QCoreApplication>
 #include <QStringList>
 
 #include <algorithm>
@@ -15,23 +16,18 @@ namespace
 using AxisHold = ToolSettings::AxisHold;
 using Ground = ToolSettings::Ground;
 
-QString tr(const char* text)
-{
-  return QCoreApplication::translate("BrainShift", text);
-}
-
 QString millimetres(double value)
 {
   return tr("%1 mm").arg(value, 0, 'g', 3);
 }
 
-bool isOfTool(const CommandRow& row, ToolKind tool)
+bool isOfTool(const CommandRow& row, Tool tool)
 {
   return std::find(row.tools.begin(), row.tools.end(), tool) != row.tools.end();
 }
 
 // The tool in hand takes the gestures that it knows away from the slices.
-bool isTakenByTool(const CommandRow& row, ToolKind tool)
+bool isTakenByTool(const CommandRow& row, Tool tool)
 {
   return row.mouse != Mouse::None &&
     commandOfMouse(Scope::Tool, tool, row.mouse, row.modifiers & Qt::ShiftModifier,
@@ -41,13 +37,9 @@ bool isTakenByTool(const CommandRow& row, ToolKind tool)
 QString hintOf(const CommandRow& row, const ToolSettings& settings)
 {
   QString hint = tr(row.hint);
-  if (row.command == Command::MoveTissue)
+  if (row.number)
   {
-    hint = hint.arg(millimetres(settings.radius()));
-  }
-  else if (row.command == Command::StampByClick)
-  {
-    hint = hint.arg(millimetres(settings.millimetresPerClick()));
+    hint = hint.arg(millimetres((settings.*row.number)()));
   }
   return tr("%1: %2.").arg(keysText(row), hint);
 }
@@ -56,12 +48,12 @@ QString hintOf(const CommandRow& row, const ToolSettings& settings)
 // the slices.
 QStringList sliceHints(const ToolSettings& settings)
 {
-  const ToolKind tool = settings.tool();
+  const Tool tool = settings.tool();
   QStringList hints;
   Command last = Command::None;
   for (const CommandRow& row : commandTable())
   {
-    const bool fits = tool == ToolKind::None || row.command == Command::StepSlices;
+    const bool fits = tool == Tool::None || row.command == Command::StepSlices;
     if (row.scope == Scope::Slices && *row.hint && fits && row.command != last &&
       !isTakenByTool(row, tool))
     {
@@ -91,20 +83,20 @@ QString heldAxis(AxisHold axis)
 
 QString mouseHint(const ToolSettings& settings, ToolSettings::Ground ground)
 {
-  const ToolKind tool = settings.tool();
+  const Tool tool = settings.tool();
   QStringList hints;
   if (!settings.request().isEmpty())
   {
     return settings.request();
   }
-  if (tool != ToolKind::None && !settings.shownInstead().isEmpty())
+  if (tool != Tool::None && !settings.shownInstead().isEmpty())
   {
     return tr(
       "%1. This view shows %2, not the volume that is selected. Click in the view to work on "
       "%2.")
       .arg(nameOf(tool), settings.shownInstead());
   }
-  if (tool != ToolKind::None)
+  if (tool != Tool::None)
   {
     hints.append(
       (ground == Ground::Volume ? tr("%1.") : tr("%1 within the slice.")).arg(nameOf(tool)));
@@ -124,7 +116,7 @@ QString mouseHint(const ToolSettings& settings, ToolSettings::Ground ground)
   {
     hints += sliceHints(settings);
   }
-  hints.append(tool == ToolKind::Stamp ? QString() : heldAxis(settings.axisHold()));
+  hints.append(toolRow(tool).holdsAxes ? heldAxis(settings.axisHold()) : QString());
   hints.removeAll(QString());
   return hints.join(' ');
 }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Tools/ToolPanel.h"
 
-#include "Filters/Deformation/Stroke.h"
+#include "Interaction/Commands/Tools.h"
 #include "Panel/Parts/Advice.h"
 #include "Panel/Parts/ReachDrawing.h"
 #include "Panel/Parts/ValueSlider.h"
 #include "Panel/Tools/MouseHint.h"
-#include "Panel/Tools/ToolChoice.h"
 
 #include <QHBoxLayout>
 #include <QLabel>
@@ -40,16 +39,17 @@ protected:
   }
 };
 
-// None for Move, which takes single control points.
+// None for a tool that takes single points.
 Reach reachOf(const ToolSettings& settings)
 {
+  const StrokeShape shape = shapeOf(settings.tool());
   Reach reach;
   reach.weight = [sigma = settings.sigma()](double distance) { return falloff(distance, sigma); };
-  if (settings.tool() == ToolKind::Soft)
+  if (shape == StrokeShape::Sphere)
   {
     reach.along = reach.across = settings.radius();
   }
-  else if (settings.tool() == ToolKind::Stamp)
+  else if (shape == StrokeShape::Ellipsoid)
   {
     reach.hasAxis = true;
     reach.along = settings.majorRadius();
@@ -65,7 +65,6 @@ struct ToolPanel::Value
   const char* label;
   int decimals;
   const char* tip;
-  QList<ToolKind> tools; // that use it
   double (ToolSettings::*value)() const;
   ToolSettings::Range (ToolSettings::*range)() const;
   void (ToolSettings::*set)(double);
@@ -76,31 +75,26 @@ const QList<ToolPanel::Value>& ToolPanel::values()
   static const QList<Value> all{
     { "BrainShiftRadius", QT_TR_NOOP("Radius (mm)"), 1,
       QT_TR_NOOP("Tissue within this distance of the cursor follows, the less the farther away."),
-      { ToolKind::Soft }, &ToolSettings::radius, &ToolSettings::radiusRange,
-      &ToolSettings::setRadius },
+      &ToolSettings::radius, &ToolSettings::radiusRange, &ToolSettings::setRadius },
     { "BrainShiftMajorRadius", QT_TR_NOOP("Reach along (mm)"), 1,
       QT_TR_NOOP(
-        "How far the stamp reaches along the push, from its centre to its edge (the major radius). "
-        "The push leads to the point of interest."),
-      { ToolKind::Stamp }, &ToolSettings::majorRadius, &ToolSettings::radiusRange,
-      &ToolSettings::setMajorRadius },
+        "Distance from the centre of the stamp to its edge along the push (the major radius). The "
+        "push leads to the point of interest."),
+      &ToolSettings::majorRadius, &ToolSettings::radiusRange, &ToolSettings::setMajorRadius },
     { "BrainShiftMinorRadius", QT_TR_NOOP("Reach across (mm)"), 1,
       QT_TR_NOOP(
-        "How far the stamp reaches across the push, from its centre to its edge (the minor "
-        "radius)."),
-      { ToolKind::Stamp }, &ToolSettings::minorRadius, &ToolSettings::radiusRange,
-      &ToolSettings::setMinorRadius },
+        "Distance from the centre of the stamp to its edge across the push (the minor radius)."),
+      &ToolSettings::minorRadius, &ToolSettings::radiusRange, &ToolSettings::setMinorRadius },
     { "BrainShiftSigma", QT_TR_NOOP("Fullness (\u00d7 reach)"), 2,
       QT_TR_NOOP(
         "How much of the tissue within reach follows. A small number makes a sharp peak at the "
         "centre, a large one a broad hill. The edge is always soft. (Sigma: the width of the "
         "Gaussian as a fraction of the reach.)"),
-      { ToolKind::Soft, ToolKind::Stamp }, &ToolSettings::sigma, &ToolSettings::sigmaRange,
-      &ToolSettings::setSigma },
+      &ToolSettings::sigma, &ToolSettings::sigmaRange, &ToolSettings::setSigma },
     { "BrainShiftMillimetresPerClick", QT_TR_NOOP("Per click (mm)"), 2,
       QT_TR_NOOP("One click of the mouse wheel pulls or pushes the tissue this far."),
-      { ToolKind::Stamp }, &ToolSettings::millimetresPerClick,
-      &ToolSettings::millimetresPerClickRange, &ToolSettings::setMillimetresPerClick },
+      &ToolSettings::millimetresPerClick, &ToolSettings::millimetresPerClickRange,
+      &ToolSettings::setMillimetresPerClick },
   };
   return all;
 }
@@ -130,21 +124,20 @@ ToolPanel::ToolPanel(QWidget* parent)
 void ToolPanel::addButtons(QBoxLayout* column)
 {
   auto row = new QHBoxLayout;
-  for (const ToolChoice& choice : toolChoices())
+  for (const ToolRow& tool : toolTable())
   {
     auto button = new ToolButton(this);
-    button->setObjectName("BrainShift" + choice.id);
-    button->setText(choice.name);
-    button->setIcon(QIcon(choice.icon));
+    button->setObjectName("BrainShift" + tool.id());
+    button->setText(nameOf(tool.tool));
+    button->setIcon(QIcon(tool.icon()));
     button->setIconSize({ 24, 24 });
-    button->setToolTip(choice.tip);
+    button->setToolTip(tool.tip());
     button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     button->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     button->setFocusPolicy(Qt::StrongFocus);
     button->setCheckable(true);
-    this->connect(button, &QToolButton::clicked, this, [tool = choice.tool](bool on) {
-      ToolSettings::instance()->setTool(on ? tool : ToolKind::None);
-    });
+    this->connect(button, &QToolButton::clicked, this,
+      [tool = tool.tool](bool on) { ToolSettings::instance()->setTool(on ? tool : Tool::None); });
     row->addWidget(button);
     this->Buttons.append(button);
   }
@@ -208,15 +201,16 @@ void ToolPanel::refresh()
   for (int i = 0; i < this->Buttons.size(); ++i)
   {
     this->Buttons[i]->setEnabled(this->Ready);
-    this->Buttons[i]->setChecked(toolChoices()[i].tool == settings.tool());
+    this->Buttons[i]->setChecked(toolTable()[i].tool == settings.tool());
   }
+  const auto& shown = toolRow(settings.tool()).numbers;
   for (int i = 0; i < this->Sliders.size(); ++i)
   {
     const Value& value = values()[i];
     const ToolSettings::Range range = (settings.*value.range)();
     this->Sliders[i]->setRange(range.least, range.most);
     this->Sliders[i]->setValue((settings.*value.value)());
-    this->Sliders[i]->setVisible(value.tools.contains(settings.tool()));
+    this->Sliders[i]->setVisible(std::find(shown.begin(), shown.end(), value.value) != shown.end());
   }
   const Reach reach = reachOf(settings);
   this->Drawing->setReach(reach);
@@ -231,11 +225,11 @@ void ToolPanel::refresh()
 QString ToolPanel::advice() const
 {
   const ToolSettings& settings = *ToolSettings::instance();
-  switch (settings.tool())
+  switch (shapeOf(settings.tool()))
   {
-    case ToolKind::Soft:
+    case StrokeShape::Sphere:
       return radiusAdvice(tr("The radius"), settings.radius(), this->LatticeSpacing);
-    case ToolKind::Stamp:
+    case StrokeShape::Ellipsoid:
     {
       const bool minorIsLess = settings.minorRadius() <= settings.majorRadius();
       return minorIsLess ? radiusAdvice(tr("The reach across the push"), settings.minorRadius(),

@@ -122,11 +122,11 @@ CursorLine::CursorLine(QWidget* parent)
   this->setObjectName("BrainShiftCursor");
   this->setContentsMargins(6, 0, 6, 0);
   this->setTextFormat(Qt::PlainText); // names come from files
-  this->setToolTip(
-    tr("What lies under the cursor: its position (mm), the position before it was bent, the value "
-       "and the label of the nearest voxel, how far it moved, its volume now (100 %: "
-       "unchanged), and how far its place can be believed: one standard deviation along an axis, "
-       "and the radius of the ball that holds it with 95 %."));
+  this->setToolTip(tr(
+    "The tissue under the cursor: position (mm), position before the deformation, value and label "
+    "of the nearest voxel, displacement, volume now (100 %: unchanged), and uncertainty of the "
+    "position: one standard deviation along an axis, and the radius of the ball that contains it "
+    "with 95 % probability."));
   this->Asking.setSingleShot(true);
   this->Asking.setInterval(AskEachMs);
   this->connect(&this->Asking, &QTimer::timeout, this, &CursorLine::ask);

@@ -2,8 +2,9 @@
 #include "Panel/Window/KeysText.h"
 
 #include "Interaction/Commands/Commands.h"
+#include "Interaction/Commands/Tools.h"
+#include "Interaction/Commands/Translated.h"
 
-#include <QCoreApplication>
 #include <QStringList>
 
 namespace brainshift
@@ -12,16 +13,11 @@ namespace
 {
 constexpr Scope Scopes[] = { Scope::Window, Scope::Tool, Scope::View, Scope::Slices, Scope::List };
 
-QString tr(const char* text)
-{
-  return QCoreApplication::translate("BrainShift", text);
-}
-
 // The tools that a row needs; empty where it needs none.
 QString toolsText(const CommandRow& row)
 {
   QStringList names;
-  for (const ToolKind tool : row.tools)
+  for (const Tool tool : row.tools)
   {
     names.append(nameOf(tool));
   }

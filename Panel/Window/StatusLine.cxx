@@ -35,7 +35,7 @@ StatusLine::StatusLine(QWidget* parent)
 void StatusLine::refresh()
 {
   const ToolSettings& settings = *ToolSettings::instance();
-  const bool inHand = settings.tool() != ToolKind::None;
+  const bool inHand = settings.tool() != Tool::None;
   // Without a tool the mouse does what it always does, but for slices.
   const bool isOurs = inHand || !settings.request().isEmpty() ||
     settings.ground() == ToolSettings::Ground::FlatSlices;

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Window/Toolbar.h"
 
+#include "Filters/Looks/Look.h"
 #include "Interaction/Commands/Commands.h"
+#include "Interaction/Commands/Tools.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Views/Flicker.h"
+#include "Interaction/Workarounds/StopReading.h"
 #include "Panel/Tools/LookChoice.h"
-#include "Panel/Tools/ToolChoice.h"
 #include "Panel/Window/CursorLine.h"
 #include "Panel/Window/LookMenu.h"
 #include "Panel/Window/StatusLine.h"
-#include "Panel/Window/StopReading.h"
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
@@ -57,15 +58,15 @@ Toolbar::Toolbar(QWidget* mainWindow)
 
 void Toolbar::addTools()
 {
-  for (const ToolChoice& choice : toolChoices())
+  for (const ToolRow& row : toolTable())
   {
-    QAction* action = this->addAction(QIcon(choice.icon), choice.name);
-    action->setObjectName("actionBrainShift" + choice.id);
-    action->setToolTip(choice.tip);
-    action->setShortcut(choice.shortcut);
+    QAction* action = this->addAction(QIcon(row.icon()), nameOf(row.tool));
+    action->setObjectName("actionBrainShift" + row.id());
+    action->setToolTip(row.tip());
+    action->setShortcut(QKeySequence(row.key));
     action->setCheckable(true);
-    this->connect(action, &QAction::triggered, this, [tool = choice.tool](bool on) {
-      ToolSettings::instance()->setTool(on ? tool : ToolKind::None);
+    this->connect(action, &QAction::triggered, this, [tool = row.tool](bool on) {
+      ToolSettings::instance()->setTool(on ? tool : Tool::None);
       pqView* view = pqActiveObjects::instance().activeView();
       if (on && view && view->widget())
       {
@@ -125,7 +126,7 @@ void Toolbar::addFlicker()
 void Toolbar::addLooks()
 {
   QAction* action = (new LookMenu(this))->menuAction();
-  action->setIcon(iconOfLook("Skin"));
+  action->setIcon(iconOfLook(lookTable().front().name));
   action->setObjectName("actionBrainShiftLooks");
   action->setToolTip(
     tr("Look: show skin, brain, bone or vessels of the volume in the active view."));
@@ -191,14 +192,14 @@ void Toolbar::refresh()
   for (int i = 0; i < this->Tools.size(); ++i)
   {
     this->Tools[i]->setEnabled(applied);
-    this->Tools[i]->setChecked(toolChoices()[i].tool == ToolSettings::instance()->tool());
+    this->Tools[i]->setChecked(toolTable()[i].tool == ToolSettings::instance()->tool());
   }
   this->Reset->setEnabled(hasStrokes);
   this->Compare->setEnabled(applied); // a base lattice bends without strokes
   this->Flickering->setEnabled(Flicker::isPossible());
   if (!applied)
   {
-    ToolSettings::instance()->setTool(ToolKind::None);
+    ToolSettings::instance()->setTool(Tool::None);
   }
 }
 }

@@ -32,7 +32,7 @@ private:
   void follow(StrokeEditor* editor);
   void refresh();
 
-  QList<QAction*> Tools; ///< In the order of toolChoices().
+  QList<QAction*> Tools; ///< In the order of toolTable().
   QAction* Reset = nullptr;
   QAction* Compare = nullptr;
   QAction* Flickering = nullptr;

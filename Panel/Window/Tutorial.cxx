@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Window/Tutorial.h"
 
-#include "Interaction/Commands/ToolSettings.h"
+#include "Interaction/Commands/Tools.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Panel/Window/Welcome.h"
@@ -25,8 +25,6 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
-#include <array>
-#include <optional>
 #include <vector>
 
 namespace brainshift
@@ -36,76 +34,62 @@ namespace
 constexpr int LookAgain = 200; // ms
 constexpr const char* Sample = "import brainshift\nbrainshift.open_sample()\n";
 
-enum Steps
+enum class Task
 {
-  OpenStep,
-  LookStep,
-  StampStep,
-  SoftStep,
-  MoveStep,
-  CompareStep,
-  SaveStep,
-  StepCount
+  Open,
+  Look,
+  UseTool,
+  Compare,
+  Save
 };
 
 struct Page
 {
+  Task task;
   const char* title;
   const char* text;
-  const char* help; // what the button does for the user; null: nothing
+  const char* help = nullptr; // what the button does for the user; null: nothing
+  Tool tool = Tool::None;     // of the task UseTool
 };
 
-constexpr std::array<Page, StepCount> Pages{ {
-  { "Open a volume",
-    "Press <b>Open the sample</b>. For a volume of your own, choose File &gt; Open, press Apply, "
-    "then choose Filters &gt; BrainShift &gt; Free-Form Deformation and press Apply.",
-    "Open the sample" },
-  { "Choose a look",
-    "Press the button <b>Look</b> in the toolbar, the small head, and choose <b>Brain</b>. You see "
-    "the cortex without skin and skull. Without a segmentation, choose another look. Drag in the "
-    "view to turn it.",
-    nullptr },
-  { "Push with the stamp",
-    "Press <b>Take the stamp</b>. Move the mouse over the cortex until you see the ellipse. Turn "
-    "the wheel: the tissue goes in or comes out. Shift and wheel change the radius.",
-    "Take the stamp" },
-  { "Drag softly",
-    "Press <b>Take Soft</b>. Press on the cortex and drag: tissue near the mouse goes along, less "
-    "and less with the distance.",
-    "Take Soft" },
-  { "Pull one control point",
-    "Press <b>Take Move</b>. Move the mouse over the cortex. Press on a control point, a small "
-    "ball, and drag it. Only the tissue around this point goes along.",
-    "Take Move" },
-  { "Compare",
-    "Hold down the button <b>Before/After</b> in the toolbar: you see the volume as it was loaded. "
-    "Over a view, the key O does this, too.",
-    nullptr },
-  { "Save",
-    "Choose <b>File &gt; Save State</b>. The state file holds every stroke. Load it tomorrow and "
-    "go "
-    "on. Ctrl+Z takes strokes back one by one.",
-    nullptr },
-} };
-
-std::optional<Tool> toolOf(int step)
+std::vector<Page> makePages()
 {
-  switch (step)
+  std::vector<Page> pages{
+    { Task::Open, "Open a volume",
+      "Press <b>Open the sample</b>. For a volume of your own, choose File &gt; Open, press Apply, "
+      "then choose Filters &gt; BrainShift &gt; Free-Form Deformation and press Apply.",
+      "Open the sample" },
+    { Task::Look, "Choose a look",
+      "Press the button <b>Look</b> in the toolbar, the small head, and choose <b>Brain</b>. You "
+      "see the cortex without skin and skull. Without a segmentation, choose another look. Drag in "
+      "the view to turn it." },
+  };
+  // The last tools first: the stamp is the easiest.
+  for (auto row = toolTable().rbegin(); row != toolTable().rend(); ++row)
   {
-    case StampStep:
-      return Tool::Stamp;
-    case SoftStep:
-      return Tool::Soft;
-    case MoveStep:
-      return Tool::Move;
-    default:
-      return {};
+    if (const auto& lesson = row->lesson)
+    {
+      pages.push_back({ Task::UseTool, lesson->title, lesson->text, lesson->button, row->tool });
+    }
   }
+  pages.push_back({ Task::Compare, "Compare",
+    "Hold down the button <b>Before/After</b> in the toolbar: you see the volume as it was loaded. "
+    "Over a view, the key O does this, too." });
+  pages.push_back({ Task::Save, "Save",
+    "Choose <b>File &gt; Save State</b>. The state file holds every stroke. Load it tomorrow and "
+    "go on. Ctrl+Z takes strokes back one by one." });
+  return pages;
 }
 
-ToolKind kindOf(int step)
+const std::vector<Page>& pages()
 {
-  return step == StampStep ? ToolKind::Stamp : step == SoftStep ? ToolKind::Soft : ToolKind::Move;
+  static const std::vector<Page> all = makePages();
+  return all;
+}
+
+int stepCount()
+{
+  return static_cast<int>(pages().size());
 }
 
 StrokeEditor* editor()
@@ -157,14 +141,14 @@ Tutorial::Tutorial(QWidget* window)
     [this] { this->Saved = true; });
   this->connect(&this->Watch, &QTimer::timeout, this, &Tutorial::watch);
   this->Watch.start(LookAgain);
-  this->go(OpenStep);
+  this->go(0);
   this->placeInCorner();
 }
 
 void Tutorial::addTexts()
 {
   this->Progress = new QProgressBar(this);
-  this->Progress->setRange(0, StepCount);
+  this->Progress->setRange(0, stepCount());
   this->Progress->setTextVisible(false);
   this->Progress->setMaximumHeight(this->fontMetrics().height() / 2);
   this->Title = new QLabel(this);
@@ -175,7 +159,7 @@ void Tutorial::addTexts()
   this->Text->setFixedWidth(this->fontMetrics().averageCharWidth() * 44);
   this->Text->setAlignment(Qt::AlignLeft | Qt::AlignTop);
   int tallest = 0; // a window that is too small would cut the longer pages off
-  for (const Page& page : Pages)
+  for (const Page& page : pages())
   {
     this->Text->setText(tr(page.text));
     tallest = std::max(tallest, this->Text->heightForWidth(this->Text->width()));
@@ -208,9 +192,10 @@ void Tutorial::addButtons()
 
 void Tutorial::help()
 {
-  if (toolOf(this->Step))
+  const Page& page = pages()[this->Step];
+  if (page.task == Task::UseTool)
   {
-    ToolSettings::instance()->setTool(kindOf(this->Step));
+    ToolSettings::instance()->setTool(page.tool);
     return;
   }
   SCOPED_UNDO_EXCLUDE();
@@ -222,9 +207,9 @@ void Tutorial::go(int step)
 {
   this->Step = step;
   this->Progress->setValue(step);
-  this->Back->setEnabled(step > OpenStep);
-  this->Skip->setVisible(step < StepCount);
-  if (step >= StepCount)
+  this->Back->setEnabled(step > 0);
+  this->Skip->setVisible(step < stepCount());
+  if (step >= stepCount())
   {
     this->Title->setText(tr("<b>Done</b>"));
     this->Text->setText(tr("You know the tools. Help &gt; BrainShift Mouse and Keys lists what "
@@ -232,17 +217,16 @@ void Tutorial::go(int step)
     this->Help->hide();
     return;
   }
-  const Page& page = Pages[step];
+  const Page& page = pages()[step];
   this->Title->setText(
-    tr("<b>Step %1 of %2: %3</b>").arg(step + 1).arg(int(StepCount)).arg(tr(page.title)));
+    tr("<b>Step %1 of %2: %3</b>").arg(step + 1).arg(stepCount()).arg(tr(page.title)));
   this->Text->setText(tr(page.text));
   this->Help->setText(page.help ? tr(page.help) : QString());
   this->Help->setVisible(page.help);
   this->ComparedBefore = editor() ? editor()->timesBefore() : 0;
   this->Saved = false;
   this->ColorsBefore = shownColors();
-  const std::optional<Tool> tool = toolOf(step);
-  this->StrokesBefore = tool ? countStrokes(*tool) : 0;
+  this->StrokesBefore = countStrokes(page.tool);
 }
 
 void Tutorial::watch()
@@ -252,7 +236,7 @@ void Tutorial::watch()
   {
     this->ColorsBefore = shownColors(); // the volume may be shown later than the step
   }
-  if (this->Step < StepCount && this->isDone())
+  if (this->Step < stepCount() && this->isDone())
   {
     this->go(this->Step + 1);
   }
@@ -260,17 +244,16 @@ void Tutorial::watch()
 
 bool Tutorial::isDone() const
 {
-  if (const std::optional<Tool> tool = toolOf(this->Step))
+  const Page& page = pages()[this->Step];
+  switch (page.task)
   {
-    return countStrokes(*tool) > this->StrokesBefore && !editor()->isEditing();
-  }
-  switch (this->Step)
-  {
-    case OpenStep:
+    case Task::Open:
       return editor() != nullptr;
-    case LookStep:
+    case Task::Look:
       return shownColors() != this->ColorsBefore;
-    case CompareStep: // until it is let go
+    case Task::UseTool:
+      return countStrokes(page.tool) > this->StrokesBefore && !editor()->isEditing();
+    case Task::Compare: // until it is let go
       return editor() && editor()->timesBefore() > this->ComparedBefore && !editor()->showsBefore();
     default:
       return this->Saved;

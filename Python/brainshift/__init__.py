@@ -21,7 +21,7 @@ from .fitting import Fit, fit
 from .looks import look, looks
 from .maps import deformed_from_rest, rest_from_deformed
 from .points import map_points, read_points
-from .registering import Alignment, Refinement, align, refine
+from .registering import Alignment, Refinement, align, refine, similarities
 from .sample import open_sample
 from .strokes import MOVE, NUMBERS_PER_STROKE, SOFT, STAMP, move, soft, stamp
 from .transforms import Transform, apply_transform, read_transform, save_transform
@@ -34,5 +34,5 @@ __all__ = [
     "dicom_patient", "figure", "fit", "four_views", "gpu", "load_field", "load_lattice", "look",
     "looks", "map_points", "move", "open_sample", "percentile_window", "pick", "read_points",
     "read_transform", "refine", "rest_from_deformed", "save_dicom", "save_field",
-    "save_lattice", "save_transform", "save_volume", "show_comparison", "slice_axes", "soft",
-    "stamp"]
+    "save_lattice", "save_transform", "save_volume", "show_comparison", "similarities",
+    "slice_axes", "soft", "stamp"]

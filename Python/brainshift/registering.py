@@ -1,17 +1,30 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Aligns a reference and refines a bend by what both volumes show."""
+"""Aligns a reference and refines a deformation by the intensities of both volumes."""
 
 from .fitting import forget_former, is_kind, own
 from .reports import numbers
 
-#: The names of similarities, in the order of the property.
-_SIMILARITIES = ("auto", "same contrast", "ultrasound")
 
-#: Beyond these it warns: tests start up to 20 mm and 15 degrees from the right place, and the
-#: middle of what is compared then moves a little farther than that of the reference.
-_FARTHEST_SHIFT = 24.0  # mm
-_FARTHEST_TURN = 17.0  # degrees
-_LEAST_OVERLAP = 0.25  # of the volume within the reference, as in Filters/Register/Alignment.cxx
+def _new_run(session):
+    run = session.NewProxy("misc", "RegistrationRun")
+    run.UnRegister(None)  # Python holds it
+    run.PrototypeOn()  # a question is no step to undo
+    return run
+
+
+def similarities():
+    """List what `refine` can compare by.
+
+    Returns a dictionary: for each name, when to choose it and what it compares.
+    """
+    from paraview import servermanager
+
+    run = _new_run(servermanager.ProxyManager().SMProxyManager)
+    run.UpdateVTKObjects()
+    run.UpdatePropertyInformation()
+    names, tooltips = (run.GetProperty(name).GetElement(0).split("\n")
+                       for name in ("SimilarityNames", "SimilarityTooltips"))
+    return dict(zip(names, tooltips))
 
 
 class _Run:
@@ -19,38 +32,45 @@ class _Run:
 
     def __init__(self, source, begin, **properties):
         source.UpdatePipeline()
-        self.proxy = source.SMProxy.GetSessionProxyManager().NewProxy("misc", "RegistrationRun")
-        self.proxy.UnRegister(None)  # Python holds it
-        self.proxy.PrototypeOn()  # a question is no step to undo
+        self.proxy = _new_run(source.SMProxy.GetSessionProxyManager())
         self.proxy.GetProperty("Source").AddProxy(source.SMProxy)
         for name, value in properties.items():
-            self.proxy.GetProperty(name).SetElement(0, value)
+            for i, element in enumerate(value if hasattr(value, "__len__") else [value]):
+                self.proxy.GetProperty(name).SetElement(i, element)
         self.proxy.UpdateVTKObjects()
         self.proxy.InvokeCommand(begin)
-        problem = self.proxy.GetProperty("Problem")
-        self.proxy.UpdatePropertyInformation(problem)
-        if problem.GetElement(0):
-            raise ValueError(problem.GetElement(0))
+        self.proxy.UpdatePropertyInformation()
+        if self.figure("Problem"):
+            raise ValueError(self.figure("Problem"))
 
-    def answer(self, name):
-        self.proxy.UpdatePropertyInformation(self.proxy.GetProperty(name))
-        return numbers(self.proxy, name)
+    def figure(self, name):
+        """A property with one element, as of the last step."""
+        return self.proxy.GetProperty(name).GetElement(0)
+
+    def numbers(self, name):
+        """All elements of a property, as of the last step."""
+        import numpy
+
+        return numpy.array(numbers(self.proxy, name))
 
     def steps(self, result, callback):
-        """Steps until it is finished or the callback returns False."""
+        """Steps until it is finished or the callback returns False. Returns what to warn of."""
         taken = 0
-        while True:
+        stop = False
+        while not stop and not result.finished:
             self.proxy.InvokeCommand("Step")
-            figures = self.answer("Figures")
-            if not figures:
-                raise RuntimeError("The registration stopped; see the messages")
-            result.take(figures)
+            self.proxy.UpdatePropertyInformation()
+            if self.figure("Problem"):
+                raise RuntimeError(self.figure("Problem"))
+            for name, figure in result.FIGURES.items():
+                setattr(result, name, self.figure(figure))
+            result.finished = bool(self.figure("Finished"))
             # A call may only have tried a length of a step, or prepared a level.
             stop = (callback is not None and result.steps > taken and callback(result) is False)
             taken = result.steps
-            if stop or figures[0]:
-                result.finished = bool(figures[0])
-                return
+        if self.figure("Refusal"):
+            raise ValueError(self.figure("Refusal") + ". Nothing was changed")
+        return self.figure("Warning")
 
 
 class Alignment:
@@ -61,19 +81,19 @@ class Alignment:
     - `matrix`: how the reference was moved from where it was, a 4 x 4 matrix, mm, world axes
     - `information`, `information_before`: mutual information in nats, more is better, on the same
       level
-    - `compared`: the share of the volume that has a partner in the reference, 0 to 1
-    - `shift`, `turn`: how far it was moved, mm and degrees. From more than 20 mm or 15 degrees
-      nobody has tested that the right place is found.
+    - `compared`: the fraction of the volume that has a partner in the reference, 0 to 1
+    - `shift`, `turn`: how far it was moved, mm and degrees. `align` is tested from up to 20 mm and
+      15 degrees away.
     - `steps`, `level`: lines that were searched, and the level of the pyramid, from 0 on
     - `finished`: False if the callback stopped it
     """
 
-    finished = False
+    #: Attributes, and the properties of the run that they are read from.
+    FIGURES = {"compared": "Overlap", "information": "Information",
+               "information_before": "InformationBefore", "level": "Level", "shift": "Shift",
+               "steps": "Steps", "turn": "Rotation"}
 
-    def take(self, figures):
-        (_, steps, level, self.compared, self.information, self.information_before, self.shift,
-         self.turn, _) = figures
-        self.steps, self.level = int(steps), int(level)
+    finished = False
 
 
 class Refinement:
@@ -81,65 +101,30 @@ class Refinement:
 
     - `filter`: the Refined Lattice, a ParaView source. The deformation has it as its lattice.
     - `strokes`: the strokes that were there before. The result holds what they did.
-    - `disagreement`, `disagreement_before`: how far the volumes disagree, on the same level; 0
-      means that they agree
+    - `disagreement`, `disagreement_before`: the cost now and before, on the same level; 0 means
+      that the volumes agree
     - `largest_change`, `mean_change`: how far control points moved
     - `smallest_determinant`: the smallest Jacobian determinant of the result
-    - `share`: the smallest share of a step that the fold guard left, 0 to 1
-    - `compared`: the share of the volume that has a partner in the reference, 0 to 1; by
-      ultrasound, the share of what the sweep saw that is compared
-    - `moved`: the longest way of a control point in the last step
+    - `share`: the smallest fraction of a step that the fold guard allowed, 0 to 1
+    - `compared`: the fraction of the volume that has a partner in the reference, 0 to 1; by
+      ultrasound, of the tissue inside the ultrasound fan
+    - `moved`: the longest move of a control point in the last step
     - `steps`, `level`: steps that were taken, and the level of the pyramid, from 0 on
     - `finished`: False if the callback stopped it
     """
 
+    #: Attributes, and the properties of the run that they are read from.
+    FIGURES = {"compared": "Overlap", "disagreement": "Cost", "disagreement_before": "CostBefore",
+               "largest_change": "LargestChange", "level": "Level", "mean_change": "MeanChange",
+               "moved": "LongestMove", "share": "StepFraction", "steps": "Steps"}
+
     finished = False
-
-    def take(self, figures):
-        (_, steps, level, self.compared, self.disagreement, self.disagreement_before, self.moved,
-         self.share, _) = figures
-        self.steps, self.level = int(steps), int(level)
-
-
-def _turned(degrees):
-    """The matrix of a rotation: degrees about x, then y, then z."""
-    import numpy
-
-    x, y, z = numpy.radians(degrees)
-    about_x = numpy.array(((1, 0, 0), (0, numpy.cos(x), -numpy.sin(x)),
-                           (0, numpy.sin(x), numpy.cos(x))))
-    about_y = numpy.array(((numpy.cos(y), 0, numpy.sin(y)), (0, 1, 0),
-                           (-numpy.sin(y), 0, numpy.cos(y))))
-    about_z = numpy.array(((numpy.cos(z), -numpy.sin(z), 0), (numpy.sin(z), numpy.cos(z), 0),
-                           (0, 0, 1)))
-    return about_z @ about_y @ about_x
-
-
-def _degrees(matrix):
-    """The inverse of `_turned`."""
-    import numpy
-
-    return numpy.degrees((numpy.arctan2(matrix[2, 1], matrix[2, 2]),
-                          -numpy.arcsin(numpy.clip(matrix[2, 0], -1.0, 1.0)),
-                          numpy.arctan2(matrix[1, 0], matrix[0, 0])))
-
-
-def _place(compare, matrix):
-    """Moves the reference, from where it lies, by a 4 x 4 matrix."""
-    import numpy
-
-    bounds = numpy.array(compare.Reference.GetDataInformation().GetBounds()).reshape(3, 2)
-    middle = bounds.mean(axis=1)
-    lies = middle + numpy.array(compare.ReferenceTranslation)
-    compare.ReferenceTranslation = (matrix[:3, :3] @ lies + matrix[:3, 3] - middle).tolist()
-    compare.ReferenceRotation = _degrees(
-        matrix[:3, :3] @ _turned(compare.ReferenceRotation)).tolist()
 
 
 def align(compare, callback=None):
-    """Move the reference rigidly to where it says most about the volume.
+    """Register the reference rigidly: maximise its mutual information with the volume.
 
-    The measure is mutual information, so the two volumes need no common contrast. The volume is
+    The two volumes need no common contrast. The volume is
     compared as it is bent; under a mask only the tissue inside. The cavity does not count.
 
     - `compare`: a Compare Volumes. Its `ReferenceRotation` and `ReferenceTranslation` are set, from
@@ -153,22 +138,19 @@ def align(compare, callback=None):
     """
     import warnings
 
-    import numpy
-
-    run = _Run(compare, "BeginAlignment")
+    start = {}  # another source has no reference, and the run says so
+    if is_kind(compare, "CompareVolumes"):
+        start = {"StartRotation": compare.ReferenceRotation,
+                 "StartTranslation": compare.ReferenceTranslation}
+    run = _Run(compare, "BeginAlignment", **start)
     result = Alignment()
-    run.steps(result, callback)
-    result.matrix = numpy.array(run.answer("Motion")).reshape(4, 4)
-    if result.compared < _LEAST_OVERLAP:
-        raise ValueError(f"{100 * result.compared:.0f} % of the volume lies within the reference; "
-                         "at least 25 % must. Move the reference closer first")
-    _place(compare, result.matrix)
-    result.rotation = numpy.array(compare.ReferenceRotation)
-    result.translation = numpy.array(compare.ReferenceTranslation)
-    if result.shift > _FARTHEST_SHIFT or result.turn > _FARTHEST_TURN:
-        warnings.warn(f"The reference was moved by {result.shift:.0f} mm and {result.turn:.0f} "
-                      "degrees. Nobody has tested this from more than 20 mm or 15 degrees; look "
-                      "whether it lies right", stacklevel=2)
+    warning = run.steps(result, callback)
+    result.matrix = run.numbers("Motion").reshape(4, 4)
+    result.rotation, result.translation = run.numbers("Placement").reshape(2, 3)
+    compare.ReferenceRotation = result.rotation.tolist()
+    compare.ReferenceTranslation = result.translation.tolist()
+    if warning:
+        warnings.warn(warning, stacklevel=2)
     return result
 
 
@@ -201,7 +183,7 @@ def _hold(bent, control_points):
     former = bent.Lattice
     held = own(simple.RefinedLattice(
         Input=bent.Input, LatticeDimensions=list(bent.LatticeDimensions),
-        ControlPoints=control_points.ravel().tolist()))
+        ControlPoints=control_points.tolist()))
     bent.Lattice = held
     bent.Strokes = []
     if is_kind(former, "RefinedLattice"):
@@ -211,8 +193,8 @@ def _hold(bent, control_points):
     return held
 
 
-def refine(filter, reference, similarity="auto", stiffness=1.0, cavity=None, callback=None):
-    """Bend a volume until it agrees with a reference.
+def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callback=None):
+    """Refine a deformation automatically so that the volume matches a reference.
 
     It begins with what is there, a fit and strokes, and changes it as little as the volumes ask.
     The result takes the place of both; strokes that are made later follow it. Where tissue slides,
@@ -222,8 +204,8 @@ def refine(filter, reference, similarity="auto", stiffness=1.0, cavity=None, cal
       empty.
     - `reference`: a Compare Volumes of the deformation, with its cavity and with the reference
       where it lies; or a ParaView source of the reference.
-    - `similarity`: "auto" for any contrast, "same contrast", or "ultrasound" if the reference is
-      one.
+    - `similarity`: one of the names that `similarities` lists. The default is the first of them,
+      which is for any contrast.
     - `stiffness`: a factor on what bending costs, above 0. The default is 1.
     - `cavity`: a ParaView source of a mask, if `reference` is no Compare Volumes. What it holds
       does not count.
@@ -237,32 +219,26 @@ def refine(filter, reference, similarity="auto", stiffness=1.0, cavity=None, cal
     """
     import warnings
 
-    import numpy
     from paraview import simple
 
-    if similarity not in _SIMILARITIES:
-        raise ValueError(f"similarity is {similarity!r}; it must be one of {_SIMILARITIES}")
+    names = list(similarities())
+    if similarity not in (None, *names):
+        raise ValueError(f"similarity is {similarity!r}; it must be one of {names}")
     active = simple.GetActiveSource()
     compare, made = _compared(filter, reference, cavity)
     result = Refinement()
     try:
-        run = _Run(compare, "BeginRefinement", Similarity=_SIMILARITIES.index(similarity),
-                   Stiffness=float(stiffness))
-        before = numpy.array(run.answer("ControlPoints")).reshape(-1, 3)
-        run.steps(result, callback)
-        after = numpy.array(run.answer("ControlPoints")).reshape(-1, 3)
+        run = _Run(compare, "BeginRefinement", Stiffness=float(stiffness),
+                   Similarity=0 if similarity is None else names.index(similarity))
+        warning = run.steps(result, callback)
     finally:
         if made:
             simple.Delete(compare)
         simple.SetActiveSource(active)
-    if result.compared == 0.0:
-        raise ValueError("the volumes have nothing in common to compare; nothing was changed")
-    changes = numpy.linalg.norm(after - before, axis=1)
-    result.largest_change, result.mean_change = float(changes.max()), float(changes.mean())
     result.strokes = tuple(filter.Strokes)
-    result.filter = _hold(filter, after)
+    result.filter = _hold(filter, run.numbers("ControlPoints"))
     result.smallest_determinant = filter.GetPropertyValue("MinimumJacobian")
     simple.SetActiveSource(active)
-    if result.disagreement > result.disagreement_before:
-        warnings.warn("The volumes disagree more than before the refinement", stacklevel=2)
+    if warning:
+        warnings.warn(warning, stacklevel=2)
     return result

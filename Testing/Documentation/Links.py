@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that every relative link, picture and anchor of the documents leads somewhere.
-from documents import GENERATED, PAGES, anchors_of, documents, links_of, run_tests
+from documents import (CHECKOUT, GENERATED, PAGES, Tree, anchors_of, documents, links_of,
+                       run_tests)
 
 
 def broken(document, link):
@@ -33,7 +34,8 @@ def test_the_check_sees_a_broken_link():
 def test_every_picture_is_shown():
     shown = {(document.parent / link).resolve()
              for document in documents() for link in links_of(document) if link.endswith(".png")}
-    pictures = set((PAGES / "pictures").rglob("*.png"))
+    pictures = {CHECKOUT / path for path in
+                Tree(CHECKOUT).below("Documentation/pictures", suffixes=(".png",))}
     assert pictures <= shown, f"shown nowhere: {sorted(pictures - shown)}"
 
 

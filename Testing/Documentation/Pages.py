@@ -3,7 +3,8 @@
 # picture, and that the generated references hold what they are generated from.
 import re
 
-from documents import PAGES, property_reference, python_reference, run_tests, text_of
+from documents import (
+    PAGES, property_reference, python_reference, run_tests, similarity_reference, text_of)
 
 MARKER = re.compile(r"<!-- properties: (\w+) -->")
 
@@ -24,6 +25,12 @@ def test_markers_name_proxies():
     names = {proxy.name for proxy in property_reference.public_proxies()}
     unknown = set(pages_by_proxy()) - names
     assert not unknown, f"the XML has no {sorted(unknown)}"
+
+
+def test_a_page_lists_the_similarities():
+    table = similarity_reference.table()
+    assert table.count("\n") >= 4 and '| `"auto"` | For volumes of any contrast.' in table, table
+    assert any("<!-- similarities -->" in text_of(page) for page in PAGES.rglob("*.md"))
 
 
 def test_every_property_is_documented():

@@ -31,6 +31,8 @@ def test_the_site_builds_without_a_warning_and_loads_nothing():
             assert not found, f"{page} loads {text[found.start():found.end() + 60]}"
         index = pathlib.Path(folder, "filters", "free-form-deformation.html").read_text()
         assert "LatticeDimensions" in index and "properties:" not in index
+        registration = pathlib.Path(folder, "filters", "registration.html").read_text()
+        assert "same contrast" in registration and "similarities --" not in registration
 
 
 run_tests(globals())

@@ -8,8 +8,11 @@ import sys
 CHECKOUT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = CHECKOUT / "Documentation"
 sys.path.insert(0, str(CHECKOUT / "Utilities" / "documentation"))
+sys.path.append(str(CHECKOUT / "Testing" / "House"))
 import property_reference  # noqa: E402
 import python_reference  # noqa: E402
+import similarity_reference  # noqa: E402
+from tree import Tree, folder_of  # noqa: E402
 
 #: Pages that the site generates; they are no files.
 GENERATED = {PAGES / "reference" / "python.md": python_reference.page,
@@ -22,12 +25,9 @@ CODE = re.compile(r"`[^`\n]*`")
 
 def documents():
     """Every document of the checkout that readers follow links in."""
-    found = list(CHECKOUT.glob("*.md")) + list(PAGES.rglob("*.md"))
-    for folder in CHECKOUT.iterdir():
-        if folder.is_dir() and folder.name not in ("build", "Documentation") \
-                and not folder.name.startswith("."):
-            found += folder.rglob("README.md")
-    return sorted(found)
+    return [CHECKOUT / path for path in Tree(CHECKOUT).ending(".md")
+            if not folder_of(path) or path.startswith("Documentation/")
+            or path.endswith("/README.md")]
 
 
 def text_of(document):

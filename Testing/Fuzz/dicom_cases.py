@@ -53,7 +53,8 @@ def _read(path):
         simple.Delete(proxy)
 
 
-def _spoiled(random, data):
+def spoiled(random, data):
+    """The bytes of a DICOM file with one thing spoiled: a byte, a length, or the end."""
     change = random.random()
     place = random.randrange(132, len(data))
     if change < 0.4:
@@ -96,7 +97,7 @@ class Cases:
         with open(name, "rb") as file:
             data = file.read()
         for _ in range(random.choice([0, 1, 1, 1, 2, 3])):
-            data = _spoiled(random, data)
+            data = spoiled(random, data)
         with open(name, "wb") as file:
             file.write(data)
         with messages() as said:

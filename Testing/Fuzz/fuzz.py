@@ -19,7 +19,8 @@ import tempfile
 import threading
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-KINDS = ("files", "dicom", "frames", "properties", "fields", "points", "surfaces", "transforms")
+KINDS = ("files", "dicom", "frames", "like", "properties", "fields", "points", "surfaces",
+         "transforms")
 #: What a case must not do. A worker names the last two itself.
 FAULTS = ("crash", "hang", "misplaced", "stuck")
 STARTS_WITHIN = 300.0  # seconds for ParaView to start, whatever the limit of a case

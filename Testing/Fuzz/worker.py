@@ -10,9 +10,8 @@ import sys
 from brainshift_testing import load_plugin
 
 KINDS = {"files": "file_cases", "dicom": "dicom_cases", "frames": "frame_cases",
-         "properties": "property_cases", "fields": "field_cases", "points": "point_cases",
-         "surfaces": "surface_cases",
-         "transforms": "transform_cases"}
+         "like": "like_cases", "properties": "property_cases", "fields": "field_cases",
+         "points": "point_cases", "surfaces": "surface_cases", "transforms": "transform_cases"}
 
 
 def main(kind, seed, first, end, folder):

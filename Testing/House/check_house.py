@@ -12,10 +12,13 @@ import forms
 import guards
 import includes
 import listed
+import named_tools
+import similarities
 import sizes
 from tree import Tree
 
-CHECKS = {check.__name__: check for module in (includes, sizes, listed, forms, guards)
+CHECKS = {check.__name__: check
+          for module in (includes, sizes, listed, forms, guards, named_tools, similarities)
           for check in module.CHECKS}
 
 

@@ -6,12 +6,14 @@ same checkout with one thing broken, where it must name the broken file.
 """
 
 import pathlib
+import subprocess
 import tempfile
 import unittest
 
 import check_house
 import forms
 import rooms
+import tidy
 from functions import functions_of
 from tree import Tree
 
@@ -33,8 +35,11 @@ def house():
         "BrainShift_Bend_h", "vtkBend_h")
     files["Filters/vtkBend.cxx"] = (
         "brainshiftGuardRequestsMacro(vtkBend);\nint vtkBend::RequestData(int) { return 1; }\n")
+    files["Filters/Register/Similarities/Waves.cxx"] = (
+        'Similarity describeWaves()\n{\n  result.name = "waves";\n}\n')
     files["Filters/Bend.xml"] = "<ServerManagerConfiguration/>\n"
-    files["Filters/CMakeLists.txt"] = "set(classes vtkBend Deformation/Lattice.cxx Bend.xml)\n"
+    files["Filters/CMakeLists.txt"] = (
+        "set(classes vtkBend Deformation/Lattice.cxx Register/Similarities/Waves.cxx Bend.xml)\n")
     files["Representations/vtkDraw.cxx"] = '#include "vtkBend.h"\nvoid draw(int a, int b) {}\n'
     files["Representations/CMakeLists.txt"] = "set(classes vtkDraw)\nset(shaders Rays/rays.frag)\n"
     files["Shaders/Rays/rays.frag.glsl"] = "void main() {}\n"
@@ -89,6 +94,10 @@ BREAKS = [
     ("no_file_is_long", "Representations/vtkDraw.cxx", "int a;\n" * 701, None),
     ("no_file_is_long", "Shaders/Rays/rays.frag.glsl", "int a;\n" * 151, None),
     ("no_file_is_long", "Filters/Bend.xml", "<a/>\n" * 501, None),
+    ("no_file_names_a_tool_of_another", "Interaction/Tools/TwistTool.cxx",
+     "int f() { return int(Tool::Twist) + int(Tool::Stamp); }\n", None),
+    ("no_file_names_a_tool_of_another", "Panel/Tools/Buttons.cxx",
+     "bool f(Tool tool) { return tool == Tool::Twist; }\n", None),
     ("no_function_is_long", "Filters/Deformation/Lattice.cxx", "void f()\n" + LONG_BODY, None),
     ("no_function_is_long", "Testing/Support/helper.py",
      "def f():\n" + "    pass\n" * 60, None),
@@ -105,6 +114,10 @@ BREAKS = [
     ("every_header_opens", "Filters/Deformation/Lattice.h", header("Matrix"), None),
     ("every_header_opens", "Filters/Deformation/Lattice.h",
      header("Lattice").replace(LICENCE, ""), None),
+    ("no_similarity_is_named_elsewhere", "Representations/vtkDraw.cxx",
+     "enum class Similarity\n{\n  Waves\n};\n", None),
+    ("no_similarity_is_named_elsewhere", "Python/brainshift/registering.py",
+     'def refine(similarity="waves"):\n    pass\n', None),
     ("every_room_says_what_it_is_for", "Filters/Traces/README.md", None, None),
 ]
 
@@ -141,6 +154,27 @@ class SeenToFail(unittest.TestCase):
         files["Panel/one-more.svg"] = ""
         self.assertTrue(found_in("no_folder_is_crowded", files)[0].startswith("Panel: has 36"))
 
+    def test_a_new_tool(self):
+        """What CONTRIBUTING.md names for a new tool passes every check, and is at most 9 files."""
+        files = house()
+        new = {
+            "Filters/Deformation/Stroke.h": header("Stroke", "enum class Tool { None, Twist };"),
+            "Interaction/Tools/TwistTool.cxx": "int twistTool() { return int(Tool::Twist); }\n",
+            "Interaction/Commands/Tools.cxx": "int twistTool();\nint all = twistTool();\n",
+            "Interaction/CMakeLists.txt":
+                "set(sources Commands/Tools.cxx Tools/TwistTool.cxx)\n",
+            "Panel/Icons/twist.svg": "<svg/>\n",
+            "Panel/Panel.qrc": "<file>Icons/twist.svg</file>\n",
+            "Documentation/tools/twist.md": "# Twist\n",
+            "mkdocs.yml": "- Twist: tools/twist.md\n",
+            "Testing/Python/Drawing/Pick.py": "TWIST = 4\n",
+        }
+        self.assertLessEqual(len(new), 9)
+        files.update(new)
+        for check in check_house.CHECKS:
+            with self.subTest(check):
+                self.assertEqual(found_in(check, files), [])
+
     def test_every_check_runs(self):
         listed = pathlib.Path(__file__).with_name("CMakeLists.txt").read_text(encoding="utf-8")
         for check in check_house.CHECKS:
@@ -149,6 +183,64 @@ class SeenToFail(unittest.TestCase):
     def test_every_check_is_broken_once(self):
         self.assertEqual({check for check, *_ in BREAKS} | {"no_folder_is_crowded"},
                          set(check_house.CHECKS))
+
+
+class Tracked(unittest.TestCase):
+    """Where git knows the files, scratch beside them is no part of the tree."""
+
+    def git(self, folder, *arguments):
+        subprocess.run(["git", "-C", folder, "-c", "user.name=a", "-c", "user.email=a@b",
+                        *arguments], check=True, capture_output=True)
+
+    def checkout(self, folder):
+        """A checkout of one tracked file, with scratch beside it."""
+        self.git(folder, "init")
+        pathlib.Path(folder, "kept.py").write_text("VALUE = 1\n", encoding="utf-8")
+        self.git(folder, "add", "kept.py")
+        self.git(folder, "commit", "-m", "one")
+        pathlib.Path(folder, "scratch.py").write_text("x" * 200, encoding="utf-8")
+
+    def test_scratch_is_left_out(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.checkout(folder)
+            self.assertEqual(Tree(folder).files, ["kept.py"])
+            pathlib.Path(folder, "kept.py").unlink()
+            self.assertEqual(Tree(folder).files, [], "what is gone has nothing to check")
+
+    def test_a_worktree_has_tracked_files_too(self):
+        with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as beside:
+            self.checkout(folder)
+            worktree = pathlib.Path(beside, "worktree")
+            self.git(folder, "worktree", "add", str(worktree))
+            (worktree / "scratch.py").write_text("", encoding="utf-8")
+            self.assertTrue((worktree / ".git").is_file())
+            self.assertEqual(Tree(worktree).files, ["kept.py"])
+
+    def test_without_git_all_files_count(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "scratch.py").write_text("", encoding="utf-8")
+            self.assertEqual(Tree(folder).files, ["scratch.py"])
+
+
+class Packed(unittest.TestCase):
+    """clang-tidy looks at files together only if they share no name of their own."""
+
+    FIRST = "namespace\n{\nconstexpr int Limit = 3;\nQString tr(const char* text)\n{\n}\n}\n"
+    SECOND = "using namespace a;\nclass Later;\nstruct Limit\n{\n};\nvoid f::tr2()\n{\n}\n"
+
+    def test_own_names(self):
+        self.assertEqual(tidy.own_names(self.FIRST), {"Limit", "tr"})
+        self.assertEqual(tidy.own_names(self.SECOND), {"Limit"})
+
+    def test_files_that_share_a_name_stay_apart(self):
+        names = {"a": {"x"}, "b": {"x", "y"}, "c": {"z"}, "d": {"y"}}
+        self.assertEqual(tidy.packed("abcd", names.get), [["a", "c", "d"], ["b"]])
+
+    def test_a_group_has_an_end(self):
+        for folder, expected in (("Filters", [24, 24, 2]), ("Testing/Cxx", [8] * 6 + [2])):
+            paths = [f"{folder}/{number}.cxx" for number in range(50)]
+            sizes = [len(group) for group in tidy.packed(paths, lambda path: set())]
+            self.assertEqual(sizes, expected)
 
 
 class Functions(unittest.TestCase):

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs clang-tidy over every C++ file: python3 tidy.py CHECKOUT BUILD CLANG_TIDY.
+"""Runs clang-tidy over every tracked C++ file: python3 tidy.py CHECKOUT BUILD CLANG_TIDY.
 
-Reading VTK's and Qt's headers takes most of the time. So files of one folder that are compiled
-alike are looked at together, as if they were one file. A group that cannot be compiled together,
-because two files use one name for different things, is halved until it can.
+Reading VTK's and Qt's headers takes most of the time. So files that are compiled alike are looked
+at together, as if they were one file; files that use one name for different things stay apart. A
+file that still cannot be compiled beside the others is looked at without them.
 
 A file that was found clean is remembered in the build folder. It is not looked at again until it,
 a file of the checkout that it includes, its compile command or the checks change. Each version has
@@ -22,10 +22,16 @@ import sys
 import time
 
 import includes
-from tree import Tree, folder_of
+from tree import Tree, without_comments
 from written import skip_other_versions
 
-FILES_TOGETHER = 8
+FILES_TOGETHER = 24
+TESTS_TOGETHER = 8  # tests say `using namespace`, so that more names meet
+
+#: What a file may define for itself alone, at the start of a line.
+OWN_NAME = re.compile(
+    r"^(?:(?:struct|class|enum|enum class|#define) (\w+)(?! *;)\b(?!::)|using (\w+) ="
+    r"|[A-Za-z][\w:<>,&* ]*[ &*](\w+)(?: =|\{| \{|\[|\())", re.MULTILINE)
 
 #: What clang says of code that it cannot compile.
 NOT_COMPILED = "clang-diagnostic-error"
@@ -71,6 +77,27 @@ def included_by(tree):
     return everything
 
 
+def own_names(text):
+    """Names that a file may not share with another one beside which it is compiled."""
+    return {name for found in OWN_NAME.findall(without_comments(text)) for name in found if name}
+
+
+def packed(paths, names_of):
+    """Groups of files that share no name, filled in the order of the files."""
+    most = TESTS_TOGETHER if paths[0].startswith("Testing/") else FILES_TOGETHER
+    groups = []
+    for path in paths:
+        names = names_of(path)
+        for group, taken in groups:
+            if len(group) < most and taken.isdisjoint(names):
+                group.append(path)
+                taken |= names
+                break
+        else:
+            groups.append(([path], set(names)))
+    return [group for group, _ in groups]
+
+
 class Tidy:
     """clang-tidy, and what it found clean before."""
 
@@ -93,14 +120,14 @@ class Tidy:
         return digest.hexdigest()
 
     def groups(self):
-        """Files to look at, in groups that are compiled alike."""
+        """Files to look at, in groups that are compiled alike, the largest first."""
         alike = {}
         for path in sorted(self.arguments):
             if not self.stamps[path].exists():
-                key = (folder_of(path), tuple(self.arguments[path]))
-                alike.setdefault(key, []).append(path)
-        return [paths[first:first + FILES_TOGETHER] for paths in alike.values()
-                for first in range(0, len(paths), FILES_TOGETHER)]
+                alike.setdefault(tuple(self.arguments[path]), []).append(path)
+        groups = [group for paths in alike.values()
+                  for group in packed(paths, lambda path: own_names(self.tree.text(path)))]
+        return sorted(groups, key=len, reverse=True)
 
     def _run(self, source, path):
         result = subprocess.run(
@@ -112,23 +139,24 @@ class Tidy:
         return result.stdout.strip()
 
     def _together(self, paths):
-        """What clang-tidy says of files as one, or None if they cannot be compiled as one."""
+        """What clang-tidy says of files as if they were one."""
+        if len(paths) == 1:
+            return self._run(self.tree.root / paths[0], paths[0])
         name = re.sub(r"\W", "_", paths[0])
         source = self.folder / f"together_{name}.cxx"
         source.write_text("".join(f'#include "{self.tree.root.resolve() / path}" // NOLINT\n'
                                   for path in paths), encoding="utf-8")
-        said = self._run(source, paths[0])
-        return None if NOT_COMPILED in said else said
+        return self._run(source, paths[0])
 
     def look(self, paths):
         """What clang-tidy says of a group. Remembers the files if it says nothing."""
-        if len(paths) == 1:
-            said = self._run(self.tree.root / paths[0], paths[0])
-        else:
-            said = self._together(paths)
-        if said is None:
-            half = len(paths) // 2
-            return self.look(paths[:half]) + self.look(paths[half:])
+        said = self._together(paths)
+        if NOT_COMPILED in said and len(paths) > 1:
+            apart = [path for path in paths if f"/{path}:" in said]
+            if not 0 < len(apart) < len(paths):
+                apart = paths[:len(paths) // 2]
+            rest = [path for path in paths if path not in apart]
+            return self.look(rest) + self.look(apart)
         if not said:
             for path in paths:
                 self.stamps[path].touch()

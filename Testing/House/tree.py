@@ -4,8 +4,9 @@
 import functools
 import pathlib
 import re
+import subprocess
 
-#: Folders that hold what was built or drawn, not sources.
+#: Folders that hold what was built or drawn, not sources, where git does not name the sources.
 NOT_SOURCES = {"build", "bench-output", "demo-output", "__pycache__"}
 
 #: What a comment, a string or a character looks like in C++. Strings stay, comments do not.
@@ -14,12 +15,26 @@ WORDLESS = re.compile(
 
 
 class Tree:
-    """A checkout. Paths are strings relative to its root, with slashes."""
+    """The tracked files of a checkout; without git, all files of a folder. Paths are strings
+    relative to its root, with slashes."""
 
     def __init__(self, root):
         self.root = pathlib.Path(root)
-        self.files = sorted(self._walk(self.root))
+        tracked = self._tracked()
+        self.files = sorted(self._walk(self.root) if tracked is None else tracked)
         self.known = set(self.files)
+
+    def _tracked(self):
+        """What git knows and is there; None where git knows nothing of the folder."""
+        if not (self.root / ".git").exists():  # a folder, or the file of a worktree
+            return None
+        git = ["git", "-c", "safe.directory=*", "-C", str(self.root), "ls-files", "-z"]
+        try:
+            listed = subprocess.run(git, capture_output=True, text=True, check=True).stdout
+        except (OSError, subprocess.CalledProcessError):
+            return None
+        present = (path for path in listed.split("\0") if path)
+        return [path for path in present if (self.root / path).exists()]
 
     def _walk(self, folder):
         for entry in folder.iterdir():

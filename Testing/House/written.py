@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs a program of others over the files of a checkout that it understands:
+"""Runs a program of others over the tracked files of a checkout that it understands:
 
     python3 written.py CHECKOUT format CLANG_FORMAT
     python3 written.py CHECKOUT spelling CODESPELL
@@ -9,6 +9,7 @@ knows a better word. Versions of clang-format differ, so any but that of Debian 
 """
 
 import re
+import shutil
 import subprocess
 import sys
 
@@ -18,16 +19,22 @@ from tree import Tree
 JOINED_WORDS = r"\w*[a-z][A-Z]\w*"
 
 #: GLSL's inout, ParaView's level of detail, the target registration error, and a name of ITK's.
-OUR_WORDS = "inout,lod,tranform,tre"
+OUR_WORDS = "inout,lod,tranform,tre,unser"
 
 
-#: The major version of LLVM whose answers count, and how ctest hears of a test that is skipped.
+#: The major version of LLVM whose answers count, and the exit status of a check that is skipped.
 LLVM_VERSION = 19
 SKIPPED = 77
 
 
+def require(program):
+    if shutil.which(program) is None:
+        sys.exit(f"This check needs {program}, which is not installed")
+
+
 def skip_other_versions(program):
-    """Ends the test as skipped if the program is of another version of LLVM."""
+    """Ends the check as skipped if the program is of another version of LLVM."""
+    require(program)
     said = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
     version = int(re.search(r"version (\d+)", said).group(1))
     if version != LLVM_VERSION:
@@ -44,8 +51,10 @@ def command_of(tree, check, program):
 
 
 def main():
-    tree = Tree(sys.argv[1])
-    result = subprocess.run(command_of(tree, *sys.argv[2:4]), cwd=tree.root, check=False)
+    checkout, check, program = sys.argv[1:4]
+    require(program)
+    tree = Tree(checkout)
+    result = subprocess.run(command_of(tree, check, program), cwd=tree.root, check=False)
     sys.exit(result.returncode)
 
 

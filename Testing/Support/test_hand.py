@@ -12,7 +12,7 @@ SHIFT, CONTROL = 0x02000000, 0x04000000  # Qt::KeyboardModifiers
 ESCAPE, PAGE_UP, PAGE_DOWN = 0x01000000, 0x01000016, 0x01000017  # Qt::Key; letters: their codes
 _MOVE, _PRESS, _RELEASE, _DOUBLE_CLICK = 0, 1, 2, 3
 
-NONE, MOVE, SOFT, STAMP, PULL = 0, 1, 2, 3, 4  # ToolSettings::ToolKind
+NONE, MOVE, SOFT, STAMP, PULL = -1, 0, 1, 2, 3  # Tool of Stroke.h
 
 _library = ctypes.CDLL(os.environ["BRAINSHIFT_TEST_HAND"])
 _library.test_hand_scale.restype = ctypes.c_double

@@ -15,6 +15,7 @@ from brainshift_testing import picture
 from paraview import simple
 
 SLICES = ("axial", "coronal", "sagittal")
+LONG = "20240611_T1_MPRAGE_sagittal_0.8mm_postop.nii"  # a legend has room for 32 letters
 
 
 def seen_file():
@@ -98,6 +99,7 @@ def rename():
 
 def show_reference():
     simple.RenameSource("bent", simple.FindSource("FreeFormDeformation7"))
+    simple.RenameSource(LONG, simple.FindSource("US.nii"))
     comparison().Show = "Reference"
     simple.RenderAllViews()
 
@@ -145,7 +147,7 @@ def check_legends(seen):
     texts = {
         "applied": "red: bent (bent)\ngreen: before surgery (reference)\nyellow: both",
         "renamed": "red: US.nii (bent)\ngreen: US.nii (reference)\nyellow: both",
-        "reference": "US.nii (reference)"}
+        "reference": f"{LONG[:16]}\u2026{LONG[-15:]} (reference)"}
     for name, text in texts.items():
         for view in seen[name]["views"]:
             assert view["legends"] == [text], (name, view)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What mkdocs calls while it builds the site: adds the two generated reference pages, and fills in
-the table of properties where a page says <!-- properties: NameOfTheProxy -->."""
+the table of properties where a page says <!-- properties: NameOfTheProxy -->, and that of the
+similarities where it says <!-- similarities -->."""
 
 import pathlib
 import re
@@ -11,6 +12,7 @@ from mkdocs.structure.files import File
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import property_reference  # noqa: E402
 import python_reference  # noqa: E402
+import similarity_reference  # noqa: E402
 
 GENERATED = {"reference/python.md": python_reference.page,
              "reference/properties.md": property_reference.page}
@@ -26,4 +28,5 @@ def on_files(files, config):
 def on_page_markdown(markdown, **_):
     tables = {proxy.name: property_reference.table(proxy)
               for proxy in property_reference.public_proxies()}
+    markdown = markdown.replace("<!-- similarities -->", similarity_reference.table())
     return MARKER.sub(lambda marker: tables[marker[1]], markdown)

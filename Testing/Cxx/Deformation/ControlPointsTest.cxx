@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 using namespace brainshift;
 
@@ -117,6 +119,22 @@ TEST(ControlPoints, MovedAreThoseThatLeftTheirPlace)
   ControlPointSet all;
   addMoved(bent.drawn, centre, 1000.0, Slab(), all);
   EXPECT_GT(all.size(), found.size());
+}
+
+// A hundredth of the smallest spacing, 2 mm, is enough.
+TEST(ControlPoints, AShortMoveIsAMove)
+{
+  Bent bent(9);
+  std::vector<float> displacements(3 * bent.lattice.grid.count(), 0.0f);
+  for (const auto& [offset, mm] : { std::pair{ 100, 0.019f }, { 200, 0.021f }, { 300, 0.029f } })
+  {
+    displacements[3 * offset + 1] = mm;
+  }
+  bent.drawn.displacements = displacements.data();
+  bent.drawn.farthest = longest(bent.drawn);
+  ControlPointSet found;
+  addMoved(bent.drawn, bent.middle(), 1000.0, Slab(), found);
+  EXPECT_EQ(found, (ControlPointSet{ 200, 300 }));
 }
 
 TEST(ControlPoints, InASlabAreThoseDrawnNearThePlane)

@@ -24,6 +24,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
 using namespace brainshift::testing;
 
 TEST(Defaults, OfLatticesLiveInTheirBase)
@@ -134,9 +137,29 @@ TEST(Defaults, OfFitDeformationLiveInTheClass)
 TEST(Defaults, OfRegistrationLiveInTheClass)
 {
   vtkNew<vtkRegistrationRun> run;
-  const Defaults ofRun{ { "Similarity", { double(run->GetSimilarity()) } },
-    { "Stiffness", { run->GetStiffness() } } };
+  const double* rotation = run->GetStartRotation();
+  const double* translation = run->GetStartTranslation();
+  const Defaults ofRun{
+    { "Similarity", { double(run->GetSimilarity()) } },
+    { "StartRotation", { rotation[0], rotation[1], rotation[2] } },
+    { "StartTranslation", { translation[0], translation[1], translation[2] } },
+    { "Stiffness", { run->GetStiffness() } },
+  };
   EXPECT_EQ(defaultsIn("Filters/Proxies/RegistrationRun.xml"), ofRun);
+}
+
+// Scripts set a similarity by its number.
+TEST(RegistrationRun, TakesTheNearestSimilarity)
+{
+  vtkNew<vtkRegistrationRun> run;
+  const std::string names = run->GetSimilarityNames();
+  EXPECT_EQ(names.rfind("auto\nsame contrast\nultrasound", 0), 0u) << names;
+  const auto last = static_cast<int>(std::count(names.begin(), names.end(), '\n'));
+  for (const int number : { -1, 0, 2, last, last + 1 })
+  {
+    run->SetSimilarity(number);
+    EXPECT_EQ(run->GetSimilarity(), std::clamp(number, 0, last));
+  }
 }
 
 TEST(Defaults, OfDisplacementFieldFilesLiveInTheClasses)

@@ -165,6 +165,21 @@ TEST_F(DeformationField, GivenDimensionsSpanTheBox)
   }
 }
 
+// 1.2 / 0.1 is a little less than 12 in binary numbers.
+TEST_F(DeformationField, ASpacingThatDividesTheBoxReachesItsEnd)
+{
+  const Grid volume = plainGrid(glm::ivec3(5), glm::dvec3(0.3));
+  ASSERT_LT(0.3 * 4.0 / 0.1, 12.0);
+  this->Bend->SetInputData(volumeOn(volume, VTK_FLOAT, [](vtkIdType) { return 1.0; }));
+  setStrokes(this->Bend, {});
+  this->Filter->SetSampleGrid(vtkDeformationField::GivenSpacing);
+  this->Filter->SetSpacing(0.1, 0.3, 0.5);
+  const int* dimensions = this->run()->GetDimensions();
+  EXPECT_EQ(dimensions[0], 13);
+  EXPECT_EQ(dimensions[1], 5);
+  EXPECT_EQ(dimensions[2], 3);
+}
+
 TEST_F(DeformationField, GivenSpacingStaysInTheBox)
 {
   // The box is 152 x 119 x 142.5 mm.

@@ -405,3 +405,21 @@ TEST(Histogram, FindsPercentilesAndTheThresholdBetweenTwoPeaks)
   EXPECT_GE(otsuThreshold(peaks), 2.5);
   EXPECT_LE(otsuThreshold(peaks), 6.6);
 }
+
+// Only what is dark and commonest is background; a bright peak that is commonest is tissue.
+TEST(Histogram, LosesADarkBackgroundOnly)
+{
+  for (const bool isDarkCommonest : { true, false })
+  {
+    Histogram peaks = makeHistogram(0.0, 10.0, 100);
+    for (int i = 0; i < 100; ++i)
+    {
+      peaks.add(isDarkCommonest || i % 4 == 0 ? 1.05 : 8.05);
+      peaks.add(8.05);
+      peaks.add(1.05 + 0.0001 * i);
+    }
+    const double before = peaks.total();
+    const Histogram tissue = withoutBackground(peaks);
+    EXPECT_EQ(tissue.total(), isDarkCommonest ? 100.0 : before) << isDarkCommonest;
+  }
+}

@@ -131,6 +131,9 @@ TEST(TextHeaderVolume, NumbersInOtherFiles)
   expectCounted<NRRD>(
     "list.nhdr", nhdr + "data file: LIST\n" + files + "half0.raw\n" + files + "half1.raw\n");
   expectCounted<NRRD>("pattern.nhdr", nhdr + "data file: " + files + "half%d.raw 0 1 1\n");
+  writeFile("part008.raw", numbers(4)); // padded
+  writeFile("part009.raw", numbers(8).substr(4));
+  expectCounted<NRRD>("padded.nhdr", nhdr + "data file: " + files + "part%03d.raw 8 9 1\n");
   const std::string mhd = MetaBegin + MetaBytes;
   expectCounted<Meta>(
     "one.mhd", mhd + "HeaderSize = 3\nElementDataFile = " + files + "whole.raw\n");
@@ -266,6 +269,21 @@ TEST(TextHeaderVolume, UnitsScaleAndSlopesRescale)
   EXPECT_NE(units.said().find("unit 'furlong', which counts as mm"), std::string::npos);
   EXPECT_DOUBLE_EQ(units.image()->GetSpacing()[0], 10.0);
   EXPECT_DOUBLE_EQ(units.image()->GetSpacing()[1], 0.001);
+  std::string placed = NRRDBegin + Bytes + "space units: \"cm\" \"um\" \"m\"\n\n" + numbers(8);
+  placed.replace(placed.find("(0,0,0)"), 7, "(1.5,-200,0.003)");
+  writeFile("placed.nrrd", placed);
+  FormatReading<NRRD> origin("placed.nrrd");
+  EXPECT_EQ(origin.said(), "");
+  EXPECT_DOUBLE_EQ(origin.image()->GetOrigin()[0], 15.0);
+  EXPECT_DOUBLE_EQ(origin.image()->GetOrigin()[1], -0.2);
+  EXPECT_DOUBLE_EQ(origin.image()->GetOrigin()[2], 3.0);
+  writeFile("spacings.nrrd", // without directions
+    "NRRD0005\ndimension: 3\nsizes: 2 2 2\nspacings: 1 2 3\nunits: \"cm\" \"mm\" \"um\"\n" + Bytes +
+      "\n" + numbers(8));
+  FormatReading<NRRD> spacings("spacings.nrrd");
+  EXPECT_DOUBLE_EQ(spacings.image()->GetSpacing()[0], 10.0);
+  EXPECT_DOUBLE_EQ(spacings.image()->GetSpacing()[1], 2.0);
+  EXPECT_DOUBLE_EQ(spacings.image()->GetSpacing()[2], 0.003);
   writeFile("slope.mha",
     MetaBegin + MetaBytes + "ElementToIntensityFunctionSlope = 0.5\n" +
       "ElementToIntensityFunctionOffset = -1\nElementDataFile = LOCAL\n" + numbers(8));

@@ -204,11 +204,12 @@ TEST(TraceStatistics, OfKnownDistances)
 
 TEST(TraceHistogram, BinsAreSymmetricAboutTheCortex)
 {
-  const TraceHistogram some = histogramOf({ -3.0, 0.0, 1.0, NaN, 4.0, -4.0, 0.2 });
+  const TraceHistogram some = histogramOf({ -3.0, 0.0, 1.0, NaN, 4.0, -4.0, 0.2, -0.2 });
   EXPECT_EQ(some.width, 0.25) << "16 bins on each side hold 4 mm";
   std::array<int, TraceHistogram::Bins> expected{};
   expected[0] = 1;  // -4
   expected[4] = 1;  // -3
+  expected[15] = 1; // -0.2
   expected[16] = 2; // 0 and 0.2
   expected[20] = 1; // 1
   expected[31] = 1; // 4, on the last edge

@@ -91,6 +91,22 @@ TEST(PointTransform, TurnsBack)
   }
 }
 
+TEST(PointTransform, ReadsTheNearestPointOfAField)
+{
+  const SplineLink spline = randomSpline();
+  FieldLink field{ spline.grid, {}, /*isNearest*/ true };
+  for (std::size_t point = 0; point < spline.grid.count(); ++point)
+  {
+    field.displacements.emplace_back(point % spline.grid.dimensions.x, 0.0f, 0.0f);
+  }
+  for (const double x : { 3.0, 3.4, 3.6, 4.4 })
+  {
+    const glm::dvec3 from =
+      spline.grid.origin + spline.grid.worldFromGrid * glm::dvec3(x, 3.0, 3.0);
+    EXPECT_NEAR(mapped({ { field } }, from).x - from.x, std::round(x), 1e-9) << x;
+  }
+}
+
 TEST(PointTransform, StaysOutsideASplineAndAField)
 {
   const SplineLink spline = randomSpline();
@@ -104,6 +120,7 @@ TEST(PointTransform, StaysOutsideASplineAndAField)
   FieldLink field{ spline.grid, std::vector<glm::vec3>(spline.grid.count(), glm::vec3(1.0f)) };
   EXPECT_NE(mapped({ { field } }, place(-0.499)), place(-0.499));
   EXPECT_EQ(mapped({ { field } }, place(-0.501)), place(-0.501));
+  EXPECT_NE(mapped({ { field } }, place(8.499)), place(8.499));
   EXPECT_EQ(mapped({ { field } }, place(8.501)), place(8.501));
 }
 

@@ -2,6 +2,7 @@
 // Proves that the cubic between the control points has the field's values at them with both kernels
 // and comes near to it between them, and that a field that folds is shortened.
 #include "Filters/Fit/FitLattice.h"
+#include "Filters/Deformation/ControlPoints.h"
 #include "Filters/Deformation/IndexLoop.h"
 #include "Filters/Deformation/Kernels.h"
 #include "Filters/Deformation/LatticeExtremes.h"
@@ -94,6 +95,37 @@ TEST_P(EvidenceOf, TheLatticeIsThatOfEachControlPoint)
 }
 
 INSTANTIATE_TEST_SUITE_P(Fits, EvidenceOf, ::testing::Bool());
+
+TEST(Evidence, IsFoundAnewForAnotherLattice)
+{
+  Measurements measured;
+  measured.landmarks = { { { 10.0, 20.0, -5.0 }, { 11.0, 20.0, -5.0 } } };
+  Grid shifted = boxGrid();
+  shifted.origin += glm::dvec3(40.0, 0.0, 0.0);
+  LatticeEvidence evidence;
+  std::string problem;
+  for (const Grid& grid :
+    { boxGrid(), shifted, withDimensions(shifted, { 7, 6, 5 }) }) // the same measurements each time
+  {
+    FittedLattice fitted;
+    ASSERT_EQ(fitted.solve(measured, {}, makeLattice(grid, 0), {}), "");
+    const std::vector<float> found = evidence.deviations(fitted, problem);
+    ASSERT_EQ(found.size(), grid.count());
+    for (const std::size_t point : { std::size_t(0), grid.count() / 2, grid.count() - 1 })
+    {
+      const glm::dvec3 rest = grid.worldFromGrid(glm::dvec3(indexOf(grid, point)));
+      const double single = fitted.deviations({ rest }).front();
+      EXPECT_NEAR(found[point], single, 1e-6 * (1.0 + single)) << point;
+    }
+  }
+}
+
+TEST(RootMeanSquare, LeavesOutWhatIsNotKnown)
+{
+  EXPECT_DOUBLE_EQ(rootMeanSquare({ 3.0, std::nan(""), -4.0 }), std::sqrt(12.5));
+  EXPECT_TRUE(std::isnan(rootMeanSquare({ std::nan("") })));
+  EXPECT_TRUE(std::isnan(rootMeanSquare({})));
+}
 
 TEST(Evidence, IsRefusedForVeryManyControlPoints)
 {

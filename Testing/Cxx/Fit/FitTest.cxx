@@ -307,3 +307,28 @@ TEST(Fit, WhatIsNoNumberIsOneSentence)
   EXPECT_EQ(
     fit.solve({}, settings), "The surface length is 0.000000; it must be above 0, and finite");
 }
+
+// Points that are flat, or mirrored, agree best with a mirror; tissue cannot be mirrored.
+TEST(NearestRotation, IsNeverAMirror)
+{
+  const std::vector<double> weights(4, 1.0);
+  for (const double height : { 0.0, 7.0 })
+  {
+    const std::vector<glm::dvec3> from{ { 30, 0, 0 }, { -10, 25, 0 }, { -20, -25, 0 },
+      { 5, 5, height } };
+    std::vector<glm::dvec3> mirrored = from;
+    std::vector<glm::dvec3> turned = from;
+    const glm::dmat3 turn = rotationFrom({ 0.4, -0.9, 1.6 });
+    for (std::size_t i = 0; i < from.size(); ++i)
+    {
+      mirrored[i].z = -from[i].z;
+      turned[i] = turn * from[i];
+    }
+    EXPECT_NEAR(glm::determinant(nearestRotation(from, mirrored, weights)), 1.0, 1e-9) << height;
+    const glm::dmat3 found = nearestRotation(from, turned, weights);
+    for (int column = 0; column < 3; ++column)
+    {
+      EXPECT_LT(glm::distance(found[column], turn[column]), 1e-9) << height;
+    }
+  }
+}

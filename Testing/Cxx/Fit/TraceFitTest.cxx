@@ -269,6 +269,22 @@ TEST(TraceFit, ABinHasTheVarianceOfItsMeanAndAFloor)
   EXPECT_NEAR(rows[1].value, 4.0, 1e-12);
 }
 
+// The two banks of a groove in one bin: their mean has no direction to move along.
+TEST(TraceFit, ABinWithOpposedNormalsGivesNoRow)
+{
+  FitSettings settings;
+  settings.tracesWithoutBins = 1;
+  const std::vector<glm::dvec3> traces{ { 1, 1, 70 }, { 2, 1, 71 } };
+  const TraceBins bins(traces, settings, 0.7);
+  for (const double lean : { 0.0, 0.05, 0.2 }) // of the second bank from the direction opposed
+  {
+    const glm::dvec3 second = glm::normalize(glm::dvec3(2.0 * lean, 0.0, -1.0));
+    const std::vector<Row> rows = bins.rows({ { traces[0], traces[0], { 0, 0, 1 }, 1.0, true },
+      { traces[1], traces[1], second, 1.0, true } });
+    EXPECT_EQ(rows.size(), lean > 0.1 ? 1u : 0u) << lean;
+  }
+}
+
 TEST(TraceFit, OrderDoesNotMatter)
 {
   Measurements measured = sagged(700); // in bins

@@ -114,7 +114,7 @@ TEST(Alignment, FindsAKnownMotion)
   const AlignmentProgress& progress = alignment.progress();
   EXPECT_GT(progress.information, 1.5 * progress.informationAtStart);
   EXPECT_EQ(progress.level, 2);
-  EXPECT_GT(progress.comparedShare, 0.8);
+  EXPECT_GT(progress.overlap, 0.8);
 }
 
 TEST(Alignment, OneCallIsOneLine)
@@ -126,6 +126,21 @@ TEST(Alignment, OneCallIsOneLine)
   EXPECT_GE(first, alignment.progress().informationAtStart);
   EXPECT_GE(alignment.step().information, first - 1e-9);
   EXPECT_FALSE(alignment.progress().isFinished);
+}
+
+TEST(Alignment, AFinerLevelBeginsWhereTheCoarserEnded)
+{
+  const RigidPose there = awayBy(9.0, 11.0);
+  Alignment alignment(pairMovedBy(there), nullptr);
+  ASSERT_GT(apart({}, there), 5.0);
+  while (alignment.progress().level == 0)
+  {
+    alignment.step();
+  }
+  EXPECT_LT(apart(alignment.motion(), there), 2.0);
+  alignment.step();
+  EXPECT_EQ(alignment.progress().level, 1);
+  EXPECT_LT(apart(alignment.motion(), there), 2.0);
 }
 
 // The volume is compared as it is bent: unbent, the same search ends elsewhere.
@@ -195,6 +210,24 @@ TEST(Alignment, NothingIsFoundWithoutOverlap)
   Alignment alignment(pairMovedBy(there), nullptr);
   run(alignment);
   EXPECT_EQ(alignment.progress().information, 0.0);
-  EXPECT_EQ(alignment.progress().comparedShare, 0.0);
+  EXPECT_EQ(alignment.progress().overlap, 0.0);
   EXPECT_EQ(alignment.shiftMm(), 0.0) << "nothing says where to go";
+}
+
+// A few samples at a border agree by chance: below a quarter of them, nothing is found.
+TEST(Alignment, TooFewSamplesSayNothing)
+{
+  const Grid grid = smallGrid();
+  const double widthMm = grid.spacing.x * (grid.dimensions.x - 1);
+  AlignmentSettings settings;
+  settings.levelsMm = { 4.0 };
+  for (const double overlap : { 0.1, 0.2, 0.3, 0.5 })
+  {
+    RegisteredPair pair;
+    pair.rest = filled(grid, tissue);
+    pair.reference = pair.rest;
+    pair.reference.grid.origin += (1.0 - overlap) * widthMm * grid.direction[0];
+    const double information = Alignment(pair, nullptr, settings).step().informationAtStart;
+    EXPECT_EQ(information > 0.0, overlap > 0.25) << overlap;
+  }
 }

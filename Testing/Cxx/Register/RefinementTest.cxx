@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 using namespace brainshift;
 using namespace brainshift::testing;
@@ -53,6 +55,18 @@ double apart(const Lattice& a, const Lattice& b)
   return sum / count;
 }
 
+RefinementPlan planOf(const std::string& name)
+{
+  for (const Similarity& similarity : similarities())
+  {
+    if (name == similarity.name)
+    {
+      return similarity.plan;
+    }
+  }
+  throw std::invalid_argument(name);
+}
+
 Lattice still()
 {
   return makeLattice(withDimensions(smallGrid(), { 9, 9, 9 }), KernelCatmullRom);
@@ -80,7 +94,7 @@ void run(Refinement& refinement)
 
 struct Case
 {
-  SimilarityKind kind;
+  const char* similarity;
   double contrast;
   int kernel;
 };
@@ -96,14 +110,14 @@ TEST_P(RefinementOf, FindsAKnownBend)
   start.kernel = GetParam().kernel;
   ASSERT_GT(apart(start, truth), 1.5);
   RefinementSettings settings;
-  settings.stages = stagesOf(GetParam().kind);
+  settings.plan = planOf(GetParam().similarity);
   Refinement refinement(pairBentBy(truth, GetParam().contrast), start, settings);
   run(refinement);
   EXPECT_LT(apart(refinement.lattice(), truth), 0.35);
-  EXPECT_LT(refinement.progress().disagreement, 0.5 * refinement.progress().disagreementAtStart);
+  EXPECT_LT(refinement.progress().cost, 0.5 * refinement.progress().costAtStart);
   EXPECT_EQ(refinement.progress().level, 1);
-  EXPECT_EQ(refinement.progress().share, 1.0);
-  EXPECT_GT(refinement.progress().comparedShare, 0.85) << "samples at the border may lie beyond it";
+  EXPECT_EQ(refinement.progress().stepFraction, 1.0);
+  EXPECT_GT(refinement.progress().overlap, 0.85) << "samples at the border may lie beyond it";
 }
 
 // Finer correlation follows self-similarity where both correlate.
@@ -121,13 +135,13 @@ TEST(Refinement, WhatCorrelatesIsPlacedMoreExactly)
   const Lattice start = makeLattice(withDimensions(fine, { 9, 9, 9 }), KernelCatmullRom);
   RefinementSettings settings;
   Refinement whole(pair, start, settings);
-  settings.stages.pop_back();
+  settings.plan.levels.pop_back();
   Refinement without(pair, start, settings);
   run(whole);
   run(without);
   EXPECT_EQ(whole.progress().level, 2);
   EXPECT_LT(apart(whole.lattice(), truth), 0.8 * apart(without.lattice(), truth));
-  EXPECT_EQ(whole.progress().comparedShare, without.progress().comparedShare)
+  EXPECT_EQ(whole.progress().overlap, without.progress().overlap)
     << "another similarity reaches farther";
 }
 
@@ -135,13 +149,13 @@ TEST(Refinement, ALevelThatMightLeadAstrayIsLeftOut)
 {
   RegisteredPair pair = pairBentBy(bulge(smallGrid(), 5.0), 1.0);
   RefinementSettings settings;
-  settings.stages = { { SimilarityKind::SelfSimilarity, 4.0 },
-    { SimilarityKind::LocalCorrelation, 2.0, 0.0 } };
+  const Metric* coarse = settings.plan.levels.front().metric;
+  const Metric* fine = settings.plan.levels.back().metric;
+  settings.plan.levels = { { coarse, 4.0 }, { fine, 2.0, 0.0 } };
   Refinement astray(pair, still(), settings);
-  settings.stages = { { SimilarityKind::SelfSimilarity, 4.0 },
-    { SimilarityKind::LocalCorrelation, 4.0, 1.0 - 1e-6 } };
+  settings.plan.levels = { { coarse, 4.0 }, { fine, 4.0, 1.0 - 1e-6 } };
   Refinement notFiner(pair, still(), settings);
-  settings.stages.pop_back();
+  settings.plan.levels.pop_back();
   Refinement one(pair, still(), settings);
   run(astray);
   run(notFiner);
@@ -151,14 +165,13 @@ TEST(Refinement, ALevelThatMightLeadAstrayIsLeftOut)
     EXPECT_EQ(left->lattice().displacements, one.lattice().displacements);
     EXPECT_EQ(left->progress().steps, one.progress().steps);
     EXPECT_EQ(left->progress().level, 0);
-    EXPECT_EQ(left->progress().disagreement, one.progress().disagreement);
+    EXPECT_EQ(left->progress().cost, one.progress().cost);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, RefinementOf,
-  ::testing::Values(Case{ SimilarityKind::SelfSimilarity, 1.0, KernelCatmullRom },
-    Case{ SimilarityKind::SelfSimilarity, -1.0, KernelBSpline },
-    Case{ SimilarityKind::LocalCorrelation, 1.0, KernelCatmullRom }));
+  ::testing::Values(Case{ "auto", 1.0, KernelCatmullRom }, Case{ "auto", -1.0, KernelBSpline },
+    Case{ "same contrast", 1.0, KernelCatmullRom }));
 
 TEST(Refinement, BeginsWithWhatTheHandMade)
 {
@@ -185,10 +198,10 @@ TEST(Refinement, OneCallIsOneStepOnceItIsPrepared)
     longest = std::max(longest, glm::length(d));
   }
   EXPECT_NEAR(longest, moved, 1e-3);
-  double before = refinement.progress().disagreement;
+  double before = refinement.progress().cost;
   refinement.step();
   EXPECT_EQ(refinement.progress().steps, 2);
-  EXPECT_LT(refinement.progress().disagreement, before);
+  EXPECT_LT(refinement.progress().cost, before);
 }
 
 TEST(Refinement, StaysWithinItsSteps)
@@ -238,7 +251,7 @@ TEST(Refinement, DoesNotFold)
   Refinement guarded(pair, dense, settings);
   run(guarded);
   EXPECT_GE(minimumJacobian(guarded.lattice()), 0.099);
-  EXPECT_LT(guarded.progress().share, 1.0);
+  EXPECT_LT(guarded.progress().stepFraction, 1.0);
 }
 
 // A cavity that holds nothing pulls tissue that is not there towards it, unless it is masked.
@@ -254,15 +267,15 @@ TEST(Refinement, ACavityIsIgnored)
     pair.reference.values[i] = removed.inside[i] ? 0.0f : pair.reference.values[i];
   }
   RefinementSettings settings;
-  settings.stages = stagesOf(SimilarityKind::LocalCorrelation);
+  settings.plan = planOf("same contrast");
   Refinement misled(pair, still(), settings);
   pair.cavity = ball(grid, centre, 11.0);
-  Refinement told(pair, still(), settings);
+  Refinement masked(pair, still(), settings);
   run(misled);
-  run(told);
-  EXPECT_LT(apart(told.lattice(), truth), 0.45);
-  EXPECT_LT(apart(told.lattice(), truth), 0.8 * apart(misled.lattice(), truth));
-  EXPECT_LT(told.progress().comparedShare, misled.progress().comparedShare);
+  run(masked);
+  EXPECT_LT(apart(masked.lattice(), truth), 0.45);
+  EXPECT_LT(apart(masked.lattice(), truth), 0.8 * apart(misled.lattice(), truth));
+  EXPECT_LT(masked.progress().overlap, misled.progress().overlap);
 }
 
 TEST(Refinement, AMaskHoldsWhatLiesOutside)
@@ -288,7 +301,7 @@ TEST(Refinement, MemoryGrowsWithTheFinestLevel)
   const Lattice lattice = still();
   RefinementSettings settings;
   const double coarse = Refinement::bytes(grid, grid, lattice.grid, settings);
-  settings.stages = { { SimilarityKind::SelfSimilarity, 1.0 } };
+  settings.plan.levels = { { settings.plan.levels.front().metric, 1.0 } };
   EXPECT_GT(Refinement::bytes(grid, grid, lattice.grid, settings), coarse);
   EXPECT_GT(coarse, 2.0 * sizeof(float) * grid.count());
 }

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that forces are derivatives of the disagreement, that contrast does not count where it
+// Proves that forces are derivatives of the cost, that contrast does not count where it
 // must not, and that a cavity does not count.
 #include "Filters/Register/Similarity.h"
-#include "Filters/Register/SelfSimilarity.h"
+#include "Filters/Register/Similarities/LocalFitSimilarity.h"
+#include "Filters/Register/Similarities/SelfSimilarity.h"
 #include "Testing/Cxx/Register/Synthetic.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
 
 using namespace brainshift;
 using namespace brainshift::testing;
@@ -27,6 +32,17 @@ LevelVolumes level(double contrast = 1.0)
   result.restWeights = weightsOf(grid, {}, {});
   result.referenceWeights = result.restWeights;
   return result;
+}
+
+// Compares at displacements of the control points (mm along the grid's axes).
+std::function<CostAndForces(const std::vector<glm::vec3>&)> comparison(
+  const Metric& metric, const LevelVolumes& volumes, const Lattice& lattice)
+{
+  const std::shared_ptr<Comparison> made = metric.make(volumes, lattice);
+  while (!made->prepare())
+  {
+  }
+  return [made](const std::vector<glm::vec3>& at) { return made->compare(at); };
 }
 
 std::vector<glm::vec3> alongAxes(const Lattice& lattice)
@@ -99,19 +115,57 @@ TEST(SelfSimilarity, DoesNotChangeWithContrast)
     << "the numbers tell places apart";
 }
 
-class SimilarityOfKind : public ::testing::TestWithParam<SimilarityKind>
+// Each metric that a similarity uses, once.
+std::vector<const Metric*> metrics()
+{
+  std::vector<const Metric*> all;
+  for (const Similarity& similarity : similarities())
+  {
+    for (const RefinementLevel& level : similarity.plan.levels)
+    {
+      if (std::find(all.begin(), all.end(), level.metric) == all.end())
+      {
+        all.push_back(level.metric);
+      }
+    }
+  }
+  return all;
+}
+
+class EachMetric : public ::testing::TestWithParam<const Metric*>
 {
 };
 
-// A step of every control point along a smooth way changes the disagreement by what the forces say.
-TEST_P(SimilarityOfKind, ForcesAreDerivatives)
+TEST(Similarities, HaveNamesThatTellThemApart)
+{
+  std::set<std::string> names;
+  std::set<std::string> labels;
+  for (const Similarity& similarity : similarities())
+  {
+    names.insert(similarity.name);
+    labels.insert(similarity.label);
+    EXPECT_EQ(std::string(similarity.tooltip).back(), '.') << similarity.name;
+    ASSERT_FALSE(similarity.plan.levels.empty()) << similarity.name;
+    for (const RefinementLevel& level : similarity.plan.levels)
+    {
+      EXPECT_GT(level.metric->bytesPerPoint, 0.0) << similarity.name;
+      EXPECT_GE(level.metric->support.along, 1) << similarity.name;
+    }
+  }
+  EXPECT_EQ(names.size(), similarities().size());
+  EXPECT_EQ(labels.size(), similarities().size());
+  EXPECT_EQ(names.count(""), 0u);
+}
+
+// A step of every control point along a smooth way changes the cost by what the forces say.
+TEST_P(EachMetric, ForcesAreDerivatives)
 {
   const LevelVolumes volumes = level();
   const Lattice lattice = bulge(volumes.rest.grid, 2.0);
-  const Similarity compare = makeSimilarity(GetParam(), volumes, lattice);
+  const auto compare = comparison(*GetParam(), volumes, lattice);
   const std::vector<glm::vec3> at = alongAxes(lattice);
-  const Agreement here = compare(at);
-  ASSERT_GT(here.disagreement, 0.0);
+  const CostAndForces here = compare(at);
+  ASSERT_GT(here.cost, 0.0);
   for (int axis = 0; axis < 3; ++axis)
   {
     std::vector<glm::vec3> way(at.size(), glm::vec3(0.0f));
@@ -128,7 +182,7 @@ TEST_P(SimilarityOfKind, ForcesAreDerivatives)
       {
         result[i] += by * way[i];
       }
-      return compare(result).disagreement;
+      return compare(result).cost;
     };
     const float by = 0.01f;
     const double found = (moved(by) - moved(-by)) / (2.0 * by);
@@ -137,39 +191,39 @@ TEST_P(SimilarityOfKind, ForcesAreDerivatives)
   }
 }
 
-TEST_P(SimilarityOfKind, IsLeastWhereBothAgree)
+TEST_P(EachMetric, IsLeastWhereBothAgree)
 {
   const LevelVolumes volumes = level();
   const Lattice lattice = makeLattice(withDimensions(volumes.rest.grid, { 6, 6, 6 }), 0);
-  const Similarity compare = makeSimilarity(GetParam(), volumes, lattice);
+  const auto compare = comparison(*GetParam(), volumes, lattice);
   const auto at = [&](double share) {
     return compare(std::vector<glm::vec3>(lattice.displacements.size(),
                      glm::vec3(glm::transpose(lattice.grid.direction) * (share * ShiftMm))))
-      .disagreement;
+      .cost;
   };
   EXPECT_LT(at(1.0), 0.5 * at(0.0));
   EXPECT_LT(at(1.0), at(0.8));
   EXPECT_LT(at(1.0), at(1.2));
 }
 
-// What the cavity holds makes no difference, neither to the disagreement nor to any force.
+// What the cavity holds makes no difference, neither to the cost nor to any force.
 // Else a volume would agree best where it meets nothing.
-TEST_P(SimilarityOfKind, WhatMeetsNothingDoesNotAgree)
+TEST_P(EachMetric, WhatMeetsNothingDoesNotAgree)
 {
   const LevelVolumes volumes = level();
   const Lattice lattice = makeLattice(bulge(volumes.rest.grid, 0.0).grid, 0);
   const std::vector<glm::vec3> away(lattice.displacements.size(), glm::vec3(1e4f, 0.0f, 0.0f));
-  const Agreement found = makeSimilarity(this->GetParam(), volumes, lattice)(away);
+  const CostAndForces found = comparison(*GetParam(), volumes, lattice)(away);
   EXPECT_EQ(found.samples, 0.0);
-  EXPECT_EQ(found.disagreement, 1.0);
+  EXPECT_EQ(found.cost, 1.0);
 }
 
-TEST_P(SimilarityOfKind, ACavityDoesNotCount)
+TEST_P(EachMetric, ACavityDoesNotCount)
 {
   LevelVolumes volumes = level();
   const Grid& grid = volumes.rest.grid;
   const Mask removed = ball(grid, middle(grid), 9.0);
-  volumes.referenceWeights = weightsOf(grid, { nullptr, nullptr, &removed }, reachOf(GetParam()));
+  volumes.referenceWeights = weightsOf(grid, { nullptr, nullptr, &removed }, GetParam()->support);
   LevelVolumes changed = volumes;
   for (std::size_t i = 0; i < removed.inside.size(); ++i)
   {
@@ -177,30 +231,27 @@ TEST_P(SimilarityOfKind, ACavityDoesNotCount)
     changed.reference.values[i] = removed.inside[i] ? 110.0f : changed.reference.values[i];
   }
   const Lattice lattice = bulge(grid, 3.0);
-  const Agreement a = makeSimilarity(GetParam(), volumes, lattice)(alongAxes(lattice));
-  const Agreement b = makeSimilarity(GetParam(), changed, lattice)(alongAxes(lattice));
+  const CostAndForces a = comparison(*GetParam(), volumes, lattice)(alongAxes(lattice));
+  const CostAndForces b = comparison(*GetParam(), changed, lattice)(alongAxes(lattice));
   EXPECT_EQ(a.samples, b.samples);
-  EXPECT_NEAR(a.disagreement, b.disagreement, 0.002 * a.disagreement);
+  EXPECT_NEAR(a.cost, b.cost, 0.002 * a.cost);
   changed.referenceWeights = weightsOf(grid, {}, {});
   volumes.referenceWeights = changed.referenceWeights;
-  const Agreement c = makeSimilarity(GetParam(), volumes, lattice)(alongAxes(lattice));
-  const Agreement d = makeSimilarity(GetParam(), changed, lattice)(alongAxes(lattice));
-  EXPECT_GT(std::abs(c.disagreement - d.disagreement), 0.02 * c.disagreement)
-    << "without the mask it does";
+  const CostAndForces c = comparison(*GetParam(), volumes, lattice)(alongAxes(lattice));
+  const CostAndForces d = comparison(*GetParam(), changed, lattice)(alongAxes(lattice));
+  EXPECT_GT(std::abs(c.cost - d.cost), 0.02 * c.cost) << "without the mask it does";
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, SimilarityOfKind,
-  ::testing::Values(SimilarityKind::SelfSimilarity, SimilarityKind::LocalCorrelation,
-    SimilarityKind::LinearCombination));
+INSTANTIATE_TEST_SUITE_P(Metrics, EachMetric, ::testing::ValuesIn(metrics()));
 
 TEST(Similarity, InvertedContrastAgrees)
 {
   const Lattice lattice = bulge(smallGrid(28), 2.0);
-  for (const auto kind : { SimilarityKind::SelfSimilarity, SimilarityKind::LocalCorrelation })
+  for (const RefinementLevel& each : similarities().front().plan.levels)
   {
-    const double plain = makeSimilarity(kind, level(), lattice)(alongAxes(lattice)).disagreement;
-    const double inverted =
-      makeSimilarity(kind, level(-1.0), lattice)(alongAxes(lattice)).disagreement;
+    const Metric& metric = *each.metric;
+    const double plain = comparison(metric, level(), lattice)(alongAxes(lattice)).cost;
+    const double inverted = comparison(metric, level(-1.0), lattice)(alongAxes(lattice)).cost;
     EXPECT_NEAR(plain, inverted, 0.01 * plain);
   }
 }
@@ -222,10 +273,8 @@ TEST(Similarity, TheSlopeExplainsEdges)
   });
   const Lattice lattice = makeLattice(withDimensions(grid, { 6, 6, 6 }), 0);
   const std::vector<glm::vec3> still(lattice.displacements.size(), glm::vec3(0.0f));
-  const double alone =
-    makeSimilarity(SimilarityKind::LocalCorrelation, volumes, lattice)(still).disagreement;
-  const double both =
-    makeSimilarity(SimilarityKind::LinearCombination, volumes, lattice)(still).disagreement;
+  const double alone = comparison(localFitMetric(false), volumes, lattice)(still).cost;
+  const double both = comparison(localFitMetric(true), volumes, lattice)(still).cost;
   EXPECT_LT(both, 0.5 * alone);
 }
 
@@ -235,11 +284,11 @@ TEST(Similarity, AMaskOfTheLatticeHoldsSamples)
   Lattice lattice = bulge(volumes.rest.grid, 2.0);
   const Mask half = ball(volumes.rest.grid, middle(volumes.rest.grid), 15.0);
   lattice.mask = maskWeights(lattice.grid, 4, half, 5.0);
-  const Similarity compare = makeSimilarity(SimilarityKind::LocalCorrelation, volumes, lattice);
-  const Agreement masked = compare(alongAxes(lattice));
+  const CostAndForces masked =
+    comparison(localFitMetric(false), volumes, lattice)(alongAxes(lattice));
   lattice.mask = nullptr;
-  const Agreement whole =
-    makeSimilarity(SimilarityKind::LocalCorrelation, volumes, lattice)(alongAxes(lattice));
+  const CostAndForces whole =
+    comparison(localFitMetric(false), volumes, lattice)(alongAxes(lattice));
   EXPECT_LT(masked.samples, 0.5 * whole.samples);
   EXPECT_EQ(masked.forces[3], 0.0f) << "nothing moves in the corner";
 }

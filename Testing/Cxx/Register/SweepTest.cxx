@@ -62,6 +62,22 @@ TEST(Sweep, AVolumeWithoutSurroundingsIsSeenAsAWhole)
   EXPECT_TRUE(std::all_of(seen.inside.begin(), seen.inside.end(), [](char in) { return in == 1; }));
 }
 
+// Beside the surroundings a block may be full in part, also where it touches them at a corner.
+TEST(Sweep, WhatTouchesTheSurroundingsDoesNotCount)
+{
+  Grid grid;
+  grid.dimensions = { 9, 9, 9 };
+  const auto isOutside = [](const glm::dvec3& at) { return at.x < 4 && at.y < 4 && at.z < 4; };
+  const Mask seen =
+    sweptRegion(filled(grid, [&](const glm::dvec3& at) { return isOutside(at) ? 0.0 : 1.0; }));
+  ASSERT_EQ(seen.grid, grid);
+  EXPECT_FALSE(isSeen(seen, { 4, 4, 4 })) << "a corner";
+  EXPECT_FALSE(isSeen(seen, { 4, 4, 2 })) << "an edge";
+  EXPECT_FALSE(isSeen(seen, { 4, 2, 2 })) << "a face";
+  EXPECT_TRUE(isSeen(seen, { 5, 4, 4 }));
+  EXPECT_TRUE(isSeen(seen, { 5, 2, 2 }));
+}
+
 TEST(Sweep, AGridIsCroppedToARegionWithItsMargin)
 {
   Grid grid;

@@ -3,7 +3,7 @@
 // moves as a whole at no cost.
 #include "Filters/Deformation/PointMap.h"
 #include "Filters/Register/Refinement.h"
-#include "Filters/Register/RigidStep.h"
+#include "Filters/Register/RefinementSteps.h"
 #include "Testing/Cxx/Register/Synthetic.h"
 
 #include <glm/geometric.hpp>
@@ -152,7 +152,8 @@ Lattice refined(const Lattice& start, const RefinementSettings& settings, unsign
 RefinementSettings byUltrasound()
 {
   RefinementSettings settings;
-  settings.stages = stagesOf(SimilarityKind::LinearCombination);
+  const auto isUltrasound = [](const Similarity& one) { return one.plan.fan.has_value(); };
+  settings.plan = std::find_if(similarities().begin(), similarities().end(), isUltrasound)->plan;
   return settings;
 }
 }
@@ -192,7 +193,7 @@ TEST(Ultrasound, AVolumeThatCannotBendStillMoves)
 TEST(Ultrasound, ARigidLevelHasThreeTimesTheSteps)
 {
   RefinementSettings settings = byUltrasound();
-  settings.stages.resize(1);
+  settings.plan.levels.resize(1);
   settings.mostSteps = 2;
   Refinement refinement(speckledPair(3), displacedBy({ 3.0, 0.0, 0.0 }), settings);
   double last = 0.0;

@@ -113,6 +113,6 @@ TEST(RegisterVolume, RangesLeaveOutFewValues)
   const Range range = rangeOf(values);
   EXPECT_EQ(range.low, 1.0f);
   EXPECT_EQ(range.high, 5.0f);
-  EXPECT_EQ(range.share(3.0f), 0.5f);
-  EXPECT_EQ(range.share(1e9f), 1.0f);
+  EXPECT_EQ(range.fraction(3.0f), 0.5f);
+  EXPECT_EQ(range.fraction(1e9f), 1.0f);
 }

@@ -128,3 +128,11 @@ TEST(PixelPart, IsDrawnAsOneStrip)
   }
   EXPECT_TRUE(stripOf({ { { 0, 0 }, { 10, 10 } }, { { 100, 0 }, { 110, 10 } } }).empty());
 }
+
+// A strip across the picture's corners: its box would count many pixels more.
+TEST(PixelPart, CountsThePixelsOfADiagonalStrip)
+{
+  const PixelPart strip{ { { 0, 0 }, { 100, 100 } }, { { 0, -10 }, { 200, 10 } } };
+  EXPECT_DOUBLE_EQ(pixelsIn(strip), 0.5 * 200.0 * 20.0);
+  EXPECT_DOUBLE_EQ(pixelsIn(partOf({ { 0, 0 }, { 100, 60 } })), 6000.0);
+}

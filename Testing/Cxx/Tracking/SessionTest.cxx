@@ -68,6 +68,7 @@ TEST(Session, ComesBackFromItsFile)
 TEST(Session, SaysWhatIsDamaged)
 {
   EXPECT_EQ(problemWith(Head + "0\tS" + Row), "");
+  EXPECT_EQ(problemWith(Head + "1\tS" + Row + "1\tP" + Row), "") << "two tools at one time";
   EXPECT_NE(problemWith("").find("does not begin"), std::string::npos);
   EXPECT_NE(problemWith("# BrainShift pointer session 2\n0\tS" + Row).find("does not begin"),
     std::string::npos);

@@ -162,6 +162,31 @@ TEST(TrackerClient, PrefersTheStylus)
   EXPECT_EQ(poses[2].tip.x, 4.0);
 }
 
+// PLUS may send both names of the stylus at once.
+TEST(TrackerClient, PrefersTheStylusToItsTip)
+{
+  const std::array<float, 12> tip = poseNumbers(1, 0, 0);
+  const std::array<float, 12> stylus = poseNumbers(2, 0, 0);
+  const TestServer server([&](const Client& client) {
+    client.send(transform(0, 1, 0, "ProbeToReference"));
+    client.send(transform(1, 0, 0, "StylusTipToReference"));
+    client.send(
+      toolData({ { "ProbeToReference", poseNumbers(0, 1, 0) }, { "StylusTipToReference", tip } }));
+    client.send(toolData({ { "StylusTipToReference", tip }, { "StylusToReference", stylus } }));
+    client.send(transform(1, 0, 0, "StylusTipToReference"));
+    client.send(toolData({ { "StylusToReference", stylus }, { "StylusTipToReference", tip } }));
+    client.send(transform(3, 0, 0, "StylusToReference"));
+    client.stay();
+  });
+  TrackerClient client(optionsOf(server));
+  std::vector<double> across;
+  for (const Pose& pose : posesOf(client, 6))
+  {
+    across.push_back(pose.tip.x);
+  }
+  EXPECT_EQ(across, (std::vector<double>{ 0.0, 1.0, 1.0, 2.0, 2.0, 3.0 }));
+}
+
 TEST(TrackerClient, HearsTheNamedToolOnly)
 {
   const SourceState state =
@@ -235,9 +260,9 @@ TEST(TrackerClient, NumbersThatAreNoPoseAreRefused)
   scaled[1] = 2.0F;
   std::array<float, 12> mirrored = poseNumbers(1, 2, 3);
   mirrored[8] = -1.0F;
-  for (const auto& numbers :
-    { poseNumbers(nan, 0, 0), poseNumbers(0, std::numeric_limits<float>::infinity(), 0),
-      poseNumbers(2e6F, 0, 0), turned, scaled, mirrored })
+  for (const auto& numbers : { poseNumbers(nan, 0, 0),
+         poseNumbers(0, std::numeric_limits<float>::infinity(), 0), poseNumbers(2e6F, 0, 0),
+         poseNumbers(0, -2e6F, 0), poseNumbers(0, 0, -2e6F), turned, scaled, mirrored })
   {
     TestMessage message;
     message.body = bodyOf(numbers);

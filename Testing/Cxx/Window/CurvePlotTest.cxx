@@ -108,6 +108,10 @@ TEST_F(Curve, TellsThePointUnderTheCursor)
   {
     EXPECT_EQ(this->Plot->pointAt(this->Plot->placeOf(strokes)), strokes);
   }
+  const QPointF first = this->Plot->placeOf(0);
+  const QPointF way = this->Plot->placeOf(1) - first;
+  EXPECT_EQ(this->Plot->pointAt(first + 0.4 * way), 0) << "the nearest";
+  EXPECT_EQ(this->Plot->pointAt(first + 0.6 * way), 1) << "the nearest";
   EXPECT_EQ(this->Plot->textOf(2), "after stroke 2: RMS 1.83 mm");
   this->Plot->show();
   const QPoint place = this->Plot->placeOf(2).toPoint();

@@ -4,10 +4,13 @@
 // given on the right side of its limits; that each key and gesture means one command; and that
 // Documentation/keys.md says what the table of commands says. With BRAINSHIFT_WRITE_KEYS set, the
 // test writes that file.
+#include "Filters/Looks/Look.h"
 #include "Interaction/Commands/Commands.h"
+#include "Interaction/Commands/Tools.h"
 #include "Panel/Parts/Advice.h"
+#include "Panel/Parts/ListTree.h"
 #include "Panel/Strokes/StrokeModel.h"
-#include "Panel/Strokes/StrokeTree.h"
+#include "Panel/Tools/LookChoice.h"
 #include "Panel/Window/KeysText.h"
 #include "Testing/Cxx/Window/Application.h"
 
@@ -103,7 +106,7 @@ TEST_F(StrokesInAList, BeginsWithWhatMattersMost)
   EXPECT_EQ(title(1), "Amount");
   EXPECT_EQ(title(2), "Reached");
   this->set({ stamp(-10.0), soft() });
-  StrokeTree tree(&this->Model);
+  ListTree tree(&this->Model, { 4, 9, {} });
   for (const int width : { 120, 260, 600 }) // pixels
   {
     tree.resize(width, 200);
@@ -165,7 +168,7 @@ TEST_F(StrokesInAList, EnablesDeletesAndResets)
   this->set({ stamp(1.0), stamp(2.0), stamp(3.0), stamp(4.0) });
   EXPECT_TRUE(this->edit(1, StrokeModel::ToolColumn, Qt::Unchecked, Qt::CheckStateRole));
   EXPECT_FALSE(this->Model.stroke(1).enabled);
-  this->Model.setEnabled({ 0, 1 }, true);
+  this->Model.setOn({ 0, 1 }, true);
   EXPECT_TRUE(this->Model.stroke(1).enabled);
   this->Model.removeRowsOf({ 0, 2 });
   ASSERT_EQ(this->Model.rowCount(), 2);
@@ -183,7 +186,7 @@ TEST_F(StrokesInAList, TellsNumbersThatAreNoStrokes)
   this->Model.update();
   EXPECT_TRUE(this->Model.problem().contains("15 numbers"));
   EXPECT_EQ(this->Model.rowCount(), 0);
-  this->Model.setEnabled({ 0 }, false);
+  this->Model.setOn({ 0 }, false);
   EXPECT_TRUE(this->Written.empty());
   this->Model.removeAll();
   EXPECT_EQ(this->Written.size(), 1u);
@@ -247,6 +250,7 @@ TEST(Advice, SaysHowFarTissueIsSqueezed)
   EXPECT_EQ(jacobianText(0.0), "folds over itself");
   EXPECT_EQ(jacobianText(-0.5), "folds over itself");
   EXPECT_TRUE(jacobianTip(0.16).contains("0.160")); // the determinant
+  EXPECT_EQ(jacobianText(0.998), "squeezed to 99 %") << "not rounded up";
 }
 
 // W3C's contrast of text on a background, 1 to 21; 4.5 is asked of text.
@@ -304,7 +308,7 @@ TEST(Commands, EachGestureMeansOneThing)
     EXPECT_TRUE(row.keys.empty() != (row.mouse == Mouse::None)) << row.what;
     EXPECT_TRUE(QString(row.what).endsWith('.')) << row.what;
     EXPECT_FALSE(QString(row.hint).endsWith('.')) << row.hint;
-    for (const ToolKind tool : row.tools.empty() ? std::vector{ ToolKind::None } : row.tools)
+    for (const Tool tool : row.tools.empty() ? std::vector{ Tool::None } : row.tools)
     {
       const QString gesture =
         QString("%1 %2 %3").arg(int(row.scope)).arg(int(tool)).arg(keysText(row));
@@ -314,8 +318,47 @@ TEST(Commands, EachGestureMeansOneThing)
   }
 }
 
+TEST(Tools, HaveAllThatARowNeeds)
+{
+  QSet<int> keys;
+  ASSERT_EQ(toolTable().size(), KnownTools.size());
+  for (std::size_t i = 0; i < KnownTools.size(); ++i)
+  {
+    const ToolRow& row = toolTable()[i];
+    const std::string name = row.id().toStdString();
+    EXPECT_EQ(row.tool, KnownTools[i].tool) << name;
+    EXPECT_EQ(&toolRow(row.tool), &row) << name;
+    EXPECT_TRUE(row.make) << name;
+    EXPECT_TRUE(QString(row.what).endsWith('.')) << name;
+    EXPECT_TRUE(QFile::exists(row.icon())) << name;
+    EXPECT_TRUE(QFile::exists(BRAINSHIFT_SOURCE_DIR "/Documentation/" + QString(row.page))) << name;
+    EXPECT_FALSE(row.gestures.empty()) << name;
+    keys.insert(row.key.toCombined());
+    for (const CommandRow& gesture : row.gestures)
+    {
+      const QString hint(gesture.hint);
+      EXPECT_EQ(hint.contains("%1"), gesture.number != nullptr) << gesture.hint;
+    }
+  }
+  EXPECT_EQ(static_cast<std::size_t>(keys.size()), KnownTools.size());
+  EXPECT_FALSE(toolRow(Tool::None).make);
+}
+
+TEST(Looks, HaveAnIconAndATip)
+{
+  for (const LookRow& look : lookTable())
+  {
+    EXPECT_FALSE(iconOfLook(look.name).pixmap(16, 16).isNull()) << look.name;
+    EXPECT_TRUE(tipOfLook(QString(look.name) + ": labels.nii").endsWith('.')) << look.name;
+  }
+  EXPECT_TRUE(tipOfLook("Nothing").isEmpty());
+  EXPECT_TRUE(iconOfLook("Nothing").pixmap(16, 16).isNull());
+}
+
 TEST(Commands, AreFoundByKey)
 {
+  EXPECT_EQ(commandOfKey({ Scope::Tool }, Qt::Key_Space).command, Command::TakeHold);
+
   const auto inView = [](int key) {
     return commandOfKey({ Scope::Tool, Scope::View, Scope::Slices }, key);
   };
@@ -325,20 +368,20 @@ TEST(Commands, AreFoundByKey)
   EXPECT_EQ(inView(Qt::Key_Delete).command, Command::None); // the list's
   EXPECT_EQ(inView(Qt::Key_K).command, Command::None);      // the window's
   EXPECT_EQ(commandOfKey({ Scope::List }, Qt::Key_Enter).command, Command::EditNumber);
-  EXPECT_EQ(shortcutOf(Command::TakeTool, ToolKind::Stamp), QKeySequence("Alt+3"));
+  EXPECT_EQ(shortcutOf(Command::TakeTool, Tool::Stamp), QKeySequence("Alt+3"));
 }
 
 TEST(Commands, AreFoundByGesture)
 {
   const auto stamp = [](bool shift, bool control) {
-    return commandOfMouse(Scope::Tool, ToolKind::Stamp, Mouse::Wheel, shift, control);
+    return commandOfMouse(Scope::Tool, Tool::Stamp, Mouse::Wheel, shift, control);
   };
-  EXPECT_EQ(stamp(false, false), Command::StampByClick);
-  EXPECT_EQ(stamp(true, false), Command::ChangeMajorRadius);
+  EXPECT_EQ(stamp(false, false), Command::StepByWheel);
+  EXPECT_EQ(stamp(true, false), Command::ChangeRadius);
   EXPECT_EQ(stamp(false, true), Command::None);
   EXPECT_EQ(stamp(true, true), Command::None);
   const auto slices = [](Mouse mouse, bool shift, bool control) {
-    return commandOfMouse(Scope::Slices, ToolKind::None, mouse, shift, control);
+    return commandOfMouse(Scope::Slices, Tool::None, mouse, shift, control);
   };
   EXPECT_EQ(slices(Mouse::Wheel, true, false), Command::StepSlices); // no row asks for Shift
   EXPECT_EQ(slices(Mouse::Wheel, true, true), Command::Zoom);

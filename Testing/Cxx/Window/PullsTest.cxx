@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves, without a window, that pulls and pins are read from the numbers of a fit and written back
 // unchanged, and that their list shows and edits them: each edit is written once, whole.
-#include "Interaction/Edits/PullList.h"
+#include "Filters/Fit/PackedTables.h"
 #include "Panel/Measured/PullModel.h"
-#include "Panel/Parts/NumberDelegate.h"
 #include "Testing/Cxx/Window/Application.h"
 
 #include <glm/geometric.hpp>
@@ -24,7 +23,7 @@ protected:
   PullsInAList()
   {
     application();
-    this->Model.show({ pullsFrom(TwoPulls), pinsFrom(OnePin) });
+    this->Model.show({ rowsFrom<Pull>(TwoPulls), rowsFrom<Pin>(OnePin) });
   }
 
   QVariant at(int row, int column, int role = Qt::DisplayRole) const
@@ -47,21 +46,21 @@ protected:
 
 TEST(Pulls, AreReadFromNumbersAndWrittenBack)
 {
-  EXPECT_EQ(numbersFrom(pullsFrom(TwoPulls)), TwoPulls);
-  EXPECT_EQ(numbersFrom(pinsFrom(OnePin)), OnePin);
+  EXPECT_EQ(numbersFrom(rowsFrom<Pull>(TwoPulls)), TwoPulls);
+  EXPECT_EQ(numbersFrom(rowsFrom<Pin>(OnePin)), OnePin);
   std::vector<double> more = TwoPulls;
   more.push_back(3.0); // the filter says what is wrong with it
-  EXPECT_EQ(pullsFrom(more).size(), 2U);
-  EXPECT_TRUE(pinsFrom({ 1.0, 2.0 }).empty());
+  EXPECT_EQ(rowsFrom<Pull>(more).size(), 2U);
+  EXPECT_TRUE(rowsFrom<Pin>({ 1.0, 2.0 }).empty());
 }
 
 TEST(Pulls, AreTakenFromNearby)
 {
-  const std::vector<Pull> pulls = pullsFrom(TwoPulls);
+  const std::vector<Pull> pulls = rowsFrom<Pull>(TwoPulls);
   EXPECT_EQ(nearest(pulls, { 1.0, 2.0, 4.0 }, 2.0), 0U);
   EXPECT_EQ(nearest(pulls, { 10.0, 20.0, 29.0 }, 100.0), 1U);
   EXPECT_EQ(nearest(pulls, { 1.0, 2.0, 6.0 }, 2.0), 2U); // none
-  EXPECT_EQ(nearest(pinsFrom(OnePin), { 5.0, 6.0, 7.0 }, 0.0), 0U);
+  EXPECT_EQ(nearest(rowsFrom<Pin>(OnePin), { 5.0, 6.0, 7.0 }, 0.0), 0U);
 }
 
 TEST_F(PullsInAList, TellWhatWasAskedAndMissed)
@@ -88,7 +87,7 @@ TEST_F(PullsInAList, AreEditedAsAWhole)
   EXPECT_TRUE(this->edit(0, PullModel::AskedColumn, 10.0));
   ASSERT_EQ(this->Written.size(), 1U);
   const glm::dvec3 twiceAsFar(7.0, 10.0, 3.0);
-  EXPECT_LT(glm::distance(this->Written.back().pulls[0].target, twiceAsFar), 1e-12);
+  EXPECT_LT(glm::distance(this->Written.back().pulls[0].measured, twiceAsFar), 1e-12);
   EXPECT_EQ(this->Written.back().pulls.size() + this->Written.back().pins.size(), 3U);
   EXPECT_TRUE(this->edit(0, PullModel::WeightColumn, 4.0));
   EXPECT_EQ(this->Written.back().pulls[0].weight, 4.0);
@@ -113,4 +112,12 @@ TEST_F(PullsInAList, AreSwitchedOffAndDeleted)
   EXPECT_EQ(this->Written.back().pulls[0].rest, glm::dvec3(10.0, 20.0, 30.0));
   this->Model.removeAll();
   EXPECT_EQ(this->Model.rowCount(), 0);
+}
+
+TEST_F(PullsInAList, KeepTheirWeightWhereTheyAreOn)
+{
+  ASSERT_TRUE(this->edit(0, PullModel::WeightColumn, 4.0));
+  this->Model.setOn({ 0, 1 }, true);
+  EXPECT_EQ(this->Written.back().pulls[0].weight, 4.0);
+  EXPECT_EQ(this->Written.back().pulls[1].weight, 1.0);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that a list with long texts, such as that of DICOM series, does not widen the panel, and
 // that its texts can be read all the same.
-#include "Panel/Properties/ShortListDecorator.h"
+#include "Interaction/Workarounds/ShortListDecorator.h"
 #include "Testing/Cxx/Window/Application.h"
 
 #include <pqPropertyWidget.h>

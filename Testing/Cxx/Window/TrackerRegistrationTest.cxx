@@ -74,6 +74,24 @@ TEST(TrackerRegistration, RefusesPointsOfOneLine)
   EXPECT_TRUE(registration.isRegistered());
 }
 
+// Either set of points leaves the rotation around its line open, whatever the other set is.
+TEST(TrackerRegistration, RefusesOneSetOfPointsOnALine)
+{
+  const glm::dvec3 line[] = { { 0, 0, 0 }, { 30, 60, -30 }, { 50, 100, -50 } };
+  const glm::dvec3 corner[] = { { 0, 0, 0 }, { 80, 0, 0 }, { 0, 70, 0 } };
+  for (const bool isTrackerOnLine : { false, true })
+  {
+    TrackerRegistration registration;
+    for (int i = 0; i < 3; ++i)
+    {
+      registration.touch(isTrackerOnLine ? line[i] : corner[i]);
+      registration.mark(i, isTrackerOnLine ? corner[i] : line[i]);
+    }
+    EXPECT_FALSE(registration.isRegistered()) << isTrackerOnLine;
+    EXPECT_NE(registration.problem().indexOf("one line"), -1) << isTrackerOnLine;
+  }
+}
+
 TEST(TrackerRegistration, PointWithoutPartnerDoesNotCount)
 {
   TrackerRegistration registration;

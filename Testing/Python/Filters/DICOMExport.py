@@ -7,8 +7,8 @@ import subprocess
 
 import numpy
 import pydicom
-from brainshift_testing import (assert_says, load_plugin, messages, output, run_tests, scratch,
-                                volume, voxels)
+from brainshift_testing import (assert_says, data, load_plugin, messages, output, picture,
+                                run_tests, scratch, show_volume, view_along, volume, voxels)
 from dicom_testing import assert_placed as assert_read
 from pydicom.dataset import FileDataset, FileMetaDataset
 from saving_testing import assert_fails, assert_nothing_left, full_disk
@@ -260,7 +260,10 @@ def test_what_cannot_be_written_says_so_and_leaves_nothing():
     assert_fails(save(spoiled), "not finite")
     assert_fails(save(numpy.stack([array] * 3, axis=-1)), "3 components", "must have 1")
     assert_fails(save(world=""), "does not know the sides", "set World")
-    assert_fails(save(as_in=__file__), "Like is ", "DICOMExport.py", "no DICOM image")
+    assert_fails(save(as_in=__file__), "Like is ", "DICOMExport.py", "no DICOM image",
+                 "choose another")
+    assert_fails(save(as_in=folder + ".none"), "export-refused.none, which does not exist")
+    assert_fails(save(as_in=os.path.dirname(__file__)), "no DICOM image that can be read")
     assert_fails(save(where=folder + ".dcm", as_in=""), "Like is missing")
     assert_fails(save(where=os.path.join(folder, "deeper")), "deeper cannot be written: ",
                  "No such file")
@@ -269,6 +272,76 @@ def test_what_cannot_be_written_says_so_and_leaves_nothing():
     before = sorted(os.listdir(folder))
     assert_fails(save(), "holds files already")
     assert sorted(os.listdir(folder)) == before
+
+
+def replaced(scan, name, *changes):
+    """A copy of a file of which bytes are replaced: (where, what)."""
+    with open(scan, "rb") as file:
+        content = bytearray(file.read())
+    for where, what in changes:
+        content[where:where + len(what)] = what
+    path = scratch(f"like-{name}.dcm")
+    with open(path, "wb") as file:
+        file.write(content)
+    return path
+
+
+def test_a_damaged_file_is_refused_and_nothing_is_lost():
+    array = numbers(numpy.int16)
+    source, folder, never = source_of(array), fresh("kept"), fresh("never")
+    brainshift.save_dicom(source, folder, like())
+    written = {name: open(os.path.join(folder, name), "rb").read() for name in os.listdir(folder)}
+    strokes = list(brainshift.soft(output(source).GetCenter(), (2.0, 1.5, -1.0), 12.0))
+    bent = FreeFormDeformation(Input=source, Strokes=strokes)
+    view = view_along((0.3, -0.4, -1.0), output(source).GetCenter(), 60.0, half_height=9.0, size=64)
+    show_volume(bent, view, "Deformed Volume", [-32000, 0, 0, 0, 32000, 1, 1, 1],
+                [-32000, 0, 0.5, 0, 32000, 1, 0.5, 0])
+    shown, changed = picture(view), voxels(bent)
+    scan = data("pydicom-data", "emri_small_jpeg_ls_lossless.dcm")
+    with open(scan, "rb") as file:
+        content = file.read()
+    study = content.index(b"\x20\0\x0d\0UI")
+    name = content.index(b"\x10\0\x10\0PN")
+    sequence = (b"SQ\0\0\x14\0\0\0" b"\xfe\xff\0\xe0\x0c\0\0\0"  # of one item
+                b"\x10\0\x20\0LO\4\0004711")
+    for case, (spoiled, *words) in {
+            "a length": (replaced(scan, "length", (1057, b"\xe8")), "is damaged at byte 1058",
+                         "of 42834", "its length is wrong"),
+            "no study": (replaced(scan, "study", (study + 2, b"\x0c")), "has no study (0020,000D)"),
+            "a byte": (replaced(scan, "byte", (content.index(b"ISO_IR 100") + 4, b"\0")),
+                       "has the byte 0 in its attribute (0008,0005)", "in ASCII (CS)"),
+            "a sequence": (replaced(scan, "sequence", (name + 4, sequence)),
+                           "has a sequence as its attribute (0010,0010)"),
+    }.items():
+        print(case, flush=True)
+        for where in (never, folder):
+            assert_fails(lambda: brainshift.save_dicom(source, where, spoiled),  # noqa: B023
+                         f"Like is {spoiled}, which ", "choose another image", *words)
+    assert not os.path.exists(never)
+    assert_nothing_left(folder)
+    assert {name: open(os.path.join(folder, name), "rb").read()
+            for name in os.listdir(folder)} == written
+    assert list(bent.Strokes) == strokes and numpy.array_equal(voxels(bent), changed)
+    assert numpy.array_equal(picture(view), shown)
+    for proxy in (view, bent):
+        Delete(proxy)
+
+
+def test_values_that_cannot_be_kept_are_refused():
+    """A sequence in place of a text, and a text whose length does not fit into 16 bits."""
+    source, scan = source_of(numbers(numpy.int16)), pydicom.dcmread(like(implicit=True))
+    path = scratch("like-long.dcm")
+    for letters in (65534, 65536, 1 << 21):
+        scan.PatientName = "A" * letters
+        scan.save_as(path, write_like_original=False)
+        folder = fresh("long")
+        if letters > 65534:
+            assert_fails(lambda: brainshift.save_dicom(source, folder, path),
+                         f"has {letters} bytes in its attribute (0010,0010)", "at most 65534")
+            assert not os.path.exists(folder)
+        else:
+            brainshift.save_dicom(source, folder, path)
+            assert str(slices_of(folder)[0].PatientName) == scan.PatientName
 
 
 def test_a_full_disk_leaves_no_series():

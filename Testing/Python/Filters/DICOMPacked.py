@@ -126,7 +126,7 @@ def test_frames_of_16_bits_with_the_cosine_transform_are_refused():
     frame = encode_transformed(pixels, 12).replace(b"\xff\xc1\0\x0b\x0c", b"\xff\xc1\0\x0b\x10")
     numbers, told = read(with_frame("sixteen", pixels, frame, EXTENDED))
     assert numbers is None
-    assert_says(told, "cosine transform of 16 bits")
+    assert_says(told, "a DCT of 16 bits")
 
 
 def replaced(frame, marker, change):
@@ -149,25 +149,24 @@ def test_damaged_jpeg_frames_end_in_a_sentence():
         "progressive": (replaced(frame, 0xc3, lambda old: segment(0xc2, old)), "progressive"),
         "two headers": (replaced(frame, 0xc3, lambda old: 2 * segment(0xc3, old)), "two headers"),
         "a byte too many": (replaced(frame, 0xfe, lambda old: segment(0xfe, old) + b"\0"),
-                            "ends before its pixels"),
-        "no codes": (replaced(frame, 0xc4, lambda old: b""), "no table of codes"),
+                            "ends before its scan"),
+        "no codes": (replaced(frame, 0xc4, lambda old: b""), "lacks a Huffman table"),
         "too many codes": (replaced(frame, 0xc4, lambda old: segment(
-            0xc4, b"\0\3" + bytes(15) + b"\0\1\2")), "a table of codes cannot be"),
+            0xc4, b"\0\3" + bytes(15) + b"\0\1\2")), "a Huffman table is invalid"),
         "predictor 8": (replaced(frame, 0xda, lambda old: segment(
-            0xda, old[:3] + b"\x08" + old[4:])), "predictor"),
+            0xda, old[:3] + b"\x08" + old[4:])), "its predictor is 8"),
         "restarts inside rows": (replaced(frame, 0xdd, lambda old: segment(0xdd, b"\0\7")),
-                                 "its codes"),
-        "no restart": (frame.replace(b"\xff\xd3", b"\xff\xd5"), "its codes"),
-        "half": (frame[:len(frame) // 2], "its codes"),
-        "the header alone": (frame[:30], "ends before its pixels"),
-        "nothing": (b"\xff\xd8", "ends before its pixels"),
-        "JPEG 2000": (b"\xff\x4f" + frame, "does not begin as JPEG"),
+                                 "its restart interval is 7 samples", "its 41 columns"),
+        "no restart": (frame.replace(b"\xff\xd3", b"\xff\xd5"), "its Huffman data"),
+        "half": (frame[:len(frame) // 2], "its Huffman data ends or is invalid"),
+        "the header alone": (frame[:30], "ends before its scan"),
+        "nothing": (b"\xff\xd8", "ends before its scan"),
+        "JPEG 2000": (b"\xff\x4f" + frame, "does not begin with the marker of an image"),
     }
-    for name, (damaged, words) in cases.items():
+    for name, (damaged, *words) in cases.items():
         numbers, told = read(with_frame("damaged", pixels, damaged, LOSSLESS))
         assert numbers is None, name
-        assert_says(told, "frame.dcm cannot be read")
-        assert_says(told, words)
+        assert_says(told, "frame.dcm cannot be read", *words)
 
 
 def frame_of(pixels, option):

@@ -89,7 +89,7 @@ def test_align_warns_beyond_what_was_tested():
         warnings.simplefilter("always")
         found = brainshift.align(compare)
     assert found.shift > 24, found.shift
-    assert any("Nobody has tested this" in str(one.message) for one in said), said
+    assert any("Align is tested only from" in str(one.message) for one in said), said
     compare = simple.CompareVolumes(Input=rest, Reference=rest, ReferenceTranslation=(6, 0, 0))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -102,6 +102,12 @@ def test_a_callback_stops_align():
     found = brainshift.align(compare, callback=lambda progress: progress.steps < 2)
     assert found.steps == 2 and not found.finished
     assert numpy.linalg.norm(compare.ReferenceTranslation) < 7.0
+
+
+def test_names_of_similarities_come_from_the_server():
+    known = brainshift.similarities()
+    assert list(known)[:3] == ["auto", "same contrast", "ultrasound"], known
+    assert all(text.endswith(".") for text in known.values()), known
 
 
 def test_refine_finds_a_known_bend():
@@ -226,12 +232,25 @@ def test_without_overlap_nothing_changes():
     strokes = tuple(brainshift.soft(MIDDLE, (2, 0, 0), 30.0))
     bent = simple.FreeFormDeformation(Input=rest, Strokes=strokes)
     before = sorted(simple.GetSources())
-    refuses(lambda: brainshift.refine(bent, away), "nothing in common")
+    refuses(lambda: brainshift.refine(bent, away), "do not overlap")
     assert tuple(bent.Strokes) == strokes and not bent.Lattice, bent.Lattice
     assert sorted(simple.GetSources()) == before, simple.GetSources()
     compare = simple.CompareVolumes(Input=bent, Reference=away)
     refuses(lambda: brainshift.align(compare), "at least 25 % must")
     assert list(compare.ReferenceTranslation) == [0.0, 0.0, 0.0], compare.ReferenceTranslation
+
+
+def test_little_overlap_is_warned_of():
+    rest = rest_volume()
+    aside = volume(tissue(*places()).astype(numpy.float32), spacing=SPACING,
+                   origin=(0.55 * SIDE * SPACING[0], 0.0, 0.55 * SIDE * SPACING[2]))
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        found = brainshift.refine(simple.FreeFormDeformation(Input=rest), aside,
+                                  callback=lambda progress: False)
+    assert 0.0 < found.compared < 0.25, found.compared
+    expected = f"Only {100 * found.compared:.0f} % of the volume has a partner"
+    assert any(expected in str(one.message) for one in said), [str(one.message) for one in said]
 
 
 def test_a_lattice_of_the_wrong_size_is_an_error():

@@ -35,7 +35,7 @@ PARAMETERS = """
 (FixedImagePyramid "FixedSmoothingImagePyramid")
 (MovingImagePyramid "MovingSmoothingImagePyramid")
 (ImageSampler "RandomCoordinate")
-(NumberOfSpatialSamples 8000)
+(NumberOfSpatialSamples 2048)
 (NewSamplesEveryIteration "true")
 (Interpolator "LinearInterpolator")
 (ResampleInterpolator "FinalLinearInterpolator")

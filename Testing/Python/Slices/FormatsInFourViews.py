@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that one head as NIfTI, NRRD, MetaImage, DICOM, MINC2 and FreeSurfer file, its voxels in
-# any order, gives the same four views and the same letters: not one pixel differs.
+# one of three orders, gives the same four views and the same letters: not one pixel differs. That
+# a format's readers place voxels of all 48 orders is proved with numbers, by the tests of Filters.
 import head_files
 import nibabel
 import numpy
@@ -48,10 +49,10 @@ def differing(found, expected):
     return {key: int((found[key] != expected[key]).any(axis=2).sum()) for key in expected}
 
 
-def assert_all_the_same(kinds, affine, orders):
-    """Files of some writers, in some orders of axes each, show what one NIfTI file shows."""
+def assert_all_the_same(affine, orders_of):
+    """Files of the writers, each in its orders of axes, show what one NIfTI file shows."""
     expected = four_pictures(WRITERS["NIfTI by nibabel"](VOXELS, affine))
-    for kind in kinds:
+    for kind, orders in orders_of.items():
         for order in orders:
             turned = head_files.reordered(VOXELS, affine, head_files.ORDERS[order])
             name = WRITERS[kind](*turned)
@@ -76,12 +77,14 @@ def test_there_is_something_to_compare():
 
 
 def test_every_format_gives_the_same_views():
-    assert_all_the_same(WRITERS, AFFINE, head_files.ORDERS)
+    names = list(head_files.ORDERS)  # in turn, so that the two writers of a format differ
+    orders_of = {kind: [names[i % len(names)]] for i, kind in enumerate(WRITERS)}
+    assert_all_the_same(AFFINE, {**orders_of, "NIfTI by nibabel": names})
 
 
 def test_a_tilted_scan_looks_the_same_too():
     kinds = [kind for kind in WRITERS if kind != FREESURFER]
-    assert_all_the_same(kinds, head_files.OBLIQUE, ["to the left"])
+    assert_all_the_same(head_files.OBLIQUE, {kind: ["to the left"] for kind in kinds})
 
 
 def stated_by(name):

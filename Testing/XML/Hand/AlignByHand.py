@@ -4,8 +4,7 @@ pictures on the way; that Stop keeps what is reached as one step to undo, and Es
 without one; that a state has the result; that a hand comes first; and that it ends with a sentence
 when something is missing, is changed or goes away.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import os
 
 import brainshift

@@ -3,8 +3,7 @@
 keys. Each stroke is one step of undo, and nothing is lost when things disappear under the hand.
 Then a script gets the same strokes and the same picture by properties alone.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script, and then pvpython, which judges."""
 import json
 import math
 import os
@@ -122,7 +121,9 @@ def stamp():
     settle()
     first_is(3.0)
     has(brainshift.STAMP)
-    hand.wheel(middle(), 2)
+    beside = [middle()[0] + 2, middle()[1] + 1]  # a resting hand trembles
+    hand.hover(beside)
+    hand.wheel(beside, 2)
     settle()
     first_is(5.0)
     has(brainshift.STAMP)

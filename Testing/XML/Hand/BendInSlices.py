@@ -4,8 +4,7 @@ act on lies in the slice under the cursor and moves within it, whichever view is
 views follow at once; the wheel is the stamp's over the slice only. And that they do in a parallel
 3D view.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import math
 
 import brainshift

@@ -3,8 +3,7 @@
 to it, drags with each tool in 3D and in a slice, live, and takes back what it did. The panel offers
 the series of a DICOM folder of the server.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 
 import brainshift
 import numpy

@@ -3,14 +3,10 @@
 until it is pressed again, of what the active view shows, and lets go of what is deleted or chosen
 meanwhile; and that the mouse drags the line of a wipe in a 2D view, and nothing else then.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
-import json
-import os
-import traceback
-
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import brainshift
 import test_hand as hand
+import window_testing as window
 from brainshift_testing import picture
 from paraview import simple
 
@@ -19,12 +15,6 @@ HALF = 12.0  # mm, half a view's height
 WIPE_X = 2.0
 FLICKER = "actionBrainShiftFlicker"
 MOST_WAITS = 200  # of 50 ms; what takes longer never comes
-
-told = {"failures": []}
-
-
-def told_file():
-    return os.path.join(os.environ["BRAINSHIFT_TEST_TEMP"], "CompareByHand.json")
 
 
 def compared(name, move):
@@ -136,36 +126,16 @@ def delete_while_it_flickers(first, second):
 
 
 def play():
-    try:
-        if os.path.exists(told_file()):
-            os.remove(told_file())
-        view = simple.GetActiveViewOrCreate("RenderView")
-        hand.resize(SIZE, SIZE)
-        first, second = compared("first", -4.0), compared("second", 4.0)
-        display = show(first, view)
-        hand.wait(100)
-        flicker_in_turn(first, second, view)
-        keep_what_was_chosen(first)
-        drag_the_wipe(view, display)
-        del display
-        delete_while_it_flickers(first, second)
-        told["done"] = True
-    except BaseException:
-        told["failures"].append(traceback.format_exc())
-    with open(told_file(), "w", encoding="utf-8") as file:
-        json.dump(told, file)
-    hand.quit()
+    view = simple.GetActiveViewOrCreate("RenderView")
+    hand.resize(SIZE, SIZE)
+    first, second = compared("first", -4.0), compared("second", 4.0)
+    display = show(first, view)
+    hand.wait(100)
+    flicker_in_turn(first, second, view)
+    keep_what_was_chosen(first)
+    drag_the_wipe(view, display)
+    del display
+    delete_while_it_flickers(first, second)
 
 
-def main():
-    with open(told_file(), encoding="utf-8") as file:
-        window = json.load(file)
-    assert not window["failures"], "\n".join(window["failures"])
-    assert window["done"]
-
-
-if __name__ == "__main__":
-    if hand.is_there():
-        play()
-    else:
-        main()
+window.main("CompareByHand", [(play,)])

@@ -4,8 +4,7 @@ picture has its tints, the legend is there in slices and in 3D, and the status l
 under the cursor; that another click takes tints and legend away; and that undo takes back the click
 and what it switched on.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import re
 
 import brainshift

@@ -4,8 +4,7 @@ natural colours. Filters of a volume share its colours, a stranger with an array
 does not, and a user's colours stay. Buttons of looks act at once and can be undone. They follow the
 array that colours the volume, and a stroke reads no volume for them. A mask covers nothing.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 
 import os
 

@@ -3,8 +3,7 @@
 as one step to undo, and zooms with Ctrl; that all three slices zoom together; that a double-click
 makes a view large and small again; and that four views asked for again make no second layout.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import brainshift
 import numpy
 import test_hand as hand

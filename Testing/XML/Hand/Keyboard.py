@@ -2,8 +2,7 @@
 """Proves that all that BrainShift adds to the panel of a Free-Form Deformation, and the tutorial,
 can be reached by the Tab key from top to bottom and tells screen readers its name.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import brainshift
 import test_hand as hand
 import window_testing as window

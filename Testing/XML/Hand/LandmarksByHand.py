@@ -5,8 +5,7 @@ fit, and a drag while picking is the camera's; that the table shows the filter's
 errors of pairs left out, marks the pair that fits worst, and lets a pair count or not by its tick;
 that each edit is one step to undo; that marks stand in the views; and that a state keeps the pairs.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import math
 
 import brainshift

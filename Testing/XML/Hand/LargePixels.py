@@ -2,8 +2,7 @@
 """Proves that on a screen at 200 % the stamp acts under the cursor, its outline is as wide to the
 eye as elsewhere, and neither the panel nor the tutorial is cut off.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import math
 
 import brainshift

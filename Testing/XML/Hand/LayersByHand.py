@@ -2,8 +2,7 @@
 """Proves that the panel lists the layers of a segmentation whose segments overlap, shows the chosen
 one after Apply, as one step of undo, and lists nothing for a volume without layers.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import numpy
 import test_hand as hand
 import volume_files

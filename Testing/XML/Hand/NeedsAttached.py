@@ -2,8 +2,7 @@
 """Proves that the panel greys the properties of a comparison while the volume carries no reference,
 and lets one edit them where it does. MaskByHand.xml proves the same of segments.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import numpy
 import test_hand as hand
 import window_testing as window

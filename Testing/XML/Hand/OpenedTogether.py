@@ -3,8 +3,7 @@
 first: the camera turns to the head, and no scale of colours is shown. A filter keeps the head's
 colours. One click on Brain shows the brain by the open mask. One undo takes that back.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 
 import os
 

@@ -3,8 +3,7 @@
 undo and redo, a next slice and another tool; and that the key I and the panel's button for the
 centre both act at once, without Apply, as one step of undo.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import brainshift
 import numpy
 import test_hand as hand

@@ -6,8 +6,7 @@ goes; that Reset All leaves the keyboard where it was; that the status line tell
 another volume than the one that the tool in hand works on, and one click switches to it without a
 stroke; and that a Deformation Field leaves the volume visible.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import brainshift
 import test_hand as hand
 import window_testing as window

@@ -4,8 +4,7 @@ server on loopback, draws the tip over a picture that is not cast anew, and tell
 Trace Distance tells. Held down, the key T records a trace that bends the brain, as one undo step.
 A server that dies gives one sentence.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import math
 import socket
 import struct
@@ -177,6 +176,21 @@ def measure_of(tip):
     return numpy.linalg.norm(numpy.asarray(tip) - MIDDLE) - RADIUS
 
 
+def touches_only_what_is_held_still():
+    window.server.go(MIDDLE + (1, 2, 14))
+    hand.wait(700)  # the tip rests for more than half a second
+    assert hand.click("BrainShiftPointerTouch")
+    assert not hand.label("BrainShiftPointerProblem"), hand.label("BrainShiftPointerProblem")
+    assert hand.cell("BrainShiftPointerPairs", 0, 0)[3], "what was touched"
+    for step in range(14):  # up and down by 10 mm
+        window.server.tip = MIDDLE + (1, 2, 14 + 10 * (step % 2))
+        hand.wait(50)
+    assert hand.click("BrainShiftPointerTouch")
+    assert "moved more than 2 mm" in hand.label("BrainShiftPointerProblem")
+    assert hand.click("BrainShiftPointerRemove")
+    window.server.go(MIDDLE + (1, 2, 14))
+
+
 def rms(points):
     """Root mean square distance (mm) of points to the bent cortex."""
     bent = window.deformation()
@@ -254,6 +268,30 @@ def is_one_step_to_undo():
     assert rms(points) < 0.5 * window.before, (window.before, rms(points))
 
 
+def undo_of_a_second_trace_leaves_the_first():
+    trace = simple.FindSource("Traced Points")
+    first, bend = list(trace.Points), displacement()
+    points = spiral() * (-1, 1, 1) + (2 * MIDDLE[0], 0, -1)
+    window.server.go(points[0])
+    hand.hover([50, 50])
+    hand.key_down(KEY_T)
+    until(lambda: "Recording" in hand.label("BrainShiftPointerRecorded"), "recording")
+    for point in points:
+        window.server.tip = point
+        hand.wait(40)
+    until(lambda: len(trace.Points) > len(first), "a longer trace while the key is down")
+    hand.key_up(KEY_T)
+    hand.wait(300)
+    both, further = list(trace.Points), displacement()
+    assert both[:len(first)] == first and len(both) >= len(first) + 3 * 20, (len(first), len(both))
+    assert further != bend and window.undo_labels()[0] == RECORD, (bend, window.undo_labels())
+    for name, held, moved in (("Undo", first, bend), ("Redo", both, further)):
+        window.action(name)
+        hand.wait(200)
+        assert list(trace.Points) == held, (name, len(trace.Points), len(held))
+        assert displacement() == moved, (name, displacement(), moved)
+
+
 def server_that_dies_gives_one_sentence():
     window.server.alive = False
     until(lambda: hand.label("BrainShiftPointerStatus") == "The server closed the connection.",
@@ -275,8 +313,10 @@ def play():
     yield (is_not_drawn_while_it_is_not_seen,)
     yield (casts_no_rays_for_the_tip,)
     yield (tells_the_distance,)
+    yield (touches_only_what_is_held_still,)
     yield (records_while_the_key_is_down,)
     yield (is_one_step_to_undo,)
+    yield (undo_of_a_second_trace_leaves_the_first,)
     yield (server_that_dies_gives_one_sentence,)
 
 

@@ -3,8 +3,7 @@
 the order does not matter, strokes stay on top, and each edit is one step of undo, the first one
 together with the fit that it makes. The list in the panel and a state file keep all of it.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import contextlib
 import os
 
@@ -164,6 +163,28 @@ def a_second_drag_moves_the_pull():
     assert numpy.linalg.norm(drawn(rest) - pulls()[0, 3:6]) < NEAR
     window.action("Undo")
     assert (pulls()[0, 3:6] == target).all(), pulls()
+
+
+def a_parallel_view_takes_it_from_nearby():
+    # Pixels are as many mm at any depth; a pull is taken from 12 of them away.
+    view = simple.GetActiveView()
+    view.CameraParallelProjection, view.CameraParallelScale = 1, 116.0
+    simple.Render(view)
+    hand.wait(200)
+    rest, target = pulls()[0, :3], pulls()[0, 3:6]
+    at = window.pixel_of(view, drawn(rest))
+    for away, is_near in (((4, 3), True), ((20, 20), False)):
+        start = [at[0] + away[0], at[1] + away[1]]
+        hand.drag(start, [start[0] - 6, start[1] - 4])
+        hand.wait(200)
+        assert len(pulls()) == (1 if is_near else 2), (away, pulls())
+        assert (pulls()[0, :3] == rest).all(), (away, pulls())
+        assert (pulls()[0, 3:6] != target).any() == is_near, (away, pulls())
+        window.action("Undo")
+        assert len(pulls()) == 1 and (pulls()[0, 3:6] == target).all(), (away, pulls())
+    view.CameraParallelProjection = 0
+    simple.Render(view)
+    hand.wait(100)
 
 
 def escape_drops_it():
@@ -339,7 +360,7 @@ def another_lattice_is_followed():
 
 window.main("PullByHand", [
     (open_head,), (tissue_follows_the_hand,), (the_first_pull_is_one_step,),
-    (a_second_drag_moves_the_pull,), (escape_drops_it,), (a_pin_holds,),
-    (the_order_does_not_matter,), (a_stroke_stays_on_top,), (the_list_edits,),
+    (a_second_drag_moves_the_pull,), (a_parallel_view_takes_it_from_nearby,), (escape_drops_it,),
+    (a_pin_holds,), (the_order_does_not_matter,), (a_stroke_stays_on_top,), (the_list_edits,),
     (settings_are_shared,), (slices_are_pulled_within,), (a_state_keeps_it,),
     (nothing_measured_bends_nothing,), (another_lattice_is_followed,)])

@@ -4,8 +4,7 @@ that Pause holds it, Stop keeps what is reached as one step to undo, and Escape 
 strokes back without one; that a state has the result; that a hand comes first; that a pull follows;
 and that it ends with a sentence when something is missing or goes away.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import os
 import re
 
@@ -144,7 +143,7 @@ def stop_keeps_it():
     for _ in range(20):
         hand.wait(20)
     assert hand.in_sight("BrainShiftRefineSaid"), "the user must scroll to see what came out"
-    for words in ("Disagreement: ", " mm at most", "Jacobian", "guard"):
+    for words in ("Cost: ", " mm at most", "Jacobian", "guard"):
         assert words in said(), (words, said())
     assert not hand.label("BrainShiftRefineWarning"), hand.label("BrainShiftRefineWarning")
     assert undo_labels() == (["Refine"] + kept["undo"])[:10], undo_labels()

@@ -3,8 +3,7 @@
 are installed, and plays it: a bent head and a bent brain, each drawn, with Strength at 1 at the
 end. ParaView 5.13 ends where the panel of a Programmable Filter meets pygments.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 
 import os
 import sys

@@ -4,8 +4,7 @@ stamp, + and - pull and push what lies under it, I sets the point of interest, a
 stroke. Space takes hold of tissue or of control points and lets go of them, as a mouse button does;
 Escape drops what is held.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import math
 
 import brainshift
@@ -87,6 +86,20 @@ def i_sets_the_point():
     assert math.dist(point, under) < NEAR, (point, under)
 
 
+def radii_stay_within_their_range():
+    """At least half the largest spacing of the control points, at most half the box's diagonal."""
+    bent = window.deformation()
+    bounds = bent.GetDataInformation().GetBounds()
+    sides = [bounds[2 * axis + 1] - bounds[2 * axis] for axis in range(3)]
+    spacing = max(side / (count - 1) for side, count in zip(sides, bent.LatticeDimensions))
+    for name in ("radius", "majorRadius", "minorRadius"):
+        before = hand.setting(name)
+        least, most = hand.setting(name, 0.001), hand.setting(name, 1e6)
+        hand.setting(name, before)
+        assert math.isclose(least, spacing / 2, rel_tol=1e-6), (name, least, spacing)
+        assert math.isclose(most, math.hypot(*sides) / 2, rel_tol=1e-6), (name, most, sides)
+
+
 def dragged_by(keys, pixels, tool):
     """The strokes of a drag by keys, and of the same drag by the mouse, each one undone."""
     made = []
@@ -151,6 +164,7 @@ def play():
     yield (the_first_arrow_brings_the_cursor,)
     yield (arrows_move_it,)
     yield (i_sets_the_point,)
+    yield (radii_stay_within_their_range,)
     yield (space_takes_hold,)
     yield (escape_drops_what_is_held,)
     yield (shift_selects_several,)

@@ -2,8 +2,7 @@
 """Proves that the cross beside the progress bar can be pressed while a DICOM series is read, that
 the series which was shown before stays, and that the cross is for nothing else.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import time
 
 import test_hand as hand

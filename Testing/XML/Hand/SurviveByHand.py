@@ -4,8 +4,7 @@ window: no data yet, a hidden volume, data replaced or gone, one of the four vie
 the filter's creation, two filters at once, a large lattice; and, last, the window closed in
 mid-drag. And that O shows the volume as loaded without a tool.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 
 import brainshift
 import test_hand as hand

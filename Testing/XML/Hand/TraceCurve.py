@@ -3,8 +3,7 @@
 point with each stamp, also while another panel is shown, goes back with undo and forth with redo,
 and a button measures after strokes that came at once, as from a state file, without a step to undo.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import math
 
 import numpy

@@ -2,8 +2,7 @@
 """Proves that the guided start leads a user through its seven steps in ParaView's window: it waits
 for what each asks, goes on when it is done, and can be skipped and left.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 
 import os
 

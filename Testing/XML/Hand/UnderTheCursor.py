@@ -6,8 +6,7 @@ say; the letters of the patient's sides where the axes are known; and nothing wh
 known. And that slices of the volume as loaded follow those of the bent one to the same tissue, and
 back.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import re
 
 import brainshift
@@ -126,6 +125,28 @@ def in_3d():
     assert text.startswith("x "), ("nobody knows the sides", text)
     check("alone", middle_of(scene["views"]["alone"], 8, 11), text)
     assert line_at((2, 2)) == "", "no tissue there"
+
+
+def nearest_of_two_volumes():
+    """Of two volumes under the cursor, the line describes the one that is nearer to the camera."""
+    view, bent = scene["views"]["alone"], scene["bent"]
+    before, focus = numpy.array(view.CameraPosition), numpy.array(view.CameraFocalPoint)
+    nearer = (before - focus) / numpy.linalg.norm(before - focus)
+    view.CameraPosition = focus + 300 * nearer
+    for way, expected in ((90, True), (-90, False)):
+        other = volume(pattern() + 300000, origin=AWAY + way * nearer)
+        display = simple.Show(other, view, "UniformGridRepresentation")
+        display.SetRepresentationType("Deformed Volume")
+        simple.ColorBy(display, ("POINTS", "Intensity"))
+        simple.SetActiveSource(bent)
+        simple.Render(view)
+        pixel = middle_of(view, 8, 11)
+        assert brainshift.pick(display, view, *pixel), "the cursor is over this one"
+        numbers = told(line_at(pixel))
+        assert (numbers["intensity"] > 3e5) == expected, (way, numbers)
+        simple.Delete(other)
+    view.CameraPosition = before
+    simple.Render(view)
 
 
 def four_views():
@@ -314,6 +335,6 @@ def not_bent():
 
 
 window.main("UnderTheCursor", [
-    (set_up,), (in_3d,), (four_views,), (letters_where_known,), (labels,),
-    (names_of_a_segmentation,), (names_of_a_label_map,), (never_stale,),
+    (set_up,), (in_3d,), (nearest_of_two_volumes,), (four_views,), (letters_where_known,),
+    (labels,), (names_of_a_segmentation,), (names_of_a_label_map,), (never_stale,),
     (same_tissue_in_the_unbent_volume,), (not_bent,)])

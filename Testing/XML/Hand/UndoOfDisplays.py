@@ -4,8 +4,7 @@ is drawn, and in which colours, in slices, in 3D and in four views, which follow
 ParaView's Python shell empties the undo stack at each command, so a test that is played from it
 cannot see this.
 
-ParaView's window runs this file as a script; what did not hold is written down for the pvpython
-that runs it afterwards."""
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import brainshift
 import test_hand as hand
 import window_testing as window

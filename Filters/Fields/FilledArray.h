@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief Numbers as the array that a server sends to a client.
+ */
+#ifndef BrainShift_FilledArray_h
+#define BrainShift_FilledArray_h
+
+#include "vtkDoubleArray.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace brainshift
+{
+/** The array, with these values instead of its own. */
+inline vtkDoubleArray* filled(vtkDoubleArray* array, const std::vector<double>& values)
+{
+  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  return array;
+}
+}
+
+#endif

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Squared local correlation (NCC) in small windows: both volumes have the same contrast, perhaps
+// inverted.
+#include "Filters/Register/Similarities/LocalFitSimilarity.h"
+
+namespace brainshift
+{
+namespace
+{
+// A mean squared correlation that begins below 0.8 has another cause than position: the contrast.
+constexpr double MostCost = 0.2;
+
+const Metric LocalCorrelationMetric = localFitMetric(false);
+}
+
+RefinementLevel localCorrelationAtTheEnd()
+{
+  return { &LocalCorrelationMetric, 1.3, MostCost };
+}
+
+Similarity describeLocalCorrelation()
+{
+  Similarity result;
+  result.name = "same contrast";
+  result.label = "Same contrast";
+  result.tooltip = "For two scans of one kind, perhaps inverted. Compares local correlation (NCC) "
+                   "alone, which takes less time.";
+  result.plan.levels = { { &LocalCorrelationMetric, 4.0 }, { &LocalCorrelationMetric, 2.0 },
+    localCorrelationAtTheEnd() };
+  return result;
+}
+}

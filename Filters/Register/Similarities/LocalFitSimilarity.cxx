@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Register/Similarities/LocalFitSimilarity.h"
+
+#include "Filters/Deformation/Parallel.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+
+namespace brainshift
+{
+namespace
+{
+constexpr float LeastWindow = 0.3f;            // fraction of its samples that a window must have
+constexpr float LeastVarianceFraction = 0.02f; // of the mean variance of a volume's windows
+constexpr float Ridge = 1e-4f;                 // variance (range 0 to 1) of a volume that is flat
+
+// Sums over a window, and what each window then leaves for its samples.
+enum Sum
+{
+  Count,
+  P,
+  PP,
+  V,
+  VV,
+  VP,
+  G,
+  GG,
+  PG,
+  VG,
+  Sums
+};
+constexpr int SumsWithoutSlope = G;
+
+// A sample's force is (Scale V - ScaleA P - ScaleB G - ScaleC - Loss V + LossMean) times the
+// reference's slope: the derivative of the costs of all windows that hold it.
+enum Left
+{
+  Scale,
+  ScaleA,
+  ScaleB,
+  ScaleC,
+  Loss,
+  LossMean,
+  Lefts
+};
+
+// `weights`: which values say what the range is; 1 or 0.
+void toFractions(std::vector<float>& values, const std::vector<float>& weights)
+{
+  std::vector<float> counting;
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    if (weights[i] > 0.0f)
+    {
+      counting.push_back(values[i]);
+    }
+  }
+  const Range range = rangeOf(counting);
+  for (float& value : values)
+  {
+    value = range.fraction(value);
+  }
+}
+
+std::vector<float> gradientLength(const Volume& volume)
+{
+  const Grid& grid = volume.grid;
+  std::vector<float> result(volume.values.size());
+  parallelFor(0, grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (int k = static_cast<int>(begin); k < end; ++k)
+    {
+      for (int j = 0; j < grid.dimensions.y; ++j)
+      {
+        for (int i = 0; i < grid.dimensions.x; ++i)
+        {
+          glm::vec3 slope;
+          for (int axis = 0; axis < 3; ++axis)
+          {
+            glm::ivec3 low(i, j, k);
+            glm::ivec3 high = low;
+            low[axis] = std::max(low[axis] - 1, 0);
+            high[axis] = std::min(high[axis] + 1, grid.dimensions[axis] - 1);
+            slope[axis] = (volume.values[grid.offset(high.x, high.y, high.z)] -
+                            volume.values[grid.offset(low.x, low.y, low.z)]) /
+              static_cast<float>(grid.spacing[axis] * (high[axis] - low[axis]));
+          }
+          result[grid.offset(i, j, k)] = glm::length(slope);
+        }
+      }
+    }
+  });
+  return result;
+}
+
+// The variance of what counts in each window.
+std::vector<float> windowVariances(const std::vector<float>& values, const Volume& weights)
+{
+  constexpr int Numbers = 3;
+  const glm::ivec3 sides = weights.grid.dimensions;
+  Block rows({ windowsAlong(sides.x), sides.y, sides.z }, Numbers);
+  parallelFor(0, sides.z, 1, [&](std::int64_t begin, std::int64_t end) {
+    std::vector<float> points(static_cast<std::size_t>(sides.x) * Numbers);
+    for (int k = static_cast<int>(begin); k < end; ++k)
+    {
+      for (int j = 0; j < sides.y; ++j)
+      {
+        std::size_t n = weights.grid.offset(0, j, k);
+        for (std::size_t i = 0; i < points.size(); i += Numbers, ++n)
+        {
+          points[i] = weights.values[n];
+          points[i + 1] = points[i] * values[n];
+          points[i + 2] = points[i + 1] * values[n];
+        }
+        gatherRow(points.data(), sides.x, Numbers, rows.row(j, k));
+      }
+    }
+  });
+  const Block windows = gathered(rows);
+  std::vector<float> variances;
+  for (std::size_t n = 0; n < windows.values.size(); n += Numbers)
+  {
+    const float count = std::max(1.0f, windows.values[n]);
+    const float mean = windows.values[n + 1] / count;
+    variances.push_back(std::max(0.0f, windows.values[n + 2] / count - mean * mean));
+  }
+  return variances;
+}
+
+// A variance below which a window is taken for flat.
+float leastVariance(const std::vector<float>& variances)
+{
+  const double sum = std::accumulate(variances.begin(), variances.end(), 0.0);
+  return std::max(Ridge, static_cast<float>(LeastVarianceFraction * sum / variances.size()));
+}
+}
+
+// What a comparison works with, sample by sample and window by window.
+struct LocalFitSimilarity::Work
+{
+  Work(const Grid& grid, int sums)
+    : value(grid.count())
+    , weight(grid.count(), 0.0f)
+    , slope(grid.count())
+    , rows({ windowsAlong(grid.dimensions.x), grid.dimensions.y, grid.dimensions.z }, sums)
+  {
+  }
+
+  void clear()
+  {
+    std::fill(this->weight.begin(), this->weight.end(), 0.0f);
+    std::fill(this->rows.values.begin(), this->rows.values.end(), 0.0f);
+  }
+
+  std::vector<float> value;     // of the reference at the samples
+  std::vector<float> weight;    // of the samples; 0: not compared
+  std::vector<glm::vec3> slope; // of the reference for each mm that the controls move
+  Block rows;                   // Sum, gathered along x alone
+  Block windows;                // Sum, then Left
+  std::vector<double> slabSums; // of the windows' cost
+  std::vector<double> slabCounts;
+};
+
+LocalFitSimilarity::~LocalFitSimilarity() = default;
+
+LocalFitSimilarity::LocalFitSimilarity(LevelVolumes level, const Lattice& lattice, bool withSlope)
+  : WithSlope(withSlope)
+  , Samples(level, lattice)
+  , Rest(std::move(level.rest.values))
+  , Reference(std::move(level.reference))
+{
+  toFractions(this->Rest, level.restWeights.values);
+  toFractions(this->Reference.values, level.referenceWeights.values);
+  this->LeastVariance =
+    leastVariance(windowVariances(this->Reference.values, level.referenceWeights));
+  const std::vector<float> variances = windowVariances(this->Rest, level.restWeights);
+  const float least = leastVariance(variances);
+  for (const float variance : variances)
+  {
+    this->Says.push_back(variance > least ? 1 : 0);
+  }
+  if (withSlope)
+  {
+    this->Slope = gradientLength({ level.rest.grid, this->Rest });
+    toFractions(this->Slope, level.restWeights.values);
+    this->Slope = this->Samples.read(this->Slope, 1);
+  }
+  this->Rest = this->Samples.read(this->Rest, 1);
+  this->leaveOutIdleSamples();
+}
+
+// Samples that no window needs do not count: the air around a head is most of many volumes.
+void LocalFitSimilarity::leaveOutIdleSamples()
+{
+  const glm::ivec3 sides = this->Samples.rows.samples().dimensions;
+  Block windows({ windowsAlong(sides.x), windowsAlong(sides.y), windowsAlong(sides.z) }, 1);
+  std::copy(this->Says.begin(), this->Says.end(), windows.values.begin());
+  const Block rows = spread(windows, sides);
+  std::vector<float> needed(sides.x);
+  for (int k = 0; k < sides.z; ++k)
+  {
+    for (int j = 0; j < sides.y; ++j)
+    {
+      spreadRow(rows.row(j, k), sides.x, 1, needed.data());
+      float* weights = &this->Samples.weights[this->Samples.rows.samples().offset(0, j, k)];
+      for (int i = 0; i < sides.x; ++i)
+      {
+        weights[i] = needed[i] > 0.0f ? weights[i] : 0.0f;
+      }
+    }
+  }
+  this->Samples.findStretches();
+}
+
+void LocalFitSimilarity::takeSample(const LevelSamples::Place& place, float* sums, Work& work) const
+{
+  const float w =
+    place.weight * trilinear(this->Samples.referenceWeights.values.data(), place.at).value;
+  if (w <= 0.0f)
+  {
+    return;
+  }
+  const std::size_t n = place.number;
+  const ValueAndSlope found = trilinear(this->Reference.values.data(), place.at);
+  const float p = this->Rest[n];
+  const float v = found.value;
+  work.weight[n] = w;
+  work.value[n] = v;
+  work.slope[n] = found.slope * this->Samples.stepsPerMm * place.freedom;
+  const float numbers[SumsWithoutSlope] = { w, w * p, w * p * p, w * v, w * v * v, w * v * p };
+  std::copy(numbers, numbers + SumsWithoutSlope, sums);
+  if (this->WithSlope)
+  {
+    const float g = this->Slope[n];
+    const float more[Sums - G] = { w * g, w * g * g, w * p * g, w * v * g };
+    std::copy(more, more + (Sums - G), sums + G);
+  }
+}
+
+void LocalFitSimilarity::takeSamples(const std::vector<glm::vec3>& displacements, Work& work) const
+{
+  const LevelSamples& samples = this->Samples;
+  const glm::ivec3 sides = samples.rows.samples().dimensions;
+  const int numbers = work.rows.numbers;
+  samples.rows.visitRows(displacements, [&](const SampleRow& row) {
+    const std::size_t first = samples.rows.samples().offset(0, row.j, row.k);
+    std::vector<float> sums(static_cast<std::size_t>(sides.x) * numbers, 0.0f);
+    const LevelSamples::Stretch& stretch =
+      samples.stretches[static_cast<std::size_t>(row.k) * sides.y + row.j];
+    samples.visitStretch(row, stretch, [&](const LevelSamples::Place& place) {
+      this->takeSample(place, &sums[(place.number - first) * numbers], work);
+    });
+    if (stretch.first < stretch.last)
+    {
+      gatherRow(sums.data(), sides.x, numbers, work.rows.row(row.j, row.k));
+    }
+    return false;
+  });
+  work.windows = gathered(work.rows);
+}
+
+void LocalFitSimilarity::fitWindow(float* numbers, bool counts, double& sum, double& windows) const
+{
+  const float samples = numbers[Count];
+  const float side = 2 * WindowRadius + 1;
+  float left[Lefts] = {};
+  if (counts && samples > LeastWindow * side * side * side)
+  {
+    const float p = numbers[P] / samples;
+    const float v = numbers[V] / samples;
+    const float pp = numbers[PP] / samples - p * p + Ridge;
+    const float vp = numbers[VP] / samples - v * p;
+    const float vv = std::max(0.0f, numbers[VV] / samples - v * v);
+    float a = vp / pp;
+    float b = 0.0f;
+    float g = 0.0f;
+    float explained = a * vp;
+    if (this->WithSlope)
+    {
+      g = numbers[G] / samples;
+      const float gg = numbers[GG] / samples - g * g + Ridge;
+      const float pg = numbers[PG] / samples - p * g;
+      const float vg = numbers[VG] / samples - v * g;
+      const float determinant = pp * gg - pg * pg; // above 0 by the ridges
+      a = (vp * gg - vg * pg) / determinant;
+      b = (vg * pp - vp * pg) / determinant;
+      explained = a * vp + b * vg;
+    }
+    // A window without variance says nothing: its cost is 1, whatever moves.
+    const float all = vv + this->LeastVariance;
+    const float unexplained = std::max(0.0f, all - explained);
+    sum += unexplained / all;
+    windows += 1.0;
+    left[Scale] = 1.0f / (all * samples);
+    left[ScaleA] = left[Scale] * a;
+    left[ScaleB] = left[Scale] * b;
+    left[ScaleC] = left[Scale] * (v - a * p - b * g);
+    left[Loss] = left[Scale] * unexplained / all;
+    left[LossMean] = left[Loss] * v;
+  }
+  std::copy(left, left + Lefts, numbers);
+}
+
+void LocalFitSimilarity::fitWindows(Work& work) const
+{
+  const Grid& grid = this->Samples.rows.samples();
+  const glm::ivec3 sides = work.windows.dimensions;
+  work.slabSums.assign(sides.z, 0.0);
+  work.slabCounts.assign(sides.z, 0.0);
+  parallelFor(0, sides.z, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (int k = static_cast<int>(begin); k < end; ++k)
+    {
+      for (int j = 0; j < sides.y; ++j)
+      {
+        float* numbers = work.windows.row(j, k);
+        const std::size_t middle = grid.offset(0, WindowStride * j, WindowStride * k);
+        const char* says = &this->Says[(static_cast<std::size_t>(k) * sides.y + j) * sides.x];
+        for (int i = 0; i < sides.x; ++i, numbers += work.windows.numbers)
+        {
+          this->fitWindow(numbers, says[i] && work.weight[middle + WindowStride * i] > 0.0f,
+            work.slabSums[k], work.slabCounts[k]);
+        }
+      }
+    }
+  });
+  work.windows = spread(work.windows, grid.dimensions);
+}
+
+ControlForces LocalFitSimilarity::takeForces(
+  const std::vector<glm::vec3>& displacements, const Work& work) const
+{
+  const LevelSamples& samples = this->Samples;
+  const Grid& grid = samples.rows.samples();
+  const int numbers = work.windows.numbers;
+  return samples.rows.visitRows(displacements, [&](const SampleRow& row) {
+    const LevelSamples::Stretch stretch =
+      samples.stretches[static_cast<std::size_t>(row.k) * grid.dimensions.y + row.j];
+    if (stretch.first >= stretch.last)
+    {
+      return false;
+    }
+    std::vector<float> lefts(static_cast<std::size_t>(grid.dimensions.x) * numbers);
+    spreadRow(work.windows.row(row.j, row.k), grid.dimensions.x, numbers, lefts.data());
+    for (int i = stretch.first; i < stretch.last; ++i)
+    {
+      const std::size_t n = grid.offset(i, row.j, row.k);
+      const float weight = work.weight[n];
+      if (weight <= 0.0f)
+      {
+        continue;
+      }
+      const float* left = &lefts[static_cast<std::size_t>(i) * numbers];
+      const float slopePart = this->WithSlope ? left[ScaleB] * this->Slope[n] : 0.0f;
+      const float down = -weight *
+        ((left[Scale] - left[Loss]) * work.value[n] - left[ScaleA] * this->Rest[n] - slopePart -
+          left[ScaleC] + left[LossMean]);
+      const float curve = weight * left[Scale];
+      const glm::vec3& s = work.slope[n];
+      const float force[ForceNumbers] = { down * s.x, down * s.y, down * s.z, curve * s.x * s.x,
+        curve * s.y * s.y, curve * s.z * s.z, curve * s.x * s.y, curve * s.x * s.z,
+        curve * s.y * s.z };
+      LatticeRows::add(
+        row, samples.rows.tapsAt(0, samples.rows.position(i, row.j, row.k).x), force);
+    }
+    return true;
+  });
+}
+
+CostAndForces LocalFitSimilarity::compare(const std::vector<glm::vec3>& displacements)
+{
+  if (!this->Known)
+  {
+    const int sums = this->WithSlope ? Sums : SumsWithoutSlope;
+    this->Known = std::make_unique<Work>(this->Samples.rows.samples(), sums);
+  }
+  Work& work = *this->Known;
+  work.clear();
+  this->takeSamples(displacements, work);
+  this->fitWindows(work);
+  CostAndForces result =
+    averaged(work.slabSums, work.slabCounts, this->takeForces(displacements, work));
+  result.samples = std::accumulate(work.weight.begin(), work.weight.end(), 0.0);
+  result.possible = this->Samples.possible;
+  return result;
+}
+
+namespace
+{
+template <bool WithSlope>
+std::unique_ptr<Comparison> made(LevelVolumes level, const Lattice& lattice)
+{
+  return std::make_unique<LocalFitSimilarity>(std::move(level), lattice, WithSlope);
+}
+}
+
+Metric localFitMetric(bool withSlope)
+{
+  // A position between points is read from all of them.
+  const Support support{ 1, 1 };
+  return { support, LocalFitSimilarity::BytesPerPoint, withSlope ? &made<true> : &made<false> };
+}
+}

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Register/Similarities/SelfSimilarity.h"
+
+#include "Filters/Deformation/Parallel.h"
+#include "Filters/Register/Similarities/LocalFitSimilarity.h"
+#include "Filters/Register/Similarity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+namespace brainshift
+{
+namespace
+{
+// The local noise is not taken smaller or larger than so many times its mean.
+constexpr float LeastNoise = 0.01f;
+constexpr float LargestNoise = 1000.0f;
+
+// The six neighbours, two along each axis.
+glm::ivec3 neighbour(int number)
+{
+  glm::ivec3 offset(0);
+  offset[number / 2] = number % 2 ? -SelfSimilarityDistance : SelfSimilarityDistance;
+  return offset;
+}
+
+// The squared difference of two neighbours, added up over a box around each point.
+void compare(const Volume& volume, const glm::ivec3& a, const glm::ivec3& b, Volume& sums)
+{
+  const Grid& grid = volume.grid;
+  const glm::ivec3 last = grid.dimensions - 1;
+  parallelFor(0, grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (int k = static_cast<int>(begin); k < end; ++k)
+    {
+      for (int j = 0; j <= last.y; ++j)
+      {
+        const auto row = [&](const glm::ivec3& offset) {
+          return &volume.values[grid.offset(
+            0, std::clamp(j + offset.y, 0, last.y), std::clamp(k + offset.z, 0, last.z))];
+        };
+        const float* fromA = row(a);
+        const float* fromB = row(b);
+        float* to = &sums.values[grid.offset(0, j, k)];
+        for (int i = 0; i <= last.x; ++i)
+        {
+          const float difference =
+            fromA[std::clamp(i + a.x, 0, last.x)] - fromB[std::clamp(i + b.x, 0, last.x)];
+          to[i] = difference * difference;
+        }
+      }
+    }
+  });
+  boxSum(sums, glm::ivec3(SelfSimilarityRadius));
+}
+
+// Turns sums of squares into numbers from 0 to 1, where 1 is the most alike pair.
+void normalise(float* numbers, float meanNoise)
+{
+  float sum = 0.0f;
+  float least = numbers[0];
+  for (int pair = 0; pair < SelfSimilarityNumbers; ++pair)
+  {
+    sum += numbers[pair];
+    least = std::min(least, numbers[pair]);
+  }
+  const float noise =
+    std::clamp(sum / SelfSimilarityNumbers, LeastNoise * meanNoise, LargestNoise * meanNoise);
+  for (int pair = 0; pair < SelfSimilarityNumbers; ++pair)
+  {
+    numbers[pair] = noise > 0.0f ? std::exp((least - numbers[pair]) / noise) : 1.0f;
+  }
+}
+}
+
+std::vector<float> selfSimilarity(const Volume& volume)
+{
+  const std::int64_t count = static_cast<std::int64_t>(volume.values.size());
+  std::vector<float> result(volume.values.size() * SelfSimilarityNumbers);
+  Volume sums{ volume.grid, std::vector<float>(volume.values.size()) };
+  const std::int64_t slab = static_cast<std::int64_t>(volume.grid.offset(0, 0, 1));
+  std::vector<double> slabSums(volume.grid.dimensions.z, 0.0);
+  int pair = 0;
+  for (int a = 0; a < 6; ++a)
+  {
+    for (int b = a + 1; b < 6; ++b)
+    {
+      if (a / 2 == b / 2)
+      {
+        continue; // across the middle: it would compare with itself where the volume is symmetric
+      }
+      compare(volume, neighbour(a), neighbour(b), sums);
+      parallelFor(0, volume.grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t k = begin; k < end; ++k)
+        {
+          for (std::int64_t i = k * slab; i < (k + 1) * slab; ++i)
+          {
+            result[i * SelfSimilarityNumbers + pair] = sums.values[i];
+            slabSums[k] += sums.values[i];
+          }
+        }
+      });
+      ++pair;
+    }
+  }
+  const double all = std::accumulate(slabSums.begin(), slabSums.end(), 0.0);
+  const float meanNoise = static_cast<float>(all / result.size());
+  parallelFor(0, count, 1000, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      normalise(&result[i * SelfSimilarityNumbers], meanNoise);
+    }
+  });
+  return result;
+}
+
+namespace
+{
+constexpr int Lanes = 4; // numbers that a processor takes in one step
+constexpr int Channels = SelfSimilarityNumbers;
+static_assert(Channels % Lanes == 0, "every step is full");
+
+// Sums over the 12 numbers: squared difference, its products with the three slopes, and the
+// products of the slopes.
+constexpr int Sums = 10;
+
+// Adds the products of Lanes channels. The compiler turns each line into one instruction.
+inline void addProducts(
+  const float* difference, const float* x, const float* y, const float* z, float sums[][Lanes])
+{
+  for (int n = 0; n < Lanes; ++n)
+  {
+    sums[0][n] += difference[n] * difference[n];
+    sums[1][n] += x[n] * difference[n];
+    sums[2][n] += y[n] * difference[n];
+    sums[3][n] += z[n] * difference[n];
+    sums[4][n] += x[n] * x[n];
+    sums[5][n] += y[n] * y[n];
+    sums[6][n] += z[n] * z[n];
+    sums[7][n] += x[n] * y[n];
+    sums[8][n] += x[n] * z[n];
+    sums[9][n] += y[n] * z[n];
+  }
+}
+
+// `rest`: 12 numbers of a sample. `reference`: those of the first of eight neighbours.
+void compareNumbers(
+  const float* rest, const float* reference, const Neighbours& at, float sums[][Lanes])
+{
+  const std::size_t x = at.next[0] * Channels;
+  const std::size_t y = at.next[1] * Channels;
+  const std::size_t z = at.next[2] * Channels;
+  const glm::vec3 t = at.within;
+  for (int channel = 0; channel < Channels; channel += Lanes)
+  {
+    const float* v = reference + channel;
+    float difference[Lanes];
+    float slopeX[Lanes];
+    float slopeY[Lanes];
+    float slopeZ[Lanes];
+    for (int n = 0; n < Lanes; ++n)
+    {
+      const float d00 = v[x + n] - v[n];
+      const float d10 = v[x + y + n] - v[y + n];
+      const float d01 = v[x + z + n] - v[z + n];
+      const float d11 = v[x + y + z + n] - v[y + z + n];
+      const float v00 = v[n] + t.x * d00;
+      const float v10 = v[y + n] + t.x * d10;
+      const float v01 = v[z + n] + t.x * d01;
+      const float v11 = v[y + z + n] + t.x * d11;
+      const float d0 = d00 + t.y * (d10 - d00);
+      const float d1 = d01 + t.y * (d11 - d01);
+      const float low = v00 + t.y * (v10 - v00);
+      const float high = v01 + t.y * (v11 - v01);
+      slopeX[n] = d0 + t.z * (d1 - d0);
+      slopeY[n] = (v10 - v00) + t.z * ((v11 - v01) - (v10 - v00));
+      slopeZ[n] = high - low;
+      difference[n] = rest[channel + n] - (low + t.z * slopeZ[n]);
+    }
+    addProducts(difference, slopeX, slopeY, slopeZ, sums);
+  }
+}
+
+// The force of a sample (LatticeRows.h) and, returned, its squared difference.
+float forceOf(
+  const float sums[][Lanes], const glm::vec3& stepsPerMm, float weight, float freedom, float* force)
+{
+  float total[Sums];
+  for (int s = 0; s < Sums; ++s)
+  {
+    total[s] = sums[s][0] + sums[s][1] + sums[s][2] + sums[s][3];
+  }
+  const glm::vec3 slope = stepsPerMm * freedom;
+  for (int a = 0; a < 3; ++a)
+  {
+    force[a] = weight * total[1 + a] * slope[a];
+    force[3 + a] = weight * total[4 + a] * slope[a] * slope[a];
+  }
+  force[6] = weight * total[7] * slope.x * slope.y;
+  force[7] = weight * total[8] * slope.x * slope.z;
+  force[8] = weight * total[9] * slope.y * slope.z;
+  return total[0];
+}
+
+// Mean squared difference of the 12 numbers of both volumes.
+class SelfSimilarity : public Comparison
+{
+public:
+  /** For each point of a level: four times 12 numbers while it is prepared, and weights. */
+  static constexpr double BytesPerPoint = 208.0;
+
+  SelfSimilarity(LevelVolumes level, const Lattice& lattice)
+    : Level(std::move(level))
+    , Over(lattice)
+  {
+  }
+
+  bool prepare() override;
+  CostAndForces compare(const std::vector<glm::vec3>& displacements) override;
+
+private:
+  LevelVolumes Level; // while it is prepared
+  Lattice Over;       // the same
+  std::unique_ptr<const LevelSamples> Samples;
+  std::vector<float> Rest;      // at the samples; while it is prepared, at the points
+  std::vector<float> Reference; // at the points
+};
+
+bool SelfSimilarity::prepare()
+{
+  if (this->Reference.empty())
+  {
+    this->Reference = selfSimilarity(this->Level.reference);
+  }
+  else if (this->Rest.empty())
+  {
+    this->Rest = selfSimilarity(this->Level.rest);
+  }
+  else if (!this->Samples)
+  {
+    this->Samples = std::make_unique<const LevelSamples>(this->Level, this->Over);
+    this->Rest = this->Samples->read(this->Rest, Channels);
+    this->Level = {};
+    this->Over = {};
+  }
+  return this->Samples != nullptr;
+}
+
+CostAndForces SelfSimilarity::compare(const std::vector<glm::vec3>& displacements)
+{
+  const LevelSamples& samples = *this->Samples;
+  const Grid& grid = samples.rows.samples();
+  std::vector<double> rowSums(samples.stretches.size(), 0.0);
+  std::vector<double> rowWeights(samples.stretches.size(), 0.0);
+  ControlForces forces = samples.rows.visitRows(displacements, [&](const SampleRow& row) {
+    const std::size_t rowNumber = static_cast<std::size_t>(row.k) * grid.dimensions.y + row.j;
+    const LevelSamples::Stretch stretch = samples.stretches[rowNumber];
+    samples.visitStretch(row, stretch, [&](const LevelSamples::Place& place) {
+      const float weight =
+        place.weight * trilinear(samples.referenceWeights.values.data(), place.at).value;
+      if (weight > 0.0f)
+      {
+        float sums[Sums][Lanes] = {};
+        compareNumbers(&this->Rest[place.number * Channels],
+          &this->Reference[place.at.first * Channels], place.at, sums);
+        float force[ForceNumbers];
+        rowSums[rowNumber] +=
+          weight * forceOf(sums, samples.stepsPerMm, weight, place.freedom, force);
+        rowWeights[rowNumber] += weight;
+        LatticeRows::add(row, place.taps, force);
+      }
+    });
+    return stretch.first < stretch.last;
+  });
+  CostAndForces result = averaged(rowSums, rowWeights, std::move(forces));
+  result.possible = samples.possible;
+  return result;
+}
+
+const Metric SelfSimilarityMetric{
+  // A position between points is read from all of them.
+  { SelfSimilaritySupport.along + 1, SelfSimilaritySupport.across + 1 },
+  SelfSimilarity::BytesPerPoint,
+  [](LevelVolumes level, const Lattice& lattice) -> std::unique_ptr<Comparison> {
+    return std::make_unique<SelfSimilarity>(std::move(level), lattice);
+  },
+};
+}
+
+Similarity describeSelfSimilarity()
+{
+  Similarity result;
+  result.name = "auto";
+  result.label = "Auto (any contrast)";
+  result.tooltip =
+    "For volumes of any contrast. Compares self-similarity (SSC), and at the end local "
+    "correlation (NCC) if the volumes correlate.";
+  result.plan.levels = { { &SelfSimilarityMetric, 4.0 }, { &SelfSimilarityMetric, 2.0 },
+    localCorrelationAtTheEnd() };
+  return result;
+}
+}

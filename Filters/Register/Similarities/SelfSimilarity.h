@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief How the surroundings of a point resemble each other: 12 numbers that do not change with
+ *        contrast, brightness or inversion.
+ *
+ * Method: the self-similarity context (SSC) of Heinrich et al., MICCAI 2013. Each number compares
+ * two of the six neighbours at `SelfSimilarityDistance`.
+ */
+#ifndef BrainShift_SelfSimilarity_h
+#define BrainShift_SelfSimilarity_h
+
+#include "Filters/Deformation/Export.h"
+#include "Filters/Register/Volume.h"
+
+#include <vector>
+
+namespace brainshift
+{
+constexpr int SelfSimilarityNumbers = 12;
+constexpr int SelfSimilarityDistance = 2; ///< points between the middle and its neighbours
+constexpr int SelfSimilarityRadius = 1;   ///< points, of the boxes that are compared
+
+/** Points around a point that its numbers depend on. */
+constexpr Support SelfSimilaritySupport{ SelfSimilarityDistance + SelfSimilarityRadius,
+  SelfSimilarityRadius };
+
+/** The 12 numbers (0 to 1) of each point, beside each other. */
+BRAINSHIFT_DEFORMATION_EXPORT std::vector<float> selfSimilarity(const Volume& volume);
+}
+
+#endif

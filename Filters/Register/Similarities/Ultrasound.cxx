@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// LC2 in small windows: the reference is ultrasound inside a fan. Speckle pulls each position in a
+// random direction; the six numbers of a rigid motion average it out, so the volume moves as a
+// whole before it bends.
+#include "Filters/Register/Similarities/LocalFitSimilarity.h"
+
+namespace brainshift
+{
+namespace
+{
+// Deformations that are not there can fit speckle better.
+constexpr double SpeckleStiffness = 5.0;
+
+const Metric UltrasoundMetric = localFitMetric(true);
+}
+
+Similarity describeUltrasound()
+{
+  Similarity result;
+  result.name = "ultrasound";
+  result.label = "Ultrasound";
+  result.tooltip =
+    "For a reference that is ultrasound. LC2 explains it by the volume and its edges. "
+    "The volume moves as a whole before it bends. Tested on simulated ultrasound only.";
+  result.overlapOf = "the ultrasound fan";
+  result.plan.levels = { { &UltrasoundMetric, 2.0, 1.0, true },
+    { &UltrasoundMetric, 1.0, 1.0, true }, { &UltrasoundMetric, 1.0 } };
+  result.plan.stiffness = SpeckleStiffness;
+  result.plan.fan = FanLimits{};
+  return result;
+}
+}

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Interaction/Edits/LiveRun.h"
+
+#include "Interaction/Edits/LivePicture.h"
+#include "Interaction/Views/Reports.h"
+
+#include <pqApplicationCore.h>
+#include <pqPipelineSource.h>
+#include <pqServer.h>
+#include <pqServerManagerModel.h>
+
+#include <vtkCommand.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMSession.h>
+
+#include <QApplication>
+#include <QKeyEvent>
+
+namespace brainshift
+{
+LiveRun::LiveRun(pqPipelineSource* source)
+  : QObject(source)
+  , Source(source)
+{
+  this->Next.setSingleShot(true);
+  this->Next.setInterval(0);
+  this->connect(&this->Next, &QTimer::timeout, this, [this] {
+    if (this->Now == State::Running)
+    {
+      this->takeStep();
+    }
+  });
+  this->OfSource->Connect(source->getProxy(), vtkCommand::PropertyModifiedEvent, this,
+    SLOT(notice(vtkObject*, unsigned long, void*, void*)));
+  this->followApplication();
+}
+
+void LiveRun::followApplication()
+{
+  const auto abandonIf = [this](bool isGone) {
+    if (isGone && this->isActive())
+    {
+      this->abandon({}); // all proxies go
+    }
+  };
+  this->connect(qApp, &QCoreApplication::aboutToQuit, this, [abandonIf] { abandonIf(true); });
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  this->connect(model, &pqServerManagerModel::preServerRemoved, this,
+    [this, abandonIf](pqServer* server) { abandonIf(server == this->Source->getServer()); });
+  this->connect(model, &pqServerManagerModel::preSourceRemoved, this, [this](auto* source) {
+    if (this->isActive())
+    {
+      this->followRemoval(source);
+    }
+  });
+}
+
+vtkSMProxy* LiveRun::makeRun(vtkSMProxy* compared)
+{
+  this->Proxy = makeReport(compared, "RegistrationRun");
+  pointAt(this->Proxy, "Source", compared);
+  return this->Proxy;
+}
+
+QString LiveRun::beginRun(const char* command)
+{
+  this->Proxy->UpdateVTKObjects();
+  this->Proxy->InvokeCommand(command);
+  this->Proxy->UpdatePropertyInformation();
+  const QString problem = this->text("Problem");
+  return problem.isEmpty() ? QString() : problem + ".";
+}
+
+bool LiveRun::advance()
+{
+  if (!this->Proxy || !this->Proxy->GetSession()->GetIsAlive())
+  {
+    return false;
+  }
+  this->Proxy->InvokeCommand("Step");
+  this->Proxy->UpdatePropertyInformation();
+  return this->text("Problem").isEmpty();
+}
+
+double LiveRun::figure(const char* name) const
+{
+  return vtkSMPropertyHelper(this->Proxy, name).GetAsDouble();
+}
+
+QString LiveRun::text(const char* name) const
+{
+  return QString::fromUtf8(vtkSMPropertyHelper(this->Proxy, name).GetAsString());
+}
+
+std::vector<double> LiveRun::numbers(const char* name) const
+{
+  return vtkSMPropertyHelper(this->Proxy, name).GetDoubleArray();
+}
+
+void LiveRun::start()
+{
+  this->Problem = QString();
+  this->Now = State::Running;
+  qApp->installEventFilter(this);
+  this->Next.start();
+  Q_EMIT this->changed();
+}
+
+void LiveRun::stop()
+{
+  if (this->isActive())
+  {
+    this->keep(State::Kept);
+  }
+}
+
+void LiveRun::cancel(const QString& problem)
+{
+  if (this->isActive())
+  {
+    this->restore();
+    this->end(State::Idle, problem);
+  }
+}
+
+void LiveRun::end(State end, const QString& problem)
+{
+  qApp->removeEventFilter(this);
+  this->Next.stop();
+  this->release();
+  this->Proxy = nullptr;
+  this->Now = end;
+  this->Problem = problem;
+  drawFully(this->Source);
+  Q_EMIT this->changed();
+}
+
+void LiveRun::giveWay(bool begins)
+{
+  if (begins)
+  {
+    this->stop();
+  }
+}
+
+void LiveRun::notice(vtkObject* proxy, unsigned long, void*, void* name)
+{
+  if (this->isActive() && !this->Writing)
+  {
+    this->followChange(proxy, static_cast<const char*>(name));
+  }
+}
+
+bool LiveRun::eventFilter(QObject* watched, QEvent* event)
+{
+  const bool isKey = event->type() == QEvent::ShortcutOverride || event->type() == QEvent::KeyPress;
+  if (isKey && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape && this->isActive() &&
+    !QApplication::activeModalWidget() && !QApplication::activePopupWidget())
+  {
+    if (event->type() == QEvent::KeyPress)
+    {
+      this->cancel();
+    }
+    event->accept(); // or a shortcut of the window comes first
+    return true;
+  }
+  return QObject::eventFilter(watched, event);
+}
+}

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// A registration that runs in the window: a part of a step for each turn of the event loop, beside
+/// the data, which may be on a server. Align and Refine differ in what a step shows, keeps and puts
+/// back. The undo stack sees nothing until the result is kept, as one step.
+#ifndef BrainShift_LiveRun_h
+#define BrainShift_LiveRun_h
+
+#include <vtkEventQtSlotConnect.h>
+#include <vtkNew.h>
+#include <vtkSMProxy.h>
+#include <vtkSmartPointer.h>
+
+#include <QObject>
+#include <QString>
+#include <QTimer>
+
+#include <vector>
+
+class pqPipelineSource;
+class vtkObject;
+
+namespace brainshift
+{
+class LiveRun : public QObject
+{
+  Q_OBJECT
+
+public:
+  enum class State
+  {
+    Idle,    ///< Nothing ran yet, or all is as it was before.
+    Running, ///< The timer takes steps.
+    Paused,
+    Kept,    ///< It was stopped, and what it had reached was kept.
+    Finished ///< It came to its end.
+  };
+
+  /// Ends it and keeps what was reached: one undo step, none if nothing has changed.
+  void stop();
+  /// Ends it and restores what was there before. The undo stack sees nothing.
+  void cancel(const QString& problem = {});
+
+  State state() const { return this->Now; }
+  bool isActive() const { return this->Now == State::Running || this->Now == State::Paused; }
+  /// Why it could not begin or why it ended early: a sentence. Empty if neither happened.
+  const QString& problem() const { return this->Problem; }
+
+  /// While it runs, Escape cancels it, wherever the keyboard is.
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+Q_SIGNALS:
+  /// State, figures or problem changed.
+  void changed();
+
+protected Q_SLOTS:
+  void notice(vtkObject* proxy, unsigned long event, void* clientData, void* name);
+
+protected:
+  explicit LiveRun(pqPipelineSource* source);
+
+  /// Makes a RegistrationRun of what a Compare Volumes compares, for its properties to be set.
+  vtkSMProxy* makeRun(vtkSMProxy* compared);
+  /// Begins it by a command. Returns why it cannot: a sentence; empty if it can.
+  QString beginRun(const char* command);
+  /// Takes a step, or a part of one. False if it failed or the server is gone.
+  bool advance();
+  /// Properties of the RegistrationRun, as of the last step.
+  double figure(const char* name) const;
+  QString text(const char* name) const;
+  std::vector<double> numbers(const char* name) const;
+
+  /// It runs from now on.
+  void start();
+  /// It ends; the pipeline stays as it is.
+  void end(State end, const QString& problem);
+  /// Whether a hand that begins in the meantime stops it.
+  void giveWay(bool begins);
+
+  /// Takes a step and shows it. Starts `Next`, unless it ended.
+  virtual void takeStep() = 0;
+  /// Keeps what was reached, then ends.
+  virtual void keep(State end) = 0;
+  /// Puts back what was there before.
+  virtual void restore() = 0;
+  /// Forgets what it holds while it is active.
+  virtual void release() = 0;
+  /// Another one changed a property of the source, or of another proxy that notice() hears.
+  virtual void followChange(vtkObject* proxy, const char* property) = 0;
+  /// A source is deleted soon.
+  virtual void followRemoval(pqPipelineSource* source) = 0;
+  /// It ends; what others have changed stays as they want it.
+  virtual void abandon(const QString& problem) { this->end(State::Idle, problem); }
+
+  pqPipelineSource* Source;
+  QTimer Next; ///< Takes the next step.
+  State Now = State::Idle;
+  QString Problem;
+  bool Writing = false; ///< This run changes something right now.
+
+private:
+  void followApplication();
+
+  vtkNew<vtkEventQtSlotConnect> OfSource;
+  vtkSmartPointer<vtkSMProxy> Proxy;
+};
+}
+
+#endif

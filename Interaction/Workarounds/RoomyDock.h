@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Makes the dock of ParaView's panel larger: wider by what the panel's contents lack, until the
+/// user resizes it, and once higher where the window is low. ParaView's own editor of colours is
+/// wider than the dock at first, and a bar would hide its last buttons.
+#ifndef BrainShift_RoomyDock_h
+#define BrainShift_RoomyDock_h
+
+#include <QObject>
+
+class QScrollArea;
+class QWidget;
+
+namespace brainshift
+{
+class RoomyDock : public QObject
+{
+  Q_OBJECT
+
+public:
+  /// Watches the panel that `part` is a part of, from when it is shown. If the user narrows the
+  /// dock later, it stays narrow.
+  explicit RoomyDock(QWidget* part);
+
+protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+  void watch();
+  void widen();
+
+  QWidget* const Part;
+  QScrollArea* Panel = nullptr; ///< Known when the part is shown for the first time.
+};
+}
+
+#endif

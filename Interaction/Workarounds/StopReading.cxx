@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Interaction/Workarounds/StopReading.h"
+
+#include "Filters/Readers/vtkVolumeFileReader.h"
+
+#include <pqApplicationCore.h>
+#include <pqPipelineSource.h>
+#include <pqProgressManager.h>
+#include <pqServerManagerModel.h>
+#include <vtkPVVersion.h>
+#include <vtkSMProxy.h>
+
+#include <QAbstractButton>
+#include <QApplication>
+#include <QMouseEvent>
+
+#include <vector>
+
+namespace brainshift
+{
+namespace
+{
+// Readers that read at this moment, in this process.
+std::vector<vtkVolumeFileReader*> readersAtWork()
+{
+  std::vector<vtkVolumeFileReader*> readers;
+  const pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  for (pqPipelineSource* source : model->findItems<pqPipelineSource*>())
+  {
+    auto* reader = vtkVolumeFileReader::SafeDownCast(source->getProxy()->GetClientSideObject());
+    if (reader && reader->GetIsReading())
+    {
+      readers.push_back(reader);
+    }
+  }
+  return readers;
+}
+
+bool isOnCross(const QMouseEvent& event)
+{
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    const auto* cross = window->findChild<QAbstractButton*>("AbortButton");
+    if (cross && cross->rect().contains(cross->mapFromGlobal(event.globalPosition().toPoint())))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+}
+
+StopReading::StopReading(QObject* parent)
+  : QObject(parent)
+  , Manager(pqApplicationCore::instance()->getProgressManager())
+{
+#if PARAVIEW_VERSION_MAJOR < 6 || (PARAVIEW_VERSION_MAJOR == 6 && PARAVIEW_VERSION_MINOR < 1)
+  this->connect(this->Manager, &pqProgressManager::progress, this, &StopReading::hear);
+  this->connect(this->Manager, &pqProgressManager::abort, this, &StopReading::stop);
+  this->connect(this->Manager, &pqProgressManager::progressEndEvent, this,
+    [this] { this->Manager->setEnableAbort(false); });
+#endif
+}
+
+void StopReading::hear()
+{
+  if (this->IsHearing || readersAtWork().empty())
+  {
+    return;
+  }
+  this->IsHearing = true;
+  this->Manager->setEnableAbort(true);
+  // ParaView would block a press before it knows which button it is for.
+  const bool wasUnblocked = this->Manager->unblockEvents(true);
+  QApplication::instance()->installEventFilter(this);
+  QApplication::processEvents();
+  QApplication::instance()->removeEventFilter(this);
+  this->Manager->unblockEvents(wasUnblocked);
+  this->IsHearing = false;
+}
+
+void StopReading::stop() const
+{
+  for (vtkVolumeFileReader* reader : readersAtWork())
+  {
+    reader->SetAbortExecuteAndUpdateTime();
+  }
+}
+
+// Nothing may draw or read while a reader is at work: timers fire again later.
+bool StopReading::eventFilter(QObject*, QEvent* event)
+{
+  switch (event->type())
+  {
+    case QEvent::MouseButtonPress:
+    case QEvent::MouseButtonRelease:
+    case QEvent::MouseButtonDblClick:
+      return !isOnCross(*static_cast<QMouseEvent*>(event));
+    case QEvent::Timer:
+    case QEvent::Wheel:
+    case QEvent::MouseMove:
+    case QEvent::HoverMove:
+    case QEvent::KeyPress:
+    case QEvent::KeyRelease:
+    case QEvent::Shortcut:
+    case QEvent::ShortcutOverride:
+    case QEvent::ContextMenu:
+    case QEvent::Close:
+    case QEvent::DragEnter:
+    case QEvent::DragMove:
+    case QEvent::Drop:
+      return true;
+    default:
+      return false;
+  }
+}
+}
