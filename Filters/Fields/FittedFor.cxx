@@ -199,7 +199,8 @@ Differences differencesOf(const FittedFor& fitted, const FittedFor& wanted)
       const char* comma = found.fitted.empty() ? "" : ", ";
       const std::string here = wordsOn(wanted);
       found.fitted += comma + wordsOn(fitted);
-      found.wanted += comma + (here == wordsOn(fitted) ? "another " + here.substr(2) : here);
+      found.wanted +=
+        comma + (here == wordsOn(fitted) ? "another" + here.substr(here.find(' ')) : here);
     }
   };
   add(fitted.dimensions != wanted.dimensions, wordsOnSides);

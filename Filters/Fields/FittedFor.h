@@ -4,9 +4,9 @@
  * @brief Attaches to a fitted lattice what it was fitted for, so that a deformation that takes it
  *        can say that the figures of the fit do not hold there.
  *
- * The field array FittedFor holds 14 numbers: LatticeDimensions (3), Kernel, Samples, first and last
- * corner of the box (6, mm, world axes), and of the mask its weights at the nodes of the refined
- * field as three sums (3): plain, and with two pseudo-random factors for each node. Without a mask
+ * The field array FittedFor holds 14 numbers: LatticeDimensions (3), Kernel, Samples, the first and
+ * the last corner of the box (6, mm, world axes), and three sums of the mask's weights at the nodes
+ * of the refined field (3): plain, and with two pseudo-random factors for each node. Without a mask
  * the sums are NaN. Older files have one string there, which is still read.
  */
 #ifndef BrainShift_FittedFor_h

@@ -119,8 +119,7 @@ protected:
    * until something that they depend on changes.
    *
    * @param mask   null or empty: no mask
-   * @return one sentence without a full stop on a setting or a mask that is wrong; empty if there is
-   *         none
+   * @return one sentence without a full stop on a setting or a mask that is wrong; otherwise empty
    */
   std::string MakeLattice(
     const brainshift::Grid& volume, vtkImageData* mask, brainshift::Lattice& lattice);

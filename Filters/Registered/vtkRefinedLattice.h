@@ -5,8 +5,9 @@
  *
  * Output: a lattice over the box of the input, an image with the point array Displacement (float32
  * x 3, mm, world axes, forward), to be the Lattice of a Free-Form Deformation with the same
- * LatticeDimensions and Kernel. Of the lattice's settings only LatticeDimensions count. The numbers are a property, so that a state file brings the result
- * back without running the refinement again.
+ * LatticeDimensions and Kernel. Of the settings of a lattice only LatticeDimensions count.
+ * The numbers are a property, so that a state file brings the result back without running the
+ * refinement again.
  */
 #ifndef vtkRefinedLattice_h
 #define vtkRefinedLattice_h

@@ -14,8 +14,8 @@ namespace brainshift
 /// Whether a source is a Free-Form Deformation.
 bool isDeformation(pqPipelineSource* source);
 
-/// Whether a property of a proxy is a setting of its lattice: Proxies/LatticeSettings.xml of Filters
-/// marks them. A lattice must share them with the deformation that takes it.
+/// Whether a property of a proxy is a setting of its lattice: LatticeSettings.xml marks them. A
+/// lattice must share them with the deformation that takes it.
 bool isLatticeSetting(vtkSMProxy* proxy, const char* property);
 /// Copies the input and the settings of the lattice from a deformation to a filter that makes a
 /// lattice for it, as far as that filter has them.

@@ -105,6 +105,10 @@ TEST(FittedFor, NamesEachSettingWithBothValues)
   aside.grid.origin.x += 1.0;
   expectIn(wordsOnFittedFor(fittedFor(still()), aside, Samples),
     "from -10 2 5 to -1 12 15 mm. This deformation has the box from -9 2 5 to 0 12 15");
+  Lattice hardlyAside = still();
+  hardlyAside.grid.origin.y += 4e-6; // more than rounding, less than the digits show
+  expectIn(wordsOnFittedFor(fittedFor(still()), hardlyAside, Samples),
+    "This deformation has another box from -10 2 5 to -1 12 15 mm");
 }
 
 TEST(FittedFor, JudgesFilesOfTheFormerVersion)
