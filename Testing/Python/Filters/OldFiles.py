@@ -109,15 +109,16 @@ def test_a_saved_lattice_of_the_old_version_is_judged_by_its_text():
             ("Kernel", "Catmull-Rom", "Kernel B-Spline", "Kernel Catmull-Rom"),
             ("Feather", 1.0, "a mask that lets", "a mask that lets"),
             ("Mask", None, "a mask that lets", "no mask")):
-        former = getattr(bent, name)
+        former = bent.Mask if name == "Mask" else SETTINGS[name]
         with messages() as said:
             setattr(bent, name, value)
             bent.UpdatePipeline()
         assert_says(said.text, f"was fitted for {fitted}")
         assert_says(said.text, f"This deformation has {here}")
-        with messages():
+        with messages() as said:
             setattr(bent, name, former)
             bent.UpdatePipeline()
+        assert "fitted for" not in said.text, (name, said.text)
 
 
 run_tests(globals())
