@@ -76,10 +76,13 @@ FittedFor fittedFor(const Lattice& lattice, int samples)
   if (lattice.mask && !lattice.mask->values.empty())
   {
     result.weights = glm::dvec3(0.0);
-    std::uint64_t node = 0;
-    for (const float weight : lattice.mask->values)
+    const std::vector<float>& values = lattice.mask->values;
+    for (std::size_t node = 0; node < values.size(); ++node)
     {
-      result.weights += double(weight) * factorsOf(node++);
+      if (values[node] != 0.0f) // most of a mask is empty
+      {
+        result.weights += double(values[node]) * factorsOf(node);
+      }
     }
   }
   return result;
