@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/Guard.h"
 
+#include "Common/Problem.h"
+
 #include "vtkExecutive.h"
 #include "vtkInformation.h"
 #include "vtkInformationExecutivePortVectorKey.h"
@@ -38,9 +40,25 @@ std::string thrownReason()
   }
 }
 
+std::string thrownSentence(const std::string& subject)
+{
+  try
+  {
+    throw;
+  }
+  catch (const Problem& problem)
+  {
+    return problem.what();
+  }
+  catch (...)
+  {
+    return subject + " " + thrownReason();
+  }
+}
+
 void reportThrown(vtkObject* object)
 {
-  vtkErrorWithObjectMacro(object, << object->GetClassName() << " " << thrownReason() << ".");
+  vtkErrorWithObjectMacro(object, << thrownSentence(object->GetClassName()) << ".");
 }
 
 void forgetExtents(vtkInformationVector* outputs)

@@ -22,6 +22,12 @@ namespace brainshift
 /** What the exception that is being handled says: the end of a sentence. Call it in a catch. */
 VTKBRAINSHIFTCOMMON_EXPORT std::string thrownReason();
 
+/**
+ * What the exception that is being handled says, as a sentence without a full stop: that of a
+ * Problem, or `subject` and thrownReason. Call it in a catch.
+ */
+VTKBRAINSHIFTCOMMON_EXPORT std::string thrownSentence(const std::string& subject);
+
 /** Reports an exception as an error of an object. Call it in a catch. */
 VTKBRAINSHIFTCOMMON_EXPORT void reportThrown(vtkObject* object);
 
@@ -44,6 +50,21 @@ std::string thrownBy(const Step& step)
   catch (...)
   {
     return thrownReason();
+  }
+}
+
+/** Runs a step. Returns what it threw as a sentence, see thrownSentence; empty if nothing. */
+template <typename Step>
+std::string sentenceThrownBy(const std::string& subject, const Step& step)
+{
+  try
+  {
+    step();
+    return {};
+  }
+  catch (...)
+  {
+    return thrownSentence(subject);
   }
 }
 

@@ -4,11 +4,9 @@
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Attached/MaskImage.h"
 #include "Filters/Attached/Segmentation.h"
 #include "Filters/Attached/SharedArray.h"
 #include "Filters/Deformation/LatticeExtremes.h"
-#include "Filters/Deformation/OffsetField.h"
 #include "Filters/Deformation/Replay.h"
 #include "Filters/Fields/BaseLattice.h"
 #include "Filters/Fields/FilledArray.h"
@@ -26,7 +24,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 
-#include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
@@ -50,7 +47,6 @@ struct vtkFreeFormDeformation::State
   bool IsProved = false; // the guard's limit holds for the last good deformation
   vtkNew<vtkDoubleArray> StrokeShares;
   vtkNew<vtkDoubleArray> StrokeReaches;
-  MaskSource Masks;
   SegmentationSource Segmentations;
   Segmentation LastSegmentation;
   StrokeMarker Marker;
@@ -71,6 +67,8 @@ struct vtkFreeFormDeformation::State
 
 namespace
 {
+constexpr int SegmentationPort = 3;
+
 std::string decimal(double number)
 {
   std::ostringstream text;
@@ -108,7 +106,7 @@ brainshiftGuardRequestsMacro(vtkFreeFormDeformation);
 vtkFreeFormDeformation::vtkFreeFormDeformation()
   : Internal(std::make_unique<State>())
 {
-  this->SetNumberOfInputPorts(4);
+  this->SetNumberOfInputPorts(SegmentationPort + 1);
 }
 
 vtkFreeFormDeformation::~vtkFreeFormDeformation() = default;
@@ -124,46 +122,19 @@ void vtkFreeFormDeformation::SetStrokeNumbers(const std::vector<double>& numbers
 
 void vtkFreeFormDeformation::SetLatticeConnection(vtkAlgorithmOutput* lattice)
 {
-  this->SetInputConnection(1, lattice);
-}
-
-void vtkFreeFormDeformation::SetMaskConnection(vtkAlgorithmOutput* mask)
-{
-  this->SetInputConnection(2, mask);
+  this->SetInputConnection(BasePort, lattice);
 }
 
 void vtkFreeFormDeformation::SetSegmentationConnection(vtkAlgorithmOutput* segmentation)
 {
-  this->SetInputConnection(3, segmentation);
-}
-
-void vtkFreeFormDeformation::AddMaskLabel(int label)
-{
-  this->MaskLabels.push_back(label);
-  this->Modified();
-}
-
-void vtkFreeFormDeformation::ClearMaskLabels()
-{
-  this->MaskLabels.clear();
-  this->Modified();
-}
-
-int vtkFreeFormDeformation::FillInputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
-  if (port > 0)
-  {
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-  }
-  return 1;
+  this->SetInputConnection(SegmentationPort, segmentation);
 }
 
 int vtkFreeFormDeformation::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   // The other inputs are read everywhere, whichever piece of the volume is asked for.
-  for (const int port : { 1, 2, 3 })
+  for (const int port : { BasePort, MaskPort, SegmentationPort })
   {
     updateWholeExtent(inputs[port]->GetInformationObject(0));
   }
@@ -189,8 +160,8 @@ int vtkFreeFormDeformation::RequestData(
     return 0;
   }
   const std::string thrown = thrownBy([&] {
-    problem = this->Bend(volumeGrid, vtkImageData::GetData(inputs[1]),
-      vtkImageData::GetData(inputs[2]), vtkImageData::GetData(inputs[3]));
+    problem = this->Bend(volumeGrid, vtkImageData::GetData(inputs[BasePort]),
+      vtkImageData::GetData(inputs[MaskPort]), vtkImageData::GetData(inputs[SegmentationPort]));
   });
   if (!thrown.empty())
   {
@@ -213,32 +184,11 @@ int vtkFreeFormDeformation::RequestData(
 
 std::string vtkFreeFormDeformation::ProblemOfProperties() const
 {
-  const glm::ivec3 sides(
-    this->LatticeDimensions[0], this->LatticeDimensions[1], this->LatticeDimensions[2]);
-  if (glm::any(glm::lessThan(sides, glm::ivec3(SmallestLatticeSide))) ||
-    glm::any(glm::greaterThan(sides, glm::ivec3(LargestLatticeSide))))
-  {
-    return "LatticeDimensions is " + triple(sides) + "; each side must have from " +
-      std::to_string(SmallestLatticeSide) + " to " + std::to_string(LargestLatticeSide) + " points";
-  }
-  if (this->Samples < SmallestSamples || this->Samples > LargestSamples)
-  {
-    return "Samples is " + std::to_string(this->Samples) + "; it must be from " +
-      std::to_string(SmallestSamples) + " to " + std::to_string(LargestSamples);
-  }
   const double* const interest = this->PointOfInterest;
   if (!std::all_of(interest, interest + 3, [](double mm) { return std::isfinite(mm); }))
   {
     return "PointOfInterest is " + decimal(interest[0]) + " " + decimal(interest[1]) + " " +
       decimal(interest[2]) + " mm; its numbers must be finite";
-  }
-  for (const auto& [name, mm] :
-    { std::pair("Feather", this->Feather), std::pair("MaskGrowth", this->MaskGrowth) })
-  {
-    if (!(mm >= 0.0 && std::isfinite(mm)))
-    {
-      return name + (" is " + decimal(mm)) + " mm; it must be 0 or more, and finite";
-    }
   }
   if (std::isnan(this->Strength))
   {
@@ -253,7 +203,7 @@ std::string vtkFreeFormDeformation::ReplayStrokes(
 {
   // CheckAbort would take the output away, and with it the last picture.
   Replay& replay = this->Internal->StrokeReplay;
-  replay.run(start, strokes, { this->GuardFolding, this->Samples }, [this](double share) {
+  replay.run(start, strokes, { this->GuardFolding, this->GetSamples() }, [this](double share) {
     this->UpdateProgress(share);
     return !this->GetAbortExecute();
   });
@@ -267,12 +217,9 @@ std::string vtkFreeFormDeformation::Bend(
   const Grid& volumeGrid, vtkImageData* base, vtkImageData* maskImage, vtkImageData* segments)
 {
   State& state = *this->Internal;
-  const glm::ivec3 sides(
-    this->LatticeDimensions[0], this->LatticeDimensions[1], this->LatticeDimensions[2]);
   if (!state.HasLastGood)
   {
-    const glm::ivec3 plain = glm::clamp(sides, SmallestLatticeSide, LargestLatticeSide);
-    state.LastGood.lattice = makeLattice(withDimensions(volumeGrid, plain), 0);
+    state.LastGood.lattice = makeLattice(this->LatticeGrid(volumeGrid), 0);
     state.HasLastGood = true;
   }
   std::string problem = this->ProblemOfProperties();
@@ -281,14 +228,9 @@ std::string vtkFreeFormDeformation::Bend(
     return problem;
   }
   const std::vector<Stroke> strokes = strokesFromNumbers(state.StrokeNumbers, problem);
-  Lattice start = makeLattice(withDimensions(volumeGrid, sides), this->Kernel != 0);
+  Lattice start;
+  problem = problem.empty() ? this->MakeLattice(volumeGrid, maskImage, start) : problem;
   problem = problem.empty() ? addBase(start, base) : problem;
-  if (problem.empty())
-  {
-    problem = state.Masks.find({ maskImage, this->MaskLabels, this->MaskGrowth, this->Feather,
-                                 volumeGrid, start.grid, this->Samples },
-      start.mask);
-  }
   Segmentation segmentation;
   if (problem.empty())
   {
@@ -303,17 +245,17 @@ std::string vtkFreeFormDeformation::Bend(
   {
     return problem;
   }
-  segmentation.chosen = segments ? std::vector<int>() : this->MaskLabels;
+  segmentation.chosen = segments ? std::vector<int>() : this->ChosenLabels();
   state.LastSegmentation = segmentation;
   Lattice result = state.StrokeReplay.result();
   std::swap(state.LastGood.lattice, result); // all of it or nothing
   state.TooFine = strokesTooFine(strokes, start.grid);
-  state.LastGood.samples = this->Samples;
+  state.LastGood.samples = this->GetSamples();
   state.LastGood.inverse =
     this->Inverse ? brainshift::Inverse::Negated : brainshift::Inverse::Exact;
   state.LastGood.strength = this->Strength;
   state.judgeBase(base, start);
-  const std::vector<double> settings{ double(this->GuardFolding), double(this->Samples),
+  const std::vector<double> settings{ double(this->GuardFolding), double(this->GetSamples()),
     double(this->Inverse), this->Strength };
   state.LastMarks = state.Marker.marksOf(start, settings, state.StrokeNumbers);
   state.MinimumJacobianKnown = false;
@@ -409,17 +351,10 @@ int vtkFreeFormDeformation::GetAppliedStrokes() const
 void vtkFreeFormDeformation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "LatticeDimensions: " << this->LatticeDimensions[0] << " "
-     << this->LatticeDimensions[1] << " " << this->LatticeDimensions[2] << "\n"
-     << indent << "Samples: " << this->Samples << "\n"
-     << indent << "Kernel: " << (this->Kernel ? "B-Spline" : "Catmull-Rom") << "\n"
-     << indent << "Inverse: " << (this->Inverse ? "Negated" : "Exact") << "\n"
+  os << indent << "Inverse: " << (this->Inverse ? "Negated" : "Exact") << "\n"
      << indent << "Strength: " << this->Strength << "\n"
      << indent << "PointOfInterest: " << this->PointOfInterest[0] << " " << this->PointOfInterest[1]
      << " " << this->PointOfInterest[2] << "\n"
-     << indent << "Feather: " << this->Feather << "\n"
-     << indent << "MaskGrowth: " << this->MaskGrowth << "\n"
-     << indent << "MaskLabels: " << this->MaskLabels.size() << "\n"
      << indent << "GuardFolding: " << this->GuardFolding << "\n"
      << indent << "Strokes: " << this->Internal->StrokeNumbers.size() / NumbersPerStroke << "\n";
 }

@@ -14,8 +14,7 @@
  *   array of three components (mm, world axes, forward). It is read at the control points, and
  *   strokes add to it. An array Deviation of a lattice with the same control points is attached,
  *   too, and counts how far strokes and Strength put tissue from where that lattice has it.
- * - Input 2 (optional): a mask, vtkImageData on any grid with labels or scalars. Only tissue inside
- *   it moves (MaskWeights.h).
+ * - Input 2 (optional): a mask, as in vtkLatticeAlgorithm, which has the lattice's settings.
  * - Input 3 (optional): a segmentation, vtkImageData on any grid with labels or scalars. It bends
  *   nothing. It is attached, so that "Deformed Volume" can draw chosen labels alone
  *   (Segmentation.h). Without it the mask is attached as the segmentation.
@@ -26,14 +25,13 @@
 #define vtkFreeFormDeformation_h
 
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
-#include "vtkPassInputTypeAlgorithm.h"
+#include "vtkLatticeAlgorithm.h"
 
 #include <memory> // for the private part
 #include <string> // for messages
-#include <vector> // for labels
+#include <vector> // for strokes
 
 class vtkDoubleArray;
-class vtkImageData;
 namespace brainshift
 {
 struct Grid;
@@ -41,32 +39,14 @@ struct Lattice;
 struct Stroke;
 }
 
-class VTKBRAINSHIFTFILTERS_EXPORT vtkFreeFormDeformation : public vtkPassInputTypeAlgorithm
+class VTKBRAINSHIFTFILTERS_EXPORT vtkFreeFormDeformation : public vtkLatticeAlgorithm
 {
 public:
   static vtkFreeFormDeformation* New();
-  vtkTypeMacro(vtkFreeFormDeformation, vtkPassInputTypeAlgorithm);
+  vtkTypeMacro(vtkFreeFormDeformation, vtkLatticeAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
   vtkTypeBool ProcessRequest(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-
-  ///@{
-  /** Control points along each axis of the volume, 4 to 257. Default 19 19 19. */
-  vtkSetVector3Macro(LatticeDimensions, int);
-  vtkGetVector3Macro(LatticeDimensions, int);
-  ///@}
-
-  ///@{
-  /** Nodes of the refined field between two control points, 0 to 16. Default 4. */
-  vtkSetMacro(Samples, int);
-  vtkGetMacro(Samples, int);
-  ///@}
-
-  ///@{
-  /** 0: Catmull-Rom through the control points (default); 1: uniform cubic B-spline. */
-  vtkSetMacro(Kernel, int);
-  vtkGetMacro(Kernel, int);
-  ///@}
 
   ///@{
   /** Factor on all displacements, 0 to 1. Default 1. */
@@ -114,37 +94,8 @@ public:
   /** The base lattice (input 1). */
   void SetLatticeConnection(vtkAlgorithmOutput* lattice);
 
-  /** The mask (input 2). */
-  void SetMaskConnection(vtkAlgorithmOutput* mask);
-
   /** The segmentation (input 3). */
   void SetSegmentationConnection(vtkAlgorithmOutput* segmentation);
-
-  ///@{
-  /** The labels of the mask that are inside. Default: none, which means every value above 0. */
-  void AddMaskLabel(int label);
-  void ClearMaskLabels();
-  ///@}
-
-  ///@{
-  /**
-   * Distance (mm) from the mask's edge over which the displacement rises from 0 to its full size; 0
-   * or more. Default 10. The edge is moved inwards to nodes of the refined field, by two of them at
-   * most.
-   */
-  vtkSetMacro(Feather, double);
-  vtkGetMacro(Feather, double);
-  ///@}
-
-  ///@{
-  /**
-   * Distance (mm) by which the mask grows before anything else is done with it; 0 or more. Default
-   * 0. It moves the feather out of tissue that is to move all the way, such as the cortex under a
-   * mask of the brain. The mask's image limits the growth.
-   */
-  vtkSetMacro(MaskGrowth, double);
-  vtkGetMacro(MaskGrowth, double);
-  ///@}
 
   /** Largest displacement (mm) of a control point; Strength is applied. */
   double GetMaximumDisplacement();
@@ -177,7 +128,6 @@ protected:
   vtkFreeFormDeformation();
   ~vtkFreeFormDeformation() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestUpdateExtent(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
   int RequestData(
@@ -187,16 +137,10 @@ private:
   vtkFreeFormDeformation(const vtkFreeFormDeformation&) = delete;
   void operator=(const vtkFreeFormDeformation&) = delete;
 
-  int LatticeDimensions[3] = { 19, 19, 19 };
-  int Samples = 4;
-  int Kernel = 0;
   int Inverse = 0;
   double Strength = 1.0;
   bool GuardFolding = true;
   double PointOfInterest[3] = { 0.0, 0.0, 0.0 };
-  double Feather = 10.0;
-  double MaskGrowth = 0.0;
-  std::vector<int> MaskLabels;
 
   // One sentence on a property that is wrong; empty if all are good.
   std::string ProblemOfProperties() const;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Names on a fitted lattice what it was fitted for, so that a deformation that takes it can
- *        say that the figures of the fit do not hold there.
+ * @brief Attaches to a fitted lattice what it was fitted for, so that a deformation that takes it
+ *        can say that the figures of the fit do not hold there.
  *
- * The field array FittedFor holds one string, for example "19 x 19 x 19 control points, kernel
- * Catmull-Rom, Samples 4, no mask".
+ * The field array FittedFor holds 14 numbers: LatticeDimensions (3), Kernel, Samples, the first and
+ * the last corner of the box (6, mm, world axes), and three sums of the mask's weights at the nodes
+ * of the refined field (3): plain, and with two pseudo-random factors for each node. Without a mask
+ * the sums are NaN. Older files have one string there, which is still read.
  */
 #ifndef BrainShift_FittedFor_h
 #define BrainShift_FittedFor_h
@@ -21,7 +23,7 @@ namespace brainshift
 struct Lattice;
 
 /** Attaches the array to a lattice. `samples`: nodes between two control points. */
-VTKBRAINSHIFTFILTERS_EXPORT void nameFittedFor(
+VTKBRAINSHIFTFILTERS_EXPORT void attachFittedFor(
   vtkDataObject* image, const Lattice& lattice, int samples);
 
 /**

@@ -41,14 +41,13 @@ using namespace brainshift;
 
 namespace
 {
-constexpr int RestPort = 1;
-constexpr int MeasuredPort = 2;
-constexpr int TracesPort = 3;
-constexpr int SegmentationPort = 4;
-constexpr int CavityPort = 5;
-constexpr int OpeningPort = 6;
-constexpr int MaskPort = 7;
-constexpr int BasePort = 8;
+// After those of every lattice.
+constexpr int RestPort = 3;
+constexpr int MeasuredPort = 4;
+constexpr int TracesPort = 5;
+constexpr int SegmentationPort = 6;
+constexpr int CavityPort = 7;
+constexpr int OpeningPort = 8;
 constexpr int Ports = 9;
 
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
@@ -65,7 +64,6 @@ struct vtkFitDeformation::State
   CortexSource Cortex;
   AnchorChoice Chosen;
   CavitySource CavityInput;
-  MaskSource Masks;
   Lattice Still; // its control points, with the mask
   std::shared_ptr<const FitBase> Base;
   Measurements Measured;
@@ -127,24 +125,40 @@ vtkFitDeformation::vtkFitDeformation()
 
 vtkFitDeformation::~vtkFitDeformation() = default;
 
+void vtkFitDeformation::AddLandmarkPair(double number)
+{
+  this->Append(this->Landmarks->Numbers, number);
+}
+
+void vtkFitDeformation::ClearLandmarkPairs()
+{
+  this->Clear(this->Landmarks->Numbers);
+}
+
+void vtkFitDeformation::AddLandmarkOff(const char* name)
+{
+  this->Append(this->Landmarks->SwitchedOff, std::string(name ? name : ""));
+}
+
+void vtkFitDeformation::ClearLandmarksOff()
+{
+  this->Clear(this->Landmarks->SwitchedOff);
+}
+
 int vtkFitDeformation::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(
-    vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), isOfPoints(port) ? "vtkPointSet" : "vtkImageData");
-  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), port != 0);
-  return 1;
+  const int done = this->Superclass::FillInputPortInformation(port, info);
+  if (isOfPoints(port))
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  }
+  return done;
 }
 
 int vtkFitDeformation::RequestInformation(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  const glm::ivec3 sides(
-    this->LatticeDimensions[0], this->LatticeDimensions[1], this->LatticeDimensions[2]);
-  announce(outputs->GetInformationObject(0),
-    withDimensions(wholeGridOf(inputs[0]->GetInformationObject(0)),
-      glm::clamp(sides, SmallestLatticeSide, LargestLatticeSide)));
-  outputs->GetInformationObject(0)->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
-  return 1;
+  return this->AnnounceLattice(inputs, outputs);
 }
 
 int vtkFitDeformation::RequestUpdateExtent(
@@ -168,15 +182,6 @@ int vtkFitDeformation::RequestUpdateExtent(
 
 std::string vtkFitDeformation::ProblemOfProperties() const
 {
-  for (const int side : this->LatticeDimensions)
-  {
-    if (side < SmallestLatticeSide || side > LargestLatticeSide)
-    {
-      return "LatticeDimensions has " + std::to_string(side) + "; each side must have from " +
-        std::to_string(SmallestLatticeSide) + " to " + std::to_string(LargestLatticeSide) +
-        " points";
-    }
-  }
   if (this->Pulls.size() % Packed<Pull>::Numbers || this->Pins.size() % Packed<Pin>::Numbers)
   {
     return "Pulls has " + std::to_string(this->Pulls.size()) + " numbers and Pins " +
@@ -187,14 +192,10 @@ std::string vtkFitDeformation::ProblemOfProperties() const
     return "LandmarkPairs has " + std::to_string(this->Landmarks->Numbers.size()) +
       " numbers; a pair has 7";
   }
-  for (const auto& [name, mm] :
-    { std::pair("Feather", this->Feather), std::pair("MaskGrowth", this->MaskGrowth),
-      std::pair("OpeningRadius", this->OpeningRadius) })
+  if (!(this->OpeningRadius >= 0.0 && std::isfinite(this->OpeningRadius)))
   {
-    if (!(mm >= 0.0 && std::isfinite(mm)))
-    {
-      return name + (" is " + std::to_string(mm)) + " mm; it must be 0 or more, and finite";
-    }
+    return "OpeningRadius is " + std::to_string(this->OpeningRadius) +
+      " mm; it must be 0 or more, and finite";
   }
   return {};
 }
@@ -283,14 +284,8 @@ std::string vtkFitDeformation::FindAnchors(vtkInformationVector** inputs)
 std::string vtkFitDeformation::FindBase(vtkInformationVector** inputs)
 {
   State& state = *this->Internal;
-  const Grid volume = gridOf(vtkImageData::GetData(inputs[0]));
-  const glm::ivec3 sides(
-    this->LatticeDimensions[0], this->LatticeDimensions[1], this->LatticeDimensions[2]);
-  state.Still = makeLattice(withDimensions(volume, sides), this->Kernel);
-  const std::string problem =
-    state.Masks.find({ vtkImageData::GetData(inputs[MaskPort]), this->MaskLabels, this->MaskGrowth,
-                       this->Feather, volume, state.Still.grid, this->Samples },
-      state.Still.mask);
+  const std::string problem = this->MakeLattice(
+    gridOf(vtkImageData::GetData(inputs[0])), vtkImageData::GetData(inputs[MaskPort]), state.Still);
   if (!problem.empty())
   {
     return problem;
@@ -319,7 +314,7 @@ std::string vtkFitDeformation::Solve(const Process* start)
   State& state = *this->Internal;
   const RestSurface surface = state.surface();
   const std::string problem = state.Fitted.solve(
-    state.Measured, surface, state.Still, { this->Samples, this->GuardFolding, start });
+    state.Measured, surface, state.Still, { this->GetSamples(), this->GuardFolding, start });
   if (!problem.empty())
   {
     return problem;
@@ -363,7 +358,7 @@ int vtkFitDeformation::RequestData(
   vtkImageData* output = vtkImageData::GetData(outputs);
   const Lattice& bent = state.Fitted.lattice();
   setField(output, bent.grid, bent.displacements, Direction::Forward);
-  nameFittedFor(output, bent, this->Samples);
+  attachFittedFor(output, bent, this->GetSamples());
   state.Evidence.setLive(this->Live);
   std::string warning =
     this->Evidence ? addEvidence(output, state.Fitted, state.Evidence) : std::string();
@@ -446,6 +441,11 @@ vtkDoubleArray* vtkFitDeformation::GetLeaveOneOut()
     leaveOneOut(this->Internal->Fitted, this->Internal->Measured.landmarks));
 }
 
+vtkStringArray* vtkFitDeformation::GetLandmarkNames()
+{
+  return this->Landmarks->Names;
+}
+
 vtkDoubleArray* vtkFitDeformation::GetLandmarkPlaces()
 {
   this->Landmarks->place(this->Internal->Fitted, this->Internal->Measured.landmarks);
@@ -482,4 +482,22 @@ std::vector<double> vtkFitDeformation::Deviations(const std::vector<double>& res
     places.emplace_back(rest[i], rest[i + 1], rest[i + 2]);
   }
   return this->Internal->Fitted.deviations(places);
+}
+
+void vtkFitDeformation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "GuardFolding: " << this->GuardFolding << "\n"
+     << indent << "Live: " << this->Live << "\n"
+     << indent << "SurfaceArray: " << this->SurfaceArray << "\n"
+     << indent << "SurfaceBy: " << (this->SurfaceBy ? "Label" : "Threshold") << "\n"
+     << indent << "Threshold: " << this->Threshold << "\n"
+     << indent << "Label: " << this->Label << "\n"
+     << indent << "Anchors: " << this->Anchors << "\n"
+     << indent << "OpeningRadius: " << this->OpeningRadius << "\n"
+     << indent << "Evidence: " << this->Evidence << "\n"
+     << indent << "LandmarkPairs: " << this->Landmarks->Numbers.size() / Packed<PointPair>::Numbers
+     << "\n"
+     << indent << "Pulls: " << this->Pulls.size() / Packed<Pull>::Numbers << "\n"
+     << indent << "Pins: " << this->Pins.size() / Packed<Pin>::Numbers << "\n";
 }

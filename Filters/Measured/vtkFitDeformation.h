@@ -10,16 +10,16 @@
  * (Filters/Fit/Fit.h).
  *
  * - Input 0: the volume at rest. Only its grid counts, and its scalars if they show the cortex.
- * - Input 1, 2 (optional): landmarks at rest and measured, points with an optional array Label.
+ * - Input 1 (optional): the base, a forward field on any grid (mm), say of a refinement. What was
+ *   measured bends the volume from there. The rigid part is then the identity.
+ * - Input 2 (optional): the mask of the Free-Form Deformation.
+ * - Input 3, 4 (optional): landmarks at rest and measured, points with an optional array Label.
  *   They match by label, else by order. An array Weight of the landmarks at rest divides their
  *   variance; 0 switches a landmark off.
- * - Input 3 (optional): points traced on the cortex, measured frame.
- * - Input 4 (optional): a segmentation at rest; the cortex is taken from it, not the volume.
- * - Input 5 (optional): a cavity, measured frame. Traced points in it do not count.
- * - Input 6 (optional): a mask of the opening of the skull, rest frame.
- * - Input 7 (optional): the mask of the Free-Form Deformation.
- * - Input 8 (optional): the base, a forward field on any grid (mm), say of a refinement. What was
- *   measured bends the volume from there. The rigid part is then the identity.
+ * - Input 5 (optional): points traced on the cortex, measured frame.
+ * - Input 6 (optional): a segmentation at rest; the cortex is taken from it, not the volume.
+ * - Input 7 (optional): a cavity, measured frame. Traced points in it do not count.
+ * - Input 8 (optional): a mask of the opening of the skull, rest frame.
  *
  * If the bend would fold tissue, the measurements are trusted less (factor 1.5 on their deviations)
  * and, if that is not enough, a share of the bend is taken.
@@ -28,7 +28,7 @@
 #define vtkFitDeformation_h
 
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
-#include "vtkImageAlgorithm.h"
+#include "vtkLatticeAlgorithm.h"
 
 #include <memory> // for the private part
 #include <string>
@@ -39,39 +39,17 @@ class vtkStringArray;
 namespace brainshift
 {
 class FitLandmarks;
-}
-
-namespace brainshift
-{
 class Process;
 }
 
-class VTKBRAINSHIFTFILTERS_EXPORT vtkFitDeformation : public vtkImageAlgorithm
+class VTKBRAINSHIFTFILTERS_EXPORT vtkFitDeformation : public vtkLatticeAlgorithm
 {
 public:
   static vtkFitDeformation* New();
-  vtkTypeMacro(vtkFitDeformation, vtkImageAlgorithm);
+  vtkTypeMacro(vtkFitDeformation, vtkLatticeAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
   vtkTypeBool ProcessRequest(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-
-  ///@{
-  /** Control points along each axis of the volume, 4 to 257. Default 19 19 19. */
-  vtkSetVector3Macro(LatticeDimensions, int);
-  vtkGetVector3Macro(LatticeDimensions, int);
-  ///@}
-
-  ///@{
-  /** 0: Catmull-Rom (default); 1: uniform cubic B-spline. */
-  vtkSetClampMacro(Kernel, int, 0, 1);
-  vtkGetMacro(Kernel, int);
-  ///@}
-
-  ///@{
-  /** Nodes between two control points that the lattice is drawn with, 0 to 16. Default 4. */
-  vtkSetClampMacro(Samples, int, 0, 16);
-  vtkGetMacro(Samples, int);
-  ///@}
 
   ///@{
   /** Whether the fold guard may shorten the bend. Default on. */
@@ -150,24 +128,6 @@ public:
   ///@}
 
   ///@{
-  /** Distance (mm) over which displacements rise from 0 inside the mask; 0 or more. Default 10. */
-  vtkSetMacro(Feather, double);
-  vtkGetMacro(Feather, double);
-  ///@}
-
-  ///@{
-  /** Distance (mm) by which the mask grows first; 0 or more. Default 0. */
-  vtkSetMacro(MaskGrowth, double);
-  vtkGetMacro(MaskGrowth, double);
-  ///@}
-
-  ///@{
-  /** The labels of the mask that are inside. Default: none, which means every value above 0. */
-  void AddMaskLabel(int label);
-  void ClearMaskLabels();
-  ///@}
-
-  ///@{
   /**
    * Pairs of landmarks besides those of the inputs: 7 numbers each, where the landmark was (mm,
    * rest frame), where it was measured (mm) and its weight (0: switched off). Default: none.
@@ -187,14 +147,14 @@ public:
    * Pulls: 7 numbers each, where tissue was (mm, rest frame), where it was put (mm) and its weight
    * (0: switched off).
    */
-  void AddPull(double number);
-  void ClearPulls();
+  void AddPull(double number) { this->Append(this->Pulls, number); }
+  void ClearPulls() { this->Clear(this->Pulls); }
   ///@}
 
   ///@{
   /** Pins: 4 numbers each, tissue that stays (mm, rest frame) and 1 or 0 (switched off). */
-  void AddPin(double number);
-  void ClearPins();
+  void AddPin(double number) { this->Append(this->Pins, number); }
+  void ClearPins() { this->Clear(this->Pins); }
   ///@}
 
   ///@{
@@ -278,9 +238,6 @@ private:
   vtkFitDeformation(const vtkFitDeformation&) = delete;
   void operator=(const vtkFitDeformation&) = delete;
 
-  int LatticeDimensions[3] = { 19, 19, 19 };
-  int Kernel = 0;
-  int Samples = 4;
   bool GuardFolding = true;
   bool Live = false;
   std::string SurfaceArray;
@@ -291,9 +248,6 @@ private:
   double OpeningCentre[3] = { 0.0, 0.0, 0.0 };
   double OpeningRadius = 0.0;
   bool Evidence = false;
-  double Feather = 10.0;
-  double MaskGrowth = 0.0;
-  std::vector<int> MaskLabels;
   std::vector<double> Pulls;
   std::vector<double> Pins;
   const std::unique_ptr<brainshift::FitLandmarks> Landmarks;

@@ -19,6 +19,11 @@ using namespace brainshift;
 vtkStandardNewMacro(vtkRefinedLattice);
 brainshiftGuardRequestsMacro(vtkRefinedLattice);
 
+vtkRefinedLattice::vtkRefinedLattice()
+{
+  this->SetNumberOfInputPorts(1);
+}
+
 void vtkRefinedLattice::AddControlPoint(double x, double y, double z)
 {
   this->ControlPoints.insert(this->ControlPoints.end(), { x, y, z });
@@ -27,20 +32,13 @@ void vtkRefinedLattice::AddControlPoint(double x, double y, double z)
 
 void vtkRefinedLattice::ClearControlPoints()
 {
-  this->ControlPoints.clear();
-  this->Modified();
+  this->Clear(this->ControlPoints);
 }
 
 int vtkRefinedLattice::RequestInformation(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  const glm::ivec3 sides(
-    this->LatticeDimensions[0], this->LatticeDimensions[1], this->LatticeDimensions[2]);
-  announce(outputs->GetInformationObject(0),
-    withDimensions(wholeGridOf(inputs[0]->GetInformationObject(0)),
-      glm::clamp(sides, SmallestLatticeSide, LargestLatticeSide)));
-  outputs->GetInformationObject(0)->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
-  return 1;
+  return this->AnnounceLattice(inputs, outputs);
 }
 
 int vtkRefinedLattice::RequestUpdateExtent(
@@ -53,11 +51,15 @@ int vtkRefinedLattice::RequestUpdateExtent(
 int vtkRefinedLattice::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  const glm::ivec3 sides(
-    this->LatticeDimensions[0], this->LatticeDimensions[1], this->LatticeDimensions[2]);
-  Lattice lattice = makeLattice(withDimensions(gridOf(vtkImageData::GetData(inputs[0])),
-                                  glm::clamp(sides, SmallestLatticeSide, LargestLatticeSide)),
-    0);
+  Lattice lattice;
+  std::string problem =
+    this->MakeLattice(gridOf(vtkImageData::GetData(inputs[0])), nullptr, lattice);
+  if (!problem.empty())
+  {
+    vtkErrorMacro(<< problem << ".");
+    return 0;
+  }
+  const glm::ivec3& sides = lattice.grid.dimensions;
   const std::size_t expected = 3 * lattice.displacements.size();
   if (!this->ControlPoints.empty() && this->ControlPoints.size() != expected)
   {
@@ -71,7 +73,7 @@ int vtkRefinedLattice::RequestData(
     lattice.displacements[i / 3] = { this->ControlPoints[i], this->ControlPoints[i + 1],
       this->ControlPoints[i + 2] };
   }
-  const std::string problem = problemOfDisplacements(lattice, "ControlPoints");
+  problem = problemOfDisplacements(lattice, "ControlPoints");
   if (!problem.empty())
   {
     vtkErrorMacro(<< problem << ".");
@@ -87,7 +89,5 @@ int vtkRefinedLattice::RequestData(
 void vtkRefinedLattice::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "LatticeDimensions: " << this->LatticeDimensions[0] << " "
-     << this->LatticeDimensions[1] << " " << this->LatticeDimensions[2] << "\n"
-     << indent << "ControlPoints: " << this->ControlPoints.size() / 3 << "\n";
+  os << indent << "ControlPoints: " << this->ControlPoints.size() / 3 << "\n";
 }

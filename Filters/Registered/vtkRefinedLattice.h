@@ -5,31 +5,26 @@
  *
  * Output: a lattice over the box of the input, an image with the point array Displacement (float32
  * x 3, mm, world axes, forward), to be the Lattice of a Free-Form Deformation with the same
- * LatticeDimensions and Kernel. The numbers are a property, so that a state file brings the result
- * back without running the refinement again.
+ * LatticeDimensions and Kernel. Of the settings of a lattice only LatticeDimensions count.
+ * The numbers are a property, so that a state file brings the result back without running the
+ * refinement again.
  */
 #ifndef vtkRefinedLattice_h
 #define vtkRefinedLattice_h
 
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
-#include "vtkImageAlgorithm.h"
+#include "vtkLatticeAlgorithm.h"
 
 #include <vector>
 
-class VTKBRAINSHIFTFILTERS_EXPORT vtkRefinedLattice : public vtkImageAlgorithm
+class VTKBRAINSHIFTFILTERS_EXPORT vtkRefinedLattice : public vtkLatticeAlgorithm
 {
 public:
   static vtkRefinedLattice* New();
-  vtkTypeMacro(vtkRefinedLattice, vtkImageAlgorithm);
+  vtkTypeMacro(vtkRefinedLattice, vtkLatticeAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
   vtkTypeBool ProcessRequest(
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
-
-  ///@{
-  /** Control points along each axis of the volume, 4 to 257. Default 19 19 19. */
-  vtkSetVector3Macro(LatticeDimensions, int);
-  vtkGetVector3Macro(LatticeDimensions, int);
-  ///@}
 
   ///@{
   /**
@@ -41,7 +36,7 @@ public:
   ///@}
 
 protected:
-  vtkRefinedLattice() = default;
+  vtkRefinedLattice();
   ~vtkRefinedLattice() override = default;
 
   int RequestInformation(
@@ -55,7 +50,6 @@ private:
   vtkRefinedLattice(const vtkRefinedLattice&) = delete;
   void operator=(const vtkRefinedLattice&) = delete;
 
-  int LatticeDimensions[3] = { 19, 19, 19 };
   std::vector<double> ControlPoints;
 };
 

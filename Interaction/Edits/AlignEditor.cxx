@@ -40,9 +40,9 @@ constexpr qint64 SearchMs = 40; // between two pictures: Stop is answered soon a
 constexpr const char* Motion[] = { "ReferenceRotation", "ReferenceTranslation" };
 // What an alignment depends on. A change of one of these in the meantime ends it.
 constexpr const char* Ground[] = { "Input", "Reference", "Cavity", "CavityLabels" };
+// Beside the settings of the lattice.
 constexpr const char* GroundOfDeformation[] = { "Input", "Lattice", "Strokes", "Strength",
-  "Inverse", "LatticeDimensions", "Kernel", "Samples", "Mask", "MaskLabels", "MaskGrowth",
-  "Feather" };
+  "Inverse" };
 
 template <std::size_t Count>
 bool isAmong(const char* const (&names)[Count], const char* name)
@@ -252,7 +252,9 @@ void AlignEditor::followChange(vtkObject* proxy, const char* property)
     this->put(wanted);
     this->end(State::Idle, tr("%1 was changed, so Align ended.").arg(QString(property)));
   }
-  else if (isOwn ? isAmong(Ground, property) : isAmong(GroundOfDeformation, property))
+  else if (isOwn ? isAmong(Ground, property)
+                 : isAmong(GroundOfDeformation, property) ||
+        isLatticeSetting(vtkSMProxy::SafeDownCast(proxy), property))
   {
     this->cancel(tr("%1 was changed, so Align ended. The reference is where it was before.")
         .arg(QString(property)));

@@ -31,10 +31,8 @@ namespace brainshift
 {
 namespace
 {
-// As in brainshift.fit of Python: sources that are BrainShift's own, and what they must share.
+// As in brainshift.fit of Python: sources that are BrainShift's own.
 constexpr const char* MadeByUs = "BrainShiftFit";
-constexpr const char* Shared[] = { "Input", "LatticeDimensions", "Kernel", "Samples", "Mask",
-  "MaskLabels", "MaskGrowth", "Feather" };
 
 vtkSMProxy* latticeOf(vtkSMProxy* deformation)
 {
@@ -70,14 +68,6 @@ std::vector<glm::dvec3> placesBy(vtkSMProxy* fit, const std::vector<glm::dvec3>&
     places.push_back(turnedBack * (measured - glm::dvec3(rigid[3])));
   }
   return places;
-}
-
-void share(vtkSMProxy* deformation, vtkSMProxy* fit)
-{
-  for (const char* name : Shared)
-  {
-    fit->GetProperty(name)->Copy(deformation->GetProperty(name));
-  }
 }
 }
 
@@ -189,7 +179,7 @@ vtkSmartPointer<vtkSMProxy> FitEditor::prepare() const
   made.TakeReference(deformation->GetSessionProxyManager()->NewProxy("filters", "FitDeformation"));
   vtkNew<vtkSMParaViewPipelineController> controller;
   controller->PreInitializeProxy(made);
-  share(deformation, made);
+  shareLattice(deformation, made);
   if (const vtkSmartPointer<vtkSMProxy> base = this->base())
   {
     vtkSMPropertyHelper(made, "Base").Set(base);
@@ -394,7 +384,7 @@ void FitEditor::shareSettings()
   vtkSMProxy* proxy = this->fit();
   if (proxy && proxy->HasAnnotation(MadeByUs))
   {
-    share(this->Source->getProxy(), proxy);
+    shareLattice(this->Source->getProxy(), proxy);
     proxy->UpdateVTKObjects();
   }
 }

@@ -32,11 +32,10 @@ namespace
 {
 // As in brainshift.fit and brainshift.refine of Python: sources that are BrainShift's own.
 constexpr const char* MadeByUs = "BrainShiftFit";
-constexpr const char* Shared[] = { "Input", "LatticeDimensions" };
 
-// What a refinement depends on. A change of one of these in the meantime ends it.
-constexpr const char* Ground[] = { "Input", "Lattice", "Strokes", "Strength", "LatticeDimensions",
-  "Kernel", "Samples", "Mask", "MaskLabels", "MaskGrowth", "Feather" };
+// What a refinement depends on, beside the settings of the lattice. A change of one of these in the
+// meantime ends it.
+constexpr const char* Ground[] = { "Input", "Lattice", "Strokes", "Strength" };
 
 void setNumbers(vtkSMProxy* proxy, const char* name, const std::vector<double>& numbers)
 {
@@ -199,10 +198,7 @@ vtkSmartPointer<vtkSMProxy> RefineEditor::makeLattice() const
     deformation->GetSessionProxyManager()->NewProxy("filters", "RefinedLattice"));
   vtkNew<vtkSMParaViewPipelineController> controller;
   controller->PreInitializeProxy(made);
-  for (const char* name : Shared)
-  {
-    made->GetProperty(name)->Copy(deformation->GetProperty(name));
-  }
+  shareLattice(deformation, made);
   controller->PostInitializeProxy(made);
   made->SetAnnotation(MadeByUs, "1");
   made->UpdateVTKObjects();
@@ -311,10 +307,7 @@ void RefineEditor::keep(State end)
     // One of an earlier refinement. Who else takes it keeps it.
     if (isRefined(lattice) && !isTakenByOthers(lattice, deformation))
     {
-      for (const char* name : Shared)
-      {
-        lattice->GetProperty(name)->Copy(deformation->GetProperty(name));
-      }
+      shareLattice(deformation, lattice);
     }
     else
     {
@@ -396,7 +389,8 @@ void RefineEditor::abandon(const QString& problem)
 void RefineEditor::followChange(vtkObject*, const char* property)
 {
   const auto isChanged = [property](const char* name) { return std::strcmp(property, name) == 0; };
-  if (std::any_of(std::begin(Ground), std::end(Ground), isChanged))
+  if (std::any_of(std::begin(Ground), std::end(Ground), isChanged) ||
+    isLatticeSetting(this->Source->getProxy(), property))
   {
     this->abandon(tr("%1 of %2 was changed, so the refinement ended.")
         .arg(QString(property), this->Source->getSMName()));

@@ -9,8 +9,12 @@
 #include <pqServerManagerModel.h>
 #include <pqView.h>
 
+#include <vtkPVXMLElement.h>
+#include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
+#include <vtkSMPropertyIterator.h>
 #include <vtkSMProxy.h>
+#include <vtkSmartPointer.h>
 
 #include <algorithm>
 #include <cstring>
@@ -76,6 +80,26 @@ pqPipelineSource* nearestShown(pqPipelineSource* from, pqView* view)
 bool isDeformation(pqPipelineSource* source)
 {
   return source && std::strcmp(source->getProxy()->GetXMLName(), "FreeFormDeformation") == 0;
+}
+
+bool isLatticeSetting(vtkSMProxy* proxy, const char* property)
+{
+  vtkSMProperty* setting = proxy->GetProperty(property);
+  vtkPVXMLElement* hints = setting ? setting->GetHints() : nullptr;
+  return hints && hints->FindNestedElementByName("LatticeSetting");
+}
+
+void shareLattice(vtkSMProxy* deformation, vtkSMProxy* lattice)
+{
+  lattice->GetProperty("Input")->Copy(deformation->GetProperty("Input"));
+  const auto each = vtk::TakeSmartPointer(lattice->NewPropertyIterator());
+  for (each->Begin(); !each->IsAtEnd(); each->Next())
+  {
+    if (isLatticeSetting(lattice, each->GetKey()))
+    {
+      each->GetProperty()->Copy(deformation->GetProperty(each->GetKey()));
+    }
+  }
 }
 
 pqPipelineSource* activeDeformation()

@@ -7,11 +7,19 @@
 class pqDataRepresentation;
 class pqPipelineSource;
 class pqView;
+class vtkSMProxy;
 
 namespace brainshift
 {
 /// Whether a source is a Free-Form Deformation.
 bool isDeformation(pqPipelineSource* source);
+
+/// Whether a property of a proxy is a setting of its lattice: LatticeSettings.xml marks them. A
+/// lattice must share them with the deformation that takes it.
+bool isLatticeSetting(vtkSMProxy* proxy, const char* property);
+/// Copies the input and the settings of the lattice from a deformation to a filter that makes a
+/// lattice for it, as far as that filter has them.
+void shareLattice(vtkSMProxy* deformation, vtkSMProxy* lattice);
 
 /// The active source, if it is a Free-Form Deformation. Otherwise the nearest one upstream or
 /// downstream that the view shows. Otherwise the only one there is. Null if there is none.

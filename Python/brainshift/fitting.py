@@ -3,9 +3,6 @@
 
 from .reports import numbers
 
-#: What the fit must share with the Free-Form Deformation that takes its lattice.
-_SHARED = ("LatticeDimensions", "Kernel", "Samples", "Mask", "MaskLabels", "MaskGrowth", "Feather")
-
 #: The annotation of sources that `fit` made.
 _MADE = "BrainShiftFit"
 
@@ -122,16 +119,23 @@ class Fit:
         return self._answers(points, "Deviations")
 
 
+def _lattice_settings(source):
+    """The names of the settings of a lattice: Filters/Proxies/LatticeSettings.xml marks them."""
+    hints = {name: source.SMProxy.GetProperty(name).GetHints() for name in source.ListProperties()}
+    return [name for name, hint in hints.items()
+            if hint and hint.FindNestedElementByName("LatticeSetting")]
+
+
 def _shared(deformation):
     """The settings of a deformation that its fit must share."""
     values = {}
-    for name in _SHARED:
+    for name in _lattice_settings(deformation):
         value = getattr(deformation, name)
-        if name == "Mask" and not value:
-            continue
-        values[name] = value if name == "Mask" else deformation.GetPropertyValue(name)
-        if name == "MaskLabels":
-            values[name] = list(value)
+        if not deformation.SMProxy.GetProperty(name).IsA("vtkSMProxyProperty"):
+            value = deformation.GetPropertyValue(name)
+            values[name] = value if isinstance(value, (int, float, str)) else list(value)
+        elif value:
+            values[name] = value
     return values
 
 

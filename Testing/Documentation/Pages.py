@@ -47,7 +47,7 @@ def test_properties_have_their_defaults():
     assert "| `LatticeDimensions` | 3 × integer (points), 4 to 257 | 19 19 19 |" in deformation
     assert "| `Feather` | number (mm), at least 0 | 10 |" in deformation
     assert '| `Kernel` | "Catmull-Rom", "B-Spline" | "Catmull-Rom" |' in deformation
-    assert "| `Mask` | optional input |" in deformation  # from the extension of the filter
+    assert "| `Mask` | optional input |" in deformation  # from LatticeSettings.xml
     assert "| `TraceRadius` |" in tables["TracePointsRepresentation"]  # exposed by that name
 
 

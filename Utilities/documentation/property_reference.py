@@ -33,6 +33,15 @@ def _text(element):
     return " ".join(text.split())
 
 
+def _children(element):
+    """What a proxy consists of, with the settings of a lattice where it takes them."""
+    for child in element:
+        if child.tag == "LatticeSettings":
+            yield from ElementTree.parse(CHECKOUT / "Filters/Proxies/LatticeSettings.xml").getroot()
+        else:
+            yield child
+
+
 class Proxy:
     """A proxy of the XML: name, title, documentation, and its properties as XML elements."""
 
@@ -44,8 +53,8 @@ class Proxy:
         self.add(element)
 
     def add(self, element):
-        self.properties += [child for child in element if child.tag.endswith("Property")
-                            and _text(child)]
+        self.properties += [child for child in _children(element)
+                            if child.tag.endswith("Property") and _text(child)]
 
 
 def _title_representations(proxies, extensions):

@@ -29,24 +29,33 @@
 
 using namespace brainshift::testing;
 
+TEST(Defaults, OfLatticesLiveInTheirBase)
+{
+  vtkNew<vtkRefinedLattice> lattice;
+  const int* sides = lattice->GetLatticeDimensions();
+  const Defaults expected{
+    { "Feather", { lattice->GetFeather() } },
+    { "Kernel", { double(lattice->GetKernel()) } },
+    { "LatticeDimensions", { double(sides[0]), double(sides[1]), double(sides[2]) } },
+    { "MaskGrowth", { lattice->GetMaskGrowth() } },
+    { "Samples", { double(lattice->GetSamples()) } },
+  };
+  EXPECT_EQ(defaultsIn("Filters/Proxies/LatticeSettings.xml"), expected);
+  const Defaults ofRefined{ { "LatticeDimensions", expected.at("LatticeDimensions") } };
+  EXPECT_EQ(defaultsIn("Filters/Proxies/RefinedLattice.xml"), ofRefined);
+}
+
 TEST(Defaults, OfFreeFormDeformationLiveInTheClass)
 {
   vtkNew<vtkFreeFormDeformation> filter;
-  const int* sides = filter->GetLatticeDimensions();
   const double* interest = filter->GetPointOfInterest();
   const Defaults expected{
     { "GuardFolding", { double(filter->GetGuardFolding()) } },
     { "Inverse", { double(filter->GetInverse()) } },
-    { "Kernel", { double(filter->GetKernel()) } },
-    { "LatticeDimensions", { double(sides[0]), double(sides[1]), double(sides[2]) } },
     { "PointOfInterest", { interest[0], interest[1], interest[2] } },
-    { "Samples", { double(filter->GetSamples()) } },
     { "Strength", { filter->GetStrength() } },
   };
   EXPECT_EQ(defaultsIn("Filters/Proxies/FreeFormDeformation.xml"), expected);
-  const Defaults ofMask{ { "Feather", { filter->GetFeather() } },
-    { "MaskGrowth", { filter->GetMaskGrowth() } } };
-  EXPECT_EQ(defaultsIn("Filters/Proxies/FreeFormDeformationMask.xml"), ofMask);
 }
 
 TEST(Defaults, OfCompareVolumesLiveInTheClass)
@@ -111,37 +120,23 @@ TEST(Defaults, OfDICOMReaderLiveInTheClass)
 TEST(Defaults, OfFitDeformationLiveInTheClass)
 {
   vtkNew<vtkFitDeformation> filter;
-  const int* sides = filter->GetLatticeDimensions();
-  const Defaults expected{
-    { "Evidence", { double(filter->GetEvidence()) } },
-    { "Feather", { filter->GetFeather() } },
-    { "GuardFolding", { double(filter->GetGuardFolding()) } },
-    { "Kernel", { double(filter->GetKernel()) } },
-    { "Live", { double(filter->GetLive()) } },
-    { "LatticeDimensions", { double(sides[0]), double(sides[1]), double(sides[2]) } },
-    { "MaskGrowth", { filter->GetMaskGrowth() } },
-    { "Samples", { double(filter->GetSamples()) } },
-  };
-  EXPECT_EQ(defaultsIn("Filters/Proxies/FitDeformation.xml"), expected);
   const double* centre = filter->GetOpeningCentre();
-  const Defaults ofCortex{
+  const Defaults expected{
     { "Anchors", { double(filter->GetAnchors()) } },
+    { "Evidence", { double(filter->GetEvidence()) } },
+    { "GuardFolding", { double(filter->GetGuardFolding()) } },
     { "Label", { double(filter->GetLabel()) } },
+    { "Live", { double(filter->GetLive()) } },
     { "OpeningCentre", { centre[0], centre[1], centre[2] } },
     { "OpeningRadius", { filter->GetOpeningRadius() } },
     { "SurfaceBy", { double(filter->GetSurfaceBy()) } },
     { "Threshold", { filter->GetThreshold() } },
   };
-  EXPECT_EQ(defaultsIn("Filters/Proxies/FitDeformationCortex.xml"), ofCortex);
+  EXPECT_EQ(defaultsIn("Filters/Proxies/FitDeformation.xml"), expected);
 }
 
-TEST(Defaults, OfRegistrationLiveInTheClasses)
+TEST(Defaults, OfRegistrationLiveInTheClass)
 {
-  vtkNew<vtkRefinedLattice> lattice;
-  const int* sides = lattice->GetLatticeDimensions();
-  const Defaults ofLattice{ { "LatticeDimensions",
-    { double(sides[0]), double(sides[1]), double(sides[2]) } } };
-  EXPECT_EQ(defaultsIn("Filters/Proxies/RefinedLattice.xml"), ofLattice);
   vtkNew<vtkRegistrationRun> run;
   const double* rotation = run->GetStartRotation();
   const double* translation = run->GetStartTranslation();

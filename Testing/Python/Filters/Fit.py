@@ -162,21 +162,36 @@ def test_a_deformation_unlike_the_one_that_was_fitted_says_so():
         bent.UpdatePipeline()
     assert "fitted for" not in said.text, said.text
     mask = volume(ball(side=SIDE, radius=40.0 / SPACING), spacing=(SPACING,) * 3)
-    for change, words in (({"Kernel": "B-Spline"}, "kernel B-Spline, Samples 4, no mask"),
-                          ({"Kernel": "Catmull-Rom", "LatticeDimensions": [17, 19, 19]},
-                           "17 x 19 x 19 control points"),
-                          ({"LatticeDimensions": [19, 19, 19], "Mask": mask}, "a mask that lets"),
-                          ({"Mask": None, "Samples": 6}, "Samples 6")):
+    for change, fitted, here in (
+            ({"Kernel": "B-Spline"}, "Kernel Catmull-Rom", "Kernel B-Spline"),
+            ({"Kernel": "Catmull-Rom", "LatticeDimensions": [17, 19, 19]},
+             "LatticeDimensions 19 x 19 x 19", "LatticeDimensions 17 x 19 x 19"),
+            ({"LatticeDimensions": [19, 19, 19], "Mask": mask}, "no mask", "a mask that lets"),
+            ({"Mask": None, "Samples": 6}, "Samples 4", "Samples 6")):
         with messages() as said:
             for name, value in change.items():
                 setattr(bent, name, value)
             bent.UpdatePipeline()
-        assert_says(said.text, "was fitted for 19 x 19 x 19 control points, kernel Catmull-Rom")
-        assert_says(said.text, words)
+        assert_says(said.text, f"was fitted for {fitted}. This deformation has {here}")
     fit.filter.Samples = 6
     with messages() as said:
         bent.UpdatePipeline()
     assert "fitted for" not in said.text, said.text
+
+
+def test_a_mask_of_equal_size_is_another_mask():
+    z, y, x = numpy.mgrid[0:SIDE, 0:SIDE, 0:SIDE]
+    left, right = (volume((side & (z > 4)).astype(numpy.float32), spacing=(SPACING,) * 3)
+                   for side in (x < 20, x > SIDE - 1 - 20))
+    bent = deformation(Mask=left)
+    brainshift.fit(bent, pulls=[((10.0, MIDDLE, MIDDLE), (12.0, MIDDLE, MIDDLE))])
+    with messages() as said:
+        bent.UpdatePipeline()
+    assert "fitted for" not in said.text, said.text
+    with messages() as said:
+        bent.Mask = right
+        bent.UpdatePipeline()
+    assert_says(said.text, "This deformation has another mask that lets")
 
 
 def test_labels_match_and_those_without_a_partner_are_named():

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkLatticeAlgorithm.h"
+
+#include "Common/ImageGrid.h"
+#include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/MaskImage.h"
+#include "Filters/Deformation/OffsetField.h"
+#include "Formats/Fields/FieldImage.h"
+
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+
+#include <glm/common.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/vector_relational.hpp>
+
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+using namespace brainshift;
+
+vtkLatticeAlgorithm::vtkLatticeAlgorithm()
+  : Masks(std::make_unique<MaskSource>())
+{
+  this->SetNumberOfInputPorts(MaskPort + 1);
+}
+
+vtkLatticeAlgorithm::~vtkLatticeAlgorithm() = default;
+
+void vtkLatticeAlgorithm::SetMaskConnection(vtkAlgorithmOutput* mask)
+{
+  this->SetInputConnection(MaskPort, mask);
+}
+
+int vtkLatticeAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  if (port > 0)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return 1;
+}
+
+Grid vtkLatticeAlgorithm::LatticeGrid(const Grid& volume) const
+{
+  return withDimensions(volume,
+    glm::clamp(glm::make_vec3(this->LatticeDimensions), SmallestLatticeSide, LargestLatticeSide));
+}
+
+int vtkLatticeAlgorithm::AnnounceLattice(
+  vtkInformationVector** inputs, vtkInformationVector* outputs) const
+{
+  vtkInformation* output = outputs->GetInformationObject(0);
+  announce(output, this->LatticeGrid(wholeGridOf(inputs[0]->GetInformationObject(0))));
+  output->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
+  return 1;
+}
+
+std::string vtkLatticeAlgorithm::ProblemOfSettings() const
+{
+  std::ostringstream words;
+  const glm::ivec3 sides = glm::make_vec3(this->LatticeDimensions);
+  if (glm::any(glm::lessThan(sides, glm::ivec3(SmallestLatticeSide))) ||
+    glm::any(glm::greaterThan(sides, glm::ivec3(LargestLatticeSide))))
+  {
+    words << "LatticeDimensions is " << sides.x << " x " << sides.y << " x " << sides.z
+          << "; each side must have from " << SmallestLatticeSide << " to " << LargestLatticeSide
+          << " points";
+    return words.str();
+  }
+  if (this->Samples < SmallestSamples || this->Samples > LargestSamples)
+  {
+    words << "Samples is " << this->Samples << "; it must be from " << SmallestSamples << " to "
+          << LargestSamples;
+    return words.str();
+  }
+  for (const auto& [name, mm] :
+    { std::pair("Feather", this->Feather), std::pair("MaskGrowth", this->MaskGrowth) })
+  {
+    if (!(mm >= 0.0 && std::isfinite(mm)))
+    {
+      words << name << " is " << mm << " mm; it must be 0 or more, and finite";
+      return words.str();
+    }
+  }
+  return {};
+}
+
+std::string vtkLatticeAlgorithm::MakeLattice(
+  const Grid& volume, vtkImageData* mask, Lattice& lattice)
+{
+  const std::string problem = this->ProblemOfSettings();
+  if (!problem.empty())
+  {
+    return problem;
+  }
+  lattice = makeLattice(this->LatticeGrid(volume), this->Kernel);
+  return this->Masks->find({ mask, this->MaskLabels, this->MaskGrowth, this->Feather, volume,
+                             lattice.grid, this->Samples },
+    lattice.mask);
+}
+
+void vtkLatticeAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "LatticeDimensions: " << this->LatticeDimensions[0] << " "
+     << this->LatticeDimensions[1] << " " << this->LatticeDimensions[2] << "\n"
+     << indent << "Samples: " << this->Samples << "\n"
+     << indent << "Kernel: " << (this->Kernel ? "B-Spline" : "Catmull-Rom") << "\n"
+     << indent << "Feather: " << this->Feather << "\n"
+     << indent << "MaskGrowth: " << this->MaskGrowth << "\n"
+     << indent << "MaskLabels: " << this->MaskLabels.size() << "\n";
+}
