@@ -66,7 +66,7 @@ public:
 
   ///@{
   /** Whether each plane shows where the other two cut it, by lines in their colours
-   * (Slices/PlaneColors.h). Default false. */
+   * (Slices/SliceGeometry.h). Default false. */
   vtkSetMacro(Crosshair, bool);
   vtkGetMacro(Crosshair, bool);
   ///@}

@@ -1,20 +1,77 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkDeformedSlicesRepresentation.h"
-
 #include "Common/Guard.h"
 #include "Common/WorldAxes.h"
 #include "Representations/Slices/OrientationMarks.h"
-#include "Representations/Slices/SlicesProp.h"
-#include "vtkDeformedSlicesMapper.h"
 
+#include "vtkDeformedSlicesMapper.h"
+#include "vtkDeformedSlicesRepresentation.h"
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
+#include "vtkPVLODVolume.h"
 #include "vtkPVRenderView.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkRenderer.h"
+#include "vtkVolumeMapper.h"
 #include "vtkVolumeProperty.h"
+
+#include <functional>
+
+class vtkVolumeMapper;
+
+namespace brainshift
+{
+class SlicesProp : public vtkPVLODVolume
+{
+public:
+  static SlicesProp* New();
+  vtkTypeMacro(SlicesProp, vtkPVLODVolume);
+
+  int RenderOpaqueGeometry(vtkViewport* viewport) override;
+  int RenderVolumetricGeometry(vtkViewport* viewport) override;
+
+  vtkVolumeMapper* Slices = nullptr;   ///< Draws them; the representation owns both.
+  std::function<bool()> IsTranslucent; ///< Whether what lies behind may be seen through them.
+
+private:
+  bool Draws(bool translucent);
+  int Draw(vtkViewport* viewport);
+};
+
+vtkStandardNewMacro(SlicesProp);
+
+// Where the data is elsewhere, ParaView's outline stands for it.
+bool SlicesProp::Draws(bool translucent)
+{
+  return !this->EnableLOD && this->Slices && this->Slices->GetNumberOfInputConnections(0) > 0 &&
+    this->IsTranslucent() == translucent;
+}
+
+int SlicesProp::Draw(vtkViewport* viewport)
+{
+  this->Slices->Render(vtkRenderer::SafeDownCast(viewport), this);
+  return 1;
+}
+
+int SlicesProp::RenderOpaqueGeometry(vtkViewport* viewport)
+{
+  return guarded(this, 0, [&] {
+    return this->Draws(false) ? this->Draw(viewport)
+                              : this->Superclass::RenderOpaqueGeometry(viewport);
+  });
+}
+
+int SlicesProp::RenderVolumetricGeometry(vtkViewport* viewport)
+{
+  // The superclass would draw the mapper it has, which is the slices'.
+  return guarded(this, 0, [&] {
+    return this->EnableLOD ? this->Superclass::RenderVolumetricGeometry(viewport)
+      : this->Draws(true)  ? this->Draw(viewport)
+                           : 0;
+  });
+}
+}
 
 namespace
 {

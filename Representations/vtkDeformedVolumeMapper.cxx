@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkDeformedVolumeMapper.h"
-
 #include "Common/Guard.h"
 #include "Representations/Field/SceneDeformation.h"
 #include "Representations/Field/TissueFacts.h"
@@ -9,8 +7,8 @@
 #include "Representations/Picture/SelectionCover.h"
 #include "Representations/Picture/VolumeDevice.h"
 #include "Representations/Scene/OverVolumes.h"
-#include "Representations/Window/SoftwareFallback.h"
 
+#include "vtkDeformedVolumeMapper.h"
 #include "vtkImageData.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
@@ -30,6 +28,34 @@
 #include <set>
 #include <sstream>
 #include <string>
+
+class vtkSmartVolumeMapper;
+class vtkVolumeMapper;
+
+namespace brainshift
+{
+// VTK's software mapper, which draws a volume unbent if the GPU cannot draw it bent.
+
+/// Gives the fallback what a mapper draws, and how.
+void drawInSoftware(vtkVolumeMapper* mapper, vtkSmartVolumeMapper* fallback);
+
+void drawInSoftware(vtkVolumeMapper* mapper, vtkSmartVolumeMapper* fallback)
+{
+  // What stopped our mapper would stop VTK's GPU mapper, too, in some cases by an abort.
+  fallback->SetRequestedRenderModeToRayCast();
+  fallback->SetInputConnection(mapper->GetInputConnection(0, 0));
+  fallback->SetScalarMode(mapper->GetScalarMode());
+  fallback->SelectScalarArray(mapper->GetArrayName());
+  const int blend = mapper->GetBlendMode();
+  const bool blends = blend == vtkVolumeMapper::MAXIMUM_INTENSITY_BLEND ||
+    blend == vtkVolumeMapper::MINIMUM_INTENSITY_BLEND || blend == vtkVolumeMapper::ADDITIVE_BLEND;
+  fallback->SetBlendMode(blends ? blend : vtkVolumeMapper::COMPOSITE_BLEND);
+  fallback->SetCropping(mapper->GetCropping());
+  fallback->SetCroppingRegionFlags(mapper->GetCroppingRegionFlags());
+  fallback->SetCroppingRegionPlanes(mapper->GetCroppingRegionPlanes());
+  fallback->SetClippingPlanes(mapper->GetClippingPlanes());
+}
+}
 
 using namespace brainshift;
 

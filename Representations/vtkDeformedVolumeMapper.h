@@ -129,7 +129,7 @@ public:
 
   ///@{
   /**
-   * Whether tissue shows by tints how far its place can be believed (Scene/EvidenceClasses.h): at
+   * Whether tissue shows by tints how far its place can be believed (Scene/Tints.h): at
    * each sample, the deviation where it rests. A comparison in two colours shows stripes. It needs
    * blend mode Composite, Isosurface or Slice, and a volume with deviations (DeformableVolume.h).
    * Default false.

@@ -3,7 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Representations/Field/TissueFacts.h"
-#include "Representations/Gpu/Counters.h"
+#include "Representations/Gpu/GpuTask.h"
 #include "vtkDeformedSlicesMapper.h"
 #include "vtkDeformedSlicesRepresentation.h"
 #include "vtkDeformedVolumeMapper.h"

@@ -90,7 +90,7 @@ public:
   double* GetSameTissue() VTK_SIZEHINT(3);
 
   /**
-   * What the renderer did since it was made, and what it holds on the GPU (Gpu/Counters.h): lines
+   * What the renderer did since it was made, and what it holds on the GPU (Gpu/GpuTask.h): lines
    * of a name, a space and a number.
    */
   const char* GetCounters();

@@ -3,7 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Representations/Traces/TracePoints.h"
-#include "Representations/Workarounds/FailedUpdate.h"
+#include "Representations/Workarounds/ParaViewFaults.h"
 
 #include "vtkInformation.h"
 #include "vtkNew.h"

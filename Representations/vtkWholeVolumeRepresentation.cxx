@@ -6,9 +6,7 @@
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Representations/Window/EvidenceLegend.h"
 #include "Representations/Window/GatheredVolume.h"
-#include "Representations/Workarounds/FailedUpdate.h"
-#include "Representations/Workarounds/InteractiveDelivery.h"
-#include "Representations/Workarounds/LostServer.h"
+#include "Representations/Workarounds/ParaViewFaults.h"
 
 #include "vtkCommunicator.h"
 #include "vtkCoordinate.h"

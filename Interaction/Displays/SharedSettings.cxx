@@ -17,7 +17,7 @@ vtkSMProxy* sharedSettings()
 
 bool wantsBlueAndOrange()
 {
-  constexpr int blueAndOrange = 1; // as Representations/Scene/ComparisonColors.h numbers them
+  constexpr int blueAndOrange = 1; // as Representations/Scene/Tints.h numbers them
   vtkSMProxy* settings = sharedSettings();
   return settings && vtkSMPropertyHelper(settings, "ComparisonColors").GetAsInt() == blueAndOrange;
 }

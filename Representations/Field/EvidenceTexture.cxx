@@ -4,8 +4,8 @@
 #include "Representations/Field/SceneDeformation.h"
 #include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/OpenGL.h"
-#include "Representations/Scene/EvidenceClasses.h"
 #include "Representations/Scene/FieldPlace.h"
+#include "Representations/Scene/Tints.h"
 
 #include "vtkOpenGLRenderWindow.h"
 

@@ -10,7 +10,7 @@
 #include "Filters/Deformation/FieldChange.h"
 #include "Filters/Deformation/OffsetField.h"
 #include "Representations/Field/FineTextures.h"
-#include "Representations/Gpu/Counters.h"
+#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/Program.h"
 
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro

@@ -7,7 +7,7 @@
 #define BrainShift_FineTextures_h
 
 #include "Representations/Field/FineCells.h"
-#include "Representations/Gpu/Counters.h"
+#include "Representations/Gpu/GpuTask.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkTextureObject.h" // for its smart pointer

@@ -12,12 +12,24 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <initializer_list>
 #include <string>
+#include <vector>
 
 class vtkOpenGLRenderWindow;
+class vtkTextureObject;
 
 namespace brainshift
 {
+// The bytes that textures take on the GPU, as the driver reports them.
+
+/// Bytes of a texture's first level, from the number of bits that the driver chose for each
+/// channel. 0 for null. The texture's OpenGL context must be current.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::int64_t textureBytes(vtkTextureObject* texture);
+
+/// Bytes of all textures in some groups; null counts 0.
+std::int64_t textureBytes(std::initializer_list<std::vector<vtkTextureObject*>> groups);
+
 /// What a deformed volume takes of the GPU, bytes.
 struct MemoryNeed
 {

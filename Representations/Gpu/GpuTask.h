@@ -7,8 +7,7 @@
 #ifndef BrainShift_GpuTask_h
 #define BrainShift_GpuTask_h
 
-#include "Representations/Gpu/Counters.h"
-
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -16,6 +15,34 @@ class vtkOpenGLRenderWindow;
 
 namespace brainshift
 {
+// Counts what the renderer did since it was made: the proof that only what changed is done
+// again.
+
+/// Numbers of one mapper, over all its windows.
+struct Counters
+{
+  std::int64_t frames = 0;          ///< Images that were ray cast.
+  std::int64_t pixelsCast = 0;      ///< Pixels of all these images.
+  std::int64_t volumeUploads = 0;   ///< Times that scalars were sent to the GPU.
+  std::int64_t latticeUploads = 0;  ///< Times that control points were sent to the GPU.
+  std::int64_t transferUploads = 0; ///< Times that colour and opacity maps were sent to the GPU.
+  std::int64_t segmentUploads = 0; ///< Times that a segment was sent to the GPU, to be drawn alone.
+  std::int64_t evidenceUploads = 0;  ///< Times that evidence was sent to the GPU.
+  std::int64_t bytesUploaded = 0;    ///< Bytes of all these uploads.
+  std::int64_t texelsRefined = 0;    ///< Nodes of the offset field that were computed.
+  std::int64_t presenceUpdates = 0;  ///< Times that the deformed presence map was computed.
+  std::int64_t skippingBytes = 0;    ///< Faces and leaps sent back; not part of bytesUploaded.
+  std::int64_t correctionBytes = 0;  ///< Corrections of the offset field; not in bytesUploaded.
+  std::int64_t samplesTaken = 0;     ///< Samples of cast pixels, while CountSamples is on.
+  std::int64_t samplesSkipped = 0;   ///< Samples skipped before the ends of these rays.
+  std::int64_t imageScale = 1;       ///< Screen pixels a side for one pixel of the last image.
+  std::int64_t programsCompiled = 0; ///< Shader programs that were compiled and linked.
+
+  std::int64_t gpuScalarBytes = 0;       ///< Now: textures of the volume's scalars.
+  std::int64_t gpuOtherBytes = 0;        ///< Now: all other textures and buffers.
+  std::int64_t gpuFieldMicroseconds = 0; ///< The GPU's last run from lattice to offset field.
+};
+
 /// Work on the GPU for one picture.
 struct GpuTask
 {

@@ -6,7 +6,7 @@
 #ifndef BrainShift_Program_h
 #define BrainShift_Program_h
 
-#include "Representations/Gpu/Counters.h"
+#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/ShaderSource.h"
 
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro

@@ -6,7 +6,7 @@
 #ifndef BrainShift_CastImages_h
 #define BrainShift_CastImages_h
 
-#include "Representations/Gpu/Counters.h"
+#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/Program.h"
 #include "Representations/Scene/FirstHits.h"
 #include "Representations/Scene/ImageArea.h"

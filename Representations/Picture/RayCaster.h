@@ -6,7 +6,7 @@
 #ifndef BrainShift_RayCaster_h
 #define BrainShift_RayCaster_h
 
-#include "Representations/Gpu/Counters.h"
+#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/Program.h"
 #include "Representations/Picture/CastImages.h"
 #include "Representations/Scene/RayCastScene.h"

@@ -6,7 +6,7 @@
 #ifndef BrainShift_SelectionCover_h
 #define BrainShift_SelectionCover_h
 
-#include "Representations/Gpu/Counters.h"
+#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/Program.h"
 
 class vtkOpenGLRenderWindow;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Picture/VolumeDevice.h"
 
+#include "Representations/Gpu/GpuMemory.h"
 #include "Representations/Gpu/GpuTask.h"
-#include "Representations/Gpu/TextureMemory.h"
-#include "Representations/Scene/SceneCuts.h"
+#include "Representations/Scene/VolumeChoices.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"

@@ -12,7 +12,6 @@
 #include "Representations/Picture/Picture.h"
 #include "Representations/Picture/SelectionCover.h"
 #include "Representations/Scene/SceneFrame.h"
-#include "Representations/Tissue/DeviceReference.h"
 #include "Representations/Tissue/DeviceTissue.h"
 #include "Representations/Tissue/SceneReference.h"
 

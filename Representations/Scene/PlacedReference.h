@@ -7,7 +7,7 @@
 #ifndef BrainShift_PlacedReference_h
 #define BrainShift_PlacedReference_h
 
-#include "Representations/Scene/ComparisonColors.h"
+#include "Representations/Scene/Tints.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>

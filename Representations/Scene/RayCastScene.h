@@ -12,9 +12,11 @@
 
 #include "Filters/Deformation/FieldChange.h"
 #include "Representations/Gpu/ShaderSource.h"
-#include "Representations/Scene/ComparisonColors.h"
 #include "Representations/Scene/ImageArea.h"
 #include "Representations/Scene/PlacedReference.h"
+#include "Representations/Scene/Tints.h"
+
+#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -28,6 +30,7 @@ class vtkTextureObject;
 namespace brainshift
 {
 class DeformedPresence;
+class Program;
 struct RayCastScene;
 
 /// The lights of a renderer, as the shaders take them.
@@ -138,7 +141,7 @@ struct SceneSkipping
   glm::dvec3 firstBrick{ 0.0 }; ///< First brick of the presence map.
 };
 
-/// Clipping planes and cropping. Filled by cutsOf or cutsOfReference (SceneCuts.h).
+/// Clipping planes and cropping. Filled by cutsOf or cutsOfReference (VolumeChoices.h).
 struct SceneCuts
 {
   std::vector<float> clipPlanes; ///< 4 numbers each, texture coordinates; kept: dot + w >= 0.
@@ -219,6 +222,25 @@ struct RayCastScene
   /// Step along the ray, mm.
   double stepMm() const { return this->tissue.stepMm * (1 << this->image.stepDoublings); }
 };
+
+// Sets the uniforms of those groups of a scene that rays and slices share.
+
+/// What Shaders/Tissue/tissue.glsl needs. `stepDoublings`: how often the step was doubled, which
+/// chooses the row of opacities.
+void setTissueUniforms(Program& program, const SceneTissue& tissue, int stepDoublings);
+
+/// What Shaders/Field/field.glsl needs of a volume with a deformation.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT void setFieldUniforms(
+  Program& program, const SceneField& field);
+
+/// Ends the use of the field's textures.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT void deactivateField(const SceneField& field);
+
+/// What Shaders/Tissue/evidence.glsl needs. Nothing if evidence is not shown.
+void setEvidenceUniforms(Program& program, const SceneEvidence& evidence);
+
+/// What Shaders/Tissue/components.glsl needs.
+void setColoringUniforms(Program& program, const SceneColoring& coloring);
 }
 
 #endif

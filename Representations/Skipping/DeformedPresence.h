@@ -7,11 +7,12 @@
 #define BrainShift_DeformedPresence_h
 
 #include "Filters/Deformation/FieldChange.h"
-#include "Representations/Gpu/Counters.h"
+#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/Program.h"
 #include "Representations/Skipping/BrickFaces.h"
 #include "Representations/Skipping/RestPresence.h"
 
+#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 #include "vtkSmartPointer.h"
 #include "vtkTextureObject.h" // for its smart pointer
 
@@ -61,7 +62,7 @@ public:
   bool update(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
     const IndexBox& changed, Counters& counters);
 
-  /// bricksToOccupied (LeapMap.h), as shares of 255.
+  /// bricksToOccupied, as shares of 255.
   vtkTextureObject* leaps() const { return this->Leaps; }
 
   /// Draws all faces with a program in use, whose attribute `corner` takes the corners in bricks.
@@ -116,6 +117,18 @@ private:
   std::vector<IndexBox> OccupiedLayers;
   IndexBox OccupiedBox; // around them
 };
+
+// How far a ray may leap through empty bricks.
+//
+// Deakin and Knackstedt (2019) do so with volumes at rest; here it is done in the deformed frame.
+
+constexpr int LongestLeap = 8; ///< Bricks. Longer leaps gain little.
+
+/// For each of count.x * y * z bricks, x fastest: the Chebyshev distance to the nearest occupied
+/// brick, in bricks, at most LongestLeap. 0 if the brick is occupied itself. `occupied`: 0 for
+/// empty bricks.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<std::uint8_t> bricksToOccupied(
+  const std::vector<std::uint8_t>& occupied, const glm::ivec3& count);
 }
 
 #endif

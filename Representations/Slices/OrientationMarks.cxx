@@ -2,7 +2,7 @@
 #include "Representations/Slices/OrientationMarks.h"
 
 #include "Common/Guard.h"
-#include "Representations/Slices/PlaneColors.h"
+#include "Representations/Slices/SliceGeometry.h"
 
 #include "vtkCamera.h"
 #include "vtkCoordinate.h"

@@ -6,21 +6,115 @@
 #ifndef BrainShift_SliceDrawer_h
 #define BrainShift_SliceDrawer_h
 
-#include "Representations/Gpu/Counters.h"
+#include "Filters/Attached/ReferenceVolume.h"
+#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/Program.h"
+#include "Representations/Scene/PlacedReference.h"
 #include "Representations/Scene/RayCastScene.h"
-#include "Representations/Slices/SliceComparison.h"
+#include "Representations/Scene/SceneGeometry.h"
+#include "Representations/Scene/Tints.h"
+#include "Representations/Scene/VolumeChoices.h"
 #include "Representations/Slices/SliceGeometry.h"
+#include "Representations/Tissue/CavityTexture.h"
+#include "Representations/Tissue/ScalarTexture.h"
 
 #include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <map>
+#include <vector>
 
 class vtkOpenGLRenderWindow;
+class vtkTextureObject;
+class vtkWindow;
 
 namespace brainshift
 {
+// A reference volume beside the bent one in slices: its textures, and the uniforms of
+// Shaders/Slices/comparison.glsl.
+
+struct GpuTask;
+class Program;
+
+/// What the user chose; see vtkDeformedSlicesMapper.
+struct ComparisonChoice
+{
+  int comparison = 0;             ///< As numbered there.
+  ColorPair colors;               ///< For two colours, gradient and similarity.
+  double checkerSizeMm = 1.0;     ///< Side of a field.
+  double fullGradient = 1.0;      ///< Share of the range of greys per mm of full colour.
+  double windowMm = 12.0;         ///< Diameter of the window of local similarity.
+  glm::dvec3 wipePosition{ 0.0 }; ///< mm, world.
+};
+
+/// The bent volume, and what the scalars of both volumes mean.
+struct ComparedVolume
+{
+  Grid grid;
+  ValueLayout layout;
+  glm::dvec2 greyRange{ 0.0, 1.0 };          ///< The volume's values that are black and white.
+  StoredScalar valueFromStored;              ///< Of the volume.
+  StoredScalar valueFromReference;           ///< See SceneReference.h; used in 3D, too.
+  glm::dvec2 transferFromStored{ 1.0, 0.0 }; ///< Coordinate of the colour map: scale, shift.
+  bool nearest = false;                      ///< Voxels of both are drawn as they are.
+};
+
+/// A plane that divides a slice: mm beyond it, on the reference's side, from texture coordinates.
+struct WipePlane
+{
+  glm::dvec3 normal{ 0.0 };
+  double shift = 0.0;
+};
+
+/// What the shader needs of a reference.
+struct ReferenceScene
+{
+  PlacedReference place;
+  PlacedCavity cavity;
+  glm::ivec3 voxels{ 1 };                    ///< Of the reference, a side.
+  glm::dvec2 shareFromReference{ 1.0, 0.0 }; ///< Stored scalar to its share of the range of greys.
+  glm::dvec2 shareFromScalar{ 1.0, 0.0 }; ///< The volume's stored scalar to its share of the greys.
+  glm::dvec2 transferFromShare{ 1.0, 0.0 }; ///< Coordinate of the colour map from that share.
+  int comparison = 0;                       ///< 0: the reference alone.
+  ColorPair colors;
+  glm::dvec3 checkersFromTexture{ 1.0 }; ///< Checker fields for a texture unit.
+  glm::dvec3 fullFromGradient{ 1.0 }; ///< Gradient (stored scalar per texture unit) to full colour.
+  glm::dvec3 windowRadius{ 1.0 };     ///< Of local similarity, texture units.
+  std::array<WipePlane, 3> wipes;     ///< For the slices across each axis of the texture.
+};
+
+/// The planes that divide the slices across each axis. Slices across the volume's axis nearest to
+/// world x are divided across the axis nearest to y, all others across the axis nearest to x. The
+/// reference lies towards smaller x and y: on the right of all radiological pictures.
+std::array<WipePlane, 3> wipePlanes(
+  const Grid& grid, const ValueLayout& layout, const glm::dvec3& positionMm);
+
+/// The reference and its cavity in one window.
+class ReferenceTextures
+{
+public:
+  /// Uploads them if they changed, and fills in the scene. False, with a problem, if this GPU
+  /// cannot.
+  bool update(GpuTask& gpu, const ReferenceVolume& reference, const ComparisonChoice& choice,
+    const ComparedVolume& volume, ReferenceScene& scene);
+
+  std::vector<vtkTextureObject*> textures() const; ///< Null: not in use.
+  void releaseGraphicsResources(vtkWindow* window);
+
+private:
+  ScalarTexture Voxels;
+  CavityTexture Cavity;
+};
+
+/// Sets the uniforms of comparison.glsl, except for the wipe.
+void setReferenceUniforms(Program& program, const ReferenceScene& scene);
+
+/// Sets the uniforms of the wipe. `axis`: the axis of the volume's texture that the slice lies
+/// across.
+void setWipeUniforms(Program& program, const ReferenceScene& scene, int axis);
+
 /// Everything that a picture of slices depends on.
 struct SliceScene
 {

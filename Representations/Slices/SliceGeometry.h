@@ -16,10 +16,22 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <vector>
+
+class vtkRenderer;
 
 namespace brainshift
 {
+// The colours that name the three planes of Deformed Slices.
+
+/// Red, green and blue of the sagittal, the coronal and the axial plane, 0 to 1: yellowish green,
+/// blue, orange. They differ in lightness too, so that the colour-blind can tell them apart.
+constexpr std::array<std::array<double, 3>, 3> PlaneColors{ { { 0.88, 1.0, 0.25 },
+  { 0.30, 0.58, 1.0 }, { 0.92, 0.36, 0.0 } } };
+
+constexpr std::array<const char*, 3> PlaneNames{ "Sagittal", "Coronal", "Axial" };
+
 /// The volume's axis nearest to each world axis. Each axis is taken once.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT glm::ivec3 axesAcrossPlanes(const glm::dmat3& direction);
 
@@ -47,6 +59,32 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<SliceQuad> wholeQuads(const Slic
 /// The planes, cut where they cross, from back to front, for blending.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<SliceQuad> quadsBackToFront(
   const SlicePlanes& planes, const glm::dmat4& clipFromTexture);
+
+// Where a line of sight meets the planes of Deformed Slices.
+
+/// The planes of a picture.
+struct DrawnSlices
+{
+  SlicePlanes planes;
+  glm::dmat4 worldFromTexture{ 1.0 };
+};
+
+/// A point of a plane.
+struct SliceHit
+{
+  glm::dvec3 texture{ 0.0 }; ///< Texture coordinates, deformed frame.
+  glm::dvec3 world{ 0.0 };   ///< mm.
+  glm::dvec3 normal{ 0.0 };  ///< Unit normal of the plane, world.
+};
+
+/// Where the line from `from` to `to` (mm, world) meets the planes, nearest first.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<SliceHit> hitsAlong(
+  const DrawnSlices& slices, const glm::dvec3& from, const glm::dvec3& to);
+
+/// Where the line of sight through the middle of a pixel meets the planes, nearest first. `x`, `y`:
+/// the pixel, counted from the renderer's lower left corner.
+std::vector<SliceHit> hitsUnderPixel(
+  const DrawnSlices& slices, vtkRenderer* renderer, int x, int y);
 }
 
 #endif

@@ -7,7 +7,10 @@
 #ifndef BrainShift_DeviceTissue_h
 #define BrainShift_DeviceTissue_h
 
+#include "Representations/Scene/SceneFrame.h"
 #include "Representations/Skipping/DeformedPresence.h"
+#include "Representations/Tissue/CavityTexture.h"
+#include "Representations/Tissue/SceneReference.h"
 #include "Representations/Tissue/TissueTextures.h"
 
 #include <cstdint>
@@ -33,6 +36,34 @@ public:
 
 private:
   DeformedPresence Presence;
+};
+
+// A reference volume and its cavity on the GPU of one window.
+
+/// The reference of one volume.
+class DeviceReference
+{
+public:
+  DeviceTissue Tissue;
+
+  /// Uploads the reference if it changed, and fills frame, field, tissue and skipping of a scene in
+  /// which it is drawn alone. False, with a problem, if this GPU cannot.
+  bool update(
+    GpuTask& gpu, const DrawnVolume& drawn, const SceneReference& reference, RayCastScene& scene);
+
+  /// Uploads the reference and its cavity if they changed, and fills the comparison of a scene,
+  /// whose frame is filled already. The caller keeps `alone` as long as the scene: it becomes the
+  /// scene in which the reference is drawn alone. False, with a problem, if this GPU cannot.
+  bool compare(GpuTask& gpu, const DrawnVolume& drawn, const SceneReference& reference,
+    RayCastScene& scene, RayCastScene& alone);
+
+  /// Bytes on the GPU.
+  std::int64_t bytes() const;
+
+  void releaseGraphicsResources(vtkWindow* window);
+
+private:
+  CavityTexture Cavity;
 };
 }
 

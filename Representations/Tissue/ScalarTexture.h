@@ -6,7 +6,7 @@
 #ifndef BrainShift_ScalarTexture_h
 #define BrainShift_ScalarTexture_h
 
-#include "Representations/Gpu/Counters.h"
+#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Skipping/RestPresence.h"
 
 #include "vtkSmartPointer.h"

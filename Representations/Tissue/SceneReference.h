@@ -8,7 +8,7 @@
 #define BrainShift_SceneReference_h
 
 #include "Filters/Attached/ReferenceVolume.h"
-#include "Representations/Scene/ComparisonColors.h"
+#include "Representations/Scene/Tints.h"
 #include "Representations/Tissue/TissueTextures.h"
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 

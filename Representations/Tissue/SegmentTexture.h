@@ -7,7 +7,7 @@
 #define BrainShift_SegmentTexture_h
 
 #include "Filters/Attached/Segmentation.h"
-#include "Representations/Gpu/Counters.h"
+#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Skipping/RestPresence.h"
 
 #include "vtkSmartPointer.h"

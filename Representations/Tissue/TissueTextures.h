@@ -12,7 +12,6 @@
 #include "Representations/Scene/RayCastScene.h"
 #include "Representations/Scene/SceneGeometry.h"
 #include "Representations/Scene/VolumeChoices.h"
-#include "Representations/Tissue/ColorTexture.h"
 #include "Representations/Tissue/NormalTexture.h"
 #include "Representations/Tissue/ScalarTexture.h"
 #include "Representations/Tissue/SegmentTexture.h"

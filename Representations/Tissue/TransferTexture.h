@@ -6,14 +6,18 @@
 #ifndef BrainShift_TransferTexture_h
 #define BrainShift_TransferTexture_h
 
-#include "Representations/Gpu/Counters.h"
+#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/ShaderSource.h"
 #include "Representations/Skipping/RestPresence.h"
 
 #include "vtkSmartPointer.h"
+#include "vtkWeakPointer.h"
+
+#include <glm/vec3.hpp>
 
 #include <vector>
 
+class vtkDataArray;
 class vtkOpenGLRenderWindow;
 class vtkTextureObject;
 class vtkVolumeProperty;
@@ -21,6 +25,29 @@ class vtkWindow;
 
 namespace brainshift
 {
+// Colours that a volume brings along: the first three of four numbers of each voxel.
+
+/// The colours of one volume on the GPU of one window.
+class ColorTexture
+{
+public:
+  ColorTexture();
+  ~ColorTexture();
+
+  /// Uploads the array if it changed since the last call. Whole numbers are clamped to 0 to 255,
+  /// real numbers to 0 to 1. `dimensions`: voxels a side. False if the GPU refuses.
+  bool update(vtkOpenGLRenderWindow* window, vtkDataArray* array, const glm::ivec3& dimensions,
+    Counters& counters);
+
+  vtkTextureObject* texture() const { return this->Texture; }
+  void releaseGraphicsResources(vtkWindow* window);
+
+private:
+  vtkSmartPointer<vtkTextureObject> Texture;
+  vtkWeakPointer<vtkDataArray> Uploaded;
+  unsigned long long UploadedTime = 0;
+};
+
 struct GpuTask;
 struct VisibleColumns;
 

@@ -3,23 +3,174 @@
 
 #include "Representations/Gpu/OpenGL.h"
 #include "Representations/Gpu/SceneScope.h"
-#include "Representations/Traces/TraceOrder.h"
 
 #include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkShaderProgram.h"
+#include "vtkTextureObject.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
+#include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace brainshift
 {
+namespace
+{
+constexpr int Bits = 5; // 2^5 cells a side
+constexpr int CellsASide = 1 << Bits;
+constexpr std::size_t CellCount = std::size_t(1) << (3 * Bits);
+
+glm::vec3 placeOf(const TraceVertex& vertex)
+{
+  return { vertex.position[0], vertex.position[1], vertex.position[2] };
+}
+
+// Number of a cell along the Z-curve: the bits of its three coordinates in turn.
+std::size_t numberOf(const glm::ivec3& cell)
+{
+  std::size_t number = 0;
+  for (int bit = Bits - 1; bit >= 0; --bit)
+  {
+    for (int axis = 2; axis >= 0; --axis)
+    {
+      number = 2 * number + ((cell[axis] >> bit) & 1);
+    }
+  }
+  return number;
+}
+
+std::vector<std::size_t> cellsOf(const std::vector<TraceVertex>& vertices)
+{
+  glm::vec3 low = placeOf(vertices.front());
+  glm::vec3 high = low;
+  for (const TraceVertex& vertex : vertices)
+  {
+    low = glm::min(low, placeOf(vertex));
+    high = glm::max(high, placeOf(vertex));
+  }
+  const glm::vec3 extent = high - low;
+  const float side = glm::max(glm::max(extent.x, extent.y), extent.z);
+  const float cellsForMm = side > 0.0f ? CellsASide / side : 0.0f;
+  std::vector<std::size_t> cells;
+  cells.reserve(vertices.size());
+  for (const TraceVertex& vertex : vertices)
+  {
+    const glm::ivec3 cell((placeOf(vertex) - low) * cellsForMm);
+    cells.push_back(numberOf(glm::min(cell, glm::ivec3(CellsASide - 1))));
+  }
+  return cells;
+}
+}
+
+std::vector<TraceVertex> sortedBySpace(const std::vector<TraceVertex>& vertices)
+{
+  if (vertices.empty())
+  {
+    return {};
+  }
+  const std::vector<std::size_t> cells = cellsOf(vertices);
+  std::vector<std::size_t> places(CellCount + 1, 0); // of each cell's next point
+  for (const std::size_t cell : cells)
+  {
+    ++places[cell + 1];
+  }
+  for (std::size_t cell = 0; cell < CellCount; ++cell)
+  {
+    places[cell + 1] += places[cell];
+  }
+  std::vector<TraceVertex> sorted(vertices.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+  {
+    sorted[places[cells[i]]++] = vertices[i];
+  }
+  return sorted;
+}
+
+TraceImage::TraceImage() = default;
+TraceImage::~TraceImage() = default;
+
+void TraceImage::provide(vtkOpenGLRenderWindow* window, const glm::ivec2& size)
+{
+  if (this->Colors)
+  {
+    this->Colors->Resize(size.x, size.y);
+    this->Depths->Resize(size.x, size.y);
+    return;
+  }
+  this->Colors = vtkSmartPointer<vtkTextureObject>::New();
+  this->Depths = vtkSmartPointer<vtkTextureObject>::New();
+  for (vtkTextureObject* image : { this->Colors.Get(), this->Depths.Get() })
+  {
+    image->SetContext(window);
+    image->SetMinificationFilter(vtkTextureObject::Nearest);
+    image->SetMagnificationFilter(vtkTextureObject::Nearest);
+  }
+  constexpr int components = 4;
+  this->Colors->Allocate2D(size.x, size.y, components, VTK_UNSIGNED_CHAR);
+  this->Depths->AllocateDepth(size.x, size.y, vtkTextureObject::Fixed32);
+}
+
+void TraceImage::draw(
+  vtkOpenGLRenderWindow* window, const glm::ivec2& size, const std::function<void()>& drawBalls)
+{
+  this->provide(window, size);
+  vtkOpenGLState* state = window->GetState();
+  vtkOpenGLState::ScopedglViewport viewport(state);
+  vtkOpenGLState::ScopedglScissor scissor(state);
+  vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
+  FramebufferScope framebuffer(state);
+  glFramebufferTexture2D(
+    GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, this->Colors->GetHandle(), 0);
+  glFramebufferTexture2D(
+    GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, this->Depths->GetHandle(), 0);
+  framebuffer.drawColors(1);
+  state->vtkglViewport(0, 0, size.x, size.y);
+  state->vtkglScissor(0, 0, size.x, size.y);
+  state->vtkglDisable(GL_BLEND);
+  // The clear of VTK's state would change the clear colour of the window.
+  const float nothing[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
+  const float farthest = 1.0f;
+  glClearBufferfv(GL_COLOR, 0, nothing);
+  glClearBufferfv(GL_DEPTH, 0, &farthest);
+  drawBalls();
+}
+
+bool TraceImage::layOver(vtkOpenGLRenderWindow* window, Counters& counters)
+{
+  if (!this->OverProgram.use(window, tracesOverSource(), counters))
+  {
+    return false;
+  }
+  this->OverProgram.set("balls", this->Colors.Get());
+  this->OverProgram.set("depths", this->Depths.Get());
+  drawTriangles(1);
+  this->Colors->Deactivate();
+  this->Depths->Deactivate();
+  return true;
+}
+
+void TraceImage::releaseGraphicsResources(vtkWindow* window)
+{
+  for (auto* image : { &this->Colors, &this->Depths })
+  {
+    if (*image)
+    {
+      (*image)->ReleaseGraphicsResources(window);
+    }
+    *image = nullptr;
+  }
+  this->OverProgram.forget();
+}
+
 namespace
 {
 // Lets the vertex shader choose the size of points. VTK's state does not know this setting.

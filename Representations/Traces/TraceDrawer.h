@@ -8,27 +8,80 @@
 #ifndef BrainShift_TraceDrawer_h
 #define BrainShift_TraceDrawer_h
 
-#include "Representations/Gpu/Counters.h"
+#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/Program.h"
 #include "Representations/Scene/FirstHits.h"
-#include "Representations/Traces/TraceImage.h"
-#include "Representations/Traces/TraceVertex.h"
 
+#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 #include "vtkSmartPointer.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
+#include <cstdint>
+#include <functional>
 #include <map>
 #include <vector>
 
 class vtkOpenGLBufferObject;
 class vtkOpenGLRenderWindow;
+class vtkTextureObject;
 class vtkWindow;
 
 namespace brainshift
 {
+// A traced point as the GPU takes it.
+
+/// Position and colour of a ball.
+struct TraceVertex
+{
+  std::array<float, 3> position;     ///< mm, the points' own coordinates.
+  std::array<std::uint8_t, 4> color; ///< Red, green, blue, opacity.
+};
+
+// The order in which points are drawn.
+
+/// The points along a Z-curve, so that neighbours in space follow each other. A software driver
+/// sorts balls into tiles of the picture and reads them back from the memory in which they were set
+/// up. With ordered points that takes a third less time. Points in one cell of the curve, a 32nd of
+/// their box a side, keep their order.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<TraceVertex> sortedBySpace(
+  const std::vector<TraceVertex>& vertices);
+
+// An image of faded points by themselves, which is laid over the window.
+//
+// Each pixel holds the nearest ball. So a crowd of points is as faint as a single one, and every
+// ball is drawn only once.
+
+/// The image of one window.
+class TraceImage
+{
+public:
+  TraceImage();
+  ~TraceImage();
+  TraceImage(const TraceImage&) = delete;
+  void operator=(const TraceImage&) = delete;
+
+  /// Calls drawBalls while drawing goes into the empty image, `size` pixels from 0 0.
+  void draw(
+    vtkOpenGLRenderWindow* window, const glm::ivec2& size, const std::function<void()>& drawBalls);
+
+  /// Blends what was drawn over the viewport, with its depths. False if the shader does not
+  /// compile.
+  bool layOver(vtkOpenGLRenderWindow* window, Counters& counters);
+
+  void releaseGraphicsResources(vtkWindow* window);
+
+private:
+  void provide(vtkOpenGLRenderWindow* window, const glm::ivec2& size);
+
+  vtkSmartPointer<vtkTextureObject> Colors; // times opacity, opacity
+  vtkSmartPointer<vtkTextureObject> Depths; // window depths; 1: no ball
+  Program OverProgram;
+};
+
 /// Everything that a picture of points depends on.
 struct TraceScene
 {

@@ -2,7 +2,7 @@
 #include "Representations/Window/EvidenceLegend.h"
 
 #include "Common/Guard.h"
-#include "Representations/Scene/EvidenceClasses.h"
+#include "Representations/Scene/Tints.h"
 
 #include "vtkCoordinate.h"
 #include "vtkObjectFactory.h"

@@ -6,7 +6,7 @@
 #include "Representations/Field/FieldTexture.h"
 #include "Representations/Gpu/Program.h"
 #include "Representations/Gpu/VolumePass.h"
-#include "Representations/Scene/SceneUniforms.h"
+#include "Representations/Scene/RayCastScene.h"
 #include "Testing/Cxx/Representations/TestFieldRequest.h"
 #include "Testing/Cxx/Representations/TestFineCells.h"
 #include "Testing/Cxx/Representations/TestWindow.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that leaps are as long as the empty space around a brick allows, and never longer.
-#include "Representations/Skipping/LeapMap.h"
+#include "Representations/Skipping/DeformedPresence.h"
 
 #include <gtest/gtest.h>
 

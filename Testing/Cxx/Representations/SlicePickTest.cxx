@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that a line of sight meets the planes between its ends only, nearest first, where they lie
 // in the world.
-#include "Representations/Slices/SlicePick.h"
+#include "Representations/Slices/SliceGeometry.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that memory is counted as the driver allocated it, whatever a texture's format and size.
-#include "Representations/Gpu/TextureMemory.h"
+#include "Representations/Gpu/GpuMemory.h"
 #include "Representations/Gpu/OpenGL.h"
 #include "Testing/Cxx/Representations/TestWindow.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that sorting points by space loses none, keeps each one's colour, puts neighbours side by
 // side, and takes points that lie in one place, in a line, or nowhere.
-#include "Representations/Traces/TraceOrder.h"
+#include "Representations/Traces/TraceDrawer.h"
 
 #include <gtest/gtest.h>
 

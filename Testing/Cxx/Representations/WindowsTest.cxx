@@ -3,7 +3,7 @@
 // own, what it draws in a single one, and uploads to each of them once.
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Deformation/Stroke.h"
-#include "Representations/Gpu/Counters.h"
+#include "Representations/Gpu/GpuTask.h"
 #include "Testing/Cxx/Representations/TestWindow.h"
 #include "vtkDeformedVolumeMapper.h"
 

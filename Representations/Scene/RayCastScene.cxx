@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Representations/Scene/SceneUniforms.h"
+#include "Representations/Scene/RayCastScene.h"
 
 #include "Representations/Gpu/Program.h"
-#include "Representations/Scene/EvidenceClasses.h"
+#include "Representations/Scene/Tints.h"
 
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
@@ -106,4 +106,5 @@ void setColoringUniforms(Program& program, const SceneColoring& coloring)
     program.set("transferFromColorScalar", glm::vec2(coloring.transferFromScalar));
   }
 }
+
 }

@@ -1,20 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Lets a representation hear of later changes after its input could not be made.
+ * @brief What undoes faults of ParaView in representations; see README.md.
  */
-#ifndef BrainShift_FailedUpdate_h
-#define BrainShift_FailedUpdate_h
+#ifndef BrainShift_ParaViewFaults_h
+#define BrainShift_ParaViewFaults_h
 
 #include "vtkCallbackCommand.h"
 #include "vtkNew.h"
 #include "vtkType.h"
 
+class vtkInformation;
 class vtkInformationRequestKey;
 class vtkPVDataRepresentation;
 
 namespace brainshift
 {
+/// A representation of a volume calls this after its base class has answered a view's request.
+/// Above its LOD threshold, ParaView delivers only simplified stand-ins of the data for interactive
+/// pictures. A volume has no stand-in and would be missing after a stroke. So this delivers the
+/// volume itself.
+void deliverWithStandIns(vtkPVDataRepresentation* representation, vtkInformationRequestKey* request,
+  vtkInformation* input);
+
+/**
+ * Watches the connection to the server of the active session. When it is lost, one message says so,
+ * and how strokes are kept. Without it, ParaView's sockets say "Broken pipe", and no more. In a
+ * session without a server this does nothing.
+ */
+void watchServer();
+
 /**
  * Ends an update that failed because a filter refused its values. ParaView ends only updates that
  * brought data. After any other it believes that the representation still waits, and passes on no
