@@ -8,8 +8,7 @@
 #include "Interaction/Commands/ToolSettings.h"
 #include "Interaction/Views/CursorWatch.h"
 #include "Interaction/Views/OtherVolume.h"
-#include "Interaction/Views/RestingCursor.h"
-#include "Interaction/Workarounds/KeptPictures.h"
+#include "Interaction/Workarounds/Updates.h"
 
 #include <QObject>
 #include <QPointer>

@@ -6,11 +6,10 @@
 #include "Interaction/ToolCarrier.h"
 #include "Interaction/ToolKeys.h"
 #include "Interaction/Views/SliceMouse.h"
-#include "Interaction/Workarounds/KeptSelection.h"
 #include "Interaction/Workarounds/QuietLinks.h"
+#include "Interaction/Workarounds/Selections.h"
 #include "Plugin/ComparisonLegend.h"
 #include "Plugin/FirstLook.h"
-#include "Plugin/TraceLook.h"
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>

@@ -23,6 +23,14 @@ void joinLook(pqDataRepresentation* display);
 
 /// The first point array of a volume, else the first of all, becomes the one to colour by.
 void colorByFirstArray(pqDataRepresentation* display);
+
+// How the window shows a Trace Distance for the first time: coloured by distance, with a scale in
+// mm.
+
+/// Colours a representation of a Trace Distance by signed distance: white at the cortex, green
+/// outside, purple inside. Hides the traced points that the filter was made of. Other
+/// representations stay as they are.
+void showByDistance(pqDataRepresentation* display);
 }
 
 #endif

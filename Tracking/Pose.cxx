@@ -3,6 +3,7 @@
 
 #include <glm/matrix.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace brainshift
@@ -41,5 +42,46 @@ std::string problemOf(const Pose& pose)
 bool isIdentity(const Pose& pose)
 {
   return pose.tip == glm::dvec3(0.0) && pose.rotation == glm::dmat3(1.0);
+}
+
+namespace
+{
+constexpr std::size_t MostWaiting = 4096;
+constexpr double RateSeconds = 1.0;
+}
+
+void PoseCounter::add(const Pose& pose)
+{
+  ++this->state.poses;
+  this->state.visible = true;
+  this->state.device = pose.device;
+  this->state.lastSeconds = pose.seconds;
+  this->Waiting.push_back(pose);
+  if (this->Waiting.size() > MostWaiting)
+  {
+    this->Waiting.pop_front();
+    ++this->state.overrun;
+  }
+  this->Times.push_back(pose.seconds);
+  while (this->Times.front() <= pose.seconds - RateSeconds)
+  {
+    this->Times.pop_front();
+  }
+}
+
+std::vector<Pose> PoseCounter::take()
+{
+  std::vector<Pose> taken(this->Waiting.begin(), this->Waiting.end());
+  this->Waiting.clear();
+  return taken;
+}
+
+SourceState PoseCounter::stateAt(double seconds) const
+{
+  SourceState now = this->state;
+  now.rate = static_cast<double>(std::count_if(this->Times.begin(), this->Times.end(),
+               [seconds](double time) { return time > seconds - RateSeconds; })) /
+    RateSeconds;
+  return now;
 }
 }

@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,27 @@ public:
 
   /** Seconds since the source was started: the age of a pose is now() - seconds. */
   virtual double now() const = 0;
+};
+
+/// Keeps the newest poses until they are taken, and counts.
+class PoseCounter
+{
+public:
+  /** What is known; who holds the counter sets phase and problem. */
+  SourceState state;
+
+  /** A pose came. The oldest one that nobody took makes room for it. */
+  void add(const Pose& pose);
+
+  /** Poses of before, as PoseSource::take() says. */
+  std::vector<Pose> take();
+
+  /** The state at a time. */
+  SourceState stateAt(double seconds) const;
+
+private:
+  std::deque<Pose> Waiting;
+  std::deque<double> Times; // of poses in the last second
 };
 }
 

@@ -9,6 +9,7 @@
 
 #include "Tracking/Pose.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +39,31 @@ std::string writeSession(const std::string& path, const Session& session);
 /** Reads a session. Returns one sentence without a full stop if the file is damaged; it then leaves
  * `session` as it was. */
 std::string readSession(const std::string& path, Session& session);
+
+/// Plays a recorded session as if its server sent it again, in real time.
+class Replay : public PoseSource
+{
+public:
+  /**
+   * Begins to play.
+   *
+   * @param clock   seconds; it never goes back. Empty: the time of the machine.
+   */
+  explicit Replay(Session session, std::function<double()> clock = {});
+
+  std::vector<Pose> take() override;
+  SourceState state() const override;
+  double now() const override;
+
+  const std::optional<Placement>& placement() const { return this->Played.placement; }
+
+private:
+  const Session Played;
+  const std::function<double()> Clock;
+  const double Start;
+  std::size_t Next = 0;
+  PoseCounter Counter;
+};
 }
 
 #endif

@@ -11,7 +11,6 @@
 
 #include "Tracking/Connection.h"
 #include "Tracking/Pose.h"
-#include "Tracking/PoseCounter.h"
 
 #include <chrono>
 #include <mutex>

@@ -4,6 +4,7 @@
 #include "Common/Parallel.h"
 #include "Filters/Deformation/Inversion.h"
 #include "Filters/Deformation/Kernels.h"
+#include "Filters/Deformation/Lattice.h"
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>

@@ -11,7 +11,7 @@
 #define BrainShift_OffsetField_h
 
 #include "Common/Export.h"
-#include "Filters/Deformation/Lattice.h"
+#include "Common/Grid.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -20,6 +20,8 @@
 
 namespace brainshift
 {
+struct Lattice;
+
 /** Fewest nodes between two control points. */
 constexpr int SmallestSamples = 0;
 

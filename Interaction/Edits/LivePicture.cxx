@@ -2,7 +2,7 @@
 #include "Interaction/Edits/LivePicture.h"
 
 #include "Interaction/Views/ShowingViews.h"
-#include "Interaction/Workarounds/QuietUpdates.h"
+#include "Interaction/Workarounds/Updates.h"
 
 #include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>

@@ -7,7 +7,7 @@
 
 #include "Interaction/Edits/LiveRun.h"
 #include "Interaction/Edits/RefineChoices.h"
-#include "Interaction/Workarounds/EmptySelections.h"
+#include "Interaction/Workarounds/Selections.h"
 
 #include <vtkWeakPointer.h>
 

@@ -7,7 +7,7 @@
 #define BrainShift_StrokeEditor_h
 
 #include "Filters/Deformation/Stroke.h"
-#include "Interaction/Workarounds/EmptySelections.h"
+#include "Interaction/Workarounds/Selections.h"
 
 #include <QObject>
 #include <QTimer>

@@ -88,6 +88,15 @@ private:
   glm::ivec2 PressedAt{ 0 };      ///< Pixels from the lower left corner.
   bool Passing = false;           ///< A press goes on to the camera right now.
 };
+
+// What the views show together of a bent volume and its reference.
+
+/// Brings the slices of all views to a position (mm) where a Free-Form Deformation is drawn: those
+/// of it, those of its volume as loaded to the same tissue, those of others to the position.
+void bringCrosshairTo(pqPipelineSource* deformation, const glm::dvec3& drawn);
+
+/// Whether a view shows a reference: a comparison of the Free-Form Deformation, or another volume.
+bool isReferenceShown(pqPipelineSource* deformation);
 }
 
 #endif

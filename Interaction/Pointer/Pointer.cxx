@@ -3,7 +3,7 @@
 
 #include "Interaction/Commands/Commands.h"
 #include "Interaction/Views/ActiveDeformation.h"
-#include "Tracking/Replay.h"
+#include "Tracking/SessionFile.h"
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>

@@ -2,6 +2,7 @@
 #include "Interaction/Views/CursorWatch.h"
 
 #include <pqApplicationCore.h>
+#include <pqPipelineSource.h>
 #include <pqRenderView.h>
 #include <pqServerManagerModel.h>
 
@@ -11,6 +12,39 @@
 
 namespace brainshift
 {
+RestingCursor::RestingCursor(QObject* parent)
+  : QObject(parent)
+{
+  this->Soon.setSingleShot(true);
+  this->Soon.setInterval(0); // a pick in the middle of a picture would ask a busy server
+  this->connect(&this->Soon, &QTimer::timeout, this, &RestingCursor::sees);
+  this->connect(pqApplicationCore::instance()->getServerManagerModel(),
+    &pqServerManagerModel::dataUpdated, this, [this](pqPipelineSource* source) {
+      this->Outdated = this->Outdated || source == this->Deformation;
+    });
+}
+
+void RestingCursor::follow(pqPipelineSource* deformation, pqRenderView* view)
+{
+  if (this->View)
+  {
+    this->View->disconnect(this);
+  }
+  this->Deformation = deformation;
+  this->View = view;
+  if (view)
+  {
+    this->connect(view, &pqView::endRender, this, [this] {
+      if (this->Outdated)
+      {
+        this->Outdated = false;
+        this->look();
+      }
+    });
+    this->look();
+  }
+}
+
 namespace
 {
 constexpr float Priority = 1.0f; // before widgets, 0.5

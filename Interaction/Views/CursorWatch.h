@@ -1,23 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Knows which render view the cursor is over. It hears of the mouse before anything in the view
-/// does.
+/// The cursor over render views: which view it is over, and what is new under it.
 #ifndef BrainShift_CursorWatch_h
 #define BrainShift_CursorWatch_h
-
-#include <QHash>
-#include <QObject>
-#include <QPointer>
 
 #include <vtkEventQtSlotConnect.h>
 #include <vtkNew.h>
 
+#include <QHash>
+#include <QObject>
+#include <QPointer>
+#include <QTimer>
+
+class pqPipelineSource;
 class pqRenderView;
 class pqView;
 class vtkObject;
 
 namespace brainshift
 {
+/// Says when a cursor that rests has something new under it: after undo, for example.
+class RestingCursor : public QObject
+{
+  Q_OBJECT
+
+public:
+  explicit RestingCursor(QObject* parent);
+
+  /// The Free-Form Deformation and the view that matter from now on. Null: none does.
+  void follow(pqPipelineSource* deformation, pqRenderView* view);
+
+  void look() { this->Soon.start(); }          ///< Something is new now.
+  void lookAtNext() { this->Outdated = true; } ///< The view's next picture shows something new.
+
+Q_SIGNALS:
+  /// From the event loop. The view's last picture shows what is new.
+  void sees();
+
+private:
+  QPointer<pqPipelineSource> Deformation;
+  QPointer<pqRenderView> View;
+  QTimer Soon;
+  bool Outdated = false;
+};
+
+/// Knows which render view the cursor is over. It hears of the mouse before anything in the view
+/// does.
 class CursorWatch : public QObject
 {
   Q_OBJECT

@@ -2,8 +2,8 @@
 #include "Interaction/Views/SliceMouse.h"
 
 #include "Common/ScreenScale.h"
+#include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Views/Reports.h"
-#include "Interaction/Views/SameTissue.h"
 
 #include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
@@ -21,6 +21,7 @@
 #include <vtkRenderer.h>
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
 #include <vtkSMRenderViewProxy.h>
 #include <vtkSMSourceProxy.h>
 #include <vtkSMViewLayoutProxy.h>
@@ -32,9 +33,72 @@
 #include <cmath>
 #include <cstring>
 #include <utility>
+#include <vector>
+
+class vtkSMProxy;
 
 namespace brainshift
 {
+// Slices of one volume in several views, bent in some and as loaded in others.
+
+/// Lets the slices of the same volume in other views go through the same tissue as those of a
+/// display, bent there or not. It renders nothing.
+void followInOtherViews(vtkSMProxy* display);
+
+namespace
+{
+// The volume that a source passes on without new voxels: that of the file, for what bends it or
+// compares it.
+vtkSMProxy* volumeOf(vtkSMProxy* source)
+{
+  while (source &&
+    (std::strcmp(source->GetXMLName(), "FreeFormDeformation") == 0 ||
+      std::strcmp(source->GetXMLName(), "CompareVolumes") == 0))
+  {
+    source = vtkSMPropertyHelper(source, "Input").GetAsProxy();
+  }
+  return source;
+}
+
+vtkSMProxy* volumeShownBy(vtkSMProxy* display)
+{
+  return volumeOf(vtkSMPropertyHelper(display, "Input").GetAsProxy());
+}
+
+// Where tissue at a place (mm) that a display shows lies at rest, or the other way round.
+std::vector<double> sameTissue(vtkSMProxy* display, const std::vector<double>& place, bool toRest)
+{
+  const vtkSmartPointer<vtkSMProxy> report = makeReport(display, "DeformedVolumeReport");
+  pointAt(report, "Representation", display);
+  vtkSMPropertyHelper(report, "Place").Set(place.data(), 3);
+  vtkSMPropertyHelper(report, "ToRest").Set(toRest);
+  return answerOf(report, "SameTissue");
+}
+
+}
+
+void followInOtherViews(vtkSMProxy* display)
+{
+  const std::vector<double> place = vtkSMPropertyHelper(display, "SlicePosition").GetDoubleArray();
+  vtkSMProxy* volume = volumeShownBy(display);
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  std::vector<double> rest;
+  for (pqDataRepresentation* other : model->findItems<pqDataRepresentation*>())
+  {
+    vtkSMProxy* follower = other->getProxy();
+    if (!other->isVisible() || !showsSlices(other) || volumeShownBy(follower) != volume ||
+      vtkSMPropertyHelper(follower, "Input").GetAsProxy() ==
+        vtkSMPropertyHelper(display, "Input").GetAsProxy())
+    {
+      continue; // views of one source are linked if they were laid out together
+    }
+    rest = rest.empty() ? sameTissue(display, place, true) : rest;
+    const std::vector<double> found = sameTissue(follower, rest, false);
+    vtkSMPropertyHelper(follower, "SlicePosition").Set(found.data(), 3);
+    follower->UpdateVTKObjects();
+  }
+}
+
 namespace
 {
 constexpr float Priority = 0.1f; // before ParaView's camera, after tools that take the mouse

@@ -3,8 +3,7 @@
 
 #include "Interaction/Commands/ToolSettings.h"
 #include "Interaction/Edits/FitEditor.h"
-#include "Panel/Measured/PullModel.h"
-#include "Panel/Parts/ListTree.h"
+#include "Panel/Parts/List.h"
 
 #include <pqPipelineSource.h>
 #include <pqProxyWidget.h>
@@ -15,8 +14,195 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include <glm/geometric.hpp>
+
+#include <utility>
+
 namespace brainshift
 {
+namespace
+{
+constexpr double LeastAsked = 0.01; // mm; at 0 a pull would lose its direction
+constexpr double MostAsked = 1000.0;
+constexpr double LeastWeight = 0.01; // at 0 a pull is switched off
+constexpr double MostWeight = 100.0;
+
+double askedOf(const Pull& pull)
+{
+  return glm::distance(pull.rest, pull.measured);
+}
+}
+
+PullModel::PullModel(Write write, QObject* parent)
+  : ListModel(
+      {
+        { tr("Tissue"), tr("A pull or a pin. The check mark switches it on."), true },
+        { tr("Asked"), tr("Distance from the position in the scan to the target (mm)") },
+        { tr("Missed by"),
+          tr("Distance from the target to the position after the fit (mm). All pulls and pins are "
+             "solved together.") },
+        { tr("Weight"), tr("Confidence in the pull: 1 is usual, 4 is fitted twice as closely") },
+        { tr("Position"), tr("Position of the tissue in the scan: x, y, z (mm, world axes)"),
+          true },
+      },
+      parent)
+  , WritePulled(std::move(write))
+{
+}
+
+const Pin& PullModel::pin(int row) const
+{
+  return this->Now.pins[static_cast<std::size_t>(row) - this->Now.pulls.size()];
+}
+
+void PullModel::show(const Pulled& pulled)
+{
+  const int before = this->count();
+  this->Now = pulled;
+  if (this->count() != before)
+  {
+    this->Places.clear();
+  }
+  this->announce();
+}
+
+void PullModel::setPlaces(
+  const std::vector<glm::dvec3>& places, const std::vector<glm::dvec3>& held)
+{
+  this->Places = places;
+  this->Held = held;
+  this->announceColumn(MissedColumn);
+}
+
+bool PullModel::isOn(int row) const
+{
+  return this->isPull(row) ? this->pull(row).weight > 0.0 : this->pin(row).enabled;
+}
+
+void PullModel::setOn(const QList<int>& rows, bool on)
+{
+  Pulled changed = this->Now;
+  for (const int row : rows)
+  {
+    if (!this->isPull(row))
+    {
+      changed.pins.at(static_cast<std::size_t>(row) - changed.pulls.size()).enabled = on;
+    }
+    else if (this->isOn(row) != on)
+    {
+      changed.pulls.at(static_cast<std::size_t>(row)).weight = on ? 1.0 : 0.0;
+    }
+  }
+  this->WritePulled(changed, on ? tr("Switch On Pulls") : tr("Switch Off Pulls"));
+}
+
+void PullModel::removeRowsOf(const QList<int>& rows)
+{
+  Pulled left;
+  for (int row = 0; row < this->count(); ++row)
+  {
+    if (rows.contains(row))
+    {
+      continue;
+    }
+    if (this->isPull(row))
+    {
+      left.pulls.push_back(this->pull(row));
+    }
+    else
+    {
+      left.pins.push_back(this->pin(row));
+    }
+  }
+  this->WritePulled(left, tr("Delete Pulls"));
+}
+
+void PullModel::removeAll()
+{
+  this->WritePulled({}, tr("Clear All Pulls"));
+}
+
+int PullModel::count() const
+{
+  return static_cast<int>(this->Now.pulls.size() + this->Now.pins.size());
+}
+
+std::optional<ListModel::Number> PullModel::number(int row, int column) const
+{
+  if (!this->isPull(row))
+  {
+    return std::nullopt;
+  }
+  if (column == WeightColumn)
+  {
+    return Number{ this->pull(row).weight, LeastWeight, MostWeight };
+  }
+  const double asked = askedOf(this->pull(row));
+  return column == AskedColumn && asked > 0.0
+    ? std::optional<Number>({ asked, LeastAsked, MostAsked })
+    : std::nullopt;
+}
+
+void PullModel::change(int row, int column, double number)
+{
+  Pulled changed = this->Now;
+  Pull& pull = changed.pulls.at(static_cast<std::size_t>(row));
+  if (column == WeightColumn)
+  {
+    pull.weight = number;
+  }
+  else
+  {
+    pull.measured = pull.rest + number * glm::normalize(pull.measured - pull.rest);
+  }
+  this->WritePulled(changed, tr("Change Pull"));
+}
+
+// Where the tissue of a row should be, mm.
+glm::dvec3 PullModel::target(int row) const
+{
+  if (this->isPull(row))
+  {
+    return this->pull(row).measured;
+  }
+  const std::size_t place = static_cast<std::size_t>(row) - this->Now.pulls.size();
+  return place < this->Held.size() ? this->Held[place] : this->pin(row).rest;
+}
+
+QString PullModel::text(int row, int column) const
+{
+  const std::size_t place = static_cast<std::size_t>(row);
+  const glm::dvec3& rest = this->isPull(row) ? this->pull(row).rest : this->pin(row).rest;
+  switch (column)
+  {
+    case KindColumn:
+      return this->isPull(row)
+        ? tr("Pull %1").arg(row + 1)
+        : tr("Pin %1").arg(row + 1 - static_cast<int>(this->Now.pulls.size()));
+    case AskedColumn:
+      return this->isPull(row) ? QString::number(askedOf(this->pull(row)), 'f', 1) : tr("stays");
+    case MissedColumn:
+    {
+      return this->isOn(row) && place < this->Places.size()
+        ? QString::number(glm::distance(this->Places[place], this->target(row)), 'f', 1)
+        : QString();
+    }
+    case WeightColumn:
+      return this->isPull(row) ? QString::number(this->pull(row).weight) : QString();
+    default:
+      return positionText(rest, 0);
+  }
+}
+
+QString PullModel::toolTip(int row, int) const
+{
+  const QString tip = this->isPull(row)
+    ? tr("Pull from %1 to %2 mm")
+        .arg(positionText(this->pull(row).rest, 2), positionText(this->pull(row).measured, 2))
+    : tr("Pin at %1 mm").arg(positionText(this->pin(row).rest, 2));
+  return this->isOn(row) ? tip : tip + tr(" (switched off)");
+}
+
 namespace
 {
 constexpr int ListMs = 250; // from one update of a list under the hand to the next

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Properties/AlignWidget.h"
 
-#include "Interaction/Workarounds/RoomyDock.h"
+#include "Interaction/Workarounds/Docks.h"
 #include "Panel/Registered/AlignPane.h"
 
 #include <pqApplicationCore.h>

@@ -3,10 +3,9 @@
 
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
-#include "Interaction/Workarounds/InSight.h"
-#include "Interaction/Workarounds/QuietUpdates.h"
-#include "Panel/Parts/CurvePlot.h"
-#include "Panel/Parts/HistogramPlot.h"
+#include "Interaction/Workarounds/Docks.h"
+#include "Interaction/Workarounds/Updates.h"
+#include "Panel/Parts/Plots.h"
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>

@@ -3,7 +3,7 @@
 
 #include "Interaction/Edits/FitEditor.h"
 #include "Interaction/Landmarks/LandmarkList.h"
-#include "Interaction/Workarounds/InSight.h"
+#include "Interaction/Workarounds/Docks.h"
 #include "Panel/Landmarks/LandmarkTable.h"
 
 #include <pqApplicationCore.h>

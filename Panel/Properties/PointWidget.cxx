@@ -2,7 +2,7 @@
 #include "Panel/Properties/PointWidget.h"
 
 #include "Interaction/Edits/PointOfInterest.h"
-#include "Interaction/Workarounds/InSight.h"
+#include "Interaction/Workarounds/Docks.h"
 #include "Panel/Parts/MillimetreField.h"
 
 #include <pqPropertiesPanel.h>

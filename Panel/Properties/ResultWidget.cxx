@@ -3,7 +3,7 @@
 
 #include "Interaction/Displays/SharedSettings.h"
 #include "Interaction/Edits/StrokeEditor.h"
-#include "Interaction/Workarounds/InSight.h"
+#include "Interaction/Workarounds/Docks.h"
 #include "Panel/Parts/Advice.h"
 
 #include <pqApplicationCore.h>

@@ -2,7 +2,7 @@
 #include "Panel/Properties/StrengthWidget.h"
 
 #include "Interaction/Edits/StrokeEditor.h"
-#include "Interaction/Workarounds/InSight.h"
+#include "Interaction/Workarounds/Docks.h"
 #include "Panel/Parts/ValueSlider.h"
 
 #include <pqApplicationCore.h>

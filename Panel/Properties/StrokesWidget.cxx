@@ -3,13 +3,11 @@
 
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Landmarks/LandmarkList.h"
-#include "Interaction/Workarounds/InSight.h"
-#include "Interaction/Workarounds/RoomyDock.h"
+#include "Interaction/Workarounds/Docks.h"
 #include "Panel/Landmarks/LandmarkTable.h"
 #include "Panel/Measured/PullsPane.h"
 #include "Panel/Registered/RefinePane.h"
 #include "Panel/Strokes/StrokeList.h"
-#include "Panel/Strokes/StrokeModel.h"
 #include "Panel/Tools/ToolPanel.h"
 
 #include <pqApplicationCore.h>

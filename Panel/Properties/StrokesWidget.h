@@ -5,7 +5,7 @@
 #ifndef BrainShift_StrokesWidget_h
 #define BrainShift_StrokesWidget_h
 
-#include "Interaction/Views/LatticeProbe.h"
+#include "Interaction/Views/ViewProbe.h"
 
 #include <pqPropertyWidget.h>
 

@@ -5,6 +5,7 @@
 #define BrainShift_LookChoice_h
 
 #include <QIcon>
+#include <QMenu>
 #include <QString>
 #include <QStringList>
 
@@ -25,6 +26,19 @@ QStringList looksOf(pqDataRepresentation* display);
 /// Gives a display a look, as one step to undo, and remembers it for volumes of its kind. A look of
 /// a label map that is open makes it the Segmentation.
 void chooseLook(pqDataRepresentation* display, const QString& name);
+
+/// Menu of the toolbar with the looks of the volume that the active view shows. It reads the volume
+/// when it opens.
+class LookMenu : public QMenu
+{
+  Q_OBJECT
+
+public:
+  LookMenu(QWidget* parent = nullptr);
+
+private:
+  void offer();
+};
 }
 
 #endif

@@ -3,7 +3,6 @@
 
 #include "Panel/Window/KeysText.h"
 #include "Panel/Window/Tutorial.h"
-#include "Panel/Window/Welcome.h"
 
 #include <pqCoreUtilities.h>
 

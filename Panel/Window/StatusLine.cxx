@@ -1,15 +1,203 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Window/StatusLine.h"
 
+#include "Filters/Fit/Fit.h"
 #include "Interaction/Commands/ToolSettings.h"
 #include "Panel/Tools/MouseHint.h"
 
+#include <pqApplicationCore.h>
+#include <pqRenderView.h>
+#include <pqServerManagerModel.h>
+
+#include <vtkCommand.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkSMRenderViewProxy.h>
+#include <vtkSMSession.h>
+
+#include <QApplication>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QStringList>
 #include <QToolButton>
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
 
 namespace brainshift
 {
+namespace
+{
+constexpr int AskEachMs = 50; // at most; faster than one can read
+
+// The sides of the patient towards greater and towards smaller x, y and z.
+struct Sides
+{
+  const char* greater;
+  const char* smaller;
+};
+
+Sides sidesOf(WorldAxes axes)
+{
+  return axes == WorldAxes::RAS ? Sides{ "RAS", "LPI" } : Sides{ "LPS", "RAI" };
+}
+
+QString placeText(const glm::dvec3& mm, WorldAxes axes)
+{
+  QStringList parts;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (axes == WorldAxes::Unknown)
+    {
+      parts.append(QString("%1 %2").arg(QChar("xyz"[axis])).arg(mm[axis], 0, 'f', 1));
+      continue;
+    }
+    const Sides sides = sidesOf(axes);
+    const char side = mm[axis] < 0.0 ? sides.smaller[axis] : sides.greater[axis];
+    parts.append(QString("%1 %2").arg(QChar(side)).arg(std::abs(mm[axis]), 0, 'f', 1));
+  }
+  return parts.join(' ');
+}
+
+QSize sizeOf(pqRenderView* view)
+{
+  const int* size = view->getRenderViewProxy()->GetRenderWindow()->GetSize();
+  return { size[0], size[1] };
+}
+
+QString numberText(double number)
+{
+  return QString::number(number, 'g', 6);
+}
+}
+
+namespace
+{
+// How far the place of tissue can be believed, as pictures class it.
+QString evidenceText(double deviation)
+{
+  constexpr double unknownMm = 4.0; // from here on pictures show no evidence
+  return deviation < unknownMm ? CursorLine::tr("evidence: \u00b1 %1 mm (95 %: %2 mm)")
+                                   .arg(deviation, 0, 'f', 1)
+                                   .arg(DeviationsOfBall95 * deviation, 0, 'f', 1)
+                               : CursorLine::tr("no evidence");
+}
+}
+
+QString cursorText(const CursorTissue& tissue)
+{
+  QStringList parts;
+  parts.append(CursorLine::tr("%1 mm").arg(placeText(tissue.deformed, tissue.axes)));
+  if (tissue.bent)
+  {
+    parts.append(CursorLine::tr("before %1 mm").arg(placeText(tissue.rest, tissue.axes)));
+  }
+  if (tissue.intensity)
+  {
+    parts.append(CursorLine::tr("intensity %1").arg(numberText(*tissue.intensity)));
+  }
+  if (tissue.reference)
+  {
+    parts.append(CursorLine::tr("reference %1").arg(numberText(*tissue.reference)));
+  }
+  if (!tissue.label.isEmpty())
+  {
+    parts.append(CursorLine::tr("label %1").arg(tissue.label));
+  }
+  if (tissue.bent)
+  {
+    const double moved = glm::distance(tissue.deformed, tissue.rest);
+    parts.append(CursorLine::tr("moved %1 mm").arg(moved, 0, 'f', 1));
+    parts.append(tissue.volumeShare > 0.0
+        ? CursorLine::tr("volume %1 %").arg(100.0 * tissue.volumeShare, 0, 'f', 0)
+        : CursorLine::tr("folded"));
+  }
+  if (tissue.deviation)
+  {
+    parts.append(evidenceText(*tissue.deviation));
+  }
+  return parts.join(QStringLiteral(" \u00b7 "));
+}
+
+CursorLine::CursorLine(QWidget* parent)
+  : QLabel(parent)
+  , Cursor(this)
+{
+  this->setObjectName("BrainShiftCursor");
+  this->setContentsMargins(6, 0, 6, 0);
+  this->setTextFormat(Qt::PlainText); // names come from files
+  this->setToolTip(tr(
+    "The tissue under the cursor: position (mm), position before the deformation, value and label "
+    "of the nearest voxel, displacement, volume now (100 %: unchanged), and uncertainty of the "
+    "position: one standard deviation along an axis, and the radius of the ball that contains it "
+    "with 95 % probability."));
+  this->Asking.setSingleShot(true);
+  this->Asking.setInterval(AskEachMs);
+  this->connect(&this->Asking, &QTimer::timeout, this, &CursorLine::ask);
+  this->connect(&this->Cursor, &CursorWatch::moved, this, &CursorLine::follow);
+  this->connect(&this->Cursor, &CursorWatch::left, this, &CursorLine::fallSilent);
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  // A question must not keep alive what is deleted.
+  this->connect(model, &pqServerManagerModel::preViewRemoved, this, &CursorLine::fallSilent);
+  this->connect(
+    model, &pqServerManagerModel::preRepresentationRemoved, this, &CursorLine::fallSilent);
+  this->connect(model, &pqServerManagerModel::preServerRemoved, this, &CursorLine::fallSilent);
+  this->connect(qApp, &QCoreApplication::aboutToQuit, this, &CursorLine::fallSilent);
+  this->connect(model, &pqServerManagerModel::dataUpdated, this, [this] {
+    this->clear(); // until the picture shows it
+    this->askSoon();
+  });
+}
+
+void CursorLine::follow(pqRenderView* view)
+{
+  if (view != this->Followed)
+  {
+    this->fallSilent();
+    this->Followed = view;
+    this->Drawing->Connect(
+      view->getRenderViewProxy()->GetRenderWindow(), vtkCommand::EndEvent, this, SLOT(askSoon()));
+  }
+  this->Size = sizeOf(view);
+  if (QApplication::mouseButtons() != Qt::NoButton) // the picture moves away under the cursor
+  {
+    this->clear();
+  }
+  this->askSoon();
+}
+
+void CursorLine::askSoon()
+{
+  if (!this->Asking.isActive())
+  {
+    this->Asking.start();
+  }
+}
+
+void CursorLine::ask()
+{
+  vtkSMRenderViewProxy* view = this->Followed ? this->Followed->getRenderViewProxy() : nullptr;
+  if (!view || !view->GetInteractor() || QApplication::mouseButtons() != Qt::NoButton ||
+    view->GetSession()->GetPendingProgress() || sizeOf(this->Followed) != this->Size)
+  {
+    this->clear();
+    return;
+  }
+  const int* pixel = view->GetInteractor()->GetEventPosition();
+  const auto tissue = this->Probe.tissueAt(this->Followed, pixel[0], pixel[1]);
+  this->setText(tissue ? cursorText(*tissue) : QString());
+}
+
+void CursorLine::fallSilent()
+{
+  this->Asking.stop();
+  this->Drawing->Disconnect();
+  this->Followed = nullptr;
+  this->Probe.forget();
+  this->clear();
+}
+
 StatusLine::StatusLine(QWidget* parent)
   : QWidget(parent)
   , Switch(new QToolButton(this))

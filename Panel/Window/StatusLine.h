@@ -1,10 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Shows in the status bar of the window what the mouse does in the view under the cursor. If the
-/// view shows another volume than the tool works on, a button takes the tool to it.
+/// The texts of the status bar: what the mouse does, and what lies under the cursor.
 #ifndef BrainShift_StatusLine_h
 #define BrainShift_StatusLine_h
 
+#include "Interaction/Views/CursorProbe.h"
+#include "Interaction/Views/CursorWatch.h"
+
+#include <vtkEventQtSlotConnect.h>
+#include <vtkNew.h>
+
+#include <QLabel>
+#include <QPointer>
+#include <QSize>
+#include <QTimer>
 #include <QWidget>
 
 class QLabel;
@@ -12,6 +21,41 @@ class QToolButton;
 
 namespace brainshift
 {
+// Shows in the status bar what lies under the cursor in a view of Deformed Volume or Deformed
+// Slices. It says nothing where nothing is known.
+
+/// The line for some tissue: position, position before it was bent, intensity, label, distance that
+/// it moved, share of its volume. Letters for the patient's sides only where they are known.
+QString cursorText(const CursorTissue& tissue);
+
+class CursorLine : public QLabel
+{
+  Q_OBJECT
+
+public:
+  CursorLine(QWidget* parent);
+
+  /// A long line must not widen the window.
+  QSize minimumSizeHint() const override { return { 0, this->QLabel::minimumSizeHint().height() }; }
+
+private Q_SLOTS:
+  void askSoon();
+
+private:
+  void follow(pqRenderView* view);
+  void ask();
+  void fallSilent();
+
+  CursorWatch Cursor;
+  CursorProbe Probe;
+  QTimer Asking; ///< Merges what happens meanwhile into one question.
+  QPointer<pqRenderView> Followed;
+  QSize Size;                            ///< Of the view when the cursor moved last, pixels.
+  vtkNew<vtkEventQtSlotConnect> Drawing; ///< Hears of each picture in the view.
+};
+
+/// Shows in the status bar of the window what the mouse does in the view under the cursor. If the
+/// view shows another volume than the tool works on, a button takes the tool to it.
 class StatusLine : public QWidget
 {
   Q_OBJECT

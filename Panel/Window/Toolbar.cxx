@@ -9,8 +9,6 @@
 #include "Interaction/Views/Flicker.h"
 #include "Interaction/Workarounds/StopReading.h"
 #include "Panel/Tools/LookChoice.h"
-#include "Panel/Window/CursorLine.h"
-#include "Panel/Window/LookMenu.h"
 #include "Panel/Window/StatusLine.h"
 
 #include <pqActiveObjects.h>

@@ -4,7 +4,6 @@
 #include "Interaction/Commands/Tools.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
-#include "Panel/Window/Welcome.h"
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
@@ -18,17 +17,49 @@
 #include <vtkSMProxy.h>
 
 #include <QAction>
+#include <QApplication>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QObject>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QTimer>
 #include <QVBoxLayout>
+#include <QWidget>
 
 #include <algorithm>
+#include <cstring>
+#include <memory>
 #include <vector>
 
 namespace brainshift
 {
+namespace
+{
+constexpr int WelcomeLooksAgain = 100; // ms
+constexpr int MostLooks = 300;         // a slow start may read a volume first
+}
+
+bool closeWelcome()
+{
+  QWidget* modal = QApplication::activeModalWidget();
+  return modal && std::strcmp(modal->metaObject()->className(), "pqWelcomeDialog") == 0 &&
+    modal->close();
+}
+
+void keepWelcomeAway(QObject* owner)
+{
+  auto timer = new QTimer(owner);
+  const auto looks = std::make_shared<int>(0);
+  QObject::connect(timer, &QTimer::timeout, timer, [timer, looks] {
+    if (closeWelcome() || ++*looks == MostLooks)
+    {
+      timer->deleteLater();
+    }
+  });
+  timer->start(WelcomeLooksAgain);
+}
+
 namespace
 {
 constexpr int LookAgain = 200; // ms

@@ -11,11 +11,20 @@
 #include <vector>
 
 class QLabel;
+class QObject;
 class QProgressBar;
 class QPushButton;
 
 namespace brainshift
 {
+// ParaView's window of welcome. It waits for an answer and locks the main window until then.
+
+/// Closes it if it is open. Returns whether it was.
+bool closeWelcome();
+
+/// Closes it as soon as it opens, in the next seconds, while `owner` lives.
+void keepWelcomeAway(QObject* owner);
+
 class Tutorial : public QDialog
 {
   Q_OBJECT

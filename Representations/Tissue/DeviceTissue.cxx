@@ -4,6 +4,8 @@
 #include "Representations/Gpu/GpuMemory.h"
 #include "Representations/Gpu/GpuTask.h"
 #include "Representations/Scene/FieldPlace.h"
+#include "Representations/Scene/SceneFrame.h"
+#include "Representations/Tissue/SceneReference.h"
 
 #include "vtkTextureObject.h"
 #include "vtkVolume.h"

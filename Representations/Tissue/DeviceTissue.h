@@ -7,16 +7,17 @@
 #ifndef BrainShift_DeviceTissue_h
 #define BrainShift_DeviceTissue_h
 
-#include "Representations/Scene/SceneFrame.h"
 #include "Representations/Skipping/DeformedPresence.h"
 #include "Representations/Tissue/CavityTexture.h"
-#include "Representations/Tissue/SceneReference.h"
 #include "Representations/Tissue/TissueTextures.h"
 
 #include <cstdint>
 
 namespace brainshift
 {
+struct DrawnVolume;
+struct SceneReference;
+
 /// Textures and bricks of one volume.
 class DeviceTissue
 {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A session comes back from its file as it was, damaged files are refused, and a replay gives each
 // pose at its time.
-#include "Tracking/Replay.h"
 #include "Tracking/SessionFile.h"
 
 #include <gtest/gtest.h>

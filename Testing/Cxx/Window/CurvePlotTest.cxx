@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that the curve of the panel lies as high as its lengths in the colours of the palette,
 // marks the last point, says in words what it shows, and tells the point under the cursor.
-#include "Panel/Parts/CurvePlot.h"
+#include "Panel/Parts/Plots.h"
 #include "Testing/Cxx/Window/PlotTesting.h"
 
 #include <QApplication>

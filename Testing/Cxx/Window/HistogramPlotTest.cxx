@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that the histogram of the panel draws bars as tall as its counts in the colours of the
 // palette, says in words what it shows, and tells what lies under the cursor.
-#include "Panel/Parts/HistogramPlot.h"
+#include "Panel/Parts/Plots.h"
 #include "Testing/Cxx/Window/PlotTesting.h"
 
 #include <QImage>

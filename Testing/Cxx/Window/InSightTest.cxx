@@ -2,7 +2,7 @@
 // Proves that a part of the panel stays within the visible width where its contents allow that,
 // and that the panel is as wide as its widest contents whatever the part needs: it neither grows
 // without end nor stays wide for the sake of a margin.
-#include "Interaction/Workarounds/InSight.h"
+#include "Interaction/Workarounds/Docks.h"
 #include "Testing/Cxx/Window/Application.h"
 
 #include <QScrollArea>

@@ -2,7 +2,7 @@
 // Proves, without a window, that pulls and pins are read from the numbers of a fit and written back
 // unchanged, and that their list shows and edits them: each edit is written once, whole.
 #include "Filters/Fit/PackedTables.h"
-#include "Panel/Measured/PullModel.h"
+#include "Panel/Measured/PullsPane.h"
 #include "Testing/Cxx/Window/Application.h"
 
 #include <glm/geometric.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Interaction/Workarounds/KeptPictures.h"
+#include "Interaction/Workarounds/Updates.h"
 
 #include <pqUndoStack.h>
 

@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Base of the lists of strokes, pulls and landmarks. Each row has a check mark in the first column
-/// and may have numbers to edit. A list says what its cells hold and how they are written.
-#ifndef BrainShift_ListModel_h
-#define BrainShift_ListModel_h
+/// The lists of strokes, pulls and landmarks: their rows, and their view.
+#ifndef BrainShift_List_h
+#define BrainShift_List_h
 
 #include <QAbstractTableModel>
 #include <QList>
 #include <QString>
+#include <QTreeView>
 
 #include <glm/vec3.hpp>
 
 #include <optional>
 
+class QToolButton;
+
 namespace brainshift
 {
+// Base of the lists of strokes, pulls and landmarks. Each row has a check mark in the first column
+// and may have numbers to edit. A list says what its cells hold and how they are written.
+
 /// "10, 20, 30"
 QString positionText(const glm::dvec3& position, int decimals);
 
@@ -83,6 +88,55 @@ private:
 
   const QList<Column> Columns;
   int Rows = 0; ///< As announced to views.
+};
+
+class ListModel;
+
+/// A button below a list. A click leaves the keyboard where it is.
+QToolButton* makeListButton(QWidget* parent, const char* name, const QString& text,
+  const QString& tip, const char* icon = nullptr);
+
+/// View of a list of strokes, pulls or landmarks. The keyboard alone is enough to use it: the table
+/// of commands lists its keys under Scope::List.
+class ListTree : public QTreeView
+{
+  Q_OBJECT
+
+public:
+  /// How many rows are seen at once, and what stands in the view while there are none.
+  struct Room
+  {
+    int fewestRows;
+    int mostRows;
+    QString empty;
+  };
+
+  ListTree(ListModel* model, const Room& room, QWidget* parent = nullptr);
+
+  QList<int> selectedRows() const;
+  void removeSelected();
+
+  QSize sizeHint() const override;
+  QSize minimumSizeHint() const override;
+
+Q_SIGNALS:
+  void selectedRowsChanged();
+
+protected:
+  void changeEvent(QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+
+private:
+  void softenHighlight();
+  void toggleSelected();
+  void moveColumn(int by);
+  void showWhereIfRoom();
+  int heightOfRows(int rows) const;
+
+  ListModel* const Rows;
+  const Room Space;
 };
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// While such an object lives, the proxies added to it do not announce updates of their data.
-/// ParaView answers an update with ranges of all arrays, a new menu of filters and a new layout of
-/// its panels. That takes a third of the main thread's time for one picture of a drag.
-#ifndef BrainShift_QuietUpdates_h
-#define BrainShift_QuietUpdates_h
+/// Workarounds for what ParaView does after each change; see README.md.
+#ifndef BrainShift_Updates_h
+#define BrainShift_Updates_h
+
+#include <pqDataRepresentation.h>
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
@@ -12,10 +12,16 @@
 #include <vtkSMProxy.h>
 #include <vtkWeakPointer.h>
 
+#include <QList>
+#include <QPointer>
+
 #include <vector>
 
 namespace brainshift
 {
+/// While such an object lives, the proxies added to it do not announce updates of their data.
+/// ParaView answers an update with ranges of all arrays, a new menu of filters and a new layout of
+/// its panels. That takes a third of the main thread's time for one picture of a drag.
 class QuietUpdates
 {
 public:
@@ -48,6 +54,22 @@ public:
 private:
   vtkNew<vtkCallbackCommand> First;
   std::vector<vtkWeakPointer<vtkSMProxy>> Proxies;
+};
+
+/// Keeps the pictures of Deformed Volumes while a tool is in hand. Hovering then redraws only the
+/// outlines over them and casts no rays.
+class KeptPictures
+{
+public:
+  ~KeptPictures() { this->letGo(); }
+
+  /// Keeps the picture of a representation from now on.
+  void keep(pqDataRepresentation* display);
+  /// Keeps none any more.
+  void letGo();
+
+private:
+  QList<QPointer<pqDataRepresentation>> Kept;
 };
 }
 

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Workarounds for ParaView's selections; see README.md.
+#ifndef BrainShift_Selections_h
+#define BrainShift_Selections_h
+
+#include <vtkSMProxy.h>
+#include <vtkWeakPointer.h>
+
+#include <QObject>
+
+#include <vector>
+
+class pqPipelineSource;
+
+namespace brainshift
+{
+/// Keeps a filter selected while its inputs change. ParaView's pipeline browser moves a filter that
+/// gets a second input to another place, or back, and loses it from the selection on the way. Then
+/// all filters in menus and toolbars are greyed out.
+class KeptSelection : public QObject
+{
+  Q_OBJECT
+
+public:
+  /// Watches the pipeline from now on.
+  explicit KeptSelection(QObject* parent);
+
+private:
+  void keep(pqPipelineSource* consumer);
+};
+
+/// Turns off the display of a selection while nothing is selected. ParaView updates that display
+/// with each change of the data. During a drag it takes a tenth of the main thread's time.
+class EmptySelections
+{
+public:
+  EmptySelections() = default;
+  ~EmptySelections() { this->putBack(); }
+  EmptySelections(const EmptySelections&) = delete;
+  EmptySelections& operator=(const EmptySelections&) = delete;
+
+  /// Turns the display off in every view that shows the source.
+  void leaveOut(pqPipelineSource* source);
+  /// Turns the display on again.
+  void putBack();
+
+private:
+  std::vector<vtkWeakPointer<vtkSMProxy>> Representations; ///< Those whose selection is off.
+};
+}
+
+#endif
