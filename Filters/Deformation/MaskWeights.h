@@ -16,13 +16,15 @@
 #define BrainShift_MaskWeights_h
 
 #include "Common/Export.h"
-#include "Filters/Deformation/Lattice.h"
+#include "Common/Grid.h"
 
 #include <memory>
 #include <vector>
 
 namespace brainshift
 {
+struct NodeWeights;
+
 /** Which voxels of an image are inside. A voxel is the box around its value. */
 struct Mask
 {

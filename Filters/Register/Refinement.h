@@ -14,7 +14,6 @@
 #define BrainShift_Refinement_h
 
 #include "Filters/Register/PyramidLevel.h"
-#include "Filters/Register/RefinementState.h"
 #include "Filters/Register/RefinementSteps.h"
 
 #include <memory>

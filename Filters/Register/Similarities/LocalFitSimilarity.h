@@ -3,7 +3,7 @@
  * @file
  * @brief Explains the reference in small windows by the volume, and by its slope for ultrasound.
  *
- * In each window (Windows.h) the reference is fitted by a p + c, or by a p + b g + c. There p is
+ * In each window the reference is fitted by a p + c, or by a p + b g + c. There p is
  * the volume and g the length of its gradient. The cost of a window is the fraction of the
  * reference's variance that the fit leaves. With p alone it is 1 minus the squared local
  * correlation; with both it is 1 minus LC2 (Fuerst et al., Medical Image Analysis 18, 2014).
@@ -13,15 +13,67 @@
 
 #include "Common/Export.h"
 #include "Filters/Register/Similarity.h"
-#include "Filters/Register/Windows.h"
 
 #include <glm/vec3.hpp>
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
 namespace brainshift
 {
+// Sums over windows around every second point of a grid, and what windows hand back to their
+// points.
+//
+// Neighbouring windows share most of their points, so that windows around every point would say
+// little more and take eight times as long to fit.
+
+constexpr int WindowRadius = 3; ///< points
+constexpr int WindowStride = 2; ///< points from one window's middle to that of the next
+
+/** How many windows a line of so many points has. The first lies around the first point. */
+constexpr int windowsAlong(int points)
+{
+  return (points + WindowStride - 1) / WindowStride;
+}
+
+/** Numbers beside each other for each point or window, x fastest. */
+struct Block
+{
+  glm::ivec3 dimensions{ 0 };
+  int numbers = 0;
+  std::vector<float> values;
+
+  Block() = default;
+  Block(const glm::ivec3& sides, int each)
+    : dimensions(sides)
+    , numbers(each)
+    , values(static_cast<std::size_t>(sides.x) * sides.y * sides.z * each)
+  {
+  }
+
+  float* row(int j, int k)
+  {
+    return this->values.data() +
+      (static_cast<std::size_t>(k) * this->dimensions.y + j) * this->dimensions.x * this->numbers;
+  }
+  const float* row(int j, int k) const { return const_cast<Block*>(this)->row(j, k); }
+};
+
+/** Adds up a row of points, `numbers` for each, for each of its windows. */
+BRAINSHIFT_DEFORMATION_EXPORT void gatherRow(
+  const float* points, int count, int numbers, float* windows);
+
+/** For each point of a row, the sum of the windows that hold it. */
+BRAINSHIFT_DEFORMATION_EXPORT void spreadRow(
+  const float* windows, int count, int numbers, float* points);
+
+/** The same along y and z of a block whose rows are gathered. */
+BRAINSHIFT_DEFORMATION_EXPORT Block gathered(const Block& rows);
+
+/** The same along z and y of a block of windows; its rows are still to be spread. */
+BRAINSHIFT_DEFORMATION_EXPORT Block spread(const Block& windows, const glm::ivec3& points);
+
 class LocalFitSimilarity : public Comparison
 {
 public:

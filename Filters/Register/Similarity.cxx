@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/Register/LevelSamples.h"
+#include "Filters/Register/Similarity.h"
 
 #include "Common/Parallel.h"
 
@@ -125,4 +125,6 @@ CostAndForces averaged(
   result.forces = std::move(forces);
   return result;
 }
+
+
 }
