@@ -14,14 +14,15 @@ function (brainshift_add_room name)
   set_property(GLOBAL APPEND PROPERTY brainshift_formats_ROOMS "${name}")
 endfunction ()
 
-# brainshift_add_format(NAME KINDS kind… [FOLDER folder] [SOURCES …] [CLASSES …] [XMLS …]
+# brainshift_add_format(NAME KINDS kind… [LAST] [FOLDER folder] [SOURCES …] [CLASSES …] [XMLS …]
 #   [EXTENSIONS ending… [DETAILS text] [READER name] [LABEL text] [READS text] [SHORT text]
 #    [ENDINGS text] [FILES text] [MENU text]])
 #
 # Adds a format, whose folder has its name unless FOLDER says another. KINDS are what its files
 # hold: Volumes, Fields, Surfaces or Tracts. For each of them the format defines one constant of
 # that kind, such as `extern const VolumeFormat VolumesOfNRRD{ … };`, and readers of that kind ask
-# it. Formats are asked in the order in which they are added.
+# it. Formats are asked in the order in which they are added, and the one of each kind that is LAST
+# after all others: of surfaces and tracts, it says what is wrong with a file that none recognises.
 #
 # With EXTENSIONS, the endings of names without a full stop, ParaView gets a reader of its volumes:
 # a proxy made from Volumes/VolumeReader.xml.in. A reader with properties of its own has a file in
@@ -36,7 +37,7 @@ endfunction ()
 # Utilities/documentation/format_reference.py reads these calls, too.
 function (brainshift_add_format name)
   set(words READER LABEL READS SHORT ENDINGS FILES MENU DETAILS)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "FOLDER;${words}"
+  cmake_parse_arguments(PARSE_ARGV 1 arg "LAST" "FOLDER;${words}"
     "KINDS;SOURCES;CLASSES;XMLS;EXTENSIONS")
   if (arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "brainshift_add_format does not know ${arg_UNPARSED_ARGUMENTS}")
@@ -48,7 +49,11 @@ function (brainshift_add_format name)
     if (NOT kind MATCHES "^(Volumes|Fields|Surfaces|Tracts)$")
       message(FATAL_ERROR "brainshift_add_format knows no files of ${kind}")
     endif ()
-    set_property(GLOBAL APPEND PROPERTY brainshift_formats_OF_${kind} "${kind}Of${name}")
+    set(list "brainshift_formats_OF_${kind}")
+    if (arg_LAST)
+      set(list "brainshift_formats_LAST_OF_${kind}")
+    endif ()
+    set_property(GLOBAL APPEND PROPERTY ${list} "${kind}Of${name}")
   endforeach ()
   if (arg_SOURCES OR arg_CLASSES OR arg_XMLS)
     brainshift_add_room("${arg_FOLDER}"
@@ -91,6 +96,8 @@ function (brainshift_write_formats file)
     "namespace brainshift\n{\n")
   foreach (kind IN ITEMS Volume Field Surface Tract)
     get_property(formats GLOBAL PROPERTY "brainshift_formats_OF_${kind}s")
+    get_property(last GLOBAL PROPERTY "brainshift_formats_LAST_OF_${kind}s")
+    list(APPEND formats ${last})
     string(TOLOWER "${kind}" word)
     foreach (format IN LISTS formats)
       string(APPEND text "extern const ${kind}Format ${format};\n")

@@ -16,8 +16,8 @@ CALL = re.compile(r"^brainshift_add_format\(", re.MULTILINE)
 WORD = re.compile(r'#[^\n]*|"([^"]*)"|([^\s()"]+)|(\))')
 MANUAL = re.compile(r"^#+ [^\n]+\n\n\| \| \|\n\|---\|---\|\n((?:\|[^\n]*\n)+)((?:(?!#+ ).*\n)*)",
                     re.MULTILINE)
-KEYS = ("KINDS", "FOLDER", "SOURCES", "CLASSES", "XMLS", "EXTENSIONS", "READER", "LABEL", "READS",
-        "SHORT", "ENDINGS", "FILES", "MENU", "DETAILS")
+KEYS = ("KINDS", "LAST", "FOLDER", "SOURCES", "CLASSES", "XMLS", "EXTENSIONS", "READER", "LABEL",
+        "READS", "SHORT", "ENDINGS", "FILES", "MENU", "DETAILS")
 #: The first word of each column of a table, and what stands above it.
 COLUMNS = {"format": "format", "read": "read", "written": "written", "axes": "orientation rule",
            "unit": "unit", "library": "library", "limits": "limits"}
