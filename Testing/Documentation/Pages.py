@@ -4,7 +4,8 @@
 import re
 
 from documents import (
-    PAGES, property_reference, python_reference, run_tests, similarity_reference, text_of)
+    PAGES, format_reference, property_reference, python_reference, run_tests, similarity_reference,
+    text_of)
 
 MARKER = re.compile(r"<!-- properties: (\w+) -->")
 
@@ -31,6 +32,23 @@ def test_a_page_lists_the_similarities():
     table = similarity_reference.table()
     assert table.count("\n") >= 4 and '| `"auto"` | For volumes of any contrast.' in table, table
     assert any("<!-- similarities -->" in text_of(page) for page in PAGES.rglob("*.md"))
+
+
+def test_a_page_lists_the_formats():
+    page = text_of(PAGES / "formats.md")
+    for item in format_reference.formats():
+        assert f"| {item.table['format']} | {item.table['read']} |" in page, item.name
+
+
+def test_readers_have_the_words_of_their_folders():
+    made = {root.find(".//SourceProxy").get("name"): root for root in format_reference.proxies()}
+    short = {name: root.find(".//SourceProxy/Documentation").get("short_help")
+             for name, root in made.items()}
+    assert short["MHAVolumeReader"] == "Read a MetaImage volume in RAS millimetres.", short
+    assert made["MGHVolumeReader"].find(".//ReaderFactory").get("extensions") == "mgz mgh mgh.gz"
+    page = text_of(PAGES / "filters" / "volume-readers.md")
+    assert "## FreeSurfer Volume Reader\n\nOpens `.mgz`" in page, page
+    assert "## NIFTI Volume Reader" not in page, "it has a page of its own"
 
 
 def test_every_property_is_documented():

@@ -9,6 +9,7 @@ CHECKOUT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = CHECKOUT / "Documentation"
 sys.path.insert(0, str(CHECKOUT / "Utilities" / "documentation"))
 sys.path.append(str(CHECKOUT / "Testing" / "House"))
+import format_reference  # noqa: E402
 import property_reference  # noqa: E402
 import python_reference  # noqa: E402
 import similarity_reference  # noqa: E402
@@ -33,7 +34,11 @@ def documents():
 def text_of(document):
     if document in GENERATED:
         return GENERATED[document]()
-    return document.read_text(encoding="utf-8")
+    text = document.read_text(encoding="utf-8")
+    if document.is_relative_to(PAGES):
+        return format_reference.filled(
+            text, (page.read_text(encoding="utf-8") for page in PAGES.rglob("*.md")))
+    return text
 
 
 def links_of(document):

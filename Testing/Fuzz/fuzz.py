@@ -10,6 +10,7 @@ behind. A case is made from the seed, its kind and its number alone, so `--first
 
 import argparse
 import collections
+import glob
 import os
 import queue
 import shutil
@@ -19,8 +20,10 @@ import tempfile
 import threading
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-KINDS = ("files", "dicom", "frames", "like", "properties", "fields", "points", "surfaces",
-         "transforms")
+#: The folders of the formats, and those of their cases: a kind is a file KIND_cases.py.
+FORMATS = sorted(glob.glob(os.path.join(HERE, "..", "Formats", "*", "")))
+KINDS = sorted(os.path.basename(path)[:-len("_cases.py")] for folder in [HERE, *FORMATS]
+               for path in glob.glob(os.path.join(folder, "*_cases.py")))
 #: What a case must not do. A worker names the last two itself.
 FAULTS = ("crash", "hang", "misplaced", "stuck")
 STARTS_WITHIN = 300.0  # seconds for ParaView to start, whatever the limit of a case
@@ -41,7 +44,8 @@ class Worker:
 
     def __init__(self, kind, seed, first, end, folder):
         pvpython = os.environ.get("BRAINSHIFT_PVPYTHON") or shutil.which("pvpython")
-        paths = [HERE, os.path.join(HERE, "..", "Support"), os.environ.get("PYTHONPATH", "")]
+        paths = [HERE, os.path.join(HERE, "..", "Support"), *FORMATS,
+                 os.environ.get("PYTHONPATH", "")]
         self.errors = open(os.path.join(folder, "stderr.txt"), "w", encoding="utf-8")
         self.process = subprocess.Popen(
             [pvpython, os.path.join(HERE, "worker.py"), kind, str(seed), str(first), str(end),

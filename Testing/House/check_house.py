@@ -12,13 +12,15 @@ import forms
 import guards
 import includes
 import listed
+import named_formats
 import named_tools
 import similarities
 import sizes
 from tree import Tree
 
 CHECKS = {check.__name__: check
-          for module in (includes, sizes, listed, forms, guards, named_tools, similarities)
+          for module in (includes, sizes, listed, forms, guards, named_formats, named_tools,
+                        similarities)
           for check in module.CHECKS}
 
 

@@ -53,6 +53,15 @@ def every_script_runs(tree):
         yield f"{path}: no CMakeLists.txt names it, so it does not run"
 
 
+def every_test_of_a_format_is_found(tree):
+    """A folder in Testing/Formats has the name of one in Formats; each .cxx there ends in Test."""
+    for path in tree.below("Testing/Formats", suffixes=(".cxx", ".h", ".py")):
+        if f"{folder_of(path).removeprefix('Testing/')}/CMakeLists.txt" not in tree.known:
+            yield f"{path}: there is no such folder in Formats"
+        if path.endswith(".cxx") and not path.endswith("Test.cxx"):
+            yield f"{path}: CMake takes *Test.cxx only, so it is not built"
+
+
 def every_proxy_is_loaded(tree):
     """Every .xml of proxies is named by the CMakeLists.txt of its module."""
     proxies = tree.below("Formats", "Filters", "Representations", "Plugin", suffixes=(".xml",))
@@ -60,4 +69,5 @@ def every_proxy_is_loaded(tree):
         yield f"{path}: no CMakeLists.txt names it, so ParaView does not load it"
 
 
-CHECKS = [every_source_is_built, every_shader_is_built, every_script_runs, every_proxy_is_loaded]
+CHECKS = [every_source_is_built, every_shader_is_built, every_script_runs,
+          every_test_of_a_format_is_found, every_proxy_is_loaded]

@@ -3,7 +3,12 @@
 
 This table is the one place that says what may include what. A file may include files of its own
 room, of the rooms named in its row, and of every room that those stand on.
+
+Folders of file formats need no row. `stands_on` finds each by its call of brainshift_add_format: it
+stands on what the formats of its kinds share, and Formats stands on it.
 """
+
+import re
 
 STANDS_ON = {
     "Common": [],
@@ -11,23 +16,12 @@ STANDS_ON = {
     "Formats/PackedFrames": [],
     "Formats/Volumes": ["Formats/Files"],
     "Formats/Fields": ["Formats/Volumes"],
-    "Formats/NIFTI": ["Formats/Fields"],
-    "Formats/TextHeaders": ["Formats/Fields"],
-    "Formats/MGH": ["Formats/Volumes"],
-    "Formats/MINC": ["Formats/Volumes"],
     "Formats/DICOM": ["Formats/PackedFrames", "Formats/Volumes"],
     "Formats/Surfaces": ["Formats/MGH", "Formats/NIFTI"],
-    "Formats/FreeSurfer": ["Formats/Surfaces"],
-    "Formats/GIFTI": ["Formats/Surfaces"],
-    "Formats/MRtrix": ["Formats/Surfaces"],
-    "Formats/TrackVis": ["Formats/Surfaces"],
     "Formats/Transforms": ["Formats/NIFTI"],
     "Formats/Landmarks": ["Formats/Files"],
     "Formats/Writers": ["Formats/DICOM", "Formats/Fields"],
-    "Formats": [
-        "Formats/FreeSurfer", "Formats/GIFTI", "Formats/Landmarks", "Formats/MINC",
-        "Formats/MRtrix", "Formats/TextHeaders", "Formats/TrackVis", "Formats/Transforms",
-        "Formats/Writers"],
+    "Formats": ["Formats/Landmarks", "Formats/Transforms", "Formats/Writers"],
     "Filters/Deformation": ["Common"],
     "Filters/Attached": ["Filters/Deformation"],
     "Filters/Fit": ["Filters/Deformation"],
@@ -100,13 +94,40 @@ LIBRARIES = {
 }
 
 
-def below(room):
-    """All rooms that a room stands on, directly or through others."""
+#: What the formats of a kind share.
+KIND_ROOMS = {"Volumes": "Formats/Volumes", "Fields": "Formats/Fields",
+              "Surfaces": "Formats/Surfaces", "Tracts": "Formats/Surfaces"}
+
+FORMAT = re.compile(r"^brainshift_add_format\((\w+)\s+KINDS((?:\s+[A-Z][a-z]+)+)", re.MULTILINE)
+
+
+def formats(tree):
+    """(folder, name, kinds) of each format that a folder in Formats adds."""
+    for path in tree.ending("/CMakeLists.txt"):
+        if path.startswith("Formats/"):
+            for name, kinds in FORMAT.findall(tree.text(path)):
+                yield path.rpartition("/")[0], name, kinds.split()
+
+
+def stands_on(tree):
+    """The table, with a row for each folder of a format."""
+    table = {room: list(lower) for room, lower in STANDS_ON.items()}
+    for folder, _, kinds in formats(tree):
+        if folder not in STANDS_ON:
+            row = table.setdefault(folder, [])
+            row += [room for kind in kinds if (room := KIND_ROOMS[kind]) not in row]
+        if folder not in table["Formats"]:
+            table["Formats"].append(folder)
+    return table
+
+
+def below(room, table):
+    """All rooms that a room stands on in a table, directly or through others."""
     found = set()
-    waiting = list(STANDS_ON[room])
+    waiting = list(table[room])
     while waiting:
         lower = waiting.pop()
         if lower not in found:
             found.add(lower)
-            waiting += STANDS_ON[lower]
+            waiting += table.get(lower, [])
     return found

@@ -37,6 +37,11 @@ def house():
         "brainshiftGuardRequestsMacro(vtkBend);\nint vtkBend::RequestData(int) { return 1; }\n")
     files["Filters/Register/Similarities/Waves.cxx"] = (
         'Similarity describeWaves()\n{\n  result.name = "waves";\n}\n')
+    files["Formats/Waves/README.md"] = "What lives here.\n"
+    files["Formats/Waves/CMakeLists.txt"] = (
+        "brainshift_add_format(Waves\n  KINDS Volumes Fields\n  SOURCES WavesVolume.cxx)\n")
+    files["Formats/Waves/WavesVolume.h"] = header("WavesVolume")
+    files["Formats/Waves/WavesVolume.cxx"] = '#include "Formats/Fields/FieldFile.h"\n'
     files["Filters/Bend.xml"] = "<ServerManagerConfiguration/>\n"
     files["Filters/CMakeLists.txt"] = (
         "set(classes vtkBend Deformation/Lattice.cxx Register/Similarities/Waves.cxx Bend.xml)\n")
@@ -98,6 +103,13 @@ BREAKS = [
      "int f() { return int(Tool::Twist) + int(Tool::Stamp); }\n", None),
     ("no_file_names_a_tool_of_another", "Panel/Tools/Buttons.cxx",
      "bool f(Tool tool) { return tool == Tool::Twist; }\n", None),
+    ("no_file_outside_its_folder_names_a_format", "Filters/vtkShow.cxx",
+     '#include "Formats/Waves/WavesVolume.h"\n', None),
+    ("no_file_outside_its_folder_names_a_format", "Formats/Volumes/List.cxx",
+     "extern const VolumeFormat VolumesOfWaves;\n", None),
+    ("no_include_runs_upwards", "Formats/Waves/WavesVolume.cxx",
+     '#include "Formats/Surfaces/Surface.h"\n', "Formats/Surfaces/Surface.h"),
+    ("every_room_says_what_it_is_for", "Formats/Waves/README.md", None, None),
     ("no_function_is_long", "Filters/Deformation/Lattice.cxx", "void f()\n" + LONG_BODY, None),
     ("no_function_is_long", "Testing/Support/helper.py",
      "def f():\n" + "    pass\n" * 60, None),
@@ -108,6 +120,8 @@ BREAKS = [
     ("every_shader_is_built", "Shaders/Rays/march.glsl", "\n", None),
     ("every_script_runs", "Testing/Python/Drawing/Rings.py", "\n", None),
     ("every_script_runs", "Testing/XML/Traces.xml", "<a/>\n", None),
+    ("every_test_of_a_format_is_found", "Testing/Formats/Waves/WavesErrors.cxx", "\n", None),
+    ("every_test_of_a_format_is_found", "Testing/Formats/Wave/WaveTest.cxx", "\n", None),
     ("every_proxy_is_loaded", "Filters/Bake.xml", "<a/>\n", None),
     ("every_header_opens", "Filters/Deformation/Lattice.h",
      header("Lattice").replace("/// What Lattice is for.\n", ""), None),

@@ -5,6 +5,8 @@ the page that lists all of them."""
 import pathlib
 import xml.etree.ElementTree as ElementTree
 
+import format_reference
+
 CHECKOUT = pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = ("Formats", "Filters", "Representations", "Widgets")
 PROXIES = ("SourceProxy", "WriterProxy", "RepresentationProxy", "Proxy",
@@ -20,8 +22,9 @@ def _files():
 
 def _elements():
     """(group, element) of each proxy and each extension of one."""
-    for file in _files():
-        for group in ElementTree.parse(file).getroot().iter("ProxyGroup"):
+    roots = [ElementTree.parse(file).getroot() for file in _files()]
+    for root in [*roots, *format_reference.proxies()]:
+        for group in root.iter("ProxyGroup"):
             for element in group:
                 if element.tag in PROXIES or element.tag == "Extension":
                     yield group.get("name"), element

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that the reader of NIfTI lets no damaged file through, says what is wrong with it, and
 // works again with the next good one.
-#include "Testing/Cxx/Filters/NIFTITestFile.h"
-#include "Testing/Cxx/Filters/NIFTITestReading.h"
+#include "Testing/Formats/NIFTI/NIFTITestFile.h"
+#include "Testing/Formats/NIFTI/NIFTITestReading.h"
 
 #include <vtkDemandDrivenPipeline.h>
 

@@ -6,38 +6,13 @@ It answers where each voxel lies and what it holds, slowly. What the standard le
 """
 
 import struct
-import zlib
 
 import numpy
+from oracle import Open, Wrong, unpacked
 
 #: numpy's types for the data types that are compared.
 TYPES = {2: "u1", 4: "i2", 8: "i4", 16: "f4", 64: "f8", 256: "i1", 512: "u2", 768: "u4"}
 MM_PER_UNIT = {0: 1.0, 1: 1000.0, 2: 1.0, 3: 0.001}
-
-
-class Wrong(Exception):
-    """The file breaks the standard."""
-
-
-class Open(Exception):
-    """The standard leaves open what this means, or this oracle does not know it."""
-
-
-def unpacked(raw):
-    """The bytes of a file that may be packed with gzip."""
-    if raw[:2] != b"\x1f\x8b":
-        return raw
-    out = b""
-    while raw:
-        stream = zlib.decompressobj(31)
-        try:
-            out += stream.decompress(raw)
-        except zlib.error as error:
-            raise Wrong(f"gzip: {error}") from error
-        raw = stream.unused_data  # a truncated stream may still hold all voxels
-        if raw and raw[:2] != b"\x1f\x8b":
-            raise Open("bytes after the packed ones")
-    return out
 
 
 class Header:

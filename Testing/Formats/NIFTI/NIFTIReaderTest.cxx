@@ -2,8 +2,8 @@
 // Proves that the reader of NIfTI puts every voxel where the file's affine says, with the value
 // the file says.
 #include "Common/WorldAxes.h"
-#include "Testing/Cxx/Filters/NIFTITestFile.h"
-#include "Testing/Cxx/Filters/NIFTITestReading.h"
+#include "Testing/Formats/NIFTI/NIFTITestFile.h"
+#include "Testing/Formats/NIFTI/NIFTITestReading.h"
 
 #include <vtkDataArray.h>
 #include <vtkImageData.h>

@@ -4,14 +4,12 @@
 A case is good if both read the same numbers at the same places, or if BrainShift refuses the file.
 """
 
+import glob
+import importlib
 import os
 
-import nifti_oracle
 import numpy
-import text_oracle
-import volume_oracle
-from mutation import spoiled_file
-from nifti_oracle import Open, Wrong
+from oracle import Open, Wrong
 
 #: A voxel may lie this share of its size, and this share of its distance, from where it belongs.
 PLACE, ROUNDING = 0.1, 1e-5
@@ -69,30 +67,18 @@ def misplaced(random, image, world, values):
     return None
 
 
-#: The reader of BrainShift, by its label, and the second reader for a name.
-READERS = {"volume.mha": ("MetaImageVolumeReader", volume_oracle.meta_image),
-           "volume.nrrd": ("NRRDVolumeReader", volume_oracle.nrrd),
-           "volume.mgh": ("FreeSurferVolumeReader", volume_oracle.mgh)}
+def found_files():
+    """What each format gives to be spoiled: FILES of its folder's NAME_spoiled.py."""
+    here = os.path.dirname(os.path.abspath(__file__))
+    modules = sorted(glob.glob(os.path.join(here, "..", "*", "*_spoiled.py")))
+    return [file for path in modules
+            for file in importlib.import_module(os.path.basename(path)[:-3]).FILES]
 
 
-def _answer(name, data, as_field):
-    """Where voxels lie and what they hold, by the second reader."""
-    if name.startswith("case.nii"):
-        volume = nifti_oracle.Volume(data)
-        if as_field:
-            return volume.world, volume.as_field()
-        return volume.world, volume.values[:, :, :, 0, :]
-    if not as_field:
-        volume = READERS[name.removesuffix(".gz")][1](data)
-        return volume.world, volume.values
-    field = text_oracle.meta_image(data) if name == "field.mha" else text_oracle.nrrd(data)
-    return field.world, field.values
-
-
-def _compare(random, name, data, image, as_field):
+def _compare(random, spoiled, data, image):
     with numpy.errstate(all="ignore"):
         try:
-            world, values = _answer(name, data, as_field)
+            world, values = spoiled.answer(data)
         except Open:
             return "open"
         except Wrong as error:
@@ -108,24 +94,20 @@ class Cases:
 
     def __init__(self, folder):
         self.folder = folder
+        self.files = found_files()
 
     def run(self, random):
         """What became of one file: a word, and a sentence if it is a finding."""
         from brainshift_testing import messages
-        kind, data = spoiled_file(random)
+        spoiled = random.choice(self.files)
+        kind, data = spoiled.spoil(random)
         name = os.path.join(self.folder, kind)
         with open(name, "wb") as file:
             file.write(data)
-        as_field = kind.startswith("field") or (
-            kind.startswith("case") and random.random() < 0.5)
-        reader = ("DisplacementFieldReader", "Displacement")
-        if not as_field:
-            named = READERS.get(kind.removesuffix(".gz"))
-            reader = (named[0] if named else "NIFTIVolumeReader", "Intensity")
         with messages() as said:
-            image = read(reader[0], name, reader[1])
+            image = read(spoiled.reader, name, spoiled.array)
         if image is None:
             return "refused" if "error" in said.text.lower() else "misplaced: no image and no error"
         if "is sheared" in said.text:
             return "sheared"
-        return _compare(random, kind, data, image, as_field)
+        return _compare(random, spoiled, data, image)

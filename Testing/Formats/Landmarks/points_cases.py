@@ -13,7 +13,7 @@ import re
 
 import numpy
 from mutation import WORDS
-from nifti_oracle import Open, Wrong
+from oracle import Open, Wrong
 
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?$")
 FARTHEST = 1e6  # mm

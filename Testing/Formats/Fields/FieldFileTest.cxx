@@ -3,8 +3,8 @@
 // format, byte for byte as ITK, Slicer and NiftyReg mean them; and that damaged files are named.
 #include "Formats/Fields/FieldFile.h"
 #include "Common/FieldDirection.h"
-#include "Testing/Cxx/Filters/NIFTITestFile.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
+#include "Testing/Formats/NIFTI/NIFTITestFile.h"
 #include "vtkDisplacementFieldReader.h"
 #include "vtkDisplacementFieldWriter.h"
 

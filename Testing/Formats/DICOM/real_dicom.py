@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Compares a DICOM series with the NIfTI file that another program made of it.
 
-    pvpython Testing/Support/real_dicom.py DICOM NIFTI [--series PART]
+    pvpython Testing/Formats/DICOM/real_dicom.py DICOM NIFTI [--series PART]
 
 DICOM is a folder or a file, NIFTI a file of dcm2niix, PART a part of the series' name. nibabel
 reads the NIfTI. It prints the farthest distance of a corner, and how voxels differ. The public
 repositories neurolabusc/dcm_qa_enh, dcm_qa_sag and dcm_qa_ct hold such pairs in In and Ref. Run it
-where BRAINSHIFT_PLUGIN names the plugin and PYTHONPATH this folder, as ctest does.
+where BRAINSHIFT_PLUGIN names the plugin and PYTHONPATH this folder and Support, as ctest does.
 """
 
 import argparse

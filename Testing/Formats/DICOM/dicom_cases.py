@@ -12,7 +12,7 @@ import struct
 import numpy
 import pydicom
 from dicom_testing import enhanced, numbered, read_again, write_slices
-from file_cases import image_of, misplaced
+from files_cases import image_of, misplaced
 from mutation import rotation
 
 SYNTAXES = ["1.2.840.10008.1.2", "1.2.840.10008.1.2.1", "1.2.840.10008.1.2.1",

@@ -2,7 +2,7 @@
 // Proves that MetaImage and NRRD volumes are read in every type, byte order and encoding, from one
 // file or many, with time and components, and that damaged headers are named.
 #include "Common/WorldAxes.h"
-#include "Testing/Cxx/Filters/VolumeFormatTesting.h"
+#include "Testing/Formats/Volumes/VolumeFormatTesting.h"
 
 #include <vtkInformation.h>
 #include <vtkStreamingDemandDrivenPipeline.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that surfaces and streamlines lie where their files say, and that a file of each format
 // that ends early, or in which any byte is another, is read whole or refused whole. The
-// sanitizers watch. nibabel judges places in Testing/Python/Filters/Surfaces.py and Tracts.py.
+// sanitizers watch. nibabel judges places in Surfaces.py and Tracts.py.
 #include "vtkSurfaceReader.h"
 #include "vtkTractReader.h"
 

@@ -3,7 +3,7 @@
 #ifndef BrainShift_NIFTITestReading_h
 #define BrainShift_NIFTITestReading_h
 
-#include "Testing/Cxx/Filters/VolumeFormatTesting.h"
+#include "Testing/Formats/Volumes/VolumeFormatTesting.h"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>

@@ -2,7 +2,7 @@
 // Proves that FreeSurfer volumes are read in every type, packed or not, with frames as time steps,
 // and that damaged headers are named. Python.VolumeFormats proves where voxels lie.
 #include "Common/WorldAxes.h"
-#include "Testing/Cxx/Filters/VolumeFormatTesting.h"
+#include "Testing/Formats/Volumes/VolumeFormatTesting.h"
 
 #include <vtk_zlib.h>
 

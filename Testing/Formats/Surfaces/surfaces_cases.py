@@ -12,7 +12,7 @@ import nibabel
 import numpy
 import surface_files
 from mutation import INTEGERS, REALS, WORDS
-from nifti_oracle import Open, Wrong
+from oracle import Open, Wrong
 
 #: mm, and share of the distance from the origin: streamlines are float32.
 PLACE, ROUNDING = 1e-3, 1e-6

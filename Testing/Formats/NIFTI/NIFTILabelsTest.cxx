@@ -2,8 +2,8 @@
 // Proves that names and colours of labels are read from the extension that Connectome Workbench
 // writes, in both byte orders, packed or not, and that damaged ones are left out.
 #include "Common/LabelTable.h"
-#include "Testing/Cxx/Filters/NIFTITestFile.h"
-#include "Testing/Cxx/Filters/NIFTITestReading.h"
+#include "Testing/Formats/NIFTI/NIFTITestFile.h"
+#include "Testing/Formats/NIFTI/NIFTITestReading.h"
 
 #include <gtest/gtest.h>
 
