@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks what a reader finds at the top of each header and of each room."""
+"""Checks what a reader finds at the top of each header and of each room, and in a release."""
 
 import re
 
@@ -38,4 +38,33 @@ def every_room_says_what_it_is_for(tree):
             yield f"{room}: has no README.md"
 
 
-CHECKS = [every_header_opens, every_room_says_what_it_is_for]
+#: Where a release names its version, and the pattern of the line.
+VERSIONS = {"CMakeLists.txt": r"^project\(BrainShift VERSION ([\d.]+)",
+            "CITATION.cff": r"^version: ([\d.]+)$",
+            "CHANGELOG.md": r"^## ([\d.]+) - \d{4}-\d\d-\d\d$"}
+
+LINES_OF_A_RELEASE = 60
+
+
+def every_place_names_the_same_version(tree):
+    """CMake, CITATION.cff and the newest release of CHANGELOG.md name one version."""
+    found = {path: re.search(pattern, tree.text(path), re.MULTILINE)
+             for path, pattern in VERSIONS.items() if path in tree.known}
+    names = {path: match and match[1] for path, match in found.items()}
+    for path, name in names.items():
+        if name is None or name != names.get("CMakeLists.txt", name):
+            yield f"{path}: names version {name}; CMakeLists.txt {names.get('CMakeLists.txt')}"
+
+
+def no_release_is_long(tree):
+    """A release takes at most 60 lines of CHANGELOG.md, so that users read it."""
+    if "CHANGELOG.md" in tree.known:
+        for section in tree.text("CHANGELOG.md").split("\n## ")[1:]:
+            lines = section.rstrip().count("\n") + 1
+            if lines > LINES_OF_A_RELEASE:
+                yield (f"CHANGELOG.md: {section.splitlines()[0]} has {lines} lines; it may have "
+                       f"{LINES_OF_A_RELEASE}")
+
+
+CHECKS = [every_header_opens, every_place_names_the_same_version, every_room_says_what_it_is_for,
+          no_release_is_long]

@@ -127,4 +127,13 @@ def no_circle_between_files(tree):
         yield f"{group[0]}: is in a circle with {', '.join(group[1:])}"
 
 
-CHECKS = [no_include_runs_upwards, no_library_where_it_is_kept_out, no_circle_between_files]
+def architecture_says_what_a_folder_uses(tree):
+    """The last column in the table of folders of ARCHITECTURE.md is that of rooms.py."""
+    if "ARCHITECTURE.md" in tree.known:
+        text = tree.text("ARCHITECTURE.md")
+        if rooms.architecture(text, rooms.stands_on(tree)) != text:
+            yield "ARCHITECTURE.md: run python3 Testing/House/rooms.py . to write the column"
+
+
+CHECKS = [architecture_says_what_a_folder_uses, no_include_runs_upwards,
+          no_library_where_it_is_kept_out, no_circle_between_files]

@@ -9,6 +9,9 @@ stands on what the formats of its kinds share, and Formats stands on it.
 """
 
 import re
+import sys
+
+from tree import Tree
 
 STANDS_ON = {
     "Common": [],
@@ -131,3 +134,41 @@ def below(room, table):
             found.add(lower)
             waiting += table.get(lower, [])
     return found
+
+
+def uses(folder, table):
+    """What ARCHITECTURE.md says of a folder: what it stands on, and what it keeps out."""
+    inside = [room for room in table if (room + "/").startswith(folder + "/")]
+    lower = {room for each in inside for room in table[each]
+             if not (room + "/").startswith(folder + "/")}
+    module = folder.partition("/")[0]
+    names = sorted({room if room.startswith(module + "/") else room.partition("/")[0]
+                    for room in lower})
+    text = ", ".join(f"`{name}`" for name in names)
+    out = KEEPS_OUT.get(folder, KEEPS_OUT.get(module, []))
+    return "; ".join(filter(None, [text, ", ".join(f"no {library}" for library in out)])) or "all"
+
+
+ROW = re.compile(r"^\| \[([\w/]+)\]\([^)]*\) \| (.*) \| (.*) \|$")
+
+
+def architecture(text, table):
+    """ARCHITECTURE.md, with the last column of its table of folders as the rooms are."""
+    lines = text.split("\n")
+    for number, line in enumerate(lines):
+        row = ROW.match(line)
+        if row and row[1] in table:
+            lines[number] = line[:row.start(3)] + uses(row[1], table) + " |"
+    return "\n".join(lines)
+
+
+def main():
+    """Writes that column: python3 rooms.py CHECKOUT."""
+    tree = Tree(sys.argv[1])
+    text = architecture(tree.text("ARCHITECTURE.md"), stands_on(tree))
+    with open(f"{sys.argv[1]}/ARCHITECTURE.md", "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+if __name__ == "__main__":
+    main()

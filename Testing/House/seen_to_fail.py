@@ -48,6 +48,9 @@ def house():
     files["Representations/vtkDraw.cxx"] = '#include "vtkBend.h"\nvoid draw(int a, int b) {}\n'
     files["Representations/CMakeLists.txt"] = "set(classes vtkDraw)\nset(shaders Rays/rays.frag)\n"
     files["Shaders/Rays/rays.frag.glsl"] = "void main() {}\n"
+    files["CMakeLists.txt"] = "project(BrainShift VERSION 1.2.3)\n"
+    files["CITATION.cff"] = "version: 1.2.3\n"
+    files["CHANGELOG.md"] = "# Changelog\n\n## Unreleased\n\n## 1.2.3 - 2026-01-02\n"
     files["Testing/Python/CMakeLists.txt"] = "set(python_tests Drawing/Pick)\n"
     files["Testing/Python/Drawing/Pick.py"] = "import helper\n"
     files["Testing/Support/helper.py"] = "VALUE = 1\n"
@@ -78,6 +81,8 @@ BREAKS = [
      "void vtkBend::WriteData()\n{\n  write();\n}\n", None),
     ("every_boundary_is_guarded", "Representations/vtkDraw.cxx",
      "void vtkDraw::Render(int)\n{\n  draw();\n}\nvoid f() { guarded(0); }\n", None),
+    ("architecture_says_what_a_folder_uses", "ARCHITECTURE.md",
+     "| [Filters](Filters/README.md) | what is attached | all |\n", None),
     ("no_include_runs_upwards", "Filters/Deformation/Lattice.h",
      header("Lattice", '#include "Filters/Attached/Map.h"'), "Filters/Attached/Map.h"),
     ("no_include_runs_upwards", "Widgets/Hand.h",
@@ -128,6 +133,9 @@ BREAKS = [
     ("every_header_opens", "Filters/Deformation/Lattice.h", header("Matrix"), None),
     ("every_header_opens", "Filters/Deformation/Lattice.h",
      header("Lattice").replace(LICENCE, ""), None),
+    ("every_place_names_the_same_version", "CITATION.cff", "version: 1.2.2\n", None),
+    ("every_place_names_the_same_version", "CHANGELOG.md", "## Unreleased\n", None),
+    ("no_release_is_long", "CHANGELOG.md", "\n## 1.2.3 - 2026-01-02\n" + "- a\n" * 60, None),
     ("no_similarity_is_named_elsewhere", "Representations/vtkDraw.cxx",
      "enum class Similarity\n{\n  Waves\n};\n", None),
     ("no_similarity_is_named_elsewhere", "Python/brainshift/registering.py",
