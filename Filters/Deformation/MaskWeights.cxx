@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/MaskWeights.h"
 
+#include "Filters/Deformation/Lattice.h"
+
 #include "Common/Grid.h"
 #include "Common/Parallel.h"
 
