@@ -117,6 +117,25 @@ void forEachIndex(const glm::ivec3& first, const glm::ivec3& last, Visit&& visit
     }
   }
 }
+
+/**
+ * Calls visit(index, weight) for the eight points around a position in grid coordinates, with the
+ * weights of trilinear interpolation. A position outside the grid is moved to its border.
+ */
+template <typename Visit>
+void forEachCorner(const Grid& grid, const glm::dvec3& position, Visit&& visit)
+{
+  const glm::ivec3 last = grid.dimensions - 1;
+  const glm::dvec3 inside = glm::clamp(position, glm::dvec3(0.0), glm::dvec3(last));
+  const glm::ivec3 low(inside);
+  const glm::dvec3 within = inside - glm::dvec3(low);
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+    const glm::dvec3 weight = glm::mix(1.0 - within, within, glm::dvec3(side));
+    visit(glm::min(low + side, last), weight.x * weight.y * weight.z);
+  }
+}
 }
 
 #endif

@@ -2,6 +2,7 @@
 #include "vtkLatticeReport.h"
 
 #include "Common/Guard.h"
+#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Deformation/ControlPoints.h"
 #include "Filters/Deformation/PointMap.h"
@@ -15,7 +16,6 @@
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
-#include <string>
 
 using namespace brainshift;
 
@@ -117,8 +117,8 @@ void vtkLatticeReport::ListControlPoints(vtkFloatArray* displacements, DrawnLatt
   const double* cone = this->Cone;
   if (cone[6] > 0.0 || cone[7] > 0.0)
   {
-    addInCone(lattice, { cone[0], cone[1], cone[2] }, { cone[3], cone[4], cone[5] }, cone[6],
-      cone[7], offsets);
+    addInCone(lattice,
+      { { cone[0], cone[1], cone[2] }, { cone[3], cone[4], cone[5] }, cone[6], cone[7] }, offsets);
   }
   if (this->MovedWithin > 0.0)
   {
@@ -180,13 +180,12 @@ void vtkLatticeReport::FindSameTissue()
   const unsigned long long time = carriesDeformation(output) ? deformationTime(output) : 0;
   if (time != this->MapTime)
   {
-    Deformation deformation;
-    std::string error;
-    const bool isRead = time != 0 && readDeformation(output, deformation, error);
-    this->Map = isRead
-      ? std::make_unique<PointMap>(effectiveLattice(deformation), deformation.inverse)
-      : nullptr;
+    this->Map = nullptr;
     this->MapTime = time;
+    problemOf([&] { // without a deformation there are no answers
+      const Deformation deformation = readDeformation(output);
+      this->Map = std::make_unique<PointMap>(effectiveLattice(deformation), deformation.inverse);
+    });
   }
   for (std::size_t i = 0; this->Map && i + 2 < this->Places.size(); i += 3)
   {

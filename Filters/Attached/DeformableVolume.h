@@ -15,12 +15,12 @@
  *     FFDSamples        int: nodes of the refined field between two control points, 0 to 16
  *     FFDInverse        int: 0 exact, 1 negated
  *     FFDStrength       double, 0 to 1: factor on all displacements
- *     FFDMaskWeights    float32, only with a mask: share of the displacement, 0 to 1, at each node
+ *     FFDMaskWeights    float32, only with a mask: fraction of the displacement, 0 to 1, at each node
  *                       of the refined field, (points - 1) * (FFDSamples + 1) + 1 along each axis,
  *                       x fastest; the field is trilinear between the nodes
- *     FFDDeviations     float32, only of a fit with Evidence: how far the place of each control
- *                       point can be believed, mm, one standard deviation along an axis; 0 or more,
- *                       infinity where nothing was measured; trilinear in between
+ *     FFDDeviations     float32, only of a fit with Evidence: the uncertainty of the position of
+ *                       each control point, nx*ny*nz tuples, mm, one standard deviation along an
+ *                       axis; 0 or more, infinity where nothing was measured; trilinear in between
  */
 #ifndef BrainShift_DeformableVolume_h
 #define BrainShift_DeformableVolume_h
@@ -41,8 +41,8 @@ namespace brainshift
 struct Deformation
 {
   Lattice lattice; ///< before Strength
-  /// How far the place of each control point, as drawn, can be believed: mm, one standard deviation
-  /// along an axis, infinity without evidence. Empty: nobody knows.
+  /// Uncertainty of the position of each control point, as drawn: mm, one standard deviation along
+  /// an axis, infinity where nothing was measured. Empty: not known.
   std::vector<float> deviations;
   int samples = 4;                  ///< nodes between two control points, 0 to 16
   Inverse inverse = Inverse::Exact; ///< how pictures find tissue
@@ -65,14 +65,10 @@ VTKBRAINSHIFTFILTERS_EXPORT void detach(vtkDataObject* volume);
 VTKBRAINSHIFTFILTERS_EXPORT bool carriesDeformation(vtkDataObject* volume);
 
 /**
- * Reads what attach wrote.
- *
- * @param error   set to one sentence, without a full stop, if the data carries no deformation or if
- *                an array is missing or wrong
- * @return whether the deformation was read
+ * Reads what attach wrote. Throws a Problem if the data carries no deformation or if an array is
+ * missing or wrong.
  */
-VTKBRAINSHIFTFILTERS_EXPORT bool readDeformation(
-  vtkDataObject* volume, Deformation& deformation, std::string& error);
+VTKBRAINSHIFTFILTERS_EXPORT Deformation readDeformation(vtkDataObject* volume);
 
 /** The lattice with Strength applied, as it is drawn. */
 VTKBRAINSHIFTFILTERS_EXPORT Lattice effectiveLattice(const Deformation& deformation);
@@ -89,6 +85,12 @@ VTKBRAINSHIFTFILTERS_EXPORT double deviationAt(
 
 /** The latest modification time of the attached arrays; 0 if there are none. */
 VTKBRAINSHIFTFILTERS_EXPORT unsigned long long deformationTime(vtkDataObject* volume);
+
+/** Bytes that the offset field of a lattice takes while it is computed. */
+VTKBRAINSHIFTFILTERS_EXPORT double offsetFieldBytes(const Lattice& lattice, int samples);
+
+/** Throws a Problem if the machine has too little memory for the offset field of a lattice. */
+VTKBRAINSHIFTFILTERS_EXPORT void requireOffsetFieldMemory(const Lattice& lattice, int samples);
 }
 
 #endif

@@ -53,14 +53,9 @@ glm::dvec3 turnedNormal(const glm::dmat3& jacobian, const glm::dvec3& normal)
   return std::isfinite(length) && length > 0.0 ? turned * (glm::length(normal) / length) : normal;
 }
 
-std::optional<DirectedMap> directedMapOf(
-  vtkDataObject* volume, Direction direction, std::string& problem)
+DirectedMap directedMapOf(vtkDataObject* volume, Direction direction)
 {
-  Deformation deformation;
-  if (!readDeformation(volume, deformation, problem))
-  {
-    return {};
-  }
+  const Deformation deformation = readDeformation(volume);
   return DirectedMap(
     PointMap(effectiveLattice(deformation), deformation.inverse), deformation.inverse, direction);
 }

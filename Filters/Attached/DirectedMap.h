@@ -13,8 +13,6 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#include <optional>
-#include <string>
 #include <utility>
 
 class vtkDataObject;
@@ -55,14 +53,8 @@ private:
 VTKBRAINSHIFTFILTERS_EXPORT glm::dvec3 turnedNormal(
   const glm::dmat3& jacobian, const glm::dvec3& normal);
 
-/**
- * The map of a deformable volume.
- *
- * @param problem   set to one sentence, without a full stop, if the data is no deformable volume
- * @return the map; none after a problem
- */
-VTKBRAINSHIFTFILTERS_EXPORT std::optional<DirectedMap> directedMapOf(
-  vtkDataObject* volume, Direction direction, std::string& problem);
+/** The map of a deformable volume. Throws a Problem if the data is none. */
+VTKBRAINSHIFTFILTERS_EXPORT DirectedMap directedMapOf(vtkDataObject* volume, Direction direction);
 }
 
 #endif

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Attached/ReferenceVolume.h"
 
-#include "Filters/Attached/GridArray.h"
-#include "Filters/Attached/SharedArray.h"
+#include "Filters/Attached/CarriedArray.h"
 
 #include "vtkDataObject.h"
 #include "vtkFieldData.h"

@@ -60,11 +60,12 @@ std::vector<glm::vec4> weightsInCell(int kernel, int perCell)
 }
 
 // Refines one axis: `from` has `points` rows of `stride` consecutive values in each of `blocks`
-// blocks; the result has (points - 1) * perCell + 1 rows in each.
+// blocks; the result has (points - 1) * perCell + 1 rows in each. `weights`: of the perCell
+// positions in a cell.
 std::vector<glm::vec3> refineAxis(const std::vector<glm::vec3>& from, int points,
-  std::size_t stride, std::size_t blocks, int kernel, int perCell)
+  std::size_t stride, std::size_t blocks, const std::vector<glm::vec4>& weights)
 {
-  const std::vector<glm::vec4> weights = weightsInCell(kernel, perCell);
+  const int perCell = static_cast<int>(weights.size());
   const int rows = (points - 1) * perCell + 1;
   std::vector<glm::vec3> to(blocks * rows * stride);
   const std::int64_t grain = NodesAtLeast / static_cast<std::int64_t>(stride);
@@ -200,14 +201,14 @@ NodeField refine(const Grid& grid, int kernel, const std::vector<glm::vec3>& inC
 {
   NodeField field;
   field.nodes = forwardNodes(grid, samples);
-  const int perCell = field.nodes.perCell;
+  const std::vector<glm::vec4> weights = weightsInCell(kernel, field.nodes.perCell);
   const glm::ivec3& points = grid.dimensions;
   const glm::ivec3& count = field.nodes.count;
   const std::size_t rowsYZ = static_cast<std::size_t>(points.y) * points.z;
-  std::vector<glm::vec3> alongX = refineAxis(inCells, points.x, 1, rowsYZ, kernel, perCell);
-  std::vector<glm::vec3> alongXY = refineAxis(alongX, points.y, count.x, points.z, kernel, perCell);
+  std::vector<glm::vec3> alongX = refineAxis(inCells, points.x, 1, rowsYZ, weights);
+  std::vector<glm::vec3> alongXY = refineAxis(alongX, points.y, count.x, points.z, weights);
   field.values =
-    refineAxis(alongXY, points.z, static_cast<std::size_t>(count.x) * count.y, 1, kernel, perCell);
+    refineAxis(alongXY, points.z, static_cast<std::size_t>(count.x) * count.y, 1, weights);
   return field;
 }
 

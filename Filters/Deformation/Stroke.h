@@ -13,7 +13,6 @@
 #include <glm/vec3.hpp>
 
 #include <array>
-#include <string>
 #include <vector>
 
 namespace brainshift
@@ -119,14 +118,11 @@ constexpr double LargestStrokeNumber = 1e9;
 constexpr double SmallestSigma = 0.001;
 
 /**
- * Reads strokes from their list of numbers.
- *
- * @param error   empty if the numbers are good; otherwise one sentence, without a full stop, that
- *                names the stroke, the number, its value and its limit
- * @return the strokes; none if a number is bad
+ * Reads strokes from their list of numbers. Throws a Problem that names the stroke, the number, its
+ * value and its limit if a number is bad.
  */
 BRAINSHIFT_DEFORMATION_EXPORT std::vector<Stroke> strokesFromNumbers(
-  const std::vector<double>& numbers, std::string& error);
+  const std::vector<double>& numbers);
 
 /** The strokes as a list of numbers, 14 for each. */
 BRAINSHIFT_DEFORMATION_EXPORT std::vector<double> numbersFromStrokes(

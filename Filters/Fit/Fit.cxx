@@ -2,6 +2,7 @@
 #include "Filters/Fit/Fit.h"
 
 #include "Common/Parallel.h"
+#include "Common/Problem.h"
 #include "Filters/Fit/TraceRows.h"
 
 #include <glm/geometric.hpp>
@@ -83,29 +84,27 @@ Fit::Fit()
 {
 }
 
-std::string Fit::solve(const Measurements& measured, const FitSettings& settings,
+void Fit::solve(const Measurements& measured, const FitSettings& settings,
   const RestSurface& surface, const Process* start)
 {
-  std::string problem = problemOf(measured);
-  problem = problem.empty() ? problemOf(settings) : problem;
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  requireGood(measured);
+  requireGood(settings);
   this->Rigid = {};
   this->Base = measured.base;
   this->Steps = 0;
   this->ExpectsSmallTurn = false;
-  problem = bendsOnly(measured) ? this->solveBend(measured, settings, surface, start)
-                                : this->solveRigid(measured, settings);
-  if (problem.empty())
+  if (bendsOnly(measured))
   {
-    this->judge(measured);
+    this->solveBend(measured, settings, surface, start);
   }
-  return problem;
+  else
+  {
+    this->solveRigid(measured, settings);
+  }
+  this->judge(measured);
 }
 
-std::string Fit::solveRigid(const Measurements& measured, const FitSettings& settings)
+void Fit::solveRigid(const Measurements& measured, const FitSettings& settings)
 {
   std::vector<glm::dvec3> from;
   std::vector<glm::dvec3> to;
@@ -129,10 +128,10 @@ std::string Fit::solveRigid(const Measurements& measured, const FitSettings& set
   const RigidMean mean{ weightedMean(from, weights),
     isFree ? 0.0 : 1.0 / squared(glm::radians(settings.rotationPriorDegrees)) };
   this->Field = Process(settings.landmarkKernel);
-  const std::string problem = this->Field.setRows(rows, mean);
-  if (!problem.empty() || from.empty())
+  this->Field.setRows(rows, mean);
+  if (from.empty())
   {
-    return problem;
+    return;
   }
   const glm::dvec3 shift = weightedMean(to, weights) - mean.centre;
   this->Rigid = turnedAround(
@@ -157,11 +156,13 @@ std::string Fit::solveRigid(const Measurements& measured, const FitSettings& set
     }
     this->Rigid = { this->Rigid.rotation * step.rotation, this->Rigid.apply(step.translation) };
   }
-  // A comparison with NaN is false.
-  return moved < MotionUnsettled ? std::string() : "The landmarks do not say how the volume turned";
+  if (!(moved < MotionUnsettled)) // also rejects NaN
+  {
+    throw Problem("The landmarks do not say how the volume turned");
+  }
 }
 
-std::string Fit::solveBend(const Measurements& measured, const FitSettings& settings,
+void Fit::solveBend(const Measurements& measured, const FitSettings& settings,
   const RestSurface& surface, const Process* start)
 {
   const double deviation = settings.surfaceDeviation * settings.relaxation;
@@ -179,7 +180,8 @@ std::string Fit::solveBend(const Measurements& measured, const FitSettings& sett
   this->Field = Process(settings.surfaceKernel);
   if (measured.traces.empty() || !surface)
   {
-    return this->Field.setRows(rows);
+    this->Field.setRows(rows);
+    return;
   }
   TraceProjection projection(measured.traces, surface, this->Base);
   const TraceBins bins(measured.traces, settings, deviation);
@@ -198,13 +200,8 @@ std::string Fit::solveBend(const Measurements& measured, const FitSettings& sett
     std::vector<Row> all = rows;
     const std::vector<Row> traced = bins.rows(projection.feet());
     all.insert(all.end(), traced.begin(), traced.end());
-    const std::string problem = this->Field.setRows(all);
-    if (!problem.empty())
-    {
-      return problem;
-    }
+    this->Field.setRows(all);
   }
-  return {};
 }
 
 void Fit::judge(const Measurements& measured)

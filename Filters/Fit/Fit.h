@@ -20,7 +20,6 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace brainshift
@@ -40,9 +39,10 @@ public:
    * @param start     a field close to the answer, say that of a moment ago. Traced points are then
    *                  projected with it, and the equations are solved once. This is for a hand that
    *                  moves: the result depends a little on the start.
-   * @return one sentence without a full stop if it cannot; the last result is then void
+   *
+   * Throws a Problem if it cannot; the last result is then void.
    */
-  std::string solve(const Measurements& measured, const FitSettings& settings,
+  void solve(const Measurements& measured, const FitSettings& settings,
     const RestSurface& surface = {}, const Process* start = nullptr);
 
   /** The rigid part: measured from rest. The identity if the volume only bends. */
@@ -99,8 +99,8 @@ public:
   const Process& field() const { return this->Field; }
 
 private:
-  std::string solveRigid(const Measurements& measured, const FitSettings& settings);
-  std::string solveBend(const Measurements& measured, const FitSettings& settings,
+  void solveRigid(const Measurements& measured, const FitSettings& settings);
+  void solveBend(const Measurements& measured, const FitSettings& settings,
     const RestSurface& surface, const Process* start);
   void judge(const Measurements& measured);
 

@@ -10,8 +10,9 @@
 #define BrainShift_Measurements_h
 
 #include "Common/Export.h"
-#include "Filters/Fit/FitBase.h"
-#include "Filters/Fit/Matern.h"
+#include "Filters/Deformation/Lattice.h"
+#include "Filters/Deformation/PointMap.h"
+#include "Filters/Fit/Process.h"
 
 #include <glm/vec3.hpp>
 
@@ -21,10 +22,37 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace brainshift
 {
+/** A bend that a refinement found, or a field of another program. Positions are world mm. */
+struct FitBase
+{
+  Lattice lattice;
+  PointMap map; ///< of the lattice
+
+  explicit FitBase(Lattice bent)
+    : lattice(std::move(bent))
+    , map(lattice)
+  {
+  }
+
+  /** Whether it is the base of such a lattice, with the same mask. */
+  bool isOf(const Lattice& other) const
+  {
+    return this->lattice.grid == other.grid && this->lattice.kernel == other.kernel &&
+      this->lattice.mask == other.mask && this->lattice.displacements == other.displacements;
+  }
+
+  /** How far (mm) it moves tissue at rest. */
+  glm::dvec3 displacement(const glm::dvec3& rest) const
+  {
+    return this->map.deformedFromRest(rest) - rest;
+  }
+};
+
 /** A piece of tissue that was found at rest and where it was measured: a landmark, or a pull. */
 struct PointPair
 {
@@ -101,14 +129,27 @@ inline bool bendsOnly(const Measurements& measured)
     std::any_of(measured.pulls.begin(), measured.pulls.end(), isOn);
 }
 
-/**
- * One sentence without a full stop on a number that is not finite, a coordinate beyond 1 km or a
- * weight below 0. It is empty if there is none.
- */
-BRAINSHIFT_DEFORMATION_EXPORT std::string problemOf(const Measurements& measured);
+/** Throws a Problem on a number that is not finite, a coordinate beyond 1 km or a weight below 0. */
+BRAINSHIFT_DEFORMATION_EXPORT void requireGood(const Measurements& measured);
 
-/** One sentence on a setting that is out of its range; empty if there is none. */
-BRAINSHIFT_DEFORMATION_EXPORT std::string problemOf(const FitSettings& settings);
+/** Throws a Problem on a setting that is out of its range. */
+BRAINSHIFT_DEFORMATION_EXPORT void requireGood(const FitSettings& settings);
+
+/** Pairs of numbers, at rest and measured, in the order at rest; and who has no partner. */
+struct LandmarkMatch
+{
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  std::vector<std::string> unmatched; ///< "landmark tip at rest", "measured landmark 4"
+};
+
+/**
+ * Matches by label if a label stands in both lists, else by order. Labels that occur several times
+ * match in their order. Landmarks without a label match nothing if the others match by label.
+ *
+ * @param rest, measured   the labels, empty where a landmark has none
+ */
+BRAINSHIFT_DEFORMATION_EXPORT LandmarkMatch matchLandmarks(
+  const std::vector<std::string>& rest, const std::vector<std::string>& measured);
 }
 
 #endif

@@ -16,20 +16,39 @@
 #define BrainShift_Process_h
 
 #include "Common/Export.h"
-#include "Filters/Fit/Matern.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace brainshift
 {
+/** Covariance (mm^2) of one component of the displacement at two points. */
+struct Matern
+{
+  double lengthMm = 60.0;   ///< mm over which neighbours follow; above 0
+  double deviationMm = 8.0; ///< standard deviation (mm) of a displacement before any measurement
+
+  /** Factor that makes a distance (mm) a number without unit. */
+  double scale() const { return std::sqrt(5.0) / this->lengthMm; }
+
+  /** Variance (mm^2) before any measurement. */
+  double variance() const { return this->deviationMm * this->deviationMm; }
+
+  /** Covariance (mm^2) at a distance (mm). */
+  double at(double distanceMm) const
+  {
+    const double a = this->scale() * distanceMm;
+    return this->variance() * (1.0 + a + a * a / 3.0) * std::exp(-a);
+  }
+};
+
 /** Most rows of a process: the matrix takes 288 MB and the factor about 20 s. */
 constexpr std::size_t MostRows = 6000;
 
@@ -82,12 +101,10 @@ public:
   Process& operator=(Process&& other) noexcept;
 
   /**
-   * Takes other rows and factors their covariance.
-   *
-   * @return one sentence without a full stop if there are too many rows or they contradict each
-   *         other beyond what numbers can hold; else empty
+   * Takes other rows and factors their covariance. Throws a Problem if there are too many rows or
+   * they contradict each other beyond what numbers can hold.
    */
-  std::string setRows(std::vector<Row> rows, const std::optional<RigidMean>& mean = {});
+  void setRows(std::vector<Row> rows, const std::optional<RigidMean>& mean = {});
 
   /** Takes other values for the same rows. There is no new factor. */
   void setValues(const std::vector<double>& values);

@@ -14,6 +14,29 @@
 
 namespace brainshift
 {
+/** Of all positions added, the farthest one in each of many directions, among them the axes. */
+class FarPoints
+{
+public:
+  FarPoints();
+
+  /** A position, mm, world. */
+  void add(const glm::dvec3& world);
+
+  /** mm, world; empty if no process added any. All processes must call it and get the same. */
+  std::vector<glm::dvec3> ofAllProcesses() const;
+
+private:
+  struct Farthest
+  {
+    double reach; // mm along the direction
+    glm::dvec3 point{ 0.0 };
+  };
+
+  std::vector<glm::dvec3> Directions; // of unit length
+  std::vector<Farthest> Found;        // for each direction
+};
+
 /** A camera, mm, world. */
 struct FirstCamera
 {

@@ -2,6 +2,7 @@
 #include "Filters/Measured/RestCortex.h"
 
 #include "Common/ImageGrid.h"
+#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Fit/Anchors.h"
 
@@ -162,17 +163,18 @@ std::optional<SurfacePoint> RestCortex::nearest(const glm::dvec3& rest, int& hin
   return SurfacePoint{ mixed(points), unit(mixed(this->Normals)) };
 }
 
-std::string CortexSource::find(const Request& request)
+void CortexSource::find(const Request& request)
 {
   if (request.mustHaveArray && !request.array.empty() &&
     !request.image->GetPointData()->HasArray(request.array.c_str()))
   {
-    return "The " + request.where + " has no point array " + request.array;
+    throw Problem("The " + request.where + " has no point array " + request.array);
   }
   vtkDataArray* scalars = scalarsOf(request.image, request.array);
   if (!scalars || scalars->GetNumberOfComponents() != 1)
   {
-    return "The " + request.where + " has no point array of one component to find the cortex in";
+    throw Problem(
+      "The " + request.where + " has no point array of one component to find the cortex in");
   }
   const Grid grid = gridOf(request.image);
   if (scalars != this->Scalars || scalars->GetMTime() != this->ScalarsTime ||
@@ -188,13 +190,47 @@ std::string CortexSource::find(const Request& request)
     this->IsLabel = request.isLabel;
     this->Level = request.level;
   }
-  if (!this->Cortex.isEmpty())
+  if (this->Cortex.isEmpty())
   {
-    return {};
+    const double* range = scalars->GetRange(0);
+    throw Problem((request.isLabel ? "Label is " : "Threshold is ") +
+      std::to_string(request.level) + " and gives no cortex; the scalars of the " + request.where +
+      " go from " + std::to_string(range[0]) + " to " + std::to_string(range[1]));
   }
-  const double* range = scalars->GetRange(0);
-  return (request.isLabel ? "Label is " : "Threshold is ") + std::to_string(request.level) +
-    " and gives no cortex; the scalars of the " + request.where + " go from " +
-    std::to_string(range[0]) + " to " + std::to_string(range[1]);
+}
+
+bool AnchorChoice::Key::operator==(const Key& other) const
+{
+  return this->cortex == other.cortex && this->maskTime == other.maskTime &&
+    this->ball.centre == other.ball.centre && this->ball.radiusMm == other.ball.radiusMm;
+}
+
+const std::vector<SurfacePoint>& AnchorChoice::beside(
+  const OpeningBall& ball, const CortexSource& cortex)
+{
+  const auto makeIsOpen = [&ball]() -> IsOpen {
+    return [&ball](const glm::dvec3& rest) {
+      return glm::distance(rest, ball.centre) < ball.radiusMm + AnchorMarginMm;
+    };
+  };
+  return this->find({ cortex.version(), 0, ball }, makeIsOpen, cortex);
+}
+
+const std::vector<SurfacePoint>& AnchorChoice::beside(
+  std::uint64_t maskTime, const std::function<IsOpen()>& makeIsOpen, const CortexSource& cortex)
+{
+  return this->find({ cortex.version(), maskTime, {} }, makeIsOpen, cortex);
+}
+
+const std::vector<SurfacePoint>& AnchorChoice::find(
+  const Key& key, const std::function<IsOpen()>& makeIsOpen, const CortexSource& cortex)
+{
+  if (!(this->Known == key))
+  {
+    this->Known.reset(); // if memory runs out
+    this->Anchors = chooseAnchors(cortex.cortex().points(), makeIsOpen());
+    this->Known = key;
+  }
+  return this->Anchors;
 }
 }

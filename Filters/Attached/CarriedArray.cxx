@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/Attached/SharedArray.h"
+#include "Filters/Attached/CarriedArray.h"
 
 #include "vtkCharArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkIntArray.h"
 #include "vtkLongArray.h"
 #include "vtkLongLongArray.h"
+#include "vtkNew.h"
 #include "vtkShortArray.h"
 #include "vtkSignedCharArray.h"
 #include "vtkUnsignedCharArray.h"
@@ -110,6 +112,8 @@ vtkSmartPointer<vtkDataArray> sharedOver(vtkDataArray* source)
       return source;
   }
 }
+
+constexpr int GridNumbers = 18;
 }
 
 vtkSmartPointer<vtkDataArray> sharedAs(const char* name, vtkDataArray* source)
@@ -150,5 +154,45 @@ void SharedArrays::share(vtkDataSetAttributes* attributes)
     attributes->AddArray(entry.shared); // takes the place of the array of this name
   }
   this->Entries = std::move(entries);
+}
+
+void attachGrid(vtkFieldData* fields, const char* name, const Grid& grid)
+{
+  vtkNew<vtkDoubleArray> numbers;
+  numbers->SetName(name);
+  numbers->SetNumberOfComponents(GridNumbers);
+  numbers->SetNumberOfTuples(1);
+  for (int i = 0; i < 3; ++i)
+  {
+    numbers->SetComponent(0, i, grid.dimensions[i]);
+    numbers->SetComponent(0, 3 + i, grid.origin[i]);
+    numbers->SetComponent(0, 6 + i, grid.spacing[i]);
+    for (int column = 0; column < 3; ++column)
+    {
+      numbers->SetComponent(0, 9 + 3 * i + column, grid.direction[column][i]);
+    }
+  }
+  fields->AddArray(numbers);
+}
+
+bool readGrid(vtkFieldData* fields, const char* name, Grid& grid)
+{
+  vtkDataArray* numbers = fields->GetArray(name);
+  if (!numbers || numbers->GetNumberOfComponents() != GridNumbers ||
+    numbers->GetNumberOfTuples() != 1)
+  {
+    return false;
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    grid.dimensions[i] = static_cast<int>(numbers->GetComponent(0, i));
+    grid.origin[i] = numbers->GetComponent(0, 3 + i);
+    grid.spacing[i] = numbers->GetComponent(0, 6 + i);
+    for (int column = 0; column < 3; ++column)
+    {
+      grid.direction[column][i] = numbers->GetComponent(0, 9 + 3 * i + column);
+    }
+  }
+  return true;
 }
 }
