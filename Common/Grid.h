@@ -12,6 +12,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstddef>
 
 namespace brainshift
@@ -84,6 +85,37 @@ struct Grid
   }
   bool operator!=(const Grid& other) const { return !(*this == other); }
 };
+
+/** The box of a grid as 15 numbers: origin (mm), spacing (mm), direction matrix row by row. */
+inline std::array<double, 15> boxOf(const Grid& grid)
+{
+  const glm::dmat3 rows = glm::transpose(grid.direction);
+  std::array<double, 15> box;
+  for (int i = 0; i < 3; ++i)
+  {
+    box[i] = grid.origin[i];
+    box[3 + i] = grid.spacing[i];
+  }
+  for (int i = 0; i < 9; ++i)
+  {
+    box[6 + i] = rows[i / 3][i % 3];
+  }
+  return box;
+}
+
+/** Gives a grid the box that boxOf returned. */
+inline void setBox(Grid& grid, const double* box)
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    grid.origin[i] = box[i];
+    grid.spacing[i] = box[3 + i];
+  }
+  for (int i = 0; i < 9; ++i)
+  {
+    grid.direction[i % 3][i / 3] = box[6 + i];
+  }
+}
 
 /**
  * A grid over the same box with other numbers of points. A side that has one point counts as one

@@ -27,8 +27,8 @@ constexpr double LongestSpacing = 1e9;
 VTKBRAINSHIFTCOMMON_EXPORT Grid gridOf(vtkImageData* image);
 
 /**
- * What is wrong with the position of a grid, as the end of a sentence about it, without a full stop:
- * its spacing must be from ShortestSpacing to LongestSpacing, its origin at most
+ * What is wrong with the position of a grid, as the end of a sentence about it, without a full
+ * stop: its spacing must be from ShortestSpacing to LongestSpacing, its origin at most
  * FarthestOriginSpacings away from 0, its other numbers finite. It is empty if nothing is wrong.
  */
 VTKBRAINSHIFTCOMMON_EXPORT std::string problemOfGrid(const Grid& grid);

@@ -3,6 +3,7 @@
 
 #include "Common/FilledArray.h"
 #include "Common/Guard.h"
+#include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
 #include "Common/Problem.h"
 #include "Filters/Attached/CarriedArray.h"
@@ -76,18 +77,12 @@ std::string decimal(double number)
   return text.str();
 }
 
-std::string triple(const glm::ivec3& numbers)
-{
-  return std::to_string(numbers.x) + " x " + std::to_string(numbers.y) + " x " +
-    std::to_string(numbers.z);
-}
-
 // Throws a Problem on what keeps this volume from being deformed.
 void requireVolume(const Grid& volume)
 {
   if (glm::any(glm::lessThan(volume.dimensions, glm::ivec3(2))))
   {
-    throw Problem("The volume has " + triple(volume.dimensions) +
+    throw Problem("The volume has " + sizeText(glm::dvec3(volume.dimensions)) +
       " points; it must have at least 2 along each axis");
   }
   requirePosition(volume, "The volume's ");
@@ -307,19 +302,19 @@ double vtkFreeFormDeformation::GetMinimumJacobian()
 
 int vtkFreeFormDeformation::GetShortenedStrokes() const
 {
-  const std::vector<double>& shares = this->Internal->StrokeReplay.shares();
-  return static_cast<int>(
-    std::count_if(shares.begin(), shares.end(), [](double share) { return share < 1.0; }));
+  const std::vector<double>& fractions = this->Internal->StrokeReplay.fractions();
+  return static_cast<int>(std::count_if(
+    fractions.begin(), fractions.end(), [](double fraction) { return fraction < 1.0; }));
 }
 
 vtkDoubleArray* vtkFreeFormDeformation::GetStrokeShares()
 {
-  return filled(this->Internal->StrokeShares, this->Internal->StrokeReplay.shares());
+  return filled(this->Internal->StrokeShares, this->Internal->StrokeReplay.fractions());
 }
 
 vtkDoubleArray* vtkFreeFormDeformation::GetStrokeReaches()
 {
-  return filled(this->Internal->StrokeReaches, this->Internal->StrokeReplay.reaches());
+  return filled(this->Internal->StrokeReaches, this->Internal->StrokeReplay.achieved());
 }
 
 int vtkFreeFormDeformation::GetAppliedStrokes() const

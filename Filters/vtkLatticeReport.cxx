@@ -39,16 +39,15 @@ vtkFloatArray* readDrawn(vtkAlgorithm* filter, DrawnLattice& lattice)
   {
     return nullptr;
   }
-  const auto number = [&](int i) { return box->GetVariantValue(i).ToDouble(); };
+  double numbers[15];
+  for (int i = 0; i < 15; ++i)
+  {
+    numbers[i] = box->GetVariantValue(i).ToDouble();
+  }
+  setBox(lattice.grid, numbers);
   for (int axis = 0; axis < 3; ++axis)
   {
     lattice.grid.dimensions[axis] = dimensions->GetVariantValue(axis).ToInt();
-    lattice.grid.origin[axis] = number(axis);
-    lattice.grid.spacing[axis] = number(3 + axis);
-    for (int column = 0; column < 3; ++column)
-    {
-      lattice.grid.direction[column][axis] = number(6 + 3 * axis + column);
-    }
   }
   lattice.displacements = displacements->GetPointer(0);
   lattice.strength = strength->GetVariantValue(0).ToDouble();
@@ -141,17 +140,13 @@ vtkDoubleArray* vtkLatticeReport::GetGeometry()
   DrawnLattice lattice;
   if (readDrawn(this->Filter, lattice))
   {
-    const Grid& grid = lattice.grid;
-    for (const glm::dvec3& triple : { glm::dvec3(grid.dimensions), grid.origin, grid.spacing })
+    for (int axis = 0; axis < 3; ++axis)
     {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        this->Geometry->InsertNextValue(triple[axis]);
-      }
+      this->Geometry->InsertNextValue(lattice.grid.dimensions[axis]);
     }
-    for (int i = 0; i < 9; ++i)
+    for (const double number : boxOf(lattice.grid))
     {
-      this->Geometry->InsertNextValue(grid.direction[i % 3][i / 3]);
+      this->Geometry->InsertNextValue(number);
     }
   }
   return this->Geometry;

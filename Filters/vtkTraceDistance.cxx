@@ -90,15 +90,8 @@ struct vtkTraceDistance::State
     int surfaceState = 0;
   };
 
-  // What the surface was found for.
-  vtkSmartPointer<vtkDataArray> Scalars;
-  vtkMTimeType ScalarsTime = 0;
-  Grid ScalarsGrid;
-  int By = -1;
-  double Level = 0.0;
-
-  TissueRegion Tissue;
-  DeformedSurface Surface;
+  TissueSource Tissue;
+  DeformedSurface Surface; // of the tissue
   CavitySource CavityInput;
   PlacedVoxels Cavity;           // that of the input
   PlacedVoxels ReferencesCavity; // that Compare Volumes attached to the volume
@@ -140,27 +133,6 @@ struct vtkTraceDistance::State
       return this->Nearest[first + left].triangle < this->Nearest[first + right].triangle;
     });
     return order;
-  }
-
-  // `level`: the threshold or the label.
-  void find(vtkDataArray* scalars, const Grid& grid, int by, double level)
-  {
-    if (scalars == this->Scalars && scalars->GetMTime() == this->ScalarsTime &&
-      grid == this->ScalarsGrid && by == this->By && level == this->Level)
-    {
-      return;
-    }
-    this->Scalars = scalars;
-    this->ScalarsTime = scalars->GetMTime();
-    this->ScalarsGrid = grid;
-    this->By = by;
-    this->Level = level;
-    this->Tissue = by == ByLabel
-      ? TissueRegion{ grid, maskOfLabel(scalars, static_cast<int>(level)), 0.5 }
-      : TissueRegion{ grid, scalars, level };
-    this->Surface = DeformedSurface(surfaceOf(this->Tissue));
-    this->Nearest.clear();
-    ++this->SurfacesFound;
   }
 };
 
@@ -277,7 +249,13 @@ void vtkTraceDistance::FindCortex(vtkInformationVector** inputs)
                : std::string(" has no point array to find the cortex in")));
   }
   const bool byLabel = this->SurfaceBy == ByLabel;
-  state.find(scalars, gridOf(image), this->SurfaceBy, byLabel ? this->Label : this->Threshold);
+  const double level = byLabel ? this->Label : this->Threshold;
+  if (state.Tissue.find(scalars, gridOf(image), byLabel, level) || state.Surface.isEmpty())
+  {
+    state.Surface = DeformedSurface(surfaceOf(state.Tissue.region()));
+    state.Nearest.clear();
+    ++state.SurfacesFound;
+  }
   if (state.Surface.isEmpty())
   {
     const double* range = scalars->GetRange(0);
@@ -319,7 +297,7 @@ bool vtkTraceDistance::Measure(vtkPointSet* points, std::vector<double>& all)
       return std::numeric_limits<double>::quiet_NaN();
     }
     const double distance = state.distanceTo(point, hint, found);
-    const bool inside = state.Tissue.contains(state.Map->restFromDeformed(point));
+    const bool inside = state.Tissue.region().contains(state.Map->restFromDeformed(point));
     return std::isfinite(distance) ? (inside ? -distance : distance)
                                    : std::numeric_limits<double>::quiet_NaN();
   };
@@ -344,10 +322,11 @@ void vtkTraceDistance::NoteRMS(vtkDataObject* points, vtkDataObject* volume)
 {
   State& state = *this->Internal;
   const auto timeOf = [](vtkDataArray* array) { return array ? array->GetMTime() : 0; };
+  const double used = this->SurfaceBy == ByLabel ? this->Label : this->Threshold;
   std::uint64_t level = 0; // its bits
-  std::memcpy(&level, &state.Level, sizeof(level));
-  std::uint64_t how = mixed(mixed(points->GetMTime(), state.ScalarsTime), level);
-  how = mixed(mixed(how, state.By), timeOf(state.Cavity.voxels));
+  std::memcpy(&level, &used, sizeof(level));
+  std::uint64_t how = mixed(mixed(points->GetMTime(), state.Tissue.time()), level);
+  how = mixed(mixed(how, this->SurfaceBy), timeOf(state.Cavity.voxels));
   how = mixed(how, timeOf(state.ReferencesCavity.voxels));
   state.Curve.note(readMarks(volume), how, state.Statistics.rms);
 }

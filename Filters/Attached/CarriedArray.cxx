@@ -162,16 +162,9 @@ void attachGrid(vtkFieldData* fields, const char* name, const Grid& grid)
   numbers->SetName(name);
   numbers->SetNumberOfComponents(GridNumbers);
   numbers->SetNumberOfTuples(1);
-  for (int i = 0; i < 3; ++i)
-  {
-    numbers->SetComponent(0, i, grid.dimensions[i]);
-    numbers->SetComponent(0, 3 + i, grid.origin[i]);
-    numbers->SetComponent(0, 6 + i, grid.spacing[i]);
-    for (int column = 0; column < 3; ++column)
-    {
-      numbers->SetComponent(0, 9 + 3 * i + column, grid.direction[column][i]);
-    }
-  }
+  const glm::dvec3 sides(grid.dimensions);
+  const std::array<double, 15> box = boxOf(grid);
+  std::copy(box.begin(), box.end(), std::copy_n(&sides.x, 3, numbers->GetPointer(0)));
   fields->AddArray(numbers);
 }
 
@@ -183,16 +176,10 @@ bool readGrid(vtkFieldData* fields, const char* name, Grid& grid)
   {
     return false;
   }
-  for (int i = 0; i < 3; ++i)
-  {
-    grid.dimensions[i] = static_cast<int>(numbers->GetComponent(0, i));
-    grid.origin[i] = numbers->GetComponent(0, 3 + i);
-    grid.spacing[i] = numbers->GetComponent(0, 6 + i);
-    for (int column = 0; column < 3; ++column)
-    {
-      grid.direction[column][i] = numbers->GetComponent(0, 9 + 3 * i + column);
-    }
-  }
+  double stored[GridNumbers];
+  numbers->GetTuple(0, stored);
+  grid.dimensions = glm::ivec3(glm::dvec3(stored[0], stored[1], stored[2]));
+  setBox(grid, stored + 3);
   return true;
 }
 }

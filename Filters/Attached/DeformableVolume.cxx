@@ -181,13 +181,8 @@ Grid readLatticeGrid(vtkFieldData* fields)
           std::to_string(LargestLatticeSide));
     }
     grid.dimensions[axis] = static_cast<int>(sides[axis]);
-    grid.origin[axis] = box[axis];
-    grid.spacing[axis] = box[3 + axis];
-    for (int column = 0; column < 3; ++column)
-    {
-      grid.direction[column][axis] = box[6 + 3 * axis + column];
-    }
   }
+  setBox(grid, box.data());
   requirePosition(grid, std::string("In field array ") + BoxName + ", the ");
   return grid;
 }
@@ -212,15 +207,7 @@ void attach(vtkDataObject* volume, const Deformation& deformation)
 {
   vtkFieldData* fields = volume->GetFieldData();
   const Grid& grid = deformation.lattice.grid;
-  std::vector<double> box{ grid.origin.x, grid.origin.y, grid.origin.z, grid.spacing.x,
-    grid.spacing.y, grid.spacing.z };
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 3; ++column)
-    {
-      box.push_back(grid.direction[column][row]);
-    }
-  }
+  const std::array<double, 15> box = boxOf(grid);
   forgetDirection(volume);
   attachDisplacements(fields, deformation.lattice);
   const auto& mask = deformation.lattice.mask;
@@ -228,7 +215,7 @@ void attach(vtkDataObject* volume, const Deformation& deformation)
   attachNumbers(fields, DeviationsName, deformation.deviations);
   attachTuple<vtkIntArray>(fields, DimensionsName,
     { double(grid.dimensions.x), double(grid.dimensions.y), double(grid.dimensions.z) });
-  attachTuple<vtkDoubleArray>(fields, BoxName, box);
+  attachTuple<vtkDoubleArray>(fields, BoxName, { box.begin(), box.end() });
   attachTuple<vtkIntArray>(fields, KernelName, { double(deformation.lattice.kernel) });
   attachTuple<vtkIntArray>(fields, SamplesName, { double(deformation.samples) });
   attachTuple<vtkIntArray>(fields, InverseName, { double(static_cast<int>(deformation.inverse)) });

@@ -15,9 +15,9 @@
  *     FFDSamples        int: nodes of the refined field between two control points, 0 to 16
  *     FFDInverse        int: 0 exact, 1 negated
  *     FFDStrength       double, 0 to 1: factor on all displacements
- *     FFDMaskWeights    float32, only with a mask: fraction of the displacement, 0 to 1, at each node
- *                       of the refined field, (points - 1) * (FFDSamples + 1) + 1 along each axis,
- *                       x fastest; the field is trilinear between the nodes
+ *     FFDMaskWeights    float32, only with a mask: fraction of the displacement, 0 to 1, at each
+ *                       node of the refined field, (points - 1) * (FFDSamples + 1) + 1 along each
+ *                       axis, x fastest; the field is trilinear between the nodes
  *     FFDDeviations     float32, only of a fit with Evidence: the uncertainty of the position of
  *                       each control point, nx*ny*nz tuples, mm, one standard deviation along an
  *                       axis; 0 or more, infinity where nothing was measured; trilinear in between

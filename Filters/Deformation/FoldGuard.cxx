@@ -13,10 +13,10 @@ namespace brainshift
 namespace
 {
 constexpr std::int64_t CellsAtLeast = 64; // for a thread
-// Shares of a stroke are told apart to half a percent of themselves; below the last one nothing
+// Fractions of a stroke are found to half a percent of themselves; below the last one nothing
 // of the stroke is left.
-constexpr double ShareStep = 0.005;
-constexpr double SmallestShare = 1e-6;
+constexpr double FractionStep = 0.005;
+constexpr double SmallestFraction = 1e-6;
 // Above the limit by more than single precision can lose. What an earlier stroke brought to the
 // first one may not be proved for it again, rounded otherwise; the second is left for that.
 constexpr float ProvedLimit = SmallestGuardedJacobian + 2e-4f;
@@ -57,7 +57,7 @@ public:
 
   CellTaps tapsAround(const glm::ivec3& cell, double part) const
   {
-    const auto share = static_cast<float>(part);
+    const auto fraction = static_cast<float>(part);
     CellTaps taps;
     int tap = 0;
     for (int k = -1; k < 3; ++k)
@@ -70,7 +70,7 @@ public:
           for (int component = 0; component < 3; ++component)
           {
             taps.component[component][tap] =
-              this->From[point][component] + share * this->Change[point][component];
+              this->From[point][component] + fraction * this->Change[point][component];
           }
         }
       }
@@ -107,14 +107,14 @@ private:
 };
 
 // Takes those cells out of a list that do not hold.
-Cells takeFailing(const CellProof& proof, const Way& way, Cells& cells, double share)
+Cells takeFailing(const CellProof& proof, const Way& way, Cells& cells, double fraction)
 {
   std::vector<char> failed(cells.size());
   const auto count = static_cast<std::int64_t>(cells.size());
   parallelFor(0, count, CellsAtLeast, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
-      failed[i] = !proof.holds(way.tapsAround(cells[i].at, share), cells[i].at, cells[i].limit);
+      failed[i] = !proof.holds(way.tapsAround(cells[i].at, fraction), cells[i].at, cells[i].limit);
     }
   });
   Cells kept;
@@ -127,11 +127,11 @@ Cells takeFailing(const CellProof& proof, const Way& way, Cells& cells, double s
   return failing;
 }
 
-// The largest share at which one cell holds. It does at 0, and not at `high`.
-double shareOf(const CellProof& proof, const Way& way, const GuardedCell& cell, double high)
+// The largest fraction at which one cell holds. It does at 0, and not at `high`.
+double fractionOf(const CellProof& proof, const Way& way, const GuardedCell& cell, double high)
 {
   double low = 0.0;
-  while (high - low > ShareStep * high && high > SmallestShare)
+  while (high - low > FractionStep * high && high > SmallestFraction)
   {
     const double middle = 0.5 * (low + high);
     (proof.holds(way.tapsAround(cell.at, middle), cell.at, cell.limit) ? low : high) = middle;
@@ -139,26 +139,26 @@ double shareOf(const CellProof& proof, const Way& way, const GuardedCell& cell, 
   return low;
 }
 
-// The largest share up to `high` at which all cells hold; they do at 0. Lowered by one failing cell
-// after the other: each spares about half of those that are left.
-double largestShare(const CellProof& proof, const Way& way, const Cells& cells, double high)
+// The largest fraction up to `high` at which all cells hold; they do at 0. Lowered by one failing
+// cell after the other: each spares about half of those that are left.
+double largestFraction(const CellProof& proof, const Way& way, const Cells& cells, double high)
 {
-  double share = high;
-  while (share > 0.0)
+  double fraction = high;
+  while (fraction > 0.0)
   {
     Cells open = cells;
-    Cells failing = takeFailing(proof, way, open, share);
+    Cells failing = takeFailing(proof, way, open, fraction);
     if (failing.empty())
     {
       break;
     }
-    for (; !failing.empty() && share > 0.0; failing = takeFailing(proof, way, open, share))
+    for (; !failing.empty() && fraction > 0.0; failing = takeFailing(proof, way, open, fraction))
     {
-      share = shareOf(proof, way, failing[failing.size() / 2], share);
+      fraction = fractionOf(proof, way, failing[failing.size() / 2], fraction);
       open = failing;
     }
   }
-  return share;
+  return fraction;
 }
 
 IndexBox cellsAround(const IndexBox& points, const glm::ivec3& dimensions)
@@ -212,7 +212,7 @@ void FoldGuard::setBase(const Lattice& base, int samples)
   }
 }
 
-double FoldGuard::share(const Lattice& before, const Lattice& after) const
+double FoldGuard::fraction(const Lattice& before, const Lattice& after) const
 {
   const glm::ivec3& dimensions = before.grid.dimensions;
   const IndexBox changed = changedPoints(dimensions, before.displacements, after.displacements);
@@ -229,10 +229,10 @@ double FoldGuard::share(const Lattice& before, const Lattice& after) const
   };
   reached.erase(std::remove_if(reached.begin(), reached.end(), isNotAsked), reached.end());
   Cells critical;
-  double share = 1.0;
+  double fraction = 1.0;
   // A cell that holds at the whole stroke need not hold at a part of it, so all are asked again.
   Cells more = takeFailing(this->Proof, way, reached, 1.0);
-  while (!more.empty() && share > 0.0)
+  while (!more.empty() && fraction > 0.0)
   {
     for (GuardedCell cell : takeFailing(this->Proof, way, more, 0.0))
     {
@@ -240,20 +240,20 @@ double FoldGuard::share(const Lattice& before, const Lattice& after) const
       more.push_back(cell);
     }
     critical.insert(critical.end(), more.begin(), more.end());
-    share = largestShare(this->Proof, way, critical, share);
-    more = takeFailing(this->Proof, way, reached, share);
+    fraction = largestFraction(this->Proof, way, critical, fraction);
+    more = takeFailing(this->Proof, way, reached, fraction);
   }
-  return share;
+  return fraction;
 }
 
-Lattice between(const Lattice& before, const Lattice& after, double share)
+Lattice between(const Lattice& before, const Lattice& after, double fraction)
 {
-  if (share == 0.0)
+  if (fraction == 0.0)
   {
     return before; // `after` may be so far away that it is no number
   }
   Lattice lattice = after;
-  const auto part = static_cast<float>(share);
+  const auto part = static_cast<float>(fraction);
   for (std::size_t point = 0; point < lattice.displacements.size(); ++point)
   {
     const glm::vec3& from = before.displacements[point];

@@ -40,10 +40,10 @@ public:
   int foldedCells() const { return this->FoldedCount; }
 
   /**
-   * The largest share, 0 to 1, of the way from `before` to `after` that keeps the limit. The answer
-   * can be up to 0.01 below the largest one. `before` must keep the limit.
+   * The largest fraction, 0 to 1, of the path from `before` to `after` that keeps the limit. The
+   * answer can be up to 0.01 below the largest one. `before` must keep the limit.
    */
-  double share(const Lattice& before, const Lattice& after) const;
+  double fraction(const Lattice& before, const Lattice& after) const;
 
 private:
   CellProof Proof;
@@ -51,9 +51,9 @@ private:
   int FoldedCount = 0;
 };
 
-/** The lattice at a share, 0 to 1, of the way from one to the other. */
+/** The lattice at a fraction, 0 to 1, of the path from one to the other. */
 BRAINSHIFT_DEFORMATION_EXPORT Lattice between(
-  const Lattice& before, const Lattice& after, double share);
+  const Lattice& before, const Lattice& after, double fraction);
 }
 
 #endif

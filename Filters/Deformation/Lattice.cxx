@@ -24,7 +24,7 @@ constexpr std::int64_t PointsAtLeast = 32768; // for a thread: about 0.2 ms
 
 // A Soft stroke lengthens its vector at most by 1 / this. A radius that holds few control points
 // would otherwise throw them far.
-constexpr double SmallestSoftShare = 0.2;
+constexpr double SmallestSoftFraction = 0.2;
 
 // Turns values along one line of control points into coefficients of a B-spline that has these
 // values at them. Beyond the ends the value of the end holds, as in the cubic.
@@ -316,7 +316,7 @@ double shareAtAnchor(const Lattice& lattice, const Stroke& stroke)
 glm::dvec3 vectorOfPoints(const Lattice& lattice, const Stroke& stroke)
 {
   return shapeOf(stroke.tool) == StrokeShape::Sphere
-    ? stroke.vector / std::clamp(shareAtAnchor(lattice, stroke), SmallestSoftShare, 1.0)
+    ? stroke.vector / std::clamp(shareAtAnchor(lattice, stroke), SmallestSoftFraction, 1.0)
     : stroke.vector;
 }
 
@@ -436,7 +436,7 @@ glm::dvec3 tissueAt(const Lattice& lattice, const glm::dvec3& deformed)
   return deformed + lattice.grid.worldVectorFromGrid(glm::dvec3(offset));
 }
 
-double reachOf(const Lattice& before, const Lattice& after, const Stroke& stroke)
+double achievedDisplacement(const Lattice& before, const Lattice& after, const Stroke& stroke)
 {
   const double length = glm::length(stroke.vector);
   if (!stroke.enabled || length == 0.0)

@@ -4,7 +4,11 @@
  * @brief The control points of a free-form deformation, the strokes that move them, and the cubic
  *        between them.
  *
- * Method: van der Steen et al., SPIE 7169 (2009), section 2.
+ * Method: van der Steen et al., SPIE 7169 (2009), section 2: a lattice that drives a free-form
+ * deformation, control points moved one by one, as a group within a radius, or by an ellipsoid.
+ * Free-form deformation: Sederberg and Parry, "Free-form deformation of solid geometric models",
+ * SIGGRAPH 1986; with cubic B-splines: Rueckert et al., "Nonrigid registration using free-form
+ * deformations", IEEE Transactions on Medical Imaging 18 (1999).
  */
 #ifndef BrainShift_Lattice_h
 #define BrainShift_Lattice_h
@@ -35,7 +39,7 @@ constexpr int LargestLatticeSide = 257;
  */
 constexpr double LongestDisplacementCells = 10000.0;
 
-/** The fraction of the displacement that holds at each node of a refined field; see MaskWeights.h. */
+/** The fraction of the displacement that holds at each node of a refined field: MaskWeights.h. */
 struct NodeWeights
 {
   int perCell = 1;           ///< nodes for each lattice cell along an axis
@@ -111,7 +115,7 @@ BRAINSHIFT_DEFORMATION_EXPORT glm::dvec3 tissueAt(
  * @param before   the lattice that the stroke was applied to
  * @param after    the same lattice with the stroke
  */
-BRAINSHIFT_DEFORMATION_EXPORT double reachOf(
+BRAINSHIFT_DEFORMATION_EXPORT double achievedDisplacement(
   const Lattice& before, const Lattice& after, const Stroke& stroke);
 
 /**

@@ -94,13 +94,13 @@ std::vector<glm::vec3> refineAxis(const std::vector<glm::vec3>& from, int points
 }
 
 // How many whole cells tissue may leave the lattice by, below and above, along one axis.
-struct Reach
+struct Overhang
 {
   int below = 0;
   int above = 0;
 };
 
-Reach reachAlong(const Grid& grid, const std::vector<glm::vec3>& inCells, int axis)
+Overhang overhangAlong(const Grid& grid, const std::vector<glm::vec3>& inCells, int axis)
 {
   // Per layer of control points across the axis: range of the displacement along it.
   const int layers = grid.dimensions[axis];
@@ -133,11 +133,11 @@ Reach reachAlong(const Grid& grid, const std::vector<glm::vec3>& inCells, int ax
     highest = std::max(highest, static_cast<float>(cell + 1) + middle + half);
   }
   constexpr auto farthest = static_cast<float>(2.0 * LongestDisplacementCells); // fits an integer
-  Reach reach;
-  reach.below = static_cast<int>(std::ceil(std::min(-lowest, farthest)));
-  reach.above =
+  Overhang overhang;
+  overhang.below = static_cast<int>(std::ceil(std::min(-lowest, farthest)));
+  overhang.above =
     static_cast<int>(std::ceil(std::min(highest - static_cast<float>(layers - 1), farthest)));
-  return reach;
+  return overhang;
 }
 }
 
@@ -190,9 +190,9 @@ FieldNodes backwardNodes(const Grid& lattice, const std::vector<glm::vec3>& inCe
   FieldNodes nodes = forwardNodes(lattice, samples);
   for (int axis = 0; axis < 3; ++axis)
   {
-    const Reach reach = reachAlong(lattice, inCells, axis);
-    nodes.first[axis] = -reach.below;
-    nodes.count[axis] += (reach.below + reach.above) * nodes.perCell;
+    const Overhang overhang = overhangAlong(lattice, inCells, axis);
+    nodes.first[axis] = -overhang.below;
+    nodes.count[axis] += (overhang.below + overhang.above) * nodes.perCell;
   }
   return nodes;
 }

@@ -25,8 +25,8 @@ constexpr int MostMotions = 50;
 constexpr int ProjectionsOfStart = 2;         // each halves what is left of a bend many times over
 constexpr double MotionTolerance = 1e-12;     // mm and rad
 constexpr double MotionUnsettled = 1e-6;      // mm and rad: more than rounding moves
-constexpr double LeastSpreadMm = 1.0;         // around a line, to know the turn around it
-constexpr double PriorPairs = 8.0;            // that the deviations before any pair stand for
+constexpr double LeastSpreadMm = 1.0;         // around a line, to know the rotation about it
+constexpr double PriorPairs = 8.0;            // weight of the settings against the pairs
 constexpr double FarthestDeviationMm = 100.0; // of a pair that is left out: beyond it is unknown
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -67,7 +67,7 @@ double squared(double value)
   return value * value;
 }
 
-// Whether the other measurements say where a pair would come to lie. Where they leave a turn or
+// Whether the other measurements determine the position of a pair. Where they leave a rotation or
 // a shift open, the covariance is singular or huge.
 bool isDetermined(const glm::dmat3& covariance)
 {
@@ -92,7 +92,7 @@ void Fit::solve(const Measurements& measured, const FitSettings& settings,
   this->Rigid = {};
   this->Base = measured.base;
   this->Steps = 0;
-  this->ExpectsSmallTurn = false;
+  this->ExpectsSmallRotation = false;
   if (bendsOnly(measured))
   {
     this->solveBend(measured, settings, surface, start);
@@ -122,9 +122,9 @@ void Fit::solveRigid(const Measurements& measured, const FitSettings& settings)
   this->PullRows.clear();
   this->LandmarkRows =
     addPairs(rows, measured.landmarks, settings.landmarkDeviation * settings.relaxation);
-  const bool saysTurn = spreadAroundLine(from, weights) >= LeastSpreadMm;
-  this->ExpectsSmallTurn = !(from.size() >= settings.pairsWithoutPrior && saysTurn);
-  const bool isFree = !this->ExpectsSmallTurn;
+  const bool saysRotation = spreadAroundLine(from, weights) >= LeastSpreadMm;
+  this->ExpectsSmallRotation = !(from.size() >= settings.pairsWithoutPrior && saysRotation);
+  const bool isFree = !this->ExpectsSmallRotation;
   const RigidMean mean{ weightedMean(from, weights),
     isFree ? 0.0 : 1.0 / squared(glm::radians(settings.rotationPriorDegrees)) };
   this->Field = Process(settings.landmarkKernel);
@@ -135,7 +135,7 @@ void Fit::solveRigid(const Measurements& measured, const FitSettings& settings)
   }
   const glm::dvec3 shift = weightedMean(to, weights) - mean.centre;
   this->Rigid = turnedAround(
-    mean.centre, saysTurn ? nearestRotation(from, to, weights) : glm::dmat3(1.0), shift);
+    mean.centre, saysRotation ? nearestRotation(from, to, weights) : glm::dmat3(1.0), shift);
   double moved = 0.0;
   for (int i = 0; i < MostMotions; ++i)
   {
@@ -223,7 +223,7 @@ void Fit::judge(const Measurements& measured)
     ++count;
     return glm::length(left.error);
   };
-  // One pair alone says all of the rigid part: without it, there is nothing to leave it out of.
+  // One pair alone determines all of the rigid part: without it there is no fit.
   const auto used = std::count_if(this->LandmarkRows.begin(), this->LandmarkRows.end(),
     [](const std::optional<std::size_t>& first) { return first.has_value(); });
   if (used > 1 || bendsOnly(measured))

@@ -54,7 +54,7 @@ double fractionWithoutFolds(const Lattice& start, const Lattice& end, int sample
 {
   FoldGuard guard;
   guard.setBase(start, samples);
-  return guard.share(start, end);
+  return guard.fraction(start, end);
 }
 
 void FittedLattice::solveWith(
@@ -75,7 +75,7 @@ void FittedLattice::solve(const Measurements& measured, const RestSurface& surfa
   this->Map.reset();
   this->Start = measured.base ? measured.base->lattice : makeLattice(lattice.grid, lattice.kernel);
   this->Start.mask = lattice.mask;
-  this->Share = 1.0;
+  this->Fraction = 1.0;
   const auto findFraction = [&] {
     return fractionWithoutFolds(this->Start, this->Bent, choices.samples);
   };
@@ -83,8 +83,8 @@ void FittedLattice::solve(const Measurements& measured, const RestSurface& surfa
   if (choices.guards && findFraction() < 1.0)
   {
     this->solveWith(Relaxed, measured, surface, choices.start);
-    this->Share = findFraction();
-    this->Bent = between(this->Start, this->Bent, this->Share);
+    this->Fraction = findFraction();
+    this->Bent = between(this->Start, this->Bent, this->Fraction);
   }
   this->Map.emplace(this->Bent);
 }

@@ -64,7 +64,10 @@ public:
 
   const Fit& fit() const { return this->Result; }
   const Lattice& lattice() const { return this->Bent; }
-  double share() const { return this->Share; } ///< fraction of the bend beyond the base, 0 to 1
+  double fraction() const
+  {
+    return this->Fraction;
+  } ///< fraction of the bend beyond the base, 0 to 1
   double relaxation() const { return this->Relaxation; } ///< 1 or Relaxed
 
   /** Where the lattice and then the rigid part take tissue at rest (mm). */
@@ -97,7 +100,7 @@ private:
   Lattice Start; // the base, or nothing moved
   Lattice Bent;
   std::optional<PointMap> Map;
-  double Share = 1.0;
+  double Fraction = 1.0;
   double Relaxation = 1.0;
 };
 

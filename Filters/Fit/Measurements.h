@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief What was measured, and how far it is trusted: the input of a fit.
+ * @brief The measurements and their standard deviations: the input of a fit; and which landmark at
+ *        rest is which measured one.
  *
  * The *rest frame* is the volume as loaded. The *measured frame* is that of the tracker or of the
  * reference. Both are mm.
@@ -27,7 +28,10 @@
 
 namespace brainshift
 {
-/** A bend that a refinement found, or a field of another program. Positions are world mm. */
+/**
+ * The deformation before a fit: one that a refinement found, or a field of another program. It is
+ * the mean of the process. Positions are world mm.
+ */
 struct FitBase
 {
   Lattice lattice;
@@ -46,7 +50,7 @@ struct FitBase
       this->lattice.mask == other.mask && this->lattice.displacements == other.displacements;
   }
 
-  /** How far (mm) it moves tissue at rest. */
+  /** Displacement (mm) of tissue at rest. */
   glm::dvec3 displacement(const glm::dvec3& rest) const
   {
     return this->map.deformedFromRest(rest) - rest;
@@ -61,7 +65,7 @@ struct PointPair
   double weight = 1.0;        ///< divides the variance; 0: the pair is switched off
 };
 
-/** A place on a surface. */
+/** A point of a surface. */
 struct SurfacePoint
 {
   glm::dvec3 position{ 0.0 }; ///< mm, rest frame
@@ -70,9 +74,9 @@ struct SurfacePoint
 
 /**
  * The nearest point of the cortex at rest to a position (mm, rest frame). Nothing if there is no
- * surface. Several threads ask at once.
+ * surface. Several threads call it at once.
  *
- * @param trace   number of the traced point that asks. The next answer to it lies close by.
+ * @param trace   number of the traced point. Its next nearest point is close to the last one.
  */
 using RestSurface =
   std::function<std::optional<SurfacePoint>(const glm::dvec3& rest, std::size_t trace)>;
@@ -85,21 +89,23 @@ struct Measurements
   std::vector<glm::dvec3> pins;      ///< mm, rest frame: tissue that stays
   std::vector<glm::dvec3> traces;    ///< mm, measured frame: points on the bent cortex
   std::vector<SurfacePoint> anchors; ///< cortex that may slide, and that neither sinks nor rises
-  /** How the volume is bent before; null: not at all. Pins and anchors hold it where it is then. */
+  /**
+   * The deformation before the fit; null: none. Pins and anchors hold the volume where it is then.
+   */
   std::shared_ptr<const FitBase> base;
 };
 
 /**
- * How far measurements are trusted. Deviations are standard deviations in mm along each axis.
+ * The uncertainty of measurements. Deviations are standard deviations in mm along each axis.
  *
  * Landmarks alone are near-rigid: the fit takes a rigid motion out of them and bends little. With
- * traces, pulls, pins or a base the volume is taken to lie right already, and bends much.
+ * traces, pulls, pins or a base the volume is assumed to be registered already, and bends much.
  */
 struct FitSettings
 {
   Matern landmarkKernel{ 40.0, 1.0 };
   double landmarkDeviation = 0.7;    ///< of a landmark of weight 1, when there are landmarks only
-  double rotationPriorDegrees = 3.0; ///< standard deviation of a turn around each axis ...
+  double rotationPriorDegrees = 3.0; ///< standard deviation of a rotation about each axis ...
   std::size_t pairsWithoutPrior = 7; ///< ... which so many pairs that span a plane do not need
   Matern surfaceKernel{ 60.0, 8.0 };
   double surfaceDeviation = 0.7; ///< of a trace, a pull, and a landmark beside them
@@ -110,7 +116,7 @@ struct FitSettings
   double binMm = 6.0;                  ///< edge of a bin
   double binFloorMm = 0.5;             ///< deviation of a bin however many points it averages
   int steps = 5;                       ///< most times that traced points are projected
-  double stepToleranceMm = 0.05;       ///< ... unless none of them moved by more than this
+  double stepToleranceMm = 0.05;       ///< ... fewer if none of them moved by more than this
 };
 
 /** Whether a pair counts: its weight is above 0. */
@@ -129,13 +135,15 @@ inline bool bendsOnly(const Measurements& measured)
     std::any_of(measured.pulls.begin(), measured.pulls.end(), isOn);
 }
 
-/** Throws a Problem on a number that is not finite, a coordinate beyond 1 km or a weight below 0. */
+/** Throws a Problem on a number that is not finite, a coordinate beyond 1 km, a weight below 0. */
 BRAINSHIFT_DEFORMATION_EXPORT void requireGood(const Measurements& measured);
 
 /** Throws a Problem on a setting that is out of its range. */
 BRAINSHIFT_DEFORMATION_EXPORT void requireGood(const FitSettings& settings);
 
-/** Pairs of numbers, at rest and measured, in the order at rest; and who has no partner. */
+/**
+ * Pairs of numbers, at rest and measured, in the order at rest, and landmarks without a partner.
+ */
 struct LandmarkMatch
 {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
@@ -143,7 +151,7 @@ struct LandmarkMatch
 };
 
 /**
- * Matches by label if a label stands in both lists, else by order. Labels that occur several times
+ * Matches by label if a label is in both lists, else by order. Labels that occur several times
  * match in their order. Landmarks without a label match nothing if the others match by label.
  *
  * @param rest, measured   the labels, empty where a landmark has none

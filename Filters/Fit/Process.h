@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief A Gaussian process for displacements: the smoothest field through measurements, and how
- *        far it can be believed.
+ * @brief A Gaussian process for displacements: the smoothest field through measurements, and its
+ *        uncertainty.
  *
  * Each component of the displacement u is a Gaussian process with the same covariance. A row
- * measures one component along an axis at one point: axis . u(point) = value, give or take. Three
+ * measures one component along an axis at one point: axis . u(point) = value, with noise. Three
  * rows at one point measure all of it. With the covariance matrix A of all rows, their noise added,
  * the field is u(x) = sum over rows of k(x, point) axis w, and A w = values.
  *
  * Everything is double precision. A is factored once (Cholesky); other values for the same rows
  * need no new factor.
+ *
+ * Source: Rasmussen and Williams, Gaussian Processes for Machine Learning (2006): prediction and
+ * its variance, equations 2.25 and 2.26 and algorithm 2.1; the rigid mean, section 2.7; leaving
+ * rows out in closed form, section 5.4.2, equations 5.10 to 5.12, here for three rows together.
  */
 #ifndef BrainShift_Process_h
 #define BrainShift_Process_h
@@ -29,7 +33,11 @@
 
 namespace brainshift
 {
-/** Covariance (mm^2) of one component of the displacement at two points. */
+/**
+ * The Matern covariance (mm^2) with smoothness 5/2, of one component of the displacement at two
+ * points. Fields with it have continuous derivatives, so tissue that follows them has no creases.
+ * Source: Rasmussen and Williams, equation 4.17.
+ */
 struct Matern
 {
   double lengthMm = 60.0;   ///< mm over which neighbours follow; above 0
@@ -52,7 +60,7 @@ struct Matern
 /** Most rows of a process: the matrix takes 288 MB and the factor about 20 s. */
 constexpr std::size_t MostRows = 6000;
 
-/** One number that was measured: axis . u(point) = value, give or take sqrt(variance). */
+/** One number that was measured: axis . u(point) = value, with this variance. */
 struct Row
 {
   glm::dvec3 point{ 0.0 }; ///< mm, rest frame
@@ -62,13 +70,13 @@ struct Row
 };
 
 /**
- * A small motion that the process takes for granted: tissue moves as a whole and turns around
- * `centre` before it bends. The translation is free.
+ * A small motion that the process assumes: tissue moves as a whole and rotates about `centre`
+ * before it bends. The translation is free.
  */
 struct RigidMean
 {
   glm::dvec3 centre{ 0.0 };       ///< mm, rest frame
-  double rotationPrecision = 0.0; ///< 1 / rad^2: one over the variance of a turn; 0: free
+  double rotationPrecision = 0.0; ///< 1 / rad^2: one over the variance of a rotation; 0: free
 };
 
 /** Translation (mm), then rotation (rad) around the mean's centre. */
@@ -151,7 +159,7 @@ public:
   std::vector<double> covarianceKey() const;
 
   /**
-   * What a process without three rows would miss them by, in closed form. The values must hold no
+   * The error of a process without three rows at them, in closed form. The values must hold no
    * rigid motion any more.
    *
    * @param first   number of the first of the three rows

@@ -14,9 +14,9 @@ namespace brainshift
 {
 namespace
 {
-constexpr int Spiral = 120; // directions, about 18 degrees apart: a ball's reach is right to 1 %
+constexpr int Spiral = 120; // directions, about 18 degrees apart: a ball's radius is right to 1 %
 
-// A spiral from pole to pole with even distances (Fibonacci lattice), and both ways of each axis.
+// A spiral from pole to pole with even distances, and both directions of each axis.
 std::vector<glm::dvec3> directions()
 {
   std::vector<glm::dvec3> all;
@@ -42,7 +42,7 @@ constexpr double Filled = 0.92; // of the view's height or width
 constexpr double Least = 1.0;   // mm: the camera of a single point keeps this distance
 
 // The farthest points in two opposite directions.
-struct Reach
+struct Extent
 {
   double there = -std::numeric_limits<double>::infinity();
   double back = -std::numeric_limits<double>::infinity();
@@ -51,19 +51,19 @@ struct Reach
   double middle() const { return 0.5 * (this->there - this->back); }
 };
 
-// How far tissue reaches across a view. Each mm towards the camera counts `slope` mm more, for near
-// tissue looks larger. So half the reach over the slope is the camera's distance.
-Reach reachOf(const std::vector<glm::dvec3>& tissue, const glm::dvec3& across, double slope)
+// The extent of tissue across a view. Each mm towards the camera counts `slope` mm more, for near
+// tissue looks larger. So half the extent over the slope is the camera's distance.
+Extent extentOf(const std::vector<glm::dvec3>& tissue, const glm::dvec3& across, double slope)
 {
-  Reach reach;
+  Extent extent;
   for (const glm::dvec3& point : tissue)
   {
-    const double place = glm::dot(point, across);
+    const double position = glm::dot(point, across);
     const double near = slope * glm::dot(point, Towards);
-    reach.there = std::max(reach.there, place + near);
-    reach.back = std::max(reach.back, near - place);
+    extent.there = std::max(extent.there, position + near);
+    extent.back = std::max(extent.back, near - position);
   }
-  return reach;
+  return extent;
 }
 }
 
@@ -77,10 +77,10 @@ void FarPoints::add(const glm::dvec3& world)
 {
   for (std::size_t i = 0; i < this->Directions.size(); ++i)
   {
-    const double reach = glm::dot(this->Directions[i], world);
-    if (reach > this->Found[i].reach)
+    const double extent = glm::dot(this->Directions[i], world);
+    if (extent > this->Found[i].extent)
     {
-      this->Found[i] = { reach, world };
+      this->Found[i] = { extent, world };
     }
   }
 }
@@ -94,12 +94,12 @@ std::vector<glm::dvec3> FarPoints::ofAllProcesses() const
   {
     all.resize(this->Found.size() * static_cast<std::size_t>(processes->GetNumberOfProcesses()));
     processes->AllGather(
-      &this->Found[0].reach, &all[0].reach, 4 * static_cast<vtkIdType>(this->Found.size()));
+      &this->Found[0].extent, &all[0].extent, 4 * static_cast<vtkIdType>(this->Found.size()));
   }
   FarPoints farthest;
   for (const Farthest& found : all)
   {
-    if (std::isfinite(found.reach))
+    if (std::isfinite(found.extent))
     {
       farthest.add(found.point);
     }
@@ -107,7 +107,7 @@ std::vector<glm::dvec3> FarPoints::ofAllProcesses() const
   std::vector<glm::dvec3> points;
   for (const Farthest& found : farthest.Found)
   {
-    if (std::isfinite(found.reach))
+    if (std::isfinite(found.extent))
     {
       points.push_back(found.point);
     }
@@ -121,9 +121,9 @@ FirstCamera firstCamera(const std::vector<glm::dvec3>& tissue, double aspect, do
   const glm::dvec3 right = glm::normalize(glm::cross(camera.up, Towards));
   const glm::dvec3 upwards = glm::cross(Towards, right);
   const double slope = Filled * glm::tan(glm::radians(0.5 * viewAngle));
-  const Reach across = reachOf(tissue, right, slope * aspect);
-  const Reach along = reachOf(tissue, upwards, slope);
-  const Reach depth = reachOf(tissue, Towards, 0.0);
+  const Extent across = extentOf(tissue, right, slope * aspect);
+  const Extent along = extentOf(tissue, upwards, slope);
+  const Extent depth = extentOf(tissue, Towards, 0.0);
   const double distance =
     std::max({ across.half() / (slope * aspect), along.half() / slope, depth.there + Least });
   const glm::dvec3 axis = across.middle() * right + along.middle() * upwards;
@@ -131,8 +131,8 @@ FirstCamera firstCamera(const std::vector<glm::dvec3>& tissue, double aspect, do
   camera.focalPoint = axis + depth.middle() * Towards;
 
   const auto farthest = [&](const glm::dvec3& direction, double middle) {
-    const Reach reach = reachOf(tissue, direction, 0.0);
-    return std::max({ reach.there - middle, reach.back + middle, Least });
+    const Extent extent = extentOf(tissue, direction, 0.0);
+    return std::max({ extent.there - middle, extent.back + middle, Least });
   };
   camera.parallelScale =
     std::max(farthest(right, across.middle()) / aspect, farthest(upwards, along.middle())) / Filled;

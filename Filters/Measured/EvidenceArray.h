@@ -18,8 +18,8 @@ struct Deformation;
 struct Lattice;
 
 /**
- * Adds the point array Deviation (FieldImage.h) to an image of the fit's lattice. Throws a Problem if
- * it cannot.
+ * Adds the point array Deviation (FieldImage.h) to an image of the fit's lattice. Throws a Problem
+ * if it cannot.
  */
 void addEvidence(vtkImageData* lattice, const FittedLattice& fitted, LatticeEvidence& evidence);
 

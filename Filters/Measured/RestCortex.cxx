@@ -25,10 +25,11 @@ constexpr std::size_t Asked = 500; // points that say which side is out
 constexpr double SpreadMm = 3.0;   // anchors are further apart
 constexpr double AsideVoxels = 0.5;
 
-// Shares of the corners a, b and c in the point of a triangle that is nearest to a position: walks
+// Weights of the corners a, b and c in the point of a triangle that is nearest to a position: walks
 // through the regions of the corners, then the edges, then the face. A triangle may have no area,
-// and edges without length: where a voxel has just the level, corners meet.
-glm::dvec3 sharesOfNearest(
+// and edges without length: where a voxel has just the level, corners meet. Source: Ericson,
+// Real-Time Collision Detection (2005), section 5.1.5.
+glm::dvec3 weightsOfNearest(
   const glm::dvec3& position, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 {
   const glm::dvec3 ab = b - a;
@@ -155,10 +156,11 @@ std::optional<SurfacePoint> RestCortex::nearest(const glm::dvec3& rest, int& hin
   }
   const glm::ivec3& corners = this->Tree.corners(hint);
   const std::vector<glm::dvec3>& points = this->Mesh.points;
-  const glm::dvec3 share =
-    sharesOfNearest(rest, points[corners.x], points[corners.y], points[corners.z]);
+  const glm::dvec3 weight =
+    weightsOfNearest(rest, points[corners.x], points[corners.y], points[corners.z]);
   const auto mixed = [&](const std::vector<glm::dvec3>& values) {
-    return share.x * values[corners.x] + share.y * values[corners.y] + share.z * values[corners.z];
+    return weight.x * values[corners.x] + weight.y * values[corners.y] +
+      weight.z * values[corners.z];
   };
   return SurfacePoint{ mixed(points), unit(mixed(this->Normals)) };
 }
@@ -176,19 +178,12 @@ void CortexSource::find(const Request& request)
     throw Problem(
       "The " + request.where + " has no point array of one component to find the cortex in");
   }
-  const Grid grid = gridOf(request.image);
-  if (scalars != this->Scalars || scalars->GetMTime() != this->ScalarsTime ||
-    grid != this->ScalarsGrid || request.isLabel != this->IsLabel || request.level != this->Level)
+  if (this->Tissue.find(scalars, gridOf(request.image), request.isLabel, request.level) ||
+    this->Cortex.isEmpty()) // memory ran out the last time
   {
     ++this->Version;
-    this->Cortex = RestCortex(request.isLabel
-        ? TissueRegion{ grid, maskOfLabel(scalars, static_cast<int>(request.level)), 0.5 }
-        : TissueRegion{ grid, scalars, request.level });
-    this->Scalars = scalars;
-    this->ScalarsTime = scalars->GetMTime();
-    this->ScalarsGrid = grid;
-    this->IsLabel = request.isLabel;
-    this->Level = request.level;
+    this->Cortex = RestCortex();
+    this->Cortex = RestCortex(this->Tissue.region());
   }
   if (this->Cortex.isEmpty())
   {

@@ -87,11 +87,7 @@ public:
 private:
   RestCortex Cortex;
   std::uint64_t Version = 0;
-  vtkSmartPointer<vtkDataArray> Scalars; // that the cortex was found in, as of ScalarsTime
-  unsigned long long ScalarsTime = 0;
-  Grid ScalarsGrid;
-  bool IsLabel = false;
-  double Level = 0.0;
+  TissueSource Tissue; // that the cortex was found in
 };
 
 /**

@@ -71,15 +71,15 @@ std::string warningAbout(const FittedLattice& fitted)
 {
   std::vector<std::string> sentences;
   const double degrees = glm::degrees(glm::length(vectorFrom(fitted.fit().rigid().rotation)));
-  if (degrees > FarRotationDegrees && fitted.fit().isTurnExpectedSmall())
+  if (degrees > FarRotationDegrees && fitted.fit().isRotationExpectedSmall())
   {
     sentences.push_back("The volume turned by " + std::to_string(degrees) +
       " degrees, more than so few pairs can prove; check that the pairs match");
   }
-  if (fitted.share() < 1.0)
+  if (fitted.fraction() < 1.0)
   {
     sentences.push_back(
-      "The fold guard applied " + std::to_string(fitted.share()) + " of the bend");
+      "The fold guard applied " + std::to_string(fitted.fraction()) + " of the bend");
   }
   else if (fitted.relaxation() > 1.0)
   {
@@ -390,7 +390,7 @@ int vtkFitDeformation::RequestData(
 
 double vtkFitDeformation::GetShare() const
 {
-  return this->Internal->Fitted.share();
+  return this->Internal->Fitted.fraction();
 }
 
 double vtkFitDeformation::GetRelaxation() const

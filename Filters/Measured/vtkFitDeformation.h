@@ -60,9 +60,10 @@ public:
 
   ///@{
   /**
-   * Whether the user drags something that was measured at this moment. Default off. If on, traced points are
-   * projected with the last fit and the equations are solved once. Beside traces the bend then
-   * trails the hand by about a third of its last step. Switch it off when the hand lets go.
+   * Whether the user drags something that was measured at this moment. Default off. If on, traced
+   * points are projected with the last fit and the equations are solved once. Beside traces the
+   * bend then trails the hand by about a third of its last step. Switch it off when the hand lets
+   * go.
    */
   vtkSetMacro(Live, bool);
   vtkGetMacro(Live, bool);
@@ -160,8 +161,9 @@ public:
   ///@{
   /**
    * Figures of the last execution. Share: the fraction of the fitted bend that the fold guard
-   * allowed, 0 to 1; the base is not included. Relaxation: factor on the deviations, 1 or 1.5. TraceRMS: root mean square distance (mm) of traced points
-   * from the bent cortex, NaN without any.
+   * allowed, 0 to 1; the base is not included. Relaxation: factor on the deviations, 1 or 1.5.
+   * TraceRMS: root mean square distance (mm) of traced points from the bent cortex, NaN without
+   * any.
    */
   double GetShare() const;
   double GetRelaxation() const;
@@ -190,8 +192,8 @@ public:
 
   /**
    * For each matched landmark its leave-one-out error (mm): the distance between the measured
-   * landmark and its prediction by a fit without it. For one that is switched off, the distance from
-   * the prediction of the fit. The fold guard and the mask are not counted.
+   * landmark and its prediction by a fit without it. For one that is switched off, the distance
+   * from the prediction of the fit. The fold guard and the mask are not counted.
    */
   vtkDoubleArray* GetLeaveOneOut();
 
@@ -214,8 +216,8 @@ public:
 
   ///@{
   /**
-   * For positions (mm, rest frame), three numbers each: where their tissue was measured or would be,
-   * by lattice and rigid part; and its standard deviation (mm) along each axis.
+   * For positions (mm, rest frame), three numbers each: the position at which their tissue was or
+   * would be measured, by lattice and rigid part; and its standard deviation (mm) along each axis.
    * Deviations are infinite if nothing was measured, and count what guard, mask and control
    * points changed.
    */

@@ -114,18 +114,19 @@ protected:
 };
 }
 
-// reachOf follows the tissue through the map; it knows nothing of weights.
+// achievedDisplacement follows the tissue through the map; it knows nothing of weights.
 TEST_P(ManySoft, TakeTheTissueAtTheirAnchorsAllTheWay)
 {
   for (const double radius : { 25.0, 40.0 })
   {
     this->visit(radius, [&](const Lattice& before, const Lattice& after, const Stroke& stroke) {
-      EXPECT_NEAR(reachOf(before, after, stroke), glm::length(stroke.vector), 1e-3) << radius;
+      EXPECT_NEAR(achievedDisplacement(before, after, stroke), glm::length(stroke.vector), 1e-3)
+        << radius;
     });
   }
   // A B-spline averages more control points than a sphere of 1.4 spacings holds.
   this->visit(20.0, [&](const Lattice& before, const Lattice& after, const Stroke& stroke) {
-    EXPECT_GT(reachOf(before, after, stroke), 0.7 * glm::length(stroke.vector));
+    EXPECT_GT(achievedDisplacement(before, after, stroke), 0.7 * glm::length(stroke.vector));
   });
 }
 

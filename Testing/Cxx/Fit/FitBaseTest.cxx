@@ -122,7 +122,7 @@ TEST_P(FitBaseOfKernel, WithoutMeasurementsTheFitIsTheBase)
 {
   this->solve();
   EXPECT_EQ(this->change(), 0.0);
-  EXPECT_EQ(this->Fitted.share(), 1.0);
+  EXPECT_EQ(this->Fitted.fraction(), 1.0);
 }
 
 TEST_P(FitBaseOfKernel, WhatAgreesWithItChangesNothing)
@@ -209,7 +209,7 @@ TEST_P(FitBaseOfKernel, TheGuardLeavesTheBase)
   this->Measured.pulls = { { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 40.0 } },
     { { 0.0, 0.0, 8.0 }, { 0.0, 0.0, -40.0 } } };
   this->solve();
-  ASSERT_LT(this->Fitted.share(), 1.0);
+  ASSERT_LT(this->Fitted.fraction(), 1.0);
   EXPECT_GT(minimumJacobian(this->Fitted.lattice()), 0.09);
   Lattice whole = this->Bent;
   addField(whole, this->Fitted.fit().field());
@@ -217,7 +217,7 @@ TEST_P(FitBaseOfKernel, TheGuardLeavesTheBase)
   const glm::vec3 added =
     this->Fitted.lattice().displacements[point] - this->Bent.displacements[point];
   const glm::vec3 asked = whole.displacements[point] - this->Bent.displacements[point];
-  EXPECT_LT(glm::distance(added, static_cast<float>(this->Fitted.share()) * asked), 1e-3f);
+  EXPECT_LT(glm::distance(added, static_cast<float>(this->Fitted.fraction()) * asked), 1e-3f);
   const glm::dvec3 at(0.0);
   const double away =
     glm::distance(this->Fitted.measuredFromRest(at), this->Fitted.fit().measuredFromRest(at));

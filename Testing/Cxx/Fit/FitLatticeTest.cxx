@@ -188,7 +188,7 @@ TEST(FitLattice, DeviationsCountWhatTheGuardTook)
     { { 0.0, 0.0, 8.0 }, { 0.0, 0.0, -30.0 } } };
   FittedLattice fitted;
   fitted.solve(measured, {}, makeLattice(boxGrid(), KernelCatmullRom), {});
-  ASSERT_LT(fitted.share(), 1.0);
+  ASSERT_LT(fitted.fraction(), 1.0);
   const glm::dvec3 at(0.0);
   const double away = glm::distance(fitted.measuredFromRest(at), fitted.fit().measuredFromRest(at));
   ASSERT_GT(away, 2.0);

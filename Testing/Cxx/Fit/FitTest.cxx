@@ -204,7 +204,7 @@ TEST(Fit, FewPairsThatTurnedFarAreFound)
     }
     Fit fit;
     fit.solve(measured, {});
-    EXPECT_TRUE(fit.isTurnExpectedSmall());
+    EXPECT_TRUE(fit.isRotationExpectedSmall());
     EXPECT_LT(glm::distance(fit.measuredFromRest({ 80, 0, 0 }), far.apply({ 80, 0, 0 })), 10.0)
       << angle;
   }
