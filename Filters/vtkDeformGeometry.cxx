@@ -3,7 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Common/Portions.h"
-#include "Filters/Attached/DirectedMap.h"
+#include "Filters/Attached/DeformableVolume.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

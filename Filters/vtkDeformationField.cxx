@@ -7,7 +7,6 @@
 #include "Common/Portions.h"
 #include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Attached/DirectedMap.h"
 #include "Formats/Fields/FieldImage.h"
 
 #include "vtkFloatArray.h"

@@ -111,7 +111,7 @@ public:
   /** How many strokes the fold guard shortened. */
   int GetShortenedStrokes() const;
 
-  /** The share of each stroke that was applied, 0 to 1. A disabled stroke has 1. */
+  /** The fraction of each stroke that was applied, 0 to 1. A disabled stroke has 1. */
   vtkDoubleArray* GetStrokeShares();
 
   /**

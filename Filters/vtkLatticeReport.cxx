@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkLatticeReport.h"
 
+#include "Common/FilledArray.h"
 #include "Common/Guard.h"
 #include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
@@ -140,10 +141,7 @@ vtkDoubleArray* vtkLatticeReport::GetGeometry()
   DrawnLattice lattice;
   if (readDrawn(this->Filter, lattice))
   {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->Geometry->InsertNextValue(lattice.grid.dimensions[axis]);
-    }
+    append(this->Geometry, glm::dvec3(lattice.grid.dimensions));
     for (const double number : boxOf(lattice.grid))
     {
       this->Geometry->InsertNextValue(number);
@@ -185,12 +183,8 @@ void vtkLatticeReport::FindSameTissue()
   for (std::size_t i = 0; this->Map && i + 2 < this->Places.size(); i += 3)
   {
     const glm::dvec3 place(this->Places[i], this->Places[i + 1], this->Places[i + 2]);
-    const glm::dvec3 same =
-      this->ToRest ? this->Map->restFromDeformed(place) : this->Map->deformedFromRest(place);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->SameTissue->InsertNextValue(same[axis]);
-    }
+    append(this->SameTissue,
+      this->ToRest ? this->Map->restFromDeformed(place) : this->Map->deformedFromRest(place));
   }
 }
 

@@ -2,7 +2,7 @@
 /**
  * @file
  * @brief The contract between the Free-Form Deformation filter and all that draws, bakes or exports
- *        a deformation.
+ *        a deformation, and its two maps.
  *
  * A deformable volume is a vtkImageData, unchanged, with these field-data arrays:
  *
@@ -25,11 +25,16 @@
 #ifndef BrainShift_DeformableVolume_h
 #define BrainShift_DeformableVolume_h
 
+#include "Common/FieldDirection.h"
 #include "Filters/Deformation/Lattice.h"
 #include "Filters/Deformation/PointMap.h"
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
 #include <string>
+#include <utility>
 #include <vector>
 
 class vtkDataObject;
@@ -91,6 +96,43 @@ VTKBRAINSHIFTFILTERS_EXPORT double offsetFieldBytes(const Lattice& lattice, int 
 
 /** Throws a Problem if the machine has too little memory for the offset field of a lattice. */
 VTKBRAINSHIFTFILTERS_EXPORT void requireOffsetFieldMemory(const Lattice& lattice, int samples);
+
+/** A map in one direction. Positions are mm along world axes. */
+class VTKBRAINSHIFTFILTERS_EXPORT DirectedMap
+{
+public:
+  /** `inverse`: how the map was made to find tissue; it decides the backward derivatives. */
+  DirectedMap(PointMap map, Inverse inverse, Direction direction)
+    : Map(std::move(map)) // a lattice can be large
+    , Backward(inverse)
+    , Towards(direction)
+  {
+  }
+
+  /** Where the map takes a position. A position that is not finite stays as it is. */
+  glm::dvec3 position(const glm::dvec3& from) const;
+
+  /**
+   * Derivatives of the map at `from`, which it takes to `to`: column a is d(to) / d(from_a). They
+   * are not finite where a backward map meets tissue whose volume the deformation makes zero.
+   */
+  glm::dmat3 jacobian(const glm::dvec3& from, const glm::dvec3& to) const;
+
+private:
+  PointMap Map;
+  Inverse Backward;
+  Direction Towards;
+};
+
+/**
+ * The normal of a surface after a map with these derivatives. It is perpendicular to the mapped
+ * surface and as long as it was. If the map leaves no direction for it, the normal stays.
+ */
+VTKBRAINSHIFTFILTERS_EXPORT glm::dvec3 turnedNormal(
+  const glm::dmat3& jacobian, const glm::dvec3& normal);
+
+/** The map of a deformable volume. Throws a Problem if the data is none. */
+VTKBRAINSHIFTFILTERS_EXPORT DirectedMap directedMapOf(vtkDataObject* volume, Direction direction);
 }
 
 #endif

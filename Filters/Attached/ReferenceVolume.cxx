@@ -94,7 +94,7 @@ void attachReference(vtkDataObject* volume, const ReferenceVolume& reference)
 ReferenceVolume readReference(vtkDataObject* volume)
 {
   vtkFieldData* fields = volume->GetFieldData();
-  ReferenceVolume reference{ readPlaced(fields, VoxelsName, GridName) };
+  ReferenceVolume reference{ readPlaced(fields, VoxelsName, GridName), {} };
   if (reference.voxels)
   {
     reference.cavity = readPlaced(fields, CavityName, CavityGridName);

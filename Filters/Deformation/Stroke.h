@@ -41,7 +41,7 @@ enum class StrokeShape
   Ellipsoid,
 };
 
-/** What strokes need to know of a tool. Interaction/Commands/Tools.h says the rest. */
+/** The part of a tool that strokes need. Interaction/Commands/Tools.h has the rest. */
 struct ToolTraits
 {
   Tool tool;

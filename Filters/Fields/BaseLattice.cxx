@@ -150,7 +150,7 @@ std::optional<FittedFor> fittedForOf(vtkDataObject* base)
     return oldFittedFor(base);
   }
   FittedFor fitted;
-  std::memcpy(&fitted, array->GetPointer(0), sizeof(fitted));
+  std::memcpy(static_cast<void*>(&fitted), array->GetPointer(0), sizeof(fitted));
   return fitted;
 }
 
