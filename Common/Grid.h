@@ -12,6 +12,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstddef>
 
 namespace brainshift
@@ -85,6 +86,37 @@ struct Grid
   bool operator!=(const Grid& other) const { return !(*this == other); }
 };
 
+/** The box of a grid as 15 numbers: origin (mm), spacing (mm), direction matrix row by row. */
+inline std::array<double, 15> boxOf(const Grid& grid)
+{
+  const glm::dmat3 rows = glm::transpose(grid.direction);
+  std::array<double, 15> box;
+  for (int i = 0; i < 3; ++i)
+  {
+    box[i] = grid.origin[i];
+    box[3 + i] = grid.spacing[i];
+  }
+  for (int i = 0; i < 9; ++i)
+  {
+    box[6 + i] = rows[i / 3][i % 3];
+  }
+  return box;
+}
+
+/** Gives a grid the box that boxOf returned. */
+inline void setBox(Grid& grid, const double* box)
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    grid.origin[i] = box[i];
+    grid.spacing[i] = box[3 + i];
+  }
+  for (int i = 0; i < 9; ++i)
+  {
+    grid.direction[i % 3][i / 3] = box[6 + i];
+  }
+}
+
 /**
  * A grid over the same box with other numbers of points. A side that has one point counts as one
  * cell long.
@@ -115,6 +147,25 @@ void forEachIndex(const glm::ivec3& first, const glm::ivec3& last, Visit&& visit
         visit(static_cast<const glm::ivec3&>(index));
       }
     }
+  }
+}
+
+/**
+ * Calls visit(index, weight) for the eight points around a position in grid coordinates, with the
+ * weights of trilinear interpolation. A position outside the grid is moved to its border.
+ */
+template <typename Visit>
+void forEachCorner(const Grid& grid, const glm::dvec3& position, Visit&& visit)
+{
+  const glm::ivec3 last = grid.dimensions - 1;
+  const glm::dvec3 inside = glm::clamp(position, glm::dvec3(0.0), glm::dvec3(last));
+  const glm::ivec3 low(inside);
+  const glm::dvec3 within = inside - glm::dvec3(low);
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+    const glm::dvec3 weight = glm::mix(1.0 - within, within, glm::dvec3(side));
+    visit(glm::min(low + side, last), weight.x * weight.y * weight.z);
   }
 }
 }

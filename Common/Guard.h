@@ -19,12 +19,12 @@ class vtkObject;
 
 namespace brainshift
 {
-/** What the exception that is being handled says: the end of a sentence. Call it in a catch. */
+/** The reason of the exception that is being handled: the end of a sentence. Call it in a catch. */
 VTKBRAINSHIFTCOMMON_EXPORT std::string thrownReason();
 
 /**
- * What the exception that is being handled says, as a sentence without a full stop: that of a
- * Problem, or `subject` and thrownReason. Call it in a catch.
+ * The exception that is being handled as a sentence without a full stop: that of a Problem, or
+ * `subject` and thrownReason. Call it in a catch.
  */
 VTKBRAINSHIFTCOMMON_EXPORT std::string thrownSentence(const std::string& subject);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/ImageGrid.h"
 
+#include "Common/Problem.h"
+
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -80,6 +82,14 @@ std::string problemOfGrid(const Grid& grid)
   return problem.str();
 }
 
+void requirePosition(const Grid& grid, const std::string& beginning)
+{
+  if (const std::string problem = problemOfGrid(grid); !problem.empty())
+  {
+    throw Problem(beginning + problem);
+  }
+}
+
 void announce(vtkInformation* output, const Grid& grid)
 {
   const glm::ivec3 last = grid.dimensions - 1;
@@ -133,7 +143,7 @@ Grid wholeGridOf(vtkInformation* info)
 
 Grid wholeGridOf(vtkImageData* image, vtkInformation* info)
 {
-  if (image->GetNumberOfPoints() == 0) // a reader gave this process nothing, not even a place
+  if (image->GetNumberOfPoints() == 0) // a reader gave this process nothing, not even a position
   {
     return wholeGridOf(info);
   }
@@ -165,6 +175,11 @@ std::string problemOfPart(vtkImageData* image, vtkInformation* information)
   return isWhole ? std::string()
                  : "The input holds " + sidesOf(extent) + " points; it must hold the " +
       sidesOf(whole) + " points of the whole image";
+}
+
+void requireWhole(vtkImageData* image, vtkInformation* information)
+{
+  throwIfAny(problemOfPart(image, information));
 }
 
 bool isFirstRank()

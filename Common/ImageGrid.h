@@ -27,14 +27,21 @@ constexpr double LongestSpacing = 1e9;
 VTKBRAINSHIFTCOMMON_EXPORT Grid gridOf(vtkImageData* image);
 
 /**
- * What is wrong with the place of a grid, as the end of a sentence about it, without a full stop:
- * its spacing must be from ShortestSpacing to LongestSpacing, its origin at most
+ * What is wrong with the position of a grid, as the end of a sentence about it, without a full
+ * stop: its spacing must be from ShortestSpacing to LongestSpacing, its origin at most
  * FarthestOriginSpacings away from 0, its other numbers finite. It is empty if nothing is wrong.
  */
 VTKBRAINSHIFTCOMMON_EXPORT std::string problemOfGrid(const Grid& grid);
 
 /**
- * Tells the pipeline where an output will lie: on all of a grid. Call it in RequestInformation.
+ * Throws a Problem if problemOfGrid finds something.
+ *
+ * @param beginning   of the sentence, such as "The volume's "
+ */
+VTKBRAINSHIFTCOMMON_EXPORT void requirePosition(const Grid& grid, const std::string& beginning);
+
+/**
+ * Announces to the pipeline that an output is on all of a grid. Call it in RequestInformation.
  */
 VTKBRAINSHIFTCOMMON_EXPORT void announce(vtkInformation* output, const Grid& grid);
 
@@ -63,6 +70,9 @@ VTKBRAINSHIFTCOMMON_EXPORT Grid wholeGridOf(vtkImageData* piece, vtkInformation*
  */
 VTKBRAINSHIFTCOMMON_EXPORT std::string problemOfPart(
   vtkImageData* image, vtkInformation* information);
+
+/** Throws problemOfPart, unless the image is whole. */
+VTKBRAINSHIFTCOMMON_EXPORT void requireWhole(vtkImageData* image, vtkInformation* information);
 
 /// Whether this process is the first of several MPI ranks, or the only one.
 VTKBRAINSHIFTCOMMON_EXPORT bool isFirstRank();

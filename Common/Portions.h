@@ -14,29 +14,35 @@
 
 namespace brainshift
 {
+/** The part of a filter's progress, 0 to 1, that a loop makes. */
+struct ProgressOf
+{
+  vtkAlgorithm* filter;
+  double from = 0.0;
+  double to = 1.0;
+};
+
 /**
  * Calls body(begin, end) for pieces that together are the steps 0 to `count`, one portion of the
  * loop after the other, each of them in parallel.
  *
- * @param progressFrom, progressTo   progress of the filter (0 to 1) at the loop's begin and end
- * @param grain                      steps that are too few for a second thread, see parallelFor
+ * @param grain   steps that are too few for a second thread, see parallelFor
  * @return false if the user aborts; the remaining steps are then not done
  */
 template <typename Body>
-bool forPortions(vtkAlgorithm* filter, double progressFrom, double progressTo, vtkIdType count,
-  vtkIdType grain, const Body& body)
+bool forPortions(const ProgressOf& progress, vtkIdType count, vtkIdType grain, const Body& body)
 {
   // Smaller portions would leave cores idle, larger ones keep a user waiting who wants to stop.
   const vtkIdType portion = std::max<vtkIdType>(count / 50 + 1, 16 * grain);
   for (vtkIdType first = 0; first < count; first += portion)
   {
-    if (filter->CheckAbort())
+    if (progress.filter->CheckAbort())
     {
       return false;
     }
     const vtkIdType last = std::min(first + portion, count);
     parallelFor(first, last, grain, body);
-    filter->UpdateProgress(progressFrom + (progressTo - progressFrom) * last / count);
+    progress.filter->UpdateProgress(progress.from + (progress.to - progress.from) * last / count);
   }
   return true;
 }

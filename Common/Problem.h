@@ -21,6 +21,15 @@ struct BRAINSHIFT_COMMON_EXPORT Problem : std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
+/** Throws a sentence as a Problem; does nothing if it is empty. */
+inline void throwIfAny(const std::string& sentence)
+{
+  if (!sentence.empty())
+  {
+    throw Problem(sentence);
+  }
+}
+
 /** Runs a step. Returns the sentence of the Problem that it threw; empty if it threw none. */
 template <typename Step>
 std::string problemOf(const Step& step)

@@ -27,7 +27,7 @@ enum class WorldAxes
 /** Attaches the array, or removes it if the axes are unknown. */
 VTKBRAINSHIFTCOMMON_EXPORT void nameWorldAxes(vtkDataObject* volume, WorldAxes axes);
 
-/** What the array says. Unknown if there is none, if it holds another word, and for null. */
+/** The axes that the array names. Unknown if there is none, for another word, and for null. */
 VTKBRAINSHIFTCOMMON_EXPORT WorldAxes worldAxesOf(vtkDataObject* volume);
 }
 

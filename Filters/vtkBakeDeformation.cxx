@@ -6,7 +6,6 @@
 #include "Common/ImageGrid.h"
 #include "Common/WorldAxes.h"
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Attached/FieldMemory.h"
 #include "Filters/Attached/Resample.h"
 
 #include "vtkCellData.h"
@@ -60,24 +59,21 @@ double bytesOf(vtkDataSetAttributes* arrays)
   return bytes;
 }
 
-// Why there is too little memory for the field, or for what is made with it; empty if there is.
-std::string memoryProblemOf(vtkImageData* input, const Lattice& lattice, int samples)
+// For the field, and for what is made with it.
+void requireMemory(vtkImageData* input, const Lattice& lattice, int samples)
 {
-  const std::string problem = offsetFieldProblem(lattice, samples);
+  requireOffsetFieldMemory(lattice, samples);
   const double arrays = bytesOf(input->GetPointData()) + bytesOf(input->GetCellData());
   const double bytes = arrays + offsetFieldBytes(lattice, samples);
   const glm::dvec3 sides(gridOf(input).dimensions);
-  return problem.empty() ? hostMemoryProblem("A bake of " + sizeText(sides) + " points", bytes)
-                         : problem;
+  requireHostMemory("A bake of " + sizeText(sides) + " points", bytes);
 }
 
 // Resamples every numeric array of `from` into `to`.
-void bakeArrays(vtkDataSetAttributes* from, vtkDataSetAttributes* to,
-  const ResampleGeometry& geometry, const BackwardMap& backward, Reading reading,
-  const std::function<bool(double)>& proceed)
+void bakeArrays(vtkDataSetAttributes* from, vtkDataSetAttributes* to, const Resampling& how)
 {
   to->Initialize();
-  const glm::ivec3 size = glm::max(geometry.last - geometry.first + 1, glm::ivec3(0));
+  const glm::ivec3 size = glm::max(how.geometry.last - how.geometry.first + 1, glm::ivec3(0));
   for (int i = 0; i < from->GetNumberOfArrays(); ++i)
   {
     vtkDataArray* source = from->GetArray(i);
@@ -89,7 +85,7 @@ void bakeArrays(vtkDataSetAttributes* from, vtkDataSetAttributes* to,
     target->SetName(source->GetName());
     target->SetNumberOfComponents(source->GetNumberOfComponents());
     target->SetNumberOfTuples(static_cast<vtkIdType>(size.x) * size.y * size.z);
-    resample(source, target, geometry, backward, reading, proceed);
+    resample(source, target, how);
     to->AddArray(target);
   }
   if (from->GetScalars())
@@ -120,20 +116,10 @@ int vtkBakeDeformation::RequestData(
 {
   vtkImageData* input = vtkImageData::GetData(inputs[0]);
   vtkImageData* output = vtkImageData::GetData(outputs);
-  Deformation deformation;
-  std::string problem = problemOfPart(input, inputs[0]->GetInformationObject(0));
-  if (!problem.empty() || !readDeformation(input, deformation, problem))
-  {
-    vtkErrorMacro(<< problem << ".");
-    return 0;
-  }
+  requireWhole(input, inputs[0]->GetInformationObject(0));
+  const Deformation deformation = readDeformation(input);
   const Lattice lattice = effectiveLattice(deformation);
-  problem = memoryProblemOf(input, lattice, deformation.samples);
-  if (!problem.empty())
-  {
-    vtkErrorMacro(<< problem << ".");
-    return 0;
-  }
+  requireMemory(input, lattice, deformation.samples);
   const BackwardMap backward(lattice, deformation.samples, deformation.inverse);
 
   int extent[6];
@@ -143,16 +129,16 @@ int vtkBakeDeformation::RequestData(
   output->CopyStructure(input);
   nameWorldAxes(output, worldAxesOf(input));
   output->SetExtent(extent);
-  const auto proceed = [this](double share) {
-    this->UpdateProgress(share);
+  const auto proceed = [this](double fraction) {
+    this->UpdateProgress(fraction);
     return !this->CheckAbort();
   };
   const auto reading = static_cast<Reading>(this->Interpolation);
   const Grid volume = gridOf(input);
   bakeArrays(input->GetPointData(), output->GetPointData(),
-    geometryOf(volume, lattice.grid, extent, inputExtent, false), backward, reading, proceed);
+    { geometryOf(volume, lattice.grid, extent, inputExtent, false), backward, reading, proceed });
   bakeArrays(input->GetCellData(), output->GetCellData(),
-    geometryOf(volume, lattice.grid, extent, inputExtent, true), backward, reading, proceed);
+    { geometryOf(volume, lattice.grid, extent, inputExtent, true), backward, reading, proceed });
   return 1;
 }
 

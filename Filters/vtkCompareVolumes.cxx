@@ -3,10 +3,11 @@
 
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
-#include "Filters/Attached/CavityMask.h"
+#include "Common/Problem.h"
+#include "Filters/Attached/CarriedArray.h"
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/MaskImage.h"
 #include "Filters/Attached/ReferenceVolume.h"
-#include "Filters/Attached/SharedArray.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -29,17 +30,16 @@ constexpr int ReferencePort = 1;
 constexpr int CavityPort = 2;
 constexpr int Ports = 3;
 
-// The scalars of the reference; null, with `problem` set, if it has none that can be compared.
-vtkDataArray* referenceScalars(vtkImageData* image, std::string& problem)
+// The scalars of the reference.
+vtkDataArray* referenceScalars(vtkImageData* image)
 {
   vtkDataArray* scalars = image->GetPointData()->GetScalars();
   scalars = scalars ? scalars : image->GetPointData()->GetArray(0);
   const int components = scalars ? scalars->GetNumberOfComponents() : 0;
   if (components != 1)
   {
-    problem = "The reference's point scalars have " + std::to_string(components) +
-      " components; they must have 1";
-    return nullptr;
+    throw Problem("The reference's point scalars have " + std::to_string(components) +
+      " components; they must have 1");
   }
   return scalars;
 }
@@ -129,19 +129,9 @@ int vtkCompareVolumes::RequestData(
   this->Internal->CellArrays.share(output->GetCellData());
   vtkImageData* image = vtkImageData::GetData(inputs[ReferencePort]);
   const Grid grid = gridOf(image);
-  std::string problem;
-  vtkDataArray* scalars = referenceScalars(image, problem);
-  PlacedVoxels cavity;
-  if (scalars)
-  {
-    cavity = this->Internal->Cavity.find(
-      vtkImageData::GetData(inputs[CavityPort]), this->CavityLabels, grid, "reference", problem);
-  }
-  if (!problem.empty())
-  {
-    vtkErrorMacro(<< problem << ".");
-    return 0;
-  }
+  vtkDataArray* scalars = referenceScalars(image);
+  PlacedVoxels cavity = this->Internal->Cavity.find(
+    vtkImageData::GetData(inputs[CavityPort]), this->CavityLabels, grid, "reference");
   const double* r = this->ReferenceRotation;
   const double* t = this->ReferenceTranslation;
   const RigidMotion motion{ middleOf(grid), { r[0], r[1], r[2] }, { t[0], t[1], t[2] } };

@@ -3,7 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Common/Portions.h"
-#include "Filters/Attached/DirectedMap.h"
+#include "Filters/Attached/DeformableVolume.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -20,7 +20,6 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
-#include <string>
 #include <vector>
 
 using namespace brainshift;
@@ -32,7 +31,7 @@ namespace
 {
 constexpr vtkIdType PointsAtLeast = 256; // for a thread: about 0.1 ms
 
-// Shares of the progress bar.
+// Fractions of the progress bar.
 constexpr double PointsDone = 0.5;
 constexpr double PointNormalsDone = 0.8;
 
@@ -77,15 +76,9 @@ std::vector<glm::dvec3> middlesOfCells(vtkPointSet* mesh)
   return middles;
 }
 
-struct ProgressShare
-{
-  double from;
-  double to;
-};
-
 // Each returns false if the user aborts.
-bool movePoints(vtkAlgorithm* filter, ProgressShare share, const DirectedMap& map,
-  vtkDataArray* from, vtkPointSet* output)
+bool movePoints(
+  const ProgressOf& progress, const DirectedMap& map, vtkDataArray* from, vtkPointSet* output)
 {
   const vtkSmartPointer<vtkDataArray> to = likeArray(from);
   vtkNew<vtkPoints> points;
@@ -98,13 +91,13 @@ bool movePoints(vtkAlgorithm* filter, ProgressShare share, const DirectedMap& ma
       to->SetTuple(point, &position.x);
     }
   };
-  return forPortions(filter, share.from, share.to, from->GetNumberOfTuples(), PointsAtLeast, move);
+  return forPortions(progress, from->GetNumberOfTuples(), PointsAtLeast, move);
 }
 
-// `placeOf(i)`: where normal i stands before the map.
-template <typename Place>
-bool turnNormals(vtkAlgorithm* filter, ProgressShare share, const DirectedMap& map,
-  vtkDataSetAttributes* from, vtkDataSetAttributes* to, const Place& placeOf)
+// `positionOf(i)`: of normal i, before the map.
+template <typename Position>
+bool turnNormals(const ProgressOf& progress, const DirectedMap& map, vtkDataSetAttributes* from,
+  vtkDataSetAttributes* to, const Position& positionOf)
 {
   vtkDataArray* normals = from->GetNormals();
   const vtkSmartPointer<vtkDataArray> turned = likeArray(normals);
@@ -112,29 +105,28 @@ bool turnNormals(vtkAlgorithm* filter, ProgressShare share, const DirectedMap& m
   const auto turn = [&](vtkIdType first, vtkIdType last) {
     for (vtkIdType i = first; i < last; ++i)
     {
-      const glm::dvec3 place = placeOf(i);
-      const glm::dmat3 jacobian = map.jacobian(place, map.position(place));
+      const glm::dvec3 position = positionOf(i);
+      const glm::dmat3 jacobian = map.jacobian(position, map.position(position));
       const glm::dvec3 normal = turnedNormal(jacobian, tupleOf(normals, i));
       turned->SetTuple(i, &normal.x);
     }
   };
-  return forPortions(
-    filter, share.from, share.to, normals->GetNumberOfTuples(), PointsAtLeast, turn);
+  return forPortions(progress, normals->GetNumberOfTuples(), PointsAtLeast, turn);
 }
 
 bool deform(vtkAlgorithm* filter, const DirectedMap& map, vtkPointSet* input, vtkPointSet* output)
 {
   vtkDataArray* points = input->GetPoints()->GetData();
-  bool going = movePoints(filter, { 0.0, PointsDone }, map, points, output);
+  bool going = movePoints({ filter, 0.0, PointsDone }, map, points, output);
   if (going && input->GetPointData()->GetNormals())
   {
-    going = turnNormals(filter, { PointsDone, PointNormalsDone }, map, input->GetPointData(),
+    going = turnNormals({ filter, PointsDone, PointNormalsDone }, map, input->GetPointData(),
       output->GetPointData(), [&](vtkIdType point) { return tupleOf(points, point); });
   }
   if (going && input->GetCellData()->GetNormals())
   {
     const std::vector<glm::dvec3> middles = middlesOfCells(input);
-    going = turnNormals(filter, { PointNormalsDone, 1.0 }, map, input->GetCellData(),
+    going = turnNormals({ filter, PointNormalsDone, 1.0 }, map, input->GetCellData(),
       output->GetCellData(), [&](vtkIdType cell) { return middles[cell]; });
   }
   return going;
@@ -179,16 +171,10 @@ int vtkDeformGeometry::RequestData(
 {
   vtkPointSet* input = vtkPointSet::GetData(inputs[0]);
   vtkPointSet* output = vtkPointSet::GetData(outputs);
-  std::string problem;
-  const std::optional<DirectedMap> map = directedMapOf(vtkDataObject::GetData(inputs[1]),
-    static_cast<brainshift::Direction>(this->Direction), problem);
-  if (!map)
-  {
-    vtkErrorMacro(<< problem << ".");
-    return 0;
-  }
+  const DirectedMap map = directedMapOf(
+    vtkDataObject::GetData(inputs[1]), static_cast<brainshift::Direction>(this->Direction));
   output->ShallowCopy(input);
-  if (input->GetPoints() && !deform(this, *map, input, output))
+  if (input->GetPoints() && !deform(this, map, input, output))
   {
     output->Initialize();
   }

@@ -5,8 +5,8 @@
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
 #include "Common/Portions.h"
+#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Attached/DirectedMap.h"
 #include "Formats/Fields/FieldImage.h"
 
 #include "vtkFloatArray.h"
@@ -23,7 +23,6 @@
 #include <glm/vector_relational.hpp>
 
 #include <cmath>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,25 +57,19 @@ void place(vtkImageData* image, const Grid& samples, const int extent[6])
   image->SetDirectionMatrix(&rows[0][0]);
 }
 
-// A map, and how far it can be believed.
+// A map and its uncertainty.
 struct Source
 {
-  std::optional<DirectedMap> map;
+  DirectedMap map;
   Grid lattice;
-  std::vector<float> deviations; // at the control points; empty: unknown
+  std::vector<float> deviations; // mm, at the control points; empty: unknown
 };
 
-Source sourceOf(vtkImageData* volume, Direction direction, std::string& problem)
+Source sourceOf(vtkImageData* volume, Direction direction)
 {
-  Deformation deformation;
-  Source source;
-  if (readDeformation(volume, deformation, problem))
-  {
-    source.lattice = deformation.lattice.grid;
-    source.deviations = std::move(deformation.deviations);
-    source.map = directedMapOf(volume, direction, problem);
-  }
-  return source;
+  Deformation deformation = readDeformation(volume);
+  return { directedMapOf(volume, direction), deformation.lattice.grid,
+    std::move(deformation.deviations) };
 }
 
 // The map's arrays, on an image that lies on `samples`. False if the user aborts.
@@ -104,10 +97,10 @@ bool fill(vtkAlgorithm* filter, vtkImageData* image, const Grid& samples, const 
       }
     }
   };
-  return forPortions(filter, 0.0, 1.0, static_cast<vtkIdType>(count.y) * count.z, 1, fillRows);
+  return forPortions({ filter }, static_cast<vtkIdType>(count.y) * count.z, 1, fillRows);
 }
 
-// How far places of an image with displacements to or from tissue at rest can be believed. False if
+// The standard deviations (mm) of an image with displacements to or from tissue at rest. False if
 // the user aborts.
 bool fillDeviations(
   vtkAlgorithm* filter, vtkImageData* image, const Source& source, Direction direction)
@@ -133,7 +126,7 @@ bool fillDeviations(
     }
   };
   constexpr vtkIdType atLeast = 1024;
-  return forPortions(filter, 1.0, 1.0, image->GetNumberOfPoints(), atLeast, fillPoints);
+  return forPortions({ filter, 1.0, 1.0 }, image->GetNumberOfPoints(), atLeast, fillPoints);
 }
 
 std::string triple(const glm::dvec3& numbers)
@@ -142,17 +135,17 @@ std::string triple(const glm::dvec3& numbers)
     std::to_string(numbers.z);
 }
 
-// Why there is too little memory for the arrays; empty if there is enough.
-std::string memoryProblemOf(const int extent[6], bool hasDeviations)
+// For the arrays.
+void requireMemory(const int extent[6], bool hasDeviations)
 {
   const double bytesPerPoint = (hasDeviations ? 5.0 : 4.0) * sizeof(float);
   const glm::dvec3 sides =
     glm::dvec3(extent[1], extent[3], extent[5]) - glm::dvec3(extent[0], extent[2], extent[4]) + 1.0;
-  return hostMemoryProblem(
+  requireHostMemory(
     "A field of " + sizeText(sides) + " points", bytesPerPoint * sides.x * sides.y * sides.z);
 }
 
-// Points along an axis so that they lie no further apart than asked for, but stay in the box.
+// Points along an axis, no further apart than requested, within the box.
 int pointsEvery(double spacing, double extent)
 {
   constexpr double Rounding = 1e-9; // a spacing that divides the extent reaches its end
@@ -160,7 +153,7 @@ int pointsEvery(double spacing, double extent)
 }
 }
 
-Grid vtkDeformationField::SamplesOver(const Grid& volume, std::string& problem) const
+Grid vtkDeformationField::SamplesOver(const Grid& volume) const
 {
   Grid samples = volume;
   if (this->SampleGrid == GivenDimensions)
@@ -169,9 +162,9 @@ Grid vtkDeformationField::SamplesOver(const Grid& volume, std::string& problem) 
     samples = withDimensions(volume, glm::clamp(sides, SmallestSide, LargestSide));
     if (samples.dimensions != sides)
     {
-      problem = "Dimensions is " + std::to_string(sides.x) + " x " + std::to_string(sides.y) +
+      throw Problem("Dimensions is " + std::to_string(sides.x) + " x " + std::to_string(sides.y) +
         " x " + std::to_string(sides.z) + "; each must be from " + std::to_string(SmallestSide) +
-        " to " + std::to_string(LargestSide);
+        " to " + std::to_string(LargestSide));
     }
   }
   if (this->SampleGrid == GivenSpacing)
@@ -182,9 +175,8 @@ Grid vtkDeformationField::SamplesOver(const Grid& volume, std::string& problem) 
     if (!glm::all(glm::lessThanEqual(smallest, spacing)) ||
       !glm::all(glm::lessThanEqual(spacing, extent)))
     {
-      problem = "Spacing is " + triple(spacing) + " mm; for this volume it must be from " +
-        triple(smallest) + " to " + triple(extent) + " mm";
-      return samples;
+      throw Problem("Spacing is " + triple(spacing) + " mm; for this volume it must be from " +
+        triple(smallest) + " to " + triple(extent) + " mm");
     }
     samples.spacing = spacing;
     for (int axis = 0; axis < 3; ++axis)
@@ -198,8 +190,8 @@ Grid vtkDeformationField::SamplesOver(const Grid& volume, std::string& problem) 
 int vtkDeformationField::RequestInformation(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  std::string problem; // reported once, when data is made
-  const Grid samples = this->SamplesOver(wholeGridOf(inputs[0]->GetInformationObject(0)), problem);
+  Grid samples = wholeGridOf(inputs[0]->GetInformationObject(0));
+  problemOf([&] { samples = this->SamplesOver(samples); }); // reported once, when data is made
   vtkInformation* info = outputs->GetInformationObject(0);
   announce(info, samples);
   info->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1); // each process fills its own part
@@ -221,21 +213,16 @@ int vtkDeformationField::RequestData(
   vtkImageData* input = vtkImageData::GetData(inputs[0]);
   vtkImageData* output = vtkImageData::GetData(outputs);
   const auto direction = static_cast<brainshift::Direction>(this->Direction);
-  std::string problem = problemOfPart(input, inputs[0]->GetInformationObject(0));
-  const Source source = problem.empty() ? sourceOf(input, direction, problem) : Source();
-  const Grid samples = this->SamplesOver(gridOf(input), problem);
+  requireWhole(input, inputs[0]->GetInformationObject(0));
+  const Source source = sourceOf(input, direction);
+  const Grid samples = this->SamplesOver(gridOf(input));
   int extent[6];
   outputs->GetInformationObject(0)->Get(Pipeline::UPDATE_EXTENT(), extent);
-  problem = problem.empty() ? memoryProblemOf(extent, !source.deviations.empty()) : problem;
-  if (!source.map || !problem.empty())
-  {
-    vtkErrorMacro(<< problem << ".");
-    return 0;
-  }
+  requireMemory(extent, !source.deviations.empty());
   place(output, samples, extent);
   detach(output);
   nameDirection(output, direction);
-  if (!fill(this, output, samples, *source.map) || !fillDeviations(this, output, source, direction))
+  if (!fill(this, output, samples, source.map) || !fillDeviations(this, output, source, direction))
   {
     output->Initialize();
   }

@@ -102,7 +102,7 @@ private:
   void operator=(const vtkDeformationField&) = delete;
 
   // The grid to sample on. If it cannot be used, `problem` becomes a sentence.
-  brainshift::Grid SamplesOver(const brainshift::Grid& volume, std::string& problem) const;
+  brainshift::Grid SamplesOver(const brainshift::Grid& volume) const;
 
   int Direction = Backward;
   int SampleGrid = Volume;

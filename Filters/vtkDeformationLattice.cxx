@@ -3,6 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
+#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Formats/Fields/FieldImage.h"
 
@@ -12,8 +13,6 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-
-#include <string>
 
 using namespace brainshift;
 
@@ -25,14 +24,11 @@ int vtkDeformationLattice::RequestInformation(
 {
   // How many control points there are comes with the data only.
   this->GetInputAlgorithm()->Update();
-  Deformation deformation;
-  std::string problem; // reported when data is asked for
-  vtkImageData* input = vtkImageData::GetData(inputs[0]);
-  if (readDeformation(input, deformation, problem))
-  {
-    announce(outputs->GetInformationObject(0), deformation.lattice.grid);
-    outputs->GetInformationObject(0)->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
-  }
+  vtkInformation* output = outputs->GetInformationObject(0);
+  problemOf([&] { // reported when data is requested
+    announce(output, readDeformation(vtkImageData::GetData(inputs[0])).lattice.grid);
+    output->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
+  });
   return 1;
 }
 
@@ -48,14 +44,7 @@ int vtkDeformationLattice::RequestData(
 {
   vtkImageData* input = vtkImageData::GetData(inputs[0]);
   vtkImageData* output = vtkImageData::GetData(outputs);
-  Deformation deformation;
-  std::string problem;
-  if (!readDeformation(input, deformation, problem))
-  {
-    vtkErrorMacro(<< problem << ".");
-    return 0;
-  }
-  const Lattice lattice = effectiveLattice(deformation);
+  const Lattice lattice = effectiveLattice(readDeformation(input));
   setField(output, lattice.grid, lattice.displacements, Direction::Forward);
   output->Crop( // each process passes on its own part
     outputs->GetInformationObject(0)->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()));

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkFreeFormDeformation.h"
 
+#include "Common/FilledArray.h"
 #include "Common/Guard.h"
+#include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
+#include "Common/Problem.h"
+#include "Filters/Attached/CarriedArray.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/Segmentation.h"
-#include "Filters/Attached/SharedArray.h"
 #include "Filters/Deformation/LatticeExtremes.h"
 #include "Filters/Deformation/Replay.h"
 #include "Filters/Fields/BaseLattice.h"
-#include "Filters/Fields/FilledArray.h"
-#include "Filters/Fields/FittedFor.h"
 #include "Filters/Measured/EvidenceArray.h"
 #include "Filters/Traces/StrokeMarks.h"
 
@@ -56,7 +57,7 @@ struct vtkFreeFormDeformation::State
   std::vector<std::string> Warned;
   bool WarnedOfMask = false; // that it holds strokes back
 
-  // A fit for other settings says nothing about this bend.
+  // The figures of a fit for other settings do not hold for this bend.
   void judgeBase(vtkImageData* base, const Lattice& start)
   {
     this->OtherFit = wordsOnFittedFor(base, start, this->LastGood.samples);
@@ -76,22 +77,15 @@ std::string decimal(double number)
   return text.str();
 }
 
-std::string triple(const glm::ivec3& numbers)
-{
-  return std::to_string(numbers.x) + " x " + std::to_string(numbers.y) + " x " +
-    std::to_string(numbers.z);
-}
-
-// What keeps this volume from being deformed; empty if nothing does.
-std::string problemOf(const Grid& volume)
+// Throws a Problem on what keeps this volume from being deformed.
+void requireVolume(const Grid& volume)
 {
   if (glm::any(glm::lessThan(volume.dimensions, glm::ivec3(2))))
   {
-    return "The volume has " + triple(volume.dimensions) +
-      " points; it must have at least 2 along each axis";
+    throw Problem("The volume has " + sizeText(glm::dvec3(volume.dimensions)) +
+      " points; it must have at least 2 along each axis");
   }
-  const std::string problem = problemOfGrid(volume);
-  return problem.empty() ? problem : "The volume's " + problem;
+  requirePosition(volume, "The volume's ");
 }
 
 constexpr const char* BentAlready =
@@ -153,21 +147,11 @@ int vtkFreeFormDeformation::RequestData(
     return 1;
   }
   const Grid volumeGrid = wholeGridOf(volume, inputs[0]->GetInformationObject(0));
-  std::string problem = problemOf(volumeGrid);
-  if (!problem.empty())
-  {
-    vtkErrorMacro(<< problem << ".");
-    return 0;
-  }
-  const std::string thrown = thrownBy([&] {
-    problem = this->Bend(volumeGrid, vtkImageData::GetData(inputs[BasePort]),
+  requireVolume(volumeGrid);
+  const std::string problem = sentenceThrownBy("Free-Form Deformation", [&] {
+    this->Bend(volumeGrid, vtkImageData::GetData(inputs[BasePort]),
       vtkImageData::GetData(inputs[MaskPort]), vtkImageData::GetData(inputs[SegmentationPort]));
   });
-  if (!thrown.empty())
-  {
-    this->Internal->StrokeReplay = Replay(); // it may have stopped between two strokes
-    problem = "Free-Form Deformation " + thrown;
-  }
   if (!problem.empty())
   {
     vtkErrorMacro(<< problem << ". The deformation stays as it was.");
@@ -182,38 +166,46 @@ int vtkFreeFormDeformation::RequestData(
   return 1;
 }
 
-std::string vtkFreeFormDeformation::ProblemOfProperties() const
+void vtkFreeFormDeformation::RequireProperties() const
 {
   const double* const interest = this->PointOfInterest;
   if (!std::all_of(interest, interest + 3, [](double mm) { return std::isfinite(mm); }))
   {
-    return "PointOfInterest is " + decimal(interest[0]) + " " + decimal(interest[1]) + " " +
-      decimal(interest[2]) + " mm; its numbers must be finite";
+    throw Problem("PointOfInterest is " + decimal(interest[0]) + " " + decimal(interest[1]) + " " +
+      decimal(interest[2]) + " mm; its numbers must be finite");
   }
   if (std::isnan(this->Strength))
   {
-    return "Strength is not a number; it must be from 0 to 1";
+    throw Problem("Strength is not a number; it must be from 0 to 1");
   }
-  return {};
 }
 
-// Runs the strokes, with progress. Returns why the result cannot be used; empty if it can.
-std::string vtkFreeFormDeformation::ReplayStrokes(
-  const Lattice& start, const std::vector<Stroke>& strokes)
+// Runs the strokes, with progress.
+void vtkFreeFormDeformation::ReplayStrokes(const Lattice& start, const std::vector<Stroke>& strokes)
 {
   // CheckAbort would take the output away, and with it the last picture.
   Replay& replay = this->Internal->StrokeReplay;
-  replay.run(start, strokes, { this->GuardFolding, this->GetSamples() }, [this](double share) {
-    this->UpdateProgress(share);
-    return !this->GetAbortExecute();
-  });
-  return replay.isWhole()
-    ? problemOfDisplacements(replay.result(), "the strokes")
-    : "Free-Form Deformation was stopped after " + std::to_string(replay.count()) + " of " +
-      std::to_string(strokes.size()) + " strokes. The next change goes on from there";
+  try
+  {
+    replay.run(start, strokes, { this->GuardFolding, this->GetSamples() }, [this](double fraction) {
+      this->UpdateProgress(fraction);
+      return !this->GetAbortExecute();
+    });
+  }
+  catch (...)
+  {
+    replay = Replay(); // it may have stopped between two strokes
+    throw;
+  }
+  if (!replay.isWhole())
+  {
+    throw Problem("Free-Form Deformation was stopped after " + std::to_string(replay.count()) +
+      " of " + std::to_string(strokes.size()) + " strokes. The next change goes on from there");
+  }
+  requireDisplacements(replay.result(), "the strokes");
 }
 
-std::string vtkFreeFormDeformation::Bend(
+void vtkFreeFormDeformation::Bend(
   const Grid& volumeGrid, vtkImageData* base, vtkImageData* maskImage, vtkImageData* segments)
 {
   State& state = *this->Internal;
@@ -222,29 +214,12 @@ std::string vtkFreeFormDeformation::Bend(
     state.LastGood.lattice = makeLattice(this->LatticeGrid(volumeGrid), 0);
     state.HasLastGood = true;
   }
-  std::string problem = this->ProblemOfProperties();
-  if (!problem.empty())
-  {
-    return problem;
-  }
-  const std::vector<Stroke> strokes = strokesFromNumbers(state.StrokeNumbers, problem);
-  Lattice start;
-  problem = problem.empty() ? this->MakeLattice(volumeGrid, maskImage, start) : problem;
-  problem = problem.empty() ? addBase(start, base) : problem;
-  Segmentation segmentation;
-  if (problem.empty())
-  {
-    problem = state.Segmentations.find(segments ? segments : maskImage, volumeGrid, segmentation);
-  }
-  if (!problem.empty())
-  {
-    return problem;
-  }
-  problem = this->ReplayStrokes(start, strokes);
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  this->RequireProperties();
+  const std::vector<Stroke> strokes = strokesFromNumbers(state.StrokeNumbers);
+  Lattice start = this->MakeLattice(volumeGrid, maskImage);
+  addBase(start, base);
+  Segmentation segmentation = state.Segmentations.find(segments ? segments : maskImage, volumeGrid);
+  this->ReplayStrokes(start, strokes);
   segmentation.chosen = segments ? std::vector<int>() : this->ChosenLabels();
   state.LastSegmentation = segmentation;
   Lattice result = state.StrokeReplay.result();
@@ -262,7 +237,6 @@ std::string vtkFreeFormDeformation::Bend(
   // The guard's proof is for the full strength.
   state.IsProved =
     this->GuardFolding && this->Strength == 1.0 && state.StrokeReplay.foldedCells() == 0;
-  return {};
 }
 
 void vtkFreeFormDeformation::TellWarnings()
@@ -328,19 +302,19 @@ double vtkFreeFormDeformation::GetMinimumJacobian()
 
 int vtkFreeFormDeformation::GetShortenedStrokes() const
 {
-  const std::vector<double>& shares = this->Internal->StrokeReplay.shares();
-  return static_cast<int>(
-    std::count_if(shares.begin(), shares.end(), [](double share) { return share < 1.0; }));
+  const std::vector<double>& fractions = this->Internal->StrokeReplay.fractions();
+  return static_cast<int>(std::count_if(
+    fractions.begin(), fractions.end(), [](double fraction) { return fraction < 1.0; }));
 }
 
 vtkDoubleArray* vtkFreeFormDeformation::GetStrokeShares()
 {
-  return filled(this->Internal->StrokeShares, this->Internal->StrokeReplay.shares());
+  return filled(this->Internal->StrokeShares, this->Internal->StrokeReplay.fractions());
 }
 
 vtkDoubleArray* vtkFreeFormDeformation::GetStrokeReaches()
 {
-  return filled(this->Internal->StrokeReaches, this->Internal->StrokeReplay.reaches());
+  return filled(this->Internal->StrokeReaches, this->Internal->StrokeReplay.achieved());
 }
 
 int vtkFreeFormDeformation::GetAppliedStrokes() const

@@ -111,7 +111,7 @@ public:
   /** How many strokes the fold guard shortened. */
   int GetShortenedStrokes() const;
 
-  /** The share of each stroke that was applied, 0 to 1. A disabled stroke has 1. */
+  /** The fraction of each stroke that was applied, 0 to 1. A disabled stroke has 1. */
   vtkDoubleArray* GetStrokeShares();
 
   /**
@@ -142,14 +142,13 @@ private:
   bool GuardFolding = true;
   double PointOfInterest[3] = { 0.0, 0.0, 0.0 };
 
-  // One sentence on a property that is wrong; empty if all are good.
-  std::string ProblemOfProperties() const;
+  // Throws a Problem on a property that is wrong.
+  void RequireProperties() const;
 
-  // Bends the lattice as the properties say. Returns one sentence if it cannot, and keeps the last
-  // good deformation; empty if it can.
-  std::string ReplayStrokes(
+  // Bends the lattice by the properties. If it throws, the last good deformation remains.
+  void ReplayStrokes(
     const brainshift::Lattice& start, const std::vector<brainshift::Stroke>& strokes);
-  std::string Bend(const brainshift::Grid& volumeGrid, vtkImageData* base, vtkImageData* maskImage,
+  void Bend(const brainshift::Grid& volumeGrid, vtkImageData* base, vtkImageData* maskImage,
     vtkImageData* segments);
 
   // Warns of what the user should know. A warning is repeated only after it was gone.

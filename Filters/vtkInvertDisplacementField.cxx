@@ -5,6 +5,7 @@
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
 #include "Common/Portions.h"
+#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Deformation/Inversion.h"
 #include "Filters/Deformation/OffsetField.h"
@@ -48,69 +49,64 @@ bool isPositive(double number)
   return number > 0.0 && std::isfinite(number);
 }
 
-// What keeps a field on this grid from being inverted; empty if nothing does.
-std::string problemOf(const Grid& grid, vtkDataArray* array)
+// Throws a Problem on what keeps a field on this grid from being inverted.
+void requireField(const Grid& grid, vtkDataArray* array)
 {
   constexpr double BytesPerPoint = 4.0 * sizeof(glm::vec3); // read, in cells, inverse, handed out
   if (!array)
   {
-    return "The input has no point array of 3 components (mm)";
+    throw Problem("The input has no point array of 3 components (mm)");
   }
   const auto points = static_cast<double>(grid.count());
   if (points == 0 || array->GetNumberOfTuples() != static_cast<vtkIdType>(grid.count()))
   {
-    return "The input has " + sizeText(glm::dvec3(grid.dimensions)) + " points and " +
+    throw Problem("The input has " + sizeText(glm::dvec3(grid.dimensions)) + " points and " +
       std::to_string(array->GetNumberOfTuples()) +
-      " displacements; it must have one for each, at "
-      "least 1";
+      " displacements; it must have one for each, at least 1");
   }
   const glm::dvec3& spacing = grid.spacing;
   if (!isPositive(spacing.x) || !isPositive(spacing.y) || !isPositive(spacing.z))
   {
-    return "The input's spacing is " + sizeText(spacing) + " mm; it must be above 0 and finite";
+    throw Problem(
+      "The input's spacing is " + sizeText(spacing) + " mm; it must be above 0 and finite");
   }
   if (!std::isfinite(grid.origin.x + grid.origin.y + grid.origin.z))
   {
-    return "The input's origin is not finite";
+    throw Problem("The input's origin is not finite");
   }
-  return hostMemoryProblem(
+  requireHostMemory(
     "The inverse of a field of " + sizeText(glm::dvec3(grid.dimensions)) + " points",
     BytesPerPoint * points);
 }
 
-// What is wrong with displacements (lattice cells); empty if nothing is.
-std::string problemOf(const std::vector<glm::vec3>& inCells)
+// Throws a Problem on displacements (lattice cells) that cannot be inverted.
+void requireDisplacements(const std::vector<glm::vec3>& inCells)
 {
   for (const glm::vec3& v : inCells)
   {
     const float longest = std::max({ std::abs(v.x), std::abs(v.y), std::abs(v.z) });
     if (!std::isfinite(v.x + v.y + v.z))
     {
-      return "The input's array of displacements holds a number that is not finite";
+      throw Problem("The input's array of displacements holds a number that is not finite");
     }
     if (longest > LargestCells)
     {
       std::ostringstream problem;
       problem << "The input's array of displacements holds one of " << longest
               << " spacings of its grid; the limit is " << LargestCells;
-      return problem.str();
+      throw Problem(problem.str());
     }
   }
-  return {};
 }
 
-// The field of an image with its own points as nodes; if it has no inverse, `problem` says why.
-NodeField fieldToInvert(vtkImageData* image, std::string& problem)
+// The field of an image with its own points as nodes.
+NodeField fieldToInvert(vtkImageData* image)
 {
   const Grid grid = gridOf(image);
   vtkDataArray* array = fieldOf(image);
-  problem = problem.empty() ? problemOf(grid, array) : problem;
-  if (!problem.empty())
-  {
-    return {};
-  }
+  requireField(grid, array);
   NodeField field = nodesOf(grid, vectorsOf(array));
-  problem = problemOf(field.values);
+  requireDisplacements(field.values);
   return field;
 }
 }
@@ -139,13 +135,8 @@ int vtkInvertDisplacementField::RequestData(
 {
   vtkImageData* input = vtkImageData::GetData(inputs[0]);
   vtkImageData* output = vtkImageData::GetData(outputs);
-  std::string problem = problemOfPart(input, inputs[0]->GetInformationObject(0));
-  const NodeField field = fieldToInvert(input, problem);
-  if (!problem.empty())
-  {
-    vtkErrorMacro(<< problem << ".");
-    return 0;
-  }
+  requireWhole(input, inputs[0]->GetInformationObject(0));
+  const NodeField field = fieldToInvert(input);
   const Grid grid = gridOf(input);
   std::vector<glm::vec3> inverse(grid.count());
   std::vector<double> errors(grid.dimensions.z, 0.0); // of each slice, mm
@@ -166,7 +157,7 @@ int vtkInvertDisplacementField::RequestData(
       }
     }
   };
-  if (!forPortions(this, 0.0, 1.0, grid.dimensions.z, 1, invertSlices))
+  if (!forPortions({ this }, grid.dimensions.z, 1, invertSlices))
   {
     output->Initialize();
     return 1;

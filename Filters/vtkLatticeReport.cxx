@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkLatticeReport.h"
 
+#include "Common/FilledArray.h"
 #include "Common/Guard.h"
+#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Deformation/ControlPoints.h"
 #include "Filters/Deformation/PointMap.h"
@@ -15,7 +17,6 @@
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
-#include <string>
 
 using namespace brainshift;
 
@@ -39,16 +40,15 @@ vtkFloatArray* readDrawn(vtkAlgorithm* filter, DrawnLattice& lattice)
   {
     return nullptr;
   }
-  const auto number = [&](int i) { return box->GetVariantValue(i).ToDouble(); };
+  double numbers[15];
+  for (int i = 0; i < 15; ++i)
+  {
+    numbers[i] = box->GetVariantValue(i).ToDouble();
+  }
+  setBox(lattice.grid, numbers);
   for (int axis = 0; axis < 3; ++axis)
   {
     lattice.grid.dimensions[axis] = dimensions->GetVariantValue(axis).ToInt();
-    lattice.grid.origin[axis] = number(axis);
-    lattice.grid.spacing[axis] = number(3 + axis);
-    for (int column = 0; column < 3; ++column)
-    {
-      lattice.grid.direction[column][axis] = number(6 + 3 * axis + column);
-    }
   }
   lattice.displacements = displacements->GetPointer(0);
   lattice.strength = strength->GetVariantValue(0).ToDouble();
@@ -117,8 +117,8 @@ void vtkLatticeReport::ListControlPoints(vtkFloatArray* displacements, DrawnLatt
   const double* cone = this->Cone;
   if (cone[6] > 0.0 || cone[7] > 0.0)
   {
-    addInCone(lattice, { cone[0], cone[1], cone[2] }, { cone[3], cone[4], cone[5] }, cone[6],
-      cone[7], offsets);
+    addInCone(lattice,
+      { { cone[0], cone[1], cone[2] }, { cone[3], cone[4], cone[5] }, cone[6], cone[7] }, offsets);
   }
   if (this->MovedWithin > 0.0)
   {
@@ -141,17 +141,10 @@ vtkDoubleArray* vtkLatticeReport::GetGeometry()
   DrawnLattice lattice;
   if (readDrawn(this->Filter, lattice))
   {
-    const Grid& grid = lattice.grid;
-    for (const glm::dvec3& triple : { glm::dvec3(grid.dimensions), grid.origin, grid.spacing })
+    append(this->Geometry, glm::dvec3(lattice.grid.dimensions));
+    for (const double number : boxOf(lattice.grid))
     {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        this->Geometry->InsertNextValue(triple[axis]);
-      }
-    }
-    for (int i = 0; i < 9; ++i)
-    {
-      this->Geometry->InsertNextValue(grid.direction[i % 3][i / 3]);
+      this->Geometry->InsertNextValue(number);
     }
   }
   return this->Geometry;
@@ -180,23 +173,18 @@ void vtkLatticeReport::FindSameTissue()
   const unsigned long long time = carriesDeformation(output) ? deformationTime(output) : 0;
   if (time != this->MapTime)
   {
-    Deformation deformation;
-    std::string error;
-    const bool isRead = time != 0 && readDeformation(output, deformation, error);
-    this->Map = isRead
-      ? std::make_unique<PointMap>(effectiveLattice(deformation), deformation.inverse)
-      : nullptr;
+    this->Map = nullptr;
     this->MapTime = time;
+    problemOf([&] { // without a deformation there are no answers
+      const Deformation deformation = readDeformation(output);
+      this->Map = std::make_unique<PointMap>(effectiveLattice(deformation), deformation.inverse);
+    });
   }
   for (std::size_t i = 0; this->Map && i + 2 < this->Places.size(); i += 3)
   {
     const glm::dvec3 place(this->Places[i], this->Places[i + 1], this->Places[i + 2]);
-    const glm::dvec3 same =
-      this->ToRest ? this->Map->restFromDeformed(place) : this->Map->deformedFromRest(place);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      this->SameTissue->InsertNextValue(same[axis]);
-    }
+    append(this->SameTissue,
+      this->ToRest ? this->Map->restFromDeformed(place) : this->Map->deformedFromRest(place));
   }
 }
 

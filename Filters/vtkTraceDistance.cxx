@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTraceDistance.h"
 
+#include "Common/FilledArray.h"
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
 #include "Common/Portions.h"
-#include "Filters/Attached/CavityMask.h"
+#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Attached/MaskImage.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Traces/DeformedSurface.h"
-#include "Filters/Traces/StrokeCurve.h"
 #include "Filters/Traces/StrokeMarks.h"
 #include "Filters/Traces/TraceStatistics.h"
 
@@ -89,15 +90,8 @@ struct vtkTraceDistance::State
     int surfaceState = 0;
   };
 
-  // What the surface was found for.
-  vtkSmartPointer<vtkDataArray> Scalars;
-  vtkMTimeType ScalarsTime = 0;
-  Grid ScalarsGrid;
-  int By = -1;
-  double Level = 0.0;
-
-  TissueRegion Tissue;
-  DeformedSurface Surface;
+  TissueSource Tissue;
+  DeformedSurface Surface; // of the tissue
   CavitySource CavityInput;
   PlacedVoxels Cavity;           // that of the input
   PlacedVoxels ReferencesCavity; // that Compare Volumes attached to the volume
@@ -139,27 +133,6 @@ struct vtkTraceDistance::State
       return this->Nearest[first + left].triangle < this->Nearest[first + right].triangle;
     });
     return order;
-  }
-
-  // `level`: the threshold or the label.
-  void find(vtkDataArray* scalars, const Grid& grid, int by, double level)
-  {
-    if (scalars == this->Scalars && scalars->GetMTime() == this->ScalarsTime &&
-      grid == this->ScalarsGrid && by == this->By && level == this->Level)
-    {
-      return;
-    }
-    this->Scalars = scalars;
-    this->ScalarsTime = scalars->GetMTime();
-    this->ScalarsGrid = grid;
-    this->By = by;
-    this->Level = level;
-    this->Tissue = by == ByLabel
-      ? TissueRegion{ grid, maskOfLabel(scalars, static_cast<int>(level)), 0.5 }
-      : TissueRegion{ grid, scalars, level };
-    this->Surface = DeformedSurface(surfaceOf(this->Tissue));
-    this->Nearest.clear();
-    ++this->SurfacesFound;
   }
 };
 
@@ -211,25 +184,15 @@ double vtkTraceDistance::GetPercentile95() const
 
 vtkDoubleArray* vtkTraceDistance::GetHistogram()
 {
-  vtkDoubleArray* numbers = this->Internal->HistogramNumbers;
-  numbers->Reset();
-  numbers->InsertNextValue(this->Internal->Histogram.width);
-  for (const int count : this->Internal->Histogram.counts)
-  {
-    numbers->InsertNextValue(count);
-  }
-  return numbers;
+  const TraceHistogram& histogram = this->Internal->Histogram;
+  std::vector<double> numbers{ histogram.width };
+  numbers.insert(numbers.end(), histogram.counts.begin(), histogram.counts.end());
+  return filled(this->Internal->HistogramNumbers, numbers);
 }
 
 vtkDoubleArray* vtkTraceDistance::GetRMSAfterStrokes()
 {
-  vtkDoubleArray* numbers = this->Internal->CurveNumbers;
-  numbers->Reset();
-  for (const double rms : this->Internal->Curve.values())
-  {
-    numbers->InsertNextValue(rms);
-  }
-  return numbers;
+  return filled(this->Internal->CurveNumbers, this->Internal->Curve.values());
 }
 
 int vtkTraceDistance::GetSurfacesFound() const
@@ -267,49 +230,46 @@ int vtkTraceDistance::RequestUpdateExtent(
   return this->Superclass::RequestUpdateExtent(request, inputs, outputs);
 }
 
-std::string vtkTraceDistance::FindCortex(vtkInformationVector** inputs)
+void vtkTraceDistance::FindCortex(vtkInformationVector** inputs)
 {
   State& state = *this->Internal;
   vtkImageData* volume = vtkImageData::GetData(inputs[DeformationPort]);
   vtkImageData* segmentation = vtkImageData::GetData(inputs[SegmentationPort]);
-  Deformation deformation;
-  std::string problem;
-  if (!readDeformation(volume, deformation, problem))
-  {
-    return problem;
-  }
+  const Deformation deformation = readDeformation(volume);
   vtkImageData* image = segmentation ? segmentation : volume;
   const int port = segmentation ? SegmentationPort : DeformationPort;
-  problem = problemOfPart(image, inputs[port]->GetInformationObject(0));
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  requireWhole(image, inputs[port]->GetInformationObject(0));
   const std::string where = segmentation ? "The segmentation" : "The volume";
   vtkDataArray* scalars = scalarsOf(image, this->SurfaceArray);
   if (!scalars || scalars->GetNumberOfComponents() != 1)
   {
-    return where +
+    throw Problem(where +
       (scalars ? "'s array " + std::string(scalars->GetName() ? scalars->GetName() : "") + " has " +
             std::to_string(scalars->GetNumberOfComponents()) + " components; it must have 1"
-               : std::string(" has no point array to find the cortex in"));
+               : std::string(" has no point array to find the cortex in")));
   }
   const bool byLabel = this->SurfaceBy == ByLabel;
-  state.find(scalars, gridOf(image), this->SurfaceBy, byLabel ? this->Label : this->Threshold);
+  const double level = byLabel ? this->Label : this->Threshold;
+  if (state.Tissue.find(scalars, gridOf(image), byLabel, level) || state.Surface.isEmpty())
+  {
+    state.Surface = DeformedSurface(surfaceOf(state.Tissue.region()));
+    state.Nearest.clear();
+    ++state.SurfacesFound;
+  }
   if (state.Surface.isEmpty())
   {
     const double* range = scalars->GetRange(0);
-    return (byLabel ? "Label is " + std::to_string(this->Label)
-                    : "Threshold is " + std::to_string(this->Threshold)) +
+    throw Problem((byLabel ? "Label is " + std::to_string(this->Label)
+                           : "Threshold is " + std::to_string(this->Threshold)) +
       " and gives no surface; the scalars of " +
       (segmentation ? "the segmentation" : "the volume") + " go from " + std::to_string(range[0]) +
-      " to " + std::to_string(range[1]);
+      " to " + std::to_string(range[1]));
   }
   const Lattice lattice = effectiveLattice(deformation);
   state.Map.emplace(lattice, deformation.inverse);
-  problem.clear();
-  state.Cavity = state.CavityInput.find(
-    vtkImageData::GetData(inputs[CavityPort]), {}, gridOf(volume), "volume", problem);
+  state.Cavity = {};
+  state.Cavity =
+    state.CavityInput.find(vtkImageData::GetData(inputs[CavityPort]), {}, gridOf(volume), "volume");
   state.ReferencesCavity = readReference(volume).cavity;
   std::function<bool(const glm::dvec3&)> isRemoved;
   if (state.Cavity.voxels || state.ReferencesCavity.voxels)
@@ -317,7 +277,6 @@ std::string vtkTraceDistance::FindCortex(vtkInformationVector** inputs)
     isRemoved = [&](const glm::dvec3& deformed) { return state.isRemoved(deformed); };
   }
   state.Surface.follow(lattice, isRemoved);
-  return problem;
 }
 
 bool vtkTraceDistance::Measure(vtkPointSet* points, std::vector<double>& all)
@@ -338,12 +297,12 @@ bool vtkTraceDistance::Measure(vtkPointSet* points, std::vector<double>& all)
       return std::numeric_limits<double>::quiet_NaN();
     }
     const double distance = state.distanceTo(point, hint, found);
-    const bool inside = state.Tissue.contains(state.Map->restFromDeformed(point));
+    const bool inside = state.Tissue.region().contains(state.Map->restFromDeformed(point));
     return std::isfinite(distance) ? (inside ? -distance : distance)
                                    : std::numeric_limits<double>::quiet_NaN();
   };
   const std::vector<vtkIdType> order = state.byTriangle(before, count);
-  return forPortions(this, 0.0, 1.0, count, PointsAtLeast, [&](vtkIdType first, vtkIdType last) {
+  return forPortions({ this }, count, PointsAtLeast, [&](vtkIdType first, vtkIdType last) {
     int previous = -1; // the first time: a pointer moves little
     for (vtkIdType step = first; step < last; ++step)
     {
@@ -363,10 +322,11 @@ void vtkTraceDistance::NoteRMS(vtkDataObject* points, vtkDataObject* volume)
 {
   State& state = *this->Internal;
   const auto timeOf = [](vtkDataArray* array) { return array ? array->GetMTime() : 0; };
+  const double used = this->SurfaceBy == ByLabel ? this->Label : this->Threshold;
   std::uint64_t level = 0; // its bits
-  std::memcpy(&level, &state.Level, sizeof(level));
-  std::uint64_t how = mixed(mixed(points->GetMTime(), state.ScalarsTime), level);
-  how = mixed(mixed(how, state.By), timeOf(state.Cavity.voxels));
+  std::memcpy(&level, &used, sizeof(level));
+  std::uint64_t how = mixed(mixed(points->GetMTime(), state.Tissue.time()), level);
+  how = mixed(mixed(how, this->SurfaceBy), timeOf(state.Cavity.voxels));
   how = mixed(how, timeOf(state.ReferencesCavity.voxels));
   state.Curve.note(readMarks(volume), how, state.Statistics.rms);
 }
@@ -377,12 +337,7 @@ int vtkTraceDistance::RequestData(
   State& state = *this->Internal;
   vtkDataObject* input = vtkDataObject::GetData(inputs[0]);
   vtkDataObject* output = vtkDataObject::GetData(outputs);
-  const std::string problem = this->FindCortex(inputs);
-  if (!problem.empty())
-  {
-    vtkErrorMacro(<< problem << ".");
-    return 0;
-  }
+  this->FindCortex(inputs);
   std::vector<double> distances;
   bool going = true;
   if (auto* blocks = vtkDataObjectTree::SafeDownCast(input))

@@ -136,7 +136,7 @@ private:
   int Label = 1;
 
   // Finds the cortex. Returns one sentence if it cannot; empty if it can.
-  std::string FindCortex(vtkInformationVector** inputs);
+  void FindCortex(vtkInformationVector** inputs);
   // Adds the array to points. False if the user aborts.
   bool Measure(vtkPointSet* points, std::vector<double>& all);
   // Notes the RMS among those after other strokes.

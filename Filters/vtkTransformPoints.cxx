@@ -3,6 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Common/Portions.h"
+#include "Common/Problem.h"
 #include "Formats/Transforms/PointTransform.h"
 #include "vtkTransformReader.h"
 
@@ -14,7 +15,6 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
-#include <string>
 
 using namespace brainshift;
 
@@ -49,13 +49,8 @@ int vtkTransformPoints::RequestData(
 {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs);
-  const std::string problem =
-    this->Transform ? this->Transform->GetProblem() : "Transform is not set; it must read a file";
-  if (!problem.empty())
-  {
-    vtkErrorMacro(<< problem << ".");
-    return 0;
-  }
+  throwIfAny(
+    this->Transform ? this->Transform->GetProblem() : "Transform is not set; it must read a file");
   output->ShallowCopy(input);
   const vtkIdType count = input->GetNumberOfPoints();
   vtkNew<vtkPoints> points;
@@ -72,7 +67,7 @@ int vtkTransformPoints::RequestData(
       points->SetPoint(i, &to.x);
     }
   };
-  if (!forPortions(this, 0.0, 1.0, count, PointsAtLeast, move))
+  if (!forPortions({ this }, count, PointsAtLeast, move))
   {
     output->Initialize();
   }

@@ -41,7 +41,7 @@ public:
   vtkGetMacro(Direction, int);
   ///@}
 
-  /** Who reads the files, in the world of the points. Default: null, which is an error. */
+  /** The reader of the files, in the world of the points. Default: null, which is an error. */
   void SetTransform(vtkTransformReader* transform);
 
 protected:

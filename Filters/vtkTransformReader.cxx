@@ -5,8 +5,9 @@
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
 #include "Common/Portions.h"
+#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Transforms/TransformLattice.h"
+#include "Filters/Fields/TransformLattice.h"
 #include "Formats/Fields/FieldImage.h"
 #include "Formats/Transforms/TransformFile.h"
 
@@ -18,8 +19,7 @@
 #include "vtkObjectFactory.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include <optional>
 #include <vector>
@@ -36,7 +36,7 @@ bool sample(vtkAlgorithm* filter, const DirectedTransform& transform, brainshift
 {
   displacements.resize(grid.count());
   const auto points = static_cast<vtkIdType>(grid.count());
-  return forPortions(filter, 0.0, 1.0, points, PointsAtLeast, [&](vtkIdType from, vtkIdType to) {
+  return forPortions({ filter }, points, PointsAtLeast, [&](vtkIdType from, vtkIdType to) {
     for (vtkIdType point = from; point < to; ++point)
     {
       const vtkIdType row = point / grid.dimensions.x;
@@ -48,18 +48,6 @@ bool sample(vtkAlgorithm* filter, const DirectedTransform& transform, brainshift
   });
 }
 
-// The lattice over a volume. Returns what is wrong with it.
-std::string latticeGridOf(vtkInformation* volume, const glm::ivec3& sides, Grid& grid)
-{
-  if (glm::any(glm::lessThan(sides, glm::ivec3(SmallestLatticeSide))) ||
-    glm::any(glm::greaterThan(sides, glm::ivec3(LargestLatticeSide))))
-  {
-    return "LatticeDimensions is " + sizeText(glm::dvec3(sides)) + "; each side must have from " +
-      std::to_string(SmallestLatticeSide) + " to " + std::to_string(LargestLatticeSide) + " points";
-  }
-  grid = withDimensions(wholeGridOf(volume), sides);
-  return {};
-}
 }
 
 struct vtkTransformReader::State
@@ -204,29 +192,25 @@ int vtkTransformReader::RequestInformation(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   State& state = *this->Internal;
-  const glm::ivec3 sides(
-    this->LatticeDimensions[0], this->LatticeDimensions[1], this->LatticeDimensions[2]);
-  std::string problem = this->Load();
-  vtkInformation* volume = inputs[0]->GetInformationObject(0);
-  if (problem.empty() && volume)
+  state.Good = false;
+  throwIfAny(this->Load());
+  if (vtkInformation* volume = inputs[0]->GetInformationObject(0))
   {
-    problem = latticeGridOf(volume, sides, state.OutputGrid);
+    const glm::ivec3 sides = glm::make_vec3(this->LatticeDimensions);
+    requireLatticeSides(sides);
+    state.OutputGrid = withDimensions(wholeGridOf(volume), sides);
   }
-  else if (problem.empty())
+  else if (const std::optional<Grid> own = ownGridOf(state.Chain))
   {
-    const std::optional<Grid> own = ownGridOf(state.Chain);
-    state.OutputGrid = own.value_or(Grid());
-    problem = own ? std::string()
-                  : "Transform file " + this->FileName + " is " + kindOf(state.Chain) +
-        " and has no points of its own: name the Volume to bend";
+    state.OutputGrid = *own;
   }
-  problem = problem.empty() ? problemOfGrid(state.OutputGrid) : problem;
-  state.Good = problem.empty();
-  if (!state.Good)
+  else
   {
-    vtkErrorMacro(<< problem << ".");
-    return 0;
+    throw Problem("Transform file " + this->FileName + " is " + kindOf(state.Chain) +
+      " and has no points of its own: name the Volume to bend");
   }
+  requirePosition(state.OutputGrid, "");
+  state.Good = true;
   announce(outputs->GetInformationObject(0), state.OutputGrid);
   return 1;
 }
@@ -254,14 +238,8 @@ int vtkTransformReader::RequestData(
   const auto wanted = static_cast<brainshift::Direction>(this->OutputDirection);
   const DirectedTransform transform{ state.Chain,
     static_cast<brainshift::Direction>(this->Direction) };
-  const std::string problem =
-    hostMemoryProblem("a field of " + sizeText(glm::dvec3(state.OutputGrid.dimensions)) + " points",
-      2.0 * sizeof(glm::vec3) * static_cast<double>(state.OutputGrid.count()));
-  if (!problem.empty())
-  {
-    vtkErrorMacro(<< problem << ".");
-    return 0;
-  }
+  requireHostMemory("a field of " + sizeText(glm::dvec3(state.OutputGrid.dimensions)) + " points",
+    2.0 * sizeof(glm::vec3) * static_cast<double>(state.OutputGrid.count()));
   Lattice lattice;
   lattice.grid = state.OutputGrid;
   lattice.kernel = this->Kernel;

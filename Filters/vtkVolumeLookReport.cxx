@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkVolumeLookReport.h"
 
+#include "Common/FilledArray.h"
 #include "Common/Guard.h"
 #include "Filters/Looks/FirstCamera.h"
 #include "Filters/Looks/Histogram.h"
@@ -99,10 +100,7 @@ vtkDoubleArray* vtkVolumeLookReport::GetCamera()
     const FirstCamera camera = firstCamera(this->Tissue, this->ViewAspect, this->ViewAngle);
     for (const glm::dvec3& vector : { camera.position, camera.focalPoint, camera.up })
     {
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        this->Camera->InsertNextValue(vector[axis]);
-      }
+      append(this->Camera, vector);
     }
     this->Camera->InsertNextValue(camera.parallelScale);
   }
@@ -132,9 +130,7 @@ void vtkVolumeLookReport::MakeLook()
   this->TissuePoints->Reset();
   for (const glm::dvec3& point : this->Tissue)
   {
-    this->TissuePoints->InsertNextValue(point.x);
-    this->TissuePoints->InsertNextValue(point.y);
-    this->TissuePoints->InsertNextValue(point.z);
+    append(this->TissuePoints, point);
   }
 }
 

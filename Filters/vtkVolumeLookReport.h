@@ -67,7 +67,7 @@ public:
   ///@}
 
   ///@{
-  /** Width of the view for Camera as a share of its height. Default 1. */
+  /** Width of the view for Camera as a fraction of its height. Default 1. */
   vtkSetMacro(ViewAspect, double);
   vtkGetMacro(ViewAspect, double);
   /** Angle of the height of the view for Camera, degrees. Default 30. */

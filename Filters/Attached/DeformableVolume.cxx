@@ -3,7 +3,9 @@
 
 #include "Common/FieldDirection.h"
 #include "Common/FieldWord.h"
+#include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
+#include "Common/Problem.h"
 #include "Filters/Deformation/OffsetField.h"
 
 #include "vtkDataArray.h"
@@ -17,6 +19,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -76,9 +79,14 @@ void attachNumbers(vtkFieldData* fields, const char* name, const std::vector<flo
   fields->AddArray(array);
 }
 
-// The numbers of a field array that must hold `count` of them; empty, with `error` set, otherwise.
-std::vector<double> readNumbers(
-  vtkFieldData* fields, const char* name, std::size_t count, std::string& error)
+// Throws a Problem about a field array.
+[[noreturn]] void refuse(const char* name, const std::string& reason)
+{
+  throw Problem(std::string("Field array ") + name + reason);
+}
+
+// The numbers of a field array that must hold `count` of them.
+std::vector<double> readNumbers(vtkFieldData* fields, const char* name, std::size_t count)
 {
   vtkDataArray* array = fields->GetArray(name);
   const std::size_t found = array
@@ -86,9 +94,8 @@ std::vector<double> readNumbers(
     : 0;
   if (found != count)
   {
-    error = std::string("Field array ") + name + " holds " + std::to_string(found) +
-      " numbers; it must hold " + std::to_string(count);
-    return {};
+    refuse(
+      name, " holds " + std::to_string(found) + " numbers; it must hold " + std::to_string(count));
   }
   std::vector<double> numbers(count);
   const int components = array->GetNumberOfComponents();
@@ -99,118 +106,106 @@ std::vector<double> readNumbers(
   }
   if (!std::all_of(numbers.begin(), numbers.end(), [](double n) { return std::isfinite(n); }))
   {
-    error = std::string("Field array ") + name + " holds a number that is not finite";
-    return {};
+    refuse(name, " holds a number that is not finite");
   }
   return numbers;
 }
 
-// A whole number within its limits, or false with `error` set.
-bool readInteger(
-  vtkFieldData* fields, const char* name, int low, int high, int& value, std::string& error)
+// A whole number from `low` to `high`.
+int readInteger(vtkFieldData* fields, const char* name, int low, int high)
 {
-  const std::vector<double> numbers = readNumbers(fields, name, 1, error);
-  if (numbers.empty())
-  {
-    return false;
-  }
-  value = static_cast<int>(numbers[0]);
+  const int value = static_cast<int>(readNumbers(fields, name, 1)[0]);
   if (value < low || value > high)
   {
-    error = std::string("Field array ") + name + " is " + std::to_string(value) +
-      "; it must be from " + std::to_string(low) + " to " + std::to_string(high);
-    return false;
+    refuse(name,
+      " is " + std::to_string(value) + "; it must be from " + std::to_string(low) + " to " +
+        std::to_string(high));
   }
-  return true;
+  return value;
 }
 
-// The mask's weights, if there are any; false, with `error` set, if they cannot be.
-bool readMask(vtkFieldData* fields, int samples, Lattice& lattice, std::string& error)
+// The numbers of a field array that holds `count` floats; none without the array.
+std::vector<float> readFloats(vtkFieldData* fields, const char* name, std::size_t count)
 {
-  lattice.mask = nullptr;
-  if (!fields->HasArray(MaskName))
+  if (!fields->HasArray(name))
   {
-    return true;
+    return {};
   }
-  const FieldNodes nodes = forwardNodes(lattice.grid, samples);
-  const vtkIdType count = static_cast<vtkIdType>(nodes.count.x) * nodes.count.y * nodes.count.z;
-  auto array = vtkFloatArray::FastDownCast(fields->GetArray(MaskName));
-  if (!array || array->GetNumberOfValues() != count)
-  {
-    error = std::string("Field array ") + MaskName + " must hold " + std::to_string(count) +
-      " numbers of type float";
-    return false;
-  }
-  const float* const first = array->GetPointer(0);
-  const float* const wrong =
-    std::find_if_not(first, first + count, [](float weight) { return weight >= 0 && weight <= 1; });
-  if (wrong != first + count)
-  {
-    error = std::string("Field array ") + MaskName + " holds " + std::to_string(*wrong) +
-      "; weights must be from 0 to 1";
-    return false;
-  }
-  lattice.mask = std::make_shared<const NodeWeights>(
-    NodeWeights{ nodes.perCell, std::vector<float>(first, first + count) });
-  return true;
-}
-
-// How far places can be believed, if that is known; false, with `error` set, if it cannot be.
-bool readDeviations(
-  vtkFieldData* fields, std::size_t count, std::vector<float>& deviations, std::string& error)
-{
-  deviations.clear();
-  if (!fields->HasArray(DeviationsName))
-  {
-    return true;
-  }
-  auto array = vtkFloatArray::FastDownCast(fields->GetArray(DeviationsName));
+  auto array = vtkFloatArray::FastDownCast(fields->GetArray(name));
   if (!array || array->GetNumberOfValues() != static_cast<vtkIdType>(count))
   {
-    error = std::string("Field array ") + DeviationsName + " must hold " + std::to_string(count) +
-      " numbers of type float";
-    return false;
+    refuse(name, " must hold " + std::to_string(count) + " numbers of type float");
   }
-  deviations.assign(array->GetPointer(0), array->GetPointer(0) + count);
+  return { array->GetPointer(0), array->GetPointer(0) + count };
+}
+
+// The mask's weights; null without a mask.
+std::shared_ptr<const NodeWeights> readWeights(
+  vtkFieldData* fields, const Grid& lattice, int samples)
+{
+  const FieldNodes nodes = forwardNodes(lattice, samples);
+  const std::size_t count = static_cast<std::size_t>(nodes.count.x) * nodes.count.y * nodes.count.z;
+  NodeWeights weights{ nodes.perCell, readFloats(fields, MaskName, count) };
+  const auto wrong = std::find_if_not(weights.values.begin(), weights.values.end(),
+    [](float weight) { return weight >= 0 && weight <= 1; });
+  if (wrong != weights.values.end())
+  {
+    refuse(MaskName, " holds " + std::to_string(*wrong) + "; weights must be from 0 to 1");
+  }
+  return weights.values.empty() ? nullptr : std::make_shared<const NodeWeights>(std::move(weights));
+}
+
+// Standard deviations of the control points' positions; empty if they are not known.
+std::vector<float> readDeviations(vtkFieldData* fields, std::size_t count)
+{
+  std::vector<float> deviations = readFloats(fields, DeviationsName, count);
   // A comparison with NaN is false.
   if (!std::all_of(deviations.begin(), deviations.end(), [](float mm) { return mm >= 0.0f; }))
   {
-    error = std::string("Field array ") + DeviationsName +
-      " holds a number that is not 0 or more; deviations must be";
-    return false;
+    refuse(DeviationsName, " holds a number that is not 0 or more; deviations must be");
   }
-  return true;
+  return deviations;
 }
 
-bool readGrid(vtkFieldData* fields, Grid& grid, std::string& error)
+Grid readLatticeGrid(vtkFieldData* fields)
 {
-  const std::vector<double> sides = readNumbers(fields, DimensionsName, 3, error);
-  const std::vector<double> box =
-    sides.empty() ? std::vector<double>() : readNumbers(fields, BoxName, 15, error);
-  if (box.empty())
-  {
-    return false;
-  }
+  const std::vector<double> sides = readNumbers(fields, DimensionsName, 3);
+  const std::vector<double> box = readNumbers(fields, BoxName, 15);
+  Grid grid;
   for (int axis = 0; axis < 3; ++axis)
   {
     if (sides[axis] < SmallestLatticeSide || sides[axis] > LargestLatticeSide)
     {
-      error = std::string("Field array ") + DimensionsName + " has a side of " +
-        std::to_string(static_cast<int>(sides[axis])) + " points; it must have from " +
-        std::to_string(SmallestLatticeSide) + " to " + std::to_string(LargestLatticeSide);
-      return false;
+      refuse(DimensionsName,
+        " has a side of " + std::to_string(static_cast<int>(sides[axis])) +
+          " points; it must have from " + std::to_string(SmallestLatticeSide) + " to " +
+          std::to_string(LargestLatticeSide));
     }
     grid.dimensions[axis] = static_cast<int>(sides[axis]);
-    grid.origin[axis] = box[axis];
-    grid.spacing[axis] = box[3 + axis];
-    for (int column = 0; column < 3; ++column)
-    {
-      grid.direction[column][axis] = box[6 + 3 * axis + column];
-    }
   }
-  const std::string problem = problemOfGrid(grid);
-  error = problem.empty() ? problem : std::string("In field array ") + BoxName + ", the " + problem;
-  return problem.empty();
+  setBox(grid, box.data());
+  requirePosition(grid, std::string("In field array ") + BoxName + ", the ");
+  return grid;
+}
+
+double product(const glm::dvec3& sides)
+{
+  return sides.x * sides.y * sides.z;
+}
+
+glm::dvec3 forwardSides(const Grid& lattice, int samples)
+{
+  return glm::dvec3(lattice.dimensions - 1) * (samples + 1.0) + 1.0;
+}
+
+glm::dvec3 backwardSides(const Lattice& lattice, int samples)
+{
+  return glm::dvec3(backwardNodes(lattice.grid, displacementsInCells(lattice), samples).count);
+}
+
+bool isFinite(const glm::dvec3& vector)
+{
+  return std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z);
 }
 }
 
@@ -218,15 +213,7 @@ void attach(vtkDataObject* volume, const Deformation& deformation)
 {
   vtkFieldData* fields = volume->GetFieldData();
   const Grid& grid = deformation.lattice.grid;
-  std::vector<double> box{ grid.origin.x, grid.origin.y, grid.origin.z, grid.spacing.x,
-    grid.spacing.y, grid.spacing.z };
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 3; ++column)
-    {
-      box.push_back(grid.direction[column][row]);
-    }
-  }
+  const std::array<double, 15> box = boxOf(grid);
   forgetDirection(volume);
   attachDisplacements(fields, deformation.lattice);
   const auto& mask = deformation.lattice.mask;
@@ -234,7 +221,7 @@ void attach(vtkDataObject* volume, const Deformation& deformation)
   attachNumbers(fields, DeviationsName, deformation.deviations);
   attachTuple<vtkIntArray>(fields, DimensionsName,
     { double(grid.dimensions.x), double(grid.dimensions.y), double(grid.dimensions.z) });
-  attachTuple<vtkDoubleArray>(fields, BoxName, box);
+  attachTuple<vtkDoubleArray>(fields, BoxName, { box.begin(), box.end() });
   attachTuple<vtkIntArray>(fields, KernelName, { double(deformation.lattice.kernel) });
   attachTuple<vtkIntArray>(fields, SamplesName, { double(deformation.samples) });
   attachTuple<vtkIntArray>(fields, InverseName, { double(static_cast<int>(deformation.inverse)) });
@@ -251,52 +238,39 @@ bool carriesDeformation(vtkDataObject* volume)
   return volume && volume->GetFieldData()->HasArray(DisplacementsName) && !directionOf(volume);
 }
 
-bool readDeformation(vtkDataObject* volume, Deformation& deformation, std::string& error)
+Deformation readDeformation(vtkDataObject* volume)
 {
   if (!carriesDeformation(volume))
   {
-    error = "The volume carries no deformation; it must be the output of Free-Form Deformation";
-    return false;
+    throw Problem(
+      "The volume carries no deformation; it must be the output of Free-Form Deformation");
   }
   vtkFieldData* fields = volume->GetFieldData();
+  Deformation deformation;
   Lattice& lattice = deformation.lattice;
-  int inverse = 0;
-  if (!readGrid(fields, lattice.grid, error) ||
-    !readInteger(fields, KernelName, 0, 1, lattice.kernel, error) ||
-    !readInteger(
-      fields, SamplesName, SmallestSamples, LargestSamples, deformation.samples, error) ||
-    !readInteger(fields, InverseName, 0, 1, inverse, error) ||
-    !readMask(fields, deformation.samples, lattice, error) ||
-    !readDeviations(fields, lattice.grid.count(), deformation.deviations, error))
-  {
-    return false;
-  }
-  deformation.inverse = static_cast<Inverse>(inverse);
-  const std::vector<double> strength = readNumbers(fields, StrengthName, 1, error);
-  const std::vector<double> numbers = strength.empty()
-    ? strength
-    : readNumbers(fields, DisplacementsName, 3 * lattice.grid.count(), error);
-  if (numbers.empty())
-  {
-    return false;
-  }
-  if (strength[0] < 0.0 || strength[0] > 1.0)
+  lattice.grid = readLatticeGrid(fields);
+  lattice.kernel = readInteger(fields, KernelName, 0, 1);
+  deformation.samples = readInteger(fields, SamplesName, SmallestSamples, LargestSamples);
+  deformation.inverse = static_cast<Inverse>(readInteger(fields, InverseName, 0, 1));
+  lattice.mask = readWeights(fields, lattice.grid, deformation.samples);
+  deformation.deviations = readDeviations(fields, lattice.grid.count());
+  deformation.strength = readNumbers(fields, StrengthName, 1)[0];
+  const std::vector<double> numbers =
+    readNumbers(fields, DisplacementsName, 3 * lattice.grid.count());
+  if (deformation.strength < 0.0 || deformation.strength > 1.0)
   {
     std::ostringstream value;
-    value << strength[0];
-    error = std::string("Field array ") + StrengthName + " is " + value.str() +
-      "; it must be from 0 to 1";
-    return false;
+    value << " is " << deformation.strength << "; it must be from 0 to 1";
+    refuse(StrengthName, value.str());
   }
-  deformation.strength = strength[0];
   lattice.displacements.resize(lattice.grid.count());
   for (std::size_t point = 0; point < lattice.displacements.size(); ++point)
   {
     lattice.displacements[point] =
       glm::vec3(numbers[3 * point], numbers[3 * point + 1], numbers[3 * point + 2]);
   }
-  error = problemOfDisplacements(lattice, std::string("field array ") + DisplacementsName);
-  return error.empty();
+  requireDisplacements(lattice, std::string("field array ") + DisplacementsName);
+  return deformation;
 }
 
 Lattice effectiveLattice(const Deformation& deformation)
@@ -317,21 +291,11 @@ bool carriesDeviations(vtkDataObject* volume)
 double deviationAt(
   const Grid& lattice, const std::vector<float>& deviations, const glm::dvec3& rest)
 {
-  const glm::ivec3 last = lattice.dimensions - 1;
-  const glm::dvec3 position =
-    glm::clamp(lattice.gridFromWorld(rest), glm::dvec3(0.0), glm::dvec3(last));
-  const glm::ivec3 low(position);
-  const glm::dvec3 within = position - glm::dvec3(low);
   double sum = 0.0;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
-    const glm::dvec3 share = glm::mix(1.0 - within, within, glm::dvec3(side));
-    const double weight = share.x * share.y * share.z;
-    const glm::ivec3 at = glm::min(low + side, last);
+  forEachCorner(lattice, lattice.gridFromWorld(rest), [&](const glm::ivec3& at, double weight) {
     // 0 times infinity is not a number.
     sum += weight > 0.0 ? weight * deviations[lattice.offset(at.x, at.y, at.z)] : 0.0;
-  }
+  });
   return sum;
 }
 
@@ -346,5 +310,62 @@ unsigned long long deformationTime(vtkDataObject* volume)
     }
   }
   return latest;
+}
+
+double offsetFieldBytes(const Lattice& lattice, int samples)
+{
+  // The forward field, that before its last axis is refined, and the backward field.
+  const glm::dvec3 forward = forwardSides(lattice.grid, samples);
+  const double nodes =
+    product(forward) * (1.0 + 1.0 / (samples + 1.0)) + product(backwardSides(lattice, samples));
+  return nodes * static_cast<double>(sizeof(glm::vec3));
+}
+
+void requireOffsetFieldMemory(const Lattice& lattice, int samples)
+{
+  requireHostMemory("The offset field of " + sizeText(backwardSides(lattice, samples)) + " nodes",
+    offsetFieldBytes(lattice, samples));
+}
+
+glm::dvec3 DirectedMap::position(const glm::dvec3& from) const
+{
+  if (!isFinite(from))
+  {
+    return from;
+  }
+  return this->Towards == Direction::Forward ? this->Map.deformedFromRest(from)
+                                             : this->Map.restFromDeformed(from);
+}
+
+glm::dmat3 DirectedMap::jacobian(const glm::dvec3& from, const glm::dvec3& to) const
+{
+  if (!isFinite(from))
+  {
+    return glm::dmat3(1.0);
+  }
+  if (this->Towards == Direction::Forward)
+  {
+    return this->Map.jacobian(from);
+  }
+  // Negated subtracts the displacement found at `from`, so its derivatives are those of that.
+  return this->Backward == Inverse::Negated ? glm::dmat3(2.0) - this->Map.jacobian(from)
+                                            : glm::inverse(this->Map.jacobian(to));
+}
+
+glm::dvec3 turnedNormal(const glm::dmat3& jacobian, const glm::dvec3& normal)
+{
+  // Cofactors: what cross products of tangents turn by. Needs no inverse.
+  const glm::dmat3 cofactors(glm::cross(jacobian[1], jacobian[2]),
+    glm::cross(jacobian[2], jacobian[0]), glm::cross(jacobian[0], jacobian[1]));
+  const glm::dvec3 turned = cofactors * normal;
+  const double length = glm::length(turned);
+  return std::isfinite(length) && length > 0.0 ? turned * (glm::length(normal) / length) : normal;
+}
+
+DirectedMap directedMapOf(vtkDataObject* volume, Direction direction)
+{
+  const Deformation deformation = readDeformation(volume);
+  return DirectedMap(
+    PointMap(effectiveLattice(deformation), deformation.inverse), deformation.inverse, direction);
 }
 }

@@ -2,7 +2,7 @@
 /**
  * @file
  * @brief The contract between the Free-Form Deformation filter and all that draws, bakes or exports
- *        a deformation.
+ *        a deformation, and its two maps.
  *
  * A deformable volume is a vtkImageData, unchanged, with these field-data arrays:
  *
@@ -15,21 +15,26 @@
  *     FFDSamples        int: nodes of the refined field between two control points, 0 to 16
  *     FFDInverse        int: 0 exact, 1 negated
  *     FFDStrength       double, 0 to 1: factor on all displacements
- *     FFDMaskWeights    float32, only with a mask: share of the displacement, 0 to 1, at each node
- *                       of the refined field, (points - 1) * (FFDSamples + 1) + 1 along each axis,
- *                       x fastest; the field is trilinear between the nodes
- *     FFDDeviations     float32, only of a fit with Evidence: how far the place of each control
- *                       point can be believed, mm, one standard deviation along an axis; 0 or more,
- *                       infinity where nothing was measured; trilinear in between
+ *     FFDMaskWeights    float32, only with a mask: fraction of the displacement, 0 to 1, at each
+ *                       node of the refined field, (points - 1) * (FFDSamples + 1) + 1 along each
+ *                       axis, x fastest; the field is trilinear between the nodes
+ *     FFDDeviations     float32, only of a fit with Evidence: the uncertainty of the position of
+ *                       each control point, nx*ny*nz tuples, mm, one standard deviation along an
+ *                       axis; 0 or more, infinity where nothing was measured; trilinear in between
  */
 #ifndef BrainShift_DeformableVolume_h
 #define BrainShift_DeformableVolume_h
 
+#include "Common/FieldDirection.h"
 #include "Filters/Deformation/Lattice.h"
 #include "Filters/Deformation/PointMap.h"
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
 #include <string>
+#include <utility>
 #include <vector>
 
 class vtkDataObject;
@@ -41,8 +46,8 @@ namespace brainshift
 struct Deformation
 {
   Lattice lattice; ///< before Strength
-  /// How far the place of each control point, as drawn, can be believed: mm, one standard deviation
-  /// along an axis, infinity without evidence. Empty: nobody knows.
+  /// Uncertainty of the position of each control point, as drawn: mm, one standard deviation along
+  /// an axis, infinity where nothing was measured. Empty: not known.
   std::vector<float> deviations;
   int samples = 4;                  ///< nodes between two control points, 0 to 16
   Inverse inverse = Inverse::Exact; ///< how pictures find tissue
@@ -65,14 +70,10 @@ VTKBRAINSHIFTFILTERS_EXPORT void detach(vtkDataObject* volume);
 VTKBRAINSHIFTFILTERS_EXPORT bool carriesDeformation(vtkDataObject* volume);
 
 /**
- * Reads what attach wrote.
- *
- * @param error   set to one sentence, without a full stop, if the data carries no deformation or if
- *                an array is missing or wrong
- * @return whether the deformation was read
+ * Reads what attach wrote. Throws a Problem if the data carries no deformation or if an array is
+ * missing or wrong.
  */
-VTKBRAINSHIFTFILTERS_EXPORT bool readDeformation(
-  vtkDataObject* volume, Deformation& deformation, std::string& error);
+VTKBRAINSHIFTFILTERS_EXPORT Deformation readDeformation(vtkDataObject* volume);
 
 /** The lattice with Strength applied, as it is drawn. */
 VTKBRAINSHIFTFILTERS_EXPORT Lattice effectiveLattice(const Deformation& deformation);
@@ -89,6 +90,49 @@ VTKBRAINSHIFTFILTERS_EXPORT double deviationAt(
 
 /** The latest modification time of the attached arrays; 0 if there are none. */
 VTKBRAINSHIFTFILTERS_EXPORT unsigned long long deformationTime(vtkDataObject* volume);
+
+/** Bytes that the offset field of a lattice takes while it is computed. */
+VTKBRAINSHIFTFILTERS_EXPORT double offsetFieldBytes(const Lattice& lattice, int samples);
+
+/** Throws a Problem if the machine has too little memory for the offset field of a lattice. */
+VTKBRAINSHIFTFILTERS_EXPORT void requireOffsetFieldMemory(const Lattice& lattice, int samples);
+
+/** A map in one direction. Positions are mm along world axes. */
+class VTKBRAINSHIFTFILTERS_EXPORT DirectedMap
+{
+public:
+  /** `inverse`: how the map was made to find tissue; it decides the backward derivatives. */
+  DirectedMap(PointMap map, Inverse inverse, Direction direction)
+    : Map(std::move(map)) // a lattice can be large
+    , Backward(inverse)
+    , Towards(direction)
+  {
+  }
+
+  /** Where the map takes a position. A position that is not finite stays as it is. */
+  glm::dvec3 position(const glm::dvec3& from) const;
+
+  /**
+   * Derivatives of the map at `from`, which it takes to `to`: column a is d(to) / d(from_a). They
+   * are not finite where a backward map meets tissue whose volume the deformation makes zero.
+   */
+  glm::dmat3 jacobian(const glm::dvec3& from, const glm::dvec3& to) const;
+
+private:
+  PointMap Map;
+  Inverse Backward;
+  Direction Towards;
+};
+
+/**
+ * The normal of a surface after a map with these derivatives. It is perpendicular to the mapped
+ * surface and as long as it was. If the map leaves no direction for it, the normal stays.
+ */
+VTKBRAINSHIFTFILTERS_EXPORT glm::dvec3 turnedNormal(
+  const glm::dmat3& jacobian, const glm::dvec3& normal);
+
+/** The map of a deformable volume. Throws a Problem if the data is none. */
+VTKBRAINSHIFTFILTERS_EXPORT DirectedMap directedMapOf(vtkDataObject* volume, Direction direction);
 }
 
 #endif

@@ -4,6 +4,7 @@
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
 #include "Common/Parallel.h"
+#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 
 #include "vtkCellData.h"
@@ -70,28 +71,25 @@ std::ostream& operator<<(std::ostream& out, const Bounds& bounds)
   return out << " mm";
 }
 
-// What is wrong with a refined field's size; empty if nothing is.
-std::string tooManyNodes(const Grid& lattice, int samples)
+void requireNodes(const Grid& lattice, int samples)
 {
   const glm::ivec3& points = lattice.dimensions;
   const glm::dvec3 nodes((points - 1) * (samples + 1) + 1);
   const double count = nodes.x * nodes.y * nodes.z;
-  if (count <= MostMaskedNodes)
+  if (count > MostMaskedNodes)
   {
-    return {};
+    std::ostringstream problem;
+    problem << "With a mask the refined field may have at most " << MostMaskedNodes
+            << " nodes; a lattice of " << points.x << " x " << points.y << " x " << points.z
+            << " points and " << samples << " Samples make " << count;
+    throw Problem(problem.str());
   }
-  std::ostringstream problem;
-  problem << "With a mask the refined field may have at most " << MostMaskedNodes
-          << " nodes; a lattice of " << points.x << " x " << points.y << " x " << points.z
-          << " points and " << samples << " Samples make " << count;
-  return problem.str();
 }
 
-// Why there is too little memory to grow a mask; empty if there is enough.
-std::string growthProblem(const Mask& mask)
+void requireMemoryToGrow(const Mask& mask)
 {
   const glm::dvec3 sides(mask.grid.dimensions);
-  return hostMemoryProblem("Growing a mask of " + sizeText(sides) + " voxels",
+  requireHostMemory("Growing a mask of " + sizeText(sides) + " voxels",
     MaskGrowthBytes * sides.x * sides.y * sides.z);
 }
 
@@ -122,11 +120,11 @@ LabelImage labelsOf(vtkImageData* image)
   return found;
 }
 
-std::string problemOf(const LabelImage& image, const Grid& volume, const MaskNames& names)
+void requireLabels(const LabelImage& image, const Grid& volume, const MaskNames& names)
 {
   if (!image.labels)
   {
-    return "The " + names.mask + " has no point or cell array of one component";
+    throw Problem("The " + names.mask + " has no point or cell array of one component");
   }
   const Bounds bounds(image.grid, 0.5);
   const Bounds volumeBounds(volume, 0.0);
@@ -135,9 +133,8 @@ std::string problemOf(const LabelImage& image, const Grid& volume, const MaskNam
     std::ostringstream problem;
     problem << "The " << names.mask << " (" << bounds << ") does not overlap the " << names.volume
             << " (" << volumeBounds << ")";
-    return problem.str();
+    throw Problem(problem.str());
   }
-  return {};
 }
 
 std::vector<char> insideOf(vtkDataArray* array, const std::vector<int>& labels)
@@ -155,19 +152,17 @@ std::vector<char> insideOf(vtkDataArray* array, const std::vector<int>& labels)
   return inside;
 }
 
-std::string readMask(vtkImageData* image, const std::vector<int>& labels, const Grid& volume,
-  Mask& mask, const MaskNames& names)
+Mask readMask(
+  vtkImageData* image, const std::vector<int>& labels, const Grid& volume, const MaskNames& names)
 {
   const LabelImage found = labelsOf(image);
-  const std::string problem = problemOf(found, volume, names);
-  if (!problem.empty())
+  requireLabels(found, volume, names);
+  Mask mask{ found.grid, insideOf(found.labels, labels) };
+  if (std::count(mask.inside.begin(), mask.inside.end(), 1) == 0)
   {
-    return problem;
+    throw Problem(noVoxel(labels, names));
   }
-  mask.grid = found.grid;
-  mask.inside = insideOf(found.labels, labels);
-  return std::count(mask.inside.begin(), mask.inside.end(), 1) ? std::string()
-                                                               : noVoxel(labels, names);
+  return mask;
 }
 
 bool MaskSource::isKnown(const MaskRequest& request) const
@@ -179,37 +174,64 @@ bool MaskSource::isKnown(const MaskRequest& request) const
     this->Known.samples == request.samples;
 }
 
-std::string MaskSource::find(
-  const MaskRequest& request, std::shared_ptr<const NodeWeights>& weights)
+std::shared_ptr<const NodeWeights> MaskSource::find(const MaskRequest& request)
 {
-  weights = nullptr;
   if (!request.image || request.image->GetNumberOfPoints() == 0)
   {
-    return {};
+    return nullptr;
   }
   if (!this->isKnown(request))
   {
     this->Weights = nullptr;
-    Mask mask;
-    std::string problem = tooManyNodes(request.lattice, request.samples);
-    if (problem.empty())
+    requireNodes(request.lattice, request.samples);
+    Mask mask = readMask(request.image, request.labels, request.volume);
+    if (request.growMm > 0.0)
     {
-      problem = readMask(request.image, request.labels, request.volume, mask);
-    }
-    if (problem.empty() && request.growMm > 0.0)
-    {
-      problem = growthProblem(mask);
-    }
-    if (!problem.empty())
-    {
-      return problem;
+      requireMemoryToGrow(mask);
     }
     growMask(mask, request.growMm);
     this->Weights = maskWeights(request.lattice, request.samples, mask, request.featherMm);
     this->Known = request;
     this->KnownTime = request.image->GetMTime();
   }
-  weights = this->Weights;
-  return {};
+  return this->Weights;
+}
+
+PlacedVoxels CavitySource::find(vtkImageData* image, const std::vector<int>& labels,
+  const Grid& volume, const std::string& volumeName)
+{
+  if (!image || image->GetNumberOfPoints() == 0)
+  {
+    return {};
+  }
+  if (!this->Voxels || this->Image != image || this->ImageTime != image->GetMTime() ||
+    this->Labels != labels)
+  {
+    this->Voxels = nullptr;
+    const Mask mask = readMask(image, labels, volume, { "cavity", volumeName, "CavityLabels" });
+    this->Voxels = asCavityVoxels(mask);
+    this->VoxelsGrid = mask.grid;
+    this->Image = image;
+    this->ImageTime = image->GetMTime();
+    this->Labels = labels;
+  }
+  return { this->Voxels, this->VoxelsGrid };
+}
+
+bool isRemoved(const PlacedVoxels& cavity, const glm::dvec3& position)
+{
+  if (!cavity.voxels)
+  {
+    return false;
+  }
+  const glm::dvec3 nearest = glm::round(cavity.grid.gridFromWorld(position));
+  if (!glm::all(glm::greaterThanEqual(nearest, glm::dvec3(0.0))) ||
+    !glm::all(glm::lessThan(nearest, glm::dvec3(cavity.grid.dimensions))))
+  {
+    return false;
+  }
+  const glm::ivec3 at(nearest);
+  const auto index = static_cast<vtkIdType>(cavity.grid.offset(at.x, at.y, at.z));
+  return cavity.voxels->GetComponent(index, 0) != 0.0;
 }
 }

@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Reads a mask from an image of labels or scalars, on points or in cells, on any grid.
+ * @brief Reads a mask or a cavity from an image of labels or scalars, on points or in cells, on any
+ *        grid.
  *
- * Functions that return a problem return one sentence, without a full stop; empty if there is none.
+ * A cavity is tissue that was removed. Colours and numbers ignore it.
  */
 #ifndef BrainShift_MaskImage_h
 #define BrainShift_MaskImage_h
 
+#include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Deformation/MaskWeights.h"
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
+
+#include "vtkImageData.h" // for its smart pointer
 
 #include <memory>
 #include <string>
 #include <vector>
 
 class vtkDataArray;
-class vtkImageData;
 
 namespace brainshift
 {
@@ -41,15 +44,18 @@ struct LabelImage
  */
 LabelImage labelsOf(vtkImageData* image);
 
-/** Why an image cannot be the labels of a volume: it has none, or does not overlap the volume. */
-std::string problemOf(const LabelImage& image, const Grid& volume, const MaskNames& names = {});
+/**
+ * Throws a Problem if an image cannot be the labels of a volume: it has none, or does not overlap
+ * the volume.
+ */
+void requireLabels(const LabelImage& image, const Grid& volume, const MaskNames& names = {});
 
 /** 1 for each number that is one of the labels, else 0. Without labels, 1 for each above 0. */
 std::vector<char> insideOf(vtkDataArray* array, const std::vector<int>& labels);
 
-/** Reads a mask. Returns the problem if the image cannot be a mask for the volume. */
-VTKBRAINSHIFTFILTERS_EXPORT std::string readMask(vtkImageData* image,
-  const std::vector<int>& labels, const Grid& volume, Mask& mask, const MaskNames& names = {});
+/** Reads a mask. Throws a Problem if the image cannot be a mask for the volume. */
+VTKBRAINSHIFTFILTERS_EXPORT Mask readMask(vtkImageData* image, const std::vector<int>& labels,
+  const Grid& volume, const MaskNames& names = {});
 
 /** All that the weights of a mask depend on. */
 struct MaskRequest
@@ -68,10 +74,10 @@ class VTKBRAINSHIFTFILTERS_EXPORT MaskSource
 {
 public:
   /**
-   * Finds the weights; null without a mask. Returns the problem if the image is no mask, or if the
+   * Finds the weights; null without a mask. Throws a Problem if the image is no mask, or if the
    * machine has too little memory to grow it.
    */
-  std::string find(const MaskRequest& request, std::shared_ptr<const NodeWeights>& weights);
+  std::shared_ptr<const NodeWeights> find(const MaskRequest& request);
 
 private:
   bool isKnown(const MaskRequest& request) const;
@@ -80,6 +86,39 @@ private:
   unsigned long long KnownTime = 0;           // of its image
   std::shared_ptr<const NodeWeights> Weights; // null: the last mask was none
 };
+
+/**
+ * Reads a cavity from an image. It keeps the voxels of the last image and hands out the same array
+ * object as long as nothing of the image changes.
+ */
+class VTKBRAINSHIFTFILTERS_EXPORT CavitySource
+{
+public:
+  /**
+   * Finds the cavity. Throws a Problem if the image is no mask.
+   *
+   * @param image        null or empty: no cavity
+   * @param labels       labels of the cavity; none: all above 0
+   * @param volume       the volume that the cavity must overlap
+   * @param volumeName   what messages call that volume
+   * @return the voxels (1 or 0); no voxels without an image
+   */
+  PlacedVoxels find(vtkImageData* image, const std::vector<int>& labels, const Grid& volume,
+    const std::string& volumeName);
+
+private:
+  vtkSmartPointer<vtkDataArray> Voxels; // null: the last image was no mask
+  Grid VoxelsGrid;
+  vtkSmartPointer<vtkImageData> Image; // that Voxels shows, as of ImageTime
+  unsigned long long ImageTime = 0;
+  std::vector<int> Labels;
+};
+
+/**
+ * Whether the voxel nearest to a position (mm, world) is cavity. False beyond the voxels, and if
+ * there is no cavity.
+ */
+VTKBRAINSHIFTFILTERS_EXPORT bool isRemoved(const PlacedVoxels& cavity, const glm::dvec3& position);
 }
 
 #endif

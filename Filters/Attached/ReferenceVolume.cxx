@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Attached/ReferenceVolume.h"
 
-#include "Filters/Attached/GridArray.h"
-#include "Filters/Attached/SharedArray.h"
+#include "Filters/Attached/CarriedArray.h"
 
 #include "vtkDataObject.h"
 #include "vtkFieldData.h"
@@ -95,7 +94,7 @@ void attachReference(vtkDataObject* volume, const ReferenceVolume& reference)
 ReferenceVolume readReference(vtkDataObject* volume)
 {
   vtkFieldData* fields = volume->GetFieldData();
-  ReferenceVolume reference{ readPlaced(fields, VoxelsName, GridName) };
+  ReferenceVolume reference{ readPlaced(fields, VoxelsName, GridName), {} };
   if (reference.voxels)
   {
     reference.cavity = readPlaced(fields, CavityName, CavityGridName);

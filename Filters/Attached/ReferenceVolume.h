@@ -5,13 +5,14 @@
  *        volume, the reference, as field data. The reference has its own grid and is not bent.
  *
  *     ReferenceVoxels  any type x 1, nx*ny*nz tuples, x fastest: the reference's point scalars
- *     ReferenceGrid    see GridArray.h
+ *     ReferenceGrid    see attachGrid in CarriedArray.h
  *     ReferenceShow    int: 0 both volumes are shown, 1 only the deformed one, 2 only the reference
  *     CavityVoxels     unsigned char x 1, only with a cavity: 1 where the reference lacks tissue
  *                      that was removed, else 0. Beyond the boxes around all voxels there is no
  *                      cavity. Numbers take the nearest voxel. Pictures draw the edge where the
  *                      interpolated value is one half.
- *     CavityGrid       see GridArray.h; in the world, moved with the reference
+ *     CavityGrid       see attachGrid in CarriedArray.h; in the world, moved with the
+ *                      reference
  *
  * Colours and numbers that compare the volumes ignore the cavity.
  */

@@ -19,7 +19,7 @@ namespace brainshift
 {
 namespace
 {
-// A position this far outside the voxels still counts as the border: single precision's share.
+// A position this far outside the voxels still counts as the border: single precision's part.
 constexpr float BorderTolerance = 1e-3f; // voxels
 
 template <typename T>
@@ -218,12 +218,23 @@ std::vector<T> lowestValues(vtkDataArray* source)
   return lowest;
 }
 
+// The array to read, and what it has outside.
+template <typename T>
+struct Source
+{
+  Voxels<T> voxels;
+  std::vector<T> outside; // one value for each component
+};
+
 // Writes one row of the target; `index` is its first voxel in source indices.
 template <typename T>
-void resampleRow(const Voxels<T>& voxels, int components, const std::vector<T>& outside,
-  const ResampleGeometry& geometry, const BackwardMap& backward, Reading reading, OffsetRow& row,
-  const glm::ivec3& index, T* out)
+void resampleRow(
+  const Source<T>& source, const Resampling& how, OffsetRow& row, const glm::ivec3& index, T* out)
 {
+  const Voxels<T>& voxels = source.voxels;
+  const auto components = static_cast<std::ptrdiff_t>(source.outside.size());
+  const ResampleGeometry& geometry = how.geometry;
+  const BackwardMap& backward = how.backward;
   const glm::dvec3 lattice =
     glm::dvec3(index) * geometry.latticeFromIndex + geometry.latticeOfFirst;
   const int length = geometry.last.x - geometry.first.x + 1;
@@ -238,7 +249,7 @@ void resampleRow(const Voxels<T>& voxels, int components, const std::vector<T>& 
   };
   const int moved = voxelOf(row.movedFrom());
   const int still = std::max(std::min(voxelOf(row.movedTo()) + 2, length), moved);
-  out = std::copy_n(voxels.at(index), static_cast<std::ptrdiff_t>(moved) * components, out);
+  out = std::copy_n(voxels.at(index), moved * components, out);
   for (int i = moved; i < still; ++i, out += components)
   {
     const glm::dvec3 deformed(lattice.x + i * geometry.latticeFromIndex.x, lattice.y, lattice.z);
@@ -246,32 +257,31 @@ void resampleRow(const Voxels<T>& voxels, int components, const std::vector<T>& 
     const glm::vec3 position = glm::vec3(index.x + i, index.y, index.z) + offset * indexFromCells;
     if (voxels.contains(position))
     {
-      voxels.read(reading, position, out);
+      voxels.read(how.reading, position, out);
     }
     else
     {
-      std::copy(outside.begin(), outside.end(), out);
+      std::copy(source.outside.begin(), source.outside.end(), out);
     }
   }
-  std::copy_n(voxels.at(index + glm::ivec3(still, 0, 0)),
-    static_cast<std::ptrdiff_t>(length - still) * components, out);
+  std::copy_n(voxels.at(index + glm::ivec3(still, 0, 0)), (length - still) * components, out);
 }
 
 template <typename T>
-void resampleTyped(vtkDataArray* source, vtkDataArray* target, const ResampleGeometry& geometry,
-  const BackwardMap& backward, Reading reading, const std::function<bool(double)>& proceed)
+void resampleTyped(vtkDataArray* array, vtkDataArray* target, const Resampling& how)
 {
-  const int components = source->GetNumberOfComponents();
-  const Voxels<T> voxels(
-    static_cast<const T*>(source->GetVoidPointer(0)), components, geometry.dimensions);
+  const ResampleGeometry& geometry = how.geometry;
+  const int components = array->GetNumberOfComponents();
+  const Source<T> source{ { static_cast<const T*>(array->GetVoidPointer(0)), components,
+                            geometry.dimensions },
+    lowestValues<T>(array) };
   T* const out = static_cast<T*>(target->GetVoidPointer(0));
-  const std::vector<T> outside = lowestValues<T>(source);
   const glm::ivec3 size = geometry.last - geometry.first + 1;
   const vtkIdType rows = static_cast<vtkIdType>(size.y) * size.z;
   const vtkIdType rowsAtOnce = std::max<vtkIdType>(rows / 20, 256); // between two progress reports
   for (vtkIdType done = 0; done < rows; done += rowsAtOnce)
   {
-    if (!proceed(static_cast<double>(done) / rows))
+    if (!how.proceed(static_cast<double>(done) / rows))
     {
       return;
     }
@@ -282,8 +292,8 @@ void resampleTyped(vtkDataArray* source, vtkDataArray* target, const ResampleGeo
       {
         const glm::ivec3 index = geometry.first +
           glm::ivec3(0, static_cast<int>(row % size.y), static_cast<int>(row / size.y));
-        resampleRow(voxels, components, outside, geometry, backward, reading, offsetRow, index,
-          out + static_cast<std::size_t>(row) * size.x * components);
+        resampleRow(
+          source, how, offsetRow, index, out + static_cast<std::size_t>(row) * size.x * components);
       }
     });
   }
@@ -297,12 +307,11 @@ BackwardMap::BackwardMap(const Lattice& lattice, int samples, Inverse inverse)
   // Two samples: a tricubic that is zero at the 64 nodes of a lattice cell is zero within it.
 }
 
-void resample(vtkDataArray* source, vtkDataArray* target, const ResampleGeometry& geometry,
-  const BackwardMap& backward, Reading reading, const std::function<bool(double)>& proceed)
+void resample(vtkDataArray* source, vtkDataArray* target, const Resampling& how)
 {
   switch (source->GetDataType())
   {
-    vtkTemplateMacro(resampleTyped<VTK_TT>(source, target, geometry, backward, reading, proceed));
+    vtkTemplateMacro(resampleTyped<VTK_TT>(source, target, how));
   }
 }
 }

@@ -16,7 +16,7 @@ class vtkDataArray;
 
 namespace brainshift
 {
-/** Which voxels to write, and where they lie in the lattice. */
+/** Which voxels to write, and their positions in the lattice. */
 struct ResampleGeometry
 {
   glm::ivec3 dimensions{ 0 }; ///< of the whole source array: values along each axis
@@ -49,17 +49,25 @@ enum class Reading
   Cubic = 2,  ///< Catmull-Rom over 64 voxels
 };
 
+/** How arrays are resampled. */
+struct Resampling
+{
+  ResampleGeometry geometry;
+  const BackwardMap& backward;
+  Reading reading;
+
+  /** Called with the fraction that is done, 0 to 1. If it returns false, the rest is not done. */
+  std::function<bool(double)> proceed;
+};
+
 /**
  * Fills an array with the source as it is seen at each voxel of the region, which is the source at
  * restFromDeformed of that voxel. Outside the source its lowest value holds.
  *
- * @param target    allocated: the region's tuples, x fastest, with the type and the components of
- *                  `source`
- * @param proceed   is called with the share that is done, 0 to 1; if it returns false, the rest is
- *                  not done
+ * @param target   allocated: the region's tuples, x fastest, with the type and the components of
+ *                 `source`
  */
-void resample(vtkDataArray* source, vtkDataArray* target, const ResampleGeometry& geometry,
-  const BackwardMap& backward, Reading reading, const std::function<bool(double)>& proceed);
+void resample(vtkDataArray* source, vtkDataArray* target, const Resampling& how);
 }
 
 #endif

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Attached/Segmentation.h"
 
-#include "Filters/Attached/GridArray.h"
+#include "Filters/Attached/CarriedArray.h"
 #include "Filters/Attached/MaskImage.h"
-#include "Filters/Attached/SharedArray.h"
 
 #include "vtkDataObject.h"
 #include "vtkFieldData.h"
@@ -72,20 +71,15 @@ Mask segmentOf(const Segmentation& segmentation, const std::vector<int>& labels)
   return { segmentation.grid, insideOf(segmentation.labels, labels) };
 }
 
-std::string SegmentationSource::find(
-  vtkImageData* image, const Grid& volume, Segmentation& segmentation)
+Segmentation SegmentationSource::find(vtkImageData* image, const Grid& volume)
 {
-  segmentation = Segmentation();
+  Segmentation segmentation;
   if (!image || image->GetNumberOfPoints() == 0)
   {
-    return {};
+    return segmentation;
   }
   const LabelImage found = labelsOf(image);
-  const std::string problem = problemOf(found, volume, { "segmentation" });
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  requireLabels(found, volume, { "segmentation" });
   if (this->Source != found.labels || this->SourceTime != found.labels->GetMTime())
   {
     this->Source = found.labels;
@@ -95,6 +89,6 @@ std::string SegmentationSource::find(
   segmentation.labels = this->Labels;
   segmentation.grid = found.grid;
   segmentation.names = attachedLabels(image);
-  return {};
+  return segmentation;
 }
 }

@@ -6,7 +6,7 @@
  * They lie in the rest frame, on a grid of their own:
  *
  *     FFDSegmentation        any type x 1, nx*ny*nz tuples, x fastest: labels or scalars
- *     FFDSegmentationGrid    see GridArray.h
+ *     FFDSegmentationGrid    see attachGrid in CarriedArray.h
  *     FFDSegmentationLabels  int: the labels that are drawn if the user chooses none; absent: all
  *                            above 0
  *     FFDSegmentationValues  ... Names, ... Colors: as LabelTable.h says, where the labels have
@@ -70,10 +70,10 @@ class VTKBRAINSHIFTFILTERS_EXPORT SegmentationSource
 {
 public:
   /**
-   * Finds the labels; null without an image. Returns one sentence, without a full stop, on why the
-   * image cannot be a segmentation of the volume; empty if it can.
+   * Finds the labels; null without an image. Throws a Problem if the image cannot be a segmentation
+   * of the volume.
    */
-  std::string find(vtkImageData* image, const Grid& volume, Segmentation& segmentation);
+  Segmentation find(vtkImageData* image, const Grid& volume);
 
 private:
   vtkSmartPointer<vtkDataArray> Source; // the last image's

@@ -89,15 +89,14 @@ void addInBall(const DrawnLattice& lattice, const glm::dvec3& centre, double rad
     points);
 }
 
-void addInCone(const DrawnLattice& lattice, const glm::dvec3& apex, const glm::dvec3& direction,
-  double radius, double growth, ControlPointSet& points)
+void addInCone(const DrawnLattice& lattice, const Cone& cone, ControlPointSet& points)
 {
   std::vector<Candidate> candidates;
   forEachIndex(glm::ivec3(0), lattice.grid.dimensions - 1, [&](const glm::ivec3& index) {
-    const glm::dvec3 fromApex = lattice.deformed(index) - apex;
-    const double along = glm::dot(fromApex, direction);
-    const double across = glm::length(fromApex - along * direction);
-    if (along > 0.0 && across <= radius + growth * along)
+    const glm::dvec3 fromApex = lattice.deformed(index) - cone.apex;
+    const double along = glm::dot(fromApex, cone.direction);
+    const double across = glm::length(fromApex - along * cone.direction);
+    if (along > 0.0 && across <= cone.radius + cone.growth * along)
     {
       candidates.emplace_back(across, lattice.grid.offset(index.x, index.y, index.z));
     }

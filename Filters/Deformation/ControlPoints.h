@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Finds the control points near a place in the view, for tools that move them.
+ * @brief Finds the control points near a position in the view, for tools that move them.
  *
  * All positions and lengths are mm along world axes.
  */
@@ -68,16 +68,21 @@ using ControlPointSet = std::set<std::size_t>;
 BRAINSHIFT_DEFORMATION_EXPORT void addInBall(const DrawnLattice& lattice, const glm::dvec3& centre,
   double radius, const Slab& slab, ControlPointSet& points);
 
+/** A cone, cut off at its apex. */
+struct Cone
+{
+  glm::dvec3 apex{ 0.0 };
+  glm::dvec3 direction{ 0.0 }; ///< of the axis, away from the apex; unit length
+  double radius = 0.0;         ///< at the apex
+  double growth = 0.0;         ///< of the radius for each mm along the axis
+};
+
 /**
  * Adds the control points that are drawn within a cone. If there are more than MostControlPoints,
  * it adds those nearest to the cone's axis.
- *
- * @param direction   of the axis, away from the apex; unit length
- * @param radius      of the cone at the apex
- * @param growth      of the radius for each mm along the axis
  */
-BRAINSHIFT_DEFORMATION_EXPORT void addInCone(const DrawnLattice& lattice, const glm::dvec3& apex,
-  const glm::dvec3& direction, double radius, double growth, ControlPointSet& points);
+BRAINSHIFT_DEFORMATION_EXPORT void addInCone(
+  const DrawnLattice& lattice, const Cone& cone, ControlPointSet& points);
 
 /**
  * Adds the control points that are drawn within a ball and a slab and that have moved by at least a

@@ -14,7 +14,7 @@ namespace brainshift
 {
 namespace
 {
-constexpr int KernelReach = 2; // cells to either side of a control point that depend on it
+constexpr int KernelRadius = 2; // cells to either side of a control point that depend on it
 
 std::size_t pointOffset(const glm::ivec3& dimensions, const glm::ivec3& index)
 {
@@ -46,7 +46,7 @@ struct DisplacementRange
 };
 
 // A box in lattice coordinates.
-struct Reach
+struct Support
 {
   glm::vec3 low;
   glm::vec3 high;
@@ -54,19 +54,19 @@ struct Reach
 
 // All that depends on a control point. At the border the kernel repeats the last one, and beyond it
 // the border holds.
-Reach reachOf(const glm::ivec3& point, const glm::ivec3& dimensions)
+Support supportOf(const glm::ivec3& point, const glm::ivec3& dimensions)
 {
   constexpr float far = 1000.0f; // cells
-  const glm::vec3 low(point - KernelReach);
-  const glm::vec3 high(point + KernelReach);
+  const glm::vec3 low(point - KernelRadius);
+  const glm::vec3 high(point + KernelRadius);
   return { glm::mix(low, glm::vec3(-far), glm::lessThan(low, glm::vec3(0.0f))),
     glm::mix(high, glm::vec3(far), glm::greaterThan(high, glm::vec3(dimensions - 1))) };
 }
 
-void widen(SlabHull& hull, const Reach& reach)
+void widen(SlabHull& hull, const Support& support)
 {
-  const glm::vec3 middle = 0.5f * (reach.low + reach.high);
-  const glm::vec3 half = 0.5f * (reach.high - reach.low);
+  const glm::vec3 middle = 0.5f * (support.low + support.high);
+  const glm::vec3 half = 0.5f * (support.high - support.low);
   for (int i = 0; i < SlabDirections; ++i)
   {
     const glm::vec3 direction = slabDirection(i);
@@ -138,8 +138,8 @@ IndexBox changedForwardNodes(const IndexBox& points, const FieldNodes& forward)
   {
     return {};
   }
-  return { glm::max((points.first - KernelReach) * forward.perCell, glm::ivec3(0)),
-    glm::min((points.last + KernelReach) * forward.perCell, forward.count - 1) };
+  return { glm::max((points.first - KernelRadius) * forward.perCell, glm::ivec3(0)),
+    glm::min((points.last + KernelRadius) * forward.perCell, forward.count - 1) };
 }
 
 namespace
@@ -160,8 +160,8 @@ Spread spreadOf(const IndexBox& points, bool alone, const glm::ivec3& dimensions
   {
     return {};
   }
-  const IndexBox taps{ glm::max(points.first - 2 * KernelReach, glm::ivec3(0)),
-    glm::min(points.last + 2 * KernelReach, dimensions - 1) };
+  const IndexBox taps{ glm::max(points.first - 2 * KernelRadius, glm::ivec3(0)),
+    glm::min(points.last + 2 * KernelRadius, dimensions - 1) };
   DisplacementRange range;
   range.add(before, dimensions, taps);
   range.add(after, dimensions, taps);
@@ -178,8 +178,8 @@ IndexBox changedBackwardNodes(const IndexBox& points, const glm::ivec3& dimensio
   {
     return {};
   }
-  const glm::ivec3 lowCell = points.first - KernelReach;
-  const glm::ivec3 highCell = points.last + KernelReach;
+  const glm::ivec3 lowCell = points.first - KernelRadius;
+  const glm::ivec3 highCell = points.last + KernelRadius;
   const bool alone = staysOutside(
     dimensions, after, [&](const glm::ivec3& index) { return contains(points, index); });
   const Spread spread = spreadOf(points, alone, dimensions, before, after);
@@ -272,8 +272,8 @@ std::vector<glm::vec3> cornersOfChange(const glm::ivec3& dimensions,
       {
         continue;
       }
-      const glm::vec3 low = reachOf({ row.x, y, z }, dimensions).low + spread.low - margin;
-      const glm::vec3 high = reachOf({ row.y, y, z }, dimensions).high + spread.high + margin;
+      const glm::vec3 low = supportOf({ row.x, y, z }, dimensions).low + spread.low - margin;
+      const glm::vec3 high = supportOf({ row.y, y, z }, dimensions).high + spread.high + margin;
       for (int corner = 0; corner < 8; ++corner)
       {
         corners.push_back(
@@ -305,7 +305,7 @@ SlabHull movedHull(const glm::ivec3& dimensions, const std::vector<glm::vec3>& i
   forEachIndex(glm::ivec3(0), dimensions - 1, [&](const glm::ivec3& index) {
     if (inCells[point++] != glm::vec3(0.0f))
     {
-      widen(hull, reachOf(index, dimensions));
+      widen(hull, supportOf(index, dimensions));
     }
   });
   return hull;

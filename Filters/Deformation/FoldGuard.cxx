@@ -3,6 +3,7 @@
 
 #include "Common/Parallel.h"
 #include "Filters/Deformation/FieldChange.h"
+#include "Filters/Deformation/Kernels.h"
 
 #include <glm/common.hpp>
 
@@ -12,11 +13,113 @@ namespace brainshift
 {
 namespace
 {
+// Displacements on the (perCell + 1)^3 nodes of a cell, x fastest.
+std::vector<glm::vec3> nodesIn(const CellTaps& taps, int kernel, int perCell)
+{
+  const int side = perCell + 1;
+  std::vector<glm::vec3> values(64);
+  for (int tap = 0; tap < 64; ++tap)
+  {
+    values[tap] = { taps.component[0][tap], taps.component[1][tap], taps.component[2][tap] };
+  }
+  // Refines the first axis and makes it the last one, three times over.
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::size_t rows = values.size() / 4;
+    std::vector<glm::vec3> refined(rows * side);
+    for (int node = 0; node < side; ++node)
+    {
+      const glm::vec4 weight = kernelWeights(kernel, static_cast<float>(node) / perCell);
+      for (std::size_t row = 0; row < rows; ++row)
+      {
+        const glm::vec3* tap = &values[4 * row];
+        refined[node * rows + row] =
+          weight[0] * tap[0] + weight[1] * tap[1] + weight[2] * tap[2] + weight[3] * tap[3];
+      }
+    }
+    values.swap(refined);
+  }
+  return values;
+}
+
+bool nodesHold(const std::vector<glm::vec3>& nodes, int perCell, float limit)
+{
+  const int side = perCell + 1;
+  for (int k = 0; k < perCell; ++k)
+  {
+    for (int j = 0; j < perCell; ++j)
+    {
+      for (int i = 0; i < perCell; ++i)
+      {
+        std::array<glm::vec3, 8> corners;
+        for (int corner = 0; corner < 8; ++corner)
+        {
+          corners[corner] =
+            nodes[((k + (corner >> 2)) * side + j + (corner >> 1 & 1)) * side + i + (corner & 1)];
+        }
+        if (!trilinearHolds(corners, perCell, limit))
+        {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
+// Both maps keep the limit in one cell.
+bool bothHold(const CellTaps& taps, int kernel, int perCell, float limit)
+{
+  return leastDeterminant(boundsOf(taps, kernel)) >= limit ||
+    (cubicHolds(taps, kernel, limit) && nodesHold(nodesIn(taps, kernel, perCell), perCell, limit));
+}
+
+// The mask's weights on the nodes of a cell, x fastest.
+std::vector<float> weightsIn(
+  const NodeWeights& mask, const glm::ivec3& dimensions, const glm::ivec3& cell)
+{
+  const int perCell = mask.perCell;
+  const glm::ivec3 count = (dimensions - 1) * perCell + 1;
+  std::vector<float> weights;
+  weights.reserve(static_cast<std::size_t>(perCell + 1) * (perCell + 1) * (perCell + 1));
+  for (int k = cell.z * perCell; k <= (cell.z + 1) * perCell; ++k)
+  {
+    for (int j = cell.y * perCell; j <= (cell.y + 1) * perCell; ++j)
+    {
+      const float* row = mask.values.data() +
+        (static_cast<std::size_t>(k) * count.y + j) * count.x + cell.x * perCell;
+      weights.insert(weights.end(), row, row + perCell + 1);
+    }
+  }
+  return weights;
+}
+
+WeightRange rangeOf(const std::vector<float>& weights, int perCell)
+{
+  const auto [least, greatest] = std::minmax_element(weights.begin(), weights.end());
+  WeightRange range{ *least, *greatest };
+  const int side = perCell + 1;
+  const int stride[3] = { 1, side, side * side };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (int node = 0; node < static_cast<int>(weights.size()); ++node)
+    {
+      if (node / stride[axis] % side < perCell)
+      {
+        const float slope = perCell * (weights[node + stride[axis]] - weights[node]);
+        range.leastSlope[axis] = std::min(range.leastSlope[axis], slope);
+        range.greatestSlope[axis] = std::max(range.greatestSlope[axis], slope);
+      }
+    }
+  }
+  return range;
+}
+
 constexpr std::int64_t CellsAtLeast = 64; // for a thread
-// Shares of a stroke are told apart to half a percent of themselves; below the last one nothing
+// Fractions of a stroke are found to half a percent of themselves; below the last one nothing
 // of the stroke is left.
-constexpr double ShareStep = 0.005;
-constexpr double SmallestShare = 1e-6;
+constexpr double FractionStep = 0.005;
+constexpr double SmallestFraction = 1e-6;
 // Above the limit by more than single precision can lose. What an earlier stroke brought to the
 // first one may not be proved for it again, rounded otherwise; the second is left for that.
 constexpr float ProvedLimit = SmallestGuardedJacobian + 2e-4f;
@@ -57,7 +160,7 @@ public:
 
   CellTaps tapsAround(const glm::ivec3& cell, double part) const
   {
-    const auto share = static_cast<float>(part);
+    const auto fraction = static_cast<float>(part);
     CellTaps taps;
     int tap = 0;
     for (int k = -1; k < 3; ++k)
@@ -70,7 +173,7 @@ public:
           for (int component = 0; component < 3; ++component)
           {
             taps.component[component][tap] =
-              this->From[point][component] + share * this->Change[point][component];
+              this->From[point][component] + fraction * this->Change[point][component];
           }
         }
       }
@@ -107,14 +210,14 @@ private:
 };
 
 // Takes those cells out of a list that do not hold.
-Cells takeFailing(const CellProof& proof, const Way& way, Cells& cells, double share)
+Cells takeFailing(const CellProof& proof, const Way& way, Cells& cells, double fraction)
 {
   std::vector<char> failed(cells.size());
   const auto count = static_cast<std::int64_t>(cells.size());
   parallelFor(0, count, CellsAtLeast, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t i = first; i < last; ++i)
     {
-      failed[i] = !proof.holds(way.tapsAround(cells[i].at, share), cells[i].at, cells[i].limit);
+      failed[i] = !proof.holds(way.tapsAround(cells[i].at, fraction), cells[i].at, cells[i].limit);
     }
   });
   Cells kept;
@@ -127,11 +230,11 @@ Cells takeFailing(const CellProof& proof, const Way& way, Cells& cells, double s
   return failing;
 }
 
-// The largest share at which one cell holds. It does at 0, and not at `high`.
-double shareOf(const CellProof& proof, const Way& way, const GuardedCell& cell, double high)
+// The largest fraction at which one cell holds. It does at 0, and not at `high`.
+double fractionOf(const CellProof& proof, const Way& way, const GuardedCell& cell, double high)
 {
   double low = 0.0;
-  while (high - low > ShareStep * high && high > SmallestShare)
+  while (high - low > FractionStep * high && high > SmallestFraction)
   {
     const double middle = 0.5 * (low + high);
     (proof.holds(way.tapsAround(cell.at, middle), cell.at, cell.limit) ? low : high) = middle;
@@ -139,26 +242,26 @@ double shareOf(const CellProof& proof, const Way& way, const GuardedCell& cell, 
   return low;
 }
 
-// The largest share up to `high` at which all cells hold; they do at 0. Lowered by one failing cell
-// after the other: each spares about half of those that are left.
-double largestShare(const CellProof& proof, const Way& way, const Cells& cells, double high)
+// The largest fraction up to `high` at which all cells hold; they do at 0. Lowered by one failing
+// cell after the other: each spares about half of those that are left.
+double largestFraction(const CellProof& proof, const Way& way, const Cells& cells, double high)
 {
-  double share = high;
-  while (share > 0.0)
+  double fraction = high;
+  while (fraction > 0.0)
   {
     Cells open = cells;
-    Cells failing = takeFailing(proof, way, open, share);
+    Cells failing = takeFailing(proof, way, open, fraction);
     if (failing.empty())
     {
       break;
     }
-    for (; !failing.empty() && share > 0.0; failing = takeFailing(proof, way, open, share))
+    for (; !failing.empty() && fraction > 0.0; failing = takeFailing(proof, way, open, fraction))
     {
-      share = shareOf(proof, way, failing[failing.size() / 2], share);
+      fraction = fractionOf(proof, way, failing[failing.size() / 2], fraction);
       open = failing;
     }
   }
-  return share;
+  return fraction;
 }
 
 IndexBox cellsAround(const IndexBox& points, const glm::ivec3& dimensions)
@@ -180,6 +283,93 @@ void addCells(const IndexBox& box, Cells& cells)
     }
   }
 }
+}
+
+CellProof::CellProof(const Lattice& lattice, int samples)
+  : Points(lattice.grid)
+  , Kernel(lattice.kernel)
+  , PerCell(samples + 1)
+  , Mask(lattice.mask)
+{
+  if (!this->Mask)
+  {
+    return;
+  }
+  this->Ranges.resize(this->Points.count());
+  const glm::ivec3& dimensions = this->Points.dimensions;
+  parallelFor(0, dimensions.z - 1, 1, [&](std::int64_t first, std::int64_t last) {
+    for (int k = static_cast<int>(first); k < last; ++k)
+    {
+      for (int j = 0; j < dimensions.y - 1; ++j)
+      {
+        for (int i = 0; i < dimensions.x - 1; ++i)
+        {
+          this->Ranges[this->Points.offset(i, j, k)] =
+            rangeOf(weightsIn(*this->Mask, dimensions, { i, j, k }), this->PerCell);
+        }
+      }
+    }
+  });
+}
+
+bool CellProof::isFor(const Lattice& lattice, int samples) const
+{
+  return this->Points == lattice.grid && this->Kernel == lattice.kernel &&
+    this->PerCell == samples + 1 && sameMask(this->Mask, lattice.mask);
+}
+
+// Holds the displacements at the border along the axes named by `beyond` (bit a: axis a). False if
+// the cell does not lie at all of these.
+bool CellProof::isReached(int beyond, const glm::ivec3& cell, CellTaps& taps) const
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const bool low = cell[axis] == 0;
+    if (beyond >> axis & 1)
+    {
+      if (!low && cell[axis] != this->Points.dimensions[axis] - 2)
+      {
+        return false;
+      }
+      holdFace(taps, this->Kernel, axis, low ? 0 : 1);
+    }
+  }
+  return true;
+}
+
+bool CellProof::holds(const CellTaps& taps, const glm::ivec3& cell, float limit) const
+{
+  if (this->Mask)
+  {
+    return this->maskedHolds(taps, cell, limit);
+  }
+  for (int beyond = 0; beyond < 7; ++beyond)
+  {
+    CellTaps held = taps;
+    if (this->isReached(beyond, cell, held) && !bothHold(held, this->Kernel, this->PerCell, limit))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Beyond the lattice nothing moves.
+bool CellProof::maskedHolds(const CellTaps& taps, const glm::ivec3& cell, float limit) const
+{
+  const WeightRange& range = this->Ranges[this->Points.offset(cell.x, cell.y, cell.z)];
+  if (range.greatest == 0.0f ||
+    leastDeterminant(maskedBoundsOf(taps, this->Kernel, range)) >= limit)
+  {
+    return true;
+  }
+  std::vector<glm::vec3> nodes = nodesIn(taps, this->Kernel, this->PerCell);
+  const std::vector<float> weights = weightsIn(*this->Mask, this->Points.dimensions, cell);
+  for (std::size_t node = 0; node < nodes.size(); ++node)
+  {
+    nodes[node] *= weights[node];
+  }
+  return nodesHold(nodes, this->PerCell, limit);
 }
 
 void FoldGuard::setBase(const Lattice& base, int samples)
@@ -212,7 +402,7 @@ void FoldGuard::setBase(const Lattice& base, int samples)
   }
 }
 
-double FoldGuard::share(const Lattice& before, const Lattice& after) const
+double FoldGuard::fraction(const Lattice& before, const Lattice& after) const
 {
   const glm::ivec3& dimensions = before.grid.dimensions;
   const IndexBox changed = changedPoints(dimensions, before.displacements, after.displacements);
@@ -229,10 +419,10 @@ double FoldGuard::share(const Lattice& before, const Lattice& after) const
   };
   reached.erase(std::remove_if(reached.begin(), reached.end(), isNotAsked), reached.end());
   Cells critical;
-  double share = 1.0;
+  double fraction = 1.0;
   // A cell that holds at the whole stroke need not hold at a part of it, so all are asked again.
   Cells more = takeFailing(this->Proof, way, reached, 1.0);
-  while (!more.empty() && share > 0.0)
+  while (!more.empty() && fraction > 0.0)
   {
     for (GuardedCell cell : takeFailing(this->Proof, way, more, 0.0))
     {
@@ -240,20 +430,20 @@ double FoldGuard::share(const Lattice& before, const Lattice& after) const
       more.push_back(cell);
     }
     critical.insert(critical.end(), more.begin(), more.end());
-    share = largestShare(this->Proof, way, critical, share);
-    more = takeFailing(this->Proof, way, reached, share);
+    fraction = largestFraction(this->Proof, way, critical, fraction);
+    more = takeFailing(this->Proof, way, reached, fraction);
   }
-  return share;
+  return fraction;
 }
 
-Lattice between(const Lattice& before, const Lattice& after, double share)
+Lattice between(const Lattice& before, const Lattice& after, double fraction)
 {
-  if (share == 0.0)
+  if (fraction == 0.0)
   {
     return before; // `after` may be so far away that it is no number
   }
   Lattice lattice = after;
-  const auto part = static_cast<float>(share);
+  const auto part = static_cast<float>(fraction);
   for (std::size_t point = 0; point < lattice.displacements.size(); ++point)
   {
     const glm::vec3& from = before.displacements[point];

@@ -9,19 +9,61 @@
  *
  * Afterwards the Jacobian determinant of both is 0.1 or more at every point of every cell that the
  * stroke reaches, and beyond the lattice, where the values of its border hold. This is proved by
- * bounds (CellProof.h) and not sampled. It is the determinant at full strength.
+ * bounds (CellProof, JacobianBound.h) and not sampled. It is the determinant at full strength.
  */
 #ifndef BrainShift_FoldGuard_h
 #define BrainShift_FoldGuard_h
 
 #include "Common/Export.h"
-#include "Filters/Deformation/CellProof.h"
+#include "Filters/Deformation/JacobianBound.h"
 #include "Filters/Deformation/Lattice.h"
 
+#include <glm/vec3.hpp>
+
+#include <memory>
 #include <vector>
 
 namespace brainshift
 {
+/**
+ * Proves cells of all lattices that have the same points, kernel and mask and are drawn with the
+ * same samples.
+ *
+ * Two maps are proved: deformedFromRest as the cubic gives it at the control points' displacements,
+ * and the refined displacement that pictures are drawn with. With a mask there is only the second
+ * one, times the mask's weights.
+ */
+class BRAINSHIFT_DEFORMATION_EXPORT CellProof
+{
+public:
+  CellProof() = default;
+
+  /** `samples`: nodes of the refined field between two control points, 0 to 16. */
+  CellProof(const Lattice& lattice, int samples);
+
+  /** Whether this object proves cells of that lattice. */
+  bool isFor(const Lattice& lattice, int samples) const;
+
+  /**
+   * Whether the Jacobian determinants are proved to be at or above `limit` everywhere in a cell.
+   * If the cell lies at the lattice's border, the proof includes the space beyond that border.
+   *
+   * @param taps   displacements (lattice cells) of the control points around the cell
+   * @param cell   index of the cell's first control point
+   */
+  bool holds(const CellTaps& taps, const glm::ivec3& cell, float limit) const;
+
+private:
+  bool isReached(int beyond, const glm::ivec3& cell, CellTaps& taps) const;
+  bool maskedHolds(const CellTaps& taps, const glm::ivec3& cell, float limit) const;
+
+  Grid Points;
+  int Kernel = 0;
+  int PerCell = 1; // nodes
+  std::shared_ptr<const NodeWeights> Mask;
+  std::vector<WeightRange> Ranges; // of the mask, by the cell's first control point
+};
+
 /** The smallest Jacobian determinant that the guard allows. */
 constexpr float SmallestGuardedJacobian = 0.1f;
 
@@ -40,10 +82,10 @@ public:
   int foldedCells() const { return this->FoldedCount; }
 
   /**
-   * The largest share, 0 to 1, of the way from `before` to `after` that keeps the limit. The answer
-   * can be up to 0.01 below the largest one. `before` must keep the limit.
+   * The largest fraction, 0 to 1, of the path from `before` to `after` that keeps the limit. The
+   * answer can be up to 0.01 below the largest one. `before` must keep the limit.
    */
-  double share(const Lattice& before, const Lattice& after) const;
+  double fraction(const Lattice& before, const Lattice& after) const;
 
 private:
   CellProof Proof;
@@ -51,9 +93,9 @@ private:
   int FoldedCount = 0;
 };
 
-/** The lattice at a share, 0 to 1, of the way from one to the other. */
+/** The lattice at a fraction, 0 to 1, of the path from one to the other. */
 BRAINSHIFT_DEFORMATION_EXPORT Lattice between(
-  const Lattice& before, const Lattice& after, double share);
+  const Lattice& before, const Lattice& after, double fraction);
 }
 
 #endif

@@ -3,6 +3,11 @@
  * @file
  * @brief The solver of the backward map for C++. It compiles Shaders/Field/inversion.glsl, the file
  *        that the GPU runs too, so both sides take the same steps.
+ *
+ * Newton's steps, halved while they do not help: Dennis and Schnabel, Numerical Methods for
+ * Unconstrained Optimization and Nonlinear Equations (1983), chapter 6. Near folding the step is
+ * that of the fixed-point iteration: Chen et al., "A simple fixed-point approach to invert a
+ * deformation field", Medical Physics 35 (2008).
  */
 #ifndef BrainShift_Inversion_h
 #define BrainShift_Inversion_h

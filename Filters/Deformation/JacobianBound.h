@@ -9,6 +9,10 @@
  * is halved. A proof that succeeds is always right. A proof can fail for a cell whose smallest
  * determinant is above the limit by very little.
  *
+ * The bounds of a column come from its Bernstein coefficients, whose convex hull holds it: Farouki,
+ * "The Bernstein polynomial basis: a centennial retrospective", Computer Aided Geometric Design 29
+ * (2012).
+ *
  * All displacements are in lattice cells. `kernel`: KernelCatmullRom or KernelBSpline (Kernels.h).
  */
 #ifndef BrainShift_JacobianBound_h

@@ -14,14 +14,16 @@
 namespace brainshift
 {
 /**
- * Catmull-Rom: the displacement passes through the control points. The default. Source: van der
- * Steen et al., SPIE 7169 (2009), section 2.
+ * Catmull-Rom: the displacement passes through the control points. The default, as in van der Steen
+ * et al., SPIE 7169 (2009), section 2. Source: Catmull and Rom, "A class of local interpolating
+ * splines", in Computer Aided Geometric Design (1974).
  */
 constexpr int KernelCatmullRom = 0;
 
 /**
  * Uniform cubic B-spline: the displacement only comes near the control points, but its second
- * derivatives are continuous.
+ * derivatives are continuous. Source: Rueckert et al., IEEE Transactions on Medical Imaging 18
+ * (1999).
  */
 constexpr int KernelBSpline = 1;
 

@@ -3,6 +3,7 @@
 
 #include "Common/Grid.h"
 #include "Common/Parallel.h"
+#include "Common/Problem.h"
 #include "Filters/Deformation/Inversion.h"
 #include "Filters/Deformation/Kernels.h"
 
@@ -23,7 +24,27 @@ constexpr std::int64_t PointsAtLeast = 32768; // for a thread: about 0.2 ms
 
 // A Soft stroke lengthens its vector at most by 1 / this. A radius that holds few control points
 // would otherwise throw them far.
-constexpr double SmallestSoftShare = 0.2;
+constexpr double SmallestSoftFraction = 0.2;
+
+// Turns values along one line of control points into coefficients of a B-spline that has these
+// values at them. Beyond the ends the value of the end holds, as in the cubic.
+void coefficientsAlong(std::vector<glm::dvec3>& line)
+{
+  // (c[i-1] + 4 c[i] + c[i+1]) / 6 = value: eliminated from the first to the last, then back.
+  const std::size_t count = line.size();
+  std::vector<double> above(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double own = (i == 0 || i + 1 == count) ? 5.0 : 4.0;
+    const double pivot = own - (i == 0 ? 0.0 : above[i - 1]);
+    above[i] = 1.0 / pivot;
+    line[i] = (6.0 * line[i] - (i == 0 ? glm::dvec3(0.0) : line[i - 1])) / pivot;
+  }
+  for (std::size_t i = count - 1; i-- > 0;)
+  {
+    line[i] -= above[i] * line[i + 1];
+  }
+}
 
 // The four control points around a position along one axis and their weights.
 struct Taps
@@ -295,7 +316,7 @@ double shareAtAnchor(const Lattice& lattice, const Stroke& stroke)
 glm::dvec3 vectorOfPoints(const Lattice& lattice, const Stroke& stroke)
 {
   return shapeOf(stroke.tool) == StrokeShape::Sphere
-    ? stroke.vector / std::clamp(shareAtAnchor(lattice, stroke), SmallestSoftShare, 1.0)
+    ? stroke.vector / std::clamp(shareAtAnchor(lattice, stroke), SmallestSoftFraction, 1.0)
     : stroke.vector;
 }
 
@@ -331,21 +352,55 @@ Lattice makeLattice(const Grid& grid, int kernel)
   return lattice;
 }
 
-std::string problemOfDisplacements(const Lattice& lattice, const std::string& cause)
+void requireLatticeSides(const glm::ivec3& sides)
+{
+  if (glm::any(glm::lessThan(sides, glm::ivec3(SmallestLatticeSide))) ||
+    glm::any(glm::greaterThan(sides, glm::ivec3(LargestLatticeSide))))
+  {
+    std::ostringstream problem;
+    problem << "LatticeDimensions is " << sides.x << " x " << sides.y << " x " << sides.z
+            << "; each side must have from " << SmallestLatticeSide << " to " << LargestLatticeSide
+            << " points";
+    throw Problem(problem.str());
+  }
+}
+
+void requireDisplacements(const Lattice& lattice, const std::string& cause)
 {
   const glm::dvec3& spacing = lattice.grid.spacing;
   const double longest = LongestDisplacementCells * std::min({ spacing.x, spacing.y, spacing.z });
   const auto tooLong = std::find_if_not(lattice.displacements.begin(), lattice.displacements.end(),
     [&](const glm::vec3& d) { return glm::length(glm::dvec3(d)) <= longest; });
-  if (tooLong == lattice.displacements.end())
+  if (tooLong != lattice.displacements.end())
   {
-    return {};
+    std::ostringstream problem;
+    problem << "A control point is displaced by " << cause << " by "
+            << glm::length(glm::dvec3(*tooLong)) << " mm; it must be at most " << longest << " mm, "
+            << LongestDisplacementCells << " cells of the lattice";
+    throw Problem(problem.str());
   }
-  std::ostringstream problem;
-  problem << "A control point is displaced by " << cause << " by "
-          << glm::length(glm::dvec3(*tooLong)) << " mm; it must be at most " << longest << " mm, "
-          << LongestDisplacementCells << " cells of the lattice";
-  return problem.str();
+}
+
+void toBSplineCoefficients(const Grid& grid, std::vector<glm::dvec3>& values)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    glm::ivec3 last = grid.dimensions - 1;
+    const int count = last[axis] + 1;
+    last[axis] = 0;
+    forEachIndex(glm::ivec3(0), last, [&](glm::ivec3 index) {
+      std::vector<glm::dvec3> line;
+      for (index[axis] = 0; index[axis] < count; ++index[axis])
+      {
+        line.push_back(values[grid.offset(index.x, index.y, index.z)]);
+      }
+      coefficientsAlong(line);
+      for (index[axis] = 0; index[axis] < count; ++index[axis])
+      {
+        values[grid.offset(index.x, index.y, index.z)] = line[index[axis]];
+      }
+    });
+  }
 }
 
 void applyStroke(Lattice& lattice, const Stroke& stroke)
@@ -381,7 +436,7 @@ glm::dvec3 tissueAt(const Lattice& lattice, const glm::dvec3& deformed)
   return deformed + lattice.grid.worldVectorFromGrid(glm::dvec3(offset));
 }
 
-double reachOf(const Lattice& before, const Lattice& after, const Stroke& stroke)
+double achievedDisplacement(const Lattice& before, const Lattice& after, const Stroke& stroke)
 {
   const double length = glm::length(stroke.vector);
   if (!stroke.enabled || length == 0.0)

@@ -4,7 +4,11 @@
  * @brief The control points of a free-form deformation, the strokes that move them, and the cubic
  *        between them.
  *
- * Method: van der Steen et al., SPIE 7169 (2009), section 2.
+ * Method: van der Steen et al., SPIE 7169 (2009), section 2: a lattice that drives a free-form
+ * deformation, control points moved one by one, as a group within a radius, or by an ellipsoid.
+ * Free-form deformation: Sederberg and Parry, "Free-form deformation of solid geometric models",
+ * SIGGRAPH 1986; with cubic B-splines: Rueckert et al., "Nonrigid registration using free-form
+ * deformations", IEEE Transactions on Medical Imaging 18 (1999).
  */
 #ifndef BrainShift_Lattice_h
 #define BrainShift_Lattice_h
@@ -35,7 +39,7 @@ constexpr int LargestLatticeSide = 257;
  */
 constexpr double LongestDisplacementCells = 10000.0;
 
-/** The share of the displacement that holds at each node of a refined field; see MaskWeights.h. */
+/** The fraction of the displacement that holds at each node of a refined field: MaskWeights.h. */
 struct NodeWeights
 {
   int perCell = 1;           ///< nodes for each lattice cell along an axis
@@ -65,14 +69,26 @@ BRAINSHIFT_DEFORMATION_EXPORT bool sameMask(
 /** A lattice whose displacements are all zero. */
 BRAINSHIFT_DEFORMATION_EXPORT Lattice makeLattice(const Grid& grid, int kernel);
 
+/** Throws a Problem if a side has fewer or more control points than a lattice may have. */
+BRAINSHIFT_DEFORMATION_EXPORT void requireLatticeSides(const glm::ivec3& sides);
+
 /**
- * One sentence, without a full stop, about a displacement that is no number or longer than
- * LongestDisplacementCells. It is empty if there is none.
+ * Throws a Problem if a displacement is no number or longer than LongestDisplacementCells.
  *
  * @param cause   what displaces, as the end of "... is displaced by"
  */
-BRAINSHIFT_DEFORMATION_EXPORT std::string problemOfDisplacements(
+BRAINSHIFT_DEFORMATION_EXPORT void requireDisplacements(
   const Lattice& lattice, const std::string& cause);
+
+/**
+ * Turns values at the control points into the coefficients of a uniform cubic B-spline that has
+ * these values there. Beyond the ends the value of the end holds.
+ *
+ * Source: Unser, Aldroubi and Eden, "B-spline signal processing: part II", IEEE Transactions on
+ * Signal Processing 41 (1993): the direct B-spline transform, here with other ends.
+ */
+BRAINSHIFT_DEFORMATION_EXPORT void toBSplineCoefficients(
+  const Grid& grid, std::vector<glm::dvec3>& values);
 
 /**
  * Moves the control points that a stroke reaches. The weights depend on where the lattice was
@@ -99,7 +115,7 @@ BRAINSHIFT_DEFORMATION_EXPORT glm::dvec3 tissueAt(
  * @param before   the lattice that the stroke was applied to
  * @param after    the same lattice with the stroke
  */
-BRAINSHIFT_DEFORMATION_EXPORT double reachOf(
+BRAINSHIFT_DEFORMATION_EXPORT double achievedDisplacement(
   const Lattice& before, const Lattice& after, const Stroke& stroke);
 
 /**

@@ -12,7 +12,7 @@
 
 namespace brainshift
 {
-/** How far minimumJacobian may lie below the truth: a share of it, or of 1 if it is smaller. */
+/** Largest error of minimumJacobian, downwards: a fraction of it, or of 1 if it is smaller. */
 constexpr double DeterminantTolerance = 1e-3;
 
 /** Largest displacement (mm) of a control point; with a mask, of a node of the refined field. */

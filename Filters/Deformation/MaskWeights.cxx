@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/MaskWeights.h"
 
-#include "Filters/Deformation/Lattice.h"
-
 #include "Common/Grid.h"
 #include "Common/Parallel.h"
 
@@ -82,23 +80,25 @@ void markBeyond(const Mask& mask, const Grid& nodes, NodeImage<char>& outside)
 }
 
 // Turns values that are 0 at sources and Far elsewhere into squared distances (mm) to the nearest
-// source, as far as they are below the reach.
-void spread(NodeImage<float>& squared, const glm::dvec3& spacing, double reachMm)
+// source, where they are below the radius. Source: Saito and Toriwaki, "New algorithms for
+// Euclidean distance transformation of an n-dimensional digitized picture with applications",
+// Pattern Recognition 27 (1994).
+void spread(NodeImage<float>& squared, const glm::dvec3& spacing, double radiusMm)
 {
   const glm::ivec3 last = squared.count - 1;
   for (int axis = 0; axis < 3; ++axis)
   {
     // Squared distances add up axis by axis, so each looks along its own rows only.
     const NodeImage<float> before = squared;
-    const double steps = std::ceil(reachMm / spacing[axis]);
-    const int reach = static_cast<int>(std::min(steps, static_cast<double>(last[axis])));
+    const double steps = std::ceil(radiusMm / spacing[axis]);
+    const int radius = static_cast<int>(std::min(steps, static_cast<double>(last[axis])));
     parallelFor(0, squared.count.z, 1, [&](std::int64_t begin, std::int64_t end) {
       forEachIndex({ 0, 0, static_cast<int>(begin) }, { last.x, last.y, static_cast<int>(end) - 1 },
         [&](const glm::ivec3& at) {
           float& nearest = squared.values[squared.offset(at)];
           glm::ivec3 other = at;
-          const int furthest = std::min(at[axis] + reach, last[axis]);
-          for (other[axis] = std::max(at[axis] - reach, 0); other[axis] <= furthest; ++other[axis])
+          const int furthest = std::min(at[axis] + radius, last[axis]);
+          for (other[axis] = std::max(at[axis] - radius, 0); other[axis] <= furthest; ++other[axis])
           {
             const float away = static_cast<float>((other[axis] - at[axis]) * spacing[axis]);
             nearest = std::min(nearest, before.values[before.offset(other)] + away * away);
@@ -108,8 +108,9 @@ void spread(NodeImage<float>& squared, const glm::dvec3& spacing, double reachMm
   }
 }
 
-// Squared distance (mm) to the nearest node that cannot move, if below the reach.
-NodeImage<float> squaredDistances(const NodeImage<char>& outside, const Grid& nodes, double reachMm)
+// Squared distance (mm) to the nearest node that cannot move, if below the radius.
+NodeImage<float> squaredDistances(
+  const NodeImage<char>& outside, const Grid& nodes, double radiusMm)
 {
   NodeImage<float> squared(nodes.dimensions, Far);
   const glm::ivec3 lastNode = nodes.dimensions - 1;
@@ -125,7 +126,7 @@ NodeImage<float> squaredDistances(const NodeImage<char>& outside, const Grid& no
       squared.values[squared.offset(node)] = 0.0f;
     }
   });
-  spread(squared, nodes.spacing, reachMm);
+  spread(squared, nodes.spacing, radiusMm);
   return squared;
 }
 }
@@ -157,9 +158,9 @@ std::shared_ptr<const NodeWeights> maskWeights(
   weights->values = squaredDistances(outside, nodes, featherMm).values;
   for (float& value : weights->values)
   {
-    const double share =
+    const double fraction =
       value == 0.0f ? 0.0 : std::sqrt(static_cast<double>(value)) / std::max(featherMm, 1e-9);
-    const double t = std::min(share, 1.0);
+    const double t = std::min(fraction, 1.0);
     value = static_cast<float>(t * t * (3.0 - 2.0 * t));
   }
   return weights;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Where tissue may move, and how freely: the share of the displacement that holds at each
- *        node of the refined field.
+ * @brief Weights of a mask: the fraction of the displacement that holds at each node of the refined
+ *        field.
  *
  * Nodes are fine enough for a thin rim; control points are not. A node has weight 0 if any of the
  * eight cells of nodes around it holds a point outside the mask. The field is trilinear between the

@@ -61,11 +61,12 @@ std::vector<glm::vec4> weightsInCell(int kernel, int perCell)
 }
 
 // Refines one axis: `from` has `points` rows of `stride` consecutive values in each of `blocks`
-// blocks; the result has (points - 1) * perCell + 1 rows in each.
+// blocks; the result has (points - 1) * perCell + 1 rows in each. `weights`: of the perCell
+// positions in a cell.
 std::vector<glm::vec3> refineAxis(const std::vector<glm::vec3>& from, int points,
-  std::size_t stride, std::size_t blocks, int kernel, int perCell)
+  std::size_t stride, std::size_t blocks, const std::vector<glm::vec4>& weights)
 {
-  const std::vector<glm::vec4> weights = weightsInCell(kernel, perCell);
+  const int perCell = static_cast<int>(weights.size());
   const int rows = (points - 1) * perCell + 1;
   std::vector<glm::vec3> to(blocks * rows * stride);
   const std::int64_t grain = NodesAtLeast / static_cast<std::int64_t>(stride);
@@ -94,13 +95,13 @@ std::vector<glm::vec3> refineAxis(const std::vector<glm::vec3>& from, int points
 }
 
 // How many whole cells tissue may leave the lattice by, below and above, along one axis.
-struct Reach
+struct Overhang
 {
   int below = 0;
   int above = 0;
 };
 
-Reach reachAlong(const Grid& grid, const std::vector<glm::vec3>& inCells, int axis)
+Overhang overhangAlong(const Grid& grid, const std::vector<glm::vec3>& inCells, int axis)
 {
   // Per layer of control points across the axis: range of the displacement along it.
   const int layers = grid.dimensions[axis];
@@ -133,11 +134,11 @@ Reach reachAlong(const Grid& grid, const std::vector<glm::vec3>& inCells, int ax
     highest = std::max(highest, static_cast<float>(cell + 1) + middle + half);
   }
   constexpr auto farthest = static_cast<float>(2.0 * LongestDisplacementCells); // fits an integer
-  Reach reach;
-  reach.below = static_cast<int>(std::ceil(std::min(-lowest, farthest)));
-  reach.above =
+  Overhang overhang;
+  overhang.below = static_cast<int>(std::ceil(std::min(-lowest, farthest)));
+  overhang.above =
     static_cast<int>(std::ceil(std::min(highest - static_cast<float>(layers - 1), farthest)));
-  return reach;
+  return overhang;
 }
 }
 
@@ -190,9 +191,9 @@ FieldNodes backwardNodes(const Grid& lattice, const std::vector<glm::vec3>& inCe
   FieldNodes nodes = forwardNodes(lattice, samples);
   for (int axis = 0; axis < 3; ++axis)
   {
-    const Reach reach = reachAlong(lattice, inCells, axis);
-    nodes.first[axis] = -reach.below;
-    nodes.count[axis] += (reach.below + reach.above) * nodes.perCell;
+    const Overhang overhang = overhangAlong(lattice, inCells, axis);
+    nodes.first[axis] = -overhang.below;
+    nodes.count[axis] += (overhang.below + overhang.above) * nodes.perCell;
   }
   return nodes;
 }
@@ -201,14 +202,14 @@ NodeField refine(const Grid& grid, int kernel, const std::vector<glm::vec3>& inC
 {
   NodeField field;
   field.nodes = forwardNodes(grid, samples);
-  const int perCell = field.nodes.perCell;
+  const std::vector<glm::vec4> weights = weightsInCell(kernel, field.nodes.perCell);
   const glm::ivec3& points = grid.dimensions;
   const glm::ivec3& count = field.nodes.count;
   const std::size_t rowsYZ = static_cast<std::size_t>(points.y) * points.z;
-  std::vector<glm::vec3> alongX = refineAxis(inCells, points.x, 1, rowsYZ, kernel, perCell);
-  std::vector<glm::vec3> alongXY = refineAxis(alongX, points.y, count.x, points.z, kernel, perCell);
+  std::vector<glm::vec3> alongX = refineAxis(inCells, points.x, 1, rowsYZ, weights);
+  std::vector<glm::vec3> alongXY = refineAxis(alongX, points.y, count.x, points.z, weights);
   field.values =
-    refineAxis(alongXY, points.z, static_cast<std::size_t>(count.x) * count.y, 1, kernel, perCell);
+    refineAxis(alongXY, points.z, static_cast<std::size_t>(count.x) * count.y, 1, weights);
   return field;
 }
 

@@ -34,7 +34,7 @@ enum class Inverse
   Exact = 0, ///< solves the forward map: tissue arrives where the control point is put
   /**
    * Subtracts the displacement found at the deformed point, which is right for small displacements
-   * only. Source: van der Steen et al., SPIE 7169 (2009).
+   * only. Source: van der Steen et al., SPIE 7169 (2009), section 2.
    */
   Negated = 1,
 };

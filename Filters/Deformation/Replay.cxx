@@ -12,8 +12,8 @@ namespace brainshift
 namespace
 {
 constexpr int MostNamed = 3;
-constexpr double Rounding = 1e-6; // of spacings that went through text
-constexpr double FullReach = 0.8; // of a stroke's length; less of it is worth a word
+constexpr double Rounding = 1e-6;     // of spacings that went through text
+constexpr double FullyAchieved = 0.8; // of a stroke's length; less of it is worth a word
 
 // How finely a stroke bends, mm; 0 if it takes whatever the lattice has.
 double finestRadius(const Stroke& stroke)
@@ -112,14 +112,14 @@ std::size_t Replay::goBack(std::size_t same, std::size_t count)
   return after->count;
 }
 
-// Applies a share of a stroke. What was before it is kept.
-void Replay::apply(const Stroke& stroke, double share)
+// Applies a fraction of a stroke. What was before it is kept.
+void Replay::apply(const Stroke& stroke, double fraction)
 {
   this->BeforeLast = this->Result;
   applyStroke(this->Result, stroke);
-  if (share < 1.0)
+  if (fraction < 1.0)
   {
-    this->Result = between(this->BeforeLast, this->Result, share);
+    this->Result = between(this->BeforeLast, this->Result, fraction);
   }
 }
 
@@ -145,13 +145,14 @@ void Replay::keepCheckpoint(std::size_t count)
 void Replay::applyGuarded(const Stroke& stroke)
 {
   this->apply(stroke, 1.0);
-  const double share = this->Guarded.on ? this->Guard.share(this->BeforeLast, this->Result) : 1.0;
-  if (share < 1.0)
+  const double fraction =
+    this->Guarded.on ? this->Guard.fraction(this->BeforeLast, this->Result) : 1.0;
+  if (fraction < 1.0)
   {
-    this->Result = between(this->BeforeLast, this->Result, share);
+    this->Result = between(this->BeforeLast, this->Result, fraction);
   }
-  this->Shares.push_back(share);
-  this->Reaches.push_back(reachOf(this->BeforeLast, this->Result, stroke));
+  this->Fractions.push_back(fraction);
+  this->Achieved.push_back(achievedDisplacement(this->BeforeLast, this->Result, stroke));
 }
 
 const Lattice& Replay::run(const Lattice& base, const std::vector<Stroke>& strokes,
@@ -166,15 +167,15 @@ const Lattice& Replay::run(const Lattice& base, const std::vector<Stroke>& strok
     std::mismatch(strokes.begin(), strokes.begin() + common, this->Strokes.begin()).first -
     strokes.begin());
   const std::size_t first = this->goBack(same, strokes.size());
-  this->Shares.resize(same);
-  this->Reaches.resize(same);
+  this->Fractions.resize(same);
+  this->Achieved.resize(same);
   std::size_t done = first;
   this->Whole = true;
   while (done < strokes.size() && this->Whole)
   {
     if (done < same)
     {
-      this->apply(strokes[done], this->Shares[done]);
+      this->apply(strokes[done], this->Fractions[done]);
     }
     else
     {
@@ -185,8 +186,8 @@ const Lattice& Replay::run(const Lattice& base, const std::vector<Stroke>& strok
     this->Whole = done == strokes.size() || !progress ||
       progress(static_cast<double>(done - first) / static_cast<double>(strokes.size() - first));
   }
-  this->Shares.resize(done);
-  this->Reaches.resize(done);
+  this->Fractions.resize(done);
+  this->Achieved.resize(done);
   this->Applied = static_cast<int>(done - first);
   this->Strokes.assign(strokes.begin(), strokes.begin() + static_cast<std::ptrdiff_t>(done));
   return this->Result;
@@ -198,7 +199,7 @@ std::string Replay::strokesInFeather() const
   for (std::size_t number = 0; this->Base.mask && number < this->Strokes.size(); ++number)
   {
     const Stroke& stroke = this->Strokes[number];
-    if (stroke.enabled && this->Reaches[number] < FullReach * glm::length(stroke.vector) &&
+    if (stroke.enabled && this->Achieved[number] < FullyAchieved * glm::length(stroke.vector) &&
       isFeathered(this->Base, stroke.anchor))
     {
       named.add(std::to_string(number));

@@ -34,8 +34,11 @@ struct Guarding
   }
 };
 
-/** Hears which share of a run's strokes is applied, above 0 and below 1. False ends the run. */
-using ReplayProgress = std::function<bool(double share)>;
+/**
+ * Called with the fraction of a run's strokes that is applied, above 0 and below 1. False ends the
+ * run.
+ */
+using ReplayProgress = std::function<bool(double fraction)>;
 
 /** A checkpoint follows so many strokes, until checkpoints take MostCheckpointBytes. */
 constexpr std::size_t StrokesPerCheckpoint = 16;
@@ -72,11 +75,14 @@ public:
   /** How many strokes the last run applied. */
   int applied() const { return this->Applied; }
 
-  /** The share of each stroke that was applied, 0 to 1. A disabled stroke has 1. */
-  const std::vector<double>& shares() const { return this->Shares; }
+  /** The fraction of each stroke that was applied, 0 to 1. A disabled stroke has 1. */
+  const std::vector<double>& fractions() const { return this->Fractions; }
 
-  /** How far (mm) each stroke took the tissue at its anchor along its vector; see reachOf. */
-  const std::vector<double>& reaches() const { return this->Reaches; }
+  /**
+   * Displacement (mm) of the tissue at the anchor of each stroke along its vector:
+   * achievedDisplacement.
+   */
+  const std::vector<double>& achieved() const { return this->Achieved; }
 
   /**
    * One sentence, without a full stop, about the enabled strokes whose anchor a mask holds back: it
@@ -92,7 +98,7 @@ private:
   void start(const Lattice& base, const Guarding& guarding);
   bool isFor(const Lattice& base, const Guarding& guarding) const;
   std::size_t goBack(std::size_t same, std::size_t count);
-  void apply(const Stroke& stroke, double share);
+  void apply(const Stroke& stroke, double fraction);
   void applyGuarded(const Stroke& stroke);
   void keepCheckpoint(std::size_t count);
 
@@ -107,8 +113,8 @@ private:
   Guarding Guarded;
   FoldGuard Guard;
   std::vector<Stroke> Strokes;
-  std::vector<double> Shares;
-  std::vector<double> Reaches;
+  std::vector<double> Fractions;
+  std::vector<double> Achieved;
   Lattice BeforeLast; // after all strokes but the last
   Lattice Result;     // after all of them
   int Applied = 0;

@@ -3,8 +3,8 @@
  * @file
  * @brief A segment as a smooth field, so that its surface shows no steps of voxels.
  *
- * The share at a point is how much of the space around it belongs to the segment. A share of one
- * half means that the point lies on the segment's surface.
+ * The share at a point is the fraction of the space around it that belongs to the segment. A share
+ * of one half means that the point is on the segment's surface.
  *
  * Voxels are smoothed on their own grid by a binomial filter of five, whose edge is about two
  * voxels wide. Then the middle of each voxel is put back on the side that its label says. So a part

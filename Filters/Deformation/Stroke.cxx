@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/Stroke.h"
 
+#include "Common/Problem.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -49,16 +51,18 @@ std::string toolsOfStrokes()
   return last == std::string::npos ? text : text.replace(last, 2, " or ");
 }
 
-void requireRadius(std::ostream& problem, const char* name, double value)
+// Writes what is wrong with a radius. Returns whether it is good.
+bool isRadius(std::ostream& problem, const char* name, double value)
 {
   if (value <= 0.0)
   {
     problem << "its " << name << " is " << value << " mm; it must be above 0 mm";
   }
+  return value > 0.0;
 }
 
 // What is wrong with one stroke's numbers; empty if nothing is.
-std::string problemOf(const double* numbers)
+std::string problemOfStroke(const double* numbers)
 {
   std::ostringstream problem;
   const auto bad = std::find_if_not(numbers, numbers + NumbersPerStroke,
@@ -86,19 +90,13 @@ std::string problemOf(const double* numbers)
   }
   else if (shapeOf(stroke.tool) == StrokeShape::Sphere)
   {
-    requireRadius(problem, "radius", stroke.major);
+    isRadius(problem, "radius", stroke.major);
   }
-  else if (shapeOf(stroke.tool) == StrokeShape::Ellipsoid)
+  else if (shapeOf(stroke.tool) == StrokeShape::Ellipsoid &&
+    isRadius(problem, "major radius", stroke.major) &&
+    isRadius(problem, "minor radius", stroke.minor) && stroke.axis == glm::dvec3(0.0))
   {
-    requireRadius(problem, "major radius", stroke.major);
-    if (problem.str().empty())
-    {
-      requireRadius(problem, "minor radius", stroke.minor);
-    }
-    if (problem.str().empty() && stroke.axis == glm::dvec3(0.0))
-    {
-      problem << "its axis is 0 0 0; it must have a length above 0";
-    }
+    problem << "its axis is 0 0 0; it must have a length above 0";
   }
   return problem.str();
 }
@@ -111,24 +109,21 @@ bool Stroke::operator==(const Stroke& other) const
     this->sigma == other.sigma && this->enabled == other.enabled;
 }
 
-std::vector<Stroke> strokesFromNumbers(const std::vector<double>& numbers, std::string& error)
+std::vector<Stroke> strokesFromNumbers(const std::vector<double>& numbers)
 {
-  error.clear();
-  std::vector<Stroke> strokes;
   if (numbers.size() % NumbersPerStroke != 0)
   {
-    error = "Strokes holds " + std::to_string(numbers.size()) + " numbers; it must hold " +
-      std::to_string(NumbersPerStroke) + " for each stroke";
-    return strokes;
+    throw Problem("Strokes holds " + std::to_string(numbers.size()) + " numbers; it must hold " +
+      std::to_string(NumbersPerStroke) + " for each stroke");
   }
+  std::vector<Stroke> strokes;
   strokes.reserve(numbers.size() / NumbersPerStroke);
   for (std::size_t first = 0; first < numbers.size(); first += NumbersPerStroke)
   {
-    const std::string problem = problemOf(&numbers[first]);
+    const std::string problem = problemOfStroke(&numbers[first]);
     if (!problem.empty())
     {
-      error = "Stroke " + std::to_string(first / NumbersPerStroke) + ": " + problem;
-      return {};
+      throw Problem("Stroke " + std::to_string(first / NumbersPerStroke) + ": " + problem);
     }
     strokes.push_back(strokeFromNumbers(&numbers[first]));
   }

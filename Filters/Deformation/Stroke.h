@@ -13,7 +13,6 @@
 #include <glm/vec3.hpp>
 
 #include <array>
-#include <string>
 #include <vector>
 
 namespace brainshift
@@ -42,7 +41,7 @@ enum class StrokeShape
   Ellipsoid,
 };
 
-/** What strokes need to know of a tool. Interaction/Commands/Tools.h says the rest. */
+/** The part of a tool that strokes need. Interaction/Commands/Tools.h has the rest. */
 struct ToolTraits
 {
   Tool tool;
@@ -119,14 +118,11 @@ constexpr double LargestStrokeNumber = 1e9;
 constexpr double SmallestSigma = 0.001;
 
 /**
- * Reads strokes from their list of numbers.
- *
- * @param error   empty if the numbers are good; otherwise one sentence, without a full stop, that
- *                names the stroke, the number, its value and its limit
- * @return the strokes; none if a number is bad
+ * Reads strokes from their list of numbers. Throws a Problem that names the stroke, the number, its
+ * value and its limit if a number is bad.
  */
 BRAINSHIFT_DEFORMATION_EXPORT std::vector<Stroke> strokesFromNumbers(
-  const std::vector<double>& numbers, std::string& error);
+  const std::vector<double>& numbers);
 
 /** The strokes as a list of numbers, 14 for each. */
 BRAINSHIFT_DEFORMATION_EXPORT std::vector<double> numbersFromStrokes(

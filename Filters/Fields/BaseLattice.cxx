@@ -2,20 +2,33 @@
 #include "Filters/Fields/BaseLattice.h"
 
 #include "Common/FieldDirection.h"
+#include "Common/FieldWord.h"
 #include "Common/Grid.h"
 #include "Common/ImageGrid.h"
+#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
+#include "Filters/Deformation/Kernels.h"
 #include "Filters/Deformation/Lattice.h"
 #include "Formats/Fields/FieldImage.h"
 
 #include "vtkDataArray.h"
+#include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <regex>
+#include <sstream>
 
 namespace brainshift
 {
@@ -30,55 +43,258 @@ void addField(Lattice& lattice, vtkImageData* image, vtkDataArray* field)
     field->GetTuple(static_cast<vtkIdType>(from.offset(at.x, at.y, at.z)), tuple);
     return glm::dvec3(tuple[0], tuple[1], tuple[2]);
   };
-  const glm::ivec3 last = from.dimensions - 1;
   std::size_t point = 0;
   forEachIndex(glm::ivec3(0), lattice.grid.dimensions - 1, [&](const glm::ivec3& index) {
-    const glm::dvec3 position =
-      glm::clamp(from.gridFromWorld(lattice.grid.worldFromGrid(glm::dvec3(index))), glm::dvec3(0.0),
-        glm::dvec3(last));
-    const glm::ivec3 low(position);
-    const glm::dvec3 within = position - glm::dvec3(low);
+    const glm::dvec3 position = from.gridFromWorld(lattice.grid.worldFromGrid(glm::dvec3(index)));
     glm::dvec3 sum(0.0);
-    for (int corner = 0; corner < 8; ++corner)
-    {
-      const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
-      const glm::dvec3 weight = glm::mix(1.0 - within, within, glm::dvec3(side));
-      sum += weight.x * weight.y * weight.z * value(glm::min(low + side, last));
-    }
+    forEachCorner(
+      from, position, [&](const glm::ivec3& at, double weight) { sum += weight * value(at); });
     lattice.displacements[point++] += glm::vec3(sum);
   });
 }
+
+constexpr const char* ArrayName = "FittedFor";
+constexpr int NumberOfNumbers = 14;
+constexpr double BoxTolerance = 1e-6; // of a cell
+// Single precision rounds each weight. The errors of many weights add up as the root of their
+// number.
+constexpr double WeightTolerance = 1e-6;
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+// The numbers of the array, in this order.
+struct FittedFor
+{
+  glm::dvec3 dimensions{ 0.0 };
+  double kernel = 0.0;
+  double samples = 0.0;
+  glm::dvec3 first{ 0.0 };   // mm, corners of the box
+  glm::dvec3 last{ 0.0 };    // mm
+  glm::dvec3 weights{ NaN }; // sums over the mask; NaN: no mask. Old files: the plain sum alone
+
+  bool hasMask() const { return !std::isnan(this->weights.x); }
+  double nodes() const
+  {
+    const glm::dvec3 sides = (this->dimensions - 1.0) * (this->samples + 1.0) + 1.0;
+    return sides.x * sides.y * sides.z;
+  }
+};
+static_assert(sizeof(FittedFor) == NumberOfNumbers * sizeof(double));
+
+// 1 and two numbers from -1 to 1 that look random (splitmix64 by Steele et al., 2014). Sums with
+// them are equal, but for rounding, only if all weights are.
+glm::dvec3 factorsOf(std::uint64_t node)
+{
+  std::uint64_t bits = (node + 1) * 0x9e3779b97f4a7c15U;
+  bits = (bits ^ bits >> 30) * 0xbf58476d1ce4e5b9U;
+  bits = (bits ^ bits >> 27) * 0x94d049bb133111ebU;
+  bits ^= bits >> 31;
+  constexpr double Half = 2147483648.0;
+  return { 1.0, double(bits & 0xffffffffU) / Half - 1.0, double(bits >> 32) / Half - 1.0 };
 }
 
-std::string addBase(Lattice& lattice, vtkImageData* base)
+FittedFor fittedFor(const Grid& grid, int kernel, int samples)
 {
-  if (!base || base->GetNumberOfPoints() == 0)
+  return { glm::dvec3(grid.dimensions), double(kernel), double(samples), grid.origin,
+    grid.worldFromGrid(glm::dvec3(grid.dimensions - 1)) };
+}
+
+FittedFor fittedFor(const Lattice& lattice, int samples)
+{
+  FittedFor result = fittedFor(lattice.grid, lattice.kernel, samples);
+  if (lattice.mask && !lattice.mask->values.empty())
+  {
+    result.weights = glm::dvec3(0.0);
+    const std::vector<float>& values = lattice.mask->values;
+    for (std::size_t node = 0; node < values.size(); ++node)
+    {
+      if (values[node] != 0.0f) // most of a mask is empty
+      {
+        result.weights += double(values[node]) * factorsOf(node);
+      }
+    }
+  }
+  return result;
+}
+
+// The string of old files, for example "19 x 19 x 19 control points, kernel Catmull-Rom, Samples 4,
+// a mask that lets 12.345678 % move".
+std::optional<FittedFor> oldFittedFor(vtkDataObject* base)
+{
+  static const std::regex form("(\\d{1,3}) x (\\d{1,3}) x (\\d{1,3}) control points, kernel "
+                               "(Catmull-Rom|B-Spline), Samples (\\d{1,2}), "
+                               "(no mask|a mask that lets (\\d{1,3}\\.\\d{1,9}) % move)");
+  const std::string words = fieldWordOf(base, ArrayName);
+  auto* image = vtkImageData::SafeDownCast(base);
+  std::smatch parts;
+  if (!image || !std::regex_match(words, parts, form))
   {
     return {};
   }
+  FittedFor fitted = fittedFor(
+    gridOf(image), parts[4] == "B-Spline" ? KernelBSpline : KernelCatmullRom, std::stoi(parts[5]));
+  fitted.dimensions = { std::stoi(parts[1]), std::stoi(parts[2]), std::stoi(parts[3]) };
+  if (parts[7].matched)
+  {
+    fitted.weights = { std::stod(parts[7]) / 100.0 * fitted.nodes(), NaN, NaN };
+  }
+  return fitted;
+}
+
+std::optional<FittedFor> fittedForOf(vtkDataObject* base)
+{
+  auto* array = base
+    ? vtkDoubleArray::SafeDownCast(base->GetFieldData()->GetAbstractArray(ArrayName))
+    : nullptr;
+  if (!array || array->GetNumberOfValues() != NumberOfNumbers)
+  {
+    return oldFittedFor(base);
+  }
+  FittedFor fitted;
+  std::memcpy(static_cast<void*>(&fitted), array->GetPointer(0), sizeof(fitted));
+  return fitted;
+}
+
+// To rounding: on several MPI ranks each knows the box from its own piece.
+bool coversSameBox(const FittedFor& one, const FittedFor& two)
+{
+  const double tolerance = BoxTolerance * glm::length((two.last - two.first) / two.dimensions);
+  return glm::distance(one.first, two.first) <= tolerance &&
+    glm::distance(one.last, two.last) <= tolerance;
+}
+
+// Of lattices with the same nodes.
+bool hasSameMask(const FittedFor& one, const FittedFor& other)
+{
+  const glm::dvec3 away = glm::abs(one.weights - other.weights);
+  if (std::isnan(one.weights.y) && one.hasMask()) // of an old file, which has six digits of percent
+  {
+    return away.x <= 1e-8 * one.nodes();
+  }
+  return one.hasMask() == other.hasMask() &&
+    (!one.hasMask() ||
+      glm::all(glm::lessThanEqual(away, glm::dvec3(WeightTolerance * std::sqrt(one.nodes())))));
+}
+
+template <typename... Parts>
+std::string joined(const Parts&... parts)
+{
+  std::ostringstream words;
+  (words << ... << parts);
+  return words.str();
+}
+
+std::string wordsOnSides(const FittedFor& fitted)
+{
+  const glm::dvec3& sides = fitted.dimensions;
+  return joined("LatticeDimensions ", sides.x, " x ", sides.y, " x ", sides.z);
+}
+
+std::string wordsOnKernel(const FittedFor& fitted)
+{
+  return joined("Kernel ", fitted.kernel == KernelCatmullRom ? "Catmull-Rom" : "B-Spline");
+}
+
+std::string wordsOnSamples(const FittedFor& fitted)
+{
+  return joined("Samples ", fitted.samples);
+}
+
+std::string wordsOnMask(const FittedFor& fitted)
+{
+  return fitted.hasMask()
+    ? joined("a mask that lets ", 100.0 * fitted.weights.x / fitted.nodes(), " % move")
+    : "no mask";
+}
+
+std::string wordsOnBox(const FittedFor& fitted)
+{
+  const glm::dvec3& from = fitted.first;
+  const glm::dvec3& to = fitted.last;
+  return joined(
+    "the box from ", from.x, " ", from.y, " ", from.z, " to ", to.x, " ", to.y, " ", to.z, " mm");
+}
+
+// The settings that differ, with the value of either side.
+struct Differences
+{
+  std::string fitted;
+  std::string wanted;
+};
+
+Differences differencesOf(const FittedFor& fitted, const FittedFor& wanted)
+{
+  Differences found;
+  const auto add = [&](bool differs, std::string (*wordsOn)(const FittedFor&)) {
+    if (differs)
+    {
+      const char* comma = found.fitted.empty() ? "" : ", ";
+      const std::string here = wordsOn(wanted);
+      found.fitted += comma + wordsOn(fitted);
+      found.wanted +=
+        comma + (here == wordsOn(fitted) ? "another" + here.substr(here.find(' ')) : here);
+    }
+  };
+  add(fitted.dimensions != wanted.dimensions, wordsOnSides);
+  add(fitted.kernel != wanted.kernel, wordsOnKernel);
+  add(fitted.samples != wanted.samples, wordsOnSamples);
+  // Weights can be compared only at the same nodes.
+  const bool areComparable =
+    fitted.dimensions == wanted.dimensions && fitted.samples == wanted.samples;
+  add(areComparable ? !hasSameMask(fitted, wanted) : fitted.hasMask() != wanted.hasMask(),
+    wordsOnMask);
+  add(!coversSameBox(fitted, wanted), wordsOnBox);
+  return found;
+}
+}
+
+void addBase(Lattice& lattice, vtkImageData* base)
+{
+  if (!base || base->GetNumberOfPoints() == 0)
+  {
+    return;
+  }
   if (directionOf(base) == Direction::Backward)
   {
-    return "The base lattice is a backward field; it must be a forward field. Invert Displacement "
-           "Field makes a forward field";
+    throw Problem("The base lattice is a backward field; it must be a forward field. Invert "
+                  "Displacement Field makes a forward field");
   }
   vtkDataArray* field = fieldOf(base);
   if (!field)
   {
-    return "The base lattice has no point array of 3 components (mm)";
+    throw Problem("The base lattice has no point array of 3 components (mm)");
   }
-  const std::string problem = problemOfGrid(gridOf(base));
-  if (!problem.empty())
-  {
-    return "The base lattice's " + problem;
-  }
+  requirePosition(gridOf(base), "The base lattice's ");
   addField(lattice, base, field);
   const auto finite = [](const glm::vec3& d) {
     return std::isfinite(d.x) && std::isfinite(d.y) && std::isfinite(d.z);
   };
   const std::string array =
     std::string("base lattice's array ") + (field->GetName() ? field->GetName() : "without a name");
-  return std::all_of(lattice.displacements.begin(), lattice.displacements.end(), finite)
-    ? problemOfDisplacements(lattice, "the " + array)
-    : "The " + array + " holds a number that is not finite";
+  if (!std::all_of(lattice.displacements.begin(), lattice.displacements.end(), finite))
+  {
+    throw Problem("The " + array + " holds a number that is not finite");
+  }
+  requireDisplacements(lattice, "the " + array);
+}
+
+void attachFittedFor(vtkDataObject* image, const Lattice& lattice, int samples)
+{
+  const FittedFor fitted = fittedFor(lattice, samples);
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(ArrayName);
+  array->SetNumberOfValues(NumberOfNumbers);
+  std::memcpy(array->GetPointer(0), &fitted, sizeof(fitted));
+  image->GetFieldData()->AddArray(array);
+}
+
+std::string wordsOnFittedFor(vtkDataObject* base, const Lattice& lattice, int samples)
+{
+  const std::optional<FittedFor> fitted = fittedForOf(base);
+  const Differences found =
+    fitted ? differencesOf(*fitted, fittedFor(lattice, samples)) : Differences();
+  return found.fitted.empty()
+    ? std::string()
+    : "The base lattice was fitted for " + found.fitted + ". This deformation has " + found.wanted +
+      ". The figures of the fit do not hold here: give Fit Deformation the same settings and Input";
 }
 }

@@ -2,6 +2,7 @@
 #include "vtkLatticeAlgorithm.h"
 
 #include "Common/ImageGrid.h"
+#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/MaskImage.h"
 #include "Filters/Deformation/OffsetField.h"
@@ -13,7 +14,6 @@
 
 #include <glm/common.hpp>
 #include <glm/gtc/type_ptr.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <cmath>
 #include <sstream>
@@ -59,23 +59,15 @@ int vtkLatticeAlgorithm::AnnounceLattice(
   return 1;
 }
 
-std::string vtkLatticeAlgorithm::ProblemOfSettings() const
+void vtkLatticeAlgorithm::RequireSettings() const
 {
+  requireLatticeSides(glm::make_vec3(this->LatticeDimensions));
   std::ostringstream words;
-  const glm::ivec3 sides = glm::make_vec3(this->LatticeDimensions);
-  if (glm::any(glm::lessThan(sides, glm::ivec3(SmallestLatticeSide))) ||
-    glm::any(glm::greaterThan(sides, glm::ivec3(LargestLatticeSide))))
-  {
-    words << "LatticeDimensions is " << sides.x << " x " << sides.y << " x " << sides.z
-          << "; each side must have from " << SmallestLatticeSide << " to " << LargestLatticeSide
-          << " points";
-    return words.str();
-  }
   if (this->Samples < SmallestSamples || this->Samples > LargestSamples)
   {
     words << "Samples is " << this->Samples << "; it must be from " << SmallestSamples << " to "
           << LargestSamples;
-    return words.str();
+    throw Problem(words.str());
   }
   for (const auto& [name, mm] :
     { std::pair("Feather", this->Feather), std::pair("MaskGrowth", this->MaskGrowth) })
@@ -83,24 +75,18 @@ std::string vtkLatticeAlgorithm::ProblemOfSettings() const
     if (!(mm >= 0.0 && std::isfinite(mm)))
     {
       words << name << " is " << mm << " mm; it must be 0 or more, and finite";
-      return words.str();
+      throw Problem(words.str());
     }
   }
-  return {};
 }
 
-std::string vtkLatticeAlgorithm::MakeLattice(
-  const Grid& volume, vtkImageData* mask, Lattice& lattice)
+Lattice vtkLatticeAlgorithm::MakeLattice(const Grid& volume, vtkImageData* mask)
 {
-  const std::string problem = this->ProblemOfSettings();
-  if (!problem.empty())
-  {
-    return problem;
-  }
-  lattice = makeLattice(this->LatticeGrid(volume), this->Kernel);
-  return this->Masks->find({ mask, this->MaskLabels, this->MaskGrowth, this->Feather, volume,
-                             lattice.grid, this->Samples },
-    lattice.mask);
+  this->RequireSettings();
+  Lattice lattice = makeLattice(this->LatticeGrid(volume), this->Kernel);
+  lattice.mask = this->Masks->find({ mask, this->MaskLabels, this->MaskGrowth, this->Feather,
+    volume, lattice.grid, this->Samples });
+  return lattice;
 }
 
 void vtkLatticeAlgorithm::PrintSelf(ostream& os, vtkIndent indent)

@@ -18,7 +18,6 @@
 #include "vtkPassInputTypeAlgorithm.h"
 
 #include <memory> // for the private part
-#include <string> // for messages
 #include <vector> // for labels
 
 class vtkImageData;
@@ -119,10 +118,10 @@ protected:
    * until something that they depend on changes.
    *
    * @param mask   null or empty: no mask
-   * @return one sentence without a full stop on a setting or a mask that is wrong; otherwise empty
+   *
+   * Throws a Problem on a setting or a mask that is wrong.
    */
-  std::string MakeLattice(
-    const brainshift::Grid& volume, vtkImageData* mask, brainshift::Lattice& lattice);
+  brainshift::Lattice MakeLattice(const brainshift::Grid& volume, vtkImageData* mask);
 
   const std::vector<int>& ChosenLabels() const { return this->MaskLabels; }
 
@@ -130,7 +129,7 @@ private:
   vtkLatticeAlgorithm(const vtkLatticeAlgorithm&) = delete;
   void operator=(const vtkLatticeAlgorithm&) = delete;
 
-  std::string ProblemOfSettings() const;
+  void RequireSettings() const;
 
   int LatticeDimensions[3] = { 19, 19, 19 };
   int Samples = 4;

@@ -13,11 +13,11 @@ namespace brainshift
 namespace
 {
 constexpr int MostTries = 24;  // halvings of the range of cell sizes
-constexpr double Enough = 0.1; // share of the wanted number by which the choice may miss it
+constexpr double Enough = 0.1; // fraction of the wanted number by which the choice may miss it
 
 using Cell = std::tuple<double, double, double>;
 
-// The number of the point of each cell that lies nearest to its middle.
+// The number of the point of each cell that is nearest to its middle.
 std::vector<std::size_t> nearestToMiddles(const std::vector<SurfacePoint>& points, double cellMm)
 {
   std::map<Cell, std::pair<double, std::size_t>> best;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Chooses places of the cortex that hold it where the skull is closed.
+ * @brief Chooses points of the cortex that hold it where the skull is closed.
  *
  * Without them the cortex elsewhere follows what was measured under the opening.
  */
@@ -26,7 +26,7 @@ struct OpeningBall
   double radiusMm = -1.0;   ///< below 0: there is no opening
 };
 
-/** How far (mm) from the opening the cortex is taken to stay. */
+/** Distance (mm) from the opening beyond which the cortex is assumed to stay. */
 constexpr double AnchorMarginMm = 15.0;
 
 /** About how many anchors hold the cortex. */
@@ -43,8 +43,8 @@ BRAINSHIFT_DEFORMATION_EXPORT std::vector<SurfacePoint> thinnedPoints(
   const std::vector<SurfacePoint>& surface, double cellMm);
 
 /**
- * Chooses anchors that are spread evenly: of the points in each cell of a grid the one that lies
- * nearest to its middle.
+ * Chooses anchors that are spread evenly: of the points in each cell of a grid the one nearest to
+ * its middle.
  *
  * @param surface    points of the cortex with normals
  * @param isOpen     whether a position (mm, rest frame) is too near to the opening

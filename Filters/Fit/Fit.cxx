@@ -2,6 +2,7 @@
 #include "Filters/Fit/Fit.h"
 
 #include "Common/Parallel.h"
+#include "Common/Problem.h"
 #include "Filters/Fit/TraceRows.h"
 
 #include <glm/geometric.hpp>
@@ -24,8 +25,8 @@ constexpr int MostMotions = 50;
 constexpr int ProjectionsOfStart = 2;         // each halves what is left of a bend many times over
 constexpr double MotionTolerance = 1e-12;     // mm and rad
 constexpr double MotionUnsettled = 1e-6;      // mm and rad: more than rounding moves
-constexpr double LeastSpreadMm = 1.0;         // around a line, to know the turn around it
-constexpr double PriorPairs = 8.0;            // that the deviations before any pair stand for
+constexpr double LeastSpreadMm = 1.0;         // around a line, to know the rotation about it
+constexpr double PriorPairs = 8.0;            // weight of the settings against the pairs
 constexpr double FarthestDeviationMm = 100.0; // of a pair that is left out: beyond it is unknown
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -66,7 +67,7 @@ double squared(double value)
   return value * value;
 }
 
-// Whether the other measurements say where a pair would come to lie. Where they leave a turn or
+// Whether the other measurements determine the position of a pair. Where they leave a rotation or
 // a shift open, the covariance is singular or huge.
 bool isDetermined(const glm::dmat3& covariance)
 {
@@ -83,29 +84,27 @@ Fit::Fit()
 {
 }
 
-std::string Fit::solve(const Measurements& measured, const FitSettings& settings,
+void Fit::solve(const Measurements& measured, const FitSettings& settings,
   const RestSurface& surface, const Process* start)
 {
-  std::string problem = problemOf(measured);
-  problem = problem.empty() ? problemOf(settings) : problem;
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  requireGood(measured);
+  requireGood(settings);
   this->Rigid = {};
   this->Base = measured.base;
   this->Steps = 0;
-  this->ExpectsSmallTurn = false;
-  problem = bendsOnly(measured) ? this->solveBend(measured, settings, surface, start)
-                                : this->solveRigid(measured, settings);
-  if (problem.empty())
+  this->ExpectsSmallRotation = false;
+  if (bendsOnly(measured))
   {
-    this->judge(measured);
+    this->solveBend(measured, settings, surface, start);
   }
-  return problem;
+  else
+  {
+    this->solveRigid(measured, settings);
+  }
+  this->judge(measured);
 }
 
-std::string Fit::solveRigid(const Measurements& measured, const FitSettings& settings)
+void Fit::solveRigid(const Measurements& measured, const FitSettings& settings)
 {
   std::vector<glm::dvec3> from;
   std::vector<glm::dvec3> to;
@@ -123,20 +122,20 @@ std::string Fit::solveRigid(const Measurements& measured, const FitSettings& set
   this->PullRows.clear();
   this->LandmarkRows =
     addPairs(rows, measured.landmarks, settings.landmarkDeviation * settings.relaxation);
-  const bool saysTurn = spreadAroundLine(from, weights) >= LeastSpreadMm;
-  this->ExpectsSmallTurn = !(from.size() >= settings.pairsWithoutPrior && saysTurn);
-  const bool isFree = !this->ExpectsSmallTurn;
+  const bool saysRotation = spreadAroundLine(from, weights) >= LeastSpreadMm;
+  this->ExpectsSmallRotation = !(from.size() >= settings.pairsWithoutPrior && saysRotation);
+  const bool isFree = !this->ExpectsSmallRotation;
   const RigidMean mean{ weightedMean(from, weights),
     isFree ? 0.0 : 1.0 / squared(glm::radians(settings.rotationPriorDegrees)) };
   this->Field = Process(settings.landmarkKernel);
-  const std::string problem = this->Field.setRows(rows, mean);
-  if (!problem.empty() || from.empty())
+  this->Field.setRows(rows, mean);
+  if (from.empty())
   {
-    return problem;
+    return;
   }
   const glm::dvec3 shift = weightedMean(to, weights) - mean.centre;
   this->Rigid = turnedAround(
-    mean.centre, saysTurn ? nearestRotation(from, to, weights) : glm::dmat3(1.0), shift);
+    mean.centre, saysRotation ? nearestRotation(from, to, weights) : glm::dmat3(1.0), shift);
   double moved = 0.0;
   for (int i = 0; i < MostMotions; ++i)
   {
@@ -157,11 +156,13 @@ std::string Fit::solveRigid(const Measurements& measured, const FitSettings& set
     }
     this->Rigid = { this->Rigid.rotation * step.rotation, this->Rigid.apply(step.translation) };
   }
-  // A comparison with NaN is false.
-  return moved < MotionUnsettled ? std::string() : "The landmarks do not say how the volume turned";
+  if (!(moved < MotionUnsettled)) // also rejects NaN
+  {
+    throw Problem("The landmarks do not say how the volume turned");
+  }
 }
 
-std::string Fit::solveBend(const Measurements& measured, const FitSettings& settings,
+void Fit::solveBend(const Measurements& measured, const FitSettings& settings,
   const RestSurface& surface, const Process* start)
 {
   const double deviation = settings.surfaceDeviation * settings.relaxation;
@@ -179,7 +180,8 @@ std::string Fit::solveBend(const Measurements& measured, const FitSettings& sett
   this->Field = Process(settings.surfaceKernel);
   if (measured.traces.empty() || !surface)
   {
-    return this->Field.setRows(rows);
+    this->Field.setRows(rows);
+    return;
   }
   TraceProjection projection(measured.traces, surface, this->Base);
   const TraceBins bins(measured.traces, settings, deviation);
@@ -198,13 +200,8 @@ std::string Fit::solveBend(const Measurements& measured, const FitSettings& sett
     std::vector<Row> all = rows;
     const std::vector<Row> traced = bins.rows(projection.feet());
     all.insert(all.end(), traced.begin(), traced.end());
-    const std::string problem = this->Field.setRows(all);
-    if (!problem.empty())
-    {
-      return problem;
-    }
+    this->Field.setRows(all);
   }
-  return {};
 }
 
 void Fit::judge(const Measurements& measured)
@@ -226,7 +223,7 @@ void Fit::judge(const Measurements& measured)
     ++count;
     return glm::length(left.error);
   };
-  // One pair alone says all of the rigid part: without it, there is nothing to leave it out of.
+  // One pair alone determines all of the rigid part: without it there is no fit.
   const auto used = std::count_if(this->LandmarkRows.begin(), this->LandmarkRows.end(),
     [](const std::optional<std::size_t>& first) { return first.has_value(); });
   if (used > 1 || bendsOnly(measured))

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Finds how the volume lies and bends from what was measured, and how far that can be
- *        believed.
+ * @brief Finds the rigid motion and the bend of the volume from measurements, and their
+ *        uncertainty.
  *
  * measuredFromRest is the bend, then a rigid motion. The bend is that of the base, and a field on
  * top of it. All measurements are solved together, so their order does not matter.
@@ -20,12 +20,14 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace brainshift
 {
-/** A ball with this many deviations as its radius holds 95 % of a normal distribution in space. */
+/**
+ * A ball with this many deviations as its radius holds 95 % of a normal distribution in space: the
+ * root of the quantile of the chi-squared distribution with three degrees of freedom.
+ */
 constexpr double DeviationsOfBall95 = 2.7954834829151074;
 
 class BRAINSHIFT_DEFORMATION_EXPORT Fit
@@ -40,18 +42,19 @@ public:
    * @param start     a field close to the answer, say that of a moment ago. Traced points are then
    *                  projected with it, and the equations are solved once. This is for a hand that
    *                  moves: the result depends a little on the start.
-   * @return one sentence without a full stop if it cannot; the last result is then void
+   *
+   * Throws a Problem if it cannot; the last result is then void.
    */
-  std::string solve(const Measurements& measured, const FitSettings& settings,
+  void solve(const Measurements& measured, const FitSettings& settings,
     const RestSurface& surface = {}, const Process* start = nullptr);
 
   /** The rigid part: measured from rest. The identity if the volume only bends. */
   const RigidPose& rigid() const { return this->Rigid; }
 
-  /** Whether the pairs are too few, or too near to a line, to believe any turn: FitSettings. */
-  bool isTurnExpectedSmall() const { return this->ExpectsSmallTurn; }
+  /** Whether the pairs are too few, or too near to a line, to find any rotation: FitSettings. */
+  bool isRotationExpectedSmall() const { return this->ExpectsSmallRotation; }
 
-  /** How far (mm) tissue at a rest position bends before the rigid part moves it. */
+  /** Displacement (mm) of tissue at a rest position before the rigid part moves it. */
   glm::dvec3 bend(const glm::dvec3& rest) const
   {
     return this->Field.displacement(rest) +
@@ -69,9 +72,9 @@ public:
 
   /**
    * Standard deviation (mm) of measuredFromRest along each axis, as calibrated by leaving pairs
-   * out. Infinity if nothing was measured. It is that of where the tissue lies. A ball with the
-   * radius DeviationsOfBall95 times it holds the tissue with 95 %. Where the tissue is measured
-   * also has the error of a measurement: there the radius is DeviationsOfBall95 times the root of
+   * out. Infinity if nothing was measured. It is that of the position of the tissue: a ball with
+   * the radius DeviationsOfBall95 times it holds the tissue with 95 %. The measured position also
+   * has the error of a measurement: there the radius is DeviationsOfBall95 times the root of
    * deviation^2 + (landmarkDeviation * calibration)^2.
    */
   double deviation(const glm::dvec3& rest) const;
@@ -83,24 +86,24 @@ public:
   double deviationOf(double variance) const;
 
   /**
-   * For each landmark, how far (mm) a fit without it puts its tissue from where it was measured, in
-   * closed form. NaN for a landmark that is switched off, and for one that the others say nothing
-   * about: its deviation without it is beyond 100 mm.
+   * For each landmark its leave-one-out error: the distance (mm) between the measured landmark and
+   * its prediction by a fit without it, in closed form. NaN for a landmark that is switched off,
+   * and for one that the others do not determine: its deviation without it is beyond 100 mm.
    */
   const std::vector<double>& leaveOneOut() const { return this->LeaveOneOut; }
 
-  /** Factor on deviations that makes them agree with what leaving pairs out showed. */
+  /** Factor on deviations that makes them agree with the leave-one-out errors. */
   double calibration() const { return this->Calibration; }
 
-  /** How often the traced points were projected. */
+  /** Number of projections of the traced points. */
   int steps() const { return this->Steps; }
 
   /** The field that bends on top of the base. */
   const Process& field() const { return this->Field; }
 
 private:
-  std::string solveRigid(const Measurements& measured, const FitSettings& settings);
-  std::string solveBend(const Measurements& measured, const FitSettings& settings,
+  void solveRigid(const Measurements& measured, const FitSettings& settings);
+  void solveBend(const Measurements& measured, const FitSettings& settings,
     const RestSurface& surface, const Process* start);
   void judge(const Measurements& measured);
 
@@ -112,7 +115,7 @@ private:
   std::vector<double> LeaveOneOut;
   double Calibration = 1.0;
   int Steps = 0;
-  bool ExpectsSmallTurn = false;
+  bool ExpectsSmallRotation = false;
 };
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Fit/FittedLattice.h"
 
+#include "Common/Grid.h"
 #include "Common/Parallel.h"
+#include "Common/Problem.h"
 #include "Filters/Deformation/FoldGuard.h"
-#include "Filters/Fit/FitLattice.h"
+#include "Filters/Deformation/Kernels.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -15,6 +17,7 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <vector>
 
 namespace brainshift
 {
@@ -22,46 +25,68 @@ namespace
 {
 constexpr std::int64_t TracesAtLeast = 32; // for a thread: about 0.1 ms
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+// World positions (mm) of all points of a grid, x fastest.
+std::vector<glm::dvec3> positionsOf(const Grid& grid)
+{
+  std::vector<glm::dvec3> positions;
+  positions.reserve(grid.count());
+  forEachIndex(glm::ivec3(0), grid.dimensions - 1,
+    [&](const glm::ivec3& index) { positions.push_back(grid.worldFromGrid(glm::dvec3(index))); });
+  return positions;
+}
 }
 
-std::string FittedLattice::solveWith(
+void addField(Lattice& lattice, const Process& field)
+{
+  std::vector<glm::dvec3> values = field.displacements(positionsOf(lattice.grid));
+  if (lattice.kernel == KernelBSpline)
+  {
+    toBSplineCoefficients(lattice.grid, values);
+  }
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    lattice.displacements[i] += glm::vec3(values[i]);
+  }
+}
+
+double fractionWithoutFolds(const Lattice& start, const Lattice& end, int samples)
+{
+  FoldGuard guard;
+  guard.setBase(start, samples);
+  return guard.fraction(start, end);
+}
+
+void FittedLattice::solveWith(
   double relaxation, const Measurements& measured, const RestSurface& surface, const Process* start)
 {
   FitSettings settings;
   settings.relaxation = relaxation;
   this->Relaxation = relaxation;
-  const std::string problem = this->Result.solve(measured, settings, surface, start);
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  this->Result.solve(measured, settings, surface, start);
   this->Bent = this->Start;
   addField(this->Bent, this->Result.field());
-  return problemOfDisplacements(this->Bent, "the fit");
+  requireDisplacements(this->Bent, "the fit");
 }
 
-std::string FittedLattice::solve(const Measurements& measured, const RestSurface& surface,
+void FittedLattice::solve(const Measurements& measured, const RestSurface& surface,
   const Lattice& lattice, const LatticeFitChoices& choices)
 {
   this->Map.reset();
   this->Start = measured.base ? measured.base->lattice : makeLattice(lattice.grid, lattice.kernel);
   this->Start.mask = lattice.mask;
-  this->Share = 1.0;
-  const auto findShare = [&] {
-    return shareWithoutFolds(this->Start, this->Bent, choices.samples);
+  this->Fraction = 1.0;
+  const auto findFraction = [&] {
+    return fractionWithoutFolds(this->Start, this->Bent, choices.samples);
   };
-  std::string problem = this->solveWith(1.0, measured, surface, choices.start);
-  if (problem.empty() && choices.guards && findShare() < 1.0)
+  this->solveWith(1.0, measured, surface, choices.start);
+  if (choices.guards && findFraction() < 1.0)
   {
-    problem = this->solveWith(Relaxed, measured, surface, choices.start);
-    this->Share = problem.empty() ? findShare() : 1.0;
-    this->Bent = between(this->Start, this->Bent, this->Share);
+    this->solveWith(Relaxed, measured, surface, choices.start);
+    this->Fraction = findFraction();
+    this->Bent = between(this->Start, this->Bent, this->Fraction);
   }
-  if (problem.empty())
-  {
-    this->Map.emplace(this->Bent);
-  }
-  return problem;
+  this->Map.emplace(this->Bent);
 }
 
 glm::dvec3 FittedLattice::measuredFromRest(const glm::dvec3& rest) const
@@ -149,5 +174,27 @@ double rootMeanSquare(const std::vector<double>& numbers)
     count += std::isfinite(number) ? 1.0 : 0.0;
   }
   return count > 0.0 ? std::sqrt(squares / count) : NaN;
+}
+
+std::vector<float> LatticeEvidence::deviations(const FittedLattice& fitted)
+{
+  const Grid& grid = fitted.lattice().grid;
+  if (grid.count() > MostEvidencePoints)
+  {
+    throw Problem("Evidence is not found: the lattice has " + std::to_string(grid.count()) +
+      " control points; it may have at most " + std::to_string(MostEvidencePoints));
+  }
+  const std::vector<glm::dvec3> positions = positionsOf(grid);
+  std::vector<double> key = fitted.fit().field().covarianceKey();
+  const bool isKnown = !this->Variances.empty() && grid == this->Points;
+  if (!isKnown || (!this->Live && key != this->Key))
+  {
+    this->Variances = fitted.fit().field().variances(positions);
+    this->Key = std::move(key);
+    this->Points = grid;
+    ++this->Solutions;
+  }
+  const std::vector<double> deviations = fitted.deviations(positions, this->Variances);
+  return { deviations.begin(), deviations.end() };
 }
 }

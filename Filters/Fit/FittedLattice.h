@@ -1,23 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief A fit as it is drawn: its bend on control points, guarded, and what that leaves of what
- *        was measured.
+ * @brief A fit as it is drawn: its bend on control points, guarded against folds; the residuals
+ *        that this leaves; and the uncertainty at the control points.
  */
 #ifndef BrainShift_FittedLattice_h
 #define BrainShift_FittedLattice_h
 
 #include "Common/Export.h"
+#include "Common/Grid.h"
 #include "Filters/Deformation/Lattice.h"
 #include "Filters/Deformation/PointMap.h"
 #include "Filters/Fit/Fit.h"
+#include "Filters/Fit/Process.h"
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace brainshift
 {
+/**
+ * Adds to the displacements so that the cubic between the control points gains the field's values
+ * at them. With Catmull-Rom these are the values themselves; a B-spline takes coefficients.
+ */
+BRAINSHIFT_DEFORMATION_EXPORT void addField(Lattice& lattice, const Process& field);
+
+/**
+ * The largest fraction, 0 to 1, of the path from one lattice to another that keeps the Jacobian
+ * determinant at 0.1 or above (FoldGuard.h). Cells that fold at the start are left alone.
+ *
+ * @param samples   nodes between two control points that the lattice is drawn with, 0 to 16
+ */
+BRAINSHIFT_DEFORMATION_EXPORT double fractionWithoutFolds(
+  const Lattice& start, const Lattice& end, int samples);
+
 /** How a fit is put on control points. */
 struct LatticeFitChoices
 {
@@ -34,22 +50,24 @@ public:
 
   /**
    * Solves and samples. If the bend folds, it solves once more with deviations that are `Relaxed`
-   * times larger, and then takes the largest share of the bend that does not fold. What the base
-   * bends is not shortened.
+   * times larger, and then takes the largest fraction of the bend that does not fold. The base is
+   * not shortened. Throws a Problem if it cannot; nothing is then known.
    *
    * @param lattice   where the control points lie, their kernel and mask; displacements are
    *                  ignored. The base's lattice must have the same.
-   * @return one sentence without a full stop if it cannot; nothing is then known
    */
-  std::string solve(const Measurements& measured, const RestSurface& surface,
-    const Lattice& lattice, const LatticeFitChoices& choices);
+  void solve(const Measurements& measured, const RestSurface& surface, const Lattice& lattice,
+    const LatticeFitChoices& choices);
 
   /** Whether the last solve succeeded. */
   bool isKnown() const { return this->Map.has_value(); }
 
   const Fit& fit() const { return this->Result; }
   const Lattice& lattice() const { return this->Bent; }
-  double share() const { return this->Share; }           ///< of the bend beyond the base, 0 to 1
+  double fraction() const
+  {
+    return this->Fraction;
+  } ///< fraction of the bend beyond the base, 0 to 1
   double relaxation() const { return this->Relaxation; } ///< 1 or Relaxed
 
   /** Where the lattice and then the rigid part take tissue at rest (mm). */
@@ -75,14 +93,14 @@ public:
 
 private:
   void countWhatIsAway(const std::vector<glm::dvec3>& rest, std::vector<double>& deviations) const;
-  std::string solveWith(double relaxation, const Measurements& measured, const RestSurface& surface,
+  void solveWith(double relaxation, const Measurements& measured, const RestSurface& surface,
     const Process* start);
 
   Fit Result;
   Lattice Start; // the base, or nothing moved
   Lattice Bent;
   std::optional<PointMap> Map;
-  double Share = 1.0;
+  double Fraction = 1.0;
   double Relaxation = 1.0;
 };
 
@@ -94,6 +112,40 @@ BRAINSHIFT_DEFORMATION_EXPORT double withDistance(double deviation, double dista
 
 /** Root mean square of the numbers that are finite; NaN if there are none. */
 BRAINSHIFT_DEFORMATION_EXPORT double rootMeanSquare(const std::vector<double>& numbers);
+
+/** Most control points for which the uncertainty is found: 65 a side. */
+constexpr std::size_t MostEvidencePoints = 275000;
+
+/**
+ * The uncertainty of a fit at each control point of its lattice. The variances depend on where
+ * something was measured and not on what was measured. They are kept and found anew only if a
+ * position or a weight changes: a pull that is dragged costs nothing.
+ */
+class BRAINSHIFT_DEFORMATION_EXPORT LatticeEvidence
+{
+public:
+  /**
+   * FittedLattice::deviations (mm) at the control points, x fastest, to the rounding of float.
+   * Throws a Problem if there are too many control points.
+   */
+  std::vector<float> deviations(const FittedLattice& fitted);
+
+  /**
+   * While a hand moves what was measured, variances of a moment ago are good enough: it moves
+   * traced points by little, and a position that is added makes them smaller. Default: off.
+   */
+  void setLive(bool on) { this->Live = on; }
+
+  /** How often variances were found. */
+  int solutions() const { return this->Solutions; }
+
+private:
+  Grid Points;
+  std::vector<double> Key; // Process::covarianceKey
+  std::vector<double> Variances;
+  int Solutions = 0;
+  bool Live = false;
+};
 }
 
 #endif

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Fit/Measurements.h"
 
+#include "Common/Problem.h"
+
+#include <algorithm>
 #include <cmath>
+#include <deque>
+#include <map>
 #include <sstream>
 #include <utility>
 
@@ -11,12 +16,6 @@ namespace
 {
 constexpr double FarthestMm = 1e6;
 
-bool liesSomewhere(const glm::dvec3& p)
-{
-  // A comparison with NaN is false.
-  return std::abs(p.x) <= FarthestMm && std::abs(p.y) <= FarthestMm && std::abs(p.z) <= FarthestMm;
-}
-
 std::string text(const glm::dvec3& p)
 {
   std::ostringstream words;
@@ -24,55 +23,53 @@ std::string text(const glm::dvec3& p)
   return words.str();
 }
 
-std::string problemOfPlace(const std::string& what, std::size_t i, const glm::dvec3& p)
+void requirePosition(const std::string& what, std::size_t i, const glm::dvec3& p)
 {
-  return liesSomewhere(p) ? std::string()
-                          : what + " " + std::to_string(i + 1) + " lies at " + text(p) +
-      " mm; its coordinates must be numbers from -1000000 to 1000000";
-}
-
-std::string problemOfPlaces(const std::string& what, const std::vector<glm::dvec3>& places)
-{
-  std::string problem;
-  for (std::size_t i = 0; i < places.size() && problem.empty(); ++i)
+  // A comparison with NaN is false.
+  if (!(std::abs(p.x) <= FarthestMm && std::abs(p.y) <= FarthestMm && std::abs(p.z) <= FarthestMm))
   {
-    problem = problemOfPlace(what, i, places[i]);
+    throw Problem(what + " " + std::to_string(i + 1) + " lies at " + text(p) +
+      " mm; its coordinates must be numbers from -1000000 to 1000000");
   }
-  return problem;
 }
 
-std::string problemOfPairs(const std::string& what, const std::vector<PointPair>& pairs)
+void requirePositions(const std::string& what, const std::vector<glm::dvec3>& positions)
+{
+  for (std::size_t i = 0; i < positions.size(); ++i)
+  {
+    requirePosition(what, i, positions[i]);
+  }
+}
+
+void requirePairs(const std::string& what, const std::vector<PointPair>& pairs)
 {
   for (std::size_t i = 0; i < pairs.size(); ++i)
   {
-    std::string problem = problemOfPlace("The start of " + what, i, pairs[i].rest);
-    if (problem.empty())
+    requirePosition("The start of " + what, i, pairs[i].rest);
+    requirePosition("The measured end of " + what, i, pairs[i].measured);
+    if (!(pairs[i].weight >= 0.0 && std::isfinite(pairs[i].weight)))
     {
-      problem = problemOfPlace("The measured end of " + what, i, pairs[i].measured);
-    }
-    if (problem.empty() && !(pairs[i].weight >= 0.0 && std::isfinite(pairs[i].weight)))
-    {
-      problem = "The weight of " + what + " " + std::to_string(i + 1) + " is " +
-        std::to_string(pairs[i].weight) + "; it must be 0 or more, and finite";
-    }
-    if (!problem.empty())
-    {
-      return problem;
+      throw Problem("The weight of " + what + " " + std::to_string(i + 1) + " is " +
+        std::to_string(pairs[i].weight) + "; it must be 0 or more, and finite");
     }
   }
-  return {};
-}
 }
 
-std::string problemOf(const Measurements& measured)
+std::string named(const std::string& label, std::size_t number)
 {
-  std::string problem = problemOfPairs("landmark", measured.landmarks);
-  problem = problem.empty() ? problemOfPairs("pull", measured.pulls) : problem;
-  problem = problem.empty() ? problemOfPlaces("Pin", measured.pins) : problem;
-  return problem.empty() ? problemOfPlaces("Traced point", measured.traces) : problem;
+  return label.empty() ? std::to_string(number + 1) : label;
+}
 }
 
-std::string problemOf(const FitSettings& settings)
+void requireGood(const Measurements& measured)
+{
+  requirePairs("landmark", measured.landmarks);
+  requirePairs("pull", measured.pulls);
+  requirePositions("Pin", measured.pins);
+  requirePositions("Traced point", measured.traces);
+}
+
+void requireGood(const FitSettings& settings)
 {
   for (const auto& [name, value] : { std::pair("landmark length", settings.landmarkKernel.lengthMm),
          std::pair("landmark field deviation", settings.landmarkKernel.deviationMm),
@@ -87,10 +84,49 @@ std::string problemOf(const FitSettings& settings)
   {
     if (!(value > 0.0 && std::isfinite(value)))
     {
-      return std::string("The ") + name + " is " + std::to_string(value) +
-        "; it must be above 0, and finite";
+      throw Problem(std::string("The ") + name + " is " + std::to_string(value) +
+        "; it must be above 0, and finite");
     }
   }
-  return {};
+}
+
+LandmarkMatch matchLandmarks(
+  const std::vector<std::string>& rest, const std::vector<std::string>& measured)
+{
+  std::map<std::string, std::deque<std::size_t>> byLabel;
+  for (std::size_t i = 0; i < measured.size(); ++i)
+  {
+    byLabel[measured[i]].push_back(i);
+  }
+  const bool hasLabels = std::any_of(rest.begin(), rest.end(),
+    [&](const std::string& label) { return !label.empty() && byLabel.count(label) > 0; });
+  LandmarkMatch match;
+  std::vector<char> isTaken(measured.size(), 0);
+  for (std::size_t i = 0; i < rest.size(); ++i)
+  {
+    std::size_t partner = hasLabels ? measured.size() : i;
+    if (hasLabels && !rest[i].empty() && !byLabel[rest[i]].empty())
+    {
+      partner = byLabel[rest[i]].front();
+      byLabel[rest[i]].pop_front();
+    }
+    if (partner < measured.size())
+    {
+      match.pairs.emplace_back(i, partner);
+      isTaken[partner] = 1;
+    }
+    else
+    {
+      match.unmatched.push_back("landmark " + named(rest[i], i) + " at rest");
+    }
+  }
+  for (std::size_t i = 0; i < measured.size(); ++i)
+  {
+    if (!isTaken[i])
+    {
+      match.unmatched.push_back("measured landmark " + named(measured[i], i));
+    }
+  }
+  return match;
 }
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief What was measured, and how far it is trusted: the input of a fit.
+ * @brief The measurements and their standard deviations: the input of a fit; and which landmark at
+ *        rest is which measured one.
  *
  * The *rest frame* is the volume as loaded. The *measured frame* is that of the tracker or of the
  * reference. Both are mm.
@@ -10,8 +11,9 @@
 #define BrainShift_Measurements_h
 
 #include "Common/Export.h"
-#include "Filters/Fit/FitBase.h"
-#include "Filters/Fit/Matern.h"
+#include "Filters/Deformation/Lattice.h"
+#include "Filters/Deformation/PointMap.h"
+#include "Filters/Fit/Process.h"
 
 #include <glm/vec3.hpp>
 
@@ -21,10 +23,40 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace brainshift
 {
+/**
+ * The deformation before a fit: one that a refinement found, or a field of another program. It is
+ * the mean of the process. Positions are world mm.
+ */
+struct FitBase
+{
+  Lattice lattice;
+  PointMap map; ///< of the lattice
+
+  explicit FitBase(Lattice bent)
+    : lattice(std::move(bent))
+    , map(lattice)
+  {
+  }
+
+  /** Whether it is the base of such a lattice, with the same mask. */
+  bool isOf(const Lattice& other) const
+  {
+    return this->lattice.grid == other.grid && this->lattice.kernel == other.kernel &&
+      this->lattice.mask == other.mask && this->lattice.displacements == other.displacements;
+  }
+
+  /** Displacement (mm) of tissue at rest. */
+  glm::dvec3 displacement(const glm::dvec3& rest) const
+  {
+    return this->map.deformedFromRest(rest) - rest;
+  }
+};
+
 /** A piece of tissue that was found at rest and where it was measured: a landmark, or a pull. */
 struct PointPair
 {
@@ -33,7 +65,7 @@ struct PointPair
   double weight = 1.0;        ///< divides the variance; 0: the pair is switched off
 };
 
-/** A place on a surface. */
+/** A point of a surface. */
 struct SurfacePoint
 {
   glm::dvec3 position{ 0.0 }; ///< mm, rest frame
@@ -42,9 +74,9 @@ struct SurfacePoint
 
 /**
  * The nearest point of the cortex at rest to a position (mm, rest frame). Nothing if there is no
- * surface. Several threads ask at once.
+ * surface. Several threads call it at once.
  *
- * @param trace   number of the traced point that asks. The next answer to it lies close by.
+ * @param trace   number of the traced point. Its next nearest point is close to the last one.
  */
 using RestSurface =
   std::function<std::optional<SurfacePoint>(const glm::dvec3& rest, std::size_t trace)>;
@@ -57,21 +89,23 @@ struct Measurements
   std::vector<glm::dvec3> pins;      ///< mm, rest frame: tissue that stays
   std::vector<glm::dvec3> traces;    ///< mm, measured frame: points on the bent cortex
   std::vector<SurfacePoint> anchors; ///< cortex that may slide, and that neither sinks nor rises
-  /** How the volume is bent before; null: not at all. Pins and anchors hold it where it is then. */
+  /**
+   * The deformation before the fit; null: none. Pins and anchors hold the volume where it is then.
+   */
   std::shared_ptr<const FitBase> base;
 };
 
 /**
- * How far measurements are trusted. Deviations are standard deviations in mm along each axis.
+ * The uncertainty of measurements. Deviations are standard deviations in mm along each axis.
  *
  * Landmarks alone are near-rigid: the fit takes a rigid motion out of them and bends little. With
- * traces, pulls, pins or a base the volume is taken to lie right already, and bends much.
+ * traces, pulls, pins or a base the volume is assumed to be registered already, and bends much.
  */
 struct FitSettings
 {
   Matern landmarkKernel{ 40.0, 1.0 };
   double landmarkDeviation = 0.7;    ///< of a landmark of weight 1, when there are landmarks only
-  double rotationPriorDegrees = 3.0; ///< standard deviation of a turn around each axis ...
+  double rotationPriorDegrees = 3.0; ///< standard deviation of a rotation about each axis ...
   std::size_t pairsWithoutPrior = 7; ///< ... which so many pairs that span a plane do not need
   Matern surfaceKernel{ 60.0, 8.0 };
   double surfaceDeviation = 0.7; ///< of a trace, a pull, and a landmark beside them
@@ -82,7 +116,7 @@ struct FitSettings
   double binMm = 6.0;                  ///< edge of a bin
   double binFloorMm = 0.5;             ///< deviation of a bin however many points it averages
   int steps = 5;                       ///< most times that traced points are projected
-  double stepToleranceMm = 0.05;       ///< ... unless none of them moved by more than this
+  double stepToleranceMm = 0.05;       ///< ... fewer if none of them moved by more than this
 };
 
 /** Whether a pair counts: its weight is above 0. */
@@ -101,14 +135,29 @@ inline bool bendsOnly(const Measurements& measured)
     std::any_of(measured.pulls.begin(), measured.pulls.end(), isOn);
 }
 
-/**
- * One sentence without a full stop on a number that is not finite, a coordinate beyond 1 km or a
- * weight below 0. It is empty if there is none.
- */
-BRAINSHIFT_DEFORMATION_EXPORT std::string problemOf(const Measurements& measured);
+/** Throws a Problem on a number that is not finite, a coordinate beyond 1 km, a weight below 0. */
+BRAINSHIFT_DEFORMATION_EXPORT void requireGood(const Measurements& measured);
 
-/** One sentence on a setting that is out of its range; empty if there is none. */
-BRAINSHIFT_DEFORMATION_EXPORT std::string problemOf(const FitSettings& settings);
+/** Throws a Problem on a setting that is out of its range. */
+BRAINSHIFT_DEFORMATION_EXPORT void requireGood(const FitSettings& settings);
+
+/**
+ * Pairs of numbers, at rest and measured, in the order at rest, and landmarks without a partner.
+ */
+struct LandmarkMatch
+{
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  std::vector<std::string> unmatched; ///< "landmark tip at rest", "measured landmark 4"
+};
+
+/**
+ * Matches by label if a label is in both lists, else by order. Labels that occur several times
+ * match in their order. Landmarks without a label match nothing if the others match by label.
+ *
+ * @param rest, measured   the labels, empty where a landmark has none
+ */
+BRAINSHIFT_DEFORMATION_EXPORT LandmarkMatch matchLandmarks(
+  const std::vector<std::string>& rest, const std::vector<std::string>& measured);
 }
 
 #endif

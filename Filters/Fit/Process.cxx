@@ -2,6 +2,7 @@
 #include "Filters/Fit/Process.h"
 
 #include "Common/Parallel.h"
+#include "Common/Problem.h"
 
 #include <glm/geometric.hpp>
 
@@ -237,12 +238,12 @@ Process::~Process() = default;
 Process::Process(Process&& other) noexcept = default;
 Process& Process::operator=(Process&& other) noexcept = default;
 
-std::string Process::setRows(std::vector<Row> rows, const std::optional<RigidMean>& mean)
+void Process::setRows(std::vector<Row> rows, const std::optional<RigidMean>& mean)
 {
   if (rows.size() > MostRows)
   {
-    return "The measurements have " + std::to_string(rows.size()) + " rows; at most " +
-      std::to_string(MostRows) + " can be solved together (a point has 3, a traced point 1)";
+    throw Problem("The measurements have " + std::to_string(rows.size()) + " rows; at most " +
+      std::to_string(MostRows) + " can be solved together (a point has 3, a traced point 1)");
   }
   State& state = *this->Internal;
   state.Rows = std::move(rows);
@@ -255,7 +256,7 @@ std::string Process::setRows(std::vector<Row> rows, const std::optional<RigidMea
     ++state.Factors;
     if (factor.info() != Eigen::Success)
     {
-      return "The measurements cannot be solved together: some contradict each other";
+      throw Problem("The measurements cannot be solved together: some contradict each other");
     }
   }
   if (mean && !state.Rows.empty())
@@ -263,11 +264,10 @@ std::string Process::setRows(std::vector<Row> rows, const std::optional<RigidMea
     state.factorMean(*mean);
     if (state.Motion.info() != Eigen::Success)
     {
-      return "The measurements do not say how the volume turned";
+      throw Problem("The measurements do not say how the volume turned");
     }
   }
   state.solveWeights();
-  return {};
 }
 
 void Process::setValues(const std::vector<double>& values)

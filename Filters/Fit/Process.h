@@ -1,39 +1,66 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief A Gaussian process for displacements: the smoothest field through measurements, and how
- *        far it can be believed.
+ * @brief A Gaussian process for displacements: the smoothest field through measurements, and its
+ *        uncertainty.
  *
  * Each component of the displacement u is a Gaussian process with the same covariance. A row
- * measures one component along an axis at one point: axis . u(point) = value, give or take. Three
+ * measures one component along an axis at one point: axis . u(point) = value, with noise. Three
  * rows at one point measure all of it. With the covariance matrix A of all rows, their noise added,
  * the field is u(x) = sum over rows of k(x, point) axis w, and A w = values.
  *
  * Everything is double precision. A is factored once (Cholesky); other values for the same rows
  * need no new factor.
+ *
+ * Source: Rasmussen and Williams, Gaussian Processes for Machine Learning (2006): prediction and
+ * its variance, equations 2.25 and 2.26 and algorithm 2.1; the rigid mean, section 2.7; leaving
+ * rows out in closed form, section 5.4.2, equations 5.10 to 5.12, here for three rows together.
  */
 #ifndef BrainShift_Process_h
 #define BrainShift_Process_h
 
 #include "Common/Export.h"
-#include "Filters/Fit/Matern.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace brainshift
 {
+/**
+ * The Matern covariance (mm^2) with smoothness 5/2, of one component of the displacement at two
+ * points. Fields with it have continuous derivatives, so tissue that follows them has no creases.
+ * Source: Rasmussen and Williams, equation 4.17.
+ */
+struct Matern
+{
+  double lengthMm = 60.0;   ///< mm over which neighbours follow; above 0
+  double deviationMm = 8.0; ///< standard deviation (mm) of a displacement before any measurement
+
+  /** Factor that makes a distance (mm) a number without unit. */
+  double scale() const { return std::sqrt(5.0) / this->lengthMm; }
+
+  /** Variance (mm^2) before any measurement. */
+  double variance() const { return this->deviationMm * this->deviationMm; }
+
+  /** Covariance (mm^2) at a distance (mm). */
+  double at(double distanceMm) const
+  {
+    const double a = this->scale() * distanceMm;
+    return this->variance() * (1.0 + a + a * a / 3.0) * std::exp(-a);
+  }
+};
+
 /** Most rows of a process: the matrix takes 288 MB and the factor about 20 s. */
 constexpr std::size_t MostRows = 6000;
 
-/** One number that was measured: axis . u(point) = value, give or take sqrt(variance). */
+/** One number that was measured: axis . u(point) = value, with this variance. */
 struct Row
 {
   glm::dvec3 point{ 0.0 }; ///< mm, rest frame
@@ -43,13 +70,13 @@ struct Row
 };
 
 /**
- * A small motion that the process takes for granted: tissue moves as a whole and turns around
- * `centre` before it bends. The translation is free.
+ * A small motion that the process assumes: tissue moves as a whole and rotates about `centre`
+ * before it bends. The translation is free.
  */
 struct RigidMean
 {
   glm::dvec3 centre{ 0.0 };       ///< mm, rest frame
-  double rotationPrecision = 0.0; ///< 1 / rad^2: one over the variance of a turn; 0: free
+  double rotationPrecision = 0.0; ///< 1 / rad^2: one over the variance of a rotation; 0: free
 };
 
 /** Translation (mm), then rotation (rad) around the mean's centre. */
@@ -82,12 +109,10 @@ public:
   Process& operator=(Process&& other) noexcept;
 
   /**
-   * Takes other rows and factors their covariance.
-   *
-   * @return one sentence without a full stop if there are too many rows or they contradict each
-   *         other beyond what numbers can hold; else empty
+   * Takes other rows and factors their covariance. Throws a Problem if there are too many rows or
+   * they contradict each other beyond what numbers can hold.
    */
-  std::string setRows(std::vector<Row> rows, const std::optional<RigidMean>& mean = {});
+  void setRows(std::vector<Row> rows, const std::optional<RigidMean>& mean = {});
 
   /** Takes other values for the same rows. There is no new factor. */
   void setValues(const std::vector<double>& values);
@@ -134,7 +159,7 @@ public:
   std::vector<double> covarianceKey() const;
 
   /**
-   * What a process without three rows would miss them by, in closed form. The values must hold no
+   * The error of a process without three rows at them, in closed form. The values must hold no
    * rigid motion any more.
    *
    * @param first   number of the first of the three rows

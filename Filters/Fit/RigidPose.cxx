@@ -18,7 +18,7 @@ namespace brainshift
 {
 namespace
 {
-constexpr double Flat = 1e-9; // share of the largest spread below which there is none
+constexpr double Flat = 1e-9; // fraction of the largest spread below which there is none
 
 Eigen::Vector3d eigenFrom(const glm::dvec3& v)
 {

@@ -3,6 +3,10 @@
  * @file
  * @brief Traced points as rows of a process: each holds the cortex at its distance along the normal
  *        and lets it slide.
+ *
+ * The distance to the tangent plane, and not to the nearest point: Chen and Medioni, "Object
+ * modelling by registration of multiple range images", Image and Vision Computing 10 (1992). Points
+ * are projected anew and the equations linear in the field are solved again: Gauss-Newton steps.
  */
 #ifndef BrainShift_TraceRows_h
 #define BrainShift_TraceRows_h
@@ -18,7 +22,7 @@
 
 namespace brainshift
 {
-/** Where a traced point meets the cortex, as far as the field is known. */
+/** The nearest point of the cortex to a traced point, by the field so far. */
 struct TraceFoot
 {
   glm::dvec3 tissue{ 0.0 }; ///< mm, rest frame: what base and field put at the traced point
@@ -33,14 +37,14 @@ class BRAINSHIFT_DEFORMATION_EXPORT TraceProjection
 {
 public:
   /**
-   * @param traces    mm, in the frame in which the bent volume lies
+   * @param traces    mm, in the frame of the bent volume
    * @param surface   the cortex at rest
    * @param base      bends before the field does; null: nothing does
    */
   TraceProjection(std::vector<glm::dvec3> traces, RestSurface surface,
     std::shared_ptr<const FitBase> base = nullptr);
 
-  /** Projects with a field. Returns how far (mm) the point moved that moved most. */
+  /** Projects with a field. Returns the largest distance (mm) that a point moved. */
   double project(const Process& field);
 
   const std::vector<TraceFoot>& feet() const { return this->Feet; }

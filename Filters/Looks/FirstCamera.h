@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Where a camera stands at first, so that tissue fills the view.
+ * @brief The first camera of a view, so that tissue fills it, and the points of tissue that it
+ *        needs: the farthest ones.
+ *
+ * It is here and not with the views because the points are on the server, in parts on its
+ * processes.
  */
 #ifndef BrainShift_FirstCamera_h
 #define BrainShift_FirstCamera_h
@@ -14,6 +18,33 @@
 
 namespace brainshift
 {
+/**
+ * Of all positions added, the farthest one in each of many directions, among them the axes. The
+ * directions are a Fibonacci lattice: Gonzalez, "Measurement of areas on a sphere using Fibonacci
+ * and latitude-longitude lattices", Mathematical Geosciences 42 (2010).
+ */
+class FarPoints
+{
+public:
+  FarPoints();
+
+  /** A position, mm, world. */
+  void add(const glm::dvec3& world);
+
+  /** mm, world; empty if no process added any. All processes must call it and get the same. */
+  std::vector<glm::dvec3> ofAllProcesses() const;
+
+private:
+  struct Farthest
+  {
+    double extent; // mm along the direction
+    glm::dvec3 point{ 0.0 };
+  };
+
+  std::vector<glm::dvec3> Directions; // of unit length
+  std::vector<Farthest> Found;        // for each direction
+};
+
 /** A camera, mm, world. */
 struct FirstCamera
 {
@@ -25,10 +56,10 @@ struct FirstCamera
 
 /**
  * Looks at tissue from the patient's right, front and above. All its points are seen; those
- * farthest apart stand a little inside two opposite edges of the view.
+ * farthest apart are a little inside two opposite edges of the view.
  *
  * @param tissue      mm, world; at least one: see FarPoints
- * @param aspect      width of the view as a share of its height
+ * @param aspect      width of the view as a fraction of its height
  * @param viewAngle   of the picture's height, degrees
  */
 VTKBRAINSHIFTFILTERS_EXPORT FirstCamera firstCamera(

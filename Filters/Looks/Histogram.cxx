@@ -23,9 +23,9 @@ Histogram makeHistogram(double low, double high, int bins)
   return { low, high, std::vector<double>(static_cast<std::size_t>(bins), 0.0) };
 }
 
-double percentile(const Histogram& histogram, double share)
+double percentile(const Histogram& histogram, double fraction)
 {
-  double left = share * histogram.total();
+  double left = fraction * histogram.total();
   for (std::size_t bin = 0; bin < histogram.counts.size(); ++bin)
   {
     const double count = histogram.counts[bin];

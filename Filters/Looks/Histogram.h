@@ -36,14 +36,15 @@ struct Histogram
 VTKBRAINSHIFTFILTERS_EXPORT Histogram makeHistogram(double low, double high, int bins);
 
 /**
- * The value below which this share (0 to 1) of all values lies, linear within a bin. Without values
- * it is `low`.
+ * The value below which this fraction (0 to 1) of all values is, linear within a bin. Without
+ * values it is `low`.
  */
-VTKBRAINSHIFTFILTERS_EXPORT double percentile(const Histogram& histogram, double share);
+VTKBRAINSHIFTFILTERS_EXPORT double percentile(const Histogram& histogram, double fraction);
 
 /**
  * The threshold that parts the values into two classes with the largest variance between them:
- * Otsu, "A threshold selection method from gray-level histograms", 1979. Values above the `top`
+ * Otsu, "A threshold selection method from gray-level histograms", IEEE Transactions on Systems,
+ * Man, and Cybernetics 9 (1979). Values above the `top`
  * percentile count as that, so that a few bright voxels do not raise it.
  */
 VTKBRAINSHIFTFILTERS_EXPORT double otsuThreshold(const Histogram& histogram, double top = 0.995);

@@ -4,7 +4,7 @@
 #include "Common/ImageGrid.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/Segmentation.h"
-#include "Filters/Looks/FarPoints.h"
+#include "Filters/Looks/FirstCamera.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

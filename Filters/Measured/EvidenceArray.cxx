@@ -6,7 +6,6 @@
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Deformation/PointMap.h"
 #include "Filters/Fit/FittedLattice.h"
-#include "Filters/Fit/LatticeEvidence.h"
 #include "Formats/Fields/FieldImage.h"
 
 #include "vtkFloatArray.h"
@@ -37,20 +36,14 @@ bool handOf(const Lattice& start, const Deformation& drawn, Lattice& hand)
 }
 }
 
-std::string addEvidence(
-  vtkImageData* lattice, const FittedLattice& fitted, LatticeEvidence& evidence)
+void addEvidence(vtkImageData* lattice, const FittedLattice& fitted, LatticeEvidence& evidence)
 {
-  std::string problem;
-  const std::vector<float> deviations = evidence.deviations(fitted, problem);
-  if (problem.empty())
-  {
-    vtkNew<vtkFloatArray> array;
-    array->SetName(DeviationName);
-    array->SetNumberOfValues(static_cast<vtkIdType>(deviations.size()));
-    std::copy(deviations.begin(), deviations.end(), array->GetPointer(0));
-    lattice->GetPointData()->AddArray(array);
-  }
-  return problem;
+  const std::vector<float> deviations = evidence.deviations(fitted);
+  vtkNew<vtkFloatArray> array;
+  array->SetName(DeviationName);
+  array->SetNumberOfValues(static_cast<vtkIdType>(deviations.size()));
+  std::copy(deviations.begin(), deviations.end(), array->GetPointer(0));
+  lattice->GetPointData()->AddArray(array);
 }
 
 std::vector<float> drawnDeviations(

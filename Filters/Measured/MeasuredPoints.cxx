@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Measured/MeasuredPoints.h"
 
-#include "Filters/Fit/LandmarkMatch.h"
+#include "Filters/Fit/Measurements.h"
+#include "Filters/Fit/PackedTables.h"
 
 #include "vtkAbstractArray.h"
 #include "vtkAppendFilter.h"
@@ -19,9 +20,13 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <map>
+#include <set>
 
 namespace brainshift
 {
@@ -64,6 +69,25 @@ std::string joined(const std::vector<std::string>& words)
   return words.size() <= MostNamed
     ? text
     : text + " and " + std::to_string(words.size() - MostNamed) + " more";
+}
+
+// Gives each landmark a name of its own: of several F, the second is "F (2)".
+void nameApart(std::vector<std::string>& names)
+{
+  std::map<std::string, int> seen;
+  std::set<std::string> taken(names.begin(), names.end());
+  for (std::string& name : names)
+  {
+    const std::string label = name;
+    for (int number = ++seen[label]; number > 1; ++number)
+    {
+      name = label + " (" + std::to_string(number) + ")";
+      if (taken.insert(name).second)
+      {
+        break;
+      }
+    }
+  }
 }
 }
 
@@ -137,33 +161,26 @@ NearMask::NearMask(const Mask& mask, double byMm)
   , ByMm(byMm)
   , First(mask.grid.dimensions)
 {
-  const glm::ivec3& sides = mask.grid.dimensions;
-  for (int z = 0; z < sides.z; ++z)
-  {
-    for (int y = 0; y < sides.y; ++y)
+  std::size_t voxel = 0;
+  forEachIndex(glm::ivec3(0), mask.grid.dimensions - 1, [&](const glm::ivec3& index) {
+    if (mask.inside[voxel++])
     {
-      for (int x = 0; x < sides.x; ++x)
-      {
-        if (mask.inside[mask.grid.offset(x, y, z)])
-        {
-          this->First = glm::min(this->First, glm::ivec3(x, y, z));
-          this->Behind = glm::max(this->Behind, glm::ivec3(x, y, z) + 1);
-        }
-      }
+      this->First = glm::min(this->First, index);
+      this->Behind = glm::max(this->Behind, index + 1);
     }
-  }
+  });
 }
 
 bool NearMask::holds(const glm::dvec3& position) const
 {
   const Grid& grid = this->Voxels.grid;
   const glm::dvec3 at = grid.gridFromWorld(position);
-  const glm::dvec3 reach = this->ByMm / grid.spacing;
+  const glm::dvec3 radius = this->ByMm / grid.spacing; // voxels
   // Clamped as doubles: a far position is no int.
   const glm::dvec3 least(this->First);
   const glm::dvec3 most(this->Behind);
-  const glm::ivec3 begin(glm::clamp(glm::ceil(at - reach), least, glm::max(least, most)));
-  const glm::ivec3 end(glm::clamp(glm::floor(at + reach) + 1.0, glm::min(least, most), most));
+  const glm::ivec3 begin(glm::clamp(glm::ceil(at - radius), least, glm::max(least, most)));
+  const glm::ivec3 end(glm::clamp(glm::floor(at + radius) + 1.0, glm::min(least, most), most));
   for (int z = begin.z; z < end.z; ++z)
   {
     for (int y = begin.y; y < end.y; ++y)
@@ -180,5 +197,59 @@ bool NearMask::holds(const glm::dvec3& position) const
     }
   }
   return false;
+}
+
+std::vector<PointPair> FitLandmarks::read(
+  vtkPointSet* rest, vtkPointSet* measured, std::string& unmatched)
+{
+  NamedPairs named = landmarkPairs(rest, measured);
+  unmatched = named.unmatched;
+  nameApart(named.names);
+  for (std::size_t i = 0; i < named.pairs.size(); ++i)
+  {
+    const bool isOff = std::find(this->SwitchedOff.begin(), this->SwitchedOff.end(),
+                         named.names[i]) != this->SwitchedOff.end();
+    named.pairs[i].weight = isOff ? 0.0 : named.pairs[i].weight;
+  }
+  const std::vector<PointPair> listed = rowsFrom<PointPair>(this->Numbers);
+  for (std::size_t i = 0; i < listed.size(); ++i)
+  {
+    named.pairs.push_back(listed[i]);
+    named.names.push_back("Pair " + std::to_string(i + 1));
+  }
+  this->Names->Reset();
+  for (const std::string& name : named.names)
+  {
+    this->Names->InsertNextValue(name);
+  }
+  return named.pairs;
+}
+
+void FitLandmarks::place(const FittedLattice& fitted, const std::vector<PointPair>& pairs)
+{
+  this->Places->Reset();
+  this->Places->SetNumberOfComponents(NumbersPerPlace);
+  for (std::size_t i = 0; fitted.isKnown() && i < pairs.size(); ++i)
+  {
+    const auto& [rest, measured, weight] = pairs[i];
+    const glm::dvec3 at = fitted.measuredFromRest(rest);
+    const double tuple[NumbersPerPlace] = { rest.x, rest.y, rest.z, measured.x, measured.y,
+      measured.z, at.x, at.y, at.z, weight };
+    this->Places->InsertNextTuple(tuple);
+  }
+}
+
+std::vector<double> leaveOneOut(const FittedLattice& fitted, const std::vector<PointPair>& pairs)
+{
+  std::vector<double> errors = fitted.fit().leaveOneOut();
+  for (std::size_t i = 0; i < errors.size() && i < pairs.size(); ++i)
+  {
+    const bool isKnown = std::isfinite(fitted.fit().deviation(pairs[i].rest));
+    if (!isOn(pairs[i]) && isKnown)
+    {
+      errors[i] = glm::distance(fitted.fit().measuredFromRest(pairs[i].rest), pairs[i].measured);
+    }
+  }
+  return errors;
 }
 }

@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Measured points and masks as data sets hold them.
+ * @brief Measured points and masks as data sets hold them, and the pairs of landmarks of a fit.
  */
 #ifndef BrainShift_MeasuredPoints_h
 #define BrainShift_MeasuredPoints_h
 
 #include "Filters/Deformation/MaskWeights.h"
+#include "Filters/Fit/FittedLattice.h"
 #include "Filters/Fit/Measurements.h"
-
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
-#include "vtkSmartPointer.h"            // for what a function returns
+
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkSmartPointer.h" // for what a function returns
+#include "vtkStringArray.h"
 
 #include <glm/ext/vector_int3.hpp>
 #include <glm/vec3.hpp>
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -71,6 +76,34 @@ private:
   glm::ivec3 First{ 0 };  // of the voxels that are inside
   glm::ivec3 Behind{ 0 }; // one more than the last of them; none are inside if both are equal
 };
+
+/**
+ * What a Fit Deformation holds of landmarks besides its inputs, and what it reports about them. The
+ * pairs of data sets come first, then those of a list of numbers. Some may be switched off.
+ */
+class FitLandmarks
+{
+public:
+  static constexpr int NumbersPerPlace = 10;
+
+  std::vector<double> Numbers;          ///< of the list: see vtkFitDeformation::AddLandmarkPair
+  std::vector<std::string> SwitchedOff; ///< names of pairs of the data sets
+  vtkNew<vtkStringArray> Names;         ///< as a server sends them, and so the next
+  vtkNew<vtkDoubleArray> Places;
+
+  /** Either data set may be null. `unmatched`: set to those without a partner. */
+  std::vector<PointPair> read(vtkPointSet* rest, vtkPointSet* measured, std::string& unmatched);
+
+  /** Writes Places: see vtkFitDeformation::GetLandmarkPlaces. Empty without a result. */
+  void place(const FittedLattice& fitted, const std::vector<PointPair>& pairs);
+};
+
+/**
+ * How far (mm) a fit without a pair misses it: Fit::leaveOneOut, and for a pair that is switched
+ * off how far the fit misses it, before the fold guard and the mask change the bend. NaN if nothing
+ * is known.
+ */
+std::vector<double> leaveOneOut(const FittedLattice& fitted, const std::vector<PointPair>& pairs);
 }
 
 #endif

@@ -2,6 +2,7 @@
 #include "Filters/Measured/RestCortex.h"
 
 #include "Common/ImageGrid.h"
+#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Fit/Anchors.h"
 
@@ -24,10 +25,11 @@ constexpr std::size_t Asked = 500; // points that say which side is out
 constexpr double SpreadMm = 3.0;   // anchors are further apart
 constexpr double AsideVoxels = 0.5;
 
-// Shares of the corners a, b and c in the point of a triangle that is nearest to a position: walks
+// Weights of the corners a, b and c in the point of a triangle that is nearest to a position: walks
 // through the regions of the corners, then the edges, then the face. A triangle may have no area,
-// and edges without length: where a voxel has just the level, corners meet.
-glm::dvec3 sharesOfNearest(
+// and edges without length: where a voxel has just the level, corners meet. Source: Ericson,
+// Real-Time Collision Detection (2005), section 5.1.5.
+glm::dvec3 weightsOfNearest(
   const glm::dvec3& position, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 {
   const glm::dvec3 ab = b - a;
@@ -154,47 +156,76 @@ std::optional<SurfacePoint> RestCortex::nearest(const glm::dvec3& rest, int& hin
   }
   const glm::ivec3& corners = this->Tree.corners(hint);
   const std::vector<glm::dvec3>& points = this->Mesh.points;
-  const glm::dvec3 share =
-    sharesOfNearest(rest, points[corners.x], points[corners.y], points[corners.z]);
+  const glm::dvec3 weight =
+    weightsOfNearest(rest, points[corners.x], points[corners.y], points[corners.z]);
   const auto mixed = [&](const std::vector<glm::dvec3>& values) {
-    return share.x * values[corners.x] + share.y * values[corners.y] + share.z * values[corners.z];
+    return weight.x * values[corners.x] + weight.y * values[corners.y] +
+      weight.z * values[corners.z];
   };
   return SurfacePoint{ mixed(points), unit(mixed(this->Normals)) };
 }
 
-std::string CortexSource::find(const Request& request)
+void CortexSource::find(const Request& request)
 {
   if (request.mustHaveArray && !request.array.empty() &&
     !request.image->GetPointData()->HasArray(request.array.c_str()))
   {
-    return "The " + request.where + " has no point array " + request.array;
+    throw Problem("The " + request.where + " has no point array " + request.array);
   }
   vtkDataArray* scalars = scalarsOf(request.image, request.array);
   if (!scalars || scalars->GetNumberOfComponents() != 1)
   {
-    return "The " + request.where + " has no point array of one component to find the cortex in";
+    throw Problem(
+      "The " + request.where + " has no point array of one component to find the cortex in");
   }
-  const Grid grid = gridOf(request.image);
-  if (scalars != this->Scalars || scalars->GetMTime() != this->ScalarsTime ||
-    grid != this->ScalarsGrid || request.isLabel != this->IsLabel || request.level != this->Level)
+  if (this->Tissue.find(scalars, gridOf(request.image), request.isLabel, request.level) ||
+    this->Cortex.isEmpty()) // memory ran out the last time
   {
     ++this->Version;
-    this->Cortex = RestCortex(request.isLabel
-        ? TissueRegion{ grid, maskOfLabel(scalars, static_cast<int>(request.level)), 0.5 }
-        : TissueRegion{ grid, scalars, request.level });
-    this->Scalars = scalars;
-    this->ScalarsTime = scalars->GetMTime();
-    this->ScalarsGrid = grid;
-    this->IsLabel = request.isLabel;
-    this->Level = request.level;
+    this->Cortex = RestCortex();
+    this->Cortex = RestCortex(this->Tissue.region());
   }
-  if (!this->Cortex.isEmpty())
+  if (this->Cortex.isEmpty())
   {
-    return {};
+    const double* range = scalars->GetRange(0);
+    throw Problem((request.isLabel ? "Label is " : "Threshold is ") +
+      std::to_string(request.level) + " and gives no cortex; the scalars of the " + request.where +
+      " go from " + std::to_string(range[0]) + " to " + std::to_string(range[1]));
   }
-  const double* range = scalars->GetRange(0);
-  return (request.isLabel ? "Label is " : "Threshold is ") + std::to_string(request.level) +
-    " and gives no cortex; the scalars of the " + request.where + " go from " +
-    std::to_string(range[0]) + " to " + std::to_string(range[1]);
+}
+
+bool AnchorChoice::Key::operator==(const Key& other) const
+{
+  return this->cortex == other.cortex && this->maskTime == other.maskTime &&
+    this->ball.centre == other.ball.centre && this->ball.radiusMm == other.ball.radiusMm;
+}
+
+const std::vector<SurfacePoint>& AnchorChoice::beside(
+  const OpeningBall& ball, const CortexSource& cortex)
+{
+  const auto makeIsOpen = [&ball]() -> IsOpen {
+    return [&ball](const glm::dvec3& rest) {
+      return glm::distance(rest, ball.centre) < ball.radiusMm + AnchorMarginMm;
+    };
+  };
+  return this->find({ cortex.version(), 0, ball }, makeIsOpen, cortex);
+}
+
+const std::vector<SurfacePoint>& AnchorChoice::beside(
+  std::uint64_t maskTime, const std::function<IsOpen()>& makeIsOpen, const CortexSource& cortex)
+{
+  return this->find({ cortex.version(), maskTime, {} }, makeIsOpen, cortex);
+}
+
+const std::vector<SurfacePoint>& AnchorChoice::find(
+  const Key& key, const std::function<IsOpen()>& makeIsOpen, const CortexSource& cortex)
+{
+  if (!(this->Known == key))
+  {
+    this->Known.reset(); // if memory runs out
+    this->Anchors = chooseAnchors(cortex.cortex().points(), makeIsOpen());
+    this->Known = key;
+  }
+  return this->Anchors;
 }
 }

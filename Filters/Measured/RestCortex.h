@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief The cortex at rest as a fit asks for it: the nearest point and the normal there.
+ * @brief The cortex at rest as a fit requests it: the nearest point, the normal there, and the
+ *        anchors that hold it beside the opening.
  *
  * Normals are those of the surface smoothed over a few voxels: the triangles of a mask are steps.
  */
 #ifndef BrainShift_RestCortex_h
 #define BrainShift_RestCortex_h
 
+#include "Filters/Fit/Anchors.h"
 #include "Filters/Fit/Measurements.h"
 #include "Filters/Traces/TissueSurface.h"
 #include "Filters/Traces/TriangleTree.h"
@@ -18,6 +20,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -72,8 +75,8 @@ public:
     double level = 0.0;   ///< a threshold or a label
   };
 
-  /** Finds it. Returns one sentence, without a full stop, if there is none. */
-  std::string find(const Request& request);
+  /** Finds it. Throws a Problem if there is none. */
+  void find(const Request& request);
 
   /** Without a cortex it is empty. */
   const RestCortex& cortex() const { return this->Cortex; }
@@ -84,11 +87,47 @@ public:
 private:
   RestCortex Cortex;
   std::uint64_t Version = 0;
-  vtkSmartPointer<vtkDataArray> Scalars; // that the cortex was found in, as of ScalarsTime
-  unsigned long long ScalarsTime = 0;
-  Grid ScalarsGrid;
-  bool IsLabel = false;
-  double Level = 0.0;
+  TissueSource Tissue; // that the cortex was found in
+};
+
+/**
+ * Keeps the anchors of a fit as long as nothing changes that they depend on. Choosing takes a fifth
+ * of the processor time of a live step beside traces, and a hand that pulls changes neither the
+ * cortex nor the opening.
+ */
+class AnchorChoice
+{
+public:
+  /** Whether a position (mm, rest frame) is too near to the opening. */
+  using IsOpen = std::function<bool(const glm::dvec3&)>;
+
+  /** Anchors on a cortex whose opening is a ball. */
+  const std::vector<SurfacePoint>& beside(const OpeningBall& ball, const CortexSource& cortex);
+
+  /**
+   * Anchors on a cortex whose opening is a mask.
+   *
+   * @param maskTime    modification time of the mask's image: another one is another mask
+   * @param makeIsOpen  reads the mask; it is called only if the anchors must be chosen
+   */
+  const std::vector<SurfacePoint>& beside(
+    std::uint64_t maskTime, const std::function<IsOpen()>& makeIsOpen, const CortexSource& cortex);
+
+private:
+  struct Key
+  {
+    std::uint64_t cortex = 0;
+    std::uint64_t maskTime = 0; // 0: the opening is the ball
+    OpeningBall ball;
+
+    bool operator==(const Key& other) const;
+  };
+
+  const std::vector<SurfacePoint>& find(
+    const Key& key, const std::function<IsOpen()>& makeIsOpen, const CortexSource& cortex);
+
+  std::optional<Key> Known;
+  std::vector<SurfacePoint> Anchors;
 };
 }
 

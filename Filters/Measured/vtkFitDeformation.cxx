@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkFitDeformation.h"
 
+#include "Common/FilledArray.h"
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
-#include "Filters/Attached/CavityMask.h"
+#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/MaskImage.h"
 #include "Filters/Fields/BaseLattice.h"
-#include "Filters/Fields/FilledArray.h"
-#include "Filters/Fields/FittedFor.h"
 #include "Filters/Fit/Anchors.h"
 #include "Filters/Fit/FittedLattice.h"
-#include "Filters/Fit/LatticeEvidence.h"
 #include "Filters/Fit/PackedTables.h"
-#include "Filters/Measured/AnchorChoice.h"
 #include "Filters/Measured/EvidenceArray.h"
-#include "Filters/Measured/FitLandmarks.h"
-#include "Filters/Measured/FitWords.h"
 #include "Filters/Measured/MeasuredPoints.h"
 #include "Filters/Measured/RestCortex.h"
 #include "Formats/Fields/FieldImage.h"
@@ -31,6 +26,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -51,11 +47,46 @@ constexpr int OpeningPort = 8;
 constexpr int Ports = 9;
 
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double FarRotationDegrees = 10.0; // more than this is rather a wrong pair
 constexpr const char* NotRun = "The fit has not run";
 
 bool isOfPoints(int port)
 {
   return port >= RestPort && port <= TracesPort;
+}
+
+// Joins sentences by full stops; the last one has none.
+std::string joined(const std::vector<std::string>& sentences)
+{
+  std::string text;
+  for (const std::string& sentence : sentences)
+  {
+    text += (text.empty() || sentence.empty() ? "" : ". ") + sentence;
+  }
+  return text;
+}
+
+// What a user must know about a fit that has a result.
+std::string warningAbout(const FittedLattice& fitted)
+{
+  std::vector<std::string> sentences;
+  const double degrees = glm::degrees(glm::length(vectorFrom(fitted.fit().rigid().rotation)));
+  if (degrees > FarRotationDegrees && fitted.fit().isRotationExpectedSmall())
+  {
+    sentences.push_back("The volume turned by " + std::to_string(degrees) +
+      " degrees, more than so few pairs can prove; check that the pairs match");
+  }
+  if (fitted.fraction() < 1.0)
+  {
+    sentences.push_back(
+      "The fold guard applied " + std::to_string(fitted.fraction()) + " of the bend");
+  }
+  else if (fitted.relaxation() > 1.0)
+  {
+    sentences.emplace_back(
+      "The fold guard trusted what was measured less, so that no tissue folds");
+  }
+  return joined(sentences);
 }
 }
 
@@ -76,7 +107,13 @@ struct vtkFitDeformation::State
   std::string Problem = NotRun;
   std::string Unmatched;
   std::string WarnedOf;
-  vtkNew<vtkDoubleArray> Numbers[5]; // as a server sends them
+
+  // The figures as a server sends them.
+  vtkNew<vtkDoubleArray> RigidNumbers;
+  vtkNew<vtkDoubleArray> LandmarkResidualNumbers;
+  vtkNew<vtkDoubleArray> PullResidualNumbers;
+  vtkNew<vtkDoubleArray> TraceResidualNumbers;
+  vtkNew<vtkDoubleArray> LeaveOneOutNumbers;
 
   // Leaves nothing of the last fit.
   void forget(const std::string& problem)
@@ -92,8 +129,10 @@ struct vtkFitDeformation::State
 
   std::string warning() const
   {
-    return wordsOnFit(
-      this->Fitted, this->Unmatched, !this->TraceResiduals.empty() && this->TraceNumbers.empty());
+    const bool isInCavity = !this->TraceResiduals.empty() && this->TraceNumbers.empty();
+    return joined({ this->Unmatched.empty() ? "" : "Without a partner: " + this->Unmatched,
+      isInCavity ? "All traced points lie in the cavity and do not count" : "",
+      warningAbout(this->Fitted) });
   }
 
   // What a fit asks for the cortex. It must not outlive this object's next change.
@@ -180,27 +219,26 @@ int vtkFitDeformation::RequestUpdateExtent(
   return 1;
 }
 
-std::string vtkFitDeformation::ProblemOfProperties() const
+void vtkFitDeformation::RequireProperties() const
 {
   if (this->Pulls.size() % Packed<Pull>::Numbers || this->Pins.size() % Packed<Pin>::Numbers)
   {
-    return "Pulls has " + std::to_string(this->Pulls.size()) + " numbers and Pins " +
-      std::to_string(this->Pins.size()) + "; a pull has 7 and a pin 4";
+    throw Problem("Pulls has " + std::to_string(this->Pulls.size()) + " numbers and Pins " +
+      std::to_string(this->Pins.size()) + "; a pull has 7 and a pin 4");
   }
   if (this->Landmarks->Numbers.size() % Packed<PointPair>::Numbers)
   {
-    return "LandmarkPairs has " + std::to_string(this->Landmarks->Numbers.size()) +
-      " numbers; a pair has 7";
+    throw Problem("LandmarkPairs has " + std::to_string(this->Landmarks->Numbers.size()) +
+      " numbers; a pair has 7");
   }
   if (!(this->OpeningRadius >= 0.0 && std::isfinite(this->OpeningRadius)))
   {
-    return "OpeningRadius is " + std::to_string(this->OpeningRadius) +
-      " mm; it must be 0 or more, and finite";
+    throw Problem("OpeningRadius is " + std::to_string(this->OpeningRadius) +
+      " mm; it must be 0 or more, and finite");
   }
-  return {};
 }
 
-std::string vtkFitDeformation::ReadMeasurements(vtkInformationVector** inputs)
+void vtkFitDeformation::ReadMeasurements(vtkInformationVector** inputs)
 {
   State& state = *this->Internal;
   state.Measured = {};
@@ -216,9 +254,8 @@ std::string vtkFitDeformation::ReadMeasurements(vtkInformationVector** inputs)
       state.Measured.pins.push_back(pin.rest);
     }
   }
-  std::string problem;
   const PlacedVoxels cavity = state.CavityInput.find(vtkImageData::GetData(inputs[CavityPort]), {},
-    gridOf(vtkImageData::GetData(inputs[0])), "volume", problem);
+    gridOf(vtkImageData::GetData(inputs[0])), "volume");
   const std::vector<glm::dvec3> traces = positionsOf(points(TracesPort));
   state.TraceResiduals.assign(traces.size(), NaN);
   state.TraceNumbers.clear();
@@ -230,20 +267,19 @@ std::string vtkFitDeformation::ReadMeasurements(vtkInformationVector** inputs)
       state.Measured.traces.push_back(traces[i]);
     }
   }
-  // Before anything is searched for where a point lies.
-  return problem.empty() ? problemOf(state.Measured) : problem;
+  requireGood(state.Measured); // before anything is searched for at a position
 }
 
-std::string vtkFitDeformation::FindCortex(vtkInformationVector** inputs)
+void vtkFitDeformation::FindCortex(vtkInformationVector** inputs)
 {
   vtkImageData* segmentation = vtkImageData::GetData(inputs[SegmentationPort]);
   vtkImageData* image = segmentation ? segmentation : vtkImageData::GetData(inputs[0]);
   const bool byLabel = this->SurfaceBy != 0;
-  return this->Internal->Cortex.find({ image, segmentation ? "segmentation" : "volume",
-    this->SurfaceArray, !segmentation, byLabel, byLabel ? this->Label : this->Threshold });
+  this->Internal->Cortex.find({ image, segmentation ? "segmentation" : "volume", this->SurfaceArray,
+    !segmentation, byLabel, byLabel ? this->Label : this->Threshold });
 }
 
-std::string vtkFitDeformation::FindAnchors(vtkInformationVector** inputs)
+void vtkFitDeformation::FindAnchors(vtkInformationVector** inputs)
 {
   State& state = *this->Internal;
   Measurements& measured = state.Measured;
@@ -251,74 +287,57 @@ std::string vtkFitDeformation::FindAnchors(vtkInformationVector** inputs)
   const bool isGiven = openingImage || this->OpeningRadius > 0.0;
   if (measured.traces.empty() && !(this->Anchors && isGiven && bendsOnly(measured)))
   {
-    return {};
+    return;
   }
-  std::string problem = this->FindCortex(inputs);
-  if (!problem.empty() || !this->Anchors)
+  this->FindCortex(inputs);
+  if (!this->Anchors)
   {
-    return problem;
+    return;
   }
   if (openingImage)
   {
-    Mask opening;
-    problem = readMask(openingImage, {}, gridOf(vtkImageData::GetData(inputs[0])), opening,
+    const Mask opening = readMask(openingImage, {}, gridOf(vtkImageData::GetData(inputs[0])),
       { "opening", "volume", "labels" });
-    if (problem.empty())
-    {
-      const auto makeIsOpen = [&opening]() -> AnchorChoice::IsOpen {
-        return [near = NearMask(opening, AnchorMarginMm)](
-                 const glm::dvec3& rest) { return near.holds(rest); };
-      };
-      measured.anchors = state.Chosen.beside(openingImage->GetMTime(), makeIsOpen, state.Cortex);
-    }
-    return problem;
+    const auto makeIsOpen = [&opening]() -> AnchorChoice::IsOpen {
+      return [near = NearMask(opening, AnchorMarginMm)](
+               const glm::dvec3& rest) { return near.holds(rest); };
+    };
+    measured.anchors = state.Chosen.beside(openingImage->GetMTime(), makeIsOpen, state.Cortex);
+    return;
   }
   const OpeningBall given{
     { this->OpeningCentre[0], this->OpeningCentre[1], this->OpeningCentre[2] }, this->OpeningRadius
   };
   const OpeningBall ball = isGiven ? given : openingOf(measured);
   measured.anchors = state.Chosen.beside(ball, state.Cortex);
-  return {};
 }
 
-std::string vtkFitDeformation::FindBase(vtkInformationVector** inputs)
+void vtkFitDeformation::FindBase(vtkInformationVector** inputs)
 {
   State& state = *this->Internal;
-  const std::string problem = this->MakeLattice(
-    gridOf(vtkImageData::GetData(inputs[0])), vtkImageData::GetData(inputs[MaskPort]), state.Still);
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  state.Still = this->MakeLattice(
+    gridOf(vtkImageData::GetData(inputs[0])), vtkImageData::GetData(inputs[MaskPort]));
   vtkImageData* base = vtkImageData::GetData(inputs[BasePort]);
   if (!base || base->GetNumberOfPoints() == 0)
   {
-    return {};
+    return;
   }
   Lattice bent = state.Still;
-  const std::string problemOfBase = addBase(bent, base);
-  if (problemOfBase.empty())
+  addBase(bent, base);
+  // A hand that drags leaves the base as it is, and with a mask its map takes long.
+  if (!state.Base || !state.Base->isOf(bent))
   {
-    // A hand that drags leaves the base as it is, and with a mask its map takes long.
-    if (!state.Base || !state.Base->isOf(bent))
-    {
-      state.Base = std::make_shared<const FitBase>(bent);
-    }
-    state.Measured.base = state.Base; // also one that moves nothing
+    state.Base = std::make_shared<const FitBase>(bent);
   }
-  return problemOfBase;
+  state.Measured.base = state.Base; // also one that moves nothing
 }
 
-std::string vtkFitDeformation::Solve(const Process* start)
+void vtkFitDeformation::Solve(const Process* start)
 {
   State& state = *this->Internal;
   const RestSurface surface = state.surface();
-  const std::string problem = state.Fitted.solve(
+  state.Fitted.solve(
     state.Measured, surface, state.Still, { this->GetSamples(), this->GuardFolding, start });
-  if (!problem.empty())
-  {
-    return problem;
-  }
   state.LandmarkResiduals = state.Fitted.residuals(state.Measured.landmarks);
   state.PullResiduals = state.Fitted.residuals(state.Measured.pulls);
   const std::vector<double> residuals = state.Fitted.traceResiduals(state.Measured.traces, surface);
@@ -326,7 +345,6 @@ std::string vtkFitDeformation::Solve(const Process* start)
   {
     state.TraceResiduals[state.TraceNumbers[i]] = residuals[i];
   }
-  return {};
 }
 
 int vtkFitDeformation::RequestData(
@@ -335,35 +353,31 @@ int vtkFitDeformation::RequestData(
   State& state = *this->Internal;
   const FittedLattice before = std::move(state.Fitted);
   state.forget(NotRun); // if memory runs out, this stays
-  const auto either = [](const std::string& problem, const auto& next) {
-    return problem.empty() ? next() : problem;
-  };
-  vtkImageData* volume = vtkImageData::GetData(inputs[0]);
-  std::string problem = problemOfGrid(gridOf(volume));
-  problem = problem.empty() ? problem : "The volume's " + problem;
-  problem = either(problem, [&] { return this->ProblemOfProperties(); });
-  problem = either(problem, [&] { return this->ReadMeasurements(inputs); });
-  problem = either(problem, [&] { return this->FindBase(inputs); });
-  problem = either(problem, [&] { return this->FindAnchors(inputs); });
-  problem = either(problem,
-    [&] { return this->Solve(this->Live && before.isKnown() ? &before.fit().field() : nullptr); });
-  state.Problem = problem;
-  if (!problem.empty())
+  try
   {
-    state.forget(problem);
+    requirePosition(gridOf(vtkImageData::GetData(inputs[0])), "The volume's ");
+    this->RequireProperties();
+    this->ReadMeasurements(inputs);
+    this->FindBase(inputs);
+    this->FindAnchors(inputs);
+    this->Solve(this->Live && before.isKnown() ? &before.fit().field() : nullptr);
+    state.Problem.clear();
+  }
+  catch (const Problem& problem)
+  {
+    state.forget(problem.what());
     this->Landmarks->Names->Reset();
-    vtkErrorMacro(<< problem << ".");
-    return 0;
+    throw;
   }
   vtkImageData* output = vtkImageData::GetData(outputs);
   const Lattice& bent = state.Fitted.lattice();
   setField(output, bent.grid, bent.displacements, Direction::Forward);
   attachFittedFor(output, bent, this->GetSamples());
   state.Evidence.setLive(this->Live);
-  std::string warning =
-    this->Evidence ? addEvidence(output, state.Fitted, state.Evidence) : std::string();
-  const std::string more = state.warning();
-  warning += warning.empty() || more.empty() ? more : ". " + more;
+  const std::string noEvidence = this->Evidence
+    ? problemOf([&] { addEvidence(output, state.Fitted, state.Evidence); })
+    : std::string();
+  const std::string warning = joined({ noEvidence, state.warning() });
   if (warning != state.WarnedOf && !warning.empty())
   {
     vtkWarningMacro(<< warning << ".");
@@ -376,7 +390,7 @@ int vtkFitDeformation::RequestData(
 
 double vtkFitDeformation::GetShare() const
 {
-  return this->Internal->Fitted.share();
+  return this->Internal->Fitted.fraction();
 }
 
 double vtkFitDeformation::GetRelaxation() const
@@ -417,27 +431,27 @@ vtkDoubleArray* vtkFitDeformation::GetRigid()
     rows.push_back(rigid.translation[row]);
   }
   rows.insert(rows.end(), { 0.0, 0.0, 0.0, 1.0 });
-  return filled(this->Internal->Numbers[0], rows);
+  return filled(this->Internal->RigidNumbers, rows);
 }
 
 vtkDoubleArray* vtkFitDeformation::GetLandmarkResiduals()
 {
-  return filled(this->Internal->Numbers[1], this->Internal->LandmarkResiduals);
+  return filled(this->Internal->LandmarkResidualNumbers, this->Internal->LandmarkResiduals);
 }
 
 vtkDoubleArray* vtkFitDeformation::GetPullResiduals()
 {
-  return filled(this->Internal->Numbers[2], this->Internal->PullResiduals);
+  return filled(this->Internal->PullResidualNumbers, this->Internal->PullResiduals);
 }
 
 vtkDoubleArray* vtkFitDeformation::GetTraceResiduals()
 {
-  return filled(this->Internal->Numbers[3], this->Internal->TraceResiduals);
+  return filled(this->Internal->TraceResidualNumbers, this->Internal->TraceResiduals);
 }
 
 vtkDoubleArray* vtkFitDeformation::GetLeaveOneOut()
 {
-  return filled(this->Internal->Numbers[4],
+  return filled(this->Internal->LeaveOneOutNumbers,
     leaveOneOut(this->Internal->Fitted, this->Internal->Measured.landmarks));
 }
 
@@ -476,12 +490,12 @@ std::vector<double> vtkFitDeformation::MeasuredFromRest(const std::vector<double
 
 std::vector<double> vtkFitDeformation::Deviations(const std::vector<double>& rest)
 {
-  std::vector<glm::dvec3> places;
+  std::vector<glm::dvec3> positions;
   for (std::size_t i = 0; this->Internal->Fitted.isKnown() && i + 2 < rest.size(); i += 3)
   {
-    places.emplace_back(rest[i], rest[i + 1], rest[i + 2]);
+    positions.emplace_back(rest[i], rest[i + 1], rest[i + 2]);
   }
-  return this->Internal->Fitted.deviations(places);
+  return this->Internal->Fitted.deviations(positions);
 }
 
 void vtkFitDeformation::PrintSelf(ostream& os, vtkIndent indent)

@@ -22,7 +22,7 @@
  * - Input 8 (optional): a mask of the opening of the skull, rest frame.
  *
  * If the bend would fold tissue, the measurements are trusted less (factor 1.5 on their deviations)
- * and, if that is not enough, a share of the bend is taken.
+ * and, if that is not enough, a fraction of the bend is taken.
  */
 #ifndef vtkFitDeformation_h
 #define vtkFitDeformation_h
@@ -60,9 +60,10 @@ public:
 
   ///@{
   /**
-   * Whether a hand moves what was measured at this moment. Default off. If on, traced points are
-   * projected with the last fit and the equations are solved once. Beside traces the bend then
-   * trails the hand by about a third of its last step. Switch it off when the hand lets go.
+   * Whether the user drags something that was measured at this moment. Default off. If on, traced
+   * points are projected with the last fit and the equations are solved once. Beside traces the
+   * bend then trails the hand by about a third of its last step. Switch it off when the hand lets
+   * go.
    */
   vtkSetMacro(Live, bool);
   vtkGetMacro(Live, bool);
@@ -119,8 +120,8 @@ public:
 
   ///@{
   /**
-   * Whether the lattice tells how far it can be believed: a point array Deviation (float32, mm),
-   * what Deviations() answers at the control points. It takes time. Default off.
+   * Whether the output carries the point array Deviation (float32, mm): the standard deviation of
+   * the displacement at each control point, as Deviations() returns it. It takes time. Default off.
    */
   vtkSetMacro(Evidence, bool);
   vtkGetMacro(Evidence, bool);
@@ -159,9 +160,10 @@ public:
 
   ///@{
   /**
-   * Figures of the last execution. Share: of the bend that the fold guard left, 0 to 1. Relaxation:
-   * factor on the deviations, 1 or 1.5. TraceRMS: root mean square distance (mm) of traced points
-   * from the bent cortex, NaN without any.
+   * Figures of the last execution. Share: the fraction of the fitted bend that the fold guard
+   * allowed, 0 to 1; the base is not included. Relaxation: factor on the deviations, 1 or 1.5.
+   * TraceRMS: root mean square distance (mm) of traced points from the bent cortex, NaN without
+   * any.
    */
   double GetShare() const;
   double GetRelaxation() const;
@@ -180,8 +182,8 @@ public:
 
   ///@{
   /**
-   * How far (mm) from its measured end each matched landmark and each pull comes to lie, and how
-   * far (mm) each traced point lies outside the bent cortex. NaN for one that does not count.
+   * Distance (mm) of each matched landmark and each pull from its measured end, and of each traced
+   * point from the bent cortex, positive outside it. NaN for one that does not count.
    */
   vtkDoubleArray* GetLandmarkResiduals();
   vtkDoubleArray* GetPullResiduals();
@@ -189,8 +191,9 @@ public:
   ///@}
 
   /**
-   * For each matched landmark, its error (mm) if it is left out of the fit. For one that is
-   * switched off, how far the fit misses it. The fold guard and the mask are not counted.
+   * For each matched landmark its leave-one-out error (mm): the distance between the measured
+   * landmark and its prediction by a fit without it. For one that is switched off, the distance
+   * from the prediction of the fit. The fold guard and the mask are not counted.
    */
   vtkDoubleArray* GetLeaveOneOut();
 
@@ -213,8 +216,8 @@ public:
 
   ///@{
   /**
-   * Answers for positions (mm, rest frame), three numbers each: where their tissue was measured or
-   * would be, by lattice and rigid part; and its standard deviation (mm) along each axis.
+   * For positions (mm, rest frame), three numbers each: the position at which their tissue was or
+   * would be measured, by lattice and rigid part; and its standard deviation (mm) along each axis.
    * Deviations are infinite if nothing was measured, and count what guard, mask and control
    * points changed.
    */
@@ -252,13 +255,13 @@ private:
   std::vector<double> Pins;
   const std::unique_ptr<brainshift::FitLandmarks> Landmarks;
 
-  // Each returns one sentence if it cannot; empty if it can.
-  std::string ProblemOfProperties() const;
-  std::string ReadMeasurements(vtkInformationVector** inputs);
-  std::string FindCortex(vtkInformationVector** inputs);
-  std::string FindAnchors(vtkInformationVector** inputs);
-  std::string FindBase(vtkInformationVector** inputs);
-  std::string Solve(const brainshift::Process* start);
+  // Each throws a Problem if it cannot.
+  void RequireProperties() const;
+  void ReadMeasurements(vtkInformationVector** inputs);
+  void FindCortex(vtkInformationVector** inputs);
+  void FindAnchors(vtkInformationVector** inputs);
+  void FindBase(vtkInformationVector** inputs);
+  void Solve(const brainshift::Process* start);
 
   struct State;
   std::unique_ptr<State> Internal;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkFitReport.h"
 
+#include "Common/FilledArray.h"
 #include "Common/Guard.h"
-#include "Filters/Fields/FilledArray.h"
 #include "vtkFitDeformation.h"
 
 #include "vtkDoubleArray.h"

@@ -91,7 +91,7 @@ RefinementState::Candidate RefinementState::candidateAt(const Controls& step, do
     found.controls[i] += static_cast<float>(length) * step[i];
   }
   found.lattice = this->latticeOf(found.controls);
-  found.fraction = this->Guards ? this->Guard.share(this->bent, found.lattice) : 1.0;
+  found.fraction = this->Guards ? this->Guard.fraction(this->bent, found.lattice) : 1.0;
   if (found.fraction < 1.0)
   {
     found.lattice = between(this->bent, found.lattice, found.fraction);

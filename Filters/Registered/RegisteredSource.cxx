@@ -90,12 +90,7 @@ std::string readSource(vtkImageData* image, RegisteredSource& source)
 {
   if (carriesDeformation(image))
   {
-    std::string problem;
-    Deformation bent;
-    if (!readDeformation(image, bent, problem))
-    {
-      return problem;
-    }
+    const Deformation bent = readDeformation(image);
     source.pair.inside = maskOf(bent.lattice);
     source.bent = std::make_unique<const Deformation>(bent);
   }

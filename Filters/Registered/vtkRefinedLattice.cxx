@@ -12,8 +12,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <string>
-
 using namespace brainshift;
 
 vtkStandardNewMacro(vtkRefinedLattice);
@@ -51,14 +49,7 @@ int vtkRefinedLattice::RequestUpdateExtent(
 int vtkRefinedLattice::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  Lattice lattice;
-  std::string problem =
-    this->MakeLattice(gridOf(vtkImageData::GetData(inputs[0])), nullptr, lattice);
-  if (!problem.empty())
-  {
-    vtkErrorMacro(<< problem << ".");
-    return 0;
-  }
+  Lattice lattice = this->MakeLattice(gridOf(vtkImageData::GetData(inputs[0])), nullptr);
   const glm::ivec3& sides = lattice.grid.dimensions;
   const std::size_t expected = 3 * lattice.displacements.size();
   if (!this->ControlPoints.empty() && this->ControlPoints.size() != expected)
@@ -73,12 +64,7 @@ int vtkRefinedLattice::RequestData(
     lattice.displacements[i / 3] = { this->ControlPoints[i], this->ControlPoints[i + 1],
       this->ControlPoints[i + 2] };
   }
-  problem = problemOfDisplacements(lattice, "ControlPoints");
-  if (!problem.empty())
-  {
-    vtkErrorMacro(<< problem << ".");
-    return 0;
-  }
+  requireDisplacements(lattice, "ControlPoints");
   vtkImageData* output = vtkImageData::GetData(outputs);
   setField(output, lattice.grid, lattice.displacements, Direction::Forward);
   output->Crop(

@@ -28,32 +28,16 @@ std::vector<char> changedCells(const Lattice& before, const Lattice& after)
 {
   const Grid cells = cellsOf(after.grid);
   std::vector<char> changed(cells.count(), 0);
-  glm::ivec3 point;
   std::size_t index = 0;
-  for (point.z = 0; point.z < after.grid.dimensions.z; ++point.z)
-  {
-    for (point.y = 0; point.y < after.grid.dimensions.y; ++point.y)
+  forEachIndex(glm::ivec3(0), after.grid.dimensions - 1, [&](const glm::ivec3& point) {
+    if (before.displacements[index] != after.displacements[index])
     {
-      for (point.x = 0; point.x < after.grid.dimensions.x; ++point.x, ++index)
-      {
-        if (before.displacements[index] == after.displacements[index])
-        {
-          continue;
-        }
-        // A cell's kernel spans the control points from one before it to two after it.
-        const glm::ivec3 low = glm::max(point - 2, glm::ivec3(0));
-        const glm::ivec3 high = glm::min(point + 1, cells.dimensions - 1);
-        for (int k = low.z; k <= high.z; ++k)
-        {
-          for (int j = low.y; j <= high.y; ++j)
-          {
-            std::fill_n(changed.begin() + static_cast<std::ptrdiff_t>(cells.offset(low.x, j, k)),
-              high.x - low.x + 1, char(1));
-          }
-        }
-      }
+      // A cell's kernel spans the control points from one before it to two after it.
+      forEachIndex(glm::max(point - 2, glm::ivec3(0)), glm::min(point + 1, cells.dimensions - 1),
+        [&](const glm::ivec3& at) { changed[cells.offset(at.x, at.y, at.z)] = 1; });
     }
-  }
+    ++index;
+  });
   return changed;
 }
 }

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 namespace brainshift
 {
@@ -81,5 +82,21 @@ StrokeMarks readMarks(vtkDataObject* volume)
   return array
     ? StrokeMarks(array->GetPointer(0), array->GetPointer(0) + array->GetNumberOfValues())
     : StrokeMarks();
+}
+
+void StrokeCurve::note(const StrokeMarks& marks, std::uint64_t how, double figure)
+{
+  this->Values.clear();
+  if (marks.empty())
+  {
+    return;
+  }
+  this->Known[mixed(marks.back(), how)] = figure;
+  for (const std::uint64_t mark : marks)
+  {
+    const auto found = this->Known.find(mixed(mark, how));
+    this->Values.push_back(
+      found == this->Known.end() ? std::numeric_limits<double>::quiet_NaN() : found->second);
+  }
 }
 }

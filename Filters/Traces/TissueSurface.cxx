@@ -27,18 +27,29 @@ bool TissueRegion::contains(const glm::dvec3& rest) const
   {
     return false;
   }
-  const glm::ivec3 low(index);
-  const glm::dvec3 within = index - glm::dvec3(low);
   double sum = 0.0;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    const glm::ivec3 side(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
-    const glm::ivec3 at = glm::min(low + side, this->grid.dimensions - 1);
-    const glm::dvec3 weight = glm::mix(1.0 - within, within, glm::dvec3(side));
-    sum += weight.x * weight.y * weight.z *
+  forEachCorner(this->grid, index, [&](const glm::ivec3& at, double weight) {
+    sum += weight *
       this->scalars->GetComponent(static_cast<vtkIdType>(this->grid.offset(at.x, at.y, at.z)), 0);
-  }
+  });
   return sum >= this->level;
+}
+
+bool TissueSource::find(vtkDataArray* scalars, const Grid& grid, bool isLabel, double level)
+{
+  if (scalars == this->Scalars && scalars->GetMTime() == this->Time && grid == this->ScalarsGrid &&
+    isLabel == this->IsLabel && level == this->Level)
+  {
+    return false;
+  }
+  this->Region = isLabel ? TissueRegion{ grid, maskOfLabel(scalars, static_cast<int>(level)), 0.5 }
+                         : TissueRegion{ grid, scalars, level };
+  this->Scalars = scalars;
+  this->Time = scalars->GetMTime();
+  this->ScalarsGrid = grid;
+  this->IsLabel = isLabel;
+  this->Level = level;
+  return true;
 }
 
 vtkDataArray* scalarsOf(vtkImageData* image, const std::string& name)

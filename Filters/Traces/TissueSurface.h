@@ -40,6 +40,32 @@ struct VTKBRAINSHIFTFILTERS_EXPORT TissueRegion
   bool contains(const glm::dvec3& rest) const;
 };
 
+/** The tissue of an image, kept until something that it depends on changes. */
+class TissueSource
+{
+public:
+  /**
+   * Finds it. Returns whether it is another one than before.
+   *
+   * @param isLabel   whether tissue is where scalars equal the level, or are not below it
+   * @param level     a threshold or a label
+   */
+  bool find(vtkDataArray* scalars, const Grid& grid, bool isLabel, double level);
+
+  const TissueRegion& region() const { return this->Region; }
+
+  /** Modification time of the scalars that the tissue was found in. */
+  unsigned long long time() const { return this->Time; }
+
+private:
+  TissueRegion Region;
+  vtkSmartPointer<vtkDataArray> Scalars; // null: nothing was found yet
+  unsigned long long Time = 0;           // of Scalars
+  Grid ScalarsGrid;
+  bool IsLabel = false;
+  double Level = 0.0;
+};
+
 /** The scalars of an image of this name; its active ones, or its first, if there are none of it. */
 VTKBRAINSHIFTFILTERS_EXPORT vtkDataArray* scalarsOf(vtkImageData* image, const std::string& name);
 

@@ -24,14 +24,17 @@ struct TraceStatistics
   double mean = std::numeric_limits<double>::quiet_NaN();
   double rms = std::numeric_limits<double>::quiet_NaN(); ///< root mean square
 
-  /** Of the absolute distances, interpolated between the two nearest ranks. */
+  /**
+   * Of the absolute distances, interpolated between the two nearest ranks: definition 7 of Hyndman
+   * and Fan, "Sample quantiles in statistical packages", The American Statistician 50 (1996).
+   */
   double percentile95 = std::numeric_limits<double>::quiet_NaN();
 };
 
 /** Figures of signed distances (mm). Distances that are not finite do not count. */
 VTKBRAINSHIFTFILTERS_EXPORT TraceStatistics statisticsOf(const std::vector<double>& distances);
 
-/** How many distances lie in each of the bins, which are equally wide and symmetric about 0. */
+/** Counts of distances in bins that are equally wide and symmetric about 0. */
 struct TraceHistogram
 {
   static constexpr int Bins = 32;

@@ -3,7 +3,9 @@
  * @file
  * @brief Finds the nearest point of a triangle mesh whose points move but whose triangles stay.
  *
- * A tree of boxes is built once and fitted to the triangles again after each move.
+ * A tree of boxes is built once and fitted to the triangles again after each move: van den Bergen,
+ * "Efficient collision detection of complex deformable models using AABB trees", Journal of
+ * Graphics Tools 2 (1997). VTK's locators are built anew after each move.
  */
 #ifndef BrainShift_TriangleTree_h
 #define BrainShift_TriangleTree_h

@@ -26,6 +26,7 @@ struct Form
 {
   bool isExplicit = true;
   bool isBig = false;
+  int depth = 0; // of the sequences around a set
 };
 
 struct Head
@@ -88,8 +89,7 @@ public:
   }
 
   // Reads attributes until `end`, the end of an item, or the pixels; moves `offset` there.
-  bool readSet(
-    std::uint64_t& offset, std::uint64_t end, const Form& form, int depth, DICOMDataSet& set)
+  bool readSet(std::uint64_t& offset, std::uint64_t end, const Form& form, DICOMDataSet& set)
   {
     set.isBigEndian = form.isBig;
     while (offset < end)
@@ -104,13 +104,13 @@ public:
         offset = found.value;
         return true;
       }
-      if (found.tag == PixelData && depth == 0)
+      if (found.tag == PixelData && form.depth == 0)
       {
         this->Pixels = found;
         return true;
       }
       offset = found.value;
-      if (!this->readElement(offset, end, form, depth, found, set))
+      if (!this->readElement(offset, end, form, found, set))
       {
         return false;
       }
@@ -121,8 +121,8 @@ public:
   Head Pixels;
 
 private:
-  bool readElement(std::uint64_t& offset, std::uint64_t end, const Form& form, int depth,
-    const Head& head, DICOMDataSet& set)
+  bool readElement(
+    std::uint64_t& offset, std::uint64_t end, const Form& form, const Head& head, DICOMDataSet& set)
   {
     if (head.length != Undefined && head.length > end - offset)
     {
@@ -135,10 +135,11 @@ private:
     if (this->isSequence(offset, form, head))
     {
       Form inside = form;
+      inside.depth = form.depth + 1;
       inside.isExplicit = form.isExplicit && std::strncmp(head.vr, "UN", 2) != 0;
       const std::uint64_t last = head.length == Undefined ? end : offset + head.length;
-      if (depth >= DeepestSequence ||
-        !this->readItems(offset, last, inside, depth + 1, head.length, element))
+      if (form.depth >= DeepestSequence ||
+        !this->readItems(offset, last, inside, head.length, element))
       {
         return false;
       }
@@ -174,8 +175,8 @@ private:
       number(first + 2, 2, form.isBig) == 0xe000;
   }
 
-  bool readItems(std::uint64_t& offset, std::uint64_t end, const Form& form, int depth,
-    std::uint32_t length, DICOMElement& element)
+  bool readItems(std::uint64_t& offset, std::uint64_t end, const Form& form, std::uint32_t length,
+    DICOMElement& element)
   {
     while (offset < end)
     {
@@ -195,7 +196,7 @@ private:
       }
       element.items.emplace_back();
       const std::uint64_t last = found.length == Undefined ? end : offset + found.length;
-      if (!this->readSet(offset, last, form, depth, element.items.back()))
+      if (!this->readSet(offset, last, form, element.items.back()))
       {
         return false;
       }
@@ -254,7 +255,7 @@ bool parseDICOM(DICOMBytes& bytes, DICOMContent& content, PatientGroup patient)
   form.isExplicit = content.transferSyntax != Implicit;
   form.isBig = content.transferSyntax == BigEndian;
   Parser parser(bytes, patient);
-  if (!parser.readSet(offset, bytes.size(), form, 0, content.set))
+  if (!parser.readSet(offset, bytes.size(), form, content.set))
   {
     return false;
   }

@@ -242,17 +242,24 @@ std::string arrange(
                      : "has " + std::to_string(2 - along) + " axes in space; it must have 3";
 }
 
+// Voxels of a file: the first one and how many, along each axis of the file.
+struct Hyperslab
+{
+  std::vector<misize_t> start;
+  std::vector<misize_t> count;
+};
+
 // Reads some slices along the slowest axis of space.
-bool readSlices(mihandle_t volume, const std::vector<misize_t>& start,
-  const std::vector<misize_t>& count, bool areRealValues, vtkDataArray* to, vtkIdType firstValue)
+bool readSlices(mihandle_t volume, const Hyperslab& slab, bool areRealValues, vtkDataArray* to,
+  vtkIdType firstValue)
 {
   void* const place = to->GetVoidPointer(firstValue);
   const auto isType = [&](const auto& known) { return known.second == to->GetDataType(); };
   const auto type = std::find_if(Types.begin(), Types.end(), isType);
   const auto wanted = static_cast<mitype_t>(type->first);
   const int status = areRealValues
-    ? miget_real_value_hyperslab(volume, wanted, start.data(), count.data(), place)
-    : miget_voxel_value_hyperslab(volume, wanted, start.data(), count.data(), place);
+    ? miget_real_value_hyperslab(volume, wanted, slab.start.data(), slab.count.data(), place)
+    : miget_voxel_value_hyperslab(volume, wanted, slab.start.data(), slab.count.data(), place);
   return status == MI_NOERROR;
 }
 }
@@ -311,28 +318,28 @@ std::string MINCVolume::load(std::size_t volume, const Progress& progress, Store
     vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Header.storedType));
   numbers->SetNumberOfComponents(this->Header.components);
   numbers->SetNumberOfTuples(vtkIdType(sides.x) * sides.y * sides.z);
-  std::vector<misize_t> start(this->Axes.size(), 0);
-  std::vector<misize_t> count(this->Axes.size(), 1);
+  Hyperslab slab{ std::vector<misize_t>(this->Axes.size(), 0),
+    std::vector<misize_t>(this->Axes.size(), 1) };
   std::size_t slowest = this->Axes.size();
   for (std::size_t i = 0; i < this->Axes.size(); ++i)
   {
     const bool isTime = this->Axes[i].use == AxisUse::Time;
-    start[i] = isTime ? volume : 0;
-    count[i] = isTime ? 1 : this->Axes[i].count;
+    slab.start[i] = isTime ? volume : 0;
+    slab.count[i] = isTime ? 1 : this->Axes[i].count;
     slowest = this->Axes[i].use == AxisUse::Space ? std::min(slowest, i) : slowest;
   }
-  const misize_t slices = count[slowest];
+  const misize_t slices = slab.count[slowest];
   const vtkIdType sliceValues = vtkIdType(sides.x) * sides.y * this->Header.components;
   for (misize_t slice = 0; slice < slices; slice += Slices)
   {
-    start[slowest] = slice;
-    count[slowest] = std::min(Slices, slices - slice);
-    if (!readSlices(file.get(), start, count, this->AreRealValues, numbers,
+    slab.start[slowest] = slice;
+    slab.count[slowest] = std::min(Slices, slices - slice);
+    if (!readSlices(file.get(), slab, this->AreRealValues, numbers,
           static_cast<vtkIdType>(slice) * sliceValues))
     {
       return "libminc cannot read its slices from " + std::to_string(slice) + " on";
     }
-    if (!progress(static_cast<double>(slice + count[slowest]) / static_cast<double>(slices)))
+    if (!progress(static_cast<double>(slice + slab.count[slowest]) / static_cast<double>(slices)))
     {
       return {};
     }

@@ -289,10 +289,18 @@ void invertDCT(Block& block)
   block = transposed(invertedColumns(transposed(invertedColumns(block))));
 }
 
+// The first sample of a block in the frame.
+struct BlockCorner
+{
+  int left = 0;
+  int top = 0;
+};
+
 // Blocks at the right and lower rim stand over it.
-void store(const Block& block, int bits, const FrameShape& shape, int left, int top,
+void store(const Block& block, int bits, const FrameShape& shape, const BlockCorner& corner,
   std::vector<std::uint16_t>& samples)
 {
+  const auto [left, top] = corner;
   const float most = static_cast<float>((1 << bits) - 1);
   const float shift = static_cast<float>(1 << (bits - 1)) + 0.5F; // level shift, and rounding
   const int columns = std::min(Side, shape.columns - left);
@@ -331,7 +339,7 @@ bool readDCT(const JPEGHeader& header, const FrameShape& shape, EntropyData& dat
         return false;
       }
       invertDCT(block);
-      store(block, header.bits, shape, left, top, samples);
+      store(block, header.bits, shape, { left, top }, samples);
     }
   }
   return true;

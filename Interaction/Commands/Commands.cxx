@@ -19,31 +19,44 @@ namespace
 using Tools = std::vector<Tool>;
 using Keys = std::vector<QKeyCombination>;
 
-CommandRow byMouse(Command command, Scope scope, const Tools& tools, Mouse mouse,
-  Qt::KeyboardModifiers modifiers, const char* what, const char* hint)
+struct Gesture
 {
-  return { command, scope, tools, mouse, modifiers, {}, what, hint };
+  Mouse mouse;
+  Qt::KeyboardModifiers modifiers;
+};
+
+CommandRow byMouse(
+  Command command, Scope scope, const Gesture& gesture, const char* what, const char* hint)
+{
+  return { command, scope, {}, gesture.mouse, gesture.modifiers, {}, what, hint };
 }
 
-CommandRow byKey(Command command, Scope scope, const Tools& tools, const Keys& keys,
-  const char* what, const char* hint = "")
+CommandRow byKey(
+  Command command, Scope scope, const Keys& keys, const char* what, const char* hint = "")
 {
-  return { command, scope, tools, Mouse::None, {}, keys, what, hint };
+  return { command, scope, {}, Mouse::None, {}, keys, what, hint };
+}
+
+// The row for these tools alone.
+CommandRow onlyFor(const Tools& tools, CommandRow row)
+{
+  row.tools = tools;
+  return row;
 }
 
 std::vector<CommandRow> windowRows()
 {
   return {
-    byKey(Command::Flicker, Scope::Window, {}, { Qt::Key_K },
+    byKey(Command::Flicker, Scope::Window, { Qt::Key_K },
       QT_TRANSLATE_NOOP("BrainShift",
         "Show the deformed volume and the reference of Compare Volumes in turn. Press the key "
         "again to stop.")),
-    byKey(Command::RecordTrace, Scope::Window, {}, { Qt::Key_T },
+    byKey(Command::RecordTrace, Scope::Window, { Qt::Key_T },
       QT_TRANSLATE_NOOP("BrainShift",
         "While a pointer is connected: record a trace as long as the key is held down.")),
-    byKey(Command::Undo, Scope::Window, {}, { Qt::CTRL | Qt::Key_Z },
+    byKey(Command::Undo, Scope::Window, { Qt::CTRL | Qt::Key_Z },
       QT_TRANSLATE_NOOP("BrainShift", "Undo the last edit. Each stroke is one edit.")),
-    byKey(Command::Redo, Scope::Window, {}, { Qt::CTRL | Qt::Key_Y },
+    byKey(Command::Redo, Scope::Window, { Qt::CTRL | Qt::Key_Y },
       QT_TRANSLATE_NOOP("BrainShift", "Redo the edit that was undone last.")),
   };
 }
@@ -72,7 +85,8 @@ std::vector<CommandRow> takeToolRows()
   std::vector<CommandRow> rows;
   for (const ToolRow& tool : toolTable())
   {
-    rows.push_back(byKey(Command::TakeTool, Scope::Window, { tool.tool }, { tool.key }, tool.what));
+    rows.push_back(
+      onlyFor({ tool.tool }, byKey(Command::TakeTool, Scope::Window, { tool.key }, tool.what)));
   }
   return rows;
 }
@@ -93,23 +107,24 @@ Tools toolsWithAxes()
 std::vector<CommandRow> handRows()
 {
   return {
-    byKey(Command::HoldAxis, Scope::Tool, toolsWithAxes(), { Qt::Key_X, Qt::Key_Y, Qt::Key_Z },
-      QT_TRANSLATE_NOOP("BrainShift",
-        "During a drag: hold the drag to that world axis. Press the key again to release it."),
-      QT_TRANSLATE_NOOP("BrainShift", "hold the drag to an axis")),
-    byKey(Command::MoveCursor, Scope::Tool, {},
+    onlyFor(toolsWithAxes(),
+      byKey(Command::HoldAxis, Scope::Tool, { Qt::Key_X, Qt::Key_Y, Qt::Key_Z },
+        QT_TRANSLATE_NOOP("BrainShift",
+          "During a drag: hold the drag to that world axis. Press the key again to release it."),
+        QT_TRANSLATE_NOOP("BrainShift", "hold the drag to an axis"))),
+    byKey(Command::MoveCursor, Scope::Tool,
       { Qt::Key_Left, Qt::Key_Right, Qt::Key_Up, Qt::Key_Down },
       QT_TRANSLATE_NOOP("BrainShift",
         "Move the cursor over the view. If it is elsewhere, it comes to the middle of the view "
         "first. The view must have the keyboard: taking a tool gives it to the active view.")),
-    byKey(Command::TakeHold, Scope::Tool, {}, { Qt::Key_Space },
+    byKey(Command::TakeHold, Scope::Tool, { Qt::Key_Space },
       QT_TRANSLATE_NOOP("BrainShift",
         "Take hold of the tissue or control point under the cursor, as a mouse button does. Drag "
         "it "
         "with Left, Right, Up and Down. Press the key again to let go.")),
-    byKey(Command::Cancel, Scope::Tool, {}, { Qt::Key_Escape },
+    byKey(Command::Cancel, Scope::Tool, { Qt::Key_Escape },
       QT_TRANSLATE_NOOP("BrainShift", "Cancel the stroke that is being made.")),
-    byMouse(Command::SwitchVolume, Scope::Tool, {}, Mouse::Click, {},
+    byMouse(Command::SwitchVolume, Scope::Tool, { Mouse::Click, {} },
       QT_TRANSLATE_NOOP("BrainShift",
         "Over another volume than the selected one: work on that volume. The click makes no "
         "stroke."),
@@ -120,35 +135,35 @@ std::vector<CommandRow> handRows()
 std::vector<CommandRow> viewRows()
 {
   return {
-    byKey(Command::ShowAsLoaded, Scope::View, {}, { Qt::Key_O },
+    byKey(Command::ShowAsLoaded, Scope::View, { Qt::Key_O },
       QT_TRANSLATE_NOOP("BrainShift", "Show the volume as loaded while the key is held down.")),
-    byMouse(Command::EnlargeView, Scope::View, {}, Mouse::DoubleClick, {},
+    byMouse(Command::EnlargeView, Scope::View, { Mouse::DoubleClick, {} },
       QT_TRANSLATE_NOOP("BrainShift",
         "In Four Views, without a tool in hand: make the view as large as the layout. Double-click "
         "again to see all four."),
       ""),
-    byMouse(Command::StepSlices, Scope::Slices, {}, Mouse::Wheel, {},
+    byMouse(Command::StepSlices, Scope::Slices, { Mouse::Wheel, {} },
       QT_TRANSLATE_NOOP("BrainShift",
         "Step through the slices, one voxel per click. If the tool in hand uses the wheel, "
         "the wheel does this only away from tissue."),
       QT_TRANSLATE_NOOP("BrainShift", "next slice")),
-    byKey(Command::StepSlices, Scope::Slices, {}, { Qt::Key_PageUp, Qt::Key_PageDown },
+    byKey(Command::StepSlices, Scope::Slices, { Qt::Key_PageUp, Qt::Key_PageDown },
       QT_TRANSLATE_NOOP("BrainShift", "Step through the slices, one voxel each time."),
       QT_TRANSLATE_NOOP("BrainShift", "next slice")),
-    byMouse(Command::BringSlices, Scope::Slices, {}, Mouse::Drag, Qt::ShiftModifier,
+    byMouse(Command::BringSlices, Scope::Slices, { Mouse::Drag, Qt::ShiftModifier },
       QT_TRANSLATE_NOOP("BrainShift", "Bring the other slices to the cursor."),
       QT_TRANSLATE_NOOP("BrainShift", "bring the other slices to the cursor")),
-    byMouse(Command::MoveWipe, Scope::Slices, {}, Mouse::Drag, {},
+    byMouse(Command::MoveWipe, Scope::Slices, { Mouse::Drag, {} },
       QT_TRANSLATE_NOOP("BrainShift", "On the line of a Wipe comparison: move the line."), ""),
-    byMouse(Command::ChangeGreyValues, Scope::Slices, {}, Mouse::RightDrag, {},
+    byMouse(Command::ChangeGreyValues, Scope::Slices, { Mouse::RightDrag, {} },
       QT_TRANSLATE_NOOP("BrainShift",
         "Change the grey values. Drag to the right for a wider window (less contrast), upwards for "
         "a higher level (darker). Each drag is one edit."),
       QT_TRANSLATE_NOOP("BrainShift", "window and level")),
-    byMouse(Command::Zoom, Scope::Slices, {}, Mouse::Wheel, Qt::ControlModifier,
+    byMouse(Command::Zoom, Scope::Slices, { Mouse::Wheel, Qt::ControlModifier },
       QT_TRANSLATE_NOOP("BrainShift", "Zoom. The slices of Four Views have one zoom."),
       QT_TRANSLATE_NOOP("BrainShift", "zoom")),
-    byMouse(Command::Zoom, Scope::Slices, {}, Mouse::RightDrag, Qt::ControlModifier,
+    byMouse(Command::Zoom, Scope::Slices, { Mouse::RightDrag, Qt::ControlModifier },
       QT_TRANSLATE_NOOP("BrainShift", "Zoom without steps."), ""),
   };
 }
@@ -156,13 +171,13 @@ std::vector<CommandRow> viewRows()
 std::vector<CommandRow> listRows()
 {
   return {
-    byKey(Command::ToggleStrokes, Scope::List, {}, { Qt::Key_Space },
+    byKey(Command::ToggleStrokes, Scope::List, { Qt::Key_Space },
       QT_TRANSLATE_NOOP("BrainShift", "Disable or enable the selected strokes.")),
-    byKey(Command::ChooseNumber, Scope::List, {}, { Qt::Key_Left, Qt::Key_Right },
+    byKey(Command::ChooseNumber, Scope::List, { Qt::Key_Left, Qt::Key_Right },
       QT_TRANSLATE_NOOP("BrainShift", "Choose a number of the stroke.")),
-    byKey(Command::EditNumber, Scope::List, {}, { Qt::Key_Return, Qt::Key_Enter },
+    byKey(Command::EditNumber, Scope::List, { Qt::Key_Return, Qt::Key_Enter },
       QT_TRANSLATE_NOOP("BrainShift", "Edit the chosen number.")),
-    byKey(Command::DeleteStrokes, Scope::List, {}, { Qt::Key_Delete },
+    byKey(Command::DeleteStrokes, Scope::List, { Qt::Key_Delete },
       QT_TRANSLATE_NOOP("BrainShift", "Delete the selected strokes.")),
   };
 }

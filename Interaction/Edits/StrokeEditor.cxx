@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Edits/StrokeEditor.h"
 
+#include "Common/Problem.h"
 #include "Interaction/Edits/LivePicture.h"
 #include "Interaction/Views/ActiveDeformation.h"
 
@@ -62,9 +63,12 @@ StrokeEditor::StrokeEditor(pqPipelineSource* source)
 
 StrokeEditor::Strokes StrokeEditor::strokes() const
 {
-  std::string problem;
-  return strokesFromNumbers(
-    vtkSMPropertyHelper(this->Source->getProxy(), "Strokes").GetDoubleArray(), problem);
+  Strokes strokes; // none if the numbers are bad
+  problemOf([&] {
+    strokes =
+      strokesFromNumbers(vtkSMPropertyHelper(this->Source->getProxy(), "Strokes").GetDoubleArray());
+  });
+  return strokes;
 }
 
 void StrokeEditor::begin(const Strokes& underHand)

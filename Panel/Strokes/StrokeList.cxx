@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Strokes/StrokeList.h"
 
+#include "Common/Problem.h"
 #include "Interaction/Commands/Tools.h"
 #include "Interaction/Displays/SharedSettings.h"
 #include "Panel/Parts/Advice.h"
@@ -158,8 +159,12 @@ std::optional<double> StrokeModel::reach(int row, const Stroke& stroke) const
 std::vector<Stroke> StrokeModel::strokes(std::string& problem) const
 {
   const double* numbers = this->Property->GetElements();
-  return strokesFromNumbers(
-    std::vector<double>(numbers, numbers + this->Property->GetNumberOfElements()), problem);
+  std::vector<Stroke> strokes;
+  problem = problemOf([&] {
+    strokes = strokesFromNumbers(
+      std::vector<double>(numbers, numbers + this->Property->GetNumberOfElements()));
+  });
+  return strokes;
 }
 
 Stroke StrokeModel::stroke(int row) const
@@ -169,10 +174,11 @@ Stroke StrokeModel::stroke(int row) const
     return {}; // the property is ahead of the model
   }
   const double* numbers = this->Property->GetElements() + row * NumbersPerStroke;
-  std::string problem;
-  const std::vector<Stroke> one =
-    strokesFromNumbers(std::vector<double>(numbers, numbers + NumbersPerStroke), problem);
-  return one.empty() ? Stroke() : one.front();
+  Stroke stroke; // the default one if the numbers are bad
+  problemOf([&] {
+    stroke = strokesFromNumbers(std::vector<double>(numbers, numbers + NumbersPerStroke)).front();
+  });
+  return stroke;
 }
 
 void StrokeModel::write(const std::function<void(std::vector<Stroke>&)>& edit, const QString& label)

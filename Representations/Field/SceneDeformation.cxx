@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Field/SceneDeformation.h"
 
-#include "Filters/Attached/FieldMemory.h"
+#include "Common/Problem.h"
 #include "Representations/Gpu/GpuTask.h"
 #include "Representations/Scene/FieldPlace.h"
 
@@ -26,17 +26,19 @@ bool SceneDeformation::update(vtkImageData* image, std::string& problem)
   this->deformed = false; // not before all of it succeeded
   this->Map.reset();
   Deformation source;
-  if (!carriesDeformation(image) || !readDeformation(image, source, problem))
+  problem = problemOf([&] {
+    if (carriesDeformation(image))
+    {
+      source = readDeformation(image);
+      this->lattice = effectiveLattice(source);
+      requireOffsetFieldMemory(this->lattice, source.samples);
+    }
+  });
+  if (!problem.empty() || !carriesDeformation(image))
   {
     return problem.empty();
   }
-  this->lattice = effectiveLattice(source);
   this->deviations = std::move(source.deviations);
-  problem = offsetFieldProblem(this->lattice, source.samples);
-  if (!problem.empty())
-  {
-    return false;
-  }
   this->request.dimensions = this->lattice.grid.dimensions;
   this->request.kernel = this->lattice.kernel;
   this->request.samples = source.samples;

@@ -34,10 +34,8 @@ STANDS_ON = {
     "Filters/Register": ["Filters/Fit"],
     "Filters/Register/Similarities": ["Filters/Register"],
     "Filters/Registered": ["Filters/Fields", "Filters/Register"],
-    "Filters/Transforms": ["Filters/Attached", "Formats"],
     "Filters/Measured": ["Filters/Fields", "Filters/Fit", "Filters/Traces"],
-    "Filters": [
-        "Filters/Looks", "Filters/Measured", "Filters/Registered", "Filters/Transforms"],
+    "Filters": ["Filters/Looks", "Filters/Measured", "Filters/Registered"],
     "Representations/Gpu": ["Filters"],
     "Representations/Scene": ["Representations/Gpu"],
     "Representations/Field": ["Representations/Scene"],

@@ -119,6 +119,7 @@ BREAKS = [
     ("no_function_is_long", "Testing/Support/helper.py",
      "def f():\n" + "    pass\n" * 60, None),
     ("no_signature_is_long", "Representations/vtkDraw.cxx", f"int draw{SIX}\n{{\n}}\n", None),
+    ("no_signature_is_long", "Filters/Deformation/Lattice.cxx", f"int bend{SIX}\n{{\n}}\n", None),
     ("no_line_is_wide", "Filters/Deformation/Lattice.cxx", "// " + "x" * 98 + "\n", None),
     ("every_source_is_built", "Testing/Cxx/Representations/FrustumTest.cxx", "\n", None),
     ("every_source_is_built", "Filters/CMakeLists.txt", "# Deformation/Lattice.cxx\n", None),

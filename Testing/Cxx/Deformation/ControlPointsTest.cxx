@@ -96,7 +96,7 @@ TEST(ControlPoints, InAConeAreThoseInFrontOfTheEye)
   const glm::dvec3 along = glm::normalize(glm::dvec3(1.0, 2.0, -1.0));
   const glm::dvec3 apex = bent.middle() - 4.0 * along;
   ControlPointSet found;
-  addInCone(bent.drawn, apex, along, 1.0, 0.2, found);
+  addInCone(bent.drawn, { apex, along, 1.0, 0.2 }, found);
   const ControlPointSet expected = bent.all([&](const glm::dvec3& drawn, const glm::dvec3&) {
     const double depth = glm::dot(drawn - apex, along);
     return depth > 0.0 && glm::length(drawn - apex - depth * along) <= 1.0 + 0.2 * depth;

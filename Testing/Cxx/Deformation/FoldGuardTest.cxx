@@ -155,7 +155,7 @@ TEST(FoldGuard, ShortensToTheLimitAndNoFurther)
       applyStroke(whole, strokeAt(tool, middle, { 50.0, -35.0, 40.0 }));
       FoldGuard guard;
       guard.setBase(start, Samples);
-      const double share = guard.share(start, whole);
+      const double share = guard.fraction(start, whole);
       EXPECT_GT(share, 0.05);
       EXPECT_LT(share, 0.95);
       const auto smallest = [&](double part) {
@@ -178,7 +178,7 @@ TEST(FoldGuard, LetsBeWhatDoesNotFold)
   strokes[1].enabled = false;
   const std::vector<glm::vec3> guarded =
     replay.run(start, strokes, { true, Samples }).displacements;
-  EXPECT_EQ(replay.shares(), std::vector<double>(3, 1.0));
+  EXPECT_EQ(replay.fractions(), std::vector<double>(3, 1.0));
   EXPECT_EQ(guarded, Replay().run(start, strokes).displacements);
 }
 
@@ -196,12 +196,12 @@ TEST(FoldGuard, ShortensOneStrokeAtATime)
     EXPECT_EQ(running.applied(), 1);
     Replay fresh;
     EXPECT_EQ(bent, fresh.run(start, strokes, { true, Samples }).displacements);
-    EXPECT_EQ(running.shares(), fresh.shares());
-    EXPECT_EQ(running.shares().size(), strokes.size());
+    EXPECT_EQ(running.fractions(), fresh.fractions());
+    EXPECT_EQ(running.fractions().size(), strokes.size());
   }
-  EXPECT_LT(*std::min_element(running.shares().begin(), running.shares().end()), 1.0);
+  EXPECT_LT(*std::min_element(running.fractions().begin(), running.fractions().end()), 1.0);
   running.run(start, strokes);
-  EXPECT_EQ(running.shares(), std::vector<double>(6, 1.0)) << "the guard is off";
+  EXPECT_EQ(running.fractions(), std::vector<double>(6, 1.0)) << "the guard is off";
 }
 
 TEST(FoldGuard, GoesOnFromTheLimit)
@@ -214,10 +214,10 @@ TEST(FoldGuard, GoesOnFromTheLimit)
   back.vector = { -5, 0, 0 };
   Replay replay;
   replay.run(start, { there, back }, { true, Samples });
-  EXPECT_LT(replay.shares()[0], 1.0);
-  EXPECT_EQ(replay.shares()[1], 1.0);
+  EXPECT_LT(replay.fractions()[0], 1.0);
+  EXPECT_EQ(replay.fractions()[1], 1.0);
   replay.run(start, { there, there }, { true, Samples });
-  EXPECT_LT(replay.shares()[1], 0.3);
+  EXPECT_LT(replay.fractions()[1], 0.3);
 }
 
 TEST(FoldGuard, AppliesNothingOfWhatGoesBeyondAllNumbers)
@@ -226,7 +226,7 @@ TEST(FoldGuard, AppliesNothingOfWhatGoesBeyondAllNumbers)
   Stroke stroke = strokeAt(Tool::Soft, start.grid.worldFromGrid({ 3, 4, 3 }), { 1e300, 0, 0 });
   Replay replay;
   EXPECT_EQ(replay.run(start, { stroke }, { true, Samples }).displacements, start.displacements);
-  EXPECT_EQ(replay.shares(), std::vector<double>{ 0.0 });
+  EXPECT_EQ(replay.fractions(), std::vector<double>{ 0.0 });
 }
 
 TEST(FoldGuard, LeavesAloneWhatFoldsByItself)
@@ -240,7 +240,7 @@ TEST(FoldGuard, LeavesAloneWhatFoldsByItself)
   const auto shareOf = [&](const glm::dvec3& anchor, const glm::dvec3& vector) {
     Lattice after = folded;
     applyStroke(after, strokeAt(Tool::Move, folded.grid.worldFromGrid(anchor), vector));
-    return guard.share(folded, after);
+    return guard.fraction(folded, after);
   };
   EXPECT_EQ(shareOf({ 1, 1, 1 }, { 2, 0, 0 }), 1.0) << "else nothing could touch it";
   EXPECT_LT(shareOf({ 5, 6, 4 }, { 40, 0, 0 }), 0.9) << "elsewhere the guard is on";
@@ -265,7 +265,7 @@ TEST(FoldGuard, AsksAllCellsAgainAtASmallerShare)
   });
   FoldGuard guard;
   guard.setBase(before, Samples);
-  const double share = guard.share(before, after);
+  const double share = guard.fraction(before, after);
   EXPECT_GT(share, 0.1);
   EXPECT_LT(share, 0.3);
   EXPECT_GT(smallestOfCubic(between(before, after, share), 4), Limit - Rounding);

@@ -2,6 +2,7 @@
 // Proves that each tool moves the control points it should by what it should, and that a lattice
 // displaces every point as documented.
 #include "Filters/Deformation/Lattice.h"
+#include "Common/Problem.h"
 #include "Filters/Deformation/Kernels.h"
 #include "Filters/Deformation/LatticeExtremes.h"
 #include "Filters/Deformation/PointMap.h"
@@ -113,18 +114,19 @@ protected:
 };
 }
 
-// reachOf follows the tissue through the map; it knows nothing of weights.
+// achievedDisplacement follows the tissue through the map; it knows nothing of weights.
 TEST_P(ManySoft, TakeTheTissueAtTheirAnchorsAllTheWay)
 {
   for (const double radius : { 25.0, 40.0 })
   {
     this->visit(radius, [&](const Lattice& before, const Lattice& after, const Stroke& stroke) {
-      EXPECT_NEAR(reachOf(before, after, stroke), glm::length(stroke.vector), 1e-3) << radius;
+      EXPECT_NEAR(achievedDisplacement(before, after, stroke), glm::length(stroke.vector), 1e-3)
+        << radius;
     });
   }
   // A B-spline averages more control points than a sphere of 1.4 spacings holds.
   this->visit(20.0, [&](const Lattice& before, const Lattice& after, const Stroke& stroke) {
-    EXPECT_GT(reachOf(before, after, stroke), 0.7 * glm::length(stroke.vector));
+    EXPECT_GT(achievedDisplacement(before, after, stroke), 0.7 * glm::length(stroke.vector));
   });
 }
 
@@ -388,16 +390,16 @@ TEST(MaximumDisplacement, IsTheLongestVector)
   EXPECT_NEAR(maximumDisplacement(lattice), 7.0, 1e-6);
 }
 
-TEST(ProblemOfDisplacements, NamesTheDisplacementAndItsLimit)
+TEST(RequireDisplacements, NamesTheDisplacementAndItsLimit)
 {
   Lattice lattice = makeLattice(plainGrid(glm::ivec3(5), { 2.0, 3.0, 4.0 }), KernelCatmullRom);
   lattice.displacements[7] = { 0.0f, 20000.0f, 0.0f };
-  EXPECT_EQ(problemOfDisplacements(lattice, "a test"), "");
+  requireDisplacements(lattice, "a test"); // throws nothing
   for (const float value : { 20001.0f, 1e12f, std::numeric_limits<float>::infinity(),
          std::numeric_limits<float>::quiet_NaN() })
   {
     lattice.displacements[7].y = -value;
-    const std::string problem = problemOfDisplacements(lattice, "a test");
+    const std::string problem = problemOf([&] { requireDisplacements(lattice, "a test"); });
     EXPECT_NE(problem.find("displaced by a test by"), std::string::npos) << problem;
     EXPECT_NE(problem.find("at most 20000 mm"), std::string::npos) << problem;
   }

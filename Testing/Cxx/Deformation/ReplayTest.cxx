@@ -70,7 +70,7 @@ TEST_F(ReplayTest, AppliesInOrder)
 // PointMap is another road to where tissue goes. It prepares the whole lattice.
 TEST_F(ReplayTest, SaysHowFarEachStrokeReached)
 {
-  ASSERT_EQ(this->Running.reaches().size(), this->Strokes.size());
+  ASSERT_EQ(this->Running.achieved().size(), this->Strokes.size());
   Lattice lattice = base();
   for (std::size_t i = 0; i < this->Strokes.size(); ++i)
   {
@@ -83,12 +83,12 @@ TEST_F(ReplayTest, SaysHowFarEachStrokeReached)
     const glm::dvec3 moved =
       PointMap(lattice).deformedFromRest(rest) - before.deformedFromRest(rest);
     const double expected = glm::dot(moved, glm::normalize(stroke.vector));
-    EXPECT_NEAR(this->Running.reaches()[i], expected, 1e-3) << "stroke " << i;
+    EXPECT_NEAR(this->Running.achieved()[i], expected, 1e-3) << "stroke " << i;
     EXPECT_GT(expected, 0.1 * glm::length(stroke.vector));
   }
   this->Strokes.back().enabled = false;
   this->Running.run(base(), this->Strokes);
-  EXPECT_EQ(this->Running.reaches().back(), 0.0);
+  EXPECT_EQ(this->Running.achieved().back(), 0.0);
 }
 
 TEST_F(ReplayTest, AppliesAChangedLastStrokeOnly)
@@ -168,7 +168,7 @@ TEST_F(ReplayTest, RepeatsAllForAnotherGuard)
     EXPECT_EQ(this->Running.applied(), 3) << guarding.samples;
     Replay fresh;
     EXPECT_EQ(result, fresh.run(base(), this->Strokes, guarding).displacements);
-    EXPECT_EQ(this->Running.shares(), fresh.shares());
+    EXPECT_EQ(this->Running.fractions(), fresh.fractions());
   }
   this->Running.run(base(), this->Strokes, { false, 7 });
   EXPECT_EQ(this->Running.applied(), 0) << "without a guard samples do not matter";
@@ -201,13 +201,13 @@ TEST(LongReplay, GoesOnFromACheckpoint)
   std::vector<Stroke> strokes = manyStrokes(Count);
   Replay running;
   running.run(base(), strokes, guarding);
-  EXPECT_LT(*std::min_element(running.shares().begin(), running.shares().end()), 0.9);
+  EXPECT_LT(*std::min_element(running.fractions().begin(), running.fractions().end()), 0.9);
   const auto expectAsAnew = [&](int most, const char* when) {
     const std::vector<glm::vec3> result = running.run(base(), strokes, guarding).displacements;
     EXPECT_LE(running.applied(), most) << when;
     Replay fresh;
     EXPECT_EQ(result, fresh.run(base(), strokes, guarding).displacements) << when;
-    EXPECT_EQ(running.shares(), fresh.shares()) << when;
+    EXPECT_EQ(running.fractions(), fresh.fractions()) << when;
   };
   expectAsAnew(0, "nothing changed");
   const std::vector<Stroke> all = strokes;
@@ -255,7 +255,7 @@ TEST(LongReplay, CanBeStoppedAndGoesOn)
     count += static_cast<std::size_t>(more);
     EXPECT_FALSE(running.isWhole());
     EXPECT_EQ(running.count(), count);
-    EXPECT_EQ(running.shares().size(), count);
+    EXPECT_EQ(running.fractions().size(), count);
   }
   stopAt(100);
   EXPECT_TRUE(running.isWhole());

@@ -2,6 +2,7 @@
 // Proves that strokes are read as written, that each bad number is named with its value and limit,
 // and that weights fall off as documented.
 #include "Filters/Deformation/Stroke.h"
+#include "Common/Problem.h"
 
 #include <gtest/gtest.h>
 
@@ -39,9 +40,7 @@ std::string errorAbout(Tool tool, int place, double value)
   std::vector<double> wrong = numbersOf(tool);
   wrong[place] = value;
   numbers.insert(numbers.end(), wrong.begin(), wrong.end());
-  std::string error;
-  EXPECT_TRUE(strokesFromNumbers(numbers, error).empty());
-  return error;
+  return problemOf([&] { strokesFromNumbers(numbers); });
 }
 
 void expectNames(const std::string& error, const std::vector<std::string>& words)
@@ -62,9 +61,7 @@ TEST(Strokes, ComeBackAsTheyWereWritten)
     numbers.insert(numbers.end(), more.begin(), more.end());
   }
   numbers.back() = 0; // the last one is disabled
-  std::string error = "stale";
-  const std::vector<Stroke> strokes = strokesFromNumbers(numbers, error);
-  EXPECT_EQ(error, "");
+  const std::vector<Stroke> strokes = strokesFromNumbers(numbers);
   ASSERT_EQ(strokes.size(), 3u);
   EXPECT_EQ(strokes[0].tool, Tool::Stamp);
   EXPECT_EQ(strokes[0].anchor, glm::dvec3(1, 2, 3));
@@ -80,22 +77,19 @@ TEST(Strokes, ComeBackAsTheyWereWritten)
 
 TEST(Strokes, MayBeNone)
 {
-  std::string error;
-  EXPECT_TRUE(strokesFromNumbers({}, error).empty());
-  EXPECT_EQ(error, "");
+  EXPECT_TRUE(strokesFromNumbers({}).empty());
 }
 
 TEST(Strokes, DifferInEveryNumber)
 {
-  std::string error;
-  const Stroke stroke = strokesFromNumbers(numbersOf(Tool::Stamp), error).at(0);
+  const Stroke stroke = strokesFromNumbers(numbersOf(Tool::Stamp)).at(0);
   for (int place = 0; place < NumbersPerStroke; ++place)
   {
     std::vector<double> other = numbersOf(Tool::Stamp);
     other[place] = place == ToolPlace ? 1.0
       : place == NumbersPerStroke - 1 ? 0.0
                                       : other[place] + 1;
-    EXPECT_NE(strokesFromNumbers(other, error).at(0), stroke) << "number " << place;
+    EXPECT_NE(strokesFromNumbers(other).at(0), stroke) << "number " << place;
   }
 }
 
@@ -103,8 +97,7 @@ TEST(Strokes, NeedFourteenNumbersEach)
 {
   std::vector<double> numbers = numbersOf(Tool::Soft);
   numbers.push_back(1.0);
-  std::string error;
-  EXPECT_TRUE(strokesFromNumbers(numbers, error).empty());
+  const std::string error = problemOf([&] { strokesFromNumbers(numbers); });
   expectNames(error, { "Strokes", "15", "14 for each stroke" });
 }
 
@@ -175,10 +168,8 @@ TEST(Strokes, NeedAnAxisToStampAlong)
 
 TEST(Strokes, NeedOnlyWhatTheirToolUses)
 {
-  std::string error;
-  EXPECT_EQ(strokesFromNumbers({ 0, 1, 2, 3, 4, 5, 6, 0, 0, 0, 0, 0, 0, 1 }, error).size(), 1u);
-  EXPECT_EQ(strokesFromNumbers({ 1, 1, 2, 3, 4, 5, 6, 0, 0, 0, 9, 0, 1, 1 }, error).size(), 1u);
-  EXPECT_EQ(error, "");
+  EXPECT_EQ(strokesFromNumbers({ 0, 1, 2, 3, 4, 5, 6, 0, 0, 0, 0, 0, 0, 1 }).size(), 1u);
+  EXPECT_EQ(strokesFromNumbers({ 1, 1, 2, 3, 4, 5, 6, 0, 0, 0, 9, 0, 1, 1 }).size(), 1u);
 }
 
 TEST(Falloff, IsOneAtTheAnchorAndSmoothlyZeroAtTheRadius)

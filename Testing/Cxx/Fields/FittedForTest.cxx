@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that a fitted lattice is known by its settings, its box and all weights of its mask, that
 // what differs is named with both values, and that files of the former version are still judged.
-#include "Filters/Fields/FittedFor.h"
+#include "Filters/Fields/BaseLattice.h"
 
 #include "Common/FieldWord.h"
 #include "Filters/Deformation/Kernels.h"

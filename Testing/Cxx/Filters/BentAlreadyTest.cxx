@@ -2,6 +2,7 @@
 // Proves that a deformation is never dropped without a word: a volume that carries one is not bent
 // again, and a displacement field carries none.
 #include "Common/FieldDirection.h"
+#include "Common/Problem.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
 
 #include <gtest/gtest.h>
@@ -62,10 +63,7 @@ TEST_F(BentAlready, AFieldThatKeptTheArraysIsNoDeformableVolume)
   saved->ShallowCopy(this->bent());
   nameDirection(saved, Direction::Forward);
   EXPECT_FALSE(carriesDeformation(saved));
-  Deformation none;
-  std::string problem;
-  EXPECT_FALSE(readDeformation(saved, none, problem));
-  EXPECT_NE(problem, "");
+  EXPECT_THROW(readDeformation(saved), Problem);
   this->Second->SetInputData(saved);
   EXPECT_TRUE(carriesDeformation(this->output())) << "a field is bent like any other volume";
   EXPECT_EQ(this->Heard.take(), "");

@@ -2,7 +2,7 @@
 // Proves that Compare Volumes attaches reference, cavity and what to show without copying voxels
 // anew, that the cavity means what masks mean and is moved with the reference, that it can be read
 // back, and that what is no cavity is refused.
-#include "Filters/Attached/CavityMask.h"
+#include "Filters/Attached/MaskImage.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
 #include "vtkCompareVolumes.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that Deform Geometry moves points exactly as PointMap does, both ways; that normals stay
 // across the surface; and that nothing else changes.
-#include "Filters/Attached/DirectedMap.h"
+#include "Filters/Attached/DeformableVolume.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
 #include "vtkDeformGeometry.h"
 

@@ -145,9 +145,7 @@ TEST(Segmentation, IsNoneWhereItsNumbersDoNotFit)
 {
   const auto volume = volumeOn(VolumeGrid, VTK_FLOAT, [](vtkIdType) { return 1.0; });
   EXPECT_FALSE(readSegmentation(volume).labels);
-  Segmentation segmentation;
-  SegmentationSource source;
-  ASSERT_EQ(source.find(labelsOn(VolumeGrid), VolumeGrid, segmentation), "");
+  Segmentation segmentation = SegmentationSource().find(labelsOn(VolumeGrid), VolumeGrid);
   attachSegmentation(volume, segmentation);
   EXPECT_TRUE(readSegmentation(volume).labels);
   segmentation.grid.dimensions.x += 1;
@@ -160,18 +158,15 @@ TEST(Segmentation, LiesInCellsAtTheirMiddles)
   auto image = imageOn(VolumeGrid);
   image->GetCellData()->AddArray(arrayOf(
     VTK_SHORT, "Label", image->GetNumberOfCells(), [](vtkIdType i) { return i == 0 ? 2.0 : 0.0; }));
-  Segmentation segmentation;
-  SegmentationSource source;
-  ASSERT_EQ(source.find(image, VolumeGrid, segmentation), "");
+  const Segmentation segmentation = SegmentationSource().find(image, VolumeGrid);
   EXPECT_EQ(segmentation.grid.origin, glm::dvec3(1.0));
   EXPECT_EQ(segmentation.grid.dimensions, VolumeGrid.dimensions - 1);
 }
 
 TEST(Segmentation, ASegmentIsTheVoxelsOfItsLabels)
 {
-  SegmentationSource source;
-  Segmentation segmentation;
-  ASSERT_EQ(source.find(labelsOn(obliqueLabels()), VolumeGrid, segmentation), "");
+  const Segmentation segmentation =
+    SegmentationSource().find(labelsOn(obliqueLabels()), VolumeGrid);
   for (const std::vector<int>& labels : { std::vector<int>{ 3 }, { 5 }, { 3, 5 }, {} })
   {
     const Mask segment = segmentOf(segmentation, labels);

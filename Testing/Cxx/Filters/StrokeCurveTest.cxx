@@ -22,7 +22,7 @@ namespace
 constexpr double Radius = 12.0; // mm, of a ball of tissue
 const glm::dvec3 Middle(20.0);
 
-class StrokeCurve : public ::testing::Test
+class CurveOverStrokes : public ::testing::Test
 {
 protected:
   vtkNew<vtkFreeFormDeformation> Bend;
@@ -62,7 +62,7 @@ protected:
 };
 }
 
-TEST_F(StrokeCurve, GrowsByOnePointAndFollowsUndoAndRedo)
+TEST_F(CurveOverStrokes, GrowsByOnePointAndFollowsUndoAndRedo)
 {
   const std::vector<double> none = this->curveAfter({});
   ASSERT_EQ(none.size(), 1U);
@@ -78,7 +78,7 @@ TEST_F(StrokeCurve, GrowsByOnePointAndFollowsUndoAndRedo)
   EXPECT_EQ(this->curveAfter({ pulled(1.0), pulled(0.5) }), two) << "redo";
 }
 
-TEST_F(StrokeCurve, OtherStrokesAreAnotherCurve)
+TEST_F(CurveOverStrokes, OtherStrokesAreAnotherCurve)
 {
   const std::vector<double> one = this->curveAfter({ pulled(1.0) });
   EXPECT_TRUE(std::isnan(one[0])) << "it was not measured before the first stroke";
@@ -89,7 +89,7 @@ TEST_F(StrokeCurve, OtherStrokesAreAnotherCurve)
   EXPECT_EQ(changed[2], this->Filter->GetRMS());
 }
 
-TEST_F(StrokeCurve, OtherSettingsAreAnotherCurve)
+TEST_F(CurveOverStrokes, OtherSettingsAreAnotherCurve)
 {
   const std::vector<Stroke> strokes{ pulled(1.0) };
   this->curveAfter({});
@@ -111,7 +111,7 @@ TEST_F(StrokeCurve, OtherSettingsAreAnotherCurve)
   EXPECT_TRUE(std::isnan(this->curveAfter(strokes)[0]));
 }
 
-TEST_F(StrokeCurve, AMaskIsPartOfTheMarks)
+TEST_F(CurveOverStrokes, AMaskIsPartOfTheMarks)
 {
   const auto marks = [&] {
     this->Bend->Update();

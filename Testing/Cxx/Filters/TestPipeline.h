@@ -120,13 +120,7 @@ inline void setStrokes(vtkFreeFormDeformation* filter, const std::vector<Stroke>
 // The deformation attached to a filter's output.
 inline Deformation deformationOf(vtkImageData* output)
 {
-  Deformation deformation;
-  std::string error;
-  if (!readDeformation(output, deformation, error))
-  {
-    ADD_FAILURE() << error;
-  }
-  return deformation;
+  return readDeformation(output); // a Problem fails the test
 }
 }
 

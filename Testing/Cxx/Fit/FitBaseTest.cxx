@@ -2,7 +2,6 @@
 // Proves that a fit begins with its base: without measurements it is the base, what was measured
 // changes it and nothing else, measurements that agree with it change nothing, and the fold guard
 // leaves it alone.
-#include "Filters/Fit/FitLattice.h"
 #include "Filters/Fit/FittedLattice.h"
 #include "Testing/Cxx/Fit/DenseReference.h"
 
@@ -75,7 +74,7 @@ protected:
 
   void solve(const RestSurface& surface = {})
   {
-    ASSERT_EQ(this->Fitted.solve(this->Measured, surface, this->Still, {}), "");
+    this->Fitted.solve(this->Measured, surface, this->Still, {});
   }
 
   // Largest distance (mm) of a control point's displacement from that of the base.
@@ -105,7 +104,7 @@ TEST(FitBase, ABaseAtRestLeavesNoRigidPart)
     measured.landmarks.push_back({ at, at + glm::dvec3(0.0, 5.0, 0.0) });
   }
   FittedLattice fitted;
-  ASSERT_EQ(fitted.solve(measured, {}, still, {}), "");
+  fitted.solve(measured, {}, still, {});
   EXPECT_EQ(fitted.fit().rigid().translation, glm::dvec3(0.0));
   EXPECT_LT(rootMeanSquare(fitted.residuals(measured.landmarks)), 0.1);
 }
@@ -123,7 +122,7 @@ TEST_P(FitBaseOfKernel, WithoutMeasurementsTheFitIsTheBase)
 {
   this->solve();
   EXPECT_EQ(this->change(), 0.0);
-  EXPECT_EQ(this->Fitted.share(), 1.0);
+  EXPECT_EQ(this->Fitted.fraction(), 1.0);
 }
 
 TEST_P(FitBaseOfKernel, WhatAgreesWithItChangesNothing)
@@ -210,7 +209,7 @@ TEST_P(FitBaseOfKernel, TheGuardLeavesTheBase)
   this->Measured.pulls = { { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 40.0 } },
     { { 0.0, 0.0, 8.0 }, { 0.0, 0.0, -40.0 } } };
   this->solve();
-  ASSERT_LT(this->Fitted.share(), 1.0);
+  ASSERT_LT(this->Fitted.fraction(), 1.0);
   EXPECT_GT(minimumJacobian(this->Fitted.lattice()), 0.09);
   Lattice whole = this->Bent;
   addField(whole, this->Fitted.fit().field());
@@ -218,7 +217,7 @@ TEST_P(FitBaseOfKernel, TheGuardLeavesTheBase)
   const glm::vec3 added =
     this->Fitted.lattice().displacements[point] - this->Bent.displacements[point];
   const glm::vec3 asked = whole.displacements[point] - this->Bent.displacements[point];
-  EXPECT_LT(glm::distance(added, static_cast<float>(this->Fitted.share()) * asked), 1e-3f);
+  EXPECT_LT(glm::distance(added, static_cast<float>(this->Fitted.fraction()) * asked), 1e-3f);
   const glm::dvec3 at(0.0);
   const double away =
     glm::distance(this->Fitted.measuredFromRest(at), this->Fitted.fit().measuredFromRest(at));

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that the cubic between the control points has the field's values at them with both kernels
 // and comes near to it between them, and that a field that folds is shortened.
-#include "Filters/Fit/FitLattice.h"
 #include "Common/Grid.h"
+#include "Common/Problem.h"
 #include "Filters/Deformation/ControlPoints.h"
 #include "Filters/Deformation/Kernels.h"
 #include "Filters/Deformation/LatticeExtremes.h"
 #include "Filters/Deformation/PointMap.h"
 #include "Filters/Fit/FittedLattice.h"
-#include "Filters/Fit/LatticeEvidence.h"
 #include "Testing/Cxx/Fit/DenseReference.h"
 
 #include <glm/geometric.hpp>
@@ -65,10 +64,9 @@ TEST_P(EvidenceOf, TheLatticeIsThatOfEachControlPoint)
   }
   FittedLattice fitted;
   const Lattice lattice = makeLattice(boxGrid(), 0);
-  ASSERT_EQ(fitted.solve(measured, {}, lattice, {}), "");
+  fitted.solve(measured, {}, lattice, {});
   LatticeEvidence evidence;
-  std::string problem;
-  const std::vector<float> found = evidence.deviations(fitted, problem);
+  const std::vector<float> found = evidence.deviations(fitted);
   ASSERT_EQ(found.size(), boxGrid().count());
   std::size_t point = 0;
   forEachIndex(glm::ivec3(0), boxGrid().dimensions - 1, [&](const glm::ivec3& index) {
@@ -84,12 +82,12 @@ TEST_P(EvidenceOf, TheLatticeIsThatOfEachControlPoint)
   {
     // A pull that goes on says nothing new of where is measured.
     measured.pulls[0].measured.y += 1.0;
-    ASSERT_EQ(fitted.solve(measured, {}, lattice, {}), "");
-    EXPECT_EQ(evidence.deviations(fitted, problem).size(), found.size());
+    fitted.solve(measured, {}, lattice, {});
+    EXPECT_EQ(evidence.deviations(fitted).size(), found.size());
     EXPECT_EQ(evidence.solutions(), 1);
     measured.pulls[0].rest.y += 1.0;
-    ASSERT_EQ(fitted.solve(measured, {}, lattice, {}), "");
-    evidence.deviations(fitted, problem);
+    fitted.solve(measured, {}, lattice, {});
+    evidence.deviations(fitted);
     EXPECT_EQ(evidence.solutions(), 2);
   }
 }
@@ -103,13 +101,12 @@ TEST(Evidence, IsFoundAnewForAnotherLattice)
   Grid shifted = boxGrid();
   shifted.origin += glm::dvec3(40.0, 0.0, 0.0);
   LatticeEvidence evidence;
-  std::string problem;
   for (const Grid& grid :
     { boxGrid(), shifted, withDimensions(shifted, { 7, 6, 5 }) }) // the same measurements each time
   {
     FittedLattice fitted;
-    ASSERT_EQ(fitted.solve(measured, {}, makeLattice(grid, 0), {}), "");
-    const std::vector<float> found = evidence.deviations(fitted, problem);
+    fitted.solve(measured, {}, makeLattice(grid, 0), {});
+    const std::vector<float> found = evidence.deviations(fitted);
     ASSERT_EQ(found.size(), grid.count());
     for (const std::size_t point : { std::size_t(0), grid.count() / 2, grid.count() - 1 })
     {
@@ -132,9 +129,8 @@ TEST(Evidence, IsRefusedForVeryManyControlPoints)
   Grid grid = boxGrid();
   grid.dimensions = { 66, 66, 66 };
   FittedLattice fitted;
-  ASSERT_EQ(fitted.solve({}, {}, makeLattice(grid, 0), {}), "");
-  std::string problem;
-  EXPECT_TRUE(LatticeEvidence().deviations(fitted, problem).empty());
+  fitted.solve({}, {}, makeLattice(grid, 0), {});
+  const std::string problem = problemOf([&] { LatticeEvidence().deviations(fitted); });
   EXPECT_NE(problem.find("287496"), std::string::npos) << problem;
 }
 
@@ -170,11 +166,11 @@ TEST(FitLattice, AFoldIsShortened)
   const Lattice still = makeLattice(boxGrid(), KernelCatmullRom);
   Lattice lattice = still;
   addField(lattice, pulled(10.0, 60.0));
-  EXPECT_EQ(shareWithoutFolds(still, lattice, 4), 1.0);
+  EXPECT_EQ(fractionWithoutFolds(still, lattice, 4), 1.0);
   lattice = still;
   addField(lattice, pulled(40.0, 25.0));
   ASSERT_LT(minimumJacobian(lattice), 0.0);
-  const double share = shareWithoutFolds(still, lattice, 4);
+  const double share = fractionWithoutFolds(still, lattice, 4);
   EXPECT_GT(share, 0.2);
   EXPECT_LT(share, 0.95);
   for (glm::vec3& displacement : lattice.displacements)
@@ -191,8 +187,8 @@ TEST(FitLattice, DeviationsCountWhatTheGuardTook)
   measured.pulls = { { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 30.0 } },
     { { 0.0, 0.0, 8.0 }, { 0.0, 0.0, -30.0 } } };
   FittedLattice fitted;
-  ASSERT_EQ(fitted.solve(measured, {}, makeLattice(boxGrid(), KernelCatmullRom), {}), "");
-  ASSERT_LT(fitted.share(), 1.0);
+  fitted.solve(measured, {}, makeLattice(boxGrid(), KernelCatmullRom), {});
+  ASSERT_LT(fitted.fraction(), 1.0);
   const glm::dvec3 at(0.0);
   const double away = glm::distance(fitted.measuredFromRest(at), fitted.fit().measuredFromRest(at));
   ASSERT_GT(away, 2.0);

@@ -3,6 +3,7 @@
 // equals a reference that turns and solves plainly, and that it ends in a result or a sentence
 // whatever was measured.
 #include "Filters/Fit/Fit.h"
+#include "Common/Problem.h"
 #include "Testing/Cxx/Fit/DenseReference.h"
 
 #include <glm/matrix.hpp>
@@ -71,7 +72,7 @@ TEST(Fit, FindsAnExactRigidMotionAndBendsNothing)
 {
   const Measurements measured = landmarksOf(12, 0.0);
   Fit fit;
-  ASSERT_EQ(fit.solve(measured, {}), "");
+  fit.solve(measured, {});
   EXPECT_LT(largest(fit.rigid().rotation - Turned.rotation), 1e-10);
   EXPECT_LT(glm::length(fit.rigid().translation - Turned.translation), 1e-8);
   EXPECT_LT(glm::length(fit.bend({ 1.0, 2.0, 3.0 })), 1e-9);
@@ -86,7 +87,7 @@ TEST(Fit, EqualsTheReferenceAtItsMotion)
   Measurements measured = landmarksOf(16, 2.0);
   measured.landmarks[3].weight = 4.0;
   Fit fit;
-  ASSERT_EQ(fit.solve(measured, {}), "");
+  fit.solve(measured, {});
   const std::vector<Row> rows = rowsAfter(fit.rigid(), measured);
   const RigidMean mean{ { 10.0, -20.0, 30.0 }, 0.0 };
   Scatter scatter(12);
@@ -108,13 +109,13 @@ TEST(Fit, LeaveOneOutIsAFitOfTheOthers)
 {
   const Measurements measured = landmarksOf(16, 1.0);
   Fit fit;
-  ASSERT_EQ(fit.solve(measured, {}), "");
+  fit.solve(measured, {});
   for (std::size_t i = 0; i < measured.landmarks.size(); ++i)
   {
     Measurements others = measured;
     others.landmarks.erase(others.landmarks.begin() + static_cast<std::ptrdiff_t>(i));
     Fit without;
-    ASSERT_EQ(without.solve(others, {}), "");
+    without.solve(others, {});
     const PointPair& pair = measured.landmarks[i];
     const double error = glm::distance(without.measuredFromRest(pair.rest), pair.measured);
     // The closed form turns the volume by a small angle; the fit of the others by any.
@@ -129,8 +130,8 @@ TEST(Fit, DeviationsAreThoseThatLeavingOutShows)
   const Measurements tame = landmarksOf(60, 0.1);
   Fit first;
   Fit second;
-  ASSERT_EQ(first.solve(wild, {}), "");
-  ASSERT_EQ(second.solve(tame, {}), "");
+  first.solve(wild, {});
+  second.solve(tame, {});
   EXPECT_GT(first.calibration(), 2.0);
   EXPECT_LT(second.calibration(), 0.5);
   EXPECT_GT(first.deviation({ 200.0, 0.0, 0.0 }), 2.0 * first.deviation({ 10.0, -20.0, 30.0 }));
@@ -144,8 +145,8 @@ TEST(Fit, AWeightCountsPairs)
   twice.landmarks.push_back(twice.landmarks[4]);
   Fit one;
   Fit other;
-  ASSERT_EQ(one.solve(once, {}), "");
-  ASSERT_EQ(other.solve(twice, {}), "");
+  one.solve(once, {});
+  other.solve(twice, {});
   const glm::dvec3 at(3.0, 4.0, 5.0);
   EXPECT_LT(glm::length(one.measuredFromRest(at) - other.measuredFromRest(at)), Tolerance);
 }
@@ -158,8 +159,8 @@ TEST(Fit, APairThatIsSwitchedOffIsNotThere)
   fewer.landmarks.pop_back();
   Fit one;
   Fit other;
-  ASSERT_EQ(one.solve(measured, {}), "");
-  ASSERT_EQ(other.solve(fewer, {}), "");
+  one.solve(measured, {});
+  other.solve(fewer, {});
   EXPECT_EQ(one.measuredFromRest({ 3.0, 4.0, 5.0 }), other.measuredFromRest({ 3.0, 4.0, 5.0 }));
   EXPECT_TRUE(std::isnan(one.leaveOneOut()[9]));
 }
@@ -169,7 +170,7 @@ TEST(Fit, APullThatIsSwitchedOffLeavesTheMotion)
   Measurements measured = landmarksOf(10, 0.0);
   measured.pulls = { { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 10.0 }, 0.0 } };
   Fit fit;
-  ASSERT_EQ(fit.solve(measured, {}), "");
+  fit.solve(measured, {});
   EXPECT_LT(largest(fit.rigid().rotation - Turned.rotation), 1e-9);
 }
 
@@ -183,7 +184,7 @@ TEST(Fit, APairThatTheOthersSayNothingAboutIsNotJudged)
     measured.landmarks.push_back({ rest, Turned.apply(rest) + glm::dvec3(i % 3) });
   }
   Fit fit;
-  ASSERT_EQ(fit.solve(measured, {}), "");
+  fit.solve(measured, {});
   EXPECT_TRUE(std::isnan(fit.leaveOneOut()[8]));
   EXPECT_LT(fit.leaveOneOut()[4], 5.0);
   EXPECT_TRUE(std::isfinite(fit.calibration()));
@@ -202,8 +203,8 @@ TEST(Fit, FewPairsThatTurnedFarAreFound)
       measured.landmarks.push_back({ rest, far.apply(rest) });
     }
     Fit fit;
-    ASSERT_EQ(fit.solve(measured, {}), "");
-    EXPECT_TRUE(fit.isTurnExpectedSmall());
+    fit.solve(measured, {});
+    EXPECT_TRUE(fit.isRotationExpectedSmall());
     EXPECT_LT(glm::distance(fit.measuredFromRest({ 80, 0, 0 }), far.apply({ 80, 0, 0 })), 10.0)
       << angle;
   }
@@ -213,10 +214,10 @@ TEST(Fit, OrderDoesNotMatter)
 {
   Measurements measured = landmarksOf(12, 1.0);
   Fit one;
-  ASSERT_EQ(one.solve(measured, {}), "");
+  one.solve(measured, {});
   std::reverse(measured.landmarks.begin(), measured.landmarks.end());
   Fit other;
-  ASSERT_EQ(other.solve(measured, {}), "");
+  other.solve(measured, {});
   const glm::dvec3 at(3.0, 4.0, 5.0);
   EXPECT_LT(glm::length(one.measuredFromRest(at) - other.measuredFromRest(at)), 1e-9);
 }
@@ -226,8 +227,8 @@ TEST(Fit, ThePriorHoldsBackATurnOfFewPairs)
   // Six pairs that turned by 15 degrees, which the prior of 3 degrees does not believe.
   Fit six;
   Fit seven;
-  ASSERT_EQ(six.solve(landmarksOf(6, 0.0), {}), "");
-  ASSERT_EQ(seven.solve(landmarksOf(7, 0.0), {}), "");
+  six.solve(landmarksOf(6, 0.0), {});
+  seven.solve(landmarksOf(7, 0.0), {});
   const double turn = glm::length(vectorFrom(Turned.rotation));
   EXPECT_LT(glm::length(vectorFrom(six.rigid().rotation)), 0.95 * turn);
   EXPECT_NEAR(glm::length(vectorFrom(seven.rigid().rotation)), turn, 1e-9);
@@ -239,7 +240,7 @@ TEST(Fit, PullsMoveTissueAndPinsHoldIt)
   measured.pulls = { { { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 10.0 } } };
   measured.pins = { { 50.0, 0.0, 0.0 } };
   Fit fit;
-  ASSERT_EQ(fit.solve(measured, {}), "");
+  fit.solve(measured, {});
   EXPECT_EQ(fit.rigid().translation, glm::dvec3(0.0));
   EXPECT_NEAR(fit.bend({ 0.0, 0.0, 0.0 }).z, 10.0, 0.2);
   EXPECT_LT(glm::length(fit.bend({ 50.0, 0.0, 0.0 })), 0.05);
@@ -253,20 +254,20 @@ TEST(Fit, FewOrFlatPairsGiveAResult)
 {
   Measurements none;
   Fit fit;
-  ASSERT_EQ(fit.solve(none, {}), "");
+  fit.solve(none, {});
   EXPECT_EQ(fit.measuredFromRest({ 1.0, 2.0, 3.0 }), glm::dvec3(1.0, 2.0, 3.0));
   EXPECT_TRUE(std::isinf(fit.deviation({ 1.0, 2.0, 3.0 })));
   EXPECT_TRUE(std::isinf(fit.field().covariance({ 1.0, 2.0, 3.0 })[0][0]));
   none.traces = { { 1.0, 2.0, 3.0 } }; // it bends, but there is no cortex
-  ASSERT_EQ(fit.solve(none, {}), "");
+  fit.solve(none, {});
   EXPECT_TRUE(std::isinf(fit.deviation({ 1.0, 2.0, 3.0 })));
   Measurements one = landmarksOf(1, 1.0);
-  ASSERT_EQ(fit.solve(one, {}), "");
+  fit.solve(one, {});
   EXPECT_LT(
     glm::distance(fit.measuredFromRest(one.landmarks[0].rest), one.landmarks[0].measured), 1e-9);
   EXPECT_LT(glm::length(fit.bend(glm::dvec3(0.0))), 1e-9);
   EXPECT_TRUE(std::isnan(fit.leaveOneOut()[0]));
-  ASSERT_EQ(fit.solve(landmarksOf(2, 1.0), {}), "");
+  fit.solve(landmarksOf(2, 1.0), {});
   EXPECT_TRUE(std::isfinite(glm::length(fit.measuredFromRest(glm::dvec3(0.0)))));
   EXPECT_GT(fit.leaveOneOut()[1], 0.0);
 
@@ -278,34 +279,36 @@ TEST(Fit, FewOrFlatPairsGiveAResult)
     line.landmarks.push_back({ rest, rest + glm::dvec3(0.0, 0.0, 5.0) });
     heap.landmarks.push_back({ { 1.0, 2.0, 3.0 }, { 4.0, 4.0, 4.0 } });
   }
-  ASSERT_EQ(fit.solve(line, {}), "");
+  fit.solve(line, {});
   EXPECT_LT(glm::distance(fit.measuredFromRest({ 0, 20, 0 }), { 0, 20, 5 }), 1e-6);
   EXPECT_GT(fit.deviation({ 0, 200, 0 }), fit.deviation({ 40, 0, 0 }));
-  ASSERT_EQ(fit.solve(heap, {}), "");
+  fit.solve(heap, {});
   EXPECT_LT(glm::distance(fit.measuredFromRest({ 1, 2, 3 }), { 4, 4, 4 }), 1e-9);
 }
 
 TEST(Fit, WhatIsNoNumberIsOneSentence)
 {
-  Fit fit;
+  const auto problemOfFit = [](const Measurements& measured, const FitSettings& settings = {}) {
+    return problemOf([&] { Fit().solve(measured, settings); });
+  };
   Measurements measured = landmarksOf(3, 1.0);
   measured.landmarks[1].measured.y = NaN;
   EXPECT_NE(
-    fit.solve(measured, {}).find("The measured end of landmark 2 lies at"), std::string::npos);
+    problemOfFit(measured).find("The measured end of landmark 2 lies at"), std::string::npos);
   measured = landmarksOf(3, 1.0);
   measured.landmarks[2].weight = -1.0;
-  EXPECT_EQ(fit.solve(measured, {}),
+  EXPECT_EQ(problemOfFit(measured),
     "The weight of landmark 3 is -1.000000; it must be 0 or more, and finite");
   measured = {};
   measured.traces = { { 0.0, std::numeric_limits<double>::infinity(), 0.0 } };
-  EXPECT_NE(fit.solve(measured, {}).find("Traced point 1 lies at"), std::string::npos);
+  EXPECT_NE(problemOfFit(measured).find("Traced point 1 lies at"), std::string::npos);
   measured = {};
   measured.pins = { { 0.0, 2e6, 0.0 } };
-  EXPECT_NE(fit.solve(measured, {}).find("Pin 1 lies at"), std::string::npos);
+  EXPECT_NE(problemOfFit(measured).find("Pin 1 lies at"), std::string::npos);
   FitSettings settings;
   settings.surfaceKernel.lengthMm = 0.0;
   EXPECT_EQ(
-    fit.solve({}, settings), "The surface length is 0.000000; it must be above 0, and finite");
+    problemOfFit({}, settings), "The surface length is 0.000000; it must be above 0, and finite");
 }
 
 // Points that are flat, or mirrored, agree best with a mirror; tissue cannot be mirrored.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that landmarks match by label wherever a label is shared, else by order, and that those
 // without a partner are named.
-#include "Filters/Fit/LandmarkMatch.h"
+#include "Filters/Fit/Measurements.h"
 
 #include <gtest/gtest.h>
 

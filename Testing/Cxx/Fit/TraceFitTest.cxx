@@ -90,7 +90,7 @@ TEST(TraceFit, BringsTheCortexToTheTraces)
   const Measurements measured = sagged(300);
   ASSERT_EQ(measured.traces.size(), 300u);
   Fit fit;
-  ASSERT_EQ(fit.solve(measured, {}, onBall), "");
+  fit.solve(measured, {}, onBall);
   EXPECT_GE(fit.steps(), 2);
   TraceProjection projection(measured.traces, onBall);
   for (int i = 0; i < 20; ++i) // each one is a Newton step
@@ -125,10 +125,10 @@ TEST(TraceFit, AStartNearbyNeedsOneStep)
   Measurements measured = sagged(300);
   measured.pulls = { { { 0.0, 0.0, 40.0 }, { 0.0, 0.0, 38.0 } } };
   Fit before;
-  ASSERT_EQ(before.solve(measured, {}, onBall), "");
+  before.solve(measured, {}, onBall);
   measured.pulls[0].measured += glm::dvec3(2.0, 0.0, -1.0);
   Fit whole;
-  ASSERT_EQ(whole.solve(measured, {}, onBall), "");
+  whole.solve(measured, {}, onBall);
   const auto apart = [](const Fit& one, const Fit& other) {
     double most = 0.0;
     for (const SurfacePoint& point : ballPoints(500))
@@ -140,12 +140,12 @@ TEST(TraceFit, AStartNearbyNeedsOneStep)
   const double change = apart(whole, before);
   EXPECT_GT(change, 0.8);
   Fit live;
-  ASSERT_EQ(live.solve(measured, {}, onBall, &before.field()), "");
+  live.solve(measured, {}, onBall, &before.field());
   EXPECT_EQ(live.steps(), 1);
   EXPECT_GT(whole.steps(), 2);
   EXPECT_LT(apart(whole, live), 0.5 * change);
   Fit next; // the hand goes on
-  ASSERT_EQ(next.solve(measured, {}, onBall, &live.field()), "");
+  next.solve(measured, {}, onBall, &live.field());
   EXPECT_LT(apart(whole, next), 0.5 * apart(whole, live));
 }
 
@@ -154,7 +154,7 @@ TEST(TraceFit, AnchorsHoldTheCortexElsewhere)
   Measurements measured = sagged(300);
   const auto farMiss = [&] {
     Fit fit;
-    EXPECT_EQ(fit.solve(measured, {}, onBall), "");
+    fit.solve(measured, {}, onBall);
     double most = 0.0;
     for (const SurfacePoint& point : ballPoints(500))
     {
@@ -175,7 +175,7 @@ TEST(TraceFit, EndsWhereTheEquationsHold)
   settings.steps = 60;
   settings.stepToleranceMm = 1e-12;
   Fit fit;
-  ASSERT_EQ(fit.solve(measured, settings, onBall), "");
+  fit.solve(measured, settings, onBall);
   // Rows that are made from the result give the result again.
   TraceProjection projection(measured.traces, onBall);
   for (int i = 0; i < 40; ++i)
@@ -200,7 +200,7 @@ TEST(TraceFit, NormalsAreThoseOfTheBentCortex)
   Measurements measured;
   measured.pulls = { { { 0, 0, 70 }, { 0, 5, 55 } }, { { 30, 0, 60 }, { 30, 0, 62 } } };
   Fit fit;
-  ASSERT_EQ(fit.solve(measured, {}), "");
+  fit.solve(measured, {});
   const glm::dvec3 foot = Radius * glm::normalize(glm::dvec3(0.3, 0.1, 1.0));
   const auto bent = [&](const glm::dvec3& rest) { return rest + fit.bend(rest); };
   TraceProjection projection({ bent(foot) }, onBall);
@@ -223,12 +223,12 @@ TEST(TraceFit, FewStepsAreEnough)
 {
   const Measurements measured = sagged(300);
   Fit quick;
-  ASSERT_EQ(quick.solve(measured, {}, onBall), "");
+  quick.solve(measured, {}, onBall);
   FitSettings settings;
   settings.steps = 40;
   settings.stepToleranceMm = 1e-9;
   Fit thorough;
-  ASSERT_EQ(thorough.solve(measured, settings, onBall), "");
+  thorough.solve(measured, settings, onBall);
   for (const SurfacePoint& point : ballPoints(200))
   {
     EXPECT_LT(glm::distance(quick.bend(point.position), thorough.bend(point.position)), 0.05);
@@ -241,8 +241,8 @@ TEST(TraceFit, ManyTracesAreAveraged)
   const Measurements many = sagged(3000);
   Fit one;
   Fit other;
-  ASSERT_EQ(one.solve(few, {}, onBall), "");
-  ASSERT_EQ(other.solve(many, {}, onBall), "");
+  one.solve(few, {}, onBall);
+  other.solve(many, {}, onBall);
   EXPECT_LT(other.field().rows().size(), one.field().rows().size());
   for (const SurfacePoint& point : ballPoints(300))
   {
@@ -290,12 +290,12 @@ TEST(TraceFit, OrderDoesNotMatter)
   Measurements measured = sagged(700); // in bins
   measured.pulls = { { { 0, 0, 60 }, { 1, 0, 55 } }, { { 10, 0, 60 }, { 10, 2, 56 } } };
   Fit one;
-  ASSERT_EQ(one.solve(measured, {}, onBall), "");
+  one.solve(measured, {}, onBall);
   std::reverse(measured.traces.begin(), measured.traces.end());
   std::reverse(measured.pulls.begin(), measured.pulls.end());
   std::reverse(measured.anchors.begin(), measured.anchors.end());
   Fit other;
-  ASSERT_EQ(other.solve(measured, {}, onBall), "");
+  other.solve(measured, {}, onBall);
   for (const SurfacePoint& point : ballPoints(50))
   {
     EXPECT_LT(glm::distance(one.bend(point.position), other.bend(point.position)), 1e-8);
@@ -307,12 +307,12 @@ TEST(TraceFit, TracesWithoutACortexDoNotCount)
   Measurements measured;
   measured.traces = { { 1, 2, 3 }, { 4, 5, 6 } };
   Fit fit;
-  ASSERT_EQ(fit.solve(measured, {}), "");
+  fit.solve(measured, {});
   EXPECT_EQ(fit.bend({ 4, 5, 6 }), glm::dvec3(0.0));
   const auto nothing = [](const glm::dvec3&, std::size_t) -> std::optional<SurfacePoint> {
     return {};
   };
-  ASSERT_EQ(fit.solve(measured, {}, nothing), "");
+  fit.solve(measured, {}, nothing);
   EXPECT_EQ(fit.bend({ 1, 2, 3 }), glm::dvec3(0.0));
 }
 

@@ -2,7 +2,7 @@
 // Proves what outside programs cannot say: that maps turn back, where they end, that a lattice gets
 // the coefficients of a B-spline back, and that damaged files end in a sentence.
 #include "Filters/Deformation/Kernels.h"
-#include "Filters/Transforms/TransformLattice.h"
+#include "Filters/Fields/TransformLattice.h"
 #include "Formats/Transforms/PointTransform.h"
 #include "Formats/Transforms/TransformFile.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"

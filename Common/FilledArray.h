@@ -8,6 +8,8 @@
 
 #include "vtkDoubleArray.h"
 
+#include <glm/vec3.hpp>
+
 #include <algorithm>
 #include <vector>
 
@@ -19,6 +21,15 @@ inline vtkDoubleArray* filled(vtkDoubleArray* array, const std::vector<double>& 
   array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));
   return array;
+}
+
+/** Adds the three numbers of a vector at the end of an array. */
+inline void append(vtkDoubleArray* array, const glm::dvec3& vector)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    array->InsertNextValue(vector[axis]);
+  }
 }
 }
 

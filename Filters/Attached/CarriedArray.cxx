@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/Attached/SharedArray.h"
+#include "Filters/Attached/CarriedArray.h"
 
 #include "vtkCharArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkIntArray.h"
 #include "vtkLongArray.h"
 #include "vtkLongLongArray.h"
+#include "vtkNew.h"
 #include "vtkShortArray.h"
 #include "vtkSignedCharArray.h"
 #include "vtkUnsignedCharArray.h"
@@ -110,6 +112,8 @@ vtkSmartPointer<vtkDataArray> sharedOver(vtkDataArray* source)
       return source;
   }
 }
+
+constexpr int GridNumbers = 18;
 }
 
 vtkSmartPointer<vtkDataArray> sharedAs(const char* name, vtkDataArray* source)
@@ -150,5 +154,32 @@ void SharedArrays::share(vtkDataSetAttributes* attributes)
     attributes->AddArray(entry.shared); // takes the place of the array of this name
   }
   this->Entries = std::move(entries);
+}
+
+void attachGrid(vtkFieldData* fields, const char* name, const Grid& grid)
+{
+  vtkNew<vtkDoubleArray> numbers;
+  numbers->SetName(name);
+  numbers->SetNumberOfComponents(GridNumbers);
+  numbers->SetNumberOfTuples(1);
+  const glm::dvec3 sides(grid.dimensions);
+  const std::array<double, 15> box = boxOf(grid);
+  std::copy(box.begin(), box.end(), std::copy_n(&sides.x, 3, numbers->GetPointer(0)));
+  fields->AddArray(numbers);
+}
+
+bool readGrid(vtkFieldData* fields, const char* name, Grid& grid)
+{
+  vtkDataArray* numbers = fields->GetArray(name);
+  if (!numbers || numbers->GetNumberOfComponents() != GridNumbers ||
+    numbers->GetNumberOfTuples() != 1)
+  {
+    return false;
+  }
+  double stored[GridNumbers];
+  numbers->GetTuple(0, stored);
+  grid.dimensions = glm::ivec3(glm::dvec3(stored[0], stored[1], stored[2]));
+  setBox(grid, stored + 3);
+  return true;
 }
 }
