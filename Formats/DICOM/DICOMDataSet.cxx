@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/DICOM/DICOMDataSet.h"
 
+#include "Common/Bytes.h"
+
 #include <cstring>
 #include <set>
 #include <utility>
@@ -36,14 +38,10 @@ struct Head
   std::uint64_t value = 0; // its offset
 };
 
-std::uint32_t number(const unsigned char* bytes, int count, bool isBig)
+DICOMTag tagAt(const unsigned char* bytes, const Form& form)
 {
-  std::uint32_t result = 0;
-  for (int i = 0; i < count; ++i)
-  {
-    result |= static_cast<std::uint32_t>(bytes[isBig ? count - 1 - i : i]) << (8 * i);
-  }
-  return result;
+  return DICOMTag(storedNumber<std::uint16_t>(bytes, form.isBig)) << 16 |
+    storedNumber<std::uint16_t>(bytes + 2, form.isBig);
 }
 
 class Parser
@@ -62,12 +60,12 @@ public:
     {
       return false;
     }
-    head.tag = (number(bytes, 2, form.isBig) << 16) | number(bytes + 2, 2, form.isBig);
+    head.tag = tagAt(bytes, form);
     head.value = offset + 8;
     head.vr[0] = head.vr[1] = 0;
     if (!form.isExplicit || head.tag >> 16 == 0xfffe)
     {
-      head.length = number(bytes + 4, 4, form.isBig);
+      head.length = storedNumber<std::uint32_t>(bytes + 4, form.isBig);
       return true;
     }
     std::memcpy(head.vr, bytes + 4, 2);
@@ -77,11 +75,11 @@ public:
     }
     static const std::set<std::string> Long{ "OB", "OD", "OF", "OL", "OV", "OW", "SQ", "SV", "UC",
       "UN", "UR", "UT", "UV" };
-    head.length = number(bytes + 6, 2, form.isBig);
+    head.length = storedNumber<std::uint16_t>(bytes + 6, form.isBig);
     if (Long.count(std::string(head.vr, 2)) > 0)
     {
       bytes = this->Bytes.at(offset, 12);
-      head.length = bytes ? number(bytes + 8, 4, form.isBig) : 0;
+      head.length = bytes ? storedNumber<std::uint32_t>(bytes + 8, form.isBig) : 0;
       head.value = offset + 12;
     }
     return bytes != nullptr;
@@ -170,8 +168,7 @@ private:
     }
     const unsigned char* first =
       form.isExplicit || head.length < 8 ? nullptr : this->Bytes.at(offset, 4);
-    return first && number(first, 2, form.isBig) == 0xfffe &&
-      number(first + 2, 2, form.isBig) == 0xe000;
+    return first && tagAt(first, form) == Item;
   }
 
   bool readItems(std::uint64_t& offset, std::uint64_t end, const Form& form, int depth,
@@ -287,7 +284,7 @@ std::vector<std::string> packedFrames(
   for (std::uint32_t entry = 0; entry + 4 <= tableLength; entry += 4)
   {
     const unsigned char* stored = bytes.at(table + entry, 4);
-    begins.insert(table + tableLength + (stored ? number(stored, 4, false) : 0));
+    begins.insert(table + tableLength + (stored ? storedNumber<std::uint32_t>(stored, false) : 0));
   }
   const bool isEach = fragments.size() == frames;
   std::vector<std::string> packed;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/DICOM/DICOMPixels.h"
 
+#include "Common/Bytes.h"
 #include "Formats/DICOM/DICOMAttributes.h"
 #include "Formats/DICOM/DICOMDataSet.h"
 #include "Formats/PackedFrames/JPEG2000Frame.h"
@@ -129,16 +130,6 @@ void withStoredType(int type, const Use& use)
   }
 }
 
-template <typename T>
-void swapBytes(T* numbers, std::size_t count)
-{
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    auto* bytes = reinterpret_cast<unsigned char*>(numbers + i);
-    std::reverse(bytes, bytes + sizeof(T));
-  }
-}
-
 // Frames whose bytes follow each other go straight to their place.
 std::string readPlain(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type)
 {
@@ -162,10 +153,7 @@ std::string readPlain(const DICOMFile& file, const std::vector<DICOMTarget>& tar
     }
     withStoredType(stored, [&](auto* none) {
       auto* numbers = reinterpret_cast<decltype(none)>(to);
-      if (file.pixels.isBigEndian)
-      {
-        swapBytes(numbers, count);
-      }
+      toMachineOrder(to, count, sizeof(*numbers), file.pixels.isBigEndian);
       keepStoredBits(file.pixels, numbers, count);
       if (!buffer.empty())
       {

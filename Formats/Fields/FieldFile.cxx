@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Fields/FieldFile.h"
 
-#include <algorithm>
-#include <cctype>
+#include "Formats/Files/Text.h"
 
 namespace brainshift
 {
 namespace
 {
-bool endsWith(const std::string& text, const std::string& end)
-{
-  return text.size() >= end.size() &&
-    std::equal(end.rbegin(), end.rend(), text.rbegin(), [](char wanted, char found) {
-      return wanted == std::tolower(static_cast<unsigned char>(found));
-    });
-}
-
 // The format that the ending of a name stands for. Null: none.
 const FieldFormat* formatOf(const std::string& fileName)
 {

@@ -2,26 +2,16 @@
 #include "Formats/Files/HeaderText.h"
 
 #include "Formats/Files/PlainFile.h"
+#include "Formats/Files/Text.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <fstream>
-#include <limits>
-#include <sstream>
 
 namespace brainshift
 {
 namespace
 {
 constexpr std::size_t LongestHeader = 1 << 20; // bytes; what is longer is no header
-
-std::string trimmed(const std::string& text)
-{
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  const std::size_t last = text.find_last_not_of(" \t\r");
-  return first == std::string::npos ? std::string() : text.substr(first, last - first + 1);
-}
 
 // The bytes of a file in which a header must end.
 std::string readStart(const std::string& fileName, std::string& start)
@@ -145,46 +135,4 @@ std::string readHeaderText(const std::string& fileName, HeaderText& text)
   return problem.empty() ? controlProblem(start.substr(0, text.bytes)) : problem;
 }
 
-std::string shownWords(const std::string& words)
-{
-  constexpr std::size_t MostLetters = 200;
-  std::string shown = words.substr(0, MostLetters);
-  std::replace_if(shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return words.size() > MostLetters ? shown + "..." : shown;
-}
-
-std::vector<std::string> wordsIn(const std::string& text)
-{
-  std::istringstream stream(text);
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;)
-  {
-    words.push_back(word);
-  }
-  return words;
-}
-
-std::vector<double> numbersIn(const std::string& text)
-{
-  std::vector<double> numbers;
-  for (const std::string& word : wordsIn(text))
-  {
-    const std::size_t plus = word[0] == '+' ? 1 : 0;
-    double number = 0.0;
-    const char* const end = word.data() + word.size();
-    const std::from_chars_result found = std::from_chars(word.data() + plus, end, number);
-    if (found.ec != std::errc() || found.ptr != end)
-    {
-      numbers.push_back(std::numeric_limits<double>::quiet_NaN());
-      break;
-    }
-    numbers.push_back(number);
-  }
-  return numbers;
-}
-
-bool isWhole(double number, double least, double most)
-{
-  return number >= least && number <= most && number == std::floor(number);
-}
 }

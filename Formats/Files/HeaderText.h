@@ -33,21 +33,6 @@ struct HeaderText
 
 /** Reads the lines of a file. Returns the end of a sentence on why it cannot, or nothing. */
 std::string readHeaderText(const std::string& fileName, HeaderText& text);
-
-/** Words of a file as an error may show them: printable, and not too many. */
-std::string shownWords(const std::string& words);
-
-/** The words of a text between spaces. */
-std::vector<std::string> wordsIn(const std::string& text);
-
-/**
- * All numbers in a text. What is no number ends the list with NaN, which no place takes: half of a
- * number must not count as a number.
- */
-std::vector<double> numbersIn(const std::string& text);
-
-/** Whether a number is whole and between two limits. */
-bool isWhole(double number, double least, double most);
 }
 
 #endif

@@ -4,7 +4,6 @@
 #include "vtk_zlib.h"
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -136,22 +135,6 @@ bool beginsLikeGzip(const std::string& fileName)
   std::ifstream file(fileName, std::ios::binary);
   char first[2] = {};
   return file.read(first, 2) && first[0] == '\x1f' && first[1] == '\x8b';
-}
-
-bool thisMachineIsBigEndian()
-{
-  const int one = 1;
-  char first;
-  std::memcpy(&first, &one, 1);
-  return first == 0;
-}
-
-void reverseBytes(char* numbers, std::size_t count, std::size_t size)
-{
-  for (std::size_t i = 0; size > 1 && i < count; ++i)
-  {
-    std::reverse(numbers + i * size, numbers + (i + 1) * size);
-  }
 }
 
 std::string bytesProblem(const StoredBytes& from, double count)

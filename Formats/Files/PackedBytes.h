@@ -28,12 +28,6 @@ using ShareDone = std::function<bool(double share)>;
 /** Whether a file begins like one that is packed with gzip. */
 bool beginsLikeGzip(const std::string& fileName);
 
-/** Whether this machine stores the highest byte of a number first. */
-bool thisMachineIsBigEndian();
-
-/** Reverses the bytes of each of `count` numbers of `size` bytes. */
-void reverseBytes(char* numbers, std::size_t count, std::size_t size);
-
 /**
  * Why the bytes cannot all be there, by the size of the file: the end of a sentence, or nothing. It
  * opens nothing and takes no memory. Packed bytes may still be too few.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Files/TextHeader.h"
 
+#include "Common/Numbers.h"
+#include "Formats/Files/Text.h"
+
 #include "vtkDataArray.h"
 
 #include <algorithm>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/FreeSurfer/FreeSurferSurface.h"
 
-#include "Formats/Files/HeaderText.h"
+#include "Common/Bytes.h"
+#include "Common/Numbers.h"
 #include "Formats/Files/PlainFile.h"
-#include "Formats/Surfaces/StoredNumbers.h"
+#include "Formats/Files/Text.h"
 #include "Formats/Volumes/RasGrid.h"
 
 #include <glm/common.hpp>
@@ -348,10 +349,7 @@ std::string readFreeSurferValues(const std::vector<char>& bytes, NamedNumbers& n
   numbers.components = static_cast<std::size_t>(components);
   const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(rest.place());
   numbers.bytes.assign(first, first + static_cast<std::ptrdiff_t>(4.0 * count));
-  if (!thisMachineIsBigEndian())
-  {
-    reverseBytes(numbers.bytes.data(), numbers.bytes.size() / 4, 4);
-  }
+  toMachineOrder(numbers.bytes.data(), numbers.bytes.size() / 4, 4, true);
   return {};
 }
 

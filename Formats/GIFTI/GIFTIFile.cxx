@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/GIFTI/GIFTIFile.h"
 
-#include "Formats/Files/HeaderText.h"
+#include "Common/Numbers.h"
 #include "Formats/Files/PlainFile.h"
+#include "Formats/Files/Text.h"
 #include "Formats/GIFTI/GIFTINumbers.h"
 
 #include "vtk_expat.h"
@@ -93,30 +94,23 @@ private:
     return std::find(this->Open.begin(), this->Open.end(), name) != this->Open.end();
   }
 
-  std::string trimmedText() const
-  {
-    const std::size_t first = this->Text.find_first_not_of(" \t\r\n");
-    const std::size_t last = this->Text.find_last_not_of(" \t\r\n");
-    return first == std::string::npos ? "" : this->Text.substr(first, last - first + 1);
-  }
-
   void endInArray(const std::string& name, GIFTIArray& array)
   {
     if (name == "Name")
     {
-      this->MetaName = this->trimmedText();
+      this->MetaName = trimmed(this->Text);
     }
     else if (name == "Value")
     {
-      array.meta[this->MetaName] = this->trimmedText();
+      array.meta[this->MetaName] = trimmed(this->Text);
     }
     else if (name == "DataSpace")
     {
-      this->Transform.from = this->trimmedText();
+      this->Transform.from = trimmed(this->Text);
     }
     else if (name == "TransformedSpace")
     {
-      this->Transform.to = this->trimmedText();
+      this->Transform.to = trimmed(this->Text);
     }
     else if (name == "MatrixData")
     {
@@ -160,7 +154,7 @@ private:
       return;
     }
     label.value = static_cast<int>(key[0]);
-    label.name = this->trimmedText();
+    label.name = trimmed(this->Text);
     const char* const names[3] = { "Red", "Green", "Blue" };
     for (int i = 0; i < 3; ++i)
     {

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/GIFTI/GIFTINumbers.h"
 
+#include "Common/Bytes.h"
 #include "Common/HostMemory.h"
-#include "Formats/Files/HeaderText.h"
-#include "Formats/Files/PackedBytes.h"
+#include "Common/Numbers.h"
+#include "Formats/Files/Text.h"
 
 #include "vtk_zlib.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <optional>
 #include <string_view>
-#include <system_error>
 
 namespace brainshift
 {
@@ -84,35 +83,31 @@ std::optional<std::vector<char>> fromBase64(const std::string& text)
 template <typename T>
 std::string readASCII(const std::string& text, std::vector<char>& bytes)
 {
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  const auto skipSpace = [&] {
-    at = std::find_if(at, end, [](char letter) {
-      return letter != ' ' && letter != '\t' && letter != '\r' && letter != '\n';
-    });
-  };
+  constexpr std::string_view Blanks = " \t\r\n";
+  using Stored = std::conditional_t<std::is_floating_point_v<T>, double, T>;
+  std::string_view rest(text);
   const std::size_t wanted = bytes.size() / sizeof(T);
   std::size_t count = 0;
-  for (skipSpace(); at != end; skipSpace(), ++count)
+  while (true)
   {
-    double number = 0.0;
-    T narrow{};
-    const bool isWholeType = std::is_integral_v<T>;
-    const std::from_chars_result found = isWholeType
-      ? std::from_chars(at, end, narrow)
-      : std::from_chars(*at == '+' ? at + 1 : at, end, number);
-    if (found.ec != std::errc() || found.ptr == at)
+    rest.remove_prefix(std::min(rest.find_first_not_of(Blanks), rest.size()));
+    if (rest.empty())
     {
-      const std::string_view rest(at, std::min<std::size_t>(end - at, 40));
-      return "has \"" + shownWords(std::string(rest.substr(0, rest.find_first_of(" \t\r\n")))) +
+      break;
+    }
+    const auto found = takeNumber<Stored>(rest);
+    if (!found)
+    {
+      const std::string word(rest.substr(0, 40));
+      return "has \"" + shownWords(word.substr(0, word.find_first_of(Blanks))) +
         "\" in place of a number";
     }
-    narrow = isWholeType ? narrow : static_cast<T>(number);
+    const auto number = static_cast<T>(*found);
     if (count < wanted)
     {
-      std::memcpy(&bytes[count * sizeof(T)], &narrow, sizeof(T));
+      std::memcpy(&bytes[count * sizeof(T)], &number, sizeof(T));
     }
-    at = found.ptr;
+    ++count;
   }
   return count == wanted ? std::string()
                          : "has " + std::to_string(count) + " numbers; its dimensions announce " +
@@ -260,9 +255,10 @@ std::string readGIFTINumbers(const std::string& text, GIFTIArray& array)
   {
     return problem;
   }
-  if (!isASCII && (endian == "BigEndian") != thisMachineIsBigEndian())
+  if (!isASCII)
   {
-    reverseBytes(array.bytes.data(), array.rows * array.columns, bytesOf(array.type));
+    toMachineOrder(
+      array.bytes.data(), array.rows * array.columns, bytesOf(array.type), endian == "BigEndian");
   }
   const std::string order = array.attribute("ArrayIndexingOrder");
   if (order == "ColumnMajorOrder")

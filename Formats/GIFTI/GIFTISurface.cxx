@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/GIFTI/GIFTISurface.h"
 
+#include "Common/Numbers.h"
+#include "Formats/Files/Text.h"
 #include "Formats/GIFTI/GIFTIFile.h"
 #include "Formats/Surfaces/ScannerFrame.h"
 #include "Formats/Volumes/RasGrid.h"
-
-#include "Formats/Files/HeaderText.h"
 
 #include <glm/mat3x3.hpp>
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Landmarks/FiducialFile.h"
 
-#include "Formats/Files/TextHeader.h"
+#include "Common/Numbers.h"
+#include "Formats/Files/Text.h"
 #include "Formats/Landmarks/PlainText.h"
 
 #include <algorithm>
@@ -70,7 +71,7 @@ std::string readPoint(const Words& values, const Header& header, Landmark& point
   {
     const std::size_t column = header.position[axis];
     const std::string word = column < values.size() ? values[column] : "";
-    const std::optional<double> number = numberIn(word);
+    const std::optional<double> number = numberIn(trimmed(word));
     if (!number)
     {
       return std::string("has no number ") + "xyz"[axis] + ", but \"" + shownWords(word) + "\"";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Landmarks/LandmarkFile.h"
 
+#include "Formats/Files/Text.h"
 #include "Formats/Files/WholeFile.h"
 #include "Formats/Landmarks/FiducialFile.h"
 #include "Formats/Landmarks/MarkupsFile.h"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Landmarks/Landmarks.h"
 
-#include "Formats/Files/TextHeader.h"
+#include "Common/Numbers.h"
+#include "Formats/Files/Text.h"
 #include "Formats/Landmarks/PlainText.h"
 
 #include <cmath>

@@ -2,18 +2,16 @@
 #include "Formats/Landmarks/PlainText.h"
 
 #include "Formats/Files/PlainFile.h"
+#include "Formats/Files/Text.h"
 
 #include <algorithm>
-#include <charconv>
 #include <fstream>
-#include <system_error>
 
 namespace brainshift
 {
 namespace
 {
 constexpr std::string_view ByteOrderMark = "\xEF\xBB\xBF";
-constexpr const char* Replacement = "\xEF\xBF\xBD";
 
 void dropMark(std::string& text)
 {
@@ -23,35 +21,6 @@ void dropMark(std::string& text)
   }
 }
 
-bool isInside(unsigned char byte, int low, int high)
-{
-  return byte >= low && byte <= high;
-}
-
-// How many bytes the letter at the beginning of a text has; 0 if it is none (Unicode, table 3-7).
-std::size_t letterBytes(std::string_view text)
-{
-  const auto at = [&](std::size_t i) {
-    return static_cast<unsigned char>(i < text.size() ? text[i] : '\0');
-  };
-  const unsigned char first = at(0);
-  if (first < 0x80)
-  {
-    return 1;
-  }
-  const std::size_t count = isInside(first, 0xC2, 0xDF) ? 2
-    : isInside(first, 0xE0, 0xEF)                       ? 3
-    : isInside(first, 0xF0, 0xF4)                       ? 4
-                                                        : 0;
-  const int low = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
-  const int high = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
-  bool isGood = count > 0 && isInside(at(1), low, high);
-  for (std::size_t i = 2; i < count; ++i)
-  {
-    isGood = isGood && isInside(at(i), 0x80, 0xBF);
-  }
-  return isGood ? count : 0;
-}
 }
 
 std::string readPlainText(const std::string& fileName, std::size_t limit, std::string& text)
@@ -97,60 +66,6 @@ std::string readBeginning(const std::string& fileName, std::size_t bytes)
     dropMark(text);
   }
   return text;
-}
-
-std::string trimmed(std::string_view text)
-{
-  constexpr const char* Blank = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(Blank);
-  const std::size_t last = text.find_last_not_of(Blank);
-  return first == std::string_view::npos ? std::string()
-                                         : std::string(text.substr(first, last - first + 1));
-}
-
-std::string lowerCase(std::string text)
-{
-  for (char& letter : text)
-  {
-    letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
-  }
-  return text;
-}
-
-bool endsWith(const std::string& text, const std::string& end)
-{
-  return text.size() >= end.size() && lowerCase(text.substr(text.size() - end.size())) == end;
-}
-
-std::optional<double> numberIn(std::string_view text)
-{
-  const std::string word = trimmed(text);
-  const bool hasPlus = word.size() > 1 && word[0] == '+' && word[1] != '-';
-  const char* const begin = word.data() + (hasPlus ? 1 : 0);
-  const char* const end = word.data() + word.size();
-  double number = 0.0;
-  const std::from_chars_result found = std::from_chars(begin, end, number);
-  return found.ec == std::errc() && found.ptr == end ? std::optional<double>(number) : std::nullopt;
-}
-
-std::string numberText(double number)
-{
-  char text[32];
-  const std::to_chars_result written = std::to_chars(text, text + sizeof(text), number);
-  return { text, written.ptr };
-}
-
-std::string validUtf8(std::string_view text)
-{
-  std::string valid;
-  valid.reserve(text.size());
-  while (!text.empty())
-  {
-    const std::size_t bytes = letterBytes(text);
-    valid += bytes > 0 ? text.substr(0, bytes) : std::string_view(Replacement);
-    text.remove_prefix(std::max<std::size_t>(bytes, 1));
-  }
-  return valid;
 }
 
 void RecordReader::takeQuoted(std::string& value)

@@ -7,7 +7,6 @@
 #define BrainShift_PlainText_h
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,24 +23,6 @@ std::string readPlainText(const std::string& fileName, std::size_t limit, std::s
 
 /** The first bytes of a file, without the mark of UTF-8; empty if it cannot be read. */
 std::string readBeginning(const std::string& fileName, std::size_t bytes);
-
-/** Text without the spaces, tabs and ends of lines around it. */
-std::string trimmed(std::string_view text);
-
-/** ASCII letters made small. */
-std::string lowerCase(std::string text);
-
-/** Whether a text ends so, in capitals or not. `end` has small letters. */
-bool endsWith(const std::string& text, const std::string& end);
-
-/** The number that a text is, with spaces around it or not; none if it is anything else. */
-std::optional<double> numberIn(std::string_view text);
-
-/** The shortest text that reads back as the same number. */
-std::string numberText(double number);
-
-/** Text in UTF-8: each byte that belongs to no letter becomes the replacement character. */
-std::string validUtf8(std::string_view text);
 
 /** Records of values between separators. Quoted values may hold separators, quotes and lines. */
 class RecordReader

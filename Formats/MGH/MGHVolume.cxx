@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/MGH/MGHVolume.h"
 
+#include "Common/Bytes.h"
 #include "Formats/Files/PlainFile.h"
 
 #include "vtkImageData.h"
@@ -8,11 +9,9 @@
 
 #include <glm/mat3x3.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <map>
 
 namespace brainshift
@@ -27,25 +26,10 @@ constexpr int MostFrames = 65536; // each takes memory for its time
 const std::map<int, int> Types{ { 0, VTK_UNSIGNED_CHAR }, { 1, VTK_INT }, { 3, VTK_FLOAT },
   { 4, VTK_SHORT }, { 10, VTK_UNSIGNED_SHORT } };
 
-// Big-endian numbers at places of a text of bytes.
-template <typename T>
-T numberAt(const char* bytes, std::size_t offset)
-{
-  std::array<char, sizeof(T)> raw;
-  std::copy_n(bytes + offset, sizeof(T), raw.begin());
-  if (!thisMachineIsBigEndian())
-  {
-    std::reverse(raw.begin(), raw.end());
-  }
-  T number;
-  std::memcpy(&number, raw.data(), sizeof(T));
-  return number;
-}
-
 glm::dvec3 vectorAt(const char* bytes, std::size_t offset)
 {
-  return glm::dvec3(numberAt<float>(bytes, offset), numberAt<float>(bytes, offset + 4),
-    numberAt<float>(bytes, offset + 8));
+  return glm::dvec3(storedNumber<float>(bytes + offset, true),
+    storedNumber<float>(bytes + offset + 4, true), storedNumber<float>(bytes + offset + 8, true));
 }
 
 // The names are those of the format.
@@ -53,14 +37,15 @@ struct MGHHeader
 {
   std::array<char, HeaderBytes> bytes{};
 
-  int version() const { return numberAt<std::int32_t>(this->bytes.data(), 0); }
+  int version() const { return storedNumber<std::int32_t>(this->bytes.data(), true); }
   // Columns, rows, slices, frames.
   int side(int axis) const
   {
-    return numberAt<std::int32_t>(this->bytes.data(), 4 + 4 * static_cast<std::size_t>(axis));
+    return storedNumber<std::int32_t>(
+      this->bytes.data() + 4 + 4 * static_cast<std::size_t>(axis), true);
   }
-  int type() const { return numberAt<std::int32_t>(this->bytes.data(), 20); }
-  bool goodRASFlag() const { return numberAt<std::int16_t>(this->bytes.data(), 28) > 0; }
+  int type() const { return storedNumber<std::int32_t>(this->bytes.data() + 20, true); }
+  bool goodRASFlag() const { return storedNumber<std::int16_t>(this->bytes.data() + 28, true) > 0; }
   glm::dvec3 spacing() const { return vectorAt(this->bytes.data(), 30); }
   // Of one axis.
   glm::dvec3 direction(int axis) const
@@ -140,7 +125,7 @@ double secondsOf(StoredBytes from, double bytes)
   from.offset += from.isPacked ? 0 : static_cast<std::uint64_t>(bytes);
   std::array<char, 4> raw{};
   const std::string problem = readBytes(from, raw.data(), 4, [](double) { return false; });
-  const double milliseconds = problem.empty() ? numberAt<float>(raw.data(), 0) : 0.0;
+  const double milliseconds = problem.empty() ? storedNumber<float>(raw.data(), true) : 0.0;
   return std::isfinite(milliseconds) && milliseconds > 0.0 ? milliseconds * 1e-3 : 1.0;
 }
 }
@@ -215,10 +200,7 @@ std::string MGHVolume::load(std::size_t volume, const Progress& progress, Stored
     {
       return problem;
     }
-    if (!thisMachineIsBigEndian())
-    {
-      reverseBytes(to, all, size);
-    }
+    toMachineOrder(to, all, size, true);
     this->Numbers = numbers;
   }
   auto frame = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));

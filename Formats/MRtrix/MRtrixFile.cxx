@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/MRtrix/MRtrixFile.h"
 
-#include "Formats/Files/HeaderText.h"
+#include "Common/Bytes.h"
+#include "Common/Numbers.h"
 #include "Formats/Files/PlainFile.h"
+#include "Formats/Files/Text.h"
 
 #include <algorithm>
 #include <array>
@@ -28,14 +30,6 @@ struct TrackText
   double count = 0.0; // of streamlines; 0: not said
 };
 
-// The value of a line without the spaces around it.
-std::string valueIn(std::string_view line)
-{
-  const std::size_t first = line.find_first_not_of(" \t\r");
-  const std::size_t last = line.find_last_not_of(" \t\r");
-  return first == std::string_view::npos ? "" : std::string(line.substr(first, last - first + 1));
-}
-
 // The keys up to END. False if it does not come.
 bool readKeys(std::string_view text, std::map<std::string, std::string>& keys)
 {
@@ -43,14 +37,14 @@ bool readKeys(std::string_view text, std::map<std::string, std::string>& keys)
   {
     const std::size_t end = std::min(text.find('\n', place), text.size());
     const std::string_view line = text.substr(place, end - place);
-    if (valueIn(line) == "END")
+    if (trimmed(line) == "END")
     {
       return end < text.size();
     }
     const std::size_t colon = line.find(':');
     if (colon != std::string_view::npos)
     {
-      keys[valueIn(line.substr(0, colon))] = valueIn(line.substr(colon + 1));
+      keys[trimmed(line.substr(0, colon))] = trimmed(line.substr(colon + 1));
     }
     place = end + 1;
   }
@@ -179,11 +173,8 @@ template <typename T>
 std::string readTriples(
   std::vector<char>& bytes, const TrackText& header, const ShareDone& shareDone, Tracts& tracts)
 {
-  if (header.isBigEndian != thisMachineIsBigEndian())
-  {
-    reverseBytes(
-      bytes.data() + header.offset, (bytes.size() - header.offset) / sizeof(T), sizeof(T));
-  }
+  toMachineOrder(bytes.data() + header.offset, (bytes.size() - header.offset) / sizeof(T),
+    sizeof(T), header.isBigEndian);
   bool isStopped = false;
   std::string problem;
   std::size_t empty = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/NIFTI/NIFTIFileCheck.h"
 
+#include "Common/Bytes.h"
 #include "Formats/Files/PlainFile.h"
 
 #include "vtk_zlib.h"
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -33,20 +33,12 @@ struct RawHeader
   int count = 0; // bytes that are there
   bool opened = false;
   int version = 0; // 1 or 2; 0: not NIfTI
-  bool swapped = false;
+  bool isBigEndian = false;
 
   template <typename T>
   T number(int offset) const
   {
-    std::array<unsigned char, sizeof(T)> raw;
-    std::copy_n(this->bytes.begin() + offset, sizeof(T), raw.begin());
-    if (this->swapped)
-    {
-      std::reverse(raw.begin(), raw.end());
-    }
-    T value;
-    std::memcpy(&value, raw.data(), sizeof(T));
-    return value;
+    return brainshift::storedNumber<T>(this->bytes.data() + offset, this->isBigEndian);
   }
 
   bool hasMagic(int offset, unsigned char digit) const
@@ -123,7 +115,7 @@ RawHeader readHeader(const std::string& fileName)
     header.version = 2;
   }
   const std::int64_t rank = header.version > 0 ? header.dimension(0) : 0;
-  header.swapped = rank < 0 || rank > 7; // the standard's test
+  header.isBigEndian = rank < 0 || rank > 7; // the standard's test
   return header;
 }
 

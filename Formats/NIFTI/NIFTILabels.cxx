@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/NIFTI/NIFTILabels.h"
 
-#include "Formats/Files/HeaderText.h"
+#include "Common/Bytes.h"
+#include "Common/Numbers.h"
 #include "Formats/Files/PackedBytes.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 
 namespace brainshift
@@ -34,19 +34,6 @@ bool bytesAt(
   return readBytes(from, &bytes[0], count, [](double) { return true; }).empty();
 }
 
-std::int32_t integerAt(const std::string& bytes, std::size_t place, bool swapped)
-{
-  std::array<char, 4> raw;
-  std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(place), 4, raw.begin());
-  if (swapped)
-  {
-    std::reverse(raw.begin(), raw.end());
-  }
-  std::int32_t number;
-  std::memcpy(&number, raw.data(), 4);
-  return number;
-}
-
 // The text of the first extension with the code; empty if there is none.
 std::string extensionOf(const std::string& fileName)
 {
@@ -56,8 +43,8 @@ std::string extensionOf(const std::string& fileName)
     return {};
   }
   const auto isHeader = [](std::int32_t size) { return size == 348 || size == 540; };
-  const bool swapped = !isHeader(integerAt(bytes, 0, false));
-  const std::int32_t headerBytes = integerAt(bytes, 0, swapped);
+  const bool isBigEndian = !isHeader(storedNumber<std::int32_t>(bytes.data(), false));
+  const std::int32_t headerBytes = storedNumber<std::int32_t>(bytes.data(), isBigEndian);
   if (!isHeader(headerBytes) ||
     !bytesAt(fileName, static_cast<std::uint64_t>(headerBytes), 4, bytes) || bytes[0] == 0)
   {
@@ -66,12 +53,12 @@ std::string extensionOf(const std::string& fileName)
   std::uint64_t place = static_cast<std::uint64_t>(headerBytes) + 4;
   for (int i = 0; i < MostExtensions && bytesAt(fileName, place, 8, bytes); ++i)
   {
-    const std::int32_t size = integerAt(bytes, 0, swapped);
+    const std::int32_t size = storedNumber<std::int32_t>(bytes.data(), isBigEndian);
     if (size < 16 || size > LongestExtension || size % 16 != 0)
     {
       return {};
     }
-    if (integerAt(bytes, 4, swapped) == WorkbenchCode)
+    if (storedNumber<std::int32_t>(bytes.data() + 4, isBigEndian) == WorkbenchCode)
     {
       return bytesAt(fileName, place + 8, static_cast<std::size_t>(size) - 8, bytes)
         ? bytes

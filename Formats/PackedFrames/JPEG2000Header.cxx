@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/PackedFrames/JPEG2000Header.h"
 
+#include "Common/Bytes.h"
+
 #include <cstdint>
 #include <set>
 
@@ -16,28 +18,24 @@ constexpr std::uint64_t CodesBox = 0x6a703263; // "jp2c"
 constexpr std::size_t SizeBytes = 45;          // with the first marker, and one component
 constexpr std::uint64_t MostTiles = 4096;
 
-// A number of so many bytes; 0 behind the end.
-std::uint64_t numberAt(const std::string& packed, std::size_t offset, std::size_t bytes)
+// A big-endian number; 0 behind the end.
+template <typename Number>
+std::uint64_t numberAt(const std::string& packed, std::size_t offset)
 {
-  std::uint64_t number = 0;
-  const bool isThere = offset <= packed.size() && bytes <= packed.size() - offset;
-  for (std::size_t i = 0; isThere && i < bytes; ++i)
-  {
-    number = number << 8 | static_cast<unsigned char>(packed[offset + i]);
-  }
-  return number;
+  return storedNumberAt<Number>(packed, offset, true).value_or(0);
 }
 
 // Where the stream of codes begins: at once, or in a box of the format JP2. The end without one.
 std::size_t beginOfCodes(const std::string& packed)
 {
   std::size_t offset = 0;
-  while (offset < packed.size() && numberAt(packed, offset, 2) != StartOfCodes)
+  while (offset < packed.size() && numberAt<std::uint16_t>(packed, offset) != StartOfCodes)
   {
-    const bool isLong = numberAt(packed, offset, 4) == 1;
-    const std::uint64_t length = numberAt(packed, offset + (isLong ? 8 : 0), isLong ? 8 : 4);
+    const bool isLong = numberAt<std::uint32_t>(packed, offset) == 1;
+    const std::uint64_t length = isLong ? numberAt<std::uint64_t>(packed, offset + 8)
+                                        : numberAt<std::uint32_t>(packed, offset);
     const std::size_t head = isLong ? 16 : 8;
-    if (numberAt(packed, offset + 4, 4) == CodesBox)
+    if (numberAt<std::uint32_t>(packed, offset + 4) == CodesBox)
     {
       return offset + head;
     }
@@ -53,9 +51,9 @@ std::size_t beginOfCodes(const std::string& packed)
 // How many tiles lie side by side; 0 if they cannot cover the picture.
 std::uint64_t tilesAlong(const std::string& packed, std::size_t codes, std::size_t axis)
 {
-  const std::uint64_t end = numberAt(packed, codes + 8 + 4 * axis, 4);
-  const std::uint64_t side = numberAt(packed, codes + 24 + 4 * axis, 4);
-  const std::uint64_t begin = numberAt(packed, codes + 32 + 4 * axis, 4);
+  const std::uint64_t end = numberAt<std::uint32_t>(packed, codes + 8 + 4 * axis);
+  const std::uint64_t side = numberAt<std::uint32_t>(packed, codes + 24 + 4 * axis);
+  const std::uint64_t begin = numberAt<std::uint32_t>(packed, codes + 32 + 4 * axis);
   return side == 0 || begin >= end ? 0 : (end - begin + side - 1) / side;
 }
 
@@ -63,15 +61,15 @@ std::uint64_t tilesAlong(const std::string& packed, std::size_t codes, std::size
 std::set<std::uint64_t> tilesIn(const std::string& packed, std::size_t codes)
 {
   std::size_t offset = codes + 2;
-  while (offset + 4 <= packed.size() && numberAt(packed, offset, 2) != StartOfTile)
+  while (offset + 4 <= packed.size() && numberAt<std::uint16_t>(packed, offset) != StartOfTile)
   {
-    offset += 2 + numberAt(packed, offset + 2, 2);
+    offset += 2 + numberAt<std::uint16_t>(packed, offset + 2);
   }
   std::set<std::uint64_t> tiles;
-  while (offset + 12 <= packed.size() && numberAt(packed, offset, 2) == StartOfTile)
+  while (offset + 12 <= packed.size() && numberAt<std::uint16_t>(packed, offset) == StartOfTile)
   {
-    tiles.insert(numberAt(packed, offset + 4, 2));
-    const std::uint64_t length = numberAt(packed, offset + 6, 4);
+    tiles.insert(numberAt<std::uint16_t>(packed, offset + 4));
+    const std::uint64_t length = numberAt<std::uint32_t>(packed, offset + 6);
     if (length < 12) // 0: up to the end
     {
       break;
@@ -85,18 +83,18 @@ std::set<std::uint64_t> tilesIn(const std::string& packed, std::size_t codes)
 std::string jpeg2000Problem(const std::string& packed, const FrameShape& shape)
 {
   const std::size_t codes = beginOfCodes(packed);
-  if (codes + SizeBytes > packed.size() || numberAt(packed, codes, 2) != StartOfCodes ||
-    numberAt(packed, codes + 2, 2) != Size)
+  if (codes + SizeBytes > packed.size() || numberAt<std::uint16_t>(packed, codes) != StartOfCodes ||
+    numberAt<std::uint16_t>(packed, codes + 2) != Size)
   {
     return Damaged + "it does not begin with its size";
   }
-  const std::uint64_t components = numberAt(packed, codes + 40, 2);
-  const std::uint64_t bits = 1 + (numberAt(packed, codes + 42, 1) & 127);
+  const std::uint64_t components = numberAt<std::uint16_t>(packed, codes + 40);
+  const std::uint64_t bits = 1 + (numberAt<std::uint8_t>(packed, codes + 42) & 127);
   std::uint64_t sides[2] = { 0, 0 };
   for (std::size_t axis = 0; axis < 2; ++axis)
   {
-    const std::uint64_t end = numberAt(packed, codes + 8 + 4 * axis, 4);
-    const std::uint64_t begin = numberAt(packed, codes + 16 + 4 * axis, 4);
+    const std::uint64_t end = numberAt<std::uint32_t>(packed, codes + 8 + 4 * axis);
+    const std::uint64_t begin = numberAt<std::uint32_t>(packed, codes + 16 + 4 * axis);
     sides[axis] = end > begin ? end - begin : 0;
   }
   if (sides[0] != static_cast<std::uint64_t>(shape.columns) ||

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/PackedFrames/JPEGHeader.h"
 
+#include "Common/Bytes.h"
+
 #include <numeric>
 
 namespace brainshift
@@ -48,7 +50,7 @@ struct Frame
 
 int twoBytes(const unsigned char* bytes)
 {
-  return bytes[0] << 8 | bytes[1];
+  return storedNumber<std::uint16_t>(bytes, true);
 }
 
 // Moves `offset` behind the next segment. False if there is none.

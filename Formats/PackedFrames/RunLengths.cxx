@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/PackedFrames/RunLengths.h"
 
+#include "Common/Bytes.h"
+
 #include <algorithm>
 #include <cstdint>
 
@@ -12,12 +14,7 @@ constexpr std::size_t HeaderBytes = 64; // number of segments, and 15 offsets
 
 std::size_t headerNumber(const std::string& packed, std::size_t index)
 {
-  std::size_t number = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-  {
-    number |= static_cast<std::size_t>(static_cast<unsigned char>(packed[4 * index + i])) << 8 * i;
-  }
-  return number;
+  return storedNumber<std::uint32_t>(packed.data() + 4 * index, false);
 }
 
 // A segment holds one byte of each number. Its bytes go to `first`, `first + step`, ...

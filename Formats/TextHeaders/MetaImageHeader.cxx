@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/TextHeaders/MetaImageHeader.h"
 
+#include "Common/Numbers.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/TextHeaders/NRRDHeader.h"
 
+#include "Common/Numbers.h"
+#include "Formats/Files/Text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>

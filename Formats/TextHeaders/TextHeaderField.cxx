@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/TextHeaders/TextHeaderField.h"
 
+#include "Common/Bytes.h"
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
+#include "Formats/Files/Text.h"
 #include "Formats/Files/WholeFile.h"
 #include "Formats/TextHeaders/TextHeaderFile.h"
 
@@ -149,14 +151,6 @@ void copyNumbers(const std::vector<char>& data, std::vector<glm::vec3>& vectors)
   }
 }
 
-std::string list(const glm::dvec3& numbers, const char* between)
-{
-  std::ostringstream text;
-  text.precision(17);
-  text << numbers.x << between << numbers.y << between << numbers.z;
-  return text.str();
-}
-
 const char* byteOrder()
 {
   return thisMachineIsBigEndian() ? "big" : "little";
@@ -219,11 +213,11 @@ std::string writeMetaImageField(const std::string& fileName, const DirectedField
          << (field.direction == Direction::Forward ? ForwardComment : BackwardComment) << "\n"
          << "BinaryData = True\nBinaryDataByteOrderMSB = "
          << (thisMachineIsBigEndian() ? "True" : "False") << "\nCompressedData = False\n"
-         << "TransformMatrix = " << list(grid.direction[0], " ") << " "
-         << list(grid.direction[1], " ") << " " << list(grid.direction[2], " ") << "\n"
-         << "Offset = " << list(grid.origin, " ") << "\nCenterOfRotation = 0 0 0\n"
-         << "ElementSpacing = " << list(grid.spacing, " ") << "\n"
-         << "DimSize = " << list(glm::dvec3(grid.dimensions), " ") << "\n"
+         << "TransformMatrix = " << listText(grid.direction[0], " ") << " "
+         << listText(grid.direction[1], " ") << " " << listText(grid.direction[2], " ") << "\n"
+         << "Offset = " << listText(grid.origin, " ") << "\nCenterOfRotation = 0 0 0\n"
+         << "ElementSpacing = " << listText(grid.spacing, " ") << "\n"
+         << "DimSize = " << listText(glm::dvec3(grid.dimensions), " ") << "\n"
          << "ElementNumberOfChannels = 3\nElementType = MET_FLOAT\nElementDataFile = LOCAL\n";
   return write(fileName, header.str(), field);
 }
@@ -235,13 +229,13 @@ std::string writeNRRDField(const std::string& fileName, const DirectedField& ras
   const Grid& grid = field.grid;
   std::ostringstream header;
   header << "NRRD0005\ntype: float\ndimension: 4\nspace: left-posterior-superior\n"
-         << "sizes: 3 " << list(glm::dvec3(grid.dimensions), " ") << "\nspace directions: none";
+         << "sizes: 3 " << listText(glm::dvec3(grid.dimensions), " ") << "\nspace directions: none";
   for (int axis = 0; axis < 3; ++axis)
   {
-    header << " (" << list(grid.direction[axis] * grid.spacing[axis], ",") << ")";
+    header << " (" << listText(grid.direction[axis] * grid.spacing[axis], ",") << ")";
   }
   header << "\nkinds: vector domain domain domain\nendian: " << byteOrder()
-         << "\nencoding: raw\nspace origin: (" << list(grid.origin, ",") << ")\n"
+         << "\nencoding: raw\nspace origin: (" << listText(grid.origin, ",") << ")\n"
          << "displacement field type:="
          << (field.direction == Direction::Forward ? "modeling" : "resampling") << "\n\n";
   return write(fileName, header.str(), field);

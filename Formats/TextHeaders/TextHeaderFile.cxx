@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/TextHeaders/TextHeaderFile.h"
 
+#include "Common/Bytes.h"
+#include "Common/Numbers.h"
 #include "Formats/Files/PlainFile.h"
+#include "Formats/Files/Text.h"
 #include "Formats/TextHeaders/MetaImageHeader.h"
 #include "Formats/TextHeaders/NRRDHeader.h"
 
@@ -9,7 +12,6 @@
 #include "vtkSetGet.h" // for vtkTemplateMacro
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -75,34 +77,11 @@ std::string locate(const TextHeader& header, const std::string& dataFile, Stored
   return problem;
 }
 
-template <typename T>
-bool numberOf(const std::string& word, T& number)
-{
-  const std::size_t plus = word[0] == '+' ? 1 : 0;
-  const char* const end = word.data() + word.size();
-  std::conditional_t<std::is_floating_point_v<T>, double,
-    std::conditional_t<std::is_signed_v<T>, long long, unsigned long long>>
-    value{};
-  const std::from_chars_result found = std::from_chars(word.data() + plus, end, value);
-  if (found.ec != std::errc() || found.ptr != end)
-  {
-    return false;
-  }
-  if constexpr (std::is_integral_v<T>)
-  {
-    if (value < std::numeric_limits<T>::lowest() || value > std::numeric_limits<T>::max())
-    {
-      return false;
-    }
-  }
-  number = static_cast<T>(value);
-  return true;
-}
-
 // Reads decimal numbers between spaces and commas.
 template <typename T>
 std::string readWords(std::ifstream& file, T* to, std::size_t count, const ShareDone& shareDone)
 {
+  using Stored = std::conditional_t<std::is_floating_point_v<T>, double, T>;
   constexpr std::size_t Often = 1 << 16;
   constexpr std::size_t LongestWord = 64;
   std::string word;
@@ -119,12 +98,14 @@ std::string readWords(std::ifstream& file, T* to, std::size_t count, const Share
     {
       word += static_cast<char>(letter);
     }
-    if (word.empty() || !numberOf(word, to[i]))
+    const auto number = numberIn<Stored>(word);
+    if (!number)
     {
       return word.empty() ? "has " + std::to_string(i) +
           " numbers as text where the header announces " + std::to_string(count)
                           : "has '" + shownWords(word) + "' where a number of its type must stand";
     }
+    to[i] = static_cast<T>(*number);
     if (i % Often == 0 && !shareDone(static_cast<double>(i) / static_cast<double>(count)))
     {
       return {};
@@ -214,9 +195,9 @@ std::string readNumbers(const TextHeader& header, char* to, const ShareDone& sha
       return named(header, header.dataFiles[i], problem);
     }
   }
-  if (header.encoding != Encoding::Text && header.isBigEndian != thisMachineIsBigEndian())
+  if (header.encoding != Encoding::Text)
   {
-    reverseBytes(to, files * bytes / size, size);
+    toMachineOrder(to, files * bytes / size, size, header.isBigEndian);
   }
   return {};
 }

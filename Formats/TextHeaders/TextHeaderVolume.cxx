@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/TextHeaders/TextHeaderVolume.h"
 
+#include "Common/Numbers.h"
+#include "Formats/Files/Text.h"
 #include "Formats/TextHeaders/SegmentTable.h"
 #include "Formats/TextHeaders/TextHeaderField.h"
 #include "Formats/TextHeaders/TextHeaderFile.h"

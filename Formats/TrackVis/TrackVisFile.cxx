@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/TrackVis/TrackVisFile.h"
 
+#include "Common/Bytes.h"
+#include "Common/Numbers.h"
 #include "Common/Parallel.h"
-#include "Formats/Files/HeaderText.h"
 #include "Formats/Files/PlainFile.h"
+#include "Formats/Files/Text.h"
 #include "Formats/Surfaces/ScannerFrame.h"
-#include "Formats/Surfaces/StoredNumbers.h"
 #include "Formats/Volumes/RasGrid.h"
 
 #include <glm/geometric.hpp>
@@ -417,10 +418,8 @@ std::string readTrackVis(std::vector<char>& bytes, const std::string& volumeName
   tracts.ofStreamlines =
     emptyNumbers(namesAt(header, 240, header.properties(), "properties"), records.places.size());
   tracts.points.resize(points);
-  if (header.isBigEndian != thisMachineIsBigEndian())
-  {
-    reverseBytes(bytes.data() + HeaderBytes, (bytes.size() - HeaderBytes) / 4, 4);
-  }
+  toMachineOrder(
+    bytes.data() + HeaderBytes, (bytes.size() - HeaderBytes) / 4, 4, header.isBigEndian);
   std::atomic<std::int64_t> nowhere{ -1 };
   constexpr std::size_t Block = 1 << 14; // streamlines between two reports of progress
   for (std::size_t first = 0; first < records.places.size(); first += Block)

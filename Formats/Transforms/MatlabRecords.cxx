@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Transforms/TransformBinary.h"
 
-#include <algorithm>
+#include "Common/Bytes.h"
+
 #include <cstdint>
-#include <cstring>
 
 namespace brainshift
 {
@@ -24,20 +24,6 @@ struct Variable
   std::int32_t nameLength;
 };
 
-template <typename Number>
-Number numberAt(const std::string& bytes, std::size_t at, bool swap)
-{
-  char part[sizeof(Number)];
-  std::copy_n(bytes.data() + at, sizeof(Number), part);
-  if (swap)
-  {
-    std::reverse(part, part + sizeof(Number));
-  }
-  Number number;
-  std::memcpy(&number, part, sizeof(Number));
-  return number;
-}
-
 std::string headerProblem(const Variable& variable)
 {
   const bool good = (variable.type == Doubles || variable.type == Floats) && variable.rows >= 0 &&
@@ -55,14 +41,15 @@ std::string readVariable(
   {
     return tooShort;
   }
-  const auto first = numberAt<std::int32_t>(bytes, at, false);
-  const bool swap = first != Doubles && first != Floats;
+  const auto first = storedNumber<std::int32_t>(bytes.data() + at, false);
+  const bool isBigEndian = first != Doubles && first != Floats;
   std::int32_t words[5];
   for (int i = 0; i < 5; ++i)
   {
-    words[i] = numberAt<std::int32_t>(bytes, at + 4 * i, swap);
+    words[i] = storedNumber<std::int32_t>(bytes.data() + at + 4 * i, isBigEndian);
   }
-  Variable variable{ words[0] - (swap ? BigEndian : 0), words[1], words[2], words[3], words[4] };
+  Variable variable{ words[0] - (isBigEndian ? BigEndian : 0), words[1], words[2], words[3],
+    words[4] };
   const std::string problem = headerProblem(variable);
   if (!problem.empty())
   {
@@ -82,8 +69,8 @@ std::string readVariable(
   numbers.resize(count);
   for (double& number : numbers)
   {
-    number = variable.type == Doubles ? numberAt<double>(bytes, at, swap)
-                                      : numberAt<float>(bytes, at, swap);
+    number = variable.type == Doubles ? storedNumber<double>(bytes.data() + at, isBigEndian)
+                                      : storedNumber<float>(bytes.data() + at, isBigEndian);
     at += size;
   }
   return {};

@@ -2,7 +2,7 @@
 #include "Formats/Transforms/TransformRecord.h"
 
 #include "Common/HostMemory.h"
-#include "Formats/Files/TextHeader.h"
+#include "Formats/Files/Text.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Transforms/TransformText.h"
 
-#include "Formats/Files/TextHeader.h"
+#include "Common/Numbers.h"
+#include "Formats/Files/Text.h"
 
-#include <charconv>
 #include <cstddef>
 #include <filesystem>
 #include <sstream>
@@ -16,33 +16,6 @@ namespace
 {
 using Words = std::vector<std::string>;
 using Entries = std::map<std::string, Words>; // of a parameter file, by name
-
-bool readNumber(std::string_view word, double& number)
-{
-  const char* const end = word.data() + word.size();
-  const char* const begin = word.data() + (!word.empty() && word.front() == '+' ? 1 : 0);
-  const auto read = std::from_chars(begin, end, number);
-  return read.ec == std::errc() && read.ptr == end;
-}
-
-// The numbers between spaces; false if something else stands there.
-bool readNumbers(std::string_view text, std::vector<double>& numbers)
-{
-  constexpr const char* Spaces = " \t\r\n";
-  std::size_t from = text.find_first_not_of(Spaces);
-  while (from != std::string_view::npos)
-  {
-    const std::size_t to = std::min(text.find_first_of(Spaces, from), text.size());
-    double number;
-    if (!readNumber(text.substr(from, to - from), number))
-    {
-      return false;
-    }
-    numbers.push_back(number);
-    from = text.find_first_not_of(Spaces, to);
-  }
-  return true;
-}
 
 std::string readITKLine(const std::string& line, std::vector<TransformRecord>& records)
 {
@@ -69,7 +42,7 @@ std::string readITKLine(const std::string& line, std::vector<TransformRecord>& r
     return "has parameters before its first transform";
   }
   TransformRecord& record = records.back();
-  return readNumbers(value, isFixed ? record.fixed : record.parameters)
+  return appendNumbers(value, isFixed ? record.fixed : record.parameters)
     ? std::string()
     : "has parameters of " + shownWords(record.type) + " that are no numbers";
 }
@@ -125,12 +98,12 @@ std::vector<double> numbersOf(const Entries& entries, const std::string& name)
   const auto entry = entries.find(name);
   for (const std::string& word : entry == entries.end() ? Words() : entry->second)
   {
-    double number = 0.0;
-    if (!readNumber(word, number))
+    const std::optional<double> number = numberIn(word);
+    if (!number)
     {
       return {};
     }
-    numbers.push_back(number);
+    numbers.push_back(*number);
   }
   return numbers;
 }
@@ -248,7 +221,7 @@ std::optional<std::vector<double>> matrixText(const std::string& text)
 {
   constexpr std::size_t LongestText = 4096;
   std::vector<double> numbers;
-  if (text.size() > LongestText || !readNumbers(text, numbers) || numbers.size() != 16)
+  if (text.size() > LongestText || !appendNumbers(text, numbers) || numbers.size() != 16)
   {
     return {};
   }

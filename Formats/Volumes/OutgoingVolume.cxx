@@ -10,7 +10,6 @@
 #include <glm/matrix.hpp>
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <sstream>
 
@@ -214,11 +213,4 @@ Grid withReversedXY(const Grid& grid)
   return reversed;
 }
 
-bool thisMachineStoresHighBytesFirst()
-{
-  const int one = 1;
-  char first;
-  std::memcpy(&first, &one, 1);
-  return first == 0;
-}
 }

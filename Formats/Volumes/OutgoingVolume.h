@@ -68,9 +68,6 @@ VTKBRAINSHIFTFORMATS_EXPORT std::string takeOut(vtkImageData* image, const std::
 
 /** The same grid with x and y reversed: this leads from RAS to LPS and back. */
 Grid withReversedXY(const Grid& grid);
-
-/** Bytes of a number are stored in the order of this machine. */
-bool thisMachineStoresHighBytesFirst();
 }
 
 #endif

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Writers/WrittenHeader.h"
 
+#include "Common/Bytes.h"
+#include "Formats/Files/Text.h"
+
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
 
@@ -108,14 +111,6 @@ void setPlace(const OutgoingVolume& volume, NIFTIBytesOfHeader& header)
   header.set(254, volume.knowsSides ? ScannerAnatomy : AlignedAnatomy);
 }
 
-std::string list(const glm::dvec3& numbers, const char* between)
-{
-  std::ostringstream text;
-  text.precision(17);
-  text << numbers.x << between << numbers.y << between << numbers.z;
-  return text.str();
-}
-
 std::string metaImageType(const NumberType& type)
 {
   const std::string sign = type.kind == Kind::Unsigned ? "U" : "";
@@ -179,12 +174,12 @@ std::string metaImageHeader(const OutgoingVolume& volume)
     header << "Comment = " << UnknownSidesNote << "\n";
   }
   header << "BinaryData = True\nBinaryDataByteOrderMSB = "
-         << (thisMachineStoresHighBytesFirst() ? "True" : "False") << "\nCompressedData = False\n"
-         << "TransformMatrix = " << list(grid.direction[0], " ") << " "
-         << list(grid.direction[1], " ") << " " << list(grid.direction[2], " ") << "\n"
-         << "Offset = " << list(grid.origin, " ") << "\nCenterOfRotation = 0 0 0\n"
-         << "ElementSpacing = " << list(grid.spacing, " ") << "\n"
-         << "DimSize = " << list(glm::dvec3(grid.dimensions), " ") << "\n";
+         << (thisMachineIsBigEndian() ? "True" : "False") << "\nCompressedData = False\n"
+         << "TransformMatrix = " << listText(grid.direction[0], " ") << " "
+         << listText(grid.direction[1], " ") << " " << listText(grid.direction[2], " ") << "\n"
+         << "Offset = " << listText(grid.origin, " ") << "\nCenterOfRotation = 0 0 0\n"
+         << "ElementSpacing = " << listText(grid.spacing, " ") << "\n"
+         << "DimSize = " << listText(glm::dvec3(grid.dimensions), " ") << "\n";
   if (volume.components() > 1)
   {
     header << "ElementNumberOfChannels = " << volume.components() << "\n";
@@ -209,18 +204,18 @@ std::string nrrdHeader(const OutgoingVolume& volume)
   {
     header << " " << volume.components();
   }
-  header << " " << list(glm::dvec3(grid.dimensions), " ")
+  header << " " << listText(glm::dvec3(grid.dimensions), " ")
          << "\nspace directions:" << (isVector ? " none" : "");
   for (int axis = 0; axis < 3; ++axis)
   {
-    header << " (" << list(grid.direction[axis] * grid.spacing[axis], ",") << ")";
+    header << " (" << listText(grid.direction[axis] * grid.spacing[axis], ",") << ")";
   }
   header << "\nkinds: " << (isVector ? nrrdKind(volume) + " " : "") << "domain domain domain";
   if (volume.type.bytes > 1)
   {
-    header << "\nendian: " << (thisMachineStoresHighBytesFirst() ? "big" : "little");
+    header << "\nendian: " << (thisMachineIsBigEndian() ? "big" : "little");
   }
-  header << "\nencoding: raw\nspace origin: (" << list(grid.origin, ",") << ")\n\n";
+  header << "\nencoding: raw\nspace origin: (" << listText(grid.origin, ",") << ")\n\n";
   return header.str();
 }
 }

@@ -3,11 +3,11 @@
 
 #include "Common/HostMemory.h"
 #include "Formats/Files/ByteSink.h"
+#include "Formats/Files/Text.h"
 #include "Formats/Files/WholeFile.h"
 #include "Formats/Writers/WrittenHeader.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <vector>
 
@@ -16,14 +16,6 @@ namespace brainshift
 namespace
 {
 constexpr std::size_t PieceBytes = std::size_t(1) << 22; // between two reports of progress
-
-bool endsWith(const std::string& text, const std::string& end)
-{
-  return text.size() >= end.size() &&
-    std::equal(end.rbegin(), end.rend(), text.rbegin(), [](char wanted, char found) {
-      return wanted == std::tolower(static_cast<unsigned char>(found));
-    });
-}
 
 // What goes into a file, and how.
 struct Contents

@@ -8,7 +8,7 @@ room, of the rooms named in its row, and of every room that those stand on.
 STANDS_ON = {
     "Common": [],
     "Formats/Files": ["Common"],
-    "Formats/PackedFrames": [],
+    "Formats/PackedFrames": ["Common"],
     "Formats/Volumes": ["Formats/Files"],
     "Formats/Fields": ["Formats/Volumes"],
     "Formats/NIFTI": ["Formats/Fields"],
@@ -53,7 +53,7 @@ STANDS_ON = {
         "Representations/Picture", "Representations/Slices", "Representations/Traces"],
     "Representations/Workarounds": [],
     "Representations": ["Representations/Window", "Representations/Workarounds"],
-    "Tracking": [],
+    "Tracking": ["Common"],
     "Widgets": ["Filters"],
     "Interaction/Commands": ["Filters/Deformation"],
     "Interaction/Workarounds": ["Filters"],
