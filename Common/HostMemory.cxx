@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/HostMemory.h"
 
+#include "Common/Problem.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -68,7 +70,6 @@ std::string gigabytes(double bytes)
   text << (bytes < 1e12 ? bytes / 1e9 : std::round(bytes / 1e9)) << " GB";
   return text.str();
 }
-
 }
 
 std::string sizeText(const glm::dvec3& sides)
@@ -98,4 +99,8 @@ std::string hostMemoryProblem(const std::string& what, double bytes)
     : what + " needs " + gigabytes(bytes) + " of memory; " + gigabytes(left) + " are left";
 }
 
+void requireHostMemory(const std::string& what, double bytes)
+{
+  throwIfAny(hostMemoryProblem(what, bytes));
+}
 }

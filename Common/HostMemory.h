@@ -29,6 +29,9 @@ VTKBRAINSHIFTCOMMON_EXPORT double freeHostMemory();
  */
 VTKBRAINSHIFTCOMMON_EXPORT std::string hostMemoryProblem(const std::string& what, double bytes);
 
+/** Throws hostMemoryProblem, unless the memory is there. */
+VTKBRAINSHIFTCOMMON_EXPORT void requireHostMemory(const std::string& what, double bytes);
+
 /** Three numbers of a size, such as "91 x 91 x 91". */
 VTKBRAINSHIFTCOMMON_EXPORT std::string sizeText(const glm::dvec3& sides);
 }

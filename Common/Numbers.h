@@ -3,7 +3,7 @@
  * @file
  * @brief Numbers as text. They have a point, whatever the language of the user. No VTK.
  *
- * A plus sign may stand before a number. Infinities and NaN are numbers: who needs finite ones asks.
+ * A plus sign may come before a number. Infinities and NaN are numbers.
  */
 #ifndef BrainShift_Numbers_h
 #define BrainShift_Numbers_h

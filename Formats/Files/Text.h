@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Words of text files, whatever the language of the user: only ASCII has capitals and blanks.
+ * @brief Words of text files, whatever the language of the user.
  */
 #ifndef BrainShift_Text_h
 #define BrainShift_Text_h

@@ -2,15 +2,14 @@
 #include "Formats/GIFTI/GIFTIFile.h"
 
 #include "Common/Numbers.h"
+#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
-#include "Formats/GIFTI/GIFTINumbers.h"
 
 #include "vtk_expat.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -134,8 +133,10 @@ private:
 
   void readData(GIFTIArray& array)
   {
-    std::string problem =
-      array.bytes.empty() ? readGIFTINumbers(this->Text, array) : "has two elements Data";
+    const std::string problem = problemOf([&] {
+      throwIfAny(array.bytes.empty() ? "" : "has two elements Data");
+      readGIFTINumbers(this->Text, array);
+    });
     if (!problem.empty())
     {
       this->stop(problem + " in array " + std::to_string(this->File.arrays.size()));
@@ -228,24 +229,18 @@ bool beginsLikeGIFTI(const std::vector<char>& text)
 
 bool isGIFTIFile(const std::string& fileName)
 {
-  std::vector<char> text;
-  if (plainFileProblem(fileName).empty())
-  {
-    std::ifstream file(fileName, std::ios::binary);
-    text.resize(LongestBeginning);
-    file.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
-  }
-  return beginsLikeGIFTI(text);
+  const std::string begin = readBeginning(fileName, LongestBeginning);
+  return beginsLikeGIFTI({ begin.begin(), begin.end() });
 }
 
-std::string readGIFTIFile(const std::vector<char>& text, GIFTIFile& file)
+GIFTIFile readGIFTIFile(const std::vector<char>& text)
 {
+  GIFTIFile file;
   const std::unique_ptr<std::remove_pointer_t<XML_Parser>, FreeParser> parser(
     XML_ParserCreate(nullptr));
   if (!parser)
   {
-    return "needs more memory than this machine has left";
+    throw Problem("needs more memory than this machine has left");
   }
   Listener listener(parser.get(), file);
   XML_SetUserData(parser.get(), &listener);
@@ -258,20 +253,18 @@ std::string readGIFTIFile(const std::vector<char>& text, GIFTIFile& file)
     const bool isLast = place + step == text.size();
     const XML_Status status =
       XML_Parse(parser.get(), text.data() + place, static_cast<int>(step), isLast ? 1 : 0);
-    if (!listener.problem().empty())
-    {
-      return listener.problem();
-    }
+    throwIfAny(listener.problem());
     if (status != XML_STATUS_OK)
     {
-      return "is not good XML in line " + std::to_string(XML_GetCurrentLineNumber(parser.get())) +
-        ": " + XML_ErrorString(XML_GetErrorCode(parser.get()));
+      throw Problem("is not good XML in line " +
+        std::to_string(XML_GetCurrentLineNumber(parser.get())) + ": " +
+        XML_ErrorString(XML_GetErrorCode(parser.get())));
     }
     if (isLast)
     {
       break;
     }
   }
-  return {};
+  return file;
 }
 }

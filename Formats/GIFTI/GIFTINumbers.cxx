@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/GIFTI/GIFTINumbers.h"
-
 #include "Common/Bytes.h"
 #include "Common/HostMemory.h"
 #include "Common/Numbers.h"
+#include "Common/Problem.h"
 #include "Formats/Files/Text.h"
+#include "Formats/GIFTI/GIFTIFile.h"
 
 #include "vtk_zlib.h"
 
@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <optional>
 #include <string_view>
 
@@ -81,7 +82,7 @@ std::optional<std::vector<char>> fromBase64(const std::string& text)
 }
 
 template <typename T>
-std::string readASCII(const std::string& text, std::vector<char>& bytes)
+void readASCII(const std::string& text, std::vector<char>& bytes)
 {
   constexpr std::string_view Blanks = " \t\r\n";
   using Stored = std::conditional_t<std::is_floating_point_v<T>, double, T>;
@@ -99,8 +100,8 @@ std::string readASCII(const std::string& text, std::vector<char>& bytes)
     if (!found)
     {
       const std::string word(rest.substr(0, 40));
-      return "has \"" + shownWords(word.substr(0, word.find_first_of(Blanks))) +
-        "\" in place of a number";
+      throw Problem("has \"" + shownWords(word.substr(0, word.find_first_of(Blanks))) +
+        "\" in place of a number");
     }
     const auto number = static_cast<T>(*found);
     if (count < wanted)
@@ -109,57 +110,66 @@ std::string readASCII(const std::string& text, std::vector<char>& bytes)
     }
     ++count;
   }
-  return count == wanted ? std::string()
-                         : "has " + std::to_string(count) + " numbers; its dimensions announce " +
-      std::to_string(wanted);
+  if (count != wanted)
+  {
+    throw Problem("has " + std::to_string(count) + " numbers; its dimensions announce " +
+      std::to_string(wanted));
+  }
 }
 
-std::string readASCIIOf(NumberType type, const std::string& text, std::vector<char>& bytes)
+void readASCIIOf(NumberType type, const std::string& text, std::vector<char>& bytes)
 {
   switch (type)
   {
     case NumberType::UInt8:
-      return readASCII<unsigned char>(text, bytes);
+      readASCII<unsigned char>(text, bytes);
+      return;
     case NumberType::Int32:
-      return readASCII<std::int32_t>(text, bytes);
+      readASCII<std::int32_t>(text, bytes);
+      return;
     case NumberType::Float64:
-      return readASCII<double>(text, bytes);
+      readASCII<double>(text, bytes);
+      return;
     default:
-      return readASCII<float>(text, bytes);
+      readASCII<float>(text, bytes);
+      return;
   }
 }
 
-std::string fewerBytes(std::size_t found, std::size_t wanted)
+Problem fewerBytes(std::size_t found, std::size_t wanted)
 {
-  return "has " + std::to_string(found) + " bytes; its dimensions announce " +
-    std::to_string(wanted);
+  return Problem(
+    "has " + std::to_string(found) + " bytes; its dimensions announce " + std::to_string(wanted));
 }
 
 // Fills `bytes`, whose size is what the dimensions announce.
-std::string readBase64(const std::string& text, bool isPacked, std::vector<char>& bytes)
+void readBase64(const std::string& text, bool isPacked, std::vector<char>& bytes)
 {
   const std::optional<std::vector<char>> stored = fromBase64(text);
   if (!stored)
   {
-    return "has letters that are no base64";
+    throw Problem("has letters that are no base64");
   }
   if (!isPacked)
   {
     if (stored->size() != bytes.size())
     {
-      return fewerBytes(stored->size(), bytes.size());
+      throw fewerBytes(stored->size(), bytes.size());
     }
     std::copy(stored->begin(), stored->end(), bytes.begin());
-    return {};
+    return;
   }
   uLongf size = static_cast<uLongf>(bytes.size());
   const int status = uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size,
     reinterpret_cast<const Bytef*>(stored->data()), static_cast<uLong>(stored->size()));
   if (status == Z_OK && size != bytes.size())
   {
-    return fewerBytes(size, bytes.size());
+    throw fewerBytes(size, bytes.size());
   }
-  return status == Z_OK ? "" : "has packed numbers that are damaged, too few or too many";
+  if (status != Z_OK)
+  {
+    throw Problem("has packed numbers that are damaged, too few or too many");
+  }
 }
 
 // Columns of the file become rows, as they are in memory.
@@ -177,13 +187,13 @@ void transpose(GIFTIArray& array)
   }
 }
 
-std::string readDimensions(GIFTIArray& array)
+void readDimensions(GIFTIArray& array)
 {
   const std::string said = array.attribute("Dimensionality");
   const std::vector<double> dimensions = numbersIn(said);
   if (dimensions.size() != 1 || !isWhole(dimensions[0], 1, MostDimensions))
   {
-    return "has the Dimensionality \"" + shownWords(said) + "\"; it must be 1 to 6";
+    throw Problem("has the Dimensionality \"" + shownWords(said) + "\"; it must be 1 to 6");
   }
   double columns = 1.0;
   for (int i = 0; i < static_cast<int>(dimensions[0]); ++i)
@@ -192,18 +202,21 @@ std::string readDimensions(GIFTIArray& array)
     const std::vector<double> side = numbersIn(array.attribute(name));
     if (side.size() != 1 || !isWhole(side[0], 1, MostRows))
     {
-      return "has the " + name + " \"" + shownWords(array.attribute(name)) +
-        "\"; it must be 1 to 2147483647";
+      throw Problem("has the " + name + " \"" + shownWords(array.attribute(name)) +
+        "\"; it must be 1 to 2147483647");
     }
     columns *= i == 0 ? 1.0 : side[0];
     array.rows = i == 0 ? static_cast<std::size_t>(side[0]) : array.rows;
   }
   array.columns = static_cast<std::size_t>(std::min(columns, MostRows));
-  return columns <= MostRows ? "" : "has more than 2147483647 numbers in a row";
+  if (!(columns <= MostRows))
+  {
+    throw Problem("has more than 2147483647 numbers in a row");
+  }
 }
 
-// Why the numbers cannot be in the text, or in memory.
-std::string sizeProblem(const GIFTIArray& array, const std::string& encoding, std::size_t letters)
+// Throws if the numbers cannot be in the text, or in memory.
+void requireSize(const GIFTIArray& array, const std::string& encoding, std::size_t letters)
 {
   const double numbers = static_cast<double>(array.rows) * static_cast<double>(array.columns);
   const double bytes = numbers * static_cast<double>(bytesOf(array.type));
@@ -213,20 +226,21 @@ std::string sizeProblem(const GIFTIArray& array, const std::string& encoding, st
                                           : length * LargestDeflateRatio;
   if (bytes > most)
   {
-    return "has " + std::to_string(letters) + " letters of numbers; its dimensions announce " +
-      std::to_string(static_cast<std::uint64_t>(numbers)) + " numbers";
+    throw Problem("has " + std::to_string(letters) +
+      " letters of numbers; its dimensions announce " +
+      std::to_string(static_cast<std::uint64_t>(numbers)) + " numbers");
   }
-  return hostMemoryProblem("it", bytes);
+  requireHostMemory("it", bytes);
 }
 }
 
-std::string readGIFTINumbers(const std::string& text, GIFTIArray& array)
+void readGIFTINumbers(const std::string& text, GIFTIArray& array)
 {
   const auto type = Types.find(array.attribute("DataType"));
   if (type == Types.end())
   {
-    return "has the DataType \"" + shownWords(array.attribute("DataType")) +
-      "\"; BrainShift reads NIFTI_TYPE_UINT8, INT32, FLOAT32 and FLOAT64";
+    throw Problem("has the DataType \"" + shownWords(array.attribute("DataType")) +
+      "\"; BrainShift reads NIFTI_TYPE_UINT8, INT32, FLOAT32 and FLOAT64");
   }
   array.type = type->second;
   const std::string encoding = array.attribute("Encoding");
@@ -234,27 +248,28 @@ std::string readGIFTINumbers(const std::string& text, GIFTIArray& array)
   const bool isPacked = encoding == "GZipBase64Binary";
   if (!isASCII && !isPacked && encoding != "Base64Binary")
   {
-    return "has the Encoding \"" + shownWords(encoding) +
-      "\"; BrainShift reads ASCII, Base64Binary and GZipBase64Binary";
+    throw Problem("has the Encoding \"" + shownWords(encoding) +
+      "\"; BrainShift reads ASCII, Base64Binary and GZipBase64Binary");
   }
   const std::string endian = array.attribute("Endian");
   if (!isASCII && endian != "BigEndian" && endian != "LittleEndian")
   {
-    return "has the Endian \"" + shownWords(endian) + "\"; it must be BigEndian or LittleEndian";
+    throw Problem(
+      "has the Endian \"" + shownWords(endian) + "\"; it must be BigEndian or LittleEndian");
   }
-  std::string problem = readDimensions(array);
-  problem = problem.empty() ? sizeProblem(array, encoding, text.size()) : problem;
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  readDimensions(array);
+  requireSize(array, encoding, text.size());
+
   array.bytes.resize(array.rows * array.columns * bytesOf(array.type));
-  problem =
-    isASCII ? readASCIIOf(array.type, text, array.bytes) : readBase64(text, isPacked, array.bytes);
-  if (!problem.empty())
+  if (isASCII)
   {
-    return problem;
+    readASCIIOf(array.type, text, array.bytes);
   }
+  else
+  {
+    readBase64(text, isPacked, array.bytes);
+  }
+
   if (!isASCII)
   {
     toMachineOrder(
@@ -265,8 +280,10 @@ std::string readGIFTINumbers(const std::string& text, GIFTIArray& array)
   {
     transpose(array);
   }
-  return order == "ColumnMajorOrder" || order == "RowMajorOrder" ? ""
-                                                                 : "has the ArrayIndexingOrder \"" +
-      shownWords(order) + "\"; it must be RowMajorOrder or ColumnMajorOrder";
+  if (!(order == "ColumnMajorOrder" || order == "RowMajorOrder"))
+  {
+    throw Problem("has the ArrayIndexingOrder \"" + shownWords(order) +
+      "\"; it must be RowMajorOrder or ColumnMajorOrder");
+  }
 }
 }

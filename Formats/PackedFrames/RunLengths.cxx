@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/PackedFrames/RunLengths.h"
-
+/**
+ * @file
+ * @brief Unpacks frames in RLE, DICOM's run-length encoding (part 5, annex G).
+ */
 #include "Common/Bytes.h"
+#include "Formats/PackedFrames/PackedFrame.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -54,9 +57,8 @@ UnpackedFrame unpackRunLengths(const std::string& packed, const FrameShape& shap
   const std::size_t bytesOfNumber = shape.bytesOfNumber();
   if (packed.size() < HeaderBytes || headerNumber(packed, 0) != bytesOfNumber)
   {
-    return { {},
-      "an RLE frame is damaged: its header does not announce " + std::to_string(bytesOfNumber) +
-        " segments, one for each byte of a number" };
+    throw Problem("an RLE frame is damaged: its header does not announce " +
+      std::to_string(bytesOfNumber) + " segments, one for each byte of a number");
   }
   std::string plain(shape.count() * bytesOfNumber, '\0');
   for (std::size_t segment = 0; segment < bytesOfNumber; ++segment)
@@ -66,9 +68,9 @@ UnpackedFrame unpackRunLengths(const std::string& packed, const FrameShape& shap
     if (offset < HeaderBytes ||
       !unpackSegment(packed, offset, plain, bytesOfNumber - 1 - segment, bytesOfNumber))
     {
-      return { {}, "an RLE frame is damaged: its data ends before the last pixel" };
+      throw Problem("an RLE frame is damaged: its data ends before the last pixel");
     }
   }
-  return { plain, {} };
+  return { plain };
 }
 }

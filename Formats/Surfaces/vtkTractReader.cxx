@@ -2,6 +2,7 @@
 #include "vtkTractReader.h"
 
 #include "Common/Guard.h"
+#include "Common/Problem.h"
 #include "Formats/Surfaces/SurfaceData.h"
 #include "Formats/Surfaces/SurfaceFile.h"
 
@@ -40,8 +41,7 @@ int vtkTractReader::RequestData(
   }
   if (this->FileName.empty())
   {
-    vtkErrorMacro("FileName is empty; it must name a file of streamlines.");
-    return 0;
+    throw Problem("FileName is empty; it must name a file of streamlines");
   }
   bool isStopped = false;
   const auto progress = [&](double share) {
@@ -51,13 +51,7 @@ int vtkTractReader::RequestData(
   };
   Tracts tracts;
   std::vector<std::string> warnings;
-  const std::string problem =
-    readTractFile(this->FileName, this->Volume, progress, tracts, warnings);
-  if (!problem.empty())
-  {
-    vtkErrorMacro(<< problem << ".");
-    return 0;
-  }
+  readTractFile(this->FileName, this->Volume, progress, tracts, warnings);
   for (const std::string& warning : warnings)
   {
     vtkWarningMacro(<< warning << ".");

@@ -1,19 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/NIFTI/NIFTIFileCheck.h"
+#include "Formats/NIFTI/NIFTIHeader.h"
 
 #include "Common/Bytes.h"
+#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
+#include "Formats/Files/Text.h"
 
 #include "vtk_zlib.h"
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <iomanip>
 #include <limits>
 #include <map>
-#include <sstream>
 
+namespace brainshift
+{
 namespace
 {
 constexpr int NIFTI1Bytes = 348;
@@ -38,7 +48,7 @@ struct RawHeader
   template <typename T>
   T number(int offset) const
   {
-    return brainshift::storedNumber<T>(this->bytes.data() + offset, this->isBigEndian);
+    return storedNumber<T>(this->bytes.data() + offset, this->isBigEndian);
   }
 
   bool hasMagic(int offset, unsigned char digit) const
@@ -94,7 +104,7 @@ RawHeader readHeader(const std::string& fileName)
 {
   RawHeader header;
   const std::string headerName = siblingOf(fileName, ".img", ".hdr");
-  if (!brainshift::plainFileProblem(headerName).empty())
+  if (!isPlainFile(headerName))
   {
     return header; // a pipe would never open
   }
@@ -119,41 +129,40 @@ RawHeader readHeader(const std::string& fileName)
   return header;
 }
 
-std::string headerProblem(const RawHeader& header)
+void requireHeader(const RawHeader& header)
 {
-  std::ostringstream problem;
   if (header.count < NIFTI1Bytes)
   {
-    problem << "has " << header.count << " readable bytes; a NIfTI header has " << NIFTI1Bytes;
+    throw Problem(
+      joined("has ", header.count, " readable bytes; a NIfTI header has ", NIFTI1Bytes));
   }
-  else if (header.version == 0)
+  if (header.version == 0)
   {
-    problem << "is not NIfTI: its magic is neither n+1, ni1, n+2 nor ni2";
+    throw Problem("is not NIfTI: its magic is neither n+1, ni1, n+2 nor ni2");
   }
-  else if (VoxelBytes.count(header.dataType()) == 0)
+  if (VoxelBytes.count(header.dataType()) == 0)
   {
-    problem << "has NIfTI data type " << header.dataType() << "; BrainShift reads the types";
+    std::string types;
     for (const auto& known : VoxelBytes)
     {
-      problem << " " << known.first;
+      types += " " + std::to_string(known.first);
     }
+    throw Problem(
+      joined("has NIfTI data type ", header.dataType(), "; BrainShift reads the types", types));
   }
-  else if (header.isSingleFile() && !(header.voxelOffset() >= NIFTI1Bytes))
+  if (header.isSingleFile() && !(header.voxelOffset() >= NIFTI1Bytes))
   {
-    problem << "has its voxels at byte " << header.voxelOffset() << "; the first possible byte is "
-            << NIFTI1Bytes;
+    throw Problem(joined("has its voxels at byte ", header.voxelOffset(),
+      "; the first possible byte is ", NIFTI1Bytes));
   }
-  return problem.str();
 }
 
-std::string dimensionsProblem(const RawHeader& header)
+void requireDimensions(const RawHeader& header)
 {
-  std::ostringstream problem;
   const std::int64_t rank = header.dimension(0);
   if (rank < 1 || rank > 7)
   {
-    problem << "has " << rank << " dimensions; it must have from 1 to 7";
-    return problem.str();
+    throw Problem(joined("has ", rank, " dimensions; it must have from 1 to 7"));
   }
   bool oneVoxel = true;
   for (int axis = 1; axis <= rank; ++axis)
@@ -165,19 +174,17 @@ std::string dimensionsProblem(const RawHeader& header)
     oneVoxel = oneVoxel && (size == 1 || axis > 3);
     if (size < 1 || size > limit)
     {
-      problem << "has " << size << " entries in dimension " << axis << "; it must have from 1 to "
-              << limit;
-      return problem.str();
+      throw Problem(
+        joined("has ", size, " entries in dimension ", axis, "; it must have from 1 to ", limit));
     }
   }
   if (oneVoxel)
   {
-    problem << "has 1 voxel; it must have at least 2";
+    throw Problem("has 1 voxel; it must have at least 2");
   }
-  return problem.str();
 }
 
-std::string sizeProblem(const RawHeader& header, const std::string& fileName)
+void requireSize(const RawHeader& header, const std::string& fileName)
 {
   double wanted = VoxelBytes.at(header.dataType());
   for (int axis = 1; axis <= header.dimension(0); ++axis)
@@ -187,57 +194,118 @@ std::string sizeProblem(const RawHeader& header, const std::string& fileName)
   wanted += header.voxelOffset();
   const std::string dataName =
     header.isSingleFile() ? fileName : siblingOf(fileName, ".hdr", ".img");
+  withBeginning("has no voxels: " + dataName + " ", [&] { requirePlainFile(dataName); });
   std::error_code error;
   const auto stored = std::filesystem::file_size(dataName, error);
-  const std::string notPlain = brainshift::plainFileProblem(dataName);
-  const bool packed = notPlain.empty() && isPacked(dataName);
-  std::ostringstream problem;
-  problem.precision(15);
-  if (!notPlain.empty())
+  if (error)
   {
-    problem << "has no voxels: " << dataName << " " << notPlain;
+    throw Problem("has no voxels: the size of " + dataName + " is not known");
   }
-  else if (error)
+  const bool packed = isPacked(dataName);
+  if (static_cast<double>(stored) * (packed ? LargestDeflateRatio : 1.0) < wanted)
   {
-    problem << "has no voxels: the size of " << dataName << " is not known";
+    throw Problem(joined("is truncated: ", dataName, " has ", stored, packed ? " packed" : "",
+      " bytes where the header announces ", std::setprecision(15), wanted));
   }
-  else if (static_cast<double>(stored) * (packed ? LargestDeflateRatio : 1.0) < wanted)
+}
+
+constexpr double HalfTurnTolerance = 1e-7; // of 1 - |quaternion|^2: float32 rounding of the header
+
+glm::dmat3 rotationFromQuaternion(const glm::dvec3& stored)
+{
+  const double b = stored.x;
+  const double c = stored.y;
+  const double d = stored.z;
+  const double rest = 1.0 - (b * b + c * c + d * d);
+  if (rest < HalfTurnTolerance) // half a turn: the real part is rounding, so leave it out
   {
-    problem << "is truncated: " << dataName << " has " << stored << (packed ? " packed" : "")
-            << " bytes where the header announces " << wanted;
+    const glm::dvec3 n = glm::normalize(stored);
+    return 2.0 * glm::outerProduct(n, n) - glm::dmat3(1.0);
   }
-  return problem.str();
+  const double a = std::sqrt(rest);
+  return glm::dmat3(a * a + b * b - c * c - d * d, 2.0 * (b * c + a * d), 2.0 * (b * d - a * c),
+    2.0 * (b * c - a * d), a * a + c * c - b * b - d * d, 2.0 * (c * d + a * b),
+    2.0 * (b * d + a * c), 2.0 * (c * d - a * b), a * a + d * d - b * b - c * c);
+}
+
+glm::dmat4 affine(const glm::dmat3& axes, const glm::dvec3& offset)
+{
+  return glm::dmat4(glm::dvec4(axes[0], 0.0), glm::dvec4(axes[1], 0.0), glm::dvec4(axes[2], 0.0),
+    glm::dvec4(offset, 1.0));
 }
 }
 
-namespace brainshift
-{
 bool isNIFTIFile(const std::string& fileName)
 {
   return readHeader(fileName).version > 0;
 }
 
-std::string niftiFileProblem(const std::string& fileName)
+void requireNIFTIFile(const std::string& fileName)
 {
-  const std::string notPlain = plainFileProblem(fileName);
-  if (!notPlain.empty())
-  {
-    return notPlain;
-  }
+  requirePlainFile(fileName);
   const RawHeader header = readHeader(fileName);
   if (!header.opened)
   {
-    return "cannot be opened";
+    throw Problem("cannot be opened");
   }
-  std::string problem = headerProblem(header);
-  if (problem.empty())
+  requireHeader(header);
+  requireDimensions(header);
+  requireSize(header, fileName);
+}
+
+double mmPerNIFTIUnit(int xyztUnits)
+{
+  switch (xyztUnits & 0x07)
   {
-    problem = dimensionsProblem(header);
+    case 1: // metre
+      return 1000.0;
+    case 3: // micrometre
+      return 0.001;
+    default:
+      return 1.0;
   }
-  if (problem.empty())
+}
+
+double secondsPerNIFTIUnit(int xyztUnits)
+{
+  switch (xyztUnits & 0x38)
   {
-    problem = sizeProblem(header, fileName);
+    case 16: // millisecond
+      return 1e-3;
+    case 24: // microsecond
+      return 1e-6;
+    default:
+      return 1.0;
   }
-  return problem;
+}
+
+glm::dmat4 worldFromVoxel(const NIFTIPlacement& placement)
+{
+  if (placement.sformCode > 0)
+  {
+    glm::dmat4 world(1.0);
+    for (int row = 0; row < 3; ++row)
+    {
+      for (int column = 0; column < 4; ++column)
+      {
+        world[column][row] = placement.mmPerUnit * placement.sformRows[row][column];
+      }
+    }
+    return world;
+  }
+  glm::dvec3 size = glm::abs(placement.pixelSize);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    size[axis] = placement.mmPerUnit * (size[axis] == 0.0 ? 1.0 : size[axis]); // as the standard
+  }
+  glm::dmat3 axes(1.0);
+  glm::dvec3 offset(0.0);
+  if (placement.qformCode > 0)
+  {
+    axes = rotationFromQuaternion(placement.quaternion);
+    axes[2] *= placement.qfac < 0.0 ? -1.0 : 1.0;
+    offset = placement.mmPerUnit * placement.qformOffset;
+  }
+  return affine(glm::dmat3(size.x * axes[0], size.y * axes[1], size.z * axes[2]), offset);
 }
 }

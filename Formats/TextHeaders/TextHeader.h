@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief What the header of a MetaImage or NRRD file says about its numbers: how many there are,
- *        where they are stored, and where they lie.
+ * @brief Headers of MetaImage ("key = value") and NRRD ("field: value") files, and the numbers that
+ *        belong to them: how many there are, where they are stored and where they are in space.
  */
 #ifndef BrainShift_TextHeader_h
 #define BrainShift_TextHeader_h
 
-#include "Formats/Files/HeaderText.h"
+#include "Formats/Files/PackedBytes.h"
 
 #include "vtkType.h"
 
@@ -15,12 +15,33 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace brainshift
 {
+/** The lines of a header. */
+struct HeaderText
+{
+  bool isNRRD = false;                       ///< the file begins with "NRRD"
+  std::map<std::string, std::string> fields; ///< what the format defines
+  std::map<std::string, std::string> keys;   ///< NRRD's "key:=value", which anybody may add
+  std::vector<std::string> listed;           ///< the lines after a list of files is announced
+  std::string comments;                      ///< NRRD's lines that begin with #
+  std::size_t bytes = 0;                     ///< of the header
+
+  /** Value of the first of some fields that the header has; empty if it has none. */
+  std::string valueOf(const std::vector<std::string>& names) const;
+
+  /** Value of one of NRRD's keys; empty without it. */
+  std::string keyed(const std::string& name) const;
+};
+
+/** Reads the lines of a file, or throws the end of a sentence. */
+void readHeaderText(const std::string& fileName, HeaderText& text);
+
 /** How numbers are stored. */
 enum class Encoding
 {
@@ -85,10 +106,40 @@ struct TextHeader
 /**
  * Files with numbers, from the words that name them: "LOCAL", one name, a pattern such as
  * "slice%03d.raw 1 90 1", or "LIST", after which lines name them. A name is relative to the folder
- * of the header. Returns the end of a sentence on what is wrong, or nothing.
+ * of the header. Throws the end of a sentence.
  */
-std::string nameDataFiles(
-  const std::string& fileName, const std::string& words, TextHeader& header);
+void nameDataFiles(const std::string& fileName, const std::string& words, TextHeader& header);
+
+///@{
+/**
+ * Fills a header from its text, or throws the end of a sentence. Names such as `ElementType` and
+ * `space directions` are those of the formats (teem.sourceforge.net/nrrd/format.html). The world of
+ * MetaImage is LPS, as in ITK. NRRD's measurement frame is ignored: numbers are taken as they are.
+ */
+void fromMetaImage(const std::string& fileName, TextHeader& header);
+void fromNRRD(const std::string& fileName, TextHeader& header);
+///@}
+
+/**
+ * Reads the header of a file, or throws the end of a sentence; what was read until then is in
+ * `header`. The numbers may not be there.
+ */
+void readTextHeader(const std::string& fileName, TextHeader& header);
+
+/**
+ * Throws the end of a sentence if the files of a header cannot hold its numbers, by their sizes. It
+ * takes no memory.
+ */
+void requireNumbers(const TextHeader& header);
+
+/**
+ * Fills `to` with all numbers, in the byte order of this machine: header.dataBytes() bytes. Throws
+ * the end of a sentence. It returns early if `shareDone` says stop.
+ */
+void readNumbers(const TextHeader& header, char* to, const ShareDone& shareDone);
+
+/** Whether a file has the header of a displacement field. */
+bool isTextHeaderField(const std::string& fileName);
 }
 
 #endif

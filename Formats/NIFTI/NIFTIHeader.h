@@ -1,24 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Where the voxels of a NIfTI file lie: from the numbers of the header to an affine.
+ * @brief Headers of NIfTI files: what vtkNIFTIImageReader assumes of them, and where they place
+ *        voxels.
+ *
+ * VTK 9.3 reads past the end of a table if the data type is unknown, and allocates any size that a
+ * damaged header names.
  *
  * World is RAS: x to the patient's right, y to the front, z to the head, in mm. Names such as
  * `srow_x` are those of the NIfTI-1 standard (nifti1.h).
  */
-#ifndef BrainShift_NIFTIGeometry_h
-#define BrainShift_NIFTIGeometry_h
-
-#include "vtkBrainShiftFormatsModule.h" // for the export macro
+#ifndef BrainShift_NIFTIHeader_h
+#define BrainShift_NIFTIHeader_h
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include <array>
+#include <string>
 
 namespace brainshift
 {
+/**
+ * Whether the file exists and begins like a NIfTI-1 or NIfTI-2 header. Analyze 7.5 does not count,
+ * because it does not say which side is left.
+ */
+bool isNIFTIFile(const std::string& fileName);
+
+/**
+ * Throws the end of a sentence, after the name of the file, if its header cannot be read. A
+ * compressed file can still be truncated.
+ */
+void requireNIFTIFile(const std::string& fileName);
+
 /** The numbers of the header that place voxels, as they are stored. */
 struct NIFTIPlacement
 {
@@ -33,17 +48,17 @@ struct NIFTIPlacement
 };
 
 /** Millimetres in the unit of length of a header's xyzt_units. An unknown unit counts as mm. */
-VTKBRAINSHIFTFORMATS_EXPORT double mmPerNIFTIUnit(int xyztUnits);
+double mmPerNIFTIUnit(int xyztUnits);
 
 /** Seconds in the unit of time of a header's xyzt_units. An unknown unit counts as s. */
-VTKBRAINSHIFTFORMATS_EXPORT double secondsPerNIFTIUnit(int xyztUnits);
+double secondsPerNIFTIUnit(int xyztUnits);
 
 /**
  * World position (mm, RAS) from a voxel's index in the file: the sform if there is one, else the
  * qform, else pixel sizes along the RAS axes with voxel (0, 0, 0) at the origin. These are methods
  * 3, 2 and 1 of the standard.
  */
-VTKBRAINSHIFTFORMATS_EXPORT glm::dmat4 worldFromVoxel(const NIFTIPlacement& placement);
+glm::dmat4 worldFromVoxel(const NIFTIPlacement& placement);
 }
 
 #endif
