@@ -17,7 +17,7 @@ namespace brainshift
 {
 namespace
 {
-// Images nearer than this share of a pixel lie at one place.
+// Images nearer than this fraction of a pixel are at one position.
 constexpr double SamePlacePixels = 0.01;
 // What images of one volume have in common: the first so many numbers of a moment.
 constexpr std::size_t SharedNumbers = 4;
@@ -246,9 +246,9 @@ double largestShift(const std::vector<glm::dvec3>& positions)
   double largest = 0.0;
   for (std::size_t i = 0; i < positions.size(); ++i)
   {
-    const double share = static_cast<double>(i) / static_cast<double>(positions.size() - 1);
-    largest = std::max(
-      largest, glm::distance(positions[i], glm::mix(positions.front(), positions.back(), share)));
+    const double fraction = static_cast<double>(i) / static_cast<double>(positions.size() - 1);
+    largest = std::max(largest,
+      glm::distance(positions[i], glm::mix(positions.front(), positions.back(), fraction)));
   }
   return largest;
 }

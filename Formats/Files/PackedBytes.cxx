@@ -80,7 +80,7 @@ private:
 };
 
 void unpackAll(std::ifstream& file, const StoredBytes& from, char* to, std::size_t count,
-  const ShareDone& shareDone)
+  const FractionDone& fractionDone)
 {
   const std::string damaged = "has packed numbers that are damaged or too few";
   Unpacker unpacker(file);
@@ -102,7 +102,7 @@ void unpackAll(std::ifstream& file, const StoredBytes& from, char* to, std::size
       throw Problem(damaged);
     }
     done += wanted;
-    if (!shareDone(static_cast<double>(done) / static_cast<double>(count)))
+    if (!fractionDone(static_cast<double>(done) / static_cast<double>(count)))
     {
       return;
     }
@@ -115,7 +115,7 @@ void unpackAll(std::ifstream& file, const StoredBytes& from, char* to, std::size
   }
 }
 
-void readAll(std::ifstream& file, char* to, std::size_t count, const ShareDone& shareDone)
+void readAll(std::ifstream& file, char* to, std::size_t count, const FractionDone& fractionDone)
 {
   for (std::size_t done = 0; done < count;)
   {
@@ -126,7 +126,7 @@ void readAll(std::ifstream& file, char* to, std::size_t count, const ShareDone& 
         " readable bytes of numbers");
     }
     done += wanted;
-    if (!shareDone(static_cast<double>(done) / static_cast<double>(count)))
+    if (!fractionDone(static_cast<double>(done) / static_cast<double>(count)))
     {
       return;
     }
@@ -163,7 +163,8 @@ void requireBytes(const StoredBytes& from, double count)
   throw Problem(problem.str());
 }
 
-void readBytes(const StoredBytes& from, char* to, std::size_t count, const ShareDone& shareDone)
+void readBytes(
+  const StoredBytes& from, char* to, std::size_t count, const FractionDone& fractionDone)
 {
   std::ifstream file(from.fileName, std::ios::binary);
   if (!file)
@@ -173,11 +174,11 @@ void readBytes(const StoredBytes& from, char* to, std::size_t count, const Share
   file.seekg(static_cast<std::streamoff>(from.offset));
   if (from.isPacked)
   {
-    unpackAll(file, from, to, count, shareDone);
+    unpackAll(file, from, to, count, fractionDone);
   }
   else
   {
-    readAll(file, to, count, shareDone);
+    readAll(file, to, count, fractionDone);
   }
 }
 }

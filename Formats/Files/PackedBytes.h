@@ -23,7 +23,7 @@ struct StoredBytes
 };
 
 /** Receives the fraction that is done, 0 to 1. Returns false if the work is to stop. */
-using ShareDone = std::function<bool(double fraction)>;
+using FractionDone = std::function<bool(double fraction)>;
 
 /** Whether a file begins like one that is packed with gzip. */
 bool beginsLikeGzip(const std::string& fileName);
@@ -34,8 +34,9 @@ bool beginsLikeGzip(const std::string& fileName);
  */
 void requireBytes(const StoredBytes& from, double count);
 
-/** Fills `to`, or throws the end of a sentence. It returns early if `shareDone` says stop. */
-void readBytes(const StoredBytes& from, char* to, std::size_t count, const ShareDone& shareDone);
+/** Fills `to`, or throws the end of a sentence. It returns early if `fractionDone` says stop. */
+void readBytes(
+  const StoredBytes& from, char* to, std::size_t count, const FractionDone& fractionDone);
 }
 
 #endif

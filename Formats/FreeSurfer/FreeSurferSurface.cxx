@@ -205,7 +205,6 @@ void readMesh(Bytes& bytes, Surface& surface)
     throw Problem("announces " + what + "; it must have 1 point or more");
   }
   requireSize(bytes, 3.0 * points + 3.0 * triangles, what);
-
   surface.points.resize(static_cast<std::size_t>(points));
   for (glm::dvec3& point : surface.points)
   {
@@ -331,7 +330,6 @@ void readFreeSurferValues(const std::vector<char>& bytes, NamedNumbers& numbers)
   }
   const double count = static_cast<double>(points) * components;
   requireSize(rest, count, what);
-
   numbers.type = NumberType::Float32;
   numbers.components = static_cast<std::size_t>(components);
   const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(rest.place());

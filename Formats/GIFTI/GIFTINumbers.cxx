@@ -259,7 +259,6 @@ void readGIFTINumbers(const std::string& text, GIFTIArray& array)
   }
   readDimensions(array);
   requireSize(array, encoding, text.size());
-
   array.bytes.resize(array.rows * array.columns * bytesOf(array.type));
   if (isASCII)
   {

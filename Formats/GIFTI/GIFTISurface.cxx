@@ -121,7 +121,7 @@ void noteUnknown(const GIFTIArray& points, Surface& surface)
   surface.notes.push_back(note);
 }
 
-// The rule of the header. Returns the end of a sentence.
+// The rule of the opening comment.
 void findPlace(const GIFTIArray& points, Surface& surface)
 {
   const std::string from = points.transforms.empty() ? Unknown : points.transforms[0].from;
@@ -307,7 +307,6 @@ void readGIFTISurface(const std::vector<char>& text, const GivenVolume&, Surface
   requireShape(*points, "points", false);
   requireShape(*triangles, "triangles", true);
   findPlace(*points, surface);
-
   takePoints(*points, surface);
   takeTriangles(*triangles, surface);
   takeNumbers(file, surface);

@@ -36,8 +36,9 @@ struct Value
   bool isNull = false;
 };
 
-// Hears what the parser finds, and keeps only what makes points: a large file needs no more memory
-// than they do. The public names are those that the parser calls; each returns whether to go on.
+// Receives what the parser finds, and keeps only what makes points: a large file needs no more
+// memory than they do. The public names are those that the parser calls. Each returns true, to go
+// on, or throws.
 class MarkupsHandler
 {
 public:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Tables of points (.csv, .tsv) whose first line names the columns.
+ * @brief Tables of points (.csv, .tsv) whose first line names the columns, and Slicer's fiducials.
  *
  * | column                     | names, in capitals or not               |
  * |----------------------------|-----------------------------------------|
@@ -14,12 +14,10 @@
  * Separators are commas, semicolons or tabs. Lines before the names that begin with # are passed
  * over. Slicer's tables of markups are such tables.
  *
- * And Slicer's fiducials (.fcsv): comment lines that name version, axes and columns, then a line
- *        for each point.
- *
- * A file without the line "# columns" has those of version 4. A file without the line
- * "# CoordinateSystem" is RAS, as files were before that line. Points that Slicer 5 marks as not
- * placed are left out and noted.
+ * Slicer's fiducials (.fcsv) are tables, too: comment lines name version, axes and columns, then a
+ * line for each point follows. A file without the line "# columns" has those of version 4. A file
+ * without the line "# CoordinateSystem" is RAS, as files were before that line. Points that Slicer 5
+ * marks as not placed are left out and noted.
  */
 #include "Common/Numbers.h"
 #include "Common/Problem.h"

@@ -139,7 +139,6 @@ void MGHVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   MGHHeader stored;
   readBegin(fileName, stored);
   requireHeader(stored);
-
   const bool isPacked = beginsLikeGzip(fileName);
   this->From = { fileName, isPacked ? 0 : HeaderBytes, isPacked, isPacked ? HeaderBytes : 0 };
   this->Dimensions = glm::ivec3(stored.side(0), stored.side(1), stored.side(2));
@@ -149,7 +148,6 @@ void MGHVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   header.storedType = this->Type;
   const double bytes = this->Frames * VolumeFile::storedBytes(header);
   requireBytes(this->From, bytes);
-
   header.worldFromVoxel = worldFromVoxel(stored);
   header.knowsSides = stored.goodRASFlag();
   if (!header.knowsSides)

@@ -281,7 +281,6 @@ void MINCVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   this->FileName = fileName;
   this->Axes.clear();
   requirePlainFile(fileName);
-
   if (beginsLikeNetCDF(fileName))
   {
     throw Problem("is a MINC1 file; BrainShift reads MINC2, which mincconvert -2 makes of it");

@@ -142,7 +142,7 @@ void endStreamline(Tracts& tracts, std::size_t& empty)
 // Takes triples up to those that end the file. False if it was told to stop.
 template <typename T>
 bool takeTriples(
-  const Triples<T>& triples, const ShareDone& shareDone, Tracts& tracts, std::size_t& empty)
+  const Triples<T>& triples, const FractionDone& fractionDone, Tracts& tracts, std::size_t& empty)
 {
   constexpr std::size_t Block = 1 << 18; // triples between two reports of progress
   const auto limit = static_cast<T>(FarthestPoint);
@@ -168,7 +168,8 @@ bool takeTriples(
       requirePoint(glm::dvec3(triple[0], triple[1], triple[2]),
         "point " + std::to_string(tracts.points.size()));
     }
-    if (i % Block == 0 && !shareDone(static_cast<double>(i) / static_cast<double>(triples.count())))
+    if (i % Block == 0 &&
+      !fractionDone(static_cast<double>(i) / static_cast<double>(triples.count())))
     {
       tracts = Tracts();
       return false;
@@ -178,13 +179,13 @@ bool takeTriples(
 }
 
 template <typename T>
-void readTriples(
-  std::vector<char>& bytes, const TrackText& header, const ShareDone& shareDone, Tracts& tracts)
+void readTriples(std::vector<char>& bytes, const TrackText& header,
+  const FractionDone& fractionDone, Tracts& tracts)
 {
   toMachineOrder(bytes.data() + header.offset, (bytes.size() - header.offset) / sizeof(T),
     sizeof(T), header.isBigEndian);
   std::size_t empty = 0;
-  if (!takeTriples<T>(Triples<T>(bytes, header.offset), shareDone, tracts, empty))
+  if (!takeTriples<T>(Triples<T>(bytes, header.offset), fractionDone, tracts, empty))
   {
     return;
   }
@@ -211,16 +212,16 @@ bool isMRtrixFile(const std::string& fileName)
 }
 
 void readMRtrix(
-  std::vector<char>& bytes, const std::string&, const ShareDone& shareDone, Tracts& tracts)
+  std::vector<char>& bytes, const std::string&, const FractionDone& fractionDone, Tracts& tracts)
 {
   const TrackText header = readHeader(bytes);
   if (header.size == 8)
   {
-    readTriples<double>(bytes, header, shareDone, tracts);
+    readTriples<double>(bytes, header, fractionDone, tracts);
   }
   else
   {
-    readTriples<float>(bytes, header, shareDone, tracts);
+    readTriples<float>(bytes, header, fractionDone, tracts);
   }
 }
 }

@@ -228,7 +228,6 @@ NIFTIVolume::NIFTIVolume()
 void NIFTIVolume::readHeader(const std::string& fileName, VolumeHeader& header)
 {
   requireNIFTIFile(fileName);
-
   this->Error.clear();
   this->Voxels->SetFileName(fileName.c_str());
   this->Voxels->Modified(); // the file may have changed under its name

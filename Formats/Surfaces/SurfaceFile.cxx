@@ -90,7 +90,7 @@ const Format* formatOf(const std::string& fileName, const std::vector<const Form
 // The bytes of a file; none if it was told to stop. The reader will hold `timesInMemory` bytes in
 // all for each byte of the file.
 std::optional<std::vector<char>> readFileBytes(
-  const std::string& fileName, double timesInMemory, const ShareDone& shareDone)
+  const std::string& fileName, double timesInMemory, const FractionDone& fractionDone)
 {
   requirePlainFile(fileName);
 
@@ -105,7 +105,7 @@ std::optional<std::vector<char>> readFileBytes(
   std::vector<char> bytes(static_cast<std::size_t>(size));
   bool isStopped = false;
   readBytes({ fileName }, bytes.data(), bytes.size(), [&](double fraction) {
-    isStopped = !shareDone(fraction);
+    isStopped = !fractionDone(fraction);
     return !isStopped;
   });
   return isStopped ? std::nullopt : std::optional(std::move(bytes));
@@ -216,13 +216,13 @@ bool isTractFile(const std::string& fileName)
   return isOneOf(tractFormats(), fileName);
 }
 
-void readSurfaceFiles(const SurfaceFiles& files, const ShareDone& shareDone, Surface& surface,
+void readSurfaceFiles(const SurfaceFiles& files, const FractionDone& fractionDone, Surface& surface,
   std::vector<std::string>& warnings)
 {
   surface = Surface();
   const std::string name = "Surface " + files.fileName;
   const bool isRead = withBeginning(name + " ", [&] {
-    const auto bytes = readFileBytes(files.fileName, TimesOfSurface, shareDone);
+    const auto bytes = readFileBytes(files.fileName, TimesOfSurface, fractionDone);
     if (bytes)
     {
       formatOf(files.fileName, surfaceFormats())->read(*bytes, files.volume, surface);
@@ -246,16 +246,16 @@ void readSurfaceFiles(const SurfaceFiles& files, const ShareDone& shareDone, Sur
 }
 
 void readTractFile(const std::string& fileName, const std::string& volumeName,
-  const ShareDone& shareDone, Tracts& tracts, std::vector<std::string>& warnings)
+  const FractionDone& fractionDone, Tracts& tracts, std::vector<std::string>& warnings)
 {
   tracts = Tracts();
   const std::string name = "Tract file " + fileName;
   withBeginning(name + " ", [&] {
     auto bytes = readFileBytes(
-      fileName, TimesOfTracts, [&](double fraction) { return shareDone(0.4 * fraction); });
+      fileName, TimesOfTracts, [&](double fraction) { return fractionDone(0.4 * fraction); });
     if (bytes)
     {
-      const auto rest = [&](double fraction) { return shareDone(0.4 + 0.6 * fraction); };
+      const auto rest = [&](double fraction) { return fractionDone(0.4 + 0.6 * fraction); };
       formatOf(fileName, tractFormats())->read(*bytes, volumeName, rest, tracts);
     }
   });

@@ -111,8 +111,8 @@ struct TractFormat
    * Reads the bytes of a file, whose order it may reverse, or throws the end of a sentence. There
    * are no points if it was told to stop. `volumeName`: as for readTractFile.
    */
-  void (*read)(std::vector<char>& bytes, const std::string& volumeName, const ShareDone& shareDone,
-    Tracts& tracts);
+  void (*read)(std::vector<char>& bytes, const std::string& volumeName,
+    const FractionDone& fractionDone, Tracts& tracts);
 };
 
 ///@{
@@ -141,7 +141,7 @@ struct SurfaceFiles
  *
  * @param warnings   gets sentences, without full stops, on what the user must know
  */
-void readSurfaceFiles(const SurfaceFiles& files, const ShareDone& shareDone, Surface& surface,
+void readSurfaceFiles(const SurfaceFiles& files, const FractionDone& fractionDone, Surface& surface,
   std::vector<std::string>& warnings);
 
 /**
@@ -150,7 +150,7 @@ void readSurfaceFiles(const SurfaceFiles& files, const ShareDone& shareDone, Sur
  * @param volumeName   for files of TrackVis without vox_to_ras; empty: none
  */
 void readTractFile(const std::string& fileName, const std::string& volumeName,
-  const ShareDone& shareDone, Tracts& tracts, std::vector<std::string>& warnings);
+  const FractionDone& fractionDone, Tracts& tracts, std::vector<std::string>& warnings);
 }
 
 #endif

@@ -59,8 +59,8 @@ int vtkSurfaceReader::RequestData(
   {
     throw Problem("FileName is empty; it must name a surface");
   }
-  const auto progress = [this](double share) {
-    this->UpdateProgress(share);
+  const auto progress = [this](double fraction) {
+    this->UpdateProgress(fraction);
     return !this->GetAbortExecute();
   };
   const glm::dvec3 center(this->VolumeCenter[0], this->VolumeCenter[1], this->VolumeCenter[2]);

@@ -44,8 +44,8 @@ int vtkTractReader::RequestData(
     throw Problem("FileName is empty; it must name a file of streamlines");
   }
   bool isStopped = false;
-  const auto progress = [&](double share) {
-    this->UpdateProgress(share);
+  const auto progress = [&](double fraction) {
+    this->UpdateProgress(fraction);
     isStopped = this->GetAbortExecute() != 0;
     return !isStopped;
   };

@@ -226,7 +226,7 @@ StoredBytes locate(const TextHeader& header, const std::string& dataFile)
 
 // Reads decimal numbers between spaces and commas.
 template <typename T>
-void readWords(std::ifstream& file, T* to, std::size_t count, const ShareDone& shareDone)
+void readWords(std::ifstream& file, T* to, std::size_t count, const FractionDone& fractionDone)
 {
   using Stored = std::conditional_t<std::is_floating_point_v<T>, double, T>;
   constexpr std::size_t Often = 1 << 16;
@@ -254,7 +254,7 @@ void readWords(std::ifstream& file, T* to, std::size_t count, const ShareDone& s
           : "has '" + shownWords(word) + "' where a number of its type must stand");
     }
     to[i] = static_cast<T>(*number);
-    if (i % Often == 0 && !shareDone(static_cast<double>(i) / static_cast<double>(count)))
+    if (i % Often == 0 && !fractionDone(static_cast<double>(i) / static_cast<double>(count)))
     {
       return;
     }
@@ -262,13 +262,13 @@ void readWords(std::ifstream& file, T* to, std::size_t count, const ShareDone& s
 }
 
 void readText(
-  const StoredBytes& from, int type, char* to, std::size_t count, const ShareDone& shareDone)
+  const StoredBytes& from, int type, char* to, std::size_t count, const FractionDone& fractionDone)
 {
   std::ifstream file(from.fileName, std::ios::binary);
   file.seekg(static_cast<std::streamoff>(from.offset));
   switch (type)
   {
-    vtkTemplateMacro(readWords(file, reinterpret_cast<VTK_TT*>(to), count, shareDone));
+    vtkTemplateMacro(readWords(file, reinterpret_cast<VTK_TT*>(to), count, fractionDone));
   }
 }
 
@@ -399,7 +399,7 @@ void requireNumbers(const TextHeader& header)
   }
 }
 
-void readNumbers(const TextHeader& header, char* to, const ShareDone& shareDone)
+void readNumbers(const TextHeader& header, char* to, const FractionDone& fractionDone)
 {
   const std::size_t files = header.dataFiles.size();
   const auto bytes = static_cast<std::size_t>(header.dataBytes()) / files;
@@ -407,8 +407,8 @@ void readNumbers(const TextHeader& header, char* to, const ShareDone& shareDone)
   bool stopped = false;
   for (std::size_t i = 0; i < files && !stopped; ++i)
   {
-    const ShareDone fraction = [&](double of) {
-      stopped = !shareDone((static_cast<double>(i) + of) / static_cast<double>(files));
+    const FractionDone fraction = [&](double of) {
+      stopped = !fractionDone((static_cast<double>(i) + of) / static_cast<double>(files));
       return !stopped;
     };
     char* const part = to + i * bytes;

@@ -134,9 +134,9 @@ void requireNumbers(const TextHeader& header);
 
 /**
  * Fills `to` with all numbers, in the byte order of this machine: header.dataBytes() bytes. Throws
- * the end of a sentence. It returns early if `shareDone` says stop.
+ * the end of a sentence. It returns early if `fractionDone` says stop.
  */
-void readNumbers(const TextHeader& header, char* to, const ShareDone& shareDone);
+void readNumbers(const TextHeader& header, char* to, const FractionDone& fractionDone);
 
 /** Whether a file has the header of a displacement field. */
 bool isTextHeaderField(const std::string& fileName);

@@ -385,7 +385,7 @@ bool isTrackVisFile(const std::string& fileName)
 }
 
 void readTrackVis(std::vector<char>& bytes, const std::string& volumeName,
-  const ShareDone& shareDone, Tracts& tracts)
+  const FractionDone& fractionDone, Tracts& tracts)
 {
   TrackHeader header;
   Records records;
@@ -415,7 +415,7 @@ void readTrackVis(std::vector<char>& bytes, const std::string& volumeName,
         }
       }
     });
-    if (!shareDone(static_cast<double>(last) / static_cast<double>(records.places.size())))
+    if (!fractionDone(static_cast<double>(last) / static_cast<double>(records.places.size())))
     {
       tracts = Tracts();
       return;

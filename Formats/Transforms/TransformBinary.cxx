@@ -195,7 +195,6 @@ void readVariable(
   Variable variable{ words[0] - (isBigEndian ? BigEndian : 0), words[1], words[2], words[3],
     words[4] };
   requireVariable(variable);
-
   at += sizeof(Variable);
   const std::size_t size = variable.type == Doubles ? sizeof(double) : sizeof(float);
   const auto nameLength = static_cast<std::size_t>(variable.nameLength);

@@ -159,7 +159,6 @@ void addSpline(const TransformRecord& record, PointTransform& transform)
 {
   SplineLink link;
   readGrid(record, 4, link.grid);
-
   const std::size_t count = link.grid.count();
   link.coefficients.resize(count);
   for (std::size_t i = 0; i < count; ++i)
@@ -175,7 +174,6 @@ void addField(const TransformRecord& record, PointTransform& transform)
 {
   FieldLink link;
   readGrid(record, 1, link.grid);
-
   link.displacements.resize(link.grid.count());
   for (std::size_t i = 0; i < link.displacements.size(); ++i)
   {

@@ -67,8 +67,8 @@ vtkSmartPointer<vtkDataArray> partOf(vtkDataArray* numbers, vtkIdType first, vtk
 /** Times that grow by a step. A step that is no positive number counts as 1, a start as 0. */
 std::vector<double> evenTimes(std::size_t count, double step, double start = 0.0);
 
-/** Hears which share is done, 0 to 1. Returns false if the work is to stop. */
-using Progress = std::function<bool(double share)>;
+/** Receives the fraction that is done, 0 to 1. Returns false if the work is to stop. */
+using Progress = std::function<bool(double fraction)>;
 
 /** One file, or one series of files, at a time: first its header, then its voxels. */
 class VTKBRAINSHIFTFORMATS_EXPORT VolumeFile

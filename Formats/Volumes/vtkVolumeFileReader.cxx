@@ -339,8 +339,8 @@ int vtkVolumeFileReader::readVolume(vtkInformation* information)
       nearestIndex(times, information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()));
     shown->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), times[volume]);
   }
-  const auto progress = [this](double share) {
-    this->UpdateProgress(share);
+  const auto progress = [this](double fraction) {
+    this->UpdateProgress(fraction);
     return !this->GetAbortExecute();
   };
   this->reading([&] {
