@@ -44,6 +44,20 @@ std::string problemOf(const Step& step)
     return problem.what();
   }
 }
+
+/** Runs a step and returns what it does. A Problem that it throws gets a beginning. */
+template <typename Step>
+decltype(auto) withBeginning(const std::string& beginning, const Step& step)
+{
+  try
+  {
+    return step();
+  }
+  catch (const Problem& problem)
+  {
+    throw Problem(beginning + problem.what());
+  }
+}
 }
 
 #endif

@@ -114,12 +114,10 @@ const std::string& vtkTransformReader::Load()
   TransformFiles files{ { this->FileName }, this->FixedImage, this->MovingImage };
   files.names.insert(files.names.end(), state.Later.begin(), state.Later.end());
   state.Chain = {};
-  const std::string thrown = thrownBy([&] {
-    state.Problem = this->FileName.empty()
-      ? std::string("FileName is empty; it must name a transform")
-      : readTransformFiles(files, state.Chain);
+  state.Problem = sentenceThrownBy("Transform Reader", [&] {
+    throwIfAny(this->FileName.empty() ? "FileName is empty; it must name a transform" : "");
+    state.Chain = readTransformFiles(files);
   });
-  state.Problem = thrown.empty() ? state.Problem : "Transform Reader " + thrown;
   if (this->World == LPS)
   {
     reverseXY(state.Chain);

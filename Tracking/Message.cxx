@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Tracking/Message.h"
 
+#include "Common/Bytes.h"
+
 #include <igtl_header.h>
 #include <igtl_tdata.h>
 #include <igtl_transform.h>
 #include <igtl_util.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <optional>
 
@@ -24,16 +27,6 @@ std::string nameFrom(const char* field, std::size_t size)
   std::replace_if(
     name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c > 0x7e; }, '?');
   return name;
-}
-
-std::size_t bigEndian(const unsigned char* bytes, int count)
-{
-  std::size_t number = 0;
-  for (int i = 0; i < count; ++i)
-  {
-    number = number << 8 | bytes[i];
-  }
-  return number;
 }
 
 // Of a body with an extended header.
@@ -60,9 +53,9 @@ std::optional<Parts> partsOf(const MessageHeader& header, const std::vector<unsi
   {
     return std::nullopt;
   }
-  const std::size_t extended = bigEndian(body.data(), 2);
-  parts.tableBytes = bigEndian(body.data() + 2, 2);
-  parts.textBytes = bigEndian(body.data() + 4, 4);
+  const std::size_t extended = storedNumber<std::uint16_t>(body.data(), true);
+  parts.tableBytes = storedNumber<std::uint16_t>(body.data() + 2, true);
+  parts.textBytes = storedNumber<std::uint32_t>(body.data() + 4, true);
   const std::size_t around = extended + parts.tableBytes + parts.textBytes;
   if (extended < ExtendedHeaderBytes || around > body.size())
   {
@@ -85,14 +78,14 @@ bool saysUnseen(const Parts& parts)
   {
     return false;
   }
-  const std::size_t entries = bigEndian(parts.meta, 2);
+  const std::size_t entries = storedNumber<std::uint16_t>(parts.meta, true);
   const unsigned char* text = parts.meta + parts.tableBytes;
   std::size_t left = parts.textBytes;
   for (std::size_t i = 0; i < entries && 2 + (i + 1) * entryBytes <= parts.tableBytes; ++i)
   {
     const unsigned char* entry = parts.meta + 2 + i * entryBytes;
-    const std::size_t keyBytes = bigEndian(entry, 2);
-    const std::size_t valueBytes = bigEndian(entry + 4, 4);
+    const std::size_t keyBytes = storedNumber<std::uint16_t>(entry, true);
+    const std::size_t valueBytes = storedNumber<std::uint32_t>(entry + 4, true);
     if (keyBytes > left || valueBytes > left - keyBytes)
     {
       return false;
@@ -196,7 +189,7 @@ std::string readHeader(const std::array<unsigned char, HeaderBytes>& bytes, Mess
   std::memcpy(&raw, bytes.data(), sizeof(raw));
   igtl_header_convert_byte_order(&raw);
   // OpenIGTLink 1.11 and 3.0 call the field differently.
-  header.version = static_cast<int>(bigEndian(bytes.data(), sizeof(igtl_uint16)));
+  header.version = static_cast<int>(storedNumber<std::uint16_t>(bytes.data(), true));
   header.type = nameFrom(raw.name, sizeof(raw.name));
   header.device = nameFrom(raw.device_name, sizeof(raw.device_name));
   header.bodyBytes = raw.body_size;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Tracking/SessionFile.h"
 
+#include "Common/Numbers.h"
+
 #include <array>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -72,10 +73,9 @@ std::string lineOf(const std::string& path, std::size_t number)
 
 bool readNumber(std::string_view text, double& number)
 {
-  const char* begin = text.data();
-  const char* end = begin + text.size();
-  const auto [last, error] = std::from_chars(begin, end, number);
-  return error == std::errc() && last == end && std::isfinite(number);
+  const std::optional<double> found = numberIn(text);
+  number = found.value_or(number);
+  return found && std::isfinite(number);
 }
 
 // 12 numbers from the part `first` on.

@@ -3,6 +3,7 @@
 
 #include "Common/Grid.h"
 #include "Common/Parallel.h"
+#include "Filters/Deformation/Lattice.h"
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/DICOM/DICOMAttributes.h"
 
+#include "Common/Bytes.h"
+#include "Common/Numbers.h"
+#include "Formats/Files/Text.h"
+
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 namespace brainshift
 {
 namespace
 {
 constexpr std::size_t LongestShownText = 64; // of VR LO
+constexpr std::string_view Padding("\0 \t\r\n", 5);
 constexpr DICOMTag SpecificCharacterSet = 0x00080005;
 
 const std::string& bytesOf(const DICOMDataSet& set, DICOMTag tag)
@@ -21,34 +24,8 @@ const std::string& bytesOf(const DICOMDataSet& set, DICOMTag tag)
   return found == set.elements.end() ? None : found->second.bytes;
 }
 
-std::string trimmed(const std::string& text)
-{
-  const std::string padding(" \0\t\r\n", 5);
-  const std::size_t first = text.find_first_not_of(padding);
-  return first == std::string::npos
-    ? std::string()
-    : text.substr(first, text.find_last_not_of(padding) - first + 1);
-}
-
-// Copies a number from its bytes.
-template <typename Number>
-bool copyNumber(const DICOMDataSet& set, DICOMTag tag, Number& number)
-{
-  std::string bytes = bytesOf(set, tag).substr(0, sizeof(Number));
-  if (bytes.size() < sizeof(Number))
-  {
-    return false;
-  }
-  if (set.isBigEndian)
-  {
-    std::reverse(bytes.begin(), bytes.end());
-  }
-  std::memcpy(&number, bytes.data(), sizeof(Number));
-  return true;
-}
-
 // Whether a text is UTF-8 without half letters.
-bool isWhole(const std::string& text)
+bool isWholeUTF8(const std::string& text)
 {
   int rest = 0; // bytes of the letter that follow
   for (const char letter : text)
@@ -67,14 +44,8 @@ bool isWhole(const std::string& text)
 // A part of a text of digits as a number, or -1.
 int digits(const std::string& text, std::size_t begin, std::size_t count)
 {
-  int number = -1;
-  if (text.size() >= begin + count)
-  {
-    const char* const last = text.data() + begin + count;
-    const auto [end, error] = std::from_chars(text.data() + begin, last, number);
-    number = error == std::errc() && end == last ? number : -1;
-  }
-  return number;
+  const bool isThere = text.size() >= begin + count;
+  return isThere ? numberIn<int>(text.substr(begin, count)).value_or(-1) : -1;
 }
 
 // Days since 1970-01-01 in the Gregorian calendar, by counting years from March.
@@ -90,7 +61,7 @@ double daysOf(int year, int month, int day)
 
 std::string textOf(const DICOMDataSet& set, DICOMTag tag)
 {
-  return trimmed(bytesOf(set, tag));
+  return trimmed(bytesOf(set, tag), Padding);
 }
 
 std::string dateOf(const DICOMDataSet& set, DICOMTag tag)
@@ -113,7 +84,7 @@ std::string shownTextOf(const DICOMDataSet& set, DICOMTag tag)
 {
   const std::string characters = textOf(set, SpecificCharacterSet);
   const std::string text = textOf(set, tag).substr(0, LongestShownText);
-  const bool isUTF8 = characters == "ISO_IR 192" && isWhole(text);
+  const bool isUTF8 = characters == "ISO_IR 192" && isWholeUTF8(text);
   const bool isLatin = characters == "ISO_IR 100";
   std::string shown;
   for (const char letter : text)
@@ -147,15 +118,12 @@ std::vector<double> decimalsOf(const DICOMDataSet& set, DICOMTag tag)
   for (std::size_t begin = 0; begin < text.size();)
   {
     const std::size_t end = std::min(text.find('\\', begin), text.size());
-    std::string part = trimmed(text.substr(begin, end - begin));
-    part.erase(0, part.compare(0, 1, "+") == 0 ? 1 : 0); // from_chars knows no plus
-    double number = 0.0;
-    const auto [last, error] = std::from_chars(part.data(), part.data() + part.size(), number);
-    if (error != std::errc() || last != part.data() + part.size() || !std::isfinite(number))
+    const auto number = numberIn(trimmed(text.substr(begin, end - begin), Padding));
+    if (!number || !std::isfinite(*number))
     {
       return {};
     }
-    numbers.push_back(number);
+    numbers.push_back(*number);
     begin = end + 1;
   }
   return numbers;
@@ -169,19 +137,19 @@ double decimalOf(const DICOMDataSet& set, DICOMTag tag, double missing)
 
 double doubleOf(const DICOMDataSet& set, DICOMTag tag, double missing)
 {
-  double number = 0.0;
-  return copyNumber(set, tag, number) && std::isfinite(number) ? number : missing;
+  const auto number = storedNumberAt<double>(bytesOf(set, tag), 0, set.isBigEndian);
+  return number && std::isfinite(*number) ? *number : missing;
 }
 
 double wholeOf(const DICOMDataSet& set, DICOMTag tag, double missing)
 {
-  std::uint32_t wide = 0;
-  std::uint16_t narrow = 0;
-  if (bytesOf(set, tag).size() == sizeof(wide) && copyNumber(set, tag, wide))
+  const std::string& bytes = bytesOf(set, tag);
+  if (bytes.size() == sizeof(std::uint32_t))
   {
-    return wide;
+    return storedNumber<std::uint32_t>(bytes.data(), set.isBigEndian);
   }
-  return copyNumber(set, tag, narrow) ? narrow : missing;
+  const auto narrow = storedNumberAt<std::uint16_t>(bytes, 0, set.isBigEndian);
+  return narrow ? *narrow : missing;
 }
 
 double secondsOf(const std::string& date, const std::string& time, double missing)
@@ -192,11 +160,9 @@ double secondsOf(const std::string& date, const std::string& time, double missin
     return missing;
   }
   double seconds = 3600.0 * hour + 60.0 * std::max(digits(time, 2, 2), 0);
-  double rest = 0.0;
-  if (time.size() > 4)
-  {
-    std::from_chars(time.data() + 4, time.data() + time.size(), rest);
-  }
+  std::string_view behind(time);
+  behind.remove_prefix(std::min<std::size_t>(4, time.size()));
+  const double rest = takeNumber<double>(behind).value_or(0.0);
   seconds += std::isfinite(rest) ? rest : 0.0;
   const int year = digits(date, 0, 4);
   const int month = digits(date, 4, 2);

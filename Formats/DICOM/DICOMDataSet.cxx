@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/DICOM/DICOMDataSet.h"
 
+#include "Common/Bytes.h"
+
+#include "vtk_zlib.h"
+
+#include <algorithm>
 #include <cstring>
 #include <set>
 #include <utility>
@@ -9,6 +14,8 @@ namespace brainshift
 {
 namespace
 {
+constexpr std::uint64_t WindowBytes = 16384;
+
 constexpr int DeepestSequence = 16;             // enhanced files have 3 levels
 constexpr std::uint32_t LongestValue = 1 << 20; // bytes that are kept
 constexpr std::uint32_t Undefined = 0xffffffff;
@@ -37,14 +44,10 @@ struct Head
   std::uint64_t value = 0; // its offset
 };
 
-std::uint32_t number(const unsigned char* bytes, int count, bool isBig)
+DICOMTag tagAt(const unsigned char* bytes, const Form& form)
 {
-  std::uint32_t result = 0;
-  for (int i = 0; i < count; ++i)
-  {
-    result |= static_cast<std::uint32_t>(bytes[isBig ? count - 1 - i : i]) << (8 * i);
-  }
-  return result;
+  return DICOMTag(storedNumber<std::uint16_t>(bytes, form.isBig)) << 16 |
+    storedNumber<std::uint16_t>(bytes + 2, form.isBig);
 }
 
 class Parser
@@ -63,12 +66,12 @@ public:
     {
       return false;
     }
-    head.tag = (number(bytes, 2, form.isBig) << 16) | number(bytes + 2, 2, form.isBig);
+    head.tag = tagAt(bytes, form);
     head.value = offset + 8;
     head.vr[0] = head.vr[1] = 0;
     if (!form.isExplicit || head.tag >> 16 == 0xfffe)
     {
-      head.length = number(bytes + 4, 4, form.isBig);
+      head.length = storedNumber<std::uint32_t>(bytes + 4, form.isBig);
       return true;
     }
     std::memcpy(head.vr, bytes + 4, 2);
@@ -78,11 +81,11 @@ public:
     }
     static const std::set<std::string> Long{ "OB", "OD", "OF", "OL", "OV", "OW", "SQ", "SV", "UC",
       "UN", "UR", "UT", "UV" };
-    head.length = number(bytes + 6, 2, form.isBig);
+    head.length = storedNumber<std::uint16_t>(bytes + 6, form.isBig);
     if (Long.count(std::string(head.vr, 2)) > 0)
     {
       bytes = this->Bytes.at(offset, 12);
-      head.length = bytes ? number(bytes + 8, 4, form.isBig) : 0;
+      head.length = bytes ? storedNumber<std::uint32_t>(bytes + 8, form.isBig) : 0;
       head.value = offset + 12;
     }
     return bytes != nullptr;
@@ -171,8 +174,7 @@ private:
     }
     const unsigned char* first =
       form.isExplicit || head.length < 8 ? nullptr : this->Bytes.at(offset, 4);
-    return first && number(first, 2, form.isBig) == 0xfffe &&
-      number(first + 2, 2, form.isBig) == 0xe000;
+    return first && tagAt(first, form) == Item;
   }
 
   bool readItems(std::uint64_t& offset, std::uint64_t end, const Form& form, std::uint32_t length,
@@ -243,6 +245,88 @@ bool readMeta(DICOMBytes& bytes, std::uint64_t& offset, DICOMContent& content)
 }
 }
 
+DICOMBytes::DICOMBytes(const std::string& path, std::uint64_t mostInflated)
+  : Stream(path, std::ios::binary | std::ios::ate)
+  , Kept(mostInflated)
+{
+  this->Size = this->Stream ? static_cast<std::uint64_t>(this->Stream.tellg()) : 0;
+}
+
+bool DICOMBytes::read(std::uint64_t offset, std::uint64_t count, void* to)
+{
+  if (offset > this->Size || count > this->Size - offset)
+  {
+    return false;
+  }
+  if (this->IsInflated)
+  {
+    if (offset + count > this->Inflated.size())
+    {
+      return false;
+    }
+    std::memcpy(to, this->Inflated.data() + offset, count);
+    return true;
+  }
+  this->Stream.clear();
+  return this->Stream.seekg(static_cast<std::streamoff>(offset)) &&
+    this->Stream.read(static_cast<char*>(to), static_cast<std::streamsize>(count));
+}
+
+const unsigned char* DICOMBytes::at(std::uint64_t offset, std::size_t count)
+{
+  const bool isThere =
+    offset >= this->WindowOffset && offset + count <= this->WindowOffset + this->Window.size();
+  if (!isThere)
+  {
+    const std::uint64_t end = this->IsInflated ? this->Inflated.size() : this->Size;
+    const std::uint64_t rest = offset < end ? end - offset : 0;
+    this->Window.resize(std::min(rest, std::max<std::uint64_t>(WindowBytes, count)));
+    this->WindowOffset = offset;
+    if (this->Window.size() < count ||
+      !this->read(offset, this->Window.size(), this->Window.data()))
+    {
+      this->Window.clear();
+      return nullptr;
+    }
+  }
+  return this->Window.data() + (offset - this->WindowOffset);
+}
+
+bool DICOMBytes::inflateFrom(std::uint64_t offset)
+{
+  std::string packed(offset < this->Size ? this->Size - offset : 0, '\0');
+  std::string unpacked(offset, '\0');
+  if (packed.empty() || !this->read(0, offset, unpacked.data()) ||
+    !this->read(offset, packed.size(), packed.data()))
+  {
+    return false;
+  }
+  z_stream stream{};
+  if (inflateInit2(&stream, -MAX_WBITS) != Z_OK) // without a header
+  {
+    return false;
+  }
+  stream.next_in = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_in = static_cast<uInt>(packed.size());
+  std::vector<char> piece(1 << 16);
+  int result = Z_OK;
+  while (result == Z_OK && unpacked.size() < this->Kept)
+  {
+    stream.next_out = reinterpret_cast<Bytef*>(piece.data());
+    stream.avail_out = static_cast<uInt>(piece.size());
+    result = inflate(&stream, Z_NO_FLUSH);
+    unpacked.append(piece.data(), piece.size() - stream.avail_out);
+  }
+  inflateEnd(&stream);
+  this->Inflated = std::move(unpacked);
+  this->IsInflated = true;
+  const bool isWhole = result == Z_STREAM_END;
+  const bool isCut = result == Z_OK && this->Kept < MostInflated;
+  this->Size = isCut ? MostInflated : this->Inflated.size();
+  this->Window.clear();
+  return isWhole || isCut;
+}
+
 bool parseDICOM(DICOMBytes& bytes, DICOMContent& content, PatientGroup patient)
 {
   std::uint64_t& offset = content.end;
@@ -288,7 +372,7 @@ std::vector<std::string> packedFrames(
   for (std::uint32_t entry = 0; entry + 4 <= tableLength; entry += 4)
   {
     const unsigned char* stored = bytes.at(table + entry, 4);
-    begins.insert(table + tableLength + (stored ? number(stored, 4, false) : 0));
+    begins.insert(table + tableLength + (stored ? storedNumber<std::uint32_t>(stored, false) : 0));
   }
   const bool isEach = fragments.size() == frames;
   std::vector<std::string> packed;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief The attributes of a DICOM file up to its pixels.
+ * @brief The bytes of a DICOM file, and its attributes up to its pixels.
  *
  * Values of private groups are skipped, and those of the patient's group (0010) unless a user asked
  * for them.
@@ -9,15 +9,50 @@
 #ifndef BrainShift_DICOMDataSet_h
 #define BrainShift_DICOMDataSet_h
 
-#include "Formats/DICOM/DICOMBytes.h"
-
 #include <cstdint>
+#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace brainshift
 {
+/** Reads anywhere in a file. Nothing is read behind its end. */
+class DICOMBytes
+{
+public:
+  /** What is inflated is kept up to `mostInflated` bytes; bytes behind them cannot be read. */
+  explicit DICOMBytes(const std::string& path, std::uint64_t mostInflated = MostInflated);
+
+  /** More than any file has, and what a header has. */
+  static constexpr std::uint64_t MostInflated = std::uint64_t(1) << 31;
+  static constexpr std::uint64_t MostOfHeader = std::uint64_t(1) << 26;
+
+  /** Bytes that there are; MostInflated if more is deflated than is kept. */
+  std::uint64_t size() const { return this->Size; }
+
+  /** Copies bytes. False if there are not as many. */
+  bool read(std::uint64_t offset, std::uint64_t count, void* to);
+
+  /** A few bytes, kept until the next call; null if there are not as many. */
+  const unsigned char* at(std::uint64_t offset, std::size_t count);
+
+  /**
+   * Unpacks what is kept from an offset on, which then follows what is before it. False if it
+   * cannot.
+   */
+  bool inflateFrom(std::uint64_t offset);
+
+private:
+  std::ifstream Stream;
+  std::uint64_t Size = 0;
+  std::uint64_t Kept = MostInflated;
+  std::string Inflated; // all bytes, if some were deflated
+  bool IsInflated = false;
+  std::vector<unsigned char> Window;
+  std::uint64_t WindowOffset = 0;
+};
+
 /** Group and element, such as 0x00280010. */
 using DICOMTag = std::uint32_t;
 

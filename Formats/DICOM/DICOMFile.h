@@ -87,7 +87,14 @@ struct DICOMFile
 };
 
 /** Whether a file exists and begins as DICOM does. */
-VTKBRAINSHIFTFORMATS_EXPORT bool isDICOMFile(const std::string& path);
+bool isDICOMFile(const std::string& path);
+
+/**
+ * Reads the header of a file, up to its pixels: the image of a slice file, or the frames of a
+ * multi-frame file with their functional groups. It has no frames if the file is damaged or holds
+ * no image.
+ */
+DICOMFile readDICOMHeader(const std::string& path);
 }
 
 #endif

@@ -31,6 +31,12 @@ struct DICOMFolder
 };
 
 /**
+ * Whether a name leads to DICOM: a file that begins so, or a folder with such a file in it or in
+ * its subfolders, down to the fourth level. It looks at no more than 1000 files.
+ */
+bool leadsToDICOM(const std::string& path);
+
+/**
  * Reads all headers of a folder, on all cores. `path` names a folder, one of its files, or a
  * DICOMDIR. Of a folder without DICOM the subfolders are read, down to the fourth level.
  *

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/DICOM/DICOMPixels.h"
 
+#include "Common/Bytes.h"
+#include "Common/Problem.h"
 #include "Formats/DICOM/DICOMAttributes.h"
 #include "Formats/DICOM/DICOMDataSet.h"
-#include "Formats/PackedFrames/JPEG2000Frame.h"
-#include "Formats/PackedFrames/JPEGFrame.h"
-#include "Formats/PackedFrames/JPEGLSFrame.h"
-#include "Formats/PackedFrames/RunLengths.h"
+#include "Formats/Files/Text.h"
+#include "Formats/PackedFrames/PackedFrame.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <sstream>
 #include <system_error>
 #include <type_traits>
 
@@ -129,24 +128,14 @@ void withStoredType(int type, const Use& use)
   }
 }
 
-template <typename T>
-void swapBytes(T* numbers, std::size_t count)
-{
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    auto* bytes = reinterpret_cast<unsigned char*>(numbers + i);
-    std::reverse(bytes, bytes + sizeof(T));
-  }
-}
-
 // Frames whose bytes follow each other go straight to their place.
-std::string readPlain(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type)
+void readPlain(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type)
 {
   DICOMBytes stream(file.path);
   DICOMContent content;
   if (file.pixels.isDeflated && !parseDICOM(stream, content))
   {
-    return file.path + " is damaged: it cannot be inflated";
+    throw Problem(file.path + " is damaged: it cannot be inflated");
   }
   const std::size_t count = pixelsOf(file);
   const std::uint64_t bytes = count * (file.pixels.bitsAllocated / 8);
@@ -158,14 +147,11 @@ std::string readPlain(const DICOMFile& file, const std::vector<DICOMTarget>& tar
     char* to = buffer.empty() ? static_cast<char*>(target.numbers) : buffer.data();
     if (!stream.read(file.pixels.offset + begin, bytes, to))
     {
-      return file.path + " ended while it was read";
+      throw Problem(file.path + " ended while it was read");
     }
     withStoredType(stored, [&](auto* none) {
       auto* numbers = reinterpret_cast<decltype(none)>(to);
-      if (file.pixels.isBigEndian)
-      {
-        swapBytes(numbers, count);
-      }
+      toMachineOrder(to, count, sizeof(*numbers), file.pixels.isBigEndian);
       keepStoredBits(file.pixels, numbers, count);
       if (!buffer.empty())
       {
@@ -173,7 +159,6 @@ std::string readPlain(const DICOMFile& file, const std::vector<DICOMTarget>& tar
       }
     });
   }
-  return {};
 }
 
 struct Packing
@@ -201,7 +186,7 @@ Packing packingOf(const std::string& transferSyntax)
   return found == known.end() ? Packing() : found->second;
 }
 
-std::string decode(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type)
+void decode(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type)
 {
   DICOMBytes bytes(file.path);
   DICOMContent content;
@@ -209,33 +194,30 @@ std::string decode(const DICOMFile& file, const std::vector<DICOMTarget>& target
   const Packing packing = isRead ? packingOf(content.transferSyntax) : Packing();
   if (packing.unpack && !content.isPacked)
   {
-    return file.path + " is damaged: its packed pixels do not come in fragments (" +
-      plainText(content.transferSyntax) + ")";
+    throw Problem(file.path + " is damaged: its packed pixels do not come in fragments (" +
+      plainText(content.transferSyntax) + ")");
   }
   if (!packing.unpack)
   {
-    return file.path + " is packed in a way that BrainShift does not know, " +
-      plainText(content.transferSyntax);
+    throw Problem(file.path + " is packed in a way that BrainShift does not know, " +
+      plainText(content.transferSyntax));
   }
   const std::vector<std::string> packed = packedFrames(bytes, content, file.frames.size());
   if (packed.empty())
   {
-    return file.path + " is damaged: its fragments do not make up " +
-      std::to_string(file.frames.size()) + " frames";
+    throw Problem(file.path + " is damaged: its fragments do not make up " +
+      std::to_string(file.frames.size()) + " frames");
   }
   const FrameShape shape{ file.columns, file.rows, file.pixels.bitsAllocated };
   for (const DICOMTarget& target : targets)
   {
-    UnpackedFrame frame = packing.unpack(packed[target.frame->frame], shape);
-    if (!frame.problem.empty())
-    {
-      return file.path + " cannot be read: " + frame.problem;
-    }
+    UnpackedFrame frame = withBeginning(file.path + " cannot be read: ",
+      [&] { return packing.unpack(packed[target.frame->frame], shape); });
     if (frame.isSigned && !file.pixels.isSigned)
     {
-      return file.path +
+      throw Problem(file.path +
         " cannot be read: a frame has signed numbers; the file says that they are "
-        "not signed (Pixel Representation 0)";
+        "not signed (Pixel Representation 0)");
     }
     const DICOMPixelFormat format = formatOf(file.pixels, frame);
     withStoredType(storedTypeOf(file.pixels), [&](auto* none) {
@@ -248,7 +230,6 @@ std::string decode(const DICOMFile& file, const std::vector<DICOMTarget>& target
       convert(numbers, shape.count(), target, type);
     });
   }
-  return {};
 }
 }
 
@@ -265,7 +246,7 @@ int storedTypeOf(const DICOMPixelFormat& pixels)
   }
 }
 
-std::string pixelDataProblem(const DICOMFile& file)
+void requirePixelData(const DICOMFile& file)
 {
   const std::uint64_t need =
     file.pixels.isPlain ? pixelsOf(file) * (file.pixels.bitsAllocated / 8) * file.frames.size() : 0;
@@ -274,20 +255,23 @@ std::string pixelDataProblem(const DICOMFile& file)
   std::uint64_t rest = size > file.pixels.offset ? size - file.pixels.offset : 0;
   rest = file.pixels.isDeflated ? file.pixels.length : rest;
   const std::uint64_t has = std::min<std::uint64_t>(rest, file.pixels.length);
-  if (has >= need)
+  if (has < need)
   {
-    return {};
+    throw Problem(joined(file.path, " has ", has, " bytes of pixel data; ", file.columns, " x ",
+      file.rows, " pixels of ", file.pixels.bitsAllocated, " bits in ", file.frames.size(),
+      " frames need ", need));
   }
-  std::ostringstream text;
-  text << file.path << " has " << has << " bytes of pixel data; " << file.columns << " x "
-       << file.rows << " pixels of " << file.pixels.bitsAllocated << " bits in "
-       << file.frames.size() << " frames need " << need;
-  return text.str();
 }
 
-std::string readDICOMPixels(
-  const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type)
+void readDICOMPixels(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type)
 {
-  return file.pixels.isPlain ? readPlain(file, targets, type) : decode(file, targets, type);
+  if (file.pixels.isPlain)
+  {
+    readPlain(file, targets, type);
+  }
+  else
+  {
+    decode(file, targets, type);
+  }
 }
 }

@@ -8,7 +8,6 @@
 
 #include "Formats/DICOM/DICOMFile.h"
 
-#include <string>
 #include <vector>
 
 namespace brainshift
@@ -16,8 +15,8 @@ namespace brainshift
 /** VTK's number of the type of a stored number. */
 int storedTypeOf(const DICOMPixelFormat& pixels);
 
-/** Why a file is too short for the images that its header announces; empty if it is not. */
-std::string pixelDataProblem(const DICOMFile& file);
+/** Throws the end of a sentence if a file is too short for the images that its header announces. */
+void requirePixelData(const DICOMFile& file);
 
 /** Where the numbers of a frame go. */
 struct DICOMTarget
@@ -27,13 +26,12 @@ struct DICOMTarget
 };
 
 /**
- * Reads frames of one file. Returns why it cannot: the end of a sentence, empty if it can.
+ * Reads frames of one file, or throws the end of a sentence.
  *
  * @param type     VTK's number of the type that targets have. If it is VTK_FLOAT, numbers are
  *                 rescaled; if not, it is the stored type
  */
-std::string readDICOMPixels(
-  const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type);
+void readDICOMPixels(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type);
 }
 
 #endif

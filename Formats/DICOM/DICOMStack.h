@@ -55,6 +55,9 @@ struct DICOMStack
   std::vector<std::string> warnings;            ///< ends of sentences
 };
 
+/** Distances of the places along the normal of images, mm, from below to above. */
+std::vector<double> placesOf(const std::vector<DICOMFrame>& images);
+
 /**
  * Sorts images.
  *
@@ -62,7 +65,7 @@ struct DICOMStack
  * @param images       of one size and orientation; at least one
  * @param resamples    whether uneven or tilted slices are interpolated on an upright grid
  */
-VTKBRAINSHIFTFORMATS_EXPORT DICOMStack stackOf(
+DICOMStack stackOf(
   const std::vector<DICOMFile>& files, const std::vector<DICOMFrame>& images, bool resamples);
 }
 

@@ -1,24 +1,113 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/DICOM/DICOMVolume.h"
-
+/**
+ * @file
+ * @brief Volumes in DICOM: series of slices, and multi-frame files.
+ */
 #include "Common/Parallel.h"
-#include "Formats/DICOM/DICOMDirectory.h"
+#include "Common/Problem.h"
+#include "Formats/DICOM/DICOMFolder.h"
 #include "Formats/DICOM/DICOMPixels.h"
-#include "Formats/DICOM/DICOMUpright.h"
+#include "Formats/DICOM/DICOMStack.h"
+#include "Formats/Volumes/VolumeFile.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
+#include "vtkPointData.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 
 namespace brainshift
 {
 namespace
 {
+// One image as it lies on the grid.
+template <typename T>
+struct Placed
+{
+  const T* numbers = nullptr;
+  int columns = 0;
+  int rows = 0;
+  DICOMShift shift;
+  double outside = 0.0;
+
+  double at(int column, int row) const
+  {
+    const bool isInside = column >= 0 && row >= 0 && column < this->columns && row < this->rows;
+    return isInside
+      ? static_cast<double>(
+          this->numbers[static_cast<std::size_t>(row) * static_cast<std::size_t>(this->columns) +
+            static_cast<std::size_t>(column)])
+      : this->outside;
+  }
+
+  // At a point of the grid, bilinear.
+  double onGrid(int column, int row) const
+  {
+    const double x = column - this->shift.columns;
+    const double y = row - this->shift.rows;
+    const int left = static_cast<int>(std::floor(x));
+    const int below = static_cast<int>(std::floor(y));
+    const double alongX = x - left;
+    const double alongY = y - below;
+    const double first =
+      (1.0 - alongX) * this->at(left, below) + alongX * this->at(left + 1, below);
+    return alongY == 0.0 ? first
+                         : (1.0 - alongY) * first +
+        alongY *
+          ((1.0 - alongX) * this->at(left, below + 1) + alongX * this->at(left + 1, below + 1));
+  }
+};
+
+template <typename T>
+void makeUprightOf(const DICOMResampling& resampling, vtkImageData* images, vtkImageData* grid)
+{
+  int size[3];
+  images->GetDimensions(size);
+  const std::size_t count = static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]);
+  const auto* from = static_cast<const T*>(images->GetScalarPointer());
+  const double least = images->GetPointData()->GetScalars()->GetRange()[0];
+  const auto placed = [&](std::size_t image) {
+    return Placed<T>{ from + image * count, size[0], size[1], resampling.shifts[image], least };
+  };
+  const auto slices = static_cast<std::int64_t>(resampling.slices.size());
+  parallelFor(0, slices, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t z = begin; z < end; ++z)
+    {
+      const DICOMSlice& slice = resampling.slices[z];
+      const Placed<T> lower = placed(slice.lower);
+      const Placed<T> upper = placed(slice.lower + 1);
+      auto* to = static_cast<T*>(grid->GetScalarPointer(0, 0, static_cast<int>(z)));
+      for (int row = 0; row < resampling.rows; ++row)
+      {
+        for (int column = 0; column < resampling.columns; ++column)
+        {
+          const double mixed = slice.lowerWeight * lower.onGrid(column, row) +
+            (1.0 - slice.lowerWeight) * upper.onGrid(column, row);
+          *to++ = static_cast<T>(std::is_integral_v<T> ? std::round(mixed) : mixed);
+        }
+      }
+    }
+  });
+}
+
+// Fills `grid` from `images`, one slice for each image: linear between columns, rows and slices.
+// Whole numbers are rounded. Where no image lies, the grid has the least number of all images.
+//
+// @param grid   allocated, with the size that `resampling` has and the type of the images
+void makeUpright(const DICOMResampling& resampling, vtkImageData* images, vtkImageData* grid)
+{
+  switch (images->GetScalarType())
+  {
+    vtkTemplateMacro(makeUprightOf<VTK_TT>(resampling, images, grid));
+  }
+}
+
 constexpr std::int64_t PartsAtOnce = 16; // between two calls of progress
 
 // Frames of one file that one thread reads.
@@ -54,7 +143,38 @@ vtkSmartPointer<vtkImageData> imageOf(int columns, int rows, std::size_t slices,
   image->AllocateScalars(type, 1);
   return image;
 }
-}
+
+// A file name may name a folder.
+class DICOMVolume : public VolumeFile
+{
+public:
+  std::string noun() const override { return "DICOM series"; }
+  void readHeader(const std::string& fileName, VolumeHeader& header) override;
+  double storedBytes(const VolumeHeader& header) const override;
+  void load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
+
+  // The choices are the series of a folder.
+  std::vector<std::string> choices() const override;
+  void choose(const std::string& series) override { this->Series = series; }
+
+  void setResamples(bool resamples) override { this->Resamples = resamples; }
+  void setScanProgress(const Progress& progress) override { this->ScanProgress = progress; }
+  std::string firstFile() const override;
+
+private:
+  // Chooses the type of the numbers.
+  void decideType(VolumeHeader& header);
+  // Fills an image with one volume; drops it if `progress` says stop.
+  void readImages(
+    std::size_t volume, const Progress& progress, vtkSmartPointer<vtkImageData>& image) const;
+
+  std::string Series;
+  bool Resamples = false;
+  Progress ScanProgress;
+  DICOMFolder Folder;
+  DICOMStack Stack;
+  int StoredType = VTK_VOID; // VTK_FLOAT: numbers are rescaled as they are read
+};
 
 std::vector<std::string> DICOMVolume::choices() const
 {
@@ -75,25 +195,25 @@ std::string DICOMVolume::firstFile() const
                                                       : std::string();
 }
 
-std::string DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
+void DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
 {
   std::error_code error;
   if (!std::filesystem::exists(fileName, error))
   {
     this->Folder = DICOMFolder();
-    return "does not exist";
+    throw Problem("does not exist");
   }
   DICOMFolder folder = readDICOMFolder(
     fileName, this->ScanProgress ? this->ScanProgress : [](double) { return true; });
   if (folder.isStopped)
   {
-    return "was not read to its end: reading was stopped";
+    throw Problem("was not read to its end: reading was stopped");
   }
   this->Folder = std::move(folder);
   const std::vector<DICOMSeries>& all = this->Folder.series;
   if (all.empty())
   {
-    return "is neither a DICOM image nor a folder with DICOM images";
+    throw Problem("is neither a DICOM image nor a folder with DICOM images");
   }
   const auto chosen = this->Series.empty()
     ? all.begin()
@@ -101,22 +221,17 @@ std::string DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& h
         [this](const DICOMSeries& series) { return series.name == this->Series; });
   if (chosen == all.end())
   {
-    return "has no series \"" + this->Series + "\"; it has " + std::to_string(all.size()) +
-      ", the first is \"" + all.front().name + "\"";
+    throw Problem("has no series \"" + this->Series + "\"; it has " + std::to_string(all.size()) +
+      ", the first is \"" + all.front().name + "\"");
   }
   const DICOMFile& file = this->Folder.files[chosen->frames.front().file];
-  if (!file.problem.empty())
-  {
-    return file.problem;
-  }
-  for (const DICOMFrame& frame : chosen->frames)
-  {
-    const std::string problem = pixelDataProblem(this->Folder.files[frame.file]);
-    if (!problem.empty())
+  throwIfAny(file.problem);
+  withBeginning("cannot be read: ", [&] {
+    for (const DICOMFrame& frame : chosen->frames)
     {
-      return "cannot be read: " + problem;
+      requirePixelData(this->Folder.files[frame.file]);
     }
-  }
+  });
   this->Stack = stackOf(this->Folder.files, chosen->frames, this->Resamples);
   header.worldFromVoxel = this->Stack.worldFromVoxel;
   const DICOMResampling& upright = this->Stack.resampling;
@@ -132,7 +247,6 @@ std::string DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& h
       "has files that are damaged and left out: " + std::to_string(this->Folder.damaged));
   }
   this->decideType(header);
-  return {};
 }
 
 void DICOMVolume::decideType(VolumeHeader& header)
@@ -166,7 +280,7 @@ double DICOMVolume::storedBytes(const VolumeHeader& header) const
     (isResampled ? VolumeFile::storedBytes(header) : 0.0);
 }
 
-std::string DICOMVolume::readImages(
+void DICOMVolume::readImages(
   std::size_t volume, const Progress& progress, vtkSmartPointer<vtkImageData>& image) const
 {
   const std::vector<Part> parts = partsOf(this->Folder, this->Stack.volumes[volume], image);
@@ -179,34 +293,28 @@ std::string DICOMVolume::readImages(
       for (std::int64_t i = begin; i < end; ++i)
       {
         const DICOMFile& file = this->Folder.files[parts[i].front().frame->file];
-        problems[i] = readDICOMPixels(file, parts[i], this->StoredType);
+        problems[i] = problemOf([&] { readDICOMPixels(file, parts[i], this->StoredType); });
       }
     });
-    const auto problem = std::find_if(problems.begin() + first, problems.begin() + last,
-      [](const std::string& text) { return !text.empty(); });
-    if (problem != problems.begin() + last)
-    {
-      return *problem;
-    }
+    std::for_each(problems.begin() + first, problems.begin() + last, throwIfAny);
     if (!progress(static_cast<double>(last) / static_cast<double>(count)))
     {
       image = nullptr;
-      return {};
+      return;
     }
   }
-  return {};
 }
 
-std::string DICOMVolume::load(std::size_t volume, const Progress& progress, StoredVoxels& voxels)
+void DICOMVolume::load(std::size_t volume, const Progress& progress, StoredVoxels& voxels)
 {
   const std::vector<DICOMFrame>& frames = this->Stack.volumes[volume];
   const DICOMFile& file = this->Folder.files[frames.front().file];
   vtkSmartPointer<vtkImageData> image =
     imageOf(file.columns, file.rows, frames.size(), this->StoredType);
-  const std::string problem = this->readImages(volume, progress, image);
-  if (!problem.empty() || !image)
+  this->readImages(volume, progress, image);
+  if (!image)
   {
-    return problem;
+    return;
   }
   voxels.image = image;
   const DICOMResampling& upright = this->Stack.resampling;
@@ -215,7 +323,8 @@ std::string DICOMVolume::load(std::size_t volume, const Progress& progress, Stor
     voxels.image = imageOf(upright.columns, upright.rows, upright.slices.size(), this->StoredType);
     makeUpright(upright, image, voxels.image);
   }
-  return {};
+}
+
 }
 
 extern const VolumeFormat VolumesOfDICOM{ "DICOM", leadsToDICOM, makeVolumeFile<DICOMVolume> };

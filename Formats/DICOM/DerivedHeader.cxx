@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/DICOM/DerivedHeader.h"
 
+#include "Common/Problem.h"
 #include "Formats/DICOM/DICOMAttributes.h"
 #include "Formats/DICOM/DICOMFile.h"
 #include "Formats/Files/PlainFile.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <functional>
+#include <random>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -17,6 +21,104 @@ namespace brainshift
 {
 namespace
 {
+constexpr std::size_t PreambleBytes = 128; // before the letters DICM
+constexpr DICOMTag PixelData = 0x7fe00010;
+constexpr const char* ExplicitLittleEndian = "1.2.840.10008.1.2.1";
+constexpr const char* Implementation = "2.25.232384421460108231880706615814198095366";
+
+void append(std::string& bytes, std::uint32_t number, int count)
+{
+  for (int i = 0; i < count; ++i)
+  {
+    bytes += static_cast<char>(number >> 8 * i & 255);
+  }
+}
+
+void appendTag(std::string& bytes, DICOMTag tag)
+{
+  append(bytes, tag >> 16, 2);
+  append(bytes, tag & 0xffff, 2);
+}
+
+void appendElements(std::string& bytes, const DerivedSet& set)
+{
+  for (const auto& [tag, element] : set)
+  {
+    appendTag(bytes, tag);
+    bytes += element.type;
+    append(bytes, static_cast<std::uint32_t>(element.bytes.size()), 2);
+    bytes += element.bytes;
+  }
+}
+
+// An element of one of the types with a length of 32 bits.
+void appendLongHead(std::string& bytes, DICOMTag tag, const char* type, std::size_t length)
+{
+  appendTag(bytes, tag);
+  bytes += type;
+  append(bytes, 0, 2);
+  append(bytes, static_cast<std::uint32_t>(length), 4);
+}
+
+// Sets a value of letters.
+void setText(DerivedSet& set, DICOMTag tag, const std::string& type, const std::string& text)
+{
+  std::string padded = text;
+  if (padded.size() % 2 == 1)
+  {
+    padded += type == "UI" ? '\0' : ' ';
+  }
+  set[tag] = { type, padded };
+}
+
+// Sets a whole number of 16 bits (VR US).
+void setWhole(DerivedSet& set, DICOMTag tag, int number)
+{
+  std::string bytes;
+  append(bytes, static_cast<std::uint32_t>(number), 2);
+  set[tag] = { "US", bytes };
+}
+
+// A unique identifier made of a random UUID (DICOM part 5, B.2).
+std::string newUID()
+{
+  std::random_device random;
+  std::array<std::uint32_t, 4> words{}; // of a number of 128 bits, the highest first
+  std::generate(words.begin(), words.end(), std::ref(random));
+  words[1] = (words[1] & 0xffff0fff) | 0x4000; // the version: random
+  words[2] = (words[2] & 0x3fffffff) | 0x80000000;
+  std::string digits;
+  while (std::any_of(words.begin(), words.end(), [](std::uint32_t word) { return word > 0; }))
+  {
+    std::uint64_t rest = 0;
+    for (std::uint32_t& word : words) // divides by 10
+    {
+      rest = rest << 32 | word;
+      word = static_cast<std::uint32_t>(rest / 10);
+      rest %= 10;
+    }
+    digits += static_cast<char>('0' + rest);
+  }
+  std::reverse(digits.begin(), digits.end());
+  return "2.25." + digits;
+}
+
+// The group of the file itself.
+std::string metaOf(const DerivedSet& set)
+{
+  std::string bytes;
+  appendLongHead(bytes, 0x00020001, "OB", 2);
+  append(bytes, 0x0100, 2); // version 1
+  DerivedSet meta;
+  meta[0x00020002] = set.at(0x00080016);
+  meta[0x00020003] = set.at(0x00080018);
+  setText(meta, 0x00020010, "UI", ExplicitLittleEndian);
+  setText(meta, 0x00020012, "UI", Implementation);
+  setText(meta, 0x00020013, "SH", "BrainShift");
+  appendElements(bytes, meta);
+  return bytes;
+}
+
 namespace fs = std::filesystem;
 
 constexpr const char* CTStorage = "1.2.840.10008.5.1.4.1.1.2";
@@ -92,69 +194,66 @@ bool isForPeople(const std::string& type)
   return type == "LO" || type == "PN" || type == "SH";
 }
 
-// Why a value cannot be kept: the end of a sentence. Empty if it can.
-std::string valueProblem(DICOMTag tag, const std::string& type, const DICOMElement& element)
+// Throws the end of a sentence if a value cannot be kept.
+void requireValue(DICOMTag tag, const std::string& type, const DICOMElement& element)
 {
   if (!element.items.empty())
   {
-    return "has a sequence as its attribute " + nameOf(tag) + ", which must be a text (" + type +
-      ")";
+    throw Problem(
+      "has a sequence as its attribute " + nameOf(tag) + ", which must be a text (" + type + ")");
   }
   if (element.length > MostTextBytes)
   {
-    return "has " + std::to_string(element.length) + " bytes in its attribute " + nameOf(tag) +
-      "; DICOM allows at most " + std::to_string(MostTextBytes);
+    throw Problem("has " + std::to_string(element.length) + " bytes in its attribute " +
+      nameOf(tag) + "; DICOM allows at most " + std::to_string(MostTextBytes));
   }
   const std::string text = element.bytes.substr(0, element.bytes.find_last_not_of('\0') + 1);
   const auto wrong = std::find_if(
     text.begin(), text.end(), [](char letter) { return letter < ' ' || letter > '~'; });
   if (!isForPeople(type) && wrong != text.end())
   {
-    return "has the byte " + std::to_string(static_cast<unsigned char>(*wrong)) +
-      " in its attribute " + nameOf(tag) + ", which must be text in ASCII (" + type + ")";
+    throw Problem("has the byte " + std::to_string(static_cast<unsigned char>(*wrong)) +
+      " in its attribute " + nameOf(tag) + ", which must be text in ASCII (" + type + ")");
   }
-  return {};
 }
 
-std::string problemOf(const DICOMDataSet& set)
+void requireKept(const DICOMDataSet& set)
 {
   for (const auto& [tag, type] : Kept)
   {
     const auto found = set.elements.find(tag);
-    const std::string problem =
-      found == set.elements.end() ? std::string() : valueProblem(tag, type, found->second);
-    if (!problem.empty())
+    if (found != set.elements.end())
     {
-      return problem;
+      requireValue(tag, type, found->second);
     }
   }
   for (const DICOMTag tag : { StudyUID, Modality })
   {
     if (textOf(set, tag).empty())
     {
-      return std::string("has no ") + (tag == StudyUID ? "study " : "modality ") + nameOf(tag);
+      throw Problem(
+        std::string("has no ") + (tag == StudyUID ? "study " : "modality ") + nameOf(tag));
     }
   }
-  return {};
 }
 
-// Why a file cannot be taken: the end of a sentence, after its name. Empty if it was read.
-std::string readImage(const std::string& fileName, DICOMDataSet& source)
+// Throws the end of a sentence, after the name of the file, if it cannot be taken.
+void readImage(const std::string& fileName, DICOMDataSet& source)
 {
-  const std::string problem = plainFileProblem(fileName);
-  if (!problem.empty() || !isDICOMFile(fileName))
+  requirePlainFile(fileName);
+  if (!isDICOMFile(fileName))
   {
-    return problem.empty() ? "is no DICOM image" : problem;
+    throw Problem("is no DICOM image");
   }
   DICOMBytes bytes(fileName, DICOMBytes::MostOfHeader);
   DICOMContent content;
   if (!parseDICOM(bytes, content, PatientGroup::Kept))
   {
-    return "is damaged at byte " + std::to_string(content.end) + " of " +
-      std::to_string(bytes.size()) + ": no attribute is there, or its length is wrong";
+    throw Problem("is damaged at byte " + std::to_string(content.end) + " of " +
+      std::to_string(bytes.size()) + ": no attribute is there, or its length is wrong");
   }
   source = std::move(content.set);
-  return problemOf(source);
+  requireKept(source);
 }
 
 void setNow(DerivedSet& set)
@@ -238,32 +337,56 @@ void setPixelFormat(const DerivedPixels& pixels, DerivedSet& set)
 }
 }
 
-std::string readLike(const std::string& like, DICOMDataSet& source)
+std::string fileOf(const DerivedSet& set, const std::vector<std::uint16_t>& pixels)
+{
+  const std::string meta = metaOf(set);
+  std::string length;
+  append(length, static_cast<std::uint32_t>(meta.size()), 4);
+  std::string bytes(PreambleBytes, '\0');
+  bytes += "DICM";
+  appendElements(bytes, { { 0x00020000, { "UL", length } } });
+  bytes += meta;
+  appendElements(bytes, set);
+  appendLongHead(bytes, PixelData, "OW", 2 * pixels.size());
+  bytes.reserve(bytes.size() + 2 * pixels.size());
+  for (const std::uint16_t pixel : pixels)
+  {
+    append(bytes, pixel, 2);
+  }
+  return bytes;
+}
+
+void readLike(const std::string& like, DICOMDataSet& source)
 {
   if (like.empty())
   {
-    return "Like is missing: a DICOM file of the patient's scan, whose patient and study the "
-           "series takes";
+    throw Problem(
+      "Like is missing: a DICOM file of the patient's scan, whose patient and study the "
+      "series takes");
   }
   std::error_code error;
   if (!fs::is_directory(like, error))
   {
-    const std::string problem = readImage(like, source);
-    return problem.empty()
-      ? problem
-      : "Like is " + like + ", which " + problem + "; choose another image of the patient's scan";
+    const std::string problem = problemOf([&] { readImage(like, source); });
+    throwIfAny(problem.empty() ? problem
+                               : "Like is " + like + ", which " + problem +
+          "; choose another image of the patient's scan");
+    return;
   }
   std::set<std::string> names;
   for (fs::directory_iterator next(like, error), end; next != end && !error; next.increment(error))
   {
     names.insert(next->path().string());
   }
-  const bool isFound = std::any_of(names.begin(), names.end(),
-    [&source](const std::string& name) { return readImage(name, source).empty(); });
-  return isFound ? std::string()
-                 : "Like is " + like + ", a folder with " + std::to_string(names.size()) +
+  const bool isFound = std::any_of(names.begin(), names.end(), [&source](const std::string& name) {
+    return problemOf([&] { readImage(name, source); }).empty();
+  });
+  if (!isFound)
+  {
+    throw Problem("Like is " + like + ", a folder with " + std::to_string(names.size()) +
       " entries and no DICOM image that can be read and has a study and a modality; choose an "
-      "image of the patient's scan";
+      "image of the patient's scan");
+  }
 }
 
 DerivedSet sharedHeader(const DICOMDataSet& source, const DerivedPixels& pixels)

@@ -2,35 +2,54 @@
 /**
  * @file
  * @brief The attributes of a derived series: patient, study and frame of reference of an image of
- *        the scanner, and a series of its own.
+ *        the scanner, and a series of its own. And the bytes of its files: DICOM part 10 with
+ *        explicit types (VR) and the low byte first.
  */
 #ifndef BrainShift_DerivedHeader_h
 #define BrainShift_DerivedHeader_h
 
 #include "Formats/DICOM/DICOMDataSet.h"
 #include "Formats/DICOM/DerivedPixels.h"
-#include "Formats/DICOM/DerivedSet.h"
 
+#include <cstdint>
+#include <map>
 #include <string>
+#include <vector>
 
 namespace brainshift
 {
+/** Bytes of a value whose length is stored in 16 bits; values have an even length. */
+constexpr std::uint32_t MostTextBytes = 65534;
+
+/** A value of one of the types with a length of 16 bits. */
+struct DerivedElement
+{
+  std::string type;  ///< two letters (VR)
+  std::string bytes; ///< at most MostTextBytes
+};
+
+/** Attributes in the order of a file, without its pixels and without the group of the file. */
+using DerivedSet = std::map<DICOMTag, DerivedElement>;
+
 /** What stands in the description of each series that is written. */
 constexpr const char* NotForClinicalUse = "research, not for clinical use";
 
 /**
- * Reads the attributes of an image of the scanner, without its pixels.
+ * Reads the attributes of an image of the scanner, without its pixels. Throws one sentence, without
+ * a full stop, if there is none.
  *
  * @param like   a DICOM file, or a folder whose first DICOM file is taken
- * @return one sentence, without a full stop, on why there is none; empty if it was read
  */
-std::string readLike(const std::string& like, DICOMDataSet& source);
+void readLike(const std::string& like, DICOMDataSet& source);
 
 /** What all slices share. The series gets a new number of its own (UID). */
 DerivedSet sharedHeader(const DICOMDataSet& source, const DerivedPixels& pixels);
 
 /** Sets what belongs to one slice: its place, its number, its own UID. */
 void setSlice(const DerivedPixels& pixels, int slice, DerivedSet& header);
+
+/** All bytes of a file. `set` must name its class (0008,0016) and its instance (0008,0018). */
+std::string fileOf(const DerivedSet& set, const std::vector<std::uint16_t>& pixels);
 }
 
 #endif

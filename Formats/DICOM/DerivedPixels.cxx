@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/DICOM/DerivedPixels.h"
 
+#include "Common/Problem.h"
+
 #include "vtkDataArray.h"
 
 #include <glm/common.hpp>
@@ -92,28 +94,28 @@ std::string decimalText(double number)
   return text;
 }
 
-std::string derivedPixels(const OutgoingVolume& volume, DerivedPixels& pixels)
+void derivedPixels(const OutgoingVolume& volume, DerivedPixels& pixels)
 {
   if (volume.components() != 1)
   {
-    return "The input has " + std::to_string(volume.components()) +
-      " components at each voxel; a DICOM series must have 1";
+    throw Problem("The input has " + std::to_string(volume.components()) +
+      " components at each voxel; a DICOM series must have 1");
   }
   const glm::ivec3& sides = volume.grid.dimensions;
   if (std::max(sides.x, sides.y) > HighestUnsigned || double(sides.x) * sides.y > MostPixels)
   {
-    return "The input has slices of " + std::to_string(sides.x) + " x " + std::to_string(sides.y) +
-      " voxels; DICOM holds at most 65535 on each side and 2147483647 in a slice";
+    throw Problem("The input has slices of " + std::to_string(sides.x) + " x " +
+      std::to_string(sides.y) +
+      " voxels; DICOM holds at most 65535 on each side and 2147483647 in a slice");
   }
   const Range range = rangeOf(volume.numbers);
   if (!range.isFinite)
   {
-    return "The input has a number that is not finite, which DICOM cannot hold";
+    throw Problem("The input has a number that is not finite, which DICOM cannot hold");
   }
   pixels.grid = withReversedXY(volume.grid);
   turnUpright(pixels);
   chooseRescaling(range, pixels);
-  return {};
 }
 
 std::vector<std::uint16_t> derivedSlice(

@@ -33,11 +33,9 @@ struct DerivedPixels
 /**
  * Says how a volume is stored. Whole numbers of 1 or 2 bytes keep their values, and so do all
  * others that are whole and fit. The rest are rounded to 65536 steps from the lowest value to the
- * highest.
- *
- * @return one sentence, without a full stop, on why it cannot be stored; empty if it can
+ * highest. Throws one sentence, without a full stop, if the volume cannot be stored.
  */
-std::string derivedPixels(const OutgoingVolume& volume, DerivedPixels& pixels);
+void derivedPixels(const OutgoingVolume& volume, DerivedPixels& pixels);
 
 /** The 16 bits of each pixel of a slice, row by row. */
 std::vector<std::uint16_t> derivedSlice(

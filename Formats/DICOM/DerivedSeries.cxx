@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/DICOM/DerivedSeries.h"
 
+#include "Common/Problem.h"
 #include "Formats/DICOM/DerivedHeader.h"
 #include "Formats/DICOM/DerivedPixels.h"
 #include "Formats/Files/WholeFile.h"
 
-#include <cerrno>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <random>
 #include <system_error>
 
@@ -20,20 +19,22 @@ namespace fs = std::filesystem;
 
 constexpr const char* Ending = ".dcm";
 
-std::string folderProblem(const fs::path& folder)
+void requireNewFolder(const fs::path& folder)
 {
   std::error_code error;
   const fs::file_status status = fs::status(folder, error);
   if (!fs::exists(status))
   {
-    return {};
+    return;
   }
   if (!fs::is_directory(status))
   {
-    return "it exists and is not a folder";
+    throw Problem("it exists and is not a folder");
   }
-  return fs::is_empty(folder, error) && !error ? std::string()
-                                               : "it holds files already; choose a new folder";
+  if (!fs::is_empty(folder, error) || error)
+  {
+    throw Problem("it holds files already; choose a new folder");
+  }
 }
 
 std::string nameOf(int slice)
@@ -43,18 +44,7 @@ std::string nameOf(int slice)
   return name;
 }
 
-std::string writeSlice(const std::string& fileName, const std::string& bytes)
-{
-  return writeWhole(fileName, [&](const std::string& beside) {
-    errno = 0;
-    std::ofstream file(beside, std::ios::binary);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    return file ? std::string() : lastSystemError();
-  });
-}
-
-std::string writeSlices(const fs::path& folder, DerivedSet header, const OutgoingVolume& volume,
+void writeSlices(const fs::path& folder, DerivedSet header, const OutgoingVolume& volume,
   const DerivedPixels& pixels, const Progress& progress)
 {
   const int slices = pixels.grid.dimensions.z;
@@ -62,17 +52,14 @@ std::string writeSlices(const fs::path& folder, DerivedSet header, const Outgoin
   {
     setSlice(pixels, slice, header);
     const std::string bytes = fileOf(header, derivedSlice(volume, pixels, slice));
-    const std::string problem = writeSlice((folder / nameOf(slice)).string(), bytes);
-    if (!problem.empty())
-    {
-      return problem;
-    }
+    writeWholeStream((folder / nameOf(slice)).string(), [&](std::ostream& file) {
+      file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    });
     if (!progress((slice + 1.0) / slices))
     {
-      return "it was stopped";
+      throw Problem("it was stopped");
     }
   }
-  return {};
 }
 }
 
@@ -81,44 +68,40 @@ bool isSeriesName(const std::string& fileName)
   return fs::path(fileName).extension() == Ending;
 }
 
-std::string writeSeries(const std::string& name, const std::string& like,
-  const OutgoingVolume& volume, const Progress& progress)
+void writeSeries(const std::string& name, const std::string& like, const OutgoingVolume& volume,
+  const Progress& progress)
 {
   fs::path folder = isSeriesName(name) ? fs::path(name).replace_extension() : fs::path(name);
   folder = folder.has_filename() ? folder : folder.parent_path(); // a slash at the end
+  if (!volume.knowsSides)
+  {
+    throw Problem(
+      "The input does not know the sides of the patient, which a DICOM series must; set "
+      "World to RAS or LPS if you know them");
+  }
   DICOMDataSet source;
   DerivedPixels pixels;
-  std::string problem = volume.knowsSides
-    ? readLike(like, source)
-    : "The input does not know the sides of the patient, which a DICOM series must; set World to "
-      "RAS or LPS if you know them";
-  problem = problem.empty() ? derivedPixels(volume, pixels) : problem;
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  readLike(like, source);
+  derivedPixels(volume, pixels);
   const fs::path beside = folder.parent_path() /
     (".part-" + std::to_string(std::random_device()()) + "-" + folder.filename().string());
   std::error_code error;
-  problem = folderProblem(folder);
-  if (problem.empty() && !fs::create_directory(beside, error))
+  try
   {
-    problem = error.message();
+    withBeginning("The series in folder " + folder.string() + " cannot be written: ", [&] {
+      requireNewFolder(folder);
+      fs::create_directory(beside, error);
+      throwIfAny(error ? error.message() : std::string());
+      writeSlices(beside, sharedHeader(source, pixels), volume, pixels, progress);
+      fs::remove(folder, error); // an empty one
+      fs::rename(beside, folder, error);
+      throwIfAny(error ? error.message() : std::string());
+    });
   }
-  problem = problem.empty()
-    ? writeSlices(beside, sharedHeader(source, pixels), volume, pixels, progress)
-    : problem;
-  if (problem.empty())
-  {
-    fs::remove(folder, error); // an empty one
-    fs::rename(beside, folder, error);
-    problem = error ? error.message() : problem;
-  }
-  if (!problem.empty())
+  catch (...)
   {
     fs::remove_all(beside, error);
-    return "The series in folder " + folder.string() + " cannot be written: " + problem;
+    throw;
   }
-  return {};
 }
 }

@@ -15,15 +15,14 @@ namespace brainshift
 {
 /**
  * Writes the folder whole or not at all. It must not hold anything yet: slices of two series in one
- * folder are easily taken for one.
+ * folder are easily taken for one. Throws one sentence, without a full stop.
  *
  * @param folder   .dcm at the end of its name is left out
  * @param like     a DICOM file of the patient's scan, or a folder with one. The series takes its
  *                 patient, study, frame of reference and modality
- * @return one sentence, without a full stop, on what went wrong; empty if nothing did
  */
-std::string writeSeries(const std::string& folder, const std::string& like,
-  const OutgoingVolume& volume, const Progress& progress);
+void writeSeries(const std::string& folder, const std::string& like, const OutgoingVolume& volume,
+  const Progress& progress);
 
 /** Whether a name ends as that of a series: .dcm. */
 bool isSeriesName(const std::string& fileName);

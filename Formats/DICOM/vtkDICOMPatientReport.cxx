@@ -2,11 +2,13 @@
 #include "vtkDICOMPatientReport.h"
 
 #include "Common/Guard.h"
-#include "Formats/DICOM/DICOMPatient.h"
+#include "Formats/DICOM/DICOMAttributes.h"
 #include "Formats/Volumes/vtkVolumeFileReader.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkObjectFactory.h"
+
+using namespace brainshift;
 
 vtkStandardNewMacro(vtkDICOMPatientReport);
 
@@ -20,14 +22,16 @@ void vtkDICOMPatientReport::SetSource(vtkAlgorithm* source)
 
 void vtkDICOMPatientReport::Read()
 {
-  brainshift::guarded(this, [this] {
+  guarded(this, [this] {
     auto* reader = vtkVolumeFileReader::SafeDownCast(this->Source);
-    const brainshift::DICOMPatient patient =
-      brainshift::readDICOMPatient(reader ? reader->GetShownFile() : std::string());
-    this->Name = patient.name;
-    this->Number = patient.number;
-    this->BirthDate = patient.birthDate;
-    this->Sex = patient.sex;
+    DICOMBytes bytes(reader ? reader->GetShownFile() : std::string(), DICOMBytes::MostOfHeader);
+    DICOMContent content;
+    const bool isRead = parseDICOM(bytes, content, PatientGroup::Kept);
+    const DICOMDataSet set = isRead ? content.set : DICOMDataSet();
+    this->Name = shownTextOf(set, 0x00100010);
+    this->Number = shownTextOf(set, 0x00100020);
+    this->BirthDate = dateOf(set, 0x00100030);
+    this->Sex = shownTextOf(set, 0x00100040);
   });
 }
 

@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Fields/FieldFile.h"
 
-#include <algorithm>
-#include <cctype>
+#include "Common/Problem.h"
+#include "Formats/Files/Text.h"
+#include "Formats/Volumes/OutgoingVolume.h"
 
 namespace brainshift
 {
 namespace
 {
-bool endsWith(const std::string& text, const std::string& end)
-{
-  return text.size() >= end.size() &&
-    std::equal(end.rbegin(), end.rend(), text.rbegin(), [](char wanted, char found) {
-      return wanted == std::tolower(static_cast<unsigned char>(found));
-    });
-}
-
 // The format that the ending of a name stands for. Null: none.
 const FieldFormat* formatOf(const std::string& fileName)
 {
@@ -32,8 +25,12 @@ const FieldFormat* formatOf(const std::string& fileName)
   return nullptr;
 }
 
-std::string unknownFormat(const std::string& fileName)
+const FieldFormat& knownFormatOf(const std::string& fileName)
 {
+  if (const FieldFormat* format = formatOf(fileName))
+  {
+    return *format;
+  }
   std::vector<std::string> all;
   for (const FieldFormat* format : fieldFormats())
   {
@@ -45,8 +42,17 @@ std::string unknownFormat(const std::string& fileName)
   {
     names.append(i == 0 ? "" : i + 1 == all.size() ? " or " : ", ").append(all[i]);
   }
-  return "The extension of the displacement field " + fileName + " must be " + names;
+  throw Problem("The extension of the displacement field " + fileName + " must be " + names);
 }
+}
+
+void reverseXY(DirectedField& field)
+{
+  field.grid = withReversedXY(field.grid);
+  for (glm::vec3& displacement : field.displacements)
+  {
+    displacement *= glm::vec3(-1.0f, -1.0f, 1.0f);
+  }
 }
 
 bool isFieldFile(const std::string& fileName)
@@ -55,15 +61,13 @@ bool isFieldFile(const std::string& fileName)
   return format && format->isOne(fileName);
 }
 
-std::string readFieldFile(const std::string& fileName, DirectedField& field)
+void readFieldFile(const std::string& fileName, DirectedField& field)
 {
-  const FieldFormat* format = formatOf(fileName);
-  return format ? format->read(fileName, field) : unknownFormat(fileName);
+  knownFormatOf(fileName).read(fileName, field);
 }
 
-std::string writeFieldFile(const std::string& fileName, const DirectedField& field)
+void writeFieldFile(const std::string& fileName, const DirectedField& field)
 {
-  const FieldFormat* format = formatOf(fileName);
-  return format ? format->write(fileName, field) : unknownFormat(fileName);
+  knownFormatOf(fileName).write(fileName, field);
 }
 }

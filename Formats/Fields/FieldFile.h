@@ -5,7 +5,7 @@
  *
  * | ending         | format    | world in the file | where the direction stands         |
  * |----------------|-----------|-------------------|------------------------------------|
- * | .nii, .nii.gz  | NIfTI     | see NIFTIField.h  | intent_name                        |
+ * | .nii, .nii.gz  | NIfTI     | see NIFTIField.cxx  | intent_name                        |
  * | .mha, .mhd     | MetaImage | LPS               | Comment                            |
  * | .nrrd, .nhdr   | NRRD      | LPS               | "displacement field type" (Slicer) |
  *
@@ -15,23 +15,39 @@
 #ifndef BrainShift_FieldFile_h
 #define BrainShift_FieldFile_h
 
-#include "Formats/Fields/DirectedField.h"
+#include "Common/FieldDirection.h"
+#include "Common/Grid.h"
+
 #include "vtkBrainShiftFormatsModule.h" // for the export macro
 
+#include <glm/vec3.hpp>
+
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace brainshift
 {
+/** Displacements on a grid, and the direction they lead in. World is RAS, mm. */
+struct DirectedField
+{
+  Grid grid;                            ///< mm, RAS
+  std::vector<glm::vec3> displacements; ///< mm, RAS axes; one for each point, x fastest
+  std::optional<Direction> direction;   ///< none if the file does not name it
+};
+
+/** Reverses x and y of a field: this leads from RAS to LPS and back. */
+VTKBRAINSHIFTFORMATS_EXPORT void reverseXY(DirectedField& field);
+
 /** A format of displacement fields. Formats/README.md has the recipe for a new one. */
 struct FieldFormat
 {
   std::vector<std::string> (*endings)(); ///< of names of files, such as ".nii.gz"
   bool (*isOne)(const std::string& fileName);
   ///@{
-  /** Return one sentence, without a full stop, on what went wrong; empty if nothing did. */
-  std::string (*read)(const std::string& fileName, DirectedField& field);
-  std::string (*write)(const std::string& fileName, const DirectedField& field);
+  /** Throw one sentence, without a full stop, if anything goes wrong. */
+  void (*read)(const std::string& fileName, DirectedField& field);
+  void (*write)(const std::string& fileName, const DirectedField& field);
   ///@}
 };
 
@@ -41,21 +57,14 @@ const std::vector<const FieldFormat*>& fieldFormats();
 /** Whether a file looks like a displacement field: three components, in one of the formats. */
 VTKBRAINSHIFTFORMATS_EXPORT bool isFieldFile(const std::string& fileName);
 
-/**
- * Reads a field.
- *
- * @return one sentence, without a full stop, on what went wrong; empty if nothing did
- */
-VTKBRAINSHIFTFORMATS_EXPORT std::string readFieldFile(
-  const std::string& fileName, DirectedField& field);
+/** Reads a field, or throws one sentence, without a full stop. */
+VTKBRAINSHIFTFORMATS_EXPORT void readFieldFile(const std::string& fileName, DirectedField& field);
 
 /**
- * Writes a field. The ending of the name chooses the format. A field without a direction is written
- * as one that leads backward.
- *
- * @return one sentence, without a full stop, on what went wrong; empty if nothing did
+ * Writes a field, or throws one sentence, without a full stop. The ending of the name chooses the
+ * format. A field without a direction is written as one that leads backward.
  */
-VTKBRAINSHIFTFORMATS_EXPORT std::string writeFieldFile(
+VTKBRAINSHIFTFORMATS_EXPORT void writeFieldFile(
   const std::string& fileName, const DirectedField& field);
 }
 

@@ -2,6 +2,7 @@
 #include "vtkDisplacementFieldReader.h"
 
 #include "Common/Guard.h"
+#include "Common/Problem.h"
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Fields/FieldImage.h"
 
@@ -38,15 +39,13 @@ int vtkDisplacementFieldReader::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
   State& state = *this->Internal;
-  const std::string problem = this->FileName.empty()
-    ? std::string("FileName is empty; it must name a displacement field")
-    : readFieldFile(this->FileName, state.Field);
-  state.Good = problem.empty();
-  if (!state.Good)
+  state.Good = false;
+  if (this->FileName.empty())
   {
-    vtkErrorMacro(<< problem << ".");
-    return 0;
+    throw Problem("FileName is empty; it must name a displacement field");
   }
+  readFieldFile(this->FileName, state.Field);
+  state.Good = true;
   if (this->World == LPS)
   {
     reverseXY(state.Field);

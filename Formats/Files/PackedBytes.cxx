@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Files/PackedBytes.h"
 
+#include "Common/Problem.h"
+
 #include "vtk_zlib.h"
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -78,8 +79,8 @@ private:
   bool Ended = false;
 };
 
-std::string unpackAll(std::ifstream& file, const StoredBytes& from, char* to, std::size_t count,
-  const ShareDone& shareDone)
+void unpackAll(std::ifstream& file, const StoredBytes& from, char* to, std::size_t count,
+  const FractionDone& fractionDone)
 {
   const std::string damaged = "has packed numbers that are damaged or too few";
   Unpacker unpacker(file);
@@ -89,7 +90,7 @@ std::string unpackAll(std::ifstream& file, const StoredBytes& from, char* to, st
     const std::size_t wanted = std::min<std::uint64_t>(left, Piece);
     if (unpacker.unpack(unwanted.data(), wanted) < wanted)
     {
-      return damaged;
+      throw Problem(damaged);
     }
     left -= wanted;
   }
@@ -98,36 +99,38 @@ std::string unpackAll(std::ifstream& file, const StoredBytes& from, char* to, st
     const std::size_t wanted = std::min(count - done, Piece);
     if (unpacker.unpack(to + done, wanted) < wanted)
     {
-      return damaged;
+      throw Problem(damaged);
     }
     done += wanted;
-    if (!shareDone(static_cast<double>(done) / static_cast<double>(count)))
+    if (!fractionDone(static_cast<double>(done) / static_cast<double>(count)))
     {
-      return {};
+      return;
     }
   }
   unwanted.resize(Piece); // what follows the numbers is no more than this, and their checksum
   unpacker.unpack(unwanted.data(), unwanted.size());
-  return unpacker.isGood() ? std::string() : damaged;
+  if (!unpacker.isGood())
+  {
+    throw Problem(damaged);
+  }
 }
 
-std::string readAll(std::ifstream& file, char* to, std::size_t count, const ShareDone& shareDone)
+void readAll(std::ifstream& file, char* to, std::size_t count, const FractionDone& fractionDone)
 {
   for (std::size_t done = 0; done < count;)
   {
     const std::size_t wanted = std::min(count - done, 16 * Piece);
     if (!file.read(to + done, static_cast<std::streamsize>(wanted)))
     {
-      return "has only " + std::to_string(done + static_cast<std::size_t>(file.gcount())) +
-        " readable bytes of numbers";
+      throw Problem("has only " + std::to_string(done + static_cast<std::size_t>(file.gcount())) +
+        " readable bytes of numbers");
     }
     done += wanted;
-    if (!shareDone(static_cast<double>(done) / static_cast<double>(count)))
+    if (!fractionDone(static_cast<double>(done) / static_cast<double>(count)))
     {
-      return {};
+      return;
     }
   }
-  return {};
 }
 }
 
@@ -138,54 +141,44 @@ bool beginsLikeGzip(const std::string& fileName)
   return file.read(first, 2) && first[0] == '\x1f' && first[1] == '\x8b';
 }
 
-bool thisMachineIsBigEndian()
-{
-  const int one = 1;
-  char first;
-  std::memcpy(&first, &one, 1);
-  return first == 0;
-}
-
-void reverseBytes(char* numbers, std::size_t count, std::size_t size)
-{
-  for (std::size_t i = 0; size > 1 && i < count; ++i)
-  {
-    std::reverse(numbers + i * size, numbers + (i + 1) * size);
-  }
-}
-
-std::string bytesProblem(const StoredBytes& from, double count)
+void requireBytes(const StoredBytes& from, double count)
 {
   std::error_code error;
   const auto size = static_cast<double>(std::filesystem::file_size(from.fileName, error));
   if (error)
   {
-    return "has an unknown size";
+    throw Problem("has an unknown size");
   }
   const double bytes = std::max(size - static_cast<double>(from.offset), 0.0);
   const double wanted = count + (from.isPacked ? static_cast<double>(from.unpackedSkip) : 0.0);
   // A damaged header asks for more than any file can hold.
   if (bytes * (from.isPacked ? LargestDeflateRatio : 1.0) >= wanted)
   {
-    return {};
+    return;
   }
   std::ostringstream problem;
   problem.precision(15);
   problem << "has " << bytes << (from.isPacked ? " packed bytes" : " bytes of numbers")
           << " where the header announces " << wanted << (from.isPacked ? " bytes of numbers" : "");
-  return problem.str();
+  throw Problem(problem.str());
 }
 
-std::string readBytes(
-  const StoredBytes& from, char* to, std::size_t count, const ShareDone& shareDone)
+void readBytes(
+  const StoredBytes& from, char* to, std::size_t count, const FractionDone& fractionDone)
 {
   std::ifstream file(from.fileName, std::ios::binary);
   if (!file)
   {
-    return "cannot be opened";
+    throw Problem("cannot be opened");
   }
   file.seekg(static_cast<std::streamoff>(from.offset));
-  return from.isPacked ? unpackAll(file, from, to, count, shareDone)
-                       : readAll(file, to, count, shareDone);
+  if (from.isPacked)
+  {
+    unpackAll(file, from, to, count, fractionDone);
+  }
+  else
+  {
+    readAll(file, to, count, fractionDone);
+  }
 }
 }

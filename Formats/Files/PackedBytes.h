@@ -22,30 +22,21 @@ struct StoredBytes
   std::uint64_t unpackedSkip = 0; ///< unpacked bytes before those that are wanted
 };
 
-/** Hears which share is done, 0 to 1. Returns false if the work is to stop. */
-using ShareDone = std::function<bool(double share)>;
+/** Receives the fraction that is done, 0 to 1. Returns false if the work is to stop. */
+using FractionDone = std::function<bool(double fraction)>;
 
 /** Whether a file begins like one that is packed with gzip. */
 bool beginsLikeGzip(const std::string& fileName);
 
-/** Whether this machine stores the highest byte of a number first. */
-bool thisMachineIsBigEndian();
-
-/** Reverses the bytes of each of `count` numbers of `size` bytes. */
-void reverseBytes(char* numbers, std::size_t count, std::size_t size);
-
 /**
- * Why the bytes cannot all be there, by the size of the file: the end of a sentence, or nothing. It
- * opens nothing and takes no memory. Packed bytes may still be too few.
+ * Throws the end of a sentence if the bytes cannot all be there, by the size of the file. It opens
+ * nothing and takes no memory. Packed bytes may still be too few.
  */
-std::string bytesProblem(const StoredBytes& from, double count);
+void requireBytes(const StoredBytes& from, double count);
 
-/**
- * Fills `to`. Returns the end of a sentence on why it cannot, or nothing; nothing as well if it is
- * told to stop.
- */
-std::string readBytes(
-  const StoredBytes& from, char* to, std::size_t count, const ShareDone& shareDone);
+/** Fills `to`, or throws the end of a sentence. It returns early if `fractionDone` says stop. */
+void readBytes(
+  const StoredBytes& from, char* to, std::size_t count, const FractionDone& fractionDone);
 }
 
 #endif

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Files/WholeFile.h"
 
+#include "Common/Problem.h"
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <locale>
 #include <random>
 #include <system_error>
 
@@ -29,43 +32,46 @@ fs::path nameBeside(const fs::path& file)
   return file.parent_path() / (".part-" + number + "-" + file.filename().string());
 }
 
-// What keeps an existing file from being replaced.
-std::string replacementProblem(const fs::path& file)
+// An existing file must be one that can be replaced.
+void requireReplaceable(const fs::path& file)
 {
   std::error_code error;
   if (!fs::exists(file, error))
   {
-    return {};
+    return;
   }
   if (!fs::is_regular_file(file, error))
   {
-    return "it exists and is not a file";
+    throw Problem("it exists and is not a file");
   }
   errno = 0;
-  return std::ofstream(file, std::ios::app) ? std::string() : lastSystemError();
+  if (!std::ofstream(file, std::ios::app))
+  {
+    throw Problem(lastSystemError());
+  }
 }
 
 // Waits until the disk holds a file: some disks say only then that they are full.
-std::string sync(const fs::path& file)
+void sync(const fs::path& file)
 {
   errno = 0;
   std::FILE* opened = std::fopen(file.string().c_str(), "r+b");
   if (!opened)
   {
-    return lastSystemError();
+    throw Problem(lastSystemError());
   }
 #ifdef _WIN32
   const bool good = _commit(_fileno(opened)) == 0;
 #else
   const bool good = fsync(fileno(opened)) == 0;
 #endif
-  const std::string problem = good ? std::string() : lastSystemError();
+  const std::string reason = lastSystemError();
   std::fclose(opened);
-  return problem;
+  throwIfAny(good ? std::string() : reason);
 }
 
 // The new file takes the name, and the rights, of the old one.
-std::string replace(const fs::path& file, const fs::path& beside)
+void replace(const fs::path& file, const fs::path& beside)
 {
   std::error_code error;
   const fs::file_status old = fs::status(file, error);
@@ -74,7 +80,7 @@ std::string replace(const fs::path& file, const fs::path& beside)
     fs::permissions(beside, old.permissions(), error);
   }
   fs::rename(beside, file, error);
-  return error ? error.message() : std::string();
+  throwIfAny(error ? error.message() : std::string());
 }
 }
 
@@ -83,22 +89,40 @@ std::string lastSystemError()
   return errno ? std::generic_category().message(errno) : "the disk does not take it";
 }
 
-std::string writeWhole(
-  const std::string& fileName, const std::function<std::string(const std::string&)>& write)
+void writeWhole(const std::string& fileName, const std::function<void(const std::string&)>& write)
 {
   std::error_code error;
   fs::path file = fs::weakly_canonical(fileName, error); // a link stays a link
   file = error ? fs::path(fileName) : file;
   const fs::path beside = nameBeside(file);
-  std::string problem = replacementProblem(file);
-  problem = problem.empty() ? write(beside.string()) : problem;
-  problem = problem.empty() ? sync(beside) : problem;
-  problem = problem.empty() ? replace(file, beside) : problem;
-  if (!problem.empty())
+  try
+  {
+    withBeginning("File " + fileName + " cannot be written: ", [&] {
+      requireReplaceable(file);
+      write(beside.string());
+      sync(beside);
+      replace(file, beside);
+    });
+  }
+  catch (...)
   {
     fs::remove(beside, error);
-    return "File " + fileName + " cannot be written: " + problem;
+    throw;
   }
-  return {};
+}
+
+void writeWholeStream(const std::string& fileName, const std::function<void(std::ostream&)>& write)
+{
+  writeWhole(fileName, [&](const std::string& beside) {
+    errno = 0;
+    std::ofstream file(beside, std::ios::binary);
+    file.imbue(std::locale::classic());
+    write(file);
+    file.close();
+    if (!file)
+    {
+      throw Problem(lastSystemError());
+    }
+  });
 }
 }

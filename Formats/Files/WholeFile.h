@@ -7,20 +7,24 @@
 #define BrainShift_WholeFile_h
 
 #include <functional>
+#include <ostream>
 #include <string>
 
 namespace brainshift
 {
 /**
  * Writes a new file beside `fileName`, waits until the disk holds it, and gives it that name. If
- * anything fails, the new file is removed and the old one stays as it was.
+ * anything throws, the new file is removed and the old one stays as it was. A Problem gets the
+ * beginning "File … cannot be written: ".
  *
- * @param write   fills the file whose name it gets, which has the same ending. Returns the reason
- *                of a failure; empty if there is none
- * @return one sentence, without a full stop, on what went wrong; empty if nothing did
+ * @param write   fills the file whose name it gets, which has the same ending
  */
-std::string writeWhole(
-  const std::string& fileName, const std::function<std::string(const std::string& beside)>& write);
+void writeWhole(
+  const std::string& fileName, const std::function<void(const std::string& beside)>& write);
+
+/** The same through a stream. */
+void writeWholeStream(
+  const std::string& fileName, const std::function<void(std::ostream& file)>& write);
 
 /** What the system says about the last call that failed, or a general reason. */
 std::string lastSystemError();

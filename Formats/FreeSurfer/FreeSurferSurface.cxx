@@ -1,20 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/FreeSurfer/FreeSurferSurface.h"
-
-#include "Formats/Files/HeaderText.h"
+/**
+ * @file
+ * @brief Surfaces of FreeSurfer, such as lh.pial: triangles, and maps of values, such as
+ *        lh.thickness.
+ *
+ * All numbers are big endian. Points are in tkRAS (ScannerFrame.h), unless the tag useRealRAS says
+ * that they are in the scanner's RAS. The geometry of the volume follows the triangles, as text.
+ */
+#include "Common/Bytes.h"
+#include "Common/Numbers.h"
+#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
-#include "Formats/Surfaces/StoredNumbers.h"
+#include "Formats/Files/Text.h"
+#include "Formats/Surfaces/ScannerFrame.h"
+#include "Formats/Surfaces/SurfaceFile.h"
 #include "Formats/Volumes/RasGrid.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <fstream>
-#include <sstream>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace brainshift
 {
@@ -72,13 +84,13 @@ private:
   std::size_t Place = 0;
 };
 
-std::string damagedGeometry(const std::string& line)
+Problem damagedGeometry(const std::string& line)
 {
-  return "has a damaged volume geometry after its triangles: " + shownWords(line);
+  return Problem("has a damaged volume geometry after its triangles: " + shownWords(line));
 }
 
 // The eight lines from "valid" to "cras". No frame if the file says that it is not valid.
-std::string readGeometry(Bytes& bytes, std::optional<VolumeFrame>& frame)
+void readGeometry(Bytes& bytes, std::optional<VolumeFrame>& frame)
 {
   constexpr std::array<const char*, 8> Names{ "valid", "filename", "volume", "voxelsize", "xras",
     "yras", "zras", "cras" };
@@ -89,13 +101,13 @@ std::string readGeometry(Bytes& bytes, std::optional<VolumeFrame>& frame)
     std::string line;
     if (!bytes.line(line))
     {
-      return "ends within its volume geometry";
+      throw Problem("ends within its volume geometry");
     }
     const std::size_t equals = line.find('=');
     const std::vector<std::string> words = wordsIn(line.substr(0, equals));
     if (equals == std::string::npos || words.size() != 1 || words[0] != Names[i])
     {
-      return damagedGeometry(line);
+      throw damagedGeometry(line);
     }
     const std::string value = line.substr(equals + 1);
     if (i == 0)
@@ -103,7 +115,7 @@ std::string readGeometry(Bytes& bytes, std::optional<VolumeFrame>& frame)
       const std::vector<double> numbers = numbersIn(value.substr(0, value.find('#')));
       if (numbers.size() != 1 || !isWhole(numbers[0], 0, 1))
       {
-        return damagedGeometry(line);
+        throw damagedGeometry(line);
       }
       isValid = numbers[0] == 1.0;
     }
@@ -112,7 +124,7 @@ std::string readGeometry(Bytes& bytes, std::optional<VolumeFrame>& frame)
       const std::vector<double> numbers = numbersIn(value);
       if (numbers.size() != 3)
       {
-        return damagedGeometry(line);
+        throw damagedGeometry(line);
       }
       const std::array<glm::dvec3*, 4> vectors{ &found.xRas, &found.yRas, &found.zRas,
         &found.cRas };
@@ -120,18 +132,18 @@ std::string readGeometry(Bytes& bytes, std::optional<VolumeFrame>& frame)
     }
   }
   frame = isValid ? std::optional<VolumeFrame>(found) : std::nullopt;
-  return {};
 }
 
 // What follows the triangles, up to the geometry.
-std::string readTags(Bytes& bytes, std::optional<VolumeFrame>& frame, bool& isInScanner)
+void readTags(Bytes& bytes, std::optional<VolumeFrame>& frame, bool& isInScanner)
 {
   while (bytes.left() >= 8)
   {
     const auto tag = bytes.number<std::int32_t>();
     if (tag == VolumeGeometry)
     {
-      return readGeometry(bytes, frame);
+      readGeometry(bytes, frame);
+      return;
     }
     if (tag == UseRealRAS)
     {
@@ -140,47 +152,49 @@ std::string readTags(Bytes& bytes, std::optional<VolumeFrame>& frame, bool& isIn
     }
     if (tag == OldColorTable || (tag != OldTransform && bytes.left() < 8))
     {
-      return {}; // no geometry is known to follow
+      return; // no geometry is known to follow
     }
     const std::int64_t length =
       tag == OldTransform ? bytes.number<std::int32_t>() : bytes.number<std::int64_t>();
     if (length < 0 || static_cast<std::uint64_t>(length) > bytes.left())
     {
-      return "has a damaged tag " + std::to_string(tag) + " after its triangles: its length is " +
-        std::to_string(length) + ", and " + std::to_string(bytes.left()) + " bytes follow";
+      throw Problem("has a damaged tag " + std::to_string(tag) +
+        " after its triangles: its length is " + std::to_string(length) + ", and " +
+        std::to_string(bytes.left()) + " bytes follow");
     }
     bytes.skip(static_cast<std::size_t>(length));
   }
-  return {};
 }
 
-std::string magicProblem(const std::vector<char>& bytes)
+void requireMagic(const std::vector<char>& bytes)
 {
   const std::string_view begin(bytes.data(), std::min<std::size_t>(bytes.size(), 3));
   if (begin == TriangleMagic)
   {
-    return {};
+    return;
   }
-  return begin == QuadrangleMagic || begin == ValueMagic
-    ? "is no FreeSurfer surface of triangles, but one of quadrangles or a map of values"
-    : "does not begin like a FreeSurfer surface (FF FF FE) and is no GIFTI file";
+  throw Problem(begin == QuadrangleMagic || begin == ValueMagic
+      ? "is no FreeSurfer surface of triangles, but one of quadrangles or a map of values"
+      : "does not begin like a FreeSurfer surface (FF FF FE) and is no GIFTI file");
 }
 
-// Why so many numbers of 4 bytes cannot follow.
-std::string sizeProblem(const Bytes& bytes, double numbers, const std::string& what)
+// Throws unless so many numbers of 4 bytes can follow.
+void requireSize(const Bytes& bytes, double numbers, const std::string& what)
 {
-  return 4.0 * numbers <= static_cast<double>(bytes.left())
-    ? std::string()
-    : "announces " + what + ", and has only " + std::to_string(bytes.left()) + " bytes for them";
+  if (!(4.0 * numbers <= static_cast<double>(bytes.left())))
+  {
+    throw Problem(
+      "announces " + what + ", and has only " + std::to_string(bytes.left()) + " bytes for them");
+  }
 }
 
-std::string readMesh(Bytes& bytes, Surface& surface)
+void readMesh(Bytes& bytes, Surface& surface)
 {
   std::string line;
   bytes.skip(TriangleMagic.size());
   if (!bytes.line(line) || !bytes.line(line) || bytes.left() < 8)
   {
-    return "ends within its header";
+    throw Problem("ends within its header");
   }
   const auto points = bytes.number<std::int32_t>();
   const auto triangles = bytes.number<std::int32_t>();
@@ -188,13 +202,9 @@ std::string readMesh(Bytes& bytes, Surface& surface)
     std::to_string(points) + " points and " + std::to_string(triangles) + " triangles";
   if (points < 1 || triangles < 0)
   {
-    return "announces " + what + "; it must have 1 point or more";
+    throw Problem("announces " + what + "; it must have 1 point or more");
   }
-  const std::string problem = sizeProblem(bytes, 3.0 * points + 3.0 * triangles, what);
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  requireSize(bytes, 3.0 * points + 3.0 * triangles, what);
   surface.points.resize(static_cast<std::size_t>(points));
   for (glm::dvec3& point : surface.points)
   {
@@ -211,7 +221,6 @@ std::string readMesh(Bytes& bytes, Surface& surface)
       triangle[corner] = bytes.number<std::int32_t>();
     }
   }
-  return {};
 }
 
 // How far two geometries place the points from each other, mm.
@@ -235,49 +244,32 @@ bool isConformed(const VolumeFrame& frame)
     glm::dot(frame.yRas, own.yRas) > SmallestCosine &&
     glm::dot(frame.zRas, own.zRas) > SmallestCosine;
 }
-}
 
+// Whether a file begins like a surface of triangles.
 bool isFreeSurferSurface(const std::string& fileName)
 {
-  std::array<char, 3> begin{};
-  std::ifstream file;
-  if (plainFileProblem(fileName).empty())
-  {
-    file.open(fileName, std::ios::binary);
-  }
-  return file.is_open() && file.read(begin.data(), begin.size()) &&
-    std::string_view(begin.data(), begin.size()) == TriangleMagic;
+  return readBeginning(fileName, TriangleMagic.size()) == TriangleMagic;
 }
 
-std::string placeByVolume(
+// Sets worldFromStored of a surface in tkRAS, and notes it if the volume is not known. `own` is the
+// geometry that the file names.
+void placeByVolume(
   const std::optional<VolumeFrame>& own, const GivenVolume& given, Surface& surface)
 {
-  VolumeGrid grid;
-  std::string problem =
-    given.fileName.empty() ? std::string() : readVolumeGrid(given.fileName, grid);
-  if (!problem.empty())
-  {
-    return problem;
-  }
   VolumeFrame frame;
   frame.cRas = given.cRas;
-  frame = given.fileName.empty() ? frame : frameOf(grid);
+  frame = given.fileName.empty() ? frame : frameOf(readVolumeGrid(given.fileName));
   surface.worldFromStored = scannerFromSurface(own.value_or(frame));
-  problem = affineProblem(surface.worldFromStored);
-  if (!problem.empty())
-  {
-    return "its volume geometry is wrong: " + problem;
-  }
+  withBeginning("its volume geometry is wrong: ", [&] { requireAffine(surface.worldFromStored); });
   const bool isGiven = !given.fileName.empty() || given.cRas != glm::dvec3(0.0);
   if (own && isGiven)
   {
     const double mm = differenceMm(surface, surface.worldFromStored, scannerFromSurface(frame));
-    std::ostringstream note;
-    note << "names the geometry of its volume, which counts; the one that you gave would place it "
-         << "up to " << mm << " mm away";
     if (mm > MostDifferentMm)
     {
-      surface.notes.push_back(note.str());
+      surface.notes.push_back(joined("names the geometry of its volume, which counts; the one that "
+                                     "you gave would place it up to ",
+        mm, " mm away"));
     }
   }
   if (!own && !given.fileName.empty() && !isConformed(frame))
@@ -295,39 +287,37 @@ std::string placeByVolume(
       "the middle of the volume lay at 0, 0, 0. Set Volume to the volume it was made from, or "
       "VolumeCenter to that volume's c_ras");
   }
-  return {};
 }
 
-std::string readFreeSurferSurface(
+void readFreeSurferSurface(
   const std::vector<char>& bytes, const GivenVolume& given, Surface& surface)
 {
-  std::string problem = magicProblem(bytes);
+  requireMagic(bytes);
   Bytes rest(bytes);
-  problem = problem.empty() ? readMesh(rest, surface) : problem;
+  readMesh(rest, surface);
   std::optional<VolumeFrame> frame;
   bool isInScanner = false;
-  problem = problem.empty() ? readTags(rest, frame, isInScanner) : problem;
-  if (!problem.empty() || isInScanner)
+  readTags(rest, frame, isInScanner);
+  if (!isInScanner)
   {
-    return problem;
+    withBeginning("cannot be placed: ", [&] { placeByVolume(frame, given, surface); });
   }
-  problem = placeByVolume(frame, given, surface);
-  return problem.empty() ? problem : "cannot be placed: " + problem;
 }
 
+// Whether bytes begin like a map of values.
 bool beginsLikeFreeSurferValues(const std::vector<char>& bytes)
 {
   return bytes.size() >= ValueMagic.size() &&
     std::string_view(bytes.data(), ValueMagic.size()) == ValueMagic;
 }
 
-std::string readFreeSurferValues(const std::vector<char>& bytes, NamedNumbers& numbers)
+void readFreeSurferValues(const std::vector<char>& bytes, NamedNumbers& numbers)
 {
   Bytes rest(bytes);
   rest.skip(ValueMagic.size());
   if (rest.left() < 12)
   {
-    return "ends within its header";
+    throw Problem("ends within its header");
   }
   const auto points = rest.number<std::int32_t>();
   rest.number<std::int32_t>(); // triangles
@@ -336,44 +326,30 @@ std::string readFreeSurferValues(const std::vector<char>& bytes, NamedNumbers& n
     std::to_string(components) + " values for each of " + std::to_string(points) + " points";
   if (points < 1 || components < 1)
   {
-    return "announces " + what + "; it must have 1 or more";
+    throw Problem("announces " + what + "; it must have 1 or more");
   }
   const double count = static_cast<double>(points) * components;
-  const std::string problem = sizeProblem(rest, count, what);
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  requireSize(rest, count, what);
   numbers.type = NumberType::Float32;
   numbers.components = static_cast<std::size_t>(components);
   const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(rest.place());
   numbers.bytes.assign(first, first + static_cast<std::ptrdiff_t>(4.0 * count));
-  if (!thisMachineIsBigEndian())
-  {
-    reverseBytes(numbers.bytes.data(), numbers.bytes.size() / 4, 4);
-  }
-  return {};
+  toMachineOrder(numbers.bytes.data(), numbers.bytes.size() / 4, 4, true);
 }
 
-namespace
-{
-std::string addFreeSurferValues(
-  const std::vector<char>& bytes, const std::string& name, Surface& surface)
+void addFreeSurferValues(const std::vector<char>& bytes, const std::string& name, Surface& surface)
 {
   NamedNumbers numbers;
-  const std::string problem = readFreeSurferValues(bytes, numbers);
+  readFreeSurferValues(bytes, numbers);
   const std::size_t tuples = numbers.bytes.size() / (4 * numbers.components);
-  if (problem.empty() && tuples != surface.points.size())
+  if (tuples != surface.points.size())
   {
     surface.notes.push_back("has values of " + counted(tuples, "point") + "; the surface has " +
       std::to_string(surface.points.size()) + ", so they are left out");
+    return;
   }
-  else if (problem.empty())
-  {
-    numbers.name = surface.names.own(name);
-    surface.numbers.push_back(std::move(numbers));
-  }
-  return problem;
+  numbers.name = surface.names.own(name);
+  surface.numbers.push_back(std::move(numbers));
 }
 }
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/GIFTI/GIFTIFile.h"
 
-#include "Formats/Files/HeaderText.h"
+#include "Common/Numbers.h"
+#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
-#include "Formats/GIFTI/GIFTINumbers.h"
+#include "Formats/Files/Text.h"
 
 #include "vtk_expat.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -93,30 +93,23 @@ private:
     return std::find(this->Open.begin(), this->Open.end(), name) != this->Open.end();
   }
 
-  std::string trimmedText() const
-  {
-    const std::size_t first = this->Text.find_first_not_of(" \t\r\n");
-    const std::size_t last = this->Text.find_last_not_of(" \t\r\n");
-    return first == std::string::npos ? "" : this->Text.substr(first, last - first + 1);
-  }
-
   void endInArray(const std::string& name, GIFTIArray& array)
   {
     if (name == "Name")
     {
-      this->MetaName = this->trimmedText();
+      this->MetaName = trimmed(this->Text);
     }
     else if (name == "Value")
     {
-      array.meta[this->MetaName] = this->trimmedText();
+      array.meta[this->MetaName] = trimmed(this->Text);
     }
     else if (name == "DataSpace")
     {
-      this->Transform.from = this->trimmedText();
+      this->Transform.from = trimmed(this->Text);
     }
     else if (name == "TransformedSpace")
     {
-      this->Transform.to = this->trimmedText();
+      this->Transform.to = trimmed(this->Text);
     }
     else if (name == "MatrixData")
     {
@@ -140,8 +133,10 @@ private:
 
   void readData(GIFTIArray& array)
   {
-    std::string problem =
-      array.bytes.empty() ? readGIFTINumbers(this->Text, array) : "has two elements Data";
+    const std::string problem = problemOf([&] {
+      throwIfAny(array.bytes.empty() ? "" : "has two elements Data");
+      readGIFTINumbers(this->Text, array);
+    });
     if (!problem.empty())
     {
       this->stop(problem + " in array " + std::to_string(this->File.arrays.size()));
@@ -160,7 +155,7 @@ private:
       return;
     }
     label.value = static_cast<int>(key[0]);
-    label.name = this->trimmedText();
+    label.name = trimmed(this->Text);
     const char* const names[3] = { "Red", "Green", "Blue" };
     for (int i = 0; i < 3; ++i)
     {
@@ -234,24 +229,18 @@ bool beginsLikeGIFTI(const std::vector<char>& text)
 
 bool isGIFTIFile(const std::string& fileName)
 {
-  std::vector<char> text;
-  if (plainFileProblem(fileName).empty())
-  {
-    std::ifstream file(fileName, std::ios::binary);
-    text.resize(LongestBeginning);
-    file.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
-  }
-  return beginsLikeGIFTI(text);
+  const std::string begin = readBeginning(fileName, LongestBeginning);
+  return beginsLikeGIFTI({ begin.begin(), begin.end() });
 }
 
-std::string readGIFTIFile(const std::vector<char>& text, GIFTIFile& file)
+GIFTIFile readGIFTIFile(const std::vector<char>& text)
 {
+  GIFTIFile file;
   const std::unique_ptr<std::remove_pointer_t<XML_Parser>, FreeParser> parser(
     XML_ParserCreate(nullptr));
   if (!parser)
   {
-    return "needs more memory than this machine has left";
+    throw Problem("needs more memory than this machine has left");
   }
   Listener listener(parser.get(), file);
   XML_SetUserData(parser.get(), &listener);
@@ -264,20 +253,18 @@ std::string readGIFTIFile(const std::vector<char>& text, GIFTIFile& file)
     const bool isLast = place + step == text.size();
     const XML_Status status =
       XML_Parse(parser.get(), text.data() + place, static_cast<int>(step), isLast ? 1 : 0);
-    if (!listener.problem().empty())
-    {
-      return listener.problem();
-    }
+    throwIfAny(listener.problem());
     if (status != XML_STATUS_OK)
     {
-      return "is not good XML in line " + std::to_string(XML_GetCurrentLineNumber(parser.get())) +
-        ": " + XML_ErrorString(XML_GetErrorCode(parser.get()));
+      throw Problem("is not good XML in line " +
+        std::to_string(XML_GetCurrentLineNumber(parser.get())) + ": " +
+        XML_ErrorString(XML_GetErrorCode(parser.get())));
     }
     if (isLast)
     {
       break;
     }
   }
-  return {};
+  return file;
 }
 }

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/GIFTI/GIFTINumbers.h"
-
+#include "Common/Bytes.h"
 #include "Common/HostMemory.h"
-#include "Formats/Files/HeaderText.h"
-#include "Formats/Files/PackedBytes.h"
+#include "Common/Numbers.h"
+#include "Common/Problem.h"
+#include "Formats/Files/Text.h"
+#include "Formats/GIFTI/GIFTIFile.h"
 
 #include "vtk_zlib.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <optional>
 #include <string_view>
-#include <system_error>
 
 namespace brainshift
 {
@@ -82,89 +82,94 @@ std::optional<std::vector<char>> fromBase64(const std::string& text)
 }
 
 template <typename T>
-std::string readASCII(const std::string& text, std::vector<char>& bytes)
+void readASCII(const std::string& text, std::vector<char>& bytes)
 {
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  const auto skipSpace = [&] {
-    at = std::find_if(at, end, [](char letter) {
-      return letter != ' ' && letter != '\t' && letter != '\r' && letter != '\n';
-    });
-  };
+  constexpr std::string_view Blanks = " \t\r\n";
+  using Stored = std::conditional_t<std::is_floating_point_v<T>, double, T>;
+  std::string_view rest(text);
   const std::size_t wanted = bytes.size() / sizeof(T);
   std::size_t count = 0;
-  for (skipSpace(); at != end; skipSpace(), ++count)
+  while (true)
   {
-    double number = 0.0;
-    T narrow{};
-    const bool isWholeType = std::is_integral_v<T>;
-    const std::from_chars_result found = isWholeType
-      ? std::from_chars(at, end, narrow)
-      : std::from_chars(*at == '+' ? at + 1 : at, end, number);
-    if (found.ec != std::errc() || found.ptr == at)
+    rest.remove_prefix(std::min(rest.find_first_not_of(Blanks), rest.size()));
+    if (rest.empty())
     {
-      const std::string_view rest(at, std::min<std::size_t>(end - at, 40));
-      return "has \"" + shownWords(std::string(rest.substr(0, rest.find_first_of(" \t\r\n")))) +
-        "\" in place of a number";
+      break;
     }
-    narrow = isWholeType ? narrow : static_cast<T>(number);
+    const auto found = takeNumber<Stored>(rest);
+    if (!found)
+    {
+      const std::string word(rest.substr(0, 40));
+      throw Problem("has \"" + shownWords(word.substr(0, word.find_first_of(Blanks))) +
+        "\" in place of a number");
+    }
+    const auto number = static_cast<T>(*found);
     if (count < wanted)
     {
-      std::memcpy(&bytes[count * sizeof(T)], &narrow, sizeof(T));
+      std::memcpy(&bytes[count * sizeof(T)], &number, sizeof(T));
     }
-    at = found.ptr;
+    ++count;
   }
-  return count == wanted ? std::string()
-                         : "has " + std::to_string(count) + " numbers; its dimensions announce " +
-      std::to_string(wanted);
+  if (count != wanted)
+  {
+    throw Problem("has " + std::to_string(count) + " numbers; its dimensions announce " +
+      std::to_string(wanted));
+  }
 }
 
-std::string readASCIIOf(NumberType type, const std::string& text, std::vector<char>& bytes)
+void readASCIIOf(NumberType type, const std::string& text, std::vector<char>& bytes)
 {
   switch (type)
   {
     case NumberType::UInt8:
-      return readASCII<unsigned char>(text, bytes);
+      readASCII<unsigned char>(text, bytes);
+      return;
     case NumberType::Int32:
-      return readASCII<std::int32_t>(text, bytes);
+      readASCII<std::int32_t>(text, bytes);
+      return;
     case NumberType::Float64:
-      return readASCII<double>(text, bytes);
+      readASCII<double>(text, bytes);
+      return;
     default:
-      return readASCII<float>(text, bytes);
+      readASCII<float>(text, bytes);
+      return;
   }
 }
 
-std::string fewerBytes(std::size_t found, std::size_t wanted)
+Problem fewerBytes(std::size_t found, std::size_t wanted)
 {
-  return "has " + std::to_string(found) + " bytes; its dimensions announce " +
-    std::to_string(wanted);
+  return Problem(
+    "has " + std::to_string(found) + " bytes; its dimensions announce " + std::to_string(wanted));
 }
 
 // Fills `bytes`, whose size is what the dimensions announce.
-std::string readBase64(const std::string& text, bool isPacked, std::vector<char>& bytes)
+void readBase64(const std::string& text, bool isPacked, std::vector<char>& bytes)
 {
   const std::optional<std::vector<char>> stored = fromBase64(text);
   if (!stored)
   {
-    return "has letters that are no base64";
+    throw Problem("has letters that are no base64");
   }
   if (!isPacked)
   {
     if (stored->size() != bytes.size())
     {
-      return fewerBytes(stored->size(), bytes.size());
+      throw fewerBytes(stored->size(), bytes.size());
     }
     std::copy(stored->begin(), stored->end(), bytes.begin());
-    return {};
+    return;
   }
   uLongf size = static_cast<uLongf>(bytes.size());
   const int status = uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size,
     reinterpret_cast<const Bytef*>(stored->data()), static_cast<uLong>(stored->size()));
   if (status == Z_OK && size != bytes.size())
   {
-    return fewerBytes(size, bytes.size());
+    throw fewerBytes(size, bytes.size());
   }
-  return status == Z_OK ? "" : "has packed numbers that are damaged, too few or too many";
+  if (status != Z_OK)
+  {
+    throw Problem("has packed numbers that are damaged, too few or too many");
+  }
 }
 
 // Columns of the file become rows, as they are in memory.
@@ -182,13 +187,13 @@ void transpose(GIFTIArray& array)
   }
 }
 
-std::string readDimensions(GIFTIArray& array)
+void readDimensions(GIFTIArray& array)
 {
   const std::string said = array.attribute("Dimensionality");
   const std::vector<double> dimensions = numbersIn(said);
   if (dimensions.size() != 1 || !isWhole(dimensions[0], 1, MostDimensions))
   {
-    return "has the Dimensionality \"" + shownWords(said) + "\"; it must be 1 to 6";
+    throw Problem("has the Dimensionality \"" + shownWords(said) + "\"; it must be 1 to 6");
   }
   double columns = 1.0;
   for (int i = 0; i < static_cast<int>(dimensions[0]); ++i)
@@ -197,18 +202,21 @@ std::string readDimensions(GIFTIArray& array)
     const std::vector<double> side = numbersIn(array.attribute(name));
     if (side.size() != 1 || !isWhole(side[0], 1, MostRows))
     {
-      return "has the " + name + " \"" + shownWords(array.attribute(name)) +
-        "\"; it must be 1 to 2147483647";
+      throw Problem("has the " + name + " \"" + shownWords(array.attribute(name)) +
+        "\"; it must be 1 to 2147483647");
     }
     columns *= i == 0 ? 1.0 : side[0];
     array.rows = i == 0 ? static_cast<std::size_t>(side[0]) : array.rows;
   }
   array.columns = static_cast<std::size_t>(std::min(columns, MostRows));
-  return columns <= MostRows ? "" : "has more than 2147483647 numbers in a row";
+  if (!(columns <= MostRows))
+  {
+    throw Problem("has more than 2147483647 numbers in a row");
+  }
 }
 
-// Why the numbers cannot be in the text, or in memory.
-std::string sizeProblem(const GIFTIArray& array, const std::string& encoding, std::size_t letters)
+// Throws if the numbers cannot be in the text, or in memory.
+void requireSize(const GIFTIArray& array, const std::string& encoding, std::size_t letters)
 {
   const double numbers = static_cast<double>(array.rows) * static_cast<double>(array.columns);
   const double bytes = numbers * static_cast<double>(bytesOf(array.type));
@@ -218,20 +226,21 @@ std::string sizeProblem(const GIFTIArray& array, const std::string& encoding, st
                                           : length * LargestDeflateRatio;
   if (bytes > most)
   {
-    return "has " + std::to_string(letters) + " letters of numbers; its dimensions announce " +
-      std::to_string(static_cast<std::uint64_t>(numbers)) + " numbers";
+    throw Problem("has " + std::to_string(letters) +
+      " letters of numbers; its dimensions announce " +
+      std::to_string(static_cast<std::uint64_t>(numbers)) + " numbers");
   }
-  return hostMemoryProblem("it", bytes);
+  requireHostMemory("it", bytes);
 }
 }
 
-std::string readGIFTINumbers(const std::string& text, GIFTIArray& array)
+void readGIFTINumbers(const std::string& text, GIFTIArray& array)
 {
   const auto type = Types.find(array.attribute("DataType"));
   if (type == Types.end())
   {
-    return "has the DataType \"" + shownWords(array.attribute("DataType")) +
-      "\"; BrainShift reads NIFTI_TYPE_UINT8, INT32, FLOAT32 and FLOAT64";
+    throw Problem("has the DataType \"" + shownWords(array.attribute("DataType")) +
+      "\"; BrainShift reads NIFTI_TYPE_UINT8, INT32, FLOAT32 and FLOAT64");
   }
   array.type = type->second;
   const std::string encoding = array.attribute("Encoding");
@@ -239,38 +248,41 @@ std::string readGIFTINumbers(const std::string& text, GIFTIArray& array)
   const bool isPacked = encoding == "GZipBase64Binary";
   if (!isASCII && !isPacked && encoding != "Base64Binary")
   {
-    return "has the Encoding \"" + shownWords(encoding) +
-      "\"; BrainShift reads ASCII, Base64Binary and GZipBase64Binary";
+    throw Problem("has the Encoding \"" + shownWords(encoding) +
+      "\"; BrainShift reads ASCII, Base64Binary and GZipBase64Binary");
   }
   const std::string endian = array.attribute("Endian");
   if (!isASCII && endian != "BigEndian" && endian != "LittleEndian")
   {
-    return "has the Endian \"" + shownWords(endian) + "\"; it must be BigEndian or LittleEndian";
+    throw Problem(
+      "has the Endian \"" + shownWords(endian) + "\"; it must be BigEndian or LittleEndian");
   }
-  std::string problem = readDimensions(array);
-  problem = problem.empty() ? sizeProblem(array, encoding, text.size()) : problem;
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  readDimensions(array);
+  requireSize(array, encoding, text.size());
   array.bytes.resize(array.rows * array.columns * bytesOf(array.type));
-  problem =
-    isASCII ? readASCIIOf(array.type, text, array.bytes) : readBase64(text, isPacked, array.bytes);
-  if (!problem.empty())
+  if (isASCII)
   {
-    return problem;
+    readASCIIOf(array.type, text, array.bytes);
   }
-  if (!isASCII && (endian == "BigEndian") != thisMachineIsBigEndian())
+  else
   {
-    reverseBytes(array.bytes.data(), array.rows * array.columns, bytesOf(array.type));
+    readBase64(text, isPacked, array.bytes);
+  }
+
+  if (!isASCII)
+  {
+    toMachineOrder(
+      array.bytes.data(), array.rows * array.columns, bytesOf(array.type), endian == "BigEndian");
   }
   const std::string order = array.attribute("ArrayIndexingOrder");
   if (order == "ColumnMajorOrder")
   {
     transpose(array);
   }
-  return order == "ColumnMajorOrder" || order == "RowMajorOrder" ? ""
-                                                                 : "has the ArrayIndexingOrder \"" +
-      shownWords(order) + "\"; it must be RowMajorOrder or ColumnMajorOrder";
+  if (!(order == "ColumnMajorOrder" || order == "RowMajorOrder"))
+  {
+    throw Problem("has the ArrayIndexingOrder \"" + shownWords(order) +
+      "\"; it must be RowMajorOrder or ColumnMajorOrder");
+  }
 }
 }

@@ -1,11 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/GIFTI/GIFTISurface.h"
-
+/**
+ * @file
+ * @brief Surfaces in GIFTI files: an array of points, one of triangles, and numbers of the points.
+ *
+ * Which frame points are in, the first that holds:
+ *  1. They are in the scanner's: they stay.
+ *  2. A matrix leads to the scanner's space, or else to that of an aligned anatomy: it counts.
+ *  3. Their space has a name: they stay.
+ *  4. FreeSurfer left the geometry of its volume: they are in tkRAS (ScannerFrame.h).
+ *  5. Nobody knows. They stay, and it is noted.
+ */
+#include "Common/Numbers.h"
+#include "Common/Problem.h"
+#include "Formats/Files/Text.h"
 #include "Formats/GIFTI/GIFTIFile.h"
 #include "Formats/Surfaces/ScannerFrame.h"
 #include "Formats/Volumes/RasGrid.h"
-
-#include "Formats/Files/HeaderText.h"
 
 #include <glm/mat3x3.hpp>
 
@@ -43,19 +53,21 @@ double realIn(const GIFTIArray& array, std::size_t index)
                                            : numberIn<float>(array, index);
 }
 
-std::string shapeProblem(const GIFTIArray& array, const std::string& what, bool isWhole)
+void requireShape(const GIFTIArray& array, const std::string& what, bool isWhole)
 {
   if (array.bytes.empty())
   {
-    return "has " + what + " without an element Data";
+    throw Problem("has " + what + " without an element Data");
   }
   const bool hasType = isWhole
     ? array.type == NumberType::Int32
     : array.type == NumberType::Float32 || array.type == NumberType::Float64;
-  return hasType && array.columns == 3 ? std::string()
-                                       : "has " + what + " of " + std::to_string(array.columns) +
-      " columns of " + array.attribute("DataType") + "; it must be 3 columns of NIFTI_TYPE_" +
-      (isWhole ? "INT32" : "FLOAT32 or FLOAT64");
+  if (!(hasType && array.columns == 3))
+  {
+    throw Problem("has " + what + " of " + std::to_string(array.columns) + " columns of " +
+      array.attribute("DataType") + "; it must be 3 columns of NIFTI_TYPE_" +
+      (isWhole ? "INT32" : "FLOAT32 or FLOAT64"));
+  }
 }
 
 // FreeSurfer's geometry of the volume, which its mris_convert keeps as text.
@@ -109,13 +121,13 @@ void noteUnknown(const GIFTIArray& points, Surface& surface)
   surface.notes.push_back(note);
 }
 
-// The rule of the header. Returns the end of a sentence.
-std::string findPlace(const GIFTIArray& points, Surface& surface)
+// The rule of the opening comment.
+void findPlace(const GIFTIArray& points, Surface& surface)
 {
   const std::string from = points.transforms.empty() ? Unknown : points.transforms[0].from;
   if (from == Scanner)
   {
-    return {};
+    return;
   }
   const GIFTITransform* transform = transformTo(Scanner, points);
   transform = transform || from == Aligned ? transform : transformTo(Aligned, points);
@@ -127,14 +139,14 @@ std::string findPlace(const GIFTIArray& points, Surface& surface)
       transform->numbers[15] == 1.0;
     if (!isAffine)
     {
-      return "has a matrix to " + shownWords(transform->to) +
-        " that is not 16 numbers with the last row 0 0 0 1";
+      throw Problem("has a matrix to " + shownWords(transform->to) +
+        " that is not 16 numbers with the last row 0 0 0 1");
     }
     surface.worldFromStored = matrixOf(*transform);
   }
   else if (!from.empty() && from != Unknown)
   {
-    return {};
+    return;
   }
   else if (frame)
   {
@@ -144,8 +156,7 @@ std::string findPlace(const GIFTIArray& points, Surface& surface)
   {
     noteUnknown(points, surface);
   }
-  const std::string problem = affineProblem(surface.worldFromStored);
-  return problem.empty() ? problem : "cannot be placed: " + problem;
+  withBeginning("cannot be placed: ", [&] { requireAffine(surface.worldFromStored); });
 }
 
 std::string nameOf(const GIFTIArray& array)
@@ -282,53 +293,34 @@ const GIFTIArray* firstOf(const GIFTIFile& file, const std::string& intent, Surf
   }
   return first;
 }
-}
 
-std::string readGIFTISurface(const std::vector<char>& text, Surface& surface)
+void readGIFTISurface(const std::vector<char>& text, const GivenVolume&, Surface& surface)
 {
-  GIFTIFile file;
-  std::string problem = readGIFTIFile(text, file);
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  GIFTIFile file = readGIFTIFile(text);
   const GIFTIArray* const points = firstOf(file, PointIntent, surface);
   const GIFTIArray* const triangles = firstOf(file, TriangleIntent, surface);
   if (!points || !triangles)
   {
-    return std::string("has no array ") + (points ? TriangleIntent : PointIntent) +
-      "; open the file of the surface, and name this file as one of its ValueFileNames";
+    throw Problem(std::string("has no array ") + (points ? TriangleIntent : PointIntent) +
+      "; open the file of the surface, and name this file as one of its ValueFileNames");
   }
-  problem = shapeProblem(*points, "points", false);
-  problem = problem.empty() ? shapeProblem(*triangles, "triangles", true) : problem;
-  problem = problem.empty() ? findPlace(*points, surface) : problem;
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  requireShape(*points, "points", false);
+  requireShape(*triangles, "triangles", true);
+  findPlace(*points, surface);
   takePoints(*points, surface);
   takeTriangles(*triangles, surface);
   takeNumbers(file, surface);
-  return {};
 }
 
-std::string addGIFTINumbers(const std::vector<char>& text, Surface& surface)
+// Adds the numbers and labels of a file to a surface, without its points. Arrays with another
+// number of points are left out and noted.
+void addGIFTINumbers(const std::vector<char>& text, const std::string&, Surface& surface)
 {
-  GIFTIFile file;
-  const std::string problem = readGIFTIFile(text, file);
-  if (problem.empty())
-  {
-    takeNumbers(file, surface);
-  }
-  return problem;
+  GIFTIFile file = readGIFTIFile(text);
+  takeNumbers(file, surface);
+}
 }
 
-extern const SurfaceFormat SurfacesOfGIFTI{ isGIFTIFile,
-  [](const std::vector<char>& bytes, const GivenVolume&, Surface& surface) {
-    return readGIFTISurface(bytes, surface);
-  },
-  [](const std::vector<char>& bytes, const std::string&, Surface& surface) {
-    return addGIFTINumbers(bytes, surface);
-  },
+extern const SurfaceFormat SurfacesOfGIFTI{ isGIFTIFile, readGIFTISurface, addGIFTINumbers,
   beginsLikeGIFTI, "GIFTI file" };
 }

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Landmarks/LandmarkFile.h"
 
+#include "Common/Numbers.h"
+#include "Common/Problem.h"
+#include "Formats/Files/PlainFile.h"
+#include "Formats/Files/Text.h"
 #include "Formats/Files/WholeFile.h"
-#include "Formats/Landmarks/FiducialFile.h"
-#include "Formats/Landmarks/MarkupsFile.h"
-#include "Formats/Landmarks/PlainText.h"
-#include "Formats/Landmarks/PointTable.h"
-#include "Formats/Landmarks/TagFile.h"
+#include "Formats/Landmarks/LandmarkFormats.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <fstream>
-#include <ios>
-#include <locale>
+#include <ostream>
+#include <utility>
 
 namespace brainshift
 {
@@ -42,13 +40,18 @@ Format formatOf(const std::string& fileName)
                                      : Format::Unknown;
 }
 
-std::string unknownFormat(const std::string& fileName)
+Format knownFormatOf(const std::string& fileName)
 {
-  return "The extension of the landmark file " + fileName +
-    " must be .mrk.json, .json, .fcsv, .tag, .csv or .tsv";
+  const Format format = formatOf(fileName);
+  if (format == Format::Unknown)
+  {
+    throw Problem("The extension of the landmark file " + fileName +
+      " must be .mrk.json, .json, .fcsv, .tag, .csv or .tsv");
+  }
+  return format;
 }
 
-std::string parse(
+void parse(
   const std::string& text, Format format, int volume, FileAxes tableAxes, LandmarkList& list)
 {
   switch (format)
@@ -99,11 +102,57 @@ void write(std::ostream& file, Format format, FileAxes axes, const LandmarkList&
 }
 }
 
+FileAxes axesFrom(const std::string& word)
+{
+  const std::string lower = lowerCase(trimmed(word));
+  if (lower == "ras" || lower == "0")
+  {
+    return FileAxes::RAS;
+  }
+  if (lower == "lps" || lower == "1")
+  {
+    return FileAxes::LPS;
+  }
+  throw Problem(
+    "names the coordinate system " + shownWords(word) + "; it must be RAS (0) or LPS (1)");
+}
+
+void addLandmark(LandmarkList& list, Landmark point, const std::string& where)
+{
+  if (list.points.size() == MostLandmarks)
+  {
+    throw Problem("has more than " + std::to_string(MostLandmarks) + " points");
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (!(std::abs(point.position[axis]) <= FarthestLandmark))
+    {
+      throw Problem("has a coordinate of " + numberText(point.position[axis]) + " mm in " + where +
+        "; the limit is " + numberText(FarthestLandmark) + " mm");
+    }
+  }
+  list.points.push_back(std::move(point));
+}
+
+std::string beginningAt(const std::string& where)
+{
+  return "has a " + where + " that ";
+}
+
+void noteSkipped(LandmarkList& list, std::size_t skipped)
+{
+  if (skipped > 0)
+  {
+    list.notes.push_back("has " + std::to_string(skipped) + (skipped == 1 ? " point" : " points") +
+      " without a position, left out");
+  }
+}
+
 bool isLandmarkFile(const std::string& fileName)
 {
   const Format format = formatOf(fileName);
   const std::string text =
-    format == Format::Unknown ? std::string() : readBeginning(fileName, Beginning);
+    format == Format::Unknown ? std::string() : withoutMark(readBeginning(fileName, Beginning));
   switch (format)
   {
     case Format::Unknown:
@@ -119,43 +168,26 @@ bool isLandmarkFile(const std::string& fileName)
   }
 }
 
-std::string readLandmarkFile(
-  const std::string& fileName, int volume, FileAxes tableAxes, LandmarkList& list)
+LandmarkList readLandmarkFile(const std::string& fileName, int volume, FileAxes tableAxes)
 {
-  list = LandmarkList();
-  const Format format = formatOf(fileName);
-  if (format == Format::Unknown)
-  {
-    return unknownFormat(fileName);
-  }
-  std::string text;
-  std::string problem = readPlainText(fileName, LongestText, text);
-  problem = problem.empty() ? parse(text, format, volume, tableAxes, list) : problem;
-  return problem.empty() ? problem : "Landmark file " + fileName + " " + problem;
+  const Format format = knownFormatOf(fileName);
+  LandmarkList list;
+  withBeginning("Landmark file " + fileName + " ",
+    [&] { parse(readPlainText(fileName, LongestText), format, volume, tableAxes, list); });
+  return list;
 }
 
-std::string writeLandmarkFile(
+void writeLandmarkFile(
   const std::string& fileName, std::optional<FileAxes> axes, LandmarkList& list)
 {
-  const Format format = formatOf(fileName);
-  if (format == Format::Unknown)
-  {
-    return unknownFormat(fileName);
-  }
+  const Format format = knownFormatOf(fileName);
   if (format == Format::Tags && axes == FileAxes::LPS)
   {
-    return "File " + fileName + " cannot be written: an MNI tag file has RAS axes, not LPS";
+    throw Problem("File " + fileName + " cannot be written: an MNI tag file has RAS axes, not LPS");
   }
   const bool isOfSlicer = format == Format::Markups || format == Format::Fiducials;
   const FileAxes written = axes.value_or(isOfSlicer ? FileAxes::LPS : FileAxes::RAS);
   noteLosses(format, list);
-  return writeWhole(fileName, [&](const std::string& beside) {
-    errno = 0;
-    std::ofstream file(beside, std::ios::binary);
-    file.imbue(std::locale::classic());
-    write(file, format, written, list);
-    file.close();
-    return file ? std::string() : lastSystemError();
-  });
+  writeWholeStream(fileName, [&](std::ostream& file) { write(file, format, written, list); });
 }
 }

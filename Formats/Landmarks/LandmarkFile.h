@@ -8,14 +8,14 @@
  * | .mrk.json, .json | markups of Slicer       | the file names them                     |
  * | .fcsv            | fiducials of Slicer     | the file names them                     |
  * | .tag             | MNI Tag Point File      | RAS                                     |
- * | .csv, .tsv       | table (PointTable.h)    | the names of columns may tell, or not   |
+ * | .csv, .tsv       | table (PointTable.cxx)  | the names of columns may tell, or not   |
  *
  * In memory points are RAS, mm.
  */
 #ifndef BrainShift_LandmarkFile_h
 #define BrainShift_LandmarkFile_h
 
-#include "Formats/Landmarks/Landmarks.h"
+#include "Formats/Landmarks/LandmarkFormats.h"
 
 #include <optional>
 #include <string>
@@ -26,23 +26,20 @@ namespace brainshift
 bool isLandmarkFile(const std::string& fileName);
 
 /**
- * Reads a file.
+ * Reads a file, or throws one sentence, without a full stop.
  *
  * @param volume      of a .tag file, whose points are read: 1 or 2
  * @param tableAxes   of a table whose columns are called x, y and z
- * @return one sentence, without a full stop, on what went wrong; empty if nothing did
  */
-std::string readLandmarkFile(
-  const std::string& fileName, int volume, FileAxes tableAxes, LandmarkList& list);
+LandmarkList readLandmarkFile(const std::string& fileName, int volume, FileAxes tableAxes);
 
 /**
- * Writes a file whole, or leaves the old one as it was. What the format cannot keep becomes a note
- * of `list`.
+ * Writes a file whole, or leaves the old one as it was and throws one sentence, without a full
+ * stop. What the format cannot keep becomes a note of `list`.
  *
  * @param axes   in which to write. None: LPS for markups and fiducials, as Slicer does; else RAS
- * @return one sentence, without a full stop, on what went wrong; empty if nothing did
  */
-std::string writeLandmarkFile(
+void writeLandmarkFile(
   const std::string& fileName, std::optional<FileAxes> axes, LandmarkList& list);
 }
 

@@ -7,7 +7,7 @@
 #ifndef BrainShift_LandmarkPoints_h
 #define BrainShift_LandmarkPoints_h
 
-#include "Formats/Landmarks/Landmarks.h"
+#include "Formats/Landmarks/LandmarkFile.h"
 
 class vtkPointSet;
 class vtkPolyData;

@@ -1,8 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/Landmarks/MarkupsFile.h"
-
-#include "Formats/Files/TextHeader.h"
-#include "Formats/Landmarks/PlainText.h"
+/**
+ * @file
+ * @brief Slicer's markups (.mrk.json): lists of control points that name their axes.
+ *
+ * Points that Slicer has not placed ("positionStatus" other than "defined", no "position") are left
+ * out and noted. Of the schema only the control points are read. A list that names no coordinate
+ * system is LPS, the schema's default.
+ */
+#include "Common/Numbers.h"
+#include "Common/Problem.h"
+#include "Formats/Files/Text.h"
+#include "Formats/Landmarks/LandmarkFormats.h"
 
 #include "vtk_nlohmannjson.h"
 #include VTK_NLOHMANN_JSON(json.hpp)
@@ -28,8 +36,9 @@ struct Value
   bool isNull = false;
 };
 
-// Hears what the parser finds, and keeps only what makes points: a large file needs no more memory
-// than they do. The public names are those that the parser calls; each returns whether to go on.
+// Receives what the parser finds, and keeps only what makes points: a large file needs no more
+// memory than they do. The public names are those that the parser calls. Each returns true, to go
+// on, or throws.
 class MarkupsHandler
 {
 public:
@@ -38,15 +47,11 @@ public:
   {
   }
 
-  // What is wrong after the parser has ended; empty if nothing is.
-  std::string finish()
+  // After the parser has ended.
+  void finish()
   {
-    if (this->Problem.empty() && !this->HasMarkups)
-    {
-      return "has no array \"markups\"; it is no markups file of Slicer";
-    }
+    throwIfAny(this->HasMarkups ? "" : "has no array \"markups\"; it is no markups file of Slicer");
     noteSkipped(this->List, this->Skipped);
-    return this->Problem;
   }
 
   bool null() { return this->take({ nullptr, nullptr, true }); }
@@ -74,7 +79,7 @@ public:
   bool parse_error(std::size_t, const std::string&, const std::exception& error)
   {
     const std::string said = error.what(); // "[json.exception.parse_error.101] parse error at ..."
-    return this->fail("is not good JSON: " + shownWords(said.substr(said.find(' ') + 1)));
+    throw Problem("is not good JSON: " + shownWords(said.substr(said.find(' ') + 1)));
   }
 
 private:
@@ -91,7 +96,6 @@ private:
   };
 
   LandmarkList& List;
-  std::string Problem;
   std::vector<Place> Places; // from the outside to the inside
   std::string Key;
   bool HasMarkups = false;
@@ -105,15 +109,9 @@ private:
   std::vector<double> Position;
   bool IsPlaced = true;
 
-  bool fail(const std::string& problem)
+  [[noreturn]] void failPoint(const std::string& problem) const
   {
-    this->Problem = problem;
-    return problem.empty();
-  }
-
-  bool failPoint(const std::string& problem)
-  {
-    return this->fail(problemAt("control point " + std::to_string(this->Read), problem));
+    throw Problem(beginningAt("control point " + std::to_string(this->Read)) + problem);
   }
 
   bool takeNumber(double number) { return this->take({ nullptr, &number, false }); }
@@ -123,48 +121,64 @@ private:
     switch (this->Places.empty() ? Place::Other : this->Places.back())
     {
       case Place::Markups:
-        return this->fail("has a list of markups that is no object");
+        throw Problem("has a list of markups that is no object");
       case Place::Markup:
-        return this->takeOfMarkup(value);
+        this->takeOfMarkup(value);
+        break;
       case Place::Units:
-        return this->takeUnit(value);
+        requireUnit(value);
+        break;
       case Place::Controls:
         ++this->Read;
-        return this->failPoint("is no object");
+        this->failPoint("is no object");
       case Place::Control:
-        return this->takeOfControl(value);
+        this->takeOfControl(value);
+        break;
       case Place::Position:
-        this->Position.push_back(value.number ? *value.number : 0.0);
-        return value.number || this->failPoint("has a position that is not 3 numbers");
+        this->requirePosition(value.number != nullptr);
+        this->Position.push_back(*value.number);
+        break;
       default:
-        return true;
+        break;
+    }
+    return true;
+  }
+
+  static void requireUnit(const Value& value)
+  {
+    if (!value.isNull && !(value.word && *value.word == "mm"))
+    {
+      throw Problem("has coordinateUnits other than mm");
     }
   }
 
-  bool takeUnit(const Value& value)
+  void requirePosition(bool isGood) const
   {
-    const bool isGood = value.isNull || (value.word && *value.word == "mm");
-    return isGood || this->fail("has coordinateUnits other than mm");
+    if (!isGood)
+    {
+      this->failPoint("has a position that is not 3 numbers");
+    }
   }
 
-  bool takeOfMarkup(const Value& value)
+  void takeOfMarkup(const Value& value)
   {
     if (this->Key == "coordinateUnits")
     {
-      return this->takeUnit(value);
+      requireUnit(value);
     }
-    if (this->Key == "coordinateSystem" && !value.isNull)
+    else if (this->Key == "coordinateSystem" && !value.isNull)
     {
-      const std::string word = value.word ? *value.word
-        : value.number                    ? numberText(*value.number)
-                                          : "";
-      return this->fail(axesFrom(word, this->Axes));
+      this->Axes = axesFrom(value.word ? *value.word
+          : value.number               ? numberText(*value.number)
+                                       : "");
     }
-    return this->Key != "controlPoints" || value.isNull ||
-      this->fail("has controlPoints that are no array");
+    else if (this->Key == "controlPoints" && !value.isNull)
+    {
+      throw Problem("has controlPoints that are no array");
+    }
   }
 
-  bool takeOfControl(const Value& value)
+  void takeOfControl(const Value& value)
   {
     if (this->Key == "label" && value.word)
     {
@@ -174,82 +188,78 @@ private:
     {
       this->IsPlaced = *value.word == "defined";
     }
-    return this->Key != "position" || value.isNull ||
-      this->failPoint("has a position that is not 3 numbers");
+    this->requirePosition(this->Key != "position" || value.isNull);
   }
 
   bool open(bool isArray)
   {
     const Place outside = this->Places.empty() ? Place::Other : this->Places.back();
     const bool isRoot = this->Places.empty();
-    this->Places.push_back(Place::Other);
-    switch (outside)
+    this->Places.push_back(isRoot && !isArray ? Place::Root : Place::Other);
+    if (outside == Place::Root && this->Key == "markups" && isArray)
     {
-      case Place::Root:
-        return this->Key != "markups" || !isArray || this->enterMarkups();
-      case Place::Markups:
-        return isArray ? this->fail("has a list of markups that is no object")
-                       : this->enterMarkup();
-      case Place::Markup:
-        return this->openInMarkup(isArray);
-      case Place::Controls:
-        ++this->Read;
-        return isArray ? this->failPoint("is no object") : this->enterControl();
-      case Place::Control:
-        return this->Key != "position" || this->enterPosition(isArray);
-      case Place::Position:
-        return this->failPoint("has a position that is not 3 numbers");
-      default:
-        this->Places.back() = isRoot && !isArray ? Place::Root : Place::Other;
-        return true;
+      this->Places.back() = Place::Markups;
+      this->HasMarkups = true;
     }
-  }
-
-  bool openInMarkup(bool isArray)
-  {
-    if (this->Key == "controlPoints")
+    else if (outside == Place::Markups)
     {
-      this->Places.back() = Place::Controls;
-      return isArray || this->fail("has controlPoints that are no array");
+      throwIfAny(isArray ? "has a list of markups that is no object" : "");
+      this->enterMarkup();
     }
-    if (this->Key == "coordinateUnits")
+    else if (outside == Place::Markup)
     {
-      this->Places.back() = Place::Units;
-      return isArray || this->fail("has coordinateUnits other than mm");
+      this->openInMarkup(isArray);
     }
-    return this->Key != "coordinateSystem" || this->fail(axesFrom("", this->Axes));
-  }
-
-  bool enterMarkups()
-  {
-    this->Places.back() = Place::Markups;
-    this->HasMarkups = true;
+    else if (outside == Place::Controls)
+    {
+      this->enterControl(isArray);
+    }
+    else if (outside == Place::Position || (outside == Place::Control && this->Key == "position"))
+    {
+      this->requirePosition(outside == Place::Control && isArray);
+      this->Places.back() = Place::Position;
+      this->Position.clear();
+    }
     return true;
   }
 
-  bool enterMarkup()
+  void openInMarkup(bool isArray)
+  {
+    if (this->Key == "controlPoints")
+    {
+      throwIfAny(isArray ? "" : "has controlPoints that are no array");
+      this->Places.back() = Place::Controls;
+    }
+    else if (this->Key == "coordinateUnits")
+    {
+      throwIfAny(isArray ? "" : "has coordinateUnits other than mm");
+      this->Places.back() = Place::Units;
+    }
+    else if (this->Key == "coordinateSystem")
+    {
+      axesFrom(""); // throws
+    }
+  }
+
+  void enterMarkup()
   {
     this->Places.back() = Place::Markup;
     this->Axes = FileAxes::LPS;
     this->First = this->List.points.size();
-    return true;
   }
 
-  bool enterControl()
+  void enterControl(bool isArray)
   {
+    ++this->Read;
+    if (isArray)
+    {
+      this->failPoint("is no object");
+    }
     this->Places.back() = Place::Control;
     this->Point = Landmark();
     this->Point.number = static_cast<double>(this->Read);
     this->Position.clear();
     this->IsPlaced = true;
-    return true;
-  }
-
-  bool enterPosition(bool isArray)
-  {
-    this->Places.back() = Place::Position;
-    this->Position.clear();
-    return isArray || this->failPoint("has a position that is not 3 numbers");
   }
 
   bool close()
@@ -263,32 +273,32 @@ private:
         this->List.points[i].position = inAxes(this->Axes, this->List.points[i].position);
       }
     }
-    return place != Place::Control || this->addPoint();
+    if (place == Place::Control)
+    {
+      this->addPoint();
+    }
+    return true;
   }
 
-  bool addPoint()
+  void addPoint()
   {
     if (!this->IsPlaced || this->Position.empty())
     {
       ++this->Skipped;
-      return true;
+      return;
     }
-    if (this->Position.size() != 3)
-    {
-      return this->failPoint("has a position that is not 3 numbers");
-    }
+    this->requirePosition(this->Position.size() == 3);
     this->Point.position = { this->Position[0], this->Position[1], this->Position[2] };
-    return this->fail(
-      addLandmark(this->List, this->Point, "control point " + std::to_string(this->Read)));
+    addLandmark(this->List, this->Point, "control point " + std::to_string(this->Read));
   }
 };
 }
 
-std::string readMarkups(const std::string& text, LandmarkList& list)
+void readMarkups(const std::string& text, LandmarkList& list)
 {
   MarkupsHandler handler(list);
   nlohmann::json::sax_parse(text, &handler);
-  return handler.finish();
+  handler.finish();
 }
 
 bool looksLikeMarkups(const std::string& beginning)

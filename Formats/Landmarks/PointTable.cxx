@@ -1,14 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/Landmarks/PointTable.h"
-
-#include "Formats/Files/TextHeader.h"
-#include "Formats/Landmarks/PlainText.h"
+/**
+ * @file
+ * @brief Tables of points (.csv, .tsv) whose first line names the columns, and Slicer's fiducials.
+ *
+ * | column                     | names, in capitals or not               |
+ * |----------------------------|-----------------------------------------|
+ * | position, mm               | x y z; r a s; l p s; Points:0 Points:1 Points:2 |
+ * | label                      | label, name                             |
+ * | time, deviation, number    | time, deviation, number                 |
+ * | 0: the point has no place  | defined                                 |
+ *
+ * Columns r, a, s and l, p, s name their axes themselves. "(mm)" or "[mm]" may follow a name.
+ * Separators are commas, semicolons or tabs. Lines before the names that begin with # are passed
+ * over. Slicer's tables of markups are such tables.
+ *
+ * Slicer's fiducials (.fcsv) are tables, too: comment lines name version, axes and columns, then a
+ * line for each point follows. A file without the line "# columns" has those of version 4. A file
+ * without the line "# CoordinateSystem" is RAS, as files were before that line. Points that Slicer 5
+ * marks as not placed are left out and noted.
+ */
+#include "Common/Numbers.h"
+#include "Common/Problem.h"
+#include "Formats/Files/Text.h"
+#include "Formats/Landmarks/LandmarkFormats.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,11 +41,120 @@ namespace
 using Values = std::vector<std::string>;
 using Names = std::array<const char*, 3>;
 
+// Records of values between separators. Quoted values may hold separators, quotes and lines.
+class RecordReader
+{
+public:
+  RecordReader(std::string_view text, char separator)
+    : Text(text)
+    , Separator(separator)
+  {
+  }
+
+  // Takes the next record that has anything in it. False at the end.
+  bool next(std::vector<std::string>& values);
+
+  // The line on which the last record began, from 1 on.
+  std::size_t line() const { return this->Line; }
+
+  // Whether the text ended inside quotes.
+  bool endedInQuotes() const { return this->IsOpen; }
+
+private:
+  std::string_view Text;
+  char Separator;
+  std::size_t Place = 0;
+  std::size_t Line = 0;
+  std::size_t NextLine = 1;
+  bool IsOpen = false;
+
+  void take(std::vector<std::string>& values);
+  void takeQuoted(std::string& value);
+};
+
+void RecordReader::takeQuoted(std::string& value)
+{
+  this->IsOpen = true;
+  for (++this->Place; this->Place < this->Text.size(); ++this->Place)
+  {
+    const char letter = this->Text[this->Place];
+    if (letter == '"' && this->Text.substr(this->Place + 1, 1) != "\"")
+    {
+      ++this->Place;
+      this->IsOpen = false;
+      return;
+    }
+    this->Place += letter == '"' ? 1 : 0; // two quotes stand for one
+    this->NextLine += letter == '\n' ? 1 : 0;
+    value += letter;
+  }
+}
+
+void RecordReader::take(std::vector<std::string>& values)
+{
+  values.assign(1, {});
+  this->Line = this->NextLine;
+  while (this->Place < this->Text.size())
+  {
+    const char letter = this->Text[this->Place];
+    if (letter == '"' && trimmed(values.back()).empty())
+    {
+      values.back().clear();
+      this->takeQuoted(values.back());
+      continue;
+    }
+    ++this->Place;
+    if (letter == '\n')
+    {
+      ++this->NextLine;
+      return;
+    }
+    if (letter == this->Separator)
+    {
+      values.emplace_back();
+    }
+    else if (letter != '\r')
+    {
+      values.back() += letter;
+    }
+  }
+}
+
+bool RecordReader::next(std::vector<std::string>& values)
+{
+  while (this->Place < this->Text.size())
+  {
+    this->take(values);
+    if (std::any_of(values.begin(), values.end(),
+          [](const std::string& value) { return !trimmed(value).empty(); }))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+// A value of a record, in quotes where it needs them.
+std::string recordValue(const std::string& value, char separator)
+{
+  const std::string special = std::string("\"\r\n") + separator;
+  if (value.find_first_of(special) == std::string::npos && trimmed(value) == value)
+  {
+    return value;
+  }
+  std::string quoted = "\"";
+  for (const char letter : value)
+  {
+    quoted += letter == '"' ? "\"\"" : std::string(1, letter);
+  }
+  return quoted + '"';
+}
+
 constexpr char Separators[] = { ',', ';', '\t' };
 constexpr Names PlainNames{ "x", "y", "z" };
 constexpr Names RASNames{ "r", "a", "s" };
 constexpr Names LPSNames{ "l", "p", "s" };
-constexpr Names OwnNames{ "points:0", "points:1", "points:2" }; // ParaView's own CSV Writer
+constexpr Names ParaViewNames{ "points:0", "points:1", "points:2" }; // ParaView's own CSV Writer
 
 constexpr std::array<std::pair<const char*, double Landmark::*>, 3> NumberColumns{ {
   { "number", &Landmark::number },
@@ -77,7 +208,7 @@ std::optional<Columns> columnsIn(const Values& header)
   columns.deviation = placeOf("deviation");
   columns.number = placeOf("number");
   columns.defined = placeOf("defined");
-  for (const Names& names : { PlainNames, RASNames, LPSNames, OwnNames })
+  for (const Names& names : { PlainNames, RASNames, LPSNames, ParaViewNames })
   {
     columns.names = names;
     columns.position = { placeOf(names[0]), placeOf(names[1]), placeOf(names[2]) };
@@ -120,59 +251,126 @@ std::optional<Columns> findColumns(const std::string& text, char& separator)
 }
 
 // The number in a column. NaN if the table lacks the column or the value is empty.
-std::string readNumber(
-  const Values& values, std::size_t column, const std::string& name, double& number)
+double readNumber(const Values& values, std::size_t column, const std::string& name)
 {
-  number = std::numeric_limits<double>::quiet_NaN();
   const std::string word = column < values.size() ? trimmed(values[column]) : std::string();
   if (word.empty())
   {
-    return {};
+    return std::numeric_limits<double>::quiet_NaN();
   }
-  const std::optional<double> found = numberIn(word);
-  number = found.value_or(number);
-  if (found)
+  if (const std::optional<double> number = numberIn(word))
   {
-    return {};
+    return *number;
   }
   const bool hasComma = word.find(',') != std::string::npos;
-  return "has " + name + " = " + shownWords(word) +
-    (hasComma ? "; a number has a point, not a comma, before its decimals" : "; it is no number");
+  throw Problem("has " + name + " = " + shownWords(word) +
+    (hasComma ? "; a number has a point, not a comma, before its decimals" : "; it is no number"));
 }
 
-std::string readPoint(const Values& values, const Columns& columns, Landmark& point, bool& hasPlace)
+// False if the point has no position.
+bool readPoint(const Values& values, const Columns& columns, Landmark& point)
 {
-  std::string problem;
-  for (int axis = 0; problem.empty() && axis < 3; ++axis)
+  for (int axis = 0; axis < 3; ++axis)
   {
     const std::size_t column = columns.position[axis];
-    problem = readNumber(values, column, columns.names[axis], point.position[axis]);
+    point.position[axis] = readNumber(values, column, columns.names[axis]);
   }
-  problem = problem.empty() ? readNumber(values, columns.time, "time", point.time) : problem;
-  problem =
-    problem.empty() ? readNumber(values, columns.deviation, "deviation", point.deviation) : problem;
-  problem = problem.empty() ? readNumber(values, columns.number, "number", point.number) : problem;
+  point.time = readNumber(values, columns.time, "time");
+  point.deviation = readNumber(values, columns.deviation, "deviation");
+  point.number = readNumber(values, columns.number, "number");
   const int missing = static_cast<int>(std::isnan(point.position.x)) +
     static_cast<int>(std::isnan(point.position.y)) + static_cast<int>(std::isnan(point.position.z));
   const bool isDefined =
     columns.defined >= values.size() || trimmed(values[columns.defined]) != "0";
-  hasPlace = missing == 0 && isDefined;
-  if (problem.empty() && isDefined && missing > 0 && missing < 3)
+  if (isDefined && missing > 0 && missing < 3)
   {
-    problem = "has " + std::to_string(3 - missing) + " of 3 coordinates";
+    throw Problem("has " + std::to_string(3 - missing) + " of 3 coordinates");
   }
   point.label = columns.label < values.size() ? validUtf8(trimmed(values[columns.label])) : "";
-  return problem;
+  return missing == 0 && isDefined;
+}
+
+constexpr const char* FiducialColumns =
+  "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID";
+constexpr std::size_t StatusColumn = 14; // Slicer 5 appends it without a name
+constexpr const char* Placed = "2";
+
+// What the comment lines say.
+struct FiducialHeader
+{
+  FileAxes axes = FileAxes::RAS;
+  std::array<std::size_t, 3> position{ 1, 2, 3 };
+  std::size_t label = 11;
+  bool hasStatus = true;
+};
+
+void readColumns(const std::string& names, FiducialHeader& header)
+{
+  Values columns;
+  RecordReader(names, ',').next(columns);
+  std::transform(columns.begin(), columns.end(), columns.begin(),
+    [](const std::string& name) { return lowerCase(trimmed(name)); });
+  const auto indexOf = [&](const char* name) {
+    return static_cast<std::size_t>(
+      std::find(columns.begin(), columns.end(), name) - columns.begin());
+  };
+  header.position = { indexOf("x"), indexOf("y"), indexOf("z") };
+  header.label = indexOf("label");
+  header.hasStatus = columns.size() <= StatusColumn;
+  if (!(*std::max_element(header.position.begin(), header.position.end()) < columns.size()))
+  {
+    throw Problem("has no columns x, y and z; it names " + shownWords(names));
+  }
+}
+
+// A comment "# key = value", and others, which say nothing.
+void readComment(const std::string& line, FiducialHeader& header)
+{
+  const std::size_t mark = line.find('=');
+  if (mark == std::string::npos)
+  {
+    return;
+  }
+  const std::string key = lowerCase(trimmed(line.substr(1, mark - 1)));
+  const std::string value = trimmed(line.substr(mark + 1));
+  if (key == "coordinatesystem")
+  {
+    header.axes = axesFrom(value);
+    return;
+  }
+  if (key == "columns")
+  {
+    readColumns(value, header);
+  }
+}
+
+void readFiducial(const Values& values, const FiducialHeader& header, Landmark& point)
+{
+  glm::dvec3 position(0.0);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::size_t column = header.position[axis];
+    const std::string word = column < values.size() ? values[column] : "";
+    const std::optional<double> number = numberIn(trimmed(word));
+    if (!number)
+    {
+      throw Problem(
+        std::string("has no number ") + "xyz"[axis] + ", but \"" + shownWords(word) + "\"");
+    }
+    position[axis] = *number;
+  }
+  point.position = inAxes(header.axes, position);
+  point.label = header.label < values.size() ? validUtf8(trimmed(values[header.label])) : "";
 }
 }
 
-std::string readPointTable(const std::string& text, FileAxes axes, LandmarkList& list)
+void readPointTable(const std::string& text, FileAxes axes, LandmarkList& list)
 {
   char separator = ',';
   const std::optional<Columns> columns = findColumns(text, separator);
   if (!columns)
   {
-    return "has no first line that names the columns x, y and z, or r, a, s, or l, p, s";
+    throw Problem("has no first line that names the columns x, y and z, or r, a, s, or l, p, s");
   }
   RecordReader records(text, separator);
   Values values;
@@ -188,27 +386,25 @@ std::string readPointTable(const std::string& text, FileAxes axes, LandmarkList&
     const std::string where = "line " + std::to_string(records.line());
     if (values.size() > columns->count)
     {
-      return "has " + std::to_string(values.size()) + " values in " + where +
+      throw Problem("has " + std::to_string(values.size()) + " values in " + where +
         "; its first line names " + std::to_string(columns->count) +
-        " columns, and a number has a point, not a comma, before its decimals";
+        " columns, and a number has a point, not a comma, before its decimals");
     }
     Landmark point;
     bool hasPlace = false;
-    std::string problem = readPoint(values, *columns, point, hasPlace);
-    if (!problem.empty())
-    {
-      return problemAt(where, problem);
-    }
+    withBeginning(beginningAt(where), [&] { hasPlace = readPoint(values, *columns, point); });
     point.position = inAxes(columns->axes.value_or(axes), point.position);
     skipped += hasPlace ? 0 : 1;
-    problem = hasPlace ? addLandmark(list, point, where) : std::string();
-    if (!problem.empty())
+    if (hasPlace)
     {
-      return problem;
+      addLandmark(list, point, where);
     }
   }
   noteSkipped(list, skipped);
-  return records.endedInQuotes() ? "ends inside quotes" : "";
+  if (records.endedInQuotes())
+  {
+    throw Problem("ends inside quotes");
+  }
 }
 
 bool looksLikePointTable(const std::string& beginning)
@@ -246,6 +442,69 @@ void writePointTable(std::ostream& file, FileAxes axes, char separator, const La
       file << separator << (std::isnan(point.*number) ? "" : numberText(point.*number));
     }
     file << "\n";
+  }
+}
+
+void readFiducials(const std::string& text, LandmarkList& list)
+{
+  FiducialHeader header;
+  std::size_t read = 0;
+  std::size_t skipped = 0;
+  Values values;
+  RecordReader records(text, ',');
+  while (records.next(values))
+  {
+    const std::string where = "line " + std::to_string(records.line());
+    const std::string first = trimmed(values[0]);
+    if (first[0] == '#')
+    {
+      std::string line = first;
+      for (std::size_t i = 1; i < values.size(); ++i)
+      {
+        line += "," + values[i];
+      }
+      readComment(line, header);
+
+      continue;
+    }
+    Landmark point;
+    point.number = static_cast<double>(++read);
+    const bool isPlaced =
+      !header.hasStatus || values.size() <= StatusColumn || trimmed(values[StatusColumn]) == Placed;
+    skipped += isPlaced ? 0 : 1;
+    if (isPlaced)
+    {
+      withBeginning(beginningAt(where), [&] { readFiducial(values, header, point); });
+      addLandmark(list, point, where);
+    }
+  }
+  noteSkipped(list, skipped);
+  if (records.endedInQuotes())
+  {
+    throw Problem("ends inside quotes");
+  }
+}
+
+bool looksLikeFiducials(const std::string& beginning)
+{
+  const std::string text = lowerCase(trimmed(beginning));
+  return !text.empty() && text[0] == '#' &&
+    (text.find("markups fiducial file") != std::string::npos ||
+      text.find("coordinatesystem") != std::string::npos ||
+      text.find("# columns") != std::string::npos);
+}
+
+void writeFiducials(std::ostream& file, FileAxes axes, const LandmarkList& list)
+{
+  file << "# Markups fiducial file version = 5.6\n"
+       << "# CoordinateSystem = " << (axes == FileAxes::RAS ? "RAS" : "LPS") << "\n"
+       << "# columns = " << FiducialColumns << "\n";
+  for (std::size_t i = 0; i < list.points.size(); ++i)
+  {
+    const glm::dvec3 position = inAxes(axes, list.points[i].position);
+    file << std::to_string(i + 1) << "," << numberText(position.x) << "," << numberText(position.y)
+         << "," << numberText(position.z) << ",0,0,0,1,1,1,0,"
+         << recordValue(validUtf8(list.points[i].label), ',') << ",,," << Placed << ",0\n";
   }
 }
 }

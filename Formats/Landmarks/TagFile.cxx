@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/Landmarks/TagFile.h"
-
-#include "Formats/Files/TextHeader.h"
-#include "Formats/Landmarks/PlainText.h"
+/**
+ * @file
+ * @brief MNI Tag Point Files (.tag): homologous points in one or two volumes, RAS, mm.
+ *
+ * After the coordinates a point may have three numbers (weight, structure, patient), which are
+ * passed over, and a label in quotes. A label cannot hold the quotes around it, nor a new line.
+ */
+#include "Common/Numbers.h"
+#include "Common/Problem.h"
+#include "Formats/Files/Text.h"
+#include "Formats/Landmarks/LandmarkFormats.h"
 
 #include <algorithm>
 #include <cmath>
@@ -110,7 +117,7 @@ private:
 };
 
 // Reads "name = value ;" or "name =". Ends of lines may stand in between.
-std::string expect(Words& words, std::string_view wanted)
+void expect(Words& words, std::string_view wanted)
 {
   std::string word;
   Words::Kind kind = Words::Kind::Line;
@@ -118,27 +125,28 @@ std::string expect(Words& words, std::string_view wanted)
   {
     kind = words.next(word);
   }
-  return word == wanted && kind != Words::Kind::Quoted ? ""
-                                                       : "has \"" + shownWords(word) +
-      "\" in line " + std::to_string(words.line()) + "; it must have " + std::string(wanted);
+  if (!(word == wanted && kind != Words::Kind::Quoted))
+  {
+    throw Problem("has \"" + shownWords(word) + "\" in line " + std::to_string(words.line()) +
+      "; it must have " + std::string(wanted));
+  }
 }
 
-std::string readHeader(Words& words, std::size_t& volumes)
+// Returns the number of volumes.
+std::size_t readHeader(Words& words)
 {
-  std::string problem = expect(words, "Volumes");
-  problem = problem.empty() ? expect(words, "=") : problem;
+  expect(words, "Volumes");
+  expect(words, "=");
   std::string count;
-  if (problem.empty())
+  words.next(count);
+  if (count != "1" && count != "2")
   {
-    words.next(count);
-    volumes = count == "1" ? 1 : 2;
-    problem = count == "1" || count == "2"
-      ? ""
-      : "has points of " + shownWords(count) + " volumes; it must have 1 or 2";
+    throw Problem("has points of " + shownWords(count) + " volumes; it must have 1 or 2");
   }
-  problem = problem.empty() ? expect(words, ";") : problem;
-  problem = problem.empty() ? expect(words, "Points") : problem;
-  return problem.empty() ? expect(words, "=") : problem;
+  expect(words, ";");
+  expect(words, "Points");
+  expect(words, "=");
+  return count == "1" ? 1 : 2;
 }
 
 // The points, as far as they have been read.
@@ -152,18 +160,18 @@ struct Reading
   bool isWhole() const { return this->numbers.size() >= this->coordinates; }
 
   // Takes the point that is being read, if there is one.
-  std::string finish(LandmarkList& list, std::size_t line)
+  void finish(LandmarkList& list, std::size_t line)
   {
     const std::string where = "line " + std::to_string(line);
     const std::size_t count = this->numbers.size();
     if (count == 0 && this->label.empty())
     {
-      return {};
+      return;
     }
     if (count != this->coordinates && count != this->coordinates + NumbersAfter)
     {
-      return "has " + std::to_string(count) + " numbers for a point in " + where +
-        "; it must have " + std::to_string(this->coordinates) + ", and 3 more or none";
+      throw Problem("has " + std::to_string(count) + " numbers for a point in " + where +
+        "; it must have " + std::to_string(this->coordinates) + ", and 3 more or none");
     }
     Landmark point;
     point.number = static_cast<double>(list.points.size() + 1);
@@ -172,74 +180,70 @@ struct Reading
     point.label = validUtf8(this->label);
     this->numbers.clear();
     this->label.clear();
-    return addLandmark(list, point, where);
+    addLandmark(list, point, where);
   }
 };
 
-std::string readPoints(Words& words, Reading& reading, LandmarkList& list)
+void readPoints(Words& words, Reading& reading, LandmarkList& list)
 {
   std::string word;
   while (true)
   {
     const Words::Kind kind = words.next(word);
-    std::string problem;
     if (kind == Words::Kind::Mark && word == ";")
     {
-      return reading.finish(list, words.line());
+      reading.finish(list, words.line());
+      return;
     }
     if (kind == Words::Kind::Word && reading.numbers.size() < reading.coordinates + NumbersAfter)
     {
       const std::optional<double> number = numberIn(word);
       reading.numbers.push_back(number.value_or(0.0));
-      problem = std::isfinite(number.value_or(NAN))
-        ? ""
-        : "has \"" + shownWords(word) + "\" in place of a number";
+      if (!std::isfinite(number.value_or(NAN)))
+      {
+        throw Problem("has \"" + shownWords(word) + "\" in place of a number");
+      }
     }
     else if (kind == Words::Kind::Quoted && reading.isWhole())
     {
       reading.label = word;
-      problem = reading.finish(list, words.line());
+      reading.finish(list, words.line());
     }
     else if (kind == Words::Kind::Line)
     {
       // The line is counted already. Coordinates may go on in the next one.
-      problem = reading.isWhole() ? reading.finish(list, words.line() - 1) : std::string();
+      if (reading.isWhole())
+      {
+        reading.finish(list, words.line() - 1);
+      }
     }
     else
     {
-      problem = kind == Words::Kind::End ? "ends before the semicolon that ends its points"
-                                         : "has \"" + shownWords(word) +
-          "\" at a wrong place in line " + std::to_string(words.line());
-    }
-    if (!problem.empty())
-    {
-      return problem;
+      throw Problem(kind == Words::Kind::End ? "ends before the semicolon that ends its points"
+                                             : "has \"" + shownWords(word) +
+            "\" at a wrong place in line " + std::to_string(words.line()));
     }
   }
 }
 }
 
-std::string readTags(const std::string& text, int volume, LandmarkList& list)
+void readTags(const std::string& text, int volume, LandmarkList& list)
 {
   if (!looksLikeTags(text))
   {
-    return "does not begin with \"" + std::string(Magic) + "\"";
+    throw Problem("does not begin with \"" + std::string(Magic) + "\"");
   }
   Words words(std::string_view(text).substr(text.find(Magic) + Magic.size()));
-  std::size_t volumes = 1;
-  std::string problem = readHeader(words, volumes);
-  if (problem.empty() && static_cast<std::size_t>(volume) > volumes)
+  const std::size_t volumes = readHeader(words);
+  if (static_cast<std::size_t>(volume) > volumes)
   {
-    problem = "has points of 1 volume; Volume is " + std::to_string(volume);
+    throw Problem("has points of 1 volume; Volume is " + std::to_string(volume));
   }
-  if (!problem.empty())
-  {
-    return problem;
-  }
+
   Reading reading;
   reading.coordinates = 3 * volumes;
   reading.offset = 3 * static_cast<std::size_t>(volume - 1);
-  return readPoints(words, reading, list);
+  readPoints(words, reading, list);
 }
 
 bool looksLikeTags(const std::string& beginning)

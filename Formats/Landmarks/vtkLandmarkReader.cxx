@@ -2,6 +2,7 @@
 #include "vtkLandmarkReader.h"
 
 #include "Common/Guard.h"
+#include "Common/Problem.h"
 #include "Formats/Landmarks/LandmarkFile.h"
 #include "Formats/Landmarks/LandmarkPoints.h"
 
@@ -38,15 +39,12 @@ int vtkLandmarkReader::RequestData(
   }
   LandmarkList list;
   this->Problem = "The file needs more memory than there is"; // what holds if this throws
-  this->Problem = this->FileName.empty()
-    ? std::string("FileName is empty; it must name a file of landmarks")
-    : readLandmarkFile(
-        this->FileName, this->Volume, this->TableAxes == LPS ? FileAxes::LPS : FileAxes::RAS, list);
-  if (!this->Problem.empty())
-  {
-    vtkErrorMacro(<< this->Problem << ".");
-    return 0;
-  }
+  this->Problem = problemOf([&] {
+    throwIfAny(this->FileName.empty() ? "FileName is empty; it must name a file of landmarks" : "");
+    list = readLandmarkFile(
+      this->FileName, this->Volume, this->TableAxes == LPS ? FileAxes::LPS : FileAxes::RAS);
+  });
+  throwIfAny(this->Problem);
   for (const std::string& note : list.notes)
   {
     vtkWarningMacro("Landmark file " << this->FileName << " " << note << ".");

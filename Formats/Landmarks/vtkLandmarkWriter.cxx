@@ -3,6 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
+#include "Common/Problem.h"
 #include "Formats/Landmarks/LandmarkFile.h"
 #include "Formats/Landmarks/LandmarkPoints.h"
 
@@ -34,7 +35,8 @@ void vtkLandmarkWriter::WriteData()
                                                   : std::optional(brainshift::FileAxes::LPS);
   brainshift::LandmarkList list =
     brainshift::landmarksOf(vtkPointSet::SafeDownCast(this->GetInput()));
-  this->Problem = brainshift::writeLandmarkFile(this->FileName, axes, list);
+  this->Problem =
+    brainshift::problemOf([&] { brainshift::writeLandmarkFile(this->FileName, axes, list); });
   if (!this->Problem.empty())
   {
     vtkErrorMacro(<< this->Problem << ".");

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/MGH/MGHVolume.h"
 
+#include "Common/Bytes.h"
+#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 
 #include "vtkImageData.h"
-#include "vtkPointData.h"
 
 #include <glm/mat3x3.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <map>
 
 namespace brainshift
@@ -27,25 +26,10 @@ constexpr int MostFrames = 65536; // each takes memory for its time
 const std::map<int, int> Types{ { 0, VTK_UNSIGNED_CHAR }, { 1, VTK_INT }, { 3, VTK_FLOAT },
   { 4, VTK_SHORT }, { 10, VTK_UNSIGNED_SHORT } };
 
-// Big-endian numbers at places of a text of bytes.
-template <typename T>
-T numberAt(const char* bytes, std::size_t offset)
-{
-  std::array<char, sizeof(T)> raw;
-  std::copy_n(bytes + offset, sizeof(T), raw.begin());
-  if (!thisMachineIsBigEndian())
-  {
-    std::reverse(raw.begin(), raw.end());
-  }
-  T number;
-  std::memcpy(&number, raw.data(), sizeof(T));
-  return number;
-}
-
 glm::dvec3 vectorAt(const char* bytes, std::size_t offset)
 {
-  return glm::dvec3(numberAt<float>(bytes, offset), numberAt<float>(bytes, offset + 4),
-    numberAt<float>(bytes, offset + 8));
+  return glm::dvec3(storedNumber<float>(bytes + offset, true),
+    storedNumber<float>(bytes + offset + 4, true), storedNumber<float>(bytes + offset + 8, true));
 }
 
 // The names are those of the format.
@@ -53,14 +37,15 @@ struct MGHHeader
 {
   std::array<char, HeaderBytes> bytes{};
 
-  int version() const { return numberAt<std::int32_t>(this->bytes.data(), 0); }
+  int version() const { return storedNumber<std::int32_t>(this->bytes.data(), true); }
   // Columns, rows, slices, frames.
   int side(int axis) const
   {
-    return numberAt<std::int32_t>(this->bytes.data(), 4 + 4 * static_cast<std::size_t>(axis));
+    return storedNumber<std::int32_t>(
+      this->bytes.data() + 4 + 4 * static_cast<std::size_t>(axis), true);
   }
-  int type() const { return numberAt<std::int32_t>(this->bytes.data(), 20); }
-  bool goodRASFlag() const { return numberAt<std::int16_t>(this->bytes.data(), 28) > 0; }
+  int type() const { return storedNumber<std::int32_t>(this->bytes.data() + 20, true); }
+  bool goodRASFlag() const { return storedNumber<std::int16_t>(this->bytes.data() + 28, true) > 0; }
   glm::dvec3 spacing() const { return vectorAt(this->bytes.data(), 30); }
   // Of one axis.
   glm::dvec3 direction(int axis) const
@@ -71,26 +56,19 @@ struct MGHHeader
   glm::dvec3 centre() const { return vectorAt(this->bytes.data(), 78); }
 };
 
-std::string readBegin(const std::string& fileName, MGHHeader& header)
+void readBegin(const std::string& fileName, MGHHeader& header)
 {
-  const std::string notPlain = plainFileProblem(fileName);
-  if (!notPlain.empty())
-  {
-    return notPlain;
-  }
+  requirePlainFile(fileName);
   const StoredBytes from{ fileName, 0, beginsLikeGzip(fileName), 0 };
-  const std::string problem =
-    readBytes(from, header.bytes.data(), HeaderBytes, [](double) { return false; });
-  return problem.empty()
-    ? problem
-    : "has no whole header, which has " + std::to_string(HeaderBytes) + " bytes: it " + problem;
+  withBeginning("has no whole header, which has " + std::to_string(HeaderBytes) + " bytes: it ",
+    [&] { readBytes(from, header.bytes.data(), HeaderBytes, [](double) { return false; }); });
 }
 
-std::string headerProblem(const MGHHeader& header)
+void requireHeader(const MGHHeader& header)
 {
   if (header.version() != Version)
   {
-    return "has the version " + std::to_string(header.version()) + "; it must have 1";
+    throw Problem("has the version " + std::to_string(header.version()) + "; it must have 1");
   }
   bool oneVoxel = true;
   for (int axis = 0; axis < 4; ++axis)
@@ -99,18 +77,20 @@ std::string headerProblem(const MGHHeader& header)
     oneVoxel = oneVoxel && (side == 1 || axis == 3);
     if (side < 1 || (axis == 3 && side > MostFrames))
     {
-      return "has " + std::to_string(side) + (axis == 3 ? " frames" : " voxels along axis ") +
-        (axis == 3 ? "" : std::to_string(axis)) + "; it must have 1 or more" +
-        (axis == 3 ? ", up to " + std::to_string(MostFrames) : "");
+      throw Problem("has " + std::to_string(side) +
+        (axis == 3 ? " frames" : " voxels along axis ") + (axis == 3 ? "" : std::to_string(axis)) +
+        "; it must have 1 or more" + (axis == 3 ? ", up to " + std::to_string(MostFrames) : ""));
     }
   }
   if (oneVoxel)
   {
-    return "has 1 voxel; it must have at least 2";
+    throw Problem("has 1 voxel; it must have at least 2");
   }
-  return Types.count(header.type()) > 0 ? std::string()
-                                        : "has the type " + std::to_string(header.type()) +
-      "; BrainShift reads 0 (uchar), 1 (int), " + "3 (float), 4 (short) and 10 (ushort)";
+  if (!(Types.count(header.type()) > 0))
+  {
+    throw Problem("has the type " + std::to_string(header.type()) +
+      "; BrainShift reads 0 (uchar), 1 (int), " + "3 (float), 4 (short) and 10 (ushort)");
+  }
 }
 
 glm::dmat4 worldFromVoxel(const MGHHeader& header)
@@ -139,8 +119,9 @@ double secondsOf(StoredBytes from, double bytes)
   from.unpackedSkip += from.isPacked ? static_cast<std::uint64_t>(bytes) : 0;
   from.offset += from.isPacked ? 0 : static_cast<std::uint64_t>(bytes);
   std::array<char, 4> raw{};
-  const std::string problem = readBytes(from, raw.data(), 4, [](double) { return false; });
-  const double milliseconds = problem.empty() ? numberAt<float>(raw.data(), 0) : 0.0;
+  const bool isRead =
+    problemOf([&] { readBytes(from, raw.data(), 4, [](double) { return false; }); }).empty();
+  const double milliseconds = isRead ? storedNumber<float>(raw.data(), true) : 0.0;
   return std::isfinite(milliseconds) && milliseconds > 0.0 ? milliseconds * 1e-3 : 1.0;
 }
 }
@@ -148,20 +129,16 @@ double secondsOf(StoredBytes from, double bytes)
 bool isMGHFile(const std::string& fileName)
 {
   MGHHeader header;
-  return readBegin(fileName, header).empty() && header.version() == Version &&
-    Types.count(header.type()) > 0;
+  const bool isRead = problemOf([&] { readBegin(fileName, header); }).empty();
+  return isRead && header.version() == Version && Types.count(header.type()) > 0;
 }
 
-std::string MGHVolume::readHeader(const std::string& fileName, VolumeHeader& header)
+void MGHVolume::readHeader(const std::string& fileName, VolumeHeader& header)
 {
   this->Numbers = nullptr; // the file may have changed under its name
   MGHHeader stored;
-  std::string problem = readBegin(fileName, stored);
-  problem = problem.empty() ? headerProblem(stored) : problem;
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  readBegin(fileName, stored);
+  requireHeader(stored);
   const bool isPacked = beginsLikeGzip(fileName);
   this->From = { fileName, isPacked ? 0 : HeaderBytes, isPacked, isPacked ? HeaderBytes : 0 };
   this->Dimensions = glm::ivec3(stored.side(0), stored.side(1), stored.side(2));
@@ -170,11 +147,7 @@ std::string MGHVolume::readHeader(const std::string& fileName, VolumeHeader& hea
   header.dimensions = this->Dimensions;
   header.storedType = this->Type;
   const double bytes = this->Frames * VolumeFile::storedBytes(header);
-  problem = bytesProblem(this->From, bytes);
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  requireBytes(this->From, bytes);
   header.worldFromVoxel = worldFromVoxel(stored);
   header.knowsSides = stored.goodRASFlag();
   if (!header.knowsSides)
@@ -182,13 +155,8 @@ std::string MGHVolume::readHeader(const std::string& fileName, VolumeHeader& hea
     header.warnings.push_back("does not say where its voxels lie (goodRASFlag is 0); they are shown"
                               " as coronal slices of 1 mm, and their sides are not known");
   }
-  const double seconds = this->Frames > 1 ? secondsOf(this->From, bytes) : 1.0;
-  header.times.clear();
-  for (int i = 0; i < this->Frames; ++i)
-  {
-    header.times.push_back(i * seconds);
-  }
-  return {};
+  header.times = evenTimes(
+    static_cast<std::size_t>(this->Frames), this->Frames > 1 ? secondsOf(this->From, bytes) : 1.0);
 }
 
 double MGHVolume::storedBytes(const VolumeHeader& header) const
@@ -196,7 +164,7 @@ double MGHVolume::storedBytes(const VolumeHeader& header) const
   return this->Numbers ? 0.0 : this->Frames * VolumeFile::storedBytes(header);
 }
 
-std::string MGHVolume::load(std::size_t volume, const Progress& progress, StoredVoxels& voxels)
+void MGHVolume::load(std::size_t volume, const Progress& progress, StoredVoxels& voxels)
 {
   const vtkIdType count = vtkIdType(this->Dimensions.x) * this->Dimensions.y * this->Dimensions.z;
   if (!this->Numbers)
@@ -207,32 +175,24 @@ std::string MGHVolume::load(std::size_t volume, const Progress& progress, Stored
     const auto size = static_cast<std::size_t>(numbers->GetDataTypeSize());
     const auto all = static_cast<std::size_t>(count * this->Frames);
     bool stopped = false;
-    const std::string problem = readBytes(this->From, to, all * size, [&](double share) {
-      stopped = !progress(share);
+    readBytes(this->From, to, all * size, [&](double fraction) {
+      stopped = !progress(fraction);
       return !stopped;
     });
-    if (!problem.empty() || stopped)
+    if (stopped)
     {
-      return problem;
+      return;
     }
-    if (!thisMachineIsBigEndian())
-    {
-      reverseBytes(to, all, size);
-    }
+    toMachineOrder(to, all, size, true);
     this->Numbers = numbers;
   }
-  auto frame = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Type));
-  constexpr int OwnedByNumbers = 1;
-  frame->SetVoidArray(
-    this->Numbers->GetVoidPointer(static_cast<vtkIdType>(volume) * count), count, OwnedByNumbers);
-  voxels.image = vtkSmartPointer<vtkImageData>::New();
-  voxels.image->SetDimensions(this->Dimensions.x, this->Dimensions.y, this->Dimensions.z);
-  voxels.image->GetPointData()->SetScalars(this->Frames > 1 ? frame : this->Numbers);
+  voxels.show(this->Dimensions,
+    this->Frames > 1 ? partOf(this->Numbers, static_cast<vtkIdType>(volume) * count, count)
+                     : this->Numbers);
   if (this->Frames == 1)
   {
     this->Numbers = nullptr; // frames are kept: the next one comes from them
   }
-  return {};
 }
 
 extern const VolumeFormat VolumesOfMGH{ "MGH", isMGHFile, makeVolumeFile<MGHVolume> };

@@ -20,16 +20,16 @@
 namespace brainshift
 {
 /** Whether a file exists and begins like a volume of FreeSurfer. */
-VTKBRAINSHIFTFORMATS_EXPORT bool isMGHFile(const std::string& fileName);
+bool isMGHFile(const std::string& fileName);
 
 /** See VolumeFile. */
 class MGHVolume : public VolumeFile
 {
 public:
   std::string noun() const override { return "FreeSurfer volume"; }
-  std::string readHeader(const std::string& fileName, VolumeHeader& header) override;
+  void readHeader(const std::string& fileName, VolumeHeader& header) override;
   double storedBytes(const VolumeHeader& header) const override;
-  std::string load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
+  void load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
 
 private:
   StoredBytes From; // the voxels of all frames

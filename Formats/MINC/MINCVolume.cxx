@@ -1,19 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/MINC/MINCVolume.h"
-
+/**
+ * @file
+ * @brief Volumes in MINC2 files (.mnc), through libminc.
+ *
+ * Their world is RAS, in mm. Whole numbers become real values, slice by slice, as the file says;
+ * whole numbers of the classes "integer" and "label" stay as they are. MINC1 files are refused.
+ */
+#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
+#include "Formats/Volumes/VolumeFile.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
-#include "vtkPointData.h"
 
 #include <minc2.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
+#include <cstdint>
 #include <map>
+#include <string>
+#include <vector>
 
 namespace brainshift
 {
@@ -30,22 +38,14 @@ const std::map<int, int> Types{ { MI_TYPE_BYTE, VTK_SIGNED_CHAR },
   { MI_TYPE_UINT, VTK_UNSIGNED_INT }, { MI_TYPE_FLOAT, VTK_FLOAT },
   { MI_TYPE_DOUBLE, VTK_DOUBLE } };
 
-std::string firstBytes(const std::string& fileName)
-{
-  std::string bytes(4, '\0');
-  std::ifstream file(fileName, std::ios::binary);
-  file.read(&bytes[0], 4);
-  return bytes;
-}
-
 bool beginsLikeHDF5(const std::string& fileName)
 {
-  return firstBytes(fileName) == "\x89HDF";
+  return readBeginning(fileName, 4) == "\x89HDF";
 }
 
 bool beginsLikeNetCDF(const std::string& fileName)
 {
-  return firstBytes(fileName).compare(0, 3, "CDF") == 0;
+  return readBeginning(fileName, 3) == "CDF";
 }
 
 // A file that is closed when it is no longer needed.
@@ -72,6 +72,21 @@ public:
 private:
   mihandle_t Handle = nullptr;
   bool Good;
+};
+
+// What an axis of the file is for.
+enum class AxisUse
+{
+  Space,
+  Time,
+  Components,
+};
+
+// One axis of the file.
+struct Axis
+{
+  AxisUse use = AxisUse::Space;
+  std::uint64_t count = 0;
 };
 
 // What libminc says about one axis.
@@ -109,15 +124,15 @@ bool describe(midimhandle_t dimension, StoredAxis& axis)
       miget_dimension_cosines(dimension, &axis.cosines.x) == MI_NOERROR);
 }
 
-std::string axesOf(mihandle_t volume, std::vector<StoredAxis>& axes)
+void axesOf(mihandle_t volume, std::vector<StoredAxis>& axes)
 {
   int count = 0;
   const bool isCounted =
     miget_volume_dimension_count(volume, MI_DIMCLASS_ANY, MI_DIMATTR_ALL, &count) == MI_NOERROR;
   if (!isCounted || count < 3 || count > MostAxes)
   {
-    return "has " + std::to_string(count) + " dimensions; it must have from 3 to " +
-      std::to_string(MostAxes);
+    throw Problem("has " + std::to_string(count) + " dimensions; it must have from 3 to " +
+      std::to_string(MostAxes));
   }
   std::array<midimhandle_t, MostAxes> handles{};
   const int found = miget_volume_dimensions(
@@ -127,32 +142,30 @@ std::string axesOf(mihandle_t volume, std::vector<StoredAxis>& axes)
     StoredAxis axis;
     if (found == MI_ERROR || !describe(handles[static_cast<std::size_t>(i)], axis))
     {
-      return "does not describe its dimension " + std::to_string(i);
+      throw Problem("does not describe its dimension " + std::to_string(i));
     }
     axes.push_back(axis);
   }
-  return {};
 }
 
 // The type that voxels are handed out in, and whether libminc scales them.
-std::string readType(mihandle_t volume, VolumeHeader& header, bool& areRealValues)
+void readType(mihandle_t volume, VolumeHeader& header, bool& areRealValues)
 {
   mitype_t type = MI_TYPE_UNKNOWN;
   miclass_t kind = MI_CLASS_REAL;
   if (miget_data_type(volume, &type) != MI_NOERROR || miget_data_class(volume, &kind) != MI_NOERROR)
   {
-    return "does not say the type of its voxels";
+    throw Problem("does not say the type of its voxels");
   }
   const auto known = Types.find(type);
   const bool isNumber = kind == MI_CLASS_REAL || kind == MI_CLASS_INT || kind == MI_CLASS_LABEL;
   if (known == Types.end() || !isNumber)
   {
-    return "has voxels of the MINC type " + std::to_string(type) + ", class " +
-      std::to_string(kind) + "; BrainShift reads whole and real numbers";
+    throw Problem("has voxels of the MINC type " + std::to_string(type) + ", class " +
+      std::to_string(kind) + "; BrainShift reads whole and real numbers");
   }
   areRealValues = kind == MI_CLASS_REAL;
   header.storedType = areRealValues && type != MI_TYPE_DOUBLE ? VTK_FLOAT : known->second;
-  return {};
 }
 
 std::vector<Label> labelsIn(mihandle_t volume)
@@ -180,22 +193,8 @@ std::vector<Label> labelsIn(mihandle_t volume)
   return labels;
 }
 
-std::vector<double> timesOf(const StoredAxis& axis)
-{
-  const double step = std::isfinite(axis.step) && axis.step > 0.0 ? axis.step : 1.0;
-  const double start = std::isfinite(axis.start) ? axis.start : 0.0;
-  std::vector<double> times;
-  times.reserve(axis.count);
-  for (misize_t i = 0; i < axis.count; ++i)
-  {
-    times.push_back(start + static_cast<double>(i) * step);
-  }
-  return times;
-}
-
 // What the axes are for, and where they put voxels. Space counts from the fastest axis on.
-std::string arrange(
-  const std::vector<StoredAxis>& stored, std::vector<MINCVolume::Axis>& axes, VolumeHeader& header)
+void arrange(const std::vector<StoredAxis>& stored, std::vector<Axis>& axes, VolumeHeader& header)
 {
   int along = 2;
   header.worldFromVoxel[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);
@@ -206,17 +205,17 @@ std::string arrange(
     const std::uint64_t limit = isSpace ? LongestSide : MostSteps;
     if (axis.count < 1 || axis.count > limit)
     {
-      return "has " + std::to_string(axis.count) + " entries along " + axis.name +
-        "; it must have from 1 to " + std::to_string(limit);
+      throw Problem("has " + std::to_string(axis.count) + " entries along " + axis.name +
+        "; it must have from 1 to " + std::to_string(limit));
     }
     if (!isSpace && axis.kind != MI_DIMCLASS_TIME && !isLast)
     {
-      return "has the dimension " + axis.name + ", which is none of space or time; only the last " +
-        "one may be";
+      throw Problem("has the dimension " + axis.name +
+        ", which is none of space or time; only the last " + "one may be");
     }
-    axes.push_back({ isSpace            ? MINCVolume::AxisUse::Space
-        : axis.kind == MI_DIMCLASS_TIME ? MINCVolume::AxisUse::Time
-                                        : MINCVolume::AxisUse::Components,
+    axes.push_back({ isSpace            ? AxisUse::Space
+        : axis.kind == MI_DIMCLASS_TIME ? AxisUse::Time
+                                        : AxisUse::Components,
       axis.count });
     if (!axis.isEven)
     {
@@ -232,14 +231,15 @@ std::string arrange(
     along -= isSpace ? 1 : 0;
     if (axis.kind == MI_DIMCLASS_TIME)
     {
-      header.times = timesOf(axis);
+      header.times = evenTimes(axis.count, axis.step, axis.start);
     }
-    header.components = axes.back().use == MINCVolume::AxisUse::Components
-      ? static_cast<int>(axis.count)
-      : header.components;
+    header.components =
+      axes.back().use == AxisUse::Components ? static_cast<int>(axis.count) : header.components;
   }
-  return along == -1 ? std::string()
-                     : "has " + std::to_string(2 - along) + " axes in space; it must have 3";
+  if (along != -1)
+  {
+    throw Problem("has " + std::to_string(2 - along) + " axes in space; it must have 3");
+  }
 }
 
 // Voxels of a file: the first one and how many, along each axis of the file.
@@ -262,56 +262,64 @@ bool readSlices(mihandle_t volume, const Hyperslab& slab, bool areRealValues, vt
     : miget_voxel_value_hyperslab(volume, wanted, slab.start.data(), slab.count.data(), place);
   return status == MI_NOERROR;
 }
-}
 
+// Whether a file exists and begins like HDF5 or netCDF, as MINC2 and MINC1 files do.
 bool isMINCFile(const std::string& fileName)
 {
-  return plainFileProblem(fileName).empty() &&
-    (beginsLikeHDF5(fileName) || beginsLikeNetCDF(fileName));
+  return beginsLikeHDF5(fileName) || beginsLikeNetCDF(fileName);
 }
 
-std::string MINCVolume::readHeader(const std::string& fileName, VolumeHeader& header)
+class MINCVolume : public VolumeFile
+{
+public:
+  std::string noun() const override { return "MINC volume"; }
+  void readHeader(const std::string& fileName, VolumeHeader& header) override;
+  void load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
+
+private:
+  std::string FileName;
+  std::vector<Axis> Axes;    // the slowest first
+  bool AreRealValues = true; // stored numbers are scaled
+  VolumeHeader Header;
+};
+
+void MINCVolume::readHeader(const std::string& fileName, VolumeHeader& header)
 {
   this->FileName = fileName;
   this->Axes.clear();
-  const std::string notPlain = plainFileProblem(fileName);
-  if (!notPlain.empty())
-  {
-    return notPlain;
-  }
+  requirePlainFile(fileName);
   if (beginsLikeNetCDF(fileName))
   {
-    return "is a MINC1 file; BrainShift reads MINC2, which mincconvert -2 makes of it";
+    throw Problem("is a MINC1 file; BrainShift reads MINC2, which mincconvert -2 makes of it");
   }
   if (!beginsLikeHDF5(fileName))
   {
-    return "is not MINC2: it does not begin like an HDF5 file";
+    throw Problem("is not MINC2: it does not begin like an HDF5 file");
   }
   const OpenVolume volume(fileName);
   if (!volume.isGood())
   {
-    return "is not MINC2, or is damaged: libminc cannot open it";
+    throw Problem("is not MINC2, or is damaged: libminc cannot open it");
   }
   std::vector<StoredAxis> stored;
-  std::string problem = axesOf(volume.get(), stored);
-  problem = problem.empty() ? readType(volume.get(), header, this->AreRealValues) : problem;
-  problem = problem.empty() ? arrange(stored, this->Axes, header) : problem;
-  if (problem.empty() && header.dimensions == glm::ivec3(1))
+  axesOf(volume.get(), stored);
+  readType(volume.get(), header, this->AreRealValues);
+  arrange(stored, this->Axes, header);
+  if (header.dimensions == glm::ivec3(1))
   {
-    problem = "has 1 voxel; it must have at least 2";
+    throw Problem("has 1 voxel; it must have at least 2");
   }
-  header.labels = problem.empty() ? labelsIn(volume.get()) : std::vector<Label>();
+  header.labels = labelsIn(volume.get());
   this->Header = header;
-  return problem;
 }
 
-std::string MINCVolume::load(std::size_t volume, const Progress& progress, StoredVoxels& voxels)
+void MINCVolume::load(std::size_t volume, const Progress& progress, StoredVoxels& voxels)
 {
   constexpr misize_t Slices = 32; // a block of compressed voxels has as many
   const OpenVolume file(this->FileName);
   if (!file.isGood())
   {
-    return "libminc cannot open it any more";
+    throw Problem("libminc cannot open it any more");
   }
   const glm::ivec3& sides = this->Header.dimensions;
   auto numbers =
@@ -337,17 +345,16 @@ std::string MINCVolume::load(std::size_t volume, const Progress& progress, Store
     if (!readSlices(file.get(), slab, this->AreRealValues, numbers,
           static_cast<vtkIdType>(slice) * sliceValues))
     {
-      return "libminc cannot read its slices from " + std::to_string(slice) + " on";
+      throw Problem("libminc cannot read its slices from " + std::to_string(slice) + " on");
     }
     if (!progress(static_cast<double>(slice + slab.count[slowest]) / static_cast<double>(slices)))
     {
-      return {};
+      return;
     }
   }
-  voxels.image = vtkSmartPointer<vtkImageData>::New();
-  voxels.image->SetDimensions(sides.x, sides.y, sides.z);
-  voxels.image->GetPointData()->SetScalars(numbers);
-  return {};
+  voxels.show(sides, numbers);
+}
+
 }
 
 extern const VolumeFormat VolumesOfMINC{ "MINC", isMINCFile, makeVolumeFile<MINCVolume> };

@@ -1,16 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/MRtrix/MRtrixFile.h"
-
-#include "Formats/Files/HeaderText.h"
+/**
+ * @file
+ * @brief Streamlines of MRtrix (.tck): points in the scanner's RAS, mm.
+ *
+ * A header of lines "key: value" ends with "END". Three numbers for each point follow; three NaN
+ * end a streamline, and three infinite numbers end the file.
+ */
+#include "Common/Bytes.h"
+#include "Common/Numbers.h"
+#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
+#include "Formats/Files/Text.h"
+#include "Formats/Surfaces/SurfaceFile.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <map>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace brainshift
 {
@@ -28,14 +38,6 @@ struct TrackText
   double count = 0.0; // of streamlines; 0: not said
 };
 
-// The value of a line without the spaces around it.
-std::string valueIn(std::string_view line)
-{
-  const std::size_t first = line.find_first_not_of(" \t\r");
-  const std::size_t last = line.find_last_not_of(" \t\r");
-  return first == std::string_view::npos ? "" : std::string(line.substr(first, last - first + 1));
-}
-
 // The keys up to END. False if it does not come.
 bool readKeys(std::string_view text, std::map<std::string, std::string>& keys)
 {
@@ -43,38 +45,40 @@ bool readKeys(std::string_view text, std::map<std::string, std::string>& keys)
   {
     const std::size_t end = std::min(text.find('\n', place), text.size());
     const std::string_view line = text.substr(place, end - place);
-    if (valueIn(line) == "END")
+    if (trimmed(line) == "END")
     {
       return end < text.size();
     }
     const std::size_t colon = line.find(':');
     if (colon != std::string_view::npos)
     {
-      keys[valueIn(line.substr(0, colon))] = valueIn(line.substr(colon + 1));
+      keys[trimmed(line.substr(0, colon))] = trimmed(line.substr(colon + 1));
     }
     place = end + 1;
   }
   return false;
 }
 
-std::string readHeader(const std::vector<char>& bytes, TrackText& header)
+TrackText readHeader(const std::vector<char>& bytes)
 {
+  TrackText header;
   const std::string_view text(bytes.data(), std::min(bytes.size(), LongestHeader));
   std::map<std::string, std::string> keys;
   if (text.substr(0, Magic.size()) != Magic || !readKeys(text, keys))
   {
-    return text.substr(0, Magic.size()) != Magic ? "begins neither with TRACK, as TrackVis does, "
-                                                   "nor with \"mrtrix tracks\""
-                                                 : "has no line END within its first 1048576 bytes";
+    throw Problem(text.substr(0, Magic.size()) != Magic
+        ? "begins neither with TRACK, as TrackVis does, "
+          "nor with \"mrtrix tracks\""
+        : "has no line END within its first 1048576 bytes");
   }
   const std::vector<std::string> where = wordsIn(keys["file"]);
   const std::vector<double> offset = where.size() == 2 ? numbersIn(where[1]) : numbersIn("");
   if (offset.size() != 1 || where[0] != "." ||
     !isWhole(offset[0], static_cast<double>(Magic.size()), static_cast<double>(bytes.size())))
   {
-    return "has the line \"file: " + shownWords(keys["file"]) +
+    throw Problem("has the line \"file: " + shownWords(keys["file"]) +
       "\"; it must be a point and the place of the first number, up to " +
-      std::to_string(bytes.size());
+      std::to_string(bytes.size()));
   }
   header.offset = static_cast<std::size_t>(offset[0]);
   const std::string type = keys["datatype"];
@@ -82,12 +86,12 @@ std::string readHeader(const std::vector<char>& bytes, TrackText& header)
   header.isBigEndian = type == "Float32BE" || type == "Float64BE";
   if (!header.isBigEndian && type != "Float32LE" && type != "Float64LE")
   {
-    return "has the datatype " + shownWords(type) +
-      "; it must be Float32LE, Float32BE, Float64LE or Float64BE";
+    throw Problem("has the datatype " + shownWords(type) +
+      "; it must be Float32LE, Float32BE, Float64LE or Float64BE");
   }
   const std::vector<double> count = numbersIn(keys["count"]);
   header.count = count.size() == 1 && isWhole(count[0], 0, 1e15) ? count[0] : 0.0;
-  return {};
+  return header;
 }
 
 // Points of a file, whose numbers are in the order of this machine.
@@ -135,10 +139,10 @@ void endStreamline(Tracts& tracts, std::size_t& empty)
   }
 }
 
-// Where the triples end; their number if they do not.
+// Takes triples up to those that end the file. False if it was told to stop.
 template <typename T>
-std::size_t takeTriples(const Triples<T>& triples, const ShareDone& shareDone, Tracts& tracts,
-  std::string& problem, std::size_t& empty)
+bool takeTriples(
+  const Triples<T>& triples, const FractionDone& fractionDone, Tracts& tracts, std::size_t& empty)
 {
   constexpr std::size_t Block = 1 << 18; // triples between two reports of progress
   const auto limit = static_cast<T>(FarthestPoint);
@@ -157,46 +161,33 @@ std::size_t takeTriples(const Triples<T>& triples, const ShareDone& shareDone, T
     }
     else if (isAll<T>(triple, [](T number) { return std::isinf(number); }))
     {
-      return i;
+      return true;
     }
     else
     {
-      problem = placeProblem(glm::dvec3(triple[0], triple[1], triple[2]),
+      requirePoint(glm::dvec3(triple[0], triple[1], triple[2]),
         "point " + std::to_string(tracts.points.size()));
-      return i;
     }
-    if (i % Block == 0 && !shareDone(static_cast<double>(i) / static_cast<double>(triples.count())))
+    if (i % Block == 0 &&
+      !fractionDone(static_cast<double>(i) / static_cast<double>(triples.count())))
     {
       tracts = Tracts();
-      return i;
+      return false;
     }
   }
-  problem = "ends before the three infinite numbers that end such a file";
-  return triples.count();
+  throw Problem("ends before the three infinite numbers that end such a file");
 }
 
 template <typename T>
-std::string readTriples(
-  std::vector<char>& bytes, const TrackText& header, const ShareDone& shareDone, Tracts& tracts)
+void readTriples(std::vector<char>& bytes, const TrackText& header,
+  const FractionDone& fractionDone, Tracts& tracts)
 {
-  if (header.isBigEndian != thisMachineIsBigEndian())
-  {
-    reverseBytes(
-      bytes.data() + header.offset, (bytes.size() - header.offset) / sizeof(T), sizeof(T));
-  }
-  bool isStopped = false;
-  std::string problem;
+  toMachineOrder(bytes.data() + header.offset, (bytes.size() - header.offset) / sizeof(T),
+    sizeof(T), header.isBigEndian);
   std::size_t empty = 0;
-  takeTriples<T>(
-    Triples<T>(bytes, header.offset),
-    [&](double share) {
-      isStopped = !shareDone(share);
-      return !isStopped;
-    },
-    tracts, problem, empty);
-  if (!problem.empty() || isStopped)
+  if (!takeTriples<T>(Triples<T>(bytes, header.offset), fractionDone, tracts, empty))
   {
-    return problem;
+    return;
   }
   if (static_cast<std::int64_t>(tracts.points.size()) > tracts.firsts.back())
   {
@@ -213,36 +204,27 @@ std::string readTriples(
       counted(static_cast<std::size_t>(header.count), "streamline") + " and has " +
       std::to_string(found));
   }
-  return {};
-}
 }
 
 bool isMRtrixFile(const std::string& fileName)
 {
-  std::array<char, Magic.size()> begin{};
-  std::ifstream file;
-  if (plainFileProblem(fileName).empty())
-  {
-    file.open(fileName, std::ios::binary);
-  }
-  return file.is_open() && file.read(begin.data(), begin.size()) &&
-    std::string_view(begin.data(), begin.size()) == Magic;
+  return readBeginning(fileName, Magic.size()) == Magic;
 }
 
-std::string readMRtrix(std::vector<char>& bytes, const ShareDone& shareDone, Tracts& tracts)
+void readMRtrix(
+  std::vector<char>& bytes, const std::string&, const FractionDone& fractionDone, Tracts& tracts)
 {
-  TrackText header;
-  const std::string problem = readHeader(bytes, header);
-  if (!problem.empty())
+  const TrackText header = readHeader(bytes);
+  if (header.size == 8)
   {
-    return problem;
+    readTriples<double>(bytes, header, fractionDone, tracts);
   }
-  return header.size == 8 ? readTriples<double>(bytes, header, shareDone, tracts)
-                          : readTriples<float>(bytes, header, shareDone, tracts);
+  else
+  {
+    readTriples<float>(bytes, header, fractionDone, tracts);
+  }
+}
 }
 
-extern const TractFormat TractsOfMRtrix{ isMRtrixFile,
-  [](std::vector<char>& bytes, const std::string&, const ShareDone& shareDone, Tracts& tracts) {
-    return readMRtrix(bytes, shareDone, tracts);
-  } };
+extern const TractFormat TractsOfMRtrix{ isMRtrixFile, readMRtrix };
 }

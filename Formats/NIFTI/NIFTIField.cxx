@@ -1,9 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/NIFTI/NIFTIField.h"
-
+/**
+ * @file
+ * @brief Displacement fields in NIfTI files (.nii, .nii.gz).
+ *
+ * Written: intent 1006 (DISPVECT), vectors in RAS, which ITK from 5.4 on turns into LPS when it
+ * reads them; intent_name holds the direction.
+ *
+ * Read: intent 1006 (vectors in RAS); intent 1007 (VECTOR) as ITK, ANTs and elastix write it
+ * (vectors in LPS); and intent 1007 of NiftyReg (vectors in RAS; intent_p1 0: positions, 1:
+ * displacements).
+ */
+#include "Common/Problem.h"
+#include "Formats/Fields/FieldFile.h"
 #include "Formats/Fields/FieldImage.h"
 #include "Formats/Files/WholeFile.h"
-#include "Formats/NIFTI/NIFTIFileCheck.h"
+#include "Formats/NIFTI/NIFTIHeader.h"
 #include "Formats/NIFTI/NIFTIVolume.h"
 #include "Formats/Volumes/PlacedVolume.h"
 
@@ -11,7 +22,6 @@
 #include "vtkCommand.h"
 #include "vtkDataArray.h"
 #include "vtkErrorCode.h"
-#include "vtkExecutive.h"
 #include "vtkImageData.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNIFTIImageHeader.h"
@@ -49,10 +59,6 @@ struct Intent
 Intent intentOf(const std::string& fileName)
 {
   Intent intent;
-  if (!niftiFileProblem(fileName).empty())
-  {
-    return intent;
-  }
   vtkNew<vtkNIFTIImageReader> reader;
   reader->SetFileName(fileName.c_str());
   vtkNew<vtkCallbackCommand> silent; // the reader of the voxels reports problems
@@ -70,57 +76,49 @@ Intent intentOf(const std::string& fileName)
   return intent;
 }
 
-// Whether a file is of vectors; one sentence if it is not, or if its vectors cannot be used.
-std::string intentProblem(const Intent& intent)
+// Throws the end of a sentence unless a file is of vectors that can be used.
+void requireIntent(const Intent& intent)
 {
   if (!intent.isVectors)
   {
-    return "does not have 3 components per voxel (in dim[5])";
+    throw Problem("does not have 3 components per voxel (in dim[5])");
   }
   if (intent.code != vtkNIFTIImageHeader::IntentDispVect &&
     intent.code != vtkNIFTIImageHeader::IntentVector)
   {
-    return "has the intent " + std::to_string(intent.code) +
-      "; a displacement field must have 1006 (DISPVECT) or 1007 (VECTOR)";
+    throw Problem("has the intent " + std::to_string(intent.code) +
+      "; a displacement field must have 1006 (DISPVECT) or 1007 (VECTOR)");
   }
   if (intent.name == NiftyRegName && intent.p1 != NiftyRegPositions &&
     intent.p1 != NiftyRegDisplacements)
   {
-    return "is a NiftyReg transformation of type " + std::to_string(static_cast<int>(intent.p1)) +
+    throw Problem("is a NiftyReg transformation of type " +
+      std::to_string(static_cast<int>(intent.p1)) +
       "; it must be 0 (deformation field) or 1 (displacement field). NiftyReg's reg_transform "
-      "makes one";
+      "makes one");
   }
-  return {};
 }
 
 // Reads the grid and the vectors as the file has them.
-std::string readVectors(const std::string& fileName, DirectedField& field)
+void readVectors(const std::string& fileName, DirectedField& field)
 {
   PlacedVolume file(std::make_unique<NIFTIVolume>());
-  std::string problem = file.readHeader(fileName);
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  file.readHeader(fileName);
   for (const std::string& warning : file.warnings())
   {
     vtkGenericWarningMacro(<< warning << ".");
   }
   if (file.header().components != 3)
   {
-    return "NIfTI file " + fileName + " has " + std::to_string(file.header().components) +
-      " components per voxel; it must have 3";
+    throw Problem("NIfTI file " + fileName + " has " + std::to_string(file.header().components) +
+      " components per voxel; it must have 3");
   }
   const glm::ivec3 last = file.geometry().grid.dimensions - 1;
   const int extent[6] = { 0, last.x, 0, last.y, 0, last.z };
   vtkNew<vtkImageData> image;
-  problem = file.read(0, extent, [](double) { return true; }, image);
-  if (problem.empty())
-  {
-    field.grid = file.geometry().grid;
-    field.displacements = vectorsOf(image->GetPointData()->GetScalars());
-  }
-  return problem;
+  file.read(0, extent, [](double) { return true; }, image);
+  field.grid = file.geometry().grid;
+  field.displacements = vectorsOf(image->GetPointData()->GetScalars());
 }
 
 // From where points go to how far they go.
@@ -137,7 +135,7 @@ void subtractPositions(DirectedField& field)
 }
 
 // vtkNIFTIImageWriter does not see that its last bytes found no place.
-std::string storageProblem(const std::string& fileName, double bytesOfVectors)
+void requireStored(const std::string& fileName, double bytesOfVectors)
 {
   gzFile file = gzopen(fileName.c_str(), "rb");
   double found = -static_cast<double>(SmallestNIFTIHeader);
@@ -148,7 +146,10 @@ std::string storageProblem(const std::string& fileName, double bytesOfVectors)
     found += read;
   }
   const bool whole = file && gzclose(file) == Z_OK && read == 0 && found >= bytesOfVectors;
-  return whole ? std::string() : "the disk took a part of its bytes only";
+  if (!whole)
+  {
+    throw Problem("the disk took a part of its bytes only");
+  }
 }
 
 void reverseVectorsXY(DirectedField& field)
@@ -158,30 +159,25 @@ void reverseVectorsXY(DirectedField& field)
     displacement *= glm::vec3(-1.0f, -1.0f, 1.0f);
   }
 }
-}
 
 bool isNIFTIField(const std::string& fileName)
 {
-  const Intent intent = intentOf(fileName);
+  const bool isRead = problemOf([&] { requireNIFTIFile(fileName); }).empty();
+  const Intent intent = isRead ? intentOf(fileName) : Intent();
   return intent.isVectors &&
     (intent.code == vtkNIFTIImageHeader::IntentDispVect ||
       intent.code == vtkNIFTIImageHeader::IntentVector);
 }
 
-std::string readNIFTIField(const std::string& fileName, DirectedField& field)
+void readNIFTIField(const std::string& fileName, DirectedField& field)
 {
-  std::string problem = niftiFileProblem(fileName);
-  const Intent intent = problem.empty() ? intentOf(fileName) : Intent();
-  problem = problem.empty() ? intentProblem(intent) : problem;
-  if (!problem.empty())
-  {
-    return "NIfTI file " + fileName + " " + problem;
-  }
-  problem = readVectors(fileName, field);
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  const Intent intent = withBeginning("NIfTI file " + fileName + " ", [&] {
+    requireNIFTIFile(fileName);
+    const Intent found = intentOf(fileName);
+    requireIntent(found);
+    return found;
+  });
+  readVectors(fileName, field);
   field.direction.reset();
   if (intent.name == NiftyRegName)
   {
@@ -199,10 +195,9 @@ std::string readNIFTIField(const std::string& fileName, DirectedField& field)
   {
     field.direction = intent.name == ForwardName ? Direction::Forward : Direction::Backward;
   }
-  return {};
 }
 
-std::string writeNIFTIField(const std::string& fileName, const DirectedField& field)
+void writeNIFTIField(const std::string& fileName, const DirectedField& field)
 {
   const Grid& grid = field.grid;
   const Direction direction = field.direction.value_or(Direction::Backward);
@@ -238,13 +233,16 @@ std::string writeNIFTIField(const std::string& fileName, const DirectedField& fi
   silent->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   writer->AddObserver(vtkCommand::ErrorEvent, silent);
   const double bytes = 12.0 * static_cast<double>(grid.count());
-  return writeWhole(fileName, [&](const std::string& beside) {
+  writeWhole(fileName, [&](const std::string& beside) {
     writer->SetFileName(beside.c_str());
     writer->Write();
-    const int error = writer->GetErrorCode();
-    return error == vtkErrorCode::NoError ? storageProblem(beside, bytes)
-                                          : vtkErrorCode::GetStringFromErrorCode(error);
+    if (const int error = writer->GetErrorCode(); error != vtkErrorCode::NoError)
+    {
+      throw Problem(vtkErrorCode::GetStringFromErrorCode(error));
+    }
+    requireStored(beside, bytes);
   });
+}
 }
 
 extern const FieldFormat FieldsOfNIFTI{ []() -> std::vector<std::string> {

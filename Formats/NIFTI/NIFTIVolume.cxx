@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/NIFTI/NIFTIVolume.h"
 
-#include "Formats/NIFTI/NIFTIFileCheck.h"
-#include "Formats/NIFTI/NIFTIGeometry.h"
-#include "Formats/NIFTI/NIFTILabels.h"
+#include "Common/Bytes.h"
+#include "Common/Numbers.h"
+#include "Common/Problem.h"
+#include "Formats/Files/PackedBytes.h"
+#include "Formats/NIFTI/NIFTIHeader.h"
 #include "Formats/Volumes/OutgoingVolume.h"
 
 #include "vtkCommand.h"
@@ -11,12 +13,135 @@
 #include "vtkImageData.h"
 #include "vtkNIFTIImageHeader.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 namespace brainshift
 {
 namespace
 {
+constexpr std::int32_t WorkbenchCode = 30; // NIFTI_ECODE_CARET
+constexpr std::int32_t LongestExtension = 1 << 24;
+constexpr int MostExtensions = 100;
+constexpr std::size_t MostLabels = 65536;
+
+// Some bytes of a file that may be packed. False if they are not there.
+bool bytesAt(
+  const std::string& fileName, std::uint64_t place, std::size_t count, std::string& bytes)
+{
+  const bool isPacked = beginsLikeGzip(fileName);
+  const StoredBytes from{ fileName, isPacked ? 0 : place, isPacked, isPacked ? place : 0 };
+  return problemOf([&] {
+    requireBytes(from, static_cast<double>(count));
+    bytes.assign(count, '\0');
+    readBytes(from, bytes.data(), count, [](double) { return true; });
+  }).empty();
+}
+
+// The text of the first extension with the code; empty if there is none.
+std::string extensionOf(const std::string& fileName)
+{
+  std::string bytes;
+  if (!bytesAt(fileName, 0, 4, bytes))
+  {
+    return {};
+  }
+  const auto isHeader = [](std::int32_t size) { return size == 348 || size == 540; };
+  const bool isBigEndian = !isHeader(storedNumber<std::int32_t>(bytes.data(), false));
+  const std::int32_t headerBytes = storedNumber<std::int32_t>(bytes.data(), isBigEndian);
+  if (!isHeader(headerBytes) ||
+    !bytesAt(fileName, static_cast<std::uint64_t>(headerBytes), 4, bytes) || bytes[0] == 0)
+  {
+    return {};
+  }
+  std::uint64_t place = static_cast<std::uint64_t>(headerBytes) + 4;
+  for (int i = 0; i < MostExtensions && bytesAt(fileName, place, 8, bytes); ++i)
+  {
+    const std::int32_t size = storedNumber<std::int32_t>(bytes.data(), isBigEndian);
+    if (size < 16 || size > LongestExtension || size % 16 != 0)
+    {
+      return {};
+    }
+    if (storedNumber<std::int32_t>(bytes.data() + 4, isBigEndian) == WorkbenchCode)
+    {
+      return bytesAt(fileName, place + 8, static_cast<std::size_t>(size) - 8, bytes)
+        ? bytes
+        : std::string();
+    }
+    place += static_cast<std::uint64_t>(size);
+  }
+  return {};
+}
+
+// The number of an attribute; NaN if the element has none.
+double attribute(const std::string& element, const std::string& name)
+{
+  const std::string key = " " + name + "=\"";
+  const std::size_t begin = element.find(key);
+  const std::size_t end =
+    begin == std::string::npos ? begin : element.find('"', begin + key.size());
+  const std::vector<double> numbers = end == std::string::npos
+    ? std::vector<double>()
+    : numbersIn(element.substr(begin + key.size(), end - begin - key.size()));
+  return numbers.size() == 1 ? numbers[0] : std::nan("");
+}
+
+// What stands between the tags, with or without CDATA.
+std::string contentOf(std::string text)
+{
+  const std::string open = "<![CDATA[";
+  const std::size_t begin = text.find(open);
+  if (begin != std::string::npos)
+  {
+    text.erase(0, begin + open.size());
+    text.erase(std::min(text.find("]]>"), text.size()));
+  }
+  return text;
+}
+
+// The labels of the first extension of Connectome Workbench; none if the file has none. It stores
+// them as XML in an extension with code 30:
+// <Label Key="1" Red="1" Green="0.5" Blue="0" Alpha="1"><![CDATA[name]]></Label>
+std::vector<Label> niftiLabels(const std::string& fileName)
+{
+  const std::string text = extensionOf(fileName);
+  const std::string close = "</Label>";
+  std::vector<Label> labels;
+  for (std::size_t place = text.find("<Label "); place != std::string::npos;
+    place = text.find("<Label ", place + 1))
+  {
+    const std::size_t middle = text.find('>', place);
+    const std::size_t end = text.find(close, place);
+    if (middle == std::string::npos || end == std::string::npos || middle > end ||
+      labels.size() == MostLabels)
+    {
+      break;
+    }
+    const std::string element = text.substr(place, middle - place);
+    const double key = attribute(element, "Key");
+    if (!isWhole(key, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()))
+    {
+      continue;
+    }
+    Label label;
+    label.value = static_cast<int>(key);
+    label.name = contentOf(text.substr(middle + 1, end - middle - 1));
+    const std::array<const char*, 3> names{ "Red", "Green", "Blue" };
+    for (std::size_t i = 0; i < names.size(); ++i)
+    {
+      const double share = attribute(element, names[i]);
+      label.color[i] = share >= 0.0
+        ? static_cast<unsigned char>(std::lround(255.0 * std::min(share, 1.0)))
+        : label.color[i];
+    }
+    labels.push_back(label);
+  }
+  return labels;
+}
+
 NIFTIPlacement placementOf(vtkNIFTIImageHeader* header)
 {
   NIFTIPlacement placement;
@@ -51,15 +176,11 @@ glm::dmat4 voxelFromReversedSlices(int slices)
 std::vector<double> timesOf(vtkNIFTIImageHeader* header)
 {
   const vtkTypeInt64 count = header->GetDim(0) >= 4 ? header->GetDim(4) : 1;
-  const double seconds = secondsPerNIFTIUnit(header->GetXYZTUnits());
-  const double spacing = std::abs(header->GetPixDim(4));
-  const double step = std::isfinite(spacing) && spacing > 0.0 ? spacing : 1.0;
-  const double start = std::isfinite(header->GetTOffset()) ? header->GetTOffset() : 0.0;
-  std::vector<double> times;
-  times.reserve(count > 0 ? count : 0);
-  for (vtkTypeInt64 i = 0; i < count; ++i)
+  std::vector<double> times = evenTimes(static_cast<std::size_t>(std::max<vtkTypeInt64>(count, 0)),
+    std::abs(header->GetPixDim(4)), header->GetTOffset());
+  for (double& time : times)
   {
-    times.push_back(seconds * (start + static_cast<double>(i) * step));
+    time *= secondsPerNIFTIUnit(header->GetXYZTUnits());
   }
   return times;
 }
@@ -104,26 +225,22 @@ NIFTIVolume::NIFTIVolume()
   }
 }
 
-std::string NIFTIVolume::readHeader(const std::string& fileName, VolumeHeader& header)
+void NIFTIVolume::readHeader(const std::string& fileName, VolumeHeader& header)
 {
-  std::string problem = niftiFileProblem(fileName);
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  requireNIFTIFile(fileName);
   this->Error.clear();
   this->Voxels->SetFileName(fileName.c_str());
   this->Voxels->Modified(); // the file may have changed under its name
   this->Voxels->UpdateInformation();
   if (!this->Error.empty())
   {
-    return "cannot be read: " + this->Error;
+    throw Problem("cannot be read: " + this->Error);
   }
   vtkNIFTIImageHeader* stored = this->Voxels->GetNIFTIHeader();
   header.rescaling = rescalingOf(stored);
   if (!std::isfinite(header.rescaling.intercept))
   {
-    return "has a scl_inter that is not finite";
+    throw Problem("has a scl_inter that is not finite");
   }
   header.times = timesOf(stored);
   this->Volumes = static_cast<int>(header.times.size());
@@ -140,12 +257,23 @@ std::string NIFTIVolume::readHeader(const std::string& fileName, VolumeHeader& h
   const bool saysUnknown = note && std::string(note).find(UnknownSidesNote) != std::string::npos;
   header.knowsSides = !saysUnknown && (stored->GetSFormCode() > 0 || stored->GetQFormCode() > 0);
   header.labels = niftiLabels(fileName);
-  return {};
 }
 
 bool NIFTIVolume::reversesSlices() const
 {
   return this->Voxels->GetQFac() < 0.0;
+}
+
+glm::dmat4 NIFTIVolume::inFileOrder(
+  const glm::dmat4& worldFromVoxel, const glm::ivec3& dimensions) const
+{
+  glm::dmat4 world = worldFromVoxel;
+  if (this->reversesSlices())
+  {
+    world[3] += world[2] * (dimensions.z - 1.0);
+    world[2] = -world[2];
+  }
+  return world;
 }
 
 double NIFTIVolume::storedBytes(const VolumeHeader& header) const
@@ -154,13 +282,13 @@ double NIFTIVolume::storedBytes(const VolumeHeader& header) const
   return isLoaded ? 0.0 : this->Volumes * VolumeFile::storedBytes(header);
 }
 
-std::string NIFTIVolume::load(std::size_t volume, const Progress&, StoredVoxels& voxels)
+void NIFTIVolume::load(std::size_t volume, const Progress&, StoredVoxels& voxels)
 {
   this->Error.clear();
   this->Voxels->UpdateWholeExtent();
   if (!this->Error.empty())
   {
-    return this->Error;
+    throw Problem(this->Error);
   }
   vtkImageData* read = this->Voxels->GetOutput();
   voxels.firstComponent =
@@ -171,7 +299,6 @@ std::string NIFTIVolume::load(std::size_t volume, const Progress&, StoredVoxels&
   {
     read->ReleaseData(); // a time series is kept: its next step comes from it
   }
-  return {};
 }
 
 extern const VolumeFormat VolumesOfNIFTI{ "NIFTI", isNIFTIFile, makeVolumeFile<NIFTIVolume> };

@@ -3,7 +3,7 @@
  * @file
  * @brief Volumes in NIfTI-1 and NIfTI-2 files: .nii, .nii.gz, and pairs of .hdr and .img.
  *
- * The sform counts before the qform (NIFTIGeometry.h). scl_slope and scl_inter rescale the numbers;
+ * The sform counts before the qform (NIFTIHeader.h). scl_slope and scl_inter rescale the numbers;
  * a slope of 0 or NaN does not, and colours are never rescaled. VTK's reader reads the voxels.
  */
 #ifndef BrainShift_NIFTIVolume_h
@@ -27,14 +27,17 @@ public:
   NIFTIVolume();
 
   std::string noun() const override { return "NIfTI file"; }
-  std::string readHeader(const std::string& fileName, VolumeHeader& header) override;
+  void readHeader(const std::string& fileName, VolumeHeader& header) override;
   double storedBytes(const VolumeHeader& header) const override;
-  std::string load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
+  void load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
 
-  /** Whether VTK reads the slices of the last file from the last to the first. */
-  bool reversesSlices() const;
+  /** An affine of the last header with the slices in the file's order, which VTK may reverse. */
+  glm::dmat4 inFileOrder(const glm::dmat4& worldFromVoxel, const glm::ivec3& dimensions) const;
 
 private:
+  // Whether VTK reads slices from the last to the first.
+  bool reversesSlices() const;
+
   std::string Error; // of Voxels
   vtkNew<vtkCallbackCommand> KeepError;
   vtkNew<vtkNIFTIImageReader> Voxels; // all volumes of a time series as components

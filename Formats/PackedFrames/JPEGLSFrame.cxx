@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/PackedFrames/JPEGLSFrame.h"
-
-#include "Formats/PackedFrames/Widen.h"
+/**
+ * @file
+ * @brief Unpacks JPEG-LS frames (ISO 14495-1) by CharLS.
+ */
+#include "Formats/PackedFrames/PackedFrame.h"
 
 #include <charls/charls.h>
 
@@ -34,18 +36,21 @@ UnpackedFrame unpackJPEGLS(const std::string& packed, const FrameShape& shape)
       frame.height != static_cast<std::uint32_t>(shape.rows) || frame.component_count != 1 ||
       frame.bits_per_sample > shape.bitsAllocated)
     {
-      return otherShape(shape,
-        std::to_string(frame.width) + " x " + std::to_string(frame.height) + " pixels of " +
-          std::to_string(frame.component_count) + " samples in " +
-          std::to_string(frame.bits_per_sample) + " bits");
+      throw otherShape(shape,
+        shapeText<std::int64_t>(
+          frame.width, frame.height, frame.component_count, frame.bits_per_sample));
     }
     return { frame.bits_per_sample <= 8 ? decoded<std::uint8_t>(decoder, shape)
                                         : decoded<std::uint16_t>(decoder, shape),
-      {}, static_cast<int>(frame.bits_per_sample), false };
+      static_cast<int>(frame.bits_per_sample), false };
   }
-  catch (const std::exception& problem)
+  catch (const Problem&)
   {
-    return { {}, std::string("a JPEG-LS frame is damaged; CharLS says: ") + problem.what() };
+    throw;
+  }
+  catch (const std::exception& thrown)
+  {
+    throw Problem(std::string("a JPEG-LS frame is damaged; CharLS says: ") + thrown.what());
   }
 }
 }

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/PackedFrames/RunLengths.h"
+/**
+ * @file
+ * @brief Unpacks frames in RLE, DICOM's run-length encoding (part 5, annex G).
+ */
+#include "Common/Bytes.h"
+#include "Formats/PackedFrames/PackedFrame.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -12,12 +17,7 @@ constexpr std::size_t HeaderBytes = 64; // number of segments, and 15 offsets
 
 std::size_t headerNumber(const std::string& packed, std::size_t index)
 {
-  std::size_t number = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-  {
-    number |= static_cast<std::size_t>(static_cast<unsigned char>(packed[4 * index + i])) << 8 * i;
-  }
-  return number;
+  return storedNumber<std::uint32_t>(packed.data() + 4 * index, false);
 }
 
 // A segment holds one byte of each number. Its bytes go to `first`, `first + step`, ...
@@ -57,9 +57,8 @@ UnpackedFrame unpackRunLengths(const std::string& packed, const FrameShape& shap
   const std::size_t bytesOfNumber = shape.bytesOfNumber();
   if (packed.size() < HeaderBytes || headerNumber(packed, 0) != bytesOfNumber)
   {
-    return { {},
-      "an RLE frame is damaged: its header does not announce " + std::to_string(bytesOfNumber) +
-        " segments, one for each byte of a number" };
+    throw Problem("an RLE frame is damaged: its header does not announce " +
+      std::to_string(bytesOfNumber) + " segments, one for each byte of a number");
   }
   std::string plain(shape.count() * bytesOfNumber, '\0');
   for (std::size_t segment = 0; segment < bytesOfNumber; ++segment)
@@ -69,9 +68,9 @@ UnpackedFrame unpackRunLengths(const std::string& packed, const FrameShape& shap
     if (offset < HeaderBytes ||
       !unpackSegment(packed, offset, plain, bytesOfNumber - 1 - segment, bytesOfNumber))
     {
-      return { {}, "an RLE frame is damaged: its data ends before the last pixel" };
+      throw Problem("an RLE frame is damaged: its data ends before the last pixel");
     }
   }
-  return { plain, {} };
+  return { plain };
 }
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Surfaces/ScannerFrame.h"
 
+#include "Common/Problem.h"
 #include "Formats/MGH/MGHVolume.h"
-#include "Formats/NIFTI/NIFTIFileCheck.h"
+#include "Formats/NIFTI/NIFTIHeader.h"
 #include "Formats/NIFTI/NIFTIVolume.h"
 #include "Formats/Volumes/RasGrid.h"
 #include "Formats/Volumes/VolumeFile.h"
@@ -13,22 +14,18 @@ namespace brainshift
 {
 namespace
 {
-std::string readGrid(VolumeFile& file, const std::string& fileName, VolumeGrid& grid)
+VolumeGrid readGrid(VolumeFile& file, const std::string& fileName)
 {
-  VolumeHeader header;
-  const std::string beginning = file.noun() + " " + fileName + " ";
-  std::string problem = file.readHeader(fileName, header);
-  if (!problem.empty())
-  {
-    return beginning + problem;
-  }
-  problem = affineProblem(header.worldFromVoxel);
-  if (!problem.empty())
-  {
-    return beginning + "places nothing: " + problem;
-  }
-  grid = { header.worldFromVoxel, header.dimensions };
-  return header.knowsSides ? std::string() : beginning + "does not say where its voxels lie";
+  return withBeginning(file.noun() + " " + fileName + " ", [&] {
+    VolumeHeader header;
+    file.readHeader(fileName, header);
+    withBeginning("places nothing: ", [&] { requireAffine(header.worldFromVoxel); });
+    if (!header.knowsSides)
+    {
+      throw Problem("does not say where its voxels lie");
+    }
+    return VolumeGrid{ header.worldFromVoxel, header.dimensions };
+  });
 }
 }
 
@@ -38,26 +35,21 @@ glm::dmat4 scannerFromSurface(const VolumeFrame& frame)
     glm::dvec4(-frame.yRas, 0.0), glm::dvec4(frame.cRas, 1.0));
 }
 
-std::string readVolumeGrid(const std::string& fileName, VolumeGrid& grid)
+VolumeGrid readVolumeGrid(const std::string& fileName)
 {
   if (isMGHFile(fileName))
   {
     MGHVolume volume;
-    return readGrid(volume, fileName, grid);
+    return readGrid(volume, fileName);
   }
-  if (isNIFTIFile(fileName))
+  if (!isNIFTIFile(fileName))
   {
-    NIFTIVolume volume;
-    const std::string problem = readGrid(volume, fileName, grid);
-    if (volume.reversesSlices()) // as VTK reads them; the file's own order counts here
-    {
-      const glm::dvec4 last = grid.worldFromVoxel[2] * (grid.dimensions.z - 1.0);
-      grid.worldFromVoxel[3] += last;
-      grid.worldFromVoxel[2] = -grid.worldFromVoxel[2];
-    }
-    return problem;
+    throw Problem("Volume " + fileName + " is no FreeSurfer volume (.mgz, .mgh) and no NIfTI file");
   }
-  return "Volume " + fileName + " is no FreeSurfer volume (.mgz, .mgh) and no NIfTI file";
+  NIFTIVolume volume;
+  VolumeGrid grid = readGrid(volume, fileName);
+  grid.worldFromVoxel = volume.inFileOrder(grid.worldFromVoxel, grid.dimensions);
+  return grid;
 }
 
 VolumeFrame frameOf(const VolumeGrid& grid)

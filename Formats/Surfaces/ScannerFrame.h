@@ -44,10 +44,10 @@ struct VolumeGrid
 };
 
 /**
- * Reads the header of a volume: FreeSurfer (.mgz, .mgh) or NIfTI. Returns one sentence, without a
- * full stop, on why it cannot; empty if it can.
+ * Where the voxels of a file lie, in its own order: FreeSurfer (.mgz, .mgh) or NIfTI. Throws one
+ * sentence, without a full stop.
  */
-std::string readVolumeGrid(const std::string& fileName, VolumeGrid& grid);
+VolumeGrid readVolumeGrid(const std::string& fileName);
 
 /** The geometry of a volume whose voxels lie so. */
 VolumeFrame frameOf(const VolumeGrid& grid);

@@ -7,7 +7,7 @@
 #ifndef BrainShift_SurfaceData_h
 #define BrainShift_SurfaceData_h
 
-#include "Formats/Surfaces/Surface.h"
+#include "Formats/Surfaces/SurfaceFile.h"
 
 class vtkPolyData;
 

@@ -1,8 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Surfaces/SurfaceFile.h"
 
+#include "Common/HostMemory.h"
+#include "Common/Problem.h"
+#include "Formats/Files/PlainFile.h"
+#include "Formats/Files/Text.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
+#include <optional>
+#include <system_error>
 #include <utility>
 
 namespace brainshift
@@ -75,27 +87,123 @@ const Format* formatOf(const std::string& fileName, const std::vector<const Form
   return found == formats.end() ? formats.back() : *found;
 }
 
-// Adds the numbers of a file to a surface that is not placed yet.
-std::string addValues(
-  const std::string& fileName, Surface& surface, std::vector<std::string>& warnings)
+// The bytes of a file; none if it was told to stop. The reader will hold `timesInMemory` bytes in
+// all for each byte of the file.
+std::optional<std::vector<char>> readFileBytes(
+  const std::string& fileName, double timesInMemory, const FractionDone& fractionDone)
 {
-  FileBytes file;
-  const std::string name = "File of values " + fileName;
-  std::string problem = readFileBytes(fileName, TimesOfSurface, [](double) { return true; }, file);
-  if (!problem.empty())
+  requirePlainFile(fileName);
+
+  std::error_code error;
+  const auto size = std::filesystem::file_size(fileName, error);
+  if (error)
   {
-    return name + " " + problem;
+    throw Problem("has an unknown size");
   }
+  withBeginning("cannot be read: ",
+    [&] { requireHostMemory("it", static_cast<double>(size) * timesInMemory); });
+  std::vector<char> bytes(static_cast<std::size_t>(size));
+  bool isStopped = false;
+  readBytes({ fileName }, bytes.data(), bytes.size(), [&](double fraction) {
+    isStopped = !fractionDone(fraction);
+    return !isStopped;
+  });
+  return isStopped ? std::nullopt : std::optional(std::move(bytes));
+}
+
+// Adds the numbers of a file to a surface that is not placed yet.
+void addValues(const std::string& fileName, Surface& surface, std::vector<std::string>& warnings)
+{
+  const std::string name = "File of values " + fileName;
   const std::size_t notes = surface.notes.size();
-  const SurfaceFormat* format = formatOfValues(file.bytes);
-  problem = format ? format->addValues(file.bytes, nameOfValues(fileName), surface) : noValues();
+  withBeginning(name + " ", [&] {
+    const auto bytes = readFileBytes(fileName, TimesOfSurface, [](double) { return true; });
+    const SurfaceFormat* format = formatOfValues(*bytes);
+    if (!format)
+    {
+      throw Problem(noValues());
+    }
+    format->addValues(*bytes, nameOfValues(fileName), surface);
+  });
   const std::vector<std::string> found(
     surface.notes.begin() + static_cast<std::ptrdiff_t>(notes), surface.notes.end());
   surface.notes.resize(notes);
   const std::vector<std::string> more = sentences(name, found);
   warnings.insert(warnings.end(), more.begin(), more.end());
-  return problem.empty() ? problem : name + " " + problem;
 }
+}
+
+std::size_t bytesOf(NumberType type)
+{
+  switch (type)
+  {
+    case NumberType::UInt8:
+      return 1;
+    case NumberType::Float64:
+      return 8;
+    default:
+      return 4;
+  }
+}
+
+std::string OwnNames::own(const std::string& name)
+{
+  std::string found = name;
+  while (!this->Taken.insert(found).second)
+  {
+    int& next = this->Next.emplace(name, 2).first->second;
+    found = name + " " + std::to_string(next);
+    ++next;
+  }
+  return found;
+}
+
+void requirePoint(const glm::dvec3& point, const std::string& what)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (!(std::abs(point[axis]) <= FarthestPoint))
+    {
+      throw Problem(joined("has ", what, " at a coordinate of ", point[axis], " mm; the limit is ",
+        FarthestPoint, " mm"));
+    }
+  }
+}
+
+void placeSurface(Surface& surface)
+{
+  const auto count =
+    static_cast<int>(std::min<std::size_t>(surface.points.size(), std::numeric_limits<int>::max()));
+  for (std::size_t i = 0; i < surface.points.size(); ++i)
+  {
+    glm::dvec3& point = surface.points[i];
+    const std::string what = "point " + std::to_string(i);
+    requirePoint(point, what);
+    point = glm::dvec3(surface.worldFromStored * glm::dvec4(point, 1.0));
+    requirePoint(point, what);
+  }
+  const bool isMirrored = glm::determinant(glm::dmat3(surface.worldFromStored)) < 0.0;
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i)
+  {
+    glm::ivec3& triangle = surface.triangles[i];
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      if (triangle[corner] < 0 || triangle[corner] >= count)
+      {
+        throw Problem("has the point " + std::to_string(triangle[corner]) + " in triangle " +
+          std::to_string(i) + "; it has the points 0 to " + std::to_string(count - 1));
+      }
+    }
+    if (isMirrored)
+    {
+      std::swap(triangle.y, triangle.z); // what was outside stays outside
+    }
+  }
+}
+
+std::string counted(std::size_t count, const std::string& noun)
+{
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 bool isSurfaceFile(const std::string& fileName)
@@ -108,49 +216,49 @@ bool isTractFile(const std::string& fileName)
   return isOneOf(tractFormats(), fileName);
 }
 
-std::string readSurfaceFiles(const SurfaceFiles& files, const ShareDone& shareDone,
-  Surface& surface, std::vector<std::string>& warnings)
+void readSurfaceFiles(const SurfaceFiles& files, const FractionDone& fractionDone, Surface& surface,
+  std::vector<std::string>& warnings)
 {
   surface = Surface();
-  FileBytes file;
-  std::string problem = readFileBytes(files.fileName, TimesOfSurface, shareDone, file);
-  if (problem.empty() && !file.isStopped)
-  {
-    problem = formatOf(files.fileName, surfaceFormats())->read(file.bytes, files.volume, surface);
-  }
   const std::string name = "Surface " + files.fileName;
-  if (!problem.empty() || file.isStopped)
+  const bool isRead = withBeginning(name + " ", [&] {
+    const auto bytes = readFileBytes(files.fileName, TimesOfSurface, fractionDone);
+    if (bytes)
+    {
+      formatOf(files.fileName, surfaceFormats())->read(*bytes, files.volume, surface);
+    }
+    return bytes.has_value();
+  });
+  if (!isRead)
   {
-    return problem.empty() ? problem : name + " " + problem;
+    return;
   }
   for (const std::string& values : files.valueFileNames)
   {
-    problem = values.empty() ? problem : addValues(values, surface, warnings);
-    if (!problem.empty())
+    if (!values.empty())
     {
-      return problem;
+      addValues(values, surface, warnings);
     }
   }
-  problem = placeSurface(surface);
+  withBeginning(name + " ", [&] { placeSurface(surface); });
   const std::vector<std::string> notes = sentences(name, surface.notes);
   warnings.insert(warnings.end(), notes.begin(), notes.end());
-  return problem.empty() ? problem : name + " " + problem;
 }
 
-std::string readTractFile(const std::string& fileName, const std::string& volumeName,
-  const ShareDone& shareDone, Tracts& tracts, std::vector<std::string>& warnings)
+void readTractFile(const std::string& fileName, const std::string& volumeName,
+  const FractionDone& fractionDone, Tracts& tracts, std::vector<std::string>& warnings)
 {
   tracts = Tracts();
-  FileBytes file;
-  std::string problem = readFileBytes(
-    fileName, TimesOfTracts, [&](double share) { return shareDone(0.4 * share); }, file);
-  if (problem.empty() && !file.isStopped)
-  {
-    const auto rest = [&](double share) { return shareDone(0.4 + 0.6 * share); };
-    problem = formatOf(fileName, tractFormats())->read(file.bytes, volumeName, rest, tracts);
-  }
   const std::string name = "Tract file " + fileName;
+  withBeginning(name + " ", [&] {
+    auto bytes = readFileBytes(
+      fileName, TimesOfTracts, [&](double fraction) { return fractionDone(0.4 * fraction); });
+    if (bytes)
+    {
+      const auto rest = [&](double fraction) { return fractionDone(0.4 + 0.6 * fraction); };
+      formatOf(fileName, tractFormats())->read(*bytes, volumeName, rest, tracts);
+    }
+  });
   warnings = sentences(name, tracts.notes);
-  return problem.empty() ? problem : name + " " + problem;
 }
 }

@@ -1,29 +1,103 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Reads surfaces and tracts of all formats. The first bytes of a file tell which it is.
+ * @brief Surfaces and tracts as files keep them, the limits of all files, and the formats that read
+ *        them. The first bytes of a file tell which it is.
  */
 #ifndef BrainShift_SurfaceFile_h
 #define BrainShift_SurfaceFile_h
 
+#include "Common/LabelTable.h"
+#include "Formats/Files/PackedBytes.h"
 #include "Formats/Surfaces/ScannerFrame.h"
-#include "Formats/Surfaces/Surface.h"
 
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace brainshift
 {
+/** The largest coordinate, mm: 1 km. */
+constexpr double FarthestPoint = 1e6;
+
+/** How numbers lie in memory. */
+enum class NumberType
+{
+  UInt8,
+  Int32,
+  Float32,
+  Float64,
+};
+
+/** Bytes of one number. */
+std::size_t bytesOf(NumberType type);
+
+/** Numbers of points or streamlines. */
+struct NamedNumbers
+{
+  std::string name; ///< UTF-8
+  NumberType type = NumberType::Float32;
+  std::size_t components = 1; ///< numbers of each point or streamline, side by side
+  std::vector<char> bytes;    ///< the numbers, in the order of this machine
+};
+
+/** Gives each array a name of its own: the second "a" becomes "a 2". */
+class OwnNames
+{
+public:
+  /** The name, or the name with the first number that makes it another than those before. */
+  std::string own(const std::string& name);
+
+private:
+  std::set<std::string> Taken;
+  std::map<std::string, int> Next; // number to try for the next array of a name
+};
+
+/** Triangles. */
+struct Surface
+{
+  std::vector<glm::dvec3> points;    ///< mm, in the frame of the file until it is placed
+  std::vector<glm::ivec3> triangles; ///< indices of points, counter-clockwise from outside
+  std::vector<NamedNumbers> numbers; ///< of the points
+  OwnNames names;                    ///< of the numbers
+  std::vector<Label> labels;         ///< names of the values of a map of labels
+  glm::dmat4 worldFromStored{ 1.0 }; ///< mm, RAS
+  bool knowsWorld = true;            ///< false: the file does not say where it lies
+  std::vector<std::string> notes;    ///< ends of sentences, after the name of the file
+};
+
+/** Streamlines. */
+struct Tracts
+{
+  std::vector<glm::vec3> points;           ///< mm, RAS, one streamline after another
+  std::vector<std::int64_t> firsts{ 0 };   ///< first point of each streamline, and the end
+  std::vector<NamedNumbers> ofPoints;      ///< of the points
+  std::vector<NamedNumbers> ofStreamlines; ///< of the streamlines
+  bool knowsWorld = true;                  ///< false: the file does not say where it lies
+  std::vector<std::string> notes;          ///< ends of sentences, after the name of the file
+};
+
+/** Throws the end of a sentence if a point lies nowhere. */
+void requirePoint(const glm::dvec3& point, const std::string& what);
+
+/** "1 streamline" or "2 streamlines". */
+std::string counted(std::size_t count, const std::string& noun);
+
 /** A format of surfaces. Formats/README.md has the recipe for a new one. */
 struct SurfaceFormat
 {
   bool (*isOne)(const std::string& fileName); ///< whether a file begins like a surface
   ///@{
-  /** Return the end of a sentence, after the name of the file, on what is wrong; else empty. */
-  std::string (*read)(const std::vector<char>& bytes, const GivenVolume& volume, Surface& surface);
+  /** Throw the end of a sentence, after the name of the file. */
+  void (*read)(const std::vector<char>& bytes, const GivenVolume& volume, Surface& surface);
   /** Adds a map of values, called `name` if the file does not name it. It was recognised. */
-  std::string (*addValues)(
-    const std::vector<char>& bytes, const std::string& name, Surface& surface);
+  void (*addValues)(const std::vector<char>& bytes, const std::string& name, Surface& surface);
   ///@}
   bool (*isOfValues)(const std::vector<char>& bytes); ///< whether bytes begin like a map of values
   const char* values; ///< such a file in a sentence, with its article
@@ -34,11 +108,11 @@ struct TractFormat
 {
   bool (*isOne)(const std::string& fileName); ///< whether a file begins like one
   /**
-   * Reads the bytes of a file, whose order it may reverse. `volumeName`: as for readTractFile.
-   * Returns the end of a sentence on what is wrong; empty if nothing is, or if it was told to stop.
+   * Reads the bytes of a file, whose order it may reverse, or throws the end of a sentence. There
+   * are no points if it was told to stop. `volumeName`: as for readTractFile.
    */
-  std::string (*read)(std::vector<char>& bytes, const std::string& volumeName,
-    const ShareDone& shareDone, Tracts& tracts);
+  void (*read)(std::vector<char>& bytes, const std::string& volumeName,
+    const FractionDone& fractionDone, Tracts& tracts);
 };
 
 ///@{
@@ -62,21 +136,21 @@ struct SurfaceFiles
 };
 
 /**
- * Reads a surface into RAS mm. Returns one sentence, without a full stop, on what is wrong; empty
- * if nothing is, or if it was told to stop: then the surface has no points.
+ * Reads a surface into RAS mm, or throws one sentence, without a full stop. If it was told to stop,
+ * the surface has no points.
  *
  * @param warnings   gets sentences, without full stops, on what the user must know
  */
-std::string readSurfaceFiles(const SurfaceFiles& files, const ShareDone& shareDone,
-  Surface& surface, std::vector<std::string>& warnings);
+void readSurfaceFiles(const SurfaceFiles& files, const FractionDone& fractionDone, Surface& surface,
+  std::vector<std::string>& warnings);
 
 /**
  * Reads streamlines into RAS mm, as readSurfaceFiles does.
  *
  * @param volumeName   for files of TrackVis without vox_to_ras; empty: none
  */
-std::string readTractFile(const std::string& fileName, const std::string& volumeName,
-  const ShareDone& shareDone, Tracts& tracts, std::vector<std::string>& warnings);
+void readTractFile(const std::string& fileName, const std::string& volumeName,
+  const FractionDone& fractionDone, Tracts& tracts, std::vector<std::string>& warnings);
 }
 
 #endif

@@ -2,6 +2,7 @@
 #include "vtkSurfaceReader.h"
 
 #include "Common/Guard.h"
+#include "Common/Problem.h"
 #include "Formats/Surfaces/SurfaceData.h"
 #include "Formats/Surfaces/SurfaceFile.h"
 
@@ -56,24 +57,17 @@ int vtkSurfaceReader::RequestData(
   }
   if (this->FileName.empty())
   {
-    vtkErrorMacro("FileName is empty; it must name a surface.");
-    return 0;
+    throw Problem("FileName is empty; it must name a surface");
   }
-  const auto progress = [this](double share) {
-    this->UpdateProgress(share);
+  const auto progress = [this](double fraction) {
+    this->UpdateProgress(fraction);
     return !this->GetAbortExecute();
   };
   const glm::dvec3 center(this->VolumeCenter[0], this->VolumeCenter[1], this->VolumeCenter[2]);
   Surface surface;
   std::vector<std::string> warnings;
-  const std::string problem =
-    readSurfaceFiles({ this->FileName, this->ValueFileNames, { this->Volume, center } }, progress,
-      surface, warnings);
-  if (!problem.empty())
-  {
-    vtkErrorMacro(<< problem << ".");
-    return 0;
-  }
+  readSurfaceFiles({ this->FileName, this->ValueFileNames, { this->Volume, center } }, progress,
+    surface, warnings);
   for (const std::string& warning : warnings)
   {
     vtkWarningMacro(<< warning << ".");

@@ -8,7 +8,7 @@
  * FreeSurfer keeps points in tkRAS. The geometry of the volume, which most files name, takes them
  * to the scanner's RAS. Volume or VolumeCenter stand in for files that do not name it. Without
  * either, the surface stays in tkRAS and a warning says so. In GIFTI files a matrix may lead to the
- * scanner's RAS; GIFTISurface.h has the rule.
+ * scanner's RAS; GIFTISurface.cxx has the rule.
  *
  * Output: triangles (double precision points, mm, RAS) with the file's numbers as point arrays,
  * under their names, and the names of labels (LabelTable.h). The field array WorldAxes says RAS if

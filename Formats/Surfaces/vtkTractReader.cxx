@@ -2,6 +2,7 @@
 #include "vtkTractReader.h"
 
 #include "Common/Guard.h"
+#include "Common/Problem.h"
 #include "Formats/Surfaces/SurfaceData.h"
 #include "Formats/Surfaces/SurfaceFile.h"
 
@@ -40,24 +41,17 @@ int vtkTractReader::RequestData(
   }
   if (this->FileName.empty())
   {
-    vtkErrorMacro("FileName is empty; it must name a file of streamlines.");
-    return 0;
+    throw Problem("FileName is empty; it must name a file of streamlines");
   }
   bool isStopped = false;
-  const auto progress = [&](double share) {
-    this->UpdateProgress(share);
+  const auto progress = [&](double fraction) {
+    this->UpdateProgress(fraction);
     isStopped = this->GetAbortExecute() != 0;
     return !isStopped;
   };
   Tracts tracts;
   std::vector<std::string> warnings;
-  const std::string problem =
-    readTractFile(this->FileName, this->Volume, progress, tracts, warnings);
-  if (!problem.empty())
-  {
-    vtkErrorMacro(<< problem << ".");
-    return 0;
-  }
+  readTractFile(this->FileName, this->Volume, progress, tracts, warnings);
   for (const std::string& warning : warnings)
   {
     vtkWarningMacro(<< warning << ".");

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/TextHeaders/MetaImageHeader.h"
+
+#include "Common/Numbers.h"
+#include "Common/Problem.h"
+#include "Formats/TextHeaders/TextHeader.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +29,7 @@ bool isTrue(const std::string& value)
   return !value.empty() && (value[0] == 'T' || value[0] == 't' || value[0] == '1');
 }
 
-std::string readType(TextHeader& header)
+void readType(TextHeader& header)
 {
   header.typeName = header.text.valueOf({ "ElementType" });
   std::string name = header.typeName;
@@ -38,22 +41,22 @@ std::string readType(TextHeader& header)
   const auto type = name.compare(0, 4, "MET_") == 0 ? Types.find(name.substr(4)) : Types.end();
   if (type == Types.end())
   {
-    return "has the ElementType " + header.typeName + "; BrainShift reads MET_CHAR, MET_SHORT, " +
-      "MET_INT, MET_LONG, MET_LONG_LONG, each of them unsigned as well, MET_FLOAT and MET_DOUBLE";
+    throw Problem("has the ElementType " + header.typeName +
+      "; BrainShift reads MET_CHAR, MET_SHORT, " +
+      "MET_INT, MET_LONG, MET_LONG_LONG, each of them unsigned as well, MET_FLOAT and MET_DOUBLE");
   }
   header.numberType = type->second;
-  return {};
 }
 
 // The axes: channels first if there are several, then those of space, then time.
-std::string readAxes(std::size_t dimensions, TextHeader& header)
+void readAxes(std::size_t dimensions, TextHeader& header)
 {
   const std::string channelsText = header.text.valueOf({ "ElementNumberOfChannels" });
   const std::vector<double> channels = numbersIn(channelsText.empty() ? "1" : channelsText);
   if (channels.size() != 1 || !isWhole(channels[0], 1.0, MostChannels))
   {
-    return "has the ElementNumberOfChannels " + channelsText +
-      "; it must be a whole number from 1 to 65536";
+    throw Problem("has the ElementNumberOfChannels " + channelsText +
+      "; it must be a whole number from 1 to 65536");
   }
   if (channels[0] > 1.0)
   {
@@ -65,23 +68,23 @@ std::string readAxes(std::size_t dimensions, TextHeader& header)
   const std::vector<double> sides = numbersIn(sidesText);
   if (sides.size() != dimensions)
   {
-    return "has the DimSize '" + sidesText + "'; it must have " + std::to_string(dimensions) +
-      " numbers";
+    throw Problem("has the DimSize '" + sidesText + "'; it must have " +
+      std::to_string(dimensions) + " numbers");
   }
   for (const double side : sides)
   {
     if (!isWhole(side, 1.0, LongestSide))
     {
-      return "has the DimSize " + sidesText + "; each must be a whole number from 1 to 2147483647";
+      throw Problem(
+        "has the DimSize " + sidesText + "; each must be a whole number from 1 to 2147483647");
     }
     header.axes.emplace_back();
     header.axes.back().count = static_cast<std::int64_t>(side);
   }
-  return {};
 }
 
 // The steps of the axes of space. The file names the direction of one axis after the other.
-std::string readPlace(std::size_t dimensions, TextHeader& header)
+void readPlace(std::size_t dimensions, TextHeader& header)
 {
   const std::string spacingText = header.text.valueOf({ "ElementSpacing", "ElementSize" });
   std::vector<double> spacing = numbersIn(spacingText);
@@ -107,16 +110,16 @@ std::string readPlace(std::size_t dimensions, TextHeader& header)
   const std::string wanted = "; it must have " + std::to_string(dimensions) + " numbers (mm)";
   if (spacing.size() != dimensions)
   {
-    return "has the spacing " + spacingText + wanted;
+    throw Problem("has the spacing " + spacingText + wanted);
   }
   if (origin.size() != dimensions)
   {
-    return "has the Offset " + originText + wanted;
+    throw Problem("has the Offset " + originText + wanted);
   }
   if (turn.size() != dimensions * dimensions)
   {
-    return "has the TransformMatrix " + turnText + "; it must have " +
-      std::to_string(dimensions * dimensions) + " numbers";
+    throw Problem("has the TransformMatrix " + turnText + "; it must have " +
+      std::to_string(dimensions * dimensions) + " numbers");
   }
   const std::size_t first = header.axes.size() - dimensions;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -130,7 +133,6 @@ std::string readPlace(std::size_t dimensions, TextHeader& header)
     header.axes.back().spacing = spacing[3];
   }
   header.origin = glm::dvec3(origin[0], origin[1], origin[2]);
-  return {};
 }
 
 // The letters of the sides that the axes come from (as ITK names them) or lead to.
@@ -170,7 +172,7 @@ void compareOrientation(TextHeader& header)
         " but no TransformMatrix; the letters alone are ambiguous and do not count");
 }
 
-std::string readScale(TextHeader& header)
+void readScale(TextHeader& header)
 {
   for (const auto& [name, number] :
     { std::pair<const char*, double*>{ "ElementToIntensityFunctionSlope", &header.slope },
@@ -180,14 +182,13 @@ std::string readScale(TextHeader& header)
     const std::vector<double> found = numbersIn(text);
     if (!text.empty() && (found.size() != 1 || !std::isfinite(found[0])))
     {
-      return std::string("has the ") + name + " " + text + "; it must be a finite number";
+      throw Problem(std::string("has the ") + name + " " + text + "; it must be a finite number");
     }
     *number = text.empty() ? *number : found[0];
   }
-  return {};
 }
 
-std::string readStorage(const std::string& fileName, TextHeader& header)
+void readStorage(const std::string& fileName, TextHeader& header)
 {
   header.isBigEndian =
     isTrue(header.text.valueOf({ "BinaryDataByteOrderMSB", "ElementByteOrderMSB" }));
@@ -199,42 +200,38 @@ std::string readStorage(const std::string& fileName, TextHeader& header)
   const std::vector<double> skip = numbersIn(skipText.empty() ? "0" : skipText);
   if (skip.size() != 1 || !isWhole(skip[0], -1.0, 1e15))
   {
-    return "has the HeaderSize " + skipText + "; it must be a whole number, -1 or more";
+    throw Problem("has the HeaderSize " + skipText + "; it must be a whole number, -1 or more");
   }
   const std::string dataFile = header.text.valueOf({ "ElementDataFile" });
   if (dataFile.empty())
   {
-    return "names no ElementDataFile";
+    throw Problem("names no ElementDataFile");
   }
   header.isAtEnd = skip[0] < 0.0;
   header.fileSkip = header.isAtEnd ? 0 : static_cast<std::uint64_t>(skip[0]);
   if (header.isAtEnd && header.encoding != Encoding::Raw)
   {
-    return "has the HeaderSize -1 before numbers that are packed or text; they must be raw";
+    throw Problem("has the HeaderSize -1 before numbers that are packed or text; they must be raw");
   }
-  return nameDataFiles(fileName, dataFile, header);
+  nameDataFiles(fileName, dataFile, header);
 }
 }
 
-std::string fromMetaImage(const std::string& fileName, TextHeader& header)
+void fromMetaImage(const std::string& fileName, TextHeader& header)
 {
   const std::string dimensionsText = header.text.valueOf({ "NDims" });
   const std::vector<double> dimensions = numbersIn(dimensionsText.empty() ? "3" : dimensionsText);
   if (dimensions.size() != 1 || !isWhole(dimensions[0], 3.0, MostDimensions))
   {
-    return "has the NDims " + dimensionsText + "; it must be 3, or 4 with time";
+    throw Problem("has the NDims " + dimensionsText + "; it must be 3, or 4 with time");
   }
   const auto count = static_cast<std::size_t>(dimensions[0]);
   header.space = HeaderSpace::LPS;
-  std::string problem = readAxes(count, header);
-  problem = problem.empty() ? readType(header) : problem;
-  problem = problem.empty() ? readPlace(count, header) : problem;
-  problem = problem.empty() ? readScale(header) : problem;
-  problem = problem.empty() ? readStorage(fileName, header) : problem;
-  if (problem.empty())
-  {
-    compareOrientation(header);
-  }
-  return problem;
+  readAxes(count, header);
+  readType(header);
+  readPlace(count, header);
+  readScale(header);
+  readStorage(fileName, header);
+  compareOrientation(header);
 }
 }

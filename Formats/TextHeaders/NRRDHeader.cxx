@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/TextHeaders/NRRDHeader.h"
+
+#include "Common/Numbers.h"
+#include "Common/Problem.h"
+#include "Formats/Files/Text.h"
+#include "Formats/TextHeaders/TextHeader.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +51,7 @@ const std::map<std::string, double> MmPerUnit{ { "mm", 1.0 }, { "millimeter", 1.
   { "millimeters", 1.0 }, { "cm", 10.0 }, { "m", 1000.0 }, { "um", 1e-3 }, { "micron", 1e-3 },
   { "microns", 1e-3 }, { "\xc2\xb5m", 1e-3 }, { "nm", 1e-6 }, { "", 1.0 } };
 
-std::string readSizes(TextHeader& header)
+void readSizes(TextHeader& header)
 {
   const std::string text = header.text.valueOf({ "sizes" });
   const std::vector<double> sizes = numbersIn(text);
@@ -56,12 +60,14 @@ std::string readSizes(TextHeader& header)
       sizes.begin(), sizes.end(), [](double size) { return isWhole(size, 1.0, LongestSide); });
   if (!isGood)
   {
-    return "has the sizes " + text + "; it must have 3 to 5 whole numbers from 1 to 2147483647";
+    throw Problem(
+      "has the sizes " + text + "; it must have 3 to 5 whole numbers from 1 to 2147483647");
   }
   const std::string dimension = header.text.valueOf({ "dimension" });
   if (numbersIn(dimension) != std::vector<double>{ static_cast<double>(sizes.size()) })
   {
-    return "has the dimension " + dimension + " but " + std::to_string(sizes.size()) + " sizes";
+    throw Problem(
+      "has the dimension " + dimension + " but " + std::to_string(sizes.size()) + " sizes");
   }
   for (const double size : sizes)
   {
@@ -73,20 +79,18 @@ std::string readSizes(TextHeader& header)
   {
     header.axes[i].kind = kinds[i];
   }
-  return {};
 }
 
-std::string readType(TextHeader& header)
+void readType(TextHeader& header)
 {
   header.typeName = header.text.valueOf({ "type" });
   const auto type = Types.find(header.typeName);
   if (type == Types.end())
   {
-    return "has the type " + header.typeName +
-      "; BrainShift reads whole numbers of 8, 16, 32 and 64 bits, float and double";
+    throw Problem("has the type " + header.typeName +
+      "; BrainShift reads whole numbers of 8, 16, 32 and 64 bits, float and double");
   }
   header.numberType = type->second;
-  return {};
 }
 
 // The three numbers of a vector such as "(1,0,0)" that begins at `begin`, and its end. Nothing if
@@ -168,7 +172,7 @@ double mmPer(const std::string& unit, TextHeader& header)
 }
 
 // Axes that lie in a space: their steps and the origin.
-std::string readDirections(TextHeader& header)
+void readDirections(TextHeader& header)
 {
   const std::string text = header.text.valueOf({ "space directions" });
   std::vector<std::optional<glm::dvec3>> steps;
@@ -179,8 +183,8 @@ std::string readDirections(TextHeader& header)
   }
   if (!isGood || steps.size() != header.axes.size())
   {
-    return "has the space directions " + text + "; it must have " +
-      std::to_string(header.axes.size()) + ", each of them none or 3 numbers as in (1,0,0)";
+    throw Problem("has the space directions " + text + "; it must have " +
+      std::to_string(header.axes.size()) + ", each of them none or 3 numbers as in (1,0,0)");
   }
   const std::string originText = header.text.valueOf({ "space origin" });
   std::size_t end = 0;
@@ -188,7 +192,7 @@ std::string readDirections(TextHeader& header)
     originText.empty() ? glm::dvec3(0.0) : vectorAt(originText, 0, end);
   if (!origin)
   {
-    return "has the space origin " + originText + "; it must be 3 numbers as in (1,0,0)";
+    throw Problem("has the space origin " + originText + "; it must be 3 numbers as in (1,0,0)");
   }
   header.hasOrigin = !originText.empty();
   const std::vector<std::string> units = quotedIn(header.text.valueOf({ "space units" }));
@@ -205,7 +209,6 @@ std::string readDirections(TextHeader& header)
       header.axes[i].step = mm * *step;
     }
   }
-  return {};
 }
 
 // Whether an axis is one of space, in a file without directions.
@@ -243,28 +246,28 @@ void readSpacings(TextHeader& header)
   }
 }
 
-std::string readPlace(TextHeader& header)
+void readPlace(TextHeader& header)
 {
   const std::string spaceText = header.text.valueOf({ "space" });
   const auto space = Spaces.find(spaceText);
   if (space == Spaces.end() && !spaceText.empty())
   {
-    return "lies in the space " + spaceText +
+    throw Problem("lies in the space " + spaceText +
       "; BrainShift reads right-anterior-superior, left-anterior-superior, " +
-      "left-posterior-superior, scanner-xyz, 3D-right-handed and 3D-left-handed";
+      "left-posterior-superior, scanner-xyz, 3D-right-handed and 3D-left-handed");
   }
   header.space = spaceText.empty() ? HeaderSpace::RAS : space->second.first;
   if (header.text.fields.count("space directions") > 0)
   {
     header.knowsSides = !spaceText.empty() && space->second.second;
-    return readDirections(header);
+    readDirections(header);
+    return;
   }
   header.space = HeaderSpace::RAS;
   readSpacings(header);
-  return {};
 }
 
-std::string readSkips(TextHeader& header)
+void readSkips(TextHeader& header)
 {
   double skips[2] = {};
   const std::vector<std::string> names[2] = { { "line skip", "lineskip" },
@@ -276,8 +279,8 @@ std::string readSkips(TextHeader& header)
     const double least = i == 1 && header.encoding == Encoding::Raw ? -1.0 : 0.0;
     if (found.size() != 1 || !isWhole(found[0], least, 1e15))
     {
-      return "has " + names[i][0] + " " + text + "; it must be a whole number, " +
-        (least < 0.0 ? "-1" : "0") + " or more";
+      throw Problem("has " + names[i][0] + " " + text + "; it must be a whole number, " +
+        (least < 0.0 ? "-1" : "0") + " or more");
     }
     skips[i] = found[0];
   }
@@ -285,16 +288,15 @@ std::string readSkips(TextHeader& header)
   header.lineSkip = static_cast<std::uint64_t>(skips[0]);
   const auto bytes = static_cast<std::uint64_t>(std::max(skips[1], 0.0));
   (header.encoding == Encoding::Packed ? header.unpackedSkip : header.fileSkip) = bytes;
-  return {};
 }
 
-std::string readStorage(const std::string& fileName, TextHeader& header)
+void readStorage(const std::string& fileName, TextHeader& header)
 {
   const std::string encoding = header.text.valueOf({ "encoding" });
   const auto known = Encodings.find(encoding);
   if (known == Encodings.end())
   {
-    return "has the encoding " + encoding + "; it must be raw, gzip or ascii";
+    throw Problem("has the encoding " + encoding + "; it must be raw, gzip or ascii");
   }
   header.encoding = known->second;
   const std::string endian = header.text.valueOf({ "endian" });
@@ -303,20 +305,18 @@ std::string readStorage(const std::string& fileName, TextHeader& header)
     header.numberType != VTK_UNSIGNED_CHAR;
   if (hasOrder && endian != "big" && endian != "little")
   {
-    return "has the endian '" + endian + "'; it must be little or big";
+    throw Problem("has the endian '" + endian + "'; it must be little or big");
   }
-  const std::string problem = readSkips(header);
-  return problem.empty()
-    ? nameDataFiles(fileName, header.text.valueOf({ "data file", "datafile" }), header)
-    : problem;
+  readSkips(header);
+  nameDataFiles(fileName, header.text.valueOf({ "data file", "datafile" }), header);
 }
 }
 
-std::string fromNRRD(const std::string& fileName, TextHeader& header)
+void fromNRRD(const std::string& fileName, TextHeader& header)
 {
-  std::string problem = readSizes(header);
-  problem = problem.empty() ? readType(header) : problem;
-  problem = problem.empty() ? readPlace(header) : problem;
-  return problem.empty() ? readStorage(fileName, header) : problem;
+  readSizes(header);
+  readType(header);
+  readPlace(header);
+  readStorage(fileName, header);
 }
 }

@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/TextHeaders/TextHeaderField.h"
+/**
+ * @file
+ * @brief Displacement fields in MetaImage and NRRD files: a header of lines, then the numbers or
+ *        the name of the file that holds them.
+ */
 
+#include "Common/Bytes.h"
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
+#include "Common/Problem.h"
+#include "Formats/Fields/FieldFile.h"
+#include "Formats/Files/Text.h"
 #include "Formats/Files/WholeFile.h"
-#include "Formats/TextHeaders/TextHeaderFile.h"
+#include "Formats/TextHeaders/TextHeader.h"
 
 #include <glm/geometric.hpp>
 
-#include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <sstream>
 
@@ -27,15 +33,15 @@ constexpr double LargestSkew = 1e-3; // cosine between two axes
 constexpr int LongestSide = 65535;
 
 // Sides, and the steps from one point to the next.
-std::string place(const TextHeader& header, Grid& grid)
+void place(const TextHeader& header, Grid& grid)
 {
   for (int axis = 0; axis < 3; ++axis)
   {
     const HeaderAxis& along = header.axes[static_cast<std::size_t>(axis) + 1];
     if (along.count > LongestSide)
     {
-      return "has a side of " + std::to_string(along.count) + " points; it must have at most " +
-        std::to_string(LongestSide);
+      throw Problem("has a side of " + std::to_string(along.count) +
+        " points; it must have at most " + std::to_string(LongestSide));
     }
     grid.dimensions[axis] = static_cast<int>(along.count);
     grid.origin[axis] = header.origin[axis];
@@ -45,56 +51,50 @@ std::string place(const TextHeader& header, Grid& grid)
     if (!std::isfinite(grid.origin[axis]) || !(grid.spacing[axis] > 0.0) ||
       !std::isfinite(grid.spacing[axis]))
     {
-      return "has an origin that is not finite, or a spacing that is 0 or not finite";
+      throw Problem("has an origin that is not finite, or a spacing that is 0 or not finite");
     }
   }
-  const std::string wrong = problemOfGrid(grid);
-  if (!wrong.empty())
-  {
-    return "lies where no field can: its " + wrong;
-  }
+  withBeginning("lies where no field can: its ", [&] { throwIfAny(problemOfGrid(grid)); });
   for (int axis = 0; axis < 3; ++axis)
   {
     const double skew = glm::dot(grid.direction[axis], grid.direction[(axis + 1) % 3]);
     if (std::abs(skew) > LargestSkew)
     {
-      return "has axes that are not at right angles: the cosine between two is " +
-        std::to_string(skew) + "; the limit is " + std::to_string(LargestSkew);
+      throw Problem("has axes that are not at right angles: the cosine between two is " +
+        std::to_string(skew) + "; the limit is " + std::to_string(LargestSkew));
     }
   }
-  return {};
 }
 
 // Why the numbers of a header are no field; empty if they are one.
-std::string fieldProblem(const TextHeader& header)
+void requireField(const TextHeader& header)
 {
   const bool areVectors = header.axes.size() == 4 && !header.axes[0].step;
   if (!areVectors || header.axes[0].count != 3)
   {
-    return "holds " + std::to_string(areVectors ? header.axes[0].count : 1) +
-      " components per point; a field must have 3";
+    throw Problem("holds " + std::to_string(areVectors ? header.axes[0].count : 1) +
+      " components per point; a field must have 3");
   }
   if (header.spatialAxes() != 3 || !header.hasOrigin)
   {
-    return "does not place points in 3 dimensions";
+    throw Problem("does not place points in 3 dimensions");
   }
   if (header.numberType != VTK_FLOAT && header.numberType != VTK_DOUBLE)
   {
-    return "has the type " + header.typeName + "; a field must have float or double";
+    throw Problem("has the type " + header.typeName + "; a field must have float or double");
   }
   if (header.encoding == Encoding::Text)
   {
-    return "holds its numbers as text; those of a field must be binary";
+    throw Problem("holds its numbers as text; those of a field must be binary");
   }
   if (header.slope != 1.0 || header.intercept != 0.0)
   {
-    return "rescales its numbers; a field must hold mm";
+    throw Problem("rescales its numbers; a field must hold mm");
   }
   if (header.space != HeaderSpace::LPS)
   {
-    return "does not lie in the space left-posterior-superior; a field must";
+    throw Problem("does not lie in the space left-posterior-superior; a field must");
   }
-  return {};
 }
 
 std::optional<Direction> directionOf(const HeaderText& text)
@@ -110,32 +110,25 @@ std::optional<Direction> directionOf(const HeaderText& text)
     : std::nullopt;
 }
 
-std::string readFieldHeader(const std::string& fileName, TextHeader& header, Grid& grid)
+void readFieldHeader(const std::string& fileName, TextHeader& header, Grid& grid)
 {
-  std::string problem = readTextHeader(fileName, header);
-  problem = problem.empty() ? fieldProblem(header) : problem;
-  return shownWords(problem.empty() ? place(header, grid) : problem);
+  readTextHeader(fileName, header);
+  throwIfAny(shownWords(problemOf([&] {
+    requireField(header);
+    place(header, grid);
+  })));
 }
 
-// Why there is too little memory for the field; the end of a sentence, empty if there is enough.
-std::string memoryProblemOf(const TextHeader& header, const Grid& grid)
+std::vector<char> readData(const TextHeader& header, const Grid& grid)
 {
-  const double bytes = header.dataBytes() + static_cast<double>(grid.count() * sizeof(glm::vec3));
-  const std::string problem =
-    hostMemoryProblem("a field of " + sizeText(glm::dvec3(grid.dimensions)) + " points", bytes);
-  return problem.empty() ? problem : "cannot be read: " + problem;
-}
-
-std::string readData(const TextHeader& header, const Grid& grid, std::vector<char>& data)
-{
-  std::string problem = numbersProblem(header);
-  problem = problem.empty() ? memoryProblemOf(header, grid) : problem;
-  if (!problem.empty())
-  {
-    return problem;
-  }
-  data.resize(static_cast<std::size_t>(header.dataBytes()));
-  return readNumbers(header, data.data(), [](double) { return true; });
+  requireNumbers(header);
+  withBeginning("cannot be read: ", [&] {
+    requireHostMemory("a field of " + sizeText(glm::dvec3(grid.dimensions)) + " points",
+      header.dataBytes() + static_cast<double>(grid.count() * sizeof(glm::vec3)));
+  });
+  std::vector<char> data(static_cast<std::size_t>(header.dataBytes()));
+  readNumbers(header, data.data(), [](double) { return true; });
+  return data;
 }
 
 template <typename Number>
@@ -149,30 +142,17 @@ void copyNumbers(const std::vector<char>& data, std::vector<glm::vec3>& vectors)
   }
 }
 
-std::string list(const glm::dvec3& numbers, const char* between)
-{
-  std::ostringstream text;
-  text.precision(17);
-  text << numbers.x << between << numbers.y << between << numbers.z;
-  return text.str();
-}
-
 const char* byteOrder()
 {
   return thisMachineIsBigEndian() ? "big" : "little";
 }
 
-std::string write(
-  const std::string& fileName, const std::string& header, const DirectedField& field)
+void write(const std::string& fileName, const std::string& header, const DirectedField& field)
 {
-  return writeWhole(fileName, [&](const std::string& beside) {
-    errno = 0;
-    std::ofstream file(beside, std::ios::binary);
+  writeWholeStream(fileName, [&](std::ostream& file) {
     file << header;
     file.write(reinterpret_cast<const char*>(field.displacements.data()),
       static_cast<std::streamsize>(field.displacements.size() * sizeof(glm::vec3)));
-    file.close();
-    return file ? std::string() : lastSystemError();
   });
 }
 }
@@ -181,19 +161,19 @@ bool isTextHeaderField(const std::string& fileName)
 {
   TextHeader header;
   Grid grid;
-  return readFieldHeader(fileName, header, grid).empty();
+  return problemOf([&] { readFieldHeader(fileName, header, grid); }).empty();
 }
 
-std::string readTextHeaderField(const std::string& fileName, DirectedField& field)
+namespace
+{
+void readField(const std::string& fileName, DirectedField& field)
 {
   TextHeader header;
   std::vector<char> data;
-  std::string problem = readFieldHeader(fileName, header, field.grid);
-  problem = problem.empty() ? readData(header, field.grid, data) : problem;
-  if (!problem.empty())
-  {
-    return "File " + fileName + " " + problem;
-  }
+  withBeginning("File " + fileName + " ", [&] {
+    readFieldHeader(fileName, header, field.grid);
+    data = readData(header, field.grid);
+  });
   field.direction = directionOf(header.text);
   field.displacements.resize(field.grid.count());
   if (header.numberType == VTK_DOUBLE)
@@ -205,10 +185,9 @@ std::string readTextHeaderField(const std::string& fileName, DirectedField& fiel
     copyNumbers<float>(data, field.displacements);
   }
   reverseXY(field);
-  return {};
 }
 
-std::string writeMetaImageField(const std::string& fileName, const DirectedField& ras)
+void writeMetaImageField(const std::string& fileName, const DirectedField& ras)
 {
   DirectedField field = ras;
   reverseXY(field);
@@ -219,41 +198,43 @@ std::string writeMetaImageField(const std::string& fileName, const DirectedField
          << (field.direction == Direction::Forward ? ForwardComment : BackwardComment) << "\n"
          << "BinaryData = True\nBinaryDataByteOrderMSB = "
          << (thisMachineIsBigEndian() ? "True" : "False") << "\nCompressedData = False\n"
-         << "TransformMatrix = " << list(grid.direction[0], " ") << " "
-         << list(grid.direction[1], " ") << " " << list(grid.direction[2], " ") << "\n"
-         << "Offset = " << list(grid.origin, " ") << "\nCenterOfRotation = 0 0 0\n"
-         << "ElementSpacing = " << list(grid.spacing, " ") << "\n"
-         << "DimSize = " << list(glm::dvec3(grid.dimensions), " ") << "\n"
+         << "TransformMatrix = " << listText(grid.direction[0], " ") << " "
+         << listText(grid.direction[1], " ") << " " << listText(grid.direction[2], " ") << "\n"
+         << "Offset = " << listText(grid.origin, " ") << "\nCenterOfRotation = 0 0 0\n"
+         << "ElementSpacing = " << listText(grid.spacing, " ") << "\n"
+         << "DimSize = " << listText(glm::dvec3(grid.dimensions), " ") << "\n"
          << "ElementNumberOfChannels = 3\nElementType = MET_FLOAT\nElementDataFile = LOCAL\n";
-  return write(fileName, header.str(), field);
+  write(fileName, header.str(), field);
 }
 
-std::string writeNRRDField(const std::string& fileName, const DirectedField& ras)
+void writeNRRDField(const std::string& fileName, const DirectedField& ras)
 {
   DirectedField field = ras;
   reverseXY(field);
   const Grid& grid = field.grid;
   std::ostringstream header;
   header << "NRRD0005\ntype: float\ndimension: 4\nspace: left-posterior-superior\n"
-         << "sizes: 3 " << list(glm::dvec3(grid.dimensions), " ") << "\nspace directions: none";
+         << "sizes: 3 " << listText(glm::dvec3(grid.dimensions), " ") << "\nspace directions: none";
   for (int axis = 0; axis < 3; ++axis)
   {
-    header << " (" << list(grid.direction[axis] * grid.spacing[axis], ",") << ")";
+    header << " (" << listText(grid.direction[axis] * grid.spacing[axis], ",") << ")";
   }
   header << "\nkinds: vector domain domain domain\nendian: " << byteOrder()
-         << "\nencoding: raw\nspace origin: (" << list(grid.origin, ",") << ")\n"
+         << "\nencoding: raw\nspace origin: (" << listText(grid.origin, ",") << ")\n"
          << "displacement field type:="
          << (field.direction == Direction::Forward ? "modeling" : "resampling") << "\n\n";
-  return write(fileName, header.str(), field);
+  write(fileName, header.str(), field);
+}
+
 }
 
 extern const FieldFormat FieldsOfMetaImage{ []() -> std::vector<std::string> {
                                              return { ".mha", ".mhd" };
                                            },
-  isTextHeaderField, readTextHeaderField, writeMetaImageField };
+  isTextHeaderField, readField, writeMetaImageField };
 
 extern const FieldFormat FieldsOfNRRD{ []() -> std::vector<std::string> {
                                         return { ".nrrd", ".nhdr" };
                                       },
-  isTextHeaderField, readTextHeaderField, writeNRRDField };
+  isTextHeaderField, readField, writeNRRDField };
 }

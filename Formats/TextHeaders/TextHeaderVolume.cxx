@@ -1,20 +1,154 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/TextHeaders/TextHeaderVolume.h"
-
-#include "Formats/TextHeaders/SegmentTable.h"
-#include "Formats/TextHeaders/TextHeaderField.h"
-#include "Formats/TextHeaders/TextHeaderFile.h"
+/**
+ * @file
+ * @brief Volumes in MetaImage (.mha, .mhd) and NRRD (.nrrd, .nhdr) files.
+ *
+ * Three axes must be axes of space. One axis before them is the components of a voxel, or time, or
+ * the layers of a segmentation; one after them is time.
+ */
+#include "Common/Numbers.h"
+#include "Common/Problem.h"
+#include "Formats/Files/Text.h"
+#include "Formats/TextHeaders/TextHeader.h"
 #include "Formats/Volumes/OutgoingVolume.h"
+#include "Formats/Volumes/VolumeFile.h"
 
+#include "vtkDataArray.h" // for its smart pointer
 #include "vtkImageData.h"
 #include "vtkPointData.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
 
 namespace brainshift
 {
 namespace
 {
+// One segment of a file, as 3D Slicer names it. Names such as `Segment0_LabelValue` are Slicer's. A
+// file may have several layers, so that segments may overlap. Then each segment has a layer, from
+// 0 on.
+struct Segment
+{
+  Label label; // in its layer
+  int layer = 0;
+};
+
+enum class TextFormat
+{
+  MetaImage,
+  NRRD,
+};
+
+constexpr int MostSegments = 65536;
+
+// Red, green and blue from 0 to 1.
+std::array<unsigned char, 3> colorIn(const std::string& text)
+{
+  std::array<unsigned char, 3> color = Label().color;
+  const std::vector<double> shares = numbersIn(text);
+  for (std::size_t i = 0; i < 3 && shares.size() == 3; ++i)
+  {
+    const double share = shares[i] > 0.0 ? std::min(shares[i], 1.0) : 0.0;
+    color[i] = static_cast<unsigned char>(std::lround(255.0 * share));
+  }
+  return color;
+}
+
+// A whole number from a text; `otherwise` if it holds none.
+int wholeIn(const std::string& text, int otherwise)
+{
+  const std::vector<double> numbers = numbersIn(text);
+  return numbers.size() == 1 &&
+      isWhole(numbers[0], std::numeric_limits<int>::min(), std::numeric_limits<int>::max())
+    ? static_cast<int>(numbers[0])
+    : otherwise;
+}
+
+// Names as a list may show them: on one line, and not too long. Letters beyond ASCII stay whole.
+std::string shownNames(std::string names)
+{
+  constexpr std::size_t Most = 200; // bytes
+  const bool isLong = names.size() > Most;
+  std::size_t end = isLong ? Most : names.size();
+  const auto byteAt = [&](std::size_t i) { return static_cast<unsigned char>(names[i]); };
+  while (isLong && end > 0 && (byteAt(end) & 0xc0) == 0x80) // inside a letter of UTF-8
+  {
+    --end;
+  }
+  names.resize(end);
+  std::replace_if(
+    names.begin(), names.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
+  return isLong ? names + "..." : names;
+}
+
+template <typename Predicate>
+std::string namesWhere(const std::vector<Segment>& segments, const Predicate& isMeant)
+{
+  constexpr std::size_t Most = 5;
+  std::size_t count = 0;
+  std::string text;
+  for (const Segment& segment : segments)
+  {
+    if (isMeant(segment) && ++count <= Most)
+    {
+      text += (count > 1 ? ", " : "") + segment.label.name;
+    }
+  }
+  return shownNames(text) + (count > Most ? " and others" : "");
+}
+
+// The segments of a header; none if it has none. One without a name gets its ID as the name.
+std::vector<Segment> segmentsOf(const HeaderText& text)
+{
+  std::vector<Segment> segments;
+  for (int i = 0; i < MostSegments; ++i)
+  {
+    const std::string prefix = "Segment" + std::to_string(i) + "_";
+    const std::string id = text.keyed(prefix + "ID");
+    if (id.empty())
+    {
+      break;
+    }
+    Label label;
+    const std::string name = text.keyed(prefix + "Name");
+    label.name = name.empty() ? id : name;
+    label.value = wholeIn(text.keyed(prefix + "LabelValue"), 1);
+    label.color = colorIn(text.keyed(prefix + "Color"));
+    segments.push_back({ label, wholeIn(text.keyed(prefix + "Layer"), 0) });
+  }
+  return segments;
+}
+
+// The labels of one layer.
+std::vector<Label> labelsIn(const std::vector<Segment>& segments, int layer)
+{
+  std::vector<Label> labels;
+  for (const Segment& segment : segments)
+  {
+    if (segment.layer == layer)
+    {
+      labels.push_back(segment.label);
+    }
+  }
+  return labels;
+}
+
+// The first names of segments in a layer, as a message may show them.
+std::string namesIn(const std::vector<Segment>& segments, int layer)
+{
+  return namesWhere(segments, [&](const Segment& segment) { return segment.layer == layer; });
+}
+
+// Likewise outside it.
+std::string namesOutside(const std::vector<Segment>& segments, int layer)
+{
+  return namesWhere(segments, [&](const Segment& segment) { return segment.layer != layer; });
+}
+
 constexpr std::int64_t MostSteps = 65536; // and numbers for a voxel: each takes memory
 constexpr std::int64_t MostColors = 4;    // components of an axis that has no kind
 
@@ -39,18 +173,6 @@ bool deniesSides(const HeaderText& text)
   return note.find(UnknownSidesNote) != std::string::npos;
 }
 
-std::vector<double> timesOf(std::size_t steps, double spacing)
-{
-  const double step = std::isfinite(spacing) && spacing > 0.0 ? spacing : 1.0;
-  std::vector<double> times;
-  times.reserve(steps);
-  for (std::size_t i = 0; i < steps; ++i)
-  {
-    times.push_back(static_cast<double>(i) * step);
-  }
-  return times;
-}
-
 // Whether the axis before those of space holds one volume after the other.
 bool isSeries(const HeaderAxis& axis)
 {
@@ -65,12 +187,13 @@ int layerIn(const std::string& text, int count)
   return numbers.size() == 1 && isWhole(numbers[0], 1, count) ? static_cast<int>(numbers[0]) - 1
                                                               : -1;
 }
-}
 
+// Whether a file begins like a volume of one of the formats, and no image of two dimensions.
 bool isTextHeaderVolume(const std::string& fileName, TextFormat format)
 {
   HeaderText text;
-  if (!readHeaderText(fileName, text).empty() || text.isNRRD != (format == TextFormat::NRRD))
+  const bool isHeader = problemOf([&] { readHeaderText(fileName, text); }).empty();
+  if (!isHeader || text.isNRRD != (format == TextFormat::NRRD))
   {
     return false;
   }
@@ -79,6 +202,45 @@ bool isTextHeaderVolume(const std::string& fileName, TextFormat format)
   const bool hasVoxels = text.fields.count(text.isNRRD ? "sizes" : "DimSize") > 0;
   return hasVoxels && (dimensionsText.empty() || !(dimensions[0] < 3.0));
 }
+
+class TextHeaderVolume : public VolumeFile
+{
+public:
+  explicit TextHeaderVolume(TextFormat format);
+
+  std::string noun() const override;
+  void readHeader(const std::string& fileName, VolumeHeader& header) override;
+  double storedBytes(const VolumeHeader& header) const override;
+  void load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) override;
+
+  // Which layer of a segmentation the next readHeader takes: one of the choices, or its number.
+  // Default: empty, the first, with a warning. Other volumes have no layers to choose from.
+  void choose(const std::string& name) override { this->Layer = name; }
+
+  // The layers that the last readHeader found, such as "2: vessel, tumour". None if segments cannot
+  // overlap.
+  std::vector<std::string> choices() const override { return this->LayerNames; }
+
+private:
+  // How the axes of the file are used.
+  void arrange(VolumeHeader& header);
+  // One layer of a segmentation, with its labels.
+  void takeSegments(VolumeHeader& header);
+  // False if `progress` says stop.
+  bool readAll(const Progress& progress);
+
+  TextFormat Format;
+  std::string Layer;
+  std::vector<std::string> LayerNames;
+  int ShownLayer = 0;
+  TextHeader Stored;
+  glm::ivec3 Dimensions{ 0 };
+  std::size_t Tuple = 1;    // numbers of the axis before those of space
+  bool TupleIsTime = false; // its numbers are volumes
+  std::size_t Steps = 1;    // volumes along the axis after those of space
+  // All numbers, kept for the other volumes of a series.
+  vtkSmartPointer<vtkDataArray> Numbers;
+};
 
 TextHeaderVolume::TextHeaderVolume(TextFormat format)
   : Format(format)
@@ -90,23 +252,20 @@ std::string TextHeaderVolume::noun() const
   return this->Format == TextFormat::NRRD ? "NRRD file" : "MetaImage";
 }
 
-std::string TextHeaderVolume::readHeader(const std::string& fileName, VolumeHeader& header)
+void TextHeaderVolume::readHeader(const std::string& fileName, VolumeHeader& header)
 {
   this->Numbers = nullptr; // the file may have changed under its name
   this->LayerNames.clear();
-  std::string problem = readTextHeader(fileName, this->Stored);
+  const std::string problem = problemOf([&] { readTextHeader(fileName, this->Stored); });
+  const bool isNRRD = this->Stored.text.isNRRD;
   const bool isOpen = problem.empty() || this->Stored.text.bytes > 0;
-  if (isOpen && this->Stored.text.isNRRD != (this->Format == TextFormat::NRRD))
+  if (isOpen && isNRRD != (this->Format == TextFormat::NRRD))
   {
-    problem =
-      this->Stored.text.isNRRD ? "is an NRRD file and no MetaImage" : "does not begin with NRRD";
+    throw Problem(isNRRD ? "is an NRRD file and no MetaImage" : "does not begin with NRRD");
   }
-  problem = problem.empty() ? this->arrange(header) : problem;
-  problem = problem.empty() ? numbersProblem(this->Stored) : problem;
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  throwIfAny(problem);
+  this->arrange(header);
+  requireNumbers(this->Stored);
   const glm::dvec3 signs = rasSigns(this->Stored.space);
   int axis = 0;
   for (const HeaderAxis& along : this->Stored.axes)
@@ -121,50 +280,49 @@ std::string TextHeaderVolume::readHeader(const std::string& fileName, VolumeHead
   header.storedType = this->Stored.numberType;
   header.rescaling = { this->Stored.slope, this->Stored.intercept };
   header.warnings = this->Stored.warnings;
-  return this->takeSegments(header);
+  this->takeSegments(header);
 }
 
-std::string TextHeaderVolume::arrange(VolumeHeader& header)
+void TextHeaderVolume::arrange(VolumeHeader& header)
 {
   const std::vector<HeaderAxis>& axes = this->Stored.axes;
   if (this->Stored.spatialAxes() != 3)
   {
-    return "has " + std::to_string(this->Stored.spatialAxes()) +
-      " axes in space; a volume must have 3";
+    throw Problem(
+      "has " + std::to_string(this->Stored.spatialAxes()) + " axes in space; a volume must have 3");
   }
   const std::size_t first = axes[0].step ? 0 : 1;
   const bool isRow = axes.size() >= first + 3 && axes.size() <= first + 4 && axes[first].step &&
     axes[first + 1].step && axes[first + 2].step;
   if (!isRow)
   {
-    return "has " + std::to_string(axes.size()) +
-      " axes; a volume must have 3 in space, with at most one before and one after them";
+    throw Problem("has " + std::to_string(axes.size()) +
+      " axes; a volume must have 3 in space, with at most one before and one after them");
   }
   const bool hasSteps = axes.size() == first + 4;
   for (const HeaderAxis& axis : axes)
   {
     if (!axis.step && axis.count > MostSteps)
     {
-      return "has " + std::to_string(axis.count) +
-        " numbers along an axis that is none of space; it may have " + std::to_string(MostSteps);
+      throw Problem("has " + std::to_string(axis.count) +
+        " numbers along an axis that is none of space; it may have " + std::to_string(MostSteps));
     }
   }
   this->Dimensions = glm::ivec3(axes[first].count, axes[first + 1].count, axes[first + 2].count);
   if (this->Dimensions == glm::ivec3(1))
   {
-    return "has 1 voxel; it must have at least 2";
+    throw Problem("has 1 voxel; it must have at least 2");
   }
   this->Tuple = first == 1 ? static_cast<std::size_t>(axes[0].count) : 1;
   this->Steps = hasSteps ? static_cast<std::size_t>(axes.back().count) : 1;
   this->TupleIsTime = first == 1 && !hasSteps && isSeries(axes[0]);
   header.dimensions = this->Dimensions;
   header.components = this->TupleIsTime ? 1 : static_cast<int>(this->Tuple);
-  header.times = this->TupleIsTime ? timesOf(this->Tuple, axes[0].spacing)
-                                   : timesOf(this->Steps, hasSteps ? axes.back().spacing : 1.0);
-  return {};
+  header.times = this->TupleIsTime ? evenTimes(this->Tuple, axes[0].spacing)
+                                   : evenTimes(this->Steps, hasSteps ? axes.back().spacing : 1.0);
 }
 
-std::string TextHeaderVolume::takeSegments(VolumeHeader& header)
+void TextHeaderVolume::takeSegments(VolumeHeader& header)
 {
   this->ShownLayer = 0;
   const std::vector<Segment> segments = segmentsOf(this->Stored.text);
@@ -185,8 +343,8 @@ std::string TextHeaderVolume::takeSegments(VolumeHeader& header)
   }
   if (this->ShownLayer < 0)
   {
-    return "has " + std::to_string(count) + " layers of segments; Layer is '" +
-      shownWords(this->Layer) + "', which is none of them";
+    throw Problem("has " + std::to_string(count) + " layers of segments; Layer is '" +
+      shownWords(this->Layer) + "', which is none of them");
   }
   header.labels = labelsIn(segments, this->ShownLayer);
   if (hasLayers && this->Layer.empty())
@@ -196,7 +354,6 @@ std::string TextHeaderVolume::takeSegments(VolumeHeader& header)
       " layers of segments that overlap; layer 1 is shown" +
       (leftOut.empty() ? "" : ", without " + leftOut) + "; Layer chooses another one");
   }
-  return {};
 }
 
 double TextHeaderVolume::storedBytes(const VolumeHeader&) const
@@ -204,56 +361,40 @@ double TextHeaderVolume::storedBytes(const VolumeHeader&) const
   return this->Numbers ? 0.0 : this->Stored.dataBytes();
 }
 
-std::string TextHeaderVolume::readAll(const Progress& progress, bool& stopped)
+bool TextHeaderVolume::readAll(const Progress& progress)
 {
   auto numbers =
     vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Stored.numberType));
   numbers->SetNumberOfComponents(static_cast<int>(this->Tuple));
   numbers->SetNumberOfTuples(
     static_cast<vtkIdType>(this->Stored.numberCount()) / static_cast<vtkIdType>(this->Tuple));
-  const ShareDone hear = [&](double share) {
-    stopped = stopped || !progress(share);
+  bool stopped = false;
+  readNumbers(this->Stored, static_cast<char*>(numbers->GetVoidPointer(0)), [&](double fraction) {
+    stopped = stopped || !progress(fraction);
     return !stopped;
-  };
-  std::string problem =
-    readNumbers(this->Stored, static_cast<char*>(numbers->GetVoidPointer(0)), hear);
-  if (problem.empty() && !stopped)
-  {
-    this->Numbers = numbers;
-  }
-  return problem;
+  });
+  this->Numbers = stopped ? nullptr : numbers;
+  return !stopped;
 }
 
-std::string TextHeaderVolume::load(
-  std::size_t volume, const Progress& progress, StoredVoxels& voxels)
+void TextHeaderVolume::load(std::size_t volume, const Progress& progress, StoredVoxels& voxels)
 {
-  bool stopped = false;
-  std::string problem = this->Numbers ? std::string() : this->readAll(progress, stopped);
-  if (!problem.empty() || stopped)
+  if (!this->Numbers && !this->readAll(progress))
   {
-    return problem;
+    return;
   }
-  vtkSmartPointer<vtkDataArray> shown = this->Numbers;
-  if (this->Steps > 1)
-  {
-    const vtkIdType count = shown->GetNumberOfValues() / static_cast<vtkIdType>(this->Steps);
-    shown =
-      vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(this->Stored.numberType));
-    shown->SetNumberOfComponents(static_cast<int>(this->Tuple));
-    constexpr int OwnedByNumbers = 1;
-    shown->SetVoidArray(
-      this->Numbers->GetVoidPointer(static_cast<vtkIdType>(volume) * count), count, OwnedByNumbers);
-  }
-  voxels.image = vtkSmartPointer<vtkImageData>::New();
-  voxels.image->SetDimensions(this->Dimensions.x, this->Dimensions.y, this->Dimensions.z);
-  voxels.image->GetPointData()->SetScalars(shown);
+  const vtkIdType count = this->Numbers->GetNumberOfValues() / static_cast<vtkIdType>(this->Steps);
+  voxels.show(this->Dimensions,
+    this->Steps > 1 ? partOf(this->Numbers, static_cast<vtkIdType>(volume) * count, count)
+                    : this->Numbers);
   voxels.firstComponent = this->TupleIsTime ? static_cast<int>(volume) : this->ShownLayer;
   const bool isSeries = this->Steps > 1 || (this->TupleIsTime && this->Tuple > 1);
   if (!isSeries)
   {
     this->Numbers = nullptr; // a series is kept: its next step comes from it
   }
-  return {};
+}
+
 }
 
 extern const VolumeFormat VolumesOfNRRD{ "NRRD",

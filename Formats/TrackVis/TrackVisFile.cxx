@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/TrackVis/TrackVisFile.h"
-
+/**
+ * @file
+ * @brief Streamlines of TrackVis and of Diffusion Toolkit, DIPY and others (.trk).
+ *
+ * Points are in mm along the axes of a volume, from the corner of its first voxel. The header's
+ * vox_to_ras takes them to RAS; its voxel_order names the directions of the axes. Numbers of points
+ * (scalars) and of streamlines (properties) keep their names.
+ */
+#include "Common/Bytes.h"
+#include "Common/Numbers.h"
 #include "Common/Parallel.h"
-#include "Formats/Files/HeaderText.h"
+#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
+#include "Formats/Files/Text.h"
 #include "Formats/Surfaces/ScannerFrame.h"
-#include "Formats/Surfaces/StoredNumbers.h"
+#include "Formats/Surfaces/SurfaceFile.h"
 #include "Formats/Volumes/RasGrid.h"
 
 #include <glm/geometric.hpp>
@@ -14,9 +23,11 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <fstream>
+#include <cstring>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace brainshift
 {
@@ -70,12 +81,12 @@ struct TrackHeader
   int count() const { return this->at<std::int32_t>(988); }
 };
 
-std::string readHeader(const std::vector<char>& bytes, TrackHeader& header)
+void readHeader(const std::vector<char>& bytes, TrackHeader& header)
 {
   if (bytes.size() < HeaderBytes || std::string_view(bytes.data(), Magic.size()) != Magic)
   {
-    return bytes.size() < HeaderBytes ? "has no whole header, which has 1000 bytes"
-                                      : "does not begin with TRACK";
+    throw Problem(bytes.size() < HeaderBytes ? "has no whole header, which has 1000 bytes"
+                                             : "does not begin with TRACK");
   }
   header.bytes = bytes.data();
   header.isBigEndian = true;
@@ -84,37 +95,39 @@ std::string readHeader(const std::vector<char>& bytes, TrackHeader& header)
   const int version = header.version();
   if (size != static_cast<std::int32_t>(HeaderBytes) || version < 1 || version > 3)
   {
-    return "has the version " + std::to_string(version) + " and the header size " +
-      std::to_string(size) + "; they must be 1 to 3 and 1000";
+    throw Problem("has the version " + std::to_string(version) + " and the header size " +
+      std::to_string(size) + "; they must be 1 to 3 and 1000");
   }
   for (const int numbers : { header.scalars(), header.properties() })
   {
     if (numbers < 0)
     {
-      return "has " + std::to_string(numbers) + " numbers for each point or streamline";
+      throw Problem("has " + std::to_string(numbers) + " numbers for each point or streamline");
     }
   }
-  return header.count() < 0
-    ? "announces " + std::to_string(header.count()) + " streamlines; it must be 0 or more"
-    : std::string();
+  if (header.count() < 0)
+  {
+    throw Problem(
+      "announces " + std::to_string(header.count()) + " streamlines; it must be 0 or more");
+  }
 }
 
 // Half a voxel less, then voxels, for points in mm from the corner of the first voxel.
-std::string voxelFromStored(const TrackHeader& header, glm::dmat4& voxel)
+glm::dmat4 voxelFromStored(const TrackHeader& header)
 {
-  voxel = glm::dmat4(1.0);
+  glm::dmat4 voxel(1.0);
   for (int axis = 0; axis < 3; ++axis)
   {
     const double size = header.voxelSize(axis);
     if (!(size > 0.0 && size < FarthestPoint))
     {
-      return "has voxels of " + std::to_string(size) + " mm along axis " + std::to_string(axis) +
-        "; it must be more than 0";
+      throw Problem("has voxels of " + std::to_string(size) + " mm along axis " +
+        std::to_string(axis) + "; it must be more than 0");
     }
     voxel[axis][axis] = 1.0 / size;
     voxel[3][axis] = -0.5;
   }
-  return {};
+  return voxel;
 }
 
 // Whether another order of the letters brings each axis that it changes nearer to its direction.
@@ -141,7 +154,7 @@ bool isOtherOrder(const glm::dmat3& along, const std::array<int, 3>& directions)
 }
 
 // Turns the axes around whose letters name the direction against that of the matrix.
-std::string turnAxes(const TrackHeader& header, const glm::dmat4& world, glm::dmat4& voxel)
+void turnAxes(const TrackHeader& header, const glm::dmat4& world, glm::dmat4& voxel)
 {
   constexpr std::string_view Letters = "RLAPSI";
   const std::string order = header.voxelOrder();
@@ -153,7 +166,8 @@ std::string turnAxes(const TrackHeader& header, const glm::dmat4& world, glm::dm
     const std::size_t place = Letters.find(letter >= 'a' ? static_cast<char>(letter - 32) : letter);
     if (place == std::string_view::npos)
     {
-      return "has the voxel order " + shownWords(order) + "; it must be 3 of the letters RLAPSI";
+      throw Problem(
+        "has the voxel order " + shownWords(order) + "; it must be 3 of the letters RLAPSI");
     }
     const glm::dvec3 along = glm::normalize(glm::dvec3(world[axis]));
     axes[axis] = along;
@@ -161,13 +175,13 @@ std::string turnAxes(const TrackHeader& header, const glm::dmat4& world, glm::dm
     const double cosine = along[static_cast<int>(place / 2)] * (place % 2 == 0 ? 1.0 : -1.0);
     if (std::abs(cosine) < SmallestCosine)
     {
-      return "has the voxel order " + shownWords(order) + ", and axis " + std::to_string(axis) +
-        " of vox_to_ras does not run along " + letter;
+      throw Problem("has the voxel order " + shownWords(order) + ", and axis " +
+        std::to_string(axis) + " of vox_to_ras does not run along " + letter);
     }
     if (cosine < 0.0 && header.dim(axis) < 1)
     {
-      return "has a volume of " + std::to_string(header.dim(axis)) + " voxels along axis " +
-        std::to_string(axis) + ", which its voxel order turns around; it must be 1 or more";
+      throw Problem("has a volume of " + std::to_string(header.dim(axis)) + " voxels along axis " +
+        std::to_string(axis) + ", which its voxel order turns around; it must be 1 or more");
     }
     if (cosine < 0.0)
     {
@@ -182,66 +196,45 @@ std::string turnAxes(const TrackHeader& header, const glm::dmat4& world, glm::dm
     directions[2] != directions[0];
   if (!isEach || isOtherOrder(axes, directions))
   {
-    return "has the voxel order " + shownWords(order) +
-      ", and the axes of vox_to_ras run along these letters in another order";
+    throw Problem("has the voxel order " + shownWords(order) +
+      ", and the axes of vox_to_ras run along these letters in another order");
   }
-  return {};
 }
 
 // Which voxels the streamlines were made in, where the header does not say it.
-std::string givenMatrix(const TrackHeader& header, const std::string& volumeName, glm::dmat4& world)
+glm::dmat4 givenMatrix(const TrackHeader& header, const std::string& volumeName)
 {
-  VolumeGrid grid;
-  const std::string problem = readVolumeGrid(volumeName, grid);
-  if (!problem.empty())
-  {
-    return "has no vox_to_ras, and its volume cannot be read: " + problem;
-  }
+  const VolumeGrid grid = withBeginning("has no vox_to_ras, and its volume cannot be read: ",
+    [&] { return readVolumeGrid(volumeName); });
   const glm::ivec3 sides(header.dim(0), header.dim(1), header.dim(2));
   if (sides != grid.dimensions)
   {
-    return "was made in a volume of " + std::to_string(sides.x) + " x " + std::to_string(sides.y) +
-      " x " + std::to_string(sides.z) + " voxels; " + volumeName + " has " +
-      std::to_string(grid.dimensions.x) + " x " + std::to_string(grid.dimensions.y) + " x " +
-      std::to_string(grid.dimensions.z);
+    throw Problem("was made in a volume of " + std::to_string(sides.x) + " x " +
+      std::to_string(sides.y) + " x " + std::to_string(sides.z) + " voxels; " + volumeName +
+      " has " + std::to_string(grid.dimensions.x) + " x " + std::to_string(grid.dimensions.y) +
+      " x " + std::to_string(grid.dimensions.z));
   }
-  world = grid.worldFromVoxel;
-  return {};
+  return grid.worldFromVoxel;
 }
 
-std::string findPlace(const TrackHeader& header, const std::string& volumeName, Tracts& tracts,
-  glm::dmat4& worldFromStored)
+glm::dmat4 findPlace(const TrackHeader& header, const std::string& volumeName, Tracts& tracts)
 {
-  glm::dmat4 voxel(1.0);
-  std::string problem = voxelFromStored(header, voxel);
-  if (!problem.empty())
-  {
-    return problem;
-  }
-  glm::dmat4 world = header.voxToRas();
+  glm::dmat4 voxel = voxelFromStored(header);
   if (!header.hasMatrix() && volumeName.empty())
   {
     tracts.knowsWorld = false;
     tracts.notes.emplace_back("does not say where its volume lies (no vox_to_ras): it is shown as "
                               "if the first voxel lay at 0, 0, 0 with axes along x, y and z. Set "
                               "Volume to the volume it was made in");
+    glm::dmat4 worldFromStored(1.0);
     worldFromStored[3] = glm::dvec4(
       -0.5 * glm::dvec3(header.voxelSize(0), header.voxelSize(1), header.voxelSize(2)), 1.0);
-    return {};
+    return worldFromStored;
   }
-  problem = header.hasMatrix() ? problem : givenMatrix(header, volumeName, world);
-  if (!problem.empty())
-  {
-    return problem;
-  }
-  problem = affineProblem(world);
-  if (!problem.empty())
-  {
-    return "cannot be placed: " + problem;
-  }
-  problem = turnAxes(header, world, voxel);
-  worldFromStored = world * voxel;
-  return problem;
+  const glm::dmat4 world = header.hasMatrix() ? header.voxToRas() : givenMatrix(header, volumeName);
+  withBeginning("cannot be placed: ", [&] { requireAffine(world); });
+  turnAxes(header, world, voxel);
+  return world * voxel;
 }
 
 // Where the records of the streamlines lie, each with its number of points.
@@ -252,7 +245,7 @@ struct Records
   std::vector<std::size_t> places; // of the first point
 };
 
-std::string findRecords(
+void findRecords(
   const std::vector<char>& bytes, const TrackHeader& header, Records& records, Tracts& tracts)
 {
   records.pointBytes = 4 * (3 + static_cast<std::size_t>(header.scalars()));
@@ -269,9 +262,9 @@ std::string findRecords(
       static_cast<double>(left) - 4.0 - static_cast<double>(records.propertyBytes) <
         static_cast<double>(points) * static_cast<double>(records.pointBytes))
     {
-      return "has a damaged streamline " + std::to_string(count) + " of " +
+      throw Problem("has a damaged streamline " + std::to_string(count) + " of " +
         (left < 4 ? "an unknown number of" : std::to_string(points)) +
-        " points: " + std::to_string(left) + " bytes follow";
+        " points: " + std::to_string(left) + " bytes follow");
     }
     if (points > 0)
     {
@@ -283,7 +276,8 @@ std::string findRecords(
   }
   if (count < announced)
   {
-    return "announces " + counted(announced, "streamline") + " and has " + std::to_string(count);
+    throw Problem(
+      "announces " + counted(announced, "streamline") + " and has " + std::to_string(count));
   }
   if (place < bytes.size())
   {
@@ -294,7 +288,6 @@ std::string findRecords(
   {
     tracts.notes.push_back("has " + counted(empty, "streamline") + " without points; left out");
   }
-  return {};
 }
 
 // Text in UTF-8 of bytes that may be anything.
@@ -385,42 +378,27 @@ std::int64_t takeStreamline(const std::vector<char>& bytes, const Records& recor
   takeNumbers(from, i, tracts.ofStreamlines);
   return nowhere;
 }
-}
 
 bool isTrackVisFile(const std::string& fileName)
 {
-  std::array<char, Magic.size()> begin{};
-  std::ifstream file;
-  if (plainFileProblem(fileName).empty())
-  {
-    file.open(fileName, std::ios::binary);
-  }
-  return file.is_open() && file.read(begin.data(), begin.size()) &&
-    std::string_view(begin.data(), begin.size()) == Magic;
+  return readBeginning(fileName, Magic.size()) == Magic;
 }
 
-std::string readTrackVis(std::vector<char>& bytes, const std::string& volumeName,
-  const ShareDone& shareDone, Tracts& tracts)
+void readTrackVis(std::vector<char>& bytes, const std::string& volumeName,
+  const FractionDone& fractionDone, Tracts& tracts)
 {
   TrackHeader header;
   Records records;
-  glm::dmat4 world(1.0);
-  std::string problem = readHeader(bytes, header);
-  problem = problem.empty() ? findPlace(header, volumeName, tracts, world) : problem;
-  problem = problem.empty() ? findRecords(bytes, header, records, tracts) : problem;
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  readHeader(bytes, header);
+  const glm::dmat4 world = findPlace(header, volumeName, tracts);
+  findRecords(bytes, header, records, tracts);
   const auto points = static_cast<std::size_t>(tracts.firsts.back());
   tracts.ofPoints = emptyNumbers(namesAt(header, 38, header.scalars(), "scalars"), points);
   tracts.ofStreamlines =
     emptyNumbers(namesAt(header, 240, header.properties(), "properties"), records.places.size());
   tracts.points.resize(points);
-  if (header.isBigEndian != thisMachineIsBigEndian())
-  {
-    reverseBytes(bytes.data() + HeaderBytes, (bytes.size() - HeaderBytes) / 4, 4);
-  }
+  toMachineOrder(
+    bytes.data() + HeaderBytes, (bytes.size() - HeaderBytes) / 4, 4, header.isBigEndian);
   std::atomic<std::int64_t> nowhere{ -1 };
   constexpr std::size_t Block = 1 << 14; // streamlines between two reports of progress
   for (std::size_t first = 0; first < records.places.size(); first += Block)
@@ -437,16 +415,18 @@ std::string readTrackVis(std::vector<char>& bytes, const std::string& volumeName
         }
       }
     });
-    if (!shareDone(static_cast<double>(last) / static_cast<double>(records.places.size())))
+    if (!fractionDone(static_cast<double>(last) / static_cast<double>(records.places.size())))
     {
       tracts = Tracts();
-      return {};
+      return;
     }
   }
-  const std::int64_t point = nowhere;
-  return point < 0 ? std::string()
-                   : placeProblem(glm::dvec3(tracts.points[static_cast<std::size_t>(point)]),
-                       "point " + std::to_string(point));
+  if (const std::int64_t point = nowhere; point >= 0)
+  {
+    requirePoint(
+      glm::dvec3(tracts.points[static_cast<std::size_t>(point)]), "point " + std::to_string(point));
+  }
+}
 }
 
 extern const TractFormat TractsOfTrackVis{ isTrackVisFile, readTrackVis };

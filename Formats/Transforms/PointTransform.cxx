@@ -127,13 +127,13 @@ glm::dvec3 mappedBackBy(const Link& link, const glm::dvec3& to)
     const glm::dmat3 slopes = slopesOf(link, best);
     const bool isSteep = std::abs(glm::determinant(slopes)) > 1e-6;
     const glm::dvec3 move = isSteep ? glm::inverse(slopes) * miss : miss;
-    double share = 1.0;
+    double stepLength = 1.0; // a fraction of the move
     glm::dvec3 tried = best - move;
     glm::dvec3 left = mappedBy(link, tried) - to;
-    while (!(glm::length(left) < glm::length(miss)) && share > 1e-3)
+    while (!(glm::length(left) < glm::length(miss)) && stepLength > 1e-3)
     {
-      share *= 0.5;
-      tried = best - share * move;
+      stepLength *= 0.5;
+      tried = best - stepLength * move;
       left = mappedBy(link, tried) - to;
     }
     if (!(glm::length(left) < glm::length(miss)))

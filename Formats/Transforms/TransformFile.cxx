@@ -2,18 +2,17 @@
 #include "Formats/Transforms/TransformFile.h"
 
 #include "Common/HostMemory.h"
+#include "Common/Problem.h"
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/NIFTI/NIFTIVolume.h"
-#include "Formats/Transforms/TransformBinary.h"
-#include "Formats/Transforms/TransformText.h"
+#include "Formats/Transforms/TransformRecord.h"
 
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
 
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <utility>
 
@@ -24,31 +23,20 @@ namespace
 constexpr int LongestChain = 32;
 constexpr std::size_t LargestText = std::size_t(1) << 30; // bytes
 
-std::string beginOf(const std::string& fileName, std::size_t bytes)
-{
-  std::ifstream file(fileName, std::ios::binary);
-  std::string begin(bytes, '\0');
-  file.read(begin.data(), static_cast<std::streamsize>(bytes));
-  begin.resize(static_cast<std::size_t>(file.gcount()));
-  return begin;
-}
-
-std::string readAll(const std::string& fileName, std::string& bytes)
+std::string readAll(const std::string& fileName)
 {
   std::error_code error;
   const auto size = std::filesystem::file_size(fileName, error);
   if (error || size > LargestText)
   {
-    return error ? "cannot be opened"
-                 : "has " + std::to_string(size) + " bytes; a transform has up to 1 GiB";
+    throw Problem(error ? "cannot be opened"
+                        : "has " + std::to_string(size) + " bytes; a transform has up to 1 GiB");
   }
-  const std::string tooLarge = hostMemoryProblem("its text", 3.0 * static_cast<double>(size));
-  if (!tooLarge.empty())
-  {
-    return "cannot be read: " + tooLarge;
-  }
-  bytes = beginOf(fileName, size);
-  return bytes.size() == size ? std::string() : "cannot be read to its end";
+  withBeginning(
+    "cannot be read: ", [&] { requireHostMemory("its text", 3.0 * static_cast<double>(size)); });
+  std::string bytes = readBeginning(fileName, size);
+  throwIfAny(bytes.size() == size ? "" : "cannot be read to its end");
+  return bytes;
 }
 
 void addField(DirectedField field, PointTransform& transform)
@@ -90,26 +78,18 @@ glm::dmat4 matrixOf(const std::vector<double>& rows)
 }
 
 // RAS from the millimetres of FSL: from the first voxel, x reversed unless the file is left-handed.
-std::string readFSLFrame(const std::string& what, const std::string& image, glm::dmat4& frame)
+glm::dmat4 readFSLFrame(const std::string& what, const std::string& image)
 {
   if (image.empty())
   {
-    return "holds a matrix of FSL's flirt, whose points depend on both images: name the " + what +
-      " image too, the NIfTI file that flirt was given";
+    throw Problem("holds a matrix of FSL's flirt, whose points depend on both images: name the " +
+      what + " image too, the NIfTI file that flirt was given");
   }
   NIFTIVolume file;
   VolumeHeader header;
-  const std::string problem = file.readHeader(image, header);
-  if (!problem.empty())
-  {
-    return "needs the " + what + " image " + image + ", which " + problem;
-  }
-  glm::dmat4 worldFromVoxel = header.worldFromVoxel;
-  if (file.reversesSlices())
-  {
-    worldFromVoxel[3] += worldFromVoxel[2] * (header.dimensions.z - 1.0);
-    worldFromVoxel[2] = -worldFromVoxel[2];
-  }
+  withBeginning(
+    "needs the " + what + " image " + image + ", which ", [&] { file.readHeader(image, header); });
+  const glm::dmat4 worldFromVoxel = file.inFileOrder(header.worldFromVoxel, header.dimensions);
   glm::dmat4 voxelFromFSL(1.0);
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -120,8 +100,7 @@ std::string readFSLFrame(const std::string& what, const std::string& image, glm:
     voxelFromFSL[0][0] = -voxelFromFSL[0][0];
     voxelFromFSL[3][0] = header.dimensions.x - 1;
   }
-  frame = worldFromVoxel * voxelFromFSL;
-  return {};
+  return worldFromVoxel * voxelFromFSL;
 }
 
 // Reads files one after another into a chain of LPS.
@@ -133,97 +112,85 @@ public:
   {
   }
 
-  std::string add(const std::string& fileName, PointTransform& transform)
+  void add(const std::string& fileName, PointTransform& transform)
   {
     if (++this->Count > LongestChain)
     {
-      return "is one of a chain of more than " + std::to_string(LongestChain) + " transforms";
+      throw Problem(
+        "is one of a chain of more than " + std::to_string(LongestChain) + " transforms");
     }
-    std::string problem = plainFileProblem(fileName);
-    if (problem.empty() && isFieldFile(fileName))
+    requirePlainFile(fileName);
+    if (isFieldFile(fileName))
     {
-      return this->addFieldFile(fileName, transform);
+      addFieldFile(fileName, transform);
     }
-    std::vector<TransformRecord> records;
-    if (problem.empty() && isHDF5(fileName))
+    else if (isHDF5(fileName))
     {
-      problem = readHDF5Records(fileName, records);
-      return problem.empty() ? addRecords(records, transform) : problem;
+      addRecords(readHDF5Records(fileName), transform);
     }
-    std::string bytes;
-    problem = problem.empty() ? readAll(fileName, bytes) : problem;
-    return problem.empty() ? this->addBytes(fileName, bytes, transform) : problem;
+    else
+    {
+      this->addBytes(fileName, readAll(fileName), transform);
+    }
   }
 
 private:
-  std::string addFieldFile(const std::string& fileName, PointTransform& transform)
+  static void addFieldFile(const std::string& fileName, PointTransform& transform)
   {
     DirectedField field;
-    const std::string problem = readFieldFile(fileName, field);
-    if (!problem.empty())
-    {
-      return "is a field that cannot be read: " + problem;
-    }
+    withBeginning("is a field that cannot be read: ", [&] { readFieldFile(fileName, field); });
     if (field.direction == Direction::Forward)
     {
-      return "is a forward field; Displacement Field Reader reads it";
+      throw Problem("is a forward field; Displacement Field Reader reads it");
     }
     addField(std::move(field), transform);
-    return {};
   }
 
-  std::string addBytes(
-    const std::string& fileName, const std::string& bytes, PointTransform& transform)
+  void addBytes(const std::string& fileName, const std::string& bytes, PointTransform& transform)
   {
-    std::vector<TransformRecord> records;
     if (bytes.rfind(ITKTextBegin, 0) == 0)
     {
-      const std::string problem = readITKText(bytes, records);
-      return problem.empty() ? addRecords(records, transform) : problem;
+      addRecords(readITKText(bytes), transform);
     }
-    if (isElastixText(bytes))
+    else if (isElastixText(bytes))
     {
-      return addElastixText(
-        bytes, fileName,
-        [this](const std::string& named, PointTransform& chain) {
-          const std::string problem = this->add(named, chain);
-          return problem.empty() ? problem : "names the file " + named + ", which " + problem;
-        },
-        transform);
+      const auto addNamed = [this](const std::string& named, PointTransform& chain) {
+        withBeginning("names the file " + named + ", which ", [&] { this->add(named, chain); });
+      };
+      addElastixText(bytes, fileName, addNamed, transform);
     }
-    if (const std::optional<std::vector<double>> rows = matrixText(bytes))
+    else if (const std::optional<std::vector<double>> rows = matrixText(bytes))
     {
-      return this->addRasMatrix(fileName, matrixOf(*rows), transform);
+      this->addRasMatrix(fileName, matrixOf(*rows), transform);
     }
-    if (std::filesystem::path(fileName).extension() == ".mat")
+    else if (std::filesystem::path(fileName).extension() == ".mat")
     {
-      const std::string problem = readMatlabRecords(bytes, records);
-      return problem.empty() ? addRecords(records, transform) : problem;
+      addRecords(readMatlabRecords(bytes), transform);
     }
-    return "is no transform of ITK, ANTs, elastix, NiftyReg or FSL";
+    else
+    {
+      throw Problem("is no transform of ITK, ANTs, elastix, NiftyReg or FSL");
+    }
   }
 
-  std::string addRasMatrix(
+  void addRasMatrix(
     const std::string& fileName, const glm::dmat4& matrix, PointTransform& transform) const
   {
     const glm::dmat4 signs = glm::dmat4(glm::dvec4(-1, 0, 0, 0), glm::dvec4(0, -1, 0, 0),
       glm::dvec4(0, 0, 1, 0), glm::dvec4(0, 0, 0, 1));
     if (std::filesystem::path(fileName).extension() != ".mat")
     {
-      return addMatrix(rowsOf(signs * matrix * signs), transform);
+      addMatrix(rowsOf(signs * matrix * signs), transform);
+      return;
     }
-    glm::dmat4 fixed;
-    glm::dmat4 moving;
-    std::string problem = readFSLFrame("fixed", this->Files.fixedImage, fixed);
-    problem = problem.empty() ? readFSLFrame("moving", this->Files.movingImage, moving) : problem;
-    if (problem.empty() && glm::determinant(matrix) == 0.0)
+    const glm::dmat4 fixed = readFSLFrame("fixed", this->Files.fixedImage);
+    const glm::dmat4 moving = readFSLFrame("moving", this->Files.movingImage);
+    if (glm::determinant(matrix) == 0.0)
     {
-      problem = "holds a matrix without an inverse";
+      throw Problem("holds a matrix without an inverse");
     }
-    return problem.empty()
-      ? addMatrix(
-          rowsOf(signs * moving * glm::inverse(matrix) * glm::inverse(fixed) * signs), transform)
-      : problem;
+    addMatrix(
+      rowsOf(signs * moving * glm::inverse(matrix) * glm::inverse(fixed) * signs), transform);
   }
 
   const TransformFiles& Files;
@@ -233,36 +200,29 @@ private:
 
 bool isTransformFile(const std::string& fileName)
 {
-  if (!plainFileProblem(fileName).empty())
+  if (!isPlainFile(fileName))
   {
     return false;
   }
   if (isHDF5(fileName))
   {
-    std::vector<TransformRecord> records;
-    return readHDF5Records(fileName, records).empty();
+    return problemOf([&] { readHDF5Records(fileName); }).empty();
   }
-  const std::string begin = beginOf(fileName, 65536);
-  std::vector<TransformRecord> records;
+  const std::string begin = readBeginning(fileName, 65536);
   return begin.rfind(ITKTextBegin, 0) == 0 || isElastixText(begin) || matrixText(begin) ||
     (std::filesystem::path(fileName).extension() == ".mat" &&
-      readMatlabRecords(begin, records).empty());
+      problemOf([&] { readMatlabRecords(begin); }).empty());
 }
 
-std::string readTransformFiles(const TransformFiles& files, PointTransform& transform)
+PointTransform readTransformFiles(const TransformFiles& files)
 {
   PointTransform chain;
   Reader reader(files);
   for (const std::string& name : files.names)
   {
-    const std::string problem = reader.add(name, chain);
-    if (!problem.empty())
-    {
-      return std::string("Transform file ").append(name).append(" ").append(problem);
-    }
+    withBeginning("Transform file " + name + " ", [&] { reader.add(name, chain); });
   }
   reverseXY(chain);
-  transform = std::move(chain);
-  return {};
+  return chain;
 }
 }

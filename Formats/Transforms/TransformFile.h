@@ -37,14 +37,8 @@ struct TransformFiles
 /** Whether a file looks like a transform that is no displacement field. */
 VTKBRAINSHIFTFORMATS_EXPORT bool isTransformFile(const std::string& fileName);
 
-/**
- * Reads a chain of files.
- *
- * @param transform   set to the chain, from RAS to RAS (mm)
- * @return one sentence, without a full stop, on what went wrong; empty if nothing did
- */
-VTKBRAINSHIFTFORMATS_EXPORT std::string readTransformFiles(
-  const TransformFiles& files, PointTransform& transform);
+/** Reads a chain, from RAS to RAS (mm), or throws one sentence, without a full stop. */
+VTKBRAINSHIFTFORMATS_EXPORT PointTransform readTransformFiles(const TransformFiles& files);
 }
 
 #endif

@@ -2,7 +2,8 @@
 #include "Formats/Transforms/TransformRecord.h"
 
 #include "Common/HostMemory.h"
-#include "Formats/Files/TextHeader.h"
+#include "Common/Problem.h"
+#include "Formats/Files/Text.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -22,9 +23,9 @@ constexpr double SmallestVolume = 1e-9; // determinant of a map that can be turn
 
 using Numbers = std::vector<double>;
 
-std::string countProblem(const std::string& what, std::size_t found, const std::string& wanted)
+Problem countProblem(const std::string& what, std::size_t found, const std::string& wanted)
 {
-  return "has " + std::to_string(found) + " " + what + "; it must have " + wanted;
+  return Problem("has " + std::to_string(found) + " " + what + "; it must have " + wanted);
 }
 
 bool areFinite(const Numbers& numbers)
@@ -87,51 +88,49 @@ const std::map<std::string, LinearType>& linearTypes()
   return types;
 }
 
-std::string addAffine(const AffineLink& link, PointTransform& transform)
+void addAffine(const AffineLink& link, PointTransform& transform)
 {
   const double volume = std::abs(glm::determinant(link.linear));
   if (!(volume > SmallestVolume) || !std::isfinite(volume))
   {
-    return "holds a matrix without an inverse";
+    throw Problem("holds a matrix without an inverse");
   }
   transform.links.emplace_back(link);
-  return {};
 }
 
-std::string addLinear(
-  const LinearType& type, const TransformRecord& record, PointTransform& transform)
+void addLinear(const LinearType& type, const TransformRecord& record, PointTransform& transform)
 {
   if (record.parameters.size() != type.parameters)
   {
-    return countProblem(
+    throw countProblem(
       "parameters of " + record.type, record.parameters.size(), std::to_string(type.parameters));
   }
   const bool hasCentre = record.fixed.size() >= 3;
   if (!hasCentre && !record.fixed.empty())
   {
-    return countProblem("fixed parameters of " + record.type, record.fixed.size(), "3 or none");
+    throw countProblem("fixed parameters of " + record.type, record.fixed.size(), "3 or none");
   }
   const glm::dvec3 centre = hasCentre ? threeOf(record.fixed, 0) : glm::dvec3(0.0);
   const glm::dmat3 linear = type.linear(record);
   const glm::dvec3 shift = threeOf(record.parameters, type.translation);
-  return addAffine({ linear, shift + centre - linear * centre }, transform);
+  addAffine({ linear, shift + centre - linear * centre }, transform);
 }
 
 // The grid in the fixed parameters: sizes, origin, spacing, direction by rows.
-std::string readGrid(const TransformRecord& record, int smallestSide, LinkGrid& grid)
+void readGrid(const TransformRecord& record, int smallestSide, LinkGrid& grid)
 {
   constexpr std::size_t Wanted = 18;
   if (record.fixed.size() != Wanted)
   {
-    return countProblem("fixed parameters of " + record.type, record.fixed.size(), "18");
+    throw countProblem("fixed parameters of " + record.type, record.fixed.size(), "18");
   }
   const glm::dvec3 sides = threeOf(record.fixed, 0);
   for (int axis = 0; axis < 3; ++axis)
   {
     if (!(sides[axis] >= smallestSide && sides[axis] <= LargestSide))
     {
-      return "has a grid of " + sizeText(sides) + " points; each side must have from " +
-        std::to_string(smallestSide) + " to 32768";
+      throw Problem("has a grid of " + sizeText(sides) + " points; each side must have from " +
+        std::to_string(smallestSide) + " to 32768");
     }
   }
   grid.dimensions = glm::ivec3(sides);
@@ -145,24 +144,21 @@ std::string readGrid(const TransformRecord& record, int smallestSide, LinkGrid& 
   const double volume = std::abs(glm::determinant(grid.worldFromGrid));
   if (!(volume > SmallestVolume) || !std::isfinite(volume))
   {
-    return "has a grid whose axes span no volume";
+    throw Problem("has a grid whose axes span no volume");
   }
   grid.gridFromWorld = glm::inverse(grid.worldFromGrid);
-  return record.parameters.size() == 3 * grid.count()
-    ? std::string()
-    : countProblem("parameters of " + record.type, record.parameters.size(),
-        std::to_string(3 * grid.count()) + ", 3 for each point of its grid");
+  if (record.parameters.size() != 3 * grid.count())
+  {
+    throw countProblem("parameters of " + record.type, record.parameters.size(),
+      std::to_string(3 * grid.count()) + ", 3 for each point of its grid");
+  }
 }
 
 // All x, then all y, then all z.
-std::string addSpline(const TransformRecord& record, PointTransform& transform)
+void addSpline(const TransformRecord& record, PointTransform& transform)
 {
   SplineLink link;
-  const std::string problem = readGrid(record, 4, link.grid);
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  readGrid(record, 4, link.grid);
   const std::size_t count = link.grid.count();
   link.coefficients.resize(count);
   for (std::size_t i = 0; i < count; ++i)
@@ -171,32 +167,26 @@ std::string addSpline(const TransformRecord& record, PointTransform& transform)
     link.coefficients[i] = { numbers[i], numbers[count + i], numbers[2 * count + i] };
   }
   transform.links.emplace_back(std::move(link));
-  return {};
 }
 
 // x, y and z of each point together.
-std::string addField(const TransformRecord& record, PointTransform& transform)
+void addField(const TransformRecord& record, PointTransform& transform)
 {
   FieldLink link;
-  const std::string problem = readGrid(record, 1, link.grid);
-  if (!problem.empty())
-  {
-    return problem;
-  }
+  readGrid(record, 1, link.grid);
   link.displacements.resize(link.grid.count());
   for (std::size_t i = 0; i < link.displacements.size(); ++i)
   {
     link.displacements[i] = glm::vec3(threeOf(record.parameters, 3 * i));
   }
   transform.links.emplace_back(std::move(link));
-  return {};
 }
 
-std::string addRecord(const TransformRecord& record, PointTransform& transform)
+void addRecord(const TransformRecord& record, PointTransform& transform)
 {
   if (!areFinite(record.parameters) || !areFinite(record.fixed))
   {
-    return "holds a number that is not finite";
+    throw Problem("holds a number that is not finite");
   }
   const std::size_t end = record.type.find('_');
   const std::string name = record.type.substr(0, end);
@@ -205,20 +195,22 @@ std::string addRecord(const TransformRecord& record, PointTransform& transform)
   const bool isSpace = kind == "_double_3_3" || kind == "_float_3_3";
   if (isSpace && linear != linearTypes().end())
   {
-    return addLinear(linear->second, record, transform);
+    addLinear(linear->second, record, transform);
   }
-  if (isSpace && name == "BSplineTransform")
+  else if (isSpace && name == "BSplineTransform")
   {
-    return addSpline(record, transform);
+    addSpline(record, transform);
   }
-  if (isSpace && name == "DisplacementFieldTransform")
+  else if (isSpace && name == "DisplacementFieldTransform")
   {
-    return addField(record, transform);
+    addField(record, transform);
   }
-  return isSpace && name == "IdentityTransform" ? std::string()
-                                                : "holds the transform " + shownWords(record.type) +
+  else if (!isSpace || name != "IdentityTransform")
+  {
+    throw Problem("holds the transform " + shownWords(record.type) +
       ", which BrainShift does not know; it knows affine and rigid transforms, cubic B-splines, "
-      "displacement fields and composites of these, in three dimensions";
+      "displacement fields and composites of these, in three dimensions");
+  }
 }
 
 bool isComposite(const TransformRecord& record)
@@ -239,37 +231,32 @@ glm::dmat3 turnedAbout(int axis, double angle)
   return rotation;
 }
 
-std::string addRecords(const std::vector<TransformRecord>& records, PointTransform& transform)
+void addRecords(const std::vector<TransformRecord>& records, PointTransform& transform)
 {
   const std::size_t first = !records.empty() && isComposite(records.front()) ? 1 : 0;
   if (records.empty())
   {
-    return "holds no transform";
+    throw Problem("holds no transform");
   }
   for (std::size_t i = records.size(); i > first; --i)
   {
-    const std::string problem = addRecord(records[i - 1], transform);
-    if (!problem.empty())
-    {
-      return problem;
-    }
+    addRecord(records[i - 1], transform);
   }
-  return {};
 }
 
-std::string addMatrix(const std::vector<double>& rows, PointTransform& transform)
+void addMatrix(const std::vector<double>& rows, PointTransform& transform)
 {
   if (rows.size() != 16 || !areFinite(rows))
   {
-    return countProblem("numbers", rows.size(), "16 finite ones, a 4 x 4 matrix");
+    throw countProblem("numbers", rows.size(), "16 finite ones, a 4 x 4 matrix");
   }
   if (std::abs(rows[12]) + std::abs(rows[13]) + std::abs(rows[14]) + std::abs(rows[15] - 1.0) >
     1e-9)
   {
-    return "holds a 4 x 4 matrix whose last row is not 0 0 0 1";
+    throw Problem("holds a 4 x 4 matrix whose last row is not 0 0 0 1");
   }
   const glm::dmat3 linear = glm::transpose(glm::dmat3(glm::dvec3(rows[0], rows[1], rows[2]),
     glm::dvec3(rows[4], rows[5], rows[6]), glm::dvec3(rows[8], rows[9], rows[10])));
-  return addAffine({ linear, { rows[3], rows[7], rows[11] } }, transform);
+  addAffine({ linear, { rows[3], rows[7], rows[11] } }, transform);
 }
 }

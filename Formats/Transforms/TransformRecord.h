@@ -9,6 +9,8 @@
 
 #include "Formats/Transforms/PointTransform.h"
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,19 +25,51 @@ struct TransformRecord
 };
 
 /**
- * Adds the links of records, in LPS. ITK's composite applies its last record first, and so does
- * this for several records.
- *
- * @return the end of a sentence, after the name of the file and without a full stop, on what cannot
- *         be used; empty if nothing
+ * Adds the links of records, in LPS, or throws the end of a sentence, after the name of the file.
+ * ITK's composite applies its last record first, and so does this for several records.
  */
-std::string addRecords(const std::vector<TransformRecord>& records, PointTransform& transform);
+void addRecords(const std::vector<TransformRecord>& records, PointTransform& transform);
 
-/** Adds a 4 x 4 matrix in rows that maps LPS to LPS (mm). Returns as addRecords does. */
-std::string addMatrix(const std::vector<double>& rows, PointTransform& transform);
+/** Adds a 4 x 4 matrix in rows that maps LPS to LPS (mm), as addRecords does. */
+void addMatrix(const std::vector<double>& rows, PointTransform& transform);
+
+///@{
+/** Read ITK's records in the bytes of a MATLAB file, or throw as addRecords does. */
+std::vector<TransformRecord> readMatlabRecords(const std::string& bytes);
+
+/** Likewise in an HDF5 file. */
+std::vector<TransformRecord> readHDF5Records(const std::string& fileName);
+///@}
+
+/** Whether a file is an HDF5 file. */
+bool isHDF5(const std::string& fileName);
 
 /** A rotation about x, y or z (radians), in ITK's sense. */
 glm::dmat3 turnedAbout(int axis, double angle);
+
+/** How an ITK transform file begins. */
+constexpr const char* ITKTextBegin = "#Insight Transform File";
+
+/** Reads the records in ITK's text, or throws as addRecords does. */
+std::vector<TransformRecord> readITKText(const std::string& text);
+
+/** The 16 numbers of a text that holds nothing else; none for any other text. */
+std::optional<std::vector<double>> matrixText(const std::string& text);
+
+/** Adds the links of another file, or throws the end of a sentence. */
+using AddFile = std::function<void(const std::string& fileName, PointTransform& transform)>;
+
+/** Whether a text is an elastix parameter file of a transform. */
+bool isElastixText(const std::string& text);
+
+/**
+ * Adds the links of an elastix parameter file, or throws as addRecords does.
+ *
+ * @param fileName   the file itself: names in it may be relative to its folder
+ * @param addFile    adds the initial transform, or a displacement field
+ */
+void addElastixText(const std::string& text, const std::string& fileName, const AddFile& addFile,
+  PointTransform& transform);
 }
 
 #endif

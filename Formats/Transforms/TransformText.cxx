@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Formats/Transforms/TransformText.h"
+/**
+ * @file
+ * @brief Reads transforms that are text: ITK's, elastix' parameter files, and 4 x 4 matrices.
+ */
+#include "Common/Numbers.h"
+#include "Common/Problem.h"
+#include "Formats/Files/Text.h"
+#include "Formats/Transforms/TransformRecord.h"
 
-#include "Formats/Files/TextHeader.h"
-
-#include <charconv>
 #include <cstddef>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -17,34 +23,7 @@ namespace
 using Words = std::vector<std::string>;
 using Entries = std::map<std::string, Words>; // of a parameter file, by name
 
-bool readNumber(std::string_view word, double& number)
-{
-  const char* const end = word.data() + word.size();
-  const char* const begin = word.data() + (!word.empty() && word.front() == '+' ? 1 : 0);
-  const auto read = std::from_chars(begin, end, number);
-  return read.ec == std::errc() && read.ptr == end;
-}
-
-// The numbers between spaces; false if something else stands there.
-bool readNumbers(std::string_view text, std::vector<double>& numbers)
-{
-  constexpr const char* Spaces = " \t\r\n";
-  std::size_t from = text.find_first_not_of(Spaces);
-  while (from != std::string_view::npos)
-  {
-    const std::size_t to = std::min(text.find_first_of(Spaces, from), text.size());
-    double number;
-    if (!readNumber(text.substr(from, to - from), number))
-    {
-      return false;
-    }
-    numbers.push_back(number);
-    from = text.find_first_not_of(Spaces, to);
-  }
-  return true;
-}
-
-std::string readITKLine(const std::string& line, std::vector<TransformRecord>& records)
+void readITKLine(const std::string& line, std::vector<TransformRecord>& records)
 {
   const auto follows = [&line](const std::string& key, std::string_view& value) {
     const bool found = line.rfind(key, 0) == 0;
@@ -57,21 +36,22 @@ std::string readITKLine(const std::string& line, std::vector<TransformRecord>& r
     std::istringstream type{ std::string(value) };
     records.emplace_back();
     type >> records.back().type;
-    return {};
+    return;
   }
   const bool isFixed = follows("FixedParameters:", value);
   if (!isFixed && !follows("Parameters:", value))
   {
-    return {};
+    return;
   }
   if (records.empty())
   {
-    return "has parameters before its first transform";
+    throw Problem("has parameters before its first transform");
   }
   TransformRecord& record = records.back();
-  return readNumbers(value, isFixed ? record.fixed : record.parameters)
-    ? std::string()
-    : "has parameters of " + shownWords(record.type) + " that are no numbers";
+  if (!appendNumbers(value, isFixed ? record.fixed : record.parameters))
+  {
+    throw Problem("has parameters of " + shownWords(record.type) + " that are no numbers");
+  }
 }
 
 // One line of a parameter file: (Name value value "word").
@@ -125,12 +105,12 @@ std::vector<double> numbersOf(const Entries& entries, const std::string& name)
   const auto entry = entries.find(name);
   for (const std::string& word : entry == entries.end() ? Words() : entry->second)
   {
-    double number = 0.0;
-    if (!readNumber(word, number))
+    const std::optional<double> number = numberIn(word);
+    if (!number)
     {
       return {};
     }
-    numbers.push_back(number);
+    numbers.push_back(*number);
   }
   return numbers;
 }
@@ -166,25 +146,27 @@ std::vector<double> splineGrid(const Entries& entries)
 }
 
 // What elastix can do and BrainShift does not.
-std::string elastixProblem(const Entries& entries)
+void requireKnown(const Entries& entries)
 {
   const std::string sides = wordOf(entries, "FixedImageDimension", "3") + " and " +
     wordOf(entries, "MovingImageDimension", "3");
   if (sides != "3 and 3")
   {
-    return "is for images of " + shownWords(sides) + " dimensions; it must be for 3";
+    throw Problem("is for images of " + shownWords(sides) + " dimensions; it must be for 3");
   }
   if (wordOf(entries, "UseCyclicTransform", "false") == "true")
   {
-    return "holds a cyclic B-spline, which BrainShift does not know";
+    throw Problem("holds a cyclic B-spline, which BrainShift does not know");
   }
   const std::string order = wordOf(entries, "BSplineTransformSplineOrder", "3");
-  return order == "3" ? std::string()
-                      : "holds a B-spline of order " + shownWords(order) + "; it must be 3";
+  if (order != "3")
+  {
+    throw Problem("holds a B-spline of order " + shownWords(order) + "; it must be 3");
+  }
 }
 
-std::string addElastixOwn(const Entries& entries, const std::string& fileName,
-  const AddFile& addFile, PointTransform& transform)
+void addElastixOwn(const Entries& entries, const std::string& fileName, const AddFile& addFile,
+  PointTransform& transform)
 {
   static const std::map<std::string, std::string> typesOfITK{
     { "AffineTransform", "AffineTransform" },
@@ -198,19 +180,20 @@ std::string addElastixOwn(const Entries& entries, const std::string& fileName,
   if (name == "DeformationFieldTransform")
   {
     const std::string file = wordOf(entries, "DeformationFieldFileName", "");
-    const std::string problem = addFile(namedFile(file, fileName), transform);
+    addFile(namedFile(file, fileName), transform);
     auto* field =
       transform.links.empty() ? nullptr : std::get_if<FieldLink>(&transform.links.back());
-    if (problem.empty() && field)
+    if (field)
     {
       field->isNearest = wordOf(entries, "DeformationFieldInterpolationOrder", "0") == "0";
     }
-    return problem;
+    return;
   }
   const auto type = typesOfITK.find(name);
   if (type == typesOfITK.end())
   {
-    return "holds elastix' transform " + shownWords(name) + ", which BrainShift does not know";
+    throw Problem(
+      "holds elastix' transform " + shownWords(name) + ", which BrainShift does not know");
   }
   TransformRecord record{ type->second + "_double_3_3", numbersOf(entries, "TransformParameters"),
     {} };
@@ -226,29 +209,26 @@ std::string addElastixOwn(const Entries& entries, const std::string& fileName,
       record.fixed.resize(4, 1.0);
     }
   }
-  return addRecords({ record }, transform);
+  addRecords({ record }, transform);
 }
 }
 
-std::string readITKText(const std::string& text, std::vector<TransformRecord>& records)
+std::vector<TransformRecord> readITKText(const std::string& text)
 {
+  std::vector<TransformRecord> records;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);)
   {
-    const std::string problem = readITKLine(line, records);
-    if (!problem.empty())
-    {
-      return problem;
-    }
+    readITKLine(line, records);
   }
-  return {};
+  return records;
 }
 
 std::optional<std::vector<double>> matrixText(const std::string& text)
 {
   constexpr std::size_t LongestText = 4096;
   std::vector<double> numbers;
-  if (text.size() > LongestText || !readNumbers(text, numbers) || numbers.size() != 16)
+  if (text.size() > LongestText || !appendNumbers(text, numbers) || numbers.size() != 16)
   {
     return {};
   }
@@ -260,21 +240,23 @@ bool isElastixText(const std::string& text)
   return text.find("(Transform \"") != std::string::npos;
 }
 
-std::string addElastixText(const std::string& text, const std::string& fileName,
-  const AddFile& addFile, PointTransform& transform)
+void addElastixText(const std::string& text, const std::string& fileName, const AddFile& addFile,
+  PointTransform& transform)
 {
   const Entries entries = entriesOf(text);
-  std::string problem = elastixProblem(entries);
+  requireKnown(entries);
   const std::string nothing = "NoInitialTransform";
   std::string initial = wordOf(entries, "InitialTransformParameterFileName", nothing);
   initial = wordOf(entries, "InitialTransformParametersFileName", initial); // before elastix 5.1
-  if (problem.empty() && initial != nothing)
+  if (initial != nothing)
   {
     const std::string how = wordOf(entries, "HowToCombineTransforms", "Compose");
-    problem = how == "Compose"
-      ? addFile(namedFile(initial, fileName), transform)
-      : "combines its transforms by " + shownWords(how) + "; BrainShift knows Compose";
+    if (how != "Compose")
+    {
+      throw Problem("combines its transforms by " + shownWords(how) + "; BrainShift knows Compose");
+    }
+    addFile(namedFile(initial, fileName), transform);
   }
-  return problem.empty() ? addElastixOwn(entries, fileName, addFile, transform) : problem;
+  addElastixOwn(entries, fileName, addFile, transform);
 }
 }

@@ -2,6 +2,8 @@
 #include "Formats/Volumes/OutgoingVolume.h"
 
 #include "Common/ImageGrid.h"
+#include "Common/Problem.h"
+#include "Formats/Files/Text.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
@@ -10,9 +12,7 @@
 #include <glm/matrix.hpp>
 
 #include <cmath>
-#include <cstring>
 #include <limits>
-#include <sstream>
 
 namespace brainshift
 {
@@ -54,7 +54,7 @@ std::string missingArray(vtkImageData* image, const std::string& name)
   return "The input has no point array " + name + " of numbers; it has " + names;
 }
 
-std::string directionProblem(const Grid& grid)
+void requireDirection(const Grid& grid)
 {
   const glm::dmat3 product = glm::transpose(grid.direction) * grid.direction;
   double worst = 0.0;
@@ -62,14 +62,11 @@ std::string directionProblem(const Grid& grid)
   {
     worst = std::max(worst, std::abs(product[i / 3][i % 3] - (i / 3 == i % 3 ? 1.0 : 0.0)));
   }
-  if (worst <= LargestCosine)
+  if (!(worst <= LargestCosine))
   {
-    return {};
+    throw Problem(joined("The direction matrix of the input is off a rotation by ", worst,
+      "; it must be at most ", LargestCosine));
   }
-  std::ostringstream problem;
-  problem << "The direction matrix of the input is off a rotation by " << worst
-          << "; it must be at most " << LargestCosine;
-  return problem.str();
 }
 
 bool isUnsigned(int type)
@@ -99,15 +96,15 @@ NumberType typeOf(vtkDataArray* array)
     array->GetDataTypeSize() };
 }
 
-std::string copyAs(int type, vtkDataArray* array, vtkSmartPointer<vtkDataArray>& copy)
+vtkSmartPointer<vtkDataArray> copyAs(int type, vtkDataArray* array)
 {
-  copy = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
+  auto copy = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(type));
   copy->DeepCopy(array);
-  return {};
+  return copy;
 }
 
 // Whole numbers of 8 bytes, which most readers of medical files do not know, become those of 4.
-std::string shorten(vtkDataArray* array, OutgoingVolume& volume, std::string& warning)
+void shorten(vtkDataArray* array, OutgoingVolume& volume, std::string& warning)
 {
   const bool isPositive = volume.type.kind == NumberType::Kind::Unsigned;
   const double least = isPositive ? 0.0 : std::numeric_limits<vtkTypeInt32>::min();
@@ -119,35 +116,36 @@ std::string shorten(vtkDataArray* array, OutgoingVolume& volume, std::string& wa
     array->GetRange(range, i);
     if (range[0] < least || range[1] > most)
     {
-      std::ostringstream problem;
-      problem << "The input is of the type " << array->GetDataTypeAsString()
-              << ", which is written with 4 bytes a number; its numbers go from " << range[0]
-              << " to " << range[1] << " and must be from " << least << " to " << most;
-      return problem.str();
+      throw Problem(joined("The input is of the type ", array->GetDataTypeAsString(),
+        ", which is written with 4 bytes a number; its numbers go from ", range[0], " to ",
+        range[1], " and must be from ", least, " to ", most));
     }
   }
   volume.type.bytes = 4;
   warning = std::string("The input is of the type ") + array->GetDataTypeAsString() +
     "; the file has whole numbers of 4 bytes, which hold its values";
-  return copyAs(isPositive ? VTK_UNSIGNED_INT : VTK_INT, array, volume.numbers);
+  volume.numbers = copyAs(isPositive ? VTK_UNSIGNED_INT : VTK_INT, array);
 }
 
-std::string takeNumbers(vtkDataArray* array, OutgoingVolume& volume, std::string& warning)
+void takeNumbers(vtkDataArray* array, OutgoingVolume& volume, std::string& warning)
 {
   if (array->GetDataType() == VTK_BIT)
   {
-    return "The input is of the type bit, which no file of volumes holds; it must be of whole "
-           "numbers of 1 to 8 bytes, float or double";
+    throw Problem("The input is of the type bit, which no file of volumes holds; it must be of "
+                  "whole numbers of 1 to 8 bytes, float or double");
   }
   volume.type = typeOf(array);
   if (volume.type.bytes > 4 && volume.type.kind != NumberType::Kind::Floating)
   {
-    return shorten(array, volume, warning);
+    shorten(array, volume, warning);
+    return;
   }
-  volume.numbers = array;
   // Files want the components of a voxel side by side.
-  return array->HasStandardMemoryLayout() ? std::string()
-                                          : copyAs(array->GetDataType(), array, volume.numbers);
+  volume.numbers = array;
+  if (!array->HasStandardMemoryLayout())
+  {
+    volume.numbers = copyAs(array->GetDataType(), array);
+  }
 }
 }
 
@@ -171,22 +169,22 @@ std::size_t OutgoingVolume::bytesOfVolume() const
   return this->grid.count() * this->bytesOfVoxel();
 }
 
-std::string takeOut(vtkImageData* image, const std::string& arrayName, WorldAxes world,
+void takeOut(vtkImageData* image, const std::string& arrayName, WorldAxes world,
   OutgoingVolume& volume, std::string& warning)
 {
   vtkDataArray* array = arrayOf(image, arrayName);
   if (!array)
   {
-    return missingArray(image, arrayName);
+    throw Problem(missingArray(image, arrayName));
   }
   if (array->GetNumberOfTuples() == 0)
   {
-    return "The input has no voxels";
+    throw Problem("The input has no voxels");
   }
   volume.grid = gridOf(image);
-  std::string problem = problemOfGrid(volume.grid);
-  problem = problem.empty() ? directionProblem(volume.grid) : "The input's " + problem;
-  problem = problem.empty() ? takeNumbers(array, volume, warning) : problem;
+  withBeginning("The input's ", [&] { throwIfAny(problemOfGrid(volume.grid)); });
+  requireDirection(volume.grid);
+  takeNumbers(array, volume, warning);
   const WorldAxes axes = world == WorldAxes::Unknown ? worldAxesOf(image) : world;
   volume.knowsSides = axes != WorldAxes::Unknown;
   if (axes == WorldAxes::LPS)
@@ -199,7 +197,6 @@ std::string takeOut(vtkImageData* image, const std::string& arrayName, WorldAxes
       "The input does not know the sides of the patient: the file is written as if its world were "
       "RAS, and says so. Set World if you know better";
   }
-  return problem;
 }
 
 Grid withReversedXY(const Grid& grid)
@@ -212,13 +209,5 @@ Grid withReversedXY(const Grid& grid)
     reversed.direction[axis] *= signs;
   }
   return reversed;
-}
-
-bool thisMachineStoresHighBytesFirst()
-{
-  const int one = 1;
-  char first;
-  std::memcpy(&first, &one, 1);
-  return first == 0;
 }
 }

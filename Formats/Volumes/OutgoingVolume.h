@@ -56,21 +56,17 @@ struct OutgoingVolume
 };
 
 /**
- * Takes a point array of an image.
+ * Takes a point array of an image, or throws one sentence, without a full stop.
  *
  * @param arrayName   empty: the active scalars, else the first array of numbers
  * @param world       what the user says of the world; Unknown: what the image says (WorldAxes.h)
  * @param warning     one sentence, without a full stop, on what the user must know; may stay empty
- * @return one sentence, without a full stop, on why the image cannot be written; empty if it can
  */
-VTKBRAINSHIFTFORMATS_EXPORT std::string takeOut(vtkImageData* image, const std::string& arrayName,
+VTKBRAINSHIFTFORMATS_EXPORT void takeOut(vtkImageData* image, const std::string& arrayName,
   WorldAxes world, OutgoingVolume& volume, std::string& warning);
 
 /** The same grid with x and y reversed: this leads from RAS to LPS and back. */
 Grid withReversedXY(const Grid& grid);
-
-/** Bytes of a number are stored in the order of this machine. */
-bool thisMachineStoresHighBytesFirst();
 }
 
 #endif

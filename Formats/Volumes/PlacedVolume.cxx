@@ -3,12 +3,15 @@
 
 #include "Common/HostMemory.h"
 #include "Common/Parallel.h"
+#include "Common/Problem.h"
+#include "Formats/Files/Text.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
+#include "vtkPointData.h"
 
 #include <array>
-#include <sstream>
+#include <cmath>
 #include <utility>
 
 namespace brainshift
@@ -67,7 +70,42 @@ void moveVoxelsOf(vtkImageData* stored, vtkImageData* shown, const RasGrid& geom
     return static_cast<float>(rescaling.slope * static_cast<double>(value) + rescaling.intercept);
   });
 }
+}
 
+void StoredVoxels::show(const glm::ivec3& dimensions, vtkDataArray* numbers)
+{
+  this->image = vtkSmartPointer<vtkImageData>::New();
+  this->image->SetDimensions(dimensions.x, dimensions.y, dimensions.z);
+  this->image->GetPointData()->SetScalars(numbers);
+}
+
+vtkSmartPointer<vtkDataArray> partOf(vtkDataArray* numbers, vtkIdType first, vtkIdType count)
+{
+  constexpr int OwnedByNumbers = 1;
+  auto part =
+    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(numbers->GetDataType()));
+  part->SetNumberOfComponents(numbers->GetNumberOfComponents());
+  part->SetVoidArray(numbers->GetVoidPointer(first), count, OwnedByNumbers);
+  return part;
+}
+
+std::vector<double> evenTimes(std::size_t count, double step, double start)
+{
+  step = std::isfinite(step) && step > 0.0 ? step : 1.0;
+  start = std::isfinite(start) ? start : 0.0;
+  std::vector<double> times;
+  times.reserve(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    times.push_back(start + static_cast<double>(i) * step);
+  }
+  return times;
+}
+
+double VolumeFile::storedBytes(const VolumeHeader& header) const
+{
+  return static_cast<double>(header.dimensions.x) * header.dimensions.y * header.dimensions.z *
+    header.components * vtkDataArray::GetDataTypeSize(header.storedType);
 }
 
 PlacedVolume::PlacedVolume(std::unique_ptr<VolumeFile> file)
@@ -80,28 +118,21 @@ std::string PlacedVolume::sentence(const std::string& end) const
   return this->File->noun() + " " + this->FileName + " " + end;
 }
 
-std::string PlacedVolume::readHeader(const std::string& fileName)
+void PlacedVolume::readHeader(const std::string& fileName)
 {
   this->Placed = false;
   this->FileName = fileName;
   if (fileName.empty())
   {
-    return "FileName is empty; it must name a " + this->File->noun();
+    throw Problem("FileName is empty; it must name a " + this->File->noun());
   }
   this->Header = VolumeHeader();
-  std::string problem = this->File->readHeader(fileName, this->Header);
-  if (!problem.empty())
-  {
-    return this->sentence(problem);
-  }
-  problem = affineProblem(this->Header.worldFromVoxel);
-  if (!problem.empty())
-  {
-    return this->sentence("cannot be placed: " + problem);
-  }
+  withBeginning(this->sentence(""), [&] {
+    this->File->readHeader(fileName, this->Header);
+    withBeginning("cannot be placed: ", [&] { requireAffine(this->Header.worldFromVoxel); });
+  });
   this->Geometry = nearestRasGrid(this->Header.worldFromVoxel, this->Header.dimensions);
   this->Placed = true;
-  return {};
 }
 
 std::vector<std::string> PlacedVolume::warnings() const
@@ -122,15 +153,12 @@ std::vector<std::string> PlacedVolume::warnings() const
 
 std::string PlacedVolume::shearWarning() const
 {
-  if (!(this->Geometry.shear > LargestUnreportedShear))
-  {
-    return {};
-  }
-  std::ostringstream warning;
-  warning << "is sheared: the cosine between two of its axes is " << this->Geometry.shear
-          << "; the limit is " << LargestUnreportedShear << ". Its corners are shown up to "
-          << this->Geometry.largestErrorMm << " mm from where it places them";
-  return this->sentence(warning.str());
+  const RasGrid& placed = this->Geometry;
+  return !(placed.shear > LargestUnreportedShear)
+    ? std::string()
+    : this->sentence(joined("is sheared: the cosine between two of its axes is ", placed.shear,
+        "; the limit is ", LargestUnreportedShear, ". Its corners are shown up to ",
+        placed.largestErrorMm, " mm from where it places them"));
 }
 
 int PlacedVolume::scalarType() const
@@ -138,7 +166,7 @@ int PlacedVolume::scalarType() const
   return this->Header.rescaling.isNeeded() ? VTK_FLOAT : this->Header.storedType;
 }
 
-std::string PlacedVolume::memoryProblem(const int extent[6]) const
+void PlacedVolume::requireMemory(const int extent[6]) const
 {
   const glm::ivec3& size = this->Geometry.grid.dimensions;
   double shown = static_cast<double>(this->Header.components) *
@@ -147,24 +175,22 @@ std::string PlacedVolume::memoryProblem(const int extent[6]) const
   {
     shown *= extent[2 * axis + 1] - extent[2 * axis] + 1.0;
   }
-  return hostMemoryProblem(std::to_string(this->Header.times.size()) + " volumes of " +
+  requireHostMemory(std::to_string(this->Header.times.size()) + " volumes of " +
       sizeText(glm::dvec3(size)) + " voxels",
     this->File->storedBytes(this->Header) + shown);
 }
 
-std::string PlacedVolume::read(
+void PlacedVolume::read(
   std::size_t volume, const int extent[6], const Progress& progress, vtkImageData* image)
 {
-  std::string problem = this->memoryProblem(extent);
   StoredVoxels stored;
-  problem = problem.empty() ? this->File->load(volume, progress, stored) : problem;
-  if (!problem.empty())
-  {
-    return this->sentence("cannot be read: " + problem);
-  }
+  withBeginning(this->sentence("cannot be read: "), [&] {
+    this->requireMemory(extent);
+    this->File->load(volume, progress, stored);
+  });
   if (!stored.image)
   {
-    return {};
+    return;
   }
   image->SetExtent(extent[0], extent[1], extent[2], extent[3], extent[4], extent[5]);
   image->AllocateScalars(this->scalarType(), this->Header.components);
@@ -173,6 +199,5 @@ std::string PlacedVolume::read(
     vtkTemplateMacro(moveVoxelsOf<VTK_TT>(
       stored.image, image, this->Geometry, stored.firstComponent, this->Header.rescaling));
   }
-  return {};
 }
 }

@@ -28,11 +28,8 @@ class PlacedVolume
 public:
   explicit PlacedVolume(std::unique_ptr<VolumeFile> file);
 
-  /**
-   * Reads the header of a file. Returns one sentence, without a full stop, on why the file cannot
-   * be read; empty if it can.
-   */
-  std::string readHeader(const std::string& fileName);
+  /** Reads the header of a file, or throws one sentence. */
+  void readHeader(const std::string& fileName);
 
   /** Whether the last header was good. All that follows is of that file. */
   bool isPlaced() const { return this->Placed; }
@@ -51,15 +48,12 @@ public:
 
   /**
    * Fills an image over `extent` with one volume; `volume` is an index of the header's times.
-   * Returns one sentence, without a full stop, on why it cannot; empty if it can, or if `progress`
-   * says stop: then the image keeps what it had.
+   * Throws one sentence. If `progress` says stop, the image keeps what it had.
    */
-  std::string read(
-    std::size_t volume, const int extent[6], const Progress& progress, vtkImageData* image);
+  void read(std::size_t volume, const int extent[6], const Progress& progress, vtkImageData* image);
 
 private:
-  // Why there is too little memory for the voxels; empty if there is enough.
-  std::string memoryProblem(const int extent[6]) const;
+  void requireMemory(const int extent[6]) const;
   std::string sentence(const std::string& end) const;
   std::string shearWarning() const;
 

@@ -2,6 +2,8 @@
 #include "Formats/Volumes/RasGrid.h"
 
 #include "Common/ImageGrid.h"
+#include "Common/Problem.h"
+#include "Formats/Files/Text.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -10,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace
 {
@@ -94,31 +95,27 @@ double largestCornerDistance(const brainshift::Grid& grid, const glm::dmat4& wor
   }
   return largest;
 }
-
 }
 
 namespace brainshift
 {
-std::string affineProblem(const glm::dmat4& worldFromVoxel)
+void requireAffine(const glm::dmat4& worldFromVoxel)
 {
-  std::ostringstream problem;
   for (int column = 0; column < 4; ++column)
   {
     for (int row = 0; row < 3; ++row)
     {
       if (!std::isfinite(worldFromVoxel[column][row]))
       {
-        problem << "row " << row << ", column " << column << " of the affine is "
-                << worldFromVoxel[column][row] << "; it must be finite";
-        return problem.str();
+        throw Problem(joined("row ", row, ", column ", column, " of the affine is ",
+          worldFromVoxel[column][row], "; it must be finite"));
       }
     }
     const double spacingMm = glm::length(glm::dvec3(worldFromVoxel[column]));
     if (column < 3 && !(spacingMm >= ShortestSpacing && spacingMm <= LongestSpacing))
     {
-      problem << "column " << column << " of the affine has length " << spacingMm
-              << " mm; it must have from " << ShortestSpacing << " to " << LongestSpacing << " mm";
-      return problem.str();
+      throw Problem(joined("column ", column, " of the affine has length ", spacingMm,
+        " mm; it must have from ", ShortestSpacing, " to ", LongestSpacing, " mm"));
     }
   }
   double spacingMm = glm::length(glm::dvec3(worldFromVoxel[0]));
@@ -130,17 +127,15 @@ std::string affineProblem(const glm::dmat4& worldFromVoxel)
   }
   if (awayMm > FarthestOriginSpacings * spacingMm)
   {
-    problem << "the offset of the affine is " << awayMm << " mm; it must be at most "
-            << FarthestOriginSpacings << " times the voxel's size, " << spacingMm << " mm";
-    return problem.str();
+    throw Problem(joined("the offset of the affine is ", awayMm, " mm; it must be at most ",
+      FarthestOriginSpacings, " times the voxel's size, ", spacingMm, " mm"));
   }
   const double determinant = glm::determinant(unitColumns(worldFromVoxel));
   if (!(std::abs(determinant) >= SmallestDeterminant))
   {
-    problem << "the affine is singular: the determinant of its unit axes is " << determinant
-            << "; it must be at least " << SmallestDeterminant;
+    throw Problem(joined("the affine is singular: the determinant of its unit axes is ",
+      determinant, "; it must be at least ", SmallestDeterminant));
   }
-  return problem.str();
 }
 
 RasGrid nearestRasGrid(const glm::dmat4& worldFromVoxel, const glm::ivec3& dimensions)

@@ -16,7 +16,6 @@
 #include <glm/vec3.hpp>
 
 #include <array>
-#include <string>
 
 namespace brainshift
 {
@@ -27,8 +26,8 @@ namespace brainshift
  */
 constexpr double LargestUnreportedShear = 1e-4;
 
-/** Why an affine cannot place voxels (not finite, singular): part of a sentence, or empty. */
-VTKBRAINSHIFTFORMATS_EXPORT std::string affineProblem(const glm::dmat4& worldFromVoxel);
+/** Throws a part of a sentence if an affine cannot place voxels: not finite, singular. */
+VTKBRAINSHIFTFORMATS_EXPORT void requireAffine(const glm::dmat4& worldFromVoxel);
 
 /** Voxels that are permuted and flipped so that each grid axis runs along the nearest RAS axis. */
 struct RasGrid
@@ -44,7 +43,7 @@ struct RasGrid
  * The grid of an affine. Nothing is lost unless the affine is sheared. Then the grid keeps spacing
  * and centre and takes the nearest rotation.
  *
- * @param worldFromVoxel   an affine without an affineProblem
+ * @param worldFromVoxel   an affine that passes requireAffine
  * @param dimensions       voxels along each axis, in the file's order
  */
 VTKBRAINSHIFTFORMATS_EXPORT RasGrid nearestRasGrid(

@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+class vtkDataArray;
 class vtkImageData;
 
 namespace brainshift
@@ -53,12 +54,21 @@ struct VolumeHeader
 /** Voxels in the file's order: the extent of the image begins at 0. */
 struct StoredVoxels
 {
-  vtkSmartPointer<vtkImageData> image;
-  int firstComponent = 0; ///< of the volume that was asked for
+  vtkSmartPointer<vtkImageData> image; ///< null: reading was stopped
+  int firstComponent = 0;              ///< of the volume that was asked for
+
+  /** Makes the image of these numbers. */
+  void show(const glm::ivec3& dimensions, vtkDataArray* numbers);
 };
 
-/** Hears which share is done, 0 to 1. Returns false if the work is to stop. */
-using Progress = std::function<bool(double share)>;
+/** Some of the values of an array, which must live as long. */
+vtkSmartPointer<vtkDataArray> partOf(vtkDataArray* numbers, vtkIdType first, vtkIdType count);
+
+/** Times that grow by a step. A step that is no positive number counts as 1, a start as 0. */
+std::vector<double> evenTimes(std::size_t count, double step, double start = 0.0);
+
+/** Receives the fraction that is done, 0 to 1. Returns false if the work is to stop. */
+using Progress = std::function<bool(double fraction)>;
 
 /** One file, or one series of files, at a time: first its header, then its voxels. */
 class VTKBRAINSHIFTFORMATS_EXPORT VolumeFile
@@ -73,19 +83,19 @@ public:
   virtual std::string noun() const = 0;
 
   /**
-   * Reads the header. Returns the end of a sentence, after the name and without a full stop, on why
-   * it cannot; empty if it can. It may not have been read before, or have changed since.
+   * Reads the header, or throws the end of a sentence, after the name and without a full stop. It
+   * may not have been read before, or have changed since.
    */
-  virtual std::string readHeader(const std::string& fileName, VolumeHeader& header) = 0;
+  virtual void readHeader(const std::string& fileName, VolumeHeader& header) = 0;
 
   /** Bytes that `load` takes beside the output. 0 if the voxels are in memory already. */
   virtual double storedBytes(const VolumeHeader& header) const;
 
   /**
-   * Reads the voxels of one of the header's times. Returns the end of a sentence, as readHeader
-   * does. If `progress` says stop, it returns the empty text, and the voxels have no image.
+   * Reads the voxels of one of the header's times, or throws the end of a sentence. The voxels get
+   * no image if `progress` says stop.
    */
-  virtual std::string load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) = 0;
+  virtual void load(std::size_t volume, const Progress& progress, StoredVoxels& voxels) = 0;
 
   ///@{
   /**

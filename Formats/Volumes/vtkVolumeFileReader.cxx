@@ -4,6 +4,7 @@
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
 #include "Common/LabelTable.h"
+#include "Common/Problem.h"
 #include "Common/WorldAxes.h"
 #include "Formats/Volumes/PlacedVolume.h"
 
@@ -170,7 +171,7 @@ int vtkVolumeFileReader::CanReadFile(const char* fileName)
   return fileName && formatOf(fileName, this->Format) ? 1 : 0;
 }
 
-std::string vtkVolumeFileReader::takeFormat()
+void vtkVolumeFileReader::takeFormat()
 {
   const std::string fileName = this->FileName ? this->FileName : "";
   // A file that is damaged at its very beginning still gets the sentence of the format that was
@@ -179,11 +180,13 @@ std::string vtkVolumeFileReader::takeFormat()
     this->Format.empty() ? formatOf(fileName, this->Format) : formatNamed(this->Format);
   if (!format && !this->Format.empty())
   {
-    return "Format is '" + this->Format + "'; it must be one of " + formatNames();
+    throw brainshift::Problem(
+      "Format is '" + this->Format + "'; it must be one of " + formatNames());
   }
   if (!format)
   {
-    return "File " + fileName + " is no volume of a format that BrainShift reads: " + formatNames();
+    throw brainshift::Problem(
+      "File " + fileName + " is no volume of a format that BrainShift reads: " + formatNames());
   }
   if (format != this->Taken)
   {
@@ -198,7 +201,6 @@ std::string vtkVolumeFileReader::takeFormat()
   }
   this->File->choose(this->Choice);
   this->File->setResamples(this->ResampleSlices);
-  return {};
 }
 
 void vtkVolumeFileReader::announceLast(vtkInformation* output)
@@ -243,7 +245,7 @@ void vtkVolumeFileReader::keepLast(vtkInformation* output)
   }
 }
 
-std::string vtkVolumeFileReader::reading(const std::function<std::string()>& read)
+void vtkVolumeFileReader::reading(const std::function<void()>& read)
 {
   struct Scope
   {
@@ -252,24 +254,27 @@ std::string vtkVolumeFileReader::reading(const std::function<std::string()>& rea
   };
   this->IsReading = true;
   const Scope scope{ this->IsReading };
-  return read();
+  read();
 }
 
 int vtkVolumeFileReader::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
   vtkInformation* output = outputs->GetInformationObject(0);
-  const std::string unknown = this->takeFormat();
-  if (!unknown.empty())
+  try
+  {
+    this->takeFormat();
+  }
+  catch (...)
   {
     this->Stored.reset();
     this->File = nullptr;
     this->Taken = nullptr;
-    vtkErrorMacro(<< unknown << ".");
-    return 0;
+    throw;
   }
-  const std::string problem = this->reading(
-    [this] { return this->Stored->readHeader(this->FileName ? this->FileName : ""); });
+  const std::string problem = brainshift::problemOf([this] {
+    this->reading([this] { this->Stored->readHeader(this->FileName ? this->FileName : ""); });
+  });
   this->Last.isOfHeader = false;
   this->IsStopped = !problem.empty() && this->GetAbortExecute();
   if (this->IsStopped)
@@ -277,11 +282,7 @@ int vtkVolumeFileReader::RequestInformation(
     this->announceLast(output);
     return 1; // RequestData says the rest
   }
-  if (!problem.empty())
-  {
-    vtkErrorMacro(<< problem << ".");
-    return 0;
-  }
+  brainshift::throwIfAny(problem);
   // Every MPI rank reads the same header.
   const bool speaks = brainshift::isFirstRank();
   for (const std::string& warning : speaks ? this->Stored->warnings() : std::vector<std::string>())
@@ -338,19 +339,14 @@ int vtkVolumeFileReader::readVolume(vtkInformation* information)
       nearestIndex(times, information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()));
     shown->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), times[volume]);
   }
-  const auto progress = [this](double share) {
-    this->UpdateProgress(share);
+  const auto progress = [this](double fraction) {
+    this->UpdateProgress(fraction);
     return !this->GetAbortExecute();
   };
-  const std::string problem = this->reading([&] {
-    return this->Stored->read(
+  this->reading([&] {
+    this->Stored->read(
       volume, information->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()), progress, shown);
   });
-  if (!problem.empty())
-  {
-    vtkErrorMacro(<< problem << ".");
-    return 0;
-  }
   vtkDataArray* scalars = shown->GetPointData()->GetScalars();
   if (!scalars)
   {

@@ -108,10 +108,10 @@ private:
   vtkVolumeFileReader(const vtkVolumeFileReader&) = delete;
   void operator=(const vtkVolumeFileReader&) = delete;
 
-  // Finds the format of the file. Returns a sentence without a full stop if there is none.
-  std::string takeFormat();
-  // What `read` returns. IsReading holds meanwhile.
-  std::string reading(const std::function<std::string()>& read);
+  // Finds the format of the file, or throws one sentence.
+  void takeFormat();
+  // Calls `read`. IsReading holds meanwhile.
+  void reading(const std::function<void()>& read);
   // Fills the output with the volume of the time that is asked for.
   int readVolume(vtkInformation* output);
   // Tells the pipeline what was last read to its end.

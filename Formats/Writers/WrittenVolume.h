@@ -24,10 +24,9 @@ namespace brainshift
 /**
  * Writes the file whole or not at all: an old file of this name stays as it was after an error, and
  * if `progress` says stop. The ending of the name chooses the format.
- *
- * @return one sentence, without a full stop, on what went wrong; empty if nothing did
+ * Throws one sentence, without a full stop.
  */
-std::string writeVolume(
+void writeVolume(
   const std::string& fileName, const OutgoingVolume& volume, const Progress& progress);
 }
 

@@ -3,6 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
+#include "Common/Problem.h"
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Fields/FieldImage.h"
 #include "Formats/Writers/WrittenVolume.h"
@@ -25,25 +26,8 @@ int vtkDisplacementFieldWriter::FillInputPortInformation(int, vtkInformation* in
 
 void vtkDisplacementFieldWriter::WriteData()
 {
-  auto* image = vtkImageData::SafeDownCast(this->GetInput());
-  vtkDataArray* array = fieldOf(image);
-  if (array && !isFieldImage(image))
-  {
-    this->Problem = this->WriteVolume(image);
-  }
-  else if (array)
-  {
-    DirectedField field{ gridOf(image), vectorsOf(array), directionOf(image) };
-    if (this->World == LPS)
-    {
-      reverseXY(field);
-    }
-    this->Problem = writeFieldFile(this->FileName, field);
-  }
-  else
-  {
-    this->Problem = "The input has no point array of 3 components (mm)";
-  }
+  this->Problem = sentenceThrownBy(
+    "File " + this->FileName + " cannot be written:", [this] { this->WriteImage(); });
   if (!this->Problem.empty())
   {
     vtkErrorMacro(<< this->Problem << ".");
@@ -51,19 +35,38 @@ void vtkDisplacementFieldWriter::WriteData()
   }
 }
 
-std::string vtkDisplacementFieldWriter::WriteVolume(vtkImageData* image)
+void vtkDisplacementFieldWriter::WriteImage()
+{
+  auto* image = vtkImageData::SafeDownCast(this->GetInput());
+  vtkDataArray* array = fieldOf(image);
+  if (!array)
+  {
+    throw brainshift::Problem("The input has no point array of 3 components (mm)");
+  }
+  if (!isFieldImage(image))
+  {
+    this->WriteVolume(image);
+    return;
+  }
+  DirectedField field{ gridOf(image), vectorsOf(array), directionOf(image) };
+  if (this->World == LPS)
+  {
+    reverseXY(field);
+  }
+  writeFieldFile(this->FileName, field);
+}
+
+void vtkDisplacementFieldWriter::WriteVolume(vtkImageData* image)
 {
   const WorldAxes world = this->World == LPS ? WorldAxes::LPS : WorldAxes::Unknown;
   OutgoingVolume volume;
   std::string warning;
-  std::string problem = takeOut(image, "", world, volume, warning);
-  problem =
-    problem.empty() ? writeVolume(this->FileName, volume, [](double) { return true; }) : problem;
-  if (problem.empty() && !warning.empty())
+  takeOut(image, "", world, volume, warning);
+  writeVolume(this->FileName, volume, [](double) { return true; });
+  if (!warning.empty())
   {
     vtkWarningMacro(<< "File " << this->FileName << ": " << warning << ".");
   }
-  return problem;
 }
 
 void vtkDisplacementFieldWriter::PrintSelf(ostream& os, vtkIndent indent)

@@ -64,7 +64,8 @@ private:
   vtkDisplacementFieldWriter(const vtkDisplacementFieldWriter&) = delete;
   void operator=(const vtkDisplacementFieldWriter&) = delete;
 
-  std::string WriteVolume(vtkImageData* image);
+  void WriteImage();
+  void WriteVolume(vtkImageData* image);
 
   std::string FileName;
   int World = RAS;

@@ -3,6 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
+#include "Common/Problem.h"
 #include "Formats/DICOM/DerivedSeries.h"
 #include "Formats/Writers/WrittenVolume.h"
 
@@ -29,11 +30,8 @@ void vtkVolumeFileWriter::WriteData()
   {
     return;
   }
-  const std::string thrown = thrownBy([this] { this->Problem = this->WriteImage(); });
-  if (!thrown.empty())
-  {
-    this->Problem = "File " + this->FileName + " cannot be written: " + thrown;
-  }
+  this->Problem = sentenceThrownBy(
+    "File " + this->FileName + " cannot be written:", [this] { this->WriteImage(); });
   if (!this->Problem.empty())
   {
     vtkErrorMacro(<< this->Problem << ".");
@@ -41,35 +39,30 @@ void vtkVolumeFileWriter::WriteData()
   }
 }
 
-std::string vtkVolumeFileWriter::WriteImage()
+void vtkVolumeFileWriter::WriteImage()
 {
   auto* image = vtkImageData::SafeDownCast(this->GetInput());
-  std::string problem = problemOfPart(image, this->GetInputInformation(0, 0));
-  if (problem.empty() && this->FileName.empty())
-  {
-    problem = "The name of the file to write is missing";
-  }
+  throwIfAny(problemOfPart(image, this->GetInputInformation(0, 0)));
+  throwIfAny(this->FileName.empty() ? "The name of the file to write is missing" : "");
   OutgoingVolume volume;
   std::string warning;
-  problem = problem.empty()
-    ? takeOut(image, this->PointArray, static_cast<WorldAxes>(this->World), volume, warning)
-    : problem;
-  if (!problem.empty())
-  {
-    return problem;
-  }
-  const auto progress = [this](double share) {
-    this->UpdateProgress(share);
+  takeOut(image, this->PointArray, static_cast<WorldAxes>(this->World), volume, warning);
+  const auto progress = [this](double fraction) {
+    this->UpdateProgress(fraction);
     return !this->CheckAbort();
   };
-  const bool isSeries = !this->Like.empty() || isSeriesName(this->FileName);
-  problem = isSeries ? writeSeries(this->FileName, this->Like, volume, progress)
-                     : writeVolume(this->FileName, volume, progress);
-  if (problem.empty() && !warning.empty())
+  if (!this->Like.empty() || isSeriesName(this->FileName))
+  {
+    writeSeries(this->FileName, this->Like, volume, progress);
+  }
+  else
+  {
+    writeVolume(this->FileName, volume, progress);
+  }
+  if (!warning.empty())
   {
     vtkWarningMacro(<< "File " << this->FileName << ": " << warning << ".");
   }
-  return problem;
 }
 
 void vtkVolumeFileWriter::PrintSelf(ostream& os, vtkIndent indent)

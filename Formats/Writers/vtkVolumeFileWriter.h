@@ -81,7 +81,7 @@ private:
   vtkVolumeFileWriter(const vtkVolumeFileWriter&) = delete;
   void operator=(const vtkVolumeFileWriter&) = delete;
 
-  std::string WriteImage();
+  void WriteImage();
 
   std::string FileName;
   std::string Like;

@@ -16,7 +16,7 @@ from tree import Tree
 STANDS_ON = {
     "Common": [],
     "Formats/Files": ["Common"],
-    "Formats/PackedFrames": [],
+    "Formats/PackedFrames": ["Common"],
     "Formats/Volumes": ["Formats/Files"],
     "Formats/Fields": ["Formats/Volumes"],
     "Formats/DICOM": ["Formats/PackedFrames", "Formats/Volumes"],
@@ -48,7 +48,7 @@ STANDS_ON = {
         "Representations/Picture", "Representations/Slices", "Representations/Traces"],
     "Representations/Workarounds": [],
     "Representations": ["Representations/Window", "Representations/Workarounds"],
-    "Tracking": [],
+    "Tracking": ["Common"],
     "Widgets": ["Filters"],
     "Interaction/Commands": ["Filters/Deformation"],
     "Interaction/Workarounds": ["Filters"],

@@ -3,6 +3,7 @@
 // format, byte for byte as ITK, Slicer and NiftyReg mean them; and that damaged files are named.
 #include "Formats/Fields/FieldFile.h"
 #include "Common/FieldDirection.h"
+#include "Common/Problem.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
 #include "Testing/Formats/NIFTI/NIFTITestFile.h"
 #include "vtkDisplacementFieldReader.h"
@@ -123,10 +124,10 @@ TEST_P(FieldFileFormat, KeepsPlaceVectorsAndDirection)
   for (const Direction direction : { Direction::Forward, Direction::Backward })
   {
     const DirectedField field = someField(direction);
-    ASSERT_EQ(writeFieldFile(fileName, field), "");
+    ASSERT_EQ(problemOf([&] { writeFieldFile(fileName, field); }), "");
     EXPECT_TRUE(isFieldFile(fileName));
     DirectedField found;
-    ASSERT_EQ(readFieldFile(fileName, found), "");
+    ASSERT_EQ(problemOf([&] { readFieldFile(fileName, found); }), "");
     // NIfTI places by float32: 705 mm from the origin to 0.00003 mm, times vectors' steepness.
     expectSameField(found, field, 1e-3);
   }
@@ -171,7 +172,7 @@ TEST_P(FieldFileFormat, ReaderAndWriterMeanTheSameWorld)
 TEST_P(FieldFileFormat, TruncatedFilesAreNamed)
 {
   const std::string fileName = scratch(std::string("short") + GetParam());
-  ASSERT_EQ(writeFieldFile(fileName, someField(Direction::Backward)), "");
+  ASSERT_EQ(problemOf([&] { writeFieldFile(fileName, someField(Direction::Backward)); }), "");
   const std::string whole = contentOf(fileName);
   std::ofstream(fileName, std::ios::binary) << whole.substr(0, whole.size() - 900);
   vtkNew<vtkDisplacementFieldReader> reader;
@@ -187,7 +188,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(FieldFile, NIFTISaysDisplacementAndDirection)
 {
-  ASSERT_EQ(writeFieldFile(scratch("said.nii"), someField(Direction::Forward)), "");
+  ASSERT_EQ(
+    problemOf([&] { writeFieldFile(scratch("said.nii"), someField(Direction::Forward)); }), "");
   const std::string bytes = contentOf(scratch("said.nii"));
   EXPECT_EQ(numberIn<std::int16_t>(bytes, 68), 1006);
   EXPECT_EQ(std::string(bytes.c_str() + 328), "forward");
@@ -204,7 +206,7 @@ TEST(FieldFile, TextHeadersSayDirectionAndLPS)
   DirectedField field = someField(Direction::Forward);
   field.grid.direction = glm::dmat3(1.0);
   field.displacements[0] = { 1.0f, 2.0f, 3.0f };
-  ASSERT_EQ(writeFieldFile(scratch("said.nrrd"), field), "");
+  ASSERT_EQ(problemOf([&] { writeFieldFile(scratch("said.nrrd"), field); }), "");
   const std::string nrrd = contentOf(scratch("said.nrrd"));
   for (const char* line : { "NRRD000", "\nspace: left-posterior-superior\n", "\nsizes: 3 4 5 6\n",
          "\nkinds: vector domain domain domain\n", "\nspace directions: none (-8,",
@@ -217,7 +219,7 @@ TEST(FieldFile, TextHeadersSayDirectionAndLPS)
   EXPECT_EQ(numberIn<float>(nrrd, numbers), -1.0f);
   EXPECT_EQ(numberIn<float>(nrrd, numbers + 4), -2.0f);
   EXPECT_EQ(numberIn<float>(nrrd, numbers + 8), 3.0f);
-  ASSERT_EQ(writeFieldFile(scratch("said.mha"), field), "");
+  ASSERT_EQ(problemOf([&] { writeFieldFile(scratch("said.mha"), field); }), "");
   const std::string meta = contentOf(scratch("said.mha"));
   for (const char* line : { "TransformMatrix = -1 ", "Offset = 310 -42 705\n", "forward\n",
          "ElementSpacing = 8 7 9.5\n", "ElementNumberOfChannels = 3\n" })
@@ -230,7 +232,7 @@ TEST(FieldFile, VectorsOfNIFTIFilesAreWhatTheirProgramsMean)
 {
   DirectedField found;
   const auto firstOf = [&](const std::string& fileName) {
-    EXPECT_EQ(readFieldFile(fileName, found), "");
+    EXPECT_EQ(problemOf([&] { readFieldFile(fileName, found); }), "");
     return found.displacements.at(0);
   };
   // DISPVECT is RAS; ITK's VECTOR is LPS; NiftyReg's is RAS.
@@ -251,7 +253,7 @@ TEST(FieldFile, PackedAndForeignNumbersAreRead)
   const DirectedField field = someField(Direction::Backward);
   const auto packed = [&](const char* name, const std::string& from, const std::string& to,
                         const std::string& end, int windowBits) {
-    ASSERT_EQ(writeFieldFile(scratch(name), field), "");
+    ASSERT_EQ(problemOf([&] { writeFieldFile(scratch(name), field); }), "");
     std::string bytes = contentOf(scratch(name));
     const std::size_t data = bytes.find(end) + end.size();
     std::string out(bytes.size() + 100, '\0');
@@ -268,14 +270,16 @@ TEST(FieldFile, PackedAndForeignNumbersAreRead)
     bytes.replace(bytes.find(from), from.size(), to);
     std::ofstream(scratch(name), std::ios::binary) << bytes;
     DirectedField found;
-    EXPECT_EQ(readFieldFile(scratch(name), found), "");
+    EXPECT_EQ(problemOf([&] { readFieldFile(scratch(name), found); }), "");
     expectSameField(found, field, 1e-4);
     std::string broken = bytes;
     broken[broken.size() - 3] ^= 1; // in the checksum: the numbers are whole, and may be others
     std::ofstream(scratch(name), std::ios::binary) << broken;
-    EXPECT_NE(readFieldFile(scratch(name), found).find("damaged or too few"), std::string::npos);
+    EXPECT_NE(problemOf([&] { readFieldFile(scratch(name), found); }).find("damaged or too few"),
+      std::string::npos);
     std::ofstream(scratch(name), std::ios::binary) << bytes.substr(0, bytes.size() - 200);
-    EXPECT_NE(readFieldFile(scratch(name), found).find("damaged or too few"), std::string::npos);
+    EXPECT_NE(problemOf([&] { readFieldFile(scratch(name), found); }).find("damaged or too few"),
+      std::string::npos);
   };
   packed("packed.mha", "CompressedData = False", "CompressedData = True",
     "ElementDataFile = LOCAL\n", 15);
@@ -299,7 +303,7 @@ TEST(FieldFile, PackedAndForeignNumbersAreRead)
   }
   raw.close();
   DirectedField found;
-  ASSERT_EQ(readFieldFile(scratch("big.mhd"), found), "");
+  ASSERT_EQ(problemOf([&] { readFieldFile(scratch("big.mhd"), found); }), "");
   EXPECT_EQ(found.displacements[1], glm::vec3(-3.5f, -4.5f, 5.5f));
   EXPECT_EQ(found.direction, std::nullopt);
 }
@@ -307,8 +311,9 @@ TEST(FieldFile, PackedAndForeignNumbersAreRead)
 TEST(FieldFile, WhatIsNoFieldIsNamed)
 {
   DirectedField found;
-  const auto problemOf = [&](
-                           const std::string& fileName) { return readFieldFile(fileName, found); };
+  const auto problemOf = [&](const std::string& fileName) {
+    return brainshift::problemOf([&] { readFieldFile(fileName, found); });
+  };
   const auto expectSays = [](const std::string& said, const char* words) {
     EXPECT_NE(said.find(words), std::string::npos) << said;
   };
@@ -323,8 +328,12 @@ TEST(FieldFile, WhatIsNoFieldIsNamed)
   expectSays(problemOf(scratch("field.xyz")), "must be .nii");
   expectSays(problemOf(scratch("missing.mha")), "does not exist");
   EXPECT_FALSE(isFieldFile(scratch("missing.mha")));
-  expectSays(writeFieldFile("/nowhere/field.mha", someField(Direction::Forward)), "/nowhere");
-  expectSays(writeFieldFile("/nowhere/field.nii", someField(Direction::Forward)), "/nowhere");
+  expectSays(brainshift::problemOf(
+               [&] { writeFieldFile("/nowhere/field.mha", someField(Direction::Forward)); }),
+    "/nowhere");
+  expectSays(brainshift::problemOf(
+               [&] { writeFieldFile("/nowhere/field.nii", someField(Direction::Forward)); }),
+    "/nowhere");
   std::ofstream(scratch("wrong.nrrd"))
     << "NRRD0004\ntype: short\ndimension: 4\nsizes: 3 2 2 2\nencoding: raw\nendian: little\n"
        "space: LPS\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n\n";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that a field file is replaced whole or not at all: on a full disk the old file keeps its
 // bytes, nothing is left beside it, and the writer names the file and the reason.
+#include "Common/Problem.h"
 #include "Formats/Fields/FieldFile.h"
 #include "Testing/Cxx/Deformation/TestLattices.h"
 
@@ -80,22 +81,22 @@ TEST_P(WholeFileFormat, AFullDiskKeepsTheOldFile)
 {
   const fs::path folder = freshFolder();
   const std::string name = (folder / (std::string("field") + GetParam())).string();
-  ASSERT_EQ(writeFieldFile(name, someField(Direction::Forward)), "");
+  ASSERT_EQ(problemOf([&] { writeFieldFile(name, someField(Direction::Forward)); }), "");
   const std::string old = contentOf(name);
   // Also in the last bytes, which stay in a buffer until the file is closed.
   for (const std::size_t room : { std::size_t(0), std::size_t(1000), old.size() - 200 })
   {
     const std::string problem = [&] {
       const FullDisk full(room);
-      return writeFieldFile(name, someField(Direction::Backward));
+      return brainshift::problemOf([&] { writeFieldFile(name, someField(Direction::Backward)); });
     }();
     EXPECT_EQ(problem.find("File " + name + " cannot be written: "), 0u) << room << problem;
     EXPECT_TRUE(contentOf(name) == old) << room;
     EXPECT_EQ(filesIn(folder), 1u) << room;
   }
-  ASSERT_EQ(writeFieldFile(name, someField(Direction::Backward)), "");
+  ASSERT_EQ(problemOf([&] { writeFieldFile(name, someField(Direction::Backward)); }), "");
   DirectedField found;
-  ASSERT_EQ(readFieldFile(name, found), "");
+  ASSERT_EQ(problemOf([&] { readFieldFile(name, found); }), "");
   EXPECT_EQ(found.direction, Direction::Backward);
   EXPECT_EQ(filesIn(folder), 1u);
 }
@@ -107,15 +108,18 @@ TEST(WholeFile, KeepsLinksAndRights)
 {
   const fs::path folder = freshFolder();
   const fs::path file = folder / "field.mha";
-  ASSERT_EQ(writeFieldFile(file.string(), someField(Direction::Forward)), "");
+  ASSERT_EQ(problemOf([&] { writeFieldFile(file.string(), someField(Direction::Forward)); }), "");
   const fs::perms rights = fs::perms::owner_read | fs::perms::owner_write;
   fs::permissions(file, rights);
   fs::create_symlink(file, folder / "link.mha");
-  ASSERT_EQ(writeFieldFile((folder / "link.mha").string(), someField(Direction::Backward)), "");
+  ASSERT_EQ(problemOf([&] {
+    writeFieldFile((folder / "link.mha").string(), someField(Direction::Backward));
+  }),
+    "");
   EXPECT_TRUE(fs::is_symlink(folder / "link.mha"));
   EXPECT_EQ(fs::status(file).permissions(), rights);
   DirectedField found;
-  ASSERT_EQ(readFieldFile(file.string(), found), "");
+  ASSERT_EQ(problemOf([&] { readFieldFile(file.string(), found); }), "");
   EXPECT_EQ(found.direction, Direction::Backward);
 }
 
@@ -123,7 +127,8 @@ TEST(WholeFile, WhatIsNoFileIsNotReplaced)
 {
   const fs::path folder = freshFolder() / "folder.nrrd";
   fs::create_directories(folder);
-  const std::string problem = writeFieldFile(folder.string(), someField(Direction::Forward));
+  const std::string problem =
+    problemOf([&] { writeFieldFile(folder.string(), someField(Direction::Forward)); });
   EXPECT_NE(problem.find("it exists and is not a file"), std::string::npos) << problem;
   EXPECT_TRUE(fs::is_directory(folder));
   EXPECT_EQ(filesIn(folder.parent_path()), 1u);

@@ -2,6 +2,7 @@
 // Proves that the text headers of fields are read within bounds and by their formats' rules: a file
 // without an end of lines, a folder or a pipe in place of a file, bytes to skip, a spacing under
 // its other name, and words that are spelled otherwise.
+#include "Common/Problem.h"
 #include "Formats/Fields/FieldFile.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +54,7 @@ const std::string Nrrd =
 std::string problemOf(const std::string& name, const std::string& bytes, DirectedField& field)
 {
   std::ofstream(scratch(name), std::ios::binary) << bytes;
-  return readFieldFile(scratch(name), field);
+  return brainshift::problemOf([&] { readFieldFile(scratch(name), field); });
 }
 
 void expectProblem(const std::string& name, const std::string& bytes, const char* words)
@@ -72,7 +73,7 @@ TEST(TextHeader, HasAnEndWithinItsBounds)
     expectProblem(name, name[8] == 'n' ? "NRRD0005\n" : "ObjectType = Image\n", "it must have 3");
     fs::resize_file(scratch(name), std::uintmax_t(1) << 30);
     DirectedField field;
-    const std::string problem = readFieldFile(scratch(name), field);
+    const std::string problem = problemOf([&] { readFieldFile(scratch(name), field); });
     EXPECT_NE(problem.find("no end of a header in its first 1048576 bytes"), std::string::npos)
       << problem;
     EXPECT_FALSE(isFieldFile(scratch(name)));
@@ -85,7 +86,8 @@ TEST(TextHeader, FoldersAndPipesAreNoFiles)
   fs::create_directories(scratch("folder.nrrd"));
   fs::create_directories(scratch("numbers"));
   DirectedField field;
-  EXPECT_NE(readFieldFile(scratch("folder.nrrd"), field).find("is a folder"), std::string::npos);
+  EXPECT_NE(problemOf([&] { readFieldFile(scratch("folder.nrrd"), field); }).find("is a folder"),
+    std::string::npos);
   expectProblem(
     "of_folder.mhd", Meta + "ElementDataFile = numbers\n", "numbers, which is a folder");
   expectProblem(
@@ -94,7 +96,8 @@ TEST(TextHeader, FoldersAndPipesAreNoFiles)
   fs::remove(scratch("pipe.mha"));
   ASSERT_EQ(mkfifo(scratch("pipe.mha").c_str(), 0600), 0);
   EXPECT_FALSE(isFieldFile(scratch("pipe.mha")));
-  EXPECT_NE(readFieldFile(scratch("pipe.mha"), field).find("is a pipe"), std::string::npos);
+  EXPECT_NE(problemOf([&] { readFieldFile(scratch("pipe.mha"), field); }).find("is a pipe"),
+    std::string::npos);
   expectProblem("of_pipe.mhd", Meta + "ElementDataFile = pipe.mha\n", "which is a pipe");
 #endif
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves what outside programs cannot say: that maps turn back, where they end, that a lattice gets
 // the coefficients of a B-spline back, and that damaged files end in a sentence.
+#include "Common/Problem.h"
 #include "Filters/Deformation/Kernels.h"
 #include "Filters/Fields/TransformLattice.h"
 #include "Formats/Transforms/PointTransform.h"
@@ -66,8 +67,7 @@ std::string written(const std::string& name, const std::string& text)
 
 std::string problemOf(const std::string& name, const std::string& text)
 {
-  PointTransform transform;
-  return readTransformFiles({ { written(name, text) }, "", "" }, transform);
+  return brainshift::problemOf([&] { readTransformFiles({ { written(name, text) }, "", "" }); });
 }
 }
 

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief Numbers as text. They have a point, whatever the language of the user. No VTK.
+ *
+ * A plus sign may come before a number. Infinities and NaN are numbers.
+ */
+#ifndef BrainShift_Numbers_h
+#define BrainShift_Numbers_h
+
+#include "Common/Export.h" // for the export macro
+
+#include <charconv>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+namespace brainshift
+{
+/**
+ * Takes the number off with which a text begins. None, and the text stays as it was, if it begins
+ * with no number or with one that the type cannot hold.
+ */
+template <typename Number>
+std::optional<Number> takeNumber(std::string_view& text)
+{
+  const bool hasPlus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+  Number number{};
+  const auto [last, error] =
+    std::from_chars(text.data() + (hasPlus ? 1 : 0), text.data() + text.size(), number);
+  if (error != std::errc())
+  {
+    return std::nullopt;
+  }
+  text.remove_prefix(static_cast<std::size_t>(last - text.data()));
+  return number;
+}
+
+/** The number that a whole text is; none if it is anything else, or has spaces around it. */
+template <typename Number = double>
+std::optional<Number> numberIn(std::string_view text)
+{
+  const std::optional<Number> number = takeNumber<Number>(text);
+  return text.empty() ? number : std::nullopt;
+}
+
+/** Appends the numbers of a text between spaces and lines. False if anything else is there. */
+BRAINSHIFT_COMMON_EXPORT bool appendNumbers(std::string_view text, std::vector<double>& numbers);
+
+/**
+ * The numbers of a text between spaces and lines. What is no number ends the list with NaN, which
+ * no position takes: half of a number must not count as a number.
+ */
+BRAINSHIFT_COMMON_EXPORT std::vector<double> numbersIn(std::string_view text);
+
+/** Whether a number is whole and between two limits. */
+BRAINSHIFT_COMMON_EXPORT bool isWhole(double number, double least, double most);
+
+/** The shortest text that reads back as the same number. */
+BRAINSHIFT_COMMON_EXPORT std::string numberText(double number);
+}
+
+#endif

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/Files/Text.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace brainshift
+{
+namespace
+{
+constexpr const char* Replacement = "\xEF\xBF\xBD";
+
+bool isInside(unsigned char byte, int low, int high)
+{
+  return byte >= low && byte <= high;
+}
+
+// How many bytes the letter at the beginning of a text has; 0 if it is none (Unicode, table 3-7).
+std::size_t letterBytes(std::string_view text)
+{
+  const auto at = [&](std::size_t i) {
+    return static_cast<unsigned char>(i < text.size() ? text[i] : '\0');
+  };
+  const unsigned char first = at(0);
+  if (first < 0x80)
+  {
+    return 1;
+  }
+  const std::size_t count = isInside(first, 0xC2, 0xDF) ? 2
+    : isInside(first, 0xE0, 0xEF)                       ? 3
+    : isInside(first, 0xF0, 0xF4)                       ? 4
+                                                        : 0;
+  const int low = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
+  const int high = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
+  bool isGood = count > 0 && isInside(at(1), low, high);
+  for (std::size_t i = 2; i < count; ++i)
+  {
+    isGood = isGood && isInside(at(i), 0x80, 0xBF);
+  }
+  return isGood ? count : 0;
+}
+}
+
+std::string listText(const glm::dvec3& numbers, const char* between)
+{
+  std::ostringstream text;
+  text.precision(17);
+  text << numbers.x << between << numbers.y << between << numbers.z;
+  return text.str();
+}
+
+std::string trimmed(std::string_view text, std::string_view blanks)
+{
+  const std::size_t first = text.find_first_not_of(blanks);
+  const std::size_t last = text.find_last_not_of(blanks);
+  return first == std::string_view::npos ? std::string()
+                                         : std::string(text.substr(first, last - first + 1));
+}
+
+std::vector<std::string> wordsIn(std::string_view text)
+{
+  constexpr std::string_view Blanks = " \t\r\n\v\f";
+  std::vector<std::string> words;
+  std::size_t begin = text.find_first_not_of(Blanks);
+  while (begin != std::string_view::npos)
+  {
+    const std::size_t end = std::min(text.find_first_of(Blanks, begin), text.size());
+    words.emplace_back(text.substr(begin, end - begin));
+    begin = text.find_first_not_of(Blanks, end);
+  }
+  return words;
+}
+
+std::string lowerCase(std::string text)
+{
+  for (char& letter : text)
+  {
+    letter = letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+  }
+  return text;
+}
+
+bool endsWith(const std::string& text, const std::string& end)
+{
+  return text.size() >= end.size() && lowerCase(text.substr(text.size() - end.size())) == end;
+}
+
+std::string shownWords(const std::string& words)
+{
+  constexpr std::size_t MostLetters = 200;
+  std::string shown = words.substr(0, MostLetters);
+  std::replace_if(shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return words.size() > MostLetters ? shown + "..." : shown;
+}
+
+std::string validUtf8(std::string_view text)
+{
+  std::string valid;
+  valid.reserve(text.size());
+  while (!text.empty())
+  {
+    const std::size_t bytes = letterBytes(text);
+    valid += bytes > 0 ? text.substr(0, bytes) : std::string_view(Replacement);
+    text.remove_prefix(std::max<std::size_t>(bytes, 1));
+  }
+  return valid;
+}
+}

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief Words of text files, whatever the language of the user.
+ */
+#ifndef BrainShift_Text_h
+#define BrainShift_Text_h
+
+#include <glm/vec3.hpp>
+
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace brainshift
+{
+/** What a stream of the C++ library makes of some values: numbers with 6 digits. */
+template <typename... Parts>
+std::string joined(const Parts&... parts)
+{
+  std::ostringstream text;
+  (text << ... << parts);
+  return text.str();
+}
+
+/** Three numbers with all their digits, and what stands between them. */
+std::string listText(const glm::dvec3& numbers, const char* between);
+
+/** Text without the blanks around it: spaces, tabs and ends of lines. */
+std::string trimmed(std::string_view text, std::string_view blanks = " \t\r\n");
+
+/** The words of a text between spaces. */
+std::vector<std::string> wordsIn(std::string_view text);
+
+/** ASCII letters made small. */
+std::string lowerCase(std::string text);
+
+/** Whether a text ends so, in capitals or not. `end` has small letters. */
+bool endsWith(const std::string& text, const std::string& end);
+
+/** Words of a file as an error may show them: printable, and not too many. */
+std::string shownWords(const std::string& words);
+
+/** Text in UTF-8: each byte that belongs to no letter becomes the replacement character. */
+std::string validUtf8(std::string_view text);
+}
+
+#endif

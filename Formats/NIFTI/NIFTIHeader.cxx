@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/NIFTI/NIFTIHeader.h"
+
+#include "Common/Bytes.h"
+#include "Common/Problem.h"
+#include "Formats/Files/PlainFile.h"
+#include "Formats/Files/Text.h"
+
+#include "vtk_zlib.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <iomanip>
+#include <limits>
+#include <map>
+
+namespace brainshift
+{
+namespace
+{
+constexpr int NIFTI1Bytes = 348;
+constexpr int NIFTI2Bytes = 540;
+constexpr std::int64_t MostTimeSteps = 65536;  // and numbers for a voxel: each takes memory
+constexpr double LargestDeflateRatio = 1032.0; // no zlib stream unpacks to more times its size
+
+// Bytes of a voxel for each data type that vtkNIFTIImageReader knows.
+const std::map<int, int> VoxelBytes{ { 2, 1 }, { 4, 2 }, { 8, 4 }, { 16, 4 }, { 32, 8 }, { 64, 8 },
+  { 128, 3 }, { 256, 1 }, { 512, 2 }, { 768, 4 }, { 1024, 8 }, { 1280, 8 }, { 1792, 16 },
+  { 2304, 4 } };
+
+// The first bytes of a file, unpacked.
+struct RawHeader
+{
+  std::array<unsigned char, NIFTI2Bytes> bytes{};
+  int count = 0; // bytes that are there
+  bool opened = false;
+  int version = 0; // 1 or 2; 0: not NIfTI
+  bool isBigEndian = false;
+
+  template <typename T>
+  T number(int offset) const
+  {
+    return storedNumber<T>(this->bytes.data() + offset, this->isBigEndian);
+  }
+
+  bool hasMagic(int offset, unsigned char digit) const
+  {
+    const unsigned char* magic = this->bytes.data() + offset;
+    return magic[0] == 'n' && (magic[1] == '+' || magic[1] == 'i') && magic[2] == digit &&
+      magic[3] == 0;
+  }
+
+  bool isSingleFile() const { return this->bytes[this->version == 1 ? 345 : 5] == '+'; }
+  int dataType() const { return this->number<std::int16_t>(this->version == 1 ? 70 : 12); }
+  double voxelOffset() const
+  {
+    return this->version == 1 ? this->number<float>(108)
+                              : static_cast<double>(this->number<std::int64_t>(168));
+  }
+  std::int64_t dimension(int axis) const
+  {
+    return this->version == 1 ? this->number<std::int16_t>(40 + 2 * axis)
+                              : this->number<std::int64_t>(16 + 8 * axis);
+  }
+};
+
+// The other file of a pair .hdr and .img, either of them packed or not: an existing file whose name
+// has `wanted` in place of `given`. Names without `given` stay.
+std::string siblingOf(
+  const std::string& fileName, const std::string& given, const std::string& wanted)
+{
+  const std::filesystem::path path(fileName);
+  const bool named = path.extension() == ".gz";
+  std::filesystem::path stem = named ? path.parent_path() / path.stem() : path;
+  if (stem.extension() != given)
+  {
+    return fileName;
+  }
+  const std::string plain = stem.replace_extension(wanted).string();
+  const std::string packed = plain + ".gz";
+  std::error_code error;
+  const bool packedExists = std::filesystem::exists(packed, error);
+  const bool plainExists = std::filesystem::exists(plain, error);
+  return packedExists && (named || !plainExists) ? packed : plain;
+}
+
+bool isPacked(const std::string& fileName)
+{
+  gzFile file = gzopen(fileName.c_str(), "rb");
+  const bool packed = file && gzdirect(file) == 0;
+  gzclose(file);
+  return packed;
+}
+
+RawHeader readHeader(const std::string& fileName)
+{
+  RawHeader header;
+  const std::string headerName = siblingOf(fileName, ".img", ".hdr");
+  if (!isPlainFile(headerName))
+  {
+    return header; // a pipe would never open
+  }
+  gzFile file = gzopen(headerName.c_str(), "rb");
+  if (!file)
+  {
+    return header;
+  }
+  header.opened = true;
+  header.count = std::max(0, gzread(file, header.bytes.data(), NIFTI2Bytes));
+  gzclose(file);
+  if (header.count >= NIFTI1Bytes && header.hasMagic(344, '1'))
+  {
+    header.version = 1;
+  }
+  else if (header.count >= NIFTI2Bytes && header.hasMagic(4, '2'))
+  {
+    header.version = 2;
+  }
+  const std::int64_t rank = header.version > 0 ? header.dimension(0) : 0;
+  header.isBigEndian = rank < 0 || rank > 7; // the standard's test
+  return header;
+}
+
+void requireHeader(const RawHeader& header)
+{
+  if (header.count < NIFTI1Bytes)
+  {
+    throw Problem(
+      joined("has ", header.count, " readable bytes; a NIfTI header has ", NIFTI1Bytes));
+  }
+  if (header.version == 0)
+  {
+    throw Problem("is not NIfTI: its magic is neither n+1, ni1, n+2 nor ni2");
+  }
+  if (VoxelBytes.count(header.dataType()) == 0)
+  {
+    std::string types;
+    for (const auto& known : VoxelBytes)
+    {
+      types += " " + std::to_string(known.first);
+    }
+    throw Problem(
+      joined("has NIfTI data type ", header.dataType(), "; BrainShift reads the types", types));
+  }
+  if (header.isSingleFile() && !(header.voxelOffset() >= NIFTI1Bytes))
+  {
+    throw Problem(joined("has its voxels at byte ", header.voxelOffset(),
+      "; the first possible byte is ", NIFTI1Bytes));
+  }
+}
+
+void requireDimensions(const RawHeader& header)
+{
+  const std::int64_t rank = header.dimension(0);
+  if (rank < 1 || rank > 7)
+  {
+    throw Problem(joined("has ", rank, " dimensions; it must have from 1 to 7"));
+  }
+  bool oneVoxel = true;
+  for (int axis = 1; axis <= rank; ++axis)
+  {
+    const std::int64_t size = header.dimension(axis);
+    const std::int64_t limit = axis < 4 ? std::numeric_limits<std::int32_t>::max()
+      : axis < 6                        ? MostTimeSteps
+                                        : 1;
+    oneVoxel = oneVoxel && (size == 1 || axis > 3);
+    if (size < 1 || size > limit)
+    {
+      throw Problem(
+        joined("has ", size, " entries in dimension ", axis, "; it must have from 1 to ", limit));
+    }
+  }
+  if (oneVoxel)
+  {
+    throw Problem("has 1 voxel; it must have at least 2");
+  }
+}
+
+void requireSize(const RawHeader& header, const std::string& fileName)
+{
+  double wanted = VoxelBytes.at(header.dataType());
+  for (int axis = 1; axis <= header.dimension(0); ++axis)
+  {
+    wanted *= static_cast<double>(header.dimension(axis));
+  }
+  wanted += header.voxelOffset();
+  const std::string dataName =
+    header.isSingleFile() ? fileName : siblingOf(fileName, ".hdr", ".img");
+  withBeginning("has no voxels: " + dataName + " ", [&] { requirePlainFile(dataName); });
+  std::error_code error;
+  const auto stored = std::filesystem::file_size(dataName, error);
+  if (error)
+  {
+    throw Problem("has no voxels: the size of " + dataName + " is not known");
+  }
+  const bool packed = isPacked(dataName);
+  if (static_cast<double>(stored) * (packed ? LargestDeflateRatio : 1.0) < wanted)
+  {
+    throw Problem(joined("is truncated: ", dataName, " has ", stored, packed ? " packed" : "",
+      " bytes where the header announces ", std::setprecision(15), wanted));
+  }
+}
+
+constexpr double HalfTurnTolerance = 1e-7; // of 1 - |quaternion|^2: float32 rounding of the header
+
+glm::dmat3 rotationFromQuaternion(const glm::dvec3& stored)
+{
+  const double b = stored.x;
+  const double c = stored.y;
+  const double d = stored.z;
+  const double rest = 1.0 - (b * b + c * c + d * d);
+  if (rest < HalfTurnTolerance) // half a turn: the real part is rounding, so leave it out
+  {
+    const glm::dvec3 n = glm::normalize(stored);
+    return 2.0 * glm::outerProduct(n, n) - glm::dmat3(1.0);
+  }
+  const double a = std::sqrt(rest);
+  return glm::dmat3(a * a + b * b - c * c - d * d, 2.0 * (b * c + a * d), 2.0 * (b * d - a * c),
+    2.0 * (b * c - a * d), a * a + c * c - b * b - d * d, 2.0 * (c * d + a * b),
+    2.0 * (b * d + a * c), 2.0 * (c * d - a * b), a * a + d * d - b * b - c * c);
+}
+
+glm::dmat4 affine(const glm::dmat3& axes, const glm::dvec3& offset)
+{
+  return glm::dmat4(glm::dvec4(axes[0], 0.0), glm::dvec4(axes[1], 0.0), glm::dvec4(axes[2], 0.0),
+    glm::dvec4(offset, 1.0));
+}
+}
+
+bool isNIFTIFile(const std::string& fileName)
+{
+  return readHeader(fileName).version > 0;
+}
+
+void requireNIFTIFile(const std::string& fileName)
+{
+  requirePlainFile(fileName);
+  const RawHeader header = readHeader(fileName);
+  if (!header.opened)
+  {
+    throw Problem("cannot be opened");
+  }
+  requireHeader(header);
+  requireDimensions(header);
+  requireSize(header, fileName);
+}
+
+double mmPerNIFTIUnit(int xyztUnits)
+{
+  switch (xyztUnits & 0x07)
+  {
+    case 1: // metre
+      return 1000.0;
+    case 3: // micrometre
+      return 0.001;
+    default:
+      return 1.0;
+  }
+}
+
+double secondsPerNIFTIUnit(int xyztUnits)
+{
+  switch (xyztUnits & 0x38)
+  {
+    case 16: // millisecond
+      return 1e-3;
+    case 24: // microsecond
+      return 1e-6;
+    default:
+      return 1.0;
+  }
+}
+
+glm::dmat4 worldFromVoxel(const NIFTIPlacement& placement)
+{
+  if (placement.sformCode > 0)
+  {
+    glm::dmat4 world(1.0);
+    for (int row = 0; row < 3; ++row)
+    {
+      for (int column = 0; column < 4; ++column)
+      {
+        world[column][row] = placement.mmPerUnit * placement.sformRows[row][column];
+      }
+    }
+    return world;
+  }
+  glm::dvec3 size = glm::abs(placement.pixelSize);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    size[axis] = placement.mmPerUnit * (size[axis] == 0.0 ? 1.0 : size[axis]); // as the standard
+  }
+  glm::dmat3 axes(1.0);
+  glm::dvec3 offset(0.0);
+  if (placement.qformCode > 0)
+  {
+    axes = rotationFromQuaternion(placement.quaternion);
+    axes[2] *= placement.qfac < 0.0 ? -1.0 : 1.0;
+    offset = placement.mmPerUnit * placement.qformOffset;
+  }
+  return affine(glm::dmat3(size.x * axes[0], size.y * axes[1], size.z * axes[2]), offset);
+}
+}

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @file
+ * @brief Headers of NIfTI files: what vtkNIFTIImageReader assumes of them, and where they place
+ *        voxels.
+ *
+ * VTK 9.3 reads past the end of a table if the data type is unknown, and allocates any size that a
+ * damaged header names.
+ *
+ * World is RAS: x to the patient's right, y to the front, z to the head, in mm. Names such as
+ * `srow_x` are those of the NIfTI-1 standard (nifti1.h).
+ */
+#ifndef BrainShift_NIFTIHeader_h
+#define BrainShift_NIFTIHeader_h
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <array>
+#include <string>
+
+namespace brainshift
+{
+/**
+ * Whether the file exists and begins like a NIfTI-1 or NIfTI-2 header. Analyze 7.5 does not count,
+ * because it does not say which side is left.
+ */
+bool isNIFTIFile(const std::string& fileName);
+
+/**
+ * Throws the end of a sentence, after the name of the file, if its header cannot be read. A
+ * compressed file can still be truncated.
+ */
+void requireNIFTIFile(const std::string& fileName);
+
+/** The numbers of the header that place voxels, as they are stored. */
+struct NIFTIPlacement
+{
+  int sformCode = 0;                     ///< above 0: the sform holds
+  int qformCode = 0;                     ///< above 0: the qform holds, unless the sform does
+  std::array<glm::dvec4, 3> sformRows{}; ///< srow_x, srow_y, srow_z
+  glm::dvec3 quaternion{ 0.0 };          ///< quatern_b, quatern_c, quatern_d
+  glm::dvec3 qformOffset{ 0.0 };         ///< qoffset_x, qoffset_y, qoffset_z
+  glm::dvec3 pixelSize{ 1.0 };           ///< pixdim[1] to pixdim[3]
+  double qfac = 1.0;                     ///< pixdim[0]; below 0: the third axis is reversed
+  double mmPerUnit = 1.0;                ///< of all the lengths above
+};
+
+/** Millimetres in the unit of length of a header's xyzt_units. An unknown unit counts as mm. */
+double mmPerNIFTIUnit(int xyztUnits);
+
+/** Seconds in the unit of time of a header's xyzt_units. An unknown unit counts as s. */
+double secondsPerNIFTIUnit(int xyztUnits);
+
+/**
+ * World position (mm, RAS) from a voxel's index in the file: the sform if there is one, else the
+ * qform, else pixel sizes along the RAS axes with voxel (0, 0, 0) at the origin. These are methods
+ * 3, 2 and 1 of the standard.
+ */
+glm::dmat4 worldFromVoxel(const NIFTIPlacement& placement);
+}
+
+#endif
