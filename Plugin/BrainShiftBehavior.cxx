@@ -13,16 +13,12 @@
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
-#include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>
 #include <pqServerManagerModel.h>
 
-#include <vtkEventQtSlotConnect.h>
-#include <vtkNew.h>
 #include <vtkSMPVRepresentationProxy.h>
 #include <vtkSMPropertyHelper.h>
 
-#include <QTimer>
 #include <QVariant>
 
 #include <cstring>

@@ -29,7 +29,6 @@
 #include <vtkSMTransferFunctionManager.h>
 #include <vtkSMTransferFunctionProxy.h>
 
-#include <QList>
 #include <QPointer>
 #include <QTimer>
 
@@ -37,7 +36,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <vector>
 
 namespace brainshift
 {

@@ -7,21 +7,15 @@
 #include "Filters/Looks/FirstCamera.h"
 
 #include "vtkCellData.h"
-#include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
 #include "vtkMultiProcessController.h"
 #include "vtkPointData.h"
 
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
-#include <vector>
 
 namespace brainshift
 {

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief What the values of a volume are like, read once. From it looks are made.
- */
+/// @file
+/// What the values of a volume are like, read once. From it looks are made.
 #ifndef BrainShift_Intensities_h
 #define BrainShift_Intensities_h
 
 #include "Filters/Looks/Histogram.h"
-#include "vtkBrainShiftFiltersModule.h" // for the export macro
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <string>
-#include <vector>
 
 class vtkImageData;
 

@@ -3,7 +3,6 @@
 
 #include "Common/Problem.h"
 #include "Formats/DICOM/DerivedHeader.h"
-#include "Formats/DICOM/DerivedPixels.h"
 #include "Formats/Files/WholeFile.h"
 
 #include <cstdio>

@@ -14,15 +14,7 @@
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSourceProxy.h>
 
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/trigonometric.hpp>
-
 #include <QScopedValueRollback>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
 
 namespace brainshift
 {

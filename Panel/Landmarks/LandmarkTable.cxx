@@ -6,7 +6,6 @@
 #include "Interaction/Landmarks/LandmarkList.h"
 #include "Interaction/Landmarks/LandmarkPicker.h"
 #include "Panel/Parts/Advice.h"
-#include "Panel/Parts/List.h"
 
 #include <pqPipelineSource.h>
 

@@ -7,7 +7,6 @@
 
 #include "Panel/Parts/List.h"
 
-#include <QList>
 #include <QPointer>
 #include <QWidget>
 

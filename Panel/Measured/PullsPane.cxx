@@ -3,7 +3,6 @@
 
 #include "Interaction/Commands/ToolSettings.h"
 #include "Interaction/Edits/FitEditor.h"
-#include "Panel/Parts/List.h"
 
 #include <pqPipelineSource.h>
 #include <pqProxyWidget.h>
@@ -13,10 +12,6 @@
 #include <QHBoxLayout>
 #include <QToolButton>
 #include <QVBoxLayout>
-
-#include <glm/geometric.hpp>
-
-#include <utility>
 
 namespace brainshift
 {

@@ -12,9 +12,6 @@
 #include <QTimer>
 #include <QWidget>
 
-#include <functional>
-#include <vector>
-
 class QToolButton;
 class pqPipelineSource;
 

@@ -9,7 +9,7 @@
 #include <QString>
 #include <QTreeView>
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <optional>
 

@@ -18,7 +18,6 @@
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyGroup.h>
 #include <vtkSMPropertyHelper.h>
-#include <vtkSMProxy.h>
 #include <vtkSMSourceProxy.h>
 
 #include <QFormLayout>
@@ -27,7 +26,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace brainshift
 {

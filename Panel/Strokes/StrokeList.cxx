@@ -5,7 +5,6 @@
 #include "Interaction/Commands/Tools.h"
 #include "Interaction/Displays/SharedSettings.h"
 #include "Panel/Parts/Advice.h"
-#include "Panel/Parts/List.h"
 
 #include <vtkSMDoubleVectorProperty.h>
 
@@ -15,10 +14,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
-#include <string>
 #include <utility>
 
 namespace brainshift

@@ -7,8 +7,6 @@
 
 #include "Interaction/Commands/ToolSettings.h"
 
-#include <QString>
-
 namespace brainshift
 {
 /// The line for the tool in hand over a ground.

@@ -2,7 +2,6 @@
 #include "Panel/Window/StatusLine.h"
 
 #include "Filters/Fit/Fit.h"
-#include "Interaction/Commands/ToolSettings.h"
 #include "Panel/Tools/MouseHint.h"
 
 #include <pqApplicationCore.h>
@@ -17,13 +16,8 @@
 
 #include <QApplication>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QStringList>
 #include <QToolButton>
-
-#include <glm/geometric.hpp>
-
-#include <cmath>
 
 namespace brainshift
 {

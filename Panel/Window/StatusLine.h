@@ -7,13 +7,8 @@
 #include "Interaction/Views/CursorProbe.h"
 #include "Interaction/Views/CursorWatch.h"
 
-#include <vtkEventQtSlotConnect.h>
-#include <vtkNew.h>
-
 #include <QLabel>
-#include <QPointer>
 #include <QSize>
-#include <QTimer>
 #include <QWidget>
 
 class QLabel;

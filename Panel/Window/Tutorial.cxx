@@ -14,23 +14,18 @@
 
 #include <vtkPythonInterpreter.h>
 #include <vtkSMPropertyHelper.h>
-#include <vtkSMProxy.h>
 
 #include <QAction>
 #include <QApplication>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QObject>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QTimer>
 #include <QVBoxLayout>
 #include <QWidget>
 
 #include <algorithm>
 #include <cstring>
-#include <memory>
-#include <vector>
 
 namespace brainshift
 {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Volumes whose value is known everywhere, for tests of registrations.
- */
+/// @file
+/// Volumes whose value is known everywhere, for tests of registrations.
 #ifndef BrainShift_Synthetic_h
 #define BrainShift_Synthetic_h
 
