@@ -16,8 +16,8 @@
  *
  * Slicer's fiducials (.fcsv) are tables, too: comment lines name version, axes and columns, then a
  * line for each point follows. A file without the line "# columns" has those of version 4. A file
- * without the line "# CoordinateSystem" is RAS, as files were before that line. Points that Slicer 5
- * marks as not placed are left out and noted.
+ * without the line "# CoordinateSystem" is RAS, as files were before that line. Points that Slicer
+ * 5 marks as not placed are left out and noted.
  */
 #include "Common/Numbers.h"
 #include "Common/Problem.h"
