@@ -251,7 +251,7 @@ void vtkRegistrationRun::ReportAlignment()
   this->Information = at.information;
   this->InformationBefore = at.informationAtStart;
   this->Shift = rigid.shiftMm();
-  this->Rotation = rigid.turnDegrees();
+  this->Rotation = rigid.rotationDegrees();
   if (this->Steps > 0 && this->Overlap < Alignment::LeastOverlap)
   {
     this->Refusal = percent(this->Overlap) + " of the volume is inside the reference; at least " +

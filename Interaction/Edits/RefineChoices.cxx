@@ -39,19 +39,19 @@ bool isComparison(pqPipelineSource* source)
 
 QList<pqPipelineSource*> comparisonsOf(pqPipelineSource* deformation)
 {
-  QList<pqPipelineSource*> reached{ deformation };
+  QList<pqPipelineSource*> visited{ deformation };
   QList<pqPipelineSource*> found;
-  for (int next = 0; next < reached.size(); ++next)
+  for (int next = 0; next < visited.size(); ++next)
   {
-    for (pqPipelineSource* consumer : reached[next]->getAllConsumers())
+    for (pqPipelineSource* consumer : visited[next]->getAllConsumers())
     {
-      // What another one bends again lies elsewhere; and a comparison may take it as its reference.
-      if (reached.contains(consumer) || isDeformation(consumer) ||
+      // A second deformation moves the tissue again; and a comparison may have it as its reference.
+      if (visited.contains(consumer) || isDeformation(consumer) ||
         deformationUpstream(consumer) != deformation)
       {
         continue;
       }
-      reached.append(consumer);
+      visited.append(consumer);
       if (isComparison(consumer))
       {
         found.append(consumer);
@@ -82,7 +82,7 @@ QString whyNot(pqPipelineSource* deformation, const RefineSettings& settings)
   }
   if (!settings.reference)
   {
-    return tr("There is no reference. Open the volume that %1 should agree with.")
+    return tr("There is no reference. Open the volume that %1 should match.")
       .arg(deformation->getSMName());
   }
   if (settings.reference->getServer() != deformation->getServer())
@@ -103,7 +103,7 @@ vtkSmartPointer<vtkSMProxy> comparisonFor(
   vtkSMProxy* proxy = deformation->getProxy();
   auto made =
     vtk::TakeSmartPointer(proxy->GetSessionProxyManager()->NewProxy("filters", "CompareVolumes"));
-  made->PrototypeOn(); // a question is no step to undo
+  made->PrototypeOn(); // so that it is no step to undo
   setInput(made, "Input", deformation);
   setInput(made, "Reference", settings.reference);
   setInput(made, "Cavity", settings.cavity);

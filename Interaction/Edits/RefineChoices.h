@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// What a refinement compares with, and by which similarity.
+/// The choices of a refinement: reference, cavity and similarity.
 #ifndef BrainShift_RefineChoices_h
 #define BrainShift_RefineChoices_h
 
@@ -14,20 +14,20 @@ class pqPipelineSource;
 
 namespace brainshift
 {
-/// What a refinement compares with, and how.
+/// The settings of a refinement.
 struct RefineSettings
 {
   pqPipelineSource* reference = nullptr; ///< a Compare Volumes of the deformation, or a volume
   pqPipelineSource* cavity = nullptr;    ///< null: none, or that of the Compare Volumes
-  int similarity = 0;                    ///< its place in similaritiesFor
-  double stiffness = 1.0;                ///< factor on what bending costs; above 0
+  int similarity = 0;                    ///< its index in similaritiesFor
+  double stiffness = 1.0;                ///< factor on the stiffness; above 0
 };
 
 /// A similarity as the server lists it.
 struct SimilarityChoice
 {
   QString label;
-  QString tooltip; ///< when to choose it, and what it compares
+  QString tooltip; ///< use and method
 };
 
 /// The similarities that a refinement of a source may use.
@@ -39,7 +39,7 @@ bool isComparison(pqPipelineSource* source);
 /// The Compare Volumes that show a deformation, the nearest first.
 QList<pqPipelineSource*> comparisonsOf(pqPipelineSource* deformation);
 
-/// Why a refinement cannot begin, as far as the client knows: a sentence; empty if it can.
+/// The reason against a refinement that the client knows: a sentence; empty if there is none.
 QString whyNot(pqPipelineSource* deformation, const RefineSettings& settings);
 
 /// The Compare Volumes of the settings; if they have a volume instead, one that is not registered

@@ -30,12 +30,12 @@ namespace brainshift
 {
 namespace
 {
-// As in brainshift.fit and brainshift.refine of Python: sources that are BrainShift's own.
+// The annotation of sources that BrainShift made; fitting.py has the same one.
 constexpr const char* MadeByUs = "BrainShiftFit";
 
-// What a refinement depends on, beside the settings of the lattice. A change of one of these in the
-// meantime ends it.
-constexpr const char* Ground[] = { "Input", "Lattice", "Strokes", "Strength" };
+// A refinement depends on these properties, beside the settings of the lattice. A change of one of
+// them ends it.
+constexpr const char* Dependencies[] = { "Input", "Lattice", "Strokes", "Strength" };
 
 void setNumbers(vtkSMProxy* proxy, const char* name, const std::vector<double>& numbers)
 {
@@ -55,15 +55,15 @@ bool isRefined(vtkSMProxy* lattice)
   return lattice && std::strcmp(lattice->GetXMLName(), "RefinedLattice") == 0;
 }
 
-// Whether another source takes a lattice, too: a fit as its base, say.
-bool isTakenByOthers(vtkSMProxy* lattice, vtkSMProxy* deformation)
+// Whether another source uses a lattice, too, such as a fit as its base.
+bool isUsedByOthers(vtkSMProxy* lattice, vtkSMProxy* deformation)
 {
   for (unsigned int i = 0; i < lattice->GetNumberOfConsumers(); ++i)
   {
-    vtkSMProxy* taker = lattice->GetConsumerProxy(i);
-    taker = taker ? taker->GetTrueParentProxy() : nullptr;
-    if (taker && taker != deformation && taker->IsA("vtkSMSourceProxy") &&
-      !taker->IsA("vtkSMRepresentationProxy"))
+    vtkSMProxy* user = lattice->GetConsumerProxy(i);
+    user = user ? user->GetTrueParentProxy() : nullptr;
+    if (user && user != deformation && user->IsA("vtkSMSourceProxy") &&
+      !user->IsA("vtkSMRepresentationProxy"))
     {
       return true;
     }
@@ -85,7 +85,7 @@ RefineEditor* RefineEditor::of(pqPipelineSource* source)
 RefineEditor::RefineEditor(pqPipelineSource* source)
   : LiveRun(source)
 {
-  // If the user edits in the meantime, the edit follows what was reached.
+  // If the user edits meanwhile, the result so far is kept and the edit follows it.
   this->connect(StrokeEditor::of(source), &StrokeEditor::editing, this, &RefineEditor::giveWay);
   this->connect(FitEditor::of(source), &FitEditor::editing, this, &RefineEditor::giveWay);
   this->connect(pqApplicationCore::instance(), &pqApplicationCore::aboutToWriteState, this,
@@ -96,12 +96,12 @@ void RefineEditor::followRemoval(pqPipelineSource* source)
 {
   if (source->getProxy() == this->Held.Get())
   {
-    this->abandon({}); // all goes
+    this->abandon({}); // nothing is left to restore
   }
   else if (source == this->Source)
   {
     this->putBack(); // undo brings it back as it was before
-    this->leaveHeld();
+    this->releaseHeldSoon();
     this->end(State::Idle, {});
   }
   else if (source == this->Reference)
@@ -110,7 +110,7 @@ void RefineEditor::followRemoval(pqPipelineSource* source)
   }
 }
 
-// Later: what deletes the reference is an undo step of its own.
+// Later: the deletion of the reference is an undo step of its own.
 void RefineEditor::followReference(const QString& name)
 {
   this->Next.stop();
@@ -118,7 +118,7 @@ void RefineEditor::followReference(const QString& name)
     if (this->isActive())
     {
       this->stop();
-      this->Problem = tr("%1 was deleted. What was reached until then is kept.").arg(name);
+      this->Problem = tr("%1 was deleted. The result so far is kept.").arg(name);
       Q_EMIT this->changed();
     }
   });
@@ -184,7 +184,7 @@ void RefineEditor::readFigures()
   at.refusal = this->text("Refusal");
   at.warning = this->text("Warning");
   this->Points = this->numbers("ControlPoints");
-  if (at.steps > former) // else it tried a step, or prepared a level
+  if (at.steps > former) // else the call tried a length of a step, or prepared a level
   {
     this->IsDrawn = false;
     this->Costs.append(at.costBefore > 0.0 ? at.cost / at.costBefore : 1.0);
@@ -205,7 +205,7 @@ vtkSmartPointer<vtkSMProxy> RefineEditor::makeLattice() const
   return made;
 }
 
-// Not by the controller, which would make the lattice the active source.
+// Registered without the controller, which would make the lattice the active source.
 void RefineEditor::hold()
 {
   SCOPED_UNDO_EXCLUDE();
@@ -217,7 +217,7 @@ void RefineEditor::hold()
   this->putIn(made, this->Start);
 }
 
-// The lattice holds what base and strokes did, so it takes the place of both.
+// The lattice contains the effect of base and strokes, so it replaces both.
 void RefineEditor::putIn(vtkSMProxy* lattice, const std::vector<double>& controlPoints)
 {
   const QScopedValueRollback<bool> writing(this->Writing, true);
@@ -241,13 +241,13 @@ void RefineEditor::takeStep()
 {
   if (!this->Held || !this->Held->GetSession()->GetIsAlive())
   {
-    this->abandon(tr("The lattice of the refinement is gone, so it ended."));
+    this->abandon(tr("The lattice of the refinement was deleted, so the refinement ended."));
     return;
   }
-  if (!this->IsDrawn) // a turn of its own, so that Stop waits for a step or a picture, not for both
+  if (!this->IsDrawn) // in an event of its own, so that Stop waits for a step or a picture, not for both
   {
     this->show();
-    if (this->Now == State::Running) // a picture may have let something else happen
+    if (this->Now == State::Running) // drawing may have processed an event that ended it
     {
       this->Next.start();
     }
@@ -297,15 +297,15 @@ void RefineEditor::keep(State end)
 {
   const std::vector<double> found = this->Points;
   const bool hasChanged = found != this->Start;
-  // What undo comes back to is what the session saw last, so it sees the beginning once more.
+  // Undo returns to the last state that the session saw, so restore the start first.
   this->restore();
   if (hasChanged)
   {
     vtkSMProxy* deformation = this->Source->getProxy();
     SCOPED_UNDO_SET(tr("Refine"));
     vtkSmartPointer<vtkSMProxy> lattice = this->lattice();
-    // One of an earlier refinement. Who else takes it keeps it.
-    if (isRefined(lattice) && !isTakenByOthers(lattice, deformation))
+    // The lattice of an earlier refinement is used again, unless another source uses it.
+    if (isRefined(lattice) && !isUsedByOthers(lattice, deformation))
     {
       shareLattice(deformation, lattice);
     }
@@ -355,8 +355,8 @@ void RefineEditor::putBack()
   deformation->UpdateVTKObjects();
 }
 
-// Later: ParaView is going through its sources now, or undo is at work.
-void RefineEditor::leaveHeld()
+// Later: ParaView is iterating over its sources now, or undo is running.
+void RefineEditor::releaseHeldSoon()
 {
   const vtkWeakPointer<vtkSMProxy> held = this->Held;
   QTimer::singleShot(0, qApp, [held] {
@@ -381,7 +381,7 @@ void RefineEditor::abandon(const QString& problem)
 {
   if (this->Held && this->lattice() != this->Held.Get())
   {
-    this->leaveHeld();
+    this->releaseHeldSoon();
   }
   this->end(State::Idle, problem);
 }
@@ -389,7 +389,7 @@ void RefineEditor::abandon(const QString& problem)
 void RefineEditor::followChange(vtkObject*, const char* property)
 {
   const auto isChanged = [property](const char* name) { return std::strcmp(property, name) == 0; };
-  if (std::any_of(std::begin(Ground), std::end(Ground), isChanged) ||
+  if (std::any_of(std::begin(Dependencies), std::end(Dependencies), isChanged) ||
     isLatticeSetting(this->Source->getProxy(), property))
   {
     this->abandon(tr("%1 of %2 was changed, so the refinement ended.")

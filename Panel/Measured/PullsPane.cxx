@@ -300,7 +300,7 @@ void PullsPane::followResult()
     pinned.push_back(pin.rest);
   }
   rest.insert(rest.end(), pinned.begin(), pinned.end());
-  this->Pulls->setPlaces(this->Editor->fittedPlaces(rest), this->Editor->basePlaces(pinned));
+  this->Pulls->setPlaces(this->Editor->fittedPositions(rest), this->Editor->basePositions(pinned));
 }
 
 void PullsPane::refresh()

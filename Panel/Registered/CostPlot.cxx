@@ -11,7 +11,7 @@ namespace brainshift
 {
 namespace
 {
-constexpr double HeightInLines = 5.0; // of text, that of the labels included
+constexpr double HeightInLines = 5.0; // of text, with the labels
 constexpr double LineWidth = 1.5;     // pixels
 constexpr double PointRadius = 3.0;   // pixels
 constexpr double Margin = 4.0;        // pixels around the curve
@@ -28,7 +28,7 @@ CostPlot::CostPlot(QWidget* parent)
   this->setAccessibleName(tr("Cost over the steps"));
   this->setToolTip(tr(
     "Cost of the chosen similarity after each step. 100 % is the cost at the "
-    "beginning, 0 % means that the volumes agree. The curve may jump where a finer level begins."));
+    "start, 0 % means that the volumes match. The curve may jump where a finer level begins."));
   this->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   this->setCosts({});
 }

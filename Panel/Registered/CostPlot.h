@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A small curve of the cost of a similarity over the steps of a refinement. It follows
-/// the palette and is told to screen readers in words.
+/// the palette, and screen readers get it in words.
 #ifndef BrainShift_CostPlot_h
 #define BrainShift_CostPlot_h
 
@@ -17,7 +17,7 @@ class CostPlot : public QWidget
 public:
   explicit CostPlot(QWidget* parent = nullptr);
 
-  /// The cost after each step, as a fraction of that at the beginning (1). Empty: no step yet.
+  /// The cost after each step, as a fraction of that at the start (1). Empty: no step yet.
   void setCosts(const QList<double>& costs);
 
   QSize sizeHint() const override { return this->minimumSizeHint(); }
@@ -27,9 +27,9 @@ protected:
   void paintEvent(QPaintEvent* event) override;
 
 private:
-  QRectF area() const; ///< where the curve lies, pixels
+  QRectF area() const; ///< of the curve, pixels
 
-  QList<double> Costs; ///< with the beginning before the first step
+  QList<double> Costs; ///< with the start before the first step
 };
 }
 

@@ -3,8 +3,6 @@
 // motion whatever the contrast, the bend and the cavity are.
 #include "Filters/Register/Alignment.h"
 #include "Filters/Deformation/Kernels.h"
-#include "Filters/Register/JointHistogram.h"
-#include "Filters/Register/LineSearch.h"
 #include "Testing/Cxx/Register/Synthetic.h"
 
 #include <gtest/gtest.h>
@@ -110,7 +108,7 @@ TEST(Alignment, FindsAKnownMotion)
   ASSERT_GT(apart(alignment.motion(), there), 5.0);
   run(alignment);
   EXPECT_LT(apart(alignment.motion(), there), 0.3);
-  EXPECT_NEAR(alignment.turnDegrees(), 11.0, 0.5);
+  EXPECT_NEAR(alignment.rotationDegrees(), 11.0, 0.5);
   const AlignmentProgress& progress = alignment.progress();
   EXPECT_GT(progress.information, 1.5 * progress.informationAtStart);
   EXPECT_EQ(progress.level, 2);

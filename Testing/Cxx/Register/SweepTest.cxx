@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that a sweep's empty surroundings are found, that dark tissue within it counts as seen,
 // and that a refinement by ultrasound looks at nothing else.
-#include "Filters/Register/Sweep.h"
+#include "Filters/Register/PyramidLevel.h"
 #include "Filters/Register/LatticeRows.h"
 #include "Testing/Cxx/Register/Synthetic.h"
 
