@@ -195,6 +195,10 @@ namespace
 // Most samples of tissue on a level that may be skipped, so that a step stays short and memory
 // small. Air costs little.
 constexpr double MostSamples = 0.95e6;
+
+// A level that is not finer than the former one by this factor in volume adds nothing.
+constexpr double FinerVolume = 0.8;
+
 constexpr double LeastTissue = 0.25; // fraction of a volume that is taken for tissue
 constexpr float Air = 0.05f;         // fraction of the range of values
 
@@ -264,6 +268,14 @@ Grid ComparedRegion::grid(const RefinementLevel& level) const
 {
   const Grid grid = coarseGrid(this->Rest, this->spacingMm(level));
   return this->Limits ? croppedTo(grid, this->Fan, this->Limits->marginMm) : grid;
+}
+
+bool ComparedRegion::isWorthwhile(
+  const RefinementLevel& level, const RefinementLevel& former, double cost) const
+{
+  return level.mostCost >= 1.0 ||
+    (cost <= level.mostCost &&
+      pointVolume(this->grid(level)) < FinerVolume * pointVolume(this->grid(former)));
 }
 
 double ComparedRegion::stiffness() const

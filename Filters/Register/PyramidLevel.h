@@ -56,6 +56,9 @@ public:
   /** The samples of a level, without those far from the fan. */
   Grid grid(const RefinementLevel& level) const;
 
+  /** Whether a level that may be skipped is finer than the former one, and its cost low enough. */
+  bool isWorthwhile(const RefinementLevel& level, const RefinementLevel& former, double cost) const;
+
   /**
    * Factor on the stiffness. The stiffness is a mean over the lattice, the cost a mean over the
    * fan; without the factor, a smaller fan would make the volume softer.

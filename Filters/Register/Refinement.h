@@ -45,9 +45,6 @@ public:
 
 private:
   const RefinementLevel& level() const { return this->Settings.plan.levels[this->Index]; }
-  int mostStepsOfLevel() const;
-  /** Whether a level that may be left out is finer than the last one, and agrees well enough. */
-  bool isWorthIt(double cost) const;
   void prepareLevel();
   void beginLevel();
   void takeStep();

@@ -338,4 +338,17 @@ StepOutcome RigidMove::attempt(RefinementState& state, PyramidLevel& level)
   this->StepLength = std::min(this->Growth.longest, this->Growth.growth * fraction);
   return gain > Converged * state.energy ? StepOutcome::Improved : StepOutcome::Settled;
 }
+
+std::unique_ptr<RefinementStep> makeStep(
+  const RefinementPlan& plan, const RefinementLevel& level, const Grid& samples)
+{
+  constexpr double LongestPoints = 1.5;
+  const glm::dvec3 spacing = samples.spacing;
+  const double longestMm = LongestPoints * std::max(spacing.x, std::max(spacing.y, spacing.z));
+  if (level.isRigid)
+  {
+    return std::make_unique<RigidMove>(plan.rigidGrowth, longestMm);
+  }
+  return std::make_unique<BendStep>(plan.bendGrowth, longestMm);
+}
 }

@@ -35,6 +35,13 @@ struct RefinementSettings
   int mostSteps = 15;     ///< on each level where it bends
   int samples = 4;        ///< nodes between two control points, 0 to 16
   bool guards = true;     ///< whether the fold guard shortens steps
+
+  /** Most steps of a level. */
+  int mostStepsOf(const RefinementLevel& level) const
+  {
+    constexpr int RigidStepsPerStep = 3;
+    return this->mostSteps * (level.isRigid ? RigidStepsPerStep : 1);
+  }
 };
 
 /** The figures after a step. */
@@ -184,6 +191,10 @@ public:
 
   StepOutcome attempt(RefinementState& state, PyramidLevel& level) override;
 };
+
+/** The first step of a level with these samples. */
+std::unique_ptr<RefinementStep> makeStep(
+  const RefinementPlan& plan, const RefinementLevel& level, const Grid& samples);
 }
 
 #endif

@@ -157,6 +157,13 @@ struct RefinementLevel
   double spacingMm = 2.0; ///< of the samples; larger where the volume is coarser or too large
   double mostCost = 1.0;  ///< a level that starts with more is skipped: it might mislead
   bool isRigid = false;   ///< the volume moves as a whole, in up to three times as many steps
+
+  /** Whether two levels have the same comparison. */
+  bool isComparedLike(const RefinementLevel& other) const
+  {
+    return this->metric == other.metric && this->spacingMm == other.spacingMm &&
+      this->mostCost == other.mostCost;
+  }
 };
 
 /** Limits on the comparison with ultrasound inside a fan. */

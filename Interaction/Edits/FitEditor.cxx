@@ -71,6 +71,42 @@ std::vector<glm::dvec3> positionsBy(vtkSMProxy* fit, const std::vector<glm::dvec
 }
 }
 
+vtkSmartPointer<vtkSMProxy> makeLatticeFilter(
+  vtkSMProxy* deformation, const char* kind, vtkSMProxy* base)
+{
+  auto made =
+    vtk::TakeSmartPointer(deformation->GetSessionProxyManager()->NewProxy("filters", kind));
+  vtkNew<vtkSMParaViewPipelineController> controller;
+  controller->PreInitializeProxy(made);
+  shareLattice(deformation, made);
+  if (base)
+  {
+    vtkSMPropertyHelper(made, "Base").Set(base);
+  }
+  controller->PostInitializeProxy(made);
+  made->SetAnnotation(MadeByUs, "1");
+  made->UpdateVTKObjects();
+  return made;
+}
+
+void registerQuietly(vtkSMProxy* made)
+{
+  made->SetLogName(made->GetSessionProxyManager()->RegisterProxy("sources", made).c_str());
+}
+
+void setNumbers(vtkSMProxy* proxy, const char* name, const std::vector<double>& numbers)
+{
+  vtkSMPropertyHelper property(proxy, name);
+  if (numbers.empty())
+  {
+    property.SetNumberOfElements(0);
+  }
+  else
+  {
+    property.Set(numbers.data(), static_cast<unsigned int>(numbers.size()));
+  }
+}
+
 vtkSMSourceProxy* fitOf(pqPipelineSource* deformation)
 {
   vtkSMProxy* lattice = isDeformation(deformation) ? latticeOf(deformation->getProxy()) : nullptr;
@@ -149,19 +185,6 @@ vtkSmartPointer<vtkSMProxy> FitEditor::base() const
               : latticeOf(this->Source->getProxy());
 }
 
-void FitEditor::setNumbers(vtkSMProxy* fit, const char* list, const Numbers& numbers)
-{
-  vtkSMPropertyHelper property(fit, list);
-  if (numbers.empty())
-  {
-    property.SetNumberOfElements(0);
-  }
-  else
-  {
-    property.Set(numbers.data(), static_cast<unsigned int>(numbers.size()));
-  }
-}
-
 void FitEditor::setLive(vtkSMProxy* fit, bool on)
 {
   if (fit && vtkSMPropertyHelper(fit, "Live").GetAsInt() != int(on))
@@ -174,26 +197,7 @@ void FitEditor::setLive(vtkSMProxy* fit, bool on)
 
 vtkSmartPointer<vtkSMProxy> FitEditor::prepare() const
 {
-  vtkSMProxy* deformation = this->Source->getProxy();
-  vtkSmartPointer<vtkSMProxy> made;
-  made.TakeReference(deformation->GetSessionProxyManager()->NewProxy("filters", "FitDeformation"));
-  vtkNew<vtkSMParaViewPipelineController> controller;
-  controller->PreInitializeProxy(made);
-  shareLattice(deformation, made);
-  if (const vtkSmartPointer<vtkSMProxy> base = this->base())
-  {
-    vtkSMPropertyHelper(made, "Base").Set(base);
-  }
-  controller->PostInitializeProxy(made);
-  made->SetAnnotation(MadeByUs, "1");
-  made->UpdateVTKObjects();
-  return made;
-}
-
-// Registered without the controller, which would make the fit the active source.
-void FitEditor::enter(vtkSMProxy* made)
-{
-  made->SetLogName(made->GetSessionProxyManager()->RegisterProxy("sources", made).c_str());
+  return makeLatticeFilter(this->Source->getProxy(), "FitDeformation", this->base());
 }
 
 void FitEditor::setLattice(vtkSMProxy* lattice)
@@ -216,7 +220,7 @@ void FitEditor::make()
   const vtkSmartPointer<vtkSMProxy> made = this->prepare();
   {
     SM_SCOPED_TRACE(RegisterPipelineProxy).arg("proxy", made);
-    FitEditor::enter(made);
+    registerQuietly(made);
   }
   SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this->Source->getProxy());
   this->setLattice(made);
@@ -256,7 +260,7 @@ void FitEditor::replace(const char* list, const Numbers& numbers, const QString&
   this->cancel();
   if (numbers != this->numbers(list))
   {
-    this->edit(label, [&](vtkSMProxy* fit) { FitEditor::setNumbers(fit, list, numbers); });
+    this->edit(label, [&](vtkSMProxy* fit) { setNumbers(fit, list, numbers); });
   }
 }
 
@@ -270,7 +274,7 @@ void FitEditor::begin(const char* list, const Numbers& underHand)
   {
     SCOPED_UNDO_EXCLUDE(); // the temporary fit is neither undone nor traced
     const vtkSmartPointer<vtkSMProxy> made = this->prepare();
-    FitEditor::enter(made);
+    registerQuietly(made);
     this->setLattice(made);
   }
   this->Editing = true;
@@ -341,7 +345,7 @@ void FitEditor::stopEditing()
 void FitEditor::write(const Numbers& numbers)
 {
   const QScopedValueRollback<bool> writing(this->Writing, true);
-  FitEditor::setNumbers(this->fit(), this->List.c_str(), numbers);
+  setNumbers(this->fit(), this->List.c_str(), numbers);
 }
 
 void FitEditor::noticeLattice()

@@ -30,6 +30,17 @@ class vtkSMSourceProxy;
 
 namespace brainshift
 {
+/// Makes a filter of a kind, such as "FitDeformation", with the lattice settings of a deformation. It
+/// is annotated as made by BrainShift, and not registered. `base`: its property Base; null: none.
+vtkSmartPointer<vtkSMProxy> makeLatticeFilter(
+  vtkSMProxy* deformation, const char* kind, vtkSMProxy* base = nullptr);
+
+/// Registers a new filter in the pipeline. The controller would make it the active source as well.
+void registerQuietly(vtkSMProxy* made);
+
+/// Sets all elements of a property; none empties it.
+void setNumbers(vtkSMProxy* proxy, const char* name, const std::vector<double>& numbers);
+
 /// The Fit Deformation that is the Lattice of a Free-Form Deformation. Null if there is none.
 vtkSMSourceProxy* fitOf(pqPipelineSource* deformation);
 
@@ -59,8 +70,6 @@ public:
   /// server.
   std::vector<glm::dvec3> basePositions(const std::vector<glm::dvec3>& rest) const;
 
-  /// Sets a list of a fit, within edit().
-  static void setNumbers(vtkSMProxy* fit, const char* list, const Numbers& numbers);
   /// Sets the property Live of a fit (null: nothing): whether the user is dragging a measurement.
   /// The undo stack does not see it.
   static void setLive(vtkSMProxy* fit, bool on);
@@ -104,7 +113,6 @@ private:
   std::vector<glm::dvec3> requestBase(const std::vector<glm::dvec3>& rest) const;
   /// A fit with the settings of the deformation, on its base.
   vtkSmartPointer<vtkSMProxy> prepare() const;
-  static void enter(vtkSMProxy* made);  ///< Shows it in the pipeline.
   void setLattice(vtkSMProxy* lattice); ///< Null: none.
   void make();
   void restore(); ///< Restores the state before the edit.

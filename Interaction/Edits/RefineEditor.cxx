@@ -5,13 +5,13 @@
 #include "Interaction/Edits/LivePicture.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
+#include "Interaction/Views/Reports.h"
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
 #include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
 
-#include <vtkSMParaViewPipelineController.h>
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSession.h>
@@ -21,6 +21,7 @@
 
 #include <QCoreApplication>
 #include <QScopedValueRollback>
+#include <QStringList>
 
 #include <algorithm>
 #include <cstring>
@@ -30,25 +31,62 @@ namespace brainshift
 {
 namespace
 {
-// The annotation of sources that BrainShift made; fitting.py has the same one.
-constexpr const char* MadeByUs = "BrainShiftFit";
+QString tr(const char* text)
+{
+  return QCoreApplication::translate("BrainShift", text);
+}
+
+void setInput(vtkSMProxy* filter, const char* name, pqPipelineSource* source)
+{
+  if (source)
+  {
+    vtkSMPropertyHelper(filter, name).Set(source->getProxy());
+  }
+}
+
+// The reason against a refinement that the client knows: a sentence; empty if there is none.
+QString whyNot(pqPipelineSource* deformation, const RefineSettings& settings)
+{
+  if (deformation->modifiedState() == pqProxy::UNINITIALIZED)
+  {
+    return tr("%1 was not applied yet. Press Apply first.").arg(deformation->getSMName());
+  }
+  if (!settings.reference)
+  {
+    return tr("There is no reference. Open the volume that %1 should match.")
+      .arg(deformation->getSMName());
+  }
+  if (settings.reference->getServer() != deformation->getServer())
+  {
+    return tr("%1 is on another server than %2.")
+      .arg(settings.reference->getSMName(), deformation->getSMName());
+  }
+  return {};
+}
+
+// The Compare Volumes of the settings. If they have a volume instead, a new one that is not
+// registered and lives as long as the pointer.
+vtkSmartPointer<vtkSMProxy> comparisonFor(
+  pqPipelineSource* deformation, const RefineSettings& settings)
+{
+  if (isComparison(settings.reference))
+  {
+    return settings.reference->getProxy();
+  }
+  vtkSMProxy* proxy = deformation->getProxy();
+  auto made =
+    vtk::TakeSmartPointer(proxy->GetSessionProxyManager()->NewProxy("filters", "CompareVolumes"));
+  made->PrototypeOn(); // so that it is no step to undo
+  setInput(made, "Input", deformation);
+  setInput(made, "Reference", settings.reference);
+  setInput(made, "Cavity", settings.cavity);
+  made->UpdateVTKObjects();
+  return made;
+}
 
 // A refinement depends on these properties, beside the settings of the lattice. A change of one of
 // them ends it.
 constexpr const char* Dependencies[] = { "Input", "Lattice", "Strokes", "Strength" };
-
-void setNumbers(vtkSMProxy* proxy, const char* name, const std::vector<double>& numbers)
-{
-  vtkSMPropertyHelper property(proxy, name);
-  if (numbers.empty())
-  {
-    property.SetNumberOfElements(0);
-  }
-  else
-  {
-    property.Set(numbers.data(), static_cast<unsigned int>(numbers.size()));
-  }
-}
 
 bool isRefined(vtkSMProxy* lattice)
 {
@@ -70,6 +108,48 @@ bool isUsedByOthers(vtkSMProxy* lattice, vtkSMProxy* deformation)
   }
   return false;
 }
+}
+
+bool isComparison(pqPipelineSource* source)
+{
+  return source && std::strcmp(source->getProxy()->GetXMLName(), "CompareVolumes") == 0;
+}
+
+QList<pqPipelineSource*> comparisonsOf(pqPipelineSource* deformation)
+{
+  QList<pqPipelineSource*> visited{ deformation };
+  QList<pqPipelineSource*> found;
+  for (int next = 0; next < visited.size(); ++next)
+  {
+    for (pqPipelineSource* consumer : visited[next]->getAllConsumers())
+    {
+      // A second deformation moves the tissue again; and a comparison may have it as its reference.
+      if (visited.contains(consumer) || isDeformation(consumer) ||
+        deformationUpstream(consumer) != deformation)
+      {
+        continue;
+      }
+      visited.append(consumer);
+      if (isComparison(consumer))
+      {
+        found.append(consumer);
+      }
+    }
+  }
+  return found;
+}
+
+QList<SimilarityChoice> similaritiesFor(pqPipelineSource* source)
+{
+  const vtkSmartPointer<vtkSMProxy> run = makeReport(source->getProxy(), "RegistrationRun");
+  const QStringList labels = textOf(run, "SimilarityLabels").split('\n');
+  const QStringList tooltips = textOf(run, "SimilarityTooltips").split('\n');
+  QList<SimilarityChoice> choices;
+  for (qsizetype i = 0; i < labels.size() && i < tooltips.size(); ++i)
+  {
+    choices.append({ labels[i], tooltips[i] });
+  }
+  return choices;
 }
 
 RefineEditor* RefineEditor::of(pqPipelineSource* source)
@@ -191,28 +271,14 @@ void RefineEditor::readFigures()
   }
 }
 
-vtkSmartPointer<vtkSMProxy> RefineEditor::makeLattice() const
-{
-  vtkSMProxy* deformation = this->Source->getProxy();
-  auto made = vtk::TakeSmartPointer(
-    deformation->GetSessionProxyManager()->NewProxy("filters", "RefinedLattice"));
-  vtkNew<vtkSMParaViewPipelineController> controller;
-  controller->PreInitializeProxy(made);
-  shareLattice(deformation, made);
-  controller->PostInitializeProxy(made);
-  made->SetAnnotation(MadeByUs, "1");
-  made->UpdateVTKObjects();
-  return made;
-}
-
-// Registered without the controller, which would make the lattice the active source.
 void RefineEditor::hold()
 {
   SCOPED_UNDO_EXCLUDE();
   this->Base = this->lattice();
   this->Strokes = vtkSMPropertyHelper(this->Source->getProxy(), "Strokes").GetDoubleArray();
-  const vtkSmartPointer<vtkSMProxy> made = this->makeLattice();
-  made->SetLogName(made->GetSessionProxyManager()->RegisterProxy("sources", made).c_str());
+  const vtkSmartPointer<vtkSMProxy> made =
+    makeLatticeFilter(this->Source->getProxy(), "RefinedLattice");
+  registerQuietly(made);
   this->Held = made;
   this->putIn(made, this->Start);
 }
@@ -244,7 +310,9 @@ void RefineEditor::takeStep()
     this->abandon(tr("The lattice of the refinement was deleted, so the refinement ended."));
     return;
   }
-  if (!this->IsDrawn) // in an event of its own, so that Stop waits for a step or a picture, not for both
+  if (
+    !this
+      ->IsDrawn) // in an event of its own, so that Stop waits for a step or a picture, not for both
   {
     this->show();
     if (this->Now == State::Running) // drawing may have processed an event that ended it
@@ -311,10 +379,9 @@ void RefineEditor::keep(State end)
     }
     else
     {
-      lattice = this->makeLattice();
+      lattice = makeLatticeFilter(deformation, "RefinedLattice");
       SM_SCOPED_TRACE(RegisterPipelineProxy).arg("proxy", lattice);
-      lattice->SetLogName(
-        lattice->GetSessionProxyManager()->RegisterProxy("sources", lattice).c_str());
+      registerQuietly(lattice);
     }
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", deformation);
     this->putIn(lattice, found);

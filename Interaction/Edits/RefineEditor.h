@@ -1,23 +1,53 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Refines a Free-Form Deformation until its volume agrees with a reference, with a picture after
-/// each step. It begins with what is there, base and strokes.
+/// Refines a Free-Form Deformation so that its volume matches a reference, with a picture after each
+/// step. It starts from the present base and strokes.
 #ifndef BrainShift_RefineEditor_h
 #define BrainShift_RefineEditor_h
 
 #include "Interaction/Edits/LiveRun.h"
-#include "Interaction/Edits/RefineChoices.h"
 #include "Interaction/Workarounds/Selections.h"
 
+#include <vtkSMProxy.h>
+#include <vtkSmartPointer.h>
 #include <vtkWeakPointer.h>
 
 #include <QList>
 #include <QPointer>
+#include <QString>
 
 #include <optional>
+#include <vector>
+
+class pqPipelineSource;
 
 namespace brainshift
 {
+/// The settings of a refinement.
+struct RefineSettings
+{
+  pqPipelineSource* reference = nullptr; ///< a Compare Volumes of the deformation, or a volume
+  pqPipelineSource* cavity = nullptr;    ///< null: none, or that of the Compare Volumes
+  int similarity = 0;                    ///< its index in similaritiesFor
+  double stiffness = 1.0;                ///< factor on the stiffness; above 0
+};
+
+/// A similarity as the server lists it.
+struct SimilarityChoice
+{
+  QString label;
+  QString tooltip; ///< use and method
+};
+
+/// The similarities that a refinement of a source may use.
+QList<SimilarityChoice> similaritiesFor(pqPipelineSource* source);
+
+/// Whether a source is a Compare Volumes.
+bool isComparison(pqPipelineSource* source);
+
+/// The Compare Volumes that show a deformation, the nearest first.
+QList<pqPipelineSource*> comparisonsOf(pqPipelineSource* deformation);
+
 /// The figures after a step. Costs are those of the level; 0: the volumes match.
 struct RefineFigures
 {
@@ -74,7 +104,6 @@ private:
   void putBack();         ///< Restores base and strokes.
   void releaseHeldSoon(); ///< Releases the temporary lattice; it is deleted later.
   void followReference(const QString& name);
-  vtkSmartPointer<vtkSMProxy> makeLattice() const;
   vtkSmartPointer<vtkSMProxy> lattice() const;
 
   RefineFigures Figures;

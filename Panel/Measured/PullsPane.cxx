@@ -214,8 +214,8 @@ PullModel* makeModel(const QPointer<FitEditor>& editor, QObject* parent)
       if (editor)
       {
         editor->edit(label, [&pulled](vtkSMProxy* fit) {
-          FitEditor::setNumbers(fit, "Pulls", numbersFrom(pulled.pulls));
-          FitEditor::setNumbers(fit, "Pins", numbersFrom(pulled.pins));
+          setNumbers(fit, "Pulls", numbersFrom(pulled.pulls));
+          setNumbers(fit, "Pins", numbersFrom(pulled.pins));
         });
       }
     },

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Registered/AlignPane.h"
 
-#include "Interaction/Displays/SharedSettings.h"
 #include "Interaction/Edits/AlignEditor.h"
-#include "Panel/Parts/Advice.h"
 #include "Panel/Registered/PaneParts.h"
 
 #include <QHBoxLayout>
@@ -126,13 +124,6 @@ void AlignPane::report()
     case AlignEditor::State::Idle:
       break;
   }
-  this->Report->setText(report);
-  this->Report->setVisible(!report.isEmpty());
-  this->Warning->setText(warning);
-  this->Warning->setVisible(!warning.isEmpty());
-  QPalette palette = this->palette();
-  palette.setColor(
-    QPalette::WindowText, gradeColor(Grade::Bad, this->palette(), wantsBlueAndOrange()));
-  this->Warning->setPalette(palette);
+  showTexts(this->Report, report, this->Warning, warning);
 }
 }

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Registered/RefinePane.h"
 
-#include "Interaction/Displays/SharedSettings.h"
 #include "Interaction/Edits/RefineEditor.h"
-#include "Panel/Parts/Advice.h"
-#include "Panel/Registered/CostPlot.h"
 #include "Panel/Registered/PaneParts.h"
 
 #include <pqApplicationCore.h>
@@ -403,14 +400,7 @@ void RefinePane::report()
     case RefineEditor::State::Idle:
       break;
   }
-  this->Report->setText(report);
-  this->Report->setVisible(!report.isEmpty());
-  this->Warning->setText(warning);
-  this->Warning->setVisible(!warning.trimmed().isEmpty());
-  QPalette palette = this->palette();
-  palette.setColor(
-    QPalette::WindowText, gradeColor(Grade::Bad, this->palette(), wantsBlueAndOrange()));
-  this->Warning->setPalette(palette);
+  showTexts(this->Report, report, this->Warning, warning);
 }
 
 // The figures of a run often appear below the panel's lower edge. If the user has scrolled away,

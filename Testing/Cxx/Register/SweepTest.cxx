@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that a sweep's empty surroundings are found, that dark tissue within it counts as seen,
 // and that a refinement by ultrasound looks at nothing else.
-#include "Filters/Register/PyramidLevel.h"
 #include "Filters/Register/LatticeRows.h"
+#include "Filters/Register/PyramidLevel.h"
 #include "Testing/Cxx/Register/Synthetic.h"
 
 #include <glm/geometric.hpp>
