@@ -126,5 +126,4 @@ CostAndForces averaged(
   return result;
 }
 
-
 }

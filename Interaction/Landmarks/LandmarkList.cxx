@@ -39,19 +39,6 @@ std::vector<std::string> textsOf(vtkSMProxy* proxy, const char* property)
   return texts;
 }
 
-void setNumbers(vtkSMProxy* proxy, const char* property, const std::vector<double>& numbers)
-{
-  vtkSMPropertyHelper helper(proxy, property);
-  if (numbers.empty())
-  {
-    helper.SetNumberOfElements(0);
-  }
-  else
-  {
-    helper.Set(numbers.data(), static_cast<unsigned int>(numbers.size()));
-  }
-}
-
 void setTexts(vtkSMProxy* proxy, const char* property, const std::vector<std::string>& texts)
 {
   vtkSMPropertyHelper helper(proxy, property);

@@ -209,8 +209,8 @@ PullModel* makeModel(const QPointer<FitEditor>& editor, QObject* parent)
       if (editor)
       {
         editor->edit(label, [&pulled](vtkSMProxy* fit) {
-          FitEditor::setNumbers(fit, "Pulls", numbersFrom(pulled.pulls));
-          FitEditor::setNumbers(fit, "Pins", numbersFrom(pulled.pins));
+          setNumbers(fit, "Pulls", numbersFrom(pulled.pulls));
+          setNumbers(fit, "Pins", numbersFrom(pulled.pins));
         });
       }
     },
@@ -295,7 +295,7 @@ void PullsPane::followResult()
     pinned.push_back(pin.rest);
   }
   rest.insert(rest.end(), pinned.begin(), pinned.end());
-  this->Pulls->setPlaces(this->Editor->fittedPlaces(rest), this->Editor->basePlaces(pinned));
+  this->Pulls->setPlaces(this->Editor->fittedPositions(rest), this->Editor->basePositions(pinned));
 }
 
 void PullsPane::refresh()

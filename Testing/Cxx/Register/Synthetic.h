@@ -14,7 +14,7 @@
 
 namespace brainshift::testing
 {
-/** A grid of points 2 mm apart along axes that are turned about z. */
+/** A grid of points 2 mm apart along axes that are rotated about z. */
 inline Grid smallGrid(int side = 40)
 {
   Grid grid;
