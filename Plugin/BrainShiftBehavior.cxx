@@ -39,7 +39,7 @@ bool reportsNumbers(vtkSMProxy* filter)
   return std::strcmp(filter->GetXMLName(), "InvertDisplacementField") == 0;
 }
 
-// A state being loaded says itself how it looks.
+// A state that is being loaded sets its own displays.
 void prepare(pqRepresentation* display)
 {
   auto representation = vtkSMPVRepresentationProxy::SafeDownCast(display->getProxy());

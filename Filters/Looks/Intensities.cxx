@@ -325,12 +325,11 @@ Intensities readIntensities(vtkImageData* volume, const ArrayChoice& array)
     return found;
   }
   findRange(part, found);
-  if (found.lowest > found.highest) // no finite value
+  if (found.lowest >= found.highest) // no finite value, or one constant
   {
     return found;
   }
-  const double width = std::max(found.highest - found.lowest, 1e-300);
-  const Histogram fine = countAll(part, found.lowest, found.lowest + width, FineBins);
+  const Histogram fine = countAll(part, found.lowest, found.highest, FineBins);
   const double low = percentile(fine, RareShare) - fine.width();
   const double high = percentile(fine, 1.0 - RareShare) + fine.width();
   found.all = countAll(part, std::max(low, found.lowest), std::max(high, low + fine.width()), Bins);

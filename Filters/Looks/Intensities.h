@@ -14,7 +14,7 @@ class vtkImageData;
 
 namespace brainshift
 {
-/** About as many voxels are read, at even distances; of a smaller volume, all. */
+/** Of a larger volume, about this many voxels are read, at even distances. */
 constexpr double MostVoxelsRead = 4e6;
 
 /** The values of one array. */
@@ -41,7 +41,7 @@ struct ArrayChoice
  * and all get the same answer. Not finite values do not count.
  *
  * @param volume   this process's part; null if it has none
- * @return empty if there is no such array with one component
+ * @return empty if there is no such array with one component, or if it has no two different values
  */
 VTKBRAINSHIFTFILTERS_EXPORT Intensities readIntensities(
   vtkImageData* volume, const ArrayChoice& array);

@@ -31,12 +31,13 @@ double askedOf(const Pull& pull)
 PullModel::PullModel(Write write, QObject* parent)
   : ListModel(
       {
-        { tr("Tissue"), tr("A pull or a pin. The check mark switches it on."), true },
-        { tr("Asked"), tr("Distance from the position in the scan to the target (mm)") },
-        { tr("Missed by"),
+        { tr("Tissue"), tr("A pull or a pin. The check mark includes it in the fit."), true },
+        { tr("Requested"), tr("Distance from the position in the scan to the target (mm)") },
+        { tr("Residual"),
           tr("Distance from the target to the position after the fit (mm). All pulls and pins are "
              "solved together.") },
-        { tr("Weight"), tr("Confidence in the pull: 1 is usual, 4 is fitted twice as closely") },
+        { tr("Weight"),
+          tr("Confidence in the pull. 1 is usual. With 4 the fit follows it twice as closely.") },
         { tr("Position"), tr("Position of the tissue in the scan: x, y, z (mm, world axes)"),
           true },
       },

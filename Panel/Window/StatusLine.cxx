@@ -68,11 +68,11 @@ QString numberText(double number)
 
 namespace
 {
-// How far the place of tissue can be believed, as pictures class it.
-QString evidenceText(double deviation)
+// The uncertainty of a position. The limit is that of the pictures.
+QString uncertaintyText(double deviation)
 {
   constexpr double unknownMm = 4.0; // from here on pictures show no evidence
-  return deviation < unknownMm ? CursorLine::tr("evidence: \u00b1 %1 mm (95 %: %2 mm)")
+  return deviation < unknownMm ? CursorLine::tr("uncertainty: \u00b1 %1 mm (95 %: %2 mm)")
                                    .arg(deviation, 0, 'f', 1)
                                    .arg(DeviationsOfBall95 * deviation, 0, 'f', 1)
                                : CursorLine::tr("no evidence");
@@ -109,7 +109,7 @@ QString cursorText(const CursorTissue& tissue)
   }
   if (tissue.deviation)
   {
-    parts.append(evidenceText(*tissue.deviation));
+    parts.append(uncertaintyText(*tissue.deviation));
   }
   return parts.join(QStringLiteral(" \u00b7 "));
 }
@@ -132,7 +132,7 @@ CursorLine::CursorLine(QWidget* parent)
   this->connect(&this->Cursor, &CursorWatch::moved, this, &CursorLine::follow);
   this->connect(&this->Cursor, &CursorWatch::left, this, &CursorLine::fallSilent);
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
-  // A question must not keep alive what is deleted.
+  // A pending question must not keep a deleted proxy alive.
   this->connect(model, &pqServerManagerModel::preViewRemoved, this, &CursorLine::fallSilent);
   this->connect(
     model, &pqServerManagerModel::preRepresentationRemoved, this, &CursorLine::fallSilent);
@@ -218,7 +218,7 @@ void StatusLine::refresh()
 {
   const ToolSettings& settings = *ToolSettings::instance();
   const bool inHand = settings.tool() != Tool::None;
-  // Without a tool the mouse does what it always does, but for slices.
+  // Without a tool the mouse has its usual gestures, except over slices.
   const bool isOurs = inHand || !settings.request().isEmpty() ||
     settings.ground() == ToolSettings::Ground::FlatSlices;
   this->Line->setText(isOurs ? mouseHint(settings, settings.ground()) : QString());
