@@ -4,12 +4,8 @@
 #include "Common/Parallel.h"
 #include "Filters/Deformation/PointMap.h"
 
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <optional>
 #include <utility>
 

@@ -1,28 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Registers a reference rigidly with a volume, one line of the search at a time.
- *
- * It maximises mutual information (Viola and Wells, International Journal of Computer Vision 24,
- * 1997; Maes et al., IEEE Transactions on Medical Imaging 16(2), 1997), which needs no common
- * contrast. Samples of the volume are read in the reference, off its raster. The directions of the
- * search are those of Powell (The Computer Journal 7(2), 1964, pages 155 to 162), from coarse to
- * fine levels.
- */
+/// @file
+/// Registers a reference rigidly with a volume, one line of the search at a time.
+///
+/// It maximises mutual information (Viola and Wells, International Journal of Computer Vision 24,
+/// 1997; Maes et al., IEEE Transactions on Medical Imaging 16(2), 1997), which needs no common
+/// contrast. Samples of the volume are read in the reference, off its raster. The directions of the
+/// search are those of Powell (The Computer Journal 7(2), 1964, pages 155 to 162), from coarse to
+/// fine levels.
 #ifndef BrainShift_Alignment_h
 #define BrainShift_Alignment_h
 
-#include "Common/Export.h"
 #include "Filters/Deformation/Lattice.h"
 #include "Filters/Fit/RigidPose.h"
 #include "Filters/Register/Volume.h"
 
-#include <glm/vec3.hpp>
-
-#include <array>
-#include <cstddef>
 #include <functional>
-#include <vector>
 
 namespace brainshift
 {

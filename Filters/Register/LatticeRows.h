@@ -1,29 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Reads a lattice at the samples of a level, row after row, and adds the force of each sample
- *        to the control points that it depends on.
- *
- * Samples are those of a grid over the volume, each moved by up to half a step: samples on one
- * raster prefer displacements of half a step, where interpolation is smoothest. The shift along z
- * is one for each slab, along y one for each row, along x one for each sample, so that the lattice
- * is blended once for each slab and row.
- */
+/// @file
+/// Reads a lattice at the samples of a level, row after row, and adds the force of each sample to
+/// the control points that it depends on.
+///
+/// Samples are those of a grid over the volume, each moved by up to half a step: samples on one
+/// raster prefer displacements of half a step, where interpolation is smoothest. The shift along z
+/// is one for each slab, along y one for each row, along x one for each sample, so that the lattice
+/// is blended once for each slab and row.
 #ifndef BrainShift_LatticeRows_h
 #define BrainShift_LatticeRows_h
 
-#include "Common/Export.h"
 #include "Common/Parallel.h"
 #include "Filters/Deformation/Kernels.h"
 #include "Filters/Deformation/Lattice.h"
 
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <vector>
 
 namespace brainshift
 {

@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/PyramidLevel.h"
 
-#include "Common/Parallel.h"
-#include "Filters/Register/LatticeRows.h"
-
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
-
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <utility>

@@ -1,22 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief One level of a refinement: its samples, both volumes on its grid, and their comparison.
- */
+/// @file
+/// One level of a refinement: its samples, both volumes on its grid, and their comparison.
 #ifndef BrainShift_PyramidLevel_h
 #define BrainShift_PyramidLevel_h
 
-#include "Common/Export.h"
-#include "Filters/Deformation/MaskWeights.h"
 #include "Filters/Register/Similarity.h"
-#include "Filters/Register/Volume.h"
-
-#include <glm/vec3.hpp>
-
-#include <cstddef>
-#include <memory>
-#include <optional>
-#include <vector>
 
 namespace brainshift
 {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/Refinement.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace brainshift

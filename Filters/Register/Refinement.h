@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Refines a lattice so that a volume matches a reference, a part of a step for each call.
- *
- * It starts from the lattice as it is, for example as a user bent it by hand, on a coarse level, and
- * ends on the finest. The plan of a similarity (Similarity.h) lists the levels. A step is a
- * Gauss-Newton step of the control points, at most 1.5 points of its level long and shortened until
- * the energy falls (RefinementSteps.h). The energy is the cost plus the stiffness (Stiffness.h) of
- * the change since the start; a rigid motion costs no energy. A new level starts from the better of
- * the last result and the start, so that the result never has more energy than the start.
- */
+/// @file
+/// Refines a lattice so that a volume matches a reference, a part of a step for each call.
+///
+/// It starts from the lattice as it is, for example as a user bent it by hand, on a coarse level,
+/// and ends on the finest. The plan of a similarity (Similarity.h) lists the levels. A step is a
+/// Gauss-Newton step of the control points, at most 1.5 points of its level long and shortened
+/// until the energy falls (RefinementSteps.h). The energy is the cost plus the stiffness
+/// (Stiffness.h) of the change since the start; a rigid motion costs no energy. A new level starts
+/// from the better of the last result and the start, so that the result never has more energy than
+/// the start.
 #ifndef BrainShift_Refinement_h
 #define BrainShift_Refinement_h
 
-#include "Filters/Register/PyramidLevel.h"
 #include "Filters/Register/RefinementSteps.h"
-
-#include <memory>
 
 namespace brainshift
 {

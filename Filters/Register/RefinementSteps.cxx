@@ -2,12 +2,7 @@
 #include "Filters/Register/RefinementSteps.h"
 
 #include <Eigen/Cholesky>
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 
-#include <algorithm>
-#include <cstddef>
 #include <utility>
 
 namespace brainshift

@@ -1,28 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The two kinds of steps of a refinement: one bends the volume, one moves it rigidly.
- *
- * Both are Gauss-Newton steps (Nocedal and Wright, Numerical Optimization, 2nd ed., section 10.3).
- *
- * A rigid step has six parameters instead of three for each control point, so that the random
- * forces of speckle average out.
- */
+/// @file
+/// The two kinds of steps of a refinement: one bends the volume, one moves it rigidly.
+///
+/// Both are Gauss-Newton steps (Nocedal and Wright, Numerical Optimization, 2nd ed., section 10.3).
+///
+/// A rigid step has six parameters instead of three for each control point, so that the random
+/// forces of speckle average out.
 #ifndef BrainShift_RefinementSteps_h
 #define BrainShift_RefinementSteps_h
 
-#include "Common/Export.h"
 #include "Filters/Deformation/FoldGuard.h"
-#include "Filters/Deformation/Lattice.h"
-#include "Filters/Register/LatticeRows.h"
 #include "Filters/Register/PyramidLevel.h"
-#include "Filters/Register/Similarity.h"
 #include "Filters/Register/Stiffness.h"
-
-#include <glm/vec3.hpp>
-
-#include <memory>
-#include <vector>
 
 namespace brainshift
 {

@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief A similarity: how a refinement compares two volumes, on which levels, and its texts for
- *        the user.
- *
- * Each similarity is one file in Similarities/. Panel, Python and pages read the list below.
- */
+/// @file
+/// A similarity: how a refinement compares two volumes, on which levels, and its texts for the
+/// user.
+///
+/// Each similarity is one file in Similarities/. Panel, Python and pages read the list below.
 #ifndef BrainShift_Similarity_h
 #define BrainShift_Similarity_h
 
-#include "Common/Export.h"
-#include "Filters/Deformation/Lattice.h"
 #include "Filters/Register/LatticeRows.h"
 #include "Filters/Register/Volume.h"
 
-#include <glm/vec3.hpp>
-
-#include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace brainshift
 {

@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/Stiffness.h"
 
-#include "Common/Parallel.h"
 #include "Filters/Register/LatticeRows.h"
 
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-
-#include <array>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 
 namespace brainshift
 {

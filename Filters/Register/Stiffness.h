@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Stiffness: linear elastic energy (Bajcsy and Kovacic, Computer Vision, Graphics, and Image
- *        Processing 46, 1989) and bending energy (Rueckert et al., IEEE Transactions on Medical
- *        Imaging 18(8), 1999) of control points.
- *
- * Both are means over the lattice and have no unit. They are quadratic: the energy of displacements
- * d is d . R d. A translation has no energy; a small rotation has no elastic energy.
- */
+/// @file
+/// Stiffness: linear elastic energy (Bajcsy and Kovacic, Computer Vision, Graphics, and Image
+/// Processing 46, 1989) and bending energy (Rueckert et al., IEEE Transactions on Medical Imaging
+/// 18(8), 1999) of control points.
+///
+/// Both are means over the lattice and have no unit. They are quadratic: the energy of
+/// displacements d is d . R d. A translation has no energy; a small rotation has no elastic energy.
 #ifndef BrainShift_Stiffness_h
 #define BrainShift_Stiffness_h
 
 #include "Common/Export.h"
 #include "Common/Grid.h"
-
-#include <glm/vec3.hpp>
 
 #include <vector>
 

@@ -1,19 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Numbers on a grid, and the operations of a pyramid: smooth, resample, shrink a mask.
- */
+/// @file
+/// Numbers on a grid, and the operations of a pyramid: smooth, resample, shrink a mask.
 #ifndef BrainShift_Volume_h
 #define BrainShift_Volume_h
 
-#include "Common/Export.h"
-#include "Common/Grid.h"
 #include "Filters/Deformation/MaskWeights.h"
-
-#include <glm/vec3.hpp>
-
-#include <cstddef>
-#include <vector>
 
 namespace brainshift
 {

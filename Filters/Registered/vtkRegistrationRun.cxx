@@ -9,29 +9,16 @@
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Register/Alignment.h"
 #include "Filters/Register/Refinement.h"
-#include "Filters/Register/Similarity.h"
-#include "Filters/Register/Volume.h"
 
 #include "vtkAlgorithm.h"
-#include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
-
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <iomanip>
-#include <memory>
 #include <sstream>
-#include <string>
-#include <utility>
-#include <vector>
 
 using namespace brainshift;
 

@@ -10,7 +10,6 @@
 #include <pqServerManagerModel.h>
 
 #include <vtkPVDataInformation.h>
-#include <vtkSMProxy.h>
 #include <vtkType.h>
 
 #include <QComboBox>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Field/FineCells.h"
 
+#include "Filters/Deformation/PointMap.h"
 #include "Common/Parallel.h"
 
 #include <glm/gtc/packing.hpp>

@@ -10,7 +10,6 @@
 #define BrainShift_FineCells_h
 
 #include "Filters/Deformation/FieldChange.h"
-#include "Filters/Deformation/PointMap.h"
 #include "Representations/Gpu/ShaderSource.h"
 
 #include <cstdint>
@@ -18,6 +17,8 @@
 
 namespace brainshift
 {
+class PointMap;
+
 /// A *slot* holds the corrections on SlotSide fine nodes a side: two steps. A cell has one of
 /// SlotsASide. In the texture of corrections slots follow each other in rows along x, then y,
 /// then z.

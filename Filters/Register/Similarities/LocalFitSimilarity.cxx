@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/Similarities/LocalFitSimilarity.h"
 
-#include "Common/Parallel.h"
-
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
 #include <numeric>
 #include <utility>
 

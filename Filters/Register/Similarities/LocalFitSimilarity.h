@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Explains the reference in small windows by the volume, and by its slope for ultrasound.
- *
- * In each window the reference is fitted by a p + c, or by a p + b g + c. There p is the volume and
- * g its gradient magnitude. The cost of a window is the fraction of the reference's variance that
- * the fit leaves. With p alone it is 1 minus the squared local correlation; with both it is 1 minus
- * LC2 (Wein et al., MICCAI 2013; Fuerst et al., Medical Image Analysis 18(8), 2014).
- */
+/// @file
+/// Explains the reference in small windows by the volume, and by its slope for ultrasound.
+///
+/// In each window the reference is fitted by a p + c, or by a p + b g + c. There p is the volume
+/// and g its gradient magnitude. The cost of a window is the fraction of the reference's variance
+/// that the fit leaves. With p alone it is 1 minus the squared local correlation; with both it is 1
+/// minus LC2 (Wein et al., MICCAI 2013; Fuerst et al., Medical Image Analysis 18(8), 2014).
 #ifndef BrainShift_LocalFitSimilarity_h
 #define BrainShift_LocalFitSimilarity_h
 
-#include "Common/Export.h"
 #include "Filters/Register/Similarity.h"
-
-#include <glm/vec3.hpp>
-
-#include <cstddef>
-#include <memory>
-#include <vector>
 
 namespace brainshift
 {

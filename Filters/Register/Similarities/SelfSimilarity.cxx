@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/Similarities/SelfSimilarity.h"
 
-#include "Common/Parallel.h"
 #include "Filters/Register/Similarities/LocalFitSimilarity.h"
-#include "Filters/Register/Similarity.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <memory>
 #include <numeric>
 #include <utility>
 
