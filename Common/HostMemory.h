@@ -5,11 +5,11 @@
 #ifndef BrainShift_HostMemory_h
 #define BrainShift_HostMemory_h
 
+#include "Common/Problem.h"
+
 #include "vtkBrainShiftCommonModule.h" // for the export macro
 
 #include <glm/glm.hpp>
-
-#include <string>
 
 namespace brainshift
 {

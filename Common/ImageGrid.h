@@ -6,9 +6,8 @@
 #define BrainShift_ImageGrid_h
 
 #include "Common/Grid.h"
+#include "Common/Problem.h"
 #include "vtkBrainShiftCommonModule.h" // for the export macro
-
-#include <string>
 
 class vtkImageData;
 class vtkInformation;

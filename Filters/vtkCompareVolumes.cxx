@@ -3,7 +3,6 @@
 
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
-#include "Common/Problem.h"
 #include "Filters/Attached/CarriedArray.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/MaskImage.h"

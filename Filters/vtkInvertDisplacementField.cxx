@@ -4,7 +4,6 @@
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
 #include "Common/Portions.h"
-#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Deformation/Inversion.h"
 #include "Formats/Fields/FieldImage.h"

@@ -5,7 +5,6 @@
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
 #include "Common/Portions.h"
-#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/MaskImage.h"
 #include "Filters/Traces/DeformedSurface.h"

@@ -4,7 +4,6 @@
 #include "Common/FieldWord.h"
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
-#include "Common/Problem.h"
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"

@@ -4,7 +4,6 @@
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
 #include "Common/Parallel.h"
-#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 
 #include "vtkCellData.h"

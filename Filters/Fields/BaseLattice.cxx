@@ -2,7 +2,6 @@
 #include "Filters/Fields/BaseLattice.h"
 
 #include "Common/FieldWord.h"
-#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Deformation/Kernels.h"
 #include "Formats/Fields/FieldImage.h"

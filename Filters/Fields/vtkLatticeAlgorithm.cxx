@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkLatticeAlgorithm.h"
 
-#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/MaskImage.h"
 #include "Formats/Fields/FieldImage.h"

@@ -2,7 +2,6 @@
 #include "Filters/Fit/Fit.h"
 
 #include "Common/Parallel.h"
-#include "Common/Problem.h"
 #include "Filters/Fit/TraceRows.h"
 
 #include <limits>

@@ -2,7 +2,6 @@
 #include "Filters/Fit/FittedLattice.h"
 
 #include "Common/Parallel.h"
-#include "Common/Problem.h"
 #include "Filters/Deformation/FoldGuard.h"
 #include "Filters/Deformation/Kernels.h"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Fit/Measurements.h"
 
-#include "Common/Problem.h"
-
 #include <deque>
 #include <map>
 #include <sstream>

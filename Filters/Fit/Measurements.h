@@ -8,6 +8,7 @@
 #ifndef BrainShift_Measurements_h
 #define BrainShift_Measurements_h
 
+#include "Common/Problem.h"
 #include "Filters/Deformation/PointMap.h"
 #include "Filters/Fit/Process.h"
 

@@ -2,7 +2,6 @@
 #include "Filters/Measured/RestCortex.h"
 
 #include "Common/ImageGrid.h"
-#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 
 #include "vtkDataArray.h"

@@ -3,7 +3,6 @@
 
 #include "Common/FilledArray.h"
 #include "Common/Guard.h"
-#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/MaskImage.h"
 #include "Filters/Fields/BaseLattice.h"

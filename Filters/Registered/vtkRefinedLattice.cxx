@@ -3,7 +3,6 @@
 
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
-#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Formats/Fields/FieldImage.h"
 

@@ -4,7 +4,6 @@
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
-#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Register/Alignment.h"

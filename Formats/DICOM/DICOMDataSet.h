@@ -7,10 +7,11 @@
 #ifndef BrainShift_DICOMDataSet_h
 #define BrainShift_DICOMDataSet_h
 
+#include "Common/Problem.h"
+
 #include <cstdint>
 #include <fstream>
 #include <map>
-#include <string>
 #include <vector>
 
 namespace brainshift

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/DICOM/DICOMFile.h"
 
-#include "Common/Problem.h"
 #include "Formats/DICOM/DICOMAttributes.h"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 /// @file
 /// Volumes in DICOM: series of slices, and multi-frame files.
 #include "Common/Parallel.h"
-#include "Common/Problem.h"
 #include "Formats/DICOM/DICOMFolder.h"
 #include "Formats/DICOM/DICOMPixels.h"
 #include "Formats/DICOM/DICOMStack.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/DICOM/DerivedPixels.h"
 
-#include "Common/Problem.h"
-
 #include "vtkDataArray.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/DICOM/DerivedSeries.h"
 
-#include "Common/Problem.h"
 #include "Formats/DICOM/DerivedHeader.h"
 #include "Formats/Files/WholeFile.h"
 

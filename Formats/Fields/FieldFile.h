@@ -15,10 +15,10 @@
 
 #include "Common/FieldDirection.h"
 #include "Common/Grid.h"
+#include "Common/Problem.h"
 
 #include "vtkBrainShiftFormatsModule.h" // for the export macro
 
-#include <string>
 #include <vector>
 
 namespace brainshift

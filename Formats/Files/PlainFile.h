@@ -5,8 +5,9 @@
 #ifndef BrainShift_PlainFile_h
 #define BrainShift_PlainFile_h
 
+#include "Common/Problem.h"
+
 #include <cstddef>
-#include <string>
 
 namespace brainshift
 {

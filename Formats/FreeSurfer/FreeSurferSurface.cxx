@@ -6,7 +6,6 @@
 /// that they are in the scanner's RAS. The geometry of the volume follows the triangles, as text.
 #include "Common/Bytes.h"
 #include "Common/Numbers.h"
-#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 #include "Formats/Surfaces/SurfaceFile.h"

@@ -2,7 +2,6 @@
 #include "Formats/GIFTI/GIFTIFile.h"
 
 #include "Common/Numbers.h"
-#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 

@@ -2,7 +2,6 @@
 #include "Common/Bytes.h"
 #include "Common/HostMemory.h"
 #include "Common/Numbers.h"
-#include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 #include "Formats/GIFTI/GIFTIFile.h"
 

@@ -7,7 +7,6 @@
 /// space has a name: they stay. 4. FreeSurfer left the geometry of its volume: they are in tkRAS
 /// (ScannerFrame.h). 5. Nobody knows. They stay, and it is noted.
 #include "Common/Numbers.h"
-#include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 #include "Formats/GIFTI/GIFTIFile.h"
 #include "Formats/Volumes/RasGrid.h"

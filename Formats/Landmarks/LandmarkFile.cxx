@@ -2,7 +2,6 @@
 #include "Formats/Landmarks/LandmarkFile.h"
 
 #include "Common/Numbers.h"
-#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 #include "Formats/Files/WholeFile.h"

@@ -13,6 +13,7 @@
 #ifndef BrainShift_LandmarkFile_h
 #define BrainShift_LandmarkFile_h
 
+#include "Common/Problem.h"
 #include "Formats/Landmarks/LandmarkFormats.h"
 
 #include <optional>

@@ -2,7 +2,6 @@
 #include "Formats/MGH/MGHVolume.h"
 
 #include "Common/Bytes.h"
-#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 
 #include "vtkImageData.h"

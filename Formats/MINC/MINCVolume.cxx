@@ -4,7 +4,6 @@
 ///
 /// Their world is RAS, in mm. Whole numbers become real values, slice by slice, as the file says;
 /// whole numbers of the classes "integer" and "label" stay as they are. MINC1 files are refused.
-#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Volumes/VolumeFile.h"
 

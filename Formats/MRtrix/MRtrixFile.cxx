@@ -6,7 +6,6 @@
 /// end a streamline, and three infinite numbers end the file.
 #include "Common/Bytes.h"
 #include "Common/Numbers.h"
-#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 #include "Formats/Surfaces/SurfaceFile.h"

@@ -8,7 +8,6 @@
 /// Read: intent 1006 (vectors in RAS); intent 1007 (VECTOR) as ITK, ANTs and elastix write it
 /// (vectors in LPS); and intent 1007 of NiftyReg (vectors in RAS; intent_p1 0: positions, 1:
 /// displacements).
-#include "Common/Problem.h"
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Fields/FieldImage.h"
 #include "Formats/Files/WholeFile.h"

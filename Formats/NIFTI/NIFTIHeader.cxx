@@ -2,7 +2,6 @@
 #include "Formats/NIFTI/NIFTIHeader.h"
 
 #include "Common/Bytes.h"
-#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 

@@ -3,7 +3,6 @@
 
 #include "Common/Bytes.h"
 #include "Common/Numbers.h"
-#include "Common/Problem.h"
 #include "Formats/Files/PackedBytes.h"
 #include "Formats/NIFTI/NIFTIHeader.h"
 #include "Formats/Volumes/OutgoingVolume.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Surfaces/ScannerFrame.h"
 
-#include "Common/Problem.h"
 #include "Formats/MGH/MGHVolume.h"
 #include "Formats/NIFTI/NIFTIHeader.h"
 #include "Formats/NIFTI/NIFTIVolume.h"

@@ -2,7 +2,6 @@
 #include "Formats/Surfaces/SurfaceFile.h"
 
 #include "Common/HostMemory.h"
-#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 

@@ -6,6 +6,7 @@
 #define BrainShift_SurfaceFile_h
 
 #include "Common/LabelTable.h"
+#include "Common/Problem.h"
 #include "Formats/Files/PackedBytes.h"
 #include "Formats/Surfaces/ScannerFrame.h"
 

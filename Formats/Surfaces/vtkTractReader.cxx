@@ -2,7 +2,6 @@
 #include "vtkTractReader.h"
 
 #include "Common/Guard.h"
-#include "Common/Problem.h"
 #include "Formats/Surfaces/SurfaceData.h"
 
 #include "vtkInformation.h"

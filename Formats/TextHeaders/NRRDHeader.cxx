@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "Common/Numbers.h"
-#include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 #include "Formats/TextHeaders/TextHeader.h"
 

@@ -3,7 +3,6 @@
 
 #include "Common/Bytes.h"
 #include "Common/Numbers.h"
-#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 

@@ -5,6 +5,7 @@
 #ifndef BrainShift_TextHeader_h
 #define BrainShift_TextHeader_h
 
+#include "Common/Problem.h"
 #include "Formats/Files/PackedBytes.h"
 
 #include "vtkType.h"

@@ -6,7 +6,6 @@
 #include "Common/Bytes.h"
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
-#include "Common/Problem.h"
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Files/Text.h"
 #include "Formats/Files/WholeFile.h"

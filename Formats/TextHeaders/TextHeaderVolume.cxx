@@ -5,7 +5,6 @@
 /// Three axes must be axes of space. One axis before them is the components of a voxel, or time, or
 /// the layers of a segmentation; one after them is time.
 #include "Common/Numbers.h"
-#include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 #include "Formats/TextHeaders/TextHeader.h"
 #include "Formats/Volumes/OutgoingVolume.h"

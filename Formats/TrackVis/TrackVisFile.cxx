@@ -8,7 +8,6 @@
 #include "Common/Bytes.h"
 #include "Common/Numbers.h"
 #include "Common/Parallel.h"
-#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 #include "Formats/Surfaces/SurfaceFile.h"

@@ -5,7 +5,6 @@
 /// taken.
 #include "Common/Bytes.h"
 #include "Common/HostMemory.h"
-#include "Common/Problem.h"
 #include "Formats/Transforms/TransformRecord.h"
 
 #include "vtk_hdf5.h"

@@ -2,7 +2,6 @@
 #include "Formats/Transforms/TransformFile.h"
 
 #include "Common/HostMemory.h"
-#include "Common/Problem.h"
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/NIFTI/NIFTIVolume.h"

@@ -16,6 +16,7 @@
 #ifndef BrainShift_TransformFile_h
 #define BrainShift_TransformFile_h
 
+#include "Common/Problem.h"
 #include "Formats/Transforms/PointTransform.h"
 
 namespace brainshift

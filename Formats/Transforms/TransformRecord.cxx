@@ -2,7 +2,6 @@
 #include "Formats/Transforms/TransformRecord.h"
 
 #include "Common/HostMemory.h"
-#include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 
 #include <glm/gtc/quaternion.hpp>

@@ -3,7 +3,6 @@
 
 #include "Common/HostMemory.h"
 #include "Common/Parallel.h"
-#include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 
 #include "vtkDataArray.h"

@@ -2,7 +2,6 @@
 #include "Formats/Volumes/RasGrid.h"
 
 #include "Common/ImageGrid.h"
-#include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 
 #include <algorithm>

@@ -6,6 +6,7 @@
 #define BrainShift_VolumeFile_h
 
 #include "Common/LabelTable.h"
+#include "Common/Problem.h"
 #include "vtkBrainShiftFormatsModule.h" // for the export macro
 #include "vtkSmartPointer.h"
 #include "vtkType.h"

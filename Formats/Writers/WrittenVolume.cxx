@@ -3,7 +3,6 @@
 
 #include "Common/Bytes.h"
 #include "Common/HostMemory.h"
-#include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 #include "Formats/Files/WholeFile.h"
 

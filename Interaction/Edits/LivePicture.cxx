@@ -5,7 +5,6 @@
 #include "Interaction/Workarounds/Updates.h"
 
 #include <pqApplicationCore.h>
-#include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>
 #include <pqProgressManager.h>
 #include <pqUndoStack.h>

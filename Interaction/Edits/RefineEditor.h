@@ -8,16 +8,10 @@
 #include "Interaction/Edits/LiveRun.h"
 #include "Interaction/Workarounds/Selections.h"
 
-#include <vtkSMProxy.h>
-#include <vtkSmartPointer.h>
-#include <vtkWeakPointer.h>
-
 #include <QList>
 #include <QPointer>
-#include <QString>
 
 #include <optional>
-#include <vector>
 
 class pqPipelineSource;
 

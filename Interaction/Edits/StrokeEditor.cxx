@@ -19,7 +19,6 @@
 #include <QSignalBlocker>
 
 #include <cstddef>
-#include <string>
 
 namespace brainshift
 {

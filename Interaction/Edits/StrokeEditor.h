@@ -9,14 +9,12 @@
 #include "Filters/Deformation/Stroke.h"
 #include "Interaction/Workarounds/Selections.h"
 
-#include <QObject>
 #include <QTimer>
 
 #include <vtkEventQtSlotConnect.h>
 #include <vtkNew.h>
 
 #include <functional>
-#include <vector>
 
 class pqPipelineSource;
 class vtkSMSourceProxy;
