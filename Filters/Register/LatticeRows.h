@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Reads a lattice at the samples of a level, row after row, and adds the force of each
- *        sample to the control points that it depends on.
+ * @brief Reads a lattice at the samples of a level, row after row, and adds the force of each sample
+ *        to the control points that it depends on.
  *
  * Samples are those of a grid over the volume, each moved by up to half a step: samples on one
  * raster prefer displacements of half a step, where interpolation is smoothest. The shift along z
@@ -108,7 +108,7 @@ public:
   static void add(const SampleRow& row, const Taps& taps, const float* force);
 
   /**
-   * Calls visit(row) for each row of samples, slabs on several cores, and returns the forces.
+   * Calls visit(row) for each row of samples, slabs on several cores, and returns the sum of forces.
    *
    * @param displacements   of the control points, mm along the grid's axes
    */

@@ -3,7 +3,8 @@
  * @file
  * @brief Refines a lattice so that a volume matches a reference, a part of a step for each call.
  *
- * It starts from the present lattice, for example one bent by hand, on a coarse level, and ends on the finest. The plan of a similarity (Similarity.h) lists the levels. A step is a
+ * It starts from the lattice as it is, for example as a user bent it by hand, on a coarse level, and
+ * ends on the finest. The plan of a similarity (Similarity.h) lists the levels. A step is a
  * Gauss-Newton step of the control points, at most 1.5 points of its level long and shortened until
  * the energy falls (RefinementSteps.h). The energy is the cost plus the stiffness (Stiffness.h) of
  * the change since the start; a rigid motion costs no energy. A new level starts from the better of
