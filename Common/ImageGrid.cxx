@@ -10,8 +10,6 @@
 #include "vtkMultiProcessController.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <glm/matrix.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The grid of an image, whole or in pieces: its limits, and how a filter asks the pipeline
- *        for all of it.
- */
+/// @file
+/// The grid of an image, whole or in pieces: its limits, and how a filter asks the pipeline for all
+/// of it.
 #ifndef BrainShift_ImageGrid_h
 #define BrainShift_ImageGrid_h
 

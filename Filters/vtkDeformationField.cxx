@@ -3,7 +3,6 @@
 
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
-#include "Common/ImageGrid.h"
 #include "Common/Portions.h"
 #include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
@@ -18,14 +17,9 @@
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <glm/common.hpp>
 #include <glm/gtc/type_ptr.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <cmath>
-#include <string>
-#include <utility>
-#include <vector>
 
 using namespace brainshift;
 using Pipeline = vtkStreamingDemandDrivenPipeline;

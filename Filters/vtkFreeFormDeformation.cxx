@@ -16,8 +16,6 @@
 #include "Filters/Traces/StrokeMarks.h"
 
 #include "vtkCellData.h"
-#include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -25,13 +23,8 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 
-#include <glm/vector_relational.hpp>
-
-#include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <string>
-#include <vector>
 
 using namespace brainshift;
 

@@ -3,7 +3,6 @@
 
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
-#include "Common/ImageGrid.h"
 #include "Common/Portions.h"
 #include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
@@ -20,9 +19,6 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/gtc/type_ptr.hpp>
-
-#include <optional>
-#include <vector>
 
 using namespace brainshift;
 

@@ -9,7 +9,6 @@
 #include "Interaction/Commands/Commands.h"
 
 #include <QEvent>
-#include <QObject>
 
 class QKeyEvent;
 

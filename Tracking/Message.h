@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Messages of OpenIGTLink: the header, TRANSFORM and TDATA.
- *
- * The library libOpenIGTLink turns the numbers and checks the sum; sizes are checked here, before
- * it sees a byte.
- */
+/// @file
+/// Messages of OpenIGTLink: the header, TRANSFORM and TDATA.
+///
+/// The library libOpenIGTLink turns the numbers and checks the sum; sizes are checked here, before
+/// it sees a byte.
 #ifndef BrainShift_Message_h
 #define BrainShift_Message_h
 
 #include "Tracking/Pose.h"
 
 #include <array>
-#include <cstdint>
-#include <string>
-#include <vector>
 
 namespace brainshift
 {

@@ -7,10 +7,6 @@
 #include "Filters/Deformation/Stroke.h"
 #include "vtkBrainShiftWidgetsModule.h" // for the export macro
 
-#include <glm/vec3.hpp>
-
-#include <vector>
-
 namespace brainshift
 {
 /// Points joined by lines, in this order.

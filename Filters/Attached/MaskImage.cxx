@@ -8,13 +8,8 @@
 #include "Filters/Attached/DeformableVolume.h"
 
 #include "vtkCellData.h"
-#include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
-#include "vtkImageData.h"
 #include "vtkPointData.h"
-
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <sstream>

@@ -5,14 +5,6 @@
 #include "Common/Problem.h"
 #include "Filters/Fit/TraceRows.h"
 
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-#include <glm/trigonometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <limits>
 
 namespace brainshift

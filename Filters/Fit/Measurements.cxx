@@ -3,12 +3,9 @@
 
 #include "Common/Problem.h"
 
-#include <algorithm>
-#include <cmath>
 #include <deque>
 #include <map>
 #include <sstream>
-#include <utility>
 
 namespace brainshift
 {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The bytes of a DICOM file, and its attributes up to its pixels.
- *
- * Values of private groups are skipped, and those of the patient's group (0010) unless a user asked
- * for them.
- */
+/// @file
+/// The bytes of a DICOM file, and its attributes up to its pixels.
+///
+/// Values of private groups are skipped, and those of the patient's group (0010) unless a user
+/// asked for them.
 #ifndef BrainShift_DICOMDataSet_h
 #define BrainShift_DICOMDataSet_h
 

@@ -3,17 +3,11 @@
 
 #include "Common/Problem.h"
 #include "Formats/DICOM/DICOMAttributes.h"
-#include "Formats/DICOM/DICOMDataSet.h"
-
-#include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <system_error>
 

@@ -7,11 +7,9 @@
 #include "Formats/Files/PlainFile.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
-#include <functional>
 #include <random>
 #include <set>
 #include <system_error>

@@ -5,8 +5,6 @@
 
 #include "vtkDataArray.h"
 
-#include <glm/common.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

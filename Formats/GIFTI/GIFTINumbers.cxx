@@ -8,14 +8,6 @@
 
 #include "vtk_zlib.h"
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <cstring>
-#include <map>
-#include <optional>
-#include <string_view>
-
 namespace brainshift
 {
 namespace

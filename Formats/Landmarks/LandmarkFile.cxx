@@ -6,11 +6,9 @@
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 #include "Formats/Files/WholeFile.h"
-#include "Formats/Landmarks/LandmarkFormats.h"
 
 #include <algorithm>
 #include <cmath>
-#include <ostream>
 #include <utility>
 
 namespace brainshift

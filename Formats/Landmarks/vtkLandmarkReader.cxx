@@ -3,7 +3,6 @@
 
 #include "Common/Guard.h"
 #include "Common/Problem.h"
-#include "Formats/Landmarks/LandmarkFile.h"
 #include "Formats/Landmarks/LandmarkPoints.h"
 
 #include "vtkInformation.h"

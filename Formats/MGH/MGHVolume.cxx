@@ -7,11 +7,7 @@
 
 #include "vtkImageData.h"
 
-#include <glm/mat3x3.hpp>
-
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <map>
 
 namespace brainshift

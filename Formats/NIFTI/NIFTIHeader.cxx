@@ -8,13 +8,6 @@
 
 #include "vtk_zlib.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>

@@ -13,10 +13,7 @@
 #include "vtkImageData.h"
 #include "vtkNIFTIImageHeader.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
 namespace brainshift

@@ -6,9 +6,6 @@
 #include "Formats/NIFTI/NIFTIHeader.h"
 #include "Formats/NIFTI/NIFTIVolume.h"
 #include "Formats/Volumes/RasGrid.h"
-#include "Formats/Volumes/VolumeFile.h"
-
-#include <glm/geometric.hpp>
 
 namespace brainshift
 {

@@ -6,9 +6,6 @@
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

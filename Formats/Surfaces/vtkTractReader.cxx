@@ -4,15 +4,12 @@
 #include "Common/Guard.h"
 #include "Common/Problem.h"
 #include "Formats/Surfaces/SurfaceData.h"
-#include "Formats/Surfaces/SurfaceFile.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-
-#include <vector>
 
 using namespace brainshift;
 

@@ -10,7 +10,6 @@
 #include "vtkDataArray.h"
 #include "vtkSetGet.h" // for vtkTemplateMacro
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Volumes in MetaImage (.mha, .mhd) and NRRD (.nrrd, .nhdr) files.
- *
- * Three axes must be axes of space. One axis before them is the components of a voxel, or time, or
- * the layers of a segmentation; one after them is time.
- */
+/// @file
+/// Volumes in MetaImage (.mha, .mhd) and NRRD (.nrrd, .nhdr) files.
+///
+/// Three axes must be axes of space. One axis before them is the components of a voxel, or time, or
+/// the layers of a segmentation; one after them is time.
 #include "Common/Numbers.h"
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"
@@ -19,10 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
-#include <string>
-#include <vector>
 
 namespace brainshift
 {

@@ -8,12 +8,7 @@
 #include "Formats/NIFTI/NIFTIVolume.h"
 #include "Formats/Transforms/TransformRecord.h"
 
-#include <glm/geometric.hpp>
-#include <glm/mat4x4.hpp>
-#include <glm/matrix.hpp>
-
 #include <filesystem>
-#include <optional>
 #include <utility>
 
 namespace brainshift

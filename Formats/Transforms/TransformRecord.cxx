@@ -5,9 +5,7 @@
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 
-#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>

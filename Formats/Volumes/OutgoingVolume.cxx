@@ -9,8 +9,6 @@
 #include "vtkImageData.h"
 #include "vtkPointData.h"
 
-#include <glm/matrix.hpp>
-
 #include <cmath>
 #include <limits>
 

@@ -10,7 +10,6 @@
 #include "vtkImageData.h"
 #include "vtkPointData.h"
 
-#include <array>
 #include <cmath>
 #include <utility>
 

@@ -5,11 +5,6 @@
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-
 #include <algorithm>
 #include <cmath>
 

@@ -10,19 +10,12 @@
 #include "vtk_zlib.h"
 
 #include <glm/gtc/quaternion.hpp>
-#include <glm/matrix.hpp>
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
-#include <functional>
 #include <ios>
-#include <sstream>
 #include <utility>
-#include <vector>
 
 namespace brainshift
 {

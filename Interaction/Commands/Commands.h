@@ -8,10 +8,8 @@
 #include "Interaction/Commands/CommandRow.h"
 
 #include <QKeySequence>
-#include <QString>
 
 #include <initializer_list>
-#include <vector>
 
 namespace brainshift
 {

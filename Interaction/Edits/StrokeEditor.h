@@ -91,7 +91,7 @@ private:
   void startEditing(const Strokes& before, const Strokes& kept, const Strokes& underHand);
   void stopEditing();
   void write(const Strokes& strokes);
-  void drawSoon(); ///< Merges the events of one turn of the event loop.
+  void drawSoon(); ///< Draws once for all pending events.
   void draw();
 
   pqPipelineSource* Source;

@@ -13,7 +13,7 @@
 #include <QString>
 #include <QTimer>
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <limits>
 #include <vector>

@@ -16,10 +16,6 @@
 #include <QObject>
 #include <QTimer>
 
-#include <deque>
-#include <memory>
-#include <optional>
-
 class pqPipelineSource;
 
 namespace brainshift

@@ -10,7 +10,7 @@
 #include <QPointer>
 #include <QString>
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <vector>
 

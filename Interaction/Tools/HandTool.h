@@ -6,7 +6,6 @@
 #define BrainShift_HandTool_h
 
 #include "Interaction/Commands/Commands.h"
-#include "Interaction/Commands/ToolSettings.h"
 #include "Interaction/Edits/FitEditor.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ViewProbe.h"
@@ -15,7 +14,6 @@
 #include <vtkLatticeWidget.h>
 
 #include <memory>
-#include <optional>
 
 namespace brainshift
 {

@@ -25,15 +25,12 @@
 #include <vtkSMRenderViewProxy.h>
 #include <vtkSMSourceProxy.h>
 #include <vtkSMViewLayoutProxy.h>
-#include <vtkSmartPointer.h>
 
 #include <QScopedValueRollback>
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
-#include <vector>
 
 class vtkSMProxy;
 
