@@ -4,7 +4,7 @@
 #ifndef BrainShift_LandmarkMark_h
 #define BrainShift_LandmarkMark_h
 
-#include <glm/glm.hpp>
+#include <glm/vec3.hpp>
 
 #include <optional>
 #include <string>

@@ -8,7 +8,7 @@
 
 #include "Common/Export.h"
 
-#include <glm/glm.hpp>
+#include <glm/vec3.hpp>
 
 #include <array>
 #include <vector>

@@ -156,14 +156,8 @@ RegisteredSource readSource(vtkImageData* image)
   RegisteredSource source;
   if (carriesDeformation(image))
   {
-    std::string problem;
-    Deformation bent;
-    if (!readDeformation(image, bent, problem))
-    {
-      throw Problem(problem);
-    }
-    source.pair.inside = maskOf(bent.lattice);
-    source.bent = std::make_unique<const Deformation>(bent);
+    source.bent = std::make_unique<const Deformation>(readDeformation(image));
+    source.pair.inside = maskOf(source.bent->lattice);
   }
   const ReferenceVolume reference = readReference(image);
   source.pair.rest = { gridOf(image), floatsOf(scalarsOf(image)) };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file The live pointer of the window: takes the poses of a tool from a server or a recorded
+/// @file
+/// The live pointer of the window: takes the poses of a tool from a server or a recorded
 /// session, places them in the image, draws the tip, asks its distance to the bent cortex and
 /// records traces. There is one hand with a pointer, so there is one object.
 #ifndef BrainShift_Pointer_h

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file How far the tip lies from the bent cortex. A Trace Distance of its own, which no pipeline
+/// @file
+/// How far the tip lies from the bent cortex. A Trace Distance of its own, which no pipeline
 /// shows, answers where the volume is, on the server too. The cortex is that of a Trace Distance of
 /// the same deformation, else that of its fit, else a threshold.
 #ifndef BrainShift_TipDistance_h

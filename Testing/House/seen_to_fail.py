@@ -98,6 +98,9 @@ BREAKS = [
      '#include "vtkOpenGLState.h"\n', None),
     ("no_library_where_it_is_kept_out", "Representations/Gpu/Ask.cxx",
      "#include <pqApplicationCore.h>\n", None),
+    ("no_wrapped_header_leads_to_matrices", "Filters/vtkBend.h",
+     header("Bend", '#include "Filters/Deformation/Lattice.h"\n#include <glm/mat3x3.hpp>').replace(
+         "BrainShift_Bend_h", "vtkBend_h"), None),
     ("no_circle_between_files", "Filters/Deformation/Lattice.cxx",
      '#include "Filters/Deformation/Stroke.h"\n', "Filters/Deformation/Stroke.h"),
     ("no_circle_between_files", "Testing/Support/helper.py",
