@@ -2,28 +2,20 @@
 #include "Interaction/ToolCarrier.h"
 
 #include "Interaction/Commands/Tools.h"
-#include "Interaction/Edits/FitEditor.h"
-#include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Tools/HandTool.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Views/SliceMouse.h"
-#include "Interaction/Views/ViewProbe.h"
 #include "Interaction/Views/WidgetInView.h"
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
-#include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
 #include <pqServerManagerModel.h>
 
-#include <vtkLatticeRepresentation.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMRenderViewProxy.h>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include <QApplication>
 

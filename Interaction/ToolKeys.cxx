@@ -2,11 +2,9 @@
 #include "Interaction/ToolKeys.h"
 
 #include "Interaction/Edits/PointOfInterest.h"
-#include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/ToolCarrier.h"
 #include "Interaction/Tools/HandTool.h"
 #include "Interaction/Views/ActiveDeformation.h"
-#include "Interaction/Views/ViewProbe.h"
 
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
@@ -20,9 +18,7 @@
 #include <QWidget>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 
 namespace brainshift
 {

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Keys in views: they work the tool in hand, and step through slices. The table of commands defines
-/// which. They come before ParaView's shortcuts, but only while the cursor is over a view, or the
-/// view has the keyboard, and no text is typed.
+/// Keys in views: they work the tool in hand, and step through slices. The table of commands
+/// defines which. They come before ParaView's shortcuts, but only while the cursor is over a view,
+/// or the view has the keyboard, and no text is typed.
 #ifndef BrainShift_ToolKeys_h
 #define BrainShift_ToolKeys_h
 
 #include "Interaction/Commands/Commands.h"
 
 #include <QEvent>
-#include <QObject>
 
 class QKeyEvent;
 

@@ -8,11 +8,6 @@
 #include <igtl_transform.h>
 #include <igtl_util.h>
 
-#include <algorithm>
-#include <cstdint>
-#include <cstring>
-#include <optional>
-
 namespace brainshift
 {
 namespace

@@ -1,26 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Messages of OpenIGTLink: the header, TRANSFORM and TDATA.
- *
- * Sources: Tokuda et al., "OpenIGTLink: an open network protocol for image-guided therapy
- * environment", International Journal of Medical Robotics 5 (2009), and the protocol's pages
- * Documents/Protocol of github.com/openigtlink/OpenIGTLink: header.md (58 bytes, CRC of ECMA-182), transform.md,
- * trackingdata.md, and v3_proposal.md for the extended header and the metadata, which messages of
- * header version 2 and later have (protocol version 3).
- *
- * libOpenIGTLink swaps the bytes of numbers and computes the checksum. Sizes are checked here,
- * before it reads a byte.
- */
+/// @file
+/// Messages of OpenIGTLink: the header, TRANSFORM and TDATA.
+///
+/// Sources: Tokuda et al., "OpenIGTLink: an open network protocol for image-guided therapy
+/// environment", International Journal of Medical Robotics 5 (2009), and the pages in
+/// Documents/Protocol of github.com/openigtlink/OpenIGTLink: header.md (58 bytes, CRC of ECMA-182),
+/// transform.md, trackingdata.md, and v3_proposal.md for the extended header and the metadata of
+/// messages whose header has version 2 or later (protocol version 3).
+///
+/// libOpenIGTLink swaps the bytes of numbers and computes the checksum. Sizes are checked here,
+/// before it reads a byte.
 #ifndef BrainShift_Message_h
 #define BrainShift_Message_h
 
 #include "Tracking/Pose.h"
 
 #include <array>
-#include <cstdint>
-#include <string>
-#include <vector>
 
 namespace brainshift
 {

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Poses of a tracked tool, and the interface of their sources.
- */
+/// @file
+/// Poses of a tracked tool, and the interface of their sources.
 #ifndef BrainShift_Pose_h
 #define BrainShift_Pose_h
 
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <cstdint>
 #include <deque>

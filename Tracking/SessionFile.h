@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief A recorded session of a pointer as a text file. Documentation/tools/pointer.md describes
- * it.
- */
+/// @file
+/// A recorded session of a pointer as a text file. Documentation/tools/pointer.md describes it.
 #ifndef BrainShift_SessionFile_h
 #define BrainShift_SessionFile_h
 
@@ -11,8 +8,6 @@
 
 #include <functional>
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace brainshift
 {

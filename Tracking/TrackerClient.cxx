@@ -4,7 +4,6 @@
 #include "Tracking/Message.h"
 
 #include <algorithm>
-#include <array>
 #include <exception>
 
 namespace brainshift

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Receives the poses of a tool from an OpenIGTLink server.
- *
- * A thread of its own connects and reads, so the window never waits for the server. It opens no port
- * and sends nothing. Each error of the server becomes one sentence (SourceState::problem).
- */
+/// @file
+/// Receives the poses of a tool from an OpenIGTLink server.
+///
+/// A thread of its own connects and reads, so the window never waits for the server. It opens no
+/// port and sends nothing. Each error of the server becomes one sentence (SourceState::problem).
 #ifndef BrainShift_TrackerClient_h
 #define BrainShift_TrackerClient_h
 
@@ -14,9 +12,7 @@
 
 #include <chrono>
 #include <mutex>
-#include <string>
 #include <thread>
-#include <vector>
 
 namespace brainshift
 {

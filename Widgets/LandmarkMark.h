@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief A pair of landmarks as a view marks it.
- */
+/// @file
+/// A pair of landmarks as a view marks it.
 #ifndef BrainShift_LandmarkMark_h
 #define BrainShift_LandmarkMark_h
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <optional>
 #include <string>

@@ -19,8 +19,7 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkViewport.h"
 
-#include <glm/trigonometric.hpp>
-#include <glm/vec2.hpp>
+#include <glm/glm.hpp>
 
 #include <array>
 #include <optional>

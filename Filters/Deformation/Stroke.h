@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief A stroke: one edit of the deformation, as data.
- *
- * The list of strokes is the only record of what a user did. A lattice follows from it.
- */
+/// @file
+/// A stroke: one edit of the deformation, as data.
+///
+/// The list of strokes is the only record of what a user did. A lattice follows from it.
 #ifndef BrainShift_Stroke_h
 #define BrainShift_Stroke_h
 
 #include "Common/Export.h"
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <array>
 #include <vector>

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// The one table of keys and gestures. Tools, slices, list and toolbar look up in it which command an
-/// event means; the help window, the status line and Documentation/keys.md are written from it.
+/// The one table of keys and gestures. Tools, slices, list and toolbar look up in it which command
+/// an event means; the help window, the status line and Documentation/keys.md are written from it.
 #ifndef BrainShift_Commands_h
 #define BrainShift_Commands_h
 
 #include "Interaction/Commands/CommandRow.h"
 
 #include <QKeySequence>
-#include <QString>
 
 #include <initializer_list>
-#include <vector>
 
 namespace brainshift
 {
@@ -30,8 +28,8 @@ struct KeyCommand
 /// What a key means in one of these scopes, whatever its modifiers are. Command::None: nothing.
 KeyCommand commandOfKey(std::initializer_list<Scope> scopes, int key);
 
-/// What a gesture means. Control must be held exactly where the row requires it. Where no row requires
-/// for Shift, Shift makes no difference.
+/// What a gesture means. Control must be held exactly where the row requires it. Where no row
+/// requires Shift, Shift makes no difference.
 Command commandOfMouse(Scope scope, Tool tool, Mouse mouse, bool shift, bool control);
 
 /// Whether a text field has the focus. Keys are then letters.

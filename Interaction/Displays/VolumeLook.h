@@ -43,8 +43,9 @@ QString chosenLook(const QString& kind);
 /// Remembers it, also for the next start.
 void rememberLook(const QString& kind, const QString& name);
 
-/// Looks from the patient's right, front and above, so that tissue fills the view.
-/// @param tissue   mm, world: x, y, z of its farthest points; if there are none, the camera does not move
+/// Moves the camera to the patient's right, front and above, so that tissue fills the view.
+/// @param tissue   mm, world: x, y, z of its farthest points; if there are none, the camera does
+/// not move
 void aimAt(vtkSMRenderViewProxy* view, const std::vector<double>& tissue);
 }
 

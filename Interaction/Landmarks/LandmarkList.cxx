@@ -14,15 +14,7 @@
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSourceProxy.h>
 
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/trigonometric.hpp>
-
 #include <QScopedValueRollback>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
 
 namespace brainshift
 {
@@ -45,19 +37,6 @@ std::vector<std::string> textsOf(vtkSMProxy* proxy, const char* property)
     texts[i] = helper.GetAsString(i);
   }
   return texts;
-}
-
-void setNumbers(vtkSMProxy* proxy, const char* property, const std::vector<double>& numbers)
-{
-  vtkSMPropertyHelper helper(proxy, property);
-  if (numbers.empty())
-  {
-    helper.SetNumberOfElements(0);
-  }
-  else
-  {
-    helper.Set(numbers.data(), static_cast<unsigned int>(numbers.size()));
-  }
 }
 
 void setTexts(vtkSMProxy* proxy, const char* property, const std::vector<std::string>& texts)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// The pairs of landmarks of a Free-Form Deformation, with the results of the fit for each. First come
-/// those of the inputs of the Fit Deformation, then those that were picked in the window. Positions
-/// and lengths: mm.
+/// The pairs of landmarks of a Free-Form Deformation, with the results of the fit for each. First
+/// come those of the inputs of the Fit Deformation, then those that were picked in the window.
+/// Positions and lengths: mm.
 #ifndef BrainShift_LandmarkList_h
 #define BrainShift_LandmarkList_h
 
@@ -13,7 +13,7 @@
 #include <QString>
 #include <QTimer>
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <limits>
 #include <vector>

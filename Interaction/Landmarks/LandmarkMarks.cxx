@@ -20,13 +20,9 @@
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMRenderViewProxy.h>
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
-#include <vector>
 
 namespace brainshift
 {

@@ -2,7 +2,6 @@
 #include "Interaction/Landmarks/LandmarkPicker.h"
 
 #include "Common/ScreenScale.h"
-#include "Interaction/Commands/ToolSettings.h"
 #include "Interaction/Landmarks/LandmarkList.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Views/SliceMouse.h"
@@ -24,12 +23,8 @@
 
 #include <QApplication>
 #include <QKeyEvent>
-#include <QList>
 #include <QScopedValueRollback>
 
-#include <glm/geometric.hpp>
-
-#include <algorithm>
 #include <cstring>
 
 namespace brainshift

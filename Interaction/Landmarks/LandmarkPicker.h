@@ -8,15 +8,8 @@
 
 #include "Interaction/Views/CursorProbe.h"
 
-#include <vtkSmartPointer.h>
-
 #include <QObject>
-#include <QPointer>
 
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
-#include <optional>
 #include <vector>
 
 class pqPipelineSource;

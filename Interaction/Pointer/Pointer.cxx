@@ -3,7 +3,6 @@
 
 #include "Interaction/Commands/Commands.h"
 #include "Interaction/Views/ActiveDeformation.h"
-#include "Tracking/SessionFile.h"
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
@@ -14,9 +13,6 @@
 
 #include <QApplication>
 #include <QKeyEvent>
-#include <QPointer>
-
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file The live pointer of the window: takes the poses of a tool from a server or a recorded
-/// session, places them in the image, draws the tip, gets its distance to the deformed cortex and
-/// records traces. There is one hand with a pointer, so there is one object.
+/// @file
+/// The live pointer of the window: takes the poses of a tool from a server or a recorded session,
+/// places them in the image, draws the tip, gets its distance to the deformed cortex and records
+/// traces. There is one hand with a pointer, so there is one object.
 #ifndef BrainShift_Pointer_h
 #define BrainShift_Pointer_h
 
@@ -15,10 +16,6 @@
 #include <QElapsedTimer>
 #include <QObject>
 #include <QTimer>
-
-#include <deque>
-#include <memory>
-#include <optional>
 
 class pqPipelineSource;
 

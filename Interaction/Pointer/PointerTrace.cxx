@@ -17,8 +17,6 @@
 #include <vtkSMSourceProxy.h>
 #include <vtkSMViewProxy.h>
 
-#include <glm/geometric.hpp>
-
 #include <array>
 #include <cstring>
 

@@ -10,7 +10,7 @@
 #include <QPointer>
 #include <QString>
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <vector>
 
@@ -23,7 +23,8 @@ class PointerTrace
 {
 public:
   /// Begins a trace that goes on from the points that were recorded before. Returns one sentence if
-  /// the deformation can have none. `threshold`: the intensity of the cortex for a new fit, if no other is set.
+  /// the deformation can have none. `threshold`: the intensity of the cortex for a new fit, if no
+  /// other is set.
   QString begin(pqPipelineSource* deformation, double threshold);
   /// Adds a point (mm, world) if it is at least 0.5 mm from the last one.
   void add(const glm::dvec3& tip);

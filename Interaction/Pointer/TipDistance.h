@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file Distance of the tip to the deformed cortex. A Trace Distance of its own, which is in no
-/// pipeline, computes it in the process that has the volume, on the server too. The cortex is that of a Trace Distance of
-/// the same deformation, else that of its fit, else a threshold.
+/// @file
+/// Distance of the tip to the deformed cortex. A Trace Distance of its own, which is in no
+/// pipeline, computes it in the process that has the volume, on the server too. The cortex is that
+/// of a Trace Distance of the same deformation, else that of its fit, else a threshold.
 #ifndef BrainShift_TipDistance_h
 #define BrainShift_TipDistance_h
 
@@ -10,7 +11,7 @@
 #include <QPointer>
 #include <QString>
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <limits>
 #include <optional>

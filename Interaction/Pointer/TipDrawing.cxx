@@ -26,8 +26,6 @@
 #include <vtkSphereSource.h>
 #include <vtkTubeFilter.h>
 
-#include <glm/geometric.hpp>
-
 #include <array>
 #include <cstddef>
 

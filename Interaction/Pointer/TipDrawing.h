@@ -9,7 +9,7 @@
 #include <QHash>
 #include <QPointer>
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <memory>
 #include <vector>

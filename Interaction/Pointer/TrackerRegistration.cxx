@@ -3,8 +3,6 @@
 
 #include "Interaction/Commands/Translated.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

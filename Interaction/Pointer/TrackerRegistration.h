@@ -10,10 +10,7 @@
 
 #include <QString>
 
-#include <glm/vec3.hpp>
-
 #include <optional>
-#include <vector>
 
 namespace brainshift
 {

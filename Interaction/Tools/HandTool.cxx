@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Tools/HandTool.h"
 
-#include <glm/geometric.hpp>
-
 #include <cmath>
 
 namespace brainshift

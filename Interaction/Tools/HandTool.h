@@ -6,7 +6,6 @@
 #define BrainShift_HandTool_h
 
 #include "Interaction/Commands/Commands.h"
-#include "Interaction/Commands/ToolSettings.h"
 #include "Interaction/Edits/FitEditor.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ViewProbe.h"
@@ -15,7 +14,6 @@
 #include <vtkLatticeWidget.h>
 
 #include <memory>
-#include <optional>
 
 namespace brainshift
 {
@@ -65,8 +63,8 @@ public:
 protected:
   /// A stroke with the settings of the panel that moves nothing yet.
   Stroke strokeAt(const glm::dvec3& anchor, Tool tool) const;
-  /// The displacement from a grip to a pixel (mm): in the plane of the slice, or else of the screen, or
-  /// along the axis that is held.
+  /// The displacement from a grip to a pixel (mm): in the plane of the slice, or else of the
+  /// screen, or along the axis that is held.
   glm::dvec3 pulled(const Grip& grip, const glm::dvec2& pixel);
   /// The displacement of a stroke that is seen as this displacement: the picture multiplies by
   /// Strength.

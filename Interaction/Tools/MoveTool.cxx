@@ -3,8 +3,6 @@
 #include "Interaction/Commands/Tools.h"
 #include "Interaction/Tools/HandTool.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <limits>
 

@@ -5,11 +5,6 @@
 #include "Interaction/Commands/Tools.h"
 #include "Interaction/Tools/HandTool.h"
 
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-
 namespace brainshift
 {
 namespace
@@ -86,7 +81,7 @@ void PullTool::find()
       pinned.push_back(pin.rest);
     }
   }
-  const std::vector<glm::dvec3> held = this->Bench.fit.basePlaces(pinned);
+  const std::vector<glm::dvec3> held = this->Bench.fit.basePositions(pinned);
   for (std::size_t i = 0; i < pinned.size(); ++i)
   {
     const glm::dvec3 asked = this->Bench.probe.strength() * (held[i] - pinned[i]);
@@ -228,13 +223,13 @@ bool PullTool::press(const HandEvent& event)
   this->Dragged = nearest(this->List, *rest, radius);
   if (this->Dragged == this->List.size())
   {
-    const std::vector<glm::dvec3> fitted = this->Bench.fit.fittedPlaces({ *rest });
+    const std::vector<glm::dvec3> fitted = this->Bench.fit.fittedPositions({ *rest });
     this->List.push_back({ *rest, fitted.empty() ? *rest : fitted.front(), 1.0 }); // strokes on top
   }
   Pull& pull = this->List[this->Dragged];
   if (!(pull.weight > 0.0)) // switched off: the other pulls place the tissue
   {
-    const std::vector<glm::dvec3> fitted = this->Bench.fit.fittedPlaces({ pull.rest });
+    const std::vector<glm::dvec3> fitted = this->Bench.fit.fittedPositions({ pull.rest });
     pull = { pull.rest, fitted.empty() ? pull.rest : fitted.front(), 1.0 };
   }
   this->From = pull.measured;

@@ -4,8 +4,6 @@
 #include "Interaction/Commands/Tools.h"
 #include "Interaction/Tools/HandTool.h"
 
-#include <glm/geometric.hpp>
-
 #include <cmath>
 
 namespace brainshift

@@ -12,7 +12,6 @@
 #include <vtkSMViewProxy.h>
 
 #include <cmath>
-#include <vector>
 
 namespace brainshift
 {

@@ -13,7 +13,7 @@
 #include <QPointer>
 #include <QString>
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <functional>
 #include <optional>

@@ -8,8 +8,6 @@
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
 
-#include <glm/geometric.hpp>
-
 namespace brainshift
 {
 namespace

@@ -7,7 +7,7 @@
 
 #include <QPointer>
 
-#include <glm/vec2.hpp>
+#include <glm/glm.hpp>
 
 #include <optional>
 

@@ -25,15 +25,12 @@
 #include <vtkSMRenderViewProxy.h>
 #include <vtkSMSourceProxy.h>
 #include <vtkSMViewLayoutProxy.h>
-#include <vtkSmartPointer.h>
 
 #include <QScopedValueRollback>
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
-#include <vector>
 
 class vtkSMProxy;
 
@@ -47,8 +44,8 @@ void followInOtherViews(vtkSMProxy* display);
 
 namespace
 {
-// The volume that a source passes on without new voxels: that of the file, for a filter that deforms it or
-// compares it.
+// The volume that a source passes on without new voxels: that of the file, for a filter that
+// deforms it or compares it.
 vtkSMProxy* volumeOf(vtkSMProxy* source)
 {
   while (source &&

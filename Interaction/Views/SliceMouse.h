@@ -8,12 +8,9 @@
 #include "Interaction/Commands/Commands.h"
 #include "Interaction/Views/GreyValues.h"
 
-#include <QObject>
 #include <QTimer>
 
 #include <vtkWeakPointer.h>
-
-#include <vector>
 
 class pqRenderView;
 class vtkCamera;

@@ -6,20 +6,13 @@
 #include "Interaction/Views/Reports.h"
 #include "Interaction/Workarounds/Updates.h"
 
-#include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
 
 #include <vtkCamera.h>
 #include <vtkRenderer.h>
 #include <vtkSMPropertyHelper.h>
-#include <vtkSMProxy.h>
 #include <vtkSMRenderViewProxy.h>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <cmath>
 

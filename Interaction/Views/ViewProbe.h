@@ -14,11 +14,7 @@
 
 #include <QPointer>
 
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
 #include <optional>
-#include <vector>
 
 class pqPipelineSource;
 class pqRenderView;

@@ -22,7 +22,6 @@
 #include <QScrollArea>
 #include <QSignalBlocker>
 #include <QSpinBox>
-#include <QString>
 #include <QStringList>
 #include <QVBoxLayout>
 

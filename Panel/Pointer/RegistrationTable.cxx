@@ -20,7 +20,6 @@
 #include <QTableWidget>
 
 #include <cmath>
-#include <optional>
 
 namespace brainshift
 {

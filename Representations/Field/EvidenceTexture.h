@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief How far each place of a drawn volume can be believed, on the GPU of one window.
- */
+/// @file
+/// How far each place of a drawn volume can be believed, on the GPU of one window.
 #ifndef BrainShift_EvidenceTexture_h
 #define BrainShift_EvidenceTexture_h
 
@@ -10,8 +8,6 @@
 
 #include "vtkSmartPointer.h"
 #include "vtkTextureObject.h" // for its smart pointer
-
-#include <vector>
 
 class vtkWindow;
 

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief What is known of the tissue at one place of a drawn volume.
- */
+/// @file
+/// What is known of the tissue at one place of a drawn volume.
 #ifndef BrainShift_TissueFacts_h
 #define BrainShift_TissueFacts_h
 
 #include "Common/WorldAxes.h"
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <optional>
 #include <string>

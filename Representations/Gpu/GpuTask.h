@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief What every function needs that works on the GPU: the window, the counters, and a place for
- * what the user has to hear of.
- */
+/// @file
+/// What every function needs that works on the GPU: the window, the counters, and a place for what
+/// the user has to hear of.
 #ifndef BrainShift_GpuTask_h
 #define BrainShift_GpuTask_h
 

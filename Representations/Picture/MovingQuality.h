@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief What is left out while the camera or a stroke moves, so that pictures come fast enough
- * for a
- * hand.
- */
+/// @file
+/// What is left out while the camera or a stroke moves, so that pictures come fast enough for a
+/// hand.
 #ifndef BrainShift_MovingQuality_h
 #define BrainShift_MovingQuality_h
 
 #include "Representations/Gpu/ShaderSource.h"
-#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 
 namespace brainshift
 {

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Hides what lies behind the tissue of the last picture from a selection of surfaces.
- */
+/// @file
+/// Hides what lies behind the tissue of the last picture from a selection of surfaces.
 #ifndef BrainShift_SelectionCover_h
 #define BrainShift_SelectionCover_h
 
-#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/Program.h"
 
 class vtkOpenGLRenderWindow;

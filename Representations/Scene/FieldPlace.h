@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief How lattice and offset field lie to the volume's texture, and how far tissue can go.
- */
+/// @file
+/// How lattice and offset field lie to the volume's texture, and how far tissue can go.
 #ifndef BrainShift_FieldPlace_h
 #define BrainShift_FieldPlace_h
 
-#include "Common/Grid.h"
-#include "Filters/Deformation/OffsetField.h"
 #include "Representations/Scene/RayCastScene.h"
 #include "Representations/Scene/SceneGeometry.h"
-
-#include <glm/vec3.hpp>
 
 namespace brainshift
 {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Who can be asked where the rays of a picture met a surface first.
- *
- * VTK's wrapping tools parse the classes that inherit this one and everything that their headers
- * include. They need minutes for the headers of GLM, so this header includes nothing.
- */
+/// @file
+/// Who can be asked where the rays of a picture met a surface first.
+///
+/// VTK's wrapping tools parse the classes that inherit this one and everything that their headers
+/// include. They need minutes for the headers of GLM, so this header includes nothing.
 #ifndef BrainShift_HitSource_h
 #define BrainShift_HitSource_h
 

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Where a reference volume, and the cavity drawn in it, lie to the bent volume. Rays and
- * slices both need it.
- */
+/// @file
+/// Where a reference volume, and the cavity drawn in it, lie to the bent volume. Rays and slices
+/// both need it.
 #ifndef BrainShift_PlacedReference_h
 #define BrainShift_PlacedReference_h
 
 #include "Representations/Scene/Tints.h"
-
-#include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
 
 class vtkMatrix4x4;
 class vtkTextureObject;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Gradient opacity, or a 2D transfer function, as a texture.
- *
- * Steepness is what VTK's volume mapper looks opacities up with: the length of the gradient over a
- * mean voxel side, as a share of a quarter of the array's range, at most 1.
- */
+/// @file
+/// Gradient opacity, or a 2D transfer function, as a texture.
+///
+/// Steepness is what VTK's volume mapper looks opacities up with: the length of the gradient over a
+/// mean voxel side, as a share of a quarter of the array's range, at most 1.
 #ifndef BrainShift_SteepnessTexture_h
 #define BrainShift_SteepnessTexture_h
 
@@ -13,9 +11,7 @@
 
 #include "vtkSmartPointer.h"
 
-#include <glm/vec2.hpp>
-
-#include <vector>
+#include <glm/glm.hpp>
 
 class vtkTextureObject;
 class vtkVolumeProperty;

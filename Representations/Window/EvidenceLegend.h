@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Says in the upper right corner of a view what the tints of evidence mean.
- *
- * The upper left corner belongs to the legend of a comparison.
- */
+/// @file
+/// Says in the upper right corner of a view what the tints of evidence mean.
+///
+/// The upper left corner belongs to the legend of a comparison.
 #ifndef BrainShift_EvidenceLegend_h
 #define BrainShift_EvidenceLegend_h
 

@@ -22,7 +22,8 @@ LICENCE = "// SPDX-License-Identifier: BSD-3-Clause\n"
 
 def header(name, body=""):
     guard = f"BrainShift_{name}_h"
-    return f"{LICENCE}/// What {name} is for.\n#ifndef {guard}\n#define {guard}\n{body}\n#endif\n"
+    opening = f"{LICENCE}/// @file\n/// What {name} is for.\n"
+    return f"{opening}#ifndef {guard}\n#define {guard}\n{body}\n#endif\n"
 
 
 def house():
@@ -131,6 +132,8 @@ BREAKS = [
     ("every_proxy_is_loaded", "Filters/Bake.xml", "<a/>\n", None),
     ("every_header_opens", "Filters/Deformation/Lattice.h",
      header("Lattice").replace("/// What Lattice is for.\n", ""), None),
+    ("every_header_opens", "Filters/Deformation/Lattice.h",
+     header("Lattice").replace("/// @file\n", ""), None),
     ("every_header_opens", "Filters/Deformation/Lattice.h", header("Matrix"), None),
     ("every_header_opens", "Filters/Deformation/Lattice.h",
      header("Lattice").replace(LICENCE, ""), None),
