@@ -11,7 +11,7 @@
 
 namespace brainshift
 {
-/** How the tracker's frame lies in the image. */
+/** The rigid transform from the tracker's frame to the image. */
 struct Placement
 {
   glm::dmat3 rotation{ 1.0 };    ///< imageFromTracker

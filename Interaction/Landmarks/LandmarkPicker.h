@@ -63,7 +63,7 @@ private:
   bool onRelease(vtkObject* interactor, unsigned long event, void* data);
 
   void pick(pqRenderView* view, const glm::ivec2& pixel);
-  void ask(const QString& before = QString());
+  void request(const QString& before = QString());
 
   struct Watched
   {

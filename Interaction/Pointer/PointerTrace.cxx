@@ -87,7 +87,7 @@ QString PointerTrace::begin(pqPipelineSource* deformation, double threshold)
   FitEditor* editor = FitEditor::of(deformation);
   if (!editor)
   {
-    return tr("There is no Free-Form Deformation to bend.");
+    return tr("There is no Free-Form Deformation to edit.");
   }
   this->Deformation = deformation;
   this->Threshold = threshold;
@@ -153,7 +153,7 @@ void PointerTrace::write(const QString& label, vtkSMProxy* forNow)
   });
 }
 
-void PointerTrace::bend()
+void PointerTrace::fit()
 {
   if (!this->Recording || this->Points.size() == this->Bent || !this->Deformation)
   {

@@ -227,12 +227,12 @@ QString LandmarkTable::figuresText() const
         .arg(bold(tr("%1 mm").arg(figures.meanLeftOut, 0, 'f', 2))));
   }
   lines.append(tr("Rigid motion removed: %1")
-      .arg(
-        bold(tr("%1 mm, %2°").arg(figures.shift, 0, 'f', 1).arg(figures.turnDegrees, 0, 'f', 1))));
-  if (figures.share < 1.0)
+      .arg(bold(
+        tr("%1 mm, %2°").arg(figures.shift, 0, 'f', 1).arg(figures.rotationDegrees, 0, 'f', 1))));
+  if (figures.applied < 1.0)
   {
     lines.append(tr("The fold guard applied %1 of the deformation")
-        .arg(bold(tr("%1 %").arg(100.0 * figures.share, 0, 'f', 0))));
+        .arg(bold(tr("%1 %").arg(100.0 * figures.applied, 0, 'f', 0))));
   }
   if (figures.worst >= 0)
   {

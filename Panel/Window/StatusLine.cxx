@@ -103,8 +103,8 @@ QString cursorText(const CursorTissue& tissue)
   {
     const double moved = glm::distance(tissue.deformed, tissue.rest);
     parts.append(CursorLine::tr("moved %1 mm").arg(moved, 0, 'f', 1));
-    parts.append(tissue.volumeShare > 0.0
-        ? CursorLine::tr("volume %1 %").arg(100.0 * tissue.volumeShare, 0, 'f', 0)
+    parts.append(tissue.jacobian > 0.0
+        ? CursorLine::tr("volume %1 %").arg(100.0 * tissue.jacobian, 0, 'f', 0)
         : CursorLine::tr("folded"));
   }
   if (tissue.deviation)
