@@ -99,7 +99,7 @@ public:
   static void add(const SampleRow& row, const Taps& taps, const float* force);
 
   /**
-   * Calls visit(row) for each row of samples, slabs on several cores, and returns the sum of forces.
+   * Calls visit(row) for each row of samples, slabs on several cores, and returns the forces.
    *
    * @param displacements   of the control points, mm along the grid's axes
    */

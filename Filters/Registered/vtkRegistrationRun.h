@@ -68,8 +68,8 @@ public:
 
   ///@{
   /**
-   * The position of the reference at the start of an alignment, as its Compare Volumes has it: degrees
-   * about x, then y, then z, and mm. Default 0 0 0.
+   * The position of the reference at the start of an alignment, as its Compare Volumes has it:
+   * degrees about x, then y, then z, and mm. Default 0 0 0.
    */
   vtkSetVector3Macro(StartRotation, double);
   vtkGetVector3Macro(StartRotation, double);
@@ -83,8 +83,8 @@ public:
   const char* GetProblem() const { return this->Problem.c_str(); }
 
   /**
-   * The reason to discard the result: a sentence without a full stop. Empty if there is none. An alignment
-   * needs 25 % of the volume inside the reference, a refinement any part of it.
+   * The reason to discard the result: a sentence without a full stop. Empty if there is none. An
+   * alignment needs 25 % of the volume inside the reference, a refinement any part of it.
    */
   const char* GetRefusal() const { return this->Refusal.c_str(); }
 

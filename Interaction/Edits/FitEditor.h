@@ -30,8 +30,8 @@ class vtkSMSourceProxy;
 
 namespace brainshift
 {
-/// Makes a filter of a kind, such as "FitDeformation", with the lattice settings of a deformation. It
-/// is annotated as made by BrainShift, and not registered. `base`: its property Base; null: none.
+/// Makes a filter of a kind, such as "FitDeformation", with the settings of a deformation. It is
+/// annotated as made by BrainShift, and not registered. `base`: its property Base; null: none.
 vtkSmartPointer<vtkSMProxy> makeLatticeFilter(
   vtkSMProxy* deformation, const char* kind, vtkSMProxy* base = nullptr);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Refines a Free-Form Deformation so that its volume matches a reference, with a picture after each
-/// step. It starts from the present base and strokes.
+/// Refines a Free-Form Deformation so that its volume matches a reference, with a picture after
+/// each step. It starts from the present base and strokes.
 #ifndef BrainShift_RefineEditor_h
 #define BrainShift_RefineEditor_h
 

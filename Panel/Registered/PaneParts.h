@@ -22,8 +22,8 @@ QLabel* makeText(const char* name);
 /// Shows a report and a warning, each hidden if it is empty.
 void showTexts(QLabel* report, const QString& text, QLabel* warning, const QString& warningText);
 
-/// A small curve of the cost of a similarity over the steps of a refinement. It follows the palette,
-/// and screen readers get it in words.
+/// A small curve of the cost of a similarity over the steps of a refinement. It follows the
+/// palette, and screen readers get it in words.
 class CostPlot : public QWidget
 {
   Q_OBJECT

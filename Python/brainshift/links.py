@@ -4,7 +4,7 @@
 import itertools
 
 #: Of the names of links. ParaView's window keeps links so named out of its link manager, which
-#: would empty the undo stack when one goes: see Plugin/QuietLinks.h.
+#: would empty the undo stack when one goes: see Interaction/Workarounds/QuietLinks.h.
 PREFIX = "BrainShift "
 
 

@@ -209,8 +209,8 @@ def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callb
     - `stiffness`: a factor on the stiffness of the volume, above 0. The default is 1.
     - `cavity`: a ParaView source of a mask, if `reference` is no Compare Volumes. Tissue inside
       it does not count.
-    - `callback`: is called after each step with the `Refinement` so far. If it returns `False`, that
-      is the result. The default is `None`.
+    - `callback`: is called after each step with the `Refinement` so far. If it returns `False`,
+      that is the result. The default is `None`.
 
     Returns a `Refinement`.
 
