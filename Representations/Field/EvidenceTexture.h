@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief How far each place of a drawn volume can be believed, on the GPU of one window.
+ * @brief The uncertainty of each position in a drawn volume (one standard deviation, mm), on the
+ * GPU of one window.
  */
 #ifndef BrainShift_EvidenceTexture_h
 #define BrainShift_EvidenceTexture_h

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief What is left out while the camera or a stroke moves, so that pictures come fast enough
- * for a
+ * @brief Lower quality while the camera or a stroke moves, so that pictures come fast enough for a
  * hand.
  */
 #ifndef BrainShift_MovingQuality_h

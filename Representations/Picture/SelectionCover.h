@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Hides what lies behind the tissue of the last picture from a selection of surfaces.
+ * @brief Excludes surfaces behind the tissue of the last picture from a selection.
  */
 #ifndef BrainShift_SelectionCover_h
 #define BrainShift_SelectionCover_h

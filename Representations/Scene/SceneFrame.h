@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Reads camera, light and place of a volume from VTK.
+ * @brief Reads camera, light and position of a volume from VTK.
  */
 #ifndef BrainShift_SceneFrame_h
 #define BrainShift_SceneFrame_h

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief What rays and slices look up in the volume at rest, as textures: scalars, colours,
+ * @brief The textures that rays and slices read in the volume at rest: scalars, colours,
  * opacity,
  * gradients, segment.
  */

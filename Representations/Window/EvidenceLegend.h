@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file
- * @brief Says in the upper right corner of a view what the tints of evidence mean.
+ * @brief A legend of the tints of uncertainty (1 sd, mm) in the upper right corner of a view.
  *
  * The upper left corner belongs to the legend of a comparison.
  */
@@ -23,7 +23,7 @@ public:
   static EvidenceLegend* New();
   vtkTypeMacro(EvidenceLegend, vtkProp);
 
-  /// What is shown. Stripes stand for tints where colours tell volumes apart.
+  /// What is shown. Stripes replace tints where colours distinguish volumes.
   enum class Shown
   {
     Nothing, ///< The volume carries no evidence.
@@ -31,7 +31,7 @@ public:
     Stripes,
   };
 
-  /// Asked before each picture. Null: tints.
+  /// Called before each picture. Null: tints.
   std::function<Shown()> Ask;
 
   int RenderOpaqueGeometry(vtkViewport* viewport) override;
