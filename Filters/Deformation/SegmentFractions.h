@@ -21,7 +21,7 @@
 
 namespace brainshift
 {
-/** The fraction where all of the space belongs to the segment. Half of it: the segment's surface. */
+/** The fraction where all of the space belongs to the segment. Half of it: the segment's edge. */
 constexpr int WholeFraction = 255;
 
 /**
