@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Numbers in the bytes of a file or a message, in either order of bytes. No VTK.
- */
+/// @file
+/// Numbers in the bytes of a file or a message, in either order of bytes. No VTK.
 #ifndef BrainShift_Bytes_h
 #define BrainShift_Bytes_h
 

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Marks what other libraries may call of code that knows no VTK and so no export macro of a
- *        VTK module: the parallel loop, and the deformation core with what stands on it.
- *
- * That code is compiled with hidden visibility. CMake defines the macros that tell the cases apart:
- *  - `BRAINSHIFT_COMMON_BUILD`, `BRAINSHIFT_DEFORMATION_BUILD`: the library that takes the code in.
- *  - `BRAINSHIFT_DEFORMATION_DIRECT`: a program that links the objects without that library.
- *  - neither: a library or program that calls the code through that library.
- */
+/// @file
+/// Marks what other libraries may call of code that knows no VTK and so no export macro of a VTK
+/// module: the parallel loop, and the deformation core with what stands on it.
+///
+/// That code is compiled with hidden visibility. CMake defines the macros that tell the cases
+/// apart: - `BRAINSHIFT_COMMON_BUILD`, `BRAINSHIFT_DEFORMATION_BUILD`: the library that takes the
+/// code in. - `BRAINSHIFT_DEFORMATION_DIRECT`: a program that links the objects without that
+/// library. - neither: a library or program that calls the code through that library.
 #ifndef BrainShift_Export_h
 #define BrainShift_Export_h
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The two directions of a map, and the field array that names that of a displacement field.
- *
- * The array DisplacementDirection holds one string: "forward" (where tissue goes; ITK calls it the
- * modelling direction) or "backward" (which tissue is seen; ITK: the resampling direction).
- */
+/// @file
+/// The two directions of a map, and the field array that names that of a displacement field.
+///
+/// The array DisplacementDirection holds one string: "forward" (where tissue goes; ITK calls it the
+/// modelling direction) or "backward" (which tissue is seen; ITK: the resampling direction).
 #ifndef BrainShift_FieldDirection_h
 #define BrainShift_FieldDirection_h
 

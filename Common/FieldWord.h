@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Field arrays of a data object: one word in an array of one string, and arrays by prefix.
- */
+/// @file
+/// Field arrays of a data object: one word in an array of one string, and arrays by prefix.
 #ifndef BrainShift_FieldWord_h
 #define BrainShift_FieldWord_h
 

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Numbers as the array that a server sends to a client.
- */
+/// @file
+/// Numbers as the array that a server sends to a client.
 #ifndef BrainShift_FilledArray_h
 #define BrainShift_FilledArray_h
 
 #include "vtkDoubleArray.h"
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <algorithm>
 #include <vector>

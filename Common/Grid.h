@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Geometry of a regular grid in world space, as a small value, and the loop over its
- *        indices.
- */
+/// @file
+/// Geometry of a regular grid in world space, as a small value, and the loop over its indices.
 #ifndef BrainShift_Grid_h
 #define BrainShift_Grid_h
 
-#include <glm/common.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <array>
 #include <cstddef>

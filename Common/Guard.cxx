@@ -12,7 +12,6 @@
 
 #include <exception>
 #include <new>
-#include <stdexcept>
 
 namespace brainshift
 {

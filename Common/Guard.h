@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Keeps C++ exceptions from crossing into VTK, which knows none: they would end ParaView, or
- *        the server with the work of all who use it.
- *
- * Every filter answers the pipeline's requests, and every prop is drawn, through this guard. The
- * check `every_boundary_is_guarded` of Testing/House finds those that are not.
- */
+/// @file
+/// Keeps C++ exceptions from crossing into VTK, which knows none: they would end ParaView, or the
+/// server with the work of all who use it.
+///
+/// Every filter answers the pipeline's requests, and every prop is drawn, through this guard. The
+/// check `every_boundary_is_guarded` of Testing/House finds those that are not.
 #ifndef BrainShift_Guard_h
 #define BrainShift_Guard_h
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/HostMemory.h"
 
-#include "Common/Problem.h"
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Memory of the machine, asked for before it is taken: some systems hand out more than they
- *        have, and end the program later.
- */
+/// @file
+/// Memory of the machine, asked for before it is taken: some systems hand out more than they have,
+/// and end the program later.
 #ifndef BrainShift_HostMemory_h
 #define BrainShift_HostMemory_h
 
+#include "Common/Problem.h"
+
 #include "vtkBrainShiftCommonModule.h" // for the export macro
 
-#include <glm/vec3.hpp>
-
-#include <string>
+#include <glm/glm.hpp>
 
 namespace brainshift
 {

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/ImageGrid.h"
 
-#include "Common/Problem.h"
-
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkMatrix3x3.h"
 #include "vtkMultiProcessController.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The grid of an image, whole or in pieces: its limits, and how a filter asks the pipeline
- *        for all of it.
- */
+/// @file
+/// The grid of an image, whole or in pieces: its limits, and how a filter asks the pipeline for all
+/// of it.
 #ifndef BrainShift_ImageGrid_h
 #define BrainShift_ImageGrid_h
 
 #include "Common/Grid.h"
+#include "Common/Problem.h"
 #include "vtkBrainShiftCommonModule.h" // for the export macro
-
-#include <string>
 
 class vtkImageData;
 class vtkInformation;

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Names and colours of the values of a label map.
- *
- * Field arrays: LabelValues (int32, 1 component), LabelNames (string) and LabelColors (uint8, 3
- * components: red, green, blue), one tuple for each label. A reader attaches them where the file
- * names its labels. Free-Form Deformation passes them on, and so do most of ParaView's filters. For
- * the labels of another image that travels with the volume the arrays have another first word
- * (Segmentation.h).
- */
+/// @file
+/// Names and colours of the values of a label map.
+///
+/// Field arrays: LabelValues (int32, 1 component), LabelNames (string) and LabelColors (uint8, 3
+/// components: red, green, blue), one tuple for each label. A reader attaches them where the file
+/// names its labels. Free-Form Deformation passes them on, and so do most of ParaView's filters.
+/// For the labels of another image that travels with the volume the arrays have another first word
+/// (Segmentation.h).
 #ifndef BrainShift_LabelTable_h
 #define BrainShift_LabelTable_h
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Numbers as text. They have a point, whatever the language of the user. No VTK.
- *
- * A plus sign may come before a number. Infinities and NaN are numbers.
- */
+/// @file
+/// Numbers as text. They have a point, whatever the language of the user. No VTK.
+///
+/// A plus sign may come before a number. Infinities and NaN are numbers.
 #ifndef BrainShift_Numbers_h
 #define BrainShift_Numbers_h
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Loops over all processor cores.
- *
- * What runs the pieces is chosen when a program is linked. The library BrainShift::Common takes
- * vtkSMPTools (SMPLoop.cxx), so that inside ParaView the settings of VTK hold. A program without
- * VTK links std::thread instead (ThreadLoop.cxx), and so does the build for the thread sanitizer.
- */
+/// @file
+/// Loops over all processor cores.
+///
+/// What runs the pieces is chosen when a program is linked. The library BrainShift::Common takes
+/// vtkSMPTools (SMPLoop.cxx), so that inside ParaView the settings of VTK hold. A program without
+/// VTK links std::thread instead (ThreadLoop.cxx), and so does the build for the thread sanitizer.
 #ifndef BrainShift_Parallel_h
 #define BrainShift_Parallel_h
 

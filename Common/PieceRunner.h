@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Keeps an exception in one piece of a parallel loop from ending the program.
- */
+/// @file
+/// Keeps an exception in one piece of a parallel loop from ending the program.
 #ifndef BrainShift_PieceRunner_h
 #define BrainShift_PieceRunner_h
 

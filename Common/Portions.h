@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Long loops of filters: on all cores, with progress and aborts in between.
- */
+/// @file
+/// Long loops of filters: on all cores, with progress and aborts in between.
 #ifndef BrainShift_Portions_h
 #define BrainShift_Portions_h
 

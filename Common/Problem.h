@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The exception of the core, the filters and the formats: why something cannot be done.
- *
- * Its text is one sentence without a full stop. It names the thing, its value, its limit and the
- * way out. The guards of Guard.h catch it where VTK calls, add the full stop and report it.
- */
+/// @file
+/// The exception of the core, the filters and the formats: why something cannot be done.
+///
+/// Its text is one sentence without a full stop. It names the thing, its value, its limit and the
+/// way out. The guards of Guard.h catch it where VTK calls, add the full stop and report it.
 #ifndef BrainShift_Problem_h
 #define BrainShift_Problem_h
 

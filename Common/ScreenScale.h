@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief How large a pixel is to the eye.
- */
+/// @file
+/// How large a pixel is to the eye.
 #ifndef BrainShift_ScreenScale_h
 #define BrainShift_ScreenScale_h
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief What the world axes of a volume mean for the patient.
- *
- * The field array WorldAxes holds one string, "RAS" or "LPS". A reader attaches it where the file
- * gives the orientation. Free-Form Deformation passes it on, and so do most of ParaView's filters.
- * Letters for the patient's sides are drawn only where the axes are known.
- */
+/// @file
+/// What the world axes of a volume mean for the patient.
+///
+/// The field array WorldAxes holds one string, "RAS" or "LPS". A reader attaches it where the file
+/// gives the orientation. Free-Form Deformation passes it on, and so do most of ParaView's filters.
+/// Letters for the patient's sides are drawn only where the axes are known.
 #ifndef BrainShift_WorldAxes_h
 #define BrainShift_WorldAxes_h
 

@@ -19,10 +19,6 @@
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <glm/common.hpp>
-
-#include <string>
-
 using namespace brainshift;
 
 vtkStandardNewMacro(vtkBakeDeformation);

@@ -3,24 +3,15 @@
 
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
-#include "Common/Problem.h"
 #include "Filters/Attached/CarriedArray.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/MaskImage.h"
-#include "Filters/Attached/ReferenceVolume.h"
 
 #include "vtkCellData.h"
-#include "vtkDataArray.h"
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkSmartPointer.h"
-
-#include <glm/vec3.hpp>
-
-#include <string>
 
 using namespace brainshift;
 

@@ -19,9 +19,6 @@
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <algorithm>
-#include <vector>
-
 using namespace brainshift;
 
 vtkStandardNewMacro(vtkDeformGeometry);

@@ -3,9 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
-#include "Common/ImageGrid.h"
 #include "Common/Portions.h"
-#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Formats/Fields/FieldImage.h"
 
@@ -18,14 +16,9 @@
 #include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <glm/common.hpp>
 #include <glm/gtc/type_ptr.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <cmath>
-#include <string>
-#include <utility>
-#include <vector>
 
 using namespace brainshift;
 using Pipeline = vtkStreamingDemandDrivenPipeline;

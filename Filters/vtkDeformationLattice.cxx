@@ -2,8 +2,6 @@
 #include "vtkDeformationLattice.h"
 
 #include "Common/Guard.h"
-#include "Common/ImageGrid.h"
-#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Formats/Fields/FieldImage.h"
 

@@ -5,7 +5,6 @@
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
-#include "Common/Problem.h"
 #include "Filters/Attached/CarriedArray.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/Segmentation.h"
@@ -16,8 +15,6 @@
 #include "Filters/Traces/StrokeMarks.h"
 
 #include "vtkCellData.h"
-#include "vtkDataArray.h"
-#include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -25,13 +22,8 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 
-#include <glm/vector_relational.hpp>
-
-#include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <string>
-#include <vector>
 
 using namespace brainshift;
 

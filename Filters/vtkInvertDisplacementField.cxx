@@ -3,12 +3,9 @@
 
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
-#include "Common/ImageGrid.h"
 #include "Common/Portions.h"
-#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Deformation/Inversion.h"
-#include "Filters/Deformation/OffsetField.h"
 #include "Formats/Fields/FieldImage.h"
 
 #include "vtkDataArray.h"
@@ -18,13 +15,8 @@
 #include "vtkObjectFactory.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <glm/geometric.hpp>
-
-#include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <string>
-#include <vector>
 
 using namespace brainshift;
 

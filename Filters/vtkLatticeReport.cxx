@@ -6,17 +6,13 @@
 #include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Deformation/ControlPoints.h"
-#include "Filters/Deformation/PointMap.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDataArray.h"
 #include "vtkDataObject.h"
-#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkObjectFactory.h"
-
-#include <algorithm>
 
 using namespace brainshift;
 

@@ -5,20 +5,16 @@
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
 #include "Common/Portions.h"
-#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/MaskImage.h"
-#include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Traces/DeformedSurface.h"
 #include "Filters/Traces/StrokeMarks.h"
 #include "Filters/Traces/TraceStatistics.h"
 
 #include "vtkCompositeDataIterator.h"
 #include "vtkDataObjectTree.h"
-#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
@@ -27,17 +23,10 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
-#include "vtkSmartPointer.h"
 
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
-
-#include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <numeric>
-#include <optional>
 
 using namespace brainshift;
 

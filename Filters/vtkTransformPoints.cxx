@@ -14,8 +14,6 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
-#include <algorithm>
-
 using namespace brainshift;
 
 vtkStandardNewMacro(vtkTransformPoints);

@@ -3,9 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
-#include "Common/ImageGrid.h"
 #include "Common/Portions.h"
-#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Fields/TransformLattice.h"
 #include "Formats/Fields/FieldImage.h"
@@ -20,9 +18,6 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <glm/gtc/type_ptr.hpp>
-
-#include <optional>
-#include <vector>
 
 using namespace brainshift;
 

@@ -4,19 +4,13 @@
 #include "Common/FilledArray.h"
 #include "Common/Guard.h"
 #include "Filters/Looks/FirstCamera.h"
-#include "Filters/Looks/Histogram.h"
-#include "Filters/Looks/Intensities.h"
 #include "Filters/Looks/Look.h"
 
 #include "vtkAlgorithm.h"
-#include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
 
-#include <algorithm>
-#include <array>
 #include <atomic>
-#include <vector>
 
 using namespace brainshift;
 

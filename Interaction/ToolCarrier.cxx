@@ -2,28 +2,20 @@
 #include "Interaction/ToolCarrier.h"
 
 #include "Interaction/Commands/Tools.h"
-#include "Interaction/Edits/FitEditor.h"
-#include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Tools/HandTool.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Views/SliceMouse.h"
-#include "Interaction/Views/ViewProbe.h"
 #include "Interaction/Views/WidgetInView.h"
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
-#include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
 #include <pqServerManagerModel.h>
 
-#include <vtkLatticeRepresentation.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMRenderViewProxy.h>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include <QApplication>
 
@@ -71,7 +63,7 @@ ToolCarrier::ToolCarrier(QObject* parent)
   QObject::connect(&this->Cursor, &CursorWatch::moved, this, &ToolCarrier::followCursor);
   QObject::connect(&this->Resting, &RestingCursor::sees, this, &ToolCarrier::hoverAgain);
   this->followApplication();
-  // Later, parts of the window that hear of changes are gone already.
+  // Later, parts of the window that receive changes are gone already.
   QObject::connect(qApp, &QCoreApplication::aboutToQuit, this, [this] {
     this->showBefore(nullptr);
     this->putDown();
@@ -211,7 +203,7 @@ void ToolCarrier::refresh()
     }
   }
   this->suggestRanges();
-  this->Other.tell();
+  this->Other.report();
 }
 
 void ToolCarrier::take(pqPipelineSource* deformation, pqRenderView* view, Tool tool)
@@ -271,7 +263,7 @@ void ToolCarrier::followCursor(pqRenderView* view)
     this->refresh();
   }
   ToolSettings::instance()->setGround(groundOf(activeDeformation(view), view));
-  this->Other.tell();
+  this->Other.report();
 }
 
 // Keys take the mouse along, as far as the system lets them; that must not end their work.
@@ -394,7 +386,7 @@ bool ToolCarrier::release(const HandEvent& event)
   if (!wasHolding)
   {
     this->Other.release({ event.x, event.y });
-    this->Resting.look();
+    this->Resting.signalSoon();
     return false;
   }
   this->Held->release();
@@ -448,7 +440,7 @@ void ToolCarrier::stepSlices(int voxels)
   }
   if (SliceMouse* slices = SliceMouse::of(this->Cursor.view()))
   {
-    this->Resting.lookAtNext();
+    this->Resting.signalAfterPicture();
     slices->step(voxels);
   }
 }
@@ -464,7 +456,7 @@ void ToolCarrier::cancel()
     tool->cancel();
     this->Widget->widget()->LetGo();
     ToolSettings::instance()->setAxisHold(ToolSettings::AxisHold::None);
-    this->Resting.lookAtNext();
+    this->Resting.signalAfterPicture();
     this->drawSoon();
   }
 }

@@ -10,13 +10,7 @@
 #include "Interaction/Views/OtherVolume.h"
 #include "Interaction/Workarounds/Updates.h"
 
-#include <QObject>
-#include <QPointer>
-#include <QTimer>
-
 #include <vtkType.h>
-
-#include <glm/vec2.hpp>
 
 #include <memory>
 

@@ -2,11 +2,9 @@
 #include "Interaction/ToolKeys.h"
 
 #include "Interaction/Edits/PointOfInterest.h"
-#include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/ToolCarrier.h"
 #include "Interaction/Tools/HandTool.h"
 #include "Interaction/Views/ActiveDeformation.h"
-#include "Interaction/Views/ViewProbe.h"
 
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
@@ -20,16 +18,14 @@
 #include <QWidget>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 
 namespace brainshift
 {
 namespace
 {
 constexpr int StepPixels = 8; // more than a resting hand trembles: each step is a new position
-constexpr std::array<glm::ivec2, 4> Ways{ { { -1, 0 }, { 1, 0 }, { 0, 1 }, { 0, -1 } } };
+constexpr std::array<glm::ivec2, 4> Steps{ { { -1, 0 }, { 1, 0 }, { 0, 1 }, { 0, -1 } } };
 
 glm::ivec2 sizeOf(pqRenderView* view)
 {
@@ -37,12 +33,13 @@ glm::ivec2 sizeOf(pqRenderView* view)
   return { size[0], size[1] };
 }
 
-// One step from a pixel, or else the middle of the view. `way`: 0 left, 1 right, 2 up, 3 down.
-glm::ivec2 stepped(pqRenderView* view, const std::optional<glm::ivec2>& from, int way)
+// One step from a pixel, or else the middle of the view. `direction`: 0 left, 1 right, 2 up,
+// 3 down.
+glm::ivec2 stepped(pqRenderView* view, const std::optional<glm::ivec2>& from, int direction)
 {
   const glm::ivec2 size = sizeOf(view);
   const int step = static_cast<int>(std::lround(StepPixels * view->widget()->devicePixelRatioF()));
-  const glm::ivec2 at = from ? *from + step * Ways[way] : size / 2;
+  const glm::ivec2 at = from ? *from + step * Steps[direction] : size / 2;
   return { std::clamp(at.x, 0, size.x - 1), std::clamp(at.y, 0, size.y - 1) };
 }
 
@@ -99,14 +96,14 @@ void ToolKeys::setInterest()
   }
 }
 
-void ToolKeys::moveCursor(int way)
+void ToolKeys::moveCursor(int direction)
 {
   std::optional<glm::ivec2> from;
   if (this->Carrier.hand() != Hand::Away)
   {
     from = this->Carrier.pixel();
   }
-  const glm::ivec2 to = stepped(this->Carrier.view(), from, way);
+  const glm::ivec2 to = stepped(this->Carrier.view(), from, direction);
   this->Carrier.moveTo(to);
   takeMouseAlong(this->Carrier.view(), to); // the tool does not need it
 }
@@ -177,7 +174,7 @@ void ToolKeys::act(const KeyCommand& found, bool shift)
   switch (found.command)
   {
     case Command::HoldAxis:
-      this->holdAxis(static_cast<ToolSettings::AxisHold>(firstAxis + found.place));
+      this->holdAxis(static_cast<ToolSettings::AxisHold>(firstAxis + found.index));
       break;
     case Command::Cancel:
       this->Carrier.cancel();
@@ -186,10 +183,10 @@ void ToolKeys::act(const KeyCommand& found, bool shift)
       this->setInterest();
       break;
     case Command::MoveCursor:
-      this->moveCursor(found.place);
+      this->moveCursor(found.index);
       break;
     case Command::StepByKey:
-      this->step(found.place == 0 ? 1 : -1);
+      this->step(found.index == 0 ? 1 : -1);
       break;
     case Command::TakeHold:
       this->hold(shift);
@@ -198,14 +195,14 @@ void ToolKeys::act(const KeyCommand& found, bool shift)
       this->Carrier.showBefore(this->editorUnderCursor());
       break;
     case Command::StepSlices:
-      this->Carrier.stepSlices(found.place == 0 ? 1 : -1);
+      this->Carrier.stepSlices(found.index == 0 ? 1 : -1);
       break;
     default:
       break;
   }
 }
 
-bool ToolKeys::hear(QKeyEvent& key, QEvent::Type type)
+bool ToolKeys::handleKey(QKeyEvent& key, QEvent::Type type)
 {
   const KeyCommand found = commandOfKey({ Scope::Tool, Scope::View, Scope::Slices }, key.key());
   if (type == QEvent::KeyRelease && found.command == Command::ShowAsLoaded && !key.isAutoRepeat() &&
@@ -246,7 +243,7 @@ bool ToolKeys::eventFilter(QObject* watched, QEvent* event)
   }
   const bool isKey =
     type == QEvent::KeyPress || type == QEvent::KeyRelease || type == QEvent::ShortcutOverride;
-  return (isKey && this->hear(*static_cast<QKeyEvent*>(event), type)) ||
+  return (isKey && this->handleKey(*static_cast<QKeyEvent*>(event), type)) ||
     QObject::eventFilter(watched, event);
 }
 }

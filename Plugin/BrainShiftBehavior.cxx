@@ -13,16 +13,12 @@
 
 #include <pqActiveObjects.h>
 #include <pqApplicationCore.h>
-#include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>
 #include <pqServerManagerModel.h>
 
-#include <vtkEventQtSlotConnect.h>
-#include <vtkNew.h>
 #include <vtkSMPVRepresentationProxy.h>
 #include <vtkSMPropertyHelper.h>
 
-#include <QTimer>
 #include <QVariant>
 
 #include <cstring>
@@ -43,7 +39,7 @@ bool reportsNumbers(vtkSMProxy* filter)
   return std::strcmp(filter->GetXMLName(), "InvertDisplacementField") == 0;
 }
 
-// A state being loaded says itself how it looks.
+// A state that is being loaded sets its own displays.
 void prepare(pqRepresentation* display)
 {
   auto representation = vtkSMPVRepresentationProxy::SafeDownCast(display->getProxy());

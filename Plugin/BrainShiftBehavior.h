@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// What BrainShift does in ParaView's window without being asked. It sets existing properties and
+/// Everything that BrainShift does in ParaView's window by itself. It sets existing properties and
 /// computes nothing.
 #ifndef BrainShift_BrainShiftBehavior_h
 #define BrainShift_BrainShiftBehavior_h

@@ -86,7 +86,7 @@ bool isBent(pqPipelineSource* source)
   return source != nullptr;
 }
 
-// What a pixel shows of the volumes with these names. `way`: see
+// Explains the colours of the volumes with these names. `way`: see
 // vtkDeformedSlicesMapper::ComparisonType; Deformed Volume has the first two of them.
 QString legendOf(int way, const ColorWords& colors, const QString& volume, const QString& reference)
 {

@@ -29,7 +29,6 @@
 #include <vtkSMTransferFunctionManager.h>
 #include <vtkSMTransferFunctionProxy.h>
 
-#include <QList>
 #include <QPointer>
 #include <QTimer>
 
@@ -37,7 +36,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <vector>
 
 namespace brainshift
 {
@@ -87,7 +85,7 @@ Users usersOf(vtkSMProxy* colors, pqDataRepresentation* asking)
   return users;
 }
 
-// ParaView looks along -z, with y up, until somebody turns the camera.
+// ParaView looks along -z, with y up, until the user turns the camera.
 bool isUnturned(vtkSMProxy* view)
 {
   const std::vector<double> from = vtkSMPropertyHelper(view, "CameraPosition").GetDoubleArray();
@@ -255,7 +253,7 @@ void showFirstLook(pqDataRepresentation* display)
 
 namespace
 {
-// A display of what a source is made of that has colours of its own, not those of the array's name.
+// A display of an input of a source with colours of its own, not those of the array's name.
 pqDataRepresentation* ownColoredInput(pqDataRepresentation* display)
 {
   auto model = pqApplicationCore::instance()->getServerManagerModel();
@@ -337,7 +335,7 @@ double largestDistance(pqDataRepresentation* display)
 }
 
 // Saturated purple inside, white at the cortex, saturated green outside: unlike skin, bone, brain
-// and greys, and told apart by the colour-blind. Only what is very near the cortex is pale.
+// and greys, and distinct for the colour-blind. Only points very near the cortex are pale.
 void colorInsideAndOutside(vtkSMProxy* colors, double largest)
 {
   const std::array<double, 20> points{ -1.0, 0.48, 0.0, 0.75, -0.25, 0.75, 0.35, 1.0, //

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// How the window shows a volume for the first time: without background, in natural colours, large.
+/// The first picture of a volume: without background, in natural colours, filling the view.
 #ifndef BrainShift_FirstLook_h
 #define BrainShift_FirstLook_h
 
@@ -14,10 +14,11 @@ namespace brainshift
 /// camera turns to the tissue if it has not been turned yet. A choice that the user made stays.
 ///
 /// A label map has no look. Its reader's first picture is its outline, so that it covers nothing.
+/// A volume of one constant value has no look either, but remains drawn as ParaView draws it.
 void showFirstLook(pqDataRepresentation* display);
 
-/// Gives a filter's volume the look of what it is made of. ParaView colours it by its array's name,
-/// which may mean the colours of another volume. The scale of colours is hidden unless the user
+/// Gives a filter's volume the look of its input. ParaView colours it by its array's name, which
+/// may mean the colours of another volume. The scale of colours is hidden unless the user
 /// asked for it before.
 void joinLook(pqDataRepresentation* display);
 

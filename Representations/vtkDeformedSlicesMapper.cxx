@@ -3,44 +3,27 @@
 
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
-#include "Filters/Attached/ReferenceVolume.h"
 #include "Representations/Field/EvidenceTexture.h"
 #include "Representations/Field/SceneDeformation.h"
 #include "Representations/Field/TissueFacts.h"
-#include "Representations/Gpu/GpuMemory.h"
-#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/WindowDevices.h"
 #include "Representations/Picture/MovingQuality.h"
 #include "Representations/Scene/SceneFrame.h"
 #include "Representations/Slices/SliceDrawer.h"
-#include "Representations/Slices/SliceGeometry.h"
 #include "Representations/Tissue/SceneReference.h"
-#include "Representations/Tissue/TissueTextures.h"
 
 #include "vtkColorTransferFunction.h"
-#include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkOpenGLRenderWindow.h"
 #include "vtkPiecewiseFunction.h"
 #include "vtkRenderer.h"
-#include "vtkTextureObject.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
-#include "vtkWeakPointer.h"
 
-#include <glm/common.hpp>
-#include <glm/matrix.hpp>
-#include <glm/vector_relational.hpp>
-
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 #include <set>
-#include <string>
 
 using namespace brainshift;
 

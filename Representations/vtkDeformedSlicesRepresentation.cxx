@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/Guard.h"
-#include "Common/WorldAxes.h"
 #include "Representations/Slices/OrientationMarks.h"
 
 #include "vtkDeformedSlicesMapper.h"

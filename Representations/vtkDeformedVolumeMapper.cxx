@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/Guard.h"
-#include "Representations/Field/SceneDeformation.h"
 #include "Representations/Field/TissueFacts.h"
-#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/WindowDevices.h"
-#include "Representations/Picture/SelectionCover.h"
 #include "Representations/Picture/VolumeDevice.h"
 #include "Representations/Scene/OverVolumes.h"
 
@@ -13,21 +10,15 @@
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkSmartVolumeMapper.h"
-#include "vtkTextureObject.h" // for the pointers of what is included
 #include "vtkTimerLog.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
 
-#include <glm/geometric.hpp>
-
-#include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
-#include <string>
 
 class vtkSmartVolumeMapper;
 class vtkVolumeMapper;

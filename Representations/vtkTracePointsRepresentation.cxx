@@ -6,7 +6,6 @@
 #include "Representations/Workarounds/ParaViewFaults.h"
 
 #include "vtkInformation.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVDataDeliveryManager.h"
 #include "vtkPVView.h"

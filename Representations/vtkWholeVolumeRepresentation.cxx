@@ -10,7 +10,6 @@
 
 #include "vtkCommunicator.h"
 #include "vtkCoordinate.h"
-#include "vtkImageData.h"
 #include "vtkMath.h"
 #include "vtkMultiProcessController.h"
 #include "vtkOutlineSource.h"
@@ -18,7 +17,6 @@
 #include "vtkPVRenderView.h"
 #include "vtkPVView.h"
 #include "vtkRenderer.h"
-#include "vtkTextActor.h"
 #include "vtkTextProperty.h"
 #include "vtkVolumeMapper.h"
 

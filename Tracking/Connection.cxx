@@ -44,8 +44,8 @@ Addresses find(const std::string& host, const std::string& port, int flags)
   return { found, freeaddrinfo };
 }
 
-// Nobody can interrupt a question to a name server, so a thread of its own asks, and may be left
-// behind. Numbers and this machine need no such question.
+// A query to a name server cannot be interrupted, so a thread of its own makes it and may be left
+// running. Numeric addresses and "localhost" need no query.
 Addresses addressesOf(
   const std::string& host, const std::string& port, double seconds, const StopSignal& stop)
 {
@@ -59,14 +59,14 @@ Addresses addressesOf(
   std::thread([promise = std::move(promise), host, port]() mutable {
     promise.set_value(find(host, port, 0));
   }).detach();
-  constexpr double lookEach = 0.05; // seconds
-  for (double waited = 0.0; waited < seconds; waited += lookEach)
+  constexpr double pollEach = 0.05; // seconds
+  for (double waited = 0.0; waited < seconds; waited += pollEach)
   {
     if (answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
     {
       return answer.get();
     }
-    if (stop.waitFor(lookEach))
+    if (stop.waitFor(pollEach))
     {
       return {};
     }
@@ -103,31 +103,31 @@ StopSignal::~StopSignal()
 void StopSignal::stop()
 {
   const char byte = 0;
-  // It stays in the pipe, so each who waits sees it. A full pipe says the same.
+  // Nothing reads the byte, so all waiting threads wake up. A full pipe has the same effect.
   [[maybe_unused]] const auto written = write(this->Ends[1], &byte, 1);
 }
 
 bool StopSignal::waitFor(double seconds) const
 {
-  pollfd asked{ this->Ends[0], POLLIN, 0 };
-  return poll(&asked, 1, inMs(seconds)) > 0;
+  pollfd watched{ this->Ends[0], POLLIN, 0 };
+  return poll(&watched, 1, inMs(seconds)) > 0;
 }
 
 bool Connection::waitFor(short events, double seconds) const
 {
-  pollfd asked[2] = { { this->Socket, events, 0 }, { this->Stop.descriptor(), POLLIN, 0 } };
+  pollfd watched[2] = { { this->Socket, events, 0 }, { this->Stop.descriptor(), POLLIN, 0 } };
   int ready = 0;
   do
   {
-    ready = poll(asked, 2, inMs(seconds));
+    ready = poll(watched, 2, inMs(seconds));
   } while (ready < 0 && errno == EINTR);
-  return ready > 0 && asked[1].revents == 0;
+  return ready > 0 && watched[1].revents == 0;
 }
 
 std::string Connection::open(const std::string& host, int port, double seconds)
 {
   this->close();
-  const std::string place = host + ", port " + std::to_string(port);
+  const std::string address = host + ", port " + std::to_string(port);
   const Addresses found = addressesOf(host, std::to_string(port), seconds, this->Stop);
   if (this->Stop.waitFor(0.0))
   {
@@ -152,7 +152,7 @@ std::string Connection::open(const std::string& host, int port, double seconds)
       if (!this->waitFor(POLLOUT, seconds))
       {
         this->close();
-        return this->Stop.waitFor(0.0) ? "" : "No server answered at " + place + " in time";
+        return this->Stop.waitFor(0.0) ? "" : "No server answered at " + address + " in time";
       }
       socklen_t size = sizeof(error);
       getsockopt(this->Socket, SOL_SOCKET, SO_ERROR, &error, &size);
@@ -163,7 +163,7 @@ std::string Connection::open(const std::string& host, int port, double seconds)
       setsockopt(this->Socket, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof(on));
       return {};
     }
-    problem = "No server is at " + place + ": " + textOf(error);
+    problem = "No server is at " + address + ": " + textOf(error);
   }
   this->close();
   return problem;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief A connection to a server that another thread can end at once.
- */
+/// @file
+/// A connection to a server that another thread can end at once.
 #ifndef BrainShift_Connection_h
 #define BrainShift_Connection_h
 

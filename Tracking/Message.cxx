@@ -8,17 +8,12 @@
 #include <igtl_transform.h>
 #include <igtl_util.h>
 
-#include <algorithm>
-#include <cstdint>
-#include <cstring>
-#include <optional>
-
 namespace brainshift
 {
 namespace
 {
-constexpr int NewestVersion = 3;
-constexpr std::size_t ExtendedHeaderBytes = 12;
+constexpr int NewestVersion = 3;                // of the header
+constexpr std::size_t ExtendedHeaderBytes = 12; // 2 sizes of 2 bytes, 1 size and 1 id of 4
 
 // A name in a field that it may fill to the last byte. It goes to the screen and into files.
 std::string nameFrom(const char* field, std::size_t size)
@@ -67,10 +62,11 @@ std::optional<Parts> partsOf(const MessageHeader& header, const std::vector<unsi
   return parts;
 }
 
-// PLUS says with each TRANSFORM of version 2 and later whether it sees the tool: "...Status" is OK,
-// or something else. An entry of the table: length of the key (2 bytes), encoding (2), length of
-// the value (4). Keys and values follow the table in turn.
-bool saysUnseen(const Parts& parts)
+// In each TRANSFORM of version 2 and later, PLUS reports whether the tool is visible: the value of
+// the metadata's key "...Status" is OK, or something else. The table (v3_proposal.md, metadata
+// header) has a count (2 bytes) and an entry for each key: length of the key (2 bytes), encoding
+// (2), length of the value (4). After the table, each key is followed by its value.
+bool reportsUnseen(const Parts& parts)
 {
   constexpr std::size_t entryBytes = 8;
   const std::string word = "Status";
@@ -147,7 +143,7 @@ void readTransform(const MessageHeader& header, const Parts& parts, MessagePoses
   float numbers[12];
   std::memcpy(numbers, parts.content, sizeof(numbers));
   igtl_transform_convert_byte_order(numbers);
-  if (saysUnseen(parts))
+  if (reportsUnseen(parts))
   {
     found.unseen.push_back(header.device);
   }
@@ -175,7 +171,7 @@ void readTools(const Parts& parts, MessagePoses& found)
   igtl_tdata_convert_byte_order(tools.data(), static_cast<int>(tools.size()));
   for (const igtl_tdata_element& tool : tools)
   {
-    float numbers[12]; // a copy: those of the element lie at any address
+    float numbers[12]; // a copy: those of the element may be unaligned
     std::memcpy(numbers, tool.transform, sizeof(numbers));
     sortIn(poseFrom(nameFrom(tool.name, sizeof(tool.name)), numbers), found);
   }

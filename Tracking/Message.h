@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Messages of OpenIGTLink: the header, TRANSFORM and TDATA.
- *
- * The library libOpenIGTLink turns the numbers and checks the sum; sizes are checked here, before
- * it sees a byte.
- */
+/// @file
+/// Messages of OpenIGTLink: the header, TRANSFORM and TDATA.
+///
+/// Sources: Tokuda et al., "OpenIGTLink: an open network protocol for image-guided therapy
+/// environment", International Journal of Medical Robotics 5 (2009), and the pages in
+/// Documents/Protocol of github.com/openigtlink/OpenIGTLink: header.md (58 bytes, CRC of ECMA-182),
+/// transform.md, trackingdata.md, and v3_proposal.md for the extended header and the metadata of
+/// messages whose header has version 2 or later (protocol version 3).
+///
+/// libOpenIGTLink swaps the bytes of numbers and computes the checksum. Sizes are checked here,
+/// before it reads a byte.
 #ifndef BrainShift_Message_h
 #define BrainShift_Message_h
 
 #include "Tracking/Pose.h"
 
 #include <array>
-#include <cstdint>
-#include <string>
-#include <vector>
 
 namespace brainshift
 {
@@ -39,10 +40,10 @@ struct MessageHeader
 };
 
 /** Reads a header. Returns one sentence without a full stop if the stream cannot be followed any
- * more: version or size are not believable. */
+ * more: its version or size is invalid. */
 std::string readHeader(const std::array<unsigned char, HeaderBytes>& bytes, MessageHeader& header);
 
-/** What a body says about tools. */
+/** The poses and tools of a body. */
 struct MessagePoses
 {
   bool damaged = false;             ///< The checksum is wrong.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Tracking/Pose.h"
 
-#include <glm/matrix.hpp>
-
 #include <algorithm>
 #include <cmath>
 

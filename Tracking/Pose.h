@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Where a tracked tool was, and where poses come from.
- */
+/// @file
+/// Poses of a tracked tool, and the interface of their sources.
 #ifndef BrainShift_Pose_h
 #define BrainShift_Pose_h
 
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <cstdint>
 #include <deque>
@@ -26,13 +23,14 @@ struct Pose
   glm::dvec3 tip{ 0.0 };      ///< mm, tracker's frame
 };
 
-/** Why numbers are no pose: not finite, no rotation, beyond 1 000 000 mm. Empty if they are. */
+/** The reason if numbers are no valid pose: not finite, no rotation, or beyond 1 000 000 mm. Empty
+ * if they are one. */
 std::string problemOf(const Pose& pose);
 
-/** Whether a pose is exactly the identity, which trackers send for a tool that they do not see. */
+/** Whether a pose is exactly the identity, which trackers send for an invisible tool. */
 bool isIdentity(const Pose& pose);
 
-/** What is known of a source of poses. */
+/** The state of a source of poses. */
 struct SourceState
 {
   enum class Phase
@@ -49,9 +47,9 @@ struct SourceState
   double lastSeconds = -1.0; ///< When the last pose came; below 0: none came.
   double rate = 0.0;         ///< Poses in the last second.
   std::int64_t poses = 0;
-  std::int64_t badChecksums = 0; ///< Messages that were damaged on their way.
+  std::int64_t badChecksums = 0; ///< Messages with a wrong checksum.
   std::int64_t refused = 0;      ///< Messages whose numbers are no pose.
-  std::int64_t overrun = 0;      ///< Poses that were left out because nobody took them.
+  std::int64_t overrun = 0;      ///< Poses dropped because take() came too late.
 };
 
 /** Poses of one tool, from a server or from a file. */
@@ -73,13 +71,13 @@ public:
 class PoseCounter
 {
 public:
-  /** What is known; who holds the counter sets phase and problem. */
+  /** The state; the owner of the counter sets phase and problem. */
   SourceState state;
 
-  /** A pose came. The oldest one that nobody took makes room for it. */
+  /** Adds a new pose. If the buffer is full, the oldest pose is dropped. */
   void add(const Pose& pose);
 
-  /** Poses of before, as PoseSource::take() says. */
+  /** The poses since the last call: see PoseSource::take(). */
   std::vector<Pose> take();
 
   /** The state at a time. */

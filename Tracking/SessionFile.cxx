@@ -11,8 +11,6 @@
 #include <fstream>
 #include <limits>
 #include <locale>
-#include <string_view>
-#include <system_error>
 #include <utility>
 
 namespace brainshift

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief A recorded session of a pointer as a text file. Documentation/tools/pointer.md describes
- * it.
- */
+/// @file
+/// A recorded session of a pointer as a text file. Documentation/tools/pointer.md describes it.
 #ifndef BrainShift_SessionFile_h
 #define BrainShift_SessionFile_h
 
@@ -11,12 +8,10 @@
 
 #include <functional>
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace brainshift
 {
-/** How the tracker's frame lies in the image. */
+/** The rigid transform from the tracker's frame to the image. */
 struct Placement
 {
   glm::dmat3 rotation{ 1.0 };    ///< imageFromTracker

@@ -4,7 +4,6 @@
 #include "Tracking/Message.h"
 
 #include <algorithm>
-#include <array>
 #include <exception>
 
 namespace brainshift
@@ -122,7 +121,7 @@ std::string TrackerClient::listen(Connection& connection)
     }
     if (problem.empty())
     {
-      problem = header.hasPoses() ? this->hearBody(connection, header)
+      problem = header.hasPoses() ? this->receiveBody(connection, header)
                                   : this->skip(connection, header.bodyBytes);
     }
     if (!problem.empty() || this->Stop.waitFor(0.0))
@@ -159,7 +158,7 @@ std::string TrackerClient::skip(Connection& connection, std::uint64_t bytes) con
   return {};
 }
 
-std::string TrackerClient::hearBody(Connection& connection, const MessageHeader& header)
+std::string TrackerClient::receiveBody(Connection& connection, const MessageHeader& header)
 {
   std::vector<unsigned char> body(header.bodyBytes); // readHeader() limits it
   if (!body.empty())
@@ -175,7 +174,7 @@ std::string TrackerClient::hearBody(Connection& connection, const MessageHeader&
   {
     return found.problem;
   }
-  this->note(found, header.type == "TDATA");
+  this->record(found, header.type == "TDATA");
   return {};
 }
 
@@ -193,7 +192,7 @@ bool TrackerClient::wants(const std::string& device)
 }
 
 // `wholeSet`: a tool that the message does not name is not seen.
-void TrackerClient::note(const MessagePoses& found, bool wholeSet)
+void TrackerClient::record(const MessagePoses& found, bool wholeSet)
 {
   const double now = this->now();
   const auto isWanted = [this](const std::string& device) { return this->wants(device); };

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Hears the poses of a tool from an OpenIGTLink server.
- *
- * A thread of its own connects and reads, so nobody waits for the server. It opens no port and
- * sends nothing. Whatever the server does ends in one sentence (SourceState::problem).
- */
+/// @file
+/// Receives the poses of a tool from an OpenIGTLink server.
+///
+/// A thread of its own connects and reads, so the window never waits for the server. It opens no
+/// port and sends nothing. Each error of the server becomes one sentence (SourceState::problem).
 #ifndef BrainShift_TrackerClient_h
 #define BrainShift_TrackerClient_h
 
@@ -14,9 +12,7 @@
 
 #include <chrono>
 #include <mutex>
-#include <string>
 #include <thread>
-#include <vector>
 
 namespace brainshift
 {
@@ -25,7 +21,7 @@ struct MessagePoses;
 
 struct TrackerOptions
 {
-  std::string host = "127.0.0.1"; ///< "localhost" is 127.0.0.1 and asks no name server.
+  std::string host = "127.0.0.1"; ///< "localhost" is 127.0.0.1 and needs no name server.
   int port = 18944;               ///< 1 to 65535
   /** The tool. Empty: StylusToReference, else StylusTipToReference, else the first one that is
    * named. */
@@ -50,10 +46,10 @@ public:
 private:
   void run();
   std::string listen(Connection& connection); // why it ended
-  std::string hearBody(Connection& connection, const MessageHeader& header);
+  std::string receiveBody(Connection& connection, const MessageHeader& header);
   std::string skip(Connection& connection, std::uint64_t bytes) const;
   std::string problemOf(Connection::Result result, bool inMessage) const;
-  void note(const MessagePoses& found, bool wholeSet);
+  void record(const MessagePoses& found, bool wholeSet);
   bool wants(const std::string& device);
   bool isFlood();
   void setPhase(SourceState::Phase phase, const std::string& problem);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief A pair of landmarks as a view marks it.
- */
+/// @file
+/// A pair of landmarks as a view marks it.
 #ifndef BrainShift_LandmarkMark_h
 #define BrainShift_LandmarkMark_h
 
@@ -16,7 +14,7 @@ namespace brainshift
 /** Positions: mm, world axes. What is missing is not drawn. */
 struct LandmarkMark
 {
-  enum class Look
+  enum class Style
   {
     Usual,
     Worst, ///< fits worst: larger, with an exclamation mark
@@ -27,12 +25,12 @@ struct LandmarkMark
   std::optional<glm::dvec3> measured; ///< where it was measured: a cross
   std::optional<glm::dvec3> fitted;   ///< where the fit puts it: a line from the cross leads there
   std::string text;                   ///< its number
-  Look look = Look::Usual;
+  Style style = Style::Usual;
 
   bool operator==(const LandmarkMark& other) const
   {
     return this->tissue == other.tissue && this->measured == other.measured &&
-      this->fitted == other.fitted && this->text == other.text && this->look == other.look;
+      this->fitted == other.fitted && this->text == other.text && this->style == other.style;
   }
 };
 }

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Widgets/LatticeShapes.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -14,7 +11,7 @@ namespace brainshift
 namespace
 {
 constexpr int PointsOfCircle = 64;
-constexpr double Turn = 6.283185307179586; // radians
+constexpr double FullCircle = 6.283185307179586; // radians
 
 // A unit vector across a unit vector.
 glm::dvec3 across(const glm::dvec3& axis)
@@ -29,7 +26,7 @@ Polyline ellipse(const glm::dvec3& centre, const glm::dvec3& first, const glm::d
   Polyline line;
   for (int i = 0; i <= PointsOfCircle; ++i)
   {
-    const double angle = Turn * i / PointsOfCircle;
+    const double angle = FullCircle * i / PointsOfCircle;
     line.push_back(centre + std::cos(angle) * first + std::sin(angle) * second);
   }
   return line;
@@ -39,11 +36,11 @@ Polyline ellipse(const glm::dvec3& centre, const glm::dvec3& first, const glm::d
 std::vector<std::pair<int, int>> edgesBetween(const std::vector<ControlPoint>& points)
 {
   using Key = std::tuple<int, int, int>;
-  std::map<Key, int> placeOf;
+  std::map<Key, int> indexOf;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     const glm::ivec3& index = points[i].index;
-    placeOf[Key(index.x, index.y, index.z)] = static_cast<int>(i);
+    indexOf[Key(index.x, index.y, index.z)] = static_cast<int>(i);
   }
   std::vector<std::pair<int, int>> edges;
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -52,8 +49,8 @@ std::vector<std::pair<int, int>> edgesBetween(const std::vector<ControlPoint>& p
     {
       glm::ivec3 next = points[i].index;
       ++next[axis];
-      const auto found = placeOf.find(Key(next.x, next.y, next.z));
-      if (found != placeOf.end())
+      const auto found = indexOf.find(Key(next.x, next.y, next.z));
+      if (found != indexOf.end())
       {
         edges.emplace_back(static_cast<int>(i), found->second);
       }
@@ -62,12 +59,12 @@ std::vector<std::pair<int, int>> edgesBetween(const std::vector<ControlPoint>& p
   return edges;
 }
 
-std::vector<Polyline> outlineOf(const Stroke& stroke, double share)
+std::vector<Polyline> outlineOf(const Stroke& stroke, double fraction)
 {
   const bool isSphere = shapeOf(stroke.tool) == StrokeShape::Sphere;
   const glm::dvec3 axis = isSphere ? glm::dvec3(0, 0, 1) : glm::normalize(stroke.axis);
-  const double along = share * stroke.major;
-  const double wide = share * (isSphere ? stroke.major : stroke.minor);
+  const double along = fraction * stroke.major;
+  const double wide = fraction * (isSphere ? stroke.major : stroke.minor);
   const glm::dvec3 first = across(axis);
   const glm::dvec3 second = glm::cross(axis, first);
   return { ellipse(stroke.anchor, wide * first, wide * second),
@@ -75,7 +72,7 @@ std::vector<Polyline> outlineOf(const Stroke& stroke, double share)
     ellipse(stroke.anchor, along * axis, wide * second) };
 }
 
-Polyline sectionOf(const Stroke& stroke, double share, const glm::dvec3& normal)
+Polyline sectionOf(const Stroke& stroke, double fraction, const glm::dvec3& normal)
 {
   const bool isSphere = shapeOf(stroke.tool) == StrokeShape::Sphere;
   const glm::dvec3 axis = isSphere ? normal : glm::normalize(stroke.axis);
@@ -86,10 +83,11 @@ Polyline sectionOf(const Stroke& stroke, double share, const glm::dvec3& normal)
   const glm::dvec3 first = cosine < nearlyNone ? across(normal) : inPlane / cosine;
   const double along = 1.0 /
     std::hypot(cosine / stroke.major, std::sqrt(std::max(0.0, 1.0 - cosine * cosine)) / minor);
-  return ellipse(stroke.anchor, share * along * first, share * minor * glm::cross(normal, first));
+  return ellipse(
+    stroke.anchor, fraction * along * first, fraction * minor * glm::cross(normal, first));
 }
 
-double shareOfHalfWeight(double sigma)
+double radiusOfHalfWeight(double sigma)
 {
   double low = 0.0;
   double high = 1.0;

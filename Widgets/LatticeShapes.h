@@ -7,10 +7,6 @@
 #include "Filters/Deformation/Stroke.h"
 #include "vtkBrainShiftWidgetsModule.h" // for the export macro
 
-#include <glm/vec3.hpp>
-
-#include <vector>
-
 namespace brainshift
 {
 /// Points joined by lines, in this order.
@@ -24,20 +20,22 @@ struct ControlPoint
   glm::dvec3 drawn{ 0.0 }; ///< mm, deformed frame.
 };
 
-/// Edges between control points that are neighbours in the lattice, as pairs of places in the list.
+/// Edges between control points that are neighbours in the lattice, as pairs of indices into the
+/// list.
 VTKBRAINSHIFTWIDGETS_EXPORT std::vector<std::pair<int, int>> edgesBetween(
   const std::vector<ControlPoint>& points);
 
-/// The surface at a share of the radius: a sphere for a Soft stroke, an ellipsoid of revolution for
-/// a Stamp. The lines are the circle across the axis and two ellipses along it.
-VTKBRAINSHIFTWIDGETS_EXPORT std::vector<Polyline> outlineOf(const Stroke& stroke, double share);
+/// The surface at a fraction of the radius: a sphere for a Soft stroke, an ellipsoid of revolution
+/// for a Stamp. The lines are the circle across the axis and two ellipses along it.
+VTKBRAINSHIFTWIDGETS_EXPORT std::vector<Polyline> outlineOf(const Stroke& stroke, double fraction);
 
 /// The section of that surface by the plane through the anchor with this unit normal.
 VTKBRAINSHIFTWIDGETS_EXPORT Polyline sectionOf(
-  const Stroke& stroke, double share, const glm::dvec3& normal);
+  const Stroke& stroke, double fraction, const glm::dvec3& normal);
 
-/// Share of the radius at which a stroke of this sigma moves tissue half as far as at its centre.
-VTKBRAINSHIFTWIDGETS_EXPORT double shareOfHalfWeight(double sigma);
+/// Fraction of the radius at which a stroke of this sigma moves tissue half as far as at its
+/// centre.
+VTKBRAINSHIFTWIDGETS_EXPORT double radiusOfHalfWeight(double sigma);
 
 /// Three lines along the world axes through a centre, `size` mm each way.
 VTKBRAINSHIFTWIDGETS_EXPORT std::vector<Polyline> cross(const glm::dvec3& centre, double size);

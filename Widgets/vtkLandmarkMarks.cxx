@@ -19,8 +19,7 @@
 #include "vtkUnsignedCharArray.h"
 #include "vtkViewport.h"
 
-#include <glm/trigonometric.hpp>
-#include <glm/vec2.hpp>
+#include <glm/glm.hpp>
 
 #include <array>
 #include <optional>
@@ -30,7 +29,7 @@ using namespace brainshift;
 namespace
 {
 using Color = std::array<unsigned char, 3>;
-using Look = LandmarkMark::Look;
+using Style = LandmarkMark::Style;
 
 constexpr Color Cyan{ 70, 230, 255 };
 constexpr Color Orange{ 255, 150, 30 };
@@ -79,13 +78,13 @@ struct Lines
 };
 
 // Nothing behind the camera.
-std::optional<glm::dvec2> pixelOf(vtkViewport* viewport, const std::optional<glm::dvec3>& place)
+std::optional<glm::dvec2> pixelOf(vtkViewport* viewport, const std::optional<glm::dvec3>& position)
 {
-  if (!place)
+  if (!position)
   {
     return {};
   }
-  viewport->SetWorldPoint(place->x, place->y, place->z, 1.0);
+  viewport->SetWorldPoint(position->x, position->y, position->z, 1.0);
   viewport->WorldToDisplay();
   const double* display = viewport->GetDisplayPoint();
   if (!(display[2] >= 0.0 && display[2] <= 1.0))
@@ -113,8 +112,8 @@ struct vtkLandmarkMarks::Parts
   void ring(const glm::dvec2& middle, double radius, const Color& color)
   {
     const auto corner = [&](int i) {
-      const double turn = glm::radians(360.0 * i / Corners);
-      return middle + radius * glm::dvec2(glm::cos(turn), glm::sin(turn));
+      const double angle = glm::radians(360.0 * i / Corners);
+      return middle + radius * glm::dvec2(glm::cos(angle), glm::sin(angle));
     };
     for (int i = 0; i < Corners; ++i)
     {
@@ -130,21 +129,21 @@ struct vtkLandmarkMarks::Parts
 
   void write(vtkTextActor* text, const LandmarkMark& mark, const glm::dvec2& at, double scale)
   {
-    const bool isWorst = mark.look == Look::Worst;
+    const bool isWorst = mark.style == Style::Worst;
     text->SetInput((mark.text + (isWorst ? "!" : "")).c_str());
     text->SetDisplayPosition(static_cast<int>(at.x), static_cast<int>(at.y));
-    vtkTextProperty* look = text->GetTextProperty();
-    look->SetFontSize(static_cast<int>(TextPixels * scale));
-    look->SetBold(isWorst);
-    look->SetShadow(1);
-    const Color& color = mark.look == Look::Off ? Grey : White;
-    look->SetColor(color[0] / 255.0, color[1] / 255.0, color[2] / 255.0);
+    vtkTextProperty* font = text->GetTextProperty();
+    font->SetFontSize(static_cast<int>(TextPixels * scale));
+    font->SetBold(isWorst);
+    font->SetShadow(1);
+    const Color& color = mark.style == Style::Off ? Grey : White;
+    font->SetColor(color[0] / 255.0, color[1] / 255.0, color[2] / 255.0);
   }
 
   void draw(const LandmarkMark& mark, vtkViewport* viewport, double scale)
   {
-    const double radius = scale * (mark.look == Look::Worst ? WorstPixels : MarkPixels);
-    const bool isOff = mark.look == Look::Off;
+    const double radius = scale * (mark.style == Style::Worst ? WorstPixels : MarkPixels);
+    const bool isOff = mark.style == Style::Off;
     const auto tissue = pixelOf(viewport, mark.tissue);
     const auto measured = pixelOf(viewport, mark.measured);
     const auto fitted = pixelOf(viewport, mark.fitted);
@@ -243,7 +242,7 @@ void vtkLandmarkMarks::PrintSelf(ostream& os, vtkIndent indent)
   {
     os << indent << "Mark : " << mark.text << (mark.tissue ? " ring" : "")
        << (mark.measured ? " cross" : "") << (mark.fitted ? " line" : "")
-       << (mark.look == Look::Worst ? " worst" : "") << (mark.look == Look::Off ? " off" : "")
+       << (mark.style == Style::Worst ? " worst" : "") << (mark.style == Style::Off ? " off" : "")
        << "\n";
   }
 }

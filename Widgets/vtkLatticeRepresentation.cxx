@@ -41,7 +41,7 @@ struct Drawing
     this->Actor->VisibilityOff();
   }
 
-  void look(const std::array<double, 3>& color, double opacity, double pixels)
+  void setStyle(const std::array<double, 3>& color, double opacity, double pixels)
   {
     vtkProperty* property = this->Actor->GetProperty();
     property->SetColor(color[0], color[1], color[2]);
@@ -150,18 +150,18 @@ vtkLatticeRepresentation::vtkLatticeRepresentation()
   : Internal(std::make_unique<Parts>())
 {
   Parts& parts = *this->Internal;
-  parts.Edges.look(White, 0.35, 1.0);
-  parts.Faint.look(White, 0.5, FaintPixels);
-  parts.Points.look(White, 1.0, PointPixels);
+  parts.Edges.setStyle(White, 0.35, 1.0);
+  parts.Faint.setStyle(White, 0.5, FaintPixels);
+  parts.Points.setStyle(White, 1.0, PointPixels);
   parts.Points.Actor->GetProperty()->RenderPointsAsSpheresOn();
-  parts.Dots.look(White, 1.0, PointPixels);
+  parts.Dots.setStyle(White, 1.0, PointPixels);
   parts.Dots.Actor->GetProperty()->RenderPointsAsSpheresOn();
-  parts.Highlights.look(Orange, 1.0, HighlightPixels);
+  parts.Highlights.setStyle(Orange, 1.0, HighlightPixels);
   parts.Highlights.Actor->GetProperty()->RenderPointsAsSpheresOn();
-  parts.Lines[Strong].look(Yellow, 1.0, 2.0);
-  parts.Lines[Weak].look(Yellow, 0.4, 1.0);
-  parts.Lines[Mark].look(Cyan, 1.0, 2.0);
-  parts.Lines[Hold].look(Green, 1.0, 2.5);
+  parts.Lines[Strong].setStyle(Yellow, 1.0, 2.0);
+  parts.Lines[Weak].setStyle(Yellow, 0.4, 1.0);
+  parts.Lines[Mark].setStyle(Cyan, 1.0, 2.0);
+  parts.Lines[Hold].setStyle(Green, 1.0, 2.5);
 }
 
 vtkLatticeRepresentation::~vtkLatticeRepresentation() = default;
@@ -262,7 +262,7 @@ double* vtkLatticeRepresentation::GetBounds()
   {
     if (drawing->Actor->GetVisibility())
     {
-      box.AddBounds(drawing->Shape->GetBounds()); // the actor would ask its mapper's pipeline
+      box.AddBounds(drawing->Shape->GetBounds()); // the actor would update its mapper's pipeline
     }
   }
   if (!box.IsValid())

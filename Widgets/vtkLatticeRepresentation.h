@@ -29,8 +29,8 @@ public:
   {
     Strong, ///< The edge of a tool.
     Weak,   ///< Within a tool.
-    Mark,   ///< The point of interest, or the way of a pull.
-    Hold,   ///< What stays.
+    Mark,   ///< The point of interest, or the displacement of a pull.
+    Hold,   ///< Pinned tissue.
     NumberOfPens,
   };
 
@@ -38,7 +38,7 @@ public:
   void SetControlPoints(const std::vector<brainshift::ControlPoint>& points);
   const std::vector<brainshift::ControlPoint>& GetControlPoints() const;
 
-  /** Positions of control points that are out of reach, drawn as faint dots. */
+  /** Positions of control points that cannot be picked, drawn as faint dots. */
   void SetFaint(const std::vector<glm::dvec3>& positions);
 
   /** Highlighted positions: selected, or under the cursor. */

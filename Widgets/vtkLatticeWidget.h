@@ -3,8 +3,8 @@
  * @class   vtkLatticeWidget
  * @brief   passes mouse events to a tool before the camera gets them
  *
- * What the mouse means depends on the tissue under the cursor, and only ParaView's client can ask
- * for that. So the widget passes each event to its handler. If the handler takes the event, the
+ * The meaning of an event depends on the tissue under the cursor, and only ParaView's client can
+ * ask for that. So the widget passes each event to its handler. If the handler takes the event, the
  * camera does not get it. After the handler took a press, it gets all events until the release.
  */
 #ifndef vtkLatticeWidget_h

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Arrays of data that travels beside a volume: a second array object over the same numbers,
- *        which keeps their range, and a grid.
- *
- * ParaView asks a filter's output for the range of every array after each execution. VTK keeps the
- * answer with the data set and not with the array. So a filter that passes 10 million voxels
- * through reads them twice at every stroke, which costs 0.2 s. These arrays answer from the range
- * that the source array keeps.
- */
+/// @file
+/// Arrays of data that travels beside a volume: a second array object over the same numbers, which
+/// keeps their range, and a grid.
+///
+/// ParaView asks a filter's output for the range of every array after each execution. VTK keeps the
+/// answer with the data set and not with the array. So a filter that passes 10 million voxels
+/// through reads them twice at every stroke, which costs 0.2 s. These arrays answer from the range
+/// that the source array keeps.
 #ifndef BrainShift_CarriedArray_h
 #define BrainShift_CarriedArray_h
 

@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Attached/DeformableVolume.h"
 
-#include "Common/FieldDirection.h"
 #include "Common/FieldWord.h"
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
-#include "Common/Problem.h"
-#include "Filters/Deformation/OffsetField.h"
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
-#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkIntArray.h"
 #include "vtkMatrix3x3.h"
-#include "vtkNew.h"
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,41 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The contract between the Free-Form Deformation filter and all that draws, bakes or exports
- *        a deformation, and its two maps.
- *
- * A deformable volume is a vtkImageData, unchanged, with these field-data arrays:
- *
- *     FFDDisplacements  float32 x 3, nx*ny*nz tuples, x fastest: displacement of each control point
- *                       (mm, world axes, before Strength). Zero: the point stays.
- *     FFDDimensions     int x 3: nx ny nz, 4 to 257 each
- *     FFDBox            double x 15: world position of the first control point (mm), spacing (mm),
- *                       direction matrix (row by row, as vtkImageData holds it)
- *     FFDKernel         int: 0 Catmull-Rom, 1 B-spline
- *     FFDSamples        int: nodes of the refined field between two control points, 0 to 16
- *     FFDInverse        int: 0 exact, 1 negated
- *     FFDStrength       double, 0 to 1: factor on all displacements
- *     FFDMaskWeights    float32, only with a mask: fraction of the displacement, 0 to 1, at each
- *                       node of the refined field, (points - 1) * (FFDSamples + 1) + 1 along each
- *                       axis, x fastest; the field is trilinear between the nodes
- *     FFDDeviations     float32, only of a fit with Evidence: the uncertainty of the position of
- *                       each control point, nx*ny*nz tuples, mm, one standard deviation along an
- *                       axis; 0 or more, infinity where nothing was measured; trilinear in between
- */
+/// @file
+/// The contract between the Free-Form Deformation filter and all that draws, bakes or exports a
+/// deformation, and its two maps.
+///
+/// A deformable volume is a vtkImageData, unchanged, with these field-data arrays:
+///
+///    FFDDisplacements  float32 x 3, nx*ny*nz tuples, x fastest: displacement of each control point
+///                      (mm, world axes, before Strength). Zero: the point stays.
+///    FFDDimensions     int x 3: nx ny nz, 4 to 257 each
+///    FFDBox            double x 15: world position of the first control point (mm), spacing (mm),
+///                      direction matrix (row by row, as vtkImageData holds it)
+///    FFDKernel         int: 0 Catmull-Rom, 1 B-spline
+///    FFDSamples        int: nodes of the refined field between two control points, 0 to 16
+///    FFDInverse        int: 0 exact, 1 negated
+///    FFDStrength       double, 0 to 1: factor on all displacements
+///    FFDMaskWeights    float32, only with a mask: fraction of the displacement, 0 to 1, at each
+///                      node of the refined field, (points - 1) * (FFDSamples + 1) + 1 along each
+///                      axis, x fastest; the field is trilinear between the nodes
+///    FFDDeviations     float32, only of a fit with Evidence: the uncertainty of the position of
+///                      each control point, nx*ny*nz tuples, mm, one standard deviation along an
+///                      axis; 0 or more, infinity where nothing was measured; trilinear in between
 #ifndef BrainShift_DeformableVolume_h
 #define BrainShift_DeformableVolume_h
 
 #include "Common/FieldDirection.h"
-#include "Filters/Deformation/Lattice.h"
 #include "Filters/Deformation/PointMap.h"
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
-
-#include <string>
 #include <utility>
-#include <vector>
 
 class vtkDataObject;
 class vtkImageData;

@@ -4,17 +4,11 @@
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
 #include "Common/Parallel.h"
-#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 
 #include "vtkCellData.h"
-#include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
-#include "vtkImageData.h"
 #include "vtkPointData.h"
-
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <sstream>

@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Reads a mask or a cavity from an image of labels or scalars, on points or in cells, on any
- *        grid.
- *
- * A cavity is tissue that was removed. Colours and numbers ignore it.
- */
+/// @file
+/// Reads a mask or a cavity from an image of labels or scalars, on points or in cells, on any grid.
+///
+/// A cavity is tissue that was removed. Colours and numbers ignore it.
 #ifndef BrainShift_MaskImage_h
 #define BrainShift_MaskImage_h
 
 #include "Filters/Attached/ReferenceVolume.h"
-#include "Filters/Deformation/MaskWeights.h"
-#include "vtkBrainShiftFiltersModule.h" // for the export macro
 
 #include "vtkImageData.h" // for its smart pointer
 
-#include <memory>
 #include <string>
-#include <vector>
 
 class vtkDataArray;
 

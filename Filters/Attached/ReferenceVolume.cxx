@@ -9,10 +9,7 @@
 #include "vtkNew.h"
 #include "vtkUnsignedCharArray.h"
 
-#include <glm/common.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-#include <glm/mat4x4.hpp>
-#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,33 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The contract between Compare Volumes and what draws comparisons: a volume carries another
- *        volume, the reference, as field data. The reference has its own grid and is not bent.
- *
- *     ReferenceVoxels  any type x 1, nx*ny*nz tuples, x fastest: the reference's point scalars
- *     ReferenceGrid    see attachGrid in CarriedArray.h
- *     ReferenceShow    int: 0 both volumes are shown, 1 only the deformed one, 2 only the reference
- *     CavityVoxels     unsigned char x 1, only with a cavity: 1 where the reference lacks tissue
- *                      that was removed, else 0. Beyond the boxes around all voxels there is no
- *                      cavity. Numbers take the nearest voxel. Pictures draw the edge where the
- *                      interpolated value is one half.
- *     CavityGrid       see attachGrid in CarriedArray.h; in the world, moved with the
- *                      reference
- *
- * Colours and numbers that compare the volumes ignore the cavity.
- */
+/// @file
+/// The contract between Compare Volumes and what draws comparisons: a volume carries another
+/// volume, the reference, as field data. The reference has its own grid and is not bent.
+///
+///    ReferenceVoxels  any type x 1, nx*ny*nz tuples, x fastest: the reference's point scalars
+///    ReferenceGrid    see attachGrid in CarriedArray.h
+///    ReferenceShow    int: 0 both volumes are shown, 1 only the deformed one, 2 only the reference
+///    CavityVoxels     unsigned char x 1, only with a cavity: 1 where the reference lacks tissue
+///                     that was removed, else 0. Beyond the boxes around all voxels there is no
+///                     cavity. Numbers take the nearest voxel. Pictures draw the edge where the
+///                     interpolated value is one half.
+///    CavityGrid       see attachGrid in CarriedArray.h; in the world, moved with the
+///                     reference
+///
+/// Colours and numbers that compare the volumes ignore the cavity.
 #ifndef BrainShift_ReferenceVolume_h
 #define BrainShift_ReferenceVolume_h
 
-#include "Common/Grid.h"
 #include "Filters/Deformation/MaskWeights.h"
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 
 #include "vtkDataArray.h" // for its smart pointer
 #include "vtkSmartPointer.h"
-
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
 
 class vtkDataObject;
 

@@ -6,14 +6,10 @@
 
 #include "vtkDataArray.h"
 
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
-#include <vector>
 
 namespace brainshift
 {

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Reads an array of voxels through a backward map: how the CPU makes a bent volume.
- */
+/// @file
+/// Reads an array of voxels through a backward map: how the CPU makes a bent volume.
 #ifndef BrainShift_Resample_h
 #define BrainShift_Resample_h
 
-#include "Common/Grid.h"
-#include "Filters/Deformation/OffsetField.h"
 #include "Filters/Deformation/PointMap.h"
 
 #include <functional>

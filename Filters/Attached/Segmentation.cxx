@@ -6,7 +6,6 @@
 
 #include "vtkDataObject.h"
 #include "vtkFieldData.h"
-#include "vtkImageData.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 

@@ -1,30 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Labels that travel with a deformable volume, so that chosen ones can be drawn alone.
- *
- * They lie in the rest frame, on a grid of their own:
- *
- *     FFDSegmentation        any type x 1, nx*ny*nz tuples, x fastest: labels or scalars
- *     FFDSegmentationGrid    see attachGrid in CarriedArray.h
- *     FFDSegmentationLabels  int: the labels that are drawn if the user chooses none; absent: all
- *                            above 0
- *     FFDSegmentationValues  ... Names, ... Colors: as LabelTable.h says, where the labels have
- *                            names
- */
+/// @file
+/// Labels that travel with a deformable volume, so that chosen ones can be drawn alone.
+///
+/// They lie in the rest frame, on a grid of their own:
+///
+///     FFDSegmentation        any type x 1, nx*ny*nz tuples, x fastest: labels or scalars
+///     FFDSegmentationGrid    see attachGrid in CarriedArray.h
+///     FFDSegmentationLabels  int: the labels that are drawn if the user chooses none; absent: all
+///                            above 0
+///     FFDSegmentationValues  ... Names, ... Colors: as LabelTable.h says, where the labels have
+///                            names
 #ifndef BrainShift_Segmentation_h
 #define BrainShift_Segmentation_h
 
-#include "Common/Grid.h"
 #include "Common/LabelTable.h"
 #include "Filters/Deformation/MaskWeights.h"
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 
 #include "vtkDataArray.h" // for its smart pointer
 #include "vtkSmartPointer.h"
-
-#include <string>
-#include <vector>
 
 class vtkDataObject;
 class vtkImageData;

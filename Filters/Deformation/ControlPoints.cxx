@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/ControlPoints.h"
 
-#include "Common/Grid.h"
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 

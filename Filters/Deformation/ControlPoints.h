@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Finds the control points near a position in the view, for tools that move them.
- *
- * All positions and lengths are mm along world axes.
- */
+/// @file
+/// Finds the control points near a position in the view, for tools that move them.
+///
+/// All positions and lengths are mm along world axes.
 #ifndef BrainShift_ControlPoints_h
 #define BrainShift_ControlPoints_h
 
 #include "Common/Export.h"
 #include "Common/Grid.h"
 
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-
 #include <cmath>
-#include <cstddef>
 #include <set>
 
 namespace brainshift

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/FieldChange.h"
 
-#include "Common/Grid.h"
-
-#include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

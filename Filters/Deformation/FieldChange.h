@@ -1,24 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Finds the part of the refined fields that a change of control points can reach. The rest
- *        of the fields is kept.
- *
- * Lists of control points hold one displacement (lattice cells) for each point of the lattice, x
- * fastest. `dimensions`: points of the lattice along each axis.
- */
+/// @file
+/// Finds the part of the refined fields that a change of control points can reach. The rest of the
+/// fields is kept.
+///
+/// Lists of control points hold one displacement (lattice cells) for each point of the lattice, x
+/// fastest. `dimensions`: points of the lattice along each axis.
 #ifndef BrainShift_FieldChange_h
 #define BrainShift_FieldChange_h
 
-#include "Common/Export.h"
 #include "Filters/Deformation/OffsetField.h"
-
-#include <glm/common.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
-#include <array>
-#include <vector>
 
 namespace brainshift
 {

@@ -5,8 +5,6 @@
 #include "Filters/Deformation/FieldChange.h"
 #include "Filters/Deformation/Kernels.h"
 
-#include <glm/common.hpp>
-
 #include <algorithm>
 
 namespace brainshift

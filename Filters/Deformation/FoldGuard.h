@@ -1,27 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Keeps strokes from folding tissue: finds how much of a stroke may be applied.
- *
- * Two maps are guarded: deformedFromRest as the cubic gives it, and the refined displacement that
- * pictures are drawn with, which is trilinear between its nodes. With a mask the two are one map:
- * the refined displacement times the mask's weights.
- *
- * Afterwards the Jacobian determinant of both is 0.1 or more at every point of every cell that the
- * stroke reaches, and beyond the lattice, where the values of its border hold. This is proved by
- * bounds (CellProof, JacobianBound.h) and not sampled. It is the determinant at full strength.
- */
+/// @file
+/// Keeps strokes from folding tissue: finds how much of a stroke may be applied.
+///
+/// Two maps are guarded: deformedFromRest as the cubic gives it, and the refined displacement that
+/// pictures are drawn with, which is trilinear between its nodes. With a mask the two are one map:
+/// the refined displacement times the mask's weights.
+///
+/// Afterwards the Jacobian determinant of both is 0.1 or more at every point of every cell that the
+/// stroke reaches, and beyond the lattice, where the values of its border hold. This is proved by
+/// bounds (CellProof, JacobianBound.h) and not sampled. It is the determinant at full strength.
 #ifndef BrainShift_FoldGuard_h
 #define BrainShift_FoldGuard_h
 
-#include "Common/Export.h"
 #include "Filters/Deformation/JacobianBound.h"
 #include "Filters/Deformation/Lattice.h"
-
-#include <glm/vec3.hpp>
-
-#include <memory>
-#include <vector>
 
 namespace brainshift
 {

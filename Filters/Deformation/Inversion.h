@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The solver of the backward map for C++. It compiles Shaders/Field/inversion.glsl, the file
- *        that the GPU runs too, so both sides take the same steps.
- *
- * Newton's steps, halved while they do not help: Dennis and Schnabel, Numerical Methods for
- * Unconstrained Optimization and Nonlinear Equations (1983), chapter 6. Near folding the step is
- * that of the fixed-point iteration: Chen et al., "A simple fixed-point approach to invert a
- * deformation field", Medical Physics 35 (2008).
- */
+/// @file
+/// The solver of the backward map for C++. It compiles Shaders/Field/inversion.glsl, the file that
+/// the GPU runs too, so both sides take the same steps.
+///
+/// Newton's steps, halved while they do not help: Dennis and Schnabel, Numerical Methods for
+/// Unconstrained Optimization and Nonlinear Equations (1983), chapter 6. Near folding the step is
+/// that of the fixed-point iteration: Chen et al., "A simple fixed-point approach to invert a
+/// deformation field", Medical Physics 35 (2008).
 #ifndef BrainShift_Inversion_h
 #define BrainShift_Inversion_h
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 namespace brainshift
 {

@@ -3,12 +3,6 @@
 
 #include "Filters/Deformation/Kernels.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec4.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>

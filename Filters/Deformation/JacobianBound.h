@@ -1,27 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Proofs that the Jacobian determinant of position + displacement stays at or above a limit
- *        everywhere in a cell, and not only at samples of it.
- *
- * Over a box each column of the Jacobian is bounded by its middle, a slope along each axis, and a
- * rest. A bound on the determinant follows from these. If the bound does not prove a box, the box
- * is halved. A proof that succeeds is always right. A proof can fail for a cell whose smallest
- * determinant is above the limit by very little.
- *
- * The bounds of a column come from its Bernstein coefficients, whose convex hull holds it: Farouki,
- * "The Bernstein polynomial basis: a centennial retrospective", Computer Aided Geometric Design 29
- * (2012).
- *
- * All displacements are in lattice cells. `kernel`: KernelCatmullRom or KernelBSpline (Kernels.h).
- */
+/// @file
+/// Proofs that the Jacobian determinant of position + displacement stays at or above a limit
+/// everywhere in a cell, and not only at samples of it.
+///
+/// Over a box each column of the Jacobian is bounded by its middle, a slope along each axis, and a
+/// rest. A bound on the determinant follows from these. If the bound does not prove a box, the box
+/// is halved. A proof that succeeds is always right. A proof can fail for a cell whose smallest
+/// determinant is above the limit by very little.
+///
+/// The bounds of a column come from its Bernstein coefficients, whose convex hull holds it:
+/// Farouki, "The Bernstein polynomial basis: a centennial retrospective", Computer Aided Geometric
+/// Design 29 (2012).
+///
+/// All displacements are in lattice cells. `kernel`: KernelCatmullRom or KernelBSpline (Kernels.h).
 #ifndef BrainShift_JacobianBound_h
 #define BrainShift_JacobianBound_h
 
 #include "Common/Export.h"
 
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <array>
 #include <memory>

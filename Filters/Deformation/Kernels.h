@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The cubic kernels of the lattice.
- *
- * The GPU gets their numbers as uniforms, so both sides compute with the same ones.
- */
+/// @file
+/// The cubic kernels of the lattice.
+///
+/// The GPU gets their numbers as uniforms, so both sides compute with the same ones.
 #ifndef BrainShift_Kernels_h
 #define BrainShift_Kernels_h
 
-#include <glm/mat4x4.hpp>
-#include <glm/vec4.hpp>
+#include <glm/glm.hpp>
 
 namespace brainshift
 {

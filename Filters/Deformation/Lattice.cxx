@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/Lattice.h"
 
-#include "Common/Grid.h"
 #include "Common/Parallel.h"
 #include "Common/Problem.h"
 #include "Filters/Deformation/Inversion.h"
 #include "Filters/Deformation/Kernels.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <sstream>
 

@@ -1,29 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The control points of a free-form deformation, the strokes that move them, and the cubic
- *        between them.
- *
- * Method: van der Steen et al., SPIE 7169 (2009), section 2: a lattice that drives a free-form
- * deformation, control points moved one by one, as a group within a radius, or by an ellipsoid.
- * Free-form deformation: Sederberg and Parry, "Free-form deformation of solid geometric models",
- * SIGGRAPH 1986; with cubic B-splines: Rueckert et al., "Nonrigid registration using free-form
- * deformations", IEEE Transactions on Medical Imaging 18 (1999).
- */
+/// @file
+/// The control points of a free-form deformation, the strokes that move them, and the cubic between
+/// them.
+///
+/// Method: van der Steen et al., SPIE 7169 (2009), section 2: a lattice that drives a free-form
+/// deformation, control points moved one by one, as a group within a radius, or by an ellipsoid.
+/// Free-form deformation: Sederberg and Parry, "Free-form deformation of solid geometric models",
+/// SIGGRAPH 1986; with cubic B-splines: Rueckert et al., "Nonrigid registration using free-form
+/// deformations", IEEE Transactions on Medical Imaging 18 (1999).
 #ifndef BrainShift_Lattice_h
 #define BrainShift_Lattice_h
 
-#include "Common/Export.h"
 #include "Common/Grid.h"
 #include "Filters/Deformation/Stroke.h"
 
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace brainshift
 {

@@ -5,18 +5,10 @@
 #include "Filters/Deformation/JacobianBound.h"
 #include "Filters/Deformation/OffsetField.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <functional>
 #include <iterator>
 #include <limits>
-#include <memory>
-#include <vector>
 
 namespace brainshift
 {

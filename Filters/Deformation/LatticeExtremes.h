@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Two figures that a user reads of a lattice: its largest displacement and its smallest
- *        Jacobian determinant.
- */
+/// @file
+/// Two figures that a user reads of a lattice: its largest displacement and its smallest Jacobian
+/// determinant.
 #ifndef BrainShift_LatticeExtremes_h
 #define BrainShift_LatticeExtremes_h
 
-#include "Common/Export.h"
 #include "Filters/Deformation/Lattice.h"
 
 namespace brainshift

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/MaskWeights.h"
 
-#include "Common/Grid.h"
 #include "Common/Parallel.h"
 #include "Filters/Deformation/Lattice.h"
-
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cmath>

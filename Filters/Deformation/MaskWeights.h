@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Weights of a mask: the fraction of the displacement that holds at each node of the refined
- *        field.
- *
- * Nodes are fine enough for a thin rim; control points are not. A node has weight 0 if any of the
- * eight cells of nodes around it holds a point outside the mask. The field is trilinear between the
- * nodes, so it is exactly 0 outside the mask and beyond the lattice. From the outermost of these
- * nodes the weight rises smoothly to 1 over the feather.
- *
- * If nothing folds, the tissue inside the mask is mapped onto itself, so no tissue from outside is
- * seen inside. This holds for the exact inverse and not for the negated one.
- */
+/// @file
+/// Weights of a mask: the fraction of the displacement that holds at each node of the refined
+/// field.
+///
+/// Nodes are fine enough for a thin rim; control points are not. A node has weight 0 if any of the
+/// eight cells of nodes around it holds a point outside the mask. The field is trilinear between
+/// the nodes, so it is exactly 0 outside the mask and beyond the lattice. From the outermost of
+/// these nodes the weight rises smoothly to 1 over the feather.
+///
+/// If nothing folds, the tissue inside the mask is mapped onto itself, so no tissue from outside is
+/// seen inside. This holds for the exact inverse and not for the negated one.
 #ifndef BrainShift_MaskWeights_h
 #define BrainShift_MaskWeights_h
 

@@ -6,9 +6,6 @@
 #include "Filters/Deformation/Kernels.h"
 #include "Filters/Deformation/Lattice.h"
 
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
-
 #include <algorithm>
 #include <cmath>
 

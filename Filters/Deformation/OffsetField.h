@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The fields that a picture is drawn with, computed on the CPU for bake, export and tests.
- *
- * The shaders refine.frag.glsl and invert.frag.glsl compute them on the GPU with the same
- * mathematics. The *refined displacement* is the forward map minus identity at nodes between the
- * control points. The *offset field* is the backward map minus identity at such nodes.
- */
+/// @file
+/// The fields that a picture is drawn with, computed on the CPU for bake, export and tests.
+///
+/// The shaders refine.frag.glsl and invert.frag.glsl compute them on the GPU with the same
+/// mathematics. The *refined displacement* is the forward map minus identity at nodes between the
+/// control points. The *offset field* is the backward map minus identity at such nodes.
 #ifndef BrainShift_OffsetField_h
 #define BrainShift_OffsetField_h
 
 #include "Common/Export.h"
 #include "Common/Grid.h"
-
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
 
 #include <vector>
 

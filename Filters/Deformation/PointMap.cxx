@@ -3,9 +3,6 @@
 
 #include "Filters/Deformation/Inversion.h"
 
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-
 namespace brainshift
 {
 namespace

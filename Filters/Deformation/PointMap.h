@@ -1,23 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The two maps of a lattice for single points.
- *
- * They evaluate the cubic itself and not the field that pictures are drawn with. With a mask they
- * read the masked nodes, as pictures do.
- */
+/// @file
+/// The two maps of a lattice for single points.
+///
+/// They evaluate the cubic itself and not the field that pictures are drawn with. With a mask they
+/// read the masked nodes, as pictures do.
 #ifndef BrainShift_PointMap_h
 #define BrainShift_PointMap_h
 
-#include "Common/Export.h"
 #include "Filters/Deformation/Lattice.h"
 #include "Filters/Deformation/OffsetField.h"
-
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
-#include <vector>
 
 namespace brainshift
 {

@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Turns the list of strokes into displacements of control points and redoes only what
- *        changed.
- *
- * With the fold guard each stroke, in order, is applied only as far as nothing folds. The strokes
- * that a lattice is too coarse for are found here, too.
- */
+/// @file
+/// Turns the list of strokes into displacements of control points and redoes only what changed.
+///
+/// With the fold guard each stroke, in order, is applied only as far as nothing folds. The strokes
+/// that a lattice is too coarse for are found here, too.
 #ifndef BrainShift_Replay_h
 #define BrainShift_Replay_h
 
-#include "Common/Export.h"
 #include "Filters/Deformation/FoldGuard.h"
-#include "Filters/Deformation/Lattice.h"
-#include "Filters/Deformation/Stroke.h"
 
-#include <cstddef>
 #include <functional>
-#include <string>
-#include <vector>
 
 namespace brainshift
 {

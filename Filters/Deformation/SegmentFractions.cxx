@@ -3,11 +3,7 @@
 
 #include "Common/Parallel.h"
 
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
-
 #include <algorithm>
-#include <cstddef>
 
 namespace brainshift
 {

@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief A segment as a smooth field, so that its surface shows no steps of voxels.
- *
- * The fraction at a point is the fraction of the space around it that belongs to the segment. A
- * fraction of one half means that the point is on the segment's surface.
- *
- * Voxels are smoothed on their own grid by a binomial filter of five, whose edge is about two
- * voxels wide. Then the middle of each voxel is put back on the side that its label says. So a part
- * that is thinner than the filter stays, and no voxel outside comes in.
- */
+/// @file
+/// A segment as a smooth field, so that its surface shows no steps of voxels.
+///
+/// The fraction at a point is the fraction of the space around it that belongs to the segment. A
+/// fraction of one half means that the point is on the segment's surface.
+///
+/// Voxels are smoothed on their own grid by a binomial filter of five, whose edge is about two
+/// voxels wide. Then the middle of each voxel is put back on the side that its label says. So a
+/// part that is thinner than the filter stays, and no voxel outside comes in.
 #ifndef BrainShift_SegmentFractions_h
 #define BrainShift_SegmentFractions_h
 
-#include "Common/Export.h"
 #include "Filters/Deformation/MaskWeights.h"
 
 #include <cstdint>
-#include <vector>
 
 namespace brainshift
 {

@@ -3,9 +3,6 @@
 
 #include "Common/Problem.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>

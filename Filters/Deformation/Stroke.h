@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief A stroke: one edit of the deformation, as data.
- *
- * The list of strokes is the only record of what a user did. A lattice follows from it.
- */
+/// @file
+/// A stroke: one edit of the deformation, as data.
+///
+/// The list of strokes is the only record of what a user did. A lattice follows from it.
 #ifndef BrainShift_Stroke_h
 #define BrainShift_Stroke_h
 
@@ -129,8 +127,8 @@ BRAINSHIFT_DEFORMATION_EXPORT std::vector<double> numbersFromStrokes(
   const std::vector<Stroke>& strokes);
 
 /**
- * Weight, 0 to 1, at a distance from the anchor: a Gaussian whose value and slope fall to 0 at
- * distance 1.
+ * Weight, 0 to 1, at a distance d from the anchor: a Gaussian times (1 - d^2)^2, so that value and
+ * slope are 0 at d = 1. The factor is Tukey's biweight: Beaton and Tukey, Technometrics 16 (1974).
  *
  * @param distance   as a fraction of the radius
  * @param sigma      width of the Gaussian, as a fraction of the radius

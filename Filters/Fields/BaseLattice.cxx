@@ -1,32 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Fields/BaseLattice.h"
 
-#include "Common/FieldDirection.h"
 #include "Common/FieldWord.h"
-#include "Common/Grid.h"
-#include "Common/ImageGrid.h"
-#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Deformation/Kernels.h"
-#include "Filters/Deformation/Lattice.h"
 #include "Formats/Fields/FieldImage.h"
 
 #include "vtkDataArray.h"
-#include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
-
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <optional>
 #include <regex>
 #include <sstream>
 

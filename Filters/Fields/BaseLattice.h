@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The base of a deformation or a fit: reads a displacement field on any grid into a lattice,
- *        and attaches to a fitted lattice the settings that it was fitted for.
- *
- * The field array FittedFor holds 14 numbers: LatticeDimensions (3), Kernel, Samples, the first and
- * the last corner of the box (6, mm, world axes), and three sums of the mask's weights at the nodes
- * of the refined field (3): plain, and with two pseudo-random factors for each node. Without a mask
- * the sums are NaN. Older files have one string there, which is still read.
- */
+/// @file
+/// The base of a deformation or a fit: reads a displacement field on any grid into a lattice, and
+/// attaches to a fitted lattice the settings that it was fitted for.
+///
+/// The field array FittedFor holds 14 numbers: LatticeDimensions (3), Kernel, Samples, the first
+/// and the last corner of the box (6, mm, world axes), and three sums of the mask's weights at the
+/// nodes of the refined field (3): plain, and with two pseudo-random factors for each node. Without
+/// a mask the sums are NaN. Older files have one string there, which is still read.
 #ifndef BrainShift_BaseLattice_h
 #define BrainShift_BaseLattice_h
 

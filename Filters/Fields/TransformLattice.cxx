@@ -3,11 +3,7 @@
 
 #include "Filters/Deformation/Kernels.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
 #include <algorithm>
-#include <vector>
 
 namespace brainshift
 {

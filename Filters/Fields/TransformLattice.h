@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief A transform of a file as control points, and how well they follow it.
- */
+/// @file
+/// A transform of a file as control points, and how well they follow it.
 #ifndef BrainShift_TransformLattice_h
 #define BrainShift_TransformLattice_h
 

@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkLatticeAlgorithm.h"
 
-#include "Common/ImageGrid.h"
-#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/MaskImage.h"
-#include "Filters/Deformation/OffsetField.h"
 #include "Formats/Fields/FieldImage.h"
 
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 
-#include <glm/common.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <cmath>
 #include <sstream>
-#include <utility>
 
 using namespace brainshift;
 

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Fit/Anchors.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
-#include <algorithm>
 #include <map>
 #include <tuple>
 

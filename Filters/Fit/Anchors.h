@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Chooses points of the cortex that hold it where the skull is closed.
- *
- * Without them the cortex elsewhere follows what was measured under the opening.
- */
+/// @file
+/// Chooses points of the cortex that hold it where the skull is closed.
+///
+/// Without them the cortex elsewhere follows what was measured under the opening.
 #ifndef BrainShift_Anchors_h
 #define BrainShift_Anchors_h
 
-#include "Common/Export.h"
 #include "Filters/Fit/Measurements.h"
-
-#include <glm/vec3.hpp>
-
-#include <cstddef>
-#include <functional>
-#include <vector>
 
 namespace brainshift
 {

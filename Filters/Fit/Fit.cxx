@@ -2,17 +2,8 @@
 #include "Filters/Fit/Fit.h"
 
 #include "Common/Parallel.h"
-#include "Common/Problem.h"
 #include "Filters/Fit/TraceRows.h"
 
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-#include <glm/trigonometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <limits>
 
 namespace brainshift

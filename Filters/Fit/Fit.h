@@ -1,26 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Finds the rigid motion and the bend of the volume from measurements, and their
- *        uncertainty.
- *
- * measuredFromRest is the bend, then a rigid motion. The bend is that of the base, and a field on
- * top of it. All measurements are solved together, so their order does not matter.
- */
+/// @file
+/// Finds the rigid motion and the bend of the volume from measurements, and their uncertainty.
+///
+/// measuredFromRest is the bend, then a rigid motion. The bend is that of the base, and a field on
+/// top of it. All measurements are solved together, so their order does not matter.
 #ifndef BrainShift_Fit_h
 #define BrainShift_Fit_h
 
-#include "Common/Export.h"
 #include "Filters/Fit/Measurements.h"
-#include "Filters/Fit/Process.h"
 #include "Filters/Fit/RigidPose.h"
-
-#include <glm/vec3.hpp>
-
-#include <cstddef>
-#include <memory>
-#include <optional>
-#include <vector>
 
 namespace brainshift
 {

@@ -1,23 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Fit/FittedLattice.h"
 
-#include "Common/Grid.h"
 #include "Common/Parallel.h"
-#include "Common/Problem.h"
 #include "Filters/Deformation/FoldGuard.h"
 #include "Filters/Deformation/Kernels.h"
 
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <iterator>
 #include <limits>
-#include <vector>
 
 namespace brainshift
 {

@@ -1,21 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief A fit as it is drawn: its bend on control points, guarded against folds; the residuals
- *        that this leaves; and the uncertainty at the control points.
- */
+/// @file
+/// A fit as it is drawn: its bend on control points, guarded against folds; the residuals that this
+/// leaves; and the uncertainty at the control points.
 #ifndef BrainShift_FittedLattice_h
 #define BrainShift_FittedLattice_h
 
-#include "Common/Export.h"
-#include "Common/Grid.h"
-#include "Filters/Deformation/Lattice.h"
-#include "Filters/Deformation/PointMap.h"
 #include "Filters/Fit/Fit.h"
-#include "Filters/Fit/Process.h"
-
-#include <optional>
-#include <vector>
 
 namespace brainshift
 {

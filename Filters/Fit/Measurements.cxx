@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Fit/Measurements.h"
 
-#include "Common/Problem.h"
-
-#include <algorithm>
-#include <cmath>
 #include <deque>
 #include <map>
 #include <sstream>
-#include <utility>
 
 namespace brainshift
 {

@@ -1,30 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The measurements and their standard deviations: the input of a fit; and which landmark at
- *        rest is which measured one.
- *
- * The *rest frame* is the volume as loaded. The *measured frame* is that of the tracker or of the
- * reference. Both are mm.
- */
+/// @file
+/// The measurements and their standard deviations: the input of a fit; and which landmark at rest
+/// is which measured one.
+///
+/// The *rest frame* is the volume as loaded. The *measured frame* is that of the tracker or of the
+/// reference. Both are mm.
 #ifndef BrainShift_Measurements_h
 #define BrainShift_Measurements_h
 
-#include "Common/Export.h"
-#include "Filters/Deformation/Lattice.h"
+#include "Common/Problem.h"
 #include "Filters/Deformation/PointMap.h"
 #include "Filters/Fit/Process.h"
 
-#include <glm/vec3.hpp>
-
 #include <algorithm>
-#include <cstddef>
 #include <functional>
-#include <memory>
-#include <optional>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace brainshift
 {

@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Pairs, pulls and pins as rows of numbers: the properties LandmarkPairs, Pulls and Pins of
- *        a Fit Deformation.
- */
+/// @file
+/// Pairs, pulls and pins as rows of numbers: the properties LandmarkPairs, Pulls and Pins of a Fit
+/// Deformation.
 #ifndef BrainShift_PackedTables_h
 #define BrainShift_PackedTables_h
 
 #include "Filters/Fit/Measurements.h"
-
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-
-#include <cstddef>
-#include <vector>
 
 namespace brainshift
 {

@@ -4,15 +4,11 @@
 #include "Common/Parallel.h"
 #include "Common/Problem.h"
 
-#include <glm/geometric.hpp>
-
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <limits>
 #include <map>
 #include <tuple>

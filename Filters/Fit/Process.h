@@ -1,28 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief A Gaussian process for displacements: the smoothest field through measurements, and its
- *        uncertainty.
- *
- * Each component of the displacement u is a Gaussian process with the same covariance. A row
- * measures one component along an axis at one point: axis . u(point) = value, with noise. Three
- * rows at one point measure all of it. With the covariance matrix A of all rows, their noise added,
- * the field is u(x) = sum over rows of k(x, point) axis w, and A w = values.
- *
- * Everything is double precision. A is factored once (Cholesky); other values for the same rows
- * need no new factor.
- *
- * Source: Rasmussen and Williams, Gaussian Processes for Machine Learning (2006): prediction and
- * its variance, equations 2.25 and 2.26 and algorithm 2.1; the rigid mean, section 2.7; leaving
- * rows out in closed form, section 5.4.2, equations 5.10 to 5.12, here for three rows together.
- */
+/// @file
+/// A Gaussian process for displacements: the smoothest field through measurements, and its
+/// uncertainty.
+///
+/// Each component of the displacement u is a Gaussian process with the same covariance. A row
+/// measures one component along an axis at one point: axis . u(point) = value, with noise. Three
+/// rows at one point measure all of it. With the covariance matrix A of all rows, their noise
+/// added, the field is u(x) = sum over rows of k(x, point) axis w, and A w = values.
+///
+/// Everything is double precision. A is factored once (Cholesky); other values for the same rows
+/// need no new factor.
+///
+/// Source: Rasmussen and Williams, Gaussian Processes for Machine Learning (2006): prediction and
+/// its variance, equations 2.25 and 2.26 and algorithm 2.1; the rigid mean, section 2.7; leaving
+/// rows out in closed form, section 5.4.2, equations 5.10 to 5.12, here for three rows together.
 #ifndef BrainShift_Process_h
 #define BrainShift_Process_h
 
 #include "Common/Export.h"
 
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <array>
 #include <cmath>

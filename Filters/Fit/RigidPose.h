@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Rotation and translation: the part of a fit that bends nothing.
- */
+/// @file
+/// Rotation and translation: the part of a fit that bends nothing.
 #ifndef BrainShift_RigidPose_h
 #define BrainShift_RigidPose_h
 
 #include "Common/Export.h"
 
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <vector>
 

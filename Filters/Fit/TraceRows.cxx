@@ -3,17 +3,8 @@
 
 #include "Common/Parallel.h"
 
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <map>
-#include <optional>
 #include <tuple>
-#include <utility>
 
 namespace brainshift
 {

@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Traced points as rows of a process: each holds the cortex at its distance along the normal
- *        and lets it slide.
- *
- * The distance to the tangent plane, and not to the nearest point: Chen and Medioni, "Object
- * modelling by registration of multiple range images", Image and Vision Computing 10 (1992). Points
- * are projected anew and the equations linear in the field are solved again: Gauss-Newton steps.
- */
+/// @file
+/// Traced points as rows of a process: each holds the cortex at its distance along the normal and
+/// lets it slide.
+///
+/// The distance to the tangent plane, and not to the nearest point: Chen and Medioni, "Object
+/// modelling by registration of multiple range images", Image and Vision Computing 10 (1992).
+/// Points are projected anew and the equations linear in the field are solved again: Gauss-Newton
+/// steps.
 #ifndef BrainShift_TraceRows_h
 #define BrainShift_TraceRows_h
 
-#include "Common/Export.h"
 #include "Filters/Fit/Measurements.h"
-#include "Filters/Fit/Process.h"
-
-#include <glm/vec3.hpp>
-
-#include <memory>
-#include <vector>
 
 namespace brainshift
 {

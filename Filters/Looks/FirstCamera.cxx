@@ -3,9 +3,6 @@
 
 #include "vtkMultiProcessController.h"
 
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The first camera of a view, so that tissue fills it, and the points of tissue that it
- *        needs: the farthest ones.
- *
- * It is here and not with the views because the points are on the server, in parts on its
- * processes.
- */
+/// @file
+/// The first camera of a view, so that tissue fills it, and the points of tissue that it needs: the
+/// farthest ones.
+///
+/// It is here and not with the views because the points are on the server, in parts on its
+/// processes.
 #ifndef BrainShift_FirstCamera_h
 #define BrainShift_FirstCamera_h
 
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <vector>
 

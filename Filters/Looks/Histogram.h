@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief How often each value occurs, and which values part background from tissue.
- */
+/// @file
+/// How often each value occurs, and which values part background from tissue.
 #ifndef BrainShift_Histogram_h
 #define BrainShift_Histogram_h
 

@@ -7,21 +7,15 @@
 #include "Filters/Looks/FirstCamera.h"
 
 #include "vtkCellData.h"
-#include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkImageData.h"
 #include "vtkMultiProcessController.h"
 #include "vtkPointData.h"
 
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
-#include <vector>
 
 namespace brainshift
 {
@@ -331,12 +325,11 @@ Intensities readIntensities(vtkImageData* volume, const ArrayChoice& array)
     return found;
   }
   findRange(part, found);
-  if (found.lowest > found.highest) // no finite value
+  if (found.lowest >= found.highest) // no finite value, or one constant
   {
     return found;
   }
-  const double width = std::max(found.highest - found.lowest, 1e-300);
-  const Histogram fine = countAll(part, found.lowest, found.lowest + width, FineBins);
+  const Histogram fine = countAll(part, found.lowest, found.highest, FineBins);
   const double low = percentile(fine, RareShare) - fine.width();
   const double high = percentile(fine, 1.0 - RareShare) + fine.width();
   found.all = countAll(part, std::max(low, found.lowest), std::max(high, low + fine.width()), Bins);

@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief What the values of a volume are like, read once. From it looks are made.
- */
+/// @file
+/// What the values of a volume are like, read once. From it looks are made.
 #ifndef BrainShift_Intensities_h
 #define BrainShift_Intensities_h
 
 #include "Filters/Looks/Histogram.h"
-#include "vtkBrainShiftFiltersModule.h" // for the export macro
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <string>
-#include <vector>
 
 class vtkImageData;
 
 namespace brainshift
 {
-/** About as many voxels are read, at even distances; of a smaller volume, all. */
+/** Of a larger volume, about this many voxels are read, at even distances. */
 constexpr double MostVoxelsRead = 4e6;
 
 /** The values of one array. */
@@ -45,7 +41,7 @@ struct ArrayChoice
  * and all get the same answer. Not finite values do not count.
  *
  * @param volume   this process's part; null if it has none
- * @return empty if there is no such array with one component
+ * @return empty if there is no such array with one component, or if it has no two different values
  */
 VTKBRAINSHIFTFILTERS_EXPORT Intensities readIntensities(
   vtkImageData* volume, const ArrayChoice& array);

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Looks: colours and opacities that show a kind of tissue, made for one volume.
- */
+/// @file
+/// Looks: colours and opacities that show a kind of tissue, made for one volume.
 #ifndef BrainShift_Look_h
 #define BrainShift_Look_h
 
 #include "Filters/Looks/Intensities.h"
-#include "vtkBrainShiftFiltersModule.h" // for the export macro
 
 #include <array>
-#include <string>
-#include <vector>
 
 namespace brainshift
 {

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Measured/EvidenceArray.h"
 
-#include "Common/Grid.h"
-#include "Common/ImageGrid.h"
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Deformation/PointMap.h"
 #include "Filters/Fit/FittedLattice.h"
 #include "Formats/Fields/FieldImage.h"
 
@@ -12,11 +9,6 @@
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
-
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cstddef>
 
 namespace brainshift
 {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The uncertainty of a fit, from its lattice to the volume that it bends.
- */
+/// @file
+/// The uncertainty of a fit, from its lattice to the volume that it bends.
 #ifndef BrainShift_EvidenceArray_h
 #define BrainShift_EvidenceArray_h
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Measured/MeasuredPoints.h"
 
-#include "Filters/Fit/Measurements.h"
 #include "Filters/Fit/PackedTables.h"
 
 #include "vtkAbstractArray.h"
@@ -10,7 +9,6 @@
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkMultiProcessController.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
@@ -18,13 +16,6 @@
 #include "vtkUnstructuredGrid.h"
 #include "vtkVariant.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <map>
 #include <set>
 

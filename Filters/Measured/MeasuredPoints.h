@@ -1,27 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Measured points and masks as data sets hold them, and the pairs of landmarks of a fit.
- */
+/// @file
+/// Measured points and masks as data sets hold them, and the pairs of landmarks of a fit.
 #ifndef BrainShift_MeasuredPoints_h
 #define BrainShift_MeasuredPoints_h
 
 #include "Filters/Deformation/MaskWeights.h"
 #include "Filters/Fit/FittedLattice.h"
-#include "Filters/Fit/Measurements.h"
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"
 #include "vtkSmartPointer.h" // for what a function returns
 #include "vtkStringArray.h"
-
-#include <glm/ext/vector_int3.hpp>
-#include <glm/vec3.hpp>
-
-#include <cstddef>
-#include <string>
-#include <vector>
 
 class vtkInformation;
 class vtkPointSet;

@@ -2,19 +2,11 @@
 #include "Filters/Measured/RestCortex.h"
 
 #include "Common/ImageGrid.h"
-#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Fit/Anchors.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkPointData.h"
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cstddef>
 
 namespace brainshift
 {

@@ -1,29 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The cortex at rest as a fit requests it: the nearest point, the normal there, and the
- *        anchors that hold it beside the opening.
- *
- * Normals are those of the surface smoothed over a few voxels: the triangles of a mask are steps.
- */
+/// @file
+/// The cortex at rest as a fit requests it: the nearest point, the normal there, and the anchors
+/// that hold it beside the opening.
+///
+/// Normals are those of the surface smoothed over a few voxels: the triangles of a mask are steps.
 #ifndef BrainShift_RestCortex_h
 #define BrainShift_RestCortex_h
 
 #include "Filters/Fit/Anchors.h"
-#include "Filters/Fit/Measurements.h"
-#include "Filters/Traces/TissueSurface.h"
 #include "Filters/Traces/TriangleTree.h"
-#include "vtkBrainShiftFiltersModule.h" // for the export macro
-
-#include "vtkSmartPointer.h"
-
-#include <glm/vec3.hpp>
 
 #include <cstdint>
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
 
 class vtkDataArray;
 class vtkImageData;

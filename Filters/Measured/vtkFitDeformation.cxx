@@ -3,35 +3,22 @@
 
 #include "Common/FilledArray.h"
 #include "Common/Guard.h"
-#include "Common/ImageGrid.h"
-#include "Common/Problem.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/MaskImage.h"
 #include "Filters/Fields/BaseLattice.h"
-#include "Filters/Fit/Anchors.h"
-#include "Filters/Fit/FittedLattice.h"
 #include "Filters/Fit/PackedTables.h"
 #include "Filters/Measured/EvidenceArray.h"
 #include "Filters/Measured/MeasuredPoints.h"
 #include "Filters/Measured/RestCortex.h"
 #include "Formats/Fields/FieldImage.h"
 
-#include "vtkDoubleArray.h"
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
-
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <utility>
 
 using namespace brainshift;
 

@@ -5,7 +5,6 @@
 #include "Common/Guard.h"
 #include "vtkFitDeformation.h"
 
-#include "vtkDoubleArray.h"
 #include "vtkObjectFactory.h"
 
 using namespace brainshift;

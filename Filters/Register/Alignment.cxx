@@ -3,15 +3,9 @@
 
 #include "Common/Parallel.h"
 #include "Filters/Deformation/PointMap.h"
-#include "Filters/Register/JointHistogram.h"
-#include "Filters/Register/LineSearch.h"
-
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -19,8 +13,135 @@ namespace brainshift
 {
 namespace
 {
+double entropy(const std::vector<double>& counts, double all)
+{
+  double sum = 0.0;
+  for (const double count : counts)
+  {
+    const double fraction = count / all;
+    sum -= fraction > 0.0 ? fraction * std::log(fraction) : 0.0;
+  }
+  return sum;
+}
+}
+
+JointHistogram::JointHistogram()
+  : Cells(static_cast<std::size_t>(Bins) * Bins, 0.0)
+{
+}
+
+void JointHistogram::add(float a, float b)
+{
+  const float atA = std::clamp(a, 0.0f, 1.0f) * (Bins - 1);
+  const float atB = std::clamp(b, 0.0f, 1.0f) * (Bins - 1);
+  const int lowA = std::min(static_cast<int>(atA), Bins - 2);
+  const int lowB = std::min(static_cast<int>(atB), Bins - 2);
+  const double fractionA = atA - static_cast<float>(lowA);
+  const double fractionB = atB - static_cast<float>(lowB);
+  double* cell = &this->Cells[static_cast<std::size_t>(lowA) * Bins + lowB];
+  cell[0] += (1.0 - fractionA) * (1.0 - fractionB);
+  cell[1] += (1.0 - fractionA) * fractionB;
+  cell[Bins] += fractionA * (1.0 - fractionB);
+  cell[Bins + 1] += fractionA * fractionB;
+  this->Count += 1.0;
+}
+
+void JointHistogram::add(const JointHistogram& other)
+{
+  for (std::size_t i = 0; i < this->Cells.size(); ++i)
+  {
+    this->Cells[i] += other.Cells[i];
+  }
+  this->Count += other.Count;
+}
+
+double JointHistogram::information() const
+{
+  if (this->Count <= 0.0)
+  {
+    return 0.0;
+  }
+  std::vector<double> ofA(Bins, 0.0);
+  std::vector<double> ofB(Bins, 0.0);
+  for (int a = 0; a < Bins; ++a)
+  {
+    for (int b = 0; b < Bins; ++b)
+    {
+      const double cell = this->Cells[static_cast<std::size_t>(a) * Bins + b];
+      ofA[a] += cell;
+      ofB[b] += cell;
+    }
+  }
+  return std::max(
+    0.0, entropy(ofA, this->Count) + entropy(ofB, this->Count) - entropy(this->Cells, this->Count));
+}
+
+namespace
+{
+constexpr double Golden = 0.381966;
+constexpr double Growth = 1.618034;
+constexpr int MostSteps = 20; // of each of the two parts
+
+// The minimum of the parabola through three points; the middle point if it has none.
+double lowestOfParabola(const LinePoint& a, const LinePoint& b, const LinePoint& c)
+{
+  const double p = (b.at - a.at) * (b.value - c.value);
+  const double q = (b.at - c.at) * (b.value - a.value);
+  const double below = 2.0 * (p - q);
+  return below != 0.0 ? b.at - ((b.at - a.at) * p - (b.at - c.at) * q) / below : b.at;
+}
+}
+
+LinePoint lowestAlong(const std::function<double(double)>& function, double valueAtZero,
+  double stride, double tolerance)
+{
+  const auto pointAt = [&](double at) { return LinePoint{ at, function(at) }; };
+  LinePoint left{ 0.0, valueAtZero };
+  LinePoint middle = pointAt(stride);
+  if (middle.value > left.value)
+  {
+    std::swap(left, middle);
+  }
+  LinePoint right = pointAt(middle.at + (middle.at > left.at ? stride : -stride));
+  for (int step = 0; step < MostSteps && right.value < middle.value; ++step)
+  {
+    left = middle;
+    middle = right;
+    right = pointAt(middle.at + Growth * (middle.at - left.at));
+  }
+  // `middle` is below both others.
+  for (int step = 0; step < MostSteps && std::abs(right.at - left.at) > 2.0 * tolerance; ++step)
+  {
+    const LinePoint& wider =
+      std::abs(right.at - middle.at) > std::abs(left.at - middle.at) ? right : left;
+    double at = lowestOfParabola(left, middle, right);
+    const bool isNew = std::abs(at - middle.at) > 0.5 * tolerance &&
+      (at - left.at) * (at - right.at) < 0.0 && step % 3 != 2;
+    if (!isNew)
+    {
+      const double least = 0.5 * tolerance;
+      const double part = Golden * (wider.at - middle.at);
+      at = middle.at + (std::abs(part) < least ? std::copysign(least, part) : part);
+    }
+    const LinePoint found = pointAt(at);
+    const bool isLower = found.value < middle.value;
+    const LinePoint outer = isLower ? middle : found;
+    const LinePoint inner = isLower ? found : middle;
+    // The outer one replaces the end on its side.
+    ((outer.at - inner.at) * (right.at - left.at) > 0.0 ? right : left) = outer;
+    middle = inner;
+    if (isLower && std::abs(outer.at - inner.at) < 0.5 * tolerance)
+    {
+      break;
+    }
+  }
+  return middle.value < valueAtZero ? middle : LinePoint{ 0.0, valueAtZero };
+}
+
+namespace
+{
 constexpr int Pieces = 8;          // of the samples; each has a histogram of its own
-constexpr double Tolerance = 0.01; // of the level's spacing: where a line's lowest place is known
+constexpr double Tolerance = 0.01; // of the level's spacing, for the minimum on a line
 constexpr double Converged = 1e-4; // fraction of the information that a round must gain
 
 // The volume for each level, from coarse to fine. A coarser one is made from the next finer one.
@@ -128,11 +249,11 @@ Alignment::Alignment(RegisteredPair pair, const Lattice* bent, const AlignmentSe
   const std::vector<Sample>& coarse = this->Samples.front();
   for (const Sample& sample : coarse)
   {
-    this->Middle += sample.place / std::max(1.0, static_cast<double>(coarse.size()));
+    this->Middle += sample.position / std::max(1.0, static_cast<double>(coarse.size()));
   }
   for (const Sample& sample : coarse)
   {
-    const glm::dvec3 away = sample.place - this->Middle;
+    const glm::dvec3 away = sample.position - this->Middle;
     squares += away * away / std::max(1.0, static_cast<double>(coarse.size()));
   }
   this->RadiusMm = std::max(1.0, std::sqrt(squares.x + squares.y + squares.z));
@@ -161,15 +282,15 @@ double Alignment::loss(const Parameters& at, double* overlap) const
       const std::size_t last = samples.size() * (piece + 1) / Pieces;
       for (std::size_t i = samples.size() * piece / Pieces; i < last; ++i)
       {
-        const glm::dvec3 place = motion.applyInverse(samples[i].place);
+        const glm::dvec3 position = motion.applyInverse(samples[i].position);
         const Neighbours found =
-          neighboursOf(reference.grid.dimensions, glm::vec3(inReference(place)));
+          neighboursOf(reference.grid.dimensions, glm::vec3(inReference(position)));
         if (!found.isInside)
         {
           continue;
         }
         within[piece] += 1.0;
-        const glm::ivec3 cell = glm::ivec3(glm::floor(inCavity(place) + 0.5));
+        const glm::ivec3 cell = glm::ivec3(glm::floor(inCavity(position) + 0.5));
         const bool isRemoved = hasCavity && cell.x >= 0 && cell.y >= 0 && cell.z >= 0 &&
           cell.x < cavitySides.x && cell.y < cavitySides.y && cell.z < cavitySides.z &&
           this->Cavity.inside[this->Cavity.grid.offset(cell.x, cell.y, cell.z)];
@@ -237,28 +358,29 @@ double Alignment::searchLine(const Parameters& direction)
   return gain;
 }
 
-// Powell (1964): the displacement of the whole round replaces the direction that gained most.
+// Powell (1964): the displacement of the whole round replaces the direction that gained most. His
+// test of the extrapolated point is left out.
 void Alignment::endRound()
 {
   const double gain = this->RoundStartLoss - this->Loss;
   const bool isDone =
     gain <= Converged * std::abs(this->Loss) || ++this->Rounds >= this->Settings.mostRounds;
-  Parameters way{};
+  Parameters displacement{};
   double length = 0.0;
-  for (std::size_t i = 0; i < way.size(); ++i)
+  for (std::size_t i = 0; i < displacement.size(); ++i)
   {
-    way[i] = this->Best[i] - this->RoundStart[i];
-    length += way[i] * way[i];
+    displacement[i] = this->Best[i] - this->RoundStart[i];
+    length += displacement[i] * displacement[i];
   }
   if (!isDone && length > 0.0)
   {
-    for (double& number : way)
+    for (double& number : displacement)
     {
       number /= std::sqrt(length);
     }
     this->Directions[this->BestLine] = this->Directions.back();
-    this->Directions.back() = way;
-    this->searchLine(way);
+    this->Directions.back() = displacement;
+    this->searchLine(displacement);
   }
   this->Line = 0;
   this->BestGain = 0.0;
@@ -305,11 +427,11 @@ const AlignmentProgress& Alignment::step()
   {
     this->endRound();
   }
-  this->tellDone();
+  this->reportDone();
   return this->Progress;
 }
 
-void Alignment::tellDone()
+void Alignment::reportDone()
 {
   const double levels = static_cast<double>(this->Settings.levelsMm.size());
   const double ofLevel =
@@ -323,7 +445,7 @@ double Alignment::shiftMm() const
     this->Best[0] * this->Best[0] + this->Best[1] * this->Best[1] + this->Best[2] * this->Best[2]);
 }
 
-double Alignment::turnDegrees() const
+double Alignment::rotationDegrees() const
 {
   return glm::degrees(std::sqrt(this->Best[3] * this->Best[3] + this->Best[4] * this->Best[4] +
                         this->Best[5] * this->Best[5]) /

@@ -1,29 +1,73 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Registers a reference rigidly with a volume, one line of the search at a time.
- *
- * It maximises mutual information (Viola and Wells 1997; Maes et al. 1997), which needs no common
- * contrast. Samples of the volume are read in the reference, off its raster. Directions are
- * searched as by Powell (The Computer Journal 7, 1964, pages 155 to 162), from coarse to fine
- * levels.
- */
+/// @file
+/// Registers a reference rigidly with a volume, one line of the search at a time.
+///
+/// It maximises mutual information (Viola and Wells, International Journal of Computer Vision 24,
+/// 1997; Maes et al., IEEE Transactions on Medical Imaging 16(2), 1997), which needs no common
+/// contrast. Samples of the volume are read in the reference, off its raster. The directions of the
+/// search are those of Powell (The Computer Journal 7(2), 1964, pages 155 to 162), from coarse to
+/// fine levels.
 #ifndef BrainShift_Alignment_h
 #define BrainShift_Alignment_h
 
-#include "Common/Export.h"
 #include "Filters/Deformation/Lattice.h"
 #include "Filters/Fit/RigidPose.h"
 #include "Filters/Register/Volume.h"
 
-#include <glm/vec3.hpp>
-
-#include <array>
-#include <cstddef>
-#include <vector>
+#include <functional>
 
 namespace brainshift
 {
+/**
+ * Mutual information of two volumes from their joint histogram: pairs of numbers, counted in bins.
+ *
+ * A pair adds to the four bins nearest to it, by a Parzen window that is the B-spline of first
+ * degree. Thévenaz and Unser (IEEE Transactions on Image Processing 9(12), 2000) use B-splines of
+ * higher degree in the same way.
+ */
+class BRAINSHIFT_DEFORMATION_EXPORT JointHistogram
+{
+public:
+  static constexpr int Bins = 32; ///< along each side
+
+  JointHistogram();
+
+  /** Counts a pair. Both numbers: 0 to 1. */
+  void add(float a, float b);
+
+  /** Adds the pairs of another histogram. */
+  void add(const JointHistogram& other);
+
+  /** Number of pairs that were counted. */
+  double count() const { return this->Count; }
+
+  /** Mutual information (nats, 0 or more); 0 without pairs. */
+  double information() const;
+
+private:
+  std::vector<double> Cells;
+  double Count = 0.0;
+};
+
+/** A position on a line, and the value there. */
+struct LinePoint
+{
+  double at = 0.0;
+  double value = 0.0;
+};
+
+/**
+ * Brackets a minimum from 0 on with growing steps, then narrows the bracket by parabolas and golden
+ * sections, after Brent (Algorithms for Minimization without Derivatives, 1973, chapter 5). The
+ * result is never above the value at 0.
+ *
+ * @param valueAtZero   the function at 0
+ * @param stride        the first step, in either direction; above 0
+ * @param tolerance     largest distance of the result from the minimum
+ */
+BRAINSHIFT_DEFORMATION_EXPORT LinePoint lowestAlong(const std::function<double(double)>& function,
+  double valueAtZero, double stride, double tolerance);
+
 struct AlignmentSettings
 {
   std::vector<double> levelsMm{ 8.0, 4.0, 2.0 }; ///< spacing of the samples, coarse to fine
@@ -31,14 +75,14 @@ struct AlignmentSettings
   int mostRounds = 8;                            ///< through all directions, on each level
 };
 
-/** What is known after a step. */
+/** The figures after a step. */
 struct AlignmentProgress
 {
   int level = 0;                   ///< from 0 on, the coarsest
   int steps = 0;                   ///< lines searched, on all levels
   double information = 0.0;        ///< nats; more is better
   double informationAtStart = 0.0; ///< of the reference where it was, on the same level
-  double overlap = 0.0;            ///< of the samples, how many lie within the reference
+  double overlap = 0.0;            ///< fraction of the samples inside the reference
   double done = 0.0; ///< fraction of the most rounds there may be, 0 to 1; 1 once it is finished
   bool isFinished = false;
 };
@@ -46,12 +90,12 @@ struct AlignmentProgress
 class BRAINSHIFT_DEFORMATION_EXPORT Alignment
 {
 public:
-  /** With a smaller overlap (AlignmentProgress::overlap) nothing is found. */
+  /** An alignment with a smaller overlap (AlignmentProgress::overlap) is refused. */
   static const double LeastOverlap;
 
   /**
-   * @param pair   both where they lie now
-   * @param bent   how the volume is bent; null: not at all
+   * @param pair   both in their present positions
+   * @param bent   the deformation of the volume; null: none
    */
   Alignment(RegisteredPair pair, const Lattice* bent, const AlignmentSettings& settings = {});
 
@@ -60,14 +104,14 @@ public:
 
   const AlignmentProgress& progress() const { return this->Progress; }
 
-  /** How to move the reference from where it was: mm, world axes. */
+  /** The motion of the reference from its start: mm, world axes. */
   RigidPose motion() const { return this->motionOf(this->Best); }
 
-  /** How far (mm) the motion moves the middle of what is compared. */
+  /** Distance (mm) by which the motion moves the middle of the samples. */
   double shiftMm() const;
 
   /** Angle of the rotation (degrees). */
-  double turnDegrees() const;
+  double rotationDegrees() const;
 
   /** Bytes that an alignment takes beside the volumes themselves. */
   static double bytes(const Grid& rest, const Grid& reference);
@@ -78,8 +122,8 @@ private:
 
   struct Sample
   {
-    glm::dvec3 place; // mm, world, as bent
-    float value = 0;  // 0 to 1
+    glm::dvec3 position; // mm, world, in the deformed volume
+    float value = 0;     // 0 to 1
   };
 
   void prepareLevel();
@@ -88,7 +132,7 @@ private:
   double searchLine(const Parameters& direction);
   void endRound();
   void finishLevel();
-  void tellDone();
+  void reportDone();
 
   AlignmentSettings Settings;
   Mask Cavity;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/LatticeRows.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace brainshift

@@ -1,36 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Reads a lattice at the samples of a level, row after row, and adds what each sample asks
- *        for to the control points that it depends on.
- *
- * Samples are those of a grid over the volume, each moved by up to half a step: samples on one
- * raster prefer displacements of half a step, where interpolation is smoothest. The shift along z
- * is one for each slab, along y one for each row, along x one for each sample, so that the lattice
- * is blended once for each slab and row.
- */
+/// @file
+/// Reads a lattice at the samples of a level, row after row, and adds the force of each sample to
+/// the control points that it depends on.
+///
+/// Samples are those of a grid over the volume, each moved by up to half a step: samples on one
+/// raster prefer displacements of half a step, where interpolation is smoothest. The shift along z
+/// is one for each slab, along y one for each row, along x one for each sample, so that the lattice
+/// is blended once for each slab and row.
 #ifndef BrainShift_LatticeRows_h
 #define BrainShift_LatticeRows_h
 
-#include "Common/Export.h"
 #include "Common/Parallel.h"
 #include "Filters/Deformation/Kernels.h"
 #include "Filters/Deformation/Lattice.h"
 
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <vector>
 
 namespace brainshift
 {
 /** Numbers of a force: 3 along the axes, then its Hessian xx yy zz xy xz yz. */
 constexpr int ForceNumbers = 9;
 
-/** What the samples ask of each control point. */
+/** The force on each control point, summed over the samples. */
 using ControlForces = std::vector<float>; // ForceNumbers for each, x fastest
 
 /** The four control points around a position along one axis, and their weights. */
@@ -40,7 +31,7 @@ struct Taps
   glm::vec4 weights{ 0.0f };
 };
 
-/** A row of samples as its visitor sees it. */
+/** A row of samples, for its visitor. */
 struct SampleRow
 {
   int j = 0;
@@ -62,7 +53,7 @@ public:
 
   const Grid& samples() const { return this->Samples; }
 
-  /** Where a sample lies, in steps from the grid's point, -0.5 to 0.5 along each axis. */
+  /** Offset of a sample from the grid's point, in steps, -0.5 to 0.5 along each axis. */
   glm::vec3 shift(int i, int j, int k) const
   {
     // Multiples of irrational numbers spread evenly.
@@ -70,7 +61,7 @@ public:
       centred(0.6180340 * j + 0.7548777 * k), centred(0.6180340 * k) };
   }
 
-  /** Where a sample lies, in points of the samples' grid. */
+  /** Position of a sample, in points of the samples' grid. */
   glm::vec3 position(int i, int j, int k) const
   {
     return glm::vec3(i, j, k) + this->shift(i, j, k);
@@ -102,13 +93,13 @@ public:
 
   /**
    * Adds ForceNumbers numbers of a sample to its row. The Hessian is lumped by sums of its rows, as
-   * mass matrices of finite elements are: a control point takes what it would have if all others
-   * moved with it, so that a step never overshoots by coupling.
+   * mass matrices of finite elements are: a control point gets the Hessian of all of them moving
+   * together. That is never below the true one, so that a step never overshoots by coupling.
    */
   static void add(const SampleRow& row, const Taps& taps, const float* force);
 
   /**
-   * Calls visit(row) for each row of samples, slabs on several cores, and adds up what it added.
+   * Calls visit(row) for each row of samples, slabs on several cores, and returns the forces.
    *
    * @param displacements   of the control points, mm along the grid's axes
    */
@@ -144,7 +135,7 @@ public:
 private:
   static float centred(double number)
   {
-    // The number is 0 or more, so that what is cut off is its fraction.
+    // The number is 0 or more, so truncation leaves its fraction.
     return static_cast<float>(
       number - static_cast<double>(static_cast<std::int64_t>(number)) - 0.5);
   }

@@ -1,25 +1,200 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/PyramidLevel.h"
 
-#include "Filters/Register/LatticeRows.h"
-#include "Filters/Register/Sweep.h"
-
-#include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 namespace brainshift
 {
 namespace
 {
-// So that a step stays short and memory small: of samples of tissue on a level that may be left
-// out. Air costs little.
+constexpr double BlockMm = 1.0;
+
+enum State : char
+{
+  Inside = 0,
+  Empty = 1,   // all of its voxels have the lowest value
+  Outside = 2, // the same, and connected to the border
+};
+
+// So many voxels of a grid make one block.
+glm::ivec3 voxelsPerBlock(const Grid& grid)
+{
+  return glm::max(glm::ivec3(glm::round(BlockMm / grid.spacing)), glm::ivec3(1));
+}
+
+// The blocks of a grid. The last one along an axis may have fewer voxels.
+Grid blocksOf(const Grid& grid, const glm::ivec3& perBlock)
+{
+  Grid blocks = grid;
+  blocks.dimensions = (grid.dimensions + perBlock - 1) / perBlock;
+  blocks.spacing = grid.spacing * glm::dvec3(perBlock);
+  blocks.origin = grid.worldFromGrid(0.5 * glm::dvec3(perBlock - 1));
+  return blocks;
+}
+
+bool isEmpty(const Volume& volume, const glm::ivec3& first, const glm::ivec3& perBlock, float low)
+{
+  const glm::ivec3 end = glm::min(first + perBlock, volume.grid.dimensions);
+  for (int k = first.z; k < end.z; ++k)
+  {
+    for (int j = first.y; j < end.y; ++j)
+    {
+      const float* row = &volume.values[volume.grid.offset(0, j, k)];
+      if (std::any_of(row + first.x, row + end.x, [low](float value) { return value > low; }))
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+Mask emptyBlocks(const Volume& volume)
+{
+  const glm::ivec3 perBlock = voxelsPerBlock(volume.grid);
+  Mask blocks;
+  blocks.grid = blocksOf(volume.grid, perBlock);
+  blocks.inside.assign(blocks.grid.count(), Inside);
+  const float low = *std::min_element(volume.values.begin(), volume.values.end());
+  parallelFor(0, blocks.grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (int k = static_cast<int>(begin); k < end; ++k)
+    {
+      for (int j = 0; j < blocks.grid.dimensions.y; ++j)
+      {
+        for (int i = 0; i < blocks.grid.dimensions.x; ++i)
+        {
+          blocks.inside[blocks.grid.offset(i, j, k)] =
+            isEmpty(volume, glm::ivec3(i, j, k) * perBlock, perBlock, low) ? Empty : Inside;
+        }
+      }
+    }
+  });
+  return blocks;
+}
+
+// Turns empty blocks at the border, and those connected to them, into outside ones.
+void floodFromBorder(Mask& blocks)
+{
+  const glm::ivec3 sides = blocks.grid.dimensions;
+  const auto at = [&](const glm::ivec3& index) -> char& {
+    return blocks.inside[blocks.grid.offset(index.x, index.y, index.z)];
+  };
+  std::vector<glm::ivec3> open;
+  const auto take = [&](const glm::ivec3& index) {
+    if (at(index) == Empty)
+    {
+      at(index) = Outside;
+      open.push_back(index);
+    }
+  };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int u = (axis + 1) % 3;
+    const int v = (axis + 2) % 3;
+    glm::ivec3 index;
+    for (index[u] = 0; index[u] < sides[u]; ++index[u])
+    {
+      for (index[v] = 0; index[v] < sides[v]; ++index[v])
+      {
+        for (const int end : { 0, sides[axis] - 1 })
+        {
+          index[axis] = end;
+          take(index);
+        }
+      }
+    }
+  }
+  while (!open.empty())
+  {
+    const glm::ivec3 index = open.back();
+    open.pop_back();
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      for (const int direction : { -1, 1 })
+      {
+        glm::ivec3 next = index;
+        next[axis] += direction;
+        if (next[axis] >= 0 && next[axis] < sides[axis])
+        {
+          take(next);
+        }
+      }
+    }
+  }
+}
+}
+
+Mask sweptRegion(const Volume& ultrasound)
+{
+  Mask blocks = emptyBlocks(ultrasound);
+  floodFromBorder(blocks);
+  Volume outside{ blocks.grid, std::vector<float>(blocks.inside.size()) };
+  std::transform(blocks.inside.begin(), blocks.inside.end(), outside.values.begin(),
+    [](char state) { return state == Outside ? 1.0f : 0.0f; });
+  // The blocks beside them are full in part.
+  boxSum(outside, glm::ivec3(1));
+  std::transform(outside.values.begin(), outside.values.end(), blocks.inside.begin(),
+    [](float neighbours) { return static_cast<char>(neighbours < 0.5f ? 1 : 0); });
+  return blocks;
+}
+
+Grid croppedTo(const Grid& grid, const Mask& region, double marginMm)
+{
+  glm::dvec3 low(std::numeric_limits<double>::max());
+  glm::dvec3 high(-low);
+  const glm::ivec3 sides = region.grid.dimensions;
+  for (int k = 0; k < sides.z; ++k)
+  {
+    for (int j = 0; j < sides.y; ++j)
+    {
+      const char* row = &region.inside[region.grid.offset(0, j, k)];
+      const char* first = std::find_if(row, row + sides.x, [](char in) { return in != 0; });
+      if (first == row + sides.x)
+      {
+        continue;
+      }
+      const char* last = row + sides.x - 1;
+      for (; *last == 0; --last)
+      {
+      }
+      for (const char* end : { first, last })
+      {
+        const glm::dvec3 at = grid.gridFromWorld(region.grid.worldFromGrid({ end - row, j, k }));
+        low = glm::min(low, at);
+        high = glm::max(high, at);
+      }
+    }
+  }
+  const glm::dvec3 margin = marginMm / grid.spacing;
+  const glm::dvec3 last(grid.dimensions - 1);
+  const glm::ivec3 first(glm::clamp(glm::floor(low - margin), glm::dvec3(0.0), last));
+  const glm::ivec3 end(glm::clamp(glm::ceil(high + margin), glm::dvec3(0.0), last));
+  if (glm::any(glm::lessThanEqual(end, first)))
+  {
+    return grid;
+  }
+  Grid result = grid;
+  result.origin = grid.worldFromGrid(first);
+  result.dimensions = end - first + 1;
+  return result;
+}
+
+namespace
+{
+// Most samples of tissue on a level that may be skipped, so that a step stays short and memory
+// small. Air costs little.
 constexpr double MostSamples = 0.95e6;
+
+// A level that is not finer than the former one by this factor in volume adds nothing.
+constexpr double FinerVolume = 0.8;
+
 constexpr double LeastTissue = 0.25; // fraction of a volume that is taken for tissue
 constexpr float Air = 0.05f;         // fraction of the range of values
 
-// As fine as a level asks for and the number of its samples allows.
+// The spacing of a level, raised until its number of samples is allowed.
 double spacingOf(const RefinementLevel& level, const Grid& rest, double tissueFraction)
 {
   constexpr double Coarser = 1.02;
@@ -85,6 +260,14 @@ Grid ComparedRegion::grid(const RefinementLevel& level) const
 {
   const Grid grid = coarseGrid(this->Rest, this->spacingMm(level));
   return this->Limits ? croppedTo(grid, this->Fan, this->Limits->marginMm) : grid;
+}
+
+bool ComparedRegion::isWorthwhile(
+  const RefinementLevel& level, const RefinementLevel& former, double cost) const
+{
+  return level.mostCost >= 1.0 ||
+    (cost <= level.mostCost &&
+      pointVolume(this->grid(level)) < FinerVolume * pointVolume(this->grid(former)));
 }
 
 double ComparedRegion::stiffness() const

@@ -1,27 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief One level of a refinement: which samples it compares, both volumes on its grid, and their
- *        comparison.
- */
+/// @file
+/// One level of a refinement: its samples, both volumes on its grid, and their comparison.
 #ifndef BrainShift_PyramidLevel_h
 #define BrainShift_PyramidLevel_h
 
 #include "Filters/Register/Similarity.h"
-#include "Filters/Register/Volume.h"
-
-#include <glm/vec3.hpp>
-
-#include <cstddef>
-#include <memory>
-#include <optional>
-#include <vector>
 
 namespace brainshift
 {
 /**
- * Which samples of a volume are compared: all of its box, or those near the fan of an ultrasound
- * reference.
+ * The region inside the fan, on voxels of about 1 mm. Voxels outside it are connected to the border
+ * of the volume through voxels that have the lowest value. Dark tissue within the fan is inside. If
+ * the volume has no such border, all of it is inside.
+ */
+BRAINSHIFT_DEFORMATION_EXPORT Mask sweptRegion(const Volume& ultrasound);
+
+/**
+ * The part of a grid within `marginMm` of a region, with two points or more along each axis. The
+ * whole grid if they do not meet.
+ */
+BRAINSHIFT_DEFORMATION_EXPORT Grid croppedTo(const Grid& grid, const Mask& region, double marginMm);
+
+/**
+ * The part of a volume that is compared: all of its box, or the samples near the fan of an
+ * ultrasound reference.
  */
 class ComparedRegion
 {
@@ -31,7 +33,7 @@ public:
   /** Whether the fan is known, or there is none. */
   bool isFound() const { return !this->Limits || !this->Fan.inside.empty(); }
 
-  /** Finds the fan of the reference (Sweep.h); it takes as long as a step. */
+  /** Finds the fan of the reference; it takes as long as a step. */
   void find(const Volume& reference, const Grid& lattice);
 
   /** The voxels inside the fan; null: there is none. */
@@ -42,16 +44,19 @@ public:
   /** The samples of a level, without those far from the fan. */
   Grid grid(const RefinementLevel& level) const;
 
+  /** Whether a level that may be skipped is finer than the former one, and its cost low enough. */
+  bool isWorthwhile(const RefinementLevel& level, const RefinementLevel& former, double cost) const;
+
   /**
-   * Factor on the stiffness, which is a mean over the lattice, where the cost is a mean over the
-   * fan. Without the factor, a volume would be the softer the smaller the fan is.
+   * Factor on the stiffness. The stiffness is a mean over the lattice, the cost a mean over the
+   * fan; without the factor, a smaller fan would make the volume softer.
    */
   double stiffness() const;
 
   /** Fraction of the fan that is compared, or of the samples that have a partner; 0 to 1. */
   double overlap(const CostAndForces& compared, const Grid& samples) const;
 
-  /** The spacing of a level for a volume with as little tissue as may be: the finest there is. */
+  /** The finest spacing that a level may have: that for a volume with the least tissue. */
   static double finestSpacingMm(const RefinementLevel& level, const Grid& rest);
 
 private:

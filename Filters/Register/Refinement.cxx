@@ -1,26 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/Refinement.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace brainshift
 {
 namespace
 {
-constexpr double LongestStepPoints = 1.5;
-constexpr int RigidStepsPerStep = 3; // on a level where the volume moves as a whole
-
-// A level that is not finer than the last one by this factor in volume adds nothing.
-constexpr double FinerVolume = 0.8;
-
 // Bytes of a control point: lists of displacements and forces.
 constexpr double BytesPerControl = 40.0 * sizeof(float) * 3.0;
-
-bool compareAlike(const RefinementLevel& a, const RefinementLevel& b)
-{
-  return a.metric == b.metric && a.spacingMm == b.spacingMm && a.mostCost == b.mostCost;
-}
 }
 
 Refinement::Refinement(
@@ -60,24 +48,10 @@ const RefinementProgress& Refinement::step()
   const double levels = static_cast<double>(this->Settings.plan.levels.size());
   progress.done = progress.isFinished
     ? 1.0
-    : (this->Index + static_cast<double>(this->StepsOfLevel) / this->mostStepsOfLevel()) / levels;
+    : (this->Index +
+        static_cast<double>(this->StepsOfLevel) / this->Settings.mostStepsOf(this->level())) /
+      levels;
   return progress;
-}
-
-int Refinement::mostStepsOfLevel() const
-{
-  return this->Settings.mostSteps * (this->level().isRigid ? RigidStepsPerStep : 1);
-}
-
-bool Refinement::isWorthIt(double cost) const
-{
-  if (this->Index == 0 || this->level().mostCost >= 1.0)
-  {
-    return true;
-  }
-  const Grid former = this->Region.grid(this->Settings.plan.levels[this->Index - 1]);
-  return cost <= this->level().mostCost &&
-    pointVolume(this->Level->grid()) < FinerVolume * pointVolume(former);
 }
 
 void Refinement::prepareLevel()
@@ -93,7 +67,9 @@ void Refinement::prepareLevel()
     return;
   }
   this->Here = std::make_unique<CostAndForces>(this->Level->compare(this->State.controls));
-  if (!this->isWorthIt(this->Here->cost))
+  const std::vector<RefinementLevel>& levels = this->Settings.plan.levels;
+  if (this->Index > 0 &&
+    !this->Region.isWorthwhile(this->level(), levels[this->Index - 1], this->Here->cost))
   {
     this->finishLevel();
   }
@@ -101,17 +77,7 @@ void Refinement::prepareLevel()
 
 void Refinement::beginLevel()
 {
-  const glm::dvec3 spacing = this->Level->grid().spacing;
-  const double longestMm = LongestStepPoints * std::max(spacing.x, std::max(spacing.y, spacing.z));
-  const RefinementPlan& plan = this->Settings.plan;
-  if (this->level().isRigid)
-  {
-    this->Step = std::make_unique<RigidMove>(plan.rigidGrowth, longestMm);
-  }
-  else
-  {
-    this->Step = std::make_unique<BendStep>(plan.bendGrowth, longestMm);
-  }
+  this->Step = makeStep(this->Settings.plan, this->level(), this->Level->grid());
   this->LastUsed = this->Index;
   this->State.beginLevel(std::move(*this->Here), this->Level->compare(this->State.startControls));
   this->reportOverlap();
@@ -127,7 +93,8 @@ void Refinement::takeStep()
   }
   ++this->State.progress.steps;
   ++this->StepsOfLevel;
-  if (outcome == StepOutcome::Settled || this->StepsOfLevel >= this->mostStepsOfLevel())
+  if (outcome == StepOutcome::Settled ||
+    this->StepsOfLevel >= this->Settings.mostStepsOf(this->level()))
   {
     this->finishLevel();
   }
@@ -157,7 +124,7 @@ void Refinement::finishLevel()
     this->Pair = {};
     return;
   }
-  if (!compareAlike(this->level(), levels[next])) // else it need not be prepared again
+  if (!this->level().isComparedLike(levels[next])) // else it need not be prepared again
   {
     this->Level = nullptr;
   }

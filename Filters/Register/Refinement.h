@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Bends a lattice until a volume agrees with a reference, a part of a step for each call.
- *
- * It begins with the lattice as it is, for example as a hand bent it, on a coarse level, and ends
- * on the finest; the plan of a similarity (Similarity.h) lists the levels. A step is that of Gauss
- * and Newton on the control points, at most 1.5 points of its level long and shortened until the
- * energy falls (RefinementSteps.h). The energy is the cost plus the stiffness (Stiffness.h) of what
- * differs from the beginning; a rigid motion costs no energy. A new level begins with the better of
- * the last result and the beginning, so that the result never has more energy than the beginning.
- */
+/// @file
+/// Refines a lattice so that a volume matches a reference, a part of a step for each call.
+///
+/// It starts from the lattice as it is, for example as a user bent it by hand, on a coarse level,
+/// and ends on the finest. The plan of a similarity (Similarity.h) lists the levels. A step is a
+/// Gauss-Newton step of the control points, at most 1.5 points of its level long and shortened
+/// until the energy falls (RefinementSteps.h). The energy is the cost plus the stiffness
+/// (Stiffness.h) of the change since the start; a rigid motion costs no energy. A new level starts
+/// from the better of the last result and the start, so that the result never has more energy than
+/// the start.
 #ifndef BrainShift_Refinement_h
 #define BrainShift_Refinement_h
 
-#include "Filters/Register/PyramidLevel.h"
 #include "Filters/Register/RefinementSteps.h"
-
-#include <memory>
 
 namespace brainshift
 {
@@ -45,9 +41,6 @@ public:
 
 private:
   const RefinementLevel& level() const { return this->Settings.plan.levels[this->Index]; }
-  int mostStepsOfLevel() const;
-  /** Whether a level that may be left out is finer than the last one, and agrees well enough. */
-  bool isWorthIt(double cost) const;
   void prepareLevel();
   void beginLevel();
   void takeStep();

@@ -2,12 +2,7 @@
 #include "Filters/Register/RefinementSteps.h"
 
 #include <Eigen/Cholesky>
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 
-#include <algorithm>
-#include <cstddef>
 #include <utility>
 
 namespace brainshift
@@ -131,7 +126,7 @@ namespace
 constexpr int MostHalvings = 4;
 constexpr double Halving = 0.5;
 
-// How often a step that would fold is sought again by a stiffer volume, and how much stiffer.
+// A step that would fold is computed again with a stiffer volume: so often, so much stiffer.
 constexpr int MostStiffenings = 3;
 constexpr double Stiffening = 1.5;
 constexpr double Converged = 1e-4; // fraction of the energy that a step must gain
@@ -140,9 +135,9 @@ constexpr double RigidShortening = 0.25;
 constexpr double LeastRigidStepMm = 0.02;
 constexpr double LeastInSight = 0.75; // of the samples that were compared at the start
 
-constexpr int Numbers = 6; // a shift along three axes, then a rotation around them
+constexpr int Parameters = 6; // a translation along three axes, then a rotation around them
 
-// Of the Hessian's diagonal: a rotation that nothing holds stays small.
+// Of the Hessian's diagonal: a rotation without any force against it stays small.
 constexpr double Damping = 1e-3;
 
 double weightOf(const float* force)
@@ -156,7 +151,7 @@ glm::dmat3 hessianOf(const float* force)
     force[5] };
 }
 
-// How a control point that lies at `arm` from the middle moves by each of the six numbers.
+// The motion of a control point at `arm` from the middle, for each of the six parameters.
 void motionsOf(const glm::dvec3& arm, glm::dvec3* motions)
 {
   for (int axis = 0; axis < 3; ++axis)
@@ -171,18 +166,19 @@ void motionsOf(const glm::dvec3& arm, glm::dvec3* motions)
 // The normal equations of a motion.
 struct Equations
 {
-  Eigen::Matrix<double, Numbers, Numbers> matrix = Eigen::Matrix<double, Numbers, Numbers>::Zero();
-  Eigen::Matrix<double, Numbers, 1> right = Eigen::Matrix<double, Numbers, 1>::Zero();
+  Eigen::Matrix<double, Parameters, Parameters> matrix =
+    Eigen::Matrix<double, Parameters, Parameters>::Zero();
+  Eigen::Matrix<double, Parameters, 1> right = Eigen::Matrix<double, Parameters, 1>::Zero();
 
   void add(const glm::dvec3& arm, const float* force)
   {
-    glm::dvec3 motions[Numbers];
+    glm::dvec3 motions[Parameters];
     motionsOf(arm, motions);
     const glm::dmat3 hessian = hessianOf(force);
-    for (int row = 0; row < Numbers; ++row)
+    for (int row = 0; row < Parameters; ++row)
     {
       const glm::dvec3 image = hessian * motions[row];
-      for (int column = 0; column < Numbers; ++column)
+      for (int column = 0; column < Parameters; ++column)
       {
         this->matrix(row, column) += glm::dot(image, motions[column]);
       }
@@ -191,7 +187,7 @@ struct Equations
   }
 };
 
-// Where control points lie (mm along the grid's axes), from where the forces act on the whole.
+// Positions of control points (mm along the grid's axes), from the centre of the forces.
 std::vector<glm::dvec3> armsOf(
   const Grid& lattice, const std::vector<glm::vec3>& displacements, const ControlForces& forces)
 {
@@ -238,12 +234,12 @@ RigidStep rigidStep(
     equations.add(arms[i], &forces[i * ForceNumbers]);
   }
   equations.matrix.diagonal() *= 1.0 + Damping;
-  const Eigen::LLT<Eigen::Matrix<double, Numbers, Numbers>> factor(equations.matrix);
+  const Eigen::LLT<Eigen::Matrix<double, Parameters, Parameters>> factor(equations.matrix);
   if (factor.info() != Eigen::Success)
   {
-    return result; // nothing asks for a motion
+    return result; // no force
   }
-  const Eigen::Matrix<double, Numbers, 1> motion = factor.solve(equations.right);
+  const Eigen::Matrix<double, Parameters, 1> motion = factor.solve(equations.right);
   const glm::dvec3 shift(motion(0), motion(1), motion(2));
   const glm::dvec3 rotation(motion(3), motion(4), motion(5));
   for (std::size_t i = 0; i < arms.size(); ++i)
@@ -261,7 +257,7 @@ void BendStep::find(BendTrial& trial, const RefinementState& state) const
   trial.step = newtonStep(state.stiffness, state.known.forces, state.bendOf(state.controls));
   trial.lengthMm = longest(trial.step);
   trial.fraction =
-    std::min(this->Stride, trial.lengthMm > 0.0 ? this->LongestMm / trial.lengthMm : 1.0);
+    std::min(this->StepLength, trial.lengthMm > 0.0 ? this->LongestMm / trial.lengthMm : 1.0);
 }
 
 StepOutcome BendStep::attempt(RefinementState& state, PyramidLevel& level)
@@ -304,7 +300,7 @@ StepOutcome BendStep::attempt(BendTrial& trial, RefinementState& state, PyramidL
   const double gain = state.energy - energy;
   state.progress.movedMm = trial.fraction * candidate.fraction * trial.lengthMm;
   state.take(candidate.lattice, std::move(compared), energy);
-  this->Stride =
+  this->StepLength =
     std::min(this->Growth.longest, this->Growth.growth * std::max(1.0, trial.fraction));
   return gain > Converged * energy ? StepOutcome::Improved : StepOutcome::Settled;
 }
@@ -312,20 +308,21 @@ StepOutcome BendStep::attempt(BendTrial& trial, RefinementState& state, PyramidL
 StepOutcome RigidMove::attempt(RefinementState& state, PyramidLevel& level)
 {
   const RigidStep step = rigidStep(state.start.grid, state.controls, state.known.forces);
-  const double fraction = std::min(this->Stride, this->LongestMm / std::max(1e-9, step.lengthMm));
+  const double fraction =
+    std::min(this->StepLength, this->LongestMm / std::max(1e-9, step.lengthMm));
   // Only the edge of a mask can fold.
   const RefinementState::Candidate candidate = state.candidateAt(step.steps, fraction);
   CostAndForces compared = level.compare(candidate.controls);
   const double gain = state.known.cost - compared.cost; // the bend costs the same
-  // A mean also falls where tissue that disagrees leaves the fan.
+  // A mean also falls if tissue with a high cost leaves the fan.
   const bool staysInSight = compared.samples >= LeastInSight * state.samplesAtStart;
   state.progress.movedMm = 0.0;
   state.progress.stepFraction = std::min(state.progress.stepFraction, candidate.fraction);
   if (!(gain > 0.0) || !staysInSight)
   {
-    this->Stride = RigidShortening * fraction;
-    return this->Stride * step.lengthMm > LeastRigidStepMm ? StepOutcome::Open
-                                                           : StepOutcome::Settled;
+    this->StepLength = RigidShortening * fraction;
+    return this->StepLength * step.lengthMm > LeastRigidStepMm ? StepOutcome::Open
+                                                               : StepOutcome::Settled;
   }
   for (std::size_t i = 0; i < state.unbent.size(); ++i)
   {
@@ -333,7 +330,20 @@ StepOutcome RigidMove::attempt(RefinementState& state, PyramidLevel& level)
   }
   state.progress.movedMm = fraction * candidate.fraction * step.lengthMm;
   state.take(candidate.lattice, std::move(compared), state.energy - gain);
-  this->Stride = std::min(this->Growth.longest, this->Growth.growth * fraction);
+  this->StepLength = std::min(this->Growth.longest, this->Growth.growth * fraction);
   return gain > Converged * state.energy ? StepOutcome::Improved : StepOutcome::Settled;
+}
+
+std::unique_ptr<RefinementStep> makeStep(
+  const RefinementPlan& plan, const RefinementLevel& level, const Grid& samples)
+{
+  constexpr double LongestPoints = 1.5;
+  const glm::dvec3 spacing = samples.spacing;
+  const double longestMm = LongestPoints * std::max(spacing.x, std::max(spacing.y, spacing.z));
+  if (level.isRigid)
+  {
+    return std::make_unique<RigidMove>(plan.rigidGrowth, longestMm);
+  }
+  return std::make_unique<BendStep>(plan.bendGrowth, longestMm);
 }
 }

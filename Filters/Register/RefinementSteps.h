@@ -1,32 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The two kinds of steps of a refinement: one bends the volume, one moves it rigidly.
- *
- * Both follow Gauss and Newton (Nocedal and Wright, Numerical Optimization, 2nd ed., section 10.3).
- *
- * A rigid step has six numbers instead of three for each control point, so that the random forces
- * of speckle average out.
- */
+/// @file
+/// The two kinds of steps of a refinement: one bends the volume, one moves it rigidly.
+///
+/// Both are Gauss-Newton steps (Nocedal and Wright, Numerical Optimization, 2nd ed., section 10.3).
+///
+/// A rigid step has six parameters instead of three for each control point, so that the random
+/// forces of speckle average out.
 #ifndef BrainShift_RefinementSteps_h
 #define BrainShift_RefinementSteps_h
 
-#include "Common/Export.h"
 #include "Filters/Deformation/FoldGuard.h"
-#include "Filters/Deformation/Lattice.h"
-#include "Filters/Register/LatticeRows.h"
 #include "Filters/Register/PyramidLevel.h"
-#include "Filters/Register/Similarity.h"
 #include "Filters/Register/Stiffness.h"
-
-#include <glm/vec3.hpp>
-
-#include <memory>
-#include <vector>
 
 namespace brainshift
 {
-// The lattice that a refinement changes, its energy, and what is known after a step.
+// The lattice that a refinement changes, its energy, and the figures after a step.
 
 struct RefinementSettings
 {
@@ -35,9 +24,16 @@ struct RefinementSettings
   int mostSteps = 15;     ///< on each level where it bends
   int samples = 4;        ///< nodes between two control points, 0 to 16
   bool guards = true;     ///< whether the fold guard shortens steps
+
+  /** Most steps of a level. */
+  int mostStepsOf(const RefinementLevel& level) const
+  {
+    constexpr int RigidStepsPerStep = 3;
+    return this->mostSteps * (level.isRigid ? RigidStepsPerStep : 1);
+  }
 };
 
-/** What is known after a step. */
+/** The figures after a step. */
 struct RefinementProgress
 {
   int level = 0;             ///< from 0 on, the coarsest
@@ -47,8 +43,8 @@ struct RefinementProgress
   double movedMm = 0.0;      ///< longest move of a control point in the last step
   double stepFraction = 1.0; ///< smallest fraction of a step that the fold guard allowed
   double overlap = 0.0;      ///< see ComparedRegion::overlap; on the levels of the first metric
-  double stiffness = 1.0; ///< what was used; larger than asked for where tissue would have folded
-  double done = 0.0;      ///< fraction of the most steps there may be, 0 to 1; 1 at the end
+  double stiffness = 1.0;    ///< the factor in use; raised where tissue would have folded
+  double done = 0.0;         ///< fraction of the most steps there may be, 0 to 1; 1 at the end
   bool isFinished = false;
 };
 
@@ -62,7 +58,7 @@ struct RefinementState
   Lattice start;
   Lattice bent;
   Controls startControls;
-  Controls unbent; ///< what the stiffness counts from: the start, moved rigidly
+  Controls unbent; ///< without elastic energy: the start, moved rigidly
   Controls controls;
   CostAndForces known;         ///< of `controls`
   double energy = 0.0;         ///< of `controls`: cost and stiffness
@@ -70,7 +66,7 @@ struct RefinementState
   Stiffness stiffness;
   RefinementProgress progress;
 
-  /** Sets the factor on the stiffness that the plan asks for. */
+  /** Sets the plan's factor on the stiffness. */
   void setStiffness(double factor);
 
   /** Makes the volume stiffer. */
@@ -79,12 +75,12 @@ struct RefinementState
   /** Begins a level with the better of the last result and the start. */
   void beginLevel(CostAndForces here, CostAndForces atStart);
 
-  /** What the stiffness counts. */
+  /** The displacements that have elastic energy. */
   Controls bendOf(const Controls& at) const;
 
   double energyOf(const Controls& at, const CostAndForces& compared) const;
 
-  /** Where a step would lead, as far as the fold guard allows it. */
+  /** The result of a step, as far as the fold guard allows it. */
   struct Candidate
   {
     Lattice lattice;
@@ -106,8 +102,8 @@ private:
 enum class StepOutcome
 {
   Open,     ///< try again
-  Improved, ///< the level goes on
-  Settled   ///< there is nothing more to gain on this level
+  Improved, ///< the level continues
+  Settled   ///< no further step would gain on this level
 };
 
 /** A step of all control points. */
@@ -118,7 +114,7 @@ struct RigidStep
 };
 
 /**
- * The step of Gauss and Newton of a shift and a small rotation of the bent lattice.
+ * The Gauss-Newton step of a translation and a small rotation of the deformed lattice.
  *
  * @param displacements   of the control points, mm along the grid's axes
  * @param forces          ForceNumbers for each control point (LatticeRows.h)
@@ -134,7 +130,7 @@ public:
   RefinementStep(const StepGrowth& growth, double longestMm)
     : Growth(growth)
     , LongestMm(longestMm)
-    , Stride(growth.first)
+    , StepLength(growth.first)
   {
   }
   virtual ~RefinementStep() = default;
@@ -145,7 +141,7 @@ public:
 protected:
   StepGrowth Growth;
   double LongestMm;
-  double Stride; // factor on the next step
+  double StepLength; // factor on the next step
 };
 
 /** A step that bends, of which each call tries one length. */
@@ -176,7 +172,7 @@ private:
   std::unique_ptr<BendTrial> Trying;
 };
 
-/** Where a step is too long, nothing moves, and the next one is shorter. It costs no energy. */
+/** A step that is too long moves nothing, and the next one is shorter. It has no elastic energy. */
 class RigidMove : public RefinementStep
 {
 public:
@@ -184,6 +180,10 @@ public:
 
   StepOutcome attempt(RefinementState& state, PyramidLevel& level) override;
 };
+
+/** The first step of a level with these samples. */
+std::unique_ptr<RefinementStep> makeStep(
+  const RefinementPlan& plan, const RefinementLevel& level, const Grid& samples);
 }
 
 #endif

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/Similarity.h"
 
-#include "Common/Parallel.h"
-
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
 #include <numeric>
 #include <utility>
 
@@ -125,6 +120,5 @@ CostAndForces averaged(
   result.forces = std::move(forces);
   return result;
 }
-
 
 }

@@ -1,32 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief What a similarity is: how a refinement compares two volumes, on which levels, and what the
- *        user reads of it.
- *
- * Each similarity is one file in Similarities/. Panel, Python and pages read the list below.
- */
+/// @file
+/// A similarity: how a refinement compares two volumes, on which levels, and its texts for the
+/// user.
+///
+/// Each similarity is one file in Similarities/. Panel, Python and pages read the list below.
 #ifndef BrainShift_Similarity_h
 #define BrainShift_Similarity_h
 
-#include "Common/Export.h"
-#include "Filters/Deformation/Lattice.h"
 #include "Filters/Register/LatticeRows.h"
 #include "Filters/Register/Volume.h"
 
-#include <glm/vec3.hpp>
-
-#include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace brainshift
 {
-// What a level of the pyramid compares, sample by sample.
+// The comparison of a level of the pyramid, sample by sample.
 //
 // The volume stays at rest: a sample of it at x is compared with the reference at x + u(x). So
-// nothing is inverted, and what describes the volume is computed once for each level.
+// nothing is inverted, and descriptors of the volume are computed once for each level.
 
 /** The two volumes of one level, on the grid of the level. */
 struct LevelVolumes
@@ -40,14 +31,14 @@ struct LevelVolumes
 /** The cost of a displacement, and its derivatives. */
 struct CostAndForces
 {
-  double cost = 0.0;     ///< mean over all samples that count; 0: both agree; without samples: 1
-  double samples = 0.0;  ///< how many of them have a partner in the reference
-  double possible = 0.0; ///< how many could have one
+  double cost = 0.0; ///< mean over all samples that count; 0: the volumes match; without samples: 1
+  double samples = 0.0;  ///< number of those with a partner in the reference
+  double possible = 0.0; ///< number of those that could have one
   /** Minus half the derivative of `cost` by each control point, and half its lumped Hessian. */
   ControlForces forces;
 };
 
-/** The samples of a level: where they lie, how much they count and how freely they move. */
+/** The samples of a level: their positions, their weights, and how freely they move. */
 struct LevelSamples
 {
   LevelSamples(const LevelVolumes& level, const Lattice& lattice);
@@ -66,13 +57,13 @@ struct LevelSamples
   std::vector<Stretch> stretches; ///< for each row
   glm::vec3 stepsPerMm{ 1.0f };
 
-  double possible = 0.0; ///< how many samples count
+  double possible = 0.0; ///< number of samples that count
 
   /** Finds `stretches` and `possible` from the weights. */
   void findStretches();
 
-  /** Where a sample that counts is compared. */
-  struct Place
+  /** A sample that counts and has a partner in the reference. */
+  struct Compared
   {
     std::size_t number = 0; ///< of the sample
     Taps taps;              ///< control points along x
@@ -81,33 +72,34 @@ struct LevelSamples
     Neighbours at; ///< in the reference
   };
 
-  /** Calls visit(place) for each sample of a row that counts and lies within the reference. */
+  /** Calls visit(sample) for each sample of a row that counts and is inside the reference. */
   template <typename Visit>
   void visitStretch(const SampleRow& row, const Stretch& stretch, const Visit& visit) const
   {
     const Grid& grid = this->rows.samples();
-    Place place;
+    Compared sample;
     for (int i = stretch.first; i < stretch.last; ++i)
     {
-      place.number = grid.offset(i, row.j, row.k);
-      place.weight = this->weights[place.number];
-      if (place.weight <= 0.0f)
+      sample.number = grid.offset(i, row.j, row.k);
+      sample.weight = this->weights[sample.number];
+      if (sample.weight <= 0.0f)
       {
         continue;
       }
       const glm::vec3 position = this->rows.position(i, row.j, row.k);
-      place.taps = this->rows.tapsAt(0, position.x);
-      place.freedom = this->freedom.empty() ? 1.0f : this->freedom[place.number];
-      place.at = neighboursOf(grid.dimensions,
-        position + this->stepsPerMm * (place.freedom * LatticeRows::displacement(row, place.taps)));
-      if (place.at.isInside)
+      sample.taps = this->rows.tapsAt(0, position.x);
+      sample.freedom = this->freedom.empty() ? 1.0f : this->freedom[sample.number];
+      sample.at = neighboursOf(grid.dimensions,
+        position +
+          this->stepsPerMm * (sample.freedom * LatticeRows::displacement(row, sample.taps)));
+      if (sample.at.isInside)
       {
-        visit(static_cast<const Place&>(place));
+        visit(static_cast<const Compared&>(sample));
       }
     }
   }
 
-  /** The numbers of a volume at the samples. `numbers` lie beside each other for each point. */
+  /** The numbers of a volume at the samples; `numbers` of them for each point, interleaved. */
   std::vector<float> read(const std::vector<float>& values, int numbers) const;
 };
 
@@ -121,27 +113,27 @@ class Comparison
 public:
   virtual ~Comparison() = default;
 
-  /** Does a part of the work before the first comparison. True once all is done. */
+  /** Does a part of the work before the first comparison. True once it is complete. */
   virtual bool prepare() { return true; }
 
   /** Compares at displacements of the control points, mm along the grid's axes. */
   virtual CostAndForces compare(const std::vector<glm::vec3>& displacements) = 0;
 };
 
-/** A way to compare. */
+/** A method of comparison. */
 struct Metric
 {
-  Support support;            ///< points around a position that its comparison depends on
+  Support support;            ///< neighbourhood that a comparison at a point depends on
   double bytesPerPoint = 0.0; ///< of a level's grid, while a comparison is made and used
 
   /**
-   * @param lattice   over the volume's box; its mask says how freely tissue moves, its
-   *                  displacements do not count
+   * @param lattice   over the volume's box; its mask gives how freely tissue moves; its
+   *                  displacements are ignored
    */
   std::unique_ptr<Comparison> (*make)(LevelVolumes level, const Lattice& lattice) = nullptr;
 };
 
-/** How far a step goes, as a factor on the step of Gauss and Newton. */
+/** The length of a step, as a factor on the Gauss-Newton step. */
 struct StepGrowth
 {
   double first = 1.0;
@@ -149,23 +141,30 @@ struct StepGrowth
   double growth = 1.2; ///< after each step that lowers the energy
 };
 
-/** One level of a refinement: what is compared there, and how finely. */
+/** One level of a refinement: its metric and its spacing. */
 struct RefinementLevel
 {
   const Metric* metric = nullptr;
   double spacingMm = 2.0; ///< of the samples; larger where the volume is coarser or too large
-  double mostCost = 1.0;  ///< the level is left out if it begins with more: it might lead astray
+  double mostCost = 1.0;  ///< a level that starts with more is skipped: it might mislead
   bool isRigid = false;   ///< the volume moves as a whole, in up to three times as many steps
+
+  /** Whether two levels have the same comparison. */
+  bool isComparedLike(const RefinementLevel& other) const
+  {
+    return this->metric == other.metric && this->spacingMm == other.spacingMm &&
+      this->mostCost == other.mostCost;
+  }
 };
 
-/** How the fan of an ultrasound reference limits what is compared. */
+/** Limits on the comparison with ultrasound inside a fan. */
 struct FanLimits
 {
   double marginMm = 10.0;      ///< tissue farther from the fan is not compared
   double mostSamples = 0.25e6; ///< inside the fan, so that a step stays short
 };
 
-/** What a refinement does. */
+/** The levels and factors of a refinement. */
 struct RefinementPlan
 {
   std::vector<RefinementLevel> levels; ///< coarse to fine
@@ -179,12 +178,12 @@ struct Similarity
 {
   const char* name = "";                ///< in Python, lower case
   const char* label = "";               ///< in the panel
-  const char* tooltip = "";             ///< when to choose it, and what it compares: sentences
-  const char* overlapOf = "the volume"; ///< what the overlap of a result is a fraction of
+  const char* tooltip = "";             ///< use and method: sentences
+  const char* overlapOf = "the volume"; ///< the whole of which the overlap is a fraction
   RefinementPlan plan;
 };
 
-/** All similarities. Their places are the numbers of the property Similarity; 0 is the default. */
+/** All similarities. Their indices are the values of the property Similarity; 0 is the default. */
 BRAINSHIFT_DEFORMATION_EXPORT const std::vector<Similarity>& similarities();
 }
 

@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/Stiffness.h"
 
-#include "Common/Parallel.h"
 #include "Filters/Register/LatticeRows.h"
 
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-
-#include <array>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 
 namespace brainshift
 {
@@ -25,12 +17,12 @@ constexpr float Bending = 0.25f;
 constexpr float Converged = 1e-4f; // of the squared residual that a Newton step begins with
 constexpr int MostSolverSteps = 40;
 
-// Which two axes each of the six second derivatives is taken along.
+// The two axes of each of the six second derivatives.
 constexpr int FirstAxis[6] = { 0, 1, 2, 0, 0, 1 };
 constexpr int SecondAxis[6] = { 0, 1, 2, 1, 2, 2 };
 
-// What the energy pulls with, of the cell that begins at a control point and of the point itself.
-struct Pull
+// The stress of the cell that begins at a control point, and the curvature at the point itself.
+struct Tension
 {
   glm::mat3 stress{ 0.0f };              // column: along that axis; for each mm of the corners
   std::array<glm::vec3, 6> curvatures{}; // second derivatives times their weight
@@ -148,24 +140,24 @@ std::vector<glm::vec3> Stiffness::times(const std::vector<glm::vec3>& displaceme
   const glm::vec3 perMm = 0.25f / h;
   const float mean = std::cbrt(h.x * h.y * h.z);
   const Steps steps(this->Lattice);
-  std::vector<Pull> pulls(displacements.size());
+  std::vector<Tension> tensions(displacements.size());
   forEachControl(this->Lattice, [&](const glm::ivec3& at, std::size_t number) {
     const glm::vec3* d = &displacements[number];
-    Pull& pull = pulls[number];
+    Tension& tension = tensions[number];
     if (isWithin(at + 1, sides))
     {
-      pull.stress = stressOf(d, steps, perMm);
+      tension.stress = stressOf(d, steps, perMm);
     }
     for (int c = 0; c < 6; ++c)
     {
       const glm::vec3 squares = h * h;
-      pull.curvatures[c] = Bending * mean * mean /
+      tension.curvatures[c] = Bending * mean * mean /
         (squares[FirstAxis[c]] * squares[SecondAxis[c]]) * secondDifference(d, at, sides, steps, c);
     }
   });
   std::vector<glm::vec3> result(displacements.size());
   forEachControl(this->Lattice, [&](const glm::ivec3& at, std::size_t number) {
-    const Pull* own = &pulls[number];
+    const Tension* own = &tensions[number];
     glm::vec3 sum(0.0f);
     for (int corner = 0; corner < 8; ++corner)
     {

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief What a bend costs: linear elastic energy and bending energy of control points.
- *
- * Both are means over the lattice and have no unit. They are quadratic: the energy of a bend d is
- * d . R d. A shift costs nothing; a small turn costs nothing elastic.
- */
+/// @file
+/// Stiffness: linear elastic energy (Bajcsy and Kovacic, Computer Vision, Graphics, and Image
+/// Processing 46, 1989) and bending energy (Rueckert et al., IEEE Transactions on Medical Imaging
+/// 18(8), 1999) of control points.
+///
+/// Both are means over the lattice and have no unit. They are quadratic: the energy of
+/// displacements d is d . R d. A translation has no energy; a small rotation has no elastic energy.
 #ifndef BrainShift_Stiffness_h
 #define BrainShift_Stiffness_h
 
 #include "Common/Export.h"
 #include "Common/Grid.h"
-
-#include <glm/vec3.hpp>
 
 #include <vector>
 
@@ -32,7 +30,7 @@ public:
   /** R d for displacements d of the control points (mm along the grid's axes). */
   std::vector<glm::vec3> times(const std::vector<glm::vec3>& displacements) const;
 
-  /** About what R has on its diagonal within the lattice. */
+  /** About the diagonal of R within the lattice. */
   float diagonal() const { return this->Diagonal; }
 
 private:
@@ -46,10 +44,10 @@ BRAINSHIFT_DEFORMATION_EXPORT double dot(
   const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b);
 
 /**
- * The step of Gauss and Newton: (H + R) step = forces - R bend, where H is the lumped Hessian of
- * the forces (3 x 3 for each control point). By conjugate gradients with the blocks as
- * preconditioner (Nocedal and Wright, Numerical Optimization, 2nd ed., section 10.3 and algorithm
- * 5.3).
+ * The Gauss-Newton step (Nocedal and Wright, Numerical Optimization, 2nd ed., section 10.3):
+ * (H + R) step = forces - R bend, where H is the lumped Hessian of the forces (3 x 3 for each
+ * control point). The solver is the preconditioned conjugate gradient method (algorithm 5.3 there);
+ * the blocks of H plus the diagonal of R are its preconditioner.
  *
  * @param forces   ForceNumbers for each control point (LatticeRows.h)
  * @param bend     displacements that the stiffness pulls back (mm along the grid's axes)

@@ -5,19 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 namespace brainshift
 {
 namespace
 {
 // Of a Gaussian, in points of the finer grid for each point of the coarser one. Below 0.6 points
-// its samples would no longer lie around their middle.
+// its weights would no longer be centred.
 constexpr double DeviationPerFactor = 0.45;
 constexpr double LeastDeviation = 0.6;
 constexpr double RadiusInDeviations = 3.0;
 
-constexpr float CutOffShare = 0.001f;
+constexpr float CutOffFraction = 0.001f;
 constexpr std::size_t MostSorted = 200000; // values that stand for all when a range is found
 
 // Runs `work` on every line of values along an axis: its first value and the step to the next.
@@ -218,7 +217,7 @@ void boxSum(Volume& volume, const glm::ivec3& radii)
 Volume weightsOf(const Grid& grid, const Region& region, const Support& support)
 {
   Volume missing{ grid, std::vector<float>(grid.count()) };
-  // What is not there is counted, so that the border of the grid itself shrinks nothing.
+  // Missing points are counted, so that the border of the grid itself shrinks nothing.
   forEachPoint(grid, [&](std::size_t number, const glm::dvec3& world) {
     const bool counts = (!region.grid || holds(*region.grid, world)) &&
       (!region.inside || holds(*region.inside, world)) &&
@@ -230,11 +229,11 @@ Volume weightsOf(const Grid& grid, const Region& region, const Support& support)
   {
     glm::ivec3 radii(support.across);
     radii[axis] = support.along;
-    Volume reached = missing;
-    boxSum(reached, radii);
+    Volume around = missing;
+    boxSum(around, radii);
     for (std::size_t i = 0; i < result.values.size(); ++i)
     {
-      result.values[i] = reached.values[i] < 0.5f ? result.values[i] : 0.0f;
+      result.values[i] = around.values[i] < 0.5f ? result.values[i] : 0.0f;
     }
   }
   return result;
@@ -256,7 +255,7 @@ Range rangeOf(const std::vector<float>& values)
     return {};
   }
   std::sort(some.begin(), some.end());
-  const std::size_t cut = static_cast<std::size_t>(CutOffShare * some.size());
+  const std::size_t cut = static_cast<std::size_t>(CutOffFraction * some.size());
   const Range found{ some[cut], some[some.size() - 1 - cut] };
   return found.high > found.low ? found : Range{ found.low, found.low + 1.0f };
 }

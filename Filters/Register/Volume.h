@@ -1,19 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Numbers on a grid, and what a pyramid does to them: smooth, read elsewhere, shrink a mask.
- */
+/// @file
+/// Numbers on a grid, and the operations of a pyramid: smooth, resample, shrink a mask.
 #ifndef BrainShift_Volume_h
 #define BrainShift_Volume_h
 
-#include "Common/Export.h"
-#include "Common/Grid.h"
 #include "Filters/Deformation/MaskWeights.h"
-
-#include <glm/vec3.hpp>
-
-#include <cstddef>
-#include <vector>
 
 namespace brainshift
 {
@@ -24,19 +15,19 @@ struct Volume
   std::vector<float> values;
 };
 
-/** The two volumes of a registration and what of them counts. */
+/** The two volumes of a registration, and the parts of them that count. */
 struct RegisteredPair
 {
   Volume rest;      ///< the volume as loaded
-  Volume reference; ///< on any grid, where it lies in the world
-  Mask inside;      ///< of the rest frame: what is compared; without voxels: all
-  Mask cavity;      ///< where the reference lacks tissue; without voxels: nowhere
+  Volume reference; ///< on any grid, at its position in the world
+  Mask inside;      ///< of the rest frame: the compared tissue; without voxels: all
+  Mask cavity;      ///< tissue that the reference lacks; without voxels: none
 };
 
-/** Where a position lies between eight neighbours of a grid, and how much each of them counts. */
+/** The eight neighbours of a position in a grid, and their interpolation weights. */
 struct Neighbours
 {
-  bool isInside = false; ///< false: the position lies outside the grid; nothing else is set
+  bool isInside = false; ///< false: the position is outside the grid; nothing else is set
   std::size_t first = 0; ///< the neighbour with the lowest indices
   std::size_t next[3]{}; ///< steps to the next neighbour along each axis
   glm::vec3 within{ 0 }; ///< 0 to 1 along each axis, from the first neighbour
@@ -70,7 +61,7 @@ struct ValueAndSlope
   glm::vec3 slope{ 0.0f };
 };
 
-/** What is trilinear between the neighbours. */
+/** Trilinear interpolation between the neighbours, with its derivatives. */
 inline ValueAndSlope trilinear(const float* values, const Neighbours& at)
 {
   const float* v = values + at.first;
@@ -117,18 +108,18 @@ BRAINSHIFT_DEFORMATION_EXPORT Volume resampled(const Volume& source, const Grid&
 /** Adds up the values within so many points along each axis. Beyond the grid they are 0. */
 BRAINSHIFT_DEFORMATION_EXPORT void boxSum(Volume& volume, const glm::ivec3& radii);
 
-/** What a weight of a point asks for; 1 there, 0 elsewhere. */
+/** The conditions for a weight of 1; elsewhere it is 0. */
 struct Region
 {
-  const Grid* grid = nullptr;    ///< the point lies within it; null: anywhere
+  const Grid* grid = nullptr;    ///< the point is within it; null: anywhere
   const Mask* inside = nullptr;  ///< the nearest voxel is inside; null: everywhere
   const Mask* outside = nullptr; ///< the nearest voxel is not inside; null: nowhere
 };
 
-/** On which points around it something depends: those of three boxes, one along each axis. */
+/** The neighbourhood that a value depends on: three boxes, one along each axis. */
 struct Support
 {
-  int along = 0;  ///< points along the axis, each way
+  int along = 0;  ///< points along the axis, in each direction
   int across = 0; ///< points along the other two; not above `along`
 };
 
@@ -136,7 +127,7 @@ struct Support
 BRAINSHIFT_DEFORMATION_EXPORT Volume weightsOf(
   const Grid& grid, const Region& region, const Support& support);
 
-/** Where smaller and larger values are cut off, so that a few of them do not count for all. */
+/** Limits that smaller and larger values are clamped to, so that a few outliers do not dominate. */
 struct Range
 {
   float low = 0.0f;

@@ -2,7 +2,7 @@
 #include "vtkRefinedLattice.h"
 
 #include "Common/Guard.h"
-#include "Common/ImageGrid.h"
+#include "Common/HostMemory.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Formats/Fields/FieldImage.h"
 
@@ -54,10 +54,8 @@ int vtkRefinedLattice::RequestData(
   const std::size_t expected = 3 * lattice.displacements.size();
   if (!this->ControlPoints.empty() && this->ControlPoints.size() != expected)
   {
-    vtkErrorMacro(<< "ControlPoints has " << this->ControlPoints.size() << " numbers; " << sides.x
-                  << " x " << sides.y << " x " << sides.z << " control points need " << expected
-                  << ".");
-    return 0;
+    throw Problem("ControlPoints has " + std::to_string(this->ControlPoints.size()) + " numbers; " +
+      sizeText(sides) + " control points need " + std::to_string(expected));
   }
   for (std::size_t i = 0; i < this->ControlPoints.size(); i += 3)
   {

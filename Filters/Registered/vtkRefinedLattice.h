@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkRefinedLattice
- * @brief   holds the control points that a refinement found
+ * @brief   holds the control points of a refinement
  *
  * Output: a lattice over the box of the input, an image with the point array Displacement (float32
  * x 3, mm, world axes, forward), to be the Lattice of a Free-Form Deformation with the same
  * LatticeDimensions and Kernel. Of the settings of a lattice only LatticeDimensions count.
- * The numbers are a property, so that a state file brings the result back without running the
+ * The numbers are a property, so that a state file restores the result without running the
  * refinement again.
  */
 #ifndef vtkRefinedLattice_h
@@ -29,7 +29,7 @@ public:
   ///@{
   /**
    * Displacements of the control points: 3 numbers each (mm, world axes), x fastest. Default: none,
-   * which means that none is moved. Another wrong number of them is an error.
+   * which means that all are 0. Any other number of them is an error.
    */
   void AddControlPoint(double x, double y, double z);
   void ClearControlPoints();

@@ -4,27 +4,20 @@
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
+#include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Register/Alignment.h"
 #include "Filters/Register/Refinement.h"
-#include "Filters/Register/Similarity.h"
-#include "Filters/Registered/RegisteredSource.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
-
-#include <algorithm>
-#include <cstddef>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
-#include <utility>
-#include <vector>
 
 using namespace brainshift;
 
@@ -40,10 +33,10 @@ vtkStandardNewMacro(vtkRegistrationRun);
 
 namespace
 {
-constexpr double PlaceTolerance = 1e-3; // voxels
+constexpr double PositionTolerance = 1e-3; // voxels
 
-// Tests of an alignment start up to 20 mm and 15 degrees away; the middle of what is compared then
-// moves a little farther than that of the reference.
+// Tests of an alignment start up to 20 mm and 15 degrees away; the middle of the compared tissue
+// then moves a little farther than that of the reference.
 constexpr double FarthestShiftMm = 24.0;
 constexpr double FarthestDegrees = 17.0;
 
@@ -65,33 +58,140 @@ void fill(vtkDoubleArray* array, const std::vector<double>& values)
   std::copy(values.begin(), values.end(), array->GetPointer(0));
 }
 
-// Why a refinement cannot begin with this bend; empty if it can.
-std::string problemOf(const Deformation* bent)
+// Throws a problem that is not empty.
+void require(const std::string& problem)
+{
+  if (!problem.empty())
+  {
+    throw Problem(problem);
+  }
+}
+
+vtkDataArray* scalarsOf(vtkImageData* image)
+{
+  vtkDataArray* scalars = image->GetPointData()->GetScalars();
+  scalars = scalars ? scalars : image->GetPointData()->GetArray(0);
+  return scalars && scalars->GetNumberOfComponents() == 1 ? scalars : nullptr;
+}
+
+std::vector<float> floatsOf(vtkDataArray* array)
+{
+  std::vector<float> values(array->GetNumberOfTuples());
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    const double value = array->GetComponent(static_cast<vtkIdType>(i), 0);
+    values[i] = std::isfinite(value) ? static_cast<float>(value) : 0.0f;
+  }
+  return values;
+}
+
+Mask maskOf(const PlacedVoxels& cavity)
+{
+  Mask mask;
+  if (cavity.voxels)
+  {
+    mask.grid = cavity.grid;
+    mask.inside.resize(mask.grid.count());
+    for (std::size_t i = 0; i < mask.inside.size(); ++i)
+    {
+      mask.inside[i] = cavity.voxels->GetComponent(static_cast<vtkIdType>(i), 0) != 0.0 ? 1 : 0;
+    }
+  }
+  return mask;
+}
+
+// The nodes that the lattice's mask lets move: only tissue there is compared.
+Mask maskOf(const Lattice& lattice)
+{
+  Mask mask;
+  if (lattice.mask)
+  {
+    const glm::ivec3 nodes = (lattice.grid.dimensions - 1) * lattice.mask->perCell + 1;
+    mask.grid = withDimensions(lattice.grid, nodes);
+    for (const float weight : lattice.mask->values)
+    {
+      mask.inside.push_back(weight > 0.0f ? 1 : 0);
+    }
+  }
+  return mask;
+}
+// A volume at rest, its deformation, and its reference in its present position.
+struct RegisteredSource
+{
+  RegisteredPair pair;
+  std::unique_ptr<const Deformation> bent; // null: the volume carries no deformation
+};
+
+// The grids of both volumes; no voxel is copied.
+struct RegisteredGrids
+{
+  Grid rest;
+  Grid reference;
+};
+
+RegisteredGrids findGrids(vtkImageData* image)
+{
+  if (!image || !scalarsOf(image))
+  {
+    throw Problem("The volume has no point scalars of one component");
+  }
+  const ReferenceVolume reference = readReference(image);
+  if (!reference.voxels)
+  {
+    throw Problem("The volume carries no reference; Compare Volumes attaches one");
+  }
+  const RegisteredGrids grids{ gridOf(image), reference.grid };
+  if (glm::any(glm::lessThan(grids.rest.dimensions, glm::ivec3(2))) ||
+    glm::any(glm::lessThan(grids.reference.dimensions, glm::ivec3(2))))
+  {
+    throw Problem(
+      "The volume or its reference has one point along an axis; both must have at least 2");
+  }
+  return grids;
+}
+
+// Reads the voxels, as floats. Numbers that are not finite become 0.
+RegisteredSource readSource(vtkImageData* image)
+{
+  RegisteredSource source;
+  if (carriesDeformation(image))
+  {
+    source.bent = std::make_unique<const Deformation>(readDeformation(image));
+    source.pair.inside = maskOf(source.bent->lattice);
+  }
+  const ReferenceVolume reference = readReference(image);
+  source.pair.rest = { gridOf(image), floatsOf(scalarsOf(image)) };
+  source.pair.reference = { reference.grid, floatsOf(reference.voxels) };
+  source.pair.cavity = maskOf(reference.cavity);
+  return source;
+}
+
+// A refinement needs a whole exact deformation, over all of the volume.
+void requireRefinable(const Deformation* bent, const Grid& rest)
 {
   if (!bent)
   {
-    return "The volume carries no deformation; Free-Form Deformation attaches one";
+    throw Problem("The volume carries no deformation; Free-Form Deformation attaches one");
   }
   if (bent->strength != 1.0)
   {
-    return "Strength is " + std::to_string(bent->strength) + "; a refinement needs 1";
+    throw Problem("Strength is " + std::to_string(bent->strength) + "; a refinement needs 1");
   }
-  return bent->inverse == Inverse::Exact
-    ? ""
-    : "The deformation has the negated inverse; a refinement needs the exact one";
-}
-
-// Why a refinement cannot begin with a lattice that lies elsewhere than the volume; or empty.
-std::string problemOfPlace(const Grid& lattice, const Grid& rest)
-{
+  if (bent->inverse != Inverse::Exact)
+  {
+    throw Problem("The deformation has the negated inverse; a refinement needs the exact one");
+  }
+  const Grid& lattice = bent->lattice.grid;
   const glm::dvec3 first = rest.gridFromWorld(lattice.origin);
-  const glm::dvec3 last = rest.gridFromWorld(lattice.worldFromGrid(lattice.dimensions - 1));
-  const bool isSame = glm::all(glm::lessThan(glm::abs(first), glm::dvec3(PlaceTolerance))) &&
-    glm::all(
-      glm::lessThan(glm::abs(last - glm::dvec3(rest.dimensions - 1)), glm::dvec3(PlaceTolerance)));
-  return isSame
-    ? ""
-    : "The volume was cropped or resampled after it was bent; a refinement needs all of it";
+  const glm::dvec3 last = rest.gridFromWorld(lattice.worldFromGrid(lattice.dimensions - 1)) -
+    glm::dvec3(rest.dimensions - 1);
+  const glm::dvec3 tolerance(PositionTolerance);
+  if (!glm::all(glm::lessThan(glm::abs(first), tolerance)) ||
+    !glm::all(glm::lessThan(glm::abs(last), tolerance)))
+  {
+    throw Problem(
+      "The volume was cropped or resampled after it was bent; a refinement needs all of it");
+  }
 }
 }
 
@@ -125,22 +225,18 @@ void vtkRegistrationRun::SetSource(vtkAlgorithm* source)
   this->Source = source;
 }
 
-std::string vtkRegistrationRun::Begin(bool bends)
+void vtkRegistrationRun::Begin(bool bends)
 {
   *this->Internal = {};
   vtkImageData* image =
     vtkImageData::SafeDownCast(this->Source ? this->Source->GetOutputDataObject(0) : nullptr);
-  RegisteredGrids grids;
-  std::string problem = findGrids(image, grids);
+  const RegisteredGrids grids = findGrids(image);
   // On several MPI ranks this rank holds a piece; registering it alone would be silently wrong.
-  problem = problem.empty() ? problemOfPart(image, this->Source->GetOutputInformation(0)) : problem;
-  if (!problem.empty())
+  require(problemOfPart(image, this->Source->GetOutputInformation(0)));
+  if (!(this->Stiffness > 0.0)) // also rejects NaN
   {
-    return problem;
-  }
-  if (!(this->Stiffness > 0.0))
-  {
-    return "Stiffness is " + std::to_string(this->Stiffness) + "; it must be above 0";
+    throw brainshift::Problem(
+      "Stiffness is " + std::to_string(this->Stiffness) + "; it must be above 0");
   }
   RefinementSettings settings;
   const brainshift::Similarity& similarity = similarities()[this->Similarity];
@@ -149,59 +245,46 @@ std::string vtkRegistrationRun::Begin(bool bends)
   this->OverlapOf = bends ? similarity.overlapOf : "the volume";
   const double voxels =
     sizeof(float) * static_cast<double>(grids.rest.count() + grids.reference.count());
-  problem = hostMemoryProblem("The registration of " + sizeText(grids.rest.dimensions) + " voxels",
+  require(hostMemoryProblem("The registration of " + sizeText(grids.rest.dimensions) + " voxels",
     voxels +
       (bends ? Refinement::bytes(grids.rest, grids.reference, {}, settings)
-             : Alignment::bytes(grids.rest, grids.reference)));
-  RegisteredSource source;
-  problem = problem.empty() ? readSource(image, source) : problem;
-  if (problem.empty() && bends)
-  {
-    problem = problemOf(source.bent.get());
-    problem = problem.empty() ? problemOfPlace(source.bent->lattice.grid, grids.rest) : problem;
-  }
-  if (problem.empty() && bends)
-  {
-    const Grid& lattice = source.bent->lattice.grid;
-    problem =
-      hostMemoryProblem("The refinement of " + sizeText(lattice.dimensions) + " control points",
-        Refinement::bytes(grids.rest, grids.reference, lattice, settings));
-  }
-  if (!problem.empty())
-  {
-    return problem;
-  }
+             : Alignment::bytes(grids.rest, grids.reference))));
+  RegisteredSource source = readSource(image);
   if (bends)
   {
+    requireRefinable(source.bent.get(), grids.rest);
+    const Lattice& start = source.bent->lattice;
+    require(
+      hostMemoryProblem("The refinement of " + sizeText(start.grid.dimensions) + " control points",
+        Refinement::bytes(grids.rest, grids.reference, start.grid, settings)));
     settings.samples = source.bent->samples;
-    this->Internal->Start = source.bent->lattice.displacements;
-    this->Internal->Elastic =
-      std::make_unique<Refinement>(std::move(source.pair), source.bent->lattice, settings);
-    return {};
+    this->Internal->Start = start.displacements;
+    this->Internal->Elastic = std::make_unique<Refinement>(std::move(source.pair), start, settings);
+    return;
   }
   this->Internal->ReferenceMiddle = middleOf(grids.reference);
   const Lattice bent = source.bent ? effectiveLattice(*source.bent) : Lattice{};
   this->Internal->Rigid =
     std::make_unique<Alignment>(std::move(source.pair), source.bent ? &bent : nullptr);
-  return {};
+}
+
+void vtkRegistrationRun::BeginGuarded(bool bends)
+{
+  this->Problem = "Memory ran out"; // if something else than a Problem is thrown
+  guarded(this, [this, bends] {
+    this->Problem = problemOf([this, bends] { this->Begin(bends); });
+    this->Report();
+  });
 }
 
 void vtkRegistrationRun::BeginAlignment()
 {
-  this->Problem = "Memory ran out"; // unless it gets to its end
-  guarded(this, [this] {
-    this->Problem = this->Begin(false);
-    this->Report();
-  });
+  this->BeginGuarded(false);
 }
 
 void vtkRegistrationRun::BeginRefinement()
 {
-  this->Problem = "Memory ran out";
-  guarded(this, [this] {
-    this->Problem = this->Begin(true);
-    this->Report();
-  });
+  this->BeginGuarded(true);
 }
 
 void vtkRegistrationRun::Step()
@@ -251,7 +334,7 @@ void vtkRegistrationRun::ReportAlignment()
   this->Information = at.information;
   this->InformationBefore = at.informationAtStart;
   this->Shift = rigid.shiftMm();
-  this->Rotation = rigid.turnDegrees();
+  this->Rotation = rigid.rotationDegrees();
   if (this->Steps > 0 && this->Overlap < Alignment::LeastOverlap)
   {
     this->Refusal = percent(this->Overlap) + " of the volume is inside the reference; at least " +
@@ -335,7 +418,7 @@ vtkDoubleArray* vtkRegistrationRun::GetPlacement()
     RigidMotion start;
     start.rotation = { r[0], r[1], r[2] };
     start.translation = { t[0], t[1], t[2] };
-    start.middle = this->Internal->ReferenceMiddle - start.translation; // it turns about its middle
+    start.middle = this->Internal->ReferenceMiddle - start.translation; // the centre of rotation
     const RigidPose motion = this->Internal->Rigid->motion();
     const RigidMotion found = followedBy(start, motion.rotation, motion.translation);
     numbers = { found.rotation.x, found.rotation.y, found.rotation.z, found.translation.x,

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkRegistrationRun
- * @brief   aligns a reference or refines a bend, a short part for each call
+ * @brief   aligns a reference or refines a deformation, a short part for each call
  *
- * The volumes may lie on a server. This object lives beside them, and the XML proxy of the same
- * name brings its figures to the client. It changes nothing in the pipeline: the client sets what
- * it found. Begin with BeginAlignment or BeginRefinement, then call Step until it is finished or
+ * The volumes may be on a server. This object is beside them, and the XML proxy of the same name
+ * transfers its figures to the client. It changes nothing in the pipeline: the client applies the
+ * result. Begin with BeginAlignment or BeginRefinement, then call Step until it is finished or
  * enough.
  */
 #ifndef vtkRegistrationRun_h
 #define vtkRegistrationRun_h
 
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
-#include "vtkNew.h"                     // for answers
+#include "vtkNew.h"                     // for results
 #include "vtkObject.h"
-#include "vtkWeakPointer.h" // for what is registered
+#include "vtkWeakPointer.h" // for the source
 
 #include <memory> // for the private part
 #include <string>
@@ -29,13 +29,13 @@ public:
   vtkTypeMacro(vtkRegistrationRun, vtkObject);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** What is registered: a Compare Volumes that is up to date, or what hands on its output. */
+  /** A Compare Volumes that is up to date, or a filter that passes its output on. */
   void SetSource(vtkAlgorithm* source);
 
   ///@{
   /**
-   * How a refinement compares: the place of a similarity in the lists below, from 0 on. Default 0.
-   * A number beyond the list is taken for the nearest one.
+   * The similarity of a refinement: its index in the lists below, from 0 on. Default 0.
+   * A number beyond the list is replaced by the nearest one.
    */
   void SetSimilarity(int similarity);
   vtkGetMacro(Similarity, int);
@@ -49,13 +49,13 @@ public:
   ///@}
 
   ///@{
-  /** Factor on what bending costs in a refinement; above 0. Default 1. */
+  /** Factor on the stiffness in a refinement; above 0. Default 1. */
   vtkSetMacro(Stiffness, double);
   vtkGetMacro(Stiffness, double);
   ///@}
 
   ///@{
-  /** Begins anew, from where the reference lies or from how the volume is bent. */
+  /** Begins again, from the present position of the reference or the present deformation. */
   void BeginAlignment();
   void BeginRefinement();
   ///@}
@@ -68,8 +68,8 @@ public:
 
   ///@{
   /**
-   * How the reference is moved where an alignment begins, as its Compare Volumes has it: degrees
-   * about x, then y, then z, and mm. Default 0 0 0.
+   * The position of the reference at the start of an alignment, as its Compare Volumes has it:
+   * degrees about x, then y, then z, and mm. Default 0 0 0.
    */
   vtkSetVector3Macro(StartRotation, double);
   vtkGetVector3Macro(StartRotation, double);
@@ -78,18 +78,17 @@ public:
   ///@}
 
   /**
-   * Why it could not begin, or why it ended early: a sentence without a full stop. Empty if neither
-   * happened.
+   * The reason if it could not begin or ended early: a sentence without a full stop. Else empty.
    */
   const char* GetProblem() const { return this->Problem.c_str(); }
 
   /**
-   * Why the result must not be kept: a sentence without a full stop. Empty if it may. An alignment
-   * needs 25 % of the volume inside the reference, a refinement any part of it.
+   * The reason to discard the result: a sentence without a full stop. Empty if there is none. An
+   * alignment needs 25 % of the volume inside the reference, a refinement any part of it.
    */
   const char* GetRefusal() const { return this->Refusal.c_str(); }
 
-  /** What the user must check in the result: sentences. Empty if there is nothing. */
+  /** Warnings about the result: sentences. Empty if there are none. */
   const char* GetWarning() const { return this->Warning.c_str(); }
 
   ///@{
@@ -106,13 +105,13 @@ public:
   /** After the last step of an alignment. */
   vtkGetMacro(Information, double);       ///< mutual information, nats; more is better
   vtkGetMacro(InformationBefore, double); ///< at the start, on the same level
-  vtkGetMacro(Shift, double);             ///< of the middle of what is compared, mm
+  vtkGetMacro(Shift, double);             ///< of the middle of the compared tissue, mm
   vtkGetMacro(Rotation, double);          ///< degrees, 0 or more
   ///@}
 
   ///@{
   /** After the last step of a refinement. */
-  vtkGetMacro(Cost, double);          ///< of this level, 0 or more; 0: the volumes agree
+  vtkGetMacro(Cost, double);          ///< of this level, 0 or more; 0: the volumes match
   vtkGetMacro(CostBefore, double);    ///< at the start, on the same level
   vtkGetMacro(LongestMove, double);   ///< of a control point in the last step, mm
   vtkGetMacro(StepFraction, double);  ///< smallest one that the fold guard allowed, 0 to 1
@@ -137,7 +136,8 @@ private:
   vtkRegistrationRun(const vtkRegistrationRun&) = delete;
   void operator=(const vtkRegistrationRun&) = delete;
 
-  std::string Begin(bool bends);
+  void Begin(bool bends); // throws a Problem
+  void BeginGuarded(bool bends);
   void Report();
   void ReportAlignment();
   void ReportRefinement();

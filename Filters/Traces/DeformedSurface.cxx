@@ -4,8 +4,6 @@
 #include "Common/Parallel.h"
 #include "Filters/Deformation/PointMap.h"
 
-#include <glm/common.hpp>
-
 #include <algorithm>
 #include <utility>
 

@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief A surface that follows a lattice.
- *
- * Its triangles and their tree are found once. After a stroke only points near a control point that
- * changed are mapped again.
- */
+/// @file
+/// A surface that follows a lattice.
+///
+/// Its triangles and their tree are found once. After a stroke only points near a control point
+/// that changed are mapped again.
 #ifndef BrainShift_DeformedSurface_h
 #define BrainShift_DeformedSurface_h
 
 #include "Filters/Deformation/Lattice.h"
-#include "Filters/Traces/TissueSurface.h"
 #include "Filters/Traces/TriangleTree.h"
-#include "vtkBrainShiftFiltersModule.h" // for the export macro
-
-#include <glm/vec3.hpp>
 
 #include <functional>
-#include <vector>
 
 namespace brainshift
 {

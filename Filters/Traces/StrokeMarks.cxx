@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Traces/StrokeMarks.h"
 
-#include "Filters/Deformation/Stroke.h"
-
 #include "vtkDataObject.h"
 #include "vtkFieldData.h"
 #include "vtkNew.h"

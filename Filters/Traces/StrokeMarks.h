@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Tells the beginnings of a list of strokes apart, so that a figure that was measured after
- *        some strokes is known again when undo comes back to them; and the curve of that figure.
- *
- * A deformable volume that Free-Form Deformation made carries
- *
- *     FFDStrokeMarks  uint64, one more than there are strokes: number k stands for the deformation
- *                     after the first k strokes. Two deformations with the same mark are the same.
- */
+/// @file
+/// Tells the beginnings of a list of strokes apart, so that a figure that was measured after some
+/// strokes is known again when undo comes back to them; and the curve of that figure.
+///
+/// A deformable volume that Free-Form Deformation made carries
+///
+///     FFDStrokeMarks  uint64, one more than there are strokes: number k stands for the deformation
+///                     after the first k strokes. Two deformations with the same mark are the same.
 #ifndef BrainShift_StrokeMarks_h
 #define BrainShift_StrokeMarks_h
 
@@ -16,9 +14,7 @@
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 
 #include <cstdint>
-#include <memory>
 #include <unordered_map>
-#include <vector>
 
 class vtkDataObject;
 

@@ -11,9 +11,6 @@
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
 
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
-
 #include <cmath>
 
 namespace brainshift

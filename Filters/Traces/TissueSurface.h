@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The surface of tissue in a volume at rest: where scalars pass a threshold, or where a
- *        label ends.
- */
+/// @file
+/// The surface of tissue in a volume at rest: where scalars pass a threshold, or where a label
+/// ends.
 #ifndef BrainShift_TissueSurface_h
 #define BrainShift_TissueSurface_h
 
@@ -11,8 +9,6 @@
 #include "vtkBrainShiftFiltersModule.h" // for the export macro
 
 #include "vtkSmartPointer.h"
-
-#include <glm/vec3.hpp>
 
 #include <string>
 #include <vector>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Mean, root mean square, 95th percentile and histogram of distances.
- */
+/// @file
+/// Mean, root mean square, 95th percentile and histogram of distances.
 #ifndef BrainShift_TraceStatistics_h
 #define BrainShift_TraceStatistics_h
 

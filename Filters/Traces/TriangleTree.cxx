@@ -3,9 +3,6 @@
 
 #include "Common/Parallel.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Finds the nearest point of a triangle mesh whose points move but whose triangles stay.
- *
- * A tree of boxes is built once and fitted to the triangles again after each move: van den Bergen,
- * "Efficient collision detection of complex deformable models using AABB trees", Journal of
- * Graphics Tools 2 (1997). VTK's locators are built anew after each move.
- */
+/// @file
+/// Finds the nearest point of a triangle mesh whose points move but whose triangles stay.
+///
+/// A tree of boxes is built once and fitted to the triangles again after each move: van den Bergen,
+/// "Efficient collision detection of complex deformable models using AABB trees", Journal of
+/// Graphics Tools 2 (1997). VTK's locators are built anew after each move.
 #ifndef BrainShift_TriangleTree_h
 #define BrainShift_TriangleTree_h
 
 #include "Filters/Traces/TissueSurface.h"
-#include "vtkBrainShiftFiltersModule.h" // for the export macro
-
-#include <glm/vec3.hpp>
-
-#include <vector>
 
 namespace brainshift
 {

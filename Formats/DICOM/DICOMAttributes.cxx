@@ -5,9 +5,7 @@
 #include "Common/Numbers.h"
 #include "Formats/Files/Text.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 namespace brainshift
 {

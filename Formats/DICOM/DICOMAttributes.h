@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Attributes of a DICOM data set as numbers and text. A missing attribute is empty.
- */
+/// @file
+/// Attributes of a DICOM data set as numbers and text. A missing attribute is empty.
 #ifndef BrainShift_DICOMAttributes_h
 #define BrainShift_DICOMAttributes_h
 
 #include "Formats/DICOM/DICOMDataSet.h"
-
-#include <string>
-#include <vector>
 
 namespace brainshift
 {

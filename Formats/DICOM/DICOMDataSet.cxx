@@ -5,8 +5,6 @@
 
 #include "vtk_zlib.h"
 
-#include <algorithm>
-#include <cstring>
 #include <set>
 #include <utility>
 

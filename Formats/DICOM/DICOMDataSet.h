@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The bytes of a DICOM file, and its attributes up to its pixels.
- *
- * Values of private groups are skipped, and those of the patient's group (0010) unless a user asked
- * for them.
- */
+/// @file
+/// The bytes of a DICOM file, and its attributes up to its pixels.
+///
+/// Values of private groups are skipped, and those of the patient's group (0010) unless a user
+/// asked for them.
 #ifndef BrainShift_DICOMDataSet_h
 #define BrainShift_DICOMDataSet_h
+
+#include "Common/Problem.h"
 
 #include <cstdint>
 #include <fstream>
 #include <map>
-#include <string>
 #include <vector>
 
 namespace brainshift

@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/DICOM/DICOMFile.h"
 
-#include "Common/Problem.h"
 #include "Formats/DICOM/DICOMAttributes.h"
-#include "Formats/DICOM/DICOMDataSet.h"
-
-#include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <system_error>
 

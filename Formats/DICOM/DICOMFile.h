@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief What the header of one DICOM file says of its images.
- *
- * Positions are in the patient's frame of DICOM, LPS: x to the patient's left, y to the back, z to
- * the head, in mm. The patient's name and number are not read.
- */
+/// @file
+/// What the header of one DICOM file says of its images.
+///
+/// Positions are in the patient's frame of DICOM, LPS: x to the patient's left, y to the back, z to
+/// the head, in mm. The patient's name and number are not read.
 #ifndef BrainShift_DICOMFile_h
 #define BrainShift_DICOMFile_h
 
 #include "Formats/Volumes/VolumeFile.h"
 
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
-#include <array>
 #include <cstdint>
-#include <string>
-#include <vector>
 
 namespace brainshift
 {

@@ -3,15 +3,11 @@
 
 #include "Common/Parallel.h"
 #include "Formats/DICOM/DICOMAttributes.h"
-#include "Formats/DICOM/DICOMFile.h"
 #include "Formats/DICOM/DICOMStack.h"
-
-#include <glm/common.hpp>
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <map>
 #include <set>
 #include <system_error>
 #include <tuple>

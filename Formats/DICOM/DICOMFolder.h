@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The DICOM files of a folder, and the series that their images make up.
- */
+/// @file
+/// The DICOM files of a folder, and the series that their images make up.
 #ifndef BrainShift_DICOMFolder_h
 #define BrainShift_DICOMFolder_h
 
 #include "Formats/DICOM/DICOMFile.h"
-
-#include <string>
-#include <vector>
 
 namespace brainshift
 {

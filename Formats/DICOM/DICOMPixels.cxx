@@ -2,15 +2,11 @@
 #include "Formats/DICOM/DICOMPixels.h"
 
 #include "Common/Bytes.h"
-#include "Common/Problem.h"
 #include "Formats/DICOM/DICOMAttributes.h"
-#include "Formats/DICOM/DICOMDataSet.h"
 #include "Formats/Files/Text.h"
 #include "Formats/PackedFrames/PackedFrame.h"
 
-#include <algorithm>
 #include <filesystem>
-#include <map>
 #include <system_error>
 #include <type_traits>
 

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The numbers of DICOM images, packed or not.
- */
+/// @file
+/// The numbers of DICOM images, packed or not.
 #ifndef BrainShift_DICOMPixels_h
 #define BrainShift_DICOMPixels_h
 
 #include "Formats/DICOM/DICOMFile.h"
-
-#include <vector>
 
 namespace brainshift
 {

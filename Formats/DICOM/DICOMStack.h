@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Sorts the images of a series into volumes, and tells where their voxels lie.
- *
- * Slices are sorted by their positions along the normal of the images; the spacing comes from the
- * positions as well. Images at one position are points in time.
- */
+/// @file
+/// Sorts the images of a series into volumes, and tells where their voxels lie.
+///
+/// Slices are sorted by their positions along the normal of the images; the spacing comes from the
+/// positions as well. Images at one position are points in time.
 #ifndef BrainShift_DICOMStack_h
 #define BrainShift_DICOMStack_h
 
 #include "Formats/DICOM/DICOMFile.h"
-
-#include <glm/mat4x4.hpp>
-
-#include <string>
-#include <vector>
 
 namespace brainshift
 {

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Volumes in DICOM: series of slices, and multi-frame files.
- */
+/// @file
+/// Volumes in DICOM: series of slices, and multi-frame files.
 #include "Common/Parallel.h"
-#include "Common/Problem.h"
 #include "Formats/DICOM/DICOMFolder.h"
 #include "Formats/DICOM/DICOMPixels.h"
 #include "Formats/DICOM/DICOMStack.h"
-#include "Formats/Volumes/VolumeFile.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/DICOM/DerivedHeader.h"
 
-#include "Common/Problem.h"
 #include "Formats/DICOM/DICOMAttributes.h"
 #include "Formats/DICOM/DICOMFile.h"
 #include "Formats/Files/PlainFile.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
-#include <functional>
 #include <random>
 #include <set>
 #include <system_error>

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The attributes of a derived series: patient, study and frame of reference of an image of
- *        the scanner, and a series of its own. And the bytes of its files: DICOM part 10 with
- *        explicit types (VR) and the low byte first.
- */
+/// @file
+/// The attributes of a derived series: patient, study and frame of reference of an image of the
+/// scanner, and a series of its own. And the bytes of its files: DICOM part 10 with explicit types
+/// (VR) and the low byte first.
 #ifndef BrainShift_DerivedHeader_h
 #define BrainShift_DerivedHeader_h
 
 #include "Formats/DICOM/DICOMDataSet.h"
 #include "Formats/DICOM/DerivedPixels.h"
-
-#include <cstdint>
-#include <map>
-#include <string>
-#include <vector>
 
 namespace brainshift
 {

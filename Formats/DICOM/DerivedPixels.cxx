@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/DICOM/DerivedPixels.h"
 
-#include "Common/Problem.h"
-
 #include "vtkDataArray.h"
-
-#include <glm/common.hpp>
 
 #include <algorithm>
 #include <cmath>

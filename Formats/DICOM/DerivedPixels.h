@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Numbers of a volume as DICOM stores them: 16 bits, with slope and intercept.
- *
- * Positions are LPS: x to the patient's left, y to the back, z to the head, in mm.
- */
+/// @file
+/// Numbers of a volume as DICOM stores them: 16 bits, with slope and intercept.
+///
+/// Positions are LPS: x to the patient's left, y to the back, z to the head, in mm.
 #ifndef BrainShift_DerivedPixels_h
 #define BrainShift_DerivedPixels_h
 
 #include "Formats/Volumes/OutgoingVolume.h"
 #include "Formats/Volumes/VolumeFile.h"
 
-#include <array>
 #include <cstdint>
-#include <string>
-#include <vector>
 
 namespace brainshift
 {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/DICOM/DerivedSeries.h"
 
-#include "Common/Problem.h"
 #include "Formats/DICOM/DerivedHeader.h"
-#include "Formats/DICOM/DerivedPixels.h"
 #include "Formats/Files/WholeFile.h"
 
 #include <cstdio>
@@ -90,8 +88,7 @@ void writeSeries(const std::string& name, const std::string& like, const Outgoin
   {
     withBeginning("The series in folder " + folder.string() + " cannot be written: ", [&] {
       requireNewFolder(folder);
-      fs::create_directory(beside, error);
-      throwIfAny(error ? error.message() : std::string());
+      throwIfAny(fs::create_directory(beside, error) ? std::string() : error.message());
       writeSlices(beside, sharedHeader(source, pixels), volume, pixels, progress);
       fs::remove(folder, error); // an empty one
       fs::rename(beside, folder, error);

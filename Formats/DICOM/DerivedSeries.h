@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Writes a volume as a DICOM series of its own: one file for each slice, in a new folder.
- */
+/// @file
+/// Writes a volume as a DICOM series of its own: one file for each slice, in a new folder.
 #ifndef BrainShift_DerivedSeries_h
 #define BrainShift_DerivedSeries_h
 
 #include "Formats/Volumes/OutgoingVolume.h"
 #include "Formats/Volumes/VolumeFile.h"
-
-#include <string>
 
 namespace brainshift
 {

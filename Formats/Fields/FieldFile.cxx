@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Fields/FieldFile.h"
 
-#include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 #include "Formats/Volumes/OutgoingVolume.h"
 

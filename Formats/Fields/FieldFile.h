@@ -1,29 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Reads and writes displacement fields in the files of registration programs.
- *
- * | ending         | format    | world in the file | where the direction stands         |
- * |----------------|-----------|-------------------|------------------------------------|
- * | .nii, .nii.gz  | NIfTI     | see NIFTIField.cxx  | intent_name                        |
- * | .mha, .mhd     | MetaImage | LPS               | Comment                            |
- * | .nrrd, .nhdr   | NRRD      | LPS               | "displacement field type" (Slicer) |
- *
- * In memory every field is RAS, mm. The fields of ITK, ANTs and elastix lead backward: from a point
- * of the image that is made to the point where its value is taken.
- */
+/// @file
+/// Reads and writes displacement fields in the files of registration programs.
+///
+/// | ending         | format    | world in the file | where the direction stands         |
+/// |----------------|-----------|-------------------|------------------------------------|
+/// | .nii, .nii.gz  | NIfTI     | see NIFTIField.cxx  | intent_name                        |
+/// | .mha, .mhd     | MetaImage | LPS               | Comment                            |
+/// | .nrrd, .nhdr   | NRRD      | LPS               | "displacement field type" (Slicer) |
+///
+/// In memory every field is RAS, mm. The fields of ITK, ANTs and elastix lead backward: from a
+/// point of the image that is made to the point where its value is taken.
 #ifndef BrainShift_FieldFile_h
 #define BrainShift_FieldFile_h
 
 #include "Common/FieldDirection.h"
 #include "Common/Grid.h"
+#include "Common/Problem.h"
 
 #include "vtkBrainShiftFormatsModule.h" // for the export macro
 
-#include <glm/vec3.hpp>
-
-#include <optional>
-#include <string>
 #include <vector>
 
 namespace brainshift

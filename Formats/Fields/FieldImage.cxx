@@ -5,10 +5,7 @@
 
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
-
-#include <glm/matrix.hpp>
 
 #include <cstring>
 

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Displacement fields as images: what readers, inversion and lattices hand to the pipeline.
- */
+/// @file
+/// Displacement fields as images: what readers, inversion and lattices hand to the pipeline.
 #ifndef BrainShift_FieldImage_h
 #define BrainShift_FieldImage_h
 
 #include "Common/FieldDirection.h"
 #include "Common/ImageGrid.h"
 #include "vtkBrainShiftFormatsModule.h" // for the export macro
-
-#include <glm/vec3.hpp>
 
 #include <vector>
 

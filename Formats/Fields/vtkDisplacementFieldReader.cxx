@@ -2,7 +2,6 @@
 #include "vtkDisplacementFieldReader.h"
 
 #include "Common/Guard.h"
-#include "Common/Problem.h"
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Fields/FieldImage.h"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Bytes of a file, unpacked on the way if they are packed with zlib or gzip.
- */
+/// @file
+/// Bytes of a file, unpacked on the way if they are packed with zlib or gzip.
 #ifndef BrainShift_PackedBytes_h
 #define BrainShift_PackedBytes_h
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Files/PlainFile.h"
 
-#include "Common/Problem.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

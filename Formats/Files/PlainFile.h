@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Files that can be read at any byte: no folders, and no pipes or devices, on which a reader
- *        would wait for ever.
- */
+/// @file
+/// Files that can be read at any byte: no folders, and no pipes or devices, on which a reader would
+/// wait for ever.
 #ifndef BrainShift_PlainFile_h
 #define BrainShift_PlainFile_h
 
+#include "Common/Problem.h"
+
 #include <cstddef>
-#include <string>
 
 namespace brainshift
 {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Words of text files, whatever the language of the user.
- */
+/// @file
+/// Words of text files, whatever the language of the user.
 #ifndef BrainShift_Text_h
 #define BrainShift_Text_h
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <sstream>
 #include <string>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Replaces a file whole or not at all: a full disk or a crash leaves the old file.
- */
+/// @file
+/// Replaces a file whole or not at all: a full disk or a crash leaves the old file.
 #ifndef BrainShift_WholeFile_h
 #define BrainShift_WholeFile_h
 

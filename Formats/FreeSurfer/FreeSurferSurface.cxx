@@ -1,32 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Surfaces of FreeSurfer, such as lh.pial: triangles, and maps of values, such as
- *        lh.thickness.
- *
- * All numbers are big endian. Points are in tkRAS (ScannerFrame.h), unless the tag useRealRAS says
- * that they are in the scanner's RAS. The geometry of the volume follows the triangles, as text.
- */
+/// @file
+/// Surfaces of FreeSurfer, such as lh.pial: triangles, and maps of values, such as lh.thickness.
+///
+/// All numbers are big endian. Points are in tkRAS (ScannerFrame.h), unless the tag useRealRAS says
+/// that they are in the scanner's RAS. The geometry of the volume follows the triangles, as text.
 #include "Common/Bytes.h"
 #include "Common/Numbers.h"
-#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
-#include "Formats/Surfaces/ScannerFrame.h"
 #include "Formats/Surfaces/SurfaceFile.h"
 #include "Formats/Volumes/RasGrid.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 namespace brainshift
 {

@@ -2,7 +2,6 @@
 #include "Formats/GIFTI/GIFTIFile.h"
 
 #include "Common/Numbers.h"
-#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 
@@ -11,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <string_view>
 #include <utility>
 
 namespace brainshift

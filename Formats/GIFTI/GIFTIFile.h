@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The XML of GIFTI files: arrays with their attributes, and a table of labels. Expat parses
- *        it.
- *
- * Numbers may be ASCII, base64, or base64 of what zlib packed. Files with the numbers beside the
- * XML are refused, and so are entities that a file declares.
- */
+/// @file
+/// The XML of GIFTI files: arrays with their attributes, and a table of labels. Expat parses it.
+///
+/// Numbers may be ASCII, base64, or base64 of what zlib packed. Files with the numbers beside the
+/// XML are refused, and so are entities that a file declares.
 #ifndef BrainShift_GIFTIFile_h
 #define BrainShift_GIFTIFile_h
 
 #include "Formats/Surfaces/SurfaceFile.h"
-
-#include <cstddef>
-#include <map>
-#include <string>
-#include <vector>
 
 namespace brainshift
 {

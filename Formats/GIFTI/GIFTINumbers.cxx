@@ -2,19 +2,10 @@
 #include "Common/Bytes.h"
 #include "Common/HostMemory.h"
 #include "Common/Numbers.h"
-#include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 #include "Formats/GIFTI/GIFTIFile.h"
 
 #include "vtk_zlib.h"
-
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <cstring>
-#include <map>
-#include <optional>
-#include <string_view>
 
 namespace brainshift
 {

@@ -1,33 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Surfaces in GIFTI files: an array of points, one of triangles, and numbers of the points.
- *
- * Which frame points are in, the first that holds:
- *  1. They are in the scanner's: they stay.
- *  2. A matrix leads to the scanner's space, or else to that of an aligned anatomy: it counts.
- *  3. Their space has a name: they stay.
- *  4. FreeSurfer left the geometry of its volume: they are in tkRAS (ScannerFrame.h).
- *  5. Nobody knows. They stay, and it is noted.
- */
+/// @file
+/// Surfaces in GIFTI files: an array of points, one of triangles, and numbers of the points.
+///
+/// Which frame points are in, the first that holds: 1. They are in the scanner's: they stay. 2. A
+/// matrix leads to the scanner's space, or else to that of an aligned anatomy: it counts. 3. Their
+/// space has a name: they stay. 4. FreeSurfer left the geometry of its volume: they are in tkRAS
+/// (ScannerFrame.h). 5. Nobody knows. They stay, and it is noted.
 #include "Common/Numbers.h"
-#include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 #include "Formats/GIFTI/GIFTIFile.h"
-#include "Formats/Surfaces/ScannerFrame.h"
 #include "Formats/Volumes/RasGrid.h"
 
-#include <glm/mat3x3.hpp>
-
 #include <algorithm>
-#include <array>
-#include <cstdint>
 #include <cstring>
-#include <map>
-#include <optional>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace brainshift
 {

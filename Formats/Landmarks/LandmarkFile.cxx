@@ -2,15 +2,12 @@
 #include "Formats/Landmarks/LandmarkFile.h"
 
 #include "Common/Numbers.h"
-#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 #include "Formats/Files/WholeFile.h"
-#include "Formats/Landmarks/LandmarkFormats.h"
 
 #include <algorithm>
 #include <cmath>
-#include <ostream>
 #include <utility>
 
 namespace brainshift

@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Reads and writes points with labels. The ending of a file's name chooses the format.
- *
- * | ending           | format                  | axes in the file                        |
- * |------------------|-------------------------|-----------------------------------------|
- * | .mrk.json, .json | markups of Slicer       | the file names them                     |
- * | .fcsv            | fiducials of Slicer     | the file names them                     |
- * | .tag             | MNI Tag Point File      | RAS                                     |
- * | .csv, .tsv       | table (PointTable.cxx)  | the names of columns may tell, or not   |
- *
- * In memory points are RAS, mm.
- */
+/// @file
+/// Reads and writes points with labels. The ending of a file's name chooses the format.
+///
+/// | ending           | format                  | axes in the file                        |
+/// |------------------|-------------------------|-----------------------------------------|
+/// | .mrk.json, .json | markups of Slicer       | the file names them                     |
+/// | .fcsv            | fiducials of Slicer     | the file names them                     |
+/// | .tag             | MNI Tag Point File      | RAS                                     |
+/// | .csv, .tsv       | table (PointTable.cxx)  | the names of columns may tell, or not   |
+///
+/// In memory points are RAS, mm.
 #ifndef BrainShift_LandmarkFile_h
 #define BrainShift_LandmarkFile_h
 
+#include "Common/Problem.h"
 #include "Formats/Landmarks/LandmarkFormats.h"
 
 #include <optional>
-#include <string>
 
 namespace brainshift
 {

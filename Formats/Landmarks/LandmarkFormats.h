@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Landmarks and traced points as files keep them, the limits that files must hold, and the
- *        formats. They take text and give points in RAS mm. What is wrong in a text is thrown as
- *        the end of a sentence, after the name of the file.
- */
+/// @file
+/// Landmarks and traced points as files keep them, the limits that files must hold, and the
+/// formats. They take text and give points in RAS mm. What is wrong in a text is thrown as the end
+/// of a sentence, after the name of the file.
 #ifndef BrainShift_LandmarkFormats_h
 #define BrainShift_LandmarkFormats_h
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <cstddef>
 #include <limits>

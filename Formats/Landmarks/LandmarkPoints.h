@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Landmarks as points of VTK: vertices with the point arrays Label, Number, Time and
- *        Deviation, each only where a point has one, and the field array WorldAxes.
- */
+/// @file
+/// Landmarks as points of VTK: vertices with the point arrays Label, Number, Time and Deviation,
+/// each only where a point has one, and the field array WorldAxes.
 #ifndef BrainShift_LandmarkPoints_h
 #define BrainShift_LandmarkPoints_h
 

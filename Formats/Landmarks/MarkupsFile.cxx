@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Slicer's markups (.mrk.json): lists of control points that name their axes.
- *
- * Points that Slicer has not placed ("positionStatus" other than "defined", no "position") are left
- * out and noted. Of the schema only the control points are read. A list that names no coordinate
- * system is LPS, the schema's default.
- */
+/// @file
+/// Slicer's markups (.mrk.json): lists of control points that name their axes.
+///
+/// Points that Slicer has not placed ("positionStatus" other than "defined", no "position") are
+/// left out and noted. Of the schema only the control points are read. A list that names no
+/// coordinate system is LPS, the schema's default.
 #include "Common/Numbers.h"
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"
@@ -15,10 +13,8 @@
 #include "vtk_nlohmannjson.h"
 #include VTK_NLOHMANN_JSON(json.hpp)
 
-#include <cstddef>
 #include <cstdint>
 #include <exception>
-#include <vector>
 
 namespace brainshift
 {

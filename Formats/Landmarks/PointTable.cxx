@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Tables of points (.csv, .tsv) whose first line names the columns, and Slicer's fiducials.
- *
- * | column                     | names, in capitals or not               |
- * |----------------------------|-----------------------------------------|
- * | position, mm               | x y z; r a s; l p s; Points:0 Points:1 Points:2 |
- * | label                      | label, name                             |
- * | time, deviation, number    | time, deviation, number                 |
- * | 0: the point has no place  | defined                                 |
- *
- * Columns r, a, s and l, p, s name their axes themselves. "(mm)" or "[mm]" may follow a name.
- * Separators are commas, semicolons or tabs. Lines before the names that begin with # are passed
- * over. Slicer's tables of markups are such tables.
- *
- * Slicer's fiducials (.fcsv) are tables, too: comment lines name version, axes and columns, then a
- * line for each point follows. A file without the line "# columns" has those of version 4. A file
- * without the line "# CoordinateSystem" is RAS, as files were before that line. Points that Slicer 5
- * marks as not placed are left out and noted.
- */
+/// @file
+/// Tables of points (.csv, .tsv) whose first line names the columns, and Slicer's fiducials.
+///
+/// | column                     | names, in capitals or not               |
+/// |----------------------------|-----------------------------------------|
+/// | position, mm               | x y z; r a s; l p s; Points:0 Points:1 Points:2 |
+/// | label                      | label, name                             |
+/// | time, deviation, number    | time, deviation, number                 |
+/// | 0: the point has no place  | defined                                 |
+///
+/// Columns r, a, s and l, p, s name their axes themselves. "(mm)" or "[mm]" may follow a name.
+/// Separators are commas, semicolons or tabs. Lines before the names that begin with # are passed
+/// over. Slicer's tables of markups are such tables.
+///
+/// Slicer's fiducials (.fcsv) are tables, too: comment lines name version, axes and columns, then a
+/// line for each point follows. A file without the line "# columns" has those of version 4. A file
+/// without the line "# CoordinateSystem" is RAS, as files were before that line. Points that Slicer
+/// 5 marks as not placed are left out and noted.
 #include "Common/Numbers.h"
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"
@@ -27,12 +25,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <optional>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 namespace brainshift
 {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief MNI Tag Point Files (.tag): homologous points in one or two volumes, RAS, mm.
- *
- * After the coordinates a point may have three numbers (weight, structure, patient), which are
- * passed over, and a label in quotes. A label cannot hold the quotes around it, nor a new line.
- */
+/// @file
+/// MNI Tag Point Files (.tag): homologous points in one or two volumes, RAS, mm.
+///
+/// After the coordinates a point may have three numbers (weight, structure, patient), which are
+/// passed over, and a label in quotes. A label cannot hold the quotes around it, nor a new line.
 #include "Common/Numbers.h"
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"
@@ -13,9 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <string_view>
-#include <vector>
 
 namespace brainshift
 {

@@ -2,8 +2,6 @@
 #include "vtkLandmarkReader.h"
 
 #include "Common/Guard.h"
-#include "Common/Problem.h"
-#include "Formats/Landmarks/LandmarkFile.h"
 #include "Formats/Landmarks/LandmarkPoints.h"
 
 #include "vtkInformation.h"

@@ -3,16 +3,12 @@
 
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
-#include "Common/Problem.h"
-#include "Formats/Landmarks/LandmarkFile.h"
 #include "Formats/Landmarks/LandmarkPoints.h"
 
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
-
-#include <optional>
 
 vtkStandardNewMacro(vtkLandmarkWriter);
 brainshiftGuardRequestsMacro(vtkLandmarkWriter);

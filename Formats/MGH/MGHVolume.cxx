@@ -2,16 +2,11 @@
 #include "Formats/MGH/MGHVolume.h"
 
 #include "Common/Bytes.h"
-#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 
 #include "vtkImageData.h"
 
-#include <glm/mat3x3.hpp>
-
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <map>
 
 namespace brainshift

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Volumes of FreeSurfer: .mgh, and .mgz or .mgh.gz packed with gzip.
- *
- * Their world is the scanner's RAS, in mm; FreeSurfer's tkRAS is not used. All numbers are big
- * endian. Frames become time steps.
- */
+/// @file
+/// Volumes of FreeSurfer: .mgh, and .mgz or .mgh.gz packed with gzip.
+///
+/// Their world is the scanner's RAS, in mm; FreeSurfer's tkRAS is not used. All numbers are big
+/// endian. Frames become time steps.
 #ifndef BrainShift_MGHVolume_h
 #define BrainShift_MGHVolume_h
 
@@ -13,9 +11,6 @@
 #include "Formats/Volumes/VolumeFile.h"
 
 #include "vtkDataArray.h" // for its smart pointer
-
-#include <cstddef>
-#include <string>
 
 namespace brainshift
 {

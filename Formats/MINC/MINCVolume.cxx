@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Volumes in MINC2 files (.mnc), through libminc.
- *
- * Their world is RAS, in mm. Whole numbers become real values, slice by slice, as the file says;
- * whole numbers of the classes "integer" and "label" stay as they are. MINC1 files are refused.
- */
-#include "Common/Problem.h"
+/// @file
+/// Volumes in MINC2 files (.mnc), through libminc.
+///
+/// Their world is RAS, in mm. Whole numbers become real values, slice by slice, as the file says;
+/// whole numbers of the classes "integer" and "label" stay as they are. MINC1 files are refused.
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Volumes/VolumeFile.h"
 
@@ -16,12 +13,9 @@
 #include <minc2.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <string>
-#include <vector>
 
 namespace brainshift
 {

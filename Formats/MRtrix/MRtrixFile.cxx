@@ -1,26 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Streamlines of MRtrix (.tck): points in the scanner's RAS, mm.
- *
- * A header of lines "key: value" ends with "END". Three numbers for each point follow; three NaN
- * end a streamline, and three infinite numbers end the file.
- */
+/// @file
+/// Streamlines of MRtrix (.tck): points in the scanner's RAS, mm.
+///
+/// A header of lines "key: value" ends with "END". Three numbers for each point follow; three NaN
+/// end a streamline, and three infinite numbers end the file.
 #include "Common/Bytes.h"
 #include "Common/Numbers.h"
-#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 #include "Formats/Surfaces/SurfaceFile.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
-#include <map>
-#include <string>
-#include <string_view>
-#include <vector>
 
 namespace brainshift
 {

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Displacement fields in NIfTI files (.nii, .nii.gz).
- *
- * Written: intent 1006 (DISPVECT), vectors in RAS, which ITK from 5.4 on turns into LPS when it
- * reads them; intent_name holds the direction.
- *
- * Read: intent 1006 (vectors in RAS); intent 1007 (VECTOR) as ITK, ANTs and elastix write it
- * (vectors in LPS); and intent 1007 of NiftyReg (vectors in RAS; intent_p1 0: positions, 1:
- * displacements).
- */
-#include "Common/Problem.h"
+/// @file
+/// Displacement fields in NIfTI files (.nii, .nii.gz).
+///
+/// Written: intent 1006 (DISPVECT), vectors in RAS, which ITK from 5.4 on turns into LPS when it
+/// reads them; intent_name holds the direction.
+///
+/// Read: intent 1006 (vectors in RAS); intent 1007 (VECTOR) as ITK, ANTs and elastix write it
+/// (vectors in LPS); and intent 1007 of NiftyReg (vectors in RAS; intent_p1 0: positions, 1:
+/// displacements).
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Fields/FieldImage.h"
 #include "Formats/Files/WholeFile.h"
@@ -18,23 +15,15 @@
 #include "Formats/NIFTI/NIFTIVolume.h"
 #include "Formats/Volumes/PlacedVolume.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
 #include "vtkDataArray.h"
 #include "vtkErrorCode.h"
 #include "vtkImageData.h"
 #include "vtkMatrix4x4.h"
 #include "vtkNIFTIImageHeader.h"
-#include "vtkNIFTIImageReader.h"
 #include "vtkNIFTIImageWriter.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtk_zlib.h"
-
-#include <glm/matrix.hpp>
-
-#include <memory>
-#include <vector>
 
 namespace brainshift
 {

@@ -2,19 +2,11 @@
 #include "Formats/NIFTI/NIFTIHeader.h"
 
 #include "Common/Bytes.h"
-#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 
 #include "vtk_zlib.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
-
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>

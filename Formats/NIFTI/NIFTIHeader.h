@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Headers of NIfTI files: what vtkNIFTIImageReader assumes of them, and where they place
- *        voxels.
- *
- * VTK 9.3 reads past the end of a table if the data type is unknown, and allocates any size that a
- * damaged header names.
- *
- * World is RAS: x to the patient's right, y to the front, z to the head, in mm. Names such as
- * `srow_x` are those of the NIfTI-1 standard (nifti1.h).
- */
+/// @file
+/// Headers of NIfTI files: what vtkNIFTIImageReader assumes of them, and where they place voxels.
+///
+/// VTK 9.3 reads past the end of a table if the data type is unknown, and allocates any size that a
+/// damaged header names.
+///
+/// World is RAS: x to the patient's right, y to the front, z to the head, in mm. Names such as
+/// `srow_x` are those of the NIfTI-1 standard (nifti1.h).
 #ifndef BrainShift_NIFTIHeader_h
 #define BrainShift_NIFTIHeader_h
 
-#include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
+#include <glm/glm.hpp>
 
 #include <array>
 #include <string>

@@ -3,7 +3,6 @@
 
 #include "Common/Bytes.h"
 #include "Common/Numbers.h"
-#include "Common/Problem.h"
 #include "Formats/Files/PackedBytes.h"
 #include "Formats/NIFTI/NIFTIHeader.h"
 #include "Formats/Volumes/OutgoingVolume.h"
@@ -13,10 +12,7 @@
 #include "vtkImageData.h"
 #include "vtkNIFTIImageHeader.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
 namespace brainshift

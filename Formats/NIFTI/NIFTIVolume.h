@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Volumes in NIfTI-1 and NIfTI-2 files: .nii, .nii.gz, and pairs of .hdr and .img.
- *
- * The sform counts before the qform (NIFTIHeader.h). scl_slope and scl_inter rescale the numbers;
- * a slope of 0 or NaN does not, and colours are never rescaled. VTK's reader reads the voxels.
- */
+/// @file
+/// Volumes in NIfTI-1 and NIfTI-2 files: .nii, .nii.gz, and pairs of .hdr and .img.
+///
+/// The sform counts before the qform (NIFTIHeader.h). scl_slope and scl_inter rescale the numbers;
+/// a slope of 0 or NaN does not, and colours are never rescaled. VTK's reader reads the voxels.
 #ifndef BrainShift_NIFTIVolume_h
 #define BrainShift_NIFTIVolume_h
 
@@ -14,9 +12,6 @@
 #include "vtkCallbackCommand.h" // for its smart pointer
 #include "vtkNIFTIImageReader.h"
 #include "vtkNew.h"
-
-#include <cstddef>
-#include <string>
 
 namespace brainshift
 {

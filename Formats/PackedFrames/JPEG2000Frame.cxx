@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Unpacks JPEG 2000 frames (ISO 15444-1) by OpenJPEG: streams of codes, and files in the
- *        format JP2.
- */
+/// @file
+/// Unpacks JPEG 2000 frames (ISO 15444-1) by OpenJPEG: streams of codes, and files in the format
+/// JP2.
 #include "Formats/PackedFrames/PackedFrame.h"
 
 #include "Common/Bytes.h"
 
 #include <openjpeg.h>
 
-#include <algorithm>
-#include <cstdint>
-#include <cstring>
 #include <memory>
 #include <set>
-#include <vector>
 
 namespace brainshift
 {

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Unpacks JPEG frames with Huffman codes (ITU-T T.81, ISO/IEC 10918-1): baseline, extended
- *        to 12 bits, and lossless.
- */
+/// @file
+/// Unpacks JPEG frames with Huffman codes (ITU-T T.81, ISO/IEC 10918-1): baseline, extended to 12
+/// bits, and lossless.
 #include "Common/Bytes.h"
 #include "Formats/PackedFrames/PackedFrame.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Unpacks JPEG-LS frames (ISO 14495-1) by CharLS.
- */
+/// @file
+/// Unpacks JPEG-LS frames (ISO 14495-1) by CharLS.
 #include "Formats/PackedFrames/PackedFrame.h"
 
 #include <charls/charls.h>
 
-#include <cstdint>
 #include <exception>
-#include <vector>
 
 namespace brainshift
 {

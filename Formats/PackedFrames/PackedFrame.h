@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief What a file says of its packed frames, what a frame unpacks to, and what unpacks it.
- */
+/// @file
+/// What a file says of its packed frames, what a frame unpacks to, and what unpacks it.
 #ifndef BrainShift_PackedFrame_h
 #define BrainShift_PackedFrame_h
 
@@ -11,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <string>
 #include <vector>
 
 namespace brainshift

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Unpacks frames in RLE, DICOM's run-length encoding (part 5, annex G).
- */
+/// @file
+/// Unpacks frames in RLE, DICOM's run-length encoding (part 5, annex G).
 #include "Common/Bytes.h"
 #include "Formats/PackedFrames/PackedFrame.h"
-
-#include <algorithm>
-#include <cstdint>
 
 namespace brainshift
 {

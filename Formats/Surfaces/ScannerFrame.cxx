@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Surfaces/ScannerFrame.h"
 
-#include "Common/Problem.h"
 #include "Formats/MGH/MGHVolume.h"
 #include "Formats/NIFTI/NIFTIHeader.h"
 #include "Formats/NIFTI/NIFTIVolume.h"
 #include "Formats/Volumes/RasGrid.h"
-#include "Formats/Volumes/VolumeFile.h"
-
-#include <glm/geometric.hpp>
 
 namespace brainshift
 {

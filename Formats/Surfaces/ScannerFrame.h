@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief From FreeSurfer's surface frame (tkRAS) to that of the scanner, mm.
- *
- * tkRAS has its origin in the middle of a volume and runs along the volume's axes: x against the
- * columns' axis, y along the slices' axis, z against the rows' axis. Which axes the volume has in
- * the scanner's RAS, and where its middle lies, are the volume's geometry.
- */
+/// @file
+/// From FreeSurfer's surface frame (tkRAS) to that of the scanner, mm.
+///
+/// tkRAS has its origin in the middle of a volume and runs along the volume's axes: x against the
+/// columns' axis, y along the slices' axis, z against the rows' axis. Which axes the volume has in
+/// the scanner's RAS, and where its middle lies, are the volume's geometry.
 #ifndef BrainShift_ScannerFrame_h
 #define BrainShift_ScannerFrame_h
 
-#include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <string>
 

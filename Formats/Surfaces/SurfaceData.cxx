@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/Surfaces/SurfaceData.h"
 
-#include "Common/LabelTable.h"
 #include "Common/WorldAxes.h"
 
 #include "vtkCellArray.h"
@@ -19,7 +18,6 @@
 #include "vtkTypeInt64Array.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
 #include <numeric>
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Surfaces and streamlines as data of VTK, with their numbers as arrays, and the field array
- *        WorldAxes if the file says where they lie.
- */
+/// @file
+/// Surfaces and streamlines as data of VTK, with their numbers as arrays, and the field array
+/// WorldAxes if the file says where they lie.
 #ifndef BrainShift_SurfaceData_h
 #define BrainShift_SurfaceData_h
 

@@ -2,12 +2,8 @@
 #include "Formats/Surfaces/SurfaceFile.h"
 
 #include "Common/HostMemory.h"
-#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
-
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Surfaces and tracts as files keep them, the limits of all files, and the formats that read
- *        them. The first bytes of a file tell which it is.
- */
+/// @file
+/// Surfaces and tracts as files keep them, the limits of all files, and the formats that read them.
+/// The first bytes of a file tell which it is.
 #ifndef BrainShift_SurfaceFile_h
 #define BrainShift_SurfaceFile_h
 
 #include "Common/LabelTable.h"
+#include "Common/Problem.h"
 #include "Formats/Files/PackedBytes.h"
 #include "Formats/Surfaces/ScannerFrame.h"
 
-#include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
-
-#include <cstddef>
-#include <cstdint>
 #include <map>
 #include <set>
-#include <string>
-#include <vector>
 
 namespace brainshift
 {

@@ -2,9 +2,7 @@
 #include "vtkSurfaceReader.h"
 
 #include "Common/Guard.h"
-#include "Common/Problem.h"
 #include "Formats/Surfaces/SurfaceData.h"
-#include "Formats/Surfaces/SurfaceFile.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"

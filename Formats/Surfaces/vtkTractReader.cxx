@@ -2,17 +2,13 @@
 #include "vtkTractReader.h"
 
 #include "Common/Guard.h"
-#include "Common/Problem.h"
 #include "Formats/Surfaces/SurfaceData.h"
-#include "Formats/Surfaces/SurfaceFile.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-
-#include <vector>
 
 using namespace brainshift;
 

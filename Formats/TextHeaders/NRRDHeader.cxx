@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "Common/Numbers.h"
-#include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 #include "Formats/TextHeaders/TextHeader.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace brainshift
 {

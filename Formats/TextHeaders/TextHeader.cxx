@@ -3,14 +3,12 @@
 
 #include "Common/Bytes.h"
 #include "Common/Numbers.h"
-#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 
 #include "vtkDataArray.h"
 #include "vtkSetGet.h" // for vtkTemplateMacro
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>

@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Headers of MetaImage ("key = value") and NRRD ("field: value") files, and the numbers that
- *        belong to them: how many there are, where they are stored and where they are in space.
- */
+/// @file
+/// Headers of MetaImage ("key = value") and NRRD ("field: value") files, and the numbers that
+/// belong to them: how many there are, where they are stored and where they are in space.
 #ifndef BrainShift_TextHeader_h
 #define BrainShift_TextHeader_h
 
+#include "Common/Problem.h"
 #include "Formats/Files/PackedBytes.h"
 
 #include "vtkType.h"
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
-#include <cstddef>
-#include <cstdint>
 #include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace brainshift

@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Displacement fields in MetaImage and NRRD files: a header of lines, then the numbers or
- *        the name of the file that holds them.
- */
+/// @file
+/// Displacement fields in MetaImage and NRRD files: a header of lines, then the numbers or the name
+/// of the file that holds them.
 
 #include "Common/Bytes.h"
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
-#include "Common/Problem.h"
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Files/Text.h"
 #include "Formats/Files/WholeFile.h"
 #include "Formats/TextHeaders/TextHeader.h"
 
-#include <glm/geometric.hpp>
-
 #include <cmath>
-#include <cstring>
-#include <optional>
-#include <sstream>
 
 namespace brainshift
 {

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Volumes in MetaImage (.mha, .mhd) and NRRD (.nrrd, .nhdr) files.
- *
- * Three axes must be axes of space. One axis before them is the components of a voxel, or time, or
- * the layers of a segmentation; one after them is time.
- */
+/// @file
+/// Volumes in MetaImage (.mha, .mhd) and NRRD (.nrrd, .nhdr) files.
+///
+/// Three axes must be axes of space. One axis before them is the components of a voxel, or time, or
+/// the layers of a segmentation; one after them is time.
 #include "Common/Numbers.h"
-#include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 #include "Formats/TextHeaders/TextHeader.h"
 #include "Formats/Volumes/OutgoingVolume.h"
@@ -19,10 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
-#include <string>
-#include <vector>
 
 namespace brainshift
 {

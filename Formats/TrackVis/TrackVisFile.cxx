@@ -1,33 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Streamlines of TrackVis and of Diffusion Toolkit, DIPY and others (.trk).
- *
- * Points are in mm along the axes of a volume, from the corner of its first voxel. The header's
- * vox_to_ras takes them to RAS; its voxel_order names the directions of the axes. Numbers of points
- * (scalars) and of streamlines (properties) keep their names.
- */
+/// @file
+/// Streamlines of TrackVis and of Diffusion Toolkit, DIPY and others (.trk).
+///
+/// Points are in mm along the axes of a volume, from the corner of its first voxel. The header's
+/// vox_to_ras takes them to RAS; its voxel_order names the directions of the axes. Numbers of
+/// points (scalars) and of streamlines (properties) keep their names.
 #include "Common/Bytes.h"
 #include "Common/Numbers.h"
 #include "Common/Parallel.h"
-#include "Common/Problem.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
-#include "Formats/Surfaces/ScannerFrame.h"
 #include "Formats/Surfaces/SurfaceFile.h"
 #include "Formats/Volumes/RasGrid.h"
 
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
-#include <cstring>
-#include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 namespace brainshift
 {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief What registration programs store: a chain of maps of points, from the fixed image to the
- *        moving one.
- *
- * ITK, ANTs and elastix map points of LPS. After reverseXY the chain maps points of RAS.
- */
+/// @file
+/// What registration programs store: a chain of maps of points, from the fixed image to the moving
+/// one.
+///
+/// ITK, ANTs and elastix map points of LPS. After reverseXY the chain maps points of RAS.
 #ifndef BrainShift_PointTransform_h
 #define BrainShift_PointTransform_h
 
@@ -13,10 +11,6 @@
 #include "Common/Grid.h"
 #include "vtkBrainShiftFormatsModule.h" // for the export macro
 
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
-
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>

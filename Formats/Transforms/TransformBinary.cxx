@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Reads transforms in binary files: HDF5, by ParaView's own library, and MATLAB level 4
- *        (ANTs' 0GenericAffine.mat). Sizes are compared with the file, and with the memory, before
- *        anything is taken.
- */
+/// @file
+/// Reads transforms in binary files: HDF5, by ParaView's own library, and MATLAB level 4 (ANTs'
+/// 0GenericAffine.mat). Sizes are compared with the file, and with the memory, before anything is
+/// taken.
 #include "Common/Bytes.h"
 #include "Common/HostMemory.h"
-#include "Common/Problem.h"
 #include "Formats/Transforms/TransformRecord.h"
 
 #include "vtk_hdf5.h"
 
-#include <algorithm>
 #include <cstdint>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace brainshift
 {

@@ -2,18 +2,12 @@
 #include "Formats/Transforms/TransformFile.h"
 
 #include "Common/HostMemory.h"
-#include "Common/Problem.h"
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/NIFTI/NIFTIVolume.h"
 #include "Formats/Transforms/TransformRecord.h"
 
-#include <glm/geometric.hpp>
-#include <glm/mat4x4.hpp>
-#include <glm/matrix.hpp>
-
 #include <filesystem>
-#include <optional>
 #include <utility>
 
 namespace brainshift

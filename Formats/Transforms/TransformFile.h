@@ -1,28 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Reads the transforms of registration programs.
- *
- * | file                              | program                  | points       |
- * |-----------------------------------|--------------------------|--------------|
- * | .tfm, .txt, .h5, .hdf5            | ITK, Slicer, ANTs        | LPS          |
- * | .mat, binary                      | ANTs (0GenericAffine)    | LPS          |
- * | .txt, "(Transform ...)"           | elastix                  | LPS          |
- * | .nii, .nii.gz, .mha, .mhd, .nrrd  | displacement fields      | FieldFile.h  |
- * | text, 16 numbers, any ending      | NiftyReg                 | RAS          |
- * | text, 16 numbers, .mat            | FSL flirt                | FSL's own mm |
- *
- * The content decides, not the name, except between NiftyReg and FSL. All map points of the fixed
- * image to the moving one, but for FSL, whose matrix is turned round.
- */
+/// @file
+/// Reads the transforms of registration programs.
+///
+/// | file                              | program                  | points       |
+/// |-----------------------------------|--------------------------|--------------|
+/// | .tfm, .txt, .h5, .hdf5            | ITK, Slicer, ANTs        | LPS          |
+/// | .mat, binary                      | ANTs (0GenericAffine)    | LPS          |
+/// | .txt, "(Transform ...)"           | elastix                  | LPS          |
+/// | .nii, .nii.gz, .mha, .mhd, .nrrd  | displacement fields      | FieldFile.h  |
+/// | text, 16 numbers, any ending      | NiftyReg                 | RAS          |
+/// | text, 16 numbers, .mat            | FSL flirt                | FSL's own mm |
+///
+/// The content decides, not the name, except between NiftyReg and FSL. All map points of the fixed
+/// image to the moving one, but for FSL, whose matrix is turned round.
 #ifndef BrainShift_TransformFile_h
 #define BrainShift_TransformFile_h
 
+#include "Common/Problem.h"
 #include "Formats/Transforms/PointTransform.h"
-#include "vtkBrainShiftFormatsModule.h" // for the export macro
-
-#include <string>
-#include <vector>
 
 namespace brainshift
 {

@@ -2,12 +2,9 @@
 #include "Formats/Transforms/TransformRecord.h"
 
 #include "Common/HostMemory.h"
-#include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 
-#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief ITK's form of a transform: a type and two lists of numbers. Its text files, its HDF5 files
- *        and ANTs' MATLAB files store it, and elastix' parameter files can be brought into it.
- */
+/// @file
+/// ITK's form of a transform: a type and two lists of numbers. Its text files, its HDF5 files and
+/// ANTs' MATLAB files store it, and elastix' parameter files can be brought into it.
 #ifndef BrainShift_TransformRecord_h
 #define BrainShift_TransformRecord_h
 
 #include "Formats/Transforms/PointTransform.h"
 
 #include <functional>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace brainshift
 {

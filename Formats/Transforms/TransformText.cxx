@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Reads transforms that are text: ITK's, elastix' parameter files, and 4 x 4 matrices.
- */
+/// @file
+/// Reads transforms that are text: ITK's, elastix' parameter files, and 4 x 4 matrices.
 #include "Common/Numbers.h"
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 #include "Formats/Transforms/TransformRecord.h"
 
-#include <cstddef>
 #include <filesystem>
 #include <map>
-#include <optional>
-#include <sstream>
-#include <string_view>
-#include <system_error>
 
 namespace brainshift
 {

@@ -2,14 +2,11 @@
 #include "Formats/Volumes/OutgoingVolume.h"
 
 #include "Common/ImageGrid.h"
-#include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkPointData.h"
-
-#include <glm/matrix.hpp>
 
 #include <cmath>
 #include <limits>

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief A volume on its way into a file: one point array of an image, placed in RAS millimetres.
- *
- * The one road out, as PlacedVolume is the one road in. Formats take what is here and say nothing
- * of images, worlds and types that no file holds.
- */
+/// @file
+/// A volume on its way into a file: one point array of an image, placed in RAS millimetres.
+///
+/// The one road out, as PlacedVolume is the one road in. Formats take what is here and say nothing
+/// of images, worlds and types that no file holds.
 #ifndef BrainShift_OutgoingVolume_h
 #define BrainShift_OutgoingVolume_h
 

@@ -3,14 +3,12 @@
 
 #include "Common/HostMemory.h"
 #include "Common/Parallel.h"
-#include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 
 #include "vtkDataArray.h"
 #include "vtkImageData.h"
 #include "vtkPointData.h"
 
-#include <array>
 #include <cmath>
 #include <utility>
 

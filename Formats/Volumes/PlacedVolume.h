@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief A volume of any format, placed in RAS millimetres.
- *
- * Voxels are permuted and flipped, never resampled, so that the axes of the image run along the
- * nearest RAS axes (RasGrid.h). Numbers keep the file's type, or become float32 where they are
- * rescaled.
- */
+/// @file
+/// A volume of any format, placed in RAS millimetres.
+///
+/// Voxels are permuted and flipped, never resampled, so that the axes of the image run along the
+/// nearest RAS axes (RasGrid.h). Numbers keep the file's type, or become float32 where they are
+/// rescaled.
 #ifndef BrainShift_PlacedVolume_h
 #define BrainShift_PlacedVolume_h
 
 #include "Formats/Volumes/RasGrid.h"
 #include "Formats/Volumes/VolumeFile.h"
-
-#include <cstddef>
-#include <memory>
-#include <string>
-#include <vector>
 
 class vtkImageData;
 

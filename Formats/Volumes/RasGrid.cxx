@@ -2,13 +2,7 @@
 #include "Formats/Volumes/RasGrid.h"
 
 #include "Common/ImageGrid.h"
-#include "Common/Problem.h"
 #include "Formats/Files/Text.h"
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief From an affine that places voxels in RAS mm to a grid along the nearest RAS axes.
- *
- * World is RAS: x to the patient's right, y to the front, z to the head, in mm. All volumes take
- * this road, whatever their file.
- */
+/// @file
+/// From an affine that places voxels in RAS mm to a grid along the nearest RAS axes.
+///
+/// World is RAS: x to the patient's right, y to the front, z to the head, in mm. All volumes take
+/// this road, whatever their file.
 #ifndef BrainShift_RasGrid_h
 #define BrainShift_RasGrid_h
 
 #include "Common/Grid.h"
 #include "vtkBrainShiftFormatsModule.h" // for the export macro
-
-#include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
-
-#include <array>
 
 namespace brainshift
 {

@@ -1,25 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief What a format of volumes has to implement: where its voxels lie, and their numbers as the
- *        file orders them. PlacedVolume does the rest for all formats alike.
- */
+/// @file
+/// What a format of volumes has to implement: where its voxels lie, and their numbers as the file
+/// orders them. PlacedVolume does the rest for all formats alike.
 #ifndef BrainShift_VolumeFile_h
 #define BrainShift_VolumeFile_h
 
 #include "Common/LabelTable.h"
+#include "Common/Problem.h"
 #include "vtkBrainShiftFormatsModule.h" // for the export macro
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
 
-#include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <cstddef>
 #include <functional>
 #include <memory>
-#include <string>
-#include <vector>
 
 class vtkDataArray;
 class vtkImageData;

@@ -3,8 +3,6 @@
 
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
-#include "Common/LabelTable.h"
-#include "Common/Problem.h"
 #include "Common/WorldAxes.h"
 #include "Formats/Volumes/PlacedVolume.h"
 
@@ -20,7 +18,6 @@
 
 #include <cmath>
 #include <utility>
-#include <vector>
 
 namespace
 {

@@ -3,26 +3,18 @@
 
 #include "Common/Bytes.h"
 #include "Common/HostMemory.h"
-#include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 #include "Formats/Files/WholeFile.h"
 
 #include "vtk_zlib.h"
 
 #include <glm/gtc/quaternion.hpp>
-#include <glm/matrix.hpp>
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
-#include <functional>
 #include <ios>
-#include <sstream>
 #include <utility>
-#include <vector>
 
 namespace brainshift
 {

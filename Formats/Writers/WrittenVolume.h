@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Writes a volume into one file.
- *
- * | ending        | format    | world in the file | where it says that sides are not known |
- * |---------------|-----------|-------------------|----------------------------------------|
- * | .nii, .nii.gz | NIfTI-1   | RAS               | descrip; sform code 2, no qform        |
- * | .mha, .mhd    | MetaImage | LPS               | Comment                                |
- * | .nrrd         | NRRD      | LPS               | a comment                              |
- *
- * A .mhd holds its numbers itself, so that one rename replaces all of it.
- */
+/// @file
+/// Writes a volume into one file.
+///
+/// | ending        | format    | world in the file | where it says that sides are not known |
+/// |---------------|-----------|-------------------|----------------------------------------|
+/// | .nii, .nii.gz | NIfTI-1   | RAS               | descrip; sform code 2, no qform        |
+/// | .mha, .mhd    | MetaImage | LPS               | Comment                                |
+/// | .nrrd         | NRRD      | LPS               | a comment                              |
+///
+/// A .mhd holds its numbers itself, so that one rename replaces all of it.
 #ifndef BrainShift_WrittenVolume_h
 #define BrainShift_WrittenVolume_h
 
 #include "Formats/Volumes/OutgoingVolume.h"
 #include "Formats/Volumes/VolumeFile.h"
-
-#include <string>
 
 namespace brainshift
 {

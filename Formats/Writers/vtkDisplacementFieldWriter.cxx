@@ -2,8 +2,6 @@
 #include "vtkDisplacementFieldWriter.h"
 
 #include "Common/Guard.h"
-#include "Common/ImageGrid.h"
-#include "Common/Problem.h"
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Fields/FieldImage.h"
 #include "Formats/Writers/WrittenVolume.h"

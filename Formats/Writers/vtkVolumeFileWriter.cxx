@@ -3,7 +3,6 @@
 
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
-#include "Common/Problem.h"
 #include "Formats/DICOM/DerivedSeries.h"
 #include "Formats/Writers/WrittenVolume.h"
 

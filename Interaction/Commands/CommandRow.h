@@ -8,8 +8,6 @@
 
 #include <QKeyCombination>
 
-#include <vector>
-
 namespace brainshift
 {
 /// What a key or a gesture of the mouse does.

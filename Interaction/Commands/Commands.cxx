@@ -9,7 +9,6 @@
 #include <QWidget>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace brainshift

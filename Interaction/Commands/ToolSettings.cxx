@@ -77,7 +77,7 @@ double ToolSettings::millimetresPerClick() const
 
 ToolSettings::Range ToolSettings::radiusRange() const
 {
-  // Below half the spacing a sphere can lie between the control points and move none.
+  // Below half the spacing a sphere can fit between the control points and move none.
   const double least = std::min(this->Spacing, this->Diagonal) / 2.0;
   return { least, this->Diagonal / 2.0 };
 }
@@ -173,9 +173,9 @@ void ToolSettings::setMinorRadius(double millimetres)
   this->keep("MinorRadius", this->MinorRadius, millimetres, this->radiusRange());
 }
 
-void ToolSettings::setSigma(double share)
+void ToolSettings::setSigma(double fraction)
 {
-  this->keep("Sigma", this->Sigma, share, this->sigmaRange());
+  this->keep("Sigma", this->Sigma, fraction, this->sigmaRange());
 }
 
 void ToolSettings::setMillimetresPerClick(double millimetres)

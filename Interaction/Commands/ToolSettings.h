@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The tool in hand and the settings of all tools. The application has one such object; panel,
-/// toolbar and views share it. The numbers are kept for the next session. The tool is not.
+/// toolbar and views use it together. The numbers are kept for the next session. The tool is not.
 #ifndef BrainShift_ToolSettings_h
 #define BrainShift_ToolSettings_h
 
@@ -59,7 +59,7 @@ public:
   /// Name of the volume that the view under the cursor shows, while the tool in hand works on
   /// another one that this view does not show. Default empty: it works on what the view shows.
   const QString& shownInstead() const { return this->ShownInstead; }
-  /// What the window asks the hand to do next, a whole sentence. Default empty: nothing.
+  /// The next thing that the user should do, a whole sentence. Default empty: nothing.
   const QString& request() const { return this->Request; }
   double radius() const;              ///< Soft: mm, default 25.
   double majorRadius() const;         ///< Stamp: half the long axis, mm, default 40.
@@ -89,7 +89,7 @@ public Q_SLOTS:
   void setRadius(double millimetres);
   void setMajorRadius(double millimetres);
   void setMinorRadius(double millimetres);
-  void setSigma(double share);
+  void setSigma(double fraction);
   void setMillimetresPerClick(double millimetres);
 
 Q_SIGNALS:

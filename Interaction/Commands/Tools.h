@@ -8,11 +8,9 @@
 #include "Interaction/Commands/CommandRow.h"
 
 #include <QKeySequence>
-#include <QString>
 
 #include <memory>
 #include <optional>
-#include <vector>
 
 namespace brainshift
 {

@@ -28,7 +28,7 @@ bool is(vtkSMProxy* proxy, const char* name)
   return std::strcmp(proxy->GetXMLName(), name) == 0;
 }
 
-// The fit that bends what a display shows; null if none does.
+// The fit that deforms the volume of a display; null if none does.
 vtkSMProxy* fitOf(vtkSMProxy* display)
 {
   vtkSMProxy* source = inputOf(display, "Input");
@@ -64,7 +64,7 @@ void EvidenceSwitch::note(vtkObject*, unsigned long, void* display)
   this->Changed.insert(display);
 }
 
-// An undo or a state says itself what the fit does.
+// An undo or a state file sets the property of the fit itself.
 void EvidenceSwitch::follow(vtkObject* object)
 {
   auto display = vtkSMProxy::SafeDownCast(object);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Switches a fit's Evidence on when a display is told to show it, so that a user needs one click.
+/// Switches a fit's Evidence (uncertainty, mm) on when a display begins to show it, so that a user
+/// needs one click.
 #ifndef BrainShift_EvidenceSwitch_h
 #define BrainShift_EvidenceSwitch_h
 

@@ -39,7 +39,7 @@ QString chosenFolder()
   return chosen ? dialog.getSelectedFiles().first() : QString();
 }
 
-void tell(const QString& message)
+void report(const QString& message)
 {
   if (auto window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget()))
   {
@@ -79,7 +79,7 @@ void FigureActions::save()
                           "brainshift.figure(servermanager.ProxyManager().GetProxy('sources', " +
     quoted(bent->getSMName()) + "), " + quoted(folder) + ")\n";
   const bool saved = vtkPythonInterpreter::RunSimpleString(call.constData()) == 0;
-  tell(saved ? tr("BrainShift's figures are in %1").arg(folder)
-             : tr("BrainShift's figures were not saved; the output window says why"));
+  report(saved ? tr("BrainShift's figures are in %1").arg(folder)
+               : tr("BrainShift's figures were not saved; the output window says why"));
 }
 }

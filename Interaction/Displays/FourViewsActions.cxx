@@ -77,7 +77,7 @@ void FourViewsActions::layOut()
 }
 
 // When it is applied for the first time, and ParaView has shown it and hidden its input. What a
-// state file or a script makes was never unapplied; it is shown as that says.
+// state file or a script makes was never unapplied; it is shown as they set it.
 void FourViewsActions::watchComparison(pqPipelineSource* source)
 {
   if (std::strcmp(source->getProxy()->GetXMLName(), "CompareVolumes") != 0)

@@ -11,8 +11,8 @@ namespace brainshift
 /// The settings; null if there is no session.
 vtkSMProxy* sharedSettings();
 
-/// Whether good and bad, own and other are told apart by blue and orange instead of green and red.
-/// Default false.
+/// Whether good and bad, own and other are distinguished by blue and orange instead of green and
+/// red. Default false.
 bool wantsBlueAndOrange();
 }
 

@@ -19,7 +19,7 @@ namespace brainshift
 {
 namespace
 {
-// The colours that looks gave, by the number of the colour map.
+// The colours that presets set, by the number of the colour map.
 QMap<vtkTypeUInt32, std::vector<double>>& given()
 {
   static QMap<vtkTypeUInt32, std::vector<double>> colors;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Looks of a volume in the window: colours, opacities and a camera that fit its tissue. The
+/// Presets of a volume in the window: colours, opacities and a camera that fit its tissue. The
 /// process that has the data makes them (vtkVolumeLookReport).
 #ifndef BrainShift_VolumeLook_h
 #define BrainShift_VolumeLook_h
@@ -16,35 +16,36 @@ class vtkSMRenderViewProxy;
 
 namespace brainshift
 {
-/// What a volume can look like, and one of its looks.
+/// The presets of a volume, and one of them.
 struct VolumeLook
 {
   QString kind;                  ///< MR, CT, Ultrasound or Labels; empty without a volume
-  QStringList names;             ///< of all its looks; the first one fits at first sight
-  QString name;                  ///< of this look; empty if there is none
+  QStringList names;             ///< of all its presets; the first one is the default
+  QString name;                  ///< of this preset; empty if there is none
   std::vector<double> colors;    ///< value, red, green, blue of each colour
   std::vector<double> opacities; ///< value, opacity
   bool drawsSegment = false;     ///< draws the attached segmentation alone
-  std::vector<double> tissue;    ///< mm, world: x, y, z of what it shows farthest out; see aimAt
+  std::vector<double> tissue;    ///< mm, world: x, y, z of the farthest tissue; see aimAt
 };
 
-/// Reads the volume of a display that has colours, and makes a look for it.
+/// Reads the volume of a display that has colours, and makes a preset for it.
 /// @param name   which one; empty: the first of them
 VolumeLook makeVolumeLook(pqDataRepresentation* display, const QString& name = {});
 
 /// Gives a display these colours and opacities, and shading. It renders nothing.
 void applyLook(pqDataRepresentation* display, const VolumeLook& look);
 
-/// Whether a colour map is as a look made it, and not as the user edited it.
+/// Whether a colour map is still as a preset set it. False if the user edited it.
 bool isLook(vtkSMProxy* colors);
 
-/// The look that the user chose last for volumes of this kind; empty if none.
+/// The preset that the user chose last for volumes of this kind; empty if none.
 QString chosenLook(const QString& kind);
 /// Remembers it, also for the next start.
 void rememberLook(const QString& kind, const QString& name);
 
-/// Looks from the patient's right, front and above, so that tissue fills the view.
-/// @param tissue   mm, world: x, y, z of its farthest points; if there are none, the camera stays
+/// Moves the camera to the patient's right, front and above, so that tissue fills the view.
+/// @param tissue   mm, world: x, y, z of its farthest points; if there are none, the camera does
+/// not move
 void aimAt(vtkSMRenderViewProxy* view, const std::vector<double>& tissue);
 }
 

@@ -35,13 +35,13 @@ constexpr std::size_t NumbersOfPlacement = 6;
 // Fields of the panel hold these digits of mm and degrees; an alignment is less exact.
 constexpr double Digits = 1e4;
 
-constexpr qint64 SearchMs = 40; // between two pictures: Stop is answered soon after
+constexpr qint64 SearchMs = 40; // between two pictures, so that Stop takes effect soon
 
-constexpr const char* Motion[] = { "ReferenceRotation", "ReferenceTranslation" };
-// What an alignment depends on. A change of one of these in the meantime ends it.
-constexpr const char* Ground[] = { "Input", "Reference", "Cavity", "CavityLabels" };
-// Beside the settings of the lattice.
-constexpr const char* GroundOfDeformation[] = { "Input", "Lattice", "Strokes", "Strength",
+constexpr const char* Placement[] = { "ReferenceRotation", "ReferenceTranslation" };
+// An alignment depends on these properties. A change of one of them ends it.
+constexpr const char* Dependencies[] = { "Input", "Reference", "Cavity", "CavityLabels" };
+// Of the deformation, beside the settings of the lattice.
+constexpr const char* DeformationDependencies[] = { "Input", "Lattice", "Strokes", "Strength",
   "Inverse" };
 
 template <std::size_t Count>
@@ -75,7 +75,7 @@ void AlignEditor::followRemoval(pqPipelineSource* source)
   }
 }
 
-// The volume is compared as it is bent. If the user edits meanwhile, what was reached is kept.
+// The deformed volume is compared. If the user edits it meanwhile, the result so far is kept.
 void AlignEditor::followDeformation()
 {
   pqPipelineSource* bent = deformationUpstream(this->Source);
@@ -83,7 +83,7 @@ void AlignEditor::followDeformation()
   {
     return;
   }
-  this->Hands = { this->connect(
+  this->Edits = { this->connect(
                     StrokeEditor::of(bent), &StrokeEditor::editing, this, &AlignEditor::giveWay),
     this->connect(FitEditor::of(bent), &FitEditor::editing, this, &AlignEditor::giveWay) };
   this->OfDeformation->Connect(bent->getProxy(), vtkCommand::PropertyModifiedEvent, this,
@@ -129,8 +129,8 @@ QString AlignEditor::beginAlignment()
 AlignEditor::ReferencePlacement AlignEditor::now() const
 {
   ReferencePlacement placement;
-  vtkSMPropertyHelper(this->Source->getProxy(), Motion[0]).Get(&placement.rotation[0], 3);
-  vtkSMPropertyHelper(this->Source->getProxy(), Motion[1]).Get(&placement.translation[0], 3);
+  vtkSMPropertyHelper(this->Source->getProxy(), Placement[0]).Get(&placement.rotation[0], 3);
+  vtkSMPropertyHelper(this->Source->getProxy(), Placement[1]).Get(&placement.translation[0], 3);
   return placement;
 }
 
@@ -151,8 +151,8 @@ void AlignEditor::put(const ReferencePlacement& placement)
 {
   const QScopedValueRollback<bool> writing(this->Writing, true);
   vtkSMProxy* compare = this->Source->getProxy();
-  vtkSMPropertyHelper(compare, Motion[0]).Set(&placement.rotation[0], 3);
-  vtkSMPropertyHelper(compare, Motion[1]).Set(&placement.translation[0], 3);
+  vtkSMPropertyHelper(compare, Placement[0]).Set(&placement.rotation[0], 3);
+  vtkSMPropertyHelper(compare, Placement[1]).Set(&placement.translation[0], 3);
   compare->UpdateVTKObjects();
 }
 
@@ -190,7 +190,7 @@ void AlignEditor::takeStep()
   drawMoving(this->Source);
   if (!this->isActive())
   {
-    return; // a picture may have let something else happen
+    return; // drawing may have processed an event that ended it
   }
   if (this->Figures.done >= 1.0)
   {
@@ -205,7 +205,7 @@ void AlignEditor::keep(State end)
 {
   const bool hasBegun = this->Figures.lines > 0;
   const ReferencePlacement found = hasBegun ? this->found() : this->Start;
-  // What undo comes back to is what the session saw last, so it sees the beginning once more.
+  // Undo returns to the last state that the session saw, so restore the start first.
   this->restore();
   const QString refusal = this->Figures.refusal;
   if (!refusal.isEmpty())
@@ -231,29 +231,29 @@ void AlignEditor::restore()
 void AlignEditor::release()
 {
   this->OfDeformation->Disconnect();
-  for (const QMetaObject::Connection& hand : this->Hands)
+  for (const QMetaObject::Connection& edit : this->Edits)
   {
-    QObject::disconnect(hand);
+    QObject::disconnect(edit);
   }
-  this->Hands.clear();
+  this->Edits.clear();
 }
 
 void AlignEditor::followChange(vtkObject* proxy, const char* property)
 {
   const bool isOwn = proxy == this->Source->getProxy();
-  if (isOwn && isAmong(Motion, property))
+  if (isOwn && isAmong(Placement, property))
   {
-    // The value that another one has set stays; the other of the two goes back.
+    // The value that was set from outside stays; the other property returns to its start.
     SCOPED_UNDO_EXCLUDE();
     ReferencePlacement wanted = this->Start;
     const ReferencePlacement now = this->now();
-    (std::strcmp(property, Motion[0]) == 0 ? wanted.rotation : wanted.translation) =
-      std::strcmp(property, Motion[0]) == 0 ? now.rotation : now.translation;
+    (std::strcmp(property, Placement[0]) == 0 ? wanted.rotation : wanted.translation) =
+      std::strcmp(property, Placement[0]) == 0 ? now.rotation : now.translation;
     this->put(wanted);
     this->end(State::Idle, tr("%1 was changed, so Align ended.").arg(QString(property)));
   }
-  else if (isOwn ? isAmong(Ground, property)
-                 : isAmong(GroundOfDeformation, property) ||
+  else if (isOwn ? isAmong(Dependencies, property)
+                 : isAmong(DeformationDependencies, property) ||
         isLatticeSetting(vtkSMProxy::SafeDownCast(proxy), property))
   {
     this->cancel(tr("%1 was changed, so Align ended. The reference is where it was before.")

@@ -12,7 +12,7 @@
 
 namespace brainshift
 {
-/// What is known after a line was searched.
+/// The figures after a line was searched.
 struct AlignFigures
 {
   int lines = 0;                  ///< searched so far
@@ -20,10 +20,10 @@ struct AlignFigures
   double overlap = 0.0;           ///< fraction of the volume inside the reference, 0 to 1
   double information = 0.0;       ///< mutual information on this level, nats; more is better
   double informationBefore = 0.0; ///< of the reference where it was, on the same level
-  double shift = 0.0;             ///< of the middle of what is compared, mm
+  double shift = 0.0;             ///< of the middle of the compared tissue, mm
   double rotation = 0.0;          ///< degrees, 0 or more
-  QString refusal;                ///< Why the result must not be kept; empty if it may.
-  QString warning;                ///< What the user must check; empty if there is nothing.
+  QString refusal;                ///< The reason to discard the result; empty if there is none.
+  QString warning;                ///< What the user must check; empty if nothing.
 };
 
 class AlignEditor : public LiveRun
@@ -34,7 +34,7 @@ public:
   /// The editor of a Compare Volumes; it lives as long as the source. Null for any other source.
   static AlignEditor* of(pqPipelineSource* source);
 
-  /// Begins an alignment. If it cannot, problem() says why and nothing has changed.
+  /// Begins an alignment. If it cannot, problem() has the reason and nothing has changed.
   void begin();
 
   const AlignFigures& figures() const { return this->Figures; }
@@ -61,7 +61,7 @@ private:
   void followDeformation();
   void readFigures();
   ReferencePlacement now() const;
-  /// What the search has reached, rounded for the panel.
+  /// The present result of the search, rounded for the panel.
   ReferencePlacement found() const;
   void put(const ReferencePlacement& placement);
 
@@ -70,7 +70,7 @@ private:
 
   // While it is active:
   vtkNew<vtkEventQtSlotConnect> OfDeformation;
-  QList<QMetaObject::Connection> Hands;
+  QList<QMetaObject::Connection> Edits; ///< To the editors whose edits stop it.
 };
 }
 

@@ -31,7 +31,7 @@ namespace brainshift
 {
 namespace
 {
-// As in brainshift.fit of Python: sources that are BrainShift's own.
+// The annotation of sources that BrainShift made; fitting.py has the same one.
 constexpr const char* MadeByUs = "BrainShiftFit";
 
 vtkSMProxy* latticeOf(vtkSMProxy* deformation)
@@ -47,8 +47,8 @@ glm::dmat4 rigidOf(vtkSMProxy* fit)
   return rows.size() == 16 ? glm::transpose(glm::make_mat4(rows.data())) : glm::dmat4(1.0);
 }
 
-// Where a fit takes tissue at rest (mm), without its rigid part. As many as `rest`, or none.
-std::vector<glm::dvec3> placesBy(vtkSMProxy* fit, const std::vector<glm::dvec3>& rest)
+// Positions (mm) of tissue at rest after a fit, without its rigid part. As many as `rest`, or none.
+std::vector<glm::dvec3> positionsBy(vtkSMProxy* fit, const std::vector<glm::dvec3>& rest)
 {
   if (rest.empty())
   {
@@ -60,15 +60,51 @@ std::vector<glm::dvec3> placesBy(vtkSMProxy* fit, const std::vector<glm::dvec3>&
     .Set(&rest.front().x, static_cast<unsigned int>(3 * rest.size()));
   const std::vector<double> numbers = answerOf(report, "Measured");
   const glm::dmat4 rigid = rigidOf(fit);
-  const glm::dmat3 turnedBack = glm::transpose(glm::dmat3(rigid));
-  std::vector<glm::dvec3> places;
+  const glm::dmat3 inverseRotation = glm::transpose(glm::dmat3(rigid));
+  std::vector<glm::dvec3> positions;
   for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
   {
     const glm::dvec3 measured(numbers[i], numbers[i + 1], numbers[i + 2]);
-    places.push_back(turnedBack * (measured - glm::dvec3(rigid[3])));
+    positions.push_back(inverseRotation * (measured - glm::dvec3(rigid[3])));
   }
-  return places;
+  return positions;
 }
+}
+
+vtkSmartPointer<vtkSMProxy> makeLatticeFilter(
+  vtkSMProxy* deformation, const char* kind, vtkSMProxy* base)
+{
+  auto made =
+    vtk::TakeSmartPointer(deformation->GetSessionProxyManager()->NewProxy("filters", kind));
+  vtkNew<vtkSMParaViewPipelineController> controller;
+  controller->PreInitializeProxy(made);
+  shareLattice(deformation, made);
+  if (base)
+  {
+    vtkSMPropertyHelper(made, "Base").Set(base);
+  }
+  controller->PostInitializeProxy(made);
+  made->SetAnnotation(MadeByUs, "1");
+  made->UpdateVTKObjects();
+  return made;
+}
+
+void registerQuietly(vtkSMProxy* made)
+{
+  made->SetLogName(made->GetSessionProxyManager()->RegisterProxy("sources", made).c_str());
+}
+
+void setNumbers(vtkSMProxy* proxy, const char* name, const std::vector<double>& numbers)
+{
+  vtkSMPropertyHelper property(proxy, name);
+  if (numbers.empty())
+  {
+    property.SetNumberOfElements(0);
+  }
+  else
+  {
+    property.Set(numbers.data(), static_cast<unsigned int>(numbers.size()));
+  }
 }
 
 vtkSMSourceProxy* fitOf(pqPipelineSource* deformation)
@@ -102,7 +138,7 @@ FitEditor::FitEditor(pqPipelineSource* source)
   QObject::connect(pqApplicationCore::instance(), &pqApplicationCore::aboutToWriteState, this,
     [this] { FitEditor::setLive(this->fit(), false); });
   QObject::connect(source, qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
-    [this] { this->BaseAnswer.reset(); });
+    [this] { this->BasePositions.reset(); });
   this->noticeLattice();
 }
 
@@ -112,34 +148,34 @@ FitEditor::Numbers FitEditor::numbers(const char* list) const
   return proxy ? vtkSMPropertyHelper(proxy, list).GetDoubleArray() : Numbers();
 }
 
-std::vector<glm::dvec3> FitEditor::fittedPlaces(const std::vector<glm::dvec3>& rest) const
+std::vector<glm::dvec3> FitEditor::fittedPositions(const std::vector<glm::dvec3>& rest) const
 {
   vtkSMProxy* proxy = this->fit();
-  return proxy ? placesBy(proxy, rest) : this->askBase(rest);
+  return proxy ? positionsBy(proxy, rest) : this->requestBase(rest);
 }
 
-std::vector<glm::dvec3> FitEditor::basePlaces(const std::vector<glm::dvec3>& rest) const
+std::vector<glm::dvec3> FitEditor::basePositions(const std::vector<glm::dvec3>& rest) const
 {
-  const std::vector<glm::dvec3> places = this->askBase(rest);
-  return places.size() == rest.size() ? places : rest;
+  const std::vector<glm::dvec3> positions = this->requestBase(rest);
+  return positions.size() == rest.size() ? positions : rest;
 }
 
-std::vector<glm::dvec3> FitEditor::askBase(const std::vector<glm::dvec3>& rest) const
+std::vector<glm::dvec3> FitEditor::requestBase(const std::vector<glm::dvec3>& rest) const
 {
   if (rest.empty() || !this->base())
   {
     return {};
   }
-  if (!this->BaseAnswer || this->AskedBase != rest)
+  if (!this->BasePositions || this->BaseRest != rest)
   {
     SCOPED_UNDO_EXCLUDE();
     // Without measurements a fit is its base.
     const vtkSmartPointer<vtkSMProxy> alone = this->prepare();
     vtkSMSourceProxy::SafeDownCast(alone)->UpdatePipeline();
-    this->AskedBase = rest;
-    this->BaseAnswer = placesBy(alone, rest);
+    this->BaseRest = rest;
+    this->BasePositions = positionsBy(alone, rest);
   }
-  return *this->BaseAnswer;
+  return *this->BasePositions;
 }
 
 vtkSmartPointer<vtkSMProxy> FitEditor::base() const
@@ -147,19 +183,6 @@ vtkSmartPointer<vtkSMProxy> FitEditor::base() const
   vtkSMProxy* made = this->fit();
   return made ? vtkSMPropertyHelper(made, "Base").GetAsProxy()
               : latticeOf(this->Source->getProxy());
-}
-
-void FitEditor::setNumbers(vtkSMProxy* fit, const char* list, const Numbers& numbers)
-{
-  vtkSMPropertyHelper property(fit, list);
-  if (numbers.empty())
-  {
-    property.SetNumberOfElements(0);
-  }
-  else
-  {
-    property.Set(numbers.data(), static_cast<unsigned int>(numbers.size()));
-  }
 }
 
 void FitEditor::setLive(vtkSMProxy* fit, bool on)
@@ -174,26 +197,7 @@ void FitEditor::setLive(vtkSMProxy* fit, bool on)
 
 vtkSmartPointer<vtkSMProxy> FitEditor::prepare() const
 {
-  vtkSMProxy* deformation = this->Source->getProxy();
-  vtkSmartPointer<vtkSMProxy> made;
-  made.TakeReference(deformation->GetSessionProxyManager()->NewProxy("filters", "FitDeformation"));
-  vtkNew<vtkSMParaViewPipelineController> controller;
-  controller->PreInitializeProxy(made);
-  shareLattice(deformation, made);
-  if (const vtkSmartPointer<vtkSMProxy> base = this->base())
-  {
-    vtkSMPropertyHelper(made, "Base").Set(base);
-  }
-  controller->PostInitializeProxy(made);
-  made->SetAnnotation(MadeByUs, "1");
-  made->UpdateVTKObjects();
-  return made;
-}
-
-// Not by the controller, which would make the fit the active source.
-void FitEditor::enter(vtkSMProxy* made)
-{
-  made->SetLogName(made->GetSessionProxyManager()->RegisterProxy("sources", made).c_str());
+  return makeLatticeFilter(this->Source->getProxy(), "FitDeformation", this->base());
 }
 
 void FitEditor::setLattice(vtkSMProxy* lattice)
@@ -216,7 +220,7 @@ void FitEditor::make()
   const vtkSmartPointer<vtkSMProxy> made = this->prepare();
   {
     SM_SCOPED_TRACE(RegisterPipelineProxy).arg("proxy", made);
-    FitEditor::enter(made);
+    registerQuietly(made);
   }
   SM_SCOPED_TRACE(PropertiesModified).arg("proxy", this->Source->getProxy());
   this->setLattice(made);
@@ -236,7 +240,7 @@ void FitEditor::remove()
 void FitEditor::edit(const QString& label, const std::function<void(vtkSMProxy*)>& change)
 {
   this->cancel();
-  FitEditor::setLive(this->fit(), false); // no step of undo remembers a hand
+  FitEditor::setLive(this->fit(), false); // Live must not become a part of an undo step
   {
     SCOPED_UNDO_SET(label);
     if (!this->fit())
@@ -256,7 +260,7 @@ void FitEditor::replace(const char* list, const Numbers& numbers, const QString&
   this->cancel();
   if (numbers != this->numbers(list))
   {
-    this->edit(label, [&](vtkSMProxy* fit) { FitEditor::setNumbers(fit, list, numbers); });
+    this->edit(label, [&](vtkSMProxy* fit) { setNumbers(fit, list, numbers); });
   }
 }
 
@@ -268,9 +272,9 @@ void FitEditor::begin(const char* list, const Numbers& underHand)
   this->Made = !this->fit();
   if (this->Made)
   {
-    SCOPED_UNDO_EXCLUDE(); // nor does a trace record what is there for now
+    SCOPED_UNDO_EXCLUDE(); // the temporary fit is neither undone nor traced
     const vtkSmartPointer<vtkSMProxy> made = this->prepare();
-    FitEditor::enter(made);
+    registerQuietly(made);
     this->setLattice(made);
   }
   this->Editing = true;
@@ -299,7 +303,7 @@ void FitEditor::commit(const QString& label)
     return;
   }
   const Numbers after = this->numbers(this->List.c_str());
-  // What undo comes back to is what the session saw last, so it sees the beginning once more.
+  // Undo returns to the last state that the session saw, so restore the start first.
   this->restore();
   this->stopEditing();
   this->replace(this->List.c_str(), after, label);
@@ -341,12 +345,12 @@ void FitEditor::stopEditing()
 void FitEditor::write(const Numbers& numbers)
 {
   const QScopedValueRollback<bool> writing(this->Writing, true);
-  FitEditor::setNumbers(this->fit(), this->List.c_str(), numbers);
+  setNumbers(this->fit(), this->List.c_str(), numbers);
 }
 
 void FitEditor::noticeLattice()
 {
-  this->BaseAnswer.reset();
+  this->BasePositions.reset();
   this->OfFit->Disconnect();
   if (vtkSMProxy* proxy = this->fit())
   {
@@ -355,7 +359,7 @@ void FitEditor::noticeLattice()
   }
   if (this->Editing && !this->Writing)
   {
-    this->stopEditing(); // undo, a script or the panel came first: what they want stands
+    this->stopEditing(); // undo, a script or the panel changed it: their value stays
   }
   Q_EMIT this->changed();
 }
@@ -373,7 +377,7 @@ void FitEditor::noticeFit(vtkObject* fit, unsigned long, void*, void* name)
   }
   if (std::strcmp(property, "Base") == 0)
   {
-    this->BaseAnswer.reset();
+    this->BasePositions.reset();
   }
   Q_EMIT this->changed();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Edits what was measured for a Free-Form Deformation, with undo: the lists of the Fit Deformation
+/// Edits the measurements of a Free-Form Deformation, with undo: the lists of the Fit Deformation
 /// that is its Lattice. There need not be a fit yet: the first edit makes it, in the same undo
 /// step, and the Free-Form Deformation stays the active source. Another Lattice, say of a
 /// refinement, becomes the base of the fit.
@@ -30,6 +30,17 @@ class vtkSMSourceProxy;
 
 namespace brainshift
 {
+/// Makes a filter of a kind, such as "FitDeformation", with the settings of a deformation. It is
+/// annotated as made by BrainShift, and not registered. `base`: its property Base; null: none.
+vtkSmartPointer<vtkSMProxy> makeLatticeFilter(
+  vtkSMProxy* deformation, const char* kind, vtkSMProxy* base = nullptr);
+
+/// Registers a new filter in the pipeline. The controller would make it the active source as well.
+void registerQuietly(vtkSMProxy* made);
+
+/// Sets all elements of a property; none empties it.
+void setNumbers(vtkSMProxy* proxy, const char* name, const std::vector<double>& numbers);
+
 /// The Fit Deformation that is the Lattice of a Free-Form Deformation. Null if there is none.
 vtkSMSourceProxy* fitOf(pqPipelineSource* deformation);
 
@@ -49,25 +60,24 @@ public:
   /// The numbers of a list of the fit, such as "Pulls" or "Pins". None if there is no fit.
   Numbers numbers(const char* list) const;
 
-  /// Where the Lattice draws tissue at rest (mm), before strokes and without the rigid part of a
-  /// fit, which pulls are measured against as well. As many as `rest`; none if there is no
-  /// Lattice or it failed. It asks the server.
-  std::vector<glm::dvec3> fittedPlaces(const std::vector<glm::dvec3>& rest) const;
+  /// Positions (mm) of tissue at rest after the Lattice, before strokes and without the rigid part
+  /// of a fit; pulls start from them, too. As many as `rest`; none if there is no Lattice or it
+  /// failed. Each call is a request to the server.
+  std::vector<glm::dvec3> fittedPositions(const std::vector<glm::dvec3>& rest) const;
 
-  /// Where the base of the fit draws tissue at rest (mm), and so where pins hold it. `rest` itself
-  /// without a base, or if it failed. It asks the server after a change alone.
-  std::vector<glm::dvec3> basePlaces(const std::vector<glm::dvec3>& rest) const;
+  /// Positions (mm) of tissue at rest after the base of the fit; pins hold it there. `rest` itself
+  /// without a base, or if it failed. Only the first call after a change is a request to the
+  /// server.
+  std::vector<glm::dvec3> basePositions(const std::vector<glm::dvec3>& rest) const;
 
-  /// Sets a list of a fit, within edit().
-  static void setNumbers(vtkSMProxy* fit, const char* list, const Numbers& numbers);
-  /// Says that a hand moves what was measured (null: nothing), or that it let go. Undo does not see
-  /// it.
+  /// Sets the property Live of a fit (null: nothing): whether the user is dragging a measurement.
+  /// The undo stack does not see it.
   static void setLive(vtkSMProxy* fit, bool on);
   /// One undo step that makes the fit, if there is none, and calls `change` to set its properties.
   void edit(const QString& label, const std::function<void(vtkSMProxy*)>& change);
   /// Replaces a list in one undo step.
   void replace(const char* list, const Numbers& numbers, const QString& label);
-  /// Takes the fit away. Its base is the Lattice again.
+  /// Removes the fit. Its base becomes the Lattice again.
   void remove();
 
   /// Begins an edit of a list. Views draw it at once, at the quality of a moving picture, and the
@@ -78,16 +88,16 @@ public:
   /// Ends the edit: one step on ParaView's undo stack (none if nothing changed), then a picture at
   /// full quality.
   void commit(const QString& label);
-  /// Ends the edit and restores what was there before it. The undo stack sees nothing.
+  /// Ends the edit and restores the state before it. The undo stack sees nothing.
   void cancel();
   bool isEditing() const { return this->Editing; }
 
 Q_SIGNALS:
-  /// The fit came or went, or one of its properties changed, whoever changed it.
+  /// The fit was added or removed, or one of its properties changed.
   void changed();
   /// An edit began or ended.
   void editing(bool on);
-  /// A new picture of what is under the hand is there.
+  /// The views show the present state of the edit.
   void drawn();
 
 private Q_SLOTS:
@@ -99,31 +109,30 @@ private:
   explicit FitEditor(pqPipelineSource* source);
 
   vtkSmartPointer<vtkSMProxy> base() const; ///< Of the fit, or of the one to be made.
-  /// As basePlaces(); none without a base, or if it failed.
-  std::vector<glm::dvec3> askBase(const std::vector<glm::dvec3>& rest) const;
+  /// As basePositions(); none without a base, or if it failed.
+  std::vector<glm::dvec3> requestBase(const std::vector<glm::dvec3>& rest) const;
   /// A fit with the settings of the deformation, on its base.
   vtkSmartPointer<vtkSMProxy> prepare() const;
-  static void enter(vtkSMProxy* made);  ///< Shows it in the pipeline.
   void setLattice(vtkSMProxy* lattice); ///< Null: none.
   void make();
-  void restore(); ///< What was there before the edit.
+  void restore(); ///< Restores the state before the edit.
   void stopEditing();
   void write(const Numbers& numbers);
   void draw();
 
   pqPipelineSource* Source;
-  mutable std::vector<glm::dvec3> AskedBase; ///< What basePlaces() was asked last ...
-  /// ... and the answer, none of them if it failed. Null: to be asked again.
-  mutable std::optional<std::vector<glm::dvec3>> BaseAnswer;
+  mutable std::vector<glm::dvec3> BaseRest; ///< Argument of the last requestBase() ...
+  /// ... and its result, empty if it failed. Null: it is out of date.
+  mutable std::optional<std::vector<glm::dvec3>> BasePositions;
   vtkNew<vtkEventQtSlotConnect> OfSource;
   vtkNew<vtkEventQtSlotConnect> OfFit;
-  QTimer Redraw;                        ///< Merges the events of one turn of the event loop.
+  QTimer Redraw;                        ///< Draws once for all pending events.
   std::string List;                     ///< During an edit: the property.
   Numbers Before;                       ///< During an edit: cancel and undo restore them.
   vtkWeakPointer<vtkSMProxy> UnderHand; ///< During an edit: the fit.
   bool Made = false;                    ///< During an edit: there was no fit before it.
   bool Editing = false;
-  bool Writing = false; ///< This editor changes something right now.
+  bool Writing = false; ///< This editor is changing a property.
 };
 }
 

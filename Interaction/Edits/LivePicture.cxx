@@ -5,7 +5,6 @@
 #include "Interaction/Workarounds/Updates.h"
 
 #include <pqApplicationCore.h>
-#include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>
 #include <pqProgressManager.h>
 #include <pqUndoStack.h>
@@ -19,7 +18,6 @@
 
 namespace brainshift
 {
-// The picture for now; the one at full quality follows when the stroke is done.
 void drawRoughly(pqView* view)
 {
   vtkSMViewProxy* proxy = view->getViewProxy();
@@ -27,8 +25,8 @@ void drawRoughly(pqView* view)
     view->widget()->isVisible())
   {
     view->cancelPendingRenders();
-    // The bar of progress would make the window lay out and paint itself anew, and at the end of a
-    // picture ParaView asks for the sizes of all that is shown.
+    // The progress bar would make the window lay out and paint itself again, and at the end of a
+    // picture ParaView requests the sizes of all visible data.
     pqProgressManager* progress = pqApplicationCore::instance()->getProgressManager();
     progress->lockProgress(view);
     {

@@ -14,7 +14,7 @@ namespace brainshift
 /// `measured` (null: none) announce no new data. The undo stack sees nothing.
 void drawMoving(pqPipelineSource* source, vtkSMProxy* measured = nullptr);
 
-/// Draws a view at the quality of a moving picture. What the last picture holds is not cast anew.
+/// Draws a view at the quality of a moving picture. Rays of unchanged pixels are not cast again.
 void drawRoughly(pqView* view);
 
 /// Lets all views that show a source draw it soon, at full quality.

@@ -40,7 +40,7 @@ void LiveRun::followApplication()
   const auto abandonIf = [this](bool isGone) {
     if (isGone && this->isActive())
     {
-      this->abandon({}); // all proxies go
+      this->abandon({}); // all proxies are deleted
     }
   };
   this->connect(qApp, &QCoreApplication::aboutToQuit, this, [abandonIf] { abandonIf(true); });
@@ -161,7 +161,7 @@ bool LiveRun::eventFilter(QObject* watched, QEvent* event)
     {
       this->cancel();
     }
-    event->accept(); // or a shortcut of the window comes first
+    event->accept(); // else a shortcut of the window takes the key
     return true;
   }
   return QObject::eventFilter(watched, event);

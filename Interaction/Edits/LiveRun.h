@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// A registration that runs in the window: a part of a step for each turn of the event loop, beside
+/// A registration that runs in the window: a part of a step for each event of a timer, beside
 /// the data, which may be on a server. Align and Refine differ in what a step shows, keeps and puts
 /// back. The undo stack sees nothing until the result is kept, as one step.
 #ifndef BrainShift_LiveRun_h
@@ -29,16 +29,16 @@ class LiveRun : public QObject
 public:
   enum class State
   {
-    Idle,    ///< Nothing ran yet, or all is as it was before.
+    Idle,    ///< Nothing ran yet, or everything is restored.
     Running, ///< The timer takes steps.
     Paused,
-    Kept,    ///< It was stopped, and what it had reached was kept.
-    Finished ///< It came to its end.
+    Kept,    ///< It was stopped, and its result so far was kept.
+    Finished ///< It ended by itself, and its result was kept.
   };
 
-  /// Ends it and keeps what was reached: one undo step, none if nothing has changed.
+  /// Ends it and keeps the result so far: one undo step, none if nothing has changed.
   void stop();
-  /// Ends it and restores what was there before. The undo stack sees nothing.
+  /// Ends it and restores the state before it. The undo stack sees nothing.
   void cancel(const QString& problem = {});
 
   State state() const { return this->Now; }
@@ -59,9 +59,9 @@ protected Q_SLOTS:
 protected:
   explicit LiveRun(pqPipelineSource* source);
 
-  /// Makes a RegistrationRun of what a Compare Volumes compares, for its properties to be set.
+  /// Makes a RegistrationRun of the volumes of a Compare Volumes. The caller sets its properties.
   vtkSMProxy* makeRun(vtkSMProxy* compared);
-  /// Begins it by a command. Returns why it cannot: a sentence; empty if it can.
+  /// Begins it by a command. Returns the reason if it cannot: a sentence; empty if it can.
   QString beginRun(const char* command);
   /// Takes a step, or a part of one. False if it failed or the server is gone.
   bool advance();
@@ -70,33 +70,33 @@ protected:
   QString text(const char* name) const;
   std::vector<double> numbers(const char* name) const;
 
-  /// It runs from now on.
+  /// Starts the timer.
   void start();
-  /// It ends; the pipeline stays as it is.
+  /// Ends it; the pipeline stays as it is.
   void end(State end, const QString& problem);
-  /// Whether a hand that begins in the meantime stops it.
+  /// Stops it if an edit begins in the meantime.
   void giveWay(bool begins);
 
   /// Takes a step and shows it. Starts `Next`, unless it ended.
   virtual void takeStep() = 0;
-  /// Keeps what was reached, then ends.
+  /// Keeps the result so far, then ends.
   virtual void keep(State end) = 0;
-  /// Puts back what was there before.
+  /// Restores the state before it.
   virtual void restore() = 0;
-  /// Forgets what it holds while it is active.
+  /// Releases the members that are used while it is active.
   virtual void release() = 0;
-  /// Another one changed a property of the source, or of another proxy that notice() hears.
+  /// A property changed from outside: of the source, or of another proxy connected to notice().
   virtual void followChange(vtkObject* proxy, const char* property) = 0;
-  /// A source is deleted soon.
+  /// A source is about to be deleted.
   virtual void followRemoval(pqPipelineSource* source) = 0;
-  /// It ends; what others have changed stays as they want it.
+  /// Ends it; properties that were changed from outside stay.
   virtual void abandon(const QString& problem) { this->end(State::Idle, problem); }
 
   pqPipelineSource* Source;
   QTimer Next; ///< Takes the next step.
   State Now = State::Idle;
   QString Problem;
-  bool Writing = false; ///< This run changes something right now.
+  bool Writing = false; ///< This run is changing a property.
 
 private:
   void followApplication();

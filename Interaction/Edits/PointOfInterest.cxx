@@ -32,7 +32,7 @@ void setPointOfInterest(vtkSMProxy* filter, const glm::dvec3& position)
 
 void centrePointOfInterest(vtkSMProxy* filter)
 {
-  // The property's domain knows the centre. An unchecked value has not been announced yet.
+  // The property's domain has the centre. An unchecked value is not sent to observers.
   vtkSMProperty* property = filter->GetProperty(Name);
   property->ResetToDomainDefaults(/*use_unchecked_values*/ true);
   vtkSMPropertyHelper unchecked(property);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// Edits the property PointOfInterest of a Free-Form Deformation, for the key I and for the panel.
-/// An edit acts at once, without Apply, and is one undo step. What changes nothing is no step.
+/// An edit acts at once, without Apply, and is one undo step. An edit without a change is no step.
 #ifndef BrainShift_PointOfInterest_h
 #define BrainShift_PointOfInterest_h
 

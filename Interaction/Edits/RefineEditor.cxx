@@ -5,13 +5,13 @@
 #include "Interaction/Edits/LivePicture.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
+#include "Interaction/Views/Reports.h"
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
 #include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
 
-#include <vtkSMParaViewPipelineController.h>
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSession.h>
@@ -21,6 +21,7 @@
 
 #include <QCoreApplication>
 #include <QScopedValueRollback>
+#include <QStringList>
 
 #include <algorithm>
 #include <cstring>
@@ -30,46 +31,125 @@ namespace brainshift
 {
 namespace
 {
-// As in brainshift.fit and brainshift.refine of Python: sources that are BrainShift's own.
-constexpr const char* MadeByUs = "BrainShiftFit";
-
-// What a refinement depends on, beside the settings of the lattice. A change of one of these in the
-// meantime ends it.
-constexpr const char* Ground[] = { "Input", "Lattice", "Strokes", "Strength" };
-
-void setNumbers(vtkSMProxy* proxy, const char* name, const std::vector<double>& numbers)
+QString tr(const char* text)
 {
-  vtkSMPropertyHelper property(proxy, name);
-  if (numbers.empty())
+  return QCoreApplication::translate("BrainShift", text);
+}
+
+void setInput(vtkSMProxy* filter, const char* name, pqPipelineSource* source)
+{
+  if (source)
   {
-    property.SetNumberOfElements(0);
-  }
-  else
-  {
-    property.Set(numbers.data(), static_cast<unsigned int>(numbers.size()));
+    vtkSMPropertyHelper(filter, name).Set(source->getProxy());
   }
 }
+
+// The reason against a refinement that the client knows: a sentence; empty if there is none.
+QString whyNot(pqPipelineSource* deformation, const RefineSettings& settings)
+{
+  if (deformation->modifiedState() == pqProxy::UNINITIALIZED)
+  {
+    return tr("%1 was not applied yet. Press Apply first.").arg(deformation->getSMName());
+  }
+  if (!settings.reference)
+  {
+    return tr("There is no reference. Open the volume that %1 should match.")
+      .arg(deformation->getSMName());
+  }
+  if (settings.reference->getServer() != deformation->getServer())
+  {
+    return tr("%1 is on another server than %2.")
+      .arg(settings.reference->getSMName(), deformation->getSMName());
+  }
+  return {};
+}
+
+// The Compare Volumes of the settings. If they have a volume instead, a new one that is not
+// registered and lives as long as the pointer.
+vtkSmartPointer<vtkSMProxy> comparisonFor(
+  pqPipelineSource* deformation, const RefineSettings& settings)
+{
+  if (isComparison(settings.reference))
+  {
+    return settings.reference->getProxy();
+  }
+  vtkSMProxy* proxy = deformation->getProxy();
+  auto made =
+    vtk::TakeSmartPointer(proxy->GetSessionProxyManager()->NewProxy("filters", "CompareVolumes"));
+  made->PrototypeOn(); // so that it is no step to undo
+  setInput(made, "Input", deformation);
+  setInput(made, "Reference", settings.reference);
+  setInput(made, "Cavity", settings.cavity);
+  made->UpdateVTKObjects();
+  return made;
+}
+
+// A refinement depends on these properties, beside the settings of the lattice. A change of one of
+// them ends it.
+constexpr const char* Dependencies[] = { "Input", "Lattice", "Strokes", "Strength" };
 
 bool isRefined(vtkSMProxy* lattice)
 {
   return lattice && std::strcmp(lattice->GetXMLName(), "RefinedLattice") == 0;
 }
 
-// Whether another source takes a lattice, too: a fit as its base, say.
-bool isTakenByOthers(vtkSMProxy* lattice, vtkSMProxy* deformation)
+// Whether another source uses a lattice, too, such as a fit as its base.
+bool isUsedByOthers(vtkSMProxy* lattice, vtkSMProxy* deformation)
 {
   for (unsigned int i = 0; i < lattice->GetNumberOfConsumers(); ++i)
   {
-    vtkSMProxy* taker = lattice->GetConsumerProxy(i);
-    taker = taker ? taker->GetTrueParentProxy() : nullptr;
-    if (taker && taker != deformation && taker->IsA("vtkSMSourceProxy") &&
-      !taker->IsA("vtkSMRepresentationProxy"))
+    vtkSMProxy* user = lattice->GetConsumerProxy(i);
+    user = user ? user->GetTrueParentProxy() : nullptr;
+    if (user && user != deformation && user->IsA("vtkSMSourceProxy") &&
+      !user->IsA("vtkSMRepresentationProxy"))
     {
       return true;
     }
   }
   return false;
 }
+}
+
+bool isComparison(pqPipelineSource* source)
+{
+  return source && std::strcmp(source->getProxy()->GetXMLName(), "CompareVolumes") == 0;
+}
+
+QList<pqPipelineSource*> comparisonsOf(pqPipelineSource* deformation)
+{
+  QList<pqPipelineSource*> visited{ deformation };
+  QList<pqPipelineSource*> found;
+  for (int next = 0; next < visited.size(); ++next)
+  {
+    for (pqPipelineSource* consumer : visited[next]->getAllConsumers())
+    {
+      // A second deformation moves the tissue again; and a comparison may have it as its reference.
+      if (visited.contains(consumer) || isDeformation(consumer) ||
+        deformationUpstream(consumer) != deformation)
+      {
+        continue;
+      }
+      visited.append(consumer);
+      if (isComparison(consumer))
+      {
+        found.append(consumer);
+      }
+    }
+  }
+  return found;
+}
+
+QList<SimilarityChoice> similaritiesFor(pqPipelineSource* source)
+{
+  const vtkSmartPointer<vtkSMProxy> run = makeReport(source->getProxy(), "RegistrationRun");
+  const QStringList labels = textOf(run, "SimilarityLabels").split('\n');
+  const QStringList tooltips = textOf(run, "SimilarityTooltips").split('\n');
+  QList<SimilarityChoice> choices;
+  for (qsizetype i = 0; i < labels.size() && i < tooltips.size(); ++i)
+  {
+    choices.append({ labels[i], tooltips[i] });
+  }
+  return choices;
 }
 
 RefineEditor* RefineEditor::of(pqPipelineSource* source)
@@ -85,7 +165,7 @@ RefineEditor* RefineEditor::of(pqPipelineSource* source)
 RefineEditor::RefineEditor(pqPipelineSource* source)
   : LiveRun(source)
 {
-  // If the user edits in the meantime, the edit follows what was reached.
+  // If the user edits meanwhile, the result so far is kept and the edit follows it.
   this->connect(StrokeEditor::of(source), &StrokeEditor::editing, this, &RefineEditor::giveWay);
   this->connect(FitEditor::of(source), &FitEditor::editing, this, &RefineEditor::giveWay);
   this->connect(pqApplicationCore::instance(), &pqApplicationCore::aboutToWriteState, this,
@@ -96,12 +176,12 @@ void RefineEditor::followRemoval(pqPipelineSource* source)
 {
   if (source->getProxy() == this->Held.Get())
   {
-    this->abandon({}); // all goes
+    this->abandon({}); // nothing is left to restore
   }
   else if (source == this->Source)
   {
     this->putBack(); // undo brings it back as it was before
-    this->leaveHeld();
+    this->releaseHeldSoon();
     this->end(State::Idle, {});
   }
   else if (source == this->Reference)
@@ -110,7 +190,7 @@ void RefineEditor::followRemoval(pqPipelineSource* source)
   }
 }
 
-// Later: what deletes the reference is an undo step of its own.
+// Later: the deletion of the reference is an undo step of its own.
 void RefineEditor::followReference(const QString& name)
 {
   this->Next.stop();
@@ -118,7 +198,7 @@ void RefineEditor::followReference(const QString& name)
     if (this->isActive())
     {
       this->stop();
-      this->Problem = tr("%1 was deleted. What was reached until then is kept.").arg(name);
+      this->Problem = tr("%1 was deleted. The result so far is kept.").arg(name);
       Q_EMIT this->changed();
     }
   });
@@ -184,40 +264,26 @@ void RefineEditor::readFigures()
   at.refusal = this->text("Refusal");
   at.warning = this->text("Warning");
   this->Points = this->numbers("ControlPoints");
-  if (at.steps > former) // else it tried a step, or prepared a level
+  if (at.steps > former) // else the call tried a length of a step, or prepared a level
   {
     this->IsDrawn = false;
     this->Costs.append(at.costBefore > 0.0 ? at.cost / at.costBefore : 1.0);
   }
 }
 
-vtkSmartPointer<vtkSMProxy> RefineEditor::makeLattice() const
-{
-  vtkSMProxy* deformation = this->Source->getProxy();
-  auto made = vtk::TakeSmartPointer(
-    deformation->GetSessionProxyManager()->NewProxy("filters", "RefinedLattice"));
-  vtkNew<vtkSMParaViewPipelineController> controller;
-  controller->PreInitializeProxy(made);
-  shareLattice(deformation, made);
-  controller->PostInitializeProxy(made);
-  made->SetAnnotation(MadeByUs, "1");
-  made->UpdateVTKObjects();
-  return made;
-}
-
-// Not by the controller, which would make the lattice the active source.
 void RefineEditor::hold()
 {
   SCOPED_UNDO_EXCLUDE();
   this->Base = this->lattice();
   this->Strokes = vtkSMPropertyHelper(this->Source->getProxy(), "Strokes").GetDoubleArray();
-  const vtkSmartPointer<vtkSMProxy> made = this->makeLattice();
-  made->SetLogName(made->GetSessionProxyManager()->RegisterProxy("sources", made).c_str());
+  const vtkSmartPointer<vtkSMProxy> made =
+    makeLatticeFilter(this->Source->getProxy(), "RefinedLattice");
+  registerQuietly(made);
   this->Held = made;
   this->putIn(made, this->Start);
 }
 
-// The lattice holds what base and strokes did, so it takes the place of both.
+// The lattice contains the effect of base and strokes, so it replaces both.
 void RefineEditor::putIn(vtkSMProxy* lattice, const std::vector<double>& controlPoints)
 {
   const QScopedValueRollback<bool> writing(this->Writing, true);
@@ -241,13 +307,15 @@ void RefineEditor::takeStep()
 {
   if (!this->Held || !this->Held->GetSession()->GetIsAlive())
   {
-    this->abandon(tr("The lattice of the refinement is gone, so it ended."));
+    this->abandon(tr("The lattice of the refinement was deleted, so the refinement ended."));
     return;
   }
-  if (!this->IsDrawn) // a turn of its own, so that Stop waits for a step or a picture, not for both
+  if (
+    !this
+      ->IsDrawn) // in an event of its own, so that Stop waits for a step or a picture, not for both
   {
     this->show();
-    if (this->Now == State::Running) // a picture may have let something else happen
+    if (this->Now == State::Running) // drawing may have processed an event that ended it
     {
       this->Next.start();
     }
@@ -297,24 +365,23 @@ void RefineEditor::keep(State end)
 {
   const std::vector<double> found = this->Points;
   const bool hasChanged = found != this->Start;
-  // What undo comes back to is what the session saw last, so it sees the beginning once more.
+  // Undo returns to the last state that the session saw, so restore the start first.
   this->restore();
   if (hasChanged)
   {
     vtkSMProxy* deformation = this->Source->getProxy();
     SCOPED_UNDO_SET(tr("Refine"));
     vtkSmartPointer<vtkSMProxy> lattice = this->lattice();
-    // One of an earlier refinement. Who else takes it keeps it.
-    if (isRefined(lattice) && !isTakenByOthers(lattice, deformation))
+    // The lattice of an earlier refinement is used again, unless another source uses it.
+    if (isRefined(lattice) && !isUsedByOthers(lattice, deformation))
     {
       shareLattice(deformation, lattice);
     }
     else
     {
-      lattice = this->makeLattice();
+      lattice = makeLatticeFilter(deformation, "RefinedLattice");
       SM_SCOPED_TRACE(RegisterPipelineProxy).arg("proxy", lattice);
-      lattice->SetLogName(
-        lattice->GetSessionProxyManager()->RegisterProxy("sources", lattice).c_str());
+      registerQuietly(lattice);
     }
     SM_SCOPED_TRACE(PropertiesModified).arg("proxy", deformation);
     this->putIn(lattice, found);
@@ -355,8 +422,8 @@ void RefineEditor::putBack()
   deformation->UpdateVTKObjects();
 }
 
-// Later: ParaView is going through its sources now, or undo is at work.
-void RefineEditor::leaveHeld()
+// Later: ParaView is iterating over its sources now, or undo is running.
+void RefineEditor::releaseHeldSoon()
 {
   const vtkWeakPointer<vtkSMProxy> held = this->Held;
   QTimer::singleShot(0, qApp, [held] {
@@ -381,7 +448,7 @@ void RefineEditor::abandon(const QString& problem)
 {
   if (this->Held && this->lattice() != this->Held.Get())
   {
-    this->leaveHeld();
+    this->releaseHeldSoon();
   }
   this->end(State::Idle, problem);
 }
@@ -389,7 +456,7 @@ void RefineEditor::abandon(const QString& problem)
 void RefineEditor::followChange(vtkObject*, const char* property)
 {
   const auto isChanged = [property](const char* name) { return std::strcmp(property, name) == 0; };
-  if (std::any_of(std::begin(Ground), std::end(Ground), isChanged) ||
+  if (std::any_of(std::begin(Dependencies), std::end(Dependencies), isChanged) ||
     isLatticeSetting(this->Source->getProxy(), property))
   {
     this->abandon(tr("%1 of %2 was changed, so the refinement ended.")

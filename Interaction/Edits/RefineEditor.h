@@ -1,24 +1,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Refines a Free-Form Deformation until its volume agrees with a reference, with a picture after
-/// each step. It begins with what is there, base and strokes.
+/// Refines a Free-Form Deformation so that its volume matches a reference, with a picture after
+/// each step. It starts from the present base and strokes.
 #ifndef BrainShift_RefineEditor_h
 #define BrainShift_RefineEditor_h
 
 #include "Interaction/Edits/LiveRun.h"
-#include "Interaction/Edits/RefineChoices.h"
 #include "Interaction/Workarounds/Selections.h"
-
-#include <vtkWeakPointer.h>
 
 #include <QList>
 #include <QPointer>
 
 #include <optional>
 
+class pqPipelineSource;
+
 namespace brainshift
 {
-/// What is known after a step. Costs are those of the level; 0: both volumes agree.
+/// The settings of a refinement.
+struct RefineSettings
+{
+  pqPipelineSource* reference = nullptr; ///< a Compare Volumes of the deformation, or a volume
+  pqPipelineSource* cavity = nullptr;    ///< null: none, or that of the Compare Volumes
+  int similarity = 0;                    ///< its index in similaritiesFor
+  double stiffness = 1.0;                ///< factor on the stiffness; above 0
+};
+
+/// A similarity as the server lists it.
+struct SimilarityChoice
+{
+  QString label;
+  QString tooltip; ///< use and method
+};
+
+/// The similarities that a refinement of a source may use.
+QList<SimilarityChoice> similaritiesFor(pqPipelineSource* source);
+
+/// Whether a source is a Compare Volumes.
+bool isComparison(pqPipelineSource* source);
+
+/// The Compare Volumes that show a deformation, the nearest first.
+QList<pqPipelineSource*> comparisonsOf(pqPipelineSource* deformation);
+
+/// The figures after a step. Costs are those of the level; 0: the volumes match.
 struct RefineFigures
 {
   int steps = 0;
@@ -26,12 +50,12 @@ struct RefineFigures
   double overlap = 0.0; ///< fraction of `overlapOf` that has a partner in the reference, 0 to 1
   QString overlapOf;    ///< in words
   double cost = 0.0;
-  double costBefore = 0.0;    ///< of the beginning
+  double costBefore = 0.0;    ///< at the start
   double stepFraction = 1.0;  ///< smallest fraction of a step that the fold guard allowed, 0 to 1
-  double largestChange = 0.0; ///< of a control point since the beginning, mm
+  double largestChange = 0.0; ///< of a control point since the start, mm
   double meanChange = 0.0;    ///< mm
-  QString refusal;            ///< Why the result must not be kept; empty if it may.
-  QString warning;            ///< What the user must check; empty if there is nothing.
+  QString refusal;            ///< The reason to discard the result; empty if there is none.
+  QString warning;            ///< What the user must check; empty if nothing.
   std::optional<double> smallestDeterminant; ///< Jacobian; known once the result was kept
 };
 
@@ -44,13 +68,13 @@ public:
   /// source.
   static RefineEditor* of(pqPipelineSource* source);
 
-  /// Begins a refinement. If it cannot, problem() says why and nothing has changed.
+  /// Begins a refinement. If it cannot, problem() has the reason and nothing has changed.
   void begin(const RefineSettings& settings);
-  /// Takes no step until it is called with false.
+  /// Stops stepping until it is called with false.
   void pause(bool on);
 
   const RefineFigures& figures() const { return this->Figures; }
-  /// The cost after each step, as a fraction of that of the beginning on the same level.
+  /// The cost after each step, as a fraction of that at the start on the same level.
   const QList<double>& costs() const { return this->Costs; }
 
 protected:
@@ -60,7 +84,7 @@ protected:
   void release() override;
   void followChange(vtkObject* proxy, const char* property) override;
   void followRemoval(pqPipelineSource* source) override;
-  /// The lattice goes, unless others use it.
+  /// Removes the temporary lattice, unless the deformation uses it.
   void abandon(const QString& problem) override;
 
 private:
@@ -71,10 +95,9 @@ private:
   void hold();
   void show();
   void putIn(vtkSMProxy* lattice, const std::vector<double>& controlPoints);
-  void putBack();   ///< Base and strokes.
-  void leaveHeld(); ///< Releases the temporary lattice; it is deleted later.
+  void putBack();         ///< Restores base and strokes.
+  void releaseHeldSoon(); ///< Releases the temporary lattice; it is deleted later.
   void followReference(const QString& name);
-  vtkSmartPointer<vtkSMProxy> makeLattice() const;
   vtkSmartPointer<vtkSMProxy> lattice() const;
 
   RefineFigures Figures;
@@ -83,11 +106,11 @@ private:
   std::vector<double> Points; ///< The same, after the last step.
 
   // While it is active:
-  vtkWeakPointer<vtkSMProxy> Held;      ///< The Refined Lattice that is drawn for now.
-  vtkSmartPointer<vtkSMProxy> Base;     ///< The Lattice from before; null: none.
-  std::vector<double> Strokes;          ///< Those from before.
-  QPointer<pqPipelineSource> Reference; ///< It ends when this goes.
-  bool IsDrawn = true;                  ///< The last step.
+  vtkWeakPointer<vtkSMProxy> Held;      ///< The temporary Refined Lattice.
+  vtkSmartPointer<vtkSMProxy> Base;     ///< The Lattice at the start; null: none.
+  std::vector<double> Strokes;          ///< Those at the start.
+  QPointer<pqPipelineSource> Reference; ///< Its deletion ends the run.
+  bool IsDrawn = true;                  ///< Whether the last step is.
   EmptySelections Unselected;
 };
 }

@@ -19,7 +19,6 @@
 #include <QSignalBlocker>
 
 #include <cstddef>
-#include <string>
 
 namespace brainshift
 {
@@ -56,7 +55,7 @@ StrokeEditor::StrokeEditor(pqPipelineSource* source)
   this->Redraw.setInterval(0);
   QObject::connect(&this->Redraw, &QTimer::timeout, this, &StrokeEditor::draw);
   QObject::connect(pqApplicationCore::instance(), &pqApplicationCore::aboutToWriteState, this,
-    [this] { this->Unselected.putBack(); }); // what an edit leaves out for now is no state
+    [this] { this->Unselected.putBack(); }); // a state file must not miss selections
   this->Connector->Connect(
     source->getProxy()->GetProperty("Strokes"), vtkCommand::ModifiedEvent, this, SLOT(notice()));
 }
@@ -96,7 +95,7 @@ void StrokeEditor::startEditing(
   if (before.empty() &&
     vtkSMPropertyHelper(this->Source->getProxy(), "Strokes").GetNumberOfElements() > 0)
   {
-    return; // numbers that are no strokes: the filter says what is wrong, and they are not lost
+    return; // numbers that are no strokes: the filter reports the error, and they are kept
   }
   this->Before = before;
   this->Kept = kept;
@@ -131,7 +130,7 @@ void StrokeEditor::commit(const QString& label)
   }
   const Strokes after = this->strokes();
   {
-    // What undo comes back to is what the session saw last, so it sees the beginning once more.
+    // Undo returns to the last state that the session saw, so restore the start first.
     SCOPED_UNDO_EXCLUDE();
     const QSignalBlocker quiet(this);
     this->write(this->Before);
@@ -233,7 +232,7 @@ void StrokeEditor::commitStrength()
   vtkSMPropertyHelper property(proxy, "Strength");
   const double after = property.GetAsDouble();
   {
-    SCOPED_UNDO_EXCLUDE(); // what undo comes back to is what the session saw last
+    SCOPED_UNDO_EXCLUDE(); // undo returns to the last state that the session saw
     property.Set(this->StrengthBefore);
     proxy->UpdateVTKObjects();
   }
@@ -266,7 +265,7 @@ void StrokeEditor::notice()
 {
   if (this->Editing && !this->Writing)
   {
-    this->stopEditing(); // undo, a script or the panel came first: what they want stands
+    this->stopEditing(); // undo, a script or the panel changed it: their value stays
   }
   Q_EMIT this->changed();
 }

@@ -9,14 +9,12 @@
 #include "Filters/Deformation/Stroke.h"
 #include "Interaction/Workarounds/Selections.h"
 
-#include <QObject>
 #include <QTimer>
 
 #include <vtkEventQtSlotConnect.h>
 #include <vtkNew.h>
 
 #include <functional>
-#include <vector>
 
 class pqPipelineSource;
 class vtkSMSourceProxy;
@@ -91,7 +89,7 @@ private:
   void startEditing(const Strokes& before, const Strokes& kept, const Strokes& underHand);
   void stopEditing();
   void write(const Strokes& strokes);
-  void drawSoon(); ///< Merges the events of one turn of the event loop.
+  void drawSoon(); ///< Draws once for all pending events.
   void draw();
 
   pqPipelineSource* Source;

@@ -14,22 +14,14 @@
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSourceProxy.h>
 
-#include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/trigonometric.hpp>
-
 #include <QScopedValueRollback>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
 
 namespace brainshift
 {
 namespace
 {
-constexpr std::size_t NumbersPerPlace = 10; // of LandmarkPlaces: rest, measured, fitted, weight
-constexpr int FewestToJudge = 3;            // of two pairs, both are wrong alike
+constexpr std::size_t NumbersPerLandmark = 10; // of LandmarkPlaces: rest, measured, fitted, weight
+constexpr int FewestToJudge = 3;               // of two pairs, both are wrong alike
 
 glm::dvec3 tripleAt(const std::vector<double>& numbers, std::size_t first)
 {
@@ -45,19 +37,6 @@ std::vector<std::string> textsOf(vtkSMProxy* proxy, const char* property)
     texts[i] = helper.GetAsString(i);
   }
   return texts;
-}
-
-void setNumbers(vtkSMProxy* proxy, const char* property, const std::vector<double>& numbers)
-{
-  vtkSMPropertyHelper helper(proxy, property);
-  if (numbers.empty())
-  {
-    helper.SetNumberOfElements(0);
-  }
-  else
-  {
-    helper.Set(numbers.data(), static_cast<unsigned int>(numbers.size()));
-  }
 }
 
 void setTexts(vtkSMProxy* proxy, const char* property, const std::vector<std::string>& texts)
@@ -163,12 +142,12 @@ void LandmarkList::refresh()
 void LandmarkList::readInputs(vtkSMProxy* fit)
 {
   const std::vector<std::string> names = textsOf(fit, "LandmarkNames");
-  const std::vector<double> places = vtkSMPropertyHelper(fit, "LandmarkPlaces").GetDoubleArray();
+  const std::vector<double> positions = vtkSMPropertyHelper(fit, "LandmarkPlaces").GetDoubleArray();
   const std::vector<double> residuals =
     vtkSMPropertyHelper(fit, "LandmarkResiduals").GetDoubleArray();
   const std::vector<double> leftOut = vtkSMPropertyHelper(fit, "LeaveOneOut").GetDoubleArray();
   this->Problem = QString::fromUtf8(vtkSMPropertyHelper(fit, "Problem").GetAsString());
-  if (places.size() != NumbersPerPlace * names.size() || residuals.size() != names.size() ||
+  if (positions.size() != NumbersPerLandmark * names.size() || residuals.size() != names.size() ||
     leftOut.size() != names.size())
   {
     return; // it failed, or has not run
@@ -177,10 +156,10 @@ void LandmarkList::readInputs(vtkSMProxy* fit)
   {
     LandmarkRow row;
     row.name = QString::fromStdString(names[i]);
-    row.rest = tripleAt(places, NumbersPerPlace * i);
-    row.measured = tripleAt(places, NumbersPerPlace * i + 3);
-    row.fitted = tripleAt(places, NumbersPerPlace * i + 6);
-    row.on = places[NumbersPerPlace * i + 9] > 0.0;
+    row.rest = tripleAt(positions, NumbersPerLandmark * i);
+    row.measured = tripleAt(positions, NumbersPerLandmark * i + 3);
+    row.fitted = tripleAt(positions, NumbersPerLandmark * i + 6);
+    row.on = positions[NumbersPerLandmark * i + 9] > 0.0;
     row.residual = residuals[i];
     row.leftOut = leftOut[i];
     this->Rows.push_back(row);
@@ -201,7 +180,7 @@ void LandmarkList::readPicked(vtkSMProxy* fit)
   {
     LandmarkRow& row = this->Rows[this->Rows.size() - count + i];
     row.name.clear();
-    row.place = static_cast<int>(i);
+    row.picked = static_cast<int>(i);
     row.rest = pairs[i].rest;
     row.measured = pairs[i].measured;
     row.on = pairs[i].weight > 0.0;
@@ -234,7 +213,7 @@ void LandmarkList::readFigures(vtkSMProxy* fit)
   }
   this->Figures.worst = count < FewestToJudge ? -1 : this->Figures.worst;
   this->Figures.meanLeftOut = count ? sum / count : LandmarkRow::Unknown;
-  this->Figures.share = vtkSMPropertyHelper(fit, "Share").GetAsDouble();
+  this->Figures.applied = vtkSMPropertyHelper(fit, "Share").GetAsDouble();
   const std::vector<double> rigid = vtkSMPropertyHelper(fit, "Rigid").GetDoubleArray();
   if (rigid.size() == 16 && counting > 0)
   {
@@ -247,18 +226,18 @@ void LandmarkList::readFigures(vtkSMProxy* fit)
     }
     this->Figures.shift = glm::distance(moved, middle);
     const double cosine = (rows[0].x + rows[1].y + rows[2].z - 1.0) / 2.0;
-    this->Figures.turnDegrees = glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0)));
+    this->Figures.rotationDegrees = glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0)));
   }
 }
 
 void LandmarkList::findDrawn()
 {
-  std::vector<double> places;
+  std::vector<double> positions;
   for (const LandmarkRow& row : this->Rows)
   {
-    places.insert(places.end(), { row.rest.x, row.rest.y, row.rest.z });
+    positions.insert(positions.end(), { row.rest.x, row.rest.y, row.rest.z });
   }
-  if (places.empty())
+  if (positions.empty())
   {
     return;
   }
@@ -268,7 +247,7 @@ void LandmarkList::findDrawn()
     pointAt(this->Report, "Filter", this->Source->getProxy());
     vtkSMPropertyHelper(this->Report, "ToRest").Set(0);
   }
-  setNumbers(this->Report, "Places", places);
+  setNumbers(this->Report, "Places", positions);
   const std::vector<double> drawn = answerOf(this->Report, "SameTissue");
   for (std::size_t i = 0; 3 * i + 2 < drawn.size() && i < this->Rows.size(); ++i)
   {
@@ -300,9 +279,9 @@ void LandmarkList::setOn(const QList<int>& rows, bool on)
   {
     const LandmarkRow& row = this->Rows.at(i);
     const std::string name = row.name.toStdString();
-    if (row.isPicked() && row.on != on && row.place < static_cast<int>(pairs.size()))
+    if (row.isPicked() && row.on != on && row.picked < static_cast<int>(pairs.size()))
     {
-      pairs[row.place].weight = on ? 1.0 : 0.0;
+      pairs[row.picked].weight = on ? 1.0 : 0.0;
     }
     else if (!row.isPicked())
     {
@@ -326,7 +305,7 @@ void LandmarkList::remove(const QList<int>& rows)
   for (std::size_t i = 0; i < before.size(); ++i)
   {
     const bool goes = std::any_of(rows.begin(), rows.end(),
-      [&](int row) { return this->Rows.at(row).place == static_cast<int>(i); });
+      [&](int row) { return this->Rows.at(row).picked == static_cast<int>(i); });
     if (!goes)
     {
       left.push_back(before[i]);

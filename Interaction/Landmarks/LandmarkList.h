@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// The pairs of landmarks of a Free-Form Deformation, with what the fit says of them. First come
-/// those of the inputs of the Fit Deformation, then those that were picked in the window. Positions
-/// and lengths: mm.
+/// The pairs of landmarks of a Free-Form Deformation, with the results of the fit for each. First
+/// come those of the inputs of the Fit Deformation, then those that were picked in the window.
+/// Positions and lengths: mm.
 #ifndef BrainShift_LandmarkList_h
 #define BrainShift_LandmarkList_h
 
@@ -13,7 +13,7 @@
 #include <QString>
 #include <QTimer>
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <limits>
 #include <vector>
@@ -33,26 +33,27 @@ struct LandmarkRow
   static constexpr double Unknown = std::numeric_limits<double>::quiet_NaN();
 
   QString name;              ///< Of a landmark of the inputs. Empty for a pair that was picked.
-  int place = -1;            ///< Among the pairs that were picked. Below 0 for one of the inputs.
+  int picked = -1;           ///< Index among the picked pairs. Below 0 for one of the inputs.
   bool on = true;            ///< Whether it counts.
-  double residual = Unknown; ///< How far the fit misses it.
-  double leftOut = Unknown;  ///< How far a fit without it misses it.
+  double residual = Unknown; ///< FRE: distance from its fitted position, mm.
+  double leftOut = Unknown;  ///< Leave-one-out error: the same of a fit without it, mm.
   glm::dvec3 rest{ Unknown };
   glm::dvec3 measured{ Unknown };
   glm::dvec3 fitted{ Unknown }; ///< Where the fit puts it, measured frame.
   glm::dvec3 drawn{ Unknown };  ///< Where its tissue is drawn, strokes included.
 
-  bool isPicked() const { return this->place >= 0; }
+  bool isPicked() const { return this->picked >= 0; }
 };
 
-/// What the fit as a whole says.
+/// Figures of the fit as a whole.
 struct LandmarkFigures
 {
-  double meanLeftOut = LandmarkRow::Unknown; ///< Of the pairs that count.
-  double shift = 0.0;       ///< Of the middle of the landmarks by the rigid motion, mm.
-  double turnDegrees = 0.0; ///< Of the rigid motion.
-  double share = 1.0;       ///< Of the bend that the fold guard left, 0 to 1.
-  int worst = -1;           ///< The row with the largest leftOut. Below 0: fewer than 3 are known.
+  double meanLeftOut =
+    LandmarkRow::Unknown;       ///< Mean leave-one-out error of the pairs that count, mm.
+  double shift = 0.0;           ///< Of the middle of the landmarks by the rigid motion, mm.
+  double rotationDegrees = 0.0; ///< Of the rigid motion.
+  double applied = 1.0;         ///< Fraction of the fit that the fold guard allowed, 0 to 1.
+  int worst = -1; ///< The row with the largest leftOut. Below 0: fewer than 3 are known.
 };
 
 class LandmarkList : public QObject

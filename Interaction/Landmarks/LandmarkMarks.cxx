@@ -20,13 +20,9 @@
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMRenderViewProxy.h>
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
-#include <vector>
 
 namespace brainshift
 {
@@ -35,7 +31,7 @@ namespace
 constexpr double NearSliceMm = 2.5; // a mark farther away would point at other tissue
 constexpr int Flat = 1;             // InteractionMode of a 2D view
 
-using Look = LandmarkMark::Look;
+using Style = LandmarkMark::Style;
 
 vtkRenderer* rendererOf(pqRenderView* view)
 {
@@ -75,13 +71,13 @@ public:
     }
   }
 
-  // Nothing for a place that is far away, or not known.
-  std::optional<glm::dvec3> shown(const glm::dvec3& place) const
+  // Nothing for a position that is far away, or not known.
+  std::optional<glm::dvec3> shown(const glm::dvec3& position) const
   {
     const double away =
-      this->Plane ? glm::dot(place - this->Plane->first, this->Plane->second) : 0.0;
-    return std::abs(away) <= NearSliceMm && std::isfinite(place.x) ? std::optional(place)
-                                                                   : std::nullopt;
+      this->Plane ? glm::dot(position - this->Plane->first, this->Plane->second) : 0.0;
+    return std::abs(away) <= NearSliceMm && std::isfinite(position.x) ? std::optional(position)
+                                                                      : std::nullopt;
   }
 
 private:
@@ -120,9 +116,9 @@ void addMarks(const LandmarkList& list, pqRenderView* view, std::vector<Landmark
     const bool isPlaced = mark.measured && std::isfinite(row.fitted.x);
     mark.fitted = isPlaced ? std::optional(row.fitted) : std::nullopt;
     mark.text = std::to_string(i + 1);
-    mark.look = !row.on                             ? Look::Off
-      : static_cast<int>(i) == list.figures().worst ? Look::Worst
-                                                    : Look::Usual;
+    mark.style = !row.on                            ? Style::Off
+      : static_cast<int>(i) == list.figures().worst ? Style::Worst
+                                                    : Style::Usual;
     marks.push_back(mark);
   }
   const LandmarkPicker* picker = LandmarkPicker::instance();
@@ -183,11 +179,11 @@ void LandmarkMarks::watchView(pqView* added)
   if (auto view = qobject_cast<pqRenderView*>(added))
   {
     // Slices may have moved, or something else is shown.
-    this->connect(view, &pqView::beginRender, this, [this, view] { this->place(view); });
+    this->connect(view, &pqView::beginRender, this, [this, view] { this->mark(view); });
   }
 }
 
-void LandmarkMarks::place(pqRenderView* view)
+void LandmarkMarks::mark(pqRenderView* view)
 {
   std::vector<LandmarkMark> marks;
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
@@ -224,7 +220,7 @@ void LandmarkMarks::refresh()
       return marks ? marks->GetMTime() : 0;
     };
     const vtkMTimeType before = timeOf();
-    this->place(view);
+    this->mark(view);
     if (timeOf() != before && !underHand)
     {
       view->render();

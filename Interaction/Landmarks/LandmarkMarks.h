@@ -30,8 +30,8 @@ public:
 private:
   void watchSource(pqPipelineSource* source);
   void watchView(pqView* view);
-  void place(pqRenderView* view); ///< Marks what belongs into a view now. It draws nothing.
-  void refresh();                 ///< Draws the views in which marks have changed.
+  void mark(pqRenderView* view); ///< Updates the marks of a view. It draws nothing.
+  void refresh();                ///< Draws the views in which marks have changed.
 
   QHash<pqRenderView*, vtkSmartPointer<vtkLandmarkMarks>> Marks;
   QTimer Soon; ///< Merges events that may have changed something.

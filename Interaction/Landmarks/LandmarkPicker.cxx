@@ -2,7 +2,6 @@
 #include "Interaction/Landmarks/LandmarkPicker.h"
 
 #include "Common/ScreenScale.h"
-#include "Interaction/Commands/ToolSettings.h"
 #include "Interaction/Landmarks/LandmarkList.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Views/SliceMouse.h"
@@ -24,12 +23,8 @@
 
 #include <QApplication>
 #include <QKeyEvent>
-#include <QList>
 #include <QScopedValueRollback>
 
-#include <glm/geometric.hpp>
-
-#include <algorithm>
 #include <cstring>
 
 namespace brainshift
@@ -116,10 +111,10 @@ void LandmarkPicker::start(pqPipelineSource* deformation)
   this->connect(LandmarkList::of(deformation), &LandmarkList::changed, this, [this] {
     if (this->Deformation && !this->Picked)
     {
-      this->ask(); // the number of the next pair is another one
+      this->request(); // the number of the next pair is another one
     }
   });
-  this->ask();
+  this->request();
   Q_EMIT this->changed();
 }
 
@@ -190,7 +185,7 @@ bool LandmarkPicker::onPress(vtkObject* caller, unsigned long, void*)
   return true;
 }
 
-// What turns out to be a drag begins for the camera where the button went down.
+// A press that becomes a drag starts the camera at the position of the press.
 bool LandmarkPicker::onMove(vtkObject* caller, unsigned long, void*)
 {
   const Watched* in = this->watched(caller);
@@ -239,8 +234,9 @@ void LandmarkPicker::pick(pqRenderView* view, const glm::ivec2& pixel)
       this->Picked = Half{ found->rest, found->deformed };
       bringCrosshairTo(deformation, found->deformed);
     }
-    this->ask(found ? QString()
-                    : tr("No tissue of %1 is at that position. ").arg(deformation->getSMName()));
+    this->request(found
+        ? QString()
+        : tr("No tissue of %1 is at that position. ").arg(deformation->getSMName()));
     Q_EMIT this->changed();
     return;
   }
@@ -249,25 +245,25 @@ void LandmarkPicker::pick(pqRenderView* view, const glm::ivec2& pixel)
   found = reference ? reference : found;
   if (!found)
   {
-    this->ask(tr("No volume is at that position. "));
+    this->request(tr("No volume is at that position. "));
     return;
   }
   const glm::dvec3 rest = this->Picked->rest;
   this->Picked.reset();
   LandmarkList::of(deformation)->add(rest, found->deformed);
-  this->ask();
+  this->request();
   Q_EMIT this->changed();
 }
 
-void LandmarkPicker::ask(const QString& before)
+void LandmarkPicker::request(const QString& before)
 {
   const std::size_t number = LandmarkList::of(this->Deformation)->rows().size() + 1;
   const QString name = this->Deformation->getSMName();
   const QString words = !this->Picked
     ? tr("Landmark %1: click it in the bent volume %2. Escape stops.").arg(number).arg(name)
     : isReferenceShown(this->Deformation)
-    ? tr("Landmark %1: click the same place in the reference. Escape stops.").arg(number)
-    : tr("Landmark %1: no reference is shown. Click the position where this place was measured. "
+    ? tr("Landmark %1: click the same position in the reference. Escape stops.").arg(number)
+    : tr("Landmark %1: no reference is shown. Click the position where this landmark was measured. "
          "Escape stops.")
         .arg(number);
   ToolSettings::instance()->setRequest(before + words);
@@ -312,7 +308,7 @@ QList<pqDataRepresentation*> shownVolumes()
   return shown;
 }
 
-// Whether a display shows the volume that a Free-Form Deformation bends, as loaded.
+// Whether a display shows the undeformed volume of a Free-Form Deformation.
 bool showsAsLoaded(pqPipelineSource* deformation, pqDataRepresentation* display)
 {
   return display->getOutputPortFromInput()->getSource()->getProxy() ==

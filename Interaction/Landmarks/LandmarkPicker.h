@@ -8,15 +8,8 @@
 
 #include "Interaction/Views/CursorProbe.h"
 
-#include <vtkSmartPointer.h>
-
 #include <QObject>
-#include <QPointer>
 
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
-#include <optional>
 #include <vector>
 
 class pqPipelineSource;
@@ -70,7 +63,7 @@ private:
   bool onRelease(vtkObject* interactor, unsigned long event, void* data);
 
   void pick(pqRenderView* view, const glm::ivec2& pixel);
-  void ask(const QString& before = QString());
+  void request(const QString& before = QString());
 
   struct Watched
   {

@@ -3,7 +3,6 @@
 
 #include "Interaction/Commands/Commands.h"
 #include "Interaction/Views/ActiveDeformation.h"
-#include "Tracking/SessionFile.h"
 
 #include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
@@ -14,9 +13,6 @@
 
 #include <QApplication>
 #include <QKeyEvent>
-#include <QPointer>
-
-#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -180,7 +176,7 @@ void Pointer::drain()
   }
   if (isExecuting(activeDeformation()))
   {
-    return; // the poses are kept, and the next turn draws
+    return; // the poses are kept, and the next call draws
   }
   if (!this->SinceDrawn.isValid() || this->SinceDrawn.elapsed() >= DrawEachMs)
   {
@@ -199,7 +195,7 @@ void Pointer::drain()
   }
 }
 
-void Pointer::place()
+void Pointer::updateTip()
 {
   if (!this->Newest || !this->State.visible || !this->isOpen() ||
     this->age().value_or(0.0) > OldSeconds)
@@ -226,12 +222,12 @@ void Pointer::show()
     (!this->SinceBent.isValid() || this->SinceBent.elapsed() >= this->BendAfterMs))
   {
     this->SinceBent.start();
-    this->Trace.bend();
+    this->Trace.fit();
     this->Drawing.setTrace(this->Trace.points());
     // On a slow machine, three quarters of the time are left for the tip.
     this->BendAfterMs = std::max<qint64>(BendEachMs, 4 * this->SinceBent.elapsed());
   }
-  this->place();
+  this->updateTip();
   Q_EMIT this->changed();
 }
 
@@ -276,7 +272,7 @@ QString Pointer::record(bool on)
   {
     pqPipelineSource* deformation = activeDeformation();
     problem = !this->isOpen() ? tr("Connect a pointer first.")
-      : !deformation          ? tr("Select a Free-Form Deformation to bend.")
+      : !deformation          ? tr("Select a Free-Form Deformation to edit.")
                               : this->Trace.begin(deformation, this->threshold());
   }
   else
@@ -305,7 +301,7 @@ bool Pointer::eventFilter(QObject* watched, QEvent* event)
   const QEvent::Type type = event->type();
   if (type == QEvent::ApplicationDeactivate)
   {
-    this->record(false); // another window hears of the key's release
+    this->record(false); // another window receives the key's release
   }
   if (type != QEvent::KeyPress && type != QEvent::KeyRelease && type != QEvent::ShortcutOverride)
   {
@@ -324,7 +320,7 @@ bool Pointer::eventFilter(QObject* watched, QEvent* event)
   }
   else if (!key->isAutoRepeat())
   {
-    Q_EMIT this->told(this->record(type == QEvent::KeyPress));
+    Q_EMIT this->recordHandled(this->record(type == QEvent::KeyPress));
   }
   return true;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file The live pointer of the window: takes the poses of a tool from a server or a recorded
-/// session, places them in the image, draws the tip, asks its distance to the bent cortex and
-/// records traces. There is one hand with a pointer, so there is one object.
+/// @file
+/// The live pointer of the window: takes the poses of a tool from a server or a recorded session,
+/// places them in the image, draws the tip, gets its distance to the deformed cortex and records
+/// traces. There is one hand with a pointer, so there is one object.
 #ifndef BrainShift_Pointer_h
 #define BrainShift_Pointer_h
 
@@ -15,10 +16,6 @@
 #include <QElapsedTimer>
 #include <QObject>
 #include <QTimer>
-
-#include <deque>
-#include <memory>
-#include <optional>
 
 class pqPipelineSource;
 
@@ -36,13 +33,13 @@ public:
   static Pointer* instance();
   ~Pointer() override;
 
-  /// Begins to hear a server. It takes no time; state() tells how it goes.
+  /// Starts to receive from a server. It returns at once; state() reports the connection.
   void open(const TrackerOptions& options);
   /// Plays a recorded session. Returns one sentence if the file cannot be read.
   QString replay(const QString& path);
-  /// Ends hearing or playing. What was recorded can still be saved.
+  /// Stops receiving or replaying. The recorded poses can still be saved.
   void close();
-  /// Whether a server is heard, or tried again, or a session plays.
+  /// Whether a server is connected or retried, or a session is replayed.
   bool isOpen() const { return this->Source && this->State.phase != SourceState::Phase::Ended; }
   bool isReplay() const { return this->Replayed; }
   const SourceState& state() const { return this->State; }
@@ -52,11 +49,11 @@ public:
   /// The tip (mm, world) while the tool is seen. Without a registration the tracker's frame is
   /// taken as the image's.
   const std::optional<glm::dvec3>& tip() const { return this->Tip; }
-  /// Signed distance of the tip to the bent cortex (mm, positive outside).
+  /// Signed distance of the tip to the deformed cortex (mm, positive outside).
   const std::optional<double>& distance() const { return this->Distance; }
   const QString& distanceProblem() const { return this->Cortex.problem(); }
 
-  /// Where scalars pass this there is the cortex, unless a Trace Distance or a fit says it.
+  /// The scalar value at the cortex. A Trace Distance or a fit that has one takes precedence.
   void setThreshold(double threshold) { this->Threshold = threshold; }
   double threshold() const;
   /// Whether setThreshold() counts.
@@ -75,14 +72,14 @@ public:
   QString saveSession(const QString& path) const;
   bool hasSession() const { return !this->Recorded.poses.empty(); }
 
-  /// Hears the key that records as long as it is held.
+  /// Records while the key for it is held.
   bool eventFilter(QObject* watched, QEvent* event) override;
 
 Q_SIGNALS:
   /// Something that the panel shows is new.
   void changed();
-  /// What the key that records did: one sentence if it could not, else empty.
-  void told(const QString& problem);
+  /// The key that records was handled. `problem`: one sentence if it failed, else empty.
+  void recordHandled(const QString& problem);
 
 private:
   explicit Pointer(QObject* parent);
@@ -90,7 +87,7 @@ private:
   void start(std::unique_ptr<PoseSource> source);
   void forget(pqPipelineSource* source);
   void drain();
-  void place();
+  void updateTip();
   void show();
 
   std::unique_ptr<PoseSource> Source;
@@ -109,8 +106,8 @@ private:
   TipDrawing Drawing;
   QTimer Draining;
   QElapsedTimer SinceDrawn;
-  QElapsedTimer SinceBent; ///< Since the last bend began.
-  qint64 BendAfterMs = 0;  ///< From the begin of one bend to that of the next, at least.
+  QElapsedTimer SinceBent; ///< Since the last fit began.
+  qint64 BendAfterMs = 0;  ///< Least time from the begin of one fit to that of the next.
 };
 }
 

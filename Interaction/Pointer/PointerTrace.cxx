@@ -17,8 +17,6 @@
 #include <vtkSMSourceProxy.h>
 #include <vtkSMViewProxy.h>
 
-#include <glm/geometric.hpp>
-
 #include <array>
 #include <cstring>
 
@@ -89,7 +87,7 @@ QString PointerTrace::begin(pqPipelineSource* deformation, double threshold)
   FitEditor* editor = FitEditor::of(deformation);
   if (!editor)
   {
-    return tr("There is no Free-Form Deformation to bend.");
+    return tr("There is no Free-Form Deformation to edit.");
   }
   this->Deformation = deformation;
   this->Threshold = threshold;
@@ -155,7 +153,7 @@ void PointerTrace::write(const QString& label, vtkSMProxy* forNow)
   });
 }
 
-void PointerTrace::bend()
+void PointerTrace::fit()
 {
   if (!this->Recording || this->Points.size() == this->Bent || !this->Deformation)
   {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Records where the tip goes as the traced points of a Fit Deformation, so that the brain bends
+/// Records where the tip goes as the traced points of a Fit Deformation, so that the brain deforms
 /// while the hand moves. All of it is one undo step.
 #ifndef BrainShift_PointerTrace_h
 #define BrainShift_PointerTrace_h
@@ -10,7 +10,7 @@
 #include <QPointer>
 #include <QString>
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <vector>
 
@@ -23,19 +23,20 @@ class PointerTrace
 {
 public:
   /// Begins a trace that goes on from the points that were recorded before. Returns one sentence if
-  /// the deformation can have none. `threshold`: the cortex of a new fit, if nothing else says it.
+  /// the deformation can have none. `threshold`: the intensity of the cortex for a new fit, if no
+  /// other is set.
   QString begin(pqPipelineSource* deformation, double threshold);
-  /// Adds a point (mm, world) if it lies at least 0.5 mm from the last one.
+  /// Adds a point (mm, world) if it is at least 0.5 mm from the last one.
   void add(const glm::dvec3& tip);
-  /// Bends the brain by the points so far.
-  void bend();
+  /// Fits the deformation to the points so far.
+  void fit();
   /// Ends the trace. Without a point nothing changes.
   void end();
 
   /// Ends the trace and changes nothing: its deformation goes.
   void abandon();
 
-  /// What the trace bends; null if it is gone.
+  /// The deformation that the trace edits; null if it is gone.
   pqPipelineSource* deformation() const;
   bool isRecording() const { return this->Recording; }
   /// All points, three numbers each, those of before included.

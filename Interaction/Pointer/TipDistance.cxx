@@ -22,7 +22,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <functional>
 
 namespace brainshift
 {
@@ -134,7 +133,7 @@ bool TipDistance::hasSurface(vtkSMProxy* from, double threshold)
     vtkSMSourceProxy::SafeDownCast(segmentation ? segmentation : this->Deformation->getProxy());
   const char* name = from ? vtkSMPropertyHelper(from, "SurfaceArray").GetAsString() : nullptr;
   vtkPVArrayInformation* array = image->GetOutputPortsCreated() ? arrayOf(image, name) : nullptr;
-  if (segmentation && !array) // nobody has shown it
+  if (segmentation && !array) // it was never shown
   {
     image->UpdatePipeline();
     array = arrayOf(image, name);

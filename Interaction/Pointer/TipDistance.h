@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file How far the tip lies from the bent cortex. A Trace Distance of its own, which no pipeline
-/// shows, answers where the volume is, on the server too. The cortex is that of a Trace Distance of
-/// the same deformation, else that of its fit, else a threshold.
+/// @file
+/// Distance of the tip to the deformed cortex. A Trace Distance of its own, which is in no
+/// pipeline, computes it in the process that has the volume, on the server too. The cortex is that
+/// of a Trace Distance of the same deformation, else that of its fit, else a threshold.
 #ifndef BrainShift_TipDistance_h
 #define BrainShift_TipDistance_h
 
@@ -10,7 +11,7 @@
 #include <QPointer>
 #include <QString>
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <limits>
 #include <optional>
@@ -21,7 +22,7 @@ class vtkSMSourceProxy;
 
 namespace brainshift
 {
-/// The filter that says where the cortex of a deformation is: a Trace Distance or a Fit
+/// The filter that defines the cortex of a deformation: a Trace Distance or a Fit
 /// Deformation. Null if there is none.
 vtkSMProxy* cortexOf(pqPipelineSource* deformation);
 

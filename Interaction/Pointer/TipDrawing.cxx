@@ -26,8 +26,6 @@
 #include <vtkSphereSource.h>
 #include <vtkTubeFilter.h>
 
-#include <glm/geometric.hpp>
-
 #include <array>
 #include <cstddef>
 
@@ -154,18 +152,18 @@ void TipDrawing::hide()
 
 void TipDrawing::setTrace(const std::vector<double>& points)
 {
-  vtkNew<vtkPoints> places;
+  vtkNew<vtkPoints> traced;
   vtkNew<vtkCellArray> vertices;
   for (std::size_t i = 0; i + 2 < points.size(); i += 3)
   {
-    const vtkIdType added = places->InsertNextPoint(points[i], points[i + 1], points[i + 2]);
+    const vtkIdType added = traced->InsertNextPoint(points[i], points[i + 1], points[i + 2]);
     vertices->InsertNextCell(1, &added);
   }
-  this->Internal->Trace->SetPoints(places);
+  this->Internal->Trace->SetPoints(traced);
   this->Internal->Trace->SetVerts(vertices);
   this->Internal->Trace->Modified();
   this->Internal->TraceChanged = true;
-  this->Internal->Actors[2]->SetVisibility(places->GetNumberOfPoints() > 0);
+  this->Internal->Actors[2]->SetVisibility(traced->GetNumberOfPoints() > 0);
 }
 
 void TipDrawing::enterViews()

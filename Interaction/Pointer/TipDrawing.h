@@ -9,7 +9,7 @@
 #include <QHash>
 #include <QPointer>
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <memory>
 #include <vector>
@@ -33,7 +33,7 @@ public:
   void hide();
   /// The recorded points (mm, world). They are drawn with the next tip.
   void setTrace(const std::vector<double>& points);
-  /// While the tissue bends, pictures are those of a moving hand: still ones cast all rays anew.
+  /// While the deformation changes, draw interactive pictures: still ones cast all rays anew.
   void setBending(bool bends) { this->Bending = bends; }
   bool isShown() const { return this->Shown; }
   /// Leaves a view that goes away.

@@ -3,8 +3,6 @@
 
 #include "Interaction/Commands/Translated.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -15,7 +13,8 @@ namespace brainshift
 namespace
 {
 constexpr std::size_t LeastPairs = 3;
-constexpr double LeastSpreadMm = 3.0; // from a line; closer points leave a turn around it open
+constexpr double LeastSpreadMm =
+  3.0; // from a line; closer points leave the rotation around it undetermined
 constexpr double Unknown = std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -80,7 +79,7 @@ void TrackerRegistration::solve()
   if (std::min(spreadAroundLine(tracker, weights), spreadAroundLine(image, weights)) <
     LeastSpreadMm)
   {
-    this->Problem = tr("The points lie on one line. Touch one that lies beside it.");
+    this->Problem = tr("The points are on one line. Touch one that is beside it.");
     return;
   }
   const glm::dmat3 rotation = nearestRotation(tracker, image, weights);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Where the tracker lies in the image: a rotation and a shift, solved from paired points.
+/// The rigid transform from the tracker to the image: the rotation and translation that minimise
+/// the root mean square distance of paired points (Arun, Huang, Blostein: Least-squares fitting of
+/// two 3-D point sets, IEEE PAMI 9, 1987). RigidPose.h solves it.
 #ifndef BrainShift_TrackerRegistration_h
 #define BrainShift_TrackerRegistration_h
 
@@ -8,10 +10,7 @@
 
 #include <QString>
 
-#include <glm/vec3.hpp>
-
 #include <optional>
-#include <vector>
 
 namespace brainshift
 {
@@ -23,7 +22,7 @@ public:
   {
     glm::dvec3 tracker{ 0.0 };
     std::optional<glm::dvec3> image;
-    double residual = 0.0; ///< mm, from where the pose puts the touched point. NaN: not solved.
+    double residual = 0.0; ///< Fiducial registration error, mm. NaN: not solved.
   };
 
   const std::vector<Pair>& pairs() const { return this->Pairs; }
@@ -37,7 +36,7 @@ public:
   /// The identity as long as there is none.
   const RigidPose& imageFromTracker() const { return this->Solved; }
   bool isRegistered() const { return this->Registered; }
-  /// Root mean square of the residuals (mm); NaN if nothing was solved.
+  /// Root mean square of the fiducial registration errors (mm); NaN if nothing was solved.
   double error() const { return this->Error; }
   /// Why the pairs give no pose, in one sentence. Empty if they do, and without pairs.
   const QString& problem() const { return this->Problem; }

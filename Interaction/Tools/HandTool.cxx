@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Tools/HandTool.h"
 
-#include <glm/geometric.hpp>
-
 #include <cmath>
 
 namespace brainshift
@@ -108,12 +106,12 @@ glm::dvec3 HandTool::beforeStrength(const glm::dvec3& displacement) const
 
 void HandTool::showStroke(const Stroke& stroke, const std::optional<glm::dvec3>& slice)
 {
-  const auto outline = [&](double share) {
-    return slice ? std::vector<Polyline>{ sectionOf(stroke, share, *slice) }
-                 : outlineOf(stroke, share);
+  const auto outline = [&](double fraction) {
+    return slice ? std::vector<Polyline>{ sectionOf(stroke, fraction, *slice) }
+                 : outlineOf(stroke, fraction);
   };
   vtkLatticeRepresentation& drawing = this->Bench.drawing;
   drawing.SetLines(vtkLatticeRepresentation::Strong, outline(1.0));
-  drawing.SetLines(vtkLatticeRepresentation::Weak, outline(shareOfHalfWeight(stroke.sigma)));
+  drawing.SetLines(vtkLatticeRepresentation::Weak, outline(radiusOfHalfWeight(stroke.sigma)));
 }
 }

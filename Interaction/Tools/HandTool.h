@@ -6,7 +6,6 @@
 #define BrainShift_HandTool_h
 
 #include "Interaction/Commands/Commands.h"
-#include "Interaction/Commands/ToolSettings.h"
 #include "Interaction/Edits/FitEditor.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ViewProbe.h"
@@ -15,7 +14,6 @@
 #include <vtkLatticeWidget.h>
 
 #include <memory>
-#include <optional>
 
 namespace brainshift
 {
@@ -29,7 +27,7 @@ struct ToolBench
   vtkLatticeRepresentation& drawing;
 };
 
-/// The place that a drag took hold of.
+/// The point at which a drag began.
 struct Grip
 {
   Spot spot;               ///< In the deformed frame, before the drag.
@@ -48,7 +46,7 @@ public:
   virtual void idle();
   /// A mouse button goes down. True if the tool takes the event; otherwise the camera gets it.
   virtual bool press(const HandEvent& event) = 0;
-  /// The wheel turns. True if the tool takes the event.
+  /// The wheel was moved. True if the tool takes the event.
   virtual bool wheel(const HandEvent& event);
   /// The mouse moves between a press that the tool took and its release.
   virtual void drag(const HandEvent& event) = 0;
@@ -65,8 +63,8 @@ public:
 protected:
   /// A stroke with the settings of the panel that moves nothing yet.
   Stroke strokeAt(const glm::dvec3& anchor, Tool tool) const;
-  /// The way from a grip to a pixel (mm): in the plane of the slice, or else of the screen, or
-  /// along the axis that is held.
+  /// The displacement from a grip to a pixel (mm): in the plane of the slice, or else of the
+  /// screen, or along the axis that is held.
   glm::dvec3 pulled(const Grip& grip, const glm::dvec2& pixel);
   /// The displacement of a stroke that is seen as this displacement: the picture multiplies by
   /// Strength.

@@ -3,8 +3,6 @@
 #include "Interaction/Commands/Tools.h"
 #include "Interaction/Tools/HandTool.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <limits>
 
@@ -12,10 +10,10 @@ namespace brainshift
 {
 namespace
 {
-constexpr double ReachPixels = 16.0; // a control point is taken from this far
+constexpr double PickPixels = 16.0;  // a control point within this distance is picked
 constexpr double ShownCells = 1.7;   // control points this many cells around the cursor are drawn
 constexpr double SliceCells = 2.6;   // in a slice, where fewer lie one behind the other
-constexpr double MovedShare = 2.0;   // times that distance, moved ones are drawn as faint dots
+constexpr double MovedFactor = 2.0;  // times that distance, moved ones are drawn as faint dots
 constexpr double DepthWeight = 0.25; // a pixel beside the cursor counts as four in depth
 
 double widest(const Grid& grid)
@@ -41,7 +39,7 @@ private:
   void highlight(const ControlPoint* under, const glm::dvec3& moved);
   void find(const glm::dvec2& pixel);
 
-  std::vector<ControlPoint> Near;     ///< Within reach.
+  std::vector<ControlPoint> Near;     ///< Near enough to be picked.
   std::vector<ControlPoint> Faint;    ///< Moved ones a little farther away.
   std::optional<Spot> Tissue;         ///< Under the cursor.
   std::vector<ControlPoint> Selected; ///< A drag moves all of them.
@@ -61,17 +59,17 @@ void MoveTool::find(const glm::dvec2& pixel)
   this->Tissue = probe.spotAt(pixel);
   if (this->Tissue)
   {
-    const double reach = (this->Tissue->slice ? SliceCells : ShownCells) * widest(*lattice);
+    const double radius = (this->Tissue->slice ? SliceCells : ShownCells) * widest(*lattice);
     for (const ControlPoint& point :
-      probe.controlPointsNear(*this->Tissue, reach, MovedShare * reach))
+      probe.controlPointsNear(*this->Tissue, radius, MovedFactor * radius))
     {
-      const bool isNear = glm::distance(point.drawn, this->Tissue->position) <= reach;
+      const bool isNear = glm::distance(point.drawn, this->Tissue->position) <= radius;
       (isNear ? this->Near : this->Faint).push_back(point);
     }
   }
   else
   {
-    this->Near = probe.controlPointsUnder(pixel, ReachPixels * probe.screenScale());
+    this->Near = probe.controlPointsUnder(pixel, PickPixels * probe.screenScale());
   }
   // What was selected may have moved since.
   for (ControlPoint& selected : this->Selected)
@@ -94,7 +92,7 @@ const ControlPoint* MoveTool::controlPointUnder(const glm::dvec2& pixel) const
     const double depth = this->Tissue ? glm::distance(point.drawn, this->Tissue->position) : 0.0;
     const double strangeness =
       distance + DepthWeight * depth / probe.millimetresPerPixel(point.drawn);
-    if (distance < ReachPixels * probe.screenScale() && strangeness < least)
+    if (distance < PickPixels * probe.screenScale() && strangeness < least)
     {
       least = strangeness;
       nearest = &point;

@@ -5,11 +5,6 @@
 #include "Interaction/Commands/Tools.h"
 #include "Interaction/Tools/HandTool.h"
 
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cmath>
-
 namespace brainshift
 {
 namespace
@@ -19,7 +14,7 @@ constexpr double LeastPixels = 2.0; // a click is no drag
 constexpr double HeadPixels = 12.0; // of an arrow
 constexpr double RingPixels = 8.0;  // radius of the ring around a pin
 constexpr double SliceMm = 3.0;     // in a slice, marks at most this far from it are drawn
-constexpr double SeenMm = 0.5;      // a shorter rest of the way is not drawn
+constexpr double SeenMm = 0.5;      // shorter remaining distances are not drawn
 
 class PullTool final : public HandTool
 {
@@ -55,7 +50,7 @@ private:
   std::optional<Spot> Last; ///< Under the cursor.
   std::optional<Grip> Held; ///< During a drag: in the deformed frame, before it.
   std::vector<Pull> List;   ///< During a drag: all pulls.
-  std::size_t Place = 0;    ///< During a drag: that under the hand.
+  std::size_t Dragged = 0;  ///< During a drag: the index of its pull.
   bool Begun = false;       ///< During a drag: the fit is being edited.
   glm::dvec3 From{ 0.0 };   ///< During a drag: its target before it.
 };
@@ -86,7 +81,7 @@ void PullTool::find()
       pinned.push_back(pin.rest);
     }
   }
-  const std::vector<glm::dvec3> held = this->Bench.fit.basePlaces(pinned);
+  const std::vector<glm::dvec3> held = this->Bench.fit.basePositions(pinned);
   for (std::size_t i = 0; i < pinned.size(); ++i)
   {
     const glm::dvec3 asked = this->Bench.probe.strength() * (held[i] - pinned[i]);
@@ -119,7 +114,7 @@ void PullTool::show(const std::optional<glm::dvec3>& highlight)
 {
   const ViewProbe& probe = this->Bench.probe;
   const glm::dvec3 ahead = probe.ahead();
-  std::vector<Polyline> ways;
+  std::vector<Polyline> arrows;
   std::vector<Polyline> rings;
   std::vector<Polyline> missing;
   std::vector<glm::dvec3> dots;
@@ -143,11 +138,11 @@ void PullTool::show(const std::optional<glm::dvec3>& highlight)
     else if (glm::distance(mark.rest, mark.now) > SeenMm)
     {
       const auto lines = arrow(mark.rest, mark.now, HeadPixels * pixel, ahead);
-      ways.insert(ways.end(), lines.begin(), lines.end());
+      arrows.insert(arrows.end(), lines.begin(), lines.end());
     }
   }
   vtkLatticeRepresentation& drawing = this->Bench.drawing;
-  drawing.SetLines(vtkLatticeRepresentation::Mark, ways);
+  drawing.SetLines(vtkLatticeRepresentation::Mark, arrows);
   drawing.SetLines(vtkLatticeRepresentation::Strong, missing);
   drawing.SetLines(vtkLatticeRepresentation::Hold, rings);
   drawing.SetDots(dots);
@@ -188,16 +183,16 @@ void PullTool::idle()
 void PullTool::pin(const glm::dvec3& rest, double radius)
 {
   std::vector<Pin> pins = rowsFrom<Pin>(this->Bench.fit.numbers("Pins"));
-  const std::size_t place = nearest(pins, rest, radius);
-  const bool isNear = place < pins.size();
-  const bool isThere = isNear && pins[place].enabled;
+  const std::size_t index = nearest(pins, rest, radius);
+  const bool isNear = index < pins.size();
+  const bool isThere = isNear && pins[index].enabled;
   if (isThere)
   {
-    pins.erase(pins.begin() + static_cast<std::ptrdiff_t>(place));
+    pins.erase(pins.begin() + static_cast<std::ptrdiff_t>(index));
   }
   else if (isNear) // switched off: it is not drawn
   {
-    pins[place] = { rest, true };
+    pins[index] = { rest, true };
   }
   else
   {
@@ -225,16 +220,16 @@ bool PullTool::press(const HandEvent& event)
   }
   this->find();
   this->List = this->pulls();
-  this->Place = nearest(this->List, *rest, radius);
-  if (this->Place == this->List.size())
+  this->Dragged = nearest(this->List, *rest, radius);
+  if (this->Dragged == this->List.size())
   {
-    const std::vector<glm::dvec3> fitted = this->Bench.fit.fittedPlaces({ *rest });
+    const std::vector<glm::dvec3> fitted = this->Bench.fit.fittedPositions({ *rest });
     this->List.push_back({ *rest, fitted.empty() ? *rest : fitted.front(), 1.0 }); // strokes on top
   }
-  Pull& pull = this->List[this->Place];
-  if (!(pull.weight > 0.0)) // switched off: the tissue lies where the others put it
+  Pull& pull = this->List[this->Dragged];
+  if (!(pull.weight > 0.0)) // switched off: the other pulls place the tissue
   {
-    const std::vector<glm::dvec3> fitted = this->Bench.fit.fittedPlaces({ pull.rest });
+    const std::vector<glm::dvec3> fitted = this->Bench.fit.fittedPositions({ pull.rest });
     pull = { pull.rest, fitted.empty() ? pull.rest : fitted.front(), 1.0 };
   }
   this->From = pull.measured;
@@ -255,11 +250,11 @@ void PullTool::drag(const HandEvent& event)
   }
   if (this->Begun && !fit.isEditing())
   {
-    this->Held.reset(); // undo or a script came first: what they want stands
+    this->Held.reset(); // undo or a script changed the pulls first: keep their change
     return;
   }
   const glm::dvec3 moved = this->pulled(*this->Held, pixelOf(event));
-  Pull& pull = this->List[this->Place];
+  Pull& pull = this->List[this->Dragged];
   pull.measured = this->From + this->beforeStrength(moved);
   // The server is not asked where tissue came: that under the hand follows it.
   const auto mark = std::find_if(this->Marks.begin(), this->Marks.end(),
@@ -315,7 +310,7 @@ ToolRow pullTool()
   row.key = Qt::ALT | Qt::Key_4;
   row.what = QT_TRANSLATE_NOOP("BrainShift",
     "Drag tissue to where it belongs, and pin tissue that stays. All pulls, pins and measurements "
-    "bend the volume together.");
+    "deform the volume together.");
   row.page = "tools/pull.md";
   row.gestures = {
     byMouse(Command::DragTissue, Mouse::Drag, {},
@@ -325,7 +320,7 @@ ToolRow pullTool()
       QT_TRANSLATE_NOOP("BrainShift", "pull the tissue")),
     byMouse(Command::Select, Mouse::Click, Qt::ShiftModifier,
       QT_TRANSLATE_NOOP("BrainShift",
-        "Pin the tissue under the cursor: it stays at its position in the volume as loaded. A "
+        "Pin the tissue under the cursor: it keeps its position in the volume as loaded. A "
         "click on a pin removes the pin."),
       QT_TRANSLATE_NOOP("BrainShift", "pin the tissue")),
     byKey(Command::SelectByKey, { Qt::SHIFT | Qt::Key_Space },

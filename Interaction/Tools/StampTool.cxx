@@ -4,8 +4,6 @@
 #include "Interaction/Commands/Tools.h"
 #include "Interaction/Tools/HandTool.h"
 
-#include <glm/geometric.hpp>
-
 #include <cmath>
 
 namespace brainshift
@@ -56,22 +54,22 @@ bool StampTool::outline(const glm::dvec2& pixel)
   {
     return false;
   }
-  const glm::dvec3 way = this->interestFrom(*spot) - spot->position;
+  const glm::dvec3 fromInterest = this->interestFrom(*spot) - spot->position;
   constexpr double nearest = 1e-3; // mm; a nearer point gives no direction
-  this->Aims = glm::length(way) >= nearest;
-  // Without a direction the ellipsoid stays as it was, so that it does not vanish under the cursor.
+  this->Aims = glm::length(fromInterest) >= nearest;
+  // Without a direction the ellipsoid keeps its axis, so that it does not vanish under the cursor.
   const bool hadAxis = glm::length(this->Latest.axis) > 0.0;
   const glm::dvec3 axis = hadAxis ? this->Latest.axis : this->Bench.probe.ahead();
   this->Slice = spot->slice;
   this->Latest = this->strokeAt(spot->position, Tool::Stamp);
-  this->Latest.axis = this->Aims ? glm::normalize(way) : axis;
+  this->Latest.axis = this->Aims ? glm::normalize(fromInterest) : axis;
   this->Amount = 0.0;
   this->Made = false;
   this->TakenAt = pixel;
   return true;
 }
 
-// The stamp over the tissue at a pixel. False where there is no tissue, or no way to push it.
+// The stamp over the tissue at a pixel. False where there is no tissue, or no direction to push it.
 bool StampTool::take(const glm::dvec2& pixel)
 {
   return this->outline(pixel) && this->Aims;
@@ -282,8 +280,8 @@ ToolRow stampTool()
         "up or down."),
       QT_TRANSLATE_NOOP("BrainShift", "pull or push without steps")),
     byMouse(Command::ChangeRadius, Mouse::Wheel, Qt::ShiftModifier,
-      QT_TRANSLATE_NOOP("BrainShift", "Change the reach along the push."),
-      QT_TRANSLATE_NOOP("BrainShift", "change the reach along the push")),
+      QT_TRANSLATE_NOOP("BrainShift", "Change the radius along the push."),
+      QT_TRANSLATE_NOOP("BrainShift", "change the radius along the push")),
     byKey(Command::StepByKey, { Qt::Key_Plus, Qt::Key_Minus },
       QT_TRANSLATE_NOOP(
         "BrainShift", "Pull or push the tissue under the cursor, as a click of the wheel does.")),

@@ -57,19 +57,19 @@ bool isShownAs(pqDataRepresentation* display, const char* type)
 // Breadth first, so that the nearest one is found.
 pqPipelineSource* nearestShown(pqPipelineSource* from, pqView* view)
 {
-  QList<pqPipelineSource*> reached{ from };
-  for (int next = 0; next < reached.size(); ++next)
+  QList<pqPipelineSource*> visited{ from };
+  for (int next = 0; next < visited.size(); ++next)
   {
-    pqPipelineSource* source = reached[next];
+    pqPipelineSource* source = visited[next];
     if (isDeformation(source) && isShown(source, view))
     {
       return source;
     }
     for (pqPipelineSource* neighbour : neighboursOf(source))
     {
-      if (!reached.contains(neighbour))
+      if (!visited.contains(neighbour))
       {
-        reached.append(neighbour);
+        visited.append(neighbour);
       }
     }
   }
@@ -137,14 +137,14 @@ pqPipelineSource* activeDeformation(pqView* view)
 
 pqPipelineSource* deformationUpstream(pqPipelineSource* source)
 {
-  QList<pqPipelineSource*> reached = inputsOf(source);
-  for (int next = 0; next < reached.size(); ++next)
+  QList<pqPipelineSource*> visited = inputsOf(source);
+  for (int next = 0; next < visited.size(); ++next)
   {
-    if (isDeformation(reached[next]))
+    if (isDeformation(visited[next]))
     {
-      return reached[next];
+      return visited[next];
     }
-    reached += inputsOf(reached[next]);
+    visited += inputsOf(visited[next]);
   }
   return nullptr;
 }
@@ -175,24 +175,24 @@ bool showsVolume(pqDataRepresentation* display)
 
 pqDataRepresentation* bentDisplay(pqPipelineSource* deformation, pqView* view)
 {
-  QList<pqPipelineSource*> reached;
+  QList<pqPipelineSource*> visited;
   if (deformation && view)
   {
-    reached.append(deformation);
+    visited.append(deformation);
   }
-  for (int next = 0; next < reached.size(); ++next)
+  for (int next = 0; next < visited.size(); ++next)
   {
-    pqDataRepresentation* display = reached[next]->getRepresentation(view);
+    pqDataRepresentation* display = visited[next]->getRepresentation(view);
     if (display && display->isVisible() && (showsVolume(display) || showsSlices(display)))
     {
       return display;
     }
-    for (pqPipelineSource* consumer : reached[next]->getAllConsumers())
+    for (pqPipelineSource* consumer : visited[next]->getAllConsumers())
     {
-      // What another one bends again lies elsewhere.
-      if (!isDeformation(consumer) && !reached.contains(consumer))
+      // The output of another deformation is at other positions.
+      if (!isDeformation(consumer) && !visited.contains(consumer))
       {
-        reached.append(consumer);
+        visited.append(consumer);
       }
     }
   }

@@ -15,7 +15,7 @@ namespace brainshift
 bool isDeformation(pqPipelineSource* source);
 
 /// Whether a property of a proxy is a setting of its lattice: LatticeSettings.xml marks them. A
-/// lattice must share them with the deformation that takes it.
+/// lattice must have the same ones as the deformation that takes it.
 bool isLatticeSetting(vtkSMProxy* proxy, const char* property);
 /// Copies the input and the settings of the lattice from a deformation to a filter that makes a
 /// lattice for it, as far as that filter has them.

@@ -12,7 +12,6 @@
 #include <vtkSMViewProxy.h>
 
 #include <cmath>
-#include <vector>
 
 namespace brainshift
 {
@@ -75,7 +74,7 @@ CursorTissue tissueOf(
   tissue.deformed = tripleAt(facts, 1);
   tissue.rest = tripleAt(facts, 4);
   tissue.bent = facts[7] != 0.0;
-  tissue.volumeShare = facts[8];
+  tissue.jacobian = facts[8];
   tissue.intensity = knownAt(facts, 9);
   tissue.reference = knownAt(facts, 11);
   tissue.deviation = knownAt(facts, 17);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Asks what is known of the tissue under the cursor: position in both frames, intensity, label,
-/// how it is bent. The process that drew the picture answers, so it works with a server too, and
-/// the answer belongs to the picture that is seen.
+/// Properties of the tissue under the cursor: position in both frames, intensity, label,
+/// deformation. The process that drew the picture computes them, so this works with a server too,
+/// and they belong to the picture on the screen.
 #ifndef BrainShift_CursorProbe_h
 #define BrainShift_CursorProbe_h
 
@@ -13,7 +13,7 @@
 #include <QPointer>
 #include <QString>
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <functional>
 #include <optional>
@@ -29,14 +29,14 @@ struct CursorTissue
 {
   glm::dvec3 deformed{ 0.0 };      ///< Where it is drawn.
   glm::dvec3 rest{ 0.0 };          ///< Where it was in the volume as loaded.
-  bool bent = false;               ///< Whether a deformation places it. Else rest = deformed.
-  double volumeShare = 1.0;        ///< Jacobian determinant. 1: the tissue keeps its size.
+  bool bent = false;               ///< Whether a deformation moves it. Else rest = deformed.
+  double jacobian = 1.0;           ///< Determinant. 1: the tissue keeps its volume.
   std::optional<double> intensity; ///< Of the nearest voxel, in the array that is shown.
   std::optional<double> reference; ///< Of the nearest voxel of a reference that is shown.
-  /// Its label: as the colour map calls it; else as the data calls it, with its number; else the
+  /// Its label: the name in the colour map; else the name in the data, with its number; else the
   /// number. Empty: none.
   QString label;
-  /// How far its place can be believed: mm, one standard deviation along an axis, infinity where
+  /// Uncertainty of its position: one standard deviation along an axis (mm), infinity where
   /// nothing was measured. None: unknown.
   std::optional<double> deviation;
   WorldAxes axes = WorldAxes::Unknown;
@@ -48,7 +48,7 @@ public:
   /// The tissue that the last picture shows at a pixel, from the lower left corner of the view. Of
   /// several volumes, the one in front. Draws nothing. None where no Deformed Volume or Deformed
   /// Slices is hit, and while the picture is older than the data.
-  /// `counts`: says which displays are asked; without it, all are.
+  /// `counts`: whether a display is included; without it, all are.
   std::optional<CursorTissue> tissueAt(pqRenderView* view, int x, int y,
     const std::function<bool(pqDataRepresentation*)>& counts = {});
 

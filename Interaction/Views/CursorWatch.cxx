@@ -16,7 +16,7 @@ RestingCursor::RestingCursor(QObject* parent)
   : QObject(parent)
 {
   this->Soon.setSingleShot(true);
-  this->Soon.setInterval(0); // a pick in the middle of a picture would ask a busy server
+  this->Soon.setInterval(0); // a pick in the middle of a picture would query a busy server
   this->connect(&this->Soon, &QTimer::timeout, this, &RestingCursor::sees);
   this->connect(pqApplicationCore::instance()->getServerManagerModel(),
     &pqServerManagerModel::dataUpdated, this, [this](pqPipelineSource* source) {
@@ -38,10 +38,10 @@ void RestingCursor::follow(pqPipelineSource* deformation, pqRenderView* view)
       if (this->Outdated)
       {
         this->Outdated = false;
-        this->look();
+        this->signalSoon();
       }
     });
-    this->look();
+    this->signalSoon();
   }
 }
 

@@ -19,7 +19,7 @@ class vtkObject;
 
 namespace brainshift
 {
-/// Says when a cursor that rests has something new under it: after undo, for example.
+/// Signals that the picture under a resting cursor has changed: after undo, for example.
 class RestingCursor : public QObject
 {
   Q_OBJECT
@@ -27,11 +27,14 @@ class RestingCursor : public QObject
 public:
   explicit RestingCursor(QObject* parent);
 
-  /// The Free-Form Deformation and the view that matter from now on. Null: none does.
+  /// The Free-Form Deformation and the view to watch from now on. Null: none.
   void follow(pqPipelineSource* deformation, pqRenderView* view);
 
-  void look() { this->Soon.start(); }          ///< Something is new now.
-  void lookAtNext() { this->Outdated = true; } ///< The view's next picture shows something new.
+  void signalSoon() { this->Soon.start(); } ///< Something is new now.
+  void signalAfterPicture()
+  {
+    this->Outdated = true;
+  } ///< The view's next picture shows something new.
 
 Q_SIGNALS:
   /// From the event loop. The view's last picture shows what is new.
@@ -44,8 +47,8 @@ private:
   bool Outdated = false;
 };
 
-/// Knows which render view the cursor is over. It hears of the mouse before anything in the view
-/// does.
+/// Knows which render view the cursor is over. It receives events of the mouse before anything in
+/// the view does.
 class CursorWatch : public QObject
 {
   Q_OBJECT

@@ -27,7 +27,7 @@ namespace brainshift
 {
 namespace
 {
-constexpr int EachMs = 700; // long enough to look, short enough to see what jumps
+constexpr int EachMs = 700; // long enough to see a picture, short enough to see motion
 
 pqServerManagerModel* model()
 {
@@ -94,7 +94,7 @@ Flicker::Flicker(QObject* parent)
   QObject::connect(model(), &pqServerManagerModel::preSourceRemoved, this, &Flicker::noticeRemoval);
   // A file keeps what was chosen, not what the flicker shows for a moment.
   QObject::connect(pqApplicationCore::instance(), &pqApplicationCore::aboutToWriteState, this,
-    [this] { this->turn(false); });
+    [this] { this->setOn(false); });
 }
 
 bool Flicker::isPossible()
@@ -102,7 +102,7 @@ bool Flicker::isPossible()
   return !appliedComparisons().isEmpty();
 }
 
-void Flicker::turn(bool on)
+void Flicker::setOn(bool on)
 {
   if (on != this->Filters.isEmpty())
   {
@@ -138,7 +138,7 @@ void Flicker::turn(bool on)
     }
     draw(views);
   }
-  Q_EMIT this->turned(!this->Filters.isEmpty());
+  Q_EMIT this->switched(!this->Filters.isEmpty());
 }
 
 void Flicker::showTheOther()
@@ -167,7 +167,7 @@ void Flicker::noticeEdit(pqServerManagerModelItem* filter)
   auto source = qobject_cast<pqPipelineSource*>(filter);
   if (source && source->modifiedState() == pqProxy::MODIFIED)
   {
-    this->turn(false);
+    this->setOn(false);
   }
 }
 
@@ -181,7 +181,7 @@ void Flicker::noticeRemoval(pqPipelineSource* filter)
     if (this->Filters.isEmpty())
     {
       this->Next.stop();
-      Q_EMIT this->turned(false);
+      Q_EMIT this->switched(false);
     }
   }
 }

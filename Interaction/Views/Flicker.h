@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Shows the deformed volume and the reference of Compare Volumes in turn, so that differences
+/// Alternates the deformed volume and the reference of Compare Volumes, so that differences
 /// flicker. It switches the property Show of the filters that the active view shows, or else of
 /// all. The undo stack sees nothing, and Show is restored in the end.
 #ifndef BrainShift_Flicker_h
@@ -28,11 +28,11 @@ public:
 
 public Q_SLOTS:
   /// Starts with the reference. An edit of the filter in the panel, the writing of a state file and
-  /// the removal of the last filter turn the flicker off.
-  void turn(bool on);
+  /// the removal of the last filter switch the flicker off.
+  void setOn(bool on);
 
 Q_SIGNALS:
-  void turned(bool on);
+  void switched(bool on);
 
 private Q_SLOTS:
   void showTheOther();

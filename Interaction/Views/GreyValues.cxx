@@ -62,8 +62,8 @@ void GreyValues::dragTo(const int pixel[2], double scale)
   const double level = low + window / 2.0 + upwards * window / PixelsOfWindow;
   for (std::size_t i = 0; i < this->Now.size(); i += PointNumbers)
   {
-    const double share = (this->Before[i] - low) / window;
-    this->Now[i] = level + wider * window * (share - 0.5);
+    const double fraction = (this->Before[i] - low) / window;
+    this->Now[i] = level + wider * window * (fraction - 0.5);
   }
   SCOPED_UNDO_EXCLUDE(); // the whole drag is one step
   this->set(this->Now);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The window and the level of slices under a drag of the mouse. The window is the length of the
-/// range of values between black and white, the level its middle. Displays that share the colour
+/// range of values between black and white, the level its middle. Displays with the same colour
 /// map follow.
 #ifndef BrainShift_GreyValues_h
 #define BrainShift_GreyValues_h
@@ -17,7 +17,7 @@ namespace brainshift
 class GreyValues
 {
 public:
-  /// Takes the colour map of a display. False if it has none that reaches over a range of values.
+  /// Takes the colour map of a display. False if it has none that covers a range of values.
   bool begin(vtkSMProxy* display, const int pixel[2]);
   /// To the right the window becomes wider, upwards the level becomes higher. Nothing is drawn.
   /// `scale`: see Common/ScreenScale.h.

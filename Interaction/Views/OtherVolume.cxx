@@ -8,8 +8,6 @@
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
 
-#include <glm/geometric.hpp>
-
 namespace brainshift
 {
 namespace
@@ -29,7 +27,7 @@ pqPipelineSource* OtherVolume::shown() const
   return this->Deformation && this->View ? shownInstead(this->Deformation, this->View) : nullptr;
 }
 
-void OtherVolume::tell() const
+void OtherVolume::report() const
 {
   pqPipelineSource* other = this->shown();
   ToolSettings::instance()->setShownInstead(other ? other->getSMName() : QString());

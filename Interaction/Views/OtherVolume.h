@@ -7,7 +7,7 @@
 
 #include <QPointer>
 
-#include <glm/vec2.hpp>
+#include <glm/glm.hpp>
 
 #include <optional>
 
@@ -25,8 +25,8 @@ public:
 
   /// The other volume. Null: the view shows the one that the tool works on, or none at all.
   pqPipelineSource* shown() const;
-  void tell() const; ///< Tells the settings which one it is.
-  void take() const; ///< Selects it, so that the tool works on it.
+  void report() const; ///< Writes its name into the settings (ToolSettings::shownInstead).
+  void take() const;   ///< Selects it, so that the tool works on it.
 
   /// The button went down at a pixel, and the tool did not take it.
   void press(const glm::dvec2& pixel) { this->Pressed = pixel; }

@@ -25,15 +25,12 @@
 #include <vtkSMRenderViewProxy.h>
 #include <vtkSMSourceProxy.h>
 #include <vtkSMViewLayoutProxy.h>
-#include <vtkSmartPointer.h>
 
 #include <QScopedValueRollback>
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
-#include <vector>
 
 class vtkSMProxy;
 
@@ -47,8 +44,8 @@ void followInOtherViews(vtkSMProxy* display);
 
 namespace
 {
-// The volume that a source passes on without new voxels: that of the file, for what bends it or
-// compares it.
+// The volume that a source passes on without new voxels: that of the file, for a filter that
+// deforms it or compares it.
 vtkSMProxy* volumeOf(vtkSMProxy* source)
 {
   while (source &&
@@ -65,12 +62,13 @@ vtkSMProxy* volumeShownBy(vtkSMProxy* display)
   return volumeOf(vtkSMPropertyHelper(display, "Input").GetAsProxy());
 }
 
-// Where tissue at a place (mm) that a display shows lies at rest, or the other way round.
-std::vector<double> sameTissue(vtkSMProxy* display, const std::vector<double>& place, bool toRest)
+// The rest position (mm) of tissue at a drawn position of a display, or the reverse.
+std::vector<double> sameTissue(
+  vtkSMProxy* display, const std::vector<double>& position, bool toRest)
 {
   const vtkSmartPointer<vtkSMProxy> report = makeReport(display, "DeformedVolumeReport");
   pointAt(report, "Representation", display);
-  vtkSMPropertyHelper(report, "Place").Set(place.data(), 3);
+  vtkSMPropertyHelper(report, "Place").Set(position.data(), 3);
   vtkSMPropertyHelper(report, "ToRest").Set(toRest);
   return answerOf(report, "SameTissue");
 }
@@ -79,7 +77,7 @@ std::vector<double> sameTissue(vtkSMProxy* display, const std::vector<double>& p
 
 void followInOtherViews(vtkSMProxy* display)
 {
-  const std::vector<double> place = vtkSMPropertyHelper(display, "SlicePosition").GetDoubleArray();
+  const std::vector<double> drawn = vtkSMPropertyHelper(display, "SlicePosition").GetDoubleArray();
   vtkSMProxy* volume = volumeShownBy(display);
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
   std::vector<double> rest;
@@ -92,7 +90,7 @@ void followInOtherViews(vtkSMProxy* display)
     {
       continue; // views of one source are linked if they were laid out together
     }
-    rest = rest.empty() ? sameTissue(display, place, true) : rest;
+    rest = rest.empty() ? sameTissue(display, drawn, true) : rest;
     const std::vector<double> found = sameTissue(follower, rest, false);
     vtkSMPropertyHelper(follower, "SlicePosition").Set(found.data(), 3);
     follower->UpdateVTKObjects();
@@ -102,7 +100,7 @@ void followInOtherViews(vtkSMProxy* display)
 namespace
 {
 constexpr float Priority = 0.1f; // before ParaView's camera, after tools that take the mouse
-constexpr double Faces = 0.99;   // cosine between where a view looks and a plane's normal, at least
+constexpr double Faces = 0.99;   // least cosine between the viewing direction and a plane's normal
 constexpr int Planes = 3;
 constexpr const char* ShowNames[Planes] = { "ShowSagittal", "ShowCoronal", "ShowAxial" };
 constexpr int Flat = 1;            // InteractionMode of a 2D view
@@ -143,7 +141,7 @@ void clampToInput(vtkSMProxy* display, double position[3])
   }
 }
 
-bool linkedViewsFollow = false; // while one view tells the others its zoom
+bool linkedViewsFollow = false; // while one view sends the others its zoom
 
 bool isFlatWithSlices(pqRenderView* view)
 {
@@ -178,7 +176,7 @@ void drawSlices()
 // `name`: SlicePosition or WipePosition.
 void setPosition(vtkSMProxy* display, const char* name, double position[3])
 {
-  SCOPED_UNDO_EXCLUDE(); // where one looks is no edit
+  SCOPED_UNDO_EXCLUDE(); // a camera is no edit
   clampToInput(display, position);
   vtkSMPropertyHelper(display, name).Set(position, 3);
   display->UpdateVTKObjects();
@@ -197,20 +195,20 @@ const double* acrossWipe(const double normals[9], int plane)
   return normals + 3 * (plane == sagittal ? coronal : sagittal);
 }
 
-// From the line to a place, mm.
-double beyondWipe(vtkSMProxy* display, const double place[3], const double across[3])
+// Signed distance of a point from the line, mm.
+double beyondWipe(vtkSMProxy* display, const double point[3], const double across[3])
 {
   double position[3];
   vtkSMPropertyHelper(display, "WipePosition").Get(position, 3);
-  vtkMath::Subtract(place, position, position);
+  vtkMath::Subtract(point, position, position);
   return vtkMath::Dot(position, across);
 }
 }
 
 void bringSlicesTo(vtkSMProxy* display, const double position[3])
 {
-  double place[3] = { position[0], position[1], position[2] };
-  setPosition(display, "SlicePosition", place);
+  double copy[3] = { position[0], position[1], position[2] };
+  setPosition(display, "SlicePosition", copy);
 }
 
 void SliceMouse::watchViews(QObject* context)
@@ -251,7 +249,7 @@ SliceMouse::SliceMouse(pqRenderView* view)
     this->Camera->AddObserver(vtkCommand::ModifiedEvent, this, &SliceMouse::noticeZoom);
   this->Sharing.setSingleShot(true);
   this->Sharing.setInterval(0);
-  QObject::connect(&this->Sharing, &QTimer::timeout, this, &SliceMouse::shareZoom);
+  QObject::connect(&this->Sharing, &QTimer::timeout, this, &SliceMouse::sendZoom);
 }
 
 SliceMouse::~SliceMouse()
@@ -363,7 +361,7 @@ bool SliceMouse::onRightButton(vtkObject*, unsigned long event, void*)
     }
     this->Dragging = Drag::Nothing;
     this->Greys.end();
-    pqApplicationCore::instance()->render(); // the 3D view may share the colour map
+    pqApplicationCore::instance()->render(); // the 3D view may use the same colour map
     return true;
   }
   const Command command = this->commandOf(Mouse::RightDrag);
@@ -413,14 +411,14 @@ void SliceMouse::noticeZoom()
   }
 }
 
-void SliceMouse::shareZoom()
+void SliceMouse::sendZoom()
 {
   vtkSMRenderViewProxy* view = this->View->getRenderViewProxy();
   if (!view || !this->Camera || !isFlatWithSlices(this->View))
   {
     return;
   }
-  const bool told = vtkSMPropertyHelper(view, "CameraParallelScale").GetAsDouble() == this->Zoom;
+  const bool isSent = vtkSMPropertyHelper(view, "CameraParallelScale").GetAsDouble() == this->Zoom;
   if (!this->Follows)
   {
     SCOPED_UNDO_EXCLUDE();
@@ -428,7 +426,7 @@ void SliceMouse::shareZoom()
     view->SynchronizeCameraProperties();
     view->UpdateVTKObjects();
   }
-  if (this->Follows || told) // else ParaView draws what the mouse does
+  if (this->Follows || isSent) // else ParaView draws what the mouse does
   {
     this->View->render();
   }
@@ -465,14 +463,14 @@ void SliceMouse::findCursor(const Facing& slice, double world[3]) const
   vtkRenderer* renderer = this->View->getRenderViewProxy()->GetRenderer();
   renderer->SetDisplayPoint(pixel[0], pixel[1], 0.0);
   renderer->DisplayToWorld();
-  const double* place = renderer->GetWorldPoint(); // parallel: anywhere on the pixel's line will do
+  const double* point = renderer->GetWorldPoint(); // parallel: anywhere on the pixel's line will do
   double position[3];
   vtkSMPropertyHelper(slice.display, "SlicePosition").Get(position, 3);
   const double* normal = slice.normals + 3 * slice.plane;
-  double across = 0.0; // from the slice to that place
+  double across = 0.0; // from the slice to that point
   for (int i = 0; i < 3; ++i)
   {
-    world[i] = place[i] / place[3];
+    world[i] = point[i] / point[3];
     across += (world[i] - position[i]) * normal[i];
   }
   for (int i = 0; i < 3; ++i)
@@ -481,7 +479,7 @@ void SliceMouse::findCursor(const Facing& slice, double world[3]) const
   }
 }
 
-// The other two planes go to the cursor, this one stays.
+// Moves the other two planes to the cursor, and keeps this one.
 void SliceMouse::bringToCursor(const Facing& slice)
 {
   double position[3];

@@ -8,12 +8,9 @@
 #include "Interaction/Commands/Commands.h"
 #include "Interaction/Views/GreyValues.h"
 
-#include <QObject>
 #include <QTimer>
 
 #include <vtkWeakPointer.h>
-
-#include <vector>
 
 class pqRenderView;
 class vtkCamera;
@@ -92,12 +89,12 @@ private:
 
   /// Observer of the camera.
   void noticeZoom();
-  /// Tells ParaView what the zoom is now, so that views which are linked follow, and draws a zoom
-  /// that came from another view.
-  void shareZoom();
+  /// Reports the zoom to ParaView, so that linked views follow, and draws a zoom that came from
+  /// another view.
+  void sendZoom();
   vtkWeakPointer<vtkCamera> Camera;
   unsigned long CameraObserver = 0;
-  double Zoom = 0.0;    ///< Half of the height of the view (mm) when it was shared last.
+  double Zoom = 0.0;    ///< Half of the height of the view (mm) when it was sent last.
   bool Follows = false; ///< Another view was zoomed, and this one by its link.
   QTimer Sharing;
 };

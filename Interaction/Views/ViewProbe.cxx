@@ -6,20 +6,13 @@
 #include "Interaction/Views/Reports.h"
 #include "Interaction/Workarounds/Updates.h"
 
-#include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
 
 #include <vtkCamera.h>
 #include <vtkRenderer.h>
 #include <vtkSMPropertyHelper.h>
-#include <vtkSMProxy.h>
 #include <vtkSMRenderViewProxy.h>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <cmath>
 
@@ -71,7 +64,7 @@ std::vector<ControlPoint> LatticeProbe::around(
   vtkSMPropertyHelper(this->Report, "MovedWithin").Set(movedRadius);
   vtkSMPropertyHelper(this->Report, "Slab").Set(slab, 7);
   vtkSMPropertyHelper(this->Report, "Cone").Set(noCone, 8);
-  return this->ask();
+  return this->fetch();
 }
 
 std::vector<ControlPoint> LatticeProbe::within(const Cone& cone)
@@ -82,17 +75,18 @@ std::vector<ControlPoint> LatticeProbe::within(const Cone& cone)
   vtkSMPropertyHelper(this->Report, "Ball").Set(noBall, 4);
   vtkSMPropertyHelper(this->Report, "MovedWithin").Set(0.0);
   vtkSMPropertyHelper(this->Report, "Cone").Set(numbers, 8);
-  return this->ask();
+  return this->fetch();
 }
 
-std::vector<glm::dvec3> LatticeProbe::sameTissue(const std::vector<glm::dvec3>& places, bool toRest)
+std::vector<glm::dvec3> LatticeProbe::sameTissue(
+  const std::vector<glm::dvec3>& positions, bool toRest)
 {
-  if (places.empty())
+  if (positions.empty())
   {
     return {};
   }
   vtkSMPropertyHelper(this->Report, "Places")
-    .Set(&places.front().x, static_cast<unsigned int>(3 * places.size()));
+    .Set(&positions.front().x, static_cast<unsigned int>(3 * positions.size()));
   vtkSMPropertyHelper(this->Report, "ToRest").Set(toRest ? 1 : 0);
   const std::vector<double> numbers = answerOf(this->Report, "SameTissue");
   std::vector<glm::dvec3> same;
@@ -103,7 +97,7 @@ std::vector<glm::dvec3> LatticeProbe::sameTissue(const std::vector<glm::dvec3>& 
   return same;
 }
 
-std::vector<ControlPoint> LatticeProbe::ask()
+std::vector<ControlPoint> LatticeProbe::fetch()
 {
   constexpr std::size_t numbersPerPoint = 9;
   const std::vector<double> numbers = answerOf(this->Report, "ControlPoints");
@@ -174,7 +168,7 @@ std::vector<ControlPoint> ViewProbe::controlPointsNear(
   const std::optional<Grid> grid = spot.slice ? this->lattice() : std::nullopt;
   if (grid)
   {
-    // One layer of an unbent lattice, or two where the slice lies in the middle between them.
+    // One layer of an unbent lattice, or two where the slice is in the middle between them.
     constexpr double cells = 0.55;
     const glm::dvec3 along = glm::abs(glm::transpose(grid->direction) * *spot.slice);
     plane = { spot.position, *spot.slice, cells * glm::dot(along, grid->spacing) };
@@ -228,11 +222,11 @@ glm::dvec3 ViewProbe::pointOfInterest()
   {
     return set;
   }
-  // A filter made before its volume was read could not tell the volume's middle.
+  // A filter made before its volume was read did not know the volume's middle.
   const glm::dvec3 end(grid->dimensions - 1);
-  const glm::dvec3 place = grid->gridFromWorld(set);
-  const bool inside = glm::all(glm::greaterThanEqual(place, glm::dvec3(0.0))) &&
-    glm::all(glm::lessThanEqual(place, end));
+  const glm::dvec3 inGrid = grid->gridFromWorld(set);
+  const bool inside = glm::all(glm::greaterThanEqual(inGrid, glm::dvec3(0.0))) &&
+    glm::all(glm::lessThanEqual(inGrid, end));
   return inside ? set : grid->worldFromGrid(end / 2.0);
 }
 

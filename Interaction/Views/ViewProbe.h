@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Finds what lies under the cursor in a view of a Free-Form Deformation: tissue and control
-/// points. It also converts between pixels and millimetres. The server answers, so it works
+/// Finds tissue and control points under the cursor in a view of a Free-Form Deformation. It also
+/// converts between pixels and millimetres. The server computes the results, so it works
 /// wherever data and picture are. Positions: mm, world axes, deformed frame. Pixels: from the lower
 /// left corner of the view.
 #ifndef BrainShift_ViewProbe_h
@@ -14,11 +14,7 @@
 
 #include <QPointer>
 
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
 #include <optional>
-#include <vector>
 
 class pqPipelineSource;
 class pqRenderView;
@@ -27,7 +23,7 @@ class vtkSMProxy;
 
 namespace brainshift
 {
-/// Asks where the control points of a Free-Form Deformation are. The server answers, so it works
+/// Finds control points of a Free-Form Deformation. The server computes the results, so it works
 /// wherever the data is. Positions: mm, world axes.
 class LatticeProbe
 {
@@ -59,12 +55,12 @@ public:
   /// Control points drawn within a cone.
   std::vector<ControlPoint> within(const Cone& cone);
 
-  /// Where the tissue at places lies at rest, or, if not `toRest`, where tissue at rest is drawn.
+  /// Rest positions of drawn tissue or, if not `toRest`, drawn positions of tissue at rest.
   /// Empty before the filter was applied.
-  std::vector<glm::dvec3> sameTissue(const std::vector<glm::dvec3>& places, bool toRest);
+  std::vector<glm::dvec3> sameTissue(const std::vector<glm::dvec3>& positions, bool toRest);
 
 private:
-  std::vector<ControlPoint> ask();
+  std::vector<ControlPoint> fetch();
 
   vtkSmartPointer<vtkSMProxy> Report;
 };
@@ -94,7 +90,7 @@ public:
   /// Control points within `pixels` of the line of sight through a pixel. None in views of slices.
   std::vector<ControlPoint> controlPointsUnder(const glm::dvec2& pixel, double pixels);
 
-  /// Where tissue that is drawn somewhere lies at rest. None before the filter was applied.
+  /// Rest position of tissue from its drawn position. None before the filter was applied.
   std::optional<glm::dvec3> restOf(const glm::dvec3& position);
   /// Where tissue at rest is drawn. As many as `rest`, or none before the filter was applied.
   std::vector<glm::dvec3> drawnAt(const std::vector<glm::dvec3>& rest);

@@ -52,7 +52,7 @@ bool InSight::eventFilter(QObject* watched, QEvent* event)
   return this->QObject::eventFilter(watched, event);
 }
 
-// The part asks for the width of its contents alone. If the margin counted as well, contents wider
+// The part requests the width of its contents alone. If the margin counted as well, contents wider
 // than what is seen would widen the part, and the part its margin: Qt resizes without end.
 void InSight::fitMargin()
 {
@@ -73,7 +73,7 @@ constexpr double LeastOfWindow = 0.6; // of its height; the pipeline browser nee
 
 int given = 0; // width of the dock, pixels; 0: as ParaView made it
 
-// At the cost of the docks above and below it, which Qt must be told as well.
+// At the cost of the docks above and below it, which must be set in Qt as well.
 void makeHigher(QDockWidget* dock, QMainWindow* window)
 {
   QList<QDockWidget*> docks;

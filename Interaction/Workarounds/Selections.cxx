@@ -25,7 +25,7 @@ KeptSelection::KeptSelection(QObject* parent)
   this->connect(model, &pqServerManagerModel::preConnectionRemoved, this, keep);
 }
 
-// Later, when the pipeline browser has moved the filter. What was selected since then stays.
+// Later, when the pipeline browser has moved the filter. A later selection is kept.
 void KeptSelection::keep(pqPipelineSource* consumer)
 {
   if (pqActiveObjects::instance().selection() != pqProxySelection{ consumer })

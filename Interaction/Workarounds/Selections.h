@@ -16,7 +16,7 @@ class pqPipelineSource;
 namespace brainshift
 {
 /// Keeps a filter selected while its inputs change. ParaView's pipeline browser moves a filter that
-/// gets a second input to another place, or back, and loses it from the selection on the way. Then
+/// gets a second input to another branch, or back, and drops it from the selection. Then
 /// all filters in menus and toolbars are greyed out.
 class KeptSelection : public QObject
 {
@@ -30,7 +30,7 @@ private:
   void keep(pqPipelineSource* consumer);
 };
 
-/// Turns off the display of a selection while nothing is selected. ParaView updates that display
+/// Switches off the display of a selection while nothing is selected. ParaView updates that display
 /// with each change of the data. During a drag it takes a tenth of the main thread's time.
 class EmptySelections
 {
@@ -40,9 +40,9 @@ public:
   EmptySelections(const EmptySelections&) = delete;
   EmptySelections& operator=(const EmptySelections&) = delete;
 
-  /// Turns the display off in every view that shows the source.
+  /// Switches the display off in every view that shows the source.
   void leaveOut(pqPipelineSource* source);
-  /// Turns the display on again.
+  /// Switches the display on again.
   void putBack();
 
 private:

@@ -55,20 +55,20 @@ StopReading::StopReading(QObject* parent)
   , Manager(pqApplicationCore::instance()->getProgressManager())
 {
 #if PARAVIEW_VERSION_MAJOR < 6 || (PARAVIEW_VERSION_MAJOR == 6 && PARAVIEW_VERSION_MINOR < 1)
-  this->connect(this->Manager, &pqProgressManager::progress, this, &StopReading::hear);
+  this->connect(this->Manager, &pqProgressManager::progress, this, &StopReading::handlePress);
   this->connect(this->Manager, &pqProgressManager::abort, this, &StopReading::stop);
   this->connect(this->Manager, &pqProgressManager::progressEndEvent, this,
     [this] { this->Manager->setEnableAbort(false); });
 #endif
 }
 
-void StopReading::hear()
+void StopReading::handlePress()
 {
-  if (this->IsHearing || readersAtWork().empty())
+  if (this->IsHandling || readersAtWork().empty())
   {
     return;
   }
-  this->IsHearing = true;
+  this->IsHandling = true;
   this->Manager->setEnableAbort(true);
   // ParaView would block a press before it knows which button it is for.
   const bool wasUnblocked = this->Manager->unblockEvents(true);
@@ -76,7 +76,7 @@ void StopReading::hear()
   QApplication::processEvents();
   QApplication::instance()->removeEventFilter(this);
   this->Manager->unblockEvents(wasUnblocked);
-  this->IsHearing = false;
+  this->IsHandling = false;
 }
 
 void StopReading::stop() const

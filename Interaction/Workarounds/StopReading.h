@@ -23,11 +23,11 @@ public:
   bool eventFilter(QObject* object, QEvent* event) override;
 
 private:
-  void hear();
+  void handlePress();
   void stop() const;
 
   pqProgressManager* Manager;
-  bool IsHearing = false;
+  bool IsHandling = false;
 };
 }
 

@@ -4,7 +4,6 @@
 #include <pqUndoStack.h>
 
 #include <vtkSMPropertyHelper.h>
-#include <vtkSMProxy.h>
 
 namespace brainshift
 {

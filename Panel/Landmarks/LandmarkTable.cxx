@@ -6,7 +6,6 @@
 #include "Interaction/Landmarks/LandmarkList.h"
 #include "Interaction/Landmarks/LandmarkPicker.h"
 #include "Panel/Parts/Advice.h"
-#include "Panel/Parts/List.h"
 
 #include <pqPipelineSource.h>
 
@@ -33,13 +32,15 @@ LandmarkModel::LandmarkModel(LandmarkList* list, QObject* parent)
   : ListModel(
       {
         { tr("Landmark"),
-          tr("Number, and name if a file gives one. The check mark lets the pair count."), true },
+          tr("Number, and name if the file has one. The check mark includes the pair in the "
+             "fit."),
+          true },
         { tr("Residual"),
           tr("Distance from the measured position to the position after the fit (mm)") },
-        { tr("Left out"),
+        { tr("Leave-one-out"),
           tr("Leave-one-out error: distance from the measured position to the prediction of a fit "
-             "without this pair (mm), before fold guard and mask. A pair that is switched off is "
-             "always left out.") },
+             "without this pair (mm), before fold guard and mask. A fit never includes a pair that "
+             "is switched off.") },
       },
       parent)
   , List(list)
@@ -89,7 +90,7 @@ QString LandmarkModel::text(int row, int column) const
     case LeftOutColumn:
       return millimetres(landmark.leftOut);
     default:
-      // A name that is only the number says nothing new.
+      // Omit a name that only repeats the number.
       return landmark.name.isEmpty() || landmark.name == QString::number(row + 1)
         ? QString::number(row + 1)
         : tr("%1 %2").arg(row + 1).arg(landmark.name);
@@ -106,13 +107,12 @@ QString LandmarkModel::toolTip(int row, int column) const
   const LandmarkRow& landmark = this->List->rows()[row];
   if (this->isBold(row))
   {
-    return tr("This pair fits worst: a fit without it misses it by %1 mm. Check it, or switch it "
-              "off.")
+    return tr("This pair fits worst. Its leave-one-out error is %1 mm. Check it, or switch it off.")
       .arg(millimetres(landmark.leftOut));
   }
   if (!landmark.on && column == LeftOutColumn)
   {
-    return tr("Switched off. The fit of the other pairs misses it by %1 mm.")
+    return tr("Switched off. Its distance from the fit of the other pairs is %1 mm.")
       .arg(millimetres(landmark.leftOut));
   }
   return tr("At rest %1 mm, measured %2 mm. %3")
@@ -142,8 +142,8 @@ LandmarkTable::LandmarkTable(LandmarkList* list, QWidget* parent)
   , GoTo(makeListButton(this, "BrainShiftGoTo", tr("Go To"),
       tr("Bring the slices of all views to the selected landmark (double-click)")))
   , Delete(makeListButton(this, "BrainShiftLandmarkDelete", tr("Delete"),
-      tr("Delete the selected pairs that were picked (Delete key). Those of files stay; switch "
-         "them off by their check mark.")))
+      tr("Delete the selected picked pairs (Delete key). Pairs of a file remain. Clear their "
+         "check marks to switch them off.")))
   , Marks(new QCheckBox(tr("Marks"), this))
 {
   this->Tree->setObjectName("BrainShiftLandmarks");
@@ -159,9 +159,9 @@ LandmarkTable::LandmarkTable(LandmarkList* list, QWidget* parent)
   this->Pick->setCheckable(true);
   this->Marks->setObjectName("BrainShiftLandmarkMarks");
   this->Marks->setToolTip(
-    tr("Mark the landmarks in the views: a ring where the tissue is drawn, a cross where it was "
-       "measured, a line from the cross to where the fit puts it. In a 2D view, those within 2.5 "
-       "mm of the slice."));
+    tr("Mark the landmarks in the views: a ring at the drawn position of the tissue, a cross at "
+       "its measured position, and a line from the cross to its position after the fit. A 2D view "
+       "marks landmarks within 2.5 mm of its slice."));
   this->layOut();
   this->connect(this->Pick, &QToolButton::clicked, this, &LandmarkTable::pick);
   this->connect(this->GoTo, &QToolButton::clicked, this, &LandmarkTable::goTo);
@@ -223,16 +223,16 @@ QString LandmarkTable::figuresText() const
   QStringList lines;
   if (std::isfinite(figures.meanLeftOut))
   {
-    lines.append(
-      tr("Mean of left out: %1").arg(bold(tr("%1 mm").arg(figures.meanLeftOut, 0, 'f', 2))));
+    lines.append(tr("Mean leave-one-out error: %1")
+        .arg(bold(tr("%1 mm").arg(figures.meanLeftOut, 0, 'f', 2))));
   }
-  lines.append(tr("Rigid motion taken out: %1")
-      .arg(
-        bold(tr("%1 mm, %2°").arg(figures.shift, 0, 'f', 1).arg(figures.turnDegrees, 0, 'f', 1))));
-  if (figures.share < 1.0)
+  lines.append(tr("Rigid motion removed: %1")
+      .arg(bold(
+        tr("%1 mm, %2°").arg(figures.shift, 0, 'f', 1).arg(figures.rotationDegrees, 0, 'f', 1))));
+  if (figures.applied < 1.0)
   {
     lines.append(tr("The fold guard applied %1 of the deformation")
-        .arg(bold(tr("%1 %").arg(100.0 * figures.share, 0, 'f', 0))));
+        .arg(bold(tr("%1 %").arg(100.0 * figures.applied, 0, 'f', 0))));
   }
   if (figures.worst >= 0)
   {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// The table of landmarks of a Free-Form Deformation, with buttons to pick, find and delete pairs,
-/// and what the fit says of all of them. It acts at once, without Apply.
+/// and the figures of the fit. It acts at once, without Apply.
 #ifndef BrainShift_LandmarkTable_h
 #define BrainShift_LandmarkTable_h
 
 #include "Panel/Parts/List.h"
 
-#include <QList>
 #include <QPointer>
 #include <QWidget>
 

@@ -3,7 +3,6 @@
 
 #include "Interaction/Commands/ToolSettings.h"
 #include "Interaction/Edits/FitEditor.h"
-#include "Panel/Parts/List.h"
 
 #include <pqPipelineSource.h>
 #include <pqProxyWidget.h>
@@ -13,10 +12,6 @@
 #include <QHBoxLayout>
 #include <QToolButton>
 #include <QVBoxLayout>
-
-#include <glm/geometric.hpp>
-
-#include <utility>
 
 namespace brainshift
 {
@@ -36,12 +31,13 @@ double askedOf(const Pull& pull)
 PullModel::PullModel(Write write, QObject* parent)
   : ListModel(
       {
-        { tr("Tissue"), tr("A pull or a pin. The check mark switches it on."), true },
-        { tr("Asked"), tr("Distance from the position in the scan to the target (mm)") },
-        { tr("Missed by"),
+        { tr("Tissue"), tr("A pull or a pin. The check mark includes it in the fit."), true },
+        { tr("Requested"), tr("Distance from the position in the scan to the target (mm)") },
+        { tr("Residual"),
           tr("Distance from the target to the position after the fit (mm). All pulls and pins are "
              "solved together.") },
-        { tr("Weight"), tr("Confidence in the pull: 1 is usual, 4 is fitted twice as closely") },
+        { tr("Weight"),
+          tr("Confidence in the pull. 1 is usual. With 4 the fit follows it twice as closely.") },
         { tr("Position"), tr("Position of the tissue in the scan: x, y, z (mm, world axes)"),
           true },
       },
@@ -214,8 +210,8 @@ PullModel* makeModel(const QPointer<FitEditor>& editor, QObject* parent)
       if (editor)
       {
         editor->edit(label, [&pulled](vtkSMProxy* fit) {
-          FitEditor::setNumbers(fit, "Pulls", numbersFrom(pulled.pulls));
-          FitEditor::setNumbers(fit, "Pins", numbersFrom(pulled.pins));
+          setNumbers(fit, "Pulls", numbersFrom(pulled.pulls));
+          setNumbers(fit, "Pins", numbersFrom(pulled.pins));
         });
       }
     },
@@ -300,7 +296,7 @@ void PullsPane::followResult()
     pinned.push_back(pin.rest);
   }
   rest.insert(rest.end(), pinned.begin(), pinned.end());
-  this->Pulls->setPlaces(this->Editor->fittedPlaces(rest), this->Editor->basePlaces(pinned));
+  this->Pulls->setPlaces(this->Editor->fittedPositions(rest), this->Editor->basePositions(pinned));
 }
 
 void PullsPane::refresh()

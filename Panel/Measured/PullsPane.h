@@ -12,9 +12,6 @@
 #include <QTimer>
 #include <QWidget>
 
-#include <functional>
-#include <vector>
-
 class QToolButton;
 class pqPipelineSource;
 
@@ -23,7 +20,7 @@ namespace brainshift
 // The pulls and then the pins of a Fit Deformation as rows of a table. They are solved together,
 // so their order means nothing.
 
-/// What hands asked of a fit.
+/// The pulls and pins of a fit.
 struct Pulled
 {
   std::vector<Pull> pulls;
@@ -38,7 +35,7 @@ public:
   enum Column
   {
     KindColumn,   ///< Number and kind, with the check box that switches it on.
-    AskedColumn,  ///< mm, editable: how far a pull should take its tissue.
+    AskedColumn,  ///< mm, editable: the requested displacement of a pull.
     MissedColumn, ///< mm: how far from there the fit leaves it.
     WeightColumn, ///< Editable: how far a pull is trusted.
     WhereColumn,  ///< mm: the tissue at rest.

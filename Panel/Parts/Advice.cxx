@@ -48,7 +48,7 @@ QString reachAdvice(double amount, double reached)
     return {};
   }
   return tr(
-    "The tissue at the centre went %1 of %2 mm. Near the edge of a mask, increase Mask Growth, "
+    "The tissue at the centre moved %1 of %2 mm. Near the edge of a mask, increase Mask Growth, "
     "lower Feather, or use the mask as Segmentation instead. Elsewhere, increase the "
     "radius or add control points.")
     .arg(reached, 0, 'f', 1)
@@ -93,7 +93,7 @@ QString jacobianText(double determinant)
 QString jacobianTip(double determinant)
 {
   return tr(
-    "The volume that the most squeezed tissue keeps. 100 %: unchanged. Below 30 %: strongly "
+    "The remaining volume of the most squeezed tissue. 100 %: unchanged. Below 30 %: strongly "
     "squeezed. 0 % or less: tissue folds over itself. The smallest Jacobian determinant is "
     "%1.")
     .arg(determinant, 0, 'f', 3);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// What the panel says about numbers, and the colour that it says it in.
+/// Advice about figures, in words and colours.
 #ifndef BrainShift_Advice_h
 #define BrainShift_Advice_h
 
@@ -35,9 +35,9 @@ QString guardAdvice(int shortenedStrokes);
 
 /// Grades the smallest Jacobian determinant: 1 keeps the volume of tissue, 0 or less folds it.
 Grade jacobianGrade(double determinant);
-/// What the determinant means for the most squeezed tissue, with its volume in percent.
+/// The squeezing of the most squeezed tissue, in words: its remaining volume in percent.
 QString jacobianText(double determinant);
-/// What 100 % means, and the determinant itself.
+/// Explains the percentages, and gives the determinant.
 QString jacobianTip(double determinant);
 
 /// A colour that is legible on the window colour of a palette, light or dark: green, amber or red,

@@ -329,7 +329,7 @@ void ListTree::keyPressEvent(QKeyEvent* event)
       this->toggleSelected();
       return;
     case Command::ChooseNumber:
-      this->moveColumn(found.place == 0 ? -1 : 1);
+      this->moveColumn(found.index == 0 ? -1 : 1);
       return;
     case Command::EditNumber:
       if (this->currentIndex().flags() & Qt::ItemIsEditable)

@@ -9,7 +9,7 @@
 #include <QString>
 #include <QTreeView>
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <optional>
 
@@ -18,7 +18,7 @@ class QToolButton;
 namespace brainshift
 {
 // Base of the lists of strokes, pulls and landmarks. Each row has a check mark in the first column
-// and may have numbers to edit. A list says what its cells hold and how they are written.
+// and may have numbers to edit. A subclass defines the contents of its cells and writes edits.
 
 /// "10, 20, 30"
 QString positionText(const glm::dvec3& position, int decimals);
@@ -103,7 +103,7 @@ class ListTree : public QTreeView
   Q_OBJECT
 
 public:
-  /// How many rows are seen at once, and what stands in the view while there are none.
+  /// The number of rows that are seen at once, and the text of an empty list.
   struct Room
   {
     int fewestRows;

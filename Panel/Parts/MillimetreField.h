@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// A field for a number in mm. It shows one decimal, which a narrow panel has room for, and all
-/// decimals while it has the keyboard's focus. What is not typed over stays exact.
+/// decimals while it has the keyboard's focus. Digits that the user does not change remain exact.
 #ifndef BrainShift_MillimetreField_h
 #define BrainShift_MillimetreField_h
 

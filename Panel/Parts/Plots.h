@@ -10,7 +10,7 @@
 namespace brainshift
 {
 /// A small histogram of signed lengths in mm. Its bins are equally wide and symmetric about 0. It
-/// follows the palette and is told to screen readers in words.
+/// follows the palette and is described to screen readers in words.
 class HistogramPlot : public QWidget
 {
   Q_OBJECT
@@ -22,9 +22,9 @@ public:
   /// or a width of 0: there is nothing to show.
   void setHistogram(double width, const QList<double>& counts);
 
-  /// The bin at a place of the widget (pixels); below 0 if there is none.
+  /// The bin at a position in the widget (pixels); below 0 if there is none.
   int binAt(const QPointF& place) const;
-  /// What a bin holds, in words.
+  /// The range and the count of a bin, in words.
   QString textOf(int bin) const;
 
   QSize sizeHint() const override;
@@ -44,7 +44,8 @@ private:
 };
 
 /// A small curve of an RMS distance (mm) over the strokes. Its last point, the current one, is
-/// marked and says its number. It follows the palette and is told to screen readers in words.
+/// marked and labelled with its number. It follows the palette and is described to screen readers
+/// in words.
 class CurvePlot : public QWidget
 {
   Q_OBJECT
@@ -56,12 +57,12 @@ public:
   /// nothing to show.
   void setLengths(const QList<double>& lengths);
 
-  /// How many strokes the nearest point of the curve follows, for a place of the widget (pixels);
-  /// below 0 if there is none.
+  /// The number of strokes before the nearest point of the curve, for a position in the widget
+  /// (pixels); below 0 if there is none.
   int pointAt(const QPointF& place) const;
   /// Position of the point after so many strokes (pixels), if it was measured.
   QPointF placeOf(int strokes) const;
-  /// What the point after so many strokes says, in words.
+  /// The RMS distance after so many strokes, in words.
   QString textOf(int strokes) const;
 
   QSize sizeHint() const override;

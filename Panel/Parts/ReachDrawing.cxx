@@ -60,7 +60,7 @@ QString describe(const Reach& reach)
   const double half = halfDistance(reach);
   if (!reach.hasAxis)
   {
-    return tr("Tissue moves within %1 of the cursor. Tissue at the centre follows fully, tissue at "
+    return tr("Tissue moves within %1 of the cursor. Tissue at the centre moves fully, tissue at "
               "%2 half as far (dashed), tissue at the edge not at all.")
       .arg(millimetres(reach.along), millimetres(half * reach.along));
   }
@@ -75,7 +75,7 @@ ReachDrawing::ReachDrawing(QWidget* parent)
   : QWidget(parent)
 {
   this->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-  this->setAccessibleName(tr("Reach of the tool"));
+  this->setAccessibleName(tr("Radius of the tool"));
 }
 
 void ReachDrawing::setReach(const Reach& reach)

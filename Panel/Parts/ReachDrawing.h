@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// A small drawing of how far a tool reaches: an ellipse or a circle, shaded by how much of the
+/// A small drawing of the radii of a tool: an ellipse or a circle, shaded by how much of the
 /// stroke its tissue follows, with its sizes in mm. It follows the palette.
 #ifndef BrainShift_ReachDrawing_h
 #define BrainShift_ReachDrawing_h
@@ -11,7 +11,7 @@
 
 namespace brainshift
 {
-/// What a tool reaches.
+/// The radii of a tool and the profile inside them.
 struct Reach
 {
   double along = 0.0;   ///< mm from the centre to the edge along the push; 0 draws nothing.

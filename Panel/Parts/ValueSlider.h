@@ -18,7 +18,7 @@ class ValueSlider : public QWidget
 
 public:
   /// Object names: the slider is `name`, the spin box is `name`SpinBox, the row of both is
-  /// `name`Row. The label says the unit.
+  /// `name`Row. The label contains the unit.
   ValueSlider(const QString& name, const QString& label, int decimals, QWidget* parent = nullptr);
 
   double value() const;

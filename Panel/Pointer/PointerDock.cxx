@@ -22,7 +22,6 @@
 #include <QScrollArea>
 #include <QSignalBlocker>
 #include <QSpinBox>
-#include <QString>
 #include <QStringList>
 #include <QVBoxLayout>
 
@@ -30,19 +29,19 @@
 
 namespace brainshift
 {
-// What the dock says of the pointer.
+// Texts of the dock about the pointer.
 
 class Pointer;
 
 /// The connection in a few words: device, rate (Hz), age of the last pose (s), what was lost; or
-/// the sentence that says why it ended.
+/// the reason why it ended, one sentence.
 QString connectionText(const Pointer& pointer);
-/// Whether connectionText() tells of something that the user must see to.
+/// Whether connectionText() is a warning that needs action.
 bool warnsOf(const Pointer& pointer);
-/// The distance of the tip to the bent cortex (mm) with its side; or why there is none.
+/// The distance of the tip to the deformed cortex (mm) with its side; or why there is none.
 QString distanceText(const Pointer& pointer);
 /// The position of the tip (mm, world axes).
-QString placeText(const Pointer& pointer);
+QString positionText(const Pointer& pointer);
 
 namespace
 {
@@ -57,7 +56,7 @@ QString sentence(const std::string& problem)
   return problem.empty() ? QString() : QString::fromStdString(problem) + ".";
 }
 
-// What was lost on the way, if anything was.
+// Lost messages by cause; empty if there are none.
 QString lossText(const SourceState& state)
 {
   QStringList parts;
@@ -137,7 +136,7 @@ QString distanceText(const Pointer& pointer)
   return tr(distance < 0.0 ? "%1 mm inside" : "%1 mm outside").arg(std::abs(distance), 0, 'f', 1);
 }
 
-QString placeText(const Pointer& pointer)
+QString positionText(const Pointer& pointer)
 {
   if (!pointer.tip() || isOld(pointer))
   {
@@ -153,7 +152,7 @@ constexpr int ShowEachMs = 100; // faster than one can read
 constexpr int LeastWidth = 330; // pixels: two points of the table beside each other
 constexpr int DefaultPort = 18944;
 
-// A heading, and what stands under it.
+// A heading, and the layout under it.
 QVBoxLayout* addGroup(QVBoxLayout* layout, const QString& title)
 {
   auto group = new QGroupBox(title);
@@ -197,7 +196,7 @@ PointerDock::PointerDock(QWidget* parent)
   this->Registration = new RegistrationTable;
   addGroup(layout, tr("Tracker in the image"))->addWidget(this->Registration);
   this->connect(this->Registration, &RegistrationTable::problem, this,
-    [this](const QString& problem) { this->tell(problem); });
+    [this](const QString& problem) { this->report(problem); });
   this->addSession(layout);
   layout->addStretch(1);
   auto scroll = new QScrollArea;
@@ -210,7 +209,7 @@ PointerDock::PointerDock(QWidget* parent)
   this->Soon.setSingleShot(true);
   this->Soon.setInterval(ShowEachMs);
   this->connect(&this->Soon, &QTimer::timeout, this, &PointerDock::showState);
-  this->connect(Pointer::instance(), &Pointer::told, this, &PointerDock::tell);
+  this->connect(Pointer::instance(), &Pointer::recordHandled, this, &PointerDock::report);
   this->connect(Pointer::instance(), &Pointer::changed, this, [this] {
     if (!this->Soon.isActive())
     {
@@ -258,7 +257,7 @@ void PointerDock::addConnection(QVBoxLayout* layout)
   form->addRow(this->Reconnect);
   this->Connect = new QPushButton;
   this->Connect->setObjectName("BrainShiftPointerConnect");
-  this->connect(this->Connect, &QPushButton::clicked, this, &PointerDock::turn);
+  this->connect(this->Connect, &QPushButton::clicked, this, &PointerDock::toggleConnection);
   this->Connect->setDefault(true);
   group->addWidget(this->Connect);
   this->Status = wrapped("BrainShiftPointerStatus");
@@ -273,11 +272,11 @@ void PointerDock::addTip(QVBoxLayout* layout)
   large.setPointSizeF(1.6 * large.pointSizeF());
   large.setBold(true);
   this->Distance->setFont(large);
-  this->Distance->setToolTip(tr("Distance (mm) of the tip to the bent cortex."));
+  this->Distance->setToolTip(tr("Distance (mm) of the tip to the deformed cortex."));
   group->addWidget(this->Distance);
-  this->Place = wrapped("BrainShiftPointerPlace");
-  this->Place->setToolTip(tr("Position of the tip (mm, world axes)."));
-  group->addWidget(this->Place);
+  this->Position = wrapped("BrainShiftPointerPlace");
+  this->Position->setToolTip(tr("Position of the tip (mm, world axes)."));
+  group->addWidget(this->Position);
   auto row = new QHBoxLayout;
   this->ThresholdName = new QLabel(tr("Cortex at intensity"));
   this->Threshold = new QDoubleSpinBox;
@@ -285,8 +284,8 @@ void PointerDock::addTip(QVBoxLayout* layout)
   this->Threshold->setRange(-1e9, 1e9);
   this->Threshold->setDecimals(2);
   this->Threshold->setToolTip(
-    tr("Lowest intensity of the brain. A Trace Distance or a Fit Deformation of the volume, if "
-       "there is one, says it instead."));
+    tr("Lowest intensity of the brain. If the volume has a Trace Distance or a Fit Deformation, "
+       "its value is used instead."));
   this->connect(this->Threshold, &QDoubleSpinBox::valueChanged, this,
     [](double value) { Pointer::instance()->setThreshold(value); });
   row->addWidget(this->ThresholdName);
@@ -297,10 +296,10 @@ void PointerDock::addTip(QVBoxLayout* layout)
   this->Record->setCheckable(true);
   this->Record->setText(tr("Record Trace (hold %1)").arg(keysText(rowOf(Command::RecordTrace))));
   this->Record->setToolTip(
-    tr("Record where the tip goes on the cortex. The brain bends to the trace at once. The key, "
-       "also that of a foot switch, records as long as it is held."));
+    tr("Record the path of the tip on the cortex. The brain deforms to fit the trace at once. The "
+       "key, or a foot switch that sends it, records while it is held."));
   this->connect(this->Record, &QPushButton::clicked, this,
-    [this](bool on) { this->tell(Pointer::instance()->record(on)); });
+    [this](bool on) { this->report(Pointer::instance()->record(on)); });
   group->addWidget(this->Record);
   this->Recorded = wrapped("BrainShiftPointerRecorded");
   group->addWidget(this->Recorded);
@@ -328,7 +327,7 @@ void PointerDock::addSession(QVBoxLayout* layout)
   layout->addWidget(note);
 }
 
-void PointerDock::tell(const QString& problem)
+void PointerDock::report(const QString& problem)
 {
   this->Problem->setText(problem);
   this->Problem->setVisible(!problem.isEmpty());
@@ -336,7 +335,7 @@ void PointerDock::tell(const QString& problem)
   this->showState();
 }
 
-void PointerDock::turn()
+void PointerDock::toggleConnection()
 {
   Pointer* pointer = Pointer::instance();
   if (pointer->isOpen())
@@ -355,17 +354,17 @@ void PointerDock::turn()
     settings()->setValue("BrainShift/Pointer/Device", this->Device->text().trimmed());
     pointer->open(options);
   }
-  this->tell({});
+  this->report({});
 }
 
 void PointerDock::save()
 {
   QFileDialog dialog(this, tr("Save Session"), {}, tr("Pointer sessions (*.txt)"));
-  dialog.setAcceptMode(QFileDialog::AcceptSave); // it asks before it replaces a file
+  dialog.setAcceptMode(QFileDialog::AcceptSave); // it confirms before it replaces a file
   dialog.setDefaultSuffix(QStringLiteral("txt"));
   if (dialog.exec() == QDialog::Accepted)
   {
-    this->tell(Pointer::instance()->saveSession(dialog.selectedFiles().front()));
+    this->report(Pointer::instance()->saveSession(dialog.selectedFiles().front()));
   }
 }
 
@@ -375,7 +374,7 @@ void PointerDock::replay()
     this, tr("Replay Session"), {}, tr("Pointer sessions (*.txt);;All files (*)"));
   if (!path.isEmpty())
   {
-    this->tell(Pointer::instance()->replay(path));
+    this->report(Pointer::instance()->replay(path));
   }
 }
 
@@ -404,11 +403,11 @@ void PointerDock::showTip()
 {
   const Pointer* pointer = Pointer::instance();
   this->Distance->setText(distanceText(*pointer));
-  this->Place->setText(placeText(*pointer));
-  const bool asks = pointer->needsThreshold();
-  this->ThresholdName->setVisible(asks);
-  this->Threshold->setVisible(asks);
-  if (asks && !this->Threshold->hasFocus())
+  this->Position->setText(positionText(*pointer));
+  const bool isNeeded = pointer->needsThreshold();
+  this->ThresholdName->setVisible(isNeeded);
+  this->Threshold->setVisible(isNeeded);
+  if (isNeeded && !this->Threshold->hasFocus())
   {
     const QSignalBlocker quiet(this->Threshold);
     this->Threshold->setValue(pointer->threshold());

@@ -34,10 +34,10 @@ private:
   void addTip(QVBoxLayout* layout);
   void addSession(QVBoxLayout* layout);
   void addLine(QFormLayout* form, const QString& name, QWidget* field, const QString& tip);
-  void turn(); ///< Connects, or disconnects.
+  void toggleConnection(); ///< Connects or disconnects.
   void save();
   void replay();
-  void tell(const QString& problem); ///< Shown until the next step.
+  void report(const QString& problem); ///< Shown until the next step.
   void showState();
   void showConnection();
   void showTip();
@@ -49,7 +49,7 @@ private:
   QCheckBox* Reconnect = nullptr;
   QPushButton* Connect = nullptr;
   QLabel* Status = nullptr;
-  QLabel* Place = nullptr;
+  QLabel* Position = nullptr;
   QLabel* Distance = nullptr;
   QLabel* ThresholdName = nullptr;
   QDoubleSpinBox* Threshold = nullptr;

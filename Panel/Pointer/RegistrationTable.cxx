@@ -20,7 +20,6 @@
 #include <QTableWidget>
 
 #include <cmath>
-#include <optional>
 
 namespace brainshift
 {
@@ -106,7 +105,7 @@ RegistrationTable::RegistrationTable(QWidget* parent)
   this->Touch->setObjectName("BrainShiftPointerTouch");
   this->Touch->setToolTip(
     tr("Hold the tip still on a landmark for half a second, then press. At least 3 landmarks that "
-       "do not lie on one line are needed."));
+       "are not on one line are needed."));
   this->Mark->setObjectName("BrainShiftPointerMark");
   this->Mark->setCheckable(true);
   this->Mark->setToolTip(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// The paired points that place the tracker in the image, with their residuals.
+/// The paired points that register the tracker to the image, with their registration errors.
 #ifndef BrainShift_RegistrationTable_h
 #define BrainShift_RegistrationTable_h
 
@@ -24,7 +24,7 @@ public:
 
   void showState();
 
-  /// While Mark in View waits, it hears the click on the landmark.
+  /// While Mark in View is pressed, takes the click on the landmark.
   bool eventFilter(QObject* watched, QEvent* event) override;
 
 Q_SIGNALS:

@@ -18,7 +18,6 @@
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyGroup.h>
 #include <vtkSMPropertyHelper.h>
-#include <vtkSMProxy.h>
 #include <vtkSMSourceProxy.h>
 
 #include <QFormLayout>
@@ -27,7 +26,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace brainshift
 {
@@ -128,8 +126,8 @@ void FiguresWidget::addCurve(vtkSMProperty* property)
   this->Missing = new QPushButton(tr("Measure After Each Stroke"), this);
   this->Missing->setObjectName("BrainShiftMeasureStrokes");
   this->Missing->setToolTip(
-    tr("Apply the strokes one after the other and measure after each one that the curve lacks, for "
-       "example strokes that a state file brought. At the end all strokes are as before."));
+    tr("Apply the strokes one after the other. Measure after each stroke that has no point on the "
+       "curve, for example a stroke of a state file. The list of strokes does not change."));
   auto form = static_cast<QFormLayout*>(this->layout());
   form->addRow(this->Plot);
   form->addRow(this->Missing);

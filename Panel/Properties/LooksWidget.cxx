@@ -70,7 +70,7 @@ pqDataRepresentation* LooksWidget::display() const
     this->proxy());
 }
 
-// What tells volumes apart without reading them: every stroke makes new data of the same volume.
+// Identifies a volume without reading it: every stroke makes new data of the same volume.
 QString LooksWidget::volume() const
 {
   const vtkSMPropertyHelper input(this->proxy(), "Input");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
 /// One button with a small picture for each look of a volume: Skin, Brain, Bone and others. A click
-/// sets colours, opacities and what is drawn, as one step to undo. The window remembers the last
+/// sets colours, opacities and drawn segments, as one step to undo. The window remembers the last
 /// choice for volumes of this kind. It is for a property with panel_widget "BrainShiftLooks".
 #ifndef BrainShift_LooksWidget_h
 #define BrainShift_LooksWidget_h

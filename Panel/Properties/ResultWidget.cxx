@@ -13,7 +13,6 @@
 #include <pqUndoStack.h>
 
 #include <vtkCommand.h>
-#include <vtkEventQtSlotConnect.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMTrace.h>
 

@@ -10,10 +10,8 @@
 #include <pqServerManagerModel.h>
 
 #include <vtkCommand.h>
-#include <vtkEventQtSlotConnect.h>
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
-#include <vtkSMProxy.h>
 
 #include <QPointer>
 #include <QVBoxLayout>

@@ -18,11 +18,7 @@
 
 #include <vtkSMDoubleVectorProperty.h>
 #include <vtkSMPropertyHelper.h>
-#include <vtkSMProxy.h>
 
-#include <algorithm>
-
-#include <QPointer>
 #include <QVBoxLayout>
 
 namespace brainshift

@@ -11,8 +11,6 @@
 
 #include <QTimer>
 
-#include <optional>
-
 class pqPipelineSource;
 
 namespace brainshift

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Registered/AlignPane.h"
 
-#include "Interaction/Displays/SharedSettings.h"
 #include "Interaction/Edits/AlignEditor.h"
-#include "Panel/Parts/Advice.h"
 #include "Panel/Registered/PaneParts.h"
 
 #include <QHBoxLayout>
@@ -51,12 +49,14 @@ AlignPane::AlignPane(pqPipelineSource* compare, QWidget* parent)
   : QWidget(parent)
   , Editor(AlignEditor::of(compare))
   , Align(makeButton("BrainShiftAlign", tr("Align"),
-      tr("Register the reference rigidly, from where it is now: maximise its mutual information "
-         "with the volume. Both are compared as they are drawn; the cavity does not count.")))
+      tr("Register the reference rigidly, from its present position: maximise its mutual "
+         "information with the volume. Both are compared as they are drawn; the cavity does not "
+         "count.")))
   , Stop(makeButton("BrainShiftAlignStop", tr("Stop"),
-      tr("Keep the reference where it is now, as one step to undo. Escape instead moves it back.")))
+      tr("Keep the present position of the reference, as one step to undo. Escape restores its "
+         "position before Align.")))
   , Progress(new QProgressBar)
-  , Said(makeText("BrainShiftAlignSaid"))
+  , Report(makeText("BrainShiftAlignSaid"))
   , Warning(makeText("BrainShiftAlignWarning"))
 {
   this->setObjectName("BrainShiftAlignPane");
@@ -70,7 +70,7 @@ AlignPane::AlignPane(pqPipelineSource* compare, QWidget* parent)
   row->addWidget(this->Stop);
   row->addStretch();
   column->addLayout(row);
-  for (QWidget* part : { static_cast<QWidget*>(this->Progress), static_cast<QWidget*>(this->Said),
+  for (QWidget* part : { static_cast<QWidget*>(this->Progress), static_cast<QWidget*>(this->Report),
          static_cast<QWidget*>(this->Warning) })
   {
     column->addWidget(part);
@@ -95,28 +95,28 @@ void AlignPane::refresh()
   this->Stop->setEnabled(active);
   this->Progress->setVisible(active);
   this->Progress->setValue(static_cast<int>(WholeProgress * this->Editor->figures().done));
-  this->say();
+  this->report();
 }
 
-void AlignPane::say()
+void AlignPane::report()
 {
   const AlignFigures& figures = this->Editor->figures();
-  QString said;
+  QString report;
   QString warning = this->Editor->problem();
   switch (this->Editor->state())
   {
     case AlignEditor::State::Running:
     case AlignEditor::State::Paused:
-      said = figures.lines > 0 ? alignProgress(figures) : tr("Preparing the search ...");
+      report = figures.lines > 0 ? alignProgress(figures) : tr("Preparing the search ...");
       break;
     case AlignEditor::State::Kept:
     case AlignEditor::State::Finished:
       if (figures.lines == 0)
       {
-        said = tr("Stopped before the first step; nothing has changed.");
+        report = tr("Stopped before the first step; nothing has changed.");
         break;
       }
-      said = alignResult(
+      report = alignResult(
         this->Editor->state() == AlignEditor::State::Kept ? tr("Stopped") : tr("Finished"),
         figures);
       warning = figures.warning;
@@ -124,13 +124,6 @@ void AlignPane::say()
     case AlignEditor::State::Idle:
       break;
   }
-  this->Said->setText(said);
-  this->Said->setVisible(!said.isEmpty());
-  this->Warning->setText(warning);
-  this->Warning->setVisible(!warning.isEmpty());
-  QPalette palette = this->palette();
-  palette.setColor(
-    QPalette::WindowText, gradeColor(Grade::Bad, this->palette(), wantsBlueAndOrange()));
-  this->Warning->setPalette(palette);
+  showTexts(this->Report, report, this->Warning, warning);
 }
 }

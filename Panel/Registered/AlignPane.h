@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Aligns the reference of a Compare Volumes from its panel: buttons, progress, and what was
-/// reached.
+/// Aligns the reference of a Compare Volumes from its panel: buttons, progress and result.
 #ifndef BrainShift_AlignPane_h
 #define BrainShift_AlignPane_h
 
@@ -26,13 +25,13 @@ public:
 
 private:
   void refresh();
-  void say();
+  void report();
 
   const QPointer<AlignEditor> Editor; ///< It may go before its panel does.
   QToolButton* const Align;
   QToolButton* const Stop;
   QProgressBar* const Progress;
-  QLabel* const Said;
+  QLabel* const Report;
   QLabel* const Warning;
 };
 }

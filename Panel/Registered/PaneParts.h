@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Buttons and texts that the panes of a registration are made of.
+/// Parts of the panes of a registration: buttons, texts, and a curve of the cost.
 #ifndef BrainShift_PaneParts_h
 #define BrainShift_PaneParts_h
 
+#include <QList>
 #include <QString>
+#include <QWidget>
 
 class QLabel;
 class QToolButton;
@@ -16,6 +18,33 @@ QToolButton* makeButton(const char* name, const QString& text, const QString& ti
 
 /// A text that wraps and can be copied.
 QLabel* makeText(const char* name);
+
+/// Shows a report and a warning, each hidden if it is empty.
+void showTexts(QLabel* report, const QString& text, QLabel* warning, const QString& warningText);
+
+/// A small curve of the cost of a similarity over the steps of a refinement. It follows the
+/// palette, and screen readers get it in words.
+class CostPlot : public QWidget
+{
+  Q_OBJECT
+
+public:
+  explicit CostPlot(QWidget* parent = nullptr);
+
+  /// The cost after each step, as a fraction of that at the start (1). Empty: no step yet.
+  void setCosts(const QList<double>& costs);
+
+  QSize sizeHint() const override { return this->minimumSizeHint(); }
+  QSize minimumSizeHint() const override;
+
+protected:
+  void paintEvent(QPaintEvent* event) override;
+
+private:
+  QRectF area() const; ///< of the curve, pixels
+
+  QList<double> Costs; ///< with the start before the first step
+};
 }
 
 #endif

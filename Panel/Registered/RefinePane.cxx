@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Registered/RefinePane.h"
 
-#include "Interaction/Displays/SharedSettings.h"
 #include "Interaction/Edits/RefineEditor.h"
-#include "Panel/Parts/Advice.h"
-#include "Panel/Registered/CostPlot.h"
 #include "Panel/Registered/PaneParts.h"
 
 #include <pqApplicationCore.h>
@@ -13,7 +10,6 @@
 #include <pqServerManagerModel.h>
 
 #include <vtkPVDataInformation.h>
-#include <vtkSMProxy.h>
 #include <vtkType.h>
 
 #include <QComboBox>
@@ -50,7 +46,7 @@ bool isImage(pqPipelineSource* source)
     source->getOutputPort(0)->getDataInformation()->GetDataSetType() == VTK_IMAGE_DATA;
 }
 
-// Volumes that a deformation may be compared with: not itself, nor what is made of it.
+// Volumes that a deformation may be compared with: neither itself nor its consumers.
 QList<pqPipelineSource*> volumesBeside(pqPipelineSource* deformation)
 {
   QList<pqPipelineSource*> made{ deformation };
@@ -78,7 +74,7 @@ QList<pqPipelineSource*> volumesBeside(pqPipelineSource* deformation)
   return volumes;
 }
 
-// Fills a list, and keeps what is chosen as far as it is still there.
+// Fills a list, and keeps the choice if it still exists.
 void fill(QComboBox* list, const QString& none, const QList<pqPipelineSource*>& sources)
 {
   const QVariant before = list->currentData();
@@ -95,7 +91,7 @@ void fill(QComboBox* list, const QString& none, const QList<pqPipelineSource*>& 
   list->setCurrentIndex(isFirst ? 0 : std::max(0, list->findData(before)));
 }
 
-// In a widget of its own, by whose name a list is found as that of a property is.
+// In a widget of its own, whose name finds the list as it finds that of a property.
 QWidget* wrapped(QWidget* part, const char* name, const QString& tip)
 {
   auto wrap = new QWidget;
@@ -107,10 +103,10 @@ QWidget* wrapped(QWidget* part, const char* name, const QString& tip)
   return wrap;
 }
 
-QComboBox* makeList(const QString& said)
+QComboBox* makeList(const QString& name)
 {
   auto list = new QComboBox;
-  list->setAccessibleName(said);
+  list->setAccessibleName(name);
   list->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   list->setMinimumContentsLength(LeastLetters);
   list->setFocusPolicy(Qt::StrongFocus);
@@ -139,7 +135,7 @@ QString refineProgress(const RefineFigures& figures)
 QString refineResult(const QString& ended, const RefineFigures& figures)
 {
   QStringList lines;
-  lines += RefinePane::tr("%1 after %2 steps. Cost: %3 before, %4 now (0: the volumes agree).")
+  lines += RefinePane::tr("%1 after %2 steps. Cost: %3 before, %4 now (0: the volumes match).")
              .arg(ended, QString::number(figures.steps), figure(figures.costBefore, 3),
                figure(figures.cost, 3));
   lines += RefinePane::tr("Control points moved %1 mm at most, %2 mm on average.")
@@ -213,11 +209,11 @@ void RefinePane::addChoices(QVBoxLayout* column)
   this->Reference = makeList(tr("Reference"));
   form->addRow(tr("Reference"),
     wrapped(this->Reference, "BrainShiftRefineReference",
-      tr("The volume to match. A Compare Volumes of this deformation brings its reference where it "
-         "is, with its cavity.")));
+      tr("The volume to match. A Compare Volumes of this deformation gives its reference, in its "
+         "present position, and its cavity.")));
   this->Cavity = makeList(tr("Cavity"));
   this->CavityRow = wrapped(this->Cavity, "BrainShiftRefineCavity",
-    tr("A mask of tissue that the reference lacks. What it holds does not count."));
+    tr("A mask of tissue that the reference lacks. Tissue inside it does not count."));
   form->addRow(tr("Cavity"), this->CavityRow);
   this->Similarity = makeList(tr("Similarity"));
   QStringList tips;
@@ -237,7 +233,7 @@ void RefinePane::addChoices(QVBoxLayout* column)
   this->Stiffness->setValue(1.0);
   this->Stiffness->setFocusPolicy(Qt::StrongFocus);
   this->Stiffness->setToolTip(
-    tr("Factor on what bending costs. Above 1 the volume bends less, below 1 it bends more."));
+    tr("Factor on the stiffness of the volume. Above 1 it bends less, below 1 it bends more."));
   form->addRow(tr("Stiffness"), this->Stiffness);
   column->addWidget(this->Choices);
   this->connect(this->Reference, &QComboBox::currentIndexChanged, this, &RefinePane::refresh);
@@ -246,13 +242,13 @@ void RefinePane::addChoices(QVBoxLayout* column)
 void RefinePane::addButtons(QVBoxLayout* column)
 {
   this->Refine = makeButton("BrainShiftRefine", tr("Refine"),
-    tr("Bend the volume step by step, from how it is bent now. The result takes the place of "
-       "strokes and lattice; Ctrl+Z brings them back."));
-  this->Pause = makeButton("BrainShiftRefinePause", tr("Go On"), tr("Take no step for now."));
+    tr("Refine the deformation step by step, from its present state. The result replaces strokes "
+       "and lattice; Ctrl+Z restores them."));
+  this->Pause = makeButton("BrainShiftRefinePause", tr("Go On"), tr("Stop stepping for now."));
   this->Pause->setMinimumWidth(this->Pause->sizeHint().width()); // of the longer text
   this->Pause->setText(tr("Pause"));
   this->Stop = makeButton("BrainShiftRefineStop", tr("Stop"),
-    tr("Keep what is reached, as one step to undo. Escape instead puts everything back."));
+    tr("Keep the result so far, as one step to undo. Escape restores everything instead."));
   auto row = new QHBoxLayout;
   for (QToolButton* button : { this->Refine, this->Pause, this->Stop })
   {
@@ -274,10 +270,10 @@ void RefinePane::addProgress(QVBoxLayout* column)
   this->Progress->setRange(0, WholeProgress);
   this->Plot = new CostPlot;
   this->Plot->setObjectName("BrainShiftRefineCurve");
-  this->Said = makeText("BrainShiftRefineSaid");
+  this->Report = makeText("BrainShiftRefineSaid");
   this->Warning = makeText("BrainShiftRefineWarning");
   for (QWidget* part : { static_cast<QWidget*>(this->Progress), static_cast<QWidget*>(this->Plot),
-         static_cast<QWidget*>(this->Said), static_cast<QWidget*>(this->Warning) })
+         static_cast<QWidget*>(this->Report), static_cast<QWidget*>(this->Warning) })
   {
     column->addWidget(part);
   }
@@ -365,34 +361,34 @@ void RefinePane::refresh()
   const bool paused = this->Editor->state() == RefineEditor::State::Paused;
   const bool ran = active || !this->Editor->costs().isEmpty();
   this->Choices->setEnabled(!active);
-  // A Compare Volumes brings its own.
+  // A Compare Volumes has its own.
   this->CavityRow->setEnabled(!isComparison(this->chosen(this->Reference)));
   this->Refine->setEnabled(!active);
   this->Pause->setEnabled(active);
   this->Pause->setText(paused ? tr("Go On") : tr("Pause"));
-  this->Pause->setToolTip(paused ? tr("Take the next steps.") : tr("Take no step for now."));
+  this->Pause->setToolTip(paused ? tr("Continue stepping.") : tr("Stop stepping for now."));
   this->Stop->setEnabled(active);
   this->Progress->setVisible(active);
   this->Progress->setValue(static_cast<int>(WholeProgress * this->Editor->figures().done));
   this->Plot->setVisible(ran && this->Editor->state() != RefineEditor::State::Idle);
   this->Plot->setCosts(this->Editor->costs());
-  this->say();
+  this->report();
 }
 
-void RefinePane::say()
+void RefinePane::report()
 {
   const RefineFigures& figures = this->Editor->figures();
-  QString said;
+  QString report;
   QString warning = this->Editor->problem();
   switch (this->Editor->state())
   {
     case RefineEditor::State::Running:
     case RefineEditor::State::Paused:
-      said = figures.steps > 0 ? refineProgress(figures) : tr("Preparing the first step ...");
+      report = figures.steps > 0 ? refineProgress(figures) : tr("Preparing the first step ...");
       break;
     case RefineEditor::State::Kept:
     case RefineEditor::State::Finished:
-      said = figures.steps > 0
+      report = figures.steps > 0
         ? refineResult(
             this->Editor->state() == RefineEditor::State::Kept ? tr("Stopped") : tr("Finished"),
             figures)
@@ -403,14 +399,7 @@ void RefinePane::say()
     case RefineEditor::State::Idle:
       break;
   }
-  this->Said->setText(said);
-  this->Said->setVisible(!said.isEmpty());
-  this->Warning->setText(warning);
-  this->Warning->setVisible(!warning.trimmed().isEmpty());
-  QPalette palette = this->palette();
-  palette.setColor(
-    QPalette::WindowText, gradeColor(Grade::Bad, this->palette(), wantsBlueAndOrange()));
-  this->Warning->setPalette(palette);
+  showTexts(this->Report, report, this->Warning, warning);
 }
 
 // The figures of a run often appear below the panel's lower edge. If the user has scrolled away,

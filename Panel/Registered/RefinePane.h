@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// The section "Refine" of the panel of a Free-Form Deformation, closed until it is wanted: what to
-/// compare with, buttons, progress, and what was reached.
+/// The section "Refine" of the panel of a Free-Form Deformation, closed at first: reference,
+/// similarity, buttons, progress and result.
 #ifndef BrainShift_RefinePane_h
 #define BrainShift_RefinePane_h
 
@@ -41,7 +41,7 @@ private:
   void listSources();
   void refine();
   void refresh();
-  void say();
+  void report();
   void bringIntoSight();
   pqPipelineSource* chosen(const QComboBox* list) const; ///< Null: none.
 
@@ -60,7 +60,7 @@ private:
   QToolButton* Stop = nullptr;
   QProgressBar* Progress = nullptr;
   CostPlot* Plot = nullptr;
-  QLabel* Said = nullptr;
+  QLabel* Report = nullptr;
   QLabel* Warning = nullptr;
   QTimer Soon; ///< Merges the events that change the lists.
 };

@@ -5,7 +5,6 @@
 #include "Interaction/Commands/Tools.h"
 #include "Interaction/Displays/SharedSettings.h"
 #include "Panel/Parts/Advice.h"
-#include "Panel/Parts/List.h"
 
 #include <vtkSMDoubleVectorProperty.h>
 
@@ -15,10 +14,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
-#include <string>
 #include <utility>
 
 namespace brainshift
@@ -94,9 +90,10 @@ StrokeModel::StrokeModel(vtkSMDoubleVectorProperty* strokes, Write write, QObjec
         { tr("Stroke"), tr("Number and tool. The check mark enables the stroke."), true },
         { tr("Amount"),
           tr("The displacement at the centre (mm). A Stamp pulls above 0 and pushes below 0.") },
-        { tr("Reached"), tr("Displacement of the tissue at the centre (mm), at full Strength") },
-        { tr("Along"), tr("Stamp: the reach along the push (mm). Soft: the radius (mm).") },
-        { tr("Across"), tr("Stamp: the reach across the push (mm)") },
+        { tr("Reached"),
+          tr("Achieved displacement of the tissue at the centre (mm), at full Strength") },
+        { tr("Along"), tr("Stamp: the radius along the push (mm). Soft: the radius (mm).") },
+        { tr("Across"), tr("Stamp: the radius across the push (mm)") },
         { tr("Position"), tr("The position of the stroke: x, y, z (mm, world axes)"), true },
       },
       parent)
@@ -293,9 +290,9 @@ QString StrokeModel::warning(int row, int column) const
     return guardAdvice(
       number, place < this->AppliedShares.size() ? this->AppliedShares[place] : 1.0);
   }
-  const QString name = column == MinorColumn      ? tr("The reach across the push")
+  const QString name = column == MinorColumn      ? tr("The radius across the push")
     : shapeOf(stroke.tool) == StrokeShape::Sphere ? tr("The radius")
-                                                  : tr("The reach along the push");
+                                                  : tr("The radius along the push");
   return radiusAdvice(name, number, this->LatticeSpacing);
 }
 

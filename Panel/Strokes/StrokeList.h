@@ -11,9 +11,7 @@
 #include <QWidget>
 
 #include <functional>
-#include <optional>
 #include <string>
-#include <vector>
 
 class QLabel;
 class QToolButton;

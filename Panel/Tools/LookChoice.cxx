@@ -13,7 +13,6 @@
 #include <pqView.h>
 
 #include <QAction>
-#include <QList>
 #include <QObject>
 #include <QPointer>
 

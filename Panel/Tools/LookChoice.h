@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// A look of a volume as panel and toolbar offer it, and what a click on it does.
+/// The looks (presets) of a volume, as panel and toolbar offer and apply them.
 #ifndef BrainShift_LookChoice_h
 #define BrainShift_LookChoice_h
 
@@ -16,7 +16,7 @@ namespace brainshift
 /// A small picture of a look.
 QIcon iconOfLook(const QString& name);
 
-/// What a look shows, one sentence.
+/// The tooltip of a look, one sentence.
 QString tipOfLook(const QString& name);
 
 /// The looks that a display can have. "Brain" is one of them also where a mask or label map is open

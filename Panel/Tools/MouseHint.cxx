@@ -26,7 +26,7 @@ bool isOfTool(const CommandRow& row, Tool tool)
   return std::find(row.tools.begin(), row.tools.end(), tool) != row.tools.end();
 }
 
-// The tool in hand takes the gestures that it knows away from the slices.
+// The tool in hand has precedence over the slices for its own gestures.
 bool isTakenByTool(const CommandRow& row, Tool tool)
 {
   return row.mouse != Mouse::None &&

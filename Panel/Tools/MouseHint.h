@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// What the mouse does in a view, as one line for the panel and the status bar. The words are those
+/// The mouse gestures of a view, as one line for the panel and the status bar. The words are those
 /// of the table of commands.
 #ifndef BrainShift_MouseHint_h
 #define BrainShift_MouseHint_h
 
 #include "Interaction/Commands/ToolSettings.h"
-
-#include <QString>
 
 namespace brainshift
 {

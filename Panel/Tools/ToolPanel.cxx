@@ -74,22 +74,22 @@ const QList<ToolPanel::Value>& ToolPanel::values()
 {
   static const QList<Value> all{
     { "BrainShiftRadius", QT_TR_NOOP("Radius (mm)"), 1,
-      QT_TR_NOOP("Tissue within this distance of the cursor follows, the less the farther away."),
+      QT_TR_NOOP("Tissue within this distance of the cursor moves, less towards the edge."),
       &ToolSettings::radius, &ToolSettings::radiusRange, &ToolSettings::setRadius },
-    { "BrainShiftMajorRadius", QT_TR_NOOP("Reach along (mm)"), 1,
+    { "BrainShiftMajorRadius", QT_TR_NOOP("Radius along (mm)"), 1,
       QT_TR_NOOP(
         "Distance from the centre of the stamp to its edge along the push (the major radius). The "
         "push leads to the point of interest."),
       &ToolSettings::majorRadius, &ToolSettings::radiusRange, &ToolSettings::setMajorRadius },
-    { "BrainShiftMinorRadius", QT_TR_NOOP("Reach across (mm)"), 1,
+    { "BrainShiftMinorRadius", QT_TR_NOOP("Radius across (mm)"), 1,
       QT_TR_NOOP(
         "Distance from the centre of the stamp to its edge across the push (the minor radius)."),
       &ToolSettings::minorRadius, &ToolSettings::radiusRange, &ToolSettings::setMinorRadius },
-    { "BrainShiftSigma", QT_TR_NOOP("Fullness (\u00d7 reach)"), 2,
+    { "BrainShiftSigma", QT_TR_NOOP("Fullness (\u00d7 radius)"), 2,
       QT_TR_NOOP(
-        "How much of the tissue within reach follows. A small number makes a sharp peak at the "
-        "centre, a large one a broad hill. The edge is always soft. (Sigma: the width of the "
-        "Gaussian as a fraction of the reach.)"),
+        "Width of the hill that the tissue forms. A small number makes a sharp peak at the centre, "
+        "a large number a broad hill. The edge is always soft. (Sigma: the width of the Gaussian "
+        "as a fraction of the radius.)"),
       &ToolSettings::sigma, &ToolSettings::sigmaRange, &ToolSettings::setSigma },
     { "BrainShiftMillimetresPerClick", QT_TR_NOOP("Per click (mm)"), 2,
       QT_TR_NOOP("One click of the mouse wheel pulls or pushes the tissue this far."),
@@ -232,9 +232,9 @@ QString ToolPanel::advice() const
     case StrokeShape::Ellipsoid:
     {
       const bool minorIsLess = settings.minorRadius() <= settings.majorRadius();
-      return minorIsLess ? radiusAdvice(tr("The reach across the push"), settings.minorRadius(),
+      return minorIsLess ? radiusAdvice(tr("The radius across the push"), settings.minorRadius(),
                              this->LatticeSpacing)
-                         : radiusAdvice(tr("The reach along the push"), settings.majorRadius(),
+                         : radiusAdvice(tr("The radius along the push"), settings.majorRadius(),
                              this->LatticeSpacing);
     }
     default:

@@ -6,10 +6,8 @@
 
 #include <pqCoreUtilities.h>
 
-#include <QDialog>
 #include <QDialogButtonBox>
 #include <QLabel>
-#include <QTimer>
 #include <QVBoxLayout>
 
 namespace brainshift

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// BrainShift's entries in ParaView's Help menu: mouse and keys, and what BrainShift is.
+/// BrainShift's entries in ParaView's Help menu: mouse and keys, tutorial, and About.
 #ifndef BrainShift_HelpActions_h
 #define BrainShift_HelpActions_h
 

@@ -2,7 +2,6 @@
 #include "Panel/Window/StatusLine.h"
 
 #include "Filters/Fit/Fit.h"
-#include "Interaction/Commands/ToolSettings.h"
 #include "Panel/Tools/MouseHint.h"
 
 #include <pqApplicationCore.h>
@@ -17,13 +16,8 @@
 
 #include <QApplication>
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QStringList>
 #include <QToolButton>
-
-#include <glm/geometric.hpp>
-
-#include <cmath>
 
 namespace brainshift
 {
@@ -74,11 +68,11 @@ QString numberText(double number)
 
 namespace
 {
-// How far the place of tissue can be believed, as pictures class it.
-QString evidenceText(double deviation)
+// The uncertainty of a position. The limit is that of the pictures.
+QString uncertaintyText(double deviation)
 {
   constexpr double unknownMm = 4.0; // from here on pictures show no evidence
-  return deviation < unknownMm ? CursorLine::tr("evidence: \u00b1 %1 mm (95 %: %2 mm)")
+  return deviation < unknownMm ? CursorLine::tr("uncertainty: \u00b1 %1 mm (95 %: %2 mm)")
                                    .arg(deviation, 0, 'f', 1)
                                    .arg(DeviationsOfBall95 * deviation, 0, 'f', 1)
                                : CursorLine::tr("no evidence");
@@ -109,13 +103,13 @@ QString cursorText(const CursorTissue& tissue)
   {
     const double moved = glm::distance(tissue.deformed, tissue.rest);
     parts.append(CursorLine::tr("moved %1 mm").arg(moved, 0, 'f', 1));
-    parts.append(tissue.volumeShare > 0.0
-        ? CursorLine::tr("volume %1 %").arg(100.0 * tissue.volumeShare, 0, 'f', 0)
+    parts.append(tissue.jacobian > 0.0
+        ? CursorLine::tr("volume %1 %").arg(100.0 * tissue.jacobian, 0, 'f', 0)
         : CursorLine::tr("folded"));
   }
   if (tissue.deviation)
   {
-    parts.append(evidenceText(*tissue.deviation));
+    parts.append(uncertaintyText(*tissue.deviation));
   }
   return parts.join(QStringLiteral(" \u00b7 "));
 }
@@ -138,7 +132,7 @@ CursorLine::CursorLine(QWidget* parent)
   this->connect(&this->Cursor, &CursorWatch::moved, this, &CursorLine::follow);
   this->connect(&this->Cursor, &CursorWatch::left, this, &CursorLine::fallSilent);
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
-  // A question must not keep alive what is deleted.
+  // A pending question must not keep a deleted proxy alive.
   this->connect(model, &pqServerManagerModel::preViewRemoved, this, &CursorLine::fallSilent);
   this->connect(
     model, &pqServerManagerModel::preRepresentationRemoved, this, &CursorLine::fallSilent);
@@ -224,7 +218,7 @@ void StatusLine::refresh()
 {
   const ToolSettings& settings = *ToolSettings::instance();
   const bool inHand = settings.tool() != Tool::None;
-  // Without a tool the mouse does what it always does, but for slices.
+  // Without a tool the mouse has its usual gestures, except over slices.
   const bool isOurs = inHand || !settings.request().isEmpty() ||
     settings.ground() == ToolSettings::Ground::FlatSlices;
   this->Line->setText(isOurs ? mouseHint(settings, settings.ground()) : QString());

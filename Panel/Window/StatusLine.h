@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// The texts of the status bar: what the mouse does, and what lies under the cursor.
+/// The texts of the status bar: mouse gestures, and the tissue under the cursor.
 #ifndef BrainShift_StatusLine_h
 #define BrainShift_StatusLine_h
 
 #include "Interaction/Views/CursorProbe.h"
 #include "Interaction/Views/CursorWatch.h"
 
-#include <vtkEventQtSlotConnect.h>
-#include <vtkNew.h>
-
 #include <QLabel>
-#include <QPointer>
 #include <QSize>
-#include <QTimer>
 #include <QWidget>
 
 class QLabel;
@@ -21,11 +16,11 @@ class QToolButton;
 
 namespace brainshift
 {
-// Shows in the status bar what lies under the cursor in a view of Deformed Volume or Deformed
-// Slices. It says nothing where nothing is known.
+// Shows the tissue under the cursor in the status bar, in a view of Deformed Volume or Deformed
+// Slices. It is empty where the view shows no tissue.
 
 /// The line for some tissue: position, position before it was bent, intensity, label, distance that
-/// it moved, share of its volume. Letters for the patient's sides only where they are known.
+/// it moved, fraction of its volume. Letters for the patient's sides only where they are known.
 QString cursorText(const CursorTissue& tissue);
 
 class CursorLine : public QLabel
@@ -54,7 +49,7 @@ private:
   vtkNew<vtkEventQtSlotConnect> Drawing; ///< Hears of each picture in the view.
 };
 
-/// Shows in the status bar of the window what the mouse does in the view under the cursor. If the
+/// Shows the mouse gestures of the view under the cursor in the status bar of the window. If the
 /// view shows another volume than the tool works on, a button takes the tool to it.
 class StatusLine : public QWidget
 {

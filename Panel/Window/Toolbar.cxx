@@ -117,8 +117,8 @@ void Toolbar::addFlicker()
   this->Flickering->setAutoRepeat(false);
   this->Flickering->setCheckable(true);
   auto flicker = new Flicker(this);
-  this->connect(this->Flickering, &QAction::triggered, flicker, &Flicker::turn);
-  this->connect(flicker, &Flicker::turned, this->Flickering, &QAction::setChecked);
+  this->connect(this->Flickering, &QAction::triggered, flicker, &Flicker::setOn);
+  this->connect(flicker, &Flicker::switched, this->Flickering, &QAction::setChecked);
 }
 
 void Toolbar::addLooks()

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file The toolbar: the tools, Reset All Strokes, Before/After, Flicker and Live Pointer. They
-/// act on the active deformation (ActiveDeformation.h), except for Flicker (Flicker.h) and Live
-/// Pointer, which opens a dock. A button is disabled while it can do nothing.
+/// @file
+/// The toolbar: the tools, Reset All Strokes, Before/After, Flicker and Live Pointer. They act on
+/// the active deformation (ActiveDeformation.h), except for Flicker (Flicker.h) and Live Pointer,
+/// which opens a dock. A button is disabled while it can do nothing.
 #ifndef BrainShift_Toolbar_h
 #define BrainShift_Toolbar_h
 

@@ -14,23 +14,18 @@
 
 #include <vtkPythonInterpreter.h>
 #include <vtkSMPropertyHelper.h>
-#include <vtkSMProxy.h>
 
 #include <QAction>
 #include <QApplication>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QObject>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QTimer>
 #include <QVBoxLayout>
 #include <QWidget>
 
 #include <algorithm>
 #include <cstring>
-#include <memory>
-#include <vector>
 
 namespace brainshift
 {
@@ -79,7 +74,7 @@ struct Page
   Task task;
   const char* title;
   const char* text;
-  const char* help = nullptr; // what the button does for the user; null: nothing
+  const char* help = nullptr; // text of the button that does the step; null: no button
   Tool tool = Tool::None;     // of the task UseTool
 };
 
@@ -107,8 +102,8 @@ std::vector<Page> makePages()
     "Hold down the button <b>Before/After</b> in the toolbar: you see the volume as it was loaded. "
     "Over a view, the key O does this, too." });
   pages.push_back({ Task::Save, "Save",
-    "Choose <b>File &gt; Save State</b>. The state file holds every stroke. Load it tomorrow and "
-    "go on. Ctrl+Z takes strokes back one by one." });
+    "Choose <b>File &gt; Save State</b>. The state file holds every stroke. Load it later to "
+    "continue. Ctrl+Z undoes strokes one by one." });
   return pages;
 }
 
@@ -243,8 +238,8 @@ void Tutorial::go(int step)
   if (step >= stepCount())
   {
     this->Title->setText(tr("<b>Done</b>"));
-    this->Text->setText(tr("You know the tools. Help &gt; BrainShift Mouse and Keys lists what "
-                           "mouse and keys do. Press Leave to close this window."));
+    this->Text->setText(tr("You know the tools. Help &gt; BrainShift Mouse and Keys lists all "
+                           "gestures and keys. Press Leave to close this window."));
     this->Help->hide();
     return;
   }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// A guided start in seven steps: open, look, stamp, soft, pull, compare, save. Each step says what
-/// to do, waits until it is done, and can be skipped. The window stays usable all the time.
+/// A guided start in seven steps: open, look, stamp, soft, pull, compare, save. Each step gives
+/// one instruction, waits until it is done, and can be skipped. The window stays usable all the
+/// time.
 #ifndef BrainShift_Tutorial_h
 #define BrainShift_Tutorial_h
 

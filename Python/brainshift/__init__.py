@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Helpers to bend a medical volume with BrainShift from Python.
+"""Helpers to deform a medical volume with BrainShift from Python.
 
     import brainshift
     ffd.Strokes = brainshift.stamp(anchor, toward, 10.0) + brainshift.move(point, (0, 0, 2))

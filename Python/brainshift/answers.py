@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Asks a Deformed Volume or Deformed Slices about the picture they drew.
+"""Reads facts about the last picture of a Deformed Volume or Deformed Slices.
 
-The answers come from the process that draws, so they are right with a server too.
+The process that draws computes them, so they are right with a server too.
 """
 
 REPRESENTATIONS = ("Deformed Volume", "Deformed Slices")
@@ -33,8 +33,8 @@ def _answer(report, name):
 def pick(representation, view, x, y):
     """Find the position of the tissue that a view shows at a pixel.
 
-    The tissue lies where the opacity along the ray reaches one half, or on the slice that is seen.
-    The answer describes the picture that was drawn last. The function draws nothing.
+    The position is where the opacity along the ray reaches one half, or on the visible slice.
+    It belongs to the picture that was drawn last. The function draws nothing.
 
     - `representation`: the display of the volume in `view`. It must be drawn as Deformed Volume or
       Deformed Slices.
@@ -56,7 +56,7 @@ def pick(representation, view, x, y):
 
 
 def slice_axes(representation):
-    """Find how the planes of Deformed Slices lie in the world.
+    """Find the orientation of the planes of Deformed Slices in the world.
 
     They are known once the representation has been drawn.
 
@@ -81,7 +81,7 @@ def _numbers(representation):
 
 
 def counters(representation):
-    """Count what the renderer of a representation has done since it was created.
+    """Count the work of the renderer of a representation since it was created.
 
     - `representation`: a display that is drawn as Deformed Volume or Deformed Slices.
 
@@ -91,11 +91,11 @@ def counters(representation):
     - `pixelsCast`: pixels of its images that rays were cast through, approximately
     - `volumeUploads`, `latticeUploads`, `transferUploads`, `segmentUploads`: how often the voxels,
       the control points, the colour map and the segments were sent to the GPU
-    - `bytesUploaded`: bytes sent to the GPU, but for corrections and bricks
+    - `bytesUploaded`: bytes sent to the GPU, without corrections and bricks
     - `texelsRefined`: samples of the displacement that were computed from control points
     - `presenceUpdates`: how often the map of visible bricks was computed
     - `skippingBytes`: bytes of brick faces and leaps that were made from that map
-    - `correctionBytes`: bytes sent to the GPU to correct the deformation where it bends much
+    - `correctionBytes`: bytes sent to the GPU to correct the deformation where it varies fast
     - `samplesTaken`, `samplesSkipped`: samples along rays. They are counted while the property
       `CountSamples` of the representation is on
     - `imageScale`: screen pixels along one side of a pixel that was drawn, a state, not a count
@@ -108,7 +108,7 @@ def counters(representation):
 
 
 def gpu(representation):
-    """Ask how much of the GPU a representation uses now.
+    """Return how much of the GPU a representation uses now.
 
     - `representation`: a display that is drawn as Deformed Volume or Deformed Slices.
 

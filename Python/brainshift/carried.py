@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Carries the look of one display over to another."""
+"""Copies the colours, opacity and slices of one display to another."""
 
 #: What makes the look, beside the type of the representation.
 LOOK = (

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws into pictures, and makes the contents of picture files. It knows no pipeline.
+"""Draws into pictures, and makes the contents of picture files, without any pipeline.
 
 Pictures are arrays of bytes, indexed [row from below, column, rgb].
 """
@@ -49,17 +49,17 @@ def png(pixels, texts):
 
 
 def colored_difference(before, after):
-    """White where two pictures agree, orange where `after` is brighter, blue where it is darker."""
+    """White where two pictures are equal, orange where `after` is brighter, blue where darker."""
     import numpy
 
     change = (after.astype(float).mean(axis=2) - before.astype(float).mean(axis=2)) / 255.0
-    share = numpy.clip(numpy.abs(change) / FULL_DIFFERENCE, 0.0, 1.0)[:, :, None]
+    fraction = numpy.clip(numpy.abs(change) / FULL_DIFFERENCE, 0.0, 1.0)[:, :, None]
     colors = numpy.where(change[:, :, None] > 0, ORANGE, BLUE)
-    return numpy.rint((1 - share) * 255 + share * colors).astype(numpy.uint8)
+    return numpy.rint((1 - fraction) * 255 + fraction * colors).astype(numpy.uint8)
 
 
 def _letters(text, height):
-    """How much of each pixel a text covers, 0 to 1, indexed [row from below, column]."""
+    """The fraction of each pixel that a text covers, 0 to 1, indexed [row from below, column]."""
     import vtkmodules.vtkRenderingFreeType  # noqa: F401 without it there are no letters
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkCommonDataModel import vtkImageData
@@ -76,7 +76,7 @@ def _letters(text, height):
 
 
 def _grown(mask, by):
-    """A mask with a rim of `by` pixels around what it covers. It keeps its size."""
+    """A mask that is dilated by `by` pixels. Its shape does not change."""
     import numpy
 
     result = mask.copy()
@@ -128,12 +128,12 @@ def _hex(color):
     return "#{:02x}{:02x}{:02x}".format(*color)
 
 
-def _text(x, y, said, anchor="start"):
-    return f'<text x="{x}" y="{y}" text-anchor="{anchor}">{escape(said)}</text>'
+def _text(x, y, text, anchor="start"):
+    return f'<text x="{x}" y="{y}" text-anchor="{anchor}">{escape(text)}</text>'
 
 
 class _Plot:
-    """The area of an SVG plot, in its units, and what stands for a column of bars."""
+    """The area of an SVG plot, in its units, and the style of its bars."""
 
     LEFT, TOP, ACROSS, DOWN = 70.0, 50.0, 660.0, 300.0
     BOTTOM = TOP + DOWN
@@ -160,10 +160,10 @@ class _Plot:
         """Lines, marks in mm and numbers of points."""
         lines = [f'<path d="M{self.LEFT} {self.BOTTOM}h{self.ACROSS}M{self.LEFT} {self.TOP}'
                  f'v{self.DOWN}" stroke="{INK}" fill="none"/>']
-        for share in (-2, -1, 0, 1, 2):
-            x = self.LEFT + self.ACROSS * (0.5 + share / 4)
+        for quarter in (-2, -1, 0, 1, 2):
+            x = self.LEFT + self.ACROSS * (0.5 + quarter / 4)
             lines.append(f'<path d="M{x} {self.BOTTOM}v6" stroke="{INK}"/>')
-            lines.append(_text(x, self.BOTTOM + 24, f"{share * self.width * self.bins / 4:g}",
+            lines.append(_text(x, self.BOTTOM + 24, f"{quarter * self.width * self.bins / 4:g}",
                                "middle"))
         return [*lines, _text(self.LEFT - 8, self.TOP + 5, f"{self.most:g}", "end"),
                 _text(self.LEFT - 8, self.BOTTOM, "0", "end"),
@@ -171,10 +171,10 @@ class _Plot:
                 _text(self.LEFT + self.ACROSS / 2, self.BOTTOM + 50,
                       "distance to the cortex (mm), positive outside", "middle")]
 
-    def legend(self, row, name, said):
+    def legend(self, row, name, figures):
         y = self.BOTTOM + 90 + 26 * row
         return [f'<rect x="{self.LEFT}" y="{y - 12}" width="16" height="14" {self.LOOKS[name]}/>',
-                _text(self.LEFT + 26, y, f"{name}: {said}")]
+                _text(self.LEFT + 26, y, f"{name}: {figures}")]
 
 
 def histogram_svg(before, after, texts):

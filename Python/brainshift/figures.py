@@ -70,7 +70,7 @@ def _checked(bent, size):
 
 @contextlib.contextmanager
 def _strength_kept(bent):
-    """Afterwards Strength is what it was, whatever happened."""
+    """Restores Strength, also after an error."""
     before = bent.Strength
     try:
         yield
@@ -80,7 +80,7 @@ def _strength_kept(bent):
 
 
 def _pixels(view, size):
-    """What the view shows, in an image of `size`: bytes, indexed [row from below, column, rgb]."""
+    """The picture of a view in `size`: bytes, indexed [row from below, column, rgb]."""
     from paraview import servermanager
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
@@ -100,7 +100,7 @@ def _pixels(view, size):
 
 
 def _mm_in_pixel(view, height):
-    """mm that a pixel of a picture shows, and the name of the projection.
+    """Size of a pixel of a picture (mm), and the name of the projection.
 
     In a parallel projection this holds everywhere, in a perspective one at the focal point.
     """
@@ -122,7 +122,7 @@ def _bar_length(limit):
 
 
 def _scale(view, size):
-    """Settings of the scale bar: its length, and what it holds for."""
+    """Settings of the scale bar: its length, and where it is valid."""
     mm, projection = _mm_in_pixel(view, size[1])
     length = _bar_length(LONGEST_BAR * size[0] * mm)
     where = "" if projection == "parallel" else " at the focal point"
@@ -155,7 +155,7 @@ def _versions():
 
 
 def _settings(bent, scale, size):
-    """What the pictures depend on, as rows of name, value and unit."""
+    """The settings that pictures depend on, as rows of name, value and unit."""
     strokes = len(bent.Strokes) // 14
     return [
         ("Volume", _volume_name(bent), ""),
@@ -211,10 +211,10 @@ def _as_text(rows):
 
 def _in_a_line(rows):
     """The figures of a trace, shortened to two decimals."""
-    said = (f"{name.removeprefix('Trace ').rsplit(' ', 1)[0]} "
-            + (f"{value:.2f}" if isinstance(value, float) else str(value)) + f" {unit}"
-            for name, value, unit in rows)
-    return ", ".join(text.strip() for text in said)
+    texts = (f"{name.removeprefix('Trace ').rsplit(' ', 1)[0]} "
+             + (f"{value:.2f}" if isinstance(value, float) else str(value)) + f" {unit}"
+             for name, value, unit in rows)
+    return ", ".join(text.strip() for text in texts)
 
 
 def _write(folder, name, content):
@@ -238,16 +238,16 @@ def figure(bent, folder, traces=None, view=None, size=(1200, 900)):
     - `numbers.csv`: settings and figures as rows of `name,value,unit`.
 
     All pictures have one camera, that of the view. Each has a scale bar. In a parallel projection
-    the bar holds everywhere, in a perspective one at the focal point. The PNG files carry the
+    the bar is valid everywhere, in a perspective one at the focal point. The PNG files carry the
     settings as text: name of the volume without its folder, number of strokes, lattice, kernel,
-    strength, scale and versions. `Strength` is afterwards what it was, also after an error.
+    strength, scale and versions. `Strength` is restored afterwards, also after an error.
 
     - `bent`: a Free-Form Deformation.
     - `folder`: path of the folder. It is made if it is missing.
     - `traces`: a Trace Distance. Default: the first one that measures to the deformed volume, if
       there is one.
     - `view`: a render view that shows the deformed volume. Default: the active view, or else the
-      first view that shows it. The height of a picture shows what the height of the view shows.
+      first view that shows it. A picture shows the same height as the view.
     - `size`: width and height of the pictures in pixels. Default: 1200 x 900.
 
     Returns a list of the paths of the files.
@@ -334,12 +334,12 @@ class _Series:
 def animate(bent, file, view=None, size=(1200, 900), frames=50, rate=25):
     """Write an animation in which `Strength` goes from 0 to 1.
 
-    Each picture has a scale bar, as those of `figure`. `Strength` is afterwards what it was, also
+    Each picture has a scale bar, as those of `figure`. `Strength` is restored afterwards, also
     after an error.
 
     - `bent`: a Free-Form Deformation.
-    - `file`: path of the file. Its ending says what is written: `.ogv` (Ogg Theora) or `.avi` a
-      movie, `.png` a numbered picture for each frame: `NAME.0000.png` and so on. The folder must
+    - `file`: path of the file. Its ending chooses the format: `.ogv` (Ogg Theora) or `.avi` for
+      a movie, `.png` for one numbered picture per frame: `NAME.0000.png` and so on. The folder must
       exist.
     - `view`: a render view that shows the deformed volume. Default: the active view, or else the
       first view that shows it.

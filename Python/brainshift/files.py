@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Saves volumes, saves and loads lattices and displacement fields, says whom a series shows."""
+"""Saves volumes, lattices and displacement fields, loads the latter, reads a DICOM patient."""
 
 from .arguments import vector
 
@@ -10,7 +10,7 @@ def _write(writer, name):
     writer.SMProxy.UpdatePropertyInformation()
     problem = writer.GetPropertyValue("Problem")
     if problem:
-        raise OSError(f"{name} was not written: {problem}. ParaView's output window says more")
+        raise OSError(f"{name} was not written: {problem}. See ParaView's output window")
 
 
 def _world(world):
@@ -98,9 +98,9 @@ def load_field(name, direction="As Stored In The File", world="RAS"):
     backward fields. A backward field is inverted on its own points.
 
     - `name`: path of the file.
-    - `direction`: `"As Stored In The File"`, the default. If you know better than the file, give
-      `"Forward"` or `"Backward"`.
-    - `world`: `"RAS"`, the default, or `"LPS"`, the world axes of the volume to bend.
+    - `direction`: `"As Stored In The File"`, the default. `"Forward"` or `"Backward"`
+      overrides the file.
+    - `world`: `"RAS"`, the default, or `"LPS"`, the world axes of the volume to deform.
 
     Returns a ParaView source with a forward field in mm.
 
@@ -113,25 +113,26 @@ def load_field(name, direction="As Stored In The File", world="RAS"):
     leads = reader.GetDataInformation().GetFieldDataInformation().GetArrayInformation(
         "DisplacementDirection")
     if leads is None:
-        raise ValueError(f"{name} is not a displacement field; ParaView's output window says why")
+        raise ValueError(f"{name} is not a displacement field; see ParaView's output window")
     if leads.GetStringValue(0) == "forward":
         return reader
     return simple.InvertDisplacementField(Input=reader)
 
 
 def save_volume(source, name, array=None, world=None):
-    """Save a volume for another program, with its place, its axes and its type of numbers.
+    """Save a volume for another program, with its position, axes and data type.
 
     - `source`: a ParaView source of an image, such as Bake Deformation. A Free-Form Deformation
-      is saved as it was loaded; bake it to save it bent.
+      is saved as it was loaded; bake it to save it deformed.
     - `name`: path of the file to write, on the machine that computes. It ends in `.nii`,
       `.nii.gz`, `.mha`, `.mhd` or `.nrrd`.
     - `array`: name of the point array to write. The default, `None`, takes the active scalars.
-    - `world`: `"RAS"` or `"LPS"`, the world axes of the volume. The default, `None`, takes what
-      the volume says. If it says nothing, a warning does, and the volume is written as RAS.
+    - `world`: `"RAS"` or `"LPS"`, the world axes of the volume. The default, `None`, takes
+      those that are attached to the volume. Without them the volume is written as RAS, with a
+      warning.
 
-    Whole numbers of 8 bytes become those of 4 if these hold them. The new file takes the place of
-    an old one only when the disk holds all of it.
+    Integers of 8 bytes become integers of 4 bytes if all values fit. The new file replaces an old
+    one only when the disk holds all of it.
 
     Raises `OSError` with the reason if the file is not written, and `ValueError` if `world` is
     another word.
@@ -144,19 +145,20 @@ def save_volume(source, name, array=None, world=None):
 
 
 def dicom_patient(reader):
-    """Say whom a DICOM series shows.
+    """Read the name, number, birth date and sex of the patient of a DICOM series.
 
-    BrainShift shows the patient nowhere else, and no state, trace, volume or picture holds what
-    this returns. It reads the first file of the series again, on the machine that has it.
+    BrainShift shows these texts nowhere else, and never writes them to a state, trace, volume or
+    picture. The function reads the first file of the series again, on the machine that has it.
 
     - `reader`: a DICOM Volume Reader.
 
     Returns a dictionary of texts: `name` (family and given name with `^` between, as in the file),
-    `number`, `birth_date` (as 1970-01-31) and `sex` (M, F or O). A text is empty where the file
-    says nothing. Raises `TypeError` if `reader` is no DICOM Volume Reader.
+    `number`, `birth_date` (as 1970-01-31) and `sex` (M, F or O). A text is empty if the file
+    does not have it. Raises `TypeError` if `reader` is no DICOM Volume Reader.
     """
     if reader.SMProxy.GetXMLName() not in ("DICOMVolumeReader", "DICOMFileReader"):
-        raise TypeError(f"reader is a {reader.SMProxy.GetXMLName()}, and no DICOM Volume Reader")
+        raise TypeError(f"reader is a {reader.SMProxy.GetXMLName()}; it must be a DICOM Volume "
+                        "Reader")
     reader.UpdatePipelineInformation()
     report = reader.SMProxy.GetSessionProxyManager().NewProxy("misc", "DICOMPatientReport")
     report.UnRegister(None)  # Python holds it, and no state knows it
@@ -173,18 +175,18 @@ def save_dicom(source, folder, like, array=None, world=None):
     """Save a volume as a DICOM series of its own, one file for each slice.
 
     The series belongs to the study of the patient's scan and keeps its frame of reference, so
-    navigation shows both at the same place. Its images are marked as derived, and the description
-    says: research, not for clinical use.
+    navigation shows both at the same position. Its images are marked as derived. Their description
+    reads: research, not for clinical use.
 
     - `source`: a ParaView source of an image with one component, such as Bake Deformation.
     - `folder`: path of the folder to make, on the machine that computes. It must be new or empty.
     - `like`: path of a DICOM file of the patient's scan, or of a folder with one. The series takes
       its patient, study, frame of reference and modality.
     - `array`: name of the point array to write. The default, `None`, takes the active scalars.
-    - `world`: `"RAS"` or `"LPS"`, the world axes of the volume. The default, `None`, takes what
-      the volume says; if it says nothing, nothing is written.
+    - `world`: `"RAS"` or `"LPS"`, the world axes of the volume. The default, `None`, takes
+      those that are attached to the volume. Without them nothing is written.
 
-    Numbers that are not whole, or do not fit into 16 bits, are rounded to 65536 steps between the
+    Values that are no integers, or do not fit into 16 bits, are rounded to 65536 steps between the
     lowest and the highest. The folder is written whole or not at all.
 
     Raises `OSError` with the reason if it is not written, and `ValueError` if `world` is another

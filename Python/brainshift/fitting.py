@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Bends a volume by what was measured, with the uncertainty."""
+"""Fits a deformation to measurements, with its uncertainty."""
 
 from .reports import numbers
 
-#: The annotation of sources that `fit` made.
+#: The annotation of sources that BrainShift made; the window uses the same one.
 _MADE = "BrainShiftFit"
 
-#: The inputs that are made of arrays, and what the pipeline calls them.
+#: The inputs that are made from arrays, and their names in the pipeline.
 _INPUTS = {"RestLandmarks": "Landmarks At Rest", "MeasuredLandmarks": "Measured Landmarks",
            "Traces": "Traced Points"}
 
@@ -38,21 +38,22 @@ def _pulls(values):
 
 
 class Fit:
-    """What `fit` found. All numbers are mm, world axes.
+    """The result of `fit`. All numbers are mm, world axes.
 
-    - `filter`: the Fit Deformation, a ParaView source. The deformation has it as its lattice.
+    - `filter`: the Fit Deformation, a ParaView source. It is the lattice of the deformation.
     - `rigid`: the rigid part, a 4 x 4 matrix, measured from rest. It is not in the lattice.
-    - `residuals`: how far the measured points come to lie from where they were measured: first the
+    - `residuals`: the distances of the fitted points from their measured positions: first the
       landmarks, then the pulls, then the signed distances of the traced points from the cortex,
       positive outside. NaN for a point that does not count.
     - `landmark_residuals`, `pull_residuals`, `trace_residuals`: each part of it
-    - `leave_one_out`: for each landmark, how far a fit without it misses it, before the fold guard
-      and the mask change the bend. NaN for a landmark that the others say nothing about. For one
-      that is switched off, how far this fit misses it.
-    - `share`: the share of the bend beyond the base that was applied, 0 to 1. The fold guard may
-      leave less than 1.
-    - `relaxation`: 1, or 1.5 if the guard had to trust what was measured less
-    - `calibration`: the factor on deviations that leaving out landmarks showed
+    - `leave_one_out`: the leave-one-out error of each landmark: the distance between the measured
+      landmark and its prediction by a fit without it, before the fold guard and the mask change the
+      deformation. NaN for a landmark that the others do not constrain. For one that is switched
+      off, the distance to the prediction by this fit.
+    - `share`: the fraction of the fitted deformation that the fold guard allowed, 0 to 1. The base
+      is not included.
+    - `relaxation`: 1, or 1.5 if the guard had to raise the deviations of the measurements
+    - `calibration`: the factor on deviations, estimated from the leave-one-out errors
     """
 
     def __init__(self, source):
@@ -74,7 +75,7 @@ class Fit:
         self.relaxation = source.GetPropertyValue("Relaxation")
         self.calibration = source.GetPropertyValue("Calibration")
 
-    def _answers(self, points, name):
+    def _reported(self, points, name):
         import numpy
 
         points = _points("points", points)
@@ -82,41 +83,41 @@ class Fit:
             return numpy.empty(0)
         report = self.filter.SMProxy.GetSessionProxyManager().NewProxy("misc", "FitReport")
         report.UnRegister(None)  # Python holds it
-        report.PrototypeOn()  # a question is no step to undo
+        report.PrototypeOn()  # so that it is no step to undo
         report.GetProperty("Filter").AddProxy(self.filter.SMProxy)
-        asked = report.GetProperty("Points")
-        asked.SetNumberOfElements(points.size)
+        positions = report.GetProperty("Points")
+        positions.SetNumberOfElements(points.size)
         for i, number in enumerate(points.ravel()):
-            asked.SetElement(i, float(number))
+            positions.SetElement(i, float(number))
         report.UpdateVTKObjects()
         report.UpdatePropertyInformation(report.GetProperty(name))
-        answers = numpy.array(numbers(report, name), float)
-        if len(answers) != len(points) * (3 if name == "Measured" else 1):
-            raise RuntimeError("The fit gives no answers: it failed or was changed since; see the "
+        result = numpy.array(numbers(report, name), float)
+        if len(result) != len(points) * (3 if name == "Measured" else 1):
+            raise RuntimeError("The fit has no result: it failed or was changed since; see the "
                                "messages, and call fit again")
-        return answers
+        return result
 
     def measured_from_rest(self, points):
-        """Find where tissue was measured or would be: bend and rigid part together.
+        """Predict measured positions of tissue: deformation and rigid part together.
 
         - `points`: an N x 3 array of positions in the rest frame.
 
-        Returns an N x 3 array of positions in the measured frame. Strokes have no part in it.
+        Returns an N x 3 array of positions in the measured frame. Strokes are not included.
         """
-        return self._answers(points, "Measured").reshape(-1, 3)
+        return self._reported(points, "Measured").reshape(-1, 3)
 
     def deviation(self, points):
-        """Find how far `measured_from_rest` can be believed.
+        """Find the uncertainty of `measured_from_rest`.
 
         - `points`: an N x 3 array of positions in the rest frame.
 
-        Returns N standard deviations along each axis: infinity if nothing was measured. What the
-        fold guard, the mask and the control points changed counts too. A ball with 2.8 times the
-        deviation as its radius holds the tissue with 95 %. Where a landmark is measured also has
-        the error of a measurement: there the radius is 2.8 times the root of deviation² plus
+        Returns N standard deviations along each axis: infinity if nothing was measured. Changes by
+        the fold guard, the mask and the control points are included. A ball with a radius of 2.8
+        times the deviation contains the tissue with 95 %. A measured landmark has a measurement
+        error as well: its radius is 2.8 times the root of deviation² plus
         (0.7 mm × `calibration`)².
         """
-        return self._answers(points, "Deviations")
+        return self._reported(points, "Deviations")
 
 
 def _lattice_settings(source):
@@ -127,7 +128,7 @@ def _lattice_settings(source):
 
 
 def _shared(deformation):
-    """The settings of a deformation that its fit must share."""
+    """The settings of a deformation that must be equal in its fit."""
     values = {}
     for name in _lattice_settings(deformation):
         value = getattr(deformation, name)
@@ -140,7 +141,7 @@ def _shared(deformation):
 
 
 def _cortex(threshold, label, array, segmentation):
-    """The properties that say where the cortex is."""
+    """The properties that define the cortex."""
     values = {} if array is None else {"SurfaceArray": array}
     if threshold is not None and label is not None:
         raise ValueError("threshold and label are both given; give one of them")
@@ -154,7 +155,7 @@ def _cortex(threshold, label, array, segmentation):
 
 
 def _opening(opening):
-    """The properties that say where the skull is open."""
+    """The properties that define the opening of the skull."""
     if opening is None:
         return {}
     if hasattr(opening, "SMProxy"):
@@ -164,30 +165,30 @@ def _opening(opening):
 
 
 def is_kind(source, kind):
-    """Whether it is a source, and of that proxy."""
+    """Whether it is a source with that proxy."""
     return bool(source) and source.SMProxy.GetXMLName() == kind
 
 
 def own(source):
-    """Marks a source as one that `fit` made. State files keep the mark."""
+    """Marks a source as one that BrainShift made. State files keep the mark."""
     source.SMProxy.SetAnnotation(_MADE, "1")
     return source
 
 
 def _is_free(source, former):
-    """Whether `fit` made a source, and nothing but the former fit takes it."""
+    """Whether BrainShift made a source, and no other source than the former fit uses it."""
     proxy = source.SMProxy
     consumers = [proxy.GetConsumerProxy(i) for i in range(proxy.GetNumberOfConsumers())]
-    takers = [consumer.GetTrueParentProxy() for consumer in consumers if consumer]  # or is gone
+    users = [consumer.GetTrueParentProxy() for consumer in consumers if consumer]  # else deleted
     return proxy.HasAnnotation(_MADE) and not any(
-        taker is not former.SMProxy and taker.IsA("vtkSMSourceProxy")
-        and not taker.IsA("vtkSMRepresentationProxy")
-        for taker in takers)
+        user is not former.SMProxy and user.IsA("vtkSMSourceProxy")
+        and not user.IsA("vtkSMRepresentationProxy")
+        for user in users)
 
 
 def forget_former(former):
-    """Deletes a former fit with its points, or a former refinement, as far as `fit` or `refine`
-    made them and nothing takes them."""
+    """Deletes a former fit with its points, or a former refinement, if BrainShift made them and no
+    other source uses them."""
     from paraview import simple
 
     is_fit = is_kind(former, "FitDeformation")
@@ -201,7 +202,7 @@ def forget_former(former):
 
 
 def _solved(deformation, arrays, pulls, pins, values):
-    """A Fit Deformation that has run; an error with the reason if it could not."""
+    """A Fit Deformation after its update. Raises `ValueError` with the reason if it failed."""
     from paraview import simple
 
     made = []
@@ -229,28 +230,27 @@ def _solved(deformation, arrays, pulls, pins, values):
 
 def fit(filter, rest=None, measured=None, traces=None, pulls=None, pins=None, threshold=None,
         label=None, array=None, segmentation=None, opening=None, cavity=None):
-    """Bend a volume by what was measured, and give the deformation that lattice.
+    """Fit a deformation to measurements, and make it the lattice of a Free-Form Deformation.
 
-    All measurements are solved together. With landmarks alone the fit takes a rigid motion out
-    and bends little. With traces, pulls or pins the volume is taken to lie right already.
-    A later call for the same deformation takes the place of the former one. If it fails, the
-    former one stays. A fit that a refinement replaced is not deleted. Any other `Lattice`, such as
-    a refinement, becomes the `Base` of the fit: the bend from which it begins. The volume is then
-    taken to lie right, too.
+    All measurements are solved together. With landmarks alone the fit removes a rigid motion and
+    deforms little. With traces, pulls or pins the volume is assumed to be aligned already.
+    A later call for the same deformation replaces the former fit. If it fails, the former fit
+    stays. A fit that a refinement replaced is not deleted. Any other `Lattice`, such as a
+    refinement, becomes the `Base` of the fit: the deformation from which it starts. The volume is
+    then assumed to be aligned, too.
 
     - `filter`: a Free-Form Deformation. Its `Lattice` becomes the fit; its strokes stay on top.
-    - `rest`, `measured`: N x 3 arrays in mm, landmarks in the rest frame and where they were
-      measured, in the same order.
+    - `rest`, `measured`: N x 3 arrays in mm, landmarks in the rest frame and their measured
+      positions, in the same order.
     - `traces`: an N x 3 array in mm, points that were traced on the cortex.
-    - `pulls`: an N x 2 x 3 array in mm: where tissue was, and where it was put.
-    - `pins`: an N x 3 array in mm, tissue that stays: where the base puts it, or at rest.
-    - `threshold` or `label`: how scalars show the cortex. The default is a threshold of 0.5.
+    - `pulls`: an N x 2 x 3 array in mm: start and target of tissue.
+    - `pins`: an N x 3 array in mm, tissue that stays at its position after the base, or at rest.
+    - `threshold` or `label`: the scalars of the cortex. The default is a threshold of 0.5.
     - `array`: name of the scalars; the volume must have them. The default, `None`, takes the
       active ones.
-    - `segmentation`: a ParaView source whose scalars show the cortex. The default, `None`, takes
-      those of the volume.
-    - `opening`: where the skull is open: a ParaView source of a mask, or centre and radius in mm.
-      The default, `None`, is a ball around what was traced and pulled. The cortex is held beyond
+    - `segmentation`: a ParaView source with these scalars. The default, `None`, is the volume.
+    - `opening`: the opening of the skull: a ParaView source of a mask, or centre and radius in mm.
+      The default, `None`, is a ball around traced and pulled points. The cortex is held beyond
       15 mm of it.
     - `cavity`: a ParaView source of a mask. Traced points in it do not count.
 

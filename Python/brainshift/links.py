@@ -4,15 +4,15 @@
 import itertools
 
 #: Of the names of links. ParaView's window keeps links so named out of its link manager, which
-#: would empty the undo stack when one goes: see Plugin/QuietLinks.h.
+#: would empty the undo stack when one goes: see Interaction/Workarounds/QuietLinks.h.
 PREFIX = "BrainShift "
 
 
 def link(proxies, group, name):
     """Keeps a property equal in all proxies from now on, also after a view is closed.
 
-    When a view is closed, ParaView's link keeps what was in it as a null pointer and follows it,
-    and ParaView's window forgets the whole link. So the link is then made again without it.
+    When a view is closed, ParaView's link keeps a null pointer to its proxy and follows it, and
+    ParaView's window drops the whole link. So the link is then made again without that proxy.
 
     - `proxies`: displays or views.
     - `group`: where they are registered, `"representations"` or `"views"`.

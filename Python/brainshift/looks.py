@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Shows a volume at its best at once: colours, opacities and a camera that fit its tissue."""
+"""Looks (presets) of a volume: colours, opacities and a camera that fit its tissue."""
 
 from .reports import measure, numbers, report_on
 
@@ -44,10 +44,10 @@ def _color(representation):
 def looks(representation):
     """List the looks of a volume. The first one fits at first sight.
 
-    A look is colours and opacities made from the histogram of the volume. MR has `Skin` and
-    `See-through`, CT has `Bone`, `Brain`, `Skin` and `Vessels`, ultrasound has `Ultrasound` and
-    `Skin`. With a segmentation attached, MR and ultrasound have `Brain`, too. A mask or a label map
-    has none.
+    A look (preset) has colours and opacities, made from the histogram of the volume. MR has `Skin`
+    and `See-through`, CT has `Bone`, `Brain`, `Skin` and `Vessels`, ultrasound has `Ultrasound` and
+    `Skin`. With a segmentation attached, MR and ultrasound have `Brain`, too. A mask, a label map
+    or a volume of one constant value has none.
 
     - `representation`: the display of a volume, for example a Deformed Volume.
 
@@ -99,14 +99,14 @@ def look(representation, name=None, view=None):
 
 
 def _aim(view, report):
-    """Looks at what a look shows, so that it fills the view."""
+    """Aims the camera at the tissue of a look, so that it fills the view."""
     report.GetProperty("ViewAspect").SetElement(0, view.ViewSize[0] / view.ViewSize[1])
     report.GetProperty("ViewAngle").SetElement(0, view.CameraViewAngle)
     report.UpdateVTKObjects()
     report.UpdatePropertyInformation()
     camera = numbers(report, "Camera")
     if not camera:
-        return  # nothing is seen
+        return  # no tissue is visible
     view.CameraPosition, view.CameraViewUp = camera[:3], camera[6:9]
     view.CameraFocalPoint = view.CenterOfRotation = camera[3:6]
     view.CameraParallelScale = camera[9]

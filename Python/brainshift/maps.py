@@ -28,7 +28,7 @@ def _mapped(filter, points, direction):
 
 
 def deformed_from_rest(filter, points):
-    """Find where points of the resting volume go.
+    """Map points of the rest frame to the deformed frame.
 
     - `filter`: a Free-Form Deformation.
     - `points`: an N x 3 array of positions in mm, world axes, rest frame.
@@ -45,7 +45,7 @@ def deformed_from_rest(filter, points):
 
 
 def rest_from_deformed(filter, points):
-    """Find which tissue is seen at points of the deformed volume.
+    """Map points of the deformed frame to the rest frame: find the tissue that is drawn there.
 
     This is the inverse of `deformed_from_rest`.
 

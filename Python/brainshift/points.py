@@ -39,7 +39,7 @@ def read_points(name, volume=1, table_axes="RAS"):
 
     Returns a named tuple of `positions`, an N x 3 array in mm, RAS; `labels`, a list of N strings;
     and `numbers`, `times` and `deviations`, arrays of N numbers. A number that the file does not
-    say is NaN.
+    have is NaN.
 
     Raises `ValueError` with the reason if the file cannot be read.
     """
@@ -101,10 +101,10 @@ def map_points(file_in, file_out, filter=None, direction="forward", volume=1, ta
     - `file_in`: path of the file to read, in a format of `read_points`.
     - `file_out`: path of the file to write, in a format of `read_points`. Its ending chooses the
       format. Times and deviations are kept by `.csv` and `.tsv` only.
-    - `filter`: a Free-Form Deformation. The default, `None`, leaves the points where they are and
+    - `filter`: a Free-Form Deformation. The default, `None`, does not move the points and
       only changes the format, unless there is a `transform`.
-    - `direction`: with a `filter`, `"forward"`, the default, maps points at rest to where they go,
-      and `"backward"` maps points in the deformed volume to the tissue that is seen there. With a
+    - `direction`: with a `filter`, `"forward"`, the default, maps points of the rest frame to the
+      deformed frame, and `"backward"` maps points of the deformed frame to the rest frame. With a
       `transform`, `"forward"` takes points of the fixed image to the moving image, as the files do,
       and `"backward"` takes points of the moving image to the fixed image.
     - `volume`: 1, the default, or 2, the volume of an MNI tag file whose points are read.
@@ -113,10 +113,10 @@ def map_points(file_in, file_out, filter=None, direction="forward", volume=1, ta
     - `file_axes`: `"RAS"` or `"LPS"`, the axes in the file to write, which names them. The
       default, `"Of The Format"`, writes LPS to files of Slicer and RAS to all others.
     - `transform`: instead of a `filter`, a transform of a registration program: the `files` of
-      `read_transform`, in its order, or what it returned. Points outside a B-spline or a field stay
-      where they are, as in ITK.
+      `read_transform`, in its order, or its result. Points outside a B-spline or a field do not
+      move, as in ITK.
 
-    All files lie on the machine that has the volume. The new file takes the place of an old one
+    All files are on the machine that has the volume. The new file takes the place of an old one
     only when the disk holds all of it.
 
     Returns the number of points.
@@ -127,8 +127,8 @@ def map_points(file_in, file_out, filter=None, direction="forward", volume=1, ta
     """
     from paraview import servermanager, simple
 
-    way = _DIRECTIONS.get(str(direction).lower())
-    if way is None:
+    leads = _DIRECTIONS.get(str(direction).lower())
+    if leads is None:
         raise ValueError(f'direction is {direction!r}; it must be "forward" or "backward"')
     if filter is not None and transform is not None:
         raise ValueError("filter and transform are both given; name one of them")
@@ -139,9 +139,9 @@ def map_points(file_in, file_out, filter=None, direction="forward", volume=1, ta
     moved = None
     try:
         if filter is not None:
-            moved = _moved_by(filter, points, way)
+            moved = _moved_by(filter, points, leads)
         elif transform is not None:
-            moved = _taken_by(transform, points, way)
+            moved = _taken_by(transform, points, leads)
         writer = servermanager.writers.LandmarkWriter(
             Input=moved or points, FileName=file_out, FileAxes=file_axes)
         _write(writer, file_out)

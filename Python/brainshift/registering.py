@@ -8,14 +8,14 @@ from .reports import numbers
 def _new_run(session):
     run = session.NewProxy("misc", "RegistrationRun")
     run.UnRegister(None)  # Python holds it
-    run.PrototypeOn()  # a question is no step to undo
+    run.PrototypeOn()  # so that it is no step to undo
     return run
 
 
 def similarities():
-    """List what `refine` can compare by.
+    """List the similarities that `refine` can use.
 
-    Returns a dictionary: for each name, when to choose it and what it compares.
+    Returns a dictionary: for each name, its use and its method.
     """
     from paraview import servermanager
 
@@ -28,7 +28,7 @@ def similarities():
 
 
 class _Run:
-    """A registration beside the data, and its figures."""
+    """A registration that runs beside the data, and its figures."""
 
     def __init__(self, source, begin, **properties):
         source.UpdatePipeline()
@@ -54,7 +54,7 @@ class _Run:
         return numpy.array(numbers(self.proxy, name))
 
     def steps(self, result, callback):
-        """Steps until it is finished or the callback returns False. Returns what to warn of."""
+        """Steps until it is finished or the callback returns False. Returns the warning, or ""."""
         taken = 0
         stop = False
         while not stop and not result.finished:
@@ -65,7 +65,7 @@ class _Run:
             for name, figure in result.FIGURES.items():
                 setattr(result, name, self.figure(figure))
             result.finished = bool(self.figure("Finished"))
-            # A call may only have tried a length of a step, or prepared a level.
+            # A call may have tried a length of a step only, or prepared a level.
             stop = (callback is not None and result.steps > taken and callback(result) is False)
             taken = result.steps
         if self.figure("Refusal"):
@@ -74,21 +74,21 @@ class _Run:
 
 
 class Alignment:
-    """What `align` found.
+    """The result of `align`.
 
-    - `rotation`, `translation`: where the reference lies now, as Compare Volumes has them: degrees
+    - `rotation`, `translation`: the position of the reference, as Compare Volumes has it: degrees
       about x, then y, then z, and mm
-    - `matrix`: how the reference was moved from where it was, a 4 x 4 matrix, mm, world axes
+    - `matrix`: the motion of the reference from its former position, a 4 x 4 matrix, mm, world axes
     - `information`, `information_before`: mutual information in nats, more is better, on the same
       level
     - `compared`: the fraction of the volume that has a partner in the reference, 0 to 1
-    - `shift`, `turn`: how far it was moved, mm and degrees. `align` is tested from up to 20 mm and
-      15 degrees away.
-    - `steps`, `level`: lines that were searched, and the level of the pyramid, from 0 on
+    - `shift`, `turn`: distance and angle of this motion, mm and degrees. `align` is tested for
+      starts up to 20 mm and 15 degrees away.
+    - `steps`, `level`: number of searched lines, and the level of the pyramid, from 0 on
     - `finished`: False if the callback stopped it
     """
 
-    #: Attributes, and the properties of the run that they are read from.
+    #: Attributes, and the properties of the run with their values.
     FIGURES = {"compared": "Overlap", "information": "Information",
                "information_before": "InformationBefore", "level": "Level", "shift": "Shift",
                "steps": "Steps", "turn": "Rotation"}
@@ -97,23 +97,23 @@ class Alignment:
 
 
 class Refinement:
-    """What `refine` found. Lengths are mm.
+    """The result of `refine`. Lengths are mm.
 
-    - `filter`: the Refined Lattice, a ParaView source. The deformation has it as its lattice.
-    - `strokes`: the strokes that were there before. The result holds what they did.
-    - `disagreement`, `disagreement_before`: the cost now and before, on the same level; 0 means
-      that the volumes agree
-    - `largest_change`, `mean_change`: how far control points moved
+    - `filter`: the Refined Lattice, a ParaView source. It is the lattice of the deformation.
+    - `strokes`: the former strokes. The result contains their effect.
+    - `disagreement`, `disagreement_before`: the cost now and at the start, on the same level; 0
+      means that the volumes match
+    - `largest_change`, `mean_change`: distance that control points moved
     - `smallest_determinant`: the smallest Jacobian determinant of the result
     - `share`: the smallest fraction of a step that the fold guard allowed, 0 to 1
     - `compared`: the fraction of the volume that has a partner in the reference, 0 to 1; by
       ultrasound, of the tissue inside the ultrasound fan
-    - `moved`: the longest move of a control point in the last step
-    - `steps`, `level`: steps that were taken, and the level of the pyramid, from 0 on
+    - `moved`: the longest displacement of a control point in the last step
+    - `steps`, `level`: number of steps, and the level of the pyramid, from 0 on
     - `finished`: False if the callback stopped it
     """
 
-    #: Attributes, and the properties of the run that they are read from.
+    #: Attributes, and the properties of the run with their values.
     FIGURES = {"compared": "Overlap", "disagreement": "Cost", "disagreement_before": "CostBefore",
                "largest_change": "LargestChange", "level": "Level", "mean_change": "MeanChange",
                "moved": "LongestMove", "share": "StepFraction", "steps": "Steps"}
@@ -124,13 +124,13 @@ class Refinement:
 def align(compare, callback=None):
     """Register the reference rigidly: maximise its mutual information with the volume.
 
-    The two volumes need no common contrast. The volume is
-    compared as it is bent; under a mask only the tissue inside. The cavity does not count.
+    The two volumes need no common contrast. The deformed volume is compared; under a mask only the
+    tissue inside. The cavity does not count.
 
-    - `compare`: a Compare Volumes. Its `ReferenceRotation` and `ReferenceTranslation` are set, from
-      where the reference lies.
+    - `compare`: a Compare Volumes. The search starts from the present position of its reference and
+      sets `ReferenceRotation` and `ReferenceTranslation`.
     - `callback`: is called after each step with the `Alignment` so far. If it returns `False`, the
-      search stops there. The default is `None`.
+      search stops. The default is `None`.
 
     Returns an `Alignment`.
 
@@ -138,7 +138,7 @@ def align(compare, callback=None):
     """
     import warnings
 
-    start = {}  # another source has no reference, and the run says so
+    start = {}  # another source has no reference, and the run reports that
     if is_kind(compare, "CompareVolumes"):
         start = {"StartRotation": compare.ReferenceRotation,
                  "StartTranslation": compare.ReferenceTranslation}
@@ -155,7 +155,7 @@ def align(compare, callback=None):
 
 
 def _shows(compare, bent):
-    """Whether a source is made from another one, through any number of filters."""
+    """Whether a source is downstream of another one, through any number of filters."""
     source = compare
     while source is not None and source.SMProxy is not bent.SMProxy:
         source = getattr(source, "Input", None)
@@ -177,7 +177,7 @@ def _compared(bent, reference, cavity):
 
 
 def _hold(bent, control_points):
-    """Gives the deformation the control points that were found, in place of all that it had."""
+    """Replaces lattice and strokes of the deformation by the control points of the result."""
     from paraview import simple
 
     former = bent.Lattice
@@ -196,21 +196,21 @@ def _hold(bent, control_points):
 def refine(filter, reference, similarity=None, stiffness=1.0, cavity=None, callback=None):
     """Refine a deformation automatically so that the volume matches a reference.
 
-    It begins with what is there, a fit and strokes, and changes it as little as the volumes ask.
-    The result takes the place of both; strokes that are made later follow it. Where tissue slides,
-    as along the falx, or was removed without a cavity, the result is wrong.
+    It starts from the present deformation, a fit and strokes, and changes it as little as the
+    volumes require. The result replaces both; later strokes follow it. The result is wrong where
+    tissue slides, as along the falx, or was removed without a cavity.
 
     - `filter`: a Free-Form Deformation. Its `Lattice` becomes the result, and its `Strokes` become
       empty.
     - `reference`: a Compare Volumes of the deformation, with its cavity and with the reference
-      where it lies; or a ParaView source of the reference.
+      in its present position; or a ParaView source of the reference.
     - `similarity`: one of the names that `similarities` lists. The default is the first of them,
-      which is for any contrast.
-    - `stiffness`: a factor on what bending costs, above 0. The default is 1.
-    - `cavity`: a ParaView source of a mask, if `reference` is no Compare Volumes. What it holds
-      does not count.
-    - `callback`: is called after each step with the `Refinement` so far. If it returns `False`, the
-      result is that of this step. The default is `None`.
+      which accepts any contrast.
+    - `stiffness`: a factor on the stiffness of the volume, above 0. The default is 1.
+    - `cavity`: a ParaView source of a mask, if `reference` is no Compare Volumes. Tissue inside
+      it does not count.
+    - `callback`: is called after each step with the `Refinement` so far. If it returns `False`,
+      that is the result. The default is `None`.
 
     Returns a `Refinement`.
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Asks the process that has a volume what its values are like."""
+"""Reads figures of a volume from the process that has it."""
 
 
 def report_on(source, port, association, name):
-    """A report on an array of a volume, which has not measured yet.
+    """A report on an array of a volume that has not measured yet.
 
     - `source`: the proxy of the source. It must be up to date.
     - `association`: 0 for points, 1 for cells.
@@ -19,13 +19,13 @@ def report_on(source, port, association, name):
 
 
 def measure(report, command="Measure"):
-    """Lets a report measure and brings its answers here."""
+    """Lets a report measure and fetches its figures."""
     report.UpdateVTKObjects()
     report.InvokeCommand(command)
     report.UpdatePropertyInformation()
 
 
 def numbers(report, name):
-    """The numbers of one of its answers."""
+    """All elements of one of its properties."""
     answer = report.GetProperty(name)
     return [answer.GetElement(i) for i in range(answer.GetNumberOfElements())]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Opens the sample head, ready to be bent."""
+"""Opens the sample head, ready to be deformed."""
 
 import os
 
@@ -9,14 +9,14 @@ HEAD, MASK = "seg3d_mr_t1.nii.gz", "seg3d_brainmask.nii.gz"
 
 
 def open_sample():
-    """Open the sample head, an MR with a brain mask, and show it ready to be bent.
+    """Open the sample head, an MR with a brain mask, and show it ready to be deformed.
 
     The head shows as Deformed Volume in the active view. The mask is its Segmentation, so that the
     look Brain is offered.
 
     Returns the Free-Form Deformation.
 
-    Raises `FileNotFoundError` if the sample data is not there. `./brainshift` knows where it is;
+    Raises `FileNotFoundError` if the sample data is not there. `./brainshift` sets its path;
     otherwise the environment variable `BRAINSHIFT_DATA` names the folder `Testing/Data`.
     """
     from paraview import simple

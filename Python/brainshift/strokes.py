@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes the strokes that bend a volume. See Filters/Deformation/Stroke.h for their numbers."""
+"""Makes the strokes that deform a volume. See Filters/Deformation/Stroke.h for their numbers."""
 
 import math
 
@@ -29,7 +29,7 @@ def move(anchor, vector, spacing=(0.0, 0.0, 0.0)):
     - `anchor`: three numbers in mm, rest frame. The control point nearest to it moves.
     - `vector`: three numbers in mm, the displacement of that control point.
     - `spacing`: three numbers in mm, the distances between control points along the axes of the
-      lattice that the stroke was made for. A denser lattice then bends tissue as that lattice
+      lattice that the stroke was made for. A denser lattice then moves tissue as that lattice
       did. The default, 0 0 0, takes the spacing of the lattice that replays the stroke.
 
     Returns a tuple of 14 numbers.
@@ -78,7 +78,7 @@ def stamp(anchor, toward, amount, major=40.0, minor=25.0, sigma=0.5):
     Returns a tuple of 14 numbers.
 
     Raises `ValueError` if an argument is not finite or not within its limit, or if `anchor` and
-    `toward` are one position.
+    `toward` are the same position.
     """
     anchor = _vector("anchor", anchor)
     toward = _vector("toward", toward)

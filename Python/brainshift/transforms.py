@@ -25,7 +25,7 @@ def _names(files):
 
 
 def _report(files, world, fixed_image, moving_image):
-    """The proxy that answers for files, in the process that reads them."""
+    """The report on files, in the process that reads them."""
     from paraview import simple
     manager = simple.servermanager.ProxyManager().SMProxyManager
     report = manager.NewProxy("misc", "TransformReport")
@@ -52,7 +52,7 @@ def _answer(report, name):
 
 
 class Transform:
-    """What `read_transform` found.
+    """The result of `read_transform`.
 
     - `kind`: `"identity"`, `"rigid"`, `"affine"` or `"nonlinear"`.
     - `moving_from_fixed`: a 4 x 4 array that takes points of the fixed image to the moving image
@@ -71,7 +71,7 @@ class Transform:
         - `points`: an N x 3 array of positions in mm, world axes.
 
         Returns an N x 3 array of positions in mm, world axes. A point outside a B-spline or a field
-        stays where it is, as in ITK.
+        does not move, as in ITK.
         """
         import numpy
         points = numpy.asarray(points, float)
@@ -98,7 +98,7 @@ def read_transform(files, world="RAS", fixed_image=None, moving_image=None):
       files are read where the volumes are.
     - `world`: `"RAS"`, the default, or `"LPS"`, the world axes of your points and volumes.
     - `fixed_image`, `moving_image`: the NIfTI files of the options `-ref` and `-in` of FSL's
-      `flirt`. Its matrices mean nothing without them. No other file needs them.
+      `flirt`. FSL's matrices are undefined without them. Other files do not need them.
 
     Returns a `Transform` with `kind`, `moving_from_fixed` and `map(points)`.
 
@@ -107,13 +107,14 @@ def read_transform(files, world="RAS", fixed_image=None, moving_image=None):
     return Transform(_report(_names(files), world, fixed_image, moving_image))
 
 
-def _rotation_degrees(turn):
-    """Angles about x, then y, then z of a rotation."""
-    y = math.asin(max(-1.0, min(1.0, -turn[2, 0])))
-    if abs(turn[2, 0]) < 1.0 - 1e-12:
-        x, z = math.atan2(turn[2, 1], turn[2, 2]), math.atan2(turn[1, 0], turn[0, 0])
-    else:  # x and z turn about the same axis
-        x, z = math.atan2(-turn[1, 2], turn[1, 1]), 0.0
+def _rotation_degrees(rotation):
+    """Angles about x, then y, then z of a rotation matrix."""
+    y = math.asin(max(-1.0, min(1.0, -rotation[2, 0])))
+    if abs(rotation[2, 0]) < 1.0 - 1e-12:
+        x = math.atan2(rotation[2, 1], rotation[2, 2])
+        z = math.atan2(rotation[1, 0], rotation[0, 0])
+    else:  # x and z rotate about the same axis
+        x, z = math.atan2(-rotation[1, 2], rotation[1, 1]), 0.0
     return [math.degrees(angle) for angle in (x, y, z)]
 
 
@@ -133,8 +134,8 @@ def _move_reference(compare, transform, direction):
     matrix = transform.moving_from_fixed
     drawn_from_loaded = matrix if direction == "forward" else numpy.linalg.inv(matrix)
     left, _, right = numpy.linalg.svd(drawn_from_loaded[:3, :3])
-    turn, middle = left @ right, _middle(compare.Reference)
-    compare.ReferenceRotation = _rotation_degrees(turn)
+    middle = _middle(compare.Reference)
+    compare.ReferenceRotation = _rotation_degrees(left @ right)
     compare.ReferenceTranslation = list(
         drawn_from_loaded[:3, :3] @ middle + drawn_from_loaded[:3, 3] - middle)
 
@@ -155,15 +156,16 @@ def _bend(bent, files, options):
 
 def apply_transform(filter, files, direction="backward", world="RAS", fixed_image=None,
                     moving_image=None):
-    """Bend a volume, or move a reference, with a transform of a registration program.
+    """Deform a volume, or move a reference, with a transform of a registration program.
 
     - `filter`: a Free-Form Deformation or a Compare Volumes. A Free-Form Deformation gets the
       transform as its `Lattice`, for its present `LatticeDimensions` and `Kernel`; strokes add to
       it. A Compare Volumes moves its reference; the transform must be rigid.
     - `files`, `world`, `fixed_image`, `moving_image`: as in `read_transform`.
-    - `direction`: `"backward"`, the default: what is bent or moved was the moving image. The
-      transform takes points of the picture to points of the volume as loaded. `"forward"`: it was
-      the fixed image. The transform takes points of the volume as loaded to where they are drawn.
+    - `direction`: `"backward"`, the default, if the volume to deform or move was the moving
+      image: the transform takes points of the picture to points of the volume as loaded.
+      `"forward"`, if it was the fixed image: the transform takes points of the volume as loaded
+      to points of the picture.
 
     Returns the largest distance in mm between the lattice and the transform, measured between
     control points, and 0 for Compare Volumes. More `LatticeDimensions` make it smaller.
@@ -186,7 +188,7 @@ def apply_transform(filter, files, direction="backward", world="RAS", fixed_imag
 
 
 def _write_itk(name, kind, parameters, fixed):
-    """Writes an ITK transform file as text. An old file is replaced by a whole new one only."""
+    """Writes an ITK transform file as text. It replaces an old file only when it is complete."""
     beside = f"{name}.part"
     with open(beside, "w", encoding="ascii") as file:
         file.write("#Insight Transform File V1.0\n#Transform 0\n"
@@ -208,13 +210,13 @@ def _save_rigid(compare, name, direction, world):
     import numpy
     x, y, z = (math.radians(angle) for angle in compare.ReferenceRotation)
     (cx, sx), (cy, sy), (cz, sz) = ((math.cos(angle), math.sin(angle)) for angle in (x, y, z))
-    turn = (numpy.array(((cz, -sz, 0), (sz, cz, 0), (0, 0, 1)))
-            @ numpy.array(((cy, 0, sy), (0, 1, 0), (-sy, 0, cy)))
-            @ numpy.array(((1, 0, 0), (0, cx, -sx), (0, sx, cx))))
+    rotation = (numpy.array(((cz, -sz, 0), (sz, cz, 0), (0, 0, 1)))
+                @ numpy.array(((cy, 0, sy), (0, 1, 0), (-sy, 0, cy)))
+                @ numpy.array(((1, 0, 0), (0, cx, -sx), (0, sx, cx))))
     middle = _middle(compare.Reference)
     matrix = numpy.eye(4)
-    matrix[:3, :3] = turn
-    matrix[:3, 3] = middle - turn @ middle + numpy.array(list(compare.ReferenceTranslation))
+    matrix[:3, :3] = rotation
+    matrix[:3, 3] = middle - rotation @ middle + numpy.array(list(compare.ReferenceTranslation))
     if direction == "backward":
         matrix = numpy.linalg.inv(matrix)
     signs = _signs(world)
@@ -224,7 +226,7 @@ def _save_rigid(compare, name, direction, world):
 
 
 def _problem_of_spline(bent, direction):
-    """Why a deformation is no B-spline of ITK, or None."""
+    """The reason why a deformation is no B-spline of ITK, or None."""
     if direction != "forward":
         return "the backward map of a lattice is no B-spline"
     if bent.Kernel != "B-Spline":
@@ -268,7 +270,8 @@ def save_transform(filter, name, direction="backward", spacing=None, world="RAS"
       forward, with the kernel B-Spline and without a mask. ITK's B-spline ends at the lattice. Text
       files are written where Python runs.
     - `direction`: `"backward"`, the default, takes points of the picture to points of the volume as
-      loaded. Images are resampled with it. `"forward"` leads the other way.
+      loaded. Images are resampled with it. `"forward"` takes points of the volume as loaded to
+      points of the picture.
     - `spacing`: distances in mm between the samples of a displacement field, as in `save_field`.
     - `world`: `"RAS"`, the default, or `"LPS"`, the world axes of the volume.
 

@@ -211,7 +211,7 @@ def _look(view, plane, convention, sides, bounds):
 
 
 def _looks_so(view, plane, convention, sides):
-    """Whether a view looks along its direction already, at any place and zoom."""
+    """Whether a view looks along its direction already, at any position and zoom."""
     towards, up = CAMERAS[convention][plane]
     ahead = [f - p for f, p in zip(view.CameraFocalPoint, view.CameraPosition)]
     length = sum(part * part for part in ahead) ** 0.5
@@ -226,14 +226,14 @@ def _looks_so(view, plane, convention, sides):
 
 
 def _look_at_slices(views, displays, convention, world, keeps):
-    """Turns the slice views as the convention asks. `keeps`: a view that lies so keeps its zoom."""
+    """Aims the slice views by the convention. `keeps`: views that are aimed so keep their zoom."""
     for plane, display in displays.items():
         view, source = views[plane], display.Input
         if world or not keeps:
             display.WorldAxes = world or "From the data"
         view.SMProxy.StillRender()  # the axes are known after that
-        said = str(display.WorldAxes.GetData())
-        known = said if said in WORLDS else _world_axes(source)
+        chosen = str(display.WorldAxes.GetData())
+        known = chosen if chosen in WORLDS else _world_axes(source)
         normals, _ = slice_axes(display)
         sides = [[sign * part for part in normal]
                  for sign, normal in zip(WORLDS[known or "RAS"], normals)]
@@ -244,7 +244,7 @@ def _look_at_slices(views, displays, convention, world, keeps):
 def _make_grey(source, displays, coloring):
     """Gives the slices one grey colour map, which the 3D view does not share.
 
-    It reaches over the grey values of the tissue, and ParaView does not change it afterwards.
+    It spans the grey values of the tissue, and ParaView does not change it afterwards.
     """
     from paraview import simple
 
@@ -261,7 +261,7 @@ def _make_grey(source, displays, coloring):
 
 
 def _new_views():
-    """Lays out four views that show nothing yet but what the active view shows."""
+    """Lays out four views. All are empty except the active view, which becomes the 3D view."""
     active, layout, cells = _place()
     views = {plane: _slice_view(plane) for plane in PLANES}
     for view, cell in zip(views.values(), cells):
@@ -284,11 +284,11 @@ def four_views(source, convention="radiological", world=None):
     The three slice views are 2D views of Deformed Slices. They share a grey colour map and one
     slice position: set `SlicePosition` (mm) of one display, and the others follow. They also share
     `SliceComparison`, `ComparisonColors`, `WipePosition` and `WorldAxes`. Letters mark the sides of
-    the patient where the world axes are known. Elsewhere x, y and z mark the edges, and the views
-    lie as for RAS.
+    the patient where the world axes are known. Otherwise x, y and z mark the edges, and the views
+    are oriented as for RAS.
 
     The grey values reach from the 1st to the 99th percentile of the tissue: see
-    `percentile_window`. In each slice lines show where the other two cut it (`ShowCrosshair`). The
+    `percentile_window`. Lines in each slice show the other two slices (`ShowCrosshair`). The
     slices have one zoom (`CameraParallelScale`).
 
     The 3D view shows Deformed Volume, unless it shows the volume in another way already. Four views
@@ -299,12 +299,12 @@ def four_views(source, convention="radiological", world=None):
     - `source`: a ParaView source of image data, for example a Free-Form Deformation.
     - `convention`: `"radiological"`, the default, shows the patient's right on the left of the
       picture. `"neurological"` shows it on the right.
-    - `world`: what x, y and z mean for the patient, `"RAS"` or `"LPS"`. Default: what the reader of
-      the file has attached to the data, if anything.
+    - `world`: the world axes, `"RAS"` or `"LPS"`. Default: those that the reader of the file has
+      attached to the data, if any.
 
     Returns a dict of views with the keys `axial`, `coronal`, `sagittal` and `volume`.
 
-    Raises `ValueError` if `convention` or `world` is none of these or the volume has no array.
+    Raises `ValueError` if `convention` or `world` is another word or the volume has no array.
     """
     from paraview import simple
 
@@ -329,7 +329,7 @@ def _bounds(source):
 
 
 def _show_again(source, views, former):
-    """Shows what all four views have shown before, at the same position; None if they have not."""
+    """Shows a source that all four views have shown before, at the same position; else None."""
     from paraview import simple
 
     displays = {name: display_of(source, view) for name, view in views.items()}
@@ -367,7 +367,7 @@ def show_comparison(comparison):
 
     In the active view the comparison gets the representation, the colours, the opacity and the
     segments of the volume that it compares. If the active view is one of the four views, slices
-    and 3D show the comparison together, in two colours unless another way was chosen.
+    and 3D show the comparison together, in two colours unless another mode was chosen.
 
     - `comparison`: a Compare Volumes filter that the active view shows.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Finds the window of grey values in which a volume is seen at first."""
+"""Finds the first window of grey values of a volume."""
 
 from .reports import measure, numbers, report_on
 
@@ -8,16 +8,16 @@ def percentile_window(source, association, name, percentiles=(1, 99)):
     """Find a window of grey values that shows the tissue of a volume.
 
     A few very bright voxels do not darken the window, and the background around the patient does
-    not count. The voxels are counted where they are, so this works with a server too. Of a larger
-    volume, about 4 million voxels at even distances are counted.
+    not count. The process that has the volume counts the voxels, so this works with a server too.
+    Of a larger volume, it counts about 4 million voxels at even distances.
 
     - `source`: a ParaView source of image data.
     - `association`: `"POINTS"` or `"CELLS"`.
     - `name`: name of an array with one component.
-    - `percentiles`: the shares of tissue (%) that are darker than the two ends of the window.
-      Default 1 and 99.
+    - `percentiles`: the percentages of tissue that are darker than the two ends of the window,
+      0 to 100. Default 1 and 99.
 
-    Returns the values at the two ends, or `None` if the array has no two different numbers or has
+    Returns the values at the two ends, or `None` if the array has no two different values or has
     several components.
 
     Raises `ValueError` if `percentiles` are not two ascending numbers from 0 to 100.

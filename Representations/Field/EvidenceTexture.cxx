@@ -2,16 +2,13 @@
 #include "Representations/Field/EvidenceTexture.h"
 
 #include "Representations/Field/SceneDeformation.h"
-#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/OpenGL.h"
 #include "Representations/Scene/FieldPlace.h"
-#include "Representations/Scene/Tints.h"
 
 #include "vtkOpenGLRenderWindow.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 namespace brainshift
 {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The uncertainty of each position in a drawn volume (one standard deviation, mm), on the
- * GPU of one window.
- */
+/// @file
+/// The uncertainty of each position in a drawn volume (one standard deviation, mm), on the GPU of
+/// one window.
 #ifndef BrainShift_EvidenceTexture_h
 #define BrainShift_EvidenceTexture_h
 
@@ -11,8 +9,6 @@
 
 #include "vtkSmartPointer.h"
 #include "vtkTextureObject.h" // for its smart pointer
-
-#include <vector>
 
 class vtkWindow;
 

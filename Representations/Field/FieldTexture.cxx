@@ -6,13 +6,6 @@
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkShaderProgram.h"
-#include "vtkTextureObject.h"
-
-#include <glm/common.hpp>
-#include <glm/mat4x4.hpp>
-
-#include <cstddef>
-#include <cstdint>
 
 namespace brainshift
 {

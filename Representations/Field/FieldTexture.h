@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The offset field on the GPU: uploads the control points, refines them, inverts the map and
- *        corrects it.
- */
+/// @file
+/// The offset field on the GPU: uploads the control points, refines them, inverts the map and
+/// corrects it.
 #ifndef BrainShift_FieldTexture_h
 #define BrainShift_FieldTexture_h
 
-#include "Filters/Deformation/FieldChange.h"
-#include "Filters/Deformation/OffsetField.h"
 #include "Representations/Field/FineTextures.h"
-#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/Program.h"
-
-#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
-#include "vtkSmartPointer.h"
-
-#include <glm/vec3.hpp>
-
-#include <memory>
-#include <vector>
 
 class vtkOpenGLRenderWindow;
 class vtkTextureObject;

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Field/FineCells.h"
 
-#include "Common/Grid.h"
 #include "Common/Parallel.h"
+#include "Filters/Deformation/PointMap.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/gtc/packing.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdlib>
 
 namespace brainshift

@@ -1,33 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Corrections of the offset field in the cells where a straight line between its nodes is
- *        not exact enough.
- *
- * A *cell* is the space between eight neighbouring nodes of the offset field. A *correction* is the
- * exact offset minus the offset of the field at the same position. A cell that needs corrections
- * has them on nodes 2, 4, 6, 8 or 16 times as dense; between these they are trilinear.
- */
+/// @file
+/// Corrections of the offset field in the cells where a straight line between its nodes is not
+/// exact enough.
+///
+/// A *cell* is the space between eight neighbouring nodes of the offset field. A *correction* is
+/// the exact offset minus the offset of the field at the same position. A cell that needs
+/// corrections has them on nodes 2, 4, 6, 8 or 16 times as dense; between these they are trilinear.
 #ifndef BrainShift_FineCells_h
 #define BrainShift_FineCells_h
 
 #include "Filters/Deformation/FieldChange.h"
-#include "Filters/Deformation/OffsetField.h"
-#include "Filters/Deformation/PointMap.h"
 #include "Representations/Gpu/ShaderSource.h"
 
-#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
-
-#include <glm/vec3.hpp>
-
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <vector>
 
 namespace brainshift
 {
+class PointMap;
+
 /// A *slot* holds the corrections on SlotSide fine nodes a side: two steps. A cell has one of
 /// SlotsASide. In the texture of corrections slots follow each other in rows along x, then y,
 /// then z.

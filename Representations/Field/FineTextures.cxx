@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Field/FineTextures.h"
 
-#include "Common/Grid.h"
 #include "Representations/Gpu/OpenGL.h"
 #include "Representations/Gpu/VolumePass.h"
 
 #include "vtkOpenGLRenderWindow.h"
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
 
 namespace brainshift
 {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The corrections of an offset field on the GPU of one window, see FineCells.h.
- */
+/// @file
+/// The corrections of an offset field on the GPU of one window, see FineCells.h.
 #ifndef BrainShift_FineTextures_h
 #define BrainShift_FineTextures_h
 
@@ -11,12 +9,6 @@
 
 #include "vtkSmartPointer.h"
 #include "vtkTextureObject.h" // for its smart pointer
-
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
-#include <cstdint>
-#include <vector>
 
 class vtkOpenGLRenderWindow;
 

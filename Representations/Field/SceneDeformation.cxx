@@ -2,16 +2,13 @@
 #include "Representations/Field/SceneDeformation.h"
 
 #include "Common/Problem.h"
-#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Scene/FieldPlace.h"
 
 #include "vtkImageData.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkTextureObject.h"
 
 #include <algorithm>
 #include <sstream>
-#include <utility>
 
 namespace brainshift
 {

@@ -1,28 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The deformation that a drawn volume carries: read when it changed, kept on the GPU of each
- * window.
- */
+/// @file
+/// The deformation that a drawn volume carries: read when it changed, kept on the GPU of each
+/// window.
 #ifndef BrainShift_SceneDeformation_h
 #define BrainShift_SceneDeformation_h
 
 #include "Filters/Attached/DeformableVolume.h"
-#include "Filters/Deformation/PointMap.h"
 #include "Representations/Field/FieldTexture.h"
 #include "Representations/Gpu/GpuMemory.h"
 #include "Representations/Scene/RayCastScene.h"
 #include "Representations/Scene/SceneGeometry.h"
 
-#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 #include "vtkOpenGLRenderTimer.h"
-
-#include <glm/vec3.hpp>
-
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <vector>
 
 class vtkImageData;
 class vtkWindow;

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Field/TissueFacts.h"
 
-#include "Common/LabelTable.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Attached/Segmentation.h"
 #include "Representations/Field/SceneDeformation.h"
-#include "Representations/Scene/SceneGeometry.h"
 
-#include "vtkDataArray.h"
 #include "vtkImageData.h"
-#include "vtkTextureObject.h" // for the pointers of what is included
-
-#include <glm/matrix.hpp>
 
 #include <cmath>
 

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The facts about the tissue at one position of a drawn volume.
- */
+/// @file
+/// The facts about the tissue at one position of a drawn volume.
 #ifndef BrainShift_TissueFacts_h
 #define BrainShift_TissueFacts_h
 
 #include "Common/WorldAxes.h"
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <optional>
 #include <string>

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief How much memory of the GPU a deformed volume needs, and whether it is there.
- */
+/// @file
+/// How much memory of the GPU a deformed volume needs, and whether it is there.
 #ifndef BrainShift_GpuMemory_h
 #define BrainShift_GpuMemory_h
 
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <cstdint>
 #include <initializer_list>

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The context of every function that works on the GPU: the window, the counters, and the
- * warnings for the user.
- */
+/// @file
+/// The context of every function that works on the GPU: the window, the counters, and the warnings
+/// for the user.
 #ifndef BrainShift_GpuTask_h
 #define BrainShift_GpuTask_h
 

@@ -2,7 +2,6 @@
 #include "Representations/Gpu/Program.h"
 
 #include "Representations/Gpu/OpenGL.h"
-#include "Representations/Gpu/ShaderSource.h"
 
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLShaderCache.h"
@@ -18,9 +17,6 @@
 #include <fstream>
 #include <limits>
 #include <map>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace brainshift
 {

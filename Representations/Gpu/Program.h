@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief One compiled shader program of a window, and what it takes to run it.
- */
+/// @file
+/// One compiled shader program of a window, and what it takes to run it.
 #ifndef BrainShift_Program_h
 #define BrainShift_Program_h
 
 #include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/ShaderSource.h"
 
-#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
-
-#include <glm/mat3x3.hpp>
-#include <glm/mat4x4.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <cstddef>
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The OpenGL state for drawing into the window, among VTK's own props.
- */
+/// @file
+/// The OpenGL state for drawing into the window, among VTK's own props.
 #ifndef BrainShift_SceneScope_h
 #define BrainShift_SceneScope_h
 

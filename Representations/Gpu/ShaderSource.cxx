@@ -2,7 +2,6 @@
 #include "Representations/Gpu/ShaderSource.h"
 
 #include "Filters/Deformation/FieldChange.h"
-#include "Filters/Deformation/OffsetField.h"
 #include "Filters/Deformation/SegmentFractions.h"
 
 #include "shader_averaged.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Assembles the files of Shaders/ into programs. Only #define lines come from C++.
- */
+/// @file
+/// Assembles the files of Shaders/ into programs. Only #define lines come from C++.
 #ifndef BrainShift_ShaderSource_h
 #define BrainShift_ShaderSource_h
 

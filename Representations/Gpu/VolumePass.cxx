@@ -10,7 +10,6 @@
 #include "vtkTextureObject.h"
 
 #include <algorithm>
-#include <cstddef>
 
 namespace brainshift
 {

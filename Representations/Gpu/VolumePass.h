@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Renders into a 3D texture: what all computing passes share (paper, section 2: "GPGPU").
- *
- * A new pass is one fragment shader and one call.
- */
+/// @file
+/// Renders into a 3D texture: what all computing passes share (paper, section 2: "GPGPU").
+///
+/// A new pass is one fragment shader and one call.
 #ifndef BrainShift_VolumePass_h
 #define BrainShift_VolumePass_h
 
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
+#include <glm/glm.hpp>
 
 #include <initializer_list>
 #include <vector>

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief What a mapper keeps for each window that draws it: textures and programs belong to a
- * window.
- */
+/// @file
+/// What a mapper keeps for each window that draws it: textures and programs belong to a window.
 #ifndef BrainShift_WindowDevices_h
 #define BrainShift_WindowDevices_h
 

@@ -5,14 +5,6 @@
 #include "Representations/Scene/RayCastScene.h"
 
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkOpenGLState.h"
-#include "vtkTextureObject.h"
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
-
-#include <cstddef>
 
 namespace brainshift
 {

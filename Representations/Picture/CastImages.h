@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The images that rays are cast into: the picture, the first hits, and helpers.
- */
+/// @file
+/// The images that rays are cast into: the picture, the first hits, and helpers.
 #ifndef BrainShift_CastImages_h
 #define BrainShift_CastImages_h
 
-#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/Program.h"
 #include "Representations/Scene/FirstHits.h"
-#include "Representations/Scene/ImageArea.h"
-
-#include "vtkSmartPointer.h"
-
-#include <glm/mat4x4.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec4.hpp>
-
-#include <vector>
 
 class vtkOpenGLRenderWindow;
 class vtkTextureObject;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The OpenGL state for drawing into images of our own.
- */
+/// @file
+/// The OpenGL state for drawing into images of our own.
 #ifndef BrainShift_ImageScope_h
 #define BrainShift_ImageScope_h
 

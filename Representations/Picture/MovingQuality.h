@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Lower quality while the camera or a stroke moves, so that pictures come fast enough for a
- * hand.
- */
+/// @file
+/// Lower quality while the camera or a stroke moves, so that pictures come fast enough for a hand.
 #ifndef BrainShift_MovingQuality_h
 #define BrainShift_MovingQuality_h
 
 #include "Representations/Gpu/ShaderSource.h"
-#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 
 namespace brainshift
 {

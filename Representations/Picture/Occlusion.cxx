@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Picture/Occlusion.h"
 
-#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Picture/CastImages.h"
 #include "Representations/Picture/ImageScope.h"
 #include "Representations/Scene/RayCastScene.h"
 
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkTextureObject.h"
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include <cmath>
 

@@ -1,28 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Ambient occlusion: how much the tissue around each first hit of a still picture hides it
- * from light.
- *
- * It is found from the first hits alone, which are on the visible surface of bent tissue. So a ray
- * takes no more samples, and the kept colours stay as they are.
- *
- * Screen-space ambient occlusion: Mittring, "Finding next gen: CryEngine 2", SIGGRAPH 2007 courses.
- * The estimate by pairs of opposite neighbours is our own (occlusion.frag.glsl).
- */
+/// @file
+/// Ambient occlusion: how much the tissue around each first hit of a still picture hides it from
+/// light.
+///
+/// It is found from the first hits alone, which are on the visible surface of bent tissue. So a ray
+/// takes no more samples, and the kept colours stay as they are.
+///
+/// Screen-space ambient occlusion: Mittring, "Finding next gen: CryEngine 2", SIGGRAPH 2007
+/// courses. The estimate by pairs of opposite neighbours is our own (occlusion.frag.glsl).
 #ifndef BrainShift_Occlusion_h
 #define BrainShift_Occlusion_h
 
 #include "Representations/Gpu/Program.h"
 #include "Representations/Scene/FirstHits.h"
-#include "Representations/Scene/ImageArea.h"
-
-#include "vtkSmartPointer.h"
-
-#include <glm/mat4x4.hpp>
-#include <glm/vec2.hpp>
-
-#include <vector>
 
 class vtkTextureObject;
 class vtkWindow;

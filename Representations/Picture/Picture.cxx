@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Picture/Picture.h"
 
-#include "Representations/Gpu/GpuTask.h"
-#include "Representations/Picture/SeenPixels.h"
 #include "Representations/Scene/OverVolumes.h"
-#include "Representations/Scene/RayCastScene.h"
 
 #include "vtkMath.h"
 #include "vtkNew.h"
@@ -12,19 +9,15 @@
 #include "vtkProp.h"
 #include "vtkPropCollection.h"
 #include "vtkRenderer.h"
-#include "vtkTextureObject.h"
 #include "vtkTimerLog.h"
 #include "vtkVolume.h"
 #include "vtkVolumeProperty.h"
 
-#include <glm/common.hpp>
 #include <glm/gtc/matrix_access.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <initializer_list>
-#include <utility>
 
 namespace brainshift
 {

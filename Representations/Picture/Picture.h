@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The picture of a volume that a window keeps.
- *
- * Pixels that a stroke leaves as they were are not cast again. Only those are cast behind which
- * tissue moved, so that these can have more of a moving frame's time.
- */
+/// @file
+/// The picture of a volume that a window keeps.
+///
+/// Pixels that a stroke leaves as they were are not cast again. Only those are cast behind which
+/// tissue moved, so that these can have more of a moving frame's time.
 #ifndef BrainShift_Picture_h
 #define BrainShift_Picture_h
 
@@ -16,12 +14,6 @@
 #include "Representations/Picture/SeenPixels.h"
 #include "Representations/Scene/SceneDepth.h"
 #include "Representations/Scene/SceneFrame.h"
-
-#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
-
-#include <glm/vec2.hpp>
-
-#include <vector>
 
 class vtkTextureObject;
 class vtkWindow;

@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Picture/RayCaster.h"
 
-#include "Representations/Gpu/OpenGL.h"
-#include "Representations/Gpu/Program.h"
 #include "Representations/Picture/ImageScope.h"
-#include "Representations/Scene/Frustum.h"
-#include "Representations/Scene/RayCastScene.h"
 #include "Representations/Skipping/DeformedPresence.h"
 
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkOpenGLState.h"
 #include "vtkShaderProgram.h"
-#include "vtkTextureObject.h"
-
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-#include <glm/vec4.hpp>
 
 #include <cmath>
-#include <cstdint>
 
 class vtkTextureObject;
 

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Casts the rays of a scene into images of its own, which are then laid over the window.
- */
+/// @file
+/// Casts the rays of a scene into images of its own, which are then laid over the window.
 #ifndef BrainShift_RayCaster_h
 #define BrainShift_RayCaster_h
 
-#include "Representations/Gpu/GpuTask.h"
-#include "Representations/Gpu/Program.h"
 #include "Representations/Picture/CastImages.h"
 #include "Representations/Scene/RayCastScene.h"
 

@@ -3,10 +3,6 @@
 
 #include "Representations/Skipping/DeformedPresence.h"
 
-#include "vtkTextureObject.h" // for the pointers of what is included
-
-#include <glm/common.hpp>
-
 #include <limits>
 
 namespace brainshift

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Finds the pixels of a picture at which tissue can be seen.
- */
+/// @file
+/// Finds the pixels of a picture at which tissue can be seen.
 #ifndef BrainShift_SeenPixels_h
 #define BrainShift_SeenPixels_h
 
 #include "Representations/Scene/RayCastScene.h"
-
-#include <glm/vec3.hpp>
-
-#include <vector>
 
 namespace brainshift
 {

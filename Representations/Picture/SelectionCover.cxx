@@ -8,10 +8,7 @@
 #include "vtkDataObject.h"
 #include "vtkHardwareSelector.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkOpenGLState.h"
 #include "vtkRenderer.h"
-
-#include <glm/mat4x4.hpp>
 
 namespace brainshift
 {

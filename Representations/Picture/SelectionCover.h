@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Excludes surfaces behind the tissue of the last picture from a selection.
- */
+/// @file
+/// Excludes surfaces behind the tissue of the last picture from a selection.
 #ifndef BrainShift_SelectionCover_h
 #define BrainShift_SelectionCover_h
 
-#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/Program.h"
 
 class vtkOpenGLRenderWindow;

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Picture/VolumeDevice.h"
 
-#include "Representations/Gpu/GpuMemory.h"
-#include "Representations/Gpu/GpuTask.h"
-#include "Representations/Scene/VolumeChoices.h"
-
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkRenderer.h"
-#include "vtkTextureObject.h"
 #include "vtkVolume.h"
 #include "vtkVolumeMapper.h"
 

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Everything that one window keeps of a deformed volume, and how a picture of it is made.
- */
+/// @file
+/// Everything that one window keeps of a deformed volume, and how a picture of it is made.
 #ifndef BrainShift_VolumeDevice_h
 #define BrainShift_VolumeDevice_h
 
 #include "Representations/Field/EvidenceTexture.h"
 #include "Representations/Field/SceneDeformation.h"
-#include "Representations/Gpu/GpuMemory.h"
 #include "Representations/Picture/Picture.h"
 #include "Representations/Picture/SelectionCover.h"
-#include "Representations/Scene/SceneFrame.h"
 #include "Representations/Tissue/DeviceTissue.h"
 #include "Representations/Tissue/SceneReference.h"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Scene/FieldPlace.h"
 
-#include <glm/common.hpp>
-
 namespace brainshift
 {
 glm::dvec3 textureFromLattice(const DrawnValues& values, const Grid& lattice)

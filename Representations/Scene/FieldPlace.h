@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Position of lattice and offset field in the volume's texture, and the space that tissue
- * can reach.
- */
+/// @file
+/// Position of lattice and offset field in the volume's texture, and the space that tissue can
+/// reach.
 #ifndef BrainShift_FieldPlace_h
 #define BrainShift_FieldPlace_h
 
-#include "Common/Grid.h"
-#include "Filters/Deformation/OffsetField.h"
 #include "Representations/Scene/RayCastScene.h"
 #include "Representations/Scene/SceneGeometry.h"
-
-#include <glm/vec3.hpp>
 
 namespace brainshift
 {

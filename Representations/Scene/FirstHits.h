@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Where the rays of a picture met a surface first.
- */
+/// @file
+/// Where the rays of a picture met a surface first.
 #ifndef BrainShift_FirstHits_h
 #define BrainShift_FirstHits_h
 

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief What a camera sees: the near and the far plane, in any coordinates.
- */
+/// @file
+/// What a camera sees: the near and the far plane, in any coordinates.
 #ifndef BrainShift_Frustum_h
 #define BrainShift_Frustum_h
 
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 
-#include <glm/mat3x3.hpp>
-#include <glm/mat4x4.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 namespace brainshift
 {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Source of the positions at which the rays of a picture first met a surface.
- *
- * VTK's wrapping tools parse the classes that inherit this one and everything that their headers
- * include. They need minutes for the headers of GLM, so this header includes nothing.
- */
+/// @file
+/// Source of the positions at which the rays of a picture first met a surface.
+///
+/// VTK's wrapping tools parse the classes that inherit this one and everything that their headers
+/// include. They need minutes for the headers of GLM, so this header includes nothing.
 #ifndef BrainShift_HitSource_h
 #define BrainShift_HitSource_h
 

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Scene/ImageArea.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
-
 #include <cstddef>
 #include <cstdint>
 

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Which part of a picture is kept in textures: only where something can be seen.
- */
+/// @file
+/// Which part of a picture is kept in textures: only where something can be seen.
 #ifndef BrainShift_ImageArea_h
 #define BrainShift_ImageArea_h
 
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 
-#include <glm/vec2.hpp>
+#include <glm/glm.hpp>
 
 #include <vector>
 

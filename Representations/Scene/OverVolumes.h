@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Props that are drawn over the volumes.
- */
+/// @file
+/// Props that are drawn over the volumes.
 #ifndef BrainShift_OverVolumes_h
 #define BrainShift_OverVolumes_h
 

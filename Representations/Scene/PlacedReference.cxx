@@ -6,8 +6,6 @@
 
 #include "vtkTextureObject.h"
 
-#include <glm/matrix.hpp>
-
 namespace brainshift
 {
 glm::dmat4 VolumePlace::otherFromTexture(const Grid& grid, const ValueLayout& layout) const

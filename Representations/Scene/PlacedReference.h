@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Position of a reference volume, and of the cavity drawn in it, relative to the bent
- * volume. Rays and slices both need it.
- */
+/// @file
+/// Position of a reference volume, and of the cavity drawn in it, relative to the bent volume. Rays
+/// and slices both need it.
 #ifndef BrainShift_PlacedReference_h
 #define BrainShift_PlacedReference_h
 
 #include "Representations/Scene/Tints.h"
-
-#include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
 
 class vtkMatrix4x4;
 class vtkTextureObject;

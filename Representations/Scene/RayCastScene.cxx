@@ -2,15 +2,11 @@
 #include "Representations/Scene/RayCastScene.h"
 
 #include "Representations/Gpu/Program.h"
-#include "Representations/Scene/Tints.h"
 
 #include "vtkShaderProgram.h"
 #include "vtkTextureObject.h"
 
-#include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
-
-#include <array>
 
 namespace brainshift
 {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Everything that one picture of a volume depends on, in groups.
- *
- * Each group is filled by one function, which is named beside it. Texture coordinates are those of
- * the texture of scalars. A mapping "bFromA" with a "bOfAZero" is a scale and a shift:
- * b = a * bFromA + bOfAZero.
- */
+/// @file
+/// Everything that one picture of a volume depends on, in groups.
+///
+/// Each group is filled by one function, which is named beside it. Texture coordinates are those of
+/// the texture of scalars. A mapping "bFromA" with a "bOfAZero" is a scale and a shift: b = a *
+/// bFromA + bOfAZero.
 #ifndef BrainShift_RayCastScene_h
 #define BrainShift_RayCastScene_h
 
@@ -14,16 +12,6 @@
 #include "Representations/Gpu/ShaderSource.h"
 #include "Representations/Scene/ImageArea.h"
 #include "Representations/Scene/PlacedReference.h"
-#include "Representations/Scene/Tints.h"
-
-#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
-
-#include <glm/mat4x4.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
-#include <vector>
 
 class vtkTextureObject;
 

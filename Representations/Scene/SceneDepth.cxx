@@ -9,8 +9,6 @@
 #include "vtkOpenGLState.h"
 #include "vtkTextureObject.h"
 
-#include <glm/common.hpp>
-
 namespace brainshift
 {
 namespace

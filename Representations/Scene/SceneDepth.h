@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The depth of what is drawn already, at which rays must stop.
- */
+/// @file
+/// The depth of what is drawn already, at which rays must stop.
 #ifndef BrainShift_SceneDepth_h
 #define BrainShift_SceneDepth_h
 
-#include "Representations/Scene/ImageArea.h"
 #include "Representations/Scene/RayCastScene.h"
 
 #include "vtkSmartPointer.h"
-
-#include <glm/vec2.hpp>
 
 class vtkOpenGLRenderWindow;
 class vtkTextureObject;

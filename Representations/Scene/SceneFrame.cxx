@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Scene/SceneFrame.h"
 
-#include "Representations/Gpu/ShaderSource.h"
-
 #include "vtkLight.h"
 #include "vtkLightCollection.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
-
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 
 namespace brainshift
 {

@@ -12,9 +12,6 @@
 #include "vtkOpenGLCamera.h"
 #include "vtkRenderer.h"
 
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
-
 namespace brainshift
 {
 ValueLayout layoutOf(const glm::ivec3& points, bool cells)

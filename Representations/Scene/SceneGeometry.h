@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Mappings between world, grid and textures of a volume.
- *
- * Volume, lattice, offset field and bricks share their axes. So every mapping between two of them
- * is a scale and a shift.
- */
+/// @file
+/// Mappings between world, grid and textures of a volume.
+///
+/// Volume, lattice, offset field and bricks share their axes. So every mapping between two of them
+/// is a scale and a shift.
 #ifndef BrainShift_SceneGeometry_h
 #define BrainShift_SceneGeometry_h
 
 #include "Common/Grid.h"
-
-#include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
 
 #include <optional>
 

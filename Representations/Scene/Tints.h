@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The colours in which pictures show a reference, and the uncertainty of tissue.
- */
+/// @file
+/// The colours in which pictures show a reference, and the uncertainty of tissue.
 #ifndef BrainShift_Tints_h
 #define BrainShift_Tints_h
 
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 namespace brainshift
 {

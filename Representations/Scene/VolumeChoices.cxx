@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Scene/VolumeChoices.h"
 
-#include "Representations/Gpu/ShaderSource.h"
-
 #include "vtkColorTransferFunction.h"
 #include "vtkContourValues.h"
 #include "vtkDataArray.h"
@@ -11,9 +9,6 @@
 #include "vtkPlaneCollection.h"
 #include "vtkVolumeMapper.h"
 #include "vtkVolumeProperty.h"
-
-#include <glm/common.hpp>
-#include <glm/matrix.hpp>
 
 #include <algorithm>
 #include <cstring>

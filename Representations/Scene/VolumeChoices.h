@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief What a user chooses of a volume beside colour map and light, read from VTK's mapper and
- * property: the numbers of a voxel that are drawn, and the blend mode.
- */
+/// @file
+/// What a user chooses of a volume beside colour map and light, read from VTK's mapper and
+/// property: the numbers of a voxel that are drawn, and the blend mode.
 #ifndef BrainShift_VolumeChoices_h
 #define BrainShift_VolumeChoices_h
 
-#include "Representations/Gpu/ShaderSource.h"
 #include "Representations/Scene/RayCastScene.h"
 #include "Representations/Scene/SceneGeometry.h"
-
-#include <glm/mat4x4.hpp>
-#include <glm/vec4.hpp>
-
-#include <string>
-#include <vector>
 
 class vtkDataArray;
 class vtkPlane;

@@ -2,7 +2,6 @@
 #include "Representations/Skipping/BrickFaces.h"
 
 #include <algorithm>
-#include <cstddef>
 
 namespace brainshift
 {

@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief What bounds the occupied bricks, as few rectangles: a software driver takes more time for
- * more
- * of them.
- */
+/// @file
+/// What bounds the occupied bricks, as few rectangles: a software driver takes more time for more
+/// of them.
 #ifndef BrainShift_BrickFaces_h
 #define BrainShift_BrickFaces_h
 
 #include "Filters/Deformation/FieldChange.h"
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
-#include <array>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 namespace brainshift
 {

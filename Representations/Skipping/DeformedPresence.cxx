@@ -7,14 +7,6 @@
 #include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkShaderProgram.h"
-#include "vtkTextureObject.h"
-
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
-
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
 
 namespace brainshift
 {

@@ -1,28 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The presence map in the deformed frame, and the faces of its occupied bricks.
- */
+/// @file
+/// The presence map in the deformed frame, and the faces of its occupied bricks.
 #ifndef BrainShift_DeformedPresence_h
 #define BrainShift_DeformedPresence_h
 
-#include "Filters/Deformation/FieldChange.h"
-#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/Program.h"
 #include "Representations/Skipping/BrickFaces.h"
 #include "Representations/Skipping/RestPresence.h"
 
-#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 #include "vtkSmartPointer.h"
 #include "vtkTextureObject.h" // for its smart pointer
-
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
-#include <array>
-#include <cstdint>
-#include <utility>
-#include <vector>
 
 class vtkOpenGLBufferObject;
 class vtkOpenGLRenderWindow;

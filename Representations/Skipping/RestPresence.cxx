@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Skipping/RestPresence.h"
 
-#include "Common/Parallel.h"
-
 #include <array>
-#include <cstddef>
 #include <limits>
 #include <numeric>
 

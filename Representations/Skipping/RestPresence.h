@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Which bricks of the rest volume can be seen with the present colour map.
- *
- * This is the presence map of the paper (section 2), as the rest-frame half of exact skipping.
- */
+/// @file
+/// Which bricks of the rest volume can be seen with the present colour map.
+///
+/// This is the presence map of the paper (section 2), as the rest-frame half of exact skipping.
 #ifndef BrainShift_RestPresence_h
 #define BrainShift_RestPresence_h
 
@@ -13,12 +11,10 @@
 
 #include "vtkType.h" // for vtkIdType
 
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 namespace brainshift

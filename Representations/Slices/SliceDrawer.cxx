@@ -2,21 +2,12 @@
 #include "Representations/Slices/SliceDrawer.h"
 
 #include "Common/ScreenScale.h"
-#include "Representations/Gpu/OpenGL.h"
-#include "Representations/Gpu/Program.h"
 #include "Representations/Gpu/SceneScope.h"
-#include "Representations/Scene/RayCastScene.h"
-#include "Representations/Slices/SliceGeometry.h"
 
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkOpenGLState.h"
 #include "vtkTextureObject.h"
-
-#include <glm/mat4x4.hpp>
-
-#include <vector>
 
 namespace brainshift
 {

@@ -1,30 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Draws planes through a deformed volume into the window.
- */
+/// @file
+/// Draws planes through a deformed volume into the window.
 #ifndef BrainShift_SliceDrawer_h
 #define BrainShift_SliceDrawer_h
 
-#include "Filters/Attached/ReferenceVolume.h"
-#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/Program.h"
-#include "Representations/Scene/PlacedReference.h"
-#include "Representations/Scene/RayCastScene.h"
-#include "Representations/Scene/SceneGeometry.h"
-#include "Representations/Scene/Tints.h"
 #include "Representations/Scene/VolumeChoices.h"
 #include "Representations/Slices/SliceGeometry.h"
 #include "Representations/Tissue/CavityTexture.h"
-#include "Representations/Tissue/ScalarTexture.h"
 
-#include <glm/mat3x3.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
-#include <array>
 #include <map>
-#include <vector>
 
 class vtkOpenGLRenderWindow;
 class vtkTextureObject;

@@ -5,12 +5,7 @@
 
 #include "vtkRenderer.h"
 
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-#include <glm/vec4.hpp>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Positions of the three planes of Deformed Slices, and the order in which they are drawn.
- *
- * The planes are numbered by the world axis that they lie across: sagittal (x), coronal (y), axial
- * (z).
- */
+/// @file
+/// Positions of the three planes of Deformed Slices, and the order in which they are drawn.
+///
+/// The planes are numbered by the world axis that they lie across: sagittal (x), coronal (y), axial
+/// (z).
 #ifndef BrainShift_SliceGeometry_h
 #define BrainShift_SliceGeometry_h
 
@@ -13,10 +11,6 @@
 
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 
-#include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
-
-#include <array>
 #include <vector>
 
 class vtkRenderer;

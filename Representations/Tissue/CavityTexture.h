@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The cavity that comparisons with a reference ignore, on the GPU of one window.
- */
+/// @file
+/// The cavity that comparisons with a reference ignore, on the GPU of one window.
 #ifndef BrainShift_CavityTexture_h
 #define BrainShift_CavityTexture_h
 

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Tissue/DeviceTissue.h"
 
-#include "Representations/Gpu/GpuMemory.h"
-#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Scene/FieldPlace.h"
 #include "Representations/Scene/SceneFrame.h"
 #include "Representations/Tissue/SceneReference.h"
 
-#include "vtkTextureObject.h"
 #include "vtkVolume.h"
-
-#include <glm/common.hpp>
 
 namespace brainshift
 {

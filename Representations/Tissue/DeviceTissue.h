@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief A volume on the GPU of one window: its textures, and the bricks in which something is
- * seen.
- */
+/// @file
+/// A volume on the GPU of one window: its textures, and the bricks in which something is seen.
 #ifndef BrainShift_DeviceTissue_h
 #define BrainShift_DeviceTissue_h
 
 #include "Representations/Skipping/DeformedPresence.h"
 #include "Representations/Tissue/CavityTexture.h"
 #include "Representations/Tissue/TissueTextures.h"
-
-#include <cstdint>
 
 namespace brainshift
 {

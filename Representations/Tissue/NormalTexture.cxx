@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Tissue/NormalTexture.h"
 
-#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/OpenGL.h"
 #include "Representations/Gpu/VolumePass.h"
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Gradients for light, computed once on the GPU when the volume is loaded (paper, section
- * 2).
- */
+/// @file
+/// Gradients for light, computed once on the GPU when the volume is loaded (paper, section 2).
 #ifndef BrainShift_NormalTexture_h
 #define BrainShift_NormalTexture_h
 
@@ -11,8 +8,6 @@
 
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
-
-#include <glm/vec3.hpp>
 
 class vtkTextureObject;
 class vtkWindow;

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Tissue/ScalarTexture.h"
 
-#include "Common/Parallel.h"
 #include "Representations/Gpu/GpuMemory.h"
-#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/OpenGL.h"
 
 #include "vtkDataArray.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkTextureObject.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <memory>
 
 namespace brainshift

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The scalars of a volume as a texture, and how a stored value relates to the scalar.
- */
+/// @file
+/// The scalars of a volume as a texture, and how a stored value relates to the scalar.
 #ifndef BrainShift_ScalarTexture_h
 #define BrainShift_ScalarTexture_h
 
@@ -11,8 +9,6 @@
 
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
-
-#include <glm/vec3.hpp>
 
 class vtkDataArray;
 class vtkTextureObject;

@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Tissue/SceneReference.h"
 
-#include "Representations/Gpu/GpuMemory.h"
-
 #include "vtkColorTransferFunction.h"
-#include "vtkDataArray.h"
-#include "vtkTextureObject.h"
 #include "vtkVolumeProperty.h"
-
-#include <glm/common.hpp>
-
-#include <algorithm>
 
 namespace brainshift
 {

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The volume that a drawn one is compared with, as the data carries it
- * (Filters/Attached/ReferenceVolume.h).
- */
+/// @file
+/// The volume that a drawn one is compared with, as the data carries it
+/// (Filters/Attached/ReferenceVolume.h).
 #ifndef BrainShift_SceneReference_h
 #define BrainShift_SceneReference_h
 
 #include "Filters/Attached/ReferenceVolume.h"
-#include "Representations/Scene/Tints.h"
 #include "Representations/Tissue/TissueTextures.h"
-#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
-
-#include <glm/vec2.hpp>
-
-#include <cstdint>
 
 class vtkDataArray;
 class vtkDataObject;

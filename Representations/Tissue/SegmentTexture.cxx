@@ -8,11 +8,6 @@
 
 #include "vtkImageData.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkTextureObject.h"
-
-#include <glm/common.hpp>
-
-#include <algorithm>
 
 namespace brainshift
 {

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The segment that is drawn alone: the fraction of the space around each value that belongs
- * to it.
- */
+/// @file
+/// The segment that is drawn alone: the fraction of the space around each value that belongs to it.
 #ifndef BrainShift_SegmentTexture_h
 #define BrainShift_SegmentTexture_h
 
@@ -11,11 +8,7 @@
 #include "Representations/Gpu/GpuTask.h"
 #include "Representations/Skipping/RestPresence.h"
 
-#include "vtkSmartPointer.h"
 #include "vtkTextureObject.h" // for its smart pointer
-
-#include <string>
-#include <vector>
 
 class vtkImageData;
 class vtkOpenGLRenderWindow;

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Gradient opacity, or a 2D transfer function, as a texture.
- *
- * Steepness is the gradient magnitude that VTK's volume mapper looks opacities up with: the change
- * of the scalar over a mean voxel side, as a fraction of a quarter of the array's range, 0 to 1.
- *
- * Gradient opacity: Levoy, IEEE Computer Graphics and Applications 8(3), 1988. 2D transfer
- * functions: Kniss, Kindlmann and Hansen, IEEE Transactions on Visualization and Computer Graphics
- * 8(3), 2002.
- */
+/// @file
+/// Gradient opacity, or a 2D transfer function, as a texture.
+///
+/// Steepness is the gradient magnitude that VTK's volume mapper looks opacities up with: the change
+/// of the scalar over a mean voxel side, as a fraction of a quarter of the array's range, 0 to 1.
+///
+/// Gradient opacity: Levoy, IEEE Computer Graphics and Applications 8(3), 1988. 2D transfer
+/// functions: Kniss, Kindlmann and Hansen, IEEE Transactions on Visualization and Computer Graphics
+/// 8(3), 2002.
 #ifndef BrainShift_SteepnessTexture_h
 #define BrainShift_SteepnessTexture_h
 
@@ -17,9 +15,7 @@
 
 #include "vtkSmartPointer.h"
 
-#include <glm/vec2.hpp>
-
-#include <vector>
+#include <glm/glm.hpp>
 
 class vtkTextureObject;
 class vtkVolumeProperty;

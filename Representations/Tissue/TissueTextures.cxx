@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Tissue/TissueTextures.h"
 
-#include "Representations/Gpu/GpuTask.h"
-#include "Representations/Skipping/RestPresence.h"
-
-#include "vtkDataArray.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkTextureObject.h"
 #include "vtkVolumeProperty.h"
 
-#include <glm/common.hpp>
-#include <glm/vec2.hpp>
-
-#include <algorithm>
 #include <cmath>
 
 namespace brainshift

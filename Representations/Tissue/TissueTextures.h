@@ -1,28 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The textures that rays and slices read in the volume at rest: scalars, colours,
- * opacity,
- * gradients, segment.
- */
+/// @file
+/// The textures that rays and slices read in the volume at rest: scalars, colours, opacity,
+/// gradients, segment.
 #ifndef BrainShift_TissueTextures_h
 #define BrainShift_TissueTextures_h
 
 #include "Representations/Gpu/GpuMemory.h"
-#include "Representations/Scene/RayCastScene.h"
-#include "Representations/Scene/SceneGeometry.h"
 #include "Representations/Scene/VolumeChoices.h"
 #include "Representations/Tissue/NormalTexture.h"
 #include "Representations/Tissue/ScalarTexture.h"
 #include "Representations/Tissue/SegmentTexture.h"
 #include "Representations/Tissue/SteepnessTexture.h"
 #include "Representations/Tissue/TransferTexture.h"
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
-#include <utility>
-#include <vector>
 
 class vtkTextureObject;
 class vtkVolumeProperty;

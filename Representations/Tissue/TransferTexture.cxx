@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Tissue/TransferTexture.h"
 
-#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/OpenGL.h"
 #include "Representations/Tissue/SteepnessTexture.h"
 
@@ -14,11 +13,7 @@
 #include "vtkTextureObject.h"
 #include "vtkVolumeProperty.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <vector>
 
 namespace brainshift
 {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief ParaView's colour map and opacity curve as one texture, with opacities for the step.
- */
+/// @file
+/// ParaView's colour map and opacity curve as one texture, with opacities for the step.
 #ifndef BrainShift_TransferTexture_h
 #define BrainShift_TransferTexture_h
 
@@ -12,10 +10,6 @@
 
 #include "vtkSmartPointer.h"
 #include "vtkWeakPointer.h"
-
-#include <glm/vec3.hpp>
-
-#include <vector>
 
 class vtkDataArray;
 class vtkOpenGLRenderWindow;

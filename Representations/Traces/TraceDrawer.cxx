@@ -1,25 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Traces/TraceDrawer.h"
 
-#include "Representations/Gpu/OpenGL.h"
 #include "Representations/Gpu/SceneScope.h"
 
 #include "vtkOpenGLBufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
-#include "vtkOpenGLState.h"
 #include "vtkShaderProgram.h"
-#include "vtkTextureObject.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
-#include <glm/vec3.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
-#include <string>
-#include <vector>
 
 namespace brainshift
 {

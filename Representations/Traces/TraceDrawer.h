@@ -1,29 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Draws traced points into one window: those in front of the tissue of volumes, and, faded,
- * those
- * behind it.
- */
+/// @file
+/// Draws traced points into one window: those in front of the tissue of volumes, and, faded, those
+/// behind it.
 #ifndef BrainShift_TraceDrawer_h
 #define BrainShift_TraceDrawer_h
 
-#include "Representations/Gpu/GpuTask.h"
 #include "Representations/Gpu/Program.h"
 #include "Representations/Scene/FirstHits.h"
 
-#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
-#include "vtkSmartPointer.h"
-
-#include <glm/mat4x4.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-
 #include <array>
-#include <cstdint>
 #include <functional>
 #include <map>
-#include <vector>
 
 class vtkOpenGLBufferObject;
 class vtkOpenGLRenderWindow;

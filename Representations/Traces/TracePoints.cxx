@@ -24,13 +24,9 @@
 #include "vtkVolume.h"
 #include "vtkVolumeCollection.h"
 
-#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
-#include <glm/vec4.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace brainshift
 {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Leaves out the smoothing of edges in pictures of volumes alone.
- */
+/// @file
+/// Leaves out the smoothing of edges in pictures of volumes alone.
 #ifndef BrainShift_EdgeSmoothing_h
 #define BrainShift_EdgeSmoothing_h
 

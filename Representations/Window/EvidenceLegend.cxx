@@ -11,7 +11,6 @@
 
 #include <cstddef>
 #include <sstream>
-#include <string>
 
 namespace brainshift
 {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief A legend of the tints of uncertainty (1 sd, mm) in the upper right corner of a view.
- *
- * The upper left corner belongs to the legend of a comparison.
- */
+/// @file
+/// A legend of the tints of uncertainty (1 sd, mm) in the upper right corner of a view.
+///
+/// The upper left corner belongs to the legend of a comparison.
 #ifndef BrainShift_EvidenceLegend_h
 #define BrainShift_EvidenceLegend_h
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief All of a volume on the first of several MPI ranks.
- */
+/// @file
+/// All of a volume on the first of several MPI ranks.
 #ifndef BrainShift_GatheredVolume_h
 #define BrainShift_GatheredVolume_h
 

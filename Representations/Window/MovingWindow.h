@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Leaves out work that is not visible in a window that moves.
- */
+/// @file
+/// Leaves out work that is not visible in a window that moves.
 #ifndef BrainShift_MovingWindow_h
 #define BrainShift_MovingWindow_h
 

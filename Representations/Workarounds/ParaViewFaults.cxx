@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Workarounds/ParaViewFaults.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
 #include "vtkInformation.h"
 #include "vtkInformationRequestKey.h"
-#include "vtkNew.h"
 #include "vtkOutputWindow.h"
 #include "vtkPVDataDeliveryManager.h"
 #include "vtkPVDataRepresentation.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief What undoes faults of ParaView in representations; see README.md.
- */
+/// @file
+/// What undoes faults of ParaView in representations; see README.md.
 #ifndef BrainShift_ParaViewFaults_h
 #define BrainShift_ParaViewFaults_h
 

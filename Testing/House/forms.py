@@ -9,19 +9,20 @@ import rooms
 MORE_ROOMS = ["Benchmark", "Examples", "Python", "Shaders", "Testing", "Testing/House", "Utilities"]
 
 
-#: One comment at the top: lines with two or three slashes, or one block.
-OPENING = re.compile(r"((?://[^\n]*\n)+|/\*.*?\*/\n)", re.DOTALL)
+#: One comment at the top: lines that begin with @file, or the block of a VTK class with its name.
+OPENING = re.compile(r"(/// @file\n(?:///[^\n]*\n)+|/\*\*\n \* @class .*?\*/\n)", re.DOTALL)
 
 
 def every_header_opens(tree):
-    """Each header has the licence, one opening comment and an include guard named for it."""
+    """Each header has the licence, an opening in the house's style and a guard named for it."""
     for path in tree.ending(".h"):
         first, _, rest = tree.text(path).partition("\n")
         if not first.startswith("// SPDX-License-Identifier:"):
             yield f"{path}: its first line must name the licence"
         opening = OPENING.match(rest)
         if opening is None or not re.search(r"\w{3}", opening.group(1)):
-            yield f"{path}: has no opening comment under the licence"
+            yield (f"{path}: does not open with /// @file, or with @class for a VTK class, "
+                   "under the licence")
         if not _is_guarded(path, rest[opening.end() if opening else 0:]):
             yield f"{path}: has no include guard named for it under its opening comment"
 

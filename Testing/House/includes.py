@@ -2,6 +2,7 @@
 """Checks which file includes which: no include runs upwards, and none leads back to itself."""
 
 import ast
+import collections
 import os
 import re
 
@@ -127,6 +128,29 @@ def no_circle_between_files(tree):
         yield f"{group[0]}: is in a circle with {', '.join(group[1:])}"
 
 
+#: Headers of GLM that VTK's wrapping tools parse at once; on matrices they never end.
+WRAPPED_GLM = {"glm/fwd.hpp", "glm/vec2.hpp", "glm/vec3.hpp", "glm/vec4.hpp"}
+
+
+def no_wrapped_header_leads_to_matrices(tree):
+    """VTK's wrapping tools parse all that the header of a VTK class includes: no GLM matrices."""
+    graph = collections.defaultdict(set)
+    for path, target in edges(tree):
+        graph[path].add(target)
+    for header in tree.ending(".h"):
+        if not header.rpartition("/")[2].startswith("vtk") or header.startswith("Testing/"):
+            continue
+        reached, waiting = {header}, [header]
+        while waiting:
+            new = graph[waiting.pop()] - reached
+            reached |= new
+            waiting += new
+        for path in sorted(reached):
+            for name in _included_names(tree, path):
+                if name.startswith("glm/") and name not in WRAPPED_GLM:
+                    yield f"{header}: leads to {name} through {path}"
+
+
 def architecture_says_what_a_folder_uses(tree):
     """The last column in the table of folders of ARCHITECTURE.md is that of rooms.py."""
     if "ARCHITECTURE.md" in tree.known:
@@ -135,5 +159,6 @@ def architecture_says_what_a_folder_uses(tree):
             yield "ARCHITECTURE.md: run python3 Testing/House/rooms.py . to write the column"
 
 
-CHECKS = [architecture_says_what_a_folder_uses, no_include_runs_upwards,
-          no_library_where_it_is_kept_out, no_circle_between_files]
+CHECKS = [architecture_says_what_a_folder_uses, no_wrapped_header_leads_to_matrices,
+          no_include_runs_upwards, no_library_where_it_is_kept_out,
+          no_circle_between_files]

@@ -7,7 +7,7 @@ namespace brainshift
 {
 namespace
 {
-// A mean squared correlation that begins below 0.8 has another cause than position: the contrast.
+// A mean squared correlation below 0.8 at the start comes from the contrast, not from position.
 constexpr double MostCost = 0.2;
 
 const Metric LocalCorrelationMetric = localFitMetric(false);

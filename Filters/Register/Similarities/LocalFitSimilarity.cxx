@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/Similarities/LocalFitSimilarity.h"
 
-#include "Common/Parallel.h"
-
-#include <glm/geometric.hpp>
-
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
 #include <numeric>
 #include <utility>
 
@@ -49,7 +42,7 @@ void spreadOne(const float* windows, int count, std::size_t inner, int number, f
 
 using One = void (*)(const float*, int, std::size_t, int, float*);
 
-// Along y or z of a block. `points`: how many a line has, where that is not what `from` has.
+// Along y or z of a block. `points`: number of points of a line, where `from` has another number.
 Block along(const Block& from, int axis, int points, int results, One one)
 {
   glm::ivec3 sides = from.dimensions;
@@ -104,7 +97,7 @@ constexpr float LeastWindow = 0.3f;            // fraction of its samples that a
 constexpr float LeastVarianceFraction = 0.02f; // of the mean variance of a volume's windows
 constexpr float Ridge = 1e-4f;                 // variance (range 0 to 1) of a volume that is flat
 
-// Sums over a window, and what each window then leaves for its samples.
+// Sums over a window. Its results for its samples (Left) replace them.
 enum Sum
 {
   Count,
@@ -134,7 +127,7 @@ enum Left
   Lefts
 };
 
-// `weights`: which values say what the range is; 1 or 0.
+// `weights`: 1 for values that define the range, else 0.
 void toFractions(std::vector<float>& values, const std::vector<float>& weights)
 {
   std::vector<float> counting;
@@ -182,7 +175,7 @@ std::vector<float> gradientLength(const Volume& volume)
   return result;
 }
 
-// The variance of what counts in each window.
+// The variance of the values that count in each window.
 std::vector<float> windowVariances(const std::vector<float>& values, const Volume& weights)
 {
   constexpr int Numbers = 3;
@@ -224,7 +217,7 @@ float leastVariance(const std::vector<float>& variances)
 }
 }
 
-// What a comparison works with, sample by sample and window by window.
+// The memory of a comparison, sample by sample and window by window.
 struct LocalFitSimilarity::Work
 {
   Work(const Grid& grid, int sums)
@@ -266,7 +259,7 @@ LocalFitSimilarity::LocalFitSimilarity(LevelVolumes level, const Lattice& lattic
   const float least = leastVariance(variances);
   for (const float variance : variances)
   {
-    this->Says.push_back(variance > least ? 1 : 0);
+    this->Varies.push_back(variance > least ? 1 : 0);
   }
   if (withSlope)
   {
@@ -283,7 +276,7 @@ void LocalFitSimilarity::leaveOutIdleSamples()
 {
   const glm::ivec3 sides = this->Samples.rows.samples().dimensions;
   Block windows({ windowsAlong(sides.x), windowsAlong(sides.y), windowsAlong(sides.z) }, 1);
-  std::copy(this->Says.begin(), this->Says.end(), windows.values.begin());
+  std::copy(this->Varies.begin(), this->Varies.end(), windows.values.begin());
   const Block rows = spread(windows, sides);
   std::vector<float> needed(sides.x);
   for (int k = 0; k < sides.z; ++k)
@@ -301,21 +294,22 @@ void LocalFitSimilarity::leaveOutIdleSamples()
   this->Samples.findStretches();
 }
 
-void LocalFitSimilarity::takeSample(const LevelSamples::Place& place, float* sums, Work& work) const
+void LocalFitSimilarity::takeSample(
+  const LevelSamples::Compared& sample, float* sums, Work& work) const
 {
   const float w =
-    place.weight * trilinear(this->Samples.referenceWeights.values.data(), place.at).value;
+    sample.weight * trilinear(this->Samples.referenceWeights.values.data(), sample.at).value;
   if (w <= 0.0f)
   {
     return;
   }
-  const std::size_t n = place.number;
-  const ValueAndSlope found = trilinear(this->Reference.values.data(), place.at);
+  const std::size_t n = sample.number;
+  const ValueAndSlope found = trilinear(this->Reference.values.data(), sample.at);
   const float p = this->Rest[n];
   const float v = found.value;
   work.weight[n] = w;
   work.value[n] = v;
-  work.slope[n] = found.slope * this->Samples.stepsPerMm * place.freedom;
+  work.slope[n] = found.slope * this->Samples.stepsPerMm * sample.freedom;
   const float numbers[SumsWithoutSlope] = { w, w * p, w * p * p, w * v, w * v * v, w * v * p };
   std::copy(numbers, numbers + SumsWithoutSlope, sums);
   if (this->WithSlope)
@@ -336,8 +330,8 @@ void LocalFitSimilarity::takeSamples(const std::vector<glm::vec3>& displacements
     std::vector<float> sums(static_cast<std::size_t>(sides.x) * numbers, 0.0f);
     const LevelSamples::Stretch& stretch =
       samples.stretches[static_cast<std::size_t>(row.k) * sides.y + row.j];
-    samples.visitStretch(row, stretch, [&](const LevelSamples::Place& place) {
-      this->takeSample(place, &sums[(place.number - first) * numbers], work);
+    samples.visitStretch(row, stretch, [&](const LevelSamples::Compared& sample) {
+      this->takeSample(sample, &sums[(sample.number - first) * numbers], work);
     });
     if (stretch.first < stretch.last)
     {
@@ -375,7 +369,7 @@ void LocalFitSimilarity::fitWindow(float* numbers, bool counts, double& sum, dou
       b = (vg * pp - vp * pg) / determinant;
       explained = a * vp + b * vg;
     }
-    // A window without variance says nothing: its cost is 1, whatever moves.
+    // A window without variance has no information: its cost is 1, whatever moves.
     const float all = vv + this->LeastVariance;
     const float unexplained = std::max(0.0f, all - explained);
     sum += unexplained / all;
@@ -403,10 +397,10 @@ void LocalFitSimilarity::fitWindows(Work& work) const
       {
         float* numbers = work.windows.row(j, k);
         const std::size_t middle = grid.offset(0, WindowStride * j, WindowStride * k);
-        const char* says = &this->Says[(static_cast<std::size_t>(k) * sides.y + j) * sides.x];
+        const char* varies = &this->Varies[(static_cast<std::size_t>(k) * sides.y + j) * sides.x];
         for (int i = 0; i < sides.x; ++i, numbers += work.windows.numbers)
         {
-          this->fitWindow(numbers, says[i] && work.weight[middle + WindowStride * i] > 0.0f,
+          this->fitWindow(numbers, varies[i] && work.weight[middle + WindowStride * i] > 0.0f,
             work.slabSums[k], work.slabCounts[k]);
         }
       }

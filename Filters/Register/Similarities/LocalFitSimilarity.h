@@ -1,37 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Explains the reference in small windows by the volume, and by its slope for ultrasound.
- *
- * In each window the reference is fitted by a p + c, or by a p + b g + c. There p is
- * the volume and g the length of its gradient. The cost of a window is the fraction of the
- * reference's variance that the fit leaves. With p alone it is 1 minus the squared local
- * correlation; with both it is 1 minus LC2 (Fuerst et al., Medical Image Analysis 18, 2014).
- */
+/// @file
+/// Explains the reference in small windows by the volume, and by its slope for ultrasound.
+///
+/// In each window the reference is fitted by a p + c, or by a p + b g + c. There p is the volume
+/// and g its gradient magnitude. The cost of a window is the fraction of the reference's variance
+/// that the fit leaves. With p alone it is 1 minus the squared local correlation; with both it is 1
+/// minus LC2 (Wein et al., MICCAI 2013; Fuerst et al., Medical Image Analysis 18(8), 2014).
 #ifndef BrainShift_LocalFitSimilarity_h
 #define BrainShift_LocalFitSimilarity_h
 
-#include "Common/Export.h"
 #include "Filters/Register/Similarity.h"
-
-#include <glm/vec3.hpp>
-
-#include <cstddef>
-#include <memory>
-#include <vector>
 
 namespace brainshift
 {
-// Sums over windows around every second point of a grid, and what windows hand back to their
+// Sums over windows around every second point of a grid, and the results of windows for their
 // points.
 //
-// Neighbouring windows share most of their points, so that windows around every point would say
-// little more and take eight times as long to fit.
+// Neighbouring windows have most of their points in common, so that windows around every point
+// would add little and take eight times as long to fit.
 
 constexpr int WindowRadius = 3; ///< points
 constexpr int WindowStride = 2; ///< points from one window's middle to that of the next
 
-/** How many windows a line of so many points has. The first lies around the first point. */
+/** Number of windows of a line of so many points. The first is around the first point. */
 constexpr int windowsAlong(int points)
 {
   return (points + WindowStride - 1) / WindowStride;
@@ -89,10 +80,10 @@ public:
 private:
   struct Work;
   void leaveOutIdleSamples();
-  void takeSample(const LevelSamples::Place& place, float* sums, Work& work) const;
+  void takeSample(const LevelSamples::Compared& sample, float* sums, Work& work) const;
   void takeSamples(const std::vector<glm::vec3>& displacements, Work& work) const;
   void fitWindows(Work& work) const;
-  /** Turns the sums of a window into what it leaves; adds to the cost and the windows. */
+  /** Replaces the sums of a window by its results (Left); adds to the cost and the windows. */
   void fitWindow(float* numbers, bool counts, double& sum, double& windows) const;
   ControlForces takeForces(const std::vector<glm::vec3>& displacements, const Work& work) const;
 
@@ -101,8 +92,8 @@ private:
   std::vector<float> Rest;     // at the samples, 0 to 1
   std::vector<float> Slope;    // the same of its gradient's length; empty without
   Volume Reference;            // at the points, 0 to 1
-  std::vector<char> Says;      // of the windows; 1: the volume varies there
-  float LeastVariance;         // of the reference, below which a window says little
+  std::vector<char> Varies;    // of the windows; 1: the volume varies there
+  float LeastVariance;         // of the reference, below which a window carries little information
   std::unique_ptr<Work> Known; // of the last comparison; its memory serves the next one
 };
 

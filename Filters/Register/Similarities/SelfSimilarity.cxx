@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/Similarities/SelfSimilarity.h"
 
-#include "Common/Parallel.h"
 #include "Filters/Register/Similarities/LocalFitSimilarity.h"
-#include "Filters/Register/Similarity.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -259,19 +253,19 @@ CostAndForces SelfSimilarity::compare(const std::vector<glm::vec3>& displacement
   ControlForces forces = samples.rows.visitRows(displacements, [&](const SampleRow& row) {
     const std::size_t rowNumber = static_cast<std::size_t>(row.k) * grid.dimensions.y + row.j;
     const LevelSamples::Stretch stretch = samples.stretches[rowNumber];
-    samples.visitStretch(row, stretch, [&](const LevelSamples::Place& place) {
+    samples.visitStretch(row, stretch, [&](const LevelSamples::Compared& sample) {
       const float weight =
-        place.weight * trilinear(samples.referenceWeights.values.data(), place.at).value;
+        sample.weight * trilinear(samples.referenceWeights.values.data(), sample.at).value;
       if (weight > 0.0f)
       {
         float sums[Sums][Lanes] = {};
-        compareNumbers(&this->Rest[place.number * Channels],
-          &this->Reference[place.at.first * Channels], place.at, sums);
+        compareNumbers(&this->Rest[sample.number * Channels],
+          &this->Reference[sample.at.first * Channels], sample.at, sums);
         float force[ForceNumbers];
         rowSums[rowNumber] +=
-          weight * forceOf(sums, samples.stepsPerMm, weight, place.freedom, force);
+          weight * forceOf(sums, samples.stepsPerMm, weight, sample.freedom, force);
         rowWeights[rowNumber] += weight;
-        LatticeRows::add(row, place.taps, force);
+        LatticeRows::add(row, sample.taps, force);
       }
     });
     return stretch.first < stretch.last;

@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief How the surroundings of a point resemble each other: 12 numbers that do not change with
- *        contrast, brightness or inversion.
- *
- * Method: the self-similarity context (SSC) of Heinrich et al., MICCAI 2013. Each number compares
- * two of the six neighbours at `SelfSimilarityDistance`.
- */
+/// @file
+/// Self-similarity of the surroundings of a point: 12 numbers that do not change with contrast,
+/// brightness or inversion.
+///
+/// Method: the self-similarity context (SSC) of Heinrich et al., Towards Realtime Multimodal Fusion
+/// for Image-Guided Interventions Using Self-Similarities, MICCAI 2013. Each number compares two of
+/// the six neighbours at `SelfSimilarityDistance`.
 #ifndef BrainShift_SelfSimilarity_h
 #define BrainShift_SelfSimilarity_h
 
-#include "Common/Export.h"
 #include "Filters/Register/Volume.h"
-
-#include <vector>
 
 namespace brainshift
 {
@@ -25,7 +21,7 @@ constexpr int SelfSimilarityRadius = 1;   ///< points, of the boxes that are com
 constexpr Support SelfSimilaritySupport{ SelfSimilarityDistance + SelfSimilarityRadius,
   SelfSimilarityRadius };
 
-/** The 12 numbers (0 to 1) of each point, beside each other. */
+/** The 12 numbers (0 to 1) of each point, interleaved. */
 BRAINSHIFT_DEFORMATION_EXPORT std::vector<float> selfSimilarity(const Volume& volume);
 }
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // LC2 in small windows: the reference is ultrasound inside a fan. Speckle pulls each position in a
-// random direction; the six numbers of a rigid motion average it out, so the volume moves as a
-// whole before it bends.
+// random direction; the six parameters of a rigid motion average it out, so the volume moves as
+// a whole before it bends.
 #include "Filters/Register/Similarities/LocalFitSimilarity.h"
 
 namespace brainshift
 {
 namespace
 {
-// Deformations that are not there can fit speckle better.
+// Softer, the volume would fit the speckle by deformations that do not exist.
 constexpr double SpeckleStiffness = 5.0;
 
 const Metric UltrasoundMetric = localFitMetric(true);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief A ball of labels on grids, for tests of segments.
- */
+/// @file
+/// A ball of labels on grids, for tests of segments.
 #ifndef BrainShift_TestBall_h
 #define BrainShift_TestBall_h
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief A head of labels on grids, and strokes all over it, for tests of masks.
- */
+/// @file
+/// A head of labels on grids, and strokes all over it, for tests of masks.
 #ifndef BrainShift_TestHead_h
 #define BrainShift_TestHead_h
 

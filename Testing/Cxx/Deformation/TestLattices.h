@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lattices and points that the tests share. Every random number comes from a seed that the test
-// names.
+/// @file
+/// Lattices and points that the tests share. Every random number comes from a seed that the test
+/// names.
 #ifndef BrainShift_TestLattices_h
 #define BrainShift_TestLattices_h
 

@@ -245,6 +245,22 @@ TEST(Looks, AreNoneForLabelsAndForNothing)
   EXPECT_TRUE(looksOf(readIntensities(nowhere, Values)).empty());
 }
 
+TEST(Looks, AConstantVolumeIsNoLabelMap)
+{
+  for (const double constant : { -1000.0, 0.0, 7.0, 2.5e30 })
+  {
+    vtkNew<vtkTrivialProducer> source;
+    source->SetOutput(volumeOn(headGrid(), VTK_DOUBLE, [constant](vtkIdType) { return constant; }));
+    vtkNew<vtkVolumeLookReport> report;
+    report->SetSource(source);
+    report->SetArrayName("Intensity");
+    report->Measure();
+    EXPECT_STREQ(report->GetKind(), "") << constant;
+    EXPECT_STREQ(report->GetNames(), "") << constant;
+    EXPECT_EQ(report->GetColors()->GetNumberOfValues(), 0) << constant;
+  }
+}
+
 TEST(Looks, OutliersDoNotMoveThem)
 {
   auto head = headOf({ 4.0, 70.0, 25.0, 110.0 }, 4.0, 0.0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The defaults that an XML file of the repository gives to properties.
+/// @file
+/// The defaults that an XML file of the repository gives to properties.
 #ifndef BrainShift_TestDefaults_h
 #define BrainShift_TestDefaults_h
 

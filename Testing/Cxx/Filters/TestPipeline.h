@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Small volumes and the two filters around them, for tests of the pipeline.
+/// @file
+/// Small volumes and the two filters around them, for tests of the pipeline.
 #ifndef BrainShift_TestPipeline_h
 #define BrainShift_TestPipeline_h
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief The same process, written down plainly: full matrices and Gauss's elimination. And
- *        scattered points of a fixed seed.
- */
+/// @file
+/// The same process, written down plainly: full matrices and Gauss's elimination. And scattered
+/// points of a fixed seed.
 #ifndef BrainShift_Testing_DenseReference_h
 #define BrainShift_Testing_DenseReference_h
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that mutual information is what its definition says, and that the search finds a known
-// motion whatever the contrast, the bend and the cavity are.
+// Proves that mutual information follows its definition, and that the search finds a known motion
+// for any contrast, deformation and cavity.
 #include "Filters/Register/Alignment.h"
 #include "Filters/Deformation/Kernels.h"
-#include "Filters/Register/JointHistogram.h"
-#include "Filters/Register/LineSearch.h"
 #include "Testing/Cxx/Register/Synthetic.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +16,7 @@ namespace
 {
 constexpr double Degree = 0.017453292519943295;
 
-// A head: one bright side, so that no turn looks like another.
+// A head: one bright side, so that every rotation looks different.
 double head(const glm::dvec3& at)
 {
   const glm::dvec3 away = at - middle(smallGrid());
@@ -26,7 +24,7 @@ double head(const glm::dvec3& at)
   return isInside ? tissue(at) : 0.0;
 }
 
-// The reference shows the head inverted and lies elsewhere: `there` takes it from its place.
+// The reference shows the head inverted, in another position: `there` is the motion to it.
 RegisteredPair pairMovedBy(const RigidPose& there)
 {
   Grid grid = smallGrid(44);
@@ -39,10 +37,10 @@ RegisteredPair pairMovedBy(const RigidPose& there)
   return pair;
 }
 
-RigidPose awayBy(double shiftMm, double turnDegrees)
+RigidPose awayBy(double shiftMm, double rotationDegrees)
 {
   return turnedAround(middle(smallGrid()),
-    rotationFrom(turnDegrees * Degree * glm::normalize(glm::dvec3(0.4, -0.8, 0.5))),
+    rotationFrom(rotationDegrees * Degree * glm::normalize(glm::dvec3(0.4, -0.8, 0.5))),
     shiftMm * glm::normalize(glm::dvec3(-0.7, 0.3, 0.6)));
 }
 
@@ -88,15 +86,15 @@ TEST(JointHistogram, KnowsWhatPairsSayAboutEachOther)
 
 TEST(LineSearch, FindsTheLowestPlace)
 {
-  for (const double place : { -37.0, -0.3, 0.0, 0.4, 12.0 })
+  for (const double position : { -37.0, -0.3, 0.0, 0.4, 12.0 })
   {
     int calls = 0;
     const auto valley = [&](double at) {
       ++calls;
-      return std::abs(at - place) < 50.0 ? std::pow(std::abs(at - place), 1.5) : 1e3;
+      return std::abs(at - position) < 50.0 ? std::pow(std::abs(at - position), 1.5) : 1e3;
     };
     const LinePoint found = lowestAlong(valley, valley(0.0), 2.0, 0.01);
-    EXPECT_NEAR(found.at, place, 0.011);
+    EXPECT_NEAR(found.at, position, 0.011);
     EXPECT_LT(calls, 45);
   }
   const LinePoint stays = lowestAlong([](double at) { return at * at; }, -1.0, 2.0, 0.01);
@@ -110,7 +108,7 @@ TEST(Alignment, FindsAKnownMotion)
   ASSERT_GT(apart(alignment.motion(), there), 5.0);
   run(alignment);
   EXPECT_LT(apart(alignment.motion(), there), 0.3);
-  EXPECT_NEAR(alignment.turnDegrees(), 11.0, 0.5);
+  EXPECT_NEAR(alignment.rotationDegrees(), 11.0, 0.5);
   const AlignmentProgress& progress = alignment.progress();
   EXPECT_GT(progress.information, 1.5 * progress.informationAtStart);
   EXPECT_EQ(progress.level, 2);
@@ -165,8 +163,8 @@ TEST(Alignment, ACavityDoesNotCount)
 {
   const RigidPose there = awayBy(5.0, 6.0);
   const glm::dvec3 centre = there.apply(middle(smallGrid()) + glm::dvec3(12.0, 10.0, 0.0));
-  double told[2];
-  double untold[2];
+  double withCavity[2];
+  double withoutCavity[2];
   for (const int content : { 0, 1 })
   {
     RegisteredPair pair = pairMovedBy(there);
@@ -178,15 +176,15 @@ TEST(Alignment, ACavityDoesNotCount)
         removed.inside[i] ? 50.0f + 100.0f * content : pair.reference.values[i];
     }
     Alignment misled(pair, nullptr);
-    untold[content] = misled.step().informationAtStart;
+    withoutCavity[content] = misled.step().informationAtStart;
     pair.cavity = ball(grid, centre, 16.0);
     Alignment alignment(pair, nullptr);
     run(alignment);
     EXPECT_LT(apart(alignment.motion(), there), 0.4);
-    told[content] = alignment.progress().information;
+    withCavity[content] = alignment.progress().information;
   }
-  EXPECT_NEAR(told[0], told[1], 0.005);
-  EXPECT_GT(std::abs(untold[0] - untold[1]), 0.02);
+  EXPECT_NEAR(withCavity[0], withCavity[1], 0.005);
+  EXPECT_GT(std::abs(withoutCavity[0] - withoutCavity[1]), 0.02);
 }
 
 TEST(Alignment, AMaskSaysWhatIsCompared)
@@ -211,7 +209,7 @@ TEST(Alignment, NothingIsFoundWithoutOverlap)
   run(alignment);
   EXPECT_EQ(alignment.progress().information, 0.0);
   EXPECT_EQ(alignment.progress().overlap, 0.0);
-  EXPECT_EQ(alignment.shiftMm(), 0.0) << "nothing says where to go";
+  EXPECT_EQ(alignment.shiftMm(), 0.0) << "there is no information";
 }
 
 // A few samples at a border agree by chance: below a quarter of them, nothing is found.

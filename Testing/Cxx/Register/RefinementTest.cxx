@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that a refinement finds a known bend, begins with what the hand made, never ends with more
-// energy, and does not fold tissue.
+// Proves that a refinement finds a known deformation, starts from the present one, never ends with
+// more energy, and does not fold tissue.
 #include "Filters/Register/Refinement.h"
 #include "Filters/Deformation/LatticeExtremes.h"
 #include "Filters/Deformation/PointMap.h"
@@ -142,7 +142,7 @@ TEST(Refinement, WhatCorrelatesIsPlacedMoreExactly)
   EXPECT_EQ(whole.progress().level, 2);
   EXPECT_LT(apart(whole.lattice(), truth), 0.8 * apart(without.lattice(), truth));
   EXPECT_EQ(whole.progress().overlap, without.progress().overlap)
-    << "another similarity reaches farther";
+    << "another similarity has a larger support";
 }
 
 TEST(Refinement, ALevelThatMightLeadAstrayIsLeftOut)

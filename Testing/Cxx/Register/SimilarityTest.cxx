@@ -112,7 +112,7 @@ TEST(SelfSimilarity, DoesNotChangeWithContrast)
   EXPECT_GT(*std::max_element(numbers.begin(), numbers.end()) -
       *std::min_element(numbers.begin(), numbers.end()),
     0.5f)
-    << "the numbers tell places apart";
+    << "the numbers differ between positions";
 }
 
 // Each metric that a similarity uses, once.

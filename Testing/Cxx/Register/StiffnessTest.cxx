@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that the stiffness is an energy, what costs nothing, and that a Newton step solves its
-// equations.
+// Proves that the stiffness is an energy, that rigid motions have none, and that a Newton step
+// solves its equations.
 #include "Filters/Register/Stiffness.h"
 #include "Filters/Register/LatticeRows.h"
 #include "Testing/Cxx/Register/Synthetic.h"
@@ -75,7 +75,7 @@ TEST(Stiffness, AStretchCostsItsElasticEnergy)
     return dot(d, stiffness.times(d));
   };
   EXPECT_NEAR(energy(glm::dmat3(0.0)), 0.0, 1e-9) << "a shift";
-  EXPECT_NEAR(energy(glm::dmat3(0, 0.01, 0, -0.01, 0, 0, 0, 0, 0)), 0.0, 1e-9) << "a turn";
+  EXPECT_NEAR(energy(glm::dmat3(0, 0.01, 0, -0.01, 0, 0, 0, 0, 0)), 0.0, 1e-9) << "a rotation";
   // Of a stretch by e along x: 2 * shear * e^2 + compression * e^2.
   EXPECT_NEAR(energy(glm::dmat3(0.01, 0, 0, 0, 0, 0, 0, 0, 0)), cells * 1.25e-4, 1e-7);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that a sweep's empty surroundings are found, that dark tissue within it counts as seen,
-// and that a refinement by ultrasound looks at nothing else.
-#include "Filters/Register/Sweep.h"
+// Proves that the surroundings of a fan are found, that dark tissue within it is inside, and that a
+// refinement by ultrasound compares nothing else.
 #include "Filters/Register/LatticeRows.h"
+#include "Filters/Register/PyramidLevel.h"
 #include "Testing/Cxx/Register/Synthetic.h"
 
 #include <glm/geometric.hpp>
@@ -42,10 +42,10 @@ TEST(Sweep, TheCystIsSeenAndTheSurroundingsAreNot)
 {
   const Mask seen = sweptRegion(ball());
   EXPECT_TRUE(isSeen(seen, Middle + glm::dvec3(4, 0, 0)));
-  for (const double share : { 0.0, 0.5, 0.75 })
+  for (const double fraction : { 0.0, 0.5, 0.75 })
   {
-    EXPECT_TRUE(isSeen(seen, Middle - glm::dvec3(10.0 * share, 0, 0))) << share;
-    EXPECT_TRUE(isSeen(seen, Middle + glm::dvec3(0, 0, 10.0 * share))) << share;
+    EXPECT_TRUE(isSeen(seen, Middle - glm::dvec3(10.0 * fraction, 0, 0))) << fraction;
+    EXPECT_TRUE(isSeen(seen, Middle + glm::dvec3(0, 0, 10.0 * fraction))) << fraction;
   }
   for (const glm::dvec3& away : { glm::dvec3(10, 0, 0), glm::dvec3(0, -10, 0), glm::dvec3(-13) })
   {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * @brief Volumes whose value is known everywhere, for tests of registrations.
- */
+/// @file
+/// Volumes whose value is known everywhere, for tests of registrations.
 #ifndef BrainShift_Synthetic_h
 #define BrainShift_Synthetic_h
 
@@ -16,7 +14,7 @@
 
 namespace brainshift::testing
 {
-/** A grid of points 2 mm apart along axes that are turned about z. */
+/** A grid of points 2 mm apart along axes that are rotated about z. */
 inline Grid smallGrid(int side = 40)
 {
   Grid grid;

@@ -50,7 +50,7 @@ RegisteredPair pairShiftedBy(double shiftMm)
 struct Found
 {
   double shiftMm = 0.0; // of the tissue in the sweep
-  double inSight = 0.0; // share of what was compared at the start
+  double inSight = 0.0; // fraction of the samples at the start
 };
 
 Found foundFor(double shiftMm)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that a refinement by ultrasound finds its place through speckle, stays there, and
-// moves as a whole at no cost.
+// Proves that a refinement by ultrasound finds the position through speckle, stays there, and
+// moves as a whole without energy.
 #include "Filters/Deformation/PointMap.h"
 #include "Filters/Register/Refinement.h"
 #include "Filters/Register/RefinementSteps.h"
@@ -55,13 +55,13 @@ double echo(const glm::dvec3& at)
 std::vector<float> speckle(const Grid& grid, unsigned seed)
 {
   std::mt19937 random(seed);
-  const auto share = [&] { return (random() + 1.0) / 4294967297.0; };
+  const auto fraction = [&] { return (random() + 1.0) / 4294967297.0; };
   Volume parts[2] = { { grid, std::vector<float>(grid.count()) },
     { grid, std::vector<float>(grid.count()) } };
   for (std::size_t i = 0; i < grid.count(); ++i)
   {
-    const double length = std::sqrt(-std::log(share()) / Grains);
-    const double angle = 2.0 * glm::pi<double>() * share();
+    const double length = std::sqrt(-std::log(fraction()) / Grains);
+    const double angle = 2.0 * glm::pi<double>() * fraction();
     parts[0].values[i] = static_cast<float>(length * std::cos(angle));
     parts[1].values[i] = static_cast<float>(length * std::sin(angle));
   }
@@ -105,11 +105,11 @@ RegisteredPair speckledPair(unsigned seed)
   return pair;
 }
 
-// All control points `offsetMm` away from their place, and turned about the middle of the sweep.
-Lattice displacedBy(const glm::dvec3& offsetMm, double turnAboutZ = 0.0)
+// All control points `offsetMm` away from their position, and rotated about the middle of the fan.
+Lattice displacedBy(const glm::dvec3& offsetMm, double rotationAboutZ = 0.0)
 {
   Lattice lattice = makeLattice(withDimensions(headGrid(), { 10, 10, 10 }), KernelCatmullRom);
-  const glm::dvec3 turn(0.0, 0.0, turnAboutZ);
+  const glm::dvec3 rotation(0.0, 0.0, rotationAboutZ);
   std::size_t number = 0;
   for (int k = 0; k < 10; ++k)
   {
@@ -118,14 +118,14 @@ Lattice displacedBy(const glm::dvec3& offsetMm, double turnAboutZ = 0.0)
       for (int i = 0; i < 10; ++i)
       {
         const glm::dvec3 arm = lattice.grid.worldFromGrid({ i, j, k }) - sweepMiddle();
-        lattice.displacements[number++] = glm::vec3(offsetMm + glm::cross(turn, arm));
+        lattice.displacements[number++] = glm::vec3(offsetMm + glm::cross(rotation, arm));
       }
     }
   }
   return lattice;
 }
 
-// Mean distance (mm) of what the probe saw from its place.
+// Mean distance (mm) of tissue inside the fan from its true position.
 double error(const Lattice& lattice)
 {
   const PointMap map(lattice);
@@ -169,7 +169,7 @@ TEST_P(UltrasoundFrom, TheVolumeFindsItsPlaceThroughSpeckle)
   EXPECT_LT(error(refined(start, byUltrasound())), 0.3);
 }
 
-// Shifts in mm, and a turn in radians.
+// Shifts in mm, and a rotation in radians.
 INSTANTIATE_TEST_SUITE_P(Starts, UltrasoundFrom,
   ::testing::Values(glm::dvec4(4.0, 0.0, 0.0, 0.0), glm::dvec4(0.0, -4.0, 0.0, 0.0),
     glm::dvec4(0.0, 0.0, 4.0, 0.0), glm::dvec4(-2.0, 2.0, -2.0, 0.0),
@@ -213,14 +213,14 @@ TEST(RigidStep, IsTheMotionThatAllForcesAskFor)
   grid.spacing = { 9.0, 8.0, 10.0 };
   const Lattice lattice = makeLattice(grid, KernelCatmullRom);
   const glm::dvec3 shift(0.5, -1.0, 0.25);
-  const glm::dvec3 turn(0.01, 0.02, -0.015);
+  const glm::dvec3 rotation(0.01, 0.02, -0.015);
   ControlForces forces(grid.count() * ForceNumbers, 0.0f);
   std::vector<glm::vec3> motion(grid.count());
   for (std::size_t i = 0; i < grid.count(); ++i)
   {
     const glm::ivec3 index(
       static_cast<int>(i % 5), static_cast<int>(i / 5 % 6), static_cast<int>(i / 30));
-    motion[i] = glm::vec3(shift + glm::cross(turn, grid.spacing * glm::dvec3(index)));
+    motion[i] = glm::vec3(shift + glm::cross(rotation, grid.spacing * glm::dvec3(index)));
     const float weight = index.z < 4 ? 2.0f : 0.0f; // the upper half was not seen
     for (int axis = 0; axis < 3; ++axis)
     {

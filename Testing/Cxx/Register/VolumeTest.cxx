@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves what a pyramid does to volumes against plain loops and linear functions.
+// Proves the operations of a pyramid against plain loops and linear functions.
 #include "Filters/Register/Volume.h"
 #include "Testing/Cxx/Register/Synthetic.h"
 

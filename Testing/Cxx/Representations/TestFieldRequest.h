@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a lattice asks of the field on the GPU.
+/// @file
+/// What a lattice asks of the field on the GPU.
 #ifndef BrainShift_TestFieldRequest_h
 #define BrainShift_TestFieldRequest_h
 

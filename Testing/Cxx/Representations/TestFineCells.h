@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An offset field with its corrections, evaluated as the shaders do (Shaders/Field/field.glsl), and
-// strokes that bend it much.
+/// @file
+/// An offset field with its corrections, evaluated as the shaders do (Shaders/Field/field.glsl),
+/// and strokes that bend it much.
 #ifndef BrainShift_TestFineCells_h
 #define BrainShift_TestFineCells_h
 

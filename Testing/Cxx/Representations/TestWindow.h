@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An off-screen window with a current OpenGL context.
+/// @file
+/// An off-screen window with a current OpenGL context.
 #ifndef BrainShift_TestWindow_h
 #define BrainShift_TestWindow_h
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause A server of OpenIGTLink on loopback, and messages made by
-// hand: not by the library that reads them.
+/// @file
+/// hand: not by the library that reads them.
 #ifndef BrainShift_TestServer_h
 #define BrainShift_TestServer_h
 

@@ -77,7 +77,7 @@ TEST(LatticeShapes, HalfWeightIsHalfOfTheMiddle)
 {
   for (double sigma : { 0.05, 0.5, 2.0 })
   {
-    EXPECT_NEAR(falloff(shareOfHalfWeight(sigma), sigma), 0.5, 1e-6) << sigma;
+    EXPECT_NEAR(falloff(radiusOfHalfWeight(sigma), sigma), 0.5, 1e-6) << sigma;
   }
 }
 

@@ -363,8 +363,8 @@ TEST(Commands, AreFoundByKey)
     return commandOfKey({ Scope::Tool, Scope::View, Scope::Slices }, key);
   };
   EXPECT_EQ(inView(Qt::Key_Y).command, Command::HoldAxis);
-  EXPECT_EQ(inView(Qt::Key_Y).place, 1);
-  EXPECT_EQ(inView(Qt::Key_PageDown).place, 1);
+  EXPECT_EQ(inView(Qt::Key_Y).index, 1);
+  EXPECT_EQ(inView(Qt::Key_PageDown).index, 1);
   EXPECT_EQ(inView(Qt::Key_Delete).command, Command::None); // the list's
   EXPECT_EQ(inView(Qt::Key_K).command, Command::None);      // the window's
   EXPECT_EQ(commandOfKey({ Scope::List }, Qt::Key_Enter).command, Command::EditNumber);

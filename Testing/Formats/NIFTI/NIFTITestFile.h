@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes small NIfTI files byte by byte, so that a test knows what is in them and can damage them.
+/// @file
+/// Writes small NIfTI files byte by byte, so that a test knows what is in them and can damage them.
 #ifndef BrainShift_NIFTITestFile_h
 #define BrainShift_NIFTITestFile_h
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs the reader of NIfTI on a file of the test's scratch folder and keeps what it says.
+/// @file
+/// Runs the reader of NIfTI on a file of the test's scratch folder and keeps what it says.
 #ifndef BrainShift_NIFTITestReading_h
 #define BrainShift_NIFTITestReading_h
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs a reader of volumes on a file of the test's scratch folder and keeps what it says.
+/// @file
+/// Runs a reader of volumes on a file of the test's scratch folder and keeps what it says.
 #ifndef BrainShift_VolumeFormatTesting_h
 #define BrainShift_VolumeFormatTesting_h
 

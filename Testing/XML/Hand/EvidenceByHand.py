@@ -70,7 +70,7 @@ def words_under_the_cursor():
         hand.hover(pixel)
         hand.wait(250)
         text = hand.label("BrainShiftCursor")
-        if "evidence" in text:
+        if "evidence" in text or "uncertainty" in text:
             break
     place = brainshift.pick(scene["display"], scene["view"], *pixel)
     rest = brainshift.rest_from_deformed(scene["bent"], numpy.array([place]))

@@ -3,6 +3,7 @@
 natural colours. Filters of a volume share its colours, a stranger with an array of the same name
 does not, and a user's colours stay. Buttons of looks act at once and can be undone. They follow the
 array that colours the volume, and a stroke reads no volume for them. A mask covers nothing.
+A constant volume is no mask.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 
@@ -128,6 +129,19 @@ def a_mask_covers_nothing():
     simple.Delete(mask)
 
 
+def a_constant_volume_is_shown():
+    """It is no label map, so it does not become an outline beside another volume."""
+    view, _, display = a_head_is_seen_at_once()
+    before = list(display.LookupTable.RGBPoints)
+    flat = volume(numpy.full((20, 20, 20), 7.0))
+    of_flat = simple.Show(flat, view)
+    of_flat.SetRepresentationType("Deformed Volume")
+    hand.wait(300)
+    assert of_flat.Representation == "Deformed Volume", of_flat.Representation
+    assert list(display.LookupTable.RGBPoints) == before
+    simple.Delete(flat)
+
+
 def buttons_choose_a_look():
     view, reader, _ = a_head_is_seen_at_once()
     mask = simple.OpenDataFile(MASK)
@@ -217,6 +231,7 @@ def play():
     yield (a_filter_shares_the_look,)
     yield (a_stranger_gets_colours_of_its_own,)
     yield (a_mask_covers_nothing,)
+    yield (a_constant_volume_is_shown,)
     yield (buttons_follow_the_array,)
     yield (a_stroke_reads_nothing,)
     yield (buttons_choose_a_look,)

@@ -120,7 +120,7 @@ def half_a_pair_never_reaches_the_fit():
     assert "Landmark 1: click it in the bent volume bent" in request(), request()
     before = cameras()
     click_at("axial", scene["middle"] + PLACES[0])
-    assert "Landmark 1: click the same place in the reference" in request(), request()
+    assert "Landmark 1: click the same position in the reference" in request(), request()
     assert fit() is None and cameras() == before and not scene["bent"].Strokes
     hand.tap(hand.ESCAPE)
     hand.wait(50)
