@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Field/FieldTexture.h"
 
+#include "Filters/Deformation/Lattice.h"
 #include "Filters/Deformation/Kernels.h"
 #include "Representations/Gpu/VolumePass.h"
 

@@ -8,12 +8,16 @@
 #include "Representations/Field/FineTextures.h"
 #include "Representations/Gpu/Program.h"
 
+#include <memory>
+
 class vtkOpenGLRenderWindow;
 class vtkTextureObject;
 class vtkWindow;
 
 namespace brainshift
 {
+struct NodeWeights;
+
 /// A lattice, and where its offsets are wanted.
 struct FieldRequest
 {

@@ -4,6 +4,7 @@
 #ifndef BrainShift_TestFieldRequest_h
 #define BrainShift_TestFieldRequest_h
 
+#include "Filters/Deformation/Lattice.h"
 #include "Representations/Field/FieldTexture.h"
 
 namespace brainshift::testing

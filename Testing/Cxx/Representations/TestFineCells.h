@@ -8,6 +8,7 @@
 #include "Common/Grid.h"
 #include "Filters/Deformation/FieldChange.h"
 #include "Filters/Deformation/LatticeExtremes.h"
+#include "Filters/Deformation/PointMap.h"
 #include "Representations/Field/FineCells.h"
 #include "Testing/Cxx/Deformation/TestLattices.h"
 
