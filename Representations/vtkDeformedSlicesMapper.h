@@ -6,7 +6,7 @@
  * Draws three planes across the volume's axes, through one position. Each fragment reads its scalar
  * at the rest position that its tissue came from (Filters/Attached/DeformableVolume.h). So nothing
  * is resampled. The planes reach as far as tissue can go. Outside tissue nothing is drawn. Colours
- * and place come from the vtkVolume; there is no light.
+ * and position come from the vtkVolume; there is no light.
  *
  * Opaque planes are drawn together with the surfaces, with their depth. See-through planes are
  * drawn together with the volumes and blended over what is there.
@@ -65,7 +65,7 @@ public:
   ///@}
 
   ///@{
-  /** Whether each plane shows where the other two cut it, by lines in their colours
+  /** Whether each plane shows its intersections with the other two, by lines in their colours
    * (Slices/SliceGeometry.h). Default false. */
   vtkSetMacro(Crosshair, bool);
   vtkGetMacro(Crosshair, bool);
@@ -85,8 +85,8 @@ public:
   ///@}
 
   ///@{
-  /** Whether tissue shows how far its place can be believed, as in vtkDeformedVolumeMapper. In two
-   * colours, differences and gradients stripes show it. Default false. */
+  /** Whether tissue is tinted by the uncertainty of its position, as in vtkDeformedVolumeMapper. In
+   * two colours, differences and gradients it is shown by stripes. Default false. */
   vtkSetMacro(ShowEvidence, bool);
   vtkGetMacro(ShowEvidence, bool);
   ///@}
@@ -117,7 +117,7 @@ public:
   ///@{
   /**
    * How the reference that Compare Volumes attached is shown. Default: it is not shown. Colours and
-   * difference ignore its cavity. If Compare Volumes says that one of the two volumes is shown
+   * difference ignore its cavity. If Compare Volumes shows one of the two volumes
    * alone, that one is drawn with the colour map, whatever the comparison.
    */
   vtkSetClampMacro(Comparison, int, NoComparison, LocalSimilarity);
@@ -141,7 +141,7 @@ public:
   ///@}
 
   ///@{
-  /** The reference's scalars that stand for the ends of the colour map. Default 0 0: see
+  /** Scalars of the reference that map to the ends of the colour map. Default 0 0: see
    * vtkDeformedVolumeMapper. Any two numbers of which the first is not smaller mean the default. */
   vtkSetVector2Macro(ReferenceRange, double);
   vtkGetVector2Macro(ReferenceRange, double);
@@ -149,8 +149,8 @@ public:
 
   ///@{
   /**
-   * Change of the reference within one mm at which Gradient has its full colour, as a share of the
-   * colour map's range. Default 0.3.
+   * Change of the reference per mm at which Gradient has its full colour, as a fraction of the
+   * range of the colour map. Default 0.3.
    */
   vtkSetClampMacro(FullGradient, double, 1e-6, VTK_DOUBLE_MAX);
   vtkGetMacro(FullGradient, double);
@@ -175,7 +175,7 @@ public:
   vtkGetVector3Macro(WipePosition, double);
   ///@}
 
-  /** Whether what lies behind may be seen through the planes. */
+  /** Whether the planes are see-through. */
   bool IsTranslucent() const { return this->MapOpacity || this->Opacity < 1.0; }
 
   void Render(vtkRenderer* renderer, vtkVolume* volume) override;
@@ -203,15 +203,15 @@ public:
    */
   bool Pick(vtkRenderer* renderer, int x, int y, double position[3], double normal[3]);
 
-  /** What is known of the tissue at a place of the deformed frame: mm, before the transform of the
+  /** Facts about the tissue at a position in the deformed frame: mm, before the transform of the
    * vtkVolume. */
   void DescribeTissue(const double deformedMm[3], brainshift::TissueFacts& facts);
 
-  /** Where tissue that is drawn at a place lies at rest, or, if `toRest` is false, where tissue of
-   * a rest place is drawn. Both mm, before the transform of the vtkVolume. */
+  /** Finds the rest position of tissue that is drawn at `place`, or, if `toRest` is false, the
+   * drawn position of tissue that rests at `place`. Both mm, before the vtkVolume's transform. */
   void FindSameTissue(const double place[3], bool toRest, double found[3]);
 
-  /** What the mapper did since it was made, and what it holds on the GPU now. */
+  /** Counts of the mapper's work since it was made, and its memory on the GPU now. */
   const brainshift::Counters& GetCounters();
 
 protected:

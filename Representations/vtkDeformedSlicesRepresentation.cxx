@@ -194,9 +194,9 @@ void vtkDeformedSlicesRepresentation::SetReferenceRange(double black, double whi
   this->GetDeformedSlicesMapper()->SetReferenceRange(black, white);
 }
 
-void vtkDeformedSlicesRepresentation::SetFullGradient(double share)
+void vtkDeformedSlicesRepresentation::SetFullGradient(double fraction)
 {
-  this->GetDeformedSlicesMapper()->SetFullGradient(share);
+  this->GetDeformedSlicesMapper()->SetFullGradient(fraction);
 }
 
 void vtkDeformedSlicesRepresentation::SetSimilarityWindow(double mm)

@@ -45,7 +45,7 @@ public:
   void SetComparisonColors(int colors);
   void SetCheckerSize(double size);
   void SetReferenceRange(double black, double white);
-  void SetFullGradient(double share);
+  void SetFullGradient(double fraction);
   void SetSimilarityWindow(double mm);
   void SetWipePosition(double x, double y, double z);
   ///@}
@@ -58,14 +58,14 @@ public:
 
   ///@{
   /**
-   * What the axes of the world mean for the patient: 0 (default): what the volume's reader has
-   * attached (WorldAxes.h); 1: RAS; 2: LPS.
+   * Meaning of the world axes for the patient: 0 (default): as the volume's reader has attached
+   * (WorldAxes.h); 1: RAS; 2: LPS.
    */
   void SetWorldAxes(int axes);
   vtkGetMacro(WorldAxes, int);
   ///@}
 
-  /** Shows how far the place of tissue can be believed; see vtkDeformedSlicesMapper. */
+  /** Whether tissue is tinted by the uncertainty of its position; see vtkDeformedSlicesMapper. */
   void SetShowEvidence(bool show) override;
 
   /** The mapper that draws it in this process. */
@@ -85,8 +85,8 @@ private:
   vtkDeformedSlicesRepresentation(const vtkDeformedSlicesRepresentation&) = delete;
   void operator=(const vtkDeformedSlicesRepresentation&) = delete;
 
-  // The process that shows the picture draws the letters. It may not have the volume: what the
-  // volume says of its axes goes there by itself.
+  // The process that shows the picture draws the letters. It may not have the volume: the
+  // meaning of the axes is sent there separately.
   void DeliverAxes(vtkInformationRequestKey* request, vtkInformation* input);
 
   bool ComparesInColors() const override;
@@ -94,12 +94,12 @@ private:
   // Shows the marks that are wanted.
   void ShowMarks();
 
-  // Hands the marks what the user says of the axes, or else what the volume says.
+  // Sets the axes of the marks: those that the user chose, or else those of the volume.
   void UpdateMarks();
 
   bool OrientationMarks = false;
   int WorldAxes = 0;
-  int AttachedAxes = 0;          // what the volume says
+  int AttachedAxes = 0;          // those of the volume
   vtkNew<vtkPolyData> AxesPiece; // one point; its x is AttachedAxes
   vtkSmartPointer<brainshift::OrientationMarks> Marks;
 };

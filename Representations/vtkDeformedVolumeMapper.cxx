@@ -269,9 +269,9 @@ double vtkDeformedVolumeMapper::OcclusionRadiusOn(vtkImageData* image, vtkVolume
   {
     return this->OcclusionRadius;
   }
-  constexpr double usualShare = 0.02; // of the diagonal: 8 mm for a head
+  constexpr double usualFraction = 0.02; // of the diagonal: 8 mm for a head
   const double scale = std::cbrt(std::abs(volume->GetMatrix()->Determinant()));
-  return usualShare * scale * image->GetLength();
+  return usualFraction * scale * image->GetLength();
 }
 
 // None if the data carries no reference or it is not to be drawn.

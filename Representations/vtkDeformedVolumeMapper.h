@@ -22,7 +22,7 @@
 #ifndef vtkDeformedVolumeMapper_h
 #define vtkDeformedVolumeMapper_h
 
-#include "Representations/Scene/HitSource.h"    // for what hides points
+#include "Representations/Scene/HitSource.h"    // for the tissue that hides points
 #include "vtkBrainShiftRepresentationsModule.h" // for the export macro
 #include "vtkVolumeMapper.h"
 
@@ -60,14 +60,14 @@ public:
   ///@{
   /**
    * Step along the ray, mm. 0 (default): half the smallest voxel side. A step that is shorter than
-   * 1/8192 of the volume's diagonal is drawn as that long, and a warning says so.
+   * 1/8192 of the volume's diagonal is drawn as that long, and a warning reports it.
    */
   vtkSetClampMacro(SampleDistance, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(SampleDistance, double);
   ///@}
 
   ///@{
-  /** Leap over what cannot be seen. The picture stays identical to the bit. Default true. */
+  /** Skip empty space along the rays. The picture stays identical to the bit. Default true. */
   vtkSetMacro(EmptySpaceSkipping, bool);
   vtkGetMacro(EmptySpaceSkipping, bool);
   ///@}
@@ -80,7 +80,7 @@ public:
   };
 
   ///@{
-  /** Where the gradients that light needs come from. Default full resolution. */
+  /** Source of the gradients for light. Default full resolution. */
   vtkSetClampMacro(NormalTexture, int, HalfResolution, OnTheFly);
   vtkGetMacro(NormalTexture, int);
   ///@}
@@ -111,8 +111,9 @@ public:
 
   ///@{
   /**
-   * Cast no rays for a picture that would look like the last one. While a tool hovers, only what
-   * lies over the picture changes. Default false; Trace Points in the view have the same effect.
+   * Cast no rays for a picture that would be identical to the last one. While a tool hovers, only
+   * the props over the picture change. Default false; Trace Points in the view have the same
+   * effect.
    */
   vtkSetMacro(KeepPicture, bool);
   vtkGetMacro(KeepPicture, bool);
@@ -120,7 +121,7 @@ public:
 
   ///@{
   /**
-   * Draw only tissue whose place at rest lies in the chosen labels of the segmentation that the
+   * Draw only tissue whose rest position is in the chosen labels of the segmentation that the
    * volume carries (Filters/Attached/Segmentation.h). Default false.
    */
   vtkSetMacro(DrawSegment, bool);
@@ -129,17 +130,17 @@ public:
 
   ///@{
   /**
-   * Whether tissue shows by tints how far its place can be believed (Scene/Tints.h): at
-   * each sample, the deviation where it rests. A comparison in two colours shows stripes. It needs
-   * blend mode Composite, Isosurface or Slice, and a volume with deviations (DeformableVolume.h).
-   * Default false.
+   * Whether tissue is tinted by the uncertainty of its position: one standard deviation, mm, at the
+   * rest position of each sample (Scene/Tints.h). A comparison in two colours shows stripes. It
+   * needs blend mode Composite, Isosurface or Slice, and a volume with deviations
+   * (DeformableVolume.h). Default false.
    */
   vtkSetMacro(ShowEvidence, bool);
   vtkGetMacro(ShowEvidence, bool);
   ///@}
 
   ///@{
-  /** Labels to draw. None (default): those that the segmentation means, or else all above 0. */
+  /** Labels to draw. None (default): the labels of the mask, or else all above 0. */
   void AddDrawnLabel(int label);
   void ClearDrawnLabels();
   ///@}
@@ -168,7 +169,7 @@ public:
 
   ///@{
   /**
-   * The reference's scalars that stand for the ends of the volume's colour map. Default 0 0:
+   * Scalars of the reference that map to the ends of the volume's colour map. Default 0 0:
    * scalars keep their numbers if the ranges of both volumes have at least half in common. Else the
    * range of the reference is mapped to the range of the volume.
    */
@@ -188,9 +189,9 @@ public:
 
   ///@{
   /**
-   * How dark grooves are, as sulci of a brain: the share of its light that tissue loses which its
-   * neighbours hide most, 0 to 1. Still pictures of shaded volumes only, in the blend modes
-   * Composite and Isosurface, and not with a reference in view. 0 is off. Default 0.5.
+   * Strength of ambient occlusion, 0 to 1: the fraction of light that the most occluded tissue
+   * loses. It darkens grooves such as sulci. Still pictures of shaded volumes only, in the blend
+   * modes Composite and Isosurface, and not with a reference in view. 0 is off. Default 0.5.
    */
   vtkSetClampMacro(AmbientOcclusion, double, 0.0, 1.0);
   vtkGetMacro(AmbientOcclusion, double);
@@ -198,7 +199,7 @@ public:
 
   ///@{
   /**
-   * How far tissue hides light, mm, world. At most 96 pixels are looked at. 0 (default): 2 % of the
+   * Radius within which tissue hides light, mm, world; at most 96 pixels. 0 (default): 2 % of the
    * volume's diagonal, 8 mm for a head.
    */
   vtkSetClampMacro(OcclusionRadius, double, 0.0, VTK_FLOAT_MAX);
@@ -227,21 +228,21 @@ public:
   ///@}
 
   /**
-   * Hides what lies behind the tissue of the last picture from a selection. The volume itself
+   * Excludes all behind the tissue of the last picture from a selection. The volume itself
    * cannot be selected. A selection of cells does so when it draws volumes. A selection of points
    * draws no depth of its own: call this before it draws anything.
    */
   void CoverSelection(vtkRenderer* renderer);
 
-  /** What is known of the tissue at a place of the deformed frame: mm, before the transform of the
+  /** Facts about the tissue at a position in the deformed frame: mm, before the transform of the
    * vtkVolume. */
   void DescribeTissue(const double deformedMm[3], brainshift::TissueFacts& facts);
 
-  /** Where tissue that is drawn at a place lies at rest, or, if `toRest` is false, where tissue of
-   * a rest place is drawn. Both mm, before the transform of the vtkVolume. */
+  /** Finds the rest position of tissue that is drawn at `place`, or, if `toRest` is false, the
+   * drawn position of tissue that rests at `place`. Both mm, before the vtkVolume's transform. */
   void FindSameTissue(const double place[3], bool toRest, double found[3]);
 
-  /** What the mapper did since it was made, and what it holds on the GPU now. */
+  /** Counts of the mapper's work since it was made, and its memory on the GPU now. */
   const brainshift::Counters& GetCounters();
 
 protected:
@@ -259,7 +260,7 @@ private:
   void DrawAnyhow(vtkRenderer* renderer, vtkVolume* volume);
   void DrawUndeformed(vtkRenderer* renderer, vtkVolume* volume, const std::string& problem);
 
-  // What is to be drawn, as the settings say.
+  // The content of the picture by the settings.
   brainshift::TissueRequest TissueOf(
     vtkImageData* image, vtkVolumeProperty* property, const brainshift::DrawnValues& values);
   bool DrawsEvidence(brainshift::Blend blend);

@@ -131,7 +131,7 @@ void vtkDeformedVolumeReport::TakeFacts(const brainshift::TissueFacts& facts)
   next = std::copy_n(&facts.deformed[0], 3, next);
   next = std::copy_n(&facts.rest[0], 3, next);
   *next++ = facts.bent ? 1.0 : 0.0;
-  *next++ = facts.volumeShare;
+  *next++ = facts.volumeRatio;
   for (const auto& known : { facts.value, facts.reference, facts.label })
   {
     *next++ = known ? 1.0 : 0.0;

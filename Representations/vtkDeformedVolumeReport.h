@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkDeformedVolumeReport
- * @brief   what a "Deformed Volume" or "Deformed Slices" drew, asked in the process that drew it
+ * @brief   reports what a "Deformed Volume" or "Deformed Slices" drew, in the process that drew it
  *
- * With a server that draws, the client's own representation has no picture to ask. This object
+ * With a server that draws, the client's own representation has no picture to query. This object
  * lives with the renderer; the XML proxy of the same name brings its answers to the client.
  */
 #ifndef vtkDeformedVolumeReport_h
@@ -38,7 +38,8 @@ public:
   void SetView(vtkPVRenderView* view);
 
   ///@{
-  /** Pixel, from the view's lower left corner, that GetTissue asks for. Default -1 -1: none. */
+  /** Pixel, from the view's lower left corner, that GetTissue and GetFacts report on. Default -1
+   * -1: none. */
   vtkSetVector2Macro(Pixel, int);
   vtkGetVector2Macro(Pixel, int);
   ///@}
@@ -57,41 +58,41 @@ public:
    *     0       1, or 0 if no surface was hit: then all numbers are 0
    *     1 - 3   position, deformed frame
    *     4 - 6   position, rest frame
-   *     7, 8    1 if a deformation places the tissue, or 0; Jacobian determinant (1: no change)
+   *     7, 8    1 if a deformation moves the tissue, or 0; Jacobian determinant (1: no change)
    *     9, 10   1, or 0 if unknown; the value of the nearest voxel of the drawn array
    *     11, 12  1, or 0 if unknown; the value of the nearest voxel of the reference
    *     13, 14  1, or 0 if unknown; the label of the nearest voxel: TissueFacts.h
-   *     15      what the data says about its axes: 0 nothing, 1 RAS, 2 LPS
+   *     15      axes of the data: 0 unknown, 1 RAS, 2 LPS
    *     16      distance from the camera along the direction of view, mm
-   *     17, 18  1, or 0 if unknown; how far the place can be believed: one standard deviation along
-   *             an axis, mm, infinity where nothing was measured
+   *     17, 18  1, or 0 if unknown; uncertainty of the position: one standard deviation along an
+   *             axis, mm, infinity where nothing was measured
    *
    * Nothing is drawn.
    */
   double* GetFacts() VTK_SIZEHINT(19);
 
-  /** What the data calls the label that GetFacts told last. Empty: it has no name. */
+  /** Name of the label that GetFacts returned last. Empty: the data names none. */
   const char* GetLabelName() { return this->LabelName.c_str(); }
 
   ///@{
-  /** Place (mm, the volume's own axes) that GetSameTissue starts from. Default 0 0 0. */
+  /** Position (mm, the volume's own axes) that GetSameTissue starts from. Default 0 0 0. */
   vtkSetVector3Macro(Place, double);
   vtkGetVector3Macro(Place, double);
   ///@}
 
   ///@{
-  /** Whether Place is in the deformed frame and GetSameTissue in the rest frame, or the other way
-   * round. Default true. */
+  /** True (default): Place is in the deformed frame, GetSameTissue in the rest frame. False: the
+   * reverse. */
   vtkSetMacro(ToRest, bool);
   vtkGetMacro(ToRest, bool);
   ///@}
 
-  /** Where the tissue at Place lies in the other frame, mm. Place itself if nothing bends it. */
+  /** Position of the tissue at Place in the other frame, mm. Place itself if nothing bends it. */
   double* GetSameTissue() VTK_SIZEHINT(3);
 
   /**
-   * What the renderer did since it was made, and what it holds on the GPU (Gpu/GpuTask.h): lines
-   * of a name, a space and a number.
+   * Counts of the renderer's work since it was made, and its memory on the GPU (Gpu/GpuTask.h):
+   * lines of a name, a space and a number.
    */
   const char* GetCounters();
 

@@ -42,7 +42,7 @@ public:
   /** Step along the ray, mm. 0 (default): half the smallest voxel side. */
   void SetSampleDistance(double distance);
 
-  /** Leap over what cannot be seen: an identical picture, sooner. Default true. */
+  /** Skip empty space along the rays: an identical picture, sooner. Default true. */
   void SetEmptySpaceSkipping(bool skipping);
 
   /** Gradients for light: 0 half resolution, 1 full resolution (default), 2 on the fly. */
@@ -54,7 +54,7 @@ public:
   /** Count samples that are taken and skipped, which costs time. Default false. */
   void SetCountSamples(bool count);
 
-  /** Cast no rays for a picture that would look like the last one. Default false. */
+  /** Cast no rays for a picture that would be identical to the last one. Default false. */
   void SetKeepPicture(bool keep);
 
   ///@{
@@ -64,11 +64,11 @@ public:
   void ClearDrawnLabels();
   ///@}
 
-  /** Shows how far the place of tissue can be believed; see vtkDeformedVolumeMapper. */
+  /** Whether tissue is tinted by the uncertainty of its position; see vtkDeformedVolumeMapper. */
   void SetShowEvidence(bool show) override;
 
   ///@{
-  /** How dark grooves are, and how far tissue hides light (mm); see vtkDeformedVolumeMapper. */
+  /** Strength of ambient occlusion, 0 to 1, and its radius (mm); see vtkDeformedVolumeMapper. */
   void SetAmbientOcclusion(double darkness);
   void SetOcclusionRadius(double radius);
   ///@}
@@ -97,7 +97,7 @@ public:
   ///@}
 
   ///@{
-  /** Light effects of "Volume" that are not drawn. A warning says so once if they are on. */
+  /** Light effects of "Volume" that are not drawn. A warning is given once if they are on. */
   void SetGlobalIlluminationReach(float reach);
   void SetVolumetricScatteringBlending(float blending);
   void SetRequestedRenderMode(int mode);

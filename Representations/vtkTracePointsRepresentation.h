@@ -41,7 +41,7 @@ public:
   ///@}
 
   ///@{
-  /** Share of their opacity that faded points keep, 0 to 1. Default 0.4. */
+  /** Fraction of their opacity that faded points keep, 0 to 1. Default 0.4. */
   void SetHiddenOpacity(double opacity);
   vtkGetMacro(HiddenOpacity, double);
   ///@}

@@ -25,8 +25,8 @@ brainshiftGuardRequestsMacro(vtkWholeVolumeRepresentation);
 namespace
 {
 constexpr int LegendFontSize = 14;
-// From the left edge and from the lower one, shares of the view. Above lie a slice's name and the
-// letter of the upper edge.
+// From the left edge and from the lower one, fractions of the view. A slice's name and the letter
+// of the upper edge are above.
 constexpr double LegendInset = 0.015;
 constexpr double LegendTop = 0.89;
 }
@@ -55,7 +55,7 @@ vtkWholeVolumeRepresentation::vtkWholeVolumeRepresentation()
   };
 }
 
-// Whoever still holds the legend must not ask.
+// Another owner of the legend must not call this object.
 vtkWholeVolumeRepresentation::~vtkWholeVolumeRepresentation()
 {
   this->Evidence->Ask = nullptr;
@@ -94,7 +94,7 @@ int vtkWholeVolumeRepresentation::RequestData(
   return result;
 }
 
-// Tissue may lie outside the volume's own box: the camera must not cut it.
+// Tissue may be outside the volume's own box: the camera must not cut it.
 void vtkWholeVolumeRepresentation::WidenBounds()
 {
   if (this->VolumeMapper->GetNumberOfInputConnections(0) > 0)

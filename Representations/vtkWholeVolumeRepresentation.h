@@ -42,8 +42,8 @@ public:
    * Empty (default) or null: none. */
   void SetLegend(const char* text);
 
-  /** Whether tissue shows how far its place can be believed, with a legend in the upper right
-   * corner of the view. Default false. */
+  /** Whether tissue is tinted by the uncertainty of its position (one standard deviation, mm), with
+   * a legend in the upper right corner of the view. Default false. */
   virtual void SetShowEvidence(bool show);
 
   int ProcessViewRequest(
@@ -67,7 +67,7 @@ private:
   vtkWholeVolumeRepresentation(const vtkWholeVolumeRepresentation&) = delete;
   void operator=(const vtkWholeVolumeRepresentation&) = delete;
 
-  /** Whether colours tell a volume and a reference apart, so that stripes show evidence. */
+  /** Whether colours distinguish a volume and a reference, so that stripes show the uncertainty. */
   virtual bool ComparesInColors() const = 0;
 
   void GatherParts();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// How far each place of a drawn volume can be believed, on the GPU of one window.
+/// The uncertainty of each position in a drawn volume (one standard deviation, mm), on the GPU of
+/// one window.
 #ifndef BrainShift_EvidenceTexture_h
 #define BrainShift_EvidenceTexture_h
 

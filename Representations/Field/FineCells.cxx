@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Field/FineCells.h"
 
-#include "Filters/Deformation/PointMap.h"
 #include "Common/Parallel.h"
+#include "Filters/Deformation/PointMap.h"
 
 #include <glm/gtc/packing.hpp>
 
@@ -13,8 +13,8 @@ namespace brainshift
 {
 namespace
 {
-// Shares of the allowed miss. A straight line can miss by more elsewhere in a cell than where it is
-// looked at, and neighbours with other corrections do not quite meet.
+// Fractions of the allowed miss. Elsewhere in a cell, a straight line can miss by more than at the
+// points that are tested, and neighbours with other corrections do not quite meet.
 constexpr float LookAtMiddle = 0.35f; // what curvature alone seems to miss by
 constexpr float LookCloser = 0.75f;   // the same, if the middle of the cell is near enough
 constexpr float MiddleIsNear = 0.3f;  // what the field misses by there
@@ -127,7 +127,7 @@ void FineSearch::findCurvature(const IndexBox& cells)
 }
 
 // What a straight line misses by halfway between nodes, if the field is a parabola there; in
-// shares of the allowed miss, the sum over the axes. Small sums are only bounded.
+// fractions of the allowed miss, the sum over the axes. Small sums are only bounded.
 float FineSearch::curvatureAt(const glm::ivec3& node) const
 {
   const float scale = 1.0f / (8.0f * this->Exact.allowedMm);
@@ -152,8 +152,9 @@ float FineSearch::curvatureAt(const glm::ivec3& node) const
   return lengths.x + lengths.y + lengths.z;
 }
 
-// Whether a cell is worth a closer look. Where tissue is stretched, nodes miss by more than their
-// curvature says; then the middle of the cell does, too. `from`: the tile's first cell.
+// Whether a cell must be tested between its nodes. Where tissue is stretched, nodes miss by more
+// than their curvature predicts; then the middle of the cell does, too. `from`: the tile's first
+// cell.
 bool FineSearch::mayMiss(const glm::ivec3& from, const glm::ivec3& nodes)
 {
   float most = 0.0f;
@@ -499,7 +500,7 @@ std::vector<NeedingCell> FineCells::look(
   return needing;
 }
 
-// The most slots a side with which all cells find place.
+// The most slots a side with which all cells find room.
 int FineCells::mostSlotsASide(const std::vector<NeedingCell>& needing) const
 {
   int most = SlotsASide.back();

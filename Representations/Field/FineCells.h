@@ -3,9 +3,9 @@
 /// Corrections of the offset field in the cells where a straight line between its nodes is not
 /// exact enough.
 ///
-/// A *cell* lies between eight neighbouring nodes of the offset field. A *correction* is the exact
-/// offset minus what the field gives at the same place. A cell that needs corrections has them on
-/// nodes 2, 4, 6, 8 or 16 times as dense; between these they are trilinear.
+/// A *cell* is the space between eight neighbouring nodes of the offset field. A *correction* is
+/// the exact offset minus the offset of the field at the same position. A cell that needs
+/// corrections has them on nodes 2, 4, 6, 8 or 16 times as dense; between these they are trilinear.
 #ifndef BrainShift_FineCells_h
 #define BrainShift_FineCells_h
 

@@ -54,7 +54,7 @@ TissueFacts factsAt(vtkImageData* image, const DrawnValues& values, SceneDeforma
   {
     facts.bent = true;
     facts.rest = deformation.map().restFromDeformed(deformedMm);
-    facts.volumeShare = glm::determinant(deformation.map().jacobian(facts.rest));
+    facts.volumeRatio = glm::determinant(deformation.map().jacobian(facts.rest));
     if (!deformation.deviations.empty())
     {
       facts.deviation = deviationAt(deformation.lattice.grid, deformation.deviations, facts.rest);

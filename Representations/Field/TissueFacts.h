@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// What is known of the tissue at one place of a drawn volume.
+/// The facts about the tissue at one position of a drawn volume.
 #ifndef BrainShift_TissueFacts_h
 #define BrainShift_TissueFacts_h
 
@@ -24,20 +24,20 @@ struct TissueFacts
   glm::dvec3 deformed{ 0.0 };  ///< Where the tissue is drawn.
   glm::dvec3 rest{ 0.0 };      ///< Where it was in the volume as loaded.
   bool bent = false;           ///< Whether a deformation places the tissue. Else rest = deformed.
-  double volumeShare = 1.0;    ///< Jacobian determinant of deformedFromRest. 1: size is kept.
+  double volumeRatio = 1.0;    ///< Jacobian determinant of deformedFromRest. 1: size is kept.
   std::optional<double> value; ///< Of the voxel that is nearest at rest, in the drawn array.
   std::optional<double> reference; ///< Of the nearest voxel of a reference that is shown.
   /// Of the nearest voxel: the value, where the volume names its own values; else the label of an
   /// attached segmentation.
   std::optional<double> label;
   std::string labelName; ///< What the data calls the label. Empty: no name.
-  /// How far its place can be believed: mm, one standard deviation along an axis, infinity where
+  /// Uncertainty of its position: mm, one standard deviation along an axis, infinity where
   /// nothing was measured.
   std::optional<double> deviation;
-  WorldAxes axes = WorldAxes::Unknown; ///< What the data says about its axes.
+  WorldAxes axes = WorldAxes::Unknown; ///< Meaning of the axes, as the data gives it.
 };
 
-/// The facts about a place in the deformed frame. A number that nobody knows is left out: outside
+/// The facts about a position in the deformed frame. An unknown number is left out: outside
 /// the volume, without a value, or of an array with several components. If the reference is shown
 /// alone, the facts are about the reference, which is not bent.
 TissueFacts factsAt(vtkImageData* image, const DrawnValues& values, SceneDeformation& deformation,

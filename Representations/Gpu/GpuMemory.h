@@ -66,10 +66,10 @@ struct DrawnSizes
 /// The memory for what is drawn.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT MemoryNeed memoryNeed(const DrawnSizes& sizes);
 
-constexpr double UnknownMemory = -1.0; ///< The driver does not say how much memory is free.
+constexpr double UnknownMemory = -1.0; ///< The driver does not report its free memory.
 
-/// MiB that can still be allocated, as the driver says (GL_NVX_gpu_memory_info or GL_ATI_meminfo);
-/// UnknownMemory if it does not say.
+/// MiB that can still be allocated, as the driver reports (GL_NVX_gpu_memory_info or
+/// GL_ATI_meminfo); UnknownMemory if it does not report any.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT double freeMemoryMiB(vtkOpenGLRenderWindow* window);
 
 /// Whether the current context is one of Mesa's drivers for processors, which draw in the machine's

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// What every function needs that works on the GPU: the window, the counters, and a place for what
-/// the user has to hear of.
+/// The context of every function that works on the GPU: the window, the counters, and the warnings
+/// for the user.
 #ifndef BrainShift_GpuTask_h
 #define BrainShift_GpuTask_h
 
@@ -13,8 +13,8 @@ class vtkOpenGLRenderWindow;
 
 namespace brainshift
 {
-// Counts what the renderer did since it was made: the proof that only what changed is done
-// again.
+// Counts the work of the renderer since it was made. Tests prove with it that a change repeats only
+// the work that depends on it.
 
 /// Numbers of one mapper, over all its windows.
 struct Counters
@@ -54,7 +54,7 @@ struct GpuTask
   Counters& counters;               ///< They count what is done.
   bool moving = false;              ///< Work that the next still picture can do is left to it.
   std::string problem;              ///< One sentence, without a full stop, if the work failed.
-  std::vector<std::string> remarks; ///< Sentences for the user, who hears each of them once.
+  std::vector<std::string> remarks; ///< Warnings for the user; each is shown once.
 
   /// Keeps the sentence as the problem. Returns false, for `return gpu.fail("...")`.
   bool fail(const std::string& sentence)

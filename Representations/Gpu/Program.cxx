@@ -20,7 +20,7 @@
 
 namespace brainshift
 {
-// Finds uniforms that a program draws with although nobody set them. It is for tests: it works
+// Finds uniforms that a program draws with although they were never set. It is for tests: it works
 // while the environment variable BRAINSHIFT_UNIFORM_LOG names a file, and does nothing otherwise.
 
 struct ShaderSource;
@@ -37,7 +37,7 @@ struct WatchedProgram
   }
 };
 
-/// Gives each active uniform of a program that was just made a value that nobody would set.
+/// Gives each active uniform of a program that was just made a value that no code sets.
 void markUniforms(const WatchedProgram& program, const ShaderSource& source);
 
 /// Looks at the program that was used before this one, which has drawn by now. The first time it
@@ -91,7 +91,7 @@ bool isInteger(GLenum type)
   return type == GL_INT || type == GL_INT_VEC3;
 }
 
-// A sampler can hold only the number of a texture unit. Nobody uses the last one.
+// A sampler can hold only the number of a texture unit. The last one is never used.
 GLint markSampler()
 {
   GLint units = 0;

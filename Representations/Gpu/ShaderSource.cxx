@@ -2,7 +2,7 @@
 #include "Representations/Gpu/ShaderSource.h"
 
 #include "Filters/Deformation/FieldChange.h"
-#include "Filters/Deformation/SegmentShares.h"
+#include "Filters/Deformation/SegmentFractions.h"
 
 #include "shader_averaged.h"
 #include "shader_blocks_frag.h"
@@ -154,7 +154,7 @@ std::string opacityDefines(Opacity opacity)
 
 std::string segmentDefines()
 {
-  return "#define SEGMENTED\n#define LEAST_SHARE " + std::to_string(LeastShare) + "\n";
+  return "#define SEGMENTED\n#define LEAST_FRACTION " + std::to_string(LeastFraction) + "\n";
 }
 
 const char* const LightNames[RayCastVariant::LightCount] = { "_unshaded", "_gradients",
@@ -361,7 +361,7 @@ void addSteep(NamedSources& sources, bool deformed)
   }
 }
 
-// The ray caster of a volume whose fit says how far it can be believed.
+// The ray caster of a volume whose fit has an uncertainty.
 void addEvidence(NamedSources& sources)
 {
   for (const Blend blend : { Blend::Composite, Blend::Isosurface, Blend::Slice })

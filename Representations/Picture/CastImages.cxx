@@ -154,9 +154,9 @@ bool CastImages::grow(vtkOpenGLRenderWindow* window, const RayCastScene& scene, 
   return this->enlarge(window, old, partOf(old.Filled), counters);
 }
 
-glm::dvec2 CastImages::hitFromShare(const RayCastScene& scene) const
+glm::dvec2 CastImages::hitFromFraction(const RayCastScene& scene) const
 {
-  return shareFromShare(this->Hits[false].frustum, frustumOf(scene.frame.clipFromWorld));
+  return fractionFromFraction(this->Hits[false].frustum, frustumOf(scene.frame.clipFromWorld));
 }
 
 void CastImages::trimTile(int margin, const glm::dmat4& clipFromWorld)
@@ -209,14 +209,14 @@ bool CastImages::hitAt(vtkOpenGLRenderWindow* window, const glm::dvec2& place, g
   glFramebufferTexture2D(
     GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, hits.texture->GetHandle(), 0);
   state->vtkglReadBuffer(GL_COLOR_ATTACHMENT0);
-  float share = -1.0f;
+  float fraction = -1.0f;
   const glm::ivec2 texel = pixel - hits.area.low;
-  glReadPixels(texel.x, texel.y, 1, 1, GL_RED, GL_FLOAT, &share);
+  glReadPixels(texel.x, texel.y, 1, 1, GL_RED, GL_FLOAT, &fraction);
   const glm::dvec2 ndc = 2.0 * (glm::dvec2(pixel) + 0.5) / size - 1.0; // of the pixel's own ray
   const glm::dvec3 near = hits.frustum.near.at(ndc);
-  const glm::dvec3 way = static_cast<double>(share) * (hits.frustum.far.at(ndc) - near);
+  const glm::dvec3 way = static_cast<double>(fraction) * (hits.frustum.far.at(ndc) - near);
   hit = glm::dvec4(near + way, glm::length(way));
-  return share >= 0.0f;
+  return fraction >= 0.0f;
 }
 
 bool CastImages::composite(vtkOpenGLRenderWindow* window, const PixelBox& rectangle,
@@ -260,8 +260,8 @@ bool CastImages::composite(vtkOpenGLRenderWindow* window, const PixelBox& rectan
   this->Image->SetMagnificationFilter(filter);
   program.set("image", this->Image.Get());
   program.set("origin", glm::vec2(origin));
-  program.set("textureFromPixel", glm::vec2(this->Area.textureFromShare() / glm::dvec2(size)));
-  program.set("textureOfOrigin", glm::vec2(this->Area.textureOfShareZero()));
+  program.set("textureFromPixel", glm::vec2(this->Area.textureFromFraction() / glm::dvec2(size)));
+  program.set("textureOfOrigin", glm::vec2(this->Area.textureOfFractionZero()));
   if (occluded)
   {
     program.set("occlusion", shade.occlusion);
@@ -294,8 +294,8 @@ bool CastImages::enlarge(
   picture->SetMagnificationFilter(filter);
   this->EnlargeProgram.set("image", picture);
   this->EnlargeProgram.set("hits", hits);
-  this->EnlargeProgram.set("textureFromShare", glm::vec2(other.Area.textureFromShare()));
-  this->EnlargeProgram.set("textureOfShareZero", glm::vec2(other.Area.textureOfShareZero()));
+  this->EnlargeProgram.set("textureFromFraction", glm::vec2(other.Area.textureFromFraction()));
+  this->EnlargeProgram.set("textureOfFractionZero", glm::vec2(other.Area.textureOfFractionZero()));
   this->drawPart(this->EnlargeProgram, part);
   picture->Deactivate();
   hits->Deactivate();

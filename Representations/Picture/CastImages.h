@@ -24,7 +24,7 @@ vtkSmartPointer<vtkTextureObject> makeImage(
 struct PictureShade
 {
   vtkTextureObject* occlusion = nullptr; ///< As large as the image. Null: the picture stays.
-  double darkness = 0.0; ///< Share of the light that the greatest occlusion takes away, 0 to 1.
+  double darkness = 0.0; ///< Fraction of the light that the greatest occlusion takes away, 0 to 1.
   int margin = 0;        ///< Pixels at each side of the picture that are not shown.
 };
 
@@ -58,9 +58,9 @@ public:
   /// refuses.
   bool grow(vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters);
 
-  /// Scale and shift that turn a share of the scene's rays into a share between the near and the
+  /// Scale and shift that map a fraction of the scene's rays to a fraction between the near and the
   /// far plane of the held picture, in which hits are kept.
-  glm::dvec2 hitFromShare(const RayCastScene& scene) const;
+  glm::dvec2 hitFromFraction(const RayCastScene& scene) const;
 
   /// Replaces a part of the held picture by that part of another one, which may be smaller. False
   /// if the shader does not compile.
@@ -73,7 +73,7 @@ public:
     const PictureShade& shade, Counters& counters);
 
   /// First hit (mm, world; then its distance from the near plane, mm) of the last whole picture.
-  /// `place`: from the lower left corner, 0, to the upper right one, 1. False if no surface was hit
+  /// `place`: 0 at the lower left corner, 1 at the upper right one. False if no surface was hit
   /// there or nothing has been cast yet.
   bool hitAt(vtkOpenGLRenderWindow* window, const glm::dvec2& place, glm::dvec4& hit);
 
@@ -93,7 +93,7 @@ public:
   /// The pixels of the picture that may show something.
   const PixelBox& filled() const { return this->Filled; }
 
-  /// For each ray, its share before and behind the occupied bricks.
+  /// For each ray, its fraction before and behind the occupied bricks.
   vtkTextureObject* spans() const { return this->Spans; }
 
   /// All textures; some may be null.

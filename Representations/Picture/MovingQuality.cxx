@@ -15,8 +15,8 @@ constexpr double InteractiveRate = 1.0;
 // ParaView asks for 5 frames a second while the camera moves. A hand sees steps below 15; some
 // pictures are slower than the average.
 constexpr double SmoothRate = 18.0;
-constexpr double LeastShareForImage = 0.16; // of a picture's time, at least
-constexpr double LongestPause = 0.5;        // seconds; in a longer pause the hand has rested
+constexpr double LeastFractionForImage = 0.16; // of a picture's time, at least
+constexpr double LongestPause = 0.5;           // seconds; in a longer pause the hand has rested
 }
 
 bool isMoving(double rate)
@@ -27,7 +27,7 @@ bool isMoving(double rate)
 double allowedSeconds(double rate, double windowSeconds, double spentSeconds)
 {
   const double frame = 1.0 / std::max(rate, SmoothRate);
-  return std::max(frame - windowSeconds - spentSeconds, LeastShareForImage * frame);
+  return std::max(frame - windowSeconds - spentSeconds, LeastFractionForImage * frame);
 }
 
 WindowPace::Time WindowPace::now()

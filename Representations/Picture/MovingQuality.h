@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// What is left out while the camera or a stroke moves, so that pictures come fast enough for a
-/// hand.
+/// Lower quality while the camera or a stroke moves, so that pictures come fast enough for a hand.
 #ifndef BrainShift_MovingQuality_h
 #define BrainShift_MovingQuality_h
 

@@ -13,16 +13,17 @@ namespace brainshift
 {
 namespace
 {
-constexpr int Cell = 4;           // pixels a side that look into different directions
-constexpr int SmoothReach = 2;    // pixels around one that the second pass reads
-constexpr double SameShare = 0.5; // of the radius: surfaces that lie deeper are others
+constexpr int Cell = 4;        // pixels a side that sample different directions
+constexpr int SmoothReach = 2; // pixels around one that the second pass reads
+constexpr double SameFraction =
+  0.5; // of the radius: a greater difference in depth: another surface
 
 PixelBox widened(const PixelBox& box, int pixels)
 {
   return { box.low - pixels, box.high + pixels };
 }
 
-// mm in the world. A first hit is known to half a step, so two neighbours may seem to lean by a
+// mm in the world. A first hit is exact to half a step, so two neighbours may seem to lean by a
 // step each.
 double toleranceOf(const RayCastScene& scene)
 {
@@ -156,7 +157,7 @@ bool Occlusion::drawSmooth(GpuTask& gpu, const FirstHits& hits, double radius)
   this->SmoothProgram.set("occlusion", this->Rough.Get());
   this->SmoothProgram.set("occlusionTexel", 1.0f / glm::vec2(this->Area.size));
   this->SmoothProgram.set(
-    "sameFromShare", static_cast<float>(depthOf(hits.frustum) / (SameShare * radius)));
+    "sameFromFraction", static_cast<float>(depthOf(hits.frustum) / (SameFraction * radius)));
   drawTriangles(1);
   this->Rough->Deactivate();
   return true;

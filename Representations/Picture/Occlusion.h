@@ -3,8 +3,11 @@
 /// Ambient occlusion: how much the tissue around each first hit of a still picture hides it from
 /// light.
 ///
-/// It is found from the first hits alone, which lie where bent tissue is seen. So a ray takes no
-/// more samples, and the kept colours stay as they are.
+/// It is found from the first hits alone, which are on the visible surface of bent tissue. So a ray
+/// takes no more samples, and the kept colours stay as they are.
+///
+/// Screen-space ambient occlusion: Mittring, "Finding next gen: CryEngine 2", SIGGRAPH 2007
+/// courses. The estimate by pairs of opposite neighbours is our own (occlusion.frag.glsl).
 #ifndef BrainShift_Occlusion_h
 #define BrainShift_Occlusion_h
 
@@ -22,8 +25,8 @@ struct RayCastScene;
 /// How much darker grooves are.
 struct OcclusionWish
 {
-  double darkness = 0.0; ///< Share of the light that the greatest occlusion takes away, 0 to 1.
-  double radius = 1.0;   ///< How far tissue hides light, mm, world. Above 0.
+  double darkness = 0.0; ///< Fraction of the light that the greatest occlusion takes away, 0 to 1.
+  double radius = 1.0;   ///< Radius within which tissue hides light, mm, world. Above 0.
 };
 
 /// The occlusion of the picture of one window.

@@ -371,7 +371,7 @@ bool Picture::castRoughly(GpuTask& gpu, const PictureWish& wish, const MovingQua
   adapt(quality, rough);
   rough.image.part = reduced(part, wish.size, rough.image.size);
   rough.image.jitter = true;
-  rough.image.hitFromShare = this->images().hitFromShare(scene);
+  rough.image.hitFromFraction = this->images().hitFromFraction(scene);
   rough.behind = this->Depth.captureBehind(gpu.window, wish.origin, wish.size, rough.image);
   return this->measure(
            gpu, wish, rough, [&] { return this->Rough.cast(gpu.window, rough, gpu.counters); }) &&

@@ -34,11 +34,11 @@ public:
   {
     Nothing,  ///< The picture would be the same.
     Bending,  ///< Only the values of the offset field changed.
-    Reaching, ///< Besides, tissue can reach farther or less far: rays begin elsewhere.
+    Reaching, ///< Besides, the space of tissue grew or shrank: rays begin elsewhere.
     Anything  ///< The whole picture is new.
   };
 
-  /// Compares with the last call and remembers this one. Whatever lies in front of or behind the
+  /// Compares with the last call and remembers this one. Anything in front of or behind the
   /// volume counts, too, but not the props that are drawn over volumes. `settingsTime`: when the
   /// settings of the mapper changed last.
   Change change(const DrawnVolume& drawn, unsigned long long settingsTime,

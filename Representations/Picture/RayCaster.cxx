@@ -27,7 +27,7 @@ void drawFaces(Program& program, const RayCastScene& scene);
 // Sets the uniforms of the ray caster's programs (Shaders/Rays), all of them.
 
 /// Sets every uniform of the scene's variant. `area`: what the images hold of the picture. `spans`:
-/// the share of each ray before and behind the occupied bricks.
+/// the fraction of each ray before and behind the occupied bricks.
 void setRayCastUniforms(
   Program& program, const RayCastScene& scene, const ImageArea& area, vtkTextureObject* spans);
 
@@ -36,16 +36,17 @@ void deactivateTextures(const RayCastScene& scene);
 
 namespace
 {
-// A plane parallel to the near plane lies at one share of the way to the far plane. So the distance
-// along a ray is that share of the ray's length.
+// All rays meet a plane parallel to the near plane at the same fraction of the distance to the far
+// plane. So the distance along a ray is that fraction of the ray's length.
 void setFaceUniforms(Program& program, const RayCastScene& scene)
 {
   const glm::dmat4 clipFromTexture = scene.frame.clipFromWorld * scene.frame.worldFromTexture;
   const Frustum frustum = frustumOf(clipFromTexture);
   const glm::dvec3 across = glm::cross(frustum.near.right, frustum.near.up);
-  const glm::dvec3 share = across / glm::dot(across, frustum.far.origin - frustum.near.origin);
-  program.set("shareFromTexture", glm::vec3(share));
-  program.set("shareOfTextureZero", static_cast<float>(-glm::dot(share, frustum.near.origin)));
+  const glm::dvec3 fraction = across / glm::dot(across, frustum.far.origin - frustum.near.origin);
+  program.set("fractionFromTexture", glm::vec3(fraction));
+  program.set(
+    "fractionOfTextureZero", static_cast<float>(-glm::dot(fraction, frustum.near.origin)));
   program.set("clipFromTexture", glm::mat4(clipFromTexture));
   program.set("textureFromBrick", glm::vec3(scene.skipping.textureFromBrick));
   program.set("textureOfBrickZero", glm::vec3(scene.skipping.textureOfBrickZero));
@@ -55,7 +56,7 @@ void setFaceUniforms(Program& program, const RayCastScene& scene)
 glm::dvec4 eyeInBricks(const RayCastScene& scene)
 {
   const glm::dmat4 clipFromTexture = scene.frame.clipFromWorld * scene.frame.worldFromTexture;
-  // What projects to no place in the window but only to a depth: the eye, or the direction to it.
+  // The eye, or the direction to it, projects to a depth but to no position in the window.
   const glm::dvec4 eye = glm::inverse(clipFromTexture) * glm::dvec4(0.0, 0.0, -1.0, 0.0);
   const double w = std::abs(eye.w) < 1e-9 * glm::length(glm::dvec3(eye)) ? 0.0 : eye.w;
   return glm::dvec4(
@@ -102,7 +103,7 @@ void setImageUniforms(Program& program, const SceneImage& image, const ImageArea
 {
   program.set("firstPixel", glm::vec2(area.low));
   program.set("ndcFromPixel", 2.0f / glm::vec2(area.picture));
-  program.set("hitFromShare", glm::vec2(image.hitFromShare));
+  program.set("hitFromFraction", glm::vec2(image.hitFromFraction));
   program.set("jitter", image.jitter ? 1.0f : 0.0f);
   program.set("skipping", image.skips ? 1 : 0);
 }
@@ -110,8 +111,8 @@ void setImageUniforms(Program& program, const SceneImage& image, const ImageArea
 void setBehindUniforms(Program& program, const SceneBehind& behind)
 {
   program.set("sceneDepth", behind.depth);
-  program.set("depthFromShare", behind.depthFromShare);
-  program.set("depthOfShareZero", behind.depthOfShareZero);
+  program.set("depthFromFraction", behind.depthFromFraction);
+  program.set("depthOfFractionZero", behind.depthOfFractionZero);
 }
 
 glm::vec3 texelOf(vtkTextureObject* texture)
@@ -172,7 +173,7 @@ void setBlendingUniforms(Program& program, Blend blend, const SceneBlending& ble
   }
   if (blend == Blend::Average || blend == Blend::Additive)
   {
-    program.set("shareFromScalar", glm::vec2(blending.shareFromScalar));
+    program.set("fractionFromScalar", glm::vec2(blending.fractionFromScalar));
     program.set("averagedScalars", glm::vec2(blending.averagedScalars));
   }
   if (blend == Blend::Slice)
@@ -184,9 +185,9 @@ void setBlendingUniforms(Program& program, Blend blend, const SceneBlending& ble
 
 void setSegmentUniforms(Program& program, const SceneSegment& segment)
 {
-  if (segment.shares)
+  if (segment.fractions)
   {
-    program.set("segment", segment.shares);
+    program.set("segment", segment.fractions);
     program.set("segmentVoxel", glm::vec3(segment.voxel));
     program.set("cutGradient", glm::vec2(segment.cutGradient));
   }
@@ -325,9 +326,9 @@ void deactivateTextures(const RayCastScene& scene)
 {
   const SceneTissue& tissue = scene.tissue;
   for (vtkTextureObject* texture : { tissue.scalars, tissue.normals, tissue.transfer,
-         scene.behind.depth, tissue.coloring.colors, tissue.coloring.scalars, tissue.segment.shares,
-         scene.skipping.presence->leaps(), scene.comparison.cavity.voxels, tissue.transferSums,
-         tissue.steepness.entries, scene.evidence.deviations })
+         scene.behind.depth, tissue.coloring.colors, tissue.coloring.scalars,
+         tissue.segment.fractions, scene.skipping.presence->leaps(), scene.comparison.cavity.voxels,
+         tissue.transferSums, tissue.steepness.entries, scene.evidence.deviations })
   {
     if (texture)
     {
@@ -356,7 +357,7 @@ RayCastVariant variantOf(const RayCastScene& scene)
   variant.cavity = variant.compared && scene.comparison.cavity.voxels;
   variant.coloring = variant.compared ? Coloring::Mapped : tissue.coloring.source;
   variant.regions = scene.cuts.regions;
-  variant.segmented = tissue.segment.shares != nullptr;
+  variant.segmented = tissue.segment.fractions != nullptr;
   variant.counted = scene.image.countSamples && variant.blend == Blend::Composite;
   variant.averaged = tissue.transferSums && variant.blend == Blend::Composite && !variant.compared;
   variant.opacity = variant.compared ? Opacity::Scalar : tissue.steepness.opacity;
@@ -405,7 +406,7 @@ bool RayCaster::castPart(
   vtkOpenGLRenderWindow* window, const RayCastScene& scene, Counters& counters)
 {
   RayCastScene part = scene;
-  part.image.hitFromShare = this->Images.hitFromShare(scene);
+  part.image.hitFromFraction = this->Images.hitFromFraction(scene);
   return this->draw(window, part, true, counters);
 }
 

@@ -34,8 +34,8 @@ bool SelectionCover::draw(
   state->vtkglViewport(origin[0], origin[1], size[0], size[1]);
   state->vtkglScissor(origin[0], origin[1], size[0], size[1]);
   this->CoverProgram.set("hits", hits.texture.Get());
-  this->CoverProgram.set("hitsFromShare", glm::vec2(hits.area.textureFromShare()));
-  this->CoverProgram.set("hitsOfShareZero", glm::vec2(hits.area.textureOfShareZero()));
+  this->CoverProgram.set("hitsFromFraction", glm::vec2(hits.area.textureFromFraction()));
+  this->CoverProgram.set("hitsOfFractionZero", glm::vec2(hits.area.textureOfFractionZero()));
   this->CoverProgram.set("nearPlane", glm::mat3(hits.frustum.near.columns()));
   this->CoverProgram.set("farPlane", glm::mat3(hits.frustum.far.columns()));
   this->CoverProgram.set("clipFromWorld", glm::mat4(clipFromWorld(renderer)));

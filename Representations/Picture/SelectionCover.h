@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Hides what lies behind the tissue of the last picture from a selection of surfaces.
+/// Excludes surfaces behind the tissue of the last picture from a selection.
 #ifndef BrainShift_SelectionCover_h
 #define BrainShift_SelectionCover_h
 

@@ -63,7 +63,7 @@ bool VolumeDevice::draw(
   return done;
 }
 
-// Memory is asked for before it is taken: some drivers end the program when there is none. If there
+// Memory is requested before it is taken: some drivers end the program when there is none. If there
 // is too little for the reference, the volume is drawn without it.
 bool VolumeDevice::askForMemory(
   GpuTask& gpu, const SceneDeformation& deformation, VolumeRequest& request)

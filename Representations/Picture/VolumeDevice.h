@@ -26,7 +26,7 @@ struct VolumeRequest
   SceneReference reference;
   bool showsEvidence = false;
   double memoryLimitMiB = 0.0; ///< 0: all that the driver gives.
-  PictureWish wish;            ///< Place and size are filled in by draw.
+  PictureWish wish;            ///< Position and size are filled in by draw.
 };
 
 /// Textures, programs and images of one window.
@@ -37,7 +37,7 @@ public:
   bool draw(
     GpuTask& gpu, const DrawnVolume& drawn, SceneDeformation& deformation, VolumeRequest request);
 
-  /// Hides what lies behind the tissue of the last picture from a selection, if there is a picture.
+  /// Excludes all behind the tissue of the last picture from a selection, if there is a picture.
   /// False if the shader does not compile.
   bool coverSelection(GpuTask& gpu, vtkRenderer* renderer);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// How lattice and offset field lie to the volume's texture, and how far tissue can go.
+/// Position of lattice and offset field in the volume's texture, and the space that tissue can
+/// reach.
 #ifndef BrainShift_FieldPlace_h
 #define BrainShift_FieldPlace_h
 

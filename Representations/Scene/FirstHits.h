@@ -16,7 +16,7 @@ namespace brainshift
 /// which may have moved on since.
 struct FirstHits
 {
-  /// Share of the way from the near to the far plane. Below 0, and beyond the area: no hit.
+  /// Fraction of the way from the near to the far plane. Below 0, and beyond the area: no hit.
   vtkSmartPointer<vtkTextureObject> texture;
   ImageArea area;  ///< Of the picture.
   Frustum frustum; ///< Of the picture, mm, world.

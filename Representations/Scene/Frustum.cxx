@@ -27,7 +27,7 @@ Frustum frustumOf(const glm::dmat4& clipFromSpace)
     planeOf(clipFromSpace, spaceFromClip, 1.0) };
 }
 
-glm::dvec2 shareFromShare(const Frustum& to, const Frustum& from)
+glm::dvec2 fractionFromFraction(const Frustum& to, const Frustum& from)
 {
   const glm::dvec3 way = to.far.origin - to.near.origin;
   const glm::dvec3 unit = way / glm::dot(way, way);

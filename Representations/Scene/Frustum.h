@@ -40,8 +40,9 @@ struct Frustum
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT Frustum frustumOf(const glm::dmat4& clipFromSpace);
 
 /// For two frustums of one camera, which differ only in their near and far planes: scale and shift
-/// that turn a share of the way between the planes of `from` into a share between those of `to`.
-VTKBRAINSHIFTREPRESENTATIONS_EXPORT glm::dvec2 shareFromShare(
+/// that map a fraction of the distance between the planes of `from` to a fraction between those of
+/// `to`.
+VTKBRAINSHIFTREPRESENTATIONS_EXPORT glm::dvec2 fractionFromFraction(
   const Frustum& to, const Frustum& from);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Who can be asked where the rays of a picture met a surface first.
+/// Source of the positions at which the rays of a picture first met a surface.
 ///
 /// VTK's wrapping tools parse the classes that inherit this one and everything that their headers
 /// include. They need minutes for the headers of GLM, so this header includes nothing.
@@ -14,7 +14,7 @@ namespace brainshift
 struct FirstHits;
 
 /// Something that draws tissue and keeps the first hits of its pictures: the mapper of a deformed
-/// volume. Traced points ask it what hides them.
+/// volume. Traced points read from it which tissue hides them.
 class HitSource
 {
 public:

@@ -22,7 +22,7 @@ struct PixelBox
   glm::ivec2 size() const { return this->high - this->low; }
 };
 
-/// A convex part of a picture: the pixels that lie in a box and in another box, turned by 45
+/// A convex part of a picture: the pixels that lie in a box and in another box, rotated by 45
 /// degrees.
 struct PixelPart
 {
@@ -73,9 +73,15 @@ struct ImageArea
   bool operator!=(const ImageArea& other) const { return !(*this == other); }
 
   ///@{
-  /// Texture coordinates from the share of the picture: scale and shift.
-  glm::dvec2 textureFromShare() const { return glm::dvec2(this->picture) / glm::dvec2(this->size); }
-  glm::dvec2 textureOfShareZero() const { return -glm::dvec2(this->low) / glm::dvec2(this->size); }
+  /// Texture coordinates from the fraction of the picture: scale and shift.
+  glm::dvec2 textureFromFraction() const
+  {
+    return glm::dvec2(this->picture) / glm::dvec2(this->size);
+  }
+  glm::dvec2 textureOfFractionZero() const
+  {
+    return -glm::dvec2(this->low) / glm::dvec2(this->size);
+  }
   ///@}
 };
 

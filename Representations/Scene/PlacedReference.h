@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Where a reference volume, and the cavity drawn in it, lie to the bent volume. Rays and slices
-/// both need it.
+/// Position of a reference volume, and of the cavity drawn in it, relative to the bent volume. Rays
+/// and slices both need it.
 #ifndef BrainShift_PlacedReference_h
 #define BrainShift_PlacedReference_h
 
@@ -33,7 +33,7 @@ struct PlacedCavity
   double least = 0.5;                  ///< Stored values from here on are inside.
 };
 
-/// Where the bent volume's texture lies.
+/// Position of the bent volume's texture.
 struct VolumePlace
 {
   glm::dmat4 worldFromTexture{ 1.0 };

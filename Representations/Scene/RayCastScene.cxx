@@ -14,7 +14,7 @@ void setTissueUniforms(Program& program, const SceneTissue& tissue, int stepDoub
 {
   program.set("scalars", tissue.scalars);
   program.set("transfer", tissue.transfer);
-  // With gradients, opacities of one step are put together after the gradient had its say.
+  // With gradients, opacities of one step are put together after the gradient has changed them.
   const int row = tissue.steepness.opacity == Opacity::Scalar ? stepDoublings : 0;
   program.set("transferRow", (static_cast<float>(row) + 0.5f) / static_cast<float>(TransferRows));
   program.set("transferFromScalar", glm::vec2(tissue.transferFromScalar));

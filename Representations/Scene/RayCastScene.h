@@ -30,7 +30,7 @@ struct SceneLights
   std::vector<float> specular; ///< Specular colour times intensity, 3 numbers each.
 };
 
-/// Camera, light and place of the volume. Filled by frameOf (SceneFrame.h).
+/// Camera, light and position of the volume. Filled by frameOf (SceneFrame.h).
 struct SceneFrame
 {
   glm::dmat4 clipFromWorld{ 1.0 };
@@ -76,9 +76,9 @@ struct SceneColoring
 /// The only segment that is drawn, if not all tissue is.
 struct SceneSegment
 {
-  vtkTextureObject* shares = nullptr; ///< Null: all tissue is drawn.
-  glm::dvec3 voxel{ 1.0 };            ///< One voxel of `shares`, texture coordinates.
-  glm::dvec2 cutGradient{ 1.0, 0.0 }; ///< Stored scalar to the weight of the edge in light.
+  vtkTextureObject* fractions = nullptr; ///< Null: all tissue is drawn.
+  glm::dvec3 voxel{ 1.0 };               ///< One voxel of `fractions`, texture coordinates.
+  glm::dvec2 cutGradient{ 1.0, 0.0 };    ///< Stored scalar to the weight of the edge in light.
 };
 
 /// What makes opacity depend on gradients. Steepness: see Tissue/SteepnessTexture.h.
@@ -93,7 +93,7 @@ struct SceneSteepness
   double stepMm = 1.0;                       ///< Step that the opacities hold for.
 };
 
-/// What rays look up in the volume at rest. Filled by TissueTextures::update.
+/// Textures of the volume at rest. Filled by TissueTextures::update.
 struct SceneTissue
 {
   vtkTextureObject* scalars = nullptr;
@@ -108,7 +108,7 @@ struct SceneTissue
   double stepMm = 1.0;     ///< Step along the ray that the user asked for.
   Blend blend = Blend::Composite;
   bool shaded = false;
-  bool opaque = false;                       ///< At some value, one step hides what lies behind it.
+  bool opaque = false;                       ///< At some value, one step hides all behind it.
   glm::dvec4 material{ 0.0, 1.0, 0.0, 1.0 }; ///< Ambient, diffuse, specular, specular power.
   SceneColoring coloring;
   SceneSegment segment;
@@ -147,7 +147,7 @@ struct SceneCuts
 struct SceneBlending
 {
   std::vector<float> isovalues;                ///< Stored scalars, ascending.
-  glm::dvec2 shareFromScalar{ 1.0, 0.0 };      ///< Stored scalar to share of the array's range.
+  glm::dvec2 fractionFromScalar{ 1.0, 0.0 };   ///< Stored scalar to fraction of the array's range.
   glm::dvec2 averagedScalars{ 0.0, 1.0 };      ///< Stored scalars that the average takes.
   glm::dvec4 slicePlane{ 0.0, 0.0, 1.0, 0.0 }; ///< Texture coordinates.
 };
@@ -160,19 +160,20 @@ struct SceneImage
   glm::ivec2 size{ 0 }; ///< Pixels.
   /// The pixels that rays are cast for: a box, unless a part of a picture is cast anew.
   PixelPart part{ {}, { glm::ivec2(-FarPixel), glm::ivec2(FarPixel) } };
-  bool skips = true;                   ///< Rays leap over empty bricks.
-  int stepDoublings = 0;               ///< How often the step was doubled while moving.
-  bool jitter = false;                 ///< Rays start at different shares of a step.
-  bool countSamples = false;           ///< Counters learn of samples; Composite only.
-  glm::dvec2 hitFromShare{ 1.0, 0.0 }; ///< Share of the ray to the share that hits are kept in.
+  bool skips = true;         ///< Rays leap over empty bricks.
+  int stepDoublings = 0;     ///< How often the step was doubled while moving.
+  bool jitter = false;       ///< Rays start at different fractions of a step.
+  bool countSamples = false; ///< Counters learn of samples; Composite only.
+  glm::dvec2 hitFromFraction{ 1.0,
+    0.0 }; ///< Fraction of the ray to the fraction that hits are kept in.
 };
 
 /// The depth of what is drawn already, at which rays stop. Filled by SceneDepth::captureBehind.
 struct SceneBehind
 {
   vtkTextureObject* depth = nullptr;
-  glm::vec2 depthFromShare{ 1.0f }; ///< Texture coordinates from the share of the image.
-  glm::vec2 depthOfShareZero{ 0.0f };
+  glm::vec2 depthFromFraction{ 1.0f }; ///< Texture coordinates from the fraction of the image.
+  glm::vec2 depthOfFractionZero{ 0.0f };
 };
 
 /// The reference that is drawn in the same picture. Filled by DeviceReference::compare.
@@ -184,7 +185,7 @@ struct SceneComparison
   ColorPair colors;
 };
 
-/// How far each place can be believed. Filled by EvidenceTexture::update.
+/// Uncertainty of each position, one standard deviation in mm. Filled by EvidenceTexture::update.
 struct SceneEvidence
 {
   vtkTextureObject* deviations = nullptr; ///< mm, at control points. Null: it is not shown.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Reads camera, light and place of a volume from VTK.
+/// Reads camera, light and position of a volume from VTK.
 #ifndef BrainShift_SceneFrame_h
 #define BrainShift_SceneFrame_h
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// How world, grid and textures of a volume lie to each other.
+/// Mappings between world, grid and textures of a volume.
 ///
 /// Volume, lattice, offset field and bricks share their axes. So every mapping between two of them
 /// is a scale and a shift.
@@ -19,7 +19,7 @@ class vtkRenderer;
 
 namespace brainshift
 {
-/// How the values of the drawn array lie: on the image's points, or in its cells.
+/// Layout of the values of the drawn array: on the image's points, or in its cells.
 struct ValueLayout
 {
   glm::ivec3 dimensions{ 0 };        ///< Values a side.
@@ -41,7 +41,7 @@ glm::dvec3 roundingOf(const ValueLayout& layout);
 std::optional<long long> nearestValue(
   const ValueLayout& layout, const glm::dvec3& texture, const glm::dvec3& margin);
 
-/// The values of an image that are drawn, and where they lie.
+/// The values of an image that are drawn, and their layout.
 struct DrawnValues
 {
   vtkDataArray* scalars = nullptr; ///< Null: there is no such array, or it has too few values.

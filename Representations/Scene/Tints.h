@@ -8,7 +8,8 @@
 
 namespace brainshift
 {
-// The classes in which pictures show how far the place of tissue can be believed.
+// The classes in which pictures show the uncertainty of the position of tissue (one standard
+// deviation, mm).
 //
 // They count one standard deviation along an axis. The tints are of Okabe and Ito's palette, which
 // people of all kinds of colour vision tell apart.

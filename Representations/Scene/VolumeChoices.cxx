@@ -198,7 +198,7 @@ SceneBlending blendingOf(vtkVolumeMapper* mapper, vtkVolumeProperty* property,
     double range[2];
     scalars->GetFiniteRange(range, drawnComponents(property, scalars).scalar);
     const double width = range[1] > range[0] ? range[1] - range[0] : 1.0;
-    blending.shareFromScalar = { stored.scale / width, (stored.shift - range[0]) / width };
+    blending.fractionFromScalar = { stored.scale / width, (stored.shift - range[0]) / width };
     blending.averagedScalars = storedRange(mapper->GetAverageIPScalarRange(), stored);
   }
   else if (blend == Blend::Slice)

@@ -74,7 +74,7 @@ std::vector<double> isovaluesOf(vtkVolumeProperty* property);
 SceneBlending blendingOf(vtkVolumeMapper* mapper, vtkVolumeProperty* property,
   vtkDataArray* scalars, const StoredScalar& stored, const glm::dmat4& worldFromTexture);
 
-/// One sentence for each choice that looks different from ParaView's "Volume".
+/// One sentence for each choice that is drawn differently from ParaView's "Volume".
 std::vector<std::string> unsupportedChoices(
   vtkVolumeMapper* mapper, vtkVolumeProperty* property, vtkDataArray* scalars);
 }

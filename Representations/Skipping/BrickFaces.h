@@ -13,19 +13,19 @@
 
 namespace brainshift
 {
-/// Faces that lie side by side in a plane across an axis.
+/// Faces side by side in a plane across an axis.
 struct BrickRectangle
 {
-  int axis = 0;         ///< The plane lies across it.
+  int axis = 0;         ///< The plane is perpendicular to it.
   glm::ivec3 low{ 0 };  ///< Corner, bricks.
   glm::ivec3 high{ 0 }; ///< Opposite corner, bricks; along the axis equal to `low`.
 };
 
-/// All rectangles that look in one direction.
+/// All rectangles that face in one direction.
 struct BrickFaces
 {
   int axis = 0;
-  int outward = 1; ///< 1: they look towards greater coordinates; -1: smaller.
+  int outward = 1;                        ///< 1: they face greater coordinates; -1: smaller.
   std::vector<BrickRectangle> rectangles; ///< By plane, in ascending order.
 };
 
@@ -40,7 +40,7 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::array<BrickFaces, 6> brickFaces(
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<IndexBox> occupiedLayers(
   const std::array<BrickFaces, 6>& faces, int layers);
 
-/// Which of the rectangles look towards an eye: the first, and one past the last. `eye`: bricks,
+/// The rectangles that face an eye: the first, and one past the last. `eye`: bricks,
 /// homogeneous; w = 0: the direction towards an eye infinitely far away.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::pair<int, int> facing(
   const BrickFaces& faces, const glm::dvec4& eye);

@@ -53,8 +53,8 @@ IndexBox bricksOfNodes(const PresenceRequest& request, const IndexBox& nodes)
       (glm::vec3(node) - request.nodesFromVoxelShift) / request.nodesFromVoxel;
     return glm::ivec3(glm::floor(voxel / static_cast<float>(BrickSide))) - request.first;
   };
-  // A brick also asks the nodes just beyond its margin. Nodes at the end of the field stand for
-  // everything that lies beyond.
+  // A brick also reads the nodes just beyond its margin. Nodes at the end of the field represent
+  // everything beyond it.
   IndexBox box{ glm::max(brickOfNode(nodes.first - 1) - 1, glm::ivec3(0)),
     glm::min(brickOfNode(nodes.last + 1) + 1, request.count - 1) };
   const glm::ivec3 lastNode(request.offsets->GetWidth() - 1, request.offsets->GetHeight() - 1,
@@ -137,7 +137,7 @@ bool DeformedPresence::allocate(vtkOpenGLRenderWindow* window, const glm::ivec3&
   return false;
 }
 
-// What Shaders/Skipping/bricks.glsl asks for.
+// The uniforms of Shaders/Skipping/bricks.glsl.
 void DeformedPresence::setBricks(Program& program, const PresenceRequest& request)
 {
   program.set("brickSide", static_cast<float>(BrickSide));

@@ -17,7 +17,7 @@ class vtkWindow;
 
 namespace brainshift
 {
-/// Which bricks are asked for, and how the offset field lies to them.
+/// The bricks that are requested, and the position of the offset field relative to them.
 struct PresenceRequest
 {
   glm::ivec3 restBricks{ 0 };    ///< Bricks of the rest volume, a side.
@@ -45,11 +45,11 @@ public:
     std::vector<float>& summed, Counters& counters);
 
   /// Finds the occupied bricks and makes their faces, if anything changed. `changed`: the nodes
-  /// whose offsets differ from the last update. After any other change all bricks are asked.
+  /// whose offsets differ from the last update. After any other change all bricks are tested.
   bool update(vtkOpenGLRenderWindow* window, const PresenceRequest& request,
     const IndexBox& changed, Counters& counters);
 
-  /// bricksToOccupied, as shares of 255.
+  /// bricksToOccupied, as fractions of 255.
   vtkTextureObject* leaps() const { return this->Leaps; }
 
   /// Draws all faces with a program in use, whose attribute `corner` takes the corners in bricks.

@@ -22,8 +22,9 @@ namespace brainshift
 constexpr int RestBrickSide = 2; ///< Voxels, in the rest volume.
 constexpr int BrickSide = 4; ///< Voxels, in the deformed frame. 8 occupies more, 2 has more faces.
 
-/// Bricks of both frames look at so many voxels around them. A visible sample near a face so makes
-/// the brick beyond that face occupied, too: the rasteriser and brick numbers may round.
+/// Bricks of both frames include a margin of so many voxels around them. A visible sample near a
+/// face so makes the brick beyond that face occupied, too: the rasteriser and brick numbers may
+/// round.
 constexpr float BrickMargin = 1.0f / 8.0f;
 
 /// The least and the greatest value that interpolation can find within each brick.
@@ -82,12 +83,13 @@ struct VisibleValues
 /// A box of so many bricks counts as visible. presence.frag.glsl holds the number, too.
 constexpr float SumModulus = 2097152.0f; // 2^21
 
-/// Turns 1 for each visible brick, in the order of summedVisibility, into sums below SumModulus.
+/// Replaces 1 for each visible brick, in the order of summedVisibility, by sums below SumModulus.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT void sumUp(std::vector<float>& counts, const glm::ivec3& size);
 
 /// Number of visible bricks with lower indices on all axes, less multiples of SumModulus: (count +
-/// 1)^3 numbers, x fastest. Eight of them say whether any brick in a box is visible. `visible`,
-/// called on many threads, says whether a range is visible.
+/// 1)^3 numbers, x fastest. Eight of them tell whether any brick in a box is visible (summed-area
+/// tables: Crow, SIGGRAPH 1984; here in three dimensions). `visible`, called on many threads,
+/// returns whether a range is visible.
 template <typename Visible>
 std::vector<float> summedVisibility(const BrickRanges& bricks, const Visible& visible)
 {

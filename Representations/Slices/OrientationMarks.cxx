@@ -25,9 +25,10 @@ constexpr int FontSize = 22;
 constexpr int NameFontSize = 16;
 constexpr int WarningFontSize = 13;
 const double WarningColor[3] = { 1.0, 0.75, 0.2 }; // amber
-constexpr double Inset = 0.015;                    // from the edge, share of the view
+constexpr double Inset = 0.015;                    // from the edge, fraction of the view
 
-// Right, left, upper and lower edge: place, share of the view, and which side of a letter is there.
+// Right, left, upper and lower edge: position (fraction of the view) and the side of the letter
+// that is at it.
 struct Edge
 {
   double x;

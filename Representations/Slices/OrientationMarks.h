@@ -3,13 +3,13 @@
  * @class   OrientationMarks
  * @brief   the letters R L A P S I at the edges of a view, and the name of its plane
  *
- * A letter names the side of the patient towards which its edge lies: right, left, anterior,
+ * A letter names the side of the patient at its edge: right, left, anterior,
  * posterior, superior or inferior. The letters follow from the camera of each picture and from the
- * transform of the volume, so that they are right however both are turned. A view that looks along
- * no axis, within about 25 degrees, shows none. Where nobody has said what the axes mean for the
- * patient, x, y and z stand in place of letters, and a warning says so.
+ * transform of the volume, so that they are right in any rotation of both. A view that looks along
+ * no axis, within about 25 degrees, shows none. If the meaning of the axes for
+ * the patient is unknown, x, y and z replace the letters, and a warning is shown.
  *
- * The name of the plane that a view looks across stands in its upper left corner, in the plane's
+ * The upper left corner shows the name of the plane that the view looks across, in the plane's
  * colour.
  */
 #ifndef BrainShift_OrientationMarks_h

@@ -20,8 +20,8 @@ glm::dvec3 mmFromTexture(const Grid& grid, const ValueLayout& layout)
   return grid.spacing / layout.textureFromGrid;
 }
 
-// Share of the range of greys from what a texture stores: scale, shift.
-glm::dvec2 shareFromStored(const glm::dvec2& greys, const StoredScalar& value)
+// Fraction of the range of greys from what a texture stores: scale, shift.
+glm::dvec2 fractionFromStored(const glm::dvec2& greys, const StoredScalar& value)
 {
   const double length = greys.y > greys.x ? greys.y - greys.x : 1.0;
   return { value.scale / length, (value.shift - greys.x) / length };
@@ -71,17 +71,17 @@ bool ReferenceTextures::update(GpuTask& gpu, const ReferenceVolume& reference,
   scene.place = { this->Voxels.texture(), place.otherFromTexture(reference.grid, layout),
     layout.low, layout.high };
   scene.voxels = layout.dimensions;
-  scene.shareFromReference = shareFromStored(volume.greyRange,
+  scene.fractionFromReference = fractionFromStored(volume.greyRange,
     mappedFurther({ this->Voxels.scale(), this->Voxels.shift() }, volume.valueFromReference));
-  scene.shareFromScalar = shareFromStored(volume.greyRange, volume.valueFromStored);
-  const double scale = volume.transferFromStored.x / scene.shareFromScalar.x;
-  scene.transferFromShare = { scale,
-    volume.transferFromStored.y - scene.shareFromScalar.y * scale };
+  scene.fractionFromScalar = fractionFromStored(volume.greyRange, volume.valueFromStored);
+  const double scale = volume.transferFromStored.x / scene.fractionFromScalar.x;
+  scene.transferFromFraction = { scale,
+    volume.transferFromStored.y - scene.fractionFromScalar.y * scale };
   scene.comparison = reference.show == ReferenceShow::Reference ? 0 : choice.comparison;
   scene.colors = choice.colors;
   scene.checkersFromTexture = mmFromTexture(volume.grid, volume.layout) / choice.checkerSizeMm;
   scene.fullFromGradient =
-    scene.shareFromReference.x / mmFromTexture(reference.grid, layout) / choice.fullGradient;
+    scene.fractionFromReference.x / mmFromTexture(reference.grid, layout) / choice.fullGradient;
   scene.windowRadius = 0.5 * choice.windowMm / mmFromTexture(volume.grid, volume.layout);
   scene.wipes = wipePlanes(volume.grid, volume.layout, choice.wipePosition);
   return this->Cavity.update(gpu, reference.cavity, place, scene.cavity);
@@ -103,9 +103,9 @@ void setReferenceUniforms(Program& program, const ReferenceScene& scene)
   setReferencePlace(program, scene.place);
   setCavityUniforms(program, scene.cavity);
   program.set("referenceVoxels", glm::vec3(scene.voxels));
-  program.set("shareFromReference", glm::vec2(scene.shareFromReference));
-  program.set("shareFromScalar", glm::vec2(scene.shareFromScalar));
-  program.set("transferFromShare", glm::vec2(scene.transferFromShare));
+  program.set("fractionFromReference", glm::vec2(scene.fractionFromReference));
+  program.set("fractionFromScalar", glm::vec2(scene.fractionFromScalar));
+  program.set("transferFromFraction", glm::vec2(scene.transferFromFraction));
   setComparisonColors(program, scene.colors);
   program.set("comparison", scene.comparison);
   program.set("checkersFromTexture", glm::vec3(scene.checkersFromTexture));

@@ -29,7 +29,7 @@ struct ComparisonChoice
   int comparison = 0;             ///< As numbered there.
   ColorPair colors;               ///< For two colours, gradient and similarity.
   double checkerSizeMm = 1.0;     ///< Side of a field.
-  double fullGradient = 1.0;      ///< Share of the range of greys per mm of full colour.
+  double fullGradient = 1.0;      ///< Fraction of the range of greys per mm of full colour.
   double windowMm = 12.0;         ///< Diameter of the window of local similarity.
   glm::dvec3 wipePosition{ 0.0 }; ///< mm, world.
 };
@@ -58,11 +58,13 @@ struct ReferenceScene
 {
   PlacedReference place;
   PlacedCavity cavity;
-  glm::ivec3 voxels{ 1 };                    ///< Of the reference, a side.
-  glm::dvec2 shareFromReference{ 1.0, 0.0 }; ///< Stored scalar to its share of the range of greys.
-  glm::dvec2 shareFromScalar{ 1.0, 0.0 }; ///< The volume's stored scalar to its share of the greys.
-  glm::dvec2 transferFromShare{ 1.0, 0.0 }; ///< Coordinate of the colour map from that share.
-  int comparison = 0;                       ///< 0: the reference alone.
+  glm::ivec3 voxels{ 1 }; ///< Of the reference, a side.
+  glm::dvec2 fractionFromReference{ 1.0,
+    0.0 }; ///< Stored scalar to its fraction of the range of greys.
+  glm::dvec2 fractionFromScalar{ 1.0,
+    0.0 }; ///< The volume's stored scalar to its fraction of the greys.
+  glm::dvec2 transferFromFraction{ 1.0, 0.0 }; ///< Coordinate of the colour map from that fraction.
+  int comparison = 0;                          ///< 0: the reference alone.
   ColorPair colors;
   glm::dvec3 checkersFromTexture{ 1.0 }; ///< Checker fields for a texture unit.
   glm::dvec3 fullFromGradient{ 1.0 }; ///< Gradient (stored scalar per texture unit) to full colour.

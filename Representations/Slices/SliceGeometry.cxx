@@ -46,7 +46,7 @@ glm::bvec3 eyeAbove(const glm::dvec3& position, const glm::dmat4& clipFromTextur
   return { towardsEye.x > 0.0, towardsEye.y > 0.0, towardsEye.z > 0.0 };
 }
 
-// What lies behind the plane across `axis`, then the plane, then what lies in front of it.
+// Appends the planes behind the one across `axis`, then that plane, then the planes in front of it.
 void appendBackToFront(
   int axis, const SlicePlanes& box, const glm::bvec3& above, std::vector<SliceQuad>& quads)
 {
@@ -124,8 +124,8 @@ glm::dvec3 turned(const glm::dmat4& matrix, const glm::dvec3& vector)
   return glm::dvec3(matrix * glm::dvec4(vector, 0.0));
 }
 
-// Share of the way from one end to the other at which a rectangle is met; below 0: it is not met.
-double shareAtQuad(const SliceQuad& quad, const glm::dvec3& from, const glm::dvec3& to)
+// Fraction of the distance between both ends at which a rectangle is met; below 0: it is not met.
+double fractionAtQuad(const SliceQuad& quad, const glm::dvec3& from, const glm::dvec3& to)
 {
   constexpr double missed = -1.0;
   const glm::dvec3 normal = glm::cross(quad.right, quad.up);
@@ -134,12 +134,12 @@ double shareAtQuad(const SliceQuad& quad, const glm::dvec3& from, const glm::dve
   {
     return missed;
   }
-  const double share = glm::dot(quad.corner - from, normal) / across;
-  const glm::dvec3 place = from + share * (to - from) - quad.corner;
+  const double fraction = glm::dot(quad.corner - from, normal) / across;
+  const glm::dvec3 place = from + fraction * (to - from) - quad.corner;
   const double right = glm::dot(place, quad.right) / glm::dot(quad.right, quad.right);
   const double up = glm::dot(place, quad.up) / glm::dot(quad.up, quad.up);
   const bool inside = right >= 0.0 && right <= 1.0 && up >= 0.0 && up <= 1.0;
-  return inside && share <= 1.0 ? share : missed;
+  return inside && fraction <= 1.0 ? fraction : missed;
 }
 }
 
@@ -152,22 +152,22 @@ std::vector<SliceHit> hitsAlong(
   std::vector<std::pair<double, SliceHit>> hits;
   for (const SliceQuad& quad : wholeQuads(slices.planes))
   {
-    const double share = shareAtQuad(quad, start, end);
-    if (share >= 0.0)
+    const double fraction = fractionAtQuad(quad, start, end);
+    if (fraction >= 0.0)
     {
       SliceHit hit;
-      hit.texture = start + share * (end - start);
+      hit.texture = start + fraction * (end - start);
       hit.world = placed(slices.worldFromTexture, hit.texture);
       hit.normal = glm::normalize(glm::cross(
         turned(slices.worldFromTexture, quad.right), turned(slices.worldFromTexture, quad.up)));
-      hits.emplace_back(share, hit);
+      hits.emplace_back(fraction, hit);
     }
   }
   std::sort(hits.begin(), hits.end(),
     [](const auto& first, const auto& second) { return first.first < second.first; });
   std::vector<SliceHit> sorted;
   sorted.reserve(hits.size());
-  for (const auto& [share, hit] : hits)
+  for (const auto& [fraction, hit] : hits)
   {
     sorted.push_back(hit);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Where the three planes of Deformed Slices lie, and in which order they are drawn.
+/// Positions of the three planes of Deformed Slices, and the order in which they are drawn.
 ///
 /// The planes are numbered by the world axis that they lie across: sagittal (x), coronal (y), axial
 /// (z).

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Tissue/SegmentTexture.h"
 
-#include "Filters/Deformation/SegmentShares.h"
+#include "Filters/Deformation/SegmentFractions.h"
 #include "Representations/Gpu/GpuMemory.h"
 #include "Representations/Gpu/OpenGL.h"
 #include "Representations/Scene/SceneGeometry.h"
@@ -92,11 +92,12 @@ BrickRanges rangesWithin(const BrickRanges& bricks, const std::vector<char>& rea
 }
 
 std::vector<char> bricksReaching(
-  const std::vector<std::uint8_t>& shares, const glm::ivec3& dimensions)
+  const std::vector<std::uint8_t>& fractions, const glm::ivec3& dimensions)
 {
-  std::vector<char> reaching(shares.size());
-  std::transform(shares.begin(), shares.end(), reaching.begin(),
-    [](std::uint8_t share) { return static_cast<char>(share > LeastShare * WholeShare); });
+  std::vector<char> reaching(fractions.size());
+  std::transform(fractions.begin(), fractions.end(), reaching.begin(), [](std::uint8_t fraction) {
+    return static_cast<char>(fraction > LeastFraction * WholeFraction);
+  });
   glm::ivec3 side = dimensions;
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -140,9 +141,9 @@ bool SegmentTexture::update(
   const bool any =
     std::find(segment.inside.begin(), segment.inside.end(), 1) != segment.inside.end();
   this->Remark = any ? std::string() : noVoxel(request.chosen);
-  std::vector<std::uint8_t> shares = segmentShares(segment, request.points);
+  std::vector<std::uint8_t> fractions = segmentFractions(segment, request.points);
   const glm::ivec3& side = request.points.dimensions;
-  this->Reaching = bricksReaching(shares, side);
+  this->Reaching = bricksReaching(fractions, side);
   this->Texture = vtkSmartPointer<vtkTextureObject>::New();
   this->Texture->SetContext(window);
   this->Texture->SetMinificationFilter(vtkTextureObject::Linear);
@@ -152,9 +153,10 @@ bool SegmentTexture::update(
   this->Texture->SetWrapT(vtkTextureObject::ClampToEdge);
   this->Texture->SetWrapR(vtkTextureObject::ClampToEdge);
   counters.segmentUploads += 1;
-  counters.bytesUploaded += static_cast<std::int64_t>(shares.size());
+  counters.bytesUploaded += static_cast<std::int64_t>(fractions.size());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  if (!this->Texture->Create3DFromRaw(side.x, side.y, side.z, 1, VTK_UNSIGNED_CHAR, shares.data()))
+  if (!this->Texture->Create3DFromRaw(
+        side.x, side.y, side.z, 1, VTK_UNSIGNED_CHAR, fractions.data()))
   {
     this->Texture = nullptr;
     return false;

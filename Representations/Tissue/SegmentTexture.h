@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// The segment that is drawn alone: how much of the place around each value belongs to it.
+/// The segment that is drawn alone: the fraction of the space around each value that belongs to it.
 #ifndef BrainShift_SegmentTexture_h
 #define BrainShift_SegmentTexture_h
 
@@ -36,11 +36,11 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT BrickRanges rangesWithin(
   const BrickRanges& bricks, const std::vector<char>& reaching);
 
 /// 1 for each brick in which, BrickMargin around it included, interpolation may find more than
-/// LeastShare of the segment. `shares`: the result of segmentShares.
+/// LeastFraction of the segment. `fractions`: the result of segmentFractions.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT std::vector<char> bricksReaching(
-  const std::vector<std::uint8_t>& shares, const glm::ivec3& dimensions);
+  const std::vector<std::uint8_t>& fractions, const glm::ivec3& dimensions);
 
-/// The shares of one segment on the GPU of one window.
+/// The fractions of one segment on the GPU of one window.
 class SegmentTexture
 {
 public:

@@ -34,7 +34,7 @@ glm::dvec2 entryOfVtk(int count)
 SteepnessTexture::SteepnessTexture() = default;
 SteepnessTexture::~SteepnessTexture() = default;
 
-glm::dvec2 SteepnessTexture::entryFromShare() const
+glm::dvec2 SteepnessTexture::entryFromFraction() const
 {
   return entryOfVtk(this->Size.x);
 }
@@ -72,7 +72,7 @@ bool SteepnessTexture::uploadCurve(
 {
   this->Size = { 1, VtkEntries };
   std::vector<float> factors(VtkEntries);
-  const double steepest = SteepestShare * (range.y > range.x ? range.y - range.x : 1.0);
+  const double steepest = SteepestFraction * (range.y > range.x ? range.y - range.x : 1.0);
   property->GetGradientOpacity()->GetTable(0.0, steepest, VtkEntries, factors.data());
   for (float& factor : factors)
   {

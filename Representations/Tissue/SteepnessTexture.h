@@ -2,8 +2,12 @@
 /// @file
 /// Gradient opacity, or a 2D transfer function, as a texture.
 ///
-/// Steepness is what VTK's volume mapper looks opacities up with: the length of the gradient over a
-/// mean voxel side, as a share of a quarter of the array's range, at most 1.
+/// Steepness is the gradient magnitude that VTK's volume mapper looks opacities up with: the change
+/// of the scalar over a mean voxel side, as a fraction of a quarter of the array's range, 0 to 1.
+///
+/// Gradient opacity: Levoy, IEEE Computer Graphics and Applications 8(3), 1988. 2D transfer
+/// functions: Kniss, Kindlmann and Hansen, IEEE Transactions on Visualization and Computer Graphics
+/// 8(3), 2002.
 #ifndef BrainShift_SteepnessTexture_h
 #define BrainShift_SteepnessTexture_h
 
@@ -21,8 +25,9 @@ namespace brainshift
 {
 struct GpuTask;
 
-/// Of the array's range: what the scalar changes by over a mean voxel side where steepness is 1.
-constexpr double SteepestShare = 0.25;
+/// Change of the scalar over a mean voxel side at which steepness is 1, as a fraction of the
+/// array's range.
+constexpr double SteepestFraction = 0.25;
 
 /// Which scalars a 2D transfer function makes visible at any steepness.
 struct VisibleColumns
@@ -40,14 +45,14 @@ public:
   SteepnessTexture();
   ~SteepnessTexture();
 
-  /// Uploads what the property says if it changed. `range`: least and greatest value of the array.
-  /// Nothing for Opacity::Scalar. False if the GPU refuses.
+  /// Uploads the curve or the table of the property if it changed. `range`: least and greatest
+  /// value of the array. Nothing for Opacity::Scalar. False if the GPU refuses.
   bool update(GpuTask& gpu, vtkVolumeProperty* property, Opacity opacity, const glm::dvec2& range);
 
   ///@{
-  /// Texture coordinate = share * scale (x) + shift (y), of a share of the array's range and of
-  /// steepness.
-  glm::dvec2 entryFromShare() const;
+  /// Texture coordinate = value * scale (x) + shift (y). The value is a fraction of the array's
+  /// range, or steepness.
+  glm::dvec2 entryFromFraction() const;
   glm::dvec2 entryFromSteepness() const;
   ///@}
 

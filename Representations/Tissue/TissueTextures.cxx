@@ -30,8 +30,8 @@ double stockStepOn(const Grid& grid)
 {
   const glm::dvec3 cells(grid.dimensions - 1);
   const double side = std::pow(cells.x * cells.y * cells.z, 0.333);
-  const double share = side < 100.0 ? 0.01 + 0.99 * side / 100.0 : 1.0;
-  return share * (grid.spacing.x + grid.spacing.y + grid.spacing.z) / 6.0;
+  const double fraction = side < 100.0 ? 0.01 + 0.99 * side / 100.0 : 1.0;
+  return fraction * (grid.spacing.x + grid.spacing.y + grid.spacing.z) / 6.0;
 }
 
 double opacityStepOf(const TissueRequest& request)
@@ -108,7 +108,7 @@ void TissueTextures::noteVisibility(const TissueRequest& request, bool uploaded)
   this->VisibleIsovalues = isovalues;
 }
 
-// What the scene knows beside the textures of voxels.
+// The figures of the scene beside the textures of voxels.
 void TissueTextures::describe(const TissueRequest& request, SceneTissue& tissue) const
 {
   const ValueLayout& layout = request.values.layout;
@@ -143,8 +143,8 @@ SceneSteepness TissueTextures::steepnessFor(const TissueRequest& request) const
   const double width = request.range.y > request.range.x ? request.range.y - request.range.x : 1.0;
   steepness.step = 1.0 / glm::dvec3(glm::max(request.values.layout.dimensions - 1, 1));
   steepness.fromGradient = steepness.step * (side.x + side.y + side.z) / (3.0 * side) *
-    this->Stored.scale / (SteepestShare * width);
-  const glm::dvec2 entry = this->Steepness.entryFromShare();
+    this->Stored.scale / (SteepestFraction * width);
+  const glm::dvec2 entry = this->Steepness.entryFromFraction();
   steepness.entryFromScalar = { this->Stored.scale / width * entry.x,
     (this->Stored.shift - request.range.x) / width * entry.x + entry.y };
   steepness.entryFromSteepness = this->Steepness.entryFromSteepness();
@@ -187,7 +187,7 @@ bool TissueTextures::updateSegment(GpuTask& gpu, const TissueRequest& request, S
     return gpu.fail("The GPU refused a 3D texture for the segment that is drawn alone");
   }
   this->VisibilityChanged = this->VisibilityChanged || changed;
-  tissue.segment.shares = this->Segment.texture();
+  tissue.segment.fractions = this->Segment.texture();
   return true;
 }
 
@@ -236,8 +236,8 @@ std::vector<float> TissueTextures::summedVisibility() const
       surfaces.push_back(stored);
     }
   }
-  // A crossing lies between two samples. The segment may hold both samples but not the crossing, so
-  // its bricks are not asked. The filter's rounding may find a surface where no voxel reaches the
+  // A crossing is between two samples. The segment may hold both samples but not the crossing, so
+  // its bricks are not tested. The filter's rounding may find a surface where no voxel reaches the
   // isovalue.
   const double rounding = 1e-5 * this->Scalars.range();
   const auto visible = [&](const glm::vec2& range) {

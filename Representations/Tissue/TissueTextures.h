@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// What rays and slices look up in the volume at rest, as textures: scalars, colours, opacity,
+/// The textures that rays and slices read in the volume at rest: scalars, colours, opacity,
 /// gradients, segment.
 #ifndef BrainShift_TissueTextures_h
 #define BrainShift_TissueTextures_h

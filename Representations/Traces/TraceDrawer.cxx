@@ -24,7 +24,8 @@ glm::vec3 placeOf(const TraceVertex& vertex)
   return { vertex.position[0], vertex.position[1], vertex.position[2] };
 }
 
-// Number of a cell along the Z-curve: the bits of its three coordinates in turn.
+// Number of a cell along the Z-curve: the bits of its three coordinates, interleaved (Morton, "A
+// computer oriented geodetic data base and a new technique in file sequencing", IBM, 1966).
 std::size_t numberOf(const glm::ivec3& cell)
 {
   std::size_t number = 0;
@@ -218,21 +219,21 @@ void TraceDrawer::setUniforms(Program& program, const TraceScene& scene)
   program.set("pixelsForMm", static_cast<float>(0.5 * scene.size.y * glm::length(up)));
   program.set("hiddenOpacity", static_cast<float>(scene.hiddenOpacity));
   program.set("size", glm::vec2(scene.size));
-  std::array<glm::vec2, MaxTissues> hitsFromShare;
-  std::array<glm::vec2, MaxTissues> hitsOfShareZero;
+  std::array<glm::vec2, MaxTissues> hitsFromFraction;
+  std::array<glm::vec2, MaxTissues> hitsOfFractionZero;
   std::array<glm::vec3, MaxTissues> nearAhead;
   std::array<glm::vec3, MaxTissues> farAhead;
   for (std::size_t i = 0; i < scene.hits.size(); ++i)
   {
     const FirstHits& hits = *scene.hits[i];
     program.set(("hits" + std::to_string(i)).c_str(), hits.texture.Get());
-    hitsFromShare[i] = glm::vec2(hits.area.textureFromShare());
-    hitsOfShareZero[i] = glm::vec2(hits.area.textureOfShareZero());
+    hitsFromFraction[i] = glm::vec2(hits.area.textureFromFraction());
+    hitsOfFractionZero[i] = glm::vec2(hits.area.textureOfFractionZero());
     nearAhead[i] = glm::vec3(scene.ahead * hits.frustum.near.columns());
     farAhead[i] = glm::vec3(scene.ahead * hits.frustum.far.columns());
   }
-  program.set("hitsFromShare", hitsFromShare.data(), scene.hits.size());
-  program.set("hitsOfShareZero", hitsOfShareZero.data(), scene.hits.size());
+  program.set("hitsFromFraction", hitsFromFraction.data(), scene.hits.size());
+  program.set("hitsOfFractionZero", hitsOfFractionZero.data(), scene.hits.size());
   program.set("nearAhead", nearAhead.data(), scene.hits.size());
   program.set("farAhead", farAhead.data(), scene.hits.size());
 }

@@ -76,10 +76,10 @@ struct TraceScene
   glm::ivec2 size{ 1 };   ///< Of the picture, pixels.
   glm::dmat4 clipFromWorld{ 1.0 };
   glm::dmat4 worldFromPoint{ 1.0 };
-  glm::dvec3 ahead{ 0.0, 0.0, -1.0 }; ///< Unit vector, the way the camera looks, world.
+  glm::dvec3 ahead{ 0.0, 0.0, -1.0 }; ///< Unit vector of the view direction, world.
   double radius = 1.0;                ///< mm.
   double leastRadius = 1.5;           ///< Pixels, if that is more.
-  double hiddenOpacity = 1.0;         ///< Share of the opacity that is left behind tissue.
+  double hiddenOpacity = 1.0;         ///< Fraction of the opacity that is left behind tissue.
   std::vector<const FirstHits*> hits; ///< Of the volumes; at most MaxTissues.
 };
 

@@ -44,7 +44,7 @@ struct TracePoints::State
 {
   WindowDevices<Device> Devices;
   Counters Count;
-  bool Told = false; // the warning about too many volumes was given
+  bool Warned = false; // about too many volumes
 };
 
 TracePoints::TracePoints()
@@ -56,13 +56,13 @@ TracePoints::~TracePoints() = default;
 
 namespace
 {
-constexpr double LeastRadius = 1.5;    // pixels; smaller balls are lost to the eye
-constexpr double SuitableRadius = 4.0; // pixels, at least, unless the user chose a radius
-constexpr double SuitableShare = 0.01; // of the points' box
+constexpr double LeastRadius = 1.5;       // pixels; smaller balls are lost to the eye
+constexpr double SuitableRadius = 4.0;    // pixels, at least, unless the user chose a radius
+constexpr double SuitableFraction = 0.01; // of the points' box
 
-std::uint8_t byteOf(double share)
+std::uint8_t byteOf(double fraction)
 {
-  return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
+  return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(fraction, 0.0, 1.0)));
 }
 
 // Appends the points of one set. Positions that are not finite are left out.
@@ -133,12 +133,12 @@ std::vector<HitSource*> deformedVolumesIn(vtkRenderer* renderer)
   return sources;
 }
 
-// The radius that suits points when nobody chose one: a hundredth of the longest side of their box,
+// The default radius: a hundredth of the longest side of their box,
 // mm.
 double suitableRadius(vtkMapper* mapper)
 {
   const vtkBoundingBox box(mapper->GetBounds());
-  return box.IsValid() ? SuitableShare * box.GetMaxLength() : 0.0;
+  return box.IsValid() ? SuitableFraction * box.GetMaxLength() : 0.0;
 }
 
 TraceScene sceneOf(vtkRenderer* renderer, vtkMatrix4x4* worldFromPoint)
@@ -167,7 +167,7 @@ vtkMTimeType TracePoints::LookTime()
     input ? input->GetMTime() : 0, this->Mapper->GetLookupTable()->GetMTime() });
 }
 
-// The first hits of each volume. A warning, given once, says if there are too many volumes.
+// The first hits of each volume. A warning, given once, reports too many volumes.
 std::vector<const FirstHits*> TracePoints::HitsOf(
   const std::vector<HitSource*>& volumes, vtkWindow* window)
 {
@@ -181,7 +181,7 @@ std::vector<const FirstHits*> TracePoints::HitsOf(
   }
   if (hits.size() > MaxTissues)
   {
-    if (!std::exchange(this->Internal->Told, true))
+    if (!std::exchange(this->Internal->Warned, true))
     {
       vtkWarningMacro(<< "The view shows " << hits.size() << " deformed volumes; Trace Points are "
                       << "hidden by " << MaxTissues << " of them.");

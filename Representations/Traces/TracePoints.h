@@ -31,7 +31,7 @@ public:
   static TracePoints* New();
   vtkTypeMacro(TracePoints, OverVolumes);
 
-  /// Share of the opacity that points behind tissue keep, 0 to 1.
+  /// Fraction of the opacity that points behind tissue keep, 0 to 1.
   double HiddenOpacity = 1.0;
 
   int RenderOpaqueGeometry(vtkViewport* viewport) override;

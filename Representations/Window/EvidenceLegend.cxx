@@ -17,7 +17,7 @@ namespace brainshift
 namespace
 {
 constexpr int FontSize = 14;
-constexpr double Inset = 0.015; // from the edges, share of the view
+constexpr double Inset = 0.015; // from the edges, fraction of the view
 constexpr glm::vec3 Untinted(0.85f);
 constexpr glm::vec3 Ink(0.08f);
 

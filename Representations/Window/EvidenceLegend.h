@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Says in the upper right corner of a view what the tints of evidence mean.
+/// A legend of the tints of uncertainty (1 sd, mm) in the upper right corner of a view.
 ///
 /// The upper left corner belongs to the legend of a comparison.
 #ifndef BrainShift_EvidenceLegend_h
@@ -21,7 +21,7 @@ public:
   static EvidenceLegend* New();
   vtkTypeMacro(EvidenceLegend, vtkProp);
 
-  /// What is shown. Stripes stand for tints where colours tell volumes apart.
+  /// What is shown. Stripes replace tints where colours distinguish volumes.
   enum class Shown
   {
     Nothing, ///< The volume carries no evidence.
@@ -29,7 +29,7 @@ public:
     Stripes,
   };
 
-  /// Asked before each picture. Null: tints.
+  /// Called before each picture. Null: tints.
   std::function<Shown()> Ask;
 
   int RenderOpaqueGeometry(vtkViewport* viewport) override;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Leaves out work that nobody sees in a window that moves.
+/// Leaves out work that is not visible in a window that moves.
 #ifndef BrainShift_MovingWindow_h
 #define BrainShift_MovingWindow_h
 
@@ -24,8 +24,8 @@ namespace brainshift
  * - The smoothing of insets (orientation axes). The driver would have to finish the picture under
  *   them first.
  * - The copy of depths into the framebuffer that the window shows, about 6 ms for each megapixel.
- * It
- *   is left out only if VTK leaves the display to others (NoBlit): Qt's widget takes only colours.
+ *   It is left out only if VTK leaves the display to others (NoBlit): Qt's widget takes only
+ * colours.
  *   Depths are read from where they were drawn.
  */
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT MovingWindow

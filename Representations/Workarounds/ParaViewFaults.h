@@ -22,9 +22,9 @@ void deliverWithStandIns(vtkPVDataRepresentation* representation, vtkInformation
   vtkInformation* input);
 
 /**
- * Watches the connection to the server of the active session. When it is lost, one message says so,
- * and how strokes are kept. Without it, ParaView's sockets say "Broken pipe", and no more. In a
- * session without a server this does nothing.
+ * Watches the connection to the server of the active session. When it is lost, one message reports
+ * it and tells how to keep the strokes. Without it, ParaView's sockets report only "Broken pipe".
+ * In a session without a server this does nothing.
  */
 void watchServer();
 
@@ -41,7 +41,7 @@ public:
   FailedUpdate(vtkPVDataRepresentation* representation, vtkInformationRequestKey* request);
   ~FailedUpdate();
 
-  /** Says to ParaView that the update has ended, if it was asked for and brought no data. */
+  /** Reports to ParaView that the update has ended, if it was requested and brought no data. */
   void end();
 
 private:

@@ -2,7 +2,7 @@
 // chapter 20): along an axis, two neighbours weigh as much as one read between them.
 
 // Weight of the upper pair, and where between its voxels and those of the lower pair to read;
-// voxels from the one below, for a share of the way to the next.
+// voxels from the one below, for a fraction of the way to the next.
 struct CubicPairs
 {
   vec3 upper;
@@ -10,12 +10,12 @@ struct CubicPairs
   vec3 upperAt;
 };
 
-CubicPairs cubicPairs(vec3 share)
+CubicPairs cubicPairs(vec3 fraction)
 {
-  vec3 left = 1.0 - share;
+  vec3 left = 1.0 - fraction;
   vec3 first = left * left * left / 6.0;
-  vec3 last = share * share * share / 6.0;
-  vec3 second = 2.0 / 3.0 - 0.5 * share * share * (1.0 + left);
+  vec3 last = fraction * fraction * fraction / 6.0;
+  vec3 second = 2.0 / 3.0 - 0.5 * fraction * fraction * (1.0 + left);
   vec3 third = 1.0 - first - second - last;
   return CubicPairs(third + last, second / (first + second) - 1.0, 1.0 + last / (third + last));
 }

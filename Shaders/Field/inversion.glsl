@@ -7,9 +7,9 @@
 // Newton's steps, halved while they do not bring the point closer: the plain fixed-point iteration
 // diverges where tissue is stretched more than twofold although nothing folds there.
 
-const int InversionSteps = 16;             // 1 to 3 are used; more near folding
-const float InversionTolerance = 2e-5f;    // lattice cells; 0.0003 mm on the default lattice
-const float SmallestDeterminant = 0.02f;   // below it: the step of the fixed-point iteration
+const int InversionSteps = 16;           // 1 to 3 are used; more near folding
+const float InversionTolerance = 2e-5f;  // lattice cells; 0.0003 mm on the default lattice
+const float SmallestDeterminant = 0.02f; // below it: the step of the fixed-point iteration
 
 // Cramer's rule.
 SHARED vec3 inversionStep(mat3 jacobian, vec3 miss)
@@ -37,10 +37,10 @@ SHARED vec3 inverseOffset(vec3 deformed, vec3 start)
     return offset;
   }
   vec3 step = inversionStep(jacobianThere(), miss);
-  float share = 1.0f;
+  float fraction = 1.0f;
   for (int i = 0; i < InversionSteps; ++i)
   {
-    vec3 trial = offset - share * step;
+    vec3 trial = offset - fraction * step;
     miss = trial + displacementAt(deformed + trial);
     float trialSquared = dot(miss, miss);
     if (trialSquared < missSquared)
@@ -52,11 +52,11 @@ SHARED vec3 inverseOffset(vec3 deformed, vec3 start)
       }
       missSquared = trialSquared;
       step = inversionStep(jacobianThere(), miss);
-      share = min(1.0f, 2.0f * share);
+      fraction = min(1.0f, 2.0f * fraction);
     }
     else
     {
-      share *= 0.5f;
+      fraction *= 0.5f;
     }
   }
   return offset;

@@ -11,7 +11,7 @@ uniform vec3 firstNode;   // the target's first node, counted from the lattice's
 uniform mat4 weights;
 
 #ifdef MASKED
-uniform sampler3D maskWeights; // share of the displacement that holds at each node
+uniform sampler3D maskWeights; // fraction of the displacement that holds at each node
 uniform vec3 maskTexel;        // one node, texture coordinates
 #endif
 

@@ -6,7 +6,7 @@ uniform vec2 textureFromPixel; // the image's coordinates from pixels of the pic
 uniform vec2 textureOfOrigin;
 #ifdef OCCLUDED
 uniform sampler2D occlusion; // of the first hits, 0 to 1
-uniform float darkness;      // share of the light that the greatest occlusion takes away
+uniform float darkness;      // fraction of the light that the greatest occlusion takes away
 #endif
 
 void main()

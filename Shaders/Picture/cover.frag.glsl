@@ -2,16 +2,17 @@
 
 in vec2 ndc;
 
-uniform sampler2D hits;     // first hit, share of the way from near to far plane; below 0: none
-uniform vec2 hitsFromShare; // their texture coordinates from the share of the picture: scale, shift
-uniform vec2 hitsOfShareZero;
-uniform mat3 nearPlane;     // of the picture: mm, world, from (1, ndc)
+uniform sampler2D hits; // first hit, fraction of the way from near to far plane; below 0: none
+// their texture coordinates from the fraction of the picture: scale, shift
+uniform vec2 hitsFromFraction;
+uniform vec2 hitsOfFractionZero;
+uniform mat3 nearPlane; // of the picture: mm, world, from (1, ndc)
 uniform mat3 farPlane;
 uniform mat4 clipFromWorld; // of the camera
 
 void main()
 {
-  float hit = textureLod(hits, (0.5 * ndc + 0.5) * hitsFromShare + hitsOfShareZero, 0.0).r;
+  float hit = textureLod(hits, (0.5 * ndc + 0.5) * hitsFromFraction + hitsOfFractionZero, 0.0).r;
   if (hit < 0.0)
   {
     discard;

@@ -1,10 +1,12 @@
 // How much the tissue around a first hit hides it from light, 0 to 1. Two neighbours on opposite
 // sides of the hit make a pair. On a plane they lie on one line with the hit, and in a groove both
-// lie nearer to the eye than that line. So a pair tells how deep the hit lies, without a normal.
-// First hits lie where bent tissue is seen, so that occlusion follows the bend.
+// lie nearer to the eye than that line. So a pair shows the depth of the hit, without a normal.
+// First hits are on the visible surface of bent tissue, so occlusion follows the deformation.
+// Screen-space ambient occlusion: Mittring, "Finding next gen: CryEngine 2", SIGGRAPH 2007 courses.
+// Pixels sample in turn, and are averaged: Keller and Heidrich, "Interleaved sampling", 2001.
 
-uniform sampler2D hits; // first hit, share of the way from near to far plane; below 0: none
-uniform vec2 hitsTexel; // one pixel, texture coordinates
+uniform sampler2D hits;  // first hit, fraction of the way from near to far plane; below 0: none
+uniform vec2 hitsTexel;  // one pixel, texture coordinates
 uniform vec2 pictureLow; // the whole picture, pixels of the images
 uniform vec2 pictureHigh;
 uniform vec2 nearPixel;    // mm: sides of a pixel on the near plane
@@ -13,8 +15,8 @@ uniform vec3 acrossAtZero; // mm right, up and ahead, from near to far plane, at
 uniform float radius;      // mm
 uniform float tolerance;   // mm: hits are known no better
 
-const float Gain = 3.0; // where pairs lean by a third, half of the light is hidden
-const float NearestNeighbour = 0.15; // share of the radius; nearer ones show how samples lie
+const float Gain = 3.0;              // where pairs lean by a third, half of the light is hidden
+const float NearestNeighbour = 0.15; // fraction of the radius; nearer ones show how samples lie
 const vec4 Nothing = vec4(0.0, 1.0, 0.0, 0.0);
 
 float hitOf(vec2 pixel)
@@ -28,13 +30,14 @@ vec2 leaningOf(vec2 aside, float hit, vec3 across, vec3 towardsEye)
   float other = hitOf(gl_FragCoord.xy + aside);
   vec3 way = vec3(aside * (nearPixel + other * pixelGrowth), 0.0) + (other - hit) * across;
   float distance = max(length(way), 1e-6 * radius);
-  vec2 leaning = vec2((dot(way, towardsEye) - tolerance) / distance,
-    clamp(2.0 - distance / radius, 0.0, 1.0));
+  vec2 leaning =
+    vec2((dot(way, towardsEye) - tolerance) / distance, clamp(2.0 - distance / radius, 0.0, 1.0));
   return other < 0.0 ? vec2(-1.0, 0.0) : leaning;
 }
 
-// The share of light that two neighbours hide. What lies far in front of the hit on one side only
-// hides nothing: it would have a dark rim. If both sides lie far in front, the hit is in a pit.
+// The fraction of light that two neighbours hide. A surface far in front of the hit on one side
+// only hides nothing: it would have a dark rim. If both sides are far in front, the hit is in a
+// pit.
 float hiddenBy(vec2 one, vec2 two)
 {
   float near = one.y * two.y;
@@ -63,12 +66,12 @@ void main()
   float hidden = 0.0;
   for (float pair = 0.0; pair < 4.0; pair += 1.0)
   {
-    float share = 0.25 * (mod(pair + rank, 4.0) + within);
-    vec2 aside = floor(mix(NearestNeighbour, 1.0, share) * direction * most + 0.5);
+    float fraction = 0.25 * (mod(pair + rank, 4.0) + within);
+    vec2 aside = floor(mix(NearestNeighbour, 1.0, fraction) * direction * most + 0.5);
     aside = clamp(aside, -room, room);
     hidden += 0.25 *
-      hiddenBy(leaningOf(aside, hit, across, towardsEye),
-        leaningOf(-aside, hit, across, towardsEye));
+      hiddenBy(
+        leaningOf(aside, hit, across, towardsEye), leaningOf(-aside, hit, across, towardsEye));
     direction = sqrt(0.5) * vec2(direction.x - direction.y, direction.x + direction.y);
   }
   gl_FragData[0] = vec4(Gain * hidden / (1.0 + Gain * hidden), hit, 0.0, 0.0);

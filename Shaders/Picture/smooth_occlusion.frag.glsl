@@ -1,9 +1,10 @@
 // Averages the occlusion of 16 neighbours, which looked into different directions, where they lie
 // on the same surface.
 
-uniform sampler2D occlusion; // occlusion, and the first hit: share of the way to the far plane
+uniform sampler2D occlusion; // occlusion, and the first hit: fraction of the way to the far plane
 uniform vec2 occlusionTexel; // one pixel, texture coordinates
-uniform float sameFromShare; // a difference of first hits, times this, is 1 on different surfaces
+// a difference of first hits, times this, is 1 on different surfaces
+uniform float sameFromFraction;
 
 void main()
 {
@@ -15,7 +16,7 @@ void main()
     {
       vec2 place = (gl_FragCoord.xy + vec2(x, y)) * occlusionTexel;
       vec2 other = textureLod(occlusion, place, 0.0).rg;
-      float weight = max(1.0 - abs(other.g - middle.g) * sameFromShare, 0.0);
+      float weight = max(1.0 - abs(other.g - middle.g) * sameFromFraction, 0.0);
       sum += weight * vec2(other.r, 1.0);
     }
   }

@@ -40,7 +40,7 @@ Path pathOf(Ray ray)
   vec2 span = joined(own, other);
   span.y = min(span.y, sceneDistance(ray, 0.5 * ndc + 0.5));
   span = clippedSpan(ray, span, stepMm);
-  span.x += jitter * startShare(ivec2(gl_FragCoord.xy)) * stepMm;
+  span.x += jitter * startFraction(ivec2(gl_FragCoord.xy)) * stepMm;
   path.span = span;
   path.samples = presentSamples(ray, span, stepMm);
   path.own = samplesIn(own, span);
@@ -100,10 +100,11 @@ void see(
   vec3 deformed = positionOf(path.deformed, number);
   bool ignored = isRemoved(deformed);
   float behindBoth = (1.0 - seen.own.opacity) * (1.0 - seen.other.opacity);
-  vec2 shares = opacities *
+  vec2 fractions = opacities *
     (ignored
         ? behindBoth * vec2(1.0, 1.0 - opacities.x) // nothing agrees there: each hides the other
-        : vec2(seenShare(seen.own, seen.other, number), seenShare(seen.other, seen.own, number)));
+        : vec2(seenFraction(seen.own, seen.other, number),
+            seenFraction(seen.other, seen.own, number)));
   vec2 own = vec2(0.0);
   vec2 other = vec2(0.0);
   if (opacities.x > 0.0 && 1.0 - seen.own.opacity > Negligible)
@@ -117,7 +118,7 @@ void see(
       worldFromReferenceGradient * referenceGradientAt(positionOf(path.reference, number));
     other = lightOf(gradient, path.towardsEye, deformed);
   }
-  vec2 light = shares * vec2(own.x, other.x);
+  vec2 light = fractions * vec2(own.x, other.x);
   seen.light += ignored ? vec3(0.5 * (light.x + light.y))
                         : light.x * evidentStripes(ownColor, rest) + light.y * referenceColor;
   join(seen.own, opacities.x, own.y, number);

@@ -1,4 +1,5 @@
-// Composite blending from front to back (paper, section 2): the way of a ray, and what it has seen.
+// Composite blending from front to back with early ray termination (paper, section 2; Levoy, ACM
+// Transactions on Graphics 9(3), 1990): the path of a ray, and the colour that it has gathered.
 
 // Colour times opacity, and opacity, of a sample.
 vec4 litTissue(vec4 tissue, vec3 rest, Shine shine)
@@ -25,7 +26,7 @@ Path pathOf(Ray ray)
   vec2 span = boxSpan(ray, spaceLow, spaceHigh);
   span.y = min(span.y, sceneDistance(ray, 0.5 * ndc + 0.5));
   span = clippedSpan(ray, span, stepMm);
-  span.x += jitter * startShare(ivec2(gl_FragCoord.xy)) * stepMm;
+  span.x += jitter * startFraction(ivec2(gl_FragCoord.xy)) * stepMm;
   path.span = span;
   path.samples = presentSamples(ray, span, stepMm);
   path.moved = vec2(0.0);
@@ -107,7 +108,7 @@ vec3 gradientBetween(Pair pair, float way)
 }
 #endif
 
-// Light at a share of the way from the first to the second sample.
+// Light at a fraction of the way from the first to the second sample.
 Shine shineBetween(Path path, Pair pair, mat3 slopes, mat3 turn, float way)
 {
   return shineOf(mix(pair.oneDeformed, pair.twoDeformed, way), gradientBetween(pair, way), slopes,

@@ -31,8 +31,8 @@ float hiding(Layer front, float number)
   return front.opacity * clamp(behind / agreementSamples - 0.5, 0.0, 1.0);
 }
 
-// The share of a sample of the layer `own` that reaches the eye.
-float seenShare(Layer own, Layer other, float number)
+// The fraction of a sample of the layer `own` that reaches the eye.
+float seenFraction(Layer own, Layer other, float number)
 {
   return min(1.0 - own.opacity, 1.0 - hiding(other, number));
 }

@@ -38,7 +38,8 @@ void main()
   gl_FragData[1] = hitAt(march, tissue.a >= HitOpacity ? at : -1.0);
 }
 #else
-uniform vec2 shareFromScalar; // scale and shift: stored scalar to its share of the array's range
+// scale and shift: stored scalar to its fraction of the array's range
+uniform vec2 fractionFromScalar;
 uniform vec2 averagedScalars; // least and greatest stored scalar that the average takes
 
 void main()
@@ -58,7 +59,7 @@ void main()
 #endif
       if (known)
       {
-        sum += tissueOf(scalar).a * (scalar * shareFromScalar.x + shareFromScalar.y);
+        sum += tissueOf(scalar).a * (scalar * fractionFromScalar.x + fractionFromScalar.y);
         count += 1.0;
       }
     }

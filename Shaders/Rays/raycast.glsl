@@ -8,10 +8,10 @@ uniform vec2 ndcFromPixel; // of the picture
 // From pixels of the whole picture: a ray is identical to the bit whatever part the images hold.
 vec2 ndc = (gl_FragCoord.xy + firstPixel) * ndcFromPixel - 1.0;
 
-uniform vec3 spaceLow;  // the part of the deformed frame that is drawn, texture coordinates
+uniform vec3 spaceLow; // the part of the deformed frame that is drawn, texture coordinates
 uniform vec3 spaceHigh;
 uniform float stepMm;
-uniform float jitter; // 1: neighbouring rays start at different shares of a step, against rings
+uniform float jitter; // 1: neighbouring rays start at different fractions of a step, against rings
 uniform mat3 worldFromGradient;  // world axes from a gradient for texture units (inverse transpose)
 uniform vec3 worldOfTextureZero; // mm
 
@@ -19,9 +19,9 @@ const float OpaqueEnough = 254.0 / 255.0; // more would change less than one 8-b
 const float HitOpacity = 0.5;             // the eye sees a surface where a ray reaches this
 const vec4 NoHit = vec4(-1.0);
 
-// The share of the first step after which a pixel's ray starts: one of 16, ordered so that
+// The fraction of the first step after which a pixel's ray starts: one of 16, ordered so that
 // neighbours differ most (Bayer, 1973).
-float startShare(ivec2 pixel)
+float startFraction(ivec2 pixel)
 {
   int mixed = pixel.x ^ pixel.y;
   int rank = (mixed & 1) * 8 + (pixel.y & 1) * 4 + (mixed >> 1 & 1) * 2 + (pixel.y >> 1 & 1);
@@ -39,13 +39,13 @@ vec3 worldFromDeformed(vec3 deformed)
   return worldFromTexture * deformed + worldOfTextureZero;
 }
 
-uniform vec2 hitFromShare; // scale and shift
+uniform vec2 hitFromFraction; // scale and shift
 
-// The second target for a hit at t: the share of the way from the near to the far plane. A part of
-// a picture uses the planes of the whole picture.
+// The second target for a hit at t: its fraction of the distance from the near to the far plane. A
+// part of a picture uses the planes of the whole picture.
 vec4 hitAt(float t)
 {
-  return vec4(t / rayOfPixel(ndc).lengthMm * hitFromShare.x + hitFromShare.y);
+  return vec4(t / rayOfPixel(ndc).lengthMm * hitFromFraction.x + hitFromFraction.y);
 }
 
 // What light does at a position with a gradient in the rest frame. `slopes`: of the offsets near

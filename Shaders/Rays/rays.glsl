@@ -8,12 +8,13 @@ uniform vec3 nearUp;
 uniform vec3 farOrigin; // the far plane: as for the near plane
 uniform vec3 farRight;
 uniform vec3 farUp;
-uniform vec2 clipW;             // homogeneous w on the near and on the far plane
-uniform mat3 worldFromTexture;  // directions: mm (world axes) for one texture unit
-uniform vec3 mmFromTexture;     // mm for one texture unit, before an actor's scale
-uniform sampler2D sceneDepth;   // window depth of what is drawn already
-uniform vec2 depthFromShare;    // its texture coordinates from the share of the image: scale, shift
-uniform vec2 depthOfShareZero;
+uniform vec2 clipW;            // homogeneous w on the near and on the far plane
+uniform mat3 worldFromTexture; // directions: mm (world axes) for one texture unit
+uniform vec3 mmFromTexture;    // mm for one texture unit, before an actor's scale
+uniform sampler2D sceneDepth;  // window depth of what is drawn already
+// its texture coordinates from the fraction of the image: scale, shift
+uniform vec2 depthFromFraction;
+uniform vec2 depthOfFractionZero;
 
 struct Ray
 {
@@ -57,9 +58,9 @@ vec2 boxSpan(Ray ray, vec3 low, vec3 high)
 }
 
 // t of the surface that is drawn already at this pixel; of the far plane if there is none.
-float sceneDistance(Ray ray, vec2 share)
+float sceneDistance(Ray ray, vec2 fraction)
 {
-  float depth = textureLod(sceneDepth, share * depthFromShare + depthOfShareZero, 0.0).r;
+  float depth = textureLod(sceneDepth, fraction * depthFromFraction + depthOfFractionZero, 0.0).r;
   float nearer = clipW.x * depth;
   return ray.lengthMm * nearer / (nearer + clipW.y * (1.0 - depth));
 }

@@ -1,8 +1,8 @@
 // Composite blending of a bent volume and a reference, each in its colour, along one ray.
 
 // Takes the samples i and i + 1. Returns whether one of them is visible.
-bool takeTwo(Path path, TissueTable table, TissueTable referenceTable, mat3 turn, float i,
-  inout Seen seen)
+bool takeTwo(
+  Path path, TissueTable table, TissueTable referenceTable, mat3 turn, float i, inout Seen seen)
 {
   vec3 oneDeformed = positionOf(path.deformed, i);
   vec3 twoDeformed = positionOf(path.deformed, i + 1.0);
@@ -47,8 +47,8 @@ bool takeTwo(Path path, TissueTable table, TissueTable referenceTable, mat3 turn
 // behind the reference: a tool takes hold of it.
 bool isDone(Seen seen, Path path, float number)
 {
-  float left = max(
-    seenShare(seen.own, seen.other, number), seenShare(seen.other, seen.own, number));
+  float left =
+    max(seenFraction(seen.own, seen.other, number), seenFraction(seen.other, seen.own, number));
   return left < 1.0 - OpaqueEnough && (seen.own.hit >= 0.0 || number >= path.own.y);
 }
 
@@ -61,8 +61,7 @@ float sampleBeyondBoth(Path path, float i, out bool present)
   {
     return own;
   }
-  float other =
-    sampleBeyond(referenceLeaps, referenceLeapsTexel, path.referenceBricks, i, present);
+  float other = sampleBeyond(referenceLeaps, referenceLeapsTexel, path.referenceBricks, i, present);
   return present ? other : min(own, other);
 }
 

@@ -5,14 +5,14 @@ in vec3 corner;
 uniform mat4 clipFromTexture;
 uniform vec3 textureFromBrick;
 uniform vec3 textureOfBrickZero;
-uniform vec3 shareFromTexture; // of the way from the near to the far plane
-uniform float shareOfTextureZero;
+uniform vec3 fractionFromTexture; // of the way from the near to the far plane
+uniform float fractionOfTextureZero;
 
-out float share;
+out float fraction;
 
 void main()
 {
   vec3 position = corner * textureFromBrick + textureOfBrickZero;
-  share = dot(position, shareFromTexture) + shareOfTextureZero;
+  fraction = dot(position, fractionFromTexture) + fractionOfTextureZero;
   gl_Position = clipFromTexture * vec4(position, 1.0);
 }

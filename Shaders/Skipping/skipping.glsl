@@ -1,11 +1,12 @@
 // Which samples of a ray can be visible. The faces of the occupied bricks (proxy.frag.glsl) say
-// where to start and end. The distance to occupied bricks says where to leap in between.
+// where to start and end. The distance to occupied bricks tells how far to leap in between
+// (Cohen and Sheffer, "Proximity clouds", The Visual Computer 11, 1994).
 
-uniform int skipping;         // 0: all samples, for comparison
-// Red: share of the ray before the first face of an occupied brick. Green: share of the ray behind
-// the last face. 16 bits each.
+uniform int skipping; // 0: all samples, for comparison
+// Red: fraction of the ray before the first face of an occupied brick. Green: fraction of the ray
+// behind the last face. 16 bits each.
 uniform sampler2D spans;
-uniform vec2 spansTexel;      // one pixel, texture coordinates of `spans`
+uniform vec2 spansTexel; // one pixel, texture coordinates of `spans`
 // For each brick of the deformed frame: distance to the nearest brick in which something may be
 // seen, in bricks, of 255.
 uniform sampler3D leaps;
@@ -21,7 +22,7 @@ uniform vec3 referenceLeapsTexel;
 vec3 referenceFromDeformed(vec3 deformed); // reference.glsl
 #endif
 
-const float SpanRounding = 1.0 / 65535.0; // of a share, at most
+const float SpanRounding = 1.0 / 65535.0; // of a fraction, at most
 // So many samples, at the start and after a visible one, do not ask whether their brick is empty.
 const float Trust = 8.0;
 
@@ -45,7 +46,7 @@ bool startsInside(vec3 position)
 #endif
 }
 
-// Share of the ray before the first face, and behind the last one; 1 if the ray meets none.
+// Fraction of the ray before the first face, and behind the last one; 1 if the ray meets none.
 vec2 spanOfPixel()
 {
   return textureLod(spans, gl_FragCoord.xy * spansTexel, 0.0).rg;
@@ -99,8 +100,8 @@ BrickTrack brickTrack(Track inBricks)
 
 BrickTrack deformedBricks(Track deformed)
 {
-  return brickTrack(Track(deformed.first * brickFromTexture + brickOfTextureZero,
-    deformed.stride * brickFromTexture));
+  return brickTrack(Track(
+    deformed.first * brickFromTexture + brickOfTextureZero, deformed.stride * brickFromTexture));
 }
 
 // Finds whether something may be seen in the brick of sample `i`. Returns the first sample beyond

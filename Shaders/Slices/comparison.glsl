@@ -13,12 +13,13 @@ uniform mat4 referenceFromTexture; // its texture coordinates from the volume's
 uniform vec3 referenceVoxels;      // voxels of the reference, a side
 uniform vec3 referenceLow;         // its box, in its texture coordinates
 uniform vec3 referenceHigh;
-uniform vec2 shareFromReference;  // stored scalar to its share of the range of greys: scale, shift
-uniform vec2 shareFromScalar;     // the volume's stored scalar to that share: scale, shift
-uniform vec2 transferFromShare;   // share to the colour map's coordinate: scale, shift
+// stored scalar to its fraction of the range of greys: scale, shift
+uniform vec2 fractionFromReference;
+uniform vec2 fractionFromScalar;   // the volume's stored scalar to that fraction: scale, shift
+uniform vec2 transferFromFraction; // fraction to the colour map's coordinate: scale, shift
 uniform int comparison;           // as vtkDeformedSlicesMapper numbers them; 0: the reference alone
 uniform vec3 checkersFromTexture; // checker fields for a texture unit
-uniform vec3 fullFromGradient;    // stored scalar per texture unit to share of its full colour
+uniform vec3 fullFromGradient;    // stored scalar per texture unit to fraction of its full colour
 uniform vec3 ownColor;            // of the volume
 uniform vec3 referenceColor;      // of the reference; both add up to that of agreement
 uniform vec3 wipeNormal;          // mm beyond the wipe's line, on the reference's side of it
@@ -36,27 +37,27 @@ const float AloneBrightness = 0.5;  // of grey tissue where there is no referenc
 const vec3 WipeColor = vec3(0.91, 0.51, 0.12);
 const float HalfLinePixels = 0.75;
 
-// The reference at a position in its texture: share of the range of greys; 0 where it is unknown.
+// The reference at a position in its texture: fraction of the range of greys; 0 where unknown.
 struct Referenced
 {
   vec3 place;
   bool known;
-  float share;
+  float fraction;
 };
 
 float disagreementAt(vec3 deformed); // similarity.glsl
 
-float ownShare(float scalar)
+float ownFraction(float scalar)
 {
-  return clamp(scalar * shareFromScalar.x + shareFromScalar.y, 0.0, 1.0);
+  return clamp(scalar * fractionFromScalar.x + fractionFromScalar.y, 0.0, 1.0);
 }
 
 Referenced referenced(vec3 place, float scalar)
 {
   bool known = all(greaterThanEqual(place, referenceLow)) &&
     all(lessThanEqual(place, referenceHigh)) && !isnan(scalar);
-  float share = clamp(scalar * shareFromReference.x + shareFromReference.y, 0.0, 1.0);
-  return Referenced(place, known, known ? share : 0.0);
+  float fraction = clamp(scalar * fractionFromReference.x + fractionFromReference.y, 0.0, 1.0);
+  return Referenced(place, known, known ? fraction : 0.0);
 }
 
 Referenced referenceAt(vec3 deformed)
@@ -72,7 +73,7 @@ bool inEvenField(vec3 deformed)
 }
 
 // How much of its colour the reference's gradient has.
-float gradientShare(Referenced other)
+float gradientFraction(Referenced other)
 {
   vec3 gradient = centralDifferences(reference, other.place, 1.0 / referenceVoxels);
   float full = length(gradient * fullFromGradient);
@@ -80,7 +81,7 @@ float gradientShare(Referenced other)
 }
 
 // Both volumes in one colour. The cavity does not count and is grey. `color`: of the volume, from
-// its colour map. `own`: the volume's share of the range of greys.
+// its colour map. `own`: the volume's fraction of the range of greys.
 vec3 compared(vec3 color, float own, Referenced other, vec3 alone, Place place)
 {
   vec3 deformed = place.deformed;
@@ -88,17 +89,17 @@ vec3 compared(vec3 color, float own, Referenced other, vec3 alone, Place place)
   {
     case TwoColors:
       return evidentStripes(
-        isRemoved(deformed) ? vec3(own) : own * ownColor + other.share * referenceColor,
+        isRemoved(deformed) ? vec3(own) : own * ownColor + other.fraction * referenceColor,
         place.rest);
     case Checkerboard:
       return other.known && !inEvenField(deformed) ? alone : evident(color, place.rest);
     case Difference:
       return evidentStripes(
-        vec3(other.known && !isRemoved(deformed) ? 0.5 + 0.5 * (own - other.share) : 0.5),
+        vec3(other.known && !isRemoved(deformed) ? 0.5 + 0.5 * (own - other.fraction) : 0.5),
         place.rest);
     case Gradient:
       return evidentStripes(
-        mix(vec3(own), referenceColor, isRemoved(deformed) ? 0.0 : gradientShare(other)),
+        mix(vec3(own), referenceColor, isRemoved(deformed) ? 0.0 : gradientFraction(other)),
         place.rest);
     case LocalSimilarity:
       return evidentStripes(
@@ -115,9 +116,9 @@ bool compare(bool hasTissue, float scalar, Place place, inout vec4 seen)
 {
   vec3 deformed = place.deformed;
   Referenced other = referenceAt(deformed);
-  float entry = other.share * transferFromShare.x + transferFromShare.y;
+  float entry = other.fraction * transferFromFraction.x + transferFromFraction.y;
   vec4 alone = textureLod(transfer, vec2(entry, transferRow), 0.0);
-  float own = ownShare(scalar);
+  float own = ownFraction(scalar);
   float beyondMm = dot(wipeNormal, deformed) + wipeShift;
   float pixelMm = fwidth(beyondMm);
   if (comparison == ReferenceAlone || (comparison == Wipe && beyondMm > 0.0))

@@ -10,19 +10,19 @@ uniform vec3 windowRadius; // texture units
 const int WindowSamples = 24;
 const mat2 GoldenTurn = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
 
-const float LeastKnown = 0.5;     // share of the weight below which nothing is said ...
+const float LeastKnown = 0.5;     // fraction of the weight below which nothing is said ...
 const float FullyKnown = 0.75;    // ... and from which all is; between them the tint fades
-const float FlatSpread = 0.03;    // standard deviation of noise, share of the range of greys ...
+const float FlatSpread = 0.03;    // standard deviation of noise, fraction of the range of greys ...
 const float SureSpread = 0.08;    // ... and of structures that noise cannot be
 const float LeastVariance = 1e-6; // so far below noise that only flat volumes feel it
 
 // Weighted sums over a window.
 struct Moments
 {
-  float whole;   // weight of all samples
-  float known;   // of those that count
-  vec2 shares;   // of the volume and of the reference
-  vec3 products; // volume squared, reference squared, both
+  float whole;    // weight of all samples
+  float known;    // of those that count
+  vec2 fractions; // of the volume and of the reference
+  vec3 products;  // volume squared, reference squared, both
 };
 
 vec3 alongAxis(int axis)
@@ -39,10 +39,10 @@ void addSample(vec3 deformed, float weight, inout Moments window)
   Referenced other = referenced(place, textureLod(reference, place, 0.0).r);
   if (insideVolume(rest) && !isnan(scalar) && other.known && !isRemoved(deformed))
   {
-    vec2 shares = vec2(ownShare(scalar), other.share);
+    vec2 fractions = vec2(ownFraction(scalar), other.fraction);
     window.known += weight;
-    window.shares += weight * shares;
-    window.products += weight * vec3(shares * shares, shares.x * shares.y);
+    window.fractions += weight * fractions;
+    window.products += weight * vec3(fractions * fractions, fractions.x * fractions.y);
   }
 }
 
@@ -71,7 +71,7 @@ float disagreementAt(vec3 deformed)
 {
   Moments window = momentsAround(deformed);
   float known = max(window.known, 1e-6); // nothing at all is known: the tint is 0 below
-  vec2 means = window.shares / known;
+  vec2 means = window.fractions / known;
   vec3 spread = window.products / known - vec3(means * means, means.x * means.y);
   vec2 variances = max(spread.xy, 0.0);
   float correlation =

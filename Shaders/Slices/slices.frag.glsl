@@ -26,7 +26,7 @@ void main()
   {
     discard;
   }
-  float share = opacity * (mapsOpacity == 1 ? seen.a : 1.0);
-  vec4 picture = vec4(seen.rgb * share, share);
+  float fraction = opacity * (mapsOpacity == 1 ? seen.a : 1.0);
+  vec4 picture = vec4(seen.rgb * fraction, fraction);
   gl_FragData[0] = selecting == 1 ? vec4(0.0) : picture;
 }

@@ -1,7 +1,9 @@
 // What two samples add if the colour map rises to opaque while scalars change by less than they do
 // in one step. A sample then stands for the way from the sample before it, with the average of the
 // map between the two scalars. The map at the sample alone would show rings, which tell how deep in
-// the tissue the first sample lies. Two samples share one light, at the middle of what they show.
+// the tissue the first sample is. Pre-integration without the attenuation within a step: Engel,
+// Kraus and Ertl, Graphics Hardware 2001. Two samples share one light, at the middle of what they
+// show.
 
 // For each entry of the map: the sums, over all entries before it, of colour times opacity, and of
 // opacity plus 1. The latter is negative if the entry itself is invisible.
@@ -36,8 +38,8 @@ vec4 averageOf(TissueTable table, Entry from, Entry to, float scalar)
   return vec4(average.rgb / max(average.a, 1e-6), average.a);
 }
 
-// The share of the map's opacity that is drawn, after cropping, the volume's box and a segment.
-float drawnShare(TissueTable table, vec3 deformed, vec3 rest, float scalar)
+// The fraction of the map's opacity that is drawn, after cropping, the volume's box and a segment.
+float drawnFraction(TissueTable table, vec3 deformed, vec3 rest, float scalar)
 {
   bool drawn = inKeptRegion(deformed) && insideVolume(table, rest) && !isnan(scalar);
   return drawn ? segmentOpacityAt(rest) : 0.0;
@@ -74,22 +76,22 @@ bool colorsOfTwo(Path path, TissueTable table, Pair pair, float i, inout Seen se
   Entry zero = entryOf(table, isnan(zeroScalar) ? pair.oneScalar : zeroScalar);
   Entry one = entryOf(table, pair.oneScalar);
   Entry two = entryOf(table, pair.twoScalar);
-  float oneShare = drawnShare(table, pair.oneDeformed, pair.oneRest, pair.oneScalar);
-  float twoShare = i + 1.0 < path.samples.y
-    ? drawnShare(table, pair.twoDeformed, pair.twoRest, pair.twoScalar)
+  float oneFraction = drawnFraction(table, pair.oneDeformed, pair.oneRest, pair.oneScalar);
+  float twoFraction = i + 1.0 < path.samples.y
+    ? drawnFraction(table, pair.twoDeformed, pair.twoRest, pair.twoScalar)
     : 0.0;
-  bool oneVisible = one.visible && oneShare > 0.0;
-  seen.lastVisible = two.visible && twoShare > 0.0;
+  bool oneVisible = one.visible && oneFraction > 0.0;
+  seen.lastVisible = two.visible && twoFraction > 0.0;
   first = averageOf(table, zero, one, pair.oneScalar);
   second = averageOf(table, isnan(pair.oneScalar) ? two : one, two, pair.twoScalar);
-  first.a *= zeroVisible || oneVisible ? oneShare : 0.0;
-  second.a *= oneVisible || seen.lastVisible ? twoShare : 0.0;
+  first.a *= zeroVisible || oneVisible ? oneFraction : 0.0;
+  second.a *= oneVisible || seen.lastVisible ? twoFraction : 0.0;
   return true;
 }
 
 // Adds both samples under light. `slopes`: of the offsets near them; `turn`: worldFromGradient.
-void seeTwo(Path path, Pair pair, mat3 slopes, mat3 turn, float i, vec4 first, vec4 second,
-  inout Seen seen)
+void seeTwo(
+  Path path, Pair pair, mat3 slopes, mat3 turn, float i, vec4 first, vec4 second, inout Seen seen)
 {
   // The middle of the way that a sample stands for lies half a step before it.
   float further = (1.0 - first.a) * second.a;

@@ -8,10 +8,10 @@ uniform vec2 cutGradient;  // stored scalar to the weight of the edge: scale and
 vec3 segmentSlope(vec3 rest)
 {
   vec3 step = segmentVoxel;
-  float a = segmentShareAt(rest + vec3(step.x, -step.y, -step.z));
-  float b = segmentShareAt(rest + vec3(-step.x, -step.y, step.z));
-  float c = segmentShareAt(rest + vec3(-step.x, step.y, -step.z));
-  float d = segmentShareAt(rest + step);
+  float a = segmentFractionAt(rest + vec3(step.x, -step.y, -step.z));
+  float b = segmentFractionAt(rest + vec3(-step.x, -step.y, step.z));
+  float c = segmentFractionAt(rest + vec3(-step.x, step.y, -step.z));
+  float d = segmentFractionAt(rest + step);
   return vec3(a - b - c + d, c + d - a - b, b + d - a - c) / (4.0 * step);
 }
 
@@ -23,7 +23,7 @@ vec3 segmentSlope(vec3 rest)
 // cut counts: else the two would cancel out.
 vec3 litGradient(vec3 rest, vec3 gradient)
 {
-  if (segmentShareAt(rest) > 0.999)
+  if (segmentFractionAt(rest) > 0.999)
   {
     return gradient;
   }

@@ -1,4 +1,5 @@
-// How far the place of tissue can be believed, in four classes. Measured where the tissue rests.
+// Uncertainty of the position of tissue in four classes: one standard deviation at its rest
+// position.
 
 #ifdef EVIDENCE
 uniform sampler3D deviations;           // red: one standard deviation, mm, at each control point
@@ -9,7 +10,7 @@ uniform mat3 evidenceTints;             // a column for each of these classes
 uniform vec3 stripesFromTexture;        // stripes for a texture unit
 
 const vec3 EvidenceLuminance = vec3(0.2126, 0.7152, 0.0722);
-const float TintShare = 0.45;
+const float TintFraction = 0.45;
 const float TintOfBlack = 0.08; // of a tint's light, where tissue is black: air stays dark
 const float UnknownLight = 0.55;
 const float UnknownStripe = 0.3; // of the width
@@ -17,7 +18,7 @@ const float BrightStripe = 0.25; // light of tissue from which a stripe has its 
 const vec4 ComparedStripes = vec4(0.0, 0.12, 0.35, 0.65); // of the width, for each class
 const float ComparedLight = 0.3;
 
-// 0: the place is well known; 3: nothing is known of it.
+// 0: the position is certain; 3: it is unknown.
 int evidenceClassAt(vec3 rest)
 {
   vec3 place = rest * deviationFromTexture + deviationFromTextureShift;
@@ -44,13 +45,13 @@ vec3 evident(vec3 color, vec3 rest)
   {
     vec3 dark = vec3(UnknownLight * light);
     float whole = mix(TintOfBlack, 1.0, min(light / BrightStripe, 1.0));
-    return onStripe(rest, UnknownStripe) ? mix(dark, whole * tint, TintShare) : dark;
+    return onStripe(rest, UnknownStripe) ? mix(dark, whole * tint, TintFraction) : dark;
   }
   return mix(color, tint * mix(TintOfBlack, 1.0 / max(dot(tint, EvidenceLuminance), 0.01), light),
-    TintShare);
+    TintFraction);
 }
 
-// The same where colours tell volumes apart: stripes that are wider the less is known.
+// The same where colours distinguish volumes: stripes, wider for greater uncertainty.
 vec3 evidentStripes(vec3 color, vec3 rest)
 {
   return onStripe(rest, ComparedStripes[evidenceClassAt(rest)]) ? ComparedLight * color : color;

@@ -1,4 +1,5 @@
-// Phong's model (paper, section 2) with ParaView's lights, two-sided as its volumes are.
+// Phong's model (paper, section 2; Communications of the ACM 18(6), 1975) with ParaView's lights,
+// two-sided as its volumes are.
 
 // How light changes a colour.
 struct Shine
@@ -17,8 +18,8 @@ uniform int lightCount;
 uniform vec4 lightPosition[MAX_LIGHTS]; // world; w 0: direction towards the light, unit length
 uniform vec3 lightColor[MAX_LIGHTS];    // times intensity
 uniform vec3 lightSpecular[MAX_LIGHTS];
-uniform int headlight;                  // 1: the only light is at the eye
-uniform vec4 material;                  // ambient, diffuse, specular, specular power
+uniform int headlight; // 1: the only light is at the eye
+uniform vec4 material; // ambient, diffuse, specular, specular power
 
 // `normal`, `towardsEye`: unit length, world axes; `position`: mm, world.
 Shine shineOn(vec3 normal, vec3 towardsEye, vec3 position)

@@ -3,7 +3,7 @@
 #ifdef SEGMENTED
 uniform sampler3D segment; // red: how much of a place belongs to the segment; 0.5: the edge
 
-float segmentShareAt(vec3 rest)
+float segmentFractionAt(vec3 rest)
 {
   return textureLod(segment, rest, 0.0).r;
 }
@@ -11,12 +11,12 @@ float segmentShareAt(vec3 rest)
 // Factor on opacity. It rises across the edge, so that the edge shows no steps.
 float segmentOpacityAt(vec3 rest)
 {
-  return clamp((segmentShareAt(rest) - LEAST_SHARE) / (1.0 - 2.0 * LEAST_SHARE), 0.0, 1.0);
+  return clamp((segmentFractionAt(rest) - LEAST_FRACTION) / (1.0 - 2.0 * LEAST_FRACTION), 0.0, 1.0);
 }
 
 bool inSegment(vec3 rest)
 {
-  return segmentShareAt(rest) >= 0.5;
+  return segmentFractionAt(rest) >= 0.5;
 }
 #else
 float segmentOpacityAt(vec3 rest)

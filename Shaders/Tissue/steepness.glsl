@@ -39,7 +39,7 @@ vec4 steepTissue(vec4 tissue, float scalar, float entry)
 #endif
 
 // Colour and opacity of a sample. `tissue`: the colour map's colour, and opacity or, for a table,
-// the share of opacity that is drawn. `gradient`: deformed frame.
+// the fraction of opacity that is drawn. `gradient`: deformed frame.
 vec4 steepened(vec4 tissue, float scalar, vec3 gradient)
 {
   if (tissue.a <= 0.0)

@@ -7,12 +7,12 @@ uniform sampler2D depths; // of the window; 1: no ball
 
 void main()
 {
-  vec2 share = 0.5 * ndc + 0.5;
-  float depth = textureLod(depths, share, 0.0).r;
+  vec2 fraction = 0.5 * ndc + 0.5;
+  float depth = textureLod(depths, fraction, 0.0).r;
   if (depth >= 1.0)
   {
     discard;
   }
   gl_FragDepth = depth;
-  gl_FragData[0] = textureLod(balls, share, 0.0);
+  gl_FragData[0] = textureLod(balls, fraction, 0.0);
 }

@@ -33,7 +33,7 @@ TEST(Frustum, SharesAreThoseOfOtherPlanes)
   {
     const Frustum from = frustumOf(camera(parallel, 20.0, 150.0));
     const Frustum to = frustumOf(camera(parallel, 5.0, 400.0));
-    const glm::dvec2 scale = shareFromShare(to, from);
+    const glm::dvec2 scale = fractionFromFraction(to, from);
     for (const glm::dvec2& ndc : { glm::dvec2(0.0), glm::dvec2(0.9, -0.7), glm::dvec2(-0.3, 0.8) })
     {
       for (const double share : { 0.0, 0.3, 1.0 })
@@ -42,7 +42,7 @@ TEST(Frustum, SharesAreThoseOfOtherPlanes)
         EXPECT_LT(glm::distance(position, at(to, ndc, share * scale.x + scale.y)), 1e-9) << share;
       }
     }
-    const glm::dvec2 same = shareFromShare(from, from);
+    const glm::dvec2 same = fractionFromFraction(from, from);
     EXPECT_NEAR(same.x, 1.0, 1e-12);
     EXPECT_NEAR(same.y, 0.0, 1e-12);
   }

@@ -67,7 +67,7 @@ TEST(ImageArea, FindsItsTexels)
   const ImageArea area = areaAround({}, Picture, { { 130, 70 }, { 512, 513 } });
   const glm::dvec2 pixel(200.5, 100.5);
   const glm::dvec2 place =
-    pixel / glm::dvec2(Picture) * area.textureFromShare() + area.textureOfShareZero();
+    pixel / glm::dvec2(Picture) * area.textureFromFraction() + area.textureOfFractionZero();
   const glm::dvec2 texel = place * glm::dvec2(area.size);
   EXPECT_NEAR(texel.x, 200.5 - 128, 1e-9);
   EXPECT_NEAR(texel.y, 100.5 - 64, 1e-9);

@@ -2,7 +2,7 @@
 // Proves that skipping keeps each brick in which a segment may be seen, margin included, and no
 // brick that lies farther away; and which labels are drawn.
 #include "Representations/Tissue/SegmentTexture.h"
-#include "Filters/Deformation/SegmentShares.h"
+#include "Filters/Deformation/SegmentFractions.h"
 #include "Representations/Scene/SceneGeometry.h"
 
 #include <vtkImageData.h>
@@ -18,7 +18,8 @@ using namespace brainshift;
 
 namespace
 {
-constexpr int Seen = static_cast<int>(LeastShare * WholeShare) + 1; // the least share that is
+constexpr int Seen =
+  static_cast<int>(LeastFraction * WholeFraction) + 1; // the least fraction that is
 
 // Whether interpolation may find a visible share on a brick and the margin around it.
 bool mayShow(

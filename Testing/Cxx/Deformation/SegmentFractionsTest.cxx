@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that the shares a segment is drawn by put every voxel's middle on the side of its label,
-// smoothly, on any grid.
-#include "Filters/Deformation/SegmentShares.h"
+// Proves that the fractions a segment is drawn by put every voxel's middle on the side of its
+// label, smoothly, on any grid.
+#include "Filters/Deformation/SegmentFractions.h"
 #include "Filters/Deformation/ControlPoints.h"
 #include "Testing/Cxx/Deformation/TestBall.h"
 
@@ -16,7 +16,7 @@ using namespace brainshift::testing::ball;
 
 namespace
 {
-constexpr double Half = 0.5 * WholeShare;
+constexpr double Half = 0.5 * WholeFraction;
 
 // The voxels of a grid that have one of the labels; without labels, those above 0.
 Mask segmentOn(const Grid& grid, const std::vector<int>& labels)
@@ -32,34 +32,34 @@ Mask segmentOn(const Grid& grid, const std::vector<int>& labels)
 }
 }
 
-TEST(SegmentShares, PutEveryVoxelOnItsSide)
+TEST(SegmentFractions, PutEveryVoxelOnItsSide)
 {
   for (const std::vector<int>& labels : { std::vector<int>{ 3 }, { 5 }, { 3, 5 }, {} })
   {
     const Mask segment = segmentOn(VolumeGrid, labels);
-    const std::vector<std::uint8_t> shares = segmentShares(segment, VolumeGrid);
-    ASSERT_EQ(shares.size(), VolumeGrid.count());
-    for (std::size_t i = 0; i < shares.size(); ++i)
+    const std::vector<std::uint8_t> fractions = segmentFractions(segment, VolumeGrid);
+    ASSERT_EQ(fractions.size(), VolumeGrid.count());
+    for (std::size_t i = 0; i < fractions.size(); ++i)
     {
-      EXPECT_EQ(shares[i] > Half, segment.inside[i] != 0) << i;
+      EXPECT_EQ(fractions[i] > Half, segment.inside[i] != 0) << i;
     }
-    EXPECT_GT(std::count(shares.begin(), shares.end(), 0), 100);
+    EXPECT_GT(std::count(fractions.begin(), fractions.end(), 0), 100);
   }
 }
 
-TEST(SegmentShares, KeepWhatIsThin)
+TEST(SegmentFractions, KeepWhatIsThin)
 {
   const Grid grid = plainGrid(glm::ivec3(9), glm::dvec3(1.0));
   Mask segment{ grid, std::vector<char>(grid.count(), 0) };
   segment.inside[grid.offset(4, 4, 4)] = 1;
-  const std::vector<std::uint8_t> shares = segmentShares(segment, grid);
-  EXPECT_GT(shares[grid.offset(4, 4, 4)], Half);
-  EXPECT_LT(shares[grid.offset(5, 4, 4)], Half);
-  EXPECT_GT(shares[grid.offset(6, 4, 4)], 0) << "two voxels are smoothed into";
-  EXPECT_EQ(shares[grid.offset(7, 4, 4)], 0);
+  const std::vector<std::uint8_t> fractions = segmentFractions(segment, grid);
+  EXPECT_GT(fractions[grid.offset(4, 4, 4)], Half);
+  EXPECT_LT(fractions[grid.offset(5, 4, 4)], Half);
+  EXPECT_GT(fractions[grid.offset(6, 4, 4)], 0) << "two voxels are smoothed into";
+  EXPECT_EQ(fractions[grid.offset(7, 4, 4)], 0);
 }
 
-TEST(SegmentShares, SlopeAcrossAFlatEdge)
+TEST(SegmentFractions, SlopeAcrossAFlatEdge)
 {
   const Grid grid = plainGrid(glm::ivec3(12), glm::dvec3(1.0));
   Mask segment{ grid, std::vector<char>(grid.count(), 0) };
@@ -67,35 +67,35 @@ TEST(SegmentShares, SlopeAcrossAFlatEdge)
   {
     segment.inside[i] = i % 12 >= 6;
   }
-  const std::vector<std::uint8_t> shares = segmentShares(segment, grid);
+  const std::vector<std::uint8_t> fractions = segmentFractions(segment, grid);
   const int expected[] = { 0, 0, 0, 0, 16, 80, 175, 239, 255, 255 }; // sixteenths: 0 1 5 11 15 16
   for (int x = 0; x < 10; ++x)
   {
-    EXPECT_NEAR(shares[grid.offset(x, 6, 6)], expected[x], 1.0) << x;
+    EXPECT_NEAR(fractions[grid.offset(x, 6, 6)], expected[x], 1.0) << x;
   }
-  EXPECT_LT(shares[grid.offset(11, 6, 6)], WholeShare) << "nothing beyond belongs to it";
+  EXPECT_LT(fractions[grid.offset(11, 6, 6)], WholeFraction) << "nothing beyond belongs to it";
 }
 
-TEST(SegmentShares, LieOnAnyGrid)
+TEST(SegmentFractions, LieOnAnyGrid)
 {
   // Against what is known: the surface of label 3 is 12 mm from the middle.
   const Grid oblique = obliqueLabels();
   const Mask segment = segmentOn(oblique, { 3 });
-  const std::vector<std::uint8_t> shares = segmentShares(segment, VolumeGrid);
+  const std::vector<std::uint8_t> fractions = segmentFractions(segment, VolumeGrid);
   int near = 0;
-  for (std::size_t i = 0; i < shares.size(); ++i)
+  for (std::size_t i = 0; i < fractions.size(); ++i)
   {
     const glm::ivec3 at = indexOf(VolumeGrid, i);
     const double inside = 12.0 - glm::distance(VolumeGrid.worldFromGrid(glm::dvec3(at)), Middle);
     near += std::abs(inside) < 3.0;
     if (std::abs(inside) > 0.8)
     {
-      EXPECT_EQ(shares[i] > Half, inside > 0.0) << inside;
+      EXPECT_EQ(fractions[i] > Half, inside > 0.0) << inside;
     }
   }
   EXPECT_GT(near, 500);
   Grid away = VolumeGrid;
   away.origin.x = 300.0;
-  const std::vector<std::uint8_t> beyond = segmentShares(segment, away);
+  const std::vector<std::uint8_t> beyond = segmentFractions(segment, away);
   EXPECT_EQ(*std::max_element(beyond.begin(), beyond.end()), 0);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/Deformation/SegmentShares.h"
+#include "Filters/Deformation/SegmentFractions.h"
 
 #include "Common/Parallel.h"
 
@@ -9,10 +9,10 @@ namespace brainshift
 {
 namespace
 {
-using Shares = std::vector<std::uint8_t>;
+using Fractions = std::vector<std::uint8_t>;
 
 constexpr int LeastInside = 136; // at the middle of a voxel that belongs to the segment
-constexpr int GreatestOutside = WholeShare - LeastInside;
+constexpr int GreatestOutside = WholeFraction - LeastInside;
 
 // Calls visit(row, first) for all rows of a grid along `axis`, `first` being the row's first voxel.
 template <typename Visit>
@@ -33,14 +33,14 @@ void forRows(const glm::ivec3& side, int axis, const Visit& visit)
 }
 
 // One axis of a binomial filter; nothing beyond the ends belongs to the segment.
-void smoothAlong(Shares& shares, const glm::ivec3& side, int axis)
+void smoothAlong(Fractions& fractions, const glm::ivec3& side, int axis)
 {
   const int count = side[axis];
   const std::ptrdiff_t stride = axis == 0 ? 1
     : axis == 1                           ? side.x
                                           : static_cast<std::ptrdiff_t>(side.x) * side.y;
   forRows(side, axis, [&](std::ptrdiff_t first) {
-    std::uint8_t* const row = &shares[first];
+    std::uint8_t* const row = &fractions[first];
     int before = 0; // two voxels back, as they were
     int previous = 0;
     for (int i = 0; i < count; ++i)
@@ -56,26 +56,26 @@ void smoothAlong(Shares& shares, const glm::ivec3& side, int axis)
   });
 }
 
-Shares smoothed(const Mask& segment)
+Fractions smoothed(const Mask& segment)
 {
   const std::vector<char>& inside = segment.inside;
-  Shares shares(inside.size());
-  std::transform(inside.begin(), inside.end(), shares.begin(),
-    [](char in) { return static_cast<std::uint8_t>(in ? WholeShare : 0); });
+  Fractions fractions(inside.size());
+  std::transform(inside.begin(), inside.end(), fractions.begin(),
+    [](char in) { return static_cast<std::uint8_t>(in ? WholeFraction : 0); });
   for (int axis = 0; axis < 3; ++axis)
   {
-    smoothAlong(shares, segment.grid.dimensions, axis);
+    smoothAlong(fractions, segment.grid.dimensions, axis);
   }
   std::transform(
-    inside.begin(), inside.end(), shares.begin(), shares.begin(), [](char in, int share) {
+    inside.begin(), inside.end(), fractions.begin(), fractions.begin(), [](char in, int fraction) {
       return static_cast<std::uint8_t>(
-        in ? std::max(share, LeastInside) : std::min(share, GreatestOutside));
+        in ? std::max(fraction, LeastInside) : std::min(fraction, GreatestOutside));
     });
-  return shares;
+  return fractions;
 }
 
 // Trilinear, at a position in points of the grid.
-float shareAt(const Shares& shares, const Grid& grid, const glm::dvec3& position)
+float fractionAt(const Fractions& fractions, const Grid& grid, const glm::dvec3& position)
 {
   const glm::dvec3 end(grid.dimensions);
   if (glm::any(glm::lessThan(position, glm::dvec3(-0.5))) ||
@@ -88,7 +88,7 @@ float shareAt(const Shares& shares, const Grid& grid, const glm::dvec3& position
   const glm::ivec3 high = glm::min(low + 1, grid.dimensions - 1);
   const glm::vec3 part(within - glm::dvec3(low));
   const auto at = [&](int x, int y, int z) {
-    return static_cast<float>(shares[grid.offset(x, y, z)]);
+    return static_cast<float>(fractions[grid.offset(x, y, z)]);
   };
   const auto alongX = [&](int y, int z) {
     return glm::mix(at(low.x, y, z), at(high.x, y, z), part.x);
@@ -98,14 +98,14 @@ float shareAt(const Shares& shares, const Grid& grid, const glm::dvec3& position
 }
 }
 
-std::vector<std::uint8_t> segmentShares(const Mask& segment, const Grid& points)
+std::vector<std::uint8_t> segmentFractions(const Mask& segment, const Grid& points)
 {
-  const Shares own = smoothed(segment);
+  const Fractions own = smoothed(segment);
   if (points == segment.grid)
   {
     return own;
   }
-  Shares shares(points.count());
+  Fractions fractions(points.count());
   const glm::ivec3& side = points.dimensions;
   const auto inSegment = [&](const glm::dvec3& at) {
     return segment.grid.gridFromWorld(points.worldFromGrid(at));
@@ -122,11 +122,11 @@ std::vector<std::uint8_t> segmentShares(const Mask& segment, const Grid& points)
         for (int x = 0; x < side.x; ++x, ++at)
         {
           const glm::dvec3 position = first + step * glm::dvec3(x, y, z);
-          shares[at] = static_cast<std::uint8_t>(shareAt(own, segment.grid, position) + 0.5f);
+          fractions[at] = static_cast<std::uint8_t>(fractionAt(own, segment.grid, position) + 0.5f);
         }
       }
     }
   });
-  return shares;
+  return fractions;
 }
 }
