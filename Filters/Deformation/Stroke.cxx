@@ -3,8 +3,6 @@
 
 #include "Common/Problem.h"
 
-#include <glm/glm.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>

@@ -18,7 +18,6 @@
 #include <QElapsedTimer>
 #include <QScopedValueRollback>
 
-#include <glm/common.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>

@@ -8,7 +8,7 @@
 
 #include <QList>
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 namespace brainshift
 {

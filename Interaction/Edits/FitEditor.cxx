@@ -20,9 +20,6 @@
 #include <QScopedValueRollback>
 
 #include <glm/gtc/type_ptr.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/mat4x4.hpp>
-#include <glm/matrix.hpp>
 
 #include <cstddef>
 #include <cstring>

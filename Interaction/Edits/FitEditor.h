@@ -16,7 +16,7 @@
 #include <QString>
 #include <QTimer>
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 #include <functional>
 #include <optional>

@@ -5,7 +5,7 @@
 #ifndef BrainShift_PointOfInterest_h
 #define BrainShift_PointOfInterest_h
 
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 
 class vtkSMProxy;
 
