@@ -3,6 +3,8 @@
 
 #include "Common/Problem.h"
 
+#include <glm/glm.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
