@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/ToolCarrier.h"
 
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Commands/Tools.h"
 #include "Interaction/Tools/HandTool.h"
 #include "Interaction/Views/ActiveDeformation.h"
@@ -8,10 +9,8 @@
 #include "Interaction/Views/WidgetInView.h"
 
 #include <pqActiveObjects.h>
-#include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
-#include <pqServerManagerModel.h>
 
 #include <vtkRenderWindowInteractor.h>
 #include <vtkSMPropertyHelper.h>
@@ -86,7 +85,7 @@ void ToolCarrier::followApplication()
     this->Refresh.start();
   });
   QObject::connect(active, &pqActiveObjects::sourceChanged, this, soon);
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   QObject::connect(model, &pqServerManagerModel::sourceAdded, this, soon);
   QObject::connect(model, &pqServerManagerModel::sourceAdded, this,
     [](pqPipelineSource* source) { FitEditor::of(source); }); // a fit follows its settings

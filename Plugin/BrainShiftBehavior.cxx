@@ -11,10 +11,10 @@
 #include "Plugin/ComparisonLegend.h"
 #include "Plugin/FirstLook.h"
 
+#include "Interaction/Commands/Application.h"
+
 #include <pqActiveObjects.h>
-#include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
-#include <pqServerManagerModel.h>
 
 #include <vtkSMPVRepresentationProxy.h>
 #include <vtkSMPropertyHelper.h>
@@ -74,7 +74,7 @@ BrainShiftBehavior::BrainShiftBehavior(QObject* parent)
 
 void BrainShiftBehavior::onStartup()
 {
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   QObject::connect(model, &pqServerManagerModel::representationAdded, this,
     &BrainShiftBehavior::watchRepresentation);
   QObject::connect(
@@ -93,7 +93,7 @@ void BrainShiftBehavior::onShutdown()
 {
   delete this->Hand;
   QObject::disconnect(
-    pqApplicationCore::instance()->getServerManagerModel(), nullptr, this, nullptr);
+    serverManagerModel(), nullptr, this, nullptr);
 }
 
 void BrainShiftBehavior::watchRepresentation(pqRepresentation* representation)

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Plugin/ComparisonLegend.h"
 
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Views/ActiveDeformation.h"
 
-#include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
 #include <pqOutputPort.h>
 #include <pqPipelineFilter.h>
-#include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
 #include <pqView.h>
 
@@ -162,7 +161,7 @@ bool writeInto(pqDataRepresentation* shown, pqPipelineSource* comparison)
 ComparisonLegend::ComparisonLegend(QObject* parent)
   : QObject(parent)
 {
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   QObject::connect(model, &pqServerManagerModel::sourceAdded, this, &ComparisonLegend::watch);
   QObject::connect(model, &pqServerManagerModel::nameChanged, this, &ComparisonLegend::refresh);
   QObject::connect(model,
@@ -200,7 +199,7 @@ void ComparisonLegend::follow(pqDataRepresentation* display)
 
 void ComparisonLegend::refresh()
 {
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   for (pqPipelineSource* source : model->findItems<pqPipelineSource*>())
   {
     if (!isComparison(source))

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Plugin/FirstLook.h"
 
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Displays/LabelMaps.h"
 #include "Interaction/Displays/VolumeLook.h"
 #include "Interaction/Views/ActiveDeformation.h"
 
-#include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
 #include <pqOutputPort.h>
 #include <pqPipelineFilter.h>
 #include <pqPipelineSource.h>
-#include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
 #include <pqView.h>
 
@@ -54,7 +53,7 @@ bool isMadeOf(pqPipelineSource* source, pqPipelineSource* other)
 // The display's own input comes later than the display.
 pqPipelineSource* sourceOf(pqDataRepresentation* display)
 {
-  return pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineSource*>(
+  return serverManagerModel()->findItem<pqPipelineSource*>(
     vtkSMPropertyHelper(display->getProxy(), "Input").GetAsProxy());
 }
 
@@ -68,7 +67,7 @@ enum class Users // of a colour map
 Users usersOf(vtkSMProxy* colors, pqDataRepresentation* asking)
 {
   Users users = Users::None;
-  auto model = pqApplicationCore::instance()->getServerManagerModel();
+  auto model = serverManagerModel();
   for (auto display : model->findItems<pqDataRepresentation*>())
   {
     if (display == asking || display->getLookupTableProxy() != colors)
@@ -142,7 +141,7 @@ void finishLater(pqDataRepresentation* display, const std::vector<double>& tissu
 
 bool isScaleShown(vtkSMProxy* colors)
 {
-  auto model = pqApplicationCore::instance()->getServerManagerModel();
+  auto model = serverManagerModel();
   const QList<pqView*> views = model->findItems<pqView*>();
   return std::any_of(views.begin(), views.end(), [&](pqView* view) {
     vtkSMProxy* scale =
@@ -256,7 +255,7 @@ namespace
 // A display of an input of a source with colours of its own, not those of the array's name.
 pqDataRepresentation* ownColoredInput(pqDataRepresentation* display)
 {
-  auto model = pqApplicationCore::instance()->getServerManagerModel();
+  auto model = serverManagerModel();
   for (auto other : model->findItems<pqDataRepresentation*>())
   {
     if (other != display && other->getLookupTableProxy() &&

@@ -2,7 +2,7 @@
 #include "Interaction/Commands/Commands.h"
 
 #include "Interaction/Commands/Tools.h"
-#include "Interaction/Commands/Translated.h"
+#include "Interaction/Commands/Application.h"
 
 #include <QApplication>
 #include <QStringList>

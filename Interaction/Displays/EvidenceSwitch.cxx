@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Displays/EvidenceSwitch.h"
 
-#include <pqApplicationCore.h>
+#include "Interaction/Commands/Application.h"
+
 #include <pqDataRepresentation.h>
 #include <pqRepresentation.h>
-#include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
 
 #include <vtkCommand.h>
@@ -44,7 +44,7 @@ vtkSMProxy* fitOf(vtkSMProxy* display)
 EvidenceSwitch::EvidenceSwitch(QObject* parent)
   : QObject(parent)
 {
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   QObject::connect(model, &pqServerManagerModel::representationAdded, this, &EvidenceSwitch::watch);
 }
 

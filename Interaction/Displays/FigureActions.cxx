@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Displays/FigureActions.h"
 
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Views/ActiveDeformation.h"
 
 #include <pqActiveObjects.h>
-#include <pqApplicationCore.h>
 #include <pqCoreUtilities.h>
 #include <pqFileDialog.h>
 #include <pqPipelineSource.h>
-#include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
 
 #include <vtkPVSession.h>
@@ -58,7 +57,7 @@ FigureActions::FigureActions(QObject* parent)
   this->connect(action, &QAction::triggered, this, &FigureActions::save);
   const auto enable = [action] { action->setEnabled(activeDeformation() != nullptr); };
   this->connect(&pqActiveObjects::instance(), &pqActiveObjects::sourceChanged, this, enable);
-  auto model = pqApplicationCore::instance()->getServerManagerModel();
+  auto model = serverManagerModel();
   this->connect(model, &pqServerManagerModel::sourceAdded, this, enable);
   this->connect(model, &pqServerManagerModel::sourceRemoved, this, enable);
   enable();

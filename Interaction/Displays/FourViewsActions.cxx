@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Displays/FourViewsActions.h"
 
+#include "Interaction/Commands/Application.h"
+
 #include <pqActiveObjects.h>
-#include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
-#include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
 
 #include <vtkPVDataInformation.h>
@@ -13,7 +13,6 @@
 
 #include <QAction>
 #include <QIcon>
-#include <QString>
 #include <QTimer>
 #include <QVariant>
 
@@ -66,7 +65,7 @@ FourViewsActions::FourViewsActions(QObject* parent)
   QObject::connect(&active, &pqActiveObjects::dataUpdated, this,
     [enable] { enable(pqActiveObjects::instance().activeSource()); });
   enable(active.activeSource());
-  QObject::connect(pqApplicationCore::instance()->getServerManagerModel(),
+  QObject::connect(serverManagerModel(),
     &pqServerManagerModel::sourceAdded, this, &FourViewsActions::watchComparison);
 }
 

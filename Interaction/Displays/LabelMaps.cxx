@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Displays/LabelMaps.h"
 
-#include <pqApplicationCore.h>
+#include "Interaction/Commands/Application.h"
+
 #include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>
-#include <pqServerManagerModel.h>
 
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMProxy.h>
@@ -41,7 +41,7 @@ QList<pqPipelineSource*> labelMapsFor(pqDataRepresentation* display)
   {
     return found;
   }
-  auto model = pqApplicationCore::instance()->getServerManagerModel();
+  auto model = serverManagerModel();
   for (pqPipelineSource* source : model->findItems<pqPipelineSource*>(bent->getServer()))
   {
     if (noted().contains(source->getProxy()->GetGlobalID()))

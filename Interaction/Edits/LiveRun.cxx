@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Edits/LiveRun.h"
 
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Edits/LivePicture.h"
 #include "Interaction/Views/Reports.h"
 
-#include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
 #include <pqServer.h>
-#include <pqServerManagerModel.h>
 
 #include <vtkCommand.h>
 #include <vtkSMPropertyHelper.h>
@@ -44,7 +43,7 @@ void LiveRun::followApplication()
     }
   };
   this->connect(qApp, &QCoreApplication::aboutToQuit, this, [abandonIf] { abandonIf(true); });
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   this->connect(model, &pqServerManagerModel::preServerRemoved, this,
     [this, abandonIf](pqServer* server) { abandonIf(server == this->Source->getServer()); });
   this->connect(model, &pqServerManagerModel::preSourceRemoved, this, [this](auto* source) {

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Edits/RefineEditor.h"
 
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Edits/FitEditor.h"
 #include "Interaction/Edits/LivePicture.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Views/Reports.h"
 
-#include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
-#include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
 
 #include <vtkSMProperty.h>
@@ -19,7 +18,6 @@
 #include <vtkSMSourceProxy.h>
 #include <vtkSMTrace.h>
 
-#include <QCoreApplication>
 #include <QScopedValueRollback>
 #include <QStringList>
 
@@ -409,7 +407,7 @@ void RefineEditor::putBack()
   const QScopedValueRollback<bool> writing(this->Writing, true);
   vtkSMProxy* deformation = this->Source->getProxy();
   vtkSMPropertyHelper property(deformation, "Lattice");
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   if (this->Base && model->findItem<pqPipelineSource*>(this->Base))
   {
     property.Set(this->Base);

@@ -2,12 +2,11 @@
 #include "Interaction/Edits/StrokeEditor.h"
 
 #include "Common/Problem.h"
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Edits/LivePicture.h"
 #include "Interaction/Views/ActiveDeformation.h"
 
-#include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
-#include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
 
 #include <vtkCommand.h>
@@ -43,7 +42,7 @@ StrokeEditor* StrokeEditor::of(pqPipelineSource* source)
 
 StrokeEditor* StrokeEditor::of(vtkSMSourceProxy* proxy)
 {
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   return proxy ? StrokeEditor::of(model->findItem<pqPipelineSource*>(proxy)) : nullptr;
 }
 

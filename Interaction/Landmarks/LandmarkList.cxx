@@ -2,14 +2,13 @@
 #include "Interaction/Landmarks/LandmarkList.h"
 
 #include "Filters/Fit/PackedTables.h"
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Edits/FitEditor.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Views/Reports.h"
 
-#include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
-#include <pqServerManagerModel.h>
 
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSourceProxy.h>
@@ -81,7 +80,7 @@ LandmarkList::LandmarkList(pqPipelineSource* source)
       this->refreshSoon(false);
     }
   });
-  this->connect(pqApplicationCore::instance()->getServerManagerModel(),
+  this->connect(serverManagerModel(),
     &pqServerManagerModel::dataUpdated, this, [this](pqPipelineSource* updated) {
       if (updated == this->Source || updated->getProxy() == this->Editor->fit())
       {

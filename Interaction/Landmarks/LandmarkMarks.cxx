@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Landmarks/LandmarkMarks.h"
 
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Edits/FitEditor.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Landmarks/LandmarkList.h"
 #include "Interaction/Landmarks/LandmarkPicker.h"
 #include "Interaction/Views/ActiveDeformation.h"
 
-#include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
-#include <pqServerManagerModel.h>
 
 #include <vtkCamera.h>
 #include <vtkLandmarkMarks.h>
@@ -141,7 +140,7 @@ LandmarkMarks::LandmarkMarks(QObject* parent)
   this->connect(&this->Soon, &QTimer::timeout, this, &LandmarkMarks::refresh);
   this->connect(
     LandmarkPicker::instance(), &LandmarkPicker::changed, this, [this] { this->Soon.start(); });
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   this->connect(model, &pqServerManagerModel::sourceAdded, this, &LandmarkMarks::watchSource);
   this->connect(model, &pqServerManagerModel::sourceRemoved, this, [this] { this->Soon.start(); });
   this->connect(model, &pqServerManagerModel::viewAdded, this, &LandmarkMarks::watchView);
@@ -186,7 +185,7 @@ void LandmarkMarks::watchView(pqView* added)
 void LandmarkMarks::mark(pqRenderView* view)
 {
   std::vector<LandmarkMark> marks;
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   for (pqPipelineSource* source : model->findItems<pqPipelineSource*>())
   {
     if (const LandmarkList* list = LandmarkList::of(source))
@@ -210,7 +209,7 @@ void LandmarkMarks::mark(pqRenderView* view)
 
 void LandmarkMarks::refresh()
 {
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   const QList<pqPipelineSource*> sources = model->findItems<pqPipelineSource*>();
   const bool underHand = std::any_of(sources.begin(), sources.end(), isUnderHand);
   for (pqRenderView* view : model->findItems<pqRenderView*>())

@@ -2,16 +2,15 @@
 #include "Interaction/Landmarks/LandmarkPicker.h"
 
 #include "Common/ScreenScale.h"
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Landmarks/LandmarkList.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Views/SliceMouse.h"
 
-#include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
 #include <pqOutputPort.h>
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
-#include <pqServerManagerModel.h>
 #include <pqView.h>
 
 #include <vtkCommand.h>
@@ -56,7 +55,7 @@ LandmarkPicker* LandmarkPicker::instance()
 LandmarkPicker::LandmarkPicker(QObject* parent)
   : QObject(parent)
 {
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   this->connect(model, &pqServerManagerModel::viewAdded, this, [this](pqView* view) {
     if (this->Deformation)
     {
@@ -102,7 +101,7 @@ void LandmarkPicker::start(pqPipelineSource* deformation)
   this->stop();
   ToolSettings::instance()->setTool(Tool::None);
   this->Deformation = deformation;
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   for (pqRenderView* view : model->findItems<pqRenderView*>())
   {
     this->watch(view);
@@ -296,7 +295,7 @@ bool isComparison(pqDataRepresentation* display)
 QList<pqDataRepresentation*> shownVolumes()
 {
   QList<pqDataRepresentation*> shown;
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   for (pqDataRepresentation* display : model->findItems<pqDataRepresentation*>())
   {
     if (display->isVisible() && display->getView() && display->getOutputPortFromInput() &&

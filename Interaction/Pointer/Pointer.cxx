@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Pointer/Pointer.h"
 
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Commands/Commands.h"
 #include "Interaction/Views/ActiveDeformation.h"
 
-#include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
-#include <pqServerManagerModel.h>
 #include <vtkSMProxy.h>
 #include <vtkSMSession.h>
 
@@ -48,7 +47,7 @@ Pointer::Pointer(QObject* parent)
   this->Draining.setTimerType(Qt::PreciseTimer);
   this->Draining.setInterval(DrainEachMs);
   QObject::connect(&this->Draining, &QTimer::timeout, this, &Pointer::drain);
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   // Nothing of a source or a view may stay in hand when it goes.
   QObject::connect(model, &pqServerManagerModel::preSourceRemoved, this, &Pointer::forget);
   // Before any proxy goes: a trace that ends makes some.

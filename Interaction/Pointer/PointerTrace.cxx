@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Pointer/PointerTrace.h"
 
-#include "Interaction/Commands/Translated.h"
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Edits/FitEditor.h"
 #include "Interaction/Edits/LivePicture.h"
 #include "Interaction/Pointer/TipDistance.h"

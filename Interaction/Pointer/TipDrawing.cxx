@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Pointer/TipDrawing.h"
 
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Edits/LivePicture.h"
 #include "Interaction/Views/ActiveDeformation.h"
 
-#include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
-#include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
 
 #include <vtkActor.h>
@@ -169,7 +168,7 @@ void TipDrawing::setTrace(const std::vector<double>& points)
 void TipDrawing::enterViews()
 {
   Parts& parts = *this->Internal;
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   for (pqRenderView* view : model->findItems<pqRenderView*>())
   {
     vtkRenderer* layer = parts.Views.contains(view) ? nullptr : layerOf(view);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Pointer/TrackerRegistration.h"
 
-#include "Interaction/Commands/Translated.h"
+#include "Interaction/Commands/Application.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Views/ActiveDeformation.h"
 
+#include "Interaction/Commands/Application.h"
+
 #include <pqActiveObjects.h>
-#include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
 #include <pqOutputPort.h>
 #include <pqPipelineFilter.h>
-#include <pqServerManagerModel.h>
 #include <pqView.h>
 
 #include <vtkPVXMLElement.h>
@@ -120,7 +120,7 @@ pqPipelineSource* activeDeformation(pqView* view)
   }
   pqPipelineSource* only = nullptr;
   const auto sources =
-    pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>();
+    serverManagerModel()->findItems<pqPipelineSource*>();
   for (pqPipelineSource* candidate : sources)
   {
     if (isDeformation(candidate))
@@ -156,7 +156,7 @@ pqPipelineSource* shownInstead(pqPipelineSource* deformation, pqView* view)
     return nullptr;
   }
   const auto sources =
-    pqApplicationCore::instance()->getServerManagerModel()->findItems<pqPipelineSource*>();
+    serverManagerModel()->findItems<pqPipelineSource*>();
   const auto shown = std::find_if(sources.begin(), sources.end(), [view](pqPipelineSource* source) {
     return isDeformation(source) && bentDisplay(source, view);
   });

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Views/CursorWatch.h"
 
-#include <pqApplicationCore.h>
+#include "Interaction/Commands/Application.h"
+
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
-#include <pqServerManagerModel.h>
 
 #include <vtkCommand.h>
 #include <vtkRenderWindowInteractor.h>
@@ -18,7 +18,7 @@ RestingCursor::RestingCursor(QObject* parent)
   this->Soon.setSingleShot(true);
   this->Soon.setInterval(0); // a pick in the middle of a picture would query a busy server
   this->connect(&this->Soon, &QTimer::timeout, this, &RestingCursor::sees);
-  this->connect(pqApplicationCore::instance()->getServerManagerModel(),
+  this->connect(serverManagerModel(),
     &pqServerManagerModel::dataUpdated, this, [this](pqPipelineSource* source) {
       this->Outdated = this->Outdated || source == this->Deformation;
     });
@@ -53,7 +53,7 @@ constexpr float Priority = 1.0f; // before widgets, 0.5
 CursorWatch::CursorWatch(QObject* parent)
   : QObject(parent)
 {
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   QObject::connect(model, &pqServerManagerModel::viewAdded, this, &CursorWatch::watch);
   for (pqView* view : model->findItems<pqView*>())
   {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Views/Flicker.h"
 
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Views/ShowingViews.h"
 
 #include <pqActiveObjects.h>
-#include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
-#include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
 #include <pqView.h>
 
@@ -31,7 +30,7 @@ constexpr int EachMs = 700; // long enough to see a picture, short enough to see
 
 pqServerManagerModel* model()
 {
-  return pqApplicationCore::instance()->getServerManagerModel();
+  return serverManagerModel();
 }
 
 QList<pqPipelineSource*> appliedComparisons()

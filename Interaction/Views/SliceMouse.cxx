@@ -2,14 +2,13 @@
 #include "Interaction/Views/SliceMouse.h"
 
 #include "Common/ScreenScale.h"
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Views/Reports.h"
 
-#include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
 #include <pqRenderView.h>
 #include <pqRepresentation.h>
-#include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
 
 #include <vtkCamera.h>
@@ -79,7 +78,7 @@ void followInOtherViews(vtkSMProxy* display)
 {
   const std::vector<double> drawn = vtkSMPropertyHelper(display, "SlicePosition").GetDoubleArray();
   vtkSMProxy* volume = volumeShownBy(display);
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   std::vector<double> rest;
   for (pqDataRepresentation* other : model->findItems<pqDataRepresentation*>())
   {
@@ -152,7 +151,7 @@ bool isFlatWithSlices(pqRenderView* view)
 
 bool hasFlatSlices(vtkSMViewLayoutProxy* layout)
 {
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   const QList<pqRenderView*> views = model->findItems<pqRenderView*>();
   return std::any_of(views.begin(), views.end(), [layout](pqRenderView* view) {
     return layout->ContainsView(view->getViewProxy()) && isFlatWithSlices(view);
@@ -162,7 +161,7 @@ bool hasFlatSlices(vtkSMViewLayoutProxy* layout)
 // Draws every view of slices, for the position may be linked. Not the others: 3D takes its time.
 void drawSlices()
 {
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   for (pqRenderView* view : model->findItems<pqRenderView*>())
   {
     const QList<pqRepresentation*> displays = view->getRepresentations();
@@ -220,7 +219,7 @@ void SliceMouse::watchViews(QObject* context)
       new SliceMouse(view); // Qt deletes it with the view
     }
   };
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   QObject::connect(model, &pqServerManagerModel::viewAdded, context, watch);
   for (pqView* view : model->findItems<pqView*>())
   {

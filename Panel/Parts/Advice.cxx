@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Parts/Advice.h"
 
-#include "Interaction/Commands/Translated.h"
+#include "Interaction/Commands/Application.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Parts/ReachDrawing.h"
 
-#include "Interaction/Commands/Translated.h"
+#include "Interaction/Commands/Application.h"
 
 #include <QPainter>
 #include <QPainterPath>

@@ -2,12 +2,11 @@
 #include "Panel/Pointer/PointerDock.h"
 
 #include "Interaction/Commands/Commands.h"
-#include "Interaction/Commands/Translated.h"
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Pointer/Pointer.h"
 #include "Panel/Parts/Advice.h"
 #include "Panel/Pointer/RegistrationTable.h"
 
-#include <pqApplicationCore.h>
 #include <pqSettings.h>
 
 #include <QCheckBox>

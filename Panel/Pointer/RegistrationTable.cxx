@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Pointer/RegistrationTable.h"
 
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Pointer/Pointer.h"
 #include "Interaction/Views/CursorProbe.h"
 
-#include <pqApplicationCore.h>
 #include <pqRenderView.h>
-#include <pqServerManagerModel.h>
 
 #include <QApplication>
 #include <QGridLayout>
@@ -59,7 +58,7 @@ std::optional<glm::dvec3> pointFrom(const QString& text)
 pqRenderView* viewOf(QObject* watched)
 {
   auto widget = qobject_cast<QWidget*>(watched);
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   for (pqRenderView* view : model->findItems<pqRenderView*>())
   {
     QWidget* shown = view->widget();

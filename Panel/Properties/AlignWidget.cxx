@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Properties/AlignWidget.h"
 
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Workarounds/Docks.h"
 #include "Panel/Registered/AlignPane.h"
 
-#include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
-#include <pqServerManagerModel.h>
 
 #include <vtkSMProxy.h>
 
@@ -20,7 +19,7 @@ AlignWidget::AlignWidget(vtkSMProxy* proxy, vtkSMProperty* /*property*/, QWidget
   this->setShowLabel(false);
   auto column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   if (auto source = model->findItem<pqPipelineSource*>(proxy))
   {
     column->addWidget(new AlignPane(source, this));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Properties/AttachedDecorator.h"
 
-#include <pqApplicationCore.h>
+#include "Interaction/Commands/Application.h"
+
 #include <pqPropertyWidget.h>
-#include <pqServerManagerModel.h>
 
 #include <vtkDataObject.h>
 #include <vtkPVDataInformation.h>
@@ -18,7 +18,7 @@ AttachedDecorator::AttachedDecorator(vtkPVXMLElement* xml, pqPropertyWidget* par
   , Array(xml->GetAttributeOrEmpty("array"))
 {
   // Apply of the filter may attach the array, or take it away.
-  this->connect(pqApplicationCore::instance()->getServerManagerModel(),
+  this->connect(serverManagerModel(),
     &pqServerManagerModel::dataUpdated, this, &AttachedDecorator::enableStateChanged);
 }
 

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Properties/FiguresWidget.h"
 
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Workarounds/Docks.h"
 #include "Interaction/Workarounds/Updates.h"
 #include "Panel/Parts/Plots.h"
 
-#include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
 #include <pqPropertiesPanel.h>
-#include <pqServerManagerModel.h>
 
 #include <vtkPVXMLElement.h>
 #include <vtkSMDocumentation.h>
@@ -46,7 +45,7 @@ bool hasHint(vtkSMProperty* property, const char* name)
 
 pqPipelineSource* sourceOf(vtkSMProxy* proxy)
 {
-  return pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineSource*>(proxy);
+  return serverManagerModel()->findItem<pqPipelineSource*>(proxy);
 }
 
 QString tipOf(vtkSMProperty* property)

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Properties/LandmarksWidget.h"
 
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Edits/FitEditor.h"
 #include "Interaction/Landmarks/LandmarkList.h"
 #include "Interaction/Workarounds/Docks.h"
 #include "Panel/Landmarks/LandmarkTable.h"
 
-#include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
 #include <pqPropertiesPanel.h>
 #include <pqProxyWidget.h>
-#include <pqServerManagerModel.h>
 
 #include <vtkSMSourceProxy.h>
 
@@ -32,7 +31,7 @@ LandmarksWidget::LandmarksWidget(vtkSMProxy* proxy, vtkSMProperty*, QWidget* par
   this->Column->addWidget(pqProxyWidget::newGroupLabelWidget(tr("Landmarks (mm)"), this));
   this->Column->addWidget(this->Nobody);
   new InSight(this);
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   using Connection = void (pqServerManagerModel::*)(pqPipelineSource*, pqPipelineSource*, int);
   this->connect(model, static_cast<Connection>(&pqServerManagerModel::connectionAdded), this,
     &LandmarksWidget::refresh);
@@ -43,7 +42,7 @@ LandmarksWidget::LandmarksWidget(vtkSMProxy* proxy, vtkSMProperty*, QWidget* par
 
 pqPipelineSource* LandmarksWidget::taker() const
 {
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   for (pqPipelineSource* source : model->findItems<pqPipelineSource*>())
   {
     if (fitOf(source) && fitOf(source) == this->proxy())

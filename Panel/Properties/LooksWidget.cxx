@@ -2,13 +2,12 @@
 #include "Panel/Properties/LooksWidget.h"
 
 #include "Filters/Attached/Segmentation.h"
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Displays/LabelMaps.h"
 #include "Panel/Tools/LookChoice.h"
 
-#include <pqApplicationCore.h>
 #include <pqDataRepresentation.h>
 #include <pqPipelineSource.h>
-#include <pqServerManagerModel.h>
 
 #include <vtkCommand.h>
 #include <vtkDataObject.h>
@@ -43,7 +42,7 @@ LooksWidget::LooksWidget(vtkSMProxy* proxy, vtkSMProperty*, QWidget* parent)
   grid->addWidget(this->Without, 0, 0, 1, ButtonsInRow + 1);
   this->Without->setWordWrap(true);
   // Apply may attach a segmentation, or bring another volume.
-  this->connect(pqApplicationCore::instance()->getServerManagerModel(),
+  this->connect(serverManagerModel(),
     &pqServerManagerModel::dataUpdated, this, [this](pqPipelineSource* source) {
       if (this->display() && this->display()->getInput() == source)
       {
@@ -66,7 +65,7 @@ void LooksWidget::offerLooksSoon()
 
 pqDataRepresentation* LooksWidget::display() const
 {
-  return pqApplicationCore::instance()->getServerManagerModel()->findItem<pqDataRepresentation*>(
+  return serverManagerModel()->findItem<pqDataRepresentation*>(
     this->proxy());
 }
 

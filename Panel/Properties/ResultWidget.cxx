@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Properties/ResultWidget.h"
 
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Displays/SharedSettings.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Workarounds/Docks.h"
 #include "Panel/Parts/Advice.h"
 
-#include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
 #include <pqPropertiesPanel.h>
-#include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
 
 #include <vtkCommand.h>
@@ -32,7 +31,7 @@ constexpr qint64 FiguresMs = 250; // at least, from one update to the next: fast
 
 pqPipelineSource* sourceOf(vtkSMProxy* proxy)
 {
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   return model->findItem<pqPipelineSource*>(proxy);
 }
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Properties/StrengthWidget.h"
 
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Workarounds/Docks.h"
 #include "Panel/Parts/ValueSlider.h"
 
-#include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
-#include <pqServerManagerModel.h>
 
 #include <vtkCommand.h>
 #include <vtkSMProperty.h>
@@ -31,7 +30,7 @@ StrengthWidget::StrengthWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidg
   this->Slider->setToolTip(tr(
     "The fraction of the deformation that is shown. 0 shows the volume as loaded, 1 shows the full "
     "deformation. Strength can be animated."));
-  auto model = pqApplicationCore::instance()->getServerManagerModel();
+  auto model = serverManagerModel();
   const QPointer<StrokeEditor> editor =
     StrokeEditor::of(model->findItem<pqPipelineSource*>(proxy)); // may go before its panel does
   this->connect(this->Slider, &ValueSlider::valueEdited, this, [editor](double strength) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Properties/StrokesWidget.h"
 
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Landmarks/LandmarkList.h"
 #include "Interaction/Workarounds/Docks.h"
@@ -10,11 +11,9 @@
 #include "Panel/Strokes/StrokeList.h"
 #include "Panel/Tools/ToolPanel.h"
 
-#include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
 #include <pqPropertiesPanel.h>
 #include <pqProxyWidget.h>
-#include <pqServerManagerModel.h>
 
 #include <vtkSMDoubleVectorProperty.h>
 #include <vtkSMPropertyHelper.h>
@@ -29,7 +28,7 @@ constexpr int ListMs = 250; // from one update of a list under the hand to the n
 
 pqPipelineSource* sourceOf(vtkSMProxy* proxy)
 {
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   return model->findItem<pqPipelineSource*>(proxy);
 }
 

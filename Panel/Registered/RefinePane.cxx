@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Registered/RefinePane.h"
 
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Edits/RefineEditor.h"
 #include "Panel/Registered/PaneParts.h"
 
-#include <pqApplicationCore.h>
 #include <pqOutputPort.h>
 #include <pqPipelineSource.h>
-#include <pqServerManagerModel.h>
 
 #include <vtkPVDataInformation.h>
 #include <vtkType.h>
@@ -61,7 +60,7 @@ QList<pqPipelineSource*> volumesBeside(pqPipelineSource* deformation)
     }
   }
   QList<pqPipelineSource*> volumes;
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   for (pqPipelineSource* source : model->findItems<pqPipelineSource*>(deformation->getServer()))
   {
     if (!made.contains(source) && !source->getAllConsumers().contains(deformation) &&
@@ -292,7 +291,7 @@ void RefinePane::followApplication()
       this->Soon.start();
     }
   };
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   this->connect(model, &pqServerManagerModel::sourceAdded, this, soon);
   this->connect(model, &pqServerManagerModel::sourceRemoved, this, soon);
   this->connect(model, &pqServerManagerModel::nameChanged, this, soon);
@@ -325,7 +324,7 @@ void RefinePane::listSources()
 
 pqPipelineSource* RefinePane::chosen(const QComboBox* list) const
 {
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   const unsigned int id = list->currentData().toUInt();
   for (pqPipelineSource* source : model->findItems<pqPipelineSource*>())
   {

@@ -2,11 +2,10 @@
 #include "Panel/Window/StatusLine.h"
 
 #include "Filters/Fit/Fit.h"
+#include "Interaction/Commands/Application.h"
 #include "Panel/Tools/MouseHint.h"
 
-#include <pqApplicationCore.h>
 #include <pqRenderView.h>
-#include <pqServerManagerModel.h>
 
 #include <vtkCommand.h>
 #include <vtkRenderWindow.h>
@@ -131,7 +130,7 @@ CursorLine::CursorLine(QWidget* parent)
   this->connect(&this->Asking, &QTimer::timeout, this, &CursorLine::ask);
   this->connect(&this->Cursor, &CursorWatch::moved, this, &CursorLine::follow);
   this->connect(&this->Cursor, &CursorWatch::left, this, &CursorLine::fallSilent);
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   // A pending question must not keep a deleted proxy alive.
   this->connect(model, &pqServerManagerModel::preViewRemoved, this, &CursorLine::fallSilent);
   this->connect(

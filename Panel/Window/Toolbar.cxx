@@ -2,6 +2,7 @@
 #include "Panel/Window/Toolbar.h"
 
 #include "Filters/Looks/Look.h"
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Commands/Commands.h"
 #include "Interaction/Commands/Tools.h"
 #include "Interaction/Edits/StrokeEditor.h"
@@ -12,9 +13,7 @@
 #include "Panel/Window/StatusLine.h"
 
 #include <pqActiveObjects.h>
-#include <pqApplicationCore.h>
 #include <pqPipelineSource.h>
-#include <pqServerManagerModel.h>
 #include <pqView.h>
 
 #include <QDockWidget>
@@ -157,7 +156,7 @@ void Toolbar::followPipeline()
   pqActiveObjects& active = pqActiveObjects::instance();
   this->connect(&active, &pqActiveObjects::sourceChanged, this, soon);
   this->connect(&active, &pqActiveObjects::viewChanged, this, soon);
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  pqServerManagerModel* model = serverManagerModel();
   this->connect(model, &pqServerManagerModel::sourceAdded, this, soon);
   this->connect(model, &pqServerManagerModel::sourceRemoved, this, soon);
   this->connect(model, &pqServerManagerModel::dataUpdated, this, soon);

@@ -157,7 +157,7 @@ def place_under_a_click_in_3d():
     hit = brainshift.pick(display, view, width // 2, height // 2)
     assert hit, "the head is in the middle"
     click(view, [width // 2, height // 2])
-    assert "click the same place" in request(), request()
+    assert "click the same position" in request(), request()
     assert numpy.allclose(slice_position(), hit, atol=0.1), (slice_position(), hit)
     click_at("sagittal", numpy.array(hit) + SHIFT)
     wait_for(lambda: len(pairs()) == 1, "the pair")

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Short names for what the window's application has.
+#ifndef BrainShift_Application_h
+#define BrainShift_Application_h
+
+#include <pqApplicationCore.h>
+#include <pqServerManagerModel.h>
+
+#include <QCoreApplication>
+#include <QString>
+
+namespace brainshift
+{
+/// The sources, representations and views of the window.
+inline pqServerManagerModel* serverManagerModel()
+{
+  return pqApplicationCore::instance()->getServerManagerModel();
+}
+
+/// Translates a text of a function that belongs to no QObject.
+inline QString tr(const char* text)
+{
+  return QCoreApplication::translate("BrainShift", text);
+}
+}
+
+#endif
