@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/ToolKeys.h"
 
-#include "Interaction/Edits/PointOfInterest.h"
 #include "Interaction/ToolCarrier.h"
 #include "Interaction/Tools/HandTool.h"
 #include "Interaction/Views/ActiveDeformation.h"

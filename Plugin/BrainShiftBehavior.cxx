@@ -74,7 +74,7 @@ BrainShiftBehavior::BrainShiftBehavior(QObject* parent)
 
 void BrainShiftBehavior::onStartup()
 {
-  pqServerManagerModel* model = serverManagerModel();
+  pqServerManagerModel* model = brainshift::serverManagerModel();
   QObject::connect(model, &pqServerManagerModel::representationAdded, this,
     &BrainShiftBehavior::watchRepresentation);
   QObject::connect(
@@ -92,8 +92,7 @@ void BrainShiftBehavior::onStartup()
 void BrainShiftBehavior::onShutdown()
 {
   delete this->Hand;
-  QObject::disconnect(
-    serverManagerModel(), nullptr, this, nullptr);
+  QObject::disconnect(brainshift::serverManagerModel(), nullptr, this, nullptr);
 }
 
 void BrainShiftBehavior::watchRepresentation(pqRepresentation* representation)

@@ -10,7 +10,6 @@
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkIntArray.h"
-#include "vtkMatrix3x3.h"
 
 #include <algorithm>
 #include <cmath>

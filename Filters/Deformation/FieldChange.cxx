@@ -2,7 +2,6 @@
 #include "Filters/Deformation/FieldChange.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace brainshift

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Register/LatticeRows.h"
 
-#include <cmath>
-
 namespace brainshift
 {
 namespace

@@ -2,7 +2,7 @@
 /// @file
 /// Surfaces of FreeSurfer, such as lh.pial: triangles, and maps of values, such as lh.thickness.
 ///
-/// All numbers are big endian. Points are in tkRAS (ScannerFrame.h), unless the tag useRealRAS says
+/// All numbers are big endian. Points are in tkRAS (SurfaceFile.h), unless the tag useRealRAS says
 /// that they are in the scanner's RAS. The geometry of the volume follows the triangles, as text.
 #include "Common/Bytes.h"
 #include "Common/Numbers.h"

@@ -5,7 +5,7 @@
 /// Which frame points are in, the first that holds: 1. They are in the scanner's: they stay. 2. A
 /// matrix leads to the scanner's space, or else to that of an aligned anatomy: it counts. 3. Their
 /// space has a name: they stay. 4. FreeSurfer left the geometry of its volume: they are in tkRAS
-/// (ScannerFrame.h). 5. Nobody knows. They stay, and it is noted.
+/// (SurfaceFile.h). 5. Nobody knows. They stay, and it is noted.
 #include "Common/Numbers.h"
 #include "Formats/Files/Text.h"
 #include "Formats/GIFTI/GIFTIFile.h"

@@ -13,7 +13,6 @@
 #include <minc2.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <map>
 

@@ -3,7 +3,6 @@
 #include "Common/Numbers.h"
 #include "Formats/TextHeaders/TextHeader.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace brainshift

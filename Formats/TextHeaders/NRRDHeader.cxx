@@ -5,7 +5,6 @@
 #include "Formats/TextHeaders/TextHeader.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace brainshift
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Commands/Commands.h"
 
-#include "Interaction/Commands/Tools.h"
 #include "Interaction/Commands/Application.h"
+#include "Interaction/Commands/Tools.h"
 
 #include <QApplication>
 #include <QStringList>

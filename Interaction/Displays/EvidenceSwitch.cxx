@@ -3,7 +3,6 @@
 
 #include "Interaction/Commands/Application.h"
 
-#include <pqDataRepresentation.h>
 #include <pqRepresentation.h>
 #include <pqUndoStack.h>
 

@@ -65,8 +65,8 @@ FourViewsActions::FourViewsActions(QObject* parent)
   QObject::connect(&active, &pqActiveObjects::dataUpdated, this,
     [enable] { enable(pqActiveObjects::instance().activeSource()); });
   enable(active.activeSource());
-  QObject::connect(serverManagerModel(),
-    &pqServerManagerModel::sourceAdded, this, &FourViewsActions::watchComparison);
+  QObject::connect(serverManagerModel(), &pqServerManagerModel::sourceAdded, this,
+    &FourViewsActions::watchComparison);
 }
 
 void FourViewsActions::layOut()

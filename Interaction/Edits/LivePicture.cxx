@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Edits/LivePicture.h"
 
-#include "Interaction/Views/ShowingViews.h"
+#include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Workarounds/Updates.h"
 
 #include <pqApplicationCore.h>

@@ -9,14 +9,17 @@
 #include "Filters/Deformation/Stroke.h"
 #include "Interaction/Workarounds/Selections.h"
 
-#include <QTimer>
-
 #include <vtkEventQtSlotConnect.h>
 #include <vtkNew.h>
+
+#include <QTimer>
+
+#include <glm/glm.hpp>
 
 #include <functional>
 
 class pqPipelineSource;
+class vtkSMProxy;
 class vtkSMSourceProxy;
 
 namespace brainshift
@@ -106,6 +109,14 @@ private:
   double StrengthBefore = 1.0; ///< During a drag of Strength.
   double StrengthAfter = 1.0;  ///< While the volume is shown as loaded.
 };
+
+// Edits the property PointOfInterest of a Free-Form Deformation, for the key I and for the panel.
+// An edit acts at once, without Apply, and is one undo step. An edit without a change is no step.
+
+/// Moves the point to a position (mm, world axes).
+void setPointOfInterest(vtkSMProxy* filter, const glm::dvec3& position);
+/// Moves the point to the centre of the volume.
+void centrePointOfInterest(vtkSMProxy* filter);
 }
 
 #endif

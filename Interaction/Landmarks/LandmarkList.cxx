@@ -80,8 +80,8 @@ LandmarkList::LandmarkList(pqPipelineSource* source)
       this->refreshSoon(false);
     }
   });
-  this->connect(serverManagerModel(),
-    &pqServerManagerModel::dataUpdated, this, [this](pqPipelineSource* updated) {
+  this->connect(serverManagerModel(), &pqServerManagerModel::dataUpdated, this,
+    [this](pqPipelineSource* updated) {
       if (updated == this->Source || updated->getProxy() == this->Editor->fit())
       {
         this->refreshSoon(false);

@@ -7,6 +7,7 @@
 #include <pqDataRepresentation.h>
 #include <pqOutputPort.h>
 #include <pqPipelineFilter.h>
+#include <pqPipelineSource.h>
 #include <pqView.h>
 
 #include <vtkPVXMLElement.h>
@@ -21,6 +22,34 @@
 
 namespace brainshift
 {
+namespace
+{
+void collectViews(pqPipelineSource* source, QSet<pqPipelineSource*>& seen, QSet<pqView*>& views)
+{
+  if (seen.contains(source))
+  {
+    return;
+  }
+  seen.insert(source);
+  for (pqView* view : source->getViews())
+  {
+    views.insert(view);
+  }
+  for (pqPipelineSource* consumer : source->getAllConsumers())
+  {
+    collectViews(consumer, seen, views);
+  }
+}
+}
+
+QSet<pqView*> viewsShowing(pqPipelineSource* source)
+{
+  QSet<pqPipelineSource*> seen;
+  QSet<pqView*> views;
+  collectViews(source, seen, views);
+  return views;
+}
+
 namespace
 {
 QList<pqPipelineSource*> inputsOf(pqPipelineSource* source)
@@ -119,8 +148,7 @@ pqPipelineSource* activeDeformation(pqView* view)
     return nearest;
   }
   pqPipelineSource* only = nullptr;
-  const auto sources =
-    serverManagerModel()->findItems<pqPipelineSource*>();
+  const auto sources = serverManagerModel()->findItems<pqPipelineSource*>();
   for (pqPipelineSource* candidate : sources)
   {
     if (isDeformation(candidate))
@@ -155,8 +183,7 @@ pqPipelineSource* shownInstead(pqPipelineSource* deformation, pqView* view)
   {
     return nullptr;
   }
-  const auto sources =
-    serverManagerModel()->findItems<pqPipelineSource*>();
+  const auto sources = serverManagerModel()->findItems<pqPipelineSource*>();
   const auto shown = std::find_if(sources.begin(), sources.end(), [view](pqPipelineSource* source) {
     return isDeformation(source) && bentDisplay(source, view);
   });

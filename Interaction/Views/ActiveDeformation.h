@@ -4,6 +4,8 @@
 #ifndef BrainShift_ActiveDeformation_h
 #define BrainShift_ActiveDeformation_h
 
+#include <QSet>
+
 class pqDataRepresentation;
 class pqPipelineSource;
 class pqView;
@@ -11,6 +13,11 @@ class vtkSMProxy;
 
 namespace brainshift
 {
+// Finds the views that a change of a source is seen in.
+
+/// The views that show the source or something made of it.
+QSet<pqView*> viewsShowing(pqPipelineSource* source);
+
 /// Whether a source is a Free-Form Deformation.
 bool isDeformation(pqPipelineSource* source);
 

@@ -18,8 +18,8 @@ RestingCursor::RestingCursor(QObject* parent)
   this->Soon.setSingleShot(true);
   this->Soon.setInterval(0); // a pick in the middle of a picture would query a busy server
   this->connect(&this->Soon, &QTimer::timeout, this, &RestingCursor::sees);
-  this->connect(serverManagerModel(),
-    &pqServerManagerModel::dataUpdated, this, [this](pqPipelineSource* source) {
+  this->connect(serverManagerModel(), &pqServerManagerModel::dataUpdated, this,
+    [this](pqPipelineSource* source) {
       this->Outdated = this->Outdated || source == this->Deformation;
     });
 }

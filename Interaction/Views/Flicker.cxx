@@ -2,7 +2,7 @@
 #include "Interaction/Views/Flicker.h"
 
 #include "Interaction/Commands/Application.h"
-#include "Interaction/Views/ShowingViews.h"
+#include "Interaction/Views/ActiveDeformation.h"
 
 #include <pqActiveObjects.h>
 #include <pqPipelineSource.h>
@@ -12,7 +12,6 @@
 #include <vtkCompareVolumes.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSession.h>
-#include <vtkSMSourceProxy.h>
 #include <vtkSMViewProxy.h>
 
 #include <QApplication>

@@ -7,8 +7,6 @@
 #include <pqPipelineSource.h>
 #include <pqProxyWidget.h>
 
-#include <vtkSMSourceProxy.h>
-
 #include <QHBoxLayout>
 #include <QToolButton>
 #include <QVBoxLayout>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Pointer/PointerDock.h"
 
-#include "Interaction/Commands/Commands.h"
 #include "Interaction/Commands/Application.h"
+#include "Interaction/Commands/Commands.h"
 #include "Interaction/Pointer/Pointer.h"
 #include "Panel/Parts/Advice.h"
 #include "Panel/Pointer/RegistrationTable.h"

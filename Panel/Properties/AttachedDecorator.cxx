@@ -18,8 +18,8 @@ AttachedDecorator::AttachedDecorator(vtkPVXMLElement* xml, pqPropertyWidget* par
   , Array(xml->GetAttributeOrEmpty("array"))
 {
   // Apply of the filter may attach the array, or take it away.
-  this->connect(serverManagerModel(),
-    &pqServerManagerModel::dataUpdated, this, &AttachedDecorator::enableStateChanged);
+  this->connect(serverManagerModel(), &pqServerManagerModel::dataUpdated, this,
+    &AttachedDecorator::enableStateChanged);
 }
 
 bool AttachedDecorator::enableWidget() const

@@ -42,8 +42,8 @@ LooksWidget::LooksWidget(vtkSMProxy* proxy, vtkSMProperty*, QWidget* parent)
   grid->addWidget(this->Without, 0, 0, 1, ButtonsInRow + 1);
   this->Without->setWordWrap(true);
   // Apply may attach a segmentation, or bring another volume.
-  this->connect(serverManagerModel(),
-    &pqServerManagerModel::dataUpdated, this, [this](pqPipelineSource* source) {
+  this->connect(serverManagerModel(), &pqServerManagerModel::dataUpdated, this,
+    [this](pqPipelineSource* source) {
       if (this->display() && this->display()->getInput() == source)
       {
         this->offerLooks();
@@ -65,8 +65,7 @@ void LooksWidget::offerLooksSoon()
 
 pqDataRepresentation* LooksWidget::display() const
 {
-  return serverManagerModel()->findItem<pqDataRepresentation*>(
-    this->proxy());
+  return serverManagerModel()->findItem<pqDataRepresentation*>(this->proxy());
 }
 
 // Identifies a volume without reading it: every stroke makes new data of the same volume.

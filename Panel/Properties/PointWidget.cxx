@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Properties/PointWidget.h"
 
-#include "Interaction/Edits/PointOfInterest.h"
+#include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Workarounds/Docks.h"
 #include "Panel/Parts/MillimetreField.h"
 
 #include <pqPropertiesPanel.h>
 
 #include <vtkCommand.h>
-#include <vtkEventQtSlotConnect.h>
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 

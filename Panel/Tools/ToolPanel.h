@@ -16,6 +16,12 @@ class QToolButton;
 
 namespace brainshift
 {
+// The mouse gestures of a view, as one line for the panel and the status bar. The words are those
+// of the table of commands.
+
+/// The line for the tool in hand over a ground.
+QString mouseHint(const ToolSettings& settings, ToolSettings::Ground ground);
+
 class ReachDrawing;
 class ValueSlider;
 

@@ -3,7 +3,7 @@
 
 #include "Filters/Fit/Fit.h"
 #include "Interaction/Commands/Application.h"
-#include "Panel/Tools/MouseHint.h"
+#include "Panel/Tools/ToolPanel.h"
 
 #include <pqRenderView.h>
 

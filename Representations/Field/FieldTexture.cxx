@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Field/FieldTexture.h"
 
-#include "Filters/Deformation/Lattice.h"
 #include "Filters/Deformation/Kernels.h"
+#include "Filters/Deformation/Lattice.h"
 #include "Representations/Gpu/VolumePass.h"
 
 #include "vtkOpenGLRenderWindow.h"

@@ -5,7 +5,7 @@
 #define BrainShift_CastImages_h
 
 #include "Representations/Gpu/Program.h"
-#include "Representations/Scene/FirstHits.h"
+#include "Representations/Scene/Frustum.h"
 
 class vtkOpenGLRenderWindow;
 class vtkTextureObject;

@@ -12,7 +12,7 @@
 #define BrainShift_Occlusion_h
 
 #include "Representations/Gpu/Program.h"
-#include "Representations/Scene/FirstHits.h"
+#include "Representations/Scene/Frustum.h"
 
 class vtkTextureObject;
 class vtkWindow;

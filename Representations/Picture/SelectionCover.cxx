@@ -2,7 +2,7 @@
 #include "Representations/Picture/SelectionCover.h"
 
 #include "Representations/Gpu/SceneScope.h"
-#include "Representations/Scene/FirstHits.h"
+#include "Representations/Scene/Frustum.h"
 #include "Representations/Scene/SceneGeometry.h"
 
 #include "vtkDataObject.h"

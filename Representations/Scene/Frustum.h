@@ -4,9 +4,10 @@
 #ifndef BrainShift_Frustum_h
 #define BrainShift_Frustum_h
 
-#include "vtkBrainShiftRepresentationsModule.h" // for the export macro
+#include "Representations/Scene/ImageArea.h"
 
-#include <glm/glm.hpp>
+#include "vtkSmartPointer.h"
+#include "vtkTextureObject.h"
 
 namespace brainshift
 {
@@ -44,6 +45,18 @@ VTKBRAINSHIFTREPRESENTATIONS_EXPORT Frustum frustumOf(const glm::dmat4& clipFrom
 /// `to`.
 VTKBRAINSHIFTREPRESENTATIONS_EXPORT glm::dvec2 fractionFromFraction(
   const Frustum& to, const Frustum& from);
+
+// Where the rays of a picture met a surface first.
+
+/// One number for each pixel. The position follows from it and from the camera of the picture,
+/// which may have moved on since.
+struct FirstHits
+{
+  /// Fraction of the way from the near to the far plane. Below 0, and beyond the area: no hit.
+  vtkSmartPointer<vtkTextureObject> texture;
+  ImageArea area;  ///< Of the picture.
+  Frustum frustum; ///< Of the picture, mm, world.
+};
 }
 
 #endif

@@ -6,7 +6,7 @@
 #define BrainShift_TraceDrawer_h
 
 #include "Representations/Gpu/Program.h"
-#include "Representations/Scene/FirstHits.h"
+#include "Representations/Scene/Frustum.h"
 
 #include <array>
 #include <functional>

@@ -12,7 +12,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*[<"](Formats/\w+)/', re.MULTILINE)
 
 #: Files that need one certain format, and why.
 NEEDS = {
-    "Formats/Surfaces/ScannerFrame.cxx": {
+    "Formats/Surfaces/SurfaceFile.cxx": {
         "Formats/MGH": "FreeSurfer's surfaces lie in the frame of its volumes",
         "Formats/NIFTI": "a volume that gives a surface its frame may be NIfTI"},
     "Formats/Transforms/TransformFile.cxx": {

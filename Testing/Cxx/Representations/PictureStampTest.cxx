@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that a picture is cast anew when anything it depends on has changed, in part when tissue
 // bends, and not at all otherwise.
-#include "Representations/Picture/Picture.h"
 #include "Representations/Gpu/GpuTask.h"
+#include "Representations/Picture/Picture.h"
 #include "Representations/Scene/RayCastScene.h"
 #include "Testing/Cxx/Representations/TestWindow.h"
 

@@ -11,7 +11,7 @@
 #include "Panel/Parts/List.h"
 #include "Panel/Strokes/StrokeList.h"
 #include "Panel/Tools/LookChoice.h"
-#include "Panel/Window/HelpActions.h"
+#include "Panel/Window/KeysText.h"
 #include "Testing/Cxx/Window/Application.h"
 
 #include <vtkNew.h>

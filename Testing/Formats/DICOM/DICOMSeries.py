@@ -395,7 +395,7 @@ def test_the_patient_is_told_on_request_and_stays_nowhere():
     try:
         brainshift.dicom_patient(simple.Sphere())
     except TypeError as error:
-        assert_says(str(error), "SphereSource", "no DICOM Volume Reader")
+        assert_says(str(error), "SphereSource", "must be a DICOM Volume Reader")
     else:
         raise AssertionError("a sphere has no patient")
 

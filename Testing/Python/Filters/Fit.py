@@ -261,7 +261,7 @@ def test_a_fit_that_fails_leaves_the_former_one_and_nothing_of_its_own():
     assert own in simple.GetSources().values()
 
 
-def test_a_fit_that_was_spoiled_gives_no_answers():
+def test_a_fit_that_was_spoiled_has_no_result():
     fit = brainshift.fit(deformation(), traces=on_ball(50), threshold=50.0)
     assert len(fit.measured_from_rest(scattered(2))) == 2
     fit.filter.Threshold = 1000.0
@@ -270,7 +270,7 @@ def test_a_fit_that_was_spoiled_gives_no_answers():
     try:
         fit.deviation(scattered(2))
     except RuntimeError as error:
-        assert "no answers" in str(error), error
+        assert "has no result" in str(error), error
     else:
         raise AssertionError("a fit that failed answers")
     assert len(brainshift.Fit(fit.filter).trace_residuals) == 0
