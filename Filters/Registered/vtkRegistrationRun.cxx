@@ -58,15 +58,6 @@ void fill(vtkDoubleArray* array, const std::vector<double>& values)
   std::copy(values.begin(), values.end(), array->GetPointer(0));
 }
 
-// Throws a problem that is not empty.
-void require(const std::string& problem)
-{
-  if (!problem.empty())
-  {
-    throw Problem(problem);
-  }
-}
-
 vtkDataArray* scalarsOf(vtkImageData* image)
 {
   vtkDataArray* scalars = image->GetPointData()->GetScalars();
@@ -232,7 +223,7 @@ void vtkRegistrationRun::Begin(bool bends)
     vtkImageData::SafeDownCast(this->Source ? this->Source->GetOutputDataObject(0) : nullptr);
   const RegisteredGrids grids = findGrids(image);
   // On several MPI ranks this rank holds a piece; registering it alone would be silently wrong.
-  require(problemOfPart(image, this->Source->GetOutputInformation(0)));
+  requireWhole(image, this->Source->GetOutputInformation(0));
   if (!(this->Stiffness > 0.0)) // also rejects NaN
   {
     throw brainshift::Problem(
@@ -245,18 +236,17 @@ void vtkRegistrationRun::Begin(bool bends)
   this->OverlapOf = bends ? similarity.overlapOf : "the volume";
   const double voxels =
     sizeof(float) * static_cast<double>(grids.rest.count() + grids.reference.count());
-  require(hostMemoryProblem("The registration of " + sizeText(grids.rest.dimensions) + " voxels",
+  requireHostMemory("The registration of " + sizeText(grids.rest.dimensions) + " voxels",
     voxels +
       (bends ? Refinement::bytes(grids.rest, grids.reference, {}, settings)
-             : Alignment::bytes(grids.rest, grids.reference))));
+             : Alignment::bytes(grids.rest, grids.reference)));
   RegisteredSource source = readSource(image);
   if (bends)
   {
     requireRefinable(source.bent.get(), grids.rest);
     const Lattice& start = source.bent->lattice;
-    require(
-      hostMemoryProblem("The refinement of " + sizeText(start.grid.dimensions) + " control points",
-        Refinement::bytes(grids.rest, grids.reference, start.grid, settings)));
+    requireHostMemory("The refinement of " + sizeText(start.grid.dimensions) + " control points",
+      Refinement::bytes(grids.rest, grids.reference, start.grid, settings));
     settings.samples = source.bent->samples;
     this->Internal->Start = start.displacements;
     this->Internal->Elastic = std::make_unique<Refinement>(std::move(source.pair), start, settings);

@@ -41,7 +41,7 @@ void vtkVolumeFileWriter::WriteData()
 void vtkVolumeFileWriter::WriteImage()
 {
   auto* image = vtkImageData::SafeDownCast(this->GetInput());
-  throwIfAny(problemOfPart(image, this->GetInputInformation(0, 0)));
+  requireWhole(image, this->GetInputInformation(0, 0));
   throwIfAny(this->FileName.empty() ? "The name of the file to write is missing" : "");
   OutgoingVolume volume;
   std::string warning;
