@@ -118,7 +118,7 @@ struct vtkFitDeformation::State
   {
     const bool isInCavity = !this->TraceResiduals.empty() && this->TraceNumbers.empty();
     return joined({ this->Unmatched.empty() ? "" : "Without a partner: " + this->Unmatched,
-      isInCavity ? "All traced points lie in the cavity and do not count" : "",
+      isInCavity ? "All traced points are in the cavity and are ignored" : "",
       warningAbout(this->Fitted) });
   }
 

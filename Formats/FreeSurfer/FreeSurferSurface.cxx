@@ -268,8 +268,8 @@ void placeByVolume(
   if (!surface.knowsWorld)
   {
     surface.notes.emplace_back(
-      "does not say where its volume lies (its volume geometry is not valid): it is shown as if "
-      "the middle of the volume lay at 0, 0, 0. Set Volume to the volume it was made from, or "
+      "has no position of its volume (its volume geometry is not valid): it is shown as if the "
+      "centre of the volume were at 0, 0, 0 mm. Set Volume to the volume it was made from, or "
       "VolumeCenter to that volume's c_ras");
   }
 }

@@ -301,7 +301,7 @@ def test_traces_that_all_lie_in_the_cavity_are_said():
     everything = volume(numpy.ones((SIDE,) * 3, numpy.uint8), spacing=(SPACING,) * 3)
     with messages() as said:
         brainshift.fit(deformation(), traces=on_ball(20), cavity=everything, threshold=50.0)
-    assert_says(said.text, "All traced points lie in the cavity")
+    assert_says(said.text, "All traced points are in the cavity")
 
 
 def test_few_landmarks_that_turned_far_are_said():
