@@ -252,8 +252,8 @@ void placeByVolume(
     const double mm = differenceMm(surface, surface.worldFromStored, scannerFromSurface(frame));
     if (mm > MostDifferentMm)
     {
-      surface.notes.push_back(joined("names the geometry of its volume, which counts; the one that "
-                                     "you gave would place it up to ",
+      surface.notes.push_back(joined("contains the geometry of its volume, which is used; the "
+                                     "given volume would place it up to ",
         mm, " mm away"));
     }
   }
@@ -261,7 +261,7 @@ void placeByVolume(
   {
     surface.notes.emplace_back(
       "is placed by a volume whose axes are not those of FreeSurfer's own volumes (left, down, "
-      "front), so the surface may be mirrored or turned. Volume must be orig.mgz or T1.mgz of the "
+      "front), so the surface may be mirrored or rotated. Volume must be orig.mgz or T1.mgz of the "
       "subject's folder, not the scan");
   }
   surface.knowsWorld = own || isGiven;

@@ -82,7 +82,7 @@ def test_the_geometry_in_the_file_counts():
     first, second = list(volumes())[:2]
     name = write_surface(scratch("rh.pial"), geometry(first))
     expected = moved(scanner_from_surface(first), POINTS)
-    for image, words in ((first, ()), (second, ["geometry of its volume, which counts"])):
+    for image, words in ((first, ()), (second, ["geometry of its volume, which is used"])):
         nibabel.save(image, scratch("other.mgz"))
         assert_at(read(name, words, Volume=scratch("other.mgz")), expected)
     # A surface in scanner RAS says so.

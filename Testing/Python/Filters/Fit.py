@@ -308,7 +308,7 @@ def test_few_landmarks_that_turned_far_are_said():
     rest = scattered(5)
     with messages() as said:
         brainshift.fit(deformation(), rest=rest, measured=2 * MIDDLE - rest * (1, 1, -1))
-    assert_says(said.text, "The volume turned by", "check that the pairs match")
+    assert_says(said.text, "The fit rotated the volume by", "check that the pairs match")
 
 
 def test_an_opening_that_is_cropped_has_its_margin():
