@@ -293,8 +293,7 @@ TEST(Fit, WhatIsNoNumberIsOneSentence)
   };
   Measurements measured = landmarksOf(3, 1.0);
   measured.landmarks[1].measured.y = NaN;
-  EXPECT_NE(
-    problemOfFit(measured).find("The measured end of landmark 2 is at"), std::string::npos);
+  EXPECT_NE(problemOfFit(measured).find("The measured end of landmark 2 is at"), std::string::npos);
   measured = landmarksOf(3, 1.0);
   measured.landmarks[2].weight = -1.0;
   EXPECT_EQ(problemOfFit(measured),
