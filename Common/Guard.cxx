@@ -35,7 +35,7 @@ std::string thrownReason()
   }
   catch (...)
   {
-    return "failed for a reason it does not know";
+    return "failed for an unknown reason";
   }
 }
 

@@ -81,8 +81,8 @@ void requireVolume(const Grid& volume)
 }
 
 constexpr const char* BentAlready =
-  "The volume carries a deformation already, and that one stays. Free-Form Deformation cannot bend "
-  "a bent volume: add the strokes to the first Free-Form Deformation, or put Bake Deformation "
+  "The volume already carries a deformation, which remains. Free-Form Deformation cannot bend a "
+  "bent volume: add the strokes to the first Free-Form Deformation, or put Bake Deformation "
   "between the two";
 }
 
@@ -192,7 +192,7 @@ void vtkFreeFormDeformation::ReplayStrokes(const Lattice& start, const std::vect
   if (!replay.isWhole())
   {
     throw Problem("Free-Form Deformation was stopped after " + std::to_string(replay.count()) +
-      " of " + std::to_string(strokes.size()) + " strokes. The next change goes on from there");
+      " of " + std::to_string(strokes.size()) + " strokes. The next change continues from there");
   }
   requireDisplacements(replay.result(), "the strokes");
 }
@@ -244,8 +244,8 @@ void vtkFreeFormDeformation::TellWarnings()
   if (const auto& mask = state.LastGood.lattice.mask;
     mask && *std::max_element(mask->values.begin(), mask->values.end()) == 0.0f)
   {
-    warnings.push_back("The mask leaves nothing to move: it is nowhere wider than two nodes of the "
-                       "refined field. Raise LatticeDimensions or Samples");
+    warnings.push_back("The mask leaves no tissue to move: it is nowhere wider than two nodes of "
+                       "the refined field. Raise LatticeDimensions or Samples");
   }
   for (const std::string& words : { state.OtherFit, state.TooFine })
   {

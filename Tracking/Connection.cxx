@@ -84,7 +84,8 @@ StopSignal::StopSignal()
 {
   if (pipe(this->Ends) != 0)
   {
-    throw std::system_error(errno, std::generic_category(), "The pointer gets no pipe");
+    throw std::system_error(
+      errno, std::generic_category(), "The system provides no pipe for the pointer");
   }
   for (const int end : this->Ends)
   {
@@ -144,7 +145,7 @@ std::string Connection::open(const std::string& host, int port, double seconds)
     this->Socket = socket(at->ai_family, at->ai_socktype | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     if (this->Socket < 0)
     {
-      return "The system gives no socket: " + textOf(errno);
+      return "The system provides no socket: " + textOf(errno);
     }
     int error = ::connect(this->Socket, at->ai_addr, at->ai_addrlen) == 0 ? 0 : errno;
     if (error == EINPROGRESS)

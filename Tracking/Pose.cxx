@@ -30,11 +30,11 @@ std::string problemOf(const Pose& pose)
       // Not "greater than": NaN is no rotation either.
       if (!(std::abs(product[i][j] - (i == j ? 1.0 : 0.0)) <= RotationTolerance))
       {
-        return "The matrix of the pose is no rotation";
+        return "The matrix of the pose is not a rotation";
       }
     }
   }
-  return glm::determinant(pose.rotation) > 0.0 ? "" : "The matrix of the pose is a mirror";
+  return glm::determinant(pose.rotation) > 0.0 ? "" : "The matrix of the pose is a reflection";
 }
 
 bool isIdentity(const Pose& pose)

@@ -112,7 +112,7 @@ std::string readLine(std::string_view line, Session& session)
     Pose placed; // for its checks
     if (!readRow(parts, 1, placed.rotation, placed.tip) || !problemOf(placed).empty())
     {
-      return "is no placement of the tracker";
+      return "is not a registration of the tracker";
     }
     session.placement = Placement{ placed.rotation, placed.tip };
     return {};

@@ -204,8 +204,9 @@ std::string Replay::strokesInFeather() const
   }
   return named.empty() ? std::string()
                        : "The mask holds back the tissue at the anchor of stroke " + named.text() +
-      ": it lies outside the mask or in its feather. StrokeReaches says how far it went. Raise "
-      "MaskGrowth, lower Feather, or use the mask as Segmentation, which limits nothing";
+      ": it is outside the mask or in its feather. StrokeReaches gives its achieved displacement "
+      "(mm). Raise MaskGrowth, lower Feather, or use the mask as Segmentation, which limits "
+      "nothing";
 }
 
 std::string strokesTooFine(const std::vector<Stroke>& strokes, const Grid& lattice)

@@ -283,6 +283,7 @@ std::string wordsOnFittedFor(vtkDataObject* base, const Lattice& lattice, int sa
   return found.fitted.empty()
     ? std::string()
     : "The base lattice was fitted for " + found.fitted + ". This deformation has " + found.wanted +
-      ". The figures of the fit do not hold here: give Fit Deformation the same settings and Input";
+      ". The figures of the fit are not valid for it. Give Fit Deformation the same settings and "
+      "Input";
 }
 }

@@ -149,7 +149,7 @@ void Fit::solveRigid(const Measurements& measured, const FitSettings& settings)
   }
   if (!(moved < MotionUnsettled)) // also rejects NaN
   {
-    throw Problem("The landmarks do not say how the volume turned");
+    throw Problem("The landmarks do not determine the rotation of the volume");
   }
 }
 

@@ -170,8 +170,9 @@ std::vector<float> LatticeEvidence::deviations(const FittedLattice& fitted)
   const Grid& grid = fitted.lattice().grid;
   if (grid.count() > MostEvidencePoints)
   {
-    throw Problem("Evidence is not found: the lattice has " + std::to_string(grid.count()) +
-      " control points; it may have at most " + std::to_string(MostEvidencePoints));
+    throw Problem("The uncertainty is not computed: the lattice has " +
+      std::to_string(grid.count()) + " control points; it may have at most " +
+      std::to_string(MostEvidencePoints));
   }
   const std::vector<glm::dvec3> positions = positionsOf(grid);
   std::vector<double> key = fitted.fit().field().covarianceKey();

@@ -23,7 +23,7 @@ void requirePosition(const std::string& what, std::size_t i, const glm::dvec3& p
   // A comparison with NaN is false.
   if (!(std::abs(p.x) <= FarthestMm && std::abs(p.y) <= FarthestMm && std::abs(p.z) <= FarthestMm))
   {
-    throw Problem(what + " " + std::to_string(i + 1) + " lies at " + text(p) +
+    throw Problem(what + " " + std::to_string(i + 1) + " is at " + text(p) +
       " mm; its coordinates must be numbers from -1000000 to 1000000");
   }
 }

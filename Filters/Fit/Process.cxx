@@ -260,7 +260,7 @@ void Process::setRows(std::vector<Row> rows, const std::optional<RigidMean>& mea
     state.factorMean(*mean);
     if (state.Motion.info() != Eigen::Success)
     {
-      throw Problem("The measurements do not say how the volume turned");
+      throw Problem("The measurements do not determine the rotation of the volume");
     }
   }
   state.solveWeights();

@@ -60,18 +60,18 @@ std::string warningAbout(const FittedLattice& fitted)
   const double degrees = glm::degrees(glm::length(vectorFrom(fitted.fit().rigid().rotation)));
   if (degrees > FarRotationDegrees && fitted.fit().isRotationExpectedSmall())
   {
-    sentences.push_back("The volume turned by " + std::to_string(degrees) +
-      " degrees, more than so few pairs can prove; check that the pairs match");
+    sentences.push_back("The fit rotated the volume by " + std::to_string(degrees) +
+      " degrees, more than so few pairs can support; check that the pairs match");
   }
   if (fitted.fraction() < 1.0)
   {
     sentences.push_back(
-      "The fold guard applied " + std::to_string(fitted.fraction()) + " of the bend");
+      "The fold guard applied " + std::to_string(fitted.fraction()) + " of the deformation");
   }
   else if (fitted.relaxation() > 1.0)
   {
-    sentences.emplace_back(
-      "The fold guard trusted what was measured less, so that no tissue folds");
+    sentences.emplace_back("The fold guard increased the standard deviations of the measurements, "
+                           "so that no tissue folds");
   }
   return joined(sentences);
 }
@@ -118,7 +118,7 @@ struct vtkFitDeformation::State
   {
     const bool isInCavity = !this->TraceResiduals.empty() && this->TraceNumbers.empty();
     return joined({ this->Unmatched.empty() ? "" : "Without a partner: " + this->Unmatched,
-      isInCavity ? "All traced points lie in the cavity and do not count" : "",
+      isInCavity ? "All traced points are in the cavity and are ignored" : "",
       warningAbout(this->Fitted) });
   }
 

@@ -334,8 +334,8 @@ void vtkRegistrationRun::ReportAlignment()
   {
     this->Warning = "The reference was moved by " + rounded(this->Shift) + " mm and " +
       rounded(this->Rotation) +
-      " degrees. Align is tested only from up to 20 mm and 15 degrees "
-      "away; check the position of the reference.";
+      " degrees. Align was tested only for motions of up to 20 mm and 15 degrees. Check the "
+      "position of the reference.";
   }
 }
 

@@ -211,8 +211,7 @@ void placeAlongNormal(const DICOMDataSet& set, std::vector<DICOMFrame>& frames)
   const bool hasStep = set.elements.count(0x00180088) > 0;
   if (offsets.size() != frames.size() && !hasStep)
   {
-    throw Problem(
-      "has " + std::to_string(frames.size()) + " frames and does not say where they lie");
+    throw Problem("has " + std::to_string(frames.size()) + " frames but no positions of them");
   }
   const glm::dvec3 normal = glm::cross(frames.front().alongRow, frames.front().alongColumn);
   for (std::size_t i = 0; i < frames.size(); ++i)

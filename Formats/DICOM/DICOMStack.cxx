@@ -431,8 +431,8 @@ DICOMStack stackOf(
   if (!stack.knowsSides)
   {
     placeByNumber(placed);
-    stack.warnings.emplace_back("does not say where its images lie; they are shown in the order "
-                                "of their numbers, and left and right may be exchanged");
+    stack.warnings.emplace_back("has no positions of its images; they are shown in the order of "
+                                "their numbers, and left and right may be exchanged");
   }
   const DICOMPlaces places = sortedByPlace(files, placed);
   stack.volumes = places.volumes;
@@ -446,7 +446,7 @@ DICOMStack stackOf(
   if (places.leftOver > 0)
   {
     stack.warnings.push_back("has " + counted(places.leftOver, "image", "images") +
-      " at places where others lie, without one for each other place: left out");
+      " at positions of other images, too few for another time step: left out");
   }
   placeSlices(stack, files[stack.volumes.front().front().file], resamples);
   return stack;

@@ -73,9 +73,8 @@ void writeSeries(const std::string& name, const std::string& like, const Outgoin
   folder = folder.has_filename() ? folder : folder.parent_path(); // a slash at the end
   if (!volume.knowsSides)
   {
-    throw Problem(
-      "The input does not know the sides of the patient, which a DICOM series must; set "
-      "World to RAS or LPS if you know them");
+    throw Problem("The world axes of the input are unknown, and a DICOM series needs them; set "
+                  "World to RAS or LPS if you know them");
   }
   DICOMDataSet source;
   DerivedPixels pixels;

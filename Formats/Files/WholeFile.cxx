@@ -86,7 +86,7 @@ void replace(const fs::path& file, const fs::path& beside)
 
 std::string lastSystemError()
 {
-  return errno ? std::generic_category().message(errno) : "the disk does not take it";
+  return errno ? std::generic_category().message(errno) : "the disk does not accept it";
 }
 
 void writeWhole(const std::string& fileName, const std::function<void(const std::string&)>& write)

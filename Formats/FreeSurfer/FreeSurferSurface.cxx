@@ -252,8 +252,8 @@ void placeByVolume(
     const double mm = differenceMm(surface, surface.worldFromStored, scannerFromSurface(frame));
     if (mm > MostDifferentMm)
     {
-      surface.notes.push_back(joined("names the geometry of its volume, which counts; the one that "
-                                     "you gave would place it up to ",
+      surface.notes.push_back(joined("contains the geometry of its volume, which is used; the "
+                                     "given volume would place it up to ",
         mm, " mm away"));
     }
   }
@@ -261,15 +261,15 @@ void placeByVolume(
   {
     surface.notes.emplace_back(
       "is placed by a volume whose axes are not those of FreeSurfer's own volumes (left, down, "
-      "front), so the surface may be mirrored or turned. Volume must be orig.mgz or T1.mgz of the "
+      "front), so the surface may be mirrored or rotated. Volume must be orig.mgz or T1.mgz of the "
       "subject's folder, not the scan");
   }
   surface.knowsWorld = own || isGiven;
   if (!surface.knowsWorld)
   {
     surface.notes.emplace_back(
-      "does not say where its volume lies (its volume geometry is not valid): it is shown as if "
-      "the middle of the volume lay at 0, 0, 0. Set Volume to the volume it was made from, or "
+      "has no position of its volume (its volume geometry is not valid): it is shown as if the "
+      "centre of the volume were at 0, 0, 0 mm. Set Volume to the volume it was made from, or "
       "VolumeCenter to that volume's c_ras");
   }
 }

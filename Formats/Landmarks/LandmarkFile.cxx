@@ -72,7 +72,7 @@ void noteLosses(Format format, LandmarkList& list)
     [](const Landmark& point) { return !std::isnan(point.time) || !std::isnan(point.deviation); });
   if (hasNumbers && !isTable)
   {
-    list.notes.emplace_back("has no place for times and deviations, left out; .csv has");
+    list.notes.emplace_back("cannot hold times and deviations, which are left out; .csv can");
   }
   const auto changed = std::count_if(list.points.begin(), list.points.end(),
     [](const Landmark& point) { return isChangedInTags(point.label); });

@@ -36,7 +36,7 @@ int vtkLandmarkReader::RequestData(
     return 1; // the first piece has all points
   }
   LandmarkList list;
-  this->Problem = "The file needs more memory than there is"; // what holds if this throws
+  this->Problem = "The file needs more memory than is available"; // what holds if this throws
   this->Problem = problemOf([&] {
     throwIfAny(this->FileName.empty() ? "FileName is empty; it must name a file of landmarks" : "");
     list = readLandmarkFile(

@@ -147,8 +147,8 @@ void MGHVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   header.knowsSides = stored.goodRASFlag();
   if (!header.knowsSides)
   {
-    header.warnings.push_back("does not say where its voxels lie (goodRASFlag is 0); they are shown"
-                              " as coronal slices of 1 mm, and their sides are not known");
+    header.warnings.push_back("has no positions of its voxels (goodRASFlag is 0); they are shown "
+                              "as coronal slices of 1 mm, and their sides are not known");
   }
   header.times = evenTimes(
     static_cast<std::size_t>(this->Frames), this->Frames > 1 ? secondsOf(this->From, bytes) : 1.0);

@@ -137,7 +137,7 @@ void requireStored(const std::string& fileName, double bytesOfVectors)
   const bool whole = file && gzclose(file) == Z_OK && read == 0 && found >= bytesOfVectors;
   if (!whole)
   {
-    throw Problem("the disk took a part of its bytes only");
+    throw Problem("the disk stored only a part of its bytes");
   }
 }
 

@@ -29,7 +29,7 @@ VolumeGrid readGrid(VolumeFile& file, const std::string& fileName)
     withBeginning("places nothing: ", [&] { requireAffine(header.worldFromVoxel); });
     if (!header.knowsSides)
     {
-      throw Problem("does not say where its voxels lie");
+      throw Problem("has no positions of its voxels");
     }
     return VolumeGrid{ header.worldFromVoxel, header.dimensions };
   });

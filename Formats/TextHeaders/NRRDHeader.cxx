@@ -249,7 +249,7 @@ void readPlace(TextHeader& header)
   const auto space = Spaces.find(spaceText);
   if (space == Spaces.end() && !spaceText.empty())
   {
-    throw Problem("lies in the space " + spaceText +
+    throw Problem("is in the space " + spaceText +
       "; BrainShift reads right-anterior-superior, left-anterior-superior, " +
       "left-posterior-superior, scanner-xyz, 3D-right-handed and 3D-left-handed");
   }

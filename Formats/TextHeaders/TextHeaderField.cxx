@@ -46,7 +46,8 @@ void place(const TextHeader& header, Grid& grid)
       throw Problem("has an origin that is not finite, or a spacing that is 0 or not finite");
     }
   }
-  withBeginning("lies where no field can: its ", [&] { throwIfAny(problemOfGrid(grid)); });
+  withBeginning(
+    "has a position that a field cannot have: its ", [&] { throwIfAny(problemOfGrid(grid)); });
   for (int axis = 0; axis < 3; ++axis)
   {
     const double skew = glm::dot(grid.direction[axis], grid.direction[(axis + 1) % 3]);
@@ -85,7 +86,7 @@ void requireField(const TextHeader& header)
   }
   if (header.space != HeaderSpace::LPS)
   {
-    throw Problem("does not lie in the space left-posterior-superior; a field must");
+    throw Problem("is not in the space left-posterior-superior; a field must be");
   }
 }
 

@@ -211,9 +211,9 @@ glm::dmat4 findPlace(const TrackHeader& header, const std::string& volumeName, T
   if (!header.hasMatrix() && volumeName.empty())
   {
     tracts.knowsWorld = false;
-    tracts.notes.emplace_back("does not say where its volume lies (no vox_to_ras): it is shown as "
-                              "if the first voxel lay at 0, 0, 0 with axes along x, y and z. Set "
-                              "Volume to the volume it was made in");
+    tracts.notes.emplace_back(
+      "has no position of its volume (no vox_to_ras): it is shown as if the first voxel were at 0, "
+      "0, 0 mm with axes along x, y and z. Set Volume to the volume in which it was made");
     glm::dmat4 worldFromStored(1.0);
     worldFromStored[3] = glm::dvec4(
       -0.5 * glm::dvec3(header.voxelSize(0), header.voxelSize(1), header.voxelSize(2)), 1.0);

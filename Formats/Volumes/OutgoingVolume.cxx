@@ -191,8 +191,8 @@ void takeOut(vtkImageData* image, const std::string& arrayName, WorldAxes world,
   if (!volume.knowsSides)
   {
     warning += std::string(warning.empty() ? "" : ". ") +
-      "The input does not know the sides of the patient: the file is written as if its world were "
-      "RAS, and says so. Set World if you know better";
+      "The world axes of the input are unknown: the file is written as RAS, with a remark. Set "
+      "World if you know the axes";
   }
 }
 

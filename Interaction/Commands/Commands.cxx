@@ -56,7 +56,7 @@ std::vector<CommandRow> windowRows()
     byKey(Command::Undo, Scope::Window, { Qt::CTRL | Qt::Key_Z },
       QT_TRANSLATE_NOOP("BrainShift", "Undo the last edit. Each stroke is one edit.")),
     byKey(Command::Redo, Scope::Window, { Qt::CTRL | Qt::Key_Y },
-      QT_TRANSLATE_NOOP("BrainShift", "Redo the edit that was undone last.")),
+      QT_TRANSLATE_NOOP("BrainShift", "Redo the last undone edit.")),
   };
 }
 
@@ -114,18 +114,18 @@ std::vector<CommandRow> handRows()
     byKey(Command::MoveCursor, Scope::Tool,
       { Qt::Key_Left, Qt::Key_Right, Qt::Key_Up, Qt::Key_Down },
       QT_TRANSLATE_NOOP("BrainShift",
-        "Move the cursor over the view. If it is elsewhere, it comes to the middle of the view "
-        "first. The view must have the keyboard: taking a tool gives it to the active view.")),
+        "Move the cursor over the view. If the cursor is outside the view, it first moves to the "
+        "middle of the view. The view must have the keyboard focus. Taking a tool gives the focus "
+        "to the active view.")),
     byKey(Command::TakeHold, Scope::Tool, { Qt::Key_Space },
       QT_TRANSLATE_NOOP("BrainShift",
-        "Take hold of the tissue or control point under the cursor, as a mouse button does. Drag "
-        "it "
-        "with Left, Right, Up and Down. Press the key again to let go.")),
+        "Grab the tissue or control point under the cursor, as a mouse button does. Drag it with "
+        "Left, Right, Up and Down. Press the key again to let go.")),
     byKey(Command::Cancel, Scope::Tool, { Qt::Key_Escape },
-      QT_TRANSLATE_NOOP("BrainShift", "Cancel the stroke that is being made.")),
+      QT_TRANSLATE_NOOP("BrainShift", "Cancel the current stroke.")),
     byMouse(Command::SwitchVolume, Scope::Tool, { Mouse::Click, {} },
       QT_TRANSLATE_NOOP("BrainShift",
-        "Over another volume than the selected one: work on that volume. The click makes no "
+        "Over a volume that is not selected: select that volume to work on it. The click makes no "
         "stroke."),
       ""),
   };
@@ -143,8 +143,8 @@ std::vector<CommandRow> viewRows()
       ""),
     byMouse(Command::StepSlices, Scope::Slices, { Mouse::Wheel, {} },
       QT_TRANSLATE_NOOP("BrainShift",
-        "Step through the slices, one voxel per click. If the tool in hand uses the wheel, "
-        "the wheel does this only away from tissue."),
+        "Step through the slices, one voxel per click. If the tool in hand uses the wheel, this "
+        "works only away from tissue."),
       QT_TRANSLATE_NOOP("BrainShift", "next slice")),
     byKey(Command::StepSlices, Scope::Slices, { Qt::Key_PageUp, Qt::Key_PageDown },
       QT_TRANSLATE_NOOP("BrainShift", "Step through the slices, one voxel each time."),
@@ -160,10 +160,10 @@ std::vector<CommandRow> viewRows()
         "a higher level (darker). Each drag is one edit."),
       QT_TRANSLATE_NOOP("BrainShift", "window and level")),
     byMouse(Command::Zoom, Scope::Slices, { Mouse::Wheel, Qt::ControlModifier },
-      QT_TRANSLATE_NOOP("BrainShift", "Zoom. The slices of Four Views have one zoom."),
+      QT_TRANSLATE_NOOP("BrainShift", "Zoom. All slices of Four Views zoom together."),
       QT_TRANSLATE_NOOP("BrainShift", "zoom")),
     byMouse(Command::Zoom, Scope::Slices, { Mouse::RightDrag, Qt::ControlModifier },
-      QT_TRANSLATE_NOOP("BrainShift", "Zoom without steps."), ""),
+      QT_TRANSLATE_NOOP("BrainShift", "Zoom smoothly."), ""),
   };
 }
 
@@ -173,9 +173,9 @@ std::vector<CommandRow> listRows()
     byKey(Command::ToggleStrokes, Scope::List, { Qt::Key_Space },
       QT_TRANSLATE_NOOP("BrainShift", "Disable or enable the selected strokes.")),
     byKey(Command::ChooseNumber, Scope::List, { Qt::Key_Left, Qt::Key_Right },
-      QT_TRANSLATE_NOOP("BrainShift", "Choose a number of the stroke.")),
+      QT_TRANSLATE_NOOP("BrainShift", "Select the previous or the next number of the stroke.")),
     byKey(Command::EditNumber, Scope::List, { Qt::Key_Return, Qt::Key_Enter },
-      QT_TRANSLATE_NOOP("BrainShift", "Edit the chosen number.")),
+      QT_TRANSLATE_NOOP("BrainShift", "Edit the selected number.")),
     byKey(Command::DeleteStrokes, Scope::List, { Qt::Key_Delete },
       QT_TRANSLATE_NOOP("BrainShift", "Delete the selected strokes.")),
   };
@@ -348,7 +348,7 @@ QString remarkOn(Scope scope)
   switch (scope)
   {
     case Scope::Window:
-      return tr("%1 to %2 take a tool in hand. The same keys put it down.")
+      return tr("Press %1 to %2 to take a tool in hand. Press the same key again to put it down.")
         .arg(keyText(toolTable().front().key), keyText(toolTable().back().key));
     case Scope::Tool:
       return tr("Over a slice, every tool works within the slice. Away from tissue, and with the "

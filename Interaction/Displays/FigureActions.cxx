@@ -79,6 +79,6 @@ void FigureActions::save()
     quoted(bent->getSMName()) + "), " + quoted(folder) + ")\n";
   const bool saved = vtkPythonInterpreter::RunSimpleString(call.constData()) == 0;
   report(saved ? tr("BrainShift's figures are in %1").arg(folder)
-               : tr("BrainShift's figures were not saved; the output window says why"));
+               : tr("BrainShift's figures were not saved. See the output window for the reason."));
 }
 }

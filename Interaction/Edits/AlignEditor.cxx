@@ -113,7 +113,7 @@ QString AlignEditor::beginAlignment()
 {
   if (this->Source->modifiedState() == pqProxy::UNINITIALIZED)
   {
-    return tr("%1 was not applied yet. Press Apply first.").arg(this->Source->getSMName());
+    return tr("%1 has not been applied yet. Press Apply first.").arg(this->Source->getSMName());
   }
   SCOPED_UNDO_EXCLUDE();
   vtkSMProxy* compare = this->Source->getProxy();
@@ -177,7 +177,8 @@ void AlignEditor::takeStep()
   {
     if (!this->advance())
     {
-      this->cancel(tr("Align failed, see the messages. The reference is where it was before."));
+      this->cancel(
+        tr("Align failed. See the messages. The reference is back at its previous position."));
       return;
     }
     this->readFigures();
@@ -209,7 +210,7 @@ void AlignEditor::keep(State end)
   const QString refusal = this->Figures.refusal;
   if (!refusal.isEmpty())
   {
-    this->end(State::Idle, tr("%1. The reference is where it was before.").arg(refusal));
+    this->end(State::Idle, tr("%1. The reference is back at its previous position.").arg(refusal));
     return;
   }
   if (found.rotation != this->Start.rotation || found.translation != this->Start.translation)
@@ -255,7 +256,8 @@ void AlignEditor::followChange(vtkObject* proxy, const char* property)
                  : isAmong(DeformationDependencies, property) ||
         isLatticeSetting(vtkSMProxy::SafeDownCast(proxy), property))
   {
-    this->cancel(tr("%1 was changed, so Align ended. The reference is where it was before.")
+    this->cancel(
+      tr("%1 was changed, so Align ended. The reference is back at its previous position.")
         .arg(QString(property)));
   }
 }

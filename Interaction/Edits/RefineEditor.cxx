@@ -47,7 +47,7 @@ QString whyNot(pqPipelineSource* deformation, const RefineSettings& settings)
 {
   if (deformation->modifiedState() == pqProxy::UNINITIALIZED)
   {
-    return tr("%1 was not applied yet. Press Apply first.").arg(deformation->getSMName());
+    return tr("%1 has not been applied yet. Press Apply first.").arg(deformation->getSMName());
   }
   if (!settings.reference)
   {
@@ -56,7 +56,7 @@ QString whyNot(pqPipelineSource* deformation, const RefineSettings& settings)
   }
   if (settings.reference->getServer() != deformation->getServer())
   {
-    return tr("%1 is on another server than %2.")
+    return tr("%1 and %2 are on different servers.")
       .arg(settings.reference->getSMName(), deformation->getSMName());
   }
   return {};
@@ -321,7 +321,7 @@ void RefineEditor::takeStep()
   }
   if (!this->advance())
   {
-    this->cancel(tr("The refinement failed, see the messages. Nothing was changed."));
+    this->cancel(tr("The refinement failed. See the messages. Nothing was changed."));
     return;
   }
   this->readFigures();

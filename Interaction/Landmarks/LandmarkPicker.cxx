@@ -259,11 +259,11 @@ void LandmarkPicker::request(const QString& before)
   const std::size_t number = LandmarkList::of(this->Deformation)->rows().size() + 1;
   const QString name = this->Deformation->getSMName();
   const QString words = !this->Picked
-    ? tr("Landmark %1: click it in the bent volume %2. Escape stops.").arg(number).arg(name)
+    ? tr("Landmark %1: click it in the bent volume %2. Press Escape to stop.").arg(number).arg(name)
     : isReferenceShown(this->Deformation)
-    ? tr("Landmark %1: click the same position in the reference. Escape stops.").arg(number)
-    : tr("Landmark %1: no reference is shown. Click the position where this landmark was measured. "
-         "Escape stops.")
+    ? tr("Landmark %1: click the same position in the reference. Press Escape to stop.").arg(number)
+    : tr("Landmark %1: no reference is shown. Click the measured position of this landmark. Press "
+         "Escape to stop.")
         .arg(number);
   ToolSettings::instance()->setRequest(before + words);
 }

@@ -245,7 +245,7 @@ QString Pointer::touch()
   }
   if (tips.size() < LeastTouches || !this->State.visible)
   {
-    return tr("The tool was not seen for half a second.");
+    return tr("The tool was not visible for half a second.");
   }
   mean /= static_cast<double>(tips.size());
   for (const glm::dvec3& tip : tips)

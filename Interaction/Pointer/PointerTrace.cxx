@@ -94,7 +94,7 @@ QString PointerTrace::begin(pqPipelineSource* deformation, double threshold)
   const vtkSmartPointer<vtkSMProxy> source = this->traces();
   if (source && std::strcmp(source->GetXMLName(), "PolyPointSource") != 0)
   {
-    return tr("The Traces of the fit come from %1. Set Traces to None first.")
+    return tr("The fit takes its Traces from %1. Set Traces to None first.")
       .arg(source->GetXMLLabel());
   }
   this->HadFit = editor->fit();

@@ -147,7 +147,7 @@ bool TipDistance::hasSurface(vtkSMProxy* from, double threshold)
     (byLabel ? level >= range[0] && level <= range[1] : level > range[0] && level <= range[1]);
   this->Problem = holds ? QString()
     : range             ? QCoreApplication::translate(
-                "BrainShift", "No cortex: its level is %1, and the values go from %2 to %3.")
+                "BrainShift", "No cortex: its level is %1, but the values range from %2 to %3.")
                 .arg(level)
                 .arg(range[0])
                 .arg(range[1])

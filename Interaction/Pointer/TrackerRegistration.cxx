@@ -73,13 +73,13 @@ void TrackerRegistration::solve()
   {
     this->Problem = this->Pairs.empty()
       ? QString()
-      : tr("It needs %1 pairs; there are %2.").arg(LeastPairs).arg(tracker.size());
+      : tr("The registration needs %1 pairs; %2 are given.").arg(LeastPairs).arg(tracker.size());
     return;
   }
   if (std::min(spreadAroundLine(tracker, weights), spreadAroundLine(image, weights)) <
     LeastSpreadMm)
   {
-    this->Problem = tr("The points are on one line. Touch one that is beside it.");
+    this->Problem = tr("The points are on one line. Touch a point that is not on this line.");
     return;
   }
   const glm::dmat3 rotation = nearestRotation(tracker, image, weights);

@@ -245,8 +245,8 @@ ToolRow moveTool()
         "BrainShift", "Select one more control point, or deselect a selected control point.")),
   };
   row.lesson = Lesson{ "Pull one control point",
-    "Press <b>Take Move</b>. Move the mouse over the cortex. Press on a control point, a small "
-    "ball, and drag it. Only the tissue around this point goes along.",
+    "Press <b>Take Move</b>. Move the mouse over the cortex. Press on a control point (a small "
+    "ball) and drag it. Only the tissue around this point follows.",
     "Take Move" };
   row.make = make<MoveTool>;
   return row;

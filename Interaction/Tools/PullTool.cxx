@@ -309,14 +309,14 @@ ToolRow pullTool()
   row.tool = Tool::Pull;
   row.key = Qt::ALT | Qt::Key_4;
   row.what = QT_TRANSLATE_NOOP("BrainShift",
-    "Drag tissue to where it belongs, and pin tissue that stays. All pulls, pins and measurements "
-    "deform the volume together.");
+    "Drag tissue to its new position, and pin tissue that must not move. All pulls, pins and "
+    "measurements are solved together.");
   row.page = "tools/pull.md";
   row.gestures = {
     byMouse(Command::DragTissue, Mouse::Drag, {},
       QT_TRANSLATE_NOOP("BrainShift",
-        "Pull the tissue under the cursor to where it belongs. Neighbours follow as tissue does. "
-        "If the tissue already has a pull, dragging moves that pull."),
+        "Drag the tissue under the cursor to its new position. Neighbouring tissue follows "
+        "smoothly. If the tissue already has a pull, dragging moves that pull."),
       QT_TRANSLATE_NOOP("BrainShift", "pull the tissue")),
     byMouse(Command::Select, Mouse::Click, Qt::ShiftModifier,
       QT_TRANSLATE_NOOP("BrainShift",

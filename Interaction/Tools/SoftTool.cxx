@@ -117,8 +117,8 @@ ToolRow softTool()
   row.gestures = {
     byMouse(Command::DragTissue, Mouse::Drag, {},
       QT_TRANSLATE_NOOP("BrainShift",
-        "Move the tissue under the cursor. Tissue within the radius follows, less and less towards "
-        "the edge."),
+        "Move the tissue under the cursor. Tissue within the radius follows, less towards the "
+        "edge."),
       QT_TRANSLATE_NOOP("BrainShift", "move the tissue within %1")),
     byMouse(Command::ChangeRadius, Mouse::Wheel, Qt::ShiftModifier,
       QT_TRANSLATE_NOOP("BrainShift", "Change the radius."),
@@ -127,8 +127,8 @@ ToolRow softTool()
   row.gestures.front().number = &ToolSettings::radius;
   row.numbers = { &ToolSettings::radius, &ToolSettings::sigma };
   row.lesson = Lesson{ "Drag softly",
-    "Press <b>Take Soft</b>. Press on the cortex and drag: tissue near the mouse goes along, less "
-    "and less with the distance.",
+    "Press <b>Take Soft</b>. Press on the cortex and drag. Tissue near the mouse follows, less "
+    "with distance.",
     "Take Soft" };
   row.make = make<SoftTool>;
   return row;

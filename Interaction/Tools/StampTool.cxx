@@ -276,9 +276,9 @@ ToolRow stampTool()
       QT_TRANSLATE_NOOP("BrainShift", "pull or push the tissue by %1 per click")),
     byMouse(Command::DragTissue, Mouse::Drag, {},
       QT_TRANSLATE_NOOP("BrainShift",
-        "Pull or push without steps. Drag along the blue line. Where the line points at you, drag "
-        "up or down."),
-      QT_TRANSLATE_NOOP("BrainShift", "pull or push without steps")),
+        "Pull or push smoothly. Drag along the blue line. Where the line points at you, drag up or "
+        "down."),
+      QT_TRANSLATE_NOOP("BrainShift", "pull or push smoothly")),
     byMouse(Command::ChangeRadius, Mouse::Wheel, Qt::ShiftModifier,
       QT_TRANSLATE_NOOP("BrainShift", "Change the radius along the push."),
       QT_TRANSLATE_NOOP("BrainShift", "change the radius along the push")),
@@ -295,7 +295,7 @@ ToolRow stampTool()
     &ToolSettings::millimetresPerClick };
   row.lesson = Lesson{ "Push with the stamp",
     "Press <b>Take the stamp</b>. Move the mouse over the cortex until you see the ellipse. Turn "
-    "the wheel: the tissue goes in or comes out. Shift and wheel change the radius.",
+    "the wheel: the tissue moves in or out. Hold Shift and turn the wheel to change the radius.",
     "Take the stamp" };
   row.make = make<StampTool>;
   return row;

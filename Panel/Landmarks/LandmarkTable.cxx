@@ -32,8 +32,8 @@ LandmarkModel::LandmarkModel(LandmarkList* list, QObject* parent)
   : ListModel(
       {
         { tr("Landmark"),
-          tr("Number, and name if the file has one. The check mark includes the pair in the "
-             "fit."),
+          tr("Number of the pair, and its name if the file has one. The check mark includes the "
+             "pair in the fit."),
           true },
         { tr("Residual"),
           tr("Distance from the measured position to the position after the fit (mm)") },
@@ -115,9 +115,9 @@ QString LandmarkModel::toolTip(int row, int column) const
     return tr("Switched off. Its distance from the fit of the other pairs is %1 mm.")
       .arg(millimetres(landmark.leftOut));
   }
-  return tr("At rest %1 mm, measured %2 mm. %3")
+  return tr("Rest position %1 mm, measured position %2 mm. %3")
     .arg(positionText(landmark.rest, 1), positionText(landmark.measured, 1),
-      landmark.isPicked() ? tr("Picked in the window.") : tr("From a file."));
+      landmark.isPicked() ? tr("It was picked in the window.") : tr("It comes from a file."));
 }
 
 namespace
@@ -138,11 +138,12 @@ LandmarkTable::LandmarkTable(LandmarkList* list, QWidget* parent)
   , Figures(new QLabel(this))
   , Pick(makeListButton(this, "BrainShiftPickPairs", tr("Pick Pairs"),
       tr("Pick pairs of landmarks: click a position in the deformed volume, then the same position "
-         "in the reference. Drags and the wheel work as usual. Press again, or Escape, to stop.")))
+         "in the reference. Drags and the wheel work as usual. Press the button again or Escape to "
+         "stop.")))
   , GoTo(makeListButton(this, "BrainShiftGoTo", tr("Go To"),
       tr("Bring the slices of all views to the selected landmark (double-click)")))
   , Delete(makeListButton(this, "BrainShiftLandmarkDelete", tr("Delete"),
-      tr("Delete the selected picked pairs (Delete key). Pairs of a file remain. Clear their "
+      tr("Delete the selected picked pairs (Delete key). Pairs from a file remain. Clear their "
          "check marks to switch them off.")))
   , Marks(new QCheckBox(tr("Marks"), this))
 {

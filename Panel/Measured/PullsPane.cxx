@@ -35,7 +35,8 @@ PullModel::PullModel(Write write, QObject* parent)
           tr("Distance from the target to the position after the fit (mm). All pulls and pins are "
              "solved together.") },
         { tr("Weight"),
-          tr("Confidence in the pull. 1 is usual. With 4 the fit follows it twice as closely.") },
+          tr("Confidence in the pull. The default is 1. A weight of 4 halves the standard "
+             "deviation of the pull.") },
         { tr("Position"), tr("Position of the tissue in the scan: x, y, z (mm, world axes)"),
           true },
       },

@@ -60,13 +60,13 @@ QString describe(const Reach& reach)
   const double half = halfDistance(reach);
   if (!reach.hasAxis)
   {
-    return tr("Tissue moves within %1 of the cursor. Tissue at the centre moves fully, tissue at "
-              "%2 half as far (dashed), tissue at the edge not at all.")
+    return tr("Tissue within %1 of the cursor moves. At the centre it moves fully, at %2 half as "
+              "far (dashed), at the edge not at all.")
       .arg(millimetres(reach.along), millimetres(half * reach.along));
   }
-  return tr("Tissue moves within %1 of the cursor along the push and %2 across it. Tissue at the "
-            "centre moves fully, tissue at %3 along and %4 across half as far (dashed), tissue at "
-            "the edge not at all.")
+  return tr(
+    "Tissue within %1 of the cursor along the push and %2 across it moves. At the centre it moves "
+    "fully, at %3 along and %4 across half as far (dashed), at the edge not at all.")
     .arg(millimetres(reach.along), millimetres(reach.across), millimetres(half * reach.along),
       millimetres(half * reach.across));
 }

@@ -80,7 +80,7 @@ QString runningText(const Pointer& pointer)
   const auto age = pointer.age();
   if (!age)
   {
-    return tr("Connected. No pose has come yet.");
+    return tr("Connected. No pose has been received yet.");
   }
   const QString device = QString::fromStdString(state.device);
   if (!state.visible)
@@ -89,7 +89,7 @@ QString runningText(const Pointer& pointer)
   }
   if (isOld(pointer))
   {
-    return tr("No news of %1. Last pose %2 s ago.").arg(device).arg(*age, 0, 'f', 1);
+    return tr("No data from %1. Last pose %2 s ago.").arg(device).arg(*age, 0, 'f', 1);
   }
   return tr("%1: %2 Hz, %3 s old").arg(device).arg(state.rate, 0, 'f', 0).arg(*age, 0, 'f', 2);
 }
@@ -238,7 +238,7 @@ void PointerDock::addConnection(QVBoxLayout* layout)
   this->Host = new QLineEdit(settings()->value("BrainShift/Pointer/Host", "127.0.0.1").toString());
   this->Host->setObjectName("BrainShiftPointerHost");
   this->addLine(form, tr("Host"), this->Host,
-    tr("Name or number of the computer that runs the server, such as PLUS or 3D Slicer. "
+    tr("Name or IP address of the computer that runs the server, such as PLUS or 3D Slicer. "
        "127.0.0.1 is this computer."));
   this->Port = new QSpinBox;
   this->Port->setObjectName("BrainShiftPointerPort");
@@ -249,8 +249,9 @@ void PointerDock::addConnection(QVBoxLayout* layout)
   this->Device->setObjectName("BrainShiftPointerDevice");
   this->Device->setPlaceholderText("StylusToReference");
   this->addLine(form, tr("Device"), this->Device,
-    tr("Name under which the server sends the tip. If it is empty: StylusToReference, else "
-       "StylusTipToReference, else the first device that the server names."));
+    tr("Name under which the server sends the tip. If the field is empty, BrainShift takes "
+       "StylusToReference, else StylusTipToReference, else the first device that the server "
+       "names."));
   this->Reconnect = new QCheckBox(tr("Connect again when the connection ends"));
   this->Reconnect->setObjectName("BrainShiftPointerReconnect");
   form->addRow(this->Reconnect);
@@ -295,8 +296,8 @@ void PointerDock::addTip(QVBoxLayout* layout)
   this->Record->setCheckable(true);
   this->Record->setText(tr("Record Trace (hold %1)").arg(keysText(rowOf(Command::RecordTrace))));
   this->Record->setToolTip(
-    tr("Record the path of the tip on the cortex. The brain deforms to fit the trace at once. The "
-       "key, or a foot switch that sends it, records while it is held."));
+    tr("Record the path of the tip on the cortex. The brain deforms at once to fit the trace. You "
+       "can also hold the key, or a foot switch that sends it."));
   this->connect(this->Record, &QPushButton::clicked, this,
     [this](bool on) { this->report(Pointer::instance()->record(on)); });
   group->addWidget(this->Record);
@@ -310,12 +311,13 @@ void PointerDock::addSession(QVBoxLayout* layout)
   layout->addLayout(row);
   this->Save = new QPushButton(tr("Save Session..."));
   this->Save->setObjectName("BrainShiftPointerSave");
-  this->Save->setToolTip(tr("Save all poses since the pointer was connected, with their times."));
+  this->Save->setToolTip(
+    tr("Save all poses received since the pointer was connected, with their times (s)."));
   this->connect(this->Save, &QPushButton::clicked, this, &PointerDock::save);
   row->addWidget(this->Save);
   this->Play = new QPushButton(tr("Replay..."));
   this->Play->setObjectName("BrainShiftPointerReplay");
-  this->Play->setToolTip(tr("Play a saved session as if its pointer moved again."));
+  this->Play->setToolTip(tr("Replay a saved session as if the pointer moved again."));
   this->connect(this->Play, &QPushButton::clicked, this, &PointerDock::replay);
   row->addWidget(this->Play);
   this->Problem = wrapped("BrainShiftPointerProblem");

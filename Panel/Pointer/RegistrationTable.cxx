@@ -89,26 +89,25 @@ RegistrationTable::RegistrationTable(QWidget* parent)
   this->State->setObjectName("BrainShiftPointerRegistration");
   this->State->setWordWrap(true);
   this->Table->setObjectName("BrainShiftPointerPairs");
-  this->Table->setHorizontalHeaderLabels({ tr("Touched"), tr("In the image"), tr("Off by") });
+  this->Table->setHorizontalHeaderLabels({ tr("Touched"), tr("In the image"), tr("Residual") });
   this->Table->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
   this->Table->horizontalHeader()->setSectionResizeMode(
     ResidualColumn, QHeaderView::ResizeToContents);
   this->Table->setSelectionBehavior(QAbstractItemView::SelectRows);
   this->Table->setSelectionMode(QAbstractItemView::SingleSelection);
   this->Table->setToolTip(
-    tr("Landmarks: position of the touch (mm, tracker), position in the image (mm, world axes; "
+    tr("Landmarks: touched position (mm, tracker), position in the image (mm, world axes; "
        "double-click to type it), and residual after the registration (mm)."));
   constexpr int rows = 4;
   this->Table->setFixedHeight(
     (rows + 1) * this->Table->verticalHeader()->defaultSectionSize() + rows);
   this->Touch->setObjectName("BrainShiftPointerTouch");
-  this->Touch->setToolTip(
-    tr("Hold the tip still on a landmark for half a second, then press. At least 3 landmarks that "
-       "are not on one line are needed."));
+  this->Touch->setToolTip(tr("Hold the tip still on a landmark for half a second, then press. The "
+                             "registration needs at least 3 landmarks that are not on one line."));
   this->Mark->setObjectName("BrainShiftPointerMark");
   this->Mark->setCheckable(true);
-  this->Mark->setToolTip(
-    tr("Then click on the landmark in a view. It is the partner of the selected point."));
+  this->Mark->setToolTip(tr("Press this button, then click on the landmark in a view. The position "
+                            "becomes the partner of the selected point."));
   this->Remove->setObjectName("BrainShiftPointerRemove");
   auto layout = new QGridLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -189,7 +188,7 @@ bool RegistrationTable::eventFilter(QObject* watched, QEvent* event)
   {
     Pointer::instance()->registration().mark(this->row(), tissue->deformed);
   }
-  Q_EMIT this->problem(tissue ? QString() : tr("There is no tissue under the click."));
+  Q_EMIT this->problem(tissue ? QString() : tr("There is no tissue at that position."));
   this->Mark->setChecked(false);
   this->showState();
   return true;
@@ -204,7 +203,7 @@ void RegistrationTable::takeTyped(QTableWidgetItem* item)
     {
       Pointer::instance()->registration().mark(item->row(), *point);
     }
-    Q_EMIT this->problem(point ? QString() : tr("A point is three numbers (mm)."));
+    Q_EMIT this->problem(point ? QString() : tr("Type three numbers (mm)."));
     this->Shown.clear();
     this->showState();
   }
@@ -239,12 +238,12 @@ void RegistrationTable::showState()
   const Pointer* pointer = Pointer::instance();
   const TrackerRegistration& registration = Pointer::instance()->registration();
   this->fill();
-  QString state = tr("Not registered: positions of the tracker are taken as those of the image.");
+  QString state = tr("Not registered: tracker positions are used as image positions.");
   if (registration.isRegistered())
   {
     state = std::isfinite(registration.error())
       ? tr("Registered, RMS %1 mm").arg(registration.error(), 0, 'f', 2)
-      : tr("Registered as the session was");
+      : tr("Registered as in the saved session");
   }
   if (!registration.problem().isEmpty())
   {

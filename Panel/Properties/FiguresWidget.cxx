@@ -126,7 +126,7 @@ void FiguresWidget::addCurve(vtkSMProperty* property)
   this->Missing->setObjectName("BrainShiftMeasureStrokes");
   this->Missing->setToolTip(
     tr("Apply the strokes one after the other. Measure after each stroke that has no point on the "
-       "curve, for example a stroke of a state file. The list of strokes does not change."));
+       "curve, for example a stroke from a state file. The list of strokes does not change."));
   auto form = static_cast<QFormLayout*>(this->layout());
   form->addRow(this->Plot);
   form->addRow(this->Missing);

@@ -33,7 +33,7 @@ constexpr int PictureSize = 40; // pixels
 
 LooksWidget::LooksWidget(vtkSMProxy* proxy, vtkSMProperty*, QWidget* parent)
   : pqPropertyWidget(proxy, parent)
-  , Without(new QLabel(tr("This volume has no looks."), this))
+  , Without(new QLabel(tr("This volume has no presets."), this))
 {
   auto grid = new QGridLayout(this);
   grid->setContentsMargins(0, 0, 0, 0);

@@ -47,7 +47,7 @@ PointWidget::PointWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* pa
   auto centre = new QToolButton(this);
   centre->setObjectName("Centre");
   centre->setIcon(QIcon(":/pqWidgets/Icons/pqReset.svg"));
-  centre->setToolTip(tr("Take the centre of the volume. This acts at once."));
+  centre->setToolTip(tr("Set the point to the centre of the volume. The change applies at once."));
   centre->setAccessibleName(tr("Centre of the volume"));
   row->addWidget(centre);
   this->connect(

@@ -24,7 +24,7 @@ QString figure(double value, int digits = 2)
 QString moved(const AlignFigures& figures)
 {
   return AlignPane::tr(
-    "The reference moved by %1 mm and %2 degrees. %3 % of the volume is inside it.")
+    "The reference moved by %1 mm and %2 degrees. %3 % of the volume is inside the reference.")
     .arg(figure(figures.shift, 2), figure(figures.rotation, 2), figure(100.0 * figures.overlap, 0));
 }
 
@@ -38,7 +38,7 @@ QString alignProgress(const AlignFigures& figures)
 QString alignResult(const QString& ended, const AlignFigures& figures)
 {
   return AlignPane::tr(
-           "%1 after %2 steps. Mutual information: %3 nats before, %4 now (more is better). ")
+           "%1 after %2 steps. Mutual information: %3 nats before, %4 now (higher is better). ")
            .arg(ended, QString::number(figures.lines), figure(figures.informationBefore, 3),
              figure(figures.information, 3)) +
     moved(figures);
@@ -49,12 +49,12 @@ AlignPane::AlignPane(pqPipelineSource* compare, QWidget* parent)
   : QWidget(parent)
   , Editor(AlignEditor::of(compare))
   , Align(makeButton("BrainShiftAlign", tr("Align"),
-      tr("Register the reference rigidly, from its present position: maximise its mutual "
-         "information with the volume. Both are compared as they are drawn; the cavity does not "
-         "count.")))
+      tr("Register the reference rigidly, from its current position. Align maximises its mutual "
+         "information with the volume. Both are compared as they are drawn; the cavity is "
+         "ignored.")))
   , Stop(makeButton("BrainShiftAlignStop", tr("Stop"),
-      tr("Keep the present position of the reference, as one step to undo. Escape restores its "
-         "position before Align.")))
+      tr("Stop Align and keep the current position of the reference, as one undo step. Escape "
+         "restores the position before Align.")))
   , Progress(new QProgressBar)
   , Report(makeText("BrainShiftAlignSaid"))
   , Warning(makeText("BrainShiftAlignWarning"))

@@ -145,7 +145,7 @@ QString refineResult(const QString& ended, const RefineFigures& figures)
                .arg(figure(*figures.smallestDeterminant));
   }
   lines += figures.stepFraction < 1.0
-    ? RefinePane::tr("The guard against folding shortened steps, one of them to %1 %.")
+    ? RefinePane::tr("The guard against folding shortened steps, the shortest to %1 %.")
         .arg(percent(figures.stepFraction))
     : RefinePane::tr("The guard against folding shortened no step.");
   lines +=
@@ -208,11 +208,11 @@ void RefinePane::addChoices(QVBoxLayout* column)
   this->Reference = makeList(tr("Reference"));
   form->addRow(tr("Reference"),
     wrapped(this->Reference, "BrainShiftRefineReference",
-      tr("The volume to match. A Compare Volumes of this deformation gives its reference, in its "
-         "present position, and its cavity.")));
+      tr("The volume to match. A Compare Volumes of this deformation provides its reference, in "
+         "its current position, and its cavity.")));
   this->Cavity = makeList(tr("Cavity"));
   this->CavityRow = wrapped(this->Cavity, "BrainShiftRefineCavity",
-    tr("A mask of tissue that the reference lacks. Tissue inside it does not count."));
+    tr("A mask of tissue that the reference lacks. Tissue inside it is ignored."));
   form->addRow(tr("Cavity"), this->CavityRow);
   this->Similarity = makeList(tr("Similarity"));
   QStringList tips;
@@ -241,13 +241,14 @@ void RefinePane::addChoices(QVBoxLayout* column)
 void RefinePane::addButtons(QVBoxLayout* column)
 {
   this->Refine = makeButton("BrainShiftRefine", tr("Refine"),
-    tr("Refine the deformation step by step, from its present state. The result replaces strokes "
+    tr("Refine the deformation step by step, from its current state. The result replaces strokes "
        "and lattice; Ctrl+Z restores them."));
-  this->Pause = makeButton("BrainShiftRefinePause", tr("Go On"), tr("Stop stepping for now."));
+  this->Pause = makeButton("BrainShiftRefinePause", tr("Resume"), tr("Pause the refinement."));
   this->Pause->setMinimumWidth(this->Pause->sizeHint().width()); // of the longer text
   this->Pause->setText(tr("Pause"));
   this->Stop = makeButton("BrainShiftRefineStop", tr("Stop"),
-    tr("Keep the result so far, as one step to undo. Escape restores everything instead."));
+    tr("Stop the refinement and keep the result so far, as one undo step. Escape restores the "
+       "state before the refinement instead."));
   auto row = new QHBoxLayout;
   for (QToolButton* button : { this->Refine, this->Pause, this->Stop })
   {
@@ -364,8 +365,8 @@ void RefinePane::refresh()
   this->CavityRow->setEnabled(!isComparison(this->chosen(this->Reference)));
   this->Refine->setEnabled(!active);
   this->Pause->setEnabled(active);
-  this->Pause->setText(paused ? tr("Go On") : tr("Pause"));
-  this->Pause->setToolTip(paused ? tr("Continue stepping.") : tr("Stop stepping for now."));
+  this->Pause->setText(paused ? tr("Resume") : tr("Pause"));
+  this->Pause->setToolTip(paused ? tr("Continue the refinement.") : tr("Pause the refinement."));
   this->Stop->setEnabled(active);
   this->Progress->setVisible(active);
   this->Progress->setValue(static_cast<int>(WholeProgress * this->Editor->figures().done));

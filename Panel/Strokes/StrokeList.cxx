@@ -89,7 +89,8 @@ StrokeModel::StrokeModel(vtkSMDoubleVectorProperty* strokes, Write write, QObjec
       {
         { tr("Stroke"), tr("Number and tool. The check mark enables the stroke."), true },
         { tr("Amount"),
-          tr("The displacement at the centre (mm). A Stamp pulls above 0 and pushes below 0.") },
+          tr("The displacement at the centre (mm). A positive Stamp pulls, a negative Stamp "
+             "pushes.") },
         { tr("Reached"),
           tr("Achieved displacement of the tissue at the centre (mm), at full Strength") },
         { tr("Along"), tr("Stamp: the radius along the push (mm). Soft: the radius (mm).") },

@@ -149,7 +149,7 @@ void LookMenu::offer()
   {
     this
       ->addAction(
-        display ? tr("This volume has no looks") : tr("The view shows no Deformed Volume"))
+        display ? tr("This volume has no presets") : tr("The view shows no Deformed Volume"))
       ->setEnabled(false);
   }
 }

@@ -100,8 +100,7 @@ QString mouseHint(const ToolSettings& settings, ToolSettings::Ground ground)
   if (tool != Tool::None && !settings.shownInstead().isEmpty())
   {
     return tr(
-      "%1. This view shows %2, not the volume that is selected. Click in the view to work on "
-      "%2.")
+      "%1. This view shows %2, which is not the selected volume. Click in the view to work on %2.")
       .arg(nameOf(tool), settings.shownInstead());
   }
   if (tool != Tool::None)
@@ -189,9 +188,8 @@ const QList<ToolPanel::Value>& ToolPanel::values()
       QT_TR_NOOP("Tissue within this distance of the cursor moves, less towards the edge."),
       &ToolSettings::radius, &ToolSettings::radiusRange, &ToolSettings::setRadius },
     { "BrainShiftMajorRadius", QT_TR_NOOP("Radius along (mm)"), 1,
-      QT_TR_NOOP(
-        "Distance from the centre of the stamp to its edge along the push (the major radius). The "
-        "push leads to the point of interest."),
+      QT_TR_NOOP("Distance from the centre of the stamp to its edge along the push (the major "
+                 "radius). The push points to the point of interest."),
       &ToolSettings::majorRadius, &ToolSettings::radiusRange, &ToolSettings::setMajorRadius },
     { "BrainShiftMinorRadius", QT_TR_NOOP("Radius across (mm)"), 1,
       QT_TR_NOOP(

@@ -70,11 +70,11 @@ namespace
 // The uncertainty of a position. The limit is that of the pictures.
 QString uncertaintyText(double deviation)
 {
-  constexpr double unknownMm = 4.0; // from here on pictures show no evidence
+  constexpr double unknownMm = 4.0; // from here on pictures show the position as unknown
   return deviation < unknownMm ? CursorLine::tr("uncertainty: \u00b1 %1 mm (95 %: %2 mm)")
                                    .arg(deviation, 0, 'f', 1)
                                    .arg(DeviationsOfBall95 * deviation, 0, 'f', 1)
-                               : CursorLine::tr("no evidence");
+                               : CursorLine::tr("uncertainty: %1 mm or more").arg(unknownMm);
 }
 }
 
@@ -120,11 +120,11 @@ CursorLine::CursorLine(QWidget* parent)
   this->setObjectName("BrainShiftCursor");
   this->setContentsMargins(6, 0, 6, 0);
   this->setTextFormat(Qt::PlainText); // names come from files
-  this->setToolTip(tr(
-    "The tissue under the cursor: position (mm), position before the deformation, value and label "
-    "of the nearest voxel, displacement, volume now (100 %: unchanged), and uncertainty of the "
-    "position: one standard deviation along an axis, and the radius of the ball that contains it "
-    "with 95 % probability."));
+  this->setToolTip(
+    tr("The tissue under the cursor: position (mm), position before the deformation (mm), value "
+       "and label of the nearest voxel, displacement (mm), current volume (100 %: unchanged), and "
+       "uncertainty of the position (mm). The uncertainty is one standard deviation along an axis, "
+       "and the radius of the ball that contains the tissue with 95 % probability."));
   this->Asking.setSingleShot(true);
   this->Asking.setInterval(AskEachMs);
   this->connect(&this->Asking, &QTimer::timeout, this, &CursorLine::ask);

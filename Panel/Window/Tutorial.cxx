@@ -85,10 +85,10 @@ std::vector<Page> makePages()
       "Press <b>Open the sample</b>. For a volume of your own, choose File &gt; Open, press Apply, "
       "then choose Filters &gt; BrainShift &gt; Free-Form Deformation and press Apply.",
       "Open the sample" },
-    { Task::Look, "Choose a look",
-      "Press the button <b>Look</b> in the toolbar, the small head, and choose <b>Brain</b>. You "
-      "see the cortex without skin and skull. Without a segmentation, choose another look. Drag in "
-      "the view to turn it." },
+    { Task::Look, "Choose a preset",
+      "Press the button <b>Look</b> (the small head) in the toolbar and choose <b>Brain</b>. You "
+      "see the cortex without skin and skull. Without a segmentation, choose another preset. Drag "
+      "in the view to turn it." },
   };
   // The last tools first: the stamp is the easiest.
   for (auto row = toolTable().rbegin(); row != toolTable().rend(); ++row)
@@ -99,8 +99,8 @@ std::vector<Page> makePages()
     }
   }
   pages.push_back({ Task::Compare, "Compare",
-    "Hold down the button <b>Before/After</b> in the toolbar: you see the volume as it was loaded. "
-    "Over a view, the key O does this, too." });
+    "Hold down the button <b>Before/After</b> in the toolbar to see the volume as loaded. Over a "
+    "view, the key O does this, too." });
   pages.push_back({ Task::Save, "Save",
     "Choose <b>File &gt; Save State</b>. The state file holds every stroke. Load it later to "
     "continue. Ctrl+Z undoes strokes one by one." });

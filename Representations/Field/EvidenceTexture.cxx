@@ -18,9 +18,9 @@ namespace
 constexpr float UnknownMm = 1e4f;
 
 constexpr const char* NoEvidence =
-  "Show Evidence is on, but the volume carries no evidence: its Lattice must be a Fit Deformation "
-  "that has Evidence on and the same LatticeDimensions, Kernel, Samples and mask. Nothing is "
-  "marked";
+  "Show Evidence is on, but the volume carries no uncertainty: its Lattice must be a Fit "
+  "Deformation that has Evidence on and the same LatticeDimensions, Kernel, Samples and mask. "
+  "Nothing is marked";
 }
 
 bool EvidenceTexture::update(GpuTask& gpu, const SceneDeformation& deformation,
@@ -50,7 +50,7 @@ bool EvidenceTexture::update(GpuTask& gpu, const SceneDeformation& deformation,
     if (!this->Texture->Create3DFromRaw(side.x, side.y, side.z, 1, VTK_FLOAT, finite.data()))
     {
       this->Texture = nullptr;
-      return gpu.fail("The GPU refused a 3D texture for the evidence");
+      return gpu.fail("The GPU refused a 3D texture for the uncertainty");
     }
     gpu.counters.evidenceUploads += 1;
     gpu.counters.bytesUploaded += static_cast<std::int64_t>(finite.size() * sizeof(float));

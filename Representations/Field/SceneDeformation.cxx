@@ -155,8 +155,9 @@ void DeviceDeformation::correct(
   else if (this->Field.fine().leftOut())
   {
     std::ostringstream remark;
-    remark << "The deformation bends so much that parts of it are drawn off by more than "
-           << accuracy.allowedMm << " mm. More Samples make the picture more exact";
+    remark
+      << "The deformation varies so strongly that parts of it are drawn with errors of more than "
+      << accuracy.allowedMm << " mm. Increase Samples for a more exact picture";
     gpu.remarks.push_back(remark.str());
   }
 }

@@ -232,7 +232,7 @@ std::string tableProblem(
 {
   return blendOf(mapper, property) != Blend::Composite ? "it needs blend mode Composite"
     : drawnComponents(property, scalars).coloring != Coloring::Mapped
-    ? "the array brings colours along"
+    ? "the array contains its own colours"
     : !property->GetTransferFunction2D() ? "the volume has no 2D transfer function"
                                          : "";
 }

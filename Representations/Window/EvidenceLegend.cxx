@@ -33,7 +33,7 @@ std::array<std::string, 5> wordsOf(EvidenceLegend::Shown shown)
 {
   if (shown == EvidenceLegend::Shown::Nothing)
   {
-    return { "This volume carries no evidence", "Its lattice must be a fit with Evidence on" };
+    return { "This volume carries no uncertainty", "Its lattice must be a fit with Evidence on" };
   }
   const std::string first = millimetres(EvidenceLimits.x);
   const std::string second = millimetres(EvidenceLimits.y);

@@ -91,8 +91,8 @@ TEST(FittedFor, NamesEachSettingWithBothValues)
   smooth.kernel = KernelBSpline;
   EXPECT_EQ(wordsOnFittedFor(fittedFor(still()), smooth, 3),
     "The base lattice was fitted for Kernel Catmull-Rom, Samples 1. This deformation has Kernel "
-    "B-Spline, Samples 3. The figures of the fit do not hold here: give Fit Deformation the same "
-    "settings and Input");
+    "B-Spline, Samples 3. The figures of the fit are not valid for it. Give Fit Deformation the "
+    "same settings and Input");
   Lattice finer = still();
   finer.grid = withDimensions(finer.grid, glm::ivec3(7, 5, 6));
   const std::string words = wordsOnFittedFor(fittedFor(still()), finer, Samples);

@@ -48,7 +48,7 @@ TEST_F(BentAlready, TheFirstDeformationStaysAndAnErrorSaysSo)
   const Deformation kept = deformationOf(this->output());
   EXPECT_EQ(kept.lattice.displacements, deformationOf(this->bent()).lattice.displacements);
   const std::string error = this->Heard.take();
-  for (const char* word : { "carries a deformation already", "Bake Deformation" })
+  for (const char* word : { "already carries a deformation", "Bake Deformation" })
   {
     EXPECT_NE(error.find(word), std::string::npos) << '"' << error << "\" lacks " << word;
   }

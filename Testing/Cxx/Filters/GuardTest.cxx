@@ -73,7 +73,7 @@ TEST(Guard, TurnsExceptionsIntoErrors)
   says(errorsOf(filter, [] { throw std::length_error("vector"); }),
     "Thrower needs more memory than any machine has.");
   says(errorsOf(filter, throwOutOfRange), "Thrower failed: there is no such place.");
-  says(errorsOf(filter, [] { throw 7; }), "Thrower failed for a reason it does not know.");
+  says(errorsOf(filter, [] { throw 7; }), "Thrower failed for an unknown reason.");
   EXPECT_EQ(errorsOf(filter, [] {}), "");
   EXPECT_TRUE(filter->Done);
 }

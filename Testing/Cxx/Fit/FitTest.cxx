@@ -293,18 +293,17 @@ TEST(Fit, WhatIsNoNumberIsOneSentence)
   };
   Measurements measured = landmarksOf(3, 1.0);
   measured.landmarks[1].measured.y = NaN;
-  EXPECT_NE(
-    problemOfFit(measured).find("The measured end of landmark 2 lies at"), std::string::npos);
+  EXPECT_NE(problemOfFit(measured).find("The measured end of landmark 2 is at"), std::string::npos);
   measured = landmarksOf(3, 1.0);
   measured.landmarks[2].weight = -1.0;
   EXPECT_EQ(problemOfFit(measured),
     "The weight of landmark 3 is -1.000000; it must be 0 or more, and finite");
   measured = {};
   measured.traces = { { 0.0, std::numeric_limits<double>::infinity(), 0.0 } };
-  EXPECT_NE(problemOfFit(measured).find("Traced point 1 lies at"), std::string::npos);
+  EXPECT_NE(problemOfFit(measured).find("Traced point 1 is at"), std::string::npos);
   measured = {};
   measured.pins = { { 0.0, 2e6, 0.0 } };
-  EXPECT_NE(problemOfFit(measured).find("Pin 1 lies at"), std::string::npos);
+  EXPECT_NE(problemOfFit(measured).find("Pin 1 is at"), std::string::npos);
   FitSettings settings;
   settings.surfaceKernel.lengthMm = 0.0;
   EXPECT_EQ(

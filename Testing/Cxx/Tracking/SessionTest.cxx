@@ -80,7 +80,8 @@ TEST(Session, SaysWhatIsDamaged)
     EXPECT_NE(problemWith(Head + line).find("Line 2 of "), std::string::npos) << line;
   }
   EXPECT_NE(problemWith(Head + "2\tS" + Row + "1\tS" + Row).find("Line 3 of "), std::string::npos);
-  EXPECT_NE(problemWith(Head + "# image from tracker\t1\n").find("placement"), std::string::npos);
+  EXPECT_NE(
+    problemWith(Head + "# image from tracker\t1\n").find("registration"), std::string::npos);
   EXPECT_NE(problemWith(Head + std::string(5000, 'x')).find("longer"), std::string::npos);
   // Cut off in the middle of a number, the last line would be another pose.
   EXPECT_NE(problemWith(Head + "0\tS" + Row.substr(0, Row.size() - 1)).find("not whole"),

@@ -259,7 +259,7 @@ def test_what_cannot_be_written_says_so_and_leaves_nothing():
     spoiled[1, 2, 3] = numpy.nan
     assert_fails(save(spoiled), "not finite")
     assert_fails(save(numpy.stack([array] * 3, axis=-1)), "3 components", "must have 1")
-    assert_fails(save(world=""), "does not know the sides", "set World")
+    assert_fails(save(world=""), "world axes of the input are unknown", "set World")
     assert_fails(save(as_in=__file__), "Like is ", "DICOMExport.py", "no DICOM image",
                  "choose another")
     assert_fails(save(as_in=folder + ".none"), "export-refused.none, which does not exist")

@@ -151,7 +151,7 @@ def test_duplicates_are_told_and_left_out():
     other.InstanceNumber = 77  # another image of the same place
     other.save_as(os.path.join(path, "copy.dcm"))
     reader, told = read(path)
-    assert_says(told, "1 image at places where others lie")
+    assert_says(told, "1 image at positions of other images")
     assert_placed(reader, *right)
 
 
@@ -203,7 +203,7 @@ def test_images_without_places_are_told():
 
     path = write_slices(folder("scanned"), numbered(), change=strip)
     reader, told = read(path)
-    assert_says(told, "does not say where its images lie")
+    assert_says(told, "has no positions of its images")
     assert output(reader).GetSpacing() == (0.7, 0.9, 4.0)
     assert output(reader).GetFieldData().GetAbstractArray("WorldAxes") is None
     numpy.testing.assert_array_equal(scalars(reader), numbered().ravel())

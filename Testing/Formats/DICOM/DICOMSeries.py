@@ -192,7 +192,7 @@ def test_an_unfinished_last_volume_is_left_out():
         write_slices(path, numbered(4 if t < 2 else 2, start=1000 * t), change=position,
                      start=100 * t)
     reader, told = read(path)
-    assert_says(told, "2 images at places where others lie")
+    assert_says(told, "2 images at positions of other images")
     assert len(reader.TimestepValues) == 2
 
 
@@ -226,7 +226,7 @@ def test_what_cannot_be_read_is_named():
     refused(coloured, "RGB with 3 samples")
     refused(palette, "PALETTE COLOR")
     refused(mosaic, "MOSAIC")
-    refused(frames, "has 2 frames and does not say where they lie")
+    refused(frames, "has 2 frames but no positions of them")
 
 
 def test_reports_are_no_slices():

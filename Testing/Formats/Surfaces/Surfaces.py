@@ -73,7 +73,7 @@ def test_freesurfer_without_a_geometry_takes_that_of_a_volume():
             nibabel.save(saved, scratch("orig" + ending))
             words = [] if i == 0 else ["orig.mgz or T1.mgz", "not the scan"]
             assert_at(read(name, words, Volume=scratch("orig" + ending)), expected)
-        assert_at(read(name, ["does not say where its volume lies", "Set Volume"]), POINTS, None)
+        assert_at(read(name, ["has no position of its volume", "Set Volume"]), POINTS, None)
         center = read(name, VolumeCenter=[1.5, -20.0, 7.25])
         assert_at(center, POINTS + [1.5, -20.0, 7.25])
 
@@ -82,7 +82,7 @@ def test_the_geometry_in_the_file_counts():
     first, second = list(volumes())[:2]
     name = write_surface(scratch("rh.pial"), geometry(first))
     expected = moved(scanner_from_surface(first), POINTS)
-    for image, words in ((first, ()), (second, ["geometry of its volume, which counts"])):
+    for image, words in ((first, ()), (second, ["geometry of its volume, which is used"])):
         nibabel.save(image, scratch("other.mgz"))
         assert_at(read(name, words, Volume=scratch("other.mgz")), expected)
     # A surface in scanner RAS says so.

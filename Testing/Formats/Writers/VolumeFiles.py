@@ -28,7 +28,7 @@ MIRRORED = OBLIQUE @ numpy.diag((1.0, -1.0, 1.0))
 UPSIDE_DOWN = numpy.diag((1.0, -1.0, -1.0))  # a half turn, which leaves a quaternion without w
 GRIDS = {"along": ALONG, "oblique": OBLIQUE, "mirrored": MIRRORED, "turned": UPSIDE_DOWN}
 SHAPE = (4, 5, 6)
-NOT_KNOWN = "does not know the sides of the patient"
+NOT_KNOWN = "world axes of the input are unknown"
 
 
 def numbers(dtype, components=1):

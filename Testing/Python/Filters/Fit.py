@@ -301,14 +301,14 @@ def test_traces_that_all_lie_in_the_cavity_are_said():
     everything = volume(numpy.ones((SIDE,) * 3, numpy.uint8), spacing=(SPACING,) * 3)
     with messages() as said:
         brainshift.fit(deformation(), traces=on_ball(20), cavity=everything, threshold=50.0)
-    assert_says(said.text, "All traced points lie in the cavity")
+    assert_says(said.text, "All traced points are in the cavity")
 
 
 def test_few_landmarks_that_turned_far_are_said():
     rest = scattered(5)
     with messages() as said:
         brainshift.fit(deformation(), rest=rest, measured=2 * MIDDLE - rest * (1, 1, -1))
-    assert_says(said.text, "The volume turned by", "check that the pairs match")
+    assert_says(said.text, "The fit rotated the volume by", "check that the pairs match")
 
 
 def test_an_opening_that_is_cropped_has_its_margin():

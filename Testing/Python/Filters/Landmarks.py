@@ -79,9 +79,9 @@ def test_what_is_written_is_what_others_read():
                 expected = [label.replace('"', "'").replace("\n", " ") for label in LABELS]
                 assert_says(said.text, "2 labels with quotes or new lines")
             if ending in (".csv", ".tsv"):
-                assert "no place for times" not in said.text
+                assert "cannot hold times" not in said.text
             else:
-                assert_says(said.text, "no place for times and deviations")
+                assert_says(said.text, "cannot hold times and deviations")
             assert labels == expected, (ending, labels)
             assert numpy.array_equal(places, PLACES), (ending, axes)
             of_slicer = ending in (".mrk.json", ".json", ".fcsv")

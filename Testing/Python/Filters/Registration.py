@@ -89,7 +89,7 @@ def test_align_warns_beyond_what_was_tested():
         warnings.simplefilter("always")
         found = brainshift.align(compare)
     assert found.shift > 24, found.shift
-    assert any("Align is tested only from" in str(one.message) for one in said), said
+    assert any("Align was tested only for" in str(one.message) for one in said), said
     compare = simple.CompareVolumes(Input=rest, Reference=rest, ReferenceTranslation=(6, 0, 0))
     with warnings.catch_warnings():
         warnings.simplefilter("error")

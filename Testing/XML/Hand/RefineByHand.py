@@ -126,7 +126,7 @@ def pause_holds_it():
         hand.wait()
     assert step() == taken, (step(), taken)
     assert hand.click("BrainShiftRefinePause")
-    window.until(lambda: step() > taken or not step(), "a step after Go On")
+    window.until(lambda: step() > taken or not step(), "a step after Resume")
     assert step() > taken, said()
 
 
