@@ -29,7 +29,7 @@ TEST(TrackerRegistration, FindsTheMotion)
   EXPECT_EQ(registration.imageFromTracker().apply({ 1, 2, 3 }), glm::dvec3(1, 2, 3));
   add(registration, { 100, 0, 0 });
   add(registration, { 0, 80, 0 });
-  EXPECT_EQ(registration.problem(), "It needs 3 pairs; there are 2.");
+  EXPECT_EQ(registration.problem(), "The registration needs 3 pairs; 2 are given.");
   add(registration, { 0, 0, 90 });
   ASSERT_TRUE(registration.isRegistered());
   EXPECT_EQ(registration.problem(), "");
