@@ -12,6 +12,8 @@ namespace brainshift
 {
 namespace
 {
+constexpr const char* LabelMapName = "IsLabelMap";
+
 // The arrays of a table; all null if one is missing or has another length.
 struct Table
 {
@@ -84,6 +86,25 @@ std::vector<Label> attachedLabels(vtkDataObject* volume, const std::string& word
     table.colors->GetTypedTuple(i, label.color.data());
   }
   return labels;
+}
+
+bool isLabelMap(vtkDataObject* volume)
+{
+  vtkFieldData* fields = volume ? volume->GetFieldData() : nullptr;
+  return fields && (fields->HasArray(LabelMapName) || tableOf(volume, OwnLabels).values);
+}
+
+void markLabelMap(vtkDataObject* volume, bool isLabelMap)
+{
+  vtkFieldData* fields = volume->GetFieldData();
+  fields->RemoveArray(LabelMapName);
+  if (isLabelMap)
+  {
+    vtkNew<vtkUnsignedCharArray> mark;
+    mark->SetName(LabelMapName);
+    mark->InsertNextValue(1);
+    fields->AddArray(mark);
+  }
 }
 
 std::string labelName(vtkDataObject* volume, double value, const std::string& word)

@@ -39,6 +39,15 @@ VTKBRAINSHIFTCOMMON_EXPORT void attachLabels(
 VTKBRAINSHIFTCOMMON_EXPORT std::vector<Label> attachedLabels(
   vtkDataObject* volume, const std::string& word = OwnLabels);
 
+/**
+ * Whether the values of a volume are labels: it has a table of its own, or markLabelMap was called.
+ * Labels are never blended. False for null.
+ */
+VTKBRAINSHIFTCOMMON_EXPORT bool isLabelMap(vtkDataObject* volume);
+
+/** Notes that the values of a volume are labels (field array IsLabelMap, one byte), or not. */
+VTKBRAINSHIFTCOMMON_EXPORT void markLabelMap(vtkDataObject* volume, bool isLabelMap);
+
 /** The name of a value, where one is attached. Empty: none. */
 VTKBRAINSHIFTCOMMON_EXPORT std::string labelName(
   vtkDataObject* volume, double value, const std::string& word = OwnLabels);

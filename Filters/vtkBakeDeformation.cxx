@@ -4,6 +4,7 @@
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
+#include "Common/LabelTable.h"
 #include "Common/WorldAxes.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/Resample.h"
@@ -124,12 +125,15 @@ int vtkBakeDeformation::RequestData(
   input->GetExtent(inputExtent);
   output->CopyStructure(input);
   nameWorldAxes(output, worldAxesOf(input));
+  attachLabels(output, attachedLabels(input));
   output->SetExtent(extent);
   const auto proceed = [this](double fraction) {
     this->UpdateProgress(fraction);
     return !this->CheckAbort();
   };
-  const auto reading = static_cast<Reading>(this->Interpolation);
+  const bool isOfLabels = isLabelMap(input);
+  markLabelMap(output, isOfLabels);
+  const auto reading = isOfLabels ? Reading::Nearest : static_cast<Reading>(this->Interpolation);
   const Grid volume = gridOf(input);
   bakeArrays(input->GetPointData(), output->GetPointData(),
     { geometryOf(volume, lattice.grid, extent, inputExtent, false), backward, reading, proceed });

@@ -156,6 +156,19 @@ void outline(pqDataRepresentation* display)
   display->getProxy()->UpdateVTKObjects();
 }
 
+// Labels are never blended.
+void drawNearest(pqDataRepresentation* display)
+{
+  for (const char* name : { "InterpolationType", "SliceInterpolation" })
+  {
+    if (display->getProxy()->GetProperty(name))
+    {
+      vtkSMPropertyHelper(display->getProxy(), name).Set(0);
+    }
+  }
+  display->getProxy()->UpdateVTKObjects();
+}
+
 bool isOfReader(pqDataRepresentation* display)
 {
   return !qobject_cast<pqPipelineFilter*>(sourceOf(display));
@@ -203,6 +216,10 @@ namespace
 void giveLook(pqDataRepresentation* display)
 {
   const VolumeLook look = firstLookOf(display);
+  if (look.kind == "Labels")
+  {
+    drawNearest(display);
+  }
   if (look.kind == "Labels" && isOfReader(display))
   {
     outline(display);

@@ -3,6 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
+#include "Common/LabelTable.h"
 #include "Representations/Field/EvidenceTexture.h"
 #include "Representations/Field/SceneDeformation.h"
 #include "Representations/Field/TissueFacts.h"
@@ -125,7 +126,11 @@ bool vtkDeformedSlicesMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   tissue.property = volume->GetProperty();
   tissue.values = values;
   tissue.blend = Blend::Maximum; // one sample is seen: opacity as given, no light
-  tissue.nearest = this->Interpolation == Nearest;
+  tissue.nearest = this->Interpolation == Nearest || isLabelMap(image);
+  const ReferenceVolume reference = readReference(image);
+  tissue.compared = reference.voxels &&
+    (reference.show == ReferenceShow::Reference ||
+      (reference.show == ReferenceShow::Both && this->Comparison != NoComparison));
   Device& device = this->Internal->Devices.of(window);
   GpuTask gpu(window, this->Internal->Count);
   gpu.moving = isMoving(window->GetDesiredUpdateRate());
@@ -177,6 +182,8 @@ bool vtkDeformedSlicesMapper::DrawPlanes(
   }
   scene.frame = frameOf(seen, tissue.values);
   this->PlacePlanes(tissue.values, scene);
+  scene.cubic =
+    this->Interpolation == Cubic && !tissue.nearest && !CategoryScalars::areWanted(tissue.property);
   device.Drawn = { scene.planes, scene.frame.worldFromTexture };
   state.Property = tissue.property;
   scene.selecting = seen.renderer->GetSelector() != nullptr;
@@ -188,13 +195,11 @@ bool vtkDeformedSlicesMapper::DrawPlanes(
 bool vtkDeformedSlicesMapper::UploadReference(
   GpuTask& gpu, Device& device, const TissueRequest& tissue, SliceScene& scene)
 {
-  const ReferenceVolume reference = readReference(this->GetDataSetInput());
-  const bool alone = reference.show == ReferenceShow::Reference;
-  const bool together = reference.show == ReferenceShow::Both && this->Comparison != NoComparison;
-  if (!reference.voxels || !(alone || together))
+  if (!tissue.compared)
   {
     return true;
   }
+  const ReferenceVolume reference = readReference(this->GetDataSetInput());
   ComparisonChoice choice;
   choice.comparison = this->Comparison;
   choice.colors = colorPair(static_cast<brainshift::ComparisonColors>(this->ComparisonColors));
@@ -231,7 +236,6 @@ void vtkDeformedSlicesMapper::PlacePlanes(const DrawnValues& values, SliceScene&
   scene.planes.high = glm::max(scene.field.spaceHigh, scene.tissue.volumeHigh);
   scene.voxels = layout.dimensions;
   scene.crosshair = this->Crosshair;
-  scene.cubic = this->Interpolation == Cubic;
   scene.opacity = this->Opacity;
   scene.mapsOpacity = this->MapOpacity;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/Guard.h"
+#include "Common/LabelTable.h"
 #include "Representations/Field/TissueFacts.h"
 #include "Representations/Gpu/WindowDevices.h"
 #include "Representations/Picture/VolumeDevice.h"
@@ -183,6 +184,7 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   request.mapper = this;
   request.tissue = this->TissueOf(image, volume->GetProperty(), values);
   request.reference = this->ReferenceOf(image, request.tissue);
+  request.tissue.compared = request.reference.exists();
   this->ComparePlainly(request);
   request.showsEvidence = this->DrawsEvidence(request.tissue.blend);
   request.memoryLimitMiB = this->MemoryLimit;
@@ -232,7 +234,8 @@ TissueRequest vtkDeformedVolumeMapper::TissueOf(
   values.scalars->GetFiniteRange(
     &tissue.range[0], drawnComponents(property, values.scalars).scalar);
   tissue.gradients = static_cast<GradientSource>(this->NormalTexture);
-  tissue.nearest = property->GetInterpolationType() == VTK_NEAREST_INTERPOLATION;
+  tissue.nearest =
+    property->GetInterpolationType() == VTK_NEAREST_INTERPOLATION || isLabelMap(image);
   tissue.skips = this->EmptySpaceSkipping;
   if (this->DrawSegment)
   {

@@ -18,12 +18,12 @@
 #include <memory> // for what is gathered
 
 class vtkImageData;
-class vtkTextActor;
 
 namespace brainshift
 {
 class EvidenceLegend;
 class GatheredVolume;
+class WindowText;
 }
 
 class VTKBRAINSHIFTREPRESENTATIONS_EXPORT vtkWholeVolumeRepresentation
@@ -73,7 +73,7 @@ private:
   void GatherParts();
   void WidenBounds();
 
-  vtkNew<vtkTextActor> Legend;
+  vtkNew<brainshift::WindowText> Legend;
   vtkSmartPointer<brainshift::EvidenceLegend> Evidence;
   bool ShowEvidence = false;
   std::unique_ptr<brainshift::GatheredVolume> Gathered;

@@ -107,12 +107,24 @@ git_folder() {
   [[ ! -d $common ]] || echo "$(realpath "$common")/"
 }
 
+# shown_home: the user's home, where the dialogs of ParaView's window begin and keep settings.
+shown_home() {
+  [[ $command == open ]] || return 0
+  if [[ ! -d ${HOME:-} ]] || is_system_folder "$HOME"; then
+    echo "brainshift: the window cannot show your home ${HOME:-}. What is saved under Home there lies in $cache," \
+      "which may be deleted at any time" >&2
+  else
+    echo "$HOME/"
+  fi
+}
+
 # visible_folders ARGUMENT…: where the arguments that are paths lie, parents first, none twice.
 visible_folders() {
   local argument folder previous=//
   {
     printf '%s/\n' "$checkout" "$cache" "$PWD"
     git_folder
+    shown_home
     for argument; do
       [[ -e $argument ]] || argument=${argument#-*=} # --output=PATH
       [[ -e $argument || $argument == */* && $argument != *$'\n'* ]] || continue

@@ -102,7 +102,7 @@ def mask(width):
     """A coronal slice pushed in: without a mask the skull goes along, with the mask it stays."""
     side = width // 2
     views = []
-    for properties in ({}, {"Mask": stage.mask(), "Feather": 8.0}):
+    for properties in ({}, {"Mask": stage.mask(), "Feather": 8.0, "MaskGrowth": 0.0}):
         bent = stage.bend(stage.head(), stage.push(-14.0, 80.0, 35.0), **properties)
         views.append(stage.flat_view(side, (-325.0, 30.0, 500.0), 50.0))
         stage.show_slices(bent, views[-1])

@@ -63,14 +63,17 @@ void vtkLatticeAlgorithm::RequireSettings() const
           << LargestSamples;
     throw Problem(words.str());
   }
-  for (const auto& [name, mm] :
-    { std::pair("Feather", this->Feather), std::pair("MaskGrowth", this->MaskGrowth) })
+  const auto isLength = [](double mm) { return mm >= 0.0 && std::isfinite(mm); };
+  if (!isLength(this->Feather))
   {
-    if (!(mm >= 0.0 && std::isfinite(mm)))
-    {
-      words << name << " is " << mm << " mm; it must be 0 or more, and finite";
-      throw Problem(words.str());
-    }
+    words << "Feather is " << this->Feather << " mm; it must be 0 or more, and finite";
+    throw Problem(words.str());
+  }
+  if (!isLength(this->MaskGrowth) && this->MaskGrowth != ByFeather)
+  {
+    words << "MaskGrowth is " << this->MaskGrowth << " mm; it must be 0 or more, and finite, or "
+          << ByFeather << " for the width of Feather";
+    throw Problem(words.str());
   }
 }
 
@@ -78,8 +81,9 @@ Lattice vtkLatticeAlgorithm::MakeLattice(const Grid& volume, vtkImageData* mask)
 {
   this->RequireSettings();
   Lattice lattice = makeLattice(this->LatticeGrid(volume), this->Kernel);
-  lattice.mask = this->Masks->find({ mask, this->MaskLabels, this->MaskGrowth, this->Feather,
-    volume, lattice.grid, this->Samples });
+  const double growth = this->MaskGrowth == ByFeather ? this->Feather : this->MaskGrowth;
+  lattice.mask = this->Masks->find(
+    { mask, this->MaskLabels, growth, this->Feather, volume, lattice.grid, this->Samples });
   return lattice;
 }
 

@@ -71,11 +71,14 @@ public:
   vtkGetMacro(Feather, double);
   ///@}
 
+  static constexpr double ByFeather = -1.0; ///< MaskGrowth: the width of Feather
+
   ///@{
   /**
-   * Distance (mm) by which the mask grows before anything else is done with it; 0 or more. Default
-   * 0. It moves the feather out of tissue that is to move all the way, such as the cortex under a
-   * mask of the brain. The mask's image limits the growth.
+   * Distance (mm) by which the mask grows before anything else is done with it; 0 or more, or
+   * ByFeather (the default): as far as the feather is wide. Then the feather is outside the mask,
+   * and all tissue in it can move, such as the cortex under a mask of the brain. The mask's image
+   * limits the growth.
    */
   vtkSetMacro(MaskGrowth, double);
   vtkGetMacro(MaskGrowth, double);
@@ -135,7 +138,7 @@ private:
   int Samples = 4;
   int Kernel = 0;
   double Feather = 10.0;
-  double MaskGrowth = 0.0;
+  double MaskGrowth = ByFeather;
   std::vector<int> MaskLabels;
   const std::unique_ptr<brainshift::MaskSource> Masks;
 };

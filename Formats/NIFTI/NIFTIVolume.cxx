@@ -253,6 +253,7 @@ void NIFTIVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   const bool saysUnknown = note && std::string(note).find(UnknownSidesNote) != std::string::npos;
   header.knowsSides = !saysUnknown && (stored->GetSFormCode() > 0 || stored->GetQFormCode() > 0);
   header.labels = niftiLabels(fileName);
+  header.isLabelMap = stored->GetIntentCode() == vtkNIFTIImageHeader::IntentLabel;
 }
 
 bool NIFTIVolume::reversesSlices() const

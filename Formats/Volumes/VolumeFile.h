@@ -45,6 +45,7 @@ struct VolumeHeader
   bool knowsSides = true;
   std::vector<std::string> warnings; ///< ends of sentences, after the name of the file
   std::vector<Label> labels;         ///< names of values, where the file names them
+  bool isLabelMap = false;           ///< whether the file says that its values are labels
 };
 
 /** Voxels in the file's order: the extent of the image begins at 0. */

@@ -351,6 +351,7 @@ int vtkVolumeFileReader::readVolume(vtkInformation* information)
   }
   scalars->SetName(ScalarsName);
   brainshift::attachLabels(shown, this->Stored->header().labels);
+  brainshift::markLabelMap(shown, this->Stored->header().isLabelMap);
   brainshift::nameWorldAxes(shown,
     this->Stored->header().knowsSides ? brainshift::WorldAxes::RAS
                                       : brainshift::WorldAxes::Unknown);

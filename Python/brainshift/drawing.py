@@ -15,6 +15,10 @@ FULL_DIFFERENCE = 0.5
 #: Height of letters and distance of the scale bar from the lower edge, fractions of the height.
 LETTERS, FROM_EDGE = 0.03, 0.035
 
+#: Middle of the scale bar, fraction of the width: the lower edge has a letter of the patient's
+#: sides in its middle, a colour scale right of it, and the axes at its left end.
+BAR_MIDDLE = 0.34
+
 #: Brightness (0 to 255) from which a ground gets a black scale bar.
 BRIGHT_GROUND = 150
 
@@ -87,7 +91,7 @@ def _grown(mask, by):
 
 
 def with_scale_bar(pixels, scale):
-    """A copy of a picture with a scale bar at the middle of its lower edge, and its label above.
+    """A copy of a picture with a scale bar at its lower edge, left of the middle, and its label.
 
     The bar is white with a black rim, or the other way round on a bright ground. `scale`: its
     length in `pixels` and its `label`.
@@ -97,11 +101,12 @@ def with_scale_bar(pixels, scale):
     height, width, _ = pixels.shape
     mask = numpy.zeros((height, width))
     length, thickness = round(scale["pixels"]), max(3, height // 150)
-    left, bottom = (width - length) // 2, max(4, round(FROM_EDGE * height))
+    middle = round(BAR_MIDDLE * width)
+    left, bottom = max(middle - length // 2, 0), max(4, round(FROM_EDGE * height))
     mask[bottom:bottom + thickness, left:left + length] = 1.0
     letters = _letters(scale["label"], round(LETTERS * height))
     rows, columns = letters.shape
-    above, start = bottom + 2 * thickness, max((width - columns) // 2, 0)
+    above, start = bottom + 2 * thickness, max(middle - columns // 2, 0)
     columns = min(columns, width - start)
     mask[above:above + rows, start:start + columns] = letters[:, :columns]
     rim = _grown(mask, max(1, height // 400))[:, :, None]

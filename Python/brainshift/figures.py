@@ -79,6 +79,20 @@ def _strength_kept(bent):
         bent.UpdatePipeline()
 
 
+@contextlib.contextmanager
+def _without_crosshair(view):
+    """Hides the crosshairs of slices, which end where the deformed volume does; they come back."""
+    shown = [display for display in view.Representations
+             if getattr(display, "Visibility", 0) and getattr(display, "ShowCrosshair", 0)]
+    try:
+        for display in shown:
+            display.ShowCrosshair = 0
+        yield bool(shown)
+    finally:
+        for display in shown:
+            display.ShowCrosshair = 1
+
+
 def _pixels(view, size):
     """The picture of a view in `size`: bytes, indexed [row from below, column, rgb]."""
     from paraview import servermanager
@@ -231,8 +245,8 @@ def figure(bent, folder, traces=None, view=None, size=(1200, 900)):
 
     - `before.png`: the view with `Strength` 0, the volume as loaded.
     - `after.png`: the view with `Strength` as it is.
-    - `difference.png`: where the two pictures differ. Orange is brighter after, blue is darker
-      after. Full colour is a difference of half the full scale of brightness.
+    - `difference.png`: where the two pictures differ, without crosshairs. Orange is brighter
+      after, blue is darker after. Full colour is a difference of half the full scale of brightness.
     - `histogram.svg`: distances of the traced points to the cortex before and after, in mm, if
       there is a Trace Distance.
     - `numbers.csv`: settings and figures as rows of `name,value,unit`.
@@ -267,11 +281,15 @@ def figure(bent, folder, traces=None, view=None, size=(1200, 900)):
         bent.Strength = 0.0
         earlier, old_histogram = _trace_numbers(traces, "before")
         before = _pixels(view, size)
+        with _without_crosshair(view) as hidden:
+            compared = [_pixels(view, size) if hidden else before]
     after = _pixels(view, size)
+    with _without_crosshair(view) as hidden:
+        compared.append(_pixels(view, size) if hidden else after)
     later, new_histogram = _trace_numbers(traces, "after")
     texts = _as_text(settings)
     pictures = {"before": (before, {"Strength": "0.0"}), "after": (after, {}),
-                "difference": (colored_difference(before, after),
+                "difference": (colored_difference(*compared),
                                {"Colours": f"{DARK}; {BRIGHT}"})}
     paths = [_write(folder, f"{name}.png", png(with_scale_bar(pixels, scale), {
         "Title": name, **texts, **own})) for name, (pixels, own) in pictures.items()]

@@ -2,6 +2,7 @@
 #include "Representations/Slices/OrientationMarks.h"
 
 #include "Common/Guard.h"
+#include "Representations/Scene/WindowText.h"
 #include "Representations/Slices/SliceGeometry.h"
 
 #include "vtkCamera.h"
@@ -10,7 +11,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkProp3D.h"
 #include "vtkRenderer.h"
-#include "vtkTextActor.h"
 #include "vtkTextProperty.h"
 
 #include <algorithm>

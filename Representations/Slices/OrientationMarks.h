@@ -32,6 +32,8 @@ class vtkTextActor;
 
 namespace brainshift
 {
+class WindowText;
+
 /// Letters of the right, left, upper and lower edge of a view.
 ///
 /// @param right   cosines between the direction to the right in the view and the volume's x, y, z
@@ -78,9 +80,9 @@ private:
   // Those of all texts that have something to say.
   std::vector<vtkTextActor*> Texts() const;
 
-  std::array<vtkNew<vtkTextActor>, 4> Letters;
-  vtkNew<vtkTextActor> Name; // of the plane
-  vtkNew<vtkTextActor> Warning;
+  std::array<vtkNew<WindowText>, 4> Letters;
+  vtkNew<WindowText> Name; // of the plane
+  vtkNew<WindowText> Warning;
 };
 }
 

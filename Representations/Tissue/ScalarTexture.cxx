@@ -66,10 +66,21 @@ bool fitsSixteenBits(vtkDataArray* scalars, int component)
 {
   return component >= 0 && scalars->GetDataTypeSize() <= 2;
 }
+
+// Counts textures that were given back, in all windows: what was refused before may fit now.
+int& texturesGivenBack()
+{
+  static int count = 0;
+  return count;
+}
 }
 
 ScalarTexture::ScalarTexture() = default;
-ScalarTexture::~ScalarTexture() = default;
+
+ScalarTexture::~ScalarTexture()
+{
+  texturesGivenBack() += this->Texture ? 1 : 0;
+}
 
 int ScalarTexture::bytesOf(vtkDataArray* scalars, int component)
 {
@@ -80,11 +91,21 @@ bool ScalarTexture::update(
   GpuTask& gpu, vtkDataArray* scalars, const glm::ivec3& dimensions, int component)
 {
   const unsigned long long time = scalars->GetMTime();
-  if (this->Texture && this->Uploaded == scalars && this->UploadedTime == time &&
-    this->UploadedComponent == component)
+  const bool isSame = this->Uploaded == scalars && this->UploadedTime == time &&
+    this->UploadedComponent == component;
+  if (this->Texture && isSame)
   {
     return true;
   }
+  if (isSame && !this->Refusal.empty() && this->RefusedAt == texturesGivenBack())
+  {
+    return gpu.fail(this->Refusal); // an allocation of gigabytes takes seconds to fail
+  }
+  this->Texture = nullptr;
+  this->Refusal.clear();
+  this->Uploaded = scalars;
+  this->UploadedTime = time;
+  this->UploadedComponent = component;
   const int limit = vtkTextureObject::GetMaximumTextureSize3D(gpu.window);
   const int longest = std::max({ dimensions.x, dimensions.y, dimensions.z });
   if (longest > limit)
@@ -95,12 +116,11 @@ bool ScalarTexture::update(
   if (!this->upload(gpu, scalars, dimensions, component))
   {
     this->Texture = nullptr;
-    return gpu.fail("The GPU refused a 3D texture of " + std::to_string(dimensions.x) + " x " +
-      std::to_string(dimensions.y) + " x " + std::to_string(dimensions.z) + " voxels");
+    this->Refusal = "The GPU refused a 3D texture of " + std::to_string(dimensions.x) + " x " +
+      std::to_string(dimensions.y) + " x " + std::to_string(dimensions.z) + " voxels";
+    this->RefusedAt = texturesGivenBack();
+    return gpu.fail(this->Refusal);
   }
-  this->Uploaded = scalars;
-  this->UploadedTime = time;
-  this->UploadedComponent = component;
   return true;
 }
 
@@ -177,6 +197,7 @@ void ScalarTexture::releaseGraphicsResources(vtkWindow* window)
   if (this->Texture)
   {
     this->Texture->ReleaseGraphicsResources(window);
+    texturesGivenBack() += 1;
   }
   this->Texture = nullptr;
   this->Uploaded = nullptr;

@@ -27,7 +27,7 @@ public:
 
   /// Uploads the array if it changed since the last call. `dimensions`: voxels a side. `component`:
   /// which number of the voxel; -1: the length of the vector. False, with a problem, if the GPU
-  /// refuses.
+  /// refuses. A refused array is tried again once it changes or another texture was given back.
   bool update(GpuTask& gpu, vtkDataArray* scalars, const glm::ivec3& dimensions, int component);
 
   /// Bytes of one value on the GPU of the current context.
@@ -65,6 +65,8 @@ private:
   vtkWeakPointer<vtkDataArray> Uploaded;
   unsigned long long UploadedTime = 0;
   int UploadedComponent = 0;
+  std::string Refusal; // of the same array; empty: none
+  int RefusedAt = 0;   // textures that were given back before
   BrickRanges Ranges;
   float Range = 0.0f;
   float Difference = 0.0f;

@@ -53,6 +53,43 @@ void setFilter(vtkTextureObject* texture, bool nearest)
 
 bool TissueTextures::update(GpuTask& gpu, const TissueRequest& request, SceneTissue& tissue)
 {
+  return CategoryScalars::areWanted(request.property)
+    ? this->updateMapped(gpu, this->withCategories(gpu, request), tissue)
+    : this->updateMapped(gpu, request, tissue);
+}
+
+// Categories take the place of the values where the colour map asks for them and can be drawn so.
+TissueRequest TissueTextures::withCategories(GpuTask& gpu, const TissueRequest& request)
+{
+  TissueRequest drawn = request;
+  vtkDataArray* scalars = request.values.scalars;
+  const DrawnComponents components = drawnComponents(request.property, scalars);
+  const bool isLength = components.scalar < 0;
+  if (components.coloring != Coloring::Mapped)
+  {
+    return drawn; // the colours are the voxels' own
+  }
+  const char* reason = request.compared  ? "a reference is drawn with the volume"
+    : request.blend == Blend::Isosurface ? "blend mode Isosurface needs continuous values"
+    : isLength                           ? "the array's magnitude is drawn"
+    : this->Categories.update(scalars, components.scalar, request.property)
+    ? nullptr
+    : "the array has more distinct values than the 4096 that can be drawn";
+  if (reason)
+  {
+    gpu.remarks.push_back(std::string("InterpretValuesAsCategories is on, but ") + reason +
+      ": the colour map is used as a continuous one");
+    return drawn;
+  }
+  drawn.values.scalars = this->Categories.numbers();
+  drawn.property = this->Categories.property();
+  drawn.nearest = true;
+  drawn.opacity = Opacity::Scalar;
+  return drawn;
+}
+
+bool TissueTextures::updateMapped(GpuTask& gpu, const TissueRequest& request, SceneTissue& tissue)
+{
   tissue = SceneTissue();
   const auto uploads = gpu.counters.volumeUploads;
   vtkDataArray* scalars = request.values.scalars;

@@ -7,6 +7,7 @@
 
 #include "Representations/Gpu/GpuMemory.h"
 #include "Representations/Scene/VolumeChoices.h"
+#include "Representations/Tissue/CategoryScalars.h"
 #include "Representations/Tissue/NormalTexture.h"
 #include "Representations/Tissue/ScalarTexture.h"
 #include "Representations/Tissue/SegmentTexture.h"
@@ -43,6 +44,7 @@ struct TissueRequest
   Opacity opacity = Opacity::Scalar;
   glm::dvec2 range{ 0.0, 1.0 }; ///< Values that steepness and 2D transfer functions count by.
   StoredScalar mapped;          ///< Value for colours and opacities: scalar * scale + shift.
+  bool compared = false;        ///< Beside a reference, whose values are no categories.
 };
 
 /// The textures of one volume in one window.
@@ -79,6 +81,8 @@ public:
   void releaseGraphicsResources(vtkWindow* window);
 
 private:
+  bool updateMapped(GpuTask& gpu, const TissueRequest& request, SceneTissue& tissue);
+  TissueRequest withCategories(GpuTask& gpu, const TissueRequest& request);
   void noteVisibility(const TissueRequest& request, bool uploaded);
   bool updateTransfer(GpuTask& gpu, const TissueRequest& request, Coloring coloring);
   bool updateColors(GpuTask& gpu, const TissueRequest& request, SceneColoring& coloring);
@@ -87,6 +91,7 @@ private:
   void describe(const TissueRequest& request, SceneTissue& tissue) const;
   SceneSteepness steepnessFor(const TissueRequest& request) const;
 
+  CategoryScalars Categories;
   ScalarTexture Scalars;
   ScalarTexture ColorScalars; // where another number of the voxel gives the colour
   ColorTexture Colors;        // where the voxel brings its colour along

@@ -6,9 +6,10 @@
 #ifndef BrainShift_EvidenceLegend_h
 #define BrainShift_EvidenceLegend_h
 
+#include "Representations/Scene/WindowText.h"
+
 #include "vtkNew.h"
 #include "vtkProp.h"
-#include "vtkTextActor.h" // for its smart pointer
 
 #include <array>
 #include <functional>
@@ -46,7 +47,7 @@ private:
 
   void Write(vtkViewport* viewport);
 
-  std::array<vtkNew<vtkTextActor>, 5> Lines; // a heading, then the classes
+  std::array<vtkNew<WindowText>, 5> Lines; // a heading, then the classes
 };
 }
 

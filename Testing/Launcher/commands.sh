@@ -57,6 +57,18 @@ builds "lint house" 0
 refuses "lint tests"
 refuses "nothing"
 
+# shows COMMAND HOME: what a Debian of the launcher's own would show of this machine.
+shows() (
+  checkout=$folder/checkout cache=$folder/cache command=$1 HOME=$2
+  # shellcheck source=/dev/null
+  source "$source_folder/Utilities/rootfs.sh"
+  visible_folders 2>"$folder/said"
+)
+shows open "$folder/paraview" | grep -qx "$folder/paraview" || { echo "The window shows no home" && exit 1; }
+if shows test "$folder/paraview" | grep -x "$folder/paraview"; then echo "Tests see the home" && exit 1; fi
+shows open / >/dev/null
+grep -q "cannot show your home /" "$folder/said" || { echo "A home that is not shown is not said" && exit 1; }
+
 # .ci/run with a launcher whose tests and lint end as they are told.
 cp "$source_folder/.ci/run" "$folder/checkout/.ci"
 # shellcheck disable=SC2016 # the launcher expands them

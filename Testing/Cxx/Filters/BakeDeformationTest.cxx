@@ -263,6 +263,7 @@ TEST(Bake, PutsTissueWhereTheMaskedFieldSays)
   auto mask = volumeOn(grid, VTK_UNSIGNED_CHAR, [](vtkIdType i) { return i % 33 < 19; });
   pipeline.Deform->SetInputDataObject(2, mask);
   pipeline.Deform->SetFeather(6.0);
+  pipeline.Deform->SetMaskGrowth(0.0);
   setStrokes(pipeline.Deform, { strokeAt(Tool::Soft, { 24, 32, 32 }, { -4, 3, 2 }) });
   const Misses misses(pipeline, grid);
   EXPECT_GT(misses.Moved, 200);

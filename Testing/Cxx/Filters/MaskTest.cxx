@@ -120,6 +120,7 @@ protected:
     this->Filter->SetInputDataObject(2, headOn(obliqueMaskGrid()));
     this->Filter->AddMaskLabel(Brain);
     this->Filter->SetFeather(4.0);
+    this->Filter->SetMaskGrowth(0.0);
     setStrokes(this->Filter, strongStrokes(34, 12));
   }
   vtkImageData* output()
@@ -180,6 +181,16 @@ TEST_F(MaskedHead, AttachesItsWeights)
   EXPECT_FALSE(deformationOf(this->output()).lattice.mask);
 }
 
+TEST_F(MaskedHead, GrowsByTheFeatherUnlessTold)
+{
+  this->Filter->SetMaskGrowth(vtkNew<vtkFreeFormDeformation>()->GetMaskGrowth());
+  const Deformation usual = deformationOf(this->output());
+  this->Filter->SetMaskGrowth(4.0);
+  EXPECT_TRUE(sameMask(usual.lattice.mask, deformationOf(this->output()).lattice.mask));
+  this->Filter->SetMaskGrowth(0.0);
+  EXPECT_FALSE(sameMask(usual.lattice.mask, deformationOf(this->output()).lattice.mask));
+}
+
 TEST_F(MaskedHead, KeepsTheDeformationWhenTheMaskIsNone)
 {
   const Deformation good = deformationOf(this->output());
@@ -192,8 +203,8 @@ TEST_F(MaskedHead, KeepsTheDeformationWhenTheMaskIsNone)
   this->Filter->SetFeather(-1.0);
   expectKept("Feather is -1 mm; it must be 0 or more");
   this->Filter->SetFeather(4.0);
-  this->Filter->SetMaskGrowth(-1.0);
-  expectKept("MaskGrowth is -1 mm; it must be 0 or more");
+  this->Filter->SetMaskGrowth(-2.0);
+  expectKept("MaskGrowth is -2 mm; it must be 0 or more");
   this->Filter->SetMaskGrowth(std::numeric_limits<double>::infinity());
   expectKept("MaskGrowth is inf mm; it must be 0 or more, and finite");
   this->Filter->SetMaskGrowth(0.0);

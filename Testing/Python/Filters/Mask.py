@@ -38,10 +38,11 @@ def lower_half():
 
 
 def bent_ball(**properties):
+    """A ball bent across the edge of the mask, which holds the tissue there."""
     strokes = brainshift.soft((32, 32, 24), (7, -5, -4), 30.0) + brainshift.stamp(
         (32, 32, 32), (32, 32, 0), 6.0, major=26.0, minor=20.0)
     return FreeFormDeformation(Input=volume(ball(side=65, radius=20.0, edge=16.0)),
-                               **{"Strokes": strokes, **properties})
+                               **{"Strokes": strokes, "MaskGrowth": 0.0, **properties})
 
 
 def test_a_stroke_at_the_edge_says_how_little_it_reached():
@@ -56,6 +57,25 @@ def test_a_stroke_at_the_edge_says_how_little_it_reached():
         reached[name] = float(numpy.atleast_1d(filter.StrokeReaches)[0])  # one is no list
         assert abs(reached[name] + went[2]) < 0.01, (name, reached, went)
     assert reached["masked"] < 0.1 * asked < 0.9 * asked < reached["free"], reached
+
+
+def test_by_default_the_edge_moves_all_the_way_and_tissue_beyond_the_feather_does_not():
+    asked = 8.0
+    strokes = brainshift.stamp((32, 32, 31), (32, 32, 0), -asked, major=26.0, minor=20.0)
+    filter = FreeFormDeformation(Input=volume(ball(side=65, radius=20.0, edge=16.0)),
+                                 Strokes=strokes, Mask=lower_half(), MaskLabels=[1])
+    with messages() as said:
+        filter.UpdatePipeline()
+    assert said.text == "", said.text
+    for feather in (10.0, 14.0):  # the growth follows it
+        filter.Feather = feather
+        filter.UpdatePipeline()
+        filter.UpdatePropertyInformation()
+        reached = float(numpy.atleast_1d(filter.StrokeReaches)[0])
+        assert reached > 0.9 * asked, (feather, reached)
+        before, after = voxels(filter.Input), voxels(BakeDeformation(Input=filter))
+        assert (after == before)[EDGE + int(feather) + 2:].all(), feather
+        assert (after != before)[EDGE:EDGE + 6].any(), feather
 
 
 def test_growth_lets_the_edge_move_and_the_filter_names_it():
@@ -215,7 +235,8 @@ def test_no_skull_appears_in_a_brain():
     strokes = ()
     for anchor, amount in (((-342, 36, 534), -14), ((-270, 30, 530), 12), ((-309, 80, 500), -12)):
         strokes += brainshift.stamp(anchor, (-309, 22, 477), amount)
-    filter = FreeFormDeformation(Input=labels, Mask=mask, Feather=8.0, Strokes=strokes)
+    filter = FreeFormDeformation(Input=labels, Mask=mask, Feather=8.0, MaskGrowth=0.0,
+                                 Strokes=strokes)
     baked = BakeDeformation(Input=filter, Interpolation="Nearest")
     after = voxels(baked)
     assert numpy.array_equal(after[~inside], numpy.full((~inside).sum(), SKULL))

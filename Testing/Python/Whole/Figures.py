@@ -9,8 +9,9 @@ import shutil
 import xml.etree.ElementTree as xml
 
 import numpy
-from brainshift_testing import (assert_says, ball, load_plugin, on_server, run_tests, scratch,
-                                server_finds_plugin, show_volume, view_along, volume)
+from brainshift_testing import (assert_says, ball, load_plugin, on_server, picture, run_tests,
+                                scratch, server_finds_plugin, show_volume, view_along, volume)
+from slices_testing import flat_view, show_slices
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 
@@ -142,6 +143,34 @@ def test_the_scale_bar_agrees_with_the_camera():
             assert texts["Projection"] == ("parallel" if half_height else "perspective")
             assert ("Pixel at the focal point" in texts) == (half_height is None)
         scene.close()
+
+
+def letters_height(pixels):
+    """Rows of the letter at the right edge, a fraction of the picture's height."""
+    white = (pixels[:, -pixels.shape[1] // 8:] > 200).all(axis=2).any(axis=1)
+    return white.sum() / pixels.shape[0]
+
+
+def test_a_crosshair_makes_no_difference_and_letters_keep_their_size():
+    bent = FreeFormDeformation(Input=volume(ball()), Strokes=STAMP)
+    view = flat_view(1, MIDDLE, 25.0, size=200)
+    display = show_slices(bent, view, ("Coronal",), MIDDLE)
+    display.OrientationMarks, display.WorldAxes = 1, "RAS"
+    folder = scratch("figures")
+    differences = []
+    for crosshair in (0, 1):
+        display.ShowCrosshair = crosshair
+        shown = picture(view) * 255
+        brainshift.figure(bent, folder, view=view, size=(800, 800))
+        differences.append(read(os.path.join(folder, "difference.png"))[0])
+        after = read(os.path.join(folder, "after.png"))[0]
+        assert display.ShowCrosshair == crosshair
+        sizes = letters_height(shown), letters_height(after)
+        print(f"  height of the letter {sizes[0]:.3f} in the view, {sizes[1]:.3f} in the figure")
+        assert 0.85 < sizes[1] / sizes[0] < 1.15, sizes
+    assert numpy.array_equal(*differences)
+    Delete(view)
+    shutil.rmtree(folder, ignore_errors=True)
 
 
 def test_files_tell_the_settings():
