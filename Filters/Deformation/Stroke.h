@@ -48,12 +48,12 @@ struct ToolTraits
 };
 
 /** All tools, in the order of their buttons. */
-constexpr std::array<ToolTraits, 4> KnownTools{ {
-  { Tool::Move, "Move", StrokeShape::Point },
-  { Tool::Soft, "Soft", StrokeShape::Sphere },
-  { Tool::Stamp, "Stamp", StrokeShape::Ellipsoid },
-  { Tool::Pull, "Pull", StrokeShape::None },
-} };
+constexpr std::array KnownTools{
+  ToolTraits{ Tool::Move, "Move", StrokeShape::Point },
+  ToolTraits{ Tool::Soft, "Soft", StrokeShape::Sphere },
+  ToolTraits{ Tool::Stamp, "Stamp", StrokeShape::Ellipsoid },
+  ToolTraits{ Tool::Pull, "Pull", StrokeShape::None },
+};
 
 /** The traits of a tool; those of no tool have an empty name. */
 constexpr ToolTraits traitsOf(Tool tool)

@@ -114,7 +114,7 @@ public:
   virtual std::string firstFile() const { return {}; }
 };
 
-/** A format of volumes, for the readers. Formats/README.md has the recipe for a new one. */
+/** A format of volumes, for the readers. CONTRIBUTING.md has the recipe for a new one. */
 struct VolumeFormat
 {
   const char* name;                           ///< such as "NRRD"

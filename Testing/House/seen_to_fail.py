@@ -188,7 +188,7 @@ class SeenToFail(unittest.TestCase):
             "Panel/Icons/twist.svg": "<svg/>\n",
             "Panel/Panel.qrc": "<file>Icons/twist.svg</file>\n",
             "Documentation/tools/twist.md": "# Twist\n",
-            "mkdocs.yml": "- Twist: tools/twist.md\n",
+            "Documentation/tools/index.md": "| [Twist](twist.md) |\n",
             "Testing/Python/Drawing/Pick.py": "TWIST = 4\n",
         }
         self.assertLessEqual(len(new), 9)

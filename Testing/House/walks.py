@@ -181,7 +181,7 @@ class Walks(unittest.TestCase):
     def test_a_tool(self):
         self.walk.after("Filters/Deformation/Stroke.h", "  Pull = 3,\n", "  Twirl = 4,\n")
         self.walk.after("Filters/Deformation/Stroke.h", "StrokeShape::None },\n",
-                        '  { Tool::Twirl, "Twirl", StrokeShape::Sphere },\n')
+                        '  ToolTraits{ Tool::Twirl, "Twirl", StrokeShape::Sphere },\n')
         self.walk.like("Interaction/Tools/TwirlTool.cxx", "Interaction/Tools/SoftTool.cxx",
                        {"Soft": "Twirl", "soft": "twirl"})
         self.walk.after("Interaction/CMakeLists.txt", "  Tools/SoftTool.cxx\n",
@@ -193,8 +193,9 @@ class Walks(unittest.TestCase):
         self.walk.after("Panel/Panel.qrc", '<file alias="soft.svg">Icons/soft.svg</file>\n',
                         '    <file alias="twirl.svg">Icons/twirl.svg</file>\n')
         self.walk.like("Documentation/tools/twirl.md", "Documentation/tools/soft.md", {})
-        self.walk.after("mkdocs.yml", "      - Soft: tools/soft.md\n",
-                        "      - Twirl: tools/twirl.md\n")
+        self.walk.after("Documentation/tools/index.md",
+                        "| [Soft](soft.md) | Alt+2 | everything within a sphere |\n",
+                        "| [Twirl](twirl.md) | Alt+5 | everything within a sphere |\n")
         self.walk.after("Documentation/keys.md", "| Alt+4 |", "")  # PanelTest writes the row
         self.is_done_with(9)
 

@@ -123,10 +123,10 @@ TEST(Strokes, NeedNumbersThatALatticeCanHold)
 
 TEST(Strokes, NeedAKnownTool)
 {
-  const std::string limit = "it must be 0 (Move), 1 (Soft) or 2 (Stamp)";
+  const std::string limit = "it must be 0 (Move), 1 (Soft)"; // and those that follow
   expectNames(errorAbout(Tool::Move, ToolPlace, -1.0), { "Stroke 1", "tool is -1;", limit });
   expectNames(errorAbout(Tool::Move, ToolPlace, 0.5), { "Stroke 1", "tool is 0.5;", limit });
-  expectNames(errorAbout(Tool::Move, ToolPlace, 3.0), { "Stroke 1", "tool is 3;", limit });
+  expectNames(errorAbout(Tool::Move, ToolPlace, double(Tool::Pull)), { "Stroke 1", "tool is 3;", limit });
 }
 
 TEST(Strokes, NeedRadiiOfAtLeastZero)
