@@ -69,7 +69,8 @@ def outcome_of(proxy_name, path, **properties):
                   numpy.round(data.GetOrigin(), 6).tolist(), data.GetScalarTypeAsString(),
                   [round(direction.GetElement(i // 3, i % 3), 9) for i in range(9)]]
     elif data.GetNumberOfPoints():
-        facts += [vtk_to_numpy(data.GetPoints().GetData()).round(6).tolist()]
+        facts += [vtk_to_numpy(data.GetPoints().GetData()).round(6).tolist(),
+                  vtk_to_numpy(data.GetPolys().GetConnectivityArray()).tolist()]
     count = data.GetNumberOfPoints()
     simple.Delete(source)
     return ("" if count else text or "nothing was read"), facts
