@@ -221,6 +221,7 @@ TEST(Defaults, OfTransformReaderLiveInTheClass)
     { "Direction", { double(reader->GetDirection()) } },
     { "Kernel", { double(reader->GetKernel()) } },
     { "LatticeDimensions", { double(sides[0]), double(sides[1]), double(sides[2]) } },
+    { "MatrixProgram", { double(reader->GetMatrixProgram()) } },
     { "OutputDirection", { double(reader->GetOutputDirection()) } },
     { "World", { double(reader->GetWorld()) } },
   };
