@@ -62,6 +62,7 @@ struct LinearType
   std::size_t parameters;
   std::size_t translation; // its first parameter
   glm::dmat3 (*linear)(const TransformRecord&);
+  bool hasCentre = true; // must be given: without it the map is another one
 };
 
 const std::map<std::string, LinearType>& linearTypes()
@@ -79,7 +80,8 @@ const std::map<std::string, LinearType>& linearTypes()
     { "Euler3DTransform", { 6, 3, eulerRotation } },
     { "VersorRigid3DTransform", { 6, 3, versor } },
     { "Similarity3DTransform", { 7, 3, similar } },
-    { "TranslationTransform", { 3, 0, [](const TransformRecord&) { return glm::dmat3(1.0); } } },
+    { "TranslationTransform",
+      { 3, 0, [](const TransformRecord&) { return glm::dmat3(1.0); }, false } },
   };
   return types;
 }
@@ -101,12 +103,14 @@ void addLinear(const LinearType& type, const TransformRecord& record, PointTrans
     throw countProblem(
       "parameters of " + record.type, record.parameters.size(), std::to_string(type.parameters));
   }
-  const bool hasCentre = record.fixed.size() >= 3;
-  if (!hasCentre && !record.fixed.empty())
+  const std::size_t found = record.fixed.size();
+  const bool saysOrder = found == 4 && type.linear == eulerRotation; // ITK's ComputeZYX
+  if (found != 3 && !saysOrder && !(found == 0 && !type.hasCentre))
   {
-    throw countProblem("fixed parameters of " + record.type, record.fixed.size(), "3 or none");
+    throw countProblem("fixed parameters of " + record.type, found,
+      type.hasCentre ? "3, the centre (mm)" : "3 or none");
   }
-  const glm::dvec3 centre = hasCentre ? threeOf(record.fixed, 0) : glm::dvec3(0.0);
+  const glm::dvec3 centre = found > 0 ? threeOf(record.fixed, 0) : glm::dvec3(0.0);
   const glm::dmat3 linear = type.linear(record);
   const glm::dvec3 shift = threeOf(record.parameters, type.translation);
   addAffine({ linear, shift + centre - linear * centre }, transform);

@@ -2,6 +2,7 @@
 """Reads and maps files of landmarks and traced points."""
 
 import collections
+import os
 
 from .files import _write
 from .transforms import Transform, read_transform
@@ -48,7 +49,7 @@ def read_points(name, volume=1, table_axes="RAS"):
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     active = simple.GetActiveSource()
-    reader = _reader(name, volume, table_axes)
+    reader = _reader(os.fspath(name), volume, table_axes)
     try:
         points = servermanager.Fetch(reader)
         count = points.GetNumberOfPoints()
@@ -94,6 +95,16 @@ def _taken_by(transform, points, direction):
     return moved
 
 
+def _path(name, value):
+    """The path of a file. An array goes to other functions."""
+    if not isinstance(value, (str, os.PathLike)):
+        raise TypeError(
+            f"{name} is a {type(value).__name__}; map_points takes paths of files. Arrays go to "
+            "deformed_from_rest(filter, points), rest_from_deformed(filter, points), "
+            "Fit.measured_from_rest(points) or read_transform(files).map(points)")
+    return os.fspath(value)
+
+
 def map_points(file_in, file_out, filter=None, direction="forward", volume=1, table_axes="RAS",
                file_axes="Of The Format", transform=None):
     """Map the points of a file and write them to another file, labels and all.
@@ -121,12 +132,14 @@ def map_points(file_in, file_out, filter=None, direction="forward", volume=1, ta
 
     Returns the number of points.
 
-    Raises `ValueError` if `direction` is another word, `file_in` cannot be read, `filter` attaches
+    Raises `TypeError` if a file is no path; arrays go to `deformed_from_rest`,
+    `rest_from_deformed` or `Transform.map`. Raises `ValueError` if `direction` is another word, `file_in` cannot be read, `filter` attaches
     no deformation, or there are a `filter` and a `transform`. Raises `OSError` with the reason if
     the transform cannot be read or `file_out` is not written.
     """
     from paraview import servermanager, simple
 
+    file_in, file_out = _path("file_in", file_in), _path("file_out", file_out)
     leads = _DIRECTIONS.get(str(direction).lower())
     if leads is None:
         raise ValueError(f'direction is {direction!r}; it must be "forward" or "backward"')
