@@ -126,7 +126,8 @@ TEST(Strokes, NeedAKnownTool)
   const std::string limit = "it must be 0 (Move), 1 (Soft)"; // and those that follow
   expectNames(errorAbout(Tool::Move, ToolPlace, -1.0), { "Stroke 1", "tool is -1;", limit });
   expectNames(errorAbout(Tool::Move, ToolPlace, 0.5), { "Stroke 1", "tool is 0.5;", limit });
-  expectNames(errorAbout(Tool::Move, ToolPlace, double(Tool::Pull)), { "Stroke 1", "tool is 3;", limit });
+  expectNames(
+    errorAbout(Tool::Move, ToolPlace, double(Tool::Pull)), { "Stroke 1", "tool is 3;", limit });
 }
 
 TEST(Strokes, NeedRadiiOfAtLeastZero)
