@@ -21,7 +21,7 @@ namespace brainshift
 {
 namespace
 {
-constexpr std::size_t MostCategories = TransferEntries;
+constexpr std::size_t MostCategories = TransferEntries - 1; // one entry is left to all others
 
 // Distinct values but NaN, ascending; `hasNaN`: whether there is one. Stops above MostCategories.
 template <typename Range>
@@ -61,8 +61,10 @@ vtkSmartPointer<vtkDataArray> numbered(const Range& values, const std::vector<do
     {
       last = value;
       const auto found = std::lower_bound(distinct.begin(), distinct.end(), value);
+      const bool isKnown = found != distinct.end() && *found == value;
+      const auto place = (isKnown ? found : distinct.end()) - distinct.begin();
       number = std::isnan(value) ? std::numeric_limits<typename Array::ValueType>::quiet_NaN()
-                                 : static_cast<typename Array::ValueType>(found - distinct.begin());
+                                 : static_cast<typename Array::ValueType>(place);
     }
     numbers->SetValue(i++, number);
   }
@@ -101,6 +103,24 @@ private:
   int Component;
 };
 
+// Ascending.
+std::vector<double> annotatedValues(vtkColorTransferFunction* map)
+{
+  std::vector<double> values;
+  for (vtkIdType i = 0; i < map->GetNumberOfAnnotatedValues(); ++i)
+  {
+    bool isNumber = false;
+    const double value = map->GetAnnotatedValue(i).ToDouble(&isNumber);
+    if (isNumber && !std::isnan(value))
+    {
+      values.push_back(value);
+    }
+  }
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
 std::array<double, 3> colorOf(vtkColorTransferFunction* map, double value)
 {
   std::array<double, 4> color{};
@@ -127,10 +147,13 @@ bool CategoryScalars::areWanted(vtkVolumeProperty* property)
 
 bool CategoryScalars::update(vtkDataArray* scalars, int component, vtkVolumeProperty* property)
 {
+  vtkColorTransferFunction* map = property->GetRGBTransferFunction();
   if (this->Counted != scalars || this->CountedTime != scalars->GetMTime() ||
-    this->CountedComponent != component)
+    this->CountedComponent != component ||
+    (this->IsOfAnnotations && this->CountedMapTime != map->GetMTime()))
   {
-    this->count(scalars, component);
+    this->count(scalars, component, map);
+    this->CountedMapTime = map->GetMTime();
     this->Counted = scalars;
     this->CountedTime = scalars->GetMTime();
     this->CountedComponent = component;
@@ -140,8 +163,8 @@ bool CategoryScalars::update(vtkDataArray* scalars, int component, vtkVolumeProp
   {
     return false;
   }
-  const unsigned long long time = std::max({ property->GetMTime(),
-    property->GetRGBTransferFunction()->GetMTime(), property->GetScalarOpacity()->GetMTime() });
+  const unsigned long long time =
+    std::max({ property->GetMTime(), map->GetMTime(), property->GetScalarOpacity()->GetMTime() });
   if (this->ColoredTime != time)
   {
     this->color(property);
@@ -150,11 +173,17 @@ bool CategoryScalars::update(vtkDataArray* scalars, int component, vtkVolumeProp
   return true;
 }
 
-void CategoryScalars::count(vtkDataArray* scalars, int component)
+void CategoryScalars::count(vtkDataArray* scalars, int component, vtkColorTransferFunction* map)
 {
   const ComponentValues values(scalars, component);
   bool hasNaN = false;
   this->Values = distinctValues(values, hasNaN);
+  this->IsOfAnnotations = this->Values.size() > MostCategories;
+  if (this->IsOfAnnotations)
+  {
+    hasNaN = true; // perhaps: the count ended before
+    this->Values = annotatedValues(map);
+  }
   this->Numbers = this->Values.size() > MostCategories ? nullptr
     : hasNaN ? numbered<vtkFloatArray>(values, this->Values)
              : numbered<vtkUnsignedShortArray>(values, this->Values);
@@ -172,12 +201,13 @@ void CategoryScalars::color(vtkVolumeProperty* property)
     colors->AddRGBPoint(number, color[0], color[1], color[2]);
     opacities->AddPoint(number, property->GetScalarOpacity()->GetValue(this->Values[i]));
   }
+  double others[3];
+  property->GetRGBTransferFunction()->GetNanColor(others);
   // An entry of the texture for each number, so that no two are blended.
-  const double last = TransferEntries - 1.0;
-  if (this->Values.size() < MostCategories)
+  for (const double number : { static_cast<double>(this->Values.size()), TransferEntries - 1.0 })
   {
-    colors->AddRGBPoint(last, 0.0, 0.0, 0.0);
-    opacities->AddPoint(last, 0.0);
+    colors->AddRGBPoint(number, others[0], others[1], others[2]);
+    opacities->AddPoint(number, 0.0);
   }
   this->Property->DeepCopy(property);
   this->Property->SetColor(colors);

@@ -11,6 +11,7 @@
 
 #include <vector>
 
+class vtkColorTransferFunction;
 class vtkDataArray;
 class vtkVolumeProperty;
 
@@ -26,11 +27,13 @@ public:
   /// Whether a property's colour map interprets values as categories.
   static bool areWanted(vtkVolumeProperty* property);
 
-  /// Follows the array and the property. False if the array has more distinct values than the
-  /// texture of colours has entries.
+  /// Follows the array and the property. If the array has more distinct values than the texture of
+  /// colours has entries, only annotated values are categories, and all others share one that is
+  /// transparent in 3D. False if these are too many, too.
   bool update(vtkDataArray* scalars, int component, vtkVolumeProperty* property);
 
-  /// For each voxel the number of its value in ascending order, from 0; NaN where the value is NaN.
+  /// For each voxel the number of its category in ascending order of values, from 0; the number of
+  /// categories for all other values; NaN where the value is NaN.
   vtkDataArray* numbers() const { return this->Numbers; }
 
   /// The property with colours and opacities of these numbers. A value without annotation has the
@@ -38,7 +41,7 @@ public:
   vtkVolumeProperty* property() const { return this->Property; }
 
 private:
-  void count(vtkDataArray* scalars, int component);
+  void count(vtkDataArray* scalars, int component, vtkColorTransferFunction* map);
   void color(vtkVolumeProperty* property);
 
   std::vector<double> Values; // distinct, ascending
@@ -47,6 +50,8 @@ private:
   vtkWeakPointer<vtkDataArray> Counted;
   unsigned long long CountedTime = 0;
   int CountedComponent = 0;
+  unsigned long long CountedMapTime = 0;
+  bool IsOfAnnotations = false; // there are too many values
   unsigned long long ColoredTime = 0;
 };
 }

@@ -91,8 +91,8 @@ bool ScalarTexture::update(
   GpuTask& gpu, vtkDataArray* scalars, const glm::ivec3& dimensions, int component)
 {
   const unsigned long long time = scalars->GetMTime();
-  const bool isSame = this->Uploaded == scalars && this->UploadedTime == time &&
-    this->UploadedComponent == component;
+  const bool isSame =
+    this->Uploaded == scalars && this->UploadedTime == time && this->UploadedComponent == component;
   if (this->Texture && isSame)
   {
     return true;

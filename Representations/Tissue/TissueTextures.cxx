@@ -74,7 +74,7 @@ TissueRequest TissueTextures::withCategories(GpuTask& gpu, const TissueRequest& 
     : isLength                           ? "the array's magnitude is drawn"
     : this->Categories.update(scalars, components.scalar, request.property)
     ? nullptr
-    : "the array has more distinct values than the 4096 that can be drawn";
+    : "it has more than 4095 annotations, the most that can be drawn";
   if (reason)
   {
     gpu.remarks.push_back(std::string("InterpretValuesAsCategories is on, but ") + reason +

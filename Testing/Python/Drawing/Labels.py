@@ -122,11 +122,25 @@ def test_a_value_without_annotation_has_the_colour_for_nan():
     assert colored_pixels(image, COLORS[9]) == 0
 
 
-def test_too_many_values_are_said():
+def test_of_too_many_values_those_with_an_annotation_are_drawn():
+    """A volume has more values than colours have entries in the texture."""
+    voxels = labels() * 1e6
+    inside = voxels > 0
+    voxels[~inside] = numpy.arange((~inside).sum())
+    large = {int(label * 1e6): color for label, color in COLORS.items()}
+    source = volume(voxels)
+    for image in (slices_of(source, large), volume_of(source, large)):
+        assert strange_pixels(image, large.values()) < 0.06
+        for label in (1, 9, 2, 200):
+            assert colored_pixels(image, COLORS[label]) > 100, label
+
+
+def test_too_many_annotations_are_said():
+    many = {value: COLORS[1] for value in range(4097)}
     source = volume(numpy.arange(SIDE ** 3, dtype=numpy.float32).reshape((SIDE,) * 3))
     with messages() as said:
-        slices_of(source, COLORS)
-    assert "InterpretValuesAsCategories" in said.text and "4096" in said.text, said.text
+        slices_of(source, many)
+    assert "InterpretValuesAsCategories" in said.text and "4095" in said.text, said.text
 
 
 def nifti(name, voxels, intent):
