@@ -148,6 +148,7 @@ void walkEuler(Names& walked)
       { "TransformParameters", "(TransformParameters 0.1 0.2 0.3 4 5 7)", "" },
       { "TransformParameters", "(TransformParameters 0.1 0.2 0.3 4 5 6,5)", "6,5 in the entry" },
       { "TransformParameters", "(TransformParameters 0.1 0.2 0.3 4 5 inf)", "inf in the entry" },
+      { "TransformParameters", "(TransformParameters 0.1 0.2 0.3 4 5 1e300)", "beyond 1e12" },
       { "UseBinaryFormatForTransformationParameters",
         R"((UseBinaryFormatForTransformationParameters "true"))", "in another file" },
       { "InitialTransformParameterFileName", "(InitialTransformParameterFileName)", "0 values" },
