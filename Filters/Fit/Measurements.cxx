@@ -64,7 +64,7 @@ std::string namesOf(const std::vector<std::string>& labels)
   for (const std::string& label : labels)
   {
     const bool isShown = !label.empty() && count < Most;
-    text += isShown ? (count > 0 ? ", " : "") + label : "";
+    text += isShown ? (count > 0 ? ", \"" : "\"") + label + "\"" : "";
     count += label.empty() ? 0 : 1;
   }
   return count == 0 ? "none" : text + (count > Most ? " ..." : "");

@@ -176,8 +176,8 @@ private:
     if (program == MatrixProgram::Unknown && isOfNoImage)
     {
       throw Problem("holds 16 numbers and does not say what they mean; name the program that wrote "
-                    "it: fsl, with the fixed and the moving image (the NIfTI files of flirt's -ref "
-                    "and -in), or niftyreg (a matrix from RAS to RAS)");
+                    "it (Matrix Program): fsl, with the fixed and the moving image (the NIfTI "
+                    "files of flirt's -ref and -in), or niftyreg (a matrix from RAS to RAS)");
     }
     if (program == MatrixProgram::NiftyReg)
     {

@@ -15,6 +15,7 @@ namespace brainshift
 namespace
 {
 constexpr double LargestSide = 32768.0; // points of a grid along an axis
+constexpr double LargestNumber = 1e12;  // of mm, rad and voxels alike: no file needs it
 constexpr double SmallestVolume = 1e-9; // determinant of a map that can be turned round
 
 using Numbers = std::vector<double>;
@@ -24,9 +25,11 @@ Problem countProblem(const std::string& what, std::size_t found, const std::stri
   return Problem("has " + std::to_string(found) + " " + what + "; it must have " + wanted);
 }
 
+// Also rejects NaN, and numbers whose products are none.
 bool areFinite(const Numbers& numbers)
 {
-  return std::all_of(numbers.begin(), numbers.end(), [](double n) { return std::isfinite(n); });
+  return std::all_of(
+    numbers.begin(), numbers.end(), [](double n) { return std::abs(n) <= LargestNumber; });
 }
 
 glm::dvec3 threeOf(const Numbers& numbers, std::size_t first)
@@ -186,7 +189,7 @@ void addRecord(const TransformRecord& record, PointTransform& transform)
 {
   if (!areFinite(record.parameters) || !areFinite(record.fixed))
   {
-    throw Problem("holds a number that is not finite");
+    throw Problem("holds a number that is not finite, or beyond 1e12");
   }
   const std::size_t end = record.type.find('_');
   const std::string name = record.type.substr(0, end);

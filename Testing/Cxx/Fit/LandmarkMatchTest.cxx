@@ -52,7 +52,7 @@ TEST(LandmarkMatch, IsRefusedWhereNoNameIsOnBothLists)
                           : matchLandmarks(rest, measured, byOrder);
       };
       const std::string problem = problemOf([&] { match(false); });
-      EXPECT_NE(problem.find("AC, PC, left ventricle ..."), std::string::npos) << problem;
+      EXPECT_NE(problem.find(R"("AC", "PC", "left ventricle" ...)"), std::string::npos) << problem;
       EXPECT_NE(problem.find("Pair By Order"), std::string::npos) << problem;
       EXPECT_EQ(match(true).pairs, (Pairs{ { 0, 0 }, { 1, 1 }, { 2, 2 }, { 3, 3 } }));
     }

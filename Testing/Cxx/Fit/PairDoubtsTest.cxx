@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that pairs that say nothing about a part of the motion, and lists in other axes or units,
-// are named, that their deviation covers where the tissue may be, and that good pairs raise no doubt.
+// are named, that their deviation covers where the tissue may be, and that good pairs raise no
+// doubt.
 #include "Filters/Fit/PairDoubts.h"
 #include "Filters/Fit/Fit.h"
 

@@ -135,9 +135,10 @@ std::string fieldFile()
 }
 }
 
-TEST(TransformEntries, OfThePageChangeTheMapOrAreRefused)
+namespace
 {
-  Names walked;
+void walkEuler(Names& walked)
+{
   const std::string before = written("before.txt", changed(Euler, {}));
   walk(Euler,
     { { "Transform", R"((Transform "SplineKernelTransform"))", "does not know" },
@@ -147,6 +148,7 @@ TEST(TransformEntries, OfThePageChangeTheMapOrAreRefused)
       { "TransformParameters", "(TransformParameters 0.1 0.2 0.3 4 5 7)", "" },
       { "TransformParameters", "(TransformParameters 0.1 0.2 0.3 4 5 6,5)", "6,5 in the entry" },
       { "TransformParameters", "(TransformParameters 0.1 0.2 0.3 4 5 inf)", "inf in the entry" },
+      { "TransformParameters", "(TransformParameters 0.1 0.2 0.3 4 5 1e300)", "beyond 1e12" },
       { "UseBinaryFormatForTransformationParameters",
         R"((UseBinaryFormatForTransformationParameters "true"))", "in another file" },
       { "InitialTransformParameterFileName", "(InitialTransformParameterFileName)", "0 values" },
@@ -183,6 +185,10 @@ TEST(TransformEntries, OfThePageChangeTheMapOrAreRefused)
     changed(Euler, { "CenterOfRotationPoint", "(CenterOfRotation 1 2 3)", "" });
   EXPECT_NE(
     problemIn({ { written("walk.txt", index) }, "", "" }).find("by an index"), std::string::npos);
+}
+
+void walkGridsAndFields(Names& walked)
+{
   walk(spline(),
     { { "GridSize", "(GridSize 5 5)", "2 numbers" }, { "GridSize", "", "no entry GridSize" },
       { "GridSize", "(GridSize 4 5 5)", "parameters" },
@@ -206,6 +212,10 @@ TEST(TransformEntries, OfThePageChangeTheMapOrAreRefused)
       { "DeformationFieldInterpolationOrder", "(DeformationFieldInterpolationOrder 3)",
         "InterpolationOrder 3" } },
     walked);
+}
+
+void walkITK(Names& walked)
+{
   const Lines itk{ "#Insight Transform File V1.0", "Transform: Euler3DTransform_double_3_3",
     "Parameters: 0.1 0.2 0.3 4 5 6", "FixedParameters: 1 20 30 0" };
   walk(itk,
@@ -219,6 +229,15 @@ TEST(TransformEntries, OfThePageChangeTheMapOrAreRefused)
       { "FixedParameters:", "fixedParameters: 1 20 30", "must begin with" },
       { "ComponentTransformFile:", "ComponentTransformFile: a.tfm", "must begin with" } },
     walked);
+}
+}
+
+TEST(TransformEntries, OfThePageChangeTheMapOrAreRefused)
+{
+  Names walked;
+  walkEuler(walked);
+  walkGridsAndFields(walked);
+  walkITK(walked);
   walked.insert({ "program", "fixed_image", "moving_image", "last row" }); // below
   EXPECT_EQ(walked, listed());
 }
