@@ -106,7 +106,8 @@ const std::string& vtkTransformReader::Load()
   {
     return state.Problem;
   }
-  TransformFiles files{ { this->FileName }, this->FixedImage, this->MovingImage };
+  TransformFiles files{ { this->FileName }, this->FixedImage, this->MovingImage,
+    static_cast<brainshift::MatrixProgram>(this->MatrixProgram) };
   files.names.insert(files.names.end(), state.Later.begin(), state.Later.end());
   state.Chain = {};
   state.Problem = sentenceThrownBy("Transform Reader", [&] {
@@ -256,6 +257,7 @@ void vtkTransformReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "FileName: " << this->FileName << "\n"
      << indent << "FixedImage: " << this->FixedImage << "\n"
      << indent << "MovingImage: " << this->MovingImage << "\n"
+     << indent << "MatrixProgram: " << this->MatrixProgram << "\n"
      << indent << "World: " << (this->World == RAS ? "RAS" : "LPS") << "\n"
      << indent << "Direction: " << (this->Direction == Forward ? "Forward" : "Backward") << "\n"
      << indent << "OutputDirection: " << (this->OutputDirection == Forward ? "Forward" : "Backward")

@@ -68,6 +68,19 @@ public:
   vtkGetMacro(MovingImage, std::string);
   ///@}
 
+  enum MatrixProgramType
+  {
+    UnknownProgram = 0, ///< FSL if an image is named; else such a file is an error
+    FSL = 1,            ///< flirt's own millimetres, moving image to fixed image; needs both images
+    NiftyReg = 2,       ///< RAS to RAS, fixed image to moving image
+  };
+
+  ///@{
+  /** The program that wrote a text of 16 numbers. Other files do not need it. Default unknown. */
+  vtkSetClampMacro(MatrixProgram, int, UnknownProgram, NiftyReg);
+  vtkGetMacro(MatrixProgram, int);
+  ///@}
+
   ///@{
   /** The world in which the volumes to bend lie: RAS (default) or LPS. */
   vtkSetClampMacro(World, int, RAS, LPS);
@@ -159,6 +172,7 @@ private:
   std::string FileName;
   std::string FixedImage;
   std::string MovingImage;
+  int MatrixProgram = UnknownProgram;
   int World = RAS;
   int Direction = Backward;
   int OutputDirection = Forward;

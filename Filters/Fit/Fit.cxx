@@ -81,6 +81,7 @@ void Fit::solve(const Measurements& measured, const FitSettings& settings,
   requireGood(measured);
   requireGood(settings);
   this->Rigid = {};
+  this->Open = {};
   this->Base = measured.base;
   this->Steps = 0;
   this->ExpectsSmallRotation = false;
@@ -124,6 +125,8 @@ void Fit::solveRigid(const Measurements& measured, const FitSettings& settings)
   {
     return;
   }
+  this->Open = openRotationOf(from, weights, settings.landmarkDeviation * settings.relaxation,
+    glm::radians(settings.rotationPriorDegrees));
   const glm::dvec3 shift = weightedMean(to, weights) - mean.centre;
   this->Rigid = turnedAround(
     mean.centre, saysRotation ? nearestRotation(from, to, weights) : glm::dmat3(1.0), shift);
@@ -233,13 +236,15 @@ double Fit::deviation(const glm::dvec3& rest) const
     return std::numeric_limits<double>::infinity();
   }
   const glm::dmat3 covariance = this->Field.covariance(rest);
-  return this->deviationOf((covariance[0][0] + covariance[1][1] + covariance[2][2]) / 3.0);
+  return this->deviationOf((covariance[0][0] + covariance[1][1] + covariance[2][2]) / 3.0, rest);
 }
 
-double Fit::deviationOf(double variance) const
+double Fit::deviationOf(double variance, const glm::dvec3& rest) const
 {
-  return this->Field.rows().empty() ? std::numeric_limits<double>::infinity()
-                                    : this->Calibration * std::sqrt(std::max(0.0, variance));
+  return this->Field.rows().empty()
+    ? std::numeric_limits<double>::infinity()
+    : std::hypot(this->Calibration * std::sqrt(std::max(0.0, variance)),
+        this->Open.distance(rest) / std::sqrt(3.0));
 }
 
 std::vector<glm::dvec3> Fit::bends(const std::vector<glm::dvec3>& rest) const

@@ -8,6 +8,7 @@
 #define BrainShift_Fit_h
 
 #include "Filters/Fit/Measurements.h"
+#include "Filters/Fit/OpenRotation.h"
 #include "Filters/Fit/RigidPose.h"
 
 namespace brainshift
@@ -63,7 +64,8 @@ public:
    * out. Infinity if nothing was measured. It is that of the position of the tissue: a ball with
    * the radius DeviationsOfBall95 times it holds the tissue with 95 %. The measured position also
    * has the error of a measurement: there the radius is DeviationsOfBall95 times the root of
-   * deviation^2 + (landmarkDeviation * calibration)^2.
+   * deviation^2 + (landmarkDeviation * calibration)^2. A rotation that the landmarks leave open
+   * widens it (OpenRotation).
    */
   double deviation(const glm::dvec3& rest) const;
 
@@ -71,7 +73,7 @@ public:
   std::vector<double> deviations(const std::vector<glm::dvec3>& rest) const;
 
   /** deviation() where the process has this variance (Process::variances). */
-  double deviationOf(double variance) const;
+  double deviationOf(double variance, const glm::dvec3& rest) const;
 
   /**
    * For each landmark its leave-one-out error: the distance (mm) between the measured landmark and
@@ -98,6 +100,7 @@ private:
   Process Field;
   std::shared_ptr<const FitBase> Base;
   RigidPose Rigid;
+  OpenRotation Open;
   std::vector<std::optional<std::size_t>> LandmarkRows; // the first of the three
   std::vector<std::optional<std::size_t>> PullRows;
   std::vector<double> LeaveOneOut;

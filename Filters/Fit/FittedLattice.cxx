@@ -94,8 +94,9 @@ std::vector<double> FittedLattice::deviations(
   const std::vector<glm::dvec3>& rest, const std::vector<double>& variances) const
 {
   std::vector<double> result;
-  std::transform(variances.begin(), variances.end(), std::back_inserter(result),
-    [this](double variance) { return this->Result.deviationOf(variance); });
+  std::transform(variances.begin(), variances.end(), rest.begin(), std::back_inserter(result),
+    [this](
+      double variance, const glm::dvec3& at) { return this->Result.deviationOf(variance, at); });
   this->countWhatIsAway(rest, result);
   return result;
 }

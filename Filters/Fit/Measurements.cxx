@@ -54,6 +54,57 @@ std::string named(const std::string& label, std::size_t number)
 {
   return label.empty() ? std::to_string(number + 1) : label;
 }
+
+// Some names of a list, as a sentence shows them.
+std::string namesOf(const std::vector<std::string>& labels)
+{
+  constexpr std::size_t Most = 3;
+  std::string text;
+  std::size_t count = 0;
+  for (const std::string& label : labels)
+  {
+    const bool isShown = !label.empty() && count < Most;
+    text += isShown ? (count > 0 ? ", \"" : "\"") + label + "\"" : "";
+    count += label.empty() ? 0 : 1;
+  }
+  return count == 0 ? "none" : text + (count > Most ? " ..." : "");
+}
+
+std::vector<std::string> repeatedIn(const std::vector<std::string>& labels)
+{
+  std::map<std::string, int> counts;
+  std::vector<std::string> repeated;
+  for (const std::string& label : labels)
+  {
+    if (!label.empty() && ++counts[label] == 2)
+    {
+      repeated.push_back(label);
+    }
+  }
+  return repeated;
+}
+
+// Whether names pair two lists; false: their order does.
+bool countsByName(const std::vector<std::string>& rest, const std::vector<std::string>& measured)
+{
+  const auto isNamed = [](const std::string& label) { return !label.empty(); };
+  const bool hasNames = std::any_of(rest.begin(), rest.end(), isNamed) ||
+    std::any_of(measured.begin(), measured.end(), isNamed);
+  if (!hasNames || rest.empty() || measured.empty())
+  {
+    return hasNames;
+  }
+  const bool isShared = std::any_of(rest.begin(), rest.end(), [&](const std::string& label) {
+    return isNamed(label) && std::count(measured.begin(), measured.end(), label) > 0;
+  });
+  if (!isShared)
+  {
+    throw Problem("No name is on both lists of landmarks: at rest " + namesOf(rest) +
+      "; measured " + namesOf(measured) +
+      ". Give partners the same name, or pair by order (Pair By Order)");
+  }
+  return true;
+}
 }
 
 void requireGood(const Measurements& measured)
@@ -86,16 +137,24 @@ void requireGood(const FitSettings& settings)
 }
 
 LandmarkMatch matchLandmarks(
-  const std::vector<std::string>& rest, const std::vector<std::string>& measured)
+  const std::vector<std::string>& rest, const std::vector<std::string>& measured, bool byOrder)
 {
   std::map<std::string, std::deque<std::size_t>> byLabel;
   for (std::size_t i = 0; i < measured.size(); ++i)
   {
     byLabel[measured[i]].push_back(i);
   }
-  const bool hasLabels = std::any_of(rest.begin(), rest.end(),
-    [&](const std::string& label) { return !label.empty() && byLabel.count(label) > 0; });
+  const bool hasLabels = !byOrder && countsByName(rest, measured);
   LandmarkMatch match;
+  for (const std::vector<std::string>& list : { repeatedIn(rest), repeatedIn(measured) })
+  {
+    for (const std::string& name : hasLabels ? list : std::vector<std::string>())
+    {
+      const bool isNew =
+        std::find(match.repeated.begin(), match.repeated.end(), name) == match.repeated.end();
+      match.repeated.insert(match.repeated.end(), isNew ? 1 : 0, name);
+    }
+  }
   std::vector<char> isTaken(measured.size(), 0);
   for (std::size_t i = 0; i < rest.size(); ++i)
   {

@@ -138,16 +138,20 @@ struct LandmarkMatch
 {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   std::vector<std::string> unmatched; ///< "landmark tip at rest", "measured landmark 4"
+  std::vector<std::string> repeated;  ///< names that a list has more than once, if names count
 };
 
 /**
- * Matches by label if a label is in both lists, else by order. Labels that occur several times
- * match in their order. Landmarks without a label match nothing if the others match by label.
+ * Matches by name, else by order where neither list has a name. Names that occur several times
+ * match in their order. Landmarks without a name match nothing if the others match by name.
  *
- * @param rest, measured   the labels, empty where a landmark has none
+ * @param rest, measured   the names, empty where a landmark has none
+ * @param byOrder          whether names do not count at all
+ *
+ * Throws a Problem if a list has names and no name is on both lists, unless a list is empty.
  */
-BRAINSHIFT_DEFORMATION_EXPORT LandmarkMatch matchLandmarks(
-  const std::vector<std::string>& rest, const std::vector<std::string>& measured);
+BRAINSHIFT_DEFORMATION_EXPORT LandmarkMatch matchLandmarks(const std::vector<std::string>& rest,
+  const std::vector<std::string>& measured, bool byOrder = false);
 }
 
 #endif

@@ -39,9 +39,11 @@ bool isSame(vtkPointSet* one, vtkPointSet* other)
   return positionsOf(one) == positionsOf(other);
 }
 
-std::vector<std::string> labelsOfPoints(vtkPointSet* points)
+// The names of points: those of their own array, else of another list.
+std::vector<std::string> labelsOfPoints(vtkPointSet* points, const std::vector<std::string>& others)
 {
-  std::vector<std::string> labels(points ? points->GetNumberOfPoints() : 0);
+  std::vector<std::string> labels(others);
+  labels.resize(points ? points->GetNumberOfPoints() : 0);
   vtkAbstractArray* array = points ? points->GetPointData()->GetAbstractArray("Label") : nullptr;
   for (std::size_t i = 0; array && i < labels.size(); ++i)
   {
@@ -92,13 +94,14 @@ std::vector<glm::dvec3> positionsOf(vtkPointSet* points)
   return positions;
 }
 
-NamedPairs landmarkPairs(vtkPointSet* rest, vtkPointSet* measured)
+NamedPairs landmarkPairs(vtkPointSet* rest, vtkPointSet* measured, const PairingRule& rule)
 {
   const std::vector<glm::dvec3> from = positionsOf(rest);
   const std::vector<glm::dvec3> to = positionsOf(measured);
-  const std::vector<std::string> labels = labelsOfPoints(rest);
+  const std::vector<std::string> labels = labelsOfPoints(rest, rule.restNames);
   vtkDataArray* weights = rest ? rest->GetPointData()->GetArray("Weight") : nullptr;
-  const LandmarkMatch match = matchLandmarks(labels, labelsOfPoints(measured));
+  const LandmarkMatch match =
+    matchLandmarks(labels, labelsOfPoints(measured, rule.measuredNames), rule.byOrder);
   NamedPairs named;
   for (const auto& [i, partner] : match.pairs)
   {
@@ -107,6 +110,7 @@ NamedPairs landmarkPairs(vtkPointSet* rest, vtkPointSet* measured)
     named.names.push_back(labels[i].empty() ? std::to_string(i + 1) : labels[i]);
   }
   named.unmatched = joined(match.unmatched);
+  named.repeated = joined(match.repeated);
   return named;
 }
 
@@ -190,11 +194,9 @@ bool NearMask::holds(const glm::dvec3& position) const
   return false;
 }
 
-std::vector<PointPair> FitLandmarks::read(
-  vtkPointSet* rest, vtkPointSet* measured, std::string& unmatched)
+NamedPairs FitLandmarks::read(vtkPointSet* rest, vtkPointSet* measured)
 {
-  NamedPairs named = landmarkPairs(rest, measured);
-  unmatched = named.unmatched;
+  NamedPairs named = landmarkPairs(rest, measured, this->Rule);
   nameApart(named.names);
   for (std::size_t i = 0; i < named.pairs.size(); ++i)
   {
@@ -213,7 +215,7 @@ std::vector<PointPair> FitLandmarks::read(
   {
     this->Names->InsertNextValue(name);
   }
-  return named.pairs;
+  return named;
 }
 
 void FitLandmarks::place(const FittedLattice& fitted, const std::vector<PointPair>& pairs)

@@ -27,14 +27,27 @@ struct NamedPairs
   std::vector<PointPair> pairs;
   std::vector<std::string> names; ///< as many as pairs
   std::string unmatched;          ///< those without a partner, with commas between; at most ten
+  std::string repeated;           ///< names that a list has more than once, likewise
+};
+
+/** How landmarks find their partners. */
+struct PairingRule
+{
+  bool byOrder = false; ///< whether names do not count
+  ///@{
+  /** Names of landmarks whose data set has none. */
+  std::vector<std::string> restNames;
+  std::vector<std::string> measuredNames;
+  ///@}
 };
 
 /**
- * The pairs of landmarks at rest and measured. They match by the point array Label, else by order;
- * the point array Weight of those at rest gives weights. Both may be null. A pair is called by its
- * label at rest, or by its number among those at rest, from 1 on.
+ * The pairs of landmarks at rest and measured: matchLandmarks with the point array Label. The point
+ * array Weight of those at rest gives weights. Both may be null. A pair is called by its label at
+ * rest, or by its number among those at rest, from 1 on.
  */
-VTKBRAINSHIFTFILTERS_EXPORT NamedPairs landmarkPairs(vtkPointSet* rest, vtkPointSet* measured);
+VTKBRAINSHIFTFILTERS_EXPORT NamedPairs landmarkPairs(
+  vtkPointSet* rest, vtkPointSet* measured, const PairingRule& rule = {});
 
 /**
  * Asks for the part of a point set that is this MPI rank's. Call it in RequestUpdateExtent. Most
@@ -78,11 +91,12 @@ public:
 
   std::vector<double> Numbers;          ///< of the list: see vtkFitDeformation::AddLandmarkPair
   std::vector<std::string> SwitchedOff; ///< names of pairs of the data sets
-  vtkNew<vtkStringArray> Names;         ///< as a server sends them, and so the next
+  PairingRule Rule;
+  vtkNew<vtkStringArray> Names; ///< as a server sends them, and so the next
   vtkNew<vtkDoubleArray> Places;
 
-  /** Either data set may be null. `unmatched`: set to those without a partner. */
-  std::vector<PointPair> read(vtkPointSet* rest, vtkPointSet* measured, std::string& unmatched);
+  /** Either data set may be null. The pairs of the list come last. */
+  NamedPairs read(vtkPointSet* rest, vtkPointSet* measured);
 
   /** Writes Places: see vtkFitDeformation::GetLandmarkPlaces. Empty without a result. */
   void place(const FittedLattice& fitted, const std::vector<PointPair>& pairs);

@@ -7,6 +7,7 @@
 #include "Filters/Attached/MaskImage.h"
 #include "Filters/Fields/BaseLattice.h"
 #include "Filters/Fit/PackedTables.h"
+#include "Filters/Fit/PairDoubts.h"
 #include "Filters/Measured/EvidenceArray.h"
 #include "Filters/Measured/MeasuredPoints.h"
 #include "Filters/Measured/RestCortex.h"
@@ -34,6 +35,7 @@ constexpr int OpeningPort = 8;
 constexpr int Ports = 9;
 
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t FewestPairs = 3;      // fewer are no news to a hand that is picking them
 constexpr double FarRotationDegrees = 10.0; // more than this is rather a wrong pair
 constexpr const char* NotRun = "The fit has not run";
 
@@ -51,6 +53,12 @@ std::string joined(const std::vector<std::string>& sentences)
     text += (text.empty() || sentence.empty() ? "" : ". ") + sentence;
   }
   return text;
+}
+
+// From corner to corner (mm).
+double diagonalOf(const Grid& grid)
+{
+  return glm::length(grid.spacing * glm::dvec3(grid.dimensions - 1));
 }
 
 // What a user must know about a fit that has a result.
@@ -93,6 +101,9 @@ struct vtkFitDeformation::State
   std::vector<double> TraceResiduals; // of all traces of the input
   std::string Problem = NotRun;
   std::string Unmatched;
+  std::string Repeated;
+  std::vector<std::string> Names; // of the landmarks
+  std::string Warning;
   std::string WarnedOf;
 
   // The figures as a server sends them.
@@ -112,12 +123,23 @@ struct vtkFitDeformation::State
     this->PullResiduals.clear();
     this->TraceResiduals.clear();
     this->Unmatched.clear();
+    this->Repeated.clear();
   }
 
+  // What to know about how the landmarks lie.
+  std::string doubts() const
+  {
+    return joined(doubtsAbout(this->Measured, this->Names, diagonalOf(this->Still.grid)));
+  }
+
+  // What to know besides.
   std::string warning() const
   {
     const bool isInCavity = !this->TraceResiduals.empty() && this->TraceNumbers.empty();
     return joined({ this->Unmatched.empty() ? "" : "Without a partner: " + this->Unmatched,
+      this->Repeated.empty()
+        ? ""
+        : "Paired in the order of the lists, for the name occurs more than once: " + this->Repeated,
       isInCavity ? "All traced points are in the cavity and are ignored" : "",
       warningAbout(this->Fitted) });
   }
@@ -169,6 +191,40 @@ void vtkFitDeformation::AddLandmarkOff(const char* name)
 void vtkFitDeformation::ClearLandmarksOff()
 {
   this->Clear(this->Landmarks->SwitchedOff);
+}
+
+void vtkFitDeformation::SetPairByOrder(bool byOrder)
+{
+  if (this->Landmarks->Rule.byOrder != byOrder)
+  {
+    this->Landmarks->Rule.byOrder = byOrder;
+    this->Modified();
+  }
+}
+
+bool vtkFitDeformation::GetPairByOrder() const
+{
+  return this->Landmarks->Rule.byOrder;
+}
+
+void vtkFitDeformation::AddRestName(const char* name)
+{
+  this->Append(this->Landmarks->Rule.restNames, std::string(name ? name : ""));
+}
+
+void vtkFitDeformation::ClearRestNames()
+{
+  this->Clear(this->Landmarks->Rule.restNames);
+}
+
+void vtkFitDeformation::AddMeasuredName(const char* name)
+{
+  this->Append(this->Landmarks->Rule.measuredNames, std::string(name ? name : ""));
+}
+
+void vtkFitDeformation::ClearMeasuredNames()
+{
+  this->Clear(this->Landmarks->Rule.measuredNames);
 }
 
 int vtkFitDeformation::FillInputPortInformation(int port, vtkInformation* info)
@@ -231,8 +287,11 @@ void vtkFitDeformation::ReadMeasurements(vtkInformationVector** inputs)
   state.Measured = {};
   const auto points = [&](
                         int port) { return pointsOfAllRanks(vtkPointSet::GetData(inputs[port])); };
-  state.Measured.landmarks =
-    this->Landmarks->read(points(RestPort), points(MeasuredPort), state.Unmatched);
+  NamedPairs named = this->Landmarks->read(points(RestPort), points(MeasuredPort));
+  state.Measured.landmarks = std::move(named.pairs);
+  state.Unmatched = std::move(named.unmatched);
+  state.Repeated = std::move(named.repeated);
+  state.Names = std::move(named.names);
   state.Measured.pulls = rowsFrom<Pull>(this->Pulls);
   for (const Pin& pin : rowsFrom<Pin>(this->Pins))
   {
@@ -364,12 +423,16 @@ int vtkFitDeformation::RequestData(
   const std::string noEvidence = this->Evidence
     ? problemOf([&] { addEvidence(output, state.Fitted, state.Evidence); })
     : std::string();
-  const std::string warning = joined({ noEvidence, state.warning() });
+  const std::string doubts = state.doubts();
+  const std::size_t listed = this->Landmarks->Numbers.size() / Packed<PointPair>::Numbers;
+  const bool isPicking = listed < FewestPairs && listed == state.Measured.landmarks.size();
+  const std::string warning = joined({ noEvidence, isPicking ? "" : doubts, state.warning() });
   if (warning != state.WarnedOf && !warning.empty())
   {
     vtkWarningMacro(<< warning << ".");
   }
   state.WarnedOf = warning; // it is repeated only after it was gone
+  state.Warning = isPicking ? joined({ warning, doubts }) : warning;
   output->Crop(
     outputs->GetInformationObject(0)->Get(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT()));
   return 1;
@@ -461,6 +524,11 @@ const char* vtkFitDeformation::GetProblem() const
 const char* vtkFitDeformation::GetUnmatched() const
 {
   return this->Internal->Unmatched.c_str();
+}
+
+std::string vtkFitDeformation::GetWarning() const
+{
+  return this->Internal->Problem.empty() ? this->Internal->Warning : std::string();
 }
 
 std::vector<double> vtkFitDeformation::MeasuredFromRest(const std::vector<double>& rest)

@@ -14,8 +14,9 @@
  *   measured bends the volume from there. The rigid part is then the identity.
  * - Input 2 (optional): the mask of the Free-Form Deformation.
  * - Input 3, 4 (optional): landmarks at rest and measured, points with an optional array Label.
- *   They match by label, else by order. An array Weight of the landmarks at rest divides their
- *   variance; 0 switches a landmark off.
+ *   They match by label, and by order where neither has labels. Labels of which none is on both
+ *   lists are an error. An array Weight of the landmarks at rest divides their variance; 0 switches
+ *   a landmark off.
  * - Input 5 (optional): points traced on the cortex, measured frame.
  * - Input 6 (optional): a segmentation at rest; the cortex is taken from it, not the volume.
  * - Input 7 (optional): a cavity, measured frame. Traced points in it do not count.
@@ -144,6 +145,20 @@ public:
   ///@}
 
   ///@{
+  /** Whether landmarks of the inputs match by their order whatever their labels. Default off. */
+  void SetPairByOrder(bool byOrder);
+  bool GetPairByOrder() const;
+  ///@}
+
+  ///@{
+  /** Labels, in their order, of landmarks whose input has no array Label. Default: none. */
+  void AddRestName(const char* name);
+  void ClearRestNames();
+  void AddMeasuredName(const char* name);
+  void ClearMeasuredNames();
+  ///@}
+
+  ///@{
   /**
    * Pulls: 7 numbers each, where tissue was (mm, rest frame), where it was put (mm) and its weight
    * (0: switched off).
@@ -213,6 +228,9 @@ public:
 
   /** The landmarks without a partner, with commas between them; empty if there are none. */
   const char* GetUnmatched() const;
+
+  /** What a user must know about the result: sentences, without the last full stop; or empty. */
+  std::string GetWarning() const;
 
   ///@{
   /**

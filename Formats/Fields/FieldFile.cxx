@@ -54,6 +54,11 @@ void reverseXY(DirectedField& field)
   }
 }
 
+bool hasFieldEnding(const std::string& fileName)
+{
+  return formatOf(fileName) != nullptr;
+}
+
 bool isFieldFile(const std::string& fileName)
 {
   const FieldFormat* format = formatOf(fileName);

@@ -49,6 +49,9 @@ struct FieldFormat
 /** All formats of fields. brainshift_add_format writes this list. */
 const std::vector<const FieldFormat*>& fieldFormats();
 
+/** Whether the name of a file has the ending of one of the formats. */
+VTKBRAINSHIFTFORMATS_EXPORT bool hasFieldEnding(const std::string& fileName);
+
 /** Whether a file looks like a displacement field: three components, in one of the formats. */
 VTKBRAINSHIFTFORMATS_EXPORT bool isFieldFile(const std::string& fileName);
 

@@ -56,6 +56,10 @@ public:
     {
       this->Attributes[attributes[0]] = attributes[1];
     }
+    if (name == "GIFTI")
+    {
+      this->File.attributes = this->Attributes;
+    }
     if (name == "DataArray")
     {
       this->File.arrays.back().attributes = this->Attributes;
@@ -212,6 +216,26 @@ void hearEntity(void* user, Ignored...)
   heard(user, [](Listener& listener) { listener.stop("declares an entity, which is not read"); });
 }
 
+// What the first element announces.
+void requireRoot(const GIFTIFile& file)
+{
+  const auto said = [&](const char* name) {
+    const auto found = file.attributes.find(name);
+    return found == file.attributes.end() ? std::string() : found->second;
+  };
+  const std::vector<double> version = numbersIn(said("Version"));
+  if (!version.empty() && !(version[0] >= 1.0 && version[0] < 2.0))
+  {
+    throw Problem("has the Version " + shownWords(said("Version")) + "; it must be 1");
+  }
+  const std::vector<double> count = numbersIn(said("NumberOfDataArrays"));
+  if (!count.empty() && count[0] != static_cast<double>(file.arrays.size()))
+  {
+    throw Problem("has " + std::to_string(file.arrays.size()) +
+      " arrays where NumberOfDataArrays announces " + shownWords(said("NumberOfDataArrays")));
+  }
+}
+
 struct FreeParser
 {
   void operator()(XML_Parser parser) const { XML_ParserFree(parser); }
@@ -262,6 +286,7 @@ GIFTIFile readGIFTIFile(const std::vector<char>& text)
       break;
     }
   }
+  requireRoot(file);
   return file;
 }
 }

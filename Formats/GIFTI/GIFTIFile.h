@@ -41,6 +41,7 @@ struct GIFTIArray
 /** A whole file. */
 struct GIFTIFile
 {
+  std::map<std::string, std::string> attributes; ///< of the first element
   std::vector<GIFTIArray> arrays;
   std::vector<Label> labels;
 };

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <utility>
 
 namespace brainshift
@@ -24,6 +25,8 @@ constexpr const char* TriangleIntent = "NIFTI_INTENT_TRIANGLE";
 constexpr const char* Scanner = "NIFTI_XFORM_SCANNER_ANAT";
 constexpr const char* Aligned = "NIFTI_XFORM_ALIGNED_ANAT";
 constexpr const char* Unknown = "NIFTI_XFORM_UNKNOWN";
+// In which points stay where no matrix leads on.
+const std::string NamedSpaces[] = { Aligned, "NIFTI_XFORM_TALAIRACH", "NIFTI_XFORM_MNI_152" };
 
 template <typename T>
 T numberIn(const GIFTIArray& array, std::size_t index)
@@ -132,6 +135,11 @@ void findPlace(const GIFTIArray& points, Surface& surface)
   }
   else if (!from.empty() && from != Unknown)
   {
+    if (std::find(std::begin(NamedSpaces), std::end(NamedSpaces), from) == std::end(NamedSpaces))
+    {
+      surface.notes.push_back("names the space " + shownWords(from) +
+        " of its points, which GIFTI does not define; they are shown as they are");
+    }
     return;
   }
   else if (frame)

@@ -5,6 +5,7 @@
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
 #include "Formats/Files/WholeFile.h"
+#include "Formats/Landmarks/Coordsystem.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +50,7 @@ Format knownFormatOf(const std::string& fileName)
 }
 
 void parse(
-  const std::string& text, Format format, int volume, FileAxes tableAxes, LandmarkList& list)
+  const std::string& text, Format format, int volume, const TableRule& table, LandmarkList& list)
 {
   switch (format)
   {
@@ -60,7 +61,7 @@ void parse(
     case Format::Tags:
       return readTags(text, volume, list);
     default:
-      return readPointTable(text, tableAxes, list);
+      return readPointTable(text, table, list);
   }
 }
 
@@ -165,12 +166,16 @@ bool isLandmarkFile(const std::string& fileName)
   }
 }
 
-LandmarkList readLandmarkFile(const std::string& fileName, int volume, FileAxes tableAxes)
+LandmarkList readLandmarkFile(const std::string& fileName, int volume, const TableRule& table)
 {
   const Format format = knownFormatOf(fileName);
   LandmarkList list;
-  withBeginning("Landmark file " + fileName + " ",
-    [&] { parse(readPlainText(fileName, LongestText), format, volume, tableAxes, list); });
+  withBeginning("Landmark file " + fileName + " ", [&] {
+    const std::string text = readPlainText(fileName, LongestText);
+    TableRule rule = table;
+    rule.mm = electrodeUnit(fileName, list).value_or(table.mm);
+    parse(text, format, volume, rule, list);
+  });
   return list;
 }
 

@@ -26,10 +26,10 @@ bool isLandmarkFile(const std::string& fileName);
 /**
  * Reads a file, or throws one sentence, without a full stop.
  *
- * @param volume      of a .tag file, whose points are read: 1 or 2
- * @param tableAxes   of a table whose columns are called x, y and z
+ * @param volume   of a .tag file, whose points are read: 1 or 2
+ * @param table    what a table does not tell; its unit comes from the coordsystem.json of BIDS
  */
-LandmarkList readLandmarkFile(const std::string& fileName, int volume, FileAxes tableAxes);
+LandmarkList readLandmarkFile(const std::string& fileName, int volume, const TableRule& table);
 
 /**
  * Writes a file whole, or leaves the old one as it was and throws one sentence, without a full

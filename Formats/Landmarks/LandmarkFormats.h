@@ -83,11 +83,18 @@ void writeFiducials(std::ostream& file, FileAxes axes, const LandmarkList& list)
 ///@}
 
 ///@{
+/** What a table itself does not tell. */
+struct TableRule
+{
+  FileAxes axes = FileAxes::RAS;    ///< of columns that are called x, y and z
+  std::vector<std::string> columns; ///< names of those of the position; none: what they are called
+  double mm = 1.0;                  ///< of one unit, if no name of a column tells it
+};
+
 /**
- * Tables (.csv, .tsv), PointTable.cxx. `axes` are those of columns that are called x, y and z.
- * Written columns are called r, a, s or l, p, s.
+ * Tables (.csv, .tsv), PointTable.cxx. Written columns are called r, a, s or l, p, s.
  */
-void readPointTable(const std::string& text, FileAxes axes, LandmarkList& list);
+void readPointTable(const std::string& text, const TableRule& rule, LandmarkList& list);
 bool looksLikePointTable(const std::string& beginning);
 void writePointTable(std::ostream& file, FileAxes axes, char separator, const LandmarkList& list);
 ///@}

@@ -156,8 +156,20 @@ private:
     }
   }
 
+  // A key in other letters would count as missing without a word.
+  void requireKey(const std::string& known) const
+  {
+    if (this->Key != known && lowerCase(this->Key) == lowerCase(known))
+    {
+      throw Problem("has the key " + shownWords(this->Key) + "; Slicer writes " + known);
+    }
+  }
+
   void takeOfMarkup(const Value& value)
   {
+    this->requireKey("coordinateUnits");
+    this->requireKey("coordinateSystem");
+    this->requireKey("controlPoints");
     if (this->Key == "coordinateUnits")
     {
       requireUnit(value);
@@ -176,6 +188,8 @@ private:
 
   void takeOfControl(const Value& value)
   {
+    this->requireKey("position");
+    this->requireKey("positionStatus");
     if (this->Key == "label" && value.word)
     {
       this->Point.label = *value.word;
@@ -210,6 +224,11 @@ private:
     {
       this->enterControl(isArray);
     }
+    else if (outside == Place::Control && this->Key != "position" &&
+      lowerCase(this->Key) == "position")
+    {
+      this->requireKey("position");
+    }
     else if (outside == Place::Position || (outside == Place::Control && this->Key == "position"))
     {
       this->requirePosition(outside == Place::Control && isArray);
@@ -221,6 +240,7 @@ private:
 
   void openInMarkup(bool isArray)
   {
+    this->requireKey("controlPoints");
     if (this->Key == "controlPoints")
     {
       throwIfAny(isArray ? "" : "has controlPoints that are no array");

@@ -2,14 +2,9 @@
 /// @file
 /// Tables of points (.csv, .tsv) whose first line names the columns, and Slicer's fiducials.
 ///
-/// | column                     | names, in capitals or not               |
-/// |----------------------------|-----------------------------------------|
-/// | position, mm               | x y z; r a s; l p s; Points:0 Points:1 Points:2 |
-/// | label                      | label, name                             |
-/// | time, deviation, number    | time, deviation, number                 |
-/// | 0: the point has no place  | defined                                 |
+/// README.md lists the names of columns. "(mm)" or "[mm]" may follow a name. The value n/a is an
+/// empty one. Columns r, a, s and l, p, s name their axes themselves.
 ///
-/// Columns r, a, s and l, p, s name their axes themselves. "(mm)" or "[mm]" may follow a name.
 /// Separators are commas, semicolons or tabs. Lines before the names that begin with # are passed
 /// over. Slicer's tables of markups are such tables.
 ///
@@ -21,6 +16,7 @@
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"
 #include "Formats/Landmarks/LandmarkFormats.h"
+#include "Formats/Landmarks/PointColumns.h"
 
 #include <algorithm>
 #include <array>
@@ -145,10 +141,8 @@ std::string recordValue(const std::string& value, char separator)
 }
 
 constexpr char Separators[] = { ',', ';', '\t' };
-constexpr Names PlainNames{ "x", "y", "z" };
 constexpr Names RASNames{ "r", "a", "s" };
 constexpr Names LPSNames{ "l", "p", "s" };
-constexpr Names ParaViewNames{ "points:0", "points:1", "points:2" }; // ParaView's own CSV Writer
 
 constexpr std::array<std::pair<const char*, double Landmark::*>, 3> NumberColumns{ {
   { "number", &Landmark::number },
@@ -159,9 +153,7 @@ constexpr std::array<std::pair<const char*, double Landmark::*>, 3> NumberColumn
 // Where the columns are. One that the table lacks is beyond its end.
 struct Columns
 {
-  std::array<std::size_t, 3> position{};
-  Names names = PlainNames;
-  std::optional<FileAxes> axes; // none if the names do not tell
+  PointColumns position;
   std::size_t label = 0;
   std::size_t time = 0;
   std::size_t deviation = 0;
@@ -184,8 +176,13 @@ std::string nameOf(const std::string& written)
   return name;
 }
 
-std::optional<Columns> columnsIn(const Values& header)
+std::optional<Columns> columnsIn(const Values& header, const Values& wanted)
 {
+  const std::optional<PointColumns> position = pointColumnsIn(header, wanted);
+  if (!position)
+  {
+    return std::nullopt;
+  }
   std::map<std::string, std::size_t> places;
   for (std::size_t i = 0; i < header.size(); ++i)
   {
@@ -196,25 +193,14 @@ std::optional<Columns> columnsIn(const Values& header)
     return found == places.end() ? header.size() : found->second;
   };
   Columns columns;
+  columns.position = *position;
   columns.count = header.size();
   columns.label = std::min(placeOf("label"), placeOf("name"));
   columns.time = placeOf("time");
   columns.deviation = placeOf("deviation");
   columns.number = placeOf("number");
   columns.defined = placeOf("defined");
-  for (const Names& names : { PlainNames, RASNames, LPSNames, ParaViewNames })
-  {
-    columns.names = names;
-    columns.position = { placeOf(names[0]), placeOf(names[1]), placeOf(names[2]) };
-    if (*std::max_element(columns.position.begin(), columns.position.end()) < header.size())
-    {
-      columns.axes = names == RASNames ? std::optional(FileAxes::RAS)
-        : names == LPSNames            ? std::optional(FileAxes::LPS)
-                                       : std::nullopt;
-      return columns;
-    }
-  }
-  return std::nullopt;
+  return columns;
 }
 
 bool isComment(const Values& values)
@@ -222,33 +208,45 @@ bool isComment(const Values& values)
   return trimmed(values[0]).compare(0, 1, "#") == 0;
 }
 
-// The first line that is no comment, as columns between one of the separators.
-std::optional<Columns> findColumns(const std::string& text, char& separator)
+// The first line that is no comment.
+Values headerOf(const std::string& text, char separator)
 {
+  RecordReader records(text, separator);
+  Values header;
+  bool isFound = records.next(header);
+  while (isFound && isComment(header))
+  {
+    isFound = records.next(header);
+  }
+  return isFound ? header : Values();
+}
+
+// The columns between one of the separators. Wanted names must be between the one that the header
+// has most of.
+std::optional<Columns> findColumns(const std::string& text, const Values& wanted, char& separator)
+{
+  std::size_t most = 0;
   for (const char candidate : Separators)
   {
-    RecordReader records(text, candidate);
-    Values header;
-    bool isFound = records.next(header);
-    while (isFound && isComment(header))
-    {
-      isFound = records.next(header);
-    }
-    const std::optional<Columns> columns = isFound ? columnsIn(header) : std::nullopt;
+    const Values header = headerOf(text, candidate);
+    const std::optional<Columns> columns =
+      wanted.empty() && !header.empty() ? columnsIn(header, {}) : std::nullopt;
     if (columns)
     {
       separator = candidate;
       return columns;
     }
+    separator = header.size() > most ? candidate : separator;
+    most = std::max(most, header.size());
   }
-  return std::nullopt;
+  return wanted.empty() ? std::nullopt : columnsIn(headerOf(text, separator), wanted);
 }
 
 // The number in a column. NaN if the table lacks the column or the value is empty.
 double readNumber(const Values& values, std::size_t column, const std::string& name)
 {
   const std::string word = column < values.size() ? trimmed(values[column]) : std::string();
-  if (word.empty())
+  if (word.empty() || lowerCase(word) == "n/a") // as BIDS writes what is missing
   {
     return std::numeric_limits<double>::quiet_NaN();
   }
@@ -266,8 +264,8 @@ bool readPoint(const Values& values, const Columns& columns, Landmark& point)
 {
   for (int axis = 0; axis < 3; ++axis)
   {
-    const std::size_t column = columns.position[axis];
-    point.position[axis] = readNumber(values, column, columns.names[axis]);
+    const std::size_t column = columns.position.at[axis];
+    point.position[axis] = readNumber(values, column, columns.position.names[axis]);
   }
   point.time = readNumber(values, columns.time, "time");
   point.deviation = readNumber(values, columns.deviation, "deviation");
@@ -325,12 +323,19 @@ void readComment(const std::string& line, FiducialHeader& header)
   {
     return;
   }
-  const std::string key = lowerCase(trimmed(line.substr(1, mark - 1)));
+  std::string key = lowerCase(trimmed(line.substr(1, mark - 1)));
+  key.erase(std::remove_if(key.begin(), key.end(),
+              [](char letter) { return letter == ' ' || letter == '_' || letter == '-'; }),
+    key.end());
   const std::string value = trimmed(line.substr(mark + 1));
   if (key == "coordinatesystem")
   {
     header.axes = axesFrom(value);
     return;
+  }
+  if (key == "coordinateunits" && lowerCase(value) != "mm")
+  {
+    throw Problem("has coordinateUnits " + shownWords(value) + "; they must be mm");
   }
   if (key == "columns")
   {
@@ -358,14 +363,30 @@ void readFiducial(const Values& values, const FiducialHeader& header, Landmark& 
 }
 }
 
-void readPointTable(const std::string& text, FileAxes axes, LandmarkList& list)
+void readPointTable(const std::string& text, const TableRule& rule, LandmarkList& list)
 {
   char separator = ',';
-  const std::optional<Columns> columns = findColumns(text, separator);
+  const std::optional<Columns> columns = findColumns(text, rule.columns, separator);
   if (!columns)
   {
-    throw Problem("has no first line that names the columns x, y and z, or r, a, s, or l, p, s");
+    std::string names;
+    for (const std::string& name : headerOf(text, separator))
+    {
+      names += (names.empty() ? "" : ", ") + trimmed(name);
+    }
+    throw Problem("has no first line that names the columns x, y and z, or r, a, s, or l, p, s; it "
+                  "names " +
+      shownWords(names) + "; name three of its columns (Position Columns)");
   }
+  const PointColumns& columnsOfPosition = columns->position;
+  if (!columnsOfPosition.space.empty())
+  {
+    list.notes.push_back("takes its positions from " + columnsOfPosition.names[0] + ", " +
+      columnsOfPosition.names[1] + " and " + columnsOfPosition.names[2] +
+      ", which are those of a template, not of the scanner");
+  }
+  const FileAxes axes = columnsOfPosition.axes.value_or(rule.axes);
+  const double mm = columnsOfPosition.mm.value_or(rule.mm);
   RecordReader records(text, separator);
   Values values;
   bool isHeader = true;
@@ -387,7 +408,7 @@ void readPointTable(const std::string& text, FileAxes axes, LandmarkList& list)
     Landmark point;
     bool hasPlace = false;
     withBeginning(beginningAt(where), [&] { hasPlace = readPoint(values, *columns, point); });
-    point.position = inAxes(columns->axes.value_or(axes), point.position);
+    point.position = mm * inAxes(axes, point.position);
     skipped += hasPlace ? 0 : 1;
     if (hasPlace)
     {
@@ -404,7 +425,10 @@ void readPointTable(const std::string& text, FileAxes axes, LandmarkList& list)
 bool looksLikePointTable(const std::string& beginning)
 {
   char separator = ',';
-  return findColumns(beginning, separator).has_value();
+  bool isFound = false;
+  const std::string problem =
+    problemOf([&] { isFound = findColumns(beginning, {}, separator).has_value(); });
+  return isFound || !problem.empty(); // several positions are some
 }
 
 void writePointTable(std::ostream& file, FileAxes axes, char separator, const LandmarkList& list)

@@ -27,6 +27,21 @@ int vtkLandmarkReader::CanReadFile(const char* fileName)
   return thrown.empty() && isOne ? 1 : 0;
 }
 
+void vtkLandmarkReader::AddPositionColumn(const char* name)
+{
+  if (name && *name)
+  {
+    this->PositionColumns.emplace_back(name);
+    this->Modified();
+  }
+}
+
+void vtkLandmarkReader::ClearPositionColumns()
+{
+  this->PositionColumns.clear();
+  this->Modified();
+}
+
 int vtkLandmarkReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
@@ -39,8 +54,10 @@ int vtkLandmarkReader::RequestData(
   this->Problem = "The file needs more memory than is available"; // what holds if this throws
   this->Problem = problemOf([&] {
     throwIfAny(this->FileName.empty() ? "FileName is empty; it must name a file of landmarks" : "");
-    list = readLandmarkFile(
-      this->FileName, this->Volume, this->TableAxes == LPS ? FileAxes::LPS : FileAxes::RAS);
+    TableRule table;
+    table.axes = this->TableAxes == LPS ? FileAxes::LPS : FileAxes::RAS;
+    table.columns = this->PositionColumns;
+    list = readLandmarkFile(this->FileName, this->Volume, table);
   });
   throwIfAny(this->Problem);
   for (const std::string& note : list.notes)
@@ -56,5 +73,6 @@ void vtkLandmarkReader::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << this->FileName << "\n"
      << indent << "Volume: " << this->Volume << "\n"
-     << indent << "TableAxes: " << (this->TableAxes == RAS ? "RAS" : "LPS") << "\n";
+     << indent << "TableAxes: " << (this->TableAxes == RAS ? "RAS" : "LPS") << "\n"
+     << indent << "PositionColumns: " << this->PositionColumns.size() << "\n";
 }

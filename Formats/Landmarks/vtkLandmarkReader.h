@@ -17,6 +17,7 @@
 #include "vtkPolyDataAlgorithm.h"
 
 #include <string>
+#include <vector>
 
 class VTKBRAINSHIFTFORMATS_EXPORT vtkLandmarkReader : public vtkPolyDataAlgorithm
 {
@@ -51,6 +52,15 @@ public:
   vtkGetMacro(TableAxes, int);
   ///@}
 
+  ///@{
+  /**
+   * Names of the three columns of a table that hold the position, in the order x, y, z. Default:
+   * none, so that what the columns are called decides.
+   */
+  void AddPositionColumn(const char* name);
+  void ClearPositionColumns();
+  ///@}
+
   /** Why the last run read no points: one sentence, without a full stop. Empty if it read them. */
   vtkGetMacro(Problem, std::string);
 
@@ -71,6 +81,7 @@ private:
   std::string FileName;
   int Volume = 1;
   int TableAxes = RAS;
+  std::vector<std::string> PositionColumns;
   std::string Problem = "Nothing was read";
 };
 

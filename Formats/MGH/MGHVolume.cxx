@@ -3,6 +3,7 @@
 
 #include "Common/Bytes.h"
 #include "Formats/Files/PlainFile.h"
+#include "Formats/Files/Text.h"
 
 #include "vtkImageData.h"
 
@@ -15,6 +16,9 @@ namespace
 {
 constexpr std::size_t HeaderBytes = 284; // voxels follow
 constexpr int Version = 1;
+constexpr int IntentBits = 8; // what the voxels are stands above the version
+constexpr int Warp = 3;       // of FreeSurfer's intents, and its inverse
+constexpr int InverseWarp = 4;
 constexpr int MostFrames = 65536; // each takes memory for its time
 
 // VTK's types by the numbers of the format.
@@ -32,7 +36,8 @@ struct MGHHeader
 {
   std::array<char, HeaderBytes> bytes{};
 
-  int version() const { return storedNumber<std::int32_t>(this->bytes.data(), true); }
+  int intent() const { return this->begin() >> IntentBits; }
+  int version() const { return this->begin() & ((1 << IntentBits) - 1); }
   // Columns, rows, slices, frames.
   int side(int axis) const
   {
@@ -49,6 +54,9 @@ struct MGHHeader
   }
   // Of the voxel in the middle, at half the sides.
   glm::dvec3 centre() const { return vectorAt(this->bytes.data(), 78); }
+
+private:
+  int begin() const { return storedNumber<std::int32_t>(this->bytes.data(), true); }
 };
 
 void readBegin(const std::string& fileName, MGHHeader& header)
@@ -64,6 +72,12 @@ void requireHeader(const MGHHeader& header)
   if (header.version() != Version)
   {
     throw Problem("has the version " + std::to_string(header.version()) + "; it must have 1");
+  }
+  if (header.intent() < 0 || header.intent() >= Warp)
+  {
+    throw Problem("has the version 1 with the intent " + std::to_string(header.intent()) +
+      (header.intent() == Warp || header.intent() == InverseWarp ? " (a warp)" : "") +
+      "; BrainShift reads the intents 0 (MRI), 1 (label) and 2 (shape)");
   }
   bool oneVoxel = true;
   for (int axis = 0; axis < 4; ++axis)
@@ -109,7 +123,7 @@ glm::dmat4 worldFromVoxel(const MGHHeader& header)
 }
 
 // Seconds between two frames: the repetition time, which follows the voxels; 1 if it is not there.
-double secondsOf(StoredBytes from, double bytes)
+double secondsOf(StoredBytes from, double bytes, std::vector<std::string>& warnings)
 {
   from.unpackedSkip += from.isPacked ? static_cast<std::uint64_t>(bytes) : 0;
   from.offset += from.isPacked ? 0 : static_cast<std::uint64_t>(bytes);
@@ -117,7 +131,14 @@ double secondsOf(StoredBytes from, double bytes)
   const bool isRead =
     problemOf([&] { readBytes(from, raw.data(), 4, [](double) { return false; }); }).empty();
   const double milliseconds = isRead ? storedNumber<float>(raw.data(), true) : 0.0;
-  return std::isfinite(milliseconds) && milliseconds > 0.0 ? milliseconds * 1e-3 : 1.0;
+  if (std::isfinite(milliseconds) && milliseconds > 0.0)
+  {
+    return milliseconds * 1e-3;
+  }
+  warnings.push_back(isRead ? joined("has the TR ", milliseconds,
+                                " ms, which is no time between frames; they count as 1 s apart")
+                            : "names no TR; its frames count as 1 s apart");
+  return 1.0;
 }
 }
 
@@ -125,7 +146,8 @@ bool isMGHFile(const std::string& fileName)
 {
   MGHHeader header;
   const bool isRead = problemOf([&] { readBegin(fileName, header); }).empty();
-  return isRead && header.version() == Version && Types.count(header.type()) > 0;
+  return isRead && header.version() == Version && header.intent() >= 0 &&
+    header.intent() <= InverseWarp && Types.count(header.type()) > 0;
 }
 
 void MGHVolume::readHeader(const std::string& fileName, VolumeHeader& header)
@@ -150,8 +172,8 @@ void MGHVolume::readHeader(const std::string& fileName, VolumeHeader& header)
     header.warnings.push_back("has no positions of its voxels (goodRASFlag is 0); they are shown "
                               "as coronal slices of 1 mm, and their sides are not known");
   }
-  header.times = evenTimes(
-    static_cast<std::size_t>(this->Frames), this->Frames > 1 ? secondsOf(this->From, bytes) : 1.0);
+  header.times = evenTimes(static_cast<std::size_t>(this->Frames),
+    this->Frames > 1 ? secondsOf(this->From, bytes, header.warnings) : 1.0);
 }
 
 double MGHVolume::storedBytes(const VolumeHeader& header) const

@@ -5,6 +5,7 @@
 /// Their world is RAS, in mm. Whole numbers become real values, slice by slice, as the file says;
 /// whole numbers of the classes "integer" and "label" stay as they are. MINC1 files are refused.
 #include "Formats/Files/PlainFile.h"
+#include "Formats/Files/Text.h"
 #include "Formats/Volumes/VolumeFile.h"
 
 #include "vtkDataArray.h"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <map>
 
 namespace brainshift
@@ -90,6 +92,8 @@ struct StoredAxis
   misize_t count = 0;
   double start = 0.0; // mm along the axis
   double step = 1.0;
+  std::string units;
+  std::vector<double> offsets; // of an axis of time that is uneven
   glm::dvec3 cosines{ 0.0 };
   bool isEven = true;
 };
@@ -111,6 +115,17 @@ bool describe(midimhandle_t dimension, StoredAxis& axis)
   if (miget_dimension_sampling_flag(dimension, &isUneven) == MI_NOERROR)
   {
     axis.isEven = isUneven == 0;
+  }
+  char* units = nullptr;
+  if (miget_dimension_units(dimension, &units) == MI_NOERROR && units)
+  {
+    axis.units = units;
+    mifree_name(units);
+  }
+  if (isGood && !axis.isEven && axis.kind == MI_DIMCLASS_TIME && axis.count <= MostSteps)
+  {
+    axis.offsets.resize(axis.count);
+    miget_dimension_offsets(dimension, axis.count, 0, axis.offsets.data());
   }
   return isGood &&
     (axis.kind != MI_DIMCLASS_SPATIAL ||
@@ -186,6 +201,53 @@ std::vector<Label> labelsIn(mihandle_t volume)
   return labels;
 }
 
+// Millimetres or seconds by the words for units.
+const std::map<std::string, double> MmPerUnit{ { "", 1.0 }, { "mm", 1.0 }, { "cm", 10.0 },
+  { "m", 1000.0 }, { "um", 1e-3 }, { "millimeters", 1.0 }, { "millimetres", 1.0 } };
+const std::map<std::string, double> SecondsPerUnit{ { "", 1.0 }, { "s", 1.0 }, { "sec", 1.0 },
+  { "seconds", 1.0 }, { "ms", 1e-3 }, { "msec", 1e-3 }, { "us", 1e-6 }, { "min", 60.0 } };
+
+double factorOf(const std::map<std::string, double>& factors, const StoredAxis& axis)
+{
+  const auto known = factors.find(lowerCase(axis.units));
+  if (known == factors.end())
+  {
+    std::string words;
+    for (const auto& [word, factor] : factors)
+    {
+      words += (words.empty() || word.empty() ? "" : ", ") + word;
+    }
+    throw Problem("has the units '" + shownWords(axis.units) + "' along " + axis.name +
+      "; BrainShift reads " + words);
+  }
+  return known->second;
+}
+
+// Times of the volumes, s.
+std::vector<double> timesOf(const StoredAxis& axis, std::vector<std::string>& warnings)
+{
+  const double seconds = factorOf(SecondsPerUnit, axis);
+  if (axis.count > 1 && !axis.offsets.empty())
+  {
+    std::vector<double> times;
+    for (const double offset : axis.offsets)
+    {
+      times.push_back(seconds * offset);
+    }
+    if (std::adjacent_find(times.begin(), times.end(), std::greater_equal<double>()) == times.end())
+    {
+      return times;
+    }
+  }
+  if (axis.count > 1 && !(axis.step > 0.0))
+  {
+    warnings.push_back("has the step " + std::to_string(axis.step) + " along " + axis.name +
+      ", which is no time; its volumes are numbered 0, 1, 2 and so on");
+    return evenTimes(axis.count, 1.0);
+  }
+  return evenTimes(axis.count, seconds * axis.step, seconds * axis.start);
+}
+
 // What the axes are for, and where they put voxels. Space counts from the fastest axis on.
 void arrange(const std::vector<StoredAxis>& stored, std::vector<Axis>& axes, VolumeHeader& header)
 {
@@ -210,21 +272,22 @@ void arrange(const std::vector<StoredAxis>& stored, std::vector<Axis>& axes, Vol
         : axis.kind == MI_DIMCLASS_TIME ? AxisUse::Time
                                         : AxisUse::Components,
       axis.count });
-    if (!axis.isEven)
+    if (!axis.isEven && isSpace)
     {
       header.warnings.push_back("has an uneven spacing along " + axis.name +
         "; it is shown with the even spacing " + std::to_string(axis.step));
     }
     if (isSpace && along >= 0)
     {
-      header.worldFromVoxel[along] = glm::dvec4(axis.step * axis.cosines, 0.0);
-      header.worldFromVoxel[3] += glm::dvec4(axis.start * axis.cosines, 0.0);
+      const double mm = factorOf(MmPerUnit, axis);
+      header.worldFromVoxel[along] = glm::dvec4(mm * axis.step * axis.cosines, 0.0);
+      header.worldFromVoxel[3] += glm::dvec4(mm * axis.start * axis.cosines, 0.0);
       header.dimensions[along] = static_cast<int>(axis.count);
     }
     along -= isSpace ? 1 : 0;
     if (axis.kind == MI_DIMCLASS_TIME)
     {
-      header.times = evenTimes(axis.count, axis.step, axis.start);
+      header.times = timesOf(axis, header.warnings);
     }
     header.components =
       axes.back().use == AxisUse::Components ? static_cast<int>(axis.count) : header.components;

@@ -6,10 +6,12 @@
 /// reads them; intent_name holds the direction.
 ///
 /// Read: intent 1006 (vectors in RAS); intent 1007 (VECTOR) as ITK, ANTs and elastix write it
-/// (vectors in LPS); and intent 1007 of NiftyReg (vectors in RAS; intent_p1 0: positions, 1:
-/// displacements).
+/// (without a name; vectors in LPS); intent 1007 of NiftyReg (vectors in RAS; intent_p1 0:
+/// positions, 1: displacements) and of SPM ("Mapping": positions in RAS). Other names are refused:
+/// their vectors may be anything.
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Fields/FieldImage.h"
+#include "Formats/Files/Text.h"
 #include "Formats/Files/WholeFile.h"
 #include "Formats/NIFTI/NIFTIHeader.h"
 #include "Formats/NIFTI/NIFTIVolume.h"
@@ -25,16 +27,30 @@
 #include "vtkPointData.h"
 #include "vtk_zlib.h"
 
+#include <map>
+#include <set>
+
 namespace brainshift
 {
 namespace
 {
 constexpr int SmallestNIFTIHeader = 348; // bytes
 constexpr const char* NiftyRegName = "NREG_TRANS";
-constexpr int NiftyRegPositions = 0;     // intent_p1: where a point goes
-constexpr int NiftyRegDisplacements = 1; // how far
+constexpr int NiftyRegPositions = 0;       // intent_p1: where a point goes
+constexpr int NiftyRegDisplacements = 1;   // how far
+constexpr const char* SPMName = "Mapping"; // y_*.nii: where a point of the template comes from
 constexpr const char* ForwardName = "forward";
 constexpr const char* BackwardName = "backward";
+
+// Names that programs and users give to intent 1006, in small letters.
+const std::set<std::string> DisplacementNames{ "", ForwardName, BackwardName, "dispvect",
+  "displacement", "displacements", "displacement field", "displacement vec" };
+
+// FSL's own codes, whose files look like fields of three volumes.
+const std::map<int, const char*> FSLNames{ { 2006, "FSL_FNIRT_DISPLACEMENT_FIELD" },
+  { 2007, "FSL_CUBIC_SPLINE_COEFFICIENTS" }, { 2008, "FSL_DCT_COEFFICIENTS" },
+  { 2009, "FSL_QUADRATIC_SPLINE_COEFFICIENTS" }, { 2016, "FSL_TOPUP_CUBIC_SPLINE_COEFFICIENTS" },
+  { 2017, "FSL_TOPUP_QUADRATIC_SPLINE_COEFFICIENTS" }, { 2018, "FSL_TOPUP_FIELD" } };
 
 // What a header says about the vectors.
 struct Intent
@@ -42,6 +58,7 @@ struct Intent
   int code = 0;
   std::string name;
   double p1 = 0.0;
+  int xyztUnits = 0;
   bool isVectors = false; // three components
 };
 
@@ -58,16 +75,40 @@ Intent intentOf(const std::string& fileName)
   if (vtkNIFTIImageHeader* header = reader->GetNIFTIHeader())
   {
     intent.code = header->GetIntentCode();
-    intent.name = header->GetIntentName() ? header->GetIntentName() : "";
+    intent.name = trimmed(header->GetIntentName() ? header->GetIntentName() : "");
     intent.p1 = header->GetIntentP1();
+    intent.xyztUnits = header->GetXYZTUnits();
     intent.isVectors = header->GetDim(0) >= 5 && header->GetDim(4) <= 1 && header->GetDim(5) == 3;
   }
   return intent;
 }
 
+// Vectors under a name that is not known may be velocities, coefficients or positions.
+void requireName(const Intent& intent)
+{
+  const bool isKnown = intent.code == vtkNIFTIImageHeader::IntentDispVect
+    ? DisplacementNames.count(lowerCase(intent.name)) > 0
+    : intent.name.empty() || intent.name == NiftyRegName || intent.name == SPMName;
+  if (!isKnown)
+  {
+    throw Problem(joined("has the intent ", intent.code, " with the intent_name \"",
+      shownWords(intent.name), "\"; ",
+      intent.code == vtkNIFTIImageHeader::IntentDispVect
+        ? "of 1006 (DISPVECT) it must be empty, forward, backward or displacement"
+        : "of 1007 (VECTOR) it must be empty (ITK, ANTs, elastix), NREG_TRANS (NiftyReg) or "
+          "Mapping (SPM)"));
+  }
+}
+
 // Throws the end of a sentence unless a file is of vectors that can be used.
 void requireIntent(const Intent& intent)
 {
+  if (const auto ofFSL = FSLNames.find(intent.code); ofFSL != FSLNames.end())
+  {
+    throw Problem(joined("has the intent ", intent.code, " (", ofFSL->second,
+      "), which BrainShift does not read; a displacement field must have 1006 (DISPVECT: RAS, "
+      "mm)"));
+  }
   if (!intent.isVectors)
   {
     throw Problem("does not have 3 components per voxel (in dim[5])");
@@ -77,6 +118,12 @@ void requireIntent(const Intent& intent)
   {
     throw Problem("has the intent " + std::to_string(intent.code) +
       "; a displacement field must have 1006 (DISPVECT) or 1007 (VECTOR)");
+  }
+  requireName(intent);
+  if (mmPerNIFTIUnit(intent.xyztUnits) != 1.0)
+  {
+    throw Problem(joined("has the xyzt_units ", intent.xyztUnits, ", whose unit of length is not ",
+      "mm; a displacement field must be in mm (2)"));
   }
   if (intent.name == NiftyRegName && intent.p1 != NiftyRegPositions &&
     intent.p1 != NiftyRegDisplacements)
@@ -168,21 +215,23 @@ void readNIFTIField(const std::string& fileName, DirectedField& field)
   });
   readVectors(fileName, field);
   field.direction.reset();
-  if (intent.name == NiftyRegName)
+  const bool isVector = intent.code == vtkNIFTIImageHeader::IntentVector;
+  if (isVector && intent.name.empty())
+  {
+    reverseVectorsXY(field); // ITK stores its LPS vectors as they are
+  }
+  else if (isVector)
   {
     field.direction = Direction::Backward;
-    if (intent.p1 == NiftyRegPositions)
+    if (intent.name == SPMName || intent.p1 == NiftyRegPositions)
     {
       subtractPositions(field);
     }
   }
-  else if (intent.code == vtkNIFTIImageHeader::IntentVector)
+  else if (const std::string name = lowerCase(intent.name);
+    name == ForwardName || name == BackwardName)
   {
-    reverseVectorsXY(field); // ITK stores its LPS vectors as they are
-  }
-  else if (intent.name == ForwardName || intent.name == BackwardName)
-  {
-    field.direction = intent.name == ForwardName ? Direction::Forward : Direction::Backward;
+    field.direction = name == ForwardName ? Direction::Forward : Direction::Backward;
   }
 }
 

@@ -4,9 +4,11 @@
 #include "Common/Bytes.h"
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
+#include "Formats/Volumes/VolumeFile.h"
 
 #include "vtk_zlib.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -225,6 +227,78 @@ glm::dmat4 affine(const glm::dmat3& axes, const glm::dvec3& offset)
   return glm::dmat4(glm::dvec4(axes[0], 0.0), glm::dvec4(axes[1], 0.0), glm::dvec4(axes[2], 0.0),
     glm::dvec4(offset, 1.0));
 }
+
+constexpr int LengthBits = 0x07; // of xyzt_units
+constexpr int TimeBits = 0x38;
+constexpr double LongestPlainStep = 100.0; // s; a longer step without a unit may be ms
+
+// Seconds by the unit of time. 0: none is said.
+const std::map<int, double> SecondsPerUnit{ { 0, 1.0 }, { 8, 1.0 }, { 16, 1e-3 }, { 24, 1e-6 } };
+// Units in the place of those of time.
+const std::map<int, const char*> NoTimes{ { 32, "Hz" }, { 40, "ppm" }, { 48, "rad/s" } };
+
+bool isZero(const std::array<glm::dvec4, 3>& rows)
+{
+  return std::all_of(rows.begin(), rows.end(),
+    [](const glm::dvec4& row) { return glm::dvec3(row) == glm::dvec3(0.0); });
+}
+
+glm::dmat4 worldBySform(const NIFTIPlacement& placement)
+{
+  glm::dmat4 world(1.0);
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 4; ++column)
+    {
+      world[column][row] = placement.mmPerUnit * placement.sformRows[row][column];
+    }
+  }
+  return world;
+}
+
+// Without a qform: pixel sizes along the RAS axes.
+glm::dmat4 worldByQform(const NIFTIPlacement& placement)
+{
+  glm::dvec3 size = glm::abs(placement.pixelSize);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    size[axis] = placement.mmPerUnit * (size[axis] == 0.0 ? 1.0 : size[axis]); // as the standard
+  }
+  glm::dmat3 axes(1.0);
+  glm::dvec3 offset(0.0);
+  if (placement.qformCode > 0)
+  {
+    axes = rotationFromQuaternion(placement.quaternion);
+    axes[2] *= placement.qfac < 0.0 ? -1.0 : 1.0;
+    offset = placement.mmPerUnit * placement.qformOffset;
+  }
+  return affine(glm::dmat3(size.x * axes[0], size.y * axes[1], size.z * axes[2]), offset);
+}
+
+// What does not count of the numbers that worldByQform takes.
+void noteQform(const NIFTIPlacement& placement, std::vector<std::string>& warnings)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (const double size = placement.pixelSize[axis]; size <= 0.0)
+    {
+      warnings.push_back(joined("has the pixdim[", axis + 1, "] ", size,
+        size == 0.0 ? ", which counts as 1" : ", whose sign does not count"));
+    }
+  }
+  constexpr double LongestUnit = 1.001; // of decimals that are rounded
+  const double length = glm::length(placement.quaternion);
+  if (placement.qformCode > 0 && length > LongestUnit)
+  {
+    warnings.push_back(joined("has a quaternion (quatern_b, quatern_c, quatern_d) of the length ",
+      length, ", which counts as one of the length 1"));
+  }
+  const double qfac = placement.qfac;
+  if (placement.qformCode > 0 && qfac != 0.0 && std::abs(qfac) != 1.0)
+  {
+    warnings.push_back(joined("has the pixdim[0] ", qfac, ", of which only the sign counts"));
+  }
+}
 }
 
 bool isNIFTIFile(const std::string& fileName)
@@ -245,59 +319,94 @@ void requireNIFTIFile(const std::string& fileName)
   requireSize(header, fileName);
 }
 
-double mmPerNIFTIUnit(int xyztUnits)
+int bytesOfNIFTIVoxel(int dataType)
 {
-  switch (xyztUnits & 0x07)
+  const auto known = VoxelBytes.find(dataType);
+  return known == VoxelBytes.end() ? 0 : known->second;
+}
+
+std::optional<double> mmPerNIFTIUnit(int xyztUnits)
+{
+  switch (xyztUnits & LengthBits)
   {
+    case 0: // none is said
+    case 2:
+      return 1.0;
     case 1: // metre
       return 1000.0;
     case 3: // micrometre
       return 0.001;
     default:
-      return 1.0;
+      return std::nullopt;
   }
 }
 
-double secondsPerNIFTIUnit(int xyztUnits)
+std::vector<double> timesOf(const NIFTITiming& timing, std::vector<std::string>& warnings)
 {
-  switch (xyztUnits & 0x38)
+  if (timing.volumes <= 1)
   {
-    case 16: // millisecond
-      return 1e-3;
-    case 24: // microsecond
-      return 1e-6;
-    default:
-      return 1.0;
+    return evenTimes(timing.volumes, 1.0);
   }
+  const int code = timing.xyztUnits & TimeBits;
+  if (const auto other = NoTimes.find(code); other != NoTimes.end())
+  {
+    warnings.push_back(joined("has a fourth axis in ", other->second, " (xyzt_units ",
+      timing.xyztUnits, "), which is no time; its volumes are numbered 0, 1, 2 and so on"));
+    return evenTimes(timing.volumes, 1.0);
+  }
+  const auto known = SecondsPerUnit.find(code);
+  if (known == SecondsPerUnit.end())
+  {
+    warnings.push_back(joined("has the xyzt_units ", timing.xyztUnits, ", whose unit of time ",
+      code, " NIfTI does not know; it counts as s"));
+  }
+  const double seconds = known == SecondsPerUnit.end() ? 1.0 : known->second;
+  if (!std::isfinite(timing.start))
+  {
+    warnings.push_back(joined("has the toffset ", timing.start, "; it counts as 0"));
+  }
+  const double start = std::isfinite(timing.start) ? seconds * timing.start : 0.0;
+  const double step = std::abs(timing.step);
+  if (!(step > 0.0) || !std::isfinite(step))
+  {
+    warnings.push_back(joined("has the time step ", timing.step,
+      " (pixdim[4]), which is none; its volumes count as 1 s apart"));
+    return evenTimes(timing.volumes, 1.0, start);
+  }
+  if (timing.step < 0.0)
+  {
+    warnings.push_back(joined("has the time step ", timing.step,
+      " (pixdim[4]); its volumes count as that far apart, in the order of the file"));
+  }
+  if (code == 0 && step >= LongestPlainStep)
+  {
+    warnings.push_back(joined("names no unit of time (xyzt_units ", timing.xyztUnits,
+      "); its time step ", step, " counts as s"));
+  }
+  return evenTimes(timing.volumes, seconds * step, start);
 }
 
-glm::dmat4 worldFromVoxel(const NIFTIPlacement& placement)
+glm::dmat4 worldFromVoxel(const NIFTIPlacement& placement, std::vector<std::string>& warnings)
 {
-  if (placement.sformCode > 0)
+  const bool hasQform = placement.qformCode > 0;
+  if (placement.sformCode > 0 && hasQform && isZero(placement.sformRows))
   {
-    glm::dmat4 world(1.0);
-    for (int row = 0; row < 3; ++row)
+    warnings.push_back(joined(
+      "has the sform_code ", placement.sformCode, " but an sform of zeros; the qform counts"));
+  }
+  else if (placement.sformCode > 0)
+  {
+    const glm::dmat4 world = worldBySform(placement);
+    if (hasQform &&
+      glm::determinant(glm::dmat3(world)) * glm::determinant(glm::dmat3(worldByQform(placement))) <
+        0.0)
     {
-      for (int column = 0; column < 4; ++column)
-      {
-        world[column][row] = placement.mmPerUnit * placement.sformRows[row][column];
-      }
+      warnings.emplace_back("has a qform that mirrors the volume against its sform: left and "
+                            "right are exchanged in one of them; the sform counts");
     }
     return world;
   }
-  glm::dvec3 size = glm::abs(placement.pixelSize);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    size[axis] = placement.mmPerUnit * (size[axis] == 0.0 ? 1.0 : size[axis]); // as the standard
-  }
-  glm::dmat3 axes(1.0);
-  glm::dvec3 offset(0.0);
-  if (placement.qformCode > 0)
-  {
-    axes = rotationFromQuaternion(placement.quaternion);
-    axes[2] *= placement.qfac < 0.0 ? -1.0 : 1.0;
-    offset = placement.mmPerUnit * placement.qformOffset;
-  }
-  return affine(glm::dmat3(size.x * axes[0], size.y * axes[1], size.z * axes[2]), offset);
+  noteQform(placement, warnings);
+  return worldByQform(placement);
 }
 }

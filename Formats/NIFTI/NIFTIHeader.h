@@ -13,7 +13,9 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace brainshift
 {
@@ -29,6 +31,9 @@ bool isNIFTIFile(const std::string& fileName);
  */
 void requireNIFTIFile(const std::string& fileName);
 
+/** Bytes of a voxel of a datatype that requireNIFTIFile let pass; 0: unknown. */
+int bytesOfNIFTIVoxel(int dataType);
+
 /** The numbers of the header that place voxels, as they are stored. */
 struct NIFTIPlacement
 {
@@ -42,18 +47,34 @@ struct NIFTIPlacement
   double mmPerUnit = 1.0;                ///< of all the lengths above
 };
 
-/** Millimetres in the unit of length of a header's xyzt_units. An unknown unit counts as mm. */
-double mmPerNIFTIUnit(int xyztUnits);
+/** Numbers of a header that say when the volumes of a series are, as they are stored. */
+struct NIFTITiming
+{
+  std::size_t volumes = 1; ///< dim[4]
+  double step = 0.0;       ///< pixdim[4]
+  double start = 0.0;      ///< toffset
+  int xyztUnits = 0;
+};
 
-/** Seconds in the unit of time of a header's xyzt_units. An unknown unit counts as s. */
-double secondsPerNIFTIUnit(int xyztUnits);
+/**
+ * Millimetres in the unit of length of a header's xyzt_units. No unit (0) counts as mm; none: the
+ * standard does not know the code.
+ */
+std::optional<double> mmPerNIFTIUnit(int xyztUnits);
+
+/**
+ * Times of the volumes, s. `warnings` gets the ends of sentences on numbers that are no times: they
+ * do not count.
+ */
+std::vector<double> timesOf(const NIFTITiming& timing, std::vector<std::string>& warnings);
 
 /**
  * World position (mm, RAS) from a voxel's index in the file: the sform if there is one, else the
  * qform, else pixel sizes along the RAS axes with voxel (0, 0, 0) at the origin. These are methods
- * 3, 2 and 1 of the standard.
+ * 3, 2 and 1 of the standard. An sform of zeros does not count beside a qform. `warnings` gets the
+ * ends of sentences on numbers that contradict each other or do not count.
  */
-glm::dmat4 worldFromVoxel(const NIFTIPlacement& placement);
+glm::dmat4 worldFromVoxel(const NIFTIPlacement& placement, std::vector<std::string>& warnings);
 }
 
 #endif

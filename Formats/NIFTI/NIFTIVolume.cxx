@@ -4,6 +4,7 @@
 #include "Common/Bytes.h"
 #include "Common/Numbers.h"
 #include "Formats/Files/PackedBytes.h"
+#include "Formats/Files/Text.h"
 #include "Formats/NIFTI/NIFTIHeader.h"
 #include "Formats/Volumes/OutgoingVolume.h"
 
@@ -155,7 +156,7 @@ NIFTIPlacement placementOf(vtkNIFTIImageHeader* header)
   placement.pixelSize =
     glm::dvec3(header->GetPixDim(1), header->GetPixDim(2), header->GetPixDim(3));
   placement.qfac = header->GetPixDim(0);
-  placement.mmPerUnit = mmPerNIFTIUnit(header->GetXYZTUnits());
+  placement.mmPerUnit = mmPerNIFTIUnit(header->GetXYZTUnits()).value_or(1.0);
   return placement;
 }
 
@@ -168,17 +169,11 @@ glm::dmat4 voxelFromReversedSlices(int slices)
   return voxelFromReversed;
 }
 
-// Seconds, one for each volume of a time series; a spacing that is no number counts as 1.
-std::vector<double> timesOf(vtkNIFTIImageHeader* header)
+NIFTITiming timingOf(vtkNIFTIImageHeader* header)
 {
   const vtkTypeInt64 count = header->GetDim(0) >= 4 ? header->GetDim(4) : 1;
-  std::vector<double> times = evenTimes(static_cast<std::size_t>(std::max<vtkTypeInt64>(count, 0)),
-    std::abs(header->GetPixDim(4)), header->GetTOffset());
-  for (double& time : times)
-  {
-    time *= secondsPerNIFTIUnit(header->GetXYZTUnits());
-  }
-  return times;
+  return { static_cast<std::size_t>(std::max<vtkTypeInt64>(count, 0)), header->GetPixDim(4),
+    header->GetTOffset(), header->GetXYZTUnits() };
 }
 
 // Keeps the first error of an object that is not to speak to the user itself, without the name of
@@ -196,15 +191,53 @@ void keepError(vtkObject*, unsigned long event, void* clientData, void* callData
   kept.erase(kept.find_last_not_of(" .\n") + 1);
 }
 
-Rescaling rescalingOf(vtkNIFTIImageHeader* header)
+Rescaling rescalingOf(vtkNIFTIImageHeader* header, std::vector<std::string>& warnings)
 {
   const int type = header->GetDataType();
   const bool isColour =
     type == vtkNIFTIImageHeader::TypeRGB24 || type == vtkNIFTIImageHeader::TypeRGBA32;
   const double slope = header->GetSclSlope();
-  return !isColour && std::isfinite(slope) && slope != 0.0
-    ? Rescaling{ slope, header->GetSclInter() }
-    : Rescaling();
+  if (std::isinf(slope))
+  {
+    throw Problem(joined("has the scl_slope ", slope, "; it must be finite"));
+  }
+  const bool isUsed = !std::isnan(slope) && slope != 0.0;
+  if (isUsed && !isColour && !std::isfinite(header->GetSclInter()))
+  {
+    throw Problem(joined("has the scl_inter ", header->GetSclInter(), "; it must be finite"));
+  }
+  if (isUsed && isColour && slope != 1.0)
+  {
+    warnings.push_back(joined("has the scl_slope ", slope, ", which does not count for colours"));
+  }
+  if (!isUsed && std::isfinite(header->GetSclInter()) && header->GetSclInter() != 0.0)
+  {
+    warnings.push_back(
+      joined("has the scl_inter ", header->GetSclInter(), " but no scl_slope; neither counts"));
+  }
+  return isUsed && !isColour ? Rescaling{ slope, header->GetSclInter() } : Rescaling();
+}
+
+// Numbers that say the same twice, or nothing that NIfTI knows.
+void noteCodes(vtkNIFTIImageHeader* header, int bytesOfVoxel, std::vector<std::string>& warnings)
+{
+  const int bits = header->GetBitPix();
+  if (bits != 0 && bits != 8 * bytesOfVoxel)
+  {
+    warnings.push_back(joined("has the bitpix ", bits, " for the datatype ", header->GetDataType(),
+      " of ", 8 * bytesOfVoxel, " bits; the datatype counts"));
+  }
+  const int units = header->GetXYZTUnits();
+  if (!mmPerNIFTIUnit(units))
+  {
+    warnings.push_back(joined("has the xyzt_units ", units, ", whose unit of length ", units & 7,
+      " NIfTI does not know; it counts as mm"));
+  }
+  if ((units & ~0x3f) != 0)
+  {
+    warnings.push_back(joined("has the xyzt_units ", units,
+      ", which is more than NIfTI knows; only its unit of length and time count"));
+  }
 }
 }
 
@@ -233,16 +266,13 @@ void NIFTIVolume::readHeader(const std::string& fileName, VolumeHeader& header)
     throw Problem("cannot be read: " + this->Error);
   }
   vtkNIFTIImageHeader* stored = this->Voxels->GetNIFTIHeader();
-  header.rescaling = rescalingOf(stored);
-  if (!std::isfinite(header.rescaling.intercept))
-  {
-    throw Problem("has a scl_inter that is not finite");
-  }
-  header.times = timesOf(stored);
+  header.rescaling = rescalingOf(stored, header.warnings);
+  header.times = timesOf(timingOf(stored), header.warnings);
   this->Volumes = static_cast<int>(header.times.size());
   header.storedType = this->Voxels->GetDataScalarType();
   header.components = this->Voxels->GetNumberOfScalarComponents() / this->Volumes;
-  header.worldFromVoxel = worldFromVoxel(placementOf(stored));
+  noteCodes(stored, bytesOfNIFTIVoxel(stored->GetDataType()), header.warnings);
+  header.worldFromVoxel = worldFromVoxel(placementOf(stored), header.warnings);
   const int* extent = this->Voxels->GetDataExtent();
   header.dimensions = glm::ivec3(extent[1] + 1, extent[3] + 1, extent[5] + 1);
   if (this->reversesSlices())

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "Common/Numbers.h"
+#include "Formats/Files/Text.h"
 #include "Formats/TextHeaders/TextHeader.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace brainshift
@@ -80,9 +82,63 @@ void readAxes(std::size_t dimensions, TextHeader& header)
   }
 }
 
+// Fields that are names of one thing must not say two.
+void requireOneMeaning(const HeaderText& text, const std::vector<std::string>& names)
+{
+  for (const std::string& name : names)
+  {
+    const std::string said = text.valueOf({ name });
+    if (text.has(name) && said != text.valueOf(names) &&
+      numbersIn(said) != numbersIn(text.valueOf(names)))
+    {
+      throw Problem("has the " + names[0] + " " + text.valueOf(names) + ", but the " + name + " " +
+        said + ", which means the same");
+    }
+  }
+}
+
+// Millimetres in the unit of the file.
+double mmOf(const TextHeader& header)
+{
+  const std::string unit = header.text.valueOf({ "DistanceUnits" });
+  const std::optional<double> mm = unit == "?" ? 1.0 : mmPerUnit(unit);
+  if (!mm)
+  {
+    throw Problem("has the DistanceUnits " + unit + "; they must be um, mm, cm or ?");
+  }
+  return *mm;
+}
+
+// A fourth axis that leans into space, or space into it, cannot be volumes of one place.
+void requirePlainTime(const std::vector<double>& turn)
+{
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    if (turn[4 * i + 3] != 0.0 || turn[12 + i] != 0.0 || !(turn[15] > 0.0))
+    {
+      throw Problem("has a TransformMatrix that mixes time with space; its fourth row and column "
+                    "must be 0 0 0 1");
+    }
+  }
+}
+
+// ITK takes the offset as the place of the first voxel, whatever the centre is.
+void noteCentre(TextHeader& header)
+{
+  const std::string centre = header.text.valueOf({ "CenterOfRotation" });
+  const std::vector<double> numbers = numbersIn(centre);
+  if (!std::all_of(numbers.begin(), numbers.end(), [](double number) { return number == 0.0; }))
+  {
+    header.warnings.push_back(
+      "has the CenterOfRotation " + centre + ", which does not count, as in ITK");
+  }
+}
+
 // The steps of the axes of space. The file names the direction of one axis after the other.
 void readPlace(std::size_t dimensions, TextHeader& header)
 {
+  requireOneMeaning(header.text, { "TransformMatrix", "Rotation", "Orientation" });
+  requireOneMeaning(header.text, { "Offset", "Position", "Origin" });
   const std::string spacingText = header.text.valueOf({ "ElementSpacing", "ElementSize" });
   std::vector<double> spacing = numbersIn(spacingText);
   spacing = spacingText.empty() ? std::vector<double>(dimensions, 1.0) : spacing;
@@ -119,17 +175,21 @@ void readPlace(std::size_t dimensions, TextHeader& header)
       std::to_string(dimensions * dimensions) + " numbers");
   }
   const std::size_t first = header.axes.size() - dimensions;
+  const double mm = mmOf(header);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const double* const unit = &turn[axis * dimensions];
-    header.axes[first + axis].step = glm::dvec3(unit[0], unit[1], unit[2]) * spacing[axis];
+    header.axes[first + axis].step = glm::dvec3(unit[0], unit[1], unit[2]) * (mm * spacing[axis]);
   }
   if (dimensions == 4)
   {
     header.axes.back().kind = "time";
     header.axes.back().spacing = spacing[3];
+    header.axes.back().start = origin[3];
+    requirePlainTime(turn);
   }
-  header.origin = glm::dvec3(origin[0], origin[1], origin[2]);
+  header.origin = mm * glm::dvec3(origin[0], origin[1], origin[2]);
+  noteCentre(header);
 }
 
 // The letters of the sides that the axes come from (as ITK names them) or lead to.
@@ -187,8 +247,13 @@ void readScale(TextHeader& header)
 
 void readStorage(const std::string& fileName, TextHeader& header)
 {
-  header.isBigEndian =
-    isTrue(header.text.valueOf({ "BinaryDataByteOrderMSB", "ElementByteOrderMSB" }));
+  const std::vector<std::string> orders{ "BinaryDataByteOrderMSB", "ElementByteOrderMSB" };
+  header.isBigEndian = isTrue(header.text.valueOf(orders));
+  if (header.text.has(orders[1]) &&
+    isTrue(header.text.valueOf({ orders[1] })) != header.isBigEndian)
+  {
+    throw Problem("has an ElementByteOrderMSB other than its BinaryDataByteOrderMSB");
+  }
   const bool isPacked = isTrue(header.text.valueOf({ "CompressedData" }));
   header.encoding = !isTrue(header.text.valueOf({ "BinaryData" })) ? Encoding::Text
     : isPacked                                                     ? Encoding::Packed
@@ -216,6 +281,11 @@ void readStorage(const std::string& fileName, TextHeader& header)
 
 void fromMetaImage(const std::string& fileName, TextHeader& header)
 {
+  const std::string object = header.text.valueOf({ "ObjectType" });
+  if (!object.empty() && lowerCase(object) != "image")
+  {
+    throw Problem("has the ObjectType " + object + "; it must be Image");
+  }
   const std::string dimensionsText = header.text.valueOf({ "NDims" });
   const std::vector<double> dimensions = numbersIn(dimensionsText.empty() ? "3" : dimensionsText);
   if (dimensions.size() != 1 || !isWhole(dimensions[0], 3.0, MostDimensions))

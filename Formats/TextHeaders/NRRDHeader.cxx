@@ -5,6 +5,8 @@
 #include "Formats/TextHeaders/TextHeader.h"
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 
 namespace brainshift
 {
@@ -38,15 +40,40 @@ const std::map<std::string, Encoding> Encodings{ { "raw", Encoding::Raw },
 // The space, and whether it says where its axes point.
 const std::map<std::string, std::pair<HeaderSpace, bool>> Spaces{ { "right-anterior-superior",
                                                                     { HeaderSpace::RAS, true } },
-  { "RAS", { HeaderSpace::RAS, true } }, { "left-anterior-superior", { HeaderSpace::LAS, true } },
-  { "LAS", { HeaderSpace::LAS, true } }, { "left-posterior-superior", { HeaderSpace::LPS, true } },
-  { "LPS", { HeaderSpace::LPS, true } }, { "scanner-xyz", { HeaderSpace::RAS, false } },
-  { "3D-right-handed", { HeaderSpace::RAS, false } },
-  { "3D-left-handed", { HeaderSpace::RAS, false } } };
+  { "ras", { HeaderSpace::RAS, true } }, { "left-anterior-superior", { HeaderSpace::LAS, true } },
+  { "las", { HeaderSpace::LAS, true } }, { "left-posterior-superior", { HeaderSpace::LPS, true } },
+  { "lps", { HeaderSpace::LPS, true } }, { "scanner-xyz", { HeaderSpace::RAS, false } },
+  { "3d-right-handed", { HeaderSpace::RAS, false } },
+  { "3d-left-handed", { HeaderSpace::RAS, false } } };
 
-const std::map<std::string, double> MmPerUnit{ { "mm", 1.0 }, { "millimeter", 1.0 },
-  { "millimeters", 1.0 }, { "cm", 10.0 }, { "m", 1000.0 }, { "um", 1e-3 }, { "micron", 1e-3 },
-  { "microns", 1e-3 }, { "\xc2\xb5m", 1e-3 }, { "nm", 1e-6 }, { "", 1.0 } };
+// What programs write where they know no unit.
+const std::set<std::string> NoUnits{ "???", "none", "unknown", "pixel", "pixels", "voxel",
+  "voxels" };
+
+// All fields of the format; anything else may be a misspelt one.
+const std::set<std::string> Fields{ "axis maxs", "axis mins", "axismaxs", "axismins", "block size",
+  "blocksize", "byte skip", "byteskip", "centerings", "centers", "content", "data file", "datafile",
+  "dimension", "encoding", "endian", "kinds", "labels", "line skip", "lineskip", "max",
+  "measurement frame", "min", "number", "old max", "old min", "oldmax", "oldmin", "sample units",
+  "sampleunits", "sizes", "space", "space dimension", "space directions", "space origin",
+  "space units", "spacings", "thicknesses", "type", "units" };
+
+void requireKnownFields(TextHeader& header)
+{
+  for (const auto& [name, value] : header.text.fields)
+  {
+    if (Fields.count(name) == 0)
+    {
+      throw Problem("has the field '" + shownWords(name) + "', which NRRD does not define");
+    }
+  }
+  if (header.text.has("old min") || header.text.has("oldmin") || header.text.has("old max") ||
+    header.text.has("oldmax"))
+  {
+    header.warnings.emplace_back("names the range of its numbers before they were quantized (old "
+                                 "min, old max); the numbers stay as they are");
+  }
+}
 
 void readSizes(TextHeader& header)
 {
@@ -71,20 +98,35 @@ void readSizes(TextHeader& header)
     header.axes.emplace_back();
     header.axes.back().count = static_cast<std::int64_t>(size);
   }
-  const std::vector<std::string> kinds = wordsIn(header.text.valueOf({ "kinds" }));
-  for (std::size_t i = 0; i < kinds.size() && kinds.size() == header.axes.size(); ++i)
+}
+
+// A field with one word for each axis; none of them if the header lacks the field.
+std::vector<std::string> wordsOfAxes(
+  const TextHeader& header, const char* name, std::vector<std::string> (*split)(const std::string&))
+{
+  std::vector<std::string> words = split(header.text.valueOf({ name }));
+  if (header.text.has(name) && words.size() != header.axes.size())
   {
-    header.axes[i].kind = kinds[i];
+    throw Problem(std::string("has the ") + name + " " + header.text.valueOf({ name }) +
+      "; it must have " + std::to_string(header.axes.size()) + ", one for each axis");
   }
+  return words;
+}
+
+std::vector<std::string> plainWords(const std::string& text)
+{
+  return wordsIn(text);
 }
 
 void readType(TextHeader& header)
 {
   header.typeName = header.text.valueOf({ "type" });
-  const auto type = Types.find(header.typeName);
+  const auto type = Types.find(lowerCase(header.typeName));
   if (type == Types.end())
   {
     throw Problem("has the type " + header.typeName +
+      (header.text.has("block size") || header.text.has("blocksize") ? " (with a block size)"
+                                                                     : "") +
       "; BrainShift reads whole numbers of 8, 16, 32 and 64 bits, float and double");
   }
   header.numberType = type->second;
@@ -121,7 +163,7 @@ bool vectorsIn(const std::string& text, std::vector<std::optional<glm::dvec3>>& 
   std::size_t place = 0;
   while ((place = text.find_first_not_of(" \t", place)) != std::string::npos)
   {
-    if (text.compare(place, none.size(), none) == 0)
+    if (lowerCase(text.substr(place, none.size())) == none)
     {
       vectors.emplace_back();
       place += none.size();
@@ -158,18 +200,119 @@ std::vector<std::string> quotedIn(const std::string& text)
 
 double mmPer(const std::string& unit, TextHeader& header)
 {
-  const auto known = MmPerUnit.find(unit);
-  if (known == MmPerUnit.end())
+  if (NoUnits.count(lowerCase(unit)) > 0)
   {
     header.warnings.push_back(
       "measures in the unit '" + shownWords(unit) + "', which counts as mm");
     return 1.0;
   }
-  return known->second;
+  const std::optional<double> mm = mmPerUnit(unit);
+  if (!mm)
+  {
+    throw Problem("measures in the unit '" + shownWords(unit) +
+      "'; BrainShift reads nm, um, mm, cm, m, km, in and ft");
+  }
+  return *mm;
+}
+
+// The numbers of a field of axes; NaN where there is none.
+std::vector<double> numbersOfAxes(const TextHeader& header, const char* name)
+{
+  std::vector<double> numbers;
+  for (const std::string& word : wordsOfAxes(header, name, plainWords))
+  {
+    const std::vector<double> found = numbersIn(word);
+    const bool isNone = lowerCase(word) == "nan" || word == "???";
+    if (!isNone && !(found.size() == 1 && std::isfinite(found[0])))
+    {
+      throw Problem(std::string("has the ") + name + " " + header.text.valueOf({ name }) +
+        "; each must be a finite number or nan");
+    }
+    numbers.push_back(isNone ? std::nan("") : found[0]);
+  }
+  numbers.resize(header.axes.size(), std::nan(""));
+  return numbers;
+}
+
+// What a file says of each axis beside its place in a space.
+struct AxisFields
+{
+  std::vector<double> spacings;
+  std::vector<double> least; // axis mins
+  std::vector<double> most;  // axis maxs
+  std::vector<std::string> units;
+  std::vector<std::string> centers; // of samples: cell or node
+};
+
+// The first name under which a field is there.
+const char* nameOf(const TextHeader& header, const char* name, const char* older)
+{
+  return header.text.has(older) ? older : name;
+}
+
+AxisFields fieldsOfAxes(const TextHeader& header)
+{
+  AxisFields fields;
+  fields.spacings = numbersOfAxes(header, "spacings");
+  fields.least = numbersOfAxes(header, nameOf(header, "axis mins", "axismins"));
+  fields.most = numbersOfAxes(header, nameOf(header, "axis maxs", "axismaxs"));
+  fields.units = wordsOfAxes(header, "units", quotedIn);
+  fields.units.resize(header.axes.size());
+  fields.centers = wordsOfAxes(header, nameOf(header, "centers", "centerings"), plainWords);
+  fields.centers.resize(header.axes.size(), "???");
+  for (std::string& center : fields.centers)
+  {
+    center = lowerCase(center);
+  }
+  return fields;
+}
+
+// Where an axis begins, and the step from one sample to the next, from its ends where the file
+// names them. In cells, the ends are half a step outside.
+void useEnds(const AxisFields& fields, std::size_t i, double count, double& spacing, double& start)
+{
+  const bool isNode = fields.centers[i] == "node";
+  const double steps = isNode ? count - 1.0 : count;
+  if (std::isnan(spacing) && steps > 0.0)
+  {
+    spacing = (fields.most[i] - fields.least[i]) / steps; // NaN without both
+  }
+  const double half = isNode || std::isnan(spacing) ? 0.0 : 0.5 * spacing;
+  start = !std::isnan(fields.least[i]) ? fields.least[i] + half
+    : !std::isnan(fields.most[i]) && !std::isnan(spacing)
+    ? fields.most[i] - half - (count - 1.0) * spacing
+    : 0.0;
+}
+
+// Where the volumes of an axis are that is none of space.
+void readVolumes(const AxisFields& fields, std::size_t i, TextHeader& header)
+{
+  HeaderAxis& axis = header.axes[i];
+  double spacing = fields.spacings[i];
+  useEnds(fields, i, static_cast<double>(axis.count), spacing, axis.start);
+  axis.spacing = std::isnan(spacing) ? std::nullopt : std::optional<double>(spacing);
+  axis.unit = fields.units[i];
+  const std::string key = "axis " + std::to_string(i) + " index "; // of 3D Slicer's sequences
+  if (lowerCase(header.text.keyed(key + "type")) != "text")
+  {
+    axis.values = numbersIn(header.text.keyed(key + "values"));
+  }
+}
+
+// The place of axes in space is that of the space; what else is said of them must not contradict.
+void requireNoOther(const AxisFields& fields, std::size_t i, const std::string& spaceUnit)
+{
+  const std::string& unit = fields.units[i];
+  if (!unit.empty() && mmPerUnit(unit) != mmPerUnit(spaceUnit))
+  {
+    throw Problem("has the units \"" + shownWords(unit) +
+      "\" for an axis with space directions, "
+      "whose unit must be in space units");
+  }
 }
 
 // Axes that lie in a space: their steps and the origin.
-void readDirections(TextHeader& header)
+void readDirections(const AxisFields& fields, TextHeader& header)
 {
   const std::string text = header.text.valueOf({ "space directions" });
   std::vector<std::optional<glm::dvec3>> steps;
@@ -192,9 +335,14 @@ void readDirections(TextHeader& header)
     throw Problem("has the space origin " + originText + "; it must be 3 numbers as in (1,0,0)");
   }
   header.hasOrigin = !originText.empty();
-  const std::vector<std::string> units = quotedIn(header.text.valueOf({ "space units" }));
+  const std::string unitText = header.text.valueOf({ "space units" });
+  const std::vector<std::string> units = quotedIn(unitText);
+  if (units.size() != 3 && !unitText.empty())
+  {
+    throw Problem("has the space units " + unitText + "; it must have 3, in quotation marks");
+  }
   glm::dvec3 mm(1.0);
-  for (std::size_t i = 0; i < 3 && units.size() == 3; ++i)
+  for (std::size_t i = 0; i < units.size(); ++i)
   {
     mm[static_cast<int>(i)] = mmPer(units[i], header);
   }
@@ -204,6 +352,11 @@ void readDirections(TextHeader& header)
     if (const std::optional<glm::dvec3>& step = steps[i])
     {
       header.axes[i].step = mm * *step;
+      requireNoOther(fields, i, units.empty() ? std::string() : units[0]);
+    }
+    else
+    {
+      readVolumes(fields, i, header);
     }
   }
 }
@@ -219,26 +372,25 @@ bool isSpatial(const TextHeader& header, std::size_t axis)
   return axis < 3; // without kinds, a fourth axis is a list
 }
 
-// Axes that have only spacings.
-void readSpacings(TextHeader& header)
+// Axes that have only spacings and ends.
+void readSpacings(const AxisFields& fields, TextHeader& header)
 {
-  const std::vector<std::string> words = wordsIn(header.text.valueOf({ "spacings" }));
-  const std::vector<std::string> units = quotedIn(header.text.valueOf({ "units" }));
   int along = 0;
   for (std::size_t i = 0; i < header.axes.size(); ++i)
   {
     HeaderAxis& axis = header.axes[i];
-    const bool isGiven =
-      words.size() == header.axes.size() && words[i] != "nan" && words[i] != "NaN";
-    const double spacing = isGiven ? numbersIn(words[i])[0] : 0.0;
     if (!isSpatial(header, i) || along > 2)
     {
-      axis.spacing = spacing;
+      readVolumes(fields, i, header);
       continue;
     }
-    const double mm = units.size() == header.axes.size() ? mmPer(units[i], header) : 1.0;
+    const double mm = mmPer(fields.units[i], header);
+    double spacing = fields.spacings[i];
+    double start = 0.0;
+    useEnds(fields, i, static_cast<double>(axis.count), spacing, start);
     glm::dvec3 step(0.0);
-    step[along++] = isGiven ? spacing * mm : 1.0;
+    step[along] = std::isnan(spacing) ? 1.0 : spacing * mm;
+    header.origin[along++] = start * mm;
     axis.step = step;
   }
 }
@@ -246,7 +398,12 @@ void readSpacings(TextHeader& header)
 void readPlace(TextHeader& header)
 {
   const std::string spaceText = header.text.valueOf({ "space" });
-  const auto space = Spaces.find(spaceText);
+  const std::string dimension = header.text.valueOf({ "space dimension" });
+  if (!dimension.empty() && numbersIn(dimension) != std::vector<double>{ 3.0 })
+  {
+    throw Problem("has the space dimension " + dimension + "; it must be 3");
+  }
+  const auto space = Spaces.find(lowerCase(spaceText));
   if (space == Spaces.end() && !spaceText.empty())
   {
     throw Problem("is in the space " + spaceText +
@@ -254,14 +411,20 @@ void readPlace(TextHeader& header)
       "left-posterior-superior, scanner-xyz, 3D-right-handed and 3D-left-handed");
   }
   header.space = spaceText.empty() ? HeaderSpace::RAS : space->second.first;
-  if (header.text.fields.count("space directions") > 0)
+  const AxisFields fields = fieldsOfAxes(header);
+  if (header.text.has("space directions"))
   {
     header.knowsSides = !spaceText.empty() && space->second.second;
-    readDirections(header);
+    readDirections(fields, header);
     return;
   }
+  if (header.text.has("space origin") || header.text.has("space units"))
+  {
+    throw Problem("has a space origin or space units, but no space directions, without which they "
+                  "place nothing");
+  }
   header.space = HeaderSpace::RAS;
-  readSpacings(header);
+  readSpacings(fields, header);
 }
 
 void readSkips(TextHeader& header)
@@ -290,13 +453,13 @@ void readSkips(TextHeader& header)
 void readStorage(const std::string& fileName, TextHeader& header)
 {
   const std::string encoding = header.text.valueOf({ "encoding" });
-  const auto known = Encodings.find(encoding);
+  const auto known = Encodings.find(lowerCase(encoding));
   if (known == Encodings.end())
   {
     throw Problem("has the encoding " + encoding + "; it must be raw, gzip or ascii");
   }
   header.encoding = known->second;
-  const std::string endian = header.text.valueOf({ "endian" });
+  const std::string endian = lowerCase(header.text.valueOf({ "endian" }));
   header.isBigEndian = endian == "big";
   const bool hasOrder = header.encoding != Encoding::Text && header.numberType != VTK_SIGNED_CHAR &&
     header.numberType != VTK_UNSIGNED_CHAR;
@@ -311,7 +474,13 @@ void readStorage(const std::string& fileName, TextHeader& header)
 
 void fromNRRD(const std::string& fileName, TextHeader& header)
 {
+  requireKnownFields(header);
   readSizes(header);
+  const std::vector<std::string> kinds = wordsOfAxes(header, "kinds", plainWords);
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+  {
+    header.axes[i].kind = lowerCase(kinds[i]);
+  }
   readType(header);
   readPlace(header);
   readStorage(fileName, header);

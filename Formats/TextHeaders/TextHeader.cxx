@@ -57,9 +57,10 @@ bool takeLine(const std::string& line, HeaderText& text)
     return true;
   }
   const bool isKey = line.compare(mark, 2, ":=") == 0;
-  (isKey ? text.keys : text.fields)[trimmed(line.substr(0, mark))] =
+  const std::string name = trimmed(line.substr(0, mark));
+  (isKey ? text.keys[name] : text.fields[lowerCase(name)]) =
     trimmed(line.substr(isKey ? mark + 2 : mark + 1));
-  return text.isNRRD || text.fields.count("ElementDataFile") == 0;
+  return text.isNRRD || !text.has("ElementDataFile");
 }
 
 // False if the text ends before the header does.
@@ -284,13 +285,18 @@ std::string HeaderText::valueOf(const std::vector<std::string>& names) const
 {
   for (const std::string& name : names)
   {
-    const auto line = this->fields.find(name);
+    const auto line = this->fields.find(lowerCase(name));
     if (line != this->fields.end())
     {
       return line->second;
     }
   }
   return {};
+}
+
+bool HeaderText::has(const std::string& name) const
+{
+  return this->fields.count(lowerCase(name)) > 0;
 }
 
 std::string HeaderText::keyed(const std::string& name) const
@@ -338,7 +344,7 @@ void nameDataFiles(const std::string& fileName, const std::string& words, TextHe
 {
   header.dataFiles.clear();
   const std::vector<std::string> parts = wordsIn(words);
-  if (parts.empty() || (parts.size() == 1 && parts[0] == "LOCAL"))
+  if (parts.empty() || (parts.size() == 1 && lowerCase(parts[0]) == "local"))
   {
     header.dataFiles.push_back(fileName);
     header.isLocal = true;

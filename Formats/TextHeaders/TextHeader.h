@@ -21,15 +21,19 @@ namespace brainshift
 /** The lines of a header. */
 struct HeaderText
 {
-  bool isNRRD = false;                       ///< the file begins with "NRRD"
-  std::map<std::string, std::string> fields; ///< what the format defines
-  std::map<std::string, std::string> keys;   ///< NRRD's "key:=value", which anybody may add
-  std::vector<std::string> listed;           ///< the lines after a list of files is announced
-  std::string comments;                      ///< NRRD's lines that begin with #
-  std::size_t bytes = 0;                     ///< of the header
+  bool isNRRD = false; ///< the file begins with "NRRD"
+  /// What the format defines, by its name in small letters.
+  std::map<std::string, std::string> fields;
+  std::map<std::string, std::string> keys; ///< NRRD's "key:=value", which anybody may add
+  std::vector<std::string> listed;         ///< the lines after a list of files is announced
+  std::string comments;                    ///< NRRD's lines that begin with #
+  std::size_t bytes = 0;                   ///< of the header
 
   /** Value of the first of some fields that the header has; empty if it has none. */
   std::string valueOf(const std::vector<std::string>& names) const;
+
+  /** Whether the header has a field. */
+  bool has(const std::string& name) const;
 
   /** Value of one of NRRD's keys; empty without it. */
   std::string keyed(const std::string& name) const;
@@ -59,8 +63,11 @@ struct HeaderAxis
 {
   std::int64_t count = 0;         ///< numbers along it
   std::optional<glm::dvec3> step; ///< mm, header's space; none: it is no axis of space
-  std::string kind;               ///< NRRD's word for what it is; may be empty
-  double spacing = 0.0;           ///< of an axis that is none of space; 0: not known
+  std::string kind;               ///< NRRD's word for what it is, in small letters; may be empty
+  std::optional<double> spacing;  ///< in `unit`, of an axis that is none of space; none: not known
+  double start = 0.0;             ///< likewise: where its first number is
+  std::string unit;               ///< of these; empty: s
+  std::vector<double> values;     ///< where its numbers are, if the file lists them
 };
 
 /** A header. */
@@ -98,6 +105,18 @@ struct TextHeader
   /** Axes of space. */
   int spatialAxes() const;
 };
+
+/**
+ * Millimetres in a unit that a word names: as a sign or a word, in capitals or not, with either
+ * letter for micro. Empty: mm. None: the word is no unit of length that is known.
+ */
+std::optional<double> mmPerUnit(const std::string& word);
+
+/**
+ * Times of the volumes along an axis, s. `warnings` gets the end of a sentence if its numbers are
+ * no times: volumes are numbered then.
+ */
+std::vector<double> timesOf(const HeaderAxis& axis, std::vector<std::string>& warnings);
 
 /**
  * Files with numbers, from the words that name them: "LOCAL", one name, a pattern such as

@@ -6,11 +6,13 @@
 #include "Common/Bytes.h"
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
+#include "Common/Numbers.h"
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Files/Text.h"
 #include "Formats/Files/WholeFile.h"
 #include "Formats/TextHeaders/TextHeader.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace brainshift
@@ -20,6 +22,8 @@ namespace
 // The Comment of a MetaImage names the direction.
 constexpr const char* ForwardComment = "displacement field, mm, forward";
 constexpr const char* BackwardComment = "displacement field, mm, backward";
+
+constexpr const char* DirectionKey = "displacement field type"; // of NRRD
 
 constexpr double LargestSkew = 1e-3; // cosine between two axes
 constexpr int LongestSide = 65535;
@@ -59,6 +63,38 @@ void place(const TextHeader& header, Grid& grid)
   }
 }
 
+// Words that change what vectors mean: their unit, their axes, and what they are.
+void requirePlainVectors(const HeaderText& text)
+{
+  for (const char* name : { "space units", "sample units", "sampleunits", "DistanceUnits" })
+  {
+    std::string unit = text.valueOf({ name });
+    std::replace(unit.begin(), unit.end(), '"', ' ');
+    const std::vector<std::string> units = wordsIn(unit);
+    if (!std::all_of(units.begin(), units.end(),
+          [](const auto& one) { return one == "?" || mmPerUnit(one) == 1.0; }))
+    {
+      throw Problem(
+        joined("has the ", name, " ", text.valueOf({ name }), "; a field must be in mm"));
+    }
+  }
+  std::string frame = text.valueOf({ "measurement frame" });
+  std::replace_if(
+    frame.begin(), frame.end(), [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
+  if (!frame.empty() &&
+    numbersIn(frame) != std::vector<double>{ 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0 })
+  {
+    throw Problem("has the measurement frame " + text.valueOf({ "measurement frame" }) +
+      "; that of a field must be (1,0,0) (0,1,0) (0,0,1)");
+  }
+  const std::string type = text.keyed(DirectionKey);
+  if (!type.empty() && type != "modeling" && type != "resampling")
+  {
+    throw Problem(joined("has the ", DirectionKey, " ", type,
+      "; it must be modeling (forward) or resampling (backward)"));
+  }
+}
+
 // Why the numbers of a header are no field; empty if they are one.
 void requireField(const TextHeader& header)
 {
@@ -67,6 +103,14 @@ void requireField(const TextHeader& header)
   {
     throw Problem("holds " + std::to_string(areVectors ? header.axes[0].count : 1) +
       " components per point; a field must have 3");
+  }
+  const std::string& kind = header.axes[0].kind;
+  const bool isVector =
+    kind.empty() || kind == "???" || kind == "none" || kind == "vector" || kind == "3-vector";
+  // 3D Slicer names the direction of each field.
+  if (!isVector && header.text.keyed(DirectionKey).empty())
+  {
+    throw Problem("has components of the kind " + kind + "; those of a field must be a vector");
   }
   if (header.spatialAxes() != 3 || !header.hasOrigin)
   {
@@ -88,12 +132,12 @@ void requireField(const TextHeader& header)
   {
     throw Problem("is not in the space left-posterior-superior; a field must be");
   }
+  requirePlainVectors(header.text);
 }
 
 std::optional<Direction> directionOf(const HeaderText& text)
 {
-  const std::string said =
-    text.isNRRD ? text.keyed("displacement field type") : text.valueOf({ "Comment" });
+  const std::string said = text.isNRRD ? text.keyed(DirectionKey) : text.valueOf({ "Comment" });
   if (said == (text.isNRRD ? "modeling" : ForwardComment))
   {
     return Direction::Forward;

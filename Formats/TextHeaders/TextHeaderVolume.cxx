@@ -167,11 +167,15 @@ bool deniesSides(const HeaderText& text)
   return note.find(UnknownSidesNote) != std::string::npos;
 }
 
+bool hasNoKind(const HeaderAxis& axis)
+{
+  return axis.kind.empty() || axis.kind == "???" || axis.kind == "none";
+}
+
 // Whether the axis before those of space holds one volume after the other.
 bool isSeries(const HeaderAxis& axis)
 {
-  const bool hasKind = !axis.kind.empty() && axis.kind != "???" && axis.kind != "none";
-  return hasKind ? axis.kind == "time" || axis.kind == "list" : axis.count > MostColors;
+  return hasNoKind(axis) ? axis.count > MostColors : axis.kind == "time" || axis.kind == "list";
 }
 
 // The layer that a text means, such as "2: vessels" or "2"; 0-based. Below 0: none of `count`.
@@ -193,7 +197,7 @@ bool isTextHeaderVolume(const std::string& fileName, TextFormat format)
   }
   const std::string dimensionsText = text.valueOf({ text.isNRRD ? "dimension" : "NDims" });
   const std::vector<double> dimensions = numbersIn(dimensionsText);
-  const bool hasVoxels = text.fields.count(text.isNRRD ? "sizes" : "DimSize") > 0;
+  const bool hasVoxels = text.has(text.isNRRD ? "sizes" : "DimSize");
   return hasVoxels && (dimensionsText.empty() || !(dimensions[0] < 3.0));
 }
 
@@ -310,10 +314,16 @@ void TextHeaderVolume::arrange(VolumeHeader& header)
   this->Tuple = first == 1 ? static_cast<std::size_t>(axes[0].count) : 1;
   this->Steps = hasSteps ? static_cast<std::size_t>(axes.back().count) : 1;
   this->TupleIsTime = first == 1 && !hasSteps && isSeries(axes[0]);
+  if (this->TupleIsTime && hasNoKind(axes[0]))
+  {
+    this->Stored.warnings.push_back("does not say what its first axis is (kinds); its " +
+      std::to_string(this->Tuple) + " numbers at each voxel count as volumes of a series");
+  }
   header.dimensions = this->Dimensions;
   header.components = this->TupleIsTime ? 1 : static_cast<int>(this->Tuple);
-  header.times = this->TupleIsTime ? evenTimes(this->Tuple, axes[0].spacing)
-                                   : evenTimes(this->Steps, hasSteps ? axes.back().spacing : 1.0);
+  header.times = this->TupleIsTime ? timesOf(axes[0], this->Stored.warnings)
+    : hasSteps                     ? timesOf(axes.back(), this->Stored.warnings)
+                                   : evenTimes(1, 1.0);
 }
 
 void TextHeaderVolume::takeSegments(VolumeHeader& header)

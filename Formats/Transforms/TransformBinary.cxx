@@ -233,6 +233,13 @@ std::vector<TransformRecord> readHDF5Records(const std::string& fileName)
     throwIfAny(group.isOpen() ? "" : "has a damaged transform");
     records.push_back(readRecord(group));
   }
+  H5G_info_t info{};
+  const bool isCounted = H5Gget_info(all, &info) >= 0;
+  if (!isCounted || info.nlinks != records.size())
+  {
+    throw Problem("has " + std::to_string(info.nlinks) + " members in /TransformGroup, of which " +
+      std::to_string(records.size()) + " are numbered from 0 on without a gap");
+  }
   return records;
 }
 

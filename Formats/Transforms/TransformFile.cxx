@@ -114,7 +114,7 @@ public:
         "is one of a chain of more than " + std::to_string(LongestChain) + " transforms");
     }
     requirePlainFile(fileName);
-    if (isFieldFile(fileName))
+    if (hasFieldEnding(fileName)) // a file that is no field then says why
     {
       addFieldFile(fileName, transform);
     }
@@ -155,7 +155,7 @@ private:
     }
     else if (const std::optional<std::vector<double>> rows = matrixText(bytes))
     {
-      this->addRasMatrix(fileName, matrixOf(*rows), transform);
+      this->addTextMatrix(matrixOf(*rows), transform);
     }
     else if (std::filesystem::path(fileName).extension() == ".mat")
     {
@@ -167,12 +167,19 @@ private:
     }
   }
 
-  void addRasMatrix(
-    const std::string& fileName, const glm::dmat4& matrix, PointTransform& transform) const
+  void addTextMatrix(const glm::dmat4& matrix, PointTransform& transform) const
   {
     const glm::dmat4 signs = glm::dmat4(glm::dvec4(-1, 0, 0, 0), glm::dvec4(0, -1, 0, 0),
       glm::dvec4(0, 0, 1, 0), glm::dvec4(0, 0, 0, 1));
-    if (std::filesystem::path(fileName).extension() != ".mat")
+    const MatrixProgram program = this->Files.program;
+    const bool isOfNoImage = this->Files.fixedImage.empty() && this->Files.movingImage.empty();
+    if (program == MatrixProgram::Unknown && isOfNoImage)
+    {
+      throw Problem("holds 16 numbers and does not say what they mean; name the program that wrote "
+                    "it (Matrix Program): fsl, with the fixed and the moving image (the NIfTI "
+                    "files of flirt's -ref and -in), or niftyreg (a matrix from RAS to RAS)");
+    }
+    if (program == MatrixProgram::NiftyReg)
     {
       addMatrix(rowsOf(signs * matrix * signs), transform);
       return;

@@ -8,11 +8,12 @@
 /// | .mat, binary                      | ANTs (0GenericAffine)    | LPS          |
 /// | .txt, "(Transform ...)"           | elastix                  | LPS          |
 /// | .nii, .nii.gz, .mha, .mhd, .nrrd  | displacement fields      | FieldFile.h  |
-/// | text, 16 numbers, any ending      | NiftyReg                 | RAS          |
-/// | text, 16 numbers, .mat            | FSL flirt                | FSL's own mm |
+/// | text, 16 numbers                  | NiftyReg                 | RAS          |
+/// | text, 16 numbers                  | FSL flirt                | FSL's own mm |
 ///
-/// The content decides, not the name, except between NiftyReg and FSL. All map points of the fixed
-/// image to the moving one, but for FSL, whose matrix is turned round.
+/// The content decides, not the name. Between NiftyReg and FSL nothing in the file decides, so the
+/// caller must name the program. All map points of the fixed image to the moving one, but for FSL,
+/// whose matrix is turned round.
 #ifndef BrainShift_TransformFile_h
 #define BrainShift_TransformFile_h
 
@@ -21,12 +22,21 @@
 
 namespace brainshift
 {
+/** Whose a text of 16 numbers is. */
+enum class MatrixProgram
+{
+  Unknown,  ///< FSL if an image is named; else such a text is refused
+  FSL,      ///< from FSL mm of the moving image to those of the fixed image; it needs both images
+  NiftyReg, ///< from RAS mm of the fixed image to those of the moving image
+};
+
 /** What is to be read. */
 struct TransformFiles
 {
   std::vector<std::string> names; ///< in the order in which points of the fixed image pass them
   std::string fixedImage;         ///< NIfTI; for FSL only
   std::string movingImage;        ///< NIfTI; for FSL only
+  MatrixProgram program = MatrixProgram::Unknown;
 };
 
 /** Whether a file looks like a transform that is no displacement field. */

@@ -15,6 +15,7 @@ namespace brainshift
 namespace
 {
 constexpr double LargestSide = 32768.0; // points of a grid along an axis
+constexpr double LargestNumber = 1e12;  // of mm, rad and voxels alike: no file needs it
 constexpr double SmallestVolume = 1e-9; // determinant of a map that can be turned round
 
 using Numbers = std::vector<double>;
@@ -24,9 +25,11 @@ Problem countProblem(const std::string& what, std::size_t found, const std::stri
   return Problem("has " + std::to_string(found) + " " + what + "; it must have " + wanted);
 }
 
+// Also rejects NaN, and numbers whose products are none.
 bool areFinite(const Numbers& numbers)
 {
-  return std::all_of(numbers.begin(), numbers.end(), [](double n) { return std::isfinite(n); });
+  return std::all_of(
+    numbers.begin(), numbers.end(), [](double n) { return std::abs(n) <= LargestNumber; });
 }
 
 glm::dvec3 threeOf(const Numbers& numbers, std::size_t first)
@@ -62,6 +65,7 @@ struct LinearType
   std::size_t parameters;
   std::size_t translation; // its first parameter
   glm::dmat3 (*linear)(const TransformRecord&);
+  bool hasCentre = true; // must be given: without it the map is another one
 };
 
 const std::map<std::string, LinearType>& linearTypes()
@@ -79,7 +83,8 @@ const std::map<std::string, LinearType>& linearTypes()
     { "Euler3DTransform", { 6, 3, eulerRotation } },
     { "VersorRigid3DTransform", { 6, 3, versor } },
     { "Similarity3DTransform", { 7, 3, similar } },
-    { "TranslationTransform", { 3, 0, [](const TransformRecord&) { return glm::dmat3(1.0); } } },
+    { "TranslationTransform",
+      { 3, 0, [](const TransformRecord&) { return glm::dmat3(1.0); }, false } },
   };
   return types;
 }
@@ -101,12 +106,14 @@ void addLinear(const LinearType& type, const TransformRecord& record, PointTrans
     throw countProblem(
       "parameters of " + record.type, record.parameters.size(), std::to_string(type.parameters));
   }
-  const bool hasCentre = record.fixed.size() >= 3;
-  if (!hasCentre && !record.fixed.empty())
+  const std::size_t found = record.fixed.size();
+  const bool saysOrder = found == 4 && type.linear == eulerRotation; // ITK's ComputeZYX
+  if (found != 3 && !saysOrder && !(found == 0 && !type.hasCentre))
   {
-    throw countProblem("fixed parameters of " + record.type, record.fixed.size(), "3 or none");
+    throw countProblem("fixed parameters of " + record.type, found,
+      type.hasCentre ? "3, the centre (mm)" : "3 or none");
   }
-  const glm::dvec3 centre = hasCentre ? threeOf(record.fixed, 0) : glm::dvec3(0.0);
+  const glm::dvec3 centre = found > 0 ? threeOf(record.fixed, 0) : glm::dvec3(0.0);
   const glm::dmat3 linear = type.linear(record);
   const glm::dvec3 shift = threeOf(record.parameters, type.translation);
   addAffine({ linear, shift + centre - linear * centre }, transform);
@@ -182,7 +189,7 @@ void addRecord(const TransformRecord& record, PointTransform& transform)
 {
   if (!areFinite(record.parameters) || !areFinite(record.fixed))
   {
-    throw Problem("holds a number that is not finite");
+    throw Problem("holds a number that is not finite, or beyond 1e12");
   }
   const std::size_t end = record.type.find('_');
   const std::string name = record.type.substr(0, end);

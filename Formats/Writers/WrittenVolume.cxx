@@ -149,9 +149,17 @@ std::string nrrdType(const NumberType& type)
 std::string nrrdKind(const OutgoingVolume& volume)
 {
   const bool isBytes = volume.type.kind == Kind::Unsigned && volume.type.bytes == 1;
-  return isBytes && volume.components() == 3 ? "RGB-color"
-    : isBytes && volume.components() == 4    ? "RGBA-color"
-                                             : "list";
+  switch (volume.components()) // a "list" would be a series, a "vector" of 3 a displacement
+  {
+    case 2:
+      return "2-vector";
+    case 3:
+      return isBytes ? "RGB-color" : "3-color";
+    case 4:
+      return isBytes ? "RGBA-color" : "4-color";
+    default:
+      return "vector";
+  }
 }
 
 // A header of NIfTI-1 with its four bytes for extensions. Sides: up to LongestNIFTISide.

@@ -119,6 +119,7 @@ void LandmarkList::refresh()
   this->Rows.clear();
   this->Figures = {};
   this->Problem.clear();
+  this->Warning.clear();
   const vtkSmartPointer<vtkSMSourceProxy> fit = this->Editor->fit();
   const bool isApplied = this->Source->modifiedState() != pqProxy::UNINITIALIZED;
   if (fit && isApplied)
@@ -146,6 +147,7 @@ void LandmarkList::readInputs(vtkSMProxy* fit)
     vtkSMPropertyHelper(fit, "LandmarkResiduals").GetDoubleArray();
   const std::vector<double> leftOut = vtkSMPropertyHelper(fit, "LeaveOneOut").GetDoubleArray();
   this->Problem = QString::fromUtf8(vtkSMPropertyHelper(fit, "Problem").GetAsString());
+  this->Warning = QString::fromUtf8(vtkSMPropertyHelper(fit, "Warning").GetAsString());
   if (positions.size() != NumbersPerLandmark * names.size() || residuals.size() != names.size() ||
     leftOut.size() != names.size())
   {

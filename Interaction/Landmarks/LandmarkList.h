@@ -69,6 +69,8 @@ public:
   const LandmarkFigures& figures() const { return this->Figures; }
   /// Why the fit has no figures. Empty: nothing is wrong.
   const QString& problem() const { return this->Problem; }
+  /// What to know about the result of the fit, without the last full stop. Empty if nothing.
+  const QString& warning() const { return this->Warning; }
   /// Whether pairs can be added.
   bool isOpen() const;
   pqPipelineSource* source() const { return this->Source; }
@@ -105,6 +107,7 @@ private:
   std::vector<LandmarkRow> Rows;
   LandmarkFigures Figures;
   QString Problem;
+  QString Warning;
   QTimer Soon;
   bool Runs = false;       ///< The next refresh lets the fit run first.
   bool Refreshing = false; ///< What changes now, this list caused.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Pointer/TrackerRegistration.h"
 
+#include "Filters/Fit/OpenRotation.h"
+#include "Filters/Fit/PairDoubts.h"
 #include "Interaction/Commands/Application.h"
 
 #include <algorithm>
@@ -15,7 +17,27 @@ namespace
 constexpr std::size_t LeastPairs = 3;
 constexpr double LeastSpreadMm =
   3.0; // from a line; closer points leave the rotation around it undetermined
+constexpr double TouchDeviationMm = 0.7;    // of a touched landmark, along each axis
+constexpr double LargestOpenRadians = 0.05; // 3 degrees
 constexpr double Unknown = std::numeric_limits<double>::quiet_NaN();
+
+// What to check about a registration that has a result, in one sentence; or nothing.
+QString doubtAbout(const std::vector<glm::dvec3>& tracker, const std::vector<glm::dvec3>& image,
+  const std::vector<double>& weights)
+{
+  if (!betterAxes(image, tracker, weights, /*isAnyRotation*/ true).empty())
+  {
+    return tr(
+      "The points fit a mirror image far better: check their order and the axes of the tracker.");
+  }
+  const OpenRotation open = openRotationOf(image, weights, TouchDeviationMm, LargestOpenRadians);
+  return open.isAboutLine()
+    ? tr(
+        "The points are near to one line: the rotation around it may be off by %1°. Touch one that "
+        "is farther beside it.")
+        .arg(glm::degrees(open.deviations.x), 0, 'f', 0)
+    : QString();
+}
 }
 
 void TrackerRegistration::touch(const glm::dvec3& tracker)
@@ -49,6 +71,7 @@ void TrackerRegistration::take(const RigidPose& imageFromTracker)
   this->Registered = true;
   this->Error = Unknown;
   this->Problem.clear();
+  this->Doubt.clear();
 }
 
 void TrackerRegistration::solve()
@@ -57,6 +80,7 @@ void TrackerRegistration::solve()
   this->Registered = false;
   this->Error = Unknown;
   this->Problem.clear();
+  this->Doubt.clear();
   std::vector<glm::dvec3> tracker;
   std::vector<glm::dvec3> image;
   for (Pair& pair : this->Pairs)
@@ -96,5 +120,6 @@ void TrackerRegistration::solve()
     }
   }
   this->Error = std::sqrt(squares / static_cast<double>(tracker.size()));
+  this->Doubt = doubtAbout(tracker, image, weights);
 }
 }

@@ -40,6 +40,8 @@ public:
   double error() const { return this->Error; }
   /// Why the pairs give no pose, in one sentence. Empty if they do, and without pairs.
   const QString& problem() const { return this->Problem; }
+  /// What to check about the pose that the pairs give, in one sentence. Empty if there is nothing.
+  const QString& doubt() const { return this->Doubt; }
 
 private:
   void solve();
@@ -49,6 +51,7 @@ private:
   bool Registered = false;
   double Error = 0.0;
   QString Problem;
+  QString Doubt;
 };
 }
 

@@ -235,6 +235,10 @@ QString LandmarkTable::figuresText() const
     lines.append(tr("The fold guard applied %1 of the deformation")
         .arg(bold(tr("%1 %").arg(100.0 * figures.applied, 0, 'f', 0))));
   }
+  if (!this->Landmarks->warning().isEmpty())
+  {
+    lines.append(this->Landmarks->warning().toHtmlEscaped() + ".");
+  }
   if (figures.worst >= 0)
   {
     lines.append(tr("Landmark %1 fits worst").arg(bold(QString::number(figures.worst + 1))));

@@ -245,9 +245,9 @@ void RegistrationTable::showState()
       ? tr("Registered, RMS %1 mm").arg(registration.error(), 0, 'f', 2)
       : tr("Registered as in the saved session");
   }
-  if (!registration.problem().isEmpty())
+  for (const QString& sentence : { registration.problem(), registration.doubt() })
   {
-    state += " " + registration.problem();
+    state += sentence.isEmpty() ? QString() : " " + sentence;
   }
   this->State->setText(state);
   this->Touch->setEnabled(pointer->isOpen() && pointer->tip());

@@ -12,9 +12,10 @@ _INPUTS = {"RestLandmarks": "Landmarks At Rest", "MeasuredLandmarks": "Measured 
 
 
 def _points(name, values):
-    """`values` as an N x 3 array of finite numbers."""
+    """`values`, an array or a result of `read_points`, as an N x 3 array of finite numbers."""
     import numpy
 
+    values = getattr(values, "positions", values)
     array = numpy.empty((0, 3)) if values is None else numpy.asarray(values, float)
     if array.size == 0:
         return numpy.empty((0, 3))
@@ -23,6 +24,12 @@ def _points(name, values):
     if not numpy.isfinite(array).all():
         raise ValueError(f"{name} holds a number that is not finite")
     return array
+
+
+def _names(values):
+    """The names of landmarks in a result of `read_points`; none of an array."""
+    labels = list(getattr(values, "labels", ()))
+    return labels if any(labels) else []
 
 
 def _pulls(values):
@@ -54,6 +61,10 @@ class Fit:
       is not included.
     - `relaxation`: 1, or 1.5 if the guard had to raise the deviations of the measurements
     - `calibration`: the factor on deviations, estimated from the leave-one-out errors
+    - `warning`: what to know about the result, such as landmarks without a partner, or landmarks on
+      a line, which do not determine a rotation. Empty if there is nothing.
+
+    Printed, it is a line of figures.
     """
 
     def __init__(self, source):
@@ -74,6 +85,28 @@ class Fit:
         self.share = source.GetPropertyValue("Share")
         self.relaxation = source.GetPropertyValue("Relaxation")
         self.calibration = source.GetPropertyValue("Calibration")
+        self.warning = source.GetPropertyValue("Warning") or ""
+
+    def __repr__(self):
+        import numpy
+
+        words = []
+        for residuals, name in ((self.landmark_residuals, "landmarks"),
+                                (self.pull_residuals, "pulls"),
+                                (self.trace_residuals, "traced points")):
+            counted = residuals[numpy.isfinite(residuals)]
+            if len(counted):
+                rms = numpy.sqrt((counted ** 2).mean())
+                words.append(f"{len(counted)} {name} with residuals of {rms:.2f} mm (RMS)")
+        left_out = self.leave_one_out[numpy.isfinite(self.leave_one_out)]
+        if len(left_out):
+            words.append(f"leave-one-out error {left_out.mean():.2f} mm (mean)")
+        cosine = (numpy.trace(self.rigid[:3, :3]) - 1.0) / 2.0
+        degrees = numpy.degrees(numpy.arccos(numpy.clip(cosine, -1.0, 1.0)))
+        words.append(f"rotation {degrees:.1f} degrees")
+        words.append(f"share {self.share:.2f}")
+        words.append(f"calibration {self.calibration:.2f}")
+        return "Fit: " + ", ".join(words) + (f". {self.warning}" if self.warning else "")
 
     def _reported(self, points, name):
         import numpy
@@ -228,8 +261,20 @@ def _solved(deformation, arrays, pulls, pins, values):
     return source
 
 
+def _landmarks(rest, measured, by_order):
+    """Two arrays of landmarks, and the properties that pair them."""
+    names = {"RestNames": _names(rest), "MeasuredNames": _names(measured)}
+    rest, measured = _points("rest", rest), _points("measured", measured)
+    has_names = not by_order and any(names.values())
+    if len(rest) != len(measured) and not (has_names and len(rest) and len(measured)):
+        raise ValueError(f"rest has {len(rest)} points and measured {len(measured)}; "
+                         "they must have the same number")
+    return rest, measured, {"PairByOrder": int(by_order),
+                            **{key: found for key, found in names.items() if found}}
+
+
 def fit(filter, rest=None, measured=None, traces=None, pulls=None, pins=None, threshold=None,
-        label=None, array=None, segmentation=None, opening=None, cavity=None):
+        label=None, array=None, segmentation=None, opening=None, cavity=None, by_order=False):
     """Fit a deformation to measurements, and make it the lattice of a Free-Form Deformation.
 
     All measurements are solved together. With landmarks alone the fit removes a rigid motion and
@@ -240,9 +285,11 @@ def fit(filter, rest=None, measured=None, traces=None, pulls=None, pins=None, th
     then assumed to be aligned, too.
 
     - `filter`: a Free-Form Deformation. Its `Lattice` becomes the fit; its strokes stay on top.
-    - `rest`, `measured`: N x 3 arrays in mm, landmarks in the rest frame and their measured
-      positions, in the same order.
-    - `traces`: an N x 3 array in mm, points that were traced on the cortex.
+    - `rest`, `measured`: landmarks in the rest frame and their measured positions: N x 3 arrays in
+      mm, in the same order, or results of `read_points`. The latter pair by name, and by order
+      where neither has names. It is an error if no name is on both lists.
+    - `traces`: points that were traced on the cortex, an N x 3 array in mm or a result of
+      `read_points`.
     - `pulls`: an N x 2 x 3 array in mm: start and target of tissue.
     - `pins`: an N x 3 array in mm, tissue that stays at its position after the base, or at rest.
     - `threshold` or `label`: the scalars of the cortex. The default is a threshold of 0.5.
@@ -253,6 +300,7 @@ def fit(filter, rest=None, measured=None, traces=None, pulls=None, pins=None, th
       The default, `None`, is a ball around traced and pulled points. The cortex is held beyond
       15 mm of it.
     - `cavity`: a ParaView source of a mask. Traced points in it do not count.
+    - `by_order`: True pairs landmarks by their order, whatever their names. Default False.
 
     Returns a `Fit`.
 
@@ -260,12 +308,9 @@ def fit(filter, rest=None, measured=None, traces=None, pulls=None, pins=None, th
     """
     from paraview import simple
 
-    rest, measured = _points("rest", rest), _points("measured", measured)
-    if len(rest) != len(measured):
-        raise ValueError(f"rest has {len(rest)} points and measured {len(measured)}; "
-                         "they must have the same number")
+    rest, measured, pairing = _landmarks(rest, measured, by_order)
     traces, pulls, pins = _points("traces", traces), _pulls(pulls), _points("pins", pins)
-    values = {**_shared(filter), **_opening(opening),
+    values = {**_shared(filter), **_opening(opening), **pairing,
               **_cortex(threshold, label, array, segmentation)}
     if cavity is not None:
         values["Cavity"] = cavity

@@ -2,6 +2,7 @@
 """Reads and maps files of landmarks and traced points."""
 
 import collections
+import os
 
 from .files import _write
 from .transforms import Transform, read_transform
@@ -11,11 +12,12 @@ _DIRECTIONS = {"forward": "Forward", "backward": "Backward"}
 Points = collections.namedtuple("Points", "positions labels numbers times deviations")
 
 
-def _reader(name, volume, table_axes):
+def _reader(name, volume, table_axes, columns=None):
     """A Landmark Reader that has read a file; an error with the reason if it could not."""
     from paraview import simple
 
-    reader = simple.LandmarkReader(FileName=name, Volume=volume, TableAxes=table_axes)
+    named = {} if columns is None else {"PositionColumns": list(columns)}
+    reader = simple.LandmarkReader(FileName=name, Volume=volume, TableAxes=table_axes, **named)
     reader.UpdatePipeline()
     reader.SMProxy.UpdatePropertyInformation()
     problem = reader.GetPropertyValue("Problem")
@@ -29,13 +31,15 @@ def _labels(array, count):
     return [array.GetValue(i) for i in range(count)] if array else [""] * count
 
 
-def read_points(name, volume=1, table_axes="RAS"):
+def read_points(name, volume=1, table_axes="RAS", columns=None):
     """Read landmarks or traced points from a file.
 
     - `name`: path of the file. It ends in `.mrk.json`, `.json`, `.fcsv`, `.tag`, `.csv` or `.tsv`.
     - `volume`: 1, the default, or 2, the volume of an MNI tag file whose points are read.
     - `table_axes`: `"RAS"`, the default, or `"LPS"`, the axes of a table whose columns are called
       x, y and z.
+    - `columns`: names of the three columns of a table that hold the position, in the order x, y, z.
+      The default, `None`, takes those whose names mean a position.
 
     Returns a named tuple of `positions`, an N x 3 array in mm, RAS; `labels`, a list of N strings;
     and `numbers`, `times` and `deviations`, arrays of N numbers. A number that the file does not
@@ -48,7 +52,7 @@ def read_points(name, volume=1, table_axes="RAS"):
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     active = simple.GetActiveSource()
-    reader = _reader(name, volume, table_axes)
+    reader = _reader(os.fspath(name), volume, table_axes, columns)
     try:
         points = servermanager.Fetch(reader)
         count = points.GetNumberOfPoints()
@@ -94,8 +98,18 @@ def _taken_by(transform, points, direction):
     return moved
 
 
+def _path(name, value):
+    """The path of a file. An array goes to other functions."""
+    if not isinstance(value, (str, os.PathLike)):
+        raise TypeError(
+            f"{name} is a {type(value).__name__}; map_points takes paths of files. Arrays go to "
+            "deformed_from_rest(filter, points), rest_from_deformed(filter, points), "
+            "Fit.measured_from_rest(points) or read_transform(files).map(points)")
+    return os.fspath(value)
+
+
 def map_points(file_in, file_out, filter=None, direction="forward", volume=1, table_axes="RAS",
-               file_axes="Of The Format", transform=None):
+               file_axes="Of The Format", transform=None, columns=None):
     """Map the points of a file and write them to another file, labels and all.
 
     - `file_in`: path of the file to read, in a format of `read_points`.
@@ -107,9 +121,7 @@ def map_points(file_in, file_out, filter=None, direction="forward", volume=1, ta
       deformed frame, and `"backward"` maps points of the deformed frame to the rest frame. With a
       `transform`, `"forward"` takes points of the fixed image to the moving image, as the files do,
       and `"backward"` takes points of the moving image to the fixed image.
-    - `volume`: 1, the default, or 2, the volume of an MNI tag file whose points are read.
-    - `table_axes`: `"RAS"`, the default, or `"LPS"`, the axes of a table whose columns are called
-      x, y and z.
+    - `volume`, `table_axes`, `columns`: as in `read_points`.
     - `file_axes`: `"RAS"` or `"LPS"`, the axes in the file to write, which names them. The
       default, `"Of The Format"`, writes LPS to files of Slicer and RAS to all others.
     - `transform`: instead of a `filter`, a transform of a registration program: the `files` of
@@ -121,12 +133,15 @@ def map_points(file_in, file_out, filter=None, direction="forward", volume=1, ta
 
     Returns the number of points.
 
-    Raises `ValueError` if `direction` is another word, `file_in` cannot be read, `filter` attaches
-    no deformation, or there are a `filter` and a `transform`. Raises `OSError` with the reason if
-    the transform cannot be read or `file_out` is not written.
+    Raises `TypeError` if a file is no path; arrays go to `deformed_from_rest`,
+    `rest_from_deformed` or `Transform.map`. Raises `ValueError` if `direction` is another word,
+    `file_in` cannot be read, `filter` attaches no deformation, or there are a `filter` and a
+    `transform`. Raises `OSError` with the reason if the transform cannot be read or `file_out` is
+    not written.
     """
     from paraview import servermanager, simple
 
+    file_in, file_out = _path("file_in", file_in), _path("file_out", file_out)
     leads = _DIRECTIONS.get(str(direction).lower())
     if leads is None:
         raise ValueError(f'direction is {direction!r}; it must be "forward" or "backward"')
@@ -135,7 +150,7 @@ def map_points(file_in, file_out, filter=None, direction="forward", volume=1, ta
     if transform is not None and not isinstance(transform, Transform):
         transform = read_transform(transform)
     active = simple.GetActiveSource()
-    points = _reader(file_in, volume, table_axes)
+    points = _reader(file_in, volume, table_axes, columns)
     moved = None
     try:
         if filter is not None:

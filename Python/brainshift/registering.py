@@ -86,6 +86,8 @@ class Alignment:
       starts up to 20 mm and 15 degrees away.
     - `steps`, `level`: number of searched lines, and the level of the pyramid, from 0 on
     - `finished`: False if the callback stopped it
+
+    Printed, it is a line of figures.
     """
 
     #: Attributes, and the properties of the run with their values.
@@ -94,6 +96,12 @@ class Alignment:
                "steps": "Steps", "turn": "Rotation"}
 
     finished = False
+
+    def __repr__(self):
+        return (f"Alignment: moved by {self.shift:.2f} mm and {self.turn:.2f} degrees, information "
+                f"{self.information_before:.3f} to {self.information:.3f} nats, compared "
+                f"{self.compared:.2f} of the volume, {self.steps} steps, "
+                + ("finished" if self.finished else "stopped"))
 
 
 class Refinement:
@@ -111,6 +119,8 @@ class Refinement:
     - `moved`: the longest displacement of a control point in the last step
     - `steps`, `level`: number of steps, and the level of the pyramid, from 0 on
     - `finished`: False if the callback stopped it
+
+    Printed, it is a line of figures.
     """
 
     #: Attributes, and the properties of the run with their values.
@@ -119,6 +129,14 @@ class Refinement:
                "moved": "LongestMove", "share": "StepFraction", "steps": "Steps"}
 
     finished = False
+    smallest_determinant = float("nan")  # until the run has ended
+
+    def __repr__(self):
+        return (f"Refinement: cost {self.disagreement_before:.4f} to {self.disagreement:.4f}, "
+                f"largest change {self.largest_change:.2f} mm, mean {self.mean_change:.2f} mm, "
+                f"smallest determinant {self.smallest_determinant:.3f}, compared "
+                f"{self.compared:.2f} of the volume, {self.steps} steps, "
+                + ("finished" if self.finished else "stopped"))
 
 
 def align(compare, callback=None):

@@ -9,6 +9,8 @@ from .files import save_field
 #: Reverses x and y: from LPS, in which ITK's files are, to RAS and back.
 _LPS = (-1.0, -1.0, 1.0, 1.0)
 _DIRECTIONS = ("backward", "forward")
+#: Programs that write 16 numbers as text, and their words in the property MatrixProgram.
+_PROGRAMS = {None: "Unknown", "fsl": "FSL", "niftyreg": "NiftyReg"}
 
 
 def _direction(direction):
@@ -24,7 +26,14 @@ def _names(files):
     return [os.fspath(name) for name in names]
 
 
-def _report(files, world, fixed_image, moving_image):
+def _program(program):
+    word = program.lower() if isinstance(program, str) else program
+    if word not in _PROGRAMS:
+        raise ValueError(f"program is {program!r}; it must be 'fsl', 'niftyreg' or None")
+    return _PROGRAMS[word]
+
+
+def _report(files, world, fixed_image, moving_image, program):
     """The report on files, in the process that reads them."""
     from paraview import simple
     manager = simple.servermanager.ProxyManager().SMProxyManager
@@ -36,6 +45,7 @@ def _report(files, world, fixed_image, moving_image):
         report.GetProperty("LaterFileNames").SetElement(i, name)
     report.GetProperty("FixedImage").SetElement(0, os.fspath(fixed_image or ""))
     report.GetProperty("MovingImage").SetElement(0, os.fspath(moving_image or ""))
+    report.GetProperty("MatrixProgram").SetElement(0, list(_PROGRAMS.values()).index(program))
     report.GetProperty("World").SetElement(0, ("RAS", "LPS").index(world))
     report.UpdateVTKObjects()
     report.UpdatePropertyInformation()
@@ -87,7 +97,7 @@ class Transform:
         return _answer(self._report, "MappedPoints").reshape(-1, 3)
 
 
-def read_transform(files, world="RAS", fixed_image=None, moving_image=None):
+def read_transform(files, world="RAS", fixed_image=None, moving_image=None, program=None):
     """Read a transform of ITK, Slicer, ANTs, elastix, NiftyReg or FSL.
 
     Such a transform takes points of the fixed image to the moving one. Images are resampled with
@@ -99,12 +109,15 @@ def read_transform(files, world="RAS", fixed_image=None, moving_image=None):
     - `world`: `"RAS"`, the default, or `"LPS"`, the world axes of your points and volumes.
     - `fixed_image`, `moving_image`: the NIfTI files of the options `-ref` and `-in` of FSL's
       `flirt`. FSL's matrices are undefined without them. Other files do not need them.
+    - `program`: `"fsl"` or `"niftyreg"`, the program that wrote a text file of 16 numbers. The file
+      does not say it. `"niftyreg"` is a matrix from RAS to RAS, from the fixed image to the moving
+      one. The default, `None`, counts as `"fsl"` if an image is named; else such a file is refused.
 
     Returns a `Transform` with `kind`, `moving_from_fixed` and `map(points)`.
 
     Raises `OSError` with the reason if a file cannot be read.
     """
-    return Transform(_report(_names(files), world, fixed_image, moving_image))
+    return Transform(_report(_names(files), world, fixed_image, moving_image, _program(program)))
 
 
 def _rotation_degrees(rotation):
@@ -145,8 +158,8 @@ def _bend(bent, files, options):
     from paraview import simple
     active = simple.GetActiveSource()
     reader = simple.TransformReader(
-        Volume=bent.Input, FileName=files[0], LaterFileNames=files[1:],
-        LatticeDimensions=bent.LatticeDimensions, Kernel=bent.Kernel, **options)
+        Volume=bent.Input, LatticeDimensions=bent.LatticeDimensions, Kernel=bent.Kernel, **options,
+        LaterFileNames=files[1:], FileName=files[0])  # last: it reads as soon as it has a name
     reader.UpdatePipeline()
     bent.Lattice = reader
     simple.SetActiveSource(active)
@@ -155,13 +168,13 @@ def _bend(bent, files, options):
 
 
 def apply_transform(filter, files, direction="backward", world="RAS", fixed_image=None,
-                    moving_image=None):
+                    moving_image=None, program=None):
     """Deform a volume, or move a reference, with a transform of a registration program.
 
     - `filter`: a Free-Form Deformation or a Compare Volumes. A Free-Form Deformation gets the
       transform as its `Lattice`, for its present `LatticeDimensions` and `Kernel`; strokes add to
       it. A Compare Volumes moves its reference; the transform must be rigid.
-    - `files`, `world`, `fixed_image`, `moving_image`: as in `read_transform`.
+    - `files`, `world`, `fixed_image`, `moving_image`, `program`: as in `read_transform`.
     - `direction`: `"backward"`, the default, if the volume to deform or move was the moving
       image: the transform takes points of the picture to points of the volume as loaded.
       `"forward"`, if it was the fixed image: the transform takes points of the volume as loaded
@@ -178,12 +191,12 @@ def apply_transform(filter, files, direction="backward", world="RAS", fixed_imag
     if kind not in ("FreeFormDeformation", "CompareVolumes"):
         raise ValueError(f"filter is a {kind}; it must be a Free-Form Deformation or a Compare "
                          "Volumes")
-    transform = read_transform(files, world, fixed_image, moving_image)
+    transform = read_transform(files, world, fixed_image, moving_image, program)
     if kind == "CompareVolumes":
         _move_reference(filter, transform, direction)
         return 0.0
     return _bend(filter, files, {
-        "Direction": direction.capitalize(), "World": world,
+        "Direction": direction.capitalize(), "World": world, "MatrixProgram": _program(program),
         "FixedImage": os.fspath(fixed_image or ""), "MovingImage": os.fspath(moving_image or "")})
 
 

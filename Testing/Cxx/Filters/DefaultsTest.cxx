@@ -129,6 +129,7 @@ TEST(Defaults, OfFitDeformationLiveInTheClass)
     { "Live", { double(filter->GetLive()) } },
     { "OpeningCentre", { centre[0], centre[1], centre[2] } },
     { "OpeningRadius", { filter->GetOpeningRadius() } },
+    { "PairByOrder", { double(filter->GetPairByOrder()) } },
     { "SurfaceBy", { double(filter->GetSurfaceBy()) } },
     { "Threshold", { filter->GetThreshold() } },
   };
@@ -221,6 +222,7 @@ TEST(Defaults, OfTransformReaderLiveInTheClass)
     { "Direction", { double(reader->GetDirection()) } },
     { "Kernel", { double(reader->GetKernel()) } },
     { "LatticeDimensions", { double(sides[0]), double(sides[1]), double(sides[2]) } },
+    { "MatrixProgram", { double(reader->GetMatrixProgram()) } },
     { "OutputDirection", { double(reader->GetOutputDirection()) } },
     { "World", { double(reader->GetWorld()) } },
   };

@@ -92,6 +92,32 @@ TEST(TrackerRegistration, RefusesOneSetOfPointsOnALine)
   }
 }
 
+TEST(TrackerRegistration, NamesAMirrorAndANearLine)
+{
+  const glm::dvec3 points[] = { { 100, 0, 0 }, { 0, 80, 0 }, { 0, 0, 90 }, { -20, -60, 10 } };
+  TrackerRegistration good;
+  TrackerRegistration mirrored;
+  for (int i = 0; i < 4; ++i)
+  {
+    add(good, points[i]);
+    mirrored.touch(points[i]);
+    mirrored.mark(i, True.apply(points[i] * glm::dvec3(1, -1, 1)));
+  }
+  EXPECT_EQ(good.doubt(), "");
+  EXPECT_TRUE(mirrored.isRegistered());
+  EXPECT_NE(mirrored.doubt().indexOf("mirror"), -1);
+  TrackerRegistration line;
+  for (const double at : { 0.0, 50.0, 100.0, 150.0 })
+  {
+    add(line, { at, at == 50.0 ? 8.0 : 0.0, 0.0 });
+  }
+  EXPECT_TRUE(line.isRegistered());
+  EXPECT_NE(line.doubt().indexOf("near to one line"), -1);
+  line.remove(0);
+  line.remove(0);
+  EXPECT_EQ(line.doubt(), "");
+}
+
 TEST(TrackerRegistration, PointWithoutPartnerDoesNotCount)
 {
   TrackerRegistration registration;

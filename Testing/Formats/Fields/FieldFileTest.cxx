@@ -245,6 +245,34 @@ TEST(FieldFile, VectorsOfNIFTIFilesAreWhatTheirProgramsMean)
   firstOf(writeVectors("niftyreg0.nii", 1007, "NREG_TRANS", 0));
   EXPECT_EQ(found.displacements.at(0), glm::vec3(1, 2, 3));
   EXPECT_EQ(found.displacements.at(7), glm::vec3(-1, -1, -1));
+  // SPM's are positions in RAS, too.
+  firstOf(writeVectors("y_head.nii", 1007, "Mapping", 0));
+  EXPECT_EQ(found.displacements.at(0), glm::vec3(1, 2, 3));
+  EXPECT_EQ(found.displacements.at(7), glm::vec3(-1, -1, -1));
+  EXPECT_EQ(found.direction, Direction::Backward);
+  firstOf(writeVectors("said.nii", 1006, "Forward", 0));
+  EXPECT_EQ(found.direction, Direction::Forward);
+}
+
+TEST(FieldFile, VectorsOfUnknownMeaningAreRefusedByName)
+{
+  DirectedField found;
+  const auto said = [&](int intent, const char* name) {
+    const std::string fileName = writeVectors("unknown.nii", intent, name, 0);
+    EXPECT_TRUE(isFieldFile(fileName) || intent < 1006 || intent > 1007);
+    return problemOf([&] { readFieldFile(fileName, found); });
+  };
+  EXPECT_NE(said(1007, "Velocity").find("intent_name \"Velocity\""), std::string::npos);
+  EXPECT_NE(said(1007, "mapping").find("intent_name \"mapping\""), std::string::npos);
+  EXPECT_NE(said(1006, "Mapping").find("intent_name \"Mapping\""), std::string::npos);
+  EXPECT_NE(said(2006, "").find("2006 (FSL_FNIRT_DISPLACEMENT_FIELD)"), std::string::npos);
+  EXPECT_NE(said(2016, "").find("2016 (FSL_TOPUP_CUBIC_SPLINE"), std::string::npos);
+  EXPECT_NE(said(0, "").find("intent 0; a displacement field must have"), std::string::npos);
+  std::string bytes = contentOf(writeVectors("metres.nii", 1006, "", 0));
+  bytes[123] = 1;
+  std::ofstream(scratch("metres.nii"), std::ios::binary) << bytes;
+  EXPECT_NE(problemOf([&] { readFieldFile(scratch("metres.nii"), found); }).find("xyzt_units 1"),
+    std::string::npos);
 }
 
 TEST(FieldFile, PackedAndForeignNumbersAreRead)

@@ -160,6 +160,157 @@ def test_table_of_slicer():
     assert_says(said.text, "1 point without a position")
 
 
+def entries_of_page():
+    """The entries that the page of the folder lists, with the kind of file."""
+    here = os.path.dirname(os.path.abspath(__file__))
+    page = os.path.join(here, "..", "..", "..", "Formats", "Landmarks", "README.md")
+    with open(page, encoding="utf-8") as file:
+        text = file.read().split("## What is honoured")[1]
+    text = text.replace("(`", "(").replace("`)", ")")
+    return [f"{name} {kind}"
+            for name, kind in re.findall(r"^\| `([^`]*)` \((.*?)\) \|", text, re.MULTILINE)]
+
+
+def table_of(names, values="1,2,3", name="walk.csv"):
+    return written(name, f"name,{names}\nLA1,{values}\nLA2,7,8,9\n")
+
+
+def walked_markups():
+    good = markups({"coordinateSystem": "RAS", "coordinateUnits": "mm", "controlPoints": [
+        {"label": "a", "position": [1, 2, 3], "positionStatus": "defined"}]})
+    first = brainshift.read_points(written("walk.mrk.json", good)).positions.tolist()
+    assert first == [[1, 2, 3]]
+    lps = good.replace("RAS", "LPS")
+    assert brainshift.read_points(written("walk.mrk.json", lps)).positions.tolist() == [[-1, -2, 3]]
+    for old, new, words in (
+            ('"RAS"', '"ARS"', "coordinate system ARS"),
+            ("coordinateSystem", "coordinatesystem", "Slicer writes coordinateSystem"),
+            ('"mm"', '"cm"', "other than mm"),
+            ("coordinateUnits", "CoordinateUnits", "Slicer writes coordinateUnits"),
+            ("controlPoints", "controlpoints", "Slicer writes controlPoints"),
+            ('"position":', '"Position":', "Slicer writes position"),
+            ("positionStatus", "PositionStatus", "Slicer writes positionStatus"),
+            ("[1, 2, 3]", "[1, 2]", "not 3 numbers")):
+        assert words in refusal("walk.mrk.json", good.replace(old, new)), new
+    with messages() as said:
+        hidden = good.replace('"defined"', '"undefined"')
+        assert len(brainshift.read_points(written("walk.mrk.json", hidden)).positions) == 0
+    assert_says(said.text, "1 point without a position")
+    return {f"{name} .mrk.json" for name in (
+        "coordinateSystem", "coordinateUnits", "controlPoints", "position", "positionStatus")}
+
+
+def walked_fiducials_and_tags():
+    head = "# CoordinateSystem = LPS\n# columns = id,x,y,z,label\n1,1,2,3,a\n"
+    for text in (head, head.replace("CoordinateSystem", "Coordinate System"),
+                 head.replace("# columns", "# coordinateUnits = mm\n# columns")):
+        found = brainshift.read_points(written("walk.fcsv", text)).positions
+        assert found.tolist() == [[-1, -2, 3]], text
+    for old, new, words in (("LPS", "LP", "coordinate system LP"), ("id,x", "id,u", "no columns x"),
+                            ("# columns", "# coordinateUnits = cm\n# columns", "must be mm")):
+        assert words in refusal("walk.fcsv", head.replace(old, new)), new
+    tag = "MNI Tag Point File\nVolumes = 1;\nPoints =\n 1 2 3;\n"
+    assert brainshift.read_points(written("walk.tag", tag)).positions.tolist() == [[1, 2, 3]]
+    assert "3 volumes" in refusal("walk.tag", tag.replace("= 1", "= 3"))
+    assert "2 numbers" in refusal("walk.tag", tag.replace("1 2 3", "1 2"))
+    return {"CoordinateSystem .fcsv", "coordinateUnits .fcsv", "columns .fcsv", "Volumes .tag",
+            "Points .tag"}
+
+
+def walked_tables():
+    """Each list of names, and where the position 1 2 3 of such columns lies."""
+    seen = {"columns table", "several table", "n/a table"}
+    for entry, names, right in (
+            ("x y z", "x,y,z", (1, 2, 3)), ("x y z", " X , Y [mm], z(mm)", (1, 2, 3)),
+            ("r a s", "R,A,S", (1, 2, 3)), ("r a s", "right,anterior,superior", (1, 2, 3)),
+            ("l p s", "l,p,s", (-1, -2, 3)), ("l p s", "Left,Posterior,Superior", (-1, -2, 3)),
+            ("Points:0", "Points:0,Points:1,Points:2", (1, 2, 3)),
+            ("x_ras", "x_ras_mm,y_ras_mm,z_ras_mm", (1, 2, 3)),
+            ("x_ras", "RAS x,RAS y,RAS z", (1, 2, 3)), ("x_ras", "x_lps,y_lps,z_lps", (-1, -2, 3)),
+            ("x_ras", "z (LPS),y (LPS),x (LPS)", (-3, -2, 1)),
+            ("x_mni", "X_mni,Y_mni,Z_mni", (1, 2, 3)),
+            ("x_mni", "MNI152.x,MNI152.y,MNI152.z", (1, 2, 3)),
+            ("x_cm", "x_cm,y_cm,z_cm", (10, 20, 30)),
+            ("x_cm", "R (m),A (m),S (m)", (1000, 2000, 3000)),
+            ("x_cm", "x [µm],y [µm],z [µm]", (1e-3, 2e-3, 3e-3)),
+            ("x_coord", "x_coord,y_coord,z_coord", (1, 2, 3)),
+            ("x_coord", "pos_x,pos_y,pos_z", (1, 2, 3))):
+        with messages() as said:
+            found = brainshift.read_points(table_of(names)).positions
+        assert numpy.allclose(found[0], right, rtol=0, atol=1e-12), (names, found)
+        assert ("template" in said.text) == (entry == "x_mni"), (names, said.text)
+        seen.add(f"{entry} table")
+    with messages() as said:
+        found = brainshift.read_points(table_of("x,y,z", "n/a,N/A,n/a"))
+    assert_says(said.text, "1 point without a position")
+    assert found.labels == ["LA2"]
+    return seen
+
+
+def refused_tables():
+    for names, words in (("x,y,x", "names the columns x, y and z"),
+                         ("x_tkr,y_tkr,z_tkr", "x_tkr, y_tkr, z_tkr; name three"),
+                         ("i,j,k", "Position Columns"), ("l_ras,p_ras,s_ras", "Position Columns"),
+                         ("x_cm,y_mm,z_mm", "Position Columns")):
+        assert words in refusal("walk.csv", f"name,{names}\nLA1,1,2,3\n"), names
+    several = "x_ras,y_ras,z_ras,x_mni,y_mni,z_mni\n1,2,3,4,5,6\n"
+    assert_says(refusal("walk.csv", several), "several positions: ", "x_ras y_ras z_ras",
+                "x_mni y_mni z_mni")
+    assert "names the column x twice" in refusal("walk.csv", "x,x,y,z\n1,1,2,3\n")
+    assert "several positions" in refusal("walk.csv", "x,y,z,r,a,s\n1,2,3,4,5,6\n")
+    name = written("walk.csv", several)
+    for columns, right in ((("x_mni", "y_mni", "z_mni"), (4, 5, 6)),
+                           (("X_RAS", "y_ras", "z_ras"), (1, 2, 3))):
+        with messages():
+            found = brainshift.read_points(name, columns=columns)
+        assert found.positions.tolist() == [list(right)]
+    name = written("walk.csv", "i;j;k\n1;2;3\n")
+    found = brainshift.read_points(name, columns=["i", "j", "k"], table_axes="LPS")
+    assert found.positions.tolist() == [[-1, -2, 3]]
+    for columns, words in ((["i", "j", "l"], "the column l 0 times"),
+                           (["i", "j"], "by 2 position")):
+        assert words in refusal("walk.csv", "i;j;k\n1;2;3\n", columns=columns)
+
+
+def walked_electrodes():
+    table = "sub-01_ses-1_space-X_electrodes.tsv"
+    text = "name\tx\ty\tz\tsize\nLA1\t1\t2\t3\t5\nLA2\tn/a\tn/a\tn/a\tn/a\n"
+    for name in os.listdir(scratch(".")):
+        if name.endswith("_coordsystem.json"):
+            os.remove(scratch(name))
+    with messages() as said:
+        assert brainshift.read_points(written(table, text)).positions.tolist() == [[1, 2, 3]]
+    assert_says(said.text, "no coordsystem.json", "1 point without a position")
+    written("sub-02_coordsystem.json", '{"iEEGCoordinateUnits": "um"}')  # of another
+    written("sub-01_coordsystem.json", '{"iEEGCoordinateUnits": "cm"}')
+    beside = "sub-01_space-X_coordsystem.json"
+    for unit, mm in (("mm", 1), ("cm", 10), ("m", 1000), ("um", 1e-3)):
+        written(beside, json.dumps({"iEEGCoordinateSystem": "ACPC", "iEEGCoordinateUnits": unit}))
+        with messages() as said:
+            found = brainshift.read_points(scratch(table)).positions
+        assert numpy.allclose(found, mm * numpy.array([[1, 2, 3]]), rtol=1e-12), (unit, found)
+        assert "coordsystem" not in said.text
+    for system, unit, words in (("ACPC", "pixels", "pixels"), ("Pixels", "mm", "pixels"),
+                                ("CTF", "cm", "x points to the front"),
+                                ("ACPC", "inch", "unit inch"),
+                                ("ACPC", "", "does not say CoordinateUnits")):
+        written(beside, json.dumps({"EEGCoordinateSystem": system, "EEGCoordinateUnits": unit}))
+        assert words in refusal(table, text), (system, unit)
+    written(beside, "{")
+    assert "is not good JSON" in refusal(table, text)
+    os.remove(scratch(beside))
+    with messages():
+        assert brainshift.read_points(scratch(table)).positions.tolist() == [[10, 20, 30]]
+    return {"CoordinateUnits BIDS", "CoordinateSystem BIDS", "coordsystem.json BIDS"}
+
+
+def test_entries_of_the_page_are_honoured_or_refused():
+    refused_tables()
+    walked = (walked_markups() | walked_fiducials_and_tags() | walked_tables()
+              | walked_electrodes())
+    assert sorted(walked) == sorted(entries_of_page()), walked ^ set(entries_of_page())
+
+
 def test_damaged_files_end_in_one_sentence():
     head = "# CoordinateSystem = RAS\n"
     tag = "MNI Tag Point File\nVolumes = 2;\nPoints =\n"

@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <type_traits>
 
@@ -220,7 +219,9 @@ TEST(NIFTIReader, WithoutFormsPixelSizesLieAlongRas)
   file.pixelSize = { 0.5, 0.75, 2.0, 0.0 };
   expectPlaced(file, glm::scale(glm::dmat4(1.0), glm::dvec3(0.5, 0.75, 2.0)), true, "no-form");
   file.pixelSize = { 0.0, -0.75, 2.0, 0.0 }; // as nifti_clib takes them: 0 is 1, signs do not count
-  expectPlaced(file, glm::scale(glm::dmat4(1.0), glm::dvec3(1.0, 0.75, 2.0)), true, "odd-pixdim");
+  writePlain(temporary("odd-pixdim.nii"), file.bytes());
+  Reading reading(temporary("odd-pixdim.nii"));
+  expectPlaced(reading, file, glm::scale(glm::dmat4(1.0), glm::dvec3(1.0, 0.75, 2.0)));
 }
 
 TEST(NIFTIReader, MicrometresBecomeMillimetres)
@@ -293,8 +294,7 @@ TEST(NIFTIReader, SlopeAndInterceptRescaleToFloat)
 TEST(NIFTIReader, NoSlopeKeepsValues)
 {
   NIFTITestFile file = withSform(glm::dmat4(1.0));
-  const double none[][2] = { { 0.0, 7.0 }, { std::nan(""), 7.0 }, { 1.0, 0.0 },
-    { std::numeric_limits<double>::infinity(), 0.0 } };
+  const double none[][2] = { { 0.0, 7.0 }, { std::nan(""), 7.0 }, { 1.0, 0.0 } };
   for (const auto& pair : none)
   {
     file.slope = pair[0];

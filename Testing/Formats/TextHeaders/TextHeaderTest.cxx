@@ -211,9 +211,33 @@ TEST(TextHeader, WordsSpelledOtherwiseAreReadOrRefused)
   EXPECT_EQ(field.displacements[1], glm::vec3(-3, -4, 5));
   ASSERT_EQ(problemOf("big.nrrd", Nrrd + "endian: big\n\n" + numbers(true), field), "");
   EXPECT_EQ(field.displacements[1], glm::vec3(-3, -4, 5));
-  expectProblem("Big.nrrd", Nrrd + "endian: Big\n\n" + numbers(true), "endian 'Big'");
+  ASSERT_EQ(problemOf("Big.nrrd", Nrrd + "endian: Big\n\n" + numbers(true), field), "");
+  EXPECT_EQ(field.displacements[1], glm::vec3(-3, -4, 5));
   expectProblem("no_endian.nrrd", Nrrd + "\n" + numbers(true), "must be little or big");
   std::string half = Meta;
   half.replace(half.find("2 2 2"), 5, "2.5 2 2");
   expectProblem("half.mha", half + end, "a whole number from 1 to 2147483647");
+}
+
+TEST(TextHeader, WordsThatChangeVectorsAreRefusedByName)
+{
+  const auto end = [](const std::string& line) {
+    return Nrrd + "endian: little\n" + line + "\n\n" + numbers(false);
+  };
+  DirectedField field;
+  EXPECT_EQ(problemOf("words.nrrd", end("space units: \"mm\" \"MM\" \"mm\""), field), "");
+  EXPECT_EQ(problemOf("words.nrrd", end("kinds: Vector domain space domain"), field), "");
+  EXPECT_EQ(problemOf("words.nrrd", end("measurement frame: (1,0,0) (0,1,0) (0,0,1)"), field), "");
+  expectProblem("words.nrrd", end("space units: \"um\" \"um\" \"um\""), "space units");
+  expectProblem("words.nrrd", end("sample units: voxel"), "has the sample units voxel");
+  expectProblem("words.nrrd", end("measurement frame: (-1,0,0) (0,-1,0) (0,0,1)"),
+    "has the measurement frame (-1,0,0)");
+  expectProblem("words.nrrd", end("displacement field type:=velocity"),
+    "has the displacement field type velocity");
+  expectProblem("words.nrrd", end("kinds: point domain domain domain"), "of the kind point");
+  expectProblem("words.nrrd", end("kinds: list domain domain domain"), "of the kind list");
+  expectProblem(
+    "words.nrrd", end("spacing: 1 1 1 1"), "field 'spacing', which NRRD does not define");
+  expectProblem("words.mha",
+    Meta + "DistanceUnits = um\nElementDataFile = LOCAL\n" + numbers(false), "DistanceUnits um");
 }

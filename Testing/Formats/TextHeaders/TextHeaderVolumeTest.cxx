@@ -259,10 +259,15 @@ TEST(TextHeaderVolume, AFileMaySayThatSidesAreNotKnown)
 
 TEST(TextHeaderVolume, UnitsScaleAndSlopesRescale)
 {
+  expectRefused<NRRD>("units.nrrd",
+    NRRDBegin + Bytes + "space units: \"cm\" \"um\" \"furlong\"\n\n" + numbers(8),
+    "measures in the unit 'furlong'; BrainShift reads");
+  expectRefused<NRRD>("units.nrrd", NRRDBegin + Bytes + "space units: um um um\n\n" + numbers(8),
+    "has the space units um um um; it must have 3, in quotation marks");
   writeFile(
-    "units.nrrd", NRRDBegin + Bytes + "space units: \"cm\" \"um\" \"furlong\"\n\n" + numbers(8));
+    "units.nrrd", NRRDBegin + Bytes + "space units: \"cm\" \"um\" \"pixel\"\n\n" + numbers(8));
   FormatReading<NRRD> units("units.nrrd");
-  EXPECT_NE(units.said().find("unit 'furlong', which counts as mm"), std::string::npos);
+  EXPECT_NE(units.said().find("unit 'pixel', which counts as mm"), std::string::npos);
   EXPECT_DOUBLE_EQ(units.image()->GetSpacing()[0], 10.0);
   EXPECT_DOUBLE_EQ(units.image()->GetSpacing()[1], 0.001);
   std::string placed = NRRDBegin + Bytes + "space units: \"cm\" \"um\" \"m\"\n\n" + numbers(8);
@@ -386,4 +391,172 @@ TEST(TextHeaderVolume, AGoodFileAfterABadOneLoads)
   reading.reader->Update();
   EXPECT_EQ(reading.said(), "");
   EXPECT_EQ(reading.values(), countedTo(8));
+}
+
+namespace
+{
+// The times of a file, s, and what was said of it.
+std::vector<double> timesOf(const std::string& name, const std::string& bytes, std::string& said)
+{
+  writeFile(name, bytes);
+  FormatReading<NRRD> reading(name);
+  said = reading.said();
+  vtkInformation* output = reading.reader->GetOutputInformation(0);
+  const double* times = output->Get(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+  const int count = output->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
+  return { times, times + (times ? count : 0) };
+}
+
+// Three volumes along the last axis, with these lines.
+std::vector<double> timesWith(const std::string& lines, std::string& said)
+{
+  return timesOf("series.nrrd",
+    "NRRD0005\ndimension: 4\nspace: RAS\nsizes: 2 2 2 3\n" + Bytes +
+      "space directions: (1,0,0) (0,1,0) (0,0,1) NONE\n" + lines + "\n" + numbers(24),
+    said);
+}
+}
+
+TEST(TextHeaderVolume, TimesOfAnAxisAreThoseOfTheFile)
+{
+  using Times = std::vector<double>;
+  std::string said;
+  const std::string kinds = "kinds: domain domain domain time\n";
+  const std::string spacings = "spacings: nan NaN nan 2.5\n";
+  EXPECT_EQ(
+    timesWith(kinds + spacings + "units: \"\" \"\" \"\" \"s\"\n", said), (Times{ 0.0, 2.5, 5.0 }));
+  EXPECT_EQ(said, "");
+  EXPECT_EQ(timesWith(spacings, said), (Times{ 0.0, 2.5, 5.0 }));
+  const auto inUnit = [&](const std::string& unit) {
+    const Times times =
+      timesWith(kinds + spacings + "units: \"\" \"\" \"\" \"" + unit + "\"\n", said);
+    return times.at(2);
+  };
+  EXPECT_NEAR(inUnit("ms"), 0.005, 1e-12);
+  EXPECT_NEAR(inUnit("\xce\xbcs"), 5e-6, 1e-12);
+  EXPECT_NEAR(inUnit("\xc2\xb5s"), 5e-6, 1e-12);
+  EXPECT_NEAR(inUnit("Seconds"), 5.0, 1e-12);
+  EXPECT_NEAR(inUnit("min"), 300.0, 1e-9);
+  EXPECT_EQ(said, "");
+  EXPECT_EQ(inUnit("Hz"), 2.0);
+  EXPECT_NE(said.find("in the unit 'Hz', which is none of time"), std::string::npos);
+  EXPECT_EQ(timesWith(kinds + "spacings: nan nan nan -1\n", said), (Times{ 0.0, 1.0, 2.0 }));
+  EXPECT_NE(said.find("has the time step -1"), std::string::npos);
+  EXPECT_EQ(
+    timesWith(kinds + spacings + "axis mins: nan nan nan 10\ncenters: ??? ??? ??? node\n", said),
+    (Times{ 10.0, 12.5, 15.0 }));
+}
+
+TEST(TextHeaderVolume, TimesOfSlicersSequences)
+{
+  using Times = std::vector<double>;
+  std::string said;
+  const std::string index = "axis 3 index type:=numeric\naxis 3 index values:=";
+  EXPECT_EQ(timesWith(index + "0 2.5 10\n", said), (Times{ 0.0, 2.5, 10.0 }));
+  EXPECT_EQ(said, "");
+  EXPECT_EQ(timesWith("units: \"\" \"\" \"\" \"ms\"\n" + index + "0 2.5 10\n", said).at(1), 0.0025);
+  EXPECT_EQ(timesWith(index + "0 2.5\n", said), (Times{ 0.0, 1.0, 2.0 }));
+  EXPECT_NE(said.find("index values of an axis of volumes that are not 3"), std::string::npos);
+  EXPECT_EQ(timesWith(index + "0 2.5 1\n", said), (Times{ 0.0, 1.0, 2.0 }));
+  EXPECT_NE(said.find("index values"), std::string::npos);
+  EXPECT_EQ(timesOf("first.seq.nrrd",
+              "NRRD0005\ndimension: 4\nspace: RAS\nsizes: 3 2 2 2\n" + Bytes +
+                "space directions: none (1,0,0) (0,1,0) (0,0,1)\n"
+                "kinds: list domain domain domain\nlabels: \"time\" \"\" \"\" \"\"\n"
+                "axis 0 index type:=numeric\naxis 0 index values:=0 2.5 10\n\n" +
+                numbers(24),
+              said),
+    (Times{ 0.0, 2.5, 10.0 }));
+}
+
+TEST(TextHeaderVolume, UnitsOfNRRDAreReadAsPeopleSpellThem)
+{
+  const auto spacingIn = [](const std::string& unit) {
+    const std::string words = "\"" + unit + "\" ";
+    writeFile("unit.nrrd",
+      NRRDBegin + Bytes + "space units: " + words + words + words + "\n\n" + numbers(8));
+    FormatReading<NRRD> reading("unit.nrrd");
+    EXPECT_EQ(reading.said(), "") << unit;
+    return reading.image()->GetSpacing()[0];
+  };
+  for (const char* unit :
+    { "um", "\xc2\xb5m", "\xce\xbcm", "micron", "Microns", "micrometer", "micrometres" })
+  {
+    EXPECT_DOUBLE_EQ(spacingIn(unit), 0.001) << unit;
+  }
+  for (const char* unit : { "", "mm", "MM", "millimeters", "Millimetre" })
+  {
+    EXPECT_DOUBLE_EQ(spacingIn(unit), 1.0) << unit;
+  }
+  EXPECT_DOUBLE_EQ(spacingIn("inches"), 25.4);
+  EXPECT_DOUBLE_EQ(spacingIn("in"), 25.4);
+  EXPECT_DOUBLE_EQ(spacingIn("meters"), 1000.0);
+  EXPECT_DOUBLE_EQ(spacingIn("centimetres"), 10.0);
+}
+
+TEST(TextHeaderVolume, WordsOfNRRDCountWithoutCase)
+{
+  writeFile("case.nrrd",
+    "NRRD0005\nDimension: 3\nSizes: 2 2 2\nSPACE: Left-Posterior-Superior\nType: UChar\n"
+    "Encoding: RAW\nSpace Directions: (1,0,0) (0,1,0) (0,0,1)\nKinds: Domain Space DOMAIN\n"
+    "space origin: (5,0,0)\n\n" +
+      numbers(8));
+  FormatReading<NRRD> reading("case.nrrd");
+  EXPECT_EQ(reading.said(), "");
+  EXPECT_EQ(brainshift::worldAxesOf(reading.image()), brainshift::WorldAxes::RAS);
+  EXPECT_EQ(reading.image()->GetOrigin()[0], -6.0);
+}
+
+TEST(TextHeaderVolume, ContradictionsAreRefusedByName)
+{
+  const std::string end = Bytes + "\n" + numbers(8);
+  const auto nrrd = [&](const std::string& line, const std::string& words) {
+    expectRefused<NRRD>("said.nrrd", NRRDBegin + line + "\n" + end, words);
+  };
+  nrrd("kinds: domain domain", "has the kinds domain domain; it must have 3, one for each axis");
+  nrrd("spacings: 1 1", "has the spacings 1 1; it must have 3");
+  nrrd("spacings: 1 x 1", "has the spacings 1 x 1; each must be a finite number or nan");
+  nrrd("units: \"um\" \"um\" \"um\"", "has the units \"um\" for an axis with space directions");
+  nrrd("space dimension: 2", "has the space dimension 2");
+  nrrd("thickness: 1 1 1", "has the field 'thickness', which NRRD does not define");
+  expectRefused<NRRD>("said.nrrd",
+    "NRRD0005\ndimension: 3\nsizes: 2 2 2\nspace: RAS\n"
+    "space origin: (0,0,0)\n" +
+      end,
+    "no space directions");
+  const std::string data = "ElementDataFile = LOCAL\n" + numbers(8);
+  const auto meta = [&](const std::string& line, const std::string& words) {
+    expectRefused<Meta>("said.mha", MetaBegin + MetaBytes + line + "\n" + data, words);
+  };
+  meta("Position = 1 2 3", "has the Offset 0 0 0, but the Position 1 2 3, which means the same");
+  meta("Rotation = 1 0 0 0 1 0 0 0 1", "but the Rotation 1 0 0");
+  meta("DistanceUnits = furlong", "has the DistanceUnits furlong");
+  meta("BinaryDataByteOrderMSB = False\nElementByteOrderMSB = True", "ElementByteOrderMSB");
+  expectRefused<Meta>("said.mha", "ObjectType = Tube\nNDims = 3\n" + MetaBytes + data,
+    "has the ObjectType Tube; it must be Image");
+}
+
+TEST(TextHeaderVolume, MetaImagesSayUnitsCentresAndTimes)
+{
+  const std::string data = "ElementDataFile = LOCAL\n" + numbers(8);
+  writeFile("unit.mha", MetaBegin + MetaBytes + "DistanceUnits = um\n" + data);
+  FormatReading<Meta> unit("unit.mha");
+  EXPECT_EQ(unit.said(), "");
+  EXPECT_DOUBLE_EQ(unit.image()->GetSpacing()[1], 0.001);
+  writeFile("centre.mha", MetaBegin + MetaBytes + "CenterOfRotation = 1 2 3\n" + data);
+  EXPECT_NE(FormatReading<Meta>("centre.mha").said().find("has the CenterOfRotation 1 2 3"),
+    std::string::npos);
+  const std::string times = "NDims = 4\nBinaryData = True\nDimSize = 2 2 2 3\n"
+                            "ElementSpacing = 1 1 1 2.5\nOffset = 0 0 0 7\n" +
+    std::string("TransformMatrix = -1 0 0 0 0 -1 0 0 0 0 1 0 0 0 0 1\n") +
+    "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n" + numbers(24);
+  writeFile("times.mha", times);
+  FormatReading<Meta> series("times.mha");
+  EXPECT_EQ(series.said(), "");
+  EXPECT_EQ(
+    series.reader->GetOutputInformation(0)->Get(vtkStreamingDemandDrivenPipeline::TIME_STEPS())[2],
+    12.0);
+  std::string leaning = times;
+  leaning.replace(leaning.find("0 0 0 1\n"), 7, "0 0 1 1");
+  expectRefused<Meta>("leaning.mha", leaning, "has a TransformMatrix that mixes time with space");
 }

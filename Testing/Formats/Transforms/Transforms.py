@@ -193,9 +193,17 @@ def test_matrix_of_niftyreg_is_ras():
     matrix = numpy.eye(4)
     matrix[:3, :3], matrix[:3, 3] = numpy.reshape(MATRIX, (3, 3)), SHIFT
     name = write("niftyreg.txt", "\n".join(numbers(row) for row in matrix))
-    transform = brainshift.read_transform(name)
+    raises(OSError, "name the program", brainshift.read_transform, name)
+    raises(ValueError, "'niftyreg'", brainshift.read_transform, name, program="spm")
+    transform = brainshift.read_transform(name, program="niftyreg")
     assert numpy.abs(transform.moving_from_fixed - matrix).max() < 1e-12
-    lps = brainshift.read_transform(name, world="LPS").map(POINTS * FLIP) * FLIP
+    bent = FreeFormDeformation(Input=BOX)
+    raises(OSError, "name the program", brainshift.apply_transform, bent, name)
+    brainshift.apply_transform(bent, name, program="NiftyReg")
+    right = transform.map(INNER)
+    assert largest(right, INNER) > 1.0
+    assert largest(brainshift.rest_from_deformed(bent, INNER), right) < 0.01
+    lps = brainshift.read_transform(name, world="LPS", program="niftyreg").map(POINTS * FLIP) * FLIP
     assert largest(lps, transform.map(POINTS)) < 1e-9
 
 
@@ -214,9 +222,13 @@ def test_matrix_of_fsl_needs_both_images():
     moving, moving_affine = nifti("fsl_moving.nii", (21, 33, 44), (1.1, 1.3, 2.2),
                                   numpy.eye(3), (-40, -20, 3))
     name = write("flirt.mat", "0.8 -0.6 0 5\n0.6 0.8 0 -3\n0 0 1 9\n0 0 0 1\n")
-    raises(OSError, "name the fixed image", brainshift.read_transform, name)
+    raises(OSError, "name the program", brainshift.read_transform, name)
+    raises(OSError, "name the fixed image", brainshift.read_transform, name, program="fsl")
     raises(OSError, "name the moving image", brainshift.read_transform, name, fixed_image=fixed)
     transform = brainshift.read_transform(name, fixed_image=fixed, moving_image=moving)
+    other = write("flirt.txt", "0.8 -0.6 0 5\n0.6 0.8 0 -3\n0 0 1 9\n0 0 0 1\n")
+    same = brainshift.read_transform(other, fixed_image=fixed, moving_image=moving)
+    assert numpy.array_equal(same.moving_from_fixed, transform.moving_from_fixed), "any ending"
     voxel = numpy.array((4.0, 9.0, 25.0))  # of the moving image, which is right-handed
     in_fsl = numpy.array(((20 - voxel[0]) * 1.1, voxel[1] * 1.3, voxel[2] * 2.2))
     there = numpy.array((0.8 * in_fsl[0] - 0.6 * in_fsl[1] + 5,
@@ -357,13 +369,22 @@ def test_bad_files_end_in_a_sentence():
             (itk_text(("BSplineTransform", (0,) * 12, (30000, 30000, 30000, 0, 0, 0, 1, 1, 1, 1, 0,
                                                        0, 0, 1, 0, 0, 0, 1))), "12 parameters"),
             ('(Transform "WeirdTransform")', "does not know"),
-            ('(Transform "EulerTransform")\n(InitialTransformParameterFileName "no.txt")',
-             "does not exist"),
-            ('(Transform "EulerTransform")\n(InitialTransformParameterFileName "bad.txt")',
-             "more than 32")):
+            ('(Transform "EulerTransform")\n(HowToCombineTransforms "Compose")\n'
+             '(InitialTransformParameterFileName "no.txt")', "does not exist"),
+            ('(Transform "EulerTransform")\n(HowToCombineTransforms "Compose")\n'
+             '(InitialTransformParameterFileName "bad.txt")', "more than 32")):
         raises(OSError, words, brainshift.read_transform, write("bad.txt", text))
     raises(OSError, "does not exist", brainshift.read_transform, scratch("none.tfm"))
     _, affine, composite, _ = files_of_ants()
+    import h5py
+    gap = scratch("gap.h5")
+    with h5py.File(composite) as whole, h5py.File(gap, "w") as file:
+        for source, target in (("0", "0"), ("1", "2")):
+            whole.copy(f"TransformGroup/{source}", file.require_group("TransformGroup"), target)
+    raises(OSError, "without a gap", brainshift.read_transform, gap)
+    # A volume with the ending of a field: the reason is that of the field's reader.
+    scalars = write_image("scalars.mha", numpy.zeros((4, 4, 4), "f4"), (0, 0, 0), (1, 1, 1))
+    raises(OSError, "is a field that cannot be read", brainshift.read_transform, scalars)
     for name, ending in ((affine, ".mat"), (composite, ".h5")):
         with open(name, "rb") as file:
             whole = file.read()

@@ -16,8 +16,8 @@ load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from paraview import servermanager  # noqa: E402
 from paraview.simple import (  # noqa: E402
-    BakeDeformation, DeformationField, FreeFormDeformation, NIFTIVolumeReader, OpenDataFile,
-    SaveData)
+    BakeDeformation, DeformationField, FreeFormDeformation, NIFTIVolumeReader, NRRDVolumeReader,
+    OpenDataFile, SaveData)
 
 FORMATS = (".nii", ".nii.gz", ".mha", ".mhd", ".nrrd")
 TYPES = (numpy.uint8, numpy.int16, numpy.uint16, numpy.float32)
@@ -229,6 +229,11 @@ def test_colours_and_components():
                     assert header["ElementNumberOfChannels"] == str(components)
                 else:
                     assert header["sizes"] == f"{components} 6 5 4", header
+                    again = NRRDVolumeReader(FileName=scratch("components.nrrd"))
+                    again.UpdatePipeline()
+                    assert len(again.TimestepValues or []) == 0, (components, dtype)
+                    found = again.PointData["Intensity"].GetNumberOfComponents()
+                    assert found == components, (found, components, dtype)
 
 
 def test_long_numbers_are_shortened_or_refused():

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that pairs of landmarks in the property LandmarkPairs count like pairs in the inputs, that
 # names switch off landmarks of the inputs, that names, places and figures come in one order, that
-# a pair that is switched off says how far the fit misses it, and that states keep it all.
+# a pair that is switched off says how far the fit misses it, that states keep it all, and that
+# lists without a common name and pairs that determine no rotation are refused or named.
+import json
+
 import numpy
 from brainshift_testing import (assert_says, ball, load_plugin, messages, run_tests, scratch,
                                 volume)
@@ -154,6 +157,99 @@ def test_numbers_that_are_no_pairs_are_an_error():
         fit.UpdatePipeline()
     assert_says(said.text, "LandmarkPairs has 20 numbers", "a pair has 7")
     assert not names(fit) and not told(fit, "LandmarkPlaces")
+
+
+def markups(name, positions, labels, axes="RAS"):
+    with open(scratch(name), "w", encoding="utf-8") as file:
+        json.dump({"markups": [{"type": "Fiducial", "coordinateSystem": axes, "controlPoints": [
+            {"label": label, "position": list(map(float, position))}
+            for label, position in zip(labels, positions)]}]}, file)
+    return scratch(name)
+
+
+def test_names_that_are_on_one_list_only_are_refused_on_all_roads():
+    """A prefix, and a list in reverse: by order the fit would be wrong without a word."""
+    rest, measured = measured_pairs(8)
+    labels = [f"mark {i}" for i in range(8)]
+    others = [f"F-{i + 1}" for i in range(8)]
+    source = head()
+    fit = simple.FitDeformation(
+        Input=source, RestLandmarks=points(rest, labels, "rest.csv"),
+        MeasuredLandmarks=points(measured, others, "measured.csv"))
+    with messages() as said:
+        fit.UpdatePipeline()
+    assert_says(said.text, "No name is on both lists", "mark 0", "F-1", "Pair By Order")
+    assert not names(fit)
+    fit.PairByOrder = 1
+    by_order = figures(fit)
+    assert_same(by_order, figures(simple.FitDeformation(
+        Input=source, LandmarkPairs=pairs(rest, measured))))
+    # The same by files that Python reads.
+    read = brainshift.read_points
+    bent = simple.FreeFormDeformation(Input=source)
+    one = read(markups("one.mrk.json", rest, labels))
+    other = read(markups("other.mrk.json", measured[::-1], others))
+    raises("No name is on both lists", brainshift.fit, bent, one, other)
+    raises("No name is on both lists", brainshift.fit, bent, one, measured)
+    assert bent.Lattice is None
+    assert_same(brainshift.fit(bent, one, measured, by_order=True), by_order)
+    # By name whatever the order, with one that is missing.
+    fewer = read(markups("fewer.mrk.json", measured[7:2:-1], labels[7:2:-1]))
+    found = brainshift.fit(bent, rest=one, measured=fewer)
+    assert "mark 0 at rest" in found.warning and "mark 3" not in found.warning, found.warning
+    assert len(found.landmark_residuals) == 5
+    assert_same(found, figures(simple.FitDeformation(
+        Input=source, LandmarkPairs=pairs(rest[3:], measured[3:]))))
+    raises("must have the same number", brainshift.fit, bent, rest, measured[:5])
+    unnamed = read(markups("unnamed.mrk.json", rest, [""] * 8))
+    assert_same(brainshift.fit(bent, unnamed, measured), by_order)
+    twice = read(markups("twice.mrk.json", [*measured, (50, 50, 50)], [*labels, "mark 2"]))
+    found = brainshift.fit(bent, one, twice)
+    assert_says(found.warning, "more than once: mark 2", "measured landmark mark 2")
+
+
+def raises(words, call, *arguments, **options):
+    try:
+        call(*arguments, **options)
+    except (ValueError, TypeError) as error:
+        assert words in str(error), error
+    else:
+        raise AssertionError(words)
+
+
+def test_what_pairs_do_not_say_is_said():
+    """In the property and in Python; the deviation covers the rotation that is open."""
+    bent = simple.FreeFormDeformation(Input=head())
+    line = MIDDLE + numpy.outer((-30.0, -10.0, 5.0, 25.0), (1.0, 0.0, 0.0))
+    turned = MIDDLE + (line - MIDDLE) + (1.0, 2.0, 0.0)
+    with messages() as said:
+        found = brainshift.fit(bent, line, turned)
+    assert_says(found.warning, "rotation about it is not determined")
+    assert_says(said.text, "rotation about it is not determined")
+    away, on_line = MIDDLE + numpy.array([(0, 40.0, 0)]), MIDDLE + numpy.array([(0.0, 0, 0)])
+    assert found.deviation(away)[0] > 20.0 and found.deviation(on_line)[0] < 2.0
+    lattice = figures(simple.FitDeformation(
+        Input=bent.Input, LandmarkPairs=pairs(line, turned), Evidence=1))
+    assert lattice.filter.PointData["Deviation"].GetRange()[1] > 20.0, "evidence, too"
+    # LPS numbers under the word RAS: a half turn with residuals of 0.
+    rest, measured = measured_pairs(8)
+    found = brainshift.fit(bent, rest, measured * (-1, -1, 1))
+    assert_says(found.warning, "look exchanged or mirrored", "-x -y z")
+    found = brainshift.fit(bent, rest, measured)
+    assert found.warning == "", found.warning
+    assert_says(brainshift.fit(bent, rest / 1000, measured / 1000).warning, "are in mm")
+
+
+def test_a_fit_prints_as_a_line_and_takes_what_was_read():
+    rest, measured = measured_pairs(8)
+    bent = simple.FreeFormDeformation(Input=head())
+    read = brainshift.read_points(markups("read.mrk.json", rest, [""] * 8))
+    text = str(brainshift.fit(bent, rest=read, measured=measured))
+    assert_says(text, "Fit: 8 landmarks", "residuals of", "leave-one-out", "degrees", "share 1.00")
+    assert "\n" not in text
+    for array in (rest, rest.tolist(), read):
+        raises("deformed_from_rest(filter, points)", brainshift.map_points, array, "out.csv")
+    raises("map_points takes paths", brainshift.map_points, "in.csv", rest)
 
 
 def test_a_lattice_report_says_where_tissue_is_drawn():

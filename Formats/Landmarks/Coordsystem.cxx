@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/Landmarks/Coordsystem.h"
+
+#include "Common/Problem.h"
+#include "Formats/Files/PlainFile.h"
+#include "Formats/Files/Text.h"
+
+#include "vtk_nlohmannjson.h"
+#include VTK_NLOHMANN_JSON(json.hpp)
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+namespace brainshift
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr std::size_t LongestText = 16 << 20; // bytes
+constexpr const char* Ending = "_coordsystem.json";
+
+// The entities of a name, such as sub-01, without its last part.
+std::set<std::string> entitiesOf(const std::string& name)
+{
+  std::set<std::string> entities;
+  std::size_t at = 0;
+  for (std::size_t end = name.find('_'); end != std::string::npos; end = name.find('_', at))
+  {
+    entities.insert(name.substr(at, end - at));
+    at = end + 1;
+  }
+  return entities;
+}
+
+// The file beside a table that is about it: of those whose entities are all the table's, the one
+// with the most.
+std::string fileBeside(const fs::path& table)
+{
+  const std::set<std::string> own = entitiesOf(table.filename().string());
+  std::string best;
+  std::size_t most = 0;
+  std::error_code error;
+  const fs::path folder = table.has_parent_path() ? table.parent_path() : fs::path(".");
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+  {
+    const std::string name = entry.path().filename().string();
+    const std::set<std::string> entities = entitiesOf(name);
+    const bool isAbout = endsWith(name, Ending) &&
+      std::includes(own.begin(), own.end(), entities.begin(), entities.end());
+    if (isAbout && entities.size() > most)
+    {
+      best = entry.path().string();
+      most = entities.size();
+    }
+  }
+  return best;
+}
+
+std::string wordIn(const nlohmann::json& object, const std::string& end, bool isOptodes)
+{
+  const std::vector<std::string> kinds = isOptodes
+    ? std::vector<std::string>{ "NIRS" }
+    : std::vector<std::string>{ "iEEG", "EEG", "MEG" };
+  for (const std::string& kind : kinds)
+  {
+    const auto found = object.find(kind + end);
+    if (found != object.end() && found->is_string())
+    {
+      return found->get<std::string>();
+    }
+  }
+  return {};
+}
+
+// Systems whose x points to the front and y to the left.
+bool pointsToFront(const std::string& system)
+{
+  constexpr const char* Systems[] = { "ctf", "eeglab", "eeglab-hj", "kityokogawa", "4dbti" };
+  return std::find(std::begin(Systems), std::end(Systems), lowerCase(system)) != std::end(Systems);
+}
+
+double unitIn(const nlohmann::json& object, bool isOptodes)
+{
+  const std::string system = wordIn(object, "CoordinateSystem", isOptodes);
+  const std::string unit = wordIn(object, "CoordinateUnits", isOptodes);
+  if (pointsToFront(system))
+  {
+    throw Problem("says the coordinate system " + shownWords(system) +
+      ", whose x points to the front; turn the positions to the right, front and head (RAS)");
+  }
+  if (lowerCase(system) == "pixels" || lowerCase(unit) == "pixels")
+  {
+    throw Problem("says that the positions are pixels; they must be lengths");
+  }
+  constexpr std::pair<const char*, double> Units[] = { { "mm", 1.0 }, { "cm", 10.0 },
+    { "m", 1000.0 }, { "um", 1e-3 }, { "\xc2\xb5m", 1e-3 }, { "\xce\xbcm", 1e-3 } };
+  for (const auto& [name, mm] : Units)
+  {
+    if (unit == name)
+    {
+      return mm;
+    }
+  }
+  throw Problem(unit.empty() ? "does not say CoordinateUnits; they must be mm, cm or m"
+                             : "says the unit " + shownWords(unit) + "; it must be mm, cm or m");
+}
+}
+
+std::optional<double> electrodeUnit(const std::string& tableName, LandmarkList& list)
+{
+  const bool isOptodes = endsWith(tableName, "_optodes.tsv");
+  if (!isOptodes && !endsWith(tableName, "_electrodes.tsv"))
+  {
+    return std::nullopt;
+  }
+  const std::string beside = fileBeside(tableName);
+  if (beside.empty())
+  {
+    list.notes.emplace_back("has no coordsystem.json beside it; its unit counts as mm");
+    return 1.0;
+  }
+  double mm = 1.0;
+  withBeginning("needs " + beside + ", which ", [&] {
+    const nlohmann::json object =
+      nlohmann::json::parse(readPlainText(beside, LongestText), nullptr, /*throws*/ false);
+    throwIfAny(object.is_object() ? "" : "is not good JSON");
+    mm = unitIn(object, isOptodes);
+  });
+  return mm;
+}
+}

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Proves that numbers of a NIfTI header that contradict each other, or are none, do not count without
+// a word: times, scale, units, and the two places of a volume.
+#include "Testing/Formats/NIFTI/NIFTITestFile.h"
+#include "Testing/Formats/NIFTI/NIFTITestReading.h"
+
+#include <vtkInformation.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace brainshift::testing;
+
+namespace
+{
+std::string said(const NIFTITestFile& file)
+{
+  writePlain(temporary("said.nii"), file.bytes());
+  Reading reading(temporary("said.nii"));
+  return reading.errors + reading.warnings;
+}
+
+void expectSays(const NIFTITestFile& file, const std::string& words)
+{
+  const std::string text = said(file);
+  EXPECT_NE(text.find(words), std::string::npos) << words << " not in: " << text;
+}
+
+// Three volumes, their times and what was said of them.
+void expectTimes(double step, int units, const std::vector<double>& times, const std::string& words)
+{
+  NIFTITestFile file = withSform(glm::dmat4(1.0));
+  file.dimensions = { 4, 3, 5, 3 };
+  file.pixelSize[3] = step;
+  file.units = units;
+  writePlain(temporary("times.nii"), file.bytes());
+  Reading reading(temporary("times.nii"));
+  EXPECT_EQ(reading.errors, "");
+  EXPECT_EQ(reading.warnings.empty(), words.empty()) << reading.warnings;
+  EXPECT_NE(reading.warnings.find(words), std::string::npos) << reading.warnings;
+  vtkInformation* information = reading.reader->GetOutputInformation(0);
+  ASSERT_EQ(information->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()), 3);
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_NEAR(
+      information->Get(vtkStreamingDemandDrivenPipeline::TIME_STEPS())[i], times[i], 1e-9);
+  }
+}
+}
+
+TEST(NIFTISaid, TimesThatAreNone)
+{
+  expectTimes(2.5, 2 + 8, { 0.0, 2.5, 5.0 }, "");
+  expectTimes(2500.0, 2 + 16, { 0.0, 2.5, 5.0 }, "");
+  expectTimes(2500000.0, 2 + 24, { 0.0, 2.5, 5.0 }, "");
+  expectTimes(2.5, 0, { 0.0, 2.5, 5.0 }, "");
+  expectTimes(2500.0, 2, { 0.0, 2500.0, 5000.0 }, "names no unit of time (xyzt_units 2)");
+  expectTimes(2.0, 2 + 32, { 0.0, 1.0, 2.0 }, "in Hz (xyzt_units 34), which is no time");
+  expectTimes(2.0, 2 + 40, { 0.0, 1.0, 2.0 }, "in ppm (xyzt_units 42)");
+  expectTimes(2.0, 2 + 48, { 0.0, 1.0, 2.0 }, "in rad/s (xyzt_units 50)");
+  expectTimes(2.0, 2 + 56, { 0.0, 2.0, 4.0 }, "unit of time 56 NIfTI does not know");
+  expectTimes(0.0, 2 + 8, { 0.0, 1.0, 2.0 }, "has the time step 0 (pixdim[4])");
+  expectTimes(0.0, 2 + 16, { 0.0, 1.0, 2.0 }, "count as 1 s apart");
+  expectTimes(-2.0, 2 + 8, { 0.0, 2.0, 4.0 }, "has the time step -2 (pixdim[4])");
+  expectTimes(std::nan(""), 2 + 8, { 0.0, 1.0, 2.0 }, "has the time step nan");
+}
+
+TEST(NIFTISaid, ScaleAndUnits)
+{
+  const double infinite = std::numeric_limits<double>::infinity();
+  NIFTITestFile file = withSform(glm::dmat4(1.0));
+  EXPECT_EQ(said(file), "");
+  file.slope = infinite;
+  expectSays(file, "has the scl_slope inf; it must be finite");
+  file.slope = std::nan("");
+  file.intercept = std::nan(""); // as nibabel writes them
+  EXPECT_EQ(said(file), "");
+  file.intercept = 7.0;
+  expectSays(file, "has the scl_inter 7 but no scl_slope");
+  file.slope = 1.0;
+  file.intercept = infinite;
+  expectSays(file, "has the scl_inter inf; it must be finite");
+  file = withSform(glm::dmat4(1.0));
+  file.units = 5 + 8;
+  expectSays(file, "unit of length 5 NIfTI does not know");
+  file.units = 2 + 8 + 64;
+  expectSays(file, "has the xyzt_units 74, which is more than NIfTI knows");
+}
+
+TEST(NIFTISaid, TheTwoPlacesOfAVolume)
+{
+  NIFTITestFile file = withSform(glm::dmat4(1.0));
+  file.qformCode = 1;
+  EXPECT_EQ(said(file), "");
+  file.qfac = -1.0;
+  expectSays(file, "has a qform that mirrors the volume against its sform");
+  file.qfac = 1.0;
+  file.sform[0][0] = -1.0;
+  expectSays(file, "mirrors");
+  file.sform = glm::dmat4(0.0);
+  file.qformOffset = glm::dvec3(-10.0, 20.0, 30.0);
+  expectSays(file, "has the sform_code 1 but an sform of zeros; the qform counts");
+  Reading reading(temporary("said.nii"));
+  EXPECT_EQ(reading.errors, "");
+  EXPECT_EQ(reading.image()->GetOrigin()[0], -10.0);
+  file.qformCode = 0;
+  expectSays(file, "column 0 of the affine has length 0 mm");
+}
+
+TEST(NIFTISaid, NumbersOfTheQformThatDoNotCount)
+{
+  NIFTITestFile file;
+  file.qformCode = 1;
+  EXPECT_EQ(said(file), "");
+  file.pixelSize[1] = 0.0;
+  expectSays(file, "has the pixdim[2] 0, which counts as 1");
+  file.pixelSize[1] = -2.0;
+  expectSays(file, "has the pixdim[2] -2, whose sign does not count");
+  file.pixelSize[1] = 1.0;
+  file.quaternion = glm::dvec3(2.0, 0.0, 0.0);
+  expectSays(file, "of the length 2, which counts as one of the length 1");
+  file.quaternion = glm::dvec3(0.0);
+  file.qfac = -3.0;
+  expectSays(file, "has the pixdim[0] -3, of which only the sign counts");
+}

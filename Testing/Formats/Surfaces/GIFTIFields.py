@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Proves that each element and attribute of a GIFTI file does what the list of fields in README.md
+# says of it.
+import base64
+
+import fields_walk
+import numpy
+from brainshift_testing import load_plugin, run_tests
+
+load_plugin()
+
+POINTS = numpy.array([[1, 2, 3], [4, 2, 3], [1, 7, 3], [1, 2, 9]], numpy.float32)
+TRIANGLES = numpy.array([[0, 2, 1], [0, 1, 3], [1, 2, 3]], numpy.int32)
+VALUES = numpy.array([1, 2, 3, 4], numpy.float32)
+SHIFT = "1 0 0 5 0 1 0 0 0 0 1 0 0 0 0 1"
+SPACES = ("NIFTI_XFORM_TALAIRACH", "NIFTI_XFORM_SCANNER_ANAT")
+
+
+def array(numbers, intent, inside="", meta=(), **changed):
+    """An element DataArray; `changed` are other attributes."""
+    kind = "NIFTI_TYPE_" + numbers.dtype.name.upper()
+    attributes = {"Intent": intent, "DataType": kind, "ArrayIndexingOrder": "RowMajorOrder",
+                  "Dimensionality": numbers.ndim, "Encoding": "Base64Binary",
+                  "Endian": "LittleEndian", "ExternalFileName": "", "ExternalFileOffset": ""}
+    attributes.update({f"Dim{i}": side for i, side in enumerate(numbers.shape)})
+    attributes.update(changed)
+    words = " ".join(f'{name}="{value}"' for name, value in attributes.items())
+    pairs = "".join(f"<MD><Name>{name}</Name><Value>{value}</Value></MD>" for name, value in meta)
+    data = base64.b64encode(numbers.tobytes()).decode()
+    return (f"<DataArray {words}><MetaData>{pairs}</MetaData>{inside}"
+            f"<Data>{data}</Data></DataArray>")
+
+
+def system(spaces=SPACES, matrix=SHIFT):
+    return ("<CoordinateSystemTransformMatrix>"
+            f"<DataSpace>{spaces[0]}</DataSpace><TransformedSpace>{spaces[1]}</TransformedSpace>"
+            f"<MatrixData>{matrix}</MatrixData></CoordinateSystemTransformMatrix>")
+
+
+def gifti(inside="", meta=(), labels="", values=None, root="", version="1.0", count="3",
+          triangles=None, **changed):
+    points = array(POINTS, "NIFTI_INTENT_POINTSET", inside, meta, **changed)
+    triangles = triangles or array(TRIANGLES, "NIFTI_INTENT_TRIANGLE")
+    values = values or array(VALUES, "NIFTI_INTENT_SHAPE", meta=[("Name", "thickness")])
+    return (f'<?xml version="1.0"?><GIFTI Version="{version}" NumberOfDataArrays="{count}">'
+            f"<MetaData>{root}</MetaData>{labels}{points}{triangles}{values}</GIFTI>").encode()
+
+
+def table(key="1", red="1"):
+    return (f'<LabelTable><Label Key="{key}" Red="{red}" Green="0" Blue="0" Alpha="1">one</Label>'
+            "</LabelTable>")
+
+
+def changes():
+    good = gifti(inside=system())
+    scalars = array(VALUES, "NIFTI_INTENT_SHAPE", meta=[("Name", "curvature")])
+    geometry = [(f"VolGeom{letter}_{axis}", "1" if letter + axis in ("XR", "YA", "ZS") else "0")
+                for letter in "XYZC" for axis in "RAS"]
+    return {
+        "Version": [good, gifti(version="2.0")],
+        "NumberOfDataArrays": [good, gifti(count="4")],
+        "Intent": [good, gifti(inside=system(), values=array(VALUES, "NIFTI_INTENT_LABEL",
+                                                             meta=[("Name", "area")]))],
+        "DataType": [good, gifti(DataType="NIFTI_TYPE_INT16")],
+        "ArrayIndexingOrder": [good, gifti(inside=system(), ArrayIndexingOrder="ColumnMajorOrder")],
+        "Dimensionality": [good, gifti(Dimensionality="7")],
+        "Dim0": [good, gifti(inside=system(), triangles=array(TRIANGLES[:2], "NIFTI_INTENT_TRIANGLE"))],
+        "Encoding": [good, gifti(Encoding="ExternalFileBinary")],
+        "Endian": [good, gifti(inside=system(), Endian="BigEndian")],
+        "ExternalFileName": [good, gifti(inside=system(), ExternalFileName="other.dat")],
+        "ExternalFileOffset": [good, gifti(inside=system(), ExternalFileOffset="9")],
+        "DataSpace": [good, gifti(inside=system((SPACES[1], SPACES[1]))),
+                      gifti(inside=system(("HOME", "HOME")))],
+        "TransformedSpace": [good, gifti(inside=system((SPACES[0], SPACES[0])))],
+        "MatrixData": [good, gifti(inside=system(matrix=SHIFT.replace("5", "6")))],
+        "MetaData Name": [good, gifti(inside=system(), values=scalars)],
+        "MetaData VolGeom": [gifti(), gifti(meta=geometry)],
+        "MetaData AnatomicalStructurePrimary": [
+            good, gifti(inside=system(), meta=[("AnatomicalStructurePrimary", "CortexLeft")])],
+        "MetaData GeometricType": [
+            good, gifti(inside=system(), meta=[("GeometricType", "Spherical")])],
+        "MetaData of the file": [good, gifti(
+            inside=system(), root="<MD><Name>UserName</Name><Value>me</Value></MD>")],
+        "Label Key": [gifti(inside=system(), labels=table()),
+                      gifti(inside=system(), labels=table(key="2"))],
+        "Label Red": [gifti(inside=system(), labels=table()),
+                      gifti(inside=system(), labels=table(red="0"))],
+        "Label Alpha": [gifti(inside=system(), labels=table()), gifti(
+            inside=system(), labels=table().replace('Alpha="1"', 'Alpha="0"'))]}
+
+
+def test_each_field_does_what_the_list_says():
+    fields_walk.walk("GIFTI", "Fields of the file", changes(),
+                     lambda content: fields_walk.outcome("SurfaceReader", "walk.gii", content))
+
+
+run_tests(globals())
