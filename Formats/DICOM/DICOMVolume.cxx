@@ -153,7 +153,7 @@ public:
   std::vector<std::string> choices() const override;
   void choose(const std::string& series) override { this->Series = series; }
 
-  void setResamples(bool resamples) override { this->Resamples = resamples; }
+  void setResampling(SliceResampling resampling) override { this->Resampling = resampling; }
   void setScanProgress(const Progress& progress) override { this->ScanProgress = progress; }
   std::string firstFile() const override;
 
@@ -165,7 +165,7 @@ private:
     std::size_t volume, const Progress& progress, vtkSmartPointer<vtkImageData>& image) const;
 
   std::string Series;
-  bool Resamples = false;
+  SliceResampling Resampling = SliceResampling::WhereNeeded;
   Progress ScanProgress;
   DICOMFolder Folder;
   DICOMStack Stack;
@@ -205,6 +205,15 @@ void DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   {
     throw Problem("was not read to its end: reading was stopped");
   }
+  if (!folder.noImage.empty() && this->Series.empty())
+  {
+    // No series is offered: ParaView would write the first into the property, and show it.
+    this->Folder = DICOMFolder();
+    throw Problem(folder.noImage +
+      (folder.series.empty() ? ""
+                             : ". The folder has " + std::to_string(folder.series.size()) +
+            " series of images; open a file of one of them"));
+  }
   this->Folder = std::move(folder);
   const std::vector<DICOMSeries>& all = this->Folder.series;
   if (all.empty())
@@ -228,7 +237,7 @@ void DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
       requirePixelData(this->Folder.files[frame.file]);
     }
   });
-  this->Stack = stackOf(this->Folder.files, chosen->frames, this->Resamples);
+  this->Stack = stackOf(this->Folder.files, chosen->frames, this->Resampling);
   header.worldFromVoxel = this->Stack.worldFromVoxel;
   const DICOMResampling& upright = this->Stack.resampling;
   header.dimensions = upright.slices.empty()
