@@ -158,6 +158,8 @@ public:
   std::string firstFile() const override;
 
 private:
+  // Refuses a file that holds no image, unless a series beside it was asked for.
+  void requireImage(const DICOMFolder& folder);
   // Chooses the type of the numbers.
   void decideType(VolumeHeader& header);
   // Fills an image with one volume; drops it if `progress` says stop.
@@ -191,6 +193,19 @@ std::string DICOMVolume::firstFile() const
                                                       : std::string();
 }
 
+void DICOMVolume::requireImage(const DICOMFolder& folder)
+{
+  if (!folder.noImage.empty() && this->Series.empty())
+  {
+    // No series is offered: ParaView would write the first into the property, and show it.
+    this->Folder = DICOMFolder();
+    throw Problem(folder.noImage +
+      (folder.series.empty() ? ""
+                             : ". The folder has " + std::to_string(folder.series.size()) +
+            " series of images; open a file of one of them"));
+  }
+}
+
 void DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
 {
   std::error_code error;
@@ -205,15 +220,7 @@ void DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   {
     throw Problem("was not read to its end: reading was stopped");
   }
-  if (!folder.noImage.empty() && this->Series.empty())
-  {
-    // No series is offered: ParaView would write the first into the property, and show it.
-    this->Folder = DICOMFolder();
-    throw Problem(folder.noImage +
-      (folder.series.empty() ? ""
-                             : ". The folder has " + std::to_string(folder.series.size()) +
-            " series of images; open a file of one of them"));
-  }
+  this->requireImage(folder);
   this->Folder = std::move(folder);
   const std::vector<DICOMSeries>& all = this->Folder.series;
   if (all.empty())
