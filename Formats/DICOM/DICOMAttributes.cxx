@@ -62,6 +62,19 @@ std::string textOf(const DICOMDataSet& set, DICOMTag tag)
   return trimmed(bytesOf(set, tag), Padding);
 }
 
+std::vector<DICOMTag> tagsOf(const DICOMDataSet& set, DICOMTag tag)
+{
+  const std::string bytes = bytesOf(set, tag);
+  std::vector<DICOMTag> tags;
+  for (std::size_t place = 0; place + 4 <= bytes.size(); place += 4)
+  {
+    const auto group = storedNumberAt<std::uint16_t>(bytes, place, set.isBigEndian);
+    const auto element = storedNumberAt<std::uint16_t>(bytes, place + 2, set.isBigEndian);
+    tags.push_back((DICOMTag(*group) << 16) | *element);
+  }
+  return tags;
+}
+
 std::string dateOf(const DICOMDataSet& set, DICOMTag tag)
 {
   const std::string date = textOf(set, tag);

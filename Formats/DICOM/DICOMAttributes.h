@@ -29,6 +29,9 @@ double doubleOf(const DICOMDataSet& set, DICOMTag tag, double missing);
 /** The first number of 2 bytes (VR US) or of 4 bytes (VR UL), or `missing`. */
 double wholeOf(const DICOMDataSet& set, DICOMTag tag, double missing);
 
+/** The tags that an attribute names (VR AT). */
+std::vector<DICOMTag> tagsOf(const DICOMDataSet& set, DICOMTag tag);
+
 /** A date (VR DA) as 2026-11-23; empty if it is none. */
 std::string dateOf(const DICOMDataSet& set, DICOMTag tag);
 

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <iomanip>
 #include <iterator>
+#include <sstream>
 #include <system_error>
 
 namespace brainshift
@@ -76,6 +78,13 @@ bool readOrientation(const DICOMDataSet& set, DICOMFrame& frame)
   return std::abs(glm::dot(frame.alongRow, frame.alongColumn)) < LargestCosineOfAxes;
 }
 
+// Whether an image says where it is.
+bool readPlane(const DICOMDataSet& set, DICOMFrame& frame)
+{
+  const bool hasPosition = readPosition(set, frame);
+  return readOrientation(set, frame) && hasPosition;
+}
+
 void readRescaling(const DICOMDataSet& set, DICOMFrame& frame)
 {
   frame.rescaling.intercept = decimalOf(set, 0x00281052, frame.rescaling.intercept);
@@ -98,6 +107,7 @@ void readMoment(const DICOMDataSet& set, DICOMMoment& moment)
   moment.echo = decimalOf(set, 0x00180086, 0.0);
   moment.bValue = doubleOf(set, 0x00189087, 0.0);
   moment.instance = decimalOf(set, 0x00200013, 0.0);
+  moment.intervalS = 1e-3 * decimalOf(set, 0x00200110, decimalOf(set, 0x00180080, 0.0));
   moment.acquiredS = secondsOfMoment(textOf(set, 0x0008002a), -1.0);
   for (const DICOMTag time : { 0x00080032, 0x00080033 }) // acquisition, content
   {
@@ -167,6 +177,9 @@ void readFrameMoment(const Groups& groups, int index, DICOMMoment& moment)
       }
     }
   });
+  groups.with(index, 0x00189112, [&](const DICOMDataSet& timing) {
+    moment.intervalS = 1e-3 * decimalOf(timing, 0x00180080, 1e3 * moment.intervalS);
+  });
   groups.with(index, 0x00189118,
     [&](const DICOMDataSet& heart) { moment.triggerMs = doubleOf(heart, 0x00209153, 0.0); });
   groups.with(index, 0x00189114,
@@ -204,9 +217,35 @@ void readFunctionalGroups(const Groups& groups, int index, DICOMFrame& frame)
   readFrameType(groups, index, frame);
 }
 
+// Frames of nuclear medicine may count rotations, phases or energies in place of slices.
+void requireSlices(const DICOMDataSet& set)
+{
+  constexpr DICOMTag pointer = 0x00280009;
+  constexpr DICOMTag slices = 0x00540080;
+  constexpr DICOMTag offsets = 0x3004000c;
+  const auto found = set.elements.find(pointer);
+  if (found == set.elements.end())
+  {
+    return;
+  }
+  const std::vector<DICOMTag> tags = tagsOf(set, pointer);
+  for (const DICOMTag tag : tags)
+  {
+    if (tag != slices && tag != offsets)
+    {
+      std::ostringstream text;
+      text << "has frames that count something other than slices (FrameIncrementPointer "
+           << std::hex << std::setfill('0') << std::setw(4) << (tag >> 16) << "," << std::setw(4)
+           << (tag & 0xffff) << "), which BrainShift does not read";
+      throw Problem(text.str());
+    }
+  }
+}
+
 // Doses place their frames by offsets along the normal, other old multi-frame files by a spacing.
 void placeAlongNormal(const DICOMDataSet& set, std::vector<DICOMFrame>& frames)
 {
+  requireSlices(set);
   const std::vector<double> offsets = decimalsOf(set, 0x3004000c);
   const bool hasStep = set.elements.count(0x00180088) > 0;
   if (offsets.size() != frames.size() && !hasStep)
@@ -230,8 +269,9 @@ void readDICOMFrames(const DICOMDataSet& set, int count, std::vector<DICOMFrame>
   frame.type = textOf(set, 0x00080008);
   readMoment(set, frame.moment);
   readSpacing(set, frame);
-  const bool hasPosition = readPosition(set, frame);
-  frame.isPlaced = readOrientation(set, frame) && hasPosition;
+  frame.isPlaced = readPlane(set, frame);
+  const Items& detectors = itemsOf(set, 0x00540022); // of nuclear medicine
+  frame.isPlaced = frame.isPlaced || (!detectors.empty() && readPlane(detectors.front(), frame));
   readRescaling(set, frame);
   frame.rescaling.slope *= decimalOf(set, 0x3004000e, 1.0); // of a dose
   const Groups groups(set);
@@ -354,6 +394,7 @@ DICOMFile readDICOMHeader(const std::string& path)
     return file;
   }
   const DICOMDataSet& set = content.set;
+  readFacts(set, file);
   const double rows = wholeOf(set, 0x00280010, 0.0);
   const double columns = wholeOf(set, 0x00280011, 0.0);
   const double frames = decimalOf(set, 0x00280008, 1.0);
@@ -364,7 +405,6 @@ DICOMFile readDICOMHeader(const std::string& path)
   }
   file.rows = static_cast<int>(rows);
   file.columns = static_cast<int>(columns);
-  readFacts(set, file);
   readPixelFormat(set, file.pixels);
   file.problem = problemOf([&] { requirePixels(set, file); });
   file.pixels.isPlain = !content.isPacked &&
@@ -377,6 +417,7 @@ DICOMFile readDICOMHeader(const std::string& path)
   {
     file.problem = "has no pixel data";
   }
+  file.standsAlone = frames > 1.0 && Groups(set).frames() == 0;
   const std::string problem =
     problemOf([&] { readDICOMFrames(set, static_cast<int>(frames), file.frames); });
   file.problem = file.problem.empty() ? problem : file.problem;

@@ -22,6 +22,7 @@ struct DICOMMoment
   double bValue = 0.0;           ///< diffusion weighting, s/mm^2
   double acquiredS = 0.0;        ///< since 1970, or since midnight
   double instance = 0.0;         ///< number of the image in its series
+  double intervalS = 0.0;        ///< from one volume to the next: resolution or repetition time
 
   std::array<double, 6> sorted() const
   {
@@ -75,6 +76,7 @@ struct DICOMFile
   DICOMPixelFormat pixels;
   std::string problem; ///< why the pixels cannot be read: the end of a sentence; empty if they can
   bool isDamaged = false;         ///< its header cannot be read
+  bool standsAlone = false;       ///< its frames have no positions of their own
   std::vector<DICOMFrame> frames; ///< empty if the file holds no image
 };
 

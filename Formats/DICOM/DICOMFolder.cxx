@@ -171,7 +171,9 @@ using Kind = std::tuple<std::string, int, int, std::string, std::string>;
 
 Kind kindOf(const DICOMFile& file, const DICOMFrame& frame)
 {
-  return { file.series, file.columns, file.rows, frame.type, file.problem };
+  // Frames without positions of their own are a volume, or the times of one, in their file only.
+  const std::string place = file.standsAlone ? file.series + '\n' + file.path : file.series;
+  return { place, file.columns, file.rows, frame.type, file.problem };
 }
 
 std::vector<DICOMSeries> stacksOf(const std::vector<DICOMFile>& files)
@@ -288,6 +290,13 @@ void nameAll(const std::vector<DICOMFile>& files, std::vector<DICOMSeries>& seri
   }
 }
 
+std::string noImageSentence(const DICOMFile& file)
+{
+  const std::string modality = file.modality.empty() ? "" : " (modality " + file.modality + ")";
+  return file.isDamaged ? "is a DICOM file whose header is damaged"
+                        : "is a DICOM file without an image" + modality;
+}
+
 double voxelsOf(const std::vector<DICOMFile>& files, const DICOMSeries& series)
 {
   const DICOMFile& file = files[series.frames.front().file];
@@ -379,6 +388,10 @@ DICOMFolder readDICOMFolder(const std::string& path, const Progress& progress)
   for (DICOMFile& file : read)
   {
     folder.damaged += file.isDamaged ? 1 : 0;
+    if (file.frames.empty() && file.path == whole)
+    {
+      folder.noImage = noImageSentence(file);
+    }
     if (!file.frames.empty())
     {
       for (DICOMFrame& frame : file.frames)

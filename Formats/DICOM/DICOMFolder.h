@@ -22,6 +22,7 @@ struct DICOMFolder
   std::vector<DICOMFile> files; ///< those that hold images
   std::vector<DICOMSeries> series;
   int damaged = 0;        ///< files whose headers cannot be read
+  std::string noImage;    ///< why the file of the path shows nothing: the end of a sentence
   bool isStopped = false; ///< the user did not wait: files and series are not complete
 };
 

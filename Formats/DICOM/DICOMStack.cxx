@@ -25,6 +25,7 @@ struct DICOMPlaces
 {
   std::vector<std::vector<DICOMFrame>> volumes; // of each time; images from below to above
   std::vector<double> times;                    // s; at least one
+  std::string noteOfTimes;                      // the end of a sentence; may be empty
   std::size_t copies = 0;                       // images left out: the same image in another file
   std::size_t leftOver = 0;                     // images left out: their place has more than others
 };
@@ -156,11 +157,42 @@ bool grows(const std::vector<double>& times)
            times.begin(), times.end(), [](double a, double b) { return !(a < b); }) == times.end();
 }
 
-std::vector<double> timesOf(const std::vector<Images>& volumes)
+// Whether volumes differ in what is no time: echoes and diffusion weightings.
+bool isSeriesOfTime(const std::vector<Images>& volumes)
+{
+  const DICOMMoment& first = volumes.front().front().moment;
+  return std::all_of(volumes.begin(), volumes.end(), [&](const Images& volume) {
+    const DICOMMoment& moment = volume.front().moment;
+    return moment.echo == first.echo && moment.bValue == first.bValue;
+  });
+}
+
+// Where neither triggers nor acquisitions say when volumes were made.
+std::vector<double> countedTimes(const std::vector<Images>& volumes, std::string& note)
+{
+  if (!isSeriesOfTime(volumes))
+  {
+    return evenTimes(volumes.size(), 1.0);
+  }
+  const double intervalS = volumes.front().front().moment.intervalS;
+  std::ostringstream text;
+  text << "has " << volumes.size() << " volumes without times of their own; they ";
+  if (intervalS > 0.0)
+  {
+    text << "count as " << intervalS << " s apart (TemporalResolution, or else RepetitionTime)";
+  }
+  else
+  {
+    text << "are numbered 0, 1, 2 and so on";
+  }
+  note = text.str();
+  return evenTimes(volumes.size(), intervalS);
+}
+
+std::vector<double> timesOf(const std::vector<Images>& volumes, std::string& note)
 {
   std::vector<double> triggers;
   std::vector<double> acquired;
-  std::vector<double> numbers;
   for (const Images& volume : volumes)
   {
     double first = volume.front().moment.acquiredS;
@@ -170,18 +202,17 @@ std::vector<double> timesOf(const std::vector<Images>& volumes)
     }
     triggers.push_back(1e-3 * volume.front().moment.triggerMs);
     acquired.push_back(acquired.empty() ? first : first - acquired.front());
-    numbers.push_back(static_cast<double>(numbers.size()));
   }
   acquired.front() = 0.0;
   if (volumes.size() == 1)
   {
     return { 0.0 };
   }
-  return grows(triggers) ? triggers : grows(acquired) ? acquired : numbers;
+  return grows(triggers) ? triggers : grows(acquired) ? acquired : countedTimes(volumes, note);
 }
 
 // Sorts images by place and time. Times come from the heart's trigger or from the acquisition; if
-// they do not grow, volumes count 0, 1, 2, ...
+// they do not grow, from the time between volumes that the header names.
 DICOMPlaces sortedByPlace(
   const std::vector<DICOMFile>& files, const std::vector<DICOMFrame>& images)
 {
@@ -192,13 +223,16 @@ DICOMPlaces sortedByPlace(
   sorted.volumes = volumesOf(places);
   sorted.leftOver =
     images.size() - sorted.copies - sorted.volumes.size() * sorted.volumes.front().size();
-  sorted.times = timesOf(sorted.volumes);
+  sorted.times = timesOf(sorted.volumes, sorted.noteOfTimes);
   return sorted;
 }
 
 constexpr double MostSlices = 65535.0;     // that resampling may make
 constexpr double FarthestDriftMm = 5000.0; // of slices that resampling may make room for
 constexpr double MissingSteps = 1.5;       // a gap of so many steps lacks a slice
+constexpr double SmallestError = 0.5;      // voxels; from here on slices are interpolated
+constexpr double FineSteps = 0.5;          // of the usual step: a part of the volume is finer
+constexpr double MostGrowth = 4.0;         // slices of an upright grid for each image
 
 std::string counted(std::size_t count, const std::string& one, const std::string& many)
 {
@@ -273,8 +307,8 @@ std::string unevenSentence(
   text << ": they are from " << *std::min_element(steps.begin(), steps.end()) << " to "
        << *std::max_element(steps.begin(), steps.end()) << " mm apart, and up to " << shiftMm
        << " mm from even places. They are ";
-  text << (resamples ? "interpolated there"
-                     : "shown as if they were even; ResampleSlices interpolates them");
+  text << (resamples ? "interpolated there; with ResampleSlices 0 they are shown as stored"
+                     : "shown as if they were even; ResampleSlices 1 interpolates them");
   return text.str();
 }
 
@@ -282,8 +316,10 @@ std::string tiltSentence(double driftMm, bool resamples)
 {
   std::ostringstream text;
   text << "has tilted slices: the last is " << driftMm << " mm beside the normal of the first. "
-       << (resamples ? "They are interpolated on an upright grid"
-                     : "ResampleSlices interpolates them on an upright grid");
+       << (resamples
+              ? "They are interpolated on an upright grid; with ResampleSlices 0 they are shown as "
+                "stored"
+              : "ResampleSlices 1 interpolates them on an upright grid");
   return text.str();
 }
 
@@ -340,8 +376,40 @@ void shiftImages(const std::vector<DICOMFrame>& volume, const DICOMFile& file,
     least.x * first.spacingMm.x * first.alongRow + least.y * first.spacingMm.y * first.alongColumn;
 }
 
+// How far slices are shown at most from their position on an even, upright grid about their centre:
+// the largest of the errors along the axes of the image, in voxels.
+double errorOfEven(
+  const std::vector<glm::dvec3>& positions, const DICOMFrame& first, double usualMm)
+{
+  const glm::dvec3 normal = glm::normalize(glm::cross(first.alongRow, first.alongColumn));
+  const glm::dvec3 range = positions.back() - positions.front();
+  const glm::dvec3 upright = glm::dot(range, normal) * normal;
+  const glm::dvec3 begin = positions.front() + 0.5 * (range - upright);
+  glm::dvec3 largest(0.0);
+  for (std::size_t i = 0; i < positions.size(); ++i)
+  {
+    const double fraction = static_cast<double>(i) / static_cast<double>(positions.size() - 1);
+    const glm::dvec3 error = positions[i] - (begin + fraction * upright);
+    largest = glm::max(largest,
+      glm::abs(glm::dvec3(glm::dot(error, first.alongRow) / first.spacingMm.x,
+        glm::dot(error, first.alongColumn) / first.spacingMm.y,
+        glm::dot(error, normal) / usualMm)));
+  }
+  return std::max({ largest.x, largest.y, largest.z });
+}
+
+// The distance of slices on an upright grid: the usual one, or less where a part of the volume has
+// much finer slices.
+double uprightStep(const std::vector<double>& steps, double heightMm, double usualMm)
+{
+  const double least = *std::min_element(steps.begin(), steps.end());
+  return least >= FineSteps * usualMm
+    ? usualMm
+    : std::max(least, heightMm / (MostGrowth * static_cast<double>(steps.size())));
+}
+
 // Places the slices of the volumes, on an upright grid if that is wanted, needed and possible.
-void placeSlices(DICOMStack& stack, const DICOMFile& file, bool resamples)
+void placeSlices(DICOMStack& stack, const DICOMFile& file, SliceResampling resampling)
 {
   const std::vector<DICOMFrame>& volume = stack.volumes.front();
   DICOMFrame first = volume.front();
@@ -360,9 +428,12 @@ void placeSlices(DICOMStack& stack, const DICOMFile& file, bool resamples)
   const double driftMm = driftOf(positions, normal);
   const bool isUneven = shiftMm > LargestUnreportedShiftMm;
   const bool isTilted = driftMm > std::max(LargestUnreportedShiftMm, 1e-4 * heightMm);
-  const double count = std::round(heightMm / usualMm) + 1.0;
+  const double count = std::round(heightMm / uprightStep(steps, heightMm, usualMm)) + 1.0;
   const bool isPossible = count >= 2.0 && count <= MostSlices && driftMm < FarthestDriftMm;
-  const bool isResampled = resamples && (isUneven || isTilted) && isPossible;
+  const bool isWanted = resampling == SliceResampling::Always ||
+    (resampling == SliceResampling::WhereNeeded &&
+      errorOfEven(positions, first, usualMm) >= SmallestError);
+  const bool isResampled = isWanted && (isUneven || isTilted) && isPossible;
   if (isUneven)
   {
     stack.warnings.push_back(unevenSentence(steps, shiftMm, usualMm, isResampled));
@@ -422,8 +493,8 @@ std::vector<double> placesOf(const std::vector<DICOMFrame>& images)
   return distancesMm;
 }
 
-DICOMStack stackOf(
-  const std::vector<DICOMFile>& files, const std::vector<DICOMFrame>& images, bool resamples)
+DICOMStack stackOf(const std::vector<DICOMFile>& files, const std::vector<DICOMFrame>& images,
+  SliceResampling resampling)
 {
   DICOMStack stack;
   std::vector<DICOMFrame> placed = images;
@@ -448,7 +519,11 @@ DICOMStack stackOf(
     stack.warnings.push_back("has " + counted(places.leftOver, "image", "images") +
       " at positions of other images, too few for another time step: left out");
   }
-  placeSlices(stack, files[stack.volumes.front().front().file], resamples);
+  if (!places.noteOfTimes.empty())
+  {
+    stack.warnings.push_back(places.noteOfTimes);
+  }
+  placeSlices(stack, files[stack.volumes.front().front().file], resampling);
   return stack;
 }
 }

@@ -56,10 +56,10 @@ std::vector<double> placesOf(const std::vector<DICOMFrame>& images);
  *
  * @param files        of the images
  * @param images       of one size and orientation; at least one
- * @param resamples    whether uneven or tilted slices are interpolated on an upright grid
+ * @param resampling   when uneven or tilted slices are interpolated on an upright grid
  */
-DICOMStack stackOf(
-  const std::vector<DICOMFile>& files, const std::vector<DICOMFrame>& images, bool resamples);
+DICOMStack stackOf(const std::vector<DICOMFile>& files, const std::vector<DICOMFrame>& images,
+  SliceResampling resampling);
 }
 
 #endif

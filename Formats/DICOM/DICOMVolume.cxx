@@ -153,11 +153,13 @@ public:
   std::vector<std::string> choices() const override;
   void choose(const std::string& series) override { this->Series = series; }
 
-  void setResamples(bool resamples) override { this->Resamples = resamples; }
+  void setResampling(SliceResampling resampling) override { this->Resampling = resampling; }
   void setScanProgress(const Progress& progress) override { this->ScanProgress = progress; }
   std::string firstFile() const override;
 
 private:
+  // Refuses a file that holds no image, unless a series beside it was asked for.
+  void requireImage(const DICOMFolder& folder);
   // Chooses the type of the numbers.
   void decideType(VolumeHeader& header);
   // Fills an image with one volume; drops it if `progress` says stop.
@@ -165,7 +167,7 @@ private:
     std::size_t volume, const Progress& progress, vtkSmartPointer<vtkImageData>& image) const;
 
   std::string Series;
-  bool Resamples = false;
+  SliceResampling Resampling = SliceResampling::WhereNeeded;
   Progress ScanProgress;
   DICOMFolder Folder;
   DICOMStack Stack;
@@ -191,6 +193,19 @@ std::string DICOMVolume::firstFile() const
                                                       : std::string();
 }
 
+void DICOMVolume::requireImage(const DICOMFolder& folder)
+{
+  if (!folder.noImage.empty() && this->Series.empty())
+  {
+    // No series is offered: ParaView would write the first into the property, and show it.
+    this->Folder = DICOMFolder();
+    throw Problem(folder.noImage +
+      (folder.series.empty() ? ""
+                             : ". The folder has " + std::to_string(folder.series.size()) +
+            " series of images; open a file of one of them"));
+  }
+}
+
 void DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
 {
   std::error_code error;
@@ -205,6 +220,7 @@ void DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   {
     throw Problem("was not read to its end: reading was stopped");
   }
+  this->requireImage(folder);
   this->Folder = std::move(folder);
   const std::vector<DICOMSeries>& all = this->Folder.series;
   if (all.empty())
@@ -228,7 +244,7 @@ void DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
       requirePixelData(this->Folder.files[frame.file]);
     }
   });
-  this->Stack = stackOf(this->Folder.files, chosen->frames, this->Resamples);
+  this->Stack = stackOf(this->Folder.files, chosen->frames, this->Resampling);
   header.worldFromVoxel = this->Stack.worldFromVoxel;
   const DICOMResampling& upright = this->Stack.resampling;
   header.dimensions = upright.slices.empty()

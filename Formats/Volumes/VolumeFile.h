@@ -64,6 +64,14 @@ vtkSmartPointer<vtkDataArray> partOf(vtkDataArray* numbers, vtkIdType first, vtk
 /** Times that grow by a step. A step that is no positive number counts as 1, a start as 0. */
 std::vector<double> evenTimes(std::size_t count, double step, double start = 0.0);
 
+/** When uneven or tilted slices are interpolated on an upright grid. */
+enum class SliceResampling
+{
+  Never = 0,      ///< slices are shown as they are stored, as if they were upright and even
+  Always = 1,     ///< wherever they are uneven or tilted
+  WhereNeeded = 2 ///< where slices would be shown half a voxel or more from their position
+};
+
 /** Receives the fraction that is done, 0 to 1. Returns false if the work is to stop. */
 using Progress = std::function<bool(double fraction)>;
 
@@ -104,8 +112,8 @@ public:
   virtual void choose(const std::string& /*name*/) {}
   ///@}
 
-  /** Whether uneven or tilted slices are interpolated on an upright grid. Default: false. */
-  virtual void setResamples(bool /*resamples*/) {}
+  /** For uneven or tilted slices. Default: WhereNeeded. */
+  virtual void setResampling(SliceResampling /*resampling*/) {}
 
   /** Receives the fraction of the headers that readHeader has read. Default: no progress. */
   virtual void setScanProgress(const Progress& /*progress*/) {}

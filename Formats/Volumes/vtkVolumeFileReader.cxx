@@ -16,6 +16,7 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStringArray.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -149,8 +150,9 @@ vtkStringArray* vtkVolumeFileReader::GetChoiceList()
   return this->ChoiceList;
 }
 
-void vtkVolumeFileReader::SetResampleSlices(bool resample)
+void vtkVolumeFileReader::SetResampleSlices(int resample)
 {
+  resample = std::clamp(resample, 0, 2);
   if (resample != this->ResampleSlices)
   {
     this->ResampleSlices = resample;
@@ -197,7 +199,7 @@ void vtkVolumeFileReader::takeFormat()
     });
   }
   this->File->choose(this->Choice);
-  this->File->setResamples(this->ResampleSlices);
+  this->File->setResampling(static_cast<brainshift::SliceResampling>(this->ResampleSlices));
 }
 
 void vtkVolumeFileReader::announceLast(vtkInformation* output)

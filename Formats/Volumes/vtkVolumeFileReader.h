@@ -79,11 +79,12 @@ public:
 
   ///@{
   /**
-   * Whether slices of a DICOM series that are not evenly spaced, or that a tilted gantry shifts,
-   * are interpolated on an upright grid. Default: false; a warning names the error in mm.
+   * When slices of a DICOM series that are not evenly spaced, or that a tilted gantry shifts, are
+   * interpolated on an upright grid: 0 never, 1 always, 2 where slices would be shown half a voxel
+   * or more from their position. Default: 2. A warning says what was done, with the error in mm.
    */
-  void SetResampleSlices(bool resample);
-  bool GetResampleSlices() const { return this->ResampleSlices; }
+  void SetResampleSlices(int resample);
+  int GetResampleSlices() const { return this->ResampleSlices; }
   ///@}
 
   /** Path of the first file of the volume that is shown; empty if there is none. */
@@ -133,7 +134,7 @@ private:
   std::string Format;
   std::string Choice;
   vtkNew<vtkStringArray> ChoiceList;
-  bool ResampleSlices = false;
+  int ResampleSlices = 2;
   Shown Last;
   bool IsReading = false;
   bool IsStopped = false; // the header that was read last is not what is shown

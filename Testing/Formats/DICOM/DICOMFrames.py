@@ -8,8 +8,9 @@ import nibabel
 import numpy
 import pydicom
 from brainshift_testing import assert_says, data, load_plugin, messages, output, run_tests
-from dicom_testing import (CORONAL, OBLIQUE, assert_placed, enhanced, folder, numbered, read_again,
-                           scalars, write_slices)
+from dicom_testing import (CORONAL, OBLIQUE, assert_placed, enhanced, folder, numbered,
+                           plain_header, read_again, scalars, set_pixels, write_slices)
+from pydicom.sequence import Sequence
 from real_dicom import differences
 
 load_plugin()
@@ -80,6 +81,53 @@ def test_frames_that_are_not_described_are_refused():
     image.NumberOfFrames = 5
     reader, told = read(written("frame-count", image))
     assert_says(told, "announces 5 frames and describes 4")
+
+
+def scintigram(name, start, change=lambda image: None, placed=False):
+    """An old multi-frame file: frames without positions of their own, one slice each."""
+    image = plain_header("1.2.840.10008.5.1.4.1.1.20")
+    image.Modality = "NM"
+    voxels = numbered(4, start=start)
+    set_pixels(image, voxels)
+    image.NumberOfFrames = 4
+    image.PixelSpacing, image.SpacingBetweenSlices = [2, 2], "3"
+    image.FrameIncrementPointer = 0x00540080
+    if placed:
+        detector = pydicom.Dataset()
+        detector.ImagePositionPatient = [-11, 22, 33]
+        detector.ImageOrientationPatient = [1, 0, 0, 0, 1, 0]
+        image.DetectorInformationSequence = Sequence([detector])
+    change(image)
+    image.save_as(name, write_like_original=False)
+    return voxels
+
+
+def test_frames_without_positions_are_no_stack_of_two_files():
+    for placed in (False, True):
+        path = folder("nuclear")
+        first, second = (os.path.join(path, name) for name in ("a.dcm", "b.dcm"))
+        one, two = scintigram(first, 0, placed=placed), scintigram(second, 1000, placed=placed)
+        for name, right in ((first, one), (second, two)):
+            reader, _ = read(name)
+            assert output(reader).GetDimensions() == (6, 5, 4), output(reader).GetDimensions()
+            numpy.testing.assert_array_equal(numpy.sort(scalars(reader)), right.ravel())
+            assert len(reader.TimestepValues or []) == 0
+        assert len(reader.GetProperty("SeriesList")) == 2
+        if placed:
+            assert output(reader).GetSpacing() == (2.0, 2.0, 3.0)
+            low = numpy.reshape(output(reader).GetBounds(), (3, 2))[2]
+            numpy.testing.assert_allclose(low, (33.0, 42.0))
+
+
+def test_frames_that_are_no_slices_are_refused_by_name():
+    def rotations(image):
+        image.FrameIncrementPointer = [0x00540010, 0x00540090]
+
+    name = os.path.join(folder("rotations"), "a.dcm")
+    scintigram(name, 0, rotations)
+    reader, told = read(name)
+    assert_says(told, "count something other than slices (FrameIncrementPointer 0054,0010)")
+    assert output(reader).GetNumberOfPoints() == 0
 
 
 PACKINGS = (("--rle",), ("--jpegls",), ("--j2k",), ("--jpeg",), ("--deflated",))

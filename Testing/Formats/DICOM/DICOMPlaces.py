@@ -119,7 +119,7 @@ def test_uneven_slices_are_told_and_resampled_on_request():
     path = write_slices(folder("uneven"), voxels, positions=(0, 1, 2, 3.4, 4))
     reader, told = read(path)
     assert_says(told, "uneven slices", "from 1.5 to 3.5 mm", "up to 1 mm",
-                "ResampleSlices")
+                "as if they were even; ResampleSlices 1")  # 0.4 of a slice: less than half a voxel
     assert "missing" not in told, told
     reader, told = read(path, ResampleSlices=1)
     assert_says(told, "interpolated there")
@@ -129,9 +129,11 @@ def test_uneven_slices_are_told_and_resampled_on_request():
 
 def test_missing_slices_are_counted():
     path = write_slices(folder("missing"), numbered(5), positions=(0, 1, 2, 5, 6))
-    reader, told = read(path)
+    reader, told = read(path, ResampleSlices=0)
     assert_says(told, "as if 2 slices were missing", "from 2.5 to 7.5 mm", "up to 2.5 mm")
-    reader, told = read(path, ResampleSlices=1)
+    assert output(reader).GetDimensions() == (6, 5, 5)
+    reader, told = read(path)  # a whole slice: interpolated by default
+    assert_says(told, "interpolated there; with ResampleSlices 0")
     assert output(reader).GetDimensions() == (6, 5, 7)
     affine, voxels = read_again(path)
     affine[2, 2] = 2.5
@@ -158,7 +160,7 @@ def test_duplicates_are_told_and_left_out():
 def test_a_tilted_gantry_is_told_with_its_error():
     tilt = numpy.array((0.0, 0.5, 2.0))  # slices drift by 0.5 mm
     path = write_slices(folder("tilt"), numbered(40), axes=AXIAL, step=tilt)
-    reader, told = read(path)
+    reader, told = read(path, ResampleSlices=0)
     affine, voxels = read_again(path)
     assert_says(told, "is sheared", "mm from where it places them", "the last is 19.5 mm beside",
                 "ResampleSlices")
@@ -167,6 +169,38 @@ def test_a_tilted_gantry_is_told_with_its_error():
     numpy.testing.assert_allclose(shown.mean(axis=0), centre[:3], atol=1e-3)
     farthest = float(told.split("shown up to ")[1].split(" mm")[0])
     assert 1.0 < farthest < 10.0, farthest
+
+
+def test_a_tilted_gantry_is_where_it_was_by_default():
+    """18.5 degrees and gaps of 1.1 to 7 mm: each voxel lies within half a voxel of its place."""
+    angle = numpy.radians(18.5)
+    heights = numpy.cumsum([0.0] + 12 * [1.1] + 10 * [7.0] + [2.3])
+    steps = numpy.array((0.0, numpy.tan(angle), 1.0))
+    z, y, x = numpy.meshgrid(heights, numpy.arange(40), numpy.arange(6), indexing="ij")
+    slope = numpy.array((3.0, 20.0, 40.0))  # of a number that grows along a line in the world
+    first = numpy.array((-11.0, 22.0, 33.0))
+    lps = numpy.stack([x * 0.7, y * 0.9 + z * steps[1], z], axis=-1) + first
+    numbers = numpy.rint((lps * (-1.0, -1.0, 1.0)) @ slope).astype(numpy.int16)
+    path = write_slices(folder("gantry"), numbers, axes=AXIAL, step=steps, positions=heights)
+    reader, told = read(path)
+    assert_says(told, "interpolated on an upright grid", "ResampleSlices 0")
+    shown = places(output(reader))
+    away = shown * (-1.0, -1.0, 1.0) - first
+    row = (away[:, 1] - away[:, 2] * steps[1]) / 0.9
+    inside = (row > 3.0) & (row < 36.0)  # in both slices that are interpolated
+    assert inside.sum() > 0.6 * numbers.size, (inside.sum(), numbers.size)
+    error = numpy.abs(scalars(reader) - shown @ slope)[inside]
+    assert error.max() <= 1.01, error.max()  # 0.05 mm; rounded twice
+    spacing = output(reader).GetSpacing()
+    assert spacing[2] < 1.2, spacing  # fine slices stay fine
+
+
+def test_a_little_tilt_stays_as_it_is_stored():
+    path = write_slices(folder("little"), numbered(10), axes=AXIAL,
+                        step=numpy.array((0.0, 0.05, 2.0)))
+    reader, told = read(path)
+    assert_says(told, "has tilted slices", "ResampleSlices 1")
+    assert output(reader).GetDimensions() == (6, 5, 10)
 
 
 def test_a_tilted_gantry_becomes_upright_on_request():
@@ -179,7 +213,7 @@ def test_a_tilted_gantry_becomes_upright_on_request():
     slope = numpy.array((50.0, -30.0, 70.0))  # of a number that grows along a line in the world
     voxels = numpy.rint(numpy.einsum("i,i...->...", slope, world)).astype(numpy.int16)
     write_slices(path, voxels, axes=AXIAL, step=tilt)
-    reader, _ = read(path)
+    reader, _ = read(path, ResampleSlices=0)
     with messages() as told:
         reader.ResampleSlices = 1
         reader.UpdatePipeline()

@@ -247,6 +247,47 @@ def test_reports_are_no_slices():
     assert_says(told, "neither a DICOM image nor a folder")
 
 
+def test_a_file_without_an_image_says_so_beside_a_series():
+    path = write_slices(folder("beside"), numbered())
+    report = plain_header("1.2.840.10008.5.1.4.1.1.88.11")
+    report.Modality = "SR"
+    name = os.path.join(path, "report.dcm")
+    report.save_as(name, write_like_original=False)
+    reader, told = read(name)
+    assert_says(told, "report.dcm is a DICOM file without an image (modality SR)",
+                "The folder has 1 series of images; open a file of one of them")
+    assert output(reader).GetNumberOfPoints() == 0
+    assert output(reader).GetNumberOfPoints() == 0, "nor at the next update"
+    with open(name, "wb") as file:
+        file.write(bytes(128) + b"DICM" + b"\x02\x00\x00\x00UL\x04\x00")
+    reader, told = read(name)
+    assert_says(told, "report.dcm is a DICOM file whose header is damaged")
+
+
+def test_volumes_without_times_are_a_repetition_time_apart():
+    voxels = numbered(12).reshape(3, 4, 5, 6)
+
+    def repeated(image, _):
+        image.RepetitionTime = "2500"
+
+    def resolved(image, _):
+        image.RepetitionTime, image.TemporalResolution = "30", "4000"
+
+    def nothing(image, _):
+        pass
+
+    for change, right, words in (
+            (repeated, (0.0, 2.5, 5.0), "count as 2.5 s apart"),
+            (resolved, (0.0, 4.0, 8.0), "count as 4 s apart"),
+            (nothing, (0.0, 1.0, 2.0), "are numbered 0, 1, 2 and so on")):
+        path = folder("repeated")
+        for t in range(3):
+            write_slices(path, voxels[t], change=change, start=100 * t + 1)
+        reader, told = read(path)
+        assert_says(told, "has 3 volumes without times of their own", words)
+        numpy.testing.assert_allclose(reader.TimestepValues, right)
+
+
 def test_short_slices_are_refused_and_damaged_ones_told():
     path = write_slices(folder("short"), numbered())
     name = os.path.join(path, "IM0002.dcm")

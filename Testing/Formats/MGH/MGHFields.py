@@ -8,8 +8,8 @@ from brainshift_testing import load_plugin, run_tests
 load_plugin()
 
 #: Offset and kind of each field, and its value in the good file.
-FIELDS = {"version": (0, "i", 1), "width": (4, "i", 3), "height": (8, "i", 2), "depth": (12, "i", 2),
-          "nframes": (16, "i", 2), "type": (20, "i", 4), "dof": (24, "i", 0),
+FIELDS = {"version": (0, "i", 1), "width": (4, "i", 3), "height": (8, "i", 2),
+          "depth": (12, "i", 2), "nframes": (16, "i", 2), "type": (20, "i", 4), "dof": (24, "i", 0),
           "goodRASFlag": (28, "h", 1), "spacingX": (30, "f", 1), "spacingY": (34, "f", 1),
           "spacingZ": (38, "f", 1), "xr": (42, "f", 1), "xa": (46, "f", 0), "xs": (50, "f", 0),
           "yr": (54, "f", 0), "ya": (58, "f", 1), "ys": (62, "f", 0), "zr": (66, "f", 0),
@@ -37,9 +37,12 @@ def changes():
             for name in (*FIELDS, *FOOTER, "tags")}
 
 
+def read(content):
+    return fields_walk.outcome("FreeSurferVolumeReader", "walk.mgh", content)
+
+
 def test_each_field_does_what_the_list_says():
-    fields_walk.walk("MGH", "Fields of the file", changes(),
-                     lambda content: fields_walk.outcome("FreeSurferVolumeReader", "walk.mgh", content))
+    fields_walk.walk("MGH", "Fields of the file", changes(), read)
 
 
 run_tests(globals())

@@ -30,7 +30,8 @@ FIELDS = {
     "quatern_b": (256, "f", 0), "quatern_c": (260, "f", 0), "quatern_d": (264, "f", 0),
     "qoffset_x": (268, "f", 0), "qoffset_y": (272, "f", 0), "qoffset_z": (276, "f", 0),
     "srow_x": (280, "4f", 1, 0, 0, 0), "srow_y": (296, "4f", 0, 1, 0, 0),
-    "srow_z": (312, "4f", 0, 0, 1, 0), "intent_name": (328, "16s", b""), "magic": (344, "4s", b"n+1"),
+    "srow_z": (312, "4f", 0, 0, 1, 0), "intent_name": (328, "16s", b""),
+    "magic": (344, "4s", b"n+1"),
     "extension": (348, "4s", b"")}
 
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Proves that numbers of a NIfTI header that contradict each other, or are none, do not count without
-// a word: times, scale, units, and the two places of a volume.
+// Proves that numbers of a NIfTI header that contradict each other, or are none, do not count
+// without a word: times, scale, units, and the two places of a volume.
 #include "Testing/Formats/NIFTI/NIFTITestFile.h"
 #include "Testing/Formats/NIFTI/NIFTITestReading.h"
 
