@@ -7,6 +7,7 @@
 #include "Interaction/ToolKeys.h"
 #include "Interaction/Views/SliceMouse.h"
 #include "Interaction/Workarounds/QuietLinks.h"
+#include "Interaction/Workarounds/RevivedViews.h"
 #include "Interaction/Workarounds/Selections.h"
 #include "Plugin/ComparisonLegend.h"
 #include "Plugin/FirstLook.h"
@@ -83,6 +84,7 @@ void BrainShiftBehavior::onStartup()
   new brainshift::KeptSelection(this);
   new brainshift::LandmarkMarks(this);
   new brainshift::QuietLinks(this);
+  new brainshift::RevivedViews(this);
   new brainshift::ComparisonLegend(this);
   new brainshift::EvidenceSwitch(this);
   this->Hand = new brainshift::ToolCarrier(this);

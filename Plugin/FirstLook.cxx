@@ -124,6 +124,10 @@ void hideScale(pqDataRepresentation* display)
 void finishLater(pqDataRepresentation* display, const std::vector<double>& tissue)
 {
   QTimer::singleShot(0, display, [display, tissue] {
+    if (!showsVolume(display)) // slices by now
+    {
+      return;
+    }
     auto view = vtkSMRenderViewProxy::SafeDownCast(
       display->getView() ? display->getView()->getProxy() : nullptr);
     if (!view)
@@ -258,7 +262,10 @@ void showFirstLook(pqDataRepresentation* display)
       {
         hideScale(display);
       }
-      takeOwnColors(display);
+      if (showsVolume(display)) // slices have their own greys by now
+      {
+        takeOwnColors(display);
+      }
     });
   }
   else if (colors && users == Users::None && (isNew || isLook(colors)))
@@ -313,6 +320,10 @@ void joinLook(pqDataRepresentation* display)
     if (hides)
     {
       hideScale(display); // that of the array's name
+    }
+    if (!showsVolume(display)) // slices have their own greys by now
+    {
+      return;
     }
     if (from && from->getLookupTableProxy() != display->getLookupTableProxy())
     {

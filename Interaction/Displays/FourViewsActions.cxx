@@ -5,11 +5,13 @@
 
 #include <pqActiveObjects.h>
 #include <pqPipelineSource.h>
+#include <pqTabbedMultiViewWidget.h>
 #include <pqUndoStack.h>
 
 #include <vtkPVDataInformation.h>
 #include <vtkPythonInterpreter.h>
 #include <vtkSMSourceProxy.h>
+#include <vtkSMViewLayoutProxy.h>
 
 #include <QAction>
 #include <QIcon>
@@ -71,8 +73,15 @@ FourViewsActions::FourViewsActions(QObject* parent)
 
 void FourViewsActions::layOut()
 {
-  SCOPED_UNDO_EXCLUDE();
-  runPython("brainshift.four_views(simple.GetActiveSource())\n");
+  SCOPED_UNDO_SET("Four Views");
+  auto tabs = qobject_cast<pqTabbedMultiViewWidget*>(
+    pqApplicationCore::instance()->manager("MULTIVIEW_WIDGET"));
+  vtkSMProxy* layout = tabs ? tabs->layoutProxy() : nullptr; // the tab at the front
+  runPython(QString("from brainshift.views import begin_in_layout\n"
+                    "begin_in_layout(%1)\n"
+                    "brainshift.four_views(simple.GetActiveSource())\n"
+                    "del begin_in_layout\n")
+      .arg(layout ? layout->GetGlobalID() : 0));
 }
 
 // When it is applied for the first time, and ParaView has shown it and hidden its input. What a

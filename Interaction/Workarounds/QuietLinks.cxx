@@ -4,10 +4,19 @@
 #include <pqApplicationCore.h>
 #include <pqServer.h>
 #include <pqServerManagerModel.h>
+#include <pqUndoStack.h>
 
 #include <vtkCommand.h>
+#include <vtkNew.h>
+#include <vtkPVXMLElement.h>
+#include <vtkSMLink.h>
+#include <vtkSMPropertyLink.h>
+#include <vtkSMProxy.h>
 #include <vtkSMProxyManager.h>
+#include <vtkSMSession.h>
 #include <vtkSMSessionProxyManager.h>
+
+#include <QTimer>
 
 #include <cstring>
 
@@ -17,6 +26,49 @@ namespace
 {
 constexpr float Priority = 1.0f;                  // before ParaView's link manager
 constexpr const char* NamePrefix = "BrainShift "; // as Python/brainshift/links.py names them
+
+using Information = vtkSMProxyManager::RegisteredProxyInformation;
+
+bool isOurs(const char* link)
+{
+  return link && std::strncmp(link, NamePrefix, std::strlen(NamePrefix)) == 0;
+}
+
+// Of a view or display; null for all else.
+vtkSMProxy* linkedProxy(const Information* registered)
+{
+  const bool isLinked = registered && registered->Type == Information::PROXY &&
+    registered->GroupName &&
+    (std::strcmp(registered->GroupName, "views") == 0 ||
+      std::strcmp(registered->GroupName, "representations") == 0);
+  return isLinked ? registered->Proxy : nullptr;
+}
+}
+
+namespace
+{
+// As ParaView writes a link into a state.
+vtkSmartPointer<vtkPVXMLElement> describe(const std::string& name, vtkSMPropertyLink* link)
+{
+  auto described = vtkSmartPointer<vtkPVXMLElement>::New();
+  described->SetName("PropertyLink");
+  described->AddAttribute("name", name.c_str());
+  for (unsigned int i = 0; i < link->GetNumberOfLinkedObjects(); ++i)
+  {
+    const int index = static_cast<int>(i);
+    if (vtkSMProxy* proxy = link->GetLinkedProxy(index))
+    {
+      vtkNew<vtkPVXMLElement> member;
+      member->SetName("Property");
+      member->AddAttribute("id", static_cast<unsigned int>(proxy->GetGlobalID()));
+      member->AddAttribute("name", link->GetLinkedPropertyName(index));
+      const bool isInput = (link->GetLinkedObjectDirection(index) & vtkSMLink::INPUT) != 0;
+      member->AddAttribute("direction", isInput ? "input" : "output");
+      described->AddNestedElement(member);
+    }
+  }
+  return described;
+}
 }
 
 QuietLinks::QuietLinks(QObject* parent)
@@ -46,13 +98,110 @@ void QuietLinks::watch(pqServer* server)
   vtkSMSessionProxyManager* manager = server->proxyManager();
   this->Observers.emplace_back(manager,
     manager->AddObserver(vtkCommand::RegisterEvent, this, &QuietLinks::onRegister, Priority));
+  this->Observers.emplace_back(manager,
+    manager->AddObserver(vtkCommand::UnRegisterEvent, this, &QuietLinks::onUnRegister, Priority));
+  this->Observers.emplace_back(
+    manager, manager->AddObserver(vtkCommand::SaveStateEvent, this, &QuietLinks::onSaveState));
 }
 
-bool QuietLinks::onRegister(vtkObject*, unsigned long, void* information)
+bool QuietLinks::onRegister(vtkObject* manager, unsigned long, void* information)
 {
-  using Information = vtkSMProxyManager::RegisteredProxyInformation;
   auto registered = static_cast<const Information*>(information);
-  return registered && registered->Type == Information::LINK && registered->ProxyName &&
-    std::strncmp(registered->ProxyName, NamePrefix, std::strlen(NamePrefix)) == 0;
+  const bool isLink =
+    registered && registered->Type == Information::LINK && isOurs(registered->ProxyName);
+  if (isLink || linkedProxy(registered))
+  {
+    const vtkWeakPointer<vtkSMSessionProxyManager> weak =
+      vtkSMSessionProxyManager::SafeDownCast(manager);
+    // Later: ParaView registers within a step of undo that it has not ended.
+    QTimer::singleShot(0, this, [this, weak] {
+      if (weak)
+      {
+        SCOPED_UNDO_EXCLUDE();
+        this->takeOver(weak);
+        this->takeIn(weak);
+      }
+    });
+  }
+  return isLink;
+}
+
+bool QuietLinks::onUnRegister(vtkObject* object, unsigned long, void* information)
+{
+  auto registered = static_cast<const Information*>(information);
+  if (vtkSMProxy* gone = linkedProxy(registered))
+  {
+    SCOPED_UNDO_EXCLUDE();
+    this->takeOver(vtkSMSessionProxyManager::SafeDownCast(object));
+    this->leaveOut(gone);
+  }
+  return registered && registered->Type == Information::LINK && isOurs(registered->ProxyName);
+}
+
+void QuietLinks::onSaveState(vtkObject*, unsigned long, void* information)
+{
+  auto saved = static_cast<const vtkSMProxyManager::LoadStateInformation*>(information);
+  vtkPVXMLElement* state = saved->RootElement->FindNestedElementByName("ServerManagerState");
+  vtkPVXMLElement* links = state ? state->FindNestedElementByName("Links") : nullptr;
+  for (const auto& [name, link] : this->Links)
+  {
+    if (links && link->GetNumberOfLinkedObjects() > 2) // two directions each
+    {
+      links->AddNestedElement(describe(name, link));
+    }
+  }
+}
+
+void QuietLinks::takeOver(vtkSMSessionProxyManager* manager)
+{
+  for (int i = manager->GetNumberOfLinks(); i-- > 0;)
+  {
+    const std::string name = manager->GetLinkName(i);
+    vtkSmartPointer<vtkSMPropertyLink> link = isOurs(name.c_str())
+      ? vtkSMPropertyLink::SafeDownCast(manager->GetRegisteredLink(name.c_str()))
+      : nullptr;
+    if (link)
+    {
+      this->Links.insert({ name, link });
+      manager->UnRegisterLink(name.c_str());
+    }
+  }
+}
+
+void QuietLinks::leaveOut(vtkSMProxy* gone)
+{
+  for (const auto& named : this->Links)
+  {
+    vtkSMPropertyLink* link = named.second;
+    for (unsigned int member = link->GetNumberOfLinkedObjects(); member-- > 0;)
+    {
+      const int index = static_cast<int>(member);
+      if (link->GetLinkedProxy(index) == gone)
+      {
+        const std::string property = link->GetLinkedPropertyName(index);
+        link->RemoveLinkedProperty(gone, property.c_str()); // one of its two directions
+        this->Gone.push_back({ link, gone->GetGlobalID(), property });
+      }
+    }
+  }
+}
+
+void QuietLinks::takeIn(vtkSMSessionProxyManager* manager)
+{
+  std::vector<LeftOut> still;
+  for (LeftOut& left : this->Gone)
+  {
+    auto back = vtkSMProxy::SafeDownCast(manager->GetSession()->GetRemoteObject(left.proxy));
+    const bool isBack = back &&
+      (manager->GetProxyName("views", back) || manager->GetProxyName("representations", back));
+    if (!isBack)
+    {
+      still.push_back(std::move(left));
+      continue;
+    }
+    left.link->AddLinkedProperty(back, left.property.c_str(), vtkSMLink::INPUT);
+    left.link->AddLinkedProperty(back, left.property.c_str(), vtkSMLink::OUTPUT);
+  }
+  this->Gone = std::move(still);
 }
 }

@@ -3,18 +3,28 @@
 /// Keeps the links between our views away from ParaView's link manager. That one empties the undo
 /// stack when a link goes. An undo step that takes views or displays back takes their links back
 /// too, and ParaView then crashes in the step that it is just undoing.
+///
+/// A link of ParaView also follows a view or display that is gone, and crashes. So our links leave
+/// out what goes, and take it in again when undo or redo brings it back. ParaView does
+/// not know them, for undo would drop them and redo make others; only states have them.
 #ifndef BrainShift_QuietLinks_h
 #define BrainShift_QuietLinks_h
 
 #include <QObject>
 
+#include <vtkSmartPointer.h>
+#include <vtkType.h>
 #include <vtkWeakPointer.h>
 
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
 class pqServer;
 class vtkObject;
+class vtkSMPropertyLink;
+class vtkSMProxy;
 class vtkSMSessionProxyManager;
 
 namespace brainshift
@@ -30,7 +40,24 @@ private:
   void watch(pqServer* server);
   /// Observer of what is registered. True: no other observer gets it.
   bool onRegister(vtkObject* manager, unsigned long event, void* information);
+  /// Observer of what is no longer registered.
+  bool onUnRegister(vtkObject* manager, unsigned long event, void* information);
+  /// Writes the links into a state.
+  void onSaveState(vtkObject* manager, unsigned long event, void* information);
+  void takeOver(vtkSMSessionProxyManager* manager);
+  void leaveOut(vtkSMProxy* gone);
+  void takeIn(vtkSMSessionProxyManager* manager);
 
+  /// One property of a view or display that is gone, and the link that it belongs to.
+  struct LeftOut
+  {
+    vtkSmartPointer<vtkSMPropertyLink> link;
+    vtkTypeUInt32 proxy; ///< global number: undo brings the proxy back under it
+    std::string property;
+  };
+
+  std::set<std::pair<std::string, vtkSmartPointer<vtkSMPropertyLink>>> Links; ///< with names
+  std::vector<LeftOut> Gone;
   std::vector<std::pair<vtkWeakPointer<vtkSMSessionProxyManager>, unsigned long>> Observers;
 };
 }

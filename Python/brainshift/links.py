@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Keeps a property equal in several displays or views."""
 
+import contextlib
 import itertools
 
 #: Of the names of links. ParaView's window keeps links so named out of its link manager, which
@@ -8,11 +9,26 @@ import itertools
 PREFIX = "BrainShift "
 
 
+@contextlib.contextmanager
+def _unrecorded(manager):
+    """What is done here is nothing to undo: undo would restore links to views that are gone."""
+    builder = manager.GetUndoStackBuilder()
+    before = builder.GetIgnoreAllChanges() if builder else False
+    if builder:
+        builder.SetIgnoreAllChanges(True)
+    try:
+        yield
+    finally:
+        if builder:
+            builder.SetIgnoreAllChanges(before)
+
+
 def link(proxies, group, name):
     """Keeps a property equal in all proxies from now on, also after a view is closed.
 
-    When a view is closed, ParaView's link keeps a null pointer to its proxy and follows it, and
-    ParaView's window drops the whole link. So the link is then made again without that proxy.
+    When a view is closed, ParaView's link keeps a null pointer to its proxy and follows it. So the
+    link is then made again without that proxy. In a window Interaction/Workarounds/QuietLinks.h
+    does that, and takes in again what undo brings back.
 
     - `proxies`: displays or views.
     - `group`: where they are registered, `"representations"` or `"views"`.
@@ -21,26 +37,24 @@ def link(proxies, group, name):
 
     manager = servermanager.ProxyManager()
     made = servermanager.vtkSMPropertyLink()
-    link_name = f"{PREFIX}{name}{proxies[0].SMProxy.GetGlobalIDAsString()}"
     linked = {manager.GetProxyName(group, proxy.SMProxy): proxy.SMProxy.GetGlobalID()
               for proxy in proxies}
 
-    def remaining():
-        found = ((manager.SMProxyManager.GetProxy(group, registered), number)
-                 for registered, number in linked.items())
-        return [proxy for proxy, number in found
-                if proxy is not None and proxy.GetGlobalID() == number]  # a name may be reused
-
-    def relink(*_):
-        made.RemoveAllLinks()
-        left = remaining()
-        if len(left) < 2:
-            return
-        if manager.SMProxyManager.GetRegisteredLink(link_name) != made:
-            manager.RegisterLink(link_name, made)
-        for proxy, direction in itertools.product(left, (made.INPUT, made.OUTPUT)):
+    def add(members):
+        for proxy, direction in itertools.product(members, (made.INPUT, made.OUTPUT)):
             made.AddLinkedProperty(proxy, name, direction)
 
+    def leave_out(*_):
+        left = [manager.SMProxyManager.GetProxy(group, registered) for registered in linked]
+        left = [proxy for proxy in left  # a name may be reused
+                if proxy is not None and proxy.GetGlobalID() in linked.values()]
+        if made.GetNumberOfLinkedObjects() > 2 * len(left):  # in a window QuietLinks was faster
+            with _unrecorded(servermanager.vtkSMProxyManager.GetProxyManager()):
+                made.RemoveAllLinks()
+                add(left)
+
+    with _unrecorded(servermanager.vtkSMProxyManager.GetProxyManager()):
+        manager.RegisterLink(f"{PREFIX}{name}{proxies[0].SMProxy.GetGlobalIDAsString()}", made)
+        add([proxy.SMProxy for proxy in proxies])
     for proxy in proxies:
-        proxy.SMProxy.AddObserver("DeleteEvent", relink)
-    relink()
+        proxy.SMProxy.AddObserver("DeleteEvent", leave_out)

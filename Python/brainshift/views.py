@@ -45,15 +45,27 @@ def _plane_of(view):
     return None
 
 
+def _is_free(view, layout):
+    """Whether four views can be laid out around a view: it is alone in its layout."""
+    from paraview import simple
+
+    return (layout is not None and view.GetXMLName() == "RenderView"
+            and len(simple.GetViewsInLayout(layout)) == 1)
+
+
 def views_laid_out():
     """The four views that were laid out before, as `four_views` returns them, or None.
 
-    The layout of the active view comes first, then all others.
+    The layout of the active view comes first. If that is a render view alone in its layout, the
+    user wants four views there: others are not looked at. Otherwise all other layouts follow.
     """
     from paraview import simple
 
     active = simple.GetActiveView()
-    layouts = [simple.GetLayout(active)] if active is not None else []
+    own = simple.GetLayout(active) if active is not None else None
+    if own is not None and _is_free(active, own):
+        return None
+    layouts = [own] if own is not None else []
     for layout in layouts + list(simple.GetLayouts().values()):
         views = simple.GetViewsInLayout(layout) if layout is not None else []
         found = {_plane_of(view) or "volume": view for view in views}
@@ -73,14 +85,37 @@ def _place():
 
     view = simple.GetActiveView()
     layout = simple.GetLayout(view) if view is not None else None
-    if (layout is None or view.GetXMLName() != "RenderView"
-            or len(simple.GetViewsInLayout(layout)) > 1):
+    if not _is_free(view, layout):
         layout, view = simple.CreateLayout("Four Views"), simple.CreateView("RenderView")
+        layout.AssignView(0, view)
+    elif layout.GetViewLocation(view.SMProxy) != 0:  # beside empty cells
+        layout.Reset()
         layout.AssignView(0, view)
     top = layout.SplitVertical(0, 0.5)
     left, bottom_left = (layout.SplitHorizontal(row, 0.5) for row in (top, top + 1))
     layout.SwapCells(left, left + 1)  # splitting left the 3D view in the axial view's cell
     return view, layout, (left, bottom_left, bottom_left + 1)
+
+
+def _render(views):
+    """Draws views. simple.Render would reset the camera of the first one that it draws."""
+    for view in views:
+        view.SMProxy.StillRender()
+
+
+def begin_in_layout(number):
+    """Makes the 3D view of a layout that has no view, and makes it active. Else nothing.
+
+    - `number`: global number of the layout's proxy.
+    """
+    from paraview import simple
+
+    for layout in simple.GetLayouts().values():
+        if layout.GetGlobalID() == number and not simple.GetViewsInLayout(layout):
+            layout.Reset()
+            view = simple.CreateView("RenderView")
+            layout.AssignView(0, view)
+            simple.SetActiveView(view)
 
 
 def _slice_view(plane):
@@ -291,10 +326,10 @@ def four_views(source, convention="radiological", world=None):
     `percentile_window`. Lines in each slice show the other two slices (`ShowCrosshair`). The
     slices have one zoom (`CameraParallelScale`).
 
-    The 3D view shows Deformed Volume, unless it shows the volume in another way already. Four views
-    that were laid out before are used again: they keep their zoom if the new volume fills the same
-    box. Otherwise the active view becomes the 3D view if it is a render view that is alone in its
-    layout. Otherwise a new layout is made.
+    The 3D view shows Deformed Volume, unless it shows the volume in another way already. The active
+    view becomes the 3D view if it is a render view that is alone in its layout. Otherwise four
+    views that were laid out before are used again: they keep their zoom if the new volume fills the
+    same box. Otherwise a new layout is made.
 
     - `source`: a ParaView source of image data, for example a Free-Form Deformation.
     - `convention`: `"radiological"`, the default, shows the patient's right on the left of the
@@ -320,7 +355,7 @@ def four_views(source, convention="radiological", world=None):
     keeps = former is not None and _bounds(former) == _bounds(source)
     _look_at_slices(views, displays, convention, world, keeps)
     simple.SetActiveView(views["volume"])
-    simple.RenderAllViews()
+    _render(simple.GetRenderViews())
     return views
 
 
@@ -388,4 +423,4 @@ def show_comparison(comparison):
         if display.SliceComparison == "None":
             display.SliceComparison = "Two colours"  # the others follow
     simple.SetActiveView(active)
-    simple.RenderAllViews()
+    _render(simple.GetRenderViews())

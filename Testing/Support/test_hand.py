@@ -14,12 +14,14 @@ _MOVE, _PRESS, _RELEASE, _DOUBLE_CLICK = 0, 1, 2, 3
 
 NONE, MOVE, SOFT, STAMP, PULL = -1, 0, 1, 2, 3  # Tool of Stroke.h
 
-_library = ctypes.CDLL(os.environ["BRAINSHIFT_TEST_HAND"])
+# PyDLL: an action may run Python, which needs the lock that CDLL lets go.
+_library = ctypes.PyDLL(os.environ["BRAINSHIFT_TEST_HAND"])
 _library.test_hand_scale.restype = ctypes.c_double
 _library.test_hand_set.restype = ctypes.c_double
 _library.test_hand_label.restype = ctypes.c_char_p
 _library.test_hand_cell.restype = ctypes.c_char_p
 _library.test_hand_controls.restype = ctypes.c_char_p
+_library.test_hand_messages.restype = ctypes.c_char_p
 _library.test_hand_set.argtypes = [ctypes.c_char_p, ctypes.c_double]
 
 
@@ -247,6 +249,58 @@ def is_there():
 def quit():
     """Closes ParaView when Python is done."""
     _library.test_hand_quit()
+
+
+def close_view(view):
+    """Presses the cross of a view's frame; False if there is none."""
+    closed = bool(_library.test_hand_close_view(view.SMProxy.GetGlobalID()))
+    wait(100)
+    return closed
+
+
+def new_layout():
+    """Opens a new tab of views, as the tab + does."""
+    _library.test_hand_new_layout()
+    wait(100)
+
+
+def show_layout(tab):
+    """Brings a tab of views to the front; from 0."""
+    _library.test_hand_show_layout(tab)
+    wait(100)
+
+
+def close_layout(tab):
+    """Closes a tab with its views; from 0."""
+    _library.test_hand_close_layout(tab)
+    wait(100)
+
+
+def shown_layout():
+    """The tab of views at the front; from 0."""
+    return _library.test_hand_shown_layout()
+
+
+def save_state(path):
+    """As File > Save State does."""
+    _library.test_hand_save_state(os.fspath(path).encode())
+
+
+def load_state(path):
+    """As File > Load State does: what is there stays."""
+    _library.test_hand_load_state(os.fspath(path).encode())
+    wait(300)
+
+
+def messages():
+    """What Output Messages holds, one message each, and whether its window is shown."""
+    told = _library.test_hand_messages().decode().splitlines()
+    return told, bool(_library.test_hand_shows_messages())
+
+
+def forget_messages():
+    """Empties Output Messages."""
+    _library.test_hand_forget_messages()
 
 
 def resize_window(width, height):

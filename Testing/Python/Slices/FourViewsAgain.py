@@ -8,7 +8,7 @@ from brainshift_testing import ball, load_plugin, picture, run_tests, volume
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from paraview.simple import (  # noqa: E402
-    AssignViewToLayout, CompareVolumes, CreateLayout, CreateRenderView, Delete,
+    AssignViewToLayout, CompareVolumes, CreateLayout, CreateRenderView, CreateView, Delete,
     FreeFormDeformation, GetDisplayProperties, GetLayout, GetLayouts, GetViews, GetViewsInLayout,
     GetOpacityTransferFunction, SetActiveView, Show)
 
@@ -71,7 +71,7 @@ def test_the_same_volume_again_changes_nothing():
     for active in views.values():
         SetActiveView(active)
         assert_same_views(brainshift.four_views(source), views)
-    elsewhere = CreateRenderView()
+    elsewhere = CreateView("SpreadSheetView")  # no view to lay out
     AssignViewToLayout(elsewhere, CreateLayout("Elsewhere"))
     SetActiveView(elsewhere)
     assert_same_views(brainshift.four_views(source), views)

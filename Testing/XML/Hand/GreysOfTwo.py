@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Proves that the slices of Four Views are grey where two volumes are open, whose arrays have one
+name: a head and its brain mask, and two heads. The 3D view keeps its natural colours.
+
+ParaView's window runs this file as a script; play_window.py reports what did not hold."""
+import os
+import shutil
+
+import test_hand as hand
+import window_testing as window
+from paraview import simple
+
+FOLDER = os.path.join(os.environ["BRAINSHIFT_TEST_DATA"], "seg3d-utah")
+HEAD = os.path.join(FOLDER, "seg3d_mr_t1.nii.gz")
+MASK = os.path.join(FOLDER, "seg3d_brainmask.nii.gz")
+OTHER = os.path.join(os.environ["BRAINSHIFT_TEST_TEMP"], "other.nii.gz")
+
+
+def colors(display):
+    points = list(display.LookupTable.RGBPoints)
+    return [points[i + 1:i + 4] for i in range(0, len(points), 4)]
+
+
+def is_grey(display):
+    return all(red == green == blue for red, green, blue in colors(display))
+
+
+def greys_of(first, second):
+    shutil.copy(HEAD, OTHER)
+    for source in list(simple.GetSources().values())[::-1]:
+        simple.Delete(source)
+    hand.open_file(first)
+    hand.open_file(second)
+    hand.wait(300)
+    assert hand.click("Accept")
+    hand.wait(1000)
+    hand.create_filter("FreeFormDeformation")
+    hand.wait(200)
+    assert hand.click("Accept")
+    hand.wait(1000)
+    bent = simple.GetActiveSource()
+    assert hand.action("actionBrainShiftFourViews")
+    hand.wait(1000)
+    displays = [display for view in simple.GetRenderViews() for display in view.Representations
+                if getattr(display, "Input", None) == bent and display.Visibility]
+    kinds = {"Deformed Slices": 0, "Deformed Volume": 0}
+    for display in displays:
+        kind = str(display.Representation.GetData())
+        kinds[kind] += 1
+        assert is_grey(display) == (kind == "Deformed Slices"), (kind, colors(display))
+    assert kinds["Deformed Slices"] == 3 and kinds["Deformed Volume"] >= 1, kinds
+
+
+window.main("GreysOfTwo", [(greys_of, MASK, HEAD), (greys_of, HEAD, OTHER)])
