@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that in ParaView's window, played by MaskByHand.xml, a mask chosen in the panel keeps what
 is beyond its feather still under a stamp that is pressed in the view, and leaves the filter
-selected; that one tick then draws the brain alone, where the next stamp finds the cortex; and that the Python
-trace holds the tick. The window imports this file to look from a fixed place and to write down what
-it sees."""
+selected; that one tick then draws the brain alone, where the next stamp finds the cortex; and that
+the Python trace holds the tick. The window imports this file to look from a fixed place and to
+write down what it sees."""
 import json
 import os
 
