@@ -179,7 +179,7 @@ def measure_of(tip):
 def touches_only_what_is_held_still():
     window.server.go(MIDDLE + (1, 2, 14))
     hand.wait(700)  # the tip rests for more than half a second
-    assert hand.click("BrainShiftPointerTouch")
+    until(lambda: hand.click("BrainShiftPointerTouch"), "a tip in sight")
     assert not hand.label("BrainShiftPointerProblem"), hand.label("BrainShiftPointerProblem")
     assert hand.cell("BrainShiftPointerPairs", 0, 0)[3], "what was touched"
     for step in range(14):  # up and down by 10 mm
