@@ -187,6 +187,10 @@ int vtkTransformReader::RequestInformation(
 {
   State& state = *this->Internal;
   state.Good = false;
+  if (this->FileName.empty())
+  {
+    return 1; // Python sets properties one after the other, and ParaView asks after each
+  }
   throwIfAny(this->Load());
   if (vtkInformation* volume = inputs[0]->GetInformationObject(0))
   {
@@ -220,6 +224,7 @@ int vtkTransformReader::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   const State& state = *this->Internal;
+  throwIfAny(this->FileName.empty() ? this->Load() : "");
   if (!state.Good)
   {
     return 0; // RequestInformation has reported why

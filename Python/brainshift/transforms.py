@@ -158,8 +158,9 @@ def _bend(bent, files, options):
     from paraview import simple
     active = simple.GetActiveSource()
     reader = simple.TransformReader(
-        Volume=bent.Input, LatticeDimensions=bent.LatticeDimensions, Kernel=bent.Kernel, **options,
-        LaterFileNames=files[1:], FileName=files[0])  # last: it reads as soon as it has a name
+        Volume=bent.Input, **options,  # before the name: it reads as soon as it has one
+        FileName=files[0], LaterFileNames=files[1:],
+        LatticeDimensions=bent.LatticeDimensions, Kernel=bent.Kernel)
     reader.UpdatePipeline()
     bent.Lattice = reader
     simple.SetActiveSource(active)

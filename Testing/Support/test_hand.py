@@ -5,6 +5,7 @@ lower left corner."""
 import ctypes
 import math
 import os
+import time
 
 from paraview import simple
 
@@ -44,8 +45,14 @@ def _mouse(kind, pixel, held, modifiers):
 
 
 def wait(milliseconds=0):
-    """Lets the window draw what is due."""
-    _library.test_hand_wait(milliseconds)
+    """Lets the window draw what is due, and other threads of Python work."""
+    end = time.monotonic() + milliseconds / 1000.0
+    while True:
+        left = 1000.0 * (end - time.monotonic())
+        _library.test_hand_wait(max(0, min(10, int(left))))
+        time.sleep(0.0005)  # lets the lock go
+        if left <= 10:
+            break
 
 
 def hover(pixel, modifiers=0):
