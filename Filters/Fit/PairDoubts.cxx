@@ -164,22 +164,22 @@ void addRepeated(const Pairs& pairs, Sentences& sentences)
 void addUnits(const Pairs& pairs, double volumeMm, Sentences& sentences)
 {
   const double extents[2] = { extentOf(pairs.rest), extentOf(pairs.measured) };
-  const char* const lists[2] = { "at rest", "measured" };
-  const std::string question = "; check that they are in mm";
+  const char* const lists[2] = { "The landmarks at rest are within ",
+    "The measured landmarks are within " };
   for (int i = 0; i < 2; ++i)
   {
-    const std::string which = std::string("The landmarks ") + lists[i] + " lie within ";
+    const std::string which = lists[i];
     const bool isFar = volumeMm > 0.0 &&
       (extents[i] > FarthestRatio * volumeMm || extents[i] * FarthestRatio < volumeMm);
     if (pairs.rest.size() > 1 && extents[i] <= ClosestMm)
     {
-      sentences.push_back(which + rounded(extents[i]) + " mm" + question);
+      sentences.push_back(which + rounded(extents[i]) + " mm; check that they are in mm");
       return;
     }
     if (pairs.rest.size() > 1 && isFar)
     {
       sentences.push_back(which + rounded(extents[i]) + " mm, and the volume's diagonal has " +
-        rounded(volumeMm) + " mm" + question);
+        rounded(volumeMm) + " mm; check that they are in mm");
       return;
     }
   }

@@ -70,7 +70,10 @@ std::vector<DICOMTag> tagsOf(const DICOMDataSet& set, DICOMTag tag)
   {
     const auto group = storedNumberAt<std::uint16_t>(bytes, place, set.isBigEndian);
     const auto element = storedNumberAt<std::uint16_t>(bytes, place + 2, set.isBigEndian);
-    tags.push_back((DICOMTag(*group) << 16) | *element);
+    if (group && element)
+    {
+      tags.push_back((DICOMTag(*group) << 16) | *element);
+    }
   }
   return tags;
 }

@@ -229,11 +229,8 @@ std::vector<double> timesOf(const StoredAxis& axis, std::vector<std::string>& wa
   const double seconds = factorOf(SecondsPerUnit, axis);
   if (axis.count > 1 && !axis.offsets.empty())
   {
-    std::vector<double> times;
-    for (const double offset : axis.offsets)
-    {
-      times.push_back(seconds * offset);
-    }
+    std::vector<double> times = axis.offsets;
+    std::for_each(times.begin(), times.end(), [seconds](double& time) { time *= seconds; });
     if (std::adjacent_find(times.begin(), times.end(), std::greater_equal<double>()) == times.end())
     {
       return times;

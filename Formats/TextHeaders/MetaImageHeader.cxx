@@ -91,8 +91,9 @@ void requireOneMeaning(const HeaderText& text, const std::vector<std::string>& n
     if (text.has(name) && said != text.valueOf(names) &&
       numbersIn(said) != numbersIn(text.valueOf(names)))
     {
-      throw Problem("has the " + names[0] + " " + text.valueOf(names) + ", but the " + name + " " +
-        said + ", which means the same");
+      std::string sentence = "has the " + names[0] + " " + text.valueOf(names);
+      sentence.append(", but the ").append(name).append(" ").append(said);
+      throw Problem(sentence.append(", which means the same"));
     }
   }
 }

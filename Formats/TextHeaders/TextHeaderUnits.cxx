@@ -93,8 +93,10 @@ std::vector<double> timesOf(const HeaderAxis& axis, std::vector<std::string>& wa
     warnings.push_back(joined("has the time step ", *axis.spacing, ", which is none", numbered));
     return evenTimes(count, 1.0);
   }
-  return count > 1 && axis.spacing
-    ? evenTimes(count, *seconds * *axis.spacing, *seconds * axis.start)
-    : evenTimes(count, 1.0);
+  if (count > 1 && axis.spacing && seconds)
+  {
+    return evenTimes(count, *seconds * *axis.spacing, *seconds * axis.start);
+  }
+  return evenTimes(count, 1.0);
 }
 }

@@ -124,7 +124,8 @@ std::string fieldFile()
   std::string numbers;
   for (int i = 0; i < 24; ++i)
   {
-    const float number = static_cast<float>(i % 3 + i / 3);
+    const int value = i % 3 + i / 3;
+    const auto number = static_cast<float>(value);
     numbers.append(reinterpret_cast<const char*>(&number), sizeof(number));
   }
   return written("walk.nrrd",
