@@ -185,6 +185,7 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   request.tissue = this->TissueOf(image, volume->GetProperty(), values);
   request.reference = this->ReferenceOf(image, request.tissue);
   request.tissue.compared = request.reference.exists();
+  request.reference.tissue.compared = request.tissue.compared;
   this->ComparePlainly(request);
   request.showsEvidence = this->DrawsEvidence(request.tissue.blend);
   request.memoryLimitMiB = this->MemoryLimit;

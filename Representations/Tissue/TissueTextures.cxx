@@ -65,13 +65,15 @@ TissueRequest TissueTextures::withCategories(GpuTask& gpu, const TissueRequest& 
   vtkDataArray* scalars = request.values.scalars;
   const DrawnComponents components = drawnComponents(request.property, scalars);
   const bool isLength = components.scalar < 0;
+  const bool needsValues = request.blend == Blend::Isosurface || request.blend == Blend::Average ||
+    request.blend == Blend::Additive;
   if (components.coloring != Coloring::Mapped)
   {
     return drawn; // the colours are the voxels' own
   }
-  const char* reason = request.compared  ? "a reference is drawn with the volume"
-    : request.blend == Blend::Isosurface ? "blend mode Isosurface needs continuous values"
-    : isLength                           ? "the array's magnitude is drawn"
+  const char* reason = request.compared ? "a reference is drawn with the volume"
+    : needsValues ? "blend modes Isosurface, Average and Additive need continuous values"
+    : isLength    ? "the array's magnitude is drawn"
     : this->Categories.update(scalars, components.scalar, request.property)
     ? nullptr
     : "it has more than 4095 annotations, the most that can be drawn";

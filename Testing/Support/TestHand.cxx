@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A hand for tests of ParaView's window: sends mouse, wheel and key events to a view as Qt's own
 // come, which ParaView's test player does for mouse buttons only. test_hand.py calls it.
+#include "TestHandExport.h"
+
 #include <QVTKOpenGLNativeWidget.h>
 #include <QVTKOpenGLStereoWidget.h>
 #include <pqActiveObjects.h>
@@ -36,12 +38,6 @@
 #include <QTimer>
 #include <QWheelEvent>
 #include <QWidget>
-
-#if defined(_WIN32)
-#define TEST_HAND_EXPORT extern "C" __declspec(dllexport)
-#else
-#define TEST_HAND_EXPORT extern "C" __attribute__((visibility("default")))
-#endif
 
 namespace
 {

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a hand does with lists of ParaView's window, beside TestHand.cxx. test_hand.py calls it.
+#include "TestHandExport.h"
+
 #include <QAbstractItemView>
 #include <QApplication>
 #include <QFont>
 #include <QTest>
-
-#if defined(_WIN32)
-#define TEST_HAND_EXPORT extern "C" __declspec(dllexport)
-#else
-#define TEST_HAND_EXPORT extern "C" __attribute__((visibility("default")))
-#endif
 
 // A cell of a list of the window, by the list's object name: 1 or 0 for a check mark (- for none),
 // 1 or 0 for bold, 1 or 0 for a sign, and the text, with tabs between. Holds until the next call.

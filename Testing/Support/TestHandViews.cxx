@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The frames and layouts of views, states, and messages of ParaView's window, for test_hand.py.
+#include "TestHandExport.h"
+
 #include <pqApplicationCore.h>
 #include <pqLoadStateReaction.h>
 #include <pqOutputWidget.h>
@@ -19,12 +21,6 @@
 #include <QStringList>
 #include <QTabWidget>
 #include <QToolButton>
-
-#if defined(_WIN32)
-#define TEST_HAND_EXPORT extern "C" __declspec(dllexport)
-#else
-#define TEST_HAND_EXPORT extern "C" __attribute__((visibility("default")))
-#endif
 
 namespace
 {

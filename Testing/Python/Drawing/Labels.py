@@ -71,17 +71,25 @@ def slices_of(source, colors, change=interpret_as_categories, **named):
     return image
 
 
-def volume_of(source, colors):
+def volume_of(source, colors, blend=0):
     view = view_along((0.2, 0.3, -1), MIDDLE, 90.0, half_height=14.0)
     view.MultiSamples = 0
     top = max(colors)
     display = show_volume(source, view, "Deformed Volume", [0, 0, 0, 0, top, 1, 1, 1],
                           [0, 0, 0.5, 0, 0.5, 1, 0.5, 0, top, 1, 0.5, 0])
     display.AmbientOcclusion = 0.0
+    display.BlendMode = blend
     interpret_as_categories(display, colors)
     image = picture(view)
     simple.Delete(view)
     return image
+
+
+def test_sums_of_categories_are_refused_with_a_word():
+    for blend in (3, 4):  # Average, Additive
+        with messages() as said:
+            volume_of(volume(labels()), COLORS, blend)
+        assert "Average and Additive need continuous values" in said.text, (blend, said.text)
 
 
 def test_categories_are_never_blended():
