@@ -36,9 +36,9 @@ def said_of(text):
 
 
 def arrays_of(data):
-    """All numbers of points, and all field arrays, by their names."""
+    """All numbers of points and cells, and all field arrays, by their names."""
     found = {}
-    for attributes in (data.GetPointData(), data.GetFieldData()):
+    for attributes in (data.GetPointData(), data.GetCellData(), data.GetFieldData()):
         for i in range(attributes.GetNumberOfArrays()):
             array = attributes.GetAbstractArray(i)
             name = array.GetName()
