@@ -60,6 +60,11 @@ void reportThrown(vtkObject* object)
   vtkErrorWithObjectMacro(object, << thrownSentence(object->GetClassName()) << ".");
 }
 
+void warn(vtkObject* object, const std::string& sentence)
+{
+  vtkWarningWithObjectMacro(object, << sentence << ".");
+}
+
 void forgetExtents(vtkInformationVector* outputs)
 {
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)

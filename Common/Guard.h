@@ -30,6 +30,14 @@ VTKBRAINSHIFTCOMMON_EXPORT std::string thrownSentence(const std::string& subject
 VTKBRAINSHIFTCOMMON_EXPORT void reportThrown(vtkObject* object);
 
 /**
+ * Reports a warning of an object, or of none. All warnings go this way: the window knows them by
+ * it, and shows them where they cover nothing (QuietMessages).
+ *
+ * @param sentence  without the last full stop
+ */
+VTKBRAINSHIFTCOMMON_EXPORT void warn(vtkObject* object, const std::string& sentence);
+
+/**
  * Lets the next request ask for its own extent after one that failed. VTK adds the extent of a
  * failed request to those that follow, so a filter that refused a size would refuse all smaller
  * ones, too.

@@ -52,4 +52,26 @@ std::string numberText(double number)
   const std::to_chars_result written = std::to_chars(text, text + sizeof(text), number);
   return { text, written.ptr };
 }
+
+std::string roundedText(double number)
+{
+  constexpr double thousand = 1000.0;
+  char text[32];
+  const bool isLong = std::abs(number) >= thousand - 0.5 && std::isfinite(number);
+  const std::to_chars_result written = isLong && std::abs(number) < 1e15
+    ? std::to_chars(text, text + sizeof(text), number, std::chars_format::fixed, 0)
+    : std::to_chars(text, text + sizeof(text), number, std::chars_format::general, 3);
+  return { text, written.ptr };
+}
+
+std::string percentText(double fraction)
+{
+  const double percent = 100.0 * fraction;
+  if (percent > 0.0 && percent < 1.0)
+  {
+    return "less than 1 %";
+  }
+  const double shown = percent < 100.0 ? std::min(std::round(percent), 99.0) : std::round(percent);
+  return numberText(shown) + " %";
+}
 }

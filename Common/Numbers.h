@@ -59,6 +59,15 @@ BRAINSHIFT_COMMON_EXPORT bool isWhole(double number, double least, double most);
 
 /** The shortest text that reads back as the same number. */
 BRAINSHIFT_COMMON_EXPORT std::string numberText(double number);
+
+/**
+ * A measured number for a sentence: three digits, or all whole digits if there are more. Numbers
+ * that a user set are better shown by numberText.
+ */
+BRAINSHIFT_COMMON_EXPORT std::string roundedText(double number);
+
+/** A fraction as whole percent: "58 %"; never 0 % or 100 % of what is between them. */
+BRAINSHIFT_COMMON_EXPORT std::string percentText(double fraction);
 }
 
 #endif

@@ -5,6 +5,7 @@
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
+#include "Common/Numbers.h"
 #include "Filters/Attached/CarriedArray.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/Segmentation.h"
@@ -23,7 +24,6 @@
 #include "vtkPointData.h"
 
 #include <cmath>
-#include <sstream>
 
 using namespace brainshift;
 
@@ -61,13 +61,6 @@ struct vtkFreeFormDeformation::State
 namespace
 {
 constexpr int SegmentationPort = 3;
-
-std::string decimal(double number)
-{
-  std::ostringstream text;
-  text << number;
-  return text.str();
-}
 
 // Throws a Problem on what keeps this volume from being deformed.
 void requireVolume(const Grid& volume)
@@ -163,8 +156,8 @@ void vtkFreeFormDeformation::RequireProperties() const
   const double* const interest = this->PointOfInterest;
   if (!std::all_of(interest, interest + 3, [](double mm) { return std::isfinite(mm); }))
   {
-    throw Problem("PointOfInterest is " + decimal(interest[0]) + " " + decimal(interest[1]) + " " +
-      decimal(interest[2]) + " mm; its numbers must be finite");
+    throw Problem("Point Of Interest is " + numberText(interest[0]) + " " +
+      numberText(interest[1]) + " " + numberText(interest[2]) + " mm; its numbers must be finite");
   }
   if (std::isnan(this->Strength))
   {
@@ -238,14 +231,14 @@ void vtkFreeFormDeformation::TellWarnings()
   if (const int cells = state.StrokeReplay.foldedCells())
   {
     warnings.push_back("The base lattice folds by itself: the Jacobian determinant is below " +
-      decimal(SmallestGuardedJacobian) + " in " + std::to_string(cells) +
+      roundedText(SmallestGuardedJacobian) + " in " + std::to_string(cells) +
       " of its cells. Strokes are not shortened there");
   }
   if (const auto& mask = state.LastGood.lattice.mask;
     mask && *std::max_element(mask->values.begin(), mask->values.end()) == 0.0f)
   {
     warnings.push_back("The mask leaves no tissue to move: it is nowhere wider than two nodes of "
-                       "the refined field. Raise LatticeDimensions or Samples");
+                       "the refined field. Raise Lattice Dimensions or Samples");
   }
   for (const std::string& words : { state.OtherFit, state.TooFine })
   {
@@ -258,7 +251,7 @@ void vtkFreeFormDeformation::TellWarnings()
   {
     if (std::find(state.Warned.begin(), state.Warned.end(), warning) == state.Warned.end())
     {
-      vtkWarningMacro(<< warning << ".");
+      warn(this, warning);
     }
   }
   state.Warned = warnings;
@@ -266,7 +259,7 @@ void vtkFreeFormDeformation::TellWarnings()
   const std::string held = state.StrokeReplay.strokesInFeather();
   if (!held.empty() && !state.WarnedOfMask)
   {
-    vtkWarningMacro(<< held << ".");
+    warn(this, held);
   }
   state.WarnedOfMask = !held.empty();
 }

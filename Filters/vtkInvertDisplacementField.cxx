@@ -3,6 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
+#include "Common/Numbers.h"
 #include "Common/Portions.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Deformation/Inversion.h"
@@ -157,8 +158,10 @@ int vtkInvertDisplacementField::RequestData(
   this->LargestError = *std::max_element(errors.begin(), errors.end());
   if (this->LargestError > LargestGoodErrorMm)
   {
-    vtkWarningMacro(<< "The displacement field folds: the error of its inverse is up to "
-                    << this->LargestError << " mm; the limit is " << LargestGoodErrorMm << " mm.");
+    warn(this,
+      "The displacement field folds: the error of its inverse is up to " +
+        roundedText(this->LargestError) + " mm; the limit is " + numberText(LargestGoodErrorMm) +
+        " mm");
   }
   // A field that does not say leads backward, as registration programs' do.
   const Direction was = directionOf(input).value_or(Direction::Backward);

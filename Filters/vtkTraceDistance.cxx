@@ -4,6 +4,7 @@
 #include "Common/FilledArray.h"
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
+#include "Common/Numbers.h"
 #include "Common/Portions.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/MaskImage.h"
@@ -249,10 +250,10 @@ void vtkTraceDistance::FindCortex(vtkInformationVector** inputs)
   {
     const double* range = scalars->GetRange(0);
     throw Problem((byLabel ? "Label is " + std::to_string(this->Label)
-                           : "Threshold is " + std::to_string(this->Threshold)) +
+                           : "Threshold is " + numberText(this->Threshold)) +
       " and gives no surface; the scalars of " +
-      (segmentation ? "the segmentation" : "the volume") + " go from " + std::to_string(range[0]) +
-      " to " + std::to_string(range[1]));
+      (segmentation ? "the segmentation" : "the volume") + " go from " + roundedText(range[0]) +
+      " to " + roundedText(range[1]));
   }
   const Lattice lattice = effectiveLattice(deformation);
   state.Map.emplace(lattice, deformation.inverse);

@@ -11,6 +11,7 @@
 #include "Interaction/Workarounds/Selections.h"
 #include "Plugin/ComparisonLegend.h"
 #include "Plugin/FirstLook.h"
+#include "Plugin/SliceGreys.h"
 
 #include "Interaction/Commands/Application.h"
 
@@ -51,6 +52,10 @@ void prepare(pqRepresentation* display)
     return;
   }
   auto data = qobject_cast<pqDataRepresentation*>(display);
+  if (data)
+  {
+    volume ? brainshift::takeColorsBack(data) : brainshift::keepGreysSoon(data);
+  }
   if (!representation->GetUsingScalarColoring() && data)
   {
     volume ? brainshift::showFirstLook(data) : brainshift::colorByFirstArray(data);
@@ -106,6 +111,9 @@ void BrainShiftBehavior::watchRepresentation(pqRepresentation* representation)
   }
   QObject::connect(display, &pqDataRepresentation::representationTypeModified, this,
     [display] { prepare(display); });
+  // The user may choose an array that a look colours.
+  QObject::connect(display, &pqDataRepresentation::colorTransferFunctionModified, this,
+    [display] { brainshift::keepGreysSoon(display); });
   prepare(display);
   if (!pqApplicationCore::instance()->isLoadingState())
   {

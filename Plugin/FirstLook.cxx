@@ -5,6 +5,7 @@
 #include "Interaction/Displays/LabelMaps.h"
 #include "Interaction/Displays/VolumeLook.h"
 #include "Interaction/Views/ActiveDeformation.h"
+#include "Plugin/FirstSight.h"
 
 #include <pqDataRepresentation.h>
 #include <pqOutputPort.h>
@@ -22,7 +23,6 @@
 #include <vtkSMPVRepresentationProxy.h>
 #include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
-#include <vtkSMRenderViewProxy.h>
 #include <vtkSMSessionProxyManager.h>
 #include <vtkSMSourceProxy.h>
 #include <vtkSMTransferFunctionManager.h>
@@ -40,23 +40,6 @@ namespace brainshift
 {
 namespace
 {
-// Whether a source is another one, or made of it.
-bool isMadeOf(pqPipelineSource* source, pqPipelineSource* other)
-{
-  auto filter = qobject_cast<pqPipelineFilter*>(source);
-  const QList<pqOutputPort*> inputs = filter ? filter->getAllInputs() : QList<pqOutputPort*>();
-  return source == other || std::any_of(inputs.begin(), inputs.end(), [&](pqOutputPort* input) {
-    return isMadeOf(input->getSource(), other);
-  });
-}
-
-// The display's own input comes later than the display.
-pqPipelineSource* sourceOf(pqDataRepresentation* display)
-{
-  return serverManagerModel()->findItem<pqPipelineSource*>(
-    vtkSMPropertyHelper(display->getProxy(), "Input").GetAsProxy());
-}
-
 enum class Users // of a colour map
 {
   None,
@@ -84,32 +67,6 @@ Users usersOf(vtkSMProxy* colors, pqDataRepresentation* asking)
   return users;
 }
 
-// ParaView looks along -z, with y up, until the user turns the camera.
-bool isUnturned(vtkSMProxy* view)
-{
-  const std::vector<double> from = vtkSMPropertyHelper(view, "CameraPosition").GetDoubleArray();
-  const std::vector<double> to = vtkSMPropertyHelper(view, "CameraFocalPoint").GetDoubleArray();
-  const std::vector<double> up = vtkSMPropertyHelper(view, "CameraViewUp").GetDoubleArray();
-  const double distance = std::abs(from[2] - to[2]);
-  return from[2] >= to[2] && std::abs(from[0] - to[0]) <= 1e-6 * distance &&
-    std::abs(from[1] - to[1]) <= 1e-6 * distance && up[1] == 1.0;
-}
-
-bool isShownVolume(pqRepresentation* display)
-{
-  auto data = qobject_cast<pqDataRepresentation*>(display);
-  return data && data->isVisible() && showsVolume(data);
-}
-
-// Of several volumes that are opened at once, the camera turns to the first. Outlines of masks do
-// not count.
-bool isFirstVolume(pqDataRepresentation* display)
-{
-  const QList<pqRepresentation*> all = display->getView()->getRepresentations();
-  const auto first = std::find_if(all.begin(), all.end(), isShownVolume);
-  return first != all.end() && *first == display;
-}
-
 void hideScale(pqDataRepresentation* display)
 {
   if (display->getView())
@@ -123,22 +80,14 @@ void hideScale(pqDataRepresentation* display)
 // need. Both later: then the display has a view, and ParaView has placed the camera.
 void finishLater(pqDataRepresentation* display, const std::vector<double>& tissue)
 {
-  QTimer::singleShot(0, display, [display, tissue] {
-    if (!showsVolume(display)) // slices by now
-    {
-      return;
-    }
-    auto view = vtkSMRenderViewProxy::SafeDownCast(
-      display->getView() ? display->getView()->getProxy() : nullptr);
-    if (!view)
+  noteTissue(display, tissue);
+  QTimer::singleShot(0, display, [display] {
+    if (!showsVolume(display) || !display->getView()) // slices by now
     {
       return;
     }
     hideScale(display);
-    if (display->isVisible() && isFirstVolume(display) && isUnturned(view))
-    {
-      aimAt(view, tissue);
-    }
+    bringIntoSight(display);
     display->getView()->render();
   });
 }
@@ -236,6 +185,10 @@ void giveLook(pqDataRepresentation* display)
     applyLook(display, look);
     finishLater(display, look.tissue);
   }
+  else if (display->getLookupTableProxy())
+  {
+    noteUnchosen(display->getLookupTableProxy());
+  }
 }
 
 void takeOwnColors(pqDataRepresentation* display)
@@ -268,7 +221,7 @@ void showFirstLook(pqDataRepresentation* display)
       }
     });
   }
-  else if (colors && users == Users::None && (isNew || isLook(colors)))
+  else if (colors && users == Users::None && (isNew || isLook(colors) || isUnchosen(colors)))
   {
     giveLook(display);
   }

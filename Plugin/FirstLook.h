@@ -11,7 +11,7 @@ namespace brainshift
 /// Gives a Deformed Volume without colours an array to colour by, and its first look, or the one
 /// that the user chose last for volumes of its kind. Volumes that the pipeline makes of each other
 /// share their colours; another volume with an array of the same name gets colours of its own. The
-/// camera turns to the tissue if it has not been turned yet. A choice that the user made stays.
+/// camera turns to the tissue (FirstSight.h). A choice that the user made stays.
 ///
 /// A label map has no look. Its reader's first picture is its outline, so that it covers nothing.
 /// A volume of one constant value has no look either, but remains drawn as ParaView draws it.

@@ -9,6 +9,7 @@
 #include "Representations/Field/TissueFacts.h"
 #include "Representations/Gpu/WindowDevices.h"
 #include "Representations/Picture/MovingQuality.h"
+#include "Representations/Scene/Remarks.h"
 #include "Representations/Scene/SceneFrame.h"
 #include "Representations/Slices/SliceDrawer.h"
 #include "Representations/Tissue/SceneReference.h"
@@ -144,9 +145,9 @@ bool vtkDeformedSlicesMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   }
   for (const std::string& remark : gpu.remarks)
   {
-    if (this->Internal->Told.insert(remark).second)
+    if (this->Internal->Told.insert(remark).second && isNewRemark(image, remark))
     {
-      vtkWarningMacro(<< remark << ".");
+      warn(this, remark);
     }
   }
   problem = gpu.problem;

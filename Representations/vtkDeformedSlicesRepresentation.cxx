@@ -5,6 +5,7 @@
 #include "vtkDeformedSlicesMapper.h"
 #include "vtkDeformedSlicesRepresentation.h"
 #include "vtkImageData.h"
+#include "vtkMatrix3x3.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVLODVolume.h"
 #include "vtkPVRenderView.h"
@@ -39,6 +40,43 @@ private:
 };
 
 vtkStandardNewMacro(SlicesProp);
+
+// What the letters need of the volume, as points, which ParaView delivers: the world axes, then the
+// directions of the grid's axes.
+constexpr int AxesPoints = 4;
+
+vtkSmartPointer<vtkPoints> axesAsPoints(vtkImageData* image)
+{
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetDataTypeToDouble();
+  points->InsertNextPoint(image ? static_cast<double>(worldAxesOf(image)) : 0.0, 0.0, 0.0);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    double direction[3] = { axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0 };
+    for (int row = 0; image && row < 3; ++row)
+    {
+      direction[row] = image->GetDirectionMatrix()->GetElement(row, axis);
+    }
+    points->InsertNextPoint(direction);
+  }
+  return points;
+}
+
+bool areEqual(vtkPoints* points, vtkPoints* others)
+{
+  for (vtkIdType i = 0; i < AxesPoints; ++i)
+  {
+    std::array<double, 3> one{};
+    std::array<double, 3> other{};
+    points->GetPoint(i, one.data());
+    others->GetPoint(i, other.data());
+    if (one != other)
+    {
+      return false;
+    }
+  }
+  return true;
+}
 
 // Where the data is elsewhere, ParaView's outline stands for it.
 bool SlicesProp::Draws(bool translucent)
@@ -92,9 +130,7 @@ vtkDeformedSlicesRepresentation::vtkDeformedSlicesRepresentation()
   this->Marks = vtk::TakeSmartPointer(brainshift::OrientationMarks::New());
   this->Marks->SetVisibility(false);
   this->Marks->Volume = prop;
-  vtkNew<vtkPoints> points;
-  points->InsertNextPoint(0.0, 0.0, 0.0);
-  this->AxesPiece->SetPoints(points);
+  this->AxesPiece->SetPoints(brainshift::axesAsPoints(nullptr));
 }
 
 // Whoever still holds the prop must not draw.
@@ -242,11 +278,9 @@ void vtkDeformedSlicesRepresentation::DeliverAxes(
 {
   if (request == vtkPVView::REQUEST_UPDATE())
   {
-    const double axes = static_cast<double>(brainshift::worldAxesOf(this->Cache));
-    if (this->AxesPiece->GetPoint(0)[0] != axes) // an unchanged piece is not sent again
+    const auto points = brainshift::axesAsPoints(vtkImageData::SafeDownCast(this->Cache));
+    if (!brainshift::areEqual(points, this->AxesPiece->GetPoints())) // else it is not sent again
     {
-      vtkNew<vtkPoints> points;
-      points->InsertNextPoint(axes, 0.0, 0.0);
       this->AxesPiece->SetPoints(points);
     }
     vtkPVRenderView::SetPiece(input, this, this->AxesPiece, 0, AxesPort);
@@ -255,9 +289,13 @@ void vtkDeformedSlicesRepresentation::DeliverAxes(
   else if (request == vtkPVView::REQUEST_RENDER())
   {
     auto piece = vtkPolyData::SafeDownCast(vtkPVView::GetDeliveredPiece(input, this, AxesPort));
-    if (piece && piece->GetNumberOfPoints() > 0)
+    if (piece && piece->GetNumberOfPoints() >= brainshift::AxesPoints)
     {
       this->AttachedAxes = static_cast<int>(piece->GetPoint(0)[0]);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        piece->GetPoint(1 + axis, this->Marks->GridAxes[axis].data());
+      }
       this->UpdateMarks();
     }
   }

@@ -100,7 +100,7 @@ private:
   bool OrientationMarks = false;
   int WorldAxes = 0;
   int AttachedAxes = 0;          // those of the volume
-  vtkNew<vtkPolyData> AxesPiece; // one point; its x is AttachedAxes
+  vtkNew<vtkPolyData> AxesPiece; // AttachedAxes and the grid's axes
   vtkSmartPointer<brainshift::OrientationMarks> Marks;
 };
 

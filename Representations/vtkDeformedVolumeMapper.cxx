@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/Guard.h"
 #include "Common/LabelTable.h"
+#include "Common/Numbers.h"
 #include "Representations/Field/TissueFacts.h"
 #include "Representations/Gpu/WindowDevices.h"
 #include "Representations/Picture/VolumeDevice.h"
 #include "Representations/Scene/OverVolumes.h"
+#include "Representations/Scene/Remarks.h"
 
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkImageData.h"
@@ -259,8 +261,9 @@ double vtkDeformedVolumeMapper::StepOn(const Grid& grid)
   if (step > asked)
   {
     std::ostringstream remark;
-    remark << "SampleDistance is " << asked << " mm; a ray of " << longest << " mm takes at most "
-           << MostSamples << " samples, so it is drawn with " << step << " mm";
+    remark << "Sample Distance is " << asked << " mm; a ray of " << roundedText(longest)
+           << " mm takes at most " << MostSamples << " samples, so it is drawn with "
+           << roundedText(step) << " mm";
     this->TellOnce(remark.str());
   }
   return step;
@@ -319,9 +322,10 @@ void vtkDeformedVolumeMapper::ComparePlainly(VolumeRequest& request)
 
 void vtkDeformedVolumeMapper::TellOnce(const std::string& sentence)
 {
-  if (!sentence.empty() && this->Internal->Told.insert(sentence).second)
+  if (!sentence.empty() && this->Internal->Told.insert(sentence).second &&
+    isNewRemark(this->GetDataSetInput(), sentence))
   {
-    vtkWarningMacro(<< sentence << ".");
+    warn(this, sentence);
   }
 }
 

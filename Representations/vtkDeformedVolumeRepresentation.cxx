@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDeformedVolumeRepresentation.h"
 
+#include "Common/Guard.h"
 #include "Representations/Picture/SelectionCover.h"
 #include "Representations/Window/EdgeSmoothing.h"
 #include "Representations/Window/MovingWindow.h"
@@ -137,7 +138,7 @@ void vtkDeformedVolumeRepresentation::AddGradientOpacity(double gradient, double
 {
   if (!std::isfinite(gradient) || !(factor >= 0.0 && factor <= 1.0))
   {
-    vtkErrorMacro("GradientOpacity: the pair "
+    vtkErrorMacro("Gradient Opacity: the pair "
       << gradient << " " << factor << " is left out; it needs a number and a factor of 0 to 1.");
     return;
   }
@@ -170,7 +171,7 @@ void vtkDeformedVolumeRepresentation::TellOnce(bool unsupported, const std::stri
 {
   if (unsupported && this->Told.insert(sentence).second)
   {
-    vtkWarningMacro(<< sentence << ".");
+    brainshift::warn(this, sentence);
   }
 }
 

@@ -4,6 +4,7 @@
 #include "Common/FieldWord.h"
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
+#include "Common/Numbers.h"
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
@@ -140,7 +141,7 @@ std::shared_ptr<const NodeWeights> readWeights(
     [](float weight) { return weight >= 0 && weight <= 1; });
   if (wrong != weights.values.end())
   {
-    refuse(MaskName, " holds " + std::to_string(*wrong) + "; weights must be from 0 to 1");
+    refuse(MaskName, " holds " + roundedText(*wrong) + "; weights must be from 0 to 1");
   }
   return weights.values.empty() ? nullptr : std::make_shared<const NodeWeights>(std::move(weights));
 }

@@ -352,7 +352,7 @@ void requireLatticeSides(const glm::ivec3& sides)
     glm::any(glm::greaterThan(sides, glm::ivec3(LargestLatticeSide))))
   {
     std::ostringstream problem;
-    problem << "LatticeDimensions is " << sides.x << " x " << sides.y << " x " << sides.z
+    problem << "Lattice Dimensions is " << sides.x << " x " << sides.y << " x " << sides.z
             << "; each side must have from " << SmallestLatticeSide << " to " << LargestLatticeSide
             << " points";
     throw Problem(problem.str());

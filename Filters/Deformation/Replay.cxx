@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/Replay.h"
 
+#include "Common/Numbers.h"
+
 #include <algorithm>
 #include <sstream>
 
@@ -199,14 +201,13 @@ std::string Replay::strokesInFeather() const
     if (stroke.enabled && this->Achieved[number] < FullyAchieved * glm::length(stroke.vector) &&
       isFeathered(this->Base, stroke.anchor))
     {
-      named.add(std::to_string(number));
+      named.add(std::to_string(number + 1));
     }
   }
   return named.empty() ? std::string()
                        : "The mask holds back the tissue at the anchor of stroke " + named.text() +
-      ": it is outside the mask or in its feather. StrokeReaches gives its achieved displacement "
-      "(mm). Raise MaskGrowth, lower Feather, or use the mask as Segmentation, which limits "
-      "nothing";
+      ": it is outside the mask or in its feather. Raise Mask Growth, lower Feather, or use the "
+      "mask as Segmentation, which limits nothing";
 }
 
 std::string strokesTooFine(const std::vector<Stroke>& strokes, const Grid& lattice)
@@ -219,7 +220,7 @@ std::string strokesTooFine(const std::vector<Stroke>& strokes, const Grid& latti
     if (strokes[number].enabled && radius > 0.0 && radius < spacing * (1.0 - Rounding))
     {
       std::ostringstream name;
-      name << number << " (" << radius << " mm)";
+      name << number + 1 << " (" << roundedText(radius) << " mm)";
       named.add(name.str());
     }
   }
@@ -229,7 +230,7 @@ std::string strokesTooFine(const std::vector<Stroke>& strokes, const Grid& latti
   }
   std::ostringstream sentence;
   sentence << "The lattice is too coarse for the radius of stroke " << named.text()
-           << ": its spacing is " << spacing << " mm. Make LatticeDimensions larger";
+           << ": its spacing is " << roundedText(spacing) << " mm. Make Lattice Dimensions larger";
   return sentence.str();
 }
 }

@@ -122,7 +122,7 @@ std::vector<Stroke> strokesFromNumbers(const std::vector<double>& numbers)
     const std::string problem = problemOfStroke(&numbers[first]);
     if (!problem.empty())
     {
-      throw Problem("Stroke " + std::to_string(first / NumbersPerStroke) + ": " + problem);
+      throw Problem("Stroke " + std::to_string(first / NumbersPerStroke + 1) + ": " + problem);
     }
     strokes.push_back(strokeFromNumbers(&numbers[first]));
   }

@@ -174,7 +174,7 @@ std::string joined(const Parts&... parts)
 std::string wordsOnSides(const FittedFor& fitted)
 {
   const glm::dvec3& sides = fitted.dimensions;
-  return joined("LatticeDimensions ", sides.x, " x ", sides.y, " x ", sides.z);
+  return joined("Lattice Dimensions ", sides.x, " x ", sides.y, " x ", sides.z);
 }
 
 std::string wordsOnKernel(const FittedFor& fitted)

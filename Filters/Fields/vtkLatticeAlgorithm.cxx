@@ -71,7 +71,7 @@ void vtkLatticeAlgorithm::RequireSettings() const
   }
   if (!isLength(this->MaskGrowth) && this->MaskGrowth != ByFeather)
   {
-    words << "MaskGrowth is " << this->MaskGrowth << " mm; it must be 0 or more, and finite, or "
+    words << "Mask Growth is " << this->MaskGrowth << " mm; it must be 0 or more, and finite, or "
           << ByFeather << " for the width of Feather";
     throw Problem(words.str());
   }

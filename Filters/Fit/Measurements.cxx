@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Fit/Measurements.h"
 
+#include "Common/Numbers.h"
+
 #include <deque>
 #include <map>
 #include <sstream>
@@ -45,7 +47,7 @@ void requirePairs(const std::string& what, const std::vector<PointPair>& pairs)
     if (!(pairs[i].weight >= 0.0 && std::isfinite(pairs[i].weight)))
     {
       throw Problem("The weight of " + what + " " + std::to_string(i + 1) + " is " +
-        std::to_string(pairs[i].weight) + "; it must be 0 or more, and finite");
+        numberText(pairs[i].weight) + "; it must be 0 or more, and finite");
     }
   }
 }
@@ -130,7 +132,7 @@ void requireGood(const FitSettings& settings)
   {
     if (!(value > 0.0 && std::isfinite(value)))
     {
-      throw Problem(std::string("The ") + name + " is " + std::to_string(value) +
+      throw Problem(std::string("The ") + name + " is " + numberText(value) +
         "; it must be above 0, and finite");
     }
   }

@@ -2,6 +2,7 @@
 #include "Filters/Measured/RestCortex.h"
 
 #include "Common/ImageGrid.h"
+#include "Common/Numbers.h"
 #include "Filters/Attached/DeformableVolume.h"
 
 #include "vtkDataArray.h"
@@ -180,9 +181,9 @@ void CortexSource::find(const Request& request)
   if (this->Cortex.isEmpty())
   {
     const double* range = scalars->GetRange(0);
-    throw Problem((request.isLabel ? "Label is " : "Threshold is ") +
-      std::to_string(request.level) + " and gives no cortex; the scalars of the " + request.where +
-      " go from " + std::to_string(range[0]) + " to " + std::to_string(range[1]));
+    throw Problem((request.isLabel ? "Label is " : "Threshold is ") + numberText(request.level) +
+      " and gives no cortex; the scalars of the " + request.where + " go from " +
+      roundedText(range[0]) + " to " + numberText(range[1]));
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "Common/FilledArray.h"
 #include "Common/Guard.h"
+#include "Common/Numbers.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/MaskImage.h"
 #include "Filters/Fields/BaseLattice.h"
@@ -68,13 +69,13 @@ std::string warningAbout(const FittedLattice& fitted)
   const double degrees = glm::degrees(glm::length(vectorFrom(fitted.fit().rigid().rotation)));
   if (degrees > FarRotationDegrees && fitted.fit().isRotationExpectedSmall())
   {
-    sentences.push_back("The fit rotated the volume by " + std::to_string(degrees) +
+    sentences.push_back("The fit rotated the volume by " + roundedText(degrees) +
       " degrees, more than so few pairs can support; check that the pairs match");
   }
   if (fitted.fraction() < 1.0)
   {
     sentences.push_back(
-      "The fold guard applied " + std::to_string(fitted.fraction()) + " of the deformation");
+      "The fold guard applied " + percentText(fitted.fraction()) + " of the deformation");
   }
   else if (fitted.relaxation() > 1.0)
   {
@@ -276,7 +277,7 @@ void vtkFitDeformation::RequireProperties() const
   }
   if (!(this->OpeningRadius >= 0.0 && std::isfinite(this->OpeningRadius)))
   {
-    throw Problem("OpeningRadius is " + std::to_string(this->OpeningRadius) +
+    throw Problem("Opening Radius is " + numberText(this->OpeningRadius) +
       " mm; it must be 0 or more, and finite");
   }
 }
@@ -429,7 +430,7 @@ int vtkFitDeformation::RequestData(
   const std::string warning = joined({ noEvidence, isPicking ? "" : doubts, state.warning() });
   if (warning != state.WarnedOf && !warning.empty())
   {
-    vtkWarningMacro(<< warning << ".");
+    warn(this, warning);
   }
   state.WarnedOf = warning; // it is repeated only after it was gone
   state.Warning = isPicking ? joined({ warning, doubts }) : warning;

@@ -4,6 +4,7 @@
 #include "Common/Guard.h"
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
+#include "Common/Numbers.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Register/Alignment.h"
@@ -166,7 +167,7 @@ void requireRefinable(const Deformation* bent, const Grid& rest)
   }
   if (bent->strength != 1.0)
   {
-    throw Problem("Strength is " + std::to_string(bent->strength) + "; a refinement needs 1");
+    throw Problem("Strength is " + numberText(bent->strength) + "; a refinement needs 1");
   }
   if (bent->inverse != Inverse::Exact)
   {
@@ -227,7 +228,7 @@ void vtkRegistrationRun::Begin(bool bends)
   if (!(this->Stiffness > 0.0)) // also rejects NaN
   {
     throw brainshift::Problem(
-      "Stiffness is " + std::to_string(this->Stiffness) + "; it must be above 0");
+      "Stiffness is " + numberText(this->Stiffness) + "; it must be above 0");
   }
   RefinementSettings settings;
   const brainshift::Similarity& similarity = similarities()[this->Similarity];

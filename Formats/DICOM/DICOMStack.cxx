@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/DICOM/DICOMStack.h"
 
+#include "Common/Numbers.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -304,22 +306,23 @@ std::string unevenSentence(
     text << ", as if " << missing << (missing == 1.0 ? " slice were" : " slices were")
          << " missing";
   }
-  text << ": they are from " << *std::min_element(steps.begin(), steps.end()) << " to "
-       << *std::max_element(steps.begin(), steps.end()) << " mm apart, and up to " << shiftMm
-       << " mm from even places. They are ";
-  text << (resamples ? "interpolated there; with ResampleSlices 0 they are shown as stored"
-                     : "shown as if they were even; ResampleSlices 1 interpolates them");
+  text << ": they are from " << roundedText(*std::min_element(steps.begin(), steps.end())) << " to "
+       << roundedText(*std::max_element(steps.begin(), steps.end())) << " mm apart, and up to "
+       << roundedText(shiftMm) << " mm from even places. They are ";
+  text << (resamples ? "interpolated there; Resample Slices \"Never\" shows them as stored"
+                     : "shown as if they were even; Resample Slices \"Always\" interpolates them");
   return text.str();
 }
 
 std::string tiltSentence(double driftMm, bool resamples)
 {
   std::ostringstream text;
-  text << "has tilted slices: the last is " << driftMm << " mm beside the normal of the first. "
+  text << "has tilted slices: the last is " << roundedText(driftMm)
+       << " mm beside the normal of the first. "
        << (resamples
-              ? "They are interpolated on an upright grid; with ResampleSlices 0 they are shown as "
+              ? "They are interpolated on an upright grid; Resample Slices \"Never\" shows them as "
                 "stored"
-              : "ResampleSlices 1 interpolates them on an upright grid");
+              : "Resample Slices \"Always\" interpolates them on an upright grid");
   return text.str();
 }
 

@@ -270,7 +270,7 @@ void placeByVolume(
     surface.notes.emplace_back(
       "has no position of its volume (its volume geometry is not valid): it is shown as if the "
       "centre of the volume were at 0, 0, 0 mm. Set Volume to the volume it was made from, or "
-      "VolumeCenter to that volume's c_ras");
+      "Volume Center to that volume's c_ras");
   }
 }
 

@@ -296,7 +296,7 @@ void readGIFTISurface(const std::vector<char>& text, const GivenVolume&, Surface
   if (!points || !triangles)
   {
     throw Problem(std::string("has no array ") + (points ? TriangleIntent : PointIntent) +
-      "; open the file of the surface, and name this file as one of its ValueFileNames");
+      "; open the file of the surface, and name this file as one of its Value File Names");
   }
   requireShape(*points, "points", false);
   requireShape(*triangles, "triangles", true);

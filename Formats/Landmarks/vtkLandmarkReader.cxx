@@ -62,7 +62,7 @@ int vtkLandmarkReader::RequestData(
   throwIfAny(this->Problem);
   for (const std::string& note : list.notes)
   {
-    vtkWarningMacro("Landmark file " << this->FileName << " " << note << ".");
+    warn(this, std::string("Landmark file ") + this->FileName + " " + note);
   }
   setLandmarks(vtkPolyData::GetData(information), list);
   return 1;

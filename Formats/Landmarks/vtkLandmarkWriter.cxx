@@ -41,7 +41,7 @@ void vtkLandmarkWriter::WriteData()
   }
   for (const std::string& note : list.notes)
   {
-    vtkWarningMacro("File " << this->FileName << " " << note << ".");
+    brainshift::warn(this, std::string("File ") + this->FileName + " " + note);
   }
 }
 

@@ -9,6 +9,7 @@
 /// (without a name; vectors in LPS); intent 1007 of NiftyReg (vectors in RAS; intent_p1 0:
 /// positions, 1: displacements) and of SPM ("Mapping": positions in RAS). Other names are refused:
 /// their vectors may be anything.
+#include "Common/Guard.h"
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Fields/FieldImage.h"
 #include "Formats/Files/Text.h"
@@ -142,7 +143,7 @@ void readVectors(const std::string& fileName, DirectedField& field)
   file.readHeader(fileName);
   for (const std::string& warning : file.warnings())
   {
-    vtkGenericWarningMacro(<< warning << ".");
+    warn(nullptr, warning);
   }
   if (file.header().components != 3)
   {

@@ -68,7 +68,7 @@ int vtkSurfaceReader::RequestData(
     surface, warnings);
   for (const std::string& warning : warnings)
   {
-    vtkWarningMacro(<< warning << ".");
+    warn(this, warning);
   }
   if (surface.points.empty())
   {

@@ -50,7 +50,7 @@ int vtkTractReader::RequestData(
   readTractFile(this->FileName, this->Volume, progress, tracts, warnings);
   for (const std::string& warning : warnings)
   {
-    vtkWarningMacro(<< warning << ".");
+    warn(this, warning);
   }
   if (isStopped)
   {

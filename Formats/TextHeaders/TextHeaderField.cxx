@@ -58,7 +58,7 @@ void place(const TextHeader& header, Grid& grid)
     if (std::abs(skew) > LargestSkew)
     {
       throw Problem("has axes that are not at right angles: the cosine between two is " +
-        std::to_string(skew) + "; the limit is " + std::to_string(LargestSkew));
+        roundedText(skew) + "; the limit is " + numberText(LargestSkew));
     }
   }
 }

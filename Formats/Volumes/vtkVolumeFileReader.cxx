@@ -286,7 +286,7 @@ int vtkVolumeFileReader::RequestInformation(
   const bool speaks = brainshift::isFirstRank();
   for (const std::string& warning : speaks ? this->Stored->warnings() : std::vector<std::string>())
   {
-    vtkWarningMacro(<< warning << ".");
+    brainshift::warn(this, warning);
   }
   brainshift::announce(output, this->Stored->geometry().grid);
   output->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
@@ -314,9 +314,10 @@ int vtkVolumeFileReader::RequestData(
   {
     // Nobody else takes the request back, and SetAbortExecute would have all read again.
     this->AbortExecute = 0;
-    vtkWarningMacro(<< "Reading " << (this->FileName ? this->FileName : "") << " was stopped. "
-                    << (this->Last.image ? "What was read before" : "Nothing")
-                    << " is shown. Change a property or reload the file to read it.");
+    brainshift::warn(this,
+      std::string("Reading ") + (this->FileName ? this->FileName : "") + " was stopped. " +
+        (this->Last.image ? "What was read before" : "Nothing") +
+        " is shown. Change a property or reload the file to read it");
   }
   return 1;
 }

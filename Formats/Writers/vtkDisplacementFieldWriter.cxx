@@ -63,7 +63,7 @@ void vtkDisplacementFieldWriter::WriteVolume(vtkImageData* image)
   writeVolume(this->FileName, volume, [](double) { return true; });
   if (!warning.empty())
   {
-    vtkWarningMacro(<< "File " << this->FileName << ": " << warning << ".");
+    warn(this, std::string("File ") + this->FileName + ": " + warning);
   }
 }
 

@@ -60,7 +60,7 @@ void vtkVolumeFileWriter::WriteImage()
   }
   if (!warning.empty())
   {
-    vtkWarningMacro(<< "File " << this->FileName << ": " << warning << ".");
+    warn(this, std::string("File ") + this->FileName + ": " + warning);
   }
 }
 

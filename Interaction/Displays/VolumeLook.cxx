@@ -34,22 +34,36 @@ void keepValues(vtkSMProxy* curve)
 }
 }
 
-VolumeLook makeVolumeLook(pqDataRepresentation* display, const QString& name)
+namespace
 {
-  VolumeLook look;
+// On the array that a display is coloured by, before it measures; null if there is none.
+vtkSmartPointer<vtkSMProxy> reportOn(pqDataRepresentation* display)
+{
   vtkSMProxy* representation = display->getProxy();
   const vtkSMPropertyHelper input(representation, "Input");
   const vtkSMPropertyHelper array(representation, "ColorArrayName", true);
   const vtkSmartPointer<vtkSMProxy> report = makeReport(representation, "VolumeLookReport");
   if (!report || !input.GetAsProxy() || !array.GetInputArrayNameToProcess())
   {
-    return look;
+    return nullptr;
   }
   pointAt(report, "Source", input.GetAsProxy());
   vtkSMPropertyHelper(report, "Port").Set(static_cast<int>(input.GetOutputPort()));
   vtkSMPropertyHelper(report, "Association")
     .Set(array.GetInputArrayAssociation() == vtkDataObject::CELL ? 1 : 0);
   vtkSMPropertyHelper(report, "ArrayName").Set(array.GetInputArrayNameToProcess());
+  return report;
+}
+}
+
+VolumeLook makeVolumeLook(pqDataRepresentation* display, const QString& name)
+{
+  VolumeLook look;
+  const vtkSmartPointer<vtkSMProxy> report = reportOn(display);
+  if (!report)
+  {
+    return look;
+  }
   vtkSMPropertyHelper(report, "Look").Set(name.toUtf8().constData());
   report->UpdateVTKObjects();
   report->InvokeCommand("Measure");
@@ -62,6 +76,18 @@ VolumeLook makeVolumeLook(pqDataRepresentation* display, const QString& name)
   look.tissue = vtkSMPropertyHelper(report, "TissuePoints").GetDoubleArray();
   look.name = look.colors.empty() ? QString() : name.isEmpty() ? look.names.value(0) : name;
   return look;
+}
+
+std::vector<double> tissueWindow(pqDataRepresentation* display)
+{
+  const vtkSmartPointer<vtkSMProxy> report = reportOn(display);
+  if (!report)
+  {
+    return {};
+  }
+  report->UpdateVTKObjects();
+  report->InvokeCommand("MeasureWindow");
+  return answerOf(report, "Window");
 }
 
 void applyLook(pqDataRepresentation* display, const VolumeLook& look)
@@ -98,6 +124,36 @@ bool isLook(vtkSMProxy* colors)
 {
   return given().value(colors->GetGlobalID()) ==
     vtkSMPropertyHelper(colors, "RGBPoints").GetDoubleArray();
+}
+
+namespace
+{
+// Without the values: ParaView changes their range by itself.
+std::vector<double> colorsAlone(vtkSMProxy* colors)
+{
+  std::vector<double> points = vtkSMPropertyHelper(colors, "RGBPoints").GetDoubleArray();
+  for (std::size_t i = 0; i < points.size(); i += 4)
+  {
+    points[i] = 0.0;
+  }
+  return points;
+}
+
+QMap<vtkTypeUInt32, std::vector<double>>& unchosen()
+{
+  static QMap<vtkTypeUInt32, std::vector<double>> colors;
+  return colors;
+}
+}
+
+void noteUnchosen(vtkSMProxy* colors)
+{
+  unchosen()[colors->GetGlobalID()] = colorsAlone(colors);
+}
+
+bool isUnchosen(vtkSMProxy* colors)
+{
+  return unchosen().value(colors->GetGlobalID()) == colorsAlone(colors);
 }
 
 QString chosenLook(const QString& kind)

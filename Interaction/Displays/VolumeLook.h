@@ -32,11 +32,20 @@ struct VolumeLook
 /// @param name   which one; empty: the first of them
 VolumeLook makeVolumeLook(pqDataRepresentation* display, const QString& name = {});
 
+/// The two values that bound the tissue of the array that colours a display, as Four Views shows
+/// it: from 1 % to 99 %. Empty if there are none.
+std::vector<double> tissueWindow(pqDataRepresentation* display);
+
 /// Gives a display these colours and opacities, and shading. It renders nothing.
 void applyLook(pqDataRepresentation* display, const VolumeLook& look);
 
 /// Whether a colour map is still as a preset set it. False if the user edited it.
 bool isLook(vtkSMProxy* colors);
+
+/// Remembers colours that nobody has chosen: those that ParaView gave to a volume without presets.
+void noteUnchosen(vtkSMProxy* colors);
+/// Whether a colour map still has them, over any range of values.
+bool isUnchosen(vtkSMProxy* colors);
 
 /// The preset that the user chose last for volumes of this kind; empty if none.
 QString chosenLook(const QString& kind);

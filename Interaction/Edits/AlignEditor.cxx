@@ -11,6 +11,7 @@
 #include <pqUndoStack.h>
 
 #include <vtkCommand.h>
+#include <vtkSMProperty.h>
 #include <vtkSMPropertyHelper.h>
 #include <vtkSMSourceProxy.h>
 #include <vtkSMTrace.h>
@@ -238,8 +239,11 @@ void AlignEditor::release()
   this->Edits.clear();
 }
 
-void AlignEditor::followChange(vtkObject* proxy, const char* property)
+void AlignEditor::followChange(vtkObject* object, const char* property)
 {
+  auto proxy = vtkSMProxy::SafeDownCast(object);
+  vtkSMProperty* changed = proxy->GetProperty(property);
+  const QString label = changed ? changed->GetXMLLabel() : property;
   const bool isOwn = proxy == this->Source->getProxy();
   if (isOwn && isAmong(Placement, property))
   {
@@ -250,15 +254,14 @@ void AlignEditor::followChange(vtkObject* proxy, const char* property)
     (std::strcmp(property, Placement[0]) == 0 ? wanted.rotation : wanted.translation) =
       std::strcmp(property, Placement[0]) == 0 ? now.rotation : now.translation;
     this->put(wanted);
-    this->end(State::Idle, tr("%1 was changed, so Align ended.").arg(QString(property)));
+    this->end(State::Idle, tr("%1 was changed, so Align ended.").arg(label));
   }
   else if (isOwn ? isAmong(Dependencies, property)
-                 : isAmong(DeformationDependencies, property) ||
-        isLatticeSetting(vtkSMProxy::SafeDownCast(proxy), property))
+                 : isAmong(DeformationDependencies, property) || isLatticeSetting(proxy, property))
   {
     this->cancel(
       tr("%1 was changed, so Align ended. The reference is back at its previous position.")
-        .arg(QString(property)));
+        .arg(label));
   }
 }
 }

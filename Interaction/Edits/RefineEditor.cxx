@@ -458,7 +458,8 @@ void RefineEditor::followChange(vtkObject*, const char* property)
     isLatticeSetting(this->Source->getProxy(), property))
   {
     this->abandon(tr("%1 of %2 was changed, so the refinement ended.")
-        .arg(QString(property), this->Source->getSMName()));
+        .arg(QString(this->Source->getProxy()->GetProperty(property)->GetXMLLabel()),
+          this->Source->getSMName()));
   }
 }
 }

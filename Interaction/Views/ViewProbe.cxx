@@ -110,6 +110,24 @@ std::vector<ControlPoint> LatticeProbe::fetch()
   return points;
 }
 
+glm::dvec3 pointOfInterestOf(vtkSMProxy* deformation)
+{
+  const glm::dvec3 set =
+    tripleAt(vtkSMPropertyHelper(deformation, "PointOfInterest").GetDoubleArray(), 0);
+  const std::optional<Grid> grid =
+    set == glm::dvec3(0.0) ? LatticeProbe(deformation).lattice() : std::nullopt;
+  if (!grid)
+  {
+    return set;
+  }
+  // A filter made before its volume was read did not know the volume's middle.
+  const glm::dvec3 end(grid->dimensions - 1);
+  const glm::dvec3 inGrid = grid->gridFromWorld(set);
+  const bool inside = glm::all(glm::greaterThanEqual(inGrid, glm::dvec3(0.0))) &&
+    glm::all(glm::lessThanEqual(inGrid, end));
+  return inside ? set : grid->worldFromGrid(end / 2.0);
+}
+
 namespace
 {
 // From the display's pixels and depth (0 near plane, 1 far plane).
@@ -214,20 +232,7 @@ double ViewProbe::strength() const
 
 glm::dvec3 ViewProbe::pointOfInterest()
 {
-  vtkSMProxy* filter = this->Deformation->getProxy();
-  const glm::dvec3 set =
-    tripleAt(vtkSMPropertyHelper(filter, "PointOfInterest").GetDoubleArray(), 0);
-  const std::optional<Grid> grid = set == glm::dvec3(0.0) ? this->lattice() : std::nullopt;
-  if (!grid)
-  {
-    return set;
-  }
-  // A filter made before its volume was read did not know the volume's middle.
-  const glm::dvec3 end(grid->dimensions - 1);
-  const glm::dvec3 inGrid = grid->gridFromWorld(set);
-  const bool inside = glm::all(glm::greaterThanEqual(inGrid, glm::dvec3(0.0))) &&
-    glm::all(glm::lessThanEqual(inGrid, end));
-  return inside ? set : grid->worldFromGrid(end / 2.0);
+  return pointOfInterestOf(this->Deformation->getProxy());
 }
 
 glm::dvec3 ViewProbe::ahead() const

@@ -65,6 +65,10 @@ private:
   vtkSmartPointer<vtkSMProxy> Report;
 };
 
+/// The point that the stamp aims at (mm, world axes): the property PointOfInterest of a Free-Form
+/// Deformation, or the centre of its volume if the property is 0 0 0 and that is outside.
+glm::dvec3 pointOfInterestOf(vtkSMProxy* deformation);
+
 class KeptPictures;
 
 /// Tissue under the cursor.
@@ -100,7 +104,7 @@ public:
   /// The property Strength of the filter.
   double strength() const;
 
-  /// The property PointOfInterest of the filter, or the centre of the volume if it was never set.
+  /// That of the filter: pointOfInterestOf.
   glm::dvec3 pointOfInterest();
 
   /// The direction of view, unit length.

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Panel/Properties/PointWidget.h"
 
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Edits/StrokeEditor.h"
+#include "Interaction/Views/ViewProbe.h"
 #include "Interaction/Workarounds/Docks.h"
 #include "Panel/Parts/MillimetreField.h"
 
+#include <pqPipelineSource.h>
 #include <pqPropertiesPanel.h>
 
 #include <vtkCommand.h>
 #include <vtkSMProperty.h>
-#include <vtkSMPropertyHelper.h>
 
 #include <QHBoxLayout>
 #include <QLabel>
@@ -37,9 +39,8 @@ PointWidget::PointWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* pa
     row->addWidget(label);
     row->addWidget(field, 1);
     this->Fields[axis] = field;
-    this->connect(field, &MillimetreField::valueEdited, this, [this, property, axis](double value) {
-      glm::dvec3 point(0.0);
-      vtkSMPropertyHelper(property).Get(&point[0], 3);
+    this->connect(field, &MillimetreField::valueEdited, this, [this, axis](double value) {
+      glm::dvec3 point = pointOfInterestOf(this->proxy());
       point[static_cast<int>(axis)] = value;
       setPointOfInterest(this->proxy(), point);
     });
@@ -53,6 +54,13 @@ PointWidget::PointWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* pa
   this->connect(
     centre, &QToolButton::clicked, this, [this] { centrePointOfInterest(this->proxy()); });
   this->Observers->Connect(property, vtkCommand::ModifiedEvent, this, SLOT(showPoint()));
+  const pqServerManagerModel* model = serverManagerModel();
+  if (auto source = model->findItem<pqPipelineSource*>(proxy))
+  {
+    // Before, the centre of the volume may not be known.
+    this->connect(source, qOverload<pqPipelineSource*>(&pqPipelineSource::dataUpdated), this,
+      &PointWidget::showPoint);
+  }
   new InSight(this);
   this->showPoint();
 }
@@ -61,9 +69,8 @@ PointWidget::~PointWidget() = default;
 
 void PointWidget::showPoint()
 {
-  std::array<double, 3> point{};
-  vtkSMPropertyHelper(this->property()).Get(point.data(), 3);
-  for (std::size_t axis = 0; axis < point.size(); ++axis)
+  const glm::dvec3 point = pointOfInterestOf(this->proxy());
+  for (int axis = 0; axis < 3; ++axis)
   {
     this->Fields[axis]->setValue(point[axis]);
   }

@@ -3,6 +3,7 @@
 
 #include "Filters/Fit/Fit.h"
 #include "Interaction/Commands/Application.h"
+#include "Interaction/Workarounds/QuietMessages.h"
 #include "Panel/Tools/ToolPanel.h"
 
 #include <pqRenderView.h>
@@ -191,10 +192,12 @@ void CursorLine::fallSilent()
   this->clear();
 }
 
-StatusLine::StatusLine(QWidget* parent)
+StatusLine::StatusLine(QWidget* parent, QuietMessages* messages)
   : QWidget(parent)
   , Switch(new QToolButton(this))
   , Line(new QLabel(this))
+  , Sign(new QToolButton(this))
+  , Warning(new QLabel(this))
 {
   const ToolSettings* settings = ToolSettings::instance();
   this->Switch->setObjectName("BrainShiftSwitchVolume");
@@ -209,8 +212,37 @@ StatusLine::StatusLine(QWidget* parent)
   row->setContentsMargins(6, 0, 6, 0);
   row->addWidget(this->Switch);
   row->addWidget(this->Line, 1);
+  this->Sign->setObjectName("BrainShiftMessages");
+  this->Sign->setAutoRaise(true);
+  this->Sign->setIcon(QIcon(":/BrainShift/warning.svg"));
+  this->Sign->setToolTip(tr("Show all messages."));
+  this->Sign->setAccessibleName(tr("Messages"));
+  this->Warning->setObjectName("BrainShiftWarning");
+  this->Warning->setTextFormat(Qt::PlainText); // names come from files
+  this->Warning->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  row->addWidget(this->Sign);
+  row->addWidget(this->Warning, 2); // it is longer than a hint
+  this->Warned.setSingleShot(true);
+  this->connect(&this->Warned, &QTimer::timeout, this, [this] { this->warn(QString()); });
+  this->connect(messages, &QuietMessages::said, this, &StatusLine::warn);
+  this->connect(this->Sign, &QToolButton::clicked, this, [this, messages] {
+    this->warn(QString());
+    messages->open();
+  });
   this->connect(settings, &ToolSettings::changed, this, &StatusLine::refresh);
+  this->warn(QString());
   this->refresh();
+}
+
+// Nothing: no warning any more.
+void StatusLine::warn(const QString& words)
+{
+  constexpr int warningMs = 60000; // a long one takes a while to be read
+  this->Warning->setText(words);
+  this->Warning->setToolTip("<p>" + words.toHtmlEscaped() + "</p>"); // wraps
+  this->Sign->setVisible(!words.isEmpty());
+  this->Warning->setVisible(!words.isEmpty());
+  words.isEmpty() ? this->Warned.stop() : this->Warned.start(warningMs);
 }
 
 void StatusLine::refresh()

@@ -16,6 +16,8 @@ class QToolButton;
 
 namespace brainshift
 {
+class QuietMessages;
+
 // Shows the tissue under the cursor in the status bar, in a view of Deformed Volume or Deformed
 // Slices. It is empty where the view shows no tissue.
 
@@ -50,19 +52,25 @@ private:
 };
 
 /// Shows the mouse gestures of the view under the cursor in the status bar of the window. If the
-/// view shows another volume than the tool works on, a button takes the tool to it.
+/// view shows another volume than the tool works on, a button takes the tool to it. A warning
+/// stands beside them for a while, or until its sign is pressed, which opens Output Messages.
 class StatusLine : public QWidget
 {
   Q_OBJECT
 
 public:
-  StatusLine(QWidget* parent);
+  /// `messages`: where warnings come from.
+  StatusLine(QWidget* parent, QuietMessages* messages);
 
 private:
   void refresh();
+  void warn(const QString& words);
 
   QToolButton* Switch;
   QLabel* Line;
+  QToolButton* Sign;
+  QLabel* Warning;
+  QTimer Warned; ///< Takes the warning away.
 };
 }
 

@@ -8,6 +8,7 @@
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
 #include "Interaction/Views/Flicker.h"
+#include "Interaction/Workarounds/QuietMessages.h"
 #include "Interaction/Workarounds/StopReading.h"
 #include "Panel/Tools/LookChoice.h"
 #include "Panel/Window/StatusLine.h"
@@ -47,7 +48,8 @@ Toolbar::Toolbar(QWidget* mainWindow)
   this->refresh();
   if (auto window = qobject_cast<QMainWindow*>(mainWindow))
   {
-    window->statusBar()->addWidget(new StatusLine(window), 1);
+    auto messages = new QuietMessages(window);
+    window->statusBar()->addWidget(new StatusLine(window, messages), 1);
     window->statusBar()->addWidget(new CursorLine(window));
     new StopReading(window); // lives as long as the window
   }

@@ -23,6 +23,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 #include <QWidget>
+#include <QWindow>
 
 #include <algorithm>
 #include <cstring>
@@ -151,6 +152,7 @@ void Tutorial::begin()
     tutorial = new Tutorial(window);
   }
   tutorial->show();
+  tutorial->belongToWindow();
   tutorial->raise();
 }
 
@@ -255,9 +257,29 @@ void Tutorial::go(int step)
   this->StrokesBefore = countStrokes(page.tool);
 }
 
+// Qt tells the window manager once whose tool this window is, when it is shown. ParaView makes its
+// window again when it gets its first view, and then the tool would belong to no window: it would
+// lie under the main window, at the latest after a click there.
+void Tutorial::belongToWindow()
+{
+  const WId owner = this->parentWidget()->internalWinId();
+  if (!this->isVisible() || owner == 0 || owner == this->Owner)
+  {
+    return;
+  }
+  this->Owner = owner;
+  this->setAttribute(Qt::WA_ShowWithoutActivating);
+  this->hide();
+  this->winId(); // so that it has a window to tell about
+  this->windowHandle()->setTransientParent(this->parentWidget()->windowHandle());
+  this->show();
+  this->setAttribute(Qt::WA_ShowWithoutActivating, false);
+}
+
 void Tutorial::watch()
 {
   closeWelcome();
+  this->belongToWindow();
   if (this->ColorsBefore.empty())
   {
     this->ColorsBefore = shownColors(); // the volume may be shown later than the step

@@ -41,6 +41,7 @@ private:
   void addButtons();
   void help();
   void go(int step);
+  void belongToWindow();
   void watch();
   bool isDone() const;
   void placeInCorner();
@@ -57,6 +58,7 @@ private:
   QPushButton* Back = nullptr;
   QPushButton* Skip = nullptr;
   QTimer Watch;
+  WId Owner = 0; ///< The main window's number, for which this window was shown as a tool.
 };
 }
 

@@ -326,10 +326,13 @@ def four_views(source, convention="radiological", world=None):
     `percentile_window`. Lines in each slice show the other two slices (`ShowCrosshair`). The
     slices have one zoom (`CameraParallelScale`).
 
-    The 3D view shows Deformed Volume, unless it shows the volume in another way already. The active
-    view becomes the 3D view if it is a render view that is alone in its layout. Otherwise four
-    views that were laid out before are used again: they keep their zoom if the new volume fills the
-    same box. Otherwise a new layout is made.
+    The 3D view shows Deformed Volume, unless it shows the volume in another way already. If the
+    active view shows the volume with its evidence or, for Compare Volumes, with a comparison, then
+    all four views do.
+
+    The active view becomes the 3D view if it is a render view that is alone in its layout.
+    Otherwise four views that were laid out before are used again: they keep their zoom if the new
+    volume fills the same box. Otherwise a new layout is made.
 
     - `source`: a ParaView source of image data, for example a Free-Form Deformation.
     - `convention`: `"radiological"`, the default, shows the patient's right on the left of the
@@ -348,12 +351,15 @@ def four_views(source, convention="radiological", world=None):
     if world is not None and world not in WORLDS:
         raise ValueError(f"world is {world}; it must be {' or '.join(WORLDS)}")
     source.UpdatePipeline()
+    shown = _display_in_active_view(source)
     laid_out = views_laid_out()
     views = laid_out or _new_views()
     former = _slices_shown(views, source) if laid_out else None
-    displays = _show_again(source, views, former) or _show_both(source, views, former)
+    displays = _show_again(source, views, former) or _show_both(source, views, former, shown)
     keeps = former is not None and _bounds(former) == _bounds(source)
     _look_at_slices(views, displays, convention, world, keeps)
+    if former is not None and not keeps:
+        simple.ResetCamera(views["volume"])
     simple.SetActiveView(views["volume"])
     _render(simple.GetRenderViews())
     return views
@@ -378,15 +384,52 @@ def _show_again(source, views, former):
     return {plane: displays[plane] for plane in PLANES}
 
 
-def _show_both(source, views, former):
-    """Shows the slices and the volume, in place of another volume if there is one."""
+def _show_both(source, views, former, shown):
+    """Shows the slices and the volume, in place of another volume if there is one. `shown`: the
+    display of the source in the view that was active, or None."""
     volume = _show_volume(source, views["volume"], former)
     displays = _show_slices(source, views, _coloring(source, volume), former)
     if former is not None:
         _hide(former, views)
     for name in LINKED:
         link([*displays.values(), volume], "representations", name)
+    if shown is not None:
+        _take_over(shown, displays, volume)
     return displays
+
+
+def _take_over(shown, displays, volume):
+    """Shows the comparison and the evidence that a display shows of the same source."""
+    if shown.ShowEvidence:
+        for display in (*displays.values(), volume):
+            display.ShowEvidence = 1
+    slices = displays["axial"]  # the others follow
+    way = _comparison_of(shown)
+    if way != "None":
+        for name in ("ComparisonColors", "WipePosition"):
+            slices.SMProxy.GetProperty(name).Copy(shown.SMProxy.GetProperty(name))
+        slices.SliceComparison = way
+
+
+def _comparison_of(display):
+    """How slices show the comparison that a display shows."""
+    kind = str(display.Representation.GetData())
+    if display.Input.GetXMLName() != "CompareVolumes":
+        return "None"
+    if kind == "Deformed Volume":
+        return "None" if str(display.VolumeComparison) == "Off" else "Two colours"
+    return str(display.SliceComparison.GetData()) if kind == "Deformed Slices" else "None"
+
+
+def _display_in_active_view(source):
+    """The display of a source that the active view shows, or None."""
+    from paraview import simple
+
+    view = simple.GetActiveView()
+    if view is None or view.GetXMLName() != "RenderView":
+        return None
+    display = display_of(source, view)
+    return display if display is not None and display.Visibility else None
 
 
 def _view_of_comparison(comparison, view):

@@ -19,7 +19,7 @@ constexpr float UnknownMm = 1e4f;
 
 constexpr const char* NoEvidence =
   "Show Evidence is on, but the volume carries no uncertainty: its Lattice must be a Fit "
-  "Deformation that has Evidence on and the same LatticeDimensions, Kernel, Samples and mask. "
+  "Deformation that has Evidence on and the same Lattice Dimensions, Kernel, Samples and mask. "
   "Nothing is marked";
 }
 

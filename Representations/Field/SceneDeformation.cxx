@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Representations/Field/SceneDeformation.h"
 
+#include "Common/Numbers.h"
 #include "Common/Problem.h"
 #include "Representations/Scene/FieldPlace.h"
 
@@ -157,7 +158,7 @@ void DeviceDeformation::correct(
     std::ostringstream remark;
     remark
       << "The deformation varies so strongly that parts of it are drawn with errors of more than "
-      << accuracy.allowedMm << " mm. Increase Samples for a more exact picture";
+      << roundedText(accuracy.allowedMm) << " mm. Increase Samples for a more exact picture";
     gpu.remarks.push_back(remark.str());
   }
 }

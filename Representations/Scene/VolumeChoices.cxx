@@ -261,13 +261,13 @@ std::vector<std::string> unsupportedChoices(
   const int components = scalars->GetNumberOfComponents();
   const std::string problem = tableProblem(mapper, property, scalars);
   say(wantsTable(property) && !problem.empty(),
-    "Use 2D Transfer Function (UseTransfer2D) is on, but " + problem +
+    "Use 2D Transfer Function is on, but " + problem +
       ": Deformed Volume uses the colour map and the opacity curve");
   say(wantsGradient(property) && opacityOf(mapper, property, scalars) == Opacity::Scalar,
     "Gradient opacity needs blend mode Composite: Deformed Volume uses the scalar's opacity");
   say(
     !property->GetIndependentComponents() && components != 1 && components != 2 && components != 4,
-    "Colours and opacity given directly (MapScalars off, or MultiComponentsMapping) need 2 or 4 "
+    "Colours and opacity given directly (Map Scalars off, or Multi Components Mapping) need 2 or 4 "
     "components; the array has " +
       std::to_string(components) + ": Deformed Volume uses the colour map");
   const int planes = clipPlaneCount(mapper);
@@ -284,7 +284,7 @@ std::vector<std::string> unsupportedChoices(
       std::to_string(MaxIsovalues));
   vtkImplicitFunction* slice = property->GetSliceFunction();
   say(mode == static_cast<int>(Blend::Slice) && !slicePlaneOf(property),
-    std::string("Blend mode Slice needs a plane as Slice Type (SliceFunction); there is ") +
+    std::string("Blend mode Slice needs a plane as Slice Type; there is ") +
       (slice ? slice->GetClassName() : "none") + ": Deformed Volume composites");
   return sentences;
 }

@@ -7,20 +7,25 @@
 
 #include "vtkCamera.h"
 #include "vtkCoordinate.h"
+#include "vtkMath.h"
 #include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
 #include "vtkProp3D.h"
 #include "vtkRenderer.h"
 #include "vtkTextProperty.h"
 
+#include <glm/gtc/type_ptr.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace brainshift
 {
 namespace
 {
-constexpr double Follows = 0.9; // cosine between a direction and an axis, at least
+constexpr double Follows = 0.9;      // cosine between a direction and an axis, at least
+constexpr double LeastDegrees = 5.0; // from an axis; less is not told
 constexpr int FontSize = 22;
 constexpr int NameFontSize = 16;
 constexpr int WarningFontSize = 13;
@@ -56,26 +61,50 @@ const Sides& sidesOf(WorldAxes axes)
   return axes == WorldAxes::RAS ? ras : axes == WorldAxes::LPS ? lps : unknown;
 }
 
-std::string letterOf(const double direction[3], double sign, const Sides& sides)
+// " 12°"; nothing where the angle is too small to matter.
+std::string angleText(double cosine)
 {
-  for (int axis = 0; axis < 3; ++axis)
+  const double degrees = vtkMath::DegreesFromRadians(std::acos(std::min(std::abs(cosine), 1.0)));
+  return degrees < LeastDegrees ? std::string()
+                                : " " + std::to_string(std::lround(degrees)) + "\u00b0";
+}
+
+std::string letterOf(const double direction[3], int axis, double sign, const Sides& sides)
+{
+  return (sign * direction[axis] > 0.0 ? sides.greater : sides.smaller)[axis] +
+    angleText(direction[axis]);
+}
+
+// The axes that two directions follow best, each another one.
+std::pair<int, int> nearestAxes(const double right[3], const double up[3])
+{
+  std::pair<int, int> nearest(0, 1);
+  double best = -1.0;
+  for (int axis = 0; axis < 9; ++axis)
   {
-    if (std::abs(direction[axis]) >= Follows)
+    const std::pair<int, int> axes(axis / 3, axis % 3);
+    const double follows = std::abs(right[axes.first]) + std::abs(up[axes.second]);
+    if (axes.first != axes.second && follows > best)
     {
-      return sign * direction[axis] > 0.0 ? sides.greater[axis] : sides.smaller[axis];
+      best = follows;
+      nearest = axes;
     }
   }
-  return {};
+  return nearest;
 }
 }
 
-std::array<std::string, 4> edgeLetters(const double right[3], const double up[3], WorldAxes axes)
+std::array<std::string, 4> edgeLetters(
+  const double right[3], const double up[3], WorldAxes axes, bool always)
 {
   const Sides& sides = sidesOf(axes);
-  std::array<std::string, 4> letters{ letterOf(right, 1.0, sides), letterOf(right, -1.0, sides),
-    letterOf(up, 1.0, sides), letterOf(up, -1.0, sides) };
-  const bool alongAxis = !letters[0].empty() && !letters[2].empty();
-  return alongAxis ? letters : std::array<std::string, 4>{};
+  const auto [across, upwards] = nearestAxes(right, up);
+  if (!always && (std::abs(right[across]) < Follows || std::abs(up[upwards]) < Follows))
+  {
+    return {};
+  }
+  return { letterOf(right, across, 1.0, sides), letterOf(right, across, -1.0, sides),
+    letterOf(up, upwards, 1.0, sides), letterOf(up, upwards, -1.0, sides) };
 }
 
 vtkStandardNewMacro(OrientationMarks);
@@ -142,20 +171,41 @@ void OrientationMarks::Write(vtkViewport* viewport)
   const std::array<double, 3> right = this->AlongAxes(viewFromWorld->GetData());
   const std::array<double, 3> up = this->AlongAxes(viewFromWorld->GetData() + 4);
   const std::array<double, 3> back = this->AlongAxes(viewFromWorld->GetData() + 8);
-  auto letters = edgeLetters(right.data(), up.data(), this->Axes);
+  auto letters = edgeLetters(right.data(), up.data(), this->Axes, this->GridAxisAlong(back) >= 0);
   this->Warning->SetVisibility(
     this->ShowLetters && this->Axes == WorldAxes::Unknown && !letters[0].empty());
   for (std::size_t i = 0; i < letters.size(); ++i)
   {
     this->Letters[i]->SetInput(this->ShowLetters ? letters[i].c_str() : "");
   }
-  this->Name->SetInput("");
-  for (std::size_t plane = 0; plane < PlaneNames.size(); ++plane)
+  this->WriteName(back);
+}
+
+int OrientationMarks::GridAxisAlong(const std::array<double, 3>& back) const
+{
+  for (int axis = 0; axis < 3; ++axis)
   {
-    if (this->NamedPlanes[plane] && std::abs(back[plane]) >= Follows)
+    const std::array<double, 3>& along = this->GridAxes[axis];
+    if (std::abs(vtkMath::Dot(along.data(), back.data())) >= Follows)
+    {
+      return axis;
+    }
+  }
+  return -1;
+}
+
+void OrientationMarks::WriteName(const std::array<double, 3>& back)
+{
+  this->Name->SetInput("");
+  const glm::ivec3 across = axesAcrossPlanes({ glm::make_vec3(this->GridAxes[0].data()),
+    glm::make_vec3(this->GridAxes[1].data()), glm::make_vec3(this->GridAxes[2].data()) });
+  const int axis = this->GridAxisAlong(back);
+  for (int plane = 0; plane < 3; ++plane)
+  {
+    if (this->NamedPlanes[plane] && across[plane] == axis)
     {
       const std::array<double, 3>& color = PlaneColors[plane];
-      this->Name->SetInput(PlaneNames[plane]);
+      this->Name->SetInput((PlaneNames[plane] + angleText(back[plane])).c_str());
       this->Name->GetTextProperty()->SetColor(color[0], color[1], color[2]);
     }
   }

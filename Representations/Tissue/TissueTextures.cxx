@@ -79,7 +79,7 @@ TissueRequest TissueTextures::withCategories(GpuTask& gpu, const TissueRequest& 
     : "it has more than 4095 annotations, the most that can be drawn";
   if (reason)
   {
-    gpu.remarks.push_back(std::string("InterpretValuesAsCategories is on, but ") + reason +
+    gpu.remarks.push_back(std::string("Interpret Values As Categories is on, but ") + reason +
       ": the colour map is used as a continuous one");
     return drawn;
   }

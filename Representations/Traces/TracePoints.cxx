@@ -183,8 +183,10 @@ std::vector<const FirstHits*> TracePoints::HitsOf(
   {
     if (!std::exchange(this->Internal->Warned, true))
     {
-      vtkWarningMacro(<< "The view shows " << hits.size() << " deformed volumes; Trace Points are "
-                      << "hidden by " << MaxTissues << " of them.");
+      warn(this,
+        "The view shows " + std::to_string(hits.size()) +
+          " deformed volumes; Trace Points are hidden by " + std::to_string(MaxTissues) +
+          " of them");
     }
     hits.resize(MaxTissues);
   }

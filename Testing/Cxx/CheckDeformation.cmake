@@ -15,7 +15,7 @@ foreach (library IN LISTS loaded missing)
   endif ()
 endforeach ()
 
-set(allowed "\"Common/(Export|Grid|Parallel|Problem)\\.h\"|\"Filters/Deformation/")
+set(allowed "\"Common/(Export|Grid|Numbers|Parallel|Problem)\\.h\"|\"Filters/Deformation/")
 string(APPEND allowed "|\"Shaders/Field/inversion.glsl\"|<glm/|<[a-z_]+>")
 file(GLOB sources "${core}/*.h" "${core}/*.cxx")
 if (NOT sources)

@@ -2,8 +2,10 @@
 """Checks that no C++ exception can leave our code for VTK, which would end ParaView or its server.
 
 Common/Guard.h is the guard. Requests of the pipeline pass it in ProcessRequest, one line
-for a class; what draws calls it itself.
+for a class; what draws calls it itself. Warnings have one way, too.
 """
+
+import re
 
 from functions import functions_of
 
@@ -14,6 +16,9 @@ REQUESTS = {"RequestData", "RequestInformation", "RequestUpdateExtent", "Request
 #: What a view calls.
 DRAWS = {"Render", "RenderOpaqueGeometry", "RenderTranslucentPolygonalGeometry",
          "RenderVolumetricGeometry", "RenderOverlay", "ProcessViewRequest"}
+
+#: How VTK warns.
+WARNS = re.compile(r"vtk(Generic)?Warning(WithObject)?Macro")
 
 ROOMS = ("Common", "Formats", "Filters", "Representations", "Widgets", "Interaction", "Panel",
          "Plugin")
@@ -36,4 +41,12 @@ def every_boundary_is_guarded(tree):
                 yield f"{path}:{function.line}: {owner} answers requests without {macro}"
 
 
-CHECKS = [every_boundary_is_guarded]
+def every_warning_goes_one_way(tree):
+    """Warnings go through warn() of Common/Guard.h, by which the window knows them."""
+    for path in tree.below(*ROOMS, suffixes=(".cxx", ".h")):
+        for number, line in enumerate(tree.text(path).splitlines(), 1):
+            if WARNS.search(line) and path != "Common/Guard.cxx":
+                yield f"{path}:{number}: a warning that does not go through warn()"
+
+
+CHECKS = [every_boundary_is_guarded, every_warning_goes_one_way]

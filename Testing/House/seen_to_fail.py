@@ -82,6 +82,8 @@ BREAKS = [
      "void vtkBend::WriteData()\n{\n  write();\n}\n", None),
     ("every_boundary_is_guarded", "Representations/vtkDraw.cxx",
      "void vtkDraw::Render(int)\n{\n  draw();\n}\nvoid f() { guarded(0); }\n", None),
+    ("every_warning_goes_one_way", "Filters/vtkBend.cxx",
+     'void vtkBend::Tell()\n{\n  vtkWarningMacro("bent");\n}\n', None),
     ("architecture_says_what_a_folder_uses", "ARCHITECTURE.md",
      "| [Filters](Filters/README.md) | what is attached | all |\n", None),
     ("no_include_runs_upwards", "Filters/Deformation/Lattice.h",

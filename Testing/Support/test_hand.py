@@ -23,6 +23,8 @@ _library.test_hand_label.restype = ctypes.c_char_p
 _library.test_hand_cell.restype = ctypes.c_char_p
 _library.test_hand_controls.restype = ctypes.c_char_p
 _library.test_hand_messages.restype = ctypes.c_char_p
+_library.test_hand_field.restype = ctypes.c_char_p
+_library.test_hand_window.restype = ctypes.c_ulonglong
 _library.test_hand_set.argtypes = [ctypes.c_char_p, ctypes.c_double]
 
 
@@ -199,6 +201,24 @@ def type_into(name, text):
     return bool(_library.test_hand_type(name.encode(), str(text).encode()))
 
 
+def field(owner, name):
+    """The text of a field of a property that the panel shows."""
+    return _library.test_hand_field(owner.encode(), name.encode()).decode()
+
+
+def owner_of(name):
+    """Whose tool a window is, as the window manager is told: the number of the window that it
+    stays above, or 0. And the number of the main window."""
+    x11 = ctypes.CDLL("libX11.so.6")
+    x11.XOpenDisplay.restype = ctypes.c_void_p
+    display = ctypes.c_void_p(x11.XOpenDisplay(None))
+    above = ctypes.c_ulong(0)
+    x11.XGetTransientForHint(
+        display, ctypes.c_ulong(_library.test_hand_window(name.encode())), ctypes.byref(above))
+    x11.XCloseDisplay(display)
+    return above.value, _library.test_hand_window(b"")
+
+
 def keeps_focus(name):
     """Clicks a button of the window with the mouse; whether the view keeps the keyboard."""
     return bool(_library.test_hand_keeps_focus(name.encode()))
@@ -308,6 +328,12 @@ def messages():
 def forget_messages():
     """Empties Output Messages."""
     _library.test_hand_forget_messages()
+
+
+def close_messages():
+    """Closes Output Messages, as its cross does."""
+    _library.test_hand_close_messages()
+    wait(50)
 
 
 def resize_window(width, height):

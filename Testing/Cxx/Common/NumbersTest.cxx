@@ -129,3 +129,22 @@ TEST(Bytes, OfManyNumbersComeToTheOrderOfThisMachine)
       isBigEndian ? 0x0304 : 0x0403);
   }
 }
+
+TEST(Numbers, MeasuredOnesHaveThreeDigits)
+{
+  EXPECT_EQ(roundedText(14.2222), "14.2");
+  EXPECT_EQ(roundedText(0.05f), "0.05");
+  EXPECT_EQ(roundedText(8.0), "8");
+  EXPECT_EQ(roundedText(-0.012345), "-0.0123");
+  EXPECT_EQ(roundedText(999.6), "1000");
+  EXPECT_EQ(roundedText(123456.7), "123457");
+  EXPECT_EQ(roundedText(INFINITY), "inf");
+}
+
+TEST(Numbers, FractionsAreWholePercent)
+{
+  EXPECT_EQ(percentText(0.584615), "58 %");
+  EXPECT_EQ(percentText(0.999), "99 %") << "not all of it";
+  EXPECT_EQ(percentText(0.001), "less than 1 %");
+  EXPECT_EQ(percentText(1.0), "100 %");
+}

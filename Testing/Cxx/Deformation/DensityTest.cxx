@@ -116,13 +116,13 @@ TEST(StrokesTooFine, NamesNumberRadiusAndSpacing)
   strokes[2].major = 50.0;
   strokes[2].minor = 8.5;
   EXPECT_EQ(strokesTooFine(strokes, lattice),
-    "The lattice is too coarse for the radius of stroke 2 (8.5 mm): its spacing is 14.2222 mm. "
-    "Make LatticeDimensions larger");
+    "The lattice is too coarse for the radius of stroke 3 (8.5 mm): its spacing is 14.2 mm. "
+    "Make Lattice Dimensions larger");
   strokes[2].enabled = false;
   EXPECT_EQ(strokesTooFine(strokes, lattice), "") << "it does nothing";
   strokes = std::vector<Stroke>(6, strokeAt(Tool::Soft, glm::dvec3(0.0), glm::dvec3(1.0)));
   const Grid coarse = latticeOfSide(5, KernelCatmullRom).grid;
   EXPECT_NE(
-    strokesTooFine(strokes, coarse).find("stroke 0 (40 mm), 1 (40 mm), 2 (40 mm) and 3 more"),
+    strokesTooFine(strokes, coarse).find("stroke 1 (40 mm), 2 (40 mm), 3 (40 mm) and 3 more"),
     std::string::npos);
 }

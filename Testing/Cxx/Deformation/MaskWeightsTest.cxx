@@ -240,8 +240,8 @@ TEST(StrokesInFeather, NamesThoseThatTheMaskHoldsBack)
   base.mask = maskWeights(lattice, Samples, mask, 15.0);
   replay.run(base, strokes);
   const std::string words = replay.strokesInFeather();
-  EXPECT_NE(words.find("the anchor of stroke 1, 2:"), std::string::npos) << words;
-  EXPECT_NE(words.find("Raise MaskGrowth"), std::string::npos) << words;
+  EXPECT_NE(words.find("the anchor of stroke 2, 3:"), std::string::npos) << words;
+  EXPECT_NE(words.find("Raise Mask Growth"), std::string::npos) << words;
   strokes.erase(strokes.begin() + 2, strokes.end());
   growMask(mask, 25.0);
   base.mask = maskWeights(lattice, Samples, mask, 15.0);

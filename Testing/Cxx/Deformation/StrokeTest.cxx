@@ -106,9 +106,9 @@ TEST(Strokes, NeedFiniteNumbers)
   for (int place = 0; place < NumbersPerStroke; ++place)
   {
     expectNames(errorAbout(Tool::Stamp, place, NotANumber),
-      { "Stroke 1", "number " + std::to_string(place) + " is ", "nan", "must be finite" });
+      { "Stroke 2", "number " + std::to_string(place) + " is ", "nan", "must be finite" });
   }
-  expectNames(errorAbout(Tool::Soft, 4, -Infinity), { "Stroke 1", "number 4 is -inf", "finite" });
+  expectNames(errorAbout(Tool::Soft, 4, -Infinity), { "Stroke 2", "number 4 is -inf", "finite" });
 }
 
 TEST(Strokes, NeedNumbersThatALatticeCanHold)
@@ -116,7 +116,7 @@ TEST(Strokes, NeedNumbersThatALatticeCanHold)
   for (int place = 0; place < NumbersPerStroke; ++place)
   {
     expectNames(errorAbout(Tool::Move, place, 1e39),
-      { "Stroke 1", "number " + std::to_string(place) + " is 1e+39", "from -1e+09 to 1e+09" });
+      { "Stroke 2", "number " + std::to_string(place) + " is 1e+39", "from -1e+09 to 1e+09" });
   }
   expectNames(errorAbout(Tool::Move, 4, -1.1e9), { "number 4 is -1.1e+09", "-1e+09" });
 }
@@ -124,10 +124,10 @@ TEST(Strokes, NeedNumbersThatALatticeCanHold)
 TEST(Strokes, NeedAKnownTool)
 {
   const std::string limit = "it must be 0 (Move), 1 (Soft)"; // and those that follow
-  expectNames(errorAbout(Tool::Move, ToolPlace, -1.0), { "Stroke 1", "tool is -1;", limit });
-  expectNames(errorAbout(Tool::Move, ToolPlace, 0.5), { "Stroke 1", "tool is 0.5;", limit });
+  expectNames(errorAbout(Tool::Move, ToolPlace, -1.0), { "Stroke 2", "tool is -1;", limit });
+  expectNames(errorAbout(Tool::Move, ToolPlace, 0.5), { "Stroke 2", "tool is 0.5;", limit });
   expectNames(
-    errorAbout(Tool::Move, ToolPlace, double(Tool::Pull)), { "Stroke 1", "tool is 3;", limit });
+    errorAbout(Tool::Move, ToolPlace, double(Tool::Pull)), { "Stroke 2", "tool is 3;", limit });
 }
 
 TEST(Strokes, NeedRadiiOfAtLeastZero)
@@ -135,9 +135,9 @@ TEST(Strokes, NeedRadiiOfAtLeastZero)
   for (const Tool tool : { Tool::Move, Tool::Soft, Tool::Stamp })
   {
     expectNames(errorAbout(tool, MajorPlace, -3.0),
-      { "Stroke 1", "radii are -3 and 25 mm", "must not be below 0 mm" });
+      { "Stroke 2", "radii are -3 and 25 mm", "must not be below 0 mm" });
     expectNames(errorAbout(tool, MinorPlace, -4.0),
-      { "Stroke 1", "radii are 40 and -4 mm", "must not be below 0 mm" });
+      { "Stroke 2", "radii are 40 and -4 mm", "must not be below 0 mm" });
   }
 }
 
@@ -153,18 +153,18 @@ TEST(Strokes, NeedAWidth)
 {
   for (const Tool tool : { Tool::Soft, Tool::Stamp })
   {
-    expectNames(errorAbout(tool, SigmaPlace, 0.0), { "Stroke 1", "sigma is 0", "0.001" });
-    expectNames(errorAbout(tool, SigmaPlace, -0.5), { "Stroke 1", "sigma is -0.5", "0.001" });
+    expectNames(errorAbout(tool, SigmaPlace, 0.0), { "Stroke 2", "sigma is 0", "0.001" });
+    expectNames(errorAbout(tool, SigmaPlace, -0.5), { "Stroke 2", "sigma is -0.5", "0.001" });
     // Its square is 0, and 0 / 0 at the anchor would be no number.
     expectNames(
-      errorAbout(tool, SigmaPlace, 1e-200), { "Stroke 1", "sigma is 1e-200", "at least 0.001" });
+      errorAbout(tool, SigmaPlace, 1e-200), { "Stroke 2", "sigma is 1e-200", "at least 0.001" });
   }
 }
 
 TEST(Strokes, NeedAnAxisToStampAlong)
 {
   expectNames(
-    errorAbout(Tool::Stamp, AxisPlace + 2, 0.0), { "Stroke 1", "axis is 0 0 0", "length above 0" });
+    errorAbout(Tool::Stamp, AxisPlace + 2, 0.0), { "Stroke 2", "axis is 0 0 0", "length above 0" });
 }
 
 TEST(Strokes, NeedOnlyWhatTheirToolUses)

@@ -96,8 +96,8 @@ TEST(FittedFor, NamesEachSettingWithBothValues)
   Lattice finer = still();
   finer.grid = withDimensions(finer.grid, glm::ivec3(7, 5, 6));
   const std::string words = wordsOnFittedFor(fittedFor(still()), finer, Samples);
-  expectIn(words, "LatticeDimensions 4 x 5 x 6. This deformation has");
-  expectIn(words, "LatticeDimensions 7 x 5 x 6");
+  expectIn(words, "Lattice Dimensions 4 x 5 x 6. This deformation has");
+  expectIn(words, "Lattice Dimensions 7 x 5 x 6");
   EXPECT_EQ(words.find("box"), std::string::npos) << words;
   expectIn(wordsOnFittedFor(fittedFor(still()), heldAt(3), Samples),
     "no mask. This deformation has a mask that lets 99.8918 % move");

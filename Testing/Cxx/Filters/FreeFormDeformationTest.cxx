@@ -260,7 +260,7 @@ TEST_F(FreeFormDeformation, RefusesBadStrokes)
   numbers[5] = std::numeric_limits<double>::quiet_NaN();
   this->Filter->SetStrokeNumbers(numbers);
   this->output();
-  this->expectKeepsDeformation({ "Stroke 0", "number 5", "nan" });
+  this->expectKeepsDeformation({ "Stroke 1", "number 5", "nan" });
 }
 
 TEST_F(FreeFormDeformation, RefusesBadLattices)
@@ -268,10 +268,10 @@ TEST_F(FreeFormDeformation, RefusesBadLattices)
   this->bend();
   this->Filter->SetLatticeDimensions(19, 1, 19);
   this->output();
-  this->expectKeepsDeformation({ "LatticeDimensions", "19 x 1 x 19", "4 to 257" });
+  this->expectKeepsDeformation({ "Lattice Dimensions", "19 x 1 x 19", "4 to 257" });
   this->Filter->SetLatticeDimensions(2000, 19, 19);
   this->output();
-  this->expectKeepsDeformation({ "LatticeDimensions", "2000 x 19 x 19", "4 to 257" });
+  this->expectKeepsDeformation({ "Lattice Dimensions", "2000 x 19 x 19", "4 to 257" });
   this->Filter->SetLatticeDimensions(19, 19, 19);
   for (const int samples : { -1, 17 })
   {
@@ -294,7 +294,7 @@ TEST_F(FreeFormDeformation, RefusesAPointOfInterestThatIsNowhere)
   this->bend();
   this->Filter->SetPointOfInterest(1.5, std::numeric_limits<double>::infinity(), 3.0);
   this->output();
-  this->expectKeepsDeformation({ "PointOfInterest is 1.5 inf 3 mm", "finite" });
+  this->expectKeepsDeformation({ "Point Of Interest is 1.5 inf 3 mm", "finite" });
   this->Filter->SetPointOfInterest(1.5, 2.0, 3.0);
   EXPECT_EQ(
     deformationOf(this->output()).lattice.displacements, this->LastGood.lattice.displacements)
@@ -393,7 +393,7 @@ TEST_F(FreeFormDeformation, RefusesDisplacementsThatNoFieldHolds)
   this->expectKeepsDeformation({ "the strokes by 1e+08 mm", "at most", "10000" });
   setStrokes(this->Filter, { strokeAt(Tool::Move, middle, { 1e39, 0.0, 0.0 }) });
   this->output();
-  this->expectKeepsDeformation({ "Stroke 0", "number 4 is 1e+39", "1e+09" });
+  this->expectKeepsDeformation({ "Stroke 1", "number 4 is 1e+39", "1e+09" });
 }
 
 TEST_F(FreeFormDeformation, CanBeStoppedBetweenStrokesAndKeepsThePicture)

@@ -204,9 +204,9 @@ TEST_F(MaskedHead, KeepsTheDeformationWhenTheMaskIsNone)
   expectKept("Feather is -1 mm; it must be 0 or more");
   this->Filter->SetFeather(4.0);
   this->Filter->SetMaskGrowth(-2.0);
-  expectKept("MaskGrowth is -2 mm; it must be 0 or more");
+  expectKept("Mask Growth is -2 mm; it must be 0 or more");
   this->Filter->SetMaskGrowth(std::numeric_limits<double>::infinity());
-  expectKept("MaskGrowth is inf mm; it must be 0 or more, and finite");
+  expectKept("Mask Growth is inf mm; it must be 0 or more, and finite");
   this->Filter->SetMaskGrowth(0.0);
   this->Filter->SetLatticeDimensions(200, 200, 200);
   expectKept("a lattice of 200 x 200 x 200 points and 4 Samples make 9.88048e+08");

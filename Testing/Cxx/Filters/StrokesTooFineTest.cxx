@@ -25,7 +25,7 @@ TEST(StrokesTooFine, IsToldOnceForEachChange)
   };
   EXPECT_EQ(said(), "");
   filter->SetLatticeDimensions(9, 9, 9);
-  EXPECT_NE(said().find("stroke 0 (12 mm): its spacing is 20 mm"), std::string::npos);
+  EXPECT_NE(said().find("stroke 1 (12 mm): its spacing is 20 mm"), std::string::npos);
   stroke.vector.y = 0.5;
   EXPECT_EQ(said(), "") << "told already";
   filter->SetLatticeDimensions(19, 19, 19);

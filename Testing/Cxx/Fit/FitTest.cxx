@@ -296,8 +296,8 @@ TEST(Fit, WhatIsNoNumberIsOneSentence)
   EXPECT_NE(problemOfFit(measured).find("The measured end of landmark 2 is at"), std::string::npos);
   measured = landmarksOf(3, 1.0);
   measured.landmarks[2].weight = -1.0;
-  EXPECT_EQ(problemOfFit(measured),
-    "The weight of landmark 3 is -1.000000; it must be 0 or more, and finite");
+  EXPECT_EQ(
+    problemOfFit(measured), "The weight of landmark 3 is -1; it must be 0 or more, and finite");
   measured = {};
   measured.traces = { { 0.0, std::numeric_limits<double>::infinity(), 0.0 } };
   EXPECT_NE(problemOfFit(measured).find("Traced point 1 is at"), std::string::npos);
@@ -306,8 +306,7 @@ TEST(Fit, WhatIsNoNumberIsOneSentence)
   EXPECT_NE(problemOfFit(measured).find("Pin 1 is at"), std::string::npos);
   FitSettings settings;
   settings.surfaceKernel.lengthMm = 0.0;
-  EXPECT_EQ(
-    problemOfFit({}, settings), "The surface length is 0.000000; it must be above 0, and finite");
+  EXPECT_EQ(problemOfFit({}, settings), "The surface length is 0; it must be above 0, and finite");
 }
 
 // Points that are flat, or mirrored, agree best with a mirror; tissue cannot be mirrored.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that slices take the volume's axes by the world axes they are nearest to, reach as far as
-// their box, are cut where they cross, and come from back to front for any eye.
+// their box, are cut where they cross, and come from back to front for any eye; and that edges are
+// named for the nearest sides of the patient, with the angle to them.
 #include "Representations/Slices/SliceGeometry.h"
 #include "Representations/Slices/OrientationMarks.h"
 
@@ -14,6 +15,7 @@
 #include <cstddef>
 #include <limits>
 #include <random>
+#include <set>
 #include <vector>
 
 using namespace brainshift;
@@ -143,16 +145,35 @@ TEST(SliceGeometry, PartsComeFromBackToFront)
 TEST(OrientationMarks, TellWhereEdgesLie)
 {
   const double left[3] = { -1, 0, 0 };
-  const double superior[3] = { 0, 0.1, 0.995 };
+  const double superior[3] = { 0, 0.05, 0.99875 };
   const double oblique[3] = { 0.7, 0, 0.7 };
   const std::array<std::string, 4> expected{ "L", "R", "S", "I" };
-  EXPECT_EQ(edgeLetters(left, superior, WorldAxes::RAS), expected);
+  EXPECT_EQ(edgeLetters(left, superior, WorldAxes::RAS, false), expected);
   const std::array<std::string, 4> none;
   for (const WorldAxes axes : { WorldAxes::RAS, WorldAxes::LPS, WorldAxes::Unknown })
   {
-    EXPECT_EQ(edgeLetters(left, oblique, axes), none);
-    EXPECT_EQ(edgeLetters(oblique, superior, axes), none);
+    EXPECT_EQ(edgeLetters(left, oblique, axes, false), none);
+    EXPECT_EQ(edgeLetters(oblique, superior, axes, false), none);
   }
+}
+
+TEST(OrientationMarks, TellTheAngleToTheSide)
+{
+  const double across[3] = { 0.978148, 0.207912, 0 }; // 12 degrees from x
+  const double up[3] = { -0.207912, 0.978148, 0 };
+  const std::array<std::string, 4> twelve{ "R 12\u00b0", "L 12\u00b0", "A 12\u00b0", "P 12\u00b0" };
+  EXPECT_EQ(edgeLetters(across, up, WorldAxes::RAS, false), twelve);
+  // Each side once, at any angle, where the view looks along an axis of the grid.
+  const double half = std::sqrt(0.5);
+  const double diagonal[3] = { half, half, 0 };
+  const double other[3] = { -half, half, 0 };
+  const auto letters = edgeLetters(diagonal, other, WorldAxes::LPS, true);
+  EXPECT_EQ(letters[0].substr(1), " 45\u00b0") << letters[0];
+  EXPECT_EQ(letters[2].substr(1), " 45\u00b0") << letters[2];
+  EXPECT_EQ(
+    std::set<char>({ letters[0][0], letters[1][0], letters[2][0], letters[3][0] }).size(), 4u);
+  const std::array<std::string, 4> none;
+  EXPECT_EQ(edgeLetters(diagonal, other, WorldAxes::LPS, false), none);
 }
 
 TEST(OrientationMarks, NameNoSideThatIsNotKnown)
@@ -160,7 +181,7 @@ TEST(OrientationMarks, NameNoSideThatIsNotKnown)
   const double x[3] = { 1, 0, 0 };
   const double y[3] = { 0, 1, 0 };
   const std::array<std::string, 4> lps{ "L", "R", "P", "A" };
-  EXPECT_EQ(edgeLetters(x, y, WorldAxes::LPS), lps);
+  EXPECT_EQ(edgeLetters(x, y, WorldAxes::LPS, false), lps);
   const std::array<std::string, 4> unknown{ "+x", "-x", "+y", "-y" };
-  EXPECT_EQ(edgeLetters(x, y, WorldAxes::Unknown), unknown);
+  EXPECT_EQ(edgeLetters(x, y, WorldAxes::Unknown, false), unknown);
 }

@@ -119,7 +119,8 @@ def test_uneven_slices_are_told_and_resampled_on_request():
     path = write_slices(folder("uneven"), voxels, positions=(0, 1, 2, 3.4, 4))
     reader, told = read(path)
     assert_says(told, "uneven slices", "from 1.5 to 3.5 mm", "up to 1 mm",
-                "as if they were even; ResampleSlices 1")  # 0.4 of a slice: less than half a voxel
+                # 0.4 of a slice: less than half a voxel
+                "as if they were even; Resample Slices \"Always\"")
     assert "missing" not in told, told
     reader, told = read(path, ResampleSlices=1)
     assert_says(told, "interpolated there")
@@ -133,7 +134,7 @@ def test_missing_slices_are_counted():
     assert_says(told, "as if 2 slices were missing", "from 2.5 to 7.5 mm", "up to 2.5 mm")
     assert output(reader).GetDimensions() == (6, 5, 5)
     reader, told = read(path)  # a whole slice: interpolated by default
-    assert_says(told, "interpolated there; with ResampleSlices 0")
+    assert_says(told, "interpolated there; Resample Slices \"Never\"")
     assert output(reader).GetDimensions() == (6, 5, 7)
     affine, voxels = read_again(path)
     affine[2, 2] = 2.5
@@ -163,7 +164,7 @@ def test_a_tilted_gantry_is_told_with_its_error():
     reader, told = read(path, ResampleSlices=0)
     affine, voxels = read_again(path)
     assert_says(told, "is sheared", "mm from where it places them", "the last is 19.5 mm beside",
-                "ResampleSlices")
+                "Resample Slices")
     shown = places(output(reader))
     centre = affine @ [2.5, 2.0, 19.5, 1.0]
     numpy.testing.assert_allclose(shown.mean(axis=0), centre[:3], atol=1e-3)
@@ -183,7 +184,7 @@ def test_a_tilted_gantry_is_where_it_was_by_default():
     numbers = numpy.rint((lps * (-1.0, -1.0, 1.0)) @ slope).astype(numpy.int16)
     path = write_slices(folder("gantry"), numbers, axes=AXIAL, step=steps, positions=heights)
     reader, told = read(path)
-    assert_says(told, "interpolated on an upright grid", "ResampleSlices 0")
+    assert_says(told, "interpolated on an upright grid", "Resample Slices \"Never\"")
     shown = places(output(reader))
     away = shown * (-1.0, -1.0, 1.0) - first
     row = (away[:, 1] - away[:, 2] * steps[1]) / 0.9
@@ -199,7 +200,7 @@ def test_a_little_tilt_stays_as_it_is_stored():
     path = write_slices(folder("little"), numbered(10), axes=AXIAL,
                         step=numpy.array((0.0, 0.05, 2.0)))
     reader, told = read(path)
-    assert_says(told, "has tilted slices", "ResampleSlices 1")
+    assert_says(told, "has tilted slices", "Resample Slices \"Always\"")
     assert output(reader).GetDimensions() == (6, 5, 10)
 
 

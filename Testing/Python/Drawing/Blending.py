@@ -116,7 +116,7 @@ def test_a_slice_without_a_plane_is_told():
     display.SliceFunction = None
     with messages() as said:
         without = picture(view)
-    assert_says(said.text, "SliceFunction", "plane", "none")
+    assert_says(said.text, "Slice Type", "plane", "none")
     assert numpy.array_equal(without, composited)
     Delete(view)
 

@@ -92,7 +92,7 @@ def test_three_numbers_are_told():
     mapped = shown_picture(volume(voxels), "Deformed Volume", lambda display, view: None)
     with messages() as said:
         image = shown_picture(volume(voxels), "Deformed Volume", unmapped)
-    assert_says(said.text, "MapScalars", "2 or 4 components", "has 3", "colour map")
+    assert_says(said.text, "Map Scalars", "2 or 4 components", "has 3", "colour map")
     assert image.any() and numpy.array_equal(image, mapped)
 
 

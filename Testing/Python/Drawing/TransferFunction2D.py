@@ -137,7 +137,7 @@ def test_what_is_not_drawn_is_told():
         plain = shown_picture(shown, "Deformed Volume", without)
         with messages() as said:
             image = shown_picture(shown, "Deformed Volume", with_table)
-        assert_says(said.text, "UseTransfer2D", word, "colour map and the opacity curve")
+        assert_says(said.text, "Use 2D Transfer Function", word, "colour map and the opacity curve")
         assert numpy.array_equal(image, plain), word
 
 

@@ -107,7 +107,7 @@ def test_a_step_without_length_ends():
         display.SampleDistance = step
         with messages() as said:
             assert numpy.array_equal(picture(view), shortest)
-        assert_says(said.text, f"SampleDistance is {step:g} mm", "at most 8192 samples")
+        assert_says(said.text, f"Sample Distance is {step:g} mm", "at most 8192 samples")
     display.SampleDistance = 1e300
     assert picture(view).shape == shortest.shape
     display.SampleDistance = 0.0

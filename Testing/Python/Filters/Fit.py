@@ -165,7 +165,7 @@ def test_a_deformation_unlike_the_one_that_was_fitted_says_so():
     for change, fitted, here in (
             ({"Kernel": "B-Spline"}, "Kernel Catmull-Rom", "Kernel B-Spline"),
             ({"Kernel": "Catmull-Rom", "LatticeDimensions": [17, 19, 19]},
-             "LatticeDimensions 19 x 19 x 19", "LatticeDimensions 17 x 19 x 19"),
+             "Lattice Dimensions 19 x 19 x 19", "Lattice Dimensions 17 x 19 x 19"),
             ({"LatticeDimensions": [19, 19, 19], "Mask": mask}, "no mask", "a mask that lets"),
             ({"Mask": None, "Samples": 6}, "Samples 4", "Samples 6")):
         with messages() as said:

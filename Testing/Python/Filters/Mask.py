@@ -89,7 +89,7 @@ def test_growth_lets_the_edge_move_and_the_filter_names_it():
         filter.Strokes = 2 * stamp  # one more does not interrupt again
         filter.UpdatePipeline()
         filter.Strokes = stamp
-    words = "The mask holds back the tissue at the anchor of stroke 0"
+    words = "The mask holds back the tissue at the anchor of stroke 1"
     assert said.text.count(words) == 1, said.text
     with messages() as said:
         filter.MaskGrowth = 12.0

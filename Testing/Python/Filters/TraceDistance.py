@@ -128,7 +128,7 @@ def test_a_wrong_threshold_is_named():
     measured = traced(outside(0.0), Threshold=700.0)
     with messages() as said:
         measured.UpdatePipeline()
-    assert_says(said.text, "Threshold is 700", "no surface", "0.000000 to 100.0")
+    assert_says(said.text, "Threshold is 700", "no surface", "0 to 100")
 
 
 run_tests(globals())

@@ -10,9 +10,9 @@ from brainshift_testing import (assert_says, ball, load_plugin, object_pixels, p
 load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from paraview.simple import (  # noqa: E402
-    AssignViewToLayout, ColorBy, CreateLayout, CreateRenderView, Delete, FreeFormDeformation,
-    GetDisplayProperties, GetLayout, GetRenderViews, GetSources, GetViewsInLayout, LoadState,
-    SaveState, SetActiveView, Show, Wavelet)
+    AssignViewToLayout, ColorBy, CompareVolumes, CreateLayout, CreateRenderView, Delete,
+    FreeFormDeformation, GetDisplayProperties, GetLayout, GetRenderViews, GetSources,
+    GetViewsInLayout, LoadState, SaveState, SetActiveView, Show, Wavelet)
 
 MIDDLE = (16.0, 16.0, 16.0)
 SLICES = ("axial", "coronal", "sagittal")
@@ -39,6 +39,39 @@ def placed(source):
 
 def displays_of(source, views):
     return {name: GetDisplayProperties(source, view) for name, view in views.items()}
+
+
+def test_four_views_go_on_with_what_the_active_view_compares():
+    compare = CompareVolumes(Input=FreeFormDeformation(Input=marked()), Reference=marked())
+    for kind, own, wanted in (("Deformed Volume", {}, "Two colours"),
+                              ("Deformed Volume", {"VolumeComparison": "Off"}, "None"),
+                              ("Deformed Slices", {"SliceComparison": "Wipe"}, "Wipe"),
+                              ("Deformed Slices", {"ShowEvidence": 1}, "None")):
+        view = placed(compare)
+        display = GetDisplayProperties(compare, view)
+        display.SetRepresentationType(kind)
+        for name, value in own.items():
+            setattr(display, name, value)
+        views = brainshift.four_views(compare)
+        shown = displays_of(compare, views)
+        for name in SLICES:
+            assert shown[name].SliceComparison == wanted, (kind, own, name)
+        for name in (*SLICES, "volume"):
+            assert shown[name].ShowEvidence == own.get("ShowEvidence", 0), (own, name)
+        close(views)
+
+
+def test_the_camera_of_another_volume():
+    """It is seen whole in 3D, too, where four views are used again."""
+    views = brainshift.four_views(FreeFormDeformation(Input=marked()))
+    small = volume(ball(9, 3.0), origin=(300.0, 200.0, 100.0))
+    brainshift.four_views(small)
+    camera = views["volume"].GetActiveCamera()
+    middle = numpy.array((304.0, 204.0, 104.0))
+    assert numpy.allclose(camera.GetFocalPoint(), middle, atol=1.0), camera.GetFocalPoint()
+    distance = numpy.linalg.norm(numpy.subtract(camera.GetPosition(), middle))
+    assert 10.0 < distance < 80.0, distance
+    close(views)
 
 
 def close(views):

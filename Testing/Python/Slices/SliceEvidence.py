@@ -135,9 +135,24 @@ def test_without_evidence_one_sentence_says_so():
     view, display = sliced(bent)
     with messages() as told:
         plain = below_legend(view)
-    assert_says(told.text, "Show Evidence", "Evidence on", "LatticeDimensions")
+    assert_says(told.text, "Show Evidence", "Evidence on", "Lattice Dimensions")
     assert {class_of_color(*color) for color in plain[20:, 20:-20].reshape(-1, 3)} == {0}
     simple.Delete(view)
+
+
+def test_two_views_say_it_once():
+    bent = simple.FreeFormDeformation(Input=white())
+    with messages() as told:
+        views = [sliced(bent)[0] for _ in range(3)]
+        for view in views:
+            picture(view)
+    assert told.text.count("Show Evidence is on") == 1, told.text
+    with messages() as told:
+        another = sliced(simple.FreeFormDeformation(Input=white()))[0]
+        picture(another)
+    assert told.text.count("Show Evidence is on") == 1, "another volume"
+    for view in (*views, another):
+        simple.Delete(view)
 
 
 def test_another_lattice_takes_no_evidence():

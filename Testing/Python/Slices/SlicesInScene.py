@@ -5,8 +5,8 @@
 import os
 
 import numpy
-from brainshift_testing import (ball, load_plugin, look, object_pixels, picture, run_tests, scratch,
-                                show_volume, view_along, volume)
+from brainshift_testing import (ball, load_plugin, look, object_pixels, output, picture, run_tests,
+                                scratch, show_volume, view_along, volume)
 from slices_testing import flat_view, show_slices
 
 load_plugin()
@@ -311,6 +311,47 @@ def test_letters_at_the_edges():
     look(view, (0, 0, -1), MIDDLE, 200.0)
     Hide(source, view)
     assert not picture(view).any(), "letters go with the slices"
+    Delete(view)
+
+
+def letters_at(image):
+    """Whether something bright is at the left, right, lower and upper edge."""
+    rows, columns = numpy.nonzero(image.max(axis=2) > 0.5)
+    last = image.shape[0] - 1
+    return [bool(near.any()) for near in (columns < 50, columns > last - 50,
+                                          rows < 25, rows > last - 25)]
+
+
+def test_an_oblique_grid_has_letters():
+    # The nearest side is named, with the angle: on a view that is turned, and on a grid that is
+    # tilted by more than what is called straight. The plane has its name, too.
+    cosine, sine = numpy.cos(numpy.radians(40.0)), numpy.sin(numpy.radians(40.0))
+    view = flat_view(2, MIDDLE, 30.0, size=300)
+    upright = plain(0.0)
+    display = show_slices(upright, view, ("Axial",), MIDDLE)
+    display.OrientationMarks, display.WorldAxes = 1, "RAS"
+    straight = picture(view)
+    look(view, (0, 0, -1), MIDDLE, 200.0, up=(-sine, cosine, 0))
+    turned = picture(view)
+    assert letters_at(turned) == [True] * 4
+    assert (turned > 0.5).sum() > 1.5 * (straight > 0.5).sum(), "the angle is written"
+    view.CameraViewUp = [-0.02, 1.0, 0.0]
+    assert (picture(view) == straight).all(), "1 degree is not worth a word"
+    across = (0.0, sine, -cosine)  # the grid's last axis, towards the slice
+    look(view, across, MIDDLE, 200.0, up=(0, cosine, sine))
+    assert not picture(view).any(), "an oblique view of an upright grid has no letters"
+    Hide(upright, view)
+    tilted = volume(numpy.zeros((33, 33, 33), numpy.float32),
+                    direction=(1, 0, 0, 0, cosine, -sine, 0, sine, cosine))
+    bounds = output(tilted).GetBounds()
+    middle = [sum(bounds[i:i + 2]) / 2 for i in (0, 2, 4)]
+    display = show_slices(tilted, view, ("Axial",), middle)
+    look(view, across, middle, 200.0, up=(0, cosine, sine))
+    assert not picture(view).any()
+    display.OrientationMarks, display.WorldAxes = 1, "RAS"
+    found = picture(view)
+    assert letters_at(found) == [True] * 4
+    assert (found[-40:, :60, 0] > found[-40:, :60, 2] + 0.5).sum() > 50, "Axial, in orange"
     Delete(view)
 
 

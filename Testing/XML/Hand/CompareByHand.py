@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that in ParaView's window the key K shows the deformed volume and the reference in turn
 until it is pressed again, of what the active view shows, and lets go of what is deleted or chosen
-meanwhile; and that the mouse drags the line of a wipe in a 2D view, and nothing else then.
+meanwhile; that the mouse drags the line of a wipe in a 2D view, and nothing else then; and that
+Four Views goes on with the comparison of a view.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import brainshift
@@ -125,6 +126,25 @@ def delete_while_it_flickers(first, second):
     assert hand.action(FLICKER) and shown(second) == "Both"
 
 
+def four_views_show_it(compare, view):
+    """Four Views takes over the comparison that the view shows, and names its colours."""
+    display = simple.GetDisplayProperties(compare, view)
+    display.SetRepresentationType("Deformed Volume")
+    simple.SetActiveSource(compare)
+    hand.wait(200)
+    assert hand.action("actionBrainShiftFourViews")
+    hand.wait(500)
+    for shown in simple.GetRenderViews():
+        display = simple.GetDisplayProperties(compare, shown)
+        slices = display.Representation == "Deformed Slices"
+        assert display.SliceComparison == "Two colours" or not slices, display.SliceComparison
+        text = str(display.SliceLegend if slices else display.VolumeLegend)
+        assert text.startswith("red: "), (slices, text)
+        image = picture(shown)
+        assert (image[:, :, 0] > image[:, :, 2] + 0.2).mean() > 0.02, slices
+    assert len(simple.GetRenderViews()) == 4
+
+
 def play():
     view = simple.GetActiveViewOrCreate("RenderView")
     hand.resize(SIZE, SIZE)
@@ -136,6 +156,7 @@ def play():
     drag_the_wipe(view, display)
     del display
     delete_while_it_flickers(first, second)
+    four_views_show_it(second, view)
 
 
 window.main("CompareByHand", [(play,)])

@@ -2,7 +2,7 @@
 """Proves that one click shows how far a fit can be believed: the fit's evidence is switched on, the
 picture has its tints, the legend is there in slices and in 3D, and the status line says the number
 under the cursor; that another click takes tints and legend away; and that undo takes back the click
-and what it switched on.
+and what it switched on; and that Four Views shows it in all views.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import re
@@ -112,5 +112,21 @@ def legend_in_3d():
     assert (corner(picture(scene["view"])) != shown).any()
 
 
+def four_views_show_it():
+    """Four Views takes over the evidence that the view shows."""
+    scene["display"].ShowEvidence = 1
+    simple.SetActiveSource(scene["bent"])
+    hand.wait(100)
+    assert hand.action("actionBrainShiftFourViews")
+    hand.wait(500)
+    views = simple.GetRenderViews()
+    assert len(views) == 4
+    for view in views:
+        display = simple.GetDisplayProperties(scene["bent"], view)
+        assert display.ShowEvidence == 1, view
+        assert tinted(picture(view)) > 300, (view, tinted(picture(view)))
+
+
 window.main("EvidenceByHand", [(set_up,), (one_click,), (undo_of_both,),
-                               (words_under_the_cursor,), (another_click,), (legend_in_3d,)])
+                               (words_under_the_cursor,), (another_click,), (legend_in_3d,),
+                               (four_views_show_it,)])

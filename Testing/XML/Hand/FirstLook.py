@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves what the window shows of a volume at once: no background, tissue that fills the view,
 natural colours. Filters of a volume share its colours, a stranger with an array of the same name
-does not, and a user's colours stay. Buttons of looks act at once and can be undone. They follow the
-array that colours the volume, and a stroke reads no volume for them. A mask covers nothing.
-A constant volume is no mask.
+does not, and a user's colours stay. A second volume is in sight. Buttons of looks act at once and
+can be undone. They follow the array that colours the volume, and a stroke reads no volume for them.
+A mask covers nothing. A constant volume is no mask.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 
@@ -75,6 +75,62 @@ def a_head_is_seen_at_once():
     return view, reader, display
 
 
+def ball_at(x):
+    """A volume of 20 mm like a CT, at a distance along x (mm)."""
+    k, j, i = numpy.mgrid[:20, :20, :20]
+    radius = numpy.sqrt((i - 9.5) ** 2 + (j - 9.5) ** 2 + (k - 9.5) ** 2)
+    noise = numpy.random.default_rng(2).normal(0.0, 10.0, radius.shape)
+    ct = numpy.where(radius < 8, numpy.where(radius < 6, 40.0, 800.0), -1000.0) + noise
+    return volume(ct, origin=(x, 0.0, 500.0))
+
+
+def show(source, view):
+    display = simple.Show(source, view, "UniformGridRepresentation")
+    display.SetRepresentationType("Deformed Volume")
+    hand.wait(500)
+    return display
+
+
+def in_sight(view, source):
+    """Whether all corners of a volume are in the picture."""
+    bounds = source.GetDataInformation().GetBounds()
+    width, height = view.ViewSize
+    corners = [(x, y, z) for x in bounds[:2] for y in bounds[2:4] for z in bounds[4:]]
+    pixels = [window.pixel_of(view, corner) for corner in corners]
+    return all(0 <= x < width and 0 <= y < height for x, y in pixels)
+
+
+def camera(view):
+    return [list(view.CameraPosition), list(view.CameraFocalPoint), list(view.CameraViewUp)]
+
+
+def a_second_volume_is_in_sight():
+    """The camera takes in a second volume; if the user moved it, only where it would not be seen,
+    and then it keeps its direction."""
+    view, reader, _ = a_head_is_seen_at_once()
+    first = camera(view)
+    far = ball_at(800.0)
+    show(far, view)
+    assert camera(view) != first and in_sight(view, far), camera(view)
+    tissue = seen(view)
+    assert not tissue[[0, -1]].any() and not tissue[:, [0, -1]].any(), "an edge cuts a volume"
+    hand.drag([50, 50], [90, 60])  # the user turns it
+    hand.wait(200)
+    turned = camera(view)
+    middle = sum(reader.GetDataInformation().GetBounds()[:2]) / 2
+    near = ball_at(middle)
+    show(near, view)
+    assert camera(view) == turned, "it is in sight already"
+    farther = ball_at(4000.0)
+    show(farther, view)
+    assert camera(view) != turned and in_sight(view, farther)
+    ahead = [numpy.subtract(focus, eye) for eye, focus, _ in (turned, camera(view))]
+    cosine = ahead[0] @ ahead[1] / numpy.linalg.norm(ahead[0]) / numpy.linalg.norm(ahead[1])
+    assert cosine > 0.9999, (turned, camera(view))
+    for source in (far, near, farther):
+        simple.Delete(source)
+
+
 def a_filter_shares_the_look():
     view, reader, display = a_head_is_seen_at_once()
     camera = list(view.CameraPosition)
@@ -108,11 +164,7 @@ def a_users_colours_stay():
 def a_stranger_gets_colours_of_its_own():
     view, _, display = a_head_is_seen_at_once()
     before = list(display.LookupTable.RGBPoints)
-    k, j, i = numpy.mgrid[:20, :20, :20]
-    radius = numpy.sqrt((i - 9.5) ** 2 + (j - 9.5) ** 2 + (k - 9.5) ** 2)
-    noise = numpy.random.default_rng(2).normal(0.0, 10.0, radius.shape)
-    ct = numpy.where(radius < 8, numpy.where(radius < 6, 40.0, 800.0), -1000.0) + noise
-    other = simple.Show(simple.FreeFormDeformation(Input=volume(ct)), view)
+    other = simple.Show(simple.FreeFormDeformation(Input=ball_at(0.0)), view)
     hand.wait(300)
     assert other.LookupTable != display.LookupTable
     assert list(display.LookupTable.RGBPoints) == before
@@ -177,11 +229,7 @@ def the_next_volume_looks_as_the_last_choice():
 def buttons_follow_the_array():
     """A volume with two arrays has the looks of the one that colours it."""
     view = begin()
-    k, j, i = numpy.mgrid[:20, :20, :20]
-    radius = numpy.sqrt((i - 9.5) ** 2 + (j - 9.5) ** 2 + (k - 9.5) ** 2)
-    noise = numpy.random.default_rng(2).normal(0.0, 10.0, radius.shape)
-    ct = numpy.where(radius < 8, numpy.where(radius < 6, 40.0, 800.0), -1000.0) + noise
-    both = simple.Calculator(Input=volume(ct), ResultArrayName="MR",
+    both = simple.Calculator(Input=ball_at(0.0), ResultArrayName="MR",
                              Function="abs(Intensity - 300) + 50")
     bent = simple.FreeFormDeformation(registrationName="bent", Input=both)
     display = simple.Show(bent, view)
@@ -228,6 +276,7 @@ def a_stroke_reads_nothing():
 
 def play():
     yield (a_head_is_seen_at_once,)
+    yield (a_second_volume_is_in_sight,)
     yield (a_filter_shares_the_look,)
     yield (a_stranger_gets_colours_of_its_own,)
     yield (a_mask_covers_nothing,)

@@ -6,8 +6,11 @@ ParaView's window runs this file as a script; play_window.py reports what did no
 import os
 import shutil
 
+import brainshift
+import brainshift.windows
 import test_hand as hand
 import window_testing as window
+from brainshift_testing import scratch
 from paraview import simple
 
 FOLDER = os.path.join(os.environ["BRAINSHIFT_TEST_DATA"], "seg3d-utah")
@@ -51,4 +54,46 @@ def greys_of(first, second):
     assert kinds["Deformed Slices"] == 3 and kinds["Deformed Volume"] >= 1, kinds
 
 
-window.main("GreysOfTwo", [(greys_of, MASK, HEAD), (greys_of, HEAD, OTHER)])
+def shown_as(display, kind):
+    """Chosen in the list of representations."""
+    display.SetRepresentationType(kind)
+    hand.wait(500)
+
+
+def slices_by_hand():
+    """A Deformed Volume that is switched to slices has greys of its own, which span its tissue, and
+    gets its colours back. Slices of one volume share their greys; an array that is chosen again
+    brings no colours of the look."""
+    for source in list(simple.GetSources().values())[::-1]:
+        simple.Delete(source)
+    view = simple.GetActiveViewOrCreate("RenderView")
+    hand.open_file(HEAD)
+    hand.wait(200)
+    assert hand.click("Accept")
+    hand.wait(1000)
+    head = simple.GetActiveSource()
+    display = simple.GetDisplayProperties(head, view)
+    look = list(display.LookupTable.RGBPoints)
+    assert not is_grey(display), look
+    shown_as(display, "Deformed Slices")
+    assert is_grey(display), colors(display)
+    points = list(display.LookupTable.RGBPoints)
+    low, high = brainshift.windows.percentile_window(head, "POINTS", display.ColorArrayName[1])
+    assert points[0] == low and points[-4] == high, (points, low, high)
+    hand.save_picture(scratch("slices.png"))
+    simple.ColorBy(display, ("POINTS", display.ColorArrayName[1]),  # as the list of arrays does
+                   separate=bool(display.UseSeparateColorMap))
+    hand.wait(500)
+    assert is_grey(display) and list(display.LookupTable.RGBPoints) == points
+    shown_as(display, "Deformed Volume")
+    assert list(display.LookupTable.RGBPoints) == look
+    shown_as(display, "Deformed Slices")
+    bent = simple.FreeFormDeformation(Input=head)
+    of_bent = simple.Show(bent, view, "UniformGridRepresentation")
+    hand.wait(500)
+    assert list(of_bent.LookupTable.RGBPoints) == look, "the 3D display keeps the look"
+    shown_as(of_bent, "Deformed Slices")
+    assert of_bent.LookupTable == display.LookupTable, "window and level of the volume"
+
+
+window.main("GreysOfTwo", [(greys_of, MASK, HEAD), (greys_of, HEAD, OTHER), (slices_by_hand,)])

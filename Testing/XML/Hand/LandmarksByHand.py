@@ -3,7 +3,8 @@
 reference, first the tissue and then its place in the reference; that a half pair never reaches the
 fit, and a drag while picking is the camera's; that the table shows the filter's residuals and
 errors of pairs left out, marks the pair that fits worst, and lets a pair count or not by its tick;
-that each edit is one step to undo; that marks stand in the views; and that a state keeps the pairs.
+that each edit is one step to undo; that marks stand in the views; that two lists without a common
+name are paired by their order on request; and that a state keeps the pairs.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import math
@@ -280,6 +281,46 @@ def delete_is_one_step():
     table_shows_the_filters_numbers()
 
 
+def listed(name, positions, labels):
+    """A file of landmarks, opened."""
+    with open(scratch(name), "w", encoding="utf-8") as file:
+        file.write("x,y,z,label\n")
+        for position, label in zip(positions, labels):
+            file.write(",".join([*map(repr, map(float, position)), label]) + "\n")
+    return simple.LandmarkReader(FileName=scratch(name))
+
+
+def lists_are_paired_by_order_on_request():
+    """Two lists without a common name are refused; the panel says why and offers their order."""
+    places = scene["middle"] + PLACES
+    names = [[f"{letter}{i}" for i in range(len(places))] for letter in "ab"]
+    before = scene["bent"].Lattice
+    with window.unrecorded():
+        by_lists = simple.FitDeformation(
+            Input=simple.FindSource("seg3d_mr_t1.nii.gz") or scene["bent"].Input,
+            RestLandmarks=listed("rest.csv", places, names[0]),
+            MeasuredLandmarks=listed("measured.csv", places + SHIFT, names[1]))
+        scene["bent"].Lattice = by_lists
+    simple.SetActiveSource(by_lists)
+    wait_for(lambda: "No name" in hand.label("BrainShiftLandmarkProblem"), "the reason")
+    reason = hand.label("BrainShiftLandmarkProblem")
+    assert "No name is on both lists" in reason and "Pair By Order" in reason, reason
+    assert not rows(), rows()
+    assert hand.click("PairByOrder")
+    hand.wait(100)
+    assert hand.click("Accept")
+    wait_for(lambda: len(rows()) == len(places), "the pairs")
+    assert not hand.label("BrainShiftLandmarkProblem")
+    assert by_lists.PairByOrder == 1
+    assert told("LandmarkResiduals").max() < 1.0, told("LandmarkResiduals")
+    with window.unrecorded():
+        scene["bent"].Lattice = before
+        simple.Delete(by_lists)
+    simple.SetActiveSource(scene["bent"])
+    wait_for(lambda: hand.is_visible("BrainShiftPickPairs") and not rows(), "none")
+    hand.close_messages()
+
+
 def a_state_keeps_the_pairs():
     before, left_out = pairs(), told("LeaveOneOut")
     simple.SaveState(scratch("LandmarksByHand.pvsm"))
@@ -302,7 +343,7 @@ def a_state_keeps_the_pairs():
 
 
 window.main("LandmarksByHand", [
-    (set_up,), (half_a_pair_never_reaches_the_fit,), (drags_are_the_cameras_while_picking,),
-    (place_under_a_click_in_3d,), (clicks_make_pairs,), (table_shows_the_filters_numbers,),
-    (worst_is_the_spoiled_one_and_a_tick_disables_it,), (marks_stand_in_the_views,),
-    (delete_is_one_step,), (a_state_keeps_the_pairs,)])
+    (set_up,), (lists_are_paired_by_order_on_request,), (half_a_pair_never_reaches_the_fit,),
+    (drags_are_the_cameras_while_picking,), (place_under_a_click_in_3d,), (clicks_make_pairs,),
+    (table_shows_the_filters_numbers,), (worst_is_the_spoiled_one_and_a_tick_disables_it,),
+    (marks_stand_in_the_views,), (delete_is_one_step,), (a_state_keeps_the_pairs,)])

@@ -1,14 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves what the window shows of a head and its brain mask that were opened together, the mask
 first: the camera turns to the head, and no scale of colours is shown. A filter keeps the head's
-colours. One click on Brain shows the brain by the open mask. One undo takes that back.
+colours. One click on Brain shows the brain by the open mask. One undo takes that back. Of three
+heads that are opened at once, beside each other, the camera sees all.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 
 import os
 
+import head_files
+import nibabel
+import numpy
 import test_hand as hand
 import window_testing as window
+from brainshift_testing import picture, scratch
 from paraview import simple
 
 HEAD = os.path.join(os.environ["BRAINSHIFT_TEST_DATA"], "seg3d-utah", "seg3d_mr_t1.nii.gz")
@@ -36,13 +41,18 @@ class Opened:
     """What the steps share."""
 
 
-def opens_both():
+def an_empty_view():
     hand.take(hand.NONE)
-    for source in list(simple.GetSources().values()):
+    for source in list(simple.GetSources().values())[::-1]:
         simple.Delete(source)
     view = Opened.view = simple.GetActiveViewOrCreate("RenderView")
     view.CameraPosition, view.CameraFocalPoint = [0, 0, 1], [0, 0, 0]
     view.CameraViewUp = [0, 1, 0]
+    return view
+
+
+def opens_both():
+    view = an_empty_view()
     hand.open_file(MASK)
     Opened.mask = simple.GetActiveSource()
     hand.open_file(HEAD)
@@ -96,11 +106,40 @@ def one_undo_takes_it_back():
     assert hand.click("Skin")  # for the next start
 
 
+def three_at_once_are_seen():
+    view = an_empty_view()
+    view.OrientationAxesVisibility = 0
+    voxels, affine = head_files.head()
+    for number, right in enumerate((0.0, 350.0, -350.0)):
+        moved = affine.copy()
+        moved[0, 3] += right
+        name = scratch(f"head{number}.nii")
+        nibabel.save(nibabel.Nifti1Image(voxels, moved), name)
+        hand.open_file(name)
+    hand.wait(300)
+    assert hand.click("Accept")
+    heads = list(simple.GetSources().values())
+    assert len(heads) == 3, heads
+    window.until(lambda: list(view.CameraViewUp) == [0, 0, 1], "the camera turns")
+    hand.wait(1000)
+    pixels = picture(view)
+    tissue = numpy.abs(pixels - pixels[:, :2].mean(axis=1, keepdims=True)).sum(axis=2) > 0.1
+    assert not tissue[[0, -1]].any() and not tissue[:, [0, -1]].any(), "an edge cuts a head"
+    size = (tissue.any(axis=0).mean(), tissue.any(axis=1).mean())
+    hand.save_picture(scratch("three.png"))
+    assert 0.8 < max(size) < 0.97, size
+    for head in heads:
+        bounds = head.GetDataInformation().GetBounds()
+        x, y = window.pixel_of(view, [sum(bounds[i:i + 2]) / 2 for i in (0, 2, 4)])
+        assert tissue[y, x], (list(bounds), x, y, list(view.CameraPosition))
+
+
 def play():
     yield (the_camera_turns_to_the_head,)
     yield (a_filter_keeps_the_heads_colours,)
     yield (one_click_shows_the_brain,)
     yield (one_undo_takes_it_back,)
+    yield (three_at_once_are_seen,)
 
 
 if __name__ == "__main__":

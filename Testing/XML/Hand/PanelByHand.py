@@ -4,7 +4,8 @@ sizes, with each tool; that Strength, the numbers of the tool in hand and its dr
 without scrolling; that labels say units; that the filter stays selected when its mask comes and
 goes; that Reset All leaves the keyboard where it was; that the status line tells when a view shows
 another volume than the one that the tool in hand works on, and one click switches to it without a
-stroke; and that a Deformation Field leaves the volume visible.
+stroke; that warnings stand in the status line and errors open Output Messages; and that a
+Deformation Field leaves the volume visible.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import brainshift
@@ -189,6 +190,36 @@ def field_leaves_the_volume():
     simple.Show(field, view)  # whoever wants to see it, sees it
 
 
+def warnings_stand_in_the_status_line():
+    """They open nothing over the views, count strokes as the list does, and use its words."""
+    hand.forget_messages()
+    window.deformation().Strokes = brainshift.soft(CENTRE, (0.0, 0.5, 0.0), 0.7)
+    window.deformation().UpdatePipeline()
+    window.until(lambda: "stroke 1 (0.7 mm)" in hand.label("BrainShiftWarning"), "the warning")
+    words = hand.label("BrainShiftWarning")
+    assert words.startswith("The lattice is too coarse"), words
+    assert words.endswith("Make Lattice Dimensions larger."), words
+    told, shown = hand.messages()
+    assert not shown, "Output Messages stays closed"
+    assert any("stroke 1 (0.7 mm)" in line for line in told), told
+    assert hand.is_visible("BrainShiftWarning")
+    assert hand.click("BrainShiftMessages")
+    hand.wait(100)
+    assert hand.messages()[1] and not hand.is_visible("BrainShiftWarning")
+
+
+def errors_open_the_messages():
+    hand.close_messages()
+    assert not hand.messages()[1]
+    window.deformation().Strokes = STROKES[:-1]
+    window.deformation().UpdatePipeline()
+    window.until(lambda: hand.messages()[1], "Output Messages opens")
+    assert any("must hold 14 for each stroke" in line for line in hand.messages()[0])
+    window.deformation().Strokes = []
+    hand.close_messages()
+    hand.forget_messages()
+
+
 def play():
     yield (begin,)
     yield (fits, 1280, 800)
@@ -199,6 +230,8 @@ def play():
     yield (stays_selected,)
     yield (other_stays_selected,)
     yield (keeps_the_keyboard,)
+    yield (warnings_stand_in_the_status_line,)
+    yield (errors_open_the_messages,)
     yield (show_another_volume,)
     yield (switches_by_button,)
     yield (switches_by_click,)

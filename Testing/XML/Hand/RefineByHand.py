@@ -297,7 +297,7 @@ def others_have_their_way():
     deformation().LatticeDimensions = [15, 15, 15]
     hand.wait(100)
     told = hand.label("BrainShiftRefineWarning")
-    assert "LatticeDimensions of bent was changed" in told, told
+    assert "Lattice Dimensions of bent was changed" in told, told
     assert hand.click("BrainShiftRefine"), "it runs on"
     hand.tap(hand.ESCAPE)
     deformation().LatticeDimensions = [19, 19, 19]

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that the guided start leads a user through its seven steps in ParaView's window: it waits
-for what each asks, goes on when it is done, and can be skipped and left.
+for what each asks, goes on when it is done, stays above the window, and can be skipped and left;
+and that the panel shows the point of interest that the stamp uses.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 
@@ -42,9 +43,28 @@ def it_opens_at_the_first_step():
     assert reaches("Step 1 of 7: Open"), title()
 
 
+def it_stays_above_the_window():
+    """Also when ParaView has made its window again, for its first view."""
+    def belongs():
+        above, window_itself = hand.owner_of("BrainShiftTutorial")
+        return above == window_itself != 0
+
+    window.until(belongs, "the tutorial is a tool of the main window")
+    hand.new_layout()
+    hand.wait(PATIENCE)
+    window.until(belongs, "and remains one")
+    hand.close_layout(1)
+
+
 def it_opens_the_sample():
     brainshift.open_sample()  # what the button runs; Python cannot press it while it runs itself
     assert bent() is not None
+    bounds = bent().GetDataInformation().GetBounds()
+    for i, axis in enumerate("XYZ"):
+        middle = sum(bounds[2 * i:2 * i + 2]) / 2
+        window.until(lambda: hand.field("PointOfInterest", axis) == f"{middle:.1f}",
+                     "the panel shows where the stamp aims, the centre")
+    assert list(bent().PointOfInterest) == [0, 0, 0], "the property means it"
     assert "Step 2 of 7" in title(), title()
 
 
@@ -98,6 +118,7 @@ def it_can_be_left_and_skipped():
 
 def play():
     yield (it_opens_at_the_first_step,)
+    yield (it_stays_above_the_window,)
     yield (it_opens_the_sample,)
     yield (it_waits_for_the_look,)
     yield (it_waits_for_strokes_of_each_tool,)

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Plugin/SliceGreys.h"
+
+#include "Interaction/Commands/Application.h"
+#include "Interaction/Displays/VolumeLook.h"
+#include "Interaction/Views/ActiveDeformation.h"
+#include "Plugin/FirstSight.h"
+
+#include <pqDataRepresentation.h>
+#include <pqUndoStack.h>
+
+#include <vtkNew.h>
+#include <vtkSMPropertyHelper.h>
+#include <vtkSMProxy.h>
+#include <vtkSMSession.h>
+#include <vtkSMSessionProxyManager.h>
+#include <vtkSMTransferFunctionManager.h>
+
+#include <QTimer>
+#include <QVariant>
+
+#include <array>
+
+namespace brainshift
+{
+namespace
+{
+constexpr const char* Before = "BrainShiftColorsBefore"; // Qt property: number of the colour map
+
+QString arrayOf(pqDataRepresentation* display)
+{
+  return vtkSMPropertyHelper(display->getProxy(), "ColorArrayName").GetInputArrayNameToProcess();
+}
+
+// Of other slices of the volume; null if there are none.
+vtkSMProxy* greysBeside(pqDataRepresentation* display)
+{
+  pqServerManagerModel* model = serverManagerModel();
+  for (auto other : model->findItems<pqDataRepresentation*>())
+  {
+    vtkSMProxy* colors = other->getLookupTableProxy();
+    if (other != display && colors && !isLook(colors) && showsSlices(other) &&
+      arrayOf(other) == arrayOf(display) &&
+      (isMadeOf(sourceOf(other), sourceOf(display)) ||
+        isMadeOf(sourceOf(display), sourceOf(other))))
+    {
+      return colors;
+    }
+  }
+  return nullptr;
+}
+
+vtkSMProxy* newGreys(pqDataRepresentation* display)
+{
+  const std::vector<double> window = tissueWindow(display);
+  if (window.size() != 2)
+  {
+    return nullptr;
+  }
+  const QString name =
+    QString("Slices_%1_%2").arg(display->getProxy()->GetGlobalIDAsString(), arrayOf(display));
+  vtkNew<vtkSMTransferFunctionManager> manager;
+  vtkSMProxy* greys = manager->GetColorTransferFunction(
+    name.toUtf8().constData(), display->getProxy()->GetSessionProxyManager());
+  const std::array<double, 8> points{ window[0], 0, 0, 0, window[1], 1, 1, 1 };
+  vtkSMPropertyHelper(greys, "ColorSpace").Set("RGB");
+  vtkSMPropertyHelper(greys, "RGBPoints").Set(points.data(), points.size());
+  vtkSMPropertyHelper(greys, "AutomaticRescaleRangeMode", true)
+    .Set(static_cast<int>(vtkSMTransferFunctionManager::NEVER));
+  vtkSMPropertyHelper(greys, "ScalarRangeInitialized", true).Set(1);
+  greys->UpdateVTKObjects();
+  return greys;
+}
+
+void setColors(pqDataRepresentation* display, vtkSMProxy* colors)
+{
+  SCOPED_UNDO_EXCLUDE();
+  vtkSMPropertyHelper(display->getProxy(), "LookupTable").Set(colors);
+  display->getProxy()->UpdateVTKObjects();
+}
+
+void keepGreys(pqDataRepresentation* display)
+{
+  vtkSMProxy* colors = display->getLookupTableProxy();
+  if (!showsSlices(display) || !colors || !isLook(colors) ||
+    pqApplicationCore::instance()->isLoadingState())
+  {
+    return;
+  }
+  SCOPED_UNDO_EXCLUDE();
+  vtkSMProxy* beside = greysBeside(display);
+  if (vtkSMProxy* greys = beside ? beside : newGreys(display))
+  {
+    display->setProperty(Before, colors->GetGlobalID());
+    setColors(display, greys);
+    display->renderViewEventually();
+  }
+}
+}
+
+void keepGreysSoon(pqDataRepresentation* display)
+{
+  if (showsSlices(display) && display->getLookupTableProxy() &&
+    isLook(display->getLookupTableProxy()))
+  {
+    QTimer::singleShot(0, display, [display] { keepGreys(display); });
+  }
+}
+
+void takeColorsBack(pqDataRepresentation* display)
+{
+  const QVariant before = display->property(Before);
+  display->setProperty(Before, QVariant());
+  vtkSMProxy* colors = before.isValid()
+    ? vtkSMProxy::SafeDownCast(
+        display->getProxy()->GetSession()->GetRemoteObject(before.value<vtkTypeUInt32>()))
+    : nullptr;
+  if (colors)
+  {
+    setColors(display, colors);
+  }
+}
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the window manager and the fields of ParaView's window know, for test_hand.py.
+#include "TestHandExport.h"
+
+#include <pqOutputWidget.h>
+
+#include <QApplication>
+#include <QDockWidget>
+#include <QLineEdit>
+#include <QMainWindow>
+
+// The number that X knows a window by, by its object name; the main window's if that is empty. 0:
+// there is none.
+TEST_HAND_EXPORT unsigned long long test_hand_window(const char* name)
+{
+  const bool main = qstrcmp(name, "") == 0;
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    if (main ? qobject_cast<QMainWindow*>(window) != nullptr : window->objectName() == name)
+    {
+      return window->internalWinId();
+    }
+  }
+  return 0;
+}
+
+// The text of a field of a property that the properties panel shows, by both names.
+TEST_HAND_EXPORT const char* test_hand_field(const char* property, const char* name)
+{
+  static QByteArray text;
+  text.clear();
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    auto panel = window->findChild<QWidget*>("propertiesPanel");
+    auto widget = panel ? panel->findChild<QWidget*>(property) : nullptr;
+    auto field = widget ? widget->findChild<QLineEdit*>(name) : nullptr;
+    text = field ? field->text().toUtf8() : text;
+  }
+  return text.constData();
+}
+
+// Closes the window Output Messages.
+TEST_HAND_EXPORT void test_hand_close_messages()
+{
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    for (QDockWidget* dock : window->findChildren<QDockWidget*>())
+    {
+      if (dock->findChild<pqOutputWidget*>())
+      {
+        dock->close();
+      }
+    }
+  }
+}
