@@ -6,7 +6,6 @@
 /// whole numbers of the classes "integer" and "label" stay as they are. MINC1 files are refused.
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
-#include "Formats/MINC/MINCPositions.h"
 #include "Formats/Volumes/VolumeFile.h"
 
 #include "vtkDataArray.h"
@@ -17,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <map>
 
 namespace brainshift
@@ -126,6 +124,11 @@ bool describe(midimhandle_t dimension, StoredAxis& axis)
     axis.units = units;
     mifree_name(units);
   }
+  if (isGood && !axis.isEven && axis.count <= MostSteps)
+  {
+    axis.positions.resize(axis.count);
+    miget_dimension_offsets(dimension, axis.count, 0, axis.positions.data());
+  }
   return isGood &&
     (axis.kind != MI_DIMCLASS_SPATIAL ||
       miget_dimension_cosines(dimension, &axis.cosines.x) == MI_NOERROR);
@@ -224,15 +227,16 @@ double factorOf(const std::map<std::string, double>& factors, const StoredAxis& 
 
 bool grows(const std::vector<double>& numbers)
 {
-  return std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal<double>()) ==
-    numbers.end();
+  const auto isNotAbove = [](double a, double b) { return !(a < b); }; // also rejects NaN
+  return std::adjacent_find(numbers.begin(), numbers.end(), isNotAbove) == numbers.end() &&
+    std::isfinite(numbers.front()) && std::isfinite(numbers.back());
 }
 
 // Gives an uneven axis of space the even spacing from its first position to its last one.
 void makeEven(StoredAxis& axis, double mm, std::vector<std::string>& warnings)
 {
   const std::vector<double>& positions = axis.positions;
-  if (positions.size() < 2)
+  if (positions.size() < 2 || positions.front() == positions.back()) // zeros of libminc
   {
     warnings.push_back("has an uneven spacing along " + axis.name +
       ", but no list of its positions; it is shown with the even spacing " +
@@ -394,12 +398,6 @@ void MINCVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   }
   std::vector<StoredAxis> stored;
   axesOf(volume.get(), stored);
-  for (StoredAxis& axis : stored)
-  {
-    const bool isListed = !axis.isEven && axis.count <= MostSteps;
-    axis.positions =
-      isListed ? positionsAlong(fileName, axis.name, axis.count) : std::vector<double>();
-  }
   readType(volume.get(), header, this->AreRealValues);
   arrange(stored, this->Axes, header);
   if (header.dimensions == glm::ivec3(1))

@@ -5,8 +5,9 @@
 /// taken.
 #include "Common/Bytes.h"
 #include "Common/HostMemory.h"
-#include "Formats/Files/HDF5Objects.h"
 #include "Formats/Transforms/TransformRecord.h"
+
+#include "vtk_hdf5.h"
 
 #include <cstdint>
 #include <utility>
@@ -17,6 +18,51 @@ namespace
 {
 constexpr int MostRecords = 1000;
 constexpr std::size_t LongestType = 256; // letters
+
+// An object of the library, closed at the end of the scope.
+class Handle
+{
+public:
+  Handle(hid_t id, herr_t (*close)(hid_t))
+    : Id(id)
+    , Close(close)
+  {
+  }
+  ~Handle()
+  {
+    if (this->Id >= 0)
+    {
+      this->Close(this->Id);
+    }
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+
+  bool isOpen() const { return this->Id >= 0; }
+  operator hid_t() const { return this->Id; }
+
+private:
+  hid_t Id;
+  herr_t (*Close)(hid_t);
+};
+
+// Keeps the library from writing its errors to the terminal.
+class Silence
+{
+public:
+  Silence()
+  {
+    H5Eget_auto2(H5E_DEFAULT, &this->Function, &this->Data);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~Silence() { H5Eset_auto2(H5E_DEFAULT, this->Function, this->Data); }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+private:
+  H5E_auto2_t Function = nullptr;
+  void* Data = nullptr;
+};
 
 bool exists(hid_t group, const std::string& name)
 {
@@ -32,15 +78,15 @@ std::string nameIn(hid_t group, const std::string& end)
 std::string readType(hid_t group)
 {
   const Problem problem("has a transform without a type");
-  const HDF5Handle set(H5Dopen2(group, "TransformType", H5P_DEFAULT), H5Dclose);
-  const HDF5Handle stored(set.isOpen() ? H5Dget_type(set) : hid_t(-1), H5Tclose);
-  const HDF5Handle space(set.isOpen() ? H5Dget_space(set) : hid_t(-1), H5Sclose);
+  const Handle set(H5Dopen2(group, "TransformType", H5P_DEFAULT), H5Dclose);
+  const Handle stored(set.isOpen() ? H5Dget_type(set) : hid_t(-1), H5Tclose);
+  const Handle space(set.isOpen() ? H5Dget_space(set) : hid_t(-1), H5Sclose);
   if (!stored.isOpen() || !space.isOpen() || H5Tget_class(stored) != H5T_STRING ||
     H5Sget_simple_extent_npoints(space) != 1)
   {
     throw problem;
   }
-  const HDF5Handle memory(H5Tcopy(stored), H5Tclose);
+  const Handle memory(H5Tcopy(stored), H5Tclose);
   if (H5Tis_variable_str(stored) > 0)
   {
     char* text = nullptr;
@@ -69,9 +115,9 @@ std::vector<double> readNumbers(hid_t group, const std::string& name)
     return {}; // an identity has none
   }
   const Problem problem("has damaged numbers in " + name);
-  const HDF5Handle set(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose);
-  const HDF5Handle stored(set.isOpen() ? H5Dget_type(set) : hid_t(-1), H5Tclose);
-  const HDF5Handle space(set.isOpen() ? H5Dget_space(set) : hid_t(-1), H5Sclose);
+  const Handle set(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose);
+  const Handle stored(set.isOpen() ? H5Dget_type(set) : hid_t(-1), H5Tclose);
+  const Handle space(set.isOpen() ? H5Dget_space(set) : hid_t(-1), H5Sclose);
   const hssize_t count = space.isOpen() ? H5Sget_simple_extent_npoints(space) : -1;
   if (count < 0 || !stored.isOpen() || H5Tget_class(stored) != H5T_FLOAT)
   {
@@ -166,15 +212,15 @@ void readVariable(
 
 bool isHDF5(const std::string& fileName)
 {
-  const HDF5Silence silence;
+  const Silence silence;
   return H5Fis_hdf5(fileName.c_str()) > 0;
 }
 
 std::vector<TransformRecord> readHDF5Records(const std::string& fileName)
 {
-  const HDF5Silence silence;
-  const HDF5Handle file(H5Fopen(fileName.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  const HDF5Handle all(
+  const Silence silence;
+  const Handle file(H5Fopen(fileName.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  const Handle all(
     file.isOpen() ? H5Gopen2(file, "/TransformGroup", H5P_DEFAULT) : hid_t(-1), H5Gclose);
   if (!all.isOpen())
   {
@@ -183,7 +229,7 @@ std::vector<TransformRecord> readHDF5Records(const std::string& fileName)
   std::vector<TransformRecord> records;
   for (int number = 0; number < MostRecords && exists(all, std::to_string(number)); ++number)
   {
-    const HDF5Handle group(H5Gopen2(all, std::to_string(number).c_str(), H5P_DEFAULT), H5Gclose);
+    const Handle group(H5Gopen2(all, std::to_string(number).c_str(), H5P_DEFAULT), H5Gclose);
     throwIfAny(group.isOpen() ? "" : "has a damaged transform");
     records.push_back(readRecord(group));
   }

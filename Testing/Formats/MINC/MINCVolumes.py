@@ -82,7 +82,6 @@ def uneven(axis, positions, times=(0.0, 1.0)):
 
 
 def test_uneven_times_are_those_of_the_file():
-    """libminc makes 0 1 2 of them."""
     source, said = uneven("time", (0.0, 2.5, 10.0))
     assert not said, said
     assert list(source.TimestepValues) == [0.0, 2.5, 10.0], source.TimestepValues
@@ -94,7 +93,8 @@ def test_uneven_times_are_those_of_the_file():
 
 
 def test_uneven_times_that_are_none_are_told():
-    for positions in ((0.0, 5.0, 5.0), (4.0, 2.0, 1.0), (0.0, 1.0), (0.0, numpy.nan, 3.0)):
+    for positions in ((0.0, 5.0, 5.0), (4.0, 2.0, 1.0), (0.0, 1.0), (0.0, numpy.nan, 3.0),
+                      (0.0, 1.0, numpy.inf)):
         source, said = uneven("time", positions)
         assert "has uneven times along time" in said, (positions, said)
         assert list(source.TimestepValues) == [0.0, 1.0, 2.0], source.TimestepValues
@@ -108,8 +108,12 @@ def test_an_uneven_axis_of_space_says_its_error():
     source, said = uneven("xspace", (-3.0, -1.0, 1.0, 3.0))  # even after all
     assert not said, said
     assert output(source).GetSpacing()[0] == 2.0 and output(source).GetBounds()[0] == -3.0
-    source, said = uneven("xspace", (0.0, 2.0, 1.0, 3.0))
-    assert "has positions along xspace that neither grow nor fall" in said, said
+    for positions in ((0.0, 2.0, 1.0, 3.0), (0.0, numpy.nan, 1.0, 3.0)):
+        source, said = uneven("xspace", positions)
+        assert "has positions along xspace that neither grow nor fall" in said, said
+    source, said = uneven("xspace", (0.0, 0.0, 0.0, 0.0))
+    assert "but no list of its positions; it is shown with the even spacing 1" in said, said
+    assert output(source).GetNumberOfPoints() == 60
 
 
 def test_labels_are_named():
