@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Formats/DICOM/DICOMChecks.h"
 
-#include "Common/Numbers.h"
 #include "Formats/DICOM/DICOMAttributes.h"
 #include "Formats/DICOM/DICOMFrames.h"
 #include "Formats/Files/Text.h"
@@ -125,8 +124,8 @@ void notePadding(
 void requirePixels(const DICOMDataSet& set, const DICOMPixelFormat& pixels)
 {
   requireGrey(set);
-  requireBits(set, pixels);
   requireVolume(set);
+  requireBits(set, pixels);
 }
 
 std::vector<std::string> notesOf(const DICOMDataSet& set, const DICOMFile& file)
