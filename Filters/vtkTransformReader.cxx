@@ -51,7 +51,8 @@ struct vtkTransformReader::State
   std::vector<glm::dvec3> Points;
   PointTransform Chain;
   std::string Problem;
-  vtkMTimeType ReadAt = 0; // the time of the properties that Chain and Problem belong to
+  std::string ProblemOfRun; // of the pipeline, after the files were read
+  vtkMTimeType ReadAt = 0;  // the time of the properties that Chain and Problem belong to
   Grid OutputGrid;
   bool Good = false; // OutputGrid is known
   vtkNew<vtkDoubleArray> Mapped;
@@ -124,7 +125,8 @@ const std::string& vtkTransformReader::Load()
 
 std::string vtkTransformReader::GetProblem()
 {
-  return this->Load();
+  const std::string& problem = this->Load();
+  return problem.empty() ? this->Internal->ProblemOfRun : problem;
 }
 
 const PointTransform& vtkTransformReader::GetChain()
@@ -191,8 +193,20 @@ int vtkTransformReader::RequestInformation(
   {
     return 1; // Python sets properties one after the other, and ParaView asks after each
   }
-  throwIfAny(this->Load());
-  if (vtkInformation* volume = inputs[0]->GetInformationObject(0))
+  state.ProblemOfRun = sentenceThrownBy("Transform Reader", [&] {
+    throwIfAny(this->Load());
+    this->ChooseGrid(inputs[0]->GetInformationObject(0));
+  });
+  throwIfAny(state.ProblemOfRun);
+  state.Good = true;
+  announce(outputs->GetInformationObject(0), state.OutputGrid);
+  return 1;
+}
+
+void vtkTransformReader::ChooseGrid(vtkInformation* volume)
+{
+  State& state = *this->Internal;
+  if (volume)
   {
     const glm::ivec3 sides = glm::make_vec3(this->LatticeDimensions);
     requireLatticeSides(sides);
@@ -208,9 +222,6 @@ int vtkTransformReader::RequestInformation(
       " and has no points of its own: name the Volume to bend");
   }
   requirePosition(state.OutputGrid, "");
-  state.Good = true;
-  announce(outputs->GetInformationObject(0), state.OutputGrid);
-  return 1;
 }
 
 int vtkTransformReader::RequestUpdateExtent(
@@ -223,7 +234,7 @@ int vtkTransformReader::RequestUpdateExtent(
 int vtkTransformReader::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  const State& state = *this->Internal;
+  State& state = *this->Internal;
   throwIfAny(this->FileName.empty() ? this->Load() : "");
   if (!state.Good)
   {
@@ -234,6 +245,16 @@ int vtkTransformReader::RequestData(
   {
     return 1; // the first piece has all points; others would repeat them on their MPI ranks
   }
+  state.ProblemOfRun = sentenceThrownBy("Transform Reader", [&] {
+    this->FillField(vtkImageData::GetData(information), inputs[0]->GetInformationObject(0));
+  });
+  throwIfAny(state.ProblemOfRun);
+  return 1;
+}
+
+void vtkTransformReader::FillField(vtkImageData* field, vtkInformation* volume)
+{
+  const State& state = *this->Internal;
   const auto wanted = static_cast<brainshift::Direction>(this->OutputDirection);
   const DirectedTransform transform{ state.Chain,
     static_cast<brainshift::Direction>(this->Direction) };
@@ -244,16 +265,15 @@ int vtkTransformReader::RequestData(
   lattice.kernel = this->Kernel;
   if (!sample(this, transform, wanted, lattice.grid, lattice.displacements))
   {
-    return 1;
+    return; // stopped
   }
   this->LargestError = 0.0;
-  if (inputs[0]->GetInformationObject(0) && this->OutputDirection == Forward)
+  if (volume && this->OutputDirection == Forward)
   {
     interpolateAtPoints(lattice);
     this->LargestError = largestErrorOf(lattice, transform);
   }
-  setField(vtkImageData::GetData(information), lattice.grid, lattice.displacements, wanted);
-  return 1;
+  setField(field, lattice.grid, lattice.displacements, wanted);
 }
 
 void vtkTransformReader::PrintSelf(ostream& os, vtkIndent indent)

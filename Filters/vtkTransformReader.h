@@ -21,6 +21,7 @@
 #include <string>
 
 class vtkDoubleArray;
+class vtkImageData;
 
 namespace brainshift
 {
@@ -138,7 +139,10 @@ public:
    */
   vtkDoubleArray* GetMatrix();
 
-  /** Why the files cannot be read: one sentence, without a full stop. Empty if they can. */
+  /**
+   * Why the files cannot be read, or the last run made no field: one sentence, without a full stop.
+   * Empty if neither failed.
+   */
   std::string GetProblem();
 
   /**
@@ -168,6 +172,9 @@ private:
 
   // Reads the files again if a property has changed since. Returns why it cannot.
   const std::string& Load();
+  // Takes the grid of the output: of the volume, or of the field in the files.
+  void ChooseGrid(vtkInformation* volume);
+  void FillField(vtkImageData* field, vtkInformation* volume);
 
   std::string FileName;
   std::string FixedImage;

@@ -5,6 +5,7 @@
 #include "Common/Numbers.h"
 #include "Formats/Files/Text.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace brainshift
@@ -78,6 +79,17 @@ std::vector<DICOMTag> tagsOf(const DICOMDataSet& set, DICOMTag tag)
   return tags;
 }
 
+std::vector<int> wholesOf(const DICOMDataSet& set, DICOMTag tag)
+{
+  const std::string& bytes = bytesOf(set, tag);
+  std::vector<int> numbers;
+  for (std::size_t place = 0; place + 2 <= bytes.size(); place += 2)
+  {
+    numbers.push_back(storedNumber<std::uint16_t>(bytes.data() + place, set.isBigEndian));
+  }
+  return numbers;
+}
+
 std::string dateOf(const DICOMDataSet& set, DICOMTag tag)
 {
   const std::string date = textOf(set, tag);
@@ -143,6 +155,20 @@ std::vector<double> decimalsOf(const DICOMDataSet& set, DICOMTag tag)
   return numbers;
 }
 
+std::vector<double> requiredDecimals(
+  const DICOMDataSet& set, const DICOMName& name, std::size_t count)
+{
+  const std::string text = textOf(set, name.tag);
+  const std::vector<double> numbers = decimalsOf(set, name.tag);
+  if (!text.empty() && (numbers.empty() || (count > 0 && numbers.size() != count)))
+  {
+    throw Problem(joined("has the ", name.keyword, " '", shownWords(text), "'; it must have ",
+      count > 0 ? std::to_string(count) : std::string("only"),
+      count == 1 ? " number" : " numbers"));
+  }
+  return numbers;
+}
+
 double decimalOf(const DICOMDataSet& set, DICOMTag tag, double missing)
 {
   const std::vector<double> numbers = decimalsOf(set, tag);
@@ -183,6 +209,17 @@ double secondsOf(const std::string& date, const std::string& time, double missin
   const int day = digits(date, 6, 2);
   const bool isDated = year > 0 && month >= 1 && month <= 12 && day >= 1 && day <= 31;
   return seconds + (isDated ? 86400.0 * daysOf(year, month, day) : 0.0);
+}
+
+bool isSame(const DICOMDataSet& a, const DICOMDataSet& b)
+{
+  return std::equal(a.elements.begin(), a.elements.end(), b.elements.begin(), b.elements.end(),
+    [](const auto& one, const auto& other) {
+      const DICOMElement& x = one.second;
+      const DICOMElement& y = other.second;
+      return one.first == other.first && x.bytes == y.bytes &&
+        std::equal(x.items.begin(), x.items.end(), y.items.begin(), y.items.end(), isSame);
+    });
 }
 
 const std::vector<DICOMDataSet>& itemsOf(const DICOMDataSet& set, DICOMTag tag)

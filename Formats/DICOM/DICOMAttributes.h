@@ -20,6 +20,21 @@ std::string plainText(const std::string& text);
 /** Numbers written as text (VR DS, IS). Empty if one of them is no finite number. */
 std::vector<double> decimalsOf(const DICOMDataSet& set, DICOMTag tag);
 
+/** An attribute and its keyword in the standard, for sentences. */
+struct DICOMName
+{
+  DICOMTag tag;
+  const char* keyword;
+};
+
+/**
+ * Numbers written as text that count: `count` of them, or any number if it is 0. Empty if the
+ * attribute is missing or empty. Throws the end of a sentence that names it if it holds other text
+ * or other numbers than so many.
+ */
+std::vector<double> requiredDecimals(
+  const DICOMDataSet& set, const DICOMName& name, std::size_t count);
+
 /** One number written as text, or `missing`. */
 double decimalOf(const DICOMDataSet& set, DICOMTag tag, double missing);
 
@@ -29,6 +44,9 @@ double doubleOf(const DICOMDataSet& set, DICOMTag tag, double missing);
 /** The first number of 2 bytes (VR US) or of 4 bytes (VR UL), or `missing`. */
 double wholeOf(const DICOMDataSet& set, DICOMTag tag, double missing);
 
+/** All numbers of 2 bytes (VR US). */
+std::vector<int> wholesOf(const DICOMDataSet& set, DICOMTag tag);
+
 /** The tags that an attribute names (VR AT). */
 std::vector<DICOMTag> tagsOf(const DICOMDataSet& set, DICOMTag tag);
 
@@ -37,6 +55,9 @@ std::string dateOf(const DICOMDataSet& set, DICOMTag tag);
 
 /** Seconds since 1970 of a date (VR DA) and a time (VR TM), or `missing`. */
 double secondsOf(const std::string& date, const std::string& time, double missing);
+
+/** Whether two data sets have the same attributes with the same values. */
+bool isSame(const DICOMDataSet& a, const DICOMDataSet& b);
 
 /** The items of a sequence; none if it is missing. */
 const std::vector<DICOMDataSet>& itemsOf(const DICOMDataSet& set, DICOMTag tag);

@@ -21,6 +21,9 @@ constexpr DICOMTag Item = 0xfffee000;
 constexpr DICOMTag EndOfItem = 0xfffee00d;
 constexpr DICOMTag EndOfSequence = 0xfffee0dd;
 constexpr DICOMTag PixelData = 0x7fe00010;
+constexpr DICOMTag FloatPixelData = 0x7fe00008;
+constexpr DICOMTag DoubleFloatPixelData = 0x7fe00009;
+constexpr DICOMTag AnatomicalOrientation = 0x00102210; // a word of the axes, not of the patient
 constexpr DICOMTag TransferSyntax = 0x00020010;
 const std::string Implicit = "1.2.840.10008.1.2";
 const std::string BigEndian = "1.2.840.10008.1.2.2";
@@ -105,7 +108,9 @@ public:
         offset = found.value;
         return true;
       }
-      if (found.tag == PixelData && form.depth == 0)
+      const bool arePixels =
+        found.tag == PixelData || found.tag == FloatPixelData || found.tag == DoubleFloatPixelData;
+      if (arePixels && form.depth == 0)
       {
         this->Pixels = found;
         return true;
@@ -130,7 +135,8 @@ private:
       return false;
     }
     const DICOMTag group = head.tag >> 16;
-    const bool isKept = group % 2 == 0 && (group != 0x0010 || this->Patient == PatientGroup::Kept);
+    const bool isKept = group % 2 == 0 &&
+      (group != 0x0010 || head.tag == AnatomicalOrientation || this->Patient == PatientGroup::Kept);
     DICOMElement element;
     element.length = head.length;
     if (this->isSequence(offset, form, head))
@@ -342,6 +348,7 @@ bool parseDICOM(DICOMBytes& bytes, DICOMContent& content, PatientGroup patient)
     return false;
   }
   content.pixelOffset = parser.Pixels.value;
+  content.areReal = content.pixelOffset > 0 && parser.Pixels.tag != PixelData;
   content.isPacked = content.pixelOffset > 0 && parser.Pixels.length == Undefined;
   content.pixelLength = content.isPacked ? 0 : parser.Pixels.length;
   return true;

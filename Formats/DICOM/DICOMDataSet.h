@@ -3,7 +3,7 @@
 /// The bytes of a DICOM file, and its attributes up to its pixels.
 ///
 /// Values of private groups are skipped, and those of the patient's group (0010) unless a user
-/// asked for them.
+/// asked for them; apart from AnatomicalOrientationType, which says what the axes mean.
 #ifndef BrainShift_DICOMDataSet_h
 #define BrainShift_DICOMDataSet_h
 
@@ -81,6 +81,7 @@ struct DICOMContent
   std::uint64_t pixelOffset = 0; ///< 0: there are no pixels
   std::uint64_t pixelLength = 0; ///< bytes, unless it is packed
   bool isPacked = false;         ///< the pixels come in fragments
+  bool areReal = false;          ///< the pixels are in floating point
 };
 
 /** What becomes of the patient's group (0010). */

@@ -167,13 +167,13 @@ bool isSameStack(const DICOMFrame& a, const DICOMFrame& b)
 }
 
 // What the images of one stack have in common, apart from numbers that are rounded.
-using Kind = std::tuple<std::string, int, int, std::string, std::string>;
+using Kind = std::tuple<std::string, int, int, std::string, std::string, std::string, std::string>;
 
 Kind kindOf(const DICOMFile& file, const DICOMFrame& frame)
 {
   // Frames without positions of their own are a volume, or the times of one, in their file only.
   const std::string place = file.standsAlone ? file.series + '\n' + file.path : file.series;
-  return { place, file.columns, file.rows, frame.type, file.problem };
+  return { place, file.columns, file.rows, frame.type, file.problem, frame.quantity, frame.stack };
 }
 
 std::vector<DICOMSeries> stacksOf(const std::vector<DICOMFile>& files)

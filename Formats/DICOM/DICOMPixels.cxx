@@ -24,17 +24,20 @@ std::size_t pixelsOf(const DICOMFile& file)
 template <typename T>
 void keepStoredBits(const DICOMPixelFormat& pixels, T* numbers, std::size_t count)
 {
-  if (pixels.bitsStored == pixels.bitsAllocated)
+  if constexpr (std::is_integral_v<T>)
   {
-    return;
-  }
-  const int unusedAbove = pixels.bitsAllocated - 1 - pixels.highBit;
-  const int unused = pixels.bitsAllocated - pixels.bitsStored;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const auto bits = static_cast<std::make_unsigned_t<T>>(numbers[i]);
-    numbers[i] = static_cast<T>(
-      static_cast<T>(static_cast<std::make_unsigned_t<T>>(bits << unusedAbove)) >> unused);
+    if (pixels.bitsStored == pixels.bitsAllocated)
+    {
+      return;
+    }
+    const int unusedAbove = pixels.bitsAllocated - 1 - pixels.highBit;
+    const int unused = pixels.bitsAllocated - pixels.bitsStored;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const auto bits = static_cast<std::make_unsigned_t<T>>(numbers[i]);
+      numbers[i] = static_cast<T>(
+        static_cast<T>(static_cast<std::make_unsigned_t<T>>(bits << unusedAbove)) >> unused);
+    }
   }
 }
 
@@ -119,6 +122,10 @@ void withStoredType(int type, const Use& use)
       return use(static_cast<short*>(nullptr));
     case VTK_UNSIGNED_INT:
       return use(static_cast<unsigned int*>(nullptr));
+    case VTK_FLOAT:
+      return use(static_cast<float*>(nullptr));
+    case VTK_DOUBLE:
+      return use(static_cast<double*>(nullptr));
     default:
       return use(static_cast<int*>(nullptr));
   }
@@ -231,6 +238,10 @@ void decode(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int 
 
 int storedTypeOf(const DICOMPixelFormat& pixels)
 {
+  if (pixels.isReal)
+  {
+    return pixels.bitsAllocated == 64 ? VTK_DOUBLE : VTK_FLOAT;
+  }
   switch (pixels.bitsAllocated)
   {
     case 8:

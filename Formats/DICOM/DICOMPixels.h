@@ -4,7 +4,7 @@
 #ifndef BrainShift_DICOMPixels_h
 #define BrainShift_DICOMPixels_h
 
-#include "Formats/DICOM/DICOMFile.h"
+#include "Formats/DICOM/DICOMImages.h"
 
 namespace brainshift
 {

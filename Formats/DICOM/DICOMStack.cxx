@@ -2,6 +2,7 @@
 #include "Formats/DICOM/DICOMStack.h"
 
 #include "Common/Numbers.h"
+#include "Formats/Files/Text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,9 @@ namespace
 // Images nearer than this fraction of a pixel are at one position.
 constexpr double SamePlacePixels = 0.01;
 // What images of one volume have in common: the first so many numbers of a moment.
-constexpr std::size_t SharedNumbers = 4;
+constexpr std::size_t SharedNumbers = 8;
+// SliceLocation may differ so far at one position; scanners round it.
+constexpr double LargestUnreportedContradictionMm = 0.1;
 
 using Images = std::vector<DICOMFrame>;
 using SharedKey = std::array<double, SharedNumbers>;
@@ -28,6 +31,7 @@ struct DICOMPlaces
   std::vector<std::vector<DICOMFrame>> volumes; // of each time; images from below to above
   std::vector<double> times;                    // s; at least one
   std::string noteOfTimes;                      // the end of a sentence; may be empty
+  std::vector<std::string> contradictions;      // ends of sentences
   std::size_t copies = 0;                       // images left out: the same image in another file
   std::size_t leftOver = 0;                     // images left out: their place has more than others
 };
@@ -40,25 +44,52 @@ SharedKey sharedKey(const DICOMFrame& image)
   return key;
 }
 
-// The same image may lie in a folder twice, under two names.
-Images withoutCopies(const std::vector<DICOMFile>& files, const Images& images)
+double toleranceMm(const DICOMFrame& image)
 {
-  std::set<std::pair<std::string, int>> seen;
+  return SamePlacePixels * std::min(image.spacingMm.x, image.spacingMm.y);
+}
+
+// The same image may lie in a folder twice, under two names. Images at other positions are others,
+// whatever their UID says.
+Images withoutCopies(
+  const std::vector<DICOMFile>& files, const Images& images, std::vector<std::string>& notes)
+{
+  std::map<std::pair<std::string, int>, glm::dvec3> seen;
   Images kept;
+  bool isUsedTwice = false;
   for (const DICOMFrame& image : images)
   {
     const std::string& instance = files[image.file].instance;
-    if (instance.empty() || seen.insert({ instance, image.frame }).second)
+    const auto [first, isNew] = seen.insert({ { instance, image.frame }, image.position });
+    const bool isElsewhere = glm::distance(first->second, image.position) > toleranceMm(image);
+    isUsedTwice = isUsedTwice || (isElsewhere && !instance.empty());
+    if (instance.empty() || isNew || isElsewhere)
     {
       kept.push_back(image);
     }
   }
+  if (isUsedTwice)
+  {
+    notes.emplace_back("has the same SOPInstanceUID in images at different positions, which count "
+                       "as different images");
+  }
   return kept;
 }
 
-double toleranceMm(const DICOMFrame& image)
+// How far SliceLocation differs at most between images at one position, mm.
+double contradictionOf(const std::vector<Images>& places)
 {
-  return SamePlacePixels * std::min(image.spacingMm.x, image.spacingMm.y);
+  double largest = 0.0;
+  for (const Images& place : places)
+  {
+    for (const DICOMFrame& image : place)
+    {
+      const auto& first = place.front().locationMm;
+      largest = first && image.locationMm ? std::max(largest, std::abs(*image.locationMm - *first))
+                                          : largest;
+    }
+  }
+  return largest;
 }
 
 // Images of each place, from below to above; those of one place by their moments.
@@ -159,13 +190,14 @@ bool grows(const std::vector<double>& times)
            times.begin(), times.end(), [](double a, double b) { return !(a < b); }) == times.end();
 }
 
-// Whether volumes differ in what is no time: echoes and diffusion weightings.
+// Whether volumes differ in what is no time, such as echoes and diffusion weightings.
 bool isSeriesOfTime(const std::vector<Images>& volumes)
 {
   const DICOMMoment& first = volumes.front().front().moment;
   return std::all_of(volumes.begin(), volumes.end(), [&](const Images& volume) {
     const DICOMMoment& moment = volume.front().moment;
-    return moment.echo == first.echo && moment.bValue == first.bValue;
+    return moment.echo == first.echo && moment.bValue == first.bValue &&
+      moment.settings == first.settings;
   });
 }
 
@@ -193,6 +225,7 @@ std::vector<double> countedTimes(const std::vector<Images>& volumes, std::string
 
 std::vector<double> timesOf(const std::vector<Images>& volumes, std::string& note)
 {
+  std::vector<double> offsets;
   std::vector<double> triggers;
   std::vector<double> acquired;
   for (const Images& volume : volumes)
@@ -202,6 +235,7 @@ std::vector<double> timesOf(const std::vector<Images>& volumes, std::string& not
     {
       first = std::min(first, image.moment.acquiredS);
     }
+    offsets.push_back(volume.front().moment.offsetS);
     triggers.push_back(1e-3 * volume.front().moment.triggerMs);
     acquired.push_back(acquired.empty() ? first : first - acquired.front());
   }
@@ -210,17 +244,38 @@ std::vector<double> timesOf(const std::vector<Images>& volumes, std::string& not
   {
     return { 0.0 };
   }
-  return grows(triggers) ? triggers : grows(acquired) ? acquired : countedTimes(volumes, note);
+  if (grows(offsets) || grows(triggers))
+  {
+    return grows(offsets) ? offsets : triggers;
+  }
+  if (!grows(acquired))
+  {
+    return countedTimes(volumes, note);
+  }
+  if (volumes.front().front().moment.isContentTime)
+  {
+    note = "has volumes without AcquisitionTime; their times are those of ContentTime, when images "
+           "were made";
+  }
+  return acquired;
 }
 
-// Sorts images by place and time. Times come from the heart's trigger or from the acquisition; if
-// they do not grow, from the time between volumes that the header names.
+// Sorts images by place and time. Times come from offsets, the heart's trigger or the acquisition;
+// if they do not grow, from the time between volumes that the header names.
 DICOMPlaces sortedByPlace(
   const std::vector<DICOMFile>& files, const std::vector<DICOMFrame>& images)
 {
   DICOMPlaces sorted;
-  const Images unique = withoutCopies(files, images);
+  const Images unique = withoutCopies(files, images, sorted.contradictions);
   std::vector<Images> places = byPlace(unique);
+  const double contradictionMm = contradictionOf(places);
+  if (contradictionMm > LargestUnreportedContradictionMm)
+  {
+    sorted.contradictions.push_back(
+      joined("has images at one position (ImagePositionPatient) whose "
+             "SliceLocation differs by ",
+        contradictionMm, " mm; the position counts"));
+  }
   sorted.copies = images.size() - unique.size() + dropTwins(places);
   sorted.volumes = volumesOf(places);
   sorted.leftOver =
@@ -420,6 +475,11 @@ void placeSlices(DICOMStack& stack, const DICOMFile& file, SliceResampling resam
   const std::vector<glm::dvec3> positions = positionsOf(volume);
   if (positions.size() == 1)
   {
+    if (!first.knowsStep)
+    {
+      stack.warnings.emplace_back(
+        "has one slice without a SliceThickness; it counts as 1 mm thick");
+    }
     placeVoxels(first, first.sliceStepMm * normal, stack.worldFromVoxel);
     return;
   }
@@ -507,6 +567,11 @@ DICOMStack stackOf(const std::vector<DICOMFile>& files, const std::vector<DICOMF
     placeByNumber(placed);
     stack.warnings.emplace_back("has no positions of its images; they are shown in the order of "
                                 "their numbers, and left and right may be exchanged");
+    if (!placed.front().knowsStep && placed.size() > 1)
+    {
+      stack.warnings.emplace_back(
+        "has neither SpacingBetweenSlices nor SliceThickness; slices count as 1 mm apart");
+    }
   }
   const DICOMPlaces places = sortedByPlace(files, placed);
   stack.volumes = places.volumes;
@@ -526,6 +591,8 @@ DICOMStack stackOf(const std::vector<DICOMFile>& files, const std::vector<DICOMF
   {
     stack.warnings.push_back(places.noteOfTimes);
   }
+  stack.warnings.insert(
+    stack.warnings.end(), places.contradictions.begin(), places.contradictions.end());
   placeSlices(stack, files[stack.volumes.front().front().file], resampling);
   return stack;
 }

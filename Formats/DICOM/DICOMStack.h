@@ -7,7 +7,7 @@
 #ifndef BrainShift_DICOMStack_h
 #define BrainShift_DICOMStack_h
 
-#include "Formats/DICOM/DICOMFile.h"
+#include "Formats/DICOM/DICOMImages.h"
 
 namespace brainshift
 {

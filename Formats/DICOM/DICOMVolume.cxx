@@ -3,6 +3,7 @@
 /// Volumes in DICOM: series of slices, and multi-frame files.
 #include "Common/Parallel.h"
 #include "Formats/DICOM/DICOMFolder.h"
+#include "Formats/DICOM/DICOMFrames.h"
 #include "Formats/DICOM/DICOMPixels.h"
 #include "Formats/DICOM/DICOMStack.h"
 
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <system_error>
 #include <type_traits>
 #include <utility>
@@ -206,6 +208,53 @@ void DICOMVolume::requireImage(const DICOMFolder& folder)
   }
 }
 
+// What is to be said of the files of a series, and of images of it that are not shown.
+void warnOfFiles(
+  const DICOMFolder& folder, const DICOMSeries& chosen, std::vector<std::string>& warnings)
+{
+  const DICOMFile& first = folder.files[chosen.frames.front().file];
+  std::set<std::string> spaces;
+  for (const DICOMFrame& frame : chosen.frames)
+  {
+    const DICOMFile& file = folder.files[frame.file];
+    spaces.insert(file.space);
+    std::for_each(file.notes.begin(), file.notes.end(),
+      [&warnings](const std::string& note) { addNote(warnings, note); });
+  }
+  if (spaces.size() > 1 && chosen.frames.front().isPlaced)
+  {
+    warnings.push_back("has images of " + std::to_string(spaces.size()) +
+      " frames of reference (FrameOfReferenceUID), whose positions are shown as if they were one");
+  }
+  std::size_t unplaced = 0;
+  std::vector<const DICOMFile*> refused;
+  for (const DICOMFile& file : folder.files)
+  {
+    const bool isOfSeries = file.series == first.series;
+    unplaced += isOfSeries && file.problem.empty() && !file.frames.front().isPlaced ? 1 : 0;
+    if (isOfSeries && !file.problem.empty())
+    {
+      refused.push_back(&file);
+    }
+  }
+  if (unplaced > 0 && chosen.frames.front().isPlaced)
+  {
+    warnings.push_back("has images without a position (ImagePositionPatient, "
+                       "ImageOrientationPatient), which are another entry of its list: " +
+      std::to_string(unplaced));
+  }
+  if (!refused.empty())
+  {
+    warnings.push_back("has images that cannot be read and are left out: " +
+      std::to_string(refused.size()) + ", the first because it " + refused.front()->problem);
+  }
+  if (folder.damaged > 0)
+  {
+    warnings.push_back(
+      "has files that are damaged and left out: " + std::to_string(folder.damaged));
+  }
+}
+
 void DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
 {
   std::error_code error;
@@ -253,11 +302,7 @@ void DICOMVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   header.times = this->Stack.times;
   header.knowsSides = this->Stack.knowsSides;
   header.warnings = this->Stack.warnings;
-  if (this->Folder.damaged > 0)
-  {
-    header.warnings.push_back(
-      "has files that are damaged and left out: " + std::to_string(this->Folder.damaged));
-  }
+  warnOfFiles(this->Folder, *chosen, header.warnings);
   this->decideType(header);
 }
 

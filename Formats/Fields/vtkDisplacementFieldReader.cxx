@@ -39,11 +39,12 @@ int vtkDisplacementFieldReader::RequestInformation(
 {
   State& state = *this->Internal;
   state.Good = false;
-  if (this->FileName.empty())
-  {
-    throw Problem("FileName is empty; it must name a displacement field");
-  }
-  readFieldFile(this->FileName, state.Field);
+  this->Problem = sentenceThrownBy("Displacement Field Reader", [&] {
+    throwIfAny(
+      this->FileName.empty() ? "FileName is empty; it must name a displacement field" : "");
+    readFieldFile(this->FileName, state.Field);
+  });
+  throwIfAny(this->Problem);
   state.Good = true;
   if (this->World == LPS)
   {

@@ -55,6 +55,9 @@ public:
   vtkGetMacro(Direction, int);
   ///@}
 
+  /** Why the last run read no field: a sentence. Empty if it read one. */
+  vtkGetMacro(Problem, std::string);
+
   /** 1 if the file is a displacement field. */
   static int CanReadFile(const char* fileName);
 
@@ -72,6 +75,7 @@ private:
   void operator=(const vtkDisplacementFieldReader&) = delete;
 
   std::string FileName;
+  std::string Problem = "Nothing was read";
   int World = RAS;
   int Direction = AsTheFileTells;
   struct State; // the field as read

@@ -14,8 +14,8 @@
 #include <minc2.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
-#include <functional>
 #include <map>
 
 namespace brainshift
@@ -25,6 +25,7 @@ namespace
 constexpr std::uint64_t MostSteps = 65536;        // and numbers for a voxel: each takes memory
 constexpr std::uint64_t LongestSide = 2147483647; // of VTK
 constexpr int MostAxes = 5;
+constexpr double LargestUnreportedErrorMm = 1e-3; // of an uneven axis that is shown evenly
 
 // VTK's types by those of libminc.
 const std::map<int, int> Types{ { MI_TYPE_BYTE, VTK_SIGNED_CHAR },
@@ -93,7 +94,7 @@ struct StoredAxis
   double start = 0.0; // mm along the axis
   double step = 1.0;
   std::string units;
-  std::vector<double> offsets; // of an axis of time that is uneven
+  std::vector<double> positions; // of an uneven axis; empty if the file does not list them
   glm::dvec3 cosines{ 0.0 };
   bool isEven = true;
 };
@@ -102,19 +103,20 @@ bool describe(midimhandle_t dimension, StoredAxis& axis)
 {
   char* name = nullptr;
   miboolean_t isUneven = 0;
+  if (miget_dimension_sampling_flag(dimension, &isUneven) == MI_NOERROR)
+  {
+    axis.isEven = isUneven == 0;
+  }
   const bool isGood = miget_dimension_name(dimension, &name) == MI_NOERROR &&
     miget_dimension_class(dimension, &axis.kind) == MI_NOERROR &&
     miget_dimension_size(dimension, &axis.count) == MI_NOERROR &&
     miget_dimension_start(dimension, MI_ORDER_FILE, &axis.start) == MI_NOERROR &&
-    miget_dimension_separation(dimension, MI_ORDER_FILE, &axis.step) == MI_NOERROR;
+    (miget_dimension_separation(dimension, MI_ORDER_FILE, &axis.step) == MI_NOERROR ||
+      !axis.isEven);
   if (name)
   {
     axis.name = name;
     mifree_name(name);
-  }
-  if (miget_dimension_sampling_flag(dimension, &isUneven) == MI_NOERROR)
-  {
-    axis.isEven = isUneven == 0;
   }
   char* units = nullptr;
   if (miget_dimension_units(dimension, &units) == MI_NOERROR && units)
@@ -122,10 +124,10 @@ bool describe(midimhandle_t dimension, StoredAxis& axis)
     axis.units = units;
     mifree_name(units);
   }
-  if (isGood && !axis.isEven && axis.kind == MI_DIMCLASS_TIME && axis.count <= MostSteps)
+  if (isGood && !axis.isEven && axis.count <= MostSteps)
   {
-    axis.offsets.resize(axis.count);
-    miget_dimension_offsets(dimension, axis.count, 0, axis.offsets.data());
+    axis.positions.resize(axis.count);
+    miget_dimension_offsets(dimension, axis.count, 0, axis.positions.data());
   }
   return isGood &&
     (axis.kind != MI_DIMCLASS_SPATIAL ||
@@ -223,18 +225,59 @@ double factorOf(const std::map<std::string, double>& factors, const StoredAxis& 
   return known->second;
 }
 
+bool grows(const std::vector<double>& numbers)
+{
+  const auto isNotAbove = [](double a, double b) { return !(a < b); }; // also rejects NaN
+  return std::adjacent_find(numbers.begin(), numbers.end(), isNotAbove) == numbers.end() &&
+    std::isfinite(numbers.front()) && std::isfinite(numbers.back());
+}
+
+// Gives an uneven axis of space the even spacing from its first position to its last one.
+void makeEven(StoredAxis& axis, double mm, std::vector<std::string>& warnings)
+{
+  const std::vector<double>& positions = axis.positions;
+  if (positions.size() < 2 || positions.front() == positions.back()) // zeros of libminc
+  {
+    warnings.push_back("has an uneven spacing along " + axis.name +
+      ", but no list of its positions; it is shown with the even spacing " +
+      std::to_string(axis.step));
+    return;
+  }
+  if (!grows(positions) && !grows({ positions.rbegin(), positions.rend() }))
+  {
+    throw Problem("has positions along " + axis.name + " that neither grow nor fall");
+  }
+  axis.start = positions.front();
+  axis.step = (positions.back() - positions.front()) / static_cast<double>(positions.size() - 1);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < positions.size(); ++i)
+  {
+    const double even = axis.start + static_cast<double>(i) * axis.step;
+    largest = std::max(largest, std::abs(positions[i] - even));
+  }
+  if (mm * largest > LargestUnreportedErrorMm)
+  {
+    warnings.push_back(
+      joined("has an uneven spacing along ", axis.name, "; it is shown with the even spacing ",
+        mm * axis.step, " mm, up to ", mm * largest, " mm from its place"));
+  }
+}
+
 // Times of the volumes, s.
 std::vector<double> timesOf(const StoredAxis& axis, std::vector<std::string>& warnings)
 {
   const double seconds = factorOf(SecondsPerUnit, axis);
-  if (axis.count > 1 && !axis.offsets.empty())
+  if (axis.count > 1 && !axis.isEven)
   {
-    std::vector<double> times = axis.offsets;
+    std::vector<double> times = axis.positions;
     std::for_each(times.begin(), times.end(), [seconds](double& time) { time *= seconds; });
-    if (std::adjacent_find(times.begin(), times.end(), std::greater_equal<double>()) == times.end())
+    if (!times.empty() && grows(times))
     {
       return times;
     }
+    warnings.push_back("has uneven times along " + axis.name +
+      ", but no list of them that grows; " + "its volumes are numbered 0, 1, 2 and so on");
+    return evenTimes(axis.count, 1.0);
   }
   if (axis.count > 1 && !(axis.step > 0.0))
   {
@@ -246,11 +289,11 @@ std::vector<double> timesOf(const StoredAxis& axis, std::vector<std::string>& wa
 }
 
 // What the axes are for, and where they put voxels. Space counts from the fastest axis on.
-void arrange(const std::vector<StoredAxis>& stored, std::vector<Axis>& axes, VolumeHeader& header)
+void arrange(std::vector<StoredAxis>& stored, std::vector<Axis>& axes, VolumeHeader& header)
 {
   int along = 2;
   header.worldFromVoxel[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);
-  for (const StoredAxis& axis : stored)
+  for (StoredAxis& axis : stored)
   {
     const bool isSpace = axis.kind == MI_DIMCLASS_SPATIAL;
     const bool isLast = &axis == &stored.back();
@@ -269,14 +312,13 @@ void arrange(const std::vector<StoredAxis>& stored, std::vector<Axis>& axes, Vol
         : axis.kind == MI_DIMCLASS_TIME ? AxisUse::Time
                                         : AxisUse::Components,
       axis.count });
-    if (!axis.isEven && isSpace)
-    {
-      header.warnings.push_back("has an uneven spacing along " + axis.name +
-        "; it is shown with the even spacing " + std::to_string(axis.step));
-    }
     if (isSpace && along >= 0)
     {
       const double mm = factorOf(MmPerUnit, axis);
+      if (!axis.isEven)
+      {
+        makeEven(axis, mm, header.warnings);
+      }
       header.worldFromVoxel[along] = glm::dvec4(mm * axis.step * axis.cosines, 0.0);
       header.worldFromVoxel[3] += glm::dvec4(mm * axis.start * axis.cosines, 0.0);
       header.dimensions[along] = static_cast<int>(axis.count);

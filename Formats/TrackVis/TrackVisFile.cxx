@@ -222,6 +222,12 @@ glm::dmat4 findPlace(const TrackHeader& header, const std::string& volumeName, T
   const glm::dmat4 world = header.hasMatrix() ? header.voxToRas() : givenMatrix(header, volumeName);
   withBeginning("cannot be placed: ", [&] { requireAffine(world); });
   turnAxes(header, world, voxel);
+  const double shear = nearestRasGrid(world, glm::ivec3(1)).shear;
+  if (shear > LargestUnreportedShear)
+  {
+    tracts.notes.push_back(joined("is sheared: the cosine between two axes of its vox_to_ras is ",
+      shear, "; the limit is ", LargestUnreportedShear));
+  }
   return world * voxel;
 }
 

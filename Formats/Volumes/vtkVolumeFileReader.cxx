@@ -256,10 +256,29 @@ void vtkVolumeFileReader::reading(const std::function<void()>& read)
   read();
 }
 
+int vtkVolumeFileReader::keepingProblem(const std::function<int()>& step)
+{
+  try
+  {
+    const int result = step();
+    this->Problem = result ? std::string() : this->Problem;
+    return result;
+  }
+  catch (...)
+  {
+    this->Problem = brainshift::thrownSentence(this->GetClassName());
+    throw;
+  }
+}
+
 int vtkVolumeFileReader::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
-  vtkInformation* output = outputs->GetInformationObject(0);
+  return this->keepingProblem([&] { return this->readHeader(outputs->GetInformationObject(0)); });
+}
+
+int vtkVolumeFileReader::readHeader(vtkInformation* output)
+{
   try
   {
     this->takeFormat();
@@ -302,7 +321,7 @@ int vtkVolumeFileReader::RequestData(
   vtkInformation* information = outputs->GetInformationObject(0);
   if (!this->IsStopped)
   {
-    const int result = this->readVolume(information);
+    const int result = this->keepingProblem([&] { return this->readVolume(information); });
     if (!this->GetAbortExecute())
     {
       return result;

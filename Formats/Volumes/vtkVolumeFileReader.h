@@ -87,6 +87,9 @@ public:
   int GetResampleSlices() const { return this->ResampleSlices; }
   ///@}
 
+  /** Why the last run read no volume: a sentence. Empty if it read one. */
+  std::string GetProblem() const { return this->Problem; }
+
   /** Path of the first file of the volume that is shown; empty if there is none. */
   std::string GetShownFile() const;
 
@@ -109,6 +112,10 @@ private:
   vtkVolumeFileReader(const vtkVolumeFileReader&) = delete;
   void operator=(const vtkVolumeFileReader&) = delete;
 
+  // Calls `step`, and keeps the sentence that it throws.
+  int keepingProblem(const std::function<int()>& step);
+  // Reads the header of the file and announces it.
+  int readHeader(vtkInformation* output);
   // Finds the format of the file, or throws one sentence.
   void takeFormat();
   // Calls `read`. IsReading holds meanwhile.
@@ -133,6 +140,7 @@ private:
   char* FileName = nullptr;
   std::string Format;
   std::string Choice;
+  std::string Problem = "Nothing was read";
   vtkNew<vtkStringArray> ChoiceList;
   int ResampleSlices = 2;
   Shown Last;

@@ -10,7 +10,13 @@ def _write(writer, name):
     writer.SMProxy.UpdatePropertyInformation()
     problem = writer.GetPropertyValue("Problem")
     if problem:
-        raise OSError(f"{name} was not written: {problem}. See ParaView's output window")
+        raise OSError(f"{name} was not written: {problem}")
+
+
+def reason_of(reader):
+    """Why a reader of BrainShift read nothing in its last run: a sentence, or empty."""
+    reader.SMProxy.UpdatePropertyInformation()
+    return reader.GetPropertyValue("Problem")
 
 
 def _world(world):
@@ -45,12 +51,26 @@ def load_lattice(filter, name):
     - `name`: path of the file.
 
     Returns the reader of the file, a ParaView source.
+
+    Raises `ValueError` with the reason if the file does not hold a lattice. The filter stays as it
+    was.
     """
     from paraview import simple
 
+    active = simple.GetActiveSource()
     reader = simple.XMLImageDataReader(FileName=[name])
     reader.UpdatePipeline()
     information = reader.GetDataInformation()
+    arrays = information.GetPointDataInformation()
+    components = [arrays.GetArrayInformation(i).GetNumberOfComponents()
+                  for i in range(arrays.GetNumberOfArrays())]
+    if 3 not in components:
+        found = information.GetNumberOfPoints()
+        simple.Delete(reader)
+        simple.SetActiveSource(active)
+        reason = ("it has no point array of 3 components" if found else
+                  "it does not exist, is damaged, or is no image file (.vti) of VTK")
+        raise ValueError(f"{name} is no lattice: {reason}")
     low_x, high_x, low_y, high_y, low_z, high_z = information.GetExtent()
     kernel = information.GetFieldDataInformation().GetArrayInformation("FFDKernel")
     filter.Lattice = reader
@@ -104,16 +124,20 @@ def load_field(name, direction="As Stored In The File", world="RAS"):
 
     Returns a ParaView source with a forward field in mm.
 
-    Raises `ValueError` if the file is not a displacement field.
+    Raises `ValueError` with the reason if the file is not a displacement field.
     """
     from paraview import simple
 
+    active = simple.GetActiveSource()
     reader = simple.DisplacementFieldReader(FileName=name, Direction=direction, World=world)
     reader.UpdatePipeline()
+    problem = reason_of(reader)
+    if problem:
+        simple.Delete(reader)
+        simple.SetActiveSource(active)
+        raise ValueError(problem)
     leads = reader.GetDataInformation().GetFieldDataInformation().GetArrayInformation(
         "DisplacementDirection")
-    if leads is None:
-        raise ValueError(f"{name} is not a displacement field; see ParaView's output window")
     if leads.GetStringValue(0) == "forward":
         return reader
     return simple.InvertDisplacementField(Input=reader)
@@ -154,12 +178,18 @@ def dicom_patient(reader):
 
     Returns a dictionary of texts: `name` (family and given name with `^` between, as in the file),
     `number`, `birth_date` (as 1970-01-31) and `sex` (M, F or O). A text is empty if the file
-    does not have it. Raises `TypeError` if `reader` is no DICOM Volume Reader.
+    does not have it.
+
+    Raises `TypeError` if `reader` is no DICOM Volume Reader, and `ValueError` with the reason if it
+    has read no series.
     """
     if reader.SMProxy.GetXMLName() not in ("DICOMVolumeReader", "DICOMFileReader"):
         raise TypeError(f"reader is a {reader.SMProxy.GetXMLName()}; it must be a DICOM Volume "
                         "Reader")
     reader.UpdatePipelineInformation()
+    problem = reason_of(reader)
+    if problem:
+        raise ValueError(problem)
     report = reader.SMProxy.GetSessionProxyManager().NewProxy("misc", "DICOMPatientReport")
     report.UnRegister(None)  # Python holds it, and no state knows it
     report.PrototypeOn()  # a question is no step to undo

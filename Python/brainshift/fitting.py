@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fits a deformation to measurements, with its uncertainty."""
 
+from .files import reason_of
 from .reports import numbers
 
 #: The annotation of sources that BrainShift made; the window uses the same one.
@@ -126,8 +127,9 @@ class Fit:
         report.UpdatePropertyInformation(report.GetProperty(name))
         result = numpy.array(numbers(report, name), float)
         if len(result) != len(points) * (3 if name == "Measured" else 1):
-            raise RuntimeError("The fit has no result: it failed or was changed since; see the "
-                               "messages, and call fit again")
+            problem = reason_of(self.filter)
+            raise RuntimeError("The fit has no result" + (f": {problem}" if problem else
+                               "; it was changed since. Call fit again"))
         return result
 
     def measured_from_rest(self, points):
@@ -252,8 +254,7 @@ def _solved(deformation, arrays, pulls, pins, values):
         Input=deformation.Input, Pulls=[float(n) for pull in pulls for n in (*pull.ravel(), 1.0)],
         Pins=[float(n) for pin in pins for n in (*pin, 1.0)], **values))
     source.UpdatePipeline()
-    source.SMProxy.UpdatePropertyInformation()
-    problem = source.GetPropertyValue("Problem")
+    problem = reason_of(source)
     if problem:
         for proxy in (source, *made):
             simple.Delete(proxy)

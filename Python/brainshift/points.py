@@ -4,7 +4,7 @@
 import collections
 import os
 
-from .files import _write
+from .files import _write, reason_of
 from .transforms import Transform, read_transform
 
 _DIRECTIONS = {"forward": "Forward", "backward": "Backward"}
@@ -19,8 +19,7 @@ def _reader(name, volume, table_axes, columns=None):
     named = {} if columns is None else {"PositionColumns": list(columns)}
     reader = simple.LandmarkReader(FileName=name, Volume=volume, TableAxes=table_axes, **named)
     reader.UpdatePipeline()
-    reader.SMProxy.UpdatePropertyInformation()
-    problem = reader.GetPropertyValue("Problem")
+    problem = reason_of(reader)
     if problem:
         simple.Delete(reader)
         raise ValueError(problem)

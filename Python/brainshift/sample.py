@@ -17,10 +17,12 @@ def open_sample():
     Returns the Free-Form Deformation.
 
     Raises `FileNotFoundError` if the sample data is not there. `./brainshift` sets its path;
-    otherwise the environment variable `BRAINSHIFT_DATA` names the folder `Testing/Data`.
+    otherwise the environment variable `BRAINSHIFT_DATA` names the folder `Testing/Data`. Raises
+    `ValueError` with the reason if it cannot be read.
     """
     from paraview import simple
 
+    from .files import reason_of
     from .looks import look
 
     folder = os.path.join(os.environ.get(DATA, ""), "seg3d-utah")
@@ -30,6 +32,13 @@ def open_sample():
         raise FileNotFoundError(f"there is no sample {missing[0]}; {DATA} must name its folder")
     head, mask = (simple.NIFTIVolumeReader(registrationName=name, FileName=file)
                   for name, file in zip(("Sample head", "Sample brain mask"), files))
+    for reader in (head, mask):
+        reader.UpdatePipeline()
+        problem = reason_of(reader)
+        if problem:
+            simple.Delete(mask)
+            simple.Delete(head)
+            raise ValueError(problem)
     bent = simple.FreeFormDeformation(registrationName="Bent head", Input=head, Segmentation=mask)
     view = simple.GetActiveViewOrCreate("RenderView")
     shown = simple.Show(bent, view, "UniformGridRepresentation")

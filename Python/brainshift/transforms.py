@@ -4,7 +4,7 @@
 import math
 import os
 
-from .files import save_field
+from .files import reason_of, save_field
 
 #: Reverses x and y: from LPS, in which ITK's files are, to RAS and back.
 _LPS = (-1.0, -1.0, 1.0, 1.0)
@@ -162,9 +162,13 @@ def _bend(bent, files, options):
         FileName=files[0], LaterFileNames=files[1:],
         LatticeDimensions=bent.LatticeDimensions, Kernel=bent.Kernel)
     reader.UpdatePipeline()
+    problem = reason_of(reader)
+    if problem:
+        simple.Delete(reader)
+        simple.SetActiveSource(active)
+        raise ValueError(problem)
     bent.Lattice = reader
     simple.SetActiveSource(active)
-    reader.SMProxy.UpdatePropertyInformation()
     return reader.SMProxy.GetProperty("LargestError").GetElement(0)
 
 

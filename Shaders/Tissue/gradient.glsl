@@ -14,3 +14,30 @@ vec3 centralDifferences(sampler3D field, vec3 position, vec3 voxel)
     textureLod(field, position + alongY, 0.0).r, textureLod(field, position + alongZ, 0.0).r);
   return (high - low) / (2.0 * voxel);
 }
+
+bool isFinite(float scalar)
+{
+  return !isnan(scalar) && !isinf(scalar);
+}
+
+// The same; beside values that are no numbers, differences to the known side only.
+vec3 knownDifferences(sampler3D field, vec3 position, vec3 voxel)
+{
+  vec3 gradient = centralDifferences(field, position, voxel);
+  if (isFinite(gradient.x) && isFinite(gradient.y) && isFinite(gradient.z))
+  {
+    return gradient;
+  }
+  float here = textureLod(field, position, 0.0).r;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    vec3 along = vec3(0.0);
+    along[axis] = voxel[axis];
+    float low = textureLod(field, position - along, 0.0).r;
+    float high = textureLod(field, position + along, 0.0).r;
+    float sides = float(isFinite(low)) + float(isFinite(high));
+    float change = (isFinite(high) ? high : here) - (isFinite(low) ? low : here);
+    gradient[axis] = change / (max(sides, 1.0) * voxel[axis]);
+  }
+  return gradient;
+}

@@ -80,6 +80,6 @@ uniform vec3 voxel; // one voxel, texture coordinates
 
 vec3 gradientAt(vec3 rest)
 {
-  return centralDifferences(scalars, rest, voxel);
+  return knownDifferences(scalars, rest, voxel);
 }
 #endif

@@ -36,6 +36,7 @@ def head(rows=33, columns=41, most=4095):
 def with_frame(name, pixels, frame, syntax, change=None):
     """A file whose header says `pixels` and whose only frame is `frame`."""
     image = plain_header(MR)
+    image.SliceThickness = 1
     image.ImagePositionPatient, image.PixelSpacing = [0, 0, 0], [1, 1]
     image.ImageOrientationPatient = [1, 0, 0, 0, 1, 0]
     set_pixels(image, pixels)
@@ -172,6 +173,7 @@ def test_damaged_jpeg_frames_end_in_a_sentence():
 def frame_of(pixels, option):
     """One frame, packed by GDCM."""
     image = plain_header(MR)
+    image.SliceThickness = 1
     set_pixels(image, pixels)
     source = os.path.join(folder("to-pack"), "plain.dcm")
     image.save_as(source, write_like_original=False)

@@ -87,6 +87,26 @@ def test_all_types_of_numbers():
             assert_placed(reader, read_again(path)[0], voxels)
 
 
+def test_pixels_in_floating_point_are_exact():
+    for name, kind in (("FloatPixelData", "<f4"), ("DoubleFloatPixelData", "<f8")):
+        voxels = (numbered(3) / 7.0).astype(kind)
+
+        def real(image, index, name=name, voxels=voxels):
+            setattr(image, name, voxels[index].tobytes())
+            image.BitsAllocated = 8 * voxels.dtype.itemsize
+            for whole in ("PixelData", "BitsStored", "HighBit", "PixelRepresentation"):
+                delattr(image, whole)
+
+        for syntax in ("1.2.840.10008.1.2", "1.2.840.10008.1.2.1", "1.2.840.10008.1.2.1.99"):
+            path = write_slices(folder("real"), numbered(3), change=real,
+                                syntax=pydicom.uid.UID(syntax))
+            reader, told = read(path)
+            assert not told, told
+            assert scalars(reader).dtype == voxels.dtype.newbyteorder("="), scalars(reader).dtype
+            shown = scalars(reader).reshape(3, 5, 6)[:, ::-1, ::-1]
+            numpy.testing.assert_array_equal(shown, voxels)
+
+
 def test_twelve_bits_have_their_own_sign_and_no_neighbours():
     def pack(image, _):
         image.BitsStored, image.HighBit = 12, 11

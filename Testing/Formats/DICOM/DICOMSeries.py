@@ -223,7 +223,7 @@ def test_what_cannot_be_read_is_named():
         image.PixelData = image.PixelData * 2
 
     refused(inverted, "MONOCHROME1", "MONOCHROME2")
-    refused(coloured, "RGB with 3 samples")
+    refused(coloured, "3 samples per pixel", "RGB")
     refused(palette, "PALETTE COLOR")
     refused(mosaic, "MOSAIC")
     refused(frames, "has 2 frames but no positions of them")

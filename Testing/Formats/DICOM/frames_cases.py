@@ -35,6 +35,7 @@ def _picture(most):
 
 def _image(pixels, bits):
     image = plain_header(MR)
+    image.SliceThickness = 1
     image.ImagePositionPatient, image.PixelSpacing = [0, 0, 0], [1, 1]
     image.ImageOrientationPatient = [1, 0, 0, 0, 1, 0]
     set_pixels(image, pixels)

@@ -12,7 +12,7 @@ load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from paraview import servermanager  # noqa: E402
 from paraview.simple import (  # noqa: E402
-    BakeDeformation, DeformationField, FreeFormDeformation, SaveData)
+    BakeDeformation, DeformationField, DICOMVolumeReader, FreeFormDeformation, GetSources, SaveData)
 
 MIDDLE = (16.0, 16.0, 16.0)
 STAMP = brainshift.stamp(MIDDLE, (16.0, 16.0, 0.0), 4.0, major=15.0, minor=12.0)
@@ -122,6 +122,39 @@ def test_save_data_of_the_window_has_the_formats():
                               numpy.abs(voxels(field, "Displacement")).max(), rtol=1e-5), ending
 
 
+def fails(call, *words):
+    """A call raises ValueError with these words, and leaves no source."""
+    before = len(GetSources())
+    with messages():
+        try:
+            call()
+        except ValueError as error:
+            assert_says(str(error), *words)
+            assert "output window" not in str(error), error
+        else:
+            raise AssertionError(f"it must fail with {words}")
+    assert len(GetSources()) == before
+
+
+def test_a_file_that_is_none_raises_the_reason():
+    """All functions that open a file say why they cannot."""
+    plain = scratch("reason.mha")
+    brainshift.save_volume(volume(ball()), plain, world="RAS")
+    filter = bent()
+    fails(lambda: brainshift.load_field(plain), "reason.mha", "1 component")
+    fails(lambda: brainshift.load_field(scratch("missing.nrrd")), "missing.nrrd", "does not exist")
+    fails(lambda: brainshift.load_lattice(filter, scratch("missing.vti")), "missing.vti",
+          "does not exist")
+    SaveData(scratch("plain.vti"), proxy=volume(ball()))
+    fails(lambda: brainshift.load_lattice(filter, scratch("plain.vti")), "plain.vti",
+          "no point array of 3 components")
+    assert filter.Lattice is None and list(filter.LatticeDimensions) == [19, 19, 19]
+    fails(lambda: brainshift.read_points(scratch("missing.csv")), "missing.csv")
+    with messages():
+        series = DICOMVolumeReader(FileName=scratch("no-folder"))
+        fails(lambda: brainshift.dicom_patient(series), "no-folder", "does not exist")
+
+
 def test_plain_volumes_are_no_fields():
     field = volume(ball())
     name = scratch("plain.mha")
@@ -129,7 +162,7 @@ def test_plain_volumes_are_no_fields():
         try:
             brainshift.load_field(scratch("missing.mha"))
         except ValueError as error:
-            assert_says(str(error), "missing.mha", "not a displacement field")
+            assert_says(str(error), "missing.mha", "does not exist")
         else:
             raise AssertionError("there is no such file")
     assert_says(said.text, "missing.mha", "does not exist")

@@ -70,6 +70,52 @@ def test_time_becomes_steps():
         assert found == (1.0 + 100 * step, 60.0 + 100 * step), found
 
 
+def uneven(axis, positions, times=(0.0, 1.0)):
+    """A series of three volumes with an uneven axis, opened; and what was said."""
+    series = numpy.stack([volume_files.numbered(SHAPE, "float32") + 100 * i for i in range(3)])
+    name = minc_files.write(scratch("uneven.mnc"), series, numpy.eye(4), times=times)
+    minc_files.make_uneven(name, axis, positions)
+    with messages() as said:
+        source = simple.MINCVolumeReader(FileName=name)
+        source.UpdatePipeline()
+    return source, said.text
+
+
+def test_uneven_times_are_those_of_the_file():
+    source, said = uneven("time", (0.0, 2.5, 10.0))
+    assert not said, said
+    assert list(source.TimestepValues) == [0.0, 2.5, 10.0], source.TimestepValues
+    for step, time in enumerate((0.0, 2.5, 10.0)):
+        source.UpdatePipeline(time)
+        image = source.GetClientSideObject().GetOutputDataObject(0)
+        found = image.GetPointData().GetArray("Intensity").GetRange()
+        assert found == (1.0 + 100 * step, 60.0 + 100 * step), found
+
+
+def test_uneven_times_that_are_none_are_told():
+    for positions in ((0.0, 5.0, 5.0), (4.0, 2.0, 1.0), (0.0, 1.0), (0.0, numpy.nan, 3.0),
+                      (0.0, 1.0, numpy.inf)):
+        source, said = uneven("time", positions)
+        assert "has uneven times along time" in said, (positions, said)
+        assert list(source.TimestepValues) == [0.0, 1.0, 2.0], source.TimestepValues
+
+
+def test_an_uneven_axis_of_space_says_its_error():
+    source, said = uneven("xspace", (0.0, 1.0, 2.0, 6.0))
+    assert "has an uneven spacing along xspace" in said, said
+    assert "even spacing 2 mm, up to 2 mm from its place" in said, said
+    assert output(source).GetSpacing()[0] == 2.0 and output(source).GetBounds()[1] == 6.0
+    source, said = uneven("xspace", (-3.0, -1.0, 1.0, 3.0))  # even after all
+    assert not said, said
+    assert output(source).GetSpacing()[0] == 2.0 and output(source).GetBounds()[0] == -3.0
+    for positions in ((0.0, 2.0, 1.0, 3.0), (0.0, numpy.nan, 1.0, 3.0)):
+        source, said = uneven("xspace", positions)
+        assert "has positions along xspace that neither grow nor fall" in said, said
+    source, said = uneven("xspace", (0.0, 0.0, 0.0, 0.0))
+    assert "but no list of its positions; it is shown with the even spacing 1" in said, said
+    assert output(source).GetNumberOfPoints() == 60
+
+
 def test_labels_are_named():
     name = minc_files.write(scratch("labels.mnc"), volume_files.numbered(SHAPE, "uint8"), AFFINE,
                             kind=minc_files.LABEL, labels=((3, "putamen"), (7, "thalamus")))

@@ -6,6 +6,7 @@ import ctypes
 import ctypes.util
 import os
 
+import h5py
 import numpy
 
 REAL, INTEGER, LABEL = 0, 1, 2  # classes of volumes
@@ -91,3 +92,14 @@ def write(name, voxels, affine, kind=REAL, times=None, slice_ranges=None, labels
         stored.ctypes.data_as(ctypes.c_void_p)), "voxels")
     _done(minc.miclose_volume(volume), "close")
     return name
+
+
+def make_uneven(name, axis, positions):
+    """Gives an axis of a file a list of positions, as MINC writes an irregular one."""
+    path = f"minc-2.0/dimensions/{axis}"
+    with h5py.File(name, "r+") as file:
+        kept = dict(file[path].attrs)
+        del file[path]
+        made = file.create_dataset(path, data=numpy.asarray(positions, float))
+        for key, value in {**kept, "spacing": numpy.bytes_("irregular")}.items():
+            made.attrs[key] = value

@@ -140,6 +140,15 @@ def test_trackvis_letters_in_another_order_are_refused():
                     else "voxel order RRS")
 
 
+def test_trackvis_axes_that_are_not_perpendicular_are_told():
+    """Programs differ on which letters such axes run along."""
+    name = write_tracts(scratch("sheared.trk"), LINES, nibabel.MGHImage(
+        numpy.zeros((8, 8, 8), numpy.uint8), numpy.diag((1.0, 1.0, 1.0, 1.0))))
+    data = bytes_of(name)
+    struct.pack_into("<f", data, 444, 0.4)  # the second axis leads to the right, too
+    read(written("sheared.trk", data), ("sheared: the cosine between two axes", "0.371"))
+
+
 def test_trackvis_axes_turn_around_within_a_volume():
     name = write_tracts(scratch("turned.trk"), LINES, next(volumes()))
     data = bytes_of(name)

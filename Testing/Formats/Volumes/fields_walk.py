@@ -62,7 +62,8 @@ def outcome_of(proxy_name, path, **properties):
         source.UpdatePipeline()
     data = output(source)
     text = said_of(said.text)
-    facts = [text, arrays_of(data), str(getattr(source, "TimestepValues", None))]
+    series = source.GetProperty("SeriesList") if "SeriesList" in source.ListProperties() else ()
+    facts = [text, arrays_of(data), str(getattr(source, "TimestepValues", None)), list(series)]
     if hasattr(data, "GetSpacing"):
         direction = data.GetDirectionMatrix()
         facts += [data.GetDimensions(), numpy.round(data.GetSpacing(), 9).tolist(),

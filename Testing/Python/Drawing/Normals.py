@@ -110,6 +110,34 @@ def test_drawn_normals_are_those_of_the_baked_surface():
             assert without > 2 * LARGEST_ANGLE, ("the bend is too weak to tell", without)
 
 
+def test_the_edge_of_what_is_known_is_lit():
+    """A brain in NaN is as bright as one in 0 that is cut there by the colour map."""
+    z, y, x = numpy.mgrid[0:SIDE, 0:SIDE, 0:SIDE].astype(numpy.float32) - MIDDLE[0]
+    distance = numpy.sqrt(x * x + y * y + z * z)
+    shown = []
+    for outside in (None, numpy.nan, numpy.inf):
+        head = 100.0 - 2.0 * distance
+        if outside is not None:
+            head[distance > 18.0] = outside
+        for normals in ("Half resolution", "Full resolution", "On the fly"):
+            view = view_along((0.0, 0.0, -1.0), MIDDLE, 110.0, size=SIZE)
+            display = show_volume(volume(head.astype(numpy.float32)), view, "Deformed Volume",
+                                  [0, 1, 1, 1, 100, 1, 1, 1],
+                                  [0, 0, 0.5, 0, 63.9, 0, 0.5, 0, 64, 1, 0.5, 0, 100, 1, 0.5, 0],
+                                  shade=True)
+            display.VolumeNormalTexture = normals
+            display.Ambient, display.Diffuse, display.Specular = 0.0, 1.0, 0.0
+            light_scene(view, [((0.0, 0.0, 1.0), (1.0, 1.0, 1.0))])
+            image = picture(view)[40:100, 40:100]
+            shown.append((outside, normals, image.mean(), image.min()))
+            Delete(view)
+    for outside, normals, mean, least in shown:
+        print(f"  {outside}, {normals}: mean {mean:.3f}, least {least:.3f}")
+    right = min(mean for outside, _, mean, _ in shown if outside is None)
+    for outside, normals, mean, least in shown:
+        assert mean > 0.75 * right, (outside, normals, mean, right)
+
+
 def glints(display, view, lights):
     """What a black ball shows in the light of some lights, and the formula's answer: one row each
     for some pixels."""

@@ -57,6 +57,22 @@ def test_labels_stay_labels():
     assert (baked != labels).sum() > 100
 
 
+def test_voxels_without_a_number_stay_without_one():
+    """NaN outside the brain, and one voxel of each infinity."""
+    head = ball(radius=12.0, edge=20.0)
+    head[head < 20.0] = numpy.nan
+    head[16, 16, 16], head[16, 16, 12] = numpy.inf, -numpy.inf
+    filter = FreeFormDeformation(Input=volume(head))
+    for interpolation in ("Nearest", "Linear", "Cubic"):
+        bake = BakeDeformation(Input=filter, Interpolation=interpolation)
+        filter.Strokes = []
+        assert numpy.array_equal(voxels(bake), head, equal_nan=True), interpolation
+        filter.Strokes = brainshift.stamp(MIDDLE, (16, 16, 0), 4.0, major=12.0, minor=10.0)
+        known = voxels(bake)[numpy.isfinite(voxels(bake))]
+        assert 1000 < known.size < 1.3 * numpy.isfinite(head).sum(), known.size
+        assert 0.0 < known.min() and known.max() < 120.0, (known.min(), known.max())
+
+
 def test_a_plain_volume_is_refused():
     bake = BakeDeformation(Input=volume(ball()))
     with messages() as said:

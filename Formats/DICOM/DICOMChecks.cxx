@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/DICOM/DICOMChecks.h"
+
+#include "Formats/DICOM/DICOMAttributes.h"
+#include "Formats/DICOM/DICOMFrames.h"
+#include "Formats/Files/Text.h"
+
+namespace brainshift
+{
+namespace
+{
+constexpr DICOMTag SharedGroups = 0x52009229;
+constexpr DICOMTag FrameGroups = 0x52009230;
+
+bool has(const DICOMDataSet& set, DICOMTag tag)
+{
+  return set.elements.count(tag) > 0;
+}
+
+void requireGrey(const DICOMDataSet& set)
+{
+  const double samples = wholeOf(set, 0x00280002, 1.0);
+  if (samples != 1.0)
+  {
+    throw Problem(
+      joined("has ", samples, " samples per pixel (SamplesPerPixel, PhotometricInterpretation ",
+        shownWords(textOf(set, 0x00280004)),
+        "); BrainShift reads MONOCHROME2 with 1 sample per pixel"));
+  }
+  const std::string colours = shownWords(textOf(set, 0x00280004));
+  if (!colours.empty() && colours != "MONOCHROME2")
+  {
+    throw Problem("has the PhotometricInterpretation " + colours +
+      "; BrainShift reads MONOCHROME2 with 1 sample per pixel");
+  }
+  if (textOf(set, 0x20500020) == "INVERSE")
+  {
+    throw Problem(
+      "has the PresentationLUTShape INVERSE: small numbers are bright. BrainShift reads "
+      "IDENTITY");
+  }
+}
+
+void requireBits(const DICOMDataSet& set, const DICOMPixelFormat& pixels)
+{
+  const int bits = pixels.bitsAllocated;
+  if (pixels.isReal && bits != 32 && bits != 64)
+  {
+    throw Problem("has " + std::to_string(bits) +
+      " bits for each pixel in floating point (BitsAllocated); it must have 32 or 64");
+  }
+  if (pixels.isReal)
+  {
+    return; // they have no stored bits and no sign of their own
+  }
+  if (bits != 8 && bits != 16 && bits != 32)
+  {
+    throw Problem("has " + std::to_string(bits) +
+      " bits for each pixel (BitsAllocated); BrainShift reads 8, 16 and 32 bits");
+  }
+  if (pixels.bitsStored < 1 || pixels.highBit + 1 < pixels.bitsStored || pixels.highBit >= bits)
+  {
+    throw Problem("stores " + std::to_string(pixels.bitsStored) + " bits (BitsStored) up to bit " +
+      std::to_string(pixels.highBit) + " (HighBit) of " + std::to_string(bits) +
+      ", which cannot be");
+  }
+  const double sign = wholeOf(set, 0x00280103, 0.0);
+  if (sign != 0.0 && sign != 1.0)
+  {
+    throw Problem(joined(
+      "has the PixelRepresentation ", sign, "; it must be 0, without a sign, or 1, with a sign"));
+  }
+}
+
+// Sequences that give numbers or frames another meaning than a volume has.
+void requireVolume(const DICOMDataSet& set)
+{
+  const std::string type = plainText(textOf(set, 0x00080008));
+  if (type.find("MOSAIC") != std::string::npos)
+  {
+    throw Problem("has the ImageType " + type +
+      ": its slices are tiles of one picture; convert it with dcm2niix");
+  }
+  if (!itemsOf(set, 0x00283000).empty())
+  {
+    throw Problem(
+      "has a ModalityLUTSequence, a table of the real values of its numbers. BrainShift "
+      "reads RescaleSlope and RescaleIntercept");
+  }
+  const std::string segments = textOf(set, 0x00620001);
+  if (!segments.empty() && segments != "LABELMAP")
+  {
+    throw Problem("has frames of segments that may overlap (SegmentationType " +
+      shownWords(segments) + "); BrainShift reads LABELMAP. Convert it to .nii.gz or .seg.nrrd");
+  }
+  for (const DICOMTag groups : { SharedGroups, FrameGroups })
+  {
+    const auto& items = itemsOf(set, groups);
+    if (!items.empty() && has(items.front(), 0x0020930e))
+    {
+      throw Problem(
+        "has frames on the axes of its own volume (PlanePositionVolumeSequence), not of "
+        "the patient, which BrainShift does not read");
+    }
+  }
+}
+
+// Padding that is brighter than tissue may be.
+void notePadding(
+  const DICOMDataSet& set, const DICOMPixelFormat& pixels, std::vector<std::string>& notes)
+{
+  const double stored = wholeOf(set, 0x00280120, 0.0);
+  const double half = 1 << 15;
+  const double padding = pixels.isSigned && stored >= half ? stored - 2.0 * half : stored;
+  if (padding > 0.0)
+  {
+    addNote(notes,
+      joined("marks pixels outside the image by the stored number ", padding,
+        " (PixelPaddingValue), which is shown like any other"));
+  }
+}
+}
+
+void requirePixels(const DICOMDataSet& set, const DICOMPixelFormat& pixels)
+{
+  requireGrey(set);
+  requireVolume(set);
+  requireBits(set, pixels);
+}
+
+std::vector<std::string> notesOf(const DICOMDataSet& set, const DICOMFile& file)
+{
+  std::vector<std::string> notes;
+  if (textOf(set, 0x00102210) == "QUADRUPED")
+  {
+    addNote(notes,
+      "is of an animal on four legs (AnatomicalOrientationType QUADRUPED): the letters P "
+      "and S stand for its back (dorsal) and its nose (rostral or cranial)");
+  }
+  if (textOf(set, 0x00089206) == "DISTORTED")
+  {
+    addNote(notes,
+      "has images that are distorted in space (VolumetricProperties DISTORTED): "
+      "distances and positions are not those of the patient");
+  }
+  if (textOf(set, 0x00280004).empty())
+  {
+    addNote(notes, "does not say its PhotometricInterpretation, which counts as MONOCHROME2");
+  }
+  notePadding(set, file.pixels, notes);
+  return notes;
+}
+}

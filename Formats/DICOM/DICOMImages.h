@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// What the header of one DICOM file says of its images.
+///
+/// Positions are in the patient's frame of DICOM, LPS: x to the patient's left, y to the back, z to
+/// the head, in mm. The patient's name and number are not read.
+#ifndef BrainShift_DICOMImages_h
+#define BrainShift_DICOMImages_h
+
+#include "Formats/Volumes/VolumeFile.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace brainshift
+{
+/** What tells images of the same place apart, in the order in which they are sorted. */
+struct DICOMMoment
+{
+  double temporalPosition = 0.0; ///< number of the point in time
+  double triggerMs = 0.0;        ///< since the heart's beat
+  double echo = 0.0;             ///< number of the echo
+  double bValue = 0.0;           ///< diffusion weighting, s/mm^2
+  /// Times of echo and inversion in ms, flip angle in degrees, voltage of the tube in kV.
+  std::array<double, 4> settings{};
+  double acquiredS = 0.0;     ///< since 1970, or since midnight
+  double instance = 0.0;      ///< number of the image in its series
+  double intervalS = 0.0;     ///< from one volume to the next: resolution or repetition time
+  double offsetS = 0.0;       ///< of the point in time, from the first one
+  bool isContentTime = false; ///< `acquiredS` is when the image was made: no other time is there
+
+  std::array<double, 10> sorted() const
+  {
+    return { this->temporalPosition, this->triggerMs, this->echo, this->bValue, this->settings[0],
+      this->settings[1], this->settings[2], this->settings[3], this->acquiredS, this->instance };
+  }
+};
+
+/** One image: a file of its own, or one of the frames of a file. */
+struct DICOMFrame
+{
+  std::size_t file = 0; ///< index in the folder's list
+  int frame = 0;        ///< index in the file
+  bool isPlaced = false;
+  glm::dvec3 position{ 0.0 };              ///< centre of the first pixel, mm, LPS
+  glm::dvec3 alongRow{ 1.0, 0.0, 0.0 };    ///< unit vector: where columns count up
+  glm::dvec3 alongColumn{ 0.0, 1.0, 0.0 }; ///< unit vector: where rows count up
+  glm::dvec2 spacingMm{ 1.0 };             ///< between columns, between rows
+  double sliceStepMm = 1.0;                ///< what the header says; positions count before it
+  bool knowsStep = false;                  ///< whether the header says it
+  std::optional<double> locationMm;        ///< SliceLocation, which positions count before
+  Rescaling rescaling;
+  std::string quantity; ///< what the numbers mean: Units and RescaleType
+  std::string stack;    ///< StackID, in a multi-frame file
+  std::string type;     ///< such as ORIGINAL\PRIMARY\M
+  DICOMMoment moment;
+};
+
+/** How the numbers of a file are stored. */
+struct DICOMPixelFormat
+{
+  int bitsAllocated = 0;
+  int bitsStored = 0;
+  int highBit = 0;
+  bool isSigned = false;
+  bool isReal = false;      ///< floating point
+  bool isPlain = false;     ///< whether the bytes of frames follow each other from `offset` on
+  bool isBigEndian = false; ///< the order of bytes, if it is plain
+  bool isDeflated = false;  ///< whether `offset` counts bytes after inflating
+  std::uint64_t offset = 0; ///< of the pixel data, bytes
+  std::uint64_t length = 0; ///< of the pixel data, bytes, if it is plain
+};
+
+/** The images of one file. */
+struct DICOMFile
+{
+  std::string path;
+  std::string series;      ///< SeriesInstanceUID
+  std::string instance;    ///< SOPInstanceUID
+  std::string description; ///< SeriesDescription
+  std::string modality;
+  std::string date; ///< 2026-11-23, or empty
+  int seriesNumber = 0;
+  int columns = 0;
+  int rows = 0;
+  DICOMPixelFormat pixels;
+  std::string space; ///< FrameOfReferenceUID
+  /// What may be wrong, or is not shown: ends of sentences.
+  std::vector<std::string> notes;
+  std::string problem; ///< why the pixels cannot be read: the end of a sentence; empty if they can
+  bool isDamaged = false;         ///< its header cannot be read
+  bool standsAlone = false;       ///< its frames have no positions of their own
+  std::vector<DICOMFrame> frames; ///< empty if the file holds no image
+};
+
+}
+
+#endif
