@@ -6,6 +6,7 @@
 #include "Interaction/Edits/RefineEditor.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
+#include "Interaction/Views/Flicker.h"
 
 #include <pqPipelineSource.h>
 #include <pqUndoStack.h>
@@ -92,6 +93,7 @@ void AlignEditor::followDeformation()
 void AlignEditor::begin()
 {
   this->cancel();
+  Flicker::stop();
   if (pqPipelineSource* bent = deformationUpstream(this->Source))
   {
     StrokeEditor::of(bent)->cancel();

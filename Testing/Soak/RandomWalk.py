@@ -48,7 +48,7 @@ def act(number, log):
     before, undo = oracles.strokes(), window.undo_labels()
     for _ in steps:
         pass
-    hand.wait(30)
+    actions.idle(30)
     new = [label for label in window.undo_labels() if label not in undo]
     if new:
         log.tell(f"   now to undo: {new}")

@@ -90,6 +90,7 @@ PARAVIEWS_OWN = {
     "RenderView": ("AxesGrid", "LegendGrid", "PolarGrid", "CameraFocalDisk", "CameraFocalDiskInfo"),
     "RepresentationAnimationHelper": ("Source",),
     "UniformGridRepresentation": _HELPERS, "GeometryRepresentation": _HELPERS}
+MAPS = ("PVLookupTable ", "PiecewiseFunction ", "TransferFunction2D ")
 GROUPS = ("sources", "filters", "representations", "views", "misc", "lookup_tables",
           "piecewise_functions")
 
@@ -114,7 +115,10 @@ def properties():
                     continue
                 values = [part.get("value") for part in kept if part.tag in ("Element", "Proxy")]
                 found[f"{name} {kept.get('name')}"] = " ".join(map(str, values))
-    return found
+    used = set(" ".join(values for name, values in found.items()
+                        if "LookupTable" in name or "Function" in name).split())
+    return {name: values for name, values in found.items()  # a map without a display is no loss
+            if not name.startswith(MAPS) or name.split()[1] in used}
 
 
 def undo_and_redo_lead_back(times):
@@ -123,9 +127,10 @@ def undo_and_redo_lead_back(times):
     labels = window.undo_labels()
     before, kept = properties(), strokes()
     for action in ["actionEditUndo"] * times + ["actionEditRedo"] * times:
-        hold(hand.action(action), f"{action} is disabled after {labels[:times]}")
-        hand.wait(20)
-    hand.wait(100)
+        hold(hand.action(action), f"{action} is disabled after {labels[:times]}: "
+             f"{window.undo_labels()[:5]}, {redo_labels()[:5]}")
+        actions.idle(20)
+    actions.idle(100)
     hold(strokes() == kept, f"strokes changed by undo and redo of {labels[:times]}")
     after = properties()
     changed = [f"{name}: {before.get(name)} became {after.get(name)}"
@@ -230,7 +235,7 @@ def rest():
     hand.over()
     if hand.is_checked(actions.FLICKER):
         hand.action(actions.FLICKER)
-    hand.wait(700)  # a burst of the wheel ends, and pictures become still
+    actions.idle(700)  # a burst of the wheel ends, and pictures become still
 
 
 def views_are_drawn_right():
@@ -295,7 +300,7 @@ def state_comes_back():
     hand.reset_session()
     hold(not simple.GetSources(), "the session is not empty after Reset Session")
     hand.load_state(path)
-    hand.wait(300)
+    actions.idle(300)
     hold(sorted(strokes().values()) == kept, "strokes of the state differ")
     after = pictures()
     hold(len(after) == len(before), f"{len(before)} views became {len(after)}")
