@@ -9,6 +9,7 @@
 #include "Interaction/Workarounds/QuietLinks.h"
 #include "Interaction/Workarounds/RevivedViews.h"
 #include "Interaction/Workarounds/Selections.h"
+#include "Interaction/Workarounds/UndoneLayouts.h"
 #include "Plugin/ComparisonLegend.h"
 #include "Plugin/FirstLook.h"
 #include "Plugin/SliceGreys.h"
@@ -90,6 +91,7 @@ void BrainShiftBehavior::onStartup()
   new brainshift::LandmarkMarks(this);
   new brainshift::QuietLinks(this);
   new brainshift::RevivedViews(this);
+  new brainshift::UndoneLayouts(this);
   new brainshift::ComparisonLegend(this);
   new brainshift::EvidenceSwitch(this);
   this->Hand = new brainshift::ToolCarrier(this);

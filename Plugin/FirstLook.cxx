@@ -82,6 +82,7 @@ void finishLater(pqDataRepresentation* display, const std::vector<double>& tissu
 {
   noteTissue(display, tissue);
   QTimer::singleShot(0, display, [display] {
+    SCOPED_UNDO_EXCLUDE(); // it belongs to Apply
     if (!showsVolume(display) || !display->getView()) // slices by now
     {
       return;
@@ -178,7 +179,10 @@ void giveLook(pqDataRepresentation* display)
     outline(display);
     noteLabelMap(sourceOf(display));
     // Later: ParaView shows the scale of an outline, too.
-    QTimer::singleShot(0, display, [display] { hideScale(display); });
+    QTimer::singleShot(0, display, [display] {
+      SCOPED_UNDO_EXCLUDE(); // it belongs to Apply
+      hideScale(display);
+    });
   }
   if (!look.name.isEmpty())
   {
@@ -211,6 +215,7 @@ void showFirstLook(pqDataRepresentation* display)
     // Later: ParaView still sets the colours of the array's name when it registers a display, and
     // shows their scale.
     QTimer::singleShot(0, display, [display, wasShown = isScaleShown(colors)] {
+      SCOPED_UNDO_EXCLUDE(); // it belongs to Apply
       if (!wasShown)
       {
         hideScale(display);

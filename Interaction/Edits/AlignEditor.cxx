@@ -6,6 +6,7 @@
 #include "Interaction/Edits/RefineEditor.h"
 #include "Interaction/Edits/StrokeEditor.h"
 #include "Interaction/Views/ActiveDeformation.h"
+#include "Interaction/Views/Flicker.h"
 
 #include <pqPipelineSource.h>
 #include <pqUndoStack.h>
@@ -93,6 +94,7 @@ void AlignEditor::followDeformation()
 void AlignEditor::begin()
 {
   this->cancel();
+  Flicker::stop();
   if (pqPipelineSource* bent = deformationUpstream(this->Source))
   {
     StrokeEditor::of(bent)->cancel();

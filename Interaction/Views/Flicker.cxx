@@ -25,6 +25,8 @@ namespace brainshift
 {
 namespace
 {
+QPointer<Flicker> nowOn; // the one that flickers
+
 constexpr int EachMs = 700; // long enough to see a picture, short enough to see motion
 
 pqServerManagerModel* model()
@@ -100,12 +102,21 @@ bool Flicker::isPossible()
   return !appliedComparisons().isEmpty();
 }
 
+void Flicker::stop()
+{
+  if (nowOn)
+  {
+    nowOn->setOn(false);
+  }
+}
+
 void Flicker::setOn(bool on)
 {
   if (on != this->Filters.isEmpty())
   {
     return; // it is so already
   }
+  nowOn = on ? this : nullptr;
   if (on)
   {
     for (pqPipelineSource* filter : comparisonsInSight())

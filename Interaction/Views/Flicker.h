@@ -26,6 +26,10 @@ public:
   /// Whether there is a Compare Volumes filter that was applied.
   static bool isPossible();
 
+  /// Ends the flicker that is on, if there is one. Called before an edit that is not the panel's:
+  /// undo and redo of the edit would bring back what the flicker showed for a moment.
+  static void stop();
+
 public Q_SLOTS:
   /// Starts with the reference. An edit of the filter in the panel, the writing of a state file and
   /// the removal of the last filter switch the flicker off.

@@ -147,17 +147,37 @@ def _coloring(source, display):
     return (association, name) if name else _first_array(source)
 
 
+def _leave_slice(source, view):
+    """Makes the 3D view of a view of one slice, which was left of four."""
+    from paraview import simple
+
+    for display in view.Representations:
+        if getattr(display, "Representation", None) == "Deformed Slices":
+            display.Visibility = int(getattr(display, "Input", None) == source)
+    view.InteractionMode = "3D"
+    view.CameraParallelProjection = 0
+    view.UseColorPaletteForBackground = 1
+    view.OrientationAxesVisibility = 1
+    display = display_of(source, view)
+    display.UseSeparateColorMap = 0
+    simple.ColorBy(display, _coloring(source, display))
+
+
 def _show_volume(source, view, former):
     """Shows the volume in the 3D view and returns its display.
 
     A volume that the view showed before keeps its representation. A comparison of the volume
-    `former` that the view showed looks like that one. Any other becomes a Deformed Volume. A
+    `former` that the view showed looks like that one. Any other becomes a Deformed Volume, and so
+    does the slice of a view that was left of four. A
     Deformed Volume that has no colours gets those of its first array, and shading.
     """
     from paraview import simple
 
-    was_shown = display_of(source, view) is not None
+    was_slice = _plane_of(view) is not None
+    was_shown = display_of(source, view) is not None and not was_slice
     display = simple.Show(source, view)
+    if was_slice:
+        _leave_slice(source, view)
     shown_before = display_of(former, view) if _is_made_of(source, former) else None
     if not was_shown and shown_before is not None:
         carry_look(shown_before, display)

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Uses BrainShift for long and proves that its memory stays flat.
+"""Uses BrainShift for long and proves that its memory stays flat and its window keeps its word.
 
-    pvpython soak.py [--strokes N] [--volumes N] [--views N]
+    pvpython soak.py [--strokes N] [--volumes N] [--views N] [--actions N] [--seed S]
 
-It makes N strokes and takes them back, opens and deletes N volumes in one view, and opens and
+At the end it plays N actions at random in ParaView's window (RandomWalk.py). Before, it makes N
+strokes and takes them back, opens and deletes N volumes in one view, and opens and
 closes N views. Before each it does some to warm up, because ParaView and the driver keep what they
 loaded once. It prints how much the memory of the process grew, and ends with 1 if that is more than
 the limit. ParaView itself keeps about 0.2 MB for each volume that was shown and 1 MB for each view
@@ -18,9 +19,15 @@ our own thread here, and memory is measured after a picture without strokes.
 import argparse
 import ctypes
 import gc
+import glob
 import os
+import subprocess
 import sys
+import tempfile
 import time
+
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+ENVIRONMENT = dict(os.environ)  # of the window, which keeps its shaders and threads
 
 os.environ["MESA_SHADER_CACHE_DISABLE"] = "true"  # before the driver is loaded
 os.environ["LP_NUM_THREADS"] = "0"
@@ -157,14 +164,11 @@ def growth_mb(name, what, count, warm_up):
     return growth
 
 
-def main():
-    parser = argparse.ArgumentParser(
-        prog="brainshift soak", description="Proves that memory stays flat in long use.")
-    parser.add_argument("--strokes", type=int, default=10000, help="default: 10000")
-    parser.add_argument("--volumes", type=int, default=200, help="default: 200")
-    parser.add_argument("--views", type=int, default=50, help="default: 50")
-    counts = parser.parse_args()
-    growths = [growth_mb("strokes", Strokes(), counts.strokes, 3 * MOST_STROKES)]
+def is_flat(counts):
+    """Whether memory stays flat; prints what grew."""
+    growths = [0.0]
+    if counts.strokes:
+        growths = [growth_mb("strokes", Strokes(), counts.strokes, 3 * MOST_STROKES)]
     for name, make, count in (("volumes", Volumes, counts.volumes), ("views", Views, counts.views)):
         if count == 0:
             continue
@@ -172,8 +176,50 @@ def main():
         growths.append(growth_mb(name, make("Deformed Volume"), count, WARM_UP) - stock)
     flat = max(growths) <= LIMIT_MB
     print(f"{'Flat' if flat else 'Not flat'}: {', '.join(f'{g:+.2f}' for g in growths)} MB of our "
-          f"own; the limit is {LIMIT_MB:+.0f} MB")
-    sys.exit(0 if flat else 1)
+          f"own; the limit is {LIMIT_MB:+.0f} MB", flush=True)
+    return flat
+
+
+def walks(actions, seed):
+    """Whether all held in a random walk through ParaView's window; prints what did not."""
+    testing = os.path.dirname(FOLDER)
+    support = os.path.join(testing, "Support")
+    folder = os.environ.get("BRAINSHIFT_TEST_TEMP") or os.path.join(
+        tempfile.gettempdir(), "brainshift-walk")
+    modules = [FOLDER, support, *glob.glob(os.path.join(testing, "Formats", "*"))]
+    environment = dict(
+        ENVIRONMENT, BRAINSHIFT_TEST_TEMP=folder, BRAINSHIFT_WALK_ACTIONS=str(actions),
+        BRAINSHIFT_WALK_SEED=str(seed), BRAINSHIFT_TEST_DATA=os.path.join(testing, "Data"),
+        BRAINSHIFT_TEST_SCRIPT=os.path.join(FOLDER, "RandomWalk.py"),
+        PYTHONPATH=os.pathsep.join([*modules, ENVIRONMENT.get("PYTHONPATH", "")]))
+    print(f"A random walk of {actions} actions, seed {seed}; {folder}/RandomWalk.log lists them",
+          flush=True)
+    seconds = 120 + 10 * actions  # much more than it takes
+    return subprocess.run(
+        ["python3", "-B", os.path.join(support, "play_window.py"), "RandomWalk",
+         "--seconds", str(seconds), "--", "paraview", "--dr",
+         "--plugin-search-paths=" + os.path.dirname(os.environ["BRAINSHIFT_PLUGIN"]),
+         "--plugins=BrainShift", "--script=" + os.path.join(support, "play_script.py")],
+        env=environment, check=False).returncode == 0
+
+
+def main():
+    parser = argparse.ArgumentParser(
+        prog="brainshift soak",
+        description="Proves that memory stays flat in long use, and that ParaView's window survives "
+                    "what is done in it at random. 0 leaves a part out.")
+    parser.add_argument("--strokes", type=int, default=10000, help="default: 10000")
+    parser.add_argument("--volumes", type=int, default=200, help="default: 200")
+    parser.add_argument("--views", type=int, default=50, help="default: 50")
+    parser.add_argument("--actions", type=int, default=2000, help="in the window; default: 2000")
+    parser.add_argument("--seed", type=int, default=1, help="of the actions; default: 1")
+    counts = parser.parse_args()
+    held = is_flat(counts) if counts.strokes or counts.volumes or counts.views else True
+    if counts.actions:
+        walked = walks(counts.actions, counts.seed)
+        print("The window kept its word" if walked else "The window did not keep its word")
+        held = held and walked
+    sys.exit(0 if held else 1)
 
 
 main()

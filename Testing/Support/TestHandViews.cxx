@@ -18,6 +18,7 @@
 #include <QAction>
 #include <QApplication>
 #include <QByteArray>
+#include <QPushButton>
 #include <QStringList>
 #include <QTabWidget>
 #include <QToolButton>
@@ -43,8 +44,9 @@ pqOutputWidget* messages()
 }
 }
 
-// Presses the cross of a view's frame. Returns whether there is one.
-TEST_HAND_EXPORT int test_hand_close_view(unsigned int id)
+// Presses a button of a view's frame: Close, Maximize, Restore, Split Horizontal Axis or Split
+// Vertical Axis. Returns whether there is one that can be pressed.
+TEST_HAND_EXPORT int test_hand_frame(unsigned int id, const char* text)
 {
   for (pqView* view : pqApplicationCore::instance()->getServerManagerModel()->findItems<pqView*>())
   {
@@ -55,11 +57,27 @@ TEST_HAND_EXPORT int test_hand_close_view(unsigned int id)
     }
     for (auto button : frame ? frame->findChildren<QToolButton*>() : QList<QToolButton*>())
     {
-      if (button->defaultAction() && button->defaultAction()->text() == "Close")
+      QAction* action = button->defaultAction();
+      if (action && action->text() == text && button->isEnabled() && !button->isHidden())
       {
         button->click();
         return 1;
       }
+    }
+  }
+  return 0;
+}
+
+// Presses the button of an empty frame that is seen which makes a view, for example Render View.
+TEST_HAND_EXPORT int test_hand_fill_frame(const char* text)
+{
+  for (QWidget* widget : QApplication::allWidgets())
+  {
+    auto button = qobject_cast<QPushButton*>(widget);
+    if (button && button->text() == text && button->isVisible())
+    {
+      button->click();
+      return 1;
     }
   }
   return 0;

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plays a test in ParaView's window and judges it:
 
-    python3 play_window.py NAME [--judge PROGRAM SCRIPT] -- WINDOW…
+    python3 play_window.py NAME [--seconds N] [--judge PROGRAM SCRIPT] -- WINDOW…
 
 WINDOW is the command that plays, and BRAINSHIFT_TEST_TEMP the test's own folder, which is emptied
 first. The test fails if the window ends with an error, if NAME.json says that a step did not hold
-or is missing, or if the judge, a script that looks at what the window left, fails.
+or is missing, or if the judge, a script that looks at what the window left, fails. If the window
+wrote NAME.log, its last lines are shown then.
 """
 
 import argparse
@@ -17,32 +18,42 @@ import subprocess
 import sys
 
 MOST_SECONDS = 540  # a window that waits for an answer waits for ever
+LAST_LINES = 40  # of a log
 
 
 def arguments():
     parser = argparse.ArgumentParser()
     parser.add_argument("name")
+    parser.add_argument("--seconds", type=int, default=MOST_SECONDS)
     parser.add_argument("--judge", nargs=2, metavar=("PROGRAM", "SCRIPT"))
     parser.add_argument("window", nargs="+")
     return parser.parse_args()
 
 
-def play(window):
+def play(window, seconds, log):
     try:
-        status = subprocess.run(window, check=False, timeout=MOST_SECONDS).returncode
+        status = subprocess.run(window, check=False, timeout=seconds).returncode
     except subprocess.TimeoutExpired:
-        sys.exit(f"The window did not end within {MOST_SECONDS} s")
+        sys.exit(f"The window did not end within {seconds} s{end_of(log)}")
     if status != 0:
-        sys.exit(f"The window ended with status {status}")
+        sys.exit(f"The window ended with status {status}{end_of(log)}")
 
 
-def assert_all_held(file):
+def end_of(log):
+    """The last lines of a log, if the window wrote one."""
+    if not log.exists():
+        return ""
+    lines = log.read_text(encoding="utf-8", errors="replace").splitlines()[-LAST_LINES:]
+    return "\n".join([f". The end of {log}:", *lines])
+
+
+def assert_all_held(file, log):
     """What the steps of a script wrote down with window_testing."""
     if not file.exists():
         sys.exit(f"The window wrote no {file.name}: its steps did not run to the end")
     told = json.loads(file.read_text(encoding="utf-8"))
     if told["failures"]:
-        sys.exit("\n".join(told["failures"]))
+        sys.exit("\n".join(told["failures"]) + end_of(log))
     if told["played"] == 0:
         sys.exit("The window played no step")
 
@@ -52,10 +63,11 @@ def main():
     folder = pathlib.Path(os.environ["BRAINSHIFT_TEST_TEMP"])
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    play(wanted.window)
+    log = folder / f"{wanted.name}.log"
+    play(wanted.window, wanted.seconds, log)
     if wanted.judge:
         sys.exit(subprocess.run(wanted.judge, check=False).returncode)
-    assert_all_held(folder / f"{wanted.name}.json")
+    assert_all_held(folder / f"{wanted.name}.json", log)
 
 
 if __name__ == "__main__":

@@ -25,6 +25,8 @@ _library.test_hand_controls.restype = ctypes.c_char_p
 _library.test_hand_messages.restype = ctypes.c_char_p
 _library.test_hand_field.restype = ctypes.c_char_p
 _library.test_hand_window.restype = ctypes.c_ulonglong
+_library.test_hand_dialogs.restype = ctypes.c_char_p
+_library.test_hand_seen_views.restype = ctypes.c_char_p
 _library.test_hand_set.argtypes = [ctypes.c_char_p, ctypes.c_double]
 
 
@@ -151,6 +153,13 @@ def action(name):
 def create_filter(name):
     """Makes a filter of the active source, as the menu Filters does: undo takes it back."""
     _library.test_hand_create_filter(name.encode())
+
+
+def create_filter_of_two(name, source, input_name, other):
+    """Makes a filter of two sources, as the menu does once its dialog has been answered."""
+    _library.test_hand_create_filter_of_two(
+        name.encode(), source.SMProxy.GetGlobalID(), input_name.encode(),
+        other.SMProxy.GetGlobalID())
 
 
 def open_file(path):
@@ -280,9 +289,27 @@ def quit():
 
 def close_view(view):
     """Presses the cross of a view's frame; False if there is none."""
-    closed = bool(_library.test_hand_close_view(view.SMProxy.GetGlobalID()))
+    return press_frame(view, "Close")
+
+
+def press_frame(view, button):
+    """Presses a button of a view's frame: Close, Maximize, Restore, Split Horizontal Axis or Split
+    Vertical Axis. False if there is none to press."""
+    pressed = bool(_library.test_hand_frame(view.SMProxy.GetGlobalID(), button.encode()))
     wait(100)
-    return closed
+    return pressed
+
+
+def fill_frame(kind="Render View"):
+    """Makes a view in an empty frame that is seen, by its button; False if there is none."""
+    pressed = bool(_library.test_hand_fill_frame(kind.encode()))
+    wait(100)
+    return pressed
+
+
+def seen_views():
+    """The numbers of the proxies of views that are on the screen."""
+    return [int(number) for number in _library.test_hand_seen_views().decode().split()]
 
 
 def new_layout():
@@ -317,6 +344,38 @@ def load_state(path):
     """As File > Load State does: what is there stays."""
     _library.test_hand_load_state(os.fspath(path).encode())
     wait(300)
+
+
+def select(source):
+    """Clicks a source in the pipeline browser; False if it is not there."""
+    return bool(_library.test_hand_select(source.SMProxy.GetGlobalID()))
+
+
+def click_eye(source):
+    """Clicks the eye of a source in the pipeline browser; False if it is not there."""
+    return bool(_library.test_hand_eye(source.SMProxy.GetGlobalID()))
+
+
+def delete_selected(downstream=False):
+    """As Edit > Delete does with what is selected; `downstream`: and with all that is made of it."""
+    _library.test_hand_delete(int(downstream))
+    wait(50)
+
+
+def reset_session():
+    """As Edit > Reset Session does: nothing is left but an empty view."""
+    _library.test_hand_reset_session()
+    wait(300)
+
+
+def send_dialogs_away():
+    """From now on dialogs are sent away, as Escape does; dialogs() says which."""
+    _library.test_hand_send_dialogs_away()
+
+
+def dialogs():
+    """What dialogs that were sent away said, since the last call."""
+    return _library.test_hand_dialogs().decode().splitlines()
 
 
 def messages():

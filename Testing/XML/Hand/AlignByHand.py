@@ -19,6 +19,7 @@ SIDE = 60  # voxels and mm
 ROTATION = [2.0, -3.0, 5.0]  # degrees
 TRANSLATION = [4.0, -3.0, 2.0]  # mm
 NEAR = 0.3  # mm and, at the corners, about as many degrees
+FLICKER = "actionBrainShiftFlicker"
 kept = {}
 
 
@@ -108,6 +109,19 @@ def it_is_one_step():
     assert motion() == tuple(ROTATION + TRANSLATION), motion()
     window.action("Redo")
     assert motion() == kept["found"], motion()
+
+
+def it_ends_the_flicker():
+    """Or undo and redo would show what the flicker showed when it began."""
+    move_away()
+    assert hand.action(FLICKER) and hand.is_checked(FLICKER)
+    shown = str(compare().Show.GetData())
+    begin()
+    assert not hand.is_checked(FLICKER) and str(compare().Show.GetData()) == "Both", shown
+    window.until(lambda: said().startswith("Finished"), f"an end: {said()}")
+    window.action("Undo")
+    window.action("Redo")
+    assert str(compare().Show.GetData()) == "Both", compare().Show
 
 
 def escape_moves_it_back():
@@ -211,6 +225,7 @@ def all_may_go():
 
 
 window.main("AlignByHand", [
-    (set_up,), (the_picture_follows,), (it_is_one_step,), (escape_moves_it_back,),
+    (set_up,), (the_picture_follows,), (it_is_one_step,), (it_ends_the_flicker,),
+    (escape_moves_it_back,),
     (stop_keeps_it,), (a_hand_comes_first,), (others_have_their_way,), (too_far_is_said,),
     (a_state_keeps_it,), (all_may_go,)])

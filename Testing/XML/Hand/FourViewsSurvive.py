@@ -98,6 +98,34 @@ def close_and_undo():
     moves_together()
 
 
+def undone_splits():
+    """A change of a layout after an undo is taken back to what the undo left."""
+    hand.new_layout()
+    hand.fill_frame()
+    view = simple.GetActiveView()
+    layout = simple.GetLayout(view)
+    assert hand.press_frame(view, "Split Vertical Axis") and hand.fill_frame()
+    undo(2)
+    assert hand.press_frame(view, "Split Horizontal Axis")
+    undo(1)
+    assert simple.GetViewsInLayout(layout) == [view] and empty_cells(layout) == 0
+    hand.close_layout(1)
+    hand.show_layout(0)
+
+
+def one_slice_is_left():
+    """Of which the button makes the 3D view."""
+    four_views()
+    layout = simple.GetLayout(simple.GetActiveView())
+    for view in sorted(simple.GetViewsInLayout(layout), key=flat)[:-1]:
+        hand.close_view(view)
+    del view
+    simple.SetActiveView(simple.GetViewsInLayout(layout)[0])
+    four_views()
+    four_are_shown()
+    assert sum(not flat(view) for view in simple.GetViewsInLayout(layout)) == 1
+
+
 def cameras():
     return sorted((str(view.InteractionMode), [round(part, 3) for part in view.CameraPosition],
                    round(view.CameraParallelScale, 3)) for view in simple.GetRenderViews())
@@ -186,4 +214,5 @@ def no_message():
 
 chance = random.Random(SEED)
 window.main("FourViewsSurvive", [
-    (close_and_undo,), (second_layout,), (state_again,), (shuffled,), (no_message,)])
+    (close_and_undo,), (second_layout,), (state_again,), (shuffled,), (undone_splits,),
+    (one_slice_is_left,), (no_message,)])

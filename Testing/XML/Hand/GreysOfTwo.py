@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that the slices of Four Views are grey where two volumes are open, whose arrays have one
-name: a head and its brain mask, and two heads. The 3D view keeps its natural colours.
+name: a head and its brain mask, and two heads. The 3D view keeps its natural colours. Apply is
+the last step to undo after each opening: colours and camera are a part of it.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import os
@@ -37,6 +38,9 @@ def greys_of(first, second):
     hand.wait(300)
     assert hand.click("Accept")
     hand.wait(1000)
+    labels = window.undo_labels()
+    assert "Apply" in labels, labels
+    assert labels[0] == "Apply", f"first looks are steps of their own to undo: {labels}"
     hand.create_filter("FreeFormDeformation")
     hand.wait(200)
     assert hand.click("Accept")

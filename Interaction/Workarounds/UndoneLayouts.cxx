@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Interaction/Workarounds/UndoneLayouts.h"
+
+#include <pqApplicationCore.h>
+#include <pqProxy.h>
+#include <pqServerManagerModel.h>
+#include <pqUndoStack.h>
+
+#include <vtkSMViewLayoutProxy.h>
+
+namespace brainshift
+{
+namespace
+{
+// Names a protected function of its base.
+class Opened : public vtkSMViewLayoutProxy
+{
+public:
+  static void push(vtkSMViewLayoutProxy* layout) { (layout->*&Opened::UpdateState)(); }
+};
+
+void pushLayouts()
+{
+  SCOPED_UNDO_EXCLUDE();
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  for (pqProxy* proxy : model->findItems<pqProxy*>())
+  {
+    if (auto layout = vtkSMViewLayoutProxy::SafeDownCast(proxy->getProxy()))
+    {
+      Opened::push(layout);
+    }
+  }
+}
+
+void follow(pqUndoStack* stack, QObject* context)
+{
+  if (stack)
+  {
+    QObject::connect(stack, &pqUndoStack::undone, context, pushLayouts);
+    QObject::connect(stack, &pqUndoStack::redone, context, pushLayouts);
+  }
+}
+}
+
+UndoneLayouts::UndoneLayouts(QObject* parent)
+  : QObject(parent)
+{
+  pqApplicationCore* core = pqApplicationCore::instance();
+  follow(core->getUndoStack(), this);
+  QObject::connect(core, &pqApplicationCore::undoStackChanged, this,
+    [this](pqUndoStack* stack) { follow(stack, this); });
+}
+}

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Layouts of views after undo and redo.
+#ifndef BrainShift_UndoneLayouts_h
+#define BrainShift_UndoneLayouts_h
+
+#include <QObject>
+
+namespace brainshift
+{
+/// Tells the session how undo and redo have left each layout of views. ParaView does not: the next
+/// change of a layout is then recorded against what it was before the undo, so that taking it back
+/// leaves cells "Create View" and views that were gone.
+class UndoneLayouts : public QObject
+{
+  Q_OBJECT
+
+public:
+  /// Follows the undo stack of the application until it is deleted.
+  explicit UndoneLayouts(QObject* parent = nullptr);
+};
+}
+
+#endif
