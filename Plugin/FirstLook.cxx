@@ -82,7 +82,8 @@ void finishLater(pqDataRepresentation* display, const std::vector<double>& tissu
 {
   noteTissue(display, tissue);
   QTimer::singleShot(0, display, [display] {
-    SCOPED_UNDO_EXCLUDE(); // it belongs to Apply
+    // It belongs to Apply.
+    SCOPED_UNDO_EXCLUDE();
     if (!showsVolume(display) || !display->getView()) // slices by now
     {
       return;
