@@ -44,7 +44,9 @@ QuietMessages::QuietMessages(QMainWindow* window)
   if (this->Output && window->metaObject()->indexOfMethod(slot) >= 0 &&
     this->Output->disconnect(SIGNAL(messageDisplayed(QString, int)), window))
   {
-    this->connect(this->Output, &pqOutputWidget::messageDisplayed, this, &QuietMessages::judge);
+    // Later: the message holds a lock, and a picture that the status bar causes may warn as well.
+    this->connect(this->Output, &pqOutputWidget::messageDisplayed, this, &QuietMessages::judge,
+      Qt::QueuedConnection);
   }
 }
 

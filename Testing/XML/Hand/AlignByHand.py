@@ -170,7 +170,7 @@ def others_have_their_way():
     compare().ReferenceTranslation = [7.0, 0.0, 0.0]
     hand.wait(100)
     assert motion() == tuple(ROTATION) + (7.0, 0.0, 0.0), motion()
-    assert "ReferenceTranslation was changed" in warned(), warned()
+    assert "Reference Translation was changed" in warned(), warned()
     assert not is_running()
     move_away()
     before = motion()
