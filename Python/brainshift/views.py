@@ -411,24 +411,23 @@ def _show_both(source, views, former, shown):
     displays = _show_slices(source, views, _coloring(source, volume), former)
     if former is not None:
         _hide(former, views)
-    for name in LINKED:
-        link([*displays.values(), volume], "representations", name)
     if shown is not None:
-        _take_over(shown, displays, volume)
+        _take_over(shown, [*displays.values(), volume])
+    for name in LINKED:  # all take the value of the first one
+        link([*displays.values(), volume], "representations", name)
     return displays
 
 
-def _take_over(shown, displays, volume):
+def _take_over(shown, displays):
     """Shows the comparison and the evidence that a display shows of the same source."""
-    if shown.ShowEvidence:
-        for display in (*displays.values(), volume):
+    way, evidence = _comparison_of(shown), int(shown.ShowEvidence)
+    for display in displays:
+        if evidence:
             display.ShowEvidence = 1
-    slices = displays["axial"]  # the others follow
-    way = _comparison_of(shown)
-    if way != "None":
-        for name in ("ComparisonColors", "WipePosition"):
-            slices.SMProxy.GetProperty(name).Copy(shown.SMProxy.GetProperty(name))
-        slices.SliceComparison = way
+        if way != "None":
+            for name in ("ComparisonColors", "WipePosition"):
+                display.SMProxy.GetProperty(name).Copy(shown.SMProxy.GetProperty(name))
+            display.SliceComparison = way
 
 
 def _comparison_of(display):
@@ -437,7 +436,7 @@ def _comparison_of(display):
     if display.Input.GetXMLName() != "CompareVolumes":
         return "None"
     if kind == "Deformed Volume":
-        return "None" if str(display.VolumeComparison) == "Off" else "Two colours"
+        return "None" if display.VolumeComparison == "Off" else "Two colours"
     return str(display.SliceComparison.GetData()) if kind == "Deformed Slices" else "None"
 
 

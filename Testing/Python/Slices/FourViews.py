@@ -55,7 +55,8 @@ def test_four_views_go_on_with_what_the_active_view_compares():
         views = brainshift.four_views(compare)
         shown = displays_of(compare, views)
         for name in SLICES:
-            assert shown[name].SliceComparison == wanted, (kind, own, name)
+            assert shown[name].SliceComparison == wanted, (
+                kind, own, name, str(shown[name].SliceComparison))
         for name in (*SLICES, "volume"):
             assert shown[name].ShowEvidence == own.get("ShowEvidence", 0), (own, name)
         close(views)

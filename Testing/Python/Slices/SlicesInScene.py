@@ -351,6 +351,8 @@ def test_an_oblique_grid_has_letters():
     display.OrientationMarks, display.WorldAxes = 1, "RAS"
     found = picture(view)
     assert letters_at(found) == [True] * 4
+    display.ShowCrosshair = 1
+    found = picture(view)
     assert (found[-40:, :60, 0] > found[-40:, :60, 2] + 0.5).sum() > 50, "Axial, in orange"
     Delete(view)
 
