@@ -80,6 +80,12 @@ def test_slice_vectors_say_which_slice_a_frame_is():
         reader, told = read(nuclear(3.0, order)[0])
         assert_says(told, "has a SliceVector of", "another number for each frame")
         assert output(reader).GetNumberOfPoints() == 0
+    path, _ = nuclear(3.0)
+    image = pydicom.dcmread(path)
+    image.FrameIncrementPointer, image.EnergyWindowVector = 0x00540010, [1, 1, 1, 1]
+    image.save_as(path, write_like_original=False)
+    _, told = read(path)
+    assert_says(told, "count something other than slices", "EnergyWindowVector")
     reader, told = read(nuclear(0.0)[0])
     assert_says(told, "no SpacingBetweenSlices other than 0")
 
