@@ -162,6 +162,21 @@ def test_images_that_are_left_out_are_counted():
     assert output(reader).GetDimensions() == (6, 5, 3)
 
 
+def test_a_meta_group_without_a_transfer_syntax_is_damaged():
+    """Its elements would be read in an order of bytes that is guessed."""
+    path = write_slices(folder("no-syntax"), numbered())
+    name = os.path.join(path, "IM0004.dcm")
+    with open(name, "rb") as file:
+        whole = file.read()
+    with open(name, "wb") as file:
+        file.write(whole.replace(b"\x02\x00\x10\x00UI", b"\x02\x00\x11\x00UI", 1))
+    reader, told = read(path)
+    assert_says(told, "has files that are damaged and left out: 1")
+    assert output(reader).GetDimensions() == (6, 5, 3)
+    _, told = read(name)
+    assert_says(told, "is a DICOM file whose header is damaged")
+
+
 def test_one_uid_at_several_positions_is_several_images():
     def same(image, _):
         image.SOPInstanceUID = "1.2.3"
