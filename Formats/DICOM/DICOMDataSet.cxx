@@ -226,8 +226,10 @@ bool readMeta(DICOMBytes& bytes, std::uint64_t& offset, DICOMContent& content)
   const unsigned char* letters = bytes.at(128, 4);
   offset = letters && std::memcmp(letters, "DICM", 4) == 0 ? 132 : 0;
   Head found;
+  bool hasMeta = false;
   while (parser.head(offset, Form(), found) && found.tag >> 16 == 0x0002)
   {
+    hasMeta = true;
     if (found.length > bytes.size() - found.value)
     {
       return false;
@@ -239,6 +241,10 @@ bool readMeta(DICOMBytes& bytes, std::uint64_t& offset, DICOMContent& content)
       content.transferSyntax = withoutPadding(content.transferSyntax);
     }
     offset = found.value + found.length;
+  }
+  if (content.transferSyntax.empty() && hasMeta)
+  {
+    return false; // the group must have it; a guess may read the rest as something else
   }
   if (content.transferSyntax.empty()) // as old files were written
   {

@@ -371,13 +371,18 @@ std::string keywordOf(DICOMTag tag)
 // Frames of nuclear medicine may count rotations, phases or energies in place of slices.
 void requireSlices(const DICOMDataSet& set)
 {
-  for (const DICOMTag tag : tagsOf(set, 0x00280009))
+  const std::vector<DICOMTag> tags = tagsOf(set, 0x00280009);
+  const auto isOfSlices = [](DICOMTag tag) {
+    return tag == SliceVector.tag || tag == FrameOffsets.tag;
+  };
+  const bool hasSlices = tags.empty() || std::any_of(tags.begin(), tags.end(), isOfSlices);
+  for (const DICOMTag tag : tags)
   {
     std::vector<int> counted = wholesOf(set, tag);
     std::sort(counted.begin(), counted.end());
     const bool isVector = tag >> 16 == 0x0054;
     const bool isOne = isVector && !counted.empty() && counted.front() == counted.back();
-    if (tag != SliceVector.tag && tag != FrameOffsets.tag && !isOne)
+    if (!isOfSlices(tag) && !(isOne && hasSlices))
     {
       throw Problem("has frames that count something other than slices (FrameIncrementPointer: " +
         keywordOf(tag) + "), which BrainShift does not read");

@@ -80,6 +80,12 @@ def test_slice_vectors_say_which_slice_a_frame_is():
         reader, told = read(nuclear(3.0, order)[0])
         assert_says(told, "has a SliceVector of", "another number for each frame")
         assert output(reader).GetNumberOfPoints() == 0
+    path, _ = nuclear(3.0)
+    image = pydicom.dcmread(path)
+    image.FrameIncrementPointer, image.EnergyWindowVector = 0x00540010, [1, 1, 1, 1]
+    image.save_as(path, write_like_original=False)
+    _, told = read(path)
+    assert_says(told, "count something other than slices", "EnergyWindowVector")
     reader, told = read(nuclear(0.0)[0])
     assert_says(told, "no SpacingBetweenSlices other than 0")
 
@@ -154,6 +160,21 @@ def test_images_that_are_left_out_are_counted():
     reader, told = read(write_slices(folder("lost"), numbered(), change=lost))
     assert_says(told, "has images without a position (ImagePositionPatient", ": 1")
     assert output(reader).GetDimensions() == (6, 5, 3)
+
+
+def test_a_meta_group_without_a_transfer_syntax_is_damaged():
+    """Its elements would be read in an order of bytes that is guessed."""
+    path = write_slices(folder("no-syntax"), numbered())
+    name = os.path.join(path, "IM0004.dcm")
+    with open(name, "rb") as file:
+        whole = file.read()
+    with open(name, "wb") as file:
+        file.write(whole.replace(b"\x02\x00\x10\x00UI", b"\x02\x00\x11\x00UI", 1))
+    reader, told = read(path)
+    assert_says(told, "has files that are damaged and left out: 1")
+    assert output(reader).GetDimensions() == (6, 5, 3)
+    _, told = read(name)
+    assert_says(told, "is a DICOM file whose header is damaged")
 
 
 def test_one_uid_at_several_positions_is_several_images():

@@ -150,6 +150,17 @@ def test_a_file_that_is_none_raises_the_reason():
           "no point array of 3 components")
     assert filter.Lattice is None and list(filter.LatticeDimensions) == [19, 19, 19]
     fails(lambda: brainshift.read_points(scratch("missing.csv")), "missing.csv")
+    folder = scratch("sample/seg3d-utah")
+    os.makedirs(folder, exist_ok=True)
+    for name in ("seg3d_mr_t1.nii.gz", "seg3d_brainmask.nii.gz"):
+        with open(os.path.join(folder, name), "w", encoding="ascii") as file:
+            file.write("no volume")
+    before = os.environ.get("BRAINSHIFT_DATA")
+    os.environ["BRAINSHIFT_DATA"] = os.path.dirname(folder)
+    fails(brainshift.open_sample, "seg3d_mr_t1.nii.gz")
+    del os.environ["BRAINSHIFT_DATA"]
+    if before is not None:
+        os.environ["BRAINSHIFT_DATA"] = before
     with messages():
         series = DICOMVolumeReader(FileName=scratch("no-folder"))
         fails(lambda: brainshift.dicom_patient(series), "no-folder", "does not exist")
