@@ -55,7 +55,8 @@ def _cells(layout, cell=0):
     if layout.IsSplitCell(cell):
         pairs = [_cells(layout, 2 * cell + side) for side in (1, 2)]
         return sum(pair[0] for pair in pairs), sum(pair[1] for pair in pairs)
-    empty = layout.GetView(cell) is None
+    view = layout.GetView(cell)  # undo can leave one that is gone
+    empty = view is None or not servermanager.ProxyManager().GetProxyName("views", view)
     return int(not empty), int(empty)
 
 
@@ -87,7 +88,8 @@ _HELPERS = ("DataAxesGrid", "GlyphType", "OSPRayScaleFunction", "OpacityTransfer
             "ScaleTransferFunction", "SliceFunction", "TextureTransform")
 PARAVIEWS_OWN = {
     "ScalarBarWidgetRepresentation": ("Position", "PositionInfo", "DataRangeMin", "DataRangeMax"),
-    "RenderView": ("AxesGrid", "LegendGrid", "PolarGrid", "CameraFocalDisk", "CameraFocalDiskInfo"),
+    "RenderView": ("AxesGrid", "LegendGrid", "PolarGrid", "CameraFocalDisk", "CameraFocalDiskInfo",
+                   "ViewSize"),
     "RepresentationAnimationHelper": ("Source",),
     "UniformGridRepresentation": _HELPERS, "GeometryRepresentation": _HELPERS}
 MAPS = ("PVLookupTable ", "PiecewiseFunction ", "TransferFunction2D ")
