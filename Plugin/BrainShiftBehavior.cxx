@@ -18,6 +18,7 @@
 
 #include <pqActiveObjects.h>
 #include <pqPipelineSource.h>
+#include <pqUndoStack.h>
 
 #include <vtkSMPVRepresentationProxy.h>
 #include <vtkSMPropertyHelper.h>
@@ -123,7 +124,10 @@ void BrainShiftBehavior::watchRepresentation(pqRepresentation* representation)
     QObject::connect(
       display, &pqDataRepresentation::dataUpdated, this,
       [display] {
-        QTimer::singleShot(0, display, [display] { brainshift::showByDistance(display); });
+        QTimer::singleShot(0, display, [display] {
+          SCOPED_UNDO_SET("Show distances"); // one step, not one for each property
+          brainshift::showByDistance(display);
+        });
       },
       Qt::SingleShotConnection);
   }

@@ -76,14 +76,38 @@ void hideScale(pqDataRepresentation* display)
   }
 }
 
+// Whether undo or redo is bringing something back.
+bool isReplayed()
+{
+  const pqUndoStack* stack = pqApplicationCore::instance()->getUndoStack();
+  return stack && (stack->getInUndo() || stack->getInRedo());
+}
+
+// What follows Apply is one step to undo, not one for each property. For a display that redo
+// brings back it is none: a new step would take the steps to redo off the stack.
+class LookStep
+{
+public:
+  explicit LookStep(bool replayed)
+    : Replayed(replayed)
+  {
+    replayed ? BEGIN_UNDO_EXCLUDE() : BEGIN_UNDO_SET(tr("First look"));
+  }
+  ~LookStep() { this->Replayed ? END_UNDO_EXCLUDE() : END_UNDO_SET(); }
+  LookStep(const LookStep&) = delete;
+  LookStep& operator=(const LookStep&) = delete;
+
+private:
+  bool Replayed;
+};
+
 // Turns the camera to the tissue, and takes the scale of colours away, which natural colours do not
 // need. Both later: then the display has a view, and ParaView has placed the camera.
 void finishLater(pqDataRepresentation* display, const std::vector<double>& tissue)
 {
   noteTissue(display, tissue);
-  QTimer::singleShot(0, display, [display] {
-    // It belongs to Apply.
-    SCOPED_UNDO_EXCLUDE();
+  QTimer::singleShot(0, display, [display, replayed = isReplayed()] {
+    const LookStep step(replayed);
     if (!showsVolume(display) || !display->getView()) // slices by now
     {
       return;
@@ -180,8 +204,8 @@ void giveLook(pqDataRepresentation* display)
     outline(display);
     noteLabelMap(sourceOf(display));
     // Later: ParaView shows the scale of an outline, too.
-    QTimer::singleShot(0, display, [display] {
-      SCOPED_UNDO_EXCLUDE(); // it belongs to Apply
+    QTimer::singleShot(0, display, [display, replayed = isReplayed()] {
+      const LookStep step(replayed);
       hideScale(display);
     });
   }
@@ -215,8 +239,9 @@ void showFirstLook(pqDataRepresentation* display)
   {
     // Later: ParaView still sets the colours of the array's name when it registers a display, and
     // shows their scale.
-    QTimer::singleShot(0, display, [display, wasShown = isScaleShown(colors)] {
-      SCOPED_UNDO_EXCLUDE(); // it belongs to Apply
+    const bool wasShown = isScaleShown(colors);
+    QTimer::singleShot(0, display, [display, wasShown, replayed = isReplayed()] {
+      const LookStep step(replayed);
       if (!wasShown)
       {
         hideScale(display);

@@ -2,8 +2,8 @@
 """Plays ParaView's window at random under a fixed seed and proves that nothing crashes, no error is
 reported, no stroke is lost and no picture is wrong.
 
-BRAINSHIFT_WALK_ACTIONS and BRAINSHIFT_WALK_SEED say how long and which way; RandomWalk.log lists the
-actions, each before it is carried out. ParaView's window runs this file as a script;
+BRAINSHIFT_WALK_ACTIONS and BRAINSHIFT_WALK_SEED say how long and which way; RandomWalk.log lists
+the actions, each before it is carried out. ParaView's window runs this file as a script;
 play_window.py reports what did not hold."""
 import faulthandler
 import os

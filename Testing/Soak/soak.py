@@ -206,8 +206,8 @@ def walks(actions, seed):
 def main():
     parser = argparse.ArgumentParser(
         prog="brainshift soak",
-        description="Proves that memory stays flat in long use, and that ParaView's window survives "
-                    "what is done in it at random. 0 leaves a part out.")
+        description="Proves that memory stays flat in long use, and that ParaView's window "
+                    "survives what is done in it at random. 0 leaves a part out.")
     parser.add_argument("--strokes", type=int, default=10000, help="default: 10000")
     parser.add_argument("--volumes", type=int, default=200, help="default: 200")
     parser.add_argument("--views", type=int, default=50, help="default: 50")

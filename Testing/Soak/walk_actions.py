@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the random walk does in ParaView's window. An action is a generator: it finds out whether it
-is possible, says in words what it will do, and does it when it is resumed. One that says nothing was
-impossible."""
+is possible, says in words what it will do, and does it when it is resumed. One that says nothing
+was impossible."""
 import os
 import time
 
@@ -25,6 +25,8 @@ LISTS = {"SliceComparison": ("None", "Two colours", "Checkerboard", "Difference"
          "WorldAxes": ("RAS", "LPS", "From the data")}
 BOXES = ("GuardFolding", "ShowCrosshair", "OrientationMarks", "ShowEvidence", "DrawSegment",
          "ShowAxial", "ShowSagittal", "Evidence", "Shade")
+KEYS = ("o", "i", "x", "+", "-", " ", "Escape", "PgUp")
+SPLITS = ("Split Horizontal Axis", "Split Vertical Axis")
 LOOKS = ("Skin", "Brain", "Bone", "See-through", "Vessels")
 CAMERAS = ("actionResetCamera", "actionPositiveX", "actionNegativeZ", "actionIsometricView",
            "actionZoomToData", "actionRotate90degCW")
@@ -339,7 +341,7 @@ def press_key(chance):
     views = render_views()
     if not views:
         return
-    view, key = chance.choice(views), chance.choice(("o", "i", "x", "+", "-", " ", "Escape", "PgUp"))
+    view, key = chance.choice(views), chance.choice(KEYS)
     at = pixel(chance, view)
     yield f"key {key} in view {number(view)} at {at}"
     hand.over(view)
@@ -389,7 +391,7 @@ def split_view(chance):
     views = render_views()
     if not views or len(simple.GetRenderViews()) >= MOST_VIEWS:
         return
-    view, way = chance.choice(views), chance.choice(("Split Horizontal Axis", "Split Vertical Axis"))
+    view, way = chance.choice(views), chance.choice(SPLITS)
     yield f"{way} of view {number(view)}"
     if hand.press_frame(view, way):
         hand.fill_frame()
@@ -526,9 +528,9 @@ def begin():
 
 
 #: How often each is chosen, and whether strokes may change in it.
-ACTIONS = {open_file: (5, False), accept: (2, False), add_filter: (7, False),
+ACTIONS = {open_file: (8, False), accept: (2, False), add_filter: (7, False),
            compare: (3, False), attach: (4, True), select: (6, False), click_eye: (4, False),
-           delete: (3, True), delete_tree: (1, True), four_views: (4, False),
+           delete: (5, True), delete_tree: (2, True), four_views: (4, False),
            take_tool: (2, False), stroke: (14, True), cancelled_stroke: (2, True),
            click_view: (4, True), move_camera: (8, True), press_key: (4, True),
            flicker: (1, False), undo: (9, True), redo: (6, True), close_view: (3, False),

@@ -95,6 +95,6 @@ def write(folder):
     for name, points in (("before.fcsv", LANDMARKS), ("after.fcsv", LANDMARKS + SHIFT)):
         volume_files.write(path(name), fiducials(points).encode())
     volumes = ["head.nii.gz", "oblique.nrrd", "moved.mha", "sagittal.mgz", "head.mnc",
-               "moments.nii", os.path.join("scan", "IM0001.dcm")]
+               "moments.nii", "scan"]
     return [path(name) for name in volumes], [path("labels.nrrd")], [
         path("before.fcsv"), path("after.fcsv")]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What must hold after the actions of the random walk: no message, no dialog, no empty cell, no lost
-stroke; undo and redo lead back; a view drawn anew, the bent volume baked, and a state that is opened
-again give the same picture."""
+"""What must hold after the actions of the random walk: no message, no dialog, no empty cell, no
+lost stroke; undo and redo lead back; a view drawn anew, the bent volume baked, and a state that is
+opened again give the same picture."""
 import os
 import re
 import xml.etree.ElementTree
@@ -55,7 +55,8 @@ def _cells(layout, cell=0):
     if layout.IsSplitCell(cell):
         pairs = [_cells(layout, 2 * cell + side) for side in (1, 2)]
         return sum(pair[0] for pair in pairs), sum(pair[1] for pair in pairs)
-    empty = layout.GetView(cell) is None
+    view = layout.GetView(cell)  # undo can leave one that is gone
+    empty = view is None or not servermanager.ProxyManager().GetProxyName("views", view)
     return int(not empty), int(empty)
 
 
@@ -65,12 +66,12 @@ def redo_labels():
 
 
 def no_empty_cell():
-    """But a cell whose view is one step of redo away: a split or a new layout was undone halfway."""
-    if redo_labels()[:1] == ["Create View"]:
+    """But a cell whose view is one step of redo away: a split was undone halfway."""
+    if redo_labels()[:1] == ["Create Render View"]:
         return
     for name, layout in simple.GetLayouts().items():
         views, empty = _cells(layout)
-        hold(not (views and empty), f"{empty} of the cells of {name} are empty, beside {views} views")
+        hold(not (views and empty), f"{empty} cells of {name} are empty, beside {views} views")
 
 
 def strokes():
@@ -81,15 +82,17 @@ def strokes():
 
 
 #: Not looked at, by kind of proxy: ParaView moves scales of colours to where there is room, at each
-#: picture; a view or display that undo or redo brings back lacks helpers that no picture here shows;
-#: so does the animation of a source. All without BrainShift.
-_HELPERS = ("DataAxesGrid", "GlyphType", "OSPRayScaleFunction", "OpacityTransferFunction", "PolarAxes",
-            "ScaleTransferFunction", "SliceFunction", "TextureTransform")
+#: picture; a view or display that undo or redo brings back lacks helpers that no picture here
+#: shows; so does the animation of a source. A view has no size before it is seen.
+_HELPERS = ("DataAxesGrid", "GlyphType", "OSPRayScaleFunction", "OpacityTransferFunction",
+            "PolarAxes", "ScaleTransferFunction", "SliceFunction", "TextureTransform")
 PARAVIEWS_OWN = {
     "ScalarBarWidgetRepresentation": ("Position", "PositionInfo", "DataRangeMin", "DataRangeMax"),
-    "RenderView": ("AxesGrid", "LegendGrid", "PolarGrid", "CameraFocalDisk", "CameraFocalDiskInfo"),
+    "RenderView": ("AxesGrid", "LegendGrid", "PolarGrid", "CameraFocalDisk", "CameraFocalDiskInfo",
+                   "ViewSize"),
     "RepresentationAnimationHelper": ("Source",),
     "UniformGridRepresentation": _HELPERS, "GeometryRepresentation": _HELPERS}
+MAPPED = (" LookupTable", " ScalarOpacityFunction")
 MAPS = ("PVLookupTable ", "PiecewiseFunction ", "TransferFunction2D ")
 GROUPS = ("sources", "filters", "representations", "views", "misc", "lookup_tables",
           "piecewise_functions")
@@ -115,10 +118,18 @@ def properties():
                     continue
                 values = [part.get("value") for part in kept if part.tag in ("Element", "Proxy")]
                 found[f"{name} {kept.get('name')}"] = " ".join(map(str, values))
-    used = set(" ".join(values for name, values in found.items()
-                        if "LookupTable" in name or "Function" in name).split())
-    return {name: values for name, values in found.items()  # a map without a display is no loss
-            if not name.startswith(MAPS) or name.split()[1] in used}
+    return _by_colours(found)
+
+
+def _by_colours(found):
+    """Properties with the colours and opacities of a map in place of its number: undo and redo may
+    make it anew."""
+    shown = {}
+    for kind, points in (("PVLookupTable", "RGBPoints"), ("PiecewiseFunction", "Points")):
+        shown.update((name.split()[1], values) for name, values in found.items()
+                     if name.startswith(kind) and name.endswith(" " + points))
+    return {name: shown.get(values, values) if name.endswith(MAPPED) else values
+            for name, values in found.items() if not name.startswith(MAPS)}
 
 
 def undo_and_redo_lead_back(times):
@@ -226,7 +237,8 @@ def same(words, left, right, most=FAR_PIXELS):
     if share > most:
         save("left", left)
         save("right", right)
-        raise Wrong(f"{words}: {100 * share:.2f} % of the pixels are far apart (left.png, right.png)")
+        raise Wrong(f"{words}: {100 * share:.2f} % of the pixels are far apart (see left.png, "
+                    f"right.png)")
 
 
 def rest():

@@ -357,7 +357,7 @@ def click_eye(source):
 
 
 def delete_selected(downstream=False):
-    """As Edit > Delete does with what is selected; `downstream`: and with all that is made of it."""
+    """As Edit > Delete does with what is selected; `downstream`: and with what is made of it."""
     _library.test_hand_delete(int(downstream))
     wait(50)
 

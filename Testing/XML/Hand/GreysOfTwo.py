@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that the slices of Four Views are grey where two volumes are open, whose arrays have one
-name: a head and its brain mask, and two heads. The 3D view keeps its natural colours. Apply is
-the last step to undo after each opening: colours and camera are a part of it.
+name: a head and its brain mask, and two heads. The 3D view keeps its natural colours. After
+Apply, colours and camera are steps of their own to undo, few of them, and redo brings them back.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import os
@@ -29,6 +29,24 @@ def is_grey(display):
     return all(red == green == blue for red, green, blue in colors(display))
 
 
+def looks():
+    """Of all displays: how, and in which colours."""
+    return [(str(display.Representation.GetData()), colors(display))
+            for display in simple.GetActiveView().Representations if hasattr(display, "Input")]
+
+
+def first_looks_are_undone_and_redone():
+    labels, before = window.undo_labels(), looks()
+    assert "Apply" in labels and set(labels[:labels.index("Apply")]) <= {"First look"}, labels
+    steps = labels.index("Apply") + 1
+    for action in ("Undo", "Redo"):
+        for _ in range(steps):
+            window.action(action)
+            hand.wait(200)
+    assert looks() == before, (looks(), before)
+    assert window.undo_labels() == labels, (window.undo_labels(), labels)
+
+
 def greys_of(first, second):
     shutil.copy(HEAD, OTHER)
     for source in list(simple.GetSources().values())[::-1]:
@@ -38,9 +56,7 @@ def greys_of(first, second):
     hand.wait(300)
     assert hand.click("Accept")
     hand.wait(1000)
-    labels = window.undo_labels()
-    assert "Apply" in labels, labels
-    assert labels[0] == "Apply", f"first looks are steps of their own to undo: {labels}"
+    first_looks_are_undone_and_redone()
     hand.create_filter("FreeFormDeformation")
     hand.wait(200)
     assert hand.click("Accept")
