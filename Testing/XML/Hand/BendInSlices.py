@@ -378,9 +378,9 @@ def radius_is_measured_along_the_lattice(scene):
     hand.take(hand.SOFT)
     for radius, warned in ((4.5, False), (3.5, True)):
         hand.setting("radius", radius)
-        hand.wait(50)
+        window.until(lambda warned=warned: bool(hand.label("BrainShiftWarning")) == warned,
+                     f"a radius of {radius} mm is warned of: {warned}")
         text = hand.label("BrainShiftWarning")
-        assert bool(text) == warned, (radius, text)
         assert not warned or "4.0 mm" in text, text
     hand.take(hand.NONE)
     simple.Delete(turned)
