@@ -262,7 +262,8 @@ void Tutorial::go(int step)
 // lie under the main window, at the latest after a click there.
 void Tutorial::belongToWindow()
 {
-  const WId owner = this->parentWidget()->internalWinId();
+  QWindow* window = this->parentWidget()->windowHandle();
+  const WId owner = window && window->handle() ? window->winId() : 0;
   if (!this->isVisible() || owner == 0 || owner == this->Owner)
   {
     return;
@@ -271,7 +272,7 @@ void Tutorial::belongToWindow()
   this->setAttribute(Qt::WA_ShowWithoutActivating);
   this->hide();
   this->winId(); // so that it has a window to tell about
-  this->windowHandle()->setTransientParent(this->parentWidget()->windowHandle());
+  this->windowHandle()->setTransientParent(window);
   this->show();
   this->setAttribute(Qt::WA_ShowWithoutActivating, false);
 }

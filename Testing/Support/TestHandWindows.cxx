@@ -8,6 +8,7 @@
 #include <QDockWidget>
 #include <QLineEdit>
 #include <QMainWindow>
+#include <QWindow>
 
 // The number that X knows a window by, by its object name; the main window's if that is empty. 0:
 // there is none.
@@ -18,10 +19,26 @@ TEST_HAND_EXPORT unsigned long long test_hand_window(const char* name)
   {
     if (main ? qobject_cast<QMainWindow*>(window) != nullptr : window->objectName() == name)
     {
-      return window->internalWinId();
+      return window->windowHandle() ? window->windowHandle()->winId() : 0;
     }
   }
   return 0;
+}
+
+// Lets Qt make the main window again, as it does where a window gets its first OpenGL view: X knows
+// it by another number then.
+TEST_HAND_EXPORT void test_hand_remake_window()
+{
+  for (QWidget* window : QApplication::topLevelWidgets())
+  {
+    if (qobject_cast<QMainWindow*>(window))
+    {
+      window->windowHandle()->destroy();
+      window->windowHandle()->create();
+      window->windowHandle()->show();
+      return;
+    }
+  }
 }
 
 // The text of a field of a property that the properties panel shows, by both names.

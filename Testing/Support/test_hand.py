@@ -228,6 +228,12 @@ def owner_of(name):
     return above.value, _library.test_hand_window(b"")
 
 
+def remake_window():
+    """Gives the main window another number, as Qt does by itself at times."""
+    _library.test_hand_remake_window()
+    wait(100)
+
+
 def keeps_focus(name):
     """Clicks a button of the window with the mouse; whether the view keeps the keyboard."""
     return bool(_library.test_hand_keeps_focus(name.encode()))
