@@ -97,7 +97,7 @@ class Cases:
         with open(name, "rb") as file:
             data = file.read()
         for _ in range(random.choice([0, 1, 1, 1, 2, 3])):
-            data = spoiled(random, data)
+            data = spoiled(random, data) if len(data) > 133 else data
         with open(name, "wb") as file:
             file.write(data)
         with messages() as said:
