@@ -84,6 +84,7 @@ def undone_split():
     undo(1)
     layout = simple.GetLayout(view)
     assert simple.GetViewsInLayout(layout) == [view] and not layout.IsSplitCell(0)
+    simple.SetActiveView(view)  # the one that was active is gone
 
 
 def close_and_undo():
