@@ -127,7 +127,7 @@ def three_at_once_are_seen():
     assert not tissue[[0, -1]].any() and not tissue[:, [0, -1]].any(), "an edge cuts a head"
     size = (tissue.any(axis=0).mean(), tissue.any(axis=1).mean())
     hand.save_picture(scratch("three.png"))
-    assert 0.8 < max(size) < 0.97, size
+    assert 0.6 < max(size) < 0.97, size  # far points of three heads are seldom at the edges
     for head in heads:
         bounds = head.GetDataInformation().GetBounds()
         x, y = window.pixel_of(view, [sum(bounds[i:i + 2]) / 2 for i in (0, 2, 4)])
