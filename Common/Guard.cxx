@@ -65,12 +65,27 @@ void warn(vtkObject* object, const std::string& sentence)
   vtkWarningWithObjectMacro(object, << sentence << ".");
 }
 
+namespace
+{
+// VTK keeps the addresses of readers that were deleted while they were connected. A reader that is
+// there holds a reference to what it reads, and the producer holds one: with fewer of them, an
+// address is that of nothing.
+bool areReadersThere(vtkInformation* output)
+{
+  return output->GetReferenceCount() > vtkExecutive::CONSUMERS()->Length(output);
+}
+}
+
 void forgetExtents(vtkInformationVector* outputs)
 {
   for (int port = 0; port < outputs->GetNumberOfInformationObjects(); ++port)
   {
     vtkInformation* info = outputs->GetInformationObject(port);
     info->Remove(vtkStreamingDemandDrivenPipeline::COMBINED_UPDATE_EXTENT());
+    if (!areReadersThere(info))
+    {
+      continue;
+    }
     // What reads this output keeps its request, too.
     vtkExecutive** const readers = vtkExecutive::CONSUMERS()->GetExecutives(info);
     for (int reader = 0; reader < vtkExecutive::CONSUMERS()->Length(info); ++reader)

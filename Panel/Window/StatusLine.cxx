@@ -217,7 +217,7 @@ StatusLine::StatusLine(QWidget* parent, QuietMessages* messages)
   this->Sign->setIcon(QIcon(":/BrainShift/warning.svg"));
   this->Sign->setToolTip(tr("Show all messages."));
   this->Sign->setAccessibleName(tr("Messages"));
-  this->Warning->setObjectName("BrainShiftWarning");
+  this->Warning->setObjectName("BrainShiftStatusWarning");
   this->Warning->setTextFormat(Qt::PlainText); // names come from files
   this->Warning->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   row->addWidget(this->Sign);

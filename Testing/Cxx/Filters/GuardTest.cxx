@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that no exception leaves a filter, from whichever thread: the filter reports an error that
-// says why, and works again afterwards.
+// says why, and works again afterwards, also after a filter that read it is gone.
 #include "Common/Guard.h"
 #include "Common/Parallel.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
@@ -46,6 +46,22 @@ protected:
 vtkStandardNewMacro(Thrower);
 brainshiftGuardRequestsMacro(Thrower);
 
+// Reads another algorithm.
+class Reader : public vtkImageAlgorithm
+{
+public:
+  static Reader* New();
+  vtkTypeMacro(Reader, vtkImageAlgorithm);
+
+protected:
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override
+  {
+    return 1;
+  }
+};
+
+vtkStandardNewMacro(Reader);
+
 std::string errorsOf(Thrower* filter, const std::function<void()>& step)
 {
   Errors errors(filter);
@@ -90,4 +106,21 @@ TEST(Guard, HoldsForThreads)
     });
   });
   EXPECT_NE(said.find("Thrower needs more memory"), std::string::npos) << said;
+}
+
+TEST(Guard, AReaderMayBeGone)
+{
+  vtkNew<Thrower> filter;
+  filter->Step = [] {};
+  for (int kept = 0; kept < 2; ++kept)
+  {
+    vtkNew<Reader> gone;
+    gone->SetInputConnection(filter->GetOutputPort());
+    gone->Update();
+  }
+  EXPECT_NE(errorsOf(filter, throwOutOfRange), "");
+  vtkNew<Reader> there;
+  there->SetInputConnection(filter->GetOutputPort());
+  EXPECT_NE(errorsOf(filter, throwOutOfRange), "");
+  EXPECT_EQ(errorsOf(filter, [] {}), "");
 }

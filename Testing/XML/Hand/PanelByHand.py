@@ -195,17 +195,17 @@ def warnings_stand_in_the_status_line():
     hand.forget_messages()
     window.deformation().Strokes = brainshift.soft(CENTRE, (0.0, 0.5, 0.0), 0.7)
     window.deformation().UpdatePipeline()
-    window.until(lambda: "stroke 1 (0.7 mm)" in hand.label("BrainShiftWarning"), "the warning")
-    words = hand.label("BrainShiftWarning")
+    window.until(lambda: "stroke 1 (0.7 mm)" in hand.label("BrainShiftStatusWarning"), "the warning")
+    words = hand.label("BrainShiftStatusWarning")
     assert words.startswith("The lattice is too coarse"), words
     assert words.endswith("Make Lattice Dimensions larger."), words
     told, shown = hand.messages()
     assert not shown, "Output Messages stays closed"
     assert any("stroke 1 (0.7 mm)" in line for line in told), told
-    assert hand.is_visible("BrainShiftWarning")
+    assert hand.is_visible("BrainShiftStatusWarning")
     assert hand.click("BrainShiftMessages")
     hand.wait(100)
-    assert hand.messages()[1] and not hand.is_visible("BrainShiftWarning")
+    assert hand.messages()[1] and not hand.is_visible("BrainShiftStatusWarning")
 
 
 def errors_open_the_messages():
