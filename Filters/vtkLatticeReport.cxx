@@ -8,7 +8,6 @@
 #include "Filters/Deformation/ControlPoints.h"
 
 #include "vtkAlgorithm.h"
-#include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"

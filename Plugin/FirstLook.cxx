@@ -10,7 +10,6 @@
 #include <pqDataRepresentation.h>
 #include <pqOutputPort.h>
 #include <pqPipelineFilter.h>
-#include <pqPipelineSource.h>
 #include <pqUndoStack.h>
 #include <pqView.h>
 

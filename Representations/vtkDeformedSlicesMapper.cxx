@@ -3,7 +3,6 @@
 
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
-#include "Common/LabelTable.h"
 #include "Representations/Field/EvidenceTexture.h"
 #include "Representations/Field/SceneDeformation.h"
 #include "Representations/Field/TissueFacts.h"
@@ -17,7 +16,6 @@
 #include "vtkColorTransferFunction.h"
 #include "vtkImageData.h"
 #include "vtkMatrix4x4.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPiecewiseFunction.h"
 #include "vtkRenderer.h"

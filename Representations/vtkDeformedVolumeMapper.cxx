@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/Guard.h"
-#include "Common/LabelTable.h"
 #include "Common/Numbers.h"
 #include "Representations/Field/TissueFacts.h"
 #include "Representations/Gpu/WindowDevices.h"
@@ -11,7 +10,6 @@
 #include "vtkDeformedVolumeMapper.h"
 #include "vtkImageData.h"
 #include "vtkMatrix4x4.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkRenderer.h"
 #include "vtkSmartVolumeMapper.h"

@@ -4,7 +4,6 @@
 #include "Common/Guard.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/ReferenceVolume.h"
-#include "Representations/Scene/WindowText.h"
 #include "Representations/Window/EvidenceLegend.h"
 #include "Representations/Window/GatheredVolume.h"
 #include "Representations/Workarounds/ParaViewFaults.h"

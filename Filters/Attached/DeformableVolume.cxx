@@ -6,7 +6,6 @@
 #include "Common/ImageGrid.h"
 #include "Common/Numbers.h"
 
-#include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"

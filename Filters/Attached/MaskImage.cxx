@@ -7,7 +7,6 @@
 #include "Filters/Attached/DeformableVolume.h"
 
 #include "vtkCellData.h"
-#include "vtkDataSetAttributes.h"
 #include "vtkPointData.h"
 
 #include <algorithm>

@@ -6,7 +6,6 @@
 #include "Filters/Deformation/Kernels.h"
 #include "Formats/Fields/FieldImage.h"
 
-#include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 

@@ -10,7 +10,6 @@
 #include "vtkInformation.h"
 #include "vtkMultiProcessController.h"
 #include "vtkPointData.h"
-#include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnstructuredGrid.h"

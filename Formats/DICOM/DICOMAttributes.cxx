@@ -5,7 +5,6 @@
 #include "Common/Numbers.h"
 #include "Formats/Files/Text.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace brainshift

@@ -15,11 +15,9 @@
 #include "Common/Numbers.h"
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"
-#include "Formats/Landmarks/LandmarkFormats.h"
 #include "Formats/Landmarks/PointColumns.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <utility>

@@ -8,7 +8,6 @@
 
 #include "vtk_zlib.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>

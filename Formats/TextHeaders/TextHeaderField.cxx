@@ -12,7 +12,6 @@
 #include "Formats/Files/WholeFile.h"
 #include "Formats/TextHeaders/TextHeader.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace brainshift

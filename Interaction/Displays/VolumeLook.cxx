@@ -10,7 +10,6 @@
 
 #include <vtkDataObject.h>
 #include <vtkSMPropertyHelper.h>
-#include <vtkSMProxy.h>
 #include <vtkSMRenderViewProxy.h>
 
 #include <QMap>

@@ -11,13 +11,11 @@
 #include <pqOutputPort.h>
 #include <pqPipelineSource.h>
 #include <pqRenderView.h>
-#include <pqView.h>
 
 #include <vtkCommand.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkSMPropertyHelper.h>
-#include <vtkSMProxy.h>
 #include <vtkSMRenderViewProxy.h>
 
 #include <QApplication>

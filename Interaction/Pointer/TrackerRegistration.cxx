@@ -5,9 +5,6 @@
 #include "Filters/Fit/PairDoubts.h"
 #include "Interaction/Commands/Application.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <limits>
 
 namespace brainshift

@@ -7,7 +7,6 @@
 #include <pqDataRepresentation.h>
 #include <pqOutputPort.h>
 #include <pqPipelineFilter.h>
-#include <pqPipelineSource.h>
 #include <pqView.h>
 
 #include <vtkPVXMLElement.h>

@@ -8,7 +8,6 @@
 #include <pqRenderView.h>
 
 #include <vtkSMPropertyHelper.h>
-#include <vtkSMProxy.h>
 #include <vtkSMViewProxy.h>
 
 #include <cmath>

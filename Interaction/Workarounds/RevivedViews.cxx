@@ -7,7 +7,6 @@
 #include <pqView.h>
 
 #include <vtkSMProperty.h>
-#include <vtkSMProxy.h>
 #include <vtkSMRenderViewProxy.h>
 
 #include <QTimer>

@@ -195,7 +195,8 @@ def warnings_stand_in_the_status_line():
     hand.forget_messages()
     window.deformation().Strokes = brainshift.soft(CENTRE, (0.0, 0.5, 0.0), 0.7)
     window.deformation().UpdatePipeline()
-    window.until(lambda: "stroke 1 (0.7 mm)" in hand.label("BrainShiftStatusWarning"), "the warning")
+    window.until(lambda: "stroke 1 (0.7 mm)" in hand.label("BrainShiftStatusWarning"),
+                 "the warning")
     words = hand.label("BrainShiftStatusWarning")
     assert words.startswith("The lattice is too coarse"), words
     assert words.endswith("Make Lattice Dimensions larger."), words
