@@ -148,7 +148,7 @@ def test_too_many_annotations_are_said():
     source = volume(numpy.arange(SIDE ** 3, dtype=numpy.float32).reshape((SIDE,) * 3))
     with messages() as said:
         slices_of(source, many)
-    assert "InterpretValuesAsCategories" in said.text and "4095" in said.text, said.text
+    assert "Interpret Values As Categories" in said.text and "4095" in said.text, said.text
 
 
 def nifti(name, voxels, intent):
