@@ -32,7 +32,9 @@ struct NodeCell
   {
     const glm::vec3 anywhere =
       (lattice - glm::vec3(nodes.first)) * static_cast<float>(nodes.perCell);
-    const glm::vec3 node = glm::clamp(anywhere, glm::vec3(0.0f), glm::vec3(nodes.count - 1));
+    // In this order, a number that is none (NaN) becomes 0, not a cell beyond the nodes.
+    const glm::vec3 node =
+      glm::min(glm::max(glm::vec3(0.0f), anywhere), glm::vec3(nodes.count - 1));
     this->inside = glm::vec3(glm::equal(anywhere, node));
     this->low = glm::min(glm::ivec3(node), glm::max(nodes.count - 2, glm::ivec3(0)));
     this->high = glm::min(this->low + 1, nodes.count - 1);

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 
 using namespace brainshift;
 using namespace brainshift::testing;
@@ -297,4 +298,18 @@ TEST(BackwardNodes, AreNeverMoreThanAnIntegerCounts)
   EXPECT_EQ(nodes.count.x, (4 + 2 * 20000) * 5 + 1) << "the cubic overshoots to the other side";
   EXPECT_EQ(nodes.first.y, -20000);
   EXPECT_EQ(nodes.count.z, 21);
+}
+
+TEST(NodeField, APositionThatIsNoNumberIsWithinTheField)
+{
+  Grid grid;
+  grid.dimensions = glm::ivec3(4);
+  const NodeField field = refine(makeLattice(grid, KernelCatmullRom), 2);
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  glm::vec3 displacement(1.0f);
+  glm::mat3 jacobian(0.0f);
+  field.map(glm::vec3(none, 1.0f, none), displacement, jacobian);
+  EXPECT_EQ(displacement, glm::vec3(0.0f));
+  EXPECT_EQ(jacobian, glm::mat3(1.0f));
+  EXPECT_EQ(field.displacement(glm::vec3(none)), glm::vec3(0.0f));
 }
