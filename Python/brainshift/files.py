@@ -19,6 +19,19 @@ def reason_of(reader):
     return reader.GetPropertyValue("Problem")
 
 
+def require_read(reader, active):
+    """Reads. If nothing was read, deletes the reader, makes the former source active again and
+    raises `ValueError` with the reason."""
+    from paraview import simple
+
+    reader.UpdatePipeline()
+    problem = reason_of(reader)
+    if problem:
+        simple.Delete(reader)
+        simple.SetActiveSource(active)
+        raise ValueError(problem)
+
+
 def _world(world):
     """The word of the writers' property for "RAS", "LPS" or None; another raises an error."""
     if world not in (None, "RAS", "LPS"):
@@ -130,12 +143,7 @@ def load_field(name, direction="As Stored In The File", world="RAS"):
 
     active = simple.GetActiveSource()
     reader = simple.DisplacementFieldReader(FileName=name, Direction=direction, World=world)
-    reader.UpdatePipeline()
-    problem = reason_of(reader)
-    if problem:
-        simple.Delete(reader)
-        simple.SetActiveSource(active)
-        raise ValueError(problem)
+    require_read(reader, active)
     leads = reader.GetDataInformation().GetFieldDataInformation().GetArrayInformation(
         "DisplacementDirection")
     if leads.GetStringValue(0) == "forward":

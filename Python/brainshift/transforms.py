@@ -4,7 +4,7 @@
 import math
 import os
 
-from .files import reason_of, save_field
+from .files import require_read, save_field
 
 #: Reverses x and y: from LPS, in which ITK's files are, to RAS and back.
 _LPS = (-1.0, -1.0, 1.0, 1.0)
@@ -161,12 +161,7 @@ def _bend(bent, files, options):
         Volume=bent.Input, **options,  # before the name: it reads as soon as it has one
         FileName=files[0], LaterFileNames=files[1:],
         LatticeDimensions=bent.LatticeDimensions, Kernel=bent.Kernel)
-    reader.UpdatePipeline()
-    problem = reason_of(reader)
-    if problem:
-        simple.Delete(reader)
-        simple.SetActiveSource(active)
-        raise ValueError(problem)
+    require_read(reader, active)
     bent.Lattice = reader
     simple.SetActiveSource(active)
     return reader.SMProxy.GetProperty("LargestError").GetElement(0)
