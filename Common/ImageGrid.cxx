@@ -50,6 +50,24 @@ Grid gridOf(vtkImageData* image)
   return grid;
 }
 
+namespace
+{
+// How far the products of axes are from 0, or 1 of an axis with itself.
+double missOfRotation(const glm::dmat3& direction)
+{
+  double most = 0.0;
+  const glm::dmat3 products = glm::transpose(direction) * direction;
+  for (int column = 0; column < 3; ++column)
+  {
+    for (int row = 0; row < 3; ++row)
+    {
+      most = std::max(most, std::abs(products[column][row] - (row == column ? 1.0 : 0.0)));
+    }
+  }
+  return most;
+}
+}
+
 std::string problemOfGrid(const Grid& grid)
 {
   const auto isFinite = [](const glm::dvec3& v) {
@@ -74,6 +92,12 @@ std::string problemOfGrid(const Grid& grid)
     !isFinite(grid.direction[2]))
   {
     problem << "direction holds a number that is not finite";
+  }
+  else if (!(missOfRotation(grid.direction) <= MostMissOfRotation))
+  {
+    problem << "direction has axes that are not perpendicular and 1 long: products of them miss "
+            << "0 and 1 by up to " << missOfRotation(grid.direction) << "; the limit is "
+            << MostMissOfRotation << ". Resample it to perpendicular axes first";
   }
   return problem.str();
 }

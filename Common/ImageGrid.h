@@ -20,13 +20,20 @@ constexpr double ShortestSpacing = 1e-9;
 constexpr double LongestSpacing = 1e9;
 ///@}
 
+/**
+ * So far may the products of a grid's axes be from those of a rotation or a mirror: its inverse is
+ * taken to be its transpose. Cosines with three decimals miss by less.
+ */
+constexpr double MostMissOfRotation = 2e-3;
+
 /** The grid of an image's points, in world space. */
 VTKBRAINSHIFTCOMMON_EXPORT Grid gridOf(vtkImageData* image);
 
 /**
  * What is wrong with the position of a grid, as the end of a sentence about it, without a full
  * stop: its spacing must be from ShortestSpacing to LongestSpacing, its origin at most
- * FarthestOriginSpacings away from 0, its other numbers finite. It is empty if nothing is wrong.
+ * FarthestOriginSpacings away from 0, its other numbers finite, its axes perpendicular and 1 long
+ * (MostMissOfRotation). It is empty if nothing is wrong.
  */
 VTKBRAINSHIFTCOMMON_EXPORT std::string problemOfGrid(const Grid& grid);
 

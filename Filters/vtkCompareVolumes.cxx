@@ -120,6 +120,8 @@ int vtkCompareVolumes::RequestData(
   this->Internal->CellArrays.share(output->GetCellData());
   vtkImageData* image = vtkImageData::GetData(inputs[ReferencePort]);
   const Grid grid = gridOf(image);
+  requirePosition(gridOf(output), "The volume's ");
+  requirePosition(grid, "The reference's ");
   vtkDataArray* scalars = referenceScalars(image);
   PlacedVoxels cavity = this->Internal->Cavity.find(
     vtkImageData::GetData(inputs[CavityPort]), this->CavityLabels, grid, "reference");

@@ -19,6 +19,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <cmath>
+#include <sstream>
 
 using namespace brainshift;
 using Pipeline = vtkStreamingDemandDrivenPipeline;
@@ -122,10 +123,12 @@ bool fillDeviations(
   return forPortions({ filter, 1.0, 1.0 }, image->GetNumberOfPoints(), atLeast, fillPoints);
 }
 
+// Six digits.
 std::string triple(const glm::dvec3& numbers)
 {
-  return std::to_string(numbers.x) + " x " + std::to_string(numbers.y) + " x " +
-    std::to_string(numbers.z);
+  std::ostringstream text;
+  text << numbers.x << " x " << numbers.y << " x " << numbers.z;
+  return text.str();
 }
 
 // For the arrays.
@@ -165,16 +168,17 @@ Grid vtkDeformationField::SamplesOver(const Grid& volume) const
     const glm::dvec3 spacing(this->Spacing[0], this->Spacing[1], this->Spacing[2]);
     const glm::dvec3 extent = volume.spacing * glm::dvec3(volume.dimensions - 1);
     const glm::dvec3 smallest = extent / double(LargestSide - 1);
-    if (!glm::all(glm::lessThanEqual(smallest, spacing)) ||
-      !glm::all(glm::lessThanEqual(spacing, extent)))
+    constexpr double Rounding = 1e-5; // a limit that is copied from the sentence holds
+    if (!glm::all(glm::lessThanEqual(smallest * (1.0 - Rounding), spacing)) ||
+      !glm::all(glm::lessThanEqual(spacing, extent * (1.0 + Rounding))))
     {
       throw Problem("Spacing is " + triple(spacing) + " mm; for this volume it must be from " +
         triple(smallest) + " to " + triple(extent) + " mm");
     }
-    samples.spacing = spacing;
+    samples.spacing = glm::clamp(spacing, smallest, extent);
     for (int axis = 0; axis < 3; ++axis)
     {
-      samples.dimensions[axis] = pointsEvery(spacing[axis], extent[axis]);
+      samples.dimensions[axis] = pointsEvery(samples.spacing[axis], extent[axis]);
     }
   }
   return samples;

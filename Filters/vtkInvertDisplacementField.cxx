@@ -37,11 +37,6 @@ NodeField nodesOf(const Grid& grid, const std::vector<glm::vec3>& displacements)
   return field;
 }
 
-bool isPositive(double number)
-{
-  return number > 0.0 && std::isfinite(number);
-}
-
 // Throws a Problem on what keeps a field on this grid from being inverted.
 void requireField(const Grid& grid, vtkDataArray* array)
 {
@@ -57,16 +52,7 @@ void requireField(const Grid& grid, vtkDataArray* array)
       std::to_string(array->GetNumberOfTuples()) +
       " displacements; it must have one for each, at least 1");
   }
-  const glm::dvec3& spacing = grid.spacing;
-  if (!isPositive(spacing.x) || !isPositive(spacing.y) || !isPositive(spacing.z))
-  {
-    throw Problem(
-      "The input's spacing is " + sizeText(spacing) + " mm; it must be above 0 and finite");
-  }
-  if (!std::isfinite(grid.origin.x + grid.origin.y + grid.origin.z))
-  {
-    throw Problem("The input's origin is not finite");
-  }
+  requirePosition(grid, "The input's ");
   requireHostMemory(
     "The inverse of a field of " + sizeText(glm::dvec3(grid.dimensions)) + " points",
     BytesPerPoint * points);

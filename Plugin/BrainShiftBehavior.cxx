@@ -118,7 +118,7 @@ void BrainShiftBehavior::watchRepresentation(pqRepresentation* representation)
   QObject::connect(display, &pqDataRepresentation::colorTransferFunctionModified, this,
     [display] { brainshift::keepGreysSoon(display); });
   prepare(display);
-  if (!pqApplicationCore::instance()->isLoadingState())
+  if (!pqApplicationCore::instance()->isLoadingState() && !brainshift::isReplayed())
   {
     // Once there is something to colour, and ParaView has chosen colours of its own.
     QObject::connect(

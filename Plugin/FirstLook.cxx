@@ -10,7 +10,6 @@
 #include <pqDataRepresentation.h>
 #include <pqOutputPort.h>
 #include <pqPipelineFilter.h>
-#include <pqUndoStack.h>
 #include <pqView.h>
 
 #include <vtkDataObject.h>
@@ -75,13 +74,6 @@ void hideScale(pqDataRepresentation* display)
   }
 }
 
-// Whether undo or redo is bringing something back.
-bool isReplayed()
-{
-  const pqUndoStack* stack = pqApplicationCore::instance()->getUndoStack();
-  return stack && (stack->getInUndo() || stack->getInRedo());
-}
-
 // What follows Apply is one step to undo, not one for each property. For a display that redo
 // brings back it is none: a new step would take the steps to redo off the stack.
 class LookStep
@@ -102,16 +94,19 @@ private:
 
 // Turns the camera to the tissue, and takes the scale of colours away, which natural colours do not
 // need. Both later: then the display has a view, and ParaView has placed the camera.
-void finishLater(pqDataRepresentation* display, const std::vector<double>& tissue)
+void finishLater(pqDataRepresentation* display, const std::vector<double>& tissue, bool replayed)
 {
   noteTissue(display, tissue);
-  QTimer::singleShot(0, display, [display, replayed = isReplayed()] {
+  QTimer::singleShot(0, display, [display, replayed] {
     const LookStep step(replayed);
     if (!showsVolume(display) || !display->getView()) // slices by now
     {
       return;
     }
-    hideScale(display);
+    if (!replayed) // else redo shows or hides it
+    {
+      hideScale(display);
+    }
     bringIntoSight(display);
     display->getView()->render();
   });
@@ -191,7 +186,8 @@ void colorByFirstArray(pqDataRepresentation* display)
 
 namespace
 {
-void giveLook(pqDataRepresentation* display)
+// `replayed`: redo brings the display back.
+void giveLook(pqDataRepresentation* display, bool replayed)
 {
   const VolumeLook look = firstLookOf(display);
   if (look.kind == "Labels")
@@ -203,15 +199,18 @@ void giveLook(pqDataRepresentation* display)
     outline(display);
     noteLabelMap(sourceOf(display));
     // Later: ParaView shows the scale of an outline, too.
-    QTimer::singleShot(0, display, [display, replayed = isReplayed()] {
-      const LookStep step(replayed);
-      hideScale(display);
-    });
+    if (!replayed) // else redo hides it
+    {
+      QTimer::singleShot(0, display, [display] {
+        const LookStep step(false);
+        hideScale(display);
+      });
+    }
   }
   if (!look.name.isEmpty())
   {
     applyLook(display, look);
-    finishLater(display, look.tissue);
+    finishLater(display, look.tissue, replayed);
   }
   else if (display->getLookupTableProxy())
   {
@@ -219,11 +218,11 @@ void giveLook(pqDataRepresentation* display)
   }
 }
 
-void takeOwnColors(pqDataRepresentation* display)
+void takeOwnColors(pqDataRepresentation* display, bool replayed)
 {
   vtkSMPropertyHelper(display->getProxy(), "UseSeparateColorMap", true).Set(1);
   colorByFirstArray(display);
-  giveLook(display);
+  giveLook(display, replayed);
 }
 }
 
@@ -241,19 +240,19 @@ void showFirstLook(pqDataRepresentation* display)
     const bool wasShown = isScaleShown(colors);
     QTimer::singleShot(0, display, [display, wasShown, replayed = isReplayed()] {
       const LookStep step(replayed);
-      if (!wasShown)
+      if (!wasShown && !replayed)
       {
         hideScale(display);
       }
       if (showsVolume(display)) // slices have their own greys by now
       {
-        takeOwnColors(display);
+        takeOwnColors(display, replayed);
       }
     });
   }
   else if (colors && users == Users::None && (isNew || isLook(colors) || isUnchosen(colors)))
   {
-    giveLook(display);
+    giveLook(display, isReplayed());
   }
 }
 

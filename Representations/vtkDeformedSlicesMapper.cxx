@@ -116,6 +116,11 @@ bool vtkDeformedSlicesMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   }
   window->MakeCurrent();
   const DrawnValues values = drawnValuesOf(this, image);
+  problem = problemOf([&] { requirePosition(values.grid, "The volume's "); });
+  if (!problem.empty())
+  {
+    return false;
+  }
   if (!values.scalars)
   {
     return true; // nothing to draw yet

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Common/Guard.h"
+#include "Common/ImageGrid.h"
 #include "Common/Numbers.h"
+#include "Common/Problem.h"
 #include "Representations/Field/TissueFacts.h"
 #include "Representations/Gpu/WindowDevices.h"
 #include "Representations/Picture/VolumeDevice.h"
@@ -174,6 +176,11 @@ bool vtkDeformedVolumeMapper::Draw(vtkRenderer* renderer, vtkVolume* volume, std
   }
   window->MakeCurrent();
   const DrawnValues values = drawnValuesOf(this, image);
+  problem = problemOf([&] { requirePosition(values.grid, "The volume's "); });
+  if (!problem.empty())
+  {
+    return false;
+  }
   if (!values.scalars)
   {
     return true; // nothing to draw yet

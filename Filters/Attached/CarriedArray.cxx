@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Attached/CarriedArray.h"
 
+#include "Common/ImageGrid.h"
+#include "Common/Numbers.h"
+
 #include "vtkCharArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
@@ -178,8 +181,13 @@ bool readGrid(vtkFieldData* fields, const char* name, Grid& grid)
   }
   double stored[GridNumbers];
   numbers->GetTuple(0, stored);
+  constexpr double mostPoints = 1 << 30; // an integer holds it
+  if (!std::all_of(stored, stored + 3, [](double side) { return isWhole(side, 1, mostPoints); }))
+  {
+    return false;
+  }
   grid.dimensions = glm::ivec3(glm::dvec3(stored[0], stored[1], stored[2]));
   setBox(grid, stored + 3);
-  return true;
+  return problemOfGrid(grid).empty();
 }
 }

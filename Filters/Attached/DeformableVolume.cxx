@@ -104,14 +104,14 @@ std::vector<double> readNumbers(vtkFieldData* fields, const char* name, std::siz
 // A whole number from `low` to `high`.
 int readInteger(vtkFieldData* fields, const char* name, int low, int high)
 {
-  const int value = static_cast<int>(readNumbers(fields, name, 1)[0]);
-  if (value < low || value > high)
+  const double value = readNumbers(fields, name, 1)[0];
+  if (!isWhole(value, low, high))
   {
     refuse(name,
-      " is " + std::to_string(value) + "; it must be from " + std::to_string(low) + " to " +
-        std::to_string(high));
+      " is " + numberText(value) + "; it must be a whole number from " + std::to_string(low) +
+        " to " + std::to_string(high));
   }
-  return value;
+  return static_cast<int>(value);
 }
 
 // The numbers of a field array that holds `count` floats; none without the array.
@@ -164,12 +164,11 @@ Grid readLatticeGrid(vtkFieldData* fields)
   Grid grid;
   for (int axis = 0; axis < 3; ++axis)
   {
-    if (sides[axis] < SmallestLatticeSide || sides[axis] > LargestLatticeSide)
+    if (!isWhole(sides[axis], SmallestLatticeSide, LargestLatticeSide))
     {
       refuse(DimensionsName,
-        " has a side of " + std::to_string(static_cast<int>(sides[axis])) +
-          " points; it must have from " + std::to_string(SmallestLatticeSide) + " to " +
-          std::to_string(LargestLatticeSide));
+        " has a side of " + numberText(sides[axis]) + " points; it must be a whole number from " +
+          std::to_string(SmallestLatticeSide) + " to " + std::to_string(LargestLatticeSide));
     }
     grid.dimensions[axis] = static_cast<int>(sides[axis]);
   }

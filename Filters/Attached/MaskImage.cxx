@@ -119,6 +119,7 @@ void requireLabels(const LabelImage& image, const Grid& volume, const MaskNames&
   {
     throw Problem("The " + names.mask + " has no point or cell array of one component");
   }
+  requirePosition(image.grid, "The " + names.mask + "'s ");
   const Bounds bounds(image.grid, 0.5);
   const Bounds volumeBounds(volume, 0.0);
   if (!bounds.overlaps(volumeBounds))

@@ -109,8 +109,9 @@ glm::dmat4 voxelFromStored(const TrackHeader& header)
     const double size = header.voxelSize(axis);
     if (!(size > 0.0 && size < FarthestPoint))
     {
-      throw Problem("has voxels of " + std::to_string(size) + " mm along axis " +
-        std::to_string(axis) + "; it must be more than 0");
+      throw Problem("has voxels of " + roundedText(size) + " mm along axis " +
+        std::to_string(axis) + "; it must be more than 0 and less than " +
+        numberText(FarthestPoint));
     }
     voxel[axis][axis] = 1.0 / size;
     voxel[3][axis] = -0.5;

@@ -6,6 +6,7 @@
 
 #include <pqApplicationCore.h>
 #include <pqServerManagerModel.h>
+#include <pqUndoStack.h>
 
 #include <QCoreApplication>
 #include <QString>
@@ -16,6 +17,13 @@ namespace brainshift
 inline pqServerManagerModel* serverManagerModel()
 {
   return pqApplicationCore::instance()->getServerManagerModel();
+}
+
+/// Whether undo or redo is bringing something back.
+inline bool isReplayed()
+{
+  const pqUndoStack* stack = pqApplicationCore::instance()->getUndoStack();
+  return stack && (stack->getInUndo() || stack->getInRedo());
 }
 
 /// Translates a text of a function that belongs to no QObject.

@@ -4,7 +4,6 @@
 #include "Interaction/Commands/Application.h"
 
 #include <pqRepresentation.h>
-#include <pqUndoStack.h>
 
 #include <vtkCommand.h>
 #include <vtkSMProperty.h>
@@ -67,11 +66,9 @@ void EvidenceSwitch::note(vtkObject*, unsigned long, void* display)
 void EvidenceSwitch::follow(vtkObject* object)
 {
   auto display = vtkSMProxy::SafeDownCast(object);
-  pqApplicationCore* core = pqApplicationCore::instance();
-  pqUndoStack* undo = core->getUndoStack();
-  if (!display || !this->Changed.remove(object) || core->isLoadingState() ||
-    vtkSMPropertyHelper(display, "ShowEvidence").GetAsInt() == 0 ||
-    (undo && (undo->getInUndo() || undo->getInRedo())))
+  if (!display || !this->Changed.remove(object) ||
+    pqApplicationCore::instance()->isLoadingState() || isReplayed() ||
+    vtkSMPropertyHelper(display, "ShowEvidence").GetAsInt() == 0)
   {
     return;
   }

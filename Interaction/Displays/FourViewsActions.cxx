@@ -6,7 +6,6 @@
 #include <pqActiveObjects.h>
 #include <pqPipelineSource.h>
 #include <pqTabbedMultiViewWidget.h>
-#include <pqUndoStack.h>
 
 #include <vtkPVDataInformation.h>
 #include <vtkPythonInterpreter.h>
@@ -100,7 +99,10 @@ void FourViewsActions::watchComparison(pqPipelineSource* source)
     else if (source->modifiedState() == pqProxy::UNMODIFIED && source->property(Unapplied).toBool())
     {
       source->setProperty(Unapplied, false);
-      QTimer::singleShot(0, source, [source] { showComparison(source); });
+      if (!isReplayed()) // else it is a step to redo, which a new step would take off the stack
+      {
+        QTimer::singleShot(0, source, [source] { showComparison(source); });
+      }
     }
   });
 }

@@ -7,6 +7,7 @@
 
 #include "vtkImageData.h"
 #include "vtkOpenGLRenderWindow.h"
+#include "vtkTextureObject.h"
 
 #include <algorithm>
 #include <sstream>
@@ -126,6 +127,15 @@ bool DeviceDeformation::compute(
   GpuTask& gpu, SceneDeformation& deformation, const glm::vec3& offsetScale)
 {
   deformation.request.offsetScale = offsetScale;
+  const glm::ivec3& nodes = deformation.request.nodes.count; // no fewer than the mask's
+  const int longest = std::max({ nodes.x, nodes.y, nodes.z });
+  const int limit = vtkTextureObject::GetMaximumTextureSize3D(gpu.window);
+  if (longest > limit)
+  {
+    return gpu.fail("The deformation takes " + std::to_string(longest) +
+      " nodes along one axis; the GPU takes at most " + std::to_string(limit) +
+      ". Decrease Samples, or the strokes that lead far out of the volume");
+  }
   this->Timer.Start();
   const bool updated = this->Field.update(gpu.window, deformation.request, gpu.counters);
   this->Timer.Stop();

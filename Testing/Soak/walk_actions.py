@@ -15,7 +15,9 @@ TOOLS = {"Move": hand.MOVE, "Soft": hand.SOFT, "Stamp": hand.STAMP, "Pull": hand
 #: Filters of one input in the menu, and how often each is chosen.
 FILTERS = {"FreeFormDeformation": 6, "BakeDeformation": 1, "DeformationField": 1,
            "FitDeformation": 1, "DeformationLattice": 1, "Contour": 1}
-OF_BENT = ("BakeDeformation", "DeformationField")  # of a bent volume only, others of others
+#: Of a bent volume only, others of others.
+OF_BENT = ("BakeDeformation", "DeformationField", "DeformationLattice")
+LATTICES = ("FitDeformation", "DeformationLattice", "RefinedLattice", "DeformationField")
 KINDS = ("Deformed Volume", "Deformed Slices", "Outline", "Slice")
 LISTS = {"SliceComparison": ("None", "Two colours", "Checkerboard", "Difference", "Wipe"),
          "VolumeComparison": ("Off", "Two colours"),
@@ -83,6 +85,7 @@ def is_volume(source):
 def scalar_volumes():
     """Volumes with numbers of one component, which one can bend and compare."""
     return [source for source in sources() if is_volume(source) and (
+        kind_of(source) not in LATTICES) and (
         source.PointData.GetNumberOfArrays() > 0
         and source.PointData.GetArray(0).GetNumberOfComponents() == 1)]
 
@@ -368,6 +371,7 @@ def undo(chance):
     for _ in range(times):
         hand.action("actionEditUndo")
         idle(20)
+    finish_split("actionEditUndo")
 
 
 def redo(chance):
@@ -375,6 +379,15 @@ def redo(chance):
     yield f"redo {times}"
     for _ in range(times):
         hand.action("actionEditRedo")
+        idle(20)
+    finish_split("actionEditRedo")
+
+
+def finish_split(action):
+    """ParaView splits a cell in two steps, Split View and Create Render View. Between the two a
+    cell is empty."""
+    if window.redo_labels()[:1] == ["Create Render View"]:
+        hand.action(action)
         idle(20)
 
 

@@ -9,6 +9,7 @@
 #include <pqPipelineBrowserWidget.h>
 #include <pqPipelineModel.h>
 #include <pqPipelineSource.h>
+#include <pqSelectReaderDialog.h>
 #include <pqServerDisconnectReaction.h>
 #include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
@@ -77,12 +78,24 @@ pqOutputPort* portOf(unsigned int id)
 
 QStringList closedDialogs;
 
+// Where ParaView has a reader of its own for a file, it asks which to use. Ours stands first and is
+// chosen. Whether it asked.
+bool chooseReader(QWidget* modal)
+{
+  auto dialog = qobject_cast<pqSelectReaderDialog*>(modal);
+  if (dialog)
+  {
+    dialog->accept();
+  }
+  return dialog != nullptr;
+}
+
 // A dialog would wait for ever: its words are kept, and it is sent away.
 void sendAway()
 {
   static QPointer<QWidget> seen;
   QWidget* modal = QApplication::activeModalWidget();
-  if (modal && modal == seen)
+  if (modal && modal == seen && !chooseReader(modal))
   {
     auto box = qobject_cast<QMessageBox*>(modal);
     closedDialogs.append(modal->windowTitle() + ": " +
@@ -148,7 +161,7 @@ TEST_HAND_EXPORT void test_hand_create_filter_of_two(
   }
 }
 
-// From now on dialogs that stay are sent away, as Escape does.
+// From now on dialogs that stay are sent away, as Escape does, but for the choice of a reader.
 TEST_HAND_EXPORT void test_hand_send_dialogs_away()
 {
   static QTimer* timer = nullptr;

@@ -75,9 +75,24 @@ def strokes():
     return [numbers[i:i + NUMBERS] for i in range(0, len(numbers), NUMBERS)]
 
 
+def _undo_stack():
+    return servermanager.vtkSMProxyManager.GetProxyManager().GetUndoStackBuilder().GetUndoStack()
+
+
 def undo_labels():
-    stack = servermanager.vtkSMProxyManager.GetProxyManager().GetUndoStackBuilder().GetUndoStack()
+    """Newest first; ParaView keeps ten."""
+    stack = _undo_stack()
     return [stack.GetUndoSetLabel(i) for i in range(stack.GetNumberOfUndoSets())]
+
+
+def redo_labels():
+    """In the order of redo."""
+    stack = _undo_stack()
+    return [stack.GetRedoSetLabel(i) for i in range(stack.GetNumberOfRedoSets())]
+
+
+def forget_undo():
+    _undo_stack().Clear()
 
 
 @contextlib.contextmanager

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Proves that baking moves voxels where the deformation says and invents no value.
+#include "Common/Numbers.h"
 #include "Filters/Deformation/Kernels.h"
 #include "Testing/Cxx/Filters/TestPipeline.h"
 
@@ -424,4 +425,26 @@ TEST(Bake, NeedsADeformation)
   bake->SetInputData(volume);
   bake->Update();
   EXPECT_NE(errors.take().find("carries no deformation"), std::string::npos);
+}
+
+// A field array of another program or of a damaged file may hold any number.
+TEST(Bake, RefusesCountsThatAreNotWhole)
+{
+  const auto volume = volumeOn(VolumeGrid, VTK_FLOAT, someValue);
+  Pipeline pipeline(volume);
+  pipeline.Deform->Update();
+  for (const char* name : { "FFDSamples", "FFDDimensions" })
+  {
+    for (const double wrong : { 4.5, 1e308, -1e308, 4294967300.0 })
+    {
+      const auto image = vtkSmartPointer<vtkImageData>::New();
+      image->ShallowCopy(pipeline.Deform->GetOutput());
+      const int components = image->GetFieldData()->GetArray(name)->GetNumberOfComponents();
+      auto array = arrayOf(VTK_DOUBLE, name, components, [&](vtkIdType) { return wrong; });
+      image->GetFieldData()->AddArray(array);
+      const std::string said = problemOf([&] { readDeformation(image); });
+      EXPECT_NE(said.find(numberText(wrong)), std::string::npos) << name << ": " << said;
+      EXPECT_NE(said.find("must be a whole number from"), std::string::npos) << said;
+    }
+  }
 }

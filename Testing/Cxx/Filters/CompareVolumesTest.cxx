@@ -174,6 +174,29 @@ TEST_F(CompareVolumes, WithoutACavityThatOfAnEarlierOneIsGone)
   EXPECT_NE(readReference(this->Filter->GetOutput()).cavity.voxels, nullptr);
 }
 
+// Places are found by the transpose of the axes, so other axes would be wrong without a word.
+TEST_F(CompareVolumes, RefusesAxesThatAreNotPerpendicular)
+{
+  shear(this->Reference);
+  this->Filter->Update();
+  EXPECT_NE(
+    this->Said.take().find(std::string("The reference's ") + NotPerpendicular), std::string::npos);
+  const auto value = [](vtkIdType i) { return double(i % 17); };
+  const auto volume = volumeOn(VolumeGrid, VTK_SHORT, value);
+  shear(volume);
+  Errors said(this->Bend);
+  this->Bend->SetInputData(volume);
+  this->Bend->Update();
+  EXPECT_NE(said.take().find(NotPerpendicular), std::string::npos);
+  const auto straight = volumeOn(this->ReferenceGrid, VTK_SHORT, value);
+  const double mirror[9] = { -1, 0, 0, 0, 0.6, 0.801, 0, -0.8, 0.6 }; // three decimals
+  straight->SetDirectionMatrix(mirror);
+  this->Filter->SetInputData(0, straight);
+  this->Filter->SetInputData(1, straight);
+  this->Filter->Update();
+  EXPECT_EQ(this->Said.take(), "");
+}
+
 TEST_F(CompareVolumes, RefusesWhatIsNoCavity)
 {
   Grid away = this->ReferenceGrid;

@@ -188,12 +188,15 @@ TEST(InvertDisplacementField, WhatCannotBeInvertedIsNamed)
   };
   auto flat = fieldOf(glm::dvec3(1.0));
   flat->SetSpacing(2.0, 0.0, 2.0);
-  expectSays(said(flat), "spacing is 2 x 0 x 2 mm; it must be above 0 and finite");
+  expectSays(said(flat), "spacing is 2 0 2 mm; it must be from");
   flat->SetSpacing(2.0, std::nan(""), 2.0);
-  expectSays(said(flat), "spacing is 2 x nan x 2 mm");
+  expectSays(said(flat), "spacing is 2 nan 2 mm");
   auto nowhere = fieldOf(glm::dvec3(1.0));
   nowhere->SetOrigin(0.0, std::nan(""), 0.0);
-  expectSays(said(nowhere), "origin is not finite");
+  expectSays(said(nowhere), "origin is 0 nan 0 mm; it must be finite");
+  auto sheared = fieldOf(glm::dvec3(1.0));
+  shear(sheared);
+  expectSays(said(sheared), NotPerpendicular);
   expectSays(said(fieldOf(glm::dvec3(1e38))), "one of 5e+37 spacings of its grid; the limit is");
   expectSays(said(fieldOf(glm::dvec3(1e39))), "holds a number that is not finite");
   expectSays(said(fieldOf(glm::dvec3(std::nan("")))), "holds a number that is not finite");

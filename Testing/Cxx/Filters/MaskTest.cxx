@@ -76,6 +76,9 @@ TEST(ReadMask, RefusesWhatIsNone)
   EXPECT_EQ(problemOfMask(volumeOn(VolumeGrid, VTK_SHORT, zero)), "The mask has no voxel above 0");
   const auto field = fieldOn(VolumeGrid, [](const glm::dvec3&) { return glm::dvec3(1.0); });
   EXPECT_EQ(problemOfMask(field), "The mask has no point or cell array of one component");
+  const auto sheared = headOn(VolumeGrid);
+  shear(sheared);
+  EXPECT_NE(problemOfMask(sheared).find(NotPerpendicular), std::string::npos);
 }
 
 TEST(MaskSource, FindsWeightsAnewOnlyAfterAChange)

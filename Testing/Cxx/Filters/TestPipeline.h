@@ -40,6 +40,15 @@ inline vtkSmartPointer<vtkImageData> imageOn(const Grid& grid)
   return image;
 }
 
+// Axes that no rotation has, as other programs may hand them over.
+inline void shear(vtkImageData* image)
+{
+  image->SetDirectionMatrix(1.0, 0.1, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
+}
+
+// What is said of them.
+constexpr const char* NotPerpendicular = "direction has axes that are not perpendicular and 1 long";
+
 inline vtkSmartPointer<vtkDataArray> arrayOf(
   int type, const char* name, vtkIdType count, const std::function<double(vtkIdType)>& value)
 {

@@ -2,13 +2,14 @@
 """Proves that each choice in the panel of a display is one step of undo and redo: how a comparison
 is drawn, and in which colours, in slices, in 3D and in four views, which follow each other.
 ParaView's Python shell empties the undo stack at each command, so a test that is played from it
-cannot see this.
+cannot see this. What follows Apply is undone and done again step by step: no step that ParaView's
+window makes of itself meanwhile takes the others off the stack.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import brainshift
 import test_hand as hand
 import window_testing as window
-from brainshift_testing import picture
+from brainshift_testing import ball, picture, volume
 from paraview import simple
 
 COLORS = "ComparisonColors"
@@ -86,7 +87,53 @@ def in_four_views():
     choose_and_undo("SliceComparison", "None", "Two colours")
 
 
+def undo_what_apply_showed(create, own_step):
+    """Applies a filter, undoes all of it and redoes as much: the same steps and the same picture."""
+    window.forget_undo()
+    create()
+    hand.wait(100)
+    assert hand.click("Accept")
+    hand.wait(500)
+    settle()
+    steps = window.undo_labels()
+    assert steps.count(own_step) == 1 and len(steps) <= 4, steps
+    pictures = seen()
+    for _ in steps:
+        window.action("Undo")
+        hand.wait(100)
+    assert not window.undo_labels()
+    for step in reversed(steps):
+        window.action("Redo")
+        hand.wait(100)
+        assert window.undo_labels()[0] == step, (window.undo_labels(), steps)
+    settle()
+    assert window.undo_labels() == steps
+    assert seen() == pictures
+
+
+def begin_anew():
+    """A bent ball in slices, which Deformed Volume is not at first, and a sphere outside it."""
+    hand.reset_session()
+    view = simple.GetActiveViewOrCreate("RenderView")
+    scene["ball"] = volume(ball(inside=1.0, edge=2.0, radius=9.0))
+    scene["bent"] = simple.FreeFormDeformation(registrationName="bent", Input=scene["ball"],
+                                               Strokes=brainshift.soft((16, 16, 16), (2, 0, 0), 8))
+    scene["trace"] = simple.Sphere(Center=(16, 16, 16), Radius=11.0)
+    simple.Show(scene["bent"], view).SetRepresentationType("Deformed Slices")
+    simple.Show(scene["trace"], view)
+    hand.wait(300)
+
+
+def compare():
+    hand.create_filter_of_two("CompareVolumes", scene["bent"], "Reference", scene["ball"])
+
+
+def trace():
+    hand.create_filter_of_two("TraceDistance", scene["trace"], "Deformation", scene["bent"])
+
+
 window.main("UndoOfDisplays", [
     (set_up,), (two_choices, "Deformed Slices", "SliceComparison", "None", "Two colours"),
     (two_choices, "Deformed Volume", "VolumeComparison", "Off", "Two colours"),
-    (in_four_views,)])
+    (in_four_views,), (begin_anew,), (undo_what_apply_showed, compare, "Show comparison"),
+    (begin_anew,), (undo_what_apply_showed, trace, "Show distances")])
