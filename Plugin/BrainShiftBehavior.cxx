@@ -49,14 +49,14 @@ void prepare(pqRepresentation* display)
   auto representation = vtkSMPVRepresentationProxy::SafeDownCast(display->getProxy());
   const bool volume = representation && isShownAs(representation, "Deformed Volume");
   const bool slices = representation && isShownAs(representation, "Deformed Slices");
+  auto data = qobject_cast<pqDataRepresentation*>(display);
+  if (data && !pqApplicationCore::instance()->isLoadingState())
+  {
+    slices ? brainshift::keepGreysSoon(data) : brainshift::takeColorsBack(data);
+  }
   if (!(volume || slices) || pqApplicationCore::instance()->isLoadingState())
   {
     return;
-  }
-  auto data = qobject_cast<pqDataRepresentation*>(display);
-  if (data)
-  {
-    volume ? brainshift::takeColorsBack(data) : brainshift::keepGreysSoon(data);
   }
   if (!representation->GetUsingScalarColoring() && data)
   {

@@ -25,7 +25,9 @@ namespace brainshift
 {
 namespace
 {
-constexpr const char* Before = "BrainShiftColorsBefore"; // Qt property: number of the colour map
+// Qt properties of a display: numbers of the colour map before it became slices, and of its greys.
+constexpr const char* Before = "BrainShiftColorsBefore";
+constexpr const char* Greys = "BrainShiftGreys";
 
 QString arrayOf(pqDataRepresentation* display)
 {
@@ -74,7 +76,6 @@ vtkSMProxy* newGreys(pqDataRepresentation* display)
 
 void setColors(pqDataRepresentation* display, vtkSMProxy* colors)
 {
-  SCOPED_UNDO_EXCLUDE();
   vtkSMPropertyHelper(display->getProxy(), "LookupTable").Set(colors);
   display->getProxy()->UpdateVTKObjects();
 }
@@ -92,6 +93,7 @@ void keepGreys(pqDataRepresentation* display)
   if (vtkSMProxy* greys = beside ? beside : newGreys(display))
   {
     display->setProperty(Before, colors->GetGlobalID());
+    display->setProperty(Greys, greys->GetGlobalID());
     setColors(display, greys);
     display->renderViewEventually();
   }
@@ -109,12 +111,14 @@ void keepGreysSoon(pqDataRepresentation* display)
 
 void takeColorsBack(pqDataRepresentation* display)
 {
-  const QVariant before = display->property(Before);
-  display->setProperty(Before, QVariant());
-  vtkSMProxy* colors = before.isValid()
-    ? vtkSMProxy::SafeDownCast(
-        display->getProxy()->GetSession()->GetRemoteObject(before.value<vtkTypeUInt32>()))
-    : nullptr;
+  vtkSMProxy* present = display->getLookupTableProxy();
+  if (!present || present->GetGlobalID() != display->property(Greys).value<vtkTypeUInt32>())
+  {
+    return; // colours that were chosen meanwhile
+  }
+  const auto before = display->property(Before).value<vtkTypeUInt32>();
+  auto colors =
+    vtkSMProxy::SafeDownCast(display->getProxy()->GetSession()->GetRemoteObject(before));
   if (colors)
   {
     setColors(display, colors);

@@ -13,7 +13,9 @@ namespace brainshift
 /// later, when all who set colours are done, and is no step to undo.
 void keepGreysSoon(pqDataRepresentation* display);
 
-/// Gives a Deformed Volume back the colours that it had before it was shown as slices.
+/// Gives a display that is shown otherwise back the colours that it had before it was shown as
+/// slices. This belongs to the step that changes the representation: undo must find the same
+/// change of the display, and redo too.
 void takeColorsBack(pqDataRepresentation* display);
 }
 

@@ -40,6 +40,7 @@ class Files:
 
     volumes, labels, points, folder = [], [], [], ""
     states = 0
+    kept = 0  # pairs of pictures that should have been alike
 
     @classmethod
     def state(cls):

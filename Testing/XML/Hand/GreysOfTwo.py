@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Proves that the slices of Four Views are grey where two volumes are open, whose arrays have one
 name: a head and its brain mask, and two heads. The 3D view keeps its natural colours. After
-Apply, colours and camera are steps of their own to undo, few of them, and redo brings them back.
+Apply, colours and camera are steps of their own to undo, few of them, and redo brings them back. A
+choice of the representation is one step, which takes the colours with it.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
 import os
@@ -116,4 +117,27 @@ def slices_by_hand():
     assert of_bent.LookupTable == display.LookupTable, "window and level of the volume"
 
 
-window.main("GreysOfTwo", [(greys_of, MASK, HEAD), (greys_of, HEAD, OTHER), (slices_by_hand,)])
+def kinds_are_undone_and_redone():
+    """Each choice in the list of representations is one step, which takes the colours with it."""
+    hand.reset_session()
+    simple.GetActiveViewOrCreate("RenderView")
+    hand.open_file(HEAD)
+    hand.wait(200)
+    assert hand.click("Accept")
+    hand.wait(1000)
+    natural = looks()[0][1]
+    for kind in ("Deformed Slices", "Slice", "Deformed Slices", "Outline", "Deformed Volume"):
+        before = looks()
+        assert hand.choose("Representation", kind)
+        hand.wait(300)
+        assert looks()[0][0] == kind
+        assert (looks()[0][1] == natural) == (kind != "Deformed Slices"), looks()
+        after = looks()
+        for action, expected in (("Undo", before), ("Redo", after)):
+            window.action(action)
+            hand.wait(300)
+            assert looks() == expected, (action, kind, looks(), expected)
+
+
+window.main("GreysOfTwo", [(greys_of, MASK, HEAD), (greys_of, HEAD, OTHER), (slices_by_hand,),
+                           (kinds_are_undone_and_redone,)])
