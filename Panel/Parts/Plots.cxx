@@ -289,7 +289,10 @@ void CurvePlot::drawCurrent(QPainter& painter) const
   const QString text = tr("RMS %1").arg(millimetres(this->Lengths[last]));
   const double width = this->fontMetrics().horizontalAdvance(text);
   const double left = std::clamp(place.x() - 0.5 * width, 0.0, this->width() - width);
-  const QPointF base(left, place.y() - Margin - this->fontMetrics().descent());
+  const double above = place.y() - Margin - this->fontMetrics().descent();
+  const bool fits =
+    above - this->fontMetrics().ascent() >= this->area().top(); // else the range is there
+  const QPointF base(left, fits ? above : place.y() + Margin + this->fontMetrics().ascent());
   QColor ground = this->palette().color(QPalette::Window); // the curve may pass behind the number
   ground.setAlphaF(0.8F);
   painter.fillRect(QRectF(this->fontMetrics().boundingRect(text)).translated(base), ground);

@@ -17,6 +17,7 @@
 #include <QLabel>
 #include <QToolButton>
 
+#include <cmath>
 #include <limits>
 
 namespace brainshift
@@ -72,7 +73,8 @@ void PointWidget::showPoint()
   const glm::dvec3 point = pointOfInterestOf(this->proxy());
   for (int axis = 0; axis < 3; ++axis)
   {
-    this->Fields[axis]->setValue(point[axis]);
+    constexpr double inMm = 1e6; // a computed centre of 0 misses it by roundings
+    this->Fields[axis]->setValue(std::round(point[axis] * inMm) / inMm);
   }
 }
 }

@@ -84,6 +84,21 @@ TEST_F(Curve, LeavesAGapWhereItWasNotMeasured)
   EXPECT_TRUE(this->Plot->textOf(1).endsWith("not measured"));
 }
 
+// "0 to 4.00 mm" stands in the first line, so a point below it has its number below.
+TEST_F(Curve, LeavesTheRangeLegible)
+{
+  const auto firstLine = [&] {
+    const int line = this->Plot->fontMetrics().height();
+    return this->drawn().copy(0, 0, this->Plot->width(), line);
+  };
+  this->Plot->setLengths({ 4.0, 0.5 });
+  const QImage range = firstLine();
+  this->Plot->setLengths({ 4.0 });
+  EXPECT_EQ(firstLine(), range);
+  this->Plot->setLengths({ 3.0, 4.0 });
+  EXPECT_EQ(firstLine(), range);
+}
+
 TEST_F(Curve, FollowsThePalette)
 {
   this->Plot->setLengths({ 4.0, 2.0 });

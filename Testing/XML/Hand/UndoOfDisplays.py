@@ -88,7 +88,7 @@ def in_four_views():
 
 
 def undo_what_apply_showed(create, own_step):
-    """Applies a filter, undoes all of it and redoes as much: the same steps and the same picture."""
+    """Applies a filter, undoes it and redoes it, whole: the same steps and the same picture."""
     window.forget_undo()
     create()
     hand.wait(100)
