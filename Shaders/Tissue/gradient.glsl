@@ -1,8 +1,13 @@
 // A gradient of zero as a texture holds it: whole numbers of ten bits, so that it is exact.
 const float ZeroGradient = 512.0 / 1023.0;
 
-// Gradient of the scalar per texture unit: central differences over one voxel to either side.
+bvec3 areFinite(vec3 scalars)
+{
+  return not(bvec3(uvec3(isnan(scalars)) | uvec3(isinf(scalars))));
+}
 
+// Gradient of the scalar per texture unit: central differences over one voxel to either side.
+// Beside values that are no numbers, differences to the known side only.
 vec3 centralDifferences(sampler3D field, vec3 position, vec3 voxel)
 {
   vec3 alongX = vec3(voxel.x, 0.0, 0.0);
@@ -12,32 +17,13 @@ vec3 centralDifferences(sampler3D field, vec3 position, vec3 voxel)
     textureLod(field, position - alongY, 0.0).r, textureLod(field, position - alongZ, 0.0).r);
   vec3 high = vec3(textureLod(field, position + alongX, 0.0).r,
     textureLod(field, position + alongY, 0.0).r, textureLod(field, position + alongZ, 0.0).r);
-  return (high - low) / (2.0 * voxel);
-}
-
-bool isFinite(float scalar)
-{
-  return !isnan(scalar) && !isinf(scalar);
-}
-
-// The same; beside values that are no numbers, differences to the known side only.
-vec3 knownDifferences(sampler3D field, vec3 position, vec3 voxel)
-{
-  vec3 gradient = centralDifferences(field, position, voxel);
-  if (isFinite(gradient.x) && isFinite(gradient.y) && isFinite(gradient.z))
+  bvec3 knowsLow = areFinite(low);
+  bvec3 knowsHigh = areFinite(high);
+  if (all(knowsLow) && all(knowsHigh))
   {
-    return gradient;
+    return (high - low) / (2.0 * voxel);
   }
-  float here = textureLod(field, position, 0.0).r;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    vec3 along = vec3(0.0);
-    along[axis] = voxel[axis];
-    float low = textureLod(field, position - along, 0.0).r;
-    float high = textureLod(field, position + along, 0.0).r;
-    float sides = float(isFinite(low)) + float(isFinite(high));
-    float change = (isFinite(high) ? high : here) - (isFinite(low) ? low : here);
-    gradient[axis] = change / (max(sides, 1.0) * voxel[axis]);
-  }
-  return gradient;
+  vec3 here = vec3(textureLod(field, position, 0.0).r);
+  vec3 sides = max(vec3(knowsLow) + vec3(knowsHigh), 1.0);
+  return (mix(here, high, knowsHigh) - mix(here, low, knowsLow)) / (sides * voxel);
 }

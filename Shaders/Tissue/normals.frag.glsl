@@ -9,7 +9,7 @@ uniform float gradientScale; // gradients longer than 1, once scaled, are cut
 void main()
 {
   vec3 middle = (targetTexel() + 0.5) * texel;
-  vec3 gradient = knownDifferences(scalars, middle, voxel) * gradientScale;
+  vec3 gradient = centralDifferences(scalars, middle, voxel) * gradientScale;
   bool unknown = any(isnan(gradient)) || any(isinf(gradient));
   gradient = unknown ? vec3(0.0) : gradient;
   gradient /= max(length(gradient), 1.0); // keeps the direction

@@ -80,6 +80,6 @@ uniform vec3 voxel; // one voxel, texture coordinates
 
 vec3 gradientAt(vec3 rest)
 {
-  return knownDifferences(scalars, rest, voxel);
+  return centralDifferences(scalars, rest, voxel);
 }
 #endif
