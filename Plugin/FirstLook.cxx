@@ -74,39 +74,21 @@ void hideScale(pqDataRepresentation* display)
   }
 }
 
-// What follows Apply is one step to undo, not one for each property. For a display that redo
-// brings back it is none: a new step would take the steps to redo off the stack.
-class LookStep
-{
-public:
-  explicit LookStep(bool replayed)
-    : Replayed(replayed)
-  {
-    replayed ? BEGIN_UNDO_EXCLUDE() : BEGIN_UNDO_SET(tr("First look"));
-  }
-  ~LookStep() { this->Replayed ? END_UNDO_EXCLUDE() : END_UNDO_SET(); }
-  LookStep(const LookStep&) = delete;
-  LookStep& operator=(const LookStep&) = delete;
-
-private:
-  bool Replayed;
-};
+// What follows Apply is one step to undo, not one for each property.
+constexpr const char* StepName = "First look";
 
 // Turns the camera to the tissue, and takes the scale of colours away, which natural colours do not
 // need. Both later: then the display has a view, and ParaView has placed the camera.
-void finishLater(pqDataRepresentation* display, const std::vector<double>& tissue, bool replayed)
+void finishLater(pqDataRepresentation* display, const std::vector<double>& tissue)
 {
   noteTissue(display, tissue);
-  QTimer::singleShot(0, display, [display, replayed] {
-    const LookStep step(replayed);
+  QTimer::singleShot(0, display, [display] {
+    SCOPED_UNDO_SET(tr(StepName));
     if (!showsVolume(display) || !display->getView()) // slices by now
     {
       return;
     }
-    if (!replayed) // else redo shows or hides it
-    {
-      hideScale(display);
-    }
+    hideScale(display);
     bringIntoSight(display);
     display->getView()->render();
   });
@@ -186,8 +168,7 @@ void colorByFirstArray(pqDataRepresentation* display)
 
 namespace
 {
-// `replayed`: redo brings the display back.
-void giveLook(pqDataRepresentation* display, bool replayed)
+void giveLook(pqDataRepresentation* display)
 {
   const VolumeLook look = firstLookOf(display);
   if (look.kind == "Labels")
@@ -199,18 +180,15 @@ void giveLook(pqDataRepresentation* display, bool replayed)
     outline(display);
     noteLabelMap(sourceOf(display));
     // Later: ParaView shows the scale of an outline, too.
-    if (!replayed) // else redo hides it
-    {
-      QTimer::singleShot(0, display, [display] {
-        const LookStep step(false);
-        hideScale(display);
-      });
-    }
+    QTimer::singleShot(0, display, [display] {
+      SCOPED_UNDO_SET(tr(StepName));
+      hideScale(display);
+    });
   }
   if (!look.name.isEmpty())
   {
     applyLook(display, look);
-    finishLater(display, look.tissue, replayed);
+    finishLater(display, look.tissue);
   }
   else if (display->getLookupTableProxy())
   {
@@ -218,16 +196,27 @@ void giveLook(pqDataRepresentation* display, bool replayed)
   }
 }
 
-void takeOwnColors(pqDataRepresentation* display, bool replayed)
+void takeOwnColors(pqDataRepresentation* display)
 {
   vtkSMPropertyHelper(display->getProxy(), "UseSeparateColorMap", true).Set(1);
   colorByFirstArray(display);
-  giveLook(display, replayed);
+  giveLook(display);
 }
 }
 
 void showFirstLook(pqDataRepresentation* display)
 {
+  if (isReplayed())
+  {
+    // Redo brings colours and scale back itself; other volumes may share the map of this one.
+    QTimer::singleShot(0, display, [display] {
+      if (showsVolume(display))
+      {
+        noteTissue(display, firstLookOf(display).tissue);
+      }
+    });
+    return;
+  }
   const unsigned int before = countColorMaps(display->getProxy());
   colorByFirstArray(display);
   vtkSMProxy* colors = display->getLookupTableProxy();
@@ -238,21 +227,21 @@ void showFirstLook(pqDataRepresentation* display)
     // Later: ParaView still sets the colours of the array's name when it registers a display, and
     // shows their scale.
     const bool wasShown = isScaleShown(colors);
-    QTimer::singleShot(0, display, [display, wasShown, replayed = isReplayed()] {
-      const LookStep step(replayed);
-      if (!wasShown && !replayed)
+    QTimer::singleShot(0, display, [display, wasShown] {
+      SCOPED_UNDO_SET(tr(StepName));
+      if (!wasShown)
       {
         hideScale(display);
       }
       if (showsVolume(display)) // slices have their own greys by now
       {
-        takeOwnColors(display, replayed);
+        takeOwnColors(display);
       }
     });
   }
   else if (colors && users == Users::None && (isNew || isLook(colors) || isUnchosen(colors)))
   {
-    giveLook(display, isReplayed());
+    giveLook(display);
   }
 }
 
