@@ -15,10 +15,6 @@ namespace brainshift
 {
 namespace
 {
-// Axes of a rotation have cosines of 0 between them. Above this a corner of a head moves by more
-// than 0.03 mm where a file can hold rotations only.
-constexpr double LargestCosine = 1e-4;
-
 vtkDataArray* arrayOf(vtkImageData* image, const std::string& name)
 {
   vtkPointData* arrays = image->GetPointData();
@@ -49,21 +45,6 @@ std::string missingArray(vtkImageData* image, const std::string& name)
     return "The input has no point array to write";
   }
   return "The input has no point array " + name + " of numbers; it has " + names;
-}
-
-void requireDirection(const Grid& grid)
-{
-  const glm::dmat3 product = glm::transpose(grid.direction) * grid.direction;
-  double worst = 0.0;
-  for (int i = 0; i < 9; ++i)
-  {
-    worst = std::max(worst, std::abs(product[i / 3][i % 3] - (i / 3 == i % 3 ? 1.0 : 0.0)));
-  }
-  if (!(worst <= LargestCosine))
-  {
-    throw Problem(joined("The direction matrix of the input is off a rotation by ", worst,
-      "; it must be at most ", LargestCosine));
-  }
 }
 
 bool isUnsigned(int type)
@@ -180,7 +161,6 @@ void takeOut(vtkImageData* image, const std::string& arrayName, WorldAxes world,
   }
   volume.grid = gridOf(image);
   withBeginning("The input's ", [&] { throwIfAny(problemOfGrid(volume.grid)); });
-  requireDirection(volume.grid);
   takeNumbers(array, volume, warning);
   const WorldAxes axes = world == WorldAxes::Unknown ? worldAxesOf(image) : world;
   volume.knowsSides = axes != WorldAxes::Unknown;
