@@ -25,7 +25,7 @@ EXPECTED = (
     ("Without a partner: ", "the walk chooses one list of landmarks only"))
 
 FAR_PIXEL = 0.05  # of full scale, between two ways to draw the same pixel
-FAR_PIXELS = 0.001  # share of a picture's pixels that may be so far apart
+FAR_PIXELS = 0.003  # share of pixels that may be so far apart: a small view has a scale of colours
 BAKED_ALIKE = 0.80  # structural similarity of a bent slice and a baked one
 
 
