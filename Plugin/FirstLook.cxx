@@ -247,13 +247,14 @@ void showFirstLook(pqDataRepresentation* display)
 
 namespace
 {
-// A display of an input of a source with colours of its own, not those of the array's name.
+// A display of an input of a source with colours of its own, not those of the array's name nor the
+// greys of slices.
 pqDataRepresentation* ownColoredInput(pqDataRepresentation* display)
 {
   auto model = serverManagerModel();
   for (auto other : model->findItems<pqDataRepresentation*>())
   {
-    if (other != display && other->getLookupTableProxy() &&
+    if (other != display && other->getLookupTableProxy() && !showsSlices(other) &&
       vtkSMPropertyHelper(other->getProxy(), "UseSeparateColorMap", true).GetAsInt() != 0 &&
       isMadeOf(sourceOf(display), sourceOf(other)))
     {

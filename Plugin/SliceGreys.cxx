@@ -4,6 +4,7 @@
 #include "Interaction/Commands/Application.h"
 #include "Interaction/Displays/VolumeLook.h"
 #include "Interaction/Views/ActiveDeformation.h"
+#include "Plugin/FirstLook.h"
 #include "Plugin/FirstSight.h"
 
 #include <pqDataRepresentation.h>
@@ -28,6 +29,8 @@ namespace
 // Qt properties of a display: numbers of the colour map before it became slices, and of its greys.
 constexpr const char* Before = "BrainShiftColorsBefore";
 constexpr const char* Greys = "BrainShiftGreys";
+// Annotation of a colour map, which state files keep: it is the greys of slices.
+constexpr const char* AreGreys = "BrainShift.SliceGreys";
 
 QString arrayOf(pqDataRepresentation* display)
 {
@@ -70,6 +73,7 @@ vtkSMProxy* newGreys(pqDataRepresentation* display)
   vtkSMPropertyHelper(greys, "AutomaticRescaleRangeMode", true)
     .Set(static_cast<int>(vtkSMTransferFunctionManager::NEVER));
   vtkSMPropertyHelper(greys, "ScalarRangeInitialized", true).Set(1);
+  greys->SetAnnotation(AreGreys, "1");
   greys->UpdateVTKObjects();
   return greys;
 }
@@ -112,16 +116,20 @@ void keepGreysSoon(pqDataRepresentation* display)
 void takeColorsBack(pqDataRepresentation* display)
 {
   vtkSMProxy* present = display->getLookupTableProxy();
-  if (!present || present->GetGlobalID() != display->property(Greys).value<vtkTypeUInt32>())
+  const auto number = [&](const char* name) {
+    return display->property(name).value<vtkTypeUInt32>();
+  };
+  if (present && present->GetGlobalID() == number(Greys))
   {
-    return; // colours that were chosen meanwhile
+    auto before = display->getProxy()->GetSession()->GetRemoteObject(number(Before));
+    if (auto colors = vtkSMProxy::SafeDownCast(before))
+    {
+      setColors(display, colors);
+    }
   }
-  const auto before = display->property(Before).value<vtkTypeUInt32>();
-  auto colors =
-    vtkSMProxy::SafeDownCast(display->getProxy()->GetSession()->GetRemoteObject(before));
-  if (colors)
+  else if (present && present->HasAnnotation(AreGreys) && showsVolume(display) && !isReplayed())
   {
-    setColors(display, colors);
+    showFirstLook(display); // a state file does not say which colours were there before
   }
 }
 }

@@ -15,7 +15,8 @@ void keepGreysSoon(pqDataRepresentation* display);
 
 /// Gives a display that is shown otherwise back the colours that it had before it was shown as
 /// slices. This belongs to the step that changes the representation: undo must find the same
-/// change of the display, and redo too.
+/// change of the display, and redo too. A Deformed Volume of a state file that was saved as slices
+/// gets a first look.
 void takeColorsBack(pqDataRepresentation* display);
 }
 

@@ -14,15 +14,25 @@
 
 #include <QMap>
 
+#include <limits>
+#include <sstream>
+
 namespace brainshift
 {
 namespace
 {
-// The colours that presets set, by the number of the colour map.
-QMap<vtkTypeUInt32, std::vector<double>>& given()
+// Annotation of a colour map, which state files keep: the points that a preset has set.
+constexpr const char* Given = "BrainShift.Look";
+
+std::string pointsOf(vtkSMProxy* colors)
 {
-  static QMap<vtkTypeUInt32, std::vector<double>> colors;
-  return colors;
+  std::ostringstream text;
+  text.precision(std::numeric_limits<double>::max_digits10);
+  for (const double number : vtkSMPropertyHelper(colors, "RGBPoints").GetDoubleArray())
+  {
+    text << number << ' ';
+  }
+  return text.str();
 }
 
 // ParaView would fit the curve to the data again, where values mean tissue.
@@ -104,7 +114,7 @@ void applyLook(pqDataRepresentation* display, const VolumeLook& look)
   vtkSMPropertyHelper(colors, "RGBPoints")
     .Set(look.colors.data(), static_cast<unsigned int>(look.colors.size()));
   colors->UpdateVTKObjects();
-  given()[colors->GetGlobalID()] = look.colors;
+  colors->SetAnnotation(Given, pointsOf(colors).c_str());
   std::vector<double> points;
   for (std::size_t i = 0; i + 1 < look.opacities.size(); i += 2)
   {
@@ -121,8 +131,7 @@ void applyLook(pqDataRepresentation* display, const VolumeLook& look)
 
 bool isLook(vtkSMProxy* colors)
 {
-  return given().value(colors->GetGlobalID()) ==
-    vtkSMPropertyHelper(colors, "RGBPoints").GetDoubleArray();
+  return colors->HasAnnotation(Given) && colors->GetAnnotation(Given) == pointsOf(colors);
 }
 
 namespace

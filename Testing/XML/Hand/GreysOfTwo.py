@@ -73,6 +73,21 @@ def greys_of(first, second):
         kinds[kind] += 1
         assert is_grey(display) == (kind == "Deformed Slices"), (kind, colors(display))
     assert kinds["Deformed Slices"] == 3 and kinds["Deformed Volume"] >= 1, kinds
+    in_a_new_layout(bent)
+    in_a_new_layout(bent.Input)
+
+
+def in_a_new_layout(source):
+    """Another 3D display has natural colours, not the greys of slices that were there before."""
+    hand.new_layout()
+    hand.fill_frame()
+    hand.wait(300)
+    view = simple.GetActiveView()
+    hand.click_eye(source)
+    hand.wait(1000)
+    display = simple.GetDisplayProperties(source, view)
+    assert display.Visibility and str(display.Representation.GetData()) == "Deformed Volume"
+    assert not is_grey(display), colors(display)
 
 
 def shown_as(display, kind):
@@ -139,5 +154,25 @@ def kinds_are_undone_and_redone():
             assert looks() == expected, (action, kind, looks(), expected)
 
 
+def a_state_keeps_looks_and_greys():
+    """Who opens a state file and chooses another representation sees what he saw without it."""
+    path = scratch("greys.pvsm")
+    for saved, chosen in (("Deformed Slices", "Deformed Volume"),
+                          ("Deformed Volume", "Deformed Slices")):
+        assert hand.choose("Representation", saved)
+        hand.wait(300)
+        hand.save_state(path)
+        hand.reset_session()
+        hand.load_state(path)
+        hand.wait(300)
+        simple.SetActiveSource(list(simple.GetSources().values())[0])
+        hand.wait(300)
+        assert hand.choose("Representation", chosen)
+        hand.wait(500)
+        (kind, _), = looks()
+        display = simple.GetDisplayProperties()
+        assert kind == chosen and is_grey(display) == (kind == "Deformed Slices"), looks()
+
+
 window.main("GreysOfTwo", [(greys_of, MASK, HEAD), (greys_of, HEAD, OTHER), (slices_by_hand,),
-                           (kinds_are_undone_and_redone,)])
+                           (kinds_are_undone_and_redone,), (a_state_keeps_looks_and_greys,)])
