@@ -78,7 +78,7 @@ class Worker:
 def run_some(kind, options, first, end, folder):
     """Runs cases until one ends or blocks the worker. Yields (number, result)."""
     worker = Worker(kind, options.seed, first, end, folder)
-    current, waits = None, STARTS_WITHIN
+    current, upcoming, waits = None, first, STARTS_WITHIN
     try:
         while (line := worker.line(waits)) is not None:
             word, _, rest = line.strip().partition(" ")
@@ -87,11 +87,11 @@ def run_some(kind, options, first, end, folder):
             elif word == "done":
                 number, _, result = rest.partition(" ")
                 yield int(number), result
-                current = None
-        if current is not None or first < end and worker.process.wait() != 0:
-            yield first if current is None else current, f"crash: {worker.last_words()}"
+                current, upcoming = None, int(number) + 1
+        if current is not None or upcoming < end and worker.process.wait() != 0:
+            yield upcoming, f"crash: {worker.last_words()}"
     except queue.Empty:
-        yield first if current is None else current, "hang"
+        yield upcoming, "hang"
     finally:
         worker.end()
 
