@@ -263,6 +263,7 @@ pqDataRepresentation* ownColoredInput(pqDataRepresentation* display)
   }
   return nullptr;
 }
+}
 
 void shareColors(pqDataRepresentation* display, pqDataRepresentation* from)
 {
@@ -273,7 +274,6 @@ void shareColors(pqDataRepresentation* display, pqDataRepresentation* from)
     vtkSMPropertyHelper(to, map).Set(vtkSMPropertyHelper(from->getProxy(), map).GetAsProxy());
   }
   to->UpdateVTKObjects();
-}
 }
 
 void joinLook(pqDataRepresentation* display)

@@ -22,6 +22,9 @@ void showFirstLook(pqDataRepresentation* display);
 /// asked for it before.
 void joinLook(pqDataRepresentation* display);
 
+/// Gives a display the colours and opacities of another one, as its own.
+void shareColors(pqDataRepresentation* display, pqDataRepresentation* from);
+
 /// The first point array of a volume, else the first of all, becomes the one to colour by.
 void colorByFirstArray(pqDataRepresentation* display);
 

@@ -29,7 +29,8 @@ namespace
 // Qt properties of a display: numbers of the colour map before it became slices, and of its greys.
 constexpr const char* Before = "BrainShiftColorsBefore";
 constexpr const char* Greys = "BrainShiftGreys";
-// Annotation of a colour map, which state files keep: it is the greys of slices.
+// Annotation of a colour map, which state files keep: it is the greys of slices. The Python module's
+// four_views sets it, too.
 constexpr const char* AreGreys = "BrainShift.SliceGreys";
 
 QString arrayOf(pqDataRepresentation* display)
@@ -78,6 +79,24 @@ vtkSMProxy* newGreys(pqDataRepresentation* display)
   return greys;
 }
 
+// A Deformed Volume of the same volume that is not grey; null if there is none.
+pqDataRepresentation* volumeBeside(pqDataRepresentation* display)
+{
+  pqServerManagerModel* model = serverManagerModel();
+  for (auto other : model->findItems<pqDataRepresentation*>())
+  {
+    vtkSMProxy* colors = other->getLookupTableProxy();
+    if (other != display && colors && !colors->HasAnnotation(AreGreys) && showsVolume(other) &&
+      arrayOf(other) == arrayOf(display) &&
+      (isMadeOf(sourceOf(other), sourceOf(display)) ||
+        isMadeOf(sourceOf(display), sourceOf(other))))
+    {
+      return other;
+    }
+  }
+  return nullptr;
+}
+
 void setColors(pqDataRepresentation* display, vtkSMProxy* colors)
 {
   vtkSMPropertyHelper(display->getProxy(), "LookupTable").Set(colors);
@@ -113,23 +132,41 @@ void keepGreysSoon(pqDataRepresentation* display)
   }
 }
 
-void takeColorsBack(pqDataRepresentation* display)
+namespace
 {
-  vtkSMProxy* present = display->getLookupTableProxy();
+// Those that the display had before it became slices. False if they are not known.
+bool takeOldColorsBack(pqDataRepresentation* display)
+{
   const auto number = [&](const char* name) {
     return display->property(name).value<vtkTypeUInt32>();
   };
-  if (present && present->GetGlobalID() == number(Greys))
+  auto colors =
+    vtkSMProxy::SafeDownCast(display->getProxy()->GetSession()->GetRemoteObject(number(Before)));
+  if (!colors || display->getLookupTableProxy()->GetGlobalID() != number(Greys))
   {
-    auto before = display->getProxy()->GetSession()->GetRemoteObject(number(Before));
-    if (auto colors = vtkSMProxy::SafeDownCast(before))
-    {
-      setColors(display, colors);
-    }
+    return false;
   }
-  else if (present && present->HasAnnotation(AreGreys) && showsVolume(display) && !isReplayed())
+  setColors(display, colors);
+  return true;
+}
+}
+
+void takeColorsBack(pqDataRepresentation* display)
+{
+  vtkSMProxy* present = display->getLookupTableProxy();
+  if (!present || !present->HasAnnotation(AreGreys) || takeOldColorsBack(display) ||
+    !showsVolume(display) || isReplayed())
   {
-    showFirstLook(display); // a state file does not say which colours were there before
+    return;
+  }
+  // The greys of Four Views, or of a state file.
+  if (pqDataRepresentation* other = volumeBeside(display))
+  {
+    shareColors(display, other);
+  }
+  else
+  {
+    showFirstLook(display);
   }
 }
 }

@@ -306,6 +306,7 @@ def _make_grey(source, displays, coloring):
     first, *others = displays
     grey = simple.GetColorTransferFunction(coloring[1], first, separate=True)
     grey.ApplyPreset("Grayscale", True)
+    grey.SMProxy.SetAnnotation("BrainShift.SliceGreys", "1")  # the window does not show them in 3D
     first.RescaleTransferFunctionToDataRange(False, True)
     window = percentile_window(source, *coloring)
     if window is not None:

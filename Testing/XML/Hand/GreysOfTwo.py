@@ -73,8 +73,19 @@ def greys_of(first, second):
         kinds[kind] += 1
         assert is_grey(display) == (kind == "Deformed Slices"), (kind, colors(display))
     assert kinds["Deformed Slices"] == 3 and kinds["Deformed Volume"] >= 1, kinds
+    a_slice_view_shows_the_volume(displays)
     in_a_new_layout(bent)
     in_a_new_layout(bent.Input)
+
+
+def a_slice_view_shows_the_volume(displays):
+    """A view of Four Views that is switched to the volume shows it in natural colours."""
+    display = next(display for display in displays
+                   if str(display.Representation.GetData()) == "Deformed Slices")
+    kinds = {"Deformed Volume": False, "Deformed Slices": True}
+    for kind, grey in kinds.items():
+        shown_as(display, kind)
+        assert is_grey(display) == grey, (kind, colors(display))
 
 
 def in_a_new_layout(source):
