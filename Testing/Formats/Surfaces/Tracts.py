@@ -253,7 +253,7 @@ def test_damaged_tracts_end_in_one_sentence():
         (trk[:-26], "damaged streamline 3 of an unknown number of points"),
         (put(1000, 2**31 - 1), "damaged streamline 0 of 2147483647 points"),
         (put(1000, -1), "damaged streamline 0 of -1 points"),
-        (put(12, 0.0, "<f"), "voxels of 0.000000 mm along axis 0"),
+        (put(12, 0.0, "<f"), "voxels of 0 mm along axis 0"),
         (put(440, float("nan"), "<f"), "cannot be placed"),
         (put(948, ord("X"), "<B"), "voxel order XIA; it must be 3 of the letters"),
         (put(949, ord("P"), "<B"), "does not run along P"),
