@@ -29,8 +29,8 @@ namespace
 // Qt properties of a display: numbers of the colour map before it became slices, and of its greys.
 constexpr const char* Before = "BrainShiftColorsBefore";
 constexpr const char* Greys = "BrainShiftGreys";
-// Annotation of a colour map, which state files keep: it is the greys of slices. The Python module's
-// four_views sets it, too.
+// Annotation of a colour map, which state files keep: it is the greys of slices. four_views of the
+// Python module sets it, too.
 constexpr const char* AreGreys = "BrainShift.SliceGreys";
 
 QString arrayOf(pqDataRepresentation* display)

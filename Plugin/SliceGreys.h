@@ -15,8 +15,8 @@ void keepGreysSoon(pqDataRepresentation* display);
 
 /// Gives a display that is shown otherwise back the colours that it had before it was shown as
 /// slices. This belongs to the step that changes the representation: undo must find the same
-/// change of the display, and redo too. Where they are not known, as after Four Views or in a state file, a
-/// Deformed Volume gets those of another one of its volume, else a first look.
+/// change of the display, and redo too. Where they are not known, as after Four Views or in a state
+/// file, a Deformed Volume gets those of another one of its volume, else a first look.
 void takeColorsBack(pqDataRepresentation* display);
 }
 
