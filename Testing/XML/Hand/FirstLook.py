@@ -111,8 +111,8 @@ def a_second_volume_is_in_sight():
     first = camera(view)
     far = ball_at(800.0)
     show(far, view)
-    window.until(lambda: in_sight(view, far), "a second volume is in sight")
-    assert camera(view) != first
+    window.until(lambda: camera(view) != first, "the camera takes in a second volume")
+    assert in_sight(view, far), camera(view)
     tissue = seen(view)
     assert not tissue[[0, -1]].any() and not tissue[:, [0, -1]].any(), "an edge cuts a volume"
     hand.drag([50, 50], [90, 60])  # the user turns it
@@ -124,8 +124,8 @@ def a_second_volume_is_in_sight():
     assert camera(view) == turned, "it is in sight already"
     farther = ball_at(4000.0)
     show(farther, view)
-    window.until(lambda: in_sight(view, farther), "a third volume is in sight")
-    assert camera(view) != turned
+    window.until(lambda: camera(view) != turned, "the camera takes in a third volume")
+    assert in_sight(view, farther)
     ahead = [numpy.subtract(focus, eye) for eye, focus, _ in (turned, camera(view))]
     cosine = ahead[0] @ ahead[1] / numpy.linalg.norm(ahead[0]) / numpy.linalg.norm(ahead[1])
     assert cosine > 0.9999, (turned, camera(view))
