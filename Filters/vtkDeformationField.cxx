@@ -19,7 +19,6 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <cmath>
-#include <sstream>
 
 using namespace brainshift;
 using Pipeline = vtkStreamingDemandDrivenPipeline;
@@ -123,14 +122,6 @@ bool fillDeviations(
   return forPortions({ filter, 1.0, 1.0 }, image->GetNumberOfPoints(), atLeast, fillPoints);
 }
 
-// Six digits.
-std::string triple(const glm::dvec3& numbers)
-{
-  std::ostringstream text;
-  text << numbers.x << " x " << numbers.y << " x " << numbers.z;
-  return text.str();
-}
-
 // For the arrays.
 void requireMemory(const int extent[6], bool hasDeviations)
 {
@@ -172,8 +163,8 @@ Grid vtkDeformationField::SamplesOver(const Grid& volume) const
     if (!glm::all(glm::lessThanEqual(smallest * (1.0 - Rounding), spacing)) ||
       !glm::all(glm::lessThanEqual(spacing, extent * (1.0 + Rounding))))
     {
-      throw Problem("Spacing is " + triple(spacing) + " mm; for this volume it must be from " +
-        triple(smallest) + " to " + triple(extent) + " mm");
+      throw Problem("Spacing is " + sizeText(spacing) + " mm; for this volume it must be from " +
+        sizeText(smallest) + " to " + sizeText(extent) + " mm");
     }
     samples.spacing = glm::clamp(spacing, smallest, extent);
     for (int axis = 0; axis < 3; ++axis)

@@ -38,19 +38,20 @@ QString arrayOf(pqDataRepresentation* display)
   return vtkSMPropertyHelper(display->getProxy(), "ColorArrayName").GetInputArrayNameToProcess();
 }
 
-// Of other slices of the volume; null if there are none.
-vtkSMProxy* greysBeside(pqDataRepresentation* display)
+// Another display of the same array of the volume, or of what is made of it, with colours that
+// satisfy a condition; null if there is none.
+template <typename Condition>
+pqDataRepresentation* displayBeside(pqDataRepresentation* display, const Condition& holds)
 {
   pqServerManagerModel* model = serverManagerModel();
   for (auto other : model->findItems<pqDataRepresentation*>())
   {
     vtkSMProxy* colors = other->getLookupTableProxy();
-    if (other != display && colors && !isLook(colors) && showsSlices(other) &&
-      arrayOf(other) == arrayOf(display) &&
+    if (other != display && colors && holds(other, colors) && arrayOf(other) == arrayOf(display) &&
       (isMadeOf(sourceOf(other), sourceOf(display)) ||
         isMadeOf(sourceOf(display), sourceOf(other))))
     {
-      return colors;
+      return other;
     }
   }
   return nullptr;
@@ -79,24 +80,6 @@ vtkSMProxy* newGreys(pqDataRepresentation* display)
   return greys;
 }
 
-// A Deformed Volume of the same volume that is not grey; null if there is none.
-pqDataRepresentation* volumeBeside(pqDataRepresentation* display)
-{
-  pqServerManagerModel* model = serverManagerModel();
-  for (auto other : model->findItems<pqDataRepresentation*>())
-  {
-    vtkSMProxy* colors = other->getLookupTableProxy();
-    if (other != display && colors && !colors->HasAnnotation(AreGreys) && showsVolume(other) &&
-      arrayOf(other) == arrayOf(display) &&
-      (isMadeOf(sourceOf(other), sourceOf(display)) ||
-        isMadeOf(sourceOf(display), sourceOf(other))))
-    {
-      return other;
-    }
-  }
-  return nullptr;
-}
-
 void setColors(pqDataRepresentation* display, vtkSMProxy* colors)
 {
   vtkSMPropertyHelper(display->getProxy(), "LookupTable").Set(colors);
@@ -112,8 +95,11 @@ void keepGreys(pqDataRepresentation* display)
     return;
   }
   SCOPED_UNDO_EXCLUDE();
-  vtkSMProxy* beside = greysBeside(display);
-  if (vtkSMProxy* greys = beside ? beside : newGreys(display))
+  pqDataRepresentation* slices =
+    displayBeside(display, [](pqDataRepresentation* other, vtkSMProxy* own) {
+      return !isLook(own) && showsSlices(other);
+    });
+  if (vtkSMProxy* greys = slices ? slices->getLookupTableProxy() : newGreys(display))
   {
     display->setProperty(Before, colors->GetGlobalID());
     display->setProperty(Greys, greys->GetGlobalID());
@@ -160,9 +146,13 @@ void takeColorsBack(pqDataRepresentation* display)
     return;
   }
   // The greys of Four Views, or of a state file.
-  if (pqDataRepresentation* other = volumeBeside(display))
+  pqDataRepresentation* volume =
+    displayBeside(display, [](pqDataRepresentation* other, vtkSMProxy* own) {
+      return !own->HasAnnotation(AreGreys) && showsVolume(other);
+    });
+  if (volume)
   {
-    shareColors(display, other);
+    shareColors(display, volume);
   }
   else
   {
