@@ -135,6 +135,10 @@ private:
       return false;
     }
     const DICOMTag group = head.tag >> 16;
+    if (group == 0x0002 && form.depth == 0)
+    {
+      return false; // the group of the file stands first (PS3.10, 7.1): its first tag is damaged
+    }
     const bool isKept = group % 2 == 0 &&
       (group != 0x0010 || head.tag == AnatomicalOrientation || this->Patient == PatientGroup::Kept);
     DICOMElement element;

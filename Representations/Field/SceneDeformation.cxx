@@ -134,7 +134,7 @@ bool DeviceDeformation::compute(
   {
     return gpu.fail("The deformation takes " + std::to_string(longest) +
       " nodes along one axis; the GPU takes at most " + std::to_string(limit) +
-      ". Decrease Samples, or the strokes that lead far out of the volume");
+      ". Decrease Samples or Lattice Dimensions, or the strokes that lead far out of the volume");
   }
   this->Timer.Start();
   const bool updated = this->Field.update(gpu.window, deformation.request, gpu.counters);

@@ -102,4 +102,23 @@ def test_what_is_not_kept_is_not_counted():
     assert 0.0 < needs["Half resolution"] < 0.3 * needs["Full resolution"], needs
 
 
+def test_a_lattice_too_fine_for_the_textures_is_told():
+    """4353 nodes along one axis; software drawing and many GPUs take 2048. Others draw them."""
+    bent = bend(volume(smooth()))
+    view = view_along((0, 0, -1), MIDDLE, 140.0, size=200)
+    show_volume(bent, view, "Deformed Volume", COLORS, OPACITIES)
+    before, settings = picture(view), (list(bent.LatticeDimensions), bent.Samples)
+    bent.LatticeDimensions, bent.Samples = [257, 4, 4], 16
+    with messages() as said:
+        fine = picture(view)
+    limit = re.search(r"takes 4353 nodes along one axis; the GPU takes at most (\d+)", said.text)
+    assert bool(limit) == ("software mapper" in said.text), said.text
+    assert fine.any()
+    assert not limit or "Decrease Samples or Lattice Dimensions" in said.text, said.text
+    bent.LatticeDimensions, bent.Samples = settings
+    with messages() as said:
+        assert numpy.array_equal(picture(view), before)
+    assert not said.text, said.text
+
+
 run_tests(globals())
