@@ -291,6 +291,11 @@ bool NIFTIVolume::reversesSlices() const
   return this->Voxels->GetQFac() < 0.0;
 }
 
+NIFTIPlacement NIFTIVolume::placement() const
+{
+  return placementOf(this->Voxels->GetNIFTIHeader());
+}
+
 glm::dmat4 NIFTIVolume::inFileOrder(
   const glm::dmat4& worldFromVoxel, const glm::ivec3& dimensions) const
 {

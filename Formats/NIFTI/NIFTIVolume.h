@@ -15,6 +15,8 @@
 
 namespace brainshift
 {
+struct NIFTIPlacement;
+
 /** See VolumeFile. */
 class NIFTIVolume : public VolumeFile
 {
@@ -28,6 +30,9 @@ public:
 
   /** An affine of the last header with the slices in the file's order, which VTK may reverse. */
   glm::dmat4 inFileOrder(const glm::dmat4& worldFromVoxel, const glm::ivec3& dimensions) const;
+
+  /** What the last header says of the positions of voxels. */
+  NIFTIPlacement placement() const;
 
 private:
   // Whether VTK reads slices from the last to the first.

@@ -4,9 +4,12 @@
 #include "Common/HostMemory.h"
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Files/PlainFile.h"
+#include "Formats/Files/Text.h"
+#include "Formats/NIFTI/NIFTIHeader.h"
 #include "Formats/NIFTI/NIFTIVolume.h"
 #include "Formats/Transforms/TransformRecord.h"
 
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -71,7 +74,32 @@ glm::dmat4 matrixOf(const std::vector<double>& rows)
   return matrix;
 }
 
-// RAS from the millimetres of FSL: from the first voxel, x reversed unless the file is left-handed.
+// Voxels from the millimetres of FSL: from the first voxel, by pixdim and not by the sform. x is
+// reversed where the file is right-handed. One without sform and qform counts as left-handed.
+glm::dmat4 voxelFromFSL(
+  const NIFTIPlacement& placement, const glm::dmat4& worldFromVoxel, int columns)
+{
+  glm::dmat4 result(1.0);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double size = std::abs(placement.pixelSize[axis]);
+    if (!std::isfinite(size) || size == 0.0)
+    {
+      throw Problem(joined("has the pixdim[", axis + 1, "] ", placement.pixelSize[axis],
+        ", by which FSL scales; name the image that flirt was given"));
+    }
+    result[axis][axis] = 1.0 / size;
+  }
+  const bool isKnown = placement.sformCode > 0 || placement.qformCode > 0;
+  if (isKnown && glm::determinant(glm::dmat3(worldFromVoxel)) > 0.0)
+  {
+    result[0][0] = -result[0][0];
+    result[3][0] = columns - 1;
+  }
+  return result;
+}
+
+// RAS from the millimetres of FSL.
 glm::dmat4 readFSLFrame(const std::string& what, const std::string& image)
 {
   if (image.empty())
@@ -81,20 +109,14 @@ glm::dmat4 readFSLFrame(const std::string& what, const std::string& image)
   }
   NIFTIVolume file;
   VolumeHeader header;
-  withBeginning(
-    "needs the " + what + " image " + image + ", which ", [&] { file.readHeader(image, header); });
-  const glm::dmat4 worldFromVoxel = file.inFileOrder(header.worldFromVoxel, header.dimensions);
-  glm::dmat4 voxelFromFSL(1.0);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    voxelFromFSL[axis][axis] = 1.0 / glm::length(glm::dvec3(worldFromVoxel[axis]));
-  }
-  if (glm::determinant(glm::dmat3(worldFromVoxel)) > 0.0)
-  {
-    voxelFromFSL[0][0] = -voxelFromFSL[0][0];
-    voxelFromFSL[3][0] = header.dimensions.x - 1;
-  }
-  return worldFromVoxel * voxelFromFSL;
+  glm::dmat4 worldFromFSL;
+  withBeginning("needs the " + what + " image " + image + ", which ", [&] {
+    file.readHeader(image, header);
+    const glm::dmat4 worldFromVoxel = file.inFileOrder(header.worldFromVoxel, header.dimensions);
+    worldFromFSL =
+      worldFromVoxel * voxelFromFSL(file.placement(), worldFromVoxel, header.dimensions.x);
+  });
+  return worldFromFSL;
 }
 
 // Reads files one after another into a chain of LPS.

@@ -5,6 +5,7 @@
 import glob
 import os
 import re
+import struct
 
 import numpy
 from brainshift_testing import (
@@ -237,6 +238,38 @@ def test_matrix_of_fsl_needs_both_images():
     in_moving = moving_affine[:3, :3] @ voxel + moving_affine[:3, 3]
     away = largest(transform.map(in_fixed[None]), in_moving[None])
     assert away < 1e-4, away  # the files hold single precision
+
+
+def test_matrix_of_fsl_scales_by_pixdim_and_not_by_the_sform():
+    """As FSL's newimage does: an affine sform, and images without sform and qform."""
+    affine = numpy.array(((-1.08, 0.05, 0, 90), (0.04, 1.12, 0.1, -120), (0, -0.1, 1.05, -70),
+                          (0, 0, 0, 1)))
+    bare = numpy.diag((2.0, 1.5, 1.2, 1.0))
+    matrix = numpy.array(((0.99, 0.1, 0, 4), (-0.1, 0.99, 0, 5), (0, 0, 1, 6), (0, 0, 0, 1)))
+    name = write("sheared.mat", "\n".join(" ".join(map(str, row)) for row in matrix))
+    frames = {}
+    for case, world, pixdim, code in (("affine", affine, (1, -1, 1), 4),
+                                      ("none", bare, (2, 1.5, 1.2), 0),
+                                      ("unsized", affine, (1, 0, 1), 4)):
+        image = nifti(f"fsl_{case}.nii", (10, 12, 14), (1, 1, 1), numpy.eye(3), (0, 0, 0))[0]
+        with open(image, "r+b") as file:
+            file.seek(80)
+            file.write(struct.pack("<3f", *pixdim))
+            file.seek(252)
+            file.write(struct.pack("<2h", 0, code))
+            file.seek(280)
+            file.write(struct.pack("<12f", *world[:3].ravel()))
+        frames[case] = image, world @ numpy.diag([*(1 / numpy.abs(pixdim)), 1]) \
+            if all(pixdim) else None  # both are left-handed for FSL
+    points = numpy.array(((50.0, -40.0, 30.0), (0.0, 0.0, 0.0)))
+    for fixed, moving in (("affine", "none"), ("none", "affine"), ("none", "none")):
+        (fixed_image, from_fixed), (moving_image, from_moving) = frames[fixed], frames[moving]
+        found = brainshift.read_transform(name, fixed_image=fixed_image, moving_image=moving_image)
+        right = from_moving @ numpy.linalg.inv(matrix) @ numpy.linalg.inv(from_fixed)
+        away = largest(found.map(points), points @ right[:3, :3].T + right[:3, 3])
+        assert away < 1e-4, (fixed, moving, away)
+    raises(OSError, "has the pixdim[2] 0, by which FSL scales", brainshift.read_transform, name,
+           fixed_image=frames["unsized"][0], moving_image=frames["none"][0])
 
 
 def test_files_of_points_go_through_transforms_and_back():
