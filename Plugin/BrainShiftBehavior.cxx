@@ -91,6 +91,7 @@ void BrainShiftBehavior::onStartup()
   new brainshift::KeptSelection(this);
   new brainshift::LandmarkMarks(this);
   new brainshift::QuietLinks(this);
+  new brainshift::KeptColors(this);
   new brainshift::RevivedViews(this);
   new brainshift::UndoneLayouts(this);
   new brainshift::ComparisonLegend(this);

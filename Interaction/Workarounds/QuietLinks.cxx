@@ -19,6 +19,7 @@
 #include <QTimer>
 
 #include <cstring>
+#include <iterator>
 
 namespace brainshift
 {
@@ -34,19 +35,42 @@ bool isOurs(const char* link)
   return link && std::strncmp(link, NamePrefix, std::strlen(NamePrefix)) == 0;
 }
 
+bool isIn(const Information* registered, const char* group)
+{
+  return registered && registered->Type == Information::PROXY && registered->GroupName &&
+    std::strcmp(registered->GroupName, group) == 0;
+}
+
 // Of a view or display; null for all else.
 vtkSMProxy* linkedProxy(const Information* registered)
 {
-  const bool isLinked = registered && registered->Type == Information::PROXY &&
-    registered->GroupName &&
-    (std::strcmp(registered->GroupName, "views") == 0 ||
-      std::strcmp(registered->GroupName, "representations") == 0);
+  const bool isLinked = isIn(registered, "views") || isIn(registered, "representations");
   return isLinked ? registered->Proxy : nullptr;
 }
+
+// Calls a method for each server that there is and that comes.
+template <typename Owner>
+void watchServers(Owner* owner, void (Owner::*watch)(pqServer*))
+{
+  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
+  QObject::connect(model, &pqServerManagerModel::serverAdded, owner, watch);
+  for (pqServer* server : model->findItems<pqServer*>())
+  {
+    (owner->*watch)(server);
+  }
 }
 
-namespace
+void removeAll(const ManagerObservers& observers)
 {
+  for (const auto& [manager, observer] : observers)
+  {
+    if (manager)
+    {
+      manager->RemoveObserver(observer);
+    }
+  }
+}
+
 // As ParaView writes a link into a state.
 vtkSmartPointer<vtkPVXMLElement> describe(const std::string& name, vtkSMPropertyLink* link)
 {
@@ -74,23 +98,12 @@ vtkSmartPointer<vtkPVXMLElement> describe(const std::string& name, vtkSMProperty
 QuietLinks::QuietLinks(QObject* parent)
   : QObject(parent)
 {
-  pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
-  QObject::connect(model, &pqServerManagerModel::serverAdded, this, &QuietLinks::watch);
-  for (pqServer* server : model->findItems<pqServer*>())
-  {
-    this->watch(server);
-  }
+  watchServers(this, &QuietLinks::watch);
 }
 
 QuietLinks::~QuietLinks()
 {
-  for (const auto& [manager, observer] : this->Observers)
-  {
-    if (manager)
-    {
-      manager->RemoveObserver(observer);
-    }
-  }
+  removeAll(this->Observers);
 }
 
 void QuietLinks::watch(pqServer* server)
@@ -203,5 +216,43 @@ void QuietLinks::takeIn(vtkSMSessionProxyManager* manager)
     left.link->AddLinkedProperty(back, left.property.c_str(), vtkSMLink::OUTPUT);
   }
   this->Gone = std::move(still);
+}
+
+KeptColors::KeptColors(QObject* parent)
+  : QObject(parent)
+{
+  watchServers(this, &KeptColors::watch);
+  QObject::connect(pqApplicationCore::instance()->getServerManagerModel(),
+    &pqServerManagerModel::aboutToRemoveServer, this, &KeptColors::forget);
+}
+
+KeptColors::~KeptColors()
+{
+  removeAll(this->Observers);
+}
+
+void KeptColors::watch(pqServer* server)
+{
+  vtkSMSessionProxyManager* manager = server->proxyManager();
+  this->Observers.emplace_back(
+    manager, manager->AddObserver(vtkCommand::RegisterEvent, this, &KeptColors::onRegister));
+}
+
+void KeptColors::forget(pqServer* server)
+{
+  for (auto table = this->Tables.begin(); table != this->Tables.end();)
+  {
+    const bool isGone = (*table)->GetSession() == server->session();
+    table = isGone ? this->Tables.erase(table) : std::next(table);
+  }
+}
+
+void KeptColors::onRegister(vtkObject*, unsigned long, void* information)
+{
+  auto registered = static_cast<const Information*>(information);
+  if (isIn(registered, "lookup_tables"))
+  {
+    this->Tables.insert(registered->Proxy);
+  }
 }
 }

@@ -29,6 +29,9 @@ class vtkSMSessionProxyManager;
 
 namespace brainshift
 {
+using ManagerObservers =
+  std::vector<std::pair<vtkWeakPointer<vtkSMSessionProxyManager>, unsigned long>>;
+
 class QuietLinks : public QObject
 {
 public:
@@ -58,7 +61,27 @@ private:
 
   std::set<std::pair<std::string, vtkSmartPointer<vtkSMPropertyLink>>> Links; ///< with names
   std::vector<LeftOut> Gone;
-  std::vector<std::pair<vtkWeakPointer<vtkSMSessionProxyManager>, unsigned long>> Observers;
+  ManagerObservers Observers;
+};
+
+/// Keeps each table of colours until its server goes. ParaView's editor of colours links a display
+/// to each table that the display has shown, and never removes the link. The next change of the
+/// display follows it to a table that undo or a separate colour map has dropped: a crash.
+class KeptColors : public QObject
+{
+public:
+  /// Watches the servers that there are and that come.
+  explicit KeptColors(QObject* parent);
+  ~KeptColors() override;
+
+private:
+  void watch(pqServer* server);
+  void forget(pqServer* server);
+  /// Observer of what is registered.
+  void onRegister(vtkObject* manager, unsigned long event, void* information);
+
+  std::set<vtkSmartPointer<vtkSMProxy>> Tables;
+  ManagerObservers Observers;
 };
 }
 

@@ -6,11 +6,13 @@ cannot see this. What follows Apply is undone and done again step by step: no st
 window makes of itself meanwhile takes the others off the stack.
 
 ParaView's window runs this file as a script; play_window.py reports what did not hold."""
+import gc
+
 import brainshift
 import test_hand as hand
 import window_testing as window
 from brainshift_testing import ball, picture, volume
-from paraview import simple
+from paraview import servermanager, simple
 
 COLORS = "ComparisonColors"
 PLAIN, BLUE = "Red and green", "Blue and orange"
@@ -124,6 +126,29 @@ def begin_anew():
     hand.wait(300)
 
 
+def colors_that_are_gone():
+    """A display changes after a table of colours is gone that is linked to it, as ParaView's
+    editor of colours links each table that a display has shown."""
+    begin_anew()
+    display = simple.GetDisplayProperties(scene["bent"], simple.GetActiveView())
+    display.SetRepresentationType("Deformed Volume")
+    hand.wait(300)
+    shown, table = display.LookupTable, simple.GetColorTransferFunction("gone")
+    link = servermanager.vtkSMPropertyLink()
+    link.AddLinkedProperty(display.SMProxy, "UseTransfer2D", link.INPUT)
+    link.AddLinkedProperty(table.SMProxy, "Using2DTransferFunction", link.OUTPUT)
+    display.LookupTable = table
+    hand.wait(100)
+    display.LookupTable = shown
+    simple.Delete(table)
+    del table
+    gc.collect()
+    window.forget_undo()
+    hand.wait(300)
+    display.Shade = 1 - display.Shade
+    simple.Render()
+
+
 def compare():
     hand.create_filter_of_two("CompareVolumes", scene["bent"], "Reference", scene["ball"])
 
@@ -136,4 +161,4 @@ window.main("UndoOfDisplays", [
     (set_up,), (two_choices, "Deformed Slices", "SliceComparison", "None", "Two colours"),
     (two_choices, "Deformed Volume", "VolumeComparison", "Off", "Two colours"),
     (in_four_views,), (begin_anew,), (undo_what_apply_showed, compare, "Show comparison"),
-    (begin_anew,), (undo_what_apply_showed, trace, "Show distances")])
+    (begin_anew,), (undo_what_apply_showed, trace, "Show distances"), (colors_that_are_gone,)])
