@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Proves that series that go over midnight keep their order and times, with or without a date, that
-# PET takes the times of its frames, and that slices which a header parts from their volume are said.
+# PET takes the times of its frames, and that slices that are parted from their volume are said.
 import numpy
 from brainshift_testing import assert_says, load_plugin, messages, output, run_tests
 from dicom_testing import SAGITTAL, enhanced, folder, numbered, scalars, write_slices
