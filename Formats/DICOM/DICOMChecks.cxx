@@ -5,6 +5,8 @@
 #include "Formats/DICOM/DICOMFrames.h"
 #include "Formats/Files/Text.h"
 
+#include <iomanip>
+
 namespace brainshift
 {
 namespace
@@ -119,6 +121,17 @@ void notePadding(
         " (PixelPaddingValue), which is shown like any other"));
   }
 }
+}
+
+void requireOnce(const std::vector<DICOMTag>& repeated)
+{
+  if (!repeated.empty())
+  {
+    std::ostringstream tag;
+    tag << std::hex << std::setfill('0') << std::setw(4) << (repeated.front() >> 16) << ","
+        << std::setw(4) << (repeated.front() & 0xffff);
+    throw Problem("has the attribute (" + tag.str() + ") twice, with different values");
+  }
 }
 
 void requirePixels(const DICOMDataSet& set, const DICOMPixelFormat& pixels)

@@ -10,6 +10,9 @@
 
 namespace brainshift
 {
+/** Throws the end of a sentence if there is an attribute that occurs twice. */
+void requireOnce(const std::vector<DICOMTag>& repeated);
+
 /** Throws the end of a sentence that names the attribute if pixels cannot be read rightly. */
 void requirePixels(const DICOMDataSet& set, const DICOMPixelFormat& pixels);
 

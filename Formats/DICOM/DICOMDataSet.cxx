@@ -125,6 +125,7 @@ public:
   }
 
   Head Pixels;
+  std::vector<DICOMTag> Repeated;
 
 private:
   bool readElement(
@@ -169,6 +170,12 @@ private:
     }
     if (isKept)
     {
+      const auto known = set.elements.find(head.tag);
+      if (known != set.elements.end() &&
+        (known->second.length != element.length || known->second.bytes != element.bytes))
+      {
+        this->Repeated.push_back(head.tag);
+      }
       set.elements[head.tag] = std::move(element);
     }
     return true;
@@ -357,6 +364,7 @@ bool parseDICOM(DICOMBytes& bytes, DICOMContent& content, PatientGroup patient)
   {
     return false;
   }
+  content.repeated = parser.Repeated;
   content.pixelOffset = parser.Pixels.value;
   content.areReal = content.pixelOffset > 0 && parser.Pixels.tag != PixelData;
   content.isPacked = content.pixelOffset > 0 && parser.Pixels.length == Undefined;

@@ -77,11 +77,12 @@ struct DICOMContent
 {
   std::string transferSyntax; ///< its UID
   DICOMDataSet set;
-  std::uint64_t end = 0;         ///< offset where the attributes end, or are damaged, bytes
-  std::uint64_t pixelOffset = 0; ///< 0: there are no pixels
-  std::uint64_t pixelLength = 0; ///< bytes, unless it is packed
-  bool isPacked = false;         ///< the pixels come in fragments
-  bool areReal = false;          ///< the pixels are in floating point
+  std::uint64_t end = 0;          ///< offset where the attributes end, or are damaged, bytes
+  std::uint64_t pixelOffset = 0;  ///< 0: there are no pixels
+  std::uint64_t pixelLength = 0;  ///< bytes, unless it is packed
+  bool isPacked = false;          ///< the pixels come in fragments
+  bool areReal = false;           ///< the pixels are in floating point
+  std::vector<DICOMTag> repeated; ///< attributes that occur twice with different values
 };
 
 /** What becomes of the patient's group (0010). */

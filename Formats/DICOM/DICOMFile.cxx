@@ -112,6 +112,7 @@ DICOMFile readDICOMHeader(const std::string& path)
   file.pixels.isReal = content.areReal;
   file.problem = problemOf([&] {
     throwIfAny(problemOfCount);
+    requireOnce(content.repeated);
     requirePixels(set, file.pixels);
   });
   file.pixels.isPlain = !content.isPacked &&

@@ -290,6 +290,46 @@ void nameAll(const std::vector<DICOMFile>& files, std::vector<DICOMSeries>& seri
   }
 }
 
+// Names of what keeps the images of two entries of a list apart.
+std::string differencesOf(
+  const DICOMFile& fileA, const DICOMFrame& a, const DICOMFile& fileB, const DICOMFrame& b)
+{
+  const glm::dvec3 turned =
+    glm::max(glm::abs(a.alongRow - b.alongRow), glm::abs(a.alongColumn - b.alongColumn));
+  const glm::dvec2 resized = glm::abs(a.spacingMm - b.spacingMm) / a.spacingMm;
+  std::string names;
+  for (const auto& [differs, name] :
+    { std::pair<bool, const char*>{ fileA.columns != fileB.columns, "Columns" },
+      { fileA.rows != fileB.rows, "Rows" },
+      { std::max({ turned.x, turned.y, turned.z }) > LargestCosineChange,
+        "ImageOrientationPatient" },
+      { std::max(resized.x, resized.y) > LargestSpacingChange, "PixelSpacing" },
+      { a.quantity != b.quantity, "RescaleType or Units" }, { a.type != b.type, "ImageType" },
+      { a.stack != b.stack, "StackID" } })
+  {
+    names += !differs ? "" : (names.empty() ? "" : ", ") + std::string(name);
+  }
+  return names;
+}
+
+// Whether slices of one volume may have come apart. Planes that lean much were meant so, as were
+// localizers and images of another type at the same positions.
+bool areParted(
+  const std::vector<DICOMFile>& files, const DICOMSeries& shown, const DICOMSeries& other)
+{
+  constexpr double LeastCosine = 0.94; // of 20 degrees
+  const DICOMFrame& a = shown.frames.front();
+  const DICOMFrame& b = other.frames.front();
+  const DICOMFile& file = files[b.file];
+  const auto isLocalizer = [](const DICOMFrame& frame) {
+    return frame.type.find("LOCALIZER") != std::string::npos;
+  };
+  return file.series == files[a.file].series && isLocalizer(a) == isLocalizer(b) &&
+    file.problem.empty() && !file.standsAlone && !files[a.file].standsAlone && a.isPlaced &&
+    b.isPlaced && glm::dot(a.alongRow, b.alongRow) > LeastCosine &&
+    glm::dot(a.alongColumn, b.alongColumn) > LeastCosine && shareNoPlace(shown, other);
+}
+
 std::string noImageSentence(const DICOMFile& file)
 {
   const std::string modality = file.modality.empty() ? "" : " (modality " + file.modality + ")";
@@ -406,5 +446,23 @@ DICOMFolder readDICOMFolder(const std::string& path, const Progress& progress)
   sortSeries(whole, folder.files, folder.series);
   nameAll(folder.files, folder.series);
   return folder;
+}
+
+std::vector<std::string> partedNotes(const DICOMFolder& folder, const DICOMSeries& chosen)
+{
+  std::vector<std::string> notes;
+  const DICOMFrame& shown = chosen.frames.front();
+  for (const DICOMSeries& other : folder.series)
+  {
+    const DICOMFrame& first = other.frames.front();
+    const std::string names =
+      differencesOf(folder.files[shown.file], shown, folder.files[first.file], first);
+    if (&other != &chosen && !names.empty() && areParted(folder.files, chosen, other))
+    {
+      notes.push_back("lacks images at other positions, which are another entry of its list: " +
+        std::to_string(other.frames.size()) + " with another " + names);
+    }
+  }
+  return notes;
 }
 }

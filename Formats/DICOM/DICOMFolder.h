@@ -40,6 +40,15 @@ bool leadsToDICOM(const std::string& path);
  * most voxels. The others follow by their number.
  */
 DICOMFolder readDICOMFolder(const std::string& path, const Progress& progress);
+
+/**
+ * Images that the headers count to the same series, but that are another entry of its list and
+ * seem to be slices of the same volume: how many they are and which attributes part them. Ends of
+ * sentences, one for each such entry.
+ *
+ * @param chosen one of the folder's series
+ */
+std::vector<std::string> partedNotes(const DICOMFolder& folder, const DICOMSeries& chosen);
 }
 
 #endif

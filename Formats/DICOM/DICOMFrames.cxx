@@ -224,7 +224,13 @@ void readMoment(const DICOMDataSet& set, DICOMMoment& moment, Notes& notes)
       moment.isContentTime = time == 0x00080033 && moment.acquiredS >= 0.0;
     }
   }
+  moment.isTimed = moment.acquiredS >= 0.0;
   moment.acquiredS = std::max(moment.acquiredS, 0.0);
+  if (!dateOf(set, 0x00080023).empty())
+  {
+    moment.contentS = secondsOf(textOf(set, 0x00080023), textOf(set, 0x00080033), -1.0);
+  }
+  moment.referenceS = 1e-3 * number(0x00541300, "FrameReferenceTime", 0.0);
 }
 
 // The functional groups of a multi-frame file: those of a frame, and those that all frames share.
@@ -281,6 +287,7 @@ void readFrameMoment(const Groups& groups, int index, DICOMMoment& moment)
       if (acquired >= 0.0)
       {
         moment.acquiredS = acquired;
+        moment.isTimed = true;
         moment.isContentTime = false;
         break;
       }

@@ -24,15 +24,19 @@ struct DICOMMoment
   /// Times of echo and inversion in ms, flip angle in degrees, voltage of the tube in kV.
   std::array<double, 4> settings{};
   double acquiredS = 0.0;     ///< since 1970, or since midnight
+  double referenceS = 0.0;    ///< FrameReferenceTime of PET
   double instance = 0.0;      ///< number of the image in its series
   double intervalS = 0.0;     ///< from one volume to the next: resolution or repetition time
   double offsetS = 0.0;       ///< of the point in time, from the first one
+  bool isTimed = false;       ///< whether the file says `acquiredS`
   bool isContentTime = false; ///< `acquiredS` is when the image was made: no other time is there
+  double contentS = -1.0;     ///< when the image was made, since 1970; below 0: not known
 
-  std::array<double, 10> sorted() const
+  std::array<double, 11> sorted() const
   {
     return { this->temporalPosition, this->triggerMs, this->echo, this->bValue, this->settings[0],
-      this->settings[1], this->settings[2], this->settings[3], this->acquiredS, this->instance };
+      this->settings[1], this->settings[2], this->settings[3], this->acquiredS, this->referenceS,
+      this->instance };
   }
 };
 

@@ -2,6 +2,7 @@
 #include "Formats/DICOM/DICOMStack.h"
 
 #include "Common/Numbers.h"
+#include "Formats/DICOM/DICOMTimes.h"
 #include "Formats/Files/Text.h"
 
 #include <algorithm>
@@ -29,7 +30,8 @@ struct DICOMPlaces
 {
   std::vector<std::vector<DICOMFrame>> volumes; // of each time; images from below to above
   std::vector<double> times;                    // s; at least one
-  std::string noteOfTimes;                      // the end of a sentence; may be empty
+  std::string noteOfDays;                       // the end of a sentence; may be empty
+  std::string noteOfTimes;                      // likewise
   std::vector<std::string> contradictions;      // ends of sentences
   std::size_t copies = 0;                       // images left out: the same image in another file
   std::size_t leftOver = 0;                     // images left out: their place has more than others
@@ -91,7 +93,7 @@ double contradictionOf(const std::vector<Images>& places)
   return largest;
 }
 
-// Images of each place, from below to above; those of one place by their moments.
+// Images of each place, from below to above.
 std::vector<Images> byPlace(const Images& images)
 {
   const std::vector<double> distancesMm = placesOf(images);
@@ -103,6 +105,11 @@ std::vector<Images> byPlace(const Images& images)
       std::upper_bound(distancesMm.begin(), distancesMm.end(), glm::dot(image.position, normal));
     places[static_cast<std::size_t>(above - distancesMm.begin()) - 1].push_back(image);
   }
+  return places;
+}
+
+void sortByMoment(std::vector<Images>& places)
+{
   for (Images& place : places)
   {
     std::stable_sort(place.begin(), place.end(), [](const DICOMFrame& a, const DICOMFrame& b) {
@@ -110,7 +117,6 @@ std::vector<Images> byPlace(const Images& images)
         std::make_pair(b.moment.sorted(), b.frame);
     });
   }
-  return places;
 }
 
 // Images of a place that equal the one before in all that tells images apart.
@@ -183,82 +189,6 @@ std::vector<Images> volumesOf(const std::vector<Images>& places)
   return volumes;
 }
 
-bool grows(const std::vector<double>& times)
-{
-  return std::adjacent_find(
-           times.begin(), times.end(), [](double a, double b) { return !(a < b); }) == times.end();
-}
-
-// Whether volumes differ in what is no time, such as echoes and diffusion weightings.
-bool isSeriesOfTime(const std::vector<Images>& volumes)
-{
-  const DICOMMoment& first = volumes.front().front().moment;
-  return std::all_of(volumes.begin(), volumes.end(), [&](const Images& volume) {
-    const DICOMMoment& moment = volume.front().moment;
-    return moment.echo == first.echo && moment.bValue == first.bValue &&
-      moment.settings == first.settings;
-  });
-}
-
-// Where neither triggers nor acquisitions say when volumes were made.
-std::vector<double> countedTimes(const std::vector<Images>& volumes, std::string& note)
-{
-  if (!isSeriesOfTime(volumes))
-  {
-    return evenTimes(volumes.size(), 1.0);
-  }
-  const double intervalS = volumes.front().front().moment.intervalS;
-  std::ostringstream text;
-  text << "has " << volumes.size() << " volumes without times of their own; they ";
-  if (intervalS > 0.0)
-  {
-    text << "count as " << intervalS << " s apart (TemporalResolution, or else RepetitionTime)";
-  }
-  else
-  {
-    text << "are numbered 0, 1, 2 and so on";
-  }
-  note = text.str();
-  return evenTimes(volumes.size(), intervalS);
-}
-
-std::vector<double> timesOf(const std::vector<Images>& volumes, std::string& note)
-{
-  std::vector<double> offsets;
-  std::vector<double> triggers;
-  std::vector<double> acquired;
-  for (const Images& volume : volumes)
-  {
-    double first = volume.front().moment.acquiredS;
-    for (const DICOMFrame& image : volume)
-    {
-      first = std::min(first, image.moment.acquiredS);
-    }
-    offsets.push_back(volume.front().moment.offsetS);
-    triggers.push_back(1e-3 * volume.front().moment.triggerMs);
-    acquired.push_back(acquired.empty() ? first : first - acquired.front());
-  }
-  acquired.front() = 0.0;
-  if (volumes.size() == 1)
-  {
-    return { 0.0 };
-  }
-  if (grows(offsets) || grows(triggers))
-  {
-    return grows(offsets) ? offsets : triggers;
-  }
-  if (!grows(acquired))
-  {
-    return countedTimes(volumes, note);
-  }
-  if (volumes.front().front().moment.isContentTime)
-  {
-    note = "has volumes without AcquisitionTime; their times are those of ContentTime, when images "
-           "were made";
-  }
-  return acquired;
-}
-
 // Sorts images by place and time. Times come from offsets, the heart's trigger or the acquisition;
 // if they do not grow, from the time between volumes that the header names.
 DICOMPlaces sortedByPlace(
@@ -267,6 +197,8 @@ DICOMPlaces sortedByPlace(
   DICOMPlaces sorted;
   const Images unique = withoutCopies(files, images, sorted.contradictions);
   std::vector<Images> places = byPlace(unique);
+  sorted.noteOfDays = passMidnight(places);
+  sortByMoment(places);
   const double contradictionMm = contradictionOf(places);
   if (contradictionMm > LargestUnreportedContradictionMm)
   {
@@ -586,9 +518,12 @@ DICOMStack stackOf(const std::vector<DICOMFile>& files, const std::vector<DICOMF
     stack.warnings.push_back("has " + counted(places.leftOver, "image", "images") +
       " at positions of other images, too few for another time step: left out");
   }
-  if (!places.noteOfTimes.empty())
+  for (const std::string& note : { places.noteOfDays, places.noteOfTimes })
   {
-    stack.warnings.push_back(places.noteOfTimes);
+    if (!note.empty())
+    {
+      stack.warnings.push_back(note);
+    }
   }
   stack.warnings.insert(
     stack.warnings.end(), places.contradictions.begin(), places.contradictions.end());

@@ -242,6 +242,8 @@ void warnOfFiles(
                        "ImageOrientationPatient), which are another entry of its list: " +
       std::to_string(unplaced));
   }
+  const std::vector<std::string> parted = partedNotes(folder, chosen);
+  warnings.insert(warnings.end(), parted.begin(), parted.end());
   if (!refused.empty())
   {
     warnings.push_back("has images that cannot be read and are left out: " +

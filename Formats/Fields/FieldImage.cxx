@@ -2,6 +2,7 @@
 #include "Formats/Fields/FieldImage.h"
 
 #include "Common/FieldWord.h"
+#include "Formats/Volumes/VolumeFile.h"
 
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
@@ -52,16 +53,19 @@ vtkDataArray* fieldOf(vtkImageData* image)
   return nullptr;
 }
 
+bool saysField(vtkImageData* image)
+{
+  return directionOf(image) || image->GetPointData()->GetArray(DisplacementName);
+}
+
 bool isFieldImage(vtkImageData* image)
 {
-  if (directionOf(image) || image->GetPointData()->GetArray(DisplacementName))
-  {
-    return true;
-  }
   vtkDataArray* scalars = image->GetPointData()->GetScalars();
-  return !scalars ||
-    (scalars->GetNumberOfComponents() == 3 &&
-      (scalars->GetDataType() == VTK_FLOAT || scalars->GetDataType() == VTK_DOUBLE));
+  const bool areFloats = scalars && scalars->GetNumberOfComponents() == 3 &&
+    (scalars->GetDataType() == VTK_FLOAT || scalars->GetDataType() == VTK_DOUBLE);
+  const char* name = scalars ? scalars->GetName() : nullptr;
+  const bool isOfVolume = name && std::strcmp(name, ScalarsOfVolumes) == 0;
+  return saysField(image) || !scalars || (areFloats && !isOfVolume);
 }
 
 std::vector<glm::vec3> vectorsOf(vtkDataArray* array)

@@ -37,9 +37,13 @@ VTKBRAINSHIFTFORMATS_EXPORT void setField(vtkImageData* image, const Grid& grid,
  */
 VTKBRAINSHIFTFORMATS_EXPORT vtkDataArray* fieldOf(vtkImageData* image);
 
+/** Whether an image says that it is a field: by a direction, or a point array Displacement. */
+VTKBRAINSHIFTFORMATS_EXPORT bool saysField(vtkImageData* image);
+
 /**
- * Whether an image is meant as a field: it names a direction, has a point array Displacement, or
- * has no scalars other than three floating numbers. Otherwise its vectors stand beside what it is.
+ * Whether an image is meant as a field: it says so, or has no scalars other than three floating
+ * numbers, which a reader of volumes did not name Intensity. Otherwise its vectors stand beside
+ * what it is.
  */
 VTKBRAINSHIFTFORMATS_EXPORT bool isFieldImage(vtkImageData* image);
 

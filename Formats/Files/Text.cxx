@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace brainshift
 {
@@ -55,6 +56,25 @@ std::string trimmed(std::string_view text, std::string_view blanks)
   const std::size_t last = text.find_last_not_of(blanks);
   return first == std::string_view::npos ? std::string()
                                          : std::string(text.substr(first, last - first + 1));
+}
+
+std::size_t lettersBetween(const std::string& one, const std::string& other)
+{
+  std::vector<std::size_t> row(other.size() + 1);
+  for (std::size_t j = 0; j < row.size(); ++j)
+  {
+    row[j] = j;
+  }
+  for (std::size_t i = 1; i <= one.size(); ++i)
+  {
+    std::size_t before = std::exchange(row[0], i);
+    for (std::size_t j = 1; j < row.size(); ++j)
+    {
+      const std::size_t changed = before + (one[i - 1] == other[j - 1] ? 0 : 1);
+      before = std::exchange(row[j], std::min({ changed, row[j] + 1, row[j - 1] + 1 }));
+    }
+  }
+  return row.back();
 }
 
 std::vector<std::string> wordsIn(std::string_view text)

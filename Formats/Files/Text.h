@@ -37,6 +37,9 @@ std::string lowerCase(std::string text);
 /** Whether a text ends so, in capitals or not. `end` has small letters. */
 bool endsWith(const std::string& text, const std::string& end);
 
+/** How many letters must be changed, added or left out to make one text of the other. */
+std::size_t lettersBetween(const std::string& one, const std::string& other);
+
 /** Words of a file as an error may show them: printable, and not too many. */
 std::string shownWords(const std::string& words);
 

@@ -122,8 +122,17 @@ std::optional<double> electrodeUnit(const std::string& tableName, LandmarkList& 
   }
   double mm = 1.0;
   withBeginning("needs " + beside + ", which ", [&] {
+    std::set<std::string> keys; // of the object itself
+    const auto requireOnce = [&keys](int depth, nlohmann::json::parse_event_t event,
+                               const nlohmann::json& parsed) {
+      const bool isKey = depth == 1 && event == nlohmann::json::parse_event_t::key;
+      throwIfAny(isKey && !keys.insert(parsed.get<std::string>()).second
+          ? "has the key " + shownWords(parsed.get<std::string>()) + " twice"
+          : "");
+      return true;
+    };
     const nlohmann::json object =
-      nlohmann::json::parse(readPlainText(beside, LongestText), nullptr, /*throws*/ false);
+      nlohmann::json::parse(readPlainText(beside, LongestText), requireOnce, /*throws*/ false);
     throwIfAny(object.is_object() ? "" : "is not good JSON");
     mm = unitIn(object, isOptodes);
   });

@@ -15,6 +15,7 @@
 
 #include <cstdint>
 #include <exception>
+#include <set>
 
 namespace brainshift
 {
@@ -64,6 +65,14 @@ public:
   bool key(const std::string& name)
   {
     this->Key = name;
+    const Place place = this->Places.back();
+    if (place != Place::Other && !this->Keys.back().insert(name).second)
+    {
+      throw Problem(
+        (place == Place::Control ? beginningAt("control point " + std::to_string(this->Read))
+                                 : std::string()) +
+        "has the key " + shownWords(name) + " twice");
+    }
     return true;
   }
 
@@ -92,7 +101,8 @@ private:
   };
 
   LandmarkList& List;
-  std::vector<Place> Places; // from the outside to the inside
+  std::vector<Place> Places;               // from the outside to the inside
+  std::vector<std::set<std::string>> Keys; // likewise: those of each object that came so far
   std::string Key;
   bool HasMarkups = false;
   std::size_t Read = 0;
@@ -206,6 +216,7 @@ private:
     const Place outside = this->Places.empty() ? Place::Other : this->Places.back();
     const bool isRoot = this->Places.empty();
     this->Places.push_back(isRoot && !isArray ? Place::Root : Place::Other);
+    this->Keys.emplace_back();
     if (outside == Place::Root && this->Key == "markups" && isArray)
     {
       this->Places.back() = Place::Markups;
@@ -282,6 +293,7 @@ private:
   {
     const Place place = this->Places.back();
     this->Places.pop_back();
+    this->Keys.pop_back();
     if (place == Place::Markup) // its axes may be named after its points
     {
       for (std::size_t i = this->First; i < this->List.points.size(); ++i)

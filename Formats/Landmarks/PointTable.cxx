@@ -292,6 +292,7 @@ struct FiducialHeader
   std::array<std::size_t, 3> position{ 1, 2, 3 };
   std::size_t label = 11;
   bool hasStatus = true;
+  std::map<std::string, std::string> said; // values by the keys that count
 };
 
 void readColumns(const std::string& names, FiducialHeader& header)
@@ -326,6 +327,11 @@ void readComment(const std::string& line, FiducialHeader& header)
               [](char letter) { return letter == ' ' || letter == '_' || letter == '-'; }),
     key.end());
   const std::string value = trimmed(line.substr(mark + 1));
+  const bool counts = key == "coordinatesystem" || key == "coordinateunits" || key == "columns";
+  if (counts && header.said.emplace(key, value).first->second != value)
+  {
+    throw Problem("has the line # " + trimmed(line.substr(1, mark - 1)) + " twice");
+  }
   if (key == "coordinatesystem")
   {
     header.axes = axesFrom(value);

@@ -6,6 +6,7 @@
 /// whole numbers of the classes "integer" and "label" stay as they are. MINC1 files are refused.
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
+#include "Formats/MINC/MINCAttributes.h"
 #include "Formats/Volumes/VolumeFile.h"
 
 #include "vtkDataArray.h"
@@ -288,6 +289,34 @@ std::vector<double> timesOf(const StoredAxis& axis, std::vector<std::string>& wa
   return evenTimes(axis.count, seconds * axis.step, seconds * axis.start);
 }
 
+// What a file does not say of its axes, or says in another length.
+void noteAxes(
+  const std::string& fileName, std::vector<StoredAxis>& axes, std::vector<std::string>& warnings)
+{
+  constexpr double Rounding = 1e-3; // of cosines with few digits
+  for (StoredAxis& axis : axes)
+  {
+    if (axis.kind != MI_DIMCLASS_SPATIAL)
+    {
+      continue;
+    }
+    const std::vector<std::string> missing = missingAttributes(fileName, axis.name,
+      axis.isEven ? std::vector<std::string>{ "step", "start" } : std::vector<std::string>());
+    for (const std::string& name : missing)
+    {
+      warnings.push_back("has no " + name + " along " + axis.name + ", which counts as " +
+        (name == "step" ? "1" : "0"));
+    }
+    const double length = glm::length(axis.cosines);
+    if (length > 0.0 && std::isfinite(length) && std::abs(length - 1.0) > Rounding)
+    {
+      warnings.push_back(joined("has direction_cosines along ", axis.name, " that are ", length,
+        " long, which count as 1"));
+      axis.cosines /= length;
+    }
+  }
+}
+
 // What the axes are for, and where they put voxels. Space counts from the fastest axis on.
 void arrange(std::vector<StoredAxis>& stored, std::vector<Axis>& axes, VolumeHeader& header)
 {
@@ -398,6 +427,7 @@ void MINCVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   }
   std::vector<StoredAxis> stored;
   axesOf(volume.get(), stored);
+  noteAxes(fileName, stored, header.warnings);
   readType(volume.get(), header, this->AreRealValues);
   arrange(stored, this->Axes, header);
   if (header.dimensions == glm::ivec3(1))

@@ -42,7 +42,11 @@ bool readKeys(std::string_view text, std::map<std::string, std::string>& keys)
     const std::size_t colon = line.find(':');
     if (colon != std::string_view::npos)
     {
-      keys[trimmed(line.substr(0, colon))] = trimmed(line.substr(colon + 1));
+      const std::string name = trimmed(line.substr(0, colon));
+      const std::string value = trimmed(line.substr(colon + 1));
+      const bool isSame = keys.emplace(name, value).first->second == value;
+      const bool counts = name == "file" || name == "datatype" || name == "count";
+      throwIfAny(counts && !isSame ? "has the line \"" + name + ":\" twice" : "");
     }
     place = end + 1;
   }

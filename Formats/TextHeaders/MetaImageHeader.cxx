@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace brainshift
 {
@@ -15,12 +16,56 @@ constexpr double LongestSide = 2147483647.0;
 constexpr double MostDimensions = 4.0;
 constexpr double MostChannels = 65536.0;
 
+// All keys of the format. Any program may add others, which say nothing of places and numbers.
+constexpr const char* Keys[] = { "AcquisitionDate", "AnatomicalOrientation", "BinaryData",
+  "BinaryDataByteOrderMSB", "CenterOfRotation", "Color", "Comment", "CompressedData",
+  "CompressedDataSize", "CompressionLevel", "DimSize", "DistanceUnits", "ElementByteOrderMSB",
+  "ElementDataFile", "ElementMax", "ElementMin", "ElementNumberOfChannels", "ElementSize",
+  "ElementSpacing", "ElementToIntensityFunctionOffset", "ElementToIntensityFunctionSlope",
+  "ElementType", "HeaderSize", "ID", "Modality", "Name", "NDims", "ObjectSubType", "ObjectType",
+  "Offset", "Orientation", "Origin", "ParentID", "Position", "Rotation", "SequenceID",
+  "TransformMatrix", "TransformType" };
+
 // By the end of an ElementType, after "MET_".
 const std::map<std::string, int> Types{ { "CHAR", VTK_SIGNED_CHAR }, { "UCHAR", VTK_UNSIGNED_CHAR },
   { "SHORT", VTK_SHORT }, { "USHORT", VTK_UNSIGNED_SHORT }, { "INT", VTK_INT },
   { "UINT", VTK_UNSIGNED_INT }, { "LONG", VTK_INT }, { "ULONG", VTK_UNSIGNED_INT },
   { "LONG_LONG", VTK_LONG_LONG }, { "ULONG_LONG", VTK_UNSIGNED_LONG_LONG }, { "FLOAT", VTK_FLOAT },
   { "DOUBLE", VTK_DOUBLE } };
+
+bool isKey(const std::string& name)
+{
+  return std::any_of(std::begin(Keys), std::end(Keys),
+    [&](const char* key) { return lowerCase(key) == lowerCase(name); });
+}
+
+// A key that is almost one that counts would count as missing without a word.
+void requireKeys(TextHeader& header)
+{
+  constexpr std::size_t SlipOfTheHand = 2; // letters
+  constexpr std::size_t Shortest = 6;      // letters; shorter names are alike by chance
+  for (const std::string& name : header.text.repeated)
+  {
+    throwIfAny(isKey(name) ? "has the key " + shownWords(name) + " twice" : "");
+  }
+  for (const auto& [name, value] : header.text.fields)
+  {
+    for (const std::string key : Keys)
+    {
+      if (!isKey(name) && key.size() >= Shortest &&
+        lettersBetween(name, lowerCase(key)) <= SlipOfTheHand)
+      {
+        throw Problem("has the key '" + shownWords(name) +
+          "', which MetaImage does not define; it must be " + key);
+      }
+    }
+    if (!isKey(name) && name.rfind("element", 0) == 0)
+    {
+      header.warnings.push_back("has the key '" + shownWords(name) +
+        "', which MetaImage does not define; it does not count");
+    }
+  }
+}
 
 // As in ITK, the first letter decides.
 bool isTrue(const std::string& value)
@@ -135,14 +180,30 @@ void noteCentre(TextHeader& header)
   }
 }
 
+// In the unit of the file.
+std::vector<double> spacingOf(std::size_t dimensions, TextHeader& header)
+{
+  const std::string text = header.text.valueOf({ "ElementSpacing", "ElementSize" });
+  if (text.empty())
+  {
+    header.warnings.emplace_back("has no ElementSpacing; its voxels count as 1 mm apart");
+    return std::vector<double>(dimensions, 1.0);
+  }
+  const std::vector<double> spacing = numbersIn(text);
+  if (spacing.size() != dimensions)
+  {
+    throw Problem(
+      "has the spacing " + text + "; it must have " + std::to_string(dimensions) + " numbers (mm)");
+  }
+  return spacing;
+}
+
 // The steps of the axes of space. The file names the direction of one axis after the other.
 void readPlace(std::size_t dimensions, TextHeader& header)
 {
   requireOneMeaning(header.text, { "TransformMatrix", "Rotation", "Orientation" });
   requireOneMeaning(header.text, { "Offset", "Position", "Origin" });
-  const std::string spacingText = header.text.valueOf({ "ElementSpacing", "ElementSize" });
-  std::vector<double> spacing = numbersIn(spacingText);
-  spacing = spacingText.empty() ? std::vector<double>(dimensions, 1.0) : spacing;
+  const std::vector<double> spacing = spacingOf(dimensions, header);
   const std::string turnText =
     header.text.valueOf({ "TransformMatrix", "Rotation", "Orientation" });
   std::vector<double> turn = numbersIn(turnText);
@@ -162,10 +223,6 @@ void readPlace(std::size_t dimensions, TextHeader& header)
   header.hasOrigin = !originText.empty();
   origin = originText.empty() ? std::vector<double>(dimensions, 0.0) : origin;
   const std::string wanted = "; it must have " + std::to_string(dimensions) + " numbers (mm)";
-  if (spacing.size() != dimensions)
-  {
-    throw Problem("has the spacing " + spacingText + wanted);
-  }
   if (origin.size() != dimensions)
   {
     throw Problem("has the Offset " + originText + wanted);
@@ -256,9 +313,10 @@ void readStorage(const std::string& fileName, TextHeader& header)
     throw Problem("has an ElementByteOrderMSB other than its BinaryDataByteOrderMSB");
   }
   const bool isPacked = isTrue(header.text.valueOf({ "CompressedData" }));
-  header.encoding = !isTrue(header.text.valueOf({ "BinaryData" })) ? Encoding::Text
-    : isPacked                                                     ? Encoding::Packed
-                                                                   : Encoding::Raw;
+  // As in ITK, an image is binary if the file does not say it.
+  const bool isBinary =
+    !header.text.has("BinaryData") || isTrue(header.text.valueOf({ "BinaryData" }));
+  header.encoding = !isBinary ? Encoding::Text : isPacked ? Encoding::Packed : Encoding::Raw;
   const std::string skipText = header.text.valueOf({ "HeaderSize" });
   const std::vector<double> skip = numbersIn(skipText.empty() ? "0" : skipText);
   if (skip.size() != 1 || !isWhole(skip[0], -1.0, 1e15))
@@ -294,6 +352,7 @@ void fromMetaImage(const std::string& fileName, TextHeader& header)
     throw Problem("has the NDims " + dimensionsText + "; it must be 3, or 4 with time");
   }
   const auto count = static_cast<std::size_t>(dimensions[0]);
+  requireKeys(header);
   header.space = HeaderSpace::LPS;
   readAxes(count, header);
   readType(header);

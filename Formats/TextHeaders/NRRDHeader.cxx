@@ -58,14 +58,31 @@ const std::set<std::string> Fields{ "axis maxs", "axis mins", "axismaxs", "axism
   "sampleunits", "sizes", "space", "space dimension", "space directions", "space origin",
   "space units", "spacings", "thicknesses", "type", "units" };
 
+// Older names of fields lack the blank.
+bool areTwice(const HeaderText& text, const std::string& name)
+{
+  std::string older = name;
+  older.erase(std::remove(older.begin(), older.end(), ' '), older.end());
+  return older != name && text.has(name) && text.has(older);
+}
+
 void requireKnownFields(TextHeader& header)
 {
+  for (const std::string& name : header.text.repeated)
+  {
+    throw Problem("has the field '" + shownWords(name) + "' twice");
+  }
+  if (header.text.has("centers") && header.text.has("centerings"))
+  {
+    throw Problem("has the field 'centers' twice, the second time as 'centerings'");
+  }
   for (const auto& [name, value] : header.text.fields)
   {
     if (Fields.count(name) == 0)
     {
       throw Problem("has the field '" + shownWords(name) + "', which NRRD does not define");
     }
+    throwIfAny(areTwice(header.text, name) ? "has the field '" + name + "' twice" : "");
   }
   if (header.text.has("old min") || header.text.has("oldmin") || header.text.has("old max") ||
     header.text.has("oldmax"))
@@ -300,14 +317,38 @@ void readVolumes(const AxisFields& fields, std::size_t i, TextHeader& header)
 }
 
 // The place of axes in space is that of the space; what else is said of them must not contradict.
-void requireNoOther(const AxisFields& fields, std::size_t i, const std::string& spaceUnit)
+void requireNoOther(
+  const TextHeader& header, const AxisFields& fields, std::size_t i, const std::string& spaceUnit)
 {
+  constexpr double Rounding = 1e-3; // of a spacing with few digits
   const std::string& unit = fields.units[i];
   if (!unit.empty() && mmPerUnit(unit) != mmPerUnit(spaceUnit))
   {
     throw Problem("has the units \"" + shownWords(unit) +
       "\" for an axis with space directions, "
       "whose unit must be in space units");
+  }
+  const std::string axis = "axis " + std::to_string(i + 1);
+  const double length = glm::length(*header.axes[i].step) / mmPerUnit(spaceUnit).value_or(1.0);
+  const double spacing = std::abs(fields.spacings[i]);
+  if (std::abs(spacing - length) > Rounding * length) // not where it is NaN
+  {
+    throw Problem(joined("has the spacings ", header.text.valueOf({ "spacings" }), "; that of ",
+      axis, " must be nan or the length of its space directions, ", length));
+  }
+  const bool hasLeast = !std::isnan(fields.least[i]);
+  if (hasLeast || !std::isnan(fields.most[i]))
+  {
+    throw Problem(joined("has ", hasLeast ? "axis mins" : "axis maxs", " for ", axis,
+      ", whose place the space directions and the space origin say; they must be nan"));
+  }
+  const std::string& kind = header.axes[i].kind;
+  const bool isStub = kind == "stub" && header.axes[i].count == 1;
+  if (!kind.empty() && kind != "???" && kind != "none" && kind != "space" && kind != "domain" &&
+    !isStub)
+  {
+    throw Problem(joined("has the kinds ", header.text.valueOf({ "kinds" }), "; ", axis,
+      " has space directions and must be a domain or space"));
   }
 }
 
@@ -352,7 +393,7 @@ void readDirections(const AxisFields& fields, TextHeader& header)
     if (const std::optional<glm::dvec3>& step = steps[i])
     {
       header.axes[i].step = mm * *step;
-      requireNoOther(fields, i, units.empty() ? std::string() : units[0]);
+      requireNoOther(header, fields, i, units.empty() ? std::string() : units[0]);
     }
     else
     {
@@ -372,10 +413,35 @@ bool isSpatial(const TextHeader& header, std::size_t axis)
   return axis < 3; // without kinds, a fourth axis is a list
 }
 
+// Names of axes that say another order than x, y, z.
+void requireLabels(const TextHeader& header)
+{
+  const std::vector<std::string> labels = wordsOfAxes(header, "labels", quotedIn);
+  int along = 0;
+  for (std::size_t i = 0; i < labels.size(); ++i)
+  {
+    const std::string label = lowerCase(trimmed(labels[i]));
+    const bool isOfTime = label == "t" || label == "time" || label == "frame" || label == "frames";
+    const std::size_t axis = label.size() == 1 ? std::string("xyz").find(label) : std::string::npos;
+    if (!header.axes[i].step)
+    {
+      continue;
+    }
+    if (isOfTime || (axis != std::string::npos && axis != static_cast<std::size_t>(along)))
+    {
+      throw Problem("has the labels " + header.text.valueOf({ "labels" }) + ", but axis " +
+        std::to_string(i + 1) + " counts as " + std::string(1, "xyz"[along]) +
+        ": kinds must say which axes are a domain and which are time; a domain must be x, y, z");
+    }
+    ++along;
+  }
+}
+
 // Axes that have only spacings and ends.
 void readSpacings(const AxisFields& fields, TextHeader& header)
 {
   int along = 0;
+  bool isBare = false;
   for (std::size_t i = 0; i < header.axes.size(); ++i)
   {
     HeaderAxis& axis = header.axes[i];
@@ -390,9 +456,16 @@ void readSpacings(const AxisFields& fields, TextHeader& header)
     useEnds(fields, i, static_cast<double>(axis.count), spacing, start);
     glm::dvec3 step(0.0);
     step[along] = std::isnan(spacing) ? 1.0 : spacing * mm;
+    isBare = isBare || std::isnan(spacing);
     header.origin[along++] = start * mm;
     axis.step = step;
   }
+  if (isBare)
+  {
+    header.warnings.emplace_back(
+      "has neither space directions nor spacings of all axes; voxels count as 1 mm apart there");
+  }
+  requireLabels(header);
 }
 
 void readPlace(TextHeader& header)

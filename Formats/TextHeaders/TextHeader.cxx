@@ -58,8 +58,13 @@ bool takeLine(const std::string& line, HeaderText& text)
   }
   const bool isKey = line.compare(mark, 2, ":=") == 0;
   const std::string name = trimmed(line.substr(0, mark));
-  (isKey ? text.keys[name] : text.fields[lowerCase(name)]) =
-    trimmed(line.substr(isKey ? mark + 2 : mark + 1));
+  const std::string value = trimmed(line.substr(isKey ? mark + 2 : mark + 1));
+  const auto [known, isNew] =
+    isKey ? text.keys.emplace(name, value) : text.fields.emplace(lowerCase(name), value);
+  if (!isNew && !(isKey && known->second == value))
+  {
+    text.repeated.push_back(name);
+  }
   return text.isNRRD || !text.has("ElementDataFile");
 }
 

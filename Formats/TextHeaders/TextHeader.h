@@ -25,9 +25,11 @@ struct HeaderText
   /// What the format defines, by its name in small letters.
   std::map<std::string, std::string> fields;
   std::map<std::string, std::string> keys; ///< NRRD's "key:=value", which anybody may add
-  std::vector<std::string> listed;         ///< the lines after a list of files is announced
-  std::string comments;                    ///< NRRD's lines that begin with #
-  std::size_t bytes = 0;                   ///< of the header
+  /// Names of fields that occur twice, and of keys that occur twice with another value.
+  std::vector<std::string> repeated;
+  std::vector<std::string> listed; ///< the lines after a list of files is announced
+  std::string comments;            ///< NRRD's lines that begin with #
+  std::size_t bytes = 0;           ///< of the header
 
   /** Value of the first of some fields that the header has; empty if it has none. */
   std::string valueOf(const std::vector<std::string>& names) const;

@@ -11,6 +11,7 @@
 #include "Formats/Files/Text.h"
 #include "Formats/Files/WholeFile.h"
 #include "Formats/TextHeaders/TextHeader.h"
+#include "Formats/Volumes/OutgoingVolume.h"
 
 #include <cmath>
 
@@ -110,6 +111,11 @@ void requireField(const TextHeader& header)
   if (!isVector && header.text.keyed(DirectionKey).empty())
   {
     throw Problem("has components of the kind " + kind + "; those of a field must be a vector");
+  }
+  if (!header.text.isNRRD &&
+    header.text.valueOf({ "Comment" }).find(NoFieldNote) != std::string::npos)
+  {
+    throw Problem("says that it holds " + std::string(NoFieldNote) + " (Comment)");
   }
   if (header.spatialAxes() != 3 || !header.hasOrigin)
   {

@@ -24,7 +24,7 @@ namespace
 {
 // One segment of a file, as 3D Slicer names it. Names such as `Segment0_LabelValue` are Slicer's. A
 // file may have several layers, so that segments may overlap. Then each segment has a layer, from
-// 0 on.
+// 0 on. Files of 3D Slicer before 4.11 name no layers: segment i is where component i is 1.
 struct Segment
 {
   Label label; // in its layer
@@ -95,10 +95,21 @@ std::string namesWhere(const std::vector<Segment>& segments, const Predicate& is
   return shownNames(text) + (count > Most ? " and others" : "");
 }
 
+// Segments without layers must have a component each.
+void requireOneEach(std::size_t segments, std::size_t layered, std::size_t components)
+{
+  if (layered > 0 || segments != components)
+  {
+    throw Problem(joined("has ", segments, " segments in ", components, " layers, of which ",
+      segments - layered, " name no layer (Segment0_Layer and so on)"));
+  }
+}
+
 // The segments of a header; none if it has none. One without a name gets its ID as the name.
-std::vector<Segment> segmentsOf(const HeaderText& text)
+std::vector<Segment> segmentsOf(const HeaderText& text, std::size_t components)
 {
   std::vector<Segment> segments;
+  std::size_t layered = 0; // segments that name their layer
   for (int i = 0; i < MostSegments; ++i)
   {
     const std::string prefix = "Segment" + std::to_string(i) + "_";
@@ -112,7 +123,17 @@ std::vector<Segment> segmentsOf(const HeaderText& text)
     label.name = name.empty() ? id : name;
     label.value = wholeIn(text.keyed(prefix + "LabelValue"), 1);
     label.color = colorIn(text.keyed(prefix + "Color"));
-    segments.push_back({ label, wholeIn(text.keyed(prefix + "Layer"), 0) });
+    const std::string layer = text.keyed(prefix + "Layer");
+    layered += layer.empty() ? 0 : 1;
+    segments.push_back({ label, wholeIn(layer, 0) });
+  }
+  if (layered < segments.size() && components > 1)
+  {
+    requireOneEach(segments.size(), layered, components);
+    for (std::size_t i = 0; i < segments.size(); ++i)
+    {
+      segments[i].layer = static_cast<int>(i);
+    }
   }
   return segments;
 }
@@ -329,7 +350,7 @@ void TextHeaderVolume::arrange(VolumeHeader& header)
 void TextHeaderVolume::takeSegments(VolumeHeader& header)
 {
   this->ShownLayer = 0;
-  const std::vector<Segment> segments = segmentsOf(this->Stored.text);
+  const std::vector<Segment> segments = segmentsOf(this->Stored.text, this->Tuple);
   const bool hasLayers = !segments.empty() && this->Tuple > 1 && this->Steps == 1;
   const int count = hasLayers ? static_cast<int>(this->Tuple) : 0;
   for (int i = 0; i < count; ++i)

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <utility>
 
 namespace brainshift
 {
@@ -29,26 +28,6 @@ constexpr const char* Read[] = { "Transform", "NumberOfParameters", "TransformPa
   "MovingImageDimension", "UseDirectionCosines", "CenterOfRotationPoint", "ComputeZYX", "GridSize",
   "GridIndex", "GridSpacing", "GridOrigin", "GridDirection", "BSplineTransformSplineOrder",
   "UseCyclicTransform", "DeformationFieldFileName", "DeformationFieldInterpolationOrder" };
-
-// How many letters must change to make one name of the other, from capitals to small ones too.
-std::size_t lettersBetween(const std::string& one, const std::string& other)
-{
-  std::vector<std::size_t> row(other.size() + 1);
-  for (std::size_t j = 0; j < row.size(); ++j)
-  {
-    row[j] = j;
-  }
-  for (std::size_t i = 1; i <= one.size(); ++i)
-  {
-    std::size_t before = std::exchange(row[0], i);
-    for (std::size_t j = 1; j < row.size(); ++j)
-    {
-      const std::size_t changed = before + (one[i - 1] == other[j - 1] ? 0 : 1);
-      before = std::exchange(row[j], std::min({ changed, row[j] + 1, row[j - 1] + 1 }));
-    }
-  }
-  return row.back();
-}
 
 // A name that is almost one that counts would count as missing without a word.
 void requireSpelling(const std::string& name)

@@ -2,6 +2,7 @@
 #include "Formats/Volumes/OutgoingVolume.h"
 
 #include "Common/ImageGrid.h"
+#include "Common/LabelTable.h"
 #include "Formats/Files/Text.h"
 
 #include "vtkDataArray.h"
@@ -162,6 +163,7 @@ void takeOut(vtkImageData* image, const std::string& arrayName, WorldAxes world,
   volume.grid = gridOf(image);
   withBeginning("The input's ", [&] { throwIfAny(problemOfGrid(volume.grid)); });
   takeNumbers(array, volume, warning);
+  volume.isLabelMap = array == image->GetPointData()->GetScalars() && isLabelMap(image);
   const WorldAxes axes = world == WorldAxes::Unknown ? worldAxesOf(image) : world;
   volume.knowsSides = axes != WorldAxes::Unknown;
   if (axes == WorldAxes::LPS)

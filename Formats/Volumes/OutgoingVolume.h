@@ -26,6 +26,12 @@ namespace brainshift
  */
 constexpr const char* UnknownSidesNote = "sides of the patient not known";
 
+/**
+ * What a MetaImage of three floating numbers says of itself if they are no displacements. The reader
+ * of fields honours it; other programs pass over it.
+ */
+constexpr const char* NoFieldNote = "components of a volume, no displacement field";
+
 /** A number of a voxel as files know it. */
 struct NumberType
 {
@@ -42,8 +48,10 @@ struct NumberType
 /** What a file gets. */
 struct OutgoingVolume
 {
-  Grid grid;              ///< mm, RAS; its direction may be a mirrored rotation
-  bool knowsSides = true; ///< false: RAS is a guess
+  Grid grid;               ///< mm, RAS; its direction may be a mirrored rotation
+  bool knowsSides = true;  ///< false: RAS is a guess
+  bool isField = false;    ///< its numbers are displacements
+  bool isLabelMap = false; ///< its numbers are labels
   NumberType type;
   vtkSmartPointer<vtkDataArray> numbers; ///< x fastest, components side by side in memory
 

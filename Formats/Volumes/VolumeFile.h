@@ -31,6 +31,9 @@ struct Rescaling
   bool isNeeded() const { return this->slope != 1.0 || this->intercept != 0.0; }
 };
 
+/** Name of the point array that readers of volumes make. */
+constexpr const char* ScalarsOfVolumes = "Intensity";
+
 /** What the header of a file says. */
 struct VolumeHeader
 {

@@ -22,8 +22,6 @@
 
 namespace
 {
-constexpr const char* ScalarsName = "Intensity";
-
 const brainshift::VolumeFormat* formatNamed(const std::string& name)
 {
   for (const brainshift::VolumeFormat* format : brainshift::volumeFormats())
@@ -371,7 +369,7 @@ int vtkVolumeFileReader::readVolume(vtkInformation* information)
   {
     return 0; // stopped
   }
-  scalars->SetName(ScalarsName);
+  scalars->SetName(brainshift::ScalarsOfVolumes);
   brainshift::attachLabels(shown, this->Stored->header().labels);
   brainshift::markLabelMap(shown, this->Stored->header().isLabelMap);
   brainshift::nameWorldAxes(shown,

@@ -26,6 +26,7 @@ constexpr std::size_t NIFTIBytes = 348;    // sizeof_hdr
 constexpr std::size_t ExtensionBytes = 4;  // all zero: no extension follows
 constexpr std::int16_t ScannerAnatomy = 1; // NIFTI_XFORM_SCANNER_ANAT
 constexpr std::int16_t AlignedAnatomy = 2; // NIFTI_XFORM_ALIGNED_ANAT
+constexpr std::int16_t LabelIntent = 1002; // NIFTI_INTENT_LABEL
 constexpr char Millimetres = 2;            // NIFTI_UNITS_MM
 constexpr int LongestDescription = 79;     // descrip has 80 characters with its zero
 
@@ -167,6 +168,7 @@ std::string niftiHeader(const OutgoingVolume& volume)
 {
   NIFTIBytesOfHeader header;
   header.set(0, static_cast<std::int32_t>(NIFTIBytes));
+  header.set(68, volume.isLabelMap && volume.components() == 1 ? LabelIntent : std::int16_t(0));
   setSizes(volume, header);
   setPlace(volume, header);
   header.set(108, static_cast<float>(NIFTIBytes + ExtensionBytes)); // vox_offset
@@ -185,9 +187,13 @@ std::string metaImageHeader(const OutgoingVolume& volume)
   const Grid grid = withReversedXY(volume.grid);
   std::ostringstream header;
   header << "ObjectType = Image\nNDims = 3\n";
-  if (!volume.knowsSides)
+  const bool looksLikeField = volume.components() == 3 && volume.type.kind == Kind::Floating;
+  const bool deniesField = looksLikeField && !volume.isField;
+  if (!volume.knowsSides || deniesField)
   {
-    header << "Comment = " << UnknownSidesNote << "\n";
+    header << "Comment = " << (volume.knowsSides ? "" : UnknownSidesNote)
+           << (!volume.knowsSides && deniesField ? "; " : "") << (deniesField ? NoFieldNote : "")
+           << "\n";
   }
   header << "BinaryData = True\nBinaryDataByteOrderMSB = "
          << (thisMachineIsBigEndian() ? "True" : "False") << "\nCompressedData = False\n"

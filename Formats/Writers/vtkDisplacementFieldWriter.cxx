@@ -4,6 +4,7 @@
 #include "Common/Guard.h"
 #include "Formats/Fields/FieldFile.h"
 #include "Formats/Fields/FieldImage.h"
+#include "Formats/Writers/LeftOut.h"
 #include "Formats/Writers/WrittenVolume.h"
 
 #include "vtkErrorCode.h"
@@ -60,6 +61,7 @@ void vtkDisplacementFieldWriter::WriteVolume(vtkImageData* image)
   OutgoingVolume volume;
   std::string warning;
   takeOut(image, "", world, volume, warning);
+  noteLeftOut(this->FileName, image, this->GetInputInformation(0, 0), volume, warning);
   writeVolume(this->FileName, volume, [](double) { return true; });
   if (!warning.empty())
   {

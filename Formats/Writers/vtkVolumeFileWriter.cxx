@@ -4,6 +4,8 @@
 #include "Common/Guard.h"
 #include "Common/ImageGrid.h"
 #include "Formats/DICOM/DerivedSeries.h"
+#include "Formats/Fields/FieldImage.h"
+#include "Formats/Writers/LeftOut.h"
 #include "Formats/Writers/WrittenVolume.h"
 
 #include "vtkErrorCode.h"
@@ -46,6 +48,8 @@ void vtkVolumeFileWriter::WriteImage()
   OutgoingVolume volume;
   std::string warning;
   takeOut(image, this->PointArray, static_cast<WorldAxes>(this->World), volume, warning);
+  noteLeftOut(this->FileName, image, this->GetInputInformation(0, 0), volume, warning);
+  volume.isField = saysField(image);
   const auto progress = [this](double fraction) {
     this->UpdateProgress(fraction);
     return !this->CheckAbort();

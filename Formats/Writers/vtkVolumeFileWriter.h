@@ -9,7 +9,8 @@
  *
  * Input: an image whose point array is written. Its field array WorldAxes (WorldAxes.h) says which
  * way the world lies; the property World overrules it. An image that does not know is written as if
- * its world were RAS, with a warning.
+ * its world were RAS, with a warning. Warnings say what the file does not hold: other times of the
+ * input, and names of labels.
  *
  * On several MPI ranks each gets all of the image, and the first one writes it.
  */

@@ -390,10 +390,11 @@ def moments():
             ContentDate=("20240228", "20240229")), of=times),
         "TemporalResolution": by(None, put(TemporalResolution="4000"), of=times),
         "RepetitionTime": by(None, put(RepetitionTime="2000"), of=times),
+        "FrameReferenceTime": by(None, by_time(FrameReferenceTime=("500", "2500")), of=times),
         "InstanceNumber": by(None, by_time(InstanceNumber=("2", "1")), of=times)}
     for name, value in (
             ("NumberOfTemporalPositions", "9"), ("TimezoneOffsetFromUTC", "+0500"),
-            ("FrameReferenceTime", "9"), ("ActualFrameDuration", "9"), ("AcquisitionNumber", "4"),
+            ("ActualFrameDuration", "9"), ("AcquisitionNumber", "4"),
             ("AcquisitionDuration", 9.0), ("ImageIndex", 3), ("NumberOfTimeSlices", 3),
             ("SeriesTime", "120000"), ("HeartRate", "70"), ("NominalInterval", "800"),
             ("NumberOfAverages", "2")):

@@ -105,6 +105,22 @@ def test_a_number_that_is_none_is_refused_by_name():
         assert output(reader).GetNumberOfPoints() == 0, (name, value)
 
 
+def test_an_attribute_that_occurs_twice_is_refused():
+    path = write_slices(folder("twice"), numbered(1))
+    name = os.path.join(path, "IM0001.dcm")
+    with open(name, "rb") as file:
+        whole = file.read()
+    begin = whole.index(b"\x28\x00\x30\x00DS")
+    end = begin + 8 + whole[begin + 6]
+    element = whole[begin:end]
+    for value, words in ((element, ""), (element.replace(b"0.9", b"0.8"), "(0028,0030) twice")):
+        with open(name, "wb") as file:
+            file.write(whole[:end] + value + whole[end:])
+        reader, told = read(path)
+        assert_says(told, words)
+        assert (output(reader).GetNumberOfPoints() == 0) == bool(words), told
+
+
 def test_a_time_that_is_none_is_said():
     for name, count in (("TriggerTime", "0"), ("RepetitionTime", "0"), ("EchoTime", "0"),
                         ("TemporalPositionIdentifier", "0"), ("InstanceNumber", "0")):

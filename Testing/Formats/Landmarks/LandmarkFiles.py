@@ -190,6 +190,10 @@ def walked_markups():
             ("controlPoints", "controlpoints", "Slicer writes controlPoints"),
             ('"position":', '"Position":', "Slicer writes position"),
             ("positionStatus", "PositionStatus", "Slicer writes positionStatus"),
+            ('"label"', '"position": [4, 5, 6], "label"', "has the key position twice"),
+            ('"coordinateUnits"', '"coordinateSystem": "LPS", "coordinateUnits"',
+             "has the key coordinateSystem twice"),
+            ('"markups": [', '"markups": [], "markups": [', "has the key markups twice"),
             ("[1, 2, 3]", "[1, 2]", "not 3 numbers")):
         assert words in refusal("walk.mrk.json", good.replace(old, new)), new
     with messages() as said:
@@ -207,7 +211,9 @@ def walked_fiducials_and_tags():
         found = brainshift.read_points(written("walk.fcsv", text)).positions
         assert found.tolist() == [[-1, -2, 3]], text
     for old, new, words in (("LPS", "LP", "coordinate system LP"), ("id,x", "id,u", "no columns x"),
-                            ("# columns", "# coordinateUnits = cm\n# columns", "must be mm")):
+                            ("# columns", "# coordinateUnits = cm\n# columns", "must be mm"),
+                            ("# columns", "# Coordinate System = RAS\n# columns",
+                             "has the line # Coordinate System twice")):
         assert words in refusal("walk.fcsv", head.replace(old, new)), new
     tag = "MNI Tag Point File\nVolumes = 1;\nPoints =\n 1 2 3;\n"
     assert brainshift.read_points(written("walk.tag", tag)).positions.tolist() == [[1, 2, 3]]
@@ -296,6 +302,8 @@ def walked_electrodes():
                                 ("ACPC", "", "does not say CoordinateUnits")):
         written(beside, json.dumps({"EEGCoordinateSystem": system, "EEGCoordinateUnits": unit}))
         assert words in refusal(table, text), (system, unit)
+    written(beside, '{"iEEGCoordinateUnits": "mm", "iEEGCoordinateUnits": "cm"}')
+    assert "has the key iEEGCoordinateUnits twice" in refusal(table, text)
     written(beside, "{")
     assert "is not good JSON" in refusal(table, text)
     os.remove(scratch(beside))

@@ -68,4 +68,26 @@ def test_units_that_are_none_are_refused_by_name():
         assert f"has the units 'furlong' along {name}" in error, error
 
 
+def without(name):
+    """The good file without an attribute of an axis."""
+    copy = scratch(f"without_{name}.mnc")
+    shutil.copy(scratch("good.mnc"), copy)
+    with h5py.File(copy, "r+") as file:
+        del file[AXIS].attrs[name]
+    return copy
+
+
+def test_what_an_axis_does_not_say_is_said():
+    good()
+    for path, words in (
+            (without("step"), "has no step along xspace, which counts as 1"),
+            (without("start"), "has no start along xspace, which counts as 0"),
+            (changed("long", AXIS, "direction_cosines", (2.0, 0.0, 0.0)),
+             "has direction_cosines along xspace that are 2 long, which count as 1")):
+        error, found = fields_walk.outcome_of("MINCVolumeReader", path)
+        assert not error and words in found[0], (error, found[0])
+        assert found[5] == [1.0, 1.0, 1.0], found[5]
+    assert not fields_walk.outcome_of("MINCVolumeReader", scratch("good.mnc"))[1][0]
+
+
 run_tests(globals())

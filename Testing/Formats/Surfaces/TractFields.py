@@ -111,6 +111,15 @@ def test_each_field_of_mrtrix_does_what_the_list_says():
                      lambda content: fields_walk.outcome("TractReader", "walk.tck", content))
 
 
+def test_a_key_of_mrtrix_that_occurs_twice_is_refused():
+    for key, value in (("datatype", "Float32BE"), ("count", "3"), ("file", ". 100")):
+        error, _ = fields_walk.outcome(
+            "TractReader", "walk.tck", mrtrix(end=f"{key}: {value}\nEND"))
+        assert f'has the line "{key}:" twice' in error, error
+    for lines in ("roi: a\nroi: b\nEND", "count: 2\nEND"):
+        assert not fields_walk.outcome("TractReader", "walk.tck", mrtrix(end=lines))[0]
+
+
 def test_each_field_of_a_freesurfer_surface_does_what_the_list_says():
     fields_walk.walk("FreeSurfer", "Fields of a surface", surface_changes(),
                      lambda content: fields_walk.outcome("SurfaceReader", "walk.pial", content))

@@ -76,7 +76,7 @@ def nrrd_changes():
                     nrrd({**bare, "axis mins": "5 0 0", "centerings": "node node node"})],
         "kinds": [nrrd({**first, "kinds": f"{kind} domain domain domain"})
                   for kind in ("vector", "list", "Time")],
-        "labels": by(nrrd, NRRD, "labels", '"x" "y" "z" "t"'),
+        "labels": by(nrrd, bare, "labels", '"t" "x" "y"', '"z" "y" "x"'),
         "thicknesses": by(nrrd, NRRD, "thicknesses", "nan nan 5 nan"),
         "encoding": by(nrrd, BARE, "encoding", "bzip2", "hex"),
         "endian": by(nrrd, short, "endian", "big"),

@@ -109,7 +109,7 @@ def meta_image(raw):
     lines, start = lines_of(raw, "=", "ElementDataFile")
     truth = {"True": True, "False": False}
     flags = {key: truth.get(lines.get(key, default)) for key, default in (
-        ("BinaryData", "False"), ("BinaryDataByteOrderMSB", "False"), ("CompressedData", "False"))}
+        ("BinaryData", "True"), ("BinaryDataByteOrderMSB", "False"), ("CompressedData", "False"))}
     if None in flags.values() or "ElementByteOrderMSB" in lines:
         raise Open("a word that is neither True nor False")
     if not flags["BinaryData"] or lines.get("ElementNumberOfChannels") != "3":

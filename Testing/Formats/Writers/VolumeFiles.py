@@ -236,6 +236,63 @@ def test_colours_and_components():
                     assert found == components, (found, components, dtype)
 
 
+def test_three_real_components_open_again_as_a_volume():
+    array = numbers(numpy.float32, 3)
+    for world in ("RAS", ""):
+        source = source_of(array, world=world)
+        for ending in FORMATS:
+            name = scratch("three" + ending)
+            for save in (brainshift.save_volume, lambda proxy, path: SaveData(path, proxy=proxy)):
+                save(source, name)
+                again = OpenDataFile(name)
+                assert voxels(again).size == array.size, (name, again.SMProxy.GetXMLName())
+                assert again.PointData.keys() == ["Intensity"], (name, again.SMProxy.GetXMLName())
+                assert_refused_as_transform(name)
+        with open(scratch("three.mha"), "rb") as file:
+            assert (b"sides of the patient not known" in file.read()) == (not world)
+
+
+def assert_refused_as_transform(name):
+    try:
+        brainshift.read_transform(name)
+    except (ValueError, OSError):
+        return
+    raise AssertionError(name + " is no transform")
+
+
+def test_what_the_file_does_not_hold_is_said():
+    series = numpy.stack([numbers(numpy.int16) + 100 * t for t in range(3)], axis=-1)
+    image = nibabel.Nifti1Image(series, numpy.eye(4))
+    image.header.set_xyzt_units("mm", "sec")
+    image.header["pixdim"][4] = 2.5
+    nibabel.save(image, scratch("times.nii"))
+    reader = NIFTIVolumeReader(FileName=scratch("times.nii"))
+    reader.UpdatePipeline(2.5)
+    labels = nibabel.Nifti1Image(numpy.ones((4, 5, 6), numpy.uint8), numpy.eye(4))
+    labels.header["intent_code"] = 1002
+    nibabel.save(labels, scratch("labels.nii"))
+    marked = NIFTIVolumeReader(FileName=scratch("labels.nii"))
+    with open(scratch("named.seg.nrrd"), "wb") as file:
+        file.write(b"NRRD0004\ntype: uchar\ndimension: 3\nspace: LPS\nsizes: 2 2 2\n"
+                   b"space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n"
+                   b"encoding: raw\nSegment0_ID:=a\nSegment0_Name:=vein\n\n" + bytes(8))
+    named = NRRDVolumeReader(FileName=scratch("named.seg.nrrd"))
+    for ending in (*FORMATS, ".seg.nrrd"):
+        is_nifti = ".nii" in ending
+        for source, words in (
+                (reader, "The input has 3 times; the file has one of them"),
+                (marked, "" if is_nifti else "That its values are labels is left out"),
+                (named, "The names and colours of 1 label are left out")):
+            name = scratch("left_out" + ending)
+            with messages() as said:
+                brainshift.save_volume(source, name)
+            assert_says(said.text, words)
+            assert bool(said.text) == bool(words), said.text
+            if is_nifti:
+                intent = nibabel.load(name).header["intent_code"]
+                assert intent == (0 if source is reader else 1002), (name, intent)
+
+
 def test_long_numbers_are_shortened_or_refused():
     array = numbers(numpy.int16).astype(numpy.int64)
     name = scratch("long.nii.gz")

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/Writers/LeftOut.h"
+
+#include "Common/LabelTable.h"
+#include "Formats/Files/Text.h"
+
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+namespace brainshift
+{
+void noteLeftOut(const std::string& fileName, vtkImageData* image, vtkInformation* pipeline,
+  const OutgoingVolume& volume, std::string& warning)
+{
+  std::vector<std::string> notes;
+  const int times = pipeline ? pipeline->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()) : 0;
+  if (times > 1)
+  {
+    vtkInformation* data = image->GetInformation();
+    const bool knowsTime = data->Has(vtkDataObject::DATA_TIME_STEP()) != 0;
+    notes.push_back(joined("The input has ", times, " times; the file has one of them",
+      knowsTime ? joined(", at ", data->Get(vtkDataObject::DATA_TIME_STEP()), " s") : ""));
+  }
+  const std::size_t labels = volume.isLabelMap ? attachedLabels(image).size() : 0;
+  if (labels > 0)
+  {
+    notes.push_back(joined(
+      "The names and colours of ", labels, labels == 1 ? " label" : " labels", " are left out"));
+  }
+  const bool saysLabels = endsWith(fileName, ".nii") || endsWith(fileName, ".nii.gz");
+  if (volume.isLabelMap && labels == 0 && !saysLabels)
+  {
+    notes.emplace_back("That its values are labels is left out; .nii and .nii.gz would say it");
+  }
+  for (const std::string& note : notes)
+  {
+    warning += (warning.empty() ? "" : ". ") + note;
+  }
+}
+}

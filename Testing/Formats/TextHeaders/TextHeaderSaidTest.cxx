@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Proves that lines of MetaImage and NRRD that contradict each other, occur twice or are almost
+// those of the format are refused by name, and that a spacing that is not there is said.
+#include "Testing/Formats/Volumes/VolumeFormatTesting.h"
+
+#include <map>
+
+using namespace brainshift::testing;
+
+namespace
+{
+using Lines = std::map<std::string, std::string>; // of a header, by name
+
+// The numbers 1 to 8 as bytes. The first is "!" where text would be read.
+const std::string Numbers = "!\"#$%&'(";
+
+std::string metaImage(const Lines& other, const std::string& added = "")
+{
+  Lines lines{ { "ObjectType", "Image" }, { "NDims", "3" }, { "BinaryData", "True" },
+    { "TransformMatrix", "-1 0 0 0 -1 0 0 0 1" }, { "Offset", "0 0 0" },
+    { "ElementSpacing", "1 2 3" }, { "DimSize", "2 2 2" }, { "ElementType", "MET_UCHAR" } };
+  std::string text;
+  for (const auto& [name, value] : other)
+  {
+    lines[name] = value;
+  }
+  for (const auto& [name, value] : lines)
+  {
+    text += value.empty() ? "" : name + " = " + value + "\n";
+  }
+  return text + added + "ElementDataFile = LOCAL\n" + Numbers;
+}
+
+std::string nrrd(const std::string& lines, const std::string& sizes = "2 2 2")
+{
+  const std::string dimension = sizes.size() > 5 ? "4" : "3";
+  return "NRRD0005\ntype: uchar\nencoding: raw\ndimension: " + dimension + "\nsizes: " + sizes +
+    "\n" + lines + "\n" + Numbers + Numbers + Numbers;
+}
+
+const std::string Placed =
+  "space: RAS\nspace directions: (1,0,0) (0,2,0) (0,0,3)\nspace origin: (0,0,0)\n";
+
+template <typename Reader>
+std::string saidOf(const std::string& name, const std::string& bytes)
+{
+  writeFile(name, bytes);
+  FormatReading<Reader> reading(name);
+  EXPECT_GT(reading.image()->GetNumberOfPoints(), 0) << bytes;
+  return reading.said();
+}
+
+template <typename Reader>
+void expectSaid(const std::string& name, const std::string& bytes, const std::string& words)
+{
+  const std::string said = saidOf<Reader>(name, bytes);
+  EXPECT_NE(said.find(words), std::string::npos) << words << ": " << said;
+}
+}
+
+TEST(TextHeaderSaid, FieldsThatOccurTwice)
+{
+  expectRefused<NRRD>(
+    "twice.nrrd", nrrd(Placed + "space origin: (5,0,0)\n"), "has the field 'space origin' twice");
+  expectRefused<NRRD>("twice.nrrd", nrrd(Placed + "space: LPS\n"), "has the field 'space' twice");
+  expectRefused<NRRD>("twice.nrrd", nrrd("spacings: 1 1 1\naxis mins: 0 0 0\naxismins: 1 0 0\n"),
+    "has the field 'axis mins' twice");
+  expectRefused<NRRD>("twice.nrrd",
+    nrrd("spacings: 1 1 1\ncenters: cell cell cell\ncenterings: node node node\n"),
+    "has the field 'centers' twice");
+  expectRefused<NRRD>("twice.nrrd", nrrd(Placed + "Segment0_ID:=a\nSegment0_ID:=b\n"),
+    "has the field 'Segment0_ID' twice");
+  EXPECT_EQ(saidOf<NRRD>("twice.nrrd", nrrd(Placed + "note:=a\nnote:=a\n")), "");
+  expectRefused<Meta>("twice.mha", metaImage({}, "Offset = 5 0 0\n"), "has the key Offset twice");
+  expectRefused<Meta>(
+    "twice.mha", metaImage({}, "elementspacing = 1 2 3\n"), "has the key elementspacing twice");
+  EXPECT_EQ(saidOf<Meta>("twice.mha", metaImage({}, "Note = a\nNote = b\n")), "");
+}
+
+TEST(TextHeaderSaid, FieldsOfNRRDBesideSpaceDirections)
+{
+  expectRefused<NRRD>("beside.nrrd", nrrd(Placed + "spacings: 9 2 3\n"),
+    "has the spacings 9 2 3; that of axis 1 must be nan or the length of its space directions, 1");
+  EXPECT_EQ(saidOf<NRRD>("beside.nrrd", nrrd(Placed + "spacings: 1 nan 3.0001\n")), "");
+  expectRefused<NRRD>("beside.nrrd", nrrd(Placed + "axis mins: nan 4 nan\n"),
+    "has axis mins for axis 2, whose place the space directions and the space origin say");
+  expectRefused<NRRD>("beside.nrrd", nrrd(Placed + "axis maxs: 9 9 9\n"), "has axis maxs for");
+  expectRefused<NRRD>("beside.nrrd", nrrd(Placed + "kinds: space time space\n"),
+    "has the kinds space time space; axis 2 has space directions and must be a domain or space");
+  EXPECT_EQ(saidOf<NRRD>("beside.nrrd", nrrd(Placed + "kinds: Space domain ???\n")), "");
+}
+
+TEST(TextHeaderSaid, LabelsOfNRRDWithoutDirections)
+{
+  const std::string spacings = "spacings: 1 1 2 3\n";
+  expectRefused<NRRD>("labels.nrrd",
+    nrrd(spacings + "labels: \"t\" \"x\" \"y\" \"z\"\n", "3 2 2 2"),
+    "has the labels \"t\" \"x\" \"y\" \"z\", but axis 1 counts as x");
+  EXPECT_EQ(saidOf<NRRD>("labels.nrrd",
+              nrrd(spacings + "labels: \"t\" \"x\" \"y\" \"z\"\nkinds: time space space space\n",
+                "3 2 2 2")),
+    "");
+  expectRefused<NRRD>(
+    "labels.nrrd", nrrd("spacings: 1 2 3\nlabels: \"z\" \"y\" \"x\"\n"), "but axis 1 counts as x");
+  EXPECT_EQ(
+    saidOf<NRRD>("labels.nrrd", nrrd("spacings: 1 2 3\nlabels: \"x\" \"Y\" \"slice\"\n")), "");
+}
+
+TEST(TextHeaderSaid, KeysOfMetaImageThatAreAlmostThoseOfTheFormat)
+{
+  for (const auto& [wrong, right] :
+    std::map<std::string, std::string>{ { "TransformMatix", "TransformMatrix" },
+      { "ElementSpaceing", "ElementSpacing" }, { "Element Spacing", "ElementSpacing" },
+      { "DistanceUnit", "DistanceUnits" }, { "Ofset", "Offset" } })
+  {
+    expectRefused<Meta>("slip.mha", metaImage({ { right, "" }, { wrong, "1 2 3" } }),
+      "which MetaImage does not define; it must be " + right);
+  }
+  expectSaid<Meta>("slip.mha", metaImage({ { "ElementToIntensitySlope", "2" } }),
+    "has the key 'elementtointensityslope', which MetaImage does not define; it does not count");
+  EXPECT_EQ(saidOf<Meta>("slip.mha", metaImage({ { "0008|0020", "2026" }, { "Namen", "a" } })), "");
+}
+
+TEST(TextHeaderSaid, DistancesThatAreNotThere)
+{
+  expectSaid<Meta>("bare.mha", metaImage({ { "ElementSpacing", "" } }),
+    "has no ElementSpacing; its voxels count as 1 mm apart");
+  EXPECT_EQ(
+    saidOf<Meta>("bare.mha", metaImage({ { "ElementSpacing", "" }, { "ElementSize", "1 2 3" } })),
+    "");
+  expectSaid<NRRD>("bare.nrrd", nrrd(""), "voxels count as 1 mm apart there");
+  expectSaid<NRRD>("bare.nrrd", nrrd("spacings: 1 nan 3\n"), "voxels count as 1 mm apart there");
+}
+
+TEST(TextHeaderSaid, ImagesAreBinaryIfTheFileDoesNotSayIt)
+{
+  writeFile("binary.mha", metaImage({ { "BinaryData", "" } }));
+  FormatReading<Meta> reading("binary.mha");
+  EXPECT_EQ(reading.said(), "");
+  EXPECT_EQ(reading.values(), (std::vector<double>{ 33, 34, 35, 36, 37, 38, 39, 40 }));
+}
+
+// Files of 3D Slicer before 4.11: one component for each segment, where it is 1.
+TEST(TextHeaderSaid, SegmentsWithoutLayers)
+{
+  const std::string begin = "space: RAS\nspace origin: (0,0,0)\nkinds: list domain domain domain\n"
+                            "space directions: none (1,0,0) (0,1,0) (0,0,1)\n"
+                            "Segment0_ID:=a\nSegment0_Name:=tumour\nSegment1_ID:=b\n"
+                            "Segment1_Name:=vein\nSegment2_ID:=c\nSegment2_Name:=artery\n";
+  writeFile("old.seg.nrrd", nrrd(begin, "3 2 2 2"));
+  for (int layer = 0; layer < 3; ++layer)
+  {
+    const char* const names[] = { "1: tumour", "2: vein", "3: artery" };
+    NRRD reader;
+    reader->SetFileName(scratchFile("old.seg.nrrd").c_str());
+    reader->SetChoice(names[layer]);
+    reader->Update();
+    vtkImageData* image = reader->GetOutput();
+    ASSERT_EQ(image->GetNumberOfPoints(), 8);
+    EXPECT_EQ(image->GetScalarComponentAsDouble(0, 0, 0, 0), 33.0 + layer);
+  }
+  expectSaid<NRRD>("old.seg.nrrd", nrrd(begin, "3 2 2 2"), "without vein, artery; Layer chooses");
+  expectRefused<NRRD>("old.seg.nrrd", nrrd(begin + "Segment3_ID:=d\n", "3 2 2 2"),
+    "has 4 segments in 3 layers, of which 4 name no layer");
+  expectRefused<NRRD>("old.seg.nrrd", nrrd(begin + "Segment1_Layer:=1\n", "3 2 2 2"),
+    "has 3 segments in 3 layers, of which 2 name no layer");
+}
