@@ -247,6 +247,40 @@ def walked_tables():
     return seen
 
 
+def walked_names():
+    """Tables, their names, and the column that the remark names; none for label and name."""
+    for text, labels, column in (
+            ("name,x,y,z\na,1,2,3\nb,4,5,6\n", ["a", "b"], None),
+            ("x,y,z,LABEL,electrode\n1,2,3,a,c\n4,5,6,b,d\n", ["a", "b"], None),
+            ("electrode,x,y,z\nA1,1,2,3\nA2,4,5,6\n", ["A1", "A2"], "electrode"),
+            ("contact\tx\ty\tz\nA1\t1\t2\t3\n", ["A1"], "contact"),
+            ("Landmark,R,A,S\nAC,1,2,3\n", ["AC"], "Landmark"),
+            ("Nom;X;Y;Z\nA1;1;2;3\n", ["A1"], "Nom"),
+            ("Punkt;X;Y;Z\n1;1;2;3\n2;1;2;3\n", ["1", "2"], "Punkt"),
+            ("id,x,y,z\n7,1,2,3\n8,4,5,6\n", ["7", "8"], "id"),
+            ("point id,x,y,z\n7,1,2,3\n", ["7"], "point id"),
+            ("id,title,x,y,z\n7,AC,1,2,3\n8,PC,4,5,6\n", ["AC", "PC"], "title"),
+            ("label,electrode,x,y,z\n,A1,1,2,3\n,A2,4,5,6\n", ["A1", "A2"], "electrode"),
+            ("side,wo,x,y,z\nL,AC,1,2,3\nL,PC,4,5,6\n", ["AC", "PC"], "column 2 (wo)"),
+            (',x,y,z\n"A1",1,2,3\n"A2",4,5,6\n', ["A1", "A2"], "column 1"),
+            ("名前,x,y,z\nA1,1,2,3\n", ["A1"], "column 1"),
+            ("channel,x,y,z\nA,1,2,3\nA,4,5,6\n", ["A", "A"], "channel"),
+            # What these hold are no names.
+            ("side,x,y,z\nL,1,2,3\nL,4,5,6\n", ["", ""], None),
+            ("size,x,y,z\n7,1,2,3\n8,4,5,6\n", ["", ""], None),
+            ("comment,x,y,z\ngood,1,2,3\nbad,4,5,6\n", ["", ""], None),
+            ("subject_id,x,y,z\nsub-01,1,2,3\n", [""], None),
+            ("label,number,x,y,z\n,7,1,2,3\n", [""], None)):
+        with messages() as said:
+            found = brainshift.read_points(written("names.csv", text))
+        assert found.labels == labels, (text, found.labels)
+        if column is None:
+            assert "takes the names" not in said.text, (text, said.text)
+        else:
+            assert_says(said.text, "takes the names of its points from", column)
+    return {"label name table", "electrode table", "words table"}
+
+
 def refused_tables():
     for names, words in (("x,y,x", "names the columns x, y and z"),
                          ("x_tkr,y_tkr,z_tkr", "x_tkr, y_tkr, z_tkr; name three"),
@@ -306,7 +340,7 @@ def walked_electrodes():
 
 def test_entries_of_the_page_are_honoured_or_refused():
     refused_tables()
-    walked = (walked_markups() | walked_fiducials_and_tags() | walked_tables()
+    walked = (walked_markups() | walked_fiducials_and_tags() | walked_tables() | walked_names()
               | walked_electrodes())
     assert sorted(walked) == sorted(entries_of_page()), walked ^ set(entries_of_page())
 

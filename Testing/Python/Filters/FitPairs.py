@@ -208,6 +208,30 @@ def test_names_that_are_on_one_list_only_are_refused_on_all_roads():
     assert_says(found.warning, "more than once: mark 2", "measured landmark mark 2")
 
 
+def test_names_pair_whatever_their_column_is_called():
+    rest, measured = measured_pairs(8)
+    order = [3, 1, 2, 0, 4, 5, 7, 6]
+
+    def read(name, column, places, labels):
+        with open(scratch(name), "w", encoding="utf-8") as file:
+            file.write(f"{column},x,y,z\n" + "".join(
+                ",".join([label, *map(repr, map(float, place))]) + "\n"
+                for label, place in zip(labels, places)))
+        with messages():
+            return brainshift.read_points(scratch(name))
+
+    bent = simple.FreeFormDeformation(Input=head())
+    right = brainshift.fit(bent, rest, measured)
+    for one, other, labels in (("electrode", "name", [f"A{i}" for i in range(8)]),
+                               ("id", "id", [str(i) for i in range(8)]),
+                               ("wo", "Punkt", [f"P{i}" for i in range(8)])):
+        found = brainshift.fit(
+            bent, read("one.csv", one, rest, labels),
+            read("other.csv", other, measured[order], [labels[i] for i in order]))
+        assert len(found.landmark_residuals) == 8
+        assert_same(found, right)
+
+
 def raises(words, call, *arguments, **options):
     try:
         call(*arguments, **options)
