@@ -230,7 +230,12 @@ void readPointTable(const std::string& text, const TableRule& rule, LandmarkList
   }
   findNames(text, separator, *columns, list);
   const FileAxes axes = columnsOfPosition.axes.value_or(rule.axes);
-  const double mm = columnsOfPosition.mm.value_or(rule.mm);
+  if (!columnsOfPosition.unknown.empty())
+  {
+    list.notes.push_back("takes its positions from " + columnsOfPosition.names[0] + ", " +
+      columnsOfPosition.names[1] + " and " + columnsOfPosition.names[2] +
+      "; it is not known what \"" + shownWords(columnsOfPosition.unknown) + "\" says of them");
+  }
   std::size_t skipped = 0;
   forEachRecord(text, separator, [&](const Values& values, const std::string& where) {
     if (values.size() > columns->count)
@@ -242,7 +247,12 @@ void readPointTable(const std::string& text, const TableRule& rule, LandmarkList
     Landmark point;
     bool hasPlace = false;
     withBeginning(beginningAt(where), [&] { hasPlace = readPoint(values, *columns, point); });
-    point.position = mm * inAxes(axes, point.position);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      point.position[axis] *=
+        columnsOfPosition.signs[axis] * columnsOfPosition.mm[axis].value_or(rule.mm);
+    }
+    point.position = inAxes(axes, point.position);
     skipped += hasPlace ? 0 : 1;
     if (hasPlace)
     {

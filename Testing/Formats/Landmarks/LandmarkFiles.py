@@ -233,6 +233,9 @@ def walked_tables():
             ("x_cm", "x_cm,y_cm,z_cm", (10, 20, 30)),
             ("x_cm", "R (m),A (m),S (m)", (1000, 2000, 3000)),
             ("x_cm", "x [µm],y [µm],z [µm]", (1e-3, 2e-3, 3e-3)),
+            ("x_cm", "x_in,y_in,z_in", (25.4, 50.8, 76.2)),
+            ("x_cm", "x in mm,y in mm,z in mm", (1, 2, 3)),
+            ("-x", "-x,-y,z", (-1, -2, 3)), ("-x", "−x_lps,-y_lps,z_lps", (1, 2, 3)),
             ("x_coord", "x_coord,y_coord,z_coord", (1, 2, 3)),
             ("x_coord", "pos_x,pos_y,pos_z", (1, 2, 3))):
         with messages() as said:
@@ -285,7 +288,9 @@ def refused_tables():
     for names, words in (("x,y,x", "names the columns x, y and z"),
                          ("x_tkr,y_tkr,z_tkr", "x_tkr, y_tkr, z_tkr; name three"),
                          ("i,j,k", "Position Columns"), ("l_ras,p_ras,s_ras", "Position Columns"),
-                         ("x_cm,y_mm,z_mm", "Position Columns")):
+                         ("x_cm,y_mm,z_mm", "Position Columns"), ("L,A,S", "Position Columns"),
+                         ("x-,y-,z", "Position Columns"),
+                         ("native_x,native_y,native_z", "Position Columns")):
         assert words in refusal("walk.csv", f"name,{names}\nLA1,1,2,3\n"), names
     several = "x_ras,y_ras,z_ras,x_mni,y_mni,z_mni\n1,2,3,4,5,6\n"
     assert_says(refusal("walk.csv", several), "several positions: ", "x_ras y_ras z_ras",
@@ -304,6 +309,33 @@ def refused_tables():
     for columns, words in ((["i", "j", "l"], "the column l 0 times"),
                            (["i", "j"], "by 2 position")):
         assert words in refusal("walk.csv", "i;j;k\n1;2;3\n", columns=columns)
+
+
+def test_words_of_the_columns_that_a_caller_names_count():
+    for names, right, unknown in (
+            ("native_x_cm,native_y_cm,native_z_cm", (10, 20, 30), "native"),
+            ("native_x_lps,native_y_lps,native_z_lps", (-1, -2, 3), "native"),
+            ("y_cm,x_cm,z_cm", (10, 20, 30), None), ("L,A,S", (-1, 2, 3), None),
+            ("R,P,S", (1, -2, 3), None), ("L,P,I", (-1, -2, -3), None),
+            ("P,L,S", (-2, -1, 3), None), ("S,A,R", (3, 2, 1), None),
+            ("x (L+),y (P+),z (S+)", (-1, -2, 3), None),
+            ("x (left),y (posterior),z (superior)", (-1, -2, 3), None),
+            ("x_mm,y_mm,z_cm", (1, 2, 30), None), ("x,y_mm,z", (1, 2, 3), None),
+            ("x (inch),y (inch),z (inch)", (25.4, 50.8, 76.2), None),
+            ("-a_x,-a_y,a_z", (-1, -2, 3), None), ("i,j,k", (1, 2, 3), None),
+            ("b_mni_x,b_mni_y,b_mni_z", (1, 2, 3), "template")):
+        with messages() as said:
+            found = brainshift.read_points(table_of(names), columns=names.split(","))
+        assert numpy.allclose(found.positions[0], right, rtol=0, atol=1e-12), (names, found)
+        assert (unknown or "") in said.text, (names, said.text)
+        assert unknown or not said.text, (names, said.text)
+    for names, words in (("vox_x,vox_y,vox_z", "counted in vox"),
+                         ("x_lps,y_ras,z_ras", "some are RAS and some LPS"),
+                         ("L_ras,P_ras,S_ras", "contradict"), ("r_lps,a_lps,s_lps", "contradict"),
+                         ("x_cm,y,z", "a unit for some"), ("R,L,S", "no three axes"),
+                         ("R,P,z", "no three axes")):
+        text = f"name,{names}\nLA1,1,2,3\n"
+        assert words in refusal("walk.csv", text, columns=names.split(",")), names
 
 
 def walked_electrodes():
