@@ -7,7 +7,7 @@
 #include "Common/Numbers.h"
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"
-#include "Formats/Landmarks/LandmarkFormats.h"
+#include "Formats/Landmarks/CoordinateWords.h"
 #include "Formats/Landmarks/Records.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ constexpr const char* Placed = "2";
 // What the comment lines say.
 struct FiducialHeader
 {
-  FileAxes axes = FileAxes::RAS;
+  SaidOfPositions said;
   std::array<std::size_t, 3> position{ 1, 2, 3 };
   std::size_t label = 11;
   bool hasStatus = true;
@@ -53,32 +53,37 @@ void readColumns(const std::string& names, FiducialHeader& header)
   }
 }
 
-// A comment "# key = value", and others, which say nothing.
-void readComment(const std::string& line, FiducialHeader& header)
+// A comment "# key = value" or "# key: value", and others, which say nothing.
+void readComment(const CommentEntry& entry, FiducialHeader& header)
 {
-  const std::size_t mark = line.find('=');
-  if (mark == std::string::npos)
+  if (entry.key == "coordinatesystem")
   {
-    return;
+    header.said = agreed(header.said, { axesFrom(entry.value), std::nullopt });
   }
-  std::string key = lowerCase(trimmed(line.substr(1, mark - 1)));
-  key.erase(std::remove_if(key.begin(), key.end(),
-              [](char letter) { return letter == ' ' || letter == '_' || letter == '-'; }),
-    key.end());
-  const std::string value = trimmed(line.substr(mark + 1));
-  if (key == "coordinatesystem")
+  if (saysUnit(entry.key) && lowerCase(entry.value) != "mm")
   {
-    header.axes = axesFrom(value);
-    return;
+    throw Problem("has " + entry.key + " " + shownWords(entry.value) + "; they must be mm");
   }
-  if (key == "coordinateunits" && lowerCase(value) != "mm")
+  if (entry.key == "columns")
   {
-    throw Problem("has coordinateUnits " + shownWords(value) + "; they must be mm");
+    readColumns(entry.value, header);
   }
-  if (key == "columns")
+}
+
+// What the comments say, above the points or below them.
+FiducialHeader headerOf(const std::string& text)
+{
+  FiducialHeader header;
+  Values values;
+  RecordReader records(text, ',');
+  while (records.next(values))
   {
-    readColumns(value, header);
+    if (isComment(values))
+    {
+      readComment(commentEntry(values, ','), header);
+    }
   }
+  return header;
 }
 
 void readFiducial(const Values& values, const FiducialHeader& header, Landmark& point)
@@ -96,33 +101,25 @@ void readFiducial(const Values& values, const FiducialHeader& header, Landmark& 
     }
     position[axis] = *number;
   }
-  point.position = inAxes(header.axes, position);
+  point.position = inAxes(header.said.axes.value_or(FileAxes::RAS), position);
   point.label = header.label < values.size() ? validUtf8(trimmed(values[header.label])) : "";
 }
 }
 
 void readFiducials(const std::string& text, LandmarkList& list)
 {
-  FiducialHeader header;
+  const FiducialHeader header = headerOf(text);
   std::size_t read = 0;
   std::size_t skipped = 0;
   Values values;
   RecordReader records(text, ',');
   while (records.next(values))
   {
-    const std::string where = "line " + std::to_string(records.line());
-    const std::string first = trimmed(values[0]);
-    if (first[0] == '#')
+    if (isComment(values))
     {
-      std::string line = first;
-      for (std::size_t i = 1; i < values.size(); ++i)
-      {
-        line += "," + values[i];
-      }
-      readComment(line, header);
-
       continue;
     }
+    const std::string where = "line " + std::to_string(records.line());
     Landmark point;
     point.number = static_cast<double>(++read);
     const bool isPlaced =

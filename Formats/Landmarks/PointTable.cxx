@@ -7,6 +7,7 @@
 #include "Common/Numbers.h"
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"
+#include "Formats/Landmarks/CoordinateWords.h"
 #include "Formats/Landmarks/NameColumn.h"
 #include "Formats/Landmarks/PointColumns.h"
 #include "Formats/Landmarks/Records.h"
@@ -42,6 +43,9 @@ struct Columns
   std::size_t deviation = 0;
   std::size_t number = 0;
   std::size_t defined = 0;
+  std::size_t unit = 0;
+  std::size_t frame = 0;
+  std::string frameName;
   std::size_t count = 0;
 };
 
@@ -83,24 +87,27 @@ std::optional<Columns> columnsIn(const Values& header, const Values& wanted)
   columns.deviation = placeOf("deviation");
   columns.number = placeOf("number");
   columns.defined = placeOf("defined");
+  const auto placeBy = [&](bool (*saysIt)(const std::string&)) {
+    const auto isIt = [&](const std::string& name) { return saysIt(keyOf(name)); };
+    return static_cast<std::size_t>(
+      std::find_if(header.begin(), header.end(), isIt) - header.begin());
+  };
+  columns.unit = placeBy(saysUnit);
+  columns.frame = placeBy(saysFrame);
+  columns.frameName = columns.frame < header.size() ? header[columns.frame] : "";
   return columns;
 }
 
-bool isComment(const Values& values)
-{
-  return trimmed(values[0]).compare(0, 1, "#") == 0;
-}
-
-// Calls visit(values, "line 12") for each record below the names of columns.
+// Calls visit(values, "line 12") for each record below the names of columns that is no comment.
 template <typename Visit>
-void forEachRecord(const std::string& text, char separator, const Visit& visit)
+void forEachPoint(const std::string& text, char separator, const Visit& visit)
 {
   RecordReader records(text, separator);
   Values values;
   bool isBelow = false;
   while (records.next(values))
   {
-    if (isBelow)
+    if (isBelow && !(isComment(values) && values.size() == 1))
     {
       visit(values, "line " + std::to_string(records.line()));
     }
@@ -148,12 +155,13 @@ void findNames(const std::string& text, char separator, Columns& columns, Landma
 {
   const Values header = headerOf(text, separator);
   std::vector<std::size_t> taken(columns.position.at.begin(), columns.position.at.end());
-  taken.insert(taken.end(), { columns.time, columns.deviation, columns.defined });
+  taken.insert(
+    taken.end(), { columns.time, columns.deviation, columns.defined, columns.unit, columns.frame });
   const bool isPlain = std::any_of(header.begin(), header.end(),
     [](const std::string& name) { return nameOf(name) == "label" || nameOf(name) == "name"; });
   taken.push_back(isPlain ? columns.number : header.size()); // else it is all that tells points
   NameColumn names(header, taken);
-  forEachRecord(
+  forEachPoint(
     text, separator, [&](const Values& values, const std::string&) { names.add(values); });
   const std::optional<NameColumn::Found> found = names.find();
   columns.label = found ? found->at : header.size();
@@ -163,6 +171,64 @@ void findNames(const std::string& text, char separator, Columns& columns, Landma
     list.notes.push_back("takes the names of its points from column " +
       std::to_string(found->at + 1) + (name.empty() ? "" : " (" + shownWords(name) + ")"));
   }
+}
+
+// The axes that a word under a key names, with a note about a frame that is not the scanner's.
+std::optional<FileAxes> axesUnder(
+  const std::string& key, const std::string& word, LandmarkList& list)
+{
+  if (keyOf(key) == "coordinatesystem" && (word == "0" || word == "1")) // as in Slicer
+  {
+    return axesFrom(word);
+  }
+  if (word.empty() || numberIn(word)) // a frame with a number is a time
+  {
+    return std::nullopt;
+  }
+  const FrameMeaning frame = frameIn(word);
+  noteDoubt(word, frame, list);
+  return frame.axes;
+}
+
+// What comments say of positions: "# CoordinateSystem = LPS", "# units: cm", above or below.
+SaidOfPositions saidByComments(const std::string& text, char separator, LandmarkList& list)
+{
+  SaidOfPositions said;
+  RecordReader records(text, separator);
+  Values values;
+  bool isBelow = false;
+  while (records.next(values))
+  {
+    const bool isOne = isComment(values) && (!isBelow || values.size() == 1);
+    const CommentEntry entry = isOne ? commentEntry(values, separator) : CommentEntry();
+    isBelow = isBelow || !isOne;
+    if (saysUnit(entry.key))
+    {
+      said = agreed(said, { std::nullopt, lengthIn(entry.value) });
+    }
+    if (saysFrame(entry.key))
+    {
+      said = agreed(said, { axesUnder(entry.key, entry.value, list), std::nullopt });
+    }
+  }
+  return said;
+}
+
+// What the columns of a record say of its position.
+SaidOfPositions saidByRecord(const Values& values, const Columns& columns, LandmarkList& list)
+{
+  SaidOfPositions said;
+  const auto wordIn = [&](std::size_t column) {
+    const std::string word = column < values.size() ? trimmed(values[column]) : "";
+    return lowerCase(word) == "n/a" ? std::string() : word;
+  };
+  const std::string unit = wordIn(columns.unit);
+  if (!unit.empty())
+  {
+    said.mm = lengthIn(unit);
+  }
+  said.axes = axesUnder(columns.frameName, wordIn(columns.frame), list);
+  return said;
 }
 
 // The number in a column. NaN if the table lacks the column or the value is empty.
@@ -204,12 +270,43 @@ bool readPoint(const Values& values, const Columns& columns, Landmark& point)
   point.label = columns.label < values.size() ? validUtf8(trimmed(values[columns.label])) : "";
   return missing == 0 && isDefined;
 }
+
+// A position (mm, RAS) as a record writes it.
+glm::dvec3 placed(const glm::dvec3& written, const PointColumns& columns,
+  const SaidOfPositions& said, const TableRule& rule)
+{
+  glm::dvec3 position(0.0);
+  FileAxes axes = rule.axes;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const SaidOfPositions all = agreed({ columns.axes, columns.mm[axis] }, said);
+    axes = all.axes.value_or(rule.axes);
+    position[axis] = written[axis] * columns.signs[axis] * all.mm.value_or(rule.mm);
+  }
+  return inAxes(axes, position);
 }
 
-void readPointTable(const std::string& text, const TableRule& rule, LandmarkList& list)
+// What the names of the columns of the position leave open.
+void notePosition(const PointColumns& columns, LandmarkList& list)
 {
-  char separator = ',';
-  std::optional<Columns> columns = findColumns(text, rule.columns, separator);
+  const std::string names = "takes its positions from " + columns.names[0] + ", " +
+    columns.names[1] + " and " + columns.names[2];
+  if (!columns.space.empty())
+  {
+    list.notes.push_back(names + ", which are those of a template, not of the scanner");
+  }
+  if (!columns.unknown.empty())
+  {
+    list.notes.push_back(
+      names + "; it is not known what \"" + shownWords(columns.unknown) + "\" says of them");
+  }
+}
+
+// The columns of a table, with notes.
+Columns requiredColumns(
+  const std::string& text, const Values& wanted, char& separator, LandmarkList& list)
+{
+  std::optional<Columns> columns = findColumns(text, wanted, separator);
   if (!columns)
   {
     std::string names;
@@ -221,38 +318,32 @@ void readPointTable(const std::string& text, const TableRule& rule, LandmarkList
                   "names " +
       shownWords(names) + "; name three of its columns (Position Columns)");
   }
-  const PointColumns& columnsOfPosition = columns->position;
-  if (!columnsOfPosition.space.empty())
-  {
-    list.notes.push_back("takes its positions from " + columnsOfPosition.names[0] + ", " +
-      columnsOfPosition.names[1] + " and " + columnsOfPosition.names[2] +
-      ", which are those of a template, not of the scanner");
-  }
+  notePosition(columns->position, list);
   findNames(text, separator, *columns, list);
-  const FileAxes axes = columnsOfPosition.axes.value_or(rule.axes);
-  if (!columnsOfPosition.unknown.empty())
-  {
-    list.notes.push_back("takes its positions from " + columnsOfPosition.names[0] + ", " +
-      columnsOfPosition.names[1] + " and " + columnsOfPosition.names[2] +
-      "; it is not known what \"" + shownWords(columnsOfPosition.unknown) + "\" says of them");
-  }
+  return *columns;
+}
+}
+
+void readPointTable(const std::string& text, const TableRule& rule, LandmarkList& list)
+{
+  char separator = ',';
+  const Columns columns = requiredColumns(text, rule.columns, separator, list);
+  const SaidOfPositions comments = saidByComments(text, separator, list);
   std::size_t skipped = 0;
-  forEachRecord(text, separator, [&](const Values& values, const std::string& where) {
-    if (values.size() > columns->count)
+  forEachPoint(text, separator, [&](const Values& values, const std::string& where) {
+    if (values.size() > columns.count)
     {
       throw Problem("has " + std::to_string(values.size()) + " values in " + where +
-        "; its first line names " + std::to_string(columns->count) +
+        "; its first line names " + std::to_string(columns.count) +
         " columns, and a number has a point, not a comma, before its decimals");
     }
     Landmark point;
     bool hasPlace = false;
-    withBeginning(beginningAt(where), [&] { hasPlace = readPoint(values, *columns, point); });
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      point.position[axis] *=
-        columnsOfPosition.signs[axis] * columnsOfPosition.mm[axis].value_or(rule.mm);
-    }
-    point.position = inAxes(axes, point.position);
+    withBeginning(beginningAt(where), [&] {
+      hasPlace = readPoint(values, columns, point);
+      const SaidOfPositions said = agreed(comments, saidByRecord(values, columns, list));
+      point.position = placed(point.position, columns.position, said, rule);
+    });
     skipped += hasPlace ? 0 : 1;
     if (hasPlace)
     {

@@ -2,6 +2,7 @@
 #include "Formats/Landmarks/Records.h"
 
 #include "Formats/Files/Text.h"
+#include "Formats/Landmarks/CoordinateWords.h"
 
 #include <algorithm>
 
@@ -84,18 +85,21 @@ std::string recordValue(const std::string& value, char separator)
   return quoted + '"';
 }
 
-CommentEntry commentEntry(const std::string& line)
+bool isComment(const std::vector<std::string>& values)
 {
-  const std::size_t mark = line.find_first_of("=:");
-  if (mark == std::string::npos)
+  return trimmed(values[0]).compare(0, 1, "#") == 0;
+}
+
+CommentEntry commentEntry(const std::vector<std::string>& values, char separator)
+{
+  std::string line = trimmed(values[0]);
+  for (std::size_t i = 1; i < values.size(); ++i)
   {
-    return {};
+    line += separator + values[i];
   }
-  std::string key = lowerCase(line.substr(1, mark - 1));
-  const auto isBlank = [](char letter) {
-    return std::string(" \t_-#").find(letter) != std::string::npos;
-  };
-  key.erase(std::remove_if(key.begin(), key.end(), isBlank), key.end());
-  return { key, trimmed(line.substr(mark + 1)) };
+  const std::size_t mark = line.find_first_of("=:");
+  return mark == std::string::npos
+    ? CommentEntry()
+    : CommentEntry{ keyOf(line.substr(0, mark)), trimmed(line.substr(mark + 1)) };
 }
 }

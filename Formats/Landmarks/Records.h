@@ -48,12 +48,15 @@ std::string recordValue(const std::string& value, char separator);
 /** What a comment says: "# Coordinate System: LPS" has the key coordinatesystem. */
 struct CommentEntry
 {
-  std::string key;   ///< small letters, without blanks, _ and -; empty: the comment has no = or :
+  std::string key;   ///< small letters and digits; empty: the comment has no = or :
   std::string value; ///< without blanks around it
 };
 
-/** The entry of a comment, which begins with #. */
-CommentEntry commentEntry(const std::string& line);
+/** Whether a record is a comment: it begins with #. */
+bool isComment(const std::vector<std::string>& values);
+
+/** The entry of a comment that was divided at commas. */
+CommentEntry commentEntry(const std::vector<std::string>& values, char separator);
 }
 
 #endif

@@ -206,6 +206,15 @@ def walked_fiducials_and_tags():
                  head.replace("# columns", "# coordinateUnits = mm\n# columns")):
         found = brainshift.read_points(written("walk.fcsv", text)).positions
         assert found.tolist() == [[-1, -2, 3]], text
+    # Above the points or below them, after = or a colon; without it RAS.
+    mark, points = "# CoordinateSystem = LPS\n", head.split("\n", 1)[1]
+    for text, right in ((points + mark, [-1, -2, 3]), (points, [1, 2, 3]),
+                        (mark.replace(" =", ":") + points, [-1, -2, 3]),
+                        (mark + "# units: mm\n" + points + mark, [-1, -2, 3])):
+        found = brainshift.read_points(written("walk.fcsv", text))
+        assert found.positions.tolist() == [right] and found.labels == ["a"], text
+    assert "contradicts" in refusal("walk.fcsv", head + mark.replace("LPS", "RAS"))
+    assert "must be mm" in refusal("walk.fcsv", head + "# unit: cm\n")
     for old, new, words in (("LPS", "LP", "coordinate system LP"), ("id,x", "id,u", "no columns x"),
                             ("# columns", "# coordinateUnits = cm\n# columns", "must be mm")):
         assert words in refusal("walk.fcsv", head.replace(old, new)), new
@@ -247,6 +256,50 @@ def walked_tables():
         found = brainshift.read_points(table_of("x,y,z", "n/a,N/A,n/a"))
     assert_says(said.text, "1 point without a position")
     assert found.labels == ["LA2"]
+    return seen
+
+
+def walked_units_and_frames():
+    """In columns and comments, where the position 1 2 3 lies, and what is said."""
+    seen = set()
+    table = "name,x,y,z\na,1,2,3\n"
+    cases = [("unit", f"name,x,y,z,{key}\na,1,2,3,{word}\n", right, "")
+             for key, word, right in (
+                 ("unit", "cm", (10, 20, 30)), ("Units", "m", (1000, 2000, 3000)),
+                 ("coordinate_units", "Inch", (25.4, 50.8, 76.2)), ("unit", "", (1, 2, 3)),
+                 ("unit", "n/a", (1, 2, 3)))]
+    cases += [("coordinateSystem", f"name,x,y,z,{key}\na,1,2,3,{word}\n", right, words)
+              for key, word, right, words in (
+                  ("coordinateSystem", "LPS", (-1, -2, 3), ""),
+                  ("coordinate system", "1", (-1, -2, 3), ""), ("space", "RAS", (1, 2, 3), ""),
+                  ("space", "MNI152NLin6Asym", (1, 2, 3), "template, not of the scanner"),
+                  ("space", "native", (1, 2, 3), "system native, which is not known"),
+                  ("frame", "1", (1, 2, 3), ""))]
+    cases += [("# units", text, right, words) for text, right, words in (
+        ("# CoordinateSystem = LPS\n" + table, (-1, -2, 3), ""),
+        ("#space: lps\n" + table, (-1, -2, 3), ""), ("# units: cm\n" + table, (10, 20, 30), ""),
+        ("# unit = mm, as in the scan\n" + table, (1, 2, 3), ""),
+        (table + "# coordinate units: cm\n", (10, 20, 30), ""),
+        ("# space: fsaverage\n" + table, (1, 2, 3), "fsaverage, which is that of a template"),
+        ("# Coordinate System = 1\n# made by hand: yes\n" + table, (-1, -2, 3), ""))]
+    for entry, text, right, words in cases:
+        with messages() as said:
+            found = brainshift.read_points(written("said.csv", text))
+        assert numpy.allclose(found.positions, [right], rtol=0, atol=1e-12), (text, found)
+        assert found.labels == ["a"] and words in said.text and (words or not said.text), (
+            text, said.text)
+        seen.add(f"{entry} table")
+    two = brainshift.read_points(written("said.csv", "x,y,z,unit\n1,2,3,mm\n1,2,3,cm\n"))
+    assert two.positions.tolist() == [[1, 2, 3], [10, 20, 30]], "each point has its own"
+    for text, words in (("x,y,z,space\n1,2,3,voxel\n", "the positions are voxel"),
+                        ("x,y,z,unit\n1,2,3,px\n", "the unit px"),
+                        ("# units: pixels\nx,y,z\n1,2,3\n", "the unit pixels"),
+                        ("x,y,z,space\n1,2,3,CTF\n", "CTF, whose x points to the front"),
+                        ("x_cm,y_cm,z_cm,unit\n1,2,3,mm\n", "two units"),
+                        ("# units: cm\nx,y,z,unit\n1,2,3,mm\n", "two units"),
+                        ("r,a,s,space\n1,2,3,LPS\n", "two kinds of axes"),
+                        ("# axes: RAS\nx,y,z\n1,2,3\n# axes: LPS\n", "two kinds of axes")):
+        assert words in refusal("said.csv", text), text
     return seen
 
 
@@ -373,6 +426,7 @@ def walked_electrodes():
 def test_entries_of_the_page_are_honoured_or_refused():
     refused_tables()
     walked = (walked_markups() | walked_fiducials_and_tags() | walked_tables() | walked_names()
+              | walked_units_and_frames()
               | walked_electrodes())
     assert sorted(walked) == sorted(entries_of_page()), walked ^ set(entries_of_page())
 
