@@ -404,17 +404,44 @@ def walked_electrodes():
     written("sub-01_coordsystem.json", '{"iEEGCoordinateUnits": "cm"}')
     beside = "sub-01_space-X_coordsystem.json"
     for unit, mm in (("mm", 1), ("cm", 10), ("m", 1000), ("um", 1e-3)):
-        written(beside, json.dumps({"iEEGCoordinateSystem": "ACPC", "iEEGCoordinateUnits": unit}))
+        written(beside, json.dumps({"iEEGCoordinateSystem": "ScanRAS",
+                                    "iEEGCoordinateUnits": unit}))
         with messages() as said:
             found = brainshift.read_points(scratch(table)).positions
         assert numpy.allclose(found, mm * numpy.array([[1, 2, 3]]), rtol=1e-12), (unit, found)
-        assert "coordsystem" not in said.text
-    for system, unit, words in (("ACPC", "pixels", "pixels"), ("Pixels", "mm", "pixels"),
-                                ("CTF", "cm", "x points to the front"),
-                                ("ACPC", "inch", "unit inch"),
-                                ("ACPC", "", "does not say CoordinateUnits")):
+        assert "coordinate system" not in said.text
+    lps = numpy.array([[-1, -2, 3]])
+    for system, words, named in (
+            ("MNI152NLin2009cAsym", "template", {}), ("fsaverage", "template", {}),
+            ("IXI549Space", "template", {}), ("ICBM452AirSpace", "template", {}),
+            ("CapTrak", "between the ears", {}), ("ElektaNeuromag", "between the ears", {}),
+            ("ChietiItab", "between the ears", {}), ("BESA", "between the ears", {}),
+            ("ACPC", "anterior commissure", {}), ("Other", "not known", {}),
+            ("T1w", "not known", {}), ("LPS", "", {}), ("Other", "not known", {"mirror": True})):
+        written(beside, json.dumps({
+            "EEGCoordinateSystem": system, "EEGCoordinateUnits": "mm",
+            "EEGCoordinateSystemDescription": "x to the left"}))
+        options = {"table_axes": "LPS"} if named else {}
+        with messages() as said:
+            found = brainshift.read_points(scratch(table), **options).positions
+        assert numpy.array_equal(found, lps if named or system == "LPS" else -lps * (1, 1, -1))
+        assert words in said.text, (system, said.text)
+        assert (f"coordinate system {system}" in said.text) == bool(words), (system, said.text)
+        assert ("x to the left" in said.text) == (words == "not known"), (system, said.text)
+    for system, unit, words in (("ScanRAS", "pixels", "pixels"), ("Pixels", "mm", "are Pixels"),
+                                ("CTF", "cm", "CTF, whose x points to the front"),
+                                ("CTF ", "mm", "x points to the front"),
+                                ("4D BTi", "mm", "4D BTi, whose x points to the front"),
+                                ("KIT/Yokogawa", "mm", "x points to the front"),
+                                ("EEGLAB-HJ", "mm", "x points to the front"),
+                                ("ScanRAS", "inch", "unit inch"),
+                                ("ScanRAS", "", "does not say CoordinateUnits")):
         written(beside, json.dumps({"EEGCoordinateSystem": system, "EEGCoordinateUnits": unit}))
         assert words in refusal(table, text), (system, unit)
+    written(beside, json.dumps({"EEGCoordinateUnits": "mm"}))
+    with messages() as said:
+        brainshift.read_points(scratch(table))
+    assert_says(said.text, "does not say CoordinateSystem")
     written(beside, "{")
     assert "is not good JSON" in refusal(table, text)
     os.remove(scratch(beside))
@@ -491,9 +518,21 @@ def test_damaged_files_end_in_one_sentence():
                 raise AssertionError(name)
 
 
-def test_labels_in_other_encodings_are_marked():
-    points = brainshift.read_points(written("latin.csv", b"label,x,y,z\nStra\xdfe,1,2,3\n"))
-    assert points.labels == ["Stra\ufffde"]
+def test_text_that_is_no_utf8_is_latin_1_and_that_is_said():
+    head = "# CoordinateSystem = RAS\n1,1,2,3,0,0,0,1,1,1,0,"
+    for name, text in (("latin.csv", "label,x,y,z\nStraße,1,2,3\n"),
+                       ("latin.fcsv", head + "Straße,,\n"),
+                       ("latin.tag", 'MNI Tag Point File\nVolumes = 1;\nPoints = 1 2 3 "Straße";')):
+        for coding in ("latin-1", "utf-8"):
+            with messages() as said:
+                points = brainshift.read_points(written(name, text.encode(coding)))
+            assert points.labels == ["Straße"], (name, coding, points.labels)
+            assert points.positions.tolist() == [[1, 2, 3]]
+            assert ("read as Latin-1" in said.text) == (coding == "latin-1"), said.text
+    with messages():
+        found = brainshift.read_points(written("latin.csv", "x [µm],y [µm],z [µm]\n1,2,3\n".encode(
+            "latin-1")))
+    assert numpy.allclose(found.positions, [[1e-3, 2e-3, 3e-3]])
 
 
 def readers_of(name):
