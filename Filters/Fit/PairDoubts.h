@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// What is suspicious about pairs of landmarks, whatever their residuals are.
+/// What is suspicious about the measurements of a fit, whatever their residuals are.
 #ifndef BrainShift_PairDoubts_h
 #define BrainShift_PairDoubts_h
 
@@ -9,14 +9,15 @@
 namespace brainshift
 {
 /**
- * Sentences, without full stops, about landmarks that are switched on: what a rigid motion leaves
- * open, places that repeat, axes that look exchanged or mirrored, and units that look wrong.
+ * Sentences, without full stops, about measurements that are switched on: what a rigid motion
+ * leaves open, places that repeat, pairs that look wrong or exchanged, axes that look exchanged or
+ * mirrored, a scale between the lists, and units and frames that look wrong (PlaceDoubts.h).
  *
- * @param names      what the landmarks are called, as many as these
- * @param volumeMm   diagonal of the volume; 0: unknown
+ * @param names    what the landmarks are called, as many as these
+ * @param volume   of the volume; without points it is unknown
  */
 BRAINSHIFT_DEFORMATION_EXPORT std::vector<std::string> doubtsAbout(
-  const Measurements& measured, const std::vector<std::string>& names, double volumeMm);
+  const Measurements& measured, const std::vector<std::string>& names, const Grid& volume);
 
 /**
  * The axes of measured points with which they would fit: "-x -y z" if x and y are reversed. Empty

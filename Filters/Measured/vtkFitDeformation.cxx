@@ -36,7 +36,9 @@ constexpr int OpeningPort = 8;
 constexpr int Ports = 9;
 
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t FewestPairs = 3;      // fewer are no news to a hand that is picking them
+constexpr std::size_t FewestPairs = 3; // fewer are no news to a hand that is picking them
+constexpr double FarTraceMm = 25.0;    // half of the traces: more than brains shift
+constexpr std::size_t MostTracesToDoubt = 500;
 constexpr double FarRotationDegrees = 10.0; // more than this is rather a wrong pair
 constexpr const char* NotRun = "The fit has not run";
 
@@ -56,10 +58,25 @@ std::string joined(const std::vector<std::string>& sentences)
   return text;
 }
 
-// From corner to corner (mm).
-double diagonalOf(const Grid& grid)
+// What is suspicious about traced points that are far from the cortex at rest.
+std::string doubtAboutTraces(const std::vector<glm::dvec3>& traces, const RestSurface& surface)
 {
-  return glm::length(grid.spacing * glm::dvec3(grid.dimensions - 1));
+  std::vector<double> distances;
+  const std::size_t step = 1 + traces.size() / MostTracesToDoubt;
+  for (std::size_t i = 0; surface && i < traces.size(); i += step)
+  {
+    if (const std::optional<SurfacePoint> nearest = surface(traces[i], i))
+    {
+      distances.push_back(glm::distance(traces[i], nearest->position));
+    }
+  }
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return distances.empty() || *middle <= FarTraceMm
+    ? std::string()
+    : "The traced points are " + roundedText(*middle) +
+      " mm (median) from the cortex at rest; check that they are in mm and in the volume's frame, "
+      "and what counts as cortex";
 }
 
 // What a user must know about a fit that has a result.
@@ -91,6 +108,7 @@ struct vtkFitDeformation::State
   CortexSource Cortex;
   AnchorChoice Chosen;
   CavitySource CavityInput;
+  Grid Volume;
   Lattice Still; // its control points, with the mask
   std::shared_ptr<const FitBase> Base;
   Measurements Measured;
@@ -127,10 +145,14 @@ struct vtkFitDeformation::State
     this->Repeated.clear();
   }
 
-  // What to know about how the landmarks lie.
-  std::string doubts() const
+  // What to know about how the measurements lie.
+  std::string doubts()
   {
-    return joined(doubtsAbout(this->Measured, this->Names, diagonalOf(this->Still.grid)));
+    const std::string places = joined(doubtsAbout(this->Measured, this->Names, this->Volume));
+    const bool isSaid = places.find("traced points") != std::string::npos;
+    const bool isOpen = !isSaid && !this->Measured.base; // which moves the cortex
+    return joined(
+      { places, isOpen ? doubtAboutTraces(this->Measured.traces, this->surface()) : "" });
   }
 
   // What to know besides.
@@ -402,7 +424,8 @@ int vtkFitDeformation::RequestData(
   state.forget(NotRun); // if memory runs out, this stays
   try
   {
-    requirePosition(gridOf(vtkImageData::GetData(inputs[0])), "The volume's ");
+    state.Volume = gridOf(vtkImageData::GetData(inputs[0]));
+    requirePosition(state.Volume, "The volume's ");
     this->RequireProperties();
     this->ReadMeasurements(inputs);
     this->FindBase(inputs);
@@ -426,7 +449,8 @@ int vtkFitDeformation::RequestData(
     : std::string();
   const std::string doubts = state.doubts();
   const std::size_t listed = this->Landmarks->Numbers.size() / Packed<PointPair>::Numbers;
-  const bool isPicking = listed < FewestPairs && listed == state.Measured.landmarks.size();
+  const bool isPicking =
+    listed > 0 && listed < FewestPairs && listed == state.Measured.landmarks.size();
   const std::string warning = joined({ noEvidence, isPicking ? "" : doubts, state.warning() });
   if (warning != state.WarnedOf && !warning.empty())
   {

@@ -3,6 +3,7 @@
 
 #include "Formats/Files/PlainFile.h"
 #include "Formats/Files/Text.h"
+#include "Formats/Landmarks/CoordinateWords.h"
 
 #include "vtk_nlohmannjson.h"
 #include VTK_NLOHMANN_JSON(json.hpp)
@@ -73,23 +74,10 @@ std::string wordIn(const nlohmann::json& object, const std::string& end, bool is
   return {};
 }
 
-// Systems whose x points to the front and y to the left.
-bool pointsToFront(const std::string& system)
-{
-  constexpr const char* Systems[] = { "ctf", "eeglab", "eeglab-hj", "kityokogawa", "4dbti" };
-  return std::find(std::begin(Systems), std::end(Systems), lowerCase(system)) != std::end(Systems);
-}
-
 double unitIn(const nlohmann::json& object, bool isOptodes)
 {
-  const std::string system = wordIn(object, "CoordinateSystem", isOptodes);
   const std::string unit = wordIn(object, "CoordinateUnits", isOptodes);
-  if (pointsToFront(system))
-  {
-    throw Problem("says the coordinate system " + shownWords(system) +
-      ", whose x points to the front; turn the positions to the right, front and head (RAS)");
-  }
-  if (lowerCase(system) == "pixels" || lowerCase(unit) == "pixels")
+  if (lowerCase(unit) == "pixels")
   {
     throw Problem("says that the positions are pixels; they must be lengths");
   }
@@ -105,9 +93,26 @@ double unitIn(const nlohmann::json& object, bool isOptodes)
   throw Problem(unit.empty() ? "does not say CoordinateUnits; they must be mm, cm or m"
                              : "says the unit " + shownWords(unit) + "; it must be mm, cm or m");
 }
+
+// The axes, with a note about a system that is not the scanner's.
+std::optional<FileAxes> axesIn(const nlohmann::json& object, bool isOptodes, LandmarkList& list)
+{
+  const std::string system = wordIn(object, "CoordinateSystem", isOptodes);
+  if (system.empty())
+  {
+    list.notes.emplace_back("has a coordsystem.json that does not say CoordinateSystem; check the "
+                            "axes and the origin");
+    return std::nullopt;
+  }
+  const FrameMeaning frame = frameIn(system);
+  const std::string about = wordIn(object, "CoordinateSystemDescription", isOptodes);
+  const bool isOpen = !frame.axes && !about.empty();
+  noteDoubt(isOpen ? system + " (" + about + ")" : system, frame, list);
+  return frame.axes;
+}
 }
 
-std::optional<double> electrodeUnit(const std::string& tableName, LandmarkList& list)
+std::optional<ElectrodeFrame> electrodeFrame(const std::string& tableName, LandmarkList& list)
 {
   const bool isOptodes = endsWith(tableName, "_optodes.tsv");
   if (!isOptodes && !endsWith(tableName, "_electrodes.tsv"))
@@ -118,9 +123,9 @@ std::optional<double> electrodeUnit(const std::string& tableName, LandmarkList& 
   if (beside.empty())
   {
     list.notes.emplace_back("has no coordsystem.json beside it; its unit counts as mm");
-    return 1.0;
+    return ElectrodeFrame();
   }
-  double mm = 1.0;
+  ElectrodeFrame electrodes;
   withBeginning("needs " + beside + ", which ", [&] {
     std::set<std::string> keys; // of the object itself
     const auto requireOnce = [&keys](int depth, nlohmann::json::parse_event_t event,
@@ -134,8 +139,9 @@ std::optional<double> electrodeUnit(const std::string& tableName, LandmarkList& 
     const nlohmann::json object =
       nlohmann::json::parse(readPlainText(beside, LongestText), requireOnce, /*throws*/ false);
     throwIfAny(object.is_object() ? "" : "is not good JSON");
-    mm = unitIn(object, isOptodes);
+    electrodes.axes = axesIn(object, isOptodes, list);
+    electrodes.mm = unitIn(object, isOptodes);
   });
-  return mm;
+  return electrodes;
 }
 }

@@ -10,12 +10,20 @@
 
 namespace brainshift
 {
+/** What is known about a table of electrodes or optodes. */
+struct ElectrodeFrame
+{
+  double mm = 1.0;              ///< of one unit
+  std::optional<FileAxes> axes; ///< none: not said, or not known
+};
+
 /**
- * The unit (mm) of a BIDS table of electrodes or optodes; none for any other file. Without a
- * coordsystem.json it is 1, with a note. Throws the end of a sentence, after the name of the table,
- * if the positions are not along right, front and head, or have no known unit.
+ * The unit and the axes of a BIDS table of electrodes or optodes; none for any other file. Without
+ * a coordsystem.json the unit is mm, with a note. A system that is not the scanner's gets a note.
+ * Throws the end of a sentence, after the name of the table, if the positions are not along right,
+ * front and head, or have no known unit.
  */
-std::optional<double> electrodeUnit(const std::string& tableName, LandmarkList& list);
+std::optional<ElectrodeFrame> electrodeFrame(const std::string& tableName, LandmarkList& list);
 }
 
 #endif

@@ -49,6 +49,30 @@ Format knownFormatOf(const std::string& fileName)
   return format;
 }
 
+// Text in UTF-8. What is none counts as Latin-1, of which each byte is a letter, with a note. JSON
+// is UTF-8 or refused.
+std::string utf8Of(std::string text, Format format, LandmarkList& list)
+{
+  if (format == Format::Markups || validUtf8(text) == text)
+  {
+    return text;
+  }
+  list.notes.emplace_back("is no UTF-8; its names are read as Latin-1");
+  std::string result;
+  for (const char letter : text)
+  {
+    const auto code = static_cast<unsigned char>(letter);
+    if (code < 0x80)
+    {
+      result += letter;
+      continue;
+    }
+    result += static_cast<char>(0xC0 | code >> 6);
+    result += static_cast<char>(0x80 | (code & 0x3F));
+  }
+  return result;
+}
+
 void parse(
   const std::string& text, Format format, int volume, const TableRule& table, LandmarkList& list)
 {
@@ -171,9 +195,11 @@ LandmarkList readLandmarkFile(const std::string& fileName, int volume, const Tab
   const Format format = knownFormatOf(fileName);
   LandmarkList list;
   withBeginning("Landmark file " + fileName + " ", [&] {
-    const std::string text = readPlainText(fileName, LongestText);
+    const std::string text = utf8Of(readPlainText(fileName, LongestText), format, list);
     TableRule rule = table;
-    rule.mm = electrodeUnit(fileName, list).value_or(table.mm);
+    const std::optional<ElectrodeFrame> beside = electrodeFrame(fileName, list);
+    rule.mm = beside ? beside->mm : table.mm;
+    rule.axes = beside && beside->axes ? *beside->axes : table.axes;
     parse(text, format, volume, rule, list);
   });
   return list;

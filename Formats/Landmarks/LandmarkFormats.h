@@ -76,7 +76,7 @@ void writeMarkups(std::ostream& file, FileAxes axes, const LandmarkList& list);
 ///@}
 
 ///@{
-/** Fiducials of Slicer (.fcsv), PointTable.cxx. They are written as Slicer 5 does. */
+/** Fiducials of Slicer (.fcsv), FiducialFile.cxx. They are written as Slicer 5 does. */
 void readFiducials(const std::string& text, LandmarkList& list);
 bool looksLikeFiducials(const std::string& beginning);
 void writeFiducials(std::ostream& file, FileAxes axes, const LandmarkList& list);

@@ -3,6 +3,7 @@
 
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"
+#include "Formats/Landmarks/CoordinateWords.h"
 
 #include <algorithm>
 #include <cctype>
@@ -17,18 +18,6 @@ using Names = std::vector<std::string>;
 // What the letters of three columns mean, by their order.
 constexpr std::array<const char*, 3> Kinds{ "xyz", "ras", "lps" };
 constexpr std::size_t Plain = 0;
-
-const std::map<std::string, double>& units()
-{
-  static const std::map<std::string, double> all{ { "mm", 1.0 }, { "millimeter", 1.0 },
-    { "millimeters", 1.0 }, { "millimetre", 1.0 }, { "millimetres", 1.0 }, { "cm", 10.0 },
-    { "centimeter", 10.0 }, { "centimeters", 10.0 }, { "centimetre", 10.0 },
-    { "centimetres", 10.0 }, { "m", 1000.0 }, { "meter", 1000.0 }, { "meters", 1000.0 },
-    { "metre", 1000.0 }, { "metres", 1000.0 }, { "um", 1e-3 }, { "\xc2\xb5m", 1e-3 },
-    { "\xce\xbcm", 1e-3 }, { "micrometer", 1e-3 }, { "micrometers", 1e-3 }, { "micrometre", 1e-3 },
-    { "micrometres", 1e-3 } };
-  return all;
-}
 
 // Words that say nothing about the position.
 bool isFiller(const std::string& word)
@@ -64,60 +53,89 @@ Names wordsOfName(const std::string& written)
   return words;
 }
 
-// What one name means: an axis of one of the kinds, and words that its partners must share.
+// What one name means, and words that the partners of its column must share.
 struct Meaning
 {
   char letter = 0; // x y z, r a s, l p s; 0: no position
-  PointColumns rest;
-  std::string others; // words besides the axis, to find the partners
+  char side = 0;   // r a s, l p s i beside or in place of the letter; 0: none, or several
+  bool isNegative = false;
+  std::optional<double> mm;
+  std::optional<FileAxes> axes;
+  std::string space;
+  std::string counted; // a word for positions that are no lengths
+  std::string unknown; // all other words, with a space after each
+  std::string others;  // words besides the axis, to find the partners
 };
+
+bool isSide(char letter)
+{
+  return letter && std::string("raslpi").find(letter) != std::string::npos;
+}
 
 char letterOf(const std::string& word)
 {
   static const std::map<std::string, char> letters{ { "right", 'r' }, { "anterior", 'a' },
-    { "superior", 's' }, { "left", 'l' }, { "posterior", 'p' }, { "0", 'x' }, { "1", 'y' },
-    { "2", 'z' } };
+    { "superior", 's' }, { "left", 'l' }, { "posterior", 'p' }, { "inferior", 'i' }, { "0", 'x' },
+    { "1", 'y' }, { "2", 'z' } };
   const auto found = letters.find(word);
-  const bool isLetter = word.size() == 1 && std::string("xyzraslp").find(word) != std::string::npos;
+  const bool isLetter =
+    word.size() == 1 && std::string("xyzraslpi").find(word) != std::string::npos;
   return found != letters.end() ? found->second : isLetter ? word[0] : '\0';
+}
+
+// Adds a word that names no axis.
+void addWord(const std::string& word, bool hasUnit, Meaning& meaning)
+{
+  const std::optional<double> length = word == "in" && !hasUnit ? 25.4 : lengthOfUnit(word);
+  meaning.others += word == "mm" ? "" : word + " "; // mm is what no unit means, too
+  if (length)
+  {
+    meaning.mm = length;
+  }
+  else if (word == "ras" || word == "lps")
+  {
+    meaning.axes = axesFrom(word);
+  }
+  else if (isSpace(word))
+  {
+    meaning.axes = FileAxes::RAS;
+    meaning.space = word;
+  }
+  else if (isNoLength(word))
+  {
+    meaning.counted = word;
+    meaning.unknown += word + " ";
+  }
+  else if (!isFiller(word) && word != "in")
+  {
+    meaning.unknown += word + " ";
+  }
 }
 
 Meaning meaningOf(const std::string& written)
 {
   Meaning meaning;
-  bool isKnown = true;
-  const Names words = wordsOfName(written);
+  const std::string name = trimmed(written);
+  const bool isLongMinus = name.compare(0, 3, "\xe2\x88\x92") == 0; // U+2212
+  const Names words = wordsOfName(isLongMinus ? name.substr(3) : name);
+  const bool hasUnit = std::any_of(words.begin(), words.end(),
+    [](const std::string& word) { return lengthOfUnit(word).has_value(); });
   for (const std::string& word : words)
   {
-    const auto unit = units().find(word);
     const char letter = letterOf(word);
     const bool isDigit = std::isdigit(static_cast<unsigned char>(word[0])) != 0;
-    if (letter && (!isDigit || words.front() == "points"))
+    if (!letter || (isDigit && words.front() != "points"))
     {
-      isKnown = isKnown && !meaning.letter;
-      meaning.letter = letter;
+      addWord(word, hasUnit, meaning);
       continue;
     }
-    meaning.others += word == "mm" ? "" : word + " "; // mm is what no unit means, too
-    if (unit != units().end())
-    {
-      meaning.rest.mm = unit->second;
-    }
-    else if (word == "ras" || word == "lps")
-    {
-      meaning.rest.axes = axesFrom(word);
-    }
-    else if (isSpace(word))
-    {
-      meaning.rest.axes = FileAxes::RAS;
-      meaning.rest.space = word;
-    }
-    else
-    {
-      isKnown = isKnown && isFiller(word);
-    }
+    meaning.unknown += meaning.letter ? word + " " : "";
+    meaning.side = !isSide(letter) ? meaning.side : meaning.side ? '\0' : letter;
+    meaning.letter = meaning.letter && isSide(letter) ? meaning.letter : letter;
   }
-  return isKnown ? meaning : Meaning();
+  meaning.isNegative = isLongMinus || name.compare(0, 1, "-") == 0;
+  meaning.unknown += !name.empty() && name.back() == '-' ? "- " : ""; // nobody knows which way
+  return meaning;
 }
 
 // The columns of one kind that share all other words, as a set for each of these.
@@ -129,14 +147,20 @@ void addSets(const Names& header, std::size_t kind, std::vector<PointColumns>& s
   {
     const Meaning meaning = meaningOf(header[i]);
     const std::size_t axis = std::string(Kinds[kind]).find(meaning.letter);
-    if (!meaning.letter || axis == std::string::npos)
+    if (!meaning.letter || axis == std::string::npos || !meaning.unknown.empty())
     {
       continue;
     }
-    PointColumns& set = columns.emplace(meaning.others, meaning.rest).first->second;
+    PointColumns& set = columns[meaning.others];
     set.at[axis] = i;
     set.names[axis] = trimmed(header[i]);
-    set.mm = set.mm ? set.mm : meaning.rest.mm;
+    set.signs[axis] = meaning.isNegative ? -1.0 : 1.0;
+    set.axes = meaning.axes;
+    set.space = meaning.space;
+    if (meaning.mm)
+    {
+      set.mm.fill(meaning.mm);
+    }
     found[meaning.others][axis].push_back(header[i]);
   }
   for (auto& [others, set] : columns)
@@ -163,6 +187,105 @@ std::string namesOf(const PointColumns& set)
   return set.names[0] + " " + set.names[1] + " " + set.names[2];
 }
 
+std::string listOf(const PointColumns& set)
+{
+  return shownWords(set.names[0]) + ", " + shownWords(set.names[1]) + " and " +
+    shownWords(set.names[2]);
+}
+
+using Meanings = std::array<Meaning, 3>;
+
+// The axis to the right, front or head of a side, and its sign.
+std::pair<std::size_t, double> axisOf(char side)
+{
+  const std::size_t axis = std::string("raslpi").find(side);
+  return { axis % 3, axis < 3 ? 1.0 : -1.0 };
+}
+
+// Puts columns such as L, A and S in the order right, front, head. False if they name no sides.
+bool turnToSides(const Meanings& meanings, PointColumns& set)
+{
+  const auto sides = std::count_if(
+    meanings.begin(), meanings.end(), [](const Meaning& one) { return one.side != 0; });
+  const bool isPlain = std::all_of(
+    meanings.begin(), meanings.end(), [](const Meaning& one) { return !isSide(one.letter); });
+  PointColumns turned = set;
+  std::array<bool, 3> isSeen{};
+  for (std::size_t i = 0; sides == 3 && i < 3; ++i)
+  {
+    const auto [axis, sign] = axisOf(meanings[i].side);
+    isSeen[axis] = true;
+    turned.at[axis] = set.at[i];
+    turned.names[axis] = set.names[i];
+    turned.mm[axis] = set.mm[i];
+    turned.signs[axis] = sign * set.signs[i];
+  }
+  if (isSeen[0] && isSeen[1] && isSeen[2])
+  {
+    const double x = set.axes == FileAxes::LPS ? -1.0 : 1.0;
+    const bool isContrary = set.axes && turned.signs != std::array<double, 3>{ x, x, 1.0 };
+    throwIfAny(
+      isContrary ? "has the columns " + listOf(set) + ", whose words contradict each other" : "");
+    turned.axes = FileAxes::RAS;
+    set = turned;
+    return true;
+  }
+  throwIfAny(!isPlain && sides > 1 ? "has the columns " + listOf(set) +
+        ", whose letters are no three axes to right or left, front or back, head or feet"
+                                   : "");
+  return false;
+}
+
+// Units of some columns only count for all if they are mm.
+void agreeOnUnits(PointColumns& set)
+{
+  const auto& [x, y, z] = set.mm;
+  const std::optional<double> any = x ? x : y ? y : z;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const std::optional<double> other =
+      set.mm[(axis + 1) % 3] ? set.mm[(axis + 1) % 3] : set.mm[(axis + 2) % 3];
+    throwIfAny(!set.mm[axis] && other && *other != 1.0 ? "names a unit for some of its columns " +
+          listOf(set) + " only; name it in each, or in none"
+                                                       : "");
+  }
+  for (std::optional<double>& mm : set.mm)
+  {
+    mm = mm ? mm : any;
+  }
+}
+
+// What the words of the caller's columns say together.
+void addMeanings(const Meanings& meanings, PointColumns& set)
+{
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const Meaning& meaning = meanings[i];
+    throwIfAny(meaning.counted.empty() ? ""
+                                       : "has the column " + shownWords(set.names[i]) +
+          ", whose positions are counted in " + meaning.counted + "; they must be lengths");
+    throwIfAny(set.axes && meaning.axes && *set.axes != *meaning.axes
+        ? "has the columns " + listOf(set) + ", of which some are RAS and some LPS"
+        : "");
+    set.axes = set.axes ? set.axes : meaning.axes;
+    set.mm[i] = meaning.mm;
+    set.signs[i] = meaning.isNegative ? -1.0 : 1.0;
+    set.space = set.space.empty() ? meaning.space : set.space;
+  }
+  agreeOnUnits(set);
+  const bool isTurned = turnToSides(meanings, set);
+  for (const Meaning& meaning : meanings)
+  {
+    for (const std::string& word : wordsIn(meaning.unknown))
+    {
+      const bool isNews = (" " + set.unknown + " ").find(" " + word + " ") == std::string::npos;
+      const bool isAxis = letterOf(word) != 0 && (isTurned || !isSide(letterOf(word)));
+      const bool isSaid = isNews && !isAxis && (word.size() > 1 || isSide(word[0]) || word == "-");
+      set.unknown += isSaid ? (set.unknown.empty() ? "" : " ") + word : "";
+    }
+  }
+}
+
 // The columns that a caller names.
 PointColumns wantedIn(const Names& header, const Names& wanted)
 {
@@ -170,7 +293,7 @@ PointColumns wantedIn(const Names& header, const Names& wanted)
       ? ""
       : "is read by " + std::to_string(wanted.size()) + " position columns; they must be 3");
   PointColumns set;
-  std::array<Meaning, 3> meanings;
+  Meanings meanings;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const std::string name = lowerCase(trimmed(wanted[axis]));
@@ -186,21 +309,7 @@ PointColumns wantedIn(const Names& header, const Names& wanted)
     set.names[axis] = trimmed(*found);
     meanings[axis] = meaningOf(*found);
   }
-  for (std::size_t kind = 0; kind < Kinds.size(); ++kind)
-  {
-    bool isKind =
-      meanings[0].others == meanings[1].others && meanings[0].others == meanings[2].others;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      isKind = isKind && meanings[axis].letter == Kinds[kind][axis];
-    }
-    if (isKind)
-    {
-      set.mm = meanings[0].rest.mm;
-      set.space = meanings[0].rest.space;
-      set.axes = kind == Plain ? meanings[0].rest.axes : axesFrom(Kinds[kind]);
-    }
-  }
+  addMeanings(meanings, set);
   return set;
 }
 }

@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Tables of points (.csv, .tsv) whose first line names the columns, and Slicer's fiducials.
+/// Tables of points (.csv, .tsv) whose first line names the columns. README.md lists their names.
 ///
-/// README.md lists the names of columns. "(mm)" or "[mm]" may follow a name. The value n/a is an
-/// empty one. Columns r, a, s and l, p, s name their axes themselves.
-///
-/// Separators are commas, semicolons or tabs. Lines before the names that begin with # are passed
-/// over. Slicer's tables of markups are such tables.
-///
-/// Slicer's fiducials (.fcsv) are tables, too: comment lines name version, axes and columns, then a
-/// line for each point follows. A file without the line "# columns" has those of version 4. A file
-/// without the line "# CoordinateSystem" is RAS, as files were before that line. Points that Slicer
-/// 5 marks as not placed are left out and noted.
+/// Separators are commas, semicolons or tabs. Lines before the names that begin with # are
+/// comments. The value n/a is an empty one. Slicer's tables of markups are such tables.
 #include "Common/Numbers.h"
 #include "Common/Problem.h"
 #include "Formats/Files/Text.h"
+#include "Formats/Landmarks/CoordinateWords.h"
+#include "Formats/Landmarks/NameColumn.h"
 #include "Formats/Landmarks/PointColumns.h"
+#include "Formats/Landmarks/Records.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,115 +23,6 @@ namespace
 {
 using Values = std::vector<std::string>;
 using Names = std::array<const char*, 3>;
-
-// Records of values between separators. Quoted values may hold separators, quotes and lines.
-class RecordReader
-{
-public:
-  RecordReader(std::string_view text, char separator)
-    : Text(text)
-    , Separator(separator)
-  {
-  }
-
-  // Takes the next record that has anything in it. False at the end.
-  bool next(std::vector<std::string>& values);
-
-  // The line on which the last record began, from 1 on.
-  std::size_t line() const { return this->Line; }
-
-  // Whether the text ended inside quotes.
-  bool endedInQuotes() const { return this->IsOpen; }
-
-private:
-  std::string_view Text;
-  char Separator;
-  std::size_t Place = 0;
-  std::size_t Line = 0;
-  std::size_t NextLine = 1;
-  bool IsOpen = false;
-
-  void take(std::vector<std::string>& values);
-  void takeQuoted(std::string& value);
-};
-
-void RecordReader::takeQuoted(std::string& value)
-{
-  this->IsOpen = true;
-  for (++this->Place; this->Place < this->Text.size(); ++this->Place)
-  {
-    const char letter = this->Text[this->Place];
-    if (letter == '"' && this->Text.substr(this->Place + 1, 1) != "\"")
-    {
-      ++this->Place;
-      this->IsOpen = false;
-      return;
-    }
-    this->Place += letter == '"' ? 1 : 0; // two quotes stand for one
-    this->NextLine += letter == '\n' ? 1 : 0;
-    value += letter;
-  }
-}
-
-void RecordReader::take(std::vector<std::string>& values)
-{
-  values.assign(1, {});
-  this->Line = this->NextLine;
-  while (this->Place < this->Text.size())
-  {
-    const char letter = this->Text[this->Place];
-    if (letter == '"' && trimmed(values.back()).empty())
-    {
-      values.back().clear();
-      this->takeQuoted(values.back());
-      continue;
-    }
-    ++this->Place;
-    if (letter == '\n')
-    {
-      ++this->NextLine;
-      return;
-    }
-    if (letter == this->Separator)
-    {
-      values.emplace_back();
-    }
-    else if (letter != '\r')
-    {
-      values.back() += letter;
-    }
-  }
-}
-
-bool RecordReader::next(std::vector<std::string>& values)
-{
-  while (this->Place < this->Text.size())
-  {
-    this->take(values);
-    if (std::any_of(values.begin(), values.end(),
-          [](const std::string& value) { return !trimmed(value).empty(); }))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-// A value of a record, in quotes where it needs them.
-std::string recordValue(const std::string& value, char separator)
-{
-  const std::string special = std::string("\"\r\n") + separator;
-  if (value.find_first_of(special) == std::string::npos && trimmed(value) == value)
-  {
-    return value;
-  }
-  std::string quoted = "\"";
-  for (const char letter : value)
-  {
-    quoted += letter == '"' ? "\"\"" : std::string(1, letter);
-  }
-  return quoted + '"';
-}
 
 constexpr char Separators[] = { ',', ';', '\t' };
 constexpr Names RASNames{ "r", "a", "s" };
@@ -157,6 +43,9 @@ struct Columns
   std::size_t deviation = 0;
   std::size_t number = 0;
   std::size_t defined = 0;
+  std::size_t unit = 0;
+  std::size_t frame = 0;
+  std::string frameName;
   std::size_t count = 0;
 };
 
@@ -193,17 +82,38 @@ std::optional<Columns> columnsIn(const Values& header, const Values& wanted)
   Columns columns;
   columns.position = *position;
   columns.count = header.size();
-  columns.label = std::min(placeOf("label"), placeOf("name"));
+  columns.label = header.size();
   columns.time = placeOf("time");
   columns.deviation = placeOf("deviation");
   columns.number = placeOf("number");
   columns.defined = placeOf("defined");
+  const auto placeBy = [&](bool (*saysIt)(const std::string&)) {
+    const auto isIt = [&](const std::string& name) { return saysIt(keyOf(name)); };
+    return static_cast<std::size_t>(
+      std::find_if(header.begin(), header.end(), isIt) - header.begin());
+  };
+  columns.unit = placeBy(saysUnit);
+  columns.frame = placeBy(saysFrame);
+  columns.frameName = columns.frame < header.size() ? header[columns.frame] : "";
   return columns;
 }
 
-bool isComment(const Values& values)
+// Calls visit(values, "line 12") for each record below the names of columns that is no comment.
+template <typename Visit>
+void forEachPoint(const std::string& text, char separator, const Visit& visit)
 {
-  return trimmed(values[0]).compare(0, 1, "#") == 0;
+  RecordReader records(text, separator);
+  Values values;
+  bool isBelow = false;
+  while (records.next(values))
+  {
+    if (isBelow && !(isComment(values) && values.size() == 1))
+    {
+      visit(values, "line " + std::to_string(records.line()));
+    }
+    isBelow = isBelow || !isComment(values);
+  }
+  throwIfAny(records.endedInQuotes() ? "ends inside quotes" : "");
 }
 
 // The first line that is no comment.
@@ -238,6 +148,87 @@ std::optional<Columns> findColumns(const std::string& text, const Values& wanted
     most = std::max(most, header.size());
   }
   return wanted.empty() ? std::nullopt : columnsIn(headerOf(text, separator), wanted);
+}
+
+// Finds the column of names by its values, too.
+void findNames(const std::string& text, char separator, Columns& columns, LandmarkList& list)
+{
+  const Values header = headerOf(text, separator);
+  std::vector<std::size_t> taken(columns.position.at.begin(), columns.position.at.end());
+  taken.insert(
+    taken.end(), { columns.time, columns.deviation, columns.defined, columns.unit, columns.frame });
+  const bool isPlain = std::any_of(header.begin(), header.end(),
+    [](const std::string& name) { return nameOf(name) == "label" || nameOf(name) == "name"; });
+  taken.push_back(isPlain ? columns.number : header.size()); // else it is all that tells points
+  NameColumn names(header, taken);
+  forEachPoint(
+    text, separator, [&](const Values& values, const std::string&) { names.add(values); });
+  const std::optional<NameColumn::Found> found = names.find();
+  columns.label = found ? found->at : header.size();
+  if (found && found->isGuessed)
+  {
+    const std::string name = trimmed(header[found->at]);
+    list.notes.push_back("takes the names of its points from column " +
+      std::to_string(found->at + 1) + (name.empty() ? "" : " (" + shownWords(name) + ")"));
+  }
+}
+
+// The axes that a word under a key names, with a note about a frame that is not the scanner's.
+std::optional<FileAxes> axesUnder(
+  const std::string& key, const std::string& word, LandmarkList& list)
+{
+  if (keyOf(key) == "coordinatesystem" && (word == "0" || word == "1")) // as in Slicer
+  {
+    return axesFrom(word);
+  }
+  if (word.empty() || numberIn(word)) // a frame with a number is a time
+  {
+    return std::nullopt;
+  }
+  const FrameMeaning frame = frameIn(word);
+  noteDoubt(word, frame, list);
+  return frame.axes;
+}
+
+// What comments say of positions: "# CoordinateSystem = LPS", "# units: cm", above or below.
+SaidOfPositions saidByComments(const std::string& text, char separator, LandmarkList& list)
+{
+  SaidOfPositions said;
+  RecordReader records(text, separator);
+  Values values;
+  bool isBelow = false;
+  while (records.next(values))
+  {
+    const bool isOne = isComment(values) && (!isBelow || values.size() == 1);
+    const CommentEntry entry = isOne ? commentEntry(values, separator) : CommentEntry();
+    isBelow = isBelow || !isOne;
+    if (saysUnit(entry.key))
+    {
+      said = agreed(said, { std::nullopt, lengthIn(entry.value) });
+    }
+    if (saysFrame(entry.key))
+    {
+      said = agreed(said, { axesUnder(entry.key, entry.value, list), std::nullopt });
+    }
+  }
+  return said;
+}
+
+// What the columns of a record say of its position.
+SaidOfPositions saidByRecord(const Values& values, const Columns& columns, LandmarkList& list)
+{
+  SaidOfPositions said;
+  const auto wordIn = [&](std::size_t column) {
+    const std::string word = column < values.size() ? trimmed(values[column]) : "";
+    return lowerCase(word) == "n/a" ? std::string() : word;
+  };
+  const std::string unit = wordIn(columns.unit);
+  if (!unit.empty())
+  {
+    said.mm = lengthIn(unit);
+  }
+  said.axes = axesUnder(columns.frameName, wordIn(columns.frame), list);
+  return said;
 }
 
 // The number in a column. NaN if the table lacks the column or the value is empty.
@@ -280,97 +271,42 @@ bool readPoint(const Values& values, const Columns& columns, Landmark& point)
   return missing == 0 && isDefined;
 }
 
-constexpr const char* FiducialColumns =
-  "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID";
-constexpr std::size_t StatusColumn = 14; // Slicer 5 appends it without a name
-constexpr const char* Placed = "2";
-
-// What the comment lines say.
-struct FiducialHeader
-{
-  FileAxes axes = FileAxes::RAS;
-  std::array<std::size_t, 3> position{ 1, 2, 3 };
-  std::size_t label = 11;
-  bool hasStatus = true;
-  std::map<std::string, std::string> said; // values by the keys that count
-};
-
-void readColumns(const std::string& names, FiducialHeader& header)
-{
-  Values columns;
-  RecordReader(names, ',').next(columns);
-  std::transform(columns.begin(), columns.end(), columns.begin(),
-    [](const std::string& name) { return lowerCase(trimmed(name)); });
-  const auto indexOf = [&](const char* name) {
-    return static_cast<std::size_t>(
-      std::find(columns.begin(), columns.end(), name) - columns.begin());
-  };
-  header.position = { indexOf("x"), indexOf("y"), indexOf("z") };
-  header.label = indexOf("label");
-  header.hasStatus = columns.size() <= StatusColumn;
-  if (!(*std::max_element(header.position.begin(), header.position.end()) < columns.size()))
-  {
-    throw Problem("has no columns x, y and z; it names " + shownWords(names));
-  }
-}
-
-// A comment "# key = value", and others, which say nothing.
-void readComment(const std::string& line, FiducialHeader& header)
-{
-  const std::size_t mark = line.find('=');
-  if (mark == std::string::npos)
-  {
-    return;
-  }
-  std::string key = lowerCase(trimmed(line.substr(1, mark - 1)));
-  key.erase(std::remove_if(key.begin(), key.end(),
-              [](char letter) { return letter == ' ' || letter == '_' || letter == '-'; }),
-    key.end());
-  const std::string value = trimmed(line.substr(mark + 1));
-  const bool counts = key == "coordinatesystem" || key == "coordinateunits" || key == "columns";
-  if (counts && header.said.emplace(key, value).first->second != value)
-  {
-    throw Problem("has the line # " + trimmed(line.substr(1, mark - 1)) + " twice");
-  }
-  if (key == "coordinatesystem")
-  {
-    header.axes = axesFrom(value);
-    return;
-  }
-  if (key == "coordinateunits" && lowerCase(value) != "mm")
-  {
-    throw Problem("has coordinateUnits " + shownWords(value) + "; they must be mm");
-  }
-  if (key == "columns")
-  {
-    readColumns(value, header);
-  }
-}
-
-void readFiducial(const Values& values, const FiducialHeader& header, Landmark& point)
+// A position (mm, RAS) as a record writes it.
+glm::dvec3 placed(const glm::dvec3& written, const PointColumns& columns,
+  const SaidOfPositions& said, const TableRule& rule)
 {
   glm::dvec3 position(0.0);
+  FileAxes axes = rule.axes;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const std::size_t column = header.position[axis];
-    const std::string word = column < values.size() ? values[column] : "";
-    const std::optional<double> number = numberIn(trimmed(word));
-    if (!number)
-    {
-      throw Problem(
-        std::string("has no number ") + "xyz"[axis] + ", but \"" + shownWords(word) + "\"");
-    }
-    position[axis] = *number;
+    const SaidOfPositions all = agreed({ columns.axes, columns.mm[axis] }, said);
+    axes = all.axes.value_or(rule.axes);
+    position[axis] = written[axis] * columns.signs[axis] * all.mm.value_or(rule.mm);
   }
-  point.position = inAxes(header.axes, position);
-  point.label = header.label < values.size() ? validUtf8(trimmed(values[header.label])) : "";
-}
+  return inAxes(axes, position);
 }
 
-void readPointTable(const std::string& text, const TableRule& rule, LandmarkList& list)
+// What the names of the columns of the position leave open.
+void notePosition(const PointColumns& columns, LandmarkList& list)
 {
-  char separator = ',';
-  const std::optional<Columns> columns = findColumns(text, rule.columns, separator);
+  const std::string names = "takes its positions from " + columns.names[0] + ", " +
+    columns.names[1] + " and " + columns.names[2];
+  if (!columns.space.empty())
+  {
+    list.notes.push_back(names + ", which are those of a template, not of the scanner");
+  }
+  if (!columns.unknown.empty())
+  {
+    list.notes.push_back(
+      names + "; it is not known what \"" + shownWords(columns.unknown) + "\" says of them");
+  }
+}
+
+// The columns of a table, with notes.
+Columns requiredColumns(
+  const std::string& text, const Values& wanted, char& separator, LandmarkList& list)
+{
+  std::optional<Columns> columns = findColumns(text, wanted, separator);
   if (!columns)
   {
     std::string names;
@@ -382,48 +318,39 @@ void readPointTable(const std::string& text, const TableRule& rule, LandmarkList
                   "names " +
       shownWords(names) + "; name three of its columns (Position Columns)");
   }
-  const PointColumns& columnsOfPosition = columns->position;
-  if (!columnsOfPosition.space.empty())
-  {
-    list.notes.push_back("takes its positions from " + columnsOfPosition.names[0] + ", " +
-      columnsOfPosition.names[1] + " and " + columnsOfPosition.names[2] +
-      ", which are those of a template, not of the scanner");
-  }
-  const FileAxes axes = columnsOfPosition.axes.value_or(rule.axes);
-  const double mm = columnsOfPosition.mm.value_or(rule.mm);
-  RecordReader records(text, separator);
-  Values values;
-  bool isHeader = true;
+  notePosition(columns->position, list);
+  findNames(text, separator, *columns, list);
+  return *columns;
+}
+}
+
+void readPointTable(const std::string& text, const TableRule& rule, LandmarkList& list)
+{
+  char separator = ',';
+  const Columns columns = requiredColumns(text, rule.columns, separator, list);
+  const SaidOfPositions comments = saidByComments(text, separator, list);
   std::size_t skipped = 0;
-  while (records.next(values))
-  {
-    if (isHeader)
-    {
-      isHeader = isComment(values);
-      continue;
-    }
-    const std::string where = "line " + std::to_string(records.line());
-    if (values.size() > columns->count)
+  forEachPoint(text, separator, [&](const Values& values, const std::string& where) {
+    if (values.size() > columns.count)
     {
       throw Problem("has " + std::to_string(values.size()) + " values in " + where +
-        "; its first line names " + std::to_string(columns->count) +
+        "; its first line names " + std::to_string(columns.count) +
         " columns, and a number has a point, not a comma, before its decimals");
     }
     Landmark point;
     bool hasPlace = false;
-    withBeginning(beginningAt(where), [&] { hasPlace = readPoint(values, *columns, point); });
-    point.position = mm * inAxes(axes, point.position);
+    withBeginning(beginningAt(where), [&] {
+      hasPlace = readPoint(values, columns, point);
+      const SaidOfPositions said = agreed(comments, saidByRecord(values, columns, list));
+      point.position = placed(point.position, columns.position, said, rule);
+    });
     skipped += hasPlace ? 0 : 1;
     if (hasPlace)
     {
       addLandmark(list, point, where);
     }
-  }
+  });
   noteSkipped(list, skipped);
-  if (records.endedInQuotes())
-  {
-    throw Problem("ends inside quotes");
-  }
 }
 
 bool looksLikePointTable(const std::string& beginning)
@@ -464,69 +391,6 @@ void writePointTable(std::ostream& file, FileAxes axes, char separator, const La
       file << separator << (std::isnan(point.*number) ? "" : numberText(point.*number));
     }
     file << "\n";
-  }
-}
-
-void readFiducials(const std::string& text, LandmarkList& list)
-{
-  FiducialHeader header;
-  std::size_t read = 0;
-  std::size_t skipped = 0;
-  Values values;
-  RecordReader records(text, ',');
-  while (records.next(values))
-  {
-    const std::string where = "line " + std::to_string(records.line());
-    const std::string first = trimmed(values[0]);
-    if (first[0] == '#')
-    {
-      std::string line = first;
-      for (std::size_t i = 1; i < values.size(); ++i)
-      {
-        line += "," + values[i];
-      }
-      readComment(line, header);
-
-      continue;
-    }
-    Landmark point;
-    point.number = static_cast<double>(++read);
-    const bool isPlaced =
-      !header.hasStatus || values.size() <= StatusColumn || trimmed(values[StatusColumn]) == Placed;
-    skipped += isPlaced ? 0 : 1;
-    if (isPlaced)
-    {
-      withBeginning(beginningAt(where), [&] { readFiducial(values, header, point); });
-      addLandmark(list, point, where);
-    }
-  }
-  noteSkipped(list, skipped);
-  if (records.endedInQuotes())
-  {
-    throw Problem("ends inside quotes");
-  }
-}
-
-bool looksLikeFiducials(const std::string& beginning)
-{
-  const std::string text = lowerCase(trimmed(beginning));
-  return !text.empty() && text[0] == '#' &&
-    (text.find("markups fiducial file") != std::string::npos ||
-      text.find("coordinatesystem") != std::string::npos ||
-      text.find("# columns") != std::string::npos);
-}
-
-void writeFiducials(std::ostream& file, FileAxes axes, const LandmarkList& list)
-{
-  file << "# Markups fiducial file version = 5.6\n"
-       << "# CoordinateSystem = " << (axes == FileAxes::RAS ? "RAS" : "LPS") << "\n"
-       << "# columns = " << FiducialColumns << "\n";
-  for (std::size_t i = 0; i < list.points.size(); ++i)
-  {
-    const glm::dvec3 position = inAxes(axes, list.points[i].position);
-    file << std::to_string(i + 1) << "," << numberText(position.x) << "," << numberText(position.y)
-         << "," << numberText(position.z) << ",0,0,0,1,1,1,0,"
-         << recordValue(validUtf8(list.points[i].label), ',') << ",,," << Placed << ",0\n";
   }
 }
 }

@@ -54,8 +54,9 @@ public:
 
   ///@{
   /**
-   * Names of the three columns of a table that hold the position, in the order x, y, z. Default:
-   * none, so that what the columns are called decides.
+   * Names of the three columns of a table that hold the position, in the order x, y, z. Axes,
+   * units and signs in these names count. Default: none, so that what the columns are called
+   * decides.
    */
   void AddPositionColumn(const char* name);
   void ClearPositionColumns();

@@ -38,7 +38,8 @@ def read_points(name, volume=1, table_axes="RAS", columns=None):
     - `table_axes`: `"RAS"`, the default, or `"LPS"`, the axes of a table whose columns are called
       x, y and z.
     - `columns`: names of the three columns of a table that hold the position, in the order x, y, z.
-      The default, `None`, takes those whose names mean a position.
+      Axes, units and signs in these names count: L, A, S; `native_x_lps`; `z_cm`; `-x`. The
+      default, `None`, takes those whose names mean a position.
 
     Returns a named tuple of `positions`, an N x 3 array in mm, RAS; `labels`, a list of N strings;
     and `numbers`, `times` and `deviations`, arrays of N numbers. A number that the file does not

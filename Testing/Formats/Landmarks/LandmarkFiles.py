@@ -210,10 +210,21 @@ def walked_fiducials_and_tags():
                  head.replace("# columns", "# coordinateUnits = mm\n# columns")):
         found = brainshift.read_points(written("walk.fcsv", text)).positions
         assert found.tolist() == [[-1, -2, 3]], text
+    # Above the points or below them, after = or a colon; without it RAS.
+    mark, points = "# CoordinateSystem = LPS\n", head.split("\n", 1)[1]
+    for text, right in ((points + mark, [-1, -2, 3]), (points, [1, 2, 3]),
+                        (mark.replace(" =", ":") + points, [-1, -2, 3]),
+                        (mark + "# units: mm\n" + points + mark, [-1, -2, 3])):
+        found = brainshift.read_points(written("walk.fcsv", text))
+        assert found.positions.tolist() == [right] and found.labels == ["a"], text
+    assert "contradicts" in refusal("walk.fcsv", head + mark.replace("LPS", "RAS"))
+    assert "must be mm" in refusal("walk.fcsv", head + "# unit: cm\n")
     for old, new, words in (("LPS", "LP", "coordinate system LP"), ("id,x", "id,u", "no columns x"),
                             ("# columns", "# coordinateUnits = cm\n# columns", "must be mm"),
                             ("# columns", "# Coordinate System = RAS\n# columns",
-                             "has the line # Coordinate System twice")):
+                             "contradicts itself"),
+                            ("# columns", "# columns = id,y,x,z\n# columns",
+                             "has the line # columns twice")):
         assert words in refusal("walk.fcsv", head.replace(old, new)), new
     tag = "MNI Tag Point File\nVolumes = 1;\nPoints =\n 1 2 3;\n"
     assert brainshift.read_points(written("walk.tag", tag)).positions.tolist() == [[1, 2, 3]]
@@ -239,6 +250,9 @@ def walked_tables():
             ("x_cm", "x_cm,y_cm,z_cm", (10, 20, 30)),
             ("x_cm", "R (m),A (m),S (m)", (1000, 2000, 3000)),
             ("x_cm", "x [µm],y [µm],z [µm]", (1e-3, 2e-3, 3e-3)),
+            ("x_cm", "x_in,y_in,z_in", (25.4, 50.8, 76.2)),
+            ("x_cm", "x in mm,y in mm,z in mm", (1, 2, 3)),
+            ("-x", "-x,-y,z", (-1, -2, 3)), ("-x", "−x_lps,-y_lps,z_lps", (1, 2, 3)),
             ("x_coord", "x_coord,y_coord,z_coord", (1, 2, 3)),
             ("x_coord", "pos_x,pos_y,pos_z", (1, 2, 3))):
         with messages() as said:
@@ -253,11 +267,91 @@ def walked_tables():
     return seen
 
 
+def walked_units_and_frames():
+    """In columns and comments, where the position 1 2 3 lies, and what is said."""
+    seen = set()
+    table = "name,x,y,z\na,1,2,3\n"
+    cases = [("unit", f"name,x,y,z,{key}\na,1,2,3,{word}\n", right, "")
+             for key, word, right in (
+                 ("unit", "cm", (10, 20, 30)), ("Units", "m", (1000, 2000, 3000)),
+                 ("coordinate_units", "Inch", (25.4, 50.8, 76.2)), ("unit", "", (1, 2, 3)),
+                 ("unit", "n/a", (1, 2, 3)))]
+    cases += [("coordinateSystem", f"name,x,y,z,{key}\na,1,2,3,{word}\n", right, words)
+              for key, word, right, words in (
+                  ("coordinateSystem", "LPS", (-1, -2, 3), ""),
+                  ("coordinate system", "1", (-1, -2, 3), ""), ("space", "RAS", (1, 2, 3), ""),
+                  ("space", "MNI152NLin6Asym", (1, 2, 3), "template, not of the scanner"),
+                  ("space", "native", (1, 2, 3), "system native, which is not known"),
+                  ("frame", "1", (1, 2, 3), ""))]
+    cases += [("# units", text, right, words) for text, right, words in (
+        ("# CoordinateSystem = LPS\n" + table, (-1, -2, 3), ""),
+        ("#space: lps\n" + table, (-1, -2, 3), ""), ("# units: cm\n" + table, (10, 20, 30), ""),
+        ("# unit = mm, as in the scan\n" + table, (1, 2, 3), ""),
+        (table + "# coordinate units: cm\n", (10, 20, 30), ""),
+        ("# space: fsaverage\n" + table, (1, 2, 3), "fsaverage, which is that of a template"),
+        ("# Coordinate System = 1\n# made by hand: yes\n" + table, (-1, -2, 3), ""))]
+    for entry, text, right, words in cases:
+        with messages() as said:
+            found = brainshift.read_points(written("said.csv", text))
+        assert numpy.allclose(found.positions, [right], rtol=0, atol=1e-12), (text, found)
+        assert found.labels == ["a"] and words in said.text and (words or not said.text), (
+            text, said.text)
+        seen.add(f"{entry} table")
+    two = brainshift.read_points(written("said.csv", "x,y,z,unit\n1,2,3,mm\n1,2,3,cm\n"))
+    assert two.positions.tolist() == [[1, 2, 3], [10, 20, 30]], "each point has its own"
+    for text, words in (("x,y,z,space\n1,2,3,voxel\n", "the positions are voxel"),
+                        ("x,y,z,unit\n1,2,3,px\n", "the unit px"),
+                        ("# units: pixels\nx,y,z\n1,2,3\n", "the unit pixels"),
+                        ("x,y,z,space\n1,2,3,CTF\n", "CTF, whose x points to the front"),
+                        ("x_cm,y_cm,z_cm,unit\n1,2,3,mm\n", "two units"),
+                        ("# units: cm\nx,y,z,unit\n1,2,3,mm\n", "two units"),
+                        ("r,a,s,space\n1,2,3,LPS\n", "two kinds of axes"),
+                        ("# axes: RAS\nx,y,z\n1,2,3\n# axes: LPS\n", "two kinds of axes")):
+        assert words in refusal("said.csv", text), text
+    return seen
+
+
+def walked_names():
+    """Tables, their names, and the column that the remark names; none for label and name."""
+    for text, labels, column in (
+            ("name,x,y,z\na,1,2,3\nb,4,5,6\n", ["a", "b"], None),
+            ("x,y,z,LABEL,electrode\n1,2,3,a,c\n4,5,6,b,d\n", ["a", "b"], None),
+            ("electrode,x,y,z\nA1,1,2,3\nA2,4,5,6\n", ["A1", "A2"], "electrode"),
+            ("contact\tx\ty\tz\nA1\t1\t2\t3\n", ["A1"], "contact"),
+            ("Landmark,R,A,S\nAC,1,2,3\n", ["AC"], "Landmark"),
+            ("Nom;X;Y;Z\nA1;1;2;3\n", ["A1"], "Nom"),
+            ("Punkt;X;Y;Z\n1;1;2;3\n2;1;2;3\n", ["1", "2"], "Punkt"),
+            ("id,x,y,z\n7,1,2,3\n8,4,5,6\n", ["7", "8"], "id"),
+            ("point id,x,y,z\n7,1,2,3\n", ["7"], "point id"),
+            ("id,title,x,y,z\n7,AC,1,2,3\n8,PC,4,5,6\n", ["AC", "PC"], "title"),
+            ("label,electrode,x,y,z\n,A1,1,2,3\n,A2,4,5,6\n", ["A1", "A2"], "electrode"),
+            ("side,wo,x,y,z\nL,AC,1,2,3\nL,PC,4,5,6\n", ["AC", "PC"], "column 2 (wo)"),
+            (',x,y,z\n"A1",1,2,3\n"A2",4,5,6\n', ["A1", "A2"], "column 1"),
+            ("名前,x,y,z\nA1,1,2,3\n", ["A1"], "column 1"),
+            ("channel,x,y,z\nA,1,2,3\nA,4,5,6\n", ["A", "A"], "channel"),
+            # What these hold are no names.
+            ("side,x,y,z\nL,1,2,3\nL,4,5,6\n", ["", ""], None),
+            ("size,x,y,z\n7,1,2,3\n8,4,5,6\n", ["", ""], None),
+            ("comment,x,y,z\ngood,1,2,3\nbad,4,5,6\n", ["", ""], None),
+            ("subject_id,x,y,z\nsub-01,1,2,3\n", [""], None),
+            ("label,number,x,y,z\n,7,1,2,3\n", [""], None)):
+        with messages() as said:
+            found = brainshift.read_points(written("names.csv", text))
+        assert found.labels == labels, (text, found.labels)
+        if column is None:
+            assert "takes the names" not in said.text, (text, said.text)
+        else:
+            assert_says(said.text, "takes the names of its points from", column)
+    return {"label name table", "electrode table", "words table"}
+
+
 def refused_tables():
     for names, words in (("x,y,x", "names the columns x, y and z"),
                          ("x_tkr,y_tkr,z_tkr", "x_tkr, y_tkr, z_tkr; name three"),
                          ("i,j,k", "Position Columns"), ("l_ras,p_ras,s_ras", "Position Columns"),
-                         ("x_cm,y_mm,z_mm", "Position Columns")):
+                         ("x_cm,y_mm,z_mm", "Position Columns"), ("L,A,S", "Position Columns"),
+                         ("x-,y-,z", "Position Columns"),
+                         ("native_x,native_y,native_z", "Position Columns")):
         assert words in refusal("walk.csv", f"name,{names}\nLA1,1,2,3\n"), names
     several = "x_ras,y_ras,z_ras,x_mni,y_mni,z_mni\n1,2,3,4,5,6\n"
     assert_says(refusal("walk.csv", several), "several positions: ", "x_ras y_ras z_ras",
@@ -278,6 +372,33 @@ def refused_tables():
         assert words in refusal("walk.csv", "i;j;k\n1;2;3\n", columns=columns)
 
 
+def test_words_of_the_columns_that_a_caller_names_count():
+    for names, right, unknown in (
+            ("native_x_cm,native_y_cm,native_z_cm", (10, 20, 30), "native"),
+            ("native_x_lps,native_y_lps,native_z_lps", (-1, -2, 3), "native"),
+            ("y_cm,x_cm,z_cm", (10, 20, 30), None), ("L,A,S", (-1, 2, 3), None),
+            ("R,P,S", (1, -2, 3), None), ("L,P,I", (-1, -2, -3), None),
+            ("P,L,S", (-2, -1, 3), None), ("S,A,R", (3, 2, 1), None),
+            ("x (L+),y (P+),z (S+)", (-1, -2, 3), None),
+            ("x (left),y (posterior),z (superior)", (-1, -2, 3), None),
+            ("x_mm,y_mm,z_cm", (1, 2, 30), None), ("x,y_mm,z", (1, 2, 3), None),
+            ("x (inch),y (inch),z (inch)", (25.4, 50.8, 76.2), None),
+            ("-a_x,-a_y,a_z", (-1, -2, 3), None), ("i,j,k", (1, 2, 3), None),
+            ("b_mni_x,b_mni_y,b_mni_z", (1, 2, 3), "template")):
+        with messages() as said:
+            found = brainshift.read_points(table_of(names), columns=names.split(","))
+        assert numpy.allclose(found.positions[0], right, rtol=0, atol=1e-12), (names, found)
+        assert (unknown or "") in said.text, (names, said.text)
+        assert unknown or not said.text, (names, said.text)
+    for names, words in (("vox_x,vox_y,vox_z", "counted in vox"),
+                         ("x_lps,y_ras,z_ras", "some are RAS and some LPS"),
+                         ("L_ras,P_ras,S_ras", "contradict"), ("r_lps,a_lps,s_lps", "contradict"),
+                         ("x_cm,y,z", "a unit for some"), ("R,L,S", "no three axes"),
+                         ("R,P,z", "no three axes")):
+        text = f"name,{names}\nLA1,1,2,3\n"
+        assert words in refusal("walk.csv", text, columns=names.split(",")), names
+
+
 def walked_electrodes():
     table = "sub-01_ses-1_space-X_electrodes.tsv"
     text = "name\tx\ty\tz\tsize\nLA1\t1\t2\t3\t5\nLA2\tn/a\tn/a\tn/a\tn/a\n"
@@ -291,19 +412,46 @@ def walked_electrodes():
     written("sub-01_coordsystem.json", '{"iEEGCoordinateUnits": "cm"}')
     beside = "sub-01_space-X_coordsystem.json"
     for unit, mm in (("mm", 1), ("cm", 10), ("m", 1000), ("um", 1e-3)):
-        written(beside, json.dumps({"iEEGCoordinateSystem": "ACPC", "iEEGCoordinateUnits": unit}))
+        written(beside, json.dumps({"iEEGCoordinateSystem": "ScanRAS",
+                                    "iEEGCoordinateUnits": unit}))
         with messages() as said:
             found = brainshift.read_points(scratch(table)).positions
         assert numpy.allclose(found, mm * numpy.array([[1, 2, 3]]), rtol=1e-12), (unit, found)
-        assert "coordsystem" not in said.text
-    for system, unit, words in (("ACPC", "pixels", "pixels"), ("Pixels", "mm", "pixels"),
-                                ("CTF", "cm", "x points to the front"),
-                                ("ACPC", "inch", "unit inch"),
-                                ("ACPC", "", "does not say CoordinateUnits")):
+        assert "coordinate system" not in said.text
+    lps = numpy.array([[-1, -2, 3]])
+    for system, words, named in (
+            ("MNI152NLin2009cAsym", "template", {}), ("fsaverage", "template", {}),
+            ("IXI549Space", "template", {}), ("ICBM452AirSpace", "template", {}),
+            ("CapTrak", "between the ears", {}), ("ElektaNeuromag", "between the ears", {}),
+            ("ChietiItab", "between the ears", {}), ("BESA", "between the ears", {}),
+            ("ACPC", "anterior commissure", {}), ("Other", "not known", {}),
+            ("T1w", "not known", {}), ("LPS", "", {}), ("Other", "not known", {"mirror": True})):
+        written(beside, json.dumps({
+            "EEGCoordinateSystem": system, "EEGCoordinateUnits": "mm",
+            "EEGCoordinateSystemDescription": "x to the left"}))
+        options = {"table_axes": "LPS"} if named else {}
+        with messages() as said:
+            found = brainshift.read_points(scratch(table), **options).positions
+        assert numpy.array_equal(found, lps if named or system == "LPS" else -lps * (1, 1, -1))
+        assert words in said.text, (system, said.text)
+        assert (f"coordinate system {system}" in said.text) == bool(words), (system, said.text)
+        assert ("x to the left" in said.text) == (words == "not known"), (system, said.text)
+    for system, unit, words in (("ScanRAS", "pixels", "pixels"), ("Pixels", "mm", "are Pixels"),
+                                ("CTF", "cm", "CTF, whose x points to the front"),
+                                ("CTF ", "mm", "x points to the front"),
+                                ("4D BTi", "mm", "4D BTi, whose x points to the front"),
+                                ("KIT/Yokogawa", "mm", "x points to the front"),
+                                ("EEGLAB-HJ", "mm", "x points to the front"),
+                                ("ScanRAS", "inch", "unit inch"),
+                                ("ScanRAS", "", "does not say CoordinateUnits")):
         written(beside, json.dumps({"EEGCoordinateSystem": system, "EEGCoordinateUnits": unit}))
         assert words in refusal(table, text), (system, unit)
     written(beside, '{"iEEGCoordinateUnits": "mm", "iEEGCoordinateUnits": "cm"}')
     assert "has the key iEEGCoordinateUnits twice" in refusal(table, text)
+    written(beside, json.dumps({"EEGCoordinateUnits": "mm"}))
+    with messages() as said:
+        brainshift.read_points(scratch(table))
+    assert_says(said.text, "does not say CoordinateSystem")
     written(beside, "{")
     assert "is not good JSON" in refusal(table, text)
     os.remove(scratch(beside))
@@ -314,7 +462,8 @@ def walked_electrodes():
 
 def test_entries_of_the_page_are_honoured_or_refused():
     refused_tables()
-    walked = (walked_markups() | walked_fiducials_and_tags() | walked_tables()
+    walked = (walked_markups() | walked_fiducials_and_tags() | walked_tables() | walked_names()
+              | walked_units_and_frames()
               | walked_electrodes())
     assert sorted(walked) == sorted(entries_of_page()), walked ^ set(entries_of_page())
 
@@ -379,9 +528,21 @@ def test_damaged_files_end_in_one_sentence():
                 raise AssertionError(name)
 
 
-def test_labels_in_other_encodings_are_marked():
-    points = brainshift.read_points(written("latin.csv", b"label,x,y,z\nStra\xdfe,1,2,3\n"))
-    assert points.labels == ["Stra\ufffde"]
+def test_text_that_is_no_utf8_is_latin_1_and_that_is_said():
+    head = "# CoordinateSystem = RAS\n1,1,2,3,0,0,0,1,1,1,0,"
+    for name, text in (("latin.csv", "label,x,y,z\nStraße,1,2,3\n"),
+                       ("latin.fcsv", head + "Straße,,\n"),
+                       ("latin.tag", 'MNI Tag Point File\nVolumes = 1;\nPoints = 1 2 3 "Straße";')):
+        for coding in ("latin-1", "utf-8"):
+            with messages() as said:
+                points = brainshift.read_points(written(name, text.encode(coding)))
+            assert points.labels == ["Straße"], (name, coding, points.labels)
+            assert points.positions.tolist() == [[1, 2, 3]]
+            assert ("read as Latin-1" in said.text) == (coding == "latin-1"), said.text
+    with messages():
+        found = brainshift.read_points(written("latin.csv", "x [µm],y [µm],z [µm]\n1,2,3\n".encode(
+            "latin-1")))
+    assert numpy.allclose(found.positions, [[1e-3, 2e-3, 3e-3]])
 
 
 def readers_of(name):

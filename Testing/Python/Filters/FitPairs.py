@@ -208,6 +208,30 @@ def test_names_that_are_on_one_list_only_are_refused_on_all_roads():
     assert_says(found.warning, "more than once: mark 2", "measured landmark mark 2")
 
 
+def test_names_pair_whatever_their_column_is_called():
+    rest, measured = measured_pairs(8)
+    order = [3, 1, 2, 0, 4, 5, 7, 6]
+
+    def read(name, column, places, labels):
+        with open(scratch(name), "w", encoding="utf-8") as file:
+            file.write(f"{column},x,y,z\n" + "".join(
+                ",".join([label, *map(repr, map(float, place))]) + "\n"
+                for label, place in zip(labels, places)))
+        with messages():
+            return brainshift.read_points(scratch(name))
+
+    bent = simple.FreeFormDeformation(Input=head())
+    right = brainshift.fit(bent, rest, measured)
+    for one, other, labels in (("electrode", "name", [f"A{i}" for i in range(8)]),
+                               ("id", "id", [str(i) for i in range(8)]),
+                               ("wo", "Punkt", [f"P{i}" for i in range(8)])):
+        found = brainshift.fit(
+            bent, read("one.csv", one, rest, labels),
+            read("other.csv", other, measured[order], [labels[i] for i in order]))
+        assert len(found.landmark_residuals) == 8
+        assert_same(found, right)
+
+
 def raises(words, call, *arguments, **options):
     try:
         call(*arguments, **options)
@@ -238,6 +262,49 @@ def test_what_pairs_do_not_say_is_said():
     found = brainshift.fit(bent, rest, measured)
     assert found.warning == "", found.warning
     assert_says(brainshift.fit(bent, rest / 1000, measured / 1000).warning, "are in mm")
+
+
+def test_each_list_that_lies_wrong_is_named():
+    """Traces, pulls, pins and landmarks in other units or frames, and pairs that do not fit."""
+    source = volume(ball(side=SIDE, radius=16), spacing=(4.0,) * 3, origin=(-MIDDLE,) * 3)
+    random = numpy.random.default_rng(3)
+    rest = random.uniform(-45, 45, (8, 3))
+    unit = random.normal(size=(60, 3))
+    unit /= numpy.linalg.norm(unit, axis=1)[:, None]
+    traces = 64.0 * unit[unit[:, 2] > 0.4] - (0, 0, 5.0)
+
+    def warning(**measured):
+        bent = simple.FreeFormDeformation(Input=source)
+        with messages() as said:
+            found = brainshift.fit(bent, threshold=50, **measured)
+        assert bool(found.warning) == bool(said.text), "a warning is said, too"
+        simple.Delete(bent)
+        return found.warning
+
+    def pulls(places):
+        return numpy.stack([places, places + 0.02 * places], axis=1)
+
+    assert warning(traces=traces) == ""
+    assert warning(pulls=pulls(rest * 0.5)) == ""
+    for make, name in ((lambda places: {"traces": places}, "The traced points are"),
+                       (lambda places: {"pulls": pulls(places)}, "The pulls are"),
+                       (lambda places: {"pulls": pulls(rest[:1]), "pins": places}, "The pins are"),
+                       (lambda places: {"rest": places, "measured": places + (2.0, -1.0, 0.5)},
+                        "The landmarks at rest are")):
+        assert_says(warning(**make(traces * 0.001)), name, "check that they are in mm")
+        assert_says(warning(**make(traces * 0.1)), name, "not in cm")
+        assert_says(warning(**make(traces + (0, 0, 400.0))), name, "outside the volume")
+    assert_says(warning(traces=traces * 0.5), "from the cortex at rest", "frame")
+    measured = rest + (2.0, -1.0, 0.5)
+    wrong = measured.copy()
+    wrong[0] += (40.0, 0, 0)
+    assert_says(warning(rest=rest, measured=wrong), "Landmark 1 is measured 40 mm from")
+    assert_says(warning(rest=rest, measured=measured[[1, 0, 2, 3, 4, 5, 6, 7]]),
+                "Landmarks 1 and 2 look exchanged")
+    wrong = measured.copy()
+    wrong[1] = wrong[0]
+    assert_says(warning(rest=rest, measured=wrong), "1 and 2 are measured at the same place")
+    assert_says(warning(rest=rest, measured=1.5 * measured), "1.5 times as far apart")
 
 
 def test_a_fit_prints_as_a_line_and_takes_what_was_read():

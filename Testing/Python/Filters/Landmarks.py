@@ -112,6 +112,18 @@ def test_what_cannot_be_written_leaves_the_old_file():
     assert not os.path.exists(scratch("new.txt"))
 
 
+def test_names_are_kept_whatever_their_column_is_called():
+    for column, labels in (("electrode", ["A1", "A2"]), ("id", ["7", "8"]), ("wo", ["AC", "PC"])):
+        name = scratch("named.csv")
+        with open(name, "w", encoding="utf-8") as file:
+            file.write(f"{column},x,y,z\n{labels[0]},1,2,3\n{labels[1]},4,5,6\n")
+        for ending in ENDINGS:
+            with messages():
+                brainshift.map_points(name, scratch("kept" + ending))
+            with messages():
+                assert brainshift.read_points(scratch("kept" + ending)).labels == labels, ending
+
+
 def bent():
     return simple.FreeFormDeformation(
         Input=volume(ball()), Strokes=brainshift.soft((16, 16, 16), (4, 3, 2), 14.0))

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Formats/Landmarks/CoordinateWords.h"
+
+#include "Common/Problem.h"
+#include "Formats/Files/Text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+#include <map>
+
+namespace brainshift
+{
+namespace
+{
+constexpr const char* NotKnown = "which is not known; check its axes and its origin";
+
+template <std::size_t Count>
+bool isOneOf(const std::string& word, const char* const (&words)[Count])
+{
+  return std::find(std::begin(words), std::end(words), word) != std::end(words);
+}
+
+template <std::size_t Count>
+bool beginsAsOneOf(const std::string& word, const char* const (&words)[Count])
+{
+  return std::any_of(std::begin(words), std::end(words),
+    [&](const std::string& begin) { return word.compare(0, begin.size(), begin) == 0; });
+}
+
+// The frame that a word names. None if it is not known.
+std::optional<FrameMeaning> frameOf(const std::string& word)
+{
+  const std::string key = keyOf(word);
+  constexpr const char* Scanner[] = { "ras", "scanras", "scannerras", "scanner", "scan" };
+  constexpr const char* Lps[] = { "lps", "scanlps", "scannerlps", "dicom" };
+  constexpr const char* Front[] = { "ctf", "eeglab", "eeglabhj", "kityokogawa", "yokogawa", "kit",
+    "4dbti", "bti", "4d" };
+  constexpr const char* Heads[] = { "captrak", "elektaneuromag", "neuromag", "elekta", "chietiitab",
+    "itab", "besa" };
+  constexpr const char* Templates[] = { "mni", "icbm", "ixi549", "fsaverage", "fslr", "nihpd",
+    "oasis", "talairach", "uncinfant" };
+  constexpr const char* Surfaces[] = { "tkras", "tkrras", "tkreg", "tkr", "surfaceras" };
+  throwIfAny(isNoLength(key)
+      ? "says that the positions are " + shownWords(word) + "; they must be lengths"
+      : "");
+  throwIfAny(isOneOf(key, Front) ? "says the coordinate system " + shownWords(word) +
+        ", whose x points to the front; turn the positions to the right, front and head (RAS)"
+                                 : "");
+  if (isOneOf(key, Scanner) || isOneOf(key, Lps))
+  {
+    return FrameMeaning{ isOneOf(key, Lps) ? FileAxes::LPS : FileAxes::RAS, "" };
+  }
+  const std::string doubt = isOneOf(key, Heads)
+    ? "whose origin is between the ears, not that of the scanner"
+    : key == "acpc" ? "whose origin is the anterior commissure, not that of the scanner"
+    : beginsAsOneOf(key, Templates) || key == "tal"
+    ? "which is that of a template, not of the scanner"
+    : isOneOf(key, Surfaces) ? "which is that of a surface of FreeSurfer, not of the scanner"
+                             : "";
+  return doubt.empty() ? std::nullopt : std::optional<FrameMeaning>({ FileAxes::RAS, doubt });
+}
+
+// Words between blanks and other signs.
+std::vector<std::string> partsOf(std::string words)
+{
+  const auto isBetween = [](char letter) {
+    return std::string(",;()[]\"'").find(letter) != std::string::npos;
+  };
+  std::replace_if(words.begin(), words.end(), isBetween, ' ');
+  return wordsIn(words);
+}
+
+template <typename Value>
+std::optional<Value> agreedOn(
+  const std::optional<Value>& one, const std::optional<Value>& other, const char* what)
+{
+  throwIfAny(one && other && *one != *other
+      ? std::string("contradicts itself: two ") + what + " for one position"
+      : "");
+  return one ? one : other;
+}
+}
+
+std::optional<double> lengthOfUnit(const std::string& word)
+{
+  static const std::map<std::string, double> lengths{ { "mm", 1.0 }, { "millimeter", 1.0 },
+    { "millimeters", 1.0 }, { "millimetre", 1.0 }, { "millimetres", 1.0 }, { "cm", 10.0 },
+    { "centimeter", 10.0 }, { "centimeters", 10.0 }, { "centimetre", 10.0 },
+    { "centimetres", 10.0 }, { "m", 1000.0 }, { "meter", 1000.0 }, { "meters", 1000.0 },
+    { "metre", 1000.0 }, { "metres", 1000.0 }, { "um", 1e-3 }, { "\xc2\xb5m", 1e-3 },
+    { "\xce\xbcm", 1e-3 }, { "micrometer", 1e-3 }, { "micrometers", 1e-3 }, { "micrometre", 1e-3 },
+    { "micrometres", 1e-3 }, { "inch", 25.4 }, { "inches", 25.4 } };
+  const auto found = lengths.find(word);
+  return found == lengths.end() ? std::nullopt : std::optional<double>(found->second);
+}
+
+bool isNoLength(const std::string& word)
+{
+  constexpr const char* Words[] = { "vox", "voxel", "voxels", "px", "pixel", "pixels", "ijk",
+    "index", "indices", "slice", "row", "column", "deg", "degrees", "km", "ft", "feet", "foot" };
+  return std::find(std::begin(Words), std::end(Words), word) != std::end(Words);
+}
+
+double lengthIn(const std::string& words)
+{
+  std::optional<double> length;
+  bool isOne = true;
+  for (const std::string& part : partsOf(lowerCase(words)))
+  {
+    const std::optional<double> found = lengthOfUnit(part);
+    isOne = isOne && (!length || !found || *length == *found);
+    length = length ? length : found;
+  }
+  throwIfAny(length && isOne
+      ? ""
+      : "says the unit " + shownWords(words) + "; it must be mm, cm, m, um or inch");
+  return *length;
+}
+
+FrameMeaning frameIn(const std::string& words)
+{
+  if (const std::optional<FrameMeaning> whole = frameOf(words))
+  {
+    return *whole;
+  }
+  std::optional<FrameMeaning> found;
+  int count = 0;
+  for (const std::string& part : partsOf(words))
+  {
+    if (const std::optional<FrameMeaning> frame = frameOf(part))
+    {
+      found = frame;
+      ++count;
+    }
+  }
+  return count == 1 ? *found : FrameMeaning{ std::nullopt, NotKnown };
+}
+
+void noteDoubt(const std::string& words, const FrameMeaning& frame, LandmarkList& list)
+{
+  const std::string note = "says the coordinate system " + shownWords(words) + ", " + frame.doubt;
+  if (!frame.doubt.empty() &&
+    std::find(list.notes.begin(), list.notes.end(), note) == list.notes.end())
+  {
+    list.notes.push_back(note);
+  }
+}
+
+SaidOfPositions agreed(const SaidOfPositions& one, const SaidOfPositions& other)
+{
+  return { agreedOn(one.axes, other.axes, "kinds of axes (RAS and LPS)"),
+    agreedOn(one.mm, other.mm, "units") };
+}
+
+bool saysUnit(const std::string& key)
+{
+  constexpr const char* Keys[] = { "unit", "units", "coordinateunit", "coordinateunits",
+    "coordunit", "coordunits", "positionunit", "positionunits", "lengthunit", "lengthunits" };
+  return isOneOf(key, Keys);
+}
+
+bool saysFrame(const std::string& key)
+{
+  constexpr const char* Keys[] = { "coordinatesystem", "coordinatesystems", "coordsystem",
+    "coordsys", "coordinatespace", "coordinateframe", "space", "frame", "referenceframe", "axes",
+    "worldaxes" };
+  return isOneOf(key, Keys);
+}
+
+std::string keyOf(const std::string& name)
+{
+  std::string key = lowerCase(name);
+  const auto isOther = [](char letter) {
+    const auto code = static_cast<unsigned char>(letter);
+    return code < 128 && !std::isalnum(code);
+  };
+  key.erase(std::remove_if(key.begin(), key.end(), isOther), key.end());
+  return key;
+}
+}

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file
+/// Slicer's fiducials (.fcsv): comment lines name version, axes and columns, and a line for each
+/// point follows. A file without the line "# columns" has those of version 4. A file without the
+/// line "# CoordinateSystem" is RAS, as files were before that line. Points that Slicer 5 marks as
+/// not placed are left out and noted.
+#include "Common/Numbers.h"
+#include "Common/Problem.h"
+#include "Formats/Files/Text.h"
+#include "Formats/Landmarks/CoordinateWords.h"
+#include "Formats/Landmarks/Records.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace brainshift
+{
+namespace
+{
+using Values = std::vector<std::string>;
+
+constexpr const char* FiducialColumns =
+  "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID";
+constexpr std::size_t StatusColumn = 14; // Slicer 5 appends it without a name
+constexpr const char* Placed = "2";
+
+// What the comment lines say.
+struct FiducialHeader
+{
+  SaidOfPositions said;
+  std::array<std::size_t, 3> position{ 1, 2, 3 };
+  std::size_t label = 11;
+  bool hasStatus = true;
+  std::string columns; // as the file names them
+};
+
+void readColumns(const std::string& names, FiducialHeader& header)
+{
+  Values columns;
+  RecordReader(names, ',').next(columns);
+  std::transform(columns.begin(), columns.end(), columns.begin(),
+    [](const std::string& name) { return lowerCase(trimmed(name)); });
+  const auto indexOf = [&](const char* name) {
+    return static_cast<std::size_t>(
+      std::find(columns.begin(), columns.end(), name) - columns.begin());
+  };
+  header.position = { indexOf("x"), indexOf("y"), indexOf("z") };
+  header.label = indexOf("label");
+  header.hasStatus = columns.size() <= StatusColumn;
+  if (!(*std::max_element(header.position.begin(), header.position.end()) < columns.size()))
+  {
+    throw Problem("has no columns x, y and z; it names " + shownWords(names));
+  }
+}
+
+// A comment "# key = value" or "# key: value", and others, which say nothing.
+void readComment(const CommentEntry& entry, FiducialHeader& header)
+{
+  if (entry.key == "coordinatesystem")
+  {
+    header.said = agreed(header.said, { axesFrom(entry.value), std::nullopt });
+  }
+  if (saysUnit(entry.key) && lowerCase(entry.value) != "mm")
+  {
+    throw Problem("has " + entry.key + " " + shownWords(entry.value) + "; they must be mm");
+  }
+  if (entry.key == "columns")
+  {
+    if (!header.columns.empty() && header.columns != entry.value)
+    {
+      throw Problem("has the line # columns twice");
+    }
+    header.columns = entry.value;
+    readColumns(entry.value, header);
+  }
+}
+
+// What the comments say, above the points or below them.
+FiducialHeader headerOf(const std::string& text)
+{
+  FiducialHeader header;
+  Values values;
+  RecordReader records(text, ',');
+  while (records.next(values))
+  {
+    if (isComment(values))
+    {
+      readComment(commentEntry(values, ','), header);
+    }
+  }
+  return header;
+}
+
+void readFiducial(const Values& values, const FiducialHeader& header, Landmark& point)
+{
+  glm::dvec3 position(0.0);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::size_t column = header.position[axis];
+    const std::string word = column < values.size() ? values[column] : "";
+    const std::optional<double> number = numberIn(trimmed(word));
+    if (!number)
+    {
+      throw Problem(
+        std::string("has no number ") + "xyz"[axis] + ", but \"" + shownWords(word) + "\"");
+    }
+    position[axis] = *number;
+  }
+  point.position = inAxes(header.said.axes.value_or(FileAxes::RAS), position);
+  point.label = header.label < values.size() ? validUtf8(trimmed(values[header.label])) : "";
+}
+}
+
+void readFiducials(const std::string& text, LandmarkList& list)
+{
+  const FiducialHeader header = headerOf(text);
+  std::size_t read = 0;
+  std::size_t skipped = 0;
+  Values values;
+  RecordReader records(text, ',');
+  while (records.next(values))
+  {
+    if (isComment(values))
+    {
+      continue;
+    }
+    const std::string where = "line " + std::to_string(records.line());
+    Landmark point;
+    point.number = static_cast<double>(++read);
+    const bool isPlaced =
+      !header.hasStatus || values.size() <= StatusColumn || trimmed(values[StatusColumn]) == Placed;
+    skipped += isPlaced ? 0 : 1;
+    if (isPlaced)
+    {
+      withBeginning(beginningAt(where), [&] { readFiducial(values, header, point); });
+      addLandmark(list, point, where);
+    }
+  }
+  noteSkipped(list, skipped);
+  if (records.endedInQuotes())
+  {
+    throw Problem("ends inside quotes");
+  }
+}
+
+bool looksLikeFiducials(const std::string& beginning)
+{
+  const std::string text = lowerCase(trimmed(beginning));
+  return !text.empty() && text[0] == '#' &&
+    (text.find("markups fiducial file") != std::string::npos ||
+      text.find("coordinatesystem") != std::string::npos ||
+      text.find("# columns") != std::string::npos);
+}
+
+void writeFiducials(std::ostream& file, FileAxes axes, const LandmarkList& list)
+{
+  file << "# Markups fiducial file version = 5.6\n"
+       << "# CoordinateSystem = " << (axes == FileAxes::RAS ? "RAS" : "LPS") << "\n"
+       << "# columns = " << FiducialColumns << "\n";
+  for (std::size_t i = 0; i < list.points.size(); ++i)
+  {
+    const glm::dvec3 position = inAxes(axes, list.points[i].position);
+    file << std::to_string(i + 1) << "," << numberText(position.x) << "," << numberText(position.y)
+         << "," << numberText(position.z) << ",0,0,0,1,1,1,0,"
+         << recordValue(validUtf8(list.points[i].label), ',') << ",,," << Placed << ",0\n";
+  }
+}
+}
