@@ -412,12 +412,13 @@ void SliceMouse::noticeZoom()
 void SliceMouse::sendZoom()
 {
   vtkSMRenderViewProxy* view = this->View->getRenderViewProxy();
-  if (!view || !this->Camera || !isFlatWithSlices(this->View))
+  if (!view || !this->Camera)
   {
     return;
   }
   const bool isSent = vtkSMPropertyHelper(view, "CameraParallelScale").GetAsDouble() == this->Zoom;
-  if (!this->Follows)
+  // Also one that shows a volume in place of slices: the others are linked to it.
+  if (!this->Follows && this->Camera->GetParallelProjection() != 0)
   {
     SCOPED_UNDO_EXCLUDE();
     const QScopedValueRollback<bool> others(linkedViewsFollow, true);

@@ -7,8 +7,10 @@ ParaView's window runs this file as a script; play_window.py reports what did no
 import os
 import random
 
+import numpy
 import test_hand as hand
 import window_testing as window
+from brainshift_testing import on_screen, picture
 from paraview import simple
 
 SEED = 5
@@ -123,6 +125,25 @@ def one_slice_is_left():
     assert sum(not flat(view) for view in simple.GetViewsInLayout(layout)) == 1
 
 
+def zoomed_together():
+    """A slice view that was switched to the volume is drawn when another slice view zooms."""
+    four_views()
+    flats = [view for view in simple.GetRenderViews() if flat(view)]
+    simple.GetDisplayProperties(window.deformation(), flats[0]).SetRepresentationType(
+        "Deformed Volume")
+    for chosen, way in ((flats[1], (0, -20)), (flats[0], (0, 20))):
+        middle = [side // 2 for side in chosen.ViewSize]
+        hand.over(chosen)
+        hand.right_drag(middle, [at + by for at, by in zip(middle, way)], steps=2)
+        hand.over()
+        hand.wait(1000)  # pictures become still
+        assert len({round(view.CameraParallelScale, 6) for view in flats}) == 1
+        for number, view in enumerate(flats):
+            shown = on_screen(view) / 255.0
+            off = numpy.abs(shown - picture(view)).max(axis=2) > 0.1
+            assert off.mean() < 0.01, (number, off.mean())
+
+
 def cameras():
     return sorted((str(view.InteractionMode), [round(part, 3) for part in view.CameraPosition],
                    round(view.CameraParallelScale, 3)) for view in simple.GetRenderViews())
@@ -212,4 +233,4 @@ def no_message():
 chance = random.Random(SEED)
 window.main("FourViewsSurvive", [
     (undone_split,), (close_and_undo,), (second_layout,), (state_again,), (shuffled,),
-    (one_slice_is_left,), (no_message,)])
+    (one_slice_is_left,), (zoomed_together,), (no_message,)])
