@@ -136,8 +136,8 @@ def map_points(file_in, file_out, filter=None, direction="forward", volume=1, ta
     Raises `TypeError` if a file is no path; arrays go to `deformed_from_rest`,
     `rest_from_deformed` or `Transform.map`. Raises `ValueError` if `direction` is another word,
     `file_in` cannot be read, `filter` attaches no deformation, or there are a `filter` and a
-    `transform`. Raises `OSError` with the reason if the transform cannot be read or `file_out` is
-    not written.
+    `transform`. Raises `OSError` with the reason if the transform cannot be read, if a point maps
+    to no finite position, or if `file_out` is not written.
     """
     from paraview import servermanager, simple
 
