@@ -190,14 +190,21 @@ def walked_markups():
             ("controlPoints", "controlpoints", "Slicer writes controlPoints"),
             ('"position":', '"Position":', "Slicer writes position"),
             ("positionStatus", "PositionStatus", "Slicer writes positionStatus"),
+            ('"label"', '"Label"', "Slicer writes label"),
+            ('{"@schema"', '{"coordinateSystem": "RAS", "@schema"', "at a wrong place"),
+            ('{"@schema"', '{"CoordinateUnits": "cm", "@schema"', "at a wrong place"),
+            ('"label"', '"coordinateSystem": "LPS", "label"', "at a wrong place"),
             ("[1, 2, 3]", "[1, 2]", "not 3 numbers")):
         assert words in refusal("walk.mrk.json", good.replace(old, new)), new
+    numbered = good.replace('"a"', "7")
+    assert brainshift.read_points(written("walk.mrk.json", numbered)).labels == ["7"]
     with messages() as said:
         hidden = good.replace('"defined"', '"undefined"')
         assert len(brainshift.read_points(written("walk.mrk.json", hidden)).positions) == 0
     assert_says(said.text, "1 point without a position")
     return {f"{name} .mrk.json" for name in (
-        "coordinateSystem", "coordinateUnits", "controlPoints", "position", "positionStatus")}
+        "coordinateSystem", "coordinateUnits", "label", "controlPoints", "position",
+        "positionStatus")}
 
 
 def walked_fiducials_and_tags():
