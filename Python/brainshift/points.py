@@ -43,7 +43,8 @@ def read_points(name, volume=1, table_axes="RAS", columns=None):
 
     Returns a named tuple of `positions`, an N x 3 array in mm, RAS; `labels`, a list of N strings;
     and `numbers`, `times` and `deviations`, arrays of N numbers. A number that the file does not
-    have is NaN.
+    have is NaN. Labels of a table come from `label` or `name`, else from the column that is called
+    as names are, or whose words all differ; a warning says which.
 
     Raises `ValueError` with the reason if the file cannot be read.
     """
