@@ -6,6 +6,7 @@
 #include "Common/Portions.h"
 #include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Fields/TransformLattice.h"
+#include "Formats/Fields/FieldGap.h"
 #include "Formats/Fields/FieldImage.h"
 #include "Formats/Transforms/TransformFile.h"
 
@@ -267,6 +268,7 @@ void vtkTransformReader::FillField(vtkImageData* field, vtkInformation* volume)
   {
     return; // stopped
   }
+  this->RequireNumbers(transform.direction == wanted, lattice);
   this->LargestError = 0.0;
   if (volume && this->OutputDirection == Forward)
   {
@@ -274,6 +276,20 @@ void vtkTransformReader::FillField(vtkImageData* field, vtkInformation* volume)
     this->LargestError = largestErrorOf(lattice, transform);
   }
   setField(field, lattice.grid, lattice.displacements, wanted);
+}
+
+void vtkTransformReader::RequireNumbers(bool isOwnDirection, Lattice& lattice)
+{
+  const std::string gap = gapIn(lattice.grid, lattice.displacements);
+  if (gap.empty())
+  {
+    return;
+  }
+  const std::string has = "Transform file " + this->FileName + " has " + gap;
+  throwIfAny(isOwnDirection ? has + "; all control points need one" : "");
+  closeGap(lattice.displacements);
+  warn(
+    this, has + "; the tissue there stays, and beside it the deformation is not that of the file");
 }
 
 void vtkTransformReader::PrintSelf(ostream& os, vtkIndent indent)

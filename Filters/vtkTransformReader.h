@@ -25,6 +25,7 @@ class vtkImageData;
 
 namespace brainshift
 {
+struct Lattice;
 struct PointTransform;
 }
 
@@ -175,6 +176,9 @@ private:
   // Takes the grid of the output: of the volume, or of the field in the files.
   void ChooseGrid(vtkInformation* volume);
   void FillField(vtkImageData* field, vtkInformation* volume);
+  // Throws a Problem about displacements without a number. Those of an inverse become 0, with a
+  // warning.
+  void RequireNumbers(bool isOwnDirection, brainshift::Lattice& lattice);
 
   std::string FileName;
   std::string FixedImage;

@@ -3,6 +3,7 @@
 
 #include "Common/Guard.h"
 #include "Formats/Fields/FieldFile.h"
+#include "Formats/Fields/FieldGap.h"
 #include "Formats/Fields/FieldImage.h"
 
 #include "vtkImageData.h"
@@ -39,6 +40,7 @@ int vtkDisplacementFieldReader::RequestInformation(
 {
   State& state = *this->Internal;
   state.Good = false;
+  this->Gap.clear();
   this->Problem = sentenceThrownBy("Displacement Field Reader", [&] {
     throwIfAny(
       this->FileName.empty() ? "FileName is empty; it must name a displacement field" : "");
@@ -50,6 +52,7 @@ int vtkDisplacementFieldReader::RequestInformation(
   {
     reverseXY(state.Field);
   }
+  this->Gap = gapIn(state.Field.grid, state.Field.displacements);
   announce(outputs->GetInformationObject(0), state.Field.grid);
   return 1;
 }
@@ -61,6 +64,10 @@ int vtkDisplacementFieldReader::RequestData(
   if (!state.Good)
   {
     return 0; // RequestInformation has reported why
+  }
+  if (!this->Gap.empty())
+  {
+    warn(this, "Displacement field " + this->FileName + " has " + this->Gap);
   }
   brainshift::Direction direction = state.Field.direction.value_or(brainshift::Direction::Backward);
   if (this->Direction != AsTheFileTells)

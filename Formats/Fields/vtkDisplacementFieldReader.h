@@ -58,6 +58,12 @@ public:
   /** Why the last run read no field: a sentence. Empty if it read one. */
   vtkGetMacro(Problem, std::string);
 
+  /**
+   * Points of the last field that have no finite number, such as "no finite number at 12 of 729
+   * points, from 0 0 0 to 24 64 64 mm". No deformation can use them. Empty if all have one.
+   */
+  vtkGetMacro(Gap, std::string);
+
   /** 1 if the file is a displacement field. */
   static int CanReadFile(const char* fileName);
 
@@ -76,6 +82,7 @@ private:
 
   std::string FileName;
   std::string Problem = "Nothing was read";
+  std::string Gap;
   int World = RAS;
   int Direction = AsTheFileTells;
   struct State; // the field as read

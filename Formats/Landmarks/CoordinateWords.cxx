@@ -71,6 +71,14 @@ std::vector<std::string> partsOf(std::string words)
   return wordsIn(words);
 }
 
+void noteOnce(const std::string& note, LandmarkList& list)
+{
+  if (std::find(list.notes.begin(), list.notes.end(), note) == list.notes.end())
+  {
+    list.notes.push_back(note);
+  }
+}
+
 template <typename Value>
 std::optional<Value> agreedOn(
   const std::optional<Value>& one, const std::optional<Value>& other, const char* what)
@@ -102,20 +110,29 @@ bool isNoLength(const std::string& word)
   return std::find(std::begin(Words), std::end(Words), word) != std::end(Words);
 }
 
-double lengthIn(const std::string& words)
+std::optional<double> lengthUnder(
+  const std::string& key, const std::string& words, LandmarkList& list)
 {
   std::optional<double> length;
   bool isOne = true;
+  bool isCounted = false;
   for (const std::string& part : partsOf(lowerCase(words)))
   {
     const std::optional<double> found = lengthOfUnit(part);
     isOne = isOne && (!length || !found || *length == *found);
+    isCounted = isCounted || isNoLength(part);
     length = length ? length : found;
   }
-  throwIfAny(length && isOne
-      ? ""
-      : "says the unit " + shownWords(words) + "; it must be mm, cm, m, um or inch");
-  return *length;
+  const std::string says = "says the unit " + shownWords(words);
+  const bool isOfOther = keyOf(key).compare(0, 4, "unit") == 0; // such as kOhm
+  throwIfAny(!isOne || isCounted || (!length && !isOfOther)
+      ? says + "; it must be mm, cm, m, um or inch"
+      : "");
+  if (!length)
+  {
+    noteOnce(says + ", which is no length; its positions count as if it said none", list);
+  }
+  return length;
 }
 
 FrameMeaning frameIn(const std::string& words)
@@ -139,11 +156,9 @@ FrameMeaning frameIn(const std::string& words)
 
 void noteDoubt(const std::string& words, const FrameMeaning& frame, LandmarkList& list)
 {
-  const std::string note = "says the coordinate system " + shownWords(words) + ", " + frame.doubt;
-  if (!frame.doubt.empty() &&
-    std::find(list.notes.begin(), list.notes.end(), note) == list.notes.end())
+  if (!frame.doubt.empty())
   {
-    list.notes.push_back(note);
+    noteOnce("says the coordinate system " + shownWords(words) + ", " + frame.doubt, list);
   }
 }
 

@@ -16,9 +16,13 @@ std::optional<double> lengthOfUnit(const std::string& word);
 /** Whether a word, in small letters, says that positions are counted, such as voxels. */
 bool isNoLength(const std::string& word);
 
-/** The length (mm) of the unit in words of a file, such as "cm" or "mm, as in the scan". Throws the
- * end of a sentence if there is none, or several. */
-double lengthIn(const std::string& words);
+/**
+ * The length (mm) of the unit in words under a key, such as "cm" or "mm, as in the scan". Throws
+ * the end of a sentence if it is none, or several. Under "unit" and "units" it may be that of
+ * something else, such as kOhm: none, with a note.
+ */
+std::optional<double> lengthUnder(
+  const std::string& key, const std::string& words, LandmarkList& list);
 
 /** What the name of a frame says. */
 struct FrameMeaning

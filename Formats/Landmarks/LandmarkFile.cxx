@@ -108,6 +108,22 @@ void noteLosses(Format format, LandmarkList& list)
   }
 }
 
+// Throws if a point has no finite position, which no format can hold.
+void requirePositions(const std::string& fileName, const LandmarkList& list)
+{
+  for (std::size_t i = 0; i < list.points.size(); ++i)
+  {
+    const Landmark& point = list.points[i];
+    if (!std::isfinite(point.position.x + point.position.y + point.position.z))
+    {
+      const std::string number = "point " + std::to_string(i + 1);
+      throw Problem("File " + fileName + " cannot be written: " + number +
+        (point.label.empty() ? "" : " (" + shownWords(point.label) + ")") +
+        " has no finite position; a transform may have no number there");
+    }
+  }
+}
+
 void write(std::ostream& file, Format format, FileAxes axes, const LandmarkList& list)
 {
   switch (format)
@@ -213,6 +229,7 @@ void writeLandmarkFile(
   {
     throw Problem("File " + fileName + " cannot be written: an MNI tag file has RAS axes, not LPS");
   }
+  requirePositions(fileName, list);
   const bool isOfSlicer = format == Format::Markups || format == Format::Fiducials;
   const FileAxes written = axes.value_or(isOfSlicer ? FileAxes::LPS : FileAxes::RAS);
   noteLosses(format, list);

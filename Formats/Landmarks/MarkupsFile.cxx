@@ -126,6 +126,9 @@ private:
   {
     switch (this->Places.empty() ? Place::Other : this->Places.back())
     {
+      case Place::Root:
+        this->refuseCoordinates();
+        break;
       case Place::Markups:
         throw Problem("has a list of markups that is no object");
       case Place::Markup:
@@ -175,6 +178,15 @@ private:
     }
   }
 
+  // Axes and units at another place would count for nothing without a word.
+  void refuseCoordinates() const
+  {
+    const std::string key = lowerCase(this->Key);
+    throwIfAny(key == "coordinatesystem" || key == "coordinateunits" ? "has the key " +
+          shownWords(this->Key) + " at a wrong place; Slicer writes it in each list"
+                                                                     : "");
+  }
+
   void takeOfMarkup(const Value& value)
   {
     this->requireKey("coordinateUnits");
@@ -200,9 +212,11 @@ private:
   {
     this->requireKey("position");
     this->requireKey("positionStatus");
-    if (this->Key == "label" && value.word)
+    this->requireKey("label");
+    this->refuseCoordinates();
+    if (this->Key == "label" && (value.word || value.number))
     {
-      this->Point.label = *value.word;
+      this->Point.label = value.word ? *value.word : numberText(*value.number);
     }
     else if (this->Key == "positionStatus" && value.word)
     {

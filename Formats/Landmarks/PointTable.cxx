@@ -45,19 +45,22 @@ struct Columns
   std::size_t defined = 0;
   std::size_t unit = 0;
   std::size_t frame = 0;
+  std::string unitName;
   std::string frameName;
   std::size_t count = 0;
 };
 
-// A column's name without capitals and without its unit, if that is mm.
+// A column's name without capitals and without its unit: "Time (ms)" and "time_ms" are time.
 std::string nameOf(const std::string& written)
 {
   std::string name = lowerCase(trimmed(written));
-  for (const char* unit : { "(mm)", "[mm]", "_mm" })
+  const std::size_t bracket = name.find_first_of("([");
+  name = bracket == std::string::npos || bracket == 0 ? name : trimmed(name.substr(0, bracket));
+  for (const char* unit : { "_mm", "_cm", "_m", "_um", "_s", "_sec", "_ms", "_us", "_min" })
   {
     if (endsWith(name, unit))
     {
-      name = trimmed(name.substr(0, name.size() - std::string(unit).size()));
+      return trimmed(name.substr(0, name.size() - std::string(unit).size()));
     }
   }
   return name;
@@ -94,6 +97,7 @@ std::optional<Columns> columnsIn(const Values& header, const Values& wanted)
   };
   columns.unit = placeBy(saysUnit);
   columns.frame = placeBy(saysFrame);
+  columns.unitName = columns.unit < header.size() ? header[columns.unit] : "";
   columns.frameName = columns.frame < header.size() ? header[columns.frame] : "";
   return columns;
 }
@@ -204,7 +208,7 @@ SaidOfPositions saidByComments(const std::string& text, char separator, Landmark
     isBelow = isBelow || !isOne;
     if (saysUnit(entry.key))
     {
-      said = agreed(said, { std::nullopt, lengthIn(entry.value) });
+      said = agreed(said, { std::nullopt, lengthUnder(entry.key, entry.value, list) });
     }
     if (saysFrame(entry.key))
     {
@@ -225,7 +229,7 @@ SaidOfPositions saidByRecord(const Values& values, const Columns& columns, Landm
   const std::string unit = wordIn(columns.unit);
   if (!unit.empty())
   {
-    said.mm = lengthIn(unit);
+    said.mm = lengthUnder(columns.unitName, unit, list);
   }
   said.axes = axesUnder(columns.frameName, wordIn(columns.frame), list);
   return said;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace brainshift
 {
@@ -86,7 +87,11 @@ glm::dvec3 mappedBy(const FieldLink& link, const glm::dvec3& from)
       (static_cast<std::size_t>(point.z) * link.grid.dimensions.y + point.y) *
         link.grid.dimensions.x +
       point.x;
-    sum += weight.x * weight.y * weight.z * glm::dvec3(link.displacements[offset]);
+    const double share = weight.x * weight.y * weight.z;
+    if (share > 0.0) // a neighbour without a number does not count where it has no weight
+    {
+      sum += share * glm::dvec3(link.displacements[offset]);
+    }
   }
   return from + sum;
 }
@@ -111,12 +116,14 @@ glm::dvec3 mappedBackBy(const AffineLink& link, const glm::dvec3& to)
   return glm::inverse(link.linear) * (to - link.offset);
 }
 
-// Newton's method. A step that makes the miss longer is halved.
+// Newton's method. A step that makes the miss longer is halved. NaN where the search meets points
+// without a number and finds no other way.
 template <typename Link>
 glm::dvec3 mappedBackBy(const Link& link, const glm::dvec3& to)
 {
   glm::dvec3 best = to;
   glm::dvec3 miss = mappedBy(link, best) - to;
+  bool hasGap = std::isnan(glm::length(miss));
   for (int step = 0; step < StepsOfInverse && glm::length(miss) > MissOfInverse; ++step)
   {
     const glm::dmat3 slopes = slopesOf(link, best);
@@ -129,16 +136,18 @@ glm::dvec3 mappedBackBy(const Link& link, const glm::dvec3& to)
     {
       stepLength *= 0.5;
       tried = best - stepLength * move;
+      hasGap = hasGap || std::isnan(glm::length(left) + glm::length(move));
       left = mappedBy(link, tried) - to;
     }
     if (!(glm::length(left) < glm::length(miss)))
     {
-      return best;
+      break;
     }
     best = tried;
     miss = left;
   }
-  return best;
+  const bool isFound = glm::length(miss) <= MissOfInverse;
+  return hasGap && !isFound ? glm::dvec3(std::numeric_limits<double>::quiet_NaN()) : best;
 }
 
 void reverseGrid(LinkGrid& grid)

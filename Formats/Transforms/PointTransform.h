@@ -71,13 +71,14 @@ struct PointTransform
   std::vector<TransformLink> links;
 };
 
-/** Where the chain takes a point (mm). */
+/** Where the chain takes a point (mm). NaN where a field has no number. */
 VTKBRAINSHIFTFORMATS_EXPORT glm::dvec3 mapped(
   const PointTransform& transform, const glm::dvec3& from);
 
 /**
  * The point that the chain takes to `to`, to 1e-6 mm where the chain does not fold and does not
- * jump; elsewhere the best one that was found.
+ * jump; elsewhere the best one that was found. NaN where points of a field without a number are in
+ * the way.
  */
 VTKBRAINSHIFTFORMATS_EXPORT glm::dvec3 mappedBack(
   const PointTransform& transform, const glm::dvec3& to);

@@ -137,13 +137,20 @@ def load_field(name, direction="As Stored In The File", world="RAS"):
 
     Returns a ParaView source with a forward field in mm.
 
-    Raises `ValueError` with the reason if the file is not a displacement field.
+    Raises `ValueError` with the reason if the file is not a displacement field, or if some of its
+    points have no finite number.
     """
     from paraview import simple
 
     active = simple.GetActiveSource()
     reader = simple.DisplacementFieldReader(FileName=name, Direction=direction, World=world)
     require_read(reader, active)
+    gap = reader.GetPropertyValue("Gap")
+    if gap:
+        simple.Delete(reader)
+        simple.SetActiveSource(active)
+        raise ValueError(f"Displacement field {name} has {gap}; a deformation needs all of them. "
+                         "apply_transform needs those inside the volume")
     leads = reader.GetDataInformation().GetFieldDataInformation().GetArrayInformation(
         "DisplacementDirection")
     if leads.GetStringValue(0) == "forward":

@@ -43,7 +43,8 @@ def read_points(name, volume=1, table_axes="RAS", columns=None):
 
     Returns a named tuple of `positions`, an N x 3 array in mm, RAS; `labels`, a list of N strings;
     and `numbers`, `times` and `deviations`, arrays of N numbers. A number that the file does not
-    have is NaN.
+    have is NaN. Labels of a table come from `label` or `name`, else from the column that is called
+    as names are, or whose words all differ; a warning says which.
 
     Raises `ValueError` with the reason if the file cannot be read.
     """
@@ -136,8 +137,8 @@ def map_points(file_in, file_out, filter=None, direction="forward", volume=1, ta
     Raises `TypeError` if a file is no path; arrays go to `deformed_from_rest`,
     `rest_from_deformed` or `Transform.map`. Raises `ValueError` if `direction` is another word,
     `file_in` cannot be read, `filter` attaches no deformation, or there are a `filter` and a
-    `transform`. Raises `OSError` with the reason if the transform cannot be read or `file_out` is
-    not written.
+    `transform`. Raises `OSError` with the reason if the transform cannot be read, if a point maps
+    to no finite position, or if `file_out` is not written.
     """
     from paraview import servermanager, simple
 

@@ -81,7 +81,7 @@ class Transform:
         - `points`: an N x 3 array of positions in mm, world axes.
 
         Returns an N x 3 array of positions in mm, world axes. A point outside a B-spline or a field
-        does not move, as in ITK.
+        does not move, as in ITK. A point where the field has no finite number becomes NaN.
         """
         import numpy
         points = numpy.asarray(points, float)
@@ -184,7 +184,8 @@ def apply_transform(filter, files, direction="backward", world="RAS", fixed_imag
     control points, and 0 for Compare Volumes. More `LatticeDimensions` make it smaller.
 
     Raises `OSError` with the reason if a file cannot be read, and `ValueError` if the filter cannot
-    use the transform.
+    use the transform, or if `"forward"` a control point has no finite number. If `"backward"` a
+    warning names the control points that have none; the tissue there stays.
     """
     direction, files = _direction(direction), _names(files)
     kind = filter.SMProxy.GetXMLName()

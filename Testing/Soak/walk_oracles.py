@@ -142,6 +142,17 @@ def _kind(found, name):
     return f" ({kind})" if kind else ""
 
 
+def _alike(left, right):
+    """Whether two values are the same but for the last digits of a camera that was rotated."""
+    if left == right or left is None or right is None:
+        return left == right
+    try:
+        numbers = [[float(part) for part in value.split()] for value in (left, right)]
+    except ValueError:
+        return False
+    return len(numbers[0]) == len(numbers[1]) and numpy.allclose(*numbers, rtol=1e-12, atol=1e-12)
+
+
 def undo_and_redo_lead_back(times):
     """Undoes some steps and redoes as many; afterwards all properties are what they were."""
     times = min(times, len(window.undo_labels()))
@@ -155,7 +166,8 @@ def undo_and_redo_lead_back(times):
     hold(strokes() == kept, f"strokes changed by undo and redo of {labels[:times]}")
     after = properties()
     changed = [f"{name}{_kind(after, name)}: {before.get(name)} became {after.get(name)}"
-               for name in sorted({*before, *after}) if before.get(name) != after.get(name)]
+               for name in sorted({*before, *after})
+               if not _alike(before.get(name), after.get(name))]
     hold(not changed, f"undo and redo of {labels[:times]} changed {len(changed)}: {changed[:8]}")
 
 
@@ -254,8 +266,12 @@ def same(words, left, right, most=FAR_PIXELS):
     hold(left.shape == right.shape, f"{words}: {left.shape} and {right.shape} pixels")
     share = far_share(left, right)
     if share > most:
+        names = save_both(left, right)
+        with window.unrecorded():
+            servermanager.ProxyManager().SMProxyManager.SaveXMLState(
+                os.path.join(actions.Files.folder, f"shown{actions.Files.kept}.pvsm"))
         raise Wrong(f"{words}: {100 * share:.2f} % of the pixels are far apart "
-                    f"({save_both(left, right)})")
+                    f"({names}, shown{actions.Files.kept}.pvsm)")
 
 
 def rest():

@@ -12,7 +12,8 @@ load_plugin()
 import brainshift  # noqa: E402 after the plugin
 from paraview import servermanager  # noqa: E402
 from paraview.simple import (  # noqa: E402
-    BakeDeformation, DeformationField, DICOMVolumeReader, FreeFormDeformation, GetSources, SaveData)
+    BakeDeformation, DeformationField, DICOMVolumeReader, FreeFormDeformation, GetSources,
+    OpenDataFile, SaveData)
 
 MIDDLE = (16.0, 16.0, 16.0)
 STAMP = brainshift.stamp(MIDDLE, (16.0, 16.0, 0.0), 4.0, major=15.0, minor=12.0)
@@ -164,6 +165,23 @@ def test_a_file_that_is_none_raises_the_reason():
     with messages():
         series = DICOMVolumeReader(FileName=scratch("no-folder"))
         fails(lambda: brainshift.dicom_patient(series), "no-folder", "does not exist")
+
+
+def test_a_field_without_numbers_somewhere_is_refused():
+    image = numpy.zeros((9, 9, 9, 3), numpy.float32)
+    image[:, :, :4] = numpy.nan
+    header = ("ObjectType = Image\nNDims = 3\nDimSize = 9 9 9\nElementType = MET_FLOAT\n"
+              "BinaryData = True\nElementNumberOfChannels = 3\nOffset = 0 0 0\n"
+              "ElementSpacing = 8 8 8\nElementDataFile = LOCAL\n")
+    name = scratch("gap.mha")
+    with open(name, "wb") as file:
+        file.write(header.encode() + image.tobytes())
+    for direction in ("Forward", "Backward"):
+        fails(lambda way=direction: brainshift.load_field(name, direction=way),
+              "gap.mha has no finite number at 324 of 729 points, from -24 -64 0 to 0 0 64 mm")
+    with messages() as said:
+        OpenDataFile(name).UpdatePipeline()
+    assert_says(said.text, "gap.mha has no finite number at 324 of 729 points")
 
 
 def test_plain_volumes_are_no_fields():

@@ -138,6 +138,10 @@ def test_tables():
                 assert numpy.array_equal(points.times, [0.5, numpy.nan], equal_nan=True)
                 assert points.deviations.tolist() == [0.25, 0.01]
                 assert numpy.isnan(points.numbers).all()
+    for time in ("time_ms", "Time (ms)", "time [s]", "TIME"):
+        text = f"x,y,z,{time},deviation (mm)\n1,2,3,500,0.5\n"
+        points = brainshift.read_points(written("table.csv", text))
+        assert points.times.tolist() == [500] and points.deviations.tolist() == [0.5], time
     plain = "x,y,z\n1,2,3\n"
     named = {"R,A,S": (1, 1, 1), "l,p,s": (-1, -1, 1), "Points:0,Points:1,Points:2": (1, 1, 1)}
     for axes, signs in named.items():
@@ -194,14 +198,21 @@ def walked_markups():
             ('"coordinateUnits"', '"coordinateSystem": "LPS", "coordinateUnits"',
              "has the key coordinateSystem twice"),
             ('"markups": [', '"markups": [], "markups": [', "has the key markups twice"),
+            ('"label"', '"Label"', "Slicer writes label"),
+            ('{"@schema"', '{"coordinateSystem": "RAS", "@schema"', "at a wrong place"),
+            ('{"@schema"', '{"CoordinateUnits": "cm", "@schema"', "at a wrong place"),
+            ('"label"', '"coordinateSystem": "LPS", "label"', "at a wrong place"),
             ("[1, 2, 3]", "[1, 2]", "not 3 numbers")):
         assert words in refusal("walk.mrk.json", good.replace(old, new)), new
+    numbered = good.replace('"a"', "7")
+    assert brainshift.read_points(written("walk.mrk.json", numbered)).labels == ["7"]
     with messages() as said:
         hidden = good.replace('"defined"', '"undefined"')
         assert len(brainshift.read_points(written("walk.mrk.json", hidden)).positions) == 0
     assert_says(said.text, "1 point without a position")
     return {f"{name} .mrk.json" for name in (
-        "coordinateSystem", "coordinateUnits", "controlPoints", "position", "positionStatus")}
+        "coordinateSystem", "coordinateUnits", "label", "controlPoints", "position",
+        "positionStatus")}
 
 
 def walked_fiducials_and_tags():
@@ -236,7 +247,7 @@ def walked_fiducials_and_tags():
 
 def walked_tables():
     """Each list of names, and where the position 1 2 3 of such columns lies."""
-    seen = {"columns table", "several table", "n/a table"}
+    seen = {"columns table", "several table", "n/a table", "time table"}
     for entry, names, right in (
             ("x y z", "x,y,z", (1, 2, 3)), ("x y z", " X , Y [mm], z(mm)", (1, 2, 3)),
             ("r a s", "R,A,S", (1, 2, 3)), ("r a s", "right,anterior,superior", (1, 2, 3)),
@@ -297,10 +308,15 @@ def walked_units_and_frames():
         assert found.labels == ["a"] and words in said.text and (words or not said.text), (
             text, said.text)
         seen.add(f"{entry} table")
+    with messages() as said:
+        found = brainshift.read_points(written("said.csv", "name,x,y,z,units\na,1,2,3,kOhm\n"))
+    assert found.positions.tolist() == [[1, 2, 3]]
+    assert_says(said.text, "the unit kOhm, which is no length")
     two = brainshift.read_points(written("said.csv", "x,y,z,unit\n1,2,3,mm\n1,2,3,cm\n"))
     assert two.positions.tolist() == [[1, 2, 3], [10, 20, 30]], "each point has its own"
     for text, words in (("x,y,z,space\n1,2,3,voxel\n", "the positions are voxel"),
                         ("x,y,z,unit\n1,2,3,px\n", "the unit px"),
+                        ("x,y,z,coordinateUnits\n1,2,3,kOhm\n", "the unit kOhm"),
                         ("# units: pixels\nx,y,z\n1,2,3\n", "the unit pixels"),
                         ("x,y,z,space\n1,2,3,CTF\n", "CTF, whose x points to the front"),
                         ("x_cm,y_cm,z_cm,unit\n1,2,3,mm\n", "two units"),

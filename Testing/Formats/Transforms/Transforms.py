@@ -9,7 +9,7 @@ import struct
 
 import numpy
 from brainshift_testing import (
-    load_plugin, on_server, run_tests, scratch, server_finds_plugin, volume)
+    assert_says, load_plugin, messages, on_server, run_tests, scratch, server_finds_plugin, volume)
 from outside_testing import (
     FLIP, itk_text, mapped_by_parameters, mapped_outside, numbers, of_itk_text, parameter_file, run,
     write, write_hdf5, write_image, write_matlab)
@@ -293,6 +293,60 @@ def test_files_of_points_go_through_transforms_and_back():
         again = brainshift.read_points(back)
         assert largest(again.positions, INNER) < NEAR, (transform, largest(again.positions, INNER))
         assert again.labels == found.labels
+
+
+def field_with_gap(name, gap):
+    """A field that takes points 10 mm to the right, without numbers where x (RAS) is in a range."""
+    voxels = numpy.zeros((11, 12, 12, 3))
+    voxels[..., 0] = -10.0
+    x = 30.0 - 10.0 * numpy.arange(12)
+    voxels[:, :, (x >= gap[0]) & (x <= gap[1])] = numpy.nan
+    return write_image(name, voxels, (-30.0, -60.0, -10.0), (10.0, 10.0, 10.0))
+
+
+def test_a_field_with_gaps_is_refused_or_named():
+    whole, half = field_with_gap("whole.mha", (99, 99)), field_with_gap("half.mha", (-99, -31))
+    places = numpy.array([(-45.0, 10.0, 40.0), (-30.0, 10.0, 40.0), (0.0, 10.0, 40.0)])
+    right = places + (10.0, 0, 0)
+    assert largest(brainshift.read_transform(whole).map(places), right) < NEAR
+    found = brainshift.read_transform(half).map(places)
+    assert numpy.isnan(found[0]).all() and largest(found[1:], right[1:]) < NEAR, (
+        "a point of the field has its own number, whatever its neighbours have")
+    # Forward, the lattice needs a number at each control point.
+    bent = FreeFormDeformation(Input=BOX)
+    with messages():
+        raises(ValueError, "half.mha has no finite number at", brainshift.apply_transform, bent,
+               half, direction="forward")
+    assert bent.Lattice is None
+    with messages() as said:
+        brainshift.apply_transform(bent, whole, direction="forward")
+    assert "no finite number" not in said.text
+    assert largest(brainshift.deformed_from_rest(bent, places), right) < NEAR
+    # Backward, the inverse is found beside the gap, and the gap is named.
+    bent = FreeFormDeformation(Input=BOX)
+    with messages() as said:
+        brainshift.apply_transform(bent, half)
+    assert_says(said.text, "half.mha has no finite number at", "of 6859 points, from -70 -40 0 to",
+                "the tissue there stays")
+    moved = brainshift.deformed_from_rest(bent, places[2:])
+    assert largest(moved, places[2:] - (10.0, 0, 0)) < 0.1, moved
+
+
+def test_points_that_map_to_no_number_are_refused_by_name():
+    half = field_with_gap("half.mha", (-99, -31))
+    for label, words in (("tip", "point 1 (tip)"), ("", "point 1 has")):
+        name = write("gap.csv", f"label,r,a,s\n{label},-60,10,40\nother,0,10,40\n")
+        for ending in (".mrk.json", ".fcsv", ".tag", ".csv", ".tsv"):
+            for direction in ("forward", "backward"):
+                out = scratch("gap_out" + ending)
+                if os.path.exists(out):
+                    os.remove(out)
+                with messages():
+                    raises(OSError, words, brainshift.map_points, name, out, transform=half,
+                           direction=direction)
+                assert not os.path.exists(out)
+    name = write("gap.csv", "label,r,a,s\nother,0,10,40\n")
+    assert brainshift.map_points(name, scratch("gap_out.csv"), transform=half) == 1
 
 
 def test_points_and_transforms_that_do_not_fit():

@@ -128,7 +128,8 @@ def one_slice_is_left():
 def zoomed_together():
     """A slice view that was switched to the volume is drawn when another slice view zooms."""
     four_views()
-    flats = [view for view in simple.GetRenderViews() if flat(view)]
+    views = simple.GetViewsInLayout(simple.GetLayout(simple.GetActiveView()))
+    flats = [view for view in views if flat(view)]
     simple.GetDisplayProperties(window.deformation(), flats[0]).SetRepresentationType(
         "Deformed Volume")
     for chosen, way in ((flats[1], (0, -20)), (flats[0], (0, 20))):
@@ -203,7 +204,8 @@ def close_one():
 
 
 def click_one():
-    flats = [view for view in simple.GetRenderViews() if flat(view)]
+    views = simple.GetViewsInLayout(simple.GetLayout(simple.GetActiveView()))
+    flats = [view for view in views if flat(view)]
     if flats:
         click(chance.choice(flats))
 
