@@ -30,6 +30,9 @@ public:
   glm::dmat4 inFileOrder(const glm::dmat4& worldFromVoxel, const glm::ivec3& dimensions) const;
 
 private:
+  // The text that may name labels. Notes extensions that reach into the voxels.
+  std::string textOfExtensions(const std::string& fileName, VolumeHeader& header);
+
   // Whether VTK reads slices from the last to the first.
   bool reversesSlices() const;
 
