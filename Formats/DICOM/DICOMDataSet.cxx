@@ -366,6 +366,7 @@ bool parseDICOM(DICOMBytes& bytes, DICOMContent& content, PatientGroup patient)
   }
   content.repeated = parser.Repeated;
   content.pixelOffset = parser.Pixels.value;
+  content.areWords = std::strncmp(parser.Pixels.vr, "OW", 2) == 0;
   content.areReal = content.pixelOffset > 0 && parser.Pixels.tag != PixelData;
   content.isPacked = content.pixelOffset > 0 && parser.Pixels.length == Undefined;
   content.pixelLength = content.isPacked ? 0 : parser.Pixels.length;

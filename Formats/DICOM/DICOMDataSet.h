@@ -81,6 +81,7 @@ struct DICOMContent
   std::uint64_t pixelOffset = 0;  ///< 0: there are no pixels
   std::uint64_t pixelLength = 0;  ///< bytes, unless it is packed
   bool isPacked = false;          ///< the pixels come in fragments
+  bool areWords = false;          ///< the pixels are words of 2 bytes (VR OW)
   bool areReal = false;           ///< the pixels are in floating point
   std::vector<DICOMTag> repeated; ///< attributes that occur twice with different values
 };

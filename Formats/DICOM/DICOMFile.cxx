@@ -118,6 +118,8 @@ DICOMFile readDICOMHeader(const std::string& path)
   file.pixels.isPlain = !content.isPacked &&
     std::find(std::begin(Plain), std::end(Plain), content.transferSyntax) != std::end(Plain);
   file.pixels.isBigEndian = set.isBigEndian;
+  file.pixels.areExchanged =
+    set.isBigEndian && content.areWords && file.pixels.isPlain && file.pixels.bitsAllocated == 8;
   file.pixels.isDeflated = content.transferSyntax == Plain[3];
   file.pixels.offset = content.pixelOffset;
   file.pixels.length = content.pixelLength;

@@ -70,6 +70,9 @@ struct DICOMPixelFormat
   bool isReal = false;      ///< floating point
   bool isPlain = false;     ///< whether the bytes of frames follow each other from `offset` on
   bool isBigEndian = false; ///< the order of bytes, if it is plain
+  /// Numbers of 1 byte in words whose high byte comes first: the second of two pixels is before
+  /// the first (PS3.5, 8.1.1 and A.3).
+  bool areExchanged = false;
   bool isDeflated = false;  ///< whether `offset` counts bytes after inflating
   std::uint64_t offset = 0; ///< of the pixel data, bytes
   std::uint64_t length = 0; ///< of the pixel data, bytes, if it is plain

@@ -131,6 +131,27 @@ void withStoredType(int type, const Use& use)
   }
 }
 
+// Bytes of the pixel data, in the order of the pixels.
+bool readPixelBytes(DICOMBytes& stream, const DICOMPixelFormat& pixels, std::uint64_t begin,
+  std::uint64_t count, char* to)
+{
+  if (!pixels.areExchanged)
+  {
+    return stream.read(pixels.offset + begin, count, to);
+  }
+  const std::uint64_t first = begin & ~std::uint64_t(1);
+  std::vector<char> words(((begin + count + 1) & ~std::uint64_t(1)) - first);
+  if (!stream.read(pixels.offset + first, words.size(), words.data()))
+  {
+    return false;
+  }
+  for (std::uint64_t i = 0; i < count; ++i)
+  {
+    to[i] = words[(begin + i - first) ^ 1];
+  }
+  return true;
+}
+
 // Frames whose bytes follow each other go straight to their place.
 void readPlain(const DICOMFile& file, const std::vector<DICOMTarget>& targets, int type)
 {
@@ -148,7 +169,7 @@ void readPlain(const DICOMFile& file, const std::vector<DICOMTarget>& targets, i
   {
     const std::uint64_t begin = bytes * target.frame->frame;
     char* to = buffer.empty() ? static_cast<char*>(target.numbers) : buffer.data();
-    if (!stream.read(file.pixels.offset + begin, bytes, to))
+    if (!readPixelBytes(stream, file.pixels, begin, bytes, to))
     {
       throw Problem(file.path + " ended while it was read");
     }

@@ -321,6 +321,11 @@ void DICOMVolume::decideType(VolumeHeader& header)
         frame.rescaling.intercept == first.rescaling.intercept;
     }
   }
+  if (!isOne && vtkDataArray::GetDataTypeSize(type) > 2 && type != VTK_FLOAT)
+  {
+    header.warnings.emplace_back("has numbers of more than 16 bits in images that are rescaled in "
+                                 "different ways; they are shown with the 7 digits of float32");
+  }
   this->StoredType = isOne ? type : VTK_FLOAT;
   header.storedType = this->StoredType;
   header.rescaling = isOne ? first.rescaling : Rescaling();

@@ -12,8 +12,10 @@
 #include "Formats/Volumes/RasGrid.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <iterator>
+#include <set>
 #include <utility>
 
 namespace brainshift
@@ -22,6 +24,7 @@ namespace
 {
 constexpr const char* PointIntent = "NIFTI_INTENT_POINTSET";
 constexpr const char* TriangleIntent = "NIFTI_INTENT_TRIANGLE";
+constexpr const char* IndexIntent = "NIFTI_INTENT_NODE_INDEX";
 constexpr const char* Scanner = "NIFTI_XFORM_SCANNER_ANAT";
 constexpr const char* Aligned = "NIFTI_XFORM_ALIGNED_ANAT";
 constexpr const char* Unknown = "NIFTI_XFORM_UNKNOWN";
@@ -208,17 +211,90 @@ void takeLabels(const std::vector<Label>& labels, Surface& surface)
   surface.labels.insert(surface.labels.end(), added.begin(), added.end());
 }
 
+// The points that the rows of arrays belong to, where an array of a file names them. Empty: all, in
+// their order.
+std::vector<std::size_t> indexOf(const GIFTIFile& file, std::size_t points)
+{
+  std::vector<std::size_t> index;
+  std::set<std::int32_t> seen;
+  bool isThere = false;
+  for (const GIFTIArray& array : file.arrays)
+  {
+    if (array.attribute("Intent") != IndexIntent)
+    {
+      continue;
+    }
+    if (isThere || array.bytes.empty() || array.type != NumberType::Int32 || array.columns != 1)
+    {
+      throw Problem(joined("has ", IndexIntent, isThere ? " twice; it may have one" : " of ",
+        isThere ? "" : array.attribute("DataType"),
+        isThere ? "" : "; it must be one INT32 column"));
+    }
+    isThere = true;
+    for (std::size_t row = 0; row < array.rows; ++row)
+    {
+      const auto point = numberIn<std::int32_t>(array, row);
+      if (point < 0 || static_cast<std::size_t>(point) >= points || !seen.insert(point).second)
+      {
+        throw Problem(joined("has ", IndexIntent, " with the point ", point,
+          "; it must have each point once, from 0 to ", points - 1));
+      }
+      index.push_back(static_cast<std::size_t>(point));
+    }
+  }
+  return index;
+}
+
+// Gives each row to its point. Points without a row get NaN; whole numbers have none.
+void spread(const std::vector<std::size_t>& index, std::size_t points, GIFTIArray& array)
+{
+  const bool isDouble = array.type == NumberType::Float64;
+  const bool isFloat = array.type == NumberType::Float32;
+  if (index.size() < points && !isDouble && !isFloat)
+  {
+    throw Problem(joined("has ", IndexIntent, " of ", index.size(), " of ", points,
+      " points for an array of whole numbers, which the others would not have"));
+  }
+  const std::size_t numberBytes = array.bytes.size() / (array.rows * array.columns);
+  const std::size_t rowBytes = numberBytes * array.columns;
+  std::vector<char> all(points * rowBytes);
+  for (std::size_t i = 0; i < points * array.columns && (isDouble || isFloat); ++i)
+  {
+    const double wide = std::nan("");
+    const float narrow = std::nanf("");
+    std::memcpy(&all[i * numberBytes],
+      isDouble ? static_cast<const void*>(&wide) : static_cast<const void*>(&narrow), numberBytes);
+  }
+  for (std::size_t row = 0; row < index.size(); ++row)
+  {
+    std::memcpy(&all[index[row] * rowBytes], &array.bytes[row * rowBytes], rowBytes);
+  }
+  array.bytes = std::move(all);
+  array.rows = points;
+}
+
 // Takes the arrays that belong to the points.
 void takeNumbers(GIFTIFile& file, Surface& surface)
 {
+  const std::vector<std::size_t> index = indexOf(file, surface.points.size());
   std::size_t others = 0;
   std::size_t taken = 0;
   for (GIFTIArray& array : file.arrays)
   {
     const std::string intent = array.attribute("Intent");
-    if (intent == PointIntent || intent == TriangleIntent || array.bytes.empty())
+    if (intent == PointIntent || intent == TriangleIntent || intent == IndexIntent ||
+      array.bytes.empty())
     {
       continue;
+    }
+    if (!index.empty() && array.rows == index.size())
+    {
+      spread(index, surface.points.size(), array);
+    }
+    else if (!index.empty())
+    {
+      throw Problem(joined("has an array of ", array.rows, " rows beside ", IndexIntent, " of ",
+        index.size(), "; both must have as many"));
     }
     if (array.rows != surface.points.size())
     {

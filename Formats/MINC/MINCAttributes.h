@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Which attributes of its axes a MINC2 file lacks. libminc gives their defaults in their place, and
-/// does not say so.
+/// Which attributes of its axes a MINC2 file lacks. libminc gives defaults in their place, and does
+/// not say so.
 #ifndef BrainShift_MINCAttributes_h
 #define BrainShift_MINCAttributes_h
 

@@ -176,7 +176,9 @@ void readType(mihandle_t volume, VolumeHeader& header, bool& areRealValues)
       std::to_string(kind) + "; BrainShift reads whole and real numbers");
   }
   areRealValues = kind == MI_CLASS_REAL;
-  header.storedType = areRealValues && type != MI_TYPE_DOUBLE ? VTK_FLOAT : known->second;
+  // float32 holds all digits of up to 3 bytes.
+  const bool isWide = type == MI_TYPE_DOUBLE || type == MI_TYPE_INT || type == MI_TYPE_UINT;
+  header.storedType = !areRealValues ? known->second : isWide ? VTK_DOUBLE : VTK_FLOAT;
 }
 
 std::vector<Label> labelsIn(mihandle_t volume)

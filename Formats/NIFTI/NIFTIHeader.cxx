@@ -21,6 +21,7 @@ namespace
 {
 constexpr int NIFTI1Bytes = 348;
 constexpr int NIFTI2Bytes = 540;
+constexpr int ExtenderBytes = 4; // after the header of a single file: whether extensions follow
 constexpr std::int64_t MostTimeSteps = 65536;  // and numbers for a voxel: each takes memory
 constexpr double LargestDeflateRatio = 1032.0; // no zlib stream unpacks to more times its size
 
@@ -143,10 +144,16 @@ void requireHeader(const RawHeader& header)
     throw Problem(
       joined("has NIfTI data type ", header.dataType(), "; BrainShift reads the types", types));
   }
-  if (header.isSingleFile() && !(header.voxelOffset() >= NIFTI1Bytes))
+  const double first = (header.version == 1 ? NIFTI1Bytes : NIFTI2Bytes) + ExtenderBytes;
+  if (header.isSingleFile() && !(header.voxelOffset() >= first))
   {
     throw Problem(joined("has its voxels at byte ", header.voxelOffset(),
-      "; the first possible byte is ", NIFTI1Bytes));
+      " (vox_offset); the first possible byte is ", first));
+  }
+  if (header.voxelOffset() != std::floor(header.voxelOffset()))
+  {
+    throw Problem(
+      joined("has the vox_offset ", header.voxelOffset(), "; it must be a whole number of bytes"));
   }
 }
 

@@ -24,6 +24,8 @@ constexpr std::int32_t WorkbenchCode = 30; // NIFTI_ECODE_CARET
 constexpr std::int32_t LongestExtension = 1 << 24;
 constexpr int MostExtensions = 100;
 constexpr std::size_t MostLabels = 65536;
+constexpr int FirstOfFSL = 2006; // intents of fields and of their coefficients
+constexpr int LastOfFSL = 2018;
 
 // Some bytes of a file that may be packed. False if they are not there.
 bool bytesAt(
@@ -38,13 +40,21 @@ bool bytesAt(
   }).empty();
 }
 
-// The text of the first extension with the code; empty if there is none.
-std::string extensionOf(const std::string& fileName)
+// What follows the header of a file.
+struct Extensions
 {
+  std::string text;      // of the first one of Connectome Workbench; empty if there is none
+  std::uint64_t end = 0; // byte after the last one
+};
+
+// Those that begin before the voxels.
+Extensions extensionsOf(const std::string& fileName, std::uint64_t voxels)
+{
+  Extensions found;
   std::string bytes;
   if (!bytesAt(fileName, 0, 4, bytes))
   {
-    return {};
+    return found;
   }
   const auto isHeader = [](std::int32_t size) { return size == 348 || size == 540; };
   const bool isBigEndian = !isHeader(storedNumber<std::int32_t>(bytes.data(), false));
@@ -52,25 +62,24 @@ std::string extensionOf(const std::string& fileName)
   if (!isHeader(headerBytes) ||
     !bytesAt(fileName, static_cast<std::uint64_t>(headerBytes), 4, bytes) || bytes[0] == 0)
   {
-    return {};
+    return found;
   }
   std::uint64_t place = static_cast<std::uint64_t>(headerBytes) + 4;
-  for (int i = 0; i < MostExtensions && bytesAt(fileName, place, 8, bytes); ++i)
+  for (int i = 0; i < MostExtensions && place < voxels && bytesAt(fileName, place, 8, bytes); ++i)
   {
     const std::int32_t size = storedNumber<std::int32_t>(bytes.data(), isBigEndian);
     if (size < 16 || size > LongestExtension || size % 16 != 0)
     {
-      return {};
+      return found; // voxels, or damage
     }
-    if (storedNumber<std::int32_t>(bytes.data() + 4, isBigEndian) == WorkbenchCode)
-    {
-      return bytesAt(fileName, place + 8, static_cast<std::size_t>(size) - 8, bytes)
-        ? bytes
-        : std::string();
-    }
+    const bool isLabels = found.text.empty() &&
+      storedNumber<std::int32_t>(bytes.data() + 4, isBigEndian) == WorkbenchCode;
+    const bool isWhole = bytesAt(fileName, place + 8, static_cast<std::size_t>(size) - 8, bytes);
+    found.text = isLabels && isWhole ? bytes : found.text;
     place += static_cast<std::uint64_t>(size);
+    found.end = place;
   }
-  return {};
+  return found;
 }
 
 // The number of an attribute; NaN if the element has none.
@@ -99,12 +108,11 @@ std::string contentOf(std::string text)
   return text;
 }
 
-// The labels of the first extension of Connectome Workbench; none if the file has none. It stores
-// them as XML in an extension with code 30:
+// The labels in an extension of Connectome Workbench; none if the text is empty. It stores them as
+// XML in an extension with code 30:
 // <Label Key="1" Red="1" Green="0.5" Blue="0" Alpha="1"><![CDATA[name]]></Label>
-std::vector<Label> niftiLabels(const std::string& fileName)
+std::vector<Label> niftiLabels(const std::string& text)
 {
-  const std::string text = extensionOf(fileName);
   const std::string close = "</Label>";
   std::vector<Label> labels;
   for (std::size_t place = text.find("<Label "); place != std::string::npos;
@@ -241,6 +249,27 @@ void noteCodes(vtkNIFTIImageHeader* header, int bytesOfVoxel, std::vector<std::s
 }
 }
 
+namespace
+{
+// Vectors, tensors and fields have their components in dim[5].
+void noteVectors(vtkNIFTIImageHeader* header, std::vector<std::string>& warnings)
+{
+  const int intent = header->GetIntentCode();
+  const bool isOfVectors = intent == vtkNIFTIImageHeader::IntentGenMatrix ||
+    intent == vtkNIFTIImageHeader::IntentSymMatrix ||
+    intent == vtkNIFTIImageHeader::IntentDispVect || intent == vtkNIFTIImageHeader::IntentVector ||
+    (intent >= FirstOfFSL && intent <= LastOfFSL);
+  const bool isOfVolumes = header->GetDim(0) >= 4 && header->GetDim(4) > 1 &&
+    (header->GetDim(0) < 5 || header->GetDim(5) <= 1);
+  if (isOfVectors && isOfVolumes)
+  {
+    warnings.push_back(
+      joined("has the intent ", intent, " of several numbers at a voxel, but ", header->GetDim(4),
+        " entries in dim[4], which count as times; NIfTI has components in dim[5]"));
+  }
+}
+}
+
 NIFTIVolume::NIFTIVolume()
 {
   this->Voxels->TimeAsVectorOn();
@@ -272,6 +301,7 @@ void NIFTIVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   header.storedType = this->Voxels->GetDataScalarType();
   header.components = this->Voxels->GetNumberOfScalarComponents() / this->Volumes;
   noteCodes(stored, bytesOfNIFTIVoxel(stored->GetDataType()), header.warnings);
+  noteVectors(stored, header.warnings);
   header.worldFromVoxel = worldFromVoxel(placementOf(stored), header.warnings);
   const int* extent = this->Voxels->GetDataExtent();
   header.dimensions = glm::ivec3(extent[1] + 1, extent[3] + 1, extent[5] + 1);
@@ -282,8 +312,25 @@ void NIFTIVolume::readHeader(const std::string& fileName, VolumeHeader& header)
   const char* note = stored->GetDescrip();
   const bool saysUnknown = note && std::string(note).find(UnknownSidesNote) != std::string::npos;
   header.knowsSides = !saysUnknown && (stored->GetSFormCode() > 0 || stored->GetQFormCode() > 0);
-  header.labels = niftiLabels(fileName);
+  header.labels = niftiLabels(this->textOfExtensions(fileName, header));
   header.isLabelMap = stored->GetIntentCode() == vtkNIFTIImageHeader::IntentLabel;
+}
+
+std::string NIFTIVolume::textOfExtensions(const std::string& fileName, VolumeHeader& header)
+{
+  vtkNIFTIImageHeader* stored = this->Voxels->GetNIFTIHeader();
+  const char* magic = stored->GetMagic();
+  const bool isOneFile = magic && magic[0] == 'n' && magic[1] == '+';
+  const auto voxels = isOneFile ? static_cast<std::uint64_t>(stored->GetVoxOffset())
+                                : std::numeric_limits<std::uint64_t>::max();
+  const Extensions extensions = extensionsOf(fileName, voxels);
+  if (extensions.end > voxels)
+  {
+    header.warnings.push_back(joined("has its voxels at byte ", voxels,
+      " (vox_offset), before the end of its extensions at byte ", extensions.end,
+      "; these bytes count as voxels"));
+  }
+  return extensions.text;
 }
 
 bool NIFTIVolume::reversesSlices() const

@@ -35,6 +35,9 @@ public:
   NIFTIPlacement placement() const;
 
 private:
+  // The text that may name labels. Notes extensions that reach into the voxels.
+  std::string textOfExtensions(const std::string& fileName, VolumeHeader& header);
+
   // Whether VTK reads slices from the last to the first.
   bool reversesSlices() const;
 

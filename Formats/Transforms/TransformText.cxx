@@ -39,7 +39,12 @@ void readITKLine(const std::string& line, std::vector<TransformRecord>& records)
     throw Problem("has parameters before its first transform");
   }
   TransformRecord& record = records.back();
-  if (!appendNumbers(value, isFixed ? record.fixed : record.parameters))
+  std::vector<double>& numbers = isFixed ? record.fixed : record.parameters;
+  throwIfAny(numbers.empty()
+      ? ""
+      : std::string("has the line ") + (isFixed ? "FixedParameters: of " : "Parameters: of ") +
+        shownWords(record.type) + " twice");
+  if (!appendNumbers(value, numbers))
   {
     throw Problem("has parameters of " + shownWords(record.type) + " that are no numbers");
   }

@@ -27,8 +27,8 @@ namespace brainshift
 constexpr const char* UnknownSidesNote = "sides of the patient not known";
 
 /**
- * What a MetaImage of three floating numbers says of itself if they are no displacements. The reader
- * of fields honours it; other programs pass over it.
+ * What a MetaImage of three floating numbers says of itself if they are no displacements. The
+ * reader of fields honours it; other programs pass over it.
  */
 constexpr const char* NoFieldNote = "components of a volume, no displacement field";
 

@@ -10,6 +10,7 @@
 #include "vtkPointData.h"
 
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 namespace brainshift
@@ -55,6 +56,10 @@ void moveVoxels(vtkImageData* stored, vtkImageData* shown, const RasGrid& geomet
   });
 }
 
+// Whether float32 would round such numbers: it has 24 bits for digits.
+template <typename T>
+constexpr bool needsDouble = sizeof(T) >= 4 && !std::is_same_v<T, float>;
+
 template <typename T>
 void moveVoxelsOf(vtkImageData* stored, vtkImageData* shown, const RasGrid& geometry,
   int firstComponent, const Rescaling& rescaling)
@@ -64,8 +69,9 @@ void moveVoxelsOf(vtkImageData* stored, vtkImageData* shown, const RasGrid& geom
     moveVoxels<T, T>(stored, shown, geometry, firstComponent, [](T value) { return value; });
     return;
   }
-  moveVoxels<T, float>(stored, shown, geometry, firstComponent, [&rescaling](T value) {
-    return static_cast<float>(rescaling.slope * static_cast<double>(value) + rescaling.intercept);
+  using Shown = std::conditional_t<needsDouble<T>, double, float>;
+  moveVoxels<T, Shown>(stored, shown, geometry, firstComponent, [&rescaling](T value) {
+    return static_cast<Shown>(rescaling.slope * static_cast<double>(value) + rescaling.intercept);
   });
 }
 }
@@ -161,7 +167,16 @@ std::string PlacedVolume::shearWarning() const
 
 int PlacedVolume::scalarType() const
 {
-  return this->Header.rescaling.isNeeded() ? VTK_FLOAT : this->Header.storedType;
+  if (!this->Header.rescaling.isNeeded())
+  {
+    return this->Header.storedType;
+  }
+  bool isWide = false;
+  switch (this->Header.storedType)
+  {
+    vtkTemplateMacro(isWide = needsDouble<VTK_TT>);
+  }
+  return isWide ? VTK_DOUBLE : VTK_FLOAT;
 }
 
 void PlacedVolume::requireMemory(const int extent[6]) const

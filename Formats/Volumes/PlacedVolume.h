@@ -3,8 +3,8 @@
 /// A volume of any format, placed in RAS millimetres.
 ///
 /// Voxels are permuted and flipped, never resampled, so that the axes of the image run along the
-/// nearest RAS axes (RasGrid.h). Numbers keep the file's type, or become float32 where they are
-/// rescaled.
+/// nearest RAS axes (RasGrid.h). Numbers keep the file's type. Where they are rescaled they become
+/// float32, or double if float32 lacks digits for the file's type.
 #ifndef BrainShift_PlacedVolume_h
 #define BrainShift_PlacedVolume_h
 

@@ -41,7 +41,8 @@ struct VolumeHeader
   glm::ivec3 dimensions{ 0 };       ///< voxels along each axis, in the file's order
   int storedType = VTK_VOID;        ///< VTK's number of the type of a stored number
   int components = 1;               ///< numbers at each voxel of one volume
-  Rescaling rescaling;              ///< numbers become float32 if it is needed
+  /// Where it is needed, numbers become float32; of 4 bytes and more, other than float, double.
+  Rescaling rescaling;
   std::vector<double> times{ 0.0 }; ///< of the volumes, s; at least one
   /// Whether the file says where the sides of the patient are. Otherwise the axes of the voxels
   /// stand for right, anterior and superior, which may be wrong.

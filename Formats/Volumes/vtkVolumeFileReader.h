@@ -13,11 +13,11 @@
  * directions are right too. No image can hold sheared axes: they give a warning that names the
  * error in mm.
  *
- * Output: vtkImageData with the point scalars "Intensity". Their type is the type in the file, or
- * float32 if the file rescales them. A time series has time steps, in seconds. The field array
- * WorldAxes says RAS if the file knows the patient's sides (WorldAxes.h). Names and colours of
- * labels are attached where the file has them (LabelTable.h). After an error the output stays as it
- * was, or is empty.
+ * Output: vtkImageData with the point scalars "Intensity". Their type is the type in the file. If
+ * the file rescales them it is float32, or double for whole numbers of 4 bytes and more. A time
+ * series has time steps, in seconds. The field array WorldAxes says RAS if the file knows the
+ * patient's sides (WorldAxes.h). Names and colours of labels are attached where the file has them
+ * (LabelTable.h). After an error the output stays as it was, or is empty.
  *
  * Reading can be aborted. Then the output is the volume that was last read to its end, or empty, a
  * warning says so, and nothing is read again before the reader is modified.

@@ -121,6 +121,47 @@ def test_an_attribute_that_occurs_twice_is_refused():
         assert (output(reader).GetNumberOfPoints() == 0) == bool(words), told
 
 
+def test_pixels_of_a_byte_in_words_with_the_high_byte_first():
+    """Two pixels are one word, whose low byte is the first of them (PS3.5, 8.1.1)."""
+    for shape in ((4, 5, 6), (4, 5, 3)):  # the last one: frames of an odd number of bytes
+        voxels = numbered(*shape, dtype=numpy.uint8)
+
+        def words(image, index, voxels=voxels):
+            pixels = voxels[index].tobytes()
+            pixels += b"\0" * (len(pixels) % 2)
+            image.PixelData = numpy.frombuffer(pixels, "<u2").astype(">u2").tobytes()
+            image["PixelData"].VR = "OW"
+
+        path = write_slices(folder("words"), voxels, change=words,
+                            syntax=pydicom.uid.ExplicitVRBigEndian)
+        reader, told = read(path)
+        assert not told, told
+        shown = scalars(reader).reshape(shape)[:, ::-1, ::-1]  # to the right and to the front
+        numpy.testing.assert_array_equal(shown, voxels)
+    several = nuclear_of_bytes()
+    reader, told = read(several)
+    assert not told, told
+    shown = scalars(reader).reshape(4, 5, 3)[:, ::-1, ::-1]
+    numpy.testing.assert_array_equal(shown, numbered(4, 5, 3, numpy.uint8))
+
+
+def nuclear_of_bytes():
+    """Frames of 15 bytes: the second one begins inside a word."""
+    image = plain_header("1.2.840.10008.5.1.4.1.1.20", pydicom.uid.ExplicitVRBigEndian)
+    voxels = numbered(4, 5, 3, numpy.uint8)
+    set_pixels(image, voxels)
+    image.PixelData = numpy.frombuffer(voxels.tobytes(), "<u2").astype(">u2").tobytes()
+    image["PixelData"].VR = "OW"
+    image.Modality, image.NumberOfFrames = "NM", 4
+    image.PixelSpacing, image.SpacingBetweenSlices = [2, 2], "3"
+    image.FrameIncrementPointer, image.SliceVector = 0x00540080, [1, 2, 3, 4]
+    image.ImagePositionPatient = [-11, 22, 33]
+    image.ImageOrientationPatient = [1, 0, 0, 0, 1, 0]
+    path = os.path.join(folder("nuclear-bytes"), "a.dcm")
+    image.save_as(path, write_like_original=False)
+    return path
+
+
 def test_a_time_that_is_none_is_said():
     for name, count in (("TriggerTime", "0"), ("RepetitionTime", "0"), ("EchoTime", "0"),
                         ("TemporalPositionIdentifier", "0"), ("InstanceNumber", "0")):

@@ -57,6 +57,24 @@ void expectLabels(const std::string& name)
 }
 }
 
+TEST(NIFTILabels, VoxelsThatBeginInsideAnExtension)
+{
+  std::vector<char> bytes = withExtension(30, 0, false);
+  const NIFTITestFile file;
+  file.put(bytes, 108, 368.0f); // vox_offset
+  writePlain(temporary("inside.nii"), bytes);
+  Reading reading(temporary("inside.nii"));
+  EXPECT_NE(reading.warnings.find("has its voxels at byte 368 (vox_offset), before the end of its "
+                                  "extensions at byte "),
+    std::string::npos)
+    << reading.warnings;
+  file.put(bytes, 108, 352.0f); // no extension, whatever byte 348 says
+  writePlain(temporary("inside.nii"), bytes);
+  Reading without(temporary("inside.nii"));
+  EXPECT_EQ(without.errors + without.warnings, "");
+  EXPECT_TRUE(attachedLabels(without.image()).empty());
+}
+
 TEST(NIFTILabels, AreReadInBothByteOrdersPackedOrNot)
 {
   for (const bool swapped : { false, true })

@@ -83,7 +83,11 @@ TEST(NIFTIReaderErrors, HeadersThatCannotBe)
   expectFailure(file.bytes(), "data type 1536");
   file = NIFTITestFile();
   file.voxelOffset = 0.0;
-  expectFailure(file.bytes(), "byte 0; the first possible byte is 348");
+  expectFailure(file.bytes(), "byte 0 (vox_offset); the first possible byte is 352");
+  file.voxelOffset = 350.0;
+  expectFailure(file.bytes(), "byte 350 (vox_offset); the first possible byte is 352");
+  file.voxelOffset = 352.5;
+  expectFailure(file.bytes(), "has the vox_offset 352.5; it must be a whole number");
   for (const std::vector<int>& dimensions : { std::vector<int>{ 4, 0, 5 }, { 4, -3, 5 } })
   {
     file = NIFTITestFile();

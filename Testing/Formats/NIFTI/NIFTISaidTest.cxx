@@ -90,6 +90,45 @@ TEST(NIFTISaid, ScaleAndUnits)
   expectSays(file, "has the xyzt_units 74, which is more than NIfTI knows");
 }
 
+// float32 holds 30000000 and 30000002, but not what is between them.
+TEST(NIFTISaid, RescaledNumbersKeepTheirDigits)
+{
+  NIFTITestFile file = withSform(glm::dmat4(1.0));
+  file.slope = 1.0;
+  file.intercept = 30000000.0;
+  const auto expectDigits = [&](const std::vector<char>& bytes) {
+    writePlain(temporary("digits.nii"), bytes);
+    Reading reading(temporary("digits.nii"));
+    EXPECT_EQ(reading.errors + reading.warnings, "");
+    EXPECT_EQ(reading.image()->GetScalarComponentAsDouble(0, 0, 0, 0), 30000001.0);
+  };
+  file.dataType = NIFTIType<std::int32_t>;
+  expectDigits(file.bytes<std::int32_t>());
+  file.dataType = NIFTIType<double>;
+  expectDigits(file.bytes<double>());
+}
+
+TEST(NIFTISaid, VectorsInTheAxisOfTime)
+{
+  for (const int intent : { 1004, 1005, 1006, 1007, 2006, 2018 })
+  {
+    NIFTITestFile file = withSform(glm::dmat4(1.0));
+    file.dimensions = { 4, 3, 5, 3 };
+    file.pixelSize[3] = 1.0;
+    std::vector<char> bytes = file.bytes();
+    file.put<std::int16_t>(bytes, 68, static_cast<std::int16_t>(intent));
+    writePlain(temporary("said.nii"), bytes);
+    Reading reading(temporary("said.nii"));
+    EXPECT_NE(reading.warnings.find("3 entries in dim[4], which count as times"), std::string::npos)
+      << intent;
+    file.dimensions = { 4, 3, 5, 1, 3 };
+    bytes = file.bytes();
+    file.put<std::int16_t>(bytes, 68, static_cast<std::int16_t>(intent));
+    writePlain(temporary("said.nii"), bytes);
+    EXPECT_EQ(Reading(temporary("said.nii")).warnings, "") << intent;
+  }
+}
+
 TEST(NIFTISaid, TheTwoPlacesOfAVolume)
 {
   NIFTITestFile file = withSform(glm::dmat4(1.0));

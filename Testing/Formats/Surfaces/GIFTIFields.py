@@ -95,4 +95,27 @@ def test_each_field_does_what_the_list_says():
                      lambda content: fields_walk.outcome("SurfaceReader", "walk.gii", content))
 
 
+def indexed(index, numbers, kind="NIFTI_INTENT_SHAPE"):
+    """A surface of 4 points whose numbers belong to some points, and what is shown or said."""
+    both = (array(numpy.array(index, numpy.int32), "NIFTI_INTENT_NODE_INDEX")
+            + array(numpy.asarray(numbers), kind, meta=[("Name", "thickness")]))
+    error, found = fields_walk.outcome(
+        "SurfaceReader", "walk.gii", gifti(inside=system(), values=both, count="4"))
+    return error or found[1]["thickness"]
+
+
+def test_an_index_of_points_says_whose_numbers_they_are():
+    assert indexed([3, 2, 1, 0], VALUES) == [4, 3, 2, 1]
+    assert indexed([3, 2, 1, 0], numpy.array([1, 2, 3, 4], numpy.int32)) == [4, 3, 2, 1]
+    numpy.testing.assert_array_equal(indexed([3, 0], VALUES[:2]), [2, numpy.nan, numpy.nan, 1])
+    numpy.testing.assert_array_equal(
+        indexed([1], VALUES[:1].astype(float)), [numpy.nan, 1, numpy.nan, numpy.nan])
+    for index, numbers, words in (
+            ([4, 0], VALUES[:2], "with the point 4; it must have each point once, from 0 to 3"),
+            ([1, 1], VALUES[:2], "with the point 1; it must have each point once"),
+            ([1, 0], VALUES, "has an array of 4 rows beside NIFTI_INTENT_NODE_INDEX of 2"),
+            ([1, 0], numpy.array([1, 2], numpy.int32), "for an array of whole numbers")):
+        assert words in indexed(index, numbers), (words, indexed(index, numbers))
+
+
 run_tests(globals())

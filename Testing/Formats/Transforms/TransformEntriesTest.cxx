@@ -243,6 +243,22 @@ TEST(TransformEntries, OfThePageChangeTheMapOrAreRefused)
   EXPECT_EQ(walked, listed());
 }
 
+TEST(TransformEntries, LinesOfITKThatOccurTwice)
+{
+  const std::string begin =
+    "#Insight Transform File V1.0\nTransform: Euler3DTransform_double_3_3\n";
+  const auto expectTwice = [&](const std::string& lines, const std::string& name) {
+    const std::string problem = problemIn({ { written("twice.tfm", begin + lines) }, "", "" });
+    EXPECT_NE(problem.find("has the line " + name + " of Euler3DTransform_double_3_3 twice"),
+      std::string::npos)
+      << problem;
+  };
+  expectTwice(
+    "Parameters: 0.1 0.2 0.3\nParameters: 4 5 6\nFixedParameters: 1 2 3\n", "Parameters:");
+  expectTwice("Parameters: 0.1 0.2 0.3 4 5 6\nFixedParameters: 1 2\nFixedParameters: 3\n",
+    "FixedParameters:");
+}
+
 TEST(TransformEntries, SixteenNumbersMeanWhatTheCallerSays)
 {
   const std::string rows = "0.8 -0.6 0 5\n0.6 0.8 0 -3\n0 0 1 9\n0 0 0 1\n";
