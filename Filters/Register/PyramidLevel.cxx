@@ -184,8 +184,8 @@ Grid croppedTo(const Grid& grid, const Mask& region, double marginMm)
 
 namespace
 {
-// Most samples of tissue on a level that may be skipped, so that a step stays short and memory
-// small. Air costs little.
+// Most samples of tissue on a capped level, so that a step stays short and memory small. Air costs
+// little.
 constexpr double MostSamples = 0.95e6;
 
 // A level that is not finer than the former one by this factor in volume adds nothing.
@@ -199,7 +199,7 @@ double spacingOf(const RefinementLevel& level, const Grid& rest, double tissueFr
 {
   constexpr double Coarser = 1.02;
   double spacingMm = level.spacingMm;
-  while (level.mostCost < 1.0 &&
+  while (level.isCapped &&
     tissueFraction * static_cast<double>(coarseGrid(rest, spacingMm).count()) > MostSamples)
   {
     spacingMm *= Coarser;

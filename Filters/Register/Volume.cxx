@@ -259,4 +259,34 @@ Range rangeOf(const std::vector<float>& values)
   const Range found{ some[cut], some[some.size() - 1 - cut] };
   return found.high > found.low ? found : Range{ found.low, found.low + 1.0f };
 }
+
+std::vector<float> gradientLength(const Volume& volume)
+{
+  const Grid& grid = volume.grid;
+  std::vector<float> result(volume.values.size());
+  parallelFor(0, grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (int k = static_cast<int>(begin); k < end; ++k)
+    {
+      for (int j = 0; j < grid.dimensions.y; ++j)
+      {
+        for (int i = 0; i < grid.dimensions.x; ++i)
+        {
+          glm::vec3 slope;
+          for (int axis = 0; axis < 3; ++axis)
+          {
+            glm::ivec3 low(i, j, k);
+            glm::ivec3 high = low;
+            low[axis] = std::max(low[axis] - 1, 0);
+            high[axis] = std::min(high[axis] + 1, grid.dimensions[axis] - 1);
+            slope[axis] = (volume.values[grid.offset(high.x, high.y, high.z)] -
+                            volume.values[grid.offset(low.x, low.y, low.z)]) /
+              static_cast<float>(grid.spacing[axis] * (high[axis] - low[axis]));
+          }
+          result[grid.offset(i, j, k)] = glm::length(slope);
+        }
+      }
+    }
+  });
+  return result;
+}
 }

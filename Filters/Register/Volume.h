@@ -108,6 +108,9 @@ BRAINSHIFT_DEFORMATION_EXPORT Volume resampled(const Volume& source, const Grid&
 /** Adds up the values within so many points along each axis. Beyond the grid they are 0. */
 BRAINSHIFT_DEFORMATION_EXPORT void boxSum(Volume& volume, const glm::ivec3& radii);
 
+/** The length of the gradient at each point, for each mm. */
+BRAINSHIFT_DEFORMATION_EXPORT std::vector<float> gradientLength(const Volume& volume);
+
 /** The conditions for a weight of 1; elsewhere it is 0. */
 struct Region
 {

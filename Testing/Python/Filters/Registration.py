@@ -120,7 +120,7 @@ def test_refine_finds_a_known_bend():
     assert found.disagreement < 0.5 * found.disagreement_before
     assert found.largest_change > 3.0 > found.mean_change > 0.0
     assert found.smallest_determinant > 0.1 and found.share == 1.0 and found.compared > 0.8
-    assert found.finished and found.level == 1
+    assert found.finished and found.level == 2
 
 
 def test_it_begins_with_the_hand_and_strokes_follow():
