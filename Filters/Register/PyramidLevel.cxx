@@ -220,11 +220,6 @@ double boxVolume(const Grid& grid)
   const glm::dvec3 sides = grid.spacing * glm::dvec3(grid.dimensions - 1);
   return sides.x * sides.y * sides.z;
 }
-
-const Mask* orNull(const Mask& mask)
-{
-  return mask.inside.empty() ? nullptr : &mask;
-}
 }
 
 ComparedRegion::ComparedRegion(const RegisteredPair& pair, const RefinementPlan& plan)
@@ -322,14 +317,17 @@ void PyramidLevel::readReference()
 
 void PyramidLevel::weighRest()
 {
-  this->Volumes.restWeights = weightsOf(
-    this->Samples, { nullptr, orNull(this->Pair.inside), nullptr }, this->Compares->support);
+  this->Volumes.restWeights = weightsOf(this->Samples,
+    { nullptr, orNull(this->Pair.inside), { orNull(this->Pair.restUnknown) } },
+    this->Compares->support);
 }
 
 void PyramidLevel::weighReference()
 {
   this->Volumes.referenceWeights = weightsOf(this->Samples,
-    { &this->Pair.reference.grid, this->Fan, orNull(this->Pair.cavity) }, this->Compares->support);
+    { &this->Pair.reference.grid, this->Fan,
+      { orNull(this->Pair.cavity), orNull(this->Pair.referenceUnknown) } },
+    this->Compares->support);
 }
 
 void PyramidLevel::makeComparison()

@@ -214,15 +214,20 @@ void boxSum(Volume& volume, const glm::ivec3& radii)
   }
 }
 
+bool counts(const Region& region, const glm::dvec3& world)
+{
+  const auto isOutside = [&](const Mask* mask) { return mask && holds(*mask, world); };
+  return (!region.grid || holds(*region.grid, world)) &&
+    (!region.inside || holds(*region.inside, world)) &&
+    std::none_of(region.outside.begin(), region.outside.end(), isOutside);
+}
+
 Volume weightsOf(const Grid& grid, const Region& region, const Support& support)
 {
   Volume missing{ grid, std::vector<float>(grid.count()) };
   // Missing points are counted, so that the border of the grid itself shrinks nothing.
   forEachPoint(grid, [&](std::size_t number, const glm::dvec3& world) {
-    const bool counts = (!region.grid || holds(*region.grid, world)) &&
-      (!region.inside || holds(*region.inside, world)) &&
-      !(region.outside && holds(*region.outside, world));
-    missing.values[number] = counts ? 0.0f : 1.0f;
+    missing.values[number] = counts(region, world) ? 0.0f : 1.0f;
   });
   Volume result{ grid, std::vector<float>(grid.count(), 1.0f) };
   for (int axis = 0; axis < 3; ++axis)

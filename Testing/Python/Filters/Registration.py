@@ -225,6 +225,65 @@ def test_errors_leave_all_as_it_was():
     assert tuple(bent.Strokes) == hand and bent.Lattice is None
 
 
+def test_nothing_to_compare_is_an_error():
+    voxels = tissue(*places()).astype(numpy.float32)
+    rest = rest_volume()
+    constant = volume(numpy.full_like(voxels, 7.0), spacing=SPACING)
+    unknown = volume(numpy.full_like(voxels, numpy.nan), spacing=SPACING)
+    everywhere = volume(numpy.ones_like(voxels), spacing=SPACING)
+    middle = numpy.zeros_like(voxels)
+    middle[10:-10, 10:-10, 10:-10] = 1
+    flat_outside = volume(numpy.where(middle > 0, voxels, 9.0).astype(numpy.float32),
+                          spacing=SPACING)
+    for volumes, words in (
+            ({"rest": rest, "reference": constant}, "All voxels of the reference that count have "
+                                                    "the value 7, so there is nothing to compare"),
+            ({"rest": constant, "reference": rest}, "All voxels of the volume that count have"),
+            ({"rest": rest, "reference": unknown}, "No voxel of the reference is a finite number"),
+            ({"rest": unknown, "reference": rest}, "No voxel of the volume is a finite number"),
+            ({"rest": rest, "reference": rest, "cavity": everywhere},
+             "The cavity covers all of the reference"),
+            ({"rest": rest, "reference": flat_outside,
+              "cavity": volume(middle, spacing=SPACING)},
+             "All voxels of the reference that count have the value 9")):
+        strokes = tuple(brainshift.soft(MIDDLE, (2, 0, 0), 30.0))
+        bent = simple.FreeFormDeformation(Input=volumes["rest"], Strokes=strokes)
+        compare = simple.CompareVolumes(Input=bent, Reference=volumes["reference"],
+                                        ReferenceTranslation=(1, 2, 3))
+        if "cavity" in volumes:
+            compare.Cavity = volumes["cavity"]
+        refuses(lambda of=compare: brainshift.align(of), words)
+        refuses(lambda of=compare, lattice=bent: brainshift.refine(lattice, of), words)
+        assert tuple(bent.Strokes) == strokes and not bent.Lattice, bent.Lattice
+        assert list(compare.ReferenceTranslation) == [1.0, 2.0, 3.0], compare.ReferenceTranslation
+
+
+def test_voxels_without_a_value_do_not_count():
+    rest = rest_volume()
+    voxels = tissue(*places()).astype(numpy.float32)
+    half = voxels.copy()
+    half[:, :SIDE // 2 + 2] = numpy.nan
+    for volumes in ((rest, volume(half, spacing=SPACING)), (volume(half, spacing=SPACING), rest)):
+        bent = simple.FreeFormDeformation(Input=volumes[0])
+        compare = simple.CompareVolumes(Input=bent, Reference=volumes[1])
+        found = brainshift.refine(bent, compare)
+        assert found.mean_change < 0.2 and found.largest_change < 1.0, found
+        aligned = brainshift.align(compare)
+        assert aligned.shift < 0.5 and aligned.turn < 0.5, aligned
+        if volumes[0] is rest:
+            assert found.compared < 0.5 and aligned.compared < 0.5, (found, aligned)
+
+
+def test_what_the_cavity_covers_is_no_overlap():
+    rest = rest_volume()
+    left = numpy.ones((SIDE,) * 3, numpy.uint8)
+    left[:8] = 0
+    compare = simple.CompareVolumes(Input=rest, Reference=rest,
+                                    Cavity=volume(left, spacing=SPACING))
+    refuses(lambda: brainshift.align(compare),
+            "has a partner in the reference outside the cavity; at least 25 % must")
+
+
 def test_without_overlap_nothing_changes():
     rest = rest_volume()
     away = volume(tissue(*places()).astype(numpy.float32), origin=(500.0, 0.0, 0.0),
