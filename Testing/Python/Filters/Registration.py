@@ -312,6 +312,44 @@ def test_little_overlap_is_warned_of():
     assert any(expected in str(one.message) for one in said), [str(one.message) for one in said]
 
 
+def test_landmarks_judge_a_refinement():
+    rest = rest_volume()
+    bent, truth = simple.FreeFormDeformation(Input=rest), known_bend(rest)
+    places = MIDDLE + numpy.random.default_rng(5).uniform(-20, 20, (30, 3))
+    targets = brainshift.deformed_from_rest(truth, places)
+    before = brainshift.tre(bent, places, targets)
+    assert numpy.allclose(before.errors, numpy.linalg.norm(targets - places, axis=1), atol=1e-4)
+    brainshift.refine(bent, bent_reference(rest))
+    after = brainshift.tre(bent, places, targets)
+    assert numpy.allclose(after.before, before.errors, atol=1e-4)
+    assert after.mean < 0.4 < before.mean and after.largest == after.errors.max(), after
+    assert after.median <= after.largest and after.mean <= after.rms, after
+    assert "of 30 landmarks" in repr(after), after
+
+
+def test_landmarks_pair_by_name():
+    rest = rest_volume()
+    bent = simple.FreeFormDeformation(Input=rest)
+    unused = numpy.full(3, numpy.nan)
+
+    def points(positions, labels):
+        return brainshift.points.Points(numpy.array(positions, float), labels, *[unused] * 3)
+    places = points([(10, 10, 10), (20, 20, 20), (30, 30, 30)], ["a", "b", "c"])
+    targets = points([(30, 30, 34), (10, 13, 10), (0, 0, 0)], ["c", "a", "d"])
+    found = brainshift.tre(bent, places, targets)
+    assert found.names == ["a", "c"] and found.unpaired == ["b", "d"], found.names
+    assert numpy.allclose(found.errors, (3, 4)), found.errors
+    assert "2 without a partner" in repr(found), found
+    by_order = brainshift.tre(bent, places, targets, by_order=True)
+    assert len(by_order.errors) == 3 and by_order.errors[1] > 10, by_order
+    for measured, words in ((targets._replace(labels=["x", "y", "z"]), "no name is both in rest"),
+                            (targets._replace(labels=["a", "a", "c"]), "'a' twice"),
+                            (targets.positions[:2], "rest has 3 points and measured 2"),
+                            (numpy.zeros((3, 2)), "must be N x 3")):
+        refuses(lambda of=measured: brainshift.tre(bent, places, of), words)
+    refuses(lambda: brainshift.tre(bent, [], []), "there is no landmark")
+
+
 def test_a_lattice_of_the_wrong_size_is_an_error():
     rest = rest_volume()
     lattice = simple.RefinedLattice(Input=rest, ControlPoints=[1.0, 2.0, 3.0])
