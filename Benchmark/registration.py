@@ -73,10 +73,21 @@ def start(random, number):
             FARTHEST_MM * shares[1] * directions[1])
 
 
+def rotation_matrix(degrees):
+    """A rotation about x, then y, then z."""
+    matrix = numpy.eye(3)
+    for axis, angle in enumerate(numpy.radians(degrees)):
+        a, b = (axis + 1) % 3, (axis + 2) % 3
+        about = numpy.eye(3)
+        about[[a, b], [a, b]] = numpy.cos(angle)
+        about[b, a], about[a, b] = numpy.sin(angle), -numpy.sin(angle)
+        matrix = about @ matrix
+    return matrix
+
+
 def left_over(compare):
     """Largest distance (mm) at the corners between where the reference lies and its place."""
-    from brainshift.registering import _turned
-    turn = _turned(compare.ReferenceRotation)
+    turn = rotation_matrix(compare.ReferenceRotation)
     signs = numpy.array(numpy.meshgrid(*[(-1, 1)] * 3)).reshape(3, -1).T
     corners = CORNERS_MM * signs
     moved = corners @ turn.T + numpy.array(compare.ReferenceTranslation)
@@ -157,20 +168,19 @@ def elastic():
 
 @contextlib.contextmanager
 def every_call(note):
-    """Calls note(run, figures) after each call of a run, whether or not it took a step."""
+    """Calls note(level, steps) after each call of a run, whether or not it took a step."""
     from brainshift import registering
-    answer = registering._Run.answer
+    figure = registering._Run.figure
 
     def noted(run, name):
-        figures = answer(run, name)
-        if name == "Figures":
-            note(run, figures)
-        return figures
-    registering._Run.answer = noted
+        if name == "Finished":  # is read once after each call
+            note(figure(run, "Level"), figure(run, "Steps"))
+        return figure(run, name)
+    registering._Run.figure = noted
     try:
         yield
     finally:
-        registering._Run.answer = answer
+        registering._Run.figure = figure
 
 
 def speed():
@@ -198,10 +208,10 @@ executive.GetOutputInformation(0).Set(vtkDataObject.SPACING(), 1.0, 1.0, 1.0)
         bent = simple.FreeFormDeformation(Input=placed)
         times = []  # of each call: level, steps, clock and processor time
 
-        def note(run, figures, times=times):
-            times.append((figures[2], figures[1], time.monotonic(), time.process_time()))
+        def note(level, steps, times=times):
+            times.append((level, steps, time.monotonic(), time.process_time()))
         with every_call(note):
-            note(None, (0, 0, 0))
+            note(0, 0)
             found = brainshift.refine(bent, baked, similarity=similarity)
         whole = times[-1][2] - times[0][2]
         calls = numpy.diff(times, axis=0)

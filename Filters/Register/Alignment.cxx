@@ -187,6 +187,40 @@ struct GridFromWorld
   glm::dvec3 origin;
 };
 
+// The voxel of a mask that is nearest to a position.
+struct NearestVoxel
+{
+  explicit NearestVoxel(const Mask& of)
+    : mask(&of)
+    , inMask(of.grid)
+  {
+  }
+  bool isInside(const glm::dvec3& world) const
+  {
+    const glm::ivec3 cell(glm::floor(this->inMask(world) + 0.5));
+    const glm::ivec3& sides = this->mask->grid.dimensions;
+    return cell.x >= 0 && cell.y >= 0 && cell.z >= 0 && cell.x < sides.x && cell.y < sides.y &&
+      cell.z < sides.z && this->mask->inside[this->mask->grid.offset(cell.x, cell.y, cell.z)];
+  }
+
+  const Mask* mask;
+  GridFromWorld inMask;
+};
+
+// Takes the masks of what a reference lacks that have voxels.
+std::vector<Mask> missingOf(RegisteredPair& pair)
+{
+  std::vector<Mask> found;
+  for (Mask* mask : { &pair.cavity, &pair.referenceUnknown })
+  {
+    if (!mask->inside.empty())
+    {
+      found.push_back(std::move(*mask));
+    }
+  }
+  return found;
+}
+
 // A number from 0 to 1 that looks random, the same for the same index.
 double scattered(std::uint32_t index, std::uint32_t salt)
 {
@@ -204,7 +238,7 @@ const double Alignment::LeastOverlap = 0.25;
 
 Alignment::Alignment(RegisteredPair pair, const Lattice* bent, const AlignmentSettings& settings)
   : Settings(settings)
-  , Cavity(std::move(pair.cavity))
+  , Missing(missingOf(pair))
   , References(pyramid(pair.reference, settings.levelsMm))
 {
   const std::vector<Volume> levels = pyramid(pair.rest, settings.levelsMm);
@@ -215,8 +249,8 @@ Alignment::Alignment(RegisteredPair pair, const Lattice* bent, const AlignmentSe
   }
   for (const Volume& level : levels)
   {
-    const Mask* inside = pair.inside.inside.empty() ? nullptr : &pair.inside;
-    const Volume weights = weightsOf(level.grid, { nullptr, inside, nullptr }, {});
+    const Region region{ nullptr, orNull(pair.inside), { orNull(pair.restUnknown) } };
+    const Volume weights = weightsOf(level.grid, region, {});
     const double all = std::count(weights.values.begin(), weights.values.end(), 1.0f);
     const double fraction = static_cast<double>(this->Settings.mostSamples) / std::max(1.0, all);
     std::vector<Sample> samples;
@@ -271,9 +305,11 @@ double Alignment::loss(const Parameters& at, double* overlap) const
   const std::vector<Sample>& samples = this->Samples[this->Progress.level];
   const RigidPose motion = this->motionOf(at);
   const GridFromWorld inReference(reference.grid);
-  const GridFromWorld inCavity(this->Cavity.grid);
-  const bool hasCavity = !this->Cavity.inside.empty();
-  const glm::ivec3 cavitySides = this->Cavity.grid.dimensions;
+  std::vector<NearestVoxel> missing;
+  for (const Mask& mask : this->Missing)
+  {
+    missing.emplace_back(mask);
+  }
   std::vector<JointHistogram> parts(Pieces);
   std::vector<double> within(Pieces, 0.0);
   parallelFor(0, Pieces, 1, [&](std::int64_t begin, std::int64_t end) {
@@ -285,17 +321,10 @@ double Alignment::loss(const Parameters& at, double* overlap) const
         const glm::dvec3 position = motion.applyInverse(samples[i].position);
         const Neighbours found =
           neighboursOf(reference.grid.dimensions, glm::vec3(inReference(position)));
-        if (!found.isInside)
+        const auto isThere = [&](const NearestVoxel& mask) { return mask.isInside(position); };
+        if (found.isInside && std::none_of(missing.begin(), missing.end(), isThere))
         {
-          continue;
-        }
-        within[piece] += 1.0;
-        const glm::ivec3 cell = glm::ivec3(glm::floor(inCavity(position) + 0.5));
-        const bool isRemoved = hasCavity && cell.x >= 0 && cell.y >= 0 && cell.z >= 0 &&
-          cell.x < cavitySides.x && cell.y < cavitySides.y && cell.z < cavitySides.z &&
-          this->Cavity.inside[this->Cavity.grid.offset(cell.x, cell.y, cell.z)];
-        if (!isRemoved)
-        {
+          within[piece] += 1.0;
           parts[piece].add(samples[i].value, trilinear(reference.values.data(), found).value);
         }
       }

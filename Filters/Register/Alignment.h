@@ -82,7 +82,7 @@ struct AlignmentProgress
   int steps = 0;                   ///< lines searched, on all levels
   double information = 0.0;        ///< nats; more is better
   double informationAtStart = 0.0; ///< of the reference where it was, on the same level
-  double overlap = 0.0;            ///< fraction of the samples inside the reference
+  double overlap = 0.0;            ///< fraction of the samples that have a partner in the reference
   double done = 0.0; ///< fraction of the most rounds there may be, 0 to 1; 1 once it is finished
   bool isFinished = false;
 };
@@ -135,7 +135,7 @@ private:
   void reportDone();
 
   AlignmentSettings Settings;
-  Mask Cavity;
+  std::vector<Mask> Missing;      // of the reference: cavity, unknown voxels; none is empty
   std::vector<Volume> References; // for each level; 0 to 1
   std::vector<std::vector<Sample>> Samples;
   glm::dvec3 Middle{ 0.0 };

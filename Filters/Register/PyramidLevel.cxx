@@ -184,8 +184,8 @@ Grid croppedTo(const Grid& grid, const Mask& region, double marginMm)
 
 namespace
 {
-// Most samples of tissue on a level that may be skipped, so that a step stays short and memory
-// small. Air costs little.
+// Most samples of tissue on a capped level, so that a step stays short and memory small. Air costs
+// little.
 constexpr double MostSamples = 0.95e6;
 
 // A level that is not finer than the former one by this factor in volume adds nothing.
@@ -199,7 +199,7 @@ double spacingOf(const RefinementLevel& level, const Grid& rest, double tissueFr
 {
   constexpr double Coarser = 1.02;
   double spacingMm = level.spacingMm;
-  while (level.mostCost < 1.0 &&
+  while (level.isCapped &&
     tissueFraction * static_cast<double>(coarseGrid(rest, spacingMm).count()) > MostSamples)
   {
     spacingMm *= Coarser;
@@ -219,11 +219,6 @@ double boxVolume(const Grid& grid)
 {
   const glm::dvec3 sides = grid.spacing * glm::dvec3(grid.dimensions - 1);
   return sides.x * sides.y * sides.z;
-}
-
-const Mask* orNull(const Mask& mask)
-{
-  return mask.inside.empty() ? nullptr : &mask;
 }
 }
 
@@ -322,14 +317,17 @@ void PyramidLevel::readReference()
 
 void PyramidLevel::weighRest()
 {
-  this->Volumes.restWeights = weightsOf(
-    this->Samples, { nullptr, orNull(this->Pair.inside), nullptr }, this->Compares->support);
+  this->Volumes.restWeights = weightsOf(this->Samples,
+    { nullptr, orNull(this->Pair.inside), { orNull(this->Pair.restUnknown) } },
+    this->Compares->support);
 }
 
 void PyramidLevel::weighReference()
 {
   this->Volumes.referenceWeights = weightsOf(this->Samples,
-    { &this->Pair.reference.grid, this->Fan, orNull(this->Pair.cavity) }, this->Compares->support);
+    { &this->Pair.reference.grid, this->Fan,
+      { orNull(this->Pair.cavity), orNull(this->Pair.referenceUnknown) } },
+    this->Compares->support);
 }
 
 void PyramidLevel::makeComparison()

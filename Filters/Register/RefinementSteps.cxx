@@ -129,7 +129,6 @@ constexpr double Halving = 0.5;
 // A step that would fold is computed again with a stiffer volume: so often, so much stiffer.
 constexpr int MostStiffenings = 3;
 constexpr double Stiffening = 1.5;
-constexpr double Converged = 1e-4; // fraction of the energy that a step must gain
 
 constexpr double RigidShortening = 0.25;
 constexpr double LeastRigidStepMm = 0.02;
@@ -302,7 +301,7 @@ StepOutcome BendStep::attempt(BendTrial& trial, RefinementState& state, PyramidL
   state.take(candidate.lattice, std::move(compared), energy);
   this->StepLength =
     std::min(this->Growth.longest, this->Growth.growth * std::max(1.0, trial.fraction));
-  return gain > Converged * energy ? StepOutcome::Improved : StepOutcome::Settled;
+  return gain > this->Converged * energy ? StepOutcome::Improved : StepOutcome::Settled;
 }
 
 StepOutcome RigidMove::attempt(RefinementState& state, PyramidLevel& level)
@@ -331,7 +330,7 @@ StepOutcome RigidMove::attempt(RefinementState& state, PyramidLevel& level)
   state.progress.movedMm = fraction * candidate.fraction * step.lengthMm;
   state.take(candidate.lattice, std::move(compared), state.energy - gain);
   this->StepLength = std::min(this->Growth.longest, this->Growth.growth * fraction);
-  return gain > Converged * state.energy ? StepOutcome::Improved : StepOutcome::Settled;
+  return gain > this->Converged * state.energy ? StepOutcome::Improved : StepOutcome::Settled;
 }
 
 std::unique_ptr<RefinementStep> makeStep(
@@ -342,8 +341,8 @@ std::unique_ptr<RefinementStep> makeStep(
   const double longestMm = LongestPoints * std::max(spacing.x, std::max(spacing.y, spacing.z));
   if (level.isRigid)
   {
-    return std::make_unique<RigidMove>(plan.rigidGrowth, longestMm);
+    return std::make_unique<RigidMove>(plan.rigidGrowth, longestMm, plan.converged);
   }
-  return std::make_unique<BendStep>(plan.bendGrowth, longestMm);
+  return std::make_unique<BendStep>(plan.bendGrowth, longestMm, plan.converged);
 }
 }

@@ -126,10 +126,14 @@ BRAINSHIFT_DEFORMATION_EXPORT RigidStep rigidStep(
 class RefinementStep
 {
 public:
-  /** @param longestMm   of a control point in one step */
-  RefinementStep(const StepGrowth& growth, double longestMm)
+  /**
+   * @param longestMm   of a control point in one step
+   * @param converged   the level ends with a step that gains a smaller fraction of the energy
+   */
+  RefinementStep(const StepGrowth& growth, double longestMm, double converged)
     : Growth(growth)
     , LongestMm(longestMm)
+    , Converged(converged)
     , StepLength(growth.first)
   {
   }
@@ -141,6 +145,7 @@ public:
 protected:
   StepGrowth Growth;
   double LongestMm;
+  double Converged;
   double StepLength; // factor on the next step
 };
 

@@ -148,12 +148,13 @@ struct RefinementLevel
   double spacingMm = 2.0; ///< of the samples; larger where the volume is coarser or too large
   double mostCost = 1.0;  ///< a level that starts with more is skipped: it might mislead
   bool isRigid = false;   ///< the volume moves as a whole, in up to three times as many steps
+  bool isCapped = false;  ///< the spacing grows until there are at most 0.95 million samples
 
   /** Whether two levels have the same comparison. */
   bool isComparedLike(const RefinementLevel& other) const
   {
     return this->metric == other.metric && this->spacingMm == other.spacingMm &&
-      this->mostCost == other.mostCost;
+      this->mostCost == other.mostCost && this->isCapped == other.isCapped;
   }
 };
 
@@ -170,6 +171,7 @@ struct RefinementPlan
   std::vector<RefinementLevel> levels; ///< coarse to fine
   double stiffness = 1.0;              ///< factor on the stiffness
   std::optional<FanLimits> fan;        ///< set: the reference is ultrasound inside a fan
+  double converged = 1e-4;             ///< a level ends with a step that gains a smaller fraction
   StepGrowth bendGrowth;
   StepGrowth rigidGrowth{ 4.0, 16.0, 2.0 };
 };

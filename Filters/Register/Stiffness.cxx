@@ -9,10 +9,12 @@ namespace brainshift
 {
 namespace
 {
-// Factors of the energy: that of shear and of volume (Lame's constants), and that of bending.
-constexpr float Shear = 0.5f;
-constexpr float Compression = 0.25f;
-constexpr float Bending = 0.25f;
+// Factors of the energy: that of shear and of volume (Lame's constants), and that of bending. Brain
+// shift is wide. If most of the energy were elastic, a wide deformation would cost more than many
+// small errors; bending energy is the other way round.
+constexpr float Shear = 0.1f;
+constexpr float Compression = 0.05f;
+constexpr float Bending = 1.0f;
 
 constexpr float Converged = 1e-4f; // of the squared residual that a Newton step begins with
 constexpr int MostSolverSteps = 40;

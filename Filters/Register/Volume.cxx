@@ -214,15 +214,20 @@ void boxSum(Volume& volume, const glm::ivec3& radii)
   }
 }
 
+bool counts(const Region& region, const glm::dvec3& world)
+{
+  const auto isOutside = [&](const Mask* mask) { return mask && holds(*mask, world); };
+  return (!region.grid || holds(*region.grid, world)) &&
+    (!region.inside || holds(*region.inside, world)) &&
+    std::none_of(region.outside.begin(), region.outside.end(), isOutside);
+}
+
 Volume weightsOf(const Grid& grid, const Region& region, const Support& support)
 {
   Volume missing{ grid, std::vector<float>(grid.count()) };
   // Missing points are counted, so that the border of the grid itself shrinks nothing.
   forEachPoint(grid, [&](std::size_t number, const glm::dvec3& world) {
-    const bool counts = (!region.grid || holds(*region.grid, world)) &&
-      (!region.inside || holds(*region.inside, world)) &&
-      !(region.outside && holds(*region.outside, world));
-    missing.values[number] = counts ? 0.0f : 1.0f;
+    missing.values[number] = counts(region, world) ? 0.0f : 1.0f;
   });
   Volume result{ grid, std::vector<float>(grid.count(), 1.0f) };
   for (int axis = 0; axis < 3; ++axis)
@@ -258,5 +263,35 @@ Range rangeOf(const std::vector<float>& values)
   const std::size_t cut = static_cast<std::size_t>(CutOffFraction * some.size());
   const Range found{ some[cut], some[some.size() - 1 - cut] };
   return found.high > found.low ? found : Range{ found.low, found.low + 1.0f };
+}
+
+std::vector<float> gradientLength(const Volume& volume)
+{
+  const Grid& grid = volume.grid;
+  std::vector<float> result(volume.values.size());
+  parallelFor(0, grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (int k = static_cast<int>(begin); k < end; ++k)
+    {
+      for (int j = 0; j < grid.dimensions.y; ++j)
+      {
+        for (int i = 0; i < grid.dimensions.x; ++i)
+        {
+          glm::vec3 slope;
+          for (int axis = 0; axis < 3; ++axis)
+          {
+            glm::ivec3 low(i, j, k);
+            glm::ivec3 high = low;
+            low[axis] = std::max(low[axis] - 1, 0);
+            high[axis] = std::min(high[axis] + 1, grid.dimensions[axis] - 1);
+            slope[axis] = (volume.values[grid.offset(high.x, high.y, high.z)] -
+                            volume.values[grid.offset(low.x, low.y, low.z)]) /
+              static_cast<float>(grid.spacing[axis] * (high[axis] - low[axis]));
+          }
+          result[grid.offset(i, j, k)] = glm::length(slope);
+        }
+      }
+    }
+  });
+  return result;
 }
 }

@@ -6,6 +6,8 @@
 
 #include "Filters/Deformation/MaskWeights.h"
 
+#include <array>
+
 namespace brainshift
 {
 /** One number for each point of a grid, x fastest. */
@@ -18,10 +20,12 @@ struct Volume
 /** The two volumes of a registration, and the parts of them that count. */
 struct RegisteredPair
 {
-  Volume rest;      ///< the volume as loaded
-  Volume reference; ///< on any grid, at its position in the world
-  Mask inside;      ///< of the rest frame: the compared tissue; without voxels: all
-  Mask cavity;      ///< tissue that the reference lacks; without voxels: none
+  Volume rest;           ///< the volume as loaded
+  Volume reference;      ///< on any grid, at its position in the world
+  Mask inside;           ///< of the rest frame: the compared tissue; without voxels: all
+  Mask cavity;           ///< tissue that the reference lacks; without voxels: none
+  Mask restUnknown;      ///< voxels of the volume that have no value; without voxels: none
+  Mask referenceUnknown; ///< the same of the reference
 };
 
 /** The eight neighbours of a position in a grid, and their interpolation weights. */
@@ -108,13 +112,25 @@ BRAINSHIFT_DEFORMATION_EXPORT Volume resampled(const Volume& source, const Grid&
 /** Adds up the values within so many points along each axis. Beyond the grid they are 0. */
 BRAINSHIFT_DEFORMATION_EXPORT void boxSum(Volume& volume, const glm::ivec3& radii);
 
+/** The length of the gradient at each point, for each mm. */
+BRAINSHIFT_DEFORMATION_EXPORT std::vector<float> gradientLength(const Volume& volume);
+
 /** The conditions for a weight of 1; elsewhere it is 0. */
 struct Region
 {
-  const Grid* grid = nullptr;    ///< the point is within it; null: anywhere
-  const Mask* inside = nullptr;  ///< the nearest voxel is inside; null: everywhere
-  const Mask* outside = nullptr; ///< the nearest voxel is not inside; null: nowhere
+  const Grid* grid = nullptr;           ///< the point is within it; null: anywhere
+  const Mask* inside = nullptr;         ///< the nearest voxel is inside; null: everywhere
+  std::array<const Mask*, 2> outside{}; ///< the nearest voxel of each is not inside; null: nowhere
 };
+
+/** Whether a position (mm, world) fulfils the conditions. */
+BRAINSHIFT_DEFORMATION_EXPORT bool counts(const Region& region, const glm::dvec3& world);
+
+/** Null for a mask without voxels. */
+inline const Mask* orNull(const Mask& mask)
+{
+  return mask.inside.empty() ? nullptr : &mask;
+}
 
 /** The neighbourhood that a value depends on: three boxes, one along each axis. */
 struct Support

@@ -5,18 +5,17 @@
 #include "Common/HostMemory.h"
 #include "Common/ImageGrid.h"
 #include "Common/Numbers.h"
-#include "Filters/Attached/DeformableVolume.h"
 #include "Filters/Attached/ReferenceVolume.h"
 #include "Filters/Register/Alignment.h"
 #include "Filters/Register/Refinement.h"
+#include "Filters/Registered/RegisteredSource.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkObjectFactory.h"
-#include "vtkPointData.h"
 
-#include <cmath>
+#include <algorithm>
 #include <iomanip>
 #include <sstream>
 
@@ -27,6 +26,7 @@ struct vtkRegistrationRun::Running
   std::unique_ptr<Alignment> Rigid;
   std::unique_ptr<Refinement> Elastic;
   std::vector<glm::vec3> Start;      // displacements of the control points, mm, world axes
+  std::string Outside;               // what does not count, in words
   glm::dvec3 ReferenceMiddle{ 0.0 }; // mm, world, where the alignment begins
 };
 
@@ -34,8 +34,6 @@ vtkStandardNewMacro(vtkRegistrationRun);
 
 namespace
 {
-constexpr double PositionTolerance = 1e-3; // voxels
-
 // Tests of an alignment start up to 20 mm and 15 degrees away; the middle of the compared tissue
 // then moves a little farther than that of the reference.
 constexpr double FarthestShiftMm = 24.0;
@@ -57,133 +55,6 @@ void fill(vtkDoubleArray* array, const std::vector<double>& values)
 {
   array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));
-}
-
-vtkDataArray* scalarsOf(vtkImageData* image)
-{
-  vtkDataArray* scalars = image->GetPointData()->GetScalars();
-  scalars = scalars ? scalars : image->GetPointData()->GetArray(0);
-  return scalars && scalars->GetNumberOfComponents() == 1 ? scalars : nullptr;
-}
-
-std::vector<float> floatsOf(vtkDataArray* array)
-{
-  std::vector<float> values(array->GetNumberOfTuples());
-  for (std::size_t i = 0; i < values.size(); ++i)
-  {
-    const double value = array->GetComponent(static_cast<vtkIdType>(i), 0);
-    values[i] = std::isfinite(value) ? static_cast<float>(value) : 0.0f;
-  }
-  return values;
-}
-
-Mask maskOf(const PlacedVoxels& cavity)
-{
-  Mask mask;
-  if (cavity.voxels)
-  {
-    mask.grid = cavity.grid;
-    mask.inside.resize(mask.grid.count());
-    for (std::size_t i = 0; i < mask.inside.size(); ++i)
-    {
-      mask.inside[i] = cavity.voxels->GetComponent(static_cast<vtkIdType>(i), 0) != 0.0 ? 1 : 0;
-    }
-  }
-  return mask;
-}
-
-// The nodes that the lattice's mask lets move: only tissue there is compared.
-Mask maskOf(const Lattice& lattice)
-{
-  Mask mask;
-  if (lattice.mask)
-  {
-    const glm::ivec3 nodes = (lattice.grid.dimensions - 1) * lattice.mask->perCell + 1;
-    mask.grid = withDimensions(lattice.grid, nodes);
-    for (const float weight : lattice.mask->values)
-    {
-      mask.inside.push_back(weight > 0.0f ? 1 : 0);
-    }
-  }
-  return mask;
-}
-// A volume at rest, its deformation, and its reference in its present position.
-struct RegisteredSource
-{
-  RegisteredPair pair;
-  std::unique_ptr<const Deformation> bent; // null: the volume carries no deformation
-};
-
-// The grids of both volumes; no voxel is copied.
-struct RegisteredGrids
-{
-  Grid rest;
-  Grid reference;
-};
-
-RegisteredGrids findGrids(vtkImageData* image)
-{
-  if (!image || !scalarsOf(image))
-  {
-    throw Problem("The volume has no point scalars of one component");
-  }
-  const ReferenceVolume reference = readReference(image);
-  if (!reference.voxels)
-  {
-    throw Problem("The volume carries no reference; Compare Volumes attaches one");
-  }
-  const RegisteredGrids grids{ gridOf(image), reference.grid };
-  if (glm::any(glm::lessThan(grids.rest.dimensions, glm::ivec3(2))) ||
-    glm::any(glm::lessThan(grids.reference.dimensions, glm::ivec3(2))))
-  {
-    throw Problem(
-      "The volume or its reference has one point along an axis; both must have at least 2");
-  }
-  return grids;
-}
-
-// Reads the voxels, as floats. Numbers that are not finite become 0.
-RegisteredSource readSource(vtkImageData* image)
-{
-  RegisteredSource source;
-  if (carriesDeformation(image))
-  {
-    source.bent = std::make_unique<const Deformation>(readDeformation(image));
-    source.pair.inside = maskOf(source.bent->lattice);
-  }
-  const ReferenceVolume reference = readReference(image);
-  source.pair.rest = { gridOf(image), floatsOf(scalarsOf(image)) };
-  source.pair.reference = { reference.grid, floatsOf(reference.voxels) };
-  source.pair.cavity = maskOf(reference.cavity);
-  return source;
-}
-
-// A refinement needs a whole exact deformation, over all of the volume.
-void requireRefinable(const Deformation* bent, const Grid& rest)
-{
-  if (!bent)
-  {
-    throw Problem("The volume carries no deformation; Free-Form Deformation attaches one");
-  }
-  if (bent->strength != 1.0)
-  {
-    throw Problem("Strength is " + numberText(bent->strength) + "; a refinement needs 1");
-  }
-  if (bent->inverse != Inverse::Exact)
-  {
-    throw Problem("The deformation has the negated inverse; a refinement needs the exact one");
-  }
-  const Grid& lattice = bent->lattice.grid;
-  const glm::dvec3 first = rest.gridFromWorld(lattice.origin);
-  const glm::dvec3 last = rest.gridFromWorld(lattice.worldFromGrid(lattice.dimensions - 1)) -
-    glm::dvec3(rest.dimensions - 1);
-  const glm::dvec3 tolerance(PositionTolerance);
-  if (!glm::all(glm::lessThan(glm::abs(first), tolerance)) ||
-    !glm::all(glm::lessThan(glm::abs(last), tolerance)))
-  {
-    throw Problem(
-      "The volume was cropped or resampled after it was bent; a refinement needs all of it");
-  }
 }
 }
 
@@ -242,6 +113,8 @@ void vtkRegistrationRun::Begin(bool bends)
       (bends ? Refinement::bytes(grids.rest, grids.reference, {}, settings)
              : Alignment::bytes(grids.rest, grids.reference)));
   RegisteredSource source = readSource(image);
+  requireContent(source.pair);
+  this->Internal->Outside = source.pair.cavity.inside.empty() ? "" : " outside the cavity";
   if (bends)
   {
     requireRefinable(source.bent.get(), grids.rest);
@@ -328,8 +201,9 @@ void vtkRegistrationRun::ReportAlignment()
   this->Rotation = rigid.rotationDegrees();
   if (this->Steps > 0 && this->Overlap < Alignment::LeastOverlap)
   {
-    this->Refusal = percent(this->Overlap) + " of the volume is inside the reference; at least " +
-      percent(Alignment::LeastOverlap) + " must be. Move the reference closer first";
+    this->Refusal = percent(this->Overlap) + " of the volume has a partner in the reference" +
+      this->Internal->Outside + "; at least " + percent(Alignment::LeastOverlap) +
+      " must have one. Move the reference closer first";
   }
   if (this->Shift > FarthestShiftMm || this->Rotation > FarthestDegrees)
   {
@@ -364,7 +238,7 @@ void vtkRegistrationRun::ReportRefinement()
   this->MeanChange = sum / static_cast<double>(std::max<std::size_t>(1, now.size()));
   if (this->Steps > 0 && !(this->Overlap > 0.0)) // also rejects NaN
   {
-    this->Refusal = "The volume and the reference do not overlap";
+    this->Refusal = "The volume and the reference do not overlap" + this->Internal->Outside;
   }
   if (this->Cost > this->CostBefore)
   {

@@ -84,7 +84,7 @@ public:
 
   /**
    * The reason to discard the result: a sentence without a full stop. Empty if there is none. An
-   * alignment needs 25 % of the volume inside the reference, a refinement any part of it.
+   * alignment needs a partner in the reference for 25 % of the volume, a refinement for any of it.
    */
   const char* GetRefusal() const { return this->Refusal.c_str(); }
 

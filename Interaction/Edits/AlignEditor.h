@@ -15,10 +15,10 @@ namespace brainshift
 /// The figures after a line was searched.
 struct AlignFigures
 {
-  int lines = 0;                  ///< searched so far
-  double done = 0.0;              ///< fraction of the most rounds there may be, 0 to 1
-  double overlap = 0.0;           ///< fraction of the volume inside the reference, 0 to 1
-  double information = 0.0;       ///< mutual information on this level, nats; more is better
+  int lines = 0;            ///< searched so far
+  double done = 0.0;        ///< fraction of the most rounds there may be, 0 to 1
+  double overlap = 0.0;     ///< fraction of the volume with a partner in the reference, 0 to 1
+  double information = 0.0; ///< mutual information on this level, nats; more is better
   double informationBefore = 0.0; ///< of the reference where it was, on the same level
   double shift = 0.0;             ///< of the middle of the compared tissue, mm
   double rotation = 0.0;          ///< degrees, 0 or more

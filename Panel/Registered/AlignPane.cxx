@@ -24,7 +24,8 @@ QString figure(double value, int digits = 2)
 QString moved(const AlignFigures& figures)
 {
   return AlignPane::tr(
-    "The reference moved by %1 mm and %2 degrees. %3 % of the volume is inside the reference.")
+    "The reference moved by %1 mm and %2 degrees. %3 % of the volume has a partner in the "
+    "reference.")
     .arg(figure(figures.shift, 2), figure(figures.rotation, 2), figure(100.0 * figures.overlap, 0));
 }
 

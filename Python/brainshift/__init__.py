@@ -18,6 +18,7 @@ from .figures import animate, figure
 from .files import (
     dicom_patient, load_field, load_lattice, save_dicom, save_field, save_lattice, save_volume)
 from .fitting import Fit, fit
+from .judging import TargetErrors, tre
 from .looks import look, looks
 from .maps import deformed_from_rest, rest_from_deformed
 from .points import map_points, read_points
@@ -30,9 +31,10 @@ from .windows import percentile_window
 
 __all__ = [
     "Alignment", "Fit", "MOVE", "NUMBERS_PER_STROKE", "Refinement", "SOFT", "STAMP",
-    "Transform", "align", "animate", "apply_transform", "counters", "deformed_from_rest",
-    "dicom_patient", "figure", "fit", "four_views", "gpu", "load_field", "load_lattice", "look",
-    "looks", "map_points", "move", "open_sample", "percentile_window", "pick", "read_points",
-    "read_transform", "refine", "rest_from_deformed", "save_dicom", "save_field",
-    "save_lattice", "save_transform", "save_volume", "show_comparison", "similarities",
-    "slice_axes", "soft", "stamp"]
+    "TargetErrors", "Transform", "align", "animate", "apply_transform", "counters",
+    "deformed_from_rest", "dicom_patient", "figure", "fit", "four_views", "gpu",
+    "load_field", "load_lattice", "look", "looks", "map_points", "move", "open_sample",
+    "percentile_window", "pick", "read_points", "read_transform", "refine",
+    "rest_from_deformed", "save_dicom", "save_field", "save_lattice", "save_transform",
+    "save_volume", "show_comparison", "similarities", "slice_axes", "soft", "stamp",
+    "tre"]

@@ -10,12 +10,7 @@ namespace
 // A mean squared correlation below 0.8 at the start comes from the contrast, not from position.
 constexpr double MostCost = 0.2;
 
-const Metric LocalCorrelationMetric = localFitMetric(false);
-}
-
-RefinementLevel localCorrelationAtTheEnd()
-{
-  return { &LocalCorrelationMetric, 1.3, MostCost };
+const Metric LocalCorrelationMetric = localCorrelationMetric();
 }
 
 Similarity describeLocalCorrelation()
@@ -26,7 +21,7 @@ Similarity describeLocalCorrelation()
   result.tooltip = "For two scans of one kind, perhaps inverted. Compares local correlation (NCC) "
                    "alone, which takes less time.";
   result.plan.levels = { { &LocalCorrelationMetric, 4.0 }, { &LocalCorrelationMetric, 2.0 },
-    localCorrelationAtTheEnd() };
+    { &LocalCorrelationMetric, 1.3, MostCost, false, true } };
   return result;
 }
 }

@@ -17,78 +17,92 @@ void add(const float* from, std::size_t count, float* to)
 }
 
 // Sums of a line's points for its window `number`. A point has `inner` numbers.
-void gatherOne(const float* points, int count, std::size_t inner, int number, float* to)
+void gatherOne(
+  const float* points, int count, std::size_t inner, const glm::ivec2& numberAndRadius, float* to)
 {
   std::fill(to, to + inner, 0.0f);
-  const int middle = number * WindowStride;
-  const int last = std::min(count - 1, middle + WindowRadius);
-  for (int i = std::max(0, middle - WindowRadius); i <= last; ++i)
+  const int middle = numberAndRadius.x * WindowStride;
+  const int last = std::min(count - 1, middle + numberAndRadius.y);
+  for (int i = std::max(0, middle - numberAndRadius.y); i <= last; ++i)
   {
     add(points + i * inner, inner, to);
   }
 }
 
 // Sums of the windows that hold point `number` of a line of `count` points.
-void spreadOne(const float* windows, int count, std::size_t inner, int number, float* to)
+void spreadOne(
+  const float* windows, int count, std::size_t inner, const glm::ivec2& numberAndRadius, float* to)
 {
   std::fill(to, to + inner, 0.0f);
-  const int first = std::max(0, windowsAlong(number - WindowRadius));
-  const int last = std::min(windowsAlong(count) - 1, (number + WindowRadius) / WindowStride);
+  const auto [number, radius] = std::pair(numberAndRadius.x, numberAndRadius.y);
+  const int first = std::max(0, windowsAlong(number - radius));
+  const int last = std::min(windowsAlong(count) - 1, (number + radius) / WindowStride);
   for (int window = first; window <= last; ++window)
   {
     add(windows + window * inner, inner, to);
   }
 }
 
-using One = void (*)(const float*, int, std::size_t, int, float*);
+using One = void (*)(const float*, int, std::size_t, const glm::ivec2&, float*);
 
-// Along y or z of a block. `points`: number of points of a line, where `from` has another number.
-Block along(const Block& from, int axis, int points, int results, One one)
+// Along one axis of a block, `one` for each of its results.
+struct Pass
+{
+  int axis = 1;    // y or z
+  int points = 0;  // number of points of a line, where the block has another number
+  int results = 0; // of a line
+  int radius = 0;  // of the windows
+  One one = nullptr;
+};
+
+Block along(const Block& from, const Pass& pass)
 {
   glm::ivec3 sides = from.dimensions;
-  sides[axis] = results;
+  sides[pass.axis] = pass.results;
   Block to(sides, from.numbers);
   std::size_t inner = static_cast<std::size_t>(from.numbers) * sides.x;
-  inner *= axis == 2 ? sides.y : 1;
-  const std::int64_t outer = axis == 2 ? 1 : sides.z;
-  const std::size_t line = inner * from.dimensions[axis];
-  parallelFor(0, outer * results, 1, [&](std::int64_t begin, std::int64_t end) {
+  inner *= pass.axis == 2 ? sides.y : 1;
+  const std::int64_t outer = pass.axis == 2 ? 1 : sides.z;
+  const std::size_t line = inner * from.dimensions[pass.axis];
+  parallelFor(0, outer * pass.results, 1, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t n = begin; n < end; ++n)
     {
-      one(from.values.data() + n / results * line, points, inner, static_cast<int>(n % results),
-        to.values.data() + n * inner);
+      pass.one(from.values.data() + n / pass.results * line, pass.points, inner,
+        { n % pass.results, pass.radius }, to.values.data() + n * inner);
     }
   });
   return to;
 }
 }
 
-void gatherRow(const float* points, int count, int numbers, float* windows)
+void Windows::gatherRow(const float* points, int count, int numbers, float* windows) const
 {
   for (int number = 0; number < windowsAlong(count); ++number)
   {
-    gatherOne(points, count, numbers, number, windows + number * numbers);
+    gatherOne(points, count, numbers, { number, this->Radius }, windows + number * numbers);
   }
 }
 
-void spreadRow(const float* windows, int count, int numbers, float* points)
+void Windows::spreadRow(const float* windows, int count, int numbers, float* points) const
 {
   for (int number = 0; number < count; ++number)
   {
-    spreadOne(windows, count, numbers, number, points + number * numbers);
+    spreadOne(windows, count, numbers, { number, this->Radius }, points + number * numbers);
   }
 }
 
-Block gathered(const Block& rows)
+Block Windows::gathered(const Block& rows) const
 {
   const glm::ivec3 points = rows.dimensions;
-  return along(along(rows, 1, points.y, windowsAlong(points.y), gatherOne), 2, points.z,
-    windowsAlong(points.z), gatherOne);
+  const Block columns =
+    along(rows, { 1, points.y, windowsAlong(points.y), this->Radius, gatherOne });
+  return along(columns, { 2, points.z, windowsAlong(points.z), this->Radius, gatherOne });
 }
 
-Block spread(const Block& windows, const glm::ivec3& points)
+Block Windows::spread(const Block& windows, const glm::ivec3& points) const
 {
-  return along(along(windows, 2, points.z, points.z, spreadOne), 1, points.y, points.y, spreadOne);
+  const Block slabs = along(windows, { 2, points.z, points.z, this->Radius, spreadOne });
+  return along(slabs, { 1, points.y, points.y, this->Radius, spreadOne });
 }
 
 namespace
@@ -97,7 +111,7 @@ constexpr float LeastWindow = 0.3f;            // fraction of its samples that a
 constexpr float LeastVarianceFraction = 0.02f; // of the mean variance of a volume's windows
 constexpr float Ridge = 1e-4f;                 // variance (range 0 to 1) of a volume that is flat
 
-// Sums over a window. Its results for its samples (Left) replace them.
+// Sums over a window; G is the second term. Its results for its samples (Left) replace them.
 enum Sum
 {
   Count,
@@ -112,7 +126,7 @@ enum Sum
   VG,
   Sums
 };
-constexpr int SumsWithoutSlope = G;
+constexpr int SumsWithoutSecond = G;
 
 // A sample's force is (Scale V - ScaleA P - ScaleB G - ScaleC - Loss V + LossMean) times the
 // reference's slope: the derivative of the costs of all windows that hold it.
@@ -145,38 +159,9 @@ void toFractions(std::vector<float>& values, const std::vector<float>& weights)
   }
 }
 
-std::vector<float> gradientLength(const Volume& volume)
-{
-  const Grid& grid = volume.grid;
-  std::vector<float> result(volume.values.size());
-  parallelFor(0, grid.dimensions.z, 1, [&](std::int64_t begin, std::int64_t end) {
-    for (int k = static_cast<int>(begin); k < end; ++k)
-    {
-      for (int j = 0; j < grid.dimensions.y; ++j)
-      {
-        for (int i = 0; i < grid.dimensions.x; ++i)
-        {
-          glm::vec3 slope;
-          for (int axis = 0; axis < 3; ++axis)
-          {
-            glm::ivec3 low(i, j, k);
-            glm::ivec3 high = low;
-            low[axis] = std::max(low[axis] - 1, 0);
-            high[axis] = std::min(high[axis] + 1, grid.dimensions[axis] - 1);
-            slope[axis] = (volume.values[grid.offset(high.x, high.y, high.z)] -
-                            volume.values[grid.offset(low.x, low.y, low.z)]) /
-              static_cast<float>(grid.spacing[axis] * (high[axis] - low[axis]));
-          }
-          result[grid.offset(i, j, k)] = glm::length(slope);
-        }
-      }
-    }
-  });
-  return result;
-}
-
 // The variance of the values that count in each window.
-std::vector<float> windowVariances(const std::vector<float>& values, const Volume& weights)
+std::vector<float> windowVariances(
+  const Windows& around, const std::vector<float>& values, const Volume& weights)
 {
   constexpr int Numbers = 3;
   const glm::ivec3 sides = weights.grid.dimensions;
@@ -194,11 +179,11 @@ std::vector<float> windowVariances(const std::vector<float>& values, const Volum
           points[i + 1] = points[i] * values[n];
           points[i + 2] = points[i + 1] * values[n];
         }
-        gatherRow(points.data(), sides.x, Numbers, rows.row(j, k));
+        around.gatherRow(points.data(), sides.x, Numbers, rows.row(j, k));
       }
     }
   });
-  const Block windows = gathered(rows);
+  const Block windows = around.gathered(rows);
   std::vector<float> variances;
   for (std::size_t n = 0; n < windows.values.size(); n += Numbers)
   {
@@ -245,8 +230,9 @@ struct LocalFitSimilarity::Work
 
 LocalFitSimilarity::~LocalFitSimilarity() = default;
 
-LocalFitSimilarity::LocalFitSimilarity(LevelVolumes level, const Lattice& lattice, bool withSlope)
-  : WithSlope(withSlope)
+LocalFitSimilarity::LocalFitSimilarity(
+  LevelVolumes level, const Lattice& lattice, const LocalFit& fit)
+  : Around(fit.windowRadius)
   , Samples(level, lattice)
   , Rest(std::move(level.rest.values))
   , Reference(std::move(level.reference))
@@ -254,21 +240,37 @@ LocalFitSimilarity::LocalFitSimilarity(LevelVolumes level, const Lattice& lattic
   toFractions(this->Rest, level.restWeights.values);
   toFractions(this->Reference.values, level.referenceWeights.values);
   this->LeastVariance =
-    leastVariance(windowVariances(this->Reference.values, level.referenceWeights));
-  const std::vector<float> variances = windowVariances(this->Rest, level.restWeights);
+    leastVariance(windowVariances(this->Around, this->Reference.values, level.referenceWeights));
+  const std::vector<float> variances = windowVariances(this->Around, this->Rest, level.restWeights);
   const float least = leastVariance(variances);
   for (const float variance : variances)
   {
     this->Varies.push_back(variance > least ? 1 : 0);
   }
-  if (withSlope)
-  {
-    this->Slope = gradientLength({ level.rest.grid, this->Rest });
-    toFractions(this->Slope, level.restWeights.values);
-    this->Slope = this->Samples.read(this->Slope, 1);
-  }
+  this->readSecond(level, fit.second);
   this->Rest = this->Samples.read(this->Rest, 1);
   this->leaveOutIdleSamples();
+}
+
+void LocalFitSimilarity::readSecond(const LevelVolumes& level, SecondTerm second)
+{
+  if (second == SecondTerm::GradientLength)
+  {
+    this->Second = gradientLength({ level.rest.grid, this->Rest });
+    toFractions(this->Second, level.restWeights.values);
+  }
+  else if (second == SecondTerm::Square)
+  {
+    this->Second = this->Rest;
+    for (float& value : this->Second)
+    {
+      value *= value;
+    }
+  }
+  if (second != SecondTerm::None)
+  {
+    this->Second = this->Samples.read(this->Second, 1);
+  }
 }
 
 // Samples that no window needs do not count: the air around a head is most of many volumes.
@@ -277,13 +279,13 @@ void LocalFitSimilarity::leaveOutIdleSamples()
   const glm::ivec3 sides = this->Samples.rows.samples().dimensions;
   Block windows({ windowsAlong(sides.x), windowsAlong(sides.y), windowsAlong(sides.z) }, 1);
   std::copy(this->Varies.begin(), this->Varies.end(), windows.values.begin());
-  const Block rows = spread(windows, sides);
+  const Block rows = this->Around.spread(windows, sides);
   std::vector<float> needed(sides.x);
   for (int k = 0; k < sides.z; ++k)
   {
     for (int j = 0; j < sides.y; ++j)
     {
-      spreadRow(rows.row(j, k), sides.x, 1, needed.data());
+      this->Around.spreadRow(rows.row(j, k), sides.x, 1, needed.data());
       float* weights = &this->Samples.weights[this->Samples.rows.samples().offset(0, j, k)];
       for (int i = 0; i < sides.x; ++i)
       {
@@ -310,11 +312,11 @@ void LocalFitSimilarity::takeSample(
   work.weight[n] = w;
   work.value[n] = v;
   work.slope[n] = found.slope * this->Samples.stepsPerMm * sample.freedom;
-  const float numbers[SumsWithoutSlope] = { w, w * p, w * p * p, w * v, w * v * v, w * v * p };
-  std::copy(numbers, numbers + SumsWithoutSlope, sums);
-  if (this->WithSlope)
+  const float numbers[SumsWithoutSecond] = { w, w * p, w * p * p, w * v, w * v * v, w * v * p };
+  std::copy(numbers, numbers + SumsWithoutSecond, sums);
+  if (this->hasSecond())
   {
-    const float g = this->Slope[n];
+    const float g = this->Second[n];
     const float more[Sums - G] = { w * g, w * g * g, w * p * g, w * v * g };
     std::copy(more, more + (Sums - G), sums + G);
   }
@@ -335,17 +337,17 @@ void LocalFitSimilarity::takeSamples(const std::vector<glm::vec3>& displacements
     });
     if (stretch.first < stretch.last)
     {
-      gatherRow(sums.data(), sides.x, numbers, work.rows.row(row.j, row.k));
+      this->Around.gatherRow(sums.data(), sides.x, numbers, work.rows.row(row.j, row.k));
     }
     return false;
   });
-  work.windows = gathered(work.rows);
+  work.windows = this->Around.gathered(work.rows);
 }
 
 void LocalFitSimilarity::fitWindow(float* numbers, bool counts, double& sum, double& windows) const
 {
   const float samples = numbers[Count];
-  const float side = 2 * WindowRadius + 1;
+  const float side = static_cast<float>(this->Around.side());
   float left[Lefts] = {};
   if (counts && samples > LeastWindow * side * side * side)
   {
@@ -358,7 +360,7 @@ void LocalFitSimilarity::fitWindow(float* numbers, bool counts, double& sum, dou
     float b = 0.0f;
     float g = 0.0f;
     float explained = a * vp;
-    if (this->WithSlope)
+    if (this->hasSecond())
     {
       g = numbers[G] / samples;
       const float gg = numbers[GG] / samples - g * g + Ridge;
@@ -406,7 +408,7 @@ void LocalFitSimilarity::fitWindows(Work& work) const
       }
     }
   });
-  work.windows = spread(work.windows, grid.dimensions);
+  work.windows = this->Around.spread(work.windows, grid.dimensions);
 }
 
 ControlForces LocalFitSimilarity::takeForces(
@@ -423,7 +425,8 @@ ControlForces LocalFitSimilarity::takeForces(
       return false;
     }
     std::vector<float> lefts(static_cast<std::size_t>(grid.dimensions.x) * numbers);
-    spreadRow(work.windows.row(row.j, row.k), grid.dimensions.x, numbers, lefts.data());
+    this->Around.spreadRow(
+      work.windows.row(row.j, row.k), grid.dimensions.x, numbers, lefts.data());
     for (int i = stretch.first; i < stretch.last; ++i)
     {
       const std::size_t n = grid.offset(i, row.j, row.k);
@@ -433,9 +436,9 @@ ControlForces LocalFitSimilarity::takeForces(
         continue;
       }
       const float* left = &lefts[static_cast<std::size_t>(i) * numbers];
-      const float slopePart = this->WithSlope ? left[ScaleB] * this->Slope[n] : 0.0f;
+      const float secondPart = this->hasSecond() ? left[ScaleB] * this->Second[n] : 0.0f;
       const float down = -weight *
-        ((left[Scale] - left[Loss]) * work.value[n] - left[ScaleA] * this->Rest[n] - slopePart -
+        ((left[Scale] - left[Loss]) * work.value[n] - left[ScaleA] * this->Rest[n] - secondPart -
           left[ScaleC] + left[LossMean]);
       const float curve = weight * left[Scale];
       const glm::vec3& s = work.slope[n];
@@ -453,7 +456,7 @@ CostAndForces LocalFitSimilarity::compare(const std::vector<glm::vec3>& displace
 {
   if (!this->Known)
   {
-    const int sums = this->WithSlope ? Sums : SumsWithoutSlope;
+    const int sums = this->hasSecond() ? Sums : SumsWithoutSecond;
     this->Known = std::make_unique<Work>(this->Samples.rows.samples(), sums);
   }
   Work& work = *this->Known;
@@ -469,17 +472,34 @@ CostAndForces LocalFitSimilarity::compare(const std::vector<glm::vec3>& displace
 
 namespace
 {
-template <bool WithSlope>
-std::unique_ptr<Comparison> made(LevelVolumes level, const Lattice& lattice)
-{
-  return std::make_unique<LocalFitSimilarity>(std::move(level), lattice, WithSlope);
-}
-}
+constexpr LocalFit ByVolume{};
+constexpr LocalFit ByGradients{ SecondTerm::GradientLength };
+constexpr LocalFit BySquare{ SecondTerm::Square };
 
-Metric localFitMetric(bool withSlope)
+template <const LocalFit& Fit>
+Metric metricOf()
 {
   // A position between points is read from all of them.
   const Support support{ 1, 1 };
-  return { support, LocalFitSimilarity::BytesPerPoint, withSlope ? &made<true> : &made<false> };
+  return { support, LocalFitSimilarity::BytesPerPoint,
+    [](LevelVolumes level, const Lattice& lattice) -> std::unique_ptr<Comparison> {
+      return std::make_unique<LocalFitSimilarity>(std::move(level), lattice, Fit);
+    } };
+}
+}
+
+Metric localCorrelationMetric()
+{
+  return metricOf<ByVolume>();
+}
+
+Metric linearFitWithGradients()
+{
+  return metricOf<ByGradients>();
+}
+
+Metric quadraticFitMetric()
+{
+  return metricOf<BySquare>();
 }
 }

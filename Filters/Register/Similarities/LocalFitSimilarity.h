@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file
-/// Explains the reference in small windows by the volume, and by its slope for ultrasound.
+/// Explains the reference in small windows by the volume, and by a second number of it.
 ///
-/// In each window the reference is fitted by a p + c, or by a p + b g + c. There p is the volume
-/// and g its gradient magnitude. The cost of a window is the fraction of the reference's variance
-/// that the fit leaves. With p alone it is 1 minus the squared local correlation; with both it is 1
-/// minus LC2 (Wein et al., MICCAI 2013; Fuerst et al., Medical Image Analysis 18(8), 2014).
+/// In each window the reference is fitted by a p + c, or by a p + b q + c. There p is the volume
+/// and q its gradient magnitude or its square. The cost of a window is the fraction of the
+/// reference's variance that the fit leaves. With p alone it is 1 minus the squared local
+/// correlation; with the gradient magnitude it is 1 minus LC2 (Wein et al., MICCAI 2013; Fuerst et
+/// al., Medical Image Analysis 18(8), 2014). With the square, the two scans of a tissue may have
+/// any contrast of which a parabola is a good picture within a window.
 #ifndef BrainShift_LocalFitSimilarity_h
 #define BrainShift_LocalFitSimilarity_h
 
@@ -19,7 +21,6 @@ namespace brainshift
 // Neighbouring windows have most of their points in common, so that windows around every point
 // would add little and take eight times as long to fit.
 
-constexpr int WindowRadius = 3; ///< points
 constexpr int WindowStride = 2; ///< points from one window's middle to that of the next
 
 /** Number of windows of a line of so many points. The first is around the first point. */
@@ -51,19 +52,47 @@ struct Block
   const float* row(int j, int k) const { return const_cast<Block*>(this)->row(j, k); }
 };
 
-/** Adds up a row of points, `numbers` for each, for each of its windows. */
-BRAINSHIFT_DEFORMATION_EXPORT void gatherRow(
-  const float* points, int count, int numbers, float* windows);
+/** Windows with so many points on each side of the middle. */
+class BRAINSHIFT_DEFORMATION_EXPORT Windows
+{
+public:
+  explicit Windows(int radius)
+    : Radius(radius)
+  {
+  }
 
-/** For each point of a row, the sum of the windows that hold it. */
-BRAINSHIFT_DEFORMATION_EXPORT void spreadRow(
-  const float* windows, int count, int numbers, float* points);
+  /** Points along each side. */
+  int side() const { return 2 * this->Radius + 1; }
 
-/** The same along y and z of a block whose rows are gathered. */
-BRAINSHIFT_DEFORMATION_EXPORT Block gathered(const Block& rows);
+  /** Adds up a row of points, `numbers` for each, for each of its windows. */
+  void gatherRow(const float* points, int count, int numbers, float* windows) const;
 
-/** The same along z and y of a block of windows; its rows are still to be spread. */
-BRAINSHIFT_DEFORMATION_EXPORT Block spread(const Block& windows, const glm::ivec3& points);
+  /** For each point of a row, the sum of the windows that hold it. */
+  void spreadRow(const float* windows, int count, int numbers, float* points) const;
+
+  /** The same along y and z of a block whose rows are gathered. */
+  Block gathered(const Block& rows) const;
+
+  /** The same along z and y of a block of windows; its rows are still to be spread. */
+  Block spread(const Block& windows, const glm::ivec3& points) const;
+
+private:
+  int Radius;
+};
+
+/** What explains the reference beside the volume. */
+enum class SecondTerm
+{
+  None,
+  GradientLength,
+  Square
+};
+
+struct LocalFit
+{
+  SecondTerm second = SecondTerm::None;
+  int windowRadius = 3; ///< points
+};
 
 class LocalFitSimilarity : public Comparison
 {
@@ -71,7 +100,7 @@ public:
   /** For each point of a level: the windows' sums along rows, the sample as read, and weights. */
   static constexpr double BytesPerPoint = 80.0;
 
-  LocalFitSimilarity(LevelVolumes level, const Lattice& lattice, bool withSlope);
+  LocalFitSimilarity(LevelVolumes level, const Lattice& lattice, const LocalFit& fit);
 
   ~LocalFitSimilarity() override;
 
@@ -87,21 +116,23 @@ private:
   void fitWindow(float* numbers, bool counts, double& sum, double& windows) const;
   ControlForces takeForces(const std::vector<glm::vec3>& displacements, const Work& work) const;
 
-  bool WithSlope;
+  bool hasSecond() const { return !this->Second.empty(); }
+  void readSecond(const LevelVolumes& level, SecondTerm second);
+
+  Windows Around;
   LevelSamples Samples;
   std::vector<float> Rest;     // at the samples, 0 to 1
-  std::vector<float> Slope;    // the same of its gradient's length; empty without
+  std::vector<float> Second;   // the same of the second term; empty without
   Volume Reference;            // at the points, 0 to 1
   std::vector<char> Varies;    // of the windows; 1: the volume varies there
   float LeastVariance;         // of the reference, below which a window carries little information
   std::unique_ptr<Work> Known; // of the last comparison; its memory serves the next one
 };
 
-/** Explains the reference by the volume; for ultrasound (LC2), also by its slope. */
-Metric localFitMetric(bool withSlope);
-
-/** The last level of a refinement of volumes that correlate once they are aligned. */
-RefinementLevel localCorrelationAtTheEnd();
+/** The metrics of local fits. */
+Metric localCorrelationMetric(); ///< by the volume alone, windows of 7 points
+Metric linearFitWithGradients(); ///< LC2, windows of 7 points
+Metric quadraticFitMetric();     ///< by the volume and its square, windows of 7 points
 }
 
 #endif

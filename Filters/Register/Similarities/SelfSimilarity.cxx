@@ -283,6 +283,12 @@ const Metric SelfSimilarityMetric{
     return std::make_unique<SelfSimilarity>(std::move(level), lattice);
   },
 };
+
+// Where contrasts differ or slices are thick, self-similarity is least 0.4 to 0.6 mm beside the
+// right position. The local fit has no such bias, but finds positions from nearby only.
+const Metric QuadraticFit = quadraticFitMetric();
+
+constexpr double Converged = 1e-3; // a smaller gain comes from the noise
 }
 
 Similarity describeSelfSimilarity()
@@ -291,10 +297,11 @@ Similarity describeSelfSimilarity()
   result.name = "auto";
   result.label = "Auto (any contrast)";
   result.tooltip =
-    "For volumes of any contrast. Compares self-similarity (SSC), and at the end local "
-    "correlation (NCC) if the volumes correlate.";
+    "For volumes of any contrast. Compares self-similarity (SSC), and at the end how well a "
+    "parabola of the volume's values explains the reference in small windows.";
   result.plan.levels = { { &SelfSimilarityMetric, 4.0 }, { &SelfSimilarityMetric, 2.0 },
-    localCorrelationAtTheEnd() };
+    { &QuadraticFit, 1.5, 1.0, false, true } };
+  result.plan.converged = Converged;
   return result;
 }
 }

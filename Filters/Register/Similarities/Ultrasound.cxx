@@ -11,7 +11,7 @@ namespace
 // Softer, the volume would fit the speckle by deformations that do not exist.
 constexpr double SpeckleStiffness = 5.0;
 
-const Metric UltrasoundMetric = localFitMetric(true);
+const Metric UltrasoundMetric = linearFitWithGradients();
 }
 
 Similarity describeUltrasound()

@@ -273,9 +273,26 @@ TEST(Similarity, TheSlopeExplainsEdges)
   });
   const Lattice lattice = makeLattice(withDimensions(grid, { 6, 6, 6 }), 0);
   const std::vector<glm::vec3> still(lattice.displacements.size(), glm::vec3(0.0f));
-  const double alone = comparison(localFitMetric(false), volumes, lattice)(still).cost;
-  const double both = comparison(localFitMetric(true), volumes, lattice)(still).cost;
+  const double alone = comparison(localCorrelationMetric(), volumes, lattice)(still).cost;
+  const double both = comparison(linearFitWithGradients(), volumes, lattice)(still).cost;
   EXPECT_LT(both, 0.5 * alone);
+}
+
+// One scan shows grey matter brightest, another one darkest: no line explains it.
+TEST(Similarity, AParabolaExplainsAnotherContrast)
+{
+  LevelVolumes volumes = level();
+  const Grid& grid = volumes.rest.grid;
+  volumes.reference = filled(grid, [](const glm::dvec3& at) {
+    const double fromGrey = tissue(at) - 100.0;
+    return 300.0 - 0.1 * fromGrey * fromGrey;
+  });
+  const Lattice lattice = makeLattice(withDimensions(grid, { 6, 6, 6 }), 0);
+  const std::vector<glm::vec3> still(lattice.displacements.size(), glm::vec3(0.0f));
+  const double line = comparison(localCorrelationMetric(), volumes, lattice)(still).cost;
+  const double parabola = comparison(quadraticFitMetric(), volumes, lattice)(still).cost;
+  EXPECT_GT(line, 0.5);
+  EXPECT_LT(parabola, 0.5 * line) << "interpolation between points leaves a part";
 }
 
 TEST(Similarity, AMaskOfTheLatticeHoldsSamples)
@@ -285,10 +302,10 @@ TEST(Similarity, AMaskOfTheLatticeHoldsSamples)
   const Mask half = ball(volumes.rest.grid, middle(volumes.rest.grid), 15.0);
   lattice.mask = maskWeights(lattice.grid, 4, half, 5.0);
   const CostAndForces masked =
-    comparison(localFitMetric(false), volumes, lattice)(alongAxes(lattice));
+    comparison(localCorrelationMetric(), volumes, lattice)(alongAxes(lattice));
   lattice.mask = nullptr;
   const CostAndForces whole =
-    comparison(localFitMetric(false), volumes, lattice)(alongAxes(lattice));
+    comparison(localCorrelationMetric(), volumes, lattice)(alongAxes(lattice));
   EXPECT_LT(masked.samples, 0.5 * whole.samples);
   EXPECT_EQ(masked.forces[3], 0.0f) << "nothing moves in the corner";
 }

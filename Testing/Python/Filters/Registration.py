@@ -120,7 +120,7 @@ def test_refine_finds_a_known_bend():
     assert found.disagreement < 0.5 * found.disagreement_before
     assert found.largest_change > 3.0 > found.mean_change > 0.0
     assert found.smallest_determinant > 0.1 and found.share == 1.0 and found.compared > 0.8
-    assert found.finished and found.level == 1
+    assert found.finished and found.level == 2
 
 
 def test_it_begins_with_the_hand_and_strokes_follow():
@@ -225,6 +225,65 @@ def test_errors_leave_all_as_it_was():
     assert tuple(bent.Strokes) == hand and bent.Lattice is None
 
 
+def test_nothing_to_compare_is_an_error():
+    voxels = tissue(*places()).astype(numpy.float32)
+    rest = rest_volume()
+    constant = volume(numpy.full_like(voxels, 7.0), spacing=SPACING)
+    unknown = volume(numpy.full_like(voxels, numpy.nan), spacing=SPACING)
+    everywhere = volume(numpy.ones_like(voxels), spacing=SPACING)
+    middle = numpy.zeros_like(voxels)
+    middle[10:-10, 10:-10, 10:-10] = 1
+    flat_outside = volume(numpy.where(middle > 0, voxels, 9.0).astype(numpy.float32),
+                          spacing=SPACING)
+    for volumes, words in (
+            ({"rest": rest, "reference": constant}, "All voxels of the reference that count have "
+                                                    "the value 7, so there is nothing to compare"),
+            ({"rest": constant, "reference": rest}, "All voxels of the volume that count have"),
+            ({"rest": rest, "reference": unknown}, "No voxel of the reference is a finite number"),
+            ({"rest": unknown, "reference": rest}, "No voxel of the volume is a finite number"),
+            ({"rest": rest, "reference": rest, "cavity": everywhere},
+             "The cavity covers all of the reference"),
+            ({"rest": rest, "reference": flat_outside,
+              "cavity": volume(middle, spacing=SPACING)},
+             "All voxels of the reference that count have the value 9")):
+        strokes = tuple(brainshift.soft(MIDDLE, (2, 0, 0), 30.0))
+        bent = simple.FreeFormDeformation(Input=volumes["rest"], Strokes=strokes)
+        compare = simple.CompareVolumes(Input=bent, Reference=volumes["reference"],
+                                        ReferenceTranslation=(1, 2, 3))
+        if "cavity" in volumes:
+            compare.Cavity = volumes["cavity"]
+        refuses(lambda of=compare: brainshift.align(of), words)
+        refuses(lambda of=compare, lattice=bent: brainshift.refine(lattice, of), words)
+        assert tuple(bent.Strokes) == strokes and not bent.Lattice, bent.Lattice
+        assert list(compare.ReferenceTranslation) == [1.0, 2.0, 3.0], compare.ReferenceTranslation
+
+
+def test_voxels_without_a_value_do_not_count():
+    rest = rest_volume()
+    voxels = tissue(*places()).astype(numpy.float32)
+    half = voxels.copy()
+    half[:, :SIDE // 2 + 2] = numpy.nan
+    for volumes in ((rest, volume(half, spacing=SPACING)), (volume(half, spacing=SPACING), rest)):
+        bent = simple.FreeFormDeformation(Input=volumes[0])
+        compare = simple.CompareVolumes(Input=bent, Reference=volumes[1])
+        found = brainshift.refine(bent, compare)
+        assert found.mean_change < 0.2 and found.largest_change < 1.0, found
+        aligned = brainshift.align(compare)
+        assert aligned.shift < 0.5 and aligned.turn < 0.5, aligned
+        if volumes[0] is rest:
+            assert found.compared < 0.5 and aligned.compared < 0.5, (found, aligned)
+
+
+def test_what_the_cavity_covers_is_no_overlap():
+    rest = rest_volume()
+    left = numpy.ones((SIDE,) * 3, numpy.uint8)
+    left[:8] = 0
+    compare = simple.CompareVolumes(Input=rest, Reference=rest,
+                                    Cavity=volume(left, spacing=SPACING))
+    refuses(lambda: brainshift.align(compare),
+            "has a partner in the reference outside the cavity; at least 25 % must")
+
+
 def test_without_overlap_nothing_changes():
     rest = rest_volume()
     away = volume(tissue(*places()).astype(numpy.float32), origin=(500.0, 0.0, 0.0),
@@ -251,6 +310,44 @@ def test_little_overlap_is_warned_of():
     assert 0.0 < found.compared < 0.25, found.compared
     expected = f"Only {100 * found.compared:.0f} % of the volume has a partner"
     assert any(expected in str(one.message) for one in said), [str(one.message) for one in said]
+
+
+def test_landmarks_judge_a_refinement():
+    rest = rest_volume()
+    bent, truth = simple.FreeFormDeformation(Input=rest), known_bend(rest)
+    places = MIDDLE + numpy.random.default_rng(5).uniform(-20, 20, (30, 3))
+    targets = brainshift.deformed_from_rest(truth, places)
+    before = brainshift.tre(bent, places, targets)
+    assert numpy.allclose(before.errors, numpy.linalg.norm(targets - places, axis=1), atol=1e-4)
+    brainshift.refine(bent, bent_reference(rest))
+    after = brainshift.tre(bent, places, targets)
+    assert numpy.allclose(after.before, before.errors, atol=1e-4)
+    assert after.mean < 0.4 < before.mean and after.largest == after.errors.max(), after
+    assert after.median <= after.largest and after.mean <= after.rms, after
+    assert "of 30 landmarks" in repr(after), after
+
+
+def test_landmarks_pair_by_name():
+    rest = rest_volume()
+    bent = simple.FreeFormDeformation(Input=rest)
+    unused = numpy.full(3, numpy.nan)
+
+    def points(positions, labels):
+        return brainshift.points.Points(numpy.array(positions, float), labels, *[unused] * 3)
+    places = points([(10, 10, 10), (20, 20, 20), (30, 30, 30)], ["a", "b", "c"])
+    targets = points([(30, 30, 34), (10, 13, 10), (0, 0, 0)], ["c", "a", "d"])
+    found = brainshift.tre(bent, places, targets)
+    assert found.names == ["a", "c"] and found.unpaired == ["b", "d"], found.names
+    assert numpy.allclose(found.errors, (3, 4)), found.errors
+    assert "2 without a partner" in repr(found), found
+    by_order = brainshift.tre(bent, places, targets, by_order=True)
+    assert len(by_order.errors) == 3 and by_order.errors[1] > 10, by_order
+    for measured, words in ((targets._replace(labels=["x", "y", "z"]), "no name is both in rest"),
+                            (targets._replace(labels=["a", "a", "c"]), "'a' twice"),
+                            (targets.positions[:2], "rest has 3 points and measured 2"),
+                            (numpy.zeros((3, 2)), "must be N x 3")):
+        refuses(lambda of=measured: brainshift.tre(bent, places, of), words)
+    refuses(lambda: brainshift.tre(bent, [], []), "there is no landmark")
 
 
 def test_a_lattice_of_the_wrong_size_is_an_error():
