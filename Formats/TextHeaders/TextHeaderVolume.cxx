@@ -299,6 +299,11 @@ void TextHeaderVolume::readHeader(const std::string& fileName, VolumeHeader& hea
   header.storedType = this->Stored.numberType;
   header.rescaling = { this->Stored.slope, this->Stored.intercept };
   header.warnings = this->Stored.warnings;
+  if (header.knowsSides && !this->Stored.hasOrigin)
+  {
+    header.warnings.push_back(std::string("has no ") + (isNRRD ? "space origin" : "Offset") +
+      "; its first voxel counts as at 0 0 0");
+  }
   this->takeSegments(header);
 }
 

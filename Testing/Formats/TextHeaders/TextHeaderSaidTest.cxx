@@ -128,6 +128,13 @@ TEST(TextHeaderSaid, DistancesThatAreNotThere)
   EXPECT_EQ(
     saidOf<Meta>("bare.mha", metaImage({ { "ElementSpacing", "" }, { "ElementSize", "1 2 3" } })),
     "");
+  expectSaid<Meta>("bare.mha", metaImage({ { "Offset", "" } }),
+    "has no Offset; its first voxel counts as at 0 0 0");
+  EXPECT_EQ(saidOf<Meta>("bare.mha", metaImage({ { "Offset", "" }, { "Position", "1 2 3" } })), "");
+  EXPECT_EQ(
+    saidOf<Meta>("bare.mha", metaImage({ { "Offset", "" }, { "TransformMatrix", "" } })), "");
+  expectSaid<NRRD>("bare.nrrd", nrrd("space: RAS\nspace directions: (1,0,0) (0,2,0) (0,0,3)\n"),
+    "has no space origin; its first voxel counts as at 0 0 0");
   expectSaid<NRRD>("bare.nrrd", nrrd(""), "voxels count as 1 mm apart there");
   expectSaid<NRRD>("bare.nrrd", nrrd("spacings: 1 nan 3\n"), "voxels count as 1 mm apart there");
 }

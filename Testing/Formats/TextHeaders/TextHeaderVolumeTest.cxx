@@ -412,7 +412,8 @@ std::vector<double> timesWith(const std::string& lines, std::string& said)
 {
   return timesOf("series.nrrd",
     "NRRD0005\ndimension: 4\nspace: RAS\nsizes: 2 2 2 3\n" + Bytes +
-      "space directions: (1,0,0) (0,1,0) (0,0,1) NONE\n" + lines + "\n" + numbers(24),
+      "space origin: (0,0,0)\nspace directions: (1,0,0) (0,1,0) (0,0,1) NONE\n" + lines + "\n" +
+      numbers(24),
     said);
 }
 }
