@@ -151,7 +151,7 @@ FrameMeaning frameIn(const std::string& words)
       ++count;
     }
   }
-  return count == 1 ? *found : FrameMeaning{ std::nullopt, NotKnown };
+  return count == 1 && found ? *found : FrameMeaning{ std::nullopt, NotKnown };
 }
 
 void noteDoubt(const std::string& words, const FrameMeaning& frame, LandmarkList& list)

@@ -116,10 +116,9 @@ void requirePositions(const std::string& fileName, const LandmarkList& list)
     const Landmark& point = list.points[i];
     if (!std::isfinite(point.position.x + point.position.y + point.position.z))
     {
-      const std::string number = "point " + std::to_string(i + 1);
-      throw Problem("File " + fileName + " cannot be written: " + number +
-        (point.label.empty() ? "" : " (" + shownWords(point.label) + ")") +
-        " has no finite position; a transform may have no number there");
+      const std::string name = point.label.empty() ? "" : " (" + shownWords(point.label) + ")";
+      throw Problem(joined("File ", fileName, " cannot be written: point ", i + 1, name,
+        " has no finite position; a transform may have no number there"));
     }
   }
 }
