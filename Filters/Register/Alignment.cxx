@@ -305,11 +305,7 @@ double Alignment::loss(const Parameters& at, double* overlap) const
   const std::vector<Sample>& samples = this->Samples[this->Progress.level];
   const RigidPose motion = this->motionOf(at);
   const GridFromWorld inReference(reference.grid);
-  std::vector<NearestVoxel> missing;
-  for (const Mask& mask : this->Missing)
-  {
-    missing.emplace_back(mask);
-  }
+  const std::vector<NearestVoxel> missing(this->Missing.begin(), this->Missing.end());
   std::vector<JointHistogram> parts(Pieces);
   std::vector<double> within(Pieces, 0.0);
   parallelFor(0, Pieces, 1, [&](std::int64_t begin, std::int64_t end) {

@@ -19,7 +19,7 @@ from tree import Tree
 JOINED_WORDS = r"\w*[a-z][A-Z]\w*"
 
 #: GLSL's inout, ParaView's level of detail, the target registration error, and a name of ITK's.
-OUR_WORDS = "te,inout,lod,tranform,tre,unser"
+OUR_WORDS = "te,inout,lod,nome,tranform,tre,unser"
 
 
 #: The major version of LLVM whose answers count, and the exit status of a check that is skipped.

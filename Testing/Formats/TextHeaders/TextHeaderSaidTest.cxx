@@ -111,7 +111,7 @@ TEST(TextHeaderSaid, KeysOfMetaImageThatAreAlmostThoseOfTheFormat)
   for (const auto& [wrong, right] :
     std::map<std::string, std::string>{ { "TransformMatix", "TransformMatrix" },
       { "ElementSpaceing", "ElementSpacing" }, { "Element Spacing", "ElementSpacing" },
-      { "DistanceUnit", "DistanceUnits" }, { "Ofset", "Offset" } })
+      { "DistanceUnit", "DistanceUnits" }, { "Offsets", "Offset" } })
   {
     expectRefused<Meta>("slip.mha", metaImage({ { right, "" }, { wrong, "1 2 3" } }),
       "which MetaImage does not define; it must be " + right);
