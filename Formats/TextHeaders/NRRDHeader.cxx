@@ -329,7 +329,8 @@ void requireNoOther(
       "whose unit must be in space units");
   }
   const std::string axis = "axis " + std::to_string(i + 1);
-  const double length = glm::length(*header.axes[i].step) / mmPerUnit(spaceUnit).value_or(1.0);
+  const glm::dvec3 step = header.axes[i].step.value_or(glm::dvec3(0.0));
+  const double length = glm::length(step) / mmPerUnit(spaceUnit).value_or(1.0);
   const double spacing = std::abs(fields.spacings[i]);
   if (std::abs(spacing - length) > Rounding * length) // not where it is NaN
   {
