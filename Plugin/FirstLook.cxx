@@ -196,6 +196,22 @@ void giveLook(pqDataRepresentation* display)
   }
 }
 
+// A display of an input of a source with colours of its own, not those of the array's name nor the
+// greys of slices.
+pqDataRepresentation* ownColoredInput(pqDataRepresentation* display)
+{
+  auto model = serverManagerModel();
+  for (auto other : model->findItems<pqDataRepresentation*>())
+  {
+    if (other != display && other->getLookupTableProxy() && !showsSlices(other) &&
+      vtkSMPropertyHelper(other->getProxy(), "UseSeparateColorMap", true).GetAsInt() != 0 &&
+      isMadeOf(sourceOf(display), sourceOf(other)))
+    {
+      return other;
+    }
+  }
+  return nullptr;
+}
 void takeOwnColors(pqDataRepresentation* display)
 {
   vtkSMPropertyHelper(display->getProxy(), "UseSeparateColorMap", true).Set(1);
@@ -222,7 +238,7 @@ void showFirstLook(pqDataRepresentation* display)
   vtkSMProxy* colors = display->getLookupTableProxy();
   const bool isNew = countColorMaps(display->getProxy()) > before;
   const Users users = colors && !isNew ? usersOf(colors, display) : Users::None;
-  if (users == Users::Strangers)
+  if (users == Users::Strangers && !ownColoredInput(display)) // else it joins that look
   {
     // Later: ParaView still sets the colours of the array's name when it registers a display, and
     // shows their scale.
@@ -243,26 +259,6 @@ void showFirstLook(pqDataRepresentation* display)
   {
     giveLook(display);
   }
-}
-
-namespace
-{
-// A display of an input of a source with colours of its own, not those of the array's name nor the
-// greys of slices.
-pqDataRepresentation* ownColoredInput(pqDataRepresentation* display)
-{
-  auto model = serverManagerModel();
-  for (auto other : model->findItems<pqDataRepresentation*>())
-  {
-    if (other != display && other->getLookupTableProxy() && !showsSlices(other) &&
-      vtkSMPropertyHelper(other->getProxy(), "UseSeparateColorMap", true).GetAsInt() != 0 &&
-      isMadeOf(sourceOf(display), sourceOf(other)))
-    {
-      return other;
-    }
-  }
-  return nullptr;
-}
 }
 
 void shareColors(pqDataRepresentation* display, pqDataRepresentation* from)

@@ -185,5 +185,39 @@ def a_state_keeps_looks_and_greys():
         assert kind == chosen and is_grey(display) == (kind == "Deformed Slices"), looks()
 
 
+def a_second_view_joins_the_look():
+    """A volume that has colours of its own has them in another view, too, also after redo."""
+    hand.reset_session()
+    view = simple.GetActiveViewOrCreate("RenderView")
+    shutil.copy(HEAD, OTHER)
+    opened = []
+    for name in (HEAD, OTHER):
+        hand.open_file(name)
+        hand.wait(200)
+        assert hand.click("Accept")
+        hand.wait(1000)
+        opened.append(simple.GetActiveSource())
+    simple.SetActiveSource(opened[0])
+    hand.wait(300)
+    assert hand.click("See-through"), "a look that the next volumes would get"
+    hand.wait(300)
+    hand.new_layout()
+    hand.fill_frame()
+    hand.wait(300)
+    hand.click_eye(opened[1])
+    hand.wait(1000)
+    steps = 1 + [label.startswith("Show ") for label in window.undo_labels()].index(True)
+    for action in (None, "Undo", "Redo"):
+        for _ in range(steps if action else 0):
+            window.action(action)
+            hand.wait(200)
+        if action != "Undo":
+            hand.wait(500)
+            tables = [simple.GetDisplayProperties(opened[1], shown).LookupTable
+                      for shown in (view, simple.GetActiveView())]
+            assert tables[0] == tables[1], (action, [list(table.RGBPoints) for table in tables])
+
+
 window.main("GreysOfTwo", [(greys_of, MASK, HEAD), (greys_of, HEAD, OTHER), (slices_by_hand,),
-                           (kinds_are_undone_and_redone,), (a_state_keeps_looks_and_greys,)])
+                           (kinds_are_undone_and_redone,), (a_state_keeps_looks_and_greys,),
+                           (a_second_view_joins_the_look,)])
