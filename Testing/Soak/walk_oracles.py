@@ -331,8 +331,9 @@ def baked_is_alike():
         bake.UpdatePipeline()
 
         def use(copy):
-            if copy.GetProperty("Input").GetProxy(0) == source.SMProxy:
-                copy.GetProperty("Input").SetInputConnection(0, bake, 0)
+            used = copy.GetProperty("Input")  # a scale of colours has none
+            if used and used.GetProxy(0) == source.SMProxy:
+                used.SetInputConnection(0, bake, 0)
                 copy.UpdateVTKObjects()
         bent, baked = drawn_anew(view), drawn_anew(view, use)
     alike = structural_similarity(bent, baked)
