@@ -307,9 +307,11 @@ def views_are_drawn_right():
 
 
 def _bent_slices():
-    """A view of slices with a bent volume that it shows; None if there is none."""
+    """A view of slices with a bent volume that it shows alone, for planes of two may coincide;
+    None if there is none."""
     for view in actions.render_views():
-        for display in _drawn(view):
+        shown = [display for display in _drawn(view) if _shown_as(display)]
+        for display in shown[:len(shown) == 1]:
             source = getattr(display, "Input", None)
             if source is not None and actions.kind_of(source) == "FreeFormDeformation" and (
                     _shown_as(display) == "Deformed Slices"):
