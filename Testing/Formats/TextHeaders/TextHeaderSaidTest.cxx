@@ -26,7 +26,10 @@ std::string metaImage(const Lines& other, const std::string& added = "")
   }
   for (const auto& [name, value] : lines)
   {
-    text += value.empty() ? "" : name + " = " + value + "\n";
+    if (!value.empty())
+    {
+      text.append(name).append(" = ").append(value).append("\n");
+    }
   }
   return text + added + "ElementDataFile = LOCAL\n" + Numbers;
 }
