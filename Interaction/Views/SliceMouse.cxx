@@ -139,6 +139,8 @@ void clampToInput(vtkSMProxy* display, double position[3])
   }
 }
 
+constexpr const char* ZoomName = "CameraParallelScale";
+
 bool linkedViewsFollow = false; // while one view sends the others its zoom
 
 bool isFlatWithSlices(pqRenderView* view)
@@ -245,6 +247,9 @@ SliceMouse::SliceMouse(pqRenderView* view)
   this->Camera = view->getRenderViewProxy()->GetActiveCamera();
   this->CameraObserver =
     this->Camera->AddObserver(vtkCommand::ModifiedEvent, this, &SliceMouse::noticeZoom);
+  this->AskedZoom = view->getProxy()->GetProperty(ZoomName);
+  this->AskedObserver =
+    this->AskedZoom->AddObserver(vtkCommand::ModifiedEvent, this, &SliceMouse::noticeAskedZoom);
   this->Sharing.setSingleShot(true);
   this->Sharing.setInterval(0);
   QObject::connect(&this->Sharing, &QTimer::timeout, this, &SliceMouse::sendZoom);
@@ -262,6 +267,10 @@ SliceMouse::~SliceMouse()
   if (this->Camera)
   {
     this->Camera->RemoveObserver(this->CameraObserver);
+  }
+  if (this->AskedZoom)
+  {
+    this->AskedZoom->RemoveObserver(this->AskedObserver);
   }
 }
 
@@ -409,6 +418,18 @@ void SliceMouse::noticeZoom()
   }
 }
 
+void SliceMouse::noticeAskedZoom()
+{
+  vtkSMProxy* view = this->View->getProxy();
+  if (this->Camera &&
+    vtkSMPropertyHelper(view, ZoomName).GetAsDouble() != this->Camera->GetParallelScale())
+  {
+    SCOPED_UNDO_EXCLUDE();
+    const QScopedValueRollback<bool> others(linkedViewsFollow, true);
+    view->UpdateProperty(ZoomName, 1);
+  }
+}
+
 void SliceMouse::sendZoom()
 {
   vtkSMRenderViewProxy* view = this->View->getRenderViewProxy();
@@ -416,7 +437,7 @@ void SliceMouse::sendZoom()
   {
     return;
   }
-  const bool isSent = vtkSMPropertyHelper(view, "CameraParallelScale").GetAsDouble() == this->Zoom;
+  const bool isSent = vtkSMPropertyHelper(view, ZoomName).GetAsDouble() == this->Zoom;
   // Also one that shows a volume in place of slices: the others are linked to it.
   if (!this->Follows && this->Camera->GetParallelProjection() != 0)
   {

@@ -16,6 +16,7 @@ class pqRenderView;
 class vtkCamera;
 class vtkObject;
 class vtkRenderWindowInteractor;
+class vtkSMProperty;
 class vtkSMProxy;
 
 namespace brainshift
@@ -89,11 +90,16 @@ private:
 
   /// Observer of the camera.
   void noticeZoom();
+  /// Observer of the view's property, which a link changes. Gives the camera its zoom at once: the
+  /// next picture would give the property, and all that are linked to it, that of the camera.
+  void noticeAskedZoom();
   /// Reports the zoom to ParaView, so that linked views follow, and draws a zoom that came from
   /// another view.
   void sendZoom();
   vtkWeakPointer<vtkCamera> Camera;
   unsigned long CameraObserver = 0;
+  vtkWeakPointer<vtkSMProperty> AskedZoom;
+  unsigned long AskedObserver = 0;
   double Zoom = 0.0;    ///< Half of the height of the view (mm) when it was sent last.
   bool Follows = false; ///< Another view was zoomed, and this one by its link.
   QTimer Sharing;

@@ -132,8 +132,18 @@ bool QuietLinks::onRegister(vtkObject* manager, unsigned long, void* information
       {
         SCOPED_UNDO_EXCLUDE();
         this->takeOver(weak);
-        this->takeIn(weak);
       }
+    });
+    // Later still: a view that comes back gets its own zoom first (RevivedViews), and then that of
+    // the views that stayed.
+    QTimer::singleShot(0, this, [this, weak] {
+      QTimer::singleShot(0, this, [this, weak] {
+        if (weak)
+        {
+          SCOPED_UNDO_EXCLUDE();
+          this->takeIn(weak);
+        }
+      });
     });
   }
   return isLink;
@@ -214,6 +224,7 @@ void QuietLinks::takeIn(vtkSMSessionProxyManager* manager)
     }
     left.link->AddLinkedProperty(back, left.property.c_str(), vtkSMLink::INPUT);
     left.link->AddLinkedProperty(back, left.property.c_str(), vtkSMLink::OUTPUT);
+    back->UpdateProperty(left.property.c_str(), 1); // the link changes the property alone
   }
   this->Gone = std::move(still);
 }

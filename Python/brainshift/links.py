@@ -23,6 +23,19 @@ def _unrecorded(manager):
             builder.SetIgnoreAllChanges(before)
 
 
+def _registered(manager, group):
+    """All proxies of a group. Not by name: views of two layouts have the same names."""
+    from paraview.modules.vtkRemotingServerManager import vtkSMProxyIterator
+
+    each = vtkSMProxyIterator()
+    each.SetSessionProxyManager(manager.SMProxyManager)
+    each.SetModeToOneGroup()
+    each.Begin(group)
+    while not each.IsAtEnd():
+        yield each.GetProxy()
+        each.Next()
+
+
 def link(proxies, group, name):
     """Keeps a property equal in all proxies from now on, also after a view is closed.
 
@@ -37,17 +50,14 @@ def link(proxies, group, name):
 
     manager = servermanager.ProxyManager()
     made = servermanager.vtkSMPropertyLink()
-    linked = {manager.GetProxyName(group, proxy.SMProxy): proxy.SMProxy.GetGlobalID()
-              for proxy in proxies}
+    linked = [proxy.SMProxy.GetGlobalID() for proxy in proxies]
 
     def add(members):
         for proxy, direction in itertools.product(members, (made.INPUT, made.OUTPUT)):
             made.AddLinkedProperty(proxy, name, direction)
 
     def leave_out(*_):
-        left = [manager.SMProxyManager.GetProxy(group, registered) for registered in linked]
-        left = [proxy for proxy in left  # a name may be reused
-                if proxy is not None and proxy.GetGlobalID() in linked.values()]
+        left = [proxy for proxy in _registered(manager, group) if proxy.GetGlobalID() in linked]
         if made.GetNumberOfLinkedObjects() > 2 * len(left):  # in a window QuietLinks was faster
             with _unrecorded(servermanager.vtkSMProxyManager.GetProxyManager()):
                 made.RemoveAllLinks()

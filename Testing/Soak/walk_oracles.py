@@ -263,12 +263,16 @@ def save(name, image):
 
 
 def save_both(left, right):
-    """Keeps two pictures that should be alike; returns the names of their files."""
+    """Keeps two pictures that should be alike, and the state; returns the names of the files."""
     actions.Files.kept += 1
     names = [f"{side}{actions.Files.kept}" for side in ("left", "right")]
     for name, image in zip(names, (left, right)):
         save(name, image)
-    return ", ".join(f"{name}.png" for name in names)
+    shown = f"shown{actions.Files.kept}.pvsm"
+    with window.unrecorded():
+        servermanager.ProxyManager().SMProxyManager.SaveXMLState(
+            os.path.join(actions.Files.folder, shown))
+    return ", ".join([*(f"{name}.png" for name in names), shown])
 
 
 def same(words, left, right, most=FAR_PIXELS):
@@ -276,12 +280,8 @@ def same(words, left, right, most=FAR_PIXELS):
     hold(left.shape == right.shape, f"{words}: {left.shape} and {right.shape} pixels")
     share = far_share(left, right)
     if share > most:
-        names = save_both(left, right)
-        with window.unrecorded():
-            servermanager.ProxyManager().SMProxyManager.SaveXMLState(
-                os.path.join(actions.Files.folder, f"shown{actions.Files.kept}.pvsm"))
         raise Wrong(f"{words}: {100 * share:.2f} % of the pixels are far apart "
-                    f"({names}, shown{actions.Files.kept}.pvsm)")
+                    f"({save_both(left, right)})")
 
 
 def rest():
@@ -315,8 +315,16 @@ def _bent_slices():
             source = getattr(display, "Input", None)
             if source is not None and actions.kind_of(source) == "FreeFormDeformation" and (
                     _shown_as(display) == "Deformed Slices"):
-                return view, display, source
+                return view, source
     return None
+
+
+def _show_one_plane(display):
+    """Planes hide each other in space, and those of a bent volume are larger than baked ones."""
+    for name, shown in (("ShowSagittal", 0), ("ShowCoronal", 0), ("ShowAxial", 1)):
+        if display.GetProperty(name):
+            display.GetProperty(name).SetElement(0, shown)
+    display.UpdateVTKObjects()
 
 
 def baked_is_alike():
@@ -324,7 +332,7 @@ def baked_is_alike():
     found = _bent_slices()
     if not found:
         return
-    view, display, source = found
+    view, source = found
     with window.unrecorded():
         manager = servermanager.ProxyManager().SMProxyManager
         bake = manager.NewProxy("filters", "BakeDeformation")
@@ -332,12 +340,17 @@ def baked_is_alike():
         bake.UpdateVTKObjects()
         bake.UpdatePipeline()
 
+        def keep(copy):
+            if view.InteractionMode != "2D":
+                _show_one_plane(copy)
+
         def use(copy):
+            keep(copy)
             used = copy.GetProperty("Input")  # a scale of colours has none
             if used and used.GetProxy(0) == source.SMProxy:
                 used.SetInputConnection(0, bake, 0)
                 copy.UpdateVTKObjects()
-        bent, baked = drawn_anew(view), drawn_anew(view, use)
+        bent, baked = drawn_anew(view, keep), drawn_anew(view, use)
     alike = structural_similarity(bent, baked)
     if alike < BAKED_ALIKE:
         raise Wrong(f"view {actions.number(view)} is unlike the baked volume: {alike:.3f} "

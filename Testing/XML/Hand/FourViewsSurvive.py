@@ -117,6 +117,39 @@ def close_and_undo():
     moves_together()
 
 
+def flats():
+    """The slice views of the active layout."""
+    return [view for view in simple.GetViewsInLayout(simple.GetLayout(active_view()))
+            if flat(view)]
+
+
+def zooms():
+    """Of the slice views: by their cameras, and by the properties that are linked."""
+    return {round(zoom, 6) for view in flats() for zoom in (
+        view.SMProxy.GetActiveCamera().GetParallelScale(), view.CameraParallelScale)}
+
+
+def comes_back_zoomed():
+    """A closed slice view that comes back has the zoom of those that stayed, each time."""
+    four_views()
+    for clicks in (2, -3):
+        first, second = flats()[:2]
+        hand.close_view(first)
+        hand.wait(100)
+        before = zooms()
+        hand.over(second)
+        hand.wheel([side // 2 for side in second.ViewSize], clicks, hand.CONTROL)
+        hand.over()
+        hand.wait(300)
+        zoomed = zooms()
+        assert len(zoomed) == 1 and zoomed != before, (zoomed, before)
+        del first, second
+        undo(1)
+        hand.wait(300)
+        four_are_shown()
+        assert zooms() == zoomed, (zooms(), zoomed)
+
+
 def one_slice_is_left():
     """Of which the button makes the 3D view."""
     four_views()
@@ -133,18 +166,17 @@ def one_slice_is_left():
 def zoomed_together():
     """A slice view that was switched to the volume is drawn when another slice view zooms."""
     four_views()
-    views = simple.GetViewsInLayout(simple.GetLayout(active_view()))
-    flats = [view for view in views if flat(view)]
-    simple.GetDisplayProperties(window.deformation(), flats[0]).SetRepresentationType(
+    views = flats()
+    simple.GetDisplayProperties(window.deformation(), views[0]).SetRepresentationType(
         "Deformed Volume")
-    for chosen, way in ((flats[1], (0, -20)), (flats[0], (0, 20))):
+    for chosen, way in ((views[1], (0, -20)), (views[0], (0, 20))):
         middle = [side // 2 for side in chosen.ViewSize]
         hand.over(chosen)
         hand.right_drag(middle, [at + by for at, by in zip(middle, way)], steps=2)
         hand.over()
         hand.wait(1000)  # pictures become still
-        assert len({round(view.CameraParallelScale, 6) for view in flats}) == 1
-        for number, view in enumerate(flats):
+        assert len(zooms()) == 1
+        for number, view in enumerate(views):
             shown = on_screen(view) / 255.0
             off = numpy.abs(shown - picture(view)).max(axis=2) > 0.1
             assert off.mean() < 0.01, (number, off.mean())
@@ -209,10 +241,9 @@ def close_one():
 
 
 def click_one():
-    views = simple.GetViewsInLayout(simple.GetLayout(active_view()))
-    flats = [view for view in views if flat(view)]
-    if flats:
-        click(chance.choice(flats))
+    views = flats()
+    if views:
+        click(chance.choice(views))
 
 
 def shuffled():
@@ -240,4 +271,4 @@ def no_message():
 chance = random.Random(SEED)
 window.main("FourViewsSurvive", [
     (undone_split,), (close_and_undo,), (second_layout,), (state_again,), (shuffled,),
-    (one_slice_is_left,), (zoomed_together,), (no_message,)])
+    (comes_back_zoomed,), (one_slice_is_left,), (zoomed_together,), (no_message,)])
