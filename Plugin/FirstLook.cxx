@@ -264,10 +264,15 @@ void showFirstLook(pqDataRepresentation* display)
 void shareColors(pqDataRepresentation* display, pqDataRepresentation* from)
 {
   vtkSMProxy* to = display->getProxy();
-  vtkSMPropertyHelper(to, "UseSeparateColorMap").Set(1);
   for (const char* map : { "LookupTable", "ScalarOpacityFunction" })
   {
-    vtkSMPropertyHelper(to, map).Set(vtkSMPropertyHelper(from->getProxy(), map).GetAsProxy());
+    vtkSMProxy* shared = vtkSMPropertyHelper(from->getProxy(), map).GetAsProxy();
+    vtkSMPropertyHelper own(to, map);
+    if (own.GetAsProxy() != shared)
+    {
+      vtkSMPropertyHelper(to, "UseSeparateColorMap").Set(1);
+      own.Set(shared);
+    }
   }
   to->UpdateVTKObjects();
 }
@@ -293,7 +298,7 @@ void joinLook(pqDataRepresentation* display)
     {
       return;
     }
-    if (from && from->getLookupTableProxy() != display->getLookupTableProxy())
+    if (from)
     {
       shareColors(display, from);
     }

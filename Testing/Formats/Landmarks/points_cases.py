@@ -99,8 +99,9 @@ def read_fiducials(text):
                 if found:
                     raise Open("axes after points")
                 signs = _signs(value.strip())
-            elif key.strip().lower() in ("coordinatesystem", "columns") and value != f" {COLUMNS}":
-                raise Open("columns")
+            elif "coordinatesystem" in key.lower() or (
+                    key.strip().lower() == "columns" and value != f" {COLUMNS}"):
+                raise Open("another word")
             continue
         if len(row) < 4 or len(row) > 14:
             raise Open("columns")

@@ -185,10 +185,10 @@ def a_state_keeps_looks_and_greys():
         assert kind == chosen and is_grey(display) == (kind == "Deformed Slices"), looks()
 
 
-def a_second_view_joins_the_look():
-    """A volume that has colours of its own has them in another view, too, also after redo."""
+def open_two():
+    """In a new session; the second volume has colours of its own."""
     hand.reset_session()
-    view = simple.GetActiveViewOrCreate("RenderView")
+    simple.GetActiveViewOrCreate("RenderView")
     shutil.copy(HEAD, OTHER)
     opened = []
     for name in (HEAD, OTHER):
@@ -197,6 +197,37 @@ def a_second_view_joins_the_look():
         assert hand.click("Accept")
         hand.wait(1000)
         opened.append(simple.GetActiveSource())
+    return opened
+
+
+def maps(source):
+    """The proxies of the colours and of the opacities of a volume."""
+    display = simple.GetDisplayProperties(source)
+    return [display.SMProxy.GetProperty(name).GetProxy(0)
+            for name in ("LookupTable", "ScalarOpacityFunction")]
+
+
+def a_bent_volume_joins_the_look():
+    """Both maps of a bent volume are those of its input, also after redo."""
+    opened = open_two()
+    assert maps(opened[0])[0] != maps(opened[1])[0]
+    hand.create_filter("FreeFormDeformation")
+    assert hand.click("Accept")
+    hand.wait(1000)
+    steps = window.undo_labels().index("Apply") + 2
+    for action in (None, "Undo", "Redo"):
+        for _ in range(steps if action else 0):
+            window.action(action)
+            hand.wait(200)
+        hand.wait(500)
+        if action != "Undo":
+            assert maps(window.deformation()) == maps(opened[1]), action
+
+
+def a_second_view_joins_the_look():
+    """A volume that has colours of its own has them in another view, too, also after redo."""
+    opened = open_two()
+    view = simple.GetActiveView()
     simple.SetActiveSource(opened[0])
     hand.wait(300)
     assert hand.click("See-through"), "a look that the next volumes would get"
@@ -220,4 +251,4 @@ def a_second_view_joins_the_look():
 
 window.main("GreysOfTwo", [(greys_of, MASK, HEAD), (greys_of, HEAD, OTHER), (slices_by_hand,),
                            (kinds_are_undone_and_redone,), (a_state_keeps_looks_and_greys,),
-                           (a_second_view_joins_the_look,)])
+                           (a_bent_volume_joins_the_look,), (a_second_view_joins_the_look,)])
