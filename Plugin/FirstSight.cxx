@@ -82,8 +82,7 @@ struct Camera
 // As it was left here, by the number of the view.
 QHash<vtkTypeUInt32, Camera>& cameras()
 {
-  static QHash<vtkTypeUInt32, Camera> left;
-  return left;
+  return keptBySession<Camera, QHash<vtkTypeUInt32, Camera>>();
 }
 
 // The corners of the box of a volume.

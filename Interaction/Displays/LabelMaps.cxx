@@ -17,10 +17,10 @@ namespace
 {
 constexpr const char* Segmentation = "Segmentation";
 
+// Sources.
 QSet<vtkTypeUInt32>& noted()
 {
-  static QSet<vtkTypeUInt32> numbers;
-  return numbers;
+  return keptBySession<struct LabelMaps, QSet<vtkTypeUInt32>>();
 }
 }
 

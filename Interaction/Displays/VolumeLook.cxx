@@ -2,6 +2,7 @@
 #include "Interaction/Displays/VolumeLook.h"
 
 #include "Filters/Looks/FirstCamera.h"
+#include "Interaction/Commands/Application.h"
 #include "Interaction/Views/Reports.h"
 
 #include <pqApplicationCore.h>
@@ -149,8 +150,7 @@ std::vector<double> colorsAlone(vtkSMProxy* colors)
 
 QMap<vtkTypeUInt32, std::vector<double>>& unchosen()
 {
-  static QMap<vtkTypeUInt32, std::vector<double>> colors;
-  return colors;
+  return keptBySession<VolumeLook, QMap<vtkTypeUInt32, std::vector<double>>>();
 }
 }
 

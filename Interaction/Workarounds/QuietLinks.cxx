@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Workarounds/QuietLinks.h"
 
+#include "Interaction/Commands/Application.h"
+
 #include <pqApplicationCore.h>
 #include <pqServer.h>
 #include <pqServerManagerModel.h>
@@ -99,6 +101,7 @@ QuietLinks::QuietLinks(QObject* parent)
   : QObject(parent)
 {
   watchServers(this, &QuietLinks::watch);
+  onNewSession(this, [this] { this->Gone.clear(); });
 }
 
 QuietLinks::~QuietLinks()

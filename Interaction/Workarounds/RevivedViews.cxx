@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Interaction/Workarounds/RevivedViews.h"
 
+#include "Interaction/Commands/Application.h"
+
 #include <pqApplicationCore.h>
 #include <pqServerManagerModel.h>
 #include <pqUndoStack.h>
@@ -26,6 +28,7 @@ RevivedViews::RevivedViews(QObject* parent)
 {
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
   QObject::connect(model, &pqServerManagerModel::preViewRemoved, this, &RevivedViews::keep);
+  onNewSession(this, [this] { this->Kept.clear(); });
   // Later: undo sets properties of the view after it has come back.
   QObject::connect(model, &pqServerManagerModel::viewAdded, this, [this](pqView* view) {
     if (this->Kept.count(view->getProxy()->GetGlobalID()) > 0)

@@ -23,6 +23,7 @@ STUCK = 180  # seconds for one action: the window hangs
 #: After how many actions each check is made, and the check.
 NOW_AND_THEN = ((20, lambda chance: oracles.undo_and_redo_lead_back(chance.randint(1, 5))),
                 (50, lambda _: oracles.views_are_drawn_right()),
+                (50, lambda _: oracles.linked_views_zoom_together()),
                 (100, lambda _: oracles.baked_is_alike()),
                 (200, lambda _: oracles.state_comes_back()))
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What must hold after the actions of the random walk: no message, no dialog, no empty cell, no
-lost stroke; undo and redo lead back; a view drawn anew, the bent volume baked, and a state that is
-opened again give the same picture."""
+lost stroke; undo and redo lead back; linked views have one zoom; a view drawn anew, the bent volume
+baked, and a state that is opened again give the same picture."""
 import os
 import re
 import xml.etree.ElementTree
@@ -102,19 +102,28 @@ GROUPS = ("sources", "filters", "representations", "views", "misc", "lookup_tabl
           "piecewise_functions")
 
 
-def properties():
-    """What a state file keeps of all proxies: the values of each property by its proxy's kind and
-    number and its name."""
+def state():
+    """What a state file would hold now, parsed."""
     path = os.path.join(actions.Files.folder, "now.xml")
     with window.unrecorded():
         servermanager.ProxyManager().SMProxyManager.SaveXMLState(path)
+    return xml.etree.ElementTree.parse(path).getroot()
+
+
+def living(number):
+    """The proxy of a number that a state file names; None if it is gone."""
+    return servermanager.ProxyManager().SMProxyManager.GetSession().GetRemoteObject(int(number))
+
+
+def properties():
+    """What a state file keeps of all proxies: the values of each property by its proxy's kind and
+    number and its name."""
     found = {}
-    session = servermanager.ProxyManager().SMProxyManager.GetSession()
-    for proxy in xml.etree.ElementTree.parse(path).getroot().iter("Proxy"):
+    for proxy in state().iter("Proxy"):
         if proxy.get("group") in GROUPS and proxy.get("type") not in ("TimeKeeper", "PVSMWriter"):
             name = f"{proxy.get('type')} {proxy.get('id')}"
             found[name] = ""
-            lives = session.GetRemoteObject(int(proxy.get("id")))
+            lives = living(proxy.get("id"))
             for kept in proxy.iter("Property"):
                 known = lives.GetProperty(kept.get("name")) if lives else None
                 if kept.get("name") in PARAVIEWS_OWN.get(proxy.get("type"), ()) or (
@@ -304,6 +313,17 @@ def views_are_drawn_right():
             same(f"the screen shows an old picture of {name}", seen, still)
         if _volumes(view) < 2:  # two that overlap are blended in the order in which they came
             same(f"{name} drawn anew differs", still, drawn_anew(view))
+
+
+def linked_views_zoom_together():
+    """The cameras of linked slice views, and the properties that are linked, have one zoom."""
+    for link in state().iter("PropertyLink"):
+        views = [living(part.get("id")) for part in link
+                 if part.get("name") == "CameraParallelScale"]
+        zooms = {round(zoom, 6) for view in views if view for zoom in (
+            view.GetActiveCamera().GetParallelScale(),
+            view.GetProperty("CameraParallelScale").GetElement(0))}
+        hold(len(zooms) < 2, f"views of {link.get('name')} have the zooms {sorted(zooms)} mm")
 
 
 def _bent_slices():

@@ -150,6 +150,24 @@ def comes_back_zoomed():
         assert zooms() == zoomed, (zooms(), zoomed)
 
 
+def reset_forgets():
+    """After Reset Session a state looks as it was saved, not as the views looked that have gone."""
+    four_views()
+    saved = zooms()
+    hand.save_state(STATE)
+    chosen = flats()[0]
+    hand.over(chosen)
+    hand.wheel([side // 2 for side in chosen.ViewSize], 3, hand.CONTROL)
+    hand.over()
+    hand.wait(300)
+    del chosen
+    assert zooms() != saved
+    hand.reset_session()
+    hand.load_state(STATE)
+    hand.wait(500)
+    assert zooms() == saved, (zooms(), saved)
+
+
 def one_slice_is_left():
     """Of which the button makes the 3D view."""
     four_views()
@@ -271,4 +289,5 @@ def no_message():
 chance = random.Random(SEED)
 window.main("FourViewsSurvive", [
     (undone_split,), (close_and_undo,), (second_layout,), (state_again,), (shuffled,),
-    (comes_back_zoomed,), (one_slice_is_left,), (zoomed_together,), (no_message,)])
+    (comes_back_zoomed,), (one_slice_is_left,), (zoomed_together,), (reset_forgets,),
+    (no_message,)])
